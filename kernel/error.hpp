@@ -1,0 +1,42 @@
+// What the user sees when something is wrong: one line that says where, what, what was expected and the nearest name.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace muster {
+
+// The program's exit codes (docs/errors.md).
+enum class Exit { done = 0, check_failed = 1, invalid_input = 2, plugin_fault = 3, internal = 70, io = 74, interrupted = 130 };
+
+// A place in a file; lines and columns count from 1, and 0 means "not known" and is not printed.
+struct Place {
+  std::string file;
+  int line = 0;
+  int column = 0;
+
+  // "file:line:column"
+  std::string text() const {
+    std::string result = file;
+    if (line > 0) result += ':' + std::to_string(line);
+    if (line > 0 && column > 0) result += ':' + std::to_string(column);
+    return result;
+  }
+};
+
+class Error : public std::runtime_error {
+ public:
+  Error(Exit code, const std::string& message) : std::runtime_error(message), exit_(code) {}
+  Error(Exit code, const Place& place, const std::string& message)
+      : std::runtime_error(place.text() + ": " + message), exit_(code) {}
+
+  Exit exit() const { return exit_; }
+
+ private:
+  Exit exit_;
+};
+
+// Bad input, the commonest error by far.
+inline Error invalid(const Place& place, const std::string& message) { return {Exit::invalid_input, place, message}; }
+
+}  // namespace muster

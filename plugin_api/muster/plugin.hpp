@@ -1,0 +1,274 @@
+// C++ comfort over plugin.h: header-only and C++17, so nothing here is part of the ABI.
+#pragma once
+
+#include <muster/plugin.h>
+#include <muster/random.hpp>
+#include <muster/tables.hpp>
+
+#include <cstring>
+#include <exception>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace muster {
+
+// ---- Declared parameters ------------------------------------------------------------------------------------------
+
+struct Param : muster_param {
+  constexpr Param free() const { return with(MUSTER_FREE); }          // a fit may move it
+  constexpr Param required() const { return with(MUSTER_REQUIRED); }  // the world file must give it
+  constexpr Param with(uint32_t flag) const {
+    Param result = *this;
+    result.flags |= flag;
+    return result;
+  }
+};
+
+constexpr Param real(const char* name, double value, double min, double max, const char* unit, const char* help) {
+  return {{name, MUSTER_REAL, 0, value, min, max, unit, help, nullptr}};
+}
+constexpr Param integer(const char* name, double value, double min, double max, const char* help) {
+  return {{name, MUSTER_INTEGER, 0, value, min, max, "", help, nullptr}};
+}
+constexpr Param flag(const char* name, bool value, const char* help) {
+  return {{name, MUSTER_FLAG, 0, value ? 1.0 : 0.0, 0, 1, "", help, nullptr}};
+}
+// `choices` is "a|b|c"; the default is the first.
+constexpr Param choice(const char* name, const char* choices, const char* help) {
+  return {{name, MUSTER_CHOICE, 0, 0, 0, 0, "", help, choices}};
+}
+// The name of a row of `set`; -1 where the world file does not give it.
+constexpr Param reference(const char* name, const char* set, const char* help) {
+  return {{name, MUSTER_REFERENCE, 0, -1, -1, 0, "", help, set}};
+}
+constexpr Param text(const char* name, const char* value, const char* help) {
+  return {{name, MUSTER_TEXT, 0, 0, 0, 0, "", help, value}};
+}
+// A path, relative to the world file.
+constexpr Param file(const char* name, const char* help) {
+  return {{name, MUSTER_FILE, 0, 0, 0, 0, "", help, ""}};
+}
+
+// ---- Values -------------------------------------------------------------------------------------------------------
+
+inline double null() {
+  const uint64_t bits = MUSTER_NULL_BITS;
+  double value;
+  std::memcpy(&value, &bits, sizeof value);
+  return value;
+}
+inline bool is_null(double value) { return value != value; }
+
+// Rows of a table as structs of doubles.
+template <class Row>
+class Rows {
+ public:
+  using Double = std::conditional_t<std::is_const_v<Row>, const double, double>;
+  static_assert(sizeof(Row) % sizeof(double) == 0 && std::is_trivially_copyable_v<Row>, "a row is doubles and no more");
+
+  Rows(Double* data, std::size_t rows) : begin_(reinterpret_cast<Row*>(data)), size_(rows) {}
+  Row* begin() const { return begin_; }
+  Row* end() const { return begin_ + size_; }
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  Row& operator[](std::size_t i) const { return begin_[i]; }
+  Row* operator->() const { return begin_; }  // the row of a claim on a single row
+  Row& operator*() const { return *begin_; }
+
+ private:
+  Row* begin_;
+  std::size_t size_;
+};
+
+// Claimed tables: the row type travels with the index, so step() cannot read one as another.
+template <class Row> struct In { int index; };
+template <class Row> struct Out { int index; };
+template <class Row> struct Stage { int index; };
+
+// A declared number: its place among the declarations. `k[n]` is its value in this step.
+struct Value { int index; };
+
+// ---- Callbacks ----------------------------------------------------------------------------------------------------
+
+// What a constructor may ask. Every call throws when the kernel refuses it; the kernel has the message already.
+class Setup {
+ public:
+  Setup(const muster_host* host, const muster_param* params, uint32_t count) : host_(host), params_(params), count_(count) {}
+
+  template <class Row> In<Row> read(const std::string& table, uint32_t flags = 0) {
+    return {claimed(host_->claim(host_, MUSTER_READ, flags, table.c_str(), Row::columns))};
+  }
+  template <class Row> In<Row> read_if_any(const std::string& table) { return read<Row>(table, MUSTER_OPTIONAL); }
+  template <class Row> Out<Row> write(const std::string& table, uint32_t flags = 0) {
+    return {claimed(host_->claim(host_, MUSTER_WRITE, flags, table.c_str(), Row::columns))};
+  }
+  template <class Row> Out<Row> add(const std::string& table) {
+    return {claimed(host_->claim(host_, MUSTER_ADD, 0, table.c_str(), Row::columns))};
+  }
+  template <class Row> Stage<Row> modify(const std::string& table) {
+    return {claimed(host_->claim(host_, MUSTER_MODIFY, 0, table.c_str(), Row::columns))};
+  }
+  // The CSV file that a parameter names; Row::columns are its columns.
+  template <class Row> In<Row> file(const char* param) { return {claimed(host_->file(host_, param, Row::columns))}; }
+
+  // A number that step() reads as k[value], so that changing it needs no new instance.
+  Value value(const char* name) const {
+    for (uint32_t i = 0; i < count_; ++i) {
+      if (!std::strcmp(params_[i].name, name)) return {static_cast<int>(i)};
+    }
+    throw std::logic_error(std::string("parameter \"") + name + "\" is used but not declared");
+  }
+  double param(const char* name) const { return host_->param(host_, name); }
+  std::string text(const std::string& path) const {
+    const char* found = host_->text(host_, path.c_str());
+    return found ? found : "";
+  }
+  Stream stream(const char* name) const { return Stream(host_->stream(host_, name)); }
+  const muster_host* host() const { return host_; }
+
+ private:
+  static int claimed(int index) {
+    if (index < 0) throw std::runtime_error("");
+    return index;
+  }
+  const muster_host* host_;
+  const muster_param* params_;
+  uint32_t count_;
+};
+
+// What step() may ask.
+class Step {
+ public:
+  Step(const muster_host* host, const muster_tick* tick, const muster_in* in, const muster_out* out)
+      : host_(host), tick_(tick), in_(in), out_(out) {}
+
+  template <class Row> Rows<const Row> operator[](In<Row> t) const { return {in_[t.index].data, in_[t.index].rows}; }
+  template <class Row> Rows<Row> operator[](Out<Row> t) const { return {out_[t.index].data, out_[t.index].rows}; }
+  template <class Row> Rows<Row> operator[](Stage<Row> t) const { return {out_[t.index].data, out_[t.index].rows}; }
+  // What an Out claim last published, and what stands before a Stage.
+  template <class Row> Rows<const Row> last(Out<Row> t) const { return {in_[t.index].data, in_[t.index].rows}; }
+  template <class Row> Rows<const Row> before(Stage<Row> t) const { return {in_[t.index].data, in_[t.index].rows}; }
+  double operator[](Value v) const { return tick_->params[v.index]; }
+
+  double time() const { return tick_->time; }
+  double dt() const { return tick_->dt; }
+  uint64_t tick() const { return tick_->index; }
+  bool expected() const { return tick_->flags & MUSTER_EXPECTED; }
+
+  // Queues and listed sets: room for `rows` more, to be filled.
+  template <class Row> Rows<Row> append(Out<Row> t, std::size_t rows) const {
+    return {host_->append(host_, t.index, static_cast<uint32_t>(rows)), rows};
+  }
+  template <class Row> std::string_view bytes(In<Row> t, std::size_t row, unsigned column) const {
+    uint64_t count = 0;
+    const uint8_t* data = host_->get_bytes(host_, t.index, static_cast<uint32_t>(row), column, &count);
+    return {reinterpret_cast<const char*>(data), count};
+  }
+  template <class Row> void put_bytes(Out<Row> t, std::size_t row, unsigned column, std::string_view data) const {
+    host_->put_bytes(host_, t.index, static_cast<uint32_t>(row), column, reinterpret_cast<const uint8_t*>(data.data()),
+                     data.size());
+  }
+  // One more message in a queue whose row type names its payload_column: the row, to be filled but for the payload.
+  template <class Row> Row& send(Out<Row> t, std::size_t row, std::string_view payload) const {
+    Row* made = append(t, 1).begin();
+    put_bytes(t, row, Row::payload_column, payload);
+    return *made;
+  }
+
+  uint32_t rows(const char* set) const { return host_->rows(host_, set); }
+  std::string_view name(const char* set, std::size_t row) const {
+    const char* found = host_->row_name(host_, set, static_cast<uint32_t>(row));
+    return found ? found : "";
+  }
+  uint64_t key(const char* set, std::size_t row) const { return host_->row_key(host_, set, static_cast<uint32_t>(row)); }
+  bool alive(const char* set, std::size_t row) const { return host_->row_alive(host_, set, static_cast<uint32_t>(row)); }
+  void event(const std::string& message) const { host_->event(host_, message.c_str()); }
+  const muster_host* host() const { return host_; }
+
+ private:
+  const muster_host* host_;
+  const muster_tick* tick_;
+  const muster_in* in_;
+  const muster_out* out_;
+};
+
+// ---- Descriptors --------------------------------------------------------------------------------------------------
+
+namespace detail {
+
+// The one place where an exception stops being one: none crosses the border.
+template <class Body> bool guarded(const muster_host* host, Body&& body) noexcept {
+  try {
+    body();
+    return true;
+  } catch (const std::exception& e) {
+    if (*e.what()) host->error(host, e.what());
+  } catch (...) {
+    host->error(host, "threw something that is not a std::exception");
+  }
+  return false;
+}
+
+template <class Plugin, class = void> struct Params {
+  static constexpr const Param* data = nullptr;
+  static constexpr uint32_t count = 0;
+};
+template <class Plugin> struct Params<Plugin, std::void_t<decltype(Plugin::params)>> {
+  static constexpr const Param* data = std::data(Plugin::params);
+  static constexpr uint32_t count = static_cast<uint32_t>(std::size(Plugin::params));
+};
+static_assert(sizeof(Param) == sizeof(muster_param), "an array of one is an array of the other");
+
+template <class Plugin, class = void> constexpr const char* manual_of = nullptr;
+template <class Plugin> constexpr const char* manual_of<Plugin, std::void_t<decltype(Plugin::manual)>> = Plugin::manual;
+template <class Plugin, class = void> constexpr const char* cannot_hold_of = nullptr;
+template <class Plugin>
+constexpr const char* cannot_hold_of<Plugin, std::void_t<decltype(Plugin::cannot_hold)>> = Plugin::cannot_hold;
+
+template <class Plugin> struct Held {
+  const muster_host* host;
+  Plugin plugin;
+};
+
+template <class Plugin> void* create(const muster_host* host) {
+  Held<Plugin>* made = nullptr;
+  guarded(host, [&] {
+    Setup setup(host, Params<Plugin>::data, Params<Plugin>::count);
+    made = new Held<Plugin>{host, Plugin(setup)};
+  });
+  return made;
+}
+
+template <class Plugin> void destroy(void* self) {
+  auto* held = static_cast<Held<Plugin>*>(self);
+  guarded(held->host, [&] { delete held; });
+}
+
+template <class Plugin> int step(void* self, const muster_tick* tick, const muster_in* in, const muster_out* out) {
+  auto* held = static_cast<Held<Plugin>*>(self);
+  return guarded(held->host, [&] { held->plugin.step(Step(held->host, tick, in, out)); }) ? MUSTER_OK : MUSTER_FAILED;
+}
+
+template <class Plugin> const muster_plugin* descriptor() {
+  static const muster_plugin result{sizeof(muster_plugin), Plugin::phase, Plugin::id, Plugin::summary, manual_of<Plugin>,
+                                    Params<Plugin>::data, Params<Plugin>::count, cannot_hold_of<Plugin>,
+                                    create<Plugin>, destroy<Plugin>, step<Plugin>};
+  return &result;
+}
+
+}  // namespace detail
+}  // namespace muster
+
+// Ends a plugin's file. One struct, one shared object:
+//   static constexpr auto id = "radio.mine/1", summary = "...";  static constexpr auto phase = MUSTER_RADIO;
+//   static constexpr muster::Param params[] = {...};             optional, as are `manual` and `cannot_hold`
+//   explicit Plugin(muster::Setup&);                             claims
+//   void step(const muster::Step&);                              or const
+#define MUSTER_PLUGIN_IS(Plugin)                                                              \
+  MUSTER_DECLARE_ABI                                                                          \
+  extern "C" int muster_register(uint32_t abi, void* registry, muster_add add) {              \
+    return abi == MUSTER_ABI ? add(registry, muster::detail::descriptor<Plugin>()) : MUSTER_FAILED; \
+  }

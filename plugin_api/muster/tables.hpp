@@ -1,0 +1,120 @@
+// The rows of the standard tables. The columns string is the type: reader and writer must agree on it.
+// SI units, radians, world frame ENU, body frame FLU (REP-103), quaternions w first and body to world.
+#pragma once
+
+namespace muster {
+
+struct Pose {
+  static constexpr const char* columns = "x[m] y[m] z[m] qw qx qy qz";
+  double x, y, z, qw, qx, qy, qz;
+};
+
+// Velocity of the body's origin and angular velocity, both in the world frame.
+struct Twist {
+  static constexpr const char* columns = "vx[m/s] vy[m/s] vz[m/s] wx[rad/s] wy[rad/s] wz[rad/s]";
+  double vx, vy, vz, wx, wy, wz;
+};
+
+// What a controller asks of a ground robot (Player's position2d): forward speed and turn rate in its own frame.
+struct Command {
+  static constexpr const char* columns = "v[m/s] w[rad/s]";
+  double v, w;
+};
+
+// Wheel rates asked of the drives, and their slopes: a backend takes the value at the middle of its step.
+struct Drive {
+  static constexpr const char* columns = "left[rad/s] right[rad/s] left_rate[rad/s2] right_rate[rad/s2]";
+  double left, right, left_rate, right_rate;
+};
+
+// Wheels as they turn: angle since the start and rate.
+struct Wheels {
+  static constexpr const char* columns = "left[rad] right[rad] left_rate[rad/s] right_rate[rad/s]";
+  double left, right, left_rate, right_rate;
+};
+
+// Where a robot believes to be, from its wheels, and how fast it believes to go.
+struct Odometry {
+  static constexpr const char* columns = "x[m] y[m] yaw[rad] v[m/s] w[rad/s]";
+  double x, y, yaw, v, w;
+};
+
+struct Loss {
+  static constexpr const char* columns = "loss[dB]";
+  double loss;
+};
+
+struct Wall {
+  static constexpr const char* columns =
+      "x0[m] y0[m] x1[m] y1[m] base[m] height[m] thickness[m] material:material";
+  double x0, y0, x1, y1, base, height, thickness, material;
+};
+
+// A gap in a wall, `at` metres from the wall's first end; closed, it is of `material`, or of the wall's own if null.
+struct Door {
+  static constexpr const char* columns = "wall:wall at[m] width[m] height[m] material:material?";
+  double wall, at, width, height, material;
+};
+
+struct DoorState {
+  static constexpr const char* columns = "open";
+  double open;  // 0 or 1
+};
+
+// Where a radio sits: on a robot (a place in its body frame), or, with no robot, in the world.
+struct Mount {
+  static constexpr const char* columns = "robot:robot? x[m] y[m] z[m] yaw[rad]";
+  double robot, x, y, z, yaw;
+};
+
+// An endpoint is a radio at a place and time: live, or one end of a measured reading.
+struct Endpoint {
+  static constexpr const char* columns = "radio:radio t[s]";
+  double radio, t;
+};
+
+// A link: its two endpoints' row numbers, grouped by sender.
+struct Ends {
+  static constexpr const char* columns = "tx:endpoint rx:endpoint";
+  double tx, rx;
+};
+
+// Mean received level: the sum of the terms of a channel in dB.
+struct Level {
+  static constexpr const char* columns = "level[dBm]";
+  double level;
+};
+
+// Small-scale fading as a factor on received power, of mean one.
+struct Fading {
+  static constexpr const char* columns = "gain";
+  double gain;
+};
+
+// What the receiver's hardware reports; null: nothing was received.
+struct Rssi {
+  static constexpr const char* columns = "rssi[dBm]?";
+  double rssi;
+};
+
+// A request to send; `to` is null for a broadcast.
+struct Outgoing {
+  static constexpr const char* columns = "radio:radio to:radio? payload{}";
+  static constexpr unsigned payload_column = 2;
+  double radio, to, payload;
+};
+
+// A message as it arrived; all but the payload is filled by the receiving side.
+struct Incoming {
+  static constexpr const char* columns = "radio:radio from:radio rssi[dBm] t_sent[s] t_received[s] payload{}";
+  static constexpr unsigned payload_column = 5;
+  double radio, from, rssi, t_sent, t_received, payload;
+};
+
+// What became of a radio's requests: copies asked for (one a receiver of a broadcast) and their outcomes.
+struct Traffic {
+  static constexpr const char* columns = "asked delivered too_weak no_link";
+  double asked, delivered, too_weak, no_link;
+};
+
+}  // namespace muster
