@@ -1,0 +1,196 @@
+#include "scene/walls.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace muster::scene {
+namespace {
+
+// A height or a place along a wall, times an orientation: below 2^73.
+__extension__ using Wide = __int128;
+
+[[noreturn]] void refuse(const char* what, int row, const std::string& why) {
+  throw std::runtime_error(std::string(what) + " row " + std::to_string(row) + ": " + why);
+}
+
+void check_material(const char* what, int row, int material, int materials) {
+  if (material >= 0 && material < materials) return;
+  refuse(
+      what, row,
+      "material row " + std::to_string(material) + " does not exist; expected 0 to " + std::to_string(materials - 1));
+}
+
+void check_wall(const Wall& wall, int row, int materials) {
+  for (const double metres : {wall.x0, wall.y0, wall.x1, wall.y1, wall.base, wall.base + wall.height}) {
+    if (!within_extent(metres)) refuse("wall", row, "reaches beyond the scene; expected coordinates within 1000 m");
+  }
+  if (!(wall.thickness >= 0 && wall.thickness < extent)) {
+    refuse("wall", row, "thickness is not a length; expected 0 m to 1000 m");
+  }
+  check_material("wall", row, wall.material, materials);
+}
+
+Box box_around(const Spot& a, const Spot& b) {
+  return {{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}};
+}
+
+double length_of(const Spot& a, const Spot& b) {
+  return std::hypot(static_cast<double>(b.x - a.x), static_cast<double>(b.y - a.y));
+}
+
+}  // namespace
+
+// A snapped link with its ends in canonical order, so that p -> q and q -> p are one link.
+struct Scene::Link {
+  Span span;
+  std::int64_t from_z = 0, to_z = 0;
+  bool turned = false;
+
+  Link(const Point& p, const Point& q) {
+    const Spot from = snapped(p), to = snapped(q);
+    turned = !runs_northward(from, to);
+    span = turned ? Span{to, from} : Span{from, to};
+    from_z = snap(turned ? q.z : p.z);
+    to_z = snap(turned ? p.z : q.z);
+  }
+
+  static Spot snapped(const Point& point) {
+    if (within_extent(point.x) && within_extent(point.y) && within_extent(point.z)) {
+      return {snap(point.x), snap(point.y)};
+    }
+    throw std::runtime_error("a radio stands at " + std::to_string(point.x) + ' ' + std::to_string(point.y) + ' ' +
+                             std::to_string(point.z) + "; expected coordinates within 1000 m");
+  }
+};
+
+// A crossing before it is put into metres: `from` and `to` are the orientations of the link's ends about the wall.
+struct Scene::Hit {
+  int wall = 0;
+  int door = -1;
+  int material = 0;
+  std::int64_t from = 0, to = 0;
+
+  // The link's height above `height` where it crosses, times |to - from|: its sign is exact.
+  Wide height_above(const Link& link, std::int64_t height) const {
+    const Wide sum = Wide{link.from_z - height} * to - Wide{link.to_z - height} * from;
+    return to > from ? sum : -sum;
+  }
+};
+
+Scene::Scene(const std::vector<Wall>& walls, const std::vector<Door>& doors, int materials) : materials_(materials) {
+  std::vector<Box> boxes;
+  std::vector<bool> turned;
+  for (const Wall& wall : walls) {
+    const int row = static_cast<int>(walls_.size());
+    check_wall(wall, row, materials);
+    LatticeWall snapped;
+    snapped.a = {snap(wall.x0), snap(wall.y0)};
+    snapped.b = {snap(wall.x1), snap(wall.y1)};
+    snapped.base = snap(wall.base);
+    snapped.top = snap(wall.base + wall.height);
+    snapped.length = std::llround(length_of(snapped.a, snapped.b));
+    snapped.material = wall.material;
+    if (snapped.length == 0) refuse("wall", row, "has no length; expected ends at least 2^-12 m apart");
+    if (snapped.top <= snapped.base) refuse("wall", row, "has no height; expected at least 2^-12 m");
+    turned.push_back(!runs_southward(snapped.a, snapped.b));
+    if (turned.back()) std::swap(snapped.a, snapped.b);
+    boxes.push_back(box_around(snapped.a, snapped.b));
+    walls_.push_back(std::move(snapped));
+  }
+  tree_ = BoxTree(boxes);
+  for (const Door& door : doors) {
+    const int row = static_cast<int>(doors_.size());
+    if (door.wall < 0 || door.wall >= static_cast<int>(walls_.size())) {
+      refuse("door", row, "wall row " + std::to_string(door.wall) + " does not exist");
+    }
+    check_material("door", row, door.material, materials);
+    add_door(door, row, turned[door.wall]);
+  }
+}
+
+void Scene::add_door(const Door& door, int row, bool wall_was_turned) {
+  LatticeWall& wall = walls_[door.wall];
+  if (!within_extent(door.height)) refuse("door", row, "height is not below 1000 m");
+  // Along a wall, as long as the diagonal of the scene at most.
+  const auto is_along_wall = [](double metres) { return metres >= 0 && metres < 3 * extent; };
+  if (!is_along_wall(door.at) || !is_along_wall(door.at + door.width)) {
+    refuse("door", row, "begins or ends beyond its wall, wall row " + std::to_string(door.wall));
+  }
+  const std::int64_t from = snap(door.at), to = snap(door.at + door.width), height = snap(door.height);
+  if (to <= from || height <= 0) refuse("door", row, "has no width or no height; expected at least 2^-12 m");
+  if (to > wall.length + 1) {  // one step for the rounding of the wall's length
+    refuse("door", row,
+           "ends " + std::to_string(door.at + door.width) + " m along its wall, which is " +
+               std::to_string(static_cast<double>(wall.length) / steps_per_metre) + " m long");
+  }
+  LatticeDoor snapped;
+  snapped.from = wall_was_turned ? wall.length - to : from;
+  snapped.to = wall_was_turned ? wall.length - from : to;
+  snapped.top = std::min(wall.base + height, wall.top);
+  snapped.material = door.material;
+  snapped.open = door.open;
+  for (const int other : wall.doors) {
+    if (snapped.from < doors_[other].to && doors_[other].from < snapped.to) {
+      refuse("door", row, "overlaps door row " + std::to_string(other));
+    }
+  }
+  wall.doors.push_back(row);
+  doors_.push_back(snapped);
+}
+
+bool Scene::cross(const Link& link, int row, Hit& hit) const {
+  const LatticeWall& wall = walls_[row];
+  const std::int64_t a = orientation(link.span.from, link.span.to, wall.a);
+  const std::int64_t b = orientation(link.span.from, link.span.to, wall.b);
+  if (is_right(a) == is_right(b)) return false;
+  hit = {row, -1, wall.material, orientation(wall.a, wall.b, link.span.from),
+         orientation(wall.a, wall.b, link.span.to)};
+  if (is_right(hit.from) == is_right(hit.to)) return false;
+  if (hit.height_above(link, wall.base) < 0 || hit.height_above(link, wall.top) >= 0) return false;
+
+  // An orientation is linear along the wall: that of a door's post, times the wall's length, is an integer too.
+  const auto post_is_right = [&](std::int64_t at) { return Wide{a} * (wall.length - at) + Wide{b} * at < 0; };
+  for (const int number : wall.doors) {
+    const LatticeDoor& door = doors_[number];
+    if (post_is_right(door.from) == post_is_right(door.to)) continue;
+    if (hit.height_above(link, door.top) >= 0) return true;  // over the door: the wall is there
+    hit.door = number;
+    hit.material = door.material;
+    return !door.open;
+  }
+  return true;
+}
+
+template <class Report>
+void Scene::for_each_crossing(const Link& link, const Report& report) const {
+  tree_.visit(link.span, [&](std::size_t wall) {
+    Hit hit;
+    if (cross(link, static_cast<int>(wall), hit)) report(hit);
+  });
+}
+
+void Scene::crossings(const Point& p, const Point& q, std::vector<Crossing>& out) const {
+  out.clear();
+  const Link link(p, q);
+  const double rise = static_cast<double>(link.to_z - link.from_z);
+  const double length = std::hypot(length_of(link.span.from, link.span.to), rise);
+  for_each_crossing(link, [&](const Hit& hit) {
+    const LatticeWall& wall = walls_[hit.wall];
+    const double change = static_cast<double>(hit.to - hit.from);
+    Crossing crossing{hit.wall, hit.door, hit.material};
+    crossing.fraction = static_cast<double>(link.turned ? hit.to : -hit.from) / change;
+    crossing.z = static_cast<double>(hit.height_above(link, 0)) / std::abs(change) / steps_per_metre;
+    crossing.cos_incidence = std::min(1.0, std::abs(change) / (length_of(wall.a, wall.b) * length));
+    out.push_back(crossing);
+  });
+  std::sort(out.begin(), out.end(), [](const Crossing& a, const Crossing& b) { return a.wall < b.wall; });
+}
+
+void Scene::counts(const Point& p, const Point& q, int* by_material) const {
+  std::fill_n(by_material, materials_, 0);
+  for_each_crossing(Link(p, q), [&](const Hit& hit) { ++by_material[hit.material]; });
+}
+
+}  // namespace muster::scene

@@ -1,0 +1,93 @@
+// Upright walls, the doors in them, and what a straight radio link crosses: exactly, and the same in both directions.
+// README.md says what counts as a crossing and why.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "scene/box_tree.hpp"
+
+namespace muster::scene {
+
+// In metres, east, north and up; each coordinate below 1 km in size.
+struct Point {
+  double x = 0, y = 0, z = 0;
+};
+
+// An upright rectangle: its centre plane stands on (x0, y0) -> (x1, y1) and fills the heights [base, base + height).
+// The thickness, in metres and half to each side, does not change what is crossed.
+struct Wall {
+  double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  double base = 0, height = 0, thickness = 0;
+  int material = 0;
+};
+
+// A gap in a wall, [at, at + width) metres along it from (x0, y0), from the wall's base up to `height` (or to the
+// wall's own top, if that is lower). Open, nothing is there; closed, it is of its own material.
+struct Door {
+  int wall = 0;
+  double at = 0, width = 0, height = 0;
+  int material = 0;
+  bool open = false;
+};
+
+struct Crossing {
+  int wall = 0;
+  int door = -1;  // the closed door that is crossed in place of its wall, or -1
+  int material = 0;
+  double fraction = 0;       // of the way along the link, from the end that was named first: [0, 1]
+  double z = 0;              // m
+  double cos_incidence = 0;  // between the link and the wall's normal: (0, 1]
+};
+
+// Walls stay as they are; doors open and close. Reading is safe from several threads while no door moves.
+class Scene {
+ public:
+  // Materials are numbered from 0 to materials - 1. Throws std::runtime_error that names the row at fault and its
+  // reason.
+  Scene(const std::vector<Wall>& walls, const std::vector<Door>& doors, int materials);
+
+  int materials() const { return materials_; }
+  bool is_open(int door) const { return doors_.at(door).open; }
+  void set_open(int door, bool open) { doors_.at(door).open = open; }
+
+  // Replaces `out` by what the straight line from p to q crosses, by ascending wall. All but `fraction` is the same,
+  // bit for bit, from q to p. Throws std::runtime_error where a point lies beyond 1 km.
+  void crossings(const Point& p, const Point& q, std::vector<Crossing>& out) const;
+
+  // The same as counts: fills by_material[0 .. materials()).
+  void counts(const Point& p, const Point& q, int* by_material) const;
+
+ private:
+  // In lattice steps; a -> b runs southward.
+  struct LatticeWall {
+    Spot a, b;
+    std::int64_t base = 0, top = 0;
+    std::int64_t length = 0;
+    int material = 0;
+    std::vector<int> doors;
+  };
+
+  // In lattice steps along the wall, from a.
+  struct LatticeDoor {
+    std::int64_t from = 0, to = 0, top = 0;
+    int material = 0;
+    bool open = false;
+  };
+
+  struct Link;
+  struct Hit;
+
+  void add_door(const Door& door, int row, bool wall_was_turned);
+  bool cross(const Link& link, int wall, Hit& hit) const;
+  template <class Report>
+  void for_each_crossing(const Link& link, const Report& report) const;
+
+  std::vector<LatticeWall> walls_;
+  std::vector<LatticeDoor> doors_;
+  BoxTree tree_;
+  int materials_ = 0;
+};
+
+}  // namespace muster::scene
