@@ -1,0 +1,152 @@
+#include "labels.hpp"
+
+#include <array>
+#include <cstdint>
+#include <numeric>
+
+namespace muster::picture {
+namespace {
+
+constexpr double label_size = 10.5;  // px
+
+// Advance widths of ' ' to '~' in Helvetica, thousandths of the size.
+constexpr std::array<std::uint16_t, 95> advances{
+    278, 278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333,  278, 278, 556, 556, 556,
+    556, 556, 556, 556, 556, 556, 556, 278, 278, 584, 584, 584, 556, 1015, 667, 667, 722, 722, 667,
+    611, 778, 722, 278, 500, 667, 556, 833, 722, 778, 667, 778, 722, 667,  611, 722, 667, 944, 667,
+    667, 611, 278, 278, 278, 469, 556, 333, 556, 556, 500, 556, 556, 278,  556, 556, 222, 222, 500,
+    222, 833, 556, 556, 556, 556, 333, 500, 278, 556, 500, 722, 500, 500,  500, 334, 260, 334, 584};
+
+double overlap(const Box& a, const Box& b) {
+  const double width = std::min(a.right(), b.right()) - std::max(a.x, b.x);
+  const double height = std::min(a.bottom(), b.bottom()) - std::max(a.y, b.y);
+  return width > 0 && height > 0 ? width * height : 0;
+}
+
+}  // namespace
+
+double text_width(std::string_view text, double size) {
+  double thousandths = 0;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= ' ' && byte <= '~')
+      thousandths += advances[byte - ' '];
+    else if (byte >= 0xC0)
+      thousandths += 560;  // the first byte of any other letter
+  }
+  return thousandths * size / 1000;
+}
+
+std::vector<std::string> wrapped(std::string_view text, double width, double size) {
+  std::vector<std::string> lines;
+  while (!text.empty()) {
+    const auto end = std::min(text.find(' '), text.size());
+    const std::string word(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (word.empty()) continue;
+    if (!lines.empty() && text_width(lines.back() + ' ' + word, size) <= width)
+      lines.back() += ' ' + word;
+    else
+      lines.push_back(word);
+  }
+  return lines;
+}
+
+std::vector<double> spread(const std::vector<double>& wanted, double gap, Range range) {
+  std::vector<std::size_t> order(wanted.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return wanted[a] < wanted[b]; });
+  // Neighbours that collide merge into a block around the mean of what its members wanted.
+  struct Block {
+    double start;
+    double sum;  // of wanted positions, each less its offset in the block
+    std::size_t count;
+  };
+  std::vector<Block> blocks;
+  const auto settle = [&](Block& block) {
+    const double length = gap * static_cast<double>(block.count - 1);
+    const double start = std::min(block.sum / static_cast<double>(block.count), range.high - length);
+    block.start = std::max(start, range.low);
+  };
+  for (const std::size_t i : order) {
+    blocks.push_back({0, wanted[i], 1});
+    settle(blocks.back());
+    while (blocks.size() > 1) {
+      Block& last = blocks.back();
+      Block& before = blocks[blocks.size() - 2];
+      const double length = gap * static_cast<double>(before.count);
+      if (before.start + length <= last.start) break;
+      before.sum += last.sum - static_cast<double>(last.count) * length;
+      before.count += last.count;
+      blocks.pop_back();
+      settle(blocks.back());
+    }
+  }
+  std::vector<double> result(wanted.size());
+  std::size_t next = 0;
+  for (const Block& block : blocks) {
+    for (std::size_t k = 0; k < block.count; ++k) result[order[next++]] = block.start + gap * static_cast<double>(k);
+  }
+  return result;
+}
+
+void Labels::occupy(const Box& box, double weight) { occupied_.push_back({box, weight}); }
+
+void Labels::occupy_line(Point a, Point b, double weight) {
+  constexpr double piece = 8;  // px
+  const double length = std::hypot(b.x - a.x, b.y - a.y);
+  const int pieces = static_cast<int>(std::min(length / piece, 1000.0)) + 1;
+  for (int i = 0; i <= pieces; ++i) {
+    const double f = static_cast<double>(i) / pieces;
+    occupy({std::lerp(a.x, b.x, f) - piece / 4, std::lerp(a.y, b.y, f) - piece / 4, piece / 2, piece / 2}, weight);
+  }
+}
+
+void Labels::beside(Point mark, double radius, std::string text, Colour colour) {
+  if (text.empty()) return;
+  const double dx = radius + 4 + text_width(text, label_size) / 2, dy = radius + 3 + label_size / 2;
+  std::vector<Point> centres;
+  for (const double far : {1.0, 1.5}) {
+    for (const Point way :
+         {Point{1, 0}, {0, -1}, {-1, 0}, {0, 1}, {0.9, -0.8}, {-0.9, -0.8}, {0.9, 0.8}, {-0.9, 0.8}}) {
+      centres.push_back({mark.x + way.x * dx * far, mark.y + way.y * dy * far});
+    }
+  }
+  requests_.push_back({std::move(text), colour, std::move(centres)});
+}
+
+void Labels::along(Point a, Point b, std::string text, Colour colour) {
+  std::vector<Point> centres;
+  for (const double f : {0.5, 0.42, 0.58, 0.35, 0.65, 0.28, 0.72}) {
+    centres.push_back({std::lerp(a.x, b.x, f), std::lerp(a.y, b.y, f)});
+  }
+  requests_.push_back({std::move(text), colour, std::move(centres)});
+}
+
+double Labels::cost(const Box& box, const Box& area) const {
+  double sum = 10 * (box.width * box.height - overlap(box, area));
+  for (const Occupied& other : occupied_) sum += other.weight * overlap(box, other.box);
+  return sum;
+}
+
+void Labels::write(Svg& svg, const Box& area) {
+  for (const Request& request : requests_) {
+    const double width = text_width(request.text, label_size);
+    Box best;
+    double best_cost = std::numeric_limits<double>::infinity();
+    double preference = 0;  // earlier candidates win unless they cover more
+    for (const Point centre : request.centres) {
+      const Box box{centre.x - width / 2, centre.y - label_size / 2, width, label_size};
+      const double total = cost(box, area) + preference++;
+      if (total < best_cost) {
+        best_cost = total;
+        best = box;
+      }
+    }
+    occupy(best, 3);
+    svg.text({best.x, best.bottom() - 0.15 * label_size}, request.text,
+             {.size = label_size, .colour = request.colour, .halo = true});
+  }
+}
+
+}  // namespace muster::picture
