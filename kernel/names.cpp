@@ -1,0 +1,79 @@
+#include "names.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace muster {
+namespace {
+
+constexpr std::size_t most_quoted_bytes = 60;
+constexpr std::size_t most_listed = 30;
+
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+// Damerau-Levenshtein distance in its optimal string alignment form; three rows of the table are enough.
+std::size_t distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::swap(before, last);
+    std::swap(last, row);
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const bool same = lower(a[i - 1]) == lower(b[j - 1]);
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (same ? 0 : 1)});
+      const bool exchanged = i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]);
+      if (exchanged) row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+std::string quote(std::string_view text) {
+  constexpr char digits[] = "0123456789abcdef";
+  std::size_t length = std::min(text.size(), most_quoted_bytes);
+  while (length < text.size() && length > 0 && (text[length] & 0xC0) == 0x80) --length;  // never inside a character
+  std::string result = "\"";
+  for (const char c : text.substr(0, length)) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x20 && byte != 0x7F) {
+      result += c;
+    } else {
+      result += {'\\', 'x', digits[byte >> 4], digits[byte & 15]};
+    }
+  }
+  return result + (length < text.size() ? "...\"" : "\"");
+}
+
+std::string nearest(std::string_view wrong, const std::vector<std::string>& valid) {
+  std::string best;
+  std::size_t best_distance = wrong.size() + 1;
+  for (const std::string& name : valid) {
+    const std::size_t longer = std::max(wrong.size(), name.size());
+    const std::size_t shorter = std::min(wrong.size(), name.size());
+    const std::size_t cut_off = (longer + 1) / 3;
+    if (longer - shorter > cut_off) continue;
+    const std::size_t d = distance(wrong, name);
+    if (d > cut_off || d >= best_distance) continue;
+    best = name;
+    best_distance = d;
+  }
+  return best;
+}
+
+std::string expected_one_of(const std::vector<std::string>& valid) {
+  if (valid.empty()) return "none is expected here";
+  std::string result = valid.size() == 1 ? "expected " : "expected one of ";
+  for (std::size_t i = 0; i < std::min(valid.size(), most_listed); ++i) result += (i > 0 ? ", " : "") + valid[i];
+  if (valid.size() > most_listed) result += ", ... (" + std::to_string(valid.size()) + " in all)";
+  return result;
+}
+
+std::string suggest(std::string_view wrong, const std::vector<std::string>& valid) {
+  const std::string near = nearest(wrong, valid);
+  return expected_one_of(valid) + (near.empty() ? "" : "; did you mean " + quote(near) + "?");
+}
+
+}  // namespace muster
