@@ -1,0 +1,32 @@
+// Numbers to and from text, the same in every locale: the only way in which the project reads or prints a number.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace muster {
+
+// The finite decimal number that the whole text is; nothing for spaces, '+', hexadecimal, nan, inf and what a double
+// cannot hold.
+std::optional<double> parse_real(std::string_view text);
+
+// The whole text as a decimal integer of 64 bits, under the same rules.
+std::optional<std::int64_t> parse_integer(std::string_view text);
+
+// A list of exactly n numbers with white space between them.
+std::optional<std::vector<double>> parse_reals(std::string_view text, std::size_t n);
+
+// The shortest text that parse_real reads back as the same bits (and "nan", "inf", "-inf", which it refuses).
+std::string print_real(double value);
+
+// For an error: why the text is refused, as in `"1,5" is not a number; a decimal point is written '.'`; empty if it is
+// not.
+std::string why_not_real(std::string_view text);
+std::string why_not_integer(std::string_view text);
+std::string why_not_reals(std::string_view text, std::size_t n);
+
+}  // namespace muster
