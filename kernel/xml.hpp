@@ -1,0 +1,34 @@
+// An XML file as a plain tree in which every name and value knows its place. Nothing in the file is silently ignored.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "error.hpp"
+
+namespace muster {
+
+struct XmlAttribute {
+  std::string name;
+  std::string value;  // with its references, such as &lt;, replaced
+  Place place;
+  Place value_place;  // of the first character inside the quotes
+};
+
+struct XmlElement {
+  std::string name;
+  Place place;  // of the '<'
+  std::vector<XmlAttribute> attributes;
+  std::vector<XmlElement> children;
+
+  // Null if there is none of that name.
+  const XmlAttribute* attribute(std::string_view wanted) const;
+};
+
+// The root element of a file of UTF-8 text, at most 16 MB large. Throws Error with file, line and column of what is
+// wrong.
+XmlElement read_xml(const std::filesystem::path& path);
+
+}  // namespace muster

@@ -1,0 +1,20 @@
+// The pass over the bytes of an XML file before tinyxml2 sees them. It refuses what tinyxml2 takes in silence
+// (entities, text, a second root, `&#0;`) or in quadratic time (40,000 attributes), and finds the columns, which
+// tinyxml2 does not keep.
+#pragma once
+
+#include <vector>
+
+#include "text_file.hpp"
+
+namespace muster {
+
+struct XmlSpot {
+  int line;
+  int column;
+};
+
+// In document order: each element's '<', then the name and the value of each of its attributes.
+std::vector<XmlSpot> scan_xml(const TextFile& file);
+
+}  // namespace muster
