@@ -1,0 +1,23 @@
+// Files that are read whole, with limits; numbers that are read strictly.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace muster::description {
+
+// The bytes of a regular file of at most `limit` bytes; throws std::runtime_error that begins with the path.
+std::string read_file(const std::string& path, std::size_t limit);
+
+// A finite decimal number and nothing else: no locale, no hexadecimal, no sign but '-' or one '+'.
+std::optional<double> parse_number(std::string_view text);
+
+// Numbers separated by blanks; nothing if any of them is none.
+std::optional<std::vector<double>> parse_numbers(std::string_view text);
+
+// The nearest of `names` as "; did you mean 'x'?", or nothing if none is near.
+std::string nearest(std::string_view name, const std::vector<std::string>& names);
+
+}  // namespace muster::description

@@ -1,0 +1,77 @@
+#include <algorithm>
+
+#include "description/robot.hpp"
+
+namespace muster::description {
+
+namespace {
+
+// Steiner's term: the inertia of a point mass at p about the origin.
+Eigen::Matrix3d point_inertia(double mass, const Eigen::Vector3d& p) {
+  return mass * (p.squaredNorm() * Eigen::Matrix3d::Identity() - p * p.transpose());
+}
+
+// Calls visit(index, frame in the link's own) for the link and for what hangs on it by joints that `through` lets pass.
+template <class Through, class Visit>
+void walk(const Robot& robot, std::size_t link, Through through, Visit visit) {
+  std::vector<std::optional<Eigen::Isometry3d>> frames(robot.links.size());
+  frames[link] = Eigen::Isometry3d::Identity();
+  visit(link, *frames[link]);
+  for (const Joint& joint : robot.joints) {  // parents come first
+    if (!frames[joint.parent] || !through(joint)) continue;
+    frames[joint.child] = *frames[joint.parent] * joint.origin;
+    visit(joint.child, *frames[joint.child]);
+  }
+}
+
+bool is_fixed(const Joint& joint) { return joint.kind == JointKind::fixed; }
+
+}  // namespace
+
+Mass operator+(const Mass& a, const Mass& b) {
+  if (b.mass == 0) return a;
+  if (a.mass == 0) return b;
+  Mass sum;
+  sum.mass = a.mass + b.mass;
+  sum.centre = (a.mass * a.centre + b.mass * b.centre) / sum.mass;
+  sum.inertia = a.inertia + point_inertia(a.mass, a.centre - sum.centre) + b.inertia +
+                point_inertia(b.mass, b.centre - sum.centre);
+  return sum;
+}
+
+Mass in_parent(const Eigen::Isometry3d& frame, const Mass& mass) {
+  return {mass.mass, frame * mass.centre, frame.linear() * mass.inertia * frame.linear().transpose()};
+}
+
+Mass rigid_mass(const Robot& robot, std::size_t link) {
+  Mass sum;
+  walk(robot, link, is_fixed,
+       [&](std::size_t i, const Eigen::Isometry3d& frame) { sum = sum + in_parent(frame, robot.links[i].mass); });
+  return sum;
+}
+
+std::vector<Shape> rigid_shapes(const Robot& robot, std::size_t link) {
+  std::vector<Shape> shapes;
+  walk(robot, link, is_fixed, [&](std::size_t i, const Eigen::Isometry3d& frame) {
+    for (Shape shape : robot.links[i].shapes) {
+      shape.pose = frame * shape.pose;
+      shapes.push_back(std::move(shape));
+    }
+  });
+  return shapes;
+}
+
+Mass whole_mass(const Robot& robot) {
+  Mass sum;
+  walk(
+      robot, 0, [](const Joint&) { return true; },
+      [&](std::size_t i, const Eigen::Isometry3d& frame) { sum = sum + in_parent(frame, robot.links[i].mass); });
+  return sum;
+}
+
+double DifferentialDrive::asked_rate(double commanded, double rate, double dt) const {
+  const double wanted = std::clamp(commanded, -max_speed, max_speed);
+  return std::clamp(wanted, rate - max_acceleration * dt, rate + max_acceleration * dt);
+}
+
+}  // namespace muster::description

@@ -1,0 +1,47 @@
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+
+#include "description/file_text.hpp"
+#include "description/robot.hpp"
+
+namespace muster::description {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// The models that the directories offer, for the message.
+std::vector<std::string> models_in(const std::vector<std::string>& directories) {
+  std::vector<std::string> names;
+  for (const std::string& directory : directories) {
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(directory, ignored)) {
+      if (entry.path().extension() == ".urdf") names.push_back(entry.path().stem().string());
+    }
+  }
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+}  // namespace
+
+std::string find_model(const std::string& model, const std::vector<std::string>& directories) {
+  const bool is_path = fs::path(model).extension() == ".urdf";
+  const std::string file = is_path ? model : model + ".urdf";
+  if (!is_path && model.find('/') != std::string::npos) {
+    throw std::runtime_error("model '" + model + "' is neither a name nor a path to a .urdf file");
+  }
+  std::string tried;
+  for (const std::string& directory : directories) {
+    const fs::path path = fs::path(directory) / file;  // an absolute file stays as it is
+    std::error_code ignored;
+    if (fs::exists(path, ignored)) return path.string();
+    tried += (tried.empty() ? "" : ", ") + directory;
+  }
+  throw std::runtime_error("model '" + model + "' is not known: no " + file + " in " +
+                           (tried.empty() ? "any directory" : tried) + nearest(model, models_in(directories)));
+}
+
+}  // namespace muster::description

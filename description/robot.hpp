@@ -1,0 +1,113 @@
+// A robot without an engine: what it weighs, how its parts join, what shape they have and what drives them.
+// Physics backends build themselves from this; nothing here depends on any of them.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace muster::description {
+
+// Mass properties in the frame of a link.
+struct Mass {
+  double mass = 0;                                    // [kg]
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();   // of mass [m]
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  // about the centre of mass, axes of the frame [kg m2]
+};
+
+Mass operator+(const Mass& a, const Mass& b);
+
+// The same mass seen from the parent, where `frame` is the pose of its frame in the parent.
+Mass in_parent(const Eigen::Isometry3d& frame, const Mass& mass);
+
+struct Box {
+  Eigen::Vector3d size;  // full edges [m]
+};
+struct Sphere {
+  double radius;  // [m]
+};
+struct Cylinder {
+  double radius, length;  // along z, centred [m]
+};
+struct Mesh {
+  std::vector<Eigen::Vector3d> vertices;            // [m]
+  std::vector<std::array<std::uint32_t, 3>> faces;  // counter-clockwise from outside
+};
+
+struct Shape {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  // in the link's frame
+  std::variant<Box, Sphere, Cylinder, Mesh> geometry;
+};
+
+struct Link {
+  std::string name;
+  Mass mass;                  // mass 0: a frame only
+  std::vector<Shape> shapes;  // what collides
+};
+
+enum class JointKind { fixed = 1, revolute, continuous, prismatic, floating, planar };
+
+struct Joint {
+  std::string name;
+  JointKind kind = JointKind::fixed;
+  std::size_t parent = 0, child = 0;                         // indices of links
+  Eigen::Isometry3d origin = Eigen::Isometry3d::Identity();  // of the child's frame in the parent's, at position 0
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();           // unit, in the child's frame; the normal if planar
+  double lower = -std::numeric_limits<double>::infinity();   // [rad] or [m]
+  double upper = std::numeric_limits<double>::infinity();
+  double max_effort = std::numeric_limits<double>::infinity();  // [N m] or [N]
+  double max_speed = std::numeric_limits<double>::infinity();   // [rad/s] or [m/s]
+};
+
+// Two wheels on one axle, each turned by its own motor; anything else that touches the ground slides.
+struct DifferentialDrive {
+  std::size_t left = 0, right = 0;  // indices of joints
+  double wheel_radius = 0;          // [m]
+  double wheel_base = 0;            // between the wheels' middles [m]
+  double max_torque = 0;            // of a motor at its wheel [N m]
+  double max_speed = 0;             // of a wheel [rad/s]
+  double max_acceleration =
+      std::numeric_limits<double>::infinity();  // of a wheel, set by the motor's controller [rad/s2]
+  double friction = 0;                          // Coulomb, between wheel and ground
+
+  // Rigid wheels that do not slip.
+  double forward(double left_rate, double right_rate) const { return (left_rate + right_rate) * wheel_radius / 2; }
+  double turn(double left_rate, double right_rate) const {
+    return (right_rate - left_rate) * wheel_radius / wheel_base;
+  }
+  double left_rate(double v, double w) const { return (v - w * wheel_base / 2) / wheel_radius; }
+  double right_rate(double v, double w) const { return (v + w * wheel_base / 2) / wheel_radius; }
+
+  // The rate that the motor's controller asks for in a step of dt [s], from the wheel's own rate and the one commanded.
+  double asked_rate(double commanded, double rate, double dt) const;
+};
+
+struct Robot {
+  std::string name;
+  std::string file;
+  std::vector<Link> links;    // parents before children; the first is the root, whose frame is the robot's
+  std::vector<Joint> joints;  // one for each link but the root: joints[i].child == i + 1
+  std::optional<DifferentialDrive> drive;
+  std::vector<std::string> warnings;  // one line each, for the user
+};
+
+// The link and all that is fixed to it, in the link's frame.
+Mass rigid_mass(const Robot& robot, std::size_t link);
+std::vector<Shape> rigid_shapes(const Robot& robot, std::size_t link);
+
+// Everything, every joint at zero, in the root's frame.
+Mass whole_mass(const Robot& robot);
+
+// The URDF file, checked; throws std::runtime_error("file:line: what is wrong; what was expected").
+Robot read_robot(const std::string& path);
+
+// The file of model "scarab" (scarab.urdf in the first of the directories that has it) or "path/to/my.urdf"
+// (absolute, or relative to one of the directories); throws, naming what was looked for and the nearest name.
+std::string find_model(const std::string& model, const std::vector<std::string>& directories);
+
+}  // namespace muster::description

@@ -1,0 +1,230 @@
+#include "description/urdf_check.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "description/file_text.hpp"
+
+namespace muster::description {
+
+using tinyxml2::XMLElement;
+
+namespace {
+
+constexpr std::size_t max_tag = 64u << 10;  // bytes; tinyxml2 takes quadratic time in the attributes of a tag
+constexpr std::size_t max_links = 10000;
+
+// Numbers in attributes: how many, and whether urdfdom would drop the whole element without them.
+struct Numbers {
+  const char *element, *attribute;
+  std::size_t count;
+  bool needed;
+};
+constexpr Numbers numbers[] = {
+    {"origin", "xyz", 3, false},     {"origin", "rpy", 3, false},       {"axis", "xyz", 3, true},
+    {"mass", "value", 1, true},      {"inertia", "ixx", 1, true},       {"inertia", "ixy", 1, true},
+    {"inertia", "ixz", 1, true},     {"inertia", "iyy", 1, true},       {"inertia", "iyz", 1, true},
+    {"inertia", "izz", 1, true},     {"box", "size", 3, true},          {"sphere", "radius", 1, true},
+    {"cylinder", "radius", 1, true}, {"cylinder", "length", 1, true},   {"mesh", "scale", 3, false},
+    {"limit", "lower", 1, false},    {"limit", "upper", 1, false},      {"limit", "effort", 1, true},
+    {"limit", "velocity", 1, true},  {"dynamics", "damping", 1, false}, {"dynamics", "friction", 1, false},
+};
+
+int line_at(const std::string& text, std::size_t position) {
+  return 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(position), '\n'));
+}
+
+bool starts(const std::string& text, std::size_t at, const char* what) {
+  return text.compare(at, std::char_traits<char>::length(what), what) == 0;
+}
+
+// Past a comment or character data, whose size is nobody's concern.
+std::size_t skip_to(const std::string& text, std::size_t from, const char* end) {
+  return std::min(text.find(end, from), text.size());
+}
+
+void scan_tags(const Source& source, const std::string& text) {
+  if (text.find('\0') != std::string::npos) source.fail(1, "is not text; expected UTF-8 XML");
+  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at + 1)) {
+    if (starts(text, at, "<!--")) {
+      at = skip_to(text, at, "-->");
+    } else if (starts(text, at, "<![CDATA[")) {
+      at = skip_to(text, at, "]]>");
+    } else if (starts(text, at, "<!")) {
+      source.fail(line_at(text, at), "has a document type declaration; entities are not supported");
+    } else if (skip_to(text, at, ">") - at > max_tag) {
+      source.fail(line_at(text, at), "a tag is longer than 65536 bytes");
+    }
+  }
+}
+
+void check_numbers(const Source& source, const XMLElement& element, const std::string& owner) {
+  for (const Numbers& rule : numbers) {
+    if (element.Name() != std::string(rule.element)) continue;
+    const char* text = element.Attribute(rule.attribute);
+    const std::string what = owner + ": <" + rule.element + "> " + rule.attribute;
+    const std::string expected = rule.count == 1 ? "a number" : std::to_string(rule.count) + " numbers";
+    if (!text && rule.needed) source.fail(element.GetLineNum(), what + " is missing; expected " + expected);
+    if (!text) continue;
+    const auto values = parse_numbers(text);
+    if (!values || values->size() != rule.count) {
+      source.fail(element.GetLineNum(), what + "=\"" + text + "\" is wrong; expected " + expected);
+    }
+  }
+  for (const auto* child = element.FirstChildElement(); child; child = child->NextSiblingElement()) {
+    check_numbers(source, *child, owner);
+  }
+}
+
+bool has_inertial(const Source& source, const XMLElement& link, const std::string& name) {
+  const XMLElement* inertial = link.FirstChildElement("inertial");
+  if (!inertial) return false;
+  for (const char* part : {"mass", "inertia"}) {
+    if (!inertial->FirstChildElement(part)) {
+      source.fail(inertial->GetLineNum(), "link '" + name + "': <inertial> has no <" + part + ">");
+    }
+  }
+  return true;
+}
+
+struct Edge {
+  std::string joint, parent, child;
+  int line;
+};
+
+Edge joint_edge(const Source& source, const XMLElement& joint, const std::string& name) {
+  const auto end = [&](const char* which) {
+    const XMLElement* element = joint.FirstChildElement(which);
+    if (!element) source.fail(joint.GetLineNum(), "joint '" + name + "' has no <" + which + ">");
+    return required(source, *element, "link");
+  };
+  return {name, end("parent"), end("child"), joint.GetLineNum()};
+}
+
+void check_joint(const Source& source, const XMLElement& joint, const std::string& name) {
+  const std::string type = required(source, joint, "type");
+  const std::vector<std::string> types = {"fixed", "revolute", "continuous", "prismatic", "floating", "planar"};
+  if (std::find(types.begin(), types.end(), type) == types.end()) {
+    source.fail(joint.GetLineNum(),
+                "joint '" + name + "': type '" + type +
+                    "' is not known; expected fixed, revolute, continuous, prismatic, floating or planar" +
+                    nearest(type, types));
+  }
+  if ((type == "revolute" || type == "prismatic") && !joint.FirstChildElement("limit")) {
+    source.fail(joint.GetLineNum(), "joint '" + name + "' has no <limit>; a " + type + " joint needs one");
+  }
+  if (const XMLElement* mimic = joint.FirstChildElement("mimic")) {
+    const bool itself = required(source, *mimic, "joint") == name;
+    source.fail(mimic->GetLineNum(),
+                "joint '" + name + "': " + (itself ? "mimics itself" : "<mimic> is not supported"));
+  }
+}
+
+// Links have one parent, and all are there.
+std::map<std::string, Edge> parents(const Source& source, const std::vector<Edge>& edges, const Outline& outline) {
+  std::map<std::string, Edge> parent_of;
+  for (const Edge& edge : edges) {
+    for (const std::string& link : {edge.child, edge.parent}) {
+      if (!outline.link_lines.count(link))
+        source.fail(edge.line, "joint '" + edge.joint + "': link '" + link + "' is not known");
+    }
+    const auto [other, added] = parent_of.emplace(edge.child, edge);
+    if (!added) {
+      source.fail(edge.line, "link '" + edge.child + "' has two parents: '" + other->second.parent + "' (line " +
+                                 std::to_string(other->second.line) + ") and '" + edge.parent + "'");
+    }
+  }
+  return parent_of;
+}
+
+// Orders the joints from the root outwards; whatever that does not reach hangs on a cycle.
+void order_tree(const Source& source, const std::vector<Edge>& edges, Outline& outline) {
+  const auto parent_of = parents(source, edges, outline);
+  std::map<std::string, std::vector<const Edge*>> children;
+  for (const Edge& edge : edges) children[edge.parent].push_back(&edge);
+  for (const auto& [link, line] : outline.link_lines) {
+    if (parent_of.count(link)) continue;
+    if (!outline.root.empty()) {
+      source.fail(line, "link '" + link + "' is a second root beside '" + outline.root + "'; expected one tree");
+    }
+    outline.root = link;
+  }
+  if (outline.root.empty())
+    source.fail(outline.link_lines.begin()->second, "every link has a parent: the joints form a cycle");
+  std::vector<std::string> reached = {outline.root};
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    for (const Edge* edge : children[reached[i]]) {
+      outline.order.push_back(edge->joint);
+      reached.push_back(edge->child);
+    }
+  }
+  if (reached.size() == outline.link_lines.size()) return;
+  for (const auto& [link, line] : outline.link_lines) {
+    if (std::find(reached.begin(), reached.end(), link) == reached.end()) {
+      source.fail(line, "link '" + link + "' is on a cycle of joints; expected one tree from '" + outline.root + "'");
+    }
+  }
+}
+
+void add_name(const Source& source, std::map<std::string, int>& lines, const XMLElement& element,
+              const std::string& name) {
+  const auto [known, added] = lines.emplace(name, element.GetLineNum());
+  if (added) return;
+  source.fail(element.GetLineNum(), std::string(element.Name()) + " '" + name + "' is there twice; first in line " +
+                                        std::to_string(known->second));
+}
+
+}  // namespace
+
+void Source::fail(int line, const std::string& message) const {
+  throw std::runtime_error(file + ":" + std::to_string(line) + ": " + message);
+}
+
+std::string required(const Source& source, const XMLElement& element, const char* attribute) {
+  const char* text = element.Attribute(attribute);
+  if (!text || !*text) {
+    source.fail(element.GetLineNum(), std::string("<") + element.Name() + "> has no attribute '" + attribute + "'");
+  }
+  return text;
+}
+
+void parse_urdf(const Source& source, const std::string& text, tinyxml2::XMLDocument& document) {
+  scan_tags(source, text);
+  const tinyxml2::XMLError error = document.Parse(text.data(), text.size());
+  const int line = std::max(1, document.ErrorLineNum());
+  if (error == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED) source.fail(line, "elements are nested deeper than 100");
+  if (error == tinyxml2::XML_ERROR_EMPTY_DOCUMENT) source.fail(1, "is empty; expected <robot>");
+  if (error != tinyxml2::XML_SUCCESS) source.fail(line, std::string("is not XML: ") + document.ErrorName());
+  const XMLElement* root = document.RootElement();
+  if (!root || root->Name() != std::string("robot"))
+    source.fail(root ? root->GetLineNum() : 1, "is not URDF; expected <robot>");
+  if (const auto* second = root->NextSiblingElement()) source.fail(second->GetLineNum(), "has a second root element");
+}
+
+Outline check_urdf(const Source& source, const XMLElement& robot) {
+  const std::vector<std::string> known = {"link", "joint", "material", "muster", "gazebo", "transmission", "sensor"};
+  Outline outline;
+  std::vector<Edge> edges;
+  for (const auto* element = robot.FirstChildElement(); element; element = element->NextSiblingElement()) {
+    const std::string kind = element->Name();
+    if (std::find(known.begin(), known.end(), kind) == known.end()) {
+      source.fail(element->GetLineNum(), "<" + kind + "> is not known in <robot>" + nearest(kind, known));
+    }
+    if (kind != "link" && kind != "joint") continue;
+    const std::string name = required(source, *element, "name");
+    add_name(source, kind == "link" ? outline.link_lines : outline.joint_lines, *element, name);
+    check_numbers(source, *element, kind + " '" + name + "'");
+    if (kind == "link") {
+      if (has_inertial(source, *element, name)) outline.with_inertial.insert(name);
+      continue;
+    }
+    check_joint(source, *element, name);
+    edges.push_back(joint_edge(source, *element, name));
+  }
+  if (outline.link_lines.empty()) source.fail(robot.GetLineNum(), "has no links");
+  if (outline.link_lines.size() > max_links) source.fail(robot.GetLineNum(), "has more than 10000 links");
+  order_tree(source, edges, outline);
+  return outline;
+}
+
+}  // namespace muster::description

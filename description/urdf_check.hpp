@@ -1,0 +1,41 @@
+// What urdfdom takes without a word, checked beforehand on the XML itself, where the lines are known.
+#pragma once
+
+#include <tinyxml2.h>
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "description/robot.hpp"
+
+namespace muster::description {
+
+// A place in a URDF file, to complain about.
+struct Source {
+  std::string file;
+  [[noreturn]] void fail(int line, const std::string& message) const;
+};
+
+// Links and joints by name, with their lines; `order` lists joints so that parents come before children.
+struct Outline {
+  std::map<std::string, int> link_lines, joint_lines;
+  std::set<std::string> with_inertial;  // links
+  std::vector<std::string> order;
+  std::string root;
+};
+
+// Parses the text under limits on depth and tag size; no DTD, no entities, one <robot>.
+void parse_urdf(const Source& source, const std::string& text, tinyxml2::XMLDocument& document);
+
+// Every number strictly a number, every needed attribute there, links a tree.
+Outline check_urdf(const Source& source, const tinyxml2::XMLElement& robot);
+
+// <muster><differential .../></muster>, if there is one; the robot's links and joints are there already.
+void read_drive(const Source& source, const tinyxml2::XMLElement& element, Robot& robot);
+
+// An attribute that must be there and not empty.
+std::string required(const Source& source, const tinyxml2::XMLElement& element, const char* attribute);
+
+}  // namespace muster::description

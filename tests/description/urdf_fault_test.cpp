@@ -1,0 +1,197 @@
+// What is wrong in a URDF is said with its line and the link's name; nothing is dropped in silence.
+#include <gtest/gtest.h>
+#include <pthread.h>
+
+#include "description/robot.hpp"
+#include "files.hpp"
+
+namespace muster::description {
+namespace {
+
+const std::string mass =
+    "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial>";
+
+struct Case {
+  const char* name;
+  std::string text;     // in <robot>, from line 2 on
+  std::string message;  // after "FILE:"
+};
+
+std::string link(const std::string& name, const std::string& inside) {
+  return "<link name='" + name + "'>" + inside + "</link>\n";
+}
+std::string joint(const std::string& name, const std::string& parent, const std::string& child,
+                  const std::string& type = "fixed", const std::string& inside = "") {
+  return "<joint name='" + name + "' type='" + type + "'><parent link='" + parent + "'/><child link='" + child + "'/>" +
+         inside + "</joint>\n";
+}
+std::string inertial(const std::string& value, const std::string& x, const std::string& y, const std::string& z) {
+  return "<inertial><mass value='" + value + "'/><inertia ixx='" + x + "' ixy='0' ixz='0' iyy='" + y +
+         "' iyz='0' izz='" + z + "'/></inertial>";
+}
+std::string wheels(const std::string& attributes, const std::string& axis = "0 1 0", const std::string& y = "0.1") {
+  return link("b", mass) + link("l", mass) + link("r", mass) +
+         joint("jl", "b", "l", "continuous", "<origin xyz='0 " + y + " 0'/><axis xyz='" + axis + "'/>") +
+         joint("jr", "b", "r", "continuous", "<origin xyz='0 -0.1 0'/><axis xyz='0 1 0'/>") + "<muster><differential " +
+         attributes + "/></muster>\n";
+}
+const std::string good =
+    "left='jl' right='jr' wheel_radius='0.05' wheel_base='0.2' max_torque='1' max_speed='9' friction='0.8'";
+
+const Case cases[] = {
+    {"negative_mass", link("a", inertial("-3", "1", "1", "1")), "2: link 'a': mass is not above 0"},
+    {"no_mass", link("a", inertial("0", "1", "1", "1")), "2: link 'a': mass is not above 0"},
+    {"indefinite_inertia", link("a", inertial("1", "-1", "1", "1")), "2: link 'a': inertia is not positive definite"},
+    {"impossible_inertia", link("a", inertial("1", "1", "1", "3")),
+     "2: link 'a': inertia breaks the triangle inequality; no body has such moments"},
+    {"unit_in_mass", link("a", inertial("2.5kg", "1", "1", "1")),
+     "2: link 'a': <mass> value=\"2.5kg\" is wrong; expected a number"},
+    {"nan_mass", link("a", inertial("nan", "1", "1", "1")),
+     "2: link 'a': <mass> value=\"nan\" is wrong; expected a number"},
+    {"huge_mass", link("a", inertial("1e400", "1", "1", "1")),
+     "2: link 'a': <mass> value=\"1e400\" is wrong; expected a number"},
+    {"decimal_comma", link("a", inertial("2,5", "1", "1", "1")),
+     "2: link 'a': <mass> value=\"2,5\" is wrong; expected a number"},
+    {"inertial_without_mass", link("a", "<inertial/>"), "2: link 'a': <inertial> has no <mass>"},
+    {"two_numbers_for_three", link("a", "") + link("b", "") + joint("j", "a", "b", "fixed", "<origin xyz='1 2'/>"),
+     "4: joint 'j': <origin> xyz=\"1 2\" is wrong; expected 3 numbers"},
+    {"negative_radius", link("a", "<collision><geometry><sphere radius='-1'/></geometry></collision>"),
+     "2: link 'a': the radius of a sphere is not above 0"},
+    {"limits_out_of_order",
+     link("a", mass) + link("b", mass) +
+         joint("j", "a", "b", "revolute", "<limit lower='2' upper='1' effort='1' velocity='1'/>"),
+     "4: joint 'j': lower limit is above the upper one"},
+    {"no_limits", link("a", mass) + link("b", mass) + joint("j", "a", "b", "prismatic"),
+     "4: joint 'j' has no <limit>; a prismatic joint needs one"},
+    {"zero_axis", link("a", mass) + link("b", mass) + joint("j", "a", "b", "continuous", "<axis xyz='0 0 0'/>"),
+     "4: joint 'j': axis has no length"},
+    {"cycle_beside_the_root",
+     link("a", mass) + link("b", mass) + link("c", mass) + joint("j1", "b", "c") + joint("j2", "c", "b"),
+     "3: link 'b' is on a cycle of joints; expected one tree from 'a'"},
+    {"cycle_of_all", link("a", mass) + link("b", mass) + joint("j1", "a", "b") + joint("j2", "b", "a"),
+     "2: every link has a parent: the joints form a cycle"},
+    {"two_parents",
+     link("a", mass) + link("b", mass) + link("c", mass) + joint("j1", "a", "b") + joint("j2", "a", "c") +
+         joint("j3", "b", "c"),
+     "7: link 'c' has two parents: 'a' (line 6) and 'b'"},
+    {"two_roots", link("a", mass) + link("b", mass), "3: link 'b' is a second root beside 'a'; expected one tree"},
+    {"mimic_of_itself",
+     link("a", mass) + link("b", mass) + joint("j", "a", "b", "continuous", "<axis xyz='0 0 1'/><mimic joint='j'/>"),
+     "4: joint 'j': mimics itself"},
+    {"unknown_link", link("a", mass) + joint("j", "a", "bb"), "3: joint 'j': link 'bb' is not known"},
+    {"unknown_joint_type", link("a", mass) + link("b", mass) + joint("j", "a", "b", "revolut"),
+     "4: joint 'j': type 'revolut' is not known; expected fixed, revolute, continuous, prismatic, floating or planar; "
+     "did you mean "
+     "'revolute'?"},
+    {"same_link_twice", link("a", mass) + link("a", mass), "3: link 'a' is there twice; first in line 2"},
+    {"unknown_element", "<lnk name='a'/>", "2: <lnk> is not known in <robot>; did you mean 'link'?"},
+    {"moving_without_mass", link("a", mass) + link("b", "") + joint("j", "a", "b", "continuous", "<axis xyz='0 0 1'/>"),
+     "3: link 'b' moves by joint 'j' but has no <inertial>"},
+    {"drive_of_unknown_joint",
+     wheels("left='jll' right='jr' wheel_radius='0.05' wheel_base='0.2' max_torque='1' max_speed='9' friction='0.8'"),
+     "7: <differential> left: joint 'jll' is not known; did you mean 'jl'?"},
+    {"drive_without_torque",
+     wheels("left='jl' right='jr' wheel_radius='0.05' wheel_base='0.2' max_speed='9' friction='0.8'"),
+     "7: <differential> has no attribute 'max_torque'"},
+    {"drive_attribute_misspelt", wheels(good + " max_sped='1'"),
+     "7: <differential> has no attribute 'max_sped'; did you mean 'max_speed'?"},
+    {"drive_number",
+     wheels("left='jl' right='jr' wheel_radius='5cm' wheel_base='0.2' max_torque='1' max_speed='9' friction='0.8'"),
+     "7: <differential> wheel_radius=\"5cm\" is wrong; expected a number above 0"},
+    {"wheel_turned_backwards", wheels(good, "0 -1 0"),
+     "7: <differential> joint 'jl' does not turn about the body's +y axis"},
+    {"wheel_base_contradicts_joints", wheels(good, "0 1 0", "0.11"),
+     "7: <differential> joint 'jl' is not half a wheel_base from the body's x axis (left: +y, right: -y)"},
+    {"another_drive", link("a", mass) + "<muster><tracks/></muster>",
+     "3: <tracks> is not a drive; expected <differential>"},
+    {"mesh_outside",
+     link("a", "<collision><geometry><mesh filename='package://../../etc/passwd'/></geometry></collision>"),
+     "2: link 'a': mesh 'package://../../etc/passwd' is outside the allowed folder; expected a path relative to "
+     "FOLDER"},
+};
+
+class UrdfFault : public testing::TestWithParam<Case> {};
+
+TEST_P(UrdfFault, IsNamedWithItsLine) {
+  Files files;
+  const std::string path = files.write("bad.urdf", "<robot name='r'>\n" + GetParam().text + "</robot>\n");
+  std::string message = GetParam().message;
+  if (const auto at = message.find("FOLDER"); at != std::string::npos) {
+    message.replace(at, 6, std::filesystem::path(path).parent_path().string());
+  }
+  EXPECT_EQ(message_of([&] { read_robot(path); }), path + ":" + message);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, UrdfFault, testing::ValuesIn(cases),
+                         [](const auto& one) { return std::string(one.param.name); });
+
+TEST(UrdfFile, AbsentFolderEmptyAndDeviceAreRefused) {
+  Files files;
+  EXPECT_EQ(message_of([&] { read_robot(files.path("no.urdf")); }),
+            files.path("no.urdf") + ": No such file or directory");
+  EXPECT_EQ(message_of([&] { read_robot(files.path("")); }), files.path("") + ": is not a regular file");
+  EXPECT_EQ(message_of([&] { read_robot("/dev/zero"); }), "/dev/zero: is not a regular file");
+  const std::string empty = files.write("empty.urdf", "");
+  EXPECT_EQ(message_of([&] { read_robot(empty); }), empty + ":1: is empty; expected <robot>");
+}
+
+TEST(UrdfFile, TooLargeIsRefusedUnread) {
+  Files files;
+  const std::string path = files.write("large.urdf", "<robot name='r'>");
+  std::filesystem::resize_file(path, 5ull << 30);
+  EXPECT_EQ(message_of([&] { read_robot(path); }), path + ": has 5368709120 bytes; expected at most 16777216");
+}
+
+TEST(UrdfFile, EntitiesAreRefused) {
+  Files files;
+  const std::string path = files.write(
+      "e.urdf", "<?xml version='1.0'?>\n<!DOCTYPE r [<!ENTITY a SYSTEM 'file:///etc/passwd'>]>\n<robot name='r'/>");
+  EXPECT_EQ(message_of([&] { read_robot(path); }),
+            path + ":2: has a document type declaration; entities are not supported");
+}
+
+TEST(UrdfFile, TruncatedAndSecondRootAreRefused) {
+  Files files;
+  const std::string cut = files.write("cut.urdf", "<robot name='r'>\n<link name='a'>");
+  EXPECT_EQ(message_of([&] { read_robot(cut); }), cut + ":2: is not XML: XML_ERROR_MISMATCHED_ELEMENT");
+  const std::string two = files.write("two.urdf", "<robot name='r'><link name='a'/></robot>\n<robot name='s'/>");
+  EXPECT_EQ(message_of([&] { read_robot(two); }), two + ":2: has a second root element");
+}
+
+TEST(UrdfFile, ManyAttributesInOneTagAreRefusedAtOnce) {
+  Files files;
+  std::string text = "<robot name='r'>\n<link ";
+  for (int i = 0; i < 40000; ++i) text.append("a").append(std::to_string(i)).append("='1' ");
+  const std::string path = files.write("wide.urdf", text + "/></robot>");
+  EXPECT_EQ(message_of([&] { read_robot(path); }), path + ":2: a tag is longer than 65536 bytes");
+}
+
+// On a thread with a stack of 1 MB, as a pool may have.
+TEST(UrdfFile, DeepNestingIsRefusedOnASmallStack) {
+  Files files;
+  std::string text = "<robot name='r'>\n";
+  for (int i = 0; i < 30000; ++i) text += "<link name='a'>";
+  const std::string path = files.write("deep.urdf", text);
+  struct Job {
+    std::string path, message;
+  } job{path, ""};
+  pthread_attr_t attributes;
+  pthread_attr_init(&attributes);
+  pthread_attr_setstacksize(&attributes, 1u << 20);
+  pthread_t thread;
+  ASSERT_EQ(pthread_create(
+                &thread, &attributes,
+                [](void* argument) -> void* {
+                  Job& here = *static_cast<Job*>(argument);
+                  here.message = message_of([&] { read_robot(here.path); });
+                  return nullptr;
+                },
+                &job),
+            0);
+  pthread_join(thread, nullptr);
+  pthread_attr_destroy(&attributes);
+  EXPECT_EQ(job.message, path + ":2: elements are nested deeper than 100");
+}
+
+}  // namespace
+}  // namespace muster::description

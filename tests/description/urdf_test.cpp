@@ -1,0 +1,136 @@
+// Good descriptions are read as they stand.
+#include <gtest/gtest.h>
+
+#include <clocale>
+#include <cmath>
+
+#include "description/robot.hpp"
+#include "files.hpp"
+
+namespace muster::description {
+namespace {
+
+const std::string scarab = MUSTER_SOURCE_DIR "/plugins/robots/models/scarab.urdf";
+
+TEST(Urdf, ScarabHasThePapersFigures) {
+  const Robot robot = read_robot(scarab);
+  EXPECT_EQ(robot.name, "scarab");
+  EXPECT_NEAR(whole_mass(robot).mass, 8.0, 1e-12);
+  ASSERT_TRUE(robot.drive);
+  EXPECT_EQ(robot.drive->max_torque, 2.765);
+  EXPECT_NEAR(robot.drive->max_torque, 28.2 * 9.80665 / 100, 1e-3);  // 28.2 kg cm
+  EXPECT_EQ(robot.drive->wheel_base, 0.21);
+  EXPECT_EQ(robot.drive->wheel_radius, 0.05);
+  EXPECT_EQ(robot.drive->friction, 0.8);
+  EXPECT_TRUE(robot.warnings.empty());
+}
+
+TEST(Urdf, ScarabFillsItsMeasuredBox) {
+  const Robot robot = read_robot(scarab);
+  Eigen::AlignedBox3d body;
+  for (const Shape& shape : rigid_shapes(robot, 0)) {
+    if (const auto* box = std::get_if<Box>(&shape.geometry)) {
+      body.extend(shape.pose.translation() - box->size / 2);
+      body.extend(shape.pose.translation() + box->size / 2);
+    } else if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) {
+      for (const auto& vertex : mesh->vertices) body.extend(shape.pose * vertex);
+    }
+  }
+  EXPECT_NEAR(body.sizes().x(), 0.2, 1e-9);
+  EXPECT_NEAR(body.sizes().y(), 0.135, 1e-9);
+  EXPECT_NEAR(body.max().z(), 0.222, 1e-7);  // above the ground; the mesh is in single precision
+}
+
+// Closed, outward-facing triangles give the volume by the divergence theorem.
+TEST(Urdf, MeshIsScaledAndClosed) {
+  const Robot robot = read_robot(scarab);
+  const auto& mesh = std::get<Mesh>(robot.links.back().shapes.at(0).geometry);
+  double volume = 0;
+  for (const auto& f : mesh.faces) {
+    volume += mesh.vertices[f[0]].dot(mesh.vertices[f[1]].cross(mesh.vertices[f[2]])) / 6;
+  }
+  const double disc = 0.5 * 16 * 0.021 * 0.021 * std::sin(2 * M_PI / 16);  // a 16-gon
+  EXPECT_NEAR(volume, 0.05 * 0.05 * 0.04 + disc * 0.03, 1e-10);
+}
+
+TEST(Urdf, MassesLumpAsRigidBodies) {
+  Files files;
+  const Robot robot = read_robot(files.write("r.urdf", R"(<robot name="r">
+    <link name="a"><inertial><mass value="2"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+    <link name="b"><inertial><origin xyz="1 0 0" rpy="0 0 1.5707963267948966"/><mass value="2"/>
+      <inertia ixx="1" ixy="0" ixz="0" iyy="2" iyz="0" izz="2.5"/></inertial></link>
+    <joint name="j" type="fixed"><parent link="a"/><child link="b"/><origin xyz="1 0 0"/></joint></robot>)"));
+  const Mass sum = whole_mass(robot);
+  EXPECT_EQ(sum.mass, 4);
+  EXPECT_TRUE(sum.centre.isApprox(Eigen::Vector3d(1, 0, 0)));
+  // The second link's axes are turned by 90 degrees about z: its x and y moments change places.
+  EXPECT_TRUE(sum.inertia.isApprox(Eigen::Vector3d(1 + 2, 1 + 1 + 4, 1 + 2.5 + 4).asDiagonal().toDenseMatrix(), 1e-12));
+}
+
+TEST(Urdf, EveryKindOfJointIsRead) {
+  Files files;
+  std::string text = "<robot name='r'><link name='l0'/>";
+  const std::string mass =
+      "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial>";
+  const char* kinds[] = {"fixed", "revolute", "continuous", "prismatic", "floating", "planar"};
+  for (int i = 0; i < 6; ++i) {
+    const std::string child = std::string("l").append(std::to_string(i + 1));
+    text += "<link name='" + child + "'>" + mass + "</link><joint name='j" + child + "' type='" + kinds[i] +
+            "'><parent link='l0'/><child link='" + child +
+            "'/><axis xyz='0 0 2'/><limit lower='-1' upper='2' effort='3' velocity='4'/></joint>";
+  }
+  const Robot robot = read_robot(files.write("r.urdf", text + "</robot>"));
+  ASSERT_EQ(robot.joints.size(), 6u);
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(robot.joints[i].kind, static_cast<JointKind>(i + 1));
+    EXPECT_EQ(robot.joints[i].child, i + 1);
+  }
+  EXPECT_EQ(robot.joints[1].lower, -1);
+  EXPECT_EQ(robot.joints[3].upper, 2);
+  EXPECT_EQ(robot.joints[1].max_effort, 3);
+  EXPECT_EQ(robot.joints[1].axis, Eigen::Vector3d::UnitZ());
+}
+
+TEST(Urdf, GermanLocaleReadsTheSameNumbers) {
+  const std::string before = std::setlocale(LC_ALL, nullptr);
+  if (!std::setlocale(LC_ALL, "de_DE.UTF-8")) GTEST_SKIP() << "no German locale here";
+  const Robot robot = read_robot(scarab);
+  std::setlocale(LC_ALL, before.c_str());
+  EXPECT_EQ(robot.drive->max_torque, 2.765);
+  EXPECT_NEAR(whole_mass(robot).mass, 8.0, 1e-12);
+}
+
+TEST(Model, IsFoundByNameOrPath) {
+  Files files;
+  files.write("one/a.urdf", "");
+  files.write("two/b.urdf", "");
+  const std::vector<std::string> folders = {files.path("one"), files.path("two")};
+  EXPECT_EQ(find_model("b", folders), files.path("two") + "/b.urdf");
+  EXPECT_EQ(find_model("two/b.urdf", {files.path("")}), files.path("two/b.urdf"));
+  EXPECT_EQ(find_model(files.path("one/a.urdf"), folders), files.path("one/a.urdf"));
+}
+
+TEST(Model, AbsentOneIsNamedWithItsNearest) {
+  Files files;
+  files.write("scarab.urdf", "");
+  EXPECT_EQ(message_of([&] { find_model("scrab", {files.path("")}); }),
+            "model 'scrab' is not known: no scrab.urdf in " + files.path("") + "; did you mean 'scarab'?");
+}
+
+TEST(Drive, RatesAndTwistAreEachOthersInverse) {
+  const DifferentialDrive drive = *read_robot(scarab).drive;
+  const double left = drive.left_rate(0.4, 0.7), right = drive.right_rate(0.4, 0.7);
+  EXPECT_NEAR(drive.forward(left, right), 0.4, 1e-15);
+  EXPECT_NEAR(drive.turn(left, right), 0.7, 1e-15);
+}
+
+TEST(Drive, AsksForNoMoreThanItsLimits) {
+  const DifferentialDrive drive = *read_robot(scarab).drive;
+  EXPECT_EQ(drive.asked_rate(100, 20, 0.1), 20);         // top speed
+  EXPECT_DOUBLE_EQ(drive.asked_rate(10, 0, 0.01), 0.4);  // ramp
+  EXPECT_DOUBLE_EQ(drive.asked_rate(-10, 0.1, 0.01), 0.1 - 0.4);
+  EXPECT_EQ(drive.asked_rate(0.2, 0, 0.01), 0.2);
+}
+
+}  // namespace
+}  // namespace muster::description
