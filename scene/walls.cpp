@@ -120,7 +120,7 @@ void Scene::add_door(const Door& door, int row, bool wall_was_turned) {
   }
   const std::int64_t from = snap(door.at), to = snap(door.at + door.width), height = snap(door.height);
   if (to <= from || height <= 0) refuse("door", row, "has no width or no height; expected at least 2^-12 m");
-  if (to > wall.length + 1) {  // one step for the rounding of the wall's length
+  if (to > wall.length + 2) {  // snapping both ends may shorten a wall by so many steps
     refuse("door", row,
            "ends " + std::to_string(door.at + door.width) + " m along its wall, which is " +
                std::to_string(static_cast<double>(wall.length) / steps_per_metre) + " m long");
@@ -128,7 +128,7 @@ void Scene::add_door(const Door& door, int row, bool wall_was_turned) {
   LatticeDoor snapped;
   snapped.from = wall_was_turned ? wall.length - to : from;
   snapped.to = wall_was_turned ? wall.length - from : to;
-  snapped.top = std::min(wall.base + height, wall.top);
+  snapped.top = wall.base + height;
   snapped.material = door.material;
   snapped.open = door.open;
   for (const int other : wall.doors) {

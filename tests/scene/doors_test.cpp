@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "drawing.hpp"
 
 namespace muster::scene {
@@ -94,6 +96,16 @@ TEST(Door, MayTakeUpItsWholeWall) {
   EXPECT_EQ(northward(oblique, 0.5), the_door);
   EXPECT_EQ(northward(oblique, 1 - step), the_door);
   EXPECT_EQ(northward(oblique, 1), nothing);
+}
+
+// Snapping may shorten a wall by almost two steps; a door that takes up all of it as drawn stays a door.
+TEST(Door, MayTakeUpItsWholeWallAsDrawn) {
+  const double low = -0.49 * step, high = 2 + 0.49 * step;
+  const Scene scene({wall(low, low, high, high, 3, plaster)}, {{0, 0, (high - low) * std::sqrt(2), 2, wood, false}},
+                    materials);
+  EXPECT_EQ(northward(scene, 0), the_door);
+  EXPECT_EQ(northward(scene, 1 - step), the_door);
+  EXPECT_EQ(counts(scene, {2 - step, 1, 1}, {2 - step, 3, 1})[wood], 1);
 }
 
 // A wall with a door is four walls: two beside the door, the leaf, and the lintel. Posts lie on the lattice here.

@@ -55,5 +55,23 @@ TEST(Height, TheNearestPossibleMissIsDecided) {
   EXPECT_EQ(count({low_wall}, {-reach, 0, 2 + step}, {reach, 0, 2 - step}), 0);
 }
 
+// Long links that meet the top of a long oblique wall exactly, or miss it by a part of a step.
+TEST(Height, TiesOverTheWholeExtentAreDecided) {
+  SmallLattice lattice(22, 1'000'000);
+  for (int i = 0; i < 20'000; ++i) {
+    const int before = 1 + lattice.coordinate(), after = 1 + lattice.coordinate();
+    const int wall_before = 1 + lattice.coordinate(), wall_after = 1 + lattice.coordinate();
+    const int slope = lattice.below(7) - 3;
+    const auto along_link = [&](int k, int lift) {
+      return Point{3 * k * step, k * step, 5 + (slope * k + lift) * step};
+    };
+    const Wall oblique =
+        wall(-wall_before * step, 2 * wall_before * step, wall_after * step, -2 * wall_after * step, 5);
+    EXPECT_EQ(count({oblique}, along_link(-before, 0), along_link(after, 0)), 0);
+    EXPECT_EQ(count({oblique}, along_link(-before, -1), along_link(after, 0)), 1);
+    EXPECT_EQ(count({oblique}, along_link(-before, 1), along_link(after, 0)), 0);
+  }
+}
+
 }  // namespace
 }  // namespace muster::scene

@@ -19,6 +19,14 @@ TEST(Joint, OfAStraightWallCountsOnce) {
   EXPECT_EQ(count(straight, south_east, north_west), 1);
 }
 
+TEST(Joint, IsSharedByEndsThatSnapTogether) {
+  for (const double miss : {-0.49 * step, -1e-13, 1e-13, 0.49 * step}) {
+    const std::vector<Wall> straight{wall(-3, 0, 1, 1), wall(1 + miss, 1 + miss, 3, 2)};
+    EXPECT_EQ(count(straight, {1, -2, 1}, {1, 3, 1}), 1) << miss;
+    EXPECT_EQ(count(straight, {1 - step, -2, 1}, {1 - step, 3, 1}), 1) << miss;
+  }
+}
+
 TEST(Joint, OfACornerCountsOnceOnTheWayThrough) {
   const std::vector<Wall> corner{wall(3, 0, 0, 0), wall(0, 0, 0, 3)};
   EXPECT_EQ(count(corner, south_west, north_east), 1);
