@@ -41,16 +41,13 @@ void draw_colour_bar(const Canvas& canvas) {
   const View& view = canvas.view;
   if (!view.has_value) return;
   const std::string title = axis_title(view.panel->value);
-  double widest = 0;
-  for (const Tick& tick : view.value_ticks) widest = std::max(widest, text_width(tick.label, tick_size));
-  const double needs = bar_width + widest + 12 + (title.empty() ? 0 : 18);
   const Box& area = canvas.area;
   const bool below = !view.value.empty() && view.value.range().low < view.value_range.low;
   const bool above = !view.value.empty() && view.value.range().high > view.value_range.high;
   constexpr double tip = 8;  // px, of the points that say that values go on beyond
-  Box bar{area.right() + view.margins.right - needs, area.y, bar_width, area.height};
-  if (above) bar.y += tip, bar.height -= tip;
-  if (below) bar.height -= tip;
+  Box bar{area.right() + view.margins.right - colour_bar_room(view), area.y, bar_width, area.height};
+  if (above) bar.y += tip;
+  bar.height -= tip * (above + below);
   Svg& svg = canvas.svg;
   svg.open("colour-bar");
   const double step = bar.height / Canvas::shades;
@@ -75,7 +72,7 @@ void draw_colour_bar(const Canvas& canvas) {
     svg.text({bar.right() + 6, y + 0.35 * tick_size}, tick.label, {.size = tick_size});
   }
   if (!title.empty()) {
-    svg.text({bar.right() + widest + 20, bar.y + bar.height / 2}, title,
+    svg.text({bar.right() + widest(view.value_ticks) + 20, bar.y + bar.height / 2}, title,
              {.size = axis_size, .anchor = Anchor::middle, .turn = -90});
   }
   svg.close();

@@ -135,7 +135,7 @@ void draw(const Band& band, Colour colour, Canvas& canvas) {
   Pen pen;
   fill_runs(pen, placed(band.x, band.low, canvas), placed(band.x, band.high, canvas));
   canvas.svg.open("band");
-  canvas.svg.path(pen, {.fill = colour, .opacity = 0.22});
+  canvas.svg.path(pen, {.fill = colour, .opacity = band_opacity});
   canvas.svg.close();
 }
 
@@ -150,7 +150,7 @@ void draw(const Histogram& histogram, Colour colour, Canvas& canvas) {
     fill.rectangle({low.x + 0.5, high.y, std::max(high.x - low.x - 1, 0.5), low.y - high.y});
   }
   canvas.svg.open("histogram");
-  canvas.svg.path(fill, {.fill = colour, .opacity = 0.6});
+  canvas.svg.path(fill, {.fill = colour, .opacity = bar_opacity});
   canvas.svg.close();
 }
 

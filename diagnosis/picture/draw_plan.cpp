@@ -11,8 +11,11 @@ double thickness_px(double thickness, const Canvas& canvas) { return std::max(th
 
 void draw_walls(const FloorPlan& plan, Canvas& canvas) {
   const auto names = materials(plan);
+  // The thick ones last: where walls meet, the thin one ends inside the thick one.
+  std::vector<Wall> walls = plan.walls;
+  std::stable_sort(walls.begin(), walls.end(), [](const Wall& a, const Wall& b) { return a.thickness < b.thickness; });
   canvas.svg.open("walls");
-  for (const Wall& wall : plan.walls) {
+  for (const Wall& wall : walls) {
     const Point a = canvas(wall.from), b = canvas(wall.to);
     if (!drawable(a) || !drawable(b)) continue;
     const auto material = std::find(names.begin(), names.end(), wall.material) - names.begin();
@@ -78,12 +81,13 @@ void draw(const Robots& robots, Colour, Canvas& canvas) {
     if (!drawable(p)) continue;
     const Colour colour = robot.colour.value_or(series_colour(i));
     const double radius = std::max(robot.radius * canvas.x.pixels(), least_radius);
-    if (drawable(robot.heading)) {
-      const Point nose{p.x + 1.8 * radius * std::cos(robot.heading), p.y - 1.8 * radius * std::sin(robot.heading)};
-      canvas.svg.line(p, nose, {.stroke = white, .width = 3.6});
-      canvas.svg.line(p, nose, {.stroke = colour, .width = 1.8});
-    }
+    const Point nose{p.x + 1.8 * radius * std::cos(robot.heading), p.y - 1.8 * radius * std::sin(robot.heading)};
+    if (drawable(nose)) canvas.svg.line(p, nose, {.stroke = white, .width = 3.8});
     canvas.svg.circle(p, radius, {.fill = colour, .stroke = white, .width = 1});
+    if (drawable(nose)) {
+      canvas.svg.line(p, nose, {.stroke = colour, .width = 1.8});
+      canvas.labels.occupy_line(p, nose, 5);
+    }
     canvas.labels.occupy({p.x - radius, p.y - radius, 2 * radius, 2 * radius}, 5);
     canvas.labels.beside(p, radius, robot.name, colour);
   }

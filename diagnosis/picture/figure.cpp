@@ -45,12 +45,13 @@ double aspect(const View& view) {
 
 void set_y_ticks(View& view) {
   const Axis& axis = view.panel->y;
-  view.y_ticks.clear();
-  if (axis.names.empty()) {
+  if (!axis.names.empty())
+    view.y_ticks = name_ticks(axis);
+  else
     view.y_ticks = axis.log ? log_ticks_within(view.y_range, 8) : ticks_within(view.y_range, 8);
-  } else {
-    for (std::size_t i = 0; i < axis.names.size(); ++i) view.y_ticks.push_back({static_cast<double>(i), axis.names[i]});
-  }
+  if (!view.counts) return;
+  std::erase_if(view.y_ticks, [](const Tick& tick) { return tick.value != std::floor(tick.value); });
+  for (Tick& tick : view.y_ticks) tick.label = number_label(tick.value, 0);
 }
 
 // Where limits are shared and the titles agree, only the outer panels name the axis.
@@ -72,13 +73,13 @@ Grid lay_out(const Figure& figure, std::vector<View>& views) {
   grid.rows = (views.size() + grid.columns - 1) / grid.columns;
   hide_inner_axes(figure, views, grid.columns);
   // The legend's height depends on the plot's width, and that on the margins: a second pass settles it.
-  double legend_width = figure.width / static_cast<double>(grid.columns) - 80;
+  double width = figure.width / static_cast<double>(grid.columns) - 80;
   for (int pass = 0; pass < 2; ++pass) {
     grid.left.assign(grid.columns, 0);
     grid.right.assign(grid.columns, 0);
     for (std::size_t i = 0; i < views.size(); ++i) {
       set_y_ticks(views[i]);
-      set_margins(views[i], legend_width);
+      set_margins(views[i], width);
       double& left = grid.left[i % grid.columns];
       double& right = grid.right[i % grid.columns];
       left = std::max(left, views[i].margins.left);
@@ -87,7 +88,7 @@ Grid lay_out(const Figure& figure, std::vector<View>& views) {
     double taken = 2 * edge;
     for (std::size_t c = 0; c < grid.columns; ++c) taken += grid.left[c] + grid.right[c];
     grid.plot_width = std::max((figure.width - taken) / static_cast<double>(grid.columns), 40.0);
-    legend_width = grid.plot_width;
+    width = grid.plot_width;
   }
   grid.top.assign(grid.rows, 0);
   grid.bottom.assign(grid.rows, 0);
@@ -104,13 +105,14 @@ Grid lay_out(const Figure& figure, std::vector<View>& views) {
 double draw_title(const Figure& figure, Svg& svg) {
   double y = edge;
   for (const std::string& line : wrapped(figure.title, figure.width - 2 * edge, figure_title_size)) {
-    y += figure_title_size + 3;
-    svg.text({edge, y - 4}, line, {.size = figure_title_size, .bold = true});
+    y += figure_title_size + 4;
+    svg.text({edge, y - 5}, line, {.size = figure_title_size, .bold = true});
   }
-  return y;
+  return figure.title.empty() ? y : y + 4;
 }
 
 double draw_caption(const Figure& figure, double y, Svg& svg) {
+  if (!figure.caption.empty()) y += 6;
   for (const std::string& line : wrapped(figure.caption, figure.width - 2 * edge, caption_size)) {
     y += caption_size + 4;
     svg.text({edge, y}, line, {.size = caption_size, .colour = Colour{80, 80, 80}});
@@ -135,7 +137,10 @@ std::string svg(const Figure& figure) {
     for (std::size_t column = 0; column < grid.columns; ++column) {
       x += grid.left[column];
       const std::size_t i = row * grid.columns + column;
-      if (i < views.size()) draw_panel(views[i], {x, y, grid.plot_width, grid.height[row]}, out);
+      if (i < views.size()) {
+        views[i].margins.top = grid.top[row];  // so that the titles of a row line up
+        draw_panel(views[i], {x, y, grid.plot_width, grid.height[row]}, out);
+      }
       x += grid.plot_width + grid.right[column];
     }
     y += grid.height[row] + grid.bottom[row] + (row + 1 < grid.rows ? row_gap : 0);

@@ -8,13 +8,6 @@ namespace {
 constexpr Colour axis_colour{90, 90, 90}, grid_colour{236, 236, 236};
 constexpr double axis_width = 0.8;
 
-// Names of categories, thinned out where they would overlap.
-std::vector<Tick> name_ticks(const Axis& axis) {
-  std::vector<Tick> ticks;
-  for (std::size_t i = 0; i < axis.names.size(); ++i) ticks.push_back({static_cast<double>(i), axis.names[i]});
-  return ticks;
-}
-
 // As many ticks as their labels leave room for.
 std::vector<Tick> x_ticks(const Canvas& canvas) {
   const Axis& axis = canvas.view.panel->x;
@@ -32,10 +25,7 @@ void draw_x_axis(const Canvas& canvas) {
   const Box& area = canvas.area;
   Svg& svg = canvas.svg;
   const auto ticks = x_ticks(canvas);
-  const double pitch = area.width / static_cast<double>(std::max<std::size_t>(ticks.size(), 1));
-  bool crowded = false;
-  for (const Tick& tick : ticks) crowded = crowded || text_width(tick.label, tick_size) + 6 > pitch;
-  crowded = crowded && !canvas.view.panel->x.names.empty();
+  const bool crowded = names_crowded(canvas.view.panel->x, area.width);
   for (const Tick& tick : ticks) {
     const double x = canvas.x(tick.value);
     svg.line({x, area.bottom()}, {x, area.bottom() + tick_length}, {.stroke = axis_colour, .width = axis_width});
@@ -79,7 +69,8 @@ void draw_legend(const Canvas& canvas, double top) {
     }
     if (entry.sign == Sign::line) svg.line({x, y}, {x + 16, y}, {.stroke = entry.colour, .width = 1.8});
     if (entry.sign == Sign::dot) svg.circle({x + 9, y}, 2.8, {.fill = entry.colour});
-    if (entry.sign == Sign::patch) svg.rectangle({x + 3, y - 5, 13, 10}, {.fill = entry.colour, .opacity = 0.6});
+    if (entry.sign == Sign::patch)
+      svg.rectangle({x + 3, y - 5, 13, 10}, {.fill = entry.colour, .opacity = entry.opacity});
     if (entry.sign == Sign::wall) svg.rectangle({x, y - 2.5, 16, 5}, {.fill = entry.colour});
     svg.text({x + 21, y + 0.35 * tick_size}, entry.label, {.size = tick_size});
     x += width;
@@ -112,14 +103,13 @@ void draw_axes(const Canvas& canvas) {
 }
 
 void draw_scale_bar(const Canvas& canvas) {
-  const auto ticks = ticks_within({0, canvas.x.range().span() * 0.5}, 5);
-  if (ticks.size() < 2) return;
-  const double x = canvas.area.x + 1, y = canvas.area.bottom() + 11, length = ticks[1].value * canvas.x.pixels();
+  const Tick bar = round_length(canvas.x.range().span() / 4);
+  const double x = canvas.area.x + 1, y = canvas.area.bottom() + 11, length = bar.value * canvas.x.pixels();
   const Ink ink{.stroke = black, .width = 1, .cap = Cap::square};
   canvas.svg.open("scale-bar");
   canvas.svg.line({x, y}, {x + length, y}, ink);
   for (const double end : {x, x + length}) canvas.svg.line({end, y - 3}, {end, y + 3}, ink);
-  canvas.svg.text({x + length + 6, y + 0.35 * tick_size}, ticks[1].label + " m", {.size = tick_size});
+  canvas.svg.text({x + length + 6, y + 0.35 * tick_size}, bar.label + " m", {.size = tick_size});
   canvas.svg.close();
 }
 
@@ -128,7 +118,7 @@ void draw_head(const Canvas& canvas) {
   const double legend = legend_height * legend_rows(view.legend, canvas.area.width);
   canvas.svg.open("head");
   if (!view.panel->title.empty()) {
-    canvas.svg.text({canvas.area.x, canvas.area.y - legend - 12}, view.panel->title,
+    canvas.svg.text({canvas.area.x, canvas.area.y - view.margins.top + 15}, view.panel->title,
                     {.size = title_size, .bold = true});
   }
   draw_legend(canvas, canvas.area.y - legend - 5);

@@ -1,5 +1,6 @@
 #include "labels.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <numeric>
@@ -112,15 +113,22 @@ void Labels::beside(Point mark, double radius, std::string text, Colour colour) 
       centres.push_back({mark.x + way.x * dx * far, mark.y + way.y * dy * far});
     }
   }
-  requests_.push_back({std::move(text), colour, std::move(centres)});
+  requests_.push_back({std::move(text), colour, std::move(centres), true});
 }
 
 void Labels::along(Point a, Point b, std::string text, Colour colour) {
+  const double length = std::hypot(b.x - a.x, b.y - a.y);
+  const double width = text_width(text, label_size);
+  // Beside the line, its box touches the line from outside.
+  const double nx = length > 0 ? (b.y - a.y) / length : 0, ny = length > 0 ? -(b.x - a.x) / length : 1;
+  const double aside = std::abs(nx) * width / 2 + std::abs(ny) * label_size / 2 + 3;
   std::vector<Point> centres;
-  for (const double f : {0.5, 0.42, 0.58, 0.35, 0.65, 0.28, 0.72}) {
-    centres.push_back({std::lerp(a.x, b.x, f), std::lerp(a.y, b.y, f)});
+  for (const double offset : {0.0, aside, -aside, 2.2 * aside, -2.2 * aside}) {
+    for (const double f : {0.5, 0.42, 0.58, 0.35, 0.65, 0.28, 0.72}) {
+      centres.push_back({std::lerp(a.x, b.x, f) + nx * offset, std::lerp(a.y, b.y, f) + ny * offset});
+    }
   }
-  requests_.push_back({std::move(text), colour, std::move(centres)});
+  requests_.push_back({std::move(text), colour, std::move(centres), false});
 }
 
 double Labels::cost(const Box& box, const Box& area) const {
@@ -130,6 +138,7 @@ double Labels::cost(const Box& box, const Box& area) const {
 }
 
 void Labels::write(Svg& svg, const Box& area) {
+  std::stable_partition(requests_.begin(), requests_.end(), [](const Request& request) { return request.mark; });
   for (const Request& request : requests_) {
     const double width = text_width(request.text, label_size);
     Box best;
@@ -143,7 +152,7 @@ void Labels::write(Svg& svg, const Box& area) {
         best = box;
       }
     }
-    occupy(best, 3);
+    occupy({best.x - 2, best.y - 2, best.width + 4, best.height + 4}, 6);
     svg.text({best.x, best.bottom() - 0.15 * label_size}, request.text,
              {.size = label_size, .colour = request.colour, .halo = true});
   }

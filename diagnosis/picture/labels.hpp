@@ -36,6 +36,7 @@ class Labels {
     std::string text;
     Colour colour;
     std::vector<Point> centres;
+    bool mark;  // the name of a mark is placed before labels of lines, which have more freedom
   };
   struct Occupied {
     Box box;

@@ -20,14 +20,14 @@ void equalise(Range& x, Range& y, const Box& area) {
 void draw_notes(const Canvas& canvas) {
   const Box& area = canvas.area;
   const View& view = canvas.view;
-  const bool nothing = view.x.empty() && view.y.empty();
+  const bool nothing = view.x.empty() || view.y.empty();
   if (nothing) {
     canvas.svg.text({area.x + area.width / 2, area.y + area.height / 2}, "no data",
                     {.size = axis_size, .colour = grey, .anchor = Anchor::middle});
   }
   if (canvas.outside > 0) {
     const std::string note = number_label(static_cast<double>(canvas.outside), 0) + " outside";
-    canvas.svg.text({area.right() - 4, area.bottom() - 5}, note,
+    canvas.svg.text({area.right() - 4, area.y + 11}, note,
                     {.size = tick_size, .colour = grey, .anchor = Anchor::end, .halo = true});
   }
 }

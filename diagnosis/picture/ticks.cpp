@@ -130,8 +130,18 @@ std::vector<Tick> log_ticks_within(Range range, int at_most) {
   return ticks;
 }
 
+Tick round_length(double limit) {
+  const int exponent = static_cast<int>(std::floor(std::log10(limit) + slack));
+  Step best{1, exponent};
+  for (const double mantissa : {2.0, 5.0}) {
+    const Step longer{mantissa, exponent};
+    if (longer.size() <= limit * (1 + slack)) best = longer;
+  }
+  return {best.size(), number_label(best.size(), best.decimals())};
+}
+
 Range axis_range(Range data) {
-  constexpr double far = 0.15, room = 0.03;  // shares of the span
+  constexpr double far = 0.1, room = 0.03;  // shares of the span
   const Range wide = widened(data);
   const Step step = choose_step(wide, 9);
   const double low = step.multiple(std::floor(wide.low / step.size() + slack));

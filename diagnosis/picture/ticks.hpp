@@ -25,6 +25,9 @@ std::vector<Tick> log_ticks_within(Range range, int at_most = 9);
 Range axis_range(Range data);
 Range log_axis_range(Range data);
 
+// The largest of 1, 2 and 5 times a power of ten that is at most `limit` > 0: the length of a scale bar.
+Tick round_length(double limit);
+
 // A number as people read it: true minus sign, thin spaces between thousands, powers of ten where zeros would be many.
 std::string number_label(double value, int decimals);
 

@@ -19,12 +19,28 @@ struct Look {
     view.x.add(p.x);
     view.y.add(p.y);
   }
+  void add_square(Point centre, double half) {
+    add(Point{centre.x - half, centre.y - half});
+    add(Point{centre.x + half, centre.y + half});
+  }
   void add_values(const std::vector<double>& values) {
-    view.has_value = view.has_value || !values.empty();
     for (const double v : values) view.value.add(v);
   }
-  void name(const std::string& label, Colour colour, Sign sign) {
-    if (!label.empty()) view.legend.push_back({label, colour, sign});
+  void name(const std::string& label, Colour colour, Sign sign, double opacity = 1) {
+    if (!label.empty()) view.legend.push_back({label, colour, sign, opacity});
+  }
+
+  // Where a line arrives: the mean of its last fiftieth, so that one noisy sample does not place the label.
+  std::optional<double> end_level(const Line& line) const {
+    const std::size_t wanted = line.x.size() / 50 + 1;
+    std::size_t count = 0;
+    double sum = 0;
+    for (std::size_t i = line.x.size(); i-- > 0 && count < wanted;) {
+      if (!drawable({line.x[i], line.y[i]}) || line.x[i] > view.panel->x.to.value_or(line.x[i])) continue;
+      sum += line.y[i];
+      ++count;
+    }
+    return count > 0 ? std::optional(sum / static_cast<double>(count)) : std::nullopt;
   }
 
   Colour operator()(const Line& line) {
@@ -33,12 +49,7 @@ struct Look {
     if (view.panel->legend)
       name(line.label, colour, Sign::line);
     else if (!line.label.empty()) {
-      for (std::size_t i = line.x.size(); i-- > 0;) {
-        if (!drawable({line.x[i], line.y[i]})) continue;
-        if (view.panel->x.to && line.x[i] > *view.panel->x.to) continue;
-        view.end_labels.push_back({line.label, colour, line.y[i]});
-        break;
-      }
+      if (const auto level = end_level(line)) view.end_labels.push_back({line.label, colour, *level});
     }
     return colour;
   }
@@ -60,15 +71,16 @@ struct Look {
     const Colour colour = band.colour.value_or(series_colour(next_series));
     add(band.x, band.low);
     add(band.x, band.high);
-    name(band.label, colour, Sign::patch);
+    name(band.label, colour, Sign::patch, band_opacity);
     return colour;
   }
   Colour operator()(const Histogram& histogram) {
     const Colour colour = take(histogram.colour);
+    view.counts = view.counts || !histogram.density;
     for (const double edge : histogram.edges) view.x.add(edge);
     view.y.add(0);
     for (const double height : bars(histogram).heights) view.y.add(height);
-    name(histogram.label, colour, Sign::patch);
+    name(histogram.label, colour, Sign::patch, bar_opacity);
     return colour;
   }
   Colour operator()(const ErrorBars& errors) {
@@ -80,7 +92,6 @@ struct Look {
     return colour;
   }
   Colour operator()(const Cells& cells) {
-    view.has_value = true;
     bool few = false;
     for (std::size_t i = 0; i < cells.x.size(); ++i) {
       const bool scarce = !cells.count.empty() && !(cells.count[i] >= cells.min_count);
@@ -93,8 +104,14 @@ struct Look {
     return grey;
   }
   Colour operator()(const FloorPlan& plan) {
-    for (const Wall& wall : plan.walls) add(wall.from), add(wall.to);
-    for (const Door& door : plan.doors) add(door.from), add(door.to);
+    for (const Wall& wall : plan.walls) {
+      add_square(wall.from, wall.thickness / 2);
+      add_square(wall.to, wall.thickness / 2);
+    }
+    for (const Door& door : plan.doors) {
+      add(door.from);
+      add(door.to);
+    }
     for (const Station& station : plan.stations) add(station.at);
     const auto names = materials(plan);
     for (std::size_t i = 0; i < names.size() && names.size() > 1; ++i) name(names[i], wall_shade(i), Sign::wall);
@@ -113,7 +130,10 @@ struct Look {
     return path.value.empty() ? take(path.colour) : grey;
   }
   Colour operator()(const Links& links) {
-    for (const Link& link : links.links) add(link.from), add(link.to);
+    for (const Link& link : links.links) {
+      add(link.from);
+      add(link.to);
+    }
     return grey;
   }
 };
@@ -129,19 +149,32 @@ Range with_limits(Range range, const Axis& axis) {
   return range;
 }
 
-Range range_of(const Extent& extent, const Axis& axis, bool equal) {
+// `room` [share of the span] replaces round ends.
+Range range_of(const Extent& extent, const Axis& axis, std::optional<double> room) {
   if (!axis.names.empty()) return {-0.5, static_cast<double>(axis.names.size()) - 0.5};
   Range range = axis.log ? Range{1, 10} : Range{0, 1};
   if (!extent.empty()) {
     range = extent.range();
-    const double room = 0.02 * range.span();
-    const bool even = equal && range.span() > 1e-9 * std::abs(range.high);
-    range = even ? Range{range.low - room, range.high + room} : axis.log ? log_axis_range(range) : axis_range(range);
+    const bool plain = room && range.span() > 1e-9 * std::abs(range.high);
+    if (plain)
+      range = {range.low - *room * range.span(), range.high + *room * range.span()};
+    else
+      range = axis.log ? log_axis_range(range) : axis_range(range);
   }
   return with_limits(range, axis);
 }
 
 }  // namespace
+
+double widest(const std::vector<Tick>& ticks) {
+  double width = 0;
+  for (const Tick& tick : ticks) width = std::max(width, text_width(tick.label, tick_size));
+  return width;
+}
+
+double colour_bar_room(const View& view) {
+  return bar_width + widest(view.value_ticks) + 12 + (axis_title(view.panel->value).empty() ? 0 : 18);
+}
 
 std::string axis_title(const Axis& axis) {
   if (axis.unit.empty()) return axis.label;
@@ -193,14 +226,28 @@ View look(const Panel& panel) {
 
 void set_ranges(View& view) {
   const Panel& panel = *view.panel;
-  view.x_range = range_of(view.x, panel.x, equal_units(panel));
-  view.y_range = range_of(view.y, panel.y, equal_units(panel));
-  view.value_range = range_of(view.value, panel.value, false);
+  view.has_value = !view.value.empty();
+  std::optional<double> room;
+  if (equal_units(panel)) room = panel.frame == Frame::axes ? 0.02 : 0;
+  view.x_range = range_of(view.x, panel.x, room);
+  view.y_range = range_of(view.y, panel.y, room);
+  view.value_range = range_of(view.value, panel.value, {});
   if (panel.map == Map::diverging && !panel.value.from && !panel.value.to) {
     const double far = std::max(std::abs(view.value_range.low), std::abs(view.value_range.high));
     view.value_range = {-far, far};
   }
   std::erase_if(view.end_labels, [&](const EndLabel& label) { return !view.y_range.holds(label.y); });
+}
+
+std::vector<Tick> name_ticks(const Axis& axis) {
+  std::vector<Tick> ticks;
+  for (std::size_t i = 0; i < axis.names.size(); ++i) ticks.push_back({static_cast<double>(i), axis.names[i]});
+  return ticks;
+}
+
+bool names_crowded(const Axis& axis, double width) {
+  const double pitch = width / static_cast<double>(std::max<std::size_t>(axis.names.size(), 1));
+  return widest(name_ticks(axis)) + 6 > pitch;
 }
 
 double legend_entry_width(const LegendEntry& entry) { return 22 + text_width(entry.label, tick_size) + 14; }
@@ -218,26 +265,23 @@ int legend_rows(const std::vector<LegendEntry>& legend, double width) {
   return rows;
 }
 
-void set_margins(View& view, double legend_width) {
+void set_margins(View& view, double plot_width) {
   const Panel& panel = *view.panel;
   Margins& m = view.margins;
   m = {.left = 8, .right = 14, .top = 8, .bottom = 26};
   if (!panel.title.empty()) m.top += 18;
-  m.top += legend_height * legend_rows(view.legend, legend_width);
+  m.top += legend_height * legend_rows(view.legend, plot_width);
   if (panel.frame == Frame::axes) {
     if (view.show_y) {
-      double widest = 0;
-      for (const Tick& tick : view.y_ticks) widest = std::max(widest, text_width(tick.label, tick_size));
-      m.left = widest + tick_length + 8 + (axis_title(panel.y).empty() ? 0 : 20);
+      m.left = widest(view.y_ticks) + tick_length + 8 + (axis_title(panel.y).empty() ? 0 : 20);
     }
     m.bottom = view.show_x ? tick_length + 18 + (axis_title(panel.x).empty() ? 0 : 18) : 10;
   }
+  if (names_crowded(panel.x, plot_width)) m.bottom += 0.65 * widest(name_ticks(panel.x)) - 8;  // sin 40 degrees
   for (const EndLabel& label : view.end_labels) m.right = std::max(m.right, text_width(label.label, tick_size) + 14);
   if (view.has_value) {
     view.value_ticks = ticks_within(view.value_range, 7);
-    double widest = 0;
-    for (const Tick& tick : view.value_ticks) widest = std::max(widest, text_width(tick.label, tick_size));
-    m.right += bar_width + widest + 12 + (axis_title(panel.value).empty() ? 0 : 18);
+    m.right += colour_bar_room(view);
   }
 }
 
