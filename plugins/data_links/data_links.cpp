@@ -1,0 +1,69 @@
+// Measured readings as links, so that every term of a channel is evaluated where and when something was measured.
+#include <cmath>
+#include <muster/plugin.hpp>
+
+namespace {
+
+using namespace muster;
+
+// A row of the measured table; other columns of the file are not needed to place its radios.
+struct Reading {
+  static constexpr const char* columns =
+      "t[s]? tx:radio+ rx:radio+ tx_x[m] tx_y[m] tx_z[m]? tx_yaw[rad]? rx_x[m] rx_y[m] rx_z[m]? rx_yaw[rad]?";
+  struct Place {
+    double x, y, z, yaw;
+  };
+  double t, tx, rx;
+  Place from, to;
+};
+
+struct DataLinks {
+  static constexpr auto id = "data.links/1";
+  static constexpr auto summary = "lists the links of a table of measured readings";
+  static constexpr auto manual =
+      "Lists in every tick all readings of `file`: reading i is link i, from endpoint 2 i to endpoint 2 i + 1, at the\n"
+      "places and the time that were measured. It stands in for radio.links; the terms of the channel do not notice.\n"
+      "Columns: t[s],tx,rx,tx_x[m],tx_y[m],tx_z[m],tx_yaw[rad],rx_x[m],rx_y[m],rx_z[m],rx_yaw[rad]; t, z and yaw may\n"
+      "be absent: then the time is the tick's, the height that of the radio's mount, the heading 0.";
+  static constexpr auto phase = MUSTER_RADIO;
+  static constexpr Param params[] = {file("file", "measured readings, a CSV table with units").required()};
+
+  explicit DataLinks(Setup& s)
+      : readings(s.file<Reading>("file")),
+        mount(s.read<Mount>("radio/*/mount")),
+        endpoint(s.write<Endpoint>("endpoint/*/radio")),
+        pose(s.write<Pose>("endpoint/*/pose")),
+        ends(s.write<Ends>("link/*/ends")) {}
+
+  void step(const Step& k) const {
+    const auto measured = k[readings];
+    const auto mounts = k[mount];
+    const auto radios = k.append(endpoint, 2 * measured.size());
+    const auto poses = k.append(pose, 2 * measured.size());
+    const auto links = k.append(ends, measured.size());
+    for (std::size_t i = 0; i < measured.size(); ++i) {
+      const Reading& it = measured[i];
+      const double t = is_null(it.t) ? k.time() : it.t;
+      radios[2 * i] = {it.tx, t};
+      radios[2 * i + 1] = {it.rx, t};
+      poses[2 * i] = placed(it.from, mounts[static_cast<std::size_t>(it.tx)]);
+      poses[2 * i + 1] = placed(it.to, mounts[static_cast<std::size_t>(it.rx)]);
+      links[i] = {static_cast<double>(2 * i), static_cast<double>(2 * i + 1)};
+    }
+  }
+
+  static Pose placed(const Reading::Place& at, const Mount& on) {
+    const double yaw = is_null(at.yaw) ? 0 : at.yaw;
+    return {at.x, at.y, is_null(at.z) ? on.z : at.z, std::cos(yaw / 2), 0, 0, std::sin(yaw / 2)};
+  }
+
+  In<Reading> readings;
+  In<Mount> mount;
+  Out<Endpoint> endpoint;
+  Out<Pose> pose;
+  Out<Ends> ends;
+};
+
+}  // namespace
+
+MUSTER_PLUGIN_IS(DataLinks)

@@ -1,0 +1,119 @@
+// What the floor plan does not tell: shadowing as a field over the environment, and fading by interference of waves.
+#include <algorithm>
+#include <muster/plugin.hpp>
+#include <vector>
+
+#include "multipath.hpp"
+#include "reading_key.hpp"
+#include "rician.hpp"
+#include "shadow_field.hpp"
+
+namespace {
+
+using namespace muster;
+
+constexpr double light_speed = 299792458;  // m/s
+
+struct RadioFading {
+  static constexpr auto id = "radio.fading/1";
+  static constexpr auto summary = "shadowing that belongs to the place, and Rayleigh or Rician fading";
+  static constexpr auto manual =
+      R"(level@shadowing: a link's share of a random loss field over the environment, normal in dB. Its sd grows with the link's
+length d: shadowing x sqrt(1 - (1 - exp(-d/D)) D/d), D = decorrelation (Agrawal and Patwari 2009).
+fading: linear power gain of mean 1, from waves that all radios share (Clarke 1968). It changes over half a wavelength, not
+with time. With `per_reading`, every reading draws its own instead.
+Both are the same both ways and depend on seed and place alone. Asked for expectations, shadowing is 0 and fading is the
+gain whose dB is the mean of its dB: -2.507 dB under Rayleigh fading.)";
+  static constexpr auto phase = MUSTER_RADIO;
+  static constexpr Param params[] = {
+      real("shadowing", 4, 0, 30, "dB", "standard deviation of links much longer than the decorrelation distance"),
+      real("decorrelation", 2, 0.01, 1e4, "m", "distance over which the loss field's correlation falls to 1/e"),
+      flag("fading", true, "small-scale fading; without, its gain is 1"),
+      real("rician_k", -40, -40, 60, "dB", "steady over diffuse power; at -40 Rayleigh fading exactly"),
+      real("frequency", 2.44e9, 1e6, 1e12, "Hz", "carrier, for the wavelength of fading"),
+      flag("per_reading", false, "fading drawn for each radio, time and place anew, white in space"),
+  };
+
+  explicit RadioFading(Setup& s)
+      : sd(s.value("shadowing")),
+        decorrelation(s.value("decorrelation")),
+        has_fading(s.value("fading")),
+        rician_k(s.value("rician_k")),
+        frequency(s.value("frequency")),
+        per_reading(s.value("per_reading")),
+        endpoint(s.read<Endpoint>("endpoint/*/radio")),
+        pose(s.read<Pose>("endpoint/*/pose")),
+        ends(s.read<Ends>("link/*/ends")),
+        shadowing(s.add<Level>("link/*/level@shadowing")),
+        gain(s.write<Fading>("link/*/fading")),
+        field(s.stream("shadowing")),
+        random(s.stream("fading")),
+        multipath(random) {}
+
+  void step(const Step& k) const {
+    shadow(k);
+    const double ratio = rician_ratio(k[rician_k]);
+    const bool fades = k[has_fading] != 0;
+    if (!fades || k.expected()) {
+      const double everywhere = fades ? rician_typical_gain(ratio) : 1;
+      for (Fading& link : k[gain]) link.gain = everywhere;
+    } else if (k[per_reading] != 0) {
+      draw(k, ratio);
+    } else {
+      interfere(k, ratio);
+    }
+  }
+
+  void shadow(const Step& k) const {
+    const auto out = k[shadowing];
+    if (k.expected() || k[sd] == 0) {
+      for (Level& link : out) link.level = 0;
+      return;
+    }
+    const auto at = at_each(field, k[pose], k[decorrelation]);
+    const auto links = k[ends];
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      out[i].level = k[sd] * field.between(of(at, links[i].tx), of(at, links[i].rx));
+    }
+  }
+
+  void interfere(const Step& k, double ratio) const {
+    const double wavelength = light_speed / k[frequency];
+    const auto poses = k[pose];
+    const auto at = at_each(multipath, poses, wavelength);
+    const auto links = k[ends];
+    const auto out = k[gain];
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const double turns = -distance(of(poses, links[i].tx), of(poses, links[i].rx)) / wavelength;
+      out[i].gain =
+          rician_gain(ratio, multipath.between(of(at, links[i].tx), of(at, links[i].rx)), 6.283185307179586 * turns);
+    }
+  }
+
+  void draw(const Step& k, double ratio) const {
+    std::vector<uint64_t> keys;
+    for (std::size_t i = 0; i < k[pose].size(); ++i) {
+      const Endpoint& end = k[endpoint][i];
+      keys.push_back(end_key(k.key("radio", static_cast<std::size_t>(end.radio)), end.t, k[pose][i]));
+    }
+    const auto links = k[ends];
+    const auto out = k[gain];
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      out[i].gain = rician_gain(ratio, diffuse(random, of(keys, links[i].tx), of(keys, links[i].rx)), 0);
+    }
+  }
+
+  Value sd, decorrelation, has_fading, rician_k, frequency, per_reading;
+  In<Endpoint> endpoint;
+  In<Pose> pose;
+  In<Ends> ends;
+  Out<Level> shadowing;
+  Out<Fading> gain;
+  ShadowField field;
+  Stream random;
+  Multipath multipath;
+};
+
+}  // namespace
+
+MUSTER_PLUGIN_IS(RadioFading)

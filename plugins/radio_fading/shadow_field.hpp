@@ -1,0 +1,84 @@
+// Shadowing as what a link picks up of one loss field that fills the environment: symmetric, without state, the same on
+// return, and correlated between links that run close to one another.
+//
+// Agrawal and Patwari, Correlated link shadow fading in multi-hop wireless networks, IEEE Trans. Wireless Comm. 8(8),
+// 2009: a link's shadowing is the field's line integral over the square root of the link's length. Here the field is a
+// sum of plane waves, whose line integrals have a closed form. Its correlation is exp(-r / decorrelation) in every
+// direction.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <muster/random.hpp>
+
+#include "even_points.hpp"
+
+namespace muster {
+
+class ShadowField {
+ public:
+  static constexpr std::size_t waves = 64;
+
+  // A point, in decorrelation distances, and each wave's sine there.
+  struct End {
+    double x, y, z;
+    std::array<double, waves> sine;
+  };
+
+  explicit ShadowField(const Stream& random) {
+    const std::array<double, 3> shift{random.uniform(0, 1), random.uniform(1, 1), random.uniform(2, 1)};
+    for (std::size_t m = 0; m < waves; ++m) {
+      const auto [size, height, turn] = even_point(m, shift);
+      const double number = wave_number(size), up = 2 * height - 1, along = std::sqrt(1 - up * up);
+      waves_[m] = {number * along * std::cos(full_turn * turn), number * along * std::sin(full_turn * turn),
+                   number * up, full_turn * random.uniform(m)};
+    }
+  }
+
+  End end_at(double x, double y, double z) const {
+    End result{x, y, z, {}};
+    for (std::size_t m = 0; m < waves; ++m) result.sine[m] = std::sin(phase(m, x, y, z));
+    return result;
+  }
+
+  // Normal, of mean 0 and the variance below. Bit for bit the same both ways: every difference changes its sign alone.
+  double between(const End& p, const End& q) const {
+    const double x = q.x - p.x, y = q.y - p.y, z = q.z - p.z;
+    double sum = 0;
+    for (std::size_t m = 0; m < waves; ++m) {
+      const double along = waves_[m].x * x + waves_[m].y * y + waves_[m].z * z;
+      sum += std::abs(along) > 1e-3
+                 ? (q.sine[m] - p.sine[m]) / along
+                 : std::cos(phase(m, (p.x + q.x) / 2, (p.y + q.y) / 2, (p.z + q.z) / 2)) * (1 - along * along / 24);
+    }
+    return sum * std::sqrt(std::sqrt(x * x + y * y + z * z) / waves);
+  }
+
+  // Of a link of this length: grows to 1 for links much longer than a decorrelation distance.
+  static double variance(double length) { return length > 0 ? 1 + std::expm1(-length) / length : 0; }
+
+ private:
+  struct Wave {
+    double x, y, z, phase;
+  };
+  static constexpr double full_turn = 6.283185307179586;
+
+  // The inverse of the spectrum's distribution function. exp(-r) has in space the spectral density 1 / (1 + k^2)^2, so
+  // with k = tan(a) the share of waves below k is (2 a - sin 2 a) / pi.
+  static double wave_number(double share) {
+    double low = 0, high = full_turn / 4;
+    for (int round = 0; round < 60; ++round) {
+      const double middle = (low + high) / 2;
+      (2 * middle - std::sin(2 * middle) < full_turn / 2 * share ? low : high) = middle;
+    }
+    return std::tan((low + high) / 2);
+  }
+
+  double phase(std::size_t m, double x, double y, double z) const {
+    return waves_[m].x * x + waves_[m].y * y + waves_[m].z * z + waves_[m].phase;
+  }
+
+  std::array<Wave, waves> waves_;
+};
+
+}  // namespace muster

@@ -1,0 +1,103 @@
+// What the terms of a multi-wall channel need of each link: its length and how many walls of each material it crosses.
+// Kept from step to step for links, walls and doors that stayed where they were, bit for bit; so asking again under
+// other parameters costs a comparison, and a kept answer cannot differ from a new one.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <muster/plugin.hpp>
+#include <scene/walls.hpp>
+#include <vector>
+
+namespace muster {
+
+class LinkGeometry {
+ public:
+  // True if walls or doors are not what they were.
+  bool set_scene(Rows<const Wall> walls, Rows<const Door> doors, Rows<const DoorState> states, std::size_t materials) {
+    bool changed = keep(walls, walls_);
+    changed = keep(doors, doors_) || changed;
+    changed = keep(states, states_) || changed || !scene_ || materials != materials_;
+    if (!changed) return false;
+    links_.clear();
+    materials_ = materials;
+    scene_.reset();  // so that none is left if the new one is refused
+    scene_ = std::make_unique<scene::Scene>(built(walls), built(doors, states, walls), static_cast<int>(materials));
+    return true;
+  }
+
+  // How many links were computed anew.
+  std::size_t set_links(Rows<const Ends> links, Rows<const Pose> at) {
+    links_.resize(links.size());
+    counts_.resize(links.size() * materials_);
+    std::size_t computed = 0;
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      const Pose& a = at[static_cast<std::size_t>(links[i].tx)];
+      const Pose& b = at[static_cast<std::size_t>(links[i].rx)];
+      const std::array<scene::Point, 2> ends{{{a.x, a.y, a.z}, {b.x, b.y, b.z}}};
+      if (links_[i].known && !std::memcmp(&ends, &links_[i].ends, sizeof ends)) continue;
+      links_[i].known = false;  // so that no old answer is left if the point is refused
+      scene_->counts(ends[0], ends[1], counts_.data() + i * materials_);
+      links_[i] = {ends, log_distance(ends[0], ends[1]), true};
+      ++computed;
+    }
+    return computed;
+  }
+
+  // log10 of the length in metres, which is taken as at least 1 cm: nearer, no far field has formed.
+  double log_distance(std::size_t link) const { return links_[link].log_distance; }
+  // Walls crossed, by material.
+  const int* counts(std::size_t link) const { return counts_.data() + link * materials_; }
+
+ private:
+  struct Link {
+    std::array<scene::Point, 2> ends;
+    double log_distance = 0;
+    bool known = false;
+  };
+
+  static double log_distance(const scene::Point& p, const scene::Point& q) {
+    const double x = p.x - q.x, y = p.y - q.y, z = p.z - q.z;
+    return std::log10(std::max(std::sqrt(x * x + y * y + z * z), 0.01));
+  }
+
+  template <class Row>
+  static bool keep(Rows<const Row> now, std::vector<Row>& kept) {
+    if (now.size() == kept.size() && (now.empty() || !std::memcmp(now.begin(), kept.data(), now.size() * sizeof(Row))))
+      return false;
+    kept.assign(now.begin(), now.end());
+    return true;
+  }
+
+  static std::vector<scene::Wall> built(Rows<const Wall> walls) {
+    std::vector<scene::Wall> result;
+    for (const Wall& w : walls) {
+      result.push_back({w.x0, w.y0, w.x1, w.y1, w.base, w.height, w.thickness, static_cast<int>(w.material)});
+    }
+    return result;
+  }
+
+  static std::vector<scene::Door> built(Rows<const Door> doors, Rows<const DoorState> states, Rows<const Wall> walls) {
+    std::vector<scene::Door> result;
+    for (std::size_t i = 0; i < doors.size(); ++i) {
+      const Door& d = doors[i];
+      const double material = is_null(d.material) ? walls[static_cast<std::size_t>(d.wall)].material : d.material;
+      result.push_back(
+          {static_cast<int>(d.wall), d.at, d.width, d.height, static_cast<int>(material), states[i].open != 0});
+    }
+    return result;
+  }
+
+  std::vector<Wall> walls_;
+  std::vector<Door> doors_;
+  std::vector<DoorState> states_;
+  std::size_t materials_ = 0;
+  std::unique_ptr<scene::Scene> scene_;
+  std::vector<Link> links_;
+  std::vector<int> counts_;
+};
+
+}  // namespace muster

@@ -1,0 +1,72 @@
+// The multi-wall model of COST 231: distance and walls, as two terms of the received level.
+#include <muster/plugin.hpp>
+
+#include "link_geometry.hpp"
+
+namespace {
+
+using namespace muster;
+
+struct RadioMultiwall {
+  static constexpr auto id = "radio.multiwall/1";
+  static constexpr auto summary = "path loss by distance and by the walls that a link crosses";
+  static constexpr auto manual =
+      "level@distance = tx_power - l0 - 10 n log10(d), d in metres and at least 0.01;\n"
+      "level@walls    = - sum over materials of (walls crossed) x material/NAME/loss.\n"
+      "Crossings are exact, in three dimensions, and the same both ways; a closed door counts as its material, an "
+      "open\n"
+      "one as nothing. Thickness and angle of incidence do not change a wall's loss.\n"
+      "COST Action 231, Digital mobile radio towards future generation systems, final report, section 4.7 (1999).";
+  static constexpr auto phase = MUSTER_RADIO;
+  static constexpr Param params[] = {
+      real("tx_power", 0, -100, 100, "dBm", "transmit power"),
+      real("l0", 40, 0, 150, "dB", "loss at 1 m").free(),
+      real("n", 2, 0, 10, "", "path-loss exponent").free(),
+  };
+
+  explicit RadioMultiwall(Setup& s)
+      : tx_power(s.value("tx_power")),
+        l0(s.value("l0")),
+        n(s.value("n")),
+        pose(s.read<Pose>("endpoint/*/pose")),
+        ends(s.read<Ends>("link/*/ends")),
+        wall(s.read<Wall>("wall/*/shape")),
+        door(s.read<Door>("door/*/shape")),
+        state(s.read<DoorState>("door/*/state")),
+        loss(s.read<Loss>("material/*/loss")),
+        distance(s.add<Level>("link/*/level@distance")),
+        walls(s.add<Level>("link/*/level@walls")) {}
+
+  void step(const Step& k) {
+    const auto losses = k[loss];
+    try {
+      geometry.set_scene(k[wall], k[door], k[state], losses.size());
+      geometry.set_links(k[ends], k[pose]);
+    } catch (const std::runtime_error& e) {  // the scene refuses walls, doors and places, which are the user's
+      throw BadInput(e.what());
+    }
+    const auto by_distance = k[distance];
+    const auto by_walls = k[walls];
+    const double at_1m = k[tx_power] - k[l0], slope = 10 * k[n];
+    for (std::size_t i = 0; i < by_distance.size(); ++i) {
+      by_distance[i].level = at_1m - slope * geometry.log_distance(i);
+      double sum = 0;
+      for (std::size_t m = 0; m < losses.size(); ++m) sum -= geometry.counts(i)[m] * losses[m].loss;
+      by_walls[i].level = sum;
+    }
+  }
+
+  Value tx_power, l0, n;
+  In<Pose> pose;
+  In<Ends> ends;
+  In<Wall> wall;
+  In<Door> door;
+  In<DoorState> state;
+  In<Loss> loss;
+  Out<Level> distance, walls;
+  LinkGeometry geometry;
+};
+
+}  // namespace
+
+MUSTER_PLUGIN_IS(RadioMultiwall)

@@ -1,0 +1,133 @@
+// What a link crosses, on a plan that can be checked by hand; and that keeping it changes nothing.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "radio_multiwall/link_geometry.hpp"
+
+namespace muster {
+namespace {
+
+// A brick wall at x = 5 from y = 0 to 10, 3 m high, and a glass one at x = 8, 1 m high. In the brick wall at y = 4 to 5
+// is a wooden door, 2 m high.
+struct Plan {
+  enum { brick, glass, wood, materials };
+  std::vector<Wall> walls{{5, 0, 5, 10, 0, 3, 0.1, brick}, {8, 0, 8, 10, 0, 1, 0.1, glass}};
+  std::vector<Door> doors{{0, 4, 1, 2, wood}};
+  std::vector<DoorState> states{{0}};
+  std::vector<Pose> at;
+  std::vector<Ends> links;
+
+  void link(double y, double from_z, double to_z) {
+    at.push_back({0, y, from_z, 1, 0, 0, 0});
+    at.push_back({10, y, to_z, 1, 0, 0, 0});
+    links.push_back({static_cast<double>(at.size() - 2), static_cast<double>(at.size() - 1)});
+  }
+  std::size_t put(LinkGeometry& g) const {
+    g.set_scene(view(walls), view(doors), view(states), materials);
+    return g.set_links(view(links), view(at));
+  }
+
+  template <class Row>
+  static Rows<const Row> view(const std::vector<Row>& rows) {
+    return {reinterpret_cast<const double*>(rows.data()), rows.size()};
+  }
+};
+
+std::vector<int> counts(const LinkGeometry& g, std::size_t link) {
+  return {g.counts(link), g.counts(link) + Plan::materials};
+}
+using Counts = std::vector<int>;
+
+TEST(Walls, AreCountedByMaterialHeightAndDoorState) {
+  Plan plan;
+  plan.link(2.5, 0.5, 0.5);  // through both walls
+  plan.link(4.5, 0.5, 0.5);  // through the door
+  plan.link(4.5, 2.5, 2.5);  // over the door, through the brick above it; over the glass
+  plan.link(2.5, 3.5, 3.5);  // over all
+  LinkGeometry g;
+  plan.put(g);
+  EXPECT_EQ(counts(g, 0), (Counts{1, 1, 0}));
+  EXPECT_EQ(counts(g, 1), (Counts{0, 1, 1}));
+  EXPECT_EQ(counts(g, 2), (Counts{1, 0, 0}));
+  EXPECT_EQ(counts(g, 3), (Counts{0, 0, 0}));
+  plan.states = {{1}};
+  plan.put(g);
+  EXPECT_EQ(counts(g, 0), (Counts{1, 1, 0}));
+  EXPECT_EQ(counts(g, 1), (Counts{0, 1, 0}));
+}
+
+TEST(Walls, ADoorWithoutMaterialIsOfItsWalls) {
+  Plan plan;
+  plan.doors[0].material = null();
+  plan.link(4.5, 0.5, 0.5);
+  LinkGeometry g;
+  plan.put(g);
+  EXPECT_EQ(counts(g, 0), (Counts{1, 1, 0}));
+}
+
+TEST(Walls, DistanceIsInSpaceAndAtLeastACentimetre) {
+  Plan plan;
+  plan.at = {{0, 0, 0, 1, 0, 0, 0}, {2, 3, 6, 1, 0, 0, 0}, {0, 0.001, 0, 1, 0, 0, 0}};
+  plan.links = {{0, 1}, {1, 0}, {0, 2}};
+  LinkGeometry g;
+  plan.put(g);
+  EXPECT_EQ(g.log_distance(0), std::log10(7.0));
+  EXPECT_EQ(g.log_distance(1), g.log_distance(0));
+  EXPECT_EQ(g.log_distance(2), std::log10(0.01));
+}
+
+TEST(Kept, LinksAreComputedAgainOnlyWhereSomethingMoved) {
+  Plan plan;
+  for (int i = 0; i < 8; ++i) plan.link(1.0 + i, 0.5, 0.5);
+  LinkGeometry g;
+  EXPECT_EQ(plan.put(g), 8u);
+  EXPECT_EQ(plan.put(g), 0u);
+  plan.at[4].y = std::nextafter(plan.at[4].y, 100);
+  EXPECT_EQ(plan.put(g), 1u);
+  plan.states = {{1}};
+  EXPECT_EQ(plan.put(g), 8u);
+  plan.walls[0].height = 2.5;
+  EXPECT_EQ(plan.put(g), 8u);
+  plan.doors[0].width = 1.5;
+  EXPECT_EQ(plan.put(g), 8u);
+}
+
+TEST(Kept, AnswersAreThoseOfAFreshStart) {
+  Plan plan;
+  for (int i = 0; i < 40; ++i) plan.link(0.1 + 0.24 * i, 0.3, 3.1);
+  LinkGeometry kept;
+  for (int step = 0; step < 30; ++step) {
+    plan.at[static_cast<std::size_t>(step * 7 % 80)].y += 0.37;
+    plan.states = {{static_cast<double>(step / 5 % 2)}};
+    if (step == 17) plan.links.resize(20);
+    if (step == 23) plan.links.push_back({0, 79});
+    LinkGeometry fresh;
+    plan.put(fresh);
+    plan.put(kept);
+    for (std::size_t i = 0; i < plan.links.size(); ++i) {
+      EXPECT_EQ(counts(kept, i), counts(fresh, i));
+      EXPECT_EQ(kept.log_distance(i), fresh.log_distance(i));
+    }
+  }
+}
+
+TEST(Kept, NoAnswerOutlivesARefusal) {
+  Plan plan;
+  plan.link(2.5, 0.5, 0.5);
+  LinkGeometry g;
+  plan.put(g);
+  const auto good = plan.at;
+  plan.at[1].x = 5000;  // beyond the scene's extent
+  EXPECT_THROW(plan.put(g), std::runtime_error);
+  EXPECT_THROW(plan.put(g), std::runtime_error);
+  plan.at = good;
+  plan.put(g);
+  EXPECT_EQ(counts(g, 0), (Counts{1, 1, 0}));
+  plan.walls[0].x0 = 5000;
+  EXPECT_THROW(plan.put(g), std::runtime_error);
+  EXPECT_THROW(plan.put(g), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace muster
