@@ -1,8 +1,8 @@
 // What the floor plan does not tell: shadowing as a field over the environment, and fading by interference of waves.
-#include <algorithm>
 #include <muster/plugin.hpp>
 #include <vector>
 
+#include "each_end.hpp"
 #include "multipath.hpp"
 #include "reading_key.hpp"
 #include "rician.hpp"
