@@ -1,6 +1,7 @@
 #include "scene/walls.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -11,15 +12,22 @@ namespace {
 // A height or a place along a wall, times an orientation: below 2^73.
 __extension__ using Wide = __int128;
 
+// In any locale; six significant digits.
+std::string text(double number) {
+  char digits[32];
+  const auto end = std::to_chars(digits, digits + sizeof digits, number, std::chars_format::general, 6);
+  return {digits, end.ptr};
+}
+
 [[noreturn]] void refuse(const char* what, int row, const std::string& why) {
   throw std::runtime_error(std::string(what) + " row " + std::to_string(row) + ": " + why);
 }
 
 void check_material(const char* what, int row, int material, int materials) {
   if (material >= 0 && material < materials) return;
-  refuse(
-      what, row,
-      "material row " + std::to_string(material) + " does not exist; expected 0 to " + std::to_string(materials - 1));
+  refuse(what, row,
+         "material row " + std::to_string(material) + " does not exist; expected one of the first " +
+             std::to_string(materials));
 }
 
 void check_wall(const Wall& wall, int row, int materials) {
@@ -36,8 +44,10 @@ Box box_around(const Spot& a, const Spot& b) {
   return {{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}};
 }
 
-double length_of(const Spot& a, const Spot& b) {
-  return std::hypot(static_cast<double>(b.x - a.x), static_cast<double>(b.y - a.y));
+// The sum is below 2^49, hence exact, and the root is the nearest double: the same on every machine.
+double length_of(const Spot& a, const Spot& b, std::int64_t rise = 0) {
+  const std::int64_t x = b.x - a.x, y = b.y - a.y;
+  return std::sqrt(static_cast<double>(x * x + y * y + rise * rise));
 }
 
 }  // namespace
@@ -60,8 +70,8 @@ struct Scene::Link {
     if (within_extent(point.x) && within_extent(point.y) && within_extent(point.z)) {
       return {snap(point.x), snap(point.y)};
     }
-    throw std::runtime_error("a radio stands at " + std::to_string(point.x) + ' ' + std::to_string(point.y) + ' ' +
-                             std::to_string(point.z) + "; expected coordinates within 1000 m");
+    throw std::runtime_error("the point " + text(point.x) + ' ' + text(point.y) + ' ' + text(point.z) +
+                             " lies beyond the scene; expected coordinates within 1000 m");
   }
 };
 
@@ -80,54 +90,53 @@ struct Scene::Hit {
 };
 
 Scene::Scene(const std::vector<Wall>& walls, const std::vector<Door>& doors, int materials) : materials_(materials) {
+  for (const Wall& wall : walls) add_wall(wall);
   std::vector<Box> boxes;
-  std::vector<bool> turned;
-  for (const Wall& wall : walls) {
-    const int row = static_cast<int>(walls_.size());
-    check_wall(wall, row, materials);
-    LatticeWall snapped;
-    snapped.a = {snap(wall.x0), snap(wall.y0)};
-    snapped.b = {snap(wall.x1), snap(wall.y1)};
-    snapped.base = snap(wall.base);
-    snapped.top = snap(wall.base + wall.height);
-    snapped.length = std::llround(length_of(snapped.a, snapped.b));
-    snapped.material = wall.material;
-    if (snapped.length == 0) refuse("wall", row, "has no length; expected ends at least 2^-12 m apart");
-    if (snapped.top <= snapped.base) refuse("wall", row, "has no height; expected at least 2^-12 m");
-    turned.push_back(!runs_southward(snapped.a, snapped.b));
-    if (turned.back()) std::swap(snapped.a, snapped.b);
-    boxes.push_back(box_around(snapped.a, snapped.b));
-    walls_.push_back(std::move(snapped));
-  }
+  for (const LatticeWall& wall : walls_) boxes.push_back(box_around(wall.a, wall.b));
   tree_ = BoxTree(boxes);
-  for (const Door& door : doors) {
-    const int row = static_cast<int>(doors_.size());
-    if (door.wall < 0 || door.wall >= static_cast<int>(walls_.size())) {
-      refuse("door", row, "wall row " + std::to_string(door.wall) + " does not exist");
-    }
-    check_material("door", row, door.material, materials);
-    add_door(door, row, turned[door.wall]);
-  }
+  for (const Door& door : doors) add_door(door);
 }
 
-void Scene::add_door(const Door& door, int row, bool wall_was_turned) {
+void Scene::add_wall(const Wall& wall) {
+  const int row = static_cast<int>(walls_.size());
+  check_wall(wall, row, materials_);
+  LatticeWall snapped;
+  snapped.a = {snap(wall.x0), snap(wall.y0)};
+  snapped.b = {snap(wall.x1), snap(wall.y1)};
+  snapped.base = snap(wall.base);
+  snapped.top = snap(wall.base + wall.height);
+  snapped.length = std::llround(length_of(snapped.a, snapped.b));
+  snapped.material = wall.material;
+  if (snapped.length == 0) refuse("wall", row, "has no length; expected ends at least 2^-12 m apart");
+  if (snapped.top <= snapped.base) refuse("wall", row, "has no height; expected at least 2^-12 m");
+  snapped.turned = !runs_southward(snapped.a, snapped.b);
+  if (snapped.turned) std::swap(snapped.a, snapped.b);
+  walls_.push_back(std::move(snapped));
+}
+
+void Scene::add_door(const Door& door) {
+  const int row = static_cast<int>(doors_.size());
+  if (door.wall < 0 || door.wall >= static_cast<int>(walls_.size())) {
+    refuse("door", row, "wall row " + std::to_string(door.wall) + " does not exist");
+  }
+  check_material("door", row, door.material, materials_);
   LatticeWall& wall = walls_[door.wall];
   if (!within_extent(door.height)) refuse("door", row, "height is not below 1000 m");
-  // Along a wall, as long as the diagonal of the scene at most.
-  const auto is_along_wall = [](double metres) { return metres >= 0 && metres < 3 * extent; };
-  if (!is_along_wall(door.at) || !is_along_wall(door.at + door.width)) {
+  // No wall is longer than the diagonal of the scene.
+  const auto may_be_along_wall = [](double metres) { return metres >= 0 && metres < 3 * extent; };
+  if (!may_be_along_wall(door.at) || !may_be_along_wall(door.at + door.width)) {
     refuse("door", row, "begins or ends beyond its wall, wall row " + std::to_string(door.wall));
   }
   const std::int64_t from = snap(door.at), to = snap(door.at + door.width), height = snap(door.height);
   if (to <= from || height <= 0) refuse("door", row, "has no width or no height; expected at least 2^-12 m");
   if (to > wall.length + 2) {  // snapping both ends may shorten a wall by so many steps
     refuse("door", row,
-           "ends " + std::to_string(door.at + door.width) + " m along its wall, which is " +
-               std::to_string(static_cast<double>(wall.length) / steps_per_metre) + " m long");
+           "ends " + text(door.at + door.width) + " m along its wall, which is " +
+               text(static_cast<double>(wall.length) / steps_per_metre) + " m long");
   }
   LatticeDoor snapped;
-  snapped.from = wall_was_turned ? wall.length - to : from;
-  snapped.to = wall_was_turned ? wall.length - from : to;
+  snapped.from = wall.turned ? wall.length - to : from;
+  snapped.to = wall.turned ? wall.length - from : to;
   snapped.top = wall.base + height;
   snapped.material = door.material;
   snapped.open = door.open;
@@ -174,8 +183,7 @@ void Scene::for_each_crossing(const Link& link, const Report& report) const {
 void Scene::crossings(const Point& p, const Point& q, std::vector<Crossing>& out) const {
   out.clear();
   const Link link(p, q);
-  const double rise = static_cast<double>(link.to_z - link.from_z);
-  const double length = std::hypot(length_of(link.span.from, link.span.to), rise);
+  const double length = length_of(link.span.from, link.span.to, link.to_z - link.from_z);
   for_each_crossing(link, [&](const Hit& hit) {
     const LatticeWall& wall = walls_[hit.wall];
     const double change = static_cast<double>(hit.to - hit.from);

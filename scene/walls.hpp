@@ -60,12 +60,13 @@ class Scene {
   void counts(const Point& p, const Point& q, int* by_material) const;
 
  private:
-  // In lattice steps; a -> b runs southward.
+  // In lattice steps; a -> b runs southward, turned if need be.
   struct LatticeWall {
     Spot a, b;
     std::int64_t base = 0, top = 0;
     std::int64_t length = 0;
     int material = 0;
+    bool turned = false;
     std::vector<int> doors;
   };
 
@@ -79,7 +80,8 @@ class Scene {
   struct Link;
   struct Hit;
 
-  void add_door(const Door& door, int row, bool wall_was_turned);
+  void add_wall(const Wall& wall);
+  void add_door(const Door& door);
   bool cross(const Link& link, int wall, Hit& hit) const;
   template <class Report>
   void for_each_crossing(const Link& link, const Report& report) const;
