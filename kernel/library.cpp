@@ -1,0 +1,261 @@
+#include "library.hpp"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <system_error>
+#include <utility>
+
+#define BOOST_DLL_USE_STD_FS  // else Boost.DLL 1.74 needs Boost.Filesystem
+#include <boost/core/demangle.hpp>
+#include <boost/dll/shared_library.hpp>
+
+#include "elf.hpp"
+#include "library_copy.hpp"
+#include "library_probe.hpp"
+#include "names.hpp"
+#include "process_guard.hpp"
+#include "registration.hpp"
+
+namespace muster {
+
+namespace {
+
+bool is_mapped(const std::string& name) {
+  void* found = ::dlopen(name.c_str(), RTLD_NOW | RTLD_NOLOAD);
+  if (found) ::dlclose(found);
+  return found != nullptr;
+}
+
+}  // namespace
+
+// A library and the copy that it runs from.
+struct Library::Module {
+  explicit Module(const std::filesystem::path& file) : copy(file) {}
+  ~Module() {
+    const ProcessGuard guard;  // restores what static destructors change
+    library.unload();
+    // A thread that lives on may have objects of the library to destroy at its end; till then the code must stay.
+    if (is_mapped(copy.name())) copy.abandon();
+  }
+  LibraryCopy copy;
+  boost::dll::shared_library library;
+};
+
+namespace {
+
+constexpr std::chrono::seconds patience(10);  // for a library to load, register and unload in the child
+constexpr std::string_view abi_prefix = "muster.abi.";
+
+// ---- Before anything of it runs ----
+
+// The section outlives strip, which symbols do not. elf_sections() finds it rather than boost::dll::library_info, which
+// lists the table of names instead of the sections: there a name is lost when it ends another one.
+void check_abi(const LibraryCopy& copy) {
+  const std::string expected = fmt::format("{}{}", abi_prefix, MUSTER_ABI);
+  std::string other;
+  for (const std::string& section : elf_sections(copy.bytes())) {
+    if (section == expected) return;
+    if (section.starts_with(abi_prefix)) other = section.substr(abi_prefix.size());
+  }
+  if (other.empty())
+    throw Refusal(
+        fmt::format("is a shared library but no muster plugin: it has no section {}; expected one that "
+                    "muster_plugin() of plugin_api builds",
+                    expected));
+  throw Refusal(fmt::format("is built for plugin ABI {}; this muster has plugin ABI {}; rebuild it against plugin_api",
+                            other, MUSTER_ABI));
+}
+
+// ---- Loading ----
+
+// dlerror()'s text in our words. Boost.DLL's own has the last errno behind it, which is about something else.
+std::string why_not_opened(std::string text, const std::string& copy_name) {
+  constexpr std::string_view undefined = "undefined symbol: ", absent = ": cannot open shared object file";
+  if (const std::size_t at = text.find(undefined); at != text.npos) {
+    const std::string symbol = text.substr(at + undefined.size());
+    const std::size_t end = std::min(symbol.find(','), symbol.size());  // ", version GLIBC_2.38"
+    return fmt::format("needs {}{}, which neither it nor a library that it links defines; link what defines it",
+                       boost::core::demangle(symbol.substr(0, end).c_str()), symbol.substr(end));
+  }
+  if (const std::size_t at = text.find(absent); at != text.npos && text.substr(0, at) != copy_name)
+    return fmt::format("needs {}, which is not found; install it or link by an absolute run path", text.substr(0, at));
+  if (text.starts_with(copy_name + ": ")) text.erase(0, copy_name.size() + 2);
+  return "cannot be loaded: " + text;
+}
+
+void check_unchanged(const ProcessGuard& guard, const char* when) {
+  const std::string what = guard.what();
+  if (what.empty()) return;
+  const bool fast_math = what.find("denormals") != what.npos;
+  throw Refusal(fmt::format("{} when {}{}", what, when, fast_math ? "; is it built with -ffast-math?" : ""));
+}
+
+std::vector<muster_plugin> open_and_register(boost::dll::shared_library& library, const std::string& name,
+                                             const Progress& progress) {
+  const ProcessGuard guard;
+  progress("it is opened");
+  std::error_code failed;
+  library.load(name, boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local, failed);
+  if (!library.is_loaded()) {
+    const char* text = ::dlerror();
+    throw Refusal(why_not_opened(text ? text : failed.message(), name));
+  }
+  check_unchanged(guard, "it is opened");
+  if (!library.has("muster_register"))
+    throw Refusal("does not export muster_register; expected one MUSTER_PLUGIN_IS in it");
+  progress("it registers");
+  std::vector<muster_plugin> result = registered_plugins(library.get<decltype(muster_register)>("muster_register"));
+  check_unchanged(guard, "it registers");
+  return result;
+}
+
+// In the child: all that will happen to the library but for its instances.
+void rehearse(const std::string& name, const Progress& progress) {
+  boost::dll::shared_library library;
+  open_and_register(library, name, progress);
+  const ProcessGuard guard;
+  progress("it is closed");
+  library.unload();
+  check_unchanged(guard, "it is closed");
+  if (is_mapped(name))
+    throw Refusal(
+        "stays mapped when it is closed, and would run old code after a reload; build it with -fno-gnu-unique, "
+        "as muster_plugin() does");
+}
+
+// ---- Finding ----
+
+std::string file_name(std::string id) {
+  std::ranges::replace(id, '.', '_');
+  return id + ".so";
+}
+
+// The id that a file's name stands for, if its role is one word: radio_one_slope.so is radio.one_slope.
+std::string likely_id(const std::filesystem::path& file) {
+  std::string result = file.stem().string();
+  if (const std::size_t at = result.find('_'); at != result.npos) result[at] = '.';
+  return result;
+}
+
+std::vector<std::filesystem::path> libraries_in(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> result;
+  std::error_code absent;
+  for (auto at = std::filesystem::directory_iterator(folder, absent); at != std::filesystem::directory_iterator();
+       at.increment(absent))
+    if (at->path().extension() == ".so") result.push_back(at->path());
+  std::ranges::sort(result);
+  return result;
+}
+
+std::string not_found(const std::string& id, const Library::SearchPath& search_path) {
+  std::vector<std::string> folders, ids;
+  for (const std::filesystem::path& folder : search_path) {
+    folders.push_back(folder.string());
+    for (const std::filesystem::path& file : libraries_in(folder)) ids.push_back(likely_id(file));
+  }
+  const std::string near = nearest(id, ids);
+  return fmt::format(
+      "{} not found; looked in {}{}", file_name(id),
+      folders.empty() ? "no folder: the plugin path is empty" : fmt::format("{}", fmt::join(folders, ", ")),
+      near.empty() ? "" : fmt::format("; did you mean {}?", near));
+}
+
+std::filesystem::path find(const std::string& id, const Library::SearchPath& search_path) {
+  if (parse_plugin_id(id + "/1").revision == 0)
+    throw Refusal("is no plugin id; expected words of a-z, 0-9 and _ with dots between them");
+  for (const std::filesystem::path& folder : search_path) {
+    const std::filesystem::path file = folder / file_name(id);
+    std::error_code unknown;  // a link to nowhere is found, so that open() can say so
+    if (std::filesystem::exists(std::filesystem::symlink_status(file, unknown))) return file;
+  }
+  throw Refusal(not_found(id, search_path));
+}
+
+// ---- Messages ----
+
+// A library's own words may hold anything; a message is one line.
+std::string one_line(std::string_view text) {
+  std::string result;
+  for (const char c : text) result += (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) ? ' ' : c;
+  return result;
+}
+
+Error fault(const Place& where, const std::string& plugin_id, const std::string& words) {
+  const std::string message = fmt::format("plugin {}: {}", quote(plugin_id), one_line(words));
+  return where.file.empty() ? Error(Exit::plugin_fault, message) : Error(Exit::plugin_fault, where, message);
+}
+
+}  // namespace
+
+LibraryLoader::LibraryLoader(Library::SearchPath search_path)
+    : search_path_(std::move(search_path)), probe_(std::make_unique<Probe>(rehearse, patience)) {}
+
+LibraryLoader::~LibraryLoader() = default;
+
+std::shared_ptr<Library> LibraryLoader::open(const std::filesystem::path& file) {
+  auto module = std::make_unique<Library::Module>(file);
+  check_abi(module->copy);
+  const std::string name = module->copy.name();
+  if (const std::string why = probe_->try_out(name); !why.empty()) throw Refusal(why);
+  std::vector<muster_plugin> plugins = open_and_register(module->library, name, [](const char*) {});
+  return std::shared_ptr<Library>(new Library(file, std::move(module), std::move(plugins)));
+}
+
+std::shared_ptr<Library> LibraryLoader::load(const std::string& plugin_id,
+                                             const std::optional<std::filesystem::path>& library, const Place& where) {
+  std::filesystem::path file;
+  try {
+    file = library ? std::filesystem::path(where.file).parent_path() / *library : find(plugin_id, search_path_);
+  } catch (const Refusal& refusal) {
+    throw fault(where, plugin_id, refusal.what());
+  }
+  try {
+    std::shared_ptr<Library> result = open(file);
+    if (result->id() != plugin_id)
+      throw Refusal(fmt::format("registers {}; expected {}", quote(result->id()), quote(plugin_id)));
+    return result;
+  } catch (const Refusal& refusal) {
+    throw fault(where, plugin_id, fmt::format("{} {}", file.native(), refusal.what()));
+  }
+}
+
+std::shared_ptr<Library> Library::load(const std::string& plugin_id,
+                                       const std::optional<std::filesystem::path>& library,
+                                       const SearchPath& search_path, const Place& where) {
+  return LibraryLoader(search_path).load(plugin_id, library, where);
+}
+
+Library::Library(std::filesystem::path file, std::unique_ptr<Module> module, std::vector<muster_plugin> plugins)
+    : file_(std::move(file)), module_(std::move(module)), plugins_(std::move(plugins)) {}
+
+Library::~Library() = default;
+
+std::string_view Library::id() const { return parse_plugin_id(plugins_.front().id).id; }
+
+std::vector<ListedPlugin> list_plugins(const Library::SearchPath& search_path) {
+  LibraryLoader loader(search_path);
+  std::vector<ListedPlugin> result;
+  for (const std::filesystem::path& folder : search_path)
+    for (const std::filesystem::path& file : libraries_in(folder)) {
+      const auto same_name = [&](const ListedPlugin& p) { return p.file.filename() == file.filename(); };
+      const auto first = std::ranges::find_if(result, same_name);
+      ListedPlugin listed{file, nullptr, ""};
+      try {
+        if (first != result.end()) throw Refusal("is hidden by " + first->file.string());
+        std::shared_ptr<Library> library = loader.open(file);
+        const std::string expected = file_name(std::string(library->id()));
+        if (file.filename() != expected)
+          throw Refusal(fmt::format("registers {}; such a file is called {}", quote(library->id()), expected));
+        listed.library = std::move(library);
+      } catch (const Refusal& refusal) {
+        listed.reason = one_line(refusal.what());
+      }
+      result.push_back(std::move(listed));
+    }
+  return result;
+}
+
+}  // namespace muster

@@ -1,0 +1,169 @@
+// A descriptor that is wrong in one place is refused with that place's name.
+#include "kernel/registration.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "kernel/elf.hpp"
+
+namespace muster {
+namespace {
+
+// What muster_register of the library under test registers; it is a plain function and takes no captures.
+std::vector<const muster_plugin*> given;
+int answer = MUSTER_OK;
+
+int register_given(uint32_t, void* registry, muster_add add) {
+  int result = answer;
+  for (const muster_plugin* plugin : given) result |= add(registry, plugin);
+  return result;
+}
+
+struct Sample {
+  muster_param param{"n", MUSTER_REAL, MUSTER_FREE, 2, 1, 6, "", "decay exponent", nullptr};
+  muster_plugin plugin{sizeof(muster_plugin),
+                       MUSTER_RADIO,
+                       "radio.sample/3",
+                       "a sample",
+                       nullptr,
+                       &param,
+                       1,
+                       nullptr,
+                       [](const muster_host*) -> void* { return nullptr; },
+                       [](void*) {},
+                       [](void*, const muster_tick*, const muster_in*, const muster_out*) { return 0; }};
+};
+
+std::string refusal() {
+  try {
+    registered_plugins(register_given);
+  } catch (const Refusal& refusal) {
+    return refusal.what();
+  }
+  return "";
+}
+
+std::string refusal_of(const std::function<void(muster_plugin&)>& spoil) {
+  Sample sample;
+  spoil(sample.plugin);
+  given = {&sample.plugin};
+  answer = MUSTER_OK;
+  return refusal();
+}
+
+std::string refusal_of_param(const std::function<void(muster_param&)>& spoil) {
+  Sample sample;
+  spoil(sample.param);
+  given = {&sample.plugin};
+  answer = MUSTER_OK;
+  const std::string words = refusal();
+  const std::string before = "registers \"radio.sample/3\" whose parameter \"n\" ";
+  return words.starts_with(before) ? words.substr(before.size()) : words;
+}
+
+TEST(Registration, TakesAGoodDescriptorApart) {
+  EXPECT_EQ(refusal_of([](muster_plugin&) {}), "");
+  EXPECT_EQ(parse_plugin_id("radio.sample/12").id, "radio.sample");
+  EXPECT_EQ(parse_plugin_id("radio.sample/12").revision, 12u);
+  for (const char* bad : {"", "radio", "radio/", "radio/0", "radio/01", "radio/-1", "radio/1x", "Radio/1", "radio./1",
+                          ".x/1", "radio sample/1", "radio.1x/1", "radio/4294967296"})
+    EXPECT_EQ(parse_plugin_id(bad).revision, 0u) << bad;
+}
+
+TEST(Registration, RefusesBadDescriptors) {
+  EXPECT_EQ(refusal_of([](auto& p) { p.size = 8; }), "registers a descriptor of 8 bytes; expected at least " +
+                                                         std::to_string(sizeof(muster_plugin)) +
+                                                         "; rebuild it against plugin_api");
+  EXPECT_EQ(refusal_of([](auto& p) { p.id = nullptr; }),
+            "registers the id \"\"; expected one like \"radio.multiwall/1\"");
+  EXPECT_EQ(refusal_of([](auto& p) { p.id = "radio"; }),
+            "registers the id \"radio\"; expected one like \"radio.multiwall/1\"");
+  EXPECT_EQ(refusal_of([](auto& p) { p.phase = 0; }), "registers \"radio.sample/3\" in phase 0; expected 1 to 7");
+  EXPECT_EQ(refusal_of([](auto& p) { p.phase = 8; }), "registers \"radio.sample/3\" in phase 8; expected 1 to 7");
+  EXPECT_EQ(refusal_of([](auto& p) { p.summary = nullptr; }), "registers \"radio.sample/3\" without a summary");
+  EXPECT_EQ(refusal_of([](auto& p) { p.create = nullptr; }), "registers \"radio.sample/3\" without create");
+  EXPECT_EQ(refusal_of([](auto& p) { p.destroy = nullptr; }), "registers \"radio.sample/3\" without destroy");
+  EXPECT_EQ(refusal_of([](auto& p) { p.step = nullptr; }), "registers \"radio.sample/3\" without step");
+  EXPECT_EQ(refusal_of([](auto& p) { p.params = nullptr; }), "registers \"radio.sample/3\" without its parameters");
+}
+
+TEST(Registration, RefusesBadSetsOfDescriptors) {
+  Sample a, b;
+  given = {};
+  EXPECT_EQ(refusal(), "registers no plugin");
+  answer = 7;
+  EXPECT_EQ(refusal(), "refuses to register: muster_register returned 7");
+  answer = MUSTER_OK;
+  given = {nullptr};
+  EXPECT_EQ(refusal(), "registers nothing");
+  given = {&a.plugin, &b.plugin};
+  EXPECT_EQ(refusal(), "registers \"radio.sample/3\" twice");
+  b.plugin.id = "radio.other/1";
+  EXPECT_EQ(refusal(), "registers \"radio.sample/3\" and \"radio.other/1\"; expected one id a library");
+}
+
+TEST(Registration, ReadsALongerDescriptorOfALaterHeader) {
+  struct Later {
+    muster_plugin plugin;
+    double more = 1;
+  } later{Sample().plugin};
+  later.plugin.size = sizeof later;
+  later.plugin.param_count = 0;
+  given = {&later.plugin};
+  answer = MUSTER_OK;
+  EXPECT_EQ(registered_plugins(register_given)[0].size, sizeof(muster_plugin));
+}
+
+TEST(Registration, RefusesBadNumbers) {
+  const double inf = std::numeric_limits<double>::infinity(), nan = std::nan("");
+  EXPECT_EQ(refusal_of_param([](auto& p) { p.value = 7; }), "has the default 7, which is not in 1 to 6");
+  EXPECT_EQ(refusal_of_param([&](auto& p) { p.value = nan; }), "has the default nan, which is not in 1 to 6");
+  EXPECT_EQ(refusal_of_param([](auto& p) { p.min = 9; }), "has bounds 9 to 6");
+  EXPECT_EQ(refusal_of_param([&](auto& p) { p.max = nan; }), "has bounds 1 to nan");
+  EXPECT_EQ(refusal_of_param([&](auto& p) { p.max = inf; }),
+            "is free for a fit, which needs finite bounds; it has 1 to inf");
+  EXPECT_EQ(refusal_of_param([&](auto& p) { p.max = inf, p.flags = 0; }), "");
+  EXPECT_EQ(refusal_of_param([](auto& p) { p.value = 7, p.flags = MUSTER_REQUIRED; }), "");
+  EXPECT_EQ(refusal_of_param([](auto& p) { p.kind = MUSTER_INTEGER, p.value = 2.5; }),
+            "is an integer with default 2.5");
+  EXPECT_EQ(refusal_of_param([](auto& p) { p.kind = MUSTER_FLAG; }), "is a flag with default 2");
+}
+
+TEST(Registration, RefusesBadDeclarations) {
+  EXPECT_EQ(refusal_of_param([](auto& p) { p.kind = 0; }), "has the unknown kind 0");
+  EXPECT_EQ(refusal_of_param([](auto& p) { p.kind = 8; }), "has the unknown kind 8");
+  EXPECT_EQ(refusal_of_param([](auto& p) { p.flags = 4; }), "has unknown flags 0x4");
+  EXPECT_EQ(refusal_of_param([](auto& p) { p.unit = nullptr; }), "has no unit; expected \"\" where there is none");
+  EXPECT_EQ(refusal_of_param([](auto& p) { p.help = ""; }), "has no help");
+  EXPECT_EQ(refusal_of_param([](auto& p) { p.name = "N"; }),
+            "registers \"radio.sample/3\" with a parameter \"N\"; expected a name of a-z, 0-9 and _");
+  EXPECT_EQ(refusal_of_param([](auto& p) { p.name = "every"; }),
+            "registers \"radio.sample/3\" whose parameter \"every\" bears a reserved name; reserved are name, every, "
+            "library, "
+            "revision");
+  EXPECT_EQ(refusal_of_param([](auto& p) { p.kind = MUSTER_REFERENCE; }), "refers to a row of no set");
+  const auto choice = [](const char* text) {
+    return refusal_of_param([text](auto& p) { p.kind = MUSTER_CHOICE, p.text = text; });
+  };
+  EXPECT_EQ(choice("a|b|c"), "");
+  EXPECT_EQ(choice(nullptr), "has no choices");
+  EXPECT_EQ(choice("a||c"), "has an empty choice in \"a||c\"");
+  EXPECT_EQ(choice("a|b|a"), "has a choice twice in \"a|b|a\"");
+  EXPECT_EQ(choice("a|b"), "has the default 2, which is no place in \"a|b\"");
+}
+
+TEST(Registration, RefusesAParameterTwice) {
+  Sample sample;
+  const muster_param twice[] = {sample.param, sample.param};
+  sample.plugin.params = twice;
+  sample.plugin.param_count = 2;
+  given = {&sample.plugin};
+  answer = MUSTER_OK;
+  EXPECT_EQ(refusal(), "registers \"radio.sample/3\" with the parameter \"n\" twice");
+}
+
+}  // namespace
+}  // namespace muster

@@ -1,0 +1,2 @@
+#include "animal.hpp"
+MUSTER_PLUGIN_IS(Animal)

@@ -1,0 +1,2 @@
+#include <muster/plugin.h>
+MUSTER_DECLARE_ABI

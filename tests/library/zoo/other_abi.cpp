@@ -1,0 +1,14 @@
+// Of a later plugin_api: nothing of it may run, not even its initialisers.
+#include <cstdio>
+#include <cstdlib>
+
+__attribute__((section("muster.abi.2"), used)) static const unsigned abi = 2;
+
+namespace {
+const bool ran = [] {
+  if (const char* trace = std::getenv("MUSTER_ZOO_TRACE")) {
+    if (FILE* file = std::fopen(trace, "w")) std::fclose(file);
+  }
+  return true;
+}();
+}  // namespace
