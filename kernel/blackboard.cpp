@@ -1,0 +1,147 @@
+#include "blackboard.hpp"
+
+#include "number.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+namespace muster {
+
+double poison() { return std::bit_cast<double>(poison_bits); }
+
+int Set::find(const std::string& row) const {
+  const auto found = numbers.find(row);
+  return found == numbers.end() ? -1 : static_cast<int>(found->second);
+}
+
+bool Set::add(const std::string& row) {
+  if (!numbers.emplace(row, static_cast<uint32_t>(names.size())).second) return false;
+  names.push_back(row);
+  keys.push_back(key_of(row));
+  alive.push_back(1);
+  return true;
+}
+
+Table::Table(std::string name, Set& set, Columns columns, std::string initial)
+    : name_(std::move(name)), set_(&set), columns_(std::move(columns)), initial_(columns_.size(), 0.0) {
+  for (std::size_t c = 0; c < columns_.size(); ++c) {
+    if (columns_[c].nullable) initial_[c] = null();
+  }
+  if (!initial.empty()) {
+    const auto values = parse_reals(initial, columns_.size());
+    if (!values) throw std::invalid_argument("table " + name_ + ": initial values \"" + initial + "\" do not fit its columns");
+    initial_ = *values;
+  }
+  if (set_->kind != SetKind::queue) grow();
+}
+
+void Table::fill_initial(double* row) const { std::copy(initial_.begin(), initial_.end(), row); }
+
+void Table::grow() {
+  const auto from = now_.rows;
+  now_.rows = set_->rows();
+  now_.data.resize(now_.rows * width());
+  for (auto row = from; row < now_.rows; ++row) fill_initial(now_.data.data() + row * width());
+}
+
+void Table::begin(bool carry, uint64_t tick) {
+  begun_ = true;
+  next_.blobs.clear();
+  if (set_->kind == SetKind::queue) return begin_queue(tick);
+  if (set_->kind == SetKind::listed) {
+    next_.rows = set_->rows();  // other rows than last time: nothing carries over
+    next_.data.assign(next_.rows * width(), poison());
+    return;
+  }
+  next_.rows = now_.rows;
+  next_.data.resize(now_.data.size());
+  if (!carry) return;
+  std::copy(now_.data.begin(), now_.data.end(), next_.data.begin());
+  next_.blobs = now_.blobs;
+}
+
+// Rows that every reader has seen are gone.
+void Table::begin_queue(uint64_t tick) {
+  next_.data.clear();
+  next_.appended.clear();
+  next_.blobs = now_.blobs;
+  for (std::size_t r = 0; r < now_.rows; ++r) {
+    if (now_.appended[r] + keep < tick) continue;
+    next_.data.insert(next_.data.end(), now_.data.begin() + r * width(), now_.data.begin() + (r + 1) * width());
+    next_.appended.push_back(now_.appended[r]);
+  }
+  next_.rows = next_.appended.size();
+}
+
+// Blobs in the order of the cells that hold them, and no others: so equal tables are equal bytes.
+void Table::compact_blobs() {
+  std::vector<Blob> kept;
+  for (std::size_t c = 0; c < width(); ++c) {
+    if (!columns_[c].bytes) continue;
+    for (std::size_t r = 0; r < next_.rows; ++r) {
+      double& cell = next_.data[r * width() + c];
+      if (cell == 0) continue;
+      kept.push_back(next_.blobs[static_cast<std::size_t>(cell) - 1]);
+      cell = static_cast<double>(kept.size());
+    }
+  }
+  next_.blobs = std::move(kept);
+}
+
+void Table::publish(uint64_t tick) {
+  if (columns_.any_bytes()) compact_blobs();
+  next_.tick = tick;
+  std::swap(now_, next_);
+  published_ = true;
+}
+
+void Table::take_back() {
+  if (published_) std::swap(now_, next_);
+  end_tick();
+}
+
+std::string cell_text(const Blackboard& board, const Column& column, double value) {
+  if (std::isnan(value)) return "";
+  if (column.reference.empty()) return print_real(value);
+  const Set* set = board.find_set(column.reference);
+  const auto row = static_cast<std::size_t>(value);
+  return set && set->is_named() && row < set->names.size() ? set->names[row] : print_real(value);
+}
+
+Set& Blackboard::add_set(const std::string& name, SetKind kind, const std::string& owner) {
+  auto& set = sets_[name];
+  if (!set) {
+    set = std::make_unique<Set>();
+    set->name = name;
+    set->kind = kind;
+    set->owner = owner;
+  }
+  return *set;
+}
+
+Set* Blackboard::find_set(const std::string& name) const {
+  const auto found = sets_.find(name);
+  return found == sets_.end() ? nullptr : found->second.get();
+}
+
+Table* Blackboard::find(const std::string& name) const {
+  const auto found = tables_.find(name);
+  if (found != tables_.end()) return found->second.get();
+  const auto other = aliases_.find(name);
+  return other == aliases_.end() ? nullptr : other->second;
+}
+
+Table& Blackboard::add(std::unique_ptr<Table> table) {
+  auto& place = tables_[table->name()];
+  place = std::move(table);
+  return *place;
+}
+
+std::map<std::string, std::unique_ptr<Table>> Blackboard::take_tables() {
+  aliases_.clear();
+  return std::exchange(tables_, {});
+}
+
+}  // namespace muster

@@ -1,0 +1,208 @@
+#include "cells.hpp"
+
+#include "names.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace muster {
+namespace {
+
+bool any_dead(const Set& set) {
+  return set.is_named() && std::find(set.alive.begin(), set.alive.end(), uint8_t{0}) != set.alive.end();
+}
+
+void poison_row(std::vector<double>& data, std::size_t row, std::size_t width) {
+  std::fill_n(data.begin() + static_cast<std::ptrdiff_t>(row * width), width, poison());
+}
+
+// Rows that have left keep their last values, and are nobody's to fill.
+void poison_alive(std::vector<double>& data, const Table& table) {
+  const Set& set = table.set();
+  if (!any_dead(set)) return std::fill(data.begin(), data.end(), poison());
+  for (std::size_t r = 0; r < table.now().rows; ++r) {
+    if (set.alive[r]) poison_row(data, r, table.width());
+  }
+}
+
+void prepare(Claim& claim, uint64_t tick) {
+  Table& table = *claim.out;
+  claim.appended = 0;
+  claim.puts.clear();
+  const bool queue = table.set().kind == SetKind::queue;
+  if (claim.lists) return;  // begun when its rows are known
+  const bool whole = claim.row < 0 && !claim.staged;
+  if (!table.begun()) {
+    table.begin(!whole || any_dead(table.set()), tick);
+    if (claim.kind == MUSTER_MODIFY && (!whole || any_dead(table.set()))) {
+      table.next().data = claim.in->now().data;  // rows that this stage does not touch pass through
+      table.next().blobs = claim.in->now().blobs;
+    }
+  }
+  if (queue) return;
+  if (claim.staged) {
+    claim.aside.assign(table.now().data.begin(), table.now().data.end());
+    poison_alive(claim.aside, table);
+  } else if (claim.row >= 0) {
+    poison_row(table.next().data, static_cast<std::size_t>(claim.row), table.width());
+  } else if (table.set().is_named()) {
+    poison_alive(table.next().data, table);
+  }
+}
+
+// The rows that a claim has written in this step.
+struct Written {
+  const double* data;
+  std::size_t rows;
+};
+
+Written written(const Claim& claim) {
+  const auto width = claim.columns.size();
+  if (claim.lists || claim.out->set().kind == SetKind::queue) return {claim.aside.data(), claim.appended};
+  const auto& next = claim.out->next();
+  if (claim.staged) return {claim.aside.data(), next.rows};
+  if (claim.row >= 0) return {next.data.data() + static_cast<std::size_t>(claim.row) * width, 1};
+  return {next.data.data(), next.rows};
+}
+
+std::string wrong_value(const Column& column, double value) {
+  if (std::bit_cast<uint64_t>(value) == poison_bits) return "is not filled";
+  if (std::isnan(value)) {
+    if (!column.nullable) return "is NaN";
+    return std::bit_cast<uint64_t>(value) == MUSTER_NULL_BITS ? "" : "is NaN; an empty cell is muster::null()";
+  }
+  if (std::isinf(value) && !column.infinite) return "is infinite";
+  return "";
+}
+
+std::size_t rows_of(const Instance& instance, const Set& set) {
+  for (const auto& claim : instance.claims()) {
+    if (claim.out && claim.lists && &claim.out->set() == &set) return claim.appended;
+  }
+  return set.rows();
+}
+
+std::string wrong_reference(const Instance& instance, const Blackboard& board, const Column& column, double value) {
+  const Set* set = board.find_set(column.reference);
+  if (column.nullable && std::isnan(value)) return "";
+  const auto rows = set ? static_cast<double>(rows_of(instance, *set)) : 0;
+  if (value >= 0 && value < rows && value == std::floor(value)) return "";
+  return "is no row of " + column.reference;
+}
+
+std::string cell_name(const Claim& claim, std::size_t row, std::size_t column) {
+  const Set& set = claim.out->set();
+  const std::size_t number = claim.row >= 0 && set.kind != SetKind::queue ? static_cast<std::size_t>(claim.row) : row;
+  const std::string name = set.is_named() && number < set.names.size() ? set.names[number] : std::to_string(number);
+  return claim.name.set + '/' + name + '/' + claim.name.quantity + ": " + claim.columns[column].title();
+}
+
+bool is_others(const Claim& claim, std::size_t row) {
+  return claim.staged && std::find(claim.others.begin(), claim.others.end(), static_cast<int>(row)) != claim.others.end();
+}
+
+std::string check(const Instance& instance, const Blackboard& board, const Claim& claim) {
+  const auto [data, rows] = written(claim);
+  const auto width = claim.columns.size();
+  // Nearly always every number is finite and every column plain: one sum tells, for a NaN or an infinity stays in it.
+  const bool references = std::any_of(claim.columns.begin(), claim.columns.end(), [](const Column& c) { return !c.reference.empty() || c.bytes; });
+  if (!references) {
+    double sum = 0;
+    for (std::size_t i = 0; i < rows * width; ++i) sum += data[i] * 0;
+    if (sum == 0) return "";
+  }
+  for (std::size_t r = 0; r < rows; ++r) {
+    if (is_others(claim, r)) continue;
+    for (std::size_t c = 0; c < width; ++c) {
+      const auto& column = claim.columns[c];
+      if (column.bytes) continue;  // filled by put_bytes(), or empty
+      std::string wrong = wrong_value(column, data[r * width + c]);
+      if (wrong.empty() && !column.reference.empty()) wrong = wrong_reference(instance, board, column, data[r * width + c]);
+      if (!wrong.empty()) return cell_name(claim, r, c) + ' ' + wrong;
+    }
+  }
+  return "";
+}
+
+// Bytes go to the table; a bytes cell that got none is empty.
+void commit_bytes(Claim& claim, Cells& next, std::size_t first) {
+  if (!claim.out->columns().any_bytes()) return;
+  const auto width = claim.columns.size();
+  const auto rows = written(claim).rows;
+  const std::size_t start = claim.row >= 0 && claim.out->set().kind != SetKind::queue ? static_cast<std::size_t>(claim.row) : first;
+  for (std::size_t c = 0; c < width; ++c) {
+    if (!claim.columns[c].bytes) continue;
+    for (std::size_t r = 0; r < rows; ++r) next.data[(start + r) * width + c] = 0;
+  }
+  for (const auto& put : claim.puts) {
+    next.blobs.push_back(put.blob);
+    next.data[(start + put.row) * width + put.column] = static_cast<double>(next.blobs.size());
+  }
+}
+
+void commit_rows(Claim& claim, Cells& next, uint64_t tick) {
+  const auto width = claim.columns.size();
+  const auto first = next.rows;
+  next.data.insert(next.data.end(), claim.aside.begin(), claim.aside.begin() + static_cast<std::ptrdiff_t>(claim.appended * width));
+  next.rows += claim.appended;
+  next.appended.insert(next.appended.end(), claim.appended, tick);
+  commit_bytes(claim, next, first);
+}
+
+void commit_listed(Claim& claim, uint64_t tick) {
+  claim.out->begin(false, tick);
+  std::copy_n(claim.aside.begin(), claim.appended * claim.columns.size(), claim.out->next().data.begin());
+  commit_bytes(claim, claim.out->next(), 0);
+}
+
+void commit_rest(Claim& claim) {
+  const auto width = claim.columns.size();
+  auto& next = claim.out->next();
+  for (std::size_t r = 0; r < next.rows; ++r) {
+    if (!is_others(claim, r)) std::copy_n(claim.aside.begin() + static_cast<std::ptrdiff_t>(r * width), width, next.data.begin() + static_cast<std::ptrdiff_t>(r * width));
+  }
+}
+
+// All tables of a listed set that one instance lists must have the same rows.
+std::string commit_lists(Instance& instance, uint64_t tick) {
+  for (auto& claim : instance.claims()) {
+    if (claim.out && claim.lists) claim.out->set().listed = claim.appended;
+  }
+  for (auto& claim : instance.claims()) {
+    if (!claim.out || !claim.lists) continue;
+    if (claim.out->set().listed != claim.appended)
+      return "lists " + std::to_string(claim.out->set().listed) + " rows of " + claim.name.set + ", but " + std::to_string(claim.appended) + " of " + claim.name.logical();
+    commit_listed(claim, tick);
+  }
+  return "";
+}
+
+}  // namespace
+
+void prepare_cells(Instance& instance, uint64_t tick) {
+  for (auto& claim : instance.claims()) {
+    if (claim.out) prepare(claim, tick);
+  }
+}
+
+std::string check_cells(const Instance& instance, const Blackboard& board) {
+  for (const auto& claim : instance.claims()) {
+    if (!claim.out) continue;
+    const std::string wrong = check(instance, board, claim);
+    if (!wrong.empty()) return wrong;
+  }
+  return "";
+}
+
+std::string commit_cells(Instance& instance, uint64_t tick) {
+  for (auto& claim : instance.claims()) {
+    if (!claim.out || claim.lists) continue;
+    if (claim.out->set().kind == SetKind::queue) commit_rows(claim, claim.out->next(), tick);
+    else if (claim.staged) commit_rest(claim);
+    else commit_bytes(claim, claim.out->next(), 0);
+  }
+  return commit_lists(instance, tick);
+}
+
+}  // namespace muster

@@ -1,0 +1,165 @@
+// Changes between two ticks: instances swapped, inserted, removed, made again; parameters set.
+#include "names.hpp"
+#include "simulation.hpp"
+
+#include <algorithm>
+
+namespace muster {
+
+std::size_t Simulation::find(const std::string& instance) const {
+  std::vector<std::string> valid;
+  for (std::size_t i = 0; i < instances_.size(); ++i) {
+    if (instances_[i]->name() == instance) return i;
+    valid.push_back(instances_[i]->name());
+  }
+  throw Error(Exit::invalid_input, "no instance is called " + quote(instance) + "; " + suggest(instance, valid));
+}
+
+// The old instance goes only when the new one is linked.
+void Simulation::replace(std::size_t at, std::unique_ptr<Instance> instance) {
+  std::swap(instances_[at], instance);
+  try {
+    relink();
+  } catch (...) {
+    std::swap(instances_[at], instance);
+    throw;
+  }
+  take_events(*instances_[at], tick_);
+}
+
+void Simulation::swap(const std::string& name, InstanceDeclaration replacement) {
+  const auto at = find(name);
+  const std::string old = instances_[at]->declared().plugin;
+  replacement.name = name;
+  replace(at, make(std::move(replacement)));
+  const auto& plugin = instances_[at]->plugin();
+  events_.push_back({tick_, name, "swapped from " + old + " to " + plugin.id + (plugin.cannot_hold ? std::string("; it cannot hold ") + plugin.cannot_hold : "")});
+}
+
+void Simulation::insert(InstanceDeclaration declaration, const std::string& before) {
+  for (const auto& instance : instances_) {
+    if (instance->name() == declaration.name) throw Error(Exit::invalid_input, "an instance is called " + quote(declaration.name) + " already: " + instance->title());
+  }
+  const auto at = before.empty() ? instances_.size() : find(before);
+  auto made = make(std::move(declaration));
+  const std::string id = made->plugin().id;
+  instances_.insert(instances_.begin() + static_cast<std::ptrdiff_t>(at), std::move(made));
+  try {
+    relink();
+  } catch (...) {
+    instances_.erase(instances_.begin() + static_cast<std::ptrdiff_t>(at));
+    throw;
+  }
+  events_.push_back({tick_, instances_[at]->name(), "inserted " + id});
+}
+
+void Simulation::remove(const std::string& name) {
+  const auto at = static_cast<std::ptrdiff_t>(find(name));
+  auto gone = std::move(instances_[static_cast<std::size_t>(at)]);
+  instances_.erase(instances_.begin() + at);
+  try {
+    relink();
+  } catch (...) {
+    instances_.insert(instances_.begin() + at, std::move(gone));
+    throw;
+  }
+  events_.push_back({tick_, name, "removed"});
+}
+
+void Simulation::remake(const std::string& name) {
+  const auto at = find(name);
+  auto params = instances_[at]->params();
+  replace(at, make(instances_[at]->declared()));
+  instances_[at]->params() = std::move(params);
+}
+
+void Simulation::reload(const std::string& name) {
+  const auto at = find(name);
+  const auto& declared = instances_[at]->declared();
+  auto library = Library::load(declared.plugin, declared.library, options_.search_path, declared.place);
+  replace(at, std::make_unique<Instance>(declared, std::move(library), around_));
+  events_.push_back({tick_, name, std::string("reloaded ") + instances_[at]->plugin().id});
+}
+
+void Simulation::planned_swaps() {
+  for (const auto& planned : world_.swaps) {
+    if (planned.tick == tick_) swap(planned.instance, planned.replacement);
+  }
+}
+
+namespace {
+
+// The one column into which an attribute goes as it is, or -1.
+int column_of(const Attribute& attribute, std::size_t width) {
+  if (!attribute.store || attribute.count != 1 || attribute.param.kind != MUSTER_REAL) return -1;
+  constexpr double mark = 0.8125;
+  std::vector<double> row(width, 0);
+  attribute.store(&mark, row.data());
+  const auto found = std::find(row.begin(), row.end(), mark);
+  return found != row.end() && std::count(row.begin(), row.end(), 0.0) == static_cast<std::ptrdiff_t>(width) - 1 ? static_cast<int>(found - row.begin()) : -1;
+}
+
+Table* world_table(const Blackboard& board, const std::string& set_quantity) {
+  const auto slash = set_quantity.find('/');
+  const std::string logical = set_quantity.substr(0, slash) + "/*" + set_quantity.substr(slash);
+  Table* base = board.find(logical + "@base");
+  return base ? base : board.find(logical);
+}
+
+}  // namespace
+
+std::vector<ParameterInfo> Simulation::parameters() const {
+  std::vector<ParameterInfo> result;
+  for (const auto& instance : instances_) {
+    for (uint32_t i = 0; i < instance->plugin().param_count; ++i) {
+      const auto& param = instance->plugin().params[i];
+      if (param.kind != MUSTER_TEXT && param.kind != MUSTER_FILE)
+        result.push_back({instance->name() + '/' + param.name, &param, instance->params()[i]});
+    }
+  }
+  for (const auto& row : world_.rows) {
+    for (const auto& values : row.values) {
+      const Table* table = values.attribute ? world_table(board_, values.table) : nullptr;
+      const int column = table ? column_of(*values.attribute, table->width()) : -1;
+      if (column < 0) continue;
+      const auto at = static_cast<std::size_t>(table->set().find(row.name)) * table->width() + static_cast<std::size_t>(column);
+      result.push_back({row.set + '/' + row.name + '/' + values.attribute->param.name, &values.attribute->param, table->now().data[at]});
+    }
+  }
+  return result;
+}
+
+ParameterInfo Simulation::parameter(const std::string& path) const {
+  std::vector<std::string> valid;
+  for (const auto& info : parameters()) {
+    if (info.path == path) return info;
+    valid.push_back(info.path);
+  }
+  throw Error(Exit::invalid_input, "there is no parameter " + quote(path) + "; " + suggest(path, valid));
+}
+
+void Simulation::set_parameter(const std::string& path, double value) {
+  const auto slash = path.rfind('/');
+  const std::string owner = path.substr(0, slash);
+  const std::string name = slash == std::string::npos ? "" : path.substr(slash + 1);
+  for (const auto& instance : instances_) {
+    const int found = instance->name() == owner ? instance->find_param(name) : -1;
+    if (found >= 0) {
+      instance->params()[static_cast<std::size_t>(found)] = value;
+      return;
+    }
+  }
+  for (const auto& row : world_.rows) {
+    if (row.set + '/' + row.name != owner) continue;
+    for (const auto& values : row.values) {
+      if (!values.attribute || name != values.attribute->param.name) continue;
+      Table* table = world_table(board_, values.table);
+      if (!table) continue;
+      values.store(&value, table->stored().data.data() + static_cast<std::size_t>(table->set().find(row.name)) * table->width());
+      return;
+    }
+  }
+  parameter(path);  // throws with the nearest path
+}
+
+}  // namespace muster

@@ -1,0 +1,165 @@
+#include "claim.hpp"
+
+#include "names.hpp"
+#include "text_table.hpp"
+
+#include <algorithm>
+
+namespace muster {
+namespace {
+
+Error refused(const Instance& instance, const std::string& what) {
+  return Error(Exit::invalid_input, instance.title() + ": " + what);
+}
+
+std::vector<std::string> set_names(const Blackboard& board) {
+  std::vector<std::string> result;
+  for (const auto& [name, set] : board.sets()) {
+    if (name.find('/') == std::string::npos) result.push_back(name);
+  }
+  return result;
+}
+
+// "{robot}" becomes the name of the row that the parameter `robot` refers to.
+std::string substituted(const std::string& row, const Instance& instance, const Surroundings& around) {
+  if (row.size() < 3 || row.front() != '{' || row.back() != '}') return row;
+  const std::string param = row.substr(1, row.size() - 2);
+  const int found = instance.find_param(param);
+  if (found < 0 || instance.plugin().params[found].kind != MUSTER_REFERENCE)
+    throw refused(instance, "claims {" + param + "}, which is no reference among its parameters");
+  const double value = instance.params()[static_cast<std::size_t>(found)];
+  if (value < 0) throw refused(instance, "has no attribute " + quote(param) + ", which it needs");
+  const Set& set = *around.board->find_set(instance.plugin().params[found].text);
+  return set.names[static_cast<std::size_t>(value)];
+}
+
+}  // namespace
+
+TableName parse_table_name(const std::string& text, const Instance& instance, const Surroundings& around) {
+  TableName name;
+  const auto at = text.find('@');
+  if (at != std::string::npos) name.part = text.substr(at + 1);
+  const std::string path = text.substr(0, at);
+  const auto first = path.find('/');
+  const auto last = path.rfind('/');
+  if (first == std::string::npos) throw refused(instance, "claims " + quote(text) + "; expected set/row/quantity");
+  name.quantity = path.substr(last + 1);
+  if (path.compare(0, first, "self") == 0 && first == last) {
+    name.set = "instance/" + instance.name();
+    name.row = "*";
+  } else if (first == last) {
+    throw refused(instance, "claims " + quote(text) + "; expected set/row/quantity");
+  } else {
+    name.set = path.substr(0, first);
+    name.row = substituted(path.substr(first + 1, last - first - 1), instance, around);
+    if (name.set == "instance") {
+      name.set += '/' + name.row;
+      name.row = "*";
+    }
+  }
+  if (name.quantity.empty() || name.row.empty()) throw refused(instance, "claims " + quote(text) + "; expected set/row/quantity");
+  return name;
+}
+
+Set& resolve_set(const TableName& name, const Instance& instance, Blackboard& board) {
+  if (Set* found = board.find_set(name.set)) return *found;
+  if (name.set.compare(0, 9, "instance/") != 0)
+    throw refused(instance, "claims a table of the set " + quote(name.set) + "; " + suggest(name.set, set_names(board)));
+  Set& own = board.add_set(name.set, SetKind::fixed, "");
+  own.add(name.set.substr(9));
+  return own;
+}
+
+int resolve_row(const TableName& name, const Set& set, const Instance& instance) {
+  if (name.row == "*") return -1;
+  const Set* rows = &set;
+  if (set.kind == SetKind::listed) throw refused(instance, "claims one row of " + quote(set.name) + ", whose rows are listed anew each tick; expected *");
+  const int row = rows->find(name.row);
+  if (row < 0) throw refused(instance, "claims a row of " + set.name + " called " + quote(name.row) + "; " + suggest(name.row, set.names));
+  return row;
+}
+
+const SetDeclaration* standard_set(const Standard& standard, const std::string& set) {
+  for (const auto& known : standard.sets) {
+    if (set == known.name) return &known;
+  }
+  return nullptr;
+}
+
+const Quantity* standard_quantity(const Standard& standard, const TableName& name) {
+  const auto* set = standard_set(standard, name.set);
+  if (!set) return nullptr;
+  for (const auto& quantity : set->quantities) {
+    if (name.quantity == quantity.name) return &quantity;
+  }
+  return nullptr;
+}
+
+// Private tables are the instance's own memory. Quantities that are not standard are judged by their writer's claim, when
+// the world is linked.
+void check_blindness(const Claim& claim, const Instance& instance, const Surroundings& around) {
+  if (instance.phase() != MUSTER_CONTROL || claim.file) return;
+  if (claim.name.set == "instance/" + instance.name()) return;
+  const auto* quantity = standard_quantity(*around.standard, claim.name);
+  const int robot = instance.bound_robot();
+  const std::string what = "claims " + quote(claim.name.set + '/' + claim.name.row + '/' + claim.name.quantity);
+  if (claim.name.set.compare(0, 9, "instance/") == 0 || (quantity && !quantity->sensed)) {
+    std::string sensed;
+    for (const auto& set : around.standard->sets) {
+      for (const auto& q : set.quantities) {
+        if (q.sensed) sensed += (sensed.empty() ? "" : ", ") + std::string(set.name) + '/' + q.name;
+      }
+    }
+    throw refused(instance, what + ", which is truth; a controller knows what its robot senses: expected one of " + sensed);
+  }
+  const std::string own = robot < 0 ? "" : around.board->find_set("robot")->names[static_cast<std::size_t>(robot)];
+  if (robot >= 0 && claim.name.row != own)
+    throw refused(instance, what + ", but it is bound to the robot " + quote(own) + "; expected that robot's own row");
+}
+
+namespace {
+
+std::vector<double> row_numbers(const TextTable& table, std::size_t at, const Column& column, Set& set) {
+  const auto names = table.texts(at, {column.nullable, false});
+  std::vector<double> of_level;
+  for (std::size_t level = 0; level < names.levels.size(); ++level) {
+    const std::string& name = names.levels[level];
+    if (name.empty() && column.nullable) {
+      of_level.push_back(null());
+      continue;
+    }
+    if (column.joins) set.add(name);
+    const int row = set.find(name);
+    if (row < 0) {
+      const auto first = std::find(names.level.begin(), names.level.end(), level) - names.level.begin();
+      throw invalid(table.place(static_cast<std::size_t>(first), at), "no " + set.name + " is called " + quote(name) + "; " + suggest(name, set.names));
+    }
+    of_level.push_back(row);
+  }
+  std::vector<double> result(names.level.size());
+  for (std::size_t r = 0; r < result.size(); ++r) result[r] = of_level[names.level[r]];
+  return result;
+}
+
+}  // namespace
+
+std::unique_ptr<Cells> read_file_table(const std::filesystem::path& path, const Columns& columns, Blackboard& board) {
+  const auto table = TextTable::read(path);
+  auto cells = std::make_unique<Cells>();
+  cells->rows = table.rows();
+  cells->data.resize(cells->rows * columns.size());
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    const auto& column = columns[c];
+    std::vector<double> values(cells->rows, null());
+    if (!column.nullable || table.find(column.name)) {
+      const auto at = table.require(column.name, column.unit);
+      values = column.reference.empty() ? table.reals(at, {column.nullable, column.infinite})
+                                        : row_numbers(table, at, column, *board.find_set(column.reference));
+    }
+    for (std::size_t r = 0; r < values.size(); ++r)
+      cells->data[r * columns.size() + c] = std::isnan(values[r]) ? null() : values[r];
+  }
+  return cells;
+}
+
+}  // namespace muster

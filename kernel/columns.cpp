@@ -1,0 +1,93 @@
+#include "columns.hpp"
+
+#include <charconv>
+#include <stdexcept>
+
+namespace muster {
+namespace {
+
+constexpr std::size_t most_columns = 1u << 16;
+
+bool is_name(std::string_view text) {
+  if (text.empty()) return false;
+  for (const char c : text) {
+    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+    if (!letter && !(c >= '0' && c <= '9')) return false;
+  }
+  return true;
+}
+
+[[noreturn]] void refuse(std::string_view word, const char* why) {
+  throw std::invalid_argument("column \"" + std::string(word) + "\" " + why);
+}
+
+// One word of the text, and how many columns alike it stands for.
+std::size_t parse_word(std::string_view word, Column& column) {
+  const auto marks = word.find_first_of(":[{*?~+");
+  column.name = word.substr(0, marks);
+  if (!is_name(column.name)) refuse(word, "has no name of letters, digits and _");
+  std::size_t count = 1;
+  std::string_view rest = marks == word.npos ? std::string_view{} : word.substr(marks);
+  while (!rest.empty()) {
+    const char mark = rest.front();
+    std::size_t used = 1;
+    if (mark == ':') {
+      used = std::min(rest.find_first_of("[{*?~+", 1), rest.size());
+      column.reference = rest.substr(1, used - 1);
+      if (!is_name(column.reference)) refuse(word, "refers to no set");
+    } else if (mark == '[') {
+      const auto close = rest.find(']');
+      if (close == rest.npos) refuse(word, "has no closing ]");
+      column.unit = rest.substr(1, close - 1);
+      used = close + 1;
+    } else if (mark == '{' && rest.substr(0, 2) == "{}") {
+      column.bytes = true;
+      used = 2;
+    } else if (mark == '*') {
+      const auto [end, error] = std::from_chars(rest.data() + 1, rest.data() + rest.size(), count);
+      if (error != std::errc{} || count == 0 || count > most_columns) refuse(word, "has no count from 1 to 65536 after *");
+      used = static_cast<std::size_t>(end - rest.data());
+    } else if (mark == '?') {
+      column.nullable = true;
+    } else if (mark == '~') {
+      column.infinite = true;
+    } else if (mark == '+' && !column.reference.empty()) {
+      column.joins = true;
+    } else {
+      refuse(word, "is not of the form name:set[unit]{}*count?~");
+    }
+    rest.remove_prefix(used);
+  }
+  return count;
+}
+
+}  // namespace
+
+Columns::Columns(std::string_view text) : text_(text) {
+  while (true) {
+    const auto start = text.find_first_not_of(' ');
+    if (start == text.npos) break;
+    text.remove_prefix(start);
+    const auto word = text.substr(0, text.find(' '));
+    text.remove_prefix(word.size());
+    Column column;
+    const auto count = parse_word(word, column);
+    any_bytes_ |= column.bytes;
+    plain_ &= !column.nullable && !column.infinite;
+    if (count == 1 && find(column.name) >= 0) refuse(word, "stands twice");
+    for (std::size_t i = 0; i < count; ++i) {
+      list_.push_back(column);
+      if (count > 1) list_.back().name += std::to_string(i);
+    }
+    if (list_.size() > most_columns) refuse(word, "makes more than 65536 columns");
+  }
+}
+
+int Columns::find(std::string_view name) const {
+  for (std::size_t i = 0; i < list_.size(); ++i) {
+    if (list_[i].name == name) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+}  // namespace muster

@@ -1,0 +1,199 @@
+#include "host.hpp"
+
+#include "claim.hpp"
+#include "instance.hpp"
+#include "names.hpp"
+
+#include <algorithm>
+
+namespace muster {
+
+// Reaches into Instance on behalf of its plugin. Nothing thrown here may cross into the plugin.
+struct Host {
+  static Instance& of(const muster_host* host) { return *static_cast<Instance*>(host->kernel); }
+
+  // Runs what may be refused: the message stays with the instance, the plugin gets `otherwise`.
+  template <class Body> static auto guarded(const muster_host* host, decltype(std::declval<Body>()()) otherwise, Body&& body) noexcept {
+    Instance& instance = of(host);
+    try {
+      return body();
+    } catch (const Error& e) {
+      if (instance.said_.empty()) instance.said_ = std::string("!") + e.what(), instance.fault_ = e.exit();
+    } catch (const std::exception& e) {
+      if (instance.said_.empty()) instance.said_ = e.what();
+    }
+    return otherwise;
+  }
+
+  static void wrong(Instance& instance, const std::string& what) {
+    if (instance.said_.empty()) instance.said_ = what;
+  }
+
+  static int claim(const muster_host* host, uint32_t kind, uint32_t flags, const char* table, const char* columns) {
+    if (!of(host).in_create_) return wrong(of(host), "claims outside create()"), -1;
+    return guarded(host, -1, [&] { return of(host).claim(kind, flags, table, columns); });
+  }
+
+  static int file(const muster_host* host, const char* param, const char* columns) {
+    if (!of(host).in_create_) return wrong(of(host), "asks for a file outside create()"), -1;
+    return guarded(host, -1, [&] { return of(host).file(param, columns); });
+  }
+
+  static const char* text(const muster_host* host, const char* path) {
+    Instance& i = of(host);
+    const auto own = i.texts_.find(path);
+    if (own != i.texts_.end()) return own->second.c_str();
+    const auto& texts = i.around_.world->texts;
+    const auto found = texts.find(path);
+    return found == texts.end() ? nullptr : found->second.c_str();
+  }
+
+  static const char* search_path(const muster_host* host, uint32_t index) {
+    const auto& path = of(host).around_.search_path;
+    return index < path.size() ? path[index].c_str() : nullptr;
+  }
+
+  static uint64_t stream(const muster_host* host, const char* name) {
+    return combined(mixed(of(host).around_.seed), key_of(name));
+  }
+
+  static double param(const muster_host* host, const char* name) {
+    Instance& i = of(host);
+    const int found = i.find_param(name);
+    if (found >= 0) return i.params_[static_cast<std::size_t>(found)];
+    wrong(i, std::string("asks for the parameter \"") + name + "\", which it does not declare");
+    return 0;
+  }
+
+  static const Set* set_of(const muster_host* host, const char* set) { return of(host).around_.board->find_set(set); }
+
+  static uint32_t rows(const muster_host* host, const char* set) {
+    const Set* found = set_of(host, set);
+    return found ? static_cast<uint32_t>(found->rows()) : 0;
+  }
+  static const char* row_name(const muster_host* host, const char* set, uint32_t row) {
+    const Set* found = set_of(host, set);
+    return found && row < found->names.size() ? found->names[row].c_str() : nullptr;
+  }
+  static uint64_t row_key(const muster_host* host, const char* set, uint32_t row) {
+    const Set* found = set_of(host, set);
+    return found && row < found->keys.size() ? found->keys[row] : 0;
+  }
+  static int row_alive(const muster_host* host, const char* set, uint32_t row) {
+    const Set* found = set_of(host, set);
+    return found && row < found->alive.size() && found->alive[row];
+  }
+
+  // The claim, or null with the fault noted.
+  static Claim* claim_of(const muster_host* host, int claim, const char* doing) {
+    Instance& i = of(host);
+    if (i.in_step_ && claim >= 0 && static_cast<std::size_t>(claim) < i.claims_.size()) return &i.claims_[static_cast<std::size_t>(claim)];
+    wrong(i, std::string(doing) + (i.in_step_ ? " on a claim that it does not have" : " outside step()"));
+    return nullptr;
+  }
+
+  static double* append(const muster_host* host, int index, uint32_t count) {
+    Instance& i = of(host);
+    Claim* claim = claim_of(host, index, "append()");
+    static thread_local double nowhere[64];
+    if (!claim || !claim->out || !(claim->lists || claim->out->set().kind == SetKind::queue)) {
+      wrong(i, "append() on a table whose rows it does not list; expected a queue, or a set of which it writes the first quantity");
+      return nowhere;
+    }
+    const auto width = claim->columns.size();
+    claim->aside.resize((claim->appended + count) * width, poison());
+    double* first = claim->aside.data() + claim->appended * width;
+    if (claim->row >= 0) {
+      for (uint32_t r = 0; r < count; ++r) first[r * width] = claim->row;  // it speaks for its own row alone
+    }
+    claim->appended += count;
+    return first;
+  }
+
+  static const uint8_t* get_bytes(const muster_host* host, int index, uint32_t row, uint32_t column, uint64_t* count) {
+    *count = 0;
+    Instance& i = of(host);
+    const Claim* claim = claim_of(host, index, "get_bytes()");
+    if (!claim || !claim->in) return nullptr;
+    const muster_in& view = i.in_[static_cast<std::size_t>(index)];
+    if (row >= view.rows || column >= view.cols || !claim->columns[column].bytes) {
+      wrong(i, "get_bytes() of a cell that is not there or holds no bytes");
+      return nullptr;
+    }
+    const auto blob = static_cast<std::size_t>(view.data[std::size_t{row} * view.cols + column]);
+    if (blob == 0) return nullptr;
+    const auto& bytes = *claim->in->now().blobs[blob - 1];
+    *count = bytes.size();
+    return bytes.data();
+  }
+
+  static void put_bytes(const muster_host* host, int index, uint32_t row, uint32_t column, const uint8_t* data, uint64_t count) {
+    Instance& i = of(host);
+    Claim* claim = claim_of(host, index, "put_bytes()");
+    if (!claim || !claim->out) return;
+    const std::size_t rows = claim->appended ? claim->appended : i.out_[static_cast<std::size_t>(index)].rows;
+    if (row >= rows || column >= claim->columns.size() || !claim->columns[column].bytes)
+      return wrong(i, "put_bytes() into a cell that is not there or holds no bytes");
+    guarded(host, 0, [&] {
+      claim->puts.push_back({row, column, std::make_shared<const std::vector<uint8_t>>(data, data + count)});
+      return 0;
+    });
+  }
+
+  static int join(const muster_host* host, int index, const char* name, int like) {
+    Instance& i = of(host);
+    Claim* claim = claim_of(host, index, "join()");
+    if (!claim || !(claim->flags & MUSTER_JOINS)) return wrong(i, "join() needs a claim with MUSTER_JOINS"), -1;
+    Set& set = *i.around_.board->find_set(claim->name.set);
+    if (like >= static_cast<int>(set.rows())) return wrong(i, "join() like a row that is not there"), -1;
+    int number = static_cast<int>(set.rows());
+    for (const auto& join : i.joins) {
+      if (join.set == &set) ++number;
+      if (join.set == &set && join.name == name) return wrong(i, "join(): " + quote(name) + " joins twice"), -1;
+    }
+    if (set.find(name) >= 0) return wrong(i, "join(): a " + set.name + " is called " + quote(name) + " already"), -1;
+    i.joins.push_back({&set, name, like, {}});
+    return number;
+  }
+
+  static int leave(const muster_host* host, int index, uint32_t row) {
+    Instance& i = of(host);
+    Claim* claim = claim_of(host, index, "leave()");
+    if (!claim || !(claim->flags & MUSTER_JOINS)) return wrong(i, "leave() needs a claim with MUSTER_JOINS"), MUSTER_FAILED;
+    Set& set = *i.around_.board->find_set(claim->name.set);
+    if (row >= set.alive.size() || !set.alive[row]) return wrong(i, "leave() of a row that is not there"), MUSTER_FAILED;
+    i.leaves.push_back({&set, row});
+    return MUSTER_OK;
+  }
+
+  static int place(const muster_host* host, int index, uint32_t row, const char* quantity, uint32_t column, double value) {
+    Instance& i = of(host);
+    Claim* claim = claim_of(host, index, "place()");
+    if (!claim) return MUSTER_FAILED;
+    auto number = static_cast<uint32_t>(i.around_.board->find_set(claim->name.set)->rows());
+    for (auto& join : i.joins) {
+      if (join.set->name != claim->name.set) continue;
+      if (number++ == row) return join.values.push_back({quantity, column, value}), MUSTER_OK;
+    }
+    return wrong(i, "place() of a row that did not join in this step"), MUSTER_FAILED;
+  }
+
+  static void error(const muster_host* host, const char* message) { wrong(of(host), message); }
+
+  static void refuse(const muster_host* host, const char* message) {
+    if (of(host).said_.empty()) of(host).fault_ = Exit::invalid_input;
+    wrong(of(host), message);
+  }
+
+  static void event(const muster_host* host, const char* message) {
+    guarded(host, 0, [&] { return of(host).events.emplace_back(message), 0; });
+  }
+};
+
+muster_host make_host(Instance& instance) {
+  return {sizeof(muster_host), MUSTER_ABI, &instance, Host::claim, Host::file, Host::text, Host::search_path, Host::stream,
+          Host::param, Host::rows, Host::row_name, Host::row_key, Host::row_alive, Host::append, Host::get_bytes,
+          Host::put_bytes, Host::join, Host::leave, Host::place, Host::error, Host::refuse, Host::event};
+}
+
+}  // namespace muster

@@ -1,0 +1,13 @@
+// The host that an instance sees: the kernel behind a table of C functions.
+#pragma once
+
+#include <muster/plugin.h>
+
+namespace muster {
+
+class Instance;
+
+// Valid as long as the instance, at its address.
+muster_host make_host(Instance& instance);
+
+}  // namespace muster

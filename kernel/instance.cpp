@@ -1,0 +1,201 @@
+#include "instance.hpp"
+
+#include "claim.hpp"
+#include "float_guard.hpp"
+#include "host.hpp"
+#include "names.hpp"
+#include "number.hpp"
+#include "params.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace muster {
+
+Instance::Instance(InstanceDeclaration declaration, std::shared_ptr<Library> library, Surroundings& around)
+    : declared_(std::move(declaration)), library_(std::move(library)), around_(around) {
+  const auto& plugins = library_->plugins();
+  plugin_ = &plugins.back();
+  if (declared_.revision) {
+    const auto wanted = std::string(library_->id()) + '/' + std::to_string(*declared_.revision);
+    const auto found = std::find_if(plugins.begin(), plugins.end(), [&](const auto& p) { return p.id == wanted; });
+    if (found == plugins.end())
+      throw invalid(declared_.place, "there is no " + wanted + " in " + library_->file().string() + "; the newest is " + plugin_->id);
+    plugin_ = &*found;
+  }
+  check_attributes();
+  host_ = make_host(*this);
+  FloatGuard guard;
+  in_create_ = true;
+  self_ = plugin_->create(&host_);
+  in_create_ = false;
+  if (guard.changed()) said_ = guard.what() + " for the whole process; expected it to leave the arithmetic as it was";
+  if (!self_ || !said_.empty()) {
+    const Error error = failure("create", nullptr, said());
+    if (self_) plugin_->destroy(self_);
+    throw error;
+  }
+  in_.resize(claims_.size());
+  out_.resize(claims_.size());
+}
+
+Instance::~Instance() {
+  if (self_) plugin_->destroy(self_);
+}
+
+std::string Instance::title() const {
+  return declared_.place.text() + ": " + declared_.name + " (" + declared_.plugin + ')';
+}
+
+int Instance::find_param(const std::string& param) const {
+  for (uint32_t i = 0; i < plugin_->param_count; ++i) {
+    if (param == plugin_->params[i].name) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+int Instance::bound_robot() const {
+  const int param = find_param("robot");
+  const bool refers = param >= 0 && plugin_->params[param].kind == MUSTER_REFERENCE;
+  return refers ? static_cast<int>(params_[static_cast<std::size_t>(param)]) : -1;
+}
+
+void Instance::check_attributes() {
+  std::vector<std::string> valid = reserved_attributes;
+  for (uint32_t i = 0; i < plugin_->param_count; ++i) {
+    const auto& param = plugin_->params[i];
+    valid.push_back(param.name);
+    params_.push_back(param.value);
+    if (param.kind == MUSTER_TEXT || param.kind == MUSTER_FILE) texts_[param.name] = param.text ? param.text : "";
+  }
+  const FindRow find_row = [this](const std::string& set, const std::string& row, const Place& place) -> double {
+    const Set* found = around_.board->find_set(set);
+    if (!found || found->find(row) < 0)
+      throw invalid(place, "no " + set + " is called " + quote(row) + "; " +
+                               (found && !found->names.empty() ? suggest(row, found->names) : "the world has none"));
+    return found->find(row);
+  };
+  const Warn warn = [this](const Place& place, const std::string& message) { events.push_back(place.text() + ": " + message); };
+  for (const auto& given : declared_.attributes) {
+    const int found = find_param(given.name);
+    if (found < 0)
+      throw invalid(given.place, "<" + declared_.plugin + "> has no attribute " + quote(given.name) + "; " + suggest(given.name, valid));
+    const auto& param = plugin_->params[found];
+    const auto values = attribute_values(param, 1, given, find_row, warn);
+    if (values.empty()) texts_[given.name] = given.value;
+    else params_[static_cast<std::size_t>(found)] = values[0];
+    places_[given.name] = given.value_place;
+  }
+  for (uint32_t i = 0; i < plugin_->param_count; ++i) {
+    const auto& param = plugin_->params[i];
+    if ((param.flags & MUSTER_REQUIRED) && !places_.count(param.name))
+      throw invalid(declared_.place, "<" + declared_.plugin + "> has no attribute " + quote(param.name) + ", which it needs; expected " + expectation(param));
+  }
+}
+
+int Instance::claim(uint32_t kind, uint32_t flags, const std::string& table, const std::string& columns) {
+  const auto refused = [&](const std::string& what) { return Error(Exit::invalid_input, title() + ": " + what); };
+  Claim made;
+  made.kind = kind;
+  made.flags = flags;
+  made.name = parse_table_name(table, *this, around_);
+  if (kind < MUSTER_READ || kind > MUSTER_MODIFY) throw refused("claims " + quote(table) + " in a way that does not exist");
+  try {
+    made.columns = Columns(columns);
+  } catch (const std::invalid_argument& e) {
+    throw refused("claims " + quote(table) + ": " + e.what());
+  }
+  Set& set = resolve_set(made.name, *this, *around_.board);
+  made.row = resolve_row(made.name, set, *this);
+  if (kind == MUSTER_MODIFY && set.kind == SetKind::queue) throw refused("modifies " + quote(table) + ", but a queue has no stages");
+  if (kind == MUSTER_ADD && (set.kind == SetKind::queue || made.row >= 0)) throw refused("adds to " + quote(table) + "; expected a whole table of numbers");
+  const auto* quantity = standard_quantity(*around_.standard, made.name);
+  if (quantity && Columns(quantity->columns) != made.columns)
+    throw refused("claims " + quote(table) + " as \"" + columns + "\"; its columns are \"" + quantity->columns + '"');
+  check_blindness(made, *this, around_);
+  claims_.push_back(std::move(made));
+  return static_cast<int>(claims_.size()) - 1;
+}
+
+int Instance::file(const std::string& param, const std::string& columns) {
+  const int found = find_param(param);
+  if (found < 0 || plugin_->params[found].kind != MUSTER_FILE)
+    throw Error(Exit::plugin_fault, title() + ": asks for the file " + quote(param) + ", which is no file among its parameters");
+  const std::string& given = texts_[param];
+  if (given.empty()) throw Error(Exit::invalid_input, title() + ": has no attribute " + quote(param) + ", which it needs; expected a path relative to the world file");
+  auto path = std::filesystem::path(given);
+  if (path.is_relative()) path = around_.world->file.parent_path() / path;
+  if (!std::filesystem::exists(path))
+    throw invalid(places_.count(param) ? places_[param] : declared_.place, "attribute " + quote(param) + ": there is no file " + quote(path.string()));
+  Claim made;
+  made.kind = MUSTER_READ;
+  made.columns = Columns(columns);
+  made.file = read_file_table(path, made.columns, *around_.board);
+  claims_.push_back(std::move(made));
+  return static_cast<int>(claims_.size()) - 1;
+}
+
+Error Instance::failure(const std::string& callback, const muster_tick* tick, const std::string& said) {
+  const Exit fault = std::exchange(fault_, Exit::plugin_fault);
+  said_.clear();
+  if (said.front() == '!') return Error(fault, said.substr(1));  // the kernel's own refusal, which names its place
+  const std::string where = tick ? " at tick " + std::to_string(tick->index) + " (t = " + print_real(tick->time) + " s)" : "";
+  return Error(fault, title() + ": " + callback + " failed" + where + ": " + said);
+}
+
+// Rows of a queue that this claim has not seen, and of its own row's where it claims one.
+void Instance::gather(Claim& claim, muster_in& view, uint64_t tick) {
+  const Cells& cells = claim.in->now();
+  const uint64_t oldest = tick > claim.window ? tick - claim.window : 0;
+  const auto is_new = [&](uint64_t came) { return claim.late ? came >= oldest : came > oldest || tick <= claim.window; };
+  const auto width = claim.in->width();
+  claim.aside.clear();
+  for (std::size_t r = 0; r < cells.rows; ++r) {
+    const double* row = cells.data.data() + r * width;
+    if (is_new(cells.appended[r]) && (claim.row < 0 || row[0] == claim.row)) claim.aside.insert(claim.aside.end(), row, row + width);
+  }
+  view = {claim.aside.data(), static_cast<uint32_t>(claim.aside.size() / width), static_cast<uint32_t>(width), cells.tick};
+}
+
+void Instance::bind(uint64_t tick) {
+  for (std::size_t i = 0; i < claims_.size(); ++i) {
+    Claim& claim = claims_[i];
+    const auto width = static_cast<uint32_t>(claim.columns.size());
+    const Cells* cells = claim.in ? &claim.in->now() : claim.file.get();
+    if (claim.in && claim.in->set().kind == SetKind::queue && claim.kind == MUSTER_READ) {
+      gather(claim, in_[i], tick);
+    } else if (!cells) {
+      in_[i] = {nullptr, 0, width, 0};
+    } else if (claim.row >= 0) {
+      in_[i] = {cells->data.data() + static_cast<std::size_t>(claim.row) * width, 1, width, cells->tick};
+    } else {
+      in_[i] = {cells->data.data(), static_cast<uint32_t>(cells->rows), width, cells->tick};
+    }
+    if (!claim.out) continue;
+    Cells& next = claim.out->next();
+    if (claim.staged) {
+      out_[i] = {claim.aside.data(), static_cast<uint32_t>(next.rows), width};
+    } else if (claim.lists || claim.out->set().kind == SetKind::queue) {
+      out_[i] = {nullptr, 0, width};
+    } else if (claim.row >= 0) {
+      out_[i] = {next.data.data() + static_cast<std::size_t>(claim.row) * width, 1, width};
+    } else {
+      out_[i] = {next.data.data(), static_cast<uint32_t>(next.rows), width};
+    }
+  }
+}
+
+bool Instance::step(muster_tick tick) noexcept {
+  tick.params = params_.data();
+  in_step_ = true;
+  FloatGuard guard;
+  const bool fine = plugin_->step(self_, &tick, in_.data(), out_.data()) == MUSTER_OK;
+  in_step_ = false;
+  if (guard.changed()) {
+    said_ = guard.what() + " for the whole process; expected it to leave the arithmetic as it was";
+    return false;
+  }
+  return fine && said_.empty();
+}
+
+}  // namespace muster

@@ -1,0 +1,142 @@
+// An instance of a plugin: its parameters, its claims, and the host through which it asks the kernel.
+#pragma once
+
+#include "blackboard.hpp"
+#include "library.hpp"
+#include "world.hpp"
+
+#include <muster/plugin.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace muster {
+
+class Instance;
+
+// set/row/quantity@part, taken apart. Private tables have the set "instance/NAME".
+struct TableName {
+  std::string set, row, quantity, part;
+  // "robot/*/pose", without row and part.
+  std::string logical() const { return set + "/*/" + quantity; }
+};
+
+struct Claim {
+  uint32_t kind = 0, flags = 0;
+  TableName name;
+  Columns columns;
+  int row = -1;            // the claimed row's number; -1: all rows
+  std::unique_ptr<Cells> file;  // a claim on a file's table: its cells
+
+  // Filled by the linker.
+  Table* in = nullptr;        // what is read: the table, the stage before, or what was last published
+  Table* out = nullptr;       // what is written
+  bool lists = false;         // write: its instance lists the rows of the set anew, by append()
+  bool staged = false;        // written aside and copied afterwards: a rest of rows, beside rows of others
+  std::vector<int> others;    // staged: the rows that other instances write
+  uint64_t window = 0;     // queue read: rows that came at a tick > now - window ...
+  bool late = false;       // ... or, where its writers come later in a tick, >= now - window
+
+  // Of this step.
+  std::vector<double> aside;  // staged, appended or gathered rows
+  std::size_t appended = 0;   // rows appended to `aside`
+  struct Put {
+    std::size_t row, column;
+    Blob blob;
+  };
+  std::vector<Put> puts;
+};
+
+// What plugins may ask about beyond their own instance.
+struct Surroundings {
+  const Standard* standard = nullptr;
+  const World* world = nullptr;
+  Blackboard* board = nullptr;
+  Library::SearchPath search_path;
+  uint64_t seed = 0;
+};
+
+struct Join {
+  Set* set;
+  std::string name;
+  int like;
+  struct Value {
+    std::string quantity;
+    std::size_t column;
+    double value;
+  };
+  std::vector<Value> values;
+};
+
+struct Leave {
+  Set* set;
+  uint32_t row;
+};
+
+class Instance {
+ public:
+  // Checks the attributes against the plugin's declaration and calls create(). Throws Error.
+  Instance(InstanceDeclaration declaration, std::shared_ptr<Library> library, Surroundings& around);
+  ~Instance();
+  Instance(const Instance&) = delete;
+  Instance& operator=(const Instance&) = delete;
+
+  const std::string& name() const { return declared_.name; }
+  const InstanceDeclaration& declared() const { return declared_; }
+  InstanceDeclaration& declared() { return declared_; }
+  const muster_plugin& plugin() const { return *plugin_; }
+  const std::shared_ptr<Library>& library() const { return library_; }
+  uint32_t phase() const { return plugin_->phase; }
+  uint64_t every() const { return declared_.every; }
+  // "world.xml:8:3: physics (physics.simbody)"
+  std::string title() const;
+
+  std::vector<Claim>& claims() { return claims_; }
+  const std::vector<Claim>& claims() const { return claims_; }
+  std::vector<double>& params() { return params_; }
+  const std::vector<double>& params() const { return params_; }
+  // The parameter's number, or -1.
+  int find_param(const std::string& param) const;
+  // The row of the set "robot" that the parameter `robot` names, or -1.
+  int bound_robot() const;
+
+  // Points the views at the tables. Call before step(), when nothing that it reads changes any more.
+  void bind(uint64_t tick);
+  // One call of step(); its error is kept in failure(). Never throws.
+  bool step(muster_tick tick) noexcept;
+  // What the plugin, or the kernel of it, said of its last failed callback.
+  std::string said() const { return said_.empty() ? "gave no reason" : said_; }
+  // The error of a failed callback, whole, and ready for the next call.
+  Error failure(const std::string& callback, const muster_tick* tick, const std::string& said);
+
+  std::vector<Join> joins;
+  std::vector<Leave> leaves;
+  std::vector<std::string> events;  // since the kernel last took them
+
+ private:
+  friend struct Host;
+  void check_attributes();
+  // What claim() and file() do; they throw Error where the host returns -1.
+  int claim(uint32_t kind, uint32_t flags, const std::string& table, const std::string& columns);
+  int file(const std::string& param, const std::string& columns);
+  void gather(Claim& claim, muster_in& view, uint64_t tick);
+
+  InstanceDeclaration declared_;
+  std::shared_ptr<Library> library_;
+  const muster_plugin* plugin_ = nullptr;
+  Surroundings& around_;
+  muster_host host_{};
+  void* self_ = nullptr;
+  std::vector<double> params_;
+  std::map<std::string, std::string> texts_;  // text and file parameters
+  std::map<std::string, Place> places_;       // of given attributes
+  std::vector<Claim> claims_;
+  std::vector<muster_in> in_;
+  std::vector<muster_out> out_;
+  std::string said_;   // what the plugin said of its failure
+  Exit fault_ = Exit::plugin_fault;
+  bool in_create_ = false, in_step_ = false;
+};
+
+}  // namespace muster

@@ -1,0 +1,246 @@
+#include "link.hpp"
+
+#include "claim.hpp"
+#include "names.hpp"
+
+#include <algorithm>
+
+namespace muster {
+
+Linker::Linker(const std::vector<Instance*>& instances, const Standard& standard, const World& world, Blackboard& board)
+    : instances_(instances), standard_(standard), world_(world), board_(board) {
+  gather();
+}
+
+void Linker::gather() {
+  for (Instance* instance : instances_) {
+    for (std::size_t i = 0; i < instance->claims().size(); ++i) {
+      const Claim& claim = instance->claims()[i];
+      if (claim.file) continue;
+      auto& claimed = claimed_[claim.name.logical()];
+      auto& group = claim.kind == MUSTER_READ    ? claimed.readers
+                    : claim.kind == MUSTER_WRITE ? claimed.writers
+                    : claim.kind == MUSTER_ADD   ? claimed.adders
+                                                 : claimed.modifiers;
+      group.push_back({instance, i});
+      const auto* set = standard_set(standard_, claim.name.set);
+      if (claim.kind == MUSTER_WRITE && set && set->kind == SetKind::listed && claim.name.quantity == set->quantities[0].name)
+        listers_[claim.name.set].push_back(instance);
+    }
+  }
+}
+
+// Names of the tables that one quantity needs, each with the claim that fills it; the last is what readers get.
+std::vector<std::pair<std::string, const Claim*>> Linker::tables_of(const std::string& logical, const Claimed& c) const {
+  std::vector<std::pair<std::string, const Claim*>> result;
+  for (const auto& by : c.adders) {
+    const auto& part = by.get().name.part;
+    result.emplace_back(logical + '@' + by.instance->name() + (part.empty() ? "" : '.' + part), &by.get());
+  }
+  const auto* any = c.writers.empty() ? c.adders.empty() ? c.readers.empty() ? nullptr : &c.readers[0] : &c.adders[0] : &c.writers[0];
+  if (c.modifiers.empty()) {
+    if (any && !(any->get().flags & MUSTER_JOINS)) result.emplace_back(logical, &any->get());
+    return result;
+  }
+  result.emplace_back(logical + "@base", any ? &any->get() : &c.modifiers[0].get());
+  for (const auto& by : c.modifiers) result.emplace_back(logical + '@' + by.instance->name(), &by.get());
+  result.back().first = logical;
+  return result;
+}
+
+// Who must have stepped before whom inside a phase, and how deep each instance lies.
+void Linker::order() {
+  const auto wait = [this](Instance* who, Instance* whom, const std::string& what) {
+    if (who != whom && who->phase() == whom->phase()) waits_[who].emplace(whom, what);
+  };
+  for (const auto& [logical, c] : claimed_) {
+    std::vector<Claimed::By> chain = c.writers;
+    chain.insert(chain.end(), c.adders.begin(), c.adders.end());
+    for (const auto& modifier : c.modifiers) {
+      for (const auto& earlier : chain) wait(modifier.instance, earlier.instance, logical);
+      chain.push_back(modifier);
+    }
+    for (const auto& reader : c.readers) {
+      const auto& part = reader.get().name.part;
+      for (const auto& writer : chain) {
+        const auto& name = writer.instance->name();
+        if (part.empty() || part == "base" || part == name || part.rfind(name + '.', 0) == 0) wait(reader.instance, writer.instance, logical);
+      }
+    }
+    const auto listers = listers_.find(logical.substr(0, logical.find('/')));
+    if (listers == listers_.end()) continue;
+    for (const auto* group : {&c.writers, &c.adders, &c.modifiers, &c.readers}) {
+      for (const auto& by : *group) {
+        for (Instance* lister : listers->second) wait(by.instance, lister, logical);
+      }
+    }
+  }
+  std::vector<Instance*> left = instances_;
+  while (!left.empty()) {
+    std::vector<Instance*> ready;
+    for (Instance* instance : left) {
+      const auto& whom = waits_[instance];
+      const bool can = std::all_of(whom.begin(), whom.end(), [this](const auto& w) { return depth_.count(w.first); });
+      if (can) ready.push_back(instance);
+    }
+    if (ready.empty()) report_cycle(left);
+    for (Instance* instance : ready) {
+      std::size_t depth = 0;
+      for (const auto& [whom, what] : waits_[instance]) depth = std::max(depth, depth_[whom] + 1);
+      depth_[instance] = depth;
+      std::erase(left, instance);
+    }
+  }
+}
+
+void Linker::report_cycle(const std::vector<Instance*>& stuck) const {
+  std::vector<Instance*> path = {stuck.front()};
+  std::string text;
+  while (true) {
+    const auto& whom = waits_.at(path.back());
+    const auto next = std::find_if(whom.begin(), whom.end(), [this](const auto& w) { return !depth_.count(w.first); });
+    const auto seen = std::find(path.begin(), path.end(), next->first);
+    path.push_back(next->first);
+    if (seen == path.end() - 1) continue;
+    const auto first = std::find(path.begin(), path.end(), next->first) - path.begin();
+    for (auto i = static_cast<std::size_t>(first); i + 1 < path.size(); ++i)
+      text += (text.empty() ? "" : "; ") + path[i]->name() + " needs " + quote(waits_.at(path[i]).at(path[i + 1])) + " of " + path[i + 1]->name();
+    const Instance& one = *path[static_cast<std::size_t>(first)];
+    throw Error(Exit::invalid_input, one.title() + ": a cycle inside the phase " + phase_name(one.phase()) + ": " + text + "; let one of them work in another phase, so that it is read a tick later");
+  }
+}
+
+void Linker::fill_from_world(Table& table, const TableName& name) const {
+  const std::string target = name.set + '/' + name.quantity;
+  for (const auto& row : world_.rows) {
+    const auto set = std::find(row.sets.begin(), row.sets.end(), name.set);
+    if (set == row.sets.end()) continue;
+    double* cells = table.stored().data.data() + static_cast<std::size_t>(table.set().find(row.name)) * table.width();
+    if (target == row.own_row) cells[0] = board_.find_set(row.set)->find(row.name);
+    for (const auto& values : row.values) {
+      if (values.table != target) continue;
+      if (values.store) values.store(values.values.data(), cells);
+      else std::copy(values.values.begin(), values.values.end(), cells);
+    }
+  }
+}
+
+namespace {
+
+// Cells of the same name and unit; what is new is initial.
+void adopt(const Table& old, Table& table) {
+  for (std::size_t c = 0; c < table.width(); ++c) {
+    const int from = old.columns().find(table.columns()[c].name);
+    if (from < 0 || old.columns()[static_cast<std::size_t>(from)].unit != table.columns()[c].unit) continue;
+    for (std::size_t r = 0; r < std::min(old.now().rows, table.now().rows); ++r)
+      table.stored().data[r * table.width() + c] = old.now().data[r * old.width() + static_cast<std::size_t>(from)];
+  }
+}
+
+}  // namespace
+
+Table& Linker::make(const std::string& name, const Claim& claim, std::map<std::string, std::unique_ptr<Table>>& old) {
+  const auto* quantity = standard_quantity(standard_, claim.name);
+  auto table = std::make_unique<Table>(name, *board_.find_set(claim.name.set), claim.columns, quantity ? quantity->initial : "");
+  fill_from_world(*table, claim.name);
+  const auto found = old.find(name);
+  if (found != old.end()) {
+    if (found->second->columns() == table->columns()) table->stored() = found->second->now();
+    else adopt(*found->second, *table);
+    old.erase(found);
+  }
+  return board_.add(std::move(table));
+}
+
+void Linker::make_tables(const std::string& logical, const Claimed& c, std::map<std::string, std::unique_ptr<Table>>& old) {
+  if (!c.is_written() && !is_of_the_world(logical)) return;  // optional reads that nobody answers
+  std::vector<Table*> tables;
+  for (const auto& [name, claim] : tables_of(logical, c)) tables.push_back(&make(name, *claim, old));
+  if (tables.empty()) return;  // only rows join
+  Sum sum;
+  std::vector<Instance*> adders;
+  for (std::size_t i = 0; i < c.adders.size(); ++i) {
+    Claim& claim = c.adders[i].get();
+    claim.in = claim.out = tables[i];
+    sum.parts.push_back(tables[i]);
+    writers_of_[tables[i]].push_back(c.adders[i].instance);
+    adders.push_back(c.adders[i].instance);
+  }
+  Table* stage = tables[c.adders.size()];
+  if (!adders.empty()) {
+    sum.total = stage;
+    writers_of_[stage] = adders;
+    sums_.emplace_back(sum, adders);
+  }
+  for (const auto& by : c.writers) {
+    Claim& claim = by.get();
+    if (claim.flags & MUSTER_JOINS) continue;
+    claim.in = claim.out = stage;
+    const auto& listers = listers_[claim.name.set];
+    claim.lists = stage->set().kind == SetKind::listed && std::find(listers.begin(), listers.end(), by.instance) != listers.end();
+    claim.staged = false;
+    claim.others.clear();
+    for (const auto& other : c.writers) {
+      if (claim.row >= 0 || other.get().row < 0 || stage->set().kind == SetKind::queue) continue;
+      claim.staged = true;
+      claim.others.push_back(other.get().row);
+    }
+    writers_of_[stage].push_back(by.instance);
+  }
+  for (std::size_t i = 0; i < c.modifiers.size(); ++i) {
+    Claim& claim = c.modifiers[i].get();
+    claim.in = stage;
+    claim.out = stage = tables[c.adders.size() + 1 + i];
+    writers_of_[stage].push_back(c.modifiers[i].instance);
+  }
+  if (!c.modifiers.empty()) board_.alias(logical + '@' + c.modifiers.back().instance->name(), *stage);
+}
+
+void Linker::point_readers(const std::string& logical, const Claimed& c) {
+  for (const auto& by : c.readers) {
+    Claim& claim = by.get();
+    claim.in = board_.find(logical + (claim.name.part.empty() ? "" : '@' + claim.name.part));
+    if ((claim.flags & MUSTER_OPTIONAL) && !c.is_written() && !is_of_the_world(logical)) claim.in = nullptr;
+    if (!claim.in || claim.in->set().kind != SetKind::queue) continue;
+    claim.window = by.instance->every();
+    claim.late = std::any_of(c.writers.begin(), c.writers.end(), [&](const auto& w) { return w.instance->phase() > by.instance->phase(); });
+    claim.in->keep = std::max(claim.in->keep, claim.late ? claim.window : claim.window - 1);
+  }
+}
+
+std::vector<Batch> Linker::make_batches() {
+  std::vector<Batch> batches;
+  std::map<Instance*, std::size_t> batch_of;
+  for (uint32_t phase = MUSTER_CONTROL; phase <= MUSTER_OBSERVE; ++phase) {
+    const auto first = batches.size();
+    for (Instance* instance : instances_) {
+      if (instance->phase() != phase) continue;
+      const auto at = first + depth_[instance];
+      if (batches.size() <= at) batches.resize(at + 1);
+      batches[at].phase = phase;
+      batches[at].instances.push_back(instance);
+      batch_of[instance] = at;
+    }
+  }
+  const auto last = [&](const std::vector<Instance*>& writers) {
+    std::size_t result = 0;
+    for (Instance* writer : writers) result = std::max(result, batch_of[writer]);
+    return result;
+  };
+  for (const auto& [sum, adders] : sums_) batches[last(adders)].sums.push_back(sum);
+  for (const auto& [name, table] : board_.tables()) {
+    const auto writers = writers_of_.find(table.get());
+    if (writers != writers_of_.end()) batches[last(writers->second)].publish.push_back(table.get());
+  }
+  return batches;
+}
+
+std::vector<Batch> Linker::build() {
+  auto old = board_.take_tables();
+  for (const auto& [logical, c] : claimed_) make_tables(logical, c, old);
+  for (const auto& [logical, c] : claimed_) point_readers(logical, c);
+  for (const auto& [name, table] : old) dropped_.push_back(name);
+  return make_batches();
+}
+
+}  // namespace muster

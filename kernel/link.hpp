@@ -1,0 +1,93 @@
+// From claims to tables, and from tables to an order of steps: who writes what, in which stages, and who must wait for
+// whom inside a phase.
+#pragma once
+
+#include "instance.hpp"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace muster {
+
+// The total of the parts that instances add, in world-file order.
+struct Sum {
+  Table* total = nullptr;
+  std::vector<Table*> parts;
+};
+
+// Instances that may step at the same time, and what is complete after them.
+struct Batch {
+  uint32_t phase = 0;
+  std::vector<Instance*> instances;
+  std::vector<Sum> sums;
+  std::vector<Table*> publish;
+};
+
+// Computes the total of what was added in this tick.
+void add_up(const Sum& sum, uint64_t tick);
+
+const char* phase_name(uint32_t phase);
+
+// One quantity with everybody who claims it. "set/*/quantity".
+struct Claimed {
+  struct By {
+    Instance* instance;
+    std::size_t claim;
+    Claim& get() const { return instance->claims()[claim]; }
+  };
+  std::vector<By> writers, adders, modifiers, readers;
+  bool is_written() const { return !writers.empty() || !adders.empty() || !modifiers.empty(); }
+};
+
+class Linker {
+ public:
+  // Instances in the order of the world file.
+  Linker(const std::vector<Instance*>& instances, const Standard& standard, const World& world, Blackboard& board);
+
+  // Plugins that somebody's reads need and that no instance provides: ids of the sets' declared providers.
+  std::vector<std::string> missing_providers() const;
+
+  // Refuses what does not fit, with the names of both sides; nothing is changed before it has returned. Throws Error.
+  void check();
+
+  // Makes the tables, with what tables of the same names held, points the claims at them, and orders the steps.
+  std::vector<Batch> build();
+
+  // After build(): the tables of before that nobody writes any more.
+  const std::vector<std::string>& dropped() const { return dropped_; }
+  const std::map<std::string, Claimed>& claimed() const { return claimed_; }
+
+ private:
+  void gather();
+  bool is_of_the_world(const std::string& logical) const;
+  void check_reads(const std::string& logical, const Claimed& c) const;
+  void check_writers(const std::string& logical, const Claimed& c) const;
+  void check_columns(const std::string& logical, const Claimed& c) const;
+  void check_stages(const std::string& logical, const Claimed& c) const;
+  void check_listed(const std::string& logical, const Claimed& c) const;
+  void check_carried() const;
+  void order();
+  [[noreturn]] void report_cycle(const std::vector<Instance*>& stuck) const;
+
+  std::vector<std::pair<std::string, const Claim*>> tables_of(const std::string& logical, const Claimed& c) const;
+  Table& make(const std::string& name, const Claim& claim, std::map<std::string, std::unique_ptr<Table>>& old);
+  void fill_from_world(Table& table, const TableName& name) const;
+  void make_tables(const std::string& logical, const Claimed& c, std::map<std::string, std::unique_ptr<Table>>& old);
+  void point_readers(const std::string& logical, const Claimed& c);
+  std::vector<Batch> make_batches();
+
+  const std::vector<Instance*>& instances_;
+  const Standard& standard_;
+  const World& world_;
+  Blackboard& board_;
+  std::map<std::string, Claimed> claimed_;
+  std::map<std::string, std::vector<Instance*>> listers_;      // of a listed set
+  std::map<Instance*, std::map<Instance*, std::string>> waits_;  // who waits for whom inside a phase, and for what
+  std::map<Instance*, std::size_t> depth_;                     // place inside the phase
+  std::vector<std::pair<Sum, std::vector<Instance*>>> sums_;
+  std::map<Table*, std::vector<Instance*>> writers_of_;
+  std::vector<std::string> dropped_;
+};
+
+}  // namespace muster

@@ -1,0 +1,92 @@
+#include "params.hpp"
+
+#include "names.hpp"
+#include "number.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace muster {
+namespace {
+
+[[noreturn]] void refuse(const muster_param& declared, int count, const XmlAttribute& given, const std::string& what) {
+  throw invalid(given.value_place, "attribute " + quote(given.name) + ": " + what + "; expected " + expectation(declared, count));
+}
+
+void check_bounds(const muster_param& declared, int count, const XmlAttribute& given, double value, const Warn& warn) {
+  if (value < declared.min || value > declared.max)
+    refuse(declared, count, given, print_real(value) + " is out of bounds");
+  constexpr double turn = 6.283185307179586;
+  if (std::string(declared.unit) == "rad" && std::abs(value) > turn)
+    warn(given.value_place, "attribute " + quote(given.name) + ": " + print_real(value) + " rad is more than a full turn; are these degrees?");
+}
+
+double choice_value(const muster_param& declared, const XmlAttribute& given) {
+  const auto words = choices(declared);
+  const auto found = std::find(words.begin(), words.end(), given.value);
+  if (found == words.end()) {
+    throw invalid(given.value_place, "attribute " + quote(given.name) + ": " + quote(given.value) + " is not a choice; " +
+                                         suggest(given.value, words));
+  }
+  return static_cast<double>(found - words.begin());
+}
+
+}  // namespace
+
+std::vector<std::string> choices(const muster_param& declared) {
+  std::vector<std::string> words(1);
+  for (const char* c = declared.text; *c; ++c) {
+    if (*c == '|') words.emplace_back();
+    else words.back() += *c;
+  }
+  return words;
+}
+
+std::string expectation(const muster_param& declared, int count) {
+  const std::string unit = *declared.unit ? std::string(" ") + declared.unit : "";
+  const std::string many = count > 1 ? std::to_string(count) + " numbers" : "a number";
+  switch (declared.kind) {
+    case MUSTER_REAL:
+      return many + " from " + print_real(declared.min) + " to " + print_real(declared.max) + unit;
+    case MUSTER_INTEGER: return "an integer from " + print_real(declared.min) + " to " + print_real(declared.max);
+    case MUSTER_FLAG: return "true or false";
+    case MUSTER_CHOICE: return expected_one_of(choices(declared)).substr(9);
+    case MUSTER_REFERENCE: return std::string("the name of a ") + declared.text;
+    case MUSTER_FILE: return "a path relative to the world file";
+    default: return "a text";
+  }
+}
+
+std::vector<double> attribute_values(const muster_param& declared, int count, const XmlAttribute& given,
+                                     const FindRow& find_row, const Warn& warn) {
+  switch (declared.kind) {
+    case MUSTER_REAL: {
+      const auto n = static_cast<std::size_t>(count);
+      const auto values = parse_reals(given.value, n);
+      if (!values || (count == 1 && !parse_real(given.value)))
+        refuse(declared, count, given, count == 1 ? why_not_real(given.value) : why_not_reals(given.value, n));
+      for (const double value : *values) check_bounds(declared, count, given, value, warn);
+      return *values;
+    }
+    case MUSTER_INTEGER: {
+      const auto value = parse_integer(given.value);
+      if (!value) refuse(declared, count, given, why_not_integer(given.value));
+      check_bounds(declared, count, given, static_cast<double>(*value), warn);
+      return {static_cast<double>(*value)};
+    }
+    case MUSTER_FLAG:
+      if (given.value != "true" && given.value != "false") refuse(declared, count, given, quote(given.value) + " is neither");
+      return {given.value == "true" ? 1.0 : 0.0};
+    case MUSTER_CHOICE: return {choice_value(declared, given)};
+    case MUSTER_REFERENCE: return {find_row(declared.text, given.value, given.value_place)};
+    default: return {};
+  }
+}
+
+std::string value_text(const muster_param& declared, double value) {
+  if (declared.kind == MUSTER_FLAG) return value != 0 ? "true" : "false";
+  if (declared.kind == MUSTER_CHOICE) return choices(declared).at(static_cast<std::size_t>(value));
+  return print_real(value);
+}
+
+}  // namespace muster

@@ -1,0 +1,34 @@
+// Attributes of the world file held against the declarations of parameters: kind, bounds, unit, choices.
+#pragma once
+
+#include "error.hpp"
+#include "xml.hpp"
+
+#include <muster/plugin.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace muster {
+
+// Finds a row's number by its set and name, or throws with the place.
+using FindRow = std::function<double(const std::string& set, const std::string& row, const Place& place)>;
+
+// A warning for the run's events, such as an angle that looks like degrees.
+using Warn = std::function<void(const Place& place, const std::string& message)>;
+
+// `count` numbers of one attribute, checked. Texts and files give none.
+std::vector<double> attribute_values(const muster_param& declared, int count, const XmlAttribute& given,
+                                     const FindRow& find_row, const Warn& warn);
+
+// The words of a choice, "a|b|c".
+std::vector<std::string> choices(const muster_param& declared);
+
+// "number from 0 to 120 dB", "one of a, b", "name of a robot": what a declaration expects.
+std::string expectation(const muster_param& declared, int count = 1);
+
+// A value as the world file would have it.
+std::string value_text(const muster_param& declared, double value);
+
+}  // namespace muster

@@ -1,0 +1,137 @@
+#include "simulation.hpp"
+
+#include "names.hpp"
+#include "number.hpp"
+#include "workers.hpp"
+
+#include <algorithm>
+
+namespace muster {
+
+Simulation::Simulation(World world, const Standard& standard, Options options)
+    : world_(std::move(world)), standard_(standard), options_(std::move(options)) {
+  around_ = {&standard_, &world_, &board_, options_.search_path, world_.seed};
+  for (const auto& set : standard_.sets) board_.add_set(set.name, set.kind, set.owner);
+  for (const auto& row : world_.rows) {
+    for (const auto& set : row.sets) board_.find_set(set)->add(row.name);
+  }
+  for (const auto& warning : world_.warnings) events_.push_back({0, "", "warning: " + warning.place.text() + ": " + warning.message});
+  for (const auto& declaration : options_.more) instances_.push_back(make(declaration));
+  for (const auto& declaration : world_.instances) instances_.push_back(make(declaration));
+  for (const auto& swap : world_.swaps) planned_.push_back(library_of(swap.replacement));
+  add_providers();
+  if (options_.workers > 1) workers_ = std::make_unique<Workers>(options_.workers);
+  relink();
+  run(0, MUSTER_SENSE, MUSTER_SENSE, 0);
+}
+
+Simulation::~Simulation() = default;
+
+// One library serves all instances of a plugin.
+std::shared_ptr<Library> Simulation::library_of(const InstanceDeclaration& declaration) {
+  const std::string key = declaration.plugin + (declaration.library ? ' ' + declaration.library->string() : "");
+  auto library = libraries_[key].lock();
+  if (!library) libraries_[key] = library = Library::load(declaration.plugin, declaration.library, options_.search_path, declaration.place);
+  return library;
+}
+
+std::unique_ptr<Instance> Simulation::make(InstanceDeclaration declaration) {
+  auto library = library_of(declaration);
+  return std::make_unique<Instance>(std::move(declaration), std::move(library), around_);
+}
+
+// Where a standard quantity is read and nobody writes it, its declared provider joins, as if the world file named it.
+void Simulation::add_providers() {
+  while (true) {
+    std::vector<Instance*> all;
+    for (const auto& instance : instances_) all.push_back(instance.get());
+    std::vector<std::string> missing;
+    for (const auto& plugin : Linker(all, standard_, world_, board_).missing_providers()) {
+      const bool there = std::any_of(all.begin(), all.end(), [&](const Instance* i) { return i->declared().plugin == plugin; });
+      if (!there) missing.push_back(plugin);
+    }
+    if (missing.empty()) return;
+    for (const auto& plugin : missing) instances_.push_back(make({plugin, plugin, 1, {}, {}, {}, {world_.file.string()}}));
+  }
+}
+
+void Simulation::relink() {
+  std::vector<Instance*> all;
+  for (const auto& instance : instances_) all.push_back(instance.get());
+  Linker linker(all, standard_, world_, board_);
+  linker.check();
+  batches_ = linker.build();
+  for (const auto& table : linker.dropped()) events_.push_back({tick_, "", "dropped " + table + ", which nobody writes any more"});
+  listed_.clear();
+  for (const auto& [name, set] : board_.sets()) {
+    if (set->kind == SetKind::listed) listed_.emplace_back(set.get(), set->listed);
+  }
+}
+
+TableView Simulation::table(const std::string& name) const {
+  if (const Table* whole = board_.find(name)) return {whole, -1};
+  const auto first = name.find('/');
+  const auto last = name.rfind('/');
+  if (first != std::string::npos && first != last) {
+    const std::string row = name.substr(first + 1, last - first - 1);
+    const Table* table = board_.find(name.substr(0, first) + "/*" + name.substr(last));
+    if (!table) table = board_.find("instance/" + row + "/*" + name.substr(last));
+    if (table && table->set().kind == SetKind::fixed && table->set().name == "instance/" + row) return {table, 0};
+    const int number = table && table->set().is_named() ? table->set().find(row) : -1;
+    if (number >= 0) return {table, number};
+    if (table && table->set().is_named())
+      throw Error(Exit::invalid_input, "there is no " + table->set().name + ' ' + quote(row) + "; " + suggest(row, table->set().names));
+  }
+  std::vector<std::string> valid;
+  for (const auto& [other, table] : board_.tables()) valid.push_back(other);
+  throw Error(Exit::invalid_input, "there is no table " + quote(name) + "; " + suggest(name, valid));
+}
+
+Snapshot Simulation::snapshot() const {
+  Snapshot result;
+  result.tick = tick_;
+  for (const auto& [name, set] : board_.sets()) result.sets[name] = {set->names, set->alive, set->listed};
+  for (const auto& [name, table] : board_.tables()) result.tables[name] = {table->columns().text(), table->now()};
+  for (const auto& instance : instances_) result.params[instance->name()] = instance->params();
+  return result;
+}
+
+// Everything is held against the run before anything changes.
+void Simulation::restore(const Snapshot& snapshot) {
+  const auto refuse = [](const std::string& what) { throw Error(Exit::invalid_input, "the snapshot is of another world: " + what); };
+  for (const auto& [name, table] : board_.tables()) {
+    const auto found = snapshot.tables.find(name);
+    if (found == snapshot.tables.end()) refuse("it has no table " + quote(name));
+    if (found->second.columns != table->columns().text()) refuse("its table " + quote(name) + " has other columns");
+  }
+  for (const auto& [name, table] : snapshot.tables) {
+    if (!board_.find(name)) refuse("its table " + quote(name) + " is not here");
+  }
+  for (const auto& instance : instances_) {
+    const auto found = snapshot.params.find(instance->name());
+    if (found == snapshot.params.end() || found->second.size() != instance->params().size())
+      refuse("its instance " + quote(instance->name()) + " differs");
+  }
+  for (const auto& [name, set] : board_.sets()) {
+    if (!snapshot.sets.count(name)) refuse("it has no set " + quote(name));
+  }
+  for (const auto& [name, saved] : snapshot.sets) {
+    Set* set = board_.find_set(name);
+    if (!set) refuse("its set " + quote(name) + " is not here");
+    const auto common = std::min(set->names.size(), saved.names.size());
+    if (!std::equal(set->names.begin(), set->names.begin() + static_cast<std::ptrdiff_t>(common), saved.names.begin()))
+      refuse("its set " + quote(name) + " has other rows");
+  }
+  for (const auto& [name, saved] : snapshot.sets) {
+    Set& set = *board_.find_set(name);
+    set.names.clear(), set.keys.clear(), set.alive.clear(), set.numbers.clear();
+    for (const auto& row : saved.names) set.add(row);
+    set.alive = saved.alive;
+    set.listed = saved.listed;
+  }
+  for (const auto& [name, saved] : snapshot.tables) board_.find(name)->stored() = saved.cells;
+  for (const auto& instance : instances_) instance->params() = snapshot.params.at(instance->name());
+  tick_ = snapshot.tick;
+}
+
+}  // namespace muster

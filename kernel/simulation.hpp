@@ -1,0 +1,125 @@
+// A world that runs: instances of plugins around a blackboard, stepped tick by tick, each tick whole or not at all.
+#pragma once
+
+#include "instance.hpp"
+#include "link.hpp"
+#include "snapshot.hpp"
+#include "world.hpp"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace muster {
+
+struct Options {
+  Library::SearchPath search_path;
+  int workers = 1;                        // threads; the results do not depend on it
+  std::vector<InstanceDeclaration> more;  // instances beyond those of the world file, before its own
+};
+
+struct Event {
+  uint64_t tick = 0;
+  std::string instance;  // "" for the kernel's
+  std::string message;
+};
+
+// A published table, or one row of it. Valid until the next tick.
+struct TableView {
+  const Table* table = nullptr;
+  int row = -1;  // -1: all rows
+
+  std::size_t rows() const { return row >= 0 ? 1 : table->now().rows; }
+  std::size_t cols() const { return table->width(); }
+  double at(std::size_t r, std::size_t c) const {
+    return table->now().data[(row >= 0 ? static_cast<std::size_t>(row) : r) * cols() + c];
+  }
+};
+
+// A number that can be set by its path: "radio.multiwall/n", "material/drywall/loss".
+struct ParameterInfo {
+  std::string path;
+  const muster_param* declared = nullptr;
+  double value = 0;
+};
+
+class Simulation {
+ public:
+  // Throws Error for whatever does not fit.
+  Simulation(World world, const Standard& standard, Options options);
+  ~Simulation();
+
+  const World& world() const { return world_; }
+  uint64_t tick() const { return tick_; }
+  double time() const { return static_cast<double>(tick_) * world_.dt; }
+  bool done() const { return tick_ >= world_.ticks; }
+
+  // One tick. If a plugin fails it throws Error, and what stands is the tick before. Swaps that the world file plans
+  // for this time come first.
+  void step();
+  // One phase alone at the time that stands, for instance the channel for a fit; time does not pass.
+  void evaluate(uint32_t phase, bool expected);
+
+  // By name: "robot/*/pose", "robot/leader/pose", "link/*/level@radio.multiwall.walls". Throws Error.
+  TableView table(const std::string& name) const;
+  const Blackboard& board() const { return board_; }
+
+  std::vector<ParameterInfo> parameters() const;
+  // Throws Error with the nearest path.
+  ParameterInfo parameter(const std::string& path) const;
+  void set_parameter(const std::string& path, double value);
+
+  // Exchanges an instance's plugin, state carried over by the names of tables; the attributes are the new plugin's. What
+  // is dropped goes into the events. If it throws, the run stands as it was.
+  void swap(const std::string& instance, InstanceDeclaration replacement);
+  // Inserts an instance before another, or at the end where `before` is empty.
+  void insert(InstanceDeclaration declaration, const std::string& before = "");
+  void remove(const std::string& instance);
+  // Destroys the instance and makes it again; reload also loads its library again from its file.
+  void remake(const std::string& instance);
+  void reload(const std::string& instance);
+
+  Snapshot snapshot() const;
+  void restore(const Snapshot& snapshot);
+  uint64_t digest() const { return snapshot().digest(); }
+
+  const std::vector<std::unique_ptr<Instance>>& instances() const { return instances_; }
+  const std::vector<Batch>& batches() const { return batches_; }
+  const std::vector<Event>& events() const { return events_; }
+
+ private:
+  struct Workers;
+  std::unique_ptr<Instance> make(InstanceDeclaration declaration);
+  std::shared_ptr<Library> library_of(const InstanceDeclaration& declaration);
+  void add_providers();
+  void relink();
+  std::size_t find(const std::string& instance) const;
+  void replace(std::size_t at, std::unique_ptr<Instance> instance);
+  void planned_swaps();
+
+  void run(uint64_t tick, uint32_t first, uint32_t last, uint32_t flags);
+  void run_batch(Batch& batch, const muster_tick& tick);
+  void step_all(const muster_tick& tick);
+  void take_back();
+  void finish(uint64_t tick);
+  void take_events(Instance& instance, uint64_t tick);
+
+  World world_;
+  const Standard& standard_;
+  Options options_;
+  Blackboard board_;
+  Surroundings around_;
+  std::map<std::string, std::weak_ptr<Library>> libraries_;
+  std::vector<std::unique_ptr<Instance>> instances_;
+  std::vector<Batch> batches_;
+  std::vector<Event> events_;
+  std::unique_ptr<Workers> workers_;
+  uint64_t tick_ = 0;
+  std::vector<Instance*> due_;                          // of the batch that steps
+  std::vector<std::string> faults_;                     // of each of them, "" for none
+  std::vector<std::pair<Set*, std::size_t>> listed_;    // rows of the listed sets before this tick
+  std::vector<std::shared_ptr<Library>> planned_;       // libraries of swaps to come
+};
+
+}  // namespace muster

@@ -1,0 +1,189 @@
+#include "snapshot.hpp"
+
+#include "error.hpp"
+#include "names.hpp"
+#include "text_file.hpp"
+
+#include <bit>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+namespace muster {
+namespace {
+
+constexpr std::string_view magic = "muster.snapshot.1\n";
+
+// A hash over words; each word is spread before the next comes.
+class Hash {
+ public:
+  void add(uint64_t word) { state_ = mixed(state_ ^ word) + 0x9e3779b97f4a7c15u; }
+  void add(double value) { add(std::bit_cast<uint64_t>(value)); }
+  void add(std::string_view text) {
+    add(text.size());
+    add_bytes(text.data(), text.size());
+  }
+  void add_bytes(const void* data, std::size_t count) {
+    const auto* from = static_cast<const char*>(data);
+    for (; count >= 8; count -= 8, from += 8) {
+      uint64_t word;
+      std::memcpy(&word, from, 8);
+      add(word);
+    }
+    uint64_t rest = 0;
+    std::memcpy(&rest, from, count);
+    if (count) add(rest);
+  }
+  void add(const Cells& cells) {
+    add(uint64_t{cells.rows});
+    add_bytes(cells.data.data(), cells.data.size() * sizeof(double));
+    for (const auto& blob : cells.blobs) add(std::string_view(reinterpret_cast<const char*>(blob->data()), blob->size()));
+    for (const auto tick : cells.appended) add(tick);
+  }
+  uint64_t value() const { return state_; }
+
+ private:
+  uint64_t state_ = 0x6d7573746572u;
+};
+
+class Writer {
+ public:
+  explicit Writer(std::ostream& to) : to_(to) {}
+  void word(uint64_t value) { to_.write(reinterpret_cast<const char*>(&value), sizeof value); }
+  void text(std::string_view value) {
+    word(value.size());
+    to_.write(value.data(), static_cast<std::streamsize>(value.size()));
+  }
+  template <class Number> void numbers(const std::vector<Number>& values) {
+    text({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Number)});
+  }
+
+ private:
+  std::ostream& to_;
+};
+
+// Every length is held against what is left of the file.
+class Reader {
+ public:
+  Reader(std::string text, std::string file) : text_(std::move(text)), file_(std::move(file)) {}
+  uint64_t word() {
+    uint64_t value;
+    std::memcpy(&value, take(sizeof value).data(), sizeof value);
+    return value;
+  }
+  std::string_view text() { return take(word()); }
+  template <class Number> std::vector<Number> numbers() {
+    const auto bytes = text();
+    if (bytes.size() % sizeof(Number)) fail();
+    std::vector<Number> values(bytes.size() / sizeof(Number));
+    std::memcpy(values.data(), bytes.data(), bytes.size());
+    return values;
+  }
+  std::string_view take(uint64_t count) {
+    if (count > text_.size() - at_) fail();
+    at_ += count;
+    return std::string_view(text_).substr(at_ - count, count);
+  }
+  void expect_end() const {
+    if (at_ != text_.size()) fail();
+  }
+  [[noreturn]] void fail() const {
+    throw Error(Exit::invalid_input, Place{file_}, "is not a whole snapshot; expected a file that `muster run --save` wrote");
+  }
+
+ private:
+  std::string text_, file_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace
+
+uint64_t Snapshot::digest() const {
+  Hash hash;
+  hash.add(tick);
+  for (const auto& [name, set] : sets) {
+    hash.add(name);
+    for (const auto& row : set.names) hash.add(row);
+    hash.add_bytes(set.alive.data(), set.alive.size());
+    hash.add(set.listed);
+  }
+  for (const auto& [name, table] : tables) {
+    hash.add(name);
+    hash.add(table.columns);
+    hash.add(table.cells);
+  }
+  return hash.value();
+}
+
+void Snapshot::save(const std::filesystem::path& file) const {
+  const auto part = file.string() + ".part";
+  std::ofstream out(part, std::ios::binary);
+  Writer writer(out);
+  out.write(magic.data(), magic.size());
+  writer.word(tick);
+  writer.word(sets.size());
+  for (const auto& [name, set] : sets) {
+    writer.text(name);
+    writer.word(set.names.size());
+    for (const auto& row : set.names) writer.text(row);
+    writer.numbers(set.alive);
+    writer.word(set.listed);
+  }
+  writer.word(tables.size());
+  for (const auto& [name, table] : tables) {
+    writer.text(name);
+    writer.text(table.columns);
+    writer.word(table.cells.rows);
+    writer.word(table.cells.tick);
+    writer.numbers(table.cells.data);
+    writer.numbers(table.cells.appended);
+    writer.word(table.cells.blobs.size());
+    for (const auto& blob : table.cells.blobs) writer.numbers(*blob);
+  }
+  writer.word(params.size());
+  for (const auto& [name, values] : params) {
+    writer.text(name);
+    writer.numbers(values);
+  }
+  out.close();
+  std::error_code renamed;
+  if (out) std::filesystem::rename(part, file, renamed);
+  if (!out || renamed) {
+    const std::string why = renamed ? renamed.message() : system_message(errno);
+    std::filesystem::remove(part, renamed);
+    throw Error(Exit::io, Place{file.string()}, "cannot be written: " + why);
+  }
+}
+
+Snapshot Snapshot::load(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in || !std::filesystem::is_regular_file(file)) throw Error(Exit::invalid_input, Place{file.string()}, "cannot be read: " + system_message(errno));
+  Reader reader(std::string(std::istreambuf_iterator<char>(in), {}), file.string());
+  if (reader.take(magic.size()) != magic) reader.fail();
+  Snapshot result;
+  result.tick = reader.word();
+  for (auto n = reader.word(); n > 0; --n) {
+    auto& set = result.sets[std::string(reader.text())];
+    for (auto rows = reader.word(); rows > 0; --rows) set.names.emplace_back(reader.text());
+    set.alive = reader.numbers<uint8_t>();
+    set.listed = reader.word();
+  }
+  for (auto n = reader.word(); n > 0; --n) {
+    auto& table = result.tables[std::string(reader.text())];
+    table.columns = reader.text();
+    table.cells.rows = reader.word();
+    table.cells.tick = reader.word();
+    table.cells.data = reader.numbers<double>();
+    table.cells.appended = reader.numbers<uint64_t>();
+    for (auto blobs = reader.word(); blobs > 0; --blobs)
+      table.cells.blobs.push_back(std::make_shared<const std::vector<uint8_t>>(reader.numbers<uint8_t>()));
+  }
+  for (auto n = reader.word(); n > 0; --n) {
+    auto& values = result.params[std::string(reader.text())];
+    values = reader.numbers<double>();
+  }
+  reader.expect_end();
+  return result;
+}
+
+}  // namespace muster

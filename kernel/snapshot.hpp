@@ -1,0 +1,39 @@
+// A run's state between two ticks: rows, published tables, parameters. In memory, and as a file (docs/snapshot_format.md).
+#pragma once
+
+#include "blackboard.hpp"
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace muster {
+
+struct Snapshot {
+  struct SavedSet {
+    std::vector<std::string> names;
+    std::vector<uint8_t> alive;
+    uint64_t listed = 0;
+    bool operator==(const SavedSet&) const = default;
+  };
+  struct SavedTable {
+    std::string columns;
+    Cells cells;
+  };
+
+  uint64_t tick = 0;
+  std::map<std::string, SavedSet> sets;
+  std::map<std::string, SavedTable> tables;
+  std::map<std::string, std::vector<double>> params;  // by instance
+
+  // A hash of rows and published tables, names included; equal states give equal digests in every process.
+  uint64_t digest() const;
+
+  // Atomic: the file is there whole or not at all. Throws Error with Exit::io.
+  void save(const std::filesystem::path& file) const;
+  // Throws Error if it is not a whole snapshot.
+  static Snapshot load(const std::filesystem::path& file);
+};
+
+}  // namespace muster

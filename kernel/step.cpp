@@ -1,0 +1,134 @@
+// One tick: phases in order, batches inside them, and everything taken back if anything fails.
+#include "cells.hpp"
+#include "names.hpp"
+#include "simulation.hpp"
+#include "workers.hpp"
+
+namespace muster {
+
+void Simulation::step() {
+  planned_swaps();
+  run(tick_ + 1, MUSTER_CONTROL, MUSTER_OBSERVE, 0);
+  ++tick_;
+}
+
+void Simulation::evaluate(uint32_t phase, bool expected) { run(tick_, phase, phase, expected ? MUSTER_EXPECTED : 0); }
+
+void Simulation::run(uint64_t index, uint32_t first, uint32_t last, uint32_t flags) {
+  for (auto& [set, rows] : listed_) rows = set->listed;
+  muster_tick tick{sizeof(muster_tick), flags, index, static_cast<double>(index) * world_.dt, world_.dt, nullptr};
+  try {
+    for (auto& batch : batches_) {
+      if (batch.phase >= first && batch.phase <= last) run_batch(batch, tick);
+    }
+  } catch (...) {
+    take_back();
+    throw;
+  }
+  finish(index);
+}
+
+void Simulation::run_batch(Batch& batch, const muster_tick& tick) {
+  due_.clear();
+  for (Instance* instance : batch.instances) {
+    if (tick.index % instance->every() != 0) continue;
+    due_.push_back(instance);
+    prepare_cells(*instance, tick.index);
+  }
+  for (Instance* instance : due_) instance->bind(tick.index);
+  step_all(tick);
+  for (std::size_t i = 0; i < due_.size(); ++i) {
+    if (faults_[i].empty()) faults_[i] = commit_cells(*due_[i], tick.index);
+    if (!faults_[i].empty()) throw due_[i]->failure("step", &tick, faults_[i]);
+  }
+  for (const auto& sum : batch.sums) add_up(sum, tick.index);
+  for (Table* table : batch.publish) {
+    if (table->begun() && !table->published()) table->publish(tick.index);
+  }
+}
+
+// Threads take instances as they come; nothing that an instance writes is another's, so the order does not show.
+void Simulation::step_all(const muster_tick& tick) {
+  faults_.assign(due_.size(), "");
+  const auto one = [&](std::size_t i) {
+    muster_tick own = tick;
+    own.dt = world_.dt * static_cast<double>(due_[i]->every());
+    faults_[i] = due_[i]->step(own) ? check_cells(*due_[i], board_) : due_[i]->said();
+  };
+  if (workers_ && due_.size() > 1) workers_->each(due_.size(), one);
+  else for (std::size_t i = 0; i < due_.size(); ++i) one(i);
+}
+
+void add_up(const Sum& sum, uint64_t tick) {
+  bool fresh = false;
+  for (const Table* part : sum.parts) fresh |= part->begun();
+  if (!fresh) return;
+  sum.total->begin(false, tick);
+  auto& total = sum.total->next().data;
+  for (std::size_t i = 0; i < total.size(); ++i) {
+    double value = 0;
+    for (const Table* part : sum.parts) value += part->newest().data[i];
+    total[i] = value;
+  }
+}
+
+void Simulation::take_back() {
+  for (auto& batch : batches_) {
+    for (Table* table : batch.publish) table->take_back();
+  }
+  for (const auto& [set, rows] : listed_) set->listed = rows;
+  for (auto& instance : instances_) {
+    instance->joins.clear();
+    instance->leaves.clear();
+    instance->events.clear();
+  }
+}
+
+namespace {
+
+void place(Blackboard& board, const Join& join) {
+  const auto number = static_cast<std::size_t>(join.set->find(join.name));
+  for (const auto& [name, table] : board.tables()) {
+    if (&table->set() != join.set) continue;
+    table->grow();
+    auto& data = table->stored().data;
+    const auto width = static_cast<std::ptrdiff_t>(table->width());
+    const auto to = data.begin() + static_cast<std::ptrdiff_t>(number) * width;
+    if (join.like >= 0) std::copy_n(data.begin() + join.like * width, width, to);
+    const std::string quantity = name.substr(name.rfind('/') + 1);
+    for (const auto& value : join.values) {
+      if (quantity.substr(0, quantity.find('@')) == value.quantity && value.column < table->width())
+        to[static_cast<std::ptrdiff_t>(value.column)] = value.value;
+    }
+  }
+}
+
+}  // namespace
+
+// Rows join and leave between two ticks.
+void Simulation::finish(uint64_t tick) {
+  for (auto& batch : batches_) {
+    for (Table* table : batch.publish) table->end_tick();
+  }
+  for (auto& instance : instances_) {
+    for (const auto& join : instance->joins) {
+      join.set->add(join.name);
+      place(board_, join);
+      events_.push_back({tick, instance->name(), join.set->name + ' ' + quote(join.name) + " joins"});
+    }
+    for (const auto& leave : instance->leaves) {
+      leave.set->alive[leave.row] = 0;
+      events_.push_back({tick, instance->name(), leave.set->name + ' ' + quote(leave.set->names[leave.row]) + " leaves"});
+    }
+    instance->joins.clear();
+    instance->leaves.clear();
+    take_events(*instance, tick);
+  }
+}
+
+void Simulation::take_events(Instance& instance, uint64_t tick) {
+  for (auto& message : instance.events) events_.push_back({tick, instance.name(), std::move(message)});
+  instance.events.clear();
+}
+
+}  // namespace muster

@@ -1,0 +1,249 @@
+#include "text_table.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <unordered_map>
+
+#include "names.hpp"
+#include "number.hpp"
+
+namespace muster {
+namespace {
+
+constexpr std::uint64_t most_bytes = std::uint64_t{8} << 30;
+constexpr std::size_t most_row_bytes = std::numeric_limits<std::uint16_t>::max();
+
+struct TextHash : std::hash<std::string_view> {
+  using is_transparent = void;
+};
+
+bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 && c != '\t'; }
+bool is_quoted(std::string_view raw) { return raw.starts_with('"'); }
+bool has_outer_space(std::string_view text) {
+  return !text.empty() && (text.front() == ' ' || text.front() == '\t' || text.back() == ' ' || text.back() == '\t');
+}
+
+}  // namespace
+
+TextTable TextTable::read(const std::filesystem::path& path) {
+  TextTable table;
+  table.file_ = read_text_file(path, most_bytes);
+  if (table.file_.text.empty())
+    throw invalid({table.file()}, "is empty; expected a header such as t[s],tx,rx,rssi[dBm]");
+  table.split();
+  table.read_header();
+  return table;
+}
+
+void TextTable::split() {
+  const std::string& text = file_.text;
+  const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1;
+  row_starts_.reserve(lines + 1);
+  std::size_t at = 0;
+  while (at < text.size()) {
+    row_starts_.push_back(at);
+    at = split_row(at);
+    if (row_starts_.size() > 1) continue;
+    width_ = cell_starts_.size();
+    cell_starts_.reserve(std::min(lines * width_, text.size() + 1));  // a cell takes a byte at least
+  }
+  row_starts_.push_back(text.ends_with('\n') ? at : at + 1);  // as if the last line ended too
+}
+
+// Returns the start of the next line.
+std::size_t TextTable::split_row(std::size_t start) {
+  const std::string& text = file_.text;
+  for (std::size_t cell = start, cells = 1;; ++cells) {
+    if (cell - start > most_row_bytes) {
+      throw invalid(file_.place(start),
+                    "the row is too long; expected at most " + std::to_string(most_row_bytes) + " bytes");
+    }
+    if (width_ > 0 && cells > width_) fail_ragged(cells);
+    cell_starts_.push_back(static_cast<std::uint16_t>(cell - start));
+    const std::size_t end = cell_end(cell);
+    if (end < text.size() && text[end] == ',') {
+      cell = end + 1;
+      continue;
+    }
+    if (width_ > 0 && cells < width_) fail_ragged(cells);
+    return std::min(end + (end < text.size() && text[end] == '\r' ? 2 : 1), text.size());
+  }
+}
+
+// The place of the ',', the line's end or the file's end that follows the cell.
+std::size_t TextTable::cell_end(std::size_t cell) const {
+  const std::string& text = file_.text;
+  std::size_t at = cell;
+  const bool in_quotes = at < text.size() && text[at] == '"';
+  if (in_quotes) {
+    for (++at; at < text.size() && !is_control(text[at]); ++at) {
+      if (text[at] != '"') continue;
+      if (at + 1 == text.size() || text[at + 1] != '"') break;
+      ++at;
+    }
+    if (at == text.size() || text[at] != '"')
+      throw invalid(file_.place(cell), "a quoted cell is not closed; expected '\"' in its line");
+    ++at;
+  } else {
+    while (at < text.size() && text[at] != ',' && text[at] != '"' && !is_control(text[at])) ++at;
+  }
+  if (at == text.size() || text[at] == ',' || text[at] == '\n' || text.compare(at, 2, "\r\n") == 0) return at;
+  if (is_control(text[at]))
+    throw invalid(file_.place(at), "the control character " + quote({&text[at], 1}) + " is not allowed");
+  throw invalid(file_.place(at),
+                in_quotes ? quote({&text[at], 1}) + " after a quoted cell; expected ',' or the end of the line"
+                          : "a quote inside a cell; expected the whole cell in quotes, its own quotes doubled");
+}
+
+void TextTable::fail_ragged(std::size_t found) const {
+  const std::size_t start = row_starts_.back();
+  const std::string& text = file_.text;
+  if (text[start] == '\n' || text[start] == '\r')
+    throw invalid(file_.place(start), "the line is empty; expected a row");
+  const std::string more = found > width_ ? " or more" : "";
+  throw invalid(file_.place(start), "the row has " + std::to_string(found) + more + (found == 1 ? " cell" : " cells") +
+                                        "; expected " + std::to_string(width_) +
+                                        ", with ',' between them and '.' in numbers");
+}
+
+void TextTable::read_header() {
+  const std::string_view all = raw(0, 0);
+  if (width_ == 1 && all.find_first_of(";\t") != all.npos)
+    throw invalid(header_place(0), "no ',' in the header; expected ',' between cells");
+  std::unordered_map<std::string, std::size_t> seen;
+  for (std::size_t column = 0; column < width_; ++column) {
+    columns_.push_back(read_label(column));
+    const auto [first, is_new] = seen.emplace(columns_.back().name, column);
+    if (is_new) continue;
+    throw invalid(header_place(column), "column " + quote(columns_.back().name) +
+                                            " stands twice; the first is column " + std::to_string(first->second + 1) +
+                                            " of the header");
+  }
+}
+
+TextColumn TextTable::read_label(std::size_t column) const {
+  const std::string label = cell_text(raw(0, column));
+  const std::size_t open = label.find('[');
+  TextColumn result{label.substr(0, open), ""};
+  bool good = !result.name.empty() && !has_outer_space(label) && !has_outer_space(result.name) &&
+              result.name.find(']') == label.npos;
+  if (open != label.npos) {
+    good = good && label.find_first_of("[]", open + 1) == label.size() - 1 && label.ends_with(']') &&
+           open + 2 < label.size();
+    result.unit = label.substr(open + 1, label.size() - std::min(label.size(), open + 2));
+  }
+  if (!good)
+    throw invalid(header_place(column),
+                  quote(label) + " is not a column; expected name or name[unit], without spaces around it");
+  return result;
+}
+
+std::optional<std::size_t> TextTable::find(std::string_view name) const {
+  const auto found =
+      std::find_if(columns_.begin(), columns_.end(), [&](const TextColumn& c) { return c.name == name; });
+  if (found == columns_.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - columns_.begin());
+}
+
+std::size_t TextTable::require(std::string_view name, std::string_view unit) const {
+  const TextColumn wanted{std::string(name), std::string(unit)};
+  const std::optional<std::size_t> found = find(name);
+  if (!found) {
+    std::vector<std::string> names;
+    for (const TextColumn& column : columns_) names.push_back(column.name);
+    throw invalid(header_place(0), "no column " + quote(wanted.label()) + " in the table; " + suggest(name, names));
+  }
+  if (columns_[*found].unit == unit) return *found;
+  throw invalid(header_place(*found),
+                "column " + quote(columns_[*found].label()) + " has the wrong unit; expected " + quote(wanted.label()));
+}
+
+bool TextTable::is_numeric(std::size_t column) const {
+  if (!columns_[column].unit.empty()) return true;
+  for (std::size_t row = 0; row < rows(); ++row) {
+    const std::string_view cell = raw(row + 1, column);
+    if (!cell.empty()) return parse_real(cell).has_value();
+  }
+  return false;
+}
+
+std::vector<double> TextTable::reals(std::size_t column, Allow allow) const {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::vector<double> values;
+  values.reserve(rows());
+  for (std::size_t row = 0; row < rows(); ++row) {
+    const std::string_view cell = raw(row + 1, column);
+    if (const std::optional<double> value = parse_real(cell)) {
+      values.push_back(*value);
+    } else if (cell.empty() && allow.empty) {
+      values.push_back(std::numeric_limits<double>::quiet_NaN());
+    } else if (allow.infinite && (cell == "inf" || cell == "-inf")) {
+      values.push_back(cell == "inf" ? infinity : -infinity);
+    } else {
+      fail_cell(row, column, why_not_number(cell));
+    }
+  }
+  return values;
+}
+
+Factor TextTable::texts(std::size_t column, Allow allow) const {
+  Factor factor;
+  factor.level.reserve(rows());
+  std::unordered_map<std::string, std::uint32_t, TextHash, std::equal_to<>> known;
+  for (std::size_t row = 0; row < rows(); ++row) {
+    std::string_view cell = raw(row + 1, column);
+    std::string unquoted;
+    if (cell.empty() && !allow.empty) fail_cell(row, column, "the cell is empty; expected a name");
+    if (has_outer_space(cell))
+      fail_cell(row, column, quote(cell) + " has spaces around it; expected none, or the cell in quotes");
+    if (is_quoted(cell)) cell = unquoted = cell_text(cell);
+    auto found = known.find(cell);
+    if (found == known.end()) {
+      found = known.emplace(cell, static_cast<std::uint32_t>(factor.levels.size())).first;
+      factor.levels.emplace_back(cell);
+    }
+    factor.level.push_back(found->second);
+  }
+  return factor;
+}
+
+std::string_view TextTable::raw(std::size_t line, std::size_t column) const {
+  const std::uint16_t* starts = &cell_starts_[line * width_];
+  const std::size_t begin = row_starts_[line] + starts[column];
+  std::size_t end = column + 1 < width_ ? row_starts_[line] + starts[column + 1] : row_starts_[line + 1];
+  --end;  // the ',' or '\n'
+  if (end > begin && file_.text[end - 1] == '\r') --end;
+  return std::string_view(file_.text).substr(begin, end - begin);
+}
+
+// Every row is one line, so this costs the same everywhere in the file.
+Place TextTable::raw_place(std::size_t line, std::size_t column) const {
+  const std::size_t begin = row_starts_[line];
+  const std::string_view before = std::string_view(file_.text).substr(begin, cell_starts_[line * width_ + column]);
+  const auto characters = std::count_if(before.begin(), before.end(), [](char c) { return (c & 0xC0) != 0x80; });
+  return {file(), static_cast<int>(line) + 1, static_cast<int>(characters) + 1};
+}
+
+void TextTable::fail_cell(std::size_t row, std::size_t column, const std::string& what) const {
+  throw invalid(place(row, column), "column " + quote(columns_[column].label()) + ": " + what);
+}
+
+std::string TextTable::why_not_number(std::string_view raw) {
+  if (raw.empty()) return "the cell is empty; expected a number";
+  const std::string text = cell_text(raw);
+  if (parse_real(text)) return quote(text) + " is in quotes, so it is a name; expected a number";
+  return why_not_real(text);
+}
+
+std::string TextTable::cell_text(std::string_view raw) {
+  if (!is_quoted(raw)) return std::string(raw);
+  std::string text;
+  for (std::size_t i = 1; i + 1 < raw.size(); ++i) {
+    text += raw[i];
+    if (raw[i] == '"') ++i;  // the second of a pair
+  }
+  return text;
+}
+
+}  // namespace muster

@@ -1,0 +1,84 @@
+// Tables of text (CSV), measured or logged: a header with units such as `t[s],tx,rx,rssi[dBm]`, then rows of numbers
+// and names. docs/table_format.md has the rules. The file is read once and split once; a column is turned into numbers
+// when it is asked for.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "text_file.hpp"
+
+namespace muster {
+
+struct TextColumn {
+  std::string name;
+  std::string unit;  // empty: none
+
+  // As in the header: `rssi[dBm]`.
+  std::string label() const { return unit.empty() ? name : name + '[' + unit + ']'; }
+};
+
+// A column of names: row r holds levels[level[r]]; levels stand in the order of their first row.
+struct Factor {
+  std::vector<std::uint32_t> level;
+  std::vector<std::string> levels;
+};
+
+// What a column may hold beyond finite numbers or names.
+struct Allow {
+  bool empty = false;     // an empty cell, NaN among numbers: nothing was there
+  bool infinite = false;  // inf and -inf: a laser's "no return"
+};
+
+class TextTable {
+ public:
+  // Throws Error naming line and column of what is wrong: a header that does not fit, a row with another number of
+  // cells.
+  static TextTable read(const std::filesystem::path& path);
+
+  const std::string& file() const { return file_.file; }
+  const std::vector<TextColumn>& columns() const { return columns_; }
+  std::size_t rows() const { return row_starts_.size() - 2; }
+
+  std::optional<std::size_t> find(std::string_view name) const;
+  // The column of that name and unit; an error that names the nearest column otherwise.
+  std::size_t require(std::string_view name, std::string_view unit) const;
+  // Whether the column has a unit, or starts with a number (a quoted cell is a name).
+  bool is_numeric(std::size_t column) const;
+
+  std::vector<double> reals(std::size_t column, Allow allow = {}) const;
+  Factor texts(std::size_t column, Allow allow = {}) const;
+
+  // A cell without its quotes, and where it stands.
+  std::string text(std::size_t row, std::size_t column) const { return cell_text(raw(row + 1, column)); }
+  Place place(std::size_t row, std::size_t column) const { return raw_place(row + 1, column); }
+  Place header_place(std::size_t column) const { return raw_place(0, column); }
+
+ private:
+  void split();
+  std::size_t split_row(std::size_t start);
+  std::size_t cell_end(std::size_t cell) const;
+  void read_header();
+  TextColumn read_label(std::size_t column) const;
+  [[noreturn]] void fail_ragged(std::size_t found) const;
+
+  // Line 0 is the header.
+  std::string_view raw(std::size_t line, std::size_t column) const;
+  Place raw_place(std::size_t line, std::size_t column) const;
+  [[noreturn]] void fail_cell(std::size_t row, std::size_t column, const std::string& what) const;
+  static std::string cell_text(std::string_view raw);
+  static std::string why_not_number(std::string_view raw);
+
+  TextFile file_;
+  std::vector<TextColumn> columns_;
+  std::size_t width_ = 0;                   // cells a line
+  std::vector<std::uint64_t> row_starts_;   // byte offset of each line, and of the one that would follow the last
+  std::vector<std::uint16_t> cell_starts_;  // width_ a line, relative to its start
+};
+
+}  // namespace muster

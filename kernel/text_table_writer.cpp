@@ -1,0 +1,106 @@
+#include "text_table_writer.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <utility>
+
+#include "names.hpp"
+#include "number.hpp"
+
+namespace muster {
+namespace {
+
+constexpr std::size_t buffer_bytes = 1 << 20;
+
+// Also a name that is a number: TextTable takes what is quoted for a name.
+bool needs_quotes(std::string_view text) {
+  return text.find_first_of(",\"") != text.npos || text.starts_with(' ') || text.ends_with(' ') ||
+         text.starts_with('\t') || text.ends_with('\t') || parse_real(text).has_value();
+}
+
+}  // namespace
+
+TextTableWriter::TextTableWriter(const std::filesystem::path& path, const std::vector<TextColumn>& columns)
+    : path_(path), part_(path.string() + ".part"), width_(columns.size()) {
+  fd_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (fd_ < 0) fail_system();
+  for (const TextColumn& column : columns) text(column.label());
+  end_row();
+}
+
+TextTableWriter::~TextTableWriter() {
+  if (fd_ < 0) return;
+  ::close(fd_);
+  ::unlink(part_.c_str());
+}
+
+void TextTableWriter::real(double value) {
+  if (std::isnan(value)) return empty();
+  separate();
+  buffer_ += print_real(value);
+}
+
+void TextTableWriter::text(std::string_view value) {
+  separate();
+  const auto is_control = [](unsigned char c) { return c < 0x20 && c != '\t'; };
+  if (std::any_of(value.begin(), value.end(), is_control)) {
+    throw Error(Exit::io, Place{path_.string()},
+                "cannot be written: the name " + quote(value) + " has a control character");
+  }
+  if (!needs_quotes(value)) {
+    buffer_ += value;
+    return;
+  }
+  buffer_ += '"';
+  for (const char c : value) buffer_.append(c == '"' ? 2 : 1, c);
+  buffer_ += '"';
+}
+
+void TextTableWriter::empty() { separate(); }
+
+void TextTableWriter::separate() {
+  if (cells_++ > 0) buffer_ += ',';
+}
+
+void TextTableWriter::end_row() {
+  if (cells_ != width_) {
+    throw Error(Exit::internal, Place{path_.string()},
+                "a row with " + std::to_string(cells_) + " cells was written; expected " + std::to_string(width_));
+  }
+  cells_ = 0;
+  buffer_ += '\n';
+  if (buffer_.size() >= buffer_bytes) flush();
+}
+
+void TextTableWriter::flush() {
+  std::string_view rest = buffer_;
+  while (!rest.empty()) {
+    const ::ssize_t written = ::write(fd_, rest.data(), rest.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail_system();
+    rest.remove_prefix(static_cast<std::size_t>(written));
+  }
+  buffer_.clear();
+}
+
+void TextTableWriter::close() {
+  flush();
+  if (::fsync(fd_) != 0) fail_system();
+  const int fd = std::exchange(fd_, -1);
+  if (::close(fd) != 0 || ::rename(part_.c_str(), path_.c_str()) != 0) {
+    const int reason = errno;
+    ::unlink(part_.c_str());
+    errno = reason;
+    fail_system();
+  }
+}
+
+void TextTableWriter::fail_system() const {
+  throw Error(Exit::io, Place{path_.string()}, "cannot be written: " + system_message(errno));
+}
+
+}  // namespace muster

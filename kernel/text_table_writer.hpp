@@ -1,0 +1,44 @@
+// Writes a table that TextTable reads back, row by row, under a temporary name until it is whole.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "text_table.hpp"
+
+namespace muster {
+
+// Whatever cannot be written is an Error with Exit::io.
+class TextTableWriter {
+ public:
+  TextTableWriter(const std::filesystem::path& path, const std::vector<TextColumn>& columns);
+  ~TextTableWriter();  // without close() before, nothing remains
+  TextTableWriter(const TextTableWriter&) = delete;
+  TextTableWriter& operator=(const TextTableWriter&) = delete;
+
+  // The next cell of the row: NaN is written as an empty cell, a name in quotes where it would be misread.
+  void real(double value);
+  void text(std::string_view value);
+  void empty();
+  void end_row();
+
+  // Makes the table appear under its name, on the disk.
+  void close();
+
+ private:
+  void separate();
+  void flush();
+  [[noreturn]] void fail_system() const;
+
+  std::filesystem::path path_;
+  std::filesystem::path part_;  // the temporary name
+  int fd_ = -1;
+  std::size_t width_;
+  std::size_t cells_ = 0;  // of this row so far
+  std::string buffer_;
+};
+
+}  // namespace muster

@@ -1,0 +1,147 @@
+#include "world.hpp"
+
+#include "names.hpp"
+#include "number.hpp"
+#include "world_rows.hpp"
+
+#include <cmath>
+#include <set>
+
+namespace muster {
+namespace {
+
+constexpr double most_ticks = 1e12;
+
+double number(const XmlAttribute& given, double least, const char* expected) {
+  const auto value = parse_real(given.value);
+  if (!value) throw invalid(given.value_place, "attribute " + quote(given.name) + ": " + why_not_real(given.value) + "; expected " + expected);
+  if (!(*value >= least)) throw invalid(given.value_place, "attribute " + quote(given.name) + ": " + given.value + " is out of bounds; expected " + expected);
+  return *value;
+}
+
+uint64_t positive_integer(const XmlAttribute& given) {
+  const auto value = parse_integer(given.value);
+  if (!value || *value < 1) {
+    throw invalid(given.value_place, "attribute " + quote(given.name) + ": " +
+                                         (value ? given.value + " is out of bounds" : why_not_integer(given.value)) +
+                                         "; expected an integer from 1");
+  }
+  return static_cast<uint64_t>(*value);
+}
+
+[[noreturn]] void unknown_attribute(const XmlAttribute& given, const std::string& element, const std::vector<std::string>& valid) {
+  throw invalid(given.place, "<" + element + "> has no attribute " + quote(given.name) + "; " + suggest(given.name, valid));
+}
+
+const XmlAttribute& needed(const XmlElement& element, const char* name) {
+  if (const auto* found = element.attribute(name)) return *found;
+  throw invalid(element.place, "<" + element.name + "> has no attribute " + quote(name) + ", which it needs");
+}
+
+void read_root(const XmlElement& root, World& world) {
+  static const std::vector<std::string> valid = {"name", "dt", "until", "seed"};
+  if (root.name != "world") throw invalid(root.place, "the root element is <" + root.name + ">; expected <world>");
+  world.name = world.file.parent_path().filename().string();
+  const XmlAttribute* until = nullptr;
+  for (const auto& given : root.attributes) {
+    if (given.name == "name") world.name = given.value;
+    else if (given.name == "dt") world.dt = number(given, 1e-9, "the tick in seconds, from 1e-09");
+    else if (given.name == "until") until = &given;
+    else if (given.name == "seed") {
+      const auto seed = parse_integer(given.value);
+      if (!seed || *seed < 0) throw invalid(given.value_place, "attribute \"seed\": " + (seed ? given.value + " is out of bounds" : why_not_integer(given.value)) + "; expected an integer from 0");
+      world.seed = static_cast<uint64_t>(*seed);
+    } else {
+      unknown_attribute(given, "world", valid);
+    }
+  }
+  if (!until) throw invalid(root.place, "<world> has no attribute \"until\", which it needs");
+  world.ticks = ticks_of(number(*until, 0, "the end of the run in seconds, from 0"), world.dt, until->value_place);
+}
+
+// Takes the reserved attributes out of an element's; what remains is for the plugin.
+InstanceDeclaration read_instance(const XmlElement& element, const std::string& plugin) {
+  InstanceDeclaration result{plugin, plugin, 1, {}, {}, {}, element.place};
+  for (const auto& given : element.attributes) {
+    if (given.name == "name") {
+      check_name(given);
+      result.name = given.value;
+    } else if (given.name == "every") result.every = positive_integer(given);
+    else if (given.name == "library") result.library = given.value;
+    else if (given.name == "revision") result.revision = positive_integer(given);
+    else result.attributes.push_back(given);
+  }
+  if (!element.children.empty()) throw invalid(element.children[0].place, "<" + element.name + "> has an element inside; expected attributes only");
+  return result;
+}
+
+SwapDeclaration read_swap(const XmlElement& element, const World& world) {
+  const auto& plugin = needed(element, "plugin");
+  XmlElement rest = element;
+  std::erase_if(rest.attributes, [](const XmlAttribute& a) { return a.name == "at" || a.name == "instance" || a.name == "plugin"; });
+  const auto& at = needed(element, "at");
+  return {ticks_of(number(at, 0, "a time in seconds, from 0"), world.dt, at.value_place), needed(element, "instance").value, read_instance(rest, plugin.value)};
+}
+
+RecordDeclaration read_record(const XmlElement& element) {
+  RecordDeclaration result{needed(element, "table").value, 1, element.place};
+  for (const auto& given : element.attributes) {
+    if (given.name == "every") result.every = positive_integer(given);
+    else if (given.name != "table") unknown_attribute(given, "record", {"table", "every"});
+  }
+  return result;
+}
+
+// An element with a dot in its name is a plugin; any other must be known.
+void read_child(const XmlElement& element, const Standard& standard, World& world) {
+  if (element.name == "swap") world.swaps.push_back(read_swap(element, world));
+  else if (element.name == "record") world.records.push_back(read_record(element));
+  else if (element.name.find('.') != std::string::npos) world.instances.push_back(read_instance(element, element.name));
+  else {
+    std::vector<std::string> valid = {"swap", "record"};
+    for (const auto& known : standard.elements) {
+      if (element.name == known.name) return;  // read_rows() has read it
+      valid.push_back(known.name);
+    }
+    throw invalid(element.place, "<" + element.name + "> is no element of a world; expected a plugin (with a dot in its name) or " + suggest(element.name, valid).substr(9));
+  }
+}
+
+void check_names(const World& world) {
+  std::map<std::string, Place> seen;
+  for (const auto& instance : world.instances) {
+    const auto [found, is_new] = seen.emplace(instance.name, instance.place);
+    if (!is_new) {
+      throw invalid(instance.place, "a second instance is called " + quote(instance.name) + "; the first is at " +
+                                        found->second.text() + "; give one of them a name=\"...\" of its own");
+    }
+  }
+  for (const auto& swap : world.swaps) {
+    if (seen.count(swap.instance)) continue;
+    std::vector<std::string> valid;
+    for (const auto& [name, place] : seen) valid.push_back(name);
+    throw invalid(swap.replacement.place, "no instance is called " + quote(swap.instance) + "; " + suggest(swap.instance, valid));
+  }
+}
+
+}  // namespace
+
+uint64_t ticks_of(double time, double dt, const Place& place) {
+  const double ticks = std::round(time / dt);
+  if (!(ticks < most_ticks)) throw invalid(place, print_real(time) + " s are " + print_real(ticks) + " ticks of " + print_real(dt) + " s; expected fewer than 1e+12");
+  if (ticks < 1 && time > 0) throw invalid(place, print_real(time) + " s are less than a tick of " + print_real(dt) + " s");
+  return static_cast<uint64_t>(ticks);
+}
+
+World read_world(const std::filesystem::path& path, const Standard& standard) {
+  World world;
+  world.file = std::filesystem::is_directory(path) ? path / "world.xml" : path;
+  const XmlElement root = read_xml(world.file);
+  read_root(root, world);
+  read_rows(root, standard, world);
+  for (const auto& child : root.children) read_child(child, standard, world);
+  check_names(world);
+  return world;
+}
+
+}  // namespace muster

@@ -1,0 +1,88 @@
+// A world as its file declares it: rows of the standard sets, instances of plugins, swaps and records. Plain data: no
+// plugin is loaded, and nothing refers to a plugin's declarations yet.
+#pragma once
+
+#include "error.hpp"
+#include "xml.hpp"
+
+#include <muster/sets.hpp>
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace muster {
+
+// Values for one table's row, in the order in which they are to be stored.
+struct StoredValues {
+  std::string table;  // "wall/shape"
+  void (*store)(const double* values, double* row) = nullptr;  // null: values are the whole row
+  std::vector<double> values;
+  const Attribute* attribute = nullptr;  // null where the values come from a file
+};
+
+// One row of a standard set, and of each further set that its element adds to.
+struct RowDeclaration {
+  std::string set, name;
+  std::vector<std::string> sets;  // all sets that get a row of this name
+  std::string own_row;            // "set/quantity" whose first column refers to this row
+  Place place;
+  std::vector<StoredValues> values;
+};
+
+// An element that is a plugin: <radio.multiwall name="radio" every="2" l0="40"/>.
+struct InstanceDeclaration {
+  std::string plugin;
+  std::string name;
+  uint64_t every = 1;
+  std::optional<std::filesystem::path> library;
+  std::optional<uint64_t> revision;
+  std::vector<XmlAttribute> attributes;  // without the reserved ones
+  Place place;
+};
+
+struct SwapDeclaration {
+  uint64_t tick = 0;
+  std::string instance;
+  InstanceDeclaration replacement;
+};
+
+struct RecordDeclaration {
+  std::string table;
+  uint64_t every = 1;
+  Place place;
+};
+
+struct Warning {
+  Place place;
+  std::string message;
+};
+
+struct World {
+  std::filesystem::path file;
+  std::string name;
+  double dt = 0.01;
+  uint64_t ticks = 0;  // how many a run has
+  uint64_t seed = 1;
+  std::vector<RowDeclaration> rows;
+  std::map<std::string, std::string> texts;  // "robot/leader/model"
+  std::vector<InstanceDeclaration> instances;
+  std::vector<SwapDeclaration> swaps;
+  std::vector<RecordDeclaration> records;
+  std::vector<Warning> warnings;
+
+  double until() const { return static_cast<double>(ticks) * dt; }
+};
+
+// `path` is the file, or a folder with a world.xml. Throws Error.
+World read_world(const std::filesystem::path& path, const Standard& standard);
+
+// The whole number of ticks nearest to a time, or an error where there are none or more than 1e12.
+uint64_t ticks_of(double time, double dt, const Place& place);
+
+// The names that nothing else in a world may be called: attributes of every plugin's element.
+inline const std::vector<std::string> reserved_attributes = {"name", "every", "library", "revision"};
+
+}  // namespace muster

@@ -1,0 +1,214 @@
+#include "world_rows.hpp"
+
+#include "blackboard.hpp"
+#include "names.hpp"
+#include "params.hpp"
+#include "text_table.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <set>
+
+namespace muster {
+namespace {
+
+const SetDeclaration& set_of(const Standard& standard, const std::string& name) {
+  return *std::find_if(standard.sets.begin(), standard.sets.end(), [&](const auto& s) { return name == s.name; });
+}
+
+class RowReader {
+ public:
+  RowReader(const Standard& standard, World& world) : standard_(standard), world_(world) {}
+
+  // First all names, so that a reference may point down the file; then all values.
+  void read(const XmlElement& root) {
+    for (const auto& child : root.children) {
+      const Element* element = find(child.name);
+      if (!element) continue;
+      check_attributes(child, *element);
+      if (*element->file_of) add_file(child, *element);
+      else declare(*element, child);
+    }
+    for (const auto& [given, element, row] : pending_) read_values(*given, *element, world_.rows[row]);
+    for (const auto& load : files_) read_file_values(load);
+  }
+
+ private:
+  struct Pending {
+    const XmlElement* given;
+    const Element* element;
+    std::size_t row;
+  };
+  struct LoadedFile {
+    const Element* element;
+    TextTable table;
+    std::size_t first_row;
+  };
+
+  const Element* find(const std::string& name) const {
+    for (const auto& element : standard_.elements) {
+      if (name == element.name) return &element;
+    }
+    return nullptr;
+  }
+
+  static void check_attributes(const XmlElement& given, const Element& element) {
+    std::vector<std::string> valid;
+    if (!*element.file_of) valid.push_back("name");
+    for (const auto& attribute : element.attributes) {
+      valid.push_back(attribute.param.name);
+      if ((attribute.param.flags & MUSTER_REQUIRED) && !given.attribute(attribute.param.name))
+        throw invalid(given.place, "<" + given.name + "> has no attribute " + quote(attribute.param.name) + ", which it needs");
+    }
+    for (const auto& a : given.attributes) {
+      if (std::find(valid.begin(), valid.end(), a.name) == valid.end())
+        throw invalid(a.place, "<" + given.name + "> has no attribute " + quote(a.name) + "; " + suggest(a.name, valid));
+    }
+    if (!given.children.empty())
+      throw invalid(given.children[0].place, "<" + given.name + "> has an element inside; expected attributes only");
+  }
+
+  void add_row(const Element& element, const std::string& name, const Place& place) {
+    RowDeclaration row{element.set, name, {element.set}, element.own_row, place, {}};
+    for (const auto& attribute : element.attributes) {
+      const std::string table = attribute.table;
+      const std::string set = table.substr(0, table.find('/'));
+      if (!set.empty() && std::find(row.sets.begin(), row.sets.end(), set) == row.sets.end()) row.sets.push_back(set);
+    }
+    for (const auto& set : row.sets) {
+      const auto [first, is_new] = places_.emplace(set + '/' + name, place);
+      if (!is_new) {
+        throw invalid(place, "a second " + set + " is called " + quote(name) + "; the first is at " + first->second.text());
+      }
+      numbers_[set + '/' + name] = static_cast<double>(names_[set].size());
+      names_[set].push_back(name);
+    }
+    world_.rows.push_back(std::move(row));
+  }
+
+  void declare(const Element& element, const XmlElement& given) {
+    std::string name = std::string(element.set) + std::to_string(names_[element.set].size() + 1);
+    if (const auto* found = given.attribute("name")) {
+      check_name(*found);
+      name = found->value;
+    }
+    add_row(element, name, given.place);
+    pending_.push_back({&given, &element, world_.rows.size() - 1});
+  }
+
+  double number_of(const std::string& set, const std::string& row, const Place& place) const {
+    const auto found = numbers_.find(set + '/' + row);
+    if (found != numbers_.end()) return found->second;
+    const auto valid = names_.find(set);
+    if (valid == names_.end()) throw invalid(place, "no " + set + " is called " + quote(row) + "; the world has none");
+    throw invalid(place, "no " + set + " is called " + quote(row) + "; " + suggest(row, valid->second));
+  }
+
+  FindRow finder() const {
+    return [this](const std::string& set, const std::string& row, const Place& place) { return number_of(set, row, place); };
+  }
+  Warn warner() {
+    return [this](const Place& place, const std::string& message) { world_.warnings.push_back({place, message}); };
+  }
+
+  // Values of attributes that are given, and the defaults of those that are not.
+  void read_values(const XmlElement& given, const Element& element, RowDeclaration& row) {
+    for (const auto& attribute : element.attributes) {
+      const auto* found = given.attribute(attribute.param.name);
+      if (!*attribute.table) {
+        world_.texts[row.set + '/' + row.name + '/' + attribute.param.name] = found ? found->value : attribute.param.text;
+      } else if (found) {
+        row.values.push_back({attribute.table, attribute.store,
+                              attribute_values(attribute.param, attribute.count, *found, finder(), warner()), &attribute});
+      } else if (attribute.param.kind != MUSTER_REFERENCE) {
+        row.values.push_back({attribute.table, attribute.store,
+                              std::vector<double>(static_cast<std::size_t>(attribute.count), attribute.param.value), &attribute});
+      }
+    }
+  }
+
+  void add_file(const XmlElement& given, const Element& element) {
+    const auto& file = *given.attribute("file");
+    const auto path = world_.file.parent_path() / file.value;
+    if (!std::filesystem::exists(path))
+      throw invalid(file.value_place, "attribute \"file\": there is no file " + quote(path.string()));
+    files_.push_back({&element, TextTable::read(path), world_.rows.size()});
+    const auto& table = files_.back().table;
+    const Element& one = single(element);
+    const auto names = table.texts(table.require("name", ""));
+    for (std::size_t r = 0; r < table.rows(); ++r) {
+      const auto place = table.place(r, table.require("name", ""));
+      const std::string& name = names.levels[names.level[r]];
+      check_name({"name", name, place, place});
+      add_row(one, name, place);
+    }
+  }
+
+  // The element that adds single rows to the set that a file lists.
+  const Element& single(const Element& element) const {
+    for (const auto& other : standard_.elements) {
+      if (std::string(other.set) == element.file_of && !*other.file_of) return other;
+    }
+    throw Error(Exit::internal, "no element adds rows to the set " + std::string(element.file_of));
+  }
+
+  // Columns are those of the set's first quantity; one may be absent where an attribute has a default for it.
+  void read_file_values(const LoadedFile& load) {
+    const auto& quantity = set_of(standard_, load.element->file_of).quantities[0];
+    const Columns columns(quantity.columns);
+    const std::string table = std::string(load.element->file_of) + '/' + quantity.name;
+    std::vector<double> defaults(columns.size(), poison());
+    for (const auto& attribute : single(*load.element).attributes) {
+      if (table == attribute.table && !(attribute.param.flags & MUSTER_REQUIRED) && attribute.param.kind != MUSTER_REFERENCE)
+        attribute.store(&attribute.param.value, defaults.data());
+    }
+    std::vector<std::vector<double>> cells;
+    std::set<std::string> known = {"name"};
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      known.insert(columns[c].name);
+      const bool may_miss = std::bit_cast<uint64_t>(defaults[c]) != poison_bits && !load.table.find(columns[c].name);
+      cells.push_back(may_miss ? std::vector<double>(load.table.rows(), defaults[c]) : read_column(load.table, columns[c]));
+    }
+    for (std::size_t c = 0; c < load.table.columns().size(); ++c) {
+      const auto& name = load.table.columns()[c].name;
+      if (!known.count(name))
+        throw invalid(load.table.header_place(c), "column " + quote(name) + " means nothing here; " + suggest(name, {known.begin(), known.end()}));
+    }
+    for (std::size_t r = 0; r < load.table.rows(); ++r) {
+      StoredValues values{table, nullptr, {}, nullptr};
+      for (const auto& column : cells) values.values.push_back(column[r]);
+      world_.rows[load.first_row + r].values.push_back(std::move(values));
+    }
+  }
+
+  std::vector<double> read_column(const TextTable& table, const Column& column) const {
+    const auto at = table.require(column.name, column.unit);
+    if (column.reference.empty()) return table.reals(at, {column.nullable, column.infinite});
+    const auto names = table.texts(at);
+    std::vector<double> result;
+    for (std::size_t r = 0; r < table.rows(); ++r)
+      result.push_back(number_of(column.reference, names.levels[names.level[r]], table.place(r, at)));
+    return result;
+  }
+
+  const Standard& standard_;
+  World& world_;
+  std::map<std::string, Place> places_;                    // of "set/row"
+  std::map<std::string, double> numbers_;                  // of "set/row"
+  std::map<std::string, std::vector<std::string>> names_;  // of a set's rows
+  std::vector<Pending> pending_;
+  std::vector<LoadedFile> files_;
+};
+
+}  // namespace
+
+void check_name(const XmlAttribute& given) {
+  const bool fine = !given.value.empty() && std::all_of(given.value.begin(), given.value.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.';
+  });
+  if (!fine) throw invalid(given.value_place, "attribute " + quote(given.name) + ": " + quote(given.value) + " is not a name; expected letters, digits, _, - and .");
+}
+
+void read_rows(const XmlElement& root, const Standard& standard, World& world) { RowReader(standard, world).read(root); }
+
+}  // namespace muster
