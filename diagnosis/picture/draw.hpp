@@ -28,6 +28,8 @@ void draw(const Histogram& histogram, Colour colour, Canvas& canvas);
 void draw(const ErrorBars& errors, Colour colour, Canvas& canvas);
 void draw(const Cells& cells, Colour colour, Canvas& canvas);
 void draw(const FloorPlan& plan, Colour colour, Canvas& canvas);
+// After all layers, so that no link crosses a station's mark.
+void draw_stations(const FloorPlan& plan, Canvas& canvas);
 void draw(const Robots& robots, Colour colour, Canvas& canvas);
 void draw(const Path& path, Colour colour, Canvas& canvas);
 void draw(const Links& links, Colour colour, Canvas& canvas);

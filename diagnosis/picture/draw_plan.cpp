@@ -67,6 +67,9 @@ void draw(const FloorPlan& plan, Colour, Canvas& canvas) {
   canvas.svg.open("doors");
   for (const Door& door : plan.doors) draw_door(door, canvas);
   canvas.svg.close();
+}
+
+void draw_stations(const FloorPlan& plan, Canvas& canvas) {
   canvas.svg.open("stations");
   for (const Station& station : plan.stations) draw_station(station, canvas);
   canvas.svg.close();

@@ -106,14 +106,15 @@ void Labels::occupy_line(Point a, Point b, double weight) {
 void Labels::beside(Point mark, double radius, std::string text, Colour colour) {
   if (text.empty()) return;
   const double dx = radius + 4 + text_width(text, label_size) / 2, dy = radius + 3 + label_size / 2;
-  std::vector<Point> centres;
+  std::vector<Candidate> candidates;
   for (const double far : {1.0, 1.5}) {
     for (const Point way :
          {Point{1, 0}, {0, -1}, {-1, 0}, {0, 1}, {0.9, -0.8}, {-0.9, -0.8}, {0.9, 0.8}, {-0.9, 0.8}}) {
-      centres.push_back({mark.x + way.x * dx * far, mark.y + way.y * dy * far});
+      const Point centre{mark.x + way.x * dx * far, mark.y + way.y * dy * far};
+      candidates.push_back({centre, static_cast<double>(candidates.size())});
     }
   }
-  requests_.push_back({std::move(text), colour, std::move(centres), true});
+  requests_.push_back({std::move(text), colour, std::move(candidates), true});
 }
 
 void Labels::along(Point a, Point b, std::string text, Colour colour) {
@@ -122,13 +123,15 @@ void Labels::along(Point a, Point b, std::string text, Colour colour) {
   // Beside the line, its box touches the line from outside.
   const double nx = length > 0 ? (b.y - a.y) / length : 0, ny = length > 0 ? -(b.x - a.x) / length : 1;
   const double aside = std::abs(nx) * width / 2 + std::abs(ny) * label_size / 2 + 3;
-  std::vector<Point> centres;
-  for (const double offset : {0.0, aside, -aside, 2.2 * aside, -2.2 * aside}) {
+  std::vector<Candidate> candidates;
+  for (const double offset : {0.0, 1.0, -1.0, 2.2, -2.2}) {
     for (const double f : {0.5, 0.42, 0.58, 0.35, 0.65, 0.28, 0.72}) {
-      centres.push_back({std::lerp(a.x, b.x, f) + nx * offset, std::lerp(a.y, b.y, f) + ny * offset});
+      const double away = std::abs(offset) > 1 ? 250 : 0;  // far off, it is hard to see whose label it is
+      const Point centre{std::lerp(a.x, b.x, f) + nx * aside * offset, std::lerp(a.y, b.y, f) + ny * aside * offset};
+      candidates.push_back({centre, away + static_cast<double>(candidates.size())});
     }
   }
-  requests_.push_back({std::move(text), colour, std::move(centres), false});
+  requests_.push_back({std::move(text), colour, std::move(candidates), false});
 }
 
 double Labels::cost(const Box& box, const Box& area) const {
@@ -143,10 +146,9 @@ void Labels::write(Svg& svg, const Box& area) {
     const double width = text_width(request.text, label_size);
     Box best;
     double best_cost = std::numeric_limits<double>::infinity();
-    double preference = 0;  // earlier candidates win unless they cover more
-    for (const Point centre : request.centres) {
+    for (const auto& [centre, penalty] : request.candidates) {
       const Box box{centre.x - width / 2, centre.y - label_size / 2, width, label_size};
-      const double total = cost(box, area) + preference++;
+      const double total = cost(box, area) + penalty;
       if (total < best_cost) {
         best_cost = total;
         best = box;

@@ -32,10 +32,14 @@ class Labels {
   void write(Svg& svg, const Box& area);
 
  private:
+  struct Candidate {
+    Point centre;
+    double penalty;  // px^2 of covered area that it must save to be preferred
+  };
   struct Request {
     std::string text;
     Colour colour;
-    std::vector<Point> centres;
+    std::vector<Candidate> candidates;
     bool mark;  // the name of a mark is placed before labels of lines, which have more freedom
   };
   struct Occupied {

@@ -48,6 +48,9 @@ void draw_panel(const View& view, const Box& area, Svg& svg) {
   for (std::size_t i = 0; i < panel.layers.size(); ++i) {
     std::visit([&](const auto& layer) { draw(layer, view.colours[i], canvas); }, panel.layers[i]);
   }
+  for (const Layer& layer : panel.layers) {
+    if (const auto* plan = std::get_if<FloorPlan>(&layer)) draw_stations(*plan, canvas);
+  }
   canvas.labels.write(svg, area);
   draw_notes(canvas);
   svg.close();

@@ -16,6 +16,8 @@ struct Look {
   }
   void add(Point p) {
     if (!drawable(p) || (view.panel->x.log && p.x <= 0) || (view.panel->y.log && p.y <= 0)) return;
+    // Limits of x that are given choose what y shows.
+    if (p.x < view.panel->x.from.value_or(p.x) || p.x > view.panel->x.to.value_or(p.x)) return;
     view.x.add(p.x);
     view.y.add(p.y);
   }

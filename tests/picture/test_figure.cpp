@@ -5,8 +5,8 @@
 #include <random>
 #include <set>
 
+#include "diagnosis/picture/figure.hpp"
 #include "numbers.hpp"
-#include "picture/figure.hpp"
 
 namespace muster::picture {
 namespace {
@@ -295,6 +295,13 @@ TEST(Figure, AcceptsLimitsThatHoldNoData) {
   figure.panels[0].y.from = 50;
   figure.panels[0].x.to = -50;
   EXPECT_THAT(Read(figure).texts(), testing::Contains("2 outside"));
+}
+
+TEST(Figure, YFollowsTheDataBetweenTheLimitsOfX) {
+  Figure figure = one(Line{.x = {0, 1, 2, 3}, .y = {0, 1, 2, 5000}});
+  figure.panels[0].x.to = 2;
+  EXPECT_THAT(Read(figure).texts(), testing::Not(testing::Contains("5000")));
+  EXPECT_THAT(Read(figure).texts(), testing::Contains("2.0"));
 }
 
 TEST(Figure, RefusesColumnsOfDifferentLengths) {

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "picture/figure.hpp"
+#include "diagnosis/picture/figure.hpp"
 
 namespace muster::picture {
 namespace {

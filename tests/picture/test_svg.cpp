@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <tinyxml2.h>
 
+#include "diagnosis/picture/labels.hpp"
 #include "numbers.hpp"
-#include "picture/labels.hpp"
 
 namespace muster::picture {
 namespace {

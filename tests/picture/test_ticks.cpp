@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "picture/ticks.hpp"
+#include "diagnosis/picture/ticks.hpp"
 
 namespace muster::picture {
 namespace {
