@@ -49,6 +49,16 @@ namespace {
 constexpr std::chrono::seconds patience(10);  // for a library to load, register and unload in the child
 constexpr std::string_view abi_prefix = "muster.abi.";
 
+// Words of a file or of a library's code may hold anything; a message is one line of text.
+std::string one_line(std::string_view words) {
+  std::string result;
+  for (const char c : words) {
+    const auto code = static_cast<unsigned char>(c);
+    result += code < 0x20 ? ' ' : code < 0x7f ? c : '?';
+  }
+  return result;
+}
+
 // ---- Before anything of it runs ----
 
 // The section outlives strip, which symbols do not. elf_sections() finds it rather than boost::dll::library_info, which
@@ -58,7 +68,7 @@ void check_abi(const LibraryCopy& copy) {
   std::string other;
   for (const std::string& section : elf_sections(copy.bytes())) {
     if (section == expected) return;
-    if (section.starts_with(abi_prefix)) other = section.substr(abi_prefix.size());
+    if (section.starts_with(abi_prefix)) other = one_line(section.substr(abi_prefix.size()));
   }
   if (other.empty())
     throw Refusal(
@@ -71,19 +81,28 @@ void check_abi(const LibraryCopy& copy) {
 
 // ---- Loading ----
 
+// The part of a text between two others, the second of which may be its end; nothing if the first is not there.
+std::optional<std::string> between(const std::string& text, std::string_view before, std::string_view after) {
+  const std::size_t at = text.find(before);
+  if (at == text.npos) return {};
+  const std::size_t start = at + before.size();
+  return text.substr(start, after.empty() ? text.npos : text.find(after, start) - start);
+}
+
 // dlerror()'s text in our words. Boost.DLL's own has the last errno behind it, which is about something else.
 std::string why_not_opened(std::string text, const std::string& copy_name) {
-  constexpr std::string_view undefined = "undefined symbol: ", absent = ": cannot open shared object file";
-  if (const std::size_t at = text.find(undefined); at != text.npos) {
-    const std::string symbol = text.substr(at + undefined.size());
-    const std::size_t end = std::min(symbol.find(','), symbol.size());  // ", version GLIBC_2.38"
-    return fmt::format("needs {}{}, which neither it nor a library that it links defines; link what defines it",
-                       boost::core::demangle(symbol.substr(0, end).c_str()), symbol.substr(end));
-  }
-  if (const std::size_t at = text.find(absent); at != text.npos && text.substr(0, at) != copy_name)
-    return fmt::format("needs {}, which is not found; install it or link by an absolute run path", text.substr(0, at));
-  if (text.starts_with(copy_name + ": ")) text.erase(0, copy_name.size() + 2);
-  return "cannot be loaded: " + text;
+  for (std::size_t at; (at = text.find(copy_name)) != text.npos;) text.replace(at, copy_name.size(), "it");
+  if (const auto symbol = between(text, "undefined symbol: ", ","))
+    return fmt::format("needs {}, which neither it nor a library that it links defines; link what defines it",
+                       boost::core::demangle(symbol->c_str()));
+  if (const auto version = between(text, ": version `", "' not found"))
+    return fmt::format("needs {}, which {} here has not; rebuild it on this machine", *version,
+                       text.substr(0, text.find(": version `")));
+  const std::size_t absent = text.find(": cannot open shared object file");
+  if (absent != text.npos)
+    return fmt::format("needs {}, which is not found; install it or link by an absolute run path",
+                       text.substr(0, absent));
+  return "cannot be loaded: " + (text.starts_with("it: ") ? text.substr(4) : text);
 }
 
 void check_unchanged(const ProcessGuard& guard, const char* when) {
@@ -176,15 +195,8 @@ std::filesystem::path find(const std::string& id, const Library::SearchPath& sea
 
 // ---- Messages ----
 
-// A library's own words may hold anything; a message is one line.
-std::string one_line(std::string_view text) {
-  std::string result;
-  for (const char c : text) result += (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) ? ' ' : c;
-  return result;
-}
-
 Error fault(const Place& where, const std::string& plugin_id, const std::string& words) {
-  const std::string message = fmt::format("plugin {}: {}", quote(plugin_id), one_line(words));
+  const std::string message = fmt::format("plugin {}: {}", quote(plugin_id), words);
   return where.file.empty() ? Error(Exit::plugin_fault, message) : Error(Exit::plugin_fault, where, message);
 }
 
@@ -199,7 +211,7 @@ std::shared_ptr<Library> LibraryLoader::open(const std::filesystem::path& file) 
   auto module = std::make_unique<Library::Module>(file);
   check_abi(module->copy);
   const std::string name = module->copy.name();
-  if (const std::string why = probe_->try_out(name); !why.empty()) throw Refusal(why);
+  if (const std::string why = probe_->try_out(name); !why.empty()) throw Refusal(one_line(why));
   std::vector<muster_plugin> plugins = open_and_register(module->library, name, [](const char*) {});
   return std::shared_ptr<Library>(new Library(file, std::move(module), std::move(plugins)));
 }
@@ -251,7 +263,7 @@ std::vector<ListedPlugin> list_plugins(const Library::SearchPath& search_path) {
           throw Refusal(fmt::format("registers {}; such a file is called {}", quote(library->id()), expected));
         listed.library = std::move(library);
       } catch (const Refusal& refusal) {
-        listed.reason = one_line(refusal.what());
+        listed.reason = refusal.what();
       }
       result.push_back(std::move(listed));
     }

@@ -69,26 +69,32 @@ void seclude() {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
-  for (const int signal : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGINT, SIGTERM, SIGPIPE, SIGALRM})
-    std::signal(signal, SIG_DFL);
+  for (const int signal : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGPIPE, SIGALRM}) std::signal(signal, SIG_DFL);
+  for (const int signal : {SIGINT, SIGTERM})
+    std::signal(signal, SIG_IGN);  // meant for the parent, which ends the child
   const int null = ::open("/dev/null", O_RDWR | O_CLOEXEC);
   for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(null, standard);
   std::set_terminate(on_terminate);
   std::atexit([] { leave(left, ""); });
 }
 
+void run(const Probe::Body& body, const std::string& what) noexcept {
+  try {
+    body(what, [](const char* text) { report(progress, text); });
+  } catch (const Refusal& refusal) {
+    leave(refused, refusal.what());
+  } catch (...) {
+    leave(threw, exception_text());
+  }
+  report(done, "");
+}
+
 [[noreturn]] void run_child(int line, const Probe::Body& body) noexcept {
   report_to = line;
   seclude();
   std::array<char, longest> packet;
-  for (ssize_t size; (size = ::recv(line, packet.data(), packet.size(), 0)) > 0; report(done, "")) try {
-      body(std::string(packet.data(), static_cast<std::size_t>(size)),
-           [](const char* text) { report(progress, text); });
-    } catch (const Refusal& refusal) {
-      leave(refused, refusal.what());
-    } catch (...) {
-      leave(threw, exception_text());
-    }
+  for (ssize_t size; (size = ::recv(line, packet.data(), packet.size(), 0)) > 0;)
+    run(body, std::string(packet.data(), static_cast<std::size_t>(size)));
   ::_exit(0);
 }
 
@@ -122,7 +128,7 @@ std::string words_of(Report last, const std::string& text, const std::string& du
 }
 
 std::string how_it_ended(int status, const std::string& during) {
-  if (!WIFSIGNALED(status)) return "ends the process while " + during;
+  if (!WIFSIGNALED(status)) return "ends the process while " + during + "; it is corrupted or faulty";
   const char* name = ::sigabbrev_np(WTERMSIG(status));
   return fmt::format("crashes while {} (SIG{}); it is corrupted or faulty", during, name ? name : "?");
 }

@@ -116,6 +116,18 @@ TEST_F(LibraryTest, NamesWhatALibraryLacks) {
             "-fno-gnu-unique, as muster_plugin() does");
 }
 
+TEST_F(LibraryTest, NamesTheVersionThatALibraryNeeds) {
+  const std::filesystem::path file = folder / "zoo_good.so";
+  std::string bytes = read_bytes(zoo / "zoo_good.so");
+  const std::string name = "GLIBCXX_3.4";
+  for (std::size_t at = 0; (at = bytes.find(name, at)) != bytes.npos; ++at) bytes[at + 8] = '9';
+  write_bytes(file, bytes);
+  EXPECT_THAT(load_error("zoo.good", file),
+              testing::MatchesRegex(
+                  ".* needs GLIBCXX_9\\.4[.0-9]*, which .*/libstdc\\+\\+\\.so\\.6 here has not; rebuild it on "
+                  "this machine"));
+}
+
 // ---- What goes wrong in its own code ----
 
 TEST_F(LibraryTest, OutlivesInitialisersThatFail) {

@@ -35,7 +35,7 @@ TEST(Probe, TellsHowABodyEnds) {
   EXPECT_EQ(outcome([]() noexcept { throw_far(); }), "throws while it dances: std::logic_error: far");
   EXPECT_EQ(outcome([] { std::terminate(); }), "calls std::terminate() while it dances");
   EXPECT_EQ(outcome([] { std::exit(0); }), "calls exit() while it dances");
-  EXPECT_EQ(outcome([] { ::_exit(0); }), "ends the process while it dances");
+  EXPECT_EQ(outcome([] { ::_exit(0); }), "ends the process while it dances; it is corrupted or faulty");
   EXPECT_EQ(outcome([] { __builtin_trap(); }), "crashes while it dances (SIGILL); it is corrupted or faulty");
   EXPECT_EQ(outcome([] { std::abort(); }), "crashes while it dances (SIGABRT); it is corrupted or faulty");
 }
@@ -47,6 +47,12 @@ TEST(Probe, EndsABodyThatHangs) {
                 },
                 200ms),
             "hangs while it dances: it took over 0.2 s");
+}
+
+// Ctrl-C goes to every process of the terminal; it is the parent that answers it.
+TEST(Probe, LeavesInterruptionToTheParent) {
+  EXPECT_EQ(outcome([] { std::raise(SIGINT); }), "");
+  EXPECT_EQ(outcome([] { std::raise(SIGTERM); }), "");
 }
 
 // A handler of the parent would swallow the crash: raise() would return and the body end well.
