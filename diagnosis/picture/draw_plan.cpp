@@ -7,7 +7,7 @@
 namespace muster::picture {
 namespace {
 
-double thickness_px(double thickness, const Canvas& canvas) { return std::max(thickness * canvas.x.pixels(), 1.4); }
+double thickness_px(double thickness, const Canvas& canvas) { return std::max(1.4, thickness * canvas.x.pixels()); }
 
 void draw_walls(const FloorPlan& plan, Canvas& canvas) {
   const auto names = materials(plan);
@@ -83,7 +83,7 @@ void draw(const Robots& robots, Colour, Canvas& canvas) {
     const Point p = canvas(robot.at);
     if (!drawable(p)) continue;
     const Colour colour = robot.colour.value_or(series_colour(i));
-    const double radius = std::max(robot.radius * canvas.x.pixels(), least_radius);
+    const double radius = std::max(least_radius, robot.radius * canvas.x.pixels());
     const Point nose{p.x + 1.8 * radius * std::cos(robot.heading), p.y - 1.8 * radius * std::sin(robot.heading)};
     if (drawable(nose)) canvas.svg.line(p, nose, {.stroke = white, .width = 3.8});
     canvas.svg.circle(p, radius, {.fill = colour, .stroke = white, .width = 1});
