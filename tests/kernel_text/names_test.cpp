@@ -1,0 +1,49 @@
+#include "kernel/names.hpp"
+
+#include <gtest/gtest.h>
+
+namespace muster {
+namespace {
+
+const std::vector<std::string> elements = {"wall", "walls", "robot", "material", "station", "door"};
+
+TEST(Names, FindsTheNearest) {
+  EXPECT_EQ(nearest("wlal", elements), "wall");
+  EXPECT_EQ(nearest("robt", elements), "robot");
+  EXPECT_EQ(nearest("ROBOT", elements), "robot");
+  EXPECT_EQ(nearest("matreial", elements), "material");
+  EXPECT_EQ(nearest("walls", elements), "walls");
+  EXPECT_EQ(nearest("tx", {"rx", "t"}), "rx");
+}
+
+TEST(Names, CountsAnExchangeOfNeighboursAsOneError) {
+  EXPECT_EQ(nearest("abdc", {"abcd"}), "abcd");  // two by plain Levenshtein, where the cut-off is one
+  EXPECT_EQ(nearest("badc", {"abcd"}), "");
+}
+
+TEST(Names, IsSilentWhenNothingIsNear) {
+  EXPECT_EQ(nearest("quadrotor", elements), "");
+  EXPECT_EQ(nearest("x", {"y"}), "");
+  EXPECT_EQ(nearest("", elements), "");
+  EXPECT_EQ(nearest("wall", {}), "");
+  EXPECT_EQ(nearest(std::string(60'000, 'w'), elements), "");
+}
+
+TEST(Names, SuggestsInOneLine) {
+  EXPECT_EQ(suggest("bb", {"aa", "bbb", "cc"}), R"(expected one of aa, bbb, cc; did you mean "bbb"?)");
+  EXPECT_EQ(suggest("quadrotor", elements), "expected one of wall, walls, robot, material, station, door");
+  EXPECT_EQ(suggest("nmae", {"name"}), R"(expected name; did you mean "name"?)");
+  EXPECT_EQ(suggest("name", {}), "none is expected here");
+  const std::string list = expected_one_of(std::vector<std::string>(1000, "x"));
+  EXPECT_TRUE(list.ends_with("x, x, ... (1000 in all)"));
+  EXPECT_LT(list.size(), 150u);
+}
+
+TEST(Names, QuotesStayOnOneShortLine) {
+  EXPECT_EQ(quote("a\nb\x7f"), R"("a\x0ab\x7f")");
+  EXPECT_EQ(quote(std::string(61, 'a')), '"' + std::string(60, 'a') + "...\"");
+  EXPECT_EQ(quote(std::string(59, 'a') + "é"), '"' + std::string(59, 'a') + "...\"");  // é has two bytes
+}
+
+}  // namespace
+}  // namespace muster
