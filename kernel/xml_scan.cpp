@@ -15,6 +15,7 @@ namespace muster {
 namespace {
 
 constexpr std::size_t most_depth = 64;  // tinyxml2 stops at 98; a world needs five
+constexpr std::size_t most_name_bytes = 256;
 constexpr std::size_t most_tag_bytes = 64 << 10;
 constexpr std::size_t most_attributes = 256;   // of one tag: tinyxml2 takes time with their square
 constexpr std::size_t most_parts = 1'000'000;  // elements and attributes in all
@@ -112,6 +113,9 @@ class Scan {
     if (at_ < text_.size() && starts_name(text_[at_])) {
       while (at_ < text_.size() && continues_name(text_[at_])) ++at_;
     }
+    if (at_ - start > most_name_bytes) {
+      fail(start, "a name is too long; expected at most " + std::to_string(most_name_bytes) + " bytes");
+    }
     return text_.substr(start, at_ - start);
   }
 
@@ -120,7 +124,7 @@ class Scan {
     at_ += 2;
     const std::string name(scan_name());
     skip_space();
-    if (!next_is(">")) fail(start, "the tag </" + name + " is cut off; expected '>'");
+    if (!next_is(">")) fail(start, "the tag </" + name + "> is cut off; expected '>'");
     ++at_;
     if (open_.empty()) fail(start, "</" + name + "> closes nothing");
     if (open_.back().name != name) {
@@ -142,6 +146,7 @@ class Scan {
                      " elements in each other");
     }
     has_root_ = true;
+    count_part(tag_);
     add_spot(tag_);
     scan_attributes(name);
     if (next_is("/>")) {
@@ -180,6 +185,7 @@ class Scan {
     const std::string_view name = scan_name();
     if (name.empty())
       fail(start, quote(text_.substr(start, 1)) + " in the tag " + quote(tag) + "; expected an attribute's name");
+    count_part(start);
     attributes_.push_back({name, start});
     const std::string expected = "; expected " + std::string(name) + "=\"...\"";
     skip_space();
@@ -232,9 +238,13 @@ class Scan {
          "attribute " + quote(twice->name) + " stands twice in the tag " + quote(tag) + "; expected one");
   }
 
+  void count_part(std::size_t at) {
+    if (parts_++ < most_parts) return;
+    fail(at, "too many elements and attributes; expected at most " + std::to_string(most_parts));
+  }
+
   // Counts on from the last spot, so that all spots together cost one pass.
   void add_spot(std::size_t at) {
-    if (spots_.size() == 2 * most_parts) fail(at, "too many elements and attributes; expected at most 1000000");
     for (; spot_at_ < at; ++spot_at_) {
       const char c = text_[spot_at_];
       if (c == '\n') {
@@ -250,6 +260,7 @@ class Scan {
   const TextFile& file_;
   const std::string_view text_;
   std::size_t at_ = 0;
+  std::size_t parts_ = 0;
   std::size_t tag_ = 0;  // start of the tag that is being read
   bool only_declarations_ = true;
   bool has_root_ = false;
