@@ -52,7 +52,7 @@ void draw_colour_bar(const Canvas& canvas) {
   svg.open("colour-bar");
   const double step = bar.height / Canvas::shades;
   for (int i = 0; i < Canvas::shades; ++i) {
-    svg.rectangle({bar.x, bar.bottom() - (i + 1) * step, bar.width, step + (i > 0 ? 0.5 : 0)},
+    svg.rectangle({bar.x, bar.bottom() - (i + 1) * step, bar.width, step + (i > 0 ? 1 : 0)},
                   {.fill = canvas.shade_colour(i)});
   }
   const auto draw_tip = [&](double y, double end, int shade) {

@@ -46,6 +46,17 @@ void draw_door(const Door& door, Canvas& canvas) {
   canvas.svg.path(swing, {.stroke = leaf, .width = 0.6, .opacity = 0.6});
 }
 
+// Labels avoid a path; its points closer than a letter to the last one add nothing.
+void keep_clear(const std::vector<Point>& points, Labels& labels) {
+  constexpr double letter = 8;  // px
+  Point last{NAN, NAN};
+  for (const Point p : points) {
+    if (drawable(p) && drawable(last) && std::hypot(p.x - last.x, p.y - last.y) < letter) continue;
+    if (drawable(p) && drawable(last)) labels.occupy_line(last, p, 0.5);
+    last = p;
+  }
+}
+
 void draw_station(const Station& station, Canvas& canvas) {
   constexpr double size = 6.5;  // px
   const Point p = canvas(station.at);
@@ -101,6 +112,7 @@ void draw(const Path& path, Colour colour, Canvas& canvas) {
   canvas.svg.open("path");
   std::vector<Point> points;
   for (const Point p : path.points) points.push_back(canvas(p));
+  keep_clear(points, canvas.labels);
   const auto stroke = [&](const std::vector<Point>& piece, Colour shade) {
     Pen pen;
     pen.polyline(piece);
