@@ -106,7 +106,8 @@ int Instance::claim(uint32_t kind, uint32_t flags, const std::string& table, con
     throw refused("claims " + quote(table) + ": " + e.what());
   }
   Set& set = resolve_set(made.name, *this, *around_.board);
-  made.row = resolve_row(made.name, set, *this);
+  // A queue's rows are numbered; who owns them has the names.
+  made.row = resolve_row(made.name, set.kind == SetKind::queue ? *around_.board->find_set(set.owner) : set, *this);
   if (kind == MUSTER_MODIFY && set.kind == SetKind::queue) throw refused("modifies " + quote(table) + ", but a queue has no stages");
   if (kind == MUSTER_ADD && (set.kind == SetKind::queue || made.row >= 0)) throw refused("adds to " + quote(table) + "; expected a whole table of numbers");
   const auto* quantity = standard_quantity(*around_.standard, made.name);

@@ -37,9 +37,14 @@ std::vector<std::pair<std::string, const Claim*>> Linker::tables_of(const std::s
     const auto& part = by.get().name.part;
     result.emplace_back(logical + '@' + by.instance->name() + (part.empty() ? "" : '.' + part), &by.get());
   }
-  const auto* any = c.writers.empty() ? c.adders.empty() ? c.readers.empty() ? nullptr : &c.readers[0] : &c.adders[0] : &c.writers[0];
+  const Claimed::By* any = nullptr;  // one that claims the cells, not only the right to join
+  for (const auto* group : {&c.writers, &c.adders, &c.readers}) {
+    for (const auto& by : *group) {
+      if (!any && !(by.get().flags & MUSTER_JOINS)) any = &by;
+    }
+  }
   if (c.modifiers.empty()) {
-    if (any && !(any->get().flags & MUSTER_JOINS)) result.emplace_back(logical, &any->get());
+    if (any) result.emplace_back(logical, &any->get());
     return result;
   }
   result.emplace_back(logical + "@base", any ? &any->get() : &c.modifiers[0].get());
