@@ -199,22 +199,24 @@ class Scan {
     if (at_ == text_.npos) fail(value, "the value of " + quote(name) + " is cut off; expected a closing " + stops[0]);
     if (text_[at_] == '<')
       fail(at_, "'<' in the value of " + quote(name) + "; expected a closing " + stops[0] + " or &lt;");
-    check_references(value);
+    check_references(value, text_.substr(value, at_ - value));
     ++at_;
     add_spot(start);
     add_spot(value);
   }
 
-  // Of the value that ends here: the five named characters and numbers of allowed characters.
-  void check_references(std::size_t value) const {
-    for (std::size_t from = text_.find('&', value); from < at_; from = text_.find('&', from + 1)) {
-      const std::size_t end = std::min(text_.find(';', from), at_);
-      const std::string_view name = text_.substr(from + 1, end - from - 1);
-      if (end == at_) fail(from, "'&' in a value; expected &amp;");
+  // The five named characters and numbers of allowed characters; sought in the value only, or the scan would take
+  // quadratic time.
+  void check_references(std::size_t place, std::string_view value) const {
+    for (std::size_t from = value.find('&'); from != value.npos; from = value.find('&', from + 1)) {
+      const std::size_t end = value.find(';', from);
+      if (end == value.npos) fail(place + from, "'&' in a value; expected &amp;");
+      const std::string_view name = value.substr(from + 1, end - from - 1);
       if (name.starts_with('#')) {
-        check_character_reference(from, name.substr(1));
+        check_character_reference(place + from, name.substr(1));
       } else if (name != "lt" && name != "gt" && name != "amp" && name != "quot" && name != "apos") {
-        fail(from, "entities are not supported: " + quote(name) + "; expected &lt; &gt; &amp; &quot; or &apos;");
+        fail(place + from,
+             "entities are not supported: " + quote(name) + "; expected &lt; &gt; &amp; &quot; or &apos;");
       }
     }
   }

@@ -1,0 +1,93 @@
+// What hostile and large files cost. Not under sanitizers, which cost more than what is measured.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "error_of.hpp"
+#include "kernel/number.hpp"
+#include "kernel/xml.hpp"
+#include "large_xml.hpp"
+
+namespace muster {
+namespace {
+
+class XmlCost : public test::FolderTest {};
+
+struct Cost {
+  double seconds = 0;  // CPU time
+  long megabytes = 0;  // peak resident memory over that of the bare process
+  std::string message;
+};
+
+// In a process of its own, since a peak is never taken back.
+Cost cost_of_reading(const std::filesystem::path& path) {
+  int pipe_ends[2];
+  if (::pipe(pipe_ends) != 0) return {};
+  const ::pid_t child = ::fork();
+  if (child == 0) {
+    struct rusage before {
+    }, after{};
+    ::getrusage(RUSAGE_SELF, &before);
+    const std::string message = test::error_of([&] { read_xml(path); }, path.parent_path()).substr(0, 1000);
+    ::getrusage(RUSAGE_SELF, &after);
+    const auto micro = [](const ::timeval& t) {
+      return static_cast<long>(t.tv_sec) * 1'000'000 + static_cast<long>(t.tv_usec);
+    };
+    const std::string report = std::to_string(micro(after.ru_utime) + micro(after.ru_stime) - micro(before.ru_utime) -
+                                              micro(before.ru_stime)) +
+                               "\n" + std::to_string((after.ru_maxrss - before.ru_maxrss) / 1024) + "\n" + message;
+    ::_exit(::write(pipe_ends[1], report.data(), report.size()) < 0);
+  }
+  ::close(pipe_ends[1]);
+  char report[4096];
+  const ::ssize_t size = ::read(pipe_ends[0], report, sizeof report);
+  ::close(pipe_ends[0]);
+  ::waitpid(child, nullptr, 0);
+  const std::string text(report, static_cast<std::size_t>(std::max<::ssize_t>(size, 0)));
+  const std::size_t first = text.find('\n'), second = text.find('\n', first + 1);
+  const long long microseconds = parse_integer(text.substr(0, first)).value_or(-1);
+  return {static_cast<double>(microseconds) * 1e-6,
+          static_cast<long>(parse_integer(text.substr(first + 1, second - first - 1)).value_or(-1)),
+          text.substr(second + 1)};
+}
+
+TEST_F(XmlCost, HostileFilesAreRefusedCheaply) {
+  const std::pair<std::string, std::string_view> cases[] = {
+      {test::repeat("<a>", 1'000'000), "nested too deep"},
+      {test::attributes(40'000), "too many attributes"},
+      {"<w a='" + std::string(15'000'000, 'x') + "'/>", "too long"},
+      {"<w>" + test::repeat("<a/>", 2'000'000) + "</w>", "too many elements"},
+      {"<w>" + std::string(15'000'000, '\n') + "x", "stands between elements"},
+      {"<w a='" + test::repeat("&#", 7'000'000) + "'/>", "'&' in a value"},
+      {"<" + std::string(15'000'000, 'n') + "/>", "a name is too long"},
+      {"</" + std::string(15'000'000, 'n') + ">", "a name is too long"},
+  };
+  for (const auto& [bytes, message] : cases) {
+    const Cost cost = cost_of_reading(write("hostile.xml", bytes));
+    EXPECT_THAT(cost.message, ::testing::HasSubstr(message));
+    EXPECT_LT(cost.message.size(), 300u);
+    EXPECT_GE(cost.seconds, 0);
+    EXPECT_LT(cost.seconds, 1);
+    EXPECT_LT(cost.megabytes, 50);
+  }
+}
+
+// The largest files within the limits; a search for '&' to the end of the file once made the first take 27 s.
+TEST_F(XmlCost, LargeFilesTakeLinearTime) {
+  const std::string tag = test::attributes(250);
+  for (const std::string& bytes :
+       {"<w>" + test::repeat(tag, 3900) + "</w>", "<w>" + test::repeat("<a/>", 999'999) + "</w>"}) {
+    const Cost cost = cost_of_reading(write("large.xml", bytes));
+    EXPECT_EQ(cost.message, "no error");
+    EXPECT_LT(cost.seconds, 2);
+    EXPECT_GT(cost.megabytes, 50);  // so the measure above does see memory
+    RecordProperty("milliseconds", static_cast<int>(cost.seconds * 1e3));
+  }
+}
+
+}  // namespace
+}  // namespace muster
