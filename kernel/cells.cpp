@@ -102,6 +102,11 @@ bool is_others(const Claim& claim, std::size_t row) {
   return claim.staged && std::find(claim.others.begin(), claim.others.end(), static_cast<int>(row)) != claim.others.end();
 }
 
+// Who claims one owner's queue cannot append in the name of others.
+bool speaks_for_another(const Claim& claim, double owner) {
+  return claim.row >= 0 && claim.out->set().kind == SetKind::queue && owner != claim.row;
+}
+
 std::string check(const Instance& instance, const Blackboard& board, const Claim& claim) {
   const auto [data, rows] = written(claim);
   const auto width = claim.columns.size();
@@ -119,6 +124,7 @@ std::string check(const Instance& instance, const Blackboard& board, const Claim
       if (column.bytes) continue;  // filled by put_bytes(), or empty
       std::string wrong = wrong_value(column, data[r * width + c]);
       if (wrong.empty() && !column.reference.empty()) wrong = wrong_reference(instance, board, column, data[r * width + c]);
+      if (wrong.empty() && c == 0 && speaks_for_another(claim, data[r * width])) wrong = "is not " + claim.name.row + ", for which alone it may speak";
       if (!wrong.empty()) return cell_name(claim, r, c) + ' ' + wrong;
     }
   }

@@ -1,0 +1,86 @@
+// Worlds written, run and looked into by tests.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "kernel/simulation.hpp"
+
+namespace muster {
+
+// A folder of its own for each test, gone afterwards.
+class Folder {
+ public:
+  Folder() {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    std::string name = std::string(test->test_suite_name()) + '.' + test->name();
+    for (char& c : name) c = c == '/' ? '_' : c;
+    path_ = std::filesystem::path(testing::TempDir()) / ("muster_radio_" + name);
+    std::filesystem::remove_all(path_);
+    std::filesystem::create_directories(path_);
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  std::filesystem::path put(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name, std::ios::binary) << text;
+    return path_ / name;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+// `elements` are what stands inside <world>.
+inline Simulation world_of(const Folder& folder, const std::string& elements, int workers = 1) {
+  const auto file =
+      folder.put("world.xml", "<world name=\"test\" dt=\"0.1\" until=\"100\" seed=\"7\">\n" + elements + "</world>\n");
+  Options options;
+  options.search_path = {MUSTER_PLUGINS_DIR, MUSTER_BUILD_DIR "/test_plugins"};
+  options.workers = workers;
+  return Simulation(read_world(file, standard()), standard(), options);
+}
+
+inline std::string station(const std::string& name, const std::string& at) {
+  return "<station name=\"" + name + "\" at=\"" + at + "\"/>\n";
+}
+
+using Pair = std::pair<std::string, std::string>;
+
+// The first column of a link table, by names of sender and receiver.
+inline std::map<Pair, double> by_pair(const Simulation& world, const std::string& table) {
+  const TableView ends = world.table("link/*/ends"), radio = world.table("endpoint/*/radio"),
+                  values = world.table(table);
+  const auto& names = world.board().find_set("radio")->names;
+  const auto name_at = [&](double end) {
+    return names[static_cast<std::size_t>(radio.at(static_cast<std::size_t>(end), 0))];
+  };
+  std::map<Pair, double> result;
+  for (std::size_t i = 0; i < ends.rows(); ++i)
+    result[{name_at(ends.at(i, 0)), name_at(ends.at(i, 1))}] = values.at(i, 0);
+  return result;
+}
+
+// Equal to the last bit, null included.
+inline bool same_bits(double a, double b) { return std::bit_cast<uint64_t>(a) == std::bit_cast<uint64_t>(b); }
+inline void expect_same_bits(const std::map<Pair, double>& a, const std::map<Pair, double>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (const auto& [pair, value] : a) {
+    ASSERT_TRUE(b.count(pair));
+    EXPECT_TRUE(same_bits(value, b.at(pair))) << pair.first << " -> " << pair.second;
+  }
+}
+
+inline void run(Simulation& world, int ticks) {
+  for (int i = 0; i < ticks; ++i) world.step();
+}
+
+}  // namespace muster
