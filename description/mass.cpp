@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "description/robot.hpp"
 
 namespace muster::description {
@@ -67,11 +65,6 @@ Mass whole_mass(const Robot& robot) {
       robot, 0, [](const Joint&) { return true; },
       [&](std::size_t i, const Eigen::Isometry3d& frame) { sum = sum + in_parent(frame, robot.links[i].mass); });
   return sum;
-}
-
-double DifferentialDrive::asked_rate(double commanded, double rate, double dt) const {
-  const double wanted = std::clamp(commanded, -max_speed, max_speed);
-  return std::clamp(wanted, rate - max_acceleration * dt, rate + max_acceleration * dt);
 }
 
 }  // namespace muster::description

@@ -83,8 +83,10 @@ struct DifferentialDrive {
   double left_rate(double v, double w) const { return (v - w * wheel_base / 2) / wheel_radius; }
   double right_rate(double v, double w) const { return (v + w * wheel_base / 2) / wheel_radius; }
 
-  // The rate that the motor's controller asks for in a step of dt [s], from the wheel's own rate and the one commanded.
-  double asked_rate(double commanded, double rate, double dt) const;
+  // A motor turns no faster, whatever it is asked for.
+  double limited_rate(double asked) const {
+    return asked < -max_speed ? -max_speed : asked > max_speed ? max_speed : asked;
+  }
 };
 
 struct Robot {

@@ -124,12 +124,11 @@ TEST(Drive, RatesAndTwistAreEachOthersInverse) {
   EXPECT_NEAR(drive.turn(left, right), 0.7, 1e-15);
 }
 
-TEST(Drive, AsksForNoMoreThanItsLimits) {
+TEST(Drive, TurnsNoFasterThanItsTopSpeed) {
   const DifferentialDrive drive = *read_robot(scarab).drive;
-  EXPECT_EQ(drive.asked_rate(100, 20, 0.1), 20);         // top speed
-  EXPECT_DOUBLE_EQ(drive.asked_rate(10, 0, 0.01), 0.4);  // ramp
-  EXPECT_DOUBLE_EQ(drive.asked_rate(-10, 0.1, 0.01), 0.1 - 0.4);
-  EXPECT_EQ(drive.asked_rate(0.2, 0, 0.01), 0.2);
+  EXPECT_EQ(drive.limited_rate(100), 20);
+  EXPECT_EQ(drive.limited_rate(-100), -20);
+  EXPECT_EQ(drive.limited_rate(19.5), 19.5);
 }
 
 }  // namespace

@@ -1,0 +1,97 @@
+#include "model.hpp"
+
+#include <stdexcept>
+
+#include "state.hpp"
+
+namespace muster::simbody {
+
+using SimTK::Vec3;
+
+namespace {
+
+Vec3 vec(const Eigen::Vector3d& v) { return Vec3(v.x(), v.y(), v.z()); }
+
+// Simbody wants the inertia about the body's origin, not about its centre of mass.
+SimTK::MassProperties properties(const description::Mass& mass) {
+  const auto& i = mass.inertia;
+  const SimTK::Inertia central(Vec3(i(0, 0), i(1, 1), i(2, 2)), Vec3(i(0, 1), i(0, 2), i(1, 2)));
+  return {mass.mass, vec(mass.centre), central.shiftFromMassCenter(-vec(mass.centre), mass.mass)};
+}
+
+SimTK::Transform transform(const Eigen::Isometry3d& frame) {
+  SimTK::Mat33 m;
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) m(r, c) = frame.linear()(r, c);
+  }
+  return {SimTK::Rotation(m), vec(frame.translation())};
+}
+
+// A wheel whose mass is the same at every angle: the block stepper turns it without moving its mass.
+bool balanced(const description::Mass& wheel, const Eigen::Vector3d& axis) {
+  const double size = wheel.inertia.trace();
+  const double along = axis.dot(wheel.inertia * axis);
+  const Eigen::Matrix3d across = wheel.inertia - along * axis * axis.transpose();
+  const Eigen::Matrix3d even = (across.trace() / 2) * (Eigen::Matrix3d::Identity() - axis * axis.transpose());
+  return wheel.centre.cross(axis).norm() < 1e-6 && (across - even).norm() < 1e-6 * size;
+}
+
+[[noreturn]] void refuse(const description::Robot& robot, const std::string& why) {
+  throw std::runtime_error("robot model '" + robot.name + "' (" + robot.file +
+                           ") cannot be simulated by physics.simbody: " + why);
+}
+
+}  // namespace
+
+RobotModel::RobotModel(const description::Robot& robot) : name(robot.name) {
+  if (!robot.drive) refuse(robot, "it has no <muster><differential .../></muster> drive");
+  drive = *robot.drive;
+  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
+    const bool is_wheel = i == drive.left || i == drive.right;
+    if (!is_wheel && robot.joints[i].kind != description::JointKind::fixed) {
+      refuse(robot, "joint '" + robot.joints[i].name + "' moves and is no wheel of its drive");
+    }
+  }
+  body = rigid_mass(robot, 0);
+  if (!(body.mass > 0)) refuse(robot, "its body has no mass");
+  const std::size_t joints[] = {drive.left, drive.right};
+  for (std::size_t w = 0; w < 2; ++w) {
+    const description::Joint& joint = robot.joints[joints[w]];
+    wheel[w] = rigid_mass(robot, joint.child);
+    if (!balanced(wheel[w], joint.axis))
+      refuse(robot, "the wheel of joint '" + joint.name + "' is not balanced about its axis");
+    wheel_frame[w] = joint.origin;
+    for (std::size_t link = joint.parent; link != 0; link = robot.joints[link - 1].parent) {
+      wheel_frame[w] = robot.joints[link - 1].origin * wheel_frame[w];
+    }
+    // Simbody's pin turns about z: turn the joint's frame so that its z is the axle.
+    const Eigen::Quaterniond to_axis = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), joint.axis);
+    wheel_frame[w] = wheel_frame[w] * to_axis;
+    wheel[w] = in_parent(Eigen::Isometry3d(to_axis.inverse()), wheel[w]);
+  }
+  for (const description::Shape& shape : rigid_shapes(robot, 0)) {
+    if (const auto* sphere = std::get_if<description::Sphere>(&shape.geometry)) {
+      sliders.push_back({shape.pose.translation(), sphere->radius});
+    }
+  }
+}
+
+System::System() : matter(system), forces(system) { SimTK::Force::Gravity(forces, matter, Vec3(0, 0, -gravity)); }
+
+RobotBodies System::add(const RobotModel& model) {
+  RobotBodies bodies;
+  bodies.body = SimTK::MobilizedBody::Free(matter.updGround(), SimTK::Transform(),
+                                           SimTK::Body::Rigid(properties(model.body)), SimTK::Transform());
+  for (std::size_t w = 0; w < 2; ++w) {
+    bodies.wheel[w] = SimTK::MobilizedBody::Pin(bodies.body, transform(model.wheel_frame[w]),
+                                                SimTK::Body::Rigid(properties(model.wheel[w])), SimTK::Transform());
+  }
+  return bodies;
+}
+
+void System::finish() {
+  state = system.realizeTopology();
+  system.realizeModel(state);
+}
+
+}  // namespace muster::simbody

@@ -1,0 +1,43 @@
+// Robots that move, as a function of what is handed in: pose, twist, wheels, memory and commands. An instance keeps
+// only what follows from the robots' descriptions, so a remade one does the same arithmetic, bit for bit.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "description/robot.hpp"
+#include "state.hpp"
+
+namespace muster::simbody {
+
+enum class Integrator {
+  midpoint = 1,  // our own second-order stepper: friction, torque limits
+  rk3,           // Simbody's, on rolling constraints: wheels never slip nor lift, motors have no torque limit
+  rkm,
+  cpodes
+};
+
+class Engine {
+ public:
+  virtual ~Engine() = default;
+  // From t to t + dt [s]; one command and one state a robot, in the order of the robots.
+  // Throws std::runtime_error naming the robot whose motion is no longer finite.
+  virtual void step(double dt, const std::vector<Command>& commands, std::vector<RobotState>& states) = 0;
+};
+
+struct NamedRobot {
+  std::string name;
+  const description::Robot* description;
+};
+
+// `step` [s]: the longest step inside a tick. Throws std::runtime_error for a robot that it cannot hold.
+std::unique_ptr<Engine> make_engine(const std::vector<NamedRobot>& robots, Integrator integrator, double step);
+
+// A standing robot: at rest on the ground, its frame at x, y [m] and turned by yaw [rad].
+RobotState at_rest(double x, double y, double yaw);
+
+// Bound on the acceleration of the centre of mass along the ground while the wheels carry the robot [m/s2].
+double max_acceleration(const description::Robot& robot);
+
+}  // namespace muster::simbody
