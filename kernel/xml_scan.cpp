@@ -228,7 +228,7 @@ class Scan {
     const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), code, base);
     const bool whole = error == std::errc{} && stop == digits.data() + digits.size();
     if (!whole || !is_xml_character(code))
-      fail(at, "\"&#" + std::string(number.substr(0, 20)) + ";\" is not a character of XML");
+      fail(at, quote("&#" + std::string(number) + ";") + " is not a character of XML");
   }
 
   void check_duplicates(std::string_view tag) {
