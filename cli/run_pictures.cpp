@@ -1,0 +1,205 @@
+#include "cli/run_pictures.hpp"
+
+#include "kernel/number.hpp"
+
+#include <muster/tables.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace muster {
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+// A published table's rows; none where the world has no such table.
+template <class Row> std::vector<Row> rows_of(const Simulation& run, const std::string& name) {
+  const Table* table = run.board().find(name);
+  if (!table) return {};
+  const auto* first = reinterpret_cast<const Row*>(table->now().data.data());
+  return {first, first + table->now().rows};
+}
+
+std::vector<std::string> names_of(const Simulation& run, const std::string& set) {
+  const Set* found = run.board().find_set(set);
+  return found ? found->names : std::vector<std::string>{};
+}
+
+double yaw_of(const Pose& p) {
+  return std::atan2(2 * (p.qw * p.qz + p.qx * p.qy), 1 - 2 * (p.qy * p.qy + p.qz * p.qz));
+}
+
+std::vector<std::string> words_of(const std::string& text) {
+  std::istringstream words(text);
+  std::vector<std::string> result;
+  for (std::string word; words >> word;) result.push_back(word);
+  return result;
+}
+
+std::string attribute(const Instance& instance, const std::string& name) {
+  for (const auto& given : instance.declared().attributes) {
+    if (given.name == name) return given.value;
+  }
+  return "";
+}
+
+// To a tenth of a second, without a zero at the end.
+std::string time_text(double time) { return print_real(std::round(time * 10) / 10) + " s"; }
+
+}  // namespace
+
+RunPictures::RunPictures(const Simulation& run) : world_(run.world().name) {
+  constexpr std::size_t most_numbers = 4'000'000;  // some 100 MB of moments
+  most_ = std::clamp(most_numbers / (names_of(run, "robot").size() + names_of(run, "radio").size() + 1), std::size_t{64},
+                     std::size_t{4096});
+  find_plan(run);
+  find_links(run);
+}
+
+void RunPictures::find_plan(const Simulation& run) {
+  const auto materials = names_of(run, "material");
+  const auto walls = rows_of<Wall>(run, "wall/*/shape");
+  for (const Wall& w : walls) {
+    plan_.walls.push_back({{w.x0, w.y0}, {w.x1, w.y1}, w.thickness, materials.at(static_cast<std::size_t>(w.material))});
+  }
+  const auto states = rows_of<DoorState>(run, "door/*/state");
+  const auto doors = rows_of<Door>(run, "door/*/shape");
+  for (std::size_t i = 0; i < doors.size(); ++i) {
+    const Wall& w = walls.at(static_cast<std::size_t>(doors[i].wall));
+    const double length = std::hypot(w.x1 - w.x0, w.y1 - w.y0);
+    const auto at = [&](double s) { return picture::Point{w.x0 + s / length * (w.x1 - w.x0), w.y0 + s / length * (w.y1 - w.y0)}; };
+    const bool open = i < states.size() && states[i].open != 0;
+    plan_.doors.push_back({at(doors[i].at), at(doors[i].at + doors[i].width), open, w.thickness});
+  }
+  const auto radios = names_of(run, "radio");
+  const auto mounts = rows_of<Mount>(run, "radio/*/mount");
+  for (std::size_t i = 0; i < mounts.size(); ++i) {
+    if (std::isnan(mounts[i].robot)) plan_.stations.push_back({{mounts[i].x, mounts[i].y}, radios[i]});
+  }
+}
+
+void RunPictures::find_links(const Simulation& run) {
+  const auto radios = names_of(run, "radio");
+  for (const auto& instance : run.instances()) {
+    if (instance->declared().plugin != "observe.chain") continue;
+    const auto names = words_of(attribute(*instance, "chain"));
+    const std::string table = "instance/" + instance->name() + "/chain";
+    const Columns& columns = run.table(table).table->columns();
+    const int threshold = instance->find_param("threshold");
+    for (std::size_t i = 1, column = 0; i < names.size(); ++i) {
+      while (column < columns.size() && columns[column].name.compare(0, 5, "rssi_") != 0) ++column;
+      const auto row = [&](const std::string& name) {
+        return static_cast<std::size_t>(std::find(radios.begin(), radios.end(), name) - radios.begin());
+      };
+      if (column == columns.size()) break;
+      links_.push_back({row(names[i - 1]), row(names[i]), names[i], table, column++,
+                        threshold < 0 ? nothing : instance->params()[static_cast<std::size_t>(threshold)]});
+    }
+  }
+}
+
+void RunPictures::look(const Simulation& run) {
+  if (seen_++ % every_ == 0) moments_.push_back(moment(run));
+  if (moments_.size() < most_) return;
+  std::size_t kept = 1;
+  for (std::size_t i = 2; i < moments_.size(); i += 2) moments_[kept++] = std::move(moments_[i]);
+  moments_.resize(kept);
+  every_ *= 2;
+}
+
+RunPictures::Moment RunPictures::moment(const Simulation& run) const {
+  Moment result;
+  result.time = run.time();
+  const auto names = names_of(run, "robot");
+  const auto poses = rows_of<Pose>(run, "robot/*/pose");
+  const Set* set = run.board().find_set("robot");
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const bool here = set->alive[i];
+    result.robots.push_back({{here ? poses[i].x : nothing, here ? poses[i].y : nothing}, yaw_of(poses[i]), names[i],
+                             picture::series_colour(i)});
+  }
+  result.radios.resize(names_of(run, "radio").size(), {nothing, nothing});
+  const auto ends = rows_of<Endpoint>(run, "endpoint/*/radio");
+  const auto places = rows_of<Pose>(run, "endpoint/*/pose");
+  for (std::size_t i = 0; i < ends.size(); ++i) result.radios.at(static_cast<std::size_t>(ends[i].radio)) = {places[i].x, places[i].y};
+  for (const Link& link : links_) result.rssi.push_back(run.table(link.table).at(0, link.column));
+  if (moments_.empty()) return result;
+  result.way = moments_.back().way;
+  for (std::size_t i = 0; i < std::min(result.robots.size(), moments_.back().robots.size()); ++i) {
+    const picture::Point a = result.robots[i].at, b = moments_.back().robots[i].at;
+    if (const double way = std::hypot(a.x - b.x, a.y - b.y); way > 0) result.way += way;  // NaN is not
+  }
+  return result;
+}
+
+std::vector<const RunPictures::Moment*> RunPictures::snapshots() const {
+  constexpr int frames = 4;
+  std::vector<const Moment*> result;
+  for (int frame = 1; frame <= frames; ++frame) {
+    const double way = moments_.back().way * frame / frames;
+    const auto at = std::find_if(moments_.begin(), moments_.end(), [way](const Moment& m) { return m.way >= way; });
+    result.push_back(frame == frames ? &moments_.back() : &*at);
+  }
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+picture::Panel RunPictures::plan_at(const Moment& moment) const {
+  picture::Links links;
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    links.links.push_back({moment.radios.at(links_[i].near), moment.radios.at(links_[i].far), moment.rssi[i]});
+    if (!std::isnan(links_[i].threshold)) links.threshold = links_[i].threshold - 1;  // within 1 dB it holds
+  }
+  picture::Panel panel{.title = time_text(moment.time), .frame = picture::Frame::scale_bar};
+  panel.layers.push_back(plan_);
+  for (std::size_t i = 0; i < moment.robots.size(); ++i) {
+    picture::Path path{.colour = moment.robots[i].colour};
+    for (const Moment& m : moments_) {
+      if (&m > &moment) break;
+      if (i < m.robots.size()) path.points.push_back(m.robots[i].at);
+    }
+    panel.layers.push_back(path);
+  }
+  panel.layers.push_back(links);
+  panel.layers.push_back(picture::Robots{moment.robots});
+  return panel;
+}
+
+picture::Figure RunPictures::plan_figure() const {
+  picture::Figure figure{.title = world_, .caption = "Ways so far; the dBm of each link as last measured.", .width = 900,
+                         .share_x = true, .share_y = true};
+  for (const Moment* m : snapshots()) figure.panels.push_back(plan_at(*m));
+  return figure;
+}
+
+picture::Figure RunPictures::rssi_figure() const {
+  picture::Panel panel{.x = {.label = "time", .unit = "s"}, .y = {.label = "RSSI", .unit = "dBm", .from = -80, .to = -40}};
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    picture::Line line{.label = links_[i].name};
+    for (const Moment& m : moments_) {
+      line.x.push_back(m.time);
+      line.y.push_back(m.rssi[i]);
+    }
+    panel.layers.push_back(line);
+  }
+  if (!std::isnan(links_[0].threshold))
+    panel.layers.push_back(picture::Rule{.at = links_[0].threshold, .label = print_real(links_[0].threshold) + " dBm"});
+  return {.title = world_, .caption = "RSSI of each robot's link towards the base.", .width = 900, .panels = {panel}};
+}
+
+std::vector<std::filesystem::path> RunPictures::write(const std::filesystem::path& folder) const {
+  std::vector<std::filesystem::path> files;
+  if (!moments_.empty() && !moments_.back().robots.empty()) {
+    files.push_back(folder / "plan.svg");
+    picture::save(plan_figure(), files.back());
+  }
+  if (!links_.empty()) {
+    files.push_back(folder / "rssi.svg");
+    picture::save(rssi_figure(), files.back());
+  }
+  return files;
+}
+
+}  // namespace muster

@@ -1,0 +1,56 @@
+// Pictures of a run of robots: snapshots of the plan with links and their dBm (as the paper's Fig. 4), and the trace of
+// rssi along the chains that observe.chain watches (as its Fig. 5).
+#pragma once
+
+#include "diagnosis/picture/figure.hpp"
+#include "kernel/simulation.hpp"
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace muster {
+
+class RunPictures {
+ public:
+  explicit RunPictures(const Simulation& run);
+  // Call before the first tick and after each. Memory is bounded: the moments of a long run are thinned evenly.
+  void look(const Simulation& run);
+  // plan.svg where there are robots, rssi.svg where a chain was watched; the files written. Throws std::runtime_error.
+  std::vector<std::filesystem::path> write(const std::filesystem::path& folder) const;
+
+ private:
+  // A link of a chain: the radios at its ends, and where its rssi stands.
+  struct Link {
+    std::size_t near, far;  // rows of radios
+    std::string name;       // of the further one
+    std::string table;
+    std::size_t column;
+    double threshold;  // dBm
+  };
+  struct Moment {
+    double time = 0;                      // s
+    double way = 0;                       // all that the robots have driven so far, m
+    std::vector<picture::Robot> robots{};
+    std::vector<picture::Point> radios{};
+    std::vector<double> rssi{};           // a link; NaN before the first
+  };
+
+  void find_plan(const Simulation& run);
+  void find_links(const Simulation& run);
+  Moment moment(const Simulation& run) const;
+  std::vector<const Moment*> snapshots() const;
+  picture::Panel plan_at(const Moment& moment) const;
+  picture::Figure plan_figure() const;
+  picture::Figure rssi_figure() const;
+
+  std::string world_;
+  picture::FloorPlan plan_;
+  std::vector<Link> links_;
+  std::vector<Moment> moments_;
+  std::size_t most_ = 0;               // moments kept
+  std::size_t every_ = 1, seen_ = 0;   // of so many looks one is kept
+};
+
+}  // namespace muster

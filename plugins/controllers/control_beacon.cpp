@@ -1,0 +1,31 @@
+// A radio that says, every so often, that it is there.
+#include <muster/plugin.hpp>
+
+#include "own_radio.hpp"
+
+namespace {
+
+using namespace muster;
+
+struct ControlBeacon {
+  static constexpr auto id = "control.beacon/1";
+  static constexpr auto summary = "broadcasts a message every period, for others to measure";
+  static constexpr auto phase = MUSTER_CONTROL;
+  static constexpr Param params[] = {reference("radio", "radio", "the radio it speaks on").required(),
+                                     real("period", 0.5, 0.001, 1000, "s", "of its messages")};
+
+  explicit ControlBeacon(Setup& s)
+      : period(s.value("period")), radio(s.param("radio")), outbox(s.write<Outgoing>("outbox/{radio}/message")) {}
+
+  void step(const Step& k) const {
+    if (is_due(k.time(), k.dt(), k[period])) k.send(outbox, 0, "beacon") = {radio, null(), 0};
+  }
+
+  Value period;
+  double radio;
+  Out<Outgoing> outbox;
+};
+
+}  // namespace
+
+MUSTER_PLUGIN_IS(ControlBeacon)

@@ -1,0 +1,27 @@
+// A robot's own radio, and when to speak on it.
+#pragma once
+
+#include <muster/plugin.hpp>
+
+#include <cmath>
+#include <string>
+
+namespace muster {
+
+// The row of the radio that bears the name of the robot that the parameter `robot` refers to.
+inline double own_radio(const Setup& setup) {
+  const muster_host* host = setup.host();
+  const char* robot = host->row_name(host, "robot", static_cast<uint32_t>(setup.param("robot")));
+  for (uint32_t row = 0; robot && row < host->rows(host, "radio"); ++row) {
+    if (std::string(host->row_name(host, "radio", row)) == robot) return row;
+  }
+  throw BadInput("the robot has no radio of its own name");
+}
+
+// Whether a multiple of `period` lies in (time - dt, time]; sums of ticks are forgiven a part in 1e9.
+inline bool is_due(double time, double dt, double period) {
+  const auto periods = [period](double t) { return std::floor(t / period + 1e-9); };
+  return periods(time) > periods(time - dt);
+}
+
+}  // namespace muster

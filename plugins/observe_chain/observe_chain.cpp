@@ -1,0 +1,137 @@
+// What a chain of radios looks like from above: level, rssi, distance and walls of each of its links, tick by tick.
+#include <muster/plugin.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace muster;
+
+struct ObserveChain {
+  static constexpr auto id = "observe.chain/1";
+  static constexpr auto summary = "level, rssi, distance and walls of the links along a chain of radios";
+  static constexpr auto manual =
+      "`chain` names radios from one end to the other; the link of two neighbours is the one on which the further hears\n"
+      "the nearer, and its columns in self/chain end in the further's name. level, rssi and distance are those of this\n"
+      "tick, null without a link; rssi that was not received keeps its last value. smooth is rssi in a first-order filter.\n"
+      "walls is the part of the level that the adder named by `walls` gave. below is the time that smooth spent under\n"
+      "`threshold`, worst its lowest value so far.";
+  static constexpr auto phase = MUSTER_OBSERVE;
+  static constexpr Param params[] = {
+      text("chain", "", "names of radios, the nearest to the base first").required(),
+      text("walls", "radio.multiwall.walls", "the part of link/*/level that is the loss of walls"),
+      real("threshold", -60, -200, 0, "dBm", "rssi under which a link counts as weak"),
+      real("smoothing", 5, 0, 1000, "s", "time constant of the filter; 0: none")};
+
+  // One link's columns.
+  struct Seen {
+    double level, rssi, smooth, distance, walls, below, worst;
+  };
+  static constexpr std::size_t width = sizeof(Seen) / sizeof(double);
+
+  struct Part {
+    static constexpr const char* columns = "level[dBm]";
+    double level;
+  };
+
+  explicit ObserveChain(Setup& s)
+      : threshold(s.value("threshold")),
+        smoothing(s.value("smoothing")),
+        radios(rows_of(s)),
+        endpoint(s.read<Endpoint>("endpoint/*/radio")),
+        pose(s.read<Pose>("endpoint/*/pose")),
+        ends(s.read<Ends>("link/*/ends")),
+        level(s.read_if_any<Level>("link/*/level")),
+        rssi(s.read_if_any<Rssi>("link/*/rssi")),
+        walls(s.read_if_any<Part>("link/*/level@" + s.text("walls"))),
+        chain{s.host()->claim(s.host(), MUSTER_WRITE, 0, "self/chain", columns_of(s).c_str())} {
+    if (chain.index < 0) throw std::runtime_error("");
+  }
+
+  static std::vector<std::string> names_of(const Setup& s) {
+    std::istringstream words(s.text("chain"));
+    std::vector<std::string> result;
+    for (std::string word; words >> word;) result.push_back(word);
+    if (result.size() < 2) throw BadInput("chain=\"" + s.text("chain") + "\" has no link; expected two names or more");
+    return result;
+  }
+
+  static std::vector<std::size_t> rows_of(const Setup& s) {
+    std::vector<std::size_t> result;
+    const muster_host* host = s.host();
+    for (const std::string& name : names_of(s)) {
+      uint32_t row = 0;
+      while (row < host->rows(host, "radio") && host->row_name(host, "radio", row) != name) ++row;
+      if (row == host->rows(host, "radio")) throw BadInput("chain: \"" + name + "\" is no radio of this world");
+      result.push_back(row);
+    }
+    return result;
+  }
+
+  static std::string columns_of(const Setup& s) {
+    std::string result;
+    for (std::string name : names_of(s)) {
+      if (name == names_of(s).front()) continue;
+      std::replace_if(name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
+      result += " level_" + name + "[dBm]? rssi_" + name + "[dBm]? smooth_" + name + "[dBm]? distance_" + name + "[m]? walls_" + name + "[dB]? below_" +
+                name + "[s] worst_" + name + "[dBm]?";
+    }
+    return result;
+  }
+
+  void step(const Step& k) const {
+    for (std::size_t i = 0; i + 1 < radios.size(); ++i) {
+      Seen& now = reinterpret_cast<Seen*>(&k[chain]->first)[i];
+      const Seen& before = reinterpret_cast<const Seen*>(&k.last(chain)->first)[i];
+      now = {null(), before.rssi, before.smooth, null(), null(), before.below, before.worst};
+      if (const int link = link_of(k, radios[i], radios[i + 1]); link >= 0) look(k, static_cast<std::size_t>(link), now);
+    }
+  }
+
+  void look(const Step& k, std::size_t link, Seen& now) const {
+    const Pose& a = k[pose][static_cast<std::size_t>(k[ends][link].tx)];
+    const Pose& b = k[pose][static_cast<std::size_t>(k[ends][link].rx)];
+    now.distance = std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
+    if (!k[level].empty()) now.level = k[level][link].level;
+    if (!k[walls].empty()) now.walls = 0 - k[walls][link].level;
+    if (k[rssi].empty() || is_null(k[rssi][link].rssi)) return;
+    now.rssi = k[rssi][link].rssi;
+    const double weight = k[smoothing] > 0 ? 1 - std::exp(-k.dt() / k[smoothing]) : 1;
+    now.smooth = is_null(now.smooth) ? now.rssi : now.smooth + weight * (now.rssi - now.smooth);
+    if (now.smooth < k[threshold]) now.below += k.dt();
+    if (!(now.worst <= now.smooth)) now.worst = now.smooth;  // also where there was none
+  }
+
+  // The row of the link on which radio `rx` hears radio `tx`, or -1.
+  int link_of(const Step& k, std::size_t tx, std::size_t rx) const {
+    const auto radio = [&](double row) { return static_cast<std::size_t>(k[endpoint][static_cast<std::size_t>(row)].radio); };
+    for (std::size_t i = 0; i < k[ends].size(); ++i) {
+      if (radio(k[ends][i].tx) == tx && radio(k[ends][i].rx) == rx) return static_cast<int>(i);
+    }
+    return -1;
+  }
+
+  // The row of self/chain is as wide as the chain is long.
+  struct Row {
+    double first;
+  };
+
+  Value threshold, smoothing;
+  std::vector<std::size_t> radios;
+  In<Endpoint> endpoint;
+  In<Pose> pose;
+  In<Ends> ends;
+  In<Level> level;
+  In<Rssi> rssi;
+  In<Part> walls;
+  Out<Row> chain;
+};
+
+}  // namespace
+
+MUSTER_PLUGIN_IS(ObserveChain)

@@ -1,0 +1,23 @@
+// Where a body gets on two wheels that roll without slip.
+#pragma once
+
+#include <muster/tables.hpp>
+
+#include <cmath>
+
+namespace muster {
+
+// Along the circular arc of `forward` [m] that turns by `turned` [rad]: exact for wheels whose rates keep their ratio.
+inline void roll(Odometry& at, double forward, double turned) {
+  const double half = turned / 2;
+  const double chord = std::abs(half) < 1e-4 ? forward * (1 - half * half / 6) : forward * std::sin(half) / half;
+  at.x += chord * std::cos(at.yaw + half);
+  at.y += chord * std::sin(at.yaw + half);
+  at.yaw += turned;
+}
+
+inline double yaw_of(const Pose& p) {
+  return std::atan2(2 * (p.qw * p.qz + p.qx * p.qy), 1 - 2 * (p.qy * p.qy + p.qz * p.qz));
+}
+
+}  // namespace muster

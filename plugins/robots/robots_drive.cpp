@@ -1,0 +1,73 @@
+// From what a controller asks of a robot to what its wheels are asked for.
+#include "ramp.hpp"
+#include "robot_drives.hpp"
+
+namespace {
+
+using namespace muster;
+
+struct RobotsDrive {
+  static constexpr auto id = "robots.drive/1";
+  static constexpr auto summary = "commands to wheel rates, within a drive's speed and acceleration limits";
+  static constexpr auto manual =
+      "Forward speed and turn rate become the rates of two wheels. A command beyond the model's max_speed or\n"
+      "max_acceleration is scaled: both wheels alike, so that the turning radius stays what was asked.\n"
+      "A rate holds at the start of the step, its slope over the step: a backend takes the value at the middle.\n"
+      "`noise` is added to each wheel's rate, white and Gaussian, one draw a wheel and tick; a wheel at rest holds.\n"
+      "Robots whose model has no differential drive, and robots that nobody commands, are asked for zero.";
+  static constexpr auto phase = MUSTER_ACTUATE;
+  static constexpr Param params[] = {
+      real("noise", 0, 0, 10, "rad/s", "standard deviation of a wheel's rate from the rate asked for").free()};
+
+  // The rates without noise at the end of the step: where the next ramp starts.
+  struct Reached {
+    static constexpr const char* columns = "left[rad/s] right[rad/s] model";
+    double left, right, model;  // model: see drive_of()
+  };
+
+  explicit RobotsDrive(Setup& s)
+      : noise(s.value("noise")),
+        stream(s.stream("actuation")),
+        drives(robot_drives(s)),
+        command(s.read_if_any<Command>("robot/*/command")),
+        drive(s.write<Drive>("robot/*/drive")),
+        reached(s.write<Reached>("robot/*/drive_reached")) {}
+
+  void step(const Step& k) const {
+    const auto commands = k[command];
+    for (std::size_t i = 0; i < k[drive].size(); ++i) {
+      const double model = model_of(k.last(reached)[i].model, i);
+      k[drive][i] = {0, 0, 0, 0};
+      k[reached][i] = {0, 0, model};
+      const auto* motors = drive_of(drives, model);
+      if (motors && i < commands.size() && k.alive("robot", i)) turn(k, i, commands[i], *motors);
+    }
+  }
+
+  void turn(const Step& k, std::size_t i, const Command& asked, const description::DifferentialDrive& motors) const {
+    const WheelRates from{k.last(reached)[i].left, k.last(reached)[i].right};
+    const WheelRates goal{motors.left_rate(asked.v, asked.w), motors.right_rate(asked.v, asked.w)};
+    const WheelRates to = ramped(from, limited(goal, motors.max_speed), motors.max_acceleration * k.dt());
+    k[drive][i] = {from.left + error(k, i, 0, from.left, to.left), from.right + error(k, i, 1, from.right, to.right),
+                   (to.left - from.left) / k.dt(), (to.right - from.right) / k.dt()};
+    k[reached][i].left = to.left;
+    k[reached][i].right = to.right;
+  }
+
+  double error(const Step& k, std::size_t robot, unsigned wheel, double from, double to) const {
+    const bool rests = from == 0 && to == 0;
+    if (rests || k.expected() || k[noise] == 0) return 0;
+    return k[noise] * stream.of(k.key("robot", robot)).normal(k.tick(), wheel);
+  }
+
+  Value noise;
+  Stream stream;
+  RobotDrives drives;
+  In<Command> command;
+  Out<Drive> drive;
+  Out<Reached> reached;
+};
+
+}  // namespace
+
+MUSTER_PLUGIN_IS(RobotsDrive)

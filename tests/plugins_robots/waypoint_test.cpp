@@ -1,0 +1,48 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "run_world.hpp"
+
+namespace {
+
+using namespace muster;
+using namespace muster::test;
+
+struct Progress {
+  double next, reached;
+};
+
+const char* const square = "x[m],y[m]\n3,0\n3,3\n0,3\n0,0\n";
+
+TEST(Waypoint, ReachesEachInTurnAndStops) {
+  Folder folder;
+  Simulation run = world_of(folder,
+                            "<robot name=\"r\" at=\"0 0 0\"/><test.turner/>"
+                            "<control.waypoint name=\"c\" robot=\"r\" path=\"path.csv\"/>",
+                            {{"path.csv", square}}, "dt=\"0.05\" until=\"100\" seed=\"1\"");
+  const std::pair<double, double> points[] = {{3, 0}, {3, 3}, {0, 3}, {0, 0}};
+  std::size_t reached = 0;
+  while (!run.done()) {
+    run.step();
+    const auto now = row<Progress>(run, "instance/c/progress");
+    if (static_cast<std::size_t>(now.reached) == reached) continue;
+    ASSERT_EQ(now.reached, ++reached);
+    const auto o = row<Odometry>(run, "robot/r/odometry");
+    EXPECT_LT(std::hypot(o.x - points[reached - 1].first, o.y - points[reached - 1].second), 0.05 + 0.3 * 0.05 * 2);
+  }
+  EXPECT_EQ(reached, 4u);
+  EXPECT_EQ(row<Odometry>(run, "robot/r/odometry").v, 0);
+}
+
+TEST(Waypoint, LoopsWhereAsked) {
+  Folder folder;
+  Simulation run = world_of(folder,
+                            "<robot name=\"r\" at=\"0 0 0\"/><test.turner/>"
+                            "<control.waypoint name=\"c\" robot=\"r\" path=\"path.csv\" loop=\"true\" speed=\"0.5\"/>",
+                            {{"path.csv", square}}, "dt=\"0.05\" until=\"100\" seed=\"1\"");
+  while (!run.done()) run.step();
+  EXPECT_GT(row<Progress>(run, "instance/c/progress").reached, 8);
+}
+
+}  // namespace
