@@ -1,6 +1,7 @@
-// Tables of text (CSV), measured or logged: a header with units such as `t[s],tx,rx,rssi[dBm]`, then rows of numbers and names.
-// UTF-8; ',' between cells; a line a row; an empty cell means "nothing was there"; quotes around a cell make it a name, and a quote
-// inside is doubled. The file is read once and split once; a column is turned into numbers when it is asked for.
+// Tables of text (CSV), measured or logged: a header with units such as `t[s],tx,rx,rssi[dBm]`, then rows of numbers
+// and names. UTF-8; ',' between cells; a line a row; an empty cell means "nothing was there"; quotes around a cell make
+// it a name, and a quote inside is doubled. The file is read once and split once; a column is turned into numbers when
+// it is asked for.
 #pragma once
 
 #include <cstddef>
