@@ -76,8 +76,7 @@ void Simulation::remake(const std::string& name) {
 void Simulation::reload(const std::string& name) {
   const auto at = find(name);
   const auto& declared = instances_[at]->declared();
-  auto library = Library::load(declared.plugin, declared.library, options_.search_path, declared.place);
-  replace(at, std::make_unique<Instance>(declared, std::move(library), around_));
+  replace(at, std::make_unique<Instance>(declared, load_library(declared), around_));
   events_.push_back({tick_, name, std::string("reloaded ") + instances_[at]->plugin().id});
 }
 

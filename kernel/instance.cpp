@@ -188,12 +188,13 @@ void Instance::bind(uint64_t tick) {
 
 bool Instance::step(muster_tick tick) noexcept {
   tick.params = params_.data();
+  static thread_local const FloatGuard guard;  // as this thread was before any plugin ran on it
   in_step_ = true;
-  FloatGuard guard;
   const bool fine = plugin_->step(self_, &tick, in_.data(), out_.data()) == MUSTER_OK;
   in_step_ = false;
   if (guard.changed()) {
     said_ = guard.what() + " for the whole process; expected it to leave the arithmetic as it was";
+    guard.restore();
     return false;
   }
   return fine && said_.empty();

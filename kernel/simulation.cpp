@@ -16,10 +16,12 @@ Simulation::Simulation(World world, const Standard& standard, Options options)
     for (const auto& set : row.sets) board_.find_set(set)->add(row.name);
   }
   for (const auto& warning : world_.warnings) events_.push_back({0, "", "warning: " + warning.place.text() + ": " + warning.message});
+  loader_ = std::make_unique<LibraryLoader>(options_.search_path);
   for (const auto& declaration : options_.more) instances_.push_back(make(declaration));
   for (const auto& declaration : world_.instances) instances_.push_back(make(declaration));
   for (const auto& swap : world_.swaps) planned_.push_back(library_of(swap.replacement));
   add_providers();
+  loader_.reset();
   if (options_.workers > 1) workers_ = std::make_unique<Workers>(options_.workers);
   relink();
   run(0, MUSTER_SENSE, MUSTER_SENSE, 0);
@@ -27,11 +29,26 @@ Simulation::Simulation(World world, const Standard& standard, Options options)
 
 Simulation::~Simulation() = default;
 
+namespace {
+
+std::string library_key(const InstanceDeclaration& declaration) {
+  return declaration.plugin + (declaration.library ? ' ' + declaration.library->string() : "");
+}
+
+}  // namespace
+
 // One library serves all instances of a plugin.
 std::shared_ptr<Library> Simulation::library_of(const InstanceDeclaration& declaration) {
-  const std::string key = declaration.plugin + (declaration.library ? ' ' + declaration.library->string() : "");
-  auto library = libraries_[key].lock();
-  if (!library) libraries_[key] = library = Library::load(declaration.plugin, declaration.library, options_.search_path, declaration.place);
+  auto library = libraries_[library_key(declaration)].lock();
+  return library ? library : load_library(declaration);
+}
+
+std::shared_ptr<Library> Simulation::load_library(const InstanceDeclaration& declaration) {
+  const auto& plugin = declaration.plugin;
+  const auto& where = declaration.place;
+  auto library = loader_ ? loader_->load(plugin, declaration.library, where)
+                         : Library::load(plugin, declaration.library, options_.search_path, where);
+  libraries_[library_key(declaration)] = library;
   return library;
 }
 

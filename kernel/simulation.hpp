@@ -92,6 +92,7 @@ class Simulation {
   struct Workers;
   std::unique_ptr<Instance> make(InstanceDeclaration declaration);
   std::shared_ptr<Library> library_of(const InstanceDeclaration& declaration);
+  std::shared_ptr<Library> load_library(const InstanceDeclaration& declaration);
   void add_providers();
   void relink();
   std::size_t find(const std::string& instance) const;
@@ -111,6 +112,7 @@ class Simulation {
   Blackboard board_;
   Surroundings around_;
   std::map<std::string, std::weak_ptr<Library>> libraries_;
+  std::unique_ptr<LibraryLoader> loader_;  // while the world is loaded: its libraries share one trial
   std::vector<std::unique_ptr<Instance>> instances_;
   std::vector<Batch> batches_;
   std::vector<Event> events_;

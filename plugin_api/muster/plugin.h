@@ -135,6 +135,8 @@ typedef struct muster_host {
   int (*place)(const struct muster_host*, int claim, uint32_t row, const char* quantity, uint32_t column, double value);
   /* [any] Say why a callback is about to fail; the kernel adds file, line, instance, callback and tick. */
   void (*error)(const struct muster_host*, const char* message);
+  /* [any] As error(), where not the plugin is wrong but what the user gave it: a parameter, a file. */
+  void (*refuse)(const struct muster_host*, const char* message);
   /* [any] A line for the run's list of events. */
   void (*event)(const struct muster_host*, const char* message);
 } muster_host;

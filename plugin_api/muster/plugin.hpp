@@ -91,6 +91,11 @@ template <class Row> struct Stage { int index; };
 // A declared number: its place among the declarations. `k[n]` is its value in this step.
 struct Value { int index; };
 
+// Throw it where not the plugin is wrong but what the user gave it: a parameter, a file.
+struct BadInput : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 // ---- Callbacks ----------------------------------------------------------------------------------------------------
 
 // What a constructor may ask. Every call throws when the kernel refuses it; the kernel has the message already.
@@ -204,6 +209,8 @@ template <class Body> bool guarded(const muster_host* host, Body&& body) noexcep
   try {
     body();
     return true;
+  } catch (const BadInput& e) {
+    host->refuse(host, e.what());
   } catch (const std::exception& e) {
     if (*e.what()) host->error(host, e.what());
   } catch (...) {

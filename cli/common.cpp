@@ -1,0 +1,65 @@
+#include "verbs.hpp"
+
+#include <fmt/core.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <unistd.h>
+
+namespace muster::cli {
+
+void parse(CLI::App& app, const Arguments& arguments) {
+  try {
+    Arguments reversed(arguments.rbegin(), arguments.rend());  // as CLI11 wants them
+    app.parse(reversed);
+  } catch (const CLI::CallForHelp&) {
+    fmt::print("{}", app.help());
+    throw Helped{};
+  } catch (const CLI::ParseError& e) {
+    throw Error(Exit::invalid_input, fmt::format("muster {}: {}; see muster {} --help", app.get_name(), e.what(), app.get_name()));
+  }
+}
+
+Library::SearchPath plugin_path(const std::vector<std::string>& given) {
+  Library::SearchPath result(given.begin(), given.end());
+  if (const char* variable = std::getenv("MUSTER_PLUGIN_PATH")) {
+    std::string rest = variable;
+    for (std::size_t colon; !rest.empty(); rest = colon == rest.npos ? "" : rest.substr(colon + 1)) {
+      colon = rest.find(':');
+      if (colon != 0) result.emplace_back(rest.substr(0, colon));
+    }
+  }
+  result.push_back(std::filesystem::read_symlink("/proc/self/exe").parent_path() / "plugins");
+  return result;
+}
+
+Progress::Progress(std::string what) : what_(std::move(what)) {
+  const char* terminal = std::getenv("TERM");
+  shown_ = isatty(STDERR_FILENO) && terminal && std::string(terminal) != "dumb";
+}
+
+Progress::~Progress() {
+  if (shown_ && last_ >= 0) fmt::print(stderr, "\r\x1b[K");
+}
+
+void Progress::at(double share) {
+  const int percent = static_cast<int>(share * 100);
+  if (!shown_ || percent == last_) return;
+  last_ = percent;
+  fmt::print(stderr, "\r{} {:3}% [{:<40}]", what_, percent, std::string(static_cast<std::size_t>(percent) * 40 / 100, '='));
+  std::fflush(stderr);
+}
+
+namespace {
+volatile std::sig_atomic_t stop = 0;
+}
+
+bool interrupted() { return stop != 0; }
+void watch_interrupt() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { stop = 1; };
+  action.sa_flags = static_cast<int>(SA_RESETHAND);  // a second Ctrl-C ends at once
+  sigaction(SIGINT, &action, nullptr);
+}
+
+}  // namespace muster::cli

@@ -1,0 +1,73 @@
+// muster VERB ...: finds the verb, runs it, and turns errors into one line and an exit code.
+#include "verbs.hpp"
+
+#include "kernel/names.hpp"
+
+#include <fmt/core.h>
+
+#include <cstdio>
+#include <new>
+
+namespace {
+
+using namespace muster;
+using namespace muster::cli;
+
+struct Verb {
+  const char* name;
+  int (*run)(const Arguments&);
+  const char* summary;
+};
+
+constexpr Verb verbs[] = {
+    {"run", run_run, "run a world"},
+    {"check", run_check, "read a world, load and link its plugins, and say what is wrong"},
+    {"swap", run_swap, "run a world and exchange an instance's plugin on the way"},
+    {"graph", run_graph, "who reads and writes what, and the order of steps"},
+    {"plugins", run_plugins, "the plugins that can be loaded"},
+    {"describe", run_describe, "a plugin's manual, from its declarations"},
+    {"fit", run_fit, "fit a world's free parameters to measured data, and say where it misfits"},
+    {"features", run_features, "distance, walls and angles of each measured reading"},
+    {"import", run_import, "bring a foreign file into the format of measured data"},
+};
+
+void print_usage(std::FILE* to) {
+  fmt::print(to, "muster VERB ...: simulates teams of robots that move, sense and talk by radio, and holds them against measurements\n\n");
+  for (const auto& verb : verbs) fmt::print(to, "  {:<10} {}\n", verb.name, verb.summary);
+  fmt::print(to, "\nmuster VERB --help says more.  Example: muster run worlds/connectivity --json\n");
+}
+
+int run(const Arguments& words) {
+  if (words.empty()) return print_usage(stderr), static_cast<int>(Exit::invalid_input);
+  if (words[0] == "--help" || words[0] == "-h" || words[0] == "help") return print_usage(stdout), 0;
+  if (words[0] == "--version") return fmt::print("muster {}\n", MUSTER_VERSION), 0;
+  std::vector<std::string> names;
+  for (const auto& verb : verbs) {
+    if (words[0] == verb.name) return verb.run({words.begin() + 1, words.end()});
+    names.emplace_back(verb.name);
+  }
+  throw Error(Exit::invalid_input, "there is no verb " + quote(words[0]) + "; " + suggest(words[0], names));
+}
+
+int fail(Exit code, const std::string& message) {
+  fmt::print(stderr, "muster: error: {}\n", message);
+  return static_cast<int>(code);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  int code = 0;
+  try {
+    code = run({argv + 1, argv + argc});
+  } catch (const Helped&) {
+  } catch (const Error& e) {
+    code = fail(e.exit(), e.what());
+  } catch (const std::bad_alloc&) {
+    code = fail(Exit::internal, "out of memory");
+  } catch (const std::exception& e) {
+    code = fail(Exit::internal, e.what());
+  }
+  if (std::fflush(stdout) != 0 || std::ferror(stdout)) return fail(Exit::io, "standard output cannot be written");
+  return code;
+}

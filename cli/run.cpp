@@ -1,0 +1,252 @@
+// muster run WORLD and muster swap WORLD: the same run, with or without an exchange on the way.
+#include "run_pictures.hpp"
+#include "verbs.hpp"
+
+#include "kernel/names.hpp"
+#include "kernel/number.hpp"
+#include "kernel/params.hpp"
+#include "kernel/record.hpp"
+#include "kernel/text_file.hpp"
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <sys/stat.h>
+
+namespace muster::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct RunWords {
+  std::string world, out, save, restore;
+  std::vector<std::string> plugins, record, set;
+  int workers = 1;
+  std::optional<std::string> until, seed;
+  uint64_t digest_every = 0;
+  bool json = false, watch = false;
+  SwapDeclaration swap;  // of the verb swap
+  std::string swap_at;
+};
+
+void declare(CLI::App& app, RunWords& words) {
+  app.add_option("world", words.world, "the world's folder or file")->required();
+  app.add_option("--workers", words.workers, "threads; the results do not depend on it")->check(CLI::Range(1, 256));
+  app.add_option("--until", words.until, "end of the run in seconds, instead of the world's");
+  app.add_option("--seed", words.seed, "seed of all random numbers, instead of the world's");
+  app.add_option("--set", words.set, "PATH=VALUE: a parameter of the world or of a plugin");
+  app.add_option("--out", words.out, "folder for tables and pictures");
+  app.add_option("--record", words.record, "a table to write to --out as CSV, such as 'robot/*/pose'");
+  app.add_option("--save", words.save, "write the state at the end to this file");
+  app.add_option("--restore", words.restore, "begin from a state that --save wrote");
+  app.add_option("--digest-every", words.digest_every, "print the digest every so many ticks");
+  app.add_option("--plugins", words.plugins, "a folder of plugins, looked in first");
+  app.add_flag("--watch", words.watch, "load a plugin again when its file changes on disk");
+  app.add_flag("--json", words.json, "print the outcome as JSON");
+}
+
+double real_of(const std::string& text, const char* option) {
+  const auto value = parse_real(text);
+  if (!value) throw Error(Exit::invalid_input, std::string(option) + ": " + why_not_real(text));
+  return *value;
+}
+
+World world_of(const RunWords& words) {
+  World world = read_world(words.world, standard());
+  if (words.until) world.ticks = ticks_of(real_of(*words.until, "--until"), world.dt, {"--until"});
+  if (words.seed) {
+    const auto seed = parse_integer(*words.seed);
+    if (!seed || *seed < 0) throw Error(Exit::invalid_input, "--seed: " + quote(*words.seed) + " is no seed; expected an integer from 0");
+    world.seed = static_cast<uint64_t>(*seed);
+  }
+  for (const auto& table : words.record) world.records.push_back({table, 1, {}});
+  if (!words.record.empty() && words.out.empty()) throw Error(Exit::invalid_input, "--record needs --out, the folder to write to");
+  return world;
+}
+
+void set_parameters(Simulation& run, const std::vector<std::string>& given) {
+  for (const auto& one : given) {
+    const auto equals = one.find('=');
+    if (equals == std::string::npos) throw Error(Exit::invalid_input, "--set " + quote(one) + ": expected PATH=VALUE");
+    const std::string path = one.substr(0, equals);
+    const auto info = run.parameter(path);
+    const XmlAttribute attribute{path, one.substr(equals + 1), {"--set"}, {"--set"}};
+    const FindRow no_rows = [](const std::string&, const std::string&, const Place& place) -> double {
+      throw invalid(place, "a reference cannot be set on the command line");
+    };
+    run.set_parameter(path, attribute_values(*info.declared, 1, attribute, no_rows, [](const Place&, const std::string&) {}).at(0));
+  }
+}
+
+// Loads plugins again whose files have changed since the last look.
+class Watcher {
+ public:
+  void look(Simulation& run) {
+    for (const auto& instance : run.instances()) {
+      const auto now = stamp(instance->library()->file());
+      const auto [known, is_new] = seen_.emplace(instance->name(), now);
+      if (is_new || known->second == now || now == Stamp{}) continue;
+      known->second = now;
+      try {
+        run.reload(instance->name());
+      } catch (const Error& e) {
+        fmt::print(stderr, "muster: warning: {}; the old one goes on\n", e.what());
+      }
+      return;  // reload() has changed the list
+    }
+  }
+
+ private:
+  using Stamp = std::pair<int64_t, int64_t>;  // size and time of change
+  static Stamp stamp(const std::filesystem::path& file) {
+    struct stat s {};
+    if (::stat(file.c_str(), &s) != 0 || s.st_size == 0) return {};
+    return {s.st_size, s.st_mtim.tv_sec * 1'000'000'000 + s.st_mtim.tv_nsec};
+  }
+  std::map<std::string, Stamp> seen_;
+};
+
+// The tables of OBSERVE instances: what the world's authors chose to see of it.
+ordered_json observed(const Simulation& run) {
+  ordered_json result = ordered_json::object();
+  for (const auto& instance : run.instances()) {
+    if (instance->phase() != MUSTER_OBSERVE) continue;
+    for (const auto& claim : instance->claims()) {
+      if (!claim.out || claim.out->set().name != "instance/" + instance->name()) continue;
+      const Table& table = *claim.out;
+      for (std::size_t c = 0; c < table.width(); ++c) {
+        const double value = table.now().data[c];
+        auto& cell = result[instance->name()][claim.name.quantity][table.columns()[c].title()];
+        cell = std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
+      }
+    }
+  }
+  return result;
+}
+
+std::string hexadecimal(uint64_t digest) { return fmt::format("{:016x}", digest); }
+
+using Digests = std::vector<std::pair<uint64_t, uint64_t>>;  // tick, digest
+
+void print_outcome(const Simulation& run, const RunWords& words, const Digests& digests, const std::vector<std::filesystem::path>& files) {
+  ordered_json json = {{"world", run.world().name}, {"seed", run.world().seed}, {"dt", run.world().dt}, {"ticks", run.tick()},
+                       {"time", run.time()}, {"digest", hexadecimal(run.digest())}, {"observed", observed(run)}};
+  json["events"] = ordered_json::array();
+  for (const auto& event : run.events())
+    json["events"].push_back({{"time", static_cast<double>(event.tick) * run.world().dt}, {"instance", event.instance}, {"message", event.message}});
+  if (words.digest_every) json["digests"] = ordered_json::array();
+  for (const auto& [tick, digest] : digests) json["digests"].push_back({{"tick", tick}, {"digest", hexadecimal(digest)}});
+  json["files"] = ordered_json::array();
+  for (const auto& file : files) json["files"].push_back(file.string());
+  if (words.json) {
+    fmt::print("{}\n", json.dump(2));
+    return;
+  }
+  fmt::print("{}: {} ticks, {} s, digest {}\n", run.world().name, run.tick(), print_real(run.time()), hexadecimal(run.digest()));
+  for (const auto& event : run.events())
+    fmt::print("  t = {} s  {}{}{}\n", print_real(static_cast<double>(event.tick) * run.world().dt), event.instance, event.instance.empty() ? "" : ": ", event.message);
+  for (const auto& [instance, tables] : json["observed"].items()) {
+    for (const auto& [table, cells] : tables.items()) {
+      for (const auto& [column, value] : cells.items())
+        fmt::print("  {}/{} {} = {}\n", instance, table, column, value.is_null() ? "" : print_real(value.get<double>()));
+    }
+  }
+  for (const auto& file : files) fmt::print("  wrote {}\n", file.string());
+}
+
+int run_world(const RunWords& words) {
+  World world = world_of(words);
+  if (!words.swap.instance.empty()) {
+    SwapDeclaration swap = words.swap;
+    swap.tick = ticks_of(real_of(words.swap_at, "--at"), world.dt, {"--at"});
+    const auto known = std::any_of(world.instances.begin(), world.instances.end(), [&](const auto& i) { return i.name == swap.instance; });
+    if (!known) {
+      std::vector<std::string> names;
+      for (const auto& instance : world.instances) names.push_back(instance.name);
+      throw Error(Exit::invalid_input, "--instance: no instance is called " + quote(swap.instance) + "; " + suggest(swap.instance, names));
+    }
+    world.swaps.push_back(std::move(swap));
+  }
+  const auto records = world.records;
+  Simulation run(std::move(world), standard(), {plugin_path(words.plugins), words.workers, {}});
+  set_parameters(run, words.set);
+  if (!words.restore.empty()) run.restore(Snapshot::load(words.restore));
+  std::optional<Recorder> recorder;
+  std::optional<RunPictures> pictures;
+  if (!words.out.empty()) {
+    recorder.emplace(run, records, words.out);
+    pictures.emplace(run);
+    recorder->write(run);
+    pictures->look(run);
+  } else if (!records.empty() && !words.json) {
+    fmt::print(stderr, "muster: note: the world records tables; --out DIR says where to\n");
+  }
+  Watcher watcher;
+  Digests digests;
+  Progress progress("muster run " + run.world().name);
+  watch_interrupt();
+  const auto finish = [&] {
+    std::vector<std::filesystem::path> files;
+    if (recorder) files = recorder->close();
+    if (!words.save.empty()) run.snapshot().save(words.save), files.emplace_back(words.save);
+    return files;
+  };
+  try {
+    while (!run.done() && !interrupted()) {
+      if (words.watch) watcher.look(run);
+      run.step();
+      if (recorder) recorder->write(run), pictures->look(run);
+      if (words.digest_every && run.tick() % words.digest_every == 0) {
+        digests.emplace_back(run.tick(), run.digest());
+        if (!words.json) fmt::print("{} {}\n", run.tick(), hexadecimal(digests.back().second));
+      }
+      progress.at(static_cast<double>(run.tick()) / static_cast<double>(run.world().ticks));
+    }
+  } catch (const Error&) {
+    finish();  // what stands up to the last whole tick is kept
+    throw;
+  }
+  auto files = finish();
+  if (pictures) {
+    for (auto& file : pictures->write(words.out)) files.push_back(std::move(file));
+  }
+  print_outcome(run, words, digests, files);
+  return static_cast<int>(interrupted() ? Exit::interrupted : Exit::done);
+}
+
+}  // namespace
+
+int run_run(const Arguments& arguments) {
+  CLI::App app("Runs a world.\nExample: muster run worlds/connectivity --out out/connectivity", "run");
+  RunWords words;
+  declare(app, words);
+  parse(app, arguments);
+  return run_world(words);
+}
+
+int run_swap(const Arguments& arguments) {
+  CLI::App app("Runs a world and exchanges the plugin of an instance on the way, state carried over.\n"
+               "Example: muster swap worlds/hot_swap --at 5 --instance physics --plugin physics.planar acceleration=4", "swap");
+  RunWords words;
+  std::vector<std::string> attributes;
+  declare(app, words);
+  app.add_option("--at", words.swap_at, "when, in seconds")->required();
+  app.add_option("--instance", words.swap.instance, "the instance")->required();
+  app.add_option("--plugin", words.swap.replacement.plugin, "its new plugin, such as physics.planar")->required();
+  app.add_option("attributes", attributes, "NAME=VALUE: attributes of the new plugin");
+  parse(app, arguments);
+  auto& replacement = words.swap.replacement;
+  replacement.place = {"muster swap"};
+  replacement.name = words.swap.instance;
+  for (const auto& one : attributes) {
+    const auto equals = one.find('=');
+    if (equals == std::string::npos) throw Error(Exit::invalid_input, "muster swap: " + quote(one) + " is no attribute; expected NAME=VALUE");
+    replacement.attributes.push_back({one.substr(0, equals), one.substr(equals + 1), {"muster swap"}, {"muster swap"}});
+  }
+  return run_world(words);
+}
+
+}  // namespace muster::cli

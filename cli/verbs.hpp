@@ -1,0 +1,54 @@
+// The verbs of the program, one file each. A verb gets the words after its name and returns the exit code; it throws
+// Error for everything that ends it early.
+#pragma once
+
+#include "kernel/error.hpp"
+#include "kernel/simulation.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace muster::cli {
+
+using Arguments = std::vector<std::string>;
+
+int run_check(const Arguments& arguments);
+int run_describe(const Arguments& arguments);
+int run_features(const Arguments& arguments);
+int run_fit(const Arguments& arguments);
+int run_graph(const Arguments& arguments);
+int run_import(const Arguments& arguments);
+int run_plugins(const Arguments& arguments);
+int run_run(const Arguments& arguments);
+int run_swap(const Arguments& arguments);
+
+// ---- What verbs share (common.cpp) ----
+
+// Parses a verb's words. Throws Usage where they are off, Helped where only help was asked for.
+void parse(CLI::App& app, const Arguments& arguments);
+struct Helped {};
+
+// The folders in which plugins are looked for: --plugins, MUSTER_PLUGIN_PATH, and `plugins` beside the program.
+Library::SearchPath plugin_path(const std::vector<std::string>& given = {});
+
+// A line of progress on standard error, on a terminal only; gone when it is destroyed.
+class Progress {
+ public:
+  explicit Progress(std::string what);
+  ~Progress();
+  void at(double share);
+
+ private:
+  std::string what_;
+  bool shown_;
+  int last_ = -1;
+};
+
+// Set by SIGINT; a run ends whole at the next tick.
+bool interrupted();
+void watch_interrupt();
+
+}  // namespace muster::cli

@@ -1,0 +1,100 @@
+#include "record.hpp"
+
+#include "names.hpp"
+
+#include <algorithm>
+#include <set>
+
+namespace muster {
+namespace {
+
+// "robot/*/pose" becomes robot_pose.csv, and a single row's "robot/leader/pose" robot_leader_pose.csv.
+std::string file_name(const std::string& table) {
+  std::string result;
+  for (const char c : table) {
+    if (c == '*') continue;
+    const bool break_here = c == '/' || c == '@';
+    if (!break_here) result += c;
+    else if (!result.empty() && result.back() != '_') result += '_';
+  }
+  return result + ".csv";
+}
+
+std::vector<TextColumn> header(const Table& table) {
+  const std::string& set = table.set().name;
+  std::vector<TextColumn> result = {{"t", "s"}, {set.substr(0, set.find('/')), ""}};
+  for (const auto& column : table.columns()) result.push_back({column.name, column.unit});
+  return result;
+}
+
+// Bytes as hexadecimal digits.
+std::string digits(const std::vector<uint8_t>& bytes) {
+  static constexpr char digit[] = "0123456789abcdef";
+  std::string result;
+  for (const uint8_t byte : bytes) {
+    result += digit[byte >> 4];
+    result += digit[byte & 15];
+  }
+  return result;
+}
+
+void write_cell(TextTableWriter& writer, const Simulation& run, const Cells& cells, const Column& column, double value) {
+  const Set* set = column.reference.empty() ? nullptr : run.board().find_set(column.reference);
+  if (column.bytes) writer.text(value == 0 ? "" : digits(*cells.blobs[static_cast<std::size_t>(value) - 1]));
+  else if (set && set->is_named()) writer.text(cell_text(run.board(), column, value));
+  else writer.real(value);
+}
+
+}  // namespace
+
+Recorder::Recorder(const Simulation& run, const std::vector<RecordDeclaration>& tables, const std::filesystem::path& folder) {
+  std::error_code made;
+  std::filesystem::create_directories(folder, made);
+  if (made) throw Error(Exit::io, Place{folder.string()}, "cannot be made: " + made.message());
+  std::set<std::string> seen;
+  for (const auto& declared : tables) {
+    if (!seen.insert(declared.table).second) continue;
+    try {
+      const TableView view = run.table(declared.table);
+      const auto path = folder / file_name(declared.table);
+      files_.push_back({declared.table, declared.every, path, std::make_unique<TextTableWriter>(path, header(*view.table))});
+    } catch (const Error& e) {
+      if (e.exit() != Exit::invalid_input || declared.place.file.empty()) throw;
+      throw invalid(declared.place, std::string("record: ") + e.what());
+    }
+  }
+}
+
+void Recorder::write(const Simulation& run) {
+  for (auto& file : files_) {
+    if (run.tick() % file.every != 0) continue;
+    const TableView view = run.table(file.table);
+    const Table& table = *view.table;
+    const Set& set = table.set();
+    const Cells& cells = table.now();
+    const std::size_t first = view.row >= 0 ? static_cast<std::size_t>(view.row) : 0;
+    const std::size_t last = view.row >= 0 ? first + 1 : cells.rows;
+    for (std::size_t r = first; r < last; ++r) {
+      if (set.is_named() && !set.alive[r]) continue;
+      if (set.kind == SetKind::queue && cells.appended[r] != run.tick()) continue;  // each message once
+      file.writer->real(run.time());
+      if (set.is_named()) file.writer->text(set.names[r]);
+      else file.writer->real(static_cast<double>(r));
+      for (std::size_t c = 0; c < table.width(); ++c)
+        write_cell(*file.writer, run, cells, table.columns()[c], cells.data[r * table.width() + c]);
+      file.writer->end_row();
+    }
+  }
+}
+
+std::vector<std::filesystem::path> Recorder::close() {
+  std::vector<std::filesystem::path> result;
+  for (auto& file : files_) {
+    file.writer->close();
+    result.push_back(file.path);
+  }
+  files_.clear();
+  return result;
+}
+
+}  // namespace muster

@@ -1,0 +1,34 @@
+// Tables of a run written as CSV while it runs: `t[s],robot,x[m],...`. Plugins read such files back by Setup::file.
+#pragma once
+
+#include "simulation.hpp"
+#include "text_table_writer.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace muster {
+
+class Recorder {
+ public:
+  // One file a declaration, named after its table, in the folder, which is made. Throws Error.
+  Recorder(const Simulation& run, const std::vector<RecordDeclaration>& tables, const std::filesystem::path& folder);
+
+  // Call after each tick.
+  void write(const Simulation& run);
+  // Makes the files appear under their names; without it nothing remains.
+  std::vector<std::filesystem::path> close();
+
+ private:
+  struct File {
+    std::string table;
+    uint64_t every;
+    std::filesystem::path path;
+    std::unique_ptr<TextTableWriter> writer;
+  };
+  std::vector<File> files_;
+};
+
+}  // namespace muster
