@@ -1,0 +1,131 @@
+// The samples of plugin_api/README.md: they are the files that the build compiles, they are as short as is said, and
+// they run.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "kernel/simulation.hpp"
+
+namespace muster {
+namespace {
+
+const std::filesystem::path source = MUSTER_SOURCE_DIR;
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  EXPECT_TRUE(in) << file;
+  return (std::ostringstream() << in.rdbuf()).str();
+}
+
+// The fenced blocks that follow a line "`file`:", by file.
+std::map<std::string, std::string> quoted_files(const std::string& markdown) {
+  std::map<std::string, std::string> result;
+  std::istringstream lines(markdown);
+  std::string line, file;
+  bool inside = false;
+  while (std::getline(lines, line)) {
+    const bool fence = line.rfind("```", 0) == 0;
+    if (fence && inside) {
+      inside = false;
+      file.clear();
+    } else if (fence && !file.empty()) {
+      inside = true;
+      result[file];
+    } else if (inside) {
+      result[file] += line + '\n';
+    } else if (line.size() > 3 && line.front() == '`' && line.substr(line.size() - 2) == "`:") {
+      file = line.substr(1, line.size() - 3);
+    }
+  }
+  return result;
+}
+
+int lines_with_text(const std::string& text) {
+  std::istringstream lines(text);
+  int result = 0;
+  for (std::string line; std::getline(lines, line);) result += line.find_first_not_of(" \t") != std::string::npos;
+  return result;
+}
+
+TEST(Samples, OfTheReadmeAreTheFilesThatAreBuilt) {
+  const auto quoted = quoted_files(text_of(source / "plugin_api" / "README.md"));
+  std::vector<std::string> expected;
+  for (const auto& entry : std::filesystem::directory_iterator(source / "docs" / "samples")) {
+    const std::string name = entry.path().filename();
+    if (name.front() != '.') expected.push_back("docs/samples/" + name);
+  }
+  EXPECT_EQ(expected.size(), quoted.size());
+  for (const auto& file : expected) {
+    ASSERT_TRUE(quoted.count(file)) << file;
+    EXPECT_EQ(quoted.at(file), text_of(source / file)) << file;
+  }
+}
+
+TEST(Samples, ARadioTermTakes25LinesAndAControllerTakes20) {
+  EXPECT_LE(lines_with_text(text_of(source / "docs/samples/radio_one_slope.cpp")), 25);
+  EXPECT_LE(lines_with_text(text_of(source / "docs/samples/control_keep_in_touch.cpp")), 20);
+}
+
+// The world of the README, on a physics of the test's own or on the one that joins by itself.
+Simulation readme_world(bool own_physics) {
+  Options options;
+  options.search_path = {MUSTER_SAMPLES_DIR, MUSTER_PLUGINS_DIR};
+  if (own_physics) {
+    InstanceDeclaration body;
+    body.plugin = body.name = "test.body";
+    body.place.file = "samples_test.cpp";
+    options.more = {body};
+  }
+  return Simulation(read_world(source / "docs/samples/world.xml", standard()), standard(), options);
+}
+
+double apart(const Simulation& world) {
+  const TableView pose = world.table("robot/*/pose");
+  return std::hypot(pose.at(0, 0) - pose.at(1, 0), pose.at(0, 1) - pose.at(1, 1), pose.at(0, 2) - pose.at(1, 2));
+}
+
+// Level falls to the network's -65 dBm at 10 m, as -40 - 25 log10 d says. At 0.6 m/s away from each other the two are
+// there after a little more than 3 s; then nothing is heard, and they turn on the spot.
+void expect_they_keep_in_touch(Simulation& world, double slack) {
+  while (world.time() < 2.5) world.step();
+  EXPECT_LT(apart(world), 10);
+  EXPECT_GT(apart(world), 9);
+  EXPECT_NEAR(world.table("link/*/level").at(0, 0), -40 - 25 * std::log10(apart(world)), 1e-9);
+  const TableView traffic = world.table("radio/east/traffic");
+  EXPECT_EQ(traffic.at(0, 0), static_cast<double>(world.tick()));  // asked in every tick, and delivered
+  EXPECT_EQ(traffic.at(0, 1), static_cast<double>(world.tick()));
+  EXPECT_EQ(world.table("robot/east/command").at(0, 0), 0.3);
+  while (world.time() < 6) world.step();
+  EXPECT_NEAR(apart(world), 10, slack);
+  EXPECT_EQ(world.table("robot/east/command").at(0, 0), 0);
+  EXPECT_EQ(world.table("robot/east/command").at(0, 1), 0.5);
+}
+
+TEST(Samples, RunAsTheReadmeSays) {
+  Simulation world = readme_world(true);
+  expect_they_keep_in_touch(world, 0.02);
+}
+
+TEST(Samples, ParametersOfTheTermAreFreeToAFit) {
+  Simulation world = readme_world(true);
+  for (const char* path : {"radio.one_slope/l0", "radio.one_slope/n"}) {
+    EXPECT_TRUE(world.parameter(path).declared->flags & MUSTER_FREE) << path;
+  }
+  world.set_parameter("radio.one_slope/l0", 30);
+  world.step();
+  EXPECT_NEAR(world.table("link/*/level").at(0, 0), -30 - 25 * std::log10(apart(world)), 1e-9);
+}
+
+#ifdef MUSTER_HAS_SIMBODY
+TEST(Samples, RunOnTheUsualPhysics) {
+  Simulation world = readme_world(false);
+  expect_they_keep_in_touch(world, 0.2);
+}
+#endif
+
+}  // namespace
+}  // namespace muster
