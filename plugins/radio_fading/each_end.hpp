@@ -1,8 +1,9 @@
-// What is prepared once for each endpoint and looked up by its links.
+// What is prepared once for each endpoint, looked up by its links, and evaluated once a pair.
 #pragma once
 
 #include <cmath>
 #include <muster/plugin.hpp>
+#include <muster/reverse_links.hpp>
 #include <vector>
 
 namespace muster {
@@ -20,6 +21,13 @@ std::vector<typename Field::End> at_each(const Field& field, Rows<const Pose> pl
   result.reserve(places.size());
   for (const Pose& p : places) result.push_back(field.end_at(p.x / unit, p.y / unit, p.z / unit));
   return result;
+}
+
+// A reciprocal value of each link: links that run both ways between the same ends share one evaluation.
+template <class Row, class Evaluate>
+void once_a_pair(Rows<const Ends> links, std::size_t endpoints, Rows<Row> out, const Evaluate& evaluate) {
+  const auto back = earlier_reverse(links, endpoints);
+  for (std::size_t i = 0; i < links.size(); ++i) out[i] = back[i] != no_link ? out[back[i]] : evaluate(links[i]);
 }
 
 // In metres.

@@ -65,29 +65,22 @@ gain whose dB is the mean of its dB: -2.507 dB under Rayleigh fading.)";
   }
 
   void shadow(const Step& k) const {
-    const auto out = k[shadowing];
     if (k.expected() || k[sd] == 0) {
-      for (Level& link : out) link.level = 0;
+      for (Level& link : k[shadowing]) link.level = 0;
       return;
     }
     const auto at = at_each(field, k[pose], k[decorrelation]);
-    const auto links = k[ends];
-    for (std::size_t i = 0; i < out.size(); ++i) {
-      out[i].level = k[sd] * field.between(of(at, links[i].tx), of(at, links[i].rx));
-    }
+    once_a_pair(k[ends], at.size(), k[shadowing],
+                [&](const Ends& link) { return Level{k[sd] * field.between(of(at, link.tx), of(at, link.rx))}; });
   }
 
   void interfere(const Step& k, double ratio) const {
     const double wavelength = light_speed / k[frequency];
-    const auto poses = k[pose];
-    const auto at = at_each(multipath, poses, wavelength);
-    const auto links = k[ends];
-    const auto out = k[gain];
-    for (std::size_t i = 0; i < out.size(); ++i) {
-      const double turns = -distance(of(poses, links[i].tx), of(poses, links[i].rx)) / wavelength;
-      out[i].gain =
-          rician_gain(ratio, multipath.between(of(at, links[i].tx), of(at, links[i].rx)), 6.283185307179586 * turns);
-    }
+    const auto at = at_each(multipath, k[pose], wavelength);
+    once_a_pair(k[ends], at.size(), k[gain], [&](const Ends& link) {
+      const double turns = -distance(of(k[pose], link.tx), of(k[pose], link.rx)) / wavelength;
+      return Fading{rician_gain(ratio, multipath.between(of(at, link.tx), of(at, link.rx)), 6.283185307179586 * turns)};
+    });
   }
 
   void draw(const Step& k, double ratio) const {
@@ -96,11 +89,9 @@ gain whose dB is the mean of its dB: -2.507 dB under Rayleigh fading.)";
       const Endpoint& end = k[endpoint][i];
       keys.push_back(end_key(k.key("radio", static_cast<std::size_t>(end.radio)), end.t, k[pose][i]));
     }
-    const auto links = k[ends];
-    const auto out = k[gain];
-    for (std::size_t i = 0; i < out.size(); ++i) {
-      out[i].gain = rician_gain(ratio, diffuse(random, of(keys, links[i].tx), of(keys, links[i].rx)), 0);
-    }
+    once_a_pair(k[ends], keys.size(), k[gain], [&](const Ends& link) {
+      return Fading{rician_gain(ratio, diffuse(random, of(keys, link.tx), of(keys, link.rx)), 0)};
+    });
   }
 
   Value sd, decorrelation, has_fading, rician_k, frequency, per_reading;

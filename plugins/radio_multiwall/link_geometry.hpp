@@ -9,6 +9,7 @@
 #include <cstring>
 #include <memory>
 #include <muster/plugin.hpp>
+#include <muster/reverse_links.hpp>
 #include <scene/walls.hpp>
 #include <vector>
 
@@ -33,13 +34,19 @@ class LinkGeometry {
   std::size_t set_links(Rows<const Ends> links, Rows<const Pose> at) {
     links_.resize(links.size());
     counts_.resize(links.size() * materials_);
+    const auto back = earlier_reverse(links, at.size());
     std::size_t computed = 0;
     for (std::size_t i = 0; i < links.size(); ++i) {
       const Pose& a = at[static_cast<std::size_t>(links[i].tx)];
       const Pose& b = at[static_cast<std::size_t>(links[i].rx)];
       const std::array<scene::Point, 2> ends{{{a.x, a.y, a.z}, {b.x, b.y, b.z}}};
       if (links_[i].known && !std::memcmp(&ends, &links_[i].ends, sizeof ends)) continue;
-      links_[i].known = false;  // so that no old answer is left if the point is refused
+      links_[i].known = false;   // so that no old answer is left if the point is refused
+      if (back[i] != no_link) {  // computed already, the other way
+        std::copy_n(counts(back[i]), materials_, counts_.data() + i * materials_);
+        links_[i] = {ends, links_[back[i]].log_distance, true};
+        continue;
+      }
       scene_->counts(ends[0], ends[1], counts_.data() + i * materials_);
       links_[i] = {ends, log_distance(ends[0], ends[1]), true};
       ++computed;

@@ -74,7 +74,40 @@ TEST(Walls, DistanceIsInSpaceAndAtLeastACentimetre) {
   plan.put(g);
   EXPECT_EQ(g.log_distance(0), std::log10(7.0));
   EXPECT_EQ(g.log_distance(1), g.log_distance(0));
+  EXPECT_EQ(counts(g, 1), counts(g, 0));
   EXPECT_EQ(g.log_distance(2), std::log10(0.01));
+}
+
+TEST(Pairs, ReverseLinksAreFoundInTheOrderOfListing) {
+  std::vector<Ends> links;
+  for (const double a : {0.0, 1.0, 2.0, 3.0, 4.0}) {
+    for (const double b : {0.0, 1.0, 2.0, 3.0, 4.0}) {
+      if (a != b && a * b != 2) links.push_back({a, b});  // 1 and 2 are out of range
+    }
+  }
+  const auto back = earlier_reverse(Plan::view(links), 5);
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    ASSERT_EQ(back[i] != no_link, links[i].tx > links[i].rx) << i;
+    if (back[i] == no_link) continue;
+    EXPECT_LT(back[i], i);
+    EXPECT_EQ(links[back[i]].tx, links[i].rx);
+    EXPECT_EQ(links[back[i]].rx, links[i].tx);
+  }
+}
+
+TEST(Pairs, InAnyOrderOnlyReverseLinksAreTaken) {
+  const Stream random(4);
+  std::vector<Ends> links;
+  for (uint64_t i = 0; i < 3000; ++i) {
+    links.push_back({std::floor(20 * random.uniform(i, 0)), std::floor(20 * random.uniform(i, 1))});
+  }
+  const auto back = earlier_reverse(Plan::view(links), 20);
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    if (back[i] == no_link) continue;
+    ASSERT_LT(back[i], i);
+    EXPECT_EQ(links[back[i]].tx, links[i].rx);
+    EXPECT_EQ(links[back[i]].rx, links[i].tx);
+  }
 }
 
 TEST(Kept, LinksAreComputedAgainOnlyWhereSomethingMoved) {

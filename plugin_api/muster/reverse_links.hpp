@@ -1,0 +1,30 @@
+// Pairs of links that run both ways between the same endpoints, so that a reciprocal term is evaluated once a pair.
+#pragma once
+
+#include <muster/plugin.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace muster {
+
+constexpr std::uint32_t no_link = 0xffffffffu;
+
+// For each link, an earlier one that runs the other way, or no_link. It finds them all where links are grouped by sender
+// and receivers ascend, as radio.links lists them; in any other order it may miss some, and is never wrong.
+inline std::vector<std::uint32_t> earlier_reverse(Rows<const Ends> links, std::size_t endpoints) {
+  std::vector<std::uint32_t> result(links.size(), no_link);
+  std::vector<std::uint32_t> next(endpoints, no_link);  // of each sender, the first link whose reverse may still come
+  for (std::uint32_t i = 0; i < links.size(); ++i) {
+    const auto [from, to] = links[i];
+    auto& own = next[static_cast<std::size_t>(from)];
+    if (own == no_link) own = i;
+    auto& at = next[static_cast<std::size_t>(to)];
+    if (at == no_link) continue;
+    while (at < i && links[at].tx == to && links[at].rx < from) ++at;
+    if (at < i && links[at].tx == to && links[at].rx == from) result[i] = at;
+  }
+  return result;
+}
+
+}  // namespace muster
