@@ -105,8 +105,10 @@ std::vector<Shape> rigid_shapes(const Robot& robot, std::size_t link);
 // Everything, every joint at zero, in the root's frame.
 Mass whole_mass(const Robot& robot);
 
+enum class Meshes { import = 1, skip };  // skip: for who needs no shapes; each mesh costs a child process
+
 // The URDF file, checked; throws std::runtime_error("file:line: what is wrong; what was expected").
-Robot read_robot(const std::string& path);
+Robot read_robot(const std::string& path, Meshes meshes = Meshes::import);
 
 // The file of model "scarab" (scarab.urdf in the first of the directories that has it) or "path/to/my.urdf"
 // (absolute, or relative to one of the directories); throws, naming what was looked for and the nearest name.

@@ -47,8 +47,8 @@ Eigen::Isometry3d frame(const urdf::Pose& pose) {
 
 class Converter {
  public:
-  Converter(const Source& source, const Outline& outline, const urdf::ModelInterface& model)
-      : source_(source), outline_(outline), model_(model) {}
+  Converter(const Source& source, const Outline& outline, const urdf::ModelInterface& model, Meshes meshes)
+      : source_(source), outline_(outline), model_(model), meshes_(meshes) {}
 
   Robot convert() {
     robot_.name = model_.getName();
@@ -72,6 +72,8 @@ class Converter {
     for (const auto& collision : from->collision_array) {
       if (!collision || !collision->geometry)
         source_.fail(line, "link '" + name + "': urdfdom dropped a collision shape");
+      const bool is_mesh = collision->geometry->type == urdf::Geometry::MESH;
+      if (is_mesh && meshes_ == Meshes::skip) continue;
       link.shapes.push_back(shape(*collision, name, line));
     }
     robot_.links.push_back(std::move(link));
@@ -185,6 +187,7 @@ class Converter {
   const Source& source_;
   const Outline& outline_;
   const urdf::ModelInterface& model_;
+  const Meshes meshes_;
   std::map<std::string, std::size_t> index_;
   Robot robot_;
 };
@@ -208,7 +211,7 @@ urdf::ModelInterfaceSharedPtr parse(const Source& source, const std::string& tex
 
 }  // namespace
 
-Robot read_robot(const std::string& path) {
+Robot read_robot(const std::string& path, Meshes meshes) {
   const Source source{path};
   const std::string text = read_file(path, max_file);
   tinyxml2::XMLDocument document;
@@ -217,7 +220,7 @@ Robot read_robot(const std::string& path) {
   required(source, root, "name");
   const Outline outline = check_urdf(source, root);
   const auto model = parse(source, text);
-  Robot robot = Converter(source, outline, *model).convert();
+  Robot robot = Converter(source, outline, *model, meshes).convert();
   check_moving_masses(source, outline, robot);
   if (const auto* muster = root.FirstChildElement("muster")) read_drive(source, *muster, robot);
   return robot;

@@ -1,0 +1,77 @@
+// The descriptions of a world's robots, for plugins: the only header here that knows the plugin contract.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <muster/plugin.hpp>
+#include <string>
+#include <vector>
+
+#include "description/robot.hpp"
+
+namespace muster::description {
+
+// The model of a robot, as a table keeps it: 1 + the row of the robot that the world file gave that model. So a robot
+// that joins as a copy of another has the other's body. 0: not known yet.
+struct Model {
+  static constexpr const char* columns = "model";
+  double model;
+};
+
+class WorldRobots {
+ public:
+  // For constructors: the kernel tells models during setup only. Each model is read once. Throws BadInput naming it.
+  WorldRobots(const Setup& setup, Meshes meshes) {
+    const muster_host* host = setup.host();
+    std::vector<std::string> directories;
+    for (uint32_t i = 0; const char* directory = host->search_path(host, i); ++i) {
+      directories.push_back(directory);
+      directories.push_back(std::string(directory) + "/models");
+    }
+    std::map<std::string, std::shared_ptr<const Robot>> read;
+    for (uint32_t row = 0; row < host->rows(host, "robot"); ++row) {
+      const std::string model = setup.text(std::string("robot/").append(host->row_name(host, "robot", row)) + "/model");
+      auto& robot = read[model];
+      if (!robot && !model.empty()) robot = read_one(host, find(model, directories), meshes);
+      robots_.push_back(robot);
+    }
+  }
+
+  // The number to keep for a robot: the one it has, or at first its own.
+  static double model_of(double kept, std::size_t row) { return kept > 0 ? kept : static_cast<double>(row + 1); }
+
+  // Null where there is none.
+  const Robot* of(double model) const {
+    const auto row = static_cast<std::size_t>(model);
+    return row >= 1 && row <= robots_.size() ? robots_[row - 1].get() : nullptr;
+  }
+  const DifferentialDrive* drive_of(double model) const {
+    const Robot* robot = of(model);
+    return robot && robot->drive ? &*robot->drive : nullptr;
+  }
+
+  std::size_t size() const { return robots_.size(); }
+
+ private:
+  static std::string find(const std::string& model, const std::vector<std::string>& directories) {
+    try {
+      return find_model(model, directories);
+    } catch (const std::runtime_error& wrong) {
+      throw BadInput(wrong.what());
+    }
+  }
+
+  static std::shared_ptr<const Robot> read_one(const muster_host* host, const std::string& file, Meshes meshes) {
+    try {
+      auto robot = std::make_shared<const Robot>(read_robot(file, meshes));
+      for (const std::string& warning : robot->warnings) host->event(host, warning.c_str());
+      return robot;
+    } catch (const std::runtime_error& wrong) {
+      throw BadInput(wrong.what());
+    }
+  }
+
+  std::vector<std::shared_ptr<const Robot>> robots_;
+};
+
+}  // namespace muster::description

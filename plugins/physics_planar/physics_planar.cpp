@@ -1,0 +1,77 @@
+// physics.planar: kinematics for thousands of robots.
+#include <muster/plugin.hpp>
+
+#include "description/world_robots.hpp"
+#include "planar.hpp"
+
+namespace {
+
+using namespace muster;
+using description::Model;
+using description::WorldRobots;
+
+struct PhysicsPlanar {
+  static constexpr auto id = "physics.planar/1";
+  static constexpr auto summary = "robots on wheels that roll as asked: exact arcs in the plane";
+  static constexpr auto manual =
+      "Each step is the arc that the wheel rates at its middle make. The velocity follows as fast as `acceleration` "
+      "allows, in\n"
+      "any direction, so a robot that is asked to turn too hard drifts outwards; its wheels' rates are those of the "
+      "body.\n"
+      "Not modelled: masses, forces, slip of single wheels, anything above the plane; height and tilt stay as found.";
+  static constexpr auto phase = MUSTER_PHYSICS;
+  static constexpr auto cannot_hold = "changes of height, roll and pitch, and wheel slip";
+  static constexpr Param params[] = {real("acceleration", 7.848, 1e-6, 1e6, "m/s2",
+                                          "bound on the change of velocity; by default friction 0.8 times 9.81 m/s2")};
+
+  explicit PhysicsPlanar(Setup& s)
+      : acceleration(s.value("acceleration")),
+        robots(s, description::Meshes::skip),
+        drive(s.read_if_any<Drive>("robot/*/drive")),
+        pose(s.write<Pose>("robot/*/pose")),
+        twist(s.write<Twist>("robot/*/twist")),
+        wheels(s.write<Wheels>("robot/*/wheels")),
+        model(s.write<Model>("robot/*/body")) {
+    for (std::size_t row = 0; row < robots.size(); ++row) {
+      const std::string name = s.host()->row_name(s.host(), "robot", static_cast<uint32_t>(row));
+      require(robots, WorldRobots::model_of(0, row), name);
+    }
+  }
+
+  static const description::DifferentialDrive& require(const WorldRobots& robots, double model, std::string_view name) {
+    const auto* drive = robots.drive_of(model);
+    if (!drive) {
+      throw BadInput("robot '" + std::string(name) +
+                     "' cannot be simulated by physics.planar: its model has no <muster>" +
+                     "<differential .../></muster> drive");
+    }
+    return *drive;
+  }
+
+  void step(const Step& k) const {
+    const auto asked = k[drive];
+    for (std::size_t i = 0; i < k[pose].size(); ++i) {
+      planar::Body body{k.last(pose)[i], k.last(twist)[i], k.last(wheels)[i]};
+      k[model][i].model = WorldRobots::model_of(k.last(model)[i].model, i);
+      if (k.alive("robot", i)) {
+        const auto& motors = require(robots, k[model][i].model, k.name("robot", i));
+        body = planar::stepped(body, i < asked.size() ? asked[i] : Drive{0, 0, 0, 0}, motors, k[acceleration], k.dt());
+      }
+      k[pose][i] = body.pose;
+      k[twist][i] = body.twist;
+      k[wheels][i] = body.wheels;
+    }
+  }
+
+  Value acceleration;
+  WorldRobots robots;
+  In<Drive> drive;
+  Out<Pose> pose;
+  Out<Twist> twist;
+  Out<Wheels> wheels;
+  Out<Model> model;
+};
+
+}  // namespace
+
+MUSTER_PLUGIN_IS(PhysicsPlanar)

@@ -1,0 +1,115 @@
+// physics.replay: measured poses drive the bodies, so that everything else runs on the real course.
+#include <muster/plugin.hpp>
+
+#include "description/world_robots.hpp"
+#include "track.hpp"
+
+namespace {
+
+using namespace muster;
+using description::Model;
+using description::WorldRobots;
+
+struct Measured {
+  static constexpr const char* columns = "t[s] robot:robot x[m] y[m] z[m]? yaw[rad]? qw? qx? qy? qz?";
+  double t, robot, x, y, z, yaw, qw, qx, qy, qz;
+};
+
+struct PhysicsReplay {
+  static constexpr auto id = "physics.replay/1";
+  static constexpr auto summary = "measured poses drive the bodies, interpolated";
+  static constexpr auto manual =
+      "The file's columns are t[s],robot,x[m],y[m], z[m] (else the height stays), and yaw[rad] or qw,qx,qy,qz; others "
+      "are not\n"
+      "read. Between samples a body is carried evenly, by the shorter way round; before the first and after the last "
+      "it stands;\n"
+      "a robot that the file does not name stays where it is. twist is the mean over the step. Wheels turn as the "
+      "motion\n"
+      "says, without slip. Commands have no effect.";
+  static constexpr auto phase = MUSTER_PHYSICS;
+  static constexpr auto cannot_hold = "anything but the measured course: commands have no effect";
+  static constexpr Param params[] = {file("file", "measured poses").required()};
+
+  struct Course {
+    replay::Track track;
+    bool has_height = false;  // else the height stays as it is
+  };
+
+  explicit PhysicsReplay(Setup& s)
+      : robots(s, description::Meshes::skip),
+        measured(s.file<Measured>("file")),
+        pose(s.write<Pose>("robot/*/pose")),
+        twist(s.write<Twist>("robot/*/twist")),
+        wheels(s.write<Wheels>("robot/*/wheels")),
+        model(s.write<Model>("robot/*/body")) {}
+
+  void read(const Step& k) {
+    const auto rows = k[measured];
+    courses.resize(k[pose].size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const Measured& m = rows[i];
+      const auto robot = static_cast<std::size_t>(m.robot);
+      if (robot >= courses.size()) continue;
+      Course& course = courses[robot];
+      const auto fail = [&](const char* what) {
+        throw BadInput("measured poses, row " + std::to_string(i + 1) + " (robot '" +
+                       std::string(k.name("robot", robot)) + "'): " + what);
+      };
+      if (course.track.empty()) course.has_height = !is_null(m.z);
+      if (course.has_height == is_null(m.z)) fail("z is given in some rows only");
+      const auto turn = turn_of(m);
+      if (!turn) fail("has neither yaw nor qw, qx, qy, qz of length 1");
+      if (!course.track.append({m.t, {m.x, m.y, course.has_height ? m.z : 0}, *turn})) fail("time does not rise");
+    }
+    is_read = true;
+  }
+
+  static std::optional<Eigen::Quaterniond> turn_of(const Measured& m) {
+    if (!is_null(m.qw) && !is_null(m.qx) && !is_null(m.qy) && !is_null(m.qz)) {
+      const Eigen::Quaterniond q(m.qw, m.qx, m.qy, m.qz);
+      if (std::abs(q.norm() - 1) > 1e-3) return std::nullopt;
+      return q.normalized();
+    }
+    if (is_null(m.yaw)) return std::nullopt;
+    return Eigen::Quaterniond(Eigen::AngleAxisd(m.yaw, Eigen::Vector3d::UnitZ()));
+  }
+
+  void step(const Step& k) {
+    if (!is_read) read(k);
+    for (std::size_t i = 0; i < k[pose].size(); ++i) {
+      k[model][i].model = WorldRobots::model_of(k.last(model)[i].model, i);
+      k[pose][i] = k.last(pose)[i];
+      k[twist][i] = {0, 0, 0, 0, 0, 0};
+      k[wheels][i] = {k.last(wheels)[i].left, k.last(wheels)[i].right, 0, 0};
+      if (i < courses.size() && !courses[i].track.empty() && k.alive("robot", i)) carry(k, i);
+    }
+  }
+
+  void carry(const Step& k, std::size_t i) const {
+    const Course& course = courses[i];
+    const auto before = course.track.at(k.time() - k.dt()), now = course.track.at(k.time());
+    const Eigen::Vector3d v = (now.place - before.place) / k.dt(), w = replay::turn_rate(before.turn, now.turn, k.dt());
+    k[pose][i] = {now.place.x(), now.place.y(), course.has_height ? now.place.z() : k.last(pose)[i].z,
+                  now.turn.w(),  now.turn.x(),  now.turn.y(),
+                  now.turn.z()};
+    k[twist][i] = {v.x(), v.y(), v.z(), w.x(), w.y(), w.z()};
+    const auto* drive = robots.drive_of(k[model][i].model);
+    if (!drive) return;
+    const double forward = v.dot(before.turn.slerp(0.5, now.turn) * Eigen::Vector3d::UnitX());
+    const double left = drive->left_rate(forward, w.z()), right = drive->right_rate(forward, w.z());
+    k[wheels][i] = {k.last(wheels)[i].left + left * k.dt(), k.last(wheels)[i].right + right * k.dt(), left, right};
+  }
+
+  WorldRobots robots;
+  In<Measured> measured;
+  Out<Pose> pose;
+  Out<Twist> twist;
+  Out<Wheels> wheels;
+  Out<Model> model;
+  std::vector<Course> courses;  // of the file alone, a robot each
+  bool is_read = false;
+};
+
+}  // namespace
+
+MUSTER_PLUGIN_IS(PhysicsReplay)

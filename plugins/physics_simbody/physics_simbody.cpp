@@ -1,0 +1,161 @@
+// physics.simbody: the engine on the blackboard.
+#include <algorithm>
+#include <muster/plugin.hpp>
+
+#include "description/world_robots.hpp"
+#include "world.hpp"
+
+namespace {
+
+using namespace muster;
+using description::Model;
+using description::WorldRobots;
+
+// What the engine remembers, as columns.
+struct Memory {
+  static constexpr const char* columns = simbody::Memory::columns;
+  double previous_step;
+  double impulse[2][3];
+};
+
+struct PhysicsSimbody {
+  static constexpr auto id = "physics.simbody/1";
+  static constexpr auto summary = "rigid robots on flat ground: friction, slip, torque limits, weight transfer";
+  static constexpr auto manual =
+      "Bodies and wheels from the robot's URDF, a Simbody multibody system; the ground is flat, at z = 0. Wheels touch "
+      "it\n"
+      "in a point with Coulomb's isotropic friction, spheres of the body slide on it. Motors turn the wheels as asked, "
+      "within\n"
+      "the drive's torque and speed. The acceleration along the ground is bounded by friction times 9.81 m/s2.\n"
+      "integrator: midpoint is second order, on velocities; twist is the mean over its last step. rk3 (fixed step), "
+      "rkm and\n"
+      "cpodes (adaptive) are Simbody's own on rolling constraints, as reference: no slip, no lift, no torque limit.\n"
+      "Not modelled: walls and robots as obstacles, wheels as discs (they touch as spheres would), rolling resistance.";
+  static constexpr auto phase = MUSTER_PHYSICS;
+  static constexpr Param params[] = {real("step", 0.001, 1e-6, 0.1, "s", "longest step inside a tick"),
+                                     choice("integrator", "midpoint|rk3|rkm|cpodes", "what steps the bodies")};
+
+  explicit PhysicsSimbody(Setup& s)
+      : step_size(s.value("step")),
+        integrator(s.value("integrator")),
+        robots(s, description::Meshes::import),
+        drive(s.read_if_any<Drive>("robot/*/drive")),
+        pose(s.write<Pose>("robot/*/pose")),
+        twist(s.write<Twist>("robot/*/twist")),
+        wheels(s.write<Wheels>("robot/*/wheels")),
+        model(s.write<Model>("robot/*/body")),
+        memory(s.write<Memory>("robot/*/contact")) {
+    made.step = s.param("step");
+    made.integrator = s.param("integrator");
+    for (std::size_t row = 0; row < robots.size(); ++row) {
+      made.rows.push_back(row);
+      made.models.push_back(WorldRobots::model_of(0, row));
+    }
+    make_engine([&](std::size_t row) { return s.host()->row_name(s.host(), "robot", static_cast<uint32_t>(row)); });
+  }
+
+  // What an engine is made of.
+  struct Made {
+    double step = 0, integrator = 0;
+    std::vector<std::size_t> rows;
+    std::vector<double> models;
+    bool operator!=(const Made& b) const {
+      return step != b.step || integrator != b.integrator || rows != b.rows || models != b.models;
+    }
+  };
+
+  template <class NameOf>
+  void make_engine(NameOf name_of) {
+    std::vector<simbody::NamedRobot> named;
+    for (std::size_t i = 0; i < made.rows.size(); ++i) {
+      const std::string name(name_of(made.rows[i]));
+      const description::Robot* robot = robots.of(made.models[i]);
+      if (!robot) throw BadInput("robot '" + name + "' has no model; expected the attribute model in the world file");
+      named.push_back({name, robot});
+    }
+    try {
+      engine = simbody::make_engine(named, static_cast<simbody::Integrator>(static_cast<int>(made.integrator) + 1),
+                                    made.step);
+    } catch (const std::runtime_error& wrong) {
+      throw BadInput(wrong.what());
+    }
+  }
+
+  void step(const Step& k) {
+    Made now;
+    now.step = k[step_size];
+    now.integrator = k[integrator];
+    for (std::size_t i = 0; i < k[pose].size(); ++i) {
+      k[pose][i] = k.last(pose)[i];  // what has left stays as it was
+      k[twist][i] = k.last(twist)[i];
+      k[wheels][i] = k.last(wheels)[i];
+      k[memory][i] = k.last(memory)[i];
+      k[model][i].model = WorldRobots::model_of(k.last(model)[i].model, i);
+      if (!k.alive("robot", i)) continue;
+      now.rows.push_back(i);
+      now.models.push_back(k[model][i].model);
+    }
+    if (now != made) {
+      made = now;
+      make_engine([&](std::size_t row) { return k.name("robot", row); });
+    }
+    move(k);
+  }
+
+  void move(const Step& k) {
+    const auto asked = k[drive];
+    states.resize(made.rows.size());
+    commands.assign(made.rows.size(), {});
+    for (std::size_t i = 0; i < made.rows.size(); ++i) {
+      const std::size_t row = made.rows[i];
+      states[i] = gather(k, row);
+      if (row < asked.size()) {
+        commands[i] = {asked[row].left, asked[row].right, asked[row].left_rate, asked[row].right_rate};
+      }
+    }
+    engine->step(k.dt(), commands, states);
+    for (std::size_t i = 0; i < made.rows.size(); ++i) spread(k, made.rows[i], states[i]);
+  }
+
+  simbody::RobotState gather(const Step& k, std::size_t row) const {
+    const Pose& p = k.last(pose)[row];
+    const Twist& t = k.last(twist)[row];
+    const Wheels& w = k.last(wheels)[row];
+    const Memory& m = k.last(memory)[row];
+    simbody::RobotState s;
+    s.pose = {p.x, p.y, p.z, p.qw, p.qx, p.qy, p.qz};
+    s.twist = {t.vx, t.vy, t.vz, t.wx, t.wy, t.wz};
+    s.angle = {w.left, w.right};
+    s.rate = {w.left_rate, w.right_rate};
+    s.memory.previous_step = m.previous_step;
+    for (int i = 0; i < 2; ++i) std::copy_n(m.impulse[i], 3, s.memory.impulse[i].begin());
+    return s;
+  }
+
+  void spread(const Step& k, std::size_t row, const simbody::RobotState& s) const {
+    const auto& p = s.pose;
+    const auto& t = s.twist;
+    k[pose][row] = {p[0], p[1], p[2], p[3], p[4], p[5], p[6]};
+    k[twist][row] = {t[0], t[1], t[2], t[3], t[4], t[5]};
+    k[wheels][row] = {s.angle[0], s.angle[1], s.rate[0], s.rate[1]};
+    k[memory][row].previous_step = s.memory.previous_step;
+    for (int i = 0; i < 2; ++i) std::copy_n(s.memory.impulse[i].begin(), 3, k[memory][row].impulse[i]);
+  }
+
+  Value step_size, integrator;
+  WorldRobots robots;
+  In<Drive> drive;
+  Out<Pose> pose;
+  Out<Twist> twist;
+  Out<Wheels> wheels;
+  Out<Model> model;
+  Out<Memory> memory;
+  Made made;
+  std::unique_ptr<simbody::Engine> engine;
+  std::vector<simbody::RobotState> states;  // room, kept from step to step
+  std::vector<simbody::Command> commands;
+};
+
+}  // namespace
+
+MUSTER_PLUGIN_IS(PhysicsSimbody)

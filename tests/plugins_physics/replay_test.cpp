@@ -1,0 +1,99 @@
+// physics.replay: bodies stand where they were measured.
+#include "physics_world.hpp"
+
+namespace {
+
+using namespace muster;
+using namespace muster::test;
+
+const std::string robots = R"(<robot name="a" at="9 9 0.5"/><robot name="b" at="3 1 0" heading="2"/>)";
+const std::string backend = R"(<physics.replay file="course.csv"/>)";
+
+Simulation replayed(const Folder& folder, const std::string& csv) {
+  folder.write("course.csv", csv);
+  return world_of(folder, robots + backend + "<robots.odometry/>", 1, "0.1");
+}
+
+TEST(Replay, PassesThroughTheSamplesAndEvenlyBetween) {
+  Folder folder;
+  Simulation run =
+      replayed(folder, "t[s],robot,x[m],y[m],z[m],yaw[rad]\n0,a,0,0,0.1,3\n1,a,1,2,0.3,-3\n2,a,1,2,0.3,-3\n");
+  run_to(run, 5);
+  auto pose = row<Pose>(run, "robot/a/pose");
+  EXPECT_NEAR(pose.x, 0.5, 1e-12);
+  EXPECT_NEAR(pose.y, 1, 1e-12);
+  EXPECT_NEAR(pose.z, 0.2, 1e-12);
+  // From 3 to -3 rad the shorter way leads through pi.
+  EXPECT_NEAR(std::abs(2 * std::atan2(pose.qz, pose.qw)), 3.141592653589793, 1e-9);
+  auto twist = row<Twist>(run, "robot/a/twist");
+  EXPECT_NEAR(twist.vx, 1, 1e-9);
+  EXPECT_NEAR(twist.vy, 2, 1e-9);
+  EXPECT_NEAR(twist.wz, 2 * (3.141592653589793 - 3), 1e-9);
+  run_to(run, 10);
+  EXPECT_EQ(row<Pose>(run, "robot/a/pose").x, 1);
+  run_to(run, 30);  // past the end it stands
+  EXPECT_EQ(row<Pose>(run, "robot/a/pose").y, 2);
+  EXPECT_EQ(row<Twist>(run, "robot/a/twist").vx, 0);
+}
+
+TEST(Replay, RobotsWithoutACourseStandAndHeightsStayWhereNotMeasured) {
+  Folder folder;
+  Simulation run = replayed(folder, "t[s],robot,x[m],y[m],yaw[rad]\n0,a,0,0,0\n1,a,1,0,0\n");
+  run_to(run, 20);
+  EXPECT_EQ(row<Pose>(run, "robot/b/pose").x, 3);
+  EXPECT_EQ(row<Pose>(run, "robot/a/pose").z, 0.5);
+}
+
+TEST(Replay, QuaternionsAreRead) {
+  Folder folder;
+  Simulation run = replayed(folder, "t[s],robot,x[m],y[m],z[m],qw,qx,qy,qz\n0,a,0,0,0,0.6,0.8,0,0\n");
+  run_to(run, 1);
+  EXPECT_NEAR(row<Pose>(run, "robot/a/pose").qx, 0.8, 1e-12);
+}
+
+TEST(Replay, WheelsTurnAsTheMotionSays) {
+  Folder folder;
+  Simulation run = replayed(folder, "t[s],robot,x[m],y[m],yaw[rad]\n0,a,0,0,0\n2,a,1,0,0\n");
+  run_to(run, 20);
+  const auto wheels = row<Wheels>(run, "robot/a/wheels");
+  EXPECT_NEAR(wheels.left, 1 / 0.05, 1e-9);
+  EXPECT_NEAR(wheels.right, 1 / 0.05, 1e-9);
+}
+
+TEST(Replay, RemadeInMidRunGivesTheSameBits) {
+  Folder folder;
+  const std::string csv = "t[s],robot,x[m],y[m],yaw[rad]\n0,a,0,0,0\n1,a,1,2,1\n3,a,4,5,-2\n";
+  Simulation straight = replayed(folder, csv), remade = replayed(folder, csv);
+  run_to(straight, 25);
+  run_to(remade, 12);
+  remade.remake("physics.replay");
+  run_to(remade, 25);
+  EXPECT_EQ(straight.digest(), remade.digest());
+}
+
+std::string refusal(const std::string& csv) {
+  Folder folder;
+  try {
+    Simulation run = replayed(folder, csv);
+    run.step();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit(), Exit::invalid_input);
+    return error.what();
+  }
+  ADD_FAILURE() << "nothing was thrown";
+  return "";
+}
+
+TEST(Replay, WrongRowsAreNamed) {
+  using testing::HasSubstr;
+  const std::string head = "t[s],robot,x[m],y[m],z[m],yaw[rad]\n";
+  EXPECT_THAT(refusal(head + "0,a,0,0,0,0\n1,b,0,0,0,0\n0,a,1,0,0,0\n"),
+              HasSubstr("measured poses, row 3 (robot 'a'): time does not rise"));
+  EXPECT_THAT(refusal(head + "0,a,0,0,0,0\n1,a,0,0,,0\n"),
+              HasSubstr("row 2 (robot 'a'): z is given in some rows only"));
+  EXPECT_THAT(refusal(head + "0,a,0,0,0,\n"),
+              HasSubstr("row 1 (robot 'a'): has neither yaw nor qw, qx, qy, qz of length 1"));
+  EXPECT_THAT(refusal(head + "0,c,0,0,0,0\n"), HasSubstr("c"));  // no such robot: the kernel's own refusal
+}
+
+}  // namespace

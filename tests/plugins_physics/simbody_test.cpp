@@ -1,0 +1,119 @@
+// physics.simbody in a world: a run is its tables, whatever happens to instances and workers.
+#include "physics_world.hpp"
+
+namespace {
+
+using namespace muster;
+using namespace muster::test;
+
+const std::string course = std::string(two_scarabs) + R"(<test.wheels v="0.3" dv="0.1" dw="0.6"/>)";
+
+TEST(Simbody, IsTheBackendOfAWorldThatNamesNone) {
+  Folder folder;
+  Simulation run = world_of(folder, two_scarabs + std::string(R"(<test.wheels v="0.3"/><robots.odometry/>)"));
+  run_to(run, 200);
+  const auto pose = row<Pose>(run, "robot/a/pose");
+  EXPECT_NEAR(std::hypot(pose.x, pose.y), 0.6, 0.02);
+  EXPECT_NEAR(std::atan2(pose.y, pose.x), 0.3, 1e-3);
+}
+
+TEST(Simbody, ArcHasRadiusOfSpeedOverTurnRate) {
+  Folder folder;
+  Simulation run = world_of(folder, R"(<robot name="a" at="0 0 0"/><test.wheels v="0.3" w="0.5"/>)");
+  run_to(run, 200);  // it has settled
+  const auto start = row<Pose>(run, "robot/a/pose");
+  const double yaw = 2 * std::atan2(start.qz, start.qw), radius = 0.6;
+  const double cx = start.x - radius * std::sin(yaw), cy = start.y + radius * std::cos(yaw);
+  for (int k = 0; k < 600; ++k) {
+    run.step();
+    const auto pose = row<Pose>(run, "robot/a/pose");
+    ASSERT_NEAR(std::hypot(pose.x - cx, pose.y - cy), radius, 1e-3 * radius);
+  }
+}
+
+TEST(Simbody, DigestIsTheSameForAnyWorkersAndAfterRemaking) {
+  for (const char* integrator : {"midpoint", "rk3"}) {
+    Folder folder;
+    const std::string world = course + "<physics.simbody name=\"physics\" step=\"0.005\" integrator=\"" + integrator +
+                              "\"/><robots.odometry/>";
+    Simulation straight = world_of(folder, world);
+    run_to(straight, 60);
+    Simulation three = world_of(folder, world, 3);
+    run_to(three, 60);
+    EXPECT_EQ(straight.digest(), three.digest()) << integrator;
+    Simulation remade = world_of(folder, world);
+    while (remade.tick() < 60) {
+      if (remade.tick() % 17 == 5) remade.remake("physics");
+      remade.step();
+    }
+    EXPECT_EQ(straight.digest(), remade.digest()) << integrator;
+  }
+}
+
+TEST(Simbody, RestoredRunGoesOnWithTheSameBits) {
+  Folder folder;
+  const std::string world = course + "<physics.simbody/>";
+  Simulation run = world_of(folder, world);
+  run_to(run, 40);
+  run.snapshot().save(folder.path("at40"));
+  run_to(run, 80);
+  Simulation again = world_of(folder, world);
+  again.restore(Snapshot::load(folder.path("at40")));
+  run_to(again, 80);
+  EXPECT_EQ(run.digest(), again.digest());
+}
+
+TEST(Simbody, RowIsAsHandedInBeforeTheFirstStep) {
+  Folder folder;
+  Simulation run = world_of(folder, R"(<robot name="a" at="1.1 2.2 0" heading="0.7"/>)");
+  const auto pose = row<Pose>(run, "robot/a/pose");
+  EXPECT_EQ(pose.x, 1.1);
+  EXPECT_EQ(pose.qz, std::sin(0.35));
+}
+
+TEST(Simbody, StepCanBeChangedInMidRun) {
+  Folder folder;
+  Simulation run = world_of(folder, course + "<physics.simbody name=\"physics\"/>");
+  run_to(run, 20);
+  run.set_parameter("physics/step", 0.01);
+  run_to(run, 40);
+  Simulation other = world_of(folder, course + "<physics.simbody name=\"physics\"/>");
+  run_to(other, 40);
+  const auto a = row<Pose>(run, "robot/a/pose"), b = row<Pose>(other, "robot/a/pose");
+  EXPECT_NE(a.x, b.x);
+  EXPECT_NEAR(a.x, b.x, 1e-4);
+}
+
+TEST(Simbody, ModelsItCannotHoldAreRefused) {
+  Folder folder;
+  folder.write("box.urdf", R"(<robot name="box"><link name="l"><inertial><mass value="1"/>
+    <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link></robot>)");
+  for (const std::string backend : {"simbody", "planar"}) {
+    try {
+      world_of(folder,
+               "<robot name=\"a\" at=\"0 0 0\" model=\"" + folder.path("box.urdf") + "\"/><physics." + backend + "/>");
+      FAIL() << "nothing was thrown";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.exit(), Exit::invalid_input);
+      EXPECT_THAT(std::string(error.what()), testing::HasSubstr("<muster><differential .../></muster> drive"));
+      EXPECT_THAT(std::string(error.what()), testing::HasSubstr("physics." + backend));
+    }
+  }
+}
+
+TEST(Simbody, BadModelIsRefusedWithItsLine) {
+  Folder folder;
+  const std::string urdf = folder.write("bad.urdf",
+                                        "<robot name='r'>\n<link name='l'><inertial><mass value='-1'/>"
+                                        "<inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial>"
+                                        "</link></robot>");
+  try {
+    world_of(folder, "<robot name=\"a\" at=\"0 0 0\" model=\"" + urdf + "\"/><physics.simbody/>");
+    FAIL() << "nothing was thrown";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit(), Exit::invalid_input);
+    EXPECT_THAT(std::string(error.what()), testing::HasSubstr(urdf + ":2: link 'l': mass is not above 0"));
+  }
+}
+
+}  // namespace
