@@ -5,6 +5,7 @@
 
 #include <fmt/core.h>
 
+#include <csignal>
 #include <cstdio>
 #include <new>
 
@@ -57,6 +58,7 @@ int fail(Exit code, const std::string& message) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGPIPE, SIG_IGN);  // a reader that has gone is an error of writing, not a silent end
   int code = 0;
   try {
     code = run({argv + 1, argv + argc});
@@ -66,6 +68,7 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     code = fail(Exit::internal, "out of memory");
   } catch (const std::exception& e) {
+    if (std::ferror(stdout)) return fail(Exit::io, "standard output cannot be written");
     code = fail(Exit::internal, e.what());
   }
   if (std::fflush(stdout) != 0 || std::ferror(stdout)) return fail(Exit::io, "standard output cannot be written");

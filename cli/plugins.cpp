@@ -28,6 +28,13 @@ ordered_json param_json(const muster_param& param) {
   return result;
 }
 
+void print_cause(const muster_cause& cause) {
+  fmt::print("\n  A cause: {}\n", cause.title);
+  if (*cause.covariates) fmt::print("  Needs the columns: {}\n", cause.covariates);
+  if (*cause.imitators) fmt::print("  Can be mistaken for: {}\n", cause.imitators);
+  if (*cause.tell_apart) fmt::print("  To decide: {}\n", cause.tell_apart);
+}
+
 void print_manual(const Library& library, const muster_plugin& plugin) {
   fmt::print("{}  ({})\n  {}\n\n  phase {}, from {}\n", plugin.id, phase_name(plugin.phase), plugin.summary, phase_name(plugin.phase), library.file().string());
   if (plugin.manual) {
@@ -43,6 +50,7 @@ void print_manual(const Library& library, const muster_plugin& plugin) {
       if (!*c) break;
     }
   }
+  if (plugin.cause) print_cause(*plugin.cause);
   if (plugin.cannot_hold) fmt::print("\n  A swap to it drops: {}.\n", plugin.cannot_hold);
   if (plugin.param_count) fmt::print("\n  Attributes, beside {}:\n", expected_one_of(reserved_attributes).substr(16));
   for (uint32_t i = 0; i < plugin.param_count; ++i) {

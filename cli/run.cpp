@@ -214,6 +214,7 @@ int run_world(const RunWords& words) {
     for (auto& file : pictures->write(words.out)) files.push_back(std::move(file));
   }
   print_outcome(run, words, digests, files);
+  run.close();
   return static_cast<int>(interrupted() ? Exit::interrupted : Exit::done);
 }
 

@@ -1,5 +1,6 @@
 #include "cli/run_pictures.hpp"
 
+#include "kernel/error.hpp"
 #include "kernel/number.hpp"
 
 #include <muster/tables.hpp>
@@ -191,13 +192,20 @@ picture::Figure RunPictures::rssi_figure() const {
 
 std::vector<std::filesystem::path> RunPictures::write(const std::filesystem::path& folder) const {
   std::vector<std::filesystem::path> files;
+  const auto save = [](const picture::Figure& figure, const std::filesystem::path& file) {
+    try {
+      picture::save(figure, file);
+    } catch (const std::runtime_error& e) {
+      throw Error(Exit::io, e.what());
+    }
+  };
   if (!moments_.empty() && !moments_.back().robots.empty()) {
     files.push_back(folder / "plan.svg");
-    picture::save(plan_figure(), files.back());
+    save(plan_figure(), files.back());
   }
   if (!links_.empty()) {
     files.push_back(folder / "rssi.svg");
-    picture::save(rssi_figure(), files.back());
+    save(rssi_figure(), files.back());
   }
   return files;
 }

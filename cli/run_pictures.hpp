@@ -17,7 +17,7 @@ class RunPictures {
   explicit RunPictures(const Simulation& run);
   // Call before the first tick and after each. Memory is bounded: the moments of a long run are thinned evenly.
   void look(const Simulation& run);
-  // plan.svg where there are robots, rssi.svg where a chain was watched; the files written. Throws std::runtime_error.
+  // plan.svg where there are robots, rssi.svg where a chain was watched; the files written. Throws Error.
   std::vector<std::filesystem::path> write(const std::filesystem::path& folder) const;
 
  private:

@@ -78,7 +78,13 @@ typedef struct muster_tick {
 enum { MUSTER_REAL = 1, MUSTER_INTEGER, MUSTER_FLAG, MUSTER_CHOICE, MUSTER_REFERENCE, MUSTER_TEXT, MUSTER_FILE };
 enum {
   MUSTER_FREE = 1u,    /* a fit may move it, inside its bounds */
-  MUSTER_REQUIRED = 2u /* the world file must give it */
+  MUSTER_REQUIRED = 2u, /* the world file must give it */
+  /* What a diagnosis knows of a cause's parameter when it searches. */
+  MUSTER_LINEAR = 4u, /* what the cause adds is proportional to it */
+  MUSTER_LOG = 8u,    /* its scale is logarithmic: 1, 2, 4, ... */
+  MUSTER_CYCLIC = 16u, /* max is min again: an angle */
+  MUSTER_EAST = 32u,  /* a coordinate in the world, to be sought over the plan's extent: x */
+  MUSTER_NORTH = 64u  /* the same: y */
 };
 
 /* One attribute of the plugin's element in the world file. XML check, schema, manual, fit and sweep derive from it. */
@@ -141,6 +147,26 @@ typedef struct muster_host {
   void (*event)(const struct muster_host*, const char* message);
 } muster_host;
 
+/* What kind of difference a cause makes to the simulation. */
+enum {
+  MUSTER_TERM = 1,   /* adds to the level of links, in dB */
+  MUSTER_STAGE,      /* a stage of a chain: the receiver's, a command's */
+  MUSTER_WORLD_EDIT, /* changes rows of the world's sets: a wall, a place */
+  MUSTER_LAW,        /* changes the law of what is random: fading, outliers */
+  MUSTER_INSTRUMENT  /* a fault of the record itself: identities exchanged, a unit */
+};
+
+/* A named cause: an ordinary plugin that a diagnosis may accept as the explanation of a misfit, and what it says of itself. */
+typedef struct muster_cause {
+  uint32_t size, kind;
+  const char* title;       /* one sentence with {parameter} slots: "the radio {radio} sends {offset} more than given" */
+  const char* ranges_over; /* the reference parameter that says which row it is about: "radio", "wall"; "" for the world */
+  const char* covariates;  /* columns that measured data must have for it: "t", "rx_yaw"; "" for none */
+  const char* imitators;   /* ids of what it can be mistaken for, with blanks between */
+  const char* tell_apart;  /* what to measure to decide */
+  const char* replaces;    /* the plugin's part of a sum that it stands in for; NULL: it comes on top */
+} muster_cause;
+
 typedef struct muster_plugin {
   uint32_t size;
   uint32_t phase;
@@ -154,6 +180,7 @@ typedef struct muster_plugin {
   void (*destroy)(void* self);
   /* `in` and `out` have one entry a claim, in the order of the claims. */
   int (*step)(void* self, const muster_tick*, const muster_in* in, const muster_out* out);
+  const muster_cause* cause; /* NULL: it is no cause */
 } muster_plugin;
 
 /* The one symbol a plugin exports. Calls `add` once for each descriptor, which must outlive the library. */

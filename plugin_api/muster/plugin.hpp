@@ -231,6 +231,8 @@ static_assert(sizeof(Param) == sizeof(muster_param), "an array of one is an arra
 
 template <class Plugin, class = void> constexpr const char* manual_of = nullptr;
 template <class Plugin> constexpr const char* manual_of<Plugin, std::void_t<decltype(Plugin::manual)>> = Plugin::manual;
+template <class Plugin, class = void> constexpr const muster_cause* cause_of = nullptr;
+template <class Plugin> constexpr const muster_cause* cause_of<Plugin, std::void_t<decltype(Plugin::cause)>> = &Plugin::cause;
 template <class Plugin, class = void> constexpr const char* cannot_hold_of = nullptr;
 template <class Plugin>
 constexpr const char* cannot_hold_of<Plugin, std::void_t<decltype(Plugin::cannot_hold)>> = Plugin::cannot_hold;
@@ -262,7 +264,7 @@ template <class Plugin> int step(void* self, const muster_tick* tick, const must
 template <class Plugin> const muster_plugin* descriptor() {
   static const muster_plugin result{sizeof(muster_plugin), Plugin::phase, Plugin::id, Plugin::summary, manual_of<Plugin>,
                                     Params<Plugin>::data, Params<Plugin>::count, cannot_hold_of<Plugin>,
-                                    create<Plugin>, destroy<Plugin>, step<Plugin>};
+                                    create<Plugin>, destroy<Plugin>, step<Plugin>, cause_of<Plugin>};
   return &result;
 }
 
@@ -271,7 +273,7 @@ template <class Plugin> const muster_plugin* descriptor() {
 
 // Ends a plugin's file. One struct, one shared object:
 //   static constexpr auto id = "radio.mine/1", summary = "...";  static constexpr auto phase = MUSTER_RADIO;
-//   static constexpr muster::Param params[] = {...};             optional, as are `manual` and `cannot_hold`
+//   static constexpr muster::Param params[] = {...};             optional, as are `manual`, `cannot_hold` and `cause`
 //   explicit Plugin(muster::Setup&);                             claims
 //   void step(const muster::Step&);                              or const
 #define MUSTER_PLUGIN_IS(Plugin)                                                              \
