@@ -30,9 +30,10 @@ class Hash {
       std::memcpy(&word, from, 8);
       add(word);
     }
+    if (count == 0) return;
     uint64_t rest = 0;
     std::memcpy(&rest, from, count);
-    if (count) add(rest);
+    add(rest);
   }
   void add(const Cells& cells) {
     add(uint64_t{cells.rows});
