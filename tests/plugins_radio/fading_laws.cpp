@@ -12,6 +12,7 @@
 namespace muster {
 namespace {
 
+constexpr std::size_t samples = 160000;
 constexpr double sure = 4;                 // standard errors
 constexpr double euler_db = 2.5068;        // 10 log10(e) times Euler's constant
 constexpr double rayleigh_sd_db = 5.5700;  // 10 log10(e) pi / sqrt 6
@@ -53,8 +54,8 @@ std::vector<double> in_db(std::vector<double> gains) {
 class FadingLaw : public testing::TestWithParam<bool> {
  protected:
   static const std::vector<std::complex<double>>& gains(bool by_place) {
-    static const auto places = gains_by_place(40000, 1000);
-    static const auto readings = gains_by_reading(40000);
+    static const auto places = gains_by_place(samples, 1000);
+    static const auto readings = gains_by_reading(samples);
     return by_place ? places : readings;
   }
 };
@@ -76,7 +77,7 @@ TEST_P(FadingLaw, RayleighLiesTwoAndAHalfDecibelsLowInDecibels) {
   const Moments found = moments(in_db(powers(gains(GetParam()), 0)));
   EXPECT_NEAR(found.mean, -euler_db, sure * found.mean_error);
   // The logarithm's kurtosis is 5.4, so the standard error of its sd is sd sqrt(4.4 / (4 N)).
-  EXPECT_NEAR(std::sqrt(found.variance), rayleigh_sd_db, sure * rayleigh_sd_db * std::sqrt(4.4 / 4 / 40000));
+  EXPECT_NEAR(std::sqrt(found.variance), rayleigh_sd_db, sure * rayleigh_sd_db * std::sqrt(4.4 / 4 / samples));
 }
 
 TEST_P(FadingLaw, RicianMeanOfDecibelsIsTheClosedForm) {
@@ -169,6 +170,7 @@ TEST(Reading, DrawBelongsToRadiosPlaceAndTimeInEitherOrder) {
   EXPECT_NE(diffuse(Stream(5), a, b), diffuse(Stream(5), end_key(3, 0.5, here), b));
   EXPECT_NE(diffuse(Stream(5), a, b), diffuse(Stream(5), end_key(1, 0.6, here), b));
   EXPECT_NE(diffuse(Stream(5), a, b), diffuse(Stream(5), end_key(1, 0.5, there), b));
+  EXPECT_NE(diffuse(Stream(5), a, b), diffuse(Stream(5), end_key(1, 0.5, {1, 2, 3.5, 1, 0, 0, 0}), b));
 }
 
 }  // namespace

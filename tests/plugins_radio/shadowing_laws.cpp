@@ -121,11 +121,13 @@ TEST(Shadowing, LinksAreCorrelatedAsTheirLineIntegralsAre) {
 }
 
 TEST(Shadowing, IsSmoothWhereAWaveRunsAcrossTheLink) {
-  // Links so short that every wave is in the series, against ones just long enough that none is.
+  // About a fixed middle, a short link's value over the root of its length changes with the square of length times wave
+  // number only: by 1e-7 between links so short that every wave is in the series, and links of which some are.
   const ShadowField field(Stream(3));
-  const double near = shadow(field, {{1, 1, 0}, {1 + 1e-7, 1, 0}}) / std::sqrt(1e-7);
-  const double far = shadow(field, {{1, 1, 0}, {1 + 1e-5, 1, 0}}) / std::sqrt(1e-5);
-  EXPECT_NEAR(near, far, 1e-2 * std::abs(near) + 1e-3);
+  const auto density = [&](double length) {
+    return shadow(field, {{1 - length / 2, 1, 0}, {1 + length / 2, 1, 0}}) / std::sqrt(length);
+  };
+  for (const double length : {1e-6, 4e-6, 1e-5, 2e-5}) EXPECT_NEAR(density(length), density(1e-7), 1e-5) << length;
   EXPECT_EQ(shadow(field, {{1, 1, 0}, {1, 1, 0}}), 0);
 }
 
