@@ -80,6 +80,19 @@ void Simulation::reload(const std::string& name) {
   events_.push_back({tick_, name, std::string("reloaded ") + instances_[at]->plugin().id});
 }
 
+void Simulation::close() {
+  batches_.clear();
+  instances_.clear();
+  throw_destroy_fault();
+}
+
+void Simulation::throw_destroy_fault() {
+  if (around_.destroy_faults.empty()) return;
+  const std::string first = around_.destroy_faults.front();
+  around_.destroy_faults.clear();
+  throw Error(Exit::plugin_fault, first);
+}
+
 void Simulation::planned_swaps() {
   for (const auto& planned : world_.swaps) {
     if (planned.tick == tick_) swap(planned.instance, planned.replacement);

@@ -12,6 +12,17 @@
 
 namespace muster {
 
+template <class Body> auto Instance::guarded(decltype(std::declval<Body>()()) otherwise, Body&& body) noexcept {
+  try {
+    return body();
+  } catch (const std::exception& e) {
+    said_ = e.what();
+  } catch (...) {
+    said_ = "threw something that is not a std::exception";
+  }
+  return otherwise;
+}
+
 Instance::Instance(InstanceDeclaration declaration, std::shared_ptr<Library> library, Surroundings& around)
     : declared_(std::move(declaration)), library_(std::move(library)), around_(around) {
   const auto& plugins = library_->plugins();
@@ -27,7 +38,7 @@ Instance::Instance(InstanceDeclaration declaration, std::shared_ptr<Library> lib
   host_ = make_host(*this);
   FloatGuard guard;
   in_create_ = true;
-  self_ = plugin_->create(&host_);
+  self_ = guarded(nullptr, [&] { return plugin_->create(&host_); });
   in_create_ = false;
   if (guard.changed()) said_ = guard.what() + " for the whole process; expected it to leave the arithmetic as it was";
   if (!self_ || !said_.empty()) {
@@ -40,7 +51,10 @@ Instance::Instance(InstanceDeclaration declaration, std::shared_ptr<Library> lib
 }
 
 Instance::~Instance() {
-  if (self_) plugin_->destroy(self_);
+  if (!self_) return;
+  said_.clear();
+  guarded(false, [&] { return plugin_->destroy(self_), true; });
+  if (!said_.empty()) around_.destroy_faults.push_back(failure("destroy", nullptr, said()).what());
 }
 
 std::string Instance::title() const {
@@ -141,7 +155,9 @@ Error Instance::failure(const std::string& callback, const muster_tick* tick, co
   said_.clear();
   if (said.front() == '!') return Error(fault, said.substr(1));  // the kernel's own refusal, which names its place
   const std::string where = tick ? " at tick " + std::to_string(tick->index) + " (t = " + print_real(tick->time) + " s)" : "";
-  return Error(fault, title() + ": " + callback + " failed" + where + ": " + said);
+  std::string words = said;  // a plugin's may have several lines; a message is one
+  std::replace_if(words.begin(), words.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+  return Error(fault, title() + ": " + callback + " failed" + where + ": " + words);
 }
 
 // Rows of a queue that this claim has not seen, and of its own row's where it claims one.
@@ -190,7 +206,7 @@ bool Instance::step(muster_tick tick) noexcept {
   tick.params = params_.data();
   static thread_local const FloatGuard guard;  // as this thread was before any plugin ran on it
   in_step_ = true;
-  const bool fine = plugin_->step(self_, &tick, in_.data(), out_.data()) == MUSTER_OK;
+  const bool fine = guarded(MUSTER_FAILED, [&] { return plugin_->step(self_, &tick, in_.data(), out_.data()); }) == MUSTER_OK;
   in_step_ = false;
   if (guard.changed()) {
     said_ = guard.what() + " for the whole process; expected it to leave the arithmetic as it was";

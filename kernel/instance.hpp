@@ -9,6 +9,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace muster {
@@ -55,6 +56,7 @@ struct Surroundings {
   Blackboard* board = nullptr;
   Library::SearchPath search_path;
   uint64_t seed = 0;
+  std::vector<std::string> destroy_faults;  // what failed while instances were destroyed; a destructor cannot throw it
 };
 
 struct Join {
@@ -116,6 +118,8 @@ class Instance {
 
  private:
   friend struct Host;
+  // Calls a plugin that was written without plugin.hpp, whose exceptions nobody else stops.
+  template <class Body> auto guarded(decltype(std::declval<Body>()()) otherwise, Body&& body) noexcept;
   void check_attributes();
   // What claim() and file() do; they throw Error where the host returns -1.
   int claim(uint32_t kind, uint32_t flags, const std::string& table, const std::string& columns);

@@ -58,6 +58,8 @@ class Simulation {
   // One tick. If a plugin fails it throws Error, and what stands is the tick before. Swaps that the world file plans
   // for this time come first.
   void step();
+  // Destroys all instances, of which one may fail. Call it last; throws Error.
+  void close();
   // One phase alone at the time that stands, for instance the channel for a fit; time does not pass.
   void evaluate(uint32_t phase, bool expected);
 
@@ -98,6 +100,7 @@ class Simulation {
   std::size_t find(const std::string& instance) const;
   void replace(std::size_t at, std::unique_ptr<Instance> instance);
   void planned_swaps();
+  void throw_destroy_fault();
 
   void run(uint64_t tick, uint32_t first, uint32_t last, uint32_t flags);
   void run_batch(Batch& batch, const muster_tick& tick);

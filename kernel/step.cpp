@@ -8,6 +8,7 @@ namespace muster {
 
 void Simulation::step() {
   planned_swaps();
+  throw_destroy_fault();
   run(tick_ + 1, MUSTER_CONTROL, MUSTER_OBSERVE, 0);
   ++tick_;
 }

@@ -129,7 +129,7 @@ void check_names(const World& world) {
 uint64_t ticks_of(double time, double dt, const Place& place) {
   const double ticks = std::round(time / dt);
   if (!(ticks < most_ticks)) throw invalid(place, print_real(time) + " s are " + print_real(ticks) + " ticks of " + print_real(dt) + " s; expected fewer than 1e+12");
-  if (ticks < 1 && time > 0) throw invalid(place, print_real(time) + " s are less than a tick of " + print_real(dt) + " s");
+  if (time > 0 && time < dt) throw invalid(place, print_real(time) + " s are less than a tick of " + print_real(dt) + " s");
   return static_cast<uint64_t>(ticks);
 }
 

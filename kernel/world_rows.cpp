@@ -57,12 +57,14 @@ class RowReader {
     if (!*element.file_of) valid.push_back("name");
     for (const auto& attribute : element.attributes) {
       valid.push_back(attribute.param.name);
-      if ((attribute.param.flags & MUSTER_REQUIRED) && !given.attribute(attribute.param.name))
-        throw invalid(given.place, "<" + given.name + "> has no attribute " + quote(attribute.param.name) + ", which it needs");
     }
-    for (const auto& a : given.attributes) {
+    for (const auto& a : given.attributes) {  // before what is missing: it may be there, misspelt
       if (std::find(valid.begin(), valid.end(), a.name) == valid.end())
         throw invalid(a.place, "<" + given.name + "> has no attribute " + quote(a.name) + "; " + suggest(a.name, valid));
+    }
+    for (const auto& attribute : element.attributes) {
+      if ((attribute.param.flags & MUSTER_REQUIRED) && !given.attribute(attribute.param.name))
+        throw invalid(given.place, "<" + given.name + "> has no attribute " + quote(attribute.param.name) + ", which it needs");
     }
     if (!given.children.empty())
       throw invalid(given.children[0].place, "<" + given.name + "> has an element inside; expected attributes only");
