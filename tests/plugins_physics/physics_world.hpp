@@ -61,7 +61,7 @@ inline InstanceDeclaration instance(const std::string& plugin,
                                     const std::map<std::string, std::string>& attributes = {}) {
   InstanceDeclaration made;
   made.plugin = plugin;
-  for (const auto& [name, value] : attributes) made.attributes.push_back({name, value, {}});
+  for (const auto& [name, value] : attributes) made.attributes.push_back({name, value, {}, {}});
   return made;
 }
 

@@ -11,7 +11,7 @@ const std::string backend = R"(<physics.replay file="course.csv"/>)";
 
 Simulation replayed(const Folder& folder, const std::string& csv) {
   folder.write("course.csv", csv);
-  return world_of(folder, robots + backend + "<robots.odometry/>", 1, "0.1");
+  return world_of(folder, robots + backend, 1, "0.1");
 }
 
 TEST(Replay, PassesThroughTheSamplesAndEvenlyBetween) {

@@ -19,7 +19,7 @@ TEST(Simbody, IsTheBackendOfAWorldThatNamesNone) {
 
 TEST(Simbody, ArcHasRadiusOfSpeedOverTurnRate) {
   Folder folder;
-  Simulation run = world_of(folder, R"(<robot name="a" at="0 0 0"/><test.wheels v="0.3" w="0.5"/>)");
+  Simulation run = world_of(folder, R"(<robot name="a" at="0 0 0"/><test.wheels v="0.3" w="0.5"/><physics.simbody/>)");
   run_to(run, 200);  // it has settled
   const auto start = row<Pose>(run, "robot/a/pose");
   const double yaw = 2 * std::atan2(start.qz, start.qw), radius = 0.6;
@@ -65,7 +65,7 @@ TEST(Simbody, RestoredRunGoesOnWithTheSameBits) {
 
 TEST(Simbody, RowIsAsHandedInBeforeTheFirstStep) {
   Folder folder;
-  Simulation run = world_of(folder, R"(<robot name="a" at="1.1 2.2 0" heading="0.7"/>)");
+  Simulation run = world_of(folder, R"(<robot name="a" at="1.1 2.2 0" heading="0.7"/><physics.simbody/>)");
   const auto pose = row<Pose>(run, "robot/a/pose");
   EXPECT_EQ(pose.x, 1.1);
   EXPECT_EQ(pose.qz, std::sin(0.35));
