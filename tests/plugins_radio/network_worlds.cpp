@@ -77,6 +77,19 @@ TEST(Network, PayloadsArriveByteForByte) {
   }
 }
 
+TEST(Network, EachMessageArrivesWithItsOwnPayload) {
+  const Folder folder;
+  Simulation world =
+      world_of(folder, four + channel + "<test.sender name=\"there\" from=\"a\" to=\"near\" size=\"5\"/>" +
+                           "<test.sender name=\"lost\" from=\"a\" to=\"far\" size=\"6\"/>" +
+                           "<test.sender name=\"back\" from=\"near\" to=\"a\" size=\"7\"/>");
+  run(world, 3);
+  const TableView inbox = world.table("inbox/*/message");
+  ASSERT_EQ(inbox.rows(), 2u);
+  EXPECT_EQ(payload(world, 0), sent(5, 3));
+  EXPECT_EQ(payload(world, 1), sent(7, 3));
+}
+
 TEST(Network, UsesTheLinkFromSenderToReceiver) {
   const Folder folder;
   Simulation world = world_of(folder, four + channel + "<test.deaf radio=\"a\"/>" +
