@@ -1,10 +1,11 @@
 // From what a controller asks of a robot to what its wheels are asked for.
 #include "ramp.hpp"
-#include "robot_drives.hpp"
+#include "description/world_robots.hpp"
 
 namespace {
 
 using namespace muster;
+using description::WorldRobots;
 
 struct RobotsDrive {
   static constexpr auto id = "robots.drive/1";
@@ -22,13 +23,13 @@ struct RobotsDrive {
   // The rates without noise at the end of the step: where the next ramp starts.
   struct Reached {
     static constexpr const char* columns = "left[rad/s] right[rad/s] model";
-    double left, right, model;  // model: see drive_of()
+    double left, right, model;  // model: as in description::Model
   };
 
   explicit RobotsDrive(Setup& s)
       : noise(s.value("noise")),
         stream(s.stream("actuation")),
-        drives(robot_drives(s)),
+        robots(s, description::Meshes::skip),
         command(s.read_if_any<Command>("robot/*/command")),
         drive(s.write<Drive>("robot/*/drive")),
         reached(s.write<Reached>("robot/*/drive_reached")) {}
@@ -36,10 +37,10 @@ struct RobotsDrive {
   void step(const Step& k) const {
     const auto commands = k[command];
     for (std::size_t i = 0; i < k[drive].size(); ++i) {
-      const double model = model_of(k.last(reached)[i].model, i);
+      const double model = WorldRobots::model_of(k.last(reached)[i].model, i);
       k[drive][i] = {0, 0, 0, 0};
       k[reached][i] = {0, 0, model};
-      const auto* motors = drive_of(drives, model);
+      const auto* motors = robots.drive_of(model);
       if (motors && i < commands.size() && k.alive("robot", i)) turn(k, i, commands[i], *motors);
     }
   }
@@ -62,7 +63,7 @@ struct RobotsDrive {
 
   Value noise;
   Stream stream;
-  RobotDrives drives;
+  WorldRobots robots;
   In<Command> command;
   Out<Drive> drive;
   Out<Reached> reached;

@@ -1,10 +1,11 @@
 // Where each robot believes to be: dead reckoning from the angles its wheels turned.
 #include "dead_reckoning.hpp"
-#include "robot_drives.hpp"
+#include "description/world_robots.hpp"
 
 namespace {
 
 using namespace muster;
+using description::WorldRobots;
 
 struct RobotsOdometry {
   static constexpr auto id = "robots.odometry/1";
@@ -21,13 +22,13 @@ struct RobotsOdometry {
   // The angles of the last reading. A robot that joins as a copy of another brings that one's `of`, and starts anew.
   struct Seen {
     static constexpr const char* columns = "of model left[rad] right[rad]";
-    double of, model, left, right;  // of: 1 + the robot's row; model: see drive_of()
+    double of, model, left, right;  // of: 1 + the robot's row; model: as in description::Model
   };
 
   explicit RobotsOdometry(Setup& s)
       : noise(s.value("noise")),
         stream(s.stream("odometry")),
-        drives(robot_drives(s)),
+        robots(s, description::Meshes::skip),
         wheels(s.read<Wheels>("robot/*/wheels")),
         pose(s.read<Pose>("robot/*/pose")),
         odometry(s.write<Odometry>("robot/*/odometry", MUSTER_SENSED)),
@@ -37,12 +38,12 @@ struct RobotsOdometry {
     for (std::size_t i = 0; i < k[odometry].size(); ++i) {
       const Wheels& now = k[wheels][i];
       const Seen& before = k.last(seen)[i];
-      const Seen next{static_cast<double>(i + 1), model_of(before.model, i), now.left, now.right};
+      const Seen next{static_cast<double>(i + 1), WorldRobots::model_of(before.model, i), now.left, now.right};
       if (before.of != next.of) {
         const Pose& at = k[pose][i];
         k[odometry][i] = {at.x, at.y, yaw_of(at), 0, 0};
       } else {
-        k[odometry][i] = moved(k, i, drive_of(drives, next.model), now.left - before.left, now.right - before.right);
+        k[odometry][i] = moved(k, i, robots.drive_of(next.model), now.left - before.left, now.right - before.right);
       }
       k[seen][i] = next;
     }
@@ -68,7 +69,7 @@ struct RobotsOdometry {
 
   Value noise;
   Stream stream;
-  RobotDrives drives;
+  WorldRobots robots;
   In<Wheels> wheels;
   In<Pose> pose;
   Out<Odometry> odometry;
