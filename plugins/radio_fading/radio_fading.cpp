@@ -18,12 +18,12 @@ struct RadioFading {
   static constexpr auto id = "radio.fading/1";
   static constexpr auto summary = "shadowing that belongs to the place, and Rayleigh or Rician fading";
   static constexpr auto manual =
-      R"(level@shadowing: a link's share of a random loss field over the environment, normal in dB. Its sd grows with the link's
-length d: shadowing x sqrt(1 - (1 - exp(-d/D)) D/d), D = decorrelation (Agrawal and Patwari 2009).
-fading: linear power gain of mean 1, from waves that all radios share (Clarke 1968). It changes over half a wavelength, not
-with time. With `per_reading`, every reading draws its own instead.
-Both are the same both ways and depend on seed and place alone. Asked for expectations, shadowing is 0 and fading is the
-gain whose dB is the mean of its dB: -2.507 dB under Rayleigh fading.)";
+      R"(level@shadowing: a link's share of a random loss field over the environment, normal in dB. Its sd grows with the
+link's length d: shadowing x sqrt(1 - (1 - exp(-d/D)) D/d), D = decorrelation (Agrawal and Patwari 2009).
+fading: linear power gain of mean 1, from waves that all radios share (Clarke 1968). It changes over half a
+wavelength, not with time. With `per_reading`, every reading draws its own instead.
+Both are the same both ways and depend on seed and place alone. Asked for expectations, shadowing is 0 and fading is
+the gain whose dB is the mean of its dB: -2.507 dB under Rayleigh fading.)";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       real("shadowing", 4, 0, 30, "dB", "standard deviation of links much longer than the decorrelation distance"),
