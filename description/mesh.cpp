@@ -83,13 +83,13 @@ void limit(int resource, rlim_t value) {
 }
 
 void confine() {
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // these reserve terabytes
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // these reserve terabytes, and open pipes
   limit(RLIMIT_AS, max_memory);
+  limit(RLIMIT_NOFILE, 0);  // what is open stays open; nothing more can be opened
 #endif
   limit(RLIMIT_CPU, max_cpu);
   limit(RLIMIT_FSIZE, 0);
   limit(RLIMIT_CORE, 0);
-  limit(RLIMIT_NOFILE, 0);  // what is open stays open; nothing more can be opened
   for (int number : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU, SIGALRM, SIGINT, SIGTERM})
     std::signal(number, SIG_DFL);
   ::alarm(2 * max_cpu);  // for a child that waits instead of working
