@@ -70,16 +70,9 @@ TEST(Samples, ARadioTermTakes25LinesAndAControllerTakes20) {
   EXPECT_LE(lines_with_text(text_of(source / "docs/samples/control_keep_in_touch.cpp")), 20);
 }
 
-// The world of the README, on a physics of the test's own or on the one that joins by itself.
-Simulation readme_world(bool own_physics) {
+Simulation readme_world() {
   Options options;
   options.search_path = {MUSTER_SAMPLES_DIR, MUSTER_PLUGINS_DIR};
-  if (own_physics) {
-    InstanceDeclaration body;
-    body.plugin = body.name = "test.body";
-    body.place.file = "samples_test.cpp";
-    options.more = {body};
-  }
   return Simulation(read_world(source / "docs/samples/world.xml", standard()), standard(), options);
 }
 
@@ -90,7 +83,8 @@ double apart(const Simulation& world) {
 
 // Level falls to the network's -65 dBm at 10 m, as -40 - 25 log10 d says. At 0.6 m/s away from each other the two are
 // there after a little more than 3 s; then nothing is heard, and they turn on the spot.
-void expect_they_keep_in_touch(Simulation& world, double slack) {
+TEST(Samples, RunAsTheReadmeSays) {
+  Simulation world = readme_world();
   while (world.time() < 2.5) world.step();
   EXPECT_LT(apart(world), 10);
   EXPECT_GT(apart(world), 9);
@@ -100,18 +94,13 @@ void expect_they_keep_in_touch(Simulation& world, double slack) {
   EXPECT_EQ(traffic.at(0, 1), static_cast<double>(world.tick()));
   EXPECT_EQ(world.table("robot/east/command").at(0, 0), 0.3);
   while (world.time() < 6) world.step();
-  EXPECT_NEAR(apart(world), 10, slack);
+  EXPECT_NEAR(apart(world), 10, 0.1);
   EXPECT_EQ(world.table("robot/east/command").at(0, 0), 0);
   EXPECT_EQ(world.table("robot/east/command").at(0, 1), 0.5);
 }
 
-TEST(Samples, RunAsTheReadmeSays) {
-  Simulation world = readme_world(true);
-  expect_they_keep_in_touch(world, 0.02);
-}
-
 TEST(Samples, ParametersOfTheTermAreFreeToAFit) {
-  Simulation world = readme_world(true);
+  Simulation world = readme_world();
   for (const char* path : {"radio.one_slope/l0", "radio.one_slope/n"}) {
     EXPECT_TRUE(world.parameter(path).declared->flags & MUSTER_FREE) << path;
   }
@@ -119,13 +108,6 @@ TEST(Samples, ParametersOfTheTermAreFreeToAFit) {
   world.step();
   EXPECT_NEAR(world.table("link/*/level").at(0, 0), -30 - 25 * std::log10(apart(world)), 1e-9);
 }
-
-#ifdef MUSTER_HAS_SIMBODY
-TEST(Samples, RunOnTheUsualPhysics) {
-  Simulation world = readme_world(false);
-  expect_they_keep_in_touch(world, 0.2);
-}
-#endif
 
 }  // namespace
 }  // namespace muster
