@@ -46,6 +46,18 @@ std::string attribute(const Instance& instance, const std::string& name) {
   return "";
 }
 
+// The first column from `from` on whose name begins so; one for each link is there.
+std::size_t next_column(const Columns& columns, const std::string& prefix, std::size_t from) {
+  while (columns[from].name.compare(0, prefix.size(), prefix) != 0) ++from;
+  return from;
+}
+
+// The colour as a background to itself.
+picture::Colour pale(picture::Colour c) {
+  const auto lighter = [](uint8_t v) { return static_cast<uint8_t>(v + (255 - v) * 7 / 10); };
+  return {lighter(c.r), lighter(c.g), lighter(c.b)};
+}
+
 // To a tenth of a second, without a zero at the end.
 std::string time_text(double time) { return print_real(std::round(time * 10) / 10) + " s"; }
 
@@ -54,7 +66,7 @@ std::string time_text(double time) { return print_real(std::round(time * 10) / 1
 RunPictures::RunPictures(const Simulation& run) : world_(run.world().name) {
   constexpr std::size_t most_numbers = 4'000'000;  // some 100 MB of moments
   most_ = std::clamp(most_numbers / (names_of(run, "robot").size() + names_of(run, "radio").size() + 1), std::size_t{64},
-                     std::size_t{4096});
+                     std::size_t{2048});
   find_plan(run);
   find_links(run);
 }
@@ -89,13 +101,14 @@ void RunPictures::find_links(const Simulation& run) {
     const std::string table = "instance/" + instance->name() + "/chain";
     const Columns& columns = run.table(table).table->columns();
     const int threshold = instance->find_param("threshold");
-    for (std::size_t i = 1, column = 0; i < names.size(); ++i) {
-      while (column < columns.size() && columns[column].name.compare(0, 5, "rssi_") != 0) ++column;
+    std::size_t rssi = 0, smooth = 0;
+    for (std::size_t i = 1; i < names.size(); ++i) {
+      rssi = next_column(columns, "rssi_", rssi);
+      smooth = next_column(columns, "smooth_", smooth);
       const auto row = [&](const std::string& name) {
         return static_cast<std::size_t>(std::find(radios.begin(), radios.end(), name) - radios.begin());
       };
-      if (column == columns.size()) break;
-      links_.push_back({row(names[i - 1]), row(names[i]), names[i], table, column++,
+      links_.push_back({row(names[i - 1]), row(names[i]), names[i], table, rssi++, smooth++,
                         threshold < 0 ? nothing : instance->params()[static_cast<std::size_t>(threshold)]});
     }
   }
@@ -125,24 +138,29 @@ RunPictures::Moment RunPictures::moment(const Simulation& run) const {
   const auto ends = rows_of<Endpoint>(run, "endpoint/*/radio");
   const auto places = rows_of<Pose>(run, "endpoint/*/pose");
   for (std::size_t i = 0; i < ends.size(); ++i) result.radios.at(static_cast<std::size_t>(ends[i].radio)) = {places[i].x, places[i].y};
-  for (const Link& link : links_) result.rssi.push_back(run.table(link.table).at(0, link.column));
+  for (const Link& link : links_) {
+    const TableView chain = run.table(link.table);
+    result.rssi.push_back(chain.at(0, link.rssi));
+    result.smooth.push_back(chain.at(0, link.smooth));
+  }
   if (moments_.empty()) return result;
-  result.way = moments_.back().way;
-  for (std::size_t i = 0; i < std::min(result.robots.size(), moments_.back().robots.size()); ++i) {
-    const picture::Point a = result.robots[i].at, b = moments_.back().robots[i].at;
-    if (const double way = std::hypot(a.x - b.x, a.y - b.y); way > 0) result.way += way;  // NaN is not
+  for (std::size_t i = 0; i < std::min(result.robots.size(), moments_.front().robots.size()); ++i) {
+    const picture::Point a = result.robots[i].at, b = moments_.front().robots[i].at;
+    if (const double away = std::hypot(a.x - b.x, a.y - b.y); away > 0) result.away += away;  // NaN is not
   }
   return result;
 }
 
 std::vector<const RunPictures::Moment*> RunPictures::snapshots() const {
   constexpr int frames = 4;
+  double farthest = 0;
+  for (const Moment& m : moments_) farthest = std::max(farthest, m.away);
   std::vector<const Moment*> result;
-  for (int frame = 1; frame <= frames; ++frame) {
-    const double way = moments_.back().way * frame / frames;
-    const auto at = std::find_if(moments_.begin(), moments_.end(), [way](const Moment& m) { return m.way >= way; });
-    result.push_back(frame == frames ? &moments_.back() : &*at);
+  for (int frame = 1; frame < frames; ++frame) {
+    const double away = farthest * frame / frames;
+    result.push_back(&*std::find_if(moments_.begin(), moments_.end(), [away](const Moment& m) { return m.away >= away; }));
   }
+  result.push_back(&moments_.back());
   result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
 }
@@ -150,7 +168,7 @@ std::vector<const RunPictures::Moment*> RunPictures::snapshots() const {
 picture::Panel RunPictures::plan_at(const Moment& moment) const {
   picture::Links links;
   for (std::size_t i = 0; i < links_.size(); ++i) {
-    links.links.push_back({moment.radios.at(links_[i].near), moment.radios.at(links_[i].far), moment.rssi[i]});
+    links.links.push_back({moment.radios.at(links_[i].near), moment.radios.at(links_[i].far), moment.smooth[i]});
     if (!std::isnan(links_[i].threshold)) links.threshold = links_[i].threshold - 1;  // within 1 dB it holds
   }
   picture::Panel panel{.title = time_text(moment.time), .frame = picture::Frame::scale_bar};
@@ -159,7 +177,10 @@ picture::Panel RunPictures::plan_at(const Moment& moment) const {
     picture::Path path{.colour = moment.robots[i].colour};
     for (const Moment& m : moments_) {
       if (&m > &moment) break;
-      if (i < m.robots.size()) path.points.push_back(m.robots[i].at);
+      if (i >= m.robots.size()) continue;
+      const picture::Point at = m.robots[i].at;
+      const bool moved = path.points.empty() || !(std::hypot(at.x - path.points.back().x, at.y - path.points.back().y) < 0.1);
+      if (moved || &m == &moment) path.points.push_back(at);  // each tenth of a metre is enough to see
     }
     panel.layers.push_back(path);
   }
@@ -169,7 +190,7 @@ picture::Panel RunPictures::plan_at(const Moment& moment) const {
 }
 
 picture::Figure RunPictures::plan_figure() const {
-  picture::Figure figure{.title = world_, .caption = "Ways so far; the dBm of each link as last measured.", .width = 900,
+  picture::Figure figure{.title = world_, .caption = "Ways so far, and the smoothed RSSI of each link.", .width = 900,
                          .share_x = true, .share_y = true};
   for (const Moment* m : snapshots()) figure.panels.push_back(plan_at(*m));
   return figure;
@@ -177,17 +198,27 @@ picture::Figure RunPictures::plan_figure() const {
 
 picture::Figure RunPictures::rssi_figure() const {
   picture::Panel panel{.x = {.label = "time", .unit = "s"}, .y = {.label = "RSSI", .unit = "dBm", .from = -80, .to = -40}};
-  for (std::size_t i = 0; i < links_.size(); ++i) {
-    picture::Line line{.label = links_[i].name};
+  const auto trace = [this](std::size_t i, std::vector<double> Moment::*what) {
+    picture::Line line{.colour = picture::series_colour(i)};
     for (const Moment& m : moments_) {
       line.x.push_back(m.time);
-      line.y.push_back(m.rssi[i]);
+      line.y.push_back((m.*what)[i]);
     }
-    panel.layers.push_back(line);
+    return line;
+  };
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    panel.layers.push_back(trace(i, &Moment::rssi));
+    auto& line = std::get<picture::Line>(panel.layers.back());
+    line.colour = pale(*line.colour);
+    line.width = 0.8;
+  }
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    panel.layers.push_back(trace(i, &Moment::smooth));
+    std::get<picture::Line>(panel.layers.back()).label = links_[i].name;
   }
   if (!std::isnan(links_[0].threshold))
-    panel.layers.push_back(picture::Rule{.at = links_[0].threshold, .label = print_real(links_[0].threshold) + " dBm"});
-  return {.title = world_, .caption = "RSSI of each robot's link towards the base.", .width = 900, .panels = {panel}};
+    panel.layers.push_back(picture::Rule{.at = links_[0].threshold, .label = "threshold"});
+  return {.title = world_, .caption = "RSSI of each robot's link towards the base: as measured (pale) and smoothed.", .width = 900, .panels = {panel}};
 }
 
 std::vector<std::filesystem::path> RunPictures::write(const std::filesystem::path& folder) const {

@@ -21,20 +21,20 @@ class RunPictures {
   std::vector<std::filesystem::path> write(const std::filesystem::path& folder) const;
 
  private:
-  // A link of a chain: the radios at its ends, and where its rssi stands.
+  // A link of a chain: the radios at its ends, and where its rssi stands, as measured and smoothed.
   struct Link {
     std::size_t near, far;  // rows of radios
     std::string name;       // of the further one
     std::string table;
-    std::size_t column;
+    std::size_t rssi, smooth;  // columns
     double threshold;  // dBm
   };
   struct Moment {
     double time = 0;                      // s
-    double way = 0;                       // all that the robots have driven so far, m
+    double away = 0;                      // sum of the robots' distances from where they started, m
     std::vector<picture::Robot> robots{};
     std::vector<picture::Point> radios{};
-    std::vector<double> rssi{};           // a link; NaN before the first
+    std::vector<double> rssi{}, smooth{};  // a link; NaN before the first
   };
 
   void find_plan(const Simulation& run);

@@ -9,12 +9,18 @@ namespace {
 using namespace muster;
 using namespace muster::test;
 
-// Every link within 1 dB of the threshold over the last 200 s, and nobody moves.
+// Every link within 1 dB of the threshold over the last 200 s, never far under it on the way (Fig. 5), and nobody moves
+// at the end.
 void expect_held(Simulation& run) {
-  run_until(run, 300);
   while (!run.done()) {
     run.step();
-    for (std::size_t i = 0; i < 3; ++i) ASSERT_NEAR(chain_of(run)[i].rssi, -60, 1) << i << " at " << run.time();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double rssi = chain_of(run)[i].rssi;
+      ASSERT_GT(rssi, -61.5) << i << " at " << run.time();
+      if (run.time() > 300) {
+        ASSERT_NEAR(rssi, -60, 1) << i << " at " << run.time();
+      }
+    }
   }
   for (const char* name : {"steer1", "steer2", "steer"}) EXPECT_LT(std::abs(steering_of(run, name).speed), 0.005) << name;
 }
@@ -31,8 +37,6 @@ TEST_P(Settles, EveryLinkAtTheThresholdOnceExtended) {
   // Fig. 4: at equal RSSI, those whom the obstacle parts are closer.
   EXPECT_LT(at_end.follower2.distance, 0.7 * at_end.follower1.distance);
   EXPECT_LT(at_end.follower2.distance, 0.7 * at_end.leader.distance);
-  // Fig. 5: nobody is ever far under the threshold on the way.
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_GT(at_end[i].worst, -61.5) << i;
 }
 
 INSTANTIATE_TEST_SUITE_P(Physics, Settles, testing::Values("physics.planar", "physics.simbody"),
