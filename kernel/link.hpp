@@ -61,19 +61,25 @@ class Linker {
  private:
   void gather();
   bool is_of_the_world(const std::string& logical) const;
+  bool is_given(const std::string& logical) const;
+  std::vector<std::string> readable() const;
   void check_reads(const std::string& logical, const Claimed& c) const;
   void check_writers(const std::string& logical, const Claimed& c) const;
   void check_columns(const std::string& logical, const Claimed& c) const;
   void check_stages(const std::string& logical, const Claimed& c) const;
   void check_listed(const std::string& logical, const Claimed& c) const;
   void check_carried() const;
+  void check_joins() const;
+  void check_names() const;
   void order();
   [[noreturn]] void report_cycle(const std::vector<Instance*>& stuck) const;
 
   std::vector<std::pair<std::string, const Claim*>> tables_of(const std::string& logical, const Claimed& c) const;
-  Table& make(const std::string& name, const Claim& claim, std::map<std::string, std::unique_ptr<Table>>& old);
+  // The table that held the values of the one at a place of tables_of() until now, or null.
+  const Table* before(const std::string& logical, const Claimed& c, std::size_t place) const;
+  Table& make(const std::string& name, const Claim& claim, const Table* before);
   void fill_from_world(Table& table, const TableName& name) const;
-  void make_tables(const std::string& logical, const Claimed& c, std::map<std::string, std::unique_ptr<Table>>& old);
+  void make_tables(const std::string& logical, const Claimed& c, const std::vector<const Table*>& held);
   void point_readers(const std::string& logical, const Claimed& c);
   std::vector<Batch> make_batches();
 

@@ -4,6 +4,7 @@
 #include "names.hpp"
 
 #include <algorithm>
+#include <set>
 
 namespace muster {
 namespace {
@@ -30,19 +31,22 @@ const char* phase_name(uint32_t phase) {
   return names[phase <= MUSTER_OBSERVE ? phase : 0];
 }
 
-bool Linker::is_of_the_world(const std::string& logical) const {
-  const auto set_end = logical.find('/');
-  const Set* set = board_.find_set(logical.substr(0, set_end));
-  const auto slash = logical.rfind('/');
-  const std::string table = logical.substr(0, set_end) + logical.substr(slash);
+// True where elements of the world file give the table its values.
+bool Linker::is_given(const std::string& logical) const {
+  const std::string table = logical.substr(0, logical.find('/')) + logical.substr(logical.rfind('/'));
   for (const auto& element : standard_.elements) {
     if (table == element.own_row) return true;
     for (const auto& attribute : element.attributes) {
       if (table == attribute.table) return true;
     }
   }
-  // A table over a set without rows is empty, whoever might have written it.
-  return set && set->is_named() && set->names.empty();
+  return false;
+}
+
+// A table over a set without rows is empty, whoever might have written it.
+bool Linker::is_of_the_world(const std::string& logical) const {
+  const Set* set = board_.find_set(logical.substr(0, logical.find('/')));
+  return is_given(logical) || (set && set->is_named() && set->names.empty());
 }
 
 std::vector<std::string> Linker::missing_providers() const {
@@ -61,14 +65,34 @@ std::vector<std::string> Linker::missing_providers() const {
 
 void Linker::check() {
   for (const auto& [logical, c] : claimed_) {
+    if (!c.adders.empty() && is_given(logical))
+      throw refused(*c.adders[0].instance, "adds to " + quote(logical) + ", which the world gives; expected a claim to modify it");
     check_columns(logical, c);
     check_writers(logical, c);
     check_stages(logical, c);
     check_listed(logical, c);
     check_reads(logical, c);
   }
+  check_names();
+  check_joins();
   check_carried();
   order();
+}
+
+// What a read may name: what somebody writes, what the world holds, and what a declared provider would write.
+std::vector<std::string> Linker::readable() const {
+  std::set<std::string> result;
+  for (const auto& [logical, c] : claimed_) {
+    if (!c.is_written() && !is_of_the_world(logical)) continue;
+    for (const auto& [table, first] : tables_of(logical, c)) result.insert(table);
+  }
+  for (const auto& set : standard_.sets) {
+    for (const auto& quantity : set.quantities) {
+      const std::string logical = set.name + std::string("/*/") + quantity.name;
+      if (*quantity.provider || is_of_the_world(logical)) result.insert(logical);
+    }
+  }
+  return {result.begin(), result.end()};
 }
 
 void Linker::check_reads(const std::string& logical, const Claimed& c) const {
@@ -79,17 +103,17 @@ void Linker::check_reads(const std::string& logical, const Claimed& c) const {
     const bool found = claim.name.part.empty() ? c.is_written() || is_of_the_world(logical)
                                                : std::any_of(tables.begin(), tables.end(), [&](const auto& t) { return t.first == name; });
     if (!found && !(claim.flags & MUSTER_OPTIONAL)) {
-      std::vector<std::string> written;
-      for (const auto& [other, claims] : claimed_) {
-        for (const auto& [table, first] : tables_of(other, claims)) written.push_back(table);
-      }
-      throw refused(*by.instance, "reads " + quote(name) + ", which nobody writes; " + suggest(name, written));
+      throw refused(*by.instance, "reads " + quote(name) + ", which nobody writes; " + suggest(name, readable()));
     }
     // A controller may read what is not standard only if its writer calls it sensed.
-    if (by.instance->phase() != MUSTER_CONTROL || standard_quantity(standard_, claim.name) || c.writers.empty()) continue;
     const bool own = claim.name.set == "instance/" + by.instance->name();
-    if (!own && !(c.writers[0].get().flags & MUSTER_SENSED))
-      throw refused(*by.instance, "reads " + quote(name) + ", which is truth: " + c.writers[0].instance->title() + " does not write it as sensed");
+    if (by.instance->phase() != MUSTER_CONTROL || standard_quantity(standard_, claim.name) || own) continue;
+    for (const auto* group : {&c.writers, &c.adders}) {
+      for (const auto& writer : *group) {
+        if (!(writer.get().flags & (MUSTER_SENSED | MUSTER_JOINS)))
+          throw refused(*by.instance, "reads " + quote(name) + ", which is truth: " + writer.instance->title() + " does not write it as sensed");
+      }
+    }
   }
 }
 
@@ -149,6 +173,8 @@ void Linker::check_listed(const std::string& logical, const Claimed& c) const {
   if (!set || set->kind != SetKind::listed) return;
   for (const auto* group : {&c.writers, &c.adders, &c.modifiers}) {
     for (const auto& by : *group) {
+      if (found != listers_.end() && group != &c.writers && by.instance == found->second.front())
+        throw refused(*by.instance, "adds to or modifies " + quote(logical) + ", whose rows it lists itself; expected it to write the table");
       if (found == listers_.end()) throw refused(*by.instance, "writes " + quote(logical) + ", but nobody lists the rows of " + quote(set->name));
       const Instance& lister = *found->second.front();
       if (lister.every() % by.instance->every() != 0)
@@ -163,11 +189,41 @@ void Linker::check_listed(const std::string& logical, const Claimed& c) const {
   }
 }
 
+// Parts and stages bear the names of instances: no two may come out the same.
+void Linker::check_names() const {
+  for (const auto& [logical, c] : claimed_) {
+    std::map<std::string, const Instance*> owners;
+    const auto tables = tables_of(logical, c);
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+      const auto stage = i - c.adders.size();
+      const bool whole = i == c.adders.size();
+      const Instance* owner = i < c.adders.size() ? c.adders[i].instance : !whole ? c.modifiers[stage - 1].instance : c.writers.empty() ? nullptr : c.writers[0].instance;
+      const auto [other, is_new] = owners.emplace(tables[i].first, owner);
+      if (is_new) continue;
+      throw refused(*owner, "claims " + quote(tables[i].first) + (other->second ? both(*other->second) : ", which is the world's"));
+    }
+  }
+}
+
+// A row's number is told when it joins: one instance counts.
+void Linker::check_joins() const {
+  std::map<std::string, const Instance*> joiners;
+  for (const Instance* instance : instances_) {
+    for (const auto& claim : instance->claims()) {
+      if (claim.kind != MUSTER_WRITE || !(claim.flags & MUSTER_JOINS)) continue;
+      const Instance* first = joiners.emplace(claim.name.set, instance).first->second;
+      if (first != instance) throw refused(*instance, "lets rows of " + quote(claim.name.set) + " join and leave" + both(*first));
+    }
+  }
+}
+
 // A table of before whose columns differ is somebody's state: it is not thrown away unasked.
 void Linker::check_carried() const {
   for (const auto& [logical, c] : claimed_) {
-    for (const auto& [name, claim] : tables_of(logical, c)) {
-      const Table* old = board_.find(name);
+    const auto tables = tables_of(logical, c);
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+      const auto& [name, claim] = tables[i];
+      const Table* old = before(logical, c, i);
       if (!old || old->columns() == claim->columns || (claim->flags & MUSTER_ADOPTS)) continue;
       for (const auto& by : c.writers) {
         if (&by.get() == claim)

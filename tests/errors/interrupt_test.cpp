@@ -1,0 +1,104 @@
+// What may happen around a run: interrupts, output that cannot be written, a bare environment.
+#include "program.hpp"
+
+#include <gmock/gmock.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+using namespace muster::test;
+using testing::HasSubstr;
+using testing::Not;
+
+namespace {
+
+const std::string toys = MUSTER_TOYS;
+constexpr unsigned nobody = 65534;
+
+std::vector<std::string> long_run() {
+  return {"run", "world.xml", "--plugins", toys, "--until", "100000", "--digest-every", "1000", "--out", "out", "--record", "instance/good/cell"};
+}
+
+TEST(Interrupt, EndsTheRunWithWholeRecords) {
+  const Folder folder;
+  folder.write("world.xml", world_of("<test.good name=\"good\"/>"));
+  Surroundings around;
+  around.meanwhile = [](int process) { ::kill(process, SIGINT); };
+  const auto outcome = folder.muster(long_run(), around);
+  EXPECT_EQ(outcome.exit, 130) << outcome.err;
+  EXPECT_LT(outcome.wall_seconds, 10);
+  const std::string log = folder.read("out/instance_good_cell.csv");
+  EXPECT_THAT(log, testing::EndsWith("\n"));
+  EXPECT_GT(std::count(log.begin(), log.end(), '\n'), 1000);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/instance_good_cell.csv.part"));
+}
+
+TEST(Output, ThatCannotBeWrittenIsAnErrorOfIts) {
+  const Folder folder;
+  folder.write("world.xml", world_of("<test.good name=\"good\"/>"));
+  const std::vector<std::string> run = {"run", "world.xml", "--plugins", toys};
+  Surroundings full;
+  full.standard_output = "/dev/full";
+  expect_error(folder.muster(run, full), 74, "standard output cannot be written");
+  expect_error(folder.muster({"describe", "test.good", "--plugins", toys}, full), 74, "standard output cannot be written");
+  // More than a buffer's worth, so that a write fails on the way.
+  auto many = run;
+  many.insert(many.end(), {"--until", "2000", "--digest-every", "1"});
+  expect_error(folder.muster(many, full), 74, "standard output cannot be written");
+}
+
+TEST(Output, AFolderThatCannotBeMadeOrWrittenIsNamed) {
+  const Folder folder;
+  folder.write("world.xml", world_of("<test.good name=\"good\"/>"));
+  folder.write("file", "");
+  const std::vector<std::string> run = {"run", "world.xml", "--plugins", toys, "--record", "instance/good/cell", "--out"};
+  auto words = run;
+  words.push_back("file");
+  expect_error(folder.muster(words), 74, "file: cannot be made: Not a directory");
+  std::filesystem::create_directory(folder.path() / "locked");
+  ::chmod((folder.path() / "locked").c_str(), 0555);
+  ::chmod(folder.path().c_str(), 0755);
+  Surroundings around;
+  around.user = ::getuid() == 0 ? nobody : 0;  // root may write anywhere
+  words.back() = "locked";
+  expect_error(folder.muster(words, around), 74, "locked/instance_good_cell.csv: cannot be written: Permission denied");
+}
+
+TEST(Environment, ABareOneIsEnough) {
+  const Folder folder;
+  folder.write("world.xml", world_of("<test.good name=\"good\"/>"));
+  ::chmod(folder.path().c_str(), 0555);
+  Surroundings around;
+  around.environment = {"HOME", "TERM", "LANG", "PATH", "TMPDIR"};
+  around.user = ::getuid() == 0 ? nobody : 0;  // who cannot write into the working directory
+  const auto outcome = folder.muster({"run", "world.xml", "--plugins", toys}, around);
+  ::chmod(folder.path().c_str(), 0755);
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_THAT(outcome.out, testing::StartsWith("w: 10 ticks, 1 s, digest "));
+}
+
+Outcome run_on_terminal(const Folder& folder, const std::vector<std::string>& environment) {
+  folder.write("world.xml", world_of("<test.good name=\"good\"/>"));
+  Surroundings around;
+  around.terminal = true;
+  around.environment = environment;
+  const auto outcome = folder.muster({"run", "world.xml", "--plugins", toys, "--until", "200"}, around);
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  return outcome;
+}
+
+TEST(Terminal, ShowsProgressWithoutColoursAndADumbOneNothing) {
+  const Folder folder;
+  EXPECT_THAT(run_on_terminal(folder, {"TERM=xterm", "NO_COLOR"}).err, HasSubstr("muster run w  50% [===="));
+  EXPECT_THAT(run_on_terminal(folder, {"TERM=xterm", "NO_COLOR=1"}).err, Not(testing::ContainsRegex("\x1b\\[[0-9;]*m")));
+  EXPECT_EQ(run_on_terminal(folder, {"TERM=dumb"}).err, "");
+}
+
+TEST(Terminal, NothingIsShownWhereThereIsNone) {
+  const Folder folder;
+  folder.write("world.xml", world_of("<test.good name=\"good\"/>"));
+  EXPECT_EQ(folder.muster({"run", "world.xml", "--plugins", toys}).err, "");
+}
+
+}  // namespace

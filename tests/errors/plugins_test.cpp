@@ -1,0 +1,146 @@
+// FAULTS 15, 16 and 19: plugins that cannot be loaded, that throw, and that write or read what they must not.
+#include "program.hpp"
+
+#include <elf.h>
+#include <gmock/gmock.h>
+
+#include <cstddef>
+#include <cstring>
+#include <fstream>
+
+using namespace muster::test;
+
+namespace {
+
+const std::string toys = MUSTER_TOYS;
+
+Outcome run_toy(const Folder& folder, const std::string& elements, std::vector<std::string> more = {}) {
+  folder.write("world.xml", world_of(elements));
+  std::vector<std::string> words = {"run", "world.xml", "--plugins", toys};
+  words.insert(words.end(), more.begin(), more.end());
+  return folder.muster(words);
+}
+
+// ---- 15: what cannot be loaded ----
+
+std::string bytes_of(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  EXPECT_TRUE(in) << file;
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// Of `check` and `run` alike: nothing has been simulated.
+void expect_not_loaded(const Folder& folder, const std::string& words) {
+  folder.write("world.xml", world_of(R"(<test.good library="test_good.so"/>)"));
+  for (const char* verb : {"check", "run"}) {
+    const auto outcome = folder.muster({verb, "world.xml"});
+    expect_error(outcome, 3, "world.xml:1:36: plugin \"test.good\": test_good.so " + words);
+    EXPECT_EQ(outcome.out, "");
+  }
+}
+
+TEST(Fault15, AnAbsentPluginIsToldWithTheFoldersAndTheNearest) {
+  const Folder folder;
+  expect_error(run_toy(folder, "<test.god/>"), 3,
+               "world.xml:1:36: plugin \"test.god\": test_god.so not found; looked in " + toys + ", " + MUSTER_PLUGINS_DIR + "; did you mean test.good?");
+}
+
+TEST(Fault15, AFileThatIsNoPluginIsRefusedInOneLine) {
+  const Folder folder;
+  const std::string good = bytes_of(toys + "/test_good.so");
+  expect_not_loaded(folder, "cannot be read: No such file or directory");
+  folder.write("test_good.so", "a text, not a library\n");
+  expect_not_loaded(folder, R"(is not a shared library: it starts with "a text, not a librar"; expected "\x7fELF")");
+  folder.write("test_good.so", good.substr(0, 1000));
+  uint64_t size = 0;  // p_filesz of the first program header, which stands behind the file's own
+  std::memcpy(&size, good.data() + sizeof(Elf64_Ehdr) + offsetof(Elf64_Phdr, p_filesz), sizeof size);
+  expect_not_loaded(folder, "is truncated: it has 1000 bytes, and its segment 0 has " + std::to_string(size) + " from byte 0 on; copy or build it again");
+  std::string foreign = good;
+  foreign[18] = static_cast<char>(183);  // e_machine: AArch64
+  folder.write("test_good.so", foreign);
+  expect_not_loaded(folder, "is built for AArch64; expected x86-64; rebuild it for this machine");
+}
+
+struct Animal {
+  const char* name;
+  const char* words;
+};
+
+TEST(Fault15, ALibraryThatDoesNotFitIsRefusedInOneLine) {
+  const Folder folder;
+  const std::string zoo = MUSTER_ZOO;
+  for (const Animal& animal :
+       {Animal{"no_register", "does not export muster_register; expected one MUSTER_PLUGIN_IS in it"},
+        Animal{"other_abi", "is built for plugin ABI 2; this muster has plugin ABI 1; rebuild it against plugin_api"},
+        Animal{"undefined", "needs missing::law(double, char const*), which neither it nor a library that it links defines; link what defines it"}}) {
+    SCOPED_TRACE(animal.name);
+    const std::string name = animal.name;
+    folder.write("world.xml", world_of("<zoo." + name + "/>"));
+    expect_error(folder.muster({"run", "world.xml", "--plugins", zoo}), 3,
+                 "world.xml:1:36: plugin \"zoo." + name + "\": " + zoo + "/zoo_" + name + ".so " + animal.words);
+  }
+}
+
+// ---- 16: what throws, in process ----
+
+TEST(Fault16, ThrowsInCreate) {
+  const Folder folder;
+  expect_error(run_toy(folder, "<test.throws_in_create name=\"shelf\"/>"), 3,
+               "world.xml:1:36: shelf (test.throws_in_create): create failed: no licence found");
+}
+
+TEST(Fault16, WhatTheUserGaveWrongIsTheUsers) {
+  const Folder folder;
+  expect_error(run_toy(folder, "<test.refuses/>"), 2, "world.xml:1:36: test.refuses (test.refuses): create failed: the moon is no place for it");
+}
+
+TEST(Fault16, ThrowsInStepAndTheLogOfTheTicksBeforeIsWhole) {
+  const std::vector<std::string> log = {"--out", "out", "--record", "instance/steady/cell"};
+  for (const auto& [toy, said] : {std::pair{"throws_in_step", "the shelf is empty"},
+                                  std::pair{"throws_a_number", "threw something that is not a std::exception"}, std::pair{"bare", "no such shelf"}}) {
+    SCOPED_TRACE(toy);
+    const Folder folder;
+    const std::string id = std::string("test.") + toy;
+    const auto outcome = run_toy(folder, "<test.good name=\"steady\"/>\n<" + id + " name=\"shelf\"/>", log);
+    expect_error(outcome, 3, "world.xml:2:1: shelf (" + id + "): step failed at tick 5 (t = 0.5 s): " + said);
+    const std::string text = folder.read("out/instance_steady_cell.csv");
+    EXPECT_THAT(text, testing::EndsWith(",4\n"));
+    EXPECT_THAT(text, testing::StartsWith("t[s],instance"));
+  }
+}
+
+TEST(Fault16, ThrowsWhenItIsDestroyed) {
+  const Folder folder;
+  expect_error(run_toy(folder, "<test.throws_in_destroy name=\"shelf\"/>"), 3,
+               "world.xml:1:36: shelf (test.throws_in_destroy): destroy failed: still in use");
+  expect_error(run_toy(folder, R"(<test.throws_in_destroy name="shelf"/><swap at="0.3" instance="shelf" plugin="test.good"/>)"), 3,
+               "world.xml:1:36: shelf (test.throws_in_destroy): destroy failed: still in use");
+}
+
+// ---- 19: what it writes and reads ----
+
+TEST(Fault19, ValuesThatAreNoneAreTheirWritersFault) {
+  const Folder folder;
+  for (const auto& [toy, wrong] : {std::pair{"nan", "is NaN"}, std::pair{"infinite", "is infinite"}, std::pair{"unfilled", "is not filled"}}) {
+    SCOPED_TRACE(toy);
+    const std::string id = std::string("test.") + toy;
+    expect_error(run_toy(folder, "<" + id + " name=\"shelf\"/>"), 3,
+                 "world.xml:1:36: shelf (" + id + "): step failed at tick 5 (t = 0.5 s): instance/shelf/shelf/cell: value[m] " + wrong);
+  }
+}
+
+TEST(Fault19, ClaimsThatDoNotFitAreRefusedAtTheStart) {
+  const Folder folder;
+  expect_error(run_toy(folder, R"(<robot name="a" at="0 0 0"/><test.wrong_columns/>)"), 2,
+               "world.xml:1:64: test.wrong_columns (test.wrong_columns): claims \"robot/*/pose\" as \"value[m]\"; its columns are \"x[m] "
+               "y[m] z[m] qw qx qy qz\"");
+  expect_error(run_toy(folder, R"(<robot name="a" at="0 0 0"/><test.second_writer name="one"/><test.second_writer name="two"/>)"), 2,
+               "world.xml:1:96: two (test.second_writer): writes \"robot/*/command\"; so does world.xml:1:64: one (test.second_writer)");
+  expect_error(run_toy(folder, R"(<robot name="a" at="0 0 0"/><test.reads_nobodys/>)"), 2,
+               "world.xml:1:64: test.reads_nobodys (test.reads_nobodys): reads \"robot/*/poise\", which nobody writes; expected one of door/*/shape, "
+               "door/*/state, endpoint/*/pose, endpoint/*/radio, inbox/*/message, instance/test.reads_nobodys/*/cell, link/*/ends, "
+               "link/*/rssi, material/*/loss, radio/*/mount, radio/*/traffic, robot/*/drive, robot/*/odometry, robot/*/pose, "
+               "robot/*/twist, robot/*/wheels, wall/*/shape; did you mean \"robot/*/pose\"?");
+}
+
+}  // namespace

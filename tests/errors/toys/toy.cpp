@@ -1,0 +1,3 @@
+#include "toy.hpp"
+
+MUSTER_PLUGIN_IS(Toy)

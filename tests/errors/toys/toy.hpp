@@ -1,0 +1,37 @@
+// What goes wrong, and where, is a definition of the build: TOY_ID, TOY_CREATE, TOY_STEP, TOY_DESTROY are statements.
+#pragma once
+
+#include <muster/plugin.hpp>
+
+#include <cmath>
+#include <limits>
+
+#ifndef TOY_CREATE
+#define TOY_CREATE
+#endif
+#ifndef TOY_STEP
+#define TOY_STEP
+#endif
+#ifndef TOY_DESTROY
+#define TOY_DESTROY
+#endif
+
+struct Cell {
+  static constexpr const char* columns = "value[m]";
+  double value;
+};
+
+struct Toy {
+  static constexpr auto id = TOY_ID, summary = "goes wrong in one way";
+  static constexpr auto phase = MUSTER_OBSERVE;
+  static constexpr muster::Param params[] = {muster::real("size", 1, 0, 10, "m", "how tall it is").free()};
+  explicit Toy(muster::Setup& setup) : cell(setup.write<Cell>("self/cell")) { TOY_CREATE; }
+  ~Toy() noexcept(false) { TOY_DESTROY; }
+  void step(const muster::Step& k) const {
+    if (k.tick() == 5) {
+      TOY_STEP;
+    }
+    k[cell]->value = static_cast<double>(k.tick());
+  }
+  muster::Out<Cell> cell;
+};

@@ -1,0 +1,88 @@
+// FAULTS 5 to 7 and 13: a world that says what it cannot mean.
+#include "program.hpp"
+
+using namespace muster::test;
+
+namespace {
+
+TEST(Fault5, WhatIsMisspeltIsToldWithTheNearestName) {
+  const Folder folder;
+  folder.expect_refused(world_of(R"(<statoin name="b" at="0 0 1"/>)"),
+                        "world.xml:1:36: <statoin> is no element of a world; expected a plugin (with a dot in its name) or one of swap, "
+                        "record, material, wall, walls, door, station, robot; did you mean \"station\"?");
+  folder.expect_refused(world_of(R"(<station name="b" att="0 0 1"/>)"),
+                        "world.xml:1:54: <station> has no attribute \"att\"; expected one of name, at, yaw; did you mean \"at\"?");
+  folder.expect_refused(world_of(R"(<station name="b"/>)"), "world.xml:1:36: <station> has no attribute \"at\", which it needs");
+  folder.expect_refused(world_of(R"(<test.good siez="2"/>)"),
+                        "world.xml:1:47: <test.good> has no attribute \"siez\"; expected one of name, every, library, revision, size; did you "
+                        "mean \"size\"?");
+  folder.expect_refused(R"(<world nmae="w" until="1"/>)",
+                        "world.xml:1:8: <world> has no attribute \"nmae\"; expected one of name, dt, until, seed; did you mean \"name\"?");
+  folder.expect_refused(R"(<wolrd until="1"/>)", "world.xml:1:1: the root element is <wolrd>; expected <world>");
+}
+
+TEST(Fault5, WordsOfTheCommandLineToo) {
+  const Folder folder;
+  expect_error(folder.muster({"chekc"}), 2,
+               "there is no verb \"chekc\"; expected one of run, check, swap, graph, plugins, describe, fit, features, import; did you "
+               "mean \"check\"?");
+  expect_error(folder.muster({"check"}), 2, "muster check: world is required; see muster check --help");
+}
+
+void expect_numbers_refused(const std::vector<std::string>& environment) {
+  const Folder folder;
+  Surroundings around;
+  around.environment = environment;
+  const std::pair<const char*, const char*> cases[] = {
+      {"1,5", R"("1,5" is not a number; a decimal point is written '.')"},
+      {"nan", R"("nan" is not a number; it must be finite)"},
+      {"inf", R"("inf" is not a number; it must be finite)"},
+      {"1e400", R"("1e400" is out of range)"},
+      {"1.5abc", R"("1.5abc" is not a number; "abc" follows the number)"},
+      {"0x10", R"("0x10" is not a number; numbers are written in decimal)"},
+      {" ", R"(" " is not a number; it has spaces in it or around it)"},
+      {"", R"("" is not a number; the text is empty)"}};
+  for (const auto& [text, why] : cases) {
+    SCOPED_TRACE(text);
+    folder.write("world.xml", world_of("<test.good size=\"" + std::string(text) + "\"/>"));
+    expect_error(folder.muster({"check", "world.xml", "--plugins", MUSTER_TOYS}, around), 2,
+                 "world.xml:1:53: attribute \"size\": " + std::string(why) + "; expected a number from 0 to 10 m");
+  }
+  folder.write("world.xml", world_of(R"(<test.good every="-1"/>)"));
+  expect_error(folder.muster({"check", "world.xml", "--plugins", MUSTER_TOYS}, around), 2,
+               "world.xml:1:54: attribute \"every\": -1 is out of bounds; expected an integer from 1");
+}
+
+TEST(Fault6, NumbersAreStrict) { expect_numbers_refused({}); }
+TEST(Fault6, NumbersAreStrictInGermany) { expect_numbers_refused({"LOCPATH=" MUSTER_LOCALES, "LC_ALL=de_DE.UTF-8"}); }
+
+TEST(Fault7, DegreesInAFieldOfRadiansAreWarnedOf) {
+  const Folder folder;
+  folder.write("world.xml", world_of(R"(<station name="b" at="0 0 1" yaw="90"/>)"));
+  const auto outcome = folder.muster({"check", "world.xml"});
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_EQ(outcome.out,
+            "warning: world.xml:1:70: attribute \"yaw\": 90 rad is more than a full turn; are these degrees?\n"
+            "w: 0 instances, 0 tables; nothing is wrong\n");
+}
+
+TEST(Fault7, ImpossibleQuantitiesAreRefused) {
+  const Folder folder;
+  folder.expect_refused(world_of(R"(<material name="m" loss="-4"/>)"),
+                        "world.xml:1:61: attribute \"loss\": -4 is out of bounds; expected a number from 0 to 100 dB");
+  folder.expect_refused(R"(<world dt="0" until="1"/>)", "world.xml:1:12: attribute \"dt\": 0 is out of bounds; expected the tick in seconds, from 1e-09");
+  folder.expect_refused(R"(<world dt="2" until="1"/>)", "world.xml:1:22: 1 s are less than a tick of 2 s");
+  folder.expect_refused(R"(<world dt="0.001" until="1e12"/>)",
+                        "world.xml:1:26: 1e+12 s are 1e+15 ticks of 0.001 s; expected fewer than 1e+12");
+}
+
+TEST(Fault13, TwoOfOneNameAreRefusedWithBothPlaces) {
+  const Folder folder;
+  folder.expect_refused(world_of("\n<robot name=\"a\" at=\"0 0 0\"/>\n<robot name=\"a\" at=\"1 0 0\"/>"),
+                        "world.xml:3:1: a second robot is called \"a\"; the first is at world.xml:2:1");
+  folder.expect_refused(world_of("\n<test.good/>\n<test.good/>"),
+                        "world.xml:3:1: a second instance is called \"test.good\"; the first is at world.xml:2:1; give one of them a "
+                        "name=\"...\" of its own");
+}
+
+}  // namespace
