@@ -1,0 +1,25 @@
+// A fit as JSON and as text.
+#pragma once
+
+#include "diagnosis/cell_map.hpp"
+#include "diagnosis/misfit.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace muster::cli {
+
+struct FitReport {
+  const diagnosis::LinkModel& model;
+  const diagnosis::Dataset& data;
+  const diagnosis::Fit& fit;
+  const diagnosis::Misfit& misfit;
+  const std::vector<diagnosis::CellMap>& maps;
+  const diagnosis::CellErrors& errors;
+  const diagnosis::CellOptions& options;
+  std::vector<std::filesystem::path> pictures;
+
+  nlohmann::ordered_json json() const;
+  void print() const;
+};
+
+}  // namespace muster::cli

@@ -1,0 +1,77 @@
+#include "diagnosis/dataset.hpp"
+
+#include "diagnosis/dataset_checks.hpp"
+
+#include "kernel/names.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace muster::diagnosis {
+namespace {
+
+std::vector<double> reals_if_any(const TextTable& table, const std::string& name, const std::string& unit) {
+  if (!table.find(name)) return {};
+  return table.reals(table.require(name, unit));
+}
+
+std::vector<Point> places(const TextTable& table, const std::string& end) {
+  const auto x = table.reals(table.require(end + "_x", "m")), y = table.reals(table.require(end + "_y", "m"));
+  const auto z = reals_if_any(table, end + "_z", "m");
+  std::vector<Point> result(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) result[i] = {x[i], y[i], z.empty() ? std::nan("") : z[i]};
+  return result;
+}
+
+// The first two rows of a table without empty cells decide nothing: a column is constant if all of it is.
+bool varies(const std::vector<double>& values) {
+  double first = std::nan("");
+  for (const double v : values) {
+    if (std::isnan(v)) continue;
+    if (std::isnan(first)) first = v;
+    if (v != first) return true;
+  }
+  return false;
+}
+
+void read_covariates(Dataset& data) {
+  static const std::set<std::string> known = {"t",    "tx",   "rx",   "tx_x", "tx_y",   "tx_z",  "tx_yaw",
+                                              "rx_x", "rx_y", "rx_z", "rx_yaw", "rssi"};
+  for (std::size_t c = 0; c < data.table.columns().size(); ++c) {
+    if (known.count(data.table.columns()[c].name)) continue;
+    Covariate covariate{data.table.columns()[c].label(), {}, {}};
+    const bool number = data.table.is_numeric(c);
+    if (number) covariate.values = data.table.reals(c, {.empty = true});
+    else covariate.factor = data.table.texts(c, {.empty = true});
+    if (number ? varies(covariate.values) : covariate.factor.levels.size() > 1) {
+      data.covariates.push_back(std::move(covariate));
+    } else {
+      data.notes.push_back("column " + quote(covariate.name) + " is the same in all rows, so nothing can depend on it");
+    }
+  }
+}
+
+}  // namespace
+
+std::size_t Dataset::heard() const {
+  return static_cast<std::size_t>(std::count_if(rssi.begin(), rssi.end(), [](double v) { return !std::isnan(v); }));
+}
+
+Dataset read_dataset(const std::filesystem::path& file) {
+  Dataset data{.table = TextTable::read(file)};
+  const TextTable& table = data.table;
+  data.tx = table.texts(table.require("tx", ""));
+  data.rx = table.texts(table.require("rx", ""));
+  data.tx_at = places(table, "tx");
+  data.rx_at = places(table, "rx");
+  data.rssi = table.reals(table.require("rssi", "dBm"), {.empty = true});
+  data.t = reals_if_any(table, "t", "s");
+  data.tx_yaw = reals_if_any(table, "tx_yaw", "rad");
+  data.rx_yaw = reals_if_any(table, "rx_yaw", "rad");
+  check_readings(data);
+  read_covariates(data);
+  return data;
+}
+
+}  // namespace muster::diagnosis

@@ -1,0 +1,40 @@
+// Measured readings of a radio channel, as docs/table_format.md has them, checked row by row.
+#pragma once
+
+#include "kernel/text_table.hpp"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace muster::diagnosis {
+
+using Point = std::array<double, 3>;  // m
+
+struct Covariate {
+  std::string name;            // its column's label, such as "battery[V]"
+  std::vector<double> values;  // NaN: empty; empty if it is a factor
+  Factor factor;
+};
+
+struct Dataset {
+  TextTable table;  // for places in messages
+  std::vector<double> t{};  // s; empty if the file has none
+  Factor tx{}, rx{};
+  std::vector<Point> tx_at{}, rx_at{};    // z is NaN where the file has none
+  std::vector<double> tx_yaw{}, rx_yaw{}; // rad; empty if the file has none
+  std::vector<double> rssi{};             // dBm; NaN: not received
+  std::vector<Covariate> covariates{};    // all further columns that vary
+  std::vector<std::string> notes{};       // what was noticed and is no fault
+
+  std::size_t rows() const { return rssi.size(); }
+  std::size_t heard() const;
+  // "leader -> base"
+  std::string pair(std::size_t row) const { return tx.levels[tx.level[row]] + " -> " + rx.levels[rx.level[row]]; }
+};
+
+// Reads and checks. Throws Error with file, line and column: a column that is missing, a reading that stands twice, time
+// that runs backwards, values that no receiver gives.
+Dataset read_dataset(const std::filesystem::path& file);
+
+}  // namespace muster::diagnosis

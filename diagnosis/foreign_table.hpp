@@ -1,0 +1,42 @@
+// A table as others write it: cells between ',', ';' or tabs, names with gaps, several words for nothing. What had to be
+// guessed is kept, to be said.
+#pragma once
+
+#include "kernel/error.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace muster::diagnosis {
+
+class ForeignTable {
+ public:
+  // Throws Error: no header, rows of different lengths, a quote that does not end.
+  static ForeignTable read(const std::filesystem::path& file);
+
+  const std::string& file() const { return file_; }
+  std::size_t rows() const { return cells_.size() / columns_.size(); }
+  const std::vector<std::string>& columns() const { return columns_; }
+  const std::vector<std::string>& guesses() const { return guesses_; }
+  // Throws Error with the nearest name; `for_whom` is the place that asks.
+  std::size_t require(const std::string& column, const Place& for_whom) const;
+
+  const std::string& text(std::size_t row, std::size_t column) const { return cells_[row * columns_.size() + column]; }
+  // Nothing where the cell is empty, nan, NaN, NA or null.
+  std::optional<double> number(std::size_t row, std::size_t column) const;
+  Place place(std::size_t row) const { return {file_, lines_[row], 0}; }
+
+ private:
+  std::vector<std::string> split(std::string_view line, int number) const;
+  void read_header(std::string_view line);
+
+  std::string file_;
+  char separator_ = ',';
+  std::vector<std::string> columns_, cells_, guesses_;
+  std::vector<int> lines_;
+};
+
+}  // namespace muster::diagnosis

@@ -1,0 +1,134 @@
+#include "diagnosis/import.hpp"
+
+#include "diagnosis/dataset.hpp"
+#include "diagnosis/foreign_table.hpp"
+#include "diagnosis/import_map.hpp"
+
+#include "kernel/names.hpp"
+#include "kernel/text_table_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace muster::diagnosis {
+namespace {
+
+class Importer {
+ public:
+  Importer(const std::filesystem::path& file, const ImportMap& map) : map_(map), main_(ForeignTable::read(file)) {
+    for (const auto& [name, side] : map.tables) sides_.emplace(name, ForeignTable::read(side.file));
+  }
+
+  Imported write(const std::filesystem::path& out) {
+    std::vector<TextColumn> columns;
+    for (const ColumnRule& rule : map_.columns) columns.push_back(rule.column);
+    TextTableWriter writer(out, columns);
+    const std::vector<std::string> once = {""};
+    for (std::size_t row = 0; row < main_.rows(); ++row) {
+      for (const std::string& value : map_.variable.empty() ? once : map_.values) {
+        for (const ColumnRule& rule : map_.columns) write_cell(writer, rule, row, value);
+        writer.end_row();
+        ++result_.rows;
+      }
+    }
+    writer.close();
+    say_assumptions();
+    return std::move(result_);
+  }
+
+ private:
+  void write_cell(TextTableWriter& writer, const ColumnRule& rule, std::size_t row, const std::string& value) {
+    if (!rule.is_name) {
+      const double number = number_of(rule, row, value);
+      if (std::isnan(number)) writer.empty();
+      else writer.real(number);
+      if (rule.column.name == "rssi") result_.empty += std::isnan(number);
+    } else if (rule.name_column.empty()) {
+      writer.text(filled(rule.name, map_.variable, value));
+    } else {
+      writer.text(main_.text(row, column_of(main_, filled(rule.name_column, map_.variable, value), rule.place)));
+    }
+  }
+
+  double number_of(const ColumnRule& rule, std::size_t row, const std::string& value) {
+    const NumberRule& number = *rule.number;
+    if (number.column.empty()) return number.offset;
+    const std::string column = filled(number.column, map_.variable, value);
+    const ForeignTable& table = number.table.empty() ? main_ : sides_.at(number.table);
+    const std::size_t in_row = number.table.empty() ? row : side_row(number.table, row, value, rule.place);
+    const auto cell = table.number(in_row, column_of(table, column, rule.place));
+    if (!cell || is_none(rule.column.name, *cell)) return std::nan("");
+    return number.scale * *cell + number.offset;
+  }
+
+  bool is_none(const std::string& column, double value) const {
+    const auto found = map_.none.find(column);
+    return found != map_.none.end() && std::find(found->second.begin(), found->second.end(), value) != found->second.end();
+  }
+
+  // The key is a text with {i}, or a column of the imported table in braces: {beacon}.
+  std::size_t side_row(const std::string& name, std::size_t row, const std::string& value, const Place& place) {
+    const SideTable& side = map_.tables.at(name);
+    std::string key = filled(side.value, map_.variable, value);
+    if (key.size() > 2 && key.front() == '{' && key.back() == '}') key = main_.text(row, column_of(main_, key.substr(1, key.size() - 2), place));
+    const ForeignTable& table = sides_.at(name);
+    auto [entry, is_new] = side_rows_.try_emplace({name, key}, table.rows());
+    if (is_new) {
+      const std::size_t column = column_of(table, side.key, place);
+      for (std::size_t r = 0; r < table.rows() && entry->second == table.rows(); ++r) {
+        if (table.text(r, column) == key) entry->second = r;
+      }
+    }
+    if (entry->second == table.rows()) throw invalid(place, table.file() + " has no row whose " + quote(side.key) + " is " + quote(key));
+    return entry->second;
+  }
+
+  std::size_t column_of(const ForeignTable& table, const std::string& name, const Place& place) {
+    used_[table.file()].insert(name);
+    return table.require(name, place);
+  }
+
+  void say_assumptions() {
+    for (const std::string& guess : main_.guesses()) result_.assumed.push_back(main_.file() + ": " + guess);
+    for (const ColumnRule& rule : map_.columns) result_.assumed.push_back(rule.column.label() + " = " + in_words(rule));
+    if (!map_.variable.empty()) result_.assumed.push_back(fmt::format("each row of the file gives {} readings", map_.values.size()));
+    std::string ignored;
+    for (const std::string& column : main_.columns()) {
+      if (!used_[main_.file()].count(column)) ignored += (ignored.empty() ? "" : ", ") + quote(column);
+    }
+    if (!ignored.empty()) result_.assumed.push_back("columns that are not used: " + ignored);
+    result_.assumed.push_back("frame: x east, y north, z up, in metres; headings in radians from x towards y, as the map's scales make them");
+    result_.assumed.push_back("cells that are empty, nan, NA or null: nothing was received or known");
+  }
+
+  std::string in_words(const ColumnRule& rule) const {
+    if (rule.is_name) return rule.name_column.empty() ? quote(rule.name) : "the names in " + quote(rule.name_column);
+    const NumberRule& n = *rule.number;
+    if (n.column.empty()) return fmt::format("{}", n.offset);
+    std::string words = quote(n.column) + (n.table.empty() ? "" : " of " + map_.tables.at(n.table).file.filename().string());
+    if (n.scale != 1) words = fmt::format("{} x {}", n.scale, words);
+    if (n.offset != 0) words += fmt::format(" {} {}", n.offset < 0 ? '-' : '+', std::abs(n.offset));
+    return words + (n.scale == 1 && !rule.column.unit.empty() ? ", taken to be in " + rule.column.unit : "");
+  }
+
+  const ImportMap& map_;
+  ForeignTable main_;
+  std::map<std::string, ForeignTable> sides_;
+  std::map<std::pair<std::string, std::string>, std::size_t> side_rows_;
+  std::map<std::string, std::set<std::string>> used_;
+  Imported result_;
+};
+
+}  // namespace
+
+Imported import_table(const std::filesystem::path& file, const std::filesystem::path& map, const std::filesystem::path& out) {
+  const ImportMap rules = read_import_map(map);
+  Imported result = Importer(file, rules).write(out);
+  for (const std::string& note : read_dataset(out).notes) result.assumed.push_back(note);  // the same checks as a fit's
+  return result;
+}
+
+}  // namespace muster::diagnosis

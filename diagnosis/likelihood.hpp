@@ -1,0 +1,43 @@
+// What readings say of the mean that a model expects: squared residuals where something was heard, and where a reading
+// is censored, the chance that it fell below the floor (Tobin 1958).
+#pragma once
+
+#include <Eigen/Core>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace muster::diagnosis {
+
+struct Readings {
+  Eigen::VectorXd rssi;                 // dBm, one a row; NaN: not received
+  std::vector<Eigen::Index> heard{};      // rows
+  std::vector<Eigen::Index> censored{};   // rows whose level lay below `floor`; none where losses are random
+  double floor = 0;                     // dBm
+
+  Eigen::Index used() const { return static_cast<Eigen::Index>(heard.size() + censored.size()); }
+};
+
+// The expected reading of every row, dBm, as a function of the free parameters.
+using Mean = std::function<Eigen::VectorXd(const Eigen::VectorXd& parameters)>;
+
+struct Box {
+  Eigen::VectorXd lower, upper;
+  Eigen::VectorXd width() const { return upper - lower; }
+  Eigen::VectorXd inside(const Eigen::VectorXd& x) const { return x.cwiseMax(lower).cwiseMin(upper); }
+};
+
+// Residuals, heard rows first, then censored ones with the expectation of what lay below the floor.
+Eigen::VectorXd residuals(const Readings& readings, const Eigen::VectorXd& mean, double sigma);
+
+// Minus twice the log-likelihood but for constants; with nothing censored the sum of squares over sigma^2.
+double deviance(const Readings& readings, const Eigen::VectorXd& mean, double sigma);
+
+// The likeliest standard deviation of residuals, one step of its EM iteration from `sigma`.
+double next_sigma(const Readings& readings, const Eigen::VectorXd& mean, double sigma);
+
+// Rows as in residuals(): derivatives of the mean by central differences inside the box.
+Eigen::MatrixXd jacobian(const Readings& readings, const Mean& mean, const Eigen::VectorXd& at, const Box& box);
+
+}  // namespace muster::diagnosis

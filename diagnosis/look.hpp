@@ -1,0 +1,25 @@
+// What a look along one covariate needs: its values on the fit's rows and the shapes to try.
+#pragma once
+
+#include "diagnosis/misfit.hpp"
+
+namespace muster::diagnosis {
+
+struct Subject {
+  std::string by, unit;
+  std::vector<double> values;      // one a used row; NaN: none. Empty for names
+  std::vector<int> level;          // names: one a used row, -1: none
+  std::vector<std::string> names;
+  Eigen::MatrixXd shapes;          // one a row of the fit
+  bool by_shape = false;           // bins are the shapes' own coefficients (walls), not ranges
+};
+
+// Structure in the residual along these shapes, tested with errors refitted beside them, so that they do not swallow it.
+Look look_along(const Fit& fit, const Subject& subject);
+
+// Shapes for a number over its range, for an angle, and for names.
+Eigen::MatrixXd waves(const std::vector<double>& values, int count);
+Eigen::MatrixXd lobes(const std::vector<double>& angles, int count);
+Eigen::MatrixXd indicators(const std::vector<int>& level, std::size_t levels);
+
+}  // namespace muster::diagnosis

@@ -1,0 +1,95 @@
+#include "diagnosis/missing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace muster::diagnosis {
+namespace {
+
+double below(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
+
+struct Mixture {
+  double log_likelihood = 0, random = 0, by_floor = 0;
+};
+
+// A reading is lost by chance with probability `random`, or because its level, normal about the mean, lies below the
+// floor. The likeliest `random` by EM; the floor's share of the missing ones is their mean posterior.
+Mixture with_floor(const std::vector<double>& lost_at, const std::vector<double>& heard_at, double floor, double sigma) {
+  Mixture result;
+  const double lost = static_cast<double>(lost_at.size()), all = lost + static_cast<double>(heard_at.size());
+  result.random = 0.5 * lost / all;
+  std::vector<double> chance;  // of falling below the floor
+  for (const double m : lost_at) chance.push_back(below((floor - m) / sigma));
+  std::vector<double> heard_chance;
+  for (const double m : heard_at) heard_chance.push_back(below((floor - m) / sigma));
+  for (int i = 0; i < 60; ++i) {
+    double by_chance = 0;  // missing ones that random loss explains, whatever the floor did
+    for (const double f : chance) by_chance += result.random / (result.random + (1 - result.random) * f + 1e-300);
+    result.random = std::max(by_chance / all, 1e-9);
+  }
+  double by_floor = 0;
+  for (const double f : chance) {
+    const double p = result.random + (1 - result.random) * f;
+    result.log_likelihood += std::log(p);
+    by_floor += f * (1 - result.random) / p;
+  }
+  for (const double f : heard_chance) result.log_likelihood += std::log1p(-std::min(result.random + (1 - result.random) * f, 1 - 1e-12));
+  result.by_floor = by_floor / lost;
+  return result;
+}
+
+std::vector<Missing::Bin> binned(const Eigen::VectorXd& rssi, const Eigen::VectorXd& mean) {
+  constexpr Eigen::Index bins = 10;
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(rssi.size()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return mean[a] < mean[b]; });
+  std::vector<Missing::Bin> result;
+  for (Eigen::Index b = 0; b < bins; ++b) {
+    Missing::Bin bin{};
+    for (Eigen::Index k = rssi.size() * b / bins; k < rssi.size() * (b + 1) / bins; ++k) {
+      const auto i = order[static_cast<std::size_t>(k)];
+      bin.level += mean[i];
+      bin.rows += 1;
+      bin.missing += std::isnan(rssi[i]);
+    }
+    if (bin.rows == 0) continue;
+    bin.level /= bin.rows;
+    result.push_back(bin);
+  }
+  return result;
+}
+
+}  // namespace
+
+Missing why_missing(const Eigen::VectorXd& rssi, const Eigen::VectorXd& mean, double sigma) {
+  std::vector<double> lost_at, heard_at;
+  double weakest = 1e300;
+  for (Eigen::Index i = 0; i < rssi.size(); ++i) {
+    (std::isnan(rssi[i]) ? lost_at : heard_at).push_back(mean[i]);
+    if (!std::isnan(rssi[i])) weakest = std::min(weakest, rssi[i]);
+  }
+  Missing result{.count = lost_at.size(), .floor = weakest};
+  if (result.count == 0) return result;
+  result.bins = binned(rssi, mean);
+  const double lost = static_cast<double>(lost_at.size()), heard = static_cast<double>(heard_at.size());
+  const double share = lost / (lost + heard);
+  const double chance = lost * std::log(share) + heard * std::log1p(-share);
+  // The floor is where nothing weaker was ever heard: the weakest reading, or a little above it where that is a stray.
+  Mixture best{.log_likelihood = -1e300};
+  for (const double above : {0.0, 1.0, 2.0}) {
+    const Mixture mixture = with_floor(lost_at, heard_at, weakest + above, std::max(sigma, 0.1));
+    if (mixture.log_likelihood <= best.log_likelihood) continue;
+    best = mixture;
+    result.floor = weakest + above;
+  }
+  result.share_at_random = best.random;
+  result.by_floor = best.by_floor;
+  result.evidence = 2 * (best.log_likelihood - chance);
+  // Censored needs both: a rise that chance does not make (10 is p < 0.002 for one parameter, and neighbouring readings
+  // are lost together), and that the floor took most of what is missing.
+  result.censored = result.evidence > 10 && result.by_floor > 0.5;
+  return result;
+}
+
+}  // namespace muster::diagnosis

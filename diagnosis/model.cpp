@@ -1,0 +1,92 @@
+#include "diagnosis/model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace muster::diagnosis {
+namespace {
+
+// What lists links by the clock gives way to what lists the measured ones.
+bool lists_links(const InstanceDeclaration& instance) {
+  return instance.plugin == "radio.links" || instance.plugin == "data.links";
+}
+
+World world_for(const std::filesystem::path& file) {
+  World world = read_world(file, standard());
+  std::erase_if(world.instances, lists_links);
+  std::erase_if(world.swaps, [](const SwapDeclaration& s) { return lists_links(s.replacement); });
+  return world;
+}
+
+Options options_for(const World& world, const std::filesystem::path& data, const Library::SearchPath& plugins) {
+  const Place place{world.file.string()};
+  const std::string file = std::filesystem::absolute(data).string();
+  Options options;
+  options.search_path = plugins;
+  options.more.push_back({"data.links", "data", 1, {}, {}, {{"file", file, place, place}}, place});
+  const auto is_receiver = [](const InstanceDeclaration& i) { return i.plugin == "radio.receiver"; };
+  if (std::none_of(world.instances.begin(), world.instances.end(), is_receiver))
+    options.more.push_back({"radio.receiver", "receiver", 1, {}, {}, {}, place});
+  return options;
+}
+
+}  // namespace
+
+LinkModel::LinkModel(const std::filesystem::path& world, const std::filesystem::path& data,
+                     const Library::SearchPath& plugins) {
+  World declared = world_for(world);
+  Options options = options_for(declared, data, plugins);
+  run_ = std::make_unique<Simulation>(std::move(declared), standard(), std::move(options));
+  evaluate(true);
+  read_ends();
+}
+
+void LinkModel::evaluate(bool expected) {
+  run_->evaluate(MUSTER_RADIO, expected);
+  ++evaluations_;
+  const TableView rssi = run_->table("link/*/rssi");
+  values_.resize(static_cast<Eigen::Index>(rssi.rows()));
+  for (std::size_t i = 0; i < rssi.rows(); ++i) values_[static_cast<Eigen::Index>(i)] = rssi.at(i, 0);
+}
+
+void LinkModel::read_ends() {
+  const TableView pose = run_->table("endpoint/*/pose"), radio = run_->table("endpoint/*/radio");
+  const auto end = [&](std::size_t i) {
+    const double qw = pose.at(i, 3), qx = pose.at(i, 4), qy = pose.at(i, 5), qz = pose.at(i, 6);
+    return End{pose.at(i, 0), pose.at(i, 1), pose.at(i, 2),
+               std::atan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz)), static_cast<int>(radio.at(i, 0))};
+  };
+  const TableView link = run_->table("link/*/ends");
+  for (std::size_t i = 0; i < link.rows(); ++i)
+    ends_.push_back({end(static_cast<std::size_t>(link.at(i, 0))), end(static_cast<std::size_t>(link.at(i, 1)))});
+}
+
+std::string LinkModel::radio_name(int radio) const {
+  return run_->board().find_set("radio")->names.at(static_cast<std::size_t>(radio));
+}
+
+const Eigen::VectorXd& LinkModel::expected() {
+  evaluate(true);
+  return values_;
+}
+
+Eigen::VectorXd LinkModel::drawn() {
+  evaluate(false);
+  return values_;
+}
+
+bool LinkModel::has_plugin(const std::string& plugin) const {
+  const auto& all = run_->instances();
+  return std::any_of(all.begin(), all.end(), [&](const auto& i) { return i->declared().plugin == plugin; });
+}
+
+double LinkModel::value_of(const std::string& plugin, const std::string& param, double otherwise) const {
+  for (const auto& instance : run_->instances()) {
+    if (instance->declared().plugin != plugin) continue;
+    const int at = instance->find_param(param);
+    if (at >= 0) return instance->params()[static_cast<std::size_t>(at)];
+  }
+  return otherwise;
+}
+
+}  // namespace muster::diagnosis

@@ -1,0 +1,56 @@
+// A world asked what it expects to be measured: its channel, evaluated at the places and times of the readings by the
+// code that a simulation runs.
+#pragma once
+
+#include "kernel/simulation.hpp"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <memory>
+
+namespace muster::diagnosis {
+
+// One end of a reading, as the channel saw it.
+struct End {
+  double x, y, z, yaw;
+  int radio;  // row of the set `radio`
+};
+
+class LinkModel {
+ public:
+  // The world with the readings of `data` in the place of its links. Throws Error.
+  LinkModel(const std::filesystem::path& world, const std::filesystem::path& data, const Library::SearchPath& plugins);
+
+  std::size_t rows() const { return ends_.size(); }
+  // Row i's two ends, tx first.
+  const std::vector<std::array<End, 2>>& ends() const { return ends_; }
+  std::string radio_name(int radio) const;
+
+  // E[rssi in dBm] of every row.
+  const Eigen::VectorXd& expected();
+  // One draw of the channel, NaN where nothing is received.
+  Eigen::VectorXd drawn();
+  // How often the channel was evaluated.
+  int evaluations() const { return evaluations_; }
+
+  std::vector<ParameterInfo> parameters() const { return run_->parameters(); }
+  ParameterInfo parameter(const std::string& path) const { return run_->parameter(path); }
+  void set(const std::string& path, double value) { run_->set_parameter(path, value); }
+
+  const Simulation& simulation() const { return *run_; }
+  // The named parameter's value of the first instance of a plugin, or `otherwise` where the world has none.
+  double value_of(const std::string& plugin, const std::string& param, double otherwise) const;
+  bool has_plugin(const std::string& plugin) const;
+
+ private:
+  void evaluate(bool expected);
+  void read_ends();
+
+  std::unique_ptr<Simulation> run_;
+  Eigen::VectorXd values_;
+  std::vector<std::array<End, 2>> ends_;
+  int evaluations_ = 0;
+};
+
+}  // namespace muster::diagnosis
