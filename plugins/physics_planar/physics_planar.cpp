@@ -27,7 +27,7 @@ struct PhysicsPlanar {
   explicit PhysicsPlanar(Setup& s)
       : acceleration(s.value("acceleration")),
         robots(s, description::Meshes::skip),
-        drive(s.read_if_any<Drive>("robot/*/drive")),
+        drive(s.read<Drive>("robot/*/drive")),
         pose(s.write<Pose>("robot/*/pose")),
         twist(s.write<Twist>("robot/*/twist")),
         wheels(s.write<Wheels>("robot/*/wheels")),

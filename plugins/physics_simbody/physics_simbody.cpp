@@ -39,7 +39,7 @@ struct PhysicsSimbody {
       : step_size(s.value("step")),
         integrator(s.value("integrator")),
         robots(s, description::Meshes::import),
-        drive(s.read_if_any<Drive>("robot/*/drive")),
+        drive(s.read<Drive>("robot/*/drive")),
         pose(s.write<Pose>("robot/*/pose")),
         twist(s.write<Twist>("robot/*/twist")),
         wheels(s.write<Wheels>("robot/*/wheels")),
