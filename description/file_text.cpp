@@ -86,6 +86,12 @@ std::optional<std::vector<double>> parse_numbers(std::string_view text) {
   }
 }
 
+std::string print_number(double value) {
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 4).ptr;
+  return {text, end};
+}
+
 std::string nearest(std::string_view name, const std::vector<std::string>& names) {
   const std::string* best = nullptr;
   std::size_t least = std::max<std::size_t>(2, name.size() / 3) + 1;  // more edits than that is another word

@@ -17,6 +17,9 @@ std::optional<double> parse_number(std::string_view text);
 // Numbers separated by blanks; nothing if any of them is none.
 std::optional<std::vector<double>> parse_numbers(std::string_view text);
 
+// In four digits, the same in every locale.
+std::string print_number(double value);
+
 // The nearest of `names` as "; did you mean 'x'?", or nothing if none is near.
 std::string nearest(std::string_view name, const std::vector<std::string>& names);
 

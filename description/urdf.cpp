@@ -128,7 +128,7 @@ class Converter {
       const double largest = bounds.sizes().maxCoeff();
       if (largest > 100 || largest < 1e-3) {
         robot_.warnings.push_back(source_.file + ":" + std::to_string(line) + ": " + what + "is " +
-                                  std::to_string(largest) + " m large; is its scale right?");
+                                  print_number(largest) + " m large; is its scale right?");
       }
       return result;
     } catch (const std::runtime_error& error) {

@@ -100,6 +100,19 @@ TEST(Urdf, GermanLocaleReadsTheSameNumbers) {
   EXPECT_NEAR(whole_mass(robot).mass, 8.0, 1e-12);
 }
 
+TEST(Urdf, MeshInMillimetresIsWarnedAbout) {
+  Files files;
+  std::filesystem::copy_file(MUSTER_SOURCE_DIR "/plugins/robots/models/hokuyo.stl", files.path("hokuyo.stl"));
+  const std::string path =
+      files.write("r.urdf",
+                  "<robot name='r'>\n<link name='a'><collision><geometry><mesh filename='hokuyo.stl' scale='10 10 10'/>"
+                  "</geometry></collision></link></robot>");
+  const Robot robot = read_robot(path);
+  ASSERT_EQ(robot.warnings.size(), 1u);
+  EXPECT_EQ(robot.warnings[0], path + ":2: link 'a': mesh 'hokuyo.stl' is 700 m large; is its scale right?");
+  EXPECT_TRUE(read_robot(path, Meshes::skip).links[0].shapes.empty());
+}
+
 TEST(Model, IsFoundByNameOrPath) {
   Files files;
   files.write("one/a.urdf", "");
