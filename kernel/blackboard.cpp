@@ -24,6 +24,13 @@ bool Set::add(const std::string& row) {
   return true;
 }
 
+void Set::cut(std::size_t rows) {
+  for (std::size_t r = rows; r < names.size(); ++r) numbers.erase(names[r]);
+  names.resize(std::min(rows, names.size()));
+  keys.resize(names.size());
+  alive.resize(names.size());
+}
+
 Table::Table(std::string name, Set& set, Columns columns, std::string initial)
     : name_(std::move(name)), set_(&set), columns_(std::move(columns)), initial_(columns_.size(), 0.0) {
   for (std::size_t c = 0; c < columns_.size(); ++c) {
@@ -38,6 +45,11 @@ Table::Table(std::string name, Set& set, Columns columns, std::string initial)
 }
 
 void Table::fill_initial(double* row) const { std::copy(initial_.begin(), initial_.end(), row); }
+
+void Table::take_over(const Table& other) {
+  stored() = other.now();
+  if (set_->kind != SetKind::queue) grow();  // rows may have joined with the instance that is being linked
+}
 
 void Table::grow() {
   const auto from = now_.rows;
@@ -119,6 +131,17 @@ Set& Blackboard::add_set(const std::string& name, SetKind kind, const std::strin
     set->owner = owner;
   }
   return *set;
+}
+
+Blackboard::Mark Blackboard::mark() const {
+  Mark result;
+  for (const auto& [name, set] : sets_) result[name] = set->names.size();
+  return result;
+}
+
+void Blackboard::back_to(const Mark& mark) {
+  std::erase_if(sets_, [&](const auto& set) { return !mark.count(set.first); });
+  for (const auto& [name, rows] : mark) sets_.at(name)->cut(rows);
 }
 
 Set* Blackboard::find_set(const std::string& name) const {

@@ -35,6 +35,8 @@ struct Set {
   int find(const std::string& row) const;
   // False if the name is taken.
   bool add(const std::string& row);
+  // Forgets the rows from this number on.
+  void cut(std::size_t rows);
 };
 
 using Blob = std::shared_ptr<const std::vector<uint8_t>>;
@@ -78,6 +80,8 @@ class Table {
 
   // One row of initial values; and room for rows that joined the set.
   void fill_initial(double* row) const;
+  // Puts what another table of the same set and columns holds in place.
+  void take_over(const Table& other);
   void grow();
 
  private:
@@ -96,6 +100,12 @@ class Blackboard {
  public:
   Set& add_set(const std::string& name, SetKind kind, const std::string& owner);
   Set* find_set(const std::string& name) const;
+  // Sets and rows come with instances; one that is refused takes its own back.
+  using Mark = std::map<std::string, std::size_t>;
+  Mark mark() const;
+  void back_to(const Mark& mark);
+  // Forgets a set that has no tables.
+  void drop_set(const std::string& name) { sets_.erase(name); }
   const std::map<std::string, std::unique_ptr<Set>>& sets() const { return sets_; }
 
   // By its whole name, "robot/*/pose@stage"; null if there is none.

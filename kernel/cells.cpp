@@ -30,6 +30,7 @@ void prepare(Claim& claim, uint64_t tick) {
   Table& table = *claim.out;
   claim.appended = 0;
   claim.puts.clear();
+  if (claim.lists || table.set().kind == SetKind::queue) claim.aside.clear();  // or rows of the step before would look filled
   const bool queue = table.set().kind == SetKind::queue;
   if (claim.lists) return;  // begun when its rows are known
   const bool whole = claim.row < 0 && !claim.staged;
@@ -98,7 +99,10 @@ std::string cell_name(const Claim& claim, std::size_t row, std::size_t column) {
   return claim.name.set + '/' + name + '/' + claim.name.quantity + ": " + claim.columns[column].title();
 }
 
+// Rows that are not the claim's to fill: other instances', and those that have left.
 bool is_others(const Claim& claim, std::size_t row) {
+  const Set& set = claim.out->set();
+  if (claim.row < 0 && set.is_named() && !set.alive[row]) return true;
   return claim.staged && std::find(claim.others.begin(), claim.others.end(), static_cast<int>(row)) != claim.others.end();
 }
 
@@ -131,7 +135,7 @@ std::string check(const Instance& instance, const Blackboard& board, const Claim
   return "";
 }
 
-// Bytes go to the table; a bytes cell that got none is empty.
+// Bytes go to the table; a bytes cell that got none is empty, and others' rows keep theirs.
 void commit_bytes(Claim& claim, Cells& next, std::size_t first) {
   if (!claim.out->columns().any_bytes()) return;
   const auto width = claim.columns.size();
@@ -139,9 +143,12 @@ void commit_bytes(Claim& claim, Cells& next, std::size_t first) {
   const std::size_t start = claim.row >= 0 && claim.out->set().kind != SetKind::queue ? static_cast<std::size_t>(claim.row) : first;
   for (std::size_t c = 0; c < width; ++c) {
     if (!claim.columns[c].bytes) continue;
-    for (std::size_t r = 0; r < rows; ++r) next.data[(start + r) * width + c] = 0;
+    for (std::size_t r = 0; r < rows; ++r) {
+      if (!is_others(claim, r)) next.data[(start + r) * width + c] = 0;
+    }
   }
   for (const auto& put : claim.puts) {
+    if (is_others(claim, put.row)) continue;
     next.blobs.push_back(put.blob);
     next.data[(start + put.row) * width + put.column] = static_cast<double>(next.blobs.size());
   }
@@ -162,23 +169,47 @@ void commit_listed(Claim& claim, uint64_t tick) {
   commit_bytes(claim, claim.out->next(), 0);
 }
 
+// Where others write rows of the same table, or wrote them last: bytes of theirs are not this step's.
 void commit_rest(Claim& claim) {
   const auto width = claim.columns.size();
   auto& next = claim.out->next();
   for (std::size_t r = 0; r < next.rows; ++r) {
-    if (!is_others(claim, r)) std::copy_n(claim.aside.begin() + static_cast<std::ptrdiff_t>(r * width), width, next.data.begin() + static_cast<std::ptrdiff_t>(r * width));
+    if (is_others(claim, r)) continue;
+    for (std::size_t c = 0; c < width; ++c) {
+      if (!claim.columns[c].bytes) next.data[r * width + c] = claim.aside[r * width + c];
+    }
+  }
+  commit_bytes(claim, next, 0);
+}
+
+// Rows that have left keep their values, whoever still writes them.
+void keep_left(Claim& claim) {
+  Table& table = *claim.out;
+  if (!any_dead(table.set())) return;
+  const auto width = table.width();
+  for (std::size_t r = 0; r < table.now().rows; ++r) {
+    if (table.set().alive[r]) continue;
+    for (std::size_t c = 0; c < width; ++c) {
+      double value = table.now().data[r * width + c];
+      if (table.columns()[c].bytes && value != 0) {
+        table.next().blobs.push_back(table.now().blobs[static_cast<std::size_t>(value) - 1]);
+        value = static_cast<double>(table.next().blobs.size());
+      }
+      table.next().data[r * width + c] = value;
+    }
   }
 }
 
 // All tables of a listed set that one instance lists must have the same rows.
 std::string commit_lists(Instance& instance, uint64_t tick) {
   for (auto& claim : instance.claims()) {
-    if (claim.out && claim.lists) claim.out->set().listed = claim.appended;
-  }
-  for (auto& claim : instance.claims()) {
     if (!claim.out || !claim.lists) continue;
-    if (claim.out->set().listed != claim.appended)
-      return "lists " + std::to_string(claim.out->set().listed) + " rows of " + claim.name.set + ", but " + std::to_string(claim.appended) + " of " + claim.name.logical();
+    for (const auto& other : instance.claims()) {
+      if (&other == &claim) break;
+      if (!other.out || !other.lists || &other.out->set() != &claim.out->set() || other.appended == claim.appended) continue;
+      return "lists " + std::to_string(other.appended) + " rows of " + other.name.logical() + ", but " + std::to_string(claim.appended) + " of " + claim.name.logical();
+    }
+    claim.out->set().listed = claim.appended;
     commit_listed(claim, tick);
   }
   return "";
@@ -207,6 +238,7 @@ std::string commit_cells(Instance& instance, uint64_t tick) {
     if (claim.out->set().kind == SetKind::queue) commit_rows(claim, claim.out->next(), tick);
     else if (claim.staged) commit_rest(claim);
     else commit_bytes(claim, claim.out->next(), 0);
+    if (claim.out->set().is_named()) keep_left(claim);
   }
   return commit_lists(instance, tick);
 }

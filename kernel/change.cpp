@@ -1,8 +1,11 @@
 // Changes between two ticks: instances swapped, inserted, removed, made again; parameters set.
 #include "names.hpp"
+#include "number.hpp"
+#include "params.hpp"
 #include "simulation.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace muster {
 
@@ -13,6 +16,18 @@ std::size_t Simulation::find(const std::string& instance) const {
     valid.push_back(instances_[i]->name());
   }
   throw Error(Exit::invalid_input, "no instance is called " + quote(instance) + "; " + suggest(instance, valid));
+}
+
+// A change that is refused leaves no rows and no sets behind.
+template <class Change> void Simulation::guarded(Change&& change) {
+  const auto mark = board_.mark();
+  try {
+    change();
+  } catch (...) {
+    board_.back_to(mark);
+    throw;
+  }
+  drop_private_sets();
 }
 
 // The old instance goes only when the new one is linked.
@@ -31,7 +46,7 @@ void Simulation::swap(const std::string& name, InstanceDeclaration replacement) 
   const auto at = find(name);
   const std::string old = instances_[at]->declared().plugin;
   replacement.name = name;
-  replace(at, make(std::move(replacement)));
+  guarded([&] { replace(at, make(std::move(replacement))); });
   const auto& plugin = instances_[at]->plugin();
   events_.push_back({tick_, name, "swapped from " + old + " to " + plugin.id + (plugin.cannot_hold ? std::string("; it cannot hold ") + plugin.cannot_hold : "")});
 }
@@ -41,42 +56,61 @@ void Simulation::insert(InstanceDeclaration declaration, const std::string& befo
     if (instance->name() == declaration.name) throw Error(Exit::invalid_input, "an instance is called " + quote(declaration.name) + " already: " + instance->title());
   }
   const auto at = before.empty() ? instances_.size() : find(before);
-  auto made = make(std::move(declaration));
-  const std::string id = made->plugin().id;
-  instances_.insert(instances_.begin() + static_cast<std::ptrdiff_t>(at), std::move(made));
-  try {
-    relink();
-  } catch (...) {
-    instances_.erase(instances_.begin() + static_cast<std::ptrdiff_t>(at));
-    throw;
-  }
-  events_.push_back({tick_, instances_[at]->name(), "inserted " + id});
+  guarded([&] {
+    instances_.insert(instances_.begin() + static_cast<std::ptrdiff_t>(at), make(std::move(declaration)));
+    try {
+      relink();
+    } catch (...) {
+      instances_.erase(instances_.begin() + static_cast<std::ptrdiff_t>(at));
+      throw;
+    }
+  });
+  take_events(*instances_[at], tick_);
+  events_.push_back({tick_, instances_[at]->name(), std::string("inserted ") + instances_[at]->plugin().id});
 }
 
 void Simulation::remove(const std::string& name) {
   const auto at = static_cast<std::ptrdiff_t>(find(name));
   auto gone = std::move(instances_[static_cast<std::size_t>(at)]);
   instances_.erase(instances_.begin() + at);
-  try {
-    relink();
-  } catch (...) {
-    instances_.insert(instances_.begin() + at, std::move(gone));
-    throw;
-  }
+  guarded([&] {
+    try {
+      relink();
+    } catch (...) {
+      instances_.insert(instances_.begin() + at, std::move(gone));
+      throw;
+    }
+  });
   events_.push_back({tick_, name, "removed"});
 }
 
 void Simulation::remake(const std::string& name) {
   const auto at = find(name);
   auto params = instances_[at]->params();
-  replace(at, make(instances_[at]->declared()));
+  guarded([&] { replace(at, make(instances_[at]->declared())); });
   instances_[at]->params() = std::move(params);
 }
 
 void Simulation::reload(const std::string& name) {
   const auto at = find(name);
-  const auto& declared = instances_[at]->declared();
-  replace(at, std::make_unique<Instance>(declared, load_library(declared), around_));
+  const InstanceDeclaration declared = instances_[at]->declared();
+  const auto key = library_key(declared);
+  const auto library = libraries_[key];
+  auto before = std::move(instances_[at]->params());
+  const muster_plugin& old = instances_[at]->plugin();
+  std::map<std::string, double> values;
+  for (uint32_t i = 0; i < old.param_count; ++i) values[old.params[i].name] = before[i];
+  instances_[at]->params() = std::move(before);
+  try {
+    guarded([&] { replace(at, std::make_unique<Instance>(declared, load_library(declared), around_)); });
+  } catch (...) {
+    libraries_[key] = library;
+    throw;
+  }
+  for (const auto& [param, value] : values) {
+    const int number = instances_[at]->find_param(param);
+    if (number >= 0) instances_[at]->params()[static_cast<std::size_t>(number)] = value;
+  }
   events_.push_back({tick_, name, std::string("reloaded ") + instances_[at]->plugin().id});
 }
 
@@ -93,10 +127,34 @@ void Simulation::throw_destroy_fault() {
   throw Error(Exit::plugin_fault, first);
 }
 
+// Once each: what is wrong with one may have been swapped again before the tick is tried again.
 void Simulation::planned_swaps() {
+  if (tick_ < planned_from_) return;
   for (const auto& planned : world_.swaps) {
     if (planned.tick == tick_) swap(planned.instance, planned.replacement);
   }
+  planned_from_ = tick_ + 1;
+}
+
+// What is planned is made once before the first tick, so that what is wrong with it is told at once.
+void Simulation::check_planned() {
+  for (const auto& planned : world_.swaps) {
+    InstanceDeclaration replacement = planned.replacement;
+    replacement.name = planned.instance;
+    const auto mark = board_.mark();
+    make(std::move(replacement)).reset();
+    board_.back_to(mark);
+  }
+}
+
+// Of instances that are no more.
+void Simulation::drop_private_sets() {
+  std::vector<std::string> unused;
+  for (const auto& [name, set] : board_.sets()) {
+    const bool is_used = std::any_of(board_.tables().begin(), board_.tables().end(), [&](const auto& table) { return &table.second->set() == set.get(); });
+    if (name.starts_with("instance/") && !is_used) unused.push_back(name);
+  }
+  for (const auto& name : unused) board_.drop_set(name);
 }
 
 namespace {
@@ -125,7 +183,7 @@ std::vector<ParameterInfo> Simulation::parameters() const {
   for (const auto& instance : instances_) {
     for (uint32_t i = 0; i < instance->plugin().param_count; ++i) {
       const auto& param = instance->plugin().params[i];
-      if (param.kind != MUSTER_TEXT && param.kind != MUSTER_FILE)
+      if (param.kind != MUSTER_TEXT && param.kind != MUSTER_FILE && param.kind != MUSTER_REFERENCE)
         result.push_back({instance->name() + '/' + param.name, &param, instance->params()[i]});
     }
   }
@@ -150,6 +208,19 @@ ParameterInfo Simulation::parameter(const std::string& path) const {
   throw Error(Exit::invalid_input, "there is no parameter " + quote(path) + "; " + suggest(path, valid));
 }
 
+namespace {
+
+void check_value(const std::string& path, const muster_param& declared, double value) {
+  const auto refuse = [&](const std::string& what) { throw Error(Exit::invalid_input, "parameter " + quote(path) + ": " + what); };
+  if (declared.kind == MUSTER_REFERENCE) refuse("a reference is claimed for good; expected a swap");
+  if (declared.kind == MUSTER_TEXT || declared.kind == MUSTER_FILE) refuse("it is no number; expected a swap");
+  const double most = declared.kind == MUSTER_CHOICE ? static_cast<double>(choices(declared).size()) - 1 : declared.max;
+  if (!(value >= declared.min && value <= most)) refuse(print_real(value) + " is out of bounds; expected " + expectation(declared));
+  if (declared.kind != MUSTER_REAL && value != std::floor(value)) refuse(print_real(value) + " is no integer; expected " + expectation(declared));
+}
+
+}  // namespace
+
 void Simulation::set_parameter(const std::string& path, double value) {
   const auto slash = path.rfind('/');
   const std::string owner = path.substr(0, slash);
@@ -157,6 +228,7 @@ void Simulation::set_parameter(const std::string& path, double value) {
   for (const auto& instance : instances_) {
     const int found = instance->name() == owner ? instance->find_param(name) : -1;
     if (found >= 0) {
+      check_value(path, instance->plugin().params[found], value);
       instance->params()[static_cast<std::size_t>(found)] = value;
       return;
     }
@@ -166,7 +238,8 @@ void Simulation::set_parameter(const std::string& path, double value) {
     for (const auto& values : row.values) {
       if (!values.attribute || name != values.attribute->param.name) continue;
       Table* table = world_table(board_, values.table);
-      if (!table) continue;
+      if (!table || column_of(*values.attribute, table->width()) < 0) continue;
+      check_value(path, values.attribute->param, value);
       values.store(&value, table->stored().data.data() + static_cast<std::size_t>(table->set().find(row.name)) * table->width());
       return;
     }

@@ -79,6 +79,14 @@ int resolve_row(const TableName& name, const Set& set, const Instance& instance)
   return row;
 }
 
+void check_references(const Claim& claim, const Instance& instance, const Blackboard& board) {
+  for (const auto& column : claim.columns) {
+    if (column.reference.empty() || board.find_set(column.reference)) continue;
+    throw refused(instance, "claims " + quote(claim.name.set + '/' + claim.name.row + '/' + claim.name.quantity) + ": column " + quote(column.name) +
+                                " refers to the set " + quote(column.reference) + "; " + suggest(column.reference, set_names(board)));
+  }
+}
+
 const SetDeclaration* standard_set(const Standard& standard, const std::string& set) {
   for (const auto& known : standard.sets) {
     if (set == known.name) return &known;
@@ -101,7 +109,7 @@ void check_blindness(const Claim& claim, const Instance& instance, const Surroun
   if (instance.phase() != MUSTER_CONTROL || claim.file) return;
   if (claim.name.set == "instance/" + instance.name()) return;
   const auto* quantity = standard_quantity(*around.standard, claim.name);
-  const int robot = instance.bound_robot();
+  const int robot = instance.bound_row();
   const std::string what = "claims " + quote(claim.name.set + '/' + claim.name.row + '/' + claim.name.quantity);
   if (claim.name.set.compare(0, 9, "instance/") == 0 || (quantity && !quantity->sensed)) {
     std::string sensed;
@@ -112,6 +120,9 @@ void check_blindness(const Claim& claim, const Instance& instance, const Surroun
     }
     throw refused(instance, what + ", which is truth; a controller knows what its robot senses: expected one of " + sensed);
   }
+  if (claim.kind == MUSTER_READ && !claim.name.part.empty())
+    throw refused(instance, "claims " + quote(claim.name.set + '/' + claim.name.row + '/' + claim.name.quantity + '@' + claim.name.part) +
+                                ", which is truth; a controller reads what comes out of the last stage");
   const std::string own = robot < 0 ? "" : around.board->find_set("robot")->names[static_cast<std::size_t>(robot)];
   if (robot >= 0 && claim.name.row != own)
     throw refused(instance, what + ", but it is bound to the robot " + quote(own) + "; expected that robot's own row");

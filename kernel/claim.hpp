@@ -12,6 +12,9 @@ TableName parse_table_name(const std::string& text, const Instance& instance, co
 Set& resolve_set(const TableName& name, const Instance& instance, Blackboard& board);
 int resolve_row(const TableName& name, const Set& set, const Instance& instance);
 
+// Columns that hold row numbers do so of sets that there are. Throws Error.
+void check_references(const Claim& claim, const Instance& instance, const Blackboard& board);
+
 // The standard quantity of that name, or null.
 const Quantity* standard_quantity(const Standard& standard, const TableName& name);
 const SetDeclaration* standard_set(const Standard& standard, const std::string& set);

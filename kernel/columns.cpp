@@ -1,6 +1,7 @@
 #include "columns.hpp"
 
 #include <charconv>
+#include <set>
 #include <stdexcept>
 
 namespace muster {
@@ -64,6 +65,7 @@ std::size_t parse_word(std::string_view word, Column& column) {
 }  // namespace
 
 Columns::Columns(std::string_view text) : text_(text) {
+  std::set<std::string> names;
   while (true) {
     const auto start = text.find_first_not_of(' ');
     if (start == text.npos) break;
@@ -74,10 +76,10 @@ Columns::Columns(std::string_view text) : text_(text) {
     const auto count = parse_word(word, column);
     any_bytes_ |= column.bytes;
     plain_ &= !column.nullable && !column.infinite;
-    if (count == 1 && find(column.name) >= 0) refuse(word, "stands twice");
     for (std::size_t i = 0; i < count; ++i) {
       list_.push_back(column);
       if (count > 1) list_.back().name += std::to_string(i);
+      if (!names.insert(list_.back().name).second) refuse(word, "stands twice");
     }
     if (list_.size() > most_columns) refuse(word, "makes more than 65536 columns");
   }

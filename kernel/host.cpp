@@ -3,8 +3,10 @@
 #include "claim.hpp"
 #include "instance.hpp"
 #include "names.hpp"
+#include "world_rows.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace muster {
 
@@ -95,10 +97,11 @@ struct Host {
   static double* append(const muster_host* host, int index, uint32_t count) {
     Instance& i = of(host);
     Claim* claim = claim_of(host, index, "append()");
-    static thread_local double nowhere[64];
     if (!claim || !claim->out || !(claim->lists || claim->out->set().kind == SetKind::queue)) {
       wrong(i, "append() on a table whose rows it does not list; expected a queue, or a set of which it writes the first quantity");
-      return nowhere;
+      static thread_local std::vector<double> nowhere;  // where the plugin may write until its step is refused
+      nowhere.resize(count * std::max<std::size_t>(claim ? claim->columns.size() : 0, 64));
+      return nowhere.data();
     }
     const auto width = claim->columns.size();
     claim->aside.resize((claim->appended + count) * width, poison());
@@ -145,6 +148,7 @@ struct Host {
     Claim* claim = claim_of(host, index, "join()");
     if (!claim || !(claim->flags & MUSTER_JOINS)) return wrong(i, "join() needs a claim with MUSTER_JOINS"), -1;
     Set& set = *i.around_.board->find_set(claim->name.set);
+    if (!is_name(name)) return wrong(i, "join(): " + quote(name) + " is not a name; expected letters, digits, _, - and ."), -1;
     if (like >= static_cast<int>(set.rows())) return wrong(i, "join() like a row that is not there"), -1;
     int number = static_cast<int>(set.rows());
     for (const auto& join : i.joins) {
@@ -170,6 +174,11 @@ struct Host {
     Instance& i = of(host);
     Claim* claim = claim_of(host, index, "place()");
     if (!claim) return MUSTER_FAILED;
+    const Table* table = i.around_.board->find(claim->name.set + "/*/" + quantity);
+    if (!table) return wrong(i, "place() of " + claim->name.set + "/*/" + quantity + ", which is no table here"), MUSTER_FAILED;
+    if (column >= table->width())
+      return wrong(i, "place() into column " + std::to_string(column) + " of " + table->name() + ", which has " + std::to_string(table->width())), MUSTER_FAILED;
+    if (!std::isfinite(value)) return wrong(i, "place() of " + table->name() + ": " + table->columns()[column].title() + " is not finite"), MUSTER_FAILED;
     auto number = static_cast<uint32_t>(i.around_.board->find_set(claim->name.set)->rows());
     for (auto& join : i.joins) {
       if (join.set->name != claim->name.set) continue;

@@ -68,7 +68,7 @@ int Instance::find_param(const std::string& param) const {
   return -1;
 }
 
-int Instance::bound_robot() const {
+int Instance::bound_row() const {
   const int param = find_param("robot");
   const bool refers = param >= 0 && plugin_->params[param].kind == MUSTER_REFERENCE;
   return refers ? static_cast<int>(params_[static_cast<std::size_t>(param)]) : -1;
@@ -119,14 +119,19 @@ int Instance::claim(uint32_t kind, uint32_t flags, const std::string& table, con
   } catch (const std::invalid_argument& e) {
     throw refused("claims " + quote(table) + ": " + e.what());
   }
+  if (made.columns.size() == 0) throw refused("claims " + quote(table) + " without columns");
+  check_references(made, *this, *around_.board);
   Set& set = resolve_set(made.name, *this, *around_.board);
   // A queue's rows are numbered; who owns them has the names.
   made.row = resolve_row(made.name, set.kind == SetKind::queue ? *around_.board->find_set(set.owner) : set, *this);
   if (kind == MUSTER_MODIFY && set.kind == SetKind::queue) throw refused("modifies " + quote(table) + ", but a queue has no stages");
-  if (kind == MUSTER_ADD && (set.kind == SetKind::queue || made.row >= 0)) throw refused("adds to " + quote(table) + "; expected a whole table of numbers");
+  const bool numbers = std::all_of(made.columns.begin(), made.columns.end(), [](const Column& c) { return !c.nullable && !c.infinite && !c.bytes && c.reference.empty(); });
+  if (kind == MUSTER_ADD && (set.kind == SetKind::queue || made.row >= 0 || !numbers)) throw refused("adds to " + quote(table) + "; expected a whole table of numbers");
   const auto* quantity = standard_quantity(*around_.standard, made.name);
   if (quantity && Columns(quantity->columns) != made.columns)
     throw refused("claims " + quote(table) + " as \"" + columns + "\"; its columns are \"" + quantity->columns + '"');
+  if (kind == MUSTER_WRITE && (flags & MUSTER_JOINS) && set.kind != SetKind::live)
+    throw refused("claims " + quote(table) + " to let rows join, but the rows of " + quote(set.name) + " do not join");
   check_blindness(made, *this, around_);
   claims_.push_back(std::move(made));
   return static_cast<int>(claims_.size()) - 1;
@@ -145,6 +150,8 @@ int Instance::file(const std::string& param, const std::string& columns) {
   Claim made;
   made.kind = MUSTER_READ;
   made.columns = Columns(columns);
+  made.name = {"file", param, given, ""};
+  check_references(made, *this, *around_.board);
   made.file = read_file_table(path, made.columns, *around_.board);
   claims_.push_back(std::move(made));
   return static_cast<int>(claims_.size()) - 1;
@@ -163,8 +170,9 @@ Error Instance::failure(const std::string& callback, const muster_tick* tick, co
 // Rows of a queue that this claim has not seen, and of its own row's where it claims one.
 void Instance::gather(Claim& claim, muster_in& view, uint64_t tick) {
   const Cells& cells = claim.in->now();
-  const uint64_t oldest = tick > claim.window ? tick - claim.window : 0;
-  const auto is_new = [&](uint64_t came) { return claim.late ? came >= oldest : came > oldest || tick <= claim.window; };
+  const uint64_t last = tick > claim.window ? tick - claim.window : 0;  // when it stepped last
+  const bool is_first = tick == 0 || (last == 0 && claim.from_start);
+  const auto is_new = [&](uint64_t came) { return claim.late || is_first ? came >= last : came > last; };
   const auto width = claim.in->width();
   claim.aside.clear();
   for (std::size_t r = 0; r < cells.rows; ++r) {
@@ -179,9 +187,10 @@ void Instance::bind(uint64_t tick) {
     Claim& claim = claims_[i];
     const auto width = static_cast<uint32_t>(claim.columns.size());
     const Cells* cells = claim.in ? &claim.in->now() : claim.file.get();
-    if (claim.in && claim.in->set().kind == SetKind::queue && claim.kind == MUSTER_READ) {
+    const bool is_queue = claim.in && claim.in->set().kind == SetKind::queue;
+    if (is_queue && claim.kind == MUSTER_READ) {
       gather(claim, in_[i], tick);
-    } else if (!cells) {
+    } else if (!cells || is_queue) {
       in_[i] = {nullptr, 0, width, 0};
     } else if (claim.row >= 0) {
       in_[i] = {cells->data.data() + static_cast<std::size_t>(claim.row) * width, 1, width, cells->tick};
@@ -204,6 +213,8 @@ void Instance::bind(uint64_t tick) {
 
 bool Instance::step(muster_tick tick) noexcept {
   tick.params = params_.data();
+  said_.clear();  // of a step that was taken back
+  fault_ = Exit::plugin_fault;
   static thread_local const FloatGuard guard;  // as this thread was before any plugin ran on it
   in_step_ = true;
   const bool fine = guarded(MUSTER_FAILED, [&] { return plugin_->step(self_, &tick, in_.data(), out_.data()); }) == MUSTER_OK;

@@ -38,6 +38,7 @@ struct Claim {
   std::vector<int> others;    // staged: the rows that other instances write
   uint64_t window = 0;     // queue read: rows that came at a tick > now - window ...
   bool late = false;       // ... or, where its writers come later in a tick, >= now - window
+  bool from_start = true;  // queue read: it does not step in the SENSE pass before the first tick
 
   // Of this step.
   std::vector<double> aside;  // staged, appended or gathered rows
@@ -101,7 +102,7 @@ class Instance {
   // The parameter's number, or -1.
   int find_param(const std::string& param) const;
   // The row of the set "robot" that the parameter `robot` names, or -1.
-  int bound_robot() const;
+  int bound_row() const;
 
   // Points the views at the tables. Call before step(), when nothing that it reads changes any more.
   void bind(uint64_t tick);

@@ -4,6 +4,7 @@
 #include "names.hpp"
 
 #include <algorithm>
+#include <set>
 
 namespace muster {
 
@@ -69,7 +70,8 @@ void Linker::order() {
       const auto& part = reader.get().name.part;
       for (const auto& writer : chain) {
         const auto& name = writer.instance->name();
-        if (part.empty() || part == "base" || part == name || part.rfind(name + '.', 0) == 0) wait(reader.instance, writer.instance, logical);
+        const bool is_stage = writer.get().kind == MUSTER_MODIFY;
+        if (part.empty() || (part == "base" && !is_stage) || part == name || part.rfind(name + '.', 0) == 0) wait(reader.instance, writer.instance, logical);
       }
     }
     const auto listers = listers_.find(logical.substr(0, logical.find('/')));
@@ -103,11 +105,11 @@ void Linker::report_cycle(const std::vector<Instance*>& stuck) const {
   std::string text;
   while (true) {
     const auto& whom = waits_.at(path.back());
-    const auto next = std::find_if(whom.begin(), whom.end(), [this](const auto& w) { return !depth_.count(w.first); });
-    const auto seen = std::find(path.begin(), path.end(), next->first);
-    path.push_back(next->first);
-    if (seen == path.end() - 1) continue;
-    const auto first = std::find(path.begin(), path.end(), next->first) - path.begin();
+    // The first in the order of the world file: the message must not depend on addresses.
+    const auto next = std::find_if(stuck.begin(), stuck.end(), [&](Instance* other) { return whom.count(other) > 0; });
+    const auto first = std::find(path.begin(), path.end(), *next) - path.begin();
+    path.push_back(*next);
+    if (static_cast<std::size_t>(first) + 1 == path.size()) continue;
     for (auto i = static_cast<std::size_t>(first); i + 1 < path.size(); ++i)
       text += (text.empty() ? "" : "; ") + path[i]->name() + " needs " + quote(waits_.at(path[i]).at(path[i + 1])) + " of " + path[i + 1]->name();
     const Instance& one = *path[static_cast<std::size_t>(first)];
@@ -132,11 +134,12 @@ void Linker::fill_from_world(Table& table, const TableName& name) const {
 
 namespace {
 
-// Cells of the same name and unit; what is new is initial.
+// Cells of columns that are alike; what is new is initial.
 void adopt(const Table& old, Table& table) {
+  table.stored().blobs = old.now().blobs;
   for (std::size_t c = 0; c < table.width(); ++c) {
     const int from = old.columns().find(table.columns()[c].name);
-    if (from < 0 || old.columns()[static_cast<std::size_t>(from)].unit != table.columns()[c].unit) continue;
+    if (from < 0 || old.columns()[static_cast<std::size_t>(from)] != table.columns()[c]) continue;
     for (std::size_t r = 0; r < std::min(old.now().rows, table.now().rows); ++r)
       table.stored().data[r * table.width() + c] = old.now().data[r * old.width() + static_cast<std::size_t>(from)];
   }
@@ -144,23 +147,29 @@ void adopt(const Table& old, Table& table) {
 
 }  // namespace
 
-Table& Linker::make(const std::string& name, const Claim& claim, std::map<std::string, std::unique_ptr<Table>>& old) {
+// Where stages came or went, values go with those who wrote them: the base of a chain was the table itself, and the last
+// stage bears the table's name.
+const Table* Linker::before(const std::string& logical, const Claimed& c, std::size_t place) const {
+  const Table* whole = board_.find(logical);
+  if (place < c.adders.size()) return board_.find(tables_of(logical, c)[place].first);
+  const auto stage = place - c.adders.size();
+  const Table* found = board_.find(logical + '@' + (stage == 0 ? "base" : c.modifiers[stage - 1].instance->name()));
+  return found ? found : whole;
+}
+
+Table& Linker::make(const std::string& name, const Claim& claim, const Table* before) {
   const auto* quantity = standard_quantity(standard_, claim.name);
   auto table = std::make_unique<Table>(name, *board_.find_set(claim.name.set), claim.columns, quantity ? quantity->initial : "");
   fill_from_world(*table, claim.name);
-  const auto found = old.find(name);
-  if (found != old.end()) {
-    if (found->second->columns() == table->columns()) table->stored() = found->second->now();
-    else adopt(*found->second, *table);
-    old.erase(found);
-  }
+  if (before && before->columns() == table->columns()) table->take_over(*before);
+  else if (before) adopt(*before, *table);
   return board_.add(std::move(table));
 }
 
-void Linker::make_tables(const std::string& logical, const Claimed& c, std::map<std::string, std::unique_ptr<Table>>& old) {
+void Linker::make_tables(const std::string& logical, const Claimed& c, const std::vector<const Table*>& held) {
   if (!c.is_written() && !is_of_the_world(logical)) return;  // optional reads that nobody answers
   std::vector<Table*> tables;
-  for (const auto& [name, claim] : tables_of(logical, c)) tables.push_back(&make(name, *claim, old));
+  for (const auto& [name, claim] : tables_of(logical, c)) tables.push_back(&make(name, *claim, held[tables.size()]));
   if (tables.empty()) return;  // only rows join
   Sum sum;
   std::vector<Instance*> adders;
@@ -208,8 +217,10 @@ void Linker::point_readers(const std::string& logical, const Claimed& c) {
     if ((claim.flags & MUSTER_OPTIONAL) && !c.is_written() && !is_of_the_world(logical)) claim.in = nullptr;
     if (!claim.in || claim.in->set().kind != SetKind::queue) continue;
     claim.window = by.instance->every();
-    claim.late = std::any_of(c.writers.begin(), c.writers.end(), [&](const auto& w) { return w.instance->phase() > by.instance->phase(); });
-    claim.in->keep = std::max(claim.in->keep, claim.late ? claim.window : claim.window - 1);
+    // Its own messages are published after its step, as those of later phases are.
+    claim.late = std::any_of(c.writers.begin(), c.writers.end(), [&](const auto& w) { return w.instance == by.instance || w.instance->phase() > by.instance->phase(); });
+    claim.from_start = by.instance->phase() != MUSTER_SENSE;
+    claim.in->keep = std::max(claim.in->keep, claim.late || by.instance->phase() == MUSTER_OBSERVE ? claim.window : claim.window - 1);
   }
 }
 
@@ -241,10 +252,17 @@ std::vector<Batch> Linker::make_batches() {
 }
 
 std::vector<Batch> Linker::build() {
-  auto old = board_.take_tables();
-  for (const auto& [logical, c] : claimed_) make_tables(logical, c, old);
+  std::map<std::string, std::vector<const Table*>> held;
+  std::set<const Table*> used;
+  for (const auto& [logical, c] : claimed_) {
+    for (std::size_t i = 0; i < tables_of(logical, c).size(); ++i) used.insert(held[logical].emplace_back(before(logical, c, i)));
+  }
+  const auto old = board_.take_tables();
+  for (const auto& [logical, c] : claimed_) make_tables(logical, c, held[logical]);
   for (const auto& [logical, c] : claimed_) point_readers(logical, c);
-  for (const auto& [name, table] : old) dropped_.push_back(name);
+  for (const auto& [name, table] : old) {
+    if (!used.count(table.get()) && !board_.find(name)) dropped_.push_back(name);
+  }
   return make_batches();
 }
 

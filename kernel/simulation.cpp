@@ -22,6 +22,7 @@ Simulation::Simulation(World world, const Standard& standard, Options options)
   for (const auto& swap : world_.swaps) planned_.push_back(library_of(swap.replacement));
   add_providers();
   loader_.reset();
+  check_planned();
   if (options_.workers > 1) workers_ = std::make_unique<Workers>(options_.workers);
   relink();
   run(0, MUSTER_SENSE, MUSTER_SENSE, 0);
@@ -29,13 +30,9 @@ Simulation::Simulation(World world, const Standard& standard, Options options)
 
 Simulation::~Simulation() = default;
 
-namespace {
-
 std::string library_key(const InstanceDeclaration& declaration) {
   return declaration.plugin + (declaration.library ? ' ' + declaration.library->string() : "");
 }
-
-}  // namespace
 
 // One library serves all instances of a plugin.
 std::shared_ptr<Library> Simulation::library_of(const InstanceDeclaration& declaration) {
@@ -109,46 +106,11 @@ Snapshot Simulation::snapshot() const {
   result.tick = tick_;
   for (const auto& [name, set] : board_.sets()) result.sets[name] = {set->names, set->alive, set->listed};
   for (const auto& [name, table] : board_.tables()) result.tables[name] = {table->columns().text(), table->now()};
-  for (const auto& instance : instances_) result.params[instance->name()] = instance->params();
-  return result;
-}
-
-// Everything is held against the run before anything changes.
-void Simulation::restore(const Snapshot& snapshot) {
-  const auto refuse = [](const std::string& what) { throw Error(Exit::invalid_input, "the snapshot is of another world: " + what); };
-  for (const auto& [name, table] : board_.tables()) {
-    const auto found = snapshot.tables.find(name);
-    if (found == snapshot.tables.end()) refuse("it has no table " + quote(name));
-    if (found->second.columns != table->columns().text()) refuse("its table " + quote(name) + " has other columns");
-  }
-  for (const auto& [name, table] : snapshot.tables) {
-    if (!board_.find(name)) refuse("its table " + quote(name) + " is not here");
-  }
   for (const auto& instance : instances_) {
-    const auto found = snapshot.params.find(instance->name());
-    if (found == snapshot.params.end() || found->second.size() != instance->params().size())
-      refuse("its instance " + quote(instance->name()) + " differs");
+    const Place& place = instance->declared().place;
+    result.instances[instance->name()] = {instance->plugin().id, static_cast<uint64_t>(place.line), static_cast<uint64_t>(place.column), instance->params()};
   }
-  for (const auto& [name, set] : board_.sets()) {
-    if (!snapshot.sets.count(name)) refuse("it has no set " + quote(name));
-  }
-  for (const auto& [name, saved] : snapshot.sets) {
-    Set* set = board_.find_set(name);
-    if (!set) refuse("its set " + quote(name) + " is not here");
-    const auto common = std::min(set->names.size(), saved.names.size());
-    if (!std::equal(set->names.begin(), set->names.begin() + static_cast<std::ptrdiff_t>(common), saved.names.begin()))
-      refuse("its set " + quote(name) + " has other rows");
-  }
-  for (const auto& [name, saved] : snapshot.sets) {
-    Set& set = *board_.find_set(name);
-    set.names.clear(), set.keys.clear(), set.alive.clear(), set.numbers.clear();
-    for (const auto& row : saved.names) set.add(row);
-    set.alive = saved.alive;
-    set.listed = saved.listed;
-  }
-  for (const auto& [name, saved] : snapshot.tables) board_.find(name)->stored() = saved.cells;
-  for (const auto& instance : instances_) instance->params() = snapshot.params.at(instance->name());
-  tick_ = snapshot.tick;
+  return result;
 }
 
 }  // namespace muster

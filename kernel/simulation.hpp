@@ -44,6 +44,9 @@ struct ParameterInfo {
   double value = 0;
 };
 
+// What libraries are shared by.
+std::string library_key(const InstanceDeclaration& declaration);
+
 class Simulation {
  public:
   // Throws Error for whatever does not fit.
@@ -100,11 +103,20 @@ class Simulation {
   std::size_t find(const std::string& instance) const;
   void replace(std::size_t at, std::unique_ptr<Instance> instance);
   void planned_swaps();
+  void check_planned();
+  void drop_private_sets();
+  template <class Change> void guarded(Change&& change);
+  using Replaced = std::vector<std::pair<std::size_t, std::unique_ptr<Instance>>>;
+  void replace_planned(const Snapshot& snapshot, Replaced& replaced);
+  void relink_anew();
+  void check_fits(const Snapshot& snapshot) const;
+  void put(const Snapshot& snapshot);
   void throw_destroy_fault();
 
   void run(uint64_t tick, uint32_t first, uint32_t last, uint32_t flags);
   void run_batch(Batch& batch, const muster_tick& tick);
   void step_all(const muster_tick& tick);
+  void check_sum(const Sum& sum, const muster_tick& tick) const;
   void take_back();
   void finish(uint64_t tick);
   void take_events(Instance& instance, uint64_t tick);
@@ -121,6 +133,8 @@ class Simulation {
   std::vector<Event> events_;
   std::unique_ptr<Workers> workers_;
   uint64_t tick_ = 0;
+  uint64_t planned_from_ = 0;  // planned swaps of ticks before this one are done
+  bool all_due_ = false;       // while one phase is evaluated
   std::vector<Instance*> due_;                          // of the batch that steps
   std::vector<std::string> faults_;                     // of each of them, "" for none
   std::vector<std::pair<Set*, std::size_t>> listed_;    // rows of the listed sets before this tick

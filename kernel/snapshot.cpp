@@ -49,18 +49,24 @@ class Hash {
 
 class Writer {
  public:
-  explicit Writer(std::ostream& to) : to_(to) {}
-  void word(uint64_t value) { to_.write(reinterpret_cast<const char*>(&value), sizeof value); }
+  void word(uint64_t value) { bytes_.append(reinterpret_cast<const char*>(&value), sizeof value); }
   void text(std::string_view value) {
     word(value.size());
-    to_.write(value.data(), static_cast<std::streamsize>(value.size()));
+    bytes_ += value;
   }
   template <class Number> void numbers(const std::vector<Number>& values) {
     text({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Number)});
   }
+  // A hash of all that was written, so that damage is found; and all of it.
+  const std::string& finish() {
+    Hash hash;
+    hash.add_bytes(bytes_.data(), bytes_.size());
+    word(hash.value());
+    return bytes_;
+  }
 
  private:
-  std::ostream& to_;
+  std::string bytes_;
 };
 
 // Every length is held against what is left of the file.
@@ -85,8 +91,10 @@ class Reader {
     at_ += count;
     return std::string_view(text_).substr(at_ - count, count);
   }
-  void expect_end() const {
-    if (at_ != text_.size()) fail();
+  void expect_check() {
+    Hash hash;
+    hash.add_bytes(text_.data() + magic.size(), at_ - magic.size());
+    if (hash.value() != word() || at_ != text_.size()) fail();
   }
   [[noreturn]] void fail() const {
     throw Error(Exit::invalid_input, Place{file_}, "is not a whole snapshot; expected a file that `muster run --save` wrote");
@@ -119,8 +127,7 @@ uint64_t Snapshot::digest() const {
 void Snapshot::save(const std::filesystem::path& file) const {
   const auto part = file.string() + ".part";
   std::ofstream out(part, std::ios::binary);
-  Writer writer(out);
-  out.write(magic.data(), magic.size());
+  Writer writer;
   writer.word(tick);
   writer.word(sets.size());
   for (const auto& [name, set] : sets) {
@@ -141,11 +148,15 @@ void Snapshot::save(const std::filesystem::path& file) const {
     writer.word(table.cells.blobs.size());
     for (const auto& blob : table.cells.blobs) writer.numbers(*blob);
   }
-  writer.word(params.size());
-  for (const auto& [name, values] : params) {
+  writer.word(instances.size());
+  for (const auto& [name, instance] : instances) {
     writer.text(name);
-    writer.numbers(values);
+    writer.text(instance.plugin);
+    writer.word(instance.line);
+    writer.word(instance.column);
+    writer.numbers(instance.params);
   }
+  out << magic << writer.finish();
   out.close();
   std::error_code renamed;
   if (out) std::filesystem::rename(part, file, renamed);
@@ -180,10 +191,13 @@ Snapshot Snapshot::load(const std::filesystem::path& file) {
       table.cells.blobs.push_back(std::make_shared<const std::vector<uint8_t>>(reader.numbers<uint8_t>()));
   }
   for (auto n = reader.word(); n > 0; --n) {
-    auto& values = result.params[std::string(reader.text())];
-    values = reader.numbers<double>();
+    auto& instance = result.instances[std::string(reader.text())];
+    instance.plugin = reader.text();
+    instance.line = reader.word();
+    instance.column = reader.word();
+    instance.params = reader.numbers<double>();
   }
-  reader.expect_end();
+  reader.expect_check();
   return result;
 }
 

@@ -17,6 +17,12 @@ struct Snapshot {
     uint64_t listed = 0;
     bool operator==(const SavedSet&) const = default;
   };
+  struct SavedInstance {
+    std::string plugin;           // "radio.multiwall/1"
+    uint64_t line = 0, column = 0;  // of its declaration in the world file
+    std::vector<double> params;
+    bool operator==(const SavedInstance&) const = default;
+  };
   struct SavedTable {
     std::string columns;
     Cells cells;
@@ -25,7 +31,7 @@ struct Snapshot {
   uint64_t tick = 0;
   std::map<std::string, SavedSet> sets;
   std::map<std::string, SavedTable> tables;
-  std::map<std::string, std::vector<double>> params;  // by instance
+  std::map<std::string, SavedInstance> instances;
 
   // A hash of rows and published tables, names included; equal states give equal digests in every process.
   uint64_t digest() const;

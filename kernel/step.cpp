@@ -1,8 +1,12 @@
 // One tick: phases in order, batches inside them, and everything taken back if anything fails.
 #include "cells.hpp"
 #include "names.hpp"
+#include "number.hpp"
 #include "simulation.hpp"
 #include "workers.hpp"
+
+#include <algorithm>
+#include <cmath>
 
 namespace muster {
 
@@ -13,7 +17,16 @@ void Simulation::step() {
   ++tick_;
 }
 
-void Simulation::evaluate(uint32_t phase, bool expected) { run(tick_, phase, phase, expected ? MUSTER_EXPECTED : 0); }
+void Simulation::evaluate(uint32_t phase, bool expected) {
+  all_due_ = true;
+  try {
+    run(tick_, phase, phase, expected ? MUSTER_EXPECTED : 0);
+  } catch (...) {
+    all_due_ = false;
+    throw;
+  }
+  all_due_ = false;
+}
 
 void Simulation::run(uint64_t index, uint32_t first, uint32_t last, uint32_t flags) {
   for (auto& [set, rows] : listed_) rows = set->listed;
@@ -32,7 +45,7 @@ void Simulation::run(uint64_t index, uint32_t first, uint32_t last, uint32_t fla
 void Simulation::run_batch(Batch& batch, const muster_tick& tick) {
   due_.clear();
   for (Instance* instance : batch.instances) {
-    if (tick.index % instance->every() != 0) continue;
+    if (!all_due_ && tick.index % instance->every() != 0) continue;
     due_.push_back(instance);
     prepare_cells(*instance, tick.index);
   }
@@ -42,10 +55,24 @@ void Simulation::run_batch(Batch& batch, const muster_tick& tick) {
     if (faults_[i].empty()) faults_[i] = commit_cells(*due_[i], tick.index);
     if (!faults_[i].empty()) throw due_[i]->failure("step", &tick, faults_[i]);
   }
-  for (const auto& sum : batch.sums) add_up(sum, tick.index);
+  for (const auto& sum : batch.sums) {
+    add_up(sum, tick.index);
+    check_sum(sum, tick);
+  }
   for (Table* table : batch.publish) {
     if (table->begun() && !table->published()) table->publish(tick.index);
   }
+}
+
+// Finite parts may have a sum that is not.
+void Simulation::check_sum(const Sum& sum, const muster_tick& tick) const {
+  if (!sum.total->begun()) return;
+  const auto& data = sum.total->next().data;
+  const auto wrong = std::find_if(data.begin(), data.end(), [](double value) { return !std::isfinite(value); });
+  if (wrong == data.end()) return;
+  throw Error(Exit::plugin_fault, Place{world_.file.string()}, "the sum " + quote(sum.total->name()) + " is infinite at tick " + std::to_string(tick.index) +
+                                                                   " (t = " + print_real(tick.time) + " s), in row " +
+                                                                   std::to_string(static_cast<std::size_t>(wrong - data.begin()) / sum.total->width()));
 }
 
 // Threads take instances as they come; nothing that an instance writes is another's, so the order does not show.

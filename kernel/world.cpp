@@ -80,6 +80,8 @@ SwapDeclaration read_swap(const XmlElement& element, const World& world) {
   XmlElement rest = element;
   std::erase_if(rest.attributes, [](const XmlAttribute& a) { return a.name == "at" || a.name == "instance" || a.name == "plugin"; });
   const auto& at = needed(element, "at");
+  if (const auto* name = element.attribute("name"))
+    throw invalid(name->place, "<swap> has no attribute \"name\"; the replacement keeps the name " + quote(needed(element, "instance").value));
   return {ticks_of(number(at, 0, "a time in seconds, from 0"), world.dt, at.value_place), needed(element, "instance").value, read_instance(rest, plugin.value)};
 }
 

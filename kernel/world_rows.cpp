@@ -2,6 +2,7 @@
 
 #include "blackboard.hpp"
 #include "names.hpp"
+#include "number.hpp"
 #include "params.hpp"
 #include "text_table.hpp"
 
@@ -162,7 +163,7 @@ class RowReader {
     std::vector<double> defaults(columns.size(), poison());
     for (const auto& attribute : single(*load.element).attributes) {
       if (table == attribute.table && !(attribute.param.flags & MUSTER_REQUIRED) && attribute.param.kind != MUSTER_REFERENCE)
-        attribute.store(&attribute.param.value, defaults.data());
+        attribute.store(std::vector<double>(static_cast<std::size_t>(attribute.count), attribute.param.value).data(), defaults.data());
     }
     std::vector<std::vector<double>> cells;
     std::set<std::string> known = {"name"};
@@ -170,6 +171,7 @@ class RowReader {
       known.insert(columns[c].name);
       const bool may_miss = std::bit_cast<uint64_t>(defaults[c]) != poison_bits && !load.table.find(columns[c].name);
       cells.push_back(may_miss ? std::vector<double>(load.table.rows(), defaults[c]) : read_column(load.table, columns[c]));
+      if (!may_miss) check_bounds(load.table, single(*load.element), table, columns, c, cells.back());
     }
     for (std::size_t c = 0; c < load.table.columns().size(); ++c) {
       const auto& name = load.table.columns()[c].name;
@@ -180,6 +182,24 @@ class RowReader {
       StoredValues values{table, nullptr, {}, nullptr};
       for (const auto& column : cells) values.values.push_back(column[r]);
       world_.rows[load.first_row + r].values.push_back(std::move(values));
+    }
+  }
+
+  // The bounds of the attribute that gives this column where a row is an element of its own.
+  void check_bounds(const TextTable& table, const Element& one, const std::string& quantity, const Columns& columns, std::size_t c,
+                    const std::vector<double>& cells) const {
+    for (const auto& attribute : one.attributes) {
+      if (quantity != attribute.table || attribute.param.kind != MUSTER_REAL) continue;
+      // Where the attribute's first number goes if it goes anywhere as it is.
+      constexpr double mark = 0.8125;
+      std::vector<double> row(columns.size(), 0), values(static_cast<std::size_t>(attribute.count), mark);
+      attribute.store(values.data(), row.data());
+      if (row[c] != mark) continue;
+      for (std::size_t r = 0; r < cells.size(); ++r) {
+        if (cells[r] >= attribute.param.min && cells[r] <= attribute.param.max) continue;
+        const auto at = table.require(columns[c].name, columns[c].unit);
+        throw invalid(table.place(r, at), "column " + quote(columns[c].title()) + ": " + print_real(cells[r]) + " is out of bounds; expected " + expectation(attribute.param));
+      }
     }
   }
 
@@ -204,11 +224,14 @@ class RowReader {
 
 }  // namespace
 
-void check_name(const XmlAttribute& given) {
-  const bool fine = !given.value.empty() && std::all_of(given.value.begin(), given.value.end(), [](char c) {
+bool is_name(const std::string& text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.';
   });
-  if (!fine) throw invalid(given.value_place, "attribute " + quote(given.name) + ": " + quote(given.value) + " is not a name; expected letters, digits, _, - and .");
+}
+
+void check_name(const XmlAttribute& given) {
+  if (!is_name(given.value)) throw invalid(given.value_place, "attribute " + quote(given.name) + ": " + quote(given.value) + " is not a name; expected letters, digits, _, - and .");
 }
 
 void read_rows(const XmlElement& root, const Standard& standard, World& world) { RowReader(standard, world).read(root); }

@@ -9,6 +9,7 @@ namespace muster {
 void read_rows(const XmlElement& root, const Standard& standard, World& world);
 
 // Names stand in paths: letters, digits, and _ - . but no more.
+bool is_name(const std::string& text);
 void check_name(const XmlAttribute& given);
 
 }  // namespace muster

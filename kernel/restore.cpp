@@ -1,0 +1,134 @@
+// A snapshot put back in place: everything is held against the run before anything changes.
+#include "names.hpp"
+#include "simulation.hpp"
+
+#include <algorithm>
+
+namespace muster {
+namespace {
+
+[[noreturn]] void refuse(const std::string& what) { throw Error(Exit::invalid_input, "the snapshot is of another world: " + what); }
+
+bool is_at(const InstanceDeclaration& declared, const Snapshot::SavedInstance& saved) {
+  return static_cast<uint64_t>(declared.place.line) == saved.line && static_cast<uint64_t>(declared.place.column) == saved.column;
+}
+
+// Numbers of rows and bytes that fit their columns, so that no cell is looked for where none is.
+bool is_sound(const Table& table, const Snapshot::SavedSet& set, const Cells& cells) {
+  const bool queue = table.set().kind == SetKind::queue;
+  if (cells.data.size() != cells.rows * table.width() || cells.appended.size() != (queue ? cells.rows : 0)) return false;
+  if (!queue && cells.rows != (table.set().kind == SetKind::listed ? set.listed : set.names.size())) return false;
+  for (std::size_t c = 0; c < table.width(); ++c) {
+    for (std::size_t r = 0; table.columns()[c].bytes && r < cells.rows; ++r) {
+      const double blob = cells.data[r * table.width() + c];
+      if (!(blob >= 0 && blob <= static_cast<double>(cells.blobs.size()))) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+void Simulation::check_fits(const Snapshot& snapshot) const {
+  for (const auto& instance : instances_) {
+    const auto found = snapshot.instances.find(instance->name());
+    if (found == snapshot.instances.end()) refuse("it has no instance " + quote(instance->name()));
+    if (found->second.plugin != instance->plugin().id)
+      refuse("its instance " + quote(instance->name()) + " is a " + found->second.plugin + "; here it is a " + instance->plugin().id);
+    if (found->second.params.size() != instance->params().size()) refuse("its instance " + quote(instance->name()) + " has other parameters");
+  }
+  for (const auto& [name, set] : board_.sets()) {
+    const bool is_private = name.starts_with("instance/");  // held against each other as tables
+    if (!is_private && !snapshot.sets.count(name)) refuse("it has no set " + quote(name));
+  }
+  for (const auto& [name, saved] : snapshot.sets) {
+    const Set* set = board_.find_set(name);
+    if (!set) refuse("its set " + quote(name) + " is not here");
+    const auto common = std::min(set->names.size(), saved.names.size());
+    const bool same = std::equal(saved.names.begin(), saved.names.begin() + static_cast<std::ptrdiff_t>(common), set->names.begin());
+    if (!same || saved.alive.size() != saved.names.size()) refuse("its set " + quote(name) + " has other rows");
+  }
+  for (const auto& [name, table] : board_.tables()) {
+    const auto found = snapshot.tables.find(name);
+    if (found == snapshot.tables.end()) refuse("it has no table " + quote(name));
+    if (found->second.columns != table->columns().text()) refuse("its table " + quote(name) + " has other columns");
+    if (!is_sound(*table, snapshot.sets.at(table->set().name), found->second.cells)) refuse("its table " + quote(name) + " has other rows");
+  }
+  for (const auto& [name, table] : snapshot.tables) {
+    if (!board_.tables().count(name)) refuse("its table " + quote(name) + " is not here");
+  }
+  for (const auto& instance : instances_) {
+    for (const auto& claim : instance->claims()) {
+      const Table* table = claim.out ? claim.out : claim.in;
+      if (claim.row < 0 || !table) continue;
+      const Set& set = table->set();
+      const auto& rows = snapshot.sets.at(set.kind == SetKind::queue ? set.owner : set.name);
+      if (static_cast<std::size_t>(claim.row) >= rows.names.size()) refuse("it has no row for " + instance->title());
+    }
+  }
+}
+
+// The world file may plan to swap an instance between the snapshot and now: then what stood there then is made again.
+void Simulation::replace_planned(const Snapshot& snapshot, Replaced& replaced) {
+  std::vector<std::pair<std::string, const InstanceDeclaration*>> candidates;
+  for (const auto& declared : world_.instances) candidates.emplace_back(declared.name, &declared);
+  for (const auto& swap : world_.swaps) candidates.emplace_back(swap.instance, &swap.replacement);
+  for (std::size_t at = 0; at < instances_.size(); ++at) {
+    const std::string name = instances_[at]->name();
+    const auto saved = snapshot.instances.find(name);
+    if (saved == snapshot.instances.end() || is_at(instances_[at]->declared(), saved->second)) continue;
+    const auto then = std::find_if(candidates.begin(), candidates.end(), [&](const auto& c) { return c.first == name && is_at(*c.second, saved->second); });
+    if (then == candidates.end()) continue;
+    InstanceDeclaration declared = *then->second;
+    declared.name = name;
+    auto made = make(std::move(declared));
+    std::swap(instances_[at], made);
+    replaced.emplace_back(at, std::move(made));
+  }
+}
+
+// With empty tables, which a snapshot is to fill.
+void Simulation::relink_anew() {
+  batches_.clear();
+  board_.take_tables();
+  relink();
+}
+
+void Simulation::put(const Snapshot& snapshot) {
+  for (const auto& [name, saved] : snapshot.sets) {
+    Set& set = *board_.find_set(name);
+    set.cut(0);
+    for (const auto& row : saved.names) set.add(row);
+    set.alive = saved.alive;
+    set.listed = saved.listed;
+  }
+  for (const auto& [name, saved] : snapshot.tables) board_.find(name)->stored() = saved.cells;
+  for (const auto& instance : instances_) instance->params() = snapshot.instances.at(instance->name()).params;
+  tick_ = planned_from_ = snapshot.tick;
+}
+
+void Simulation::restore(const Snapshot& snapshot) {
+  const Snapshot own = this->snapshot();
+  const auto planned_from = planned_from_;
+  const auto mark = board_.mark();
+  Replaced replaced;
+  try {
+    replace_planned(snapshot, replaced);
+    if (!replaced.empty()) relink_anew();
+    check_fits(snapshot);
+  } catch (...) {
+    const bool changed = !replaced.empty();
+    for (auto& [at, instance] : replaced) std::swap(instances_[at], instance);
+    board_.back_to(mark);
+    if (changed) {
+      relink_anew();
+      put(own);
+      planned_from_ = planned_from;
+    }
+    throw;
+  }
+  drop_private_sets();
+  put(snapshot);
+}
+
+}  // namespace muster
