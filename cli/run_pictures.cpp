@@ -1,14 +1,13 @@
 #include "cli/run_pictures.hpp"
 
-#include "kernel/error.hpp"
-#include "kernel/number.hpp"
-
-#include <muster/tables.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <muster/tables.hpp>
 #include <sstream>
+
+#include "kernel/error.hpp"
+#include "kernel/number.hpp"
 
 namespace muster {
 namespace {
@@ -16,7 +15,8 @@ namespace {
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 // A published table's rows; none where the world has no such table.
-template <class Row> std::vector<Row> rows_of(const Simulation& run, const std::string& name) {
+template <class Row>
+std::vector<Row> rows_of(const Simulation& run, const std::string& name) {
   const Table* table = run.board().find(name);
   if (!table) return {};
   const auto* first = reinterpret_cast<const Row*>(table->now().data.data());
@@ -65,8 +65,8 @@ std::string time_text(double time) { return print_real(std::round(time * 10) / 1
 
 RunPictures::RunPictures(const Simulation& run) : world_(run.world().name) {
   constexpr std::size_t most_numbers = 4'000'000;  // some 100 MB of moments
-  most_ = std::clamp(most_numbers / (names_of(run, "robot").size() + names_of(run, "radio").size() + 1), std::size_t{64},
-                     std::size_t{2048});
+  most_ = std::clamp(most_numbers / (names_of(run, "robot").size() + names_of(run, "radio").size() + 1),
+                     std::size_t{64}, std::size_t{2048});
   find_plan(run);
   find_links(run);
 }
@@ -75,14 +75,17 @@ void RunPictures::find_plan(const Simulation& run) {
   const auto materials = names_of(run, "material");
   const auto walls = rows_of<Wall>(run, "wall/*/shape");
   for (const Wall& w : walls) {
-    plan_.walls.push_back({{w.x0, w.y0}, {w.x1, w.y1}, w.thickness, materials.at(static_cast<std::size_t>(w.material))});
+    plan_.walls.push_back(
+        {{w.x0, w.y0}, {w.x1, w.y1}, w.thickness, materials.at(static_cast<std::size_t>(w.material))});
   }
   const auto states = rows_of<DoorState>(run, "door/*/state");
   const auto doors = rows_of<Door>(run, "door/*/shape");
   for (std::size_t i = 0; i < doors.size(); ++i) {
     const Wall& w = walls.at(static_cast<std::size_t>(doors[i].wall));
     const double length = std::hypot(w.x1 - w.x0, w.y1 - w.y0);
-    const auto at = [&](double s) { return picture::Point{w.x0 + s / length * (w.x1 - w.x0), w.y0 + s / length * (w.y1 - w.y0)}; };
+    const auto at = [&](double s) {
+      return picture::Point{w.x0 + s / length * (w.x1 - w.x0), w.y0 + s / length * (w.y1 - w.y0)};
+    };
     const bool open = i < states.size() && states[i].open != 0;
     plan_.doors.push_back({at(doors[i].at), at(doors[i].at + doors[i].width), open, w.thickness});
   }
@@ -131,13 +134,16 @@ RunPictures::Moment RunPictures::moment(const Simulation& run) const {
   const Set* set = run.board().find_set("robot");
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const bool here = set->alive[i];
-    result.robots.push_back({{here ? poses[i].x : nothing, here ? poses[i].y : nothing}, yaw_of(poses[i]), names[i],
+    result.robots.push_back({{here ? poses[i].x : nothing, here ? poses[i].y : nothing},
+                             yaw_of(poses[i]),
+                             names[i],
                              picture::series_colour(i)});
   }
   result.radios.resize(names_of(run, "radio").size(), {nothing, nothing});
   const auto ends = rows_of<Endpoint>(run, "endpoint/*/radio");
   const auto places = rows_of<Pose>(run, "endpoint/*/pose");
-  for (std::size_t i = 0; i < ends.size(); ++i) result.radios.at(static_cast<std::size_t>(ends[i].radio)) = {places[i].x, places[i].y};
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    result.radios.at(static_cast<std::size_t>(ends[i].radio)) = {places[i].x, places[i].y};
   for (const Link& link : links_) {
     const TableView chain = run.table(link.table);
     result.rssi.push_back(chain.at(0, link.rssi));
@@ -158,7 +164,8 @@ std::vector<const RunPictures::Moment*> RunPictures::snapshots() const {
   std::vector<const Moment*> result;
   for (int frame = 1; frame < frames; ++frame) {
     const double away = farthest * frame / frames;
-    result.push_back(&*std::find_if(moments_.begin(), moments_.end(), [away](const Moment& m) { return m.away >= away; }));
+    result.push_back(
+        &*std::find_if(moments_.begin(), moments_.end(), [away](const Moment& m) { return m.away >= away; }));
   }
   result.push_back(&moments_.back());
   result.erase(std::unique(result.begin(), result.end()), result.end());
@@ -179,7 +186,8 @@ picture::Panel RunPictures::plan_at(const Moment& moment) const {
       if (&m > &moment) break;
       if (i >= m.robots.size()) continue;
       const picture::Point at = m.robots[i].at;
-      const bool moved = path.points.empty() || !(std::hypot(at.x - path.points.back().x, at.y - path.points.back().y) < 0.1);
+      const bool moved =
+          path.points.empty() || !(std::hypot(at.x - path.points.back().x, at.y - path.points.back().y) < 0.1);
       if (moved || &m == &moment) path.points.push_back(at);  // each tenth of a metre is enough to see
     }
     panel.layers.push_back(path);
@@ -190,14 +198,18 @@ picture::Panel RunPictures::plan_at(const Moment& moment) const {
 }
 
 picture::Figure RunPictures::plan_figure() const {
-  picture::Figure figure{.title = world_, .caption = "Ways so far, and the smoothed RSSI of each link.", .width = 900,
-                         .share_x = true, .share_y = true};
+  picture::Figure figure{.title = world_,
+                         .caption = "Ways so far, and the smoothed RSSI of each link.",
+                         .width = 900,
+                         .share_x = true,
+                         .share_y = true};
   for (const Moment* m : snapshots()) figure.panels.push_back(plan_at(*m));
   return figure;
 }
 
 picture::Figure RunPictures::rssi_figure() const {
-  picture::Panel panel{.x = {.label = "time", .unit = "s"}, .y = {.label = "RSSI", .unit = "dBm", .from = -80, .to = -40}};
+  picture::Panel panel{.x = {.label = "time", .unit = "s"},
+                       .y = {.label = "RSSI", .unit = "dBm", .from = -80, .to = -40}};
   const auto trace = [this](std::size_t i, std::vector<double> Moment::*what) {
     picture::Line line{.colour = picture::series_colour(i)};
     for (const Moment& m : moments_) {
@@ -218,7 +230,10 @@ picture::Figure RunPictures::rssi_figure() const {
   }
   if (!std::isnan(links_[0].threshold))
     panel.layers.push_back(picture::Rule{.at = links_[0].threshold, .label = "threshold"});
-  return {.title = world_, .caption = "RSSI of each robot's link towards the base: as measured (pale) and smoothed.", .width = 900, .panels = {panel}};
+  return {.title = world_,
+          .caption = "RSSI of each robot's link towards the base: as measured (pale) and smoothed.",
+          .width = 900,
+          .panels = {panel}};
 }
 
 std::vector<std::filesystem::path> RunPictures::write(const std::filesystem::path& folder) const {

@@ -2,13 +2,13 @@
 // rssi along the chains that observe.chain watches (as its Fig. 5).
 #pragma once
 
-#include "diagnosis/picture/figure.hpp"
-#include "kernel/simulation.hpp"
-
 #include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include "diagnosis/picture/figure.hpp"
+#include "kernel/simulation.hpp"
 
 namespace muster {
 
@@ -27,11 +27,11 @@ class RunPictures {
     std::string name;       // of the further one
     std::string table;
     std::size_t rssi, smooth;  // columns
-    double threshold;  // dBm
+    double threshold;          // dBm
   };
   struct Moment {
-    double time = 0;                      // s
-    double away = 0;                      // sum of the robots' distances from where they started, m
+    double time = 0;  // s
+    double away = 0;  // sum of the robots' distances from where they started, m
     std::vector<picture::Robot> robots{};
     std::vector<picture::Point> radios{};
     std::vector<double> rssi{}, smooth{};  // a link; NaN before the first
@@ -49,8 +49,8 @@ class RunPictures {
   picture::FloorPlan plan_;
   std::vector<Link> links_;
   std::vector<Moment> moments_;
-  std::size_t most_ = 0;               // moments kept
-  std::size_t every_ = 1, seen_ = 0;   // of so many looks one is kept
+  std::size_t most_ = 0;              // moments kept
+  std::size_t every_ = 1, seen_ = 0;  // of so many looks one is kept
 };
 
 }  // namespace muster

@@ -1,6 +1,5 @@
 // One robot of a chain that keeps its links: the case study of Fink et al., section 6.
 #include <muster/plugin.hpp>
-
 #include <string>
 
 #include "own_radio.hpp"
@@ -15,13 +14,13 @@ struct ControlConnectivity {
   static constexpr auto id = "control.connectivity/1";
   static constexpr auto summary = "moves along a roadmap as fast as the links measured on messages allow";
   static constexpr auto manual =
-      "Speed along the roadmap = speed x switching((parent - threshold) / width), where `parent` is the smoothed rssi of\n"
-      "the messages that came from the radio towards the base: on above the threshold, back below it, at rest on it.\n"
-      "A follower holds until its child's link falls to threshold + margin, and is free at half of the margin; it goes\n"
-      "back whenever its own parent's link asks for it. So a chain extends only as far as it must, and once it is\n"
-      "extended, every link rests at the threshold. A link unheard for `lost` counts as broken.\n"
-      "Switching functions: linear (saturated), tanh, relay (full speed but within half a width).\n"
-      "The robot knows its own odometry and the messages in its inbox: nothing of the channel, the walls or the others.";
+      "Speed along the roadmap = speed x switching((parent - threshold) / width), where `parent` is the smoothed\n"
+      "rssi of the messages that came from the radio towards the base: on above the threshold, back below it, at\n"
+      "rest on it. A follower holds until its child's link falls to threshold + margin, and is free at half of the\n"
+      "margin; it goes back whenever its own parent's link asks for it. So a chain extends only as far as it must,\n"
+      "and once it is extended, every link rests at the threshold. A link unheard for `lost` counts as broken.\n"
+      "Switching functions: linear (saturated), tanh, relay (full speed but within half a width). The robot knows\n"
+      "its own odometry and the messages in its inbox: nothing of the channel, the walls or the others.";
   static constexpr auto phase = MUSTER_CONTROL;
   static constexpr Param params[] = {
       reference("robot", "robot", "the robot it steers, heard through the radio of the same name").required(),
@@ -48,14 +47,26 @@ struct ControlConnectivity {
   };
 
   explicit ControlConnectivity(Setup& s)
-      : threshold(s.value("threshold")), width(s.value("width")), margin(s.value("margin")), speed(s.value("speed")),
-        turn_speed(s.value("turn_speed")), lookahead(s.value("lookahead")), smoothing(s.value("smoothing")),
-        period(s.value("period")), lost(s.value("lost")),
-        leads(s.param("role") == 1), switching(static_cast<Switching>(s.param("switching"))),
-        radio(own_radio(s)), parent(s.param("parent")), child(s.param("child")),
-        way(s.file<Waypoint>("roadmap")), odometry(s.read<Odometry>("robot/{robot}/odometry")),
-        inbox(s.read<Incoming>("inbox/{robot}/message")), command(s.write<Command>("robot/{robot}/command")),
-        outbox(s.write<Outgoing>("outbox/{robot}/message")), state(s.write<State>("self/state")) {
+      : threshold(s.value("threshold")),
+        width(s.value("width")),
+        margin(s.value("margin")),
+        speed(s.value("speed")),
+        turn_speed(s.value("turn_speed")),
+        lookahead(s.value("lookahead")),
+        smoothing(s.value("smoothing")),
+        period(s.value("period")),
+        lost(s.value("lost")),
+        leads(s.param("role") == 1),
+        switching(static_cast<Switching>(s.param("switching"))),
+        radio(own_radio(s)),
+        parent(s.param("parent")),
+        child(s.param("child")),
+        way(s.file<Waypoint>("roadmap")),
+        odometry(s.read<Odometry>("robot/{robot}/odometry")),
+        inbox(s.read<Incoming>("inbox/{robot}/message")),
+        command(s.write<Command>("robot/{robot}/command")),
+        outbox(s.write<Outgoing>("outbox/{robot}/message")),
+        state(s.write<State>("self/state")) {
     if (!leads && child < 0) throw BadInput("a follower has a child; expected child=\"NAME\" or role=\"leader\"");
   }
 
@@ -89,8 +100,8 @@ struct ControlConnectivity {
   // From -1 to 1. Before a first message nothing is known of a link, and nothing is done.
   double urge(const Step& k, const State& now) const {
     if (is_null(now.parent)) return 0;
-    const double on = k.time() - now.parent_heard > k[lost]
-                          ? -1 : switched(switching, (now.parent - k[threshold]) / k[width]);
+    const double on =
+        k.time() - now.parent_heard > k[lost] ? -1 : switched(switching, (now.parent - k[threshold]) / k[width]);
     if (leads || on < 0) return on;
     if (is_null(now.child)) return 0;
     return on * (k.time() - now.child_heard > k[lost] ? 1 : wanted(now.child - k[threshold], k[margin]));

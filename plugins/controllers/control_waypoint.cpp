@@ -11,9 +11,9 @@ struct ControlWaypoint {
   static constexpr auto id = "control.waypoint/1";
   static constexpr auto summary = "drives a robot through way points by its own odometry";
   static constexpr auto manual =
-      "The robot turns towards the next way point in proportion to the bearing and drives with its cosine; it turns on\n"
-      "the spot while the point lies behind. A point is reached within `tolerance`; after the last it stops, or, with\n"
-      "`loop`, begins anew. It drives where it believes to be: drift of the odometry is drift of the robot.";
+      "The robot turns towards the next way point in proportion to the bearing and drives with its cosine; it turns\n"
+      "on the spot while the point lies behind. A point is reached within `tolerance`; after the last it stops, or,\n"
+      "with `loop`, begins anew. It drives where it believes to be: drift of the odometry is drift of the robot.";
   static constexpr auto phase = MUSTER_CONTROL;
   static constexpr Param params[] = {
       reference("robot", "robot", "the robot it steers").required(),
@@ -30,9 +30,14 @@ struct ControlWaypoint {
   };
 
   explicit ControlWaypoint(Setup& s)
-      : speed(s.value("speed")), turn_gain(s.value("turn_gain")), turn_speed(s.value("turn_speed")),
-        tolerance(s.value("tolerance")), loop(s.value("loop")), path(s.file<Waypoint>("path")),
-        odometry(s.read<Odometry>("robot/{robot}/odometry")), command(s.write<Command>("robot/{robot}/command")),
+      : speed(s.value("speed")),
+        turn_gain(s.value("turn_gain")),
+        turn_speed(s.value("turn_speed")),
+        tolerance(s.value("tolerance")),
+        loop(s.value("loop")),
+        path(s.file<Waypoint>("path")),
+        odometry(s.read<Odometry>("robot/{robot}/odometry")),
+        command(s.write<Command>("robot/{robot}/command")),
         progress(s.write<Progress>("self/progress")) {}
 
   void step(const Step& k) const {

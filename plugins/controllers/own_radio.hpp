@@ -1,9 +1,8 @@
 // A robot's own radio, and when to speak on it.
 #pragma once
 
-#include <muster/plugin.hpp>
-
 #include <cmath>
+#include <muster/plugin.hpp>
 #include <string>
 
 namespace muster {

@@ -1,10 +1,9 @@
 // A polyline as a one-dimensional manifold: places by arclength, arclength by places, and how to stay on it.
 #pragma once
 
-#include <muster/plugin.hpp>
-
 #include <algorithm>
 #include <cmath>
+#include <muster/plugin.hpp>
 #include <vector>
 
 namespace muster {
@@ -17,7 +16,8 @@ struct Waypoint {
 class Roadmap {
  public:
   Roadmap() = default;
-  template <class Points> explicit Roadmap(const Points& points) : points_(points.begin(), points.end()) {
+  template <class Points>
+  explicit Roadmap(const Points& points) : points_(points.begin(), points.end()) {
     if (points_.size() < 2) throw BadInput("the roadmap has fewer than two points");
     from_start_.push_back(0);
     for (std::size_t i = 1; i < points_.size(); ++i) {

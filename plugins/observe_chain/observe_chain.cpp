@@ -1,9 +1,8 @@
 // What a chain of radios looks like from above: level, rssi, distance and walls of each of its links, tick by tick.
-#include <muster/plugin.hpp>
-
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <muster/plugin.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -16,11 +15,11 @@ struct ObserveChain {
   static constexpr auto id = "observe.chain/1";
   static constexpr auto summary = "level, rssi, distance and walls of the links along a chain of radios";
   static constexpr auto manual =
-      "`chain` names radios from one end to the other; the link of two neighbours is the one on which the further hears\n"
-      "the nearer, and its columns in self/chain end in the further's name. level, rssi and distance are those of this\n"
-      "tick, null without a link; rssi that was not received keeps its last value. smooth is rssi in a first-order filter.\n"
-      "walls is the part of the level that the adder named by `walls` gave. below is the time that smooth spent under\n"
-      "`threshold`, worst its lowest value so far.";
+      "`chain` names radios from one end to the other; the link of two neighbours is the one on which the further\n"
+      "hears the nearer, and its columns in self/chain end in the further's name. level, rssi and distance are\n"
+      "those of this tick, null without a link; rssi that was not received keeps its last value. smooth is rssi in\n"
+      "a first-order filter. walls is the part of the level that the adder named by `walls` gave. below is the time\n"
+      "that smooth spent under `threshold`, worst its lowest value so far.";
   static constexpr auto phase = MUSTER_OBSERVE;
   static constexpr Param params[] = {
       text("chain", "", "names of radios, the nearest to the base first").required(),
@@ -77,9 +76,10 @@ struct ObserveChain {
     std::string result;
     for (std::string name : names_of(s)) {
       if (name == names_of(s).front()) continue;
-      std::replace_if(name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
-      result += " level_" + name + "[dBm]? rssi_" + name + "[dBm]? smooth_" + name + "[dBm]? distance_" + name + "[m]? walls_" + name + "[dB]? below_" +
-                name + "[s] worst_" + name + "[dBm]?";
+      std::replace_if(
+          name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
+      result += " level_" + name + "[dBm]? rssi_" + name + "[dBm]? smooth_" + name + "[dBm]? distance_" + name +
+                "[m]? walls_" + name + "[dB]? below_" + name + "[s] worst_" + name + "[dBm]?";
     }
     return result;
   }
@@ -89,7 +89,8 @@ struct ObserveChain {
       Seen& now = reinterpret_cast<Seen*>(&k[chain]->first)[i];
       const Seen& before = reinterpret_cast<const Seen*>(&k.last(chain)->first)[i];
       now = {null(), before.rssi, before.smooth, null(), null(), before.below, before.worst};
-      if (const int link = link_of(k, radios[i], radios[i + 1]); link >= 0) look(k, static_cast<std::size_t>(link), now);
+      if (const int link = link_of(k, radios[i], radios[i + 1]); link >= 0)
+        look(k, static_cast<std::size_t>(link), now);
     }
   }
 
@@ -109,7 +110,9 @@ struct ObserveChain {
 
   // The row of the link on which radio `rx` hears radio `tx`, or -1.
   int link_of(const Step& k, std::size_t tx, std::size_t rx) const {
-    const auto radio = [&](double row) { return static_cast<std::size_t>(k[endpoint][static_cast<std::size_t>(row)].radio); };
+    const auto radio = [&](double row) {
+      return static_cast<std::size_t>(k[endpoint][static_cast<std::size_t>(row)].radio);
+    };
     for (std::size_t i = 0; i < k[ends].size(); ++i) {
       if (radio(k[ends][i].tx) == tx && radio(k[ends][i].rx) == rx) return static_cast<int>(i);
     }

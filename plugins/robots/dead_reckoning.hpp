@@ -1,9 +1,8 @@
 // Where a body gets on two wheels that roll without slip.
 #pragma once
 
-#include <muster/tables.hpp>
-
 #include <cmath>
+#include <muster/tables.hpp>
 
 namespace muster {
 

@@ -1,6 +1,6 @@
 // From what a controller asks of a robot to what its wheels are asked for.
-#include "ramp.hpp"
 #include "description/world_robots.hpp"
+#include "ramp.hpp"
 
 namespace {
 
@@ -12,10 +12,10 @@ struct RobotsDrive {
   static constexpr auto summary = "commands to wheel rates, within a drive's speed and acceleration limits";
   static constexpr auto manual =
       "Forward speed and turn rate become the rates of two wheels. A command beyond the model's max_speed or\n"
-      "max_acceleration is scaled: both wheels alike, so that the turning radius stays what was asked.\n"
-      "A rate holds at the start of the step, its slope over the step: a backend takes the value at the middle.\n"
-      "`noise` is added to each wheel's rate, white and Gaussian, one draw a wheel and tick; a wheel at rest holds.\n"
-      "Robots whose model has no differential drive, and robots that nobody commands, are asked for zero.";
+      "max_acceleration is scaled: both wheels alike, so that the turning radius stays what was asked. A rate holds\n"
+      "at the start of the step, its slope over the step: a backend takes the value at the middle. `noise` is added\n"
+      "to each wheel's rate, white and Gaussian, one draw a wheel and tick; a wheel at rest holds. Robots whose\n"
+      "model has no differential drive, and robots that nobody commands, are asked for zero.";
   static constexpr auto phase = MUSTER_ACTUATE;
   static constexpr Param params[] = {
       real("noise", 0, 0, 10, "rad/s", "standard deviation of a wheel's rate from the rate asked for").free()};

@@ -11,10 +11,11 @@ struct RobotsOdometry {
   static constexpr auto id = "robots.odometry/1";
   static constexpr auto summary = "dead reckoning from wheel angles, from the true pose at the start on";
   static constexpr auto manual =
-      "Between two readings the wheels are taken to keep the ratio of their rates: a circular arc, exactly.\n"
-      "`noise` is the standard deviation of the error that a wheel's reading gathers while it turns by one radian; the\n"
-      "variance grows with the angle turned (after Chong and Kleeman, ICRA 1997), so it does not depend on the tick.\n"
-      "A robot starts, also one that joins later, knowing its true pose. Slip is not seen: that is the point of it.";
+      "Between two readings the wheels are taken to keep the ratio of their rates: a circular arc, exactly. `noise`\n"
+      "is the standard deviation of the error that a wheel's reading gathers while it turns by one radian; the\n"
+      "variance grows with the angle turned (after Chong and Kleeman, ICRA 1997), so it does not depend on the\n"
+      "tick. A robot starts, also one that joins later, knowing its true pose. Slip is not seen: that is the point\n"
+      "of it.";
   static constexpr auto phase = MUSTER_SENSE;
   static constexpr Param params[] = {
       real("noise", 0, 0, 1, "rad", "standard deviation of a wheel's reading after one radian").free()};
@@ -49,7 +50,8 @@ struct RobotsOdometry {
     }
   }
 
-  Odometry moved(const Step& k, std::size_t i, const description::DifferentialDrive* motors, double left, double right) const {
+  Odometry moved(const Step& k, std::size_t i, const description::DifferentialDrive* motors, double left,
+                 double right) const {
     Odometry at = k.last(odometry)[i];
     at.v = at.w = 0;
     if (!motors || !k.alive("robot", i)) return at;

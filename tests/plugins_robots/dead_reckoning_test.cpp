@@ -43,7 +43,8 @@ TEST(DeadReckoning, BackwardsUndoesForwards) {
 }
 
 TEST(DeadReckoning, YawOfAPose) {
-  for (double yaw = -3; yaw <= 3; yaw += 0.5) EXPECT_NEAR(yaw_of({0, 0, 0, std::cos(yaw / 2), 0, 0, std::sin(yaw / 2)}), yaw, 1e-15);
+  for (double yaw = -3; yaw <= 3; yaw += 0.5)
+    EXPECT_NEAR(yaw_of({0, 0, 0, std::cos(yaw / 2), 0, 0, std::sin(yaw / 2)}), yaw, 1e-15);
 }
 
 }  // namespace

@@ -13,10 +13,12 @@ using namespace muster::test;
 
 constexpr double radius = 0.05, base = 0.21;
 
-Simulation driven(const Folder& folder, const std::string& plan, const std::string& more = "", const std::string& dt = "0.05") {
+Simulation driven(const Folder& folder, const std::string& plan, const std::string& more = "",
+                  const std::string& dt = "0.05") {
   return world_of(folder,
                   "<robot name=\"r\" at=\"1 2 0\" heading=\"0.5\"/><test.command robot=\"r\" plan=\"plan.csv\"/>"
-                  "<test.turner/>" + more + "<test.probe/>",
+                  "<test.turner/>" +
+                      more + "<test.probe/>",
                   {{"plan.csv", "t[s],v[m/s],w[rad/s]\n" + plan}}, "dt=\"" + dt + "\" until=\"600\" seed=\"1\"");
 }
 
@@ -128,9 +130,11 @@ double variance_of_way(const std::string& dt, int robots) {
   std::string inside = "<test.turner/><robots.odometry noise=\"0.02\"/><test.probe/>";
   for (int i = 0; i < robots; ++i) {
     const auto name = std::to_string(i);
-    inside += "<robot name=\"r" + name + "\" at=\"0 0 0\"/><test.command name=\"c" + name + "\" robot=\"r" + name + "\" plan=\"plan.csv\"/>";
+    inside += "<robot name=\"r" + name + "\" at=\"0 0 0\"/><test.command name=\"c" + name + "\" robot=\"r" + name +
+              "\" plan=\"plan.csv\"/>";
   }
-  Simulation run = world_of(folder, inside, {{"plan.csv", "t[s],v[m/s],w[rad/s]\n0,0.5,0\n"}}, "dt=\"" + dt + "\" until=\"600\" seed=\"3\"");
+  Simulation run = world_of(folder, inside, {{"plan.csv", "t[s],v[m/s],w[rad/s]\n0,0.5,0\n"}},
+                            "dt=\"" + dt + "\" until=\"600\" seed=\"3\"");
   while (run.time() < 10) run.step();
   double squares = 0;
   for (int i = 0; i < robots; ++i) {

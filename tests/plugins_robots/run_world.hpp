@@ -1,15 +1,15 @@
 // A world from text, run in a test.
 #pragma once
 
-#include "kernel/simulation.hpp"
-
-#include <muster/sets.hpp>
 #include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <muster/sets.hpp>
 #include <string>
+
+#include "kernel/simulation.hpp"
 
 namespace muster::test {
 
@@ -40,18 +40,23 @@ inline Options options(int workers = 1) {
   return result;
 }
 
-inline Simulation load(const std::filesystem::path& world) { return {read_world(world, standard()), standard(), options()}; }
+inline Simulation load(const std::filesystem::path& world) {
+  return {read_world(world, standard()), standard(), options()};
+}
 
 // `inside` are the elements of the world, `files` are written beside it.
-inline Simulation world_of(const Folder& folder, const std::string& inside, const std::map<std::string, std::string>& files = {},
+inline Simulation world_of(const Folder& folder, const std::string& inside,
+                           const std::map<std::string, std::string>& files = {},
                            const std::string& attributes = "dt=\"0.05\" until=\"60\" seed=\"1\"") {
   for (const auto& [name, text] : files) folder.write(name, text);
   return load(folder.write("world.xml", "<world name=\"test\" " + attributes + ">" + inside + "</world>"));
 }
 
-template <class Row> Row row(const Simulation& run, const std::string& table, std::size_t at = 0) {
+template <class Row>
+Row row(const Simulation& run, const std::string& table, std::size_t at = 0) {
   const TableView view = run.table(table);
-  const double* first = view.table->now().data.data() + (view.row >= 0 ? static_cast<std::size_t>(view.row) : at) * view.cols();
+  const double* first =
+      view.table->now().data.data() + (view.row >= 0 ? static_cast<std::size_t>(view.row) : at) * view.cols();
   return *reinterpret_cast<const Row*>(first);
 }
 

@@ -22,8 +22,9 @@ double gap(const std::string& friction) {
   const auto model = folder.write("scarab.urdf", urdf);
   std::filesystem::copy(MUSTER_PLUGINS_DIR "/models/hokuyo.stl", model.parent_path());
   Simulation run = world_of(folder,
-                            "<robot name=\"r\" model=\"" + model.string() + "\" at=\"0 0 0\"/><physics.simbody/><robots.drive/>"
-                            "<control.waypoint name=\"c\" robot=\"r\" path=\"path.csv\" loop=\"true\"/>",
+                            "<robot name=\"r\" model=\"" + model.string() +
+                                "\" at=\"0 0 0\"/><physics.simbody/><robots.drive/>"
+                                "<control.waypoint name=\"c\" robot=\"r\" path=\"path.csv\" loop=\"true\"/>",
                             {{"path.csv", "x[m],y[m]\n3,0\n3,3\n0,3\n0,0\n"}}, "dt=\"0.02\" until=\"200\" seed=\"1\"");
   const auto reached = [&run] { return run.table("instance/c/progress").at(0, 1); };
   while (!run.done() && reached() < 8) run.step();

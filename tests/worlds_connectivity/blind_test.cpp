@@ -1,20 +1,21 @@
 // The controllers of worlds/connectivity know what was received, and nothing of the channel.
-#include "chain.hpp"
-
-#include "kernel/number.hpp"
-
 #include <set>
+
+#include "chain.hpp"
+#include "kernel/number.hpp"
 
 namespace {
 
 using namespace muster;
 using namespace muster::test;
 
-template <class Row> std::string refusal(const std::string& table) {
+template <class Row>
+std::string refusal(const std::string& table) {
   Folder folder;
   try {
-    world_of(folder, "<robot name=\"a\" at=\"0 0 0\"/><robot name=\"b\" at=\"1 0 0\"/>\n<test.peeker robot=\"a\" table=\"" + table +
-                         "\" columns=\"" + Row::columns + "\"/>");
+    world_of(folder,
+             "<robot name=\"a\" at=\"0 0 0\"/><robot name=\"b\" at=\"1 0 0\"/>\n<test.peeker robot=\"a\" table=\"" +
+                 table + "\" columns=\"" + Row::columns + "\"/>");
   } catch (const Error& e) {
     const std::string what = e.what();
     return what.substr(what.rfind("world.xml"));
@@ -24,13 +25,15 @@ template <class Row> std::string refusal(const std::string& table) {
 
 TEST(Blind, AControllerThatClaimsTruthIsRefused) {
   EXPECT_EQ(refusal<Pose>("robot/a/pose"),
-            "world.xml:2:1: test.peeker (test.peeker): claims \"robot/a/pose\", which is truth; a controller knows what its robot senses: "
+            "world.xml:2:1: test.peeker (test.peeker): claims \"robot/a/pose\", which is truth; a controller knows "
+            "what its robot senses: "
             "expected one of robot/command, robot/odometry, outbox/message, inbox/message");
 }
 
 TEST(Blind, AndSoIsOneThatReadsAnotherRobot) {
   EXPECT_EQ(refusal<Odometry>("robot/b/odometry"),
-            "world.xml:2:1: test.peeker (test.peeker): claims \"robot/b/odometry\", but it is bound to the robot \"a\"; expected that "
+            "world.xml:2:1: test.peeker (test.peeker): claims \"robot/b/odometry\", but it is bound to the robot "
+            "\"a\"; expected that "
             "robot's own row");
 }
 
@@ -38,13 +41,14 @@ TEST(Blind, OursClaimTheirOwnRobotAlone) {
   const Simulation run(connectivity(), standard(), options());
   for (const auto& instance : run.instances()) {
     if (instance->declared().plugin != "control.connectivity") continue;
-    const std::string robot = run.board().find_set("robot")->names[static_cast<std::size_t>(instance->bound_robot())];
+    const std::string robot = run.board().find_set("robot")->names[static_cast<std::size_t>(instance->bound_row())];
     std::set<std::string> claimed;
     for (const Claim& claim : instance->claims()) {
       if (!claim.file) claimed.insert(claim.name.set + '/' + claim.name.row + '/' + claim.name.quantity);
     }
-    EXPECT_EQ(claimed, (std::set<std::string>{"robot/" + robot + "/odometry", "robot/" + robot + "/command", "inbox/" + robot + "/message",
-                                              "outbox/" + robot + "/message", "instance/" + instance->name() + "/*/state"}));
+    EXPECT_EQ(claimed, (std::set<std::string>{"robot/" + robot + "/odometry", "robot/" + robot + "/command",
+                                              "inbox/" + robot + "/message", "outbox/" + robot + "/message",
+                                              "instance/" + instance->name() + "/*/state"}));
   }
 }
 

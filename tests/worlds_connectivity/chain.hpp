@@ -1,11 +1,11 @@
 // The connectivity world in tests: what its chain looks like.
 #pragma once
 
-#include "tests/plugins_robots/run_world.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "tests/plugins_robots/run_world.hpp"
 
 namespace muster::test {
 

@@ -1,8 +1,8 @@
 // Where the chain of worlds/connectivity comes to rest, and what it looks like there.
-#include "chain.hpp"
-
 #include <algorithm>
 #include <vector>
+
+#include "chain.hpp"
 
 namespace {
 
@@ -22,7 +22,8 @@ void expect_held(Simulation& run) {
       }
     }
   }
-  for (const char* name : {"steer1", "steer2", "steer"}) EXPECT_LT(std::abs(steering_of(run, name).speed), 0.005) << name;
+  for (const char* name : {"steer1", "steer2", "steer"})
+    EXPECT_LT(std::abs(steering_of(run, name).speed), 0.005) << name;
 }
 
 class Settles : public testing::TestWithParam<const char*> {};
@@ -101,7 +102,8 @@ TEST_P(Switchings, TheSwitchingFunctionIsAParameter) {
   expect_held(run);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, Switchings, testing::Values("tanh", "relay"), [](const auto& each) { return std::string(each.param); });
+INSTANTIATE_TEST_SUITE_P(Kinds, Switchings, testing::Values("tanh", "relay"),
+                         [](const auto& each) { return std::string(each.param); });
 
 TEST(Connectivity, AGoalWithinReachIsReached) {
   Folder folder;

@@ -11,8 +11,10 @@ struct TestTurner {
   static constexpr auto phase = MUSTER_PHYSICS;
 
   explicit TestTurner(Setup& s)
-      : drive(s.read<Drive>("robot/*/drive")), wheels(s.write<Wheels>("robot/*/wheels")),
-        pose(s.write<Pose>("robot/*/pose")), twist(s.write<Twist>("robot/*/twist")) {}
+      : drive(s.read<Drive>("robot/*/drive")),
+        wheels(s.write<Wheels>("robot/*/wheels")),
+        pose(s.write<Pose>("robot/*/pose")),
+        twist(s.write<Twist>("robot/*/twist")) {}
 
   void step(const Step& k) const {
     for (std::size_t i = 0; i < k[wheels].size(); ++i) {

@@ -1,7 +1,6 @@
 // Messages out of a table instead of off the air: who would know the difference?
-#include <muster/plugin.hpp>
-
 #include <cmath>
+#include <muster/plugin.hpp>
 
 namespace {
 
@@ -23,7 +22,8 @@ struct TestForger {
   void step(const Step& k) const {
     std::size_t row = 0;
     for (const Forged& m : k[messages]) {
-      if (std::abs(m.t - k.time()) < k.dt() / 2) k.send(inbox, row++, "beacon") = {m.radio, m.from, m.rssi, k.time(), k.time(), 0};
+      if (std::abs(m.t - k.time()) < k.dt() / 2)
+        k.send(inbox, row++, "beacon") = {m.radio, m.from, m.rssi, k.time(), k.time(), 0};
     }
   }
 

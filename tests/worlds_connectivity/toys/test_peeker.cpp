@@ -14,7 +14,8 @@ struct TestPeeker {
                                      text("columns", "", "the table's columns").required()};
 
   explicit TestPeeker(Setup& s) {
-    if (s.host()->claim(s.host(), MUSTER_READ, 0, s.text("table").c_str(), s.text("columns").c_str()) < 0) throw std::runtime_error("");
+    if (s.host()->claim(s.host(), MUSTER_READ, 0, s.text("table").c_str(), s.text("columns").c_str()) < 0)
+      throw std::runtime_error("");
   }
   void step(const Step&) const {}
 };

@@ -1,7 +1,6 @@
 // Another channel: the level falls by so many dB a metre, whatever stands between.
-#include <muster/plugin.hpp>
-
 #include <cmath>
+#include <muster/plugin.hpp>
 
 namespace {
 
@@ -14,7 +13,9 @@ struct TestSlope {
   static constexpr Param params[] = {real("slope", 1.5, 0, 100, "dB/m", "loss of a metre")};
 
   explicit TestSlope(Setup& s)
-      : slope(s.value("slope")), pose(s.read<Pose>("endpoint/*/pose")), ends(s.read<Ends>("link/*/ends")),
+      : slope(s.value("slope")),
+        pose(s.read<Pose>("endpoint/*/pose")),
+        ends(s.read<Ends>("link/*/ends")),
         level(s.add<Level>("link/*/level")) {}
 
   void step(const Step& k) const {
