@@ -1,0 +1,56 @@
+// The worlds of the tree, and runs of them.
+#pragma once
+
+#include "kernel/simulation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace muster::test {
+
+// Folders with a world.xml, by name.
+inline std::vector<std::string> worlds() {
+  std::vector<std::string> result;
+  for (const auto& entry : std::filesystem::directory_iterator(MUSTER_SOURCE_DIR "/worlds")) {
+    if (std::filesystem::exists(entry.path() / "world.xml")) result.push_back(entry.path().filename());
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+inline std::filesystem::path folder_of(const std::string& world) { return std::filesystem::path(MUSTER_SOURCE_DIR "/worlds") / world; }
+
+// Long enough that each phase has run many times, and that the swap of hot_swap is among them.
+constexpr uint64_t most_ticks = 500;
+
+inline Simulation start(const std::string& name, int workers = 1) {
+  World world = read_world(folder_of(name), standard());
+  world.ticks = std::min(world.ticks, most_ticks);
+  return {std::move(world), standard(), {{MUSTER_PLUGINS_DIR}, workers, {}}};
+}
+
+inline void run_until(Simulation& run, uint64_t tick) {
+  while (run.tick() < tick) run.step();
+}
+inline uint64_t finish(Simulation& run) {
+  run_until(run, run.world().ticks);
+  return run.digest();
+}
+
+// The digest of an undisturbed run on one thread.
+inline uint64_t plain_digest(const std::string& name) {
+  Simulation run = start(name);
+  return finish(run);
+}
+
+inline std::string test_name(const testing::TestParamInfo<std::string>& info) {
+  std::string result = info.param;
+  std::replace_if(result.begin(), result.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
+  return result;
+}
+
+}  // namespace muster::test
