@@ -1,0 +1,250 @@
+// The four claims: who may read, write, add to and modify what, and in which order the steps follow.
+#include "toy_world.hpp"
+
+#include <cmath>
+
+namespace muster {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::EndsWith;
+using testing::StartsWith;
+using Claims = ToyWorld;
+
+// Names of the instances of each batch, joined.
+std::vector<std::string> order(const Simulation& run) {
+  std::vector<std::string> result;
+  for (const auto& batch : run.batches()) {
+    std::string names = phase_name(batch.phase);
+    for (const Instance* i : batch.instances) names += ' ' + i->name();
+    if (!batch.instances.empty()) result.push_back(names);
+  }
+  return result;
+}
+
+TEST_F(Claims, ReadersFollowWritersInsideAPhaseAndOthersStepTogether) {
+  Simulation sim = run(two_robots +
+                       "<toy.copy_radio name='last' from='robot/*/q' to='robot/*/r'/>\n"
+                       "<toy.copy_radio name='mid' from='robot/*/p' to='robot/*/q' add='10'/>\n"
+                       "<toy.copy_radio name='aside' to='robot/*/s' add='5'/>\n"
+                       "<toy.copy_radio name='first' to='robot/*/p' add='1'/>\n"
+                       "<toy.copy_control name='before' to='self/x'/>\n");
+  EXPECT_THAT(order(sim), ElementsAre("CONTROL before", "RADIO aside first", "RADIO mid", "RADIO last"));
+  step(sim);
+  EXPECT_EQ(cell(sim, "robot/a/r"), 11);
+}
+
+TEST_F(Claims, ATableOfALaterPhaseIsReadAsItWasATickBefore) {
+  Simulation sim = run(two_robots +
+                       "<toy.copy_physics name='early' from='robot/*/count' to='robot/*/seen'/>\n"
+                       "<toy.copy_sense name='late' to='robot/*/count' own='true' add='1'/>\n");
+  EXPECT_EQ(cell(sim, "robot/a/count"), 1);  // the SENSE pass before the first tick
+  EXPECT_EQ(cell(sim, "robot/a/seen"), 0);
+  step(sim);
+  EXPECT_EQ(cell(sim, "robot/a/count"), 2);
+  EXPECT_EQ(cell(sim, "robot/a/seen"), 1);
+  step(sim, 5);
+  EXPECT_EQ(cell(sim, "robot/b/count"), 7);
+  EXPECT_EQ(cell(sim, "robot/b/seen"), 6);
+}
+
+TEST_F(Claims, ASumIsTakenInTheOrderOfTheWorldFile) {
+  const std::string adders =
+      "<toy.copy_radio name='z' to='robot/*/sum' as='add' add='0.1'/>\n"
+      "<toy.copy_radio name='m' to='robot/*/sum@fine' as='add' add='0.2'/>\n"
+      "<toy.copy_physics name='far' to='robot/*/elsewhere'/>\n"
+      "<toy.copy_radio name='a' to='robot/*/sum' as='add' add='-0.3'/>\n"
+      "<toy.copy_radio name='reader' from='robot/*/sum' and='robot/*/sum@m.fine' to='robot/*/r'/>\n";
+  Simulation sim = run(two_robots + adders);
+  step(sim);
+  const double forward = (0.1 + 0.2) + -0.3;
+  ASSERT_NE(forward, 0.1 + (0.2 + -0.3));  // else the order would not show
+  EXPECT_TRUE(same_bits(cell(sim, "robot/*/sum", 0, 1), forward));
+  EXPECT_EQ(cell(sim, "robot/a/sum@z"), 0.1);
+  EXPECT_EQ(cell(sim, "robot/a/sum@m.fine"), 0.2);
+  EXPECT_EQ(cell(sim, "robot/a/sum@a"), -0.3);
+  EXPECT_TRUE(same_bits(cell(sim, "robot/a/r"), forward + 0.2));
+}
+
+TEST_F(Claims, APartThatIsNotDueKeepsItsValueInTheSum) {
+  Simulation sim = run(two_robots +
+                       "<toy.copy_radio name='slow' every='4' to='robot/*/sum' as='add' own='true' add='100'/>\n"
+                       "<toy.copy_radio name='fast' to='robot/*/sum' as='add' own='true' add='1'/>\n");
+  std::vector<double> sums;
+  for (int i = 0; i < 9; ++i) step(sim), sums.push_back(cell(sim, "robot/b/sum"));
+  EXPECT_THAT(sums, ElementsAre(1, 2, 3, 104, 105, 106, 107, 208, 209));
+}
+
+TEST_F(Claims, StagesRunInTheOrderOfTheWorldFileAndStayReadable) {
+  Simulation sim = run(two_robots +
+                       "<toy.copy_sense name='twice' as='modify' to='robot/*/value' times='2'/>\n"
+                       "<toy.copy_radio name='made' to='robot/*/value' add='5'/>\n"
+                       "<toy.copy_sense name='more' as='modify' to='robot/*/value' add='1'/>\n"
+                       "<toy.copy_observe name='reader' from='robot/*/value' and='robot/*/value@twice' to='robot/*/both'/>\n"
+                       "<toy.copy_observe name='raw' from='robot/*/value@base' to='robot/*/unmodified'/>\n");
+  step(sim);
+  EXPECT_EQ(cell(sim, "robot/a/value@base"), 5);
+  EXPECT_EQ(cell(sim, "robot/a/value@twice"), 10);
+  EXPECT_EQ(cell(sim, "robot/a/value@more"), 11);
+  EXPECT_EQ(cell(sim, "robot/a/value"), 11);
+  EXPECT_EQ(cell(sim, "robot/a/both"), 21);
+  EXPECT_EQ(cell(sim, "robot/a/unmodified"), 5);
+}
+
+TEST_F(Claims, AStageMayTouchOneRowAndTheOthersPass) {
+  Simulation sim = run(two_robots +
+                       "<toy.copy_control name='ask' to='robot/*/command' columns='v[m/s] w[rad/s]' add='3'/>\n"
+                       "<toy.copy_actuate name='clip' as='modify' to='robot/b/command' columns='v[m/s] w[rad/s]' times='0.5'/>\n");
+  step(sim);
+  EXPECT_THAT(column(sim, "robot/*/command"), ElementsAre(3, 1.5));
+  EXPECT_THAT(column(sim, "robot/*/command@base"), ElementsAre(3, 3));
+}
+
+TEST_F(Claims, ARowHasOneWriter) {
+  const std::string one = two_robots + "<toy.copy_physics name='one' to='robot/a/v'/>\n";
+  EXPECT_EQ(error_of_world(one + "<toy.copy_physics name='two' to='robot/b/v'/>\n"), "no error");
+  EXPECT_EQ(error_of_world(one + "<toy.copy_physics name='two' to='robot/a/v'/>\n"),
+            "world.xml:5:1: two (toy.copy_physics): writes \"robot/a/v\"; so does world.xml:4:1: one (toy.copy_physics)");
+  EXPECT_EQ(error_of_world(one + "<toy.copy_physics name='two' to='robot/*/v'/>\n"),
+            "world.xml:5:1: two (toy.copy_physics): writes \"robot/*/v\"; so does world.xml:4:1: one (toy.copy_physics)");
+  EXPECT_EQ(error_of_world(one + "<toy.copy_radio name='two' to='robot/b/v'/>\n"),
+            "world.xml:5:1: two (toy.copy_radio): writes \"robot/*/v\" in the phase RADIO, but world.xml:4:1: one "
+            "(toy.copy_physics) in PHYSICS; a table is written in one phase");
+  EXPECT_EQ(error_of_world(one + "<toy.copy_physics name='two' to='robot/*/v' as='add'/>\n"),
+            "world.xml:5:1: two (toy.copy_physics): adds to \"robot/*/v\", which world.xml:4:1: one (toy.copy_physics) writes");
+}
+
+TEST_F(Claims, PartsOfASumAreAddedInOnePhase) {
+  EXPECT_EQ(error_of_world(two_robots + "<toy.copy_radio name='one' to='robot/*/v' as='add'/>\n<toy.copy_sense name='two' to='robot/*/v' as='add'/>\n"),
+            "world.xml:5:1: two (toy.copy_sense): adds to \"robot/*/v\" in the phase SENSE, but world.xml:4:1: one "
+            "(toy.copy_radio) in RADIO; a table is written in one phase");
+}
+
+TEST_F(Claims, WhatTheWorldGivesIsNoPartOfASum) {
+  EXPECT_EQ(error_of_world("<material name='m' loss='3'/>\n<toy.copy_radio name='one' to='material/*/loss' columns='loss[dB]' as='add'/>\n"),
+            "world.xml:3:1: one (toy.copy_radio): adds to \"material/*/loss\", which the world gives; expected a claim to modify it");
+}
+
+TEST_F(Claims, OnlyPlainNumbersAreAdded) {
+  for (const std::string columns : {"v?", "v~", "v{}", "v:robot"})
+    EXPECT_EQ(error_of_world(two_robots + "<toy.copy_radio name='one' to='robot/*/v' as='add' columns='" + columns + "'/>\n"),
+              "world.xml:4:1: one (toy.copy_radio): adds to \"robot/*/v\"; expected a whole table of numbers") << columns;
+  EXPECT_EQ(error_of_world(two_robots + "<toy.copy_radio name='one' to='robot/a/v' as='add'/>\n"),
+            "world.xml:4:1: one (toy.copy_radio): adds to \"robot/a/v\"; expected a whole table of numbers");
+}
+
+TEST_F(Claims, TwoTablesNeverBearOneName) {
+  EXPECT_EQ(error_of_world(two_robots + "<toy.copy_radio name='x' to='robot/*/v@y' as='add'/>\n<toy.copy_radio name='x.y' to='robot/*/v' as='add'/>\n"),
+            "world.xml:5:1: x.y (toy.copy_radio): claims \"robot/*/v@x.y\"; so does world.xml:4:1: x (toy.copy_radio)");
+  EXPECT_EQ(error_of_world(two_robots + "<toy.copy_radio name='w' to='robot/*/v'/>\n<toy.copy_radio name='base' to='robot/*/v' as='modify'/>\n"
+                                        "<toy.copy_radio name='m' to='robot/*/v' as='modify'/>\n"),
+            "world.xml:5:1: base (toy.copy_radio): claims \"robot/*/v@base\"; so does world.xml:4:1: w (toy.copy_radio)");
+}
+
+TEST_F(Claims, AReadThatNobodyWritesNamesTheNearest) {
+  EXPECT_EQ(error_of_world(two_robots + "<toy.copy_physics name='w' to='robot/*/charge'/>\n<toy.copy_radio name='r' from='robot/*/chargr' to='self/x'/>\n"),
+            "world.xml:5:1: r (toy.copy_radio): reads \"robot/*/chargr\", which nobody writes; expected one of door/*/shape, door/*/state, "
+            "endpoint/*/pose, endpoint/*/radio, inbox/*/message, instance/r/*/x, link/*/ends, link/*/rssi, material/*/loss, radio/*/mount, "
+            "radio/*/traffic, robot/*/charge, robot/*/drive, robot/*/odometry, robot/*/pose, robot/*/twist, robot/*/wheels, wall/*/shape; "
+            "did you mean \"robot/*/charge\"?");
+  EXPECT_THAT(error_of_world(two_robots + "<toy.copy_physics name='w' to='robot/*/v' as='add'/>\n<toy.copy_radio name='r' from='robot/*/v@u' to='self/x'/>\n"),
+              AllOf(StartsWith("world.xml:5:1: r (toy.copy_radio): reads \"robot/*/v@u\", which nobody writes; expected one of "),
+                    EndsWith("; did you mean \"robot/*/v@w\"?")));
+  Simulation sim = run(two_robots + "<toy.copy_radio name='r' from='robot/*/nothing' read_flags='1' to='robot/*/x' add='4'/>\n");
+  step(sim);
+  EXPECT_EQ(cell(sim, "robot/a/x"), 4);  // an optional read has no rows
+}
+
+TEST_F(Claims, ClaimsThatMakeNoSense) {
+  const auto claim = [&](const std::string& attributes) { return error_of_world(two_robots + "<toy.copy_radio name='r' " + attributes + "/>\n"); };
+  EXPECT_EQ(claim("to='robots/*/x'"),
+            "world.xml:4:1: r (toy.copy_radio): claims a table of the set \"robots\"; expected one of door, endpoint, inbox, link, "
+            "material, outbox, radio, robot, wall; did you mean \"robot\"?");
+  EXPECT_EQ(claim("to='robot/c/x'"),
+            "world.xml:4:1: r (toy.copy_radio): claims a row of robot called \"c\"; expected one of a, b");
+  EXPECT_EQ(claim("to='robot'"), "world.xml:4:1: r (toy.copy_radio): claims \"robot\"; expected set/row/quantity");
+  EXPECT_EQ(claim("to='robot/x'"), "world.xml:4:1: r (toy.copy_radio): claims \"robot/x\"; expected set/row/quantity");
+  EXPECT_EQ(claim("to='robot/*/'"), "world.xml:4:1: r (toy.copy_radio): claims \"robot/*/\"; expected set/row/quantity");
+  EXPECT_EQ(claim("to='robot/{robot}/x'"), "world.xml:4:1: r (toy.copy_radio): has no attribute \"robot\", which it needs");
+  EXPECT_EQ(claim("to='robot/{times}/x'"),
+            "world.xml:4:1: r (toy.copy_radio): claims {times}, which is no reference among its parameters");
+  EXPECT_EQ(claim("to='link/3/level' columns='level[dBm]'"),
+            "world.xml:4:1: r (toy.copy_radio): claims one row of \"link\", whose rows are listed anew each tick; expected *");
+  EXPECT_EQ(claim("to='robot/*/x' columns='x[m'"), "world.xml:4:1: r (toy.copy_radio): claims \"robot/*/x\": column \"x[m\" has no closing ]");
+  EXPECT_EQ(claim("to='robot/*/x' columns='x x'"), "world.xml:4:1: r (toy.copy_radio): claims \"robot/*/x\": column \"x\" stands twice");
+  EXPECT_EQ(claim("to='robot/*/x' columns='x0 x*2'"), "world.xml:4:1: r (toy.copy_radio): claims \"robot/*/x\": column \"x*2\" stands twice");
+  EXPECT_EQ(claim("to='robot/*/x' columns=''"), "world.xml:4:1: r (toy.copy_radio): claims \"robot/*/x\" without columns");
+  EXPECT_EQ(claim("to='robot/*/x' columns='x:robots'"),
+            "world.xml:4:1: r (toy.copy_radio): claims \"robot/*/x\": column \"x\" refers to the set \"robots\"; expected one of door, "
+            "endpoint, inbox, link, material, outbox, radio, robot, wall; did you mean \"robot\"?");
+  EXPECT_EQ(claim("to='robot/*/twist' columns='v'"),
+            "world.xml:4:1: r (toy.copy_radio): claims \"robot/*/twist\" as \"v\"; its columns are \"" + twist + "\"");
+  EXPECT_EQ(claim("to='outbox/*/message' as='modify' columns='radio:radio to:radio? payload{}'"),
+            "world.xml:4:1: r (toy.copy_radio): modifies \"outbox/*/message\", but a queue has no stages");
+}
+
+TEST_F(Claims, ReaderAndWriterAgreeOnColumns) {
+  EXPECT_EQ(error_of_world(two_robots + "<toy.copy_physics name='w' to='robot/*/d' columns='d[m]'/>\n<toy.copy_radio name='r' from='robot/*/d' columns='d[km]' to='self/x'/>\n"),
+            "world.xml:5:1: r (toy.copy_radio): claims \"robot/*/d\" as \"d[km]\", but world.xml:4:1: w (toy.copy_physics) as \"d[m]\"");
+}
+
+TEST_F(Claims, ACycleInsideAPhaseIsWalked) {
+  EXPECT_EQ(error_of_world(two_robots + "<toy.copy_radio name='x' from='robot/*/q' to='robot/*/p'/>\n"
+                                        "<toy.copy_radio name='y' from='robot/*/r' to='robot/*/q'/>\n"
+                                        "<toy.copy_radio name='z' from='robot/*/p' to='robot/*/r'/>\n"
+                                        "<toy.copy_radio name='w' from='robot/*/r' to='robot/*/s'/>\n"),
+            "world.xml:4:1: x (toy.copy_radio): a cycle inside the phase RADIO: x needs \"robot/*/q\" of y; y needs \"robot/*/r\" of z; "
+            "z needs \"robot/*/p\" of x; let one of them work in another phase, so that it is read a tick later");
+  EXPECT_EQ(error_of_world(two_robots + "<toy.copy_radio name='w' from='robot/*/p' to='robot/*/s'/>\n"
+                                        "<toy.copy_radio name='x' from='robot/*/q' to='robot/*/p'/>\n"
+                                        "<toy.copy_radio name='y' from='robot/*/p' to='robot/*/q'/>\n"),
+            "world.xml:5:1: x (toy.copy_radio): a cycle inside the phase RADIO: x needs \"robot/*/q\" of y; y needs \"robot/*/p\" of x; "
+            "let one of them work in another phase, so that it is read a tick later");
+}
+
+TEST_F(Claims, ReadingTheBaseOfAChainWaitsForNoStage) {
+  Simulation sim = run(two_robots +
+                       "<toy.copy_radio name='w' to='robot/*/v' add='2'/>\n"
+                       "<toy.copy_radio name='gain' from='robot/*/v@base' to='robot/*/g' times='3'/>\n"
+                       "<toy.copy_radio name='m' as='modify' from='robot/*/g' to='robot/*/v'/>\n");
+  step(sim);
+  EXPECT_EQ(cell(sim, "robot/a/v"), 8);
+}
+
+TEST_F(Claims, StagesComeNoEarlierThanWhatTheyModify) {
+  const std::string made = two_robots + "<toy.copy_radio name='w' every='4' to='robot/*/v'/>\n";
+  EXPECT_EQ(error_of_world(made + "<toy.copy_physics name='m' as='modify' to='robot/*/v'/>\n"),
+            "world.xml:5:1: m (toy.copy_physics): modifies \"robot/*/v\" before it is written: world.xml:4:1: w (toy.copy_radio) comes "
+            "in the phase RADIO");
+  EXPECT_EQ(error_of_world(made + "<toy.copy_sense name='m' every='3' as='modify' to='robot/*/v'/>\n"),
+            "world.xml:5:1: m (toy.copy_sense): modifies \"robot/*/v\" every 3 ticks and would miss values: world.xml:4:1: w "
+            "(toy.copy_radio) writes every 4");
+  EXPECT_EQ(error_of_world(made + "<toy.copy_sense name='m' every='2' as='modify' to='robot/*/v'/>\n"), "no error");
+  EXPECT_EQ(error_of_world(two_robots + "<toy.copy_sense name='m' as='modify' to='robot/*/v'/>\n"),
+            "world.xml:4:1: m (toy.copy_sense): modifies \"robot/*/v\", which nobody writes");
+}
+
+TEST_F(Claims, AWholeTableWriterAtEvery4BesideARowWriter) {
+  Simulation sim = run(two_robots + "<robot name='c' at='3 0 0'/>\n"
+                       "<toy.copy_physics name='rest' every='4' to='robot/*/v' flags='2' own='true' add='100'/>\n"
+                       "<toy.copy_physics name='row' to='robot/b/v' own='true' add='1'/>\n");
+  std::vector<std::vector<double>> seen;
+  for (int i = 0; i < 8; ++i) step(sim), seen.push_back(column(sim, "robot/*/v"));
+  EXPECT_THAT(seen[2], ElementsAre(0, 3, 0));
+  EXPECT_THAT(seen[3], ElementsAre(100, 4, 100));
+  EXPECT_THAT(seen[6], ElementsAre(100, 7, 100));
+  EXPECT_THAT(seen[7], ElementsAre(200, 8, 200));
+}
+
+TEST_F(Claims, PeriodsCountInTicksAndSetTheirOwnDt) {
+  Simulation sim = run(two_robots + "<toy.plain name='fast'/>\n");
+  Simulation slow = run(two_robots + "<toy.plain name='slow' every='2'/>\n");
+  step(sim, 4), step(slow, 4);
+  EXPECT_DOUBLE_EQ(cell(sim, "robot/a/battery"), std::pow(0.95, 4));
+  EXPECT_DOUBLE_EQ(cell(slow, "robot/a/battery"), 0.9 * 0.9);
+  EXPECT_EQ(slow.table("robot/*/battery").table->now().tick, 4u);
+}
+
+}  // namespace
+}  // namespace muster

@@ -1,0 +1,101 @@
+// Snapshots: what is restored is what was saved, or nothing is.
+#include "busy_world.hpp"
+
+namespace muster {
+namespace {
+
+using testing::HasSubstr;
+using Snapshots = ToyWorld;
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST_F(Snapshots, AFileHoldsThemWhole) {
+  Simulation sim = run(busy_world);
+  step(sim, 9);
+  const Snapshot saved = sim.snapshot();
+  saved.save(folder / "saved");
+  const Snapshot loaded = Snapshot::load(folder / "saved");
+  EXPECT_EQ(loaded.digest(), saved.digest());
+  EXPECT_EQ(loaded.instances, saved.instances);
+  EXPECT_FALSE(std::filesystem::exists(folder / "saved.part"));
+}
+
+TEST_F(Snapshots, ADamagedFileIsRefused) {
+  Simulation sim = run(two_robots + "<toy.copy_physics name='n' to='self/x' own='true' add='1'/>\n<toy.send_control name='s' robot='a' "
+                                    "to='outbox/{robot}/message' size='20'/>\n");
+  step(sim, 3);
+  sim.snapshot().save(folder / "saved");
+  const std::string whole = bytes_of(folder / "saved");
+  const std::string refusal = "bad: is not a whole snapshot; expected a file that `muster run --save` wrote";
+  for (std::size_t cut = 0; cut < whole.size(); cut += 7) {
+    put("bad", whole.substr(0, cut));
+    EXPECT_EQ(error_of([&] { Snapshot::load(folder / "bad"); }), refusal) << cut;
+  }
+  for (std::size_t at = 0; at < whole.size(); ++at) {
+    std::string bad = whole;
+    bad[at] = static_cast<char>(bad[at] ^ (1 << (at % 8)));
+    put("bad", bad);
+    EXPECT_EQ(error_of([&] { Snapshot::load(folder / "bad"); }), refusal) << at;
+  }
+  put("bad", whole + '\0');
+  EXPECT_EQ(error_of([&] { Snapshot::load(folder / "bad"); }), refusal);
+  EXPECT_THAT(error_of([&] { Snapshot::load(folder / "nothing"); }), HasSubstr("nothing: cannot be read"));
+  EXPECT_THAT(error_of([&] { Snapshot::load(folder); }), HasSubstr(": cannot be read"));
+}
+
+TEST_F(Snapshots, OfAnotherWorldAreRefusedAndTheRunStands) {
+  const std::string one = "<toy.copy_physics name='n' to='self/x' own='true' add='1'/>\n";
+  Simulation sim = run(two_robots + one);
+  step(sim, 3);
+  const uint64_t before = sim.digest();
+  const auto refused = [&](const std::string& elements) {
+    Simulation other = run(elements);
+    step(other, 2);
+    const std::string error = error_of([&] { sim.restore(other.snapshot()); });
+    EXPECT_EQ(sim.digest(), before);
+    return error;
+  };
+  const std::string of = "the snapshot is of another world: ";
+  EXPECT_EQ(refused(two_robots), of + "it has no instance \"n\"");
+  EXPECT_EQ(refused(two_robots + one + "<toy.copy_physics name='m' to='self/x'/>\n"), of + "its set \"instance/m\" is not here");
+  EXPECT_EQ(refused(two_robots + "<toy.copy_physics name='n' to='self/x' columns='y'/>\n"), of + "its table \"instance/n/*/x\" has other columns");
+  EXPECT_EQ(refused("<robot name='a' at='1 0 0'/><robot name='c' at='1 0 0'/>" + one), of + "its set \"radio\" has other rows");
+  EXPECT_EQ(refused(two_robots + "<toy.copy_sense name='n' to='self/x' own='true' add='1'/>\n"),
+            of + "its instance \"n\" is a toy.copy_sense/1; here it is a toy.copy_physics/1");
+}
+
+TEST_F(Snapshots, AcrossAPlannedSwapTheRunGoesOnAsItDid) {
+  const std::string text = two_robots + "<toy.copy_physics name='n' to='self/x' own='true' add='1'/>\n"
+                           "<swap at='3' instance='n' plugin='toy.copy_sense' to='self/x' own='true' add='100'/>\n";
+  Simulation sim = run(text);
+  step(sim, 4);
+  const Snapshot early = sim.snapshot();
+  step(sim, 4);
+  const Snapshot late = sim.snapshot();
+  step(sim, 4);
+  const uint64_t expected = sim.digest();
+  Simulation fresh = run(text);
+  fresh.restore(late);
+  step(fresh, 4);
+  EXPECT_EQ(fresh.digest(), expected);
+  fresh.restore(early);  // back behind the swap
+  step(fresh, 8);
+  EXPECT_EQ(fresh.digest(), expected);
+  EXPECT_EQ(cell(fresh, "instance/n/x"), 6 + 6 * 100);
+}
+
+TEST_F(Snapshots, ParametersComeBack) {
+  Simulation sim = run(two_robots + "<toy.copy_physics name='n' to='self/x' add='1'/>\n");
+  sim.set_parameter("n/add", 3);
+  const Snapshot saved = sim.snapshot();
+  sim.set_parameter("n/add", 4);
+  sim.restore(saved);
+  step(sim);
+  EXPECT_EQ(cell(sim, "instance/n/x"), 3);
+}
+
+}  // namespace
+}  // namespace muster
