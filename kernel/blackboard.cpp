@@ -9,8 +9,6 @@
 
 namespace muster {
 
-double poison() { return std::bit_cast<double>(poison_bits); }
-
 int Set::find(const std::string& row) const {
   const auto found = numbers.find(row);
   return found == numbers.end() ? -1 : static_cast<int>(found->second);
@@ -58,8 +56,7 @@ void Table::grow() {
   for (auto row = from; row < now_.rows; ++row) fill_initial(now_.data.data() + row * width());
 }
 
-void Table::begin(bool carry, uint64_t tick) {
-  begun_ = true;
+void Table::begin_anew(bool carry, uint64_t tick) {
   next_.blobs.clear();
   if (set_->kind == SetKind::queue) return begin_queue(tick);
   if (set_->kind == SetKind::listed) {
@@ -105,12 +102,12 @@ void Table::compact_blobs() {
 void Table::publish(uint64_t tick) {
   if (columns_.any_bytes()) compact_blobs();
   next_.tick = tick;
-  std::swap(now_, next_);
+  now_.swap(next_);
   published_ = true;
 }
 
 void Table::take_back() {
-  if (published_) std::swap(now_, next_);
+  if (published_) now_.swap(next_);
   end_tick();
 }
 

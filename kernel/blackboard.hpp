@@ -5,18 +5,20 @@
 
 #include <muster/sets.hpp>
 
+#include <bit>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace muster {
 
 // What poisons a cell that is to be filled: a NaN of its own, never taken for a value.
 inline constexpr uint64_t poison_bits = 0x7ffadead0badcafeull;
-double poison();
+inline double poison() { return std::bit_cast<double>(poison_bits); }
 
 // Rows that have names, or, in queues and listed sets, only numbers. Numbers never change.
 struct Set {
@@ -48,6 +50,14 @@ struct Cells {
   std::vector<uint64_t> appended;  // queue: the tick at which each row came
   std::size_t rows = 0;
   uint64_t tick = 0;  // at which it was published
+
+  void swap(Cells& other) noexcept {
+    data.swap(other.data);
+    blobs.swap(other.blobs);
+    appended.swap(other.appended);
+    std::swap(rows, other.rows);
+    std::swap(tick, other.tick);
+  }
 };
 
 // A table: what is published, and what is being written. A tick that fails takes back what it published.
@@ -68,7 +78,11 @@ class Table {
   Cells& stored() { return now_; }
 
   // Opens `next` for writing, once a tick: with last values carried over, or not where every cell will be written.
-  void begin(bool carry, uint64_t tick);
+  void begin(bool carry, uint64_t tick) {
+    begun_ = true;
+    const bool is_sized = set_->kind == SetKind::fixed && next_.rows == now_.rows && next_.blobs.empty();
+    if (carry || !is_sized) begin_anew(carry, tick);
+  }
   bool begun() const { return begun_; }
   void publish(uint64_t tick);
   bool published() const { return published_; }
@@ -85,6 +99,7 @@ class Table {
   void grow();
 
  private:
+  void begin_anew(bool carry, uint64_t tick);
   void begin_queue(uint64_t tick);
   void compact_blobs();
 

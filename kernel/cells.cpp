@@ -10,7 +10,7 @@ namespace muster {
 namespace {
 
 bool any_dead(const Set& set) {
-  return set.is_named() && std::find(set.alive.begin(), set.alive.end(), uint8_t{0}) != set.alive.end();
+  return set.kind == SetKind::live && std::find(set.alive.begin(), set.alive.end(), uint8_t{0}) != set.alive.end();
 }
 
 void poison_row(std::vector<double>& data, std::size_t row, std::size_t width) {
@@ -28,6 +28,10 @@ void poison_alive(std::vector<double>& data, const Table& table) {
 
 void prepare(Claim& claim, uint64_t tick) {
   Table& table = *claim.out;
+  if (claim.direct) {
+    if (!table.begun()) table.begin(false, tick);
+    return std::fill(table.next().data.begin(), table.next().data.end(), poison());
+  }
   claim.appended = 0;
   claim.puts.clear();
   if (claim.lists || table.set().kind == SetKind::queue) claim.aside.clear();  // or rows of the step before would look filled
@@ -50,6 +54,13 @@ void prepare(Claim& claim, uint64_t tick) {
   } else if (table.set().is_named()) {
     poison_alive(table.next().data, table);
   }
+}
+
+// Nearly always every number is finite: one sum tells, for a NaN or an infinity stays in it.
+bool all_finite(const double* data, std::size_t count) {
+  double sum = 0;
+  for (std::size_t i = 0; i < count; ++i) sum += data[i] * 0;
+  return sum == 0;
 }
 
 // The rows that a claim has written in this step.
@@ -114,13 +125,7 @@ bool speaks_for_another(const Claim& claim, double owner) {
 std::string check(const Instance& instance, const Blackboard& board, const Claim& claim) {
   const auto [data, rows] = written(claim);
   const auto width = claim.columns.size();
-  // Nearly always every number is finite and every column plain: one sum tells, for a NaN or an infinity stays in it.
-  const bool references = std::any_of(claim.columns.begin(), claim.columns.end(), [](const Column& c) { return !c.reference.empty() || c.bytes; });
-  if (!references) {
-    double sum = 0;
-    for (std::size_t i = 0; i < rows * width; ++i) sum += data[i] * 0;
-    if (sum == 0) return "";
-  }
+  if (!claim.columns.any_references() && !claim.columns.any_bytes() && all_finite(data, rows * width)) return "";
   for (std::size_t r = 0; r < rows; ++r) {
     if (is_others(claim, r)) continue;
     for (std::size_t c = 0; c < width; ++c) {
@@ -226,6 +231,8 @@ void prepare_cells(Instance& instance, uint64_t tick) {
 std::string check_cells(const Instance& instance, const Blackboard& board) {
   for (const auto& claim : instance.claims()) {
     if (!claim.out) continue;
+    const auto& next = claim.out->next().data;
+    if (claim.direct && !claim.columns.any_references() && all_finite(next.data(), next.size())) continue;
     const std::string wrong = check(instance, board, claim);
     if (!wrong.empty()) return wrong;
   }
@@ -234,7 +241,7 @@ std::string check_cells(const Instance& instance, const Blackboard& board) {
 
 std::string commit_cells(Instance& instance, uint64_t tick) {
   for (auto& claim : instance.claims()) {
-    if (!claim.out || claim.lists) continue;
+    if (!claim.out || claim.lists || claim.direct) continue;
     if (claim.out->set().kind == SetKind::queue) commit_rows(claim, claim.out->next(), tick);
     else if (claim.staged) commit_rest(claim);
     else commit_bytes(claim, claim.out->next(), 0);

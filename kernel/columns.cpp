@@ -75,6 +75,7 @@ Columns::Columns(std::string_view text) : text_(text) {
     Column column;
     const auto count = parse_word(word, column);
     any_bytes_ |= column.bytes;
+    any_references_ |= !column.reference.empty();
     plain_ &= !column.nullable && !column.infinite;
     for (std::size_t i = 0; i < count; ++i) {
       list_.push_back(column);

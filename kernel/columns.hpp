@@ -34,6 +34,7 @@ class Columns {
   // The column's number, or -1.
   int find(std::string_view name) const;
   bool any_bytes() const { return any_bytes_; }
+  bool any_references() const { return any_references_; }
   // True where a plain finite number is all that any cell may hold.
   bool plain() const { return plain_; }
   const std::string& text() const { return text_; }
@@ -42,7 +43,7 @@ class Columns {
  private:
   std::vector<Column> list_;
   std::string text_;
-  bool any_bytes_ = false;
+  bool any_bytes_ = false, any_references_ = false;
   bool plain_ = true;
 };
 

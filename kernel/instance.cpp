@@ -186,6 +186,13 @@ void Instance::bind(uint64_t tick) {
   for (std::size_t i = 0; i < claims_.size(); ++i) {
     Claim& claim = claims_[i];
     const auto width = static_cast<uint32_t>(claim.columns.size());
+    if (claim.direct) {
+      const Cells& now = claim.in->now();
+      Cells& next = claim.out->next();
+      in_[i] = {now.data.data(), static_cast<uint32_t>(now.rows), width, now.tick};
+      out_[i] = {next.data.data(), static_cast<uint32_t>(next.rows), width};
+      continue;
+    }
     const Cells* cells = claim.in ? &claim.in->now() : claim.file.get();
     const bool is_queue = claim.in && claim.in->set().kind == SetKind::queue;
     if (is_queue && claim.kind == MUSTER_READ) {

@@ -35,6 +35,7 @@ struct Claim {
   Table* out = nullptr;       // what is written
   bool lists = false;         // write: its instance lists the rows of the set anew, by append()
   bool staged = false;        // written aside and copied afterwards: a rest of rows, beside rows of others
+  bool direct = false;        // written whole, in its place, numbers only: nothing is left to do after a step
   std::vector<int> others;    // staged: the rows that other instances write
   uint64_t window = 0;     // queue read: rows that came at a tick > now - window ...
   bool late = false;       // ... or, where its writers come later in a tick, >= now - window
@@ -113,6 +114,10 @@ class Instance {
   // The error of a failed callback, whole, and ready for the next call.
   Error failure(const std::string& callback, const muster_tick* tick, const std::string& said);
 
+  // True where all that it writes is direct; told by the linker.
+  bool is_direct() const { return direct_; }
+  void set_direct(bool direct) { direct_ = direct; }
+
   std::vector<Join> joins;
   std::vector<Leave> leaves;
   std::vector<std::string> events;  // since the kernel last took them
@@ -141,7 +146,7 @@ class Instance {
   std::vector<muster_out> out_;
   std::string said_;   // what the plugin said of its failure
   Exit fault_ = Exit::plugin_fault;
-  bool in_create_ = false, in_step_ = false;
+  bool in_create_ = false, in_step_ = false, direct_ = false;
 };
 
 }  // namespace muster

@@ -17,7 +17,8 @@ void Linker::gather() {
   for (Instance* instance : instances_) {
     for (std::size_t i = 0; i < instance->claims().size(); ++i) {
       const Claim& claim = instance->claims()[i];
-      if (claim.file) continue;
+      const bool only_joins = claim.kind == MUSTER_WRITE && (claim.flags & MUSTER_JOINS);  // the right to join claims no cells
+      if (claim.file || only_joins) continue;
       auto& claimed = claimed_[claim.name.logical()];
       auto& group = claim.kind == MUSTER_READ    ? claimed.readers
                     : claim.kind == MUSTER_WRITE ? claimed.writers
@@ -38,12 +39,7 @@ std::vector<std::pair<std::string, const Claim*>> Linker::tables_of(const std::s
     const auto& part = by.get().name.part;
     result.emplace_back(logical + '@' + by.instance->name() + (part.empty() ? "" : '.' + part), &by.get());
   }
-  const Claimed::By* any = nullptr;  // one that claims the cells, not only the right to join
-  for (const auto* group : {&c.writers, &c.adders, &c.readers}) {
-    for (const auto& by : *group) {
-      if (!any && !(by.get().flags & MUSTER_JOINS)) any = &by;
-    }
-  }
+  const auto* any = !c.writers.empty() ? &c.writers[0] : !c.adders.empty() ? &c.adders[0] : !c.readers.empty() ? &c.readers[0] : nullptr;
   if (c.modifiers.empty()) {
     if (any) result.emplace_back(logical, &any->get());
     return result;
@@ -170,7 +166,6 @@ void Linker::make_tables(const std::string& logical, const Claimed& c, const std
   if (!c.is_written() && !is_of_the_world(logical)) return;  // optional reads that nobody answers
   std::vector<Table*> tables;
   for (const auto& [name, claim] : tables_of(logical, c)) tables.push_back(&make(name, *claim, held[tables.size()]));
-  if (tables.empty()) return;  // only rows join
   Sum sum;
   std::vector<Instance*> adders;
   for (std::size_t i = 0; i < c.adders.size(); ++i) {
@@ -188,7 +183,6 @@ void Linker::make_tables(const std::string& logical, const Claimed& c, const std
   }
   for (const auto& by : c.writers) {
     Claim& claim = by.get();
-    if (claim.flags & MUSTER_JOINS) continue;
     claim.in = claim.out = stage;
     const auto& listers = listers_[claim.name.set];
     claim.lists = stage->set().kind == SetKind::listed && std::find(listers.begin(), listers.end(), by.instance) != listers.end();
@@ -260,6 +254,15 @@ std::vector<Batch> Linker::build() {
   const auto old = board_.take_tables();
   for (const auto& [logical, c] : claimed_) make_tables(logical, c, held[logical]);
   for (const auto& [logical, c] : claimed_) point_readers(logical, c);
+  for (Instance* instance : instances_) {
+    bool direct = true;
+    for (Claim& claim : instance->claims()) {
+      claim.direct = claim.out && !claim.lists && !claim.staged && claim.row < 0 && claim.out->set().kind == SetKind::fixed &&
+                     !claim.columns.any_bytes();
+      direct &= claim.direct || !claim.out;
+    }
+    instance->set_direct(direct);
+  }
   for (const auto& [name, table] : old) {
     if (!used.count(table.get()) && !board_.find(name)) dropped_.push_back(name);
   }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace muster {
 
@@ -52,8 +53,11 @@ void Simulation::run_batch(Batch& batch, const muster_tick& tick) {
   for (Instance* instance : due_) instance->bind(tick.index);
   step_all(tick);
   for (std::size_t i = 0; i < due_.size(); ++i) {
-    if (faults_[i].empty()) faults_[i] = commit_cells(*due_[i], tick.index);
-    if (!faults_[i].empty()) throw due_[i]->failure("step", &tick, faults_[i]);
+    if (faults_[i].empty() && !due_[i]->is_direct()) faults_[i] = commit_cells(*due_[i], tick.index);
+    if (faults_[i].empty()) continue;
+    const std::string fault = faults_[i];
+    faults_.clear();  // those of the others too
+    throw due_[i]->failure("step", &tick, fault);
   }
   for (const auto& sum : batch.sums) {
     add_up(sum, tick.index);
@@ -77,11 +81,12 @@ void Simulation::check_sum(const Sum& sum, const muster_tick& tick) const {
 
 // Threads take instances as they come; nothing that an instance writes is another's, so the order does not show.
 void Simulation::step_all(const muster_tick& tick) {
-  faults_.assign(due_.size(), "");
+  faults_.resize(due_.size());  // all empty: the first that is not ends the tick
   const auto one = [&](std::size_t i) {
     muster_tick own = tick;
     own.dt = world_.dt * static_cast<double>(due_[i]->every());
-    faults_[i] = due_[i]->step(own) ? check_cells(*due_[i], board_) : due_[i]->said();
+    if (!due_[i]->step(own)) faults_[i] = due_[i]->said();
+    else if (std::string wrong = check_cells(*due_[i], board_); !wrong.empty()) faults_[i] = std::move(wrong);
   };
   if (workers_ && due_.size() > 1) workers_->each(due_.size(), one);
   else for (std::size_t i = 0; i < due_.size(); ++i) one(i);
@@ -139,6 +144,7 @@ void Simulation::finish(uint64_t tick) {
     for (Table* table : batch.publish) table->end_tick();
   }
   for (auto& instance : instances_) {
+    if (instance->joins.empty() && instance->leaves.empty() && instance->events.empty()) continue;
     for (const auto& join : instance->joins) {
       join.set->add(join.name);
       place(board_, join);
