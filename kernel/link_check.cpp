@@ -110,7 +110,7 @@ void Linker::check_reads(const std::string& logical, const Claimed& c) const {
     if (by.instance->phase() != MUSTER_CONTROL || standard_quantity(standard_, claim.name) || own) continue;
     for (const auto* group : {&c.writers, &c.adders}) {
       for (const auto& writer : *group) {
-        if (!(writer.get().flags & (MUSTER_SENSED | MUSTER_JOINS)))
+        if (!(writer.get().flags & MUSTER_SENSED))
           throw refused(*by.instance, "reads " + quote(name) + ", which is truth: " + writer.instance->title() + " does not write it as sensed");
       }
     }
@@ -122,10 +122,8 @@ void Linker::check_writers(const std::string& logical, const Claimed& c) const {
     throw refused(*c.adders[0].instance, "adds to " + quote(logical) + ", which " + c.writers[0].instance->title() + " writes");
   for (std::size_t i = 0; i < c.writers.size(); ++i) {
     const auto& one = c.writers[i];
-    const bool joins = one.get().flags & MUSTER_JOINS;
     for (std::size_t j = 0; j < i; ++j) {
       const auto& other = c.writers[j];
-      if (joins != ((other.get().flags & MUSTER_JOINS) != 0)) continue;
       if (board_.find_set(one.get().name.set)->kind == SetKind::queue) continue;  // each appends rows of its own
       if (collide(one.get(), other.get())) throw refused(*one.instance, "writes " + quote(one.get().name.set + '/' + one.get().name.row + '/' + one.get().name.quantity) + both(*other.instance));
       if (one.instance->phase() != other.instance->phase())
@@ -142,7 +140,6 @@ void Linker::check_columns(const std::string& logical, const Claimed& c) const {
   const Claimed::By* first = nullptr;
   for (const auto* group : {&c.writers, &c.adders, &c.modifiers, &c.readers}) {
     for (const auto& by : *group) {
-      if (by.get().flags & MUSTER_JOINS) continue;
       if (!first) first = &by;
       if (by.get().columns != first->get().columns)
         throw refused(*by.instance, "claims " + quote(logical) + " as \"" + by.get().columns.text() + "\", but " + first->instance->title() + " as \"" + first->get().columns.text() + '"');

@@ -67,10 +67,10 @@ Recorder::Recorder(const Simulation& run, const std::vector<RecordDeclaration>& 
 
 void Recorder::write(const Simulation& run) {
   for (auto& file : files_) {
-    if (run.tick() % file.every != 0) continue;
     const TableView view = run.table(file.table);
     const Table& table = *view.table;
     const Set& set = table.set();
+    if (set.kind != SetKind::queue && run.tick() % file.every != 0) continue;  // a message is there once: none is left out
     const Cells& cells = table.now();
     const std::size_t first = view.row >= 0 ? static_cast<std::size_t>(view.row) : 0;
     const std::size_t last = view.row >= 0 ? first + 1 : cells.rows;

@@ -96,10 +96,15 @@ RecordDeclaration read_record(const XmlElement& element) {
 
 // An element with a dot in its name is a plugin; any other must be known.
 void read_child(const XmlElement& element, const Standard& standard, World& world) {
-  if (element.name == "swap") world.swaps.push_back(read_swap(element, world));
-  else if (element.name == "record") world.records.push_back(read_record(element));
-  else if (element.name.find('.') != std::string::npos) world.instances.push_back(read_instance(element, element.name));
-  else {
+  if (element.name == "swap") {
+    world.swaps.push_back(read_swap(element, world));
+    const auto& swap = world.swaps.back();
+    if (swap.tick >= world.ticks) world.warnings.push_back({element.place, "the swap of " + quote(swap.instance) + " comes at the end of the run or after it"});
+  } else if (element.name == "record") {
+    world.records.push_back(read_record(element));
+  } else if (element.name.find('.') != std::string::npos) {
+    world.instances.push_back(read_instance(element, element.name));
+  } else {
     std::vector<std::string> valid = {"swap", "record"};
     for (const auto& known : standard.elements) {
       if (element.name == known.name) return;  // read_rows() has read it
