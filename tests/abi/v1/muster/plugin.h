@@ -1,0 +1,197 @@
+/* The whole contract between the kernel and a plugin: plain C, no allocation crosses it.
+ *
+ * A plugin registers descriptors; the kernel makes instances of them, as the world file asks. Instances never call
+ * each other: each reads and writes tables on the shared blackboard. All state that outlives a step is in tables;
+ * what an instance keeps besides must be computable again from them. So a snapshot is a copy of the tables, and a
+ * backend can be swapped between any two ticks.
+ *
+ * Structs that the kernel fills or reads begin with their `size` and grow only at the end.
+ * Tags: [setup] inside create() only, [step] inside step() only, [any] from any callback. */
+#ifndef MUSTER_PLUGIN_H
+#define MUSTER_PLUGIN_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Changes when a struct below changes meaning. Fields added at an end do not change it: `size` tells. */
+#define MUSTER_ABI 1u
+
+/* Every tick runs the phases in this order; zero is never a valid phase. */
+enum {
+  MUSTER_CONTROL = 1, /* what a robot decides, from what it senses */
+  MUSTER_ACTUATE,     /* commands on their way to the drives */
+  MUSTER_PHYSICS,     /* bodies move from t - dt to t */
+  MUSTER_RADIO,       /* the channel at t */
+  MUSTER_NETWORK,     /* packets and messages */
+  MUSTER_SENSE,       /* what robots read of the world at t */
+  MUSTER_OBSERVE      /* metrics and records; nobody inside the tick waits for them */
+};
+
+enum { MUSTER_OK = 0, MUSTER_FAILED = 1 };
+
+/* What an instance may do with a table; see muster_host.claim. */
+enum {
+  MUSTER_READ = 1, /* in[i]: the table */
+  MUSTER_WRITE,    /* out[i]: to be filled, every cell; in[i]: what this claim last published, so an own state needs no second claim */
+  MUSTER_ADD,      /* out[i]: a part of a sum; readers get the total in world-file order, or one part by its name */
+  MUSTER_MODIFY    /* in[i]: the stage before; out[i]: this stage, to be filled; stages run in world-file order */
+};
+enum {
+  MUSTER_OPTIONAL = 1u, /* read: where nobody writes the table, in[i] has no rows instead of an error */
+  MUSTER_REST = 2u,     /* write: every row that no other instance claims by its name, instead of all rows */
+  MUSTER_SENSED = 4u,   /* write: a quantity that is not standard may be read by the controllers of its row */
+  MUSTER_ADOPTS = 8u,   /* write: at a swap, take the table over although its columns differ (missing cells are initial) */
+  MUSTER_JOINS = 16u    /* write: this instance may call join() and leave() for the set */
+};
+
+/* What stands in a nullable cell where nothing was there. Any other NaN is a fault of its writer. */
+#define MUSTER_NULL_BITS 0x7ff8000000000000ull
+
+/* A view of one table, row-major, [rows x cols]. Valid only until step() returns: never keep the pointer. */
+typedef struct muster_in {
+  const double* data;
+  uint32_t rows, cols;
+  uint64_t tick; /* that last published it; 0: the initial values of the world file */
+} muster_in;
+
+typedef struct muster_out {
+  double* data;
+  uint32_t rows, cols;
+} muster_out;
+
+/* [step] Evaluate expectations instead of draws: E[reading in dB]. A fit compares means with measurements. */
+enum { MUSTER_EXPECTED = 1u };
+
+typedef struct muster_tick {
+  uint32_t size, flags;
+  uint64_t index;       /* 0 in the SENSE pass before the first tick */
+  double time;          /* [s] index times the world's dt: the time that what is written holds for */
+  double dt;            /* [s] this instance's own period, every times the world's dt */
+  const double* params; /* one value a declared parameter, in the order of declaration; a text or file counts as 0 */
+} muster_tick;
+
+/* Kinds of parameters. A value is a double: an integer; 0 or 1; the choice's place in its list; a row's number. */
+enum { MUSTER_REAL = 1, MUSTER_INTEGER, MUSTER_FLAG, MUSTER_CHOICE, MUSTER_REFERENCE, MUSTER_TEXT, MUSTER_FILE };
+enum {
+  MUSTER_FREE = 1u,    /* a fit may move it, inside its bounds */
+  MUSTER_REQUIRED = 2u, /* the world file must give it */
+  /* What a diagnosis knows of a cause's parameter when it searches. */
+  MUSTER_LINEAR = 4u, /* what the cause adds is proportional to it */
+  MUSTER_LOG = 8u,    /* its scale is logarithmic: 1, 2, 4, ... */
+  MUSTER_CYCLIC = 16u, /* max is min again: an angle */
+  MUSTER_EAST = 32u,  /* a coordinate in the world, to be sought over the plan's extent: x */
+  MUSTER_NORTH = 64u  /* the same: y */
+};
+
+/* One attribute of the plugin's element in the world file. XML check, schema, manual, fit and sweep derive from it. */
+typedef struct muster_param {
+  const char* name;
+  uint32_t kind, flags;
+  double value, min, max; /* default and bounds of a number */
+  const char* unit;       /* "" where it has none */
+  const char* help;
+  const char* text; /* choice: "a|b|c"; reference: the set; text or file: the default; else NULL */
+} muster_param;
+
+/* What an instance may ask of the kernel. */
+typedef struct muster_host {
+  uint32_t size, abi;
+  void* kernel;
+
+  /* [setup] Claim a table as `kind` says; the result indexes step()'s `in` and `out`, or is -1 with the error already
+   * reported. `table` is set/row/quantity: "robot/leader/pose" is one row, "robot/ * /pose" (without the blanks) every
+   * row, "robot/{robot}/pose" the row that the parameter `robot` names, "self/quantity" a row of the instance's own.
+   * After @ stands an instance's part of a sum or stage of a chain; an adder may name its parts ("link/ * /level@walls"
+   * is read as level@INSTANCE.walls).
+   * `columns` are "x[m] y[m] theta[rad]", "range[m]*682" for many alike, "rssi[dBm]?" where a cell may be empty,
+   * "range[m]~" where it may be infinite, "payload{}" for bytes, "tx:endpoint" for a row number of another set. A
+   * reader's must equal its writer's. */
+  int (*claim)(const struct muster_host*, uint32_t kind, uint32_t flags, const char* table, const char* columns);
+  /* [setup] The table in the CSV file that parameter `param` names, with these columns in this order; a nullable column may
+   * be absent, names in a reference column must be rows of the set ("tx:radio+": or join it). Read as any claim. */
+  int (*file)(const struct muster_host*, const char* param, const char* columns);
+  /* [setup] A text parameter by its name, or a text attribute by its path ("robot/leader/model"); NULL if absent. */
+  const char* (*text)(const struct muster_host*, const char* path);
+  /* [setup] The directories in which files that come with plugins are looked for; NULL after the last. */
+  const char* (*search_path)(const struct muster_host*, uint32_t index);
+  /* [setup] The key of a declared random stream, from the world's seed and this name alone. */
+  uint64_t (*stream)(const struct muster_host*, const char* name);
+  /* [any] A parameter's value now, by its name. */
+  double (*param)(const struct muster_host*, const char* name);
+  /* [any] Rows of a set: how many there ever were, a row's name, its key for random numbers (from the name alone), and
+   * whether it has not left. NULL or 0 past the end. */
+  uint32_t (*rows)(const struct muster_host*, const char* set);
+  const char* (*row_name)(const struct muster_host*, const char* set, uint32_t row);
+  uint64_t (*row_key)(const struct muster_host*, const char* set, uint32_t row);
+  int (*row_alive)(const struct muster_host*, const char* set, uint32_t row);
+  /* [step] Queues and listed sets: `rows` more rows of the written claim, to be filled; the pointer to the first. */
+  double* (*append)(const struct muster_host*, int claim, uint32_t rows);
+  /* [step] Bytes in a cell of a bytes column. get: of a read table, valid until step() returns; put: copied. */
+  const uint8_t* (*get_bytes)(const struct muster_host*, int claim, uint32_t row, uint32_t column, uint64_t* count);
+  void (*put_bytes)(const struct muster_host*, int claim, uint32_t row, uint32_t column, const uint8_t* data, uint64_t count);
+  /* [step] A new row of a live set, seen by all from the next tick on; its values are those of row `like`, or initial
+   * ones if `like` is negative; the new row's number, or -1. leave: the row keeps its number and its last values. */
+  int (*join)(const struct muster_host*, int claim, const char* name, int like);
+  int (*leave)(const struct muster_host*, int claim, uint32_t row);
+  /* [step] One initial value of a row that joined in this very step: quantity, column by number. */
+  int (*place)(const struct muster_host*, int claim, uint32_t row, const char* quantity, uint32_t column, double value);
+  /* [any] Say why a callback is about to fail; the kernel adds file, line, instance, callback and tick. */
+  void (*error)(const struct muster_host*, const char* message);
+  /* [any] As error(), where not the plugin is wrong but what the user gave it: a parameter, a file. */
+  void (*refuse)(const struct muster_host*, const char* message);
+  /* [any] A line for the run's list of events. */
+  void (*event)(const struct muster_host*, const char* message);
+} muster_host;
+
+/* What kind of difference a cause makes to the simulation. */
+enum {
+  MUSTER_TERM = 1,   /* adds to the level of links, in dB */
+  MUSTER_STAGE,      /* a stage of a chain: the receiver's, a command's */
+  MUSTER_WORLD_EDIT, /* changes rows of the world's sets: a wall, a place */
+  MUSTER_LAW,        /* changes the law of what is random: fading, outliers */
+  MUSTER_INSTRUMENT  /* a fault of the record itself: identities exchanged, a unit */
+};
+
+/* A named cause: an ordinary plugin that a diagnosis may accept as the explanation of a misfit, and what it says of itself. */
+typedef struct muster_cause {
+  uint32_t size, kind;
+  const char* title;       /* one sentence with {parameter} slots: "the radio {radio} sends {offset} more than given" */
+  const char* ranges_over; /* the reference parameter that says which row it is about: "radio", "wall"; "" for the world */
+  const char* covariates;  /* columns that measured data must have for it: "t", "rx_yaw"; "" for none */
+  const char* imitators;   /* ids of what it can be mistaken for, with blanks between */
+  const char* tell_apart;  /* what to measure to decide */
+  const char* replaces;    /* the plugin's part of a sum that it stands in for; NULL: it comes on top */
+} muster_cause;
+
+typedef struct muster_plugin {
+  uint32_t size;
+  uint32_t phase;
+  const char* id;      /* "radio.multiwall/1": the revision changes when its results do */
+  const char* summary; /* one line, for `muster plugins` */
+  const char* manual;  /* some lines for `muster describe`: model, limits, source; or NULL */
+  const muster_param* params;
+  uint32_t param_count;
+  const char* cannot_hold; /* what of another backend's state a swap to this one drops, in words; NULL: nothing */
+  void* (*create)(const muster_host*);
+  void (*destroy)(void* self);
+  /* `in` and `out` have one entry a claim, in the order of the claims. */
+  int (*step)(void* self, const muster_tick*, const muster_in* in, const muster_out* out);
+  const muster_cause* cause; /* NULL: it is no cause */
+} muster_plugin;
+
+/* The one symbol a plugin exports. Calls `add` once for each descriptor, which must outlive the library. */
+typedef int (*muster_add)(void* registry, const muster_plugin*);
+__attribute__((visibility("default"))) int muster_register(uint32_t abi, void* registry, muster_add add);
+
+/* Once in each plugin: the section from which the kernel reads the ABI before it runs any of the plugin's code. */
+#define MUSTER_DECLARE_ABI \
+  __attribute__((section("muster.abi.1"), used)) static const uint32_t muster_abi_revision = MUSTER_ABI;
+
+#ifdef __cplusplus
+}
+#endif
+#endif
