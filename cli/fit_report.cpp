@@ -52,7 +52,7 @@ Json look_json(const Look& look) {
     one.update({{"rows", bin.rows}, {"mean_db", known(bin.mean)}, {"stderr_db", known(bin.stderror)}});
     bins.push_back(one);
   }
-  return {{"by", look.by}, {"p", look.p}, {"alarm", look.alarm}, {"where", look.where}, {"bins", bins}};
+  return {{"by", look.by}, {"p", look.p}, {"alarm", look.alarm}, {"explains", look.explains}, {"where", look.where}, {"bins", bins}};
 }
 
 Json cells_json(const FitReport& r) {
@@ -110,14 +110,18 @@ void print_missing(const Fit& fit, std::size_t rows) {
   fmt::print(" ({:.1f} % are missing at {:.0f} dBm, {:.1f} % at {:.0f} dBm).\n", share(m.bins.front()), m.bins.front().level, share(m.bins.back()), m.bins.back().level);
 }
 
+std::string chance(double p) { return p < 1e-9 ? "p < 1e-9" : fmt::format("p = {:.1g}", p); }
+
 void print_misfit(const Misfit& misfit) {
   fmt::print("\n{}\n", misfit.misfits ? "The model misfits:" : "No structure is left in the residual along:");
   std::string fine;
   for (const Look& look : misfit.looks) {
-    if (look.alarm) fmt::print("  by {:<12} p = {:<8.1g} {}\n", look.by, look.p, look.where);
+    if (look.alarm) fmt::print("  by {:<12} {:<10} {:>4.1f} % of the variance; {}\n", look.by, chance(look.p), 100 * look.explains, look.where);
     else fine += fmt::format("{}{} (p = {:.2g})", fine.empty() ? "" : ", ", look.by, look.p);
   }
   if (!fine.empty()) fmt::print("  {}{}\n", misfit.misfits ? "nothing found by " : "", fine);
+  fmt::print("  {}\n", misfit.shared_allowed ? "p-values allow for errors that neighbouring readings share"
+                                            : "p-values hold the world to its word that readings share no shadowing");
   for (const std::string& words : misfit.not_tested) fmt::print("  not tested: {}\n", words);
 }
 
@@ -149,7 +153,7 @@ Json FitReport::json() const {
           {"not_received_is", fit.missing.count == 0 ? Json(nullptr) : Json(fit.missing.censored ? "censored" : "random")},
           {"not_received_evidence", missing_json(fit.missing)},
           {"search", search_json(fit)},
-          {"misfit", {{"misfits", misfit.misfits}, {"looks", looks}, {"not_tested", misfit.not_tested}}},
+          {"misfit", {{"misfits", misfit.misfits}, {"shared_errors_allowed", misfit.shared_allowed}, {"looks", looks}, {"not_tested", misfit.not_tested}}},
           {"cells", cells_json(*this)},
           {"notes", data.notes},
           {"pictures", files}};

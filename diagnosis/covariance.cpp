@@ -68,10 +68,11 @@ Eigen::VectorXd maximise(Likelihood& likelihood, Eigen::VectorXd at, double scal
       a(k, k) = 1;
       b[k] = 0;
     }
-    Eigen::VectorXd step = a.ldlt().solve(b), next;
+    Eigen::VectorXd step = a.ldlt().solve(b), next = at;
     for (int half = 0; half < 12; ++half, step /= 2) {
       next = (at + step).cwiseMax(0);
       if (likelihood.evaluate(next, false) && likelihood.value >= before - 1e-9) break;
+      next = at;
     }
     const double moved = (next - at).cwiseAbs().maxCoeff();
     at = next;
@@ -125,6 +126,14 @@ void ErrorModel::fit(const Eigen::VectorXd& residual, const Eigen::MatrixXd& col
   double sum = 0;
   for (Components& c : components_) sum += c.belief = std::exp(c.belief - top);
   for (Components& c : components_) c.belief /= sum;
+}
+
+void ErrorModel::fit_white(const Eigen::VectorXd& residual, const Eigen::MatrixXd& columns) {
+  const Eigen::Map<const Eigen::VectorXd> size(clusters_.size.data(), static_cast<Eigen::Index>(clusters_.size.size()));
+  measure_white(residual, cluster_sums(residual).col(0).cwiseQuotient(size), columns.cols());
+  const auto count = static_cast<Eigen::Index>(kernels_.at(0).shapes.size());
+  components_ = {{kernels_[0].decorrelation, Eigen::VectorXd::Zero(count), Eigen::MatrixXd::Zero(count, count), 1}};
+  evidence_ = 0;
 }
 
 // Each cluster's own variance, drawn towards the mean of all as by twenty readings of it: fading and tails differ by place.

@@ -34,6 +34,9 @@ class ErrorModel {
   // From residuals of ordinary least squares on these columns, one row a reading.
   void fit(const Eigen::VectorXd& residual, const Eigen::MatrixXd& columns);
 
+  // The same where readings share nothing, by the world's own word.
+  void fit_white(const Eigen::VectorXd& residual, const Eigen::MatrixXd& columns);
+
   // Covariance of columns^T error.
   Eigen::MatrixXd of_sums(const Eigen::MatrixXd& columns) const;
 

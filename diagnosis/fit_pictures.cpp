@@ -93,7 +93,8 @@ class Artist {
   }
 
   pic::Figure looks() const {
-    pic::Figure figure{.title = name_ + ": what is left in the residual", .caption = "Mean of measured - simulated with 95 % intervals that allow for errors that neighbours share.",
+    pic::Figure figure{.title = name_ + ": what is left in the residual", .caption = misfit_.shared_allowed ? "Mean of measured - simulated with 95 % intervals that allow for errors that neighbours share."
+                                                                : "Mean of measured - simulated with 95 % intervals for readings that share nothing, as the world declares.",
                        .columns = 2, .width = 1000, .panels = {}};
     for (const Look& look : misfit_.looks) {
       if (!look.bins.empty()) figure.panels.push_back(panel_of(look));
@@ -132,7 +133,7 @@ class Artist {
   }
 
   static pic::Panel panel_of(const Look& look) {
-    pic::Panel panel{.title = fmt::format("{}{}", look.by, look.alarm ? fmt::format(": p = {:.1g}", look.p) : ""),
+    pic::Panel panel{.title = fmt::format("{}{}", look.by, look.alarm ? (look.p < 1e-9 ? ": p < 1e-9" : fmt::format(": p = {:.1g}", look.p)) : ""),
                      .x = {.label = look.by, .unit = look.unit}, .y = {.label = "residual", .unit = "dB"}, .layers = {pic::Rule{.at = 0}}};
     pic::ErrorBars bars{.colour = look.alarm ? pic::vermillion : pic::blue};
     for (const Bin& bin : look.bins) {

@@ -1,6 +1,7 @@
 // Correlation of the errors of two links, of three kinds.
 #include "diagnosis/covariance.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -62,6 +63,13 @@ double between(const std::vector<LinkPlace>& p, const std::vector<LinkPlace>& q,
   return sum / pairs;
 }
 
+// Means over a few examples need not be a covariance to the last digit; as much white as makes them one is added.
+void make_positive(Eigen::MatrixXd& shape) {
+  const double unit = shape.diagonal().mean();
+  for (double white = 1e-6; Eigen::LLT<Eigen::MatrixXd>(shape).info() != Eigen::Success && white < 1; white *= 4)
+    shape.diagonal().array() += white * unit;
+}
+
 Eigen::MatrixXd shape(const Clusters& clusters, double d, Correlation correlation) {
   const auto n = static_cast<Eigen::Index>(clusters.count());
   Eigen::MatrixXd result(n, n);
@@ -71,6 +79,7 @@ Eigen::MatrixXd shape(const Clusters& clusters, double d, Correlation correlatio
                                             clusters.examples[static_cast<std::size_t>(j)], d, correlation);
     }
   }
+  make_positive(result);
   return result;
 }
 

@@ -2,8 +2,6 @@
 
 #include "diagnosis/look.hpp"
 
-#include <boost/math/distributions/chi_squared.hpp>
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,6 +20,8 @@ class Looker {
       : model_(model), data_(data), fit_(fit), features_(features), rows_(fit.rows_used()) {}
 
   Misfit look() {
+    // A world that declares fading and no shadowing says that readings share nothing; others are silent on it.
+    result_.shared_allowed = !model_.has_plugin("radio.fading") || model_.value_of("radio.fading", "shadowing", 0) > 0;
     look_at_geometry();
     look_at_walls();
     look_at_radios();
@@ -31,6 +31,7 @@ class Looker {
       look.alarm = look.p * static_cast<double>(result_.looks.size()) < false_alarms;
       result_.misfits = result_.misfits || look.alarm;
     }
+    std::stable_sort(result_.looks.begin(), result_.looks.end(), [](const Look& a, const Look& b) { return a.explains > b.explains; });
     return std::move(result_);
   }
 
@@ -46,16 +47,16 @@ class Looker {
     return *high - *low > least;
   }
 
-  void add(const Subject& subject) { result_.looks.push_back(look_along(fit_, subject)); }
+  void add(const Subject& subject) { result_.looks.push_back(look_along(fit_, subject, result_.shared_allowed)); }
 
   void add_number(const std::string& by, const std::string& unit, const std::vector<double>& values, int count) {
     add({.by = by, .unit = unit, .values = values, .level = {}, .names = {}, .shapes = waves(values, count)});
   }
 
-  void add_angle(const std::string& by, const std::vector<double>& all, const std::string& why_not) {
+  void add_angle(const std::string& by, const std::vector<double>& all, int count, const std::string& why_not) {
     const auto values = used(all);
     if (!varies(values, 0.2)) return result_.not_tested.push_back(by + ": " + why_not);
-    add({.by = by, .unit = "rad", .values = values, .level = {}, .names = {}, .shapes = lobes(values, 4)});
+    add({.by = by, .unit = "rad", .values = values, .level = {}, .names = {}, .shapes = lobes(values, count)});
   }
 
   void look_at_geometry() {
@@ -67,11 +68,11 @@ class Looker {
       bin.to = std::pow(10, bin.to);
     }
     result_.looks.back().where = in_metres(result_.looks.back());
-    add_angle("bearing", features_.azimuth, "all links point the same way");
+    add_angle("bearing", features_.azimuth, 8, "all links point the same way");
     if (data_.tx_yaw.empty()) result_.not_tested.push_back("tx_bearing: the data have no tx_yaw");
-    else add_angle("tx_bearing", features_.tx_bearing, "it does not vary");
+    else add_angle("tx_bearing", features_.tx_bearing, 4, "it does not vary");
     if (data_.rx_yaw.empty()) result_.not_tested.push_back("rx_bearing: the data have no rx_yaw");
-    else add_angle("rx_bearing", features_.rx_bearing, "it does not vary");
+    else add_angle("rx_bearing", features_.rx_bearing, 4, "it does not vary");
     if (data_.t.empty()) return result_.not_tested.push_back("time: the data have none");
     const auto t = used(data_.t);
     if (varies(t, 0)) add_number("time", "s", t, 8);
@@ -145,9 +146,8 @@ class Looker {
     Look look;
     look.by = "neighbours";
     look.columns = 2;
-    // Three variances, each at 0 in half of all sound worlds, and the best of several distances: simulated in
-    // tests/diagnosis, the chance stays below this.
-    look.p = fit_.shared_evidence <= 0 ? 1 : std::min(1.0, 2 * boost::math::cdf(boost::math::complement(boost::math::chi_squared(2), fit_.shared_evidence)));
+    look.p = chance_of_sharing(fit_.shared_evidence);
+    look.explains = std::min(1.0, std::pow(fit_.shared_sd / std::max(fit_.residual_sd, 1e-9), 2));
     look.where = fmt::format("readings at neighbouring places err alike, by {:.1f} dB over {:.1f} m, and the world declares no shadowing", fit_.shared_sd, fit_.decorrelation);
     result_.looks.push_back(look);
   }

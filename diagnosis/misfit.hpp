@@ -19,13 +19,15 @@ struct Look {
   std::string by, unit;
   double p = 1;            // that chance does it, errors of neighbouring readings being alike
   int columns = 0;         // shapes tried
+  double explains = 0;     // share of the residual's variance that these shapes take up
   bool alarm = false;
   std::vector<Bin> bins{};
   std::string where{};     // of the largest of them, in words
 };
 
 struct Misfit {
-  std::vector<Look> looks;
+  std::vector<Look> looks;               // by what they explain, most first
+  bool shared_allowed = true;            // whether looks allow for errors that neighbours share
   std::vector<std::string> not_tested;  // and why
   bool misfits = false;
 };

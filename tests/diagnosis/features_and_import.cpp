@@ -1,0 +1,104 @@
+// Features against figures computed by hand, and foreign tables brought into the format.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/import.hpp"
+#include "scratch.hpp"
+#include "worlds.hpp"
+
+namespace muster::diagnosis {
+namespace {
+
+TEST(Features, ByHand) {
+  const Scratch scratch;
+  const auto world = scratch.write("world.xml",
+                                   "<world name=\"w\" dt=\"1\" until=\"1\" seed=\"1\">\n"
+                                   "  <material name=\"brick\" loss=\"6\"/>\n  <material name=\"glass\" loss=\"1\"/>\n"
+                                   "  <wall name=\"a\" from=\"2 -5\" to=\"2 5\" material=\"brick\"/>\n"
+                                   "  <wall name=\"b\" from=\"3 -5\" to=\"3 5\" height=\"1\" material=\"glass\"/>\n"
+                                   "  <station name=\"s\" at=\"0 0 0.5\"/>\n  <radio.multiwall/>\n</world>\n");
+  const auto file = scratch.write("d.csv",
+                                  "tx,rx,tx_x[m],tx_y[m],tx_z[m],tx_yaw[rad],rx_x[m],rx_y[m],rx_z[m],rx_yaw[rad],rssi[dBm]\n"
+                                  "s,r,0,0,0.5,0,4,0,0.5,0,-50\n"                      // straight through both
+                                  "s,r,0,0,0.5,0,4,4,2.5,1.5707963267948966,-51\n"     // at 45 degrees, over the glass
+                                  "s,r,0,0,0.5,1.5707963267948966,0,3,0.5,0,-52\n");   // along the free side
+  const Features f = features_of(LinkModel(world, file, plugins));
+  const double pi = 3.141592653589793;
+  EXPECT_DOUBLE_EQ(f.distance[0], 4);
+  EXPECT_DOUBLE_EQ(f.distance[1], 6);
+  EXPECT_EQ(f.by_material, (std::vector<std::vector<int>>{{1, 1, 0}, {1, 0, 0}}));
+  EXPECT_NEAR(f.azimuth[1], pi / 4, 1e-12);
+  EXPECT_NEAR(f.elevation[1], std::atan2(2, std::sqrt(32.0)), 1e-12);
+  EXPECT_NEAR(f.tx_bearing[2], 0, 1e-12);
+  EXPECT_NEAR(f.rx_bearing[0], pi, 1e-12);
+  EXPECT_NEAR(f.rx_bearing[1], 3 * pi / 4, 1e-9);  // to the south-west, seen by one who looks north: behind, to the left
+  EXPECT_NEAR(f.incidence[0], 0, 1e-9);
+  EXPECT_TRUE(std::isnan(f.incidence[2]));
+  EXPECT_EQ(f.crossed, (std::vector<int>{0, 1, 0}));
+}
+
+TEST(Features, AnglesAreWrapped) {
+  EXPECT_NEAR(wrapped(7), 7 - 2 * 3.141592653589793, 1e-12);
+  EXPECT_DOUBLE_EQ(wrapped(-3.141592653589793), 3.141592653589793);
+}
+
+const char* wide_map =
+    "# three anchors that hear one robot\n"
+    "for i = 1 2\n"
+    "table anchors = anchors.csv id {i}\n"
+    "none rssi = 0\n"
+    "t[s] = 0.001*ms - 5\n"
+    "tx = \"robot\"\n"
+    "rx = \"anchor{i}\"\n"
+    "tx_x[m] = 0.001*px\n"
+    "tx_y[m] = 0.001*py\n"
+    "tx_yaw[rad] = 0.017453292519943295*heading\n"
+    "rx_x[m] = anchors.x\n"
+    "rx_y[m] = anchors.y\n"
+    "rssi[dBm] = rssi_{i}\n"
+    "phone = name phone\n";
+
+TEST(Import, WideToLongWithUnitsAndAnchors) {
+  const Scratch scratch;
+  scratch.write("anchors.csv", "id,x,y\n1,5,0\n2,0,7.5\n");
+  const auto file = scratch.write("wide.csv", ";ms;px;py;heading;rssi_1;rssi_2;phone\n0;5000;1000;2000;90;-50;nan;p\n1;5500;1500;2000;180;-51.5;0;p\n");
+  const auto map = scratch.write("wide.map", wide_map);
+  const Imported done = import_table(file, map, scratch / "out.csv");
+  EXPECT_EQ(done.rows, 4u);
+  EXPECT_EQ(done.empty, 2u);
+  EXPECT_EQ(contents(scratch / "out.csv"),
+            "t[s],tx,rx,tx_x[m],tx_y[m],tx_yaw[rad],rx_x[m],rx_y[m],rssi[dBm],phone\n"
+            "0,robot,anchor1,1,2,1.5707963267948966,5,0,-50,p\n"
+            "0,robot,anchor2,1,2,1.5707963267948966,0,7.5,,p\n"
+            "0.5,robot,anchor1,1.5,2,3.141592653589793,5,0,-51.5,p\n"
+            "0.5,robot,anchor2,1.5,2,3.141592653589793,0,7.5,,p\n");
+  const auto said = [&](const std::string& words) {
+    return std::any_of(done.assumed.begin(), done.assumed.end(), [&](const std::string& s) { return s.find(words) != s.npos; });
+  };
+  EXPECT_TRUE(said("cells are separated by ';'"));
+  EXPECT_TRUE(said("tx_x[m] = 0.001 x \"px\""));
+  EXPECT_TRUE(said("each row of the file gives 2 readings"));
+  EXPECT_TRUE(said("columns that are not used: \"column1\""));
+  EXPECT_TRUE(said("radians"));
+}
+
+TEST(Import, WhatDoesNotFitIsNamed) {
+  const Scratch scratch;
+  scratch.write("anchors.csv", "id,x,y\n1,5,0\n");
+  const auto file = scratch.write("wide.csv", "ms,px,py,heading,rssi_1,rssi_2,phone\n5000,1000,2000,90,-50,-50,p\n");
+  const auto failing = [&](const std::string& text) {
+    const auto map = scratch.write("m.map", text);
+    return complaint([&] { import_table(file, map, scratch / "out.csv"); });
+  };
+  EXPECT_NE(failing(wide_map).find("has no row whose \"id\" is \"2\""), std::string::npos);
+  EXPECT_NE(failing("rssi[dBm] = rsi_1\n").find("did you mean \"rssi_1\"?"), std::string::npos);
+  EXPECT_EQ(failing("rssi[dBm] rssi_1\n"), "m.map:1: \"rssi[dBm] rssi_1\" has no '='; expected COLUMN[UNIT] = RULE");
+  EXPECT_EQ(failing("x[m] = 0,001*px\n"), "m.map:1: \"0,001\" is not a number; a decimal point is written '.'");
+  EXPECT_EQ(failing("x[m] = px\nx[m] = py\n"), "m.map:2: column \"x\" is mapped twice");
+  EXPECT_EQ(failing("# nothing\n"), "m.map: no column is mapped; expected lines such as rssi[dBm] = rssi");
+}
+
+}  // namespace
+}  // namespace muster::diagnosis

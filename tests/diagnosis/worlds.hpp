@@ -1,0 +1,20 @@
+// Worlds of the tests, with the plugins of this build.
+#pragma once
+
+#include "diagnosis/fit.hpp"
+#include "diagnosis/misfit.hpp"
+
+namespace muster::diagnosis {
+
+inline const Library::SearchPath plugins = {MUSTER_PLUGINS_DIR};
+inline const std::filesystem::path source = MUSTER_SOURCE_DIR;
+inline const std::filesystem::path hall = source / "worlds" / "hall";
+
+inline const FitParameter& parameter(const Fit& fit, const std::string& path) {
+  for (const FitParameter& p : fit.parameters) {
+    if (p.path == path) return p;
+  }
+  throw std::runtime_error("no parameter " + path);
+}
+
+}  // namespace muster::diagnosis
