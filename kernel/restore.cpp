@@ -1,22 +1,26 @@
 // A snapshot put back in place: everything is held against the run before anything changes.
+#include <algorithm>
+
 #include "names.hpp"
 #include "simulation.hpp"
-
-#include <algorithm>
 
 namespace muster {
 namespace {
 
-[[noreturn]] void refuse(const std::string& what) { throw Error(Exit::invalid_input, "the snapshot is of another world: " + what); }
+[[noreturn]] void refuse(const std::string& what) {
+  throw Error(Exit::invalid_input, "the snapshot is of another world: " + what);
+}
 
 bool is_at(const InstanceDeclaration& declared, const Snapshot::SavedInstance& saved) {
-  return static_cast<uint64_t>(declared.place.line) == saved.line && static_cast<uint64_t>(declared.place.column) == saved.column;
+  return static_cast<uint64_t>(declared.place.line) == saved.line &&
+         static_cast<uint64_t>(declared.place.column) == saved.column;
 }
 
 // Numbers of rows and bytes that fit their columns, so that no cell is looked for where none is.
 bool is_sound(const Table& table, const Snapshot::SavedSet& set, const Cells& cells) {
   const bool queue = table.set().kind == SetKind::queue;
-  if (cells.data.size() != cells.rows * table.width() || cells.appended.size() != (queue ? cells.rows : 0)) return false;
+  if (cells.data.size() != cells.rows * table.width() || cells.appended.size() != (queue ? cells.rows : 0))
+    return false;
   if (!queue && cells.rows != (table.set().kind == SetKind::listed ? set.listed : set.names.size())) return false;
   for (std::size_t c = 0; c < table.width(); ++c) {
     for (std::size_t r = 0; table.columns()[c].bytes && r < cells.rows; ++r) {
@@ -34,8 +38,10 @@ void Simulation::check_fits(const Snapshot& snapshot) const {
     const auto found = snapshot.instances.find(instance->name());
     if (found == snapshot.instances.end()) refuse("it has no instance " + quote(instance->name()));
     if (found->second.plugin != instance->plugin().id)
-      refuse("its instance " + quote(instance->name()) + " is a " + found->second.plugin + "; here it is a " + instance->plugin().id);
-    if (found->second.params.size() != instance->params().size()) refuse("its instance " + quote(instance->name()) + " has other parameters");
+      refuse("its instance " + quote(instance->name()) + " is a " + found->second.plugin + "; here it is a " +
+             instance->plugin().id);
+    if (found->second.params.size() != instance->params().size())
+      refuse("its instance " + quote(instance->name()) + " has other parameters");
   }
   for (const auto& [name, set] : board_.sets()) {
     const bool is_private = name.starts_with("instance/");  // held against each other as tables
@@ -45,14 +51,16 @@ void Simulation::check_fits(const Snapshot& snapshot) const {
     const Set* set = board_.find_set(name);
     if (!set) refuse("its set " + quote(name) + " is not here");
     const auto common = std::min(set->names.size(), saved.names.size());
-    const bool same = std::equal(saved.names.begin(), saved.names.begin() + static_cast<std::ptrdiff_t>(common), set->names.begin());
+    const bool same =
+        std::equal(saved.names.begin(), saved.names.begin() + static_cast<std::ptrdiff_t>(common), set->names.begin());
     if (!same || saved.alive.size() != saved.names.size()) refuse("its set " + quote(name) + " has other rows");
   }
   for (const auto& [name, table] : board_.tables()) {
     const auto found = snapshot.tables.find(name);
     if (found == snapshot.tables.end()) refuse("it has no table " + quote(name));
     if (found->second.columns != table->columns().text()) refuse("its table " + quote(name) + " has other columns");
-    if (!is_sound(*table, snapshot.sets.at(table->set().name), found->second.cells)) refuse("its table " + quote(name) + " has other rows");
+    if (!is_sound(*table, snapshot.sets.at(table->set().name), found->second.cells))
+      refuse("its table " + quote(name) + " has other rows");
   }
   for (const auto& [name, table] : snapshot.tables) {
     if (!board_.tables().count(name)) refuse("its table " + quote(name) + " is not here");
@@ -77,7 +85,8 @@ void Simulation::replace_planned(const Snapshot& snapshot, Replaced& replaced) {
     const std::string name = instances_[at]->name();
     const auto saved = snapshot.instances.find(name);
     if (saved == snapshot.instances.end() || is_at(instances_[at]->declared(), saved->second)) continue;
-    const auto then = std::find_if(candidates.begin(), candidates.end(), [&](const auto& c) { return c.first == name && is_at(*c.second, saved->second); });
+    const auto then = std::find_if(candidates.begin(), candidates.end(),
+                                   [&](const auto& c) { return c.first == name && is_at(*c.second, saved->second); });
     if (then == candidates.end()) continue;
     InstanceDeclaration declared = *then->second;
     declared.name = name;

@@ -1,6 +1,5 @@
 /* Uses each function of the host, as plugins of the first version do. */
 #include <muster/plugin.h>
-
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,15 +28,17 @@ static void* create(const muster_host* host) {
   if (!self) return NULL;
   self->host = host;
   self->pose = host->claim(host, MUSTER_READ, MUSTER_OPTIONAL, "robot/*/nothing", "x");
-  self->own = host->claim(host, MUSTER_WRITE, 0, "self/state", "gain count loud how robot rows alive key stream heard file");
+  self->own =
+      host->claim(host, MUSTER_WRITE, 0, "self/state", "gain count loud how robot rows alive key stream heard file");
   self->sum = host->claim(host, MUSTER_ADD, 0, "robot/*/sum@part", "s");
   self->queue = host->claim(host, MUSTER_WRITE, 0, "outbox/*/message", "radio:radio to:radio? payload{}");
   self->messages = host->claim(host, MUSTER_READ, 0, "outbox/*/message", "radio:radio to:radio? payload{}");
   self->joins = host->claim(host, MUSTER_WRITE, MUSTER_JOINS, "robot/*/sum", "s");
   self->file = host->file(host, "data", "robot:robot x[m]");
   self->stream = host->stream(host, "noise");
-  if (strcmp(host->text(host, "word"), "hello") || strcmp(host->text(host, "robot/a/model"), "scarab") || !host->search_path(host, 0) ||
-      host->text(host, "nothing") || host->search_path(host, 99) || host->size < sizeof *host || host->abi != MUSTER_ABI)
+  if (strcmp(host->text(host, "word"), "hello") || strcmp(host->text(host, "robot/a/model"), "scarab") ||
+      !host->search_path(host, 0) || host->text(host, "nothing") || host->search_path(host, 99) ||
+      host->size < sizeof *host || host->abi != MUSTER_ABI)
     host->refuse(host, "the host does not answer as it did");
   return self;
 }

@@ -1,6 +1,5 @@
 // Lists all radios and all pairs of them, forward or backward: a term may not care.
 #include <muster/plugin.hpp>
-
 #include <vector>
 
 namespace {
@@ -13,8 +12,11 @@ struct Links {
   static constexpr Param params[] = {flag("backward", false, "the last sender first")};
 
   explicit Links(Setup& s)
-      : backward(s.value("backward")), mount(s.read<Mount>("radio/*/mount")), radio(s.write<Endpoint>("endpoint/*/radio")),
-        pose(s.write<Pose>("endpoint/*/pose")), ends(s.write<Ends>("link/*/ends")) {}
+      : backward(s.value("backward")),
+        mount(s.read<Mount>("radio/*/mount")),
+        radio(s.write<Endpoint>("endpoint/*/radio")),
+        pose(s.write<Pose>("endpoint/*/pose")),
+        ends(s.write<Ends>("link/*/ends")) {}
 
   void step(const Step& k) const {
     const auto mounts = k[mount];

@@ -1,6 +1,4 @@
 // What any plugin must keep that fills columns of links, known by nothing but its file: each *.so among the plugins.
-#include "kernel/simulation.hpp"
-
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -11,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "kernel/simulation.hpp"
+
 namespace muster {
 namespace {
 
@@ -19,9 +19,11 @@ using Values = std::map<std::string, std::map<Pair, uint64_t>>;  // of a table, 
 
 const std::string elements =
     "<material name='brick' loss='6'/>\n<material name='wood' loss='2'/>\n"
-    "<wall name='w1' from='2 -5' to='2 5' material='brick'/>\n<wall name='w2' from='-5 3' to='9 3.5' material='wood'/>\n"
+    "<wall name='w1' from='2 -5' to='2 5' material='brick'/>\n<wall name='w2' from='-5 3' to='9 3.5' "
+    "material='wood'/>\n"
     "<door wall='w1' at='4' width='1'/>\n"
-    "<station name='a' at='0 0 1'/>\n<station name='b' at='5 1 1'/>\n<station name='c' at='5 1 1'/>\n"  // b and c coincide
+    "<station name='a' at='0 0 1'/>\n<station name='b' at='5 1 1'/>\n<station name='c' at='5 1 1'/>\n"  // b and c
+                                                                                                        // coincide
     "<station name='d' at='0.5 8 2'/>\n<station name='e' at='-3 -4 0'/>\n";
 
 struct Term {
@@ -38,8 +40,9 @@ class RadioTerm : public testing::TestWithParam<Term> {
   ~RadioTerm() override { std::filesystem::remove_all(folder); }
 
   Simulation run(const std::string& order = "", const std::string& name = "term") const {
-    std::ofstream(folder / "world.xml") << "<world dt='0.25' until='9' seed='3'>\n" << elements << "<conformance.links " << order << "/>\n<"
-                                        << GetParam().id << " name='" << name << "'/>\n</world>\n";
+    std::ofstream(folder / "world.xml") << "<world dt='0.25' until='9' seed='3'>\n"
+                                        << elements << "<conformance.links " << order << "/>\n<" << GetParam().id
+                                        << " name='" << name << "'/>\n</world>\n";
     Options options;
     options.search_path = {MUSTER_BUILD_DIR "/tests/conformance", MUSTER_PLUGINS_DIR};
     return Simulation(read_world(folder, standard()), standard(), options);
@@ -55,8 +58,9 @@ class RadioTerm : public testing::TestWithParam<Term> {
       const std::string name = table.name().substr(0, table.name().find('@')) + '@' + claim.name.part;
       for (std::size_t i = 0; i < table.now().rows; ++i) {
         for (std::size_t c = 0; c < table.width(); ++c)
-          result[name + ' ' + table.columns()[c].name][{static_cast<std::size_t>(ends.at(i, 0)), static_cast<std::size_t>(ends.at(i, 1))}] =
-              std::bit_cast<uint64_t>(table.now().data[i * table.width() + c]);
+          result[name + ' ' + table.columns()[c].name]
+                [{static_cast<std::size_t>(ends.at(i, 0)), static_cast<std::size_t>(ends.at(i, 1))}] =
+                    std::bit_cast<uint64_t>(table.now().data[i * table.width() + c]);
       }
     }
     EXPECT_FALSE(result.empty());
@@ -133,14 +137,16 @@ std::vector<Term> terms() {
     const std::string id(listed.library->id()), manual = plugin.manual ? plugin.manual : "";
     std::string file = (std::filesystem::temp_directory_path() / "muster_terms_XXXXXX").string();
     const std::filesystem::path folder = ::mkdtemp(file.data());
-    std::ofstream(folder / "world.xml") << "<world until='1'>\n" << elements << "<conformance.links/>\n<" << id << " name='term'/>\n</world>\n";
+    std::ofstream(folder / "world.xml") << "<world until='1'>\n"
+                                        << elements << "<conformance.links/>\n<" << id << " name='term'/>\n</world>\n";
     try {
       Options options;
       options.search_path = {MUSTER_BUILD_DIR "/tests/conformance", MUSTER_PLUGINS_DIR};
       const Simulation sim(read_world(folder, standard()), standard(), options);
       bool adds = false;
       for (const auto& claim : sim.instances()[1]->claims()) adds |= claim.out && claim.name.set == "link";
-      if (adds) result.push_back({id, manual.find("both ways") != manual.npos || manual.find("eciprocal") != manual.npos});
+      if (adds)
+        result.push_back({id, manual.find("both ways") != manual.npos || manual.find("eciprocal") != manual.npos});
     } catch (const Error&) {  // another lister, or one that needs more than a world of links
     }
     std::filesystem::remove_all(folder);

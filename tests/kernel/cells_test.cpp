@@ -36,11 +36,14 @@ TEST_F(CellKinds, EachFaultIsNamed) {
   EXPECT_EQ(fault("fails"), place + "gave no reason");
   EXPECT_EQ(fault("refuses"), place.substr(2) + "the wheel in the file is square");
   EXPECT_EQ(fault("says_and_returns"), place + "said something and went on");
-  EXPECT_EQ(fault("appends"), place + "append() on a table whose rows it does not list; expected a queue, or a set of which it "
-                                      "writes the first quantity");
+  EXPECT_EQ(fault("appends"),
+            place +
+                "append() on a table whose rows it does not list; expected a queue, or a set of which it "
+                "writes the first quantity");
   EXPECT_EQ(fault("puts"), place + "put_bytes() into a cell that is not there or holds no bytes");
   EXPECT_EQ(fault("claims"), place + "claims outside create()");
-  EXPECT_EQ(fault("rounds"), place + "rounds upward for the whole process; expected it to leave the arithmetic as it was");
+  EXPECT_EQ(fault("rounds"),
+            place + "rounds upward for the whole process; expected it to leave the arithmetic as it was");
 }
 
 TEST_F(CellKinds, CellsThatNobodyFillsAreFound) {
@@ -69,7 +72,9 @@ TEST_F(CellKinds, EmptyInfiniteAndManyAlike) {
 
 // A rest is written aside first, bytes included.
 TEST_F(CellKinds, BytesOfARestBesideThoseOfARow) {
-  Simulation sim = run(two_robots + "<robot name='c' at='3 0 0'/>\n<toy.kinds name='k' rest='true' mark='rest'/>\n<toy.kinds name='row' robot='b' mark='row'/>\n");
+  Simulation sim = run(two_robots +
+                       "<robot name='c' at='3 0 0'/>\n<toy.kinds name='k' rest='true' mark='rest'/>\n<toy.kinds "
+                       "name='row' robot='b' mark='row'/>\n");
   const auto text = [&](std::size_t row) {
     const TableView kinds = sim.table("robot/*/kinds");
     const auto blob = static_cast<std::size_t>(kinds.at(row, 5));
@@ -88,14 +93,18 @@ TEST_F(CellKinds, ThreePluginsThatFailTogetherAreReportedInTheOrderOfTheWorldFil
   Simulation sim = run(two_robots + "<toy.lazy name='z' at='2'/>\n<toy.fault name='y' tick='2' fault='throws'/>\n", 3);
   sim.insert(instance("toy.lazy", "x", {{"at", "2"}, {"queue", "true"}}), "z");
   step(sim);
-  EXPECT_THAT(error_of([&] { sim.step(); }), HasSubstr(": x (toy.lazy): step failed at tick 2 (t = 1 s): outbox/1/message"));
+  EXPECT_THAT(error_of([&] { sim.step(); }),
+              HasSubstr(": x (toy.lazy): step failed at tick 2 (t = 1 s): outbox/1/message"));
   sim.remove("x");
-  EXPECT_THAT(error_of([&] { sim.step(); }), HasSubstr("z (toy.lazy): step failed at tick 2 (t = 1 s): robot/b/two: a is not filled"));
+  EXPECT_THAT(error_of([&] { sim.step(); }),
+              HasSubstr("z (toy.lazy): step failed at tick 2 (t = 1 s): robot/b/two: a is not filled"));
   sim.remove("z");
-  EXPECT_THAT(error_of([&] { sim.step(); }), HasSubstr("y (toy.fault): step failed at tick 2 (t = 1 s): the wheel came off"));
+  EXPECT_THAT(error_of([&] { sim.step(); }),
+              HasSubstr("y (toy.fault): step failed at tick 2 (t = 1 s): the wheel came off"));
 }
 
-// Two instances of one batch say why they fail; when the first is gone and the other's parameter is mended, the run goes on.
+// Two instances of one batch say why they fail; when the first is gone and the other's parameter is mended, the run
+// goes on.
 TEST_F(CellKinds, AnOldComplaintDoesNotOutliveItsStep) {
   Simulation sim = run(two_robots + "<toy.fault name='f' tick='2' fault='throws'/>\n");
   step(sim);
@@ -116,10 +125,12 @@ TEST_F(CellKinds, TheComplaintOfASecondFailureDoesNotOutliveItsStepEither) {
 }
 
 TEST_F(CellKinds, ASumThatOverflowsIsNamed) {
-  Simulation sim = run(two_robots + "<toy.copy_radio name='p' as='add' to='robot/*/v' own='true' times='100' add='1'/>\n"
-                                    "<toy.copy_radio name='q' as='add' to='robot/*/v' own='true' times='100' add='1'/>\n");
+  Simulation sim = run(two_robots +
+                       "<toy.copy_radio name='p' as='add' to='robot/*/v' own='true' times='100' add='1'/>\n"
+                       "<toy.copy_radio name='q' as='add' to='robot/*/v' own='true' times='100' add='1'/>\n");
   step(sim, 154);
-  EXPECT_EQ(error_of([&] { sim.step(); }), "3 world.xml: the sum \"robot/*/v\" is infinite at tick 155 (t = 77.5 s), in row 0");
+  EXPECT_EQ(error_of([&] { sim.step(); }),
+            "3 world.xml: the sum \"robot/*/v\" is infinite at tick 155 (t = 77.5 s), in row 0");
   EXPECT_EQ(sim.tick(), 154u);
 }
 

@@ -10,26 +10,30 @@ using testing::IsEmpty;
 using testing::StartsWith;
 using Changes = ToyWorld;
 
-const std::string mover = "<toy.copy_physics name='mover' to='robot/*/pose' columns='" + pose + "' own='true' add='1'/>\n";
+const std::string mover =
+    "<toy.copy_physics name='mover' to='robot/*/pose' columns='" + pose + "' own='true' add='1'/>\n";
 const std::string counter = "<toy.copy_physics name='n' to='self/count' own='true' add='1'/>\n";
 
 TEST_F(Changes, AnotherPluginReadsBackTheSameBits) {
-  Simulation sim = run(two_robots + "<toy.copy_physics name='mover' to='robot/*/pose' columns='" + pose + "' own='true' times='1.1' add='0.1'/>\n");
+  Simulation sim = run(two_robots + "<toy.copy_physics name='mover' to='robot/*/pose' columns='" + pose +
+                       "' own='true' times='1.1' add='0.1'/>\n");
   step(sim, 7);
   const auto before = sim.table("robot/*/pose").table->now().data;
   sim.swap("mover", instance("toy.copy_physics", "", {{"to", "robot/*/pose"}, {"columns", pose}, {"own", "true"}}));
   EXPECT_EQ(sim.table("robot/*/pose").table->now().data, before);
   step(sim);  // adds nothing to what it finds
   EXPECT_EQ(sim.table("robot/*/pose").table->now().data, before);
-  EXPECT_THAT(messages(sim), ElementsAre("7 mover: swapped from toy.copy_physics to toy.copy_physics/1; it cannot hold a tune"));
+  EXPECT_THAT(messages(sim),
+              ElementsAre("7 mover: swapped from toy.copy_physics to toy.copy_physics/1; it cannot hold a tune"));
 }
 
 TEST_F(Changes, ASwapSaysWhatItDrops) {
   Simulation sim = run(two_robots + counter);
   step(sim, 3);
   sim.swap("n", instance("toy.copy_physics", "", {{"to", "robot/*/v"}}));
-  EXPECT_THAT(messages(sim), ElementsAre("3 : dropped instance/n/*/count, which nobody writes any more",
-                                         "3 n: swapped from toy.copy_physics to toy.copy_physics/1; it cannot hold a tune"));
+  EXPECT_THAT(messages(sim),
+              ElementsAre("3 : dropped instance/n/*/count, which nobody writes any more",
+                          "3 n: swapped from toy.copy_physics to toy.copy_physics/1; it cannot hold a tune"));
 }
 
 TEST_F(Changes, PrivateStateGoesWithTheName) {
@@ -41,18 +45,22 @@ TEST_F(Changes, PrivateStateGoesWithTheName) {
 }
 
 TEST_F(Changes, OtherColumnsAreRefusedUnlessAdopted) {
-  Simulation sim = run(two_robots + "<toy.copy_physics name='n' to='self/state' columns='kept[m] gone[s] unit[s]' own='true' add='1'/>\n");
+  Simulation sim =
+      run(two_robots +
+          "<toy.copy_physics name='n' to='self/state' columns='kept[m] gone[s] unit[s]' own='true' add='1'/>\n");
   step(sim, 3);
   const uint64_t before = sim.digest();
   const Attributes other = {{"to", "self/state"}, {"columns", "fresh unit[m] kept[m]"}, {"own", "true"}};
   EXPECT_EQ(error_of([&] { sim.swap("n", instance("toy.copy_physics", "", other)); }),
-            "command line: n (toy.copy_physics): writes \"instance/n/*/state\" as \"fresh unit[m] kept[m]\", but it holds \"kept[m] gone[s] "
+            "command line: n (toy.copy_physics): writes \"instance/n/*/state\" as \"fresh unit[m] kept[m]\", but it "
+            "holds \"kept[m] gone[s] "
             "unit[s]\" and the plugin does not adopt that");
   EXPECT_EQ(sim.digest(), before);
   Attributes adopting = other;
   adopting.push_back({"flags", "8"});
   sim.swap("n", instance("toy.copy_physics", "", adopting));
-  EXPECT_THAT((std::vector<double>{cell(sim, "instance/n/state", 0), cell(sim, "instance/n/state", 1), cell(sim, "instance/n/state", 2)}),
+  EXPECT_THAT((std::vector<double>{cell(sim, "instance/n/state", 0), cell(sim, "instance/n/state", 1),
+                                   cell(sim, "instance/n/state", 2)}),
               ElementsAre(0, 0, 3));
   step(sim);
   EXPECT_EQ(cell(sim, "instance/n/state", 2), 3);
@@ -62,7 +70,10 @@ TEST_F(Changes, OtherColumnsAreRefusedUnlessAdopted) {
 TEST_F(Changes, WhatIsAdoptedFitsItsColumn) {
   Simulation sim = run(two_robots + "<toy.kinds name='n'/>\n");
   step(sim, 3);
-  sim.swap("n", instance("toy.copy_sense", "", {{"to", "robot/*/kinds"}, {"columns", "rssi[dBm] image{} range0[m]"}, {"flags", "8"}, {"own", "true"}}));
+  sim.swap(
+      "n",
+      instance("toy.copy_sense", "",
+               {{"to", "robot/*/kinds"}, {"columns", "rssi[dBm] image{} range0[m]"}, {"flags", "8"}, {"own", "true"}}));
   EXPECT_EQ(cell(sim, "robot/a/kinds", 0), 0);
   EXPECT_EQ(cell(sim, "robot/b/kinds", 1), 1);
   const auto& blob = *sim.table("robot/*/kinds").table->now().blobs.at(0);
@@ -82,19 +93,34 @@ TEST_F(Changes, AFailedChangeLeavesTheRunAsItWas) {
     EXPECT_EQ(sim.instances().size(), 2u);
   };
   const auto with = [](const std::string& to) { return instance("toy.copy_physics", "x", {{"to", to}}); };
-  refused([&] { sim.swap("mover", with("self/")); }, "command line: mover (toy.copy_physics): claims \"self/\"; expected set/row/quantity");
-  refused([&] { sim.swap("mover", instance("toy.copy_physics", "x", {{"to", "self/private"}, {"from", "robot/*/nothing"}})); },
-          "command line: mover (toy.copy_physics): reads \"robot/*/nothing\", which nobody writes; expected one of ");
+  refused([&] { sim.swap("mover", with("self/")); },
+          "command line: mover (toy.copy_physics): claims \"self/\"; expected set/row/quantity");
+  refused(
+      [&] {
+        sim.swap("mover", instance("toy.copy_physics", "x", {{"to", "self/private"}, {"from", "robot/*/nothing"}}));
+      },
+      "command line: mover (toy.copy_physics): reads \"robot/*/nothing\", which nobody writes; expected one of ");
   refused([&] { sim.insert(with("robot/a/pose")); },
           "command line: x (toy.copy_physics): claims \"robot/a/pose\" as \"value\"; its columns are \"" + pose + "\"");
-  refused([&] { sim.insert(instance("toy.copy_physics", "x", {{"to", "robot/a/pose"}, {"columns", pose}})); },
-          "command line: x (toy.copy_physics): writes \"robot/a/pose\"; so does world.xml:4:1: mover (toy.copy_physics)");
-  refused([&] { sim.insert(instance("toy.copy_physics", "n", {{"to", "self/q"}})); },
-          "an instance is called \"n\" already: world.xml:5:1: n (toy.copy_physics)");
-  refused([&] { sim.insert(instance("toy.copy_physics", "x", {{"tow", "self/q"}})); },
-          "command line: <toy.copy_physics> has no attribute \"tow\"; expected one of name, every, library, revision, from, and, to, columns, "
-          "from_columns, as, flags, read_flags, own, add, times, robot; did you mean \"to\"?");
-  refused([&] { sim.swap("mower", with("self/q")); }, "no instance is called \"mower\"; expected one of mover, n; did you mean \"mover\"?");
+  refused(
+      [&] {
+        sim.insert(instance("toy.copy_physics", "x", {{"to", "robot/a/pose"}, {"columns", pose}}));
+      },
+      "command line: x (toy.copy_physics): writes \"robot/a/pose\"; so does world.xml:4:1: mover (toy.copy_physics)");
+  refused(
+      [&] {
+        sim.insert(instance("toy.copy_physics", "n", {{"to", "self/q"}}));
+      },
+      "an instance is called \"n\" already: world.xml:5:1: n (toy.copy_physics)");
+  refused(
+      [&] {
+        sim.insert(instance("toy.copy_physics", "x", {{"tow", "self/q"}}));
+      },
+      "command line: <toy.copy_physics> has no attribute \"tow\"; expected one of name, every, library, revision, "
+      "from, and, to, columns, "
+      "from_columns, as, flags, read_flags, own, add, times, robot; did you mean \"to\"?");
+  refused([&] { sim.swap("mower", with("self/q")); },
+          "no instance is called \"mower\"; expected one of mover, n; did you mean \"mover\"?");
   refused([&] { sim.remove("x"); }, "no instance is called \"x\"; expected one of mover, n");
   step(sim, 3), step(other, 3);
   EXPECT_EQ(sim.digest(), other.digest());
@@ -102,9 +128,12 @@ TEST_F(Changes, AFailedChangeLeavesTheRunAsItWas) {
 }
 
 TEST_F(Changes, WhatIsReadCannotBeRemoved) {
-  Simulation sim = run(two_robots + "<toy.copy_physics name='w' to='robot/*/v'/>\n<toy.copy_radio name='r' from='robot/*/v' to='self/x'/>\n");
+  Simulation sim =
+      run(two_robots +
+          "<toy.copy_physics name='w' to='robot/*/v'/>\n<toy.copy_radio name='r' from='robot/*/v' to='self/x'/>\n");
   step(sim);
-  EXPECT_THAT(error_of([&] { sim.remove("w"); }), StartsWith("world.xml:5:1: r (toy.copy_radio): reads \"robot/*/v\", which nobody writes; "));
+  EXPECT_THAT(error_of([&] { sim.remove("w"); }),
+              StartsWith("world.xml:5:1: r (toy.copy_radio): reads \"robot/*/v\", which nobody writes; "));
   EXPECT_EQ(sim.instances()[0]->name(), "w");
   step(sim);
 }
@@ -128,16 +157,20 @@ TEST_F(Changes, RemakingKeepsStateAndParameters) {
 }
 
 TEST_F(Changes, PlannedSwapsComeAtTheirTimeOnce) {
-  Simulation sim = run(two_robots + counter + "<swap at='2' instance='n' plugin='toy.copy_physics' to='self/count' own='true' add='100'/>\n");
+  Simulation sim = run(two_robots + counter +
+                       "<swap at='2' instance='n' plugin='toy.copy_physics' to='self/count' own='true' add='100'/>\n");
   step(sim, 4);
   EXPECT_EQ(cell(sim, "instance/n/count"), 4);
   step(sim);
   EXPECT_EQ(cell(sim, "instance/n/count"), 104);
-  EXPECT_THAT(messages(sim), ElementsAre("4 n: swapped from toy.copy_physics to toy.copy_physics/1; it cannot hold a tune"));
+  EXPECT_THAT(messages(sim),
+              ElementsAre("4 n: swapped from toy.copy_physics to toy.copy_physics/1; it cannot hold a tune"));
 }
 
 TEST_F(Changes, WhatAPlannedSwapBroughtAndFailedMayBeSwappedAgain) {
-  Simulation sim = run(two_robots + "<toy.fault name='f' fault='none'/>\n<swap at='2' instance='f' plugin='toy.fault' fault='throws' tick='5'/>\n");
+  Simulation sim = run(
+      two_robots +
+      "<toy.fault name='f' fault='none'/>\n<swap at='2' instance='f' plugin='toy.fault' fault='throws' tick='5'/>\n");
   step(sim, 4);
   EXPECT_THAT(error_of([&] { sim.step(); }), HasSubstr("the wheel came off"));
   sim.swap("f", instance("toy.fault", "", {{"fault", "none"}}));
@@ -145,16 +178,20 @@ TEST_F(Changes, WhatAPlannedSwapBroughtAndFailedMayBeSwappedAgain) {
 }
 
 TEST_F(Changes, PlannedSwapsAreCheckedBeforeTheFirstTick) {
-  const auto swap = [&](const std::string& attributes) { return error_of_world(two_robots + counter + "<swap at='2' " + attributes + "/>\n"); };
+  const auto swap = [&](const std::string& attributes) {
+    return error_of_world(two_robots + counter + "<swap at='2' " + attributes + "/>\n");
+  };
   EXPECT_EQ(swap("instance='m' plugin='toy.copy_physics'"), "world.xml:5:1: no instance is called \"m\"; expected n");
   EXPECT_EQ(swap("instance='n' plugin='toy.copy_physics' tow='x'"),
-            "world.xml:5:53: <toy.copy_physics> has no attribute \"tow\"; expected one of name, every, library, revision, from, and, to, "
+            "world.xml:5:53: <toy.copy_physics> has no attribute \"tow\"; expected one of name, every, library, "
+            "revision, from, and, to, "
             "columns, from_columns, as, flags, read_flags, own, add, times, robot; did you mean \"to\"?");
   EXPECT_EQ(swap("instance='n' plugin='toy.copy_physics' to='robot/c/v'"),
             "world.xml:5:1: n (toy.copy_physics): claims a row of robot called \"c\"; expected one of a, b");
   EXPECT_EQ(swap("instance='n' name='m' plugin='toy.copy_physics'"),
             "world.xml:5:27: <swap> has no attribute \"name\"; the replacement keeps the name \"n\"");
-  EXPECT_THAT(swap("instance='n' plugin='toy.copy_fysics'"), HasSubstr("3 world.xml:5:1: plugin \"toy.copy_fysics\": toy_copy_fysics.so not found"));
+  EXPECT_THAT(swap("instance='n' plugin='toy.copy_fysics'"),
+              HasSubstr("3 world.xml:5:1: plugin \"toy.copy_fysics\": toy_copy_fysics.so not found"));
 }
 
 TEST_F(Changes, ARebuiltPluginRunsTheNewCode) {
@@ -164,7 +201,8 @@ TEST_F(Changes, ARebuiltPluginRunsTheNewCode) {
   sim.set_parameter("v/offset", 0.25);
   step(sim);
   EXPECT_EQ(cell(sim, "instance/v/version"), 1.25);
-  std::filesystem::copy(MUSTER_BUILD_DIR "/tests/toys_rebuilt/toy_version.so", folder, std::filesystem::copy_options::overwrite_existing);
+  std::filesystem::copy(MUSTER_BUILD_DIR "/tests/toys_rebuilt/toy_version.so", folder,
+                        std::filesystem::copy_options::overwrite_existing);
   step(sim);
   EXPECT_EQ(cell(sim, "instance/v/version"), 1.25);  // a file that changes does not change the run
   sim.reload("v");

@@ -1,7 +1,7 @@
 // The four claims: who may read, write, add to and modify what, and in which order the steps follow.
-#include "toy_world.hpp"
-
 #include <cmath>
+
+#include "toy_world.hpp"
 
 namespace muster {
 namespace {
@@ -77,12 +77,13 @@ TEST_F(Claims, APartThatIsNotDueKeepsItsValueInTheSum) {
 }
 
 TEST_F(Claims, StagesRunInTheOrderOfTheWorldFileAndStayReadable) {
-  Simulation sim = run(two_robots +
-                       "<toy.copy_sense name='twice' as='modify' to='robot/*/value' times='2'/>\n"
-                       "<toy.copy_radio name='made' to='robot/*/value' add='5'/>\n"
-                       "<toy.copy_sense name='more' as='modify' to='robot/*/value' add='1'/>\n"
-                       "<toy.copy_observe name='reader' from='robot/*/value' and='robot/*/value@twice' to='robot/*/both'/>\n"
-                       "<toy.copy_observe name='raw' from='robot/*/value@base' to='robot/*/unmodified'/>\n");
+  Simulation sim =
+      run(two_robots +
+          "<toy.copy_sense name='twice' as='modify' to='robot/*/value' times='2'/>\n"
+          "<toy.copy_radio name='made' to='robot/*/value' add='5'/>\n"
+          "<toy.copy_sense name='more' as='modify' to='robot/*/value' add='1'/>\n"
+          "<toy.copy_observe name='reader' from='robot/*/value' and='robot/*/value@twice' to='robot/*/both'/>\n"
+          "<toy.copy_observe name='raw' from='robot/*/value@base' to='robot/*/unmodified'/>\n");
   step(sim);
   EXPECT_EQ(cell(sim, "robot/a/value@base"), 5);
   EXPECT_EQ(cell(sim, "robot/a/value@twice"), 10);
@@ -93,9 +94,10 @@ TEST_F(Claims, StagesRunInTheOrderOfTheWorldFileAndStayReadable) {
 }
 
 TEST_F(Claims, AStageMayTouchOneRowAndTheOthersPass) {
-  Simulation sim = run(two_robots +
-                       "<toy.copy_control name='ask' to='robot/*/command' columns='v[m/s] w[rad/s]' add='3'/>\n"
-                       "<toy.copy_actuate name='clip' as='modify' to='robot/b/command' columns='v[m/s] w[rad/s]' times='0.5'/>\n");
+  Simulation sim =
+      run(two_robots +
+          "<toy.copy_control name='ask' to='robot/*/command' columns='v[m/s] w[rad/s]' add='3'/>\n"
+          "<toy.copy_actuate name='clip' as='modify' to='robot/b/command' columns='v[m/s] w[rad/s]' times='0.5'/>\n");
   step(sim);
   EXPECT_THAT(column(sim, "robot/*/command"), ElementsAre(3, 1.5));
   EXPECT_THAT(column(sim, "robot/*/command@base"), ElementsAre(3, 3));
@@ -104,79 +106,110 @@ TEST_F(Claims, AStageMayTouchOneRowAndTheOthersPass) {
 TEST_F(Claims, ARowHasOneWriter) {
   const std::string one = two_robots + "<toy.copy_physics name='one' to='robot/a/v'/>\n";
   EXPECT_EQ(error_of_world(one + "<toy.copy_physics name='two' to='robot/b/v'/>\n"), "no error");
-  EXPECT_EQ(error_of_world(one + "<toy.copy_physics name='two' to='robot/a/v'/>\n"),
-            "world.xml:5:1: two (toy.copy_physics): writes \"robot/a/v\"; so does world.xml:4:1: one (toy.copy_physics)");
-  EXPECT_EQ(error_of_world(one + "<toy.copy_physics name='two' to='robot/*/v'/>\n"),
-            "world.xml:5:1: two (toy.copy_physics): writes \"robot/*/v\"; so does world.xml:4:1: one (toy.copy_physics)");
+  EXPECT_EQ(
+      error_of_world(one + "<toy.copy_physics name='two' to='robot/a/v'/>\n"),
+      "world.xml:5:1: two (toy.copy_physics): writes \"robot/a/v\"; so does world.xml:4:1: one (toy.copy_physics)");
+  EXPECT_EQ(
+      error_of_world(one + "<toy.copy_physics name='two' to='robot/*/v'/>\n"),
+      "world.xml:5:1: two (toy.copy_physics): writes \"robot/*/v\"; so does world.xml:4:1: one (toy.copy_physics)");
   EXPECT_EQ(error_of_world(one + "<toy.copy_radio name='two' to='robot/b/v'/>\n"),
             "world.xml:5:1: two (toy.copy_radio): writes \"robot/*/v\" in the phase RADIO, but world.xml:4:1: one "
             "(toy.copy_physics) in PHYSICS; a table is written in one phase");
   EXPECT_EQ(error_of_world(one + "<toy.copy_physics name='two' to='robot/*/v' as='add'/>\n"),
-            "world.xml:5:1: two (toy.copy_physics): adds to \"robot/*/v\", which world.xml:4:1: one (toy.copy_physics) writes");
+            "world.xml:5:1: two (toy.copy_physics): adds to \"robot/*/v\", which world.xml:4:1: one (toy.copy_physics) "
+            "writes");
 }
 
 TEST_F(Claims, PartsOfASumAreAddedInOnePhase) {
-  EXPECT_EQ(error_of_world(two_robots + "<toy.copy_radio name='one' to='robot/*/v' as='add'/>\n<toy.copy_sense name='two' to='robot/*/v' as='add'/>\n"),
+  EXPECT_EQ(error_of_world(two_robots + "<toy.copy_radio name='one' to='robot/*/v' as='add'/>\n<toy.copy_sense "
+                                        "name='two' to='robot/*/v' as='add'/>\n"),
             "world.xml:5:1: two (toy.copy_sense): adds to \"robot/*/v\" in the phase SENSE, but world.xml:4:1: one "
             "(toy.copy_radio) in RADIO; a table is written in one phase");
 }
 
 TEST_F(Claims, WhatTheWorldGivesIsNoPartOfASum) {
-  EXPECT_EQ(error_of_world("<material name='m' loss='3'/>\n<toy.copy_radio name='one' to='material/*/loss' columns='loss[dB]' as='add'/>\n"),
-            "world.xml:3:1: one (toy.copy_radio): adds to \"material/*/loss\", which the world gives; expected a claim to modify it");
+  EXPECT_EQ(error_of_world("<material name='m' loss='3'/>\n<toy.copy_radio name='one' to='material/*/loss' "
+                           "columns='loss[dB]' as='add'/>\n"),
+            "world.xml:3:1: one (toy.copy_radio): adds to \"material/*/loss\", which the world gives; expected a claim "
+            "to modify it");
 }
 
 TEST_F(Claims, OnlyPlainNumbersAreAdded) {
   for (const std::string columns : {"v?", "v~", "v{}", "v:robot"})
-    EXPECT_EQ(error_of_world(two_robots + "<toy.copy_radio name='one' to='robot/*/v' as='add' columns='" + columns + "'/>\n"),
-              "world.xml:4:1: one (toy.copy_radio): adds to \"robot/*/v\"; expected a whole table of numbers") << columns;
+    EXPECT_EQ(
+        error_of_world(two_robots + "<toy.copy_radio name='one' to='robot/*/v' as='add' columns='" + columns + "'/>\n"),
+        "world.xml:4:1: one (toy.copy_radio): adds to \"robot/*/v\"; expected a whole table of numbers")
+        << columns;
   EXPECT_EQ(error_of_world(two_robots + "<toy.copy_radio name='one' to='robot/a/v' as='add'/>\n"),
             "world.xml:4:1: one (toy.copy_radio): adds to \"robot/a/v\"; expected a whole table of numbers");
 }
 
 TEST_F(Claims, TwoTablesNeverBearOneName) {
-  EXPECT_EQ(error_of_world(two_robots + "<toy.copy_radio name='x' to='robot/*/v@y' as='add'/>\n<toy.copy_radio name='x.y' to='robot/*/v' as='add'/>\n"),
+  EXPECT_EQ(error_of_world(two_robots + "<toy.copy_radio name='x' to='robot/*/v@y' as='add'/>\n<toy.copy_radio "
+                                        "name='x.y' to='robot/*/v' as='add'/>\n"),
             "world.xml:5:1: x.y (toy.copy_radio): claims \"robot/*/v@x.y\"; so does world.xml:4:1: x (toy.copy_radio)");
-  EXPECT_EQ(error_of_world(two_robots + "<toy.copy_radio name='w' to='robot/*/v'/>\n<toy.copy_radio name='base' to='robot/*/v' as='modify'/>\n"
-                                        "<toy.copy_radio name='m' to='robot/*/v' as='modify'/>\n"),
-            "world.xml:5:1: base (toy.copy_radio): claims \"robot/*/v@base\"; so does world.xml:4:1: w (toy.copy_radio)");
+  EXPECT_EQ(
+      error_of_world(
+          two_robots +
+          "<toy.copy_radio name='w' to='robot/*/v'/>\n<toy.copy_radio name='base' to='robot/*/v' as='modify'/>\n"
+          "<toy.copy_radio name='m' to='robot/*/v' as='modify'/>\n"),
+      "world.xml:5:1: base (toy.copy_radio): claims \"robot/*/v@base\"; so does world.xml:4:1: w (toy.copy_radio)");
 }
 
 TEST_F(Claims, AReadThatNobodyWritesNamesTheNearest) {
-  EXPECT_EQ(error_of_world(two_robots + "<toy.copy_physics name='w' to='robot/*/charge'/>\n<toy.copy_radio name='r' from='robot/*/chargr' to='self/x'/>\n"),
-            "world.xml:5:1: r (toy.copy_radio): reads \"robot/*/chargr\", which nobody writes; expected one of door/*/shape, door/*/state, "
-            "endpoint/*/pose, endpoint/*/radio, inbox/*/message, instance/r/*/x, link/*/ends, link/*/rssi, material/*/loss, radio/*/mount, "
-            "radio/*/traffic, robot/*/charge, robot/*/drive, robot/*/odometry, robot/*/pose, robot/*/twist, robot/*/wheels, wall/*/shape; "
+  EXPECT_EQ(error_of_world(two_robots + "<toy.copy_physics name='w' to='robot/*/charge'/>\n<toy.copy_radio name='r' "
+                                        "from='robot/*/chargr' to='self/x'/>\n"),
+            "world.xml:5:1: r (toy.copy_radio): reads \"robot/*/chargr\", which nobody writes; expected one of "
+            "door/*/shape, door/*/state, "
+            "endpoint/*/pose, endpoint/*/radio, inbox/*/message, instance/r/*/x, link/*/ends, link/*/rssi, "
+            "material/*/loss, radio/*/mount, "
+            "radio/*/traffic, robot/*/charge, robot/*/drive, robot/*/odometry, robot/*/pose, robot/*/twist, "
+            "robot/*/wheels, wall/*/shape; "
             "did you mean \"robot/*/charge\"?");
-  EXPECT_THAT(error_of_world(two_robots + "<toy.copy_physics name='w' to='robot/*/v' as='add'/>\n<toy.copy_radio name='r' from='robot/*/v@u' to='self/x'/>\n"),
-              AllOf(StartsWith("world.xml:5:1: r (toy.copy_radio): reads \"robot/*/v@u\", which nobody writes; expected one of "),
-                    EndsWith("; did you mean \"robot/*/v@w\"?")));
-  Simulation sim = run(two_robots + "<toy.copy_radio name='r' from='robot/*/nothing' read_flags='1' to='robot/*/x' add='4'/>\n");
+  EXPECT_THAT(
+      error_of_world(two_robots + "<toy.copy_physics name='w' to='robot/*/v' as='add'/>\n<toy.copy_radio name='r' "
+                                  "from='robot/*/v@u' to='self/x'/>\n"),
+      AllOf(
+          StartsWith("world.xml:5:1: r (toy.copy_radio): reads \"robot/*/v@u\", which nobody writes; expected one of "),
+          EndsWith("; did you mean \"robot/*/v@w\"?")));
+  Simulation sim =
+      run(two_robots + "<toy.copy_radio name='r' from='robot/*/nothing' read_flags='1' to='robot/*/x' add='4'/>\n");
   step(sim);
   EXPECT_EQ(cell(sim, "robot/a/x"), 4);  // an optional read has no rows
 }
 
 TEST_F(Claims, ClaimsThatMakeNoSense) {
-  const auto claim = [&](const std::string& attributes) { return error_of_world(two_robots + "<toy.copy_radio name='r' " + attributes + "/>\n"); };
+  const auto claim = [&](const std::string& attributes) {
+    return error_of_world(two_robots + "<toy.copy_radio name='r' " + attributes + "/>\n");
+  };
   EXPECT_EQ(claim("to='robots/*/x'"),
-            "world.xml:4:1: r (toy.copy_radio): claims a table of the set \"robots\"; expected one of door, endpoint, inbox, link, "
+            "world.xml:4:1: r (toy.copy_radio): claims a table of the set \"robots\"; expected one of door, endpoint, "
+            "inbox, link, "
             "material, outbox, radio, robot, wall; did you mean \"robot\"?");
   EXPECT_EQ(claim("to='robot/c/x'"),
             "world.xml:4:1: r (toy.copy_radio): claims a row of robot called \"c\"; expected one of a, b");
   EXPECT_EQ(claim("to='robot'"), "world.xml:4:1: r (toy.copy_radio): claims \"robot\"; expected set/row/quantity");
   EXPECT_EQ(claim("to='robot/x'"), "world.xml:4:1: r (toy.copy_radio): claims \"robot/x\"; expected set/row/quantity");
-  EXPECT_EQ(claim("to='robot/*/'"), "world.xml:4:1: r (toy.copy_radio): claims \"robot/*/\"; expected set/row/quantity");
-  EXPECT_EQ(claim("to='robot/{robot}/x'"), "world.xml:4:1: r (toy.copy_radio): has no attribute \"robot\", which it needs");
+  EXPECT_EQ(claim("to='robot/*/'"),
+            "world.xml:4:1: r (toy.copy_radio): claims \"robot/*/\"; expected set/row/quantity");
+  EXPECT_EQ(claim("to='robot/{robot}/x'"),
+            "world.xml:4:1: r (toy.copy_radio): has no attribute \"robot\", which it needs");
   EXPECT_EQ(claim("to='robot/{times}/x'"),
             "world.xml:4:1: r (toy.copy_radio): claims {times}, which is no reference among its parameters");
   EXPECT_EQ(claim("to='link/3/level' columns='level[dBm]'"),
-            "world.xml:4:1: r (toy.copy_radio): claims one row of \"link\", whose rows are listed anew each tick; expected *");
-  EXPECT_EQ(claim("to='robot/*/x' columns='x[m'"), "world.xml:4:1: r (toy.copy_radio): claims \"robot/*/x\": column \"x[m\" has no closing ]");
-  EXPECT_EQ(claim("to='robot/*/x' columns='x x'"), "world.xml:4:1: r (toy.copy_radio): claims \"robot/*/x\": column \"x\" stands twice");
-  EXPECT_EQ(claim("to='robot/*/x' columns='x0 x*2'"), "world.xml:4:1: r (toy.copy_radio): claims \"robot/*/x\": column \"x*2\" stands twice");
-  EXPECT_EQ(claim("to='robot/*/x' columns=''"), "world.xml:4:1: r (toy.copy_radio): claims \"robot/*/x\" without columns");
+            "world.xml:4:1: r (toy.copy_radio): claims one row of \"link\", whose rows are listed anew each tick; "
+            "expected *");
+  EXPECT_EQ(claim("to='robot/*/x' columns='x[m'"),
+            "world.xml:4:1: r (toy.copy_radio): claims \"robot/*/x\": column \"x[m\" has no closing ]");
+  EXPECT_EQ(claim("to='robot/*/x' columns='x x'"),
+            "world.xml:4:1: r (toy.copy_radio): claims \"robot/*/x\": column \"x\" stands twice");
+  EXPECT_EQ(claim("to='robot/*/x' columns='x0 x*2'"),
+            "world.xml:4:1: r (toy.copy_radio): claims \"robot/*/x\": column \"x*2\" stands twice");
+  EXPECT_EQ(claim("to='robot/*/x' columns=''"),
+            "world.xml:4:1: r (toy.copy_radio): claims \"robot/*/x\" without columns");
   EXPECT_EQ(claim("to='robot/*/x' columns='x:robots'"),
-            "world.xml:4:1: r (toy.copy_radio): claims \"robot/*/x\": column \"x\" refers to the set \"robots\"; expected one of door, "
+            "world.xml:4:1: r (toy.copy_radio): claims \"robot/*/x\": column \"x\" refers to the set \"robots\"; "
+            "expected one of door, "
             "endpoint, inbox, link, material, outbox, radio, robot, wall; did you mean \"robot\"?");
   EXPECT_EQ(claim("to='robot/*/twist' columns='v'"),
             "world.xml:4:1: r (toy.copy_radio): claims \"robot/*/twist\" as \"v\"; its columns are \"" + twist + "\"");
@@ -185,8 +218,10 @@ TEST_F(Claims, ClaimsThatMakeNoSense) {
 }
 
 TEST_F(Claims, ReaderAndWriterAgreeOnColumns) {
-  EXPECT_EQ(error_of_world(two_robots + "<toy.copy_physics name='w' to='robot/*/d' columns='d[m]'/>\n<toy.copy_radio name='r' from='robot/*/d' columns='d[km]' to='self/x'/>\n"),
-            "world.xml:5:1: r (toy.copy_radio): claims \"robot/*/d\" as \"d[km]\", but world.xml:4:1: w (toy.copy_physics) as \"d[m]\"");
+  EXPECT_EQ(error_of_world(two_robots + "<toy.copy_physics name='w' to='robot/*/d' columns='d[m]'/>\n<toy.copy_radio "
+                                        "name='r' from='robot/*/d' columns='d[km]' to='self/x'/>\n"),
+            "world.xml:5:1: r (toy.copy_radio): claims \"robot/*/d\" as \"d[km]\", but world.xml:4:1: w "
+            "(toy.copy_physics) as \"d[m]\"");
 }
 
 TEST_F(Claims, ACycleInsideAPhaseIsWalked) {
@@ -194,12 +229,14 @@ TEST_F(Claims, ACycleInsideAPhaseIsWalked) {
                                         "<toy.copy_radio name='y' from='robot/*/r' to='robot/*/q'/>\n"
                                         "<toy.copy_radio name='z' from='robot/*/p' to='robot/*/r'/>\n"
                                         "<toy.copy_radio name='w' from='robot/*/r' to='robot/*/s'/>\n"),
-            "world.xml:4:1: x (toy.copy_radio): a cycle inside the phase RADIO: x needs \"robot/*/q\" of y; y needs \"robot/*/r\" of z; "
+            "world.xml:4:1: x (toy.copy_radio): a cycle inside the phase RADIO: x needs \"robot/*/q\" of y; y needs "
+            "\"robot/*/r\" of z; "
             "z needs \"robot/*/p\" of x; let one of them work in another phase, so that it is read a tick later");
   EXPECT_EQ(error_of_world(two_robots + "<toy.copy_radio name='w' from='robot/*/p' to='robot/*/s'/>\n"
                                         "<toy.copy_radio name='x' from='robot/*/q' to='robot/*/p'/>\n"
                                         "<toy.copy_radio name='y' from='robot/*/p' to='robot/*/q'/>\n"),
-            "world.xml:5:1: x (toy.copy_radio): a cycle inside the phase RADIO: x needs \"robot/*/q\" of y; y needs \"robot/*/p\" of x; "
+            "world.xml:5:1: x (toy.copy_radio): a cycle inside the phase RADIO: x needs \"robot/*/q\" of y; y needs "
+            "\"robot/*/p\" of x; "
             "let one of them work in another phase, so that it is read a tick later");
 }
 
@@ -215,18 +252,21 @@ TEST_F(Claims, ReadingTheBaseOfAChainWaitsForNoStage) {
 TEST_F(Claims, StagesComeNoEarlierThanWhatTheyModify) {
   const std::string made = two_robots + "<toy.copy_radio name='w' every='4' to='robot/*/v'/>\n";
   EXPECT_EQ(error_of_world(made + "<toy.copy_physics name='m' as='modify' to='robot/*/v'/>\n"),
-            "world.xml:5:1: m (toy.copy_physics): modifies \"robot/*/v\" before it is written: world.xml:4:1: w (toy.copy_radio) comes "
+            "world.xml:5:1: m (toy.copy_physics): modifies \"robot/*/v\" before it is written: world.xml:4:1: w "
+            "(toy.copy_radio) comes "
             "in the phase RADIO");
-  EXPECT_EQ(error_of_world(made + "<toy.copy_sense name='m' every='3' as='modify' to='robot/*/v'/>\n"),
-            "world.xml:5:1: m (toy.copy_sense): modifies \"robot/*/v\" every 3 ticks and would miss values: world.xml:4:1: w "
-            "(toy.copy_radio) writes every 4");
+  EXPECT_EQ(
+      error_of_world(made + "<toy.copy_sense name='m' every='3' as='modify' to='robot/*/v'/>\n"),
+      "world.xml:5:1: m (toy.copy_sense): modifies \"robot/*/v\" every 3 ticks and would miss values: world.xml:4:1: w "
+      "(toy.copy_radio) writes every 4");
   EXPECT_EQ(error_of_world(made + "<toy.copy_sense name='m' every='2' as='modify' to='robot/*/v'/>\n"), "no error");
   EXPECT_EQ(error_of_world(two_robots + "<toy.copy_sense name='m' as='modify' to='robot/*/v'/>\n"),
             "world.xml:4:1: m (toy.copy_sense): modifies \"robot/*/v\", which nobody writes");
 }
 
 TEST_F(Claims, AWholeTableWriterAtEvery4BesideARowWriter) {
-  Simulation sim = run(two_robots + "<robot name='c' at='3 0 0'/>\n"
+  Simulation sim = run(two_robots +
+                       "<robot name='c' at='3 0 0'/>\n"
                        "<toy.copy_physics name='rest' every='4' to='robot/*/v' flags='2' own='true' add='100'/>\n"
                        "<toy.copy_physics name='row' to='robot/b/v' own='true' add='1'/>\n");
   std::vector<std::vector<double>> seen;

@@ -1,12 +1,12 @@
 // The same bits for any number of workers, after saving and restoring, after every instance was made again, in any
 // locale and in another process.
-#include "busy_world.hpp"
-
 #include <sys/wait.h>
 
 #include <clocale>
 #include <cstdlib>
 #include <locale>
+
+#include "busy_world.hpp"
 
 namespace muster {
 namespace {
@@ -92,7 +92,8 @@ TEST_F(SameBits, InAnotherProcess) {
   if (child == 0) {
     // A program that starts anew, so that no address is the same.
     const std::string out = "MUSTER_DIGEST_TO=" + file.string();
-    execle("/proc/self/exe", "test_kernel", "--gtest_filter=Digest.DISABLED_OfTheBusyWorld", "--gtest_also_run_disabled_tests", "--gtest_output=", nullptr,
+    execle("/proc/self/exe", "test_kernel", "--gtest_filter=Digest.DISABLED_OfTheBusyWorld",
+           "--gtest_also_run_disabled_tests", "--gtest_output=", nullptr,
            std::vector<char*>{const_cast<char*>(out.c_str()), nullptr}.data());
     _exit(127);
   }
@@ -117,7 +118,9 @@ TEST_F(Digest, DISABLED_OfTheBusyWorld) {
 // Nothing depends on what an instance is called, and draws not on the order of the world file.
 TEST_F(Determinism, DrawsDependOnRowsAndStreamsOnly) {
   Simulation one = run(two_robots + "<toy.draw name='x'/>\n<toy.copy_sense name='y' to='robot/*/v'/>\n");
-  Simulation other = run("<robot name='b' at='2 0 0'/>\n<robot name='a' at='1 0 0'/>\n<toy.copy_sense name='first' to='robot/*/v'/>\n<toy.draw name='other'/>\n");
+  Simulation other =
+      run("<robot name='b' at='2 0 0'/>\n<robot name='a' at='1 0 0'/>\n<toy.copy_sense name='first' "
+          "to='robot/*/v'/>\n<toy.draw name='other'/>\n");
   Simulation stream = run(two_robots + "<toy.draw name='x' stream='other'/>\n");
   Simulation seed{world(two_robots + "<toy.draw name='x'/>\n", "dt='0.5' until='9' seed='8'"), standard(), options()};
   for (int tick = 0; tick < 5; ++tick) {
@@ -141,10 +144,13 @@ TEST_F(Determinism, TheDigestTellsEveryDifference) {
   const std::string base = two_robots + "<toy.copy_radio name='n' to='robot/*/v' add='1'/>\n";
   const uint64_t expected = digest(base);
   EXPECT_EQ(digest(base), expected);
-  EXPECT_NE(digest("<robot name=\"a\" at=\"1 0 0\"/>\n<robot name=\"B\" at=\"2 0 0\"/>\n<toy.copy_radio name='n' to='robot/*/v' add='1'/>\n"), expected);
+  EXPECT_NE(digest("<robot name=\"a\" at=\"1 0 0\"/>\n<robot name=\"B\" at=\"2 0 0\"/>\n<toy.copy_radio name='n' "
+                   "to='robot/*/v' add='1'/>\n"),
+            expected);
   EXPECT_NE(digest(two_robots + "<toy.copy_radio name='n' to='robot/*/w' add='1'/>\n"), expected);
   EXPECT_NE(digest(two_robots + "<toy.copy_radio name='n' to='robot/*/v' add='1.0000000000000002'/>\n"), expected);
-  EXPECT_NE(digest(two_robots + "<robot name='c' at='1 0 0'/>\n<toy.copy_radio name='n' to='robot/*/v' add='1'/>\n"), expected);
+  EXPECT_NE(digest(two_robots + "<robot name='c' at='1 0 0'/>\n<toy.copy_radio name='n' to='robot/*/v' add='1'/>\n"),
+            expected);
   EXPECT_NE(digest(two_robots + "<toy.copy_radio name='n' to='robot/*/v' columns='value[m]' add='1'/>\n"), expected);
 }
 

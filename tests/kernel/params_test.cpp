@@ -21,24 +21,32 @@ TEST_F(Params, APathChangesANumberWithoutANewInstance) {
 
 TEST_F(Params, ValuesAreHeldAgainstTheDeclaration) {
   Simulation sim = run(two_robots + "<toy.copy_radio name='n' to='robot/*/v'/>\n<toy.fault name='f'/>\n");
-  const auto set = [&](const std::string& path, double value) { return error_of([&] { sim.set_parameter(path, value); }); };
+  const auto set = [&](const std::string& path, double value) {
+    return error_of([&] { sim.set_parameter(path, value); });
+  };
   EXPECT_EQ(set("n/add", 2e6), "parameter \"n/add\": 2e+06 is out of bounds; expected a number from -1e+06 to 1e+06 m");
-  EXPECT_EQ(set("n/add", std::numeric_limits<double>::quiet_NaN()), "parameter \"n/add\": nan is out of bounds; expected a number from -1e+06 to 1e+06 m");
+  EXPECT_EQ(set("n/add", std::numeric_limits<double>::quiet_NaN()),
+            "parameter \"n/add\": nan is out of bounds; expected a number from -1e+06 to 1e+06 m");
   EXPECT_EQ(set("f/tick", 2.5), "parameter \"f/tick\": 2.5 is no integer; expected an integer from 0 to 1000");
   EXPECT_EQ(set("n/robot", 1), "parameter \"n/robot\": a reference is claimed for good; expected a swap");
-  EXPECT_EQ(set("n/ad", 1), "there is no parameter \"n/ad\"; expected one of n/as, n/flags, n/read_flags, n/own, n/add, n/times, f/fault, f/tick; did you mean \"n/as\"?");
+  EXPECT_EQ(set("n/ad", 1),
+            "there is no parameter \"n/ad\"; expected one of n/as, n/flags, n/read_flags, n/own, n/add, n/times, "
+            "f/fault, f/tick; did you mean \"n/as\"?");
   EXPECT_EQ(sim.parameter("n/add").value, 0);
 }
 
 TEST_F(Params, MaterialsByTheirPath) {
-  Simulation sim = run("<material name='brick' loss='6'/>\n<robot name='a' at='0 0 0'/>\n<wall name='w' from='0 0' to='1 0' material='brick'/>\n"
-                       "<toy.copy_radio name='n' from='material/*/loss' columns='loss[dB]' to='material/*/seen'/>\n");
+  Simulation sim =
+      run("<material name='brick' loss='6'/>\n<robot name='a' at='0 0 0'/>\n<wall name='w' from='0 0' to='1 0' "
+          "material='brick'/>\n"
+          "<toy.copy_radio name='n' from='material/*/loss' columns='loss[dB]' to='material/*/seen'/>\n");
   step(sim);
   EXPECT_EQ(cell(sim, "material/brick/seen"), 6);
   sim.set_parameter("material/brick/loss", 8);
   step(sim);
   EXPECT_EQ(cell(sim, "material/brick/seen"), 8);
-  EXPECT_THAT(error_of([&] { sim.set_parameter("wall/w/from", 3); }), HasSubstr("there is no parameter \"wall/w/from\""));
+  EXPECT_THAT(error_of([&] { sim.set_parameter("wall/w/from", 3); }),
+              HasSubstr("there is no parameter \"wall/w/from\""));
   EXPECT_EQ(error_of([&] { sim.set_parameter("material/brick/loss", -1); }),
             "parameter \"material/brick/loss\": -1 is out of bounds; expected a number from 0 to 100 dB");
 }
@@ -69,7 +77,8 @@ TEST_F(Params, FileTablesThatDoNotFit) {
   EXPECT_EQ(error_of_world(two_robots + "<toy.file name='f' data='dada.csv'/>\n"),
             "world.xml:4:26: attribute \"data\": there is no file \"dada.csv\"");
   EXPECT_EQ(error_of_world(two_robots + "<toy.file name='f'/>\n"),
-            "world.xml:4:1: f (toy.file): has no attribute \"data\", which it needs; expected a path relative to the world file");
+            "world.xml:4:1: f (toy.file): has no attribute \"data\", which it needs; expected a path relative to the "
+            "world file");
 }
 
 // A standard quantity that is read and that nobody writes brings its provider, from wherever plugins are looked for.
@@ -81,7 +90,8 @@ TEST_F(Params, ProvidersJoinWhereTheyAreNeeded) {
       if (std::string(quantity.provider) == "radio.links") quantity.provider = "toy.list";
     }
   }
-  const std::string reader = two_robots + "<toy.copy_sense name='r' from='endpoint/*/radio' from_columns='radio:radio t[s]' to='self/x'/>\n";
+  const std::string reader =
+      two_robots + "<toy.copy_sense name='r' from='endpoint/*/radio' from_columns='radio:radio t[s]' to='self/x'/>\n";
   Simulation sim(world(reader), other, options());
   ASSERT_EQ(sim.instances().size(), 2u);
   EXPECT_EQ(sim.instances()[1]->name(), "toy.list");

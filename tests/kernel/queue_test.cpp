@@ -10,7 +10,8 @@ using Queues = ToyWorld;
 constexpr int ticks = 96;
 
 // What a listener has heard, against what senders of `each` messages every `period` ticks have sent up to `tick`.
-void expect_all_once(const Simulation& sim, const std::string& listener, int each, int period, int tick, bool from_0 = false) {
+void expect_all_once(const Simulation& sim, const std::string& listener, int each, int period, int tick,
+                     bool from_0 = false) {
   double count = 0, first = -1, last = 0;
   for (int t = from_0 ? 0 : 1; t <= tick; ++t) {
     if (t % period) continue;
@@ -28,15 +29,17 @@ class QueuePeriods : public ToyWorld, public testing::WithParamInterface<std::tu
 TEST_P(QueuePeriods, EveryReaderSeesEachMessageOnce) {
   const auto [sends, listens] = GetParam();
   const std::string every = " every='" + std::to_string(listens) + "'";
-  Simulation sim = run(two_robots + "<toy.send_network name='s' robot='a' to='outbox/{robot}/message' count='3' every='" +
-                       std::to_string(sends) + "'/>\n<toy.listen_control name='before'" + every + "/>\n<toy.listen_network name='with'" +
-                       every + "/>\n<toy.listen_observe name='after'" + every + "/>\n");
+  Simulation sim =
+      run(two_robots + "<toy.send_network name='s' robot='a' to='outbox/{robot}/message' count='3' every='" +
+          std::to_string(sends) + "'/>\n<toy.listen_control name='before'" + every +
+          "/>\n<toy.listen_network name='with'" + every + "/>\n<toy.listen_observe name='after'" + every + "/>\n");
   step(sim, ticks);
   expect_all_once(sim, "with", 3, sends, ticks);
   expect_all_once(sim, "after", 3, sends, ticks);
   expect_all_once(sim, "before", 3, sends, ticks - 1);
 }
-INSTANTIATE_TEST_SUITE_P(All, QueuePeriods, testing::Combine(testing::Values(1, 2, 3, 8), testing::Values(1, 2, 4, 6, 16)));
+INSTANTIATE_TEST_SUITE_P(All, QueuePeriods,
+                         testing::Combine(testing::Values(1, 2, 3, 8), testing::Values(1, 2, 4, 6, 16)));
 
 class QueueFirstPass : public QueuePeriods {};
 
@@ -44,9 +47,10 @@ class QueueFirstPass : public QueuePeriods {};
 TEST_P(QueueFirstPass, MessagesOfTheFirstSensePassAreSeenOnce) {
   const auto [sends, listens] = GetParam();
   const std::string every = " every='" + std::to_string(listens) + "'";
-  Simulation sim = run(two_robots + "<toy.send_sense name='s' robot='a' to='outbox/{robot}/message' every='" + std::to_string(sends) +
-                       "'/>\n<toy.listen_control name='before'" + every + "/>\n<toy.listen_sense name='with'" + every +
-                       "/>\n<toy.listen_observe name='after'" + every + "/>\n");
+  Simulation sim =
+      run(two_robots + "<toy.send_sense name='s' robot='a' to='outbox/{robot}/message' every='" +
+          std::to_string(sends) + "'/>\n<toy.listen_control name='before'" + every +
+          "/>\n<toy.listen_sense name='with'" + every + "/>\n<toy.listen_observe name='after'" + every + "/>\n");
   step(sim, ticks);
   expect_all_once(sim, "with", 1, sends, ticks, true);
   expect_all_once(sim, "after", 1, sends, ticks, true);
@@ -55,16 +59,18 @@ TEST_P(QueueFirstPass, MessagesOfTheFirstSensePassAreSeenOnce) {
 INSTANTIATE_TEST_SUITE_P(All, QueueFirstPass, testing::Combine(testing::Values(1, 2, 8), testing::Values(1, 4, 16)));
 
 TEST_F(Queues, ReadersOfDifferentPeriodsShareOneQueue) {
-  Simulation sim = run(two_robots + "<toy.send_network name='s' robot='a' to='outbox/{robot}/message' every='3'/>\n"
-                                    "<toy.listen_observe name='often'/>\n<toy.listen_control name='seldom' every='12'/>\n");
+  Simulation sim = run(two_robots +
+                       "<toy.send_network name='s' robot='a' to='outbox/{robot}/message' every='3'/>\n"
+                       "<toy.listen_observe name='often'/>\n<toy.listen_control name='seldom' every='12'/>\n");
   step(sim, ticks + 12);
   expect_all_once(sim, "often", 1, 3, ticks + 12);
   expect_all_once(sim, "seldom", 1, 3, ticks + 11);
 }
 
 TEST_F(Queues, WhatEverybodyHasSeenIsGone) {
-  Simulation sim = run(two_robots + "<toy.send_network name='s' robot='a' to='outbox/{robot}/message' count='2'/>\n"
-                                    "<toy.listen_control name='r' every='4'/>\n");
+  Simulation sim = run(two_robots +
+                       "<toy.send_network name='s' robot='a' to='outbox/{robot}/message' count='2'/>\n"
+                       "<toy.listen_control name='r' every='4'/>\n");
   for (int i = 0; i < 50; ++i) {
     step(sim);
     EXPECT_LE(sim.table("outbox/*/message").rows(), 2u * 5);
@@ -72,11 +78,12 @@ TEST_F(Queues, WhatEverybodyHasSeenIsGone) {
 }
 
 TEST_F(Queues, OwnersSeeTheirOwn) {
-  Simulation sim = run(two_robots + "<toy.send_control name='sa' robot='a' to='outbox/{robot}/message' count='2'/>\n"
-                                    "<toy.send_control name='sb' robot='b' to='outbox/{robot}/message' count='5'/>\n"
-                                    "<toy.listen_network name='ra' robot='a' from='outbox/{robot}/message'/>\n"
-                                    "<toy.listen_network name='rb' robot='b' from='outbox/{robot}/message'/>\n"
-                                    "<toy.listen_network name='all'/>\n");
+  Simulation sim = run(two_robots +
+                       "<toy.send_control name='sa' robot='a' to='outbox/{robot}/message' count='2'/>\n"
+                       "<toy.send_control name='sb' robot='b' to='outbox/{robot}/message' count='5'/>\n"
+                       "<toy.listen_network name='ra' robot='a' from='outbox/{robot}/message'/>\n"
+                       "<toy.listen_network name='rb' robot='b' from='outbox/{robot}/message'/>\n"
+                       "<toy.listen_network name='all'/>\n");
   step(sim, 10);
   EXPECT_EQ(cell(sim, "instance/ra/heard"), 20);
   EXPECT_EQ(cell(sim, "instance/rb/heard"), 50);
@@ -86,22 +93,25 @@ TEST_F(Queues, OwnersSeeTheirOwn) {
 TEST_F(Queues, NobodySpeaksForAnother) {
   Simulation sim = run(two_robots + "<toy.send_control name='sa' robot='a' to='outbox/{robot}/message' as='1'/>\n");
   EXPECT_EQ(error_of([&] { sim.step(); }),
-            "3 world.xml:4:1: sa (toy.send_control): step failed at tick 1 (t = 0.5 s): outbox/0/message: radio is not a, for which "
+            "3 world.xml:4:1: sa (toy.send_control): step failed at tick 1 (t = 0.5 s): outbox/0/message: radio is not "
+            "a, for which "
             "alone it may speak");
 }
 
 TEST_F(Queues, WritersOfSeveralPhasesAndAReaderAmongThem) {
-  Simulation sim = run(two_robots + "<toy.send_control name='one' robot='a' to='outbox/{robot}/message'/>\n"
-                                    "<toy.send_sense name='two' robot='b' to='outbox/{robot}/message'/>\n"
-                                    "<toy.listen_network name='between'/>\n<toy.listen_observe name='after'/>\n");
+  Simulation sim = run(two_robots +
+                       "<toy.send_control name='one' robot='a' to='outbox/{robot}/message'/>\n"
+                       "<toy.send_sense name='two' robot='b' to='outbox/{robot}/message'/>\n"
+                       "<toy.listen_network name='between'/>\n<toy.listen_observe name='after'/>\n");
   step(sim, 20);
   EXPECT_EQ(cell(sim, "instance/after/heard"), 41);    // one message of the SENSE pass before the first tick
   EXPECT_EQ(cell(sim, "instance/between/heard"), 39);  // what came this tick is published at its last writer's phase
 }
 
 TEST_F(Queues, WhoAnswersIntoTheQueueThatItReadsSeesEachMessageOnce) {
-  Simulation sim = run(two_robots + "<toy.send_control name='s' robot='a' to='outbox/{robot}/message'/>\n"
-                                    "<toy.listen_network name='echo' answers='true'/>\n<toy.listen_observe name='all'/>\n");
+  Simulation sim = run(two_robots +
+                       "<toy.send_control name='s' robot='a' to='outbox/{robot}/message'/>\n"
+                       "<toy.listen_network name='echo' answers='true'/>\n<toy.listen_observe name='all'/>\n");
   step(sim, 20);
   EXPECT_EQ(cell(sim, "instance/all/heard"), 20 + 19);  // an answer to each message but the last
   EXPECT_EQ(cell(sim, "instance/echo/heard"), 19 + 18);
@@ -109,7 +119,9 @@ TEST_F(Queues, WhoAnswersIntoTheQueueThatItReadsSeesEachMessageOnce) {
 
 TEST_F(Queues, BytesArriveExactlyAndTenMegabytesToo) {
   const std::string ends = "<toy.listen_network name='near'/>\n<toy.listen_control name='far'/>\n";
-  Simulation sim = run(two_robots + "<toy.send_control name='s' robot='a' to='outbox/{robot}/message' size='10000000' every='2'/>\n" + ends);
+  Simulation sim =
+      run(two_robots +
+          "<toy.send_control name='s' robot='a' to='outbox/{robot}/message' size='10000000' every='2'/>\n" + ends);
   step(sim, 2);
   const Table& queue = *sim.table("outbox/*/message").table;
   ASSERT_EQ(queue.now().rows, 1u);
@@ -128,7 +140,8 @@ TEST_F(Queues, BytesArriveExactlyAndTenMegabytesToo) {
 TEST_F(Queues, ARowNumberInARefusedAppendIsFound) {
   Simulation sim = run(two_robots + "<toy.send_control name='s' to='outbox/*/message' as='2'/>\n");
   EXPECT_EQ(error_of([&] { sim.step(); }),
-            "3 world.xml:4:1: s (toy.send_control): step failed at tick 1 (t = 0.5 s): outbox/0/message: radio is no row of radio");
+            "3 world.xml:4:1: s (toy.send_control): step failed at tick 1 (t = 0.5 s): outbox/0/message: radio is no "
+            "row of radio");
 }
 
 TEST_F(Queues, CellsOfAppendedRowsAreFilledAnewEachTime) {

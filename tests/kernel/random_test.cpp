@@ -1,9 +1,8 @@
 // Random numbers: the generator's published vectors, and the laws of what is drawn from it.
-#include <muster/random.hpp>
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <muster/random.hpp>
 #include <set>
 #include <vector>
 
@@ -37,7 +36,7 @@ Moments moments(const std::vector<double>& x) {
 
 constexpr int draws = 200000;
 const double sigma = 1 / std::sqrt(static_cast<double>(draws));  // of a mean of draws of variance 1
-constexpr double limit = 4.5;                                   // standard errors: 7e-6 of chance each
+constexpr double limit = 4.5;                                    // standard errors: 7e-6 of chance each
 
 TEST(Random, UniformDrawsAreUniform) {
   const Stream stream(key_of("uniform"));

@@ -1,5 +1,6 @@
 // Records: what is written as CSV is what a plugin reads back.
 #include "kernel/record.hpp"
+
 #include "toy_world.hpp"
 
 namespace muster {
@@ -15,7 +16,8 @@ std::string bytes_of(const std::filesystem::path& file) {
 }
 
 TEST_F(Records, ATableIsReadBackBitByBit) {
-  Simulation sim = run(two_robots + "<toy.copy_physics name='n' to='robot/*/place' columns='x[m]' own='true' times='1.1' add='0.1'/>\n");
+  Simulation sim = run(
+      two_robots + "<toy.copy_physics name='n' to='robot/*/place' columns='x[m]' own='true' times='1.1' add='0.1'/>\n");
   Recorder recorder(sim, {{"robot/*/place", 1, {}}}, folder / "out");
   std::vector<double> sums(2, 0);
   for (int i = 0; i < 20; ++i) {
@@ -49,20 +51,28 @@ TEST_F(Records, EveryKindOfColumn) {
 }
 
 TEST_F(Records, EachMessageOnceWhateverThePeriod) {
-  Simulation sim = run(two_robots + "<toy.send_control name='s' robot='b' to='outbox/{robot}/message' every='2'/>\n<toy.listen_control name='l' every='8'/>\n");
+  Simulation sim = run(two_robots +
+                       "<toy.send_control name='s' robot='b' to='outbox/{robot}/message' "
+                       "every='2'/>\n<toy.listen_control name='l' every='8'/>\n");
   Recorder recorder(sim, {{"outbox/*/message", 4, {}}}, folder);
   for (int i = 0; i < 4; ++i) step(sim), recorder.write(sim);
   recorder.close();
-  EXPECT_THAT(bytes_of(folder / "outbox_message.csv"), testing::MatchesRegex("t\\[s\\],outbox,radio,to,payload\n1,.*,b,,3230307c\n2,.*,b,,3430307c\n"));
+  EXPECT_THAT(bytes_of(folder / "outbox_message.csv"),
+              testing::MatchesRegex("t\\[s\\],outbox,radio,to,payload\n1,.*,b,,3230307c\n2,.*,b,,3430307c\n"));
 }
 
 TEST_F(Records, WhatIsNotThereIsRefusedWhereItIsAskedFor) {
-  World text = world(two_robots + "<toy.copy_physics name='n' to='robot/*/place'/>\n<record table='robot/*/plaice'/>\n");
+  World text =
+      world(two_robots + "<toy.copy_physics name='n' to='robot/*/place'/>\n<record table='robot/*/plaice'/>\n");
   const auto declared = text.records;
   Simulation sim(std::move(text), standard(), options());
   EXPECT_EQ(error_of([&] { Recorder(sim, declared, folder); }),
-            "world.xml:5:1: record: there is no table \"robot/*/plaice\"; expected robot/*/place; did you mean \"robot/*/place\"?");
-  EXPECT_THAT(error_of([&] { Recorder(sim, {{"robot/c/place", 1, {}}}, folder); }), HasSubstr("there is no robot \"c\"; expected one of a, b"));
+            "world.xml:5:1: record: there is no table \"robot/*/plaice\"; expected robot/*/place; did you mean "
+            "\"robot/*/place\"?");
+  EXPECT_THAT(error_of([&] {
+                Recorder(sim, {{"robot/c/place", 1, {}}}, folder);
+              }),
+              HasSubstr("there is no robot \"c\"; expected one of a, b"));
 }
 
 TEST_F(Records, WithoutCloseNothingRemains) {

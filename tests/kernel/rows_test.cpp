@@ -9,13 +9,20 @@ using testing::IsSupersetOf;
 using Rows = ToyWorld;
 
 const std::string level = " columns='level[dBm]' ";
-const std::string mover = "<toy.copy_physics name='mover' to='robot/*/pose' columns='" + pose + "' own='true' add='1'/>\n";
+const std::string mover =
+    "<toy.copy_physics name='mover' to='robot/*/pose' columns='" + pose + "' own='true' add='1'/>\n";
 
 TEST_F(Rows, ListedSetsHaveOtherRowsEachTickAndAllTheirTablesFollow) {
-  Simulation sim = run(two_robots + "<toy.list name='l'/>\n"
-                       "<toy.copy_radio name='p' as='add' to='link/*/level'" + level + "add='-40'/>\n"
-                       "<toy.copy_radio name='q' as='add' to='link/*/level'" + level + "add='-2'/>\n"
-                       "<toy.copy_radio name='r' from='link/*/level' from_columns='level[dBm]' to='link/*/rssi' columns='rssi[dBm]?'/>\n");
+  Simulation sim = run(two_robots +
+                       "<toy.list name='l'/>\n"
+                       "<toy.copy_radio name='p' as='add' to='link/*/level'" +
+                       level +
+                       "add='-40'/>\n"
+                       "<toy.copy_radio name='q' as='add' to='link/*/level'" +
+                       level +
+                       "add='-2'/>\n"
+                       "<toy.copy_radio name='r' from='link/*/level' from_columns='level[dBm]' to='link/*/rssi' "
+                       "columns='rssi[dBm]?'/>\n");
   for (std::size_t tick = 1; tick < 12; ++tick) {
     step(sim);
     const std::size_t rows = tick % 5 + 1;
@@ -28,7 +35,8 @@ TEST_F(Rows, ListedSetsHaveOtherRowsEachTickAndAllTheirTablesFollow) {
 TEST_F(Rows, ListedTablesHaveAsManyRowsEach) {
   Simulation sim = run(two_robots + "<toy.list name='l' uneven='true'/>\n");
   EXPECT_EQ(error_of([&] { sim.step(); }),
-            "3 world.xml:4:1: l (toy.list): step failed at tick 1 (t = 0.5 s): lists 2 rows of endpoint/*/radio, but 1 of endpoint/*/pose");
+            "3 world.xml:4:1: l (toy.list): step failed at tick 1 (t = 0.5 s): lists 2 rows of endpoint/*/radio, but 1 "
+            "of endpoint/*/pose");
   EXPECT_EQ(sim.table("endpoint/*/radio").rows(), 0u);
 }
 
@@ -39,25 +47,34 @@ TEST_F(Rows, ReferencesIntoRowsThatAreListedAtTheSameTime) {
 }
 
 TEST_F(Rows, WhoWritesListedRowsComesWithTheLister) {
-  const auto with = [&](const std::string& more) { return error_of_world(two_robots + "<toy.list name='l' every='2'/>\n" + more); };
+  const auto with = [&](const std::string& more) {
+    return error_of_world(two_robots + "<toy.list name='l' every='2'/>\n" + more);
+  };
   const std::string claim = " as='add' to='link/*/level'" + level;
   EXPECT_EQ(with("<toy.copy_radio name='p' every='3'" + claim + "/>\n"),
-            "world.xml:5:1: p (toy.copy_radio): writes \"link/*/level\" every 3 ticks, but world.xml:4:1: l (toy.list) lists its rows every 2");
-  EXPECT_EQ(with("<toy.copy_physics name='p'" + claim + "/>\n"),
-            "world.xml:5:1: p (toy.copy_physics): writes \"link/*/level\" before world.xml:4:1: l (toy.list) lists its rows");
-  EXPECT_EQ(with("<toy.copy_sense name='p'" + claim + "/>\n<toy.copy_network name='r' from='link/*/level'" + level + "/>\n"),
-            "world.xml:6:1: r (toy.copy_network): reads \"link/*/level\" after its rows are listed and before world.xml:5:1: p "
-            "(toy.copy_sense) writes it");
+            "world.xml:5:1: p (toy.copy_radio): writes \"link/*/level\" every 3 ticks, but world.xml:4:1: l (toy.list) "
+            "lists its rows every 2");
+  EXPECT_EQ(
+      with("<toy.copy_physics name='p'" + claim + "/>\n"),
+      "world.xml:5:1: p (toy.copy_physics): writes \"link/*/level\" before world.xml:4:1: l (toy.list) lists its rows");
+  EXPECT_EQ(
+      with("<toy.copy_sense name='p'" + claim + "/>\n<toy.copy_network name='r' from='link/*/level'" + level + "/>\n"),
+      "world.xml:6:1: r (toy.copy_network): reads \"link/*/level\" after its rows are listed and before world.xml:5:1: "
+      "p "
+      "(toy.copy_sense) writes it");
   EXPECT_EQ(error_of_world(two_robots + "<toy.copy_radio name='p'" + claim + "/>\n"),
             "world.xml:4:1: p (toy.copy_radio): writes \"link/*/level\", but nobody lists the rows of \"link\"");
   EXPECT_EQ(error_of_world(two_robots + "<toy.list name='l' adds='true'/>\n"),
-            "world.xml:4:1: l (toy.list): adds to or modifies \"link/*/level\", whose rows it lists itself; expected it to write the table");
+            "world.xml:4:1: l (toy.list): adds to or modifies \"link/*/level\", whose rows it lists itself; expected "
+            "it to write the table");
 }
 
 TEST_F(Rows, ARobotJoinsAndLeaves) {
-  Simulation sim = run(two_robots + mover + "<toy.join name='j'/>\n<toy.copy_radio name='w' to='robot/*/own' own='true' add='1'/>\n");
+  Simulation sim = run(two_robots + mover +
+                       "<toy.join name='j'/>\n<toy.copy_radio name='w' to='robot/*/own' own='true' add='1'/>\n");
   step(sim, 2);
-  EXPECT_THAT(column(sim, "robot/*/pose", 0), ElementsAre(3, 4, 0));  // initial values: it is seen from the next tick on
+  EXPECT_THAT(column(sim, "robot/*/pose", 0),
+              ElementsAre(3, 4, 0));  // initial values: it is seen from the next tick on
   EXPECT_EQ(cell(sim, "robot/late/pose", 1), 7);
   EXPECT_EQ(cell(sim, "robot/late/pose", 3), 1);  // of the unit quaternion
   EXPECT_THAT(column(sim, "robot/*/own"), ElementsAre(2, 2, 0));
@@ -81,9 +98,14 @@ TEST_F(Rows, AJoinerMayBeginLikeAnother) {
 // Whoever writes them: a row's own writer, a rest, a part of a sum, a stage.
 TEST_F(Rows, RowsThatHaveLeftKeepTheirValuesInEveryTable) {
   const std::string counts = " own='true' add='1'";
-  Simulation sim = run(two_robots + "<toy.join name='j' at='1000' leave='3' leaver='0'/>\n"
-                       "<toy.copy_physics name='row' to='robot/a/v'" + counts + "/>\n<toy.copy_physics name='rest' to='robot/*/v' flags='2'" + counts + "/>\n"
-                       "<toy.copy_radio name='part' as='add' to='robot/*/sum'" + counts + "/>\n"
+  Simulation sim = run(two_robots +
+                       "<toy.join name='j' at='1000' leave='3' leaver='0'/>\n"
+                       "<toy.copy_physics name='row' to='robot/a/v'" +
+                       counts + "/>\n<toy.copy_physics name='rest' to='robot/*/v' flags='2'" + counts +
+                       "/>\n"
+                       "<toy.copy_radio name='part' as='add' to='robot/*/sum'" +
+                       counts +
+                       "/>\n"
                        "<toy.copy_sense name='stage' as='modify' from='robot/*/v' to='robot/*/sum'/>\n");
   step(sim, 6);
   EXPECT_THAT(column(sim, "robot/*/v"), ElementsAre(3, 6));
@@ -107,8 +129,9 @@ TEST_F(Rows, WhatJoinIsNot) {
   EXPECT_EQ(fault("leave='1' leaver='9'"), "leave() of a row that is not there");
   EXPECT_EQ(fault("quantity='poze'"), "place() of robot/*/poze, which is no table here");
   EXPECT_EQ(fault("column='7'"), "place() into column 7 of robot/*/pose, which has 7");
-  EXPECT_EQ(error_of_world(two_robots + "<toy.join name='j' table='link/*/other'/>\n"),
-            "world.xml:4:1: j (toy.join): claims \"link/*/other\" to let rows join, but the rows of \"link\" do not join");
+  EXPECT_EQ(
+      error_of_world(two_robots + "<toy.join name='j' table='link/*/other'/>\n"),
+      "world.xml:4:1: j (toy.join): claims \"link/*/other\" to let rows join, but the rows of \"link\" do not join");
 }
 
 TEST_F(Rows, ASetHasOneThatLetsRowsJoin) {

@@ -24,8 +24,10 @@ TEST_F(Snapshots, AFileHoldsThemWhole) {
 }
 
 TEST_F(Snapshots, ADamagedFileIsRefused) {
-  Simulation sim = run(two_robots + "<toy.copy_physics name='n' to='self/x' own='true' add='1'/>\n<toy.send_control name='s' robot='a' "
-                                    "to='outbox/{robot}/message' size='20'/>\n");
+  Simulation sim =
+      run(two_robots +
+          "<toy.copy_physics name='n' to='self/x' own='true' add='1'/>\n<toy.send_control name='s' robot='a' "
+          "to='outbox/{robot}/message' size='20'/>\n");
   step(sim, 3);
   sim.snapshot().save(folder / "saved");
   const std::string whole = bytes_of(folder / "saved");
@@ -60,15 +62,19 @@ TEST_F(Snapshots, OfAnotherWorldAreRefusedAndTheRunStands) {
   };
   const std::string of = "the snapshot is of another world: ";
   EXPECT_EQ(refused(two_robots), of + "it has no instance \"n\"");
-  EXPECT_EQ(refused(two_robots + one + "<toy.copy_physics name='m' to='self/x'/>\n"), of + "its set \"instance/m\" is not here");
-  EXPECT_EQ(refused(two_robots + "<toy.copy_physics name='n' to='self/x' columns='y'/>\n"), of + "its table \"instance/n/*/x\" has other columns");
-  EXPECT_EQ(refused("<robot name='a' at='1 0 0'/><robot name='c' at='1 0 0'/>" + one), of + "its set \"radio\" has other rows");
+  EXPECT_EQ(refused(two_robots + one + "<toy.copy_physics name='m' to='self/x'/>\n"),
+            of + "its set \"instance/m\" is not here");
+  EXPECT_EQ(refused(two_robots + "<toy.copy_physics name='n' to='self/x' columns='y'/>\n"),
+            of + "its table \"instance/n/*/x\" has other columns");
+  EXPECT_EQ(refused("<robot name='a' at='1 0 0'/><robot name='c' at='1 0 0'/>" + one),
+            of + "its set \"radio\" has other rows");
   EXPECT_EQ(refused(two_robots + "<toy.copy_sense name='n' to='self/x' own='true' add='1'/>\n"),
             of + "its instance \"n\" is a toy.copy_sense/1; here it is a toy.copy_physics/1");
 }
 
 TEST_F(Snapshots, AcrossAPlannedSwapTheRunGoesOnAsItDid) {
-  const std::string text = two_robots + "<toy.copy_physics name='n' to='self/x' own='true' add='1'/>\n"
+  const std::string text = two_robots +
+                           "<toy.copy_physics name='n' to='self/x' own='true' add='1'/>\n"
                            "<swap at='3' instance='n' plugin='toy.copy_sense' to='self/x' own='true' add='100'/>\n";
   Simulation sim = run(text);
   step(sim, 4);

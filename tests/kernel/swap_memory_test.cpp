@@ -1,7 +1,7 @@
 // A thousand swaps leave memory as it was. Without sanitizers, which keep what is freed.
-#include "toy_world.hpp"
-
 #include <malloc.h>
+
+#include "toy_world.hpp"
 
 namespace muster {
 namespace {
@@ -17,10 +17,12 @@ double resident_megabytes() {
 }
 
 TEST_F(Memory, AThousandSwapsLeaveItFlat) {
-  Simulation sim = run(two_robots + "<toy.copy_physics name='n' to='robot/*/v' own='true' add='1'/>\n<toy.version name='v'/>\n");
+  Simulation sim =
+      run(two_robots + "<toy.copy_physics name='n' to='robot/*/v' own='true' add='1'/>\n<toy.version name='v'/>\n");
   const auto swap = [&](int times) {
     for (int i = 0; i < times; ++i) {
-      sim.swap("n", instance(i % 2 ? "toy.copy_physics" : "toy.copy_sense", "", {{"to", "robot/*/v"}, {"own", "true"}, {"add", "1"}}));
+      sim.swap("n", instance(i % 2 ? "toy.copy_physics" : "toy.copy_sense", "",
+                             {{"to", "robot/*/v"}, {"own", "true"}, {"add", "1"}}));
       step(sim);
     }
   };
@@ -34,7 +36,8 @@ TEST_F(Memory, AThousandSwapsLeaveItFlat) {
   EXPECT_LT(static_cast<double>(mallinfo2().uordblks) - static_cast<double>(used), 1000 * 400.0);
   std::ifstream maps("/proc/self/maps");
   int mapped = 0;
-  for (std::string line; std::getline(maps, line);) mapped += line.find("toy_") != std::string::npos || line.find("(deleted)") != std::string::npos;
+  for (std::string line; std::getline(maps, line);)
+    mapped += line.find("toy_") != std::string::npos || line.find("(deleted)") != std::string::npos;
   EXPECT_LT(mapped, 40);
 }
 

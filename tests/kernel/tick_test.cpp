@@ -9,8 +9,8 @@ using testing::HasSubstr;
 using Ticks = ToyWorld;
 
 // Something of every kind that a tick publishes before its last phase.
-const std::string busy = two_robots +
-                         "<toy.copy_physics name='mover' to='robot/*/pose' columns='" + pose + "' own='true' add='1'/>\n"
+const std::string busy = two_robots + "<toy.copy_physics name='mover' to='robot/*/pose' columns='" + pose +
+                         "' own='true' add='1'/>\n"
                          "<toy.copy_physics name='rest' to='robot/*/v' flags='2' own='true' add='1' every='2'/>\n"
                          "<toy.copy_physics name='row' to='robot/b/v' own='true' add='1'/>\n"
                          "<toy.list name='l'/>\n"
@@ -58,7 +58,9 @@ TEST_F(Ticks, TimeIsTickTimesDt) {
 }
 
 TEST_F(Ticks, EvaluateRunsOnePhaseAndTimeStands) {
-  Simulation sim = run(two_robots + "<toy.draw name='draw' mean='5'/>\n<toy.copy_physics name='count' to='self/n' own='true' add='1'/>\n");
+  Simulation sim =
+      run(two_robots +
+          "<toy.draw name='draw' mean='5'/>\n<toy.copy_physics name='count' to='self/n' own='true' add='1'/>\n");
   step(sim, 4);
   const double drawn = cell(sim, "robot/a/reading");
   EXPECT_NE(drawn, 5);

@@ -1,8 +1,6 @@
 // Worlds of toy plugins, written into a folder of their own and run.
 #pragma once
 
-#include "kernel/simulation.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -12,6 +10,8 @@
 #include <fstream>
 #include <string>
 #include <vector>
+
+#include "kernel/simulation.hpp"
 
 namespace muster {
 
@@ -29,14 +29,18 @@ class ToyWorld : public testing::Test {
   }
 
   // The first of `elements` stands in line 2; dt is 0.5 s.
-  World world(const std::string& elements, const std::string& attributes = "dt=\"0.5\" until=\"1000\" seed=\"7\"") const {
+  World world(const std::string& elements,
+              const std::string& attributes = "dt=\"0.5\" until=\"1000\" seed=\"7\"") const {
     return read_world(put("world.xml", "<world " + attributes + ">\n" + elements + "</world>\n"), standard());
   }
   Options options(int workers = 1) const { return {{folder, MUSTER_BUILD_DIR "/tests/toys"}, workers, {}}; }
-  Simulation run(const std::string& elements, int workers = 1) const { return {world(elements), standard(), options(workers)}; }
+  Simulation run(const std::string& elements, int workers = 1) const {
+    return {world(elements), standard(), options(workers)};
+  }
 
   // The message of the Error that a call throws, without the folder, and with the exit code in front unless it is 2.
-  template <class Call> std::string error_of(Call&& call) const {
+  template <class Call>
+  std::string error_of(Call&& call) const {
     try {
       call();
     } catch (const Error& e) {
@@ -73,15 +77,18 @@ inline std::vector<double> column(const Simulation& run, const std::string& tabl
 using Attributes = std::vector<std::pair<std::string, std::string>>;
 
 // <plugin name="name" .../>, as the command line makes one.
-inline InstanceDeclaration instance(const std::string& plugin, const std::string& name, const Attributes& attributes = {}, uint64_t every = 1) {
+inline InstanceDeclaration instance(const std::string& plugin, const std::string& name,
+                                    const Attributes& attributes = {}, uint64_t every = 1) {
   InstanceDeclaration result{plugin, name, every, {}, {}, {}, {"command line"}};
-  for (const auto& [key, value] : attributes) result.attributes.push_back({key, value, {"command line"}, {"command line"}});
+  for (const auto& [key, value] : attributes)
+    result.attributes.push_back({key, value, {"command line"}, {"command line"}});
   return result;
 }
 
 inline std::vector<std::string> messages(const Simulation& run) {
   std::vector<std::string> result;
-  for (const auto& event : run.events()) result.push_back(std::to_string(event.tick) + ' ' + event.instance + ": " + event.message);
+  for (const auto& event : run.events())
+    result.push_back(std::to_string(event.tick) + ' ' + event.instance + ": " + event.message);
   return result;
 }
 

@@ -12,47 +12,69 @@ const std::string rest = "<toy.copy_sense name='sensor' to='robot/*/odometry' co
 
 TEST_F(Truth, TruthIsRefused) {
   const auto controller = [&](const std::string& attributes) {
-    return error_of_world(two_robots + rest + "<toy.copy_control name='c' robot='a' to='self/x' " + attributes + "/>\n");
+    return error_of_world(two_robots + rest + "<toy.copy_control name='c' robot='a' to='self/x' " + attributes +
+                          "/>\n");
   };
   EXPECT_EQ(controller("from='robot/{robot}/odometry' from_columns='" + odometry + "'"), "no error");
   EXPECT_EQ(controller("from='robot/{robot}/pose' from_columns='" + pose + "'"),
-            "world.xml:5:1: c (toy.copy_control): claims \"robot/a/pose\", which is truth; a controller knows what its robot senses: " + sensed);
+            "world.xml:5:1: c (toy.copy_control): claims \"robot/a/pose\", which is truth; a controller knows what its "
+            "robot senses: " +
+                sensed);
   EXPECT_EQ(controller("from='robot/b/odometry' from_columns='" + odometry + "'"),
-            "world.xml:5:1: c (toy.copy_control): claims \"robot/b/odometry\", but it is bound to the robot \"a\"; expected that robot's own row");
+            "world.xml:5:1: c (toy.copy_control): claims \"robot/b/odometry\", but it is bound to the robot \"a\"; "
+            "expected that robot's own row");
   EXPECT_EQ(controller("from='robot/*/odometry' from_columns='" + odometry + "'"),
-            "world.xml:5:1: c (toy.copy_control): claims \"robot/*/odometry\", but it is bound to the robot \"a\"; expected that robot's own row");
+            "world.xml:5:1: c (toy.copy_control): claims \"robot/*/odometry\", but it is bound to the robot \"a\"; "
+            "expected that robot's own row");
   EXPECT_EQ(controller("from='outbox/b/message' from_columns='radio:radio to:radio? payload{}'"),
-            "world.xml:5:1: c (toy.copy_control): claims \"outbox/b/message\", but it is bound to the robot \"a\"; expected that robot's own row");
+            "world.xml:5:1: c (toy.copy_control): claims \"outbox/b/message\", but it is bound to the robot \"a\"; "
+            "expected that robot's own row");
   EXPECT_EQ(controller("from='link/*/level' from_columns='level[dBm]'"),
-            "world.xml:5:1: c (toy.copy_control): claims \"link/*/level\", which is truth; a controller knows what its robot senses: " + sensed);
+            "world.xml:5:1: c (toy.copy_control): claims \"link/*/level\", which is truth; a controller knows what its "
+            "robot senses: " +
+                sensed);
   EXPECT_EQ(controller("from='instance/sensor/state'"),
-            "world.xml:5:1: c (toy.copy_control): claims \"instance/sensor/*/state\", which is truth; a controller knows what its robot "
-            "senses: " + sensed);
+            "world.xml:5:1: c (toy.copy_control): claims \"instance/sensor/*/state\", which is truth; a controller "
+            "knows what its robot "
+            "senses: " +
+                sensed);
 }
 
 TEST_F(Truth, TheStagesOfAReadingAreTruth) {
-  EXPECT_EQ(error_of_world(two_robots + rest + "<toy.copy_sense name='noise' as='modify' to='robot/*/odometry' columns='" + odometry + "' add='1'/>\n"
-                           "<toy.copy_control name='c' robot='a' to='self/x' from='robot/{robot}/odometry@base' from_columns='" + odometry + "'/>\n"),
-            "world.xml:6:1: c (toy.copy_control): claims \"robot/a/odometry@base\", which is truth; a controller reads what comes out of the last stage");
+  EXPECT_EQ(
+      error_of_world(
+          two_robots + rest + "<toy.copy_sense name='noise' as='modify' to='robot/*/odometry' columns='" + odometry +
+          "' add='1'/>\n"
+          "<toy.copy_control name='c' robot='a' to='self/x' from='robot/{robot}/odometry@base' from_columns='" +
+          odometry + "'/>\n"),
+      "world.xml:6:1: c (toy.copy_control): claims \"robot/a/odometry@base\", which is truth; a controller reads what "
+      "comes out of the last stage");
 }
 
 TEST_F(Truth, OtherQuantitiesAreSensedIfEveryWriterSaysSo) {
   const auto reads = [&](const std::string& writer) {
-    return error_of_world(two_robots + writer + "\n<toy.copy_control name='c' robot='a' from='robot/{robot}/v' to='self/x'/>\n");
+    return error_of_world(two_robots + writer +
+                          "\n<toy.copy_control name='c' robot='a' from='robot/{robot}/v' to='self/x'/>\n");
   };
   EXPECT_EQ(reads("<toy.copy_sense name='w' to='robot/*/v' flags='4'/>"), "no error");
   EXPECT_EQ(reads("<toy.copy_sense name='w' to='robot/*/v'/>"),
-            "world.xml:5:1: c (toy.copy_control): reads \"robot/*/v\", which is truth: world.xml:4:1: w (toy.copy_sense) does not write it as sensed");
+            "world.xml:5:1: c (toy.copy_control): reads \"robot/*/v\", which is truth: world.xml:4:1: w "
+            "(toy.copy_sense) does not write it as sensed");
   EXPECT_EQ(reads("<toy.copy_sense name='u' to='robot/b/v' flags='4'/><toy.copy_sense name='w' to='robot/a/v'/>"),
-            "world.xml:5:1: c (toy.copy_control): reads \"robot/*/v\", which is truth: world.xml:4:52: w (toy.copy_sense) does not write it as sensed");
+            "world.xml:5:1: c (toy.copy_control): reads \"robot/*/v\", which is truth: world.xml:4:52: w "
+            "(toy.copy_sense) does not write it as sensed");
   EXPECT_EQ(reads("<toy.copy_sense name='w' to='robot/*/v' as='add'/>"),
-            "world.xml:5:1: c (toy.copy_control): reads \"robot/*/v\", which is truth: world.xml:4:1: w (toy.copy_sense) does not write it as sensed");
+            "world.xml:5:1: c (toy.copy_control): reads \"robot/*/v\", which is truth: world.xml:4:1: w "
+            "(toy.copy_sense) does not write it as sensed");
   EXPECT_EQ(reads("<toy.copy_sense name='w' to='robot/*/v' as='add' flags='4'/>"), "no error");
 }
 
 TEST_F(Truth, AControllerWithoutARobotSeesNoTruthEither) {
-  EXPECT_EQ(error_of_world(two_robots + "<toy.copy_control name='c' from='robot/*/pose' from_columns='" + pose + "' to='self/x'/>\n"),
-            "world.xml:4:1: c (toy.copy_control): claims \"robot/*/pose\", which is truth; a controller knows what its robot senses: " + sensed);
+  EXPECT_EQ(error_of_world(two_robots + "<toy.copy_control name='c' from='robot/*/pose' from_columns='" + pose +
+                           "' to='self/x'/>\n"),
+            "world.xml:4:1: c (toy.copy_control): claims \"robot/*/pose\", which is truth; a controller knows what its "
+            "robot senses: " +
+                sensed);
 }
 
 }  // namespace

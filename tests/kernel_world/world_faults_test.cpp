@@ -12,31 +12,39 @@ const std::string walls = "<material name='m' loss='3'/>\n";
 TEST_F(Faults, Fault5MisspeltNames) {
   EXPECT_EQ(error("<word until='1'/>"), "world.xml:1:1: the root element is <word>; expected <world>");
   EXPECT_EQ(error("<world untill='1'/>"),
-            "world.xml:1:8: <world> has no attribute \"untill\"; expected one of name, dt, until, seed; did you mean \"until\"?");
+            "world.xml:1:8: <world> has no attribute \"untill\"; expected one of name, dt, until, seed; did you mean "
+            "\"until\"?");
   EXPECT_EQ(error("<world/>"), "world.xml:1:1: <world> has no attribute \"until\", which it needs");
   EXPECT_EQ(error_with("<robbot at='0 0 0'/>"),
-            "world.xml:2:1: <robbot> is no element of a world; expected a plugin (with a dot in its name) or one of swap, record, material, "
+            "world.xml:2:1: <robbot> is no element of a world; expected a plugin (with a dot in its name) or one of "
+            "swap, record, material, "
             "wall, walls, door, station, robot; did you mean \"robot\"?");
   EXPECT_EQ(error_with("<robot name='a' att='0 0 0'/>"),
-            "world.xml:2:17: <robot> has no attribute \"att\"; expected one of name, model, at, heading, antenna; did you mean \"at\"?");
+            "world.xml:2:17: <robot> has no attribute \"att\"; expected one of name, model, at, heading, antenna; did "
+            "you mean \"at\"?");
   EXPECT_EQ(error_with("<robot name='a'/>"), "world.xml:2:1: <robot> has no attribute \"at\", which it needs");
-  EXPECT_EQ(error_with("<robot name='a' at='0 0 0'><wheel/></robot>"), "world.xml:2:28: <robot> has an element inside; expected attributes only");
+  EXPECT_EQ(error_with("<robot name='a' at='0 0 0'><wheel/></robot>"),
+            "world.xml:2:28: <robot> has an element inside; expected attributes only");
   EXPECT_EQ(error_with("<a.b><c/></a.b>"), "world.xml:2:6: <a.b> has an element inside; expected attributes only");
   EXPECT_EQ(error_with("<record tabel='x'/>"), "world.xml:2:1: <record> has no attribute \"table\", which it needs");
-  EXPECT_EQ(error_with("<record table='x' evry='2'/>"),
-            "world.xml:2:19: <record> has no attribute \"evry\"; expected one of table, every; did you mean \"every\"?");
+  EXPECT_EQ(
+      error_with("<record table='x' evry='2'/>"),
+      "world.xml:2:19: <record> has no attribute \"evry\"; expected one of table, every; did you mean \"every\"?");
   EXPECT_EQ(error_with("<a.b/>\n<swap at='1' instance='a.c' plugin='x.y'/>"),
             "world.xml:3:1: no instance is called \"a.c\"; expected a.b; did you mean \"a.b\"?");
-  EXPECT_EQ(error_with("<a.b/>\n<swap at='1' instance='a.b'/>"), "world.xml:3:1: <swap> has no attribute \"plugin\", which it needs");
+  EXPECT_EQ(error_with("<a.b/>\n<swap at='1' instance='a.b'/>"),
+            "world.xml:3:1: <swap> has no attribute \"plugin\", which it needs");
   EXPECT_EQ(error_with(walls + "<wall from='0 0' to='1 0' material='n'/>"),
             "world.xml:3:37: no material is called \"n\"; expected m");
-  EXPECT_EQ(error_with("<wall from='0 0' to='1 0' material='n'/>"), "world.xml:2:37: no material is called \"n\"; the world has none");
+  EXPECT_EQ(error_with("<wall from='0 0' to='1 0' material='n'/>"),
+            "world.xml:2:37: no material is called \"n\"; the world has none");
 }
 
 TEST_F(Faults, Fault6Numbers) {
   const auto dt = [&](const std::string& value) { return error("<world dt='" + value + "' until='10'/>"); };
   const auto loss = [&](const std::string& value) { return error_with("<material name='m' loss='" + value + "'/>"); };
-  const std::string tick = "; expected the tick in seconds, from 1e-09", number = "; expected a number from 0 to 100 dB";
+  const std::string tick = "; expected the tick in seconds, from 1e-09",
+                    number = "; expected a number from 0 to 100 dB";
   const std::string at_dt = "world.xml:1:12: attribute \"dt\": ", at_loss = "world.xml:2:26: attribute \"loss\": ";
   EXPECT_EQ(dt("0,1"), at_dt + "\"0,1\" is not a number; a decimal point is written '.'" + tick);
   EXPECT_EQ(loss("1,5"), at_loss + "\"1,5\" is not a number; a decimal point is written '.'" + number);
@@ -49,19 +57,25 @@ TEST_F(Faults, Fault6Numbers) {
   EXPECT_EQ(loss(" "), at_loss + "\" \" is not a number; it has spaces in it or around it" + number);
   EXPECT_EQ(loss(" 3"), at_loss + "\" 3\" is not a number; it has spaces in it or around it" + number);
   EXPECT_EQ(loss("+3"), at_loss + "\"+3\" is not a number; a positive number is written without '+'" + number);
-  EXPECT_EQ(error("<world dt='0.1' until='10' seed='-1'/>"), "world.xml:1:34: attribute \"seed\": -1 is out of bounds; expected an integer from 0");
+  EXPECT_EQ(error("<world dt='0.1' until='10' seed='-1'/>"),
+            "world.xml:1:34: attribute \"seed\": -1 is out of bounds; expected an integer from 0");
   EXPECT_EQ(error("<world dt='0.1' until='10' seed='1.5'/>"),
-            "world.xml:1:34: attribute \"seed\": \"1.5\" is not an integer; \".5\" follows the number; expected an integer from 0");
-  EXPECT_EQ(error_with("<a.b every='0'/>"), "world.xml:2:13: attribute \"every\": 0 is out of bounds; expected an integer from 1");
+            "world.xml:1:34: attribute \"seed\": \"1.5\" is not an integer; \".5\" follows the number; expected an "
+            "integer from 0");
+  EXPECT_EQ(error_with("<a.b every='0'/>"),
+            "world.xml:2:13: attribute \"every\": 0 is out of bounds; expected an integer from 1");
   EXPECT_EQ(error_with("<a.b every='2.5'/>"),
-            "world.xml:2:13: attribute \"every\": \"2.5\" is not an integer; \".5\" follows the number; expected an integer from 1");
-  EXPECT_EQ(error_with("<a.b revision='-1'/>"), "world.xml:2:16: attribute \"revision\": -1 is out of bounds; expected an integer from 1");
+            "world.xml:2:13: attribute \"every\": \"2.5\" is not an integer; \".5\" follows the number; expected an "
+            "integer from 1");
+  EXPECT_EQ(error_with("<a.b revision='-1'/>"),
+            "world.xml:2:16: attribute \"revision\": -1 is out of bounds; expected an integer from 1");
   EXPECT_THAT(error_with("<robot at='0 0'/>"), HasSubstr("world.xml:2:12: attribute \"at\": "));
   EXPECT_THAT(error_with("<robot at='0 0 0 0'/>"), HasSubstr("; expected 3 numbers from -1e+06 to 1e+06 m"));
 }
 
 TEST_F(Faults, Fault7Units) {
-  const World world = read_with("<robot name='a' at='0 0 0' heading='90'/>\n<robot name='b' at='0 0 0' heading='-6.28'/>");
+  const World world =
+      read_with("<robot name='a' at='0 0 0' heading='90'/>\n<robot name='b' at='0 0 0' heading='-6.28'/>");
   ASSERT_EQ(world.warnings.size(), 1u);
   EXPECT_EQ(world.warnings[0].place.line, 2);
   EXPECT_EQ(world.warnings[0].message, "attribute \"heading\": 90 rad is more than a full turn; are these degrees?");
@@ -69,16 +83,20 @@ TEST_F(Faults, Fault7Units) {
             "world.xml:2:26: attribute \"loss\": -1 is out of bounds; expected a number from 0 to 100 dB");
   EXPECT_EQ(error_with(walls + "<wall from='0 0' to='1 0' height='0' material='m'/>"),
             "world.xml:3:35: attribute \"height\": 0 is out of bounds; expected a number from 0.001 to 1e+06 m");
-  EXPECT_EQ(error("<world dt='0' until='10'/>"), "world.xml:1:12: attribute \"dt\": 0 is out of bounds; expected the tick in seconds, from 1e-09");
-  EXPECT_EQ(error("<world dt='-1' until='10'/>"), "world.xml:1:12: attribute \"dt\": -1 is out of bounds; expected the tick in seconds, from 1e-09");
+  EXPECT_EQ(error("<world dt='0' until='10'/>"),
+            "world.xml:1:12: attribute \"dt\": 0 is out of bounds; expected the tick in seconds, from 1e-09");
+  EXPECT_EQ(error("<world dt='-1' until='10'/>"),
+            "world.xml:1:12: attribute \"dt\": -1 is out of bounds; expected the tick in seconds, from 1e-09");
   EXPECT_EQ(error("<world dt='0.1' until='-1'/>"),
             "world.xml:1:24: attribute \"until\": -1 is out of bounds; expected the end of the run in seconds, from 0");
   EXPECT_EQ(error("<world dt='2' until='1.5'/>"), "world.xml:1:22: 1.5 s are less than a tick of 2 s");
-  EXPECT_EQ(error("<world dt='1e-6' until='1e6'/>"), "world.xml:1:25: 1e+06 s are 1e+12 ticks of 1e-06 s; expected fewer than 1e+12");
+  EXPECT_EQ(error("<world dt='1e-6' until='1e6'/>"),
+            "world.xml:1:25: 1e+06 s are 1e+12 ticks of 1e-06 s; expected fewer than 1e+12");
 }
 
 TEST_F(Faults, ASwapThatNeverComesIsWarnedAbout) {
-  const World world = read_with("<a.b/>\n<swap at='9.9' instance='a.b' plugin='x.y'/>\n<swap at='10' instance='a.b' plugin='x.y'/>");
+  const World world =
+      read_with("<a.b/>\n<swap at='9.9' instance='a.b' plugin='x.y'/>\n<swap at='10' instance='a.b' plugin='x.y'/>");
   ASSERT_EQ(world.warnings.size(), 1u);
   EXPECT_EQ(world.warnings[0].place.line, 4);
   EXPECT_EQ(world.warnings[0].message, "the swap of \"a.b\" comes at the end of the run or after it");
@@ -90,14 +108,17 @@ TEST_F(Faults, Fault13OneNameTwice) {
   EXPECT_EQ(error_with("<robot name='a' at='0 0 0'/>\n<station name='a' at='1 0 0'/>"),
             "world.xml:3:1: a second radio is called \"a\"; the first is at world.xml:2:1");
   EXPECT_EQ(error_with("<a.b/>\n<a.b/>"),
-            "world.xml:3:1: a second instance is called \"a.b\"; the first is at world.xml:2:1; give one of them a name=\"...\" of its own");
+            "world.xml:3:1: a second instance is called \"a.b\"; the first is at world.xml:2:1; give one of them a "
+            "name=\"...\" of its own");
   EXPECT_EQ(error_with("<a.b name='x'/>\n<c.d name='x'/>"),
-            "world.xml:3:1: a second instance is called \"x\"; the first is at world.xml:2:1; give one of them a name=\"...\" of its own");
+            "world.xml:3:1: a second instance is called \"x\"; the first is at world.xml:2:1; give one of them a "
+            "name=\"...\" of its own");
   EXPECT_EQ(error_with("<robot name='a b' at='0 0 0'/>"),
             "world.xml:2:14: attribute \"name\": \"a b\" is not a name; expected letters, digits, _, - and .");
   EXPECT_EQ(error_with("<robot name='a/b' at='0 0 0'/>"),
             "world.xml:2:14: attribute \"name\": \"a/b\" is not a name; expected letters, digits, _, - and .");
-  EXPECT_EQ(error_with("<a.b name=''/>"), "world.xml:2:12: attribute \"name\": \"\" is not a name; expected letters, digits, _, - and .");
+  EXPECT_EQ(error_with("<a.b name=''/>"),
+            "world.xml:2:12: attribute \"name\": \"\" is not a name; expected letters, digits, _, - and .");
 }
 
 }  // namespace

@@ -9,7 +9,8 @@ using testing::HasSubstr;
 using Rows = WorldText;
 
 const std::string header = "name,x0[m],y0[m],x1[m],y1[m],height[m],thickness[m],material\n";
-const std::string elements = "<material name='brick' loss='6'/>\n<walls file='walls.csv'/>\n<material name='wood' loss='2'/>";
+const std::string elements =
+    "<material name='brick' loss='6'/>\n<walls file='walls.csv'/>\n<material name='wood' loss='2'/>";
 
 const RowDeclaration& row(const World& world, const std::string& set, const std::string& name) {
   for (const auto& row : world.rows) {
@@ -23,14 +24,17 @@ std::vector<double> stored(const RowDeclaration& row, const std::string& table, 
   std::vector<double> result(width, 0);
   for (const auto& values : row.values) {
     if (values.table != table) continue;
-    if (values.store) values.store(values.values.data(), result.data());
-    else result = values.values;
+    if (values.store)
+      values.store(values.values.data(), result.data());
+    else
+      result = values.values;
   }
   return result;
 }
 
 TEST_F(Rows, AnElementIsARowInEachSetThatItsAttributesName) {
-  const World world = read_with("<robot name='a' model='rdk' at='1 2 3' heading='3.141592653589793' antenna='0 0 0.5'/>\n<robot at='0 0 0'/>");
+  const World world = read_with(
+      "<robot name='a' model='rdk' at='1 2 3' heading='3.141592653589793' antenna='0 0 0.5'/>\n<robot at='0 0 0'/>");
   const auto& robot = row(world, "robot", "a");
   EXPECT_THAT(robot.sets, ElementsAre("robot", "radio"));
   const auto pose = stored(robot, "robot/pose", 7);
@@ -42,10 +46,13 @@ TEST_F(Rows, AnElementIsARowInEachSetThatItsAttributesName) {
 }
 
 TEST_F(Rows, ReferencesMayPointDownTheFile) {
-  const World world = read_with("<door wall='w' at='1' state='open'/>\n<wall name='w' from='0 0' to='4 0' material='m'/>\n<material name='l' loss='1'/>\n<material name='m' loss='1'/>");
+  const World world = read_with(
+      "<door wall='w' at='1' state='open'/>\n<wall name='w' from='0 0' to='4 0' material='m'/>\n<material name='l' "
+      "loss='1'/>\n<material name='m' loss='1'/>");
   EXPECT_EQ(stored(row(world, "wall", "w"), "wall/shape", 8), (std::vector<double>{0, 0, 4, 0, 0, 2.7, 0.1, 1}));
   EXPECT_EQ(stored(row(world, "door", "door1"), "door/state", 1), std::vector<double>{1});
-  EXPECT_EQ(error_with("<door wall='w' at='1' state='ajar'/>\n<wall name='w' from='0 0' to='4 0' material='m'/>\n<material name='m' loss='1'/>"),
+  EXPECT_EQ(error_with("<door wall='w' at='1' state='ajar'/>\n<wall name='w' from='0 0' to='4 0' "
+                       "material='m'/>\n<material name='m' loss='1'/>"),
             "world.xml:2:30: attribute \"state\": \"ajar\" is not a choice; expected one of closed, open");
 }
 
@@ -56,7 +63,8 @@ TEST_F(Rows, WallsFromAFile) {
   EXPECT_EQ(stored(row(world, "wall", "w2"), "wall/shape", 8), (std::vector<double>{0, 0, 0, 5, 0, 3, 0, 1}));
   EXPECT_EQ(row(world, "wall", "w2").place.line, 3);
   put("walls.csv", "name,x0[m],y0[m],x1[m],y1[m],material\nw1,0,0,12,0,brick\n");
-  EXPECT_EQ(stored(row(read_with(elements), "wall", "w1"), "wall/shape", 8), (std::vector<double>{0, 0, 12, 0, 0, 2.7, 0.1, 0}));
+  EXPECT_EQ(stored(row(read_with(elements), "wall", "w1"), "wall/shape", 8),
+            (std::vector<double>{0, 0, 12, 0, 0, 2.7, 0.1, 0}));
 }
 
 TEST_F(Rows, WhatAFileMayGetWrong) {
@@ -77,7 +85,8 @@ TEST_F(Rows, WhatAFileMayGetWrong) {
   EXPECT_EQ(with(header + "w 1,0,0,12,0,2.7,0.12,brick\n"),
             "walls.csv:2:1: attribute \"name\": \"w 1\" is not a name; expected letters, digits, _, - and .");
   EXPECT_EQ(with("name,x0[m],y0[m],x1[m],y1[m],material,colour\nw1,0,0,12,0,brick,red\n"),
-            "walls.csv:1:39: column \"colour\" means nothing here; expected one of base, height, material, name, thickness, x0, x1, y0, y1");
+            "walls.csv:1:39: column \"colour\" means nothing here; expected one of base, height, material, name, "
+            "thickness, x0, x1, y0, y1");
   EXPECT_THAT(with("name,x0[cm],y0[m],x1[m],y1[m],material\nw1,0,0,12,0,brick\n"), HasSubstr("walls.csv:1:6: "));
   EXPECT_THAT(with("name,x0[m],y0[m],x1[m],material\nw1,0,0,12,brick\n"), HasSubstr("walls.csv:1:1: "));
   EXPECT_THAT(with(header + "w1,0,0,12,0,2.7,nan,brick\n"), HasSubstr("walls.csv:2:17: "));

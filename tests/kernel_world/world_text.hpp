@@ -1,8 +1,6 @@
 // World files written by tests, and what reading them says.
 #pragma once
 
-#include "kernel/world.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,6 +8,8 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+
+#include "kernel/world.hpp"
 
 namespace muster {
 
@@ -27,7 +27,9 @@ class WorldText : public testing::Test {
   }
   World read(const std::string& text) const { return read_world(put("world.xml", text), standard()); }
   // `elements` begin in line 2.
-  World read_with(const std::string& elements) const { return read("<world dt='0.1' until='10'>\n" + elements + "\n</world>\n"); }
+  World read_with(const std::string& elements) const {
+    return read("<world dt='0.1' until='10'>\n" + elements + "\n</world>\n");
+  }
 
   std::string error(const std::string& text) const {
     try {
@@ -41,7 +43,9 @@ class WorldText : public testing::Test {
     }
     return "no error";
   }
-  std::string error_with(const std::string& elements) const { return error("<world dt='0.1' until='10'>\n" + elements + "\n</world>\n"); }
+  std::string error_with(const std::string& elements) const {
+    return error("<world dt='0.1' until='10'>\n" + elements + "\n</world>\n");
+  }
 
   std::filesystem::path folder;
 };

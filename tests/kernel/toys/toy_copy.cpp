@@ -1,9 +1,8 @@
-// out = (one input + another + what it wrote last) * times + add, with tables, columns and kind of claim as the world says.
-// Built once for each phase.
-#include <muster/plugin.hpp>
-
+// out = (one input + another + what it wrote last) * times + add, with tables, columns and kind of claim as the world
+// says. Built once for each phase.
 #include <algorithm>
 #include <cstdlib>
+#include <muster/plugin.hpp>
 
 namespace {
 
@@ -39,7 +38,8 @@ struct Copy {
       if (index < 0) throw std::runtime_error("");
       return index;
     };
-    const auto flags = static_cast<uint32_t>(s.param("flags")), read_flags = static_cast<uint32_t>(s.param("read_flags"));
+    const auto flags = static_cast<uint32_t>(s.param("flags")),
+               read_flags = static_cast<uint32_t>(s.param("read_flags"));
     from = claim(MUSTER_READ, read_flags, s.text("from"), others.empty() ? columns : others);
     other = claim(MUSTER_READ, read_flags, s.text("and"), others.empty() ? columns : others);
     kind = s.param("as") == 0 ? MUSTER_WRITE : s.param("as") == 1 ? MUSTER_ADD : MUSTER_MODIFY;

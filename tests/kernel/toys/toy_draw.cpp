@@ -13,9 +13,13 @@ struct Reading {
 struct Draw {
   static constexpr auto id = "toy.draw/1", summary = "draws a reading for each robot";
   static constexpr auto phase = MUSTER_SENSE;
-  static constexpr Param params[] = {real("mean", 2, -100, 100, "m", "mean of the reading").free(), text("stream", "noise", "the stream")};
+  static constexpr Param params[] = {real("mean", 2, -100, 100, "m", "mean of the reading").free(),
+                                     text("stream", "noise", "the stream")};
 
-  explicit Draw(Setup& s) : mean(s.value("mean")), noise(s.stream(s.text("stream").c_str())), out(s.write<Reading>("robot/*/reading", MUSTER_SENSED)) {}
+  explicit Draw(Setup& s)
+      : mean(s.value("mean")),
+        noise(s.stream(s.text("stream").c_str())),
+        out(s.write<Reading>("robot/*/reading", MUSTER_SENSED)) {}
 
   void step(const Step& k) const {
     const auto rows = k[out];

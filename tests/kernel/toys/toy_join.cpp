@@ -22,8 +22,16 @@ struct Join {
   };
 
   explicit Join(Setup& s)
-      : at(s.value("at")), leave(s.value("leave")), leaver(s.value("leaver")), like(s.value("like")), column(s.value("column")),
-        value(s.value("value")), twice(s.value("twice")), who(s.text("who")), quantity(s.text("quantity")), host(s.host()) {
+      : at(s.value("at")),
+        leave(s.value("leave")),
+        leaver(s.value("leaver")),
+        like(s.value("like")),
+        column(s.value("column")),
+        value(s.value("value")),
+        twice(s.value("twice")),
+        who(s.text("who")),
+        quantity(s.text("quantity")),
+        host(s.host()) {
     claim = host->claim(host, MUSTER_WRITE, MUSTER_JOINS, s.text("table").c_str(), Pose::columns);
     if (claim < 0) throw std::runtime_error("");
   }
@@ -32,7 +40,9 @@ struct Join {
     if (k.tick() == static_cast<uint64_t>(k[at])) {
       const int row = host->join(host, claim, who.c_str(), static_cast<int>(k[like]));
       if (k[twice] != 0) host->join(host, claim, who.c_str(), -1);
-      if (row >= 0) host->place(host, claim, static_cast<uint32_t>(row), quantity.c_str(), static_cast<uint32_t>(k[column]), k[value]);
+      if (row >= 0)
+        host->place(host, claim, static_cast<uint32_t>(row), quantity.c_str(), static_cast<uint32_t>(k[column]),
+                    k[value]);
     }
     if (k.tick() == static_cast<uint64_t>(k[leave])) {
       host->leave(host, claim, k[leaver] >= 0 ? static_cast<uint32_t>(k[leaver]) : k.rows("robot") - 1);

@@ -1,7 +1,6 @@
 // Every kind of column at once: numbers that may be absent or infinite, many alike, references, bytes.
-#include <muster/plugin.hpp>
-
 #include <limits>
+#include <muster/plugin.hpp>
 #include <string>
 
 namespace {
@@ -16,12 +15,14 @@ struct Kinds {
 struct ToyKinds {
   static constexpr auto id = "toy.kinds/1", summary = "every kind of column";
   static constexpr auto phase = MUSTER_SENSE;
-  static constexpr Param params[] = {reference("robot", "robot", "one row only"), flag("rest", false, "leave rows to others"),
+  static constexpr Param params[] = {reference("robot", "robot", "one row only"),
+                                     flag("rest", false, "leave rows to others"),
                                      text("mark", "picture", "what the images say")};
 
   explicit ToyKinds(Setup& s)
       : mark(s.text("mark")),
-        out(s.write<Kinds>(s.param("robot") < 0 ? "robot/*/kinds" : "robot/{robot}/kinds", s.param("rest") != 0 ? MUSTER_REST : 0)) {}
+        out(s.write<Kinds>(s.param("robot") < 0 ? "robot/*/kinds" : "robot/{robot}/kinds",
+                           s.param("rest") != 0 ? MUSTER_REST : 0)) {}
 
   void step(const Step& k) const {
     const double inf = std::numeric_limits<double>::infinity();

@@ -16,8 +16,10 @@ struct Lazy {
   static constexpr Param params[] = {integer("at", 2, 0, 1000, "the tick"), flag("queue", false, "in a queue instead")};
 
   explicit Lazy(Setup& s) : at(s.value("at")), is_queue(s.param("queue") != 0), own{-1}, queue{-1} {
-    if (is_queue) queue = s.write<Outgoing>("outbox/*/message");
-    else own = s.write<Two>("robot/*/two");
+    if (is_queue)
+      queue = s.write<Outgoing>("outbox/*/message");
+    else
+      own = s.write<Two>("robot/*/two");
   }
 
   void step(const Step& k) const {

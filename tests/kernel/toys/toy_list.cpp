@@ -8,11 +8,14 @@ using namespace muster;
 struct List {
   static constexpr auto id = "toy.list/1", summary = "lists endpoints and links";
   static constexpr auto phase = MUSTER_RADIO;
-  static constexpr Param params[] = {integer("modulo", 5, 1, 100, "how many at most"), flag("uneven", false, "one pose too few"),
-                                     flag("adds", false, "claims a part of a sum over its own rows"), flag("loose", false, "a link to nowhere")};
+  static constexpr Param params[] = {
+      integer("modulo", 5, 1, 100, "how many at most"), flag("uneven", false, "one pose too few"),
+      flag("adds", false, "claims a part of a sum over its own rows"), flag("loose", false, "a link to nowhere")};
 
   explicit List(Setup& s)
-      : modulo(s.value("modulo")), uneven(s.value("uneven")), loose(s.value("loose")),
+      : modulo(s.value("modulo")),
+        uneven(s.value("uneven")),
+        loose(s.value("loose")),
         radio(s.write<Endpoint>("endpoint/*/radio")),
         pose(s.write<Pose>("endpoint/*/pose")),
         ends(s.write<Ends>("link/*/ends")) {
@@ -23,7 +26,8 @@ struct List {
     const auto rows = static_cast<std::size_t>(k.tick()) % static_cast<std::size_t>(k[modulo]) + 1;
     std::size_t i = 0;
     for (auto& it : k.append(radio, rows)) it = {0, static_cast<double>(i++)};
-    for (auto& it : k.append(pose, rows - (k[uneven] != 0 ? 1 : 0))) it = {static_cast<double>(k.tick()), 0, 0, 1, 0, 0, 0};
+    for (auto& it : k.append(pose, rows - (k[uneven] != 0 ? 1 : 0)))
+      it = {static_cast<double>(k.tick()), 0, 0, 1, 0, 0, 0};
     for (auto& it : k.append(ends, (rows + 1) / 2)) it = {0, static_cast<double>(k[loose] != 0 ? rows : rows - 1)};
   }
 

@@ -1,7 +1,6 @@
 // Counts the messages that it sees, with a hash of their bytes in their order. Built once for each phase.
-#include <muster/plugin.hpp>
-
 #include <cstdlib>
+#include <muster/plugin.hpp>
 
 namespace {
 
@@ -15,11 +14,11 @@ struct Heard {
 struct Listen {
   static constexpr auto id = TOY_ID "/1", summary = "counts messages";
   static constexpr auto phase = TOY_PHASE;
-  static constexpr Param params[] = {reference("robot", "robot", "who listens"), text("from", "outbox/*/message", "the queue"),
-                                     flag("answers", false, "and sends one message itself for each it sees below number 1000000")};
+  static constexpr Param params[] = {
+      reference("robot", "robot", "who listens"), text("from", "outbox/*/message", "the queue"),
+      flag("answers", false, "and sends one message itself for each it sees below number 1000000")};
 
-  explicit Listen(Setup& s)
-      : in(s.read<Outgoing>(s.text("from"))), heard(s.write<Heard>("self/heard")), answer{-1} {
+  explicit Listen(Setup& s) : in(s.read<Outgoing>(s.text("from"))), heard(s.write<Heard>("self/heard")), answer{-1} {
     if (s.param("answers") != 0) answer = s.write<Outgoing>(s.text("from"));
   }
 

@@ -1,6 +1,5 @@
 /* A plugin in plain C: a battery for each robot, emptied by a tenth of what is left each second. */
 #include <muster/plugin.h>
-
 #include <stdlib.h>
 
 MUSTER_DECLARE_ABI
@@ -10,7 +9,8 @@ struct battery {
   int charge;
 };
 
-static const muster_param params[] = {{"rate", MUSTER_REAL, MUSTER_FREE, 0.1, 0, 1, "1/s", "share lost each second", NULL}};
+static const muster_param params[] = {
+    {"rate", MUSTER_REAL, MUSTER_FREE, 0.1, 0, 1, "1/s", "share lost each second", NULL}};
 
 static void* create(const muster_host* host) {
   struct battery* self = malloc(sizeof *self);
