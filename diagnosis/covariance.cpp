@@ -2,6 +2,8 @@
 
 #include <Eigen/Cholesky>
 
+#include <boost/math/distributions/students_t.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -54,7 +56,8 @@ namespace {
 
 // Newton steps for variances that may not be negative.
 template <class Likelihood>
-Eigen::VectorXd maximise(Likelihood& likelihood, Eigen::VectorXd at, double scale) {
+void maximise(Likelihood& likelihood, Components& c, double scale) {
+  Eigen::VectorXd& at = c.variances;
   likelihood.evaluate(at, true);
   for (int i = 0; i < 30; ++i) {
     const double before = likelihood.value;
@@ -62,7 +65,7 @@ Eigen::VectorXd maximise(Likelihood& likelihood, Eigen::VectorXd at, double scal
     Eigen::VectorXd b = likelihood.score;
     a.diagonal().array() += 1e-8 * a.diagonal().maxCoeff() + 1e-12;
     for (Eigen::Index k = 0; k < at.size(); ++k) {
-      if (at[k] > 0 || b[k] > 0) continue;
+      if (c.kinds[static_cast<std::size_t>(k)] && (at[k] > 0 || b[k] > 0)) continue;
       a.row(k).setZero();
       a.col(k).setZero();
       a(k, k) = 1;
@@ -79,11 +82,50 @@ Eigen::VectorXd maximise(Likelihood& likelihood, Eigen::VectorXd at, double scal
     likelihood.evaluate(at, true);
     if (moved < 1e-3 * scale || likelihood.value - before < 1e-3) break;
   }
-  return at;
+}
+
+// The variances of these kinds, and how sure they are; one that came out as 0 is not there.
+template <class Likelihood>
+void estimate(Likelihood& likelihood, Components& c, double scale) {
+  const auto count = static_cast<Eigen::Index>(c.kinds.size());
+  c.variances = Eigen::VectorXd::Zero(count);
+  for (Eigen::Index k = 0; k < count; ++k) c.variances[k] = c.kinds[static_cast<std::size_t>(k)] ? 0.3 * scale : 0;
+  maximise(likelihood, c, scale);
+  Eigen::MatrixXd information = likelihood.information;
+  for (Eigen::Index k = 0; k < count; ++k) {
+    if (c.variances[k] > 0) continue;
+    information.row(k).setZero();
+    information.col(k).setZero();
+    information(k, k) = 1;
+  }
+  c.uncertainty = information.ldlt().solve(Eigen::MatrixXd::Identity(count, count));
+}
+
+// Nothing shared, or shared by place, by way, or both, at each decorrelation distance; by radio besides, where that is known.
+std::vector<Components> possible(const std::vector<Kernels>& kernels) {
+  const bool by_radio = kernels.at(0).shapes.size() > 2;
+  std::vector<Components> result;
+  for (std::size_t d = 0; d < kernels.size(); ++d) {
+    for (const auto& [place, way] : {std::pair{false, false}, {true, false}, {false, true}, {true, true}}) {
+      if (!place && !way && d > 0) continue;
+      Components c{.kernels = d, .kinds = {place, way}, .variances = {}, .uncertainty = {}};
+      if (by_radio) c.kinds.push_back(true);
+      result.push_back(std::move(c));
+    }
+  }
+  return result;
 }
 
 // A decorrelation distance before data: within a factor of two of 1.8 m (notes on indoor shadowing, 1 to 3 m).
 double log_prior(double decorrelation) { return -0.5 * std::pow(std::log(decorrelation / 1.8) / 0.7, 2); }
+
+// Each choice of kinds has the same share, whatever the number of distances.
+double prior_of(const Components& c, const std::vector<Kernels>& kernels) {
+  if (!c.kinds[0] && !c.kinds[1]) return 0;
+  double sum = 0;
+  for (const Kernels& k : kernels) sum += std::exp(log_prior(k.decorrelation));
+  return log_prior(kernels[c.kernels].decorrelation) - std::log(sum);
+}
 
 }  // namespace
 
@@ -102,29 +144,32 @@ void ErrorModel::fit(const Eigen::VectorXd& residual, const Eigen::MatrixXd& col
   measure_white(residual, means, columns.cols());
   Eigen::VectorXd white = white_.cwiseQuotient(size);
   const double scale = means.squaredNorm() / static_cast<double>(means.size());
-  std::vector<Components> fitted;
+  std::vector<Components> fitted = possible(kernels_);
   double best = -1e300, none = 0;
-  for (std::size_t d = 0; d < kernels_.size(); ++d) {
-    Likelihood likelihood{kernels_[d], means, x, white};
-    const auto count = static_cast<Eigen::Index>(kernels_[d].shapes.size());
-    likelihood.evaluate(Eigen::VectorXd::Zero(count), false);
-    none = likelihood.value;
-    const Eigen::VectorXd start =
-        components_.empty() ? Eigen::VectorXd::Constant(count, 0.3 * scale) : components_[d].variances;
-    Components c{kernels_[d].decorrelation, maximise(likelihood, start, scale), {}, 0};
-    Eigen::MatrixXd information = likelihood.information;
-    information.diagonal().array() += 1e-9 * information.diagonal().maxCoeff() + 1e-300;
-    c.uncertainty = information.ldlt().solve(Eigen::MatrixXd::Identity(count, count));
-    c.belief = likelihood.value + log_prior(c.decorrelation);
+  for (std::size_t c = 0; c < fitted.size(); ++c) {
+    Likelihood likelihood{kernels_[fitted[c].kernels], means, x, white};
+    estimate(likelihood, fitted[c], scale);
+    const auto count = static_cast<double>((fitted[c].variances.array() > 0).count());
+    fitted[c].belief = likelihood.value + prior_of(fitted[c], kernels_) -
+                       0.5 * count * std::log(static_cast<double>(means.size()));  // Schwarz's price of a variance
     best = std::max(best, likelihood.value);
-    fitted.push_back(std::move(c));
   }
+  Likelihood nothing{kernels_[0], means, x, white};
+  nothing.evaluate(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(kernels_[0].shapes.size())), false);
+  none = nothing.value;
   components_ = std::move(fitted);
-  evidence_ = 2 * (best - none);
-  const auto top = std::max_element(components_.begin(), components_.end(),
-                                    [](const auto& a, const auto& b) { return a.belief < b.belief; })->belief;
-  double sum = 0;
+  evidence_ = 2 * std::max(0.0, best - none);
+  share_belief();
+}
+
+void ErrorModel::share_belief() {
+  double top = -1e300, sum = 0;
+  for (const Components& c : components_) top = std::max(top, c.belief);
   for (Components& c : components_) sum += c.belief = std::exp(c.belief - top);
+  for (Components& c : components_) c.belief /= sum;
+  std::erase_if(components_, [](const Components& c) { return c.belief < 1e-3; });
+  sum = 0;
+  for (const Components& c : components_) sum += c.belief;
   for (Components& c : components_) c.belief /= sum;
 }
 
@@ -132,7 +177,7 @@ void ErrorModel::fit_white(const Eigen::VectorXd& residual, const Eigen::MatrixX
   const Eigen::Map<const Eigen::VectorXd> size(clusters_.size.data(), static_cast<Eigen::Index>(clusters_.size.size()));
   measure_white(residual, cluster_sums(residual).col(0).cwiseQuotient(size), columns.cols());
   const auto count = static_cast<Eigen::Index>(kernels_.at(0).shapes.size());
-  components_ = {{kernels_[0].decorrelation, Eigen::VectorXd::Zero(count), Eigen::MatrixXd::Zero(count, count), 1}};
+  components_ = {{0, {}, Eigen::VectorXd::Zero(count), Eigen::MatrixXd::Zero(count, count), 1}};
   evidence_ = 0;
 }
 
@@ -159,12 +204,11 @@ Eigen::VectorXd ErrorModel::white_of_rows() const {
 Eigen::MatrixXd ErrorModel::of_sums(const Eigen::MatrixXd& columns) const {
   const Eigen::MatrixXd sums = cluster_sums(columns);
   Eigen::MatrixXd result = columns.transpose() * white_of_rows().asDiagonal() * columns;
-  for (std::size_t d = 0; d < components_.size(); ++d) {
-    if (components_[d].belief < 1e-4) continue;
-    for (Eigen::Index k = 0; k < components_[d].variances.size(); ++k) {
-      if (components_[d].variances[k] == 0) continue;
-      result += components_[d].belief * components_[d].variances[k] * sums.transpose() *
-                kernels_[d].shapes[static_cast<std::size_t>(k)] * sums;
+  for (const Components& c : components_) {
+    for (Eigen::Index k = 0; k < c.variances.size(); ++k) {
+      if (c.variances[k] == 0) continue;
+      const Eigen::MatrixXd& shape = kernels_[c.kernels].shapes[static_cast<std::size_t>(k)];
+      result += c.belief * c.variances[k] * (sums.transpose() * (shape * sums));
     }
   }
   return result;
@@ -173,36 +217,53 @@ Eigen::MatrixXd ErrorModel::of_sums(const Eigen::MatrixXd& columns) const {
 ErrorModel::Spread ErrorModel::of_sum(const Eigen::VectorXd& weights) const {
   const Eigen::VectorXd sums = cluster_sums(weights).col(0);
   const double own = weights.dot(white_of_rows().cwiseProduct(weights));
-  std::vector<double> variance, uncertainty;
   Spread result;
-  for (std::size_t d = 0; d < components_.size(); ++d) {
-    const Components& c = components_[d];
-    Eigen::VectorXd gradient(c.variances.size());
-    for (Eigen::Index k = 0; k < gradient.size(); ++k) gradient[k] = sums.dot(kernels_[d].shapes[static_cast<std::size_t>(k)] * sums);
-    variance.push_back(own + std::max(0.0, gradient.dot(c.variances)));
-    uncertainty.push_back(gradient.dot(c.uncertainty * gradient) + 2 * own * own / white_freedom_);
-    result.variance += c.belief * variance.back();
+  for (const Components& c : components_) {
+    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(c.variances.size());
+    for (Eigen::Index k = 0; k < gradient.size(); ++k) {
+      if (c.variances[k] > 0) gradient[k] = sums.dot(kernels_[c.kernels].shapes[static_cast<std::size_t>(k)] * sums);
+    }
+    const double variance = own + std::max(0.0, gradient.dot(c.variances));
+    const double uncertainty = gradient.dot(c.uncertainty * gradient) + 2 * own * own / white_freedom_;
+    result.parts.push_back({c.belief, std::sqrt(variance), std::max(3.0, 2 * variance * variance / uncertainty)});
+    result.variance += c.belief * variance;
   }
-  double of_variance = 0;
-  for (std::size_t d = 0; d < components_.size(); ++d)
-    of_variance += components_[d].belief * (uncertainty[d] + std::pow(variance[d] - result.variance, 2));
-  result.freedom = std::max(3.0, 2 * result.variance * result.variance / of_variance);
+  double inverse = 0;
+  for (const auto& part : result.parts) inverse += part.belief * part.sd * part.sd / result.variance / part.freedom;
+  result.freedom = 1 / inverse;
   return result;
+}
+
+double ErrorModel::Spread::reach(double share) const {
+  const auto outside = [&](double at) {
+    double sum = 0;
+    for (const Part& part : parts)
+      sum += 2 * part.belief * boost::math::cdf(boost::math::complement(boost::math::students_t(part.freedom), at / part.sd));
+    return sum;
+  };
+  double low = 0, high = std::sqrt(variance);
+  while (outside(high) > 1 - share) high *= 2;
+  for (int i = 0; i < 60; ++i) (outside((low + high) / 2) > 1 - share ? low : high) = (low + high) / 2;
+  return (low + high) / 2;
 }
 
 double ErrorModel::shared_sd() const {
   double result = 0;
-  for (std::size_t d = 0; d < components_.size(); ++d) {
-    for (Eigen::Index k = 0; k < components_[d].variances.size(); ++k)
-      result += components_[d].belief * components_[d].variances[k] * kernels_[d].shapes[static_cast<std::size_t>(k)].diagonal().mean();
+  for (const Components& c : components_) {
+    for (Eigen::Index k = 0; k < c.variances.size(); ++k)
+      result += c.belief * c.variances[k] * kernels_[c.kernels].shapes[static_cast<std::size_t>(k)].diagonal().mean();
   }
   return std::sqrt(std::max(result, 0.0));
 }
 
 double ErrorModel::decorrelation() const {
-  double result = 0;
-  for (const Components& c : components_) result += c.belief * std::log(c.decorrelation);
-  return std::exp(result);
+  double sum = 0, logs = 0;
+  for (const Components& c : components_) {
+    if (c.variances.head(2).maxCoeff() <= 0) continue;
+    sum += c.belief;
+    logs += c.belief * std::log(kernels_[c.kernels].decorrelation);
+  }
+  return sum > 0 ? std::exp(logs / sum) : 0;
 }
 
 }  // namespace muster::diagnosis

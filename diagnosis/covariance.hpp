@@ -19,10 +19,12 @@ struct Kernels {
 // For a range of decorrelation distances.
 std::vector<Kernels> kernels_of(const Clusters& clusters);
 
-// What a fit's errors are made of, for one decorrelation distance; its share of belief among the others.
+// What a fit's errors may be made of: one choice of kinds and of a decorrelation distance, and its share of belief among
+// the others.
 struct Components {
-  double decorrelation = 0;           // m
-  Eigen::VectorXd variances;          // dB^2, one a kernel
+  std::size_t kernels = 0;            // whose decorrelation distance
+  std::vector<bool> kinds;            // of shapes that may have a variance
+  Eigen::VectorXd variances;          // dB^2, one a shape
   Eigen::MatrixXd uncertainty;        // covariance of the variances
   double belief = 0;
 };
@@ -40,9 +42,15 @@ class ErrorModel {
   // Covariance of columns^T error.
   Eigen::MatrixXd of_sums(const Eigen::MatrixXd& columns) const;
 
+  // How a sum of errors is spread: by Student's t for each belief, its degrees of freedom after Satterthwaite (1946).
   struct Spread {
-    double variance = 0;
-    double freedom = 0;  // degrees of freedom that an estimate of this variance has (Satterthwaite 1946)
+    struct Part {
+      double belief, sd, freedom;
+    };
+    std::vector<Part> parts;
+    double variance = 0, freedom = 0;  // of all together
+    // Half the length of the interval that holds this share.
+    double reach(double share) const;
   };
   // Of a weighted sum of the errors: weights^T error.
   Spread of_sum(const Eigen::VectorXd& weights) const;
@@ -58,6 +66,7 @@ class ErrorModel {
  private:
   struct Likelihood;
   Eigen::MatrixXd cluster_sums(const Eigen::MatrixXd& columns) const;
+  void share_belief();
   void measure_white(const Eigen::VectorXd& residual, const Eigen::VectorXd& means, Eigen::Index columns);
   Eigen::VectorXd white_of_rows() const;
 

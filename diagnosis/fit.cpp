@@ -2,8 +2,6 @@
 
 #include <Eigen/Cholesky>
 
-#include <boost/math/distributions/students_t.hpp>
-
 #include <algorithm>
 #include <cmath>
 
@@ -132,7 +130,7 @@ void measure_errors(Fit& fit, const Search& search) {
     p.stderror = std::sqrt(spread.variance);
     p.freedom = spread.freedom;
     p.at_bound = fit.least_squares.at_bound[j];
-    const double reach = p.stderror * boost::math::quantile(boost::math::students_t(p.freedom), 0.975);
+    const double reach = spread.reach(0.95);
     p.lower95 = std::max(p.lower, p.value - reach);
     p.upper95 = std::min(p.upper, p.value + reach);
   }

@@ -64,25 +64,21 @@ std::vector<Missing::Bin> binned(const Eigen::VectorXd& rssi, const Eigen::Vecto
 
 Missing why_missing(const Eigen::VectorXd& rssi, const Eigen::VectorXd& mean, double sigma) {
   std::vector<double> lost_at, heard_at;
-  double weakest = 1e300;
+  std::vector<double> heard_levels;
   for (Eigen::Index i = 0; i < rssi.size(); ++i) {
     (std::isnan(rssi[i]) ? lost_at : heard_at).push_back(mean[i]);
-    if (!std::isnan(rssi[i])) weakest = std::min(weakest, rssi[i]);
+    if (!std::isnan(rssi[i])) heard_levels.push_back(rssi[i]);
   }
-  Missing result{.count = lost_at.size(), .floor = weakest};
+  // The floor is where nothing weaker was ever heard, but for strays: one in a thousand.
+  const auto weakest = heard_levels.begin() + static_cast<std::ptrdiff_t>(heard_levels.size() / 1000);
+  std::nth_element(heard_levels.begin(), weakest, heard_levels.end());
+  Missing result{.count = lost_at.size(), .floor = *weakest};
   if (result.count == 0) return result;
   result.bins = binned(rssi, mean);
   const double lost = static_cast<double>(lost_at.size()), heard = static_cast<double>(heard_at.size());
   const double share = lost / (lost + heard);
   const double chance = lost * std::log(share) + heard * std::log1p(-share);
-  // The floor is where nothing weaker was ever heard: the weakest reading, or a little above it where that is a stray.
-  Mixture best{.log_likelihood = -1e300};
-  for (const double above : {0.0, 1.0, 2.0}) {
-    const Mixture mixture = with_floor(lost_at, heard_at, weakest + above, std::max(sigma, 0.1));
-    if (mixture.log_likelihood <= best.log_likelihood) continue;
-    best = mixture;
-    result.floor = weakest + above;
-  }
+  const Mixture best = with_floor(lost_at, heard_at, result.floor, std::max(sigma, 0.1));
   result.share_at_random = best.random;
   result.by_floor = best.by_floor;
   result.evidence = 2 * (best.log_likelihood - chance);

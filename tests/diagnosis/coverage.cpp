@@ -5,7 +5,6 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <random>
 
@@ -104,9 +103,7 @@ Eigen::VectorXd coverage(const Errors& errors) {
     ErrorModel model(base.clusters, base.kernels);
     model.fit(e - slopes * off, slopes);
     for (Eigen::Index j = 0; j < off.size(); ++j) {
-      const auto spread = model.of_sum(gain.row(j).transpose());
-      const double reach = std::sqrt(spread.variance) * boost::math::quantile(boost::math::students_t(spread.freedom), 0.975);
-      held[j] += std::abs(off[j]) <= reach;
+      held[j] += std::abs(off[j]) <= model.of_sum(gain.row(j).transpose()).reach(0.95);
     }
   }
   return held / worlds;

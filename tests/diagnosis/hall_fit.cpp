@@ -8,6 +8,7 @@
 #include "diagnosis/cell_map.hpp"
 #include "diagnosis/place_checks.hpp"
 #include "kernel/error.hpp"
+#include "kernel/number.hpp"
 #include "scratch.hpp"
 #include "worlds.hpp"
 
@@ -126,6 +127,24 @@ TEST(Hall, FreeAndFix) {
   EXPECT_EQ(tries({{}, {"radio.multiwall/n=1,7"}}), "--fix radio.multiwall/n: \"1,7\" is not a number; a decimal point is written '.'");
   EXPECT_EQ(tries({{"radio.multiwall/n"}, {"radio.multiwall/n"}}), "\"radio.multiwall/n\" is both free and fixed; expected one of them");
   EXPECT_EQ(tries({{}, {"radio.multiwall/n", "radio.multiwall/l0", "material/drywall/loss"}}), "no parameter is free; expected one, such as by --free PATH");
+}
+
+TEST(Hall, AFloorIsCensoringAndDoesNotBendTheFit) {
+  const Scratch scratch;
+  std::istringstream in(contents(hall / "measured_plain.csv"));
+  std::string line, text;
+  for (int i = 0; std::getline(in, line); ++i) {
+    const std::size_t comma = line.rfind(',');
+    if (i > 0 && parse_real(line.substr(comma + 1)).value() < -45) line.resize(comma + 1);
+    if (i == 0 || i % 4 == 1) text += line + '\n';
+  }
+  const Fitted fitted(hall, scratch.write("d.csv", text));
+  EXPECT_TRUE(fitted.result.missing.censored);
+  EXPECT_NEAR(fitted.result.missing.floor, -45, 1);
+  EXPECT_GT(fitted.result.missing.count, 800u);
+  EXPECT_NEAR(parameter(fitted.result, "radio.multiwall/n").value, 1.7, 0.15);
+  EXPECT_NEAR(parameter(fitted.result, "material/drywall/loss").value, 4.0, 0.4);
+  EXPECT_LT(fitted.result.disagreement, 1e-5);
 }
 
 TEST(Hall, TooFewReadingsForTheParameters) {
