@@ -1,14 +1,14 @@
 // muster features WORLD --data FILE: what each reading's link looks like on the plan.
-#include "verbs.hpp"
-
-#include "diagnosis/dataset.hpp"
 #include "diagnosis/features.hpp"
-#include "kernel/text_table_writer.hpp"
 
 #include <fmt/core.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "diagnosis/dataset.hpp"
+#include "kernel/text_table_writer.hpp"
+#include "verbs.hpp"
 
 namespace muster::cli {
 namespace {
@@ -20,7 +20,8 @@ void write_table(const std::string& file, const Dataset& data, const Features& f
   if (!data.t.empty()) columns.push_back({"t", "s"});
   for (const char* name : {"tx", "rx"}) columns.push_back({name, ""});
   columns.push_back({"distance", "m"});
-  for (const char* name : {"azimuth", "elevation", "tx_bearing", "rx_bearing", "incidence"}) columns.push_back({name, "rad"});
+  for (const char* name : {"azimuth", "elevation", "tx_bearing", "rx_bearing", "incidence"})
+    columns.push_back({name, "rad"});
   for (const auto& material : f.materials) columns.push_back({"walls_" + material, ""});
   columns.push_back({"rssi", "dBm"});
   TextTableWriter out(file, columns);
@@ -28,7 +29,8 @@ void write_table(const std::string& file, const Dataset& data, const Features& f
     if (!data.t.empty()) out.real(data.t[row]);
     out.text(data.tx.levels[data.tx.level[row]]);
     out.text(data.rx.levels[data.rx.level[row]]);
-    for (const auto* column : {&f.distance, &f.azimuth, &f.elevation, &f.tx_bearing, &f.rx_bearing, &f.incidence}) out.real((*column)[row]);
+    for (const auto* column : {&f.distance, &f.azimuth, &f.elevation, &f.tx_bearing, &f.rx_bearing, &f.incidence})
+      out.real((*column)[row]);
     for (const auto& counts : f.by_material) out.real(counts[row]);
     out.real(data.rssi[row]);
     out.end_row();
@@ -38,7 +40,8 @@ void write_table(const std::string& file, const Dataset& data, const Features& f
 
 nlohmann::ordered_json summary(const Dataset& data, const Features& f, const std::string& file) {
   const auto [nearest, farthest] = std::minmax_element(f.distance.begin(), f.distance.end());
-  nlohmann::ordered_json result = {{"rows", data.rows()}, {"distance_m", {*nearest, *farthest}}, {"walls", nlohmann::ordered_json::object()}};
+  nlohmann::ordered_json result = {
+      {"rows", data.rows()}, {"distance_m", {*nearest, *farthest}}, {"walls", nlohmann::ordered_json::object()}};
   for (std::size_t m = 0; m < f.materials.size(); ++m) {
     std::vector<std::size_t> rows;
     for (const int count : f.by_material[m]) {
@@ -73,7 +76,8 @@ int run_features(const Arguments& arguments) {
   if (!out.empty()) write_table(out, data, features);
   const auto what = summary(data, features, out);
   if (json) return fmt::print("{}\n", what.dump(2)), 0;
-  fmt::print("{} readings, {:.2f} to {:.2f} m\n", data.rows(), what["distance_m"][0].get<double>(), what["distance_m"][1].get<double>());
+  fmt::print("{} readings, {:.2f} to {:.2f} m\n", data.rows(), what["distance_m"][0].get<double>(),
+             what["distance_m"][1].get<double>());
   for (const auto& [material, rows] : what["walls"].items()) {
     fmt::print("walls of {}:", material);
     for (std::size_t k = 0; k < rows.size(); ++k) fmt::print(" {} x {}", rows[k].get<std::size_t>(), k);

@@ -1,11 +1,10 @@
 // muster fit WORLD --data FILE: the world's free parameters from measurements, and where the world misfits.
-#include "fit_report.hpp"
-#include "verbs.hpp"
+#include <fmt/core.h>
 
 #include "diagnosis/fit_pictures.hpp"
 #include "diagnosis/place_checks.hpp"
-
-#include <fmt/core.h>
+#include "fit_report.hpp"
+#include "verbs.hpp"
 
 namespace muster::cli {
 namespace {
@@ -20,18 +19,26 @@ struct Words {
 
 Words words_of(const Arguments& arguments) {
   CLI::App app(
-      "Fits a world's free parameters to measured readings, with standard errors that allow for correlated residuals, and says\n"
+      "Fits a world's free parameters to measured readings, with standard errors that allow for correlated residuals, "
+      "and says\n"
       "where the fitted world misfits. Exit code 1: a parameter that was to be fitted is not identifiable.\n"
       "Example: muster fit worlds/hall --data worlds/hall/measured.csv --out build/fit",
       "fit");
   Words words;
   app.add_option("world", words.world, "the world's folder or file")->required();
   app.add_option("--data", words.data, "measured readings, a CSV table (docs/table_format.md)")->required();
-  app.add_option("--free", words.free, "a parameter to fit beyond those declared free, such as radio.multiwall/tx_power");
+  app.add_option("--free", words.free,
+                 "a parameter to fit beyond those declared free, such as radio.multiwall/tx_power");
   app.add_option("--fix", words.fix, "a parameter to hold: PATH, or PATH=VALUE");
-  app.add_option("--cell", words.cell, "size of the cells that are averaged, in m")->check(CLI::Range(0.01, 100.0))->capture_default_str();
-  app.add_option("--least", words.least, "readings below which a cell is left grey")->check(CLI::Range(1, 1000000))->capture_default_str();
-  app.add_option("--average", words.average, "cell means of dB, or of power")->check(CLI::IsMember({"dB", "power"}))->capture_default_str();
+  app.add_option("--cell", words.cell, "size of the cells that are averaged, in m")
+      ->check(CLI::Range(0.01, 100.0))
+      ->capture_default_str();
+  app.add_option("--least", words.least, "readings below which a cell is left grey")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  app.add_option("--average", words.average, "cell means of dB, or of power")
+      ->check(CLI::IsMember({"dB", "power"}))
+      ->capture_default_str();
   app.add_option("--out", words.out, "a folder for pictures");
   app.add_option("--plugins", words.plugins, "a folder of plugins, looked in first");
   app.add_flag("--json", words.json, "print the result as JSON");
@@ -54,15 +61,18 @@ int run_fit(const Arguments& arguments) {
   progress.at(0.5);
   const diagnosis::Misfit misfit = misfit_of(model, data, fit, features_of(model));
   progress.at(0.9);
-  const diagnosis::CellOptions cells{words.cell, words.least, words.average == "dB" ? diagnosis::Average::dB : diagnosis::Average::power};
+  const diagnosis::CellOptions cells{words.cell, words.least,
+                                     words.average == "dB" ? diagnosis::Average::dB : diagnosis::Average::power};
   // Means of power need the fading that expectations leave out.
   const auto maps = cell_maps(model, fit, cells.average == diagnosis::Average::dB ? fit.mean : model.drawn(), cells);
   const auto errors = cell_errors(maps, fit, cells);
   FitReport report{model, data, fit, misfit, maps, errors, cells, {}};
   if (!words.out.empty()) report.pictures = write_fit_pictures(words.out, model, fit, misfit, maps, errors, cells);
   progress.at(1);
-  if (words.json) fmt::print("{}\n", report.json().dump(2));
-  else report.print();
+  if (words.json)
+    fmt::print("{}\n", report.json().dump(2));
+  else
+    report.print();
   return static_cast<int>(fit.not_identifiable.empty() ? Exit::done : Exit::check_failed);
 }
 

@@ -27,17 +27,15 @@ Json parameter_json(const FitParameter& p) {
 Json search_json(const Fit& fit) {
   Json values = Json::object();
   for (const FitParameter& p : fit.parameters) values[p.path] = known(p.by_search);
-  return {{"method", "BOBYQA, without derivatives"},
-          {"parameters", values},
-          {"largest_difference", fit.disagreement},
-          {"agrees", fit.disagreement <= 1e-6},
-          {"evaluations", fit.search.evaluations},
-          {"least_squares_evaluations", fit.least_squares.evaluations}};
+  return {{"method", "BOBYQA, without derivatives"}, {"parameters", values},
+          {"largest_difference", fit.disagreement},  {"agrees", fit.disagreement <= 1e-6},
+          {"evaluations", fit.search.evaluations},   {"least_squares_evaluations", fit.least_squares.evaluations}};
 }
 
 Json missing_json(const Missing& missing) {
   Json bins = Json::array();
-  for (const auto& bin : missing.bins) bins.push_back({{"level_dbm", bin.level}, {"rows", bin.rows}, {"not_received", bin.missing}});
+  for (const auto& bin : missing.bins)
+    bins.push_back({{"level_dbm", bin.level}, {"rows", bin.rows}, {"not_received", bin.missing}});
   return {{"floor_dbm", missing.floor},
           {"explained_by_floor", missing.by_floor},
           {"lost_at_random", missing.share_at_random},
@@ -52,7 +50,8 @@ Json look_json(const Look& look) {
     one.update({{"rows", bin.rows}, {"mean_db", known(bin.mean)}, {"stderr_db", known(bin.stderror)}});
     bins.push_back(one);
   }
-  return {{"by", look.by}, {"p", look.p}, {"alarm", look.alarm}, {"explains", look.explains}, {"where", look.where}, {"bins", bins}};
+  return {{"by", look.by},       {"p", look.p}, {"alarm", look.alarm}, {"explains", look.explains},
+          {"where", look.where}, {"bins", bins}};
 }
 
 Json cells_json(const FitReport& r) {
@@ -72,9 +71,7 @@ Json cells_json(const FitReport& r) {
           {"cannot_show", r.errors.cannot_show}};
 }
 
-std::string fading_words(const Fit& fit) {
-  return fmt::format("{:+.3f} dB", fit.fading_mean);
-}
+std::string fading_words(const Fit& fit) { return fmt::format("{:+.3f} dB", fit.fading_mean); }
 
 void print_parameters(const Fit& fit) {
   fmt::print("\n  {:<28} {:>10} {:>10}   {:<22} {}\n", "parameter", "value", "stderr", "95 % interval", "unit");
@@ -90,10 +87,15 @@ void print_parameters(const Fit& fit) {
 }
 
 void print_spread(const Fit& fit) {
-  fmt::print("\nResidual sd {:.2f} dB; the world's own draws scatter by {:.2f} dB about its expectation.\n", fit.residual_sd, fit.simulated_sd);
+  fmt::print("\nResidual sd {:.2f} dB; the world's own draws scatter by {:.2f} dB about its expectation.\n",
+             fit.residual_sd, fit.simulated_sd);
   if (fit.fading_mean != 0)
-    fmt::print("Means of dB under the world's fading lie {} from the mean power; the expectation includes it, so l0 does not absorb it.\n", fading_words(fit));
-  fmt::print("Standard errors allow for errors that neighbouring readings share: {:.2f} dB, alike over {:.1f} m.\n", fit.shared_sd, fit.decorrelation);
+    fmt::print(
+        "Means of dB under the world's fading lie {} from the mean power; the expectation includes it, so l0 does not "
+        "absorb it.\n",
+        fading_words(fit));
+  fmt::print("Standard errors allow for errors that neighbouring readings share: {:.2f} dB, alike over {:.1f} m.\n",
+             fit.shared_sd, fit.decorrelation);
   fmt::print("Least squares and a search without derivatives agree to {:.1g}.\n", fit.disagreement);
 }
 
@@ -107,7 +109,8 @@ void print_missing(const Fit& fit, std::size_t rows) {
   } else {
     fmt::print("random loss; a floor at {:.1f} dBm would explain {:.0f} % of them", m.floor, 100 * m.by_floor);
   }
-  fmt::print(" ({:.1f} % are missing at {:.0f} dBm, {:.1f} % at {:.0f} dBm).\n", share(m.bins.front()), m.bins.front().level, share(m.bins.back()), m.bins.back().level);
+  fmt::print(" ({:.1f} % are missing at {:.0f} dBm, {:.1f} % at {:.0f} dBm).\n", share(m.bins.front()),
+             m.bins.front().level, share(m.bins.back()), m.bins.back().level);
 }
 
 std::string chance(double p) { return p < 1e-9 ? "p < 1e-9" : fmt::format("p = {:.1g}", p); }
@@ -116,17 +119,21 @@ void print_misfit(const Misfit& misfit) {
   fmt::print("\n{}\n", misfit.misfits ? "The model misfits:" : "No structure is left in the residual along:");
   std::string fine;
   for (const Look& look : misfit.looks) {
-    if (look.alarm) fmt::print("  by {:<12} {:<10} {:>4.1f} % of the variance; {}\n", look.by, chance(look.p), 100 * look.explains, look.where);
-    else fine += fmt::format("{}{} (p = {:.2g})", fine.empty() ? "" : ", ", look.by, look.p);
+    if (look.alarm)
+      fmt::print("  by {:<12} {:<10} {:>4.1f} % of the variance; {}\n", look.by, chance(look.p), 100 * look.explains,
+                 look.where);
+    else
+      fine += fmt::format("{}{} (p = {:.2g})", fine.empty() ? "" : ", ", look.by, look.p);
   }
   if (!fine.empty()) fmt::print("  {}{}\n", misfit.misfits ? "nothing found by " : "", fine);
   fmt::print("  {}\n", misfit.shared_allowed ? "p-values allow for errors that neighbouring readings share"
-                                            : "p-values hold the world to its word that readings share no shadowing");
+                                             : "p-values hold the world to its word that readings share no shadowing");
   for (const std::string& words : misfit.not_tested) fmt::print("  not tested: {}\n", words);
 }
 
 void print_cells(const CellErrors& errors, const CellOptions& options) {
-  fmt::print("\nMeans over cells of {:g} m, measured - simulated: {} cells, mean {:+.2f} dB, sd {:.2f} dB;", options.size, errors.errors.size(), errors.mean, errors.sd);
+  fmt::print("\nMeans over cells of {:g} m, measured - simulated: {} cells, mean {:+.2f} dB, sd {:.2f} dB;",
+             options.size, errors.errors.size(), errors.mean, errors.sd);
   for (const auto& [share, value] : errors.quantiles) fmt::print(" {:g} %: {:+.1f}", 100 * share, value);
   fmt::print("\nWhat their histogram cannot show:\n");
   for (const std::string& words : errors.cannot_show) fmt::print("  - {}\n", words);
@@ -139,35 +146,42 @@ Json FitReport::json() const {
   for (const FitParameter& p : fit.parameters) parameters.push_back(parameter_json(p));
   for (const Look& look : misfit.looks) looks.push_back(look_json(look));
   for (const auto& file : pictures) files.push_back(file.string());
-  return {{"world", model.simulation().world().name},
-          {"data", data.table.file()},
-          {"parameters", parameters},
-          {"not_identifiable", fit.not_identifiable},
-          {"residual_sd_db", fit.residual_sd},
-          {"simulated_sd_db", fit.simulated_sd},
-          {"fading_mean_db", fit.fading_mean},
-          {"shared_error_sd_db", fit.shared_sd},
-          {"shared_error_decorrelation_m", fit.decorrelation},
-          {"rows", fit.readings.heard.size()},
-          {"not_received", fit.missing.count},
-          {"not_received_is", fit.missing.count == 0 ? Json(nullptr) : Json(fit.missing.censored ? "censored" : "random")},
-          {"not_received_evidence", missing_json(fit.missing)},
-          {"search", search_json(fit)},
-          {"misfit", {{"misfits", misfit.misfits}, {"shared_errors_allowed", misfit.shared_allowed}, {"looks", looks}, {"not_tested", misfit.not_tested}}},
-          {"cells", cells_json(*this)},
-          {"notes", data.notes},
-          {"pictures", files}};
+  return {
+      {"world", model.simulation().world().name},
+      {"data", data.table.file()},
+      {"parameters", parameters},
+      {"not_identifiable", fit.not_identifiable},
+      {"residual_sd_db", fit.residual_sd},
+      {"simulated_sd_db", fit.simulated_sd},
+      {"fading_mean_db", fit.fading_mean},
+      {"shared_error_sd_db", fit.shared_sd},
+      {"shared_error_decorrelation_m", fit.decorrelation},
+      {"rows", fit.readings.heard.size()},
+      {"not_received", fit.missing.count},
+      {"not_received_is", fit.missing.count == 0 ? Json(nullptr) : Json(fit.missing.censored ? "censored" : "random")},
+      {"not_received_evidence", missing_json(fit.missing)},
+      {"search", search_json(fit)},
+      {"misfit",
+       {{"misfits", misfit.misfits},
+        {"shared_errors_allowed", misfit.shared_allowed},
+        {"looks", looks},
+        {"not_tested", misfit.not_tested}}},
+      {"cells", cells_json(*this)},
+      {"notes", data.notes},
+      {"pictures", files}};
 }
 
 void FitReport::print() const {
-  fmt::print("{}: {} readings heard of {} in {}\n", model.simulation().world().name, fit.readings.heard.size(), data.rows(), data.table.file());
+  fmt::print("{}: {} readings heard of {} in {}\n", model.simulation().world().name, fit.readings.heard.size(),
+             data.rows(), data.table.file());
   for (const std::string& note : data.notes) fmt::print("note: {}\n", note);
   print_parameters(fit);
   print_spread(fit);
   print_missing(fit, data.rows());
   print_misfit(misfit);
   print_cells(errors, options);
-  for (const auto& file : pictures) fmt::print("{}{}", &file == &pictures.front() ? "\nPictures: " : " ", file.string());
+  for (const auto& file : pictures)
+    fmt::print("{}{}", &file == &pictures.front() ? "\nPictures: " : " ", file.string());
   if (!pictures.empty()) fmt::print("\n");
 }
 

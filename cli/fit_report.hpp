@@ -1,10 +1,10 @@
 // A fit as JSON and as text.
 #pragma once
 
+#include <nlohmann/json.hpp>
+
 #include "diagnosis/cell_map.hpp"
 #include "diagnosis/misfit.hpp"
-
-#include <nlohmann/json.hpp>
 
 namespace muster::cli {
 

@@ -1,16 +1,18 @@
 // muster import FILE --map MAP --out FILE: a foreign table in the project's format, and what was assumed on the way.
-#include "verbs.hpp"
-
 #include "diagnosis/import.hpp"
 
 #include <fmt/core.h>
+
 #include <nlohmann/json.hpp>
+
+#include "verbs.hpp"
 
 namespace muster::cli {
 
 int run_import(const Arguments& arguments) {
   CLI::App app(
-      "Brings a foreign table of readings into the format of measured data, as a map file says, checks it, and prints what was\n"
+      "Brings a foreign table of readings into the format of measured data, as a map file says, checks it, and prints "
+      "what was\n"
       "assumed. docs/import.md describes map files.\n"
       "Example: muster import calibration.csv --map calibration.map --out measured.csv",
       "import");
@@ -23,7 +25,10 @@ int run_import(const Arguments& arguments) {
   parse(app, arguments);
   const diagnosis::Imported done = diagnosis::import_table(file, map, out);
   if (json) {
-    fmt::print("{}\n", nlohmann::ordered_json{{"file", out}, {"rows", done.rows}, {"not_received", done.empty}, {"assumed", done.assumed}}.dump(2));
+    fmt::print("{}\n",
+               nlohmann::ordered_json{
+                   {"file", out}, {"rows", done.rows}, {"not_received", done.empty}, {"assumed", done.assumed}}
+                   .dump(2));
     return 0;
   }
   fmt::print("{}: {} readings, {} of them not received. Assumed:\n", out, done.rows, done.empty);

@@ -55,22 +55,28 @@ double quantile(const std::vector<double>& sorted, double share) {
 // What a histogram of cell means leaves out, with this data's own figures.
 std::vector<std::string> limits(const CellErrors& e, const Fit& fit, double per_cell) {
   std::vector<std::string> words;
-  words.push_back(fmt::format(
-      "where: an error that covers a room and one that is scattered give the same bars; see the residual map and the looks by "
-      "distance, bearing, time, wall and robot"));
-  words.push_back(fmt::format(
-      "what is noise: cells hold {:.0f} readings on average, so means of independent errors would scatter by {:.2f} dB already; "
-      "they scatter by {:.2f} dB", per_cell, e.expected_sd, e.sd));
+  words.push_back(
+      fmt::format("where: an error that covers a room and one that is scattered give the same bars; see the residual "
+                  "map and the looks by "
+                  "distance, bearing, time, wall and robot"));
+  words.push_back(
+      fmt::format("what is noise: cells hold {:.0f} readings on average, so means of independent errors would scatter "
+                  "by {:.2f} dB already; "
+                  "they scatter by {:.2f} dB",
+                  per_cell, e.expected_sd, e.sd));
   words.push_back("a cause that the fit has absorbed: the fitted parameters bend until the mean error is near zero");
-  words.push_back(fmt::format("the spread of single readings ({:.2f} dB): averaging has removed fading and its law", fit.residual_sd));
-  words.push_back(fmt::format("what was never heard ({} readings) and the {} cells with too few", fit.missing.count, e.few));
+  words.push_back(fmt::format("the spread of single readings ({:.2f} dB): averaging has removed fading and its law",
+                              fit.residual_sd));
+  words.push_back(
+      fmt::format("what was never heard ({} readings) and the {} cells with too few", fit.missing.count, e.few));
   words.push_back("neighbouring cells are not independent samples: their number says nothing on how sure the bars are");
   return words;
 }
 
 }  // namespace
 
-std::vector<CellMap> cell_maps(const LinkModel& model, const Fit& fit, const Eigen::VectorXd& simulated, const CellOptions& options) {
+std::vector<CellMap> cell_maps(const LinkModel& model, const Fit& fit, const Eigen::VectorXd& simulated,
+                               const CellOptions& options) {
   const auto far = reach(model, fit);
   std::map<int, std::map<std::pair<long, long>, Sums>> cells;
   std::map<int, std::pair<double, double>> first;
@@ -80,7 +86,8 @@ std::vector<CellMap> cell_maps(const LinkModel& model, const Fit& fit, const Eig
     const bool tx_stays = far.at(ends[0].radio) <= far.at(ends[1].radio);
     const End &stays = ends[tx_stays ? 0 : 1], &roams = ends[tx_stays ? 1 : 0];
     first.try_emplace(stays.radio, stays.x, stays.y);
-    Sums& cell = cells[stays.radio][{std::lround(std::floor(roams.x / options.size)), std::lround(std::floor(roams.y / options.size))}];
+    Sums& cell = cells[stays.radio][{std::lround(std::floor(roams.x / options.size)),
+                                     std::lround(std::floor(roams.y / options.size))}];
     cell.measured.add(fit.readings.rssi[i], options.average);
     cell.simulated.add(simulated[i], options.average);
     ++cell.count;
@@ -89,8 +96,10 @@ std::vector<CellMap> cell_maps(const LinkModel& model, const Fit& fit, const Eig
   for (const auto& [radio, by_place] : cells) {
     CellMap map{model.radio_name(radio), first[radio].first, first[radio].second, {}};
     for (const auto& [place, sums] : by_place) {
-      map.cells.push_back({(static_cast<double>(place.first) + 0.5) * options.size, (static_cast<double>(place.second) + 0.5) * options.size,
-                           sums.measured.of(sums.count, options.average), sums.simulated.of(sums.count, options.average), sums.count});
+      map.cells.push_back({(static_cast<double>(place.first) + 0.5) * options.size,
+                           (static_cast<double>(place.second) + 0.5) * options.size,
+                           sums.measured.of(sums.count, options.average),
+                           sums.simulated.of(sums.count, options.average), sums.count});
     }
     maps.push_back(std::move(map));
   }
@@ -118,7 +127,8 @@ CellErrors cell_errors(const std::vector<CellMap>& maps, const Fit& fit, const C
   result.sd = std::sqrt(result.sd / std::max(n - 1, 1.0));
   std::vector<double> sorted = result.errors;
   std::sort(sorted.begin(), sorted.end());
-  for (const double share : {0.05, 0.25, 0.5, 0.75, 0.95}) result.quantiles.emplace_back(share, quantile(sorted, share));
+  for (const double share : {0.05, 0.25, 0.5, 0.75, 0.95})
+    result.quantiles.emplace_back(share, quantile(sorted, share));
   result.expected_sd = fit.residual_sd * std::sqrt(inverse / n);
   result.cannot_show = limits(result, fit, readings / n);
   return result;

@@ -2,24 +2,24 @@
 // comparison of Fink et al., Fig. 3b to 3d.
 #pragma once
 
-#include "diagnosis/fit.hpp"
-
 #include <string>
 #include <vector>
+
+#include "diagnosis/fit.hpp"
 
 namespace muster::diagnosis {
 
 enum class Average { dB = 1, power };  // of the dBm themselves, or of the power
 
 struct CellOptions {
-  double size = 0.25;      // m
-  int least = 5;           // readings; cells with fewer count in no statistic
+  double size = 0.25;  // m
+  int least = 5;       // readings; cells with fewer count in no statistic
   Average average = Average::dB;
 };
 
 struct Cell {
-  double x = 0, y = 0;                     // m, its centre
-  double measured = 0, simulated = 0;      // dBm
+  double x = 0, y = 0;                 // m, its centre
+  double measured = 0, simulated = 0;  // dBm
   int count = 0;
 };
 
@@ -35,12 +35,13 @@ struct CellErrors {
   std::size_t few = 0;         // cells with fewer
   double mean = 0, sd = 0;
   std::vector<std::pair<double, double>> quantiles;  // 5, 25, 50, 75, 95 %
-  double expected_sd = 0;      // of cell means if readings erred independently, dB
+  double expected_sd = 0;                            // of cell means if readings erred independently, dB
   std::vector<std::string> cannot_show;
 };
 
 // Of the heard readings; `simulated` is one value a row of the data set.
-std::vector<CellMap> cell_maps(const LinkModel& model, const Fit& fit, const Eigen::VectorXd& simulated, const CellOptions& options);
+std::vector<CellMap> cell_maps(const LinkModel& model, const Fit& fit, const Eigen::VectorXd& simulated,
+                               const CellOptions& options);
 
 CellErrors cell_errors(const std::vector<CellMap>& maps, const Fit& fit, const CellOptions& options);
 

@@ -1,7 +1,6 @@
 #include "diagnosis/clusters.hpp"
 
 #include <Eigen/Geometry>
-
 #include <array>
 #include <cmath>
 #include <map>

@@ -2,9 +2,9 @@
 // few hundred clusters instead of on all pairs of readings.
 #pragma once
 
-#include "diagnosis/model.hpp"
-
 #include <vector>
+
+#include "diagnosis/model.hpp"
 
 namespace muster::diagnosis {
 
@@ -17,9 +17,9 @@ struct LinkPlace {
 LinkPlace place_of(const std::array<End, 2>& ends);
 
 struct Clusters {
-  std::vector<int> of_row;                        // one a row of those asked for
-  std::vector<double> size;                       // rows in each
-  std::vector<std::vector<LinkPlace>> examples;   // up to four places of each, to average over it
+  std::vector<int> of_row;                       // one a row of those asked for
+  std::vector<double> size;                      // rows in each
+  std::vector<std::vector<LinkPlace>> examples;  // up to four places of each, to average over it
 
   std::size_t count() const { return size.size(); }
 };

@@ -1,10 +1,8 @@
 #include "diagnosis/covariance.hpp"
 
 #include <Eigen/Cholesky>
-
-#include <boost/math/distributions/students_t.hpp>
-
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
 namespace muster::diagnosis {
@@ -12,9 +10,9 @@ namespace muster::diagnosis {
 // The restricted likelihood of cluster means with covariance white / size + sum of variances times shapes.
 struct ErrorModel::Likelihood {
   const Kernels& kernels;
-  const Eigen::VectorXd& means;     // of residuals
-  const Eigen::MatrixXd& columns;   // means of the fit's columns
-  const Eigen::VectorXd& white;     // of each cluster's mean
+  const Eigen::VectorXd& means;    // of residuals
+  const Eigen::MatrixXd& columns;  // means of the fit's columns
+  const Eigen::VectorXd& white;    // of each cluster's mean
 
   double value = 0;
   Eigen::VectorXd score{};
@@ -101,7 +99,8 @@ void estimate(Likelihood& likelihood, Components& c, double scale) {
   c.uncertainty = information.ldlt().solve(Eigen::MatrixXd::Identity(count, count));
 }
 
-// Nothing shared, or shared by place, by way, or both, at each decorrelation distance; by radio besides, where that is known.
+// Nothing shared, or shared by place, by way, or both, at each decorrelation distance; by radio besides, where that is
+// known.
 std::vector<Components> possible(const std::vector<Kernels>& kernels) {
   const bool by_radio = kernels.at(0).shapes.size() > 2;
   std::vector<Components> result;
@@ -132,7 +131,8 @@ double prior_of(const Components& c, const std::vector<Kernels>& kernels) {
 Eigen::MatrixXd ErrorModel::cluster_sums(const Eigen::MatrixXd& columns) const {
   Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(clusters_.count()), columns.cols());
   for (Eigen::Index j = 0; j < columns.cols(); ++j) {
-    for (Eigen::Index i = 0; i < columns.rows(); ++i) sums(clusters_.of_row[static_cast<std::size_t>(i)], j) += columns(i, j);
+    for (Eigen::Index i = 0; i < columns.rows(); ++i)
+      sums(clusters_.of_row[static_cast<std::size_t>(i)], j) += columns(i, j);
   }
   return sums;
 }
@@ -181,7 +181,8 @@ void ErrorModel::fit_white(const Eigen::VectorXd& residual, const Eigen::MatrixX
   evidence_ = 0;
 }
 
-// Each cluster's own variance, drawn towards the mean of all as by twenty readings of it: fading and tails differ by place.
+// Each cluster's own variance, drawn towards the mean of all as by twenty readings of it: fading and tails differ by
+// place.
 void ErrorModel::measure_white(const Eigen::VectorXd& residual, const Eigen::VectorXd& means, Eigen::Index columns) {
   constexpr double prior = 20;
   const Eigen::Map<const Eigen::VectorXd> size(clusters_.size.data(), means.size());
@@ -238,7 +239,8 @@ double ErrorModel::Spread::reach(double share) const {
   const auto outside = [&](double at) {
     double sum = 0;
     for (const Part& part : parts)
-      sum += 2 * part.belief * boost::math::cdf(boost::math::complement(boost::math::students_t(part.freedom), at / part.sd));
+      sum += 2 * part.belief *
+             boost::math::cdf(boost::math::complement(boost::math::students_t(part.freedom), at / part.sd));
     return sum;
   };
   double low = 0, high = std::sqrt(variance);

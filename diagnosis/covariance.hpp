@@ -2,11 +2,10 @@
 // variances by restricted likelihood on clusters (Patterson and Thompson 1971); docs/fit.md says why it is so.
 #pragma once
 
-#include "diagnosis/clusters.hpp"
-
 #include <Eigen/Core>
-
 #include <cmath>
+
+#include "diagnosis/clusters.hpp"
 
 namespace muster::diagnosis {
 
@@ -19,13 +18,13 @@ struct Kernels {
 // For a range of decorrelation distances.
 std::vector<Kernels> kernels_of(const Clusters& clusters);
 
-// What a fit's errors may be made of: one choice of kinds and of a decorrelation distance, and its share of belief among
-// the others.
+// What a fit's errors may be made of: one choice of kinds and of a decorrelation distance, and its share of belief
+// among the others.
 struct Components {
-  std::size_t kernels = 0;            // whose decorrelation distance
-  std::vector<bool> kinds;            // of shapes that may have a variance
-  Eigen::VectorXd variances;          // dB^2, one a shape
-  Eigen::MatrixXd uncertainty;        // covariance of the variances
+  std::size_t kernels = 0;      // whose decorrelation distance
+  std::vector<bool> kinds;      // of shapes that may have a variance
+  Eigen::VectorXd variances;    // dB^2, one a shape
+  Eigen::MatrixXd uncertainty;  // covariance of the variances
   double belief = 0;
 };
 

@@ -1,12 +1,11 @@
 #include "diagnosis/dataset.hpp"
 
-#include "diagnosis/dataset_checks.hpp"
-
-#include "kernel/names.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <set>
+
+#include "diagnosis/dataset_checks.hpp"
+#include "kernel/names.hpp"
 
 namespace muster::diagnosis {
 namespace {
@@ -36,14 +35,16 @@ bool varies(const std::vector<double>& values) {
 }
 
 void read_covariates(Dataset& data) {
-  static const std::set<std::string> known = {"t",    "tx",   "rx",   "tx_x", "tx_y",   "tx_z",  "tx_yaw",
-                                              "rx_x", "rx_y", "rx_z", "rx_yaw", "rssi"};
+  static const std::set<std::string> known = {"t",      "tx",   "rx",   "tx_x", "tx_y",   "tx_z",
+                                              "tx_yaw", "rx_x", "rx_y", "rx_z", "rx_yaw", "rssi"};
   for (std::size_t c = 0; c < data.table.columns().size(); ++c) {
     if (known.count(data.table.columns()[c].name)) continue;
     Covariate covariate{data.table.columns()[c].label(), {}, {}};
     const bool number = data.table.is_numeric(c);
-    if (number) covariate.values = data.table.reals(c, {.empty = true});
-    else covariate.factor = data.table.texts(c, {.empty = true});
+    if (number)
+      covariate.values = data.table.reals(c, {.empty = true});
+    else
+      covariate.factor = data.table.texts(c, {.empty = true});
     if (number ? varies(covariate.values) : covariate.factor.levels.size() > 1) {
       data.covariates.push_back(std::move(covariate));
     } else {

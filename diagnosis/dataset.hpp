@@ -1,11 +1,11 @@
 // Measured readings of a radio channel, as docs/table_format.md has them, checked row by row.
 #pragma once
 
-#include "kernel/text_table.hpp"
-
 #include <array>
 #include <string>
 #include <vector>
+
+#include "kernel/text_table.hpp"
 
 namespace muster::diagnosis {
 
@@ -18,14 +18,14 @@ struct Covariate {
 };
 
 struct Dataset {
-  TextTable table;  // for places in messages
+  TextTable table;          // for places in messages
   std::vector<double> t{};  // s; empty if the file has none
   Factor tx{}, rx{};
-  std::vector<Point> tx_at{}, rx_at{};    // z is NaN where the file has none
-  std::vector<double> tx_yaw{}, rx_yaw{}; // rad; empty if the file has none
-  std::vector<double> rssi{};             // dBm; NaN: not received
-  std::vector<Covariate> covariates{};    // all further columns that vary
-  std::vector<std::string> notes{};       // what was noticed and is no fault
+  std::vector<Point> tx_at{}, rx_at{};     // z is NaN where the file has none
+  std::vector<double> tx_yaw{}, rx_yaw{};  // rad; empty if the file has none
+  std::vector<double> rssi{};              // dBm; NaN: not received
+  std::vector<Covariate> covariates{};     // all further columns that vary
+  std::vector<std::string> notes{};        // what was noticed and is no fault
 
   std::size_t rows() const { return rssi.size(); }
   std::size_t heard() const;
@@ -33,8 +33,8 @@ struct Dataset {
   std::string pair(std::size_t row) const { return tx.levels[tx.level[row]] + " -> " + rx.levels[rx.level[row]]; }
 };
 
-// Reads and checks. Throws Error with file, line and column: a column that is missing, a reading that stands twice, time
-// that runs backwards, values that no receiver gives.
+// Reads and checks. Throws Error with file, line and column: a column that is missing, a reading that stands twice,
+// time that runs backwards, values that no receiver gives.
 Dataset read_dataset(const std::filesystem::path& file);
 
 }  // namespace muster::diagnosis

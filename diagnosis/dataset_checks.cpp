@@ -1,20 +1,20 @@
 #include "diagnosis/dataset_checks.hpp"
 
-#include "kernel/names.hpp"
-#include "kernel/number.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <tuple>
 #include <unordered_map>
 
+#include "kernel/names.hpp"
+#include "kernel/number.hpp"
+
 namespace muster::diagnosis {
 namespace {
 
-constexpr double strongest = 30;    // dBm: a watt at the receiver
-constexpr double sentinel = -128;   // what an 8-bit register holds where nothing was measured
-constexpr double weakest = -174;    // dBm: thermal noise in 1 Hz
+constexpr double strongest = 30;   // dBm: a watt at the receiver
+constexpr double sentinel = -128;  // what an 8-bit register holds where nothing was measured
+constexpr double weakest = -174;   // dBm: thermal noise in 1 Hz
 
 std::string row_text(std::size_t row) { return "row " + std::to_string(row + 1); }
 
@@ -55,8 +55,8 @@ void check_times(const Dataset& data) {
       const std::size_t before = entry->second;
       const std::string who = data.pair(row) + " at t = " + print_real(data.t[row]) + " s";
       if (data.t[row] == data.t[before])
-        throw invalid(at(data, row, "t"), row_text(row) + ": " + who + " repeats " + row_text(before) +
-                                              "; expected each (t, tx, rx) once");
+        throw invalid(at(data, row, "t"),
+                      row_text(row) + ": " + who + " repeats " + row_text(before) + "; expected each (t, tx, rx) once");
       if (data.t[row] < data.t[before])
         throw invalid(at(data, row, "t"), row_text(row) + ": time runs backwards for " + who + ", after " +
                                               print_real(data.t[before]) + " s in " + row_text(before) +
@@ -77,7 +77,8 @@ void check_units(const Dataset& data, const std::vector<Point>& places, int axis
   const double usual = std::max(*most, 1.0);  // m
   for (std::size_t row = 0; row < sizes.size(); ++row) {
     if (sizes[row] < 200 * usual) continue;
-    throw invalid(at(data, row, column), row_text(row) + ": " + print_real(places[row][static_cast<std::size_t>(axis)]) +
+    throw invalid(at(data, row, column), row_text(row) + ": " +
+                                             print_real(places[row][static_cast<std::size_t>(axis)]) +
                                              " m, while half of the rows lie within " + print_real(usual) +
                                              " m; expected one unit in the whole column (millimetres here?)");
   }
@@ -111,7 +112,8 @@ void check_readings(Dataset& data) {
   note_degrees(data, data.rx_yaw, "rx_yaw[rad]");
   if (data.heard() == 0) throw invalid(whole, "every rssi is empty; expected some readings that were received");
   const double first = *std::find_if(data.rssi.begin(), data.rssi.end(), [](double v) { return !std::isnan(v); });
-  if (data.heard() > 1 && std::all_of(data.rssi.begin(), data.rssi.end(), [&](double v) { return std::isnan(v) || v == first; }))
+  if (data.heard() > 1 &&
+      std::all_of(data.rssi.begin(), data.rssi.end(), [&](double v) { return std::isnan(v) || v == first; }))
     throw invalid(at(data, 0, "rssi"), "every rssi is " + print_real(first) + " dBm; expected readings that vary");
 }
 

@@ -1,17 +1,17 @@
 #include "diagnosis/features.hpp"
 
-#include "scene/walls.hpp"
-
+#include <cmath>
 #include <muster/tables.hpp>
 
-#include <cmath>
+#include "scene/walls.hpp"
 
 namespace muster::diagnosis {
 namespace {
 
 std::size_t at(double row) { return static_cast<std::size_t>(row); }
 
-template <class Row> std::vector<Row> rows_of(const Simulation& run, const std::string& name) {
+template <class Row>
+std::vector<Row> rows_of(const Simulation& run, const std::string& name) {
   const Table* table = run.board().find(name);
   if (!table) return {};
   const auto* first = reinterpret_cast<const Row*>(table->now().data.data());

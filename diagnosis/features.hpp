@@ -1,10 +1,10 @@
 // Of each reading, what a channel model may depend on: length, directions, and the walls in its way.
 #pragma once
 
-#include "diagnosis/model.hpp"
-
 #include <string>
 #include <vector>
+
+#include "diagnosis/model.hpp"
 
 namespace muster::diagnosis {
 

@@ -1,7 +1,6 @@
 #include "diagnosis/fit.hpp"
 
 #include <Eigen/Cholesky>
-
 #include <algorithm>
 #include <cmath>
 
@@ -30,8 +29,7 @@ struct Search {
     return x;
   }
   void set(const Eigen::VectorXd& x) const {
-    for (std::size_t j = 0; j < parameters.size(); ++j)
-      model.set(parameters[j]->path, x[static_cast<Eigen::Index>(j)]);
+    for (std::size_t j = 0; j < parameters.size(); ++j) model.set(parameters[j]->path, x[static_cast<Eigen::Index>(j)]);
   }
   Mean mean() const {
     return [this](const Eigen::VectorXd& x) {
@@ -42,7 +40,8 @@ struct Search {
 };
 
 Readings heard_readings(const Dataset& data) {
-  Readings readings{.rssi = Eigen::Map<const Eigen::VectorXd>(data.rssi.data(), static_cast<Eigen::Index>(data.rows()))};
+  Readings readings{.rssi =
+                        Eigen::Map<const Eigen::VectorXd>(data.rssi.data(), static_cast<Eigen::Index>(data.rows()))};
   for (Eigen::Index i = 0; i < readings.rssi.size(); ++i) {
     if (!std::isnan(readings.rssi[i])) readings.heard.push_back(i);
   }
@@ -70,14 +69,15 @@ void hold_blind(Fit& fit, Search& search) {
     if (holds) held.push_back(holds);
   }
   search.set(search.start());
-  std::erase_if(search.parameters, [&](FitParameter* p) { return std::find(held.begin(), held.end(), p) != held.end(); });
+  std::erase_if(search.parameters,
+                [&](FitParameter* p) { return std::find(held.begin(), held.end(), p) != held.end(); });
 }
 
 void check_count(const Fit& fit, const Search& search, const Dataset& data) {
   const auto heard = fit.readings.heard.size(), needed = search.parameters.size() + 1;
   if (heard < needed)
-    throw invalid({data.table.file()}, "the table has " + std::to_string(heard) + " heard readings; expected at least " +
-                                           std::to_string(needed) + " to fit " +
+    throw invalid({data.table.file()}, "the table has " + std::to_string(heard) +
+                                           " heard readings; expected at least " + std::to_string(needed) + " to fit " +
                                            std::to_string(search.parameters.size()) + " parameters");
 }
 

@@ -34,10 +34,10 @@ struct Fit {
   Minimum least_squares, search;
   double disagreement = 0;  // largest difference between both, in units of 1 + |value|
 
-  Readings readings;          // with the rows that were used
-  Eigen::VectorXd mean;       // of every row at the fit, dBm
-  Eigen::VectorXd residual;   // rows as in diagnosis::residuals()
-  Eigen::MatrixXd slopes;     // of the identifiable parameters
+  Readings readings;         // with the rows that were used
+  Eigen::VectorXd mean;      // of every row at the fit, dBm
+  Eigen::VectorXd residual;  // rows as in diagnosis::residuals()
+  Eigen::MatrixXd slopes;    // of the identifiable parameters
   Clusters clusters;
   std::vector<Kernels> kernels;
   double shared_sd = 0, decorrelation = 0, shared_evidence = 0, white_sd = 0;

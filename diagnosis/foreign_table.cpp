@@ -1,10 +1,10 @@
 #include "diagnosis/foreign_table.hpp"
 
+#include <algorithm>
+
 #include "kernel/names.hpp"
 #include "kernel/number.hpp"
 #include "kernel/text_file.hpp"
-
-#include <algorithm>
 
 namespace muster::diagnosis {
 namespace {
@@ -37,7 +37,8 @@ ForeignTable ForeignTable::read(const std::filesystem::path& path) {
     }
     auto cells = table.split(line, number);
     if (cells.size() != table.columns_.size())
-      throw invalid({table.file_, number, 0}, "the row has " + std::to_string(cells.size()) + " cells; expected " + std::to_string(table.columns_.size()));
+      throw invalid({table.file_, number, 0}, "the row has " + std::to_string(cells.size()) + " cells; expected " +
+                                                  std::to_string(table.columns_.size()));
     std::move(cells.begin(), cells.end(), std::back_inserter(table.cells_));
     table.lines_.push_back(number);
   }
@@ -48,9 +49,12 @@ ForeignTable ForeignTable::read(const std::filesystem::path& path) {
 
 void ForeignTable::read_header(std::string_view line) {
   const auto count = [&](char c) { return std::count(line.begin(), line.end(), c); };
-  if (count('\t') > count(',') && count('\t') >= count(';')) separator_ = '\t';
-  else if (count(';') > count(',')) separator_ = ';';
-  if (separator_ != ',') guesses_.push_back(std::string("cells are separated by ") + (separator_ == ';' ? "';'" : "tabs"));
+  if (count('\t') > count(',') && count('\t') >= count(';'))
+    separator_ = '\t';
+  else if (count(';') > count(','))
+    separator_ = ';';
+  if (separator_ != ',')
+    guesses_.push_back(std::string("cells are separated by ") + (separator_ == ';' ? "';'" : "tabs"));
   columns_ = split(line, 1);
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     if (!columns_[c].empty()) continue;
@@ -67,7 +71,8 @@ std::vector<std::string> ForeignTable::split(std::string_view line, int number) 
     const std::size_t quote_at = line.find_first_not_of(' ', at);
     if (quote_at != line.npos && line[quote_at] == '"') {
       const std::size_t close = line.find('"', quote_at + 1);
-      if (close == line.npos) throw invalid({file_, number, static_cast<int>(quote_at) + 1}, "a quoted cell is not closed");
+      if (close == line.npos)
+        throw invalid({file_, number, static_cast<int>(quote_at) + 1}, "a quoted cell is not closed");
       end = line.find(separator_, close);
       cells.emplace_back(line.substr(quote_at + 1, close - quote_at - 1));
     } else {
@@ -88,7 +93,8 @@ std::size_t ForeignTable::require(const std::string& column, const Place& for_wh
 std::optional<double> ForeignTable::number(std::size_t row, std::size_t column) const {
   const std::string& cell = text(row, column);
   if (const auto value = parse_real(cell)) return value;
-  if (std::find(std::begin(words_for_nothing), std::end(words_for_nothing), cell) != std::end(words_for_nothing)) return std::nullopt;
+  if (std::find(std::begin(words_for_nothing), std::end(words_for_nothing), cell) != std::end(words_for_nothing))
+    return std::nullopt;
   throw invalid(place(row), "column " + quote(columns_[column]) + ": " + why_not_real(cell));
 }
 

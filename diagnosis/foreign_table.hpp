@@ -1,14 +1,14 @@
-// A table as others write it: cells between ',', ';' or tabs, names with gaps, several words for nothing. What had to be
-// guessed is kept, to be said.
+// A table as others write it: cells between ',', ';' or tabs, names with gaps, several words for nothing. What had to
+// be guessed is kept, to be said.
 #pragma once
-
-#include "kernel/error.hpp"
 
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "kernel/error.hpp"
 
 namespace muster::diagnosis {
 

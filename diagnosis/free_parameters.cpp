@@ -1,9 +1,8 @@
-#include "diagnosis/fit.hpp"
+#include <algorithm>
 
+#include "diagnosis/fit.hpp"
 #include "kernel/names.hpp"
 #include "kernel/number.hpp"
-
-#include <algorithm>
 
 namespace muster::diagnosis {
 namespace {
@@ -32,7 +31,8 @@ std::vector<std::string> held_paths(LinkModel& model, const std::vector<std::str
 
 void refuse_unfit(const ParameterInfo& info) {
   if (info.declared->kind == MUSTER_REAL && info.declared->max > info.declared->min) return;
-  throw Error(Exit::invalid_input, "--free " + info.path + ": it is not a real number with bounds; expected one that is");
+  throw Error(Exit::invalid_input,
+              "--free " + info.path + ": it is not a real number with bounds; expected one that is");
 }
 
 }  // namespace
@@ -41,7 +41,8 @@ std::vector<FitParameter> free_parameters(LinkModel& model, const FitOptions& op
   const std::vector<std::string> held = held_paths(model, options.fix);
   for (const std::string& path : options.free) {
     refuse_unfit(model.parameter(path));
-    if (contains(held, path)) throw Error(Exit::invalid_input, quote(path) + " is both free and fixed; expected one of them");
+    if (contains(held, path))
+      throw Error(Exit::invalid_input, quote(path) + " is both free and fixed; expected one of them");
   }
   std::vector<FitParameter> result;
   for (const ParameterInfo& info : model.parameters()) {

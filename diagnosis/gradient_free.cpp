@@ -1,9 +1,9 @@
-#include "diagnosis/least_squares.hpp"
-
 #include <nlopt.h>
 
 #include <cmath>
 #include <memory>
+
+#include "diagnosis/least_squares.hpp"
 
 namespace muster::diagnosis {
 namespace {
@@ -42,8 +42,8 @@ double search(Task& task, double reach) {
   const Eigen::VectorXd at = task.mean(task.centre);
   task.reference = residuals(task.readings, at, std::exp(task.log_sigma));
   const auto n = static_cast<Eigen::Index>(task.size());
-  const std::unique_ptr<nlopt_opt_s, void (*)(nlopt_opt)> search(nlopt_create(NLOPT_LN_BOBYQA, static_cast<unsigned>(n)),
-                                                                  nlopt_destroy);
+  const std::unique_ptr<nlopt_opt_s, void (*)(nlopt_opt)> search(
+      nlopt_create(NLOPT_LN_BOBYQA, static_cast<unsigned>(n)), nlopt_destroy);
   Eigen::VectorXd low = Eigen::VectorXd::Constant(n, -100), high = -low, u = Eigen::VectorXd::Zero(n);
   low.head(task.centre.size()) = (task.box.lower - task.centre).cwiseQuotient(task.scale);
   high.head(task.centre.size()) = (task.box.upper - task.centre).cwiseQuotient(task.scale);
@@ -65,7 +65,11 @@ double search(Task& task, double reach) {
 
 Minimum gradient_free(const Readings& readings, const Mean& mean, const Eigen::VectorXd& start, const Box& box) {
   constexpr int most = 12;
-  Task task{.readings = readings, .mean = mean, .box = box, .centre = box.inside(start), .scale = 0.05 * box.width(),
+  Task task{.readings = readings,
+            .mean = mean,
+            .box = box,
+            .centre = box.inside(start),
+            .scale = 0.05 * box.width(),
             .reference = {}};
   double sigma = 10;
   for (int i = 0; i < 3; ++i) sigma = std::max(next_sigma(readings, mean(task.centre), sigma), 1e-9);

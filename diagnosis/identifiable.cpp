@@ -1,13 +1,14 @@
 #include "diagnosis/identifiable.hpp"
 
-#include <Eigen/SVD>
-
 #include <fmt/format.h>
+
+#include <Eigen/SVD>
 
 namespace muster::diagnosis {
 namespace {
 
-constexpr double blind = 1e-7;  // of a change over the whole box, or of the strongest direction: rounding of differences
+constexpr double blind =
+    1e-7;  // of a change over the whole box, or of the strongest direction: rounding of differences
 
 }  // namespace
 
@@ -26,7 +27,8 @@ std::vector<Blindness> blindnesses(const Eigen::MatrixXd& slopes, const Eigen::V
   }
   if (seen.empty()) return result;
   Eigen::MatrixXd even(slopes.rows(), static_cast<Eigen::Index>(seen.size()));
-  for (std::size_t k = 0; k < seen.size(); ++k) even.col(static_cast<Eigen::Index>(k)) = slopes.col(seen[k]) / norm[seen[k]];
+  for (std::size_t k = 0; k < seen.size(); ++k)
+    even.col(static_cast<Eigen::Index>(k)) = slopes.col(seen[k]) / norm[seen[k]];
   const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::ColPivHouseholderQRPreconditioner> svd(even, Eigen::ComputeThinV);
   for (Eigen::Index k = 0; k < svd.singularValues().size(); ++k) {
     if (svd.singularValues()[k] > blind * svd.singularValues()[0]) continue;

@@ -1,17 +1,16 @@
 #include "diagnosis/import.hpp"
 
-#include "diagnosis/dataset.hpp"
-#include "diagnosis/foreign_table.hpp"
-#include "diagnosis/import_map.hpp"
-
-#include "kernel/names.hpp"
-#include "kernel/text_table_writer.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <set>
+
+#include "diagnosis/dataset.hpp"
+#include "diagnosis/foreign_table.hpp"
+#include "diagnosis/import_map.hpp"
+#include "kernel/names.hpp"
+#include "kernel/text_table_writer.hpp"
 
 namespace muster::diagnosis {
 namespace {
@@ -43,8 +42,10 @@ class Importer {
   void write_cell(TextTableWriter& writer, const ColumnRule& rule, std::size_t row, const std::string& value) {
     if (!rule.is_name) {
       const double number = number_of(rule, row, value);
-      if (std::isnan(number)) writer.empty();
-      else writer.real(number);
+      if (std::isnan(number))
+        writer.empty();
+      else
+        writer.real(number);
       if (rule.column.name == "rssi") result_.empty += std::isnan(number);
     } else if (rule.name_column.empty()) {
       writer.text(filled(rule.name, map_.variable, value));
@@ -66,14 +67,16 @@ class Importer {
 
   bool is_none(const std::string& column, double value) const {
     const auto found = map_.none.find(column);
-    return found != map_.none.end() && std::find(found->second.begin(), found->second.end(), value) != found->second.end();
+    return found != map_.none.end() &&
+           std::find(found->second.begin(), found->second.end(), value) != found->second.end();
   }
 
   // The key is a text with {i}, or a column of the imported table in braces: {beacon}.
   std::size_t side_row(const std::string& name, std::size_t row, const std::string& value, const Place& place) {
     const SideTable& side = map_.tables.at(name);
     std::string key = filled(side.value, map_.variable, value);
-    if (key.size() > 2 && key.front() == '{' && key.back() == '}') key = main_.text(row, column_of(main_, key.substr(1, key.size() - 2), place));
+    if (key.size() > 2 && key.front() == '{' && key.back() == '}')
+      key = main_.text(row, column_of(main_, key.substr(1, key.size() - 2), place));
     const ForeignTable& table = sides_.at(name);
     auto [entry, is_new] = side_rows_.try_emplace({name, key}, table.rows());
     if (is_new) {
@@ -82,7 +85,8 @@ class Importer {
         if (table.text(r, column) == key) entry->second = r;
       }
     }
-    if (entry->second == table.rows()) throw invalid(place, table.file() + " has no row whose " + quote(side.key) + " is " + quote(key));
+    if (entry->second == table.rows())
+      throw invalid(place, table.file() + " has no row whose " + quote(side.key) + " is " + quote(key));
     return entry->second;
   }
 
@@ -94,13 +98,15 @@ class Importer {
   void say_assumptions() {
     for (const std::string& guess : main_.guesses()) result_.assumed.push_back(main_.file() + ": " + guess);
     for (const ColumnRule& rule : map_.columns) result_.assumed.push_back(rule.column.label() + " = " + in_words(rule));
-    if (!map_.variable.empty()) result_.assumed.push_back(fmt::format("each row of the file gives {} readings", map_.values.size()));
+    if (!map_.variable.empty())
+      result_.assumed.push_back(fmt::format("each row of the file gives {} readings", map_.values.size()));
     std::string ignored;
     for (const std::string& column : main_.columns()) {
       if (!used_[main_.file()].count(column)) ignored += (ignored.empty() ? "" : ", ") + quote(column);
     }
     if (!ignored.empty()) result_.assumed.push_back("columns that are not used: " + ignored);
-    result_.assumed.push_back("frame: x east, y north, z up, in metres; headings in radians from x towards y, as the map's scales make them");
+    result_.assumed.push_back(
+        "frame: x east, y north, z up, in metres; headings in radians from x towards y, as the map's scales make them");
     result_.assumed.push_back("cells that are empty, nan, NA or null: nothing was received or known");
   }
 
@@ -108,7 +114,8 @@ class Importer {
     if (rule.is_name) return rule.name_column.empty() ? quote(rule.name) : "the names in " + quote(rule.name_column);
     const NumberRule& n = *rule.number;
     if (n.column.empty()) return fmt::format("{}", n.offset);
-    std::string words = quote(n.column) + (n.table.empty() ? "" : " of " + map_.tables.at(n.table).file.filename().string());
+    std::string words =
+        quote(n.column) + (n.table.empty() ? "" : " of " + map_.tables.at(n.table).file.filename().string());
     if (n.scale != 1) words = fmt::format("{} x {}", n.scale, words);
     if (n.offset != 0) words += fmt::format(" {} {}", n.offset < 0 ? '-' : '+', std::abs(n.offset));
     return words + (n.scale == 1 && !rule.column.unit.empty() ? ", taken to be in " + rule.column.unit : "");
@@ -124,7 +131,8 @@ class Importer {
 
 }  // namespace
 
-Imported import_table(const std::filesystem::path& file, const std::filesystem::path& map, const std::filesystem::path& out) {
+Imported import_table(const std::filesystem::path& file, const std::filesystem::path& map,
+                      const std::filesystem::path& out) {
   const ImportMap rules = read_import_map(map);
   Imported result = Importer(file, rules).write(out);
   for (const std::string& note : read_dataset(out).notes) result.assumed.push_back(note);  // the same checks as a fit's

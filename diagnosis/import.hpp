@@ -9,11 +9,12 @@
 namespace muster::diagnosis {
 
 struct Imported {
-  std::size_t rows = 0, empty = 0;     // written, and of these without a reading
-  std::vector<std::string> assumed;    // columns, units and frames, one a line
+  std::size_t rows = 0, empty = 0;   // written, and of these without a reading
+  std::vector<std::string> assumed;  // columns, units and frames, one a line
 };
 
 // Reads `file` by `map` and writes `out`. Throws Error.
-Imported import_table(const std::filesystem::path& file, const std::filesystem::path& map, const std::filesystem::path& out);
+Imported import_table(const std::filesystem::path& file, const std::filesystem::path& map,
+                      const std::filesystem::path& out);
 
 }  // namespace muster::diagnosis

@@ -1,10 +1,10 @@
 #include "diagnosis/import_map.hpp"
 
-#include "kernel/names.hpp"
-#include "kernel/number.hpp"
-
 #include <algorithm>
 #include <sstream>
+
+#include "kernel/names.hpp"
+#include "kernel/number.hpp"
 
 namespace muster::diagnosis {
 namespace {
@@ -55,7 +55,8 @@ NumberRule number_rule(std::string text, const Place& place) {
 
 class Reader {
  public:
-  explicit Reader(const std::filesystem::path& file) : source_(read_text_file(file, 1'000'000)), folder_(file.parent_path()) {}
+  explicit Reader(const std::filesystem::path& file)
+      : source_(read_text_file(file, 1'000'000)), folder_(file.parent_path()) {}
 
   ImportMap read() {
     std::istringstream lines(source_.text);
@@ -78,7 +79,8 @@ class Reader {
     if (words.size() == 2 && words[0] == "for") return read_variable(words[1], right);
     if (words.size() == 2 && words[0] == "table") return read_table(words[1], right);
     if (words.size() == 2 && words[0] == "none") return read_none(words[1], right);
-    if (words.size() != 1) throw invalid(place_, quote(left) + " is no column; expected name or name[unit], for, table or none");
+    if (words.size() != 1)
+      throw invalid(place_, quote(left) + " is no column; expected name or name[unit], for, table or none");
     read_column(left, right);
   }
 
@@ -100,10 +102,12 @@ class Reader {
 
   void read_column(const std::string& label, const std::string& right) {
     const std::size_t open = label.find('[');
-    ColumnRule rule{.column = {label.substr(0, open), ""}, .name = "", .name_column = "", .number = {}, .place = place_};
+    ColumnRule rule{
+        .column = {label.substr(0, open), ""}, .name = "", .name_column = "", .number = {}, .place = place_};
     if (open != label.npos && label.back() == ']') rule.column.unit = label.substr(open + 1, label.size() - open - 2);
     for (const ColumnRule& other : map_.columns) {
-      if (other.column.name == rule.column.name) throw invalid(place_, "column " + quote(rule.column.name) + " is mapped twice");
+      if (other.column.name == rule.column.name)
+        throw invalid(place_, "column " + quote(rule.column.name) + " is mapped twice");
     }
     if (right.size() >= 2 && right.front() == '"' && right.back() == '"') {
       rule.is_name = true;
@@ -116,7 +120,8 @@ class Reader {
       if (!rule.number->table.empty() && !map_.tables.count(rule.number->table)) {
         std::vector<std::string> known;
         for (const auto& [name, table] : map_.tables) known.push_back(name);
-        throw invalid(place_, "there is no table " + quote(rule.number->table) + " above; " + suggest(rule.number->table, known));
+        throw invalid(
+            place_, "there is no table " + quote(rule.number->table) + " above; " + suggest(rule.number->table, known));
       }
     }
     map_.columns.push_back(rule);
@@ -135,7 +140,8 @@ ImportMap read_import_map(const std::filesystem::path& file) { return Reader(fil
 std::string filled(std::string text, const std::string& variable, const std::string& value) {
   if (variable.empty()) return text;
   const std::string slot = '{' + variable + '}';
-  for (std::size_t at = text.find(slot); at != text.npos; at = text.find(slot, at + value.size())) text.replace(at, slot.size(), value);
+  for (std::size_t at = text.find(slot); at != text.npos; at = text.find(slot, at + value.size()))
+    text.replace(at, slot.size(), value);
   return text;
 }
 

@@ -11,10 +11,10 @@
 //   none rssi  = 0 -128                         values that mean: nothing was received
 #pragma once
 
-#include "kernel/text_table.hpp"
-
 #include <map>
 #include <optional>
+
+#include "kernel/text_table.hpp"
 
 namespace muster::diagnosis {
 
@@ -26,8 +26,8 @@ struct NumberRule {
 struct ColumnRule {
   TextColumn column;
   bool is_name = false;
-  std::string name;                 // a fixed name, or
-  std::string name_column;          // a column of names
+  std::string name;         // a fixed name, or
+  std::string name_column;  // a column of names
   std::optional<NumberRule> number;
   Place place;
 };
@@ -38,9 +38,9 @@ struct SideTable {
 };
 
 struct ImportMap {
-  std::string variable;              // "i"; empty: one row a row
-  std::vector<std::string> values;   // what it runs over
-  std::vector<ColumnRule> columns;   // in the order of the result
+  std::string variable;             // "i"; empty: one row a row
+  std::vector<std::string> values;  // what it runs over
+  std::vector<ColumnRule> columns;  // in the order of the result
   std::map<std::string, SideTable> tables;
   std::map<std::string, std::vector<double>> none;
 };

@@ -1,12 +1,11 @@
 // Correlation of the errors of two links, of three kinds.
-#include "diagnosis/covariance.hpp"
-
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
+
+#include "diagnosis/covariance.hpp"
 
 namespace muster::diagnosis {
 namespace {

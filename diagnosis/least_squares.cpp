@@ -1,7 +1,6 @@
 #include "diagnosis/least_squares.hpp"
 
 #include <Eigen/Cholesky>
-
 #include <cmath>
 
 namespace muster::diagnosis {

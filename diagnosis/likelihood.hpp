@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-
 #include <functional>
 #include <string>
 #include <vector>
@@ -11,10 +10,10 @@
 namespace muster::diagnosis {
 
 struct Readings {
-  Eigen::VectorXd rssi;                 // dBm, one a row; NaN: not received
-  std::vector<Eigen::Index> heard{};      // rows
-  std::vector<Eigen::Index> censored{};   // rows whose level lay below `floor`; none where losses are random
-  double floor = 0;                     // dBm
+  Eigen::VectorXd rssi;                  // dBm, one a row; NaN: not received
+  std::vector<Eigen::Index> heard{};     // rows
+  std::vector<Eigen::Index> censored{};  // rows whose level lay below `floor`; none where losses are random
+  double floor = 0;                      // dBm
 
   Eigen::Index used() const { return static_cast<Eigen::Index>(heard.size() + censored.size()); }
 };

@@ -1,15 +1,13 @@
 #include "diagnosis/look.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
-
+#include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/fisher_f.hpp>
-
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -20,7 +18,8 @@ constexpr std::size_t ranges = 12;
 
 // The part of the columns that the fit could not take up itself, well apart from one another.
 Eigen::MatrixXd beyond(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& slopes) {
-  const Eigen::MatrixXd left = columns - slopes * (slopes.transpose() * slopes).ldlt().solve(slopes.transpose() * columns);
+  const Eigen::MatrixXd left =
+      columns - slopes * (slopes.transpose() * slopes).ldlt().solve(slopes.transpose() * columns);
   std::vector<Eigen::Index> kept;
   for (Eigen::Index j = 0; j < columns.cols(); ++j) {
     if (left.col(j).norm() > 1e-3 * columns.col(j).norm() && columns.col(j).norm() > 0) kept.push_back(j);
@@ -81,7 +80,9 @@ std::vector<Bin> ranges_of(const Fit& fit, const ErrorModel& errors, const std::
   for (std::size_t b = 0, from = 0; b < ranges && from < order.size(); ++b) {
     std::size_t to = std::max(from + 1, order.size() * (b + 1) / ranges);
     while (to < order.size() && value(order[to]) == value(order[to - 1])) ++to;  // equal values stay together
-    Bin bin = bin_of(fit, errors, {order.begin() + static_cast<std::ptrdiff_t>(from), order.begin() + static_cast<std::ptrdiff_t>(to)});
+    Bin bin =
+        bin_of(fit, errors,
+               {order.begin() + static_cast<std::ptrdiff_t>(from), order.begin() + static_cast<std::ptrdiff_t>(to)});
     bin.from = value(order[from]);
     bin.to = value(order[to - 1]);
     bins.push_back(bin);
@@ -126,7 +127,8 @@ std::string words_of(const Look& look) {
   for (const Bin& bin : look.bins) {
     if (bin.stderror > 0) order.push_back(&bin);
   }
-  std::sort(order.begin(), order.end(), [](auto a, auto b) { return std::abs(a->mean) / a->stderror > std::abs(b->mean) / b->stderror; });
+  std::sort(order.begin(), order.end(),
+            [](auto a, auto b) { return std::abs(a->mean) / a->stderror > std::abs(b->mean) / b->stderror; });
   std::string words;
   for (std::size_t i = 0; i < std::min<std::size_t>(2, order.size()); ++i) {
     const Bin& bin = *order[i];
@@ -147,8 +149,10 @@ ErrorModel errors_beside(const Fit& fit, const Eigen::MatrixXd& columns, bool sh
   ErrorModel errors(fit.clusters, fit.kernels);
   const Eigen::VectorXd left = without(fit.residual, columns);
   const Eigen::MatrixXd all = beside(fit.slopes, columns);
-  if (shared) errors.fit(left, all);
-  else errors.fit_white(left, all);
+  if (shared)
+    errors.fit(left, all);
+  else
+    errors.fit_white(left, all);
   return errors;
 }
 
@@ -160,8 +164,8 @@ double chance_of_structure(const Fit& fit, const Eigen::MatrixXd& shapes, bool s
   return chance_of(columns.transpose() * fit.residual, columns, errors_beside(fit, columns, shared));
 }
 
-// Three variances, each 0 in half of all sound worlds, and the best of several distances: in simulated worlds the chance
-// stays below this (tests/diagnosis/coverage.cpp).
+// Three variances, each 0 in half of all sound worlds, and the best of several distances: in simulated worlds the
+// chance stays below this (tests/diagnosis/coverage.cpp).
 double chance_of_sharing(double evidence) {
   if (evidence <= 0) return 1;
   return std::min(1.0, 2 * boost::math::cdf(boost::math::complement(boost::math::chi_squared(2), evidence)));
@@ -194,9 +198,11 @@ Eigen::MatrixXd waves(const std::vector<double>& values, int count) {
   for (Eigen::Index i = 0; i < rows; ++i) {
     const double v = values[static_cast<std::size_t>(i)];
     if (std::isnan(v)) continue;
-    for (int k = 0; k <= count; ++k) shapes(i, k) = std::cos(3.141592653589793 * k * (v - low) / std::max(high - low, 1e-300));
+    for (int k = 0; k <= count; ++k)
+      shapes(i, k) = std::cos(3.141592653589793 * k * (v - low) / std::max(high - low, 1e-300));
   }
-  return shapes;  // the first is constant: it tells empty cells from others, and is taken up by the fit if there are none
+  return shapes;  // the first is constant: it tells empty cells from others, and is taken up by the fit if there are
+                  // none
 }
 
 Eigen::MatrixXd lobes(const std::vector<double>& angles, int count) {
@@ -211,7 +217,8 @@ Eigen::MatrixXd lobes(const std::vector<double>& angles, int count) {
 }
 
 Eigen::MatrixXd indicators(const std::vector<int>& level, std::size_t levels) {
-  Eigen::MatrixXd shapes = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(level.size()), static_cast<Eigen::Index>(levels));
+  Eigen::MatrixXd shapes =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(level.size()), static_cast<Eigen::Index>(levels));
   for (Eigen::Index i = 0; i < shapes.rows(); ++i) {
     if (level[static_cast<std::size_t>(i)] >= 0) shapes(i, level[static_cast<std::size_t>(i)]) = 1;
   }

@@ -1,12 +1,12 @@
 #include "diagnosis/misfit.hpp"
 
-#include "diagnosis/look.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+
+#include "diagnosis/look.hpp"
 
 namespace muster::diagnosis {
 namespace {
@@ -31,7 +31,8 @@ class Looker {
       look.alarm = look.p * static_cast<double>(result_.looks.size()) < false_alarms;
       result_.misfits = result_.misfits || look.alarm;
     }
-    std::stable_sort(result_.looks.begin(), result_.looks.end(), [](const Look& a, const Look& b) { return a.explains > b.explains; });
+    std::stable_sort(result_.looks.begin(), result_.looks.end(),
+                     [](const Look& a, const Look& b) { return a.explains > b.explains; });
     return std::move(result_);
   }
 
@@ -69,24 +70,32 @@ class Looker {
     }
     result_.looks.back().where = in_metres(result_.looks.back());
     add_angle("bearing", features_.azimuth, 8, "all links point the same way");
-    if (data_.tx_yaw.empty()) result_.not_tested.push_back("tx_bearing: the data have no tx_yaw");
-    else add_angle("tx_bearing", features_.tx_bearing, 4, "it does not vary");
-    if (data_.rx_yaw.empty()) result_.not_tested.push_back("rx_bearing: the data have no rx_yaw");
-    else add_angle("rx_bearing", features_.rx_bearing, 4, "it does not vary");
+    if (data_.tx_yaw.empty())
+      result_.not_tested.push_back("tx_bearing: the data have no tx_yaw");
+    else
+      add_angle("tx_bearing", features_.tx_bearing, 4, "it does not vary");
+    if (data_.rx_yaw.empty())
+      result_.not_tested.push_back("rx_bearing: the data have no rx_yaw");
+    else
+      add_angle("rx_bearing", features_.rx_bearing, 4, "it does not vary");
     if (data_.t.empty()) return result_.not_tested.push_back("time: the data have none");
     const auto t = used(data_.t);
-    if (varies(t, 0)) add_number("time", "s", t, 8);
-    else result_.not_tested.push_back("time: all readings were taken at once");
+    if (varies(t, 0))
+      add_number("time", "s", t, 8);
+    else
+      result_.not_tested.push_back("time: all readings were taken at once");
   }
 
   // The words were made before the bins' ends were turned back from logarithms.
   static std::string in_metres(const Look& look) {
     const Bin* worst = nullptr;
     for (const Bin& bin : look.bins) {
-      if (bin.stderror > 0 && (!worst || std::abs(bin.mean) / bin.stderror > std::abs(worst->mean) / worst->stderror)) worst = &bin;
+      if (bin.stderror > 0 && (!worst || std::abs(bin.mean) / bin.stderror > std::abs(worst->mean) / worst->stderror))
+        worst = &bin;
     }
     if (!worst) return "";
-    return fmt::format("distance {:.3g} to {:.3g} m: {:+.1f} +- {:.1f} dB", worst->from, worst->to, worst->mean, worst->stderror);
+    return fmt::format("distance {:.3g} to {:.3g} m: {:+.1f} +- {:.1f} dB", worst->from, worst->to, worst->mean,
+                       worst->stderror);
   }
 
   // Of the walls that enough links cross and enough others do not, those with most evidence to give.
@@ -94,7 +103,8 @@ class Looker {
     std::vector<std::pair<double, int>> weight;
     for (std::size_t w = 0; w < features_.walls.size(); ++w) weight.emplace_back(0, static_cast<int>(w));
     for (const std::size_t row : rows_) {
-      for (std::size_t k = features_.first[row]; k < features_.first[row + 1]; ++k) --weight[static_cast<std::size_t>(features_.crossed[k])].first;
+      for (std::size_t k = features_.first[row]; k < features_.first[row + 1]; ++k)
+        --weight[static_cast<std::size_t>(features_.crossed[k])].first;
     }
     std::sort(weight.begin(), weight.end());  // most crossed first, then in the world's order
     Subject subject{.by = "wall", .unit = "", .values = {}, .level = {}, .names = {}, .shapes = {}, .by_shape = true};
@@ -106,7 +116,8 @@ class Looker {
       subject.names.push_back(features_.walls[static_cast<std::size_t>(wall)]);
     }
     if (column.empty()) return result_.not_tested.push_back("wall: none that enough links cross and others do not");
-    subject.shapes = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows_.size()), static_cast<Eigen::Index>(column.size()));
+    subject.shapes =
+        Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows_.size()), static_cast<Eigen::Index>(column.size()));
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       for (std::size_t k = features_.first[rows_[i]]; k < features_.first[rows_[i] + 1]; ++k) {
         const auto found = column.find(features_.crossed[k]);
@@ -119,36 +130,47 @@ class Looker {
   void add_names(const std::string& by, const Factor& factor) {
     Subject subject{.by = by, .unit = "", .values = {}, .level = {}, .names = factor.levels, .shapes = {}};
     if (factor.levels.size() > most_names)
-      return result_.not_tested.push_back(fmt::format("{}: {} names; more than {}", by, factor.levels.size(), most_names));
+      return result_.not_tested.push_back(
+          fmt::format("{}: {} names; more than {}", by, factor.levels.size(), most_names));
     for (const std::size_t row : rows_) subject.level.push_back(static_cast<int>(factor.level[row]));
     subject.shapes = indicators(subject.level, factor.levels.size());
     add(subject);
   }
 
   void look_at_radios() {
-    if (data_.tx.levels.size() > 1) add_names("tx", data_.tx);
-    else result_.not_tested.push_back("tx: there is one, so its offset is part of l0");
-    if (data_.rx.levels.size() > 1) add_names("rx", data_.rx);
-    else result_.not_tested.push_back("rx: there is one, so its offset is part of l0");
+    if (data_.tx.levels.size() > 1)
+      add_names("tx", data_.tx);
+    else
+      result_.not_tested.push_back("tx: there is one, so its offset is part of l0");
+    if (data_.rx.levels.size() > 1)
+      add_names("rx", data_.rx);
+    else
+      result_.not_tested.push_back("rx: there is one, so its offset is part of l0");
   }
 
   void look_at_columns() {
     for (const Covariate& column : data_.covariates) {
-      if (column.values.empty()) add_names(column.name, column.factor);
-      else if (const auto values = used(column.values); varies(values, 0)) add_number(column.name, "", values, 5);
+      if (column.values.empty())
+        add_names(column.name, column.factor);
+      else if (const auto values = used(column.values); varies(values, 0))
+        add_number(column.name, "", values, 5);
     }
   }
 
   // Are neighbouring readings alike? Where the world declares shadowing they should be.
   void look_at_neighbours() {
     const double declared = model_.value_of("radio.fading", "shadowing", 0);
-    if (declared > 0) return result_.not_tested.push_back(fmt::format("neighbours: the world declares shadowing of {:.1f} dB; found {:.1f} dB", declared, fit_.shared_sd));
+    if (declared > 0)
+      return result_.not_tested.push_back(fmt::format(
+          "neighbours: the world declares shadowing of {:.1f} dB; found {:.1f} dB", declared, fit_.shared_sd));
     Look look;
     look.by = "neighbours";
     look.columns = 2;
     look.p = chance_of_sharing(fit_.shared_evidence);
     look.explains = std::min(1.0, std::pow(fit_.shared_sd / std::max(fit_.residual_sd, 1e-9), 2));
-    look.where = fmt::format("readings at neighbouring places err alike, by {:.1f} dB over {:.1f} m, and the world declares no shadowing", fit_.shared_sd, fit_.decorrelation);
+    look.where = fmt::format(
+        "readings at neighbouring places err alike, by {:.1f} dB over {:.1f} m, and the world declares no shadowing",
+        fit_.shared_sd, fit_.decorrelation);
     result_.looks.push_back(look);
   }
 

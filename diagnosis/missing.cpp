@@ -15,7 +15,8 @@ struct Mixture {
 
 // A reading is lost by chance with probability `random`, or because its level, normal about the mean, lies below the
 // floor. The likeliest `random` by EM; the floor's share of the missing ones is their mean posterior.
-Mixture with_floor(const std::vector<double>& lost_at, const std::vector<double>& heard_at, double floor, double sigma) {
+Mixture with_floor(const std::vector<double>& lost_at, const std::vector<double>& heard_at, double floor,
+                   double sigma) {
   Mixture result;
   const double lost = static_cast<double>(lost_at.size()), all = lost + static_cast<double>(heard_at.size());
   result.random = 0.5 * lost / all;
@@ -34,7 +35,8 @@ Mixture with_floor(const std::vector<double>& lost_at, const std::vector<double>
     result.log_likelihood += std::log(p);
     by_floor += f * (1 - result.random) / p;
   }
-  for (const double f : heard_chance) result.log_likelihood += std::log1p(-std::min(result.random + (1 - result.random) * f, 1 - 1e-12));
+  for (const double f : heard_chance)
+    result.log_likelihood += std::log1p(-std::min(result.random + (1 - result.random) * f, 1 - 1e-12));
   result.by_floor = by_floor / lost;
   return result;
 }

@@ -8,15 +8,15 @@ namespace muster::diagnosis {
 struct Missing {
   std::size_t count = 0;
   bool censored = false;
-  double floor = 0;           // dBm; of the fitted mixture
-  double share_at_random = 0; // of all readings, at every level
-  double by_floor = 0;        // share of the missing ones that the floor explains
-  double evidence = 0;        // twice the log-likelihood ratio of the mixture against chance alone
+  double floor = 0;            // dBm; of the fitted mixture
+  double share_at_random = 0;  // of all readings, at every level
+  double by_floor = 0;         // share of the missing ones that the floor explains
+  double evidence = 0;         // twice the log-likelihood ratio of the mixture against chance alone
   struct Bin {
     double level;  // mean predicted level, dBm
     double rows, missing;
   };
-  std::vector<Bin> bins{};    // ten, of equal numbers of readings, by predicted level
+  std::vector<Bin> bins{};  // ten, of equal numbers of readings, by predicted level
 };
 
 // `mean` and `sigma` are a fit's to what was heard.

@@ -2,12 +2,11 @@
 // code that a simulation runs.
 #pragma once
 
-#include "kernel/simulation.hpp"
-
 #include <Eigen/Core>
-
 #include <array>
 #include <memory>
+
+#include "kernel/simulation.hpp"
 
 namespace muster::diagnosis {
 

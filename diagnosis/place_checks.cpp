@@ -1,13 +1,12 @@
 #include "diagnosis/place_checks.hpp"
 
-#include "kernel/names.hpp"
-#include "kernel/number.hpp"
-
-#include <muster/tables.hpp>
-
 #include <algorithm>
 #include <cmath>
+#include <muster/tables.hpp>
 #include <set>
+
+#include "kernel/names.hpp"
+#include "kernel/number.hpp"
 
 namespace muster::diagnosis {
 namespace {
@@ -48,8 +47,9 @@ void check_plan(const LinkModel& model, const Dataset& data) {
   const double ends = 2 * static_cast<double>(model.rows());
   if (outside < 0.1 * ends || turned_outside > 0.01 * ends) return;
   throw invalid(data.table.place(first, 0),
-                "row " + std::to_string(first + 1) + " and others lie outside of the world's walls, and inside if x and y change "
-                "places; expected x to the east and y to the north, as in the world");
+                "row " + std::to_string(first + 1) +
+                    " and others lie outside of the world's walls, and inside if x and y change "
+                    "places; expected x to the east and y to the north, as in the world");
 }
 
 void check_stations(const LinkModel& model, Dataset& data) {
@@ -59,13 +59,16 @@ void check_stations(const LinkModel& model, Dataset& data) {
     for (const End& end : model.ends()[row]) {
       const Mount& mount = reinterpret_cast<const Mount*>(mounts->now().data.data())[end.radio];
       if (!seen.insert(end.radio).second || !std::isnan(mount.robot)) continue;
-      const double off = std::hypot(end.x - mount.x, end.y - mount.y), turned = std::hypot(end.y - mount.x, end.x - mount.y);
+      const double off = std::hypot(end.x - mount.x, end.y - mount.y),
+                   turned = std::hypot(end.y - mount.x, end.x - mount.y);
       const std::string name = model.radio_name(end.radio);
       const auto& declared = model.simulation().world().rows;
-      if (std::none_of(declared.begin(), declared.end(), [&](const RowDeclaration& r) { return r.name == name; })) continue;
+      if (std::none_of(declared.begin(), declared.end(), [&](const RowDeclaration& r) { return r.name == name; }))
+        continue;
       if (off <= 1) continue;
-      const std::string what = quote(name) + " stands at x = " + print_real(end.x) + ", y = " + print_real(end.y) + " m in the data and at x = " +
-                               print_real(mount.x) + ", y = " + print_real(mount.y) + " m in the world";
+      const std::string what = quote(name) + " stands at x = " + print_real(end.x) + ", y = " + print_real(end.y) +
+                               " m in the data and at x = " + print_real(mount.x) + ", y = " + print_real(mount.y) +
+                               " m in the world";
       if (turned < 0.01) throw invalid(data.table.place(row, 0), what + ": x and y are exchanged");
       data.notes.push_back(what + "; the data's place is used");
     }

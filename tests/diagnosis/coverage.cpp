@@ -1,6 +1,6 @@
-// Do 95 % intervals hold the truth in 95 % of worlds, and do looks at sound worlds stay quiet? Worlds on the hall's plan with
-// Rayleigh fading and shadowing that readings share: of another kind than the error model assumes (a field at the robot's
-// place, exponential), of the channel's own (a line integral of 64 waves), and none.
+// Do 95 % intervals hold the truth in 95 % of worlds, and do looks at sound worlds stay quiet? Worlds on the hall's
+// plan with Rayleigh fading and shadowing that readings share: of another kind than the error model assumes (a field at
+// the robot's place, exponential), of the channel's own (a line integral of 64 waves), and none.
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
@@ -80,7 +80,9 @@ Errors field_along_ways(double sd, double decorrelation) {
     const ShadowField field(Stream(mixed(world)));
     Eigen::VectorXd errors = rayleigh(ends.size(), world);
     for (std::size_t i = 0; i < ends.size(); ++i) {
-      const auto at = [&](const End& e) { return field.end_at(e.x / decorrelation, e.y / decorrelation, e.z / decorrelation); };
+      const auto at = [&](const End& e) {
+        return field.end_at(e.x / decorrelation, e.y / decorrelation, e.z / decorrelation);
+      };
       errors[static_cast<Eigen::Index>(i)] += sd * field.between(at(ends[i][0]), at(ends[i][1]));
     }
     return errors;

@@ -19,11 +19,12 @@ TEST(Features, ByHand) {
                                    "  <wall name=\"a\" from=\"2 -5\" to=\"2 5\" material=\"brick\"/>\n"
                                    "  <wall name=\"b\" from=\"3 -5\" to=\"3 5\" height=\"1\" material=\"glass\"/>\n"
                                    "  <station name=\"s\" at=\"0 0 0.5\"/>\n  <radio.multiwall/>\n</world>\n");
-  const auto file = scratch.write("d.csv",
-                                  "tx,rx,tx_x[m],tx_y[m],tx_z[m],tx_yaw[rad],rx_x[m],rx_y[m],rx_z[m],rx_yaw[rad],rssi[dBm]\n"
-                                  "s,r,0,0,0.5,0,4,0,0.5,0,-50\n"                      // straight through both
-                                  "s,r,0,0,0.5,0,4,4,2.5,1.5707963267948966,-51\n"     // at 45 degrees, over the glass
-                                  "s,r,0,0,0.5,1.5707963267948966,0,3,0.5,0,-52\n");   // along the free side
+  const auto file =
+      scratch.write("d.csv",
+                    "tx,rx,tx_x[m],tx_y[m],tx_z[m],tx_yaw[rad],rx_x[m],rx_y[m],rx_z[m],rx_yaw[rad],rssi[dBm]\n"
+                    "s,r,0,0,0.5,0,4,0,0.5,0,-50\n"                     // straight through both
+                    "s,r,0,0,0.5,0,4,4,2.5,1.5707963267948966,-51\n"    // at 45 degrees, over the glass
+                    "s,r,0,0,0.5,1.5707963267948966,0,3,0.5,0,-52\n");  // along the free side
   const Features f = features_of(LinkModel(world, file, plugins));
   const double pi = 3.141592653589793;
   EXPECT_DOUBLE_EQ(f.distance[0], 4);
@@ -33,7 +34,8 @@ TEST(Features, ByHand) {
   EXPECT_NEAR(f.elevation[1], std::atan2(2, std::sqrt(32.0)), 1e-12);
   EXPECT_NEAR(f.tx_bearing[2], 0, 1e-12);
   EXPECT_NEAR(f.rx_bearing[0], pi, 1e-12);
-  EXPECT_NEAR(f.rx_bearing[1], 3 * pi / 4, 1e-9);  // to the south-west, seen by one who looks north: behind, to the left
+  EXPECT_NEAR(f.rx_bearing[1], 3 * pi / 4,
+              1e-9);  // to the south-west, seen by one who looks north: behind, to the left
   EXPECT_NEAR(f.incidence[0], 0, 1e-9);
   EXPECT_TRUE(std::isnan(f.incidence[2]));
   EXPECT_EQ(f.crossed, (std::vector<int>{0, 1, 0}));
@@ -63,7 +65,9 @@ const char* wide_map =
 TEST(Import, WideToLongWithUnitsAndAnchors) {
   const Scratch scratch;
   scratch.write("anchors.csv", "id,x,y\n1,5,0\n2,0,7.5\n");
-  const auto file = scratch.write("wide.csv", ";ms;px;py;heading;rssi_1;rssi_2;phone\n0;5000;1000;2000;90;-50;nan;p\n1;5500;1500;2000;180;-51.5;0;p\n");
+  const auto file = scratch.write(
+      "wide.csv",
+      ";ms;px;py;heading;rssi_1;rssi_2;phone\n0;5000;1000;2000;90;-50;nan;p\n1;5500;1500;2000;180;-51.5;0;p\n");
   const auto map = scratch.write("wide.map", wide_map);
   const Imported done = import_table(file, map, scratch / "out.csv");
   EXPECT_EQ(done.rows, 4u);
@@ -75,7 +79,8 @@ TEST(Import, WideToLongWithUnitsAndAnchors) {
             "0.5,robot,anchor1,1.5,2,3.141592653589793,5,0,-51.5,p\n"
             "0.5,robot,anchor2,1.5,2,3.141592653589793,0,7.5,,p\n");
   const auto said = [&](const std::string& words) {
-    return std::any_of(done.assumed.begin(), done.assumed.end(), [&](const std::string& s) { return s.find(words) != s.npos; });
+    return std::any_of(done.assumed.begin(), done.assumed.end(),
+                       [&](const std::string& s) { return s.find(words) != s.npos; });
   };
   EXPECT_TRUE(said("cells are separated by ';'"));
   EXPECT_TRUE(said("tx_x[m] = 0.001 x \"px\""));

@@ -33,14 +33,16 @@ const Fitted& plain() {
 TEST(Hall, ItsProgramWritesTheSameDataAgain) {
   const Scratch scratch;
   for (const auto& [file, what] : {std::pair{"measured_plain.csv", "plain"}, std::pair{"measured.csv", "hidden"}}) {
-    const std::string command = std::string(HALL_DATA) + " '" + (hall / "walls.csv").string() + "' '" + (scratch / file).string() + "' " + what;
+    const std::string command =
+        std::string(HALL_DATA) + " '" + (hall / "walls.csv").string() + "' '" + (scratch / file).string() + "' " + what;
     ASSERT_EQ(std::system(command.c_str()), 0);
     EXPECT_TRUE(contents(scratch / file) == contents(hall / file)) << file << " differs from what hall_data writes";
   }
 }
 
 TEST(Hall, PlainDataGiveBackWhatTheyWereMadeFrom) {
-  const std::pair<const char*, double> truth[] = {{"radio.multiwall/l0", 12.9}, {"radio.multiwall/n", 1.7}, {"material/drywall/loss", 4.0}};
+  const std::pair<const char*, double> truth[] = {
+      {"radio.multiwall/l0", 12.9}, {"radio.multiwall/n", 1.7}, {"material/drywall/loss", 4.0}};
   for (const auto& [path, value] : truth) {
     const FitParameter& p = parameter(plain().result, path);
     EXPECT_LE(p.lower95, value) << path;
@@ -65,11 +67,13 @@ TEST(Hall, HiddenCabinetsAreNoticedWhereTheyAre) {
   const Fitted fitted(hall, hall / "measured.csv");
   const Misfit misfit = fitted.misfit();
   EXPECT_TRUE(misfit.misfits);
-  const auto bearing = std::find_if(misfit.looks.begin(), misfit.looks.end(), [](const Look& l) { return l.by == "bearing"; });
+  const auto bearing =
+      std::find_if(misfit.looks.begin(), misfit.looks.end(), [](const Look& l) { return l.by == "bearing"; });
   ASSERT_NE(bearing, misfit.looks.end());
   EXPECT_TRUE(bearing->alarm);
-  const auto worst = std::min_element(bearing->bins.begin(), bearing->bins.end(), [](const Bin& a, const Bin& b) { return a.mean < b.mean; });
-  EXPECT_GT(worst->to, 0.28);    // rad: the cabinets stand between 0.279 and 0.538
+  const auto worst = std::min_element(bearing->bins.begin(), bearing->bins.end(),
+                                      [](const Bin& a, const Bin& b) { return a.mean < b.mean; });
+  EXPECT_GT(worst->to, 0.28);  // rad: the cabinets stand between 0.279 and 0.538
   EXPECT_LT(worst->from, 0.538);
   EXPECT_LT(worst->mean, -3);
 }
@@ -94,7 +98,8 @@ TEST(Hall, OrderOfRowsOfDifferentPairsDoesNotMatter) {
   const Fitted b(hall, write("b.csv"));
   for (std::size_t j = 0; j < a.result.parameters.size(); ++j) {
     EXPECT_NEAR(a.result.parameters[j].value, b.result.parameters[j].value, 1e-8);
-    EXPECT_NEAR(a.result.parameters[j].stderror / b.result.parameters[j].stderror, 1, 0.05);  // its example links differ
+    EXPECT_NEAR(a.result.parameters[j].stderror / b.result.parameters[j].stderror, 1,
+                0.05);  // its example links differ
   }
 }
 
@@ -124,9 +129,12 @@ TEST(Hall, FreeAndFix) {
     return complaint([&] { Fitted(hall, hall / "measured_plain.csv", options); });
   };
   EXPECT_NE(tries({{"radio.multiwall/m"}, {}}).find("radio.multiwall/n"), std::string::npos);
-  EXPECT_EQ(tries({{}, {"radio.multiwall/n=1,7"}}), "--fix radio.multiwall/n: \"1,7\" is not a number; a decimal point is written '.'");
-  EXPECT_EQ(tries({{"radio.multiwall/n"}, {"radio.multiwall/n"}}), "\"radio.multiwall/n\" is both free and fixed; expected one of them");
-  EXPECT_EQ(tries({{}, {"radio.multiwall/n", "radio.multiwall/l0", "material/drywall/loss"}}), "no parameter is free; expected one, such as by --free PATH");
+  EXPECT_EQ(tries({{}, {"radio.multiwall/n=1,7"}}),
+            "--fix radio.multiwall/n: \"1,7\" is not a number; a decimal point is written '.'");
+  EXPECT_EQ(tries({{"radio.multiwall/n"}, {"radio.multiwall/n"}}),
+            "\"radio.multiwall/n\" is both free and fixed; expected one of them");
+  EXPECT_EQ(tries({{}, {"radio.multiwall/n", "radio.multiwall/l0", "material/drywall/loss"}}),
+            "no parameter is free; expected one, such as by --free PATH");
 }
 
 TEST(Hall, AFloorIsCensoringAndDoesNotBendTheFit) {
@@ -149,20 +157,25 @@ TEST(Hall, AFloorIsCensoringAndDoesNotBendTheFit) {
 
 TEST(Hall, TooFewReadingsForTheParameters) {
   const Scratch scratch;
-  const auto file = scratch.write("d.csv", "tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],rssi[dBm]\nbase,r,0,0,1,0,-50\nbase,r,0,0,2,0,-51\n");
-  EXPECT_EQ(complaint([&] { Fitted(hall, file); }), "d.csv: the table has 2 heard readings; expected at least 4 to fit 3 parameters");
+  const auto file = scratch.write(
+      "d.csv", "tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],rssi[dBm]\nbase,r,0,0,1,0,-50\nbase,r,0,0,2,0,-51\n");
+  EXPECT_EQ(complaint([&] { Fitted(hall, file); }),
+            "d.csv: the table has 2 heard readings; expected at least 4 to fit 3 parameters");
 }
 
 TEST(Hall, ExchangedAxesAreNamed) {
   const Scratch scratch;
   std::string text = "tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],rssi[dBm]\n";
-  for (int i = 0; i < 20; ++i) text += "base,r,0,0," + std::to_string(0.1 * i) + ',' + std::to_string(12 + 0.3 * i) + ",-" + std::to_string(50 + i) + '\n';
+  for (int i = 0; i < 20; ++i)
+    text += "base,r,0,0," + std::to_string(0.1 * i) + ',' + std::to_string(12 + 0.3 * i) + ",-" +
+            std::to_string(50 + i) + '\n';
   const auto file = scratch.write("d.csv", text);
   EXPECT_EQ(complaint([&] {
               Dataset data = read_dataset(file);
               check_places(LinkModel(hall, file, plugins), data);
             }),
-            "d.csv:2:1: row 1 and others lie outside of the world's walls, and inside if x and y change places; expected x to the "
+            "d.csv:2:1: row 1 and others lie outside of the world's walls, and inside if x and y change places; "
+            "expected x to the "
             "east and y to the north, as in the world");
 }
 

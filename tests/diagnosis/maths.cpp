@@ -95,7 +95,8 @@ TEST(Identifiable, NamesWhatNoReadingDependsOn) {
   slopes.col(1).setZero();
   const auto blind = blindnesses(slopes, Eigen::Vector3d(100, 100, 100));
   ASSERT_EQ(blind.size(), 1u);
-  EXPECT_EQ(in_words(blind[0], {"a", "material/lead/loss", "c"}, {"", "dB", ""}), "no reading depends on material/lead/loss");
+  EXPECT_EQ(in_words(blind[0], {"a", "material/lead/loss", "c"}, {"", "dB", ""}),
+            "no reading depends on material/lead/loss");
 }
 
 TEST(Identifiable, NamesTheCombination) {
@@ -103,7 +104,8 @@ TEST(Identifiable, NamesTheCombination) {
   slopes.col(2) = -slopes.col(0);
   const auto blind = blindnesses(slopes, Eigen::Vector3d(100, 10, 100));
   ASSERT_EQ(blind.size(), 1u);
-  EXPECT_EQ(in_words(blind[0], {"tx_power", "n", "l0"}, {"dBm", "", "dB"}), "changing tx_power by 1 dBm together with l0 by 1 dB changes no reading");
+  EXPECT_EQ(in_words(blind[0], {"tx_power", "n", "l0"}, {"dBm", "", "dB"}),
+            "changing tx_power by 1 dBm together with l0 by 1 dB changes no reading");
 }
 
 TEST(Identifiable, SaysNothingOfASoundFit) {
@@ -138,7 +140,9 @@ TEST(Missing, AFloorIsCalledAFloor) {
   EXPECT_EQ(found.bins.back().missing, 0);
 }
 
-TEST(Missing, NothingMissing) { EXPECT_EQ(missing_where([](double, double) { return false; }).count, 0u); }
+TEST(Missing, NothingMissing) {
+  EXPECT_EQ(missing_where([](double, double) { return false; }).count, 0u);
+}
 
 }  // namespace
 }  // namespace muster::diagnosis

@@ -15,7 +15,8 @@ class Scratch {
  public:
   Scratch() {
     static int count = 0;
-    folder_ = std::filesystem::temp_directory_path() / ("muster_diagnosis_" + std::to_string(getpid()) + "_" + std::to_string(count++));
+    folder_ = std::filesystem::temp_directory_path() /
+              ("muster_diagnosis_" + std::to_string(getpid()) + "_" + std::to_string(count++));
     std::filesystem::create_directories(folder_);
   }
   ~Scratch() { std::filesystem::remove_all(folder_); }

@@ -19,7 +19,7 @@
 namespace {
 
 constexpr int samples = 20000;
-constexpr double period = 0.2;  // s
+constexpr double period = 0.2;                           // s
 constexpr double base_height = 1.0, rover_height = 0.4;  // m
 constexpr std::uint64_t seed = 42;
 
