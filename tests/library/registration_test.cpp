@@ -34,7 +34,8 @@ struct Sample {
                        nullptr,
                        [](const muster_host*) -> void* { return nullptr; },
                        [](void*) {},
-                       [](void*, const muster_tick*, const muster_in*, const muster_out*) { return 0; }};
+                       [](void*, const muster_tick*, const muster_in*, const muster_out*) { return 0; },
+                       nullptr};
 };
 
 std::string refusal() {
