@@ -83,7 +83,7 @@ class Reader {
     const auto bytes = text();
     if (bytes.size() % sizeof(Number)) fail();
     std::vector<Number> values(bytes.size() / sizeof(Number));
-    std::memcpy(values.data(), bytes.data(), bytes.size());
+    if (!bytes.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
     return values;
   }
   std::string_view take(uint64_t count) {
