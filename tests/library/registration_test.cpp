@@ -76,7 +76,7 @@ TEST(Registration, TakesAGoodDescriptorApart) {
 
 TEST(Registration, RefusesBadDescriptors) {
   EXPECT_EQ(refusal_of([](auto& p) { p.size = 8; }), "registers a descriptor of 8 bytes; expected at least " +
-                                                         std::to_string(sizeof(muster_plugin)) +
+                                                         std::to_string(offsetof(muster_plugin, cause)) +
                                                          "; rebuild it against plugin_api");
   EXPECT_EQ(refusal_of([](auto& p) { p.id = nullptr; }),
             "registers the id \"\"; expected one like \"radio.multiwall/1\"");
