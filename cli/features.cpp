@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "diagnosis/dataset.hpp"
-#include "kernel/text_table_writer.hpp"
+#include "text/text_table_writer.hpp"
 #include "verbs.hpp"
 
 namespace muster::cli {

@@ -1,7 +1,7 @@
 // muster VERB ...: finds the verb, runs it, and turns errors into one line and an exit code.
 #include "verbs.hpp"
 
-#include "kernel/names.hpp"
+#include "text/names.hpp"
 
 #include <fmt/core.h>
 

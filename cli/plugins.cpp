@@ -1,8 +1,8 @@
 // muster plugins and muster describe: what can be loaded, and a plugin's manual from its declarations alone.
 #include "verbs.hpp"
 
-#include "kernel/names.hpp"
-#include "kernel/number.hpp"
+#include "text/names.hpp"
+#include "text/number.hpp"
 #include "kernel/params.hpp"
 
 #include <fmt/core.h>

@@ -2,11 +2,11 @@
 #include "run_pictures.hpp"
 #include "verbs.hpp"
 
-#include "kernel/names.hpp"
-#include "kernel/number.hpp"
+#include "text/names.hpp"
+#include "text/number.hpp"
 #include "kernel/params.hpp"
 #include "kernel/record.hpp"
-#include "kernel/text_file.hpp"
+#include "text/text_file.hpp"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>

@@ -6,8 +6,8 @@
 #include <muster/tables.hpp>
 #include <sstream>
 
-#include "kernel/error.hpp"
-#include "kernel/number.hpp"
+#include "text/error.hpp"
+#include "text/number.hpp"
 
 namespace muster {
 namespace {

@@ -2,7 +2,7 @@
 // Error for everything that ends it early.
 #pragma once
 
-#include "kernel/error.hpp"
+#include "text/error.hpp"
 #include "kernel/simulation.hpp"
 
 #include <CLI/CLI.hpp>

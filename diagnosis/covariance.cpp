@@ -151,7 +151,7 @@ void ErrorModel::fit(const Eigen::VectorXd& residual, const Eigen::MatrixXd& col
     estimate(likelihood, fitted[c], scale);
     const auto count = static_cast<double>((fitted[c].variances.array() > 0).count());
     fitted[c].belief = likelihood.value + prior_of(fitted[c], kernels_) -
-                       0.5 * count * std::log(static_cast<double>(means.size()));  // Schwarz's price of a variance
+                       count;  // a nat for each variance, as in Akaike's criterion
     best = std::max(best, likelihood.value);
   }
   Likelihood nothing{kernels_[0], means, x, white};

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "diagnosis/dataset_checks.hpp"
-#include "kernel/names.hpp"
+#include "text/names.hpp"
 
 namespace muster::diagnosis {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "kernel/text_table.hpp"
+#include "text/text_table.hpp"
 
 namespace muster::diagnosis {
 

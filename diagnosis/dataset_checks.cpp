@@ -6,8 +6,8 @@
 #include <tuple>
 #include <unordered_map>
 
-#include "kernel/names.hpp"
-#include "kernel/number.hpp"
+#include "text/names.hpp"
+#include "text/number.hpp"
 
 namespace muster::diagnosis {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "kernel/names.hpp"
-#include "kernel/number.hpp"
-#include "kernel/text_file.hpp"
+#include "text/names.hpp"
+#include "text/number.hpp"
+#include "text/text_file.hpp"
 
 namespace muster::diagnosis {
 namespace {

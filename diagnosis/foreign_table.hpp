@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kernel/error.hpp"
+#include "text/error.hpp"
 
 namespace muster::diagnosis {
 

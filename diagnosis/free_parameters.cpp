@@ -1,8 +1,8 @@
 #include <algorithm>
 
 #include "diagnosis/fit.hpp"
-#include "kernel/names.hpp"
-#include "kernel/number.hpp"
+#include "text/names.hpp"
+#include "text/number.hpp"
 
 namespace muster::diagnosis {
 namespace {

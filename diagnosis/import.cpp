@@ -9,8 +9,8 @@
 #include "diagnosis/dataset.hpp"
 #include "diagnosis/foreign_table.hpp"
 #include "diagnosis/import_map.hpp"
-#include "kernel/names.hpp"
-#include "kernel/text_table_writer.hpp"
+#include "text/names.hpp"
+#include "text/text_table_writer.hpp"
 
 namespace muster::diagnosis {
 namespace {

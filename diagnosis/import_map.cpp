@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <sstream>
 
-#include "kernel/names.hpp"
-#include "kernel/number.hpp"
+#include "text/names.hpp"
+#include "text/number.hpp"
 
 namespace muster::diagnosis {
 namespace {

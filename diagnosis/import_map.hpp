@@ -14,7 +14,7 @@
 #include <map>
 #include <optional>
 
-#include "kernel/text_table.hpp"
+#include "text/text_table.hpp"
 
 namespace muster::diagnosis {
 

@@ -5,8 +5,8 @@
 #include <muster/tables.hpp>
 #include <set>
 
-#include "kernel/names.hpp"
-#include "kernel/number.hpp"
+#include "text/names.hpp"
+#include "text/number.hpp"
 
 namespace muster::diagnosis {
 namespace {

@@ -1,6 +1,6 @@
 #include "blackboard.hpp"
 
-#include "number.hpp"
+#include "text/number.hpp"
 
 #include <algorithm>
 #include <bit>

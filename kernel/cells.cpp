@@ -1,6 +1,6 @@
 #include "cells.hpp"
 
-#include "names.hpp"
+#include "text/names.hpp"
 
 #include <algorithm>
 #include <bit>

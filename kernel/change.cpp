@@ -1,6 +1,6 @@
 // Changes between two ticks: instances swapped, inserted, removed, made again; parameters set.
-#include "names.hpp"
-#include "number.hpp"
+#include "text/names.hpp"
+#include "text/number.hpp"
 #include "params.hpp"
 #include "simulation.hpp"
 

@@ -1,7 +1,7 @@
 #include "claim.hpp"
 
-#include "names.hpp"
-#include "text_table.hpp"
+#include "text/names.hpp"
+#include "text/text_table.hpp"
 
 #include <algorithm>
 

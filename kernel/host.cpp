@@ -2,7 +2,7 @@
 
 #include "claim.hpp"
 #include "instance.hpp"
-#include "names.hpp"
+#include "text/names.hpp"
 #include "world_rows.hpp"
 
 #include <algorithm>

@@ -1,10 +1,10 @@
 #include "instance.hpp"
 
 #include "claim.hpp"
-#include "float_guard.hpp"
+#include "loader/float_guard.hpp"
 #include "host.hpp"
-#include "names.hpp"
-#include "number.hpp"
+#include "text/names.hpp"
+#include "text/number.hpp"
 #include "params.hpp"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "blackboard.hpp"
-#include "library.hpp"
+#include "loader/library.hpp"
 #include "world.hpp"
 
 #include <muster/plugin.h>

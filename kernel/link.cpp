@@ -1,7 +1,7 @@
 #include "link.hpp"
 
 #include "claim.hpp"
-#include "names.hpp"
+#include "text/names.hpp"
 
 #include <algorithm>
 #include <set>

@@ -1,7 +1,7 @@
 // What a world must fulfil before it is linked; each refusal names both sides.
 #include "claim.hpp"
 #include "link.hpp"
-#include "names.hpp"
+#include "text/names.hpp"
 
 #include <algorithm>
 #include <set>

@@ -1,7 +1,7 @@
 #include "params.hpp"
 
-#include "names.hpp"
-#include "number.hpp"
+#include "text/names.hpp"
+#include "text/number.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // Attributes of the world file held against the declarations of parameters: kind, bounds, unit, choices.
 #pragma once
 
-#include "error.hpp"
-#include "xml.hpp"
+#include "text/error.hpp"
+#include "text/xml.hpp"
 
 #include <muster/plugin.h>
 

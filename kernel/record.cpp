@@ -1,6 +1,6 @@
 #include "record.hpp"
 
-#include "names.hpp"
+#include "text/names.hpp"
 
 #include <algorithm>
 #include <set>

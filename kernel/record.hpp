@@ -2,7 +2,7 @@
 #pragma once
 
 #include "simulation.hpp"
-#include "text_table_writer.hpp"
+#include "text/text_table_writer.hpp"
 
 #include <filesystem>
 #include <memory>

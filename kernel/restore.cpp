@@ -1,7 +1,7 @@
 // A snapshot put back in place: everything is held against the run before anything changes.
 #include <algorithm>
 
-#include "names.hpp"
+#include "text/names.hpp"
 #include "simulation.hpp"
 
 namespace muster {

@@ -1,7 +1,7 @@
 #include "simulation.hpp"
 
-#include "names.hpp"
-#include "number.hpp"
+#include "text/names.hpp"
+#include "text/number.hpp"
 #include "workers.hpp"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #include "snapshot.hpp"
 
-#include "error.hpp"
-#include "names.hpp"
-#include "text_file.hpp"
+#include "text/error.hpp"
+#include "text/names.hpp"
+#include "text/text_file.hpp"
 
 #include <bit>
 #include <cerrno>

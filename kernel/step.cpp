@@ -1,7 +1,7 @@
 // One tick: phases in order, batches inside them, and everything taken back if anything fails.
 #include "cells.hpp"
-#include "names.hpp"
-#include "number.hpp"
+#include "text/names.hpp"
+#include "text/number.hpp"
 #include "simulation.hpp"
 #include "workers.hpp"
 

@@ -1,7 +1,7 @@
 #include "world.hpp"
 
-#include "names.hpp"
-#include "number.hpp"
+#include "text/names.hpp"
+#include "text/number.hpp"
 #include "world_rows.hpp"
 
 #include <cmath>

@@ -2,8 +2,8 @@
 // plugin is loaded, and nothing refers to a plugin's declarations yet.
 #pragma once
 
-#include "error.hpp"
-#include "xml.hpp"
+#include "text/error.hpp"
+#include "text/xml.hpp"
 
 #include <muster/sets.hpp>
 

@@ -1,10 +1,10 @@
 #include "world_rows.hpp"
 
 #include "blackboard.hpp"
-#include "names.hpp"
-#include "number.hpp"
+#include "text/names.hpp"
+#include "text/number.hpp"
 #include "params.hpp"
-#include "text_table.hpp"
+#include "text/text_table.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "diagnosis/dataset.hpp"
-#include "kernel/error.hpp"
+#include "text/error.hpp"
 #include "scratch.hpp"
 
 namespace muster::diagnosis {

@@ -7,8 +7,8 @@
 
 #include "diagnosis/cell_map.hpp"
 #include "diagnosis/place_checks.hpp"
-#include "kernel/error.hpp"
-#include "kernel/number.hpp"
+#include "text/error.hpp"
+#include "text/number.hpp"
 #include "scratch.hpp"
 #include "worlds.hpp"
 

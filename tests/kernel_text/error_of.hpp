@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "kernel/error.hpp"
+#include "text/error.hpp"
 
 namespace muster::test {
 

@@ -1,4 +1,4 @@
-#include "kernel/names.hpp"
+#include "text/names.hpp"
 
 #include <gtest/gtest.h>
 

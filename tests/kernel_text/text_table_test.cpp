@@ -1,4 +1,4 @@
-#include "kernel/text_table.hpp"
+#include "text/text_table.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 #include <random>
 
 #include "error_of.hpp"
-#include "kernel/text_table_writer.hpp"
+#include "text/text_table_writer.hpp"
 
 namespace muster {
 namespace {

@@ -8,8 +8,8 @@
 #include <algorithm>
 
 #include "error_of.hpp"
-#include "kernel/number.hpp"
-#include "kernel/xml.hpp"
+#include "text/number.hpp"
+#include "text/xml.hpp"
 #include "large_xml.hpp"
 
 namespace muster {

@@ -1,4 +1,4 @@
-#include "kernel/xml.hpp"
+#include "text/xml.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

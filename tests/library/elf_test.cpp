@@ -1,5 +1,5 @@
 // Files that no dlopen() should ever see, each with its line.
-#include "kernel/elf.hpp"
+#include "loader/elf.hpp"
 
 #include <elf.h>
 #include <gmock/gmock.h>

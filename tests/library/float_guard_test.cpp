@@ -1,5 +1,5 @@
 // What a guard sees, and that it puts it back.
-#include "kernel/float_guard.hpp"
+#include "loader/float_guard.hpp"
 
 #include <gtest/gtest.h>
 #include <pmmintrin.h>

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <iterator>
 
-#include "kernel/float_guard.hpp"
+#include "loader/float_guard.hpp"
 #include "zoo.hpp"
 
 namespace muster {

@@ -1,5 +1,5 @@
 // The zoo of spoilt libraries: each has its line, and the host lives and is as it was.
-#include "kernel/library.hpp"
+#include "loader/library.hpp"
 
 #include <elf.h>
 #include <gmock/gmock.h>
@@ -9,7 +9,7 @@
 #include <cstring>
 #include <random>
 
-#include "kernel/process_guard.hpp"
+#include "loader/process_guard.hpp"
 #include "zoo.hpp"
 
 namespace muster {

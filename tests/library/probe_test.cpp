@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "kernel/elf.hpp"
-#include "kernel/library_probe.hpp"
+#include "loader/elf.hpp"
+#include "loader/library_probe.hpp"
 
 namespace muster {
 namespace {

@@ -1,5 +1,5 @@
 // A descriptor that is wrong in one place is refused with that place's name.
-#include "kernel/registration.hpp"
+#include "loader/registration.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <functional>
 #include <limits>
 
-#include "kernel/elf.hpp"
+#include "loader/elf.hpp"
 
 namespace muster {
 namespace {

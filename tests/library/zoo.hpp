@@ -10,7 +10,7 @@
 #include <iterator>
 #include <string>
 
-#include "kernel/library.hpp"
+#include "loader/library.hpp"
 
 namespace muster {
 

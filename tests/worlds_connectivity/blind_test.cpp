@@ -2,7 +2,7 @@
 #include <set>
 
 #include "chain.hpp"
-#include "kernel/number.hpp"
+#include "text/number.hpp"
 
 namespace {
 

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "error.hpp"
+#include "text/error.hpp"
 
 namespace muster {
 

@@ -15,7 +15,7 @@
 #include "elf.hpp"
 #include "library_copy.hpp"
 #include "library_probe.hpp"
-#include "names.hpp"
+#include "text/names.hpp"
 #include "process_guard.hpp"
 #include "registration.hpp"
 
