@@ -1,0 +1,126 @@
+// FAULT 25: measured data that are wrong, each named with its row; and data that cannot tell, of which no number is made.
+#include "program.hpp"
+
+#include <fmt/core.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <map>
+#include <vector>
+
+using namespace muster::test;
+using testing::HasSubstr;
+
+namespace {
+
+const char* const world =
+    R"(<world name="w" dt="1" until="1">
+<material name="drywall" loss="2"/>
+<wall name="south" from="-1 -4" to="21 -4" material="drywall"/>
+<wall name="north" from="-1 4" to="21 4" material="drywall"/>
+<wall name="inner" from="10 -2" to="10 2" material="drywall"/>
+<station name="base" at="0 0 1"/>
+<station name="rover" at="5 0 1"/>
+<radio.multiwall tx_power="0" l0="30" n="2.5"/>
+</world>)";
+
+// Readings along a zigzag, as rows of texts; row 0 is the header.
+class Data {
+ public:
+  Data() {
+    for (int i = 0; i < 60; ++i) {
+      const double x = 1 + i * 0.3, y = i % 7 - 3;
+      const double rssi = -40 - 20 * std::log10(std::hypot(x, y)) - ((x > 10 && std::abs(y) * 10 / x < 2) ? 4 : 0) + (i * 7 % 5 - 2) * 0.4;
+      rows_.push_back({std::to_string(i), "base", "rover", "0", "0", fmt::format("{:.1f}", x), fmt::format("{:.1f}", y), fmt::format("{:.1f}", rssi)});
+    }
+  }
+  // Rows count from 1; 0 is the header.
+  Data& set(std::size_t row, std::size_t column, const std::string& value) { return rows_[row][column] = value, *this; }
+  Data& set_all(std::size_t column, const std::string& value) {
+    for (std::size_t r = 1; r < rows_.size(); ++r) rows_[r][column] = value;
+    return *this;
+  }
+  Data& copy_row(std::size_t from, std::size_t to) { return rows_[to] = rows_[from], *this; }
+  Data& keep(std::size_t rows) { return rows_.resize(rows + 1), *this; }
+  std::string text(const std::string& end = "\n", const std::string& comma = ",") const {
+    std::string result;
+    for (const auto& row : rows_) {
+      for (std::size_t c = 0; c < row.size(); ++c) result += (c ? comma : "") + row[c];
+      result += end;
+    }
+    return result;
+  }
+
+ private:
+  std::vector<std::vector<std::string>> rows_ = {{"t[s]", "tx", "rx", "tx_x[m]", "tx_y[m]", "rx_x[m]", "rx_y[m]", "rssi[dBm]"}};
+};
+
+Outcome fit(const std::string& data, const std::vector<std::string>& more = {}) {
+  const Folder folder;
+  folder.write("world.xml", world);
+  folder.write("data.csv", data);
+  std::vector<std::string> words = {"fit", "world.xml", "--data", "data.csv"};
+  words.insert(words.end(), more.begin(), more.end());
+  return folder.muster(words);
+}
+
+void expect_refused(const std::string& data, const std::string& message) { expect_error(fit(data), 2, "data.csv" + message); }
+
+TEST(Fault25, ColumnsThatAreMissingOrInAnotherUnit) {
+  expect_refused(Data().set(0, 7, "level[dBm]").text(), ":1:1: no column \"rssi[dBm]\" in the table; expected one of t, tx, rx, tx_x, tx_y, rx_x, rx_y, level");
+  expect_refused(Data().set(0, 5, "rx_x[mm]").text(), ":1:28: column \"rx_x[mm]\" has the wrong unit; expected \"rx_x[m]\"");
+}
+
+TEST(Fault25, RowsThatRepeatAndTimeThatRunsBackwards) {
+  expect_refused(Data().copy_row(3, 4).text(), ":5:1: row 4: base -> rover at t = 2 s repeats row 3; expected each (t, tx, rx) once");
+  expect_refused(Data().set(5, 0, "1.5").text(),
+                 ":6:1: row 5: time runs backwards for base -> rover at t = 1.5 s, after 3 s in row 4; expected rows of a pair in the order of time");
+}
+
+TEST(Fault25, LevelsThatNoReceiverGives) {
+  expect_refused(Data().set(6, 7, "0").text(), ":7:26: row 6: an rssi of 0 dBm is what drivers give for none; expected an empty cell where nothing was received");
+  expect_refused(Data().set(6, 7, "31").text(), ":7:26: row 6: an rssi of 31 dBm is over +30 dBm; expected a level in dBm, which is mostly negative");
+  expect_refused(Data().set(6, 7, "-128").text(), ":7:26: row 6: an rssi of -128 dBm is a mark for none; expected an empty cell where nothing was received");
+  expect_refused(Data().set(6, 7, "nan").text(), ":7:26: column \"rssi[dBm]\": \"nan\" is not a number; it must be finite");
+}
+
+TEST(Fault25, NumbersOfAnotherCountry) {
+  expect_refused(Data().set(6, 7, "\"-56,0\"").text(), ":7:26: column \"rssi[dBm]\": \"-56,0\" is not a number; a decimal point is written '.'");
+  expect_refused(Data().set(6, 7, "-56,0").text(), ":7:1: the row has 9 or more cells; expected 8, with ',' between them and '.' in numbers");
+  expect_refused(Data().text("\n", ";"), ":1:1: no ',' in the header; expected ',' between cells");
+}
+
+TEST(Fault25, PlacesInAnotherUnitOrOrder) {
+  expect_refused(Data().set(8, 5, "3100").text(),
+                 ":9:18: row 8: 3100 m, while half of the rows lie within 10.3 m; expected one unit in the whole column (millimetres here?)");
+  expect_refused(Data().set(0, 5, "rx_y[m]").set(0, 6, "rx_x[m]").text(),
+                 ":2:1: row 1 and others lie outside of the world's walls, and inside if x and y change places; expected x to the east and y to the "
+                 "north, as in the world");
+}
+
+TEST(Fault25, TooLittleToTellAnything) {
+  expect_refused(Data().keep(0).text(), ": the table has no rows; expected readings");
+  expect_refused(Data().keep(1).text(), ": the table has 1 row; one reading shows no law, expected many");
+  expect_refused(Data().set_all(7, "-60").text(), ":2:27: every rssi is -60 dBm; expected readings that vary");
+  expect_refused(Data().set_all(7, "").text(), ": every rssi is empty; expected some readings that were received");
+}
+
+TEST(Fault25, WhatIsNotIdentifiableHasNoNumber) {
+  const auto outcome = fit(Data().set_all(5, "3").set_all(6, "0").text());
+  EXPECT_EQ(outcome.exit, 1) << outcome.err;
+  for (const char* parameter : {"radio.multiwall/l0", "radio.multiwall/n", "material/drywall/loss"})
+    EXPECT_THAT(outcome.out, testing::ContainsRegex(std::string(parameter) + " +not identifiable"));
+  EXPECT_THAT(outcome.out, HasSubstr("no reading depends on material/drywall/loss"));
+}
+
+TEST(Fault25, WhatIsNoFaultIsTaken) {
+  const auto plain = fit(Data().text());
+  EXPECT_EQ(plain.exit, 0) << plain.err;
+  EXPECT_THAT(plain.out, HasSubstr("60 readings heard of 60"));
+  EXPECT_EQ(fit(Data().text("\r\n")).out, plain.out);
+  EXPECT_EQ(fit("\xef\xbb\xbf" + Data().text()).out, plain.out);
+  EXPECT_THAT(fit(Data().set(0, 0, "battery[V]").set_all(0, "3.7").text()).out,
+              HasSubstr("note: column \"battery[V]\" is the same in all rows, so nothing can depend on it"));
+}
+
+}  // namespace
