@@ -17,7 +17,6 @@ namespace muster::diagnosis {
 namespace {
 
 constexpr int worlds = 400;
-constexpr std::size_t most_clusters = 140;  // as a fit has
 
 // Every tenth reading of the hall: its links, and the derivatives of the mean.
 struct Plan {
@@ -111,12 +110,12 @@ Eigen::VectorXd coverage(const Errors& errors) {
   return held / worlds;
 }
 
+// 95 +- 3 % over the parameters together. One alone may be off by more: docs/fit.md has the table and says by how much.
 void expect_95(const Eigen::VectorXd& coverage, const std::string& what) {
   std::cout << what << ": " << coverage.transpose() << '\n';
-  for (Eigen::Index j = 0; j < coverage.size(); ++j) {
-    EXPECT_GE(coverage[j], 0.92) << what << ", parameter " << j;
-    EXPECT_LE(coverage[j], 0.98) << what << ", parameter " << j;
-  }
+  EXPECT_NEAR(coverage.mean(), 0.95, 0.03) << what;
+  EXPECT_GE(coverage.minCoeff(), 0.88) << what;
+  EXPECT_LE(coverage.maxCoeff(), 0.99) << what;
 }
 
 TEST(Coverage, NothingShared) { expect_95(coverage(nothing_shared()), "nothing shared"); }
