@@ -136,7 +136,7 @@ TEST(Registration, RefusesBadNumbers) {
 TEST(Registration, RefusesBadDeclarations) {
   EXPECT_EQ(refusal_of_param([](auto& p) { p.kind = 0; }), "has the unknown kind 0");
   EXPECT_EQ(refusal_of_param([](auto& p) { p.kind = 8; }), "has the unknown kind 8");
-  EXPECT_EQ(refusal_of_param([](auto& p) { p.flags = 64; }), "has unknown flags 0x40");
+  EXPECT_EQ(refusal_of_param([](auto& p) { p.flags = 128; }), "has unknown flags 0x80");
   EXPECT_EQ(refusal_of_param([](auto& p) { p.unit = nullptr; }), "has no unit; expected \"\" where there is none");
   EXPECT_EQ(refusal_of_param([](auto& p) { p.help = ""; }), "has no help");
   EXPECT_EQ(refusal_of_param([](auto& p) { p.name = "N"; }),
