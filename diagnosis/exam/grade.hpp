@@ -1,0 +1,86 @@
+// Grades of a diagnosis against sealed answers: docs/exam_format.md says what is read and what each figure means.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace muster::exam {
+
+// Successes among trials, with the exact binomial interval (Clopper and Pearson 1934).
+struct Share {
+  int hits = 0, of = 0;
+  void count(bool hit) {
+    hits += hit;
+    ++of;
+  }
+  double value() const { return of ? static_cast<double>(hits) / of : 0; }
+  double lower95() const;
+  double upper95() const;
+};
+
+// What was true of a case.
+struct Truth {
+  struct Effect {
+    std::string id;
+    std::vector<std::string> rows, covariates;
+    std::map<std::string, double> parameters;
+    double lambda = 0;
+  };
+  std::string name, kind;
+  std::vector<Effect> effects;
+  double oracle_gain = 0;  // dB^2
+};
+
+// What was said of it.
+struct Verdict {
+  struct Estimate {
+    double value = 0;
+    std::optional<double> lower95, upper95;
+  };
+  struct Cause {
+    std::string id, label;
+    double evidence = 0;
+    std::map<std::string, Estimate> parameters;  // by the last part of their names
+  };
+  std::string verdict;
+  std::vector<Cause> named;  // the strongest first; suspected ones are not counted
+  std::vector<std::string> unexplained;
+  std::optional<double> gain;  // dB^2
+  std::optional<std::string> loop;
+};
+
+Truth read_truth(const std::string& text);
+// From whatever a diagnosis printed: the line that begins with {"verdict", or a whole JSON object. Throws
+// std::runtime_error if there is none.
+Verdict read_verdict(const std::string& text);
+
+struct Places {
+  std::vector<double> wall, obstacle;  // m, of found ones
+  std::vector<double> wall_loss;       // dB, absolute
+};
+
+struct Grades {
+  std::map<std::string, Share> shares;  // by "kind / measure / bin"
+  std::map<std::string, Share> by_effect;
+  std::map<std::string, double> gain, oracle;  // dB^2, pooled, by bin of lambda
+  Share covered;                               // 95 % intervals that hold the truth
+  std::vector<double> relative_errors;         // of parameters
+  Places places;
+  std::vector<std::string> missing;  // cases without a readable report
+};
+
+void add(Grades& grades, const Truth& truth, const Verdict& verdict);
+Grades grade(const std::filesystem::path& answers, const std::filesystem::path& reports);
+std::string as_text(const Grades& grades);
+std::string as_json(const Grades& grades);
+
+// Mean distance between two segments, both ways; ends x0 y0 x1 y1.
+double segment_distance(const std::vector<double>& a, const std::vector<double>& b);
+std::string lambda_bin(double lambda);
+double quantile(std::vector<double> values, double share);
+
+}  // namespace muster::exam

@@ -1,0 +1,159 @@
+// muster_exam: makes sealed cases for a diagnosis, and grades what it says of them.
+#include <fmt/format.h>
+
+#include <charconv>
+#include <map>
+#include <stdexcept>
+
+#include "grade.hpp"
+#include "orders.hpp"
+#include "write.hpp"
+
+namespace {
+
+using namespace muster::exam;
+
+constexpr const char* usage = R"(muster_exam: sealed cases for radio diagnosis
+
+  muster_exam make --seed S --cases N --out DIR [--mix clean,one,two,outside] [--rows MIN MAX]
+                   [--lambda L | --size weak|medium|strong] [--effects ID,ID...] [--first N]
+      writes DIR/case_0001/{world.xml, walls.csv, measured.csv, second.csv} ... and DIR/answers/case_0001.json ...
+  muster_exam grade --answers DIR --reports DIR [--json]
+      holds DIR/case_0001.json (or .txt, or DIR/case_0001/diagnosis.json) ... against the answers
+  muster_exam effects
+      lists the effects that can be hidden
+
+Example: muster_exam make --seed 7 --cases 40 --out exam
+         for c in exam/case_*; do muster diagnose $c --data $c/measured.csv --json > reports/${c##*/}.json; done
+         muster_exam grade --answers exam --reports reports
+)";
+
+using Arguments = std::map<std::string, std::vector<std::string>>;
+
+Arguments parsed(int argc, char** argv, const Arguments& known) {
+  Arguments result;
+  for (int i = 2; i < argc; ++i) {
+    const std::string option = argv[i];
+    const auto spec = known.find(option);
+    if (spec == known.end()) throw std::invalid_argument("no option is called " + option);
+    auto& values = result[option];
+    for (std::size_t k = 0; k < spec->second.size(); ++k) {
+      if (++i >= argc) throw std::invalid_argument(option + " needs " + spec->second[k]);
+      values.push_back(argv[i]);
+    }
+  }
+  return result;
+}
+
+template <class Number>
+Number number(const std::string& text, Number least, Number most) {
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !(value >= least && value <= most))
+    throw std::invalid_argument(fmt::format("\"{}\" is not a number from {} to {}", text, least, most));
+  return value;
+}
+
+std::vector<std::string> listed(const std::string& text) {
+  std::vector<std::string> result(1);
+  for (const char c : text) {
+    if (c == ',')
+      result.emplace_back();
+    else
+      result.back() += c;
+  }
+  return result;
+}
+
+const std::string& required(const Arguments& arguments, const std::string& option) {
+  const auto at = arguments.find(option);
+  if (at == arguments.end()) throw std::invalid_argument(option + " is missing");
+  return at->second[0];
+}
+
+void set_sizes(Syllabus& syllabus, const Arguments& arguments) {
+  if (arguments.contains("--lambda") && arguments.contains("--size"))
+    throw std::invalid_argument("--lambda and --size exclude one another");
+  if (const auto at = arguments.find("--lambda"); at != arguments.end())
+    syllabus.least_lambda = syllabus.most_lambda = number(at->second[0], 0.1, 1e6);
+  if (const auto at = arguments.find("--size"); at != arguments.end()) {
+    const std::map<std::string, std::pair<double, double>> sizes{
+        {"weak", {12, 30}}, {"medium", {30, 100}}, {"strong", {100, 400}}};
+    const auto size = sizes.find(at->second[0]);
+    if (size == sizes.end())
+      throw std::invalid_argument("a size is weak, medium or strong, not \"" + at->second[0] + "\"");
+    std::tie(syllabus.least_lambda, syllabus.most_lambda) = size->second;
+  }
+}
+
+Syllabus syllabus_of(const Arguments& arguments) {
+  Syllabus syllabus;
+  syllabus.seed = number<std::uint64_t>(required(arguments, "--seed"), 0, ~std::uint64_t{0});
+  if (const auto at = arguments.find("--mix"); at != arguments.end()) syllabus.kinds = listed(at->second[0]);
+  for (const std::string& kind : syllabus.kinds)
+    if (kind != "clean" && kind != "one" && kind != "two" && kind != "outside")
+      throw std::invalid_argument("a kind is clean, one, two or outside, not \"" + kind + "\"");
+  if (const auto at = arguments.find("--rows"); at != arguments.end()) {
+    syllabus.least_rows = number(at->second[0], 200.0, 200000.0);
+    syllabus.most_rows = number(at->second[1], syllabus.least_rows, 200000.0);
+  }
+  if (const auto at = arguments.find("--effects"); at != arguments.end()) syllabus.effects = listed(at->second[0]);
+  for (const std::string& id : syllabus.effects) recipe(id);
+  set_sizes(syllabus, arguments);
+  return syllabus;
+}
+
+int make(int argc, char** argv) {
+  const Arguments arguments = parsed(argc, argv,
+                                     {{"--seed", {"a number"}},
+                                      {"--cases", {"a number"}},
+                                      {"--out", {"a folder"}},
+                                      {"--mix", {"kinds"}},
+                                      {"--rows", {"the least", "the most"}},
+                                      {"--lambda", {"a number"}},
+                                      {"--size", {"a size"}},
+                                      {"--effects", {"ids"}},
+                                      {"--first", {"a number"}}});
+  const Syllabus syllabus = syllabus_of(arguments);
+  const int cases = number(required(arguments, "--cases"), 1, 1000000);
+  const int first = arguments.contains("--first") ? number(arguments.at("--first")[0], 1, 1000000) : 1;
+  const std::string& out = required(arguments, "--out");
+  for (int i = first; i < first + cases; ++i) {
+    const Case made = make_case(name_of(i), seed_of(syllabus, i), draw_order(syllabus, i));
+    write_case(made, out);
+    fmt::print("{}: {} readings\n", made.name, made.measured.size());
+  }
+  return 0;
+}
+
+int run_grade(int argc, char** argv) {
+  const Arguments arguments =
+      parsed(argc, argv, {{"--answers", {"a folder"}}, {"--reports", {"a folder"}}, {"--json", {}}});
+  const Grades grades = grade(required(arguments, "--answers"), required(arguments, "--reports"));
+  fmt::print("{}", arguments.contains("--json") ? as_json(grades) : as_text(grades));
+  return grades.missing.empty() ? 0 : 1;
+}
+
+int list_effects() {
+  for (const Recipe& r : recipes()) fmt::print("{}{}\n", r.id, r.in_vocabulary ? "" : "  (outside the vocabulary)");
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string verb = argc > 1 ? argv[1] : "--help";
+  try {
+    if (verb == "make") return make(argc, argv);
+    if (verb == "grade") return run_grade(argc, argv);
+    if (verb == "effects") return list_effects();
+    fmt::print("{}", usage);
+    return verb == "--help" ? 0 : 2;
+  } catch (const std::invalid_argument& e) {
+    fmt::print(stderr, "muster_exam {}: {}\n", verb, e.what());
+    return 2;
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "muster_exam {}: {}\n", verb, e.what());
+    return 74;
+  }
+}

@@ -1,0 +1,64 @@
+#include "orders.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace muster::exam {
+namespace {
+
+std::vector<std::string> candidates(const Syllabus& syllabus, const std::string& kind) {
+  std::vector<std::string> result;
+  for (const Recipe& r : recipes()) {
+    const bool wanted = syllabus.effects.empty() ||
+                        std::find(syllabus.effects.begin(), syllabus.effects.end(), r.id) != syllabus.effects.end();
+    // Exchanged names move every level of two stations; beside that no second effect would have its own meaning.
+    const bool alone = std::string_view(r.id) == "label_swap";
+    if (wanted && r.in_vocabulary == (kind != "outside") && !(kind == "two" && alone)) result.push_back(r.id);
+  }
+  if (result.empty()) throw std::invalid_argument("no effect is left for cases of kind \"" + kind + "\"");
+  return result;
+}
+
+// Two laws of one reading cannot both be read off its scatter.
+bool go_together(const std::string& a, const std::string& b) {
+  const auto scatters = [](const std::string& id) {
+    return id == "fading_law" || id == "channel_mixture" || id == "outliers";
+  };
+  const auto clips = [](const std::string& id) { return id == "rssi_floor" || id == "rssi_saturation"; };
+  return a != b && !(scatters(a) && scatters(b)) && !(clips(a) && clips(b));
+}
+
+double log_uniform(Random& random, double low, double high) { return low * std::pow(high / low, random.uniform()); }
+
+}  // namespace
+
+std::uint64_t seed_of(const Syllabus& syllabus, int number) {
+  return Random(syllabus.seed, "case " + std::to_string(number)).bits();
+}
+
+std::string name_of(int number) { return fmt::format("case_{:04}", number); }
+
+Order draw_order(const Syllabus& syllabus, int number) {
+  Random random(seed_of(syllabus, number), "order");
+  Order order{random.pick(syllabus.kinds),
+              {},
+              {},
+              static_cast<int>(log_uniform(random, syllabus.least_rows, syllabus.most_rows))};
+  if (order.kind == "clean") return order;
+  const std::vector<std::string> from = candidates(syllabus, order.kind);
+  order.effects.push_back(random.pick(from));
+  if (order.kind == "two") {
+    std::vector<std::string> others;
+    std::copy_if(from.begin(), from.end(), std::back_inserter(others),
+                 [&](const auto& id) { return go_together(order.effects[0], id); });
+    if (others.empty()) throw std::invalid_argument("no second effect is left beside \"" + order.effects[0] + "\"");
+    order.effects.push_back(random.pick(others));
+  }
+  for (std::size_t i = 0; i < order.effects.size(); ++i)
+    order.lambdas.push_back(log_uniform(random, syllabus.least_lambda, syllabus.most_lambda));
+  return order;
+}
+
+}  // namespace muster::exam

@@ -1,0 +1,57 @@
+// A level that changes slowly: something warms up, a battery empties.
+#include <algorithm>
+#include <cmath>
+#include <muster/plugin.hpp>
+
+#include "link_term.hpp"
+
+namespace {
+
+using namespace muster;
+
+struct Drift {
+  static constexpr auto id = "effect.drift/1";
+  static constexpr auto summary = "levels drift with time, steadily or until they settle";
+  static constexpr auto manual =
+      "Adds rate x s (1 - exp(-u / s)), u being the time since `start` (0 before it) and s = settling: steady for "
+      "much longer than the data last, else a warm-up. With `radio`, on all links of that radio, else on every link.";
+  static constexpr auto phase = MUSTER_RADIO;
+  static constexpr Param params[] = {
+      reference("radio", "radio", "whose links; without it, all"),
+      real("rate", 0, -1e5, 1e5, "dB/h", "slope at the start").free().with(MUSTER_LINEAR),
+      real("settling", 1e6, 1, 1e6, "s", "time in which the slope falls to 1/e").free().with(MUSTER_LOG),
+      real("start", 0, 0, 1e10, "s", "when it begins").free(),
+  };
+  static constexpr muster_cause cause = {
+      sizeof(muster_cause),
+      MUSTER_TERM,
+      "from {start} on levels of {radio} drift by {rate}, settling in {settling}",
+      "radio",
+      "t",
+      "effect.step effect.periodic effect.rx_offset effect.room_clutter",
+      "come back to the places of the beginning at the end",
+      nullptr,
+  };
+
+  explicit Drift(Setup& s)
+      : radio(s.value("radio")),
+        rate(s.value("rate")),
+        settling(s.value("settling")),
+        start(s.value("start")),
+        links(s) {}
+
+  void step(const Step& k) const {
+    const double change = k[rate] / 3600 * k[settling];  // dB
+    links.add(k, [&](const End& from, const End& to) {
+      if (!concerns(k[radio], from, to)) return 0.0;
+      return -change * std::expm1(-std::max(to.t - k[start], 0.0) / k[settling]);
+    });
+  }
+
+  Value radio, rate, settling, start;
+  LinkTerm links;
+};
+
+}  // namespace
+
+MUSTER_PLUGIN_IS(Drift)

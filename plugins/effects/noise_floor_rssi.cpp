@@ -1,0 +1,67 @@
+// What the chip calls RSSI is a ratio to its own noise.
+#include <muster/plugin.hpp>
+
+#include "rssi_stage.hpp"
+#include "settings.hpp"
+
+namespace {
+
+using namespace muster;
+
+struct Noise {
+  static constexpr const char* columns = "t[s] rx:radio noise[dBm]";
+  Setting setting;
+};
+
+struct NoiseFloorRssi {
+  static constexpr auto id = "effect.noise_floor_rssi/1";
+  static constexpr auto summary = "the reported RSSI follows the noise: it is a ratio to it";
+  static constexpr auto manual =
+      "Takes away share x (noise - reference) from each reading, the noise at the receiver being the column "
+      "noise[dBm] of `file` (t, rx and noise; what stood last at or before a time holds; the measured readings will "
+      "do). With share 1 the reading is a signal-to-noise ratio.";
+  static constexpr auto phase = MUSTER_RADIO;
+  static constexpr Param params[] = {
+      file("file", "the noise at each receiver, a CSV table").required(),
+      real("share", 0, -2, 2, "", "of the noise's changes that the reading follows").free().with(MUSTER_LINEAR),
+      real("reference", -95, -250, 50, "dBm", "noise at which the reading is right"),
+  };
+  static constexpr muster_cause cause = {
+      sizeof(muster_cause),
+      MUSTER_STAGE,
+      "the RSSI falls as the noise rises: it is a share of {share} of a ratio to it",
+      "",
+      "t noise",
+      "effect.drift effect.periodic effect.rssi_floor",
+      "stand still and let others talk: levels do not change, noise does",
+      nullptr,
+  };
+
+  explicit NoiseFloorRssi(Setup& s)
+      : share(s.value("share")),
+        reference(s.value("reference")),
+        noises(s.file<Noise>("file")),
+        endpoint(s.read<Endpoint>("endpoint/*/radio")),
+        ends(s.read<Ends>("link/*/ends")),
+        rssi(s) {}
+
+  void step(const Step& k) {
+    settings.read(k[noises]);
+    rssi.each(k, [&](double reading, std::size_t i) {
+      const Endpoint& to = k[endpoint][static_cast<std::size_t>(k[ends][i].rx)];
+      const double noise = settings.at(to.radio, to.t);
+      return is_null(noise) ? reading : reading - k[share] * (noise - k[reference]);
+    });
+  }
+
+  Value share, reference;
+  In<Noise> noises;
+  In<Endpoint> endpoint;
+  In<Ends> ends;
+  Settings settings;
+  RssiStage rssi;
+};
+
+}  // namespace
+
+MUSTER_PLUGIN_IS(NoiseFloorRssi)

@@ -1,0 +1,56 @@
+// A thing that stands about: a machine, a cabinet, a pillar.
+#include <muster/plugin.hpp>
+
+#include "link_term.hpp"
+#include "plan_shapes.hpp"
+
+namespace {
+
+using namespace muster;
+
+struct Obstacle {
+  static constexpr auto id = "effect.obstacle/1";
+  static constexpr auto summary = "a thing that is not on the map stands in the way of links";
+  static constexpr auto manual =
+      "Takes away `loss` of a link through the middle of the upright cylinder about (x, y), and of others in "
+      "proportion to their way through it in plan.";
+  static constexpr auto phase = MUSTER_RADIO;
+  static constexpr Param params[] = {
+      real("x", 0, -1e6, 1e6, "m", "middle, east").required().free().with(MUSTER_EAST),
+      real("y", 0, -1e6, 1e6, "m", "middle, north").required().free().with(MUSTER_NORTH),
+      real("radius", 0.5, 0.1, 5, "m", "radius").free().with(MUSTER_LOG),
+      real("loss", 0, 0, 60, "dB", "of a link through its middle").free().with(MUSTER_LINEAR),
+      real("height", 2.7, 0.01, 1e4, "m", "up to which it reaches"),
+  };
+  static constexpr muster_cause cause = {
+      sizeof(muster_cause),
+      MUSTER_TERM,
+      "a thing of radius {radius} at ({x}, {y}) that is not on the map costs up to {loss}",
+      "",
+      places_in_plan,
+      "effect.unmapped_wall effect.room_clutter effect.antenna_tx effect.wall_material",
+      "look; or drive around the place: a wall is seen from two sides only, a thing from all",
+      nullptr,
+  };
+
+  explicit Obstacle(Setup& s)
+      : x(s.value("x")),
+        y(s.value("y")),
+        radius(s.value("radius")),
+        loss(s.value("loss")),
+        height(s.value("height")),
+        links(s) {}
+
+  void step(const Step& k) const {
+    const Disk thing{k[x], k[y], k[radius]};
+    links.add_both_ways(
+        k, [&](const End& a, const End& b) { return -k[loss] * thing.share_passed(a.at, b.at, k[height]); });
+  }
+
+  Value x, y, radius, loss, height;
+  LinkTerm links;
+};
+
+}  // namespace
+
+MUSTER_PLUGIN_IS(Obstacle)

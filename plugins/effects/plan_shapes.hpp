@@ -1,0 +1,61 @@
+// Things in the plan that the world's map does not have, and what a straight link has to do with them.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <muster/tables.hpp>
+
+namespace muster {
+
+// Twice the signed area of a triangle: on which side of a -> b the point lies.
+inline double side(double ax, double ay, double bx, double by, double x, double y) {
+  return (bx - ax) * (y - ay) - (by - ay) * (x - ax);
+}
+
+// An upright wall without thickness, from the ground up.
+struct Segment {
+  double x0, y0, x1, y1;
+
+  bool crossed(const Pose& a, const Pose& b, double height) const {
+    const double s0 = side(a.x, a.y, b.x, b.y, x0, y0), s1 = side(a.x, a.y, b.x, b.y, x1, y1);
+    const double sa = side(x0, y0, x1, y1, a.x, a.y), sb = side(x0, y0, x1, y1, b.x, b.y);
+    if ((s0 > 0) == (s1 > 0) || (sa > 0) == (sb > 0)) return false;
+    const double z = a.z + sa / (sa - sb) * (b.z - a.z);
+    return z >= 0 && z < height;
+  }
+};
+
+// An upright cylinder on the ground.
+struct Disk {
+  double x, y, radius;
+
+  // Of the way through the middle, the share that the link goes through it in plan: 0 to 1.
+  double share_passed(const Pose& a, const Pose& b, double height) const {
+    const double ex = b.x - a.x, ey = b.y - a.y, length = std::hypot(ex, ey);
+    if (length <= 0 || radius <= 0) return 0;
+    const double along = ((x - a.x) * ex + (y - a.y) * ey) / length, aside = side(a.x, a.y, b.x, b.y, x, y) / length;
+    if (std::abs(aside) >= radius) return 0;
+    const double half = std::sqrt(radius * radius - aside * aside);
+    const double from = std::max(along - half, 0.0), to = std::min(along + half, length);
+    if (to <= from) return 0;
+    const double z = a.z + (from + to) / (2 * length) * (b.z - a.z);
+    return z >= 0 && z < height ? (to - from) / (2 * radius) : 0;
+  }
+};
+
+// A rectangle about (x, y), its length along `heading`.
+struct Rectangle {
+  double x, y, length, width, heading;
+
+  bool holds(const Pose& p) const {
+    const double east = p.x - x, north = p.y - y, c = std::cos(heading), s = std::sin(heading);
+    return std::abs(c * east + s * north) <= length / 2 && std::abs(c * north - s * east) <= width / 2;
+  }
+};
+
+// A strip of this width about the line from one end to the other.
+inline Rectangle strip(double x0, double y0, double x1, double y1, double width) {
+  return {(x0 + x1) / 2, (y0 + y1) / 2, std::hypot(x1 - x0, y1 - y0), width, std::atan2(y1 - y0, x1 - x0)};
+}
+
+}  // namespace muster

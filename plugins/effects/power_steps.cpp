@@ -1,0 +1,74 @@
+// The steps of an amplifier are not what their names say.
+#include <algorithm>
+#include <muster/plugin.hpp>
+#include <vector>
+
+#include "link_term.hpp"
+#include "settings.hpp"
+
+namespace {
+
+using namespace muster;
+
+struct Power {
+  static constexpr const char* columns = "t[s] tx:radio power[dBm]";
+  Setting setting;
+};
+
+struct PowerSteps {
+  static constexpr auto id = "effect.power_steps/1";
+  static constexpr auto summary = "nominal transmit powers are not the real ones";
+  static constexpr auto manual =
+      "A radio was set to several powers while it was measured, which the column power[dBm] of `file` tells (t, tx "
+      "and power; what stood last at or before a time holds; the measured readings will do). Adds `error1` to what "
+      "was sent at the lowest of the powers in the file, `error2` at the next, up to six. Data in which each reading "
+      "was referred to its nominal power need nothing else.";
+  static constexpr auto phase = MUSTER_RADIO;
+  static constexpr Param params[] = {
+      file("file", "when each radio was set to which power, a CSV table").required(),
+      real("error1", 0, -30, 30, "dB", "of the lowest power").free().with(MUSTER_LINEAR),
+      real("error2", 0, -30, 30, "dB", "of the second power").free().with(MUSTER_LINEAR),
+      real("error3", 0, -30, 30, "dB", "of the third power").free().with(MUSTER_LINEAR),
+      real("error4", 0, -30, 30, "dB", "of the fourth power").free().with(MUSTER_LINEAR),
+      real("error5", 0, -30, 30, "dB", "of the fifth power").free().with(MUSTER_LINEAR),
+      real("error6", 0, -30, 30, "dB", "of the sixth power").free().with(MUSTER_LINEAR),
+  };
+  static constexpr muster_cause cause = {
+      sizeof(muster_cause),
+      MUSTER_TERM,
+      "powers are not as set: by {error1}, {error2}, {error3}, {error4}, {error5}, {error6} from the lowest up",
+      "",
+      "t power",
+      "effect.tx_offset effect.step effect.rssi_saturation",
+      "switch through all powers at one place, both radios standing",
+      nullptr,
+  };
+
+  explicit PowerSteps(Setup& s)
+      : errors{s.value("error1"), s.value("error2"), s.value("error3"),
+               s.value("error4"), s.value("error5"), s.value("error6")},
+        powers(s.file<Power>("file")),
+        links(s) {}
+
+  void step(const Step& k) {
+    settings.read(k[powers]);
+    const std::vector<double> levels = settings.values();
+    if (levels.size() > std::size(errors))
+      throw BadInput("attribute \"file\": more than six different powers; expected at most six");
+    links.add(k, [&](const End& from, const End&) {
+      const double power = settings.at(from.radio, from.t);
+      if (is_null(power)) return 0.0;
+      const auto level = std::lower_bound(levels.begin(), levels.end(), power) - levels.begin();
+      return k[errors[level]];
+    });
+  }
+
+  Value errors[6];
+  In<Power> powers;
+  Settings settings;
+  LinkTerm links;
+};
+
+}  // namespace
+
+MUSTER_PLUGIN_IS(PowerSteps)

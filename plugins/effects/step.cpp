@@ -1,0 +1,45 @@
+// A level that jumped: an antenna was touched, a setting changed.
+#include <muster/plugin.hpp>
+
+#include "link_term.hpp"
+
+namespace {
+
+using namespace muster;
+
+struct Jump {
+  static constexpr auto id = "effect.step/1";
+  static constexpr auto summary = "levels jump at some time";
+  static constexpr auto manual =
+      "Adds `size` from the time `at` on. With `radio`, on all links of that radio, else on every link.";
+  static constexpr auto phase = MUSTER_RADIO;
+  static constexpr Param params[] = {
+      reference("radio", "radio", "whose links; without it, all"),
+      real("at", 0, 0, 1e10, "s", "when").free(),
+      real("size", 0, -60, 60, "dB", "of the jump").free().with(MUSTER_LINEAR),
+  };
+  static constexpr muster_cause cause = {
+      sizeof(muster_cause),
+      MUSTER_TERM,
+      "at {at} levels of {radio} jump by {size}",
+      "radio",
+      "t",
+      "effect.drift effect.rx_offset effect.room_clutter effect.periodic",
+      "come back to the places of the beginning at the end; look into the log for what was changed",
+      nullptr,
+  };
+
+  explicit Jump(Setup& s) : radio(s.value("radio")), at(s.value("at")), size(s.value("size")), links(s) {}
+
+  void step(const Step& k) const {
+    links.add(
+        k, [&](const End& from, const End& to) { return concerns(k[radio], from, to) && to.t >= k[at] ? k[size] : 0; });
+  }
+
+  Value radio, at, size;
+  LinkTerm links;
+};
+
+}  // namespace
+
+MUSTER_PLUGIN_IS(Jump)

@@ -1,0 +1,111 @@
+// What a cause adds to the level of links for each wall or closed door that they cross.
+#pragma once
+
+#include <array>
+#include <cstring>
+#include <memory>
+#include <muster/plugin.hpp>
+#include <scene/walls.hpp>
+#include <stdexcept>
+#include <vector>
+
+namespace muster {
+
+class WallTerm {
+ public:
+  explicit WallTerm(Setup& s)
+      : pose(s.read<Pose>("endpoint/*/pose")),
+        ends(s.read<Ends>("link/*/ends")),
+        wall(s.read<Wall>("wall/*/shape")),
+        door(s.read<Door>("door/*/shape")),
+        state(s.read<DoorState>("door/*/state")),
+        loss(s.read<Loss>("material/*/loss")),
+        level(s.add<Level>("link/*/level")) {}
+
+  // term(crossing, loss of what is crossed) is in dB.
+  template <class Term>
+  void add(const Step& k, const Term& term) {
+    try {
+      update_scene(k);
+      update_links(k);
+    } catch (const std::runtime_error& e) {  // the scene refuses walls, doors and places, which are the user's
+      throw BadInput(e.what());
+    }
+    const auto losses = k[loss];
+    const auto out = k[level];
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      out[i].level = 0;
+      for (const auto& crossing : links_[i].crossings) {
+        out[i].level += term(crossing, losses[static_cast<std::size_t>(crossing.material)].loss);
+      }
+    }
+  }
+
+ private:
+  // Crossings are kept while ends, walls and doors stay where they are, bit for bit: asking again under other
+  // parameters costs a comparison.
+  struct Link {
+    std::array<scene::Point, 2> ends;
+    std::vector<scene::Crossing> crossings;
+    bool known = false;
+  };
+
+  template <class Row>
+  static bool keep(Rows<const Row> now, std::vector<Row>& kept) {
+    if (now.size() == kept.size() && (now.empty() || !std::memcmp(now.begin(), kept.data(), now.size() * sizeof(Row))))
+      return false;
+    kept.assign(now.begin(), now.end());
+    return true;
+  }
+
+  void update_scene(const Step& k) {
+    bool changed = keep(k[wall], walls_);
+    changed = keep(k[door], doors_) || changed;
+    changed = keep(k[state], states_) || changed;
+    if (!changed && scene_) return;
+    links_.clear();
+    scene_.reset();  // so that none is left if the new one is refused
+    std::vector<scene::Wall> walls;
+    for (const Wall& w : walls_)
+      walls.push_back({w.x0, w.y0, w.x1, w.y1, w.base, w.height, w.thickness, static_cast<int>(w.material)});
+    std::vector<scene::Door> doors;
+    for (std::size_t i = 0; i < doors_.size(); ++i) {
+      const Door& d = doors_[i];
+      const double material = is_null(d.material) ? walls_[static_cast<std::size_t>(d.wall)].material : d.material;
+      doors.push_back(
+          {static_cast<int>(d.wall), d.at, d.width, d.height, static_cast<int>(material), states_[i].open != 0});
+    }
+    scene_ = std::make_unique<scene::Scene>(walls, doors, static_cast<int>(k[loss].size()));
+  }
+
+  void update_links(const Step& k) {
+    const auto at = k[pose];
+    const auto links = k[ends];
+    links_.resize(links.size());
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      const Pose& a = at[static_cast<std::size_t>(links[i].tx)];
+      const Pose& b = at[static_cast<std::size_t>(links[i].rx)];
+      const std::array<scene::Point, 2> now{{{a.x, a.y, a.z}, {b.x, b.y, b.z}}};
+      if (links_[i].known && !std::memcmp(&now, &links_[i].ends, sizeof now)) continue;
+      links_[i].known = false;
+      scene_->crossings(now[0], now[1], links_[i].crossings);
+      links_[i].ends = now;
+      links_[i].known = true;
+    }
+  }
+
+  In<Pose> pose;
+  In<Ends> ends;
+  In<Wall> wall;
+  In<Door> door;
+  In<DoorState> state;
+  In<Loss> loss;
+  Out<Level> level;
+  std::vector<Wall> walls_;
+  std::vector<Door> doors_;
+  std::vector<DoorState> states_;
+  std::unique_ptr<scene::Scene> scene_;
+  std::vector<Link> links_;
+};
+
+}  // namespace muster

@@ -1,0 +1,130 @@
+// The grader's arithmetic, on reports made by hand.
+#include "grade.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace muster::exam {
+namespace {
+
+Truth one(const std::string& id, double lambda) {
+  return {"case_0001", "one", {{id, {"radio/beacon2"}, {}, {{"offset", 4}}, lambda}}, 10};
+}
+
+Verdict said(const std::string& json) { return read_verdict("some text before\n" + json + "\nand after\n"); }
+
+Share share(const Grades& g, const std::string& name) {
+  const auto at = g.shares.find(name);
+  return at == g.shares.end() ? Share{} : at->second;
+}
+
+TEST(Grade, IntervalsAreThoseOfClopperAndPearson) {
+  EXPECT_NEAR((Share{0, 10}).upper95(), 0.3085, 1e-4);
+  EXPECT_EQ((Share{0, 10}).lower95(), 0);
+  EXPECT_NEAR((Share{5, 10}).lower95(), 0.1871, 1e-4);
+  EXPECT_NEAR((Share{5, 10}).upper95(), 0.8129, 1e-4);
+  EXPECT_NEAR((Share{80, 80}).lower95(), 0.9549, 1e-4);
+  EXPECT_NEAR((Share{2, 309}).upper95(), 0.0232, 1e-4);
+}
+
+const char* const right_report =
+    R"({"verdict":"extended","base":{"heldout_rmse_db":5},"heldout_rmse_db":4,"causes":[)"
+    R"({"id":"tx_offset","label":"endpoint/beacon2","status":"named","evidence":20,"parameters":[{"name":"tx_offset/offset","value":4.4,"lower95":3.5,"upper95":5.3}]},)"
+    R"({"id":"drift","label":"","status":"suspected","evidence":2,"parameters":[]}],"unexplained":[],"loop":{"rediagnosis":"silent"}})";
+
+TEST(Grade, CountsWhatIsRight) {
+  Grades g;
+  add(g, one("tx_offset", 60), said(right_report));
+  for (const char* measure : {"found", "top name right", "right row, where found"}) {
+    EXPECT_EQ(share(g, std::string("one / ") + measure + " / lambda >= 50").hits, 1) << measure;
+    EXPECT_EQ(share(g, std::string("one / ") + measure + " / all").of, 1) << measure;
+  }
+  EXPECT_EQ(share(g, "one / wrong extra name / all").hits, 0);  // a suspected cause is no name
+  EXPECT_DOUBLE_EQ(g.gain.at("lambda >= 50"), 9);
+  EXPECT_DOUBLE_EQ(g.oracle.at("lambda >= 50"), 10);
+  EXPECT_EQ(g.covered.hits, 1);
+  ASSERT_EQ(g.relative_errors.size(), 1u);
+  EXPECT_NEAR(g.relative_errors[0], 0.1, 1e-12);
+  EXPECT_EQ(share(g, "loop / rediagnosis silent / all").hits, 1);
+}
+
+TEST(Grade, CountsWhatIsWrong) {
+  Grades g;
+  const char* const wrong =
+      R"({"verdict":"extended","causes":[{"id":"antenna_tx","label":"endpoint/beacon2","status":"named","evidence":5}],"unexplained":[]})";
+  const char* const extra =
+      R"({"verdict":"extended","causes":[{"id":"tx_offset","label":"endpoint/beacon1","status":"named","evidence":5},{"id":"step","label":"","status":"named","evidence":9}],"unexplained":[]})";
+  add(g, one("tx_offset", 15), said(wrong));
+  add(g, one("tx_offset", 15), said(extra));
+  add(g, one("tx_offset", 15), said(R"({"verdict":"adequate","causes":[],"unexplained":[]})"));
+  EXPECT_EQ(share(g, "one / found / lambda 10-20").hits, 1);
+  EXPECT_EQ(share(g, "one / found / lambda 10-20").of, 3);
+  EXPECT_EQ(share(g, "one / top name right / all").hits, 0);
+  EXPECT_EQ(share(g, "one / wrong extra name / all").hits, 1);
+  EXPECT_EQ(share(g, "one / only wrong names / all").hits, 1);
+  EXPECT_EQ(share(g, "one / silent / all").hits, 1);
+  EXPECT_EQ(share(g, "one / right row, where found / all").hits, 0);
+}
+
+TEST(Grade, TwoEffectsStandInTheBinOfTheWeaker) {
+  Truth truth = one("tx_offset", 820);
+  truth.kind = "two";
+  truth.effects.push_back({"drift", {}, {}, {}, 12});
+  Grades g;
+  add(g, truth, said(right_report));
+  EXPECT_EQ(share(g, "two / found / lambda 10-20").hits, 0);
+  EXPECT_EQ(share(g, "two / at least one found / lambda 10-20").hits, 1);
+  EXPECT_EQ(share(g, "two / found / lambda >= 50").of, 0);
+  EXPECT_EQ(g.by_effect.at("tx_offset / lambda >= 50").hits, 1);
+  EXPECT_EQ(g.by_effect.at("drift / lambda 10-20").hits, 0);
+}
+
+TEST(Grade, CleanWorldsAndTheOutside) {
+  Grades g;
+  const Truth clean{"c", "clean", {}, 0}, outside{"c", "outside", {{"x", {}, {"speed*logd", "speed"}, {}, 70}}, 0};
+  const Verdict smooth =
+      said(R"({"verdict":"unexplained","causes":[],"unexplained":[{"covariate":"~LogD*speed[m/s]","evidence":9}]})");
+  add(g, clean, said(R"({"verdict":"adequate","causes":[],"unexplained":[]})"));
+  add(g, clean, said(right_report));
+  add(g, clean, smooth);
+  add(g, outside, smooth);
+  add(g, outside, said(right_report));
+  EXPECT_EQ(share(g, "clean / false name / all").hits, 1);
+  EXPECT_EQ(share(g, "clean / false unexplained / all").hits, 1);
+  EXPECT_EQ(share(g, "clean / verdict adequate / all").hits, 1);
+  EXPECT_EQ(share(g, "outside / right covariate / lambda >= 50").hits, 1);
+  EXPECT_EQ(share(g, "outside / right covariate / lambda >= 50").of, 2);
+  EXPECT_EQ(share(g, "outside / false name / all").hits, 1);
+}
+
+TEST(Grade, WallsAreComparedAsSegments) {
+  EXPECT_NEAR(segment_distance({0, 0, 4, 0}, {4, 0, 0, 0}), 0, 1e-9);  // ends have no order
+  EXPECT_NEAR(segment_distance({0, 0, 4, 0}, {0, 0.3, 4, 0.3}), 0.3, 1e-9);
+  EXPECT_NEAR(segment_distance({0, 0, 4, 0}, {0, 0, 2, 0}), 0.25,
+              0.01);  // 2 m of 4 m lie 1 m off on average: 0.5 one way, 0 back
+  Truth truth{
+      "c", "one", {{"unmapped_wall", {}, {}, {{"x0", 0}, {"y0", 0}, {"x1", 4}, {"y1", 0}, {"loss", 8}}, 90}}, 0};
+  Grades g;
+  add(g, truth,
+      said(
+          R"({"verdict":"extended","causes":[{"id":"unmapped_wall","label":"","status":"named","evidence":30,"parameters":[{"name":"x0","value":4},{"name":"y0","value":0.2},{"name":"x1","value":0},{"name":"y1","value":0.2},{"name":"loss","value":9.5}]}]})"));
+  ASSERT_EQ(g.places.wall.size(), 1u);
+  EXPECT_NEAR(g.places.wall[0], 0.2, 1e-9);
+  EXPECT_NEAR(g.places.wall_loss.at(0), 1.5, 1e-9);
+}
+
+TEST(Grade, DirectionsWrap) {
+  Truth truth{"c", "one", {{"antenna_rx", {}, {}, {{"direction", 3.1}}, 90}}, 0};
+  Grades g;
+  add(g, truth,
+      said(
+          R"({"verdict":"extended","causes":[{"id":"antenna_rx","status":"named","parameters":[{"name":"direction","value":-3.1,"lower95":-3.3,"upper95":-2.9}]}]})"));
+  EXPECT_EQ(g.covered.hits, 1);
+  EXPECT_LT(g.relative_errors.at(0), 0.03);
+}
+
+TEST(Grade, TextWithoutAReportIsRefused) { EXPECT_THROW(read_verdict("Segmentation fault"), std::runtime_error); }
+
+}  // namespace
+}  // namespace muster::exam

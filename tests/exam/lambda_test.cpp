@@ -1,0 +1,131 @@
+// Lambda is what it is said to be: twice the expected log-likelihood ratio.
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+
+#include "field.hpp"
+#include "made.hpp"
+#include "reading_law.hpp"
+
+namespace muster::exam {
+namespace {
+
+std::vector<std::string> linear_effects() {
+  std::vector<std::string> result;
+  for (const Recipe& r : recipes()) {
+    const Case c = made(4, r.id, 60, 300);
+    if (c.hidden[0].effect.acts == Acts::mean && c.hidden[0].effect.linear) result.push_back(r.id);
+  }
+  return result;
+}
+
+TEST(Lambda, GrowsWithTheSquareOfALinearEffect) {
+  const auto ids = linear_effects();
+  EXPECT_GT(ids.size(), 20u);
+  for (const std::string& id : ids) {
+    const Case c = made(4, id, 60, 300);
+    const Whitener whiten(c.measured, c.site->noise, heard(c.measured));
+    const auto lambda = [&](double x) {
+      return energy(whiten, c.hidden[0].effect.shift(c.measured, x), c.measured.design);
+    };
+    const double one = lambda(1);
+    if (one < 1e-6) continue;
+    EXPECT_NEAR(lambda(3) / one, 9, 1e-4) << id;
+    EXPECT_NEAR(lambda(0.5) / one, 0.25, 1e-4) << id;
+  }
+}
+
+TEST(Lambda, ASizedEffectHasTheStrengthOfTheRoot) {
+  const double weak = made(7, "antenna_rx", 25).hidden.at(0).strength,
+               strong = made(7, "antenna_rx", 100).hidden.at(0).strength;
+  EXPECT_NEAR(strong / weak, 2, 1e-6);
+}
+
+// Dense covariance of single readings, without rows and neighbours.
+double dense_energy(const Case& c, const Eigen::VectorXd& effect) {
+  const auto n = static_cast<Eigen::Index>(c.measured.size());
+  Eigen::MatrixXd covariance(n, n);
+  const FieldLaw& law = c.site->noise.field;
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const Reading &a = c.measured.readings[static_cast<std::size_t>(i)],
+                    &b = c.measured.readings[static_cast<std::size_t>(j)];
+      const double field = law.sigma * law.sigma * correlation(law, std::hypot(a.at.x - b.at.x, a.at.y - b.at.y));
+      covariance(i, j) =
+          field * (a.station == b.station ? 1 : law.shared) + (i == j ? reading_variance(c.site->noise.reading) : 0);
+    }
+  Eigen::MatrixXd all(n, c.measured.design.cols() + 1);
+  all << c.measured.design, effect;
+  covariance.llt().matrixL().solveInPlace(all);
+  const Eigen::MatrixXd base = all.leftCols(c.measured.design.cols());
+  const Eigen::VectorXd e = all.rightCols(1);
+  return (e - base * base.colPivHouseholderQr().solve(e)).squaredNorm();
+}
+
+TEST(Lambda, AgreesWithTheDenseCovariance) {
+  for (const char* id : {"tx_offset", "antenna_rx", "drift", "room_clutter", "dual_slope", "unmapped_wall"}) {
+    Case c;
+    for (std::uint64_t seed = 1; c.measured.size() == 0 || c.site->noise.lost > 0; ++seed) c = made(seed, id, 60, 900);
+    const double dense = dense_energy(c, c.hidden[0].effect.shift(c.measured, c.hidden[0].strength));
+    EXPECT_NEAR(c.hidden[0].lambda / dense, 1, 0.1) << id;
+  }
+}
+
+struct Scatter {
+  double sum = 0, square = 0, count = 0;
+};
+
+// The effect's coefficient, fitted beside the base model by the true covariance, less its truth, in standard errors.
+void fit_effect(const Case& c, const Data& data, Scatter& scatter) {
+  const Whitener whiten(data, c.site->noise, heard(data));
+  const Eigen::VectorXd effect = c.hidden[0].effect.shift(data, c.hidden[0].strength);
+  const double lambda = energy(whiten, effect, data.design);
+  if (lambda < 5) return;  // the second run may hardly meet a place
+  Eigen::MatrixXd all(effect.size(), data.design.cols() + 2);
+  all << data.design, effect, data.rssi.unaryExpr([](double v) { return std::isnan(v) ? 0 : v; });
+  const Eigen::MatrixXd white = whiten(all);
+  const Eigen::VectorXd fit = white.leftCols(all.cols() - 1).colPivHouseholderQr().solve(white.rightCols(1));
+  const double z = (fit[fit.size() - 1] - 1) * std::sqrt(lambda);
+  scatter.sum += z;
+  scatter.square += z * z;
+  ++scatter.count;
+}
+
+TEST(Lambda, IsThePrecisionWithWhichTheEffectCanBeFittedInBothRuns) {
+  Scatter measured, second;
+  std::uint64_t seed = 100;
+  for (const char* id : {"tx_offset", "antenna_tx", "antenna_rx", "body_shadow", "drift", "step", "dual_slope",
+                         "unmapped_wall", "obstacle", "motor_noise"})
+    for (int repeat = 0; repeat < 4; ++repeat) {
+      const Case c = made(++seed, id, 80, 700);
+      fit_effect(c, c.measured, measured);
+      fit_effect(c, c.second, second);
+    }
+  for (const Scatter& s : {measured, second}) {
+    EXPECT_GT(s.count, 30);
+    EXPECT_NEAR(s.sum / s.count, 0, 4 / std::sqrt(s.count));
+    EXPECT_NEAR(s.square / s.count, 1, 4 * std::sqrt(2 / s.count));
+  }
+}
+
+TEST(Lambda, OfALawIsZeroForTheStatedOneAndGrowsAwayFromIt) {
+  const ReadingLaw stated{6, 1, 0, {}};
+  EXPECT_EQ(reading_lambda(stated, stated), 0);
+  double last = 0;
+  for (const double share : {0.001, 0.01, 0.05}) {
+    ReadingLaw changed = stated;
+    changed.outliers = share;
+    EXPECT_GT(reading_lambda(changed, stated), last);
+    last = reading_lambda(changed, stated);
+  }
+  const Case c = made(3, "", 0, 900);
+  const Whitener whiten(c.measured, c.site->noise, heard(c.measured));
+  FieldLaw field = c.site->noise.field;
+  EXPECT_NEAR(whiten.field_lambda(field, c.site->noise.field), 0, 1e-6);
+  field.decorrelation *= 2;
+  EXPECT_GT(whiten.field_lambda(field, c.site->noise.field), 1);
+}
+
+}  // namespace
+}  // namespace muster::exam

@@ -1,0 +1,56 @@
+// The same seed gives the same bytes, whatever else is made.
+#include <gtest/gtest.h>
+
+#include <ctime>
+
+#include "made.hpp"
+
+namespace muster::exam {
+namespace {
+
+TEST(Exam, SameSeedSameBytes) {
+  for (const char* effect : {"", "unmapped_wall", "people", "fading_law", "rssi_floor"}) {
+    EXPECT_EQ(everything(made(11, effect)), everything(made(11, effect))) << effect;
+    EXPECT_NE(everything(made(11, effect)), everything(made(12, effect))) << effect;
+  }
+}
+
+TEST(Exam, CasesDoNotDependOnOneAnother) {
+  Syllabus syllabus;
+  syllabus.seed = 5;
+  const Order third = draw_order(syllabus, 3);
+  draw_order(syllabus, 2);
+  EXPECT_EQ(third.effects, draw_order(syllabus, 3).effects);
+  EXPECT_NE(seed_of(syllabus, 3), seed_of(syllabus, 4));
+  const std::uint64_t before = seed_of(syllabus, 3);
+  syllabus.seed = 6;
+  EXPECT_NE(seed_of(syllabus, 3), before);
+}
+
+TEST(Exam, KindsAndRowsAreTheOnesAskedFor) {
+  Syllabus syllabus;
+  syllabus.kinds = {"two"};
+  syllabus.least_rows = 3000;
+  syllabus.most_rows = 4000;
+  for (int i = 1; i <= 60; ++i) {
+    const Order order = draw_order(syllabus, i);
+    ASSERT_EQ(order.effects.size(), 2u);
+    EXPECT_NE(order.effects[0], order.effects[1]);
+    EXPECT_GE(order.rows, 3000);
+    EXPECT_LE(order.rows, 4000);
+    for (const auto& id : order.effects) EXPECT_TRUE(recipe(id).in_vocabulary) << id;
+  }
+  syllabus.kinds = {"outside"};
+  for (int i = 1; i <= 30; ++i) EXPECT_FALSE(recipe(draw_order(syllabus, i).effects.at(0)).in_vocabulary);
+}
+
+#ifdef NDEBUG
+TEST(Exam, ACaseOfSixThousandReadingsTakesLessThanTwoSeconds) {
+  const std::clock_t start = std::clock();
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) made(seed, "unmapped_wall", 60, 6000);
+  EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC / 3, 2.0);
+}
+#endif
+
+}  // namespace
+}  // namespace muster::exam

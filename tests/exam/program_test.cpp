@@ -1,0 +1,70 @@
+// The program as a user meets it.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+  int code = -1;
+  std::string text;
+};
+
+Outcome run(const std::string& arguments) {
+  Outcome result;
+  FILE* pipe = popen((std::string(MUSTER_EXAM) + " " + arguments + " 2>&1").c_str(), "r");
+  std::array<char, 4096> part;
+  for (std::size_t n; (n = fread(part.data(), 1, part.size(), pipe)) > 0;) result.text.append(part.data(), n);
+  result.code = WEXITSTATUS(pclose(pipe));
+  return result;
+}
+
+std::string read(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+class Program : public testing::Test {
+ protected:
+  Program() { fs::remove_all(folder); }
+  ~Program() override { fs::remove_all(folder); }
+  const fs::path folder = fs::temp_directory_path() / ("muster_exam_test_" + std::to_string(getpid()));
+};
+
+TEST_F(Program, MakesCasesAndGradesThem) {
+  const std::string out = folder / "exam";
+  ASSERT_EQ(run("make --seed 3 --cases 3 --rows 400 600 --mix one,clean --out " + out).code, 0);
+  for (const char* file : {"case_0001/world.xml", "case_0002/walls.csv", "case_0003/measured.csv",
+                           "case_0001/second.csv", "answers/case_0002.json"})
+    EXPECT_GT(fs::file_size(folder / "exam" / file), 100u) << file;
+  ASSERT_EQ(run("make --seed 3 --first 3 --cases 1 --rows 400 600 --mix one,clean --out " + out + "_third").code, 0);
+  EXPECT_EQ(read(folder / "exam/case_0003/measured.csv"), read(folder / "exam_third/case_0003/measured.csv"));
+  fs::create_directories(folder / "reports/case_0002");
+  const std::string silent = "{\"verdict\":\"adequate\",\"causes\":[],\"unexplained\":[]}\n";
+  std::ofstream(folder / "reports/case_0001.json") << silent;
+  std::ofstream(folder / "reports/case_0002/diagnosis.json") << silent;
+  const Outcome graded = run("grade --json --answers " + out + " --reports " + (folder / "reports").string());
+  EXPECT_EQ(graded.code, 1) << graded.text;  // one report is missing
+  EXPECT_NE(graded.text.find("\"missing\":[\"case_0003\"]"), std::string::npos) << graded.text;
+}
+
+TEST_F(Program, RefusesWhatItDoesNotKnow) {
+  EXPECT_EQ(run("make --seed 3 --cases 1").code, 2);
+  EXPECT_EQ(run("make --seed 3 --cases 1 --out x --mix some").text,
+            "muster_exam make: a kind is clean, one, two or outside, not \"some\"\n");
+  EXPECT_EQ(run("make --seed 3 --cases 1 --out x --effects ghost").code, 2);
+  EXPECT_EQ(run("make --seed 3x --cases 1 --out x").code, 2);
+  EXPECT_EQ(run("make --seed 3 --cases 1 --out x --depth 2").text, "muster_exam make: no option is called --depth\n");
+  EXPECT_EQ(run("grade --answers /nowhere --reports /nowhere").code, 74);
+}
+
+}  // namespace

@@ -1,0 +1,168 @@
+// What holds for every cause: nothing at its neutral values, proportion where it says so, the same both ways where
+// physics says so, and the same bits however it is made and run.
+#include <map>
+#include <set>
+
+#include "loader/library.hpp"
+#include "survey.hpp"
+
+namespace muster {
+namespace {
+
+struct Example {
+  std::string name;
+  std::string attributes;  // with which it changes readings
+  std::string neutral;     // with which it does not; "" where its linear parameters at 0 do that
+  bool both_ways = true;
+};
+
+void PrintTo(const Example& example, std::ostream* out) { *out << example.name; }
+
+const std::vector<Example>& examples() {
+  static const std::string here = "x0=\"2\" y0=\"-1\" x1=\"9\" y1=\"8\" ";
+  static const std::vector<Example> result = {
+      {"tx_offset", "radio=\"a\" offset=\"3\"", "", false},
+      {"rx_offset", "radio=\"a\" offset=\"3\"", "", false},
+      {"asymmetry", "radio=\"a\" loss=\"3\"", "", false},
+      {"antenna_tx", "radio=\"a\" amplitude=\"3\"", ""},
+      {"antenna_rx", "radio=\"r\" amplitude=\"3\" direction=\"1\"", ""},
+      {"body_shadow", "radio=\"r\" loss=\"3\" width=\"1.5\"", ""},
+      {"wall_material", "wall=\"w\" change=\"3\"", ""},
+      {"wall_absent", "wall=\"w\" share=\"0.5\"", ""},
+      {"unmapped_wall", here + "loss=\"3\"", ""},
+      {"obstacle", "x=\"6\" y=\"3\" radius=\"1.5\" loss=\"3\"", ""},
+      {"room_clutter", "x=\"6\" y=\"3\" loss=\"3\"", ""},
+      {"corridor", here + "width=\"7\" gain=\"0.4\"", ""},
+      {"dual_slope", "break=\"3\" n_change=\"0.7\"", ""},
+      {"two_ray", "reflection=\"-0.6\"", "reflection=\"0\""},
+      {"multiwall_saturation", "knee=\"9\"", "knee=\"1e4\""},
+      {"incidence", "share=\"0.5\"", ""},
+      {"height", "loss=\"3\"", ""},
+      {"drift", "rate=\"60\"", ""},
+      {"step", "at=\"50\" size=\"3\"", ""},
+      {"periodic", "amplitude=\"3\" phase=\"1\"", ""},
+      {"people", "loss=\"3\"", ""},
+      {"channel_mixture", "sd=\"3\"", ""},
+      {"power_steps", "file=\"measured.csv\" error1=\"1\" error2=\"2\" error3=\"-1\"",
+       "file=\"measured.csv\" error1=\"0\" error2=\"0\" error3=\"0\""},
+      {"noise_floor_rssi", "file=\"measured.csv\" share=\"0.5\"", "", false},
+      {"rssi_saturation", "level=\"-60\"", "level=\"50\""},
+      {"rssi_floor", "level=\"-70\"", "level=\"-250\""},
+      {"outliers", "share=\"0.5\"", "share=\"0\"", false},
+      {"fading_law", "rician_k=\"9\"", "rician_k=\"3\""},
+      {"shadowing_correlation", "shadowing=\"6\" decorrelation=\"1\"", "shadowing=\"4\" decorrelation=\"2\""},
+      {"tx_misplaced", "radio=\"b\" x=\"9\" y=\"1\"", "radio=\"b\" x=\"14\" y=\"9\""},
+      {"label_swap", "a=\"a\" b=\"b\"", "a=\"a\" b=\"a\""},
+  };
+  return result;
+}
+
+std::vector<std::string> linear_parameters(const Simulation& world) {
+  std::vector<std::string> result;
+  for (const auto& p : world.parameters())
+    if (p.path.rfind("it/", 0) == 0 && (p.declared->flags & MUSTER_LINEAR)) result.push_back(p.path);
+  return result;
+}
+
+class EachCause : public testing::TestWithParam<Example> {
+ protected:
+  std::string it() const { return effect(GetParam().name, GetParam().attributes); }
+  Site site;
+};
+
+TEST_P(EachCause, ChangesReadings) {
+  EXPECT_FALSE(same_bits(column(site.world(it()), "link/*/rssi"), column(site.world(""), "link/*/rssi")));
+}
+
+TEST_P(EachCause, AtItsNeutralValuesChangesNotABit) {
+  for (const bool expected : {false, true}) {
+    auto world = site.world(GetParam().neutral.empty() ? it() : effect(GetParam().name, GetParam().neutral), expected);
+    if (GetParam().neutral.empty()) {
+      ASSERT_FALSE(linear_parameters(world).empty());
+      for (const auto& path : linear_parameters(world)) world.set_parameter(path, 0);
+      world.evaluate(MUSTER_RADIO, expected);
+    }
+    EXPECT_TRUE(same_bits(column(world, "link/*/rssi"), column(site.world("", expected), "link/*/rssi")));
+  }
+}
+
+// Drawn, since some draws have an expectation of 0.
+TEST_P(EachCause, IsProportionalToItsLinearParameters) {
+  const auto plain = column(site.world(""), "link/*/rssi");
+  auto world = site.world(it());
+  const auto paths = linear_parameters(world);
+  for (const auto& path : paths) {
+    const double value = world.parameter(path).value, bound = world.parameter(path).declared->max;
+    for (const auto& other : paths) world.set_parameter(other, 0);
+    if (value == 0) continue;  // a fourth power that the data do not have
+    world.set_parameter(path, value);
+    world.evaluate(MUSTER_RADIO, false);
+    const auto once = column(world, "link/*/rssi");
+    const double factor = std::min(2.5, bound / value > 0 ? bound / value : 2.5);
+    world.set_parameter(path, factor * value);
+    world.evaluate(MUSTER_RADIO, false);
+    const auto more = column(world, "link/*/rssi");
+    for (std::size_t i = 0; i < plain.size(); ++i)
+      EXPECT_NEAR(more[i] - plain[i], factor * (once[i] - plain[i]), 1e-9) << path;
+    EXPECT_FALSE(same_bits(once, more)) << path;
+  }
+}
+
+TEST_P(EachCause, IsTheSameBothWaysWherePhysicsSaysSo) {
+  for (const bool expected : {false, true}) {
+    const auto rssi = column(site.world(it(), expected), "link/*/rssi");
+    bool same = true;
+    for (std::size_t i = 0; i < rssi.size(); i += 2) same &= same_bits(rssi[i], rssi[i + 1]);
+    EXPECT_EQ(same, GetParam().both_ways || (expected && GetParam().name == "outliers"));
+  }
+}
+
+TEST_P(EachCause, GivesTheSameBitsHoweverItIsRun) {
+  auto one = site.world(it()), other = site.world(it(), false, 3);
+  for (int i = 0; i < 6; ++i) {
+    one.step();
+    other.step();
+    if (i == 2) other.remake("it");
+    if (i == 3) {
+      const Snapshot here = other.snapshot();
+      other.step();
+      other.restore(here);
+    }
+    ASSERT_EQ(one.digest(), other.digest());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Effects, EachCause, testing::ValuesIn(examples()),
+                         [](const auto& cause) { return cause.param.name; });
+
+// In one world, whose radios live: every cause is a plugin that a run executes.
+TEST(AllCauses, RunTogetherOnLivingLinks) {
+  const Site site;
+  std::string all;
+  for (const auto& example : examples()) all += "<effect." + example.name + ' ' + example.attributes + "/>\n";
+  auto one = site.world(all, false, 1, plan + channel, ""), other = site.world(all, false, 3, plan + channel, "");
+  EXPECT_EQ(one.table("link/*/rssi").rows(), 12u);
+  for (int i = 0; i < 10; ++i) {
+    one.step();
+    other.step();
+    if (i == 4) {
+      for (const auto& instance : other.instances()) other.remake(std::string(instance->name()));
+    }
+    ASSERT_EQ(one.digest(), other.digest());
+  }
+  const TableView place = one.table("endpoint/*/pose");
+  EXPECT_EQ(place.at(0, 0), 9);  // a stands where b is said to be, and b is misplaced
+  EXPECT_EQ(place.at(1, 0), 0);
+}
+
+TEST(Examples, AreThereForEveryCause) {
+  std::set<std::string> known;
+  for (const auto& example : examples()) known.insert("effect." + example.name);
+  for (const auto& plugin : list_plugins({MUSTER_PLUGINS_DIR})) {
+    const std::string id = plugin.library ? std::string(plugin.library->id()) : "";
+    EXPECT_TRUE(known.count(id) || id.rfind("effect.", 0) != 0) << id;
+  }
+}
+
+}  // namespace
+}  // namespace muster
