@@ -116,7 +116,8 @@ typedef struct muster_host {
   int (*file)(const struct muster_host*, const char* param, const char* columns);
   /* [setup] A text parameter by its name, or a text attribute by its path ("robot/leader/model"); NULL if absent. */
   const char* (*text)(const struct muster_host*, const char* path);
-  /* [setup] The directories in which files that come with plugins are looked for; NULL after the last. */
+  /* [setup] The directories in which files such as robots' models are looked for: those of the plugins, then the world's
+   * own; NULL after the last. */
   const char* (*search_path)(const struct muster_host*, uint32_t index);
   /* [setup] The key of a declared random stream, from the world's seed and this name alone. */
   uint64_t (*stream)(const struct muster_host*, const char* name);

@@ -101,6 +101,15 @@ TEST(Simbody, ModelsItCannotHoldAreRefused) {
   }
 }
 
+TEST(Simbody, ModelBesideTheWorldIsFound) {
+  Folder folder;
+  std::filesystem::copy(MUSTER_SOURCE_DIR "/plugins/robots/models/hokuyo.stl", folder.path("hokuyo.stl"));
+  std::filesystem::copy(MUSTER_SOURCE_DIR "/plugins/robots/models/scarab.urdf", folder.path("mine.urdf"));
+  Simulation run = world_of(folder, "<robot name=\"a\" at=\"0 0 0\" model=\"mine.urdf\"/><physics.simbody/>");
+  run.step();
+  EXPECT_THROW(world_of(folder, "<robot name=\"a\" at=\"0 0 0\" model=\"yours.urdf\"/><physics.simbody/>"), Error);
+}
+
 TEST(Simbody, BadModelIsRefusedWithItsLine) {
   Folder folder;
   const std::string urdf = folder.write("bad.urdf",
