@@ -33,6 +33,7 @@ TEST_P(HotSwap, HandsOverEveryBitAndKeepsTheAccelerationBound) {
   run_to(*run, 4);
   const auto pose = cells(*run, "robot/*/pose");
   const auto twist = cells(*run, "robot/*/twist");
+  for (std::size_t r = 0; r < 2; ++r) ASSERT_GT(std::hypot(twist[r * 6], twist[r * 6 + 1]), 0.05) << "robot " << r << " stands still";
   run->swap("physics", backend(GetParam()));
   EXPECT_EQ(cells(*run, "robot/*/pose"), pose);
   EXPECT_EQ(cells(*run, "robot/*/twist"), twist);
