@@ -2,7 +2,6 @@
 
 #include "text/names.hpp"
 #include "text/number.hpp"
-#include "workers.hpp"
 
 #include <algorithm>
 
@@ -25,7 +24,7 @@ Simulation::Simulation(World world, const Standard& standard, Options options)
   add_providers();
   loader_.reset();
   check_planned();
-  if (options_.workers > 1) workers_ = std::make_unique<Workers>(options_.workers);
+  if (options_.workers > 1) workers_ = std::make_unique<ThreadPool>(options_.workers);
   relink();
   run(0, MUSTER_SENSE, MUSTER_SENSE, 0);
 }

@@ -4,6 +4,7 @@
 #include "instance.hpp"
 #include "link.hpp"
 #include "snapshot.hpp"
+#include "thread_pool.hpp"
 #include "world.hpp"
 
 #include <functional>
@@ -94,7 +95,6 @@ class Simulation {
   const std::vector<Event>& events() const { return events_; }
 
  private:
-  struct Workers;
   std::unique_ptr<Instance> make(InstanceDeclaration declaration);
   std::shared_ptr<Library> library_of(const InstanceDeclaration& declaration);
   std::shared_ptr<Library> load_library(const InstanceDeclaration& declaration);
@@ -131,7 +131,7 @@ class Simulation {
   std::vector<std::unique_ptr<Instance>> instances_;
   std::vector<Batch> batches_;
   std::vector<Event> events_;
-  std::unique_ptr<Workers> workers_;
+  std::unique_ptr<ThreadPool> workers_;
   uint64_t tick_ = 0;
   uint64_t planned_from_ = 0;  // planned swaps of ticks before this one are done
   bool all_due_ = false;       // while one phase is evaluated

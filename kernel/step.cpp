@@ -3,7 +3,6 @@
 #include "text/names.hpp"
 #include "text/number.hpp"
 #include "simulation.hpp"
-#include "workers.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,6 +3,7 @@
 
 #include <clocale>
 #include <cmath>
+#include <cstdlib>
 
 #include "description/robot.hpp"
 #include "files.hpp"
@@ -93,7 +94,8 @@ TEST(Urdf, EveryKindOfJointIsRead) {
 
 TEST(Urdf, GermanLocaleReadsTheSameNumbers) {
   const std::string before = std::setlocale(LC_ALL, nullptr);
-  if (!std::setlocale(LC_ALL, "de_DE.UTF-8")) GTEST_SKIP() << "no German locale here";
+  ::setenv("LOCPATH", MUSTER_LOCALES, 1);
+  ASSERT_NE(std::setlocale(LC_ALL, "de_DE.UTF-8"), nullptr);
   const Robot robot = read_robot(scarab);
   std::setlocale(LC_ALL, before.c_str());
   EXPECT_EQ(robot.drive->max_torque, 2.765);

@@ -1,9 +1,11 @@
 #include "program.hpp"
 
 #include <fcntl.h>
+#include <linux/capability.h>
 #include <poll.h>
 #include <pty.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -48,7 +50,7 @@ Ends make_ends(bool terminal) {
   if (!around.standard_output.empty()) out = ::open(around.standard_output.c_str(), O_WRONLY | O_CREAT, 0666);
   ::dup2(in, STDIN_FILENO), ::dup2(out, STDOUT_FILENO), ::dup2(err, STDERR_FILENO);
   ::close_range(3, ~0u, 0);
-  if (around.user && (::setgid(around.user) != 0 || ::setuid(around.user) != 0)) ::_exit(126);
+  if (around.bound_by_permissions && ::geteuid() == 0 && ::prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE) != 0) ::_exit(126);
   std::vector<char*> argv;
   for (const auto& word : words) argv.push_back(const_cast<char*>(word.c_str()));
   argv.push_back(nullptr);

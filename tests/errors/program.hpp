@@ -25,7 +25,7 @@ struct Surroundings {
   bool terminal = false;                             // standard error is a terminal
   std::function<void(int process)> meanwhile;        // called once, when the program has printed its first bytes
   std::vector<std::string> wrapper;                  // words before the program, such as strace
-  unsigned user = 0;                                 // run as this user; 0: as the test's own
+  bool bound_by_permissions = false;                 // of files, even where the test is run by root
 };
 
 // Kills the program and fails the test after a minute.
