@@ -1,0 +1,41 @@
+// muster diagnose WORLD --data FILE: what the world gets wrong, the cause, an extended world, and what that gains.
+#include <fmt/core.h>
+
+#include "diagnose_report.hpp"
+#include "verbs.hpp"
+
+namespace muster::cli {
+
+int run_diagnose(const Arguments& arguments) {
+  CLI::App app(
+      "Finds what a world gets wrong about measured readings and names the cause where one of the plugin path explains "
+      "it.\nWith --out, writes the world extended by the named causes, simulates it and diagnoses it again.\n"
+      "Example: muster diagnose worlds/hall --data worlds/hall/measured.csv --out build/hall_extended",
+      "diagnose");
+  std::string world, data, out;
+  std::vector<std::string> plugins;
+  bool json = false;
+  app.add_option("world", world, "the world's folder or file")->required();
+  app.add_option("--data", data, "measured readings, a CSV table (docs/table_format.md)")->required();
+  app.add_option("--out", out, "a folder for the extended world");
+  app.add_option("--plugins", plugins, "a folder of plugins, looked in first");
+  app.add_flag("--json", json, "print the result as JSON");
+  parse(app, arguments);
+  const Library::SearchPath path = plugin_path(plugins);
+  diagnosis::Diagnosis found;
+  {
+    Progress progress("diagnose");
+    progress.at(0);
+    found = diagnosis::diagnose(world, data, path);
+    progress.at(0.5);
+    if (!out.empty() && found.named()) found.loop = diagnosis::closed_loop(found, world, data, out, path);
+    progress.at(1);
+  }
+  if (json)
+    fmt::print("{}\n", diagnosis_json(found).dump());
+  else
+    print_diagnosis(found, world);
+  return static_cast<int>(Exit::done);
+}
+
+}  // namespace muster::cli

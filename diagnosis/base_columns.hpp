@@ -1,0 +1,19 @@
+// The model's own columns: how its mean moves with each of its free parameters.
+#pragma once
+
+#include "diagnosis/fit.hpp"
+
+namespace muster::diagnosis {
+
+struct BaseColumns {
+  std::vector<std::string> paths;  // of the parameters that the readings tell apart
+  Eigen::VectorXd values;          // of them, where the slopes were taken
+  Eigen::VectorXd lower, upper;
+  Eigen::MatrixXd slopes;  // one row a reading of the table
+  Eigen::VectorXd mean;    // there
+};
+
+// At the model's present parameters.
+BaseColumns base_columns(LinkModel& model, const std::vector<FitParameter>& free);
+
+}  // namespace muster::diagnosis

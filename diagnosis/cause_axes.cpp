@@ -1,0 +1,130 @@
+#include "diagnosis/cause_axes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+namespace muster::diagnosis {
+namespace {
+
+constexpr double pi = 3.141592653589793;
+
+std::vector<double> evenly(double from, double to, int count) {
+  std::vector<double> result;
+  for (int k = 0; k < count; ++k) result.push_back(from + (to - from) * k / std::max(count - 1, 1));
+  return result;
+}
+
+Axis logarithmic(const muster_param& p, double lower, double upper, const std::vector<double>& values, double step) {
+  lower = std::max(lower, p.min);
+  upper = std::min(upper, p.max);
+  Axis axis{p.name, true, std::log(lower), std::log(upper), step, {}};
+  for (const double v : values) axis.values.push_back(std::log(std::clamp(v, lower, upper)));
+  axis.values.erase(std::unique(axis.values.begin(), axis.values.end()), axis.values.end());
+  return axis;
+}
+
+// Swings: evenly in cycles over the data, from two of them up.
+std::vector<double> periods(double span) {
+  std::vector<double> result;
+  for (double cycles = 2; cycles < 24; cycles += 0.4) result.push_back(span / cycles);
+  return result;
+}
+
+Axis duration(const muster_param& p, const Survey& s, const CauseShape& shape) {
+  const double span = s.time.length();
+  if (!shape.wave.empty()) return logarithmic(p, span / 40, span, periods(span), 0.02);
+  // What settles faster than a tenth of the data is a jump.
+  return logarithmic(p, 0.1 * span, 100 * span, {0.15 * span, 0.4 * span, span, 30 * span}, 0.3);
+}
+
+Axis length(const muster_param& p, const Survey& s, const CauseShape& shape) {
+  if (shape.place == PlaceShape::segment) return logarithmic(p, 0.8, 6, {1.5, 3}, 0.2);
+  if (shape.place == PlaceShape::point && p.max <= 10) return logarithmic(p, 0.15, 1.5, {0.45, 0.8}, 0.3);
+  if (shape.place == PlaceShape::point) return logarithmic(p, 1.5, 15, {3, 6}, 0.2);
+  const double low = std::log(s.distance.low * 1.1), high = std::log(s.distance.high * 0.8);
+  std::vector<double> values;
+  for (const double v : evenly(low, high, 12)) values.push_back(std::exp(v));
+  return logarithmic(p, s.distance.low, s.distance.high, values, 0.12);
+}
+
+Axis moment(const muster_param& p, const Survey& s, bool alone) {
+  // Earlier or later than that a jump is an offset; what only begins may begin at once.
+  const double from = alone ? s.time.at(0.08) : s.time.low, to = s.time.at(0.92);
+  return {p.name,
+          false,
+          from,
+          to,
+          0.012 * s.time.length(),
+          alone ? evenly(from, to, 29) : std::vector<double>{from, s.time.at(0.25), s.time.at(0.5)}};
+}
+
+}  // namespace
+
+std::optional<Axis> axis_of(const muster_param& p, const Survey& s, const CauseShape& shape, bool alone) {
+  const std::string_view unit = p.unit;
+  if (unit == "s" && s.time.length() <= 0) return {};
+  if (p.flags & MUSTER_CYCLIC) {
+    std::vector<double> turn = evenly(-pi, pi, 17);
+    turn.pop_back();
+    return Axis{p.name, false, -pi, pi, 0.2, turn};
+  }
+  if (p.flags & MUSTER_LOG) {
+    if (unit == "s") return duration(p, s, shape);
+    if (unit == "m") return length(p, s, shape);
+    std::vector<double> values;
+    for (const double v : evenly(std::log(p.min), std::log(p.max), 5)) values.push_back(std::exp(v));
+    return logarithmic(p, p.min, p.max, {values[1], values[2], values[3]}, 0.2);
+  }
+  if (unit == "s") return moment(p, s, alone);
+  if (unit == "m") {
+    if (!s.has_height) return {};
+    return Axis{p.name,
+                false,
+                s.height.low,
+                s.height.high,
+                0.1 * s.height.length(),
+                evenly(s.height.at(0.1), s.height.at(0.9), 7)};
+  }
+  return Axis{p.name, false, p.min, p.max, (p.max - p.min) / 20, evenly(p.min, p.max, 5)};
+}
+
+std::vector<Eigen::VectorXd> places_over(PlaceShape shape, const Survey& s, bool large) {
+  const double spacing = (large ? 2 : 1) * std::max(1.0, std::sqrt(s.east.length() * s.north.length() / 400));
+  const std::vector<double> lengths = large ? std::vector<double>{5, 10} : std::vector<double>{2, 3.5, 5};
+  std::vector<Eigen::VectorXd> result;
+  for (double x = s.east.low + spacing / 2; x < s.east.high; x += spacing) {
+    for (double y = s.north.low + spacing / 2; y < s.north.high; y += spacing) {
+      if (shape == PlaceShape::point) {
+        result.push_back(Eigen::Vector2d(x, y));
+        continue;
+      }
+      for (const double length : lengths) {
+        for (const double angle : {s.plan_angle, s.plan_angle + pi / 2})
+          result.push_back(Eigen::Vector4d(x, y, length, angle));
+      }
+    }
+  }
+  return result;
+}
+
+int driven_across(const Survey& s, double x, double y, double length, double angle) {
+  const double ex = length / 2 * std::cos(angle), ey = length / 2 * std::sin(angle);
+  const auto side = [](double ax, double ay, double bx, double by, double px, double py) {
+    return (bx - ax) * (py - ay) - (by - ay) * (px - ax) > 0;
+  };
+  int count = 0;
+  for (const auto& w : s.ways) {
+    if (std::abs(w[0] - x) > length / 2 + 2 || std::abs(w[1] - y) > length / 2 + 2) continue;
+    count += side(x - ex, y - ey, x + ex, y + ey, w[0], w[1]) != side(x - ex, y - ey, x + ex, y + ey, w[2], w[3]) &&
+             side(w[0], w[1], w[2], w[3], x - ex, y - ey) != side(w[0], w[1], w[2], w[3], x + ex, y + ey);
+  }
+  return count;
+}
+
+bool driven_through(const Survey& s, double x, double y, double radius) {
+  return std::any_of(s.ways.begin(), s.ways.end(),
+                     [&](const auto& w) { return std::hypot(w[0] - x, w[1] - y) < 0.7 * radius; });
+}
+
+}  // namespace muster::diagnosis

@@ -1,0 +1,57 @@
+// Named causes as candidates of the search: over which rows, places, times and shapes each is sought, and how what was
+// found reads as attributes of its plugin.
+#pragma once
+
+#include "diagnosis/cause_model.hpp"
+#include "diagnosis/search/candidate.hpp"
+#include "diagnosis/survey.hpp"
+
+namespace muster::diagnosis {
+
+// A parameter of a cause that is sought, one entry of theta.
+struct Axis {
+  std::string parameter;  // of the plugin; "" for an entry of a place
+  bool logarithmic = false;
+  double lower = 0, upper = 0, step = 0;
+  std::vector<double> values;  // to start from, as in theta: logarithms where it is logarithmic
+};
+
+// How the coordinates of a cause make a place.
+enum class PlaceShape { none = 1, point, segment };
+
+// theta is: number of the row; then x y of a point, or x y of the middle, length and angle of a segment; then axes.
+struct CauseShape {
+  Cause cause;
+  std::vector<std::string> rows;  // names; one "" where it is about none
+  PlaceShape place = PlaceShape::none;
+  std::vector<std::string> coordinates;  // parameters of the place: x y, or x0 y0 x1 y1
+  std::vector<Axis> axes;
+  std::map<std::string, double> held;  // parameters that are set once, such as a heading along the plan
+  std::string wave;                    // the cyclic parameter that two columns stand for; empty: one column
+
+  std::map<std::string, double> parameters(const Eigen::VectorXd& theta) const;
+  const std::string& row(const Eigen::VectorXd& theta) const { return rows[static_cast<std::size_t>(theta[0])]; }
+};
+
+struct CauseCandidate {
+  std::shared_ptr<const CauseShape> shape;
+  search::Candidate candidate;
+};
+
+struct CauseSearch {
+  std::vector<CauseCandidate> found;
+  std::vector<std::string> not_tested;  // "effect.two_ray: why"
+};
+
+struct CauseSources {
+  std::filesystem::path world, data;
+  Library::SearchPath plugins;
+  std::map<std::string, double> world_parameters;  // the fitted ones that a world without channel has
+  std::vector<Eigen::Index> used;                  // rows of the table behind the readings of the search
+};
+
+// Columns that no reading depends on, or that the base model can take up, are left out.
+CauseSearch cause_candidates(const LinkModel& model, const Survey& survey, const CauseSources& sources,
+                             const Eigen::MatrixXd& base);
+
+}  // namespace muster::diagnosis

@@ -1,0 +1,197 @@
+#include "diagnosis/diagnose.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "diagnosis/base_columns.hpp"
+#include "diagnosis/extended_world.hpp"
+#include "diagnosis/found_cause.hpp"
+#include "diagnosis/place_checks.hpp"
+
+namespace muster::diagnosis {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+// Causes that the world holds already keep their places and times; how strong they are is fitted.
+FitOptions hold_places_of_causes(const LinkModel& model) {
+  FitOptions options;
+  for (const auto& instance : model.simulation().instances()) {
+    const muster_plugin& plugin = instance->plugin();
+    if (!plugin.cause) continue;
+    for (uint32_t k = 0; k < plugin.param_count; ++k) {
+      const muster_param& p = plugin.params[k];
+      if (p.kind == MUSTER_REAL && (p.flags & MUSTER_FREE) && !(p.flags & MUSTER_LINEAR))
+        options.fix.push_back(instance->name() + '/' + p.name);
+    }
+  }
+  return options;
+}
+
+class Diagnoser {
+ public:
+  Diagnoser(const std::filesystem::path& world, const std::filesystem::path& file, const Library::SearchPath& plugins)
+      : data_(read_dataset(file)), model_(world, file, plugins), sources_{world, file, plugins, {}, {}} {
+    check_places(model_, data_);
+    fit_ = fit(model_, data_, hold_places_of_causes(model_));
+    base_ = base_columns(model_, fit_.parameters);
+    for (const std::size_t row : fit_.rows_used()) sources_.used.push_back(static_cast<Index>(row));
+    for (const ParameterInfo& p : model_.parameters()) {
+      if (p.path.rfind("material/", 0) == 0) sources_.world_parameters[p.path] = p.value;
+    }
+  }
+
+  Diagnosis run() {
+    fill_readings();
+    const Eigen::MatrixXd base = base_.slopes(sources_.used, Eigen::all);
+    problem_.base = base;
+    // Linear in the parameters about the fit, so that coefficients are values of parameters.
+    problem_.measured -= (base_.mean - base_.slopes * base_.values)(sources_.used);
+    CauseSearch causes = cause_candidates(model_, survey_of(model_, data_), sources_, base);
+    for (const CauseCandidate& c : causes.found) problem_.candidates.push_back(c.candidate);
+    add_columns();
+    search::Search search(problem_);
+    const search::Result result = search.run();
+    Diagnosis out = summed_up(result, causes, search.bench());
+    out.not_tested = std::move(causes.not_tested);
+    out.not_tested.insert(out.not_tested.end(), untested_.begin(), untested_.end());
+    return out;
+  }
+
+ private:
+  void fill_readings() {
+    noise::Readings& r = problem_.readings;
+    const auto n = static_cast<Index>(sources_.used.size());
+    r.tx_at.resize(3, n);
+    r.rx_at.resize(3, n);
+    problem_.measured.resize(n);
+    for (Index i = 0; i < n; ++i) {
+      const auto row = static_cast<std::size_t>(sources_.used[static_cast<std::size_t>(i)]);
+      const auto& [tx, rx] = model_.ends()[row];
+      r.tx.push_back(tx.radio);
+      r.rx.push_back(rx.radio);
+      r.tx_at.col(i) << tx.x, tx.y, tx.z;
+      r.rx_at.col(i) << rx.x, rx.y, rx.z;
+      if (!data_.t.empty()) r.t.push_back(data_.t[row]);
+      if (!data_.rx_yaw.empty()) r.rx_yaw.push_back(rx.yaw);
+      const bool censored = std::isnan(data_.rssi[row]);
+      problem_.measured[i] = censored ? fit_.readings.floor : data_.rssi[row];
+      if (!fit_.readings.censored.empty())
+        problem_.bounds.known.push_back(censored ? noise::Known::below : noise::Known::value);
+    }
+    problem_.bounds.half_code = 0;  // the fitted floor is a level, not a code
+  }
+
+  // A number of few values is a setting: each value stands for itself.
+  void add_columns() {
+    for (const Covariate& column : data_.covariates) {
+      const std::string name = column.name.substr(0, column.name.find('['));
+      if (column.values.empty()) {
+        search::Factor factor{name, {}};
+        for (const Index row : sources_.used)
+          factor.level.push_back(static_cast<int>(column.factor.level[static_cast<std::size_t>(row)]));
+        problem_.factors.push_back(std::move(factor));
+        continue;
+      }
+      VectorXd values(static_cast<Index>(sources_.used.size()));
+      std::set<double> different;
+      for (Index i = 0; i < values.size(); ++i) {
+        values[i] = column.values[static_cast<std::size_t>(sources_.used[static_cast<std::size_t>(i)])];
+        if (different.size() <= 8) different.insert(values[i]);
+      }
+      if (!values.allFinite()) {
+        untested_.push_back(column.name + ": it has empty cells");
+      } else if (different.size() > 8) {
+        problem_.covariates.push_back({name, values});
+      } else if (different.size() > 1) {
+        search::Factor factor{name, {}};
+        for (const double v : values)
+          factor.level.push_back(static_cast<int>(std::distance(different.begin(), different.find(v))));
+        problem_.factors.push_back(std::move(factor));
+      }
+    }
+  }
+
+  Diagnosis summed_up(const search::Result& result, const CauseSearch& causes, const search::Bench& bench) {
+    Diagnosis out;
+    out.notes = data_.notes;
+    for (const std::string& blind : fit_.not_identifiable) out.notes.push_back("not identifiable: " + blind);
+    out.residual_sd = fit_.residual_sd;
+    out.noise = result.noise.covariance;
+    out.held_out = result.held_out;
+    out.readings = sources_.used.size();
+    out.rows = bench.rows().size();
+    const VectorXd coefficients = result.base_coefficients.cwiseMax(base_.lower).cwiseMin(base_.upper);
+    for (std::size_t j = 0; j < base_.paths.size(); ++j)
+      out.parameters[base_.paths[j]] = coefficients[static_cast<Index>(j)];
+    VectorXd mean = base_.mean + base_.slopes * (coefficients - base_.values);
+    for (std::size_t k = 0; k < result.findings.size(); ++k) {
+      const search::Finding& f = result.findings[k];
+      const auto cause = std::find_if(causes.found.begin(), causes.found.end(),
+                                      [&](const CauseCandidate& c) { return c.candidate.id == f.id; });
+      if (f.status == search::Status::unexplained || cause == causes.found.end()) {
+        out.unexplained.push_back({f.id.substr(f.id.rfind('~') + 1), f.evidence});
+        continue;
+      }
+      out.causes.push_back(found_cause(f, *cause, bench, k < bench.terms.size() ? &bench.terms[k] : nullptr));
+      if (f.status == search::Status::named) mean(sources_.used) += cause->candidate.columns(f.theta) * f.coefficients;
+    }
+    out.mean = VectorXd::Constant(mean.size(), std::nan(""));
+    out.mean(sources_.used) = mean(sources_.used);
+    for (const CauseCandidate& c : causes.found) out.searched.push_back(c.candidate.id);
+    return out;
+  }
+
+  Dataset data_;
+  LinkModel model_;
+  CauseSources sources_;
+  Fit fit_;
+  BaseColumns base_;
+  search::Problem problem_;
+  std::vector<std::string> untested_;
+};
+
+std::string in_words(const Diagnosis& d) {
+  std::string result;
+  for (const FoundCause& c : d.causes) {
+    if (c.status == search::Status::named) result += (result.empty() ? "" : ", ") + c.id + " " + c.label;
+  }
+  for (const Unexplained& u : d.unexplained) result += (result.empty() ? "~" : ", ~") + u.covariate;
+  return result.empty() ? "silent" : result;
+}
+
+}  // namespace
+
+bool Diagnosis::named() const {
+  return std::any_of(causes.begin(), causes.end(),
+                     [](const FoundCause& c) { return c.status == search::Status::named; });
+}
+
+const char* Diagnosis::verdict() const {
+  return !unexplained.empty() ? "unexplained" : named() ? "extended" : "adequate";
+}
+
+Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::path& data,
+                   const Library::SearchPath& plugins) {
+  return Diagnoser(world, data, plugins).run();
+}
+
+Loop closed_loop(const Diagnosis& found, const std::filesystem::path& world, const std::filesystem::path& data,
+                 const std::filesystem::path& out, const Library::SearchPath& plugins) {
+  Loop loop{out, 0, ""};
+  const std::filesystem::path file = write_extended_world(found, world, out);
+  LinkModel model(file, data, plugins);
+  const VectorXd& simulated = model.expected();
+  for (Index i = 0; i < simulated.size(); ++i) {
+    if (!std::isnan(found.mean[i]))
+      loop.mean_difference = std::max(loop.mean_difference, std::abs(simulated[i] - found.mean[i]));
+  }
+  loop.rediagnosis = in_words(diagnose(file, data, plugins));
+  return loop;
+}
+
+}  // namespace muster::diagnosis

@@ -1,0 +1,65 @@
+#include "diagnosis/noise/family.hpp"
+
+#include <cmath>
+
+namespace muster::noise {
+
+std::string_view name_of(Family family) {
+  switch (family) {
+    case Family::exponential:
+      return "exponential";
+    case Family::matern32:
+      return "matern32";
+    case Family::matern52:
+      return "matern52";
+    case Family::two_scale:
+      return "two_scale";
+  }
+  return "";
+}
+
+double correlation(Family family, double u) {
+  switch (family) {
+    case Family::exponential:
+      return std::exp(-u);
+    case Family::matern32:
+      return (1 + u) * std::exp(-u);
+    case Family::matern52:
+      return (1 + u + u * u / 3) * std::exp(-u);
+    case Family::two_scale:
+      return 0.5 * std::exp(-2.5 * u) + 0.5 * std::exp(-0.4 * u);
+  }
+  return 0;
+}
+
+double correlation_slope(Family family, double u) {
+  switch (family) {
+    case Family::exponential:
+      return u * std::exp(-u);
+    case Family::matern32:
+      return u * u * std::exp(-u);
+    case Family::matern52:
+      return u * u * (1 + u) / 3 * std::exp(-u);
+    case Family::two_scale:
+      return 1.25 * u * std::exp(-2.5 * u) + 0.2 * u * std::exp(-0.4 * u);
+  }
+  return 0;
+}
+
+double log_scale_of(Family family) {
+  switch (family) {
+    case Family::matern32:
+      return -0.6;
+    case Family::matern52:
+      return -0.9;
+    default:
+      return 0;
+  }
+}
+
+double Covariance::field_variance() const { return std::exp(theta[0]); }
+double Covariance::decorrelation() const { return std::exp(theta[1]); }
+double Covariance::reading_variance() const { return std::exp(theta[2]); }
+double Covariance::shared() const { return 1 / (1 + std::exp(-theta[3])); }
+
+}  // namespace muster::noise

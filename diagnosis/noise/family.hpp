@@ -1,0 +1,39 @@
+// Correlation of shadowing at two places: four families over one decorrelation distance.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <string_view>
+
+namespace muster::noise {
+
+enum class Family { exponential = 1, matern32, matern52, two_scale };
+inline constexpr std::array families{Family::exponential, Family::matern32, Family::matern52, Family::two_scale};
+
+std::string_view name_of(Family family);
+
+// At distance u, in decorrelation distances.
+double correlation(Family family, double u);
+
+// Its derivative by the logarithm of the decorrelation distance.
+double correlation_slope(Family family, double u);
+
+// The families differ in what they call a decorrelation distance: what to add to its logarithm beside the
+// exponential's.
+double log_scale_of(Family family);
+
+// log variance of the field [dB^2], log decorrelation distance [m], log variance of one reading [dB^2], logit of the
+// correlation that links of different anchors have at one place.
+using Theta = Eigen::Vector4d;
+
+struct Covariance {
+  Family family = Family::exponential;
+  Theta theta = Theta::Zero();
+
+  double field_variance() const;    // dB^2
+  double decorrelation() const;     // m
+  double reading_variance() const;  // dB^2
+  double shared() const;            // correlation between anchors, 0 to 1
+};
+
+}  // namespace muster::noise

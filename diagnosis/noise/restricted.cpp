@@ -1,0 +1,58 @@
+#include "diagnosis/noise/restricted.hpp"
+
+namespace muster::noise {
+namespace {
+
+struct PriorTerm {
+  double offset, precision;
+};
+PriorTerm on_distance(const Covariance& c, const Prior& p) {
+  return {c.theta[1] - p.log_decorrelation - log_scale_of(c.family),
+          1 / (p.decorrelation_spread * p.decorrelation_spread)};
+}
+PriorTerm on_share(const Covariance& c, const Prior& p) {
+  return {c.theta[3] - p.logit_shared, 1 / (p.shared_spread * p.shared_spread)};
+}
+
+Eigen::MatrixXd beside(const Eigen::MatrixXd& design, const Eigen::VectorXd& y) {
+  Eigen::MatrixXd both(design.rows(), design.cols() + 1);
+  both << design, y;
+  return both;
+}
+
+}  // namespace
+
+Whitened whitened(const Whitener& whitener, const Eigen::VectorXd& y, const Eigen::MatrixXd& design,
+                  const Prior& prior) {
+  const Eigen::MatrixXd both = whitener(beside(design, y));
+  Whitened result{basis_of(both.leftCols(design.cols())), both.rightCols(1), {}, 0};
+  result.residual = result.basis.rest(result.y);
+  const PriorTerm distance = on_distance(whitener.covariance(), prior), share = on_share(whitener.covariance(), prior);
+  result.value = -whitener.log_scale() + 0.5 * result.residual.squaredNorm() + result.basis.log_determinant() +
+                 0.5 * distance.precision * distance.offset * distance.offset +
+                 0.5 * share.precision * share.offset * share.offset;
+  return result;
+}
+
+Objective objective(const Field& field, const Covariance& covariance, const Eigen::VectorXd& y,
+                    const Eigen::MatrixXd& design, const Prior& prior) {
+  const WhitenerSlopes slopes(field, covariance);
+  const Whitened at = whitened(slopes.whitener(), y, design, prior);
+  const Eigen::MatrixXd both = beside(design, y);
+  const Eigen::VectorXd beta = at.basis.coefficients(at.basis.q.transpose() * at.y, design.cols());
+  Objective result{at.value, -slopes.of_log_scale(), slopes.information()};
+  for (int p = 0; p < 4; ++p) {
+    const Eigen::MatrixXd moved = slopes(p, both);
+    const Eigen::MatrixXd x = moved.leftCols(design.cols())(Eigen::all, at.basis.kept);
+    result.gradient[p] += at.residual.dot(moved.rightCols(1).col(0) - moved.leftCols(design.cols()) * beta);
+    result.gradient[p] += at.basis.r.triangularView<Eigen::Upper>().solve(at.basis.q.transpose() * x).trace();
+  }
+  const PriorTerm distance = on_distance(covariance, prior), share = on_share(covariance, prior);
+  result.gradient[1] += distance.precision * distance.offset;
+  result.gradient[3] += share.precision * share.offset;
+  result.information(1, 1) += distance.precision;
+  result.information(3, 3) += share.precision;
+  return result;
+}
+
+}  // namespace muster::noise

@@ -1,0 +1,112 @@
+#include "diagnosis/noise/rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+namespace muster::noise {
+namespace {
+
+std::vector<Index> by_link_and_time(const Readings& readings) {
+  std::vector<Index> order(readings.tx.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto key = [&](Index i) {
+    const auto k = static_cast<std::size_t>(i);
+    return std::tuple(readings.tx[k], readings.rx[k], readings.t.empty() ? 0.0 : readings.t[k]);
+  };
+  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return key(a) < key(b); });
+  return order;
+}
+
+bool ends_row(const Readings& r, const RowLimits& limits, Index first, Index next) {
+  const auto a = static_cast<std::size_t>(first), b = static_cast<std::size_t>(next);
+  if (r.tx[a] != r.tx[b] || r.rx[a] != r.rx[b]) return true;
+  if (!r.t.empty() && r.t[b] - r.t[a] >= limits.time) return true;
+  if (!r.rx_yaw.empty() && std::abs(std::remainder(r.rx_yaw[b] - r.rx_yaw[a], 2 * M_PI)) > limits.turn) return true;
+  return (r.rx_at.col(next) - r.rx_at.col(first)).norm() > limits.way ||
+         (r.tx_at.col(next) - r.tx_at.col(first)).norm() > limits.way;
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+Rows::Rows(const Readings& readings, const RowLimits& limits)
+    : order_(by_link_and_time(readings)), row_of_(order_.size()) {
+  for (std::size_t k = 0; k < order_.size(); ++k) {
+    if (k == 0 || ends_row(readings, limits, order_[static_cast<std::size_t>(first_.back())], order_[k]))
+      first_.push_back(static_cast<Index>(k));
+    row_of_[static_cast<std::size_t>(order_[k])] = static_cast<Index>(first_.size()) - 1;
+  }
+  first_.push_back(static_cast<Index>(order_.size()));
+  count_.resize(size());
+  for (Index i = 0; i < size(); ++i)
+    count_[i] = static_cast<double>(first_[static_cast<std::size_t>(i) + 1] - first_[static_cast<std::size_t>(i)]);
+}
+
+Eigen::MatrixXd Rows::mean(const Eigen::Ref<const Eigen::MatrixXd>& columns) const {
+  Eigen::MatrixXd result(size(), columns.cols());
+  for (Index j = 0; j < columns.cols(); ++j) {
+    for (Index i = 0; i < size(); ++i) {
+      double sum = 0;
+      for (Index k = first_[static_cast<std::size_t>(i)]; k < first_[static_cast<std::size_t>(i) + 1]; ++k)
+        sum += columns(order_[static_cast<std::size_t>(k)], j);
+      result(i, j) = sum / count_[i];
+    }
+  }
+  return result;
+}
+
+Eigen::VectorXd Rows::at_readings(const Eigen::VectorXd& rows) const {
+  Eigen::VectorXd result(static_cast<Index>(row_of_.size()));
+  for (Index k = 0; k < result.size(); ++k) result[k] = rows[row_of_[static_cast<std::size_t>(k)]];
+  return result;
+}
+
+Sites Rows::sites(const Readings& readings) const {
+  const Eigen::Matrix3Xd tx = mean(readings.tx_at.transpose()).transpose();
+  const Eigen::Matrix3Xd rx = mean(readings.rx_at.transpose()).transpose();
+  double tx_way = 0, rx_way = 0;
+  std::vector<double> lengths;
+  for (Index i = 0; i < size(); ++i) {
+    const Index a = example(i), b = order_[static_cast<std::size_t>(first_[static_cast<std::size_t>(i) + 1] - 1)];
+    lengths.push_back((readings.rx_at.col(b) - readings.rx_at.col(a)).norm() +
+                      (readings.tx_at.col(b) - readings.tx_at.col(a)).norm());
+    if (i == 0 || readings.tx[static_cast<std::size_t>(a)] != readings.tx[static_cast<std::size_t>(example(i - 1))] ||
+        readings.rx[static_cast<std::size_t>(a)] != readings.rx[static_cast<std::size_t>(example(i - 1))])
+      continue;
+    tx_way += (tx.col(i) - tx.col(i - 1)).norm();
+    rx_way += (rx.col(i) - rx.col(i - 1)).norm();
+  }
+  const bool anchored_at_tx = tx_way <= rx_way;
+  Sites sites{anchored_at_tx ? rx : tx, anchored_at_tx ? tx : rx, {}, count_, median(std::move(lengths)) / 3};
+  for (Index i = 0; i < size(); ++i)
+    sites.radio.push_back((anchored_at_tx ? readings.tx : readings.rx)[static_cast<std::size_t>(example(i))]);
+  return sites;
+}
+
+Sites Sites::of(const std::vector<Index>& rows) const {
+  Sites result{place(Eigen::all, rows), anchor(Eigen::all, rows), {}, count(rows), soft};
+  for (const Index i : rows) result.radio.push_back(radio[static_cast<std::size_t>(i)]);
+  return result;
+}
+
+Sites Sites::with(const Sites& more) const {
+  Sites result = *this;
+  result.place.conservativeResize(3, size() + more.size());
+  result.anchor.conservativeResize(3, size() + more.size());
+  result.count.conservativeResize(size() + more.size());
+  result.place.rightCols(more.size()) = more.place;
+  result.anchor.rightCols(more.size()) = more.anchor;
+  result.count.tail(more.size()) = more.count;
+  result.radio.insert(result.radio.end(), more.radio.begin(), more.radio.end());
+  return result;
+}
+
+}  // namespace muster::noise

@@ -1,0 +1,65 @@
+// Readings of one link that lie close together, averaged to one row: a row's mean carries the small-scale fading of its
+// readings divided by their count, and costs one place in the covariance instead of many.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace muster::noise {
+
+using Eigen::Index;
+
+struct Readings {
+  std::vector<double> t;          // s; empty: readings of a link stand in the order of their time
+  std::vector<int> tx, rx;        // radios, by numbers that do not depend on the order of the readings
+  Eigen::Matrix3Xd tx_at, rx_at;  // m
+  std::vector<double> rx_yaw;     // rad; empty: unknown
+
+  Index size() const { return static_cast<Index>(tx.size()); }
+};
+
+// A row ends where the next reading lies so far from its first one.
+struct RowLimits {
+  double time = 1.2;     // s
+  double turn = 0.6109;  // rad, 35 degrees
+  double way = 1.0;      // m, of either end
+};
+
+// Where the rows' field lives: `place` is the end that moves more, `anchor` the other one.
+struct Sites {
+  Eigen::Matrix3Xd place, anchor;  // m
+  std::vector<int> radio;          // the anchor's
+  Eigen::VectorXd count;           // readings
+  double soft = 0;                 // m: a third of a row's length, by which distances are softened
+
+  Index size() const { return count.size(); }
+  Sites of(const std::vector<Index>& rows) const;
+  // These rows, then those of `more`.
+  Sites with(const Sites& more) const;
+};
+
+class Rows {
+ public:
+  explicit Rows(const Readings& readings, const RowLimits& limits = {});
+
+  Index size() const { return static_cast<Index>(first_.size()) - 1; }
+  const std::vector<Index>& row_of() const { return row_of_; }  // one a reading
+  // A reading of each row: what its readings share can be read there.
+  Index example(Index row) const { return order_[static_cast<std::size_t>(first_[static_cast<std::size_t>(row)])]; }
+  const Eigen::VectorXd& count() const { return count_; }
+
+  // Means of columns that have one row a reading.
+  Eigen::MatrixXd mean(const Eigen::Ref<const Eigen::MatrixXd>& columns) const;
+  // A value a row, at each of its readings.
+  Eigen::VectorXd at_readings(const Eigen::VectorXd& rows) const;
+
+  Sites sites(const Readings& readings) const;
+
+ private:
+  std::vector<Index> order_;  // readings by link, then time
+  std::vector<Index> first_;  // in order_; one past the last row too
+  std::vector<Index> row_of_;
+  Eigen::VectorXd count_;
+};
+
+}  // namespace muster::noise

@@ -1,0 +1,93 @@
+// Whitening of rows under C = s2 [rho + (1 - rho) same anchor] k(h') + t2 / count, h' = sqrt(h^2 + a^2) - a, by
+// Vecchia's approximation (Vecchia 1988; Katzfuss and Guinness, Statistical Science 36, 2021): each row given its
+// neighbours.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "diagnosis/noise/family.hpp"
+#include "diagnosis/noise/neighbours.hpp"
+
+namespace muster::noise {
+
+// Many columns at once, one row a row.
+using Sheet = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+// What does not depend on the covariance's parameters: neighbours, and the distances inside each row's neighbourhood as
+// places in a table of correlations.
+class Field {
+ public:
+  static constexpr int lanes = 8;         // rows that are worked on side by side
+  static constexpr int distances = 4096;  // entries of the table; one more stands for "uncorrelated"
+
+  explicit Field(Sites sites, const Conditioning& conditioning = {});
+
+  Index size() const { return sites_.size(); }
+  const Sites& sites() const { return sites_; }
+  int slots() const { return slots_; }
+  Index groups() const { return (size() + lanes - 1) / lanes; }
+  double spacing() const { return spacing_; }  // m between entries
+  Index neighbour(Index row, int slot) const { return neighbours_[static_cast<std::size_t>(row * slots_ + slot)]; }
+  // Entries of the pairs of group g: pair a (a + 1) / 2 + b is slots a and b < a; with b = a, slot a and the row
+  // itself.
+  const uint16_t* near(Index group) const { return near_.data() + group * pairs() * lanes; }  // between places
+  const uint16_t* joint(Index group) const {
+    return joint_.data() + group * pairs() * lanes;
+  }  // both ends, same anchor
+  Index pairs() const { return Index{slots_} * (slots_ + 1) / 2; }
+
+ private:
+  template <class Each>
+  void each_pair(Each each) const;
+  uint16_t entry(double distance) const;
+
+  Sites sites_;
+  int slots_;
+  std::vector<Index> neighbours_;
+  double spacing_ = 0.01;
+  std::vector<uint16_t> near_, joint_;
+};
+
+// A row's combination with its neighbours: whitened_i = own_i x_i + sum over slots of beside_ia x_neighbour.
+struct Stencil {
+  std::vector<double> own, beside;
+};
+
+class Whitener {
+ public:
+  Whitener(const Field& field, const Covariance& covariance);
+
+  const Covariance& covariance() const { return covariance_; }
+  double log_scale() const { return log_scale_; }  // sum of log own: minus half the log determinant
+  Eigen::MatrixXd operator()(const Eigen::Ref<const Eigen::MatrixXd>& columns) const;
+  Sheet sheet(const Sheet& columns) const;
+
+ private:
+  friend class WhitenerSlopes;
+  const Field* field_;
+  Covariance covariance_;
+  Stencil stencil_;
+  double log_scale_ = 0;
+};
+
+// A whitener with its derivatives by theta.
+class WhitenerSlopes {
+ public:
+  WhitenerSlopes(const Field& field, const Covariance& covariance);
+
+  const Whitener& whitener() const { return whitener_; }
+  const Theta& of_log_scale() const { return of_log_scale_; }
+  // Fisher's information of theta in the rows (Guinness, Statistics and Computing 31, 2021).
+  const Eigen::Matrix4d& information() const { return information_; }
+  Eigen::MatrixXd operator()(int parameter, const Eigen::Ref<const Eigen::MatrixXd>& columns) const;
+
+ private:
+  const Field* field_;
+  Whitener whitener_;
+  std::array<Stencil, 4> stencils_;
+  Theta of_log_scale_ = Theta::Zero();
+  Eigen::Matrix4d information_ = Eigen::Matrix4d::Zero();
+};
+
+}  // namespace muster::noise

@@ -1,0 +1,143 @@
+#include "diagnosis/search/bench.hpp"
+
+#include <stdexcept>
+
+#include "diagnosis/search/scores.hpp"
+#include "diagnosis/search/smooths.hpp"
+#include "diagnosis/search/tail.hpp"
+#include "muster/random.hpp"
+
+namespace muster::search {
+namespace {
+
+noise::Sheet normals_of(Index rows, int count, uint64_t seed) {
+  const Stream stream(combined(key_of("whitened nulls"), seed));
+  noise::Sheet result(rows, count);
+  for (Index i = 0; i < rows; ++i) {
+    for (Index j = 0; j < count; ++j)
+      result(i, j) = static_cast<float>(stream.normal(static_cast<uint64_t>(i), static_cast<uint64_t>(j)));
+  }
+  return result;
+}
+
+}  // namespace
+
+Eigen::MatrixXd Entry::atom(Index k) const {
+  return atoms.middleCols(k * candidate->width, candidate->width).cast<double>();
+}
+
+double Stand::gain(const Eigen::MatrixXd& columns) const {
+  const auto added = noise::basis_of(at.basis.rest(whitener(columns)));
+  return (added.q.transpose() * at.residual).squaredNorm();
+}
+
+Eigen::VectorXd Stand::coefficients(Index columns) const {
+  return at.basis.coefficients(at.basis.q.transpose() * at.y, columns);
+}
+
+Bench::Bench(const Problem& problem, const Options& options)
+    : problem_(problem),
+      options_(options),
+      rows_(problem.readings, options.rows),
+      field_(rows_.sites(problem.readings), {10, 4, options.seed}),
+      base_(rows_.mean(problem.base)),
+      normals_(normals_of(rows_.size(), options.nulls, options.seed)) {
+  impute(6);
+  families = noise::fit_families(field_, y_, base_, options_.prior);
+  fit = families[0];
+  for (const Candidate& candidate : problem.candidates) entries_.push_back(entry(candidate));
+  for (Candidate& candidate : smooths_of(problem)) entries_.push_back(entry(std::move(candidate)));
+  fixed_ = entries_.size();
+}
+
+void Bench::impute(int rounds) {
+  Eigen::MatrixXd design = problem_.base;
+  if (problem_.bounds.any()) {
+    for (const Term& term : terms) {
+      const Index from = design.cols();
+      design.conservativeResize(Eigen::NoChange, from + term.columns.cols());
+      for (Index j = 0; j < term.columns.cols(); ++j) design.col(from + j) = rows_.at_readings(term.columns.col(j));
+    }
+  }
+  y_ = rows_.mean(noise::imputed(problem_.measured, problem_.bounds, design, rounds));
+}
+
+Eigen::MatrixXd Bench::design(const std::function<bool(const Term&)>& left_out) const {
+  Eigen::MatrixXd result = base_;
+  for (const Term& term : terms) {
+    if (left_out && left_out(term)) continue;
+    result.conservativeResize(Eigen::NoChange, result.cols() + term.columns.cols());
+    result.rightCols(term.columns.cols()) = term.columns;
+  }
+  return result;
+}
+
+Eigen::MatrixXd Bench::design_without(const Term& term) const {
+  return design([&](const Term& other) { return &other == &term; });
+}
+
+Stand Bench::stand(const Eigen::MatrixXd& design, const noise::Covariance& covariance) const {
+  noise::Whitener whitener(field_, covariance);
+  noise::Whitened at = noise::whitened(whitener, y_, design, options_.prior);
+  return {std::move(whitener), std::move(at)};
+}
+
+noise::Fit Bench::fitted(const Eigen::MatrixXd& design, const noise::Covariance& start, int steps) const {
+  return noise::fit(field_, y_, design, options_.prior, start, steps);
+}
+
+Entry Bench::entry(Candidate candidate) const {
+  if (candidate.grid.empty() || candidate.covariates.empty())
+    throw std::invalid_argument(candidate.id + ": a candidate has at least one start and one covariate");
+  Entry result{std::make_shared<const Candidate>(std::move(candidate)), {}};
+  const Candidate& c = *result.candidate;
+  result.atoms.resize(rows_.size(), result.count() * c.width);
+  for (Index k = 0; k < result.count(); ++k)
+    result.atoms.middleCols(k * c.width, c.width) = columns_of(c, c.grid[static_cast<std::size_t>(k)]).cast<float>();
+  return result;
+}
+
+void Bench::renew_depending(const Eigen::VectorXd& coefficients) {
+  entries_.resize(fixed_);
+  const Eigen::VectorXd of_base = coefficients.head(base_.cols());
+  if (problem_.depending) {
+    for (Candidate& candidate : problem_.depending(of_base)) entries_.push_back(entry(std::move(candidate)));
+  }
+  Candidate level = smooth_of("level", problem_.base * of_base, 5);
+  level.level_like = true;
+  entries_.push_back(entry(std::move(level)));
+}
+
+const Entry& Bench::entry_of(const Candidate& candidate) const {
+  for (const Entry& entry : entries_) {
+    if (entry.candidate->id == candidate.id) return entry;
+  }
+  throw std::logic_error(candidate.id + ": no such candidate");
+}
+
+Eigen::MatrixXd Bench::columns_of(const Candidate& candidate, const Eigen::VectorXd& theta) const {
+  return rows_.mean(candidate.columns(theta));
+}
+
+double Bench::log_atoms(const Entry& entry, const noise::Sheet& unit) {
+  const auto [place, missing] = log_atoms_.try_emplace(entry.candidate->id, 0.0);
+  if (missing) place->second = log_effective(*entry.candidate, unit, normals_);
+  return place->second;
+}
+
+double Bench::log_p(const Candidate& candidate, double gain, Index width, bool refined) const {
+  return log_atoms(candidate) + (refined ? candidate.charge : 0) + log_tail(gain, static_cast<double>(width)) +
+         (candidate.sign ? -std::log(2.0) : 0);
+}
+
+double Bench::evidence(const Candidate& candidate, double gain, Index width, bool refined) const {
+  return gain / 2 - static_cast<double>(width) / 2 * log_rows() - log_atoms(candidate) -
+         (refined ? candidate.charge : 0);
+}
+
+double Bench::threshold() const {
+  const double alpha = terms.empty() ? options_.first_alpha : options_.further_alpha;
+  return std::log(alpha / static_cast<double>(entries_.size()));
+}
+
+}  // namespace muster::search

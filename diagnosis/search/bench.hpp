@@ -1,0 +1,103 @@
+// What the search works at: rows, their field, the model as it stands (base and terms so far) and its noise.
+#pragma once
+
+#include <map>
+#include <memory>
+
+#include "diagnosis/noise/vecchia.hpp"
+#include "diagnosis/search/problem.hpp"
+
+namespace muster::search {
+
+// A candidate with the row means of its grid's columns, `width` an atom.
+struct Entry {
+  std::shared_ptr<const Candidate> candidate;
+  noise::Sheet atoms;
+
+  Index count() const { return static_cast<Index>(candidate->grid.size()); }
+  Eigen::MatrixXd atom(Index k) const;
+};
+
+// A cause or smooth that the model has been extended by.
+struct Term {
+  std::shared_ptr<const Candidate> candidate;
+  Eigen::VectorXd theta;
+  Eigen::MatrixXd columns;  // row means
+  double gain = 0;          // fall of the deviance beside all other terms
+  double evidence = 0;      // nats
+  double log_p = 0;
+  bool as_smooth = false;  // a name withdrawn: what stands is its covariate
+
+  bool smooth() const { return as_smooth || candidate->kind == Kind::smooth; }
+  std::string id() const { return as_smooth ? "~" + candidate->own() : candidate->id; }
+};
+
+// A design whitened at one covariance.
+struct Stand {
+  noise::Whitener whitener;
+  noise::Whitened at;
+
+  // The fall of the deviance if these columns (row means) are added.
+  double gain(const Eigen::MatrixXd& columns) const;
+  Eigen::VectorXd coefficients(Index columns) const;
+};
+
+class Bench {
+ public:
+  Bench(const Problem& problem, const Options& options);
+
+  const Problem& problem() const { return problem_; }
+  const Options& options() const { return options_; }
+  const noise::Rows& rows() const { return rows_; }
+  const noise::Field& field() const { return field_; }
+  double log_rows() const { return std::log(static_cast<double>(rows_.size())); }
+
+  noise::Fit fit;                    // of the noise beside the design
+  std::vector<noise::Fit> families;  // of the first fit, the best one first
+  std::vector<Term> terms;
+
+  const Eigen::VectorXd& y() const { return y_; }
+  // Readings with bounds filled in anew from the model as it stands.
+  void impute(int rounds);
+
+  // Base columns and terms, without the terms that `left_out` says.
+  Eigen::MatrixXd design(const std::function<bool(const Term&)>& left_out = {}) const;
+  Eigen::MatrixXd design_without(const Term& term) const;
+  Index base_columns() const { return base_.cols(); }
+  const Eigen::MatrixXd& base() const { return base_; }
+
+  Stand stand(const Eigen::MatrixXd& design) const { return stand(design, fit.covariance); }
+  Stand stand(const Eigen::MatrixXd& design, const noise::Covariance& covariance) const;
+  noise::Fit fitted(const Eigen::MatrixXd& design, const noise::Covariance& start, int steps) const;
+  void refit(int steps = 6) { fit = fitted(design(), fit.covariance, steps); }
+
+  // All candidates: the given ones, smooths, and those that depend on the model as it stands.
+  const std::vector<Entry>& entries() const { return entries_; }
+  void renew_depending(const Eigen::VectorXd& coefficients);
+  const Entry& entry_of(const Candidate& candidate) const;
+  Eigen::MatrixXd columns_of(const Candidate& candidate, const Eigen::VectorXd& theta) const;
+
+  // Effective number of atoms, from nulls; worked out once a candidate.
+  double log_atoms(const Entry& entry, const noise::Sheet& unit);
+  double log_atoms(const Candidate& candidate) const { return log_atoms_.at(candidate.id); }
+  double log_p(const Candidate& candidate, double gain, Index width, bool refined) const;
+  double evidence(const Candidate& candidate, double gain, Index width, bool refined) const;
+  // log p below which a term is accepted.
+  double threshold() const;
+
+ private:
+  Entry entry(Candidate candidate) const;
+
+  const Problem& problem_;
+  Options options_;
+  noise::Rows rows_;
+  noise::Field field_;
+  Eigen::MatrixXd base_;
+  Eigen::VectorXd y_;
+  std::vector<Entry> entries_;
+  std::size_t fixed_ = 0;  // entries before those that depend on the model
+  noise::Sheet normals_;
+  std::map<std::string, double> log_atoms_;
+};
+
+}  // namespace muster::search

@@ -1,0 +1,61 @@
+// What may be wrong with a mean: a named cause or a generic smooth, as columns on the readings over a grid of places,
+// times or shapes. The engine whitens, scores, refines and names; what the columns mean is the candidate's business.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace muster::search {
+
+using Eigen::Index;
+
+enum class Kind { named = 1, smooth };
+
+// One object that a class of candidates found: id of the candidate and where.
+struct Piece {
+  std::string id;
+  Eigen::VectorXd theta;
+};
+
+struct Candidate {
+  std::string id;
+  Kind kind = Kind::named;
+  std::vector<std::string> covariates;  // what it is a function of, its own one first
+  int width = 1;                        // columns of one atom
+  int sign = 0;                         // of the coefficient, where physics fixes it (width 1 only)
+
+  // One atom a theta; at least one (a candidate without parameters has one empty theta).
+  std::vector<Eigen::VectorXd> grid;
+  // One row a reading, `width` columns. Must not depend on anything but theta.
+  std::function<Eigen::MatrixXd(const Eigen::VectorXd& theta)> columns;
+  // A smooth with that many times the functions; may be empty.
+  std::function<Eigen::MatrixXd(int times)> wider;
+  std::function<std::string(const Eigen::VectorXd& theta)> label;  // empty: the id
+
+  // Continuous refinement: bounds of theta and the first simplex; step 0 holds an entry fixed. All empty: none.
+  Eigen::VectorXd lower, upper, step;
+  int starts = 1;         // places to refine from
+  int evaluations = 110;  // of the columns, a start
+  double charge = 0;      // nats that refinement costs beyond the grid (from nulls refined alike)
+  // The share of its gain that a theta may keep: below 1 where it cannot stand. May be empty.
+  std::function<double(const Eigen::VectorXd& theta)> admitted;
+
+  std::set<std::string> stands_for;  // covariates of smooths that it may take the place of
+  std::string pieces;  // candidates of one such class may find one object in pieces ("place"); empty: none
+  // Thetas to try as the one object that these pieces are. May be empty.
+  std::function<std::vector<Eigen::VectorXd>(const std::vector<Piece>&)> spanning;
+  bool slow = false;        // varies so slowly for one transmitter that the field can swallow it
+  bool time_like = false;   // a function of time: an observed column that does as well comes first
+  bool observed = false;    // smooth of a column or factor of the data
+  bool level_like = false;  // a function of the level: clipping imitates it
+  bool offset = false;      // one constant a device: seen beside clipping too
+
+  bool refinable() const { return step.size() > 0 && step.any(); }
+  std::string label_of(const Eigen::VectorXd& theta) const { return label ? label(theta) : id; }
+  const std::string& own() const { return covariates.front(); }
+};
+
+}  // namespace muster::search

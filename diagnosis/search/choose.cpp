@@ -1,0 +1,92 @@
+#include "diagnosis/search/choose.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace muster::search {
+namespace {
+
+// Twice and four times the functions where Bayes' criterion wins more than 3 nats by it.
+Lead grown(const Bench& bench, const Stand& stand, Lead lead) {
+  const Candidate& c = lead.candidate();
+  if (!c.wider) return lead;
+  for (const int times : {2, 4}) {
+    Eigen::MatrixXd columns = bench.rows().mean(c.wider(times));
+    const double gain = stand.gain(columns);
+    const double evidence = bench.evidence(c, gain, columns.cols(), false);
+    if (evidence <= lead.evidence + 3) break;
+    lead.columns = std::move(columns);
+    lead.gain = gain;
+    lead.evidence = evidence;
+  }
+  return lead;
+}
+
+const Lead* same_entry(const std::vector<Lead>& leads, const Lead& lead) {
+  const auto found = std::find_if(leads.begin(), leads.end(), [&](const Lead& o) { return o.entry == lead.entry; });
+  return found == leads.end() ? nullptr : &*found;
+}
+
+// A cause refined at the covariance of this round; what it gained in a second look stays its own.
+Lead at_its_best(const Bench& bench, const Stand& stand, const Lead& plain, const Lead* passing) {
+  if (passing && passing->refined) return *passing;
+  const Lead& from = passing ? *passing : plain;
+  Lead result = refined(bench, stand, from, false);
+  result.gain = from.gain + std::max(0.0, result.gain - stand.gain(from.columns));
+  result.log_p = bench.log_p(from.candidate(), result.gain, from.candidate().width, true);
+  result.evidence = bench.evidence(from.candidate(), result.gain, from.candidate().width, true);
+  return result;
+}
+
+void to_front(std::vector<Lead>& pool, std::vector<Lead>::iterator chosen) {
+  std::rotate(pool.begin(), chosen, chosen + 1);
+}
+
+// A smooth gives way to a cause of its own covariate that explains nearly all of it.
+void prefer_names(std::vector<Lead>& pool, double share) {
+  if (pool[0].candidate().kind != Kind::smooth) return;
+  const auto chosen = std::find_if(pool.begin(), pool.end(), [&](const Lead& lead) {
+    return lead.candidate().kind == Kind::named && lead.gain >= share * pool[0].gain &&
+           lead.candidate().stands_for.count(pool[0].candidate().own()) > 0;
+  });
+  if (chosen != pool.end()) to_front(pool, chosen);
+}
+
+// A function of time gives way to an observed column that does as well for its number of functions.
+void prefer_observed(std::vector<Lead>& pool) {
+  if (!pool[0].candidate().time_like) return;
+  const double least = pool[0].gain - (pool[0].candidate().width + 1);
+  const auto chosen = std::find_if(pool.begin(), pool.end(), [&](const Lead& lead) {
+    return lead.candidate().observed && lead.gain - static_cast<double>(lead.columns.cols()) >= least;
+  });
+  if (chosen != pool.end()) to_front(pool, chosen);
+}
+
+}  // namespace
+
+std::vector<Lead> compared(const Bench& bench, const Stand& stand, const std::vector<Lead>& passing,
+                           const std::vector<Lead>& all, const std::function<bool(const Candidate&)>& usable) {
+  std::vector<Lead> pool;
+  double best_smooth = 1e300;
+  for (const Lead& lead : passing) {
+    if (lead.candidate().kind != Kind::smooth || pool.size() >= 3) continue;
+    pool.push_back(grown(bench, stand, lead));
+    best_smooth = pool.size() == 1 ? pool[0].evidence : std::max(best_smooth, pool.back().evidence);
+  }
+  int named = 0;
+  for (const Lead& lead : all) {
+    if (lead.candidate().kind != Kind::named || !usable(lead.candidate()) || named >= 4) continue;
+    ++named;
+    const Lead* const passed = same_entry(passing, lead);
+    if (!passed && lead.evidence <= best_smooth - 400) continue;
+    Lead best = at_its_best(bench, stand, lead, passed);
+    if (best.log_p < bench.threshold()) pool.push_back(std::move(best));
+  }
+  if (pool.empty()) pool = passing;
+  by_evidence(pool);
+  prefer_names(pool, bench.options().share);
+  prefer_observed(pool);
+  return pool;
+}
+
+}  // namespace muster::search

@@ -1,0 +1,124 @@
+#include "diagnosis/search/clean_up.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/search/integrated.hpp"
+#include "diagnosis/search/replace.hpp"
+
+namespace muster::search {
+namespace {
+
+// One at a time, the weakest term whose evidence beside the others is below one nat.
+void drop_backward(Bench& bench) {
+  while (bench.terms.size() > 1) {
+    measure_gains(bench);
+    const auto worst = std::min_element(bench.terms.begin(), bench.terms.end(),
+                                        [](const Term& a, const Term& b) { return a.evidence < b.evidence; });
+    if (worst->evidence >= 1) return;
+    bench.terms.erase(worst);
+    bench.refit();
+  }
+}
+
+struct Company {
+  double strongest = 0;     // gain of the strongest term
+  double smooths = 0;       // joint gain of all smooths
+  double stronger_kin = 0;  // gain of the strongest stronger term on the same covariate
+};
+
+// Leftovers of strong terms are not named.
+bool is_halo(const Term& term, const Company& company, bool clipped) {
+  const bool named = !term.smooth();
+  if (term.gain < 0.05 * company.stronger_kin) return true;
+  if (!term.candidate->pieces.empty() || term.candidate->own() == "map") {
+    if (term.gain < std::min(30.0, 0.25 * company.stronger_kin)) return true;
+  }
+  if (named && term.gain < 0.08 * company.smooths) return true;
+  if (named && term.gain < std::min(50.0, 0.01 * company.strongest)) return true;
+  return clipped && term.gain < 60 && !term.candidate->offset;
+}
+
+void set_halos_aside(Bench& bench, std::vector<Term>& aside) {
+  if (bench.terms.size() < 2) return;
+  measure_gains(bench);
+  Company all;
+  Eigen::MatrixXd smooths(bench.rows().size(), 0);
+  for (const Term& term : bench.terms) {
+    all.strongest = std::max(all.strongest, term.gain);
+    if (term.smooth()) smooths = beside(smooths, term.columns);
+  }
+  if (smooths.cols()) all.smooths = bench.stand(bench.design([](const Term& t) { return t.smooth(); })).gain(smooths);
+  std::vector<Term> kept;
+  for (const Term& term : bench.terms) {
+    Company company = all;
+    for (const Term& other : bench.terms) {
+      if (other.candidate->own() == term.candidate->own() && other.gain > term.gain)
+        company.stronger_kin = std::max(company.stronger_kin, other.gain);
+    }
+    (is_halo(term, company, bench.problem().bounds.any()) ? aside : kept).push_back(term);
+  }
+  bench.terms = std::move(kept);
+}
+
+// Beside an unexplained structure on its own covariate a name is one more guess at that structure.
+void withdraw_names_beside_smooths(Bench& bench) {
+  std::set<std::string> unexplained;
+  for (const Term& term : bench.terms) {
+    if (term.smooth()) unexplained.insert(term.candidate->own());
+  }
+  for (Term& term : bench.terms)
+    term.as_smooth = term.as_smooth || (!term.smooth() && unexplained.count(term.candidate->own()));
+}
+
+// Each name again, beside all the others.
+void test_each(Bench& bench, std::vector<Term>& aside, std::vector<Trial>& trials) {
+  const double threshold = std::log(bench.options().further_alpha / static_cast<double>(bench.entries().size()));
+  for (std::size_t k = 0; k < bench.terms.size() && bench.terms.size() > 1;) {
+    const Term term = bench.terms[k];
+    const Candidate& c = *term.candidate;
+    const Eigen::MatrixXd rest = bench.design_without(bench.terms[k]);
+    const double gain = bench.stand(rest).gain(term.columns);
+    const double log_p = bench.log_p(c, gain, term.columns.cols(), true);
+    if (term.smooth() || log_p < -40) {
+      ++k;
+      continue;
+    }
+    // The fit of the whole design, its columns in another order: the value does not depend on it.
+    const double integrated = integrated_log_p(bench, bench.fit, rest, term.columns, log_tests(bench, c));
+    if (integrated <= threshold) {
+      ++k;
+      continue;
+    }
+    trials.push_back(
+        {c.id, c.label_of(term.theta), gain, log_p, integrated, false, "not beyond chance beside the others"});
+    aside.push_back(term);
+    bench.terms.erase(bench.terms.begin() + static_cast<std::ptrdiff_t>(k));
+    bench.refit();
+  }
+}
+
+}  // namespace
+
+void measure_gains(Bench& bench) {
+  for (Term& term : bench.terms) {
+    term.gain = bench.stand(bench.design_without(term)).gain(term.columns);
+    term.evidence = bench.evidence(*term.candidate, term.gain, term.columns.cols(), false);
+  }
+}
+
+std::vector<Term> clean_up(Bench& bench, std::vector<Trial>& trials) {
+  std::vector<Term> aside;
+  drop_backward(bench);
+  replace_smooths(bench);
+  set_halos_aside(bench, aside);
+  withdraw_names_beside_smooths(bench);
+  if (!bench.terms.empty()) bench.refit();
+  test_each(bench, aside, trials);
+  measure_gains(bench);
+  std::stable_sort(bench.terms.begin(), bench.terms.end(),
+                   [](const Term& a, const Term& b) { return a.gain > b.gain; });
+  return aside;
+}
+
+}  // namespace muster::search

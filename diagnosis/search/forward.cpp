@@ -1,0 +1,150 @@
+#include "diagnosis/search/forward.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/search/choose.hpp"
+#include "diagnosis/search/clipping.hpp"
+#include "diagnosis/search/integrated.hpp"
+#include "diagnosis/search/merge.hpp"
+#include "diagnosis/search/second_look.hpp"
+
+namespace muster::search {
+namespace {
+
+struct Blocked {
+  std::set<std::string> now;       // until the model changes
+  std::set<std::string> for_good;  // cannot be told from clipping
+};
+
+// The share of the gain that comes from anchors other than the strongest one.
+double share_of_others(const Bench& bench, const Stand& stand, const Eigen::MatrixXd& columns) {
+  const auto added = noise::basis_of(stand.at.basis.rest(stand.whitener(columns)));
+  const Eigen::VectorXd& r = stand.at.residual;
+  const Eigen::VectorXd left = r - added.q * (added.q.transpose() * r);
+  std::map<int, double> by_anchor;
+  double all = 0, most = 0;
+  for (Index i = 0; i < r.size(); ++i) {
+    const double won = r[i] * r[i] - left[i] * left[i];
+    all += won;
+    by_anchor[bench.field().sites().radio[static_cast<std::size_t>(i)]] += won;
+  }
+  for (const auto& [anchor, won] : by_anchor) most = std::max(most, won);
+  return 1 - most / all;
+}
+
+// The noise with the lead's columns inside; after a large effect also from scratch, since the old fit may be stuck.
+noise::Fit fit_with(const Bench& bench, const Lead& lead, const Eigen::MatrixXd& both) {
+  const bool large = lead.columns.cols() > 2 || lead.gain > 60;
+  noise::Fit fit = bench.fitted(both, bench.fit.covariance, large ? 14 : 6);
+  if (lead.gain <= 200) return fit;
+  const auto start = noise::default_start(bench.y(), both, fit.covariance.family);
+  const noise::Fit fresh = bench.fitted(both, start, 20);
+  return fresh.value < fit.value ? fresh : fit;
+}
+
+// The name must survive what is not known of the covariance, the lone transmitter and the clip.
+Trial tried(const Bench& bench, const Lead& lead, const noise::Fit& fit, const Eigen::MatrixXd& design) {
+  const Candidate& c = lead.candidate();
+  const Stand stand = bench.stand(design, fit.covariance);
+  Trial trial{c.id, c.label_of(lead.theta), stand.gain(lead.columns), 0, 0, false, ""};
+  trial.log_p = bench.log_p(c, trial.gain, lead.columns.cols(), true);
+  trial.integrated_log_p = trial.log_p;
+  if (trial.log_p > -40)
+    trial.integrated_log_p = integrated_log_p(bench, fit, design, lead.columns, log_tests(bench, c));
+  if (!c.pieces.empty() && share_of_others(bench, stand, lead.columns) < 0.08)
+    trial.integrated_log_p += bench.options().one_radio_charge;
+  if (c.level_like && bench.problem().bounds.any() &&
+      !stands_clear_of_clip(bench, fit.covariance, design, lead.columns))
+    trial.reason = "cannot be told from clipping";
+  else if (trial.integrated_log_p > bench.threshold())
+    trial.reason = "not beyond chance";
+  trial.accepted = trial.reason.empty();
+  return trial;
+}
+
+// Places and times again, now that the noise is fitted beside them.
+void refine_again(Bench& bench, std::size_t at) {
+  if (bench.terms[at].smooth() || !bench.terms[at].candidate->refinable()) return;
+  for (int round = 0; round < 3; ++round) {
+    Term& term = bench.terms[at];
+    const Stand stand = bench.stand(bench.design_without(term));
+    Lead lead{&bench.entry_of(*term.candidate), term.theta, term.columns, stand.gain(term.columns), 0, 0, false, {}};
+    const Lead better = refined(bench, stand, lead, true);
+    if (better.gain < lead.gain + 2) return;
+    term.theta = better.theta;
+    term.columns = better.columns;
+    bench.refit(4);
+  }
+}
+
+// What an effect hides of the field shows once the effect is in the model: the family is chosen again.
+void choose_family_again(Bench& bench) {
+  constexpr double advantage = 2;  // nats to leave a family
+  const Eigen::MatrixXd design = bench.design();
+  noise::Fit best = bench.fit;
+  for (const noise::Fit& other : bench.families) {
+    if (other.covariance.family == bench.fit.covariance.family) continue;
+    noise::Covariance start{other.covariance.family, bench.fit.covariance.theta};
+    start.theta[1] += noise::log_scale_of(other.covariance.family) - noise::log_scale_of(bench.fit.covariance.family);
+    const noise::Fit fit = bench.fitted(design, start, 12);
+    if (fit.value < best.value - (best.covariance.family == bench.fit.covariance.family ? advantage : 0)) best = fit;
+  }
+  bench.fit = best;
+}
+
+// False if the lead fails.
+bool enter(Bench& bench, const Lead& lead, Blocked& blocked, std::vector<Trial>& trials) {
+  const Eigen::MatrixXd design = bench.design();
+  const noise::Fit fit = fit_with(bench, lead, beside(design, lead.columns));
+  trials.push_back(tried(bench, lead, fit, design));
+  const Trial& trial = trials.back();
+  if (!trial.accepted) {
+    blocked.now.insert(trial.id);
+    if (trial.integrated_log_p <= bench.threshold()) blocked.for_good.insert(trial.id);
+    return false;
+  }
+  bench.fit = fit;
+  bench.terms.push_back(
+      {lead.entry->candidate, lead.theta, lead.columns, trial.gain, lead.evidence, trial.integrated_log_p});
+  blocked.now = blocked.for_good;
+  if (trial.gain > 30) choose_family_again(bench);
+  refine_again(bench, bench.terms.size() - 1);
+  const std::string pieces = bench.terms.back().candidate->pieces;
+  if (!pieces.empty() && merge_pieces(bench, pieces)) bench.refit();
+  return true;
+}
+
+bool usable(const Bench& bench, const Blocked& blocked, const Candidate& c) {
+  if (blocked.now.count(c.id)) return false;
+  return std::none_of(bench.terms.begin(), bench.terms.end(), [&](const Term& term) {
+    const bool again = term.candidate->id == c.id && c.grid.size() == 1;
+    return again || (term.smooth() && term.candidate->own() == c.own());
+  });
+}
+
+}  // namespace
+
+void forward(Bench& bench, std::vector<Trial>& trials) {
+  Blocked blocked;
+  const auto may_enter = [&](const Candidate& c) { return usable(bench, blocked, c); };
+  for (int round = 0; round < 40; ++round) {
+    if (!bench.terms.empty() && bench.problem().bounds.any()) bench.impute(4);
+    const Eigen::MatrixXd design = bench.design();
+    const Stand stand = bench.stand(design);
+    bench.renew_depending(stand.coefficients(design.cols()));
+    const std::vector<Lead> all = leads(bench, stand);
+    if (static_cast<int>(bench.terms.size()) >= bench.options().most_terms) return;
+    const auto passes = [&](const Lead& lead) { return lead.log_p < bench.threshold() && may_enter(lead.candidate()); };
+    std::vector<Lead> passing;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(passing), passes);
+    if (passing.empty()) {
+      const std::vector<Lead> looked = second_look(bench, stand, all, may_enter);
+      std::copy_if(looked.begin(), looked.end(), std::back_inserter(passing), passes);
+    }
+    if (passing.empty()) return;
+    enter(bench, compared(bench, stand, passing, all, may_enter).front(), blocked, trials);
+  }
+}
+
+}  // namespace muster::search

@@ -1,0 +1,104 @@
+#include "diagnosis/search/held_out.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "diagnosis/noise/basis.hpp"
+#include "muster/random.hpp"
+
+namespace muster::search {
+namespace {
+
+constexpr int most_folds = 5, resamples = 1000;
+constexpr double decorrelations = 3;  // a block's side
+
+std::vector<int> blocks_of(const noise::Sites& sites, double side) {
+  const Eigen::Vector3d corner = sites.place.rowwise().minCoeff();
+  std::map<std::array<long, 3>, int> number;
+  std::vector<std::array<long, 3>> cells;
+  for (Index i = 0; i < sites.size(); ++i) {
+    const Eigen::Vector3d at = (sites.place.col(i) - corner) / side;
+    cells.push_back(
+        {std::lround(std::floor(at.x())), std::lround(std::floor(at.y())), std::lround(std::floor(at.z()))});
+    number[cells.back()] = 0;
+  }
+  int next = 0;
+  for (auto& [cell, k] : number) k = next++;
+  std::vector<int> result;
+  for (const auto& cell : cells) result.push_back(number.at(cell));
+  return result;
+}
+
+// Blocks in a random order, dealt in turn.
+std::vector<int> fold_of_block(int blocks, uint64_t seed) {
+  const Stream stream(combined(key_of("held-out folds"), seed));
+  std::vector<int> order(static_cast<std::size_t>(blocks)), result(order.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    return stream.uniform(static_cast<uint64_t>(a)) < stream.uniform(static_cast<uint64_t>(b));
+  });
+  for (std::size_t k = 0; k < order.size(); ++k)
+    result[static_cast<std::size_t>(order[k])] = static_cast<int>(k) % std::min(blocks, most_folds);
+  return result;
+}
+
+}  // namespace
+
+Folds::Fold::Fold(const noise::Sites& sites, const noise::Covariance& covariance, std::vector<Index> in,
+                  std::vector<Index> out)
+    : fitted(std::move(in)), left_out(std::move(out)), field(sites.of(fitted)), whitener(field, covariance) {}
+
+Folds::Folds(const noise::Sites& sites, const noise::Covariance& covariance, uint64_t seed) : seed_(seed) {
+  block_of_ = blocks_of(sites, decorrelations * covariance.decorrelation());
+  blocks_ = *std::max_element(block_of_.begin(), block_of_.end()) + 1;
+  if (!possible()) return;
+  const std::vector<int> fold = fold_of_block(blocks_, seed);
+  for (int k = 0; k < std::min(blocks_, most_folds); ++k) {
+    std::vector<Index> in, out;
+    for (Index i = 0; i < sites.size(); ++i)
+      (fold[static_cast<std::size_t>(block_of_[static_cast<std::size_t>(i)])] == k ? out : in).push_back(i);
+    folds_.push_back(std::make_unique<Fold>(sites, covariance, std::move(in), std::move(out)));
+  }
+}
+
+Eigen::VectorXd Folds::squared_errors(const Eigen::VectorXd& y, const Eigen::MatrixXd& design) const {
+  Eigen::VectorXd result(y.size());
+  for (const auto& fold : folds_) {
+    const Eigen::MatrixXd x = fold->whitener(design(fold->fitted, Eigen::all));
+    const auto basis = noise::basis_of(x);
+    const Eigen::VectorXd explained = basis.q.transpose() * fold->whitener(y(fold->fitted)).col(0);
+    const Eigen::VectorXd mean = design(fold->left_out, Eigen::all) * basis.coefficients(explained, design.cols());
+    result(fold->left_out) = (y(fold->left_out) - mean).cwiseAbs2();
+  }
+  return result;
+}
+
+HeldOut Folds::compared(const Eigen::VectorXd& before, const Eigen::VectorXd& after) const {
+  std::vector<double> won(static_cast<std::size_t>(blocks_)), rows(won.size()), means;
+  for (Index i = 0; i < before.size(); ++i) {
+    const auto block = static_cast<std::size_t>(block_of_[static_cast<std::size_t>(i)]);
+    won[block] += before[i] - after[i];
+    rows[block] += 1;
+  }
+  const Stream stream(combined(key_of("block bootstrap"), seed_));
+  for (uint64_t k = 0; k < resamples; ++k) {
+    double sum = 0, count = 0;
+    for (uint64_t j = 0; j < won.size(); ++j) {
+      const auto block = static_cast<std::size_t>(stream.uniform(k, j) * static_cast<double>(won.size()));
+      sum += won[block];
+      count += rows[block];
+    }
+    means.push_back(sum / count);
+  }
+  std::sort(means.begin(), means.end());
+  return {std::sqrt(before.mean()),
+          std::sqrt(after.mean()),
+          (before - after).mean(),
+          means[resamples / 40],
+          means[resamples - 1 - resamples / 40],
+          blocks_};
+}
+
+}  // namespace muster::search

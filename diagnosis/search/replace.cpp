@@ -1,0 +1,106 @@
+#include "diagnosis/search/replace.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "diagnosis/search/integrated.hpp"
+#include "diagnosis/search/scores.hpp"
+
+namespace muster::search {
+namespace {
+
+struct Replacement {
+  Bench& bench;
+  std::string covariate;
+  Eigen::MatrixXd rest;  // design without the terms of this covariate
+  double group_gain;     // of all of those
+
+  Eigen::MatrixXd with(const std::vector<Term>& found, const Term* without = nullptr) const {
+    Eigen::MatrixXd result = rest;
+    for (const Term& term : found) {
+      if (&term != without) result = beside(result, term.columns);
+    }
+    return result;
+  }
+
+  // The cause with most evidence beside what was found; the second one must share a covariate.
+  std::optional<Term> best(const std::vector<Term>& found) const {
+    const Stand stand = bench.stand(with(found));
+    std::optional<Term> result;
+    for (const Lead& lead : leads(bench, stand)) {
+      const Candidate& c = lead.candidate();
+      if (c.kind != Kind::named || !fits(c, found)) continue;
+      const bool worth = lead.gain > 0.15 * group_gain && c.pieces.empty();
+      const Lead at = worth ? refined(bench, stand, lead, true) : lead;
+      const double evidence = bench.evidence(c, at.gain, c.width, false);
+      if (!result || evidence > result->evidence)
+        result = Term{lead.entry->candidate, at.theta, at.columns, at.gain, evidence, 0};
+    }
+    return result;
+  }
+
+  bool fits(const Candidate& c, const std::vector<Term>& found) const {
+    if (found.empty()) return true;
+    return c.id != found[0].candidate->id && (c.own() == covariate || c.own() == found[0].candidate->own());
+  }
+
+  // Two causes share what there is: each again beside the other.
+  void refine_in_turn(std::vector<Term>& found) const {
+    for (int round = 0; round < 2; ++round) {
+      for (Term& term : found) {
+        if (!term.candidate->pieces.empty() || !term.candidate->refinable()) continue;
+        const Stand stand = bench.stand(with(found, &term));
+        Lead lead{
+            &bench.entry_of(*term.candidate), term.theta, term.columns, stand.gain(term.columns), 0, 0, false, {}};
+        lead = refined(bench, stand, lead, true);
+        term.theta = lead.theta;
+        term.columns = lead.columns;
+      }
+    }
+  }
+
+  // Empty where the smooth has to stay.
+  std::vector<Term> found() const {
+    std::vector<Term> result;
+    for (int number = 1; number <= 2; ++number) {
+      std::optional<Term> next = best(result);
+      if (!next || next->evidence < 3) return {};
+      if (number == 1 && next->candidate->stands_for.count(covariate) == 0) return {};
+      result.push_back(std::move(*next));
+      if (number == 2) refine_in_turn(result);
+      const Eigen::MatrixXd all = with(result).rightCols(with(result).cols() - rest.cols());
+      if (bench.stand(rest).gain(all) >= bench.options().share * group_gain) return result;
+    }
+    return {};
+  }
+};
+
+}  // namespace
+
+void replace_smooths(Bench& bench) {
+  std::vector<std::string> covariates;
+  for (const Term& term : bench.terms) {
+    if (term.smooth() && std::find(covariates.begin(), covariates.end(), term.candidate->own()) == covariates.end())
+      covariates.push_back(term.candidate->own());
+  }
+  for (const std::string& covariate : covariates) {
+    const auto in_group = [&](const Term& term) { return term.candidate->own() == covariate; };
+    const bool has_names = std::any_of(bench.entries().begin(), bench.entries().end(), [&](const Entry& entry) {
+      return entry.candidate->stands_for.count(covariate) > 0;
+    });
+    if (!has_names) continue;
+    Eigen::MatrixXd group(bench.rows().size(), 0);
+    for (const Term& term : bench.terms) {
+      if (in_group(term)) group = beside(group, term.columns);
+    }
+    const Eigen::MatrixXd rest = bench.design(in_group);
+    const Replacement replacement{bench, covariate, rest, bench.stand(rest).gain(group)};
+    const std::vector<Term> found = replacement.found();
+    // Names beside the smooth on the same covariate go in either case: they were guesses at the same structure.
+    std::erase_if(bench.terms, [&](const Term& term) { return in_group(term) && (!term.smooth() || !found.empty()); });
+    bench.terms.insert(bench.terms.end(), found.begin(), found.end());
+    bench.refit();
+  }
+}
+
+}  // namespace muster::search

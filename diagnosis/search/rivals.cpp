@@ -1,0 +1,101 @@
+#include "diagnosis/search/rivals.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "diagnosis/search/integrated.hpp"
+#include "diagnosis/search/refine.hpp"
+
+namespace muster::search {
+namespace {
+
+constexpr double near_gap = 3;         // nats
+constexpr double worth_refining = 15;  // nats
+constexpr double inseparable = 12;
+
+// The term's fitted effect at rows, dB.
+Eigen::VectorXd effect_of(const Bench& bench, const Term& term) {
+  const Eigen::MatrixXd design = beside(bench.design_without(term), term.columns);
+  return term.columns * bench.stand(design).coefficients(design.cols()).tail(term.columns.cols());
+}
+
+// How much of the whitened effect the rival's best theta explains.
+std::pair<Eigen::VectorXd, double> explained_by(const Bench& bench, const Stand& rest, const Entry& entry,
+                                                const Eigen::VectorXd& effect) {
+  const Candidate& c = *entry.candidate;
+  Index at = 0;
+  const double best = gains(c, unit_atoms(entry, rest), effect).maxCoeff(&at);
+  const Eigen::VectorXd& start = c.grid[static_cast<std::size_t>(at)];
+  if (!c.refinable()) return {start, best};
+  return climbed(c, start, std::min(60, c.evaluations), [&](const Eigen::VectorXd& theta) {
+    const double admitted = c.admitted ? c.admitted(theta) : 1;
+    const auto added = noise::basis_of(rest.at.basis.rest(rest.whitener(bench.columns_of(c, theta))));
+    return admitted * (added.q.transpose() * effect).squaredNorm();
+  });
+}
+
+const Candidate& planned(const Plan& plan, const std::string& id) {
+  for (const Candidate& c : plan.candidates) {
+    if (c.id == id) return c;
+  }
+  throw std::invalid_argument(plan.say + ": the plan has no candidate " + id);
+}
+
+Eigen::MatrixXd above(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  Eigen::MatrixXd result(a.rows() + b.rows(), a.cols());
+  result << a, b;
+  return result;
+}
+
+}  // namespace
+
+std::vector<Rival> rivals_of(Bench& bench, const Term& term) {
+  const Stand rest = bench.stand(bench.design_without(term));
+  const Eigen::VectorXd effect = rest.at.basis.rest(rest.whitener(effect_of(bench, term)));
+  const double evidence = bench.evidence(*term.candidate, rest.gain(term.columns), term.columns.cols(), false);
+  std::vector<Rival> result;
+  for (const Lead& plain : leads(bench, rest)) {
+    const Candidate& c = plain.candidate();
+    if (c.id == term.candidate->id) continue;
+    const bool close = evidence - plain.evidence < worth_refining && c.refinable();
+    const Lead lead = close ? refined(bench, rest, plain, true) : plain;
+    const auto [theta, explained] = explained_by(bench, rest, *plain.entry, effect);
+    Rival rival{c.id, "", lead.theta, evidence - lead.evidence, effect.squaredNorm() - explained};
+    if (rival.evidence_gap >= near_gap) rival.theta = theta;  // what it can be mistaken for, not what it is best at
+    rival.label = c.label_of(rival.theta);
+    const bool confused = c.kind == Kind::named && rival.separability < inseparable;
+    if (rival.evidence_gap < near_gap || confused) result.push_back(std::move(rival));
+  }
+  return result;
+}
+
+double predicted_separability(const Bench& bench, const Term& term, const std::string& rival, const Plan& plan) {
+  const noise::Rows rows(plan.readings, bench.options().rows);
+  const noise::Field field(bench.field().sites().with(rows.sites(plan.readings)), {10, 4, bench.options().seed});
+  const noise::Whitener whitener(field, bench.fit.covariance);
+  Eigen::MatrixXd old = bench.base(), added = rows.mean(plan.base);
+  for (const Term& other : bench.terms) {
+    if (&other == &term || other.smooth()) continue;  // a smooth says nothing of readings elsewhere
+    old = beside(old, other.columns);
+    added = beside(added, rows.mean(planned(plan, other.candidate->id).columns(other.theta)));
+  }
+  const auto basis = noise::basis_of(whitener(above(old, added)));
+  const Eigen::MatrixXd design = beside(bench.design_without(term), term.columns);
+  const Eigen::VectorXd coefficients = bench.stand(design).coefficients(design.cols()).tail(term.columns.cols());
+  const Eigen::MatrixXd columns = above(term.columns, rows.mean(planned(plan, term.candidate->id).columns(term.theta)));
+  const Eigen::VectorXd effect = basis.rest(whitener(columns * coefficients));
+  const Candidate& other = planned(plan, rival);
+  const Entry* entry = nullptr;
+  for (const Entry& e : bench.entries()) entry = e.candidate->id == rival ? &e : entry;
+  if (!entry) throw std::invalid_argument(plan.say + ": the problem has no candidate " + rival);
+  double least = effect.squaredNorm();
+  for (Index k = 0; k < entry->count(); ++k) {
+    const Eigen::VectorXd& theta = entry->candidate->grid[static_cast<std::size_t>(k)];
+    const Eigen::MatrixXd x = basis.rest(whitener(above(entry->atom(k), rows.mean(other.columns(theta)))));
+    const auto of_rival = noise::basis_of(x);
+    least = std::min(least, effect.squaredNorm() - (of_rival.q.transpose() * effect).squaredNorm());
+  }
+  return least;
+}
+
+}  // namespace muster::search

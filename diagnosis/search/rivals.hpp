@@ -1,0 +1,30 @@
+// What else could be meant: candidates that explain as much, and how well the data tell them apart.
+#pragma once
+
+#include "diagnosis/search/scores.hpp"
+
+namespace muster::search {
+
+struct Rival {
+  std::string id, label;
+  Eigen::VectorXd theta;
+  double evidence_gap = 0;  // nats that the finding is ahead
+  double separability =
+      0;  // D: whitened energy of the finding left after the rival's best fit; below 12 not told apart
+};
+
+// Candidates within 3 nats of the term, and causes with D below 12.
+std::vector<Rival> rivals_of(Bench& bench, const Term& term);
+
+// A measurement that could be made: the same base and candidates at its readings.
+struct Plan {
+  std::string say;
+  noise::Readings readings;
+  Eigen::MatrixXd base;
+  std::vector<Candidate> candidates;  // by the ids of the problem's, whose grids are used
+};
+
+// D of the term against a rival when the plan's readings are added, at the noise as it is fitted.
+double predicted_separability(const Bench& bench, const Term& term, const std::string& rival, const Plan& plan);
+
+}  // namespace muster::search

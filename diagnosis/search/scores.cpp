@@ -1,0 +1,162 @@
+#include "diagnosis/search/scores.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "diagnosis/search/refine.hpp"
+#include "diagnosis/search/tail.hpp"
+
+namespace muster::search {
+namespace {
+
+constexpr float least_left = 1e-3f;  // squared length that must be left of an atom, of the longest one of its candidate
+
+// Gram and Schmidt inside each atom; what is too short becomes zero.
+void orthonormalise(noise::Sheet& sheet, Index width) {
+  const Eigen::VectorXf before = sheet.colwise().squaredNorm();
+  const float least = least_left * std::max(before.maxCoeff(), 1e-9f);
+  if (width == 1) {
+    const Eigen::VectorXf scale =
+        (before.array() > least).select(before.array().max(1e-30f).rsqrt(), Eigen::ArrayXf::Zero(before.size()));
+    sheet.array().rowwise() *= scale.transpose().array();
+    return;
+  }
+  for (Index j = 0; j < sheet.cols(); ++j) {
+    Eigen::VectorXf x = sheet.col(j);
+    const Index first = j - j % width, earlier = j % width;
+    for (int pass = 0; pass < 2 && earlier > 0; ++pass) {
+      const Eigen::VectorXf along = sheet.middleCols(first, earlier).transpose() * x;
+      x -= sheet.middleCols(first, earlier) * along;
+    }
+    const float left = x.squaredNorm();
+    sheet.col(j) = left > least ? Eigen::VectorXf(x / std::sqrt(left)) : Eigen::VectorXf::Zero(x.size()).eval();
+  }
+}
+
+// Squared lengths of projections on atoms: rows of `along` are the atoms' columns.
+Eigen::MatrixXf statistics(const Candidate& candidate, Eigen::MatrixXf along) {
+  if (candidate.width == 1) {
+    if (candidate.sign) along = (along * static_cast<float>(candidate.sign)).cwiseMax(0.f);
+    return along.cwiseAbs2();
+  }
+  const Index atoms = along.rows() / candidate.width;
+  Eigen::MatrixXf result(atoms, along.cols());
+  for (Index k = 0; k < atoms; ++k)
+    result.row(k) = along.middleRows(k * candidate.width, candidate.width).colwise().squaredNorm();
+  return result;
+}
+
+double penalised(const Bench& bench, const Stand& stand, const Candidate& candidate, const Eigen::VectorXd& theta) {
+  const double admitted = candidate.admitted ? candidate.admitted(theta) : 1;
+  if (admitted <= 0) return 0;
+  const Eigen::MatrixXd columns = bench.columns_of(candidate, theta);
+  const Eigen::VectorXd& residual = stand.at.residual;
+  if (candidate.width > 1 || candidate.sign == 0) return admitted * stand.gain(columns);
+  const Eigen::VectorXd left = stand.at.basis.rest(stand.whitener(columns));
+  const double length = left.squaredNorm(), along = left.dot(residual);
+  if (length < 1e-6 || along * candidate.sign <= 0) return 0;
+  return admitted * along * along / length;
+}
+
+bool far_from(const Candidate& candidate, const Eigen::VectorXd& theta, const std::vector<Eigen::VectorXd>& others) {
+  return std::all_of(others.begin(), others.end(), [&](const Eigen::VectorXd& other) {
+    for (Index k = 0; k < theta.size(); ++k) {
+      const double step = candidate.step[k];
+      if (step == 0 ? theta[k] != other[k] : std::abs(theta[k] - other[k]) >= 4 * std::abs(step)) return true;
+    }
+    return false;
+  });
+}
+
+std::vector<Eigen::VectorXd> starts_of(const Lead& lead, bool alone) {
+  const Candidate& c = lead.candidate();
+  std::vector<Eigen::VectorXd> result{lead.theta};
+  if (alone || c.starts < 2 || lead.all.size() == 0) return result;
+  std::vector<Index> order(static_cast<std::size_t>(lead.all.size()));
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return lead.all[a] > lead.all[b]; });
+  for (std::size_t k = 0; k < std::min<std::size_t>(order.size(), 80); ++k) {
+    const Eigen::VectorXd& theta = c.grid[static_cast<std::size_t>(order[k])];
+    if (far_from(c, theta, result)) result.push_back(theta);
+    if (static_cast<int>(result.size()) >= c.starts) break;
+  }
+  return result;
+}
+
+}  // namespace
+
+noise::Sheet unit_atoms(const Entry& entry, const Stand& stand) {
+  noise::Sheet unit = stand.whitener.sheet(entry.atoms);
+  const noise::Sheet q = stand.at.basis.q.cast<float>();
+  const noise::Sheet explained = q.transpose() * unit;
+  unit.noalias() -= q * explained;
+  orthonormalise(unit, entry.candidate->width);
+  return unit;
+}
+
+Eigen::VectorXd gains(const Candidate& candidate, const noise::Sheet& unit, const Eigen::VectorXd& residual) {
+  return statistics(candidate, unit.transpose() * residual.cast<float>()).col(0).cast<double>();
+}
+
+double log_effective(const Candidate& candidate, const noise::Sheet& unit, const noise::Sheet& normals) {
+  const Eigen::MatrixXf all = statistics(candidate, unit.transpose() * normals);
+  Eigen::VectorXf most = all.colwise().maxCoeff();
+  std::sort(most.begin(), most.end());
+  std::array<double, 3> estimates;
+  constexpr std::array quantiles{0.5, 0.75, 0.9};
+  for (std::size_t k = 0; k < 3; ++k) {
+    // P(largest < m) = (1 - tail(m))^number
+    const double m = most[static_cast<Index>(quantiles[k] * static_cast<double>(most.size() - 1))];
+    const double tail = std::exp(log_tail(m, candidate.width)) * (candidate.sign ? 0.5 : 1);
+    estimates[k] = std::log(quantiles[k]) / std::log1p(-std::min(tail, 0.999));
+  }
+  std::sort(estimates.begin(), estimates.end());
+  return std::log(std::max(estimates[1], 0.5));
+}
+
+void by_evidence(std::vector<Lead>& leads) {
+  std::stable_sort(leads.begin(), leads.end(), [](const Lead& a, const Lead& b) { return a.evidence > b.evidence; });
+}
+
+std::vector<Lead> leads(Bench& bench, const Stand& stand) {
+  std::vector<Lead> result;
+  for (const Entry& entry : bench.entries()) {
+    const Candidate& c = *entry.candidate;
+    const noise::Sheet unit = unit_atoms(entry, stand);
+    bench.log_atoms(entry, unit);
+    Lead lead{&entry, {}, {}, 0, 0, 0, false, gains(c, unit, stand.at.residual)};
+    Index best = 0;
+    lead.gain = lead.all.maxCoeff(&best);
+    lead.theta = c.grid[static_cast<std::size_t>(best)];
+    lead.columns = entry.atom(best);
+    lead.evidence = bench.evidence(c, lead.gain, c.width, false);
+    lead.log_p = bench.log_p(c, lead.gain, c.width, false);
+    result.push_back(std::move(lead));
+  }
+  by_evidence(result);
+  return result;
+}
+
+Lead refined(const Bench& bench, const Stand& stand, const Lead& lead, bool from_lead_alone) {
+  const Candidate& c = lead.candidate();
+  Lead best = lead;
+  if (c.refinable()) {
+    const auto value = [&](const Eigen::VectorXd& theta) { return penalised(bench, stand, c, theta); };
+    double highest = value(lead.theta);
+    for (const Eigen::VectorXd& start : starts_of(lead, from_lead_alone)) {
+      auto [theta, reached] = climbed(c, start, c.evaluations, value);
+      if (reached <= highest) continue;
+      highest = reached;
+      best.theta = theta;
+    }
+    best.columns = bench.columns_of(c, best.theta);
+  }
+  best.refined = true;
+  best.gain = stand.gain(best.columns);
+  best.evidence = bench.evidence(c, best.gain, c.width, true);
+  best.log_p = bench.log_p(c, best.gain, c.width, true);
+  return best;
+}
+
+}  // namespace muster::search

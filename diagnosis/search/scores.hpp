@@ -1,0 +1,37 @@
+// Every atom of every candidate against what the model leaves, in whitened space.
+#pragma once
+
+#include "diagnosis/search/bench.hpp"
+
+namespace muster::search {
+
+// Atoms whitened, without what the design explains, orthonormal within each atom; zero where nothing is left.
+noise::Sheet unit_atoms(const Entry& entry, const Stand& stand);
+
+// The fall of the deviance by each atom; zero where the sign is wrong.
+Eigen::VectorXd gains(const Candidate& candidate, const noise::Sheet& unit, const Eigen::VectorXd& residual);
+
+// log of the number of independent tests whose largest statistic is distributed as that of these atoms over `normals`.
+double log_effective(const Candidate& candidate, const noise::Sheet& unit, const noise::Sheet& normals);
+
+// A candidate at its best atom, or further.
+struct Lead {
+  const Entry* entry;
+  Eigen::VectorXd theta;
+  Eigen::MatrixXd columns;
+  double gain, evidence, log_p;
+  bool refined = false;
+  Eigen::VectorXd all;  // the gain of every atom
+
+  const Candidate& candidate() const { return *entry->candidate; }
+};
+
+// By falling evidence.
+std::vector<Lead> leads(Bench& bench, const Stand& stand);
+void by_evidence(std::vector<Lead>& leads);
+
+// The best theta by continuous refinement, from as many starts as the candidate asks for, or from `lead` alone. Keeps
+// the lead where nothing better is found.
+Lead refined(const Bench& bench, const Stand& stand, const Lead& lead, bool from_lead_alone);
+
+}  // namespace muster::search

@@ -1,0 +1,106 @@
+#include "diagnosis/search/search.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "diagnosis/search/clean_up.hpp"
+#include "diagnosis/search/integrated.hpp"
+
+namespace muster::search {
+namespace {
+
+const Problem& checked(const Problem& problem) {
+  const Index n = problem.readings.size();
+  const auto fits = [&](Index rows, const std::string& what) {
+    if (rows != n)
+      throw std::invalid_argument(what + ": " + std::to_string(rows) + " rows for " + std::to_string(n) + " readings");
+  };
+  fits(problem.measured.size(), "measured values");
+  fits(problem.base.rows(), "base columns");
+  fits(static_cast<Index>(problem.readings.rx.size()), "receivers");
+  fits(problem.readings.tx_at.cols(), "places of transmitters");
+  fits(problem.readings.rx_at.cols(), "places of receivers");
+  for (const Covariate& c : problem.covariates) fits(c.values.size(), c.name);
+  for (const Factor& f : problem.factors) fits(static_cast<Index>(f.level.size()), f.name);
+  if (!problem.measured.allFinite() || !problem.base.allFinite())
+    throw std::invalid_argument("a value that is not a number");
+  if (n < 50) throw std::invalid_argument("fewer than 50 readings: " + std::to_string(n));
+  return problem;
+}
+
+}  // namespace
+
+Search::Search(const Problem& problem, const Options& options) : bench_(checked(problem), options) {}
+
+Result Search::run() {
+  result_ = {};
+  forward(bench_, result_.trials);
+  const std::vector<Term> aside = clean_up(bench_, result_.trials);
+  for (const Term& term : bench_.terms) {
+    result_.findings.push_back(finding_of(term, term.smooth() ? Status::unexplained : Status::named));
+    if (!term.smooth()) result_.findings.back().rivals = rivals_of(bench_, term);
+  }
+  for (const Term& term : aside)
+    result_.findings.push_back(finding_of(term, term.smooth() ? Status::unexplained : Status::suspected));
+  result_.noise = bench_.fit;
+  result_.families = bench_.families;
+  const Eigen::MatrixXd design = bench_.design();
+  const Eigen::VectorXd coefficients = bench_.stand(design).coefficients(design.cols());
+  result_.base_coefficients = coefficients.head(bench_.base_columns());
+  result_.mean = design * coefficients;
+  hold_out(result_);
+  return result_;
+}
+
+Finding Search::finding_of(const Term& term, Status status) const {
+  const Eigen::MatrixXd design = beside(bench_.design_without(term), term.columns);
+  const Stand stand = bench_.stand(design);
+  const Index width = term.columns.cols();
+  Finding finding{term.id(),
+                  term.candidate->label_of(term.theta),
+                  status,
+                  term.candidate->covariates,
+                  term.theta,
+                  stand.coefficients(design.cols()).tail(width),
+                  stand.at.basis.uncertainty(design.cols()).bottomRightCorner(width, width),
+                  term.gain,
+                  term.evidence,
+                  term.log_p,
+                  {},
+                  {}};
+  return finding;
+}
+
+void Search::hold_out(Result& result) const {
+  const Folds folds(bench_.field().sites(), result.noise.covariance, bench_.options().seed);
+  if (!folds.possible()) return;
+  const Eigen::VectorXd base = folds.squared_errors(bench_.y(), bench_.base());
+  const Eigen::VectorXd full = bench_.terms.empty() ? base : folds.squared_errors(bench_.y(), bench_.design());
+  result.held_out = folds.compared(base, full);
+  for (std::size_t k = 0; k < bench_.terms.size(); ++k) {
+    const Eigen::MatrixXd without = bench_.design_without(bench_.terms[k]);
+    result.findings[k].held_out = folds.compared(folds.squared_errors(bench_.y(), without), full);
+  }
+}
+
+std::vector<Advice> Search::advise(const std::vector<Plan>& plans) {
+  constexpr double decided = 25;
+  std::vector<Advice> result;
+  for (std::size_t k = 0; k < bench_.terms.size(); ++k) {
+    for (const Rival& rival : result_.findings[k].rivals) {
+      if (rival.separability >= decided) continue;
+      for (const Plan& plan : plans) {
+        const bool knows = std::any_of(plan.candidates.begin(), plan.candidates.end(),
+                                       [&](const Candidate& c) { return c.id == rival.id; });
+        if (!knows) continue;
+        result.push_back({plan.say, bench_.terms[k].candidate->id, rival.id, rival.separability,
+                          predicted_separability(bench_, bench_.terms[k], rival.id, plan)});
+      }
+    }
+  }
+  std::stable_sort(result.begin(), result.end(),
+                   [](const Advice& a, const Advice& b) { return a.predicted > b.predicted; });
+  return result;
+}
+
+}  // namespace muster::search

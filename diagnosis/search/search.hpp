@@ -1,0 +1,62 @@
+// Finds what a model gets wrong, names it where it can be named, and says how sure that is.
+#pragma once
+
+#include <optional>
+
+#include "diagnosis/search/forward.hpp"
+#include "diagnosis/search/held_out.hpp"
+#include "diagnosis/search/rivals.hpp"
+
+namespace muster::search {
+
+enum class Status { named = 1, suspected, unexplained };
+
+struct Finding {
+  std::string id, label;
+  Status status = Status::named;
+  std::vector<std::string> covariates;
+  Eigen::VectorXd theta;            // where, when or of what shape
+  Eigen::VectorXd coefficients;     // one a column
+  Eigen::MatrixXd uncertainty;      // covariance of the coefficients, theta taken as known
+  double gain = 0;                  // deviance beside all other findings
+  double evidence = 0;              // nats
+  double log_p = 0;                 // integrated over the covariance
+  std::optional<HeldOut> held_out;  // without and with it; none for what is only suspected
+  std::vector<Rival> rivals;
+};
+
+struct Advice {
+  std::string say, finding, rival;
+  double separability = 0, predicted = 0;  // D now, and with the plan's readings
+};
+
+struct Result {
+  std::vector<Finding> findings;  // the strongest first, suspected ones last
+  std::vector<Trial> trials;
+  noise::Fit noise;
+  std::vector<noise::Fit> families;  // of the base model
+  Eigen::VectorXd base_coefficients;
+  Eigen::VectorXd mean;             // of the extended model, one a row
+  std::optional<HeldOut> held_out;  // the base model and the extended one
+};
+
+class Search {
+ public:
+  // Keeps a reference to the problem. Throws std::invalid_argument where its columns do not fit its readings.
+  explicit Search(const Problem& problem, const Options& options = {});
+
+  Result run();
+  // After run(): what each plan would do for every named finding and rival that the data do not decide (D < 25).
+  std::vector<Advice> advise(const std::vector<Plan>& plans);
+
+  const Bench& bench() const { return bench_; }
+
+ private:
+  Finding finding_of(const Term& term, Status status) const;
+  void hold_out(Result& result) const;
+
+  Bench bench_;
+  Result result_;
+};
+
+}  // namespace muster::search

@@ -1,0 +1,103 @@
+#include "diagnosis/search/second_look.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/search/integrated.hpp"
+
+namespace muster::search {
+namespace {
+
+bool has(const std::vector<Lead>& leads, const Lead& lead) {
+  return std::any_of(leads.begin(), leads.end(),
+                     [&](const Lead& other) { return other.entry == lead.entry && other.theta == lead.theta; });
+}
+
+// Three that nearly pass, everything that can be a place, and what the ladder brings up.
+std::vector<Lead> worth_a_look(Bench& bench, const std::vector<Lead>& first,
+                               const std::function<bool(const Candidate&)>& usable) {
+  std::vector<Lead> result;
+  for (const Lead& lead : first) {
+    if (lead.candidate().kind == Kind::named && lead.log_p < std::log(0.5) && usable(lead.candidate()) &&
+        result.size() < 3)
+      result.push_back(lead);
+  }
+  for (const Lead& lead : first) {
+    if (!lead.candidate().pieces.empty() && usable(lead.candidate()) && !has(result, lead)) result.push_back(lead);
+  }
+  std::vector<Lead> slow = ladder(bench, usable);
+  slow.resize(std::min<std::size_t>(slow.size(), 4), slow.empty() ? Lead{} : slow[0]);
+  for (const Lead& lead : slow) {
+    if (!has(result, lead)) result.push_back(lead);
+  }
+  return result;
+}
+
+noise::Fit fit_with(const Bench& bench, const Candidate& candidate, const Eigen::MatrixXd& both) {
+  noise::Fit fit = bench.fitted(both, bench.fit.covariance, 6);
+  if (!candidate.slow) return fit;
+  noise::Covariance weaker = bench.fit.covariance;  // a second start: shorter and weaker field
+  weaker.theta += noise::Theta(std::log(0.35), std::log(0.5), 0, 0);
+  const noise::Fit other = bench.fitted(both, weaker, 12);
+  return other.value < fit.value - 0.3 ? other : fit;
+}
+
+}  // namespace
+
+std::vector<Lead> second_look(Bench& bench, const Stand& stand, const std::vector<Lead>& first,
+                              const std::function<bool(const Candidate&)>& usable) {
+  std::vector<Lead> looked = worth_a_look(bench, first, usable);
+  const Eigen::MatrixXd design = bench.design();
+  for (Lead& lead : looked) {
+    const Candidate& c = lead.candidate();
+    if (!c.pieces.empty()) lead = refined(bench, stand, lead, false);
+    const noise::Fit fit = fit_with(bench, c, beside(design, lead.columns));
+    lead.gain = bench.stand(design, fit.covariance).gain(lead.columns);
+    lead.evidence = bench.evidence(c, lead.gain, c.width, false);
+    lead.log_p = bench.log_p(c, lead.gain, c.width, true);
+  }
+  by_evidence(looked);
+  return looked;
+}
+
+std::vector<Lead> ladder(Bench& bench, const std::function<bool(const Candidate&)>& usable) {
+  const Eigen::MatrixXd design = bench.design();
+  const noise::Covariance fitted = bench.fit.covariance;
+  const double value = bench.stand(design).at.value;
+  std::map<std::string, Lead> best;
+  for (const double shorter : {1.0, 0.75, 0.55, 0.4, 0.28}) {
+    for (const double weaker : {shorter, std::sqrt(shorter), 1.0}) {
+      if (shorter == 1 && weaker != shorter) continue;
+      noise::Covariance covariance = fitted;
+      covariance.theta += noise::Theta(std::log(weaker), std::log(shorter), 0, 0);
+      const Stand stand = bench.stand(design, covariance);
+      const double lost = 2 * (stand.at.value - value);
+      if (lost > 60) continue;
+      for (const Entry& entry : bench.entries()) {
+        const Candidate& c = *entry.candidate;
+        if (!c.slow || c.kind != Kind::named || !usable(c)) continue;
+        Index at = 0;
+        const double gain = gains(c, unit_atoms(entry, stand), stand.at.residual).maxCoeff(&at) - lost;
+        const auto found = best.find(c.id);
+        if (found != best.end() && found->second.gain >= gain) continue;
+        best[c.id] = {&entry,
+                      c.grid[static_cast<std::size_t>(at)],
+                      entry.atom(at),
+                      gain,
+                      bench.evidence(c, gain, c.width, false),
+                      0,
+                      false,
+                      {}};
+      }
+      if (shorter == 1) break;
+    }
+  }
+  std::vector<Lead> result;
+  for (auto& [id, lead] : best) {
+    if (lead.gain > 4) result.push_back(std::move(lead));
+  }
+  by_evidence(result);
+  return result;
+}
+
+}  // namespace muster::search

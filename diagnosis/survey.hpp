@@ -1,0 +1,31 @@
+// What a search for causes must know of the measurements: when, where and by whom they were taken, and which way the
+// walls of the plan run.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/dataset.hpp"
+#include "diagnosis/model.hpp"
+
+namespace muster::diagnosis {
+
+struct Span {
+  double low = 0, high = 0;
+  double length() const { return high - low; }
+  double at(double share) const { return low + share * length(); }
+};
+
+struct Survey {
+  bool has_time = false, has_yaw = false, has_height = false;
+  Span time, east, north, height;  // s, m
+  Span distance;                   // m, from the tenth to the 85th percentile of links
+  double plan_angle = 0;           // rad, in [0, pi/2): most of the walls run along it or across it
+  std::vector<bool> turns, moves;  // a radio
+  // Ways of radios that move, x0 y0 x1 y1 of each piece, in m.
+  std::vector<std::array<double, 4>> ways;
+};
+
+Survey survey_of(const LinkModel& model, const Dataset& data);
+
+}  // namespace muster::diagnosis

@@ -1,0 +1,237 @@
+// Parts of the search against closed forms: tails, effective numbers, smooths, refinement, merging, folds.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "diagnosis/search/charge.hpp"
+#include "diagnosis/search/clean_up.hpp"
+#include "diagnosis/search/held_out.hpp"
+#include "diagnosis/search/merge.hpp"
+#include "diagnosis/search/refine.hpp"
+#include "diagnosis/search/smooths.hpp"
+#include "diagnosis/search/tail.hpp"
+#include "muster/random.hpp"
+#include "tests/search/causes.hpp"
+
+namespace muster::search {
+namespace {
+
+using synthetic::causes_of;
+using synthetic::problem_of;
+using synthetic::varied;
+using synthetic::world_of;
+
+TEST(LogTail, IsExactForTwoDegreesAndForOne) {
+  for (const double gain : {0.1, 5.0, 60.0, 900.0, 5000.0}) EXPECT_NEAR(log_tail(gain, 2), -gain / 2, 1e-9 * gain);
+  for (const double gain : {0.5, 9.0, 400.0})
+    EXPECT_NEAR(log_tail(gain, 1), std::log(std::erfc(std::sqrt(gain / 2))), 1e-8);
+  EXPECT_NEAR(log_tail(800.01, 14), log_tail(799.99, 14) - 0.01, 1e-3);  // where the series takes over
+  EXPECT_EQ(log_tail(0, 3), 0);
+}
+
+noise::Sheet normals(Index rows, Index columns, uint64_t seed) {
+  noise::Sheet result(rows, columns);
+  for (Index i = 0; i < rows; ++i) {
+    for (Index j = 0; j < columns; ++j)
+      result(i, j) = static_cast<float>(Stream(seed).normal(static_cast<uint64_t>(i), static_cast<uint64_t>(j)));
+  }
+  return result;
+}
+
+TEST(LogEffective, IsTheNumberOfAtomsThatAreIndependentAndOneOfEqualAtoms) {
+  const noise::Sheet nulls = normals(400, 4000, 3);
+  Candidate c;
+  for (const int width : {1, 2}) {
+    c.width = width;
+    const noise::Sheet apart = noise::Sheet::Identity(400, 60 * width);
+    EXPECT_NEAR(log_effective(c, apart, nulls), std::log(60), 0.15) << width;
+  }
+  c.width = 1;
+  noise::Sheet equal = noise::Sheet::Zero(400, 60);
+  equal.row(0).setOnes();
+  EXPECT_NEAR(log_effective(c, equal, nulls), 0, 0.1);
+  c.sign = -1;
+  EXPECT_NEAR(log_effective(c, equal, nulls), 0, 0.1);
+}
+
+TEST(Climbed, FindsTheTopInsideItsBoundsAndLeavesFixedEntriesAlone) {
+  Candidate c;
+  c.lower = Eigen::Vector3d(-5, 0, -5);
+  c.upper = Eigen::Vector3d(5, 9, 2);
+  c.step = Eigen::Vector3d(0.5, 0, 0.5);
+  const auto [theta, value] = climbed(c, Eigen::Vector3d(3, 7, -3), 400, [](const Eigen::VectorXd& t) {
+    return 10 - std::pow(t[0] - 1, 2) - std::pow(t[2] - 4, 2) - std::pow(t[1] - 2, 2);
+  });
+  EXPECT_NEAR(theta[0], 1, 0.05);
+  EXPECT_EQ(theta[1], 7);
+  EXPECT_NEAR(theta[2], 2, 0.02);
+  EXPECT_NEAR(value, 10 - 25 - 4, 0.1);
+}
+
+TEST(Climbed, HandsOnWhatACandidateThrows) {
+  Candidate c;
+  c.lower = c.step = Eigen::VectorXd::Ones(1);
+  c.upper = Eigen::VectorXd::Constant(1, 9);
+  int calls = 0;
+  const auto value = [&](const Eigen::VectorXd&) -> double {
+    if (++calls > 3) throw std::runtime_error("no such place");
+    return calls;
+  };
+  EXPECT_THROW(climbed(c, Eigen::VectorXd::Constant(1, 2), 50, value), std::runtime_error);
+}
+
+TEST(Smooths, CoverEveryColumnFactorAndProduct) {
+  const auto world = world_of(varied(4, 400));
+  Problem problem = problem_of(world, Eigen::VectorXd::Zero(400), {});
+  problem.factors.push_back({"phone", std::vector<int>(400, 0)});
+  for (std::size_t i = 0; i < 400; i += 3) problem.factors[0].level[i] = 1;
+  std::set<std::string> ids;
+  for (const Candidate& c : smooths_of(problem)) {
+    ids.insert(c.id);
+    const Eigen::MatrixXd columns = c.columns(c.grid.front());
+    EXPECT_EQ(columns.rows(), 400) << c.id;
+    EXPECT_EQ(columns.cols(), c.width) << c.id;
+    EXPECT_TRUE(columns.allFinite()) << c.id;
+    EXPECT_GT((columns.rowwise() - columns.colwise().mean()).norm(), 1e-3) << c.id;
+    if (c.wider) {
+      EXPECT_EQ(c.wider(2).cols(), 2 * c.width) << c.id;
+    }
+  }
+  for (const char* id :
+       {"~logd", "~bearing", "~heading", "~txbearing", "~position", "~time", "~time_per_tx", "~time*position", "~link",
+        "~phone", "~speed", "~battery", "~temperature", "~temperature*logd", "~speed*position"})
+    EXPECT_EQ(ids.count(id), 1u) << id;
+}
+
+TEST(Smooths, NothingDependsOnPlacesThatAreNotKnown) {
+  const auto world = world_of(varied(4, 400));
+  Problem problem = problem_of(world, Eigen::VectorXd::Zero(400), {});
+  problem.places_known = false;
+  for (const Candidate& c : smooths_of(problem)) {
+    for (const std::string& covariate : c.covariates)
+      EXPECT_TRUE(covariate.find("position") == std::string::npos && covariate.find("bearing") == std::string::npos)
+          << c.id;
+  }
+}
+
+TEST(RefinementCharge, OfAWallIsAFewNatsAndOfAStepLess) {
+  const auto world = world_of(varied(16, 3000));
+  const Problem problem = problem_of(world, Eigen::VectorXd::Zero(3000), causes_of(world));
+  Bench bench(problem, {});
+  const double wall = refinement_charge(bench, "unmapped_wall", 16), step = refinement_charge(bench, "step", 16);
+  RecordProperty("wall", std::to_string(wall));
+  RecordProperty("step", std::to_string(step));
+  // Of 16 draws: the standard error near the lower quartile is sqrt(0.75 / (16 x 0.25)) = 0.43 nats.
+  EXPECT_GT(wall, 2);
+  EXPECT_LT(wall, 7);
+  EXPECT_GT(step, -1.3);
+  EXPECT_LT(step, 2.5);
+  EXPECT_GT(wall, step + 1);
+}
+
+Term term_at(const Bench& bench, const std::string& id, const Eigen::VectorXd& theta) {
+  for (const Entry& entry : bench.entries()) {
+    if (entry.candidate->id == id) return {entry.candidate, theta, bench.columns_of(*entry.candidate, theta)};
+  }
+  throw std::logic_error(id);
+}
+
+// Nulls for every candidate, as the forward search would have worked out.
+void score(Bench& bench) {
+  const Stand stand = bench.stand(bench.base());
+  bench.renew_depending(stand.coefficients(bench.base_columns()));
+  leads(bench, stand);
+}
+
+TEST(Merge, TwoHalvesOfOneWallBecomeTheWall) {
+  const auto world = world_of(varied(11, 4000));
+  const auto causes = causes_of(world);
+  const Candidate& wall = causes[causes.size() - 2];
+  ASSERT_EQ(wall.id, "unmapped_wall");
+  const Eigen::VectorXd whole = Eigen::Vector4d(12, 8, 5, 0.35);
+  const Eigen::VectorXd effect = -scaled_to(world, wall.columns(whole), 400);
+  const Problem problem = problem_of(world, effect, causes);
+  Bench bench(problem, {});
+  score(bench);
+  const double x = 1.25 * std::cos(0.35), y = 1.25 * std::sin(0.35);
+  bench.terms.push_back(term_at(bench, "unmapped_wall", Eigen::Vector4d(12 - x, 8 - y, 2.5, 0.35)));
+  bench.terms.push_back(term_at(bench, "unmapped_wall", Eigen::Vector4d(12 + x, 8 + y, 2.5, 0.35)));
+  bench.refit();
+  ASSERT_TRUE(merge_pieces(bench, "place"));
+  ASSERT_EQ(bench.terms.size(), 1u);
+  const Eigen::VectorXd& found = bench.terms[0].theta;
+  EXPECT_EQ(bench.terms[0].candidate->id, "unmapped_wall");
+  EXPECT_LT(std::hypot(found[0] - 12, found[1] - 8), 0.5);
+  EXPECT_NEAR(found[2], 5, 1);
+}
+
+TEST(Merge, TwoWallsStayTwo) {
+  const auto world = world_of(varied(12, 4000));
+  const auto causes = causes_of(world);
+  const Candidate& wall = causes[causes.size() - 2];
+  const Eigen::VectorXd one = Eigen::Vector4d(6, 5, 4, 0), other = Eigen::Vector4d(18, 10, 4, M_PI / 2);
+  const Eigen::VectorXd effect = -scaled_to(world, wall.columns(one), 150) - scaled_to(world, wall.columns(other), 150);
+  const Problem problem = problem_of(world, effect, causes);
+  Bench bench(problem, {});
+  score(bench);
+  bench.terms = {term_at(bench, "unmapped_wall", one), term_at(bench, "unmapped_wall", other)};
+  bench.refit();
+  EXPECT_FALSE(merge_pieces(bench, "place"));
+  EXPECT_EQ(bench.terms.size(), 2u);
+}
+
+TEST(CleanUp, DropsWhatCarriesNothingAndSetsLeftoversAside) {
+  const auto world = world_of(varied(13, 4000));
+  const auto causes = causes_of(world);
+  const Eigen::VectorXd effect = scaled_to(world, causes[2].columns({}).col(0), 900);  // antenna_rx
+  const Problem problem = problem_of(world, effect, causes);
+  Bench bench(problem, {});
+  score(bench);
+  bench.terms = {term_at(bench, "antenna_rx", {}), term_at(bench, "step", Eigen::Vector2d(100, -1)),
+                 term_at(bench, "drift", Eigen::VectorXd::Constant(1, 2))};
+  bench.refit();
+  std::vector<Trial> trials;
+  clean_up(bench, trials);
+  ASSERT_EQ(bench.terms.size(), 1u);
+  EXPECT_EQ(bench.terms[0].candidate->id, "antenna_rx");
+  EXPECT_NEAR(bench.terms[0].gain, 900, 300);
+}
+
+TEST(CleanUp, ASmoothGivesWayToTheCauseThatExplainsIt) {
+  const auto world = world_of(varied(14, 4000));
+  const auto causes = causes_of(world);
+  const Eigen::VectorXd effect = scaled_to(world, causes[2].columns({}).col(1), 400);
+  const Problem problem = problem_of(world, effect, causes);
+  Bench bench(problem, {});
+  score(bench);
+  bench.terms = {term_at(bench, "~bearing", {})};
+  bench.refit();
+  std::vector<Trial> trials;
+  clean_up(bench, trials);
+  ASSERT_EQ(bench.terms.size(), 1u);
+  EXPECT_EQ(bench.terms[0].candidate->id, "antenna_rx");
+}
+
+TEST(Folds, BlocksAreThreeDecorrelationDistancesWideAndEveryRowIsLeftOutOnce) {
+  const auto world = world_of(varied(15, 3000));
+  const noise::Rows rows(world.readings);
+  const noise::Sites sites = rows.sites(world.readings);
+  const noise::Covariance c{noise::Family::exponential, world.true_theta};
+  const Folds folds(sites, c, 1);
+  const double side = 3 * c.decorrelation();
+  EXPECT_LE(folds.blocks(), std::ceil(24 / side) * std::ceil(16 / side));
+  EXPECT_GE(folds.blocks(), 8);
+  // A mean that the design holds is predicted to the last bit; one that it lacks is not.
+  const Eigen::MatrixXd base = rows.mean(world.base);
+  const Eigen::VectorXd exact = base * Eigen::Vector3d(-30, 2, 5);
+  EXPECT_LT(folds.squared_errors(exact, base).maxCoeff(), 1e-12);
+  const Eigen::VectorXd missing = folds.squared_errors(exact, base.leftCols(2));
+  const HeldOut gain = folds.compared(missing, Eigen::VectorXd::Zero(missing.size()));
+  EXPECT_NEAR(gain.gain, missing.mean(), 1e-9);
+  EXPECT_LT(gain.lower95, gain.gain);
+  EXPECT_GT(gain.upper95, gain.gain);
+  EXPECT_GT(gain.lower95, 0);
+}
+
+}  // namespace
+}  // namespace muster::search

@@ -1,0 +1,45 @@
+// A few worlds a cause, with bounds that chance alone crosses once in a thousand runs.
+#include "tests/search/planted.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+namespace muster::synthetic {
+namespace {
+
+// Measured rates at lambda 60; `kind` counts a place of the other shape (a wall called an obstacle) as found.
+struct Rate {
+  const char* cause;
+  double found, kind;
+};
+
+class Planted : public testing::TestWithParam<Rate> {};
+
+TEST_P(Planted, AtLambda60IsNamed) {
+  const Tally tally = planted(GetParam().cause, 60, 500, 12, 4000, Shape::exponential);
+  RecordProperty("found", tally.found);
+  RecordProperty("taken_for_another_shape", tally.kin);
+  RecordProperty("in_pieces", tally.pieces);
+  std::printf("%s: %d of %d named, %d taken for another shape, %d in pieces, %d with a wrong name\n", GetParam().cause,
+              tally.found, tally.worlds, tally.kin, tally.pieces, tally.wrong);
+  EXPECT_GE(tally.found, least_successes(12, GetParam().found)) << tally.misses;
+  EXPECT_GE(tally.found + tally.kin, least_successes(12, GetParam().kind)) << tally.misses;
+  EXPECT_LE(tally.pieces, 12 - least_successes(12, 0.97)) << tally.misses;
+  EXPECT_LE(tally.wrong, 12 - least_successes(12, 0.97)) << tally.misses;
+}
+
+INSTANTIATE_TEST_SUITE_P(Causes, Planted,
+                         testing::Values(Rate{"tx_offset", 0.95, 0.95}, Rate{"rx_offset", 0.95, 0.95},
+                                         Rate{"antenna_rx", 0.95, 0.95}, Rate{"step", 0.95, 0.95},
+                                         Rate{"unmapped_wall", 0.8, 0.95}),
+                         [](const auto& rate) { return std::string(rate.param.cause); });
+
+TEST(Clean, WorldsStaySilent) {
+  const Tally tally = planted("", 0, 700, 30, 3000, Shape::exponential);
+  EXPECT_LE(tally.wrong, 30 - least_successes(30, 0.98)) << tally.misses;
+  EXPECT_LE(tally.unexplained, 30 - least_successes(30, 0.98)) << tally.misses;
+}
+
+}  // namespace
+}  // namespace muster::synthetic

@@ -1,0 +1,200 @@
+// The whole search on worlds whose truth is known. Counts are small here; planted_test.cpp has the large ones.
+#include "diagnosis/search/search.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "muster/random.hpp"
+#include "tests/search/causes.hpp"
+
+namespace muster::search {
+namespace {
+
+using synthetic::causes_of;
+using synthetic::problem_of;
+using synthetic::scaled_to;
+using synthetic::varied;
+using synthetic::World;
+using synthetic::world_of;
+
+Result result_of(const World& world, const Eigen::VectorXd& effect) {
+  const Problem problem = problem_of(world, effect, causes_of(world));
+  return Search(problem).run();
+}
+
+std::vector<std::string> ids(const Result& result) {
+  std::vector<std::string> out;
+  for (const Finding& f : result.findings) {
+    if (f.status != Status::suspected) out.push_back(f.id);
+  }
+  return out;
+}
+
+TEST(Search, SpeedOutsideTheVocabularyIsReportedAsUnexplained) {
+  const World world = world_of(varied(31, 4000));
+  const Eigen::VectorXd effect = scaled_to(world, (world.speed.array() > 0.45).cast<double>().sqrt(), 120);
+  const Result result = result_of(world, effect);
+  ASSERT_FALSE(result.findings.empty());
+  EXPECT_EQ(result.findings[0].id, "~speed");
+  EXPECT_EQ(result.findings[0].status, Status::unexplained);
+  for (const Finding& f : result.findings) EXPECT_NE(f.status, Status::named) << f.id;
+}
+
+TEST(Search, LobesThatNoCauseHasAreReportedAlongTheBearing) {
+  const World world = world_of(varied(32, 4000));
+  const Eigen::VectorXd effect = scaled_to(world, (3 * world.bearing().array() + 1).cos(), 150);
+  EXPECT_EQ(ids(result_of(world, effect)), std::vector<std::string>{"~bearing"});
+}
+
+TEST(Search, AProductOfAColumnAndDistanceIsFound) {
+  const World world = world_of(varied(33, 4000));
+  const Eigen::ArrayXd distance = world.distance().array().log10();
+  const Eigen::VectorXd effect = scaled_to(world, (world.temperature.array() - 20) * (distance - distance.mean()), 200);
+  const auto found = ids(result_of(world, effect));
+  ASSERT_FALSE(found.empty());
+  EXPECT_EQ(found[0], "~temperature*logd");
+}
+
+TEST(Search, TwoCausesAreBothNamed) {
+  const World world = world_of(varied(34, 5000));
+  const auto causes = causes_of(world);
+  const Eigen::VectorXd effect = scaled_to(world, causes[1].columns(causes[1].grid[0]), 200) -
+                                 scaled_to(world, causes[9].columns(causes[9].grid[150]), 120);
+  auto found = ids(result_of(world, effect));
+  std::sort(found.begin(), found.end());
+  EXPECT_EQ(found, (std::vector<std::string>{"rx_offset", "unmapped_wall"}));
+}
+
+TEST(Search, CoefficientsPlacesAndHeldOutGainAreThoseOfTheTruth) {
+  const World world = world_of(varied(35, 6000));
+  const auto causes = causes_of(world);
+  const Eigen::VectorXd column = causes[1].columns(causes[1].grid[0]);
+  const Result result = result_of(world, 5 * column);
+  ASSERT_EQ(ids(result), std::vector<std::string>{"rx_offset"});
+  const Finding& f = result.findings[0];
+  EXPECT_LT(std::abs(f.coefficients[0] - 5), 4 * std::sqrt(f.uncertainty(0, 0)));
+  ASSERT_TRUE(f.held_out.has_value());
+  EXPECT_GT(f.held_out->lower95, 0);
+  const double share = column.mean();
+  EXPECT_NEAR(f.held_out->gain, 25 * share * (1 - share), 2.5);
+  EXPECT_NEAR(result.held_out->rmse_before, f.held_out->rmse_before, 1e-9);
+}
+
+TEST(Search, IsTheSameForEveryOrderOfReadings) {
+  const World world = world_of(varied(36, 2500));
+  const auto causes = causes_of(world);
+  const Eigen::VectorXd effect = -scaled_to(world, causes[9].columns(causes[9].grid[40]), 100);
+  World mixed = world;
+  std::vector<Index> order(2500);
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [](Index a, Index b) {
+    return Stream(8).uniform(static_cast<uint64_t>(a)) < Stream(8).uniform(static_cast<uint64_t>(b));
+  });
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const auto from = static_cast<std::size_t>(order[i]);
+    mixed.readings.t[i] = world.readings.t[from];
+    mixed.readings.tx[i] = world.readings.tx[from];
+    mixed.readings.rx[i] = world.readings.rx[from];
+    mixed.readings.rx_yaw[i] = world.readings.rx_yaw[from];
+  }
+  for (Eigen::VectorXd World::*column :
+       {&World::rssi, &World::time, &World::speed, &World::battery, &World::temperature})
+    mixed.*column = (world.*column)(order).eval();
+  mixed.base = world.base(order, Eigen::all).eval();
+  mixed.readings.rx_at = world.readings.rx_at(Eigen::all, order).eval();
+  mixed.readings.tx_at = world.readings.tx_at(Eigen::all, order).eval();
+  // The causes' grids must not depend on the order either, so the first world's are used with the second one's columns.
+  auto again = causes_of(mixed);
+  for (std::size_t k = 0; k < again.size(); ++k) {
+    again[k].grid = causes[k].grid;
+    again[k].admitted = causes[k].admitted;
+  }
+  const Problem a = problem_of(world, effect, causes), b = problem_of(mixed, effect(order), again);
+  const Result first = Search(a).run(), second = Search(b).run();
+  ASSERT_FALSE(first.findings.empty());
+  ASSERT_EQ(first.findings.size(), second.findings.size());
+  for (std::size_t k = 0; k < first.findings.size(); ++k) {
+    EXPECT_EQ(first.findings[k].id, second.findings[k].id);
+    EXPECT_NEAR(first.findings[k].gain, second.findings[k].gain, 1e-6 * first.findings[k].gain);
+    EXPECT_NEAR((first.findings[k].theta - second.findings[k].theta).norm(), 0, 1e-6);
+  }
+  EXPECT_NEAR((first.noise.covariance.theta - second.noise.covariance.theta).norm(), 0, 1e-6);
+}
+
+TEST(Search, AFloorIsNeitherAnExponentNorADualSlope) {
+  for (uint64_t seed = 41; seed < 44; ++seed) {
+    const World world = world_of(varied(seed, 4000));
+    Problem problem = problem_of(world, Eigen::VectorXd::Zero(4000), causes_of(world));
+    std::vector<double> levels(problem.measured.begin(), problem.measured.end());
+    std::nth_element(levels.begin(), levels.begin() + 800, levels.end());
+    const double floor = levels[800];
+    problem.bounds.known.assign(4000, noise::Known::value);
+    for (Index i = 0; i < 4000; ++i) {
+      if (problem.measured[i] > floor) continue;
+      problem.measured[i] = floor;
+      problem.bounds.known[static_cast<std::size_t>(i)] = noise::Known::below;
+    }
+    const Result result = Search(problem).run();
+    EXPECT_TRUE(ids(result).empty()) << seed << ' ' << ids(result)[0];
+    EXPECT_NEAR(result.base_coefficients[1], 2.0, 0.5) << seed;
+  }
+}
+
+TEST(Search, TheAdvisedReadingsRaiseSeparabilityAsPredicted) {
+  const World world = world_of(varied(37, 6000));
+  const auto causes = causes_of(world);
+  const Eigen::VectorXd effect = scaled_to(world, causes[0].columns(causes[0].grid[1]), 250);
+  const auto part_of = [&](Index from, Index count) {
+    World part = world;
+    const auto rows = Eigen::seqN(from, count);
+    const auto cut = [&](auto& values) {
+      values = std::remove_reference_t<decltype(values)>(values.begin() + from, values.begin() + from + count);
+    };
+    cut(part.readings.t);
+    cut(part.readings.tx);
+    cut(part.readings.rx);
+    cut(part.readings.rx_yaw);
+    part.readings.tx_at = world.readings.tx_at(Eigen::all, rows).eval();
+    part.readings.rx_at = world.readings.rx_at(Eigen::all, rows).eval();
+    for (Eigen::VectorXd World::*column :
+         {&World::rssi, &World::time, &World::speed, &World::battery, &World::temperature})
+      part.*column = (world.*column)(rows).eval();
+    part.base = world.base(rows, Eigen::all).eval();
+    return part;
+  };
+  const World start = part_of(0, 2500), next = part_of(2500, 3500);
+  const Problem problem = problem_of(start, effect.head(2500), causes_of(start));
+  Search search(problem);
+  const Result result = search.run();
+  ASSERT_EQ(ids(result), std::vector<std::string>{"tx_offset"});
+  const Problem whole_problem = problem_of(world, effect, causes_of(world));
+  const Search whole(whole_problem);
+  const auto& term = search.bench().terms[0];
+  const Plan plan{"drive on", next.readings, next.base, causes_of(next)};
+  const double predicted = predicted_separability(search.bench(), term, "antenna_tx", plan);
+  // D with the readings at hand, and once those of the plan are there too: the same effect and noise in both.
+  const auto separability = [&](const Bench& bench, const World& of) {
+    const Stand rest = bench.stand(bench.base(), search.bench().fit.covariance);
+    const Eigen::VectorXd planted = causes_of(of)[0].columns(term.theta) * result.findings[0].coefficients;
+    const Eigen::VectorXd e = rest.at.basis.rest(rest.whitener(bench.rows().mean(planted)));
+    double least = e.squaredNorm();
+    for (const Entry& entry : bench.entries()) {
+      if (entry.candidate->id == "antenna_tx") least -= gains(*entry.candidate, unit_atoms(entry, rest), e).maxCoeff();
+    }
+    return least;
+  };
+  EXPECT_GT(predicted, 1.3 * separability(search.bench(), start));
+  EXPECT_NEAR(predicted / separability(whole.bench(), world), 1, 0.25);
+}
+
+TEST(Search, RefusesColumnsThatDoNotFit) {
+  const World world = world_of(varied(38, 200));
+  Problem problem = problem_of(world, Eigen::VectorXd::Zero(200), {});
+  problem.base.conservativeResize(199, Eigen::NoChange);
+  EXPECT_THROW(Search{problem}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace muster::search
