@@ -50,64 +50,70 @@ void Table::take_over(const Table& other) {
 }
 
 void Table::grow() {
-  const auto from = now_.rows;
-  now_.rows = set_->rows();
-  now_.data.resize(now_.rows * width());
-  for (auto row = from; row < now_.rows; ++row) fill_initial(now_.data.data() + row * width());
+  Cells& now = stored();
+  const auto from = now.rows;
+  now.rows = set_->rows();
+  now.data.resize(now.rows * width());
+  for (auto row = from; row < now.rows; ++row) fill_initial(now.data.data() + row * width());
 }
 
 void Table::begin_anew(bool carry, uint64_t tick) {
-  next_.blobs.clear();
+  const Cells& now = this->now();
+  Cells& next = this->next();
+  next.blobs.clear();
   if (set_->kind == SetKind::queue) return begin_queue(tick);
   if (set_->kind == SetKind::listed) {
-    next_.rows = set_->rows();  // other rows than last time: nothing carries over
-    next_.data.assign(next_.rows * width(), poison());
+    next.rows = set_->rows();  // other rows than last time: nothing carries over
+    next.data.assign(next.rows * width(), poison());
     return;
   }
-  next_.rows = now_.rows;
-  next_.data.resize(now_.data.size());
+  next.rows = now.rows;
+  next.data.resize(now.data.size());
   if (!carry) return;
-  std::copy(now_.data.begin(), now_.data.end(), next_.data.begin());
-  next_.blobs = now_.blobs;
+  std::copy(now.data.begin(), now.data.end(), next.data.begin());
+  next.blobs = now.blobs;
 }
 
 // Rows that every reader has seen are gone.
 void Table::begin_queue(uint64_t tick) {
-  next_.data.clear();
-  next_.appended.clear();
-  next_.blobs = now_.blobs;
-  for (std::size_t r = 0; r < now_.rows; ++r) {
-    if (now_.appended[r] + keep < tick) continue;
-    next_.data.insert(next_.data.end(), now_.data.begin() + r * width(), now_.data.begin() + (r + 1) * width());
-    next_.appended.push_back(now_.appended[r]);
+  const Cells& now = this->now();
+  Cells& next = this->next();
+  next.data.clear();
+  next.appended.clear();
+  next.blobs = now.blobs;
+  for (std::size_t r = 0; r < now.rows; ++r) {
+    if (now.appended[r] + keep < tick) continue;
+    next.data.insert(next.data.end(), now.data.begin() + r * width(), now.data.begin() + (r + 1) * width());
+    next.appended.push_back(now.appended[r]);
   }
-  next_.rows = next_.appended.size();
+  next.rows = next.appended.size();
 }
 
 // Blobs in the order of the cells that hold them, and no others: so equal tables are equal bytes.
 void Table::compact_blobs() {
+  Cells& next = this->next();
   std::vector<Blob> kept;
   for (std::size_t c = 0; c < width(); ++c) {
     if (!columns_[c].bytes) continue;
-    for (std::size_t r = 0; r < next_.rows; ++r) {
-      double& cell = next_.data[r * width() + c];
+    for (std::size_t r = 0; r < next.rows; ++r) {
+      double& cell = next.data[r * width() + c];
       if (cell == 0) continue;
-      kept.push_back(next_.blobs[static_cast<std::size_t>(cell) - 1]);
+      kept.push_back(next.blobs[static_cast<std::size_t>(cell) - 1]);
       cell = static_cast<double>(kept.size());
     }
   }
-  next_.blobs = std::move(kept);
+  next.blobs = std::move(kept);
 }
 
 void Table::publish(uint64_t tick) {
   if (columns_.any_bytes()) compact_blobs();
-  next_.tick = tick;
-  now_.swap(next_);
+  next().tick = tick;
+  published_at_ = 1 - published_at_;
   published_ = true;
 }
 
 void Table::take_back() {
-  if (published_) now_.swap(next_);
+  if (published_) published_at_ = 1 - published_at_;
   end_tick();
 }
 

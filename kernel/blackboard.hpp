@@ -50,14 +50,6 @@ struct Cells {
   std::vector<uint64_t> appended;  // queue: the tick at which each row came
   std::size_t rows = 0;
   uint64_t tick = 0;  // at which it was published
-
-  void swap(Cells& other) noexcept {
-    data.swap(other.data);
-    blobs.swap(other.blobs);
-    appended.swap(other.appended);
-    std::swap(rows, other.rows);
-    std::swap(tick, other.tick);
-  }
 };
 
 // A table: what is published, and what is being written. A tick that fails takes back what it published.
@@ -70,17 +62,17 @@ class Table {
   const Columns& columns() const { return columns_; }
   std::size_t width() const { return columns_.size(); }
 
-  const Cells& now() const { return now_; }
-  Cells& next() { return next_; }
+  const Cells& now() const { return cells_[published_at_]; }
+  Cells& next() { return cells_[1 - published_at_]; }
   // What was written in this tick, published or not; else what stands.
-  const Cells& newest() const { return begun_ && !published_ ? next_ : now_; }
+  const Cells& newest() const { return begun_ && !published_ ? cells_[1 - published_at_] : now(); }
   // To put initial or restored values in place; not for steps.
-  Cells& stored() { return now_; }
+  Cells& stored() { return cells_[published_at_]; }
 
   // Opens `next` for writing, once a tick: with last values carried over, or not where every cell will be written.
   void begin(bool carry, uint64_t tick) {
     begun_ = true;
-    const bool is_sized = set_->kind == SetKind::fixed && next_.rows == now_.rows && next_.blobs.empty();
+    const bool is_sized = set_->kind == SetKind::fixed && next().rows == now().rows && next().blobs.empty();
     if (carry || !is_sized) begin_anew(carry, tick);
   }
   bool begun() const { return begun_; }
@@ -107,7 +99,8 @@ class Table {
   Set* set_;
   Columns columns_;
   std::vector<double> initial_;
-  Cells now_, next_;
+  Cells cells_[2];
+  std::size_t published_at_ = 0;  // which of the two stands; the other one is being written
   bool begun_ = false, published_ = false;
 };
 

@@ -45,11 +45,14 @@ void Simulation::run(uint64_t index, uint32_t first, uint32_t last, uint32_t fla
 void Simulation::run_batch(Batch& batch, const muster_tick& tick) {
   due_.clear();
   for (Instance* instance : batch.instances) {
-    if (!all_due_ && tick.index % instance->every() != 0) continue;
+    if (!all_due_ && instance->every() != 1 && tick.index % instance->every() != 0) continue;
     due_.push_back(instance);
     prepare_cells(*instance, tick.index);
+    if (instance->is_direct()) instance->bind(tick.index);
   }
-  for (Instance* instance : due_) instance->bind(tick.index);
+  for (Instance* instance : due_) {
+    if (!instance->is_direct()) instance->bind(tick.index);  // others may have begun the tables that it writes
+  }
   step_all(tick);
   for (std::size_t i = 0; i < due_.size(); ++i) {
     if (faults_[i].empty() && !due_[i]->is_direct()) faults_[i] = commit_cells(*due_[i], tick.index);
