@@ -10,6 +10,7 @@
 #include "diagnosis/extended_world.hpp"
 #include "diagnosis/found_cause.hpp"
 #include "diagnosis/place_checks.hpp"
+#include "diagnosis/seen_rows.hpp"
 
 namespace muster::diagnosis {
 namespace {
@@ -134,15 +135,20 @@ class Diagnoser {
       const auto cause = std::find_if(causes.found.begin(), causes.found.end(),
                                       [&](const CauseCandidate& c) { return c.candidate.id == f.id; });
       if (f.status == search::Status::unexplained || cause == causes.found.end()) {
-        out.unexplained.push_back({f.id.substr(f.id.rfind('~') + 1), f.evidence});
+        out.unexplained.push_back({f.id.substr(f.id.rfind('~') + 1), f.evidence, f.gain, f.held_out});
         continue;
       }
       out.causes.push_back(found_cause(f, *cause, bench, k < bench.terms.size() ? &bench.terms[k] : nullptr));
+      out.causes.back().effect = effect_of(bench, cause->candidate, f);
       if (f.status == search::Status::named) mean(sources_.used) += cause->candidate.columns(f.theta) * f.coefficients;
     }
     out.mean = VectorXd::Constant(mean.size(), std::nan(""));
     out.mean(sources_.used) = mean(sources_.used);
     for (const CauseCandidate& c : causes.found) out.searched.push_back(c.candidate.id);
+    out.stairs = result.stairs;
+    out.checks = result.checks;
+    out.seen = seen_rows(bench, model_);
+    out.world_values = world_values(bench, base_.paths, coefficients, model_);
     return out;
   }
 

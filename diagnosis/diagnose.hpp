@@ -23,6 +23,8 @@ struct FoundCause {
   std::vector<CauseValue> values;
   std::map<std::string, double> held;  // parameters that were set and not sought
   double evidence = 0, log_p = 0;
+  double lambda = 0;       // fall of the deviance by it, beside all others
+  Eigen::VectorXd effect;  // dB it adds to each of the rows seen
   std::optional<search::HeldOut> held_out;
   std::vector<search::Rival> rivals;
 };
@@ -30,6 +32,33 @@ struct FoundCause {
 struct Unexplained {
   std::string covariate;
   double evidence = 0;
+  double lambda = 0;
+  std::optional<search::HeldOut> held_out;
+};
+
+// What the search looked at, one entry a row: means of neighbouring readings of one link.
+struct SeenRows {
+  std::vector<std::string> radios;  // names, by the numbers in tx and rx
+  std::vector<int> tx, rx;
+  Eigen::Matrix3Xd tx_at, rx_at;              // m
+  Eigen::VectorXd count, t, yaw;              // readings; s, rad: empty where the data have none
+  Eigen::VectorXd before, after;              // dB, measured less the world fitted alone, less the extended one
+  Eigen::VectorXd white_before, white_after;  // the same, in its sd, without what its neighbours share with it
+  std::vector<search::Covariate> columns;     // further columns of the data, means
+  std::vector<search::Factor> factors;
+};
+
+// What to measure to tell a cause from a rival.
+struct Advice {
+  std::string say, cause, rival;
+  double separability = 0;            // D of the data
+  std::optional<double> predicted{};  // D with the advised readings; none where no plan could be made
+};
+
+// A parameter of the world, refitted beside the causes.
+struct WorldValue {
+  std::string path, unit;
+  double value = 0, stderror = 0;
 };
 
 // The extended world simulated, and diagnosed again.
@@ -48,7 +77,12 @@ struct Diagnosis {
   noise::Covariance noise;
   std::optional<search::HeldOut> held_out;
   std::map<std::string, double> parameters;  // of the world, beside the causes
-  Eigen::VectorXd mean;                      // of the extended model at every row of the table, dBm
+  std::vector<WorldValue> world_values;      // the same with their spread
+  std::vector<search::Stair> stairs;         // held-out error of the world, then with each accepted finding in turn
+  std::vector<search::Check> checks;         // all that was looked at beside what was found, the likeliest first
+  std::vector<Advice> advice;
+  SeenRows seen;
+  Eigen::VectorXd mean;  // of the extended model at every row of the table, dBm
   std::size_t readings = 0;
   Eigen::Index rows = 0;
   std::optional<Loop> loop;

@@ -102,6 +102,7 @@ FoundCause found_cause(const search::Finding& f, const CauseCandidate& cause, co
   out.held = shape.held;
   out.evidence = f.evidence;
   out.log_p = f.log_p;
+  out.lambda = f.gain;
   out.held_out = f.held_out;
   out.rivals = f.rivals;
   add_linear(out, shape, f);

@@ -1,6 +1,7 @@
 #include "diagnosis/search/search.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "diagnosis/search/clean_up.hpp"
@@ -45,11 +46,20 @@ Result Search::run() {
   result_.noise = bench_.fit;
   result_.families = bench_.families;
   const Eigen::MatrixXd design = bench_.design();
-  const Eigen::VectorXd coefficients = bench_.stand(design).coefficients(design.cols());
+  const Stand stand = bench_.stand(design);
+  const Eigen::VectorXd coefficients = stand.coefficients(design.cols());
   result_.base_coefficients = coefficients.head(bench_.base_columns());
   result_.mean = design * coefficients;
   hold_out(result_);
+  check_what_is_left(result_, stand);
   return result_;
+}
+
+void Search::check_what_is_left(Result& result, const Stand& stand) {
+  for (const Lead& lead : leads(bench_, stand)) {
+    const Candidate& c = lead.candidate();
+    result.checks.push_back({c.id, c.label_of(lead.theta), c.kind, lead.gain, lead.log_p});
+  }
 }
 
 Finding Search::finding_of(const Term& term, Status status) const {
@@ -77,6 +87,14 @@ void Search::hold_out(Result& result) const {
   const Eigen::VectorXd base = folds.squared_errors(bench_.y(), bench_.base());
   const Eigen::VectorXd full = bench_.terms.empty() ? base : folds.squared_errors(bench_.y(), bench_.design());
   result.held_out = folds.compared(base, full);
+  const auto step = [&](const Eigen::VectorXd& errors) {
+    const HeldOut all = folds.compared(errors, Eigen::VectorXd::Zero(errors.size()));
+    result.stairs.push_back({all.rmse_before, std::sqrt(all.lower95), std::sqrt(all.upper95)});
+  };
+  step(base);
+  for (std::size_t k = 1; k < bench_.terms.size(); ++k)
+    step(folds.squared_errors(bench_.y(), bench_.design([&](const Term& t) { return &t >= &bench_.terms[k]; })));
+  if (!bench_.terms.empty()) step(full);
   for (std::size_t k = 0; k < bench_.terms.size(); ++k) {
     const Eigen::MatrixXd without = bench_.design_without(bench_.terms[k]);
     result.findings[k].held_out = folds.compared(folds.squared_errors(bench_.y(), without), full);

@@ -30,6 +30,18 @@ struct Advice {
   double separability = 0, predicted = 0;  // D now, and with the plan's readings
 };
 
+// A candidate at its best beside the model as it stands at the end.
+struct Check {
+  std::string id, label;
+  Kind kind = Kind::named;
+  double gain = 0, log_p = 0;  // of chance doing as well anywhere on its grid
+};
+
+// The error at places not seen, dB, with its interval over blocks.
+struct Stair {
+  double rmse = 0, lower95 = 0, upper95 = 0;
+};
+
 struct Result {
   std::vector<Finding> findings;  // the strongest first, suspected ones last
   std::vector<Trial> trials;
@@ -38,6 +50,8 @@ struct Result {
   Eigen::VectorXd base_coefficients;
   Eigen::VectorXd mean;             // of the extended model, one a row
   std::optional<HeldOut> held_out;  // the base model and the extended one
+  std::vector<Stair> stairs;        // the base model, then with each accepted finding in turn; empty: too few blocks
+  std::vector<Check> checks;
 };
 
 class Search {
@@ -54,6 +68,7 @@ class Search {
  private:
   Finding finding_of(const Term& term, Status status) const;
   void hold_out(Result& result) const;
+  void check_what_is_left(Result& result, const Stand& stand);
 
   Bench bench_;
   Result result_;

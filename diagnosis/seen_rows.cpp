@@ -1,0 +1,83 @@
+#include "diagnosis/seen_rows.hpp"
+
+#include <cmath>
+
+namespace muster::diagnosis {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+VectorXd mean_of(const noise::Rows& rows, const std::vector<double>& values) {
+  if (values.empty()) return {};
+  return rows.mean(Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size())));
+}
+
+// A row ends before its readings turn far, but the mean of angles must not cross their cut.
+VectorXd first_of(const noise::Rows& rows, const std::vector<double>& values) {
+  if (values.empty()) return {};
+  VectorXd result(rows.size());
+  for (Index i = 0; i < rows.size(); ++i) result[i] = values[static_cast<std::size_t>(rows.example(i))];
+  return result;
+}
+
+VectorXd left_by(const search::Bench& bench, const Eigen::MatrixXd& design, const search::Stand& stand) {
+  return bench.y() - design * stand.coefficients(design.cols());
+}
+
+}  // namespace
+
+SeenRows seen_rows(const search::Bench& bench, const LinkModel& model) {
+  const search::Problem& problem = bench.problem();
+  const noise::Readings& readings = problem.readings;
+  const noise::Rows& rows = bench.rows();
+  SeenRows out;
+  int radios = 0;
+  for (Index i = 0; i < rows.size(); ++i) {
+    const auto reading = static_cast<std::size_t>(rows.example(i));
+    out.tx.push_back(readings.tx[reading]);
+    out.rx.push_back(readings.rx[reading]);
+    radios = std::max({radios, out.tx.back() + 1, out.rx.back() + 1});
+  }
+  for (int k = 0; k < radios; ++k) out.radios.push_back(model.radio_name(k));
+  out.tx_at = rows.mean(readings.tx_at.transpose()).transpose();
+  out.rx_at = rows.mean(readings.rx_at.transpose()).transpose();
+  out.count = rows.count();
+  out.t = mean_of(rows, readings.t);
+  out.yaw = first_of(rows, readings.rx_yaw);
+  const Eigen::MatrixXd full = bench.design();
+  const search::Stand before = bench.stand(bench.base()), after = bench.stand(full);
+  out.before = left_by(bench, bench.base(), before);
+  out.after = left_by(bench, full, after);
+  out.white_before = before.at.residual;
+  out.white_after = after.at.residual;
+  for (const search::Covariate& c : problem.covariates) {
+    out.columns.push_back(c);
+    out.columns.back().values = rows.mean(c.values);
+  }
+  for (const search::Factor& f : problem.factors) {
+    out.factors.push_back({f.name, {}});
+    for (Index i = 0; i < rows.size(); ++i)
+      out.factors.back().level.push_back(f.level[static_cast<std::size_t>(rows.example(i))]);
+  }
+  return out;
+}
+
+VectorXd effect_of(const search::Bench& bench, const search::Candidate& candidate, const search::Finding& finding) {
+  return bench.columns_of(candidate, finding.theta) * finding.coefficients;
+}
+
+std::vector<WorldValue> world_values(const search::Bench& bench, const std::vector<std::string>& paths,
+                                     const VectorXd& values, const LinkModel& model) {
+  const Eigen::MatrixXd design = bench.design();
+  const Eigen::MatrixXd spread = bench.stand(design).at.basis.uncertainty(design.cols());
+  std::vector<WorldValue> out;
+  for (std::size_t k = 0; k < paths.size(); ++k) {
+    const auto at = static_cast<Index>(k);
+    const muster_param* declared = model.parameter(paths[k]).declared;
+    out.push_back({paths[k], declared ? declared->unit : "", values[at], std::sqrt(spread(at, at))});
+  }
+  return out;
+}
+
+}  // namespace muster::diagnosis
