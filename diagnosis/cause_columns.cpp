@@ -138,6 +138,20 @@ bool clear_of_ways(const CauseShape& shape, const Survey& survey, const VectorXd
   return !driven_through(survey, t[1], t[2], shape.axes.empty() ? 0.5 : std::exp(t[3]));
 }
 
+std::function<Eigen::MatrixXd(const VectorXd&)> columns_at(const std::shared_ptr<const CauseShape>& shape,
+                                                           const std::shared_ptr<CauseModel>& run,
+                                                           const std::vector<Index>& used) {
+  return [shape, run, used](const VectorXd& t) {
+    auto parameters = shape->parameters(t);
+    Eigen::MatrixXd result(static_cast<Index>(used.size()), shape->wave.empty() ? 1 : 2);
+    for (Index j = 0; j < result.cols(); ++j) {
+      if (!shape->wave.empty()) parameters[shape->wave] = j ? quarter_turn : 0;
+      result.col(j) = run->column(static_cast<std::size_t>(t[0]), parameters)(used);
+    }
+    return result;
+  };
+}
+
 struct Maker {
   const LinkModel& model;
   const Survey& survey;
@@ -224,19 +238,6 @@ struct Maker {
     };
   }
 
-  void columns(const std::shared_ptr<const CauseShape>& shape, const std::shared_ptr<CauseModel>& run,
-               search::Candidate& c) const {
-    c.columns = [shape, run, used = sources.used](const VectorXd& t) {
-      auto parameters = shape->parameters(t);
-      Eigen::MatrixXd result(static_cast<Index>(used.size()), shape->wave.empty() ? 1 : 2);
-      for (Index j = 0; j < result.cols(); ++j) {
-        if (!shape->wave.empty()) parameters[shape->wave] = j ? quarter_turn : 0;
-        result.col(j) = run->column(static_cast<std::size_t>(t[0]), parameters)(used);
-      }
-      return result;
-    };
-  }
-
   void grid(const CauseShape& shape, search::Candidate& c) const {
     const auto axes = products(shape.axes);
     std::vector<VectorXd> places{VectorXd()};
@@ -298,7 +299,7 @@ std::string make(const Cause& cause, const Maker& maker, CauseSearch& out) {
   if (shape->place != PlaceShape::none || !shape->axes.empty()) maker.bounds(*shape, c);
   maker.describe(*shape, c);
   maker.label(shape, c);
-  maker.columns(shape, run, c);
+  c.columns = columns_at(shape, run, maker.sources.used);
   maker.grid(*shape, c);
   if (c.grid.empty()) return "not testable: no reading depends on it, or the base model takes it up";
   if (stands(c)) {
@@ -331,6 +332,14 @@ std::map<std::string, double> CauseShape::parameters(const VectorXd& theta) cons
     const double value = theta[1 + place_entries(place) + static_cast<Index>(k)];
     result[axes[k].parameter] = axes[k].logarithmic ? std::exp(value) : value;
   }
+  return result;
+}
+
+search::Candidate at_readings_of(const CauseCandidate& cause, const CauseSources& s) {
+  const auto run = std::make_shared<CauseModel>(cause.shape->cause, s.world, s.data, s.plugins, cause.shape->rows,
+                                                s.world_parameters);
+  search::Candidate result = cause.candidate;
+  result.columns = columns_at(cause.shape, run, s.used);
   return result;
 }
 

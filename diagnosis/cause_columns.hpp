@@ -50,6 +50,9 @@ struct CauseSources {
   std::vector<Eigen::Index> used;                  // rows of the table behind the readings of the search
 };
 
+// The same candidate at the readings of another table, such as one that could be measured.
+search::Candidate at_readings_of(const CauseCandidate& cause, const CauseSources& sources);
+
 // Columns that no reading depends on, or that the base model can take up, are left out.
 CauseSearch cause_candidates(const LinkModel& model, const Survey& survey, const CauseSources& sources,
                              const Eigen::MatrixXd& base);

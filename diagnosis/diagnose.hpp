@@ -19,7 +19,8 @@ struct CauseValue {
 struct FoundCause {
   std::string id, label, title, tell_apart;
   search::Status status = search::Status::named;
-  std::string row_parameter, row;  // empty where it is about no row
+  std::vector<std::string> covariates;  // what it is a function of, its own one first: "map", "time", "bearing"
+  std::string row_parameter, row;       // empty where it is about no row
   std::vector<CauseValue> values;
   std::map<std::string, double> held;  // parameters that were set and not sought
   double evidence = 0, log_p = 0;
@@ -36,6 +37,11 @@ struct Unexplained {
   std::optional<search::HeldOut> held_out;
 };
 
+struct MappedWall {
+  std::string name, material;
+  double x0, y0, x1, y1, thickness;  // m
+};
+
 // What the search looked at, one entry a row: means of neighbouring readings of one link.
 struct SeenRows {
   std::vector<std::string> radios;  // names, by the numbers in tx and rx
@@ -46,6 +52,7 @@ struct SeenRows {
   Eigen::VectorXd white_before, white_after;  // the same, in its sd, without what its neighbours share with it
   std::vector<search::Covariate> columns;     // further columns of the data, means
   std::vector<search::Factor> factors;
+  std::vector<MappedWall> walls;
 };
 
 // What to measure to tell a cause from a rival.

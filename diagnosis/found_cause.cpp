@@ -95,6 +95,7 @@ FoundCause found_cause(const search::Finding& f, const CauseCandidate& cause, co
   out.title = shape.cause.meaning().title;
   out.tell_apart = shape.cause.meaning().tell_apart;
   out.status = f.status;
+  out.covariates = f.covariates;
   if (shape.cause.row() && !shape.row(f.theta).empty()) {
     out.row_parameter = shape.cause.row()->name;
     out.row = shape.row(f.theta);

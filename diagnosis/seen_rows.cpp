@@ -1,6 +1,8 @@
 #include "diagnosis/seen_rows.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <muster/tables.hpp>
 
 namespace muster::diagnosis {
 namespace {
@@ -23,6 +25,20 @@ VectorXd first_of(const noise::Rows& rows, const std::vector<double>& values) {
 
 VectorXd left_by(const search::Bench& bench, const Eigen::MatrixXd& design, const search::Stand& stand) {
   return bench.y() - design * stand.coefficients(design.cols());
+}
+
+std::vector<MappedWall> mapped_walls(const Simulation& run) {
+  std::vector<MappedWall> out;
+  const Table* table = run.board().find("wall/*/shape");
+  if (!table) return out;
+  const auto& walls = run.board().find_set("wall")->names;
+  const Set* materials = run.board().find_set("material");
+  for (std::size_t i = 0; i < table->now().rows; ++i) {
+    const Wall& w = reinterpret_cast<const Wall*>(table->now().data.data())[i];
+    out.push_back(
+        {walls.at(i), materials->names.at(static_cast<std::size_t>(w.material)), w.x0, w.y0, w.x1, w.y1, w.thickness});
+  }
+  return out;
 }
 
 }  // namespace
@@ -60,6 +76,7 @@ SeenRows seen_rows(const search::Bench& bench, const LinkModel& model) {
     for (Index i = 0; i < rows.size(); ++i)
       out.factors.back().level.push_back(f.level[static_cast<std::size_t>(rows.example(i))]);
   }
+  out.walls = mapped_walls(model.simulation());
   return out;
 }
 
