@@ -20,7 +20,7 @@ struct Host {
     try {
       return body();
     } catch (const Error& e) {
-      if (instance.said_.empty()) instance.said_ = std::string("!") + e.what(), instance.fault_ = e.exit();
+      if (instance.said_.empty()) instance.said_ = e.what(), instance.fault_ = e.exit(), instance.refused_ = true;
     } catch (const std::exception& e) {
       if (instance.said_.empty()) instance.said_ = e.what();
     }

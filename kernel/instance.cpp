@@ -160,7 +160,7 @@ int Instance::file(const std::string& param, const std::string& columns) {
 Error Instance::failure(const std::string& callback, const muster_tick* tick, const std::string& said) {
   const Exit fault = std::exchange(fault_, Exit::plugin_fault);
   said_.clear();
-  if (said.front() == '!') return Error(fault, said.substr(1));  // the kernel's own refusal, which names its place
+  if (std::exchange(refused_, false)) return Error(fault, said);  // which names its place
   const std::string where = tick ? " at tick " + std::to_string(tick->index) + " (t = " + print_real(tick->time) + " s)" : "";
   std::string words = said;  // a plugin's may have several lines; a message is one
   std::replace_if(words.begin(), words.end(), [](unsigned char c) { return c < 0x20; }, ' ');
@@ -222,6 +222,7 @@ bool Instance::step(muster_tick tick) noexcept {
   tick.params = params_.data();
   said_.clear();  // of a step that was taken back
   fault_ = Exit::plugin_fault;
+  refused_ = false;
   static thread_local const FloatGuard guard;  // as this thread was before any plugin ran on it
   in_step_ = true;
   const bool fine = guarded(MUSTER_FAILED, [&] { return plugin_->step(self_, &tick, in_.data(), out_.data()); }) == MUSTER_OK;

@@ -146,6 +146,7 @@ class Instance {
   std::vector<muster_out> out_;
   std::string said_;   // what the plugin said of its failure
   Exit fault_ = Exit::plugin_fault;
+  bool refused_ = false;  // what was said is the kernel's own refusal
   bool in_create_ = false, in_step_ = false, direct_ = false;
 };
 
