@@ -4,7 +4,6 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <sys/mman.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,6 +17,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "description/cage.hpp"
 #include "description/file_text.hpp"
 
 namespace muster::description {
@@ -29,9 +29,8 @@ namespace {
 constexpr std::size_t max_file = 32u << 20;  // bytes
 constexpr std::uint32_t max_vertices = 1u << 20;
 constexpr std::uint32_t max_faces = 1u << 21;
-constexpr double max_coordinate = 1e6;   // [m]
-constexpr rlim_t max_memory = 1u << 30;  // bytes of address space
-constexpr rlim_t max_cpu = 5;            // [s]
+constexpr double max_coordinate = 1e6;  // [m]
+constexpr CageLimits limits;
 
 // What the child hands back, in memory that both see. Pages that nobody touches cost nothing.
 struct Shared {
@@ -77,24 +76,6 @@ class OneFile : public Assimp::IOSystem {
   const std::string& bytes_;
 };
 
-void limit(int resource, rlim_t value) {
-  const rlimit both{value, value};
-  ::setrlimit(static_cast<__rlimit_resource>(resource), &both);
-}
-
-void confine() {
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // these reserve terabytes, and open pipes
-  limit(RLIMIT_AS, max_memory);
-  limit(RLIMIT_NOFILE, 0);  // what is open stays open; nothing more can be opened
-#endif
-  limit(RLIMIT_CPU, max_cpu);
-  limit(RLIMIT_FSIZE, 0);
-  limit(RLIMIT_CORE, 0);
-  for (int number : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU, SIGALRM, SIGINT, SIGTERM})
-    std::signal(number, SIG_DFL);
-  ::alarm(2 * max_cpu);  // for a child that waits instead of working
-}
-
 void fill(const aiScene& scene, Shared& out) {
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
     const aiMesh& mesh = *scene.mMeshes[m];
@@ -117,7 +98,7 @@ void fill(const aiScene& scene, Shared& out) {
 
 // Runs in the child and never returns.
 [[noreturn]] void import(const std::string& name, const std::string& bytes, Shared& out) {
-  confine();
+  enter_cage(limits);
   try {
     Assimp::Importer importer;
     importer.SetIOHandler(new OneFile(name, bytes));                       // which the importer owns
@@ -141,7 +122,7 @@ void run_child(const std::string& name, const std::string& bytes, Shared& out) {
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
   if (WIFSIGNALED(status) &&
       (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGALRM || WTERMSIG(status) == SIGKILL)) {
-    throw std::runtime_error("took longer than " + std::to_string(max_cpu) + " s to import");
+    throw std::runtime_error("took longer than " + std::to_string(limits.cpu) + " s to import");
   }
   if (!out.done) throw std::runtime_error("is not a mesh that can be imported: the importer crashed on it");
   if (out.error[0]) throw std::runtime_error(std::string("cannot be imported: ") + out.error);
