@@ -18,6 +18,7 @@ using Arguments = std::vector<std::string>;
 int run_check(const Arguments& arguments);
 int run_describe(const Arguments& arguments);
 int run_diagnose(const Arguments& arguments);
+int run_exam(const Arguments& arguments);
 int run_features(const Arguments& arguments);
 int run_fit(const Arguments& arguments);
 int run_graph(const Arguments& arguments);

@@ -187,6 +187,12 @@ double Share::upper95() const {
   return hits == of ? 1 : root([&](double p) { return cumulative(hits, of, p) < 0.025; });
 }
 
+int least_hits(int of, double share) {
+  int hits = 0;
+  while (hits < of && cumulative(hits, of, share) < 0.001) ++hits;
+  return hits;
+}
+
 std::string lambda_bin(double lambda) {
   if (lambda < 10) return "lambda < 10";
   if (lambda < 20) return "lambda 10-20";
@@ -220,6 +226,7 @@ double quantile(std::vector<double> values, double share) {
 
 void add(Grades& grades, const Truth& truth, const Verdict& verdict) {
   if (verdict.loop) grades.shares["loop / rediagnosis silent / all"].count(*verdict.loop == "silent");
+  if (verdict.second_silent) grades.shares["loop / second data silent / all"].count(*verdict.second_silent);
   if (truth.kind == "outside") return add_outside(grades, truth, verdict);
   if (truth.kind != "clean") return add_inside(grades, truth, verdict);
   grades.shares["clean / false name / all"].count(!verdict.named.empty());

@@ -22,6 +22,9 @@ struct Share {
   double upper95() const;
 };
 
+// The fewest hits of `of` trials that chance gives in all but 1 of 1,000 such series, each trial a hit with `share`.
+int least_hits(int of, double share);
+
 // What was true of a case.
 struct Truth {
   struct Effect {
@@ -51,6 +54,7 @@ struct Verdict {
   std::vector<std::string> unexplained;
   std::optional<double> gain;  // dB^2
   std::optional<std::string> loop;
+  std::optional<bool> second_silent;  // the extended world on other data of the same truth
 };
 
 Truth read_truth(const std::string& text);
@@ -70,6 +74,7 @@ struct Grades {
   Share covered;                               // 95 % intervals that hold the truth
   std::vector<double> relative_errors;         // of parameters
   Places places;
+  std::vector<double> seconds;       // of CPU, a case
   std::vector<std::string> missing;  // cases without a readable report
 };
 
@@ -77,6 +82,8 @@ void add(Grades& grades, const Truth& truth, const Verdict& verdict);
 Grades grade(const std::filesystem::path& answers, const std::filesystem::path& reports);
 std::string as_text(const Grades& grades);
 std::string as_json(const Grades& grades);
+// Beside the goals, in Markdown.
+std::string as_table(const Grades& grades);
 
 // Mean distance between two segments, both ways; ends x0 y0 x1 y1.
 double segment_distance(const std::vector<double>& a, const std::vector<double>& b);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -41,7 +42,7 @@ std::string last_part(const std::string& path) { return path.substr(path.find_la
 
 Verdict::Cause cause_of(const json& from) {
   Verdict::Cause cause{
-      from.at("id").get<std::string>(), from.value("label", ""), number(from, "evidence").value_or(0), {}};
+      last_part(from.at("id").get<std::string>()), from.value("label", ""), number(from, "evidence").value_or(0), {}};
   for (const json& p : from.value("parameters", json::array()))
     if (const auto value = number(p, "value"))
       cause.parameters[last_part(p.at("name").get<std::string>())] = {*value, number(p, "lower95"),
@@ -56,6 +57,31 @@ std::optional<fs::path> report_of(const fs::path& reports, const std::string& na
     if (fs::is_regular_file(at)) return at;
   }
   return {};
+}
+
+// The extended world against the case's other readings, where the command left that report beside the first one.
+std::optional<bool> silent_on_second(const fs::path& reports, const std::string& name) {
+  const fs::path at = reports / (name + ".second.json");
+  if (!fs::is_regular_file(at)) return {};
+  const Verdict verdict = read_verdict(read(at));
+  return verdict.named.empty() && verdict.unexplained.empty();
+}
+
+// CPU seconds by case from what `run` wrote; a case that was run twice counts by its last time.
+std::vector<double> costs_in(const fs::path& reports) {
+  std::map<std::string, double> seconds;
+  std::ifstream in(reports / "costs.csv");
+  std::string line;
+  for (std::getline(in, line); std::getline(in, line);) {
+    const auto comma = line.find(',');
+    double value = 0;
+    if (comma == line.npos) continue;
+    const auto [end, error] = std::from_chars(line.data() + comma + 1, line.data() + line.size(), value);
+    if (error == std::errc{} && *end == ',') seconds[line.substr(0, comma)] = value;
+  }
+  std::vector<double> result;
+  for (const auto& [name, value] : seconds) result.push_back(value);
+  return result;
 }
 
 json share_json(const Share& s) {
@@ -123,11 +149,13 @@ Grades grade(const fs::path& answers, const fs::path& reports) {
       const auto report = report_of(reports, truth.name);
       if (!report) throw std::runtime_error("none");
       verdict = read_verdict(read(*report));
+      verdict.second_silent = silent_on_second(reports, truth.name);
     } catch (const std::runtime_error&) {
       grades.missing.push_back(truth.name);
     }
     add(grades, truth, verdict);
   }
+  grades.seconds = costs_in(reports);
   return grades;
 }
 

@@ -7,6 +7,7 @@
 
 #include "grade.hpp"
 #include "orders.hpp"
+#include "run.hpp"
 #include "write.hpp"
 
 namespace {
@@ -18,22 +19,33 @@ constexpr const char* usage = R"(muster_exam: sealed cases for radio diagnosis
   muster_exam make --seed S --cases N --out DIR [--mix clean,one,two,outside] [--rows MIN MAX]
                    [--lambda L | --size weak|medium|strong] [--effects ID,ID...] [--first N]
       writes DIR/case_0001/{world.xml, walls.csv, measured.csv, second.csv} ... and DIR/answers/case_0001.json ...
-  muster_exam grade --answers DIR --reports DIR [--json]
-      holds DIR/case_0001.json (or .txt, or DIR/case_0001/diagnosis.json) ... against the answers
+  muster_exam run DIR [--reports DIR] [--command COMMAND] [--jobs N]
+      runs a diagnosis over the cases, by default muster diagnose {world} --data {data} --json; what it prints becomes
+      DIR/reports/case_0001.txt ..., what it cost DIR/reports/costs.csv. Cases that have a report are left alone.
+      Slots of COMMAND: {world}, {data}, {second} (the other readings), {out} (a folder of its own)
+  muster_exam grade --answers DIR [--reports DIR] [--json | --table]
+      holds reports (DIR/reports/case_0001.txt, or .json, or case_0001/diagnosis.json) against the answers; --table
+      sets them beside the goals
   muster_exam effects
       lists the effects that can be hidden
 
-Example: muster_exam make --seed 7 --cases 40 --out exam
-         for c in exam/case_*; do muster diagnose $c --data $c/measured.csv --json > reports/${c##*/}.json; done
-         muster_exam grade --answers exam --reports reports
+The same under the program muster: muster exam make ...
+Example: muster exam make --seed 7 --cases 40 --out exam
+         muster exam run exam --jobs 2
+         muster exam grade --answers exam
 )";
 
 using Arguments = std::map<std::string, std::vector<std::string>>;
 
+// Options that are known, each with its values in words; under "" the words that belong to no option.
 Arguments parsed(int argc, char** argv, const Arguments& known) {
   Arguments result;
   for (int i = 2; i < argc; ++i) {
     const std::string option = argv[i];
+    if (option[0] != '-' && known.contains("")) {
+      result[""].push_back(option);
+      continue;
+    }
     const auto spec = known.find(option);
     if (spec == known.end()) throw std::invalid_argument("no option is called " + option);
     auto& values = result[option];
@@ -126,11 +138,36 @@ int make(int argc, char** argv) {
   return 0;
 }
 
+// Given, or the folder "reports" of the exam.
+std::filesystem::path reports_of(const Arguments& arguments, const std::filesystem::path& exam) {
+  const auto at = arguments.find("--reports");
+  return at == arguments.end() ? exam / "reports" : std::filesystem::path(at->second[0]);
+}
+
+int run(int argc, char** argv) {
+  const Arguments arguments = parsed(
+      argc, argv, {{"", {}}, {"--reports", {"a folder"}}, {"--command", {"a command"}}, {"--jobs", {"a number"}}});
+  const auto given = arguments.find("");
+  if (given == arguments.end() || given->second.size() != 1)
+    throw std::invalid_argument("expected one folder, as make wrote it");
+  RunOrder order{given->second[0], reports_of(arguments, given->second[0]), "", 1};
+  if (const auto at = arguments.find("--command"); at != arguments.end()) order.command = at->second[0];
+  if (order.command.empty()) order.command = default_command();
+  if (const auto at = arguments.find("--jobs"); at != arguments.end()) order.jobs = number(at->second[0], 1, 1000);
+  const RunOutcome outcome = run_cases(order);
+  fmt::print("{} cases run, {} had a report, {} failed\n", outcome.ran, outcome.kept, outcome.failed.size());
+  for (const std::string& words : outcome.failed) fmt::print("{}\n", words);
+  return outcome.failed.empty() ? 0 : 1;
+}
+
 int run_grade(int argc, char** argv) {
   const Arguments arguments =
-      parsed(argc, argv, {{"--answers", {"a folder"}}, {"--reports", {"a folder"}}, {"--json", {}}});
-  const Grades grades = grade(required(arguments, "--answers"), required(arguments, "--reports"));
-  fmt::print("{}", arguments.contains("--json") ? as_json(grades) : as_text(grades));
+      parsed(argc, argv, {{"--answers", {"a folder"}}, {"--reports", {"a folder"}}, {"--json", {}}, {"--table", {}}});
+  const std::string& answers = required(arguments, "--answers");
+  const Grades grades = grade(answers, reports_of(arguments, answers));
+  fmt::print("{}", arguments.contains("--json")    ? as_json(grades)
+                   : arguments.contains("--table") ? as_table(grades)
+                                                   : as_text(grades));
   return grades.missing.empty() ? 0 : 1;
 }
 
@@ -145,6 +182,7 @@ int main(int argc, char** argv) {
   const std::string verb = argc > 1 ? argv[1] : "--help";
   try {
     if (verb == "make") return make(argc, argv);
+    if (verb == "run") return run(argc, argv);
     if (verb == "grade") return run_grade(argc, argv);
     if (verb == "effects") return list_effects();
     fmt::print("{}", usage);

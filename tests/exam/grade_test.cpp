@@ -33,6 +33,14 @@ const char* const right_report =
     R"({"id":"tx_offset","label":"endpoint/beacon2","status":"named","evidence":20,"parameters":[{"name":"tx_offset/offset","value":4.4,"lower95":3.5,"upper95":5.3}]},)"
     R"({"id":"drift","label":"","status":"suspected","evidence":2,"parameters":[]}],"unexplained":[],"loop":{"rediagnosis":"silent"}})";
 
+TEST(Grade, FewestHitsThatChanceLeaves) {
+  EXPECT_EQ(least_hits(3, 0.95), 1);  // none of three: 0.05^3 = 1.25e-4; at most one: 0.00725
+  EXPECT_EQ(least_hits(40, 0.99), 37);
+  EXPECT_EQ(least_hits(1000, 0.993), 984);
+  EXPECT_EQ(least_hits(5, 1), 5);
+  EXPECT_EQ(least_hits(0, 0.5), 0);
+}
+
 TEST(Grade, CountsWhatIsRight) {
   Grades g;
   add(g, one("tx_offset", 60), said(right_report));
@@ -119,7 +127,7 @@ TEST(Grade, DirectionsWrap) {
   Grades g;
   add(g, truth,
       said(
-          R"({"verdict":"extended","causes":[{"id":"antenna_rx","status":"named","parameters":[{"name":"direction","value":-3.1,"lower95":-3.3,"upper95":-2.9}]}]})"));
+          R"({"verdict":"extended","causes":[{"id":"effect.antenna_rx","status":"named","parameters":[{"name":"direction","value":-3.1,"lower95":-3.3,"upper95":-2.9}]}]})"));
   EXPECT_EQ(g.covered.hits, 1);
   EXPECT_LT(g.relative_errors.at(0), 0.03);
 }

@@ -57,6 +57,26 @@ TEST_F(Program, MakesCasesAndGradesThem) {
   EXPECT_NE(graded.text.find("\"missing\":[\"case_0003\"]"), std::string::npos) << graded.text;
 }
 
+TEST_F(Program, RunsACommandOverTheCasesAndGoesOnWhereItWasStopped) {
+  const std::string out = folder / "exam";
+  ASSERT_EQ(run("make --seed 3 --cases 3 --rows 400 600 --mix clean --out " + out).code, 0);
+  // Fails on the second case: it leaves no report, and the next run has but that one to do.
+  const std::string command =
+      R"( --command "test -f {data} && case {world} in *2) echo broken >&2; exit 65;; esac; echo '{\"verdict\":\"adequate\"}'")";
+  Outcome sat = run("run " + out + command);
+  EXPECT_EQ(sat.code, 1);
+  EXPECT_EQ(sat.text, "3 cases run, 0 had a report, 1 failed\ncase_0002: exit code 65: broken\n");
+  EXPECT_EQ(read(folder / "exam/reports/case_0001.txt"), "{\"verdict\":\"adequate\"}\n");
+  sat = run("run " + out + R"( --jobs 2 --command "echo '{\"verdict\":\"adequate\"}'")");
+  EXPECT_EQ(sat.text, "1 cases run, 2 had a report, 0 failed\n");
+  const Outcome graded = run("grade --table --answers " + out);
+  EXPECT_EQ(graded.code, 0);
+  EXPECT_NE(graded.text.find("| false name on clean worlds | 0/3 = 0 % [0.0, 70.8] | <= 0.7 % | reached |"),
+            std::string::npos)
+      << graded.text;
+  EXPECT_EQ(run("run").code, 2);
+}
+
 TEST_F(Program, RefusesWhatItDoesNotKnow) {
   EXPECT_EQ(run("make --seed 3 --cases 1").code, 2);
   EXPECT_EQ(run("make --seed 3 --cases 1 --out x --mix some").text,
