@@ -52,6 +52,7 @@ std::string sentence(const FoundCause& c) {
     }
     const std::string slot = c.title.substr(k + 1, end - k - 1);
     std::string word = c.row.empty() ? "all radios" : c.row;
+    if (const auto other = c.words.find(slot); other != c.words.end()) word = other->second;
     for (const CauseValue& v : c.values) {
       if (v.name == slot) word = fmt::format("{:.4g}{}{}", v.value, v.unit.empty() ? "" : " ", v.unit);
     }

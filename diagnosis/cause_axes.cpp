@@ -72,6 +72,8 @@ std::optional<Axis> axis_of(const muster_param& p, const Survey& s, const CauseS
   if (p.flags & MUSTER_LOG) {
     if (unit == "s") return duration(p, s, shape);
     if (unit == "m") return length(p, s, shape);
+    // A loss: from less than one wall costs to more than any link loses.
+    if (unit == "dB") return logarithmic(p, 2, 300, {5, 8, 12, 18, 28, 50, 100}, 0.2);
     std::vector<double> values;
     for (const double v : evenly(std::log(p.min), std::log(p.max), 5)) values.push_back(std::exp(v));
     return logarithmic(p, p.min, p.max, {values[1], values[2], values[3]}, 0.2);
@@ -86,7 +88,7 @@ std::optional<Axis> axis_of(const muster_param& p, const Survey& s, const CauseS
                 0.1 * s.height.length(),
                 evenly(s.height.at(0.1), s.height.at(0.9), 7)};
   }
-  return Axis{p.name, false, p.min, p.max, (p.max - p.min) / 20, evenly(p.min, p.max, 5)};
+  return Axis{p.name, false, p.min, p.max, (p.max - p.min) / 20, evenly(p.min, p.max, alone ? 9 : 5)};
 }
 
 std::vector<Eigen::VectorXd> places_over(PlaceShape shape, const Survey& s, bool large) {
@@ -125,6 +127,32 @@ int driven_across(const Survey& s, double x, double y, double length, double ang
 bool driven_through(const Survey& s, double x, double y, double radius) {
   return std::any_of(s.ways.begin(), s.ways.end(),
                      [&](const auto& w) { return std::hypot(w[0] - x, w[1] - y) < 0.7 * radius; });
+}
+
+std::vector<VectorXd> spans(const std::vector<search::Piece>& pieces, const std::string& id) {
+  std::vector<VectorXd> result;
+  std::vector<std::array<Eigen::Vector2d, 2>> ends;
+  for (const search::Piece& p : pieces) {
+    const Eigen::Vector2d middle = p.theta.segment<2>(1);
+    const Eigen::Vector2d half =
+        p.id == id ? Eigen::Vector2d(p.theta[3] / 2 * std::cos(p.theta[4]), p.theta[3] / 2 * std::sin(p.theta[4]))
+                   : Eigen::Vector2d(0, 0);
+    ends.push_back({middle - half, middle + half});
+  }
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      Eigen::Vector2d from = ends[i][0], to = ends[i][0];
+      for (const auto& a : {ends[i][0], ends[i][1], ends[j][0], ends[j][1]}) {
+        for (const auto& b : {ends[i][0], ends[i][1], ends[j][0], ends[j][1]}) {
+          if ((b - a).norm() > (to - from).norm()) from = a, to = b;
+        }
+      }
+      const Eigen::Vector2d way = to - from, middle = (from + to) / 2;
+      result.push_back(Eigen::VectorXd(5));
+      result.back() << 0, middle, way.norm(), std::atan2(way.y(), way.x());
+    }
+  }
+  return result;
 }
 
 }  // namespace muster::diagnosis

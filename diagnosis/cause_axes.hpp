@@ -18,4 +18,7 @@ int driven_across(const Survey& survey, double x, double y, double length, doubl
 // Whether a way leads through the disk.
 bool driven_through(const Survey& survey, double x, double y, double radius);
 
+// Segments between the ends that lie farthest apart, of each pair of pieces; those of `id` are segments, others points.
+std::vector<Eigen::VectorXd> spans(const std::vector<search::Piece>& pieces, const std::string& id);
+
 }  // namespace muster::diagnosis

@@ -3,9 +3,12 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
+#include <tuple>
 
 #include "diagnosis/cause_axes.hpp"
+#include "diagnosis/cause_rows.hpp"
 
 namespace muster::diagnosis {
 namespace {
@@ -15,47 +18,6 @@ using Eigen::VectorXd;
 
 constexpr double quarter_turn = 1.5707963267948966;
 constexpr double least_share = 0.01;  // of readings that a place must concern
-
-bool needs(const Cause& cause, const std::string& column) {
-  std::istringstream words(cause.meaning().covariates);
-  for (std::string word; words >> word;) {
-    if (word == column) return true;
-  }
-  return false;
-}
-
-// Why the data cannot speak of a cause; empty if they can.
-std::string why_not(const Cause& cause, const Survey& survey) {
-  if (cause.meaning().kind != MUSTER_TERM) return "a stage, law or edit, not a term: not searched yet";
-  if (!cause.linear()) return "no single parameter that it is proportional to: not searched yet";
-  for (uint32_t k = 0; k < cause.plugin->param_count; ++k) {
-    if (cause.plugin->params[k].kind == MUSTER_FILE) return "needs a table of its own: not searched yet";
-  }
-  if (needs(cause, "t") && !(survey.has_time && survey.time.length() > 0)) return "not testable: the data have no t";
-  if (needs(cause, "rx_yaw") && !survey.has_yaw) return "not testable: the data have no rx_yaw";
-  if (needs(cause, "tx_z") && !survey.has_height) return "not testable: all radios are at one height";
-  return "";
-}
-
-// Rows of the world that a cause may be about. What needs a heading is sought in radios that turn; what needs places
-// alone, in those that stand.
-std::vector<std::string> rows_for(const Cause& cause, const LinkModel& model, const Survey& survey) {
-  const muster_param* row = cause.row();
-  if (!row) return {""};
-  const std::string set = row->text;
-  std::vector<std::string> result;
-  if (!(row->flags & MUSTER_REQUIRED)) result.push_back("");
-  for (const RowDeclaration& declared : model.simulation().world().rows) {
-    if (std::find(declared.sets.begin(), declared.sets.end(), set) == declared.sets.end()) continue;
-    const auto number = static_cast<std::size_t>(model.simulation().board().find_set(set)->find(declared.name));
-    if (set == "radio") {
-      if (number >= survey.turns.size()) continue;  // it took part in no reading
-      if (needs(cause, "rx_yaw") ? !survey.turns[number] : needs(cause, "tx_x") && survey.moves[number]) continue;
-    }
-    result.push_back(declared.name);
-  }
-  return result;
-}
 
 void find_place(CauseShape& shape) {
   for (uint32_t k = 0; k < shape.cause.plugin->param_count; ++k) {
@@ -67,10 +29,11 @@ void find_place(CauseShape& shape) {
 }
 
 // Two columns stand for all directions where the effect is a wave in the cyclic parameter.
-bool is_wave(CauseModel& model, const std::string& parameter, std::map<std::string, double> others) {
+bool is_wave(CauseModel& model, const CauseShape& shape, const std::string& parameter) {
+  auto others = shape.held;
   const auto at = [&](double angle) {
     others[parameter] = angle;
-    return model.column(0, others);
+    return model.column(shape.cause, shape.rows, 0, others);
   };
   const VectorXd zero = at(0), quarter = at(quarter_turn), one = at(1);
   return zero.norm() > 0 && (std::cos(1) * zero + std::sin(1) * quarter - one).norm() < 1e-9 * zero.norm();
@@ -94,7 +57,7 @@ bool find_axes(CauseShape& shape, CauseModel& model, const Survey& survey) {
   }
   auto parameters = sought(shape.cause);
   for (const muster_param* p : parameters) {
-    if ((p->flags & MUSTER_CYCLIC) && shape.wave.empty() && is_wave(model, p->name, shape.held)) shape.wave = p->name;
+    if ((p->flags & MUSTER_CYCLIC) && shape.wave.empty() && is_wave(model, shape, p->name)) shape.wave = p->name;
   }
   std::erase_if(parameters, [&](const muster_param* p) { return p->name == shape.wave; });
   for (const muster_param* p : parameters) {
@@ -138,22 +101,28 @@ bool clear_of_ways(const CauseShape& shape, const Survey& survey, const VectorXd
   return !driven_through(survey, t[1], t[2], shape.axes.empty() ? 0.5 : std::exp(t[3]));
 }
 
+// One strength at 1 and all others at 0.
+void set_one(const CauseShape& shape, std::size_t one, std::map<std::string, double>& parameters) {
+  for (const muster_param* p : shape.cause.linear()) parameters[p->name] = p == shape.linear[one] ? 1 : 0;
+}
+
 std::function<Eigen::MatrixXd(const VectorXd&)> columns_at(const std::shared_ptr<const CauseShape>& shape,
                                                            const std::shared_ptr<CauseModel>& run,
                                                            const std::vector<Index>& used) {
   return [shape, run, used](const VectorXd& t) {
     auto parameters = shape->parameters(t);
-    Eigen::MatrixXd result(static_cast<Index>(used.size()), shape->wave.empty() ? 1 : 2);
+    Eigen::MatrixXd result(static_cast<Index>(used.size()), shape->columns());
+    const auto row = static_cast<std::size_t>(t[0]);
     for (Index j = 0; j < result.cols(); ++j) {
       if (!shape->wave.empty()) parameters[shape->wave] = j ? quarter_turn : 0;
-      result.col(j) = run->column(static_cast<std::size_t>(t[0]), parameters)(used);
+      if (shape->linear.size() > 1) set_one(*shape, static_cast<std::size_t>(j), parameters);
+      result.col(j) = run->column(shape->cause, shape->rows, row, parameters)(used);
     }
     return result;
   };
 }
 
 struct Maker {
-  const LinkModel& model;
   const Survey& survey;
   const CauseSources& sources;
   Eigen::HouseholderQR<Eigen::MatrixXd> base;
@@ -163,6 +132,13 @@ struct Maker {
   bool shows(const VectorXd& column) const {
     VectorXd rest = base.householderQ().transpose() * column;
     return column.norm() > 0 && rest.tail(rest.size() - base_columns).norm() > 1e-6 * column.norm();
+  }
+
+  // What the base model leaves of it.
+  VectorXd rest_of(const VectorXd& column) const {
+    VectorXd rest = base.householderQ().transpose() * column;
+    rest.head(base_columns).setZero();
+    return base.householderQ() * rest;
   }
 
   void bounds(const CauseShape& shape, search::Candidate& c) const {
@@ -190,43 +166,39 @@ struct Maker {
   // What the search asks of a candidate, from what the plugin declares.
   void describe(const CauseShape& shape, search::Candidate& c) const {
     const Cause& cause = shape.cause;
-    const muster_param& linear = *cause.linear();
     const bool time = needs(cause, "t"), heading = needs(cause, "rx_yaw"), placed = shape.place != PlaceShape::none;
-    const std::string set = cause.row() ? cause.row()->text : "";
+    const std::string column = own_column(cause);
+    const bool edit = cause.meaning().kind == MUSTER_WORLD_EDIT;
+    const bool decibels = shape.linear.size() == 1 && shape.linear[0]->unit == std::string("dB");
     c.id = cause.id;
-    c.width = shape.wave.empty() ? 1 : 2;
-    c.sign = c.width == 1 && linear.min == 0 ? 1 : 0;
-    c.time_like = time;
-    c.offset = set == "radio" && !time && !heading && !needs(cause, "tx_x");
-    c.slow = !time && !heading && !(placed && c.sign && linear.unit == std::string("dB"));
-    c.level_like = set.empty() && !placed && !time;
+    c.width = static_cast<int>(shape.columns());
+    c.whole = shape.linear.empty();
+    c.sign = c.whole || (c.width == 1 && shape.linear[0]->min == 0) ? 1 : 0;
+    c.time_like = time && column.empty();
+    c.offset = shape.set() == "radio" && !time && !heading && !needs(cause, "tx_x");
+    c.slow = !time && !heading && !(placed && c.sign && decibels);
+    c.level_like = shape.set().empty() && !placed && !time;
     if (placed && !c.slow) c.pieces = "place";
-    if (time) {
-      c.covariates = {"time"};
-      c.stands_for = {"time", "time_per_tx"};
-    } else if (heading) {
-      c.covariates = {"bearing"};
-      c.stands_for = {"bearing", "heading"};
-    } else if (placed || set == "wall") {
-      c.covariates = {"map"};
-      c.stands_for = {"position", "txbearing"};
-    } else if (set == "radio") {
-      c.covariates = {"link"};
-      c.stands_for = {"link", "txbearing"};
-    } else {
-      c.covariates = {"logd"};
-      c.stands_for = {"logd", "level"};
-    }
+    std::tie(c.covariates, c.stands_for) = covariates_of(shape);
     if (!c.refinable()) return;
-    c.starts = stands(c) ? (shape.place == PlaceShape::segment ? 8 : 5) : 1;
-    c.evaluations = placed ? 110 : 35;
+    c.starts = stands(c) ? (shape.place == PlaceShape::segment ? 8 : 5) : edit ? 2 : 1;
+    c.evaluations = edit ? 60 : placed ? 110 : 35;
     c.charge = shape.place == PlaceShape::segment ? 4.5 : placed ? 4 : 0.7;
+  }
+
+  // What it is a function of, its own covariate first, and the smooths whose place it may take.
+  static std::pair<std::vector<std::string>, std::set<std::string>> covariates_of(const CauseShape& shape) {
+    if (const std::string column = own_column(shape.cause); !column.empty()) return {{column}, {column}};
+    if (needs(shape.cause, "t")) return {{"time"}, {"time", "time_per_tx"}};
+    if (needs(shape.cause, "rx_yaw")) return {{"bearing"}, {"bearing", "heading"}};
+    if (shape.place != PlaceShape::none || shape.set() == "wall") return {{"map"}, {"position", "txbearing"}};
+    if (shape.set() == "radio") return {{"link"}, {"link", "txbearing"}};
+    return {{"logd"}, {"logd", "level"}};
   }
 
   void label(const std::shared_ptr<const CauseShape>& shape, search::Candidate& c) const {
     c.label = [shape](const VectorXd& t) {
-      const muster_param* row = shape->cause.row();
-      if (row && !shape->row(t).empty()) return std::string(row->text) + '/' + shape->row(t);
+      if (const std::string row = shape->row_label(t); !row.empty()) return row;
       std::ostringstream at;
       at.precision(2);
       at << std::fixed;
@@ -238,68 +210,104 @@ struct Maker {
     };
   }
 
+  // Of several strengths those that readings tell apart beside the base model. What most readings have is the first to
+  // be the reference, at which nothing is added.
+  void choose_strengths(CauseShape& shape) const {
+    shape.linear = shape.cause.linear();
+    if (shape.linear.size() < 2) return;
+    struct Strength {
+      const muster_param* parameter;
+      VectorXd column;
+      Index count;
+    };
+    std::vector<Strength> all;
+    for (std::size_t k = 0; k < shape.linear.size(); ++k) {
+      std::map<std::string, double> parameters = shape.held;
+      set_one(shape, k, parameters);
+      VectorXd column = sources.run->column(shape.cause, shape.rows, 0, parameters)(sources.used);
+      const Index count = (column.array() != 0).count();
+      if (count > 0) all.push_back({shape.linear[k], std::move(column), count});
+    }
+    std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.count < b.count; });
+    Eigen::MatrixXd together(static_cast<Index>(sources.used.size()), 0);
+    std::vector<const muster_param*> kept;
+    for (const Strength& s : all) {
+      VectorXd rest = rest_of(s.column);
+      for (int twice = 0; twice < 2; ++twice) rest -= together * (together.transpose() * rest);
+      if (!(rest.norm() > 1e-6 * s.column.norm())) continue;
+      together.conservativeResize(Eigen::NoChange, together.cols() + 1);
+      together.rightCols(1) = rest.normalized();
+      kept.push_back(s.parameter);
+    }
+    std::erase_if(shape.linear, [&](const muster_param* p) { return !std::count(kept.begin(), kept.end(), p); });
+  }
+
+  // Places around where the map has a radio, which are tried for it.
+  std::vector<VectorXd> places_around(const CauseShape& shape, std::size_t row) const {
+    std::vector<VectorXd> result;
+    const auto at = place_of_radio(shape.rows[row].at(0));
+    if (!at) return result;
+    for (const double r : {0.6, 1.5, 3.0, 5.0}) {
+      for (int k = 0; k < 8; ++k) {
+        const double angle = (k + (r == 1.5 || r == 5.0 ? 0.5 : 0)) * quarter_turn / 2;
+        result.push_back(Eigen::Vector2d(at->x() + r * std::cos(angle), at->y() + r * std::sin(angle)));
+      }
+    }
+    return result;
+  }
+
+  std::optional<Eigen::Vector2d> place_of_radio(const std::string& name) const {
+    for (const auto& ends : sources.model.ends()) {
+      for (const End& end : ends)
+        if (sources.model.radio_name(end.radio) == name) return Eigen::Vector2d(end.x, end.y);
+    }
+    return {};
+  }
+
   void grid(const CauseShape& shape, search::Candidate& c) const {
-    const auto axes = products(shape.axes);
+    const bool moves_radio = shape.cause.meaning().kind == MUSTER_WORLD_EDIT && shape.place == PlaceShape::point;
     std::vector<VectorXd> places{VectorXd()};
-    if (shape.place != PlaceShape::none) places = places_over(shape.place, survey, !stands(c));
+    if (shape.place != PlaceShape::none && !moves_radio) places = places_over(shape.place, survey, !stands(c));
+    const auto axes = products(shape.axes);
+    if (moves_radio) {
+      for (std::size_t row = 0; row < shape.rows.size(); ++row) {
+        for (const VectorXd& place : places_around(shape, row)) add_start(shape, theta_of(row, place, {}), c);
+      }
+      return;
+    }
     // Shapes outermost, rows innermost: rows at one shape cost one evaluation.
     for (const VectorXd& place : places) {
       for (const auto& values : axes) {
-        for (std::size_t row = 0; row < shape.rows.size(); ++row) {
-          const VectorXd theta = theta_of(row, place, values);
-          if (stands(c) && !clear_of_ways(shape, survey, theta)) continue;
-          const Eigen::MatrixXd columns = c.columns(theta);
-          const double share = (columns.array() != 0).cast<double>().mean();
-          if (share >= (shape.place == PlaceShape::none ? 0 : least_share) && shows(columns.col(0)))
-            c.grid.push_back(theta);
-        }
+        for (std::size_t row = 0; row < shape.rows.size(); ++row) add_start(shape, theta_of(row, place, values), c);
       }
     }
+  }
+
+  void add_start(const CauseShape& shape, const VectorXd& theta, search::Candidate& c) const {
+    if (stands(c) && !clear_of_ways(shape, survey, theta)) return;
+    const Eigen::MatrixXd columns = c.columns(theta);
+    const double share = (columns.array() != 0).cast<double>().mean();
+    if (share >= (shape.place == PlaceShape::none ? 0 : least_share) && shows(columns.col(0))) c.grid.push_back(theta);
   }
 };
 
-// The ends that lie farthest apart of each pair of segments.
-std::vector<VectorXd> spans(const std::vector<search::Piece>& pieces, const std::string& id) {
-  std::vector<VectorXd> result;
-  std::vector<std::array<Eigen::Vector2d, 2>> ends;
-  for (const search::Piece& p : pieces) {
-    const Eigen::Vector2d middle = p.theta.segment<2>(1);
-    const Eigen::Vector2d half =
-        p.id == id ? Eigen::Vector2d(p.theta[3] / 2 * std::cos(p.theta[4]), p.theta[3] / 2 * std::sin(p.theta[4]))
-                   : Eigen::Vector2d(0, 0);
-    ends.push_back({middle - half, middle + half});
-  }
-  for (std::size_t i = 0; i < ends.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      Eigen::Vector2d from = ends[i][0], to = ends[i][0];
-      for (const auto& a : {ends[i][0], ends[i][1], ends[j][0], ends[j][1]}) {
-        for (const auto& b : {ends[i][0], ends[i][1], ends[j][0], ends[j][1]}) {
-          if ((b - a).norm() > (to - from).norm()) from = a, to = b;
-        }
-      }
-      const Eigen::Vector2d way = to - from, middle = (from + to) / 2;
-      result.push_back(Eigen::VectorXd(5));
-      result.back() << 0, middle, way.norm(), std::atan2(way.y(), way.x());
-    }
-  }
-  return result;
-}
-
 std::string make(const Cause& cause, const Maker& maker, CauseSearch& out) {
-  if (const std::string why = why_not(cause, maker.survey); !why.empty()) return why;
+  const CauseSources& s = maker.sources;
+  if (const std::string why = why_not(cause, maker.survey, s.data); !why.empty()) return why;
   auto shape = std::make_shared<CauseShape>();
   shape->cause = cause;
-  shape->rows = rows_for(cause, maker.model, maker.survey);
+  shape->rows = rows_for(cause, s.model, maker.survey);
   if (shape->rows.empty()) return "not testable: the world has no row that it could be about";
   find_place(*shape);
-  const CauseSources& s = maker.sources;
-  const auto run = std::make_shared<CauseModel>(cause, s.world, s.data, s.plugins, shape->rows, s.world_parameters);
-  if (!find_axes(*shape, *run, maker.survey)) return "not testable: what it depends on does not vary";
+  if (!find_axes(*shape, *s.run, maker.survey)) return "not testable: what it depends on does not vary";
+  maker.choose_strengths(*shape);
+  if (shape->linear.empty() && !cause.linear().empty())
+    return "not testable: no reading depends on it, or the base model takes it up";
   search::Candidate c;
   if (shape->place != PlaceShape::none || !shape->axes.empty()) maker.bounds(*shape, c);
   maker.describe(*shape, c);
   maker.label(shape, c);
-  c.columns = columns_at(shape, run, maker.sources.used);
+  c.columns = columns_at(shape, s.run, s.used);
   maker.grid(*shape, c);
   if (c.grid.empty()) return "not testable: no reading depends on it, or the base model takes it up";
   if (stands(c)) {
@@ -312,6 +320,16 @@ std::string make(const Cause& cause, const Maker& maker, CauseSearch& out) {
   }
   out.found.push_back({shape, std::move(c)});
   return "";
+}
+
+// A cause that cannot run in this world, or with this table, says so itself.
+std::string made(const Cause& cause, const Maker& maker, CauseSearch& out) {
+  try {
+    return make(cause, maker, out);
+  } catch (const Error& error) {
+    maker.sources.run->clear();
+    return std::string("not testable: ") + error.what();
+  }
 }
 
 }  // namespace
@@ -336,19 +354,37 @@ std::map<std::string, double> CauseShape::parameters(const VectorXd& theta) cons
 }
 
 search::Candidate at_readings_of(const CauseCandidate& cause, const CauseSources& s) {
-  const auto run = std::make_shared<CauseModel>(cause.shape->cause, s.world, s.data, s.plugins, cause.shape->rows,
-                                                s.world_parameters);
   search::Candidate result = cause.candidate;
-  result.columns = columns_at(cause.shape, run, s.used);
+  result.columns = columns_at(cause.shape, s.run, s.used);
   return result;
 }
 
-CauseSearch cause_candidates(const LinkModel& model, const Survey& survey, const CauseSources& sources,
+std::string CauseShape::row_label(const VectorXd& theta) const {
+  std::string result;
+  const auto references = cause.rows();
+  for (std::size_t k = 0; k < references.size(); ++k) {
+    if (!row(theta)[k].empty()) result += (result.empty() ? "" : " ") + std::string(references[k]->text) + '/' + row(theta)[k];
+  }
+  return result;
+}
+
+std::string CauseShape::set() const {
+  const auto references = cause.rows();
+  return references.empty() ? "" : references[0]->text;
+}
+
+bool shifts_levels(const Cause& cause) {
+  const auto kind = cause.meaning().kind;
+  return kind != MUSTER_LAW && !(kind == MUSTER_STAGE && cause.linear().empty());
+}
+
+CauseSearch cause_candidates(const std::vector<Cause>& causes, const Survey& survey, const CauseSources& sources,
                              const Eigen::MatrixXd& base) {
   CauseSearch result;
-  const Maker maker{model, survey, sources, Eigen::HouseholderQR<Eigen::MatrixXd>(base), base.cols()};
-  for (const Cause& cause : causes_on(sources.plugins)) {
-    const std::string why = make(cause, maker, result);
+  const Maker maker{survey, sources, Eigen::HouseholderQR<Eigen::MatrixXd>(base), base.cols()};
+  for (const Cause& cause : causes) {
+    if (!shifts_levels(cause)) continue;
+    const std::string why = made(cause, maker, result);
     if (!why.empty()) result.not_tested.push_back(cause.id + ": " + why);
   }
   return result;

@@ -22,7 +22,8 @@ enum class PlaceShape { none = 1, point, segment };
 // theta is: number of the row; then x y of a point, or x y of the middle, length and angle of a segment; then axes.
 struct CauseShape {
   Cause cause;
-  std::vector<std::string> rows;  // names; one "" where it is about none
+  std::vector<CauseRow> rows;               // one without names where it is about none
+  std::vector<const muster_param*> linear;  // whose strength is sought, a column each; none: it counts as it is
   PlaceShape place = PlaceShape::none;
   std::vector<std::string> coordinates;  // parameters of the place: x y, or x0 y0 x1 y1
   std::vector<Axis> axes;
@@ -30,7 +31,13 @@ struct CauseShape {
   std::string wave;                    // the cyclic parameter that two columns stand for; empty: one column
 
   std::map<std::string, double> parameters(const Eigen::VectorXd& theta) const;
-  const std::string& row(const Eigen::VectorXd& theta) const { return rows[static_cast<std::size_t>(theta[0])]; }
+  const CauseRow& row(const Eigen::VectorXd& theta) const { return rows[static_cast<std::size_t>(theta[0])]; }
+  // "radio/beacon1", of two "radio/beacon1 radio/beacon2"; empty where it is about none.
+  std::string row_label(const Eigen::VectorXd& theta) const;
+  std::string set() const;  // of its first reference; "" without one
+  Eigen::Index columns() const {
+    return !wave.empty() ? 2 : linear.empty() ? 1 : static_cast<Eigen::Index>(linear.size());
+  }
 };
 
 struct CauseCandidate {
@@ -44,17 +51,21 @@ struct CauseSearch {
 };
 
 struct CauseSources {
-  std::filesystem::path world, data;
-  Library::SearchPath plugins;
-  std::map<std::string, double> world_parameters;  // the fitted ones that a world without channel has
-  std::vector<Eigen::Index> used;                  // rows of the table behind the readings of the search
+  std::shared_ptr<CauseModel> run;
+  const LinkModel& model;
+  const Dataset& data;
+  std::vector<Eigen::Index> used;  // rows of the table behind the readings of the search
 };
 
-// The same candidate at the readings of another table, such as one that could be measured.
+// The same candidate at the readings of another table, such as one that could be measured; of `sources` their run and
+// rows are asked.
 search::Candidate at_readings_of(const CauseCandidate& cause, const CauseSources& sources);
 
-// Columns that no reading depends on, or that the base model can take up, are left out.
-CauseSearch cause_candidates(const LinkModel& model, const Survey& survey, const CauseSources& sources,
+// Of those causes that shift the expected level. Columns that no reading depends on, or that the base model can take
+// up, are left out. 
+CauseSearch cause_candidates(const std::vector<Cause>& causes, const Survey& survey, const CauseSources& sources,
                              const Eigen::MatrixXd& base);
+// Whether it shifts the expected level; what does not clips readings or changes how they scatter.
+bool shifts_levels(const Cause& cause);
 
 }  // namespace muster::diagnosis

@@ -1,49 +1,64 @@
 #include "diagnosis/cause_model.hpp"
 
 #include <algorithm>
-#include <cstring>
+#include <sstream>
 
 #include "text/number.hpp"
 
 namespace muster::diagnosis {
 namespace {
 
-InstanceDeclaration instance_of(const Cause& cause, const std::string& name, const std::string& row,
-                                const Place& place) {
-  InstanceDeclaration result{cause.id, name, 1, {}, {}, {}, place};
-  const auto give = [&](const std::string& attribute, const std::string& value) {
-    result.attributes.push_back({attribute, value, place, place});
-  };
-  for (uint32_t k = 0; k < cause.plugin->param_count; ++k) {
-    const muster_param& p = cause.plugin->params[k];
-    if (&p == cause.linear())
-      give(p.name, "1");
-    else if (&p == cause.row() && !row.empty())
-      give(p.name, row);
-    else if (p.kind == MUSTER_REAL && (p.flags & MUSTER_REQUIRED))
-      give(p.name, print_real(p.value));
+std::string name_of(std::size_t row) { return "cause" + std::to_string(row); }
+
+template <class Is>
+std::vector<const muster_param*> those(const muster_plugin& plugin, const Is& is) {
+  std::vector<const muster_param*> result;
+  for (uint32_t k = 0; k < plugin.param_count; ++k) {
+    if (is(plugin.params[k])) result.push_back(&plugin.params[k]);
   }
   return result;
+}
+
+Eigen::VectorXd first_column(const Simulation& run, const std::string& table) {
+  const TableView view = run.table(table);
+  Eigen::VectorXd result(static_cast<Eigen::Index>(view.rows()));
+  for (std::size_t i = 0; i < view.rows(); ++i) result[static_cast<Eigen::Index>(i)] = view.at(i, 0);
+  return result;
+}
+
+World bare_world(const std::filesystem::path& file) {
+  World bare = read_world(file, standard());
+  bare.instances.clear();
+  bare.swaps.clear();
+  bare.records.clear();
+  return bare;
 }
 
 }  // namespace
 
-const muster_param* Cause::linear() const {
-  const muster_param* result = nullptr;
-  for (uint32_t k = 0; k < plugin->param_count; ++k) {
-    if (!(plugin->params[k].flags & MUSTER_LINEAR)) continue;
-    if (result) return nullptr;
-    result = &plugin->params[k];
+std::vector<const muster_param*> Cause::linear() const {
+  return those(*plugin, [](const muster_param& p) { return (p.flags & MUSTER_LINEAR) != 0; });
+}
+
+std::vector<const muster_param*> Cause::rows() const {
+  std::istringstream words(meaning().ranges_over);
+  std::vector<const muster_param*> result;
+  for (std::string word; words >> word;) {
+    for (const muster_param* p : those(*plugin, [&](const muster_param& q) { return q.name == word; }))
+      if (p->kind == MUSTER_REFERENCE) result.push_back(p);
   }
   return result;
 }
 
-const muster_param* Cause::row() const {
-  for (uint32_t k = 0; k < plugin->param_count; ++k) {
-    if (plugin->params[k].kind == MUSTER_REFERENCE && !std::strcmp(plugin->params[k].name, meaning().ranges_over))
-      return &plugin->params[k];
-  }
-  return nullptr;
+const muster_param* Cause::file() const {
+  const auto files = those(*plugin, [](const muster_param& p) { return p.kind == MUSTER_FILE; });
+  return files.empty() ? nullptr : files[0];
+}
+
+bool Cause::needs_world() const {
+  // A text names another instance, whose part it reads.
+  return meaning().kind != MUSTER_TERM ||
+         !those(*plugin, [](const muster_param& p) { return p.kind == MUSTER_TEXT; }).empty();
 }
 
 std::vector<Cause> causes_on(const Library::SearchPath& plugins) {
@@ -59,41 +74,88 @@ std::vector<Cause> causes_on(const Library::SearchPath& plugins) {
   return result;
 }
 
-CauseModel::CauseModel(const Cause& cause, const std::filesystem::path& world, const std::filesystem::path& data,
-                       const Library::SearchPath& plugins, const std::vector<std::string>& rows,
-                       const std::map<std::string, double>& world_parameters)
-    : count_(rows.size()) {
-  World bare = read_world(world, standard());
-  bare.instances.clear();
-  bare.swaps.clear();
-  bare.records.clear();
+InstanceDeclaration instance_of(const Cause& cause, const std::string& name, const CauseRow& row,
+                                const std::filesystem::path& table, double linear, const Place& place) {
+  InstanceDeclaration result{cause.id, name, 1, {}, {}, {}, place};
+  const auto give = [&](const std::string& attribute, const std::string& value) {
+    result.attributes.push_back({attribute, value, place, place});
+  };
+  const auto references = cause.rows();
+  for (uint32_t k = 0; k < cause.plugin->param_count; ++k) {
+    const muster_param& p = cause.plugin->params[k];
+    const auto reference = std::find(references.begin(), references.end(), &p);
+    if (p.flags & MUSTER_LINEAR) {
+      give(p.name, print_real(linear));
+    } else if (reference != references.end()) {
+      const std::string& named = row[static_cast<std::size_t>(reference - references.begin())];
+      if (!named.empty()) give(p.name, named);
+    } else if (p.kind == MUSTER_FILE && !table.empty()) {
+      give(p.name, std::filesystem::absolute(table).string());
+    } else if (p.kind == MUSTER_REAL && (p.flags & MUSTER_REQUIRED)) {
+      give(p.name, print_real(p.value));
+    }
+  }
+  return result;
+}
+
+CauseModel::CauseModel(LinkModel& whole, const std::filesystem::path& world, const std::filesystem::path& data,
+                       const Library::SearchPath& plugins)
+    : whole_(whole.simulation()), data_(data) {
+  World bare = bare_world(world);
   const Place place{bare.file.string()};
   Options options;
   options.search_path = plugins;
   const std::string file = std::filesystem::absolute(data).string();
   options.more.push_back({"data.links", "data", 1, {}, {}, {{"file", file, place, place}}, place});
-  for (std::size_t k = 0; k < rows.size(); ++k) options.more.push_back(instance_of(cause, name_of(k), rows[k], place));
-  run_ = std::make_unique<Simulation>(std::move(bare), standard(), std::move(options));
-  // Tables that the cause does not read are not there.
-  for (const ParameterInfo& p : run_->parameters()) {
-    if (const auto found = world_parameters.find(p.path); found != world_parameters.end())
-      run_->set_parameter(p.path, found->second);
+  bare_ = std::make_unique<Simulation>(std::move(bare), standard(), std::move(options));
+  before_ = whole.expected();
+}
+
+void CauseModel::remove(Simulation& run, Present& present) {
+  for (std::size_t k = present.first; k < present.first + present.count; ++k) run.remove(name_of(k));
+  present = {};
+}
+
+void CauseModel::clear() { remove(whole_, in_whole_); }
+
+void CauseModel::put(Simulation& run, Present& present, const Cause& cause, const std::vector<CauseRow>& rows,
+                     std::size_t first, std::size_t count) {
+  if (present.cause == cause.id && present.first == first && present.count == count) return;
+  remove(run, present);
+  const Place place{run.world().file.string()};
+  for (std::size_t k = first; k < first + count; ++k) {
+    run.insert(instance_of(cause, name_of(k), rows[k], cause.file() ? data_ : "", 1, place));
+    present = {cause.id, first, k + 1 - first, {}, false};
+  }
+  // Tables that nothing has read so far are at the declared values.
+  if (&run == &whole_) return;
+  std::map<std::string, double> fitted;
+  for (const ParameterInfo& p : whole_.parameters()) fitted[p.path] = p.value;
+  for (const ParameterInfo& p : run.parameters()) {
+    if (p.path.rfind("material/", 0) == 0 && fitted.count(p.path)) run.set_parameter(p.path, fitted[p.path]);
   }
 }
 
-Eigen::VectorXd CauseModel::column(std::size_t row, const std::map<std::string, double>& parameters) {
-  if (!evaluated_ || parameters != now_) {
-    for (std::size_t k = 0; k < count_; ++k) {
-      for (const auto& [name, value] : parameters) run_->set_parameter(name_of(k) + '/' + name, value);
-    }
-    run_->evaluate(MUSTER_RADIO, true);
-    now_ = parameters;
-    evaluated_ = true;
+void CauseModel::evaluate(Simulation& run, Present& present, const std::map<std::string, double>& parameters) {
+  if (present.evaluated && parameters == present.parameters) return;
+  for (std::size_t k = present.first; k < present.first + present.count; ++k) {
+    for (const auto& [name, value] : parameters) run.set_parameter(name_of(k) + '/' + name, value);
   }
-  const TableView part = run_->table("link/*/level@" + name_of(row));
-  Eigen::VectorXd result(static_cast<Eigen::Index>(part.rows()));
-  for (std::size_t i = 0; i < part.rows(); ++i) result[static_cast<Eigen::Index>(i)] = part.at(i, 0);
-  return result;
+  run.evaluate(MUSTER_RADIO, true);
+  present.parameters = parameters;
+  present.evaluated = true;
+}
+
+Eigen::VectorXd CauseModel::column(const Cause& cause, const std::vector<CauseRow>& rows, std::size_t row,
+                                   const std::map<std::string, double>& parameters) {
+  if (cause.needs_world()) {
+    put(whole_, in_whole_, cause, rows, row, 1);
+    evaluate(whole_, in_whole_, parameters);
+    return first_column(whole_, "link/*/rssi") - before_;
+  }
+  put(*bare_, in_bare_, cause, rows, 0, rows.size());
+  evaluate(*bare_, in_bare_, parameters);
+  return first_column(*bare_, "link/*/level@" + name_of(row));
 }
 
 }  // namespace muster::diagnosis

@@ -5,7 +5,7 @@
 #include <map>
 #include <memory>
 
-#include "kernel/simulation.hpp"
+#include "diagnosis/model.hpp"
 
 namespace muster::diagnosis {
 
@@ -16,33 +16,58 @@ struct Cause {
   const muster_plugin* plugin = nullptr;  // the newest revision; lives as long as the library
 
   const muster_cause& meaning() const { return *plugin->cause; }
-  // Its parameters in words: the one that what it adds is proportional to, or null if there is not exactly one.
-  const muster_param* linear() const;
-  // The reference that says which row it is about, or null.
-  const muster_param* row() const;
+  // The parameters that what it adds is proportional to.
+  std::vector<const muster_param*> linear() const;
+  // The references that say which rows it is about: none, one, or two radios.
+  std::vector<const muster_param*> rows() const;
+  // The table that it reads, or null.
+  const muster_param* file() const;
+  // What other instances do is part of what it does: it has to be evaluated in the whole world.
+  bool needs_world() const;
 };
 
 // All of the plugin path, by id. Libraries that cannot be loaded are left out.
 std::vector<Cause> causes_on(const Library::SearchPath& plugins);
 
-// A world that holds nothing but its rows, the measured links and one instance of a cause for each row it may be about.
+// The rows that one instance is about, one a reference; an empty name where it names none.
+using CauseRow = std::vector<std::string>;
+
+// An instance with its references, texts and required numbers as given; `linear` for each linear parameter.
+InstanceDeclaration instance_of(const Cause& cause, const std::string& name, const CauseRow& row,
+                                const std::filesystem::path& table, double linear, const Place& place);
+
+// The measured links in two worlds: one that holds nothing but its rows, for terms that stand alone, and the whole one,
+// in which a cause is the difference that its instance makes to the expected level.
 class CauseModel {
  public:
-  // An empty name stands for a cause that names no row. Throws Error.
-  CauseModel(const Cause& cause, const std::filesystem::path& world, const std::filesystem::path& data,
-             const Library::SearchPath& plugins, const std::vector<std::string>& rows,
-             const std::map<std::string, double>& world_parameters);
+  // `whole` has the measured links of `data` and stays as it is. Throws Error.
+  CauseModel(LinkModel& whole, const std::filesystem::path& world, const std::filesystem::path& data,
+             const Library::SearchPath& plugins);
 
-  // dB that instance `row` adds to each reading, its linear parameter being 1 and the others as given.
-  Eigen::VectorXd column(std::size_t row, const std::map<std::string, double>& parameters);
+  // dB that an instance of the cause about rows[row] adds to each reading, the parameters being as given.
+  Eigen::VectorXd column(const Cause& cause, const std::vector<CauseRow>& rows, std::size_t row,
+                         const std::map<std::string, double>& parameters);
+  // Takes away what still stands in the whole world.
+  void clear();
 
  private:
-  static std::string name_of(std::size_t row) { return "cause" + std::to_string(row); }
+  struct Present {  // what stands in a world beside its own instances
+    std::string cause;
+    std::size_t first = 0, count = 0;  // rows
+    std::map<std::string, double> parameters;
+    bool evaluated = false;
+  };
 
-  std::unique_ptr<Simulation> run_;
-  std::size_t count_;
-  std::map<std::string, double> now_;
-  bool evaluated_ = false;
+  void put(Simulation& run, Present& present, const Cause& cause, const std::vector<CauseRow>& rows, std::size_t first,
+           std::size_t count);
+  void evaluate(Simulation& run, Present& present, const std::map<std::string, double>& parameters);
+  static void remove(Simulation& run, Present& present);
+
+  Simulation& whole_;
+  std::unique_ptr<Simulation> bare_;
+  std::filesystem::path data_;
+  Present in_whole_, in_bare_;
+  Eigen::VectorXd before_;  // dBm: the whole world's expected level, without any cause
 };
 
 }  // namespace muster::diagnosis

@@ -7,10 +7,13 @@
 #include <set>
 
 #include "diagnosis/base_columns.hpp"
+#include "diagnosis/cause_rows.hpp"
 #include "diagnosis/extended_world.hpp"
 #include "diagnosis/found_cause.hpp"
+#include "diagnosis/joint_fit.hpp"
 #include "diagnosis/place_checks.hpp"
 #include "diagnosis/seen_rows.hpp"
+#include "text/number.hpp"
 
 namespace muster::diagnosis {
 namespace {
@@ -36,27 +39,27 @@ FitOptions hold_places_of_causes(const LinkModel& model) {
 class Diagnoser {
  public:
   Diagnoser(const std::filesystem::path& world, const std::filesystem::path& file, const Library::SearchPath& plugins)
-      : data_(read_dataset(file)), model_(world, file, plugins), sources_{world, file, plugins, {}, {}} {
+      : data_(read_dataset(file)), model_(world, file, plugins), file_(file), causes_(causes_on(plugins)) {
     check_places(model_, data_);
     fit_ = fit(model_, data_, hold_places_of_causes(model_));
     base_ = base_columns(model_, fit_.parameters);
-    for (const std::size_t row : fit_.rows_used()) sources_.used.push_back(static_cast<Index>(row));
-    for (const ParameterInfo& p : model_.parameters()) {
-      if (p.path.rfind("material/", 0) == 0) sources_.world_parameters[p.path] = p.value;
-    }
+    for (const std::size_t row : fit_.rows_used()) used_.push_back(static_cast<Index>(row));
+    run_ = std::make_shared<CauseModel>(model_, world, file, plugins);
   }
 
   Diagnosis run() {
     fill_readings();
-    const Eigen::MatrixXd base = base_.slopes(sources_.used, Eigen::all);
+    const Eigen::MatrixXd base = base_.slopes(used_, Eigen::all);
     problem_.base = base;
     // Linear in the parameters about the fit, so that coefficients are values of parameters.
-    problem_.measured -= (base_.mean - base_.slopes * base_.values)(sources_.used);
-    CauseSearch causes = cause_candidates(model_, survey_of(model_, data_), sources_, base);
+    problem_.measured -= (base_.mean - base_.slopes * base_.values)(used_);
+    const CauseSources sources{run_, model_, data_, used_};
+    CauseSearch causes = cause_candidates(causes_, survey_of(model_, data_), sources, base);
     for (const CauseCandidate& c : causes.found) problem_.candidates.push_back(c.candidate);
     add_columns();
     search::Search search(problem_);
     const search::Result result = search.run();
+    run_->clear();
     Diagnosis out = summed_up(result, causes, search.bench());
     out.not_tested = std::move(causes.not_tested);
     out.not_tested.insert(out.not_tested.end(), untested_.begin(), untested_.end());
@@ -66,12 +69,12 @@ class Diagnoser {
  private:
   void fill_readings() {
     noise::Readings& r = problem_.readings;
-    const auto n = static_cast<Index>(sources_.used.size());
+    const auto n = static_cast<Index>(used_.size());
     r.tx_at.resize(3, n);
     r.rx_at.resize(3, n);
     problem_.measured.resize(n);
     for (Index i = 0; i < n; ++i) {
-      const auto row = static_cast<std::size_t>(sources_.used[static_cast<std::size_t>(i)]);
+      const auto row = static_cast<std::size_t>(used_[static_cast<std::size_t>(i)]);
       const auto& [tx, rx] = model_.ends()[row];
       r.tx.push_back(tx.radio);
       r.rx.push_back(rx.radio);
@@ -93,15 +96,15 @@ class Diagnoser {
       const std::string name = column.name.substr(0, column.name.find('['));
       if (column.values.empty()) {
         search::Factor factor{name, {}};
-        for (const Index row : sources_.used)
+        for (const Index row : used_)
           factor.level.push_back(static_cast<int>(column.factor.level[static_cast<std::size_t>(row)]));
         problem_.factors.push_back(std::move(factor));
         continue;
       }
-      VectorXd values(static_cast<Index>(sources_.used.size()));
+      VectorXd values(static_cast<Index>(used_.size()));
       std::set<double> different;
       for (Index i = 0; i < values.size(); ++i) {
-        values[i] = column.values[static_cast<std::size_t>(sources_.used[static_cast<std::size_t>(i)])];
+        values[i] = column.values[static_cast<std::size_t>(used_[static_cast<std::size_t>(i)])];
         if (different.size() <= 8) different.insert(values[i]);
       }
       if (!values.allFinite()) {
@@ -124,12 +127,11 @@ class Diagnoser {
     out.residual_sd = fit_.residual_sd;
     out.noise = result.noise.covariance;
     out.held_out = result.held_out;
-    out.readings = sources_.used.size();
+    out.readings = used_.size();
     out.rows = bench.rows().size();
     const VectorXd coefficients = result.base_coefficients.cwiseMax(base_.lower).cwiseMin(base_.upper);
     for (std::size_t j = 0; j < base_.paths.size(); ++j)
       out.parameters[base_.paths[j]] = coefficients[static_cast<Index>(j)];
-    VectorXd mean = base_.mean + base_.slopes * (coefficients - base_.values);
     for (std::size_t k = 0; k < result.findings.size(); ++k) {
       const search::Finding& f = result.findings[k];
       const auto cause = std::find_if(causes.found.begin(), causes.found.end(),
@@ -140,21 +142,49 @@ class Diagnoser {
       }
       out.causes.push_back(found_cause(f, *cause, bench, k < bench.terms.size() ? &bench.terms[k] : nullptr));
       out.causes.back().effect = effect_of(bench, cause->candidate, f);
-      if (f.status == search::Status::named) mean(sources_.used) += cause->candidate.columns(f.theta) * f.coefficients;
+      give_tables(*cause->shape, out.causes.back());
     }
-    out.mean = VectorXd::Constant(mean.size(), std::nan(""));
-    out.mean(sources_.used) = mean(sources_.used);
+    run_->clear();
+    extend(bench, out);
     for (const CauseCandidate& c : causes.found) out.searched.push_back(c.candidate.id);
     out.stairs = result.stairs;
     out.checks = result.checks;
     out.seen = seen_rows(bench, model_);
     out.world_values = world_values(bench, base_.paths, coefficients, model_);
+    for (WorldValue& v : out.world_values) v.value = out.parameters.at(v.path);
     return out;
+  }
+
+  // A cause that reads a table gets the measured columns that it needs.
+  void give_tables(const CauseShape& shape, FoundCause& found) const {
+    const muster_param* file = shape.cause.file();
+    if (!file) return;
+    const std::string column = own_column(shape.cause);
+    const auto values = std::find_if(data_.covariates.begin(), data_.covariates.end(), [&](const Covariate& c) {
+      return c.name.substr(0, c.name.find('[')) == column;
+    });
+    std::string text = "t[s],tx,rx," + values->name + '\n';
+    for (std::size_t row = 0; row < data_.rows(); ++row)
+      text += print_real(data_.t[row]) + ',' + data_.tx.levels[data_.tx.level[row]] + ',' +
+              data_.rx.levels[data_.rx.level[row]] + ',' + print_real(values->values[row]) + '\n';
+    found.files[file->name] = text;
+  }
+
+  void extend(const search::Bench& bench, Diagnosis& out) {
+    out.mean = VectorXd::Constant(base_.mean.size(), std::nan(""));
+    const VectorXd offset = (base_.mean - base_.slopes * base_.values)(used_);
+    const VectorXd measured = bench.y() + bench.rows().mean(offset);
+    const VectorXd mean = fit_jointly({model_, causes_, file_, bench, used_, measured}, base_.lower, base_.upper,
+                                      base_.paths, out);
+    out.mean(used_) = mean(used_);
   }
 
   Dataset data_;
   LinkModel model_;
-  CauseSources sources_;
+  std::filesystem::path file_;
+  std::vector<Cause> causes_;
+  std::vector<Index> used_;  // rows of the table behind the readings of the search
+  std::shared_ptr<CauseModel> run_;
   Fit fit_;
   BaseColumns base_;
   search::Problem problem_;

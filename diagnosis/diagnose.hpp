@@ -23,6 +23,8 @@ struct FoundCause {
   std::string row_parameter, row;       // empty where it is about no row
   std::vector<CauseValue> values;
   std::map<std::string, double> held;  // parameters that were set and not sought
+  std::map<std::string, std::string> words;  // further attributes, such as the other radio
+  std::map<std::string, std::string> files;  // tables that it reads: attribute and text
   double evidence = 0, log_p = 0;
   double lambda = 0;       // fall of the deviance by it, beside all others
   Eigen::VectorXd effect;  // dB it adds to each of the rows seen

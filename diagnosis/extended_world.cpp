@@ -3,6 +3,7 @@
 #include <tinyxml2.h>
 
 #include <algorithm>
+#include <fstream>
 
 #include "text/names.hpp"
 #include "text/number.hpp"
@@ -38,10 +39,22 @@ std::string unused_name(XMLElement& root, const std::string& id) {
   }
 }
 
-void add_cause(XMLElement& root, const FoundCause& cause) {
+void write_file(const fs::path& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  if (!out.flush()) throw Error(Exit::io, file.string() + ": cannot be written");
+}
+
+void add_cause(XMLElement& root, const FoundCause& cause, const fs::path& folder) {
   XMLElement* e = root.InsertNewChildElement(cause.id.c_str());
-  e->SetAttribute("name", unused_name(root, cause.id).c_str());
+  const std::string own = unused_name(root, cause.id);
+  e->SetAttribute("name", own.c_str());
   if (!cause.row.empty()) e->SetAttribute(cause.row_parameter.c_str(), cause.row.c_str());
+  for (const auto& [name, word] : cause.words) e->SetAttribute(name.c_str(), word.c_str());
+  for (const auto& [name, text] : cause.files) {
+    e->SetAttribute(name.c_str(), (own + ".csv").c_str());
+    write_file(folder / (own + ".csv"), text);
+  }
   for (const auto& [name, value] : cause.held) e->SetAttribute(name.c_str(), print_real(value).c_str());
   for (const CauseValue& v : cause.values) e->SetAttribute(v.name.c_str(), print_real(v.value).c_str());
 }
@@ -76,7 +89,7 @@ fs::path write_extended_world(const Diagnosis& found, const fs::path& world, con
       e->SetAttribute(path.substr(slash + 1).c_str(), print_real(value).c_str());
   }
   for (const FoundCause& cause : found.causes) {
-    if (cause.status == search::Status::named) add_cause(root, cause);
+    if (cause.status == search::Status::named) add_cause(root, cause, out);
   }
   const fs::path written = out / file.filename();
   if (document.SaveFile(written.string().c_str()) != tinyxml2::XML_SUCCESS)

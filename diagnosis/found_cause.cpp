@@ -54,7 +54,10 @@ std::map<std::string, Reach> reaches(const CauseShape& shape, const search::Cand
                                      const search::Bench& bench, const search::Term& term) {
   std::map<std::string, Reach> result;
   const search::Stand stand = bench.stand(bench.design_without(term));
-  const auto gain = [&](const VectorXd& t) { return stand.gain(bench.columns_of(c, t)); };
+  const auto gain = [&](const VectorXd& t) {
+    const Eigen::MatrixXd columns = bench.columns_of(c, t);
+    return c.whole ? stand.gain_as_it_is(columns) : stand.gain(columns);
+  };
   const auto middle = shape.parameters(theta);
   for (Index entry = 1; entry < c.step.size(); ++entry) {
     if (c.step[entry] == 0) continue;
@@ -71,17 +74,35 @@ std::map<std::string, Reach> reaches(const CauseShape& shape, const search::Cand
 }
 
 void add_linear(FoundCause& out, const CauseShape& shape, const search::Finding& f) {
-  const muster_param& p = *shape.cause.linear();
   if (shape.wave.empty()) {
-    const double half = normal95 * std::sqrt(f.uncertainty(0, 0));
-    return out.values.push_back(value_of(p, f.coefficients[0], half, half));
+    for (std::size_t k = 0; k < shape.linear.size(); ++k) {
+      const auto at = static_cast<Eigen::Index>(k);
+      const double half = normal95 * std::sqrt(f.uncertainty(at, at));
+      out.values.push_back(value_of(*shape.linear[k], f.coefficients[at], half, half));
+    }
+    return;
   }
   const double size = f.coefficients.norm();
   const Eigen::Vector2d along = f.coefficients / size, across(-along.y(), along.x());
   const double half = normal95 * std::sqrt(along.dot(f.uncertainty * along));
   const double turn = normal95 * std::sqrt(across.dot(f.uncertainty * across)) / size;
-  out.values.push_back(value_of(p, size, half, half));
+  out.values.push_back(value_of(*shape.linear[0], size, half, half));
   out.values.push_back(value_of(declared(shape, shape.wave), std::atan2(along.y(), along.x()), turn, turn));
+}
+
+// The first reference is the row that it is about, further ones are attributes beside it.
+void add_row(FoundCause& out, const CauseShape& shape, const VectorXd& theta) {
+  const auto references = shape.cause.rows();
+  for (std::size_t k = 0; k < references.size(); ++k) {
+    const std::string& name = shape.row(theta)[k];
+    if (name.empty()) continue;
+    if (k > 0) {
+      out.words[references[k]->name] = name;
+      continue;
+    }
+    out.row_parameter = references[k]->name;
+    out.row = name;
+  }
 }
 
 }  // namespace
@@ -96,10 +117,7 @@ FoundCause found_cause(const search::Finding& f, const CauseCandidate& cause, co
   out.tell_apart = shape.cause.meaning().tell_apart;
   out.status = f.status;
   out.covariates = f.covariates;
-  if (shape.cause.row() && !shape.row(f.theta).empty()) {
-    out.row_parameter = shape.cause.row()->name;
-    out.row = shape.row(f.theta);
-  }
+  add_row(out, shape, f.theta);
   out.held = shape.held;
   out.evidence = f.evidence;
   out.log_p = f.log_p;

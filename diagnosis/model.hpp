@@ -38,6 +38,7 @@ class LinkModel {
   void set(const std::string& path, double value) { run_->set_parameter(path, value); }
 
   const Simulation& simulation() const { return *run_; }
+  Simulation& simulation() { return *run_; }
   // The named parameter's value of the first instance of a plugin, or `otherwise` where the world has none.
   double value_of(const std::string& plugin, const std::string& param, double otherwise) const;
   bool has_plugin(const std::string& plugin) const;

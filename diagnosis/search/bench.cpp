@@ -31,6 +31,11 @@ double Stand::gain(const Eigen::MatrixXd& columns) const {
   return (added.q.transpose() * at.residual).squaredNorm();
 }
 
+double Stand::gain_as_it_is(const Eigen::MatrixXd& columns) const {
+  const Eigen::VectorXd left = at.basis.rest(whitener(columns)).rowwise().sum();
+  return 2 * left.dot(at.residual) - left.squaredNorm();
+}
+
 Eigen::VectorXd Stand::coefficients(Index columns) const {
   return at.basis.coefficients(at.basis.q.transpose() * at.y, columns);
 }

@@ -39,6 +39,8 @@ struct Stand {
 
   // The fall of the deviance if these columns (row means) are added.
   double gain(const Eigen::MatrixXd& columns) const;
+  // The same with all coefficients at 1.
+  double gain_as_it_is(const Eigen::MatrixXd& columns) const;
   Eigen::VectorXd coefficients(Index columns) const;
 };
 

@@ -26,6 +26,7 @@ struct Candidate {
   std::vector<std::string> covariates;  // what it is a function of, its own one first
   int width = 1;                        // columns of one atom
   int sign = 0;                         // of the coefficient, where physics fixes it (width 1 only)
+  bool whole = false;  // its column counts as it is: theta says how strong it is, and the coefficient belongs at 1
 
   // One atom a theta; at least one (a candidate without parameters has one empty theta).
   std::vector<Eigen::VectorXd> grid;

@@ -56,6 +56,7 @@ double penalised(const Bench& bench, const Stand& stand, const Candidate& candid
   const Eigen::VectorXd left = stand.at.basis.rest(stand.whitener(columns));
   const double length = left.squaredNorm(), along = left.dot(residual);
   if (length < 1e-6 || along * candidate.sign <= 0) return 0;
+  if (candidate.whole) return admitted * (2 * along - length);
   return admitted * along * along / length;
 }
 
