@@ -129,8 +129,8 @@ bool driven_through(const Survey& s, double x, double y, double radius) {
                      [&](const auto& w) { return std::hypot(w[0] - x, w[1] - y) < 0.7 * radius; });
 }
 
-std::vector<VectorXd> spans(const std::vector<search::Piece>& pieces, const std::string& id) {
-  std::vector<VectorXd> result;
+std::vector<Eigen::VectorXd> spans(const std::vector<search::Piece>& pieces, const std::string& id) {
+  std::vector<Eigen::VectorXd> result;
   std::vector<std::array<Eigen::Vector2d, 2>> ends;
   for (const search::Piece& p : pieces) {
     const Eigen::Vector2d middle = p.theta.segment<2>(1);

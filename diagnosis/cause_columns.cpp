@@ -363,7 +363,8 @@ std::string CauseShape::row_label(const VectorXd& theta) const {
   std::string result;
   const auto references = cause.rows();
   for (std::size_t k = 0; k < references.size(); ++k) {
-    if (!row(theta)[k].empty()) result += (result.empty() ? "" : " ") + std::string(references[k]->text) + '/' + row(theta)[k];
+    if (!row(theta)[k].empty())
+      result += (result.empty() ? "" : " ") + std::string(references[k]->text) + '/' + row(theta)[k];
   }
   return result;
 }

@@ -62,7 +62,7 @@ struct CauseSources {
 search::Candidate at_readings_of(const CauseCandidate& cause, const CauseSources& sources);
 
 // Of those causes that shift the expected level. Columns that no reading depends on, or that the base model can take
-// up, are left out. 
+// up, are left out.
 CauseSearch cause_candidates(const std::vector<Cause>& causes, const Survey& survey, const CauseSources& sources,
                              const Eigen::MatrixXd& base);
 // Whether it shifts the expected level; what does not clips readings or changes how they scatter.

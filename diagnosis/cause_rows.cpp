@@ -16,7 +16,7 @@ bool needs(const Cause& cause, const std::string& column) {
 }
 
 std::string own_column(const Cause& cause) {
-  static const std::set<std::string> geometry = {"t",      "tx_x", "tx_y", "tx_z",  "tx_yaw",
+  static const std::set<std::string> geometry = {"t",    "tx_x", "tx_y", "tx_z",  "tx_yaw",
                                                  "rx_x", "rx_y", "rx_z", "rx_yaw"};
   std::istringstream words(cause.meaning().covariates);
   for (std::string word; words >> word;) {

@@ -160,9 +160,8 @@ class Diagnoser {
     const muster_param* file = shape.cause.file();
     if (!file) return;
     const std::string column = own_column(shape.cause);
-    const auto values = std::find_if(data_.covariates.begin(), data_.covariates.end(), [&](const Covariate& c) {
-      return c.name.substr(0, c.name.find('[')) == column;
-    });
+    const auto values = std::find_if(data_.covariates.begin(), data_.covariates.end(),
+                                     [&](const Covariate& c) { return c.name.substr(0, c.name.find('[')) == column; });
     std::string text = "t[s],tx,rx," + values->name + '\n';
     for (std::size_t row = 0; row < data_.rows(); ++row)
       text += print_real(data_.t[row]) + ',' + data_.tx.levels[data_.tx.level[row]] + ',' +
@@ -174,8 +173,8 @@ class Diagnoser {
     out.mean = VectorXd::Constant(base_.mean.size(), std::nan(""));
     const VectorXd offset = (base_.mean - base_.slopes * base_.values)(used_);
     const VectorXd measured = bench.y() + bench.rows().mean(offset);
-    const VectorXd mean = fit_jointly({model_, causes_, file_, bench, used_, measured}, base_.lower, base_.upper,
-                                      base_.paths, out);
+    const VectorXd mean =
+        fit_jointly({model_, causes_, file_, bench, used_, measured}, base_.lower, base_.upper, base_.paths, out);
     out.mean(used_) = mean(used_);
   }
 

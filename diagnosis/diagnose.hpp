@@ -22,7 +22,7 @@ struct FoundCause {
   std::vector<std::string> covariates;  // what it is a function of, its own one first: "map", "time", "bearing"
   std::string row_parameter, row;       // empty where it is about no row
   std::vector<CauseValue> values;
-  std::map<std::string, double> held;  // parameters that were set and not sought
+  std::map<std::string, double> held;        // parameters that were set and not sought
   std::map<std::string, std::string> words;  // further attributes, such as the other radio
   std::map<std::string, std::string> files;  // tables that it reads: attribute and text
   double evidence = 0, log_p = 0;
