@@ -29,8 +29,11 @@ std::string why_not(const Cause& cause, const Survey& survey, const Dataset& dat
   if (needs(cause, "t") && !(survey.has_time && survey.time.length() > 0)) return "not testable: the data have no t";
   if (needs(cause, "rx_yaw") && !survey.has_yaw) return "not testable: the data have no rx_yaw";
   if (needs(cause, "tx_z") && !survey.has_height) return "not testable: all radios are at one height";
+  if (needs(cause, "tx_x") && !survey.has_places) return "not testable: the data have distances, and no places";
   const std::string column = own_column(cause);
   if (column.empty()) return "";
+  // A column for each material.
+  if (column == "walls") return survey.counted.empty() ? "not testable: the data have no columns walls_MATERIAL" : "";
   for (const Covariate& c : data.covariates) {
     if (c.name.substr(0, c.name.find('[')) != column || c.values.empty()) continue;
     const bool whole = std::none_of(c.values.begin(), c.values.end(), [](double v) { return std::isnan(v); });
@@ -53,6 +56,7 @@ std::vector<std::string> names_for(const Cause& cause, const muster_param& row, 
   if (!(row.flags & MUSTER_REQUIRED)) result.push_back("");
   for (const RowDeclaration& declared : model.simulation().world().rows) {
     if (std::find(declared.sets.begin(), declared.sets.end(), row.text) == declared.sets.end()) continue;
+    if (needs(cause, "walls") && !survey.counted.count(declared.name)) continue;
     const auto number = static_cast<std::size_t>(model.simulation().board().find_set(row.text)->find(declared.name));
     if (std::string_view(row.text) != "radio" || may_be_about(cause, survey, number)) result.push_back(declared.name);
   }

@@ -6,6 +6,7 @@
 
 #include "diagnosis/dataset_checks.hpp"
 #include "text/names.hpp"
+#include "text/number.hpp"
 
 namespace muster::diagnosis {
 namespace {
@@ -35,8 +36,9 @@ bool varies(const std::vector<double>& values) {
 }
 
 void read_covariates(Dataset& data) {
-  static const std::set<std::string> known = {"t",      "tx",   "rx",   "tx_x", "tx_y",   "tx_z",
-                                              "tx_yaw", "rx_x", "rx_y", "rx_z", "rx_yaw", "rssi"};
+  std::set<std::string> known = {"t",      "tx",   "rx",   "tx_x", "tx_y",   "tx_z",
+                                 "tx_yaw", "rx_x", "rx_y", "rx_z", "rx_yaw", data.reading};
+  if (!data.has_places()) known.insert("distance");
   for (std::size_t c = 0; c < data.table.columns().size(); ++c) {
     if (known.count(data.table.columns()[c].name)) continue;
     Covariate covariate{data.table.columns()[c].label(), {}, {}};
@@ -53,6 +55,35 @@ void read_covariates(Dataset& data) {
   }
 }
 
+// Places, or where there are none, distances, which are then all that is known of geometry.
+void read_places(Dataset& data) {
+  const TextTable& table = data.table;
+  if (table.find("distance") && !table.find("tx_x") && !table.find("rx_x")) {
+    const std::size_t column = table.require("distance", "m");
+    const auto distance = table.reals(column);
+    for (std::size_t row = 0; row < distance.size(); ++row) {
+      if (!(distance[row] > 0))
+        throw invalid(table.place(row, column), "row " + std::to_string(row + 1) + ": a distance of " +
+                                                    print_real(distance[row]) + " m; expected more than 0 m");
+    }
+    data.notes.push_back("no places, only distances: nothing can be said of places, bearings and rooms");
+    return;
+  }
+  data.tx_at = places(table, "tx");
+  data.rx_at = places(table, "rx");
+}
+
+// A path loss is the level of what was sent with 0 dBm.
+void read_readings(Dataset& data) {
+  const TextTable& table = data.table;
+  const bool loss = table.find("path_loss") && !table.find("rssi");
+  data.reading = loss ? "path_loss" : "rssi";
+  data.rssi = table.reals(table.require(data.reading, loss ? "dB" : "dBm"), {.empty = true});
+  if (!loss) return;
+  for (double& v : data.rssi) v = -v;
+  data.notes.push_back("path_loss[dB] is read as the level of what was sent with 0 dBm");
+}
+
 }  // namespace
 
 std::size_t Dataset::heard() const {
@@ -64,9 +95,8 @@ Dataset read_dataset(const std::filesystem::path& file) {
   const TextTable& table = data.table;
   data.tx = table.texts(table.require("tx", ""));
   data.rx = table.texts(table.require("rx", ""));
-  data.tx_at = places(table, "tx");
-  data.rx_at = places(table, "rx");
-  data.rssi = table.reals(table.require("rssi", "dBm"), {.empty = true});
+  read_places(data);
+  read_readings(data);
   data.t = reals_if_any(table, "t", "s");
   data.tx_yaw = reals_if_any(table, "tx_yaw", "rad");
   data.rx_yaw = reals_if_any(table, "rx_yaw", "rad");

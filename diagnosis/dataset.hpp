@@ -21,13 +21,15 @@ struct Dataset {
   TextTable table;          // for places in messages
   std::vector<double> t{};  // s; empty if the file has none
   Factor tx{}, rx{};
-  std::vector<Point> tx_at{}, rx_at{};     // z is NaN where the file has none
+  std::vector<Point> tx_at{}, rx_at{};     // z is NaN where the file has none; both empty: only distances are known
   std::vector<double> tx_yaw{}, rx_yaw{};  // rad; empty if the file has none
   std::vector<double> rssi{};              // dBm; NaN: not received
+  std::string reading{};                   // its column: rssi, or path_loss
   std::vector<Covariate> covariates{};     // all further columns that vary
   std::vector<std::string> notes{};        // what was noticed and is no fault
 
   std::size_t rows() const { return rssi.size(); }
+  bool has_places() const { return !tx_at.empty(); }
   std::size_t heard() const;
   // "leader -> base"
   std::string pair(std::size_t row) const { return tx.levels[tx.level[row]] + " -> " + rx.levels[rx.level[row]]; }

@@ -27,7 +27,10 @@ void check_rssi(const Dataset& data) {
   for (std::size_t row = 0; row < data.rows(); ++row) {
     const double v = data.rssi[row];
     const auto refuse = [&](const std::string& why) {
-      return invalid(at(data, row, "rssi"), row_text(row) + ": an rssi of " + print_real(v) + " dBm " + why);
+      const bool loss = data.reading == "path_loss";
+      const std::string what = loss ? "a path loss of " + print_real(-v) + " dB, a level of " + print_real(v) + " dBm, "
+                                    : "an rssi of " + print_real(v) + " dBm ";
+      return invalid(at(data, row, data.reading), row_text(row) + ": " + what + why);
     };
     if (v == 0) throw refuse("is what drivers give for none; expected an empty cell where nothing was received");
     if (v > strongest) throw refuse("is over +30 dBm; expected a level in dBm, which is mostly negative");
@@ -114,7 +117,7 @@ void check_readings(Dataset& data) {
   const double first = *std::find_if(data.rssi.begin(), data.rssi.end(), [](double v) { return !std::isnan(v); });
   if (data.heard() > 1 &&
       std::all_of(data.rssi.begin(), data.rssi.end(), [&](double v) { return std::isnan(v) || v == first; }))
-    throw invalid(at(data, 0, "rssi"), "every rssi is " + print_real(first) + " dBm; expected readings that vary");
+    throw invalid(at(data, 0, data.reading), "every rssi is " + print_real(first) + " dBm; expected readings that vary");
 }
 
 }  // namespace muster::diagnosis

@@ -40,7 +40,7 @@ class Diagnoser {
  public:
   Diagnoser(const std::filesystem::path& world, const std::filesystem::path& file, const Library::SearchPath& plugins)
       : data_(read_dataset(file)), model_(world, file, plugins), file_(file), causes_(causes_on(plugins)) {
-    check_places(model_, data_);
+    if (data_.has_places()) check_places(model_, data_);
     fit_ = fit(model_, data_, hold_places_of_causes(model_));
     base_ = base_columns(model_, fit_.parameters);
     for (const std::size_t row : fit_.rows_used()) used_.push_back(static_cast<Index>(row));
@@ -57,7 +57,11 @@ class Diagnoser {
     CauseSearch causes = cause_candidates(causes_, survey_of(model_, data_), sources, base);
     for (const CauseCandidate& c : causes.found) problem_.candidates.push_back(c.candidate);
     add_columns();
-    search::Search search(problem_);
+    problem_.places_known = data_.has_places();
+    search::Options options;
+    // Readings at like distances are not at one place.
+    if (!problem_.places_known) options.rows.way = 0;
+    search::Search search(problem_, options);
     const search::Result result = search.run();
     run_->clear();
     Diagnosis out = summed_up(result, causes, search.bench());
@@ -160,6 +164,10 @@ class Diagnoser {
     const muster_param* file = shape.cause.file();
     if (!file) return;
     const std::string column = own_column(shape.cause);
+    if (column == "walls") {
+      found.files[file->name] = counts_of_walls();
+      return;
+    }
     const auto values = std::find_if(data_.covariates.begin(), data_.covariates.end(),
                                      [&](const Covariate& c) { return c.name.substr(0, c.name.find('[')) == column; });
     std::string text = "t[s],tx,rx," + values->name + '\n';
@@ -167,6 +175,21 @@ class Diagnoser {
       text += print_real(data_.t[row]) + ',' + data_.tx.levels[data_.tx.level[row]] + ',' +
               data_.rx.levels[data_.rx.level[row]] + ',' + print_real(values->values[row]) + '\n';
     found.files[file->name] = text;
+  }
+
+  // The columns walls_MATERIAL, in the order of the readings.
+  std::string counts_of_walls() const {
+    std::vector<const Covariate*> columns;
+    std::string text;
+    for (const Covariate& c : data_.covariates) {
+      if (c.name.rfind("walls_", 0) != 0 || c.values.empty()) continue;
+      text += (columns.empty() ? "" : ",") + c.name;
+      columns.push_back(&c);
+    }
+    for (std::size_t row = 0; row < data_.rows(); ++row) {
+      for (const Covariate* c : columns) text += (c == columns[0] ? "\n" : ",") + print_real(c->values[row]);
+    }
+    return text + '\n';
   }
 
   void extend(const search::Bench& bench, Diagnosis& out) {

@@ -39,6 +39,10 @@ ForeignTable ForeignTable::read(const std::filesystem::path& path) {
     if (cells.size() != table.columns_.size())
       throw invalid({table.file_, number, 0}, "the row has " + std::to_string(cells.size()) + " cells; expected " +
                                                   std::to_string(table.columns_.size()));
+    if (std::all_of(cells.begin(), cells.end(), [](const std::string& cell) { return cell.empty(); })) {
+      table.guesses_.push_back("line " + std::to_string(number) + " has no cell filled, and is left out");
+      continue;
+    }
     std::move(cells.begin(), cells.end(), std::back_inserter(table.cells_));
     table.lines_.push_back(number);
   }

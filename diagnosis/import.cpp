@@ -46,7 +46,7 @@ class Importer {
         writer.empty();
       else
         writer.real(number);
-      if (rule.column.name == "rssi") result_.empty += std::isnan(number);
+      if (rule.column.name == "rssi" || rule.column.name == "path_loss") result_.empty += std::isnan(number);
     } else if (rule.name_column.empty()) {
       writer.text(filled(rule.name, map_.variable, value));
     } else {

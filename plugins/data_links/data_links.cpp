@@ -1,6 +1,7 @@
 // Measured readings as links, so that every term of a channel is evaluated where and when something was measured.
 #include <cmath>
 #include <muster/plugin.hpp>
+#include <string>
 
 namespace {
 
@@ -9,12 +10,16 @@ using namespace muster;
 // A row of the measured table; other columns of the file are not needed to place its radios.
 struct Reading {
   static constexpr const char* columns =
-      "t[s]? tx:radio+ rx:radio+ tx_x[m] tx_y[m] tx_z[m]? tx_yaw[rad]? rx_x[m] rx_y[m] rx_z[m]? rx_yaw[rad]?";
+      "t[s]? tx:radio+ rx:radio+ tx_x[m]? tx_y[m]? tx_z[m]? tx_yaw[rad]? rx_x[m]? rx_y[m]? rx_z[m]? rx_yaw[rad]? "
+      "distance[m]?";
   struct Place {
     double x, y, z, yaw;
   };
   double t, tx, rx;
   Place from, to;
+  double distance;
+
+  bool has_places() const { return !is_null(from.x) && !is_null(from.y) && !is_null(to.x) && !is_null(to.y); }
 };
 
 struct DataLinks {
@@ -24,7 +29,8 @@ struct DataLinks {
       "Lists in every tick all readings of `file`: reading i is link i, from endpoint 2 i to endpoint 2 i + 1, at the\n"
       "places and the time that were measured. It stands in for radio.links; the terms of the channel do not notice.\n"
       "Columns: t[s],tx,rx,tx_x[m],tx_y[m],tx_z[m],tx_yaw[rad],rx_x[m],rx_y[m],rx_z[m],rx_yaw[rad]; t, z and yaw may\n"
-      "be absent: then the time is the tick's, the height that of the radio's mount, the heading 0.";
+      "be absent: then the time is the tick's, the height that of the radio's mount, the heading 0.\n"
+      "Without x and y, distance[m]: the sender stands at the origin, the receiver so far to the east of it.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {file("file", "measured readings, a CSV table with units").required()};
 
@@ -46,8 +52,15 @@ struct DataLinks {
       const double t = is_null(it.t) ? k.time() : it.t;
       radios[2 * i] = {it.tx, t};
       radios[2 * i + 1] = {it.rx, t};
-      poses[2 * i] = placed(it.from, mounts[static_cast<std::size_t>(it.tx)]);
-      poses[2 * i + 1] = placed(it.to, mounts[static_cast<std::size_t>(it.rx)]);
+      if (it.has_places()) {
+        poses[2 * i] = placed(it.from, mounts[static_cast<std::size_t>(it.tx)]);
+        poses[2 * i + 1] = placed(it.to, mounts[static_cast<std::size_t>(it.rx)]);
+      } else {
+        if (!(it.distance > 0))  // null too
+          throw BadInput("row " + std::to_string(i + 1) + " of the readings has neither both places nor a distance");
+        poses[2 * i] = {0, 0, 0, 1, 0, 0, 0};
+        poses[2 * i + 1] = {it.distance, 0, 0, 1, 0, 0, 0};
+      }
       links[i] = {static_cast<double>(2 * i), static_cast<double>(2 * i + 1)};
     }
   }

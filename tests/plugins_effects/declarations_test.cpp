@@ -90,7 +90,7 @@ TEST_F(Declarations, EveryCauseIsFilledIn) {
       ASSERT_NE(over, nullptr) << row;
       EXPECT_EQ(over->kind, static_cast<uint32_t>(MUSTER_REFERENCE));
     }
-    const auto known = words("t tx_x tx_y tx_z tx_yaw rx_x rx_y rx_z rx_yaw power noise");
+    const auto known = words("t tx_x tx_y tx_z tx_yaw rx_x rx_y rx_z rx_yaw power noise walls");
     for (const auto& covariate : words(cause.covariates)) EXPECT_TRUE(known.count(covariate)) << covariate;
   }
 }

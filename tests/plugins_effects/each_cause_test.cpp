@@ -29,6 +29,7 @@ const std::vector<Example>& examples() {
       {"body_shadow", "radio=\"r\" loss=\"3\" width=\"1.5\"", ""},
       {"wall_material", "wall=\"w\" change=\"3\"", ""},
       {"wall_absent", "wall=\"w\" share=\"0.5\"", ""},
+      {"counted_walls", "material=\"wood\" file=\"measured.csv\" loss=\"3\"", ""},
       {"unmapped_wall", here + "loss=\"3\"", ""},
       {"obstacle", "x=\"6\" y=\"3\" radius=\"1.5\" loss=\"3\"", ""},
       {"room_clutter", "x=\"6\" y=\"3\" loss=\"3\"", ""},

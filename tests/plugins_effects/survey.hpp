@@ -58,13 +58,13 @@ inline std::vector<Reading> survey(int ticks = 40) {
 
 inline std::string csv(const std::vector<Reading>& readings) {
   std::string out =
-      "t[s],tx,rx,tx_x[m],tx_y[m],tx_z[m],tx_yaw[rad],rx_x[m],rx_y[m],rx_z[m],rx_yaw[rad],power[dBm],noise[dBm]\n";
+      "t[s],tx,rx,tx_x[m],tx_y[m],tx_z[m],tx_yaw[rad],rx_x[m],rx_y[m],rx_z[m],rx_yaw[rad],power[dBm],noise[dBm],walls_wood\n";
   for (const Reading& r : readings) {
     out += print_real(r.t) + ',' + r.tx + ',' + r.rx;
     for (const double x :
          {r.from.x, r.from.y, r.from.z, r.from.yaw, r.to.x, r.to.y, r.to.z, r.to.yaw, r.power, r.noise})
       out += ',' + print_real(x);
-    out += '\n';
+    out += ',' + print_real(std::floor(std::fmod(r.t, 4))) + '\n';
   }
   return out;
 }
