@@ -117,7 +117,8 @@ void check_readings(Dataset& data) {
   const double first = *std::find_if(data.rssi.begin(), data.rssi.end(), [](double v) { return !std::isnan(v); });
   if (data.heard() > 1 &&
       std::all_of(data.rssi.begin(), data.rssi.end(), [&](double v) { return std::isnan(v) || v == first; }))
-    throw invalid(at(data, 0, data.reading), "every rssi is " + print_real(first) + " dBm; expected readings that vary");
+    throw invalid(at(data, 0, data.reading),
+                  "every rssi is " + print_real(first) + " dBm; expected readings that vary");
 }
 
 }  // namespace muster::diagnosis

@@ -69,7 +69,8 @@ Survey survey_of(const LinkModel& model, const Dataset& data) {
   survey.has_places = data.has_places();
   for (const Covariate& c : data.covariates) {
     const bool whole = std::none_of(c.values.begin(), c.values.end(), [](double v) { return std::isnan(v); });
-    if (c.name.rfind("walls_", 0) == 0 && whole && !c.values.empty()) survey.counted.insert(c.name.substr(6, c.name.find('[') - 6));
+    if (c.name.rfind("walls_", 0) == 0 && whole && !c.values.empty())
+      survey.counted.insert(c.name.substr(6, c.name.find('[') - 6));
   }
   survey.plan_angle = direction_of_walls(model);
   std::map<int, Trail> trails;

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <map>
+#include <random>
 #include <vector>
 
 using namespace muster::test;
@@ -55,16 +56,18 @@ class Data {
   std::vector<std::vector<std::string>> rows_ = {{"t[s]", "tx", "rx", "tx_x[m]", "tx_y[m]", "rx_x[m]", "rx_y[m]", "rssi[dBm]"}};
 };
 
-Outcome fit(const std::string& data, const std::vector<std::string>& more = {}) {
+Outcome asked(const std::string& verb, const std::string& data) {
   const Folder folder;
   folder.write("world.xml", world);
   folder.write("data.csv", data);
-  std::vector<std::string> words = {"fit", "world.xml", "--data", "data.csv"};
-  words.insert(words.end(), more.begin(), more.end());
-  return folder.muster(words);
+  return folder.muster({verb, "world.xml", "--data", "data.csv"});
 }
 
-void expect_refused(const std::string& data, const std::string& message) { expect_error(fit(data), 2, "data.csv" + message); }
+Outcome fit(const std::string& data) { return asked("fit", data); }
+
+void expect_refused(const std::string& data, const std::string& message) {
+  for (const char* verb : {"fit", "diagnose"}) expect_error(asked(verb, data), 2, "data.csv" + message);
+}
 
 TEST(Fault25, ColumnsThatAreMissingOrInAnotherUnit) {
   expect_refused(Data().set(0, 7, "level[dBm]").text(), ":1:1: no column \"rssi[dBm]\" in the table; expected one of t, tx, rx, tx_x, tx_y, rx_x, rx_y, level");
@@ -111,6 +114,30 @@ TEST(Fault25, WhatIsNotIdentifiableHasNoNumber) {
   for (const char* parameter : {"radio.multiwall/l0", "radio.multiwall/n", "material/drywall/loss"})
     EXPECT_THAT(outcome.out, testing::ContainsRegex(std::string(parameter) + " +not identifiable"));
   EXPECT_THAT(outcome.out, HasSubstr("no reading depends on material/drywall/loss"));
+}
+
+// One place, so that distance and walls are the same in all rows: nothing is named, and what has no value says so.
+TEST(Fault25, ADiagnosisNamesNothingThatItCannotTell) {
+  Data data = Data().set_all(5, "3").set_all(6, "0");
+  std::minstd_rand draw(3);
+  for (std::size_t row = 1; row <= 60; ++row) data.set(row, 7, fmt::format("{:.1f}", -60 + 0.01 * static_cast<double>(draw() % 500)));
+  const auto outcome = asked("diagnose", data.text());
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("world.xml: adequate"));
+  EXPECT_THAT(outcome.out, HasSubstr("note: not identifiable: no reading depends on material/drywall/loss"));
+  EXPECT_THAT(outcome.out, HasSubstr("note: not identifiable: changing radio.multiwall/l0 by 1 dB together with radio.multiwall/n"));
+  EXPECT_THAT(outcome.out, testing::Not(HasSubstr("evidence")));
+}
+
+TEST(Fault25, DistancesAndPathLosses) {
+  const auto without_places = [](const std::string& row) {
+    return "tx,rx,distance[m],path_loss[dB]\nbase,rover,3,60\n" + row + "\nbase,rover,9,71\n";
+  };
+  expect_refused(without_places("base,rover,0,70"), ":3:12: row 2: a distance of 0 m; expected more than 0 m");
+  expect_refused(without_places("base,rover,4,-60"),
+                 ":3:14: row 2: a path loss of -60 dB, a level of 60 dBm, is over +30 dBm; expected a level in dBm, which is mostly negative");
+  expect_refused("tx,rx,path_loss[dB]\nbase,rover,60\nbase,rover,61\n",
+                 ":1:1: no column \"tx_x[m]\" in the table; expected one of tx, rx, path_loss");
 }
 
 TEST(Fault25, WhatIsNoFaultIsTaken) {

@@ -140,7 +140,10 @@ INSTANTIATE_TEST_SUITE_P(Effects, EachCause, testing::ValuesIn(examples()),
 TEST(AllCauses, RunTogetherOnLivingLinks) {
   const Site site;
   std::string all;
-  for (const auto& example : examples()) all += "<effect." + example.name + ' ' + example.attributes + "/>\n";
+  for (const auto& example : examples()) {
+    // Its table has a row for every link, so it stands beside measured ones alone.
+    if (example.name != "counted_walls") all += "<effect." + example.name + ' ' + example.attributes + "/>\n";
+  }
   auto one = site.world(all, false, 1, plan + channel, ""), other = site.world(all, false, 3, plan + channel, "");
   EXPECT_EQ(one.table("link/*/rssi").rows(), 12u);
   for (int i = 0; i < 10; ++i) {
