@@ -23,6 +23,7 @@ int run_features(const Arguments& arguments);
 int run_fit(const Arguments& arguments);
 int run_graph(const Arguments& arguments);
 int run_import(const Arguments& arguments);
+int run_plugin_check(const Arguments& arguments);
 int run_plugins(const Arguments& arguments);
 int run_run(const Arguments& arguments);
 int run_swap(const Arguments& arguments);

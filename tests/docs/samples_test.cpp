@@ -65,9 +65,10 @@ TEST(Samples, OfTheReadmeAreTheFilesThatAreBuilt) {
   }
 }
 
-TEST(Samples, ARadioTermTakes25LinesAndAControllerTakes20) {
+TEST(Samples, ARadioTermTakes25LinesAControllerTakes20AndACauseTakes40) {
   EXPECT_LE(lines_with_text(text_of(source / "docs/samples/radio_one_slope.cpp")), 25);
   EXPECT_LE(lines_with_text(text_of(source / "docs/samples/control_keep_in_touch.cpp")), 20);
+  EXPECT_LE(lines_with_text(text_of(source / "docs/samples/cause_dipole.cpp")), 40);
 }
 
 Simulation readme_world() {

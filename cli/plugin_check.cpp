@@ -1,0 +1,155 @@
+// muster plugin-check CAUSE: whether a diagnosis finds an author's cause, and nothing where there is nothing.
+#include "verbs.hpp"
+
+#include "diagnosis/cause_check.hpp"
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
+#include <cstring>
+
+namespace muster::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using diagnosis::CauseCheck;
+using diagnosis::HiddenCase;
+
+constexpr double goal_found = 0.95, goal_false = 0.01;  // shares; a check fails only beyond what chance does once in 1,000
+constexpr double largest_difference = 1e-6;             // dB
+
+struct Scratch {
+  Scratch() {
+    std::string name = (fs::temp_directory_path() / "muster_check_XXXXXX").string();
+    if (!::mkdtemp(name.data())) throw Error(Exit::io, name + ": cannot be made: " + std::strerror(errno));
+    folder = name;
+  }
+  ~Scratch() {
+    std::error_code ignored;
+    fs::remove_all(folder, ignored);
+  }
+  fs::path folder;
+};
+
+// Worlds in which nothing is hidden, by the program that makes exams: their truth shares no code with any cause.
+std::vector<fs::path> clean_worlds(int count, uint64_t seed, const std::vector<int>& rows, const fs::path& folder) {
+  const std::string program = (fs::read_symlink("/proc/self/exe").parent_path() / "muster_exam").string();
+  std::vector<std::string> words{program, "make", "--mix", "clean", "--seed", std::to_string(seed), "--cases",
+                                 std::to_string(count), "--rows", std::to_string(rows[0]), std::to_string(rows[1]),
+                                 "--out", folder.string()};
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  posix_spawn_file_actions_t quiet;
+  ::posix_spawn_file_actions_init(&quiet);
+  ::posix_spawn_file_actions_addopen(&quiet, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  pid_t child = 0;
+  const int failed = ::posix_spawn(&child, program.c_str(), &quiet, nullptr, argv.data(), environ);
+  ::posix_spawn_file_actions_destroy(&quiet);
+  if (failed) throw Error(Exit::io, program + " cannot be started: " + std::strerror(failed));
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+  if (status != 0) throw Error(Exit::io, program + " could not make the worlds");
+  std::vector<fs::path> result;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().filename().string().rfind("case_", 0) == 0) result.push_back(entry.path());
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+// What is still not surprising, once in 1,000, where each of `trials` succeeds with probability p.
+int least(int trials, double p) {
+  if (trials == 0) return 0;
+  return static_cast<int>(boost::math::quantile(boost::math::binomial(trials, p), 0.001));
+}
+
+bool passes(const CauseCheck& check) {
+  const int n = check.tested();
+  return n > 0 && check.found() >= least(n, goal_found) && n - check.false_names() >= least(n, 1 - goal_false) &&
+         check.difference() < largest_difference;
+}
+
+void print(const CauseCheck& check, double lambda) {
+  for (const HiddenCase& c : check.cases) {
+    const std::string world = c.world.filename().string();
+    if (!c.why_not.empty()) fmt::print("{}  not tested: {}\n", world, c.why_not);
+    else if (!c.alone) fmt::print("{}  hidden {}, named {}\n", world, c.where, c.named.empty() ? "nothing" : c.named);
+    if (c.named_on_clean) fmt::print("{}  named where nothing was hidden\n", world);
+  }
+  const int n = check.tested();
+  fmt::print("{}\n", check.id);
+  if (n == 0) {
+    fmt::print("  the data of none of these worlds can speak of it\n");
+    return;
+  }
+  const auto alone = std::count_if(check.cases.begin(), check.cases.end(), [](const HiddenCase& c) { return c.alone; });
+  fmt::print("  found            {} of {} at lambda {} (goal {:.0f} %), {} of them with nothing besides\n", check.found(), n,
+             lambda, 100 * goal_found, alone);
+  fmt::print("  named on clean   {} of {} (goal at most {:.0f} %)\n", check.false_names(), n, 100 * goal_false);
+  fmt::print("  executed         within {:.2g} dB of what the search adds (at most {:.0e})\n", check.difference(),
+             largest_difference);
+  fmt::print("  looks like       ");
+  int shown = 0;
+  for (const auto& [other, share] : check.alike()) {
+    if (share < 0.25 || shown == 5) break;
+    fmt::print("{}{} {:.0f} %", shown++ ? ", " : "", other, 100 * share);
+  }
+  fmt::print("{}\n", shown ? " of its energy explained" : "no other cause: none explains a quarter of it");
+}
+
+nlohmann::ordered_json json_of(const CauseCheck& check) {
+  nlohmann::ordered_json cases = nlohmann::ordered_json::array(), alike = nlohmann::ordered_json::object();
+  for (const HiddenCase& c : check.cases)
+    cases.push_back({{"world", c.world.filename().string()}, {"not_tested", c.why_not}, {"hidden", c.where},
+                     {"lambda", c.lambda}, {"named", c.named}, {"found", c.found}, {"alone", c.alone},
+                     {"named_on_clean", c.named_on_clean}, {"difference_db", c.difference}});
+  for (const auto& [other, share] : check.alike()) alike[other] = share;
+  return {{"cause", check.id}, {"passes", passes(check)}, {"tested", check.tested()}, {"found", check.found()},
+          {"false_names", check.false_names()}, {"difference_db", check.difference()}, {"alike", alike}, {"cases", cases}};
+}
+
+}  // namespace
+
+int run_plugin_check(const Arguments& arguments) {
+  CLI::App app(
+      "Hides a cause in measurements of worlds that are otherwise as their file says, and diagnoses them; the same\n"
+      "worlds without it; the simulator against the search; and what else explains it. Ends with 1 if it falls short.\n"
+      "Example: muster plugin-check effect.antenna_rx --worlds 10",
+      "plugin-check");
+  std::string id;
+  std::vector<std::string> plugins;
+  int worlds = 20;
+  double lambda = 60;
+  uint64_t seed = 1;
+  std::vector<int> rows{2000, 3000};
+  bool json = false;
+  app.add_option("cause", id, "the cause's id, such as effect.drift")->required();
+  app.add_option("--plugins", plugins, "a folder of plugins, looked in first");
+  app.add_option("--worlds", worlds, "how many")->check(CLI::Range(1, 10000))->capture_default_str();
+  app.add_option("--rows", rows, "readings of a world: from, to")->expected(2)->check(CLI::Range(500, 100000));
+  app.add_option("--lambda", lambda, "strength: twice the expected log-likelihood ratio")->check(CLI::Range(1., 1e6))->capture_default_str();
+  app.add_option("--seed", seed, "of worlds and places")->capture_default_str();
+  app.add_flag("--json", json, "print the result as JSON");
+  parse(app, arguments);
+  const Scratch scratch;
+  const auto made = clean_worlds(worlds, seed, rows, scratch.folder);
+  CauseCheck check;
+  {
+    Progress progress("plugin-check");
+    check = diagnosis::check_cause(id, made, plugin_path(plugins), {lambda, seed, scratch.folder},
+                                   [&](double share) { progress.at(share); });
+  }
+  if (json) fmt::print("{}\n", json_of(check).dump());
+  else print(check, lambda);
+  return passes(check) ? static_cast<int>(Exit::done) : 1;
+}
+
+}  // namespace muster::cli

@@ -1,0 +1,104 @@
+#include "diagnosis/prepared.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "diagnosis/place_checks.hpp"
+
+namespace muster::diagnosis {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+// Causes that the world holds already keep their places and times; how strong they are is fitted.
+FitOptions hold_places_of_causes(const LinkModel& model) {
+  FitOptions options;
+  for (const auto& instance : model.simulation().instances()) {
+    const muster_plugin& plugin = instance->plugin();
+    if (!plugin.cause) continue;
+    for (uint32_t k = 0; k < plugin.param_count; ++k) {
+      const muster_param& p = plugin.params[k];
+      if (p.kind == MUSTER_REAL && (p.flags & MUSTER_FREE) && !(p.flags & MUSTER_LINEAR))
+        options.fix.push_back(instance->name() + '/' + p.name);
+    }
+  }
+  return options;
+}
+
+}  // namespace
+
+Prepared::Prepared(const std::filesystem::path& world, const std::filesystem::path& table,
+                   const Library::SearchPath& plugins)
+    : file(table), data(read_dataset(table)), model(world, table, plugins), causes(causes_on(plugins)) {
+  if (data.has_places()) check_places(model, data);
+  fitted = fit(model, data, hold_places_of_causes(model));
+  base = base_columns(model, fitted.parameters);
+  for (const std::size_t row : fitted.rows_used()) used.push_back(static_cast<Index>(row));
+  run = std::make_shared<CauseModel>(model, world, table, plugins);
+  fill_readings();
+  problem.base = base.slopes(used, Eigen::all);
+  // Linear in the parameters about the fit, so that coefficients are values of parameters.
+  problem.measured -= (base.mean - base.slopes * base.values)(used);
+  sought = cause_candidates(causes, survey_of(model, data), {run, model, data, used}, problem.base);
+  for (const CauseCandidate& c : sought.found) problem.candidates.push_back(c.candidate);
+  add_columns();
+  problem.places_known = data.has_places();
+  if (!problem.places_known) options.rows.way = 0;  // readings at like distances are not at one place
+}
+
+void Prepared::fill_readings() {
+  noise::Readings& r = problem.readings;
+  const auto n = static_cast<Index>(used.size());
+  r.tx_at.resize(3, n);
+  r.rx_at.resize(3, n);
+  problem.measured.resize(n);
+  for (Index i = 0; i < n; ++i) {
+    const auto row = static_cast<std::size_t>(used[static_cast<std::size_t>(i)]);
+    const auto& [tx, rx] = model.ends()[row];
+    r.tx.push_back(tx.radio);
+    r.rx.push_back(rx.radio);
+    r.tx_at.col(i) << tx.x, tx.y, tx.z;
+    r.rx_at.col(i) << rx.x, rx.y, rx.z;
+    if (!data.t.empty()) r.t.push_back(data.t[row]);
+    if (!data.rx_yaw.empty()) r.rx_yaw.push_back(rx.yaw);
+    const bool censored = std::isnan(data.rssi[row]);
+    problem.measured[i] = censored ? fitted.readings.floor : data.rssi[row];
+    if (!fitted.readings.censored.empty())
+      problem.bounds.known.push_back(censored ? noise::Known::below : noise::Known::value);
+  }
+  problem.bounds.half_code = 0;  // the fitted floor is a level, not a code
+}
+
+// A number of few values is a setting: each value stands for itself.
+void Prepared::add_columns() {
+  for (const Covariate& column : data.covariates) {
+    const std::string name = column.name.substr(0, column.name.find('['));
+    if (column.values.empty()) {
+      search::Factor factor{name, {}};
+      for (const Index row : used)
+        factor.level.push_back(static_cast<int>(column.factor.level[static_cast<std::size_t>(row)]));
+      problem.factors.push_back(std::move(factor));
+      continue;
+    }
+    VectorXd values(static_cast<Index>(used.size()));
+    std::set<double> different;
+    for (Index i = 0; i < values.size(); ++i) {
+      values[i] = column.values[static_cast<std::size_t>(used[static_cast<std::size_t>(i)])];
+      if (different.size() <= 8) different.insert(values[i]);
+    }
+    if (!values.allFinite()) {
+      untested.push_back(column.name + ": it has empty cells");
+    } else if (different.size() > 8) {
+      problem.covariates.push_back({name, values});
+    } else if (different.size() > 1) {
+      search::Factor factor{name, {}};
+      for (const double v : values)
+        factor.level.push_back(static_cast<int>(std::distance(different.begin(), different.find(v))));
+      problem.factors.push_back(std::move(factor));
+    }
+  }
+}
+
+}  // namespace muster::diagnosis

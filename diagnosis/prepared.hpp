@@ -1,0 +1,36 @@
+// A world and its measured readings made ready for a search: the world fitted, its own columns, and every cause that the
+// data can speak of as a candidate.
+#pragma once
+
+#include "diagnosis/base_columns.hpp"
+#include "diagnosis/cause_columns.hpp"
+#include "diagnosis/fit.hpp"
+#include "diagnosis/search/problem.hpp"
+
+namespace muster::diagnosis {
+
+struct Prepared {
+  // Throws Error.
+  Prepared(const std::filesystem::path& world, const std::filesystem::path& file, const Library::SearchPath& plugins);
+  Prepared(const Prepared&) = delete;
+  Prepared& operator=(const Prepared&) = delete;
+
+  std::filesystem::path file;  // of the readings
+  Dataset data;
+  LinkModel model;
+  std::vector<Cause> causes;  // of the plugin path
+  Fit fitted;
+  BaseColumns base;
+  std::vector<Eigen::Index> used;   // rows of the table behind the readings of the search
+  std::shared_ptr<CauseModel> run;  // what the candidates evaluate
+  search::Problem problem;
+  search::Options options;
+  CauseSearch sought;                 // behind the problem's candidates
+  std::vector<std::string> untested;  // columns, with the reason
+
+ private:
+  void fill_readings();
+  void add_columns();
+};
+
+}  // namespace muster::diagnosis
