@@ -38,6 +38,12 @@ class Diagnoser {
   Diagnosis summed_up(const search::Result& result, const CauseSearch& causes, const search::Bench& bench) {
     Diagnosis out;
     out.notes = at_.data.notes;
+    if (const Missing& m = at_.fitted.missing; !m.censored && m.rises())
+      out.notes.push_back(fmt::format(
+          "more readings are missing where less is expected ({:.0f} % at {:.0f} dBm, {:.0f} % at {:.0f} dBm): what was "
+          "heard are the stronger ones, so weak levels look too high and the exponent too low",
+          100 * m.bins.front().missing / m.bins.front().rows, m.bins.front().level,
+          100 * m.bins.back().missing / m.bins.back().rows, m.bins.back().level));
     for (const std::string& blind : at_.fitted.not_identifiable) out.notes.push_back("not identifiable: " + blind);
     out.residual_sd = at_.fitted.residual_sd;
     out.noise = result.noise.covariance;

@@ -64,6 +64,15 @@ std::vector<Missing::Bin> binned(const Eigen::VectorXd& rssi, const Eigen::Vecto
 
 }  // namespace
 
+bool Missing::rises() const {
+  if (bins.size() < 2) return false;
+  const auto share = [](const Bin& b) { return b.missing / b.rows; };
+  const auto variance = [&](const Bin& b) { return std::max(share(b) * (1 - share(b)), 1 / b.rows) / b.rows; };
+  const double more = share(bins.front()) - share(bins.back());
+  // Neighbouring readings are lost together: five standard errors of independent ones, and a seventh of all readings.
+  return more > 0.15 && more > 5 * std::sqrt(variance(bins.front()) + variance(bins.back()));
+}
+
 Missing why_missing(const Eigen::VectorXd& rssi, const Eigen::VectorXd& mean, double sigma) {
   std::vector<double> lost_at, heard_at;
   std::vector<double> heard_levels;

@@ -16,7 +16,10 @@ struct Missing {
     double level;  // mean predicted level, dBm
     double rows, missing;
   };
-  std::vector<Bin> bins{};  // ten, of equal numbers of readings, by predicted level
+  std::vector<Bin> bins{};  // ten, of equal numbers of readings, by predicted level, the weakest first
+
+  // Neither chance nor a floor, but more is missing where less is expected: what was heard are the stronger ones.
+  bool rises() const;
 };
 
 // `mean` and `sigma` are a fit's to what was heard.

@@ -45,7 +45,7 @@ Prepared::Prepared(const std::filesystem::path& world, const std::filesystem::pa
   for (const CauseCandidate& c : sought.found) problem.candidates.push_back(c.candidate);
   add_columns();
   problem.places_known = data.has_places();
-  if (!problem.places_known) options.rows.way = 0;  // readings at like distances are not at one place
+  if (!problem.places_known) options.rows.way = -1;  // readings at like distances are not at one place: each is a row
 }
 
 void Prepared::fill_readings() {

@@ -140,7 +140,17 @@ TEST(Missing, AFloorIsCalledAFloor) {
   EXPECT_EQ(found.bins.back().missing, 0);
 }
 
+// A receiver that hears half of all, and of weak ones fewer and fewer.
+TEST(Missing, ALossThatRisesGentlyIsNoFloorAndNotChance) {
+  const auto gentle = [](double level, double chance) { return chance > 0.5 / (1 + std::exp((-78 - level) / 5)); };
+  const Missing found = missing_where(gentle);
+  EXPECT_FALSE(found.censored);
+  EXPECT_TRUE(found.rises());
+  EXPECT_FALSE(missing_where([](double, double chance) { return chance < 0.5; }).rises());
+}
+
 TEST(Missing, NothingMissing) {
+  EXPECT_FALSE(missing_where([](double, double) { return false; }).rises());
   EXPECT_EQ(missing_where([](double, double) { return false; }).count, 0u);
 }
 
