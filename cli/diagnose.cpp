@@ -1,7 +1,8 @@
 // muster diagnose WORLD --data FILE: what the world gets wrong, the cause, an extended world, and what that gains.
 #include <fmt/core.h>
 
-#include "diagnose_report.hpp"
+#include "diagnosis/report/json.hpp"
+#include "diagnosis/report/text.hpp"
 #include "verbs.hpp"
 
 namespace muster::cli {
@@ -32,9 +33,9 @@ int run_diagnose(const Arguments& arguments) {
     progress.at(1);
   }
   if (json)
-    fmt::print("{}\n", diagnosis_json(found).dump());
+    fmt::print("{}\n", report::json_of(found).dump());
   else
-    print_diagnosis(found, world);
+    fmt::print("{}", report::text_of(found, {world, data, {}}));
   return static_cast<int>(Exit::done);
 }
 

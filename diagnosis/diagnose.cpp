@@ -121,20 +121,20 @@ class Diagnoser {
   Prepared at_;
 };
 
-std::string in_words(const Diagnosis& d) {
+}  // namespace
+
+bool Diagnosis::named() const {
+  return std::any_of(causes.begin(), causes.end(),
+                     [](const FoundCause& c) { return c.status == search::Status::named; });
+}
+
+std::string in_short(const Diagnosis& d) {
   std::string result;
   for (const FoundCause& c : d.causes) {
     if (c.status == search::Status::named) result += (result.empty() ? "" : ", ") + c.id + " " + c.label;
   }
   for (const Unexplained& u : d.unexplained) result += (result.empty() ? "~" : ", ~") + u.covariate;
   return result.empty() ? "silent" : result;
-}
-
-}  // namespace
-
-bool Diagnosis::named() const {
-  return std::any_of(causes.begin(), causes.end(),
-                     [](const FoundCause& c) { return c.status == search::Status::named; });
 }
 
 const char* Diagnosis::verdict() const {
@@ -146,9 +146,27 @@ Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::pa
   return Diagnoser(world, data, plugins).run();
 }
 
+SecondLook second_look(const std::filesystem::path& world, const std::filesystem::path& extended,
+                       const std::filesystem::path& file, const Library::SearchPath& plugins) {
+  SecondLook look{file, 0, 0, 0, in_short(diagnose(extended, file, plugins))};
+  const Dataset data = read_dataset(file);
+  LinkModel given(world, file, plugins), model(extended, file, plugins);
+  look.rmse_given = fit(given, data, {}).residual_sd;
+  const VectorXd& mean = model.expected();
+  double sum = 0;
+  for (std::size_t row = 0; row < data.rows(); ++row) {
+    const double error = data.rssi[row] - mean[static_cast<Index>(row)];
+    if (std::isnan(error)) continue;
+    sum += error * error;
+    ++look.readings;
+  }
+  look.rmse_extended = std::sqrt(sum / static_cast<double>(std::max<std::size_t>(look.readings, 1)));
+  return look;
+}
+
 Loop closed_loop(const Diagnosis& found, const std::filesystem::path& world, const std::filesystem::path& data,
                  const std::filesystem::path& out, const Library::SearchPath& plugins) {
-  Loop loop{out, 0, ""};
+  Loop loop{out, 0, "", {}};
   const std::filesystem::path file = write_extended_world(found, world, out);
   LinkModel model(file, data, plugins);
   const VectorXd& simulated = model.expected();
@@ -156,7 +174,7 @@ Loop closed_loop(const Diagnosis& found, const std::filesystem::path& world, con
     if (!std::isnan(found.mean[i]))
       loop.mean_difference = std::max(loop.mean_difference, std::abs(simulated[i] - found.mean[i]));
   }
-  loop.rediagnosis = in_words(diagnose(file, data, plugins));
+  loop.rediagnosis = in_short(diagnose(file, data, plugins));
   return loop;
 }
 

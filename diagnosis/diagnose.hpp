@@ -70,11 +70,21 @@ struct WorldValue {
   double value = 0, stderror = 0;
 };
 
+// The extended world held against readings that it was not made from.
+struct SecondLook {
+  std::filesystem::path data;
+  std::size_t readings = 0;
+  double rmse_given = 0;     // dB a reading: of the world as given, fitted to these very readings
+  double rmse_extended = 0;  // of the extended world as it is written
+  std::string rediagnosis;
+};
+
 // The extended world simulated, and diagnosed again.
 struct Loop {
   std::filesystem::path world;  // its folder
   double mean_difference = 0;   // dB, largest of all readings
   std::string rediagnosis;      // "silent", or what was found
+  std::optional<SecondLook> second{};
 };
 
 struct Diagnosis {
@@ -104,6 +114,13 @@ struct Diagnosis {
 // One look. Throws Error.
 Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::path& data,
                    const Library::SearchPath& plugins);
+
+// The world in `extended` on `data`, beside the world as given. Throws Error.
+SecondLook second_look(const std::filesystem::path& world, const std::filesystem::path& extended,
+                       const std::filesystem::path& data, const Library::SearchPath& plugins);
+
+// What was named and what is unexplained, in one line; "silent" if nothing was.
+std::string in_short(const Diagnosis& diagnosis);
 
 // Writes the extended world to `out`, simulates it at the readings and diagnoses it. Throws Error.
 Loop closed_loop(const Diagnosis& found, const std::filesystem::path& world, const std::filesystem::path& data,

@@ -1,0 +1,44 @@
+#include "diagnosis/report/advice.hpp"
+
+#include <algorithm>
+
+namespace muster::report {
+
+std::vector<Question> open_questions(const Diagnosis& d) {
+  std::vector<Question> out;
+  for (const FoundCause& c : d.causes) {
+    if (standing_of(c) == Standing::set_aside) continue;
+    for (const search::Rival& r : c.rivals) {
+      if (r.separability >= decided) continue;
+      Question question{c.id, r.id, r.separability, c.tell_apart, {}};
+      for (const diagnosis::Advice& a : d.advice) {
+        if (a.cause == c.id && a.rival == r.id && a.predicted) question.plans.emplace_back(a.say, *a.predicted);
+      }
+      std::stable_sort(question.plans.begin(), question.plans.end(),
+                       [](const auto& a, const auto& b) { return a.second > b.second; });
+      out.push_back(std::move(question));
+    }
+  }
+  return out;
+}
+
+bool found(const Diagnosis& d, const std::string& id) {
+  const auto is_cause = [&](const FoundCause& c) { return c.id == id; };
+  const auto is_left = [&](const diagnosis::Unexplained& u) { return "~" + u.covariate == id; };
+  return std::any_of(d.causes.begin(), d.causes.end(), is_cause) ||
+         std::any_of(d.unexplained.begin(), d.unexplained.end(), is_left);
+}
+
+std::string name_of_step(const Diagnosis& d, std::size_t k) {
+  if (k == 0) return "the world, fitted";
+  // Accepted findings stand before those set aside, causes and what is unexplained in one order of strength.
+  std::vector<std::pair<double, std::string>> steps;
+  for (const FoundCause& c : d.causes) {
+    if (standing_of(c) != Standing::set_aside) steps.emplace_back(-c.lambda, short_name(c.id));
+  }
+  for (const auto& u : d.unexplained) steps.emplace_back(-u.lambda, covariate_in_words(u.covariate) + " (unexplained)");
+  std::stable_sort(steps.begin(), steps.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  return k <= steps.size() ? "+ " + steps[k - 1].second : "";
+}
+
+}  // namespace muster::report

@@ -1,0 +1,152 @@
+#include "diagnosis/report/json.hpp"
+
+#include <cmath>
+
+#include "diagnosis/report/advice.hpp"
+
+namespace muster::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// JSON has no NaN: what is not known is null.
+Json known(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json held_out_json(const std::optional<search::HeldOut>& h) {
+  const auto of = [&](double search::HeldOut::*which) { return h ? known(*h.*which) : Json(nullptr); };
+  return {{"heldout_rmse_before_db", of(&search::HeldOut::rmse_before)},
+          {"heldout_rmse_after_db", of(&search::HeldOut::rmse_after)},
+          {"gain_lower95", of(&search::HeldOut::lower95)},
+          {"gain_upper95", of(&search::HeldOut::upper95)},
+          {"gain_db2", of(&search::HeldOut::gain)},
+          {"blocks", h ? Json(h->blocks) : Json(nullptr)}};
+}
+
+Json cause_json(const FoundCause& c) {
+  Json parameters = Json::array(), rivals = Json::array();
+  for (const CauseValue& v : c.values) {
+    const bool sure = v.upper95 > v.lower95;
+    parameters.push_back({{"name", c.id + '/' + v.name},
+                          {"value", v.value},
+                          {"stderr", sure ? known(v.stderror) : Json(nullptr)},
+                          {"lower95", sure ? known(v.lower95) : Json(nullptr)},
+                          {"upper95", sure ? known(v.upper95) : Json(nullptr)},
+                          {"unit", v.unit}});
+  }
+  for (const search::Rival& r : c.rivals)
+    rivals.push_back({{"id", r.id},
+                      {"label", r.label},
+                      {"evidence_gap", known(r.evidence_gap)},
+                      {"separability", known(r.separability)}});
+  Json out = {{"id", c.id},
+              {"label", c.label},
+              {"status", c.status == search::Status::named ? "named" : "suspected"},
+              {"confirmed", standing_of(c) == Standing::confirmed},
+              {"sentence", sentence(c)},
+              {"parameters", parameters},
+              {"evidence", known(c.evidence)},
+              {"lambda", known(c.lambda)}};
+  out.update(held_out_json(c.held_out));
+  out["rivals"] = rivals;
+  out["tell_apart"] = c.tell_apart;
+  return out;
+}
+
+Json unexplained_json(const diagnosis::Unexplained& u) {
+  Json out = {{"covariate", u.covariate}, {"evidence", known(u.evidence)}, {"lambda", known(u.lambda)}};
+  out.update(held_out_json(u.held_out));
+  return out;
+}
+
+Json advice_json(const Diagnosis& d) {
+  Json out = Json::array();
+  const auto add = [&](const std::string& say, const Question& q, Json predicted) {
+    out.push_back({{"do", say},
+                   {"separates", q.cause + ' ' + q.rival},
+                   {"predicted_separability", std::move(predicted)},
+                   {"separability", known(q.separability)}});
+  };
+  for (const Question& q : open_questions(d)) {
+    for (const auto& [say, predicted] : q.plans) add(say, q, known(predicted));
+    add(q.tell_apart, q, nullptr);
+  }
+  return out;
+}
+
+Json checks_json(const Diagnosis& d) {
+  Json out = Json::array();
+  for (const search::Check& c : d.checks) {
+    if (found(d, c.id)) continue;
+    const bool smooth = c.kind == search::Kind::smooth;
+    out.push_back({{smooth ? "covariate" : "cause", smooth ? c.id.substr(1) : c.id},
+                   {"p", std::exp(std::min(c.log_p, 0.0))},
+                   {"lambda", known(c.gain)}});
+  }
+  return out;
+}
+
+Json stairs_json(const Diagnosis& d) {
+  Json out = Json::array();
+  for (std::size_t k = 0; k < d.stairs.size(); ++k)
+    out.push_back({{"with", name_of_step(d, k)},
+                   {"heldout_rmse_db", known(d.stairs[k].rmse)},
+                   {"lower95", known(d.stairs[k].lower95)},
+                   {"upper95", known(d.stairs[k].upper95)}});
+  return out;
+}
+
+Json loop_json(const Diagnosis& d) {
+  if (!d.loop) return nullptr;
+  Json out = {{"mean_difference_db", known(d.loop->mean_difference)}, {"rediagnosis", d.loop->rediagnosis}};
+  out["second"] = nullptr;
+  if (const auto& s = d.loop->second)
+    out["second"] = {{"data", s->data.string()},
+                     {"readings", s->readings},
+                     {"rmse_given_db", known(s->rmse_given)},
+                     {"rmse_extended_db", known(s->rmse_extended)},
+                     {"rediagnosis", s->rediagnosis}};
+  return out;
+}
+
+Json world_json(const Diagnosis& d) {
+  Json out = Json::array();
+  for (const auto& v : d.world_values)
+    out.push_back({{"name", v.path}, {"value", v.value}, {"stderr", known(v.stderror)}, {"unit", v.unit}});
+  return out;
+}
+
+}  // namespace
+
+Json json_of(const Diagnosis& d) {
+  Json causes = Json::array(), unexplained = Json::array();
+  for (const FoundCause& c : d.causes) causes.push_back(cause_json(c));
+  for (const auto& u : d.unexplained) unexplained.push_back(unexplained_json(u));
+  const auto error = [&](double search::HeldOut::*which) { return d.held_out ? known(*d.held_out.*which) : Json(); };
+  return {
+      {"verdict", d.verdict()},
+      {"noise",
+       {{"family", std::string(noise::name_of(d.noise.family))},
+        {"sigma_db", known(std::sqrt(d.noise.field_variance()))},
+        {"decorrelation_m", known(d.noise.decorrelation())},
+        {"fading", known(std::sqrt(d.noise.reading_variance()))},
+        {"floor_db", known(noise_floor(d))}}},
+      {"base", {{"residual_sd_db", known(d.residual_sd)}, {"heldout_rmse_db", error(&search::HeldOut::rmse_before)}}},
+      {"causes", causes},
+      {"unexplained", unexplained},
+      {"advice", advice_json(d)},
+      {"extended_world", d.loop ? Json(d.loop->world.string()) : Json()},
+      {"heldout_rmse_db", error(&search::HeldOut::rmse_after)},
+      {"loop", loop_json(d)},
+      {"summary", verdict_in_words(d)},
+      {"readings", d.readings},
+      {"rows", d.rows},
+      {"blocks", d.held_out ? Json(d.held_out->blocks) : Json()},
+      {"steps", stairs_json(d)},
+      {"parameters", world_json(d)},
+      {"checked", checks_json(d)},
+      {"searched", d.searched},
+      {"not_searched", d.not_tested},
+      {"notes", d.notes}};
+}
+
+}  // namespace muster::report

@@ -1,0 +1,247 @@
+#include "diagnosis/report/text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "diagnosis/report/advice.hpp"
+
+namespace muster::report {
+namespace {
+
+constexpr std::size_t columns = 100;
+
+// Letters, not bytes: names of radios may be UTF-8.
+std::size_t width_of(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+std::string heading(const std::string& text) { return "\n" + text + "\n"; }
+
+std::string db(double value) { return fmt::format("{:.2f} dB", value); }
+
+std::string introduction(const Diagnosis& d, const Setting& setting) {
+  std::string text = wrapped(setting.world + " " + verdict_in_words(d) + ".");
+  text +=
+      wrapped(fmt::format("{} readings of {}, averaged to {} rows (neighbours on one link: at most 1.2 s, 1 m and "
+                          "35 deg apart). The world's own parameters are fitted.",
+                          d.readings, setting.data, d.rows));
+  return text;
+}
+
+std::string errors(const Diagnosis& d) {
+  if (!d.held_out)
+    return wrapped(fmt::format("The fitted world leaves {} a reading. ", db(d.residual_sd)) + why_no_blocks(d), 2, 2);
+  const auto& h = *d.held_out;
+  std::string text = fmt::format("At places that a fit has not seen, the world errs by {}", db(h.rmse_before));
+  if (!d.stairs.empty()) text += fmt::format(" (95 %: {:.2f} to {:.2f})", d.stairs[0].lower95, d.stairs[0].upper95);
+  const bool improved = d.named() || !d.unexplained.empty();
+  if (improved) text += fmt::format("; with what follows, by {}", db(h.rmse_after));
+  text += fmt::format(". Noise alone would leave {}.", db(noise_floor(d)));
+  if (improved)
+    text += fmt::format(" The squared error falls by {:.2f} dB2 (95 %: {:.2f} to {:.2f}, over {} blocks).", h.gain,
+                        h.lower95, h.upper95, h.blocks);
+  return wrapped(text, 2, 2);
+}
+
+std::string gain_of(const search::HeldOut& h) {
+  return fmt::format(
+      "{:.2f} -> {} at places not seen; squared error falls by {:.2f} dB2 (95 %: {:.2f} to {:.2f}, {} blocks)",
+      h.rmse_before, db(h.rmse_after), h.gain, h.lower95, h.upper95, h.blocks);
+}
+
+// "    word        text", wrapped beside the word.
+std::string entry(const std::string& word, const std::string& text) {
+  std::string padded = "      " + word;
+  padded.resize(std::max<std::size_t>(18, padded.size() + 1), ' ');
+  return padded + wrapped(text, 18, 18).substr(18);
+}
+
+std::string cause_text(const FoundCause& c, int number) {
+  const Standing standing = standing_of(c);
+  const std::string opening = standing == Standing::confirmed ? "it is " : "suspected: ";
+  std::string text = wrapped(fmt::format("({}) {}{}: {}", number, opening, c.id, sentence(c)), 2, 6);
+  text += entry("where", c.label == "all" ? "everywhere" : c.label);
+  for (const CauseValue& v : c.values) text += entry(v.name, fmt::format("{:<12} 95 %: {}", quantity(v), interval(v)));
+  text += entry("evidence",
+                fmt::format("{:.1f} nats; lambda {:.0f} (fall of the deviance beside all else)", c.evidence, c.lambda));
+  if (c.held_out)
+    text += entry("gain", gain_of(*c.held_out));
+  else
+    text += entry("gain", standing == Standing::set_aside ? "not measured: beside the others it is not beyond chance"
+                                                          : "not measured: too few blocks of space");
+  if (standing == Standing::unconfirmed && c.held_out)
+    text += entry("", "Places not seen do not confirm it yet: the interval touches zero.");
+  std::string rivals;
+  for (const search::Rival& r : c.rivals)
+    rivals += fmt::format("{}{} {}, {:.1f} nats behind, D {:.0f}: {}", rivals.empty() ? "" : "; ", short_name(r.id),
+                          r.label == r.id ? "" : r.label, r.evidence_gap, r.separability, judged(r.separability));
+  if (standing != Standing::set_aside)
+    text += entry("rivals", rivals.empty() ? "none within 3 nats, and none with a separability D below 12" : rivals);
+  return text;
+}
+
+std::string causes(const Diagnosis& d) {
+  if (d.causes.empty()) return "";
+  std::string text = heading(d.causes.size() == 1 ? "Cause" : "Causes");
+  int number = 0;
+  for (const FoundCause& c : d.causes) text += (number ? "\n" : "") + cause_text(c, number + 1), ++number;
+  return text;
+}
+
+std::string unexplained(const Diagnosis& d) {
+  if (d.unexplained.empty()) return "";
+  std::string text = heading("Not explained");
+  for (const auto& u : d.unexplained) {
+    text +=
+        wrapped("Something depends on " + covariate_in_words(u.covariate) +
+                    fmt::format(", and no cause on the plugin path explains it: evidence {:.1f} nats, lambda {:.0f}.",
+                                u.evidence, u.lambda),
+                2, 2);
+    if (u.held_out) text += entry("gain", gain_of(*u.held_out));
+  }
+  return text;
+}
+
+std::string stairs(const Diagnosis& d) {
+  if (d.stairs.size() < 3) return "";  // with one step, the cause has said it
+  std::string text = heading("Error at places not seen, step by step");
+  for (std::size_t k = 0; k < d.stairs.size(); ++k)
+    text += fmt::format("  {:<40} {:6.2f} dB   95 %: {:.2f} to {:.2f}\n", name_of_step(d, k), d.stairs[k].rmse,
+                        d.stairs[k].lower95, d.stairs[k].upper95);
+  return text + fmt::format("  {:<40} {:6.2f} dB\n", "noise alone", noise_floor(d));
+}
+
+std::string undecided(const Diagnosis& d) {
+  const auto questions = open_questions(d);
+  if (questions.empty()) return "";
+  std::string text = heading("What the data cannot decide, and what to measure next");
+  for (const Question& q : questions) {
+    text += wrapped(fmt::format("{} or {}: D {:.0f}, {}.", short_name(q.cause), short_name(q.rival), q.separability,
+                                judged(q.separability)),
+                    2, 2);
+    text += wrapped("- " + q.tell_apart, 4, 6);
+    for (const auto& [say, predicted] : q.plans)
+      text += wrapped(fmt::format("- {}: predicted D {:.0f}{}", say, predicted,
+                                  predicted >= decided         ? ", decides"
+                                  : predicted < not_told_apart ? ", too little"
+                                                               : ""),
+                      4, 6);
+  }
+  return text;
+}
+
+std::string checked(const Diagnosis& d) {
+  std::string along, causes;
+  for (const search::Check& c : d.checks) {
+    if (found(d, c.id)) continue;
+    const bool smooth = c.kind == search::Kind::smooth;
+    std::string& list = smooth ? along : causes;
+    list += (list.empty() ? "" : ", ") + (smooth ? covariate_in_words(c.id.substr(1)) : short_name(c.id)) + " (" +
+            chance(c.log_p) + ")";
+  }
+  if (along.empty() && causes.empty()) return "";
+  std::string text = heading("Checked and found fine");
+  if (!along.empty()) text += wrapped("Nothing more depends on: " + along + ".", 2, 4);
+  if (!causes.empty()) text += wrapped("No further cause: " + causes + ".", 2, 4);
+  return text + wrapped("p: that chance alone does as well anywhere along it, neighbours' likeness taken out.", 2, 4);
+}
+
+std::string not_tested(const Diagnosis& d) {
+  const auto reasons = reasons_not_tested(d);
+  if (reasons.empty()) return "";
+  std::string text = heading("Not tested");
+  for (const std::string& reason : reasons) text += wrapped(reason, 2, 4);
+  return text;
+}
+
+std::string world(const Diagnosis& d) {
+  std::string text = heading("Parameters of the world, beside the causes");
+  for (const auto& v : d.world_values)
+    text += wrapped(fmt::format("{:<28} {}", v.path,
+                                quantity(v.value, 1.96 * v.stderror, v.unit) + " +- " +
+                                    rounded(1.96 * v.stderror, 1.96 * v.stderror)),
+                    2, 4);
+  const auto& n = d.noise;
+  text += wrapped(
+      fmt::format("Noise: {} field of {} that decorrelates over {:.2f} m, and {} a reading.", noise::name_of(n.family),
+                  db(std::sqrt(n.field_variance())), n.decorrelation(), db(std::sqrt(n.reading_variance()))),
+      2, 4);
+  for (const std::string& note : d.notes) text += wrapped("note: " + note, 2, 4);
+  return text;
+}
+
+std::string again(const std::string& rediagnosis) {
+  return rediagnosis == "silent" ? "finds nothing more" : "still finds " + rediagnosis;
+}
+
+std::string loop(const Diagnosis& d) {
+  if (!d.loop) return "";
+  std::string text = heading("The extended world: " + d.loop->world.string());
+  text += wrapped(fmt::format("Simulated at the readings, its mean lies within {:.2g} dB of the diagnosis. A diagnosis "
+                              "of it {}.",
+                              d.loop->mean_difference, again(d.loop->rediagnosis)),
+                  2, 2);
+  if (const auto& s = d.loop->second)
+    text += wrapped(
+        fmt::format("On {} ({} readings that it was not made from) it errs by {} a reading, as it is "
+                    "written; the world as given, fitted to those very readings, by {}. A diagnosis of it "
+                    "on them {}.",
+                    s->data.string(), s->readings, db(s->rmse_extended), db(s->rmse_given), again(s->rediagnosis)),
+        2, 2);
+  return text;
+}
+
+}  // namespace
+
+std::string wrapped(const std::string& text, std::size_t first_indent, std::size_t indent) {
+  std::string out, line(first_indent, ' ');
+  bool empty = true;
+  std::size_t from = 0;
+  while (from < text.size()) {
+    // Blanks inside a line stay, so that columns line up.
+    std::size_t word = from;
+    while (word < text.size() && text[word] == ' ') ++word;
+    const std::size_t end = std::min(text.find(' ', word), text.size());
+    const std::string piece = text.substr(empty ? word : from, end - (empty ? word : from));
+    if (!empty && width_of(line) + width_of(piece) > columns) {
+      out += line + '\n';
+      line = std::string(indent, ' ') + text.substr(word, end - word);
+    } else {
+      line += piece;
+    }
+    empty = false;
+    from = end;
+  }
+  return out + line + '\n';
+}
+
+std::vector<std::string> reasons_not_tested(const Diagnosis& d) {
+  std::vector<std::string> order;
+  std::map<std::string, std::string> who;
+  for (const std::string& line : d.not_tested) {
+    const auto colon = line.find(": ");
+    const std::string reason = colon == line.npos ? line : line.substr(colon + 2);
+    if (!who.count(reason)) order.push_back(reason);
+    if (colon != line.npos) who[reason] += (who[reason].empty() ? "" : ", ") + short_name(line.substr(0, colon));
+  }
+  for (std::string& reason : order) {
+    if (!who[reason].empty()) reason = who[reason] + ": " + reason;
+  }
+  return order;
+}
+
+std::string text_of(const Diagnosis& d, const Setting& setting) {
+  std::string text = introduction(d, setting);
+  text += heading("What is wrong, and by how much") + errors(d);
+  text += causes(d) + unexplained(d) + stairs(d) + undecided(d) + checked(d) + not_tested(d) + world(d) + loop(d);
+  if (!setting.files.empty()) {
+    text += heading("Written");
+    for (const std::string& file : setting.files) text += "  " + file + "\n";
+  }
+  return text;
+}
+
+}  // namespace muster::report

@@ -1,0 +1,165 @@
+#include "diagnosis/report/words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace muster::report {
+namespace {
+
+constexpr double degrees = 180 / M_PI;
+
+double half_of(const CauseValue& v) { return (v.upper95 - v.lower95) / 2; }
+
+// Decimals that show two digits of the half interval.
+int decimals_for(double half) {
+  if (!(half > 0) || !std::isfinite(half)) return -1;
+  return std::clamp(1 - static_cast<int>(std::floor(std::log10(half))), 0, 6);
+}
+
+std::string plain(double value, int decimals) {
+  std::string text = fmt::format("{:.{}f}", value, decimals);
+  const bool zero = text.find_first_not_of("-0.") == text.npos;
+  return zero && text[0] == '-' ? text.substr(1) : text;
+}
+
+std::string slot_value(const FoundCause& cause, const std::string& slot) {
+  for (const CauseValue& v : cause.values) {
+    if (v.name == slot) return quantity(v);
+  }
+  if (const auto other = cause.words.find(slot); other != cause.words.end()) return other->second;
+  return cause.row.empty() ? "all radios" : cause.row;
+}
+
+std::string covariates_of(const Diagnosis& d) {
+  std::string list;
+  for (std::size_t k = 0; k < d.unexplained.size(); ++k) {
+    if (k) list += k + 1 == d.unexplained.size() ? " and on " : ", on ";
+    list += covariate_in_words(d.unexplained[k].covariate);
+  }
+  return list;
+}
+
+std::string causes_in_words(int count) {
+  static const char* words[] = {"no cause", "one cause", "two causes", "three causes", "four causes", "five causes"};
+  return count < 6 ? words[count] : std::to_string(count) + " causes";
+}
+
+}  // namespace
+
+Standing standing_of(const FoundCause& cause) {
+  if (cause.status != search::Status::named) return Standing::set_aside;
+  return cause.held_out && cause.held_out->lower95 > 0 ? Standing::confirmed : Standing::unconfirmed;
+}
+
+int count_of(const Diagnosis& d, Standing standing) {
+  return static_cast<int>(
+      std::count_if(d.causes.begin(), d.causes.end(), [&](const FoundCause& c) { return standing_of(c) == standing; }));
+}
+
+std::string judged(double separability) {
+  return separability < not_told_apart ? "cannot be told apart"
+         : separability < decided      ? "weakly told apart"
+                                       : "told apart";
+}
+
+std::string rounded(double value, double half) {
+  const int decimals = decimals_for(half);
+  return decimals < 0 ? fmt::format("{:.4g}", value) : plain(value, decimals);
+}
+
+std::string quantity(double value, double half, const std::string& unit) {
+  if (unit == "rad") return rounded(value * degrees, half * degrees) + " deg";
+  return rounded(value, half) + (unit.empty() ? "" : " " + unit);
+}
+
+std::string quantity(const CauseValue& v) { return quantity(v.value, half_of(v), v.unit); }
+
+std::string interval(const CauseValue& v) {
+  if (!(half_of(v) > 0)) return "no interval";
+  const double scale = v.unit == "rad" ? degrees : 1;
+  const int decimals = decimals_for(half_of(v) * scale);
+  const std::string unit = v.unit == "rad" ? "deg" : v.unit;
+  return plain(v.lower95 * scale, decimals) + " to " + plain(v.upper95 * scale, decimals) +
+         (unit.empty() ? "" : " " + unit);
+}
+
+std::string with_sign(double value, int decimals) { return (value < 0 ? "" : "+") + plain(value, decimals); }
+
+std::string sentence(const FoundCause& cause) {
+  std::string text;
+  for (std::size_t k = 0; k < cause.title.size(); ++k) {
+    const auto end = cause.title[k] == '{' ? cause.title.find('}', k) : std::string::npos;
+    if (end == std::string::npos) {
+      text += cause.title[k];
+      continue;
+    }
+    text += slot_value(cause, cause.title.substr(k + 1, end - k - 1));
+    k = end;
+  }
+  return text;
+}
+
+std::string short_name(const std::string& id) {
+  std::string name = id.substr(id.find('.') + 1);
+  if (!id.empty() && id[0] == '~') return "something along " + covariate_in_words(id.substr(1));
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+std::string covariate_in_words(const std::string& name) {
+  static const std::map<std::string, std::string> words = {
+      {"logd", "distance"},
+      {"bearing", "the other radio's bearing, seen from the receiver's heading"},
+      {"heading", "the receiver's heading"},
+      {"txbearing", "the direction from each transmitter"},
+      {"position", "the place in the plan"},
+      {"map", "the place in the plan"},
+      {"time", "time"},
+      {"time_per_tx", "time, for each transmitter by itself"},
+      {"link", "the link"},
+      {"level", "the level itself"}};
+  if (const auto known = words.find(name); known != words.end()) return known->second;
+  const auto star = name.find('*');
+  if (star == name.npos) return "the column " + name;
+  const std::string first = name.substr(0, star), second = name.substr(star + 1);
+  return (words.count(first) ? words.at(first) : "the column " + first) + " together with " +
+         (words.count(second) ? words.at(second) : second);
+}
+
+std::string chance(double log_p) {
+  const double p = std::exp(std::min(log_p, 0.0));
+  if (p < 1e-9) return "p < 1e-9";
+  return p >= 0.995 ? "p = 1" : fmt::format("p = {:.2g}", p);
+}
+
+std::string verdict_in_words(const Diagnosis& d) {
+  const int confirmed = count_of(d, Standing::confirmed), unconfirmed = count_of(d, Standing::unconfirmed);
+  const std::string causes = causes_in_words(confirmed + unconfirmed);
+  if (!d.unexplained.empty())
+    return "is wrong in a way that no known cause explains: something depends on " + covariates_of(d) +
+           (confirmed + unconfirmed ? "; " + causes + " beside it is named" : "");
+  if (confirmed + unconfirmed == 0)
+    return count_of(d, Standing::set_aside) ? "is adequate: what stands out is not beyond chance, a suspicion remains"
+                                            : "is adequate: nothing was found beyond chance";
+  const std::string named = confirmed + unconfirmed == 1 ? causes + " is named" : causes + " are named";
+  if (confirmed == 0) return "seems wrong: " + named + ", but places not seen do not confirm it yet";
+  return "is wrong: " + named + (unconfirmed ? ", not all confirmed at places not seen" : "") +
+         ", and the world is extended";
+}
+
+double noise_floor(const Diagnosis& d) {
+  if (d.seen.count.size() == 0) return std::nan("");
+  return std::sqrt(d.noise.field_variance() + d.noise.reading_variance() * d.seen.count.cwiseInverse().mean());
+}
+
+std::string why_no_blocks(const Diagnosis& d) {
+  return fmt::format(
+      "All readings lie in one block of {:.1f} m (three decorrelation distances): no place is left that a fit has not "
+      "seen, so no gain can be measured. Readings from a wider area would allow it.",
+      3 * d.noise.decorrelation());
+}
+
+}  // namespace muster::report

@@ -1,0 +1,52 @@
+// A diagnosis in words: what each figure is called, how many digits it bears, and what may be said of a cause.
+#pragma once
+
+#include <string>
+
+#include "diagnosis/diagnose.hpp"
+
+namespace muster::report {
+
+using diagnosis::CauseValue;
+using diagnosis::Diagnosis;
+using diagnosis::FoundCause;
+
+// How sure a cause is. "Is" is said of a confirmed one only.
+enum class Standing {
+  confirmed = 1,  // named, and its gain at places not seen is above zero with 95 %
+  unconfirmed,    // named, but places not seen do not show it, or there are too few
+  set_aside       // found, and not beyond chance beside the others
+};
+Standing standing_of(const FoundCause& cause);
+
+inline constexpr double not_told_apart = 12, decided = 25;  // D
+std::string judged(double separability);                    // "cannot be told apart", "weakly told apart", "told apart"
+
+// With as many digits as its half interval gives a meaning to; without one, four.
+std::string rounded(double value, double half_interval);
+// "8.56 dB"; radians as degrees.
+std::string quantity(double value, double half_interval, const std::string& unit);
+std::string quantity(const CauseValue& value);
+// "8.25 to 8.87 dB", or "no interval".
+std::string interval(const CauseValue& value);
+std::string with_sign(double value, int decimals);
+
+// The cause's title with its slots filled.
+std::string sentence(const FoundCause& cause);
+// "effect.drift" as people say it: "drift"; "unmapped wall".
+std::string short_name(const std::string& id);
+// What a covariate's name stands for: "logd" is "distance".
+std::string covariate_in_words(const std::string& name);
+// "p < 1e-9", "p = 0.03", from a logarithm.
+std::string chance(double log_p);
+
+// One line, without the world's name: "is adequate: ...".
+std::string verdict_in_words(const Diagnosis& diagnosis);
+// dB that noise alone leaves of one row's mean, wherever it lies.
+double noise_floor(const Diagnosis& diagnosis);
+// Without held-out blocks: why there are none.
+std::string why_no_blocks(const Diagnosis& diagnosis);
+
+int count_of(const Diagnosis& diagnosis, Standing standing);
+
+}  // namespace muster::report
