@@ -1,6 +1,7 @@
 // muster diagnose WORLD --data FILE: what the world gets wrong, the cause, an extended world, and what that gains.
 #include <fmt/core.h>
 
+#include "diagnosis/report/folder.hpp"
 #include "diagnosis/report/json.hpp"
 #include "diagnosis/report/text.hpp"
 #include "verbs.hpp"
@@ -32,10 +33,12 @@ int run_diagnose(const Arguments& arguments) {
     if (!out.empty() && found.named()) found.loop = diagnosis::closed_loop(found, world, data, out, path);
     progress.at(1);
   }
+  report::Setting setting{world, data, {}};
+  if (!out.empty()) setting.files = report::write_report(found, setting, out);
   if (json)
     fmt::print("{}\n", report::json_of(found).dump());
   else
-    fmt::print("{}", report::text_of(found, {world, data, {}}));
+    fmt::print("{}", report::text_of(found, setting));
   return static_cast<int>(Exit::done);
 }
 

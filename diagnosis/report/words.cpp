@@ -13,10 +13,11 @@ constexpr double degrees = 180 / M_PI;
 
 double half_of(const CauseValue& v) { return (v.upper95 - v.lower95) / 2; }
 
-// Decimals that show two digits of the half interval.
+// Decimals that show the first digit of the half interval, and the second where the first is 1 or 2.
 int decimals_for(double half) {
   if (!(half > 0) || !std::isfinite(half)) return -1;
-  return std::clamp(1 - static_cast<int>(std::floor(std::log10(half))), 0, 6);
+  const int first = -static_cast<int>(std::floor(std::log10(half)));
+  return std::clamp(first + (half * std::pow(10, first) < 3 ? 1 : 0), 0, 6);
 }
 
 std::string plain(double value, int decimals) {
@@ -146,8 +147,7 @@ std::string verdict_in_words(const Diagnosis& d) {
                                             : "is adequate: nothing was found beyond chance";
   const std::string named = confirmed + unconfirmed == 1 ? causes + " is named" : causes + " are named";
   if (confirmed == 0) return "seems wrong: " + named + ", but places not seen do not confirm it yet";
-  return "is wrong: " + named + (unconfirmed ? ", not all confirmed at places not seen" : "") +
-         ", and the world is extended";
+  return "is wrong: " + named + (unconfirmed ? ", not all confirmed at places not seen" : "");
 }
 
 double noise_floor(const Diagnosis& d) {

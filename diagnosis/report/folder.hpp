@@ -1,0 +1,14 @@
+// What a diagnosis leaves in its --out folder beside the extended world.
+#pragma once
+
+#include <filesystem>
+
+#include "diagnosis/report/text.hpp"
+
+namespace muster::report {
+
+// Writes report.html, diagnosis.json and the pictures; the files written, the page first. Throws Error.
+std::vector<std::string> write_report(const Diagnosis& diagnosis, const Setting& setting,
+                                      const std::filesystem::path& folder);
+
+}  // namespace muster::report

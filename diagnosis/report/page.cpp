@@ -1,0 +1,259 @@
+#include "diagnosis/report/page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/picture/svg.hpp"
+#include "diagnosis/report/advice.hpp"
+
+namespace muster::report {
+namespace {
+
+using picture::escaped;
+
+// Figures are drawn for white paper; in the dark they keep it, a shade softer.
+constexpr const char* style = R"(
+:root { color-scheme: light dark; --paper: #fff; --ground: #f6f7f9; --ink: #1a1c1f; --soft: #5c6370; --line: #dfe3e8;
+  --good: #00795a; --warn: #a34700; }
+@media (prefers-color-scheme: dark) { :root { --paper: #1d2126; --ground: #14171b; --ink: #e7e9ec; --soft: #a0a8b3;
+  --line: #343a42; --good: #4fc9a2; --warn: #f0a25e; } figure svg { filter: brightness(.93); } }
+* { box-sizing: border-box; }
+body { margin: 0; background: var(--ground); color: var(--ink); font: 16px/1.55 Helvetica, Arial, 'Liberation Sans', sans-serif; }
+main { max-width: 1080px; margin: 0 auto; padding: 40px 20px 64px; }
+h1 { font-size: 28px; line-height: 1.25; margin: 0 0 8px; }
+h2 { font-size: 20px; margin: 44px 0 12px; }
+h3 { font-size: 17px; line-height: 1.4; margin: 0 0 12px; }
+p { margin: 0 0 12px; max-width: 76ch; } .soft { color: var(--soft); } small { color: var(--soft); font-size: 13px; }
+.card, figure { background: var(--paper); border: 1px solid var(--line); border-radius: 10px; padding: 20px; margin: 0 0 20px; }
+figure { background: #fff; padding: 16px; text-align: center; } figure svg { max-width: 100%; height: auto; display: block; margin: 0 auto; }
+.key { display: grid; grid-template-columns: repeat(auto-fit, minmax(190px, 1fr)); gap: 12px; margin: 24px 0; padding: 0; }
+.key div { background: var(--paper); border: 1px solid var(--line); border-radius: 10px; padding: 14px 16px; }
+.key b { display: block; font-size: 24px; font-weight: 600; line-height: 1.2; white-space: nowrap; } .key span { color: var(--soft); font-size: 13px; }
+table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; margin: 0 0 12px; }
+th { text-align: left; color: var(--soft); font-weight: normal; font-size: 13px; }
+th, td { padding: 6px 16px 6px 0; border-bottom: 1px solid var(--line); vertical-align: top; }
+tr:last-child td { border-bottom: 0; } td.n, th.n { text-align: right; white-space: nowrap; } .scroll { overflow-x: auto; }
+.mark { display: inline-block; font-size: 12px; border: 1px solid; border-radius: 99px; padding: 1px 10px; margin-right: 8px; vertical-align: 2px; }
+.named { color: var(--good); } .suspected { color: var(--warn); } code { font-size: 14px; overflow-wrap: anywhere; }
+)";
+
+std::string db(double value) { return fmt::format("{:.2f} dB", value); }
+std::string paragraph(const std::string& text, const char* kind = "") {
+  return fmt::format("<p{}>{}</p>\n", *kind ? fmt::format(" class=\"{}\"", kind) : "", escaped(text));
+}
+std::string heading(const std::string& text) { return fmt::format("<h2>{}</h2>\n", escaped(text)); }
+
+std::string capital(std::string text) {
+  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
+struct Cell {
+  std::string text;
+  bool number = false;
+};
+using Row = std::vector<Cell>;
+
+std::string table(const Row& head, const std::vector<Row>& rows) {
+  const auto line = [](const Row& row, const char* tag) {
+    std::string out = "<tr>";
+    for (const Cell& cell : row)
+      out += fmt::format("<{0}{1}>{2}</{0}>", tag, cell.number ? " class=\"n\"" : "", escaped(cell.text));
+    return out + "</tr>\n";
+  };
+  std::string out = "<div class=\"scroll\"><table>\n" + line(head, "th");
+  for (const Row& row : rows) out += line(row, "td");
+  return out + "</table></div>\n";
+}
+
+std::string figure_named(const std::vector<Picture>& pictures, const std::string& name) {
+  for (const Picture& p : pictures) {
+    if (p.name == name) return "<figure>\n" + picture::svg(p.figure) + "</figure>\n";
+  }
+  return "";
+}
+
+std::string key_figure(const std::string& value, const std::string& what) {
+  return fmt::format("<div><b>{}</b><span>{}</span></div>\n", escaped(value), escaped(what));
+}
+
+std::string key_figures(const Diagnosis& d) {
+  std::string out = "<section class=\"key\">\n";
+  if (d.held_out) {
+    out += key_figure(db(d.held_out->rmse_before), "error of the world, fitted, at places that a fit has not seen");
+    if (d.stairs.size() > 1) out += key_figure(db(d.held_out->rmse_after), "with what was found");
+    out += key_figure(db(noise_floor(d)), "what noise alone would leave");
+    if (d.stairs.size() > 1)
+      out += key_figure(fmt::format("{:.2f} dB²", d.held_out->gain),
+                        fmt::format("gain: fall of the squared error, 95 %: {:.2f} to {:.2f}, over {} blocks",
+                                    d.held_out->lower95, d.held_out->upper95, d.held_out->blocks));
+    else
+      out += key_figure(std::to_string(d.held_out->blocks), "blocks of space, each left out in turn");
+  } else {
+    out += key_figure(db(d.residual_sd), "left by the fitted world, a reading");
+    out += key_figure("1 block", "of space: no place is left that a fit has not seen");
+  }
+  return out + "</section>\n";
+}
+
+std::string gain_text(const std::optional<search::HeldOut>& h, Standing standing) {
+  if (!h)
+    return standing == Standing::set_aside ? "not measured: beside the others it is not beyond chance"
+                                           : "not measured: too few blocks of space";
+  return fmt::format("{:.2f} → {}; squared error falls by {:.2f} dB² (95 %: {:.2f} to {:.2f}, over {} blocks)",
+                     h->rmse_before, db(h->rmse_after), h->gain, h->lower95, h->upper95, h->blocks);
+}
+
+std::string rivals_text(const FoundCause& c) {
+  std::string out;
+  for (const search::Rival& r : c.rivals)
+    out += fmt::format("{}{} {}: {:.1f} nats behind, D {:.0f}, {}", out.empty() ? "" : "; ", short_name(r.id),
+                       r.label == r.id ? "" : r.label, r.evidence_gap, r.separability, judged(r.separability));
+  return out.empty() ? "none within 3 nats, and none with a separability D below 12" : out;
+}
+
+std::string cause_card(const FoundCause& c, std::size_t number, const std::vector<Picture>& pictures) {
+  const Standing standing = standing_of(c);
+  const bool sure = standing == Standing::confirmed;
+  std::string out =
+      fmt::format("<article class=\"card\">\n<h3><span class=\"mark {}\">{}</span>{}</h3>\n",
+                  sure ? "named" : "suspected", sure ? "named" : "suspected", escaped(capital(sentence(c))));
+  if (standing == Standing::unconfirmed)
+    out += paragraph(
+        "Named by the data, but places not seen do not confirm it yet: the interval of its gain touches zero.");
+  std::vector<Row> values;
+  for (const CauseValue& v : c.values) values.push_back({{v.name}, {quantity(v), true}, {interval(v), true}});
+  out += table({{"parameter"}, {"value", true}, {"95 % interval", true}}, values);
+  out += table({{""}, {""}},
+               {{{"cause"}, {c.id}},
+                {{"where"}, {c.label == "all" ? "everywhere" : c.label}},
+                {{"evidence"},
+                 {fmt::format("{:.1f} nats; λ = {:.0f} (fall of the deviance beside all else)", c.evidence, c.lambda)}},
+                {{"gain"}, {gain_text(c.held_out, standing)}},
+                {{"rivals"}, {rivals_text(c)}}});
+  return out + "</article>\n" + figure_named(pictures, fmt::format("cause_{}", number));
+}
+
+std::string undecided(const Diagnosis& d) {
+  const auto questions = open_questions(d);
+  if (questions.empty()) return "";
+  std::string out = heading("What the data cannot decide, and what to measure next");
+  out += paragraph(
+      "D is the part of a cause that its rival cannot imitate, in units of the noise: below 12 they cannot "
+      "be told apart, above 25 they are.",
+      "soft");
+  std::vector<Row> rows;
+  for (const Question& q : questions) {
+    const std::string pair = short_name(q.cause) + " or " + short_name(q.rival);
+    for (const auto& [say, predicted] : q.plans)
+      rows.push_back(
+          {{pair}, {fmt::format("{:.0f}", q.separability), true}, {say}, {fmt::format("{:.0f}", predicted), true}});
+    rows.push_back({{pair}, {fmt::format("{:.0f}", q.separability), true}, {q.tell_apart}, {"not worked out", true}});
+  }
+  return out + "<div class=\"card\">" + table({{"pair"}, {"D now", true}, {"measure"}, {"D predicted", true}}, rows) +
+         "</div>\n";
+}
+
+std::string checked(const Diagnosis& d) {
+  if (d.checks.empty()) return "";
+  return heading("Checked and found fine") + paragraph(
+                                                 "Beside what was found, nothing more is beyond chance. p: that chance "
+                                                 "alone does as well anywhere along it.",
+                                                 "soft");
+}
+
+std::string checked_table(const Diagnosis& d) {
+  std::vector<Row> along, causes;
+  for (const search::Check& c : d.checks) {
+    if (found(d, c.id)) continue;
+    const bool smooth = c.kind == search::Kind::smooth;
+    (smooth ? along : causes)
+        .push_back({{smooth ? covariate_in_words(c.id.substr(1)) : short_name(c.id)}, {chance(c.log_p), true}});
+  }
+  std::string out = "<div class=\"card\">";
+  if (!along.empty()) out += table({{"dependence on"}, {"chance", true}}, along);
+  if (!causes.empty()) out += table({{"further cause"}, {"chance", true}}, causes);
+  return along.empty() && causes.empty() ? "" : out + "</div>\n";
+}
+
+std::string not_tested(const Diagnosis& d) {
+  const auto reasons = reasons_not_tested(d);
+  if (reasons.empty()) return "";
+  std::string out = heading("Not tested") + "<div class=\"card\"><ul>\n";
+  for (const std::string& reason : reasons) out += "<li>" + escaped(reason) + "</li>\n";
+  return out + "</ul></div>\n";
+}
+
+std::string world(const Diagnosis& d) {
+  std::vector<Row> rows;
+  for (const auto& v : d.world_values)
+    rows.push_back({{v.path},
+                    {quantity(v.value, 1.96 * v.stderror, v.unit), true},
+                    {"± " + rounded(1.96 * v.stderror, 1.96 * v.stderror), true}});
+  std::string out = heading("The world's own parameters, beside the causes") + "<div class=\"card\">";
+  out += table({{"parameter"}, {"value", true}, {"95 %", true}}, rows);
+  const auto& n = d.noise;
+  out += paragraph(fmt::format("Noise: {} field of {} that decorrelates over {:.2f} m, and {} a reading.",
+                               noise::name_of(n.family), db(std::sqrt(n.field_variance())), n.decorrelation(),
+                               db(std::sqrt(n.reading_variance()))));
+  for (const std::string& note : d.notes) out += paragraph("Note: " + note, "soft");
+  return out + "</div>\n";
+}
+
+std::string again(const std::string& rediagnosis) {
+  return rediagnosis == "silent" ? "finds nothing more" : "still finds " + rediagnosis;
+}
+
+std::string loop(const Diagnosis& d) {
+  if (!d.loop) return "";
+  std::string out = heading("The extended world") + "<div class=\"card\">";
+  out += paragraph(
+      fmt::format("Simulated at the readings, its mean lies within {:.2g} dB of the diagnosis. A diagnosis of it {}.",
+                  d.loop->mean_difference, again(d.loop->rediagnosis)));
+  if (const auto& s = d.loop->second)
+    out += paragraph(
+        fmt::format("On {} ({} readings that it was not made from) it errs by {} a reading, as it is written; "
+                    "the world as given, fitted to those very readings, by {}. A diagnosis of it on them {}.",
+                    s->data.string(), s->readings, db(s->rmse_extended), db(s->rmse_given), again(s->rediagnosis)));
+  return out + "</div>\n";
+}
+
+}  // namespace
+
+std::string page_of(const Diagnosis& d, const Setting& setting, const std::vector<Picture>& pictures) {
+  std::string body = fmt::format("<h1>{} {}</h1>\n", escaped(setting.world), escaped(verdict_in_words(d)));
+  body +=
+      paragraph(fmt::format("{} readings of {}, averaged to {} rows: neighbours on one link, at most 1.2 s, 1 m and "
+                            "35 degrees apart. Verdict: {}.",
+                            d.readings, setting.data, d.rows, d.verdict()),
+                "soft");
+  body += key_figures(d);
+  if (!d.held_out) body += paragraph(why_no_blocks(d));
+  body += figure_named(pictures, "residual_map");
+  if (!d.causes.empty()) body += heading(d.causes.size() == 1 ? "The cause" : "The causes");
+  for (std::size_t k = 0; k < d.causes.size(); ++k) body += cause_card(d.causes[k], k + 1, pictures);
+  if (!d.unexplained.empty()) {
+    body += heading("Not explained");
+    for (const auto& u : d.unexplained)
+      body +=
+          "<div class=\"card\">" +
+          paragraph(
+              "Something depends on " + covariate_in_words(u.covariate) +
+              fmt::format(", and no cause on the plugin path explains it: evidence {:.1f} nats, λ = {:.0f}. Gain: {}.",
+                          u.evidence, u.lambda, gain_text(u.held_out, Standing::unconfirmed))) +
+          "</div>\n";
+  }
+  if (d.stairs.size() > 1)
+    body += heading("Gain") + figure_named(pictures, "steps") + figure_named(pictures, "before_after");
+  body += undecided(d) + checked(d) + figure_named(pictures, "covariates") + checked_table(d) + not_tested(d) +
+          world(d) + loop(d);
+  return fmt::format(
+      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
+      "content=\"width=device-width, initial-scale=1\">\n<title>Diagnosis of {}</title>\n<style>{}</style>\n"
+      "</head>\n<body>\n<main>\n{}</main>\n</body>\n</html>\n",
+      escaped(setting.world), style, body);
+}
+
+}  // namespace muster::report

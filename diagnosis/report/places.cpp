@@ -1,0 +1,39 @@
+#include "diagnosis/report/places.hpp"
+
+#include <cmath>
+#include <map>
+
+namespace muster::report {
+
+Places places_of(const diagnosis::SeenRows& rows) {
+  Places out;
+  const auto n = static_cast<Eigen::Index>(rows.tx.size());
+  if (n == 0) return out;
+  double tx_way = 0, rx_way = 0;
+  for (Eigen::Index i = 1; i < n; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    if (rows.tx[k] != rows.tx[k - 1] || rows.rx[k] != rows.rx[k - 1]) continue;
+    tx_way += (rows.tx_at.col(i) - rows.tx_at.col(i - 1)).norm();
+    rx_way += (rows.rx_at.col(i) - rows.rx_at.col(i - 1)).norm();
+  }
+  const bool tx_stays = tx_way <= rx_way;
+  out.place = tx_stays ? rows.rx_at : rows.tx_at;
+  out.anchor = tx_stays ? rows.tx_at : rows.rx_at;
+  out.radio = tx_stays ? rows.tx : rows.rx;
+  out.width = out.place.row(0).maxCoeff() - out.place.row(0).minCoeff();
+  out.depth = out.place.row(1).maxCoeff() - out.place.row(1).minCoeff();
+  return out;
+}
+
+std::vector<int> blocks_of(const Places& places, double side) {
+  std::map<std::pair<long, long>, int> number;
+  std::vector<int> out;
+  for (Eigen::Index i = 0; i < places.place.cols(); ++i) {
+    const std::pair cell{std::lround(std::floor(places.place(0, i) / side)),
+                         std::lround(std::floor(places.place(1, i) / side))};
+    out.push_back(number.try_emplace(cell, static_cast<int>(number.size())).first->second);
+  }
+  return out;
+}
+
+}  // namespace muster::report
