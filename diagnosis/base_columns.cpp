@@ -6,14 +6,14 @@
 namespace muster::diagnosis {
 namespace {
 
-Eigen::VectorXd slope(LinkModel& model, const FitParameter& p, double at) {
-  const double step = std::min(1e-4 * (1 + std::abs(at)), (p.upper - p.lower) / 4);
-  const double low = std::max(at - step, p.lower), high = std::min(at + step, p.upper);
-  model.set(p.path, high);
+Eigen::VectorXd slope(LinkModel& model, const std::string& path, double lower, double upper, double at) {
+  const double step = std::min(1e-4 * (1 + std::abs(at)), (upper - lower) / 4);
+  const double low = std::max(at - step, lower), high = std::min(at + step, upper);
+  model.set(path, high);
   const Eigen::VectorXd above = model.expected();
-  model.set(p.path, low);
+  model.set(path, low);
   const Eigen::VectorXd below = model.expected();
-  model.set(p.path, at);
+  model.set(path, at);
   return (above - below) / (high - low);
 }
 
@@ -31,7 +31,7 @@ BaseColumns base_columns(LinkModel& model, const std::vector<FitParameter>& free
   std::vector<double> values, lower, upper;
   for (const FitParameter* p : order) {
     const double at = model.parameter(p->path).value;
-    const Eigen::VectorXd column = slope(model, *p, at);
+    const Eigen::VectorXd column = slope(model, p->path, p->lower, p->upper, at);
     Eigen::VectorXd rest = column;
     for (int twice = 0; twice < 2; ++twice) rest -= basis * (basis.transpose() * rest);
     if (!(rest.norm() > 1e-6 * column.norm()) || column.norm() == 0) continue;
@@ -51,6 +51,15 @@ BaseColumns base_columns(LinkModel& model, const std::vector<FitParameter>& free
   result.lower = vector(lower);
   result.upper = vector(upper);
   result.mean = model.expected();
+  return result;
+}
+
+Eigen::MatrixXd slopes_at(LinkModel& model, const BaseColumns& base) {
+  const auto count = static_cast<Eigen::Index>(base.paths.size());
+  for (Eigen::Index j = 0; j < count; ++j) model.set(base.paths[static_cast<std::size_t>(j)], base.values[j]);
+  Eigen::MatrixXd result(static_cast<Eigen::Index>(model.rows()), count);
+  for (Eigen::Index j = 0; j < count; ++j)
+    result.col(j) = slope(model, base.paths[static_cast<std::size_t>(j)], base.lower[j], base.upper[j], base.values[j]);
   return result;
 }
 

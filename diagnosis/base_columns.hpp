@@ -16,4 +16,7 @@ struct BaseColumns {
 // At the model's present parameters.
 BaseColumns base_columns(LinkModel& model, const std::vector<FitParameter>& free);
 
+// The same columns at the readings of another model of the same world.
+Eigen::MatrixXd slopes_at(LinkModel& model, const BaseColumns& base);
+
 }  // namespace muster::diagnosis

@@ -9,6 +9,7 @@
 #include "diagnosis/extended_world.hpp"
 #include "diagnosis/found_cause.hpp"
 #include "diagnosis/joint_fit.hpp"
+#include "diagnosis/plans.hpp"
 #include "diagnosis/prepared.hpp"
 #include "diagnosis/seen_rows.hpp"
 #include "text/number.hpp"
@@ -22,13 +23,14 @@ using Eigen::VectorXd;
 class Diagnoser {
  public:
   Diagnoser(const std::filesystem::path& world, const std::filesystem::path& file, const Library::SearchPath& plugins)
-      : at_(world, file, plugins) {}
+      : at_(world, file, plugins), world_(world), plugins_(plugins) {}
 
   Diagnosis run() {
     search::Search search(at_.problem, at_.options);
     const search::Result result = search.run();
     at_.run->clear();
     Diagnosis out = summed_up(result, at_.sought, search.bench());
+    out.advice = advice_for(search, out, at_.sought, {world_, plugins_, at_.model, at_.data}, at_.base);
     out.not_tested = std::move(at_.sought.not_tested);
     out.not_tested.insert(out.not_tested.end(), at_.untested.begin(), at_.untested.end());
     return out;
@@ -119,6 +121,8 @@ class Diagnoser {
   }
 
   Prepared at_;
+  std::filesystem::path world_;
+  Library::SearchPath plugins_;
 };
 
 }  // namespace

@@ -1,0 +1,107 @@
+// Plans as tables that the world is simulated at, so that what they would tell apart can be worked out.
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <fstream>
+#include <set>
+
+#include "diagnosis/plans.hpp"
+#include "text/number.hpp"
+
+namespace muster::diagnosis {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Index;
+
+constexpr double decided = 25;          // D
+constexpr std::size_t most_rivals = 3;  // of one cause: each costs a search over its grid at every plan
+
+// A table of readings to be made, gone with this object.
+class PlannedTable {
+ public:
+  PlannedTable(const noise::Readings& r, const std::vector<std::string>& radios) {
+    static std::atomic<int> count{0};
+    file_ = fs::temp_directory_path() /
+            ("muster_plan_" + std::to_string(getpid()) + "_" + std::to_string(count++) + ".csv");
+    std::ofstream out(file_, std::ios::binary);
+    out << (r.t.empty() ? "" : "t[s],") << "tx,rx,tx_x[m],tx_y[m],tx_z[m],rx_x[m],rx_y[m],rx_z[m]"
+        << (r.rx_yaw.empty() ? "" : ",rx_yaw[rad]") << '\n';
+    for (Index i = 0; i < r.size(); ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      if (!r.t.empty()) out << print_real(r.t[k]) << ',';
+      out << quoted(radios[static_cast<std::size_t>(r.tx[k])]) << ','
+          << quoted(radios[static_cast<std::size_t>(r.rx[k])]);
+      for (const auto& at : {r.tx_at.col(i), r.rx_at.col(i)})
+        for (Index c = 0; c < 3; ++c) out << ',' << print_real(at[c]);
+      if (!r.rx_yaw.empty()) out << ',' << print_real(r.rx_yaw[k]);
+      out << '\n';
+    }
+    if (!out.flush()) throw Error(Exit::io, file_.string() + ": cannot be written");
+  }
+  ~PlannedTable() {
+    std::error_code none;
+    fs::remove(file_, none);
+  }
+  PlannedTable(const PlannedTable&) = delete;
+
+  const fs::path& file() const { return file_; }
+
+ private:
+  static std::string quoted(const std::string& name) {
+    std::string out = "\"";
+    for (const char c : name) out += c == '"' ? "\"\"" : std::string(1, c);
+    return out + '"';
+  }
+  fs::path file_;
+};
+
+// What was found, and the rivals that are worth the work.
+std::set<std::string> wanted(const Diagnosis& found) {
+  std::set<std::string> out;
+  bool open = false;
+  for (const FoundCause& c : found.causes) {
+    if (c.status != search::Status::named) continue;
+    out.insert(c.id);
+    std::size_t rivals = 0;
+    for (const search::Rival& r : c.rivals) {
+      if (r.separability >= decided || r.id[0] == '~' || rivals++ >= most_rivals) continue;
+      out.insert(r.id);
+      open = true;
+    }
+  }
+  return open ? out : std::set<std::string>();
+}
+
+search::Plan plan_of(const PlannedReadings& planned, const std::vector<std::string>& radios,
+                     const std::set<std::string>& ids, const CauseSearch& causes, CauseSources sources,
+                     const BaseColumns& base) {
+  const PlannedTable table(planned.readings, radios);
+  sources.data = table.file();
+  sources.used.resize(static_cast<std::size_t>(planned.readings.size()));
+  for (std::size_t i = 0; i < sources.used.size(); ++i) sources.used[i] = static_cast<Index>(i);
+  LinkModel model(sources.world, sources.data, sources.plugins);
+  search::Plan plan{planned.say, planned.readings, slopes_at(model, base), {}};
+  for (const CauseCandidate& c : causes.found) {
+    if (ids.count(c.candidate.id)) plan.candidates.push_back(at_readings_of(c, sources));
+  }
+  return plan;
+}
+
+}  // namespace
+
+std::vector<Advice> advice_for(search::Search& search, const Diagnosis& found, const CauseSearch& causes,
+                               const CauseSources& sources, const BaseColumns& base) {
+  const std::set<std::string> ids = wanted(found);
+  if (ids.empty()) return {};
+  std::vector<search::Plan> plans;
+  for (const PlannedReadings& p : planned_readings(found.seen, found.causes))
+    plans.push_back(plan_of(p, found.seen.radios, ids, causes, sources, base));
+  std::vector<Advice> out;
+  for (const search::Advice& a : search.advise(plans))
+    out.push_back({a.say, a.finding, a.rival, a.separability, a.predicted});
+  return out;
+}
+
+}  // namespace muster::diagnosis
