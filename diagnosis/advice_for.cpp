@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <fstream>
+#include <numeric>
 #include <set>
 
 #include "diagnosis/plans.hpp"
@@ -57,16 +58,24 @@ class PlannedTable {
   fs::path file_;
 };
 
-// What was found, and the rivals that are worth the work.
-std::set<std::string> wanted(const Diagnosis& found) {
+// A plan has no columns beyond places and times.
+bool reads_a_table(const CauseSearch& causes, const std::string& id) {
+  return std::any_of(causes.found.begin(), causes.found.end(),
+                     [&](const CauseCandidate& c) { return c.candidate.id == id && c.shape->cause.file(); });
+}
+
+// What was found, and the rivals that are worth the work; empty if there are none.
+std::set<std::string> wanted(const Diagnosis& found, const CauseSearch& causes) {
   std::set<std::string> out;
   bool open = false;
   for (const FoundCause& c : found.causes) {
     if (c.status != search::Status::named) continue;
+    if (reads_a_table(causes, c.id)) return {};
     out.insert(c.id);
     std::size_t rivals = 0;
     for (const search::Rival& r : c.rivals) {
-      if (r.separability >= decided || r.id[0] == '~' || rivals++ >= most_rivals) continue;
+      if (r.separability >= decided || r.id[0] == '~' || reads_a_table(causes, r.id) || rivals++ >= most_rivals)
+        continue;
       out.insert(r.id);
       open = true;
     }
@@ -74,30 +83,41 @@ std::set<std::string> wanted(const Diagnosis& found) {
   return open ? out : std::set<std::string>();
 }
 
-search::Plan plan_of(const PlannedReadings& planned, const std::vector<std::string>& radios,
-                     const std::set<std::string>& ids, const CauseSearch& causes, CauseSources sources,
-                     const BaseColumns& base) {
-  const PlannedTable table(planned.readings, radios);
-  sources.data = table.file();
-  sources.used.resize(static_cast<std::size_t>(planned.readings.size()));
-  for (std::size_t i = 0; i < sources.used.size(); ++i) sources.used[i] = static_cast<Index>(i);
-  LinkModel model(sources.world, sources.data, sources.plugins);
-  search::Plan plan{planned.say, planned.readings, slopes_at(model, base), {}};
+// A plan with the simulations that its candidates are evaluated in.
+struct Simulated {
+  PlannedTable table;
+  LinkModel model;
+  search::Plan plan;
+
+  Simulated(const PlannedReadings& planned, const Diagnosis& found, const PlanSources& sources, const BaseColumns& base)
+      : table(planned.readings, found.seen.radios),
+        model(sources.world, table.file(), sources.plugins),
+        plan{planned.say, planned.readings, slopes_at(model, base), {}} {}
+};
+
+void add_candidates(Simulated& at, const std::set<std::string>& ids, const CauseSearch& causes,
+                    const PlanSources& sources) {
+  const auto run = std::make_shared<CauseModel>(at.model, sources.world, at.table.file(), sources.plugins);
+  std::vector<Index> all(static_cast<std::size_t>(at.plan.readings.size()));
+  std::iota(all.begin(), all.end(), 0);
   for (const CauseCandidate& c : causes.found) {
-    if (ids.count(c.candidate.id)) plan.candidates.push_back(at_readings_of(c, sources));
+    if (ids.count(c.candidate.id)) at.plan.candidates.push_back(at_readings_of(c, {run, at.model, sources.data, all}));
   }
-  return plan;
 }
 
 }  // namespace
 
 std::vector<Advice> advice_for(search::Search& search, const Diagnosis& found, const CauseSearch& causes,
-                               const CauseSources& sources, const BaseColumns& base) {
-  const std::set<std::string> ids = wanted(found);
+                               const PlanSources& sources, const BaseColumns& base) {
+  const std::set<std::string> ids = wanted(found, causes);
   if (ids.empty()) return {};
+  std::vector<std::unique_ptr<Simulated>> simulated;
   std::vector<search::Plan> plans;
-  for (const PlannedReadings& p : planned_readings(found.seen, found.causes))
-    plans.push_back(plan_of(p, found.seen.radios, ids, causes, sources, base));
+  for (const PlannedReadings& p : planned_readings(found.seen, found.causes)) {
+    simulated.push_back(std::make_unique<Simulated>(p, found, sources, base));
+    add_candidates(*simulated.back(), ids, causes, sources);
+    plans.push_back(simulated.back()->plan);
+  }
   std::vector<Advice> out;
   for (const search::Advice& a : search.advise(plans))
     out.push_back({a.say, a.finding, a.rival, a.separability, a.predicted});

@@ -15,8 +15,15 @@ struct PlannedReadings {
 // found, near which places not yet visited matter most.
 std::vector<PlannedReadings> planned_readings(const SeenRows& seen, const std::vector<FoundCause>& about);
 
+struct PlanSources {
+  std::filesystem::path world;
+  Library::SearchPath plugins;
+  const LinkModel& model;  // of the data
+  const Dataset& data;
+};
+
 // What the plans would do for each cause and rival that the data do not decide. Throws Error.
 std::vector<Advice> advice_for(search::Search& search, const Diagnosis& found, const CauseSearch& causes,
-                               const CauseSources& sources, const BaseColumns& base);
+                               const PlanSources& sources, const BaseColumns& base);
 
 }  // namespace muster::diagnosis
