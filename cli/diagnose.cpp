@@ -3,39 +3,103 @@
 
 #include "diagnosis/report/folder.hpp"
 #include "diagnosis/report/json.hpp"
+#include "diagnosis/report/regression.hpp"
 #include "diagnosis/report/text.hpp"
 #include "verbs.hpp"
 
 namespace muster::cli {
+namespace {
 
-int run_diagnose(const Arguments& arguments) {
-  CLI::App app(
-      "Finds what a world gets wrong about measured readings and names the cause where one of the plugin path explains "
-      "it.\nWith --out, writes the world extended by the named causes, simulates it and diagnoses it again.\n"
-      "Example: muster diagnose worlds/hall --data worlds/hall/measured.csv --out build/hall_extended",
-      "diagnose");
-  std::string world, data, out;
+struct Words {
+  std::string world, data, second, out, check;
   std::vector<std::string> plugins;
   bool json = false;
-  app.add_option("world", world, "the world's folder or file")->required();
-  app.add_option("--data", data, "measured readings, a CSV table (docs/table_format.md)")->required();
-  app.add_option("--out", out, "a folder for the extended world");
-  app.add_option("--plugins", plugins, "a folder of plugins, looked in first");
-  app.add_flag("--json", json, "print the result as JSON");
+};
+
+Error wrong(const std::string& what) {
+  return {Exit::invalid_input, "muster diagnose: " + what + "; see muster diagnose --help"};
+}
+
+Words words_of(const Arguments& arguments) {
+  CLI::App app(
+      "Finds what a world gets wrong about measured readings, and names the cause where one on the plugin path "
+      "explains "
+      "it.\n"
+      "With --out it writes a report with pictures and the world extended by the named causes, which it simulates and\n"
+      "diagnoses again, and a test of the finding that --check runs. Exit code 1: --check fails.\n"
+      "Example: muster diagnose worlds/hall --data worlds/hall/measured.csv --out build/hall_extended\n"
+      "         muster diagnose --check build/hall_extended",
+      "diagnose");
+  Words words;
+  app.add_option("world", words.world, "the world's folder or file");
+  app.add_option("--data", words.data, "measured readings, a CSV table (docs/table_format.md)");
+  app.add_option("--out", words.out, "a folder for report.html, diagnosis.json, the extended world and its test");
+  app.add_option(
+      "--second", words.second,
+      "readings of the same truth that were not used: the extended world is held against them (needs --out)");
+  app.add_option("--check", words.check, "a folder that --out wrote: does its world still explain the data?");
+  app.add_option("--plugins", words.plugins, "a folder of plugins, looked in first");
+  app.add_flag("--json", words.json, "print the result as JSON, on one line");
   parse(app, arguments);
-  const Library::SearchPath path = plugin_path(plugins);
-  diagnosis::Diagnosis found;
-  {
-    Progress progress("diagnose");
-    progress.at(0);
-    found = diagnosis::diagnose(world, data, path);
-    progress.at(0.5);
-    if (!out.empty() && found.named()) found.loop = diagnosis::closed_loop(found, world, data, out, path);
-    progress.at(1);
+  if (!words.check.empty()) {
+    if (!(words.world + words.data + words.out + words.second).empty())
+      throw wrong("--check goes with --plugins and --json alone");
+    return words;
   }
-  report::Setting setting{world, data, {}};
-  if (!out.empty()) setting.files = report::write_report(found, setting, out);
-  if (json)
+  if (words.world.empty()) throw wrong("world is required");
+  if (words.data.empty()) throw wrong("--data is required");
+  if (!words.second.empty() && words.out.empty())
+    throw wrong("--second needs --out, the folder for the extended world");
+  return words;
+}
+
+int check(const Words& words, const Library::SearchPath& path) {
+  std::vector<report::Checked> all;
+  {
+    Progress progress("diagnose --check");
+    progress.at(0);
+    all = report::check_regression(words.check, path);
+  }
+  bool passed = true;
+  auto json = nlohmann::ordered_json::array();
+  for (const auto& c : all) {
+    passed = passed && c.passed;
+    json.push_back({{"check", c.what}, {"found", c.found}, {"expected", c.expected}, {"passed", c.passed}});
+    if (!words.json) fmt::print("{:<5} {}: {}; expected {}\n", c.passed ? "ok" : "FAIL", c.what, c.found, c.expected);
+  }
+  if (words.json) fmt::print("{}\n", nlohmann::ordered_json{{"passed", passed}, {"checks", json}}.dump());
+  return static_cast<int>(passed ? Exit::done : Exit::check_failed);
+}
+
+diagnosis::Diagnosis diagnosed(const Words& words, const Library::SearchPath& path) {
+  Progress progress("diagnose");
+  progress.at(0);
+  diagnosis::Diagnosis found = diagnosis::diagnose(words.world, words.data, path);
+  if (words.out.empty() || !found.named()) return found;
+  progress.at(words.second.empty() ? 0.5 : 0.35);
+  found.loop = diagnosis::closed_loop(found, words.world, words.data, words.out, path);
+  if (words.second.empty()) return found;
+  progress.at(0.7);
+  const std::filesystem::path world(words.world);
+  const auto name = std::filesystem::is_directory(world) ? "world.xml" : world.filename();
+  found.loop->second = diagnosis::second_look(words.world, words.out / name, words.second, path);
+  return found;
+}
+
+}  // namespace
+
+int run_diagnose(const Arguments& arguments) {
+  const Words words = words_of(arguments);
+  const Library::SearchPath path = plugin_path(words.plugins);
+  if (!words.check.empty()) return check(words, path);
+  const diagnosis::Diagnosis found = diagnosed(words, path);
+  report::Setting setting{words.world, words.data, {}};
+  if (!words.out.empty()) {
+    setting.files = report::write_report(found, setting, words.out);
+    for (auto& file : report::write_regression(found, words.world, words.data, words.out))
+      setting.files.push_back(std::move(file));
+  }
+  if (words.json)
     fmt::print("{}\n", report::json_of(found).dump());
   else
     fmt::print("{}", report::text_of(found, setting));

@@ -27,7 +27,7 @@ struct RunWords {
   int workers = 1;
   std::optional<std::string> until, seed;
   uint64_t digest_every = 0;
-  bool json = false, watch = false;
+  bool json = false, watch = false, expected = false;
   SwapDeclaration swap;  // of the verb swap
   std::string swap_at;
 };
@@ -45,6 +45,7 @@ void declare(CLI::App& app, RunWords& words) {
   app.add_option("--digest-every", words.digest_every, "print the digest every so many ticks");
   app.add_option("--plugins", words.plugins, "a folder of plugins, looked in first");
   app.add_flag("--watch", words.watch, "load a plugin again when its file changes on disk");
+  app.add_flag("--expected", words.expected, "run no tick: evaluate the radio channel once, as it is expected on average");
   app.add_flag("--json", words.json, "print the outcome as JSON");
 }
 
@@ -195,7 +196,11 @@ int run_world(const RunWords& words) {
     return files;
   };
   try {
-    while (!run.done() && !interrupted()) {
+    if (words.expected) {
+      run.evaluate(MUSTER_RADIO, true);
+      if (recorder) recorder->write(run);
+    }
+    while (!words.expected && !run.done() && !interrupted()) {
       if (words.watch) watcher.look(run);
       run.step();
       if (recorder) recorder->write(run), pictures->look(run);

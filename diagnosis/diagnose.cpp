@@ -115,8 +115,8 @@ class Diagnoser {
     out.mean = VectorXd::Constant(at_.base.mean.size(), std::nan(""));
     const VectorXd offset = (at_.base.mean - at_.base.slopes * at_.base.values)(at_.used);
     const VectorXd measured = bench.y() + bench.rows().mean(offset);
-    const VectorXd mean =
-        fit_jointly({at_.model, at_.causes, at_.file, bench, at_.used, measured}, at_.base.lower, at_.base.upper, at_.base.paths, out);
+    const VectorXd mean = fit_jointly({at_.model, at_.causes, at_.file, bench, at_.used, measured}, at_.base.lower,
+                                      at_.base.upper, at_.base.paths, out);
     out.mean(at_.used) = mean(at_.used);
   }
 
@@ -150,29 +150,36 @@ Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::pa
   return Diagnoser(world, data, plugins).run();
 }
 
-SecondLook second_look(const std::filesystem::path& world, const std::filesystem::path& extended,
-                       const std::filesystem::path& file, const Library::SearchPath& plugins) {
-  SecondLook look{file, 0, 0, 0, in_short(diagnose(extended, file, plugins))};
-  const Dataset data = read_dataset(file);
-  LinkModel given(world, file, plugins), model(extended, file, plugins);
-  look.rmse_given = fit(given, data, {}).residual_sd;
+namespace {
+
+// Root mean square of what a model's mean leaves of the readings that were heard.
+double rmse_of(LinkModel& model, const Dataset& data) {
   const VectorXd& mean = model.expected();
   double sum = 0;
   for (std::size_t row = 0; row < data.rows(); ++row) {
+    if (std::isnan(data.rssi[row])) continue;
     const double error = data.rssi[row] - mean[static_cast<Index>(row)];
-    if (std::isnan(error)) continue;
     sum += error * error;
-    ++look.readings;
   }
-  look.rmse_extended = std::sqrt(sum / static_cast<double>(std::max<std::size_t>(look.readings, 1)));
-  return look;
+  return std::sqrt(sum / static_cast<double>(data.heard()));
+}
+
+}  // namespace
+
+SecondLook second_look(const std::filesystem::path& world, const std::filesystem::path& extended,
+                       const std::filesystem::path& file, const Library::SearchPath& plugins) {
+  const Dataset data = read_dataset(file);
+  LinkModel given(world, file, plugins), model(extended, file, plugins);
+  return {file, data.heard(), fit(given, data, {}).residual_sd, rmse_of(model, data),
+          in_short(diagnose(extended, file, plugins))};
 }
 
 Loop closed_loop(const Diagnosis& found, const std::filesystem::path& world, const std::filesystem::path& data,
                  const std::filesystem::path& out, const Library::SearchPath& plugins) {
-  Loop loop{out, 0, "", {}};
+  Loop loop{out, 0, 0, "", {}};
   const std::filesystem::path file = write_extended_world(found, world, out);
   LinkModel model(file, data, plugins);
+  loop.rmse_extended = rmse_of(model, read_dataset(data));
   const VectorXd& simulated = model.expected();
   for (Index i = 0; i < simulated.size(); ++i) {
     if (!std::isnan(found.mean[i]))

@@ -83,6 +83,7 @@ struct SecondLook {
 struct Loop {
   std::filesystem::path world;  // its folder
   double mean_difference = 0;   // dB, largest of all readings
+  double rmse_extended = 0;     // dB a reading: measured less the extended world as it is written
   std::string rediagnosis;      // "silent", or what was found
   std::optional<SecondLook> second{};
 };

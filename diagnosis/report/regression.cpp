@@ -1,0 +1,185 @@
+#include "diagnosis/report/regression.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "diagnosis/report/replay.hpp"
+#include "text/names.hpp"
+
+namespace muster::report {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* format_name = "muster_regression/1";
+constexpr double loss_allowed = 0.1;  // share of the gain in squared error that may be lost
+
+double rmse_of(const fs::path& world, const fs::path& data, const Library::SearchPath& plugins) {
+  diagnosis::LinkModel model(world, data, plugins);
+  const diagnosis::Dataset readings = diagnosis::read_dataset(data);
+  const Eigen::VectorXd& mean = model.expected();
+  double sum = 0, count = 0;
+  for (std::size_t row = 0; row < readings.rows(); ++row) {
+    const double error = readings.rssi[row] - mean[static_cast<Eigen::Index>(row)];
+    if (std::isnan(error)) continue;
+    sum += error * error;
+    count += 1;
+  }
+  return std::sqrt(sum / std::max(count, 1.0));
+}
+
+// The limit between what the extended world reaches and what the world as given did.
+Json limit(double extended, double given) {
+  const double lost = std::max(0.0, given * given - extended * extended);
+  return {{"value", extended}, {"at_most", std::sqrt(extended * extended + loss_allowed * lost) + 1e-6}};
+}
+
+std::string copied(const fs::path& data, const fs::path& folder) {
+  std::error_code none;
+  fs::path to = folder / data.filename();
+  if (fs::equivalent(data, to, none)) return to.filename().string();
+  if (fs::exists(to, none) && fs::file_size(to, none) != fs::file_size(data, none))
+    to = folder / ("data_" + data.filename().string());
+  fs::copy_file(data, to, fs::copy_options::overwrite_existing, none);
+  if (none) throw Error(Exit::io, to.string() + ": cannot be written: " + none.message());
+  return to.filename().string();
+}
+
+Json parameters_of(const Diagnosis& d) {
+  Json out = Json::array();
+  std::map<std::string, int> count;
+  for (const FoundCause& c : d.causes) {
+    if (c.status != search::Status::named) continue;
+    const int number = ++count[c.id];
+    for (const CauseValue& v : c.values) {
+      if (!(v.upper95 > v.lower95)) continue;
+      out.push_back({{"cause", c.id},
+                     {"number", number},
+                     {"parameter", v.name},
+                     {"value", v.value},
+                     {"lower95", v.lower95},
+                     {"upper95", v.upper95},
+                     {"unit", v.unit}});
+    }
+  }
+  for (const auto& v : d.world_values) {
+    const double half = 1.96 * v.stderror;
+    out.push_back({{"path", v.path},
+                   {"value", v.value},
+                   {"lower95", v.value - half},
+                   {"upper95", v.value + half},
+                   {"unit", v.unit}});
+  }
+  return out;
+}
+
+Json read_json(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (!in) throw Error(Exit::io, file.string() + ": cannot be read; expected the regression.json of a diagnosis");
+  Json json = Json::parse(text.str(), nullptr, false);
+  if (!json.is_object() || json.value("format", "") != format_name)
+    throw Error(Exit::invalid_input,
+                file.string() + ": not a regression test; expected \"format\": \"" + format_name + '"');
+  return json;
+}
+
+// The name of the k-th instance of a plugin in the world, "" if there is none.
+std::string instance_of(const Simulation& run, const std::string& plugin, int number) {
+  for (const auto& instance : run.instances()) {
+    if (instance->declared().plugin == plugin && --number == 0) return instance->name();
+  }
+  return "";
+}
+
+Checked at_most(const std::string& what, double found, double most) {
+  return {what, fmt::format("{:.3f} dB", found), fmt::format("at most {:.3f} dB", most), found <= most};
+}
+
+Checked inside(const std::string& what, double found, double low, double high, const std::string& unit) {
+  const std::string u = unit.empty() ? "" : " " + unit;
+  return {what, fmt::format("{:.4g}{}", found, u), fmt::format("{:.4g} to {:.4g}{}", low, high, u),
+          found >= low && found <= high};
+}
+
+void check_parameter(const Json& p, const diagnosis::LinkModel& model, const Diagnosis& again,
+                     std::vector<Checked>& out) {
+  std::string path = p.value("path", "");
+  if (path.empty()) {
+    const std::string cause = p.at("cause"), name = p.at("parameter");
+    const std::string instance = instance_of(model.simulation(), cause, p.value("number", 1));
+    if (instance.empty()) {
+      out.push_back({cause, "not in the world", "an instance of it", false});
+      return;
+    }
+    path = instance + '/' + name;
+  }
+  const double low = p.at("lower95"), high = p.at("upper95");
+  const std::string unit = p.value("unit", "");
+  out.push_back(inside(path + ", as written", model.parameter(path).value, low, high, unit));
+  for (const auto& v : again.world_values) {
+    if (v.path == path) out.push_back(inside(path + ", fitted again", v.value, low, high, unit));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> write_regression(const Diagnosis& d, const fs::path& world, const fs::path& data,
+                                          const fs::path& folder) {
+  if (!d.loop) return {};
+  const std::string name = (fs::is_directory(world) ? fs::path("world.xml") : world.filename()).string();
+  const std::string measured = copied(data, folder);
+  Json json = {{"format", format_name},
+               {"world", name},
+               {"data", Json::array({{{"file", measured},
+                                      {"rmse_db", limit(d.loop->rmse_extended, d.residual_sd)},
+                                      {"rediagnosis", d.loop->rediagnosis}}})},
+               {"parameters", parameters_of(d)}};
+  if (const auto& s = d.loop->second)
+    json["data"].push_back({{"file", copied(s->data, folder)},
+                            {"rmse_db", limit(s->rmse_extended, s->rmse_given)},
+                            {"rediagnosis", s->rediagnosis}});
+  if (d.held_out) json["heldout_rmse_db"] = limit(d.held_out->rmse_after, d.held_out->rmse_before);
+  const fs::path file = folder / "regression.json";
+  std::ofstream out(file, std::ios::binary);
+  out << json.dump(2) << '\n';
+  if (!out.flush()) throw Error(Exit::io, file.string() + ": cannot be written");
+  return {file.string(), write_replay(folder / name, measured, folder / "replay.xml").string()};
+}
+
+std::vector<Checked> check_regression(const fs::path& from, const Library::SearchPath& plugins) {
+  const fs::path file = fs::is_directory(from) ? from / "regression.json" : from;
+  const fs::path folder = file.parent_path();
+  const Json json = read_json(file);
+  std::vector<Checked> out;
+  try {
+    const fs::path world = folder / json.at("world").get<std::string>();
+    bool first = true;
+    for (const Json& one : json.at("data")) {
+      const fs::path data = folder / one.at("file").get<std::string>();
+      const std::string on = " on " + data.filename().string();
+      out.push_back(at_most("error of a reading" + on, rmse_of(world, data, plugins), one.at("rmse_db").at("at_most")));
+      const Diagnosis again = diagnosis::diagnose(world, data, plugins);
+      if (first && json.contains("heldout_rmse_db") && again.held_out)
+        out.push_back(at_most("error at places not seen" + on, again.held_out->rmse_before,
+                              json.at("heldout_rmse_db").at("at_most")));
+      const diagnosis::LinkModel model(world, data, plugins);
+      if (first)
+        for (const Json& p : json.at("parameters")) check_parameter(p, model, again, out);
+      const std::string expected = one.at("rediagnosis"), found = diagnosis::in_short(again);
+      out.push_back({"diagnosed again" + on, found, expected, found == expected || found == "silent"});
+      first = false;
+    }
+  } catch (const Json::exception& e) {
+    throw Error(Exit::invalid_input, file.string() + ": " + e.what());
+  }
+  return out;
+}
+
+}  // namespace muster::report

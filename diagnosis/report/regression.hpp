@@ -1,0 +1,23 @@
+// A finding as a test that can be run later: the extended world still explains the data it was made from.
+#pragma once
+
+#include <filesystem>
+
+#include "diagnosis/report/words.hpp"
+
+namespace muster::report {
+
+// Copies the data beside the extended world in `folder` where they are not there yet, and writes regression.json and
+// replay.xml; the files written. Throws Error.
+std::vector<std::string> write_regression(const Diagnosis& diagnosis, const std::filesystem::path& world,
+                                          const std::filesystem::path& data, const std::filesystem::path& folder);
+
+struct Checked {
+  std::string what, found, expected;
+  bool passed = false;
+};
+
+// `from`: a regression.json, or its folder. Throws Error where it cannot be read or its world does not run.
+std::vector<Checked> check_regression(const std::filesystem::path& from, const Library::SearchPath& plugins);
+
+}  // namespace muster::report
