@@ -101,6 +101,8 @@ bool clear_of_ways(const CauseShape& shape, const Survey& survey, const VectorXd
   return !driven_through(survey, t[1], t[2], shape.axes.empty() ? 0.5 : std::exp(t[3]));
 }
 
+bool is_share(const muster_param& p) { return p.min == 0 && p.max == 1 && std::string_view(p.unit).empty(); }
+
 // One strength at 1 and all others at 0.
 void set_one(const CauseShape& shape, std::size_t one, std::map<std::string, double>& parameters) {
   for (const muster_param* p : shape.cause.linear()) parameters[p->name] = p == shape.linear[one] ? 1 : 0;
@@ -275,6 +277,14 @@ struct Maker {
       }
       return;
     }
+    if (shape.place == PlaceShape::segment && !stands(c) && shape.axes.size() == 1) {
+      for (const Strip& strip : survey.strips)
+        add_start(shape,
+                  theta_of(0, Eigen::Vector4d(strip.x, strip.y, strip.length, strip.angle),
+                           {std::clamp(std::log(strip.width), shape.axes[0].lower, shape.axes[0].upper)}),
+                  c);
+      if (!c.grid.empty()) return;
+    }
     // Shapes outermost, rows innermost: rows at one shape cost one evaluation.
     for (const VectorXd& place : places) {
       for (const auto& values : axes) {
@@ -303,6 +313,8 @@ std::string make(const Cause& cause, const Maker& maker, CauseSearch& out) {
   maker.choose_strengths(*shape);
   if (shape->linear.empty() && !cause.linear().empty())
     return "not testable: no reading depends on it, or the base model takes it up";
+  // A share of what the map has: all of it is what there is to be told from another strength.
+  if (shape->linear.size() == 1 && is_share(*shape->linear[0])) shape->linear.clear();
   search::Candidate c;
   if (shape->place != PlaceShape::none || !shape->axes.empty()) maker.bounds(*shape, c);
   maker.describe(*shape, c);

@@ -26,9 +26,19 @@ Eigen::VectorXd first_column(const Simulation& run, const std::string& table) {
   return result;
 }
 
-World bare_world(const std::filesystem::path& file) {
+// Whether an instance changes where radios are, which every term is to see.
+bool edits_world(const Instance& instance) {
+  const muster_cause* const cause = instance.plugin().cause;
+  return cause && (cause->kind == MUSTER_WORLD_EDIT || cause->kind == MUSTER_INSTRUMENT);
+}
+
+World bare_world(const std::filesystem::path& file, const Simulation& whole) {
   World bare = read_world(file, standard());
-  bare.instances.clear();
+  std::erase_if(bare.instances, [&](const InstanceDeclaration& declared) {
+    return std::none_of(whole.instances().begin(), whole.instances().end(), [&](const auto& instance) {
+      return instance->name() == declared.name && edits_world(*instance);
+    });
+  });
   bare.swaps.clear();
   bare.records.clear();
   return bare;
@@ -101,7 +111,7 @@ InstanceDeclaration instance_of(const Cause& cause, const std::string& name, con
 CauseModel::CauseModel(LinkModel& whole, const std::filesystem::path& world, const std::filesystem::path& data,
                        const Library::SearchPath& plugins)
     : whole_(whole.simulation()), data_(data) {
-  World bare = bare_world(world);
+  World bare = bare_world(world, whole_);
   const Place place{bare.file.string()};
   Options options;
   options.search_path = plugins;

@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <tuple>
 
 #include "diagnosis/cause_rows.hpp"
 #include "diagnosis/extended_world.hpp"
 #include "diagnosis/found_cause.hpp"
 #include "diagnosis/joint_fit.hpp"
+#include "diagnosis/law_causes.hpp"
 #include "diagnosis/plans.hpp"
 #include "diagnosis/prepared.hpp"
 #include "diagnosis/seen_rows.hpp"
@@ -31,8 +34,8 @@ class Diagnoser {
     at_.run->clear();
     Diagnosis out = summed_up(result, at_.sought, search.bench());
     out.advice = advice_for(search, out, at_.sought, {world_, plugins_, at_.model, at_.data}, at_.base);
-    out.not_tested = std::move(at_.sought.not_tested);
-    out.not_tested.insert(out.not_tested.end(), at_.untested.begin(), at_.untested.end());
+    for (const auto* more : {&at_.sought.not_tested, &at_.untested})
+      out.not_tested.insert(out.not_tested.end(), more->begin(), more->end());
     return out;
   }
 
@@ -68,14 +71,28 @@ class Diagnoser {
       give_tables(*cause->shape, out.causes.back());
     }
     at_.run->clear();
-    extend(bench, out);
     for (const CauseCandidate& c : causes.found) out.searched.push_back(c.candidate.id);
+    out.instrument = at_.instrument;
+    out.seen = seen_rows(bench, at_.model);
+    add_what_scatters(bench, out);
     out.stairs = result.stairs;
     out.checks = result.checks;
-    out.seen = seen_rows(bench, at_.model);
     out.world_values = world_values(bench, at_.base.paths, coefficients, at_.model);
     for (WorldValue& v : out.world_values) v.value = out.parameters.at(v.path);
     return out;
+  }
+
+  void add_what_scatters(const search::Bench& bench, Diagnosis& out) {
+    const LawSources sources{at_.model, at_.data, at_.causes, bench, at_.used, at_.fitted};
+    add_clips(sources, out);
+    extend(bench, out);
+    const std::size_t before = out.causes.size();
+    add_laws(sources, out);
+    if (out.causes.size() > before) extend(bench, out);  // a law of fading has a mean of its own
+    std::stable_sort(out.causes.begin(), out.causes.end(), [](const FoundCause& a, const FoundCause& b) {
+      return std::tuple(a.status, -a.lambda) < std::tuple(b.status, -b.lambda);
+    });
+    std::sort(out.searched.begin(), out.searched.end());
   }
 
   // A cause that reads a table gets the measured columns that it needs.
@@ -145,9 +162,57 @@ const char* Diagnosis::verdict() const {
   return !unexplained.empty() ? "unexplained" : named() ? "extended" : "adequate";
 }
 
+namespace {
+
+bool edits_world(const Cause& cause) {
+  return cause.meaning().kind == MUSTER_WORLD_EDIT || cause.meaning().kind == MUSTER_INSTRUMENT;
+}
+
+// The strongest named cause by which radios stand elsewhere, if anything was found beside it.
+const FoundCause* edit_in_company(const Diagnosis& found, const std::vector<Cause>& causes) {
+  const FoundCause* edit = nullptr;
+  std::size_t named = found.unexplained.size();
+  for (const FoundCause& c : found.causes) {
+    if (c.status != search::Status::named) continue;
+    ++named;
+    const auto cause = std::find_if(causes.begin(), causes.end(), [&](const Cause& k) { return k.id == c.id; });
+    if (!edit && cause != causes.end() && edits_world(*cause)) edit = &c;
+  }
+  return named > 1 ? edit : nullptr;
+}
+
+struct TemporaryFolder {
+  std::filesystem::path path;
+  TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "muster_XXXXXX").string();
+    if (!mkdtemp(name.data())) throw Error(Exit::io, name + ": cannot be made");
+    path = name;
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+  }
+};
+
+}  // namespace
+
+// With a radio in the wrong place everything else was judged wrongly: it is judged again with the radio in the right
+// one.
 Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::path& data,
                    const Library::SearchPath& plugins) {
-  return Diagnoser(world, data, plugins).run();
+  Diagnosis found = Diagnoser(world, data, plugins).run();
+  const FoundCause* const edit = edit_in_company(found, causes_on(plugins));
+  if (!edit) return found;
+  Diagnosis first;
+  first.causes = {*edit};
+  first.parameters = found.parameters;
+  const TemporaryFolder folder;
+  Diagnosis again = Diagnoser(write_extended_world(first, world, folder.path), data, plugins).run();
+  first.causes[0].effect = VectorXd::Zero(again.rows);
+  again.causes.insert(again.causes.begin(), first.causes[0]);
+  return again;
 }
 
 namespace {

@@ -6,6 +6,7 @@
 
 #include "diagnosis/cause_columns.hpp"
 #include "diagnosis/fit.hpp"
+#include "diagnosis/instrument.hpp"
 #include "diagnosis/search/search.hpp"
 
 namespace muster::diagnosis {
@@ -93,6 +94,7 @@ struct Diagnosis {
   std::vector<Unexplained> unexplained;
   std::vector<std::string> searched, not_tested;  // causes; the latter with the reason
   std::vector<std::string> notes;
+  Instrument instrument;   // what the readings show of the receiver, and that the record is sound
   double residual_sd = 0;  // dB, of the fitted world
   noise::Covariance noise;
   std::optional<search::HeldOut> held_out;

@@ -74,6 +74,13 @@ std::map<std::string, Reach> reaches(const CauseShape& shape, const search::Cand
 }
 
 void add_linear(FoundCause& out, const CauseShape& shape, const search::Finding& f) {
+  if (shape.linear.empty()) {  // sought whole: a strength that it has was 1
+    for (const muster_param* p : shape.cause.linear()) {
+      const double half = normal95 * std::sqrt(f.uncertainty(0, 0));
+      out.values.push_back(value_of(*p, f.coefficients[0], half, half));
+    }
+    return;
+  }
   if (shape.wave.empty()) {
     for (std::size_t k = 0; k < shape.linear.size(); ++k) {
       const auto at = static_cast<Eigen::Index>(k);

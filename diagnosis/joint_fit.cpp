@@ -46,6 +46,7 @@ class Joint {
       if (found.status != search::Status::named || cause == fit_.causes.end()) continue;
       const std::string name = "found" + std::to_string(number++);
       fit_.model.simulation().insert(declared(found, *cause, name));
+      inserted_.push_back(name);
       if (!shifts_levels(*cause)) continue;
       const bool whole = cause->linear().empty();
       for (CauseValue& v : found.values) {
@@ -73,6 +74,13 @@ class Joint {
     }
     set(x);
     store(x);
+  }
+
+  // What the world with the causes expects; takes them away again.
+  VectorXd mean() {
+    const VectorXd result = fit_.model.expected();
+    for (const std::string& name : inserted_) fit_.model.simulation().remove(name);
+    return result;
   }
 
  private:
@@ -147,6 +155,7 @@ class Joint {
   noise::Whitener whitener_;
   noise::Basis smooths_;
   std::vector<Unknown> unknown_;
+  std::vector<std::string> inserted_;
 };
 
 }  // namespace
@@ -157,7 +166,7 @@ VectorXd fit_jointly(const JointFit& fit, const VectorXd& lower, const VectorXd&
   joint.add_parameters(paths, lower, upper);
   joint.add_causes();
   joint.solve();
-  return fit.model.expected();
+  return joint.mean();
 }
 
 }  // namespace muster::diagnosis

@@ -7,7 +7,7 @@
 namespace muster::diagnosis {
 
 struct JointFit {
-  LinkModel& model;                  // gets an instance of each named cause
+  LinkModel& model;                  // has an instance of each named cause meanwhile
   const std::vector<Cause>& causes;  // of the plugin path
   std::filesystem::path data;        // what a cause that reads a table reads
   const search::Bench& bench;        // after the search: its noise, rows and smooths

@@ -32,6 +32,7 @@ FitOptions hold_places_of_causes(const LinkModel& model) {
 Prepared::Prepared(const std::filesystem::path& world, const std::filesystem::path& table,
                    const Library::SearchPath& plugins)
     : file(table), data(read_dataset(table)), model(world, table, plugins), causes(causes_on(plugins)) {
+  instrument = instrument_of(data);
   if (data.has_places()) check_places(model, data);
   fitted = fit(model, data, hold_places_of_causes(model));
   base = base_columns(model, fitted.parameters);
@@ -54,6 +55,8 @@ void Prepared::fill_readings() {
   r.tx_at.resize(3, n);
   r.rx_at.resize(3, n);
   problem.measured.resize(n);
+  const bool clips = instrument.top || instrument.bottom || !fitted.readings.censored.empty();
+  problem.bounds.half_code = instrument.step / 2;
   for (Index i = 0; i < n; ++i) {
     const auto row = static_cast<std::size_t>(used[static_cast<std::size_t>(i)]);
     const auto& [tx, rx] = model.ends()[row];
@@ -63,12 +66,17 @@ void Prepared::fill_readings() {
     r.rx_at.col(i) << rx.x, rx.y, rx.z;
     if (!data.t.empty()) r.t.push_back(data.t[row]);
     if (!data.rx_yaw.empty()) r.rx_yaw.push_back(rx.yaw);
-    const bool censored = std::isnan(data.rssi[row]);
-    problem.measured[i] = censored ? fitted.readings.floor : data.rssi[row];
-    if (!fitted.readings.censored.empty())
-      problem.bounds.known.push_back(censored ? noise::Known::below : noise::Known::value);
+    const double rssi = data.rssi[row];
+    problem.measured[i] = std::isnan(rssi) ? fitted.readings.floor + problem.bounds.half_code : rssi;
+    if (clips) problem.bounds.known.push_back(known_of(rssi));
   }
-  problem.bounds.half_code = 0;  // the fitted floor is a level, not a code
+}
+
+// What a reading says of the level, by the pile that it lies in.
+noise::Known Prepared::known_of(double rssi) const {
+  const auto lies_in = [&](const std::optional<Clip>& clip) { return clip && rssi == clip->level; };
+  if (std::isnan(rssi) || lies_in(instrument.bottom)) return noise::Known::below;
+  return lies_in(instrument.top) ? noise::Known::above : noise::Known::value;
 }
 
 // A number of few values is a setting: each value stands for itself.

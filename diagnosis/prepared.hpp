@@ -1,10 +1,11 @@
-// A world and its measured readings made ready for a search: the world fitted, its own columns, and every cause that the
-// data can speak of as a candidate.
+// A world and its measured readings made ready for a search: the world fitted, its own columns, and every cause that
+// the data can speak of as a candidate.
 #pragma once
 
 #include "diagnosis/base_columns.hpp"
 #include "diagnosis/cause_columns.hpp"
 #include "diagnosis/fit.hpp"
+#include "diagnosis/instrument.hpp"
 #include "diagnosis/search/problem.hpp"
 
 namespace muster::diagnosis {
@@ -17,6 +18,7 @@ struct Prepared {
 
   std::filesystem::path file;  // of the readings
   Dataset data;
+  Instrument instrument;  // what the readings show of the receiver
   LinkModel model;
   std::vector<Cause> causes;  // of the plugin path
   Fit fitted;
@@ -30,6 +32,7 @@ struct Prepared {
 
  private:
   void fill_readings();
+  noise::Known known_of(double rssi) const;
   void add_columns();
 };
 

@@ -32,6 +32,57 @@ double direction_of_walls(const LinkModel& model) {
   return angle < 0 ? angle + quarter_turn : angle;
 }
 
+// Walls in one line, as one.
+struct Line {
+  double angle, offset, from, to;  // rad in [0, pi); m across and along that direction
+};
+
+std::vector<Line> lines_of(const LinkModel& model) {
+  std::vector<Line> lines;
+  const Table* table = model.simulation().board().find("wall/*/shape");
+  if (!table) return lines;
+  const auto* walls = reinterpret_cast<const Wall*>(table->now().data.data());
+  for (std::size_t k = 0; k < table->now().rows; ++k) {
+    const Wall& w = walls[k];
+    if (std::hypot(w.x1 - w.x0, w.y1 - w.y0) < 1) continue;
+    double angle = std::atan2(w.y1 - w.y0, w.x1 - w.x0);
+    if (angle < 0) angle += 2 * quarter_turn;
+    if (angle > 2 * quarter_turn - 0.03) angle -= 2 * quarter_turn;
+    const auto same = std::find_if(lines.begin(), lines.end(), [&](const Line& l) {
+      const double across = -std::sin(l.angle) * w.x0 + std::cos(l.angle) * w.y0;
+      return std::abs(l.angle - angle) < 0.05 && std::abs(across - l.offset) < 0.3;
+    });
+    const double a = same != lines.end() ? same->angle : angle;
+    const double at0 = std::cos(a) * w.x0 + std::sin(a) * w.y0, at1 = std::cos(a) * w.x1 + std::sin(a) * w.y1;
+    if (same == lines.end()) {
+      lines.push_back({a, -std::sin(a) * w.x0 + std::cos(a) * w.y0, std::min(at0, at1), std::max(at0, at1)});
+    } else {
+      same->from = std::min({same->from, at0, at1});
+      same->to = std::max({same->to, at0, at1});
+    }
+  }
+  return lines;
+}
+
+std::vector<Strip> strips_of(const LinkModel& model) {
+  constexpr double narrowest = 1, widest = 5, shortest = 5;  // m
+  constexpr std::size_t most = 12;
+  std::vector<Strip> strips;
+  const std::vector<Line> lines = lines_of(model);
+  for (const Line& a : lines) {
+    for (const Line& b : lines) {
+      const double width = b.offset - a.offset, from = std::max(a.from, b.from), to = std::min(a.to, b.to);
+      if (std::abs(a.angle - b.angle) > 0.05 || width < narrowest || width > widest || to - from < shortest) continue;
+      const double along = (from + to) / 2, across = (a.offset + b.offset) / 2, c = std::cos(a.angle),
+                   s = std::sin(a.angle);
+      strips.push_back({c * along - s * across, s * along + c * across, to - from, a.angle, width});
+    }
+  }
+  std::stable_sort(strips.begin(), strips.end(), [](const Strip& a, const Strip& b) { return a.length > b.length; });
+  if (strips.size() > most) strips.resize(most);
+  return strips;
+}
+
 struct Trail {
   Span east, north, yaw;
   double x = 0, y = 0;
@@ -73,6 +124,7 @@ Survey survey_of(const LinkModel& model, const Dataset& data) {
       survey.counted.insert(c.name.substr(6, c.name.find('[') - 6));
   }
   survey.plan_angle = direction_of_walls(model);
+  survey.strips = strips_of(model);
   std::map<int, Trail> trails;
   std::vector<double> distances;
   bool first = true;

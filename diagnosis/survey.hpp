@@ -17,6 +17,11 @@ struct Span {
   double at(double share) const { return low + share * length(); }
 };
 
+// Between two walls, or rows of walls, that run side by side.
+struct Strip {
+  double x, y, length, angle, width;  // of its middle, m; rad
+};
+
 struct Survey {
   bool has_time = false, has_yaw = false, has_height = false;
   bool has_places = true;              // false: the data have distances alone
@@ -27,6 +32,7 @@ struct Survey {
   std::vector<bool> turns, moves;      // a radio
   // Ways of radios that move, x0 y0 x1 y1 of each piece, in m.
   std::vector<std::array<double, 4>> ways;
+  std::vector<Strip> strips;  // that could be corridors, the longest first
 };
 
 Survey survey_of(const LinkModel& model, const Dataset& data);

@@ -58,6 +58,13 @@ Json unexplained_json(const diagnosis::Unexplained& u) {
   return out;
 }
 
+Json instrument_json(const Diagnosis& d) {
+  Json out = Json::array();
+  for (const InstrumentCheck& c : d.instrument.checks)
+    out.push_back({{"check", c.what}, {"found", c.found}, {"fine", c.fine}, {"row", c.row ? Json(*c.row) : Json()}});
+  return out;
+}
+
 Json advice_json(const Diagnosis& d) {
   Json out = Json::array();
   const auto add = [&](const std::string& say, const Question& q, Json predicted) {
@@ -144,6 +151,7 @@ Json json_of(const Diagnosis& d) {
       {"steps", stairs_json(d)},
       {"parameters", world_json(d)},
       {"checked", checks_json(d)},
+      {"instrument", instrument_json(d)},
       {"searched", d.searched},
       {"not_searched", d.not_tested},
       {"notes", d.notes}};

@@ -136,8 +136,9 @@ double Bench::log_p(const Candidate& candidate, double gain, Index width, bool r
 }
 
 double Bench::evidence(const Candidate& candidate, double gain, Index width, bool refined) const {
-  return gain / 2 - static_cast<double>(width) / 2 * log_rows() - log_atoms(candidate) -
-         (refined ? candidate.charge : 0);
+  // What is there or not has no strength to be paid for.
+  const double strengths = candidate.whole && !candidate.refinable() ? 0 : static_cast<double>(width);
+  return gain / 2 - strengths / 2 * log_rows() - log_atoms(candidate) - (refined ? candidate.charge : 0);
 }
 
 double Bench::threshold() const {

@@ -127,6 +127,10 @@ std::vector<Lead> leads(Bench& bench, const Stand& stand) {
     const noise::Sheet unit = unit_atoms(entry, stand);
     bench.log_atoms(entry, unit);
     Lead lead{&entry, {}, {}, 0, 0, 0, false, gains(c, unit, stand.at.residual)};
+    if (c.whole && !c.refinable()) {
+      for (Index k = 0; k < lead.all.size(); ++k)
+        lead.all[k] = std::clamp(stand.gain_as_it_is(entry.atom(k)), 0.0, lead.all[k]);
+    }
     Index best = 0;
     lead.gain = lead.all.maxCoeff(&best);
     lead.theta = c.grid[static_cast<std::size_t>(best)];

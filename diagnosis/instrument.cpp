@@ -1,0 +1,108 @@
+#include "diagnosis/instrument.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "text/number.hpp"
+
+namespace muster::diagnosis {
+namespace {
+
+using Codes = std::map<double, std::size_t>;  // readings at each level
+
+Codes codes_of(const Dataset& data) {
+  Codes codes;
+  for (const double v : data.rssi) {
+    if (!std::isnan(v)) ++codes[v];
+  }
+  return codes;
+}
+
+// All levels lie on one grid, whose step is the least distance between two of them.
+double step_of(const Codes& codes, std::size_t readings) {
+  if (codes.size() < 3 || codes.size() > readings / 4) return 0;
+  double least = 1e300;
+  for (auto it = std::next(codes.begin()); it != codes.end(); ++it)
+    least = std::min(least, it->first - std::prev(it)->first);
+  const double first = codes.begin()->first;
+  const bool all = std::all_of(codes.begin(), codes.end(), [&](const auto& code) {
+    return std::abs(std::remainder(code.first - first, least)) < 1e-6 * least + 1e-9;
+  });
+  return all ? least : 0;
+}
+
+// log P(X >= k) of n fair throws.
+double log_binomial_tail(std::size_t k, std::size_t n) {
+  double most = -1e300;
+  std::vector<double> terms;
+  const auto count = static_cast<double>(n);
+  for (std::size_t i = k; i <= n; ++i) {
+    const auto x = static_cast<double>(i);
+    terms.push_back(std::lgamma(count + 1) - std::lgamma(x + 1) - std::lgamma(count - x + 1) - count * std::log(2.0));
+    most = std::max(most, terms.back());
+  }
+  double sum = 0;
+  for (const double t : terms) sum += std::exp(t - most);
+  return std::min(most + std::log(sum), 0.0);
+}
+
+// A law that falls off towards its end has no more readings at the last code than at the one before.
+std::optional<Clip> pile(const Dataset& data, double level, std::size_t count, std::size_t beside) {
+  constexpr std::size_t least = 15;
+  if (count < least || count <= 2 * beside) return {};
+  Clip clip{level, count, beside, log_binomial_tail(count, count + beside), 0};
+  if (clip.log_p > std::log(1e-6)) return {};
+  clip.row = static_cast<std::size_t>(std::find(data.rssi.begin(), data.rssi.end(), level) - data.rssi.begin());
+  return clip;
+}
+
+std::size_t at(const Codes& codes, double level) {
+  const auto found = codes.lower_bound(level - 1e-6);
+  return found != codes.end() && found->first < level + 1e-6 ? found->second : 0;
+}
+
+InstrumentCheck pile_check(const std::string& end, const std::optional<Clip>& clip, double level, std::size_t count) {
+  InstrumentCheck check{"readings that pile up at the " + end + " level", "", !clip, {}};
+  check.found = std::to_string(count) + " at " + print_real(level) + " dBm";
+  if (!clip) return check;
+  check.found += ", " + std::to_string(clip->beside) + " beside it: clipped";
+  check.row = clip->row + 1;
+  return check;
+}
+
+}  // namespace
+
+Instrument instrument_of(const Dataset& data) {
+  Instrument result;
+  const Codes codes = codes_of(data);
+  result.step = step_of(codes, data.heard());
+  const auto low = codes.begin(), high = std::prev(codes.end());
+  const double inside = result.step > 0 ? result.step : 0;
+  const auto beside = [&](double level, double next) { return inside > 0 ? at(codes, level) : at(codes, next); };
+  if (codes.size() > 2) {
+    result.top = pile(data, high->first, high->second, beside(high->first - inside, std::prev(high)->first));
+    result.bottom = pile(data, low->first, low->second, beside(low->first + inside, std::next(low)->first));
+  }
+  result.checks.push_back({"the step between readings",
+                           result.step > 0 ? print_real(result.step) + " dB" : "none: no common step",
+                           true,
+                           {}});
+  result.checks.push_back(pile_check("highest", result.top, high->first, high->second));
+  result.checks.push_back(pile_check("lowest", result.bottom, low->first, low->second));
+  const std::string rows = "none in " + std::to_string(data.rows()) + " rows";
+  if (data.t.empty()) {
+    result.checks.push_back({"readings that stand twice, time that runs backwards", "not testable: no t", true, {}});
+  } else {
+    result.checks.push_back({"readings that stand twice (t, tx, rx)", rows, true, {}});
+    result.checks.push_back({"time that runs backwards within a pair", rows, true, {}});
+  }
+  result.checks.push_back(
+      {"marks for none (0, -128) and levels that cannot be (over 30, under -174 dBm)", rows, true, {}});
+  result.checks.push_back({"rows in another unit than their column", rows, true, {}});
+  const std::size_t missing = data.rows() - data.heard();
+  result.checks.push_back({"readings that are missing", missing ? std::to_string(missing) : rows, true, {}});
+  return result;
+}
+
+}  // namespace muster::diagnosis

@@ -1,0 +1,239 @@
+#include "diagnosis/law_causes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/field_law.hpp"
+#include "diagnosis/passages.hpp"
+#include "diagnosis/scatter.hpp"
+#include "diagnosis/search/tail.hpp"
+#include "text/number.hpp"
+
+namespace muster::diagnosis {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+const Cause* cause_called(const LawSources& s, const std::string& id) {
+  const auto found = std::find_if(s.causes.begin(), s.causes.end(), [&](const Cause& c) { return c.id == id; });
+  return found == s.causes.end() ? nullptr : &*found;
+}
+
+FoundCause named(const LawSources& s, const Cause& cause, const LawTest& test) {
+  FoundCause out;
+  out.id = cause.id;
+  out.label = "all";
+  out.title = cause.meaning().title;
+  out.tell_apart = cause.meaning().tell_apart;
+  out.covariates = {"reading"};
+  for (const LawValue& v : test.values) {
+    const auto* const end = cause.plugin->params + cause.plugin->param_count;
+    const auto* const p =
+        std::find_if(cause.plugin->params, end, [&](const muster_param& q) { return q.name == v.name; });
+    if (p == end) continue;
+    out.values.push_back({v.name, p->unit, std::clamp(v.value, p->min, p->max), (v.upper95 - v.lower95) / (2 * 1.96),
+                          v.lower95, v.upper95, p->min, p->max});
+  }
+  out.evidence = test.evidence;
+  out.log_p = test.log_p;
+  out.lambda = test.gain;
+  out.effect = VectorXd::Zero(s.bench.rows().size());
+  return out;
+}
+
+// The same threshold as for a term that is added to others.
+bool beyond_chance(const LawSources& s, const LawTest& test) {
+  return test.evidence > 0 &&
+         test.log_p < std::log(s.bench.options().further_alpha / static_cast<double>(s.bench.entries().size()));
+}
+
+// A stage of the world that clips there already.
+bool clips_at(const LawSources& s, const std::string& plugin, const std::string& parameter, double level, double step) {
+  for (const auto& instance : s.model.simulation().instances()) {
+    if (instance->declared().plugin != plugin) continue;
+    const int at = instance->find_param(parameter);
+    if (at >= 0 && std::abs(instance->params()[static_cast<std::size_t>(at)] - level) <= std::max(step, 0.5))
+      return true;
+  }
+  return false;
+}
+
+void add_pile(const LawSources& s, const std::string& id, const Clip& clip, double step, Diagnosis& found) {
+  const Cause* const cause = cause_called(s, id);
+  if (!cause || clips_at(s, id, "level", clip.level, step)) return;
+  const double half = std::max(step, 0.02) / 2;
+  const LawTest test{
+      id, {{"level", clip.level, clip.level - half, clip.level + half}}, -2 * clip.log_p, -clip.log_p, clip.log_p};
+  found.causes.push_back(named(s, *cause, test));
+  if (id == "effect.rssi_floor") found.causes.back().words["silent"] = "false";
+}
+
+// Readings that are missing where levels are low, and not elsewhere.
+void add_silence(const LawSources& s, double step, Diagnosis& found) {
+  const Missing& missing = s.fit.missing;
+  const Cause* const cause = cause_called(s, "effect.rssi_floor");
+  const double least = std::log(s.bench.options().further_alpha / static_cast<double>(s.bench.entries().size()));
+  LawTest test{"effect.rssi_floor", {}, missing.evidence, missing.evidence / 2, search::log_tail(missing.evidence, 1)};
+  if (!cause || !missing.censored || test.log_p > least) return;
+  if (clips_at(s, test.cause, "level", missing.floor, step) ||
+      clips_at(s, "radio.receiver", "sensitivity", missing.floor, step))
+    return;
+  const double half = std::max(step, 0.02);
+  test.values = {{"level", missing.floor, missing.floor - half, missing.floor + half}};
+  found.causes.push_back(named(s, *cause, test));
+  found.causes.back().words["silent"] = "true";
+}
+
+// Measured less expected of each reading of the search; NaN where only a bound is known or the clip is near.
+VectorXd residual_of(const LawSources& s, const Diagnosis& found) {
+  const noise::Rows& rows = s.bench.rows();
+  VectorXd left(static_cast<Index>(s.used.size()));
+  for (Index i = 0; i < left.size(); ++i) {
+    const Index row = s.used[static_cast<std::size_t>(i)];
+    left[i] = s.data.rssi[static_cast<std::size_t>(row)] - found.mean[row];
+  }
+  const VectorXd filled = left.array().isNaN().select(0, left);
+  const VectorXd shift = found.seen.after - rows.mean(filled);
+  VectorXd result = left + rows.at_readings(shift);
+  if (!s.bench.problem().bounds.any()) return result;
+  const double sd = std::sqrt(s.bench.fit.covariance.field_variance() + s.bench.fit.covariance.reading_variance());
+  const auto near = [&](const std::optional<Clip>& clip, double side, double mean) {
+    return clip && side * (clip->level - mean) < 2 * sd;
+  };
+  for (Index i = 0; i < result.size(); ++i) {
+    const double mean = found.mean[s.used[static_cast<std::size_t>(i)]];
+    const bool lost = s.fit.missing.censored && mean - s.fit.missing.floor < 2 * sd;
+    if (lost || near(found.instrument.top, 1, mean) || near(found.instrument.bottom, -1, mean))
+      result[i] = std::nan("");
+  }
+  return result;
+}
+
+ReadingLaw stated_law(const LinkModel& model) {
+  ReadingLaw law;
+  law.rician_k = model.value_of("radio.fading", "fading", 1) != 0 ? model.value_of("radio.fading", "rician_k", 60) : 60;
+  law.rician_k = model.value_of("effect.fading_law", "rician_k", law.rician_k);
+  law.outliers = model.value_of("effect.outliers", "share", 0);
+  law.half_width = model.value_of("effect.outliers", "half_width", law.half_width);
+  law.channel_sd = model.value_of("effect.channel_mixture", "sd", 0);
+  law.channels = static_cast<int>(model.value_of("effect.channel_mixture", "channels", 3));
+  return law;
+}
+
+// Half a wavelength at which fading is another one; per_reading fading always is.
+bool fades_apart(const LawSources& s) {
+  if (s.model.value_of("radio.fading", "per_reading", 0) != 0 || s.model.has_plugin("effect.fading_law")) return true;
+  const double half = 299792458 / s.model.value_of("radio.fading", "frequency", 2.44e9) / 2;
+  const noise::Readings& r = s.bench.problem().readings;
+  std::vector<double> ways;
+  for (Index i = 1; i < r.size(); ++i) {
+    const auto row = s.bench.rows().row_of()[static_cast<std::size_t>(i)];
+    const Index first = s.bench.rows().example(row);
+    if (first != i)
+      ways.push_back((r.rx_at.col(i) - r.rx_at.col(first)).norm() + (r.tx_at.col(i) - r.tx_at.col(first)).norm());
+  }
+  if (ways.empty()) return false;
+  std::nth_element(ways.begin(), ways.begin() + static_cast<std::ptrdiff_t>(ways.size() / 2), ways.end());
+  return ways[ways.size() / 2] > half;
+}
+
+void add_scatter(const LawSources& s, Diagnosis& found) {
+  std::string why;
+  if (!s.data.has_places())
+    why = "not testable: the data have no places";
+  else if (!s.model.has_plugin("radio.fading"))
+    why = "not testable: the world has no radio.fading that states a law";
+  else if (!fades_apart(s))
+    why = "not testable: readings lie closer than the half wavelength over which fading changes";
+  const Scatter scatter = why.empty() ? scatter_of(s.bench, residual_of(s, found), found.instrument.step) : Scatter{};
+  if (why.empty() && scatter.rows.size() < 100)
+    why = "not testable: fewer than 100 rows of readings that are no bounds";
+  for (const char* id : {"effect.fading_law", "effect.outliers", "effect.channel_mixture"}) {
+    if (!cause_called(s, id)) continue;
+    why.empty() ? found.searched.push_back(id) : found.not_tested.push_back(std::string(id) + ": " + why);
+  }
+  if (!why.empty()) return;
+  const std::vector<LawTest> tests = law_tests(scatter, stated_law(s.model));
+  const auto best =
+      std::find_if(tests.begin(), tests.end(), [&](const LawTest& t) { return cause_called(s, t.cause); });
+  if (best == tests.end() || !beyond_chance(s, *best)) return;
+  found.causes.push_back(named(s, *cause_called(s, best->cause), *best));
+  for (const LawTest& other : tests) {
+    const double gap = best->evidence - other.evidence;
+    if (&other != &*best && gap < 3) found.causes.back().rivals.push_back({other.cause, "all", {}, gap, 2 * gap});
+  }
+}
+
+// What the fit of rows says of a draw of the world's own shadowing, if that is the same as of the data.
+bool world_draws_alike(const LawSources& s) {
+  const VectorXd drawn = s.model.drawn(), expected = s.model.expected();
+  const VectorXd apart = (drawn - expected)(s.used);
+  if (!apart.allFinite()) return false;
+  const StatedField own = said_by(fitted_to(s.bench, s.bench.rows().mean(apart)));
+  const StatedField fitted = said_by(s.bench.fit.covariance);
+  return std::abs(std::log(own.shadowing / fitted.shadowing)) < std::log(1.25) &&
+         std::abs(std::log(own.decorrelation / fitted.decorrelation)) < std::log(1.6);
+}
+
+void add_field(const LawSources& s, Diagnosis& found) {
+  const Cause* const cause = cause_called(s, "effect.shadowing_correlation");
+  if (!cause) return;
+  const auto stated = [&](const char* name) {
+    return s.model.value_of(cause->id, name, s.model.value_of("radio.fading", name, 0));
+  };
+  const StatedField field{stated("shadowing"), stated("decorrelation")};
+  if (field.shadowing <= 0 || !s.data.has_places()) {
+    found.not_tested.push_back(cause->id + ": not testable: " +
+                               (s.data.has_places() ? "the world states no shadowing" : "the data have no places"));
+    return;
+  }
+  const auto& known = s.bench.problem().bounds.known;
+  const auto bounds =
+      std::count_if(known.begin(), known.end(), [](noise::Known k) { return k != noise::Known::value; });
+  if (static_cast<double>(bounds) > 0.05 * static_cast<double>(s.used.size())) {
+    found.not_tested.push_back(cause->id + ": not testable: of more than 5 % of the readings only a bound is known");
+    return;
+  }
+  found.searched.push_back(cause->id);
+  const LawTest test = field_test(s.bench, field);
+  if (beyond_chance(s, test) && !world_draws_alike(s)) found.causes.push_back(named(s, *cause, test));
+}
+
+void add_people(const LawSources& s, Diagnosis& found) {
+  const Cause* const cause = cause_called(s, "effect.people");
+  if (!cause) return;
+  if (s.data.t.empty()) {
+    found.not_tested.push_back(cause->id + ": not testable: the data have no t");
+    return;
+  }
+  found.searched.push_back(cause->id);
+  if (s.model.has_plugin(cause->id)) return;
+  const Passages passages = passages_of(s.bench);
+  if (passages.radio < 0 || !beyond_chance(s, passages.test)) return;
+  FoundCause out = named(s, *cause, passages.test);
+  out.row_parameter = "radio";
+  out.row = s.model.radio_name(passages.radio);
+  out.words["other"] = s.model.radio_name(passages.other);
+  out.label = "radio/" + out.row + " radio/" + out.words["other"];
+  found.causes.push_back(std::move(out));
+}
+
+}  // namespace
+
+void add_clips(const LawSources& s, Diagnosis& found) {
+  const double step = found.instrument.step;
+  if (cause_called(s, "effect.rssi_saturation")) found.searched.push_back("effect.rssi_saturation");
+  if (cause_called(s, "effect.rssi_floor")) found.searched.push_back("effect.rssi_floor");
+  if (found.instrument.top) add_pile(s, "effect.rssi_saturation", *found.instrument.top, step, found);
+  if (found.instrument.bottom) add_pile(s, "effect.rssi_floor", *found.instrument.bottom, step, found);
+  if (!found.instrument.bottom) add_silence(s, step, found);
+}
+
+void add_laws(const LawSources& s, Diagnosis& found) {
+  add_scatter(s, found);
+  add_field(s, found);
+  add_people(s, found);
+}
+
+}  // namespace muster::diagnosis

@@ -1,0 +1,21 @@
+// Causes that shift no level: receivers that clip, and laws of what is random that are not the world's.
+#pragma once
+
+#include "diagnosis/diagnose.hpp"
+
+namespace muster::diagnosis {
+
+struct LawSources {
+  LinkModel& model;
+  const Dataset& data;
+  const std::vector<Cause>& causes;  // of the plugin path
+  const search::Bench& bench;        // after the search
+  const std::vector<Eigen::Index>& used;
+  const Fit& fit;
+};
+
+// Each adds to the causes of `found`, to what was searched and what could not be.
+void add_clips(const LawSources& sources, Diagnosis& found);
+void add_laws(const LawSources& sources, Diagnosis& found);
+
+}  // namespace muster::diagnosis

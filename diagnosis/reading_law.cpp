@@ -1,0 +1,131 @@
+#include "diagnosis/reading_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace muster::diagnosis {
+namespace {
+
+constexpr double pi = 3.141592653589793;
+
+// Of 10 log10 of the mean power of n fades, each of mean 1: a noncentral chi-square with 2 n degrees of freedom.
+double fading_density(double k_db, int n, double db) {
+  const double k = std::max(std::pow(10, k_db / 10), 1e-4), g = std::pow(10, db / 10), count = n;
+  const double x = 2 * count * std::sqrt(k * (1 + k) * g);
+  const double order = count - 1;
+  const double bessel = x < 300 ? std::log(std::max(std::cyl_bessel_i(order, x), 1e-300))
+                                : x - 0.5 * std::log(2 * pi * x) - (4 * order * order - 1) / (8 * x);
+  const double log_density =
+      std::log(count * (1 + k)) + order / 2 * std::log((1 + k) * g / k) - count * (k + (1 + k) * g) + bessel;
+  return std::exp(log_density) * g * std::log(10.0) / 10;
+}
+
+std::vector<double> fading_table(double k_db, int n, double lowest, double bin, std::size_t bins) {
+  std::vector<double> table(bins, 0);
+  const auto at = [&](std::size_t i) { return lowest + bin * (static_cast<double>(i) + 0.5); };
+  if (k_db >= 40) {  // steady: all at 0 dB
+    table[static_cast<std::size_t>(-lowest / bin)] = 1 / bin;
+    return table;
+  }
+  for (std::size_t i = 0; i < bins; ++i) {
+    if (at(i) < 25) table[i] = fading_density(k_db, n, at(i));
+  }
+  return table;
+}
+
+double mean_of(const std::vector<double>& table, double lowest, double bin, double* variance = nullptr) {
+  double sum = 0, first = 0, second = 0;
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const double db = lowest + bin * (static_cast<double>(i) + 0.5);
+    sum += table[i];
+    first += table[i] * db;
+    second += table[i] * db * db;
+  }
+  if (variance) *variance = second / sum - first * first / (sum * sum);
+  return first / sum;
+}
+
+// Averages over the kernel's places, in table steps.
+std::vector<double> mixed(const std::vector<double>& table, const std::vector<double>& places,
+                          const std::vector<double>& weights) {
+  std::vector<double> result(table.size(), 0);
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const auto by = static_cast<std::ptrdiff_t>(std::lround(places[k]));
+    for (std::size_t i = 0; i < table.size(); ++i) {
+      const std::ptrdiff_t to = static_cast<std::ptrdiff_t>(i) + by;
+      if (to >= 0 && to < static_cast<std::ptrdiff_t>(table.size()))
+        result[static_cast<std::size_t>(to)] += weights[k] * table[i];
+    }
+  }
+  return result;
+}
+
+std::vector<double> with_channels(const std::vector<double>& table, const ReadingLaw& law, double bin) {
+  if (law.channel_sd <= 0) return table;
+  const double count = law.channels, spacing = law.channel_sd * std::sqrt(12 / (count * count - 1));
+  std::vector<double> places, weights(static_cast<std::size_t>(law.channels), 1 / count);
+  for (int c = 0; c < law.channels; ++c) places.push_back(spacing * (c - (count - 1) / 2) / bin);
+  return mixed(table, places, weights);
+}
+
+std::vector<double> with_outliers(const std::vector<double>& table, const ReadingLaw& law, double bin) {
+  if (law.outliers <= 0) return table;
+  constexpr int parts = 41;
+  std::vector<double> places{0}, weights{1 - law.outliers};
+  for (int k = 0; k < parts; ++k) {
+    places.push_back(law.half_width * (2.0 * k / (parts - 1) - 1) / bin);
+    weights.push_back(law.outliers / parts);
+  }
+  return mixed(table, places, weights);
+}
+
+// A normal spread and the uniform one of rounding.
+std::vector<double> widened(const std::vector<double>& table, double spread, double step, double bin) {
+  std::vector<double> places, weights;
+  const double variance = spread * spread + step * step / 12;
+  const auto reach = static_cast<int>(4 * std::sqrt(variance) / bin) + 1;
+  double sum = 0;
+  for (int k = -reach; k <= reach; ++k) {
+    const double z = k * bin;
+    places.push_back(k);
+    weights.push_back(std::exp(-z * z / (2 * variance + 1e-9)));
+    sum += weights.back();
+  }
+  for (double& w : weights) w /= sum;
+  return mixed(table, places, weights);
+}
+
+}  // namespace
+
+double fading_variance(double rician_k, int averaged) {
+  double variance = 0;
+  mean_of(fading_table(rician_k, averaged, -70, 0.1, 1000), -70, 0.1, &variance);
+  return variance;
+}
+
+double rician_k_of(double variance, int averaged) {
+  double low = -30, high = 35;
+  if (variance > fading_variance(low, averaged) || variance < fading_variance(high, averaged))
+    return std::numeric_limits<double>::quiet_NaN();
+  for (int round = 0; round < 24; ++round) {
+    const double middle = (low + high) / 2;
+    (fading_variance(middle, averaged) > variance ? low : high) = middle;
+  }
+  return (low + high) / 2;
+}
+
+ReadingDensity::ReadingDensity(const ReadingLaw& law, double spread, double step) {
+  std::vector<double> table = fading_table(law.rician_k, law.averaged, lowest, bin, bins);
+  table = with_outliers(with_channels(table, law, bin), law, bin);
+  const double mean = mean_of(table, lowest, bin);
+  table = widened(mixed(table, {-mean / bin}, {1}), spread, step, bin);
+  const double total = [&] {
+    double sum = 0;
+    for (const double v : table) sum += v * bin;
+    return sum;
+  }();
+  for (const double v : table) log_.push_back(std::max(std::log(std::max(v / total, 1e-300)), log_floor));
+}
+
+}  // namespace muster::diagnosis
