@@ -60,7 +60,7 @@ Json unexplained_json(const diagnosis::Unexplained& u) {
 
 Json instrument_json(const Diagnosis& d) {
   Json out = Json::array();
-  for (const InstrumentCheck& c : d.instrument.checks)
+  for (const diagnosis::InstrumentCheck& c : d.instrument.checks)
     out.push_back({{"check", c.what}, {"found", c.found}, {"fine", c.fine}, {"row", c.row ? Json(*c.row) : Json()}});
   return out;
 }

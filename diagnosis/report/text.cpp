@@ -151,9 +151,9 @@ std::string checked(const Diagnosis& d) {
 
 std::string record(const Diagnosis& d) {
   std::string text = heading("The readings themselves");
-  for (const InstrumentCheck& c : d.instrument.checks)
-    text += wrapped((c.fine ? "" : "! ") + c.what + ": " + c.found + (c.row ? fmt::format(", first in row {}", *c.row) : ""),
-                    2, 4);
+  for (const diagnosis::InstrumentCheck& c : d.instrument.checks)
+    text += wrapped(
+        (c.fine ? "" : "! ") + c.what + ": " + c.found + (c.row ? fmt::format(", first in row {}", *c.row) : ""), 2, 4);
   return text;
 }
 
@@ -244,7 +244,8 @@ std::vector<std::string> reasons_not_tested(const Diagnosis& d) {
 std::string text_of(const Diagnosis& d, const Setting& setting) {
   std::string text = introduction(d, setting);
   text += heading("What is wrong, and by how much") + errors(d);
-  text += causes(d) + unexplained(d) + stairs(d) + undecided(d) + checked(d) + record(d) + not_tested(d) + world(d) + loop(d);
+  text += causes(d) + unexplained(d) + stairs(d) + undecided(d) + checked(d) + record(d) + not_tested(d) + world(d) +
+          loop(d);
   if (!setting.files.empty()) {
     text += heading("Written");
     for (const std::string& file : setting.files) text += "  " + file + "\n";

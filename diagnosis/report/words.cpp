@@ -27,7 +27,6 @@ std::string plain(double value, int decimals) {
 }
 
 std::string slot_value(const FoundCause& cause, const std::string& slot) {
-  if (const auto word = cause.words.find(slot); word != cause.words.end()) return word->second;
   for (const CauseValue& v : cause.values) {
     if (v.name == slot) return quantity(v);
   }
