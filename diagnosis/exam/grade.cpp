@@ -68,10 +68,12 @@ bool at_right_row(const Truth::Effect& effect, const Verdict::Cause& cause) {
   });
 }
 
-// Both stand in the way of links, and data may not tell which it is.
+// A wall and a thing both stand in the way of links, and data may not tell which it is; a wall that is not there loses
+// nothing, as does one of another material.
 bool same_class(const std::string& a, const std::string& b) {
   const auto stands = [](const std::string& id) { return id == "unmapped_wall" || id == "obstacle"; };
-  return a == b || (stands(a) && stands(b));
+  const auto mapped = [](const std::string& id) { return id == "wall_material" || id == "wall_absent"; };
+  return a == b || (stands(a) && stands(b)) || (mapped(a) && mapped(b));
 }
 
 const Verdict::Cause* found(const Verdict& verdict, const std::string& id) {
@@ -146,7 +148,7 @@ void add_inside(Grades& grades, const Truth& truth, const Verdict& verdict) {
     return std::any_of(truth.effects.begin(), truth.effects.end(), [&](const auto& e) { return e.id == c.id; });
   };
   count("found", hits == all);
-  count("found, wall and obstacle as one", class_hits == all);
+  count("found, by class", class_hits == all);
   if (all > 1) count("at least one found", hits > 0);
   count("top name right", !verdict.named.empty() && is_true(verdict.named[0]));
   count("wrong extra name", hits > 0 && !std::all_of(verdict.named.begin(), verdict.named.end(), is_true));

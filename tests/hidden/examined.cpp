@@ -1,0 +1,40 @@
+#include "tests/hidden/examined.hpp"
+
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <stdexcept>
+
+namespace muster::exam {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Folder {
+ public:
+  Folder() : at(fs::temp_directory_path() / ("muster_hidden_" + std::to_string(getpid()))) { fs::remove_all(at); }
+  ~Folder() { fs::remove_all(at); }
+  const fs::path at;
+};
+
+void muster(const std::string& arguments) {
+  const std::string command = std::string(MUSTER_PROGRAM) + " exam " + arguments + " 2>&1";
+  FILE* pipe = popen(command.c_str(), "r");
+  std::string said;
+  std::array<char, 4096> part{};
+  for (std::size_t n; (n = fread(part.data(), 1, part.size(), pipe)) > 0;) said.append(part.data(), n);
+  if (pclose(pipe) != 0) throw std::runtime_error(command + "\n" + said);
+}
+
+}  // namespace
+
+Grades examined(const std::string& wanted) {
+  const Folder folder;
+  const std::string out = (folder.at / "exam").string();
+  muster("make " + wanted + " --out " + out);
+  muster("run " + out);
+  return grade(out, folder.at / "exam/reports");
+}
+
+}  // namespace muster::exam
