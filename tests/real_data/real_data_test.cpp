@@ -135,16 +135,13 @@ TEST_F(RealData, WeakReadingsOfTheOfficeAreMissingAndItsShelvesCostLevel) {
   EXPECT_NEAR(named(found, "effect.counted_walls", "material/shelf", "loss"), 2.1, 0.7) << found.dump();
 }
 
-TEST_F(RealData, LevelsDependOnThePhoneAndOnHowItIsCarried) {
+// The phones of two of the six ways to carry them are not those of the other four, and no heading was recorded: there
+// is no telling what is whose, so nothing is named.
+TEST_F(RealData, LevelsDependOnThePhoneAndOnHowItIsCarriedAndNothingIsNamed) {
   const json found = asked("diagnose", worlds + "body_shadow", write("body.csv", body_table()));
   EXPECT_TRUE(unexplained(found, "carried")) << found.dump();
-  double phone = std::nan("");  // whether it hears badly or its readings are off, this data cannot tell
-  for (const char* cause : {"offset", "loss"}) {
-    const double value = named(found, "", "radio/N8", cause);
-    if (!std::isnan(value)) phone = std::abs(value);
-  }
-  EXPECT_NEAR(phone, 42, 4) << found.dump();
-  for (const json& c : found.at("causes")) EXPECT_NE(c.at("id"), "effect.body_shadow");  // no heading was recorded
+  EXPECT_TRUE(unexplained(found, "link")) << found.dump();
+  for (const json& c : found.at("causes")) EXPECT_NE(c.at("status"), "named") << c.dump();
 }
 
 }  // namespace
