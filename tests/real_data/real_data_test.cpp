@@ -127,11 +127,22 @@ TEST_F(RealData, NoWallIsNamedInTheLibrary) {
   }
 }
 
-TEST_F(RealData, WeakReadingsOfTheOfficeAreMissingAndItsShelvesCostLevel) {
-  const fs::path all = write("all.csv", uji_table(-20, false)), heard = write("heard.csv", uji_table(-20, true));
-  const std::string said = muster("diagnose " + worlds + "uji_geo --data " + all.string());
-  EXPECT_NE(said.find("more readings are missing where less is expected"), std::string::npos) << said;
-  const json found = asked("diagnose", worlds + "uji_geo", heard);
+// Its shelves stand along x = 6.3 to 7.0 and 11.3 to 12.0 m; the world does not have them.
+TEST_F(RealData, RowsOfShelvesAreFoundAsWalls) {
+  const json found = asked("diagnose", worlds + "uji_geo", write("all.csv", uji_table(-20, false)));
+  bool west = false, east = false;
+  for (const json& c : found.at("causes")) {
+    if (c.at("id") != "effect.unmapped_wall" || c.at("status") != "named") continue;
+    const std::string at = c.at("label");  // "(x, y) to (x, y)"
+    const double x0 = std::stod(at.substr(1)), x1 = std::stod(at.substr(at.rfind('(') + 1)), x = (x0 + x1) / 2;
+    west |= std::abs(x - 6.65) < 1;
+    east |= std::abs(x - 11.6) < 1;
+  }
+  EXPECT_TRUE(west || east) << found.dump();
+}
+
+TEST_F(RealData, ShelvesOfTheOfficeCostLevel) {
+  const json found = asked("diagnose", worlds + "uji_geo", write("heard.csv", uji_table(-20, true)));
   EXPECT_NEAR(named(found, "effect.counted_walls", "material/shelf", "loss"), 2.1, 0.7) << found.dump();
 }
 
