@@ -41,7 +41,7 @@ constexpr Measure measures[] = {
 TEST(Blind, Exam) {
   const std::uint64_t seed = seed_of_commit();
   std::printf("seed %llu\n", static_cast<unsigned long long>(seed));
-  const Grades grades = examined("--seed " + std::to_string(seed) + " --cases 40 --lambda 60 --rows 2000 3000");
+  const Grades grades = examined("--seed " + std::to_string(seed) + " --cases 40 --lambda 60 --rows 2000 2500");
   std::printf("%s", as_text(grades).c_str());
   EXPECT_TRUE(grades.missing.empty()) << grades.missing.size() << " cases without a report";
   for (const Measure& m : measures) {

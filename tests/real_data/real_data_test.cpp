@@ -101,7 +101,7 @@ TEST_F(RealData, CommunicationsBuildingHasWallsOfBrick) {
   EXPECT_NEAR(named(found, "effect.counted_walls", "material/brick", "loss"), 3.3, 0.4);
   EXPECT_TRUE(std::isnan(named(found, "effect.counted_walls", "material/glass", "loss")));
   EXPECT_LT(found.at("heldout_rmse_db").get<double>(), found.at("base").at("heldout_rmse_db").get<double>() - 0.5);
-  EXPECT_LT(found.at("parameters").at("radio.multiwall/n").get<double>(), 3);  // it was 4.1 without walls
+  EXPECT_LT(fitted(found, "radio.multiwall/n"), 3);  // it was 4.1 without walls
 }
 
 // Its second campaign has a path loss of -60 dB.
