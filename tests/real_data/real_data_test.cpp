@@ -129,7 +129,7 @@ TEST_F(RealData, NoWallIsNamedInTheLibrary) {
 
 TEST_F(RealData, WeakReadingsOfTheOfficeAreMissingAndItsShelvesCostLevel) {
   const fs::path all = write("all.csv", uji_table(-20, false)), heard = write("heard.csv", uji_table(-20, true));
-  const std::string said = muster("diagnose " + worlds + "uji_geo --data " + all.string());
+  const std::string said = asked("diagnose", worlds + "uji_geo", all).at("notes").dump();
   EXPECT_NE(said.find("more readings are missing where less is expected"), std::string::npos) << said;
   const json found = asked("diagnose", worlds + "uji_geo", heard);
   EXPECT_NEAR(named(found, "effect.counted_walls", "material/shelf", "loss"), 2.1, 0.7) << found.dump();
