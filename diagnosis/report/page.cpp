@@ -103,7 +103,7 @@ std::string key_figures(const Diagnosis& d) {
 
 std::string gain_text(const std::optional<search::HeldOut>& h, Standing standing) {
   if (!h)
-    return standing == Standing::set_aside ? "not measured: beside the others it is not beyond chance"
+    return standing == Standing::set_aside ? "not measured: not beyond chance beside the others"
                                            : "not measured: too few blocks of space";
   return fmt::format("{:.2f} → {}; squared error falls by {:.2f} dB² (95 %: {:.2f} to {:.2f}, over {} blocks)",
                      h->rmse_before, db(h->rmse_after), h->gain, h->lower95, h->upper95, h->blocks);

@@ -38,7 +38,7 @@ std::string errors(const Diagnosis& d) {
   if (!d.stairs.empty()) text += fmt::format(" (95 %: {:.2f} to {:.2f})", d.stairs[0].lower95, d.stairs[0].upper95);
   const bool improved = d.named() || !d.unexplained.empty();
   if (improved) text += fmt::format("; with what follows, by {}", db(h.rmse_after));
-  text += fmt::format(". Noise alone would leave {}.", db(noise_floor(d)));
+  text += std::isfinite(noise_floor(d)) ? ". Noise alone would leave " + db(noise_floor(d)) + "." : ".";
   if (improved)
     text += fmt::format(" The squared error falls by {:.2f} dB2 (95 %: {:.2f} to {:.2f}, over {} blocks).", h.gain,
                         h.lower95, h.upper95, h.blocks);
@@ -69,7 +69,7 @@ std::string cause_text(const FoundCause& c, int number) {
   if (c.held_out)
     text += entry("gain", gain_of(*c.held_out));
   else
-    text += entry("gain", standing == Standing::set_aside ? "not measured: beside the others it is not beyond chance"
+    text += entry("gain", standing == Standing::set_aside ? "not measured: not beyond chance beside the others"
                                                           : "not measured: too few blocks of space");
   if (standing == Standing::unconfirmed && c.held_out)
     text += entry("", "What was held out does not confirm it yet: the interval touches zero.");
