@@ -56,6 +56,7 @@ struct SeenRows {
   std::vector<search::Covariate> columns;     // further columns of the data, means
   std::vector<search::Factor> factors;
   std::vector<MappedWall> walls;
+  bool places_known = true;  // false: only distances are, and places stand for them
 };
 
 // What to measure to tell a cause from a rival.

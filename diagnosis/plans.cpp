@@ -218,6 +218,7 @@ PlannedReadings elsewhere(const Maker& make, const std::vector<Standing>& radios
 }  // namespace
 
 std::vector<PlannedReadings> planned_readings(const SeenRows& seen, const std::vector<FoundCause>& about) {
+  if (!seen.places_known) return {};
   const Maker make(seen);
   const auto radios = standing_radios(seen);
   std::vector<PlannedReadings> out;

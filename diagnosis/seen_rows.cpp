@@ -77,6 +77,7 @@ SeenRows seen_rows(const search::Bench& bench, const LinkModel& model) {
       out.factors.back().level.push_back(f.level[static_cast<std::size_t>(rows.example(i))]);
   }
   out.walls = mapped_walls(model.simulation());
+  out.places_known = problem.places_known;
   return out;
 }
 

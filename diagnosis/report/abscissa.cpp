@@ -124,6 +124,7 @@ Abscissa abscissa_of(const SeenRows& rows, const FoundCause& c) {
   if (own == "bearing" && rows.yaw.size()) return bearing(rows);
   if (own == "logd")
     return {"distance", "m", (rows.tx_at - rows.rx_at).colwise().norm().transpose().cwiseMax(0.1), true};
+  if (!rows.places_known) return {"effect as fitted", "dB", c.effect, false, {}, true};
   for (const auto& sought : {along_wall, beside_point, through_wall, about_radio}) {
     if (auto out = sought(rows, c)) return *out;
   }

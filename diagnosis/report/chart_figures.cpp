@@ -86,6 +86,7 @@ void add_geometry(const diagnosis::SeenRows& rows, std::vector<Along>& out) {
     out.push_back({"bearing of the other radio", "deg", "~bearing", bearing});
     out.push_back({"heading", "deg", "~heading", rows.yaw.unaryExpr(&in_degrees)});
   }
+  if (!rows.places_known) return;
   out.push_back({"direction from the transmitter", "deg", "~txbearing", from_tx});
   const Places places = places_of(rows);
   if (!places.vary()) return;
@@ -124,7 +125,7 @@ pic::ErrorBars bars_of(const std::vector<Bin>& bins, pic::Colour colour) {
 pic::Figure staircase(const Diagnosis& d) {
   pic::ErrorBars bars{.colour = pic::blue};
   pic::Line steps{.colour = pic::blue, .width = 2};
-  pic::Panel panel{.y = {.label = "error at places not seen", .unit = "dB", .from = 0}, .aspect = 0.45};
+  pic::Panel panel{.y = {.label = "held-out error", .unit = "dB", .from = 0}, .aspect = 0.45};
   for (std::size_t k = 0; k < d.stairs.size(); ++k) {
     const auto x = static_cast<double>(k);
     panel.x.names.push_back(name_of_step(d, k));
@@ -139,7 +140,7 @@ pic::Figure staircase(const Diagnosis& d) {
   }
   panel.layers = {pic::Rule{.at = noise_floor(d), .label = fmt::format("noise alone, {:.2f} dB", noise_floor(d))},
                   steps, bars};
-  return {.title = "Error at places not seen, step by step",
+  return {.title = "Error at " + what_is_held_out(d) + " not seen, step by step",
           .caption = fmt::format("Root mean square over rows of held-out blocks, {} in all; intervals by resampling "
                                  "blocks. A perfect model would come down to the dashed line.",
                                  d.held_out ? d.held_out->blocks : 0),
@@ -214,7 +215,7 @@ pic::Figure residual_by_covariate(const Diagnosis& d) {
 std::vector<Picture> pictures_of(const Diagnosis& d) {
   std::vector<Picture> out;
   if (d.seen.before.size() == 0) return out;
-  const bool map = places_of(d.seen).vary();
+  const bool map = d.seen.places_known && places_of(d.seen).vary();
   if (map) out.push_back({"residual_map", residual_map(d)});
   if (d.stairs.size() > 1) out.push_back({"steps", staircase(d)});
   for (std::size_t k = 0; k < d.causes.size(); ++k)

@@ -18,7 +18,7 @@ constexpr const char* style = R"(
 :root { color-scheme: light dark; --paper: #fff; --ground: #f6f7f9; --ink: #1a1c1f; --soft: #5c6370; --line: #dfe3e8;
   --good: #00795a; --warn: #a34700; }
 @media (prefers-color-scheme: dark) { :root { --paper: #1d2126; --ground: #14171b; --ink: #e7e9ec; --soft: #a0a8b3;
-  --line: #343a42; --good: #4fc9a2; --warn: #f0a25e; } figure svg { filter: brightness(.93); } }
+  --line: #343a42; --good: #4fc9a2; --warn: #f0a25e; } figure { filter: brightness(.9); } }
 * { box-sizing: border-box; }
 body { margin: 0; background: var(--ground); color: var(--ink); font: 16px/1.55 Helvetica, Arial, 'Liberation Sans', sans-serif; }
 main { max-width: 1080px; margin: 0 auto; padding: 40px 20px 64px; }
@@ -32,6 +32,7 @@ figure { background: #fff; padding: 16px; text-align: center; } figure svg { max
 .key div { background: var(--paper); border: 1px solid var(--line); border-radius: 10px; padding: 14px 16px; }
 .key b { display: block; font-size: 24px; font-weight: 600; line-height: 1.2; white-space: nowrap; } .key span { color: var(--soft); font-size: 13px; }
 table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; margin: 0 0 12px; }
+table.values { width: auto; min-width: 420px; }
 th { text-align: left; color: var(--soft); font-weight: normal; font-size: 13px; }
 th, td { padding: 6px 16px 6px 0; border-bottom: 1px solid var(--line); vertical-align: top; }
 tr:last-child td { border-bottom: 0; } td.n, th.n { text-align: right; white-space: nowrap; } .scroll { overflow-x: auto; }
@@ -56,14 +57,15 @@ struct Cell {
 };
 using Row = std::vector<Cell>;
 
-std::string table(const Row& head, const std::vector<Row>& rows) {
+std::string table(const Row& head, const std::vector<Row>& rows, const char* kind = "") {
   const auto line = [](const Row& row, const char* tag) {
     std::string out = "<tr>";
     for (const Cell& cell : row)
       out += fmt::format("<{0}{1}>{2}</{0}>", tag, cell.number ? " class=\"n\"" : "", escaped(cell.text));
     return out + "</tr>\n";
   };
-  std::string out = "<div class=\"scroll\"><table>\n" + line(head, "th");
+  std::string out = fmt::format("<div class=\"scroll\"><table{}>\n", *kind ? fmt::format(" class=\"{}\"", kind) : "") +
+                    line(head, "th");
   for (const Row& row : rows) out += line(row, "td");
   return out + "</table></div>\n";
 }
@@ -82,7 +84,8 @@ std::string key_figure(const std::string& value, const std::string& what) {
 std::string key_figures(const Diagnosis& d) {
   std::string out = "<section class=\"key\">\n";
   if (d.held_out) {
-    out += key_figure(db(d.held_out->rmse_before), "error of the world, fitted, at places that a fit has not seen");
+    out += key_figure(db(d.held_out->rmse_before),
+                      "error of the world, fitted, at " + what_is_held_out(d) + " that a fit has not seen");
     if (d.stairs.size() > 1) out += key_figure(db(d.held_out->rmse_after), "with what was found");
     out += key_figure(db(noise_floor(d)), "what noise alone would leave");
     if (d.stairs.size() > 1)
@@ -100,7 +103,7 @@ std::string key_figures(const Diagnosis& d) {
 
 std::string gain_text(const std::optional<search::HeldOut>& h, Standing standing) {
   if (!h)
-    return standing == Standing::set_aside ? "not measured: beside the others it is not beyond chance"
+    return standing == Standing::set_aside ? "not measured: not beyond chance beside the others"
                                            : "not measured: too few blocks of space";
   return fmt::format("{:.2f} → {}; squared error falls by {:.2f} dB² (95 %: {:.2f} to {:.2f}, over {} blocks)",
                      h->rmse_before, db(h->rmse_after), h->gain, h->lower95, h->upper95, h->blocks);
@@ -122,10 +125,10 @@ std::string cause_card(const FoundCause& c, std::size_t number, const std::vecto
                   sure ? "named" : "suspected", sure ? "named" : "suspected", escaped(capital(sentence(c))));
   if (standing == Standing::unconfirmed)
     out += paragraph(
-        "Named by the data, but places not seen do not confirm it yet: the interval of its gain touches zero.");
+        "Named by the data, but what was held out does not confirm it yet: the interval of its gain touches zero.");
   std::vector<Row> values;
   for (const CauseValue& v : c.values) values.push_back({{v.name}, {quantity(v), true}, {interval(v), true}});
-  out += table({{"parameter"}, {"value", true}, {"95 % interval", true}}, values);
+  out += table({{"parameter"}, {"value", true}, {"95 % interval", true}}, values, "values");
   out += table({{""}, {""}},
                {{{"cause"}, {c.id}},
                 {{"where"}, {c.label == "all" ? "everywhere" : c.label}},
@@ -193,7 +196,7 @@ std::string world(const Diagnosis& d) {
                     {quantity(v.value, 1.96 * v.stderror, v.unit), true},
                     {"± " + rounded(1.96 * v.stderror, 1.96 * v.stderror), true}});
   std::string out = heading("The world's own parameters, beside the causes") + "<div class=\"card\">";
-  out += table({{"parameter"}, {"value", true}, {"95 %", true}}, rows);
+  out += table({{"parameter"}, {"value", true}, {"95 %", true}}, rows, "values");
   const auto& n = d.noise;
   out += paragraph(fmt::format("Noise: {} field of {} that decorrelates over {:.2f} m, and {} a reading.",
                                noise::name_of(n.family), db(std::sqrt(n.field_variance())), n.decorrelation(),
@@ -224,11 +227,9 @@ std::string loop(const Diagnosis& d) {
 
 std::string page_of(const Diagnosis& d, const Setting& setting, const std::vector<Picture>& pictures) {
   std::string body = fmt::format("<h1>{} {}</h1>\n", escaped(setting.world), escaped(verdict_in_words(d)));
-  body +=
-      paragraph(fmt::format("{} readings of {}, averaged to {} rows: neighbours on one link, at most 1.2 s, 1 m and "
-                            "35 degrees apart. Verdict: {}.",
-                            d.readings, setting.data, d.rows, d.verdict()),
-                "soft");
+  body += paragraph(
+      fmt::format("{} readings of {}, {}. Verdict: {}.", d.readings, setting.data, rows_in_words(d), d.verdict()),
+      "soft");
   body += key_figures(d);
   if (!d.held_out) body += paragraph(why_no_blocks(d));
   body += figure_named(pictures, "residual_map");

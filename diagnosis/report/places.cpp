@@ -5,6 +5,23 @@
 
 namespace muster::report {
 
+namespace {
+
+// Radios that were at places more than half a metre apart.
+std::vector<bool> moving(const diagnosis::SeenRows& rows) {
+  std::vector<bool> moves(rows.radios.size(), false);
+  std::map<int, Eigen::Vector3d> first;
+  for (std::size_t k = 0; k < rows.tx.size(); ++k) {
+    for (const auto& [radio, ends] : {std::pair{rows.tx[k], &rows.tx_at}, std::pair{rows.rx[k], &rows.rx_at}}) {
+      const Eigen::Vector3d at = ends->col(static_cast<Eigen::Index>(k));
+      if ((first.try_emplace(radio, at).first->second - at).norm() > 0.5) moves[static_cast<std::size_t>(radio)] = true;
+    }
+  }
+  return moves;
+}
+
+}  // namespace
+
 Places places_of(const diagnosis::SeenRows& rows) {
   Places out;
   const auto n = static_cast<Eigen::Index>(rows.tx.size());
@@ -20,6 +37,17 @@ Places places_of(const diagnosis::SeenRows& rows) {
   out.place = tx_stays ? rows.rx_at : rows.tx_at;
   out.anchor = tx_stays ? rows.tx_at : rows.rx_at;
   out.radio = tx_stays ? rows.tx : rows.rx;
+  // A link the other way round lies at the end that moves too.
+  const std::vector<bool> moves = moving(rows);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const bool tx_moves = moves[static_cast<std::size_t>(rows.tx[k])],
+               rx_moves = moves[static_cast<std::size_t>(rows.rx[k])];
+    if (tx_moves == rx_moves || rx_moves == tx_stays) continue;
+    out.place.col(i) = tx_moves ? rows.tx_at.col(i) : rows.rx_at.col(i);
+    out.anchor.col(i) = tx_moves ? rows.rx_at.col(i) : rows.tx_at.col(i);
+    out.radio[k] = tx_moves ? rows.rx[k] : rows.tx[k];
+  }
   out.width = out.place.row(0).maxCoeff() - out.place.row(0).minCoeff();
   out.depth = out.place.row(1).maxCoeff() - out.place.row(1).minCoeff();
   return out;

@@ -24,10 +24,8 @@ std::string db(double value) { return fmt::format("{:.2f} dB", value); }
 
 std::string introduction(const Diagnosis& d, const Setting& setting) {
   std::string text = wrapped(setting.world + " " + verdict_in_words(d) + ".");
-  text +=
-      wrapped(fmt::format("{} readings of {}, averaged to {} rows (neighbours on one link: at most 1.2 s, 1 m and "
-                          "35 deg apart). The world's own parameters are fitted.",
-                          d.readings, setting.data, d.rows));
+  text += wrapped(fmt::format("{} readings of {}, {}. The world's own parameters are fitted.", d.readings, setting.data,
+                              rows_in_words(d)));
   return text;
 }
 
@@ -35,11 +33,12 @@ std::string errors(const Diagnosis& d) {
   if (!d.held_out)
     return wrapped(fmt::format("The fitted world leaves {} a reading. ", db(d.residual_sd)) + why_no_blocks(d), 2, 2);
   const auto& h = *d.held_out;
-  std::string text = fmt::format("At places that a fit has not seen, the world errs by {}", db(h.rmse_before));
+  std::string text =
+      fmt::format("At {} that a fit has not seen, the world errs by {}", what_is_held_out(d), db(h.rmse_before));
   if (!d.stairs.empty()) text += fmt::format(" (95 %: {:.2f} to {:.2f})", d.stairs[0].lower95, d.stairs[0].upper95);
   const bool improved = d.named() || !d.unexplained.empty();
   if (improved) text += fmt::format("; with what follows, by {}", db(h.rmse_after));
-  text += fmt::format(". Noise alone would leave {}.", db(noise_floor(d)));
+  text += std::isfinite(noise_floor(d)) ? ". Noise alone would leave " + db(noise_floor(d)) + "." : ".";
   if (improved)
     text += fmt::format(" The squared error falls by {:.2f} dB2 (95 %: {:.2f} to {:.2f}, over {} blocks).", h.gain,
                         h.lower95, h.upper95, h.blocks);
@@ -48,7 +47,7 @@ std::string errors(const Diagnosis& d) {
 
 std::string gain_of(const search::HeldOut& h) {
   return fmt::format(
-      "{:.2f} -> {} at places not seen; squared error falls by {:.2f} dB2 (95 %: {:.2f} to {:.2f}, {} blocks)",
+      "{:.2f} -> {} where not seen; squared error falls by {:.2f} dB2 (95 %: {:.2f} to {:.2f}, {} blocks)",
       h.rmse_before, db(h.rmse_after), h.gain, h.lower95, h.upper95, h.blocks);
 }
 
@@ -70,10 +69,10 @@ std::string cause_text(const FoundCause& c, int number) {
   if (c.held_out)
     text += entry("gain", gain_of(*c.held_out));
   else
-    text += entry("gain", standing == Standing::set_aside ? "not measured: beside the others it is not beyond chance"
+    text += entry("gain", standing == Standing::set_aside ? "not measured: not beyond chance beside the others"
                                                           : "not measured: too few blocks of space");
   if (standing == Standing::unconfirmed && c.held_out)
-    text += entry("", "Places not seen do not confirm it yet: the interval touches zero.");
+    text += entry("", "What was held out does not confirm it yet: the interval touches zero.");
   std::string rivals;
   for (const search::Rival& r : c.rivals)
     rivals += fmt::format("{}{} {}, {:.1f} nats behind, D {:.0f}: {}", rivals.empty() ? "" : "; ", short_name(r.id),
@@ -107,7 +106,7 @@ std::string unexplained(const Diagnosis& d) {
 
 std::string stairs(const Diagnosis& d) {
   if (d.stairs.size() < 3) return "";  // with one step, the cause has said it
-  std::string text = heading("Error at places not seen, step by step");
+  std::string text = heading("Error at " + what_is_held_out(d) + " not seen, step by step");
   for (std::size_t k = 0; k < d.stairs.size(); ++k)
     text += fmt::format("  {:<40} {:6.2f} dB   95 %: {:.2f} to {:.2f}\n", name_of_step(d, k), d.stairs[k].rmse,
                         d.stairs[k].lower95, d.stairs[k].upper95);

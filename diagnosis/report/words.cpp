@@ -146,8 +146,8 @@ std::string verdict_in_words(const Diagnosis& d) {
     return count_of(d, Standing::set_aside) ? "is adequate: what stands out is not beyond chance, a suspicion remains"
                                             : "is adequate: nothing was found beyond chance";
   const std::string named = confirmed + unconfirmed == 1 ? causes + " is named" : causes + " are named";
-  if (confirmed == 0) return "seems wrong: " + named + ", but places not seen do not confirm it yet";
-  return "is wrong: " + named + (unconfirmed ? ", not all confirmed at places not seen" : "");
+  if (confirmed == 0) return "seems wrong: " + named + ", but what was held out does not confirm it yet";
+  return "is wrong: " + named + (unconfirmed ? ", not all confirmed by what was held out" : "");
 }
 
 double noise_floor(const Diagnosis& d) {
@@ -155,9 +155,16 @@ double noise_floor(const Diagnosis& d) {
   return std::sqrt(d.noise.field_variance() + d.noise.reading_variance() * d.seen.count.cwiseInverse().mean());
 }
 
+std::string what_is_held_out(const Diagnosis& d) { return d.seen.places_known ? "places" : "distances"; }
+
+std::string rows_in_words(const Diagnosis& d) {
+  if (static_cast<std::size_t>(d.rows) == d.readings) return "each a row of its own";
+  return fmt::format("averaged to {} rows (neighbours on one link: at most 1.2 s, 1 m and 35 degrees apart)", d.rows);
+}
+
 std::string why_no_blocks(const Diagnosis& d) {
   return fmt::format(
-      "All readings lie in one block of {:.1f} m (three decorrelation distances): no place is left that a fit has not "
+      "All readings lie in one block of {:.1f} m (three decorrelation distances): nothing is left that a fit has not "
       "seen, so no gain can be measured. Readings from a wider area would allow it.",
       3 * d.noise.decorrelation());
 }

@@ -44,6 +44,10 @@ std::string chance(double log_p);
 std::string verdict_in_words(const Diagnosis& diagnosis);
 // dB that noise alone leaves of one row's mean, wherever it lies.
 double noise_floor(const Diagnosis& diagnosis);
+// "places", or "distances" where the data have no places.
+std::string what_is_held_out(const Diagnosis& diagnosis);
+// How readings were gathered to rows.
+std::string rows_in_words(const Diagnosis& diagnosis);
 // Without held-out blocks: why there are none.
 std::string why_no_blocks(const Diagnosis& diagnosis);
 

@@ -1,0 +1,107 @@
+// Words, digits and gates, on results that are made up.
+#include <gtest/gtest.h>
+
+#include "diagnosis/report/text.hpp"
+
+namespace muster::report {
+namespace {
+
+FoundCause wall(search::Status status, std::optional<search::HeldOut> held_out) {
+  FoundCause c;
+  c.id = "effect.unmapped_wall";
+  c.label = "(1.00, 2.00) to (3.00, 2.00)";
+  c.title = "a wall that is not on the map costs {loss}";
+  c.tell_apart = "cross the place from both sides";
+  c.status = status;
+  c.values = {{"loss", "dB", 8.5632, 0.16, 8.254, 8.871, 0, 40}};
+  c.evidence = 20;
+  c.lambda = 51;
+  c.held_out = held_out;
+  return c;
+}
+
+Diagnosis with(const FoundCause& cause) {
+  Diagnosis d;
+  d.readings = 1000;
+  d.rows = 200;
+  d.causes = {cause};
+  d.held_out = cause.held_out;
+  return d;
+}
+
+bool says(const std::string& text, const std::string& what) { return text.find(what) != std::string::npos; }
+
+TEST(Digits, FollowTheInterval) {
+  EXPECT_EQ(rounded(8.5632, 0.31), "8.6");
+  EXPECT_EQ(rounded(8.5632, 0.13), "8.56");
+  EXPECT_EQ(rounded(1234.5, 60), "1234");
+  EXPECT_EQ(rounded(-0.001, 0.3), "0.0");
+  EXPECT_EQ(quantity(M_PI / 2, 0.1, "rad"), "90 deg");
+  EXPECT_EQ(interval({"loss", "dB", 8.5, 0.1, 8.254, 8.871, 0, 40}), "8.3 to 8.9 dB");
+  EXPECT_EQ(interval({"x", "m", 1, 0, 1, 1, -9, 9}), "no interval");
+}
+
+TEST(Gate, IsIsSaidOnlyWhereHeldOutDataShowIt) {
+  const FoundCause sure = wall(search::Status::named, search::HeldOut{3.5, 2.5, 6, 2.4, 11, 21});
+  EXPECT_EQ(standing_of(sure), Standing::confirmed);
+  EXPECT_TRUE(says(text_of(with(sure), {"hall", "a.csv"}), "(1) it is effect.unmapped_wall"));
+  const FoundCause touching = wall(search::Status::named, search::HeldOut{3.5, 3.4, 0.7, -0.1, 1.5, 21});
+  EXPECT_EQ(standing_of(touching), Standing::unconfirmed);
+  const FoundCause aside = wall(search::Status::suspected, {});
+  EXPECT_EQ(standing_of(aside), Standing::set_aside);
+  const FoundCause unmeasured = wall(search::Status::named, {});
+  EXPECT_EQ(standing_of(unmeasured), Standing::unconfirmed);
+  for (const FoundCause& c : {touching, aside, unmeasured}) {
+    const std::string text = text_of(with(c), {"hall", "a.csv"});
+    EXPECT_TRUE(says(text, "suspected: effect.unmapped_wall")) << text;
+    EXPECT_FALSE(says(text, "it is")) << text;
+    EXPECT_FALSE(says(text, "is wrong")) << text;
+  }
+}
+
+TEST(Text, SaysLambdaGainAndBlocks) {
+  const auto cause = wall(search::Status::named, search::HeldOut{3.5, 2.5, 6, 2.4, 11, 21});
+  const std::string text = text_of(with(cause), {"hall", "a.csv"});
+  for (const char* what : {"lambda 51", "evidence    20.0 nats", "95 %: 2.40 to", "11.00, 21 blocks", "8.6 dB", "95 %: 8.3 to 8.9 dB"})
+    EXPECT_TRUE(says(text, what)) << what << "\n" << text;
+}
+
+TEST(Text, OneBlockIsSaidNotHidden) {
+  const std::string text = text_of(with(wall(search::Status::named, {})), {"hall", "a.csv"});
+  EXPECT_TRUE(says(text, "lie in one block")) << text;
+  EXPECT_TRUE(says(text, "not measured: too few blocks")) << text;
+}
+
+TEST(Text, RivalsThatAreNotDecidedAreQuestions) {
+  FoundCause c = wall(search::Status::named, search::HeldOut{3.5, 2.5, 6, 2.4, 11, 21});
+  c.rivals.push_back({"effect.obstacle", "(2.00, 2.00)", {}, 1.5, 6});
+  Diagnosis d = with(c);
+  d.advice.push_back({"turn on the spot", c.id, "effect.obstacle", 6, 15.0});
+  d.advice.push_back({"move base", c.id, "effect.obstacle", 6, 74.0});
+  const std::string text = text_of(d, {"hall", "a.csv"});
+  EXPECT_TRUE(says(text, "unmapped wall or obstacle: D 6, cannot be told apart")) << text;
+  EXPECT_LT(text.find("move base: predicted D 74, decides"), text.find("turn on the spot: predicted D 15")) << text;
+}
+
+TEST(Text, NothingFoundIsAdequate) {
+  Diagnosis d;
+  d.held_out = search::HeldOut{2.5, 2.5, 0, 0, 0, 12};
+  d.stairs = {{2.5, 2.2, 2.8}};
+  const std::string text = text_of(d, {"hall", "a.csv"});
+  EXPECT_TRUE(says(text, "hall is adequate: nothing was found beyond chance")) << text;
+  EXPECT_FALSE(says(text, "Cause"));
+}
+
+TEST(Text, WrapsAtAHundredLetters) {
+  const std::string long_one(60, 'a'), text = wrapped(long_one + " " + long_one + " b", 2, 4);
+  EXPECT_EQ(text, "  " + long_one + "\n    " + long_one + " b\n");
+}
+
+TEST(Text, ReasonsAreGathered) {
+  Diagnosis d;
+  d.not_tested = {"effect.step: no t", "effect.height: one height", "effect.drift: no t"};
+  EXPECT_EQ(reasons_not_tested(d), (std::vector<std::string>{"step, drift: no t", "height: one height"}));
+}
+
+}  // namespace
+}  // namespace muster::report
