@@ -129,6 +129,22 @@ bool driven_through(const Survey& s, double x, double y, double radius) {
                      [&](const auto& w) { return std::hypot(w[0] - x, w[1] - y) < 0.7 * radius; });
 }
 
+Eigen::MatrixXd moves_of_segment(const Eigen::VectorXd& t) {
+  constexpr double way = 0.4, turn = 0.15;  // m, rad
+  const Eigen::Vector2d along(std::cos(t[4]), std::sin(t[4])), across(-along.y(), along.x());
+  Eigen::MatrixXd moves = Eigen::MatrixXd::Zero(t.size(), 6);
+  moves.col(0).segment<2>(1) = way * along;
+  moves.col(1).segment<2>(1) = way * across;
+  for (const Eigen::Index end : {2, 3}) {
+    const double side = end == 2 ? 1 : -1;
+    moves.col(end).segment<2>(1) = side * way / 2 * along;
+    moves(3, end) = way;
+    moves.col(end + 2).segment<2>(1) = side * turn * t[3] / 2 * across;
+    moves(4, end + 2) = turn;
+  }
+  return moves;
+}
+
 std::vector<Eigen::VectorXd> spans(const std::vector<search::Piece>& pieces, const std::string& id) {
   std::vector<Eigen::VectorXd> result;
   std::vector<std::array<Eigen::Vector2d, 2>> ends;

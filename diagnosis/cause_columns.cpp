@@ -183,7 +183,7 @@ struct Maker {
     if (placed && !c.slow) c.pieces = "place";
     std::tie(c.covariates, c.stands_for) = covariates_of(shape);
     if (!c.refinable()) return;
-    c.starts = stands(c) ? (shape.place == PlaceShape::segment ? 8 : 5) : edit ? 2 : 1;
+    c.starts = stands(c) ? (shape.place == PlaceShape::segment ? 10 : 8) : edit ? 2 : 1;
     c.evaluations = edit ? 60 : placed ? 110 : 35;
     c.charge = shape.place == PlaceShape::segment ? 4.5 : placed ? 4 : 0.7;
   }
@@ -327,6 +327,7 @@ std::string make(const Cause& cause, const Maker& maker, CauseSearch& out) {
       if (shape->place == PlaceShape::point) return clear_of_ways(*shape, survey, t) ? 1.0 : 0.3;
       return std::pow(0.8, std::min(driven_across(survey, t[1], t[2], t[3], t[4]), 10));
     };
+    if (shape->place == PlaceShape::segment) c.moves = moves_of_segment;
     if (shape->place == PlaceShape::segment)
       c.spanning = [id = c.id](const std::vector<search::Piece>& pieces) { return spans(pieces, id); };
   }

@@ -8,6 +8,7 @@
 #include "diagnosis/search/integrated.hpp"
 #include "diagnosis/search/merge.hpp"
 #include "diagnosis/search/second_look.hpp"
+#include "diagnosis/search/settle.hpp"
 
 namespace muster::search {
 namespace {
@@ -109,9 +110,16 @@ bool enter(Bench& bench, const Lead& lead, Blocked& blocked, std::vector<Trial>&
       {lead.entry->candidate, lead.theta, lead.columns, trial.gain, lead.evidence, trial.integrated_log_p});
   blocked.now = blocked.for_good;
   if (trial.gain > 30) choose_family_again(bench);
-  refine_again(bench, bench.terms.size() - 1);
   const std::string pieces = bench.terms.back().candidate->pieces;
-  if (!pieces.empty() && merge_pieces(bench, pieces)) bench.refit();
+  if (pieces.empty()) {
+    refine_again(bench, bench.terms.size() - 1);
+    return true;
+  }
+  settle_places(bench);
+  if (merge_pieces(bench, pieces)) {
+    bench.refit();
+    settle_places(bench);
+  }
   return true;
 }
 

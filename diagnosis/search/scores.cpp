@@ -148,13 +148,9 @@ Lead refined(const Bench& bench, const Stand& stand, const Lead& lead, bool from
   Lead best = lead;
   if (c.refinable()) {
     const auto value = [&](const Eigen::VectorXd& theta) { return penalised(bench, stand, c, theta); };
-    double highest = value(lead.theta);
-    for (const Eigen::VectorXd& start : starts_of(lead, from_lead_alone)) {
-      auto [theta, reached] = climbed(c, start, c.evaluations, value);
-      if (reached <= highest) continue;
-      highest = reached;
-      best.theta = theta;
-    }
+    const std::vector<Eigen::VectorXd> starts = starts_of(lead, from_lead_alone);
+    Top top = starts.size() > 1 ? raced(c, starts, value) : climbed(c, starts[0], c.evaluations, value);
+    if (top.second > value(lead.theta)) best.theta = std::move(top.first);
     best.columns = bench.columns_of(c, best.theta);
   }
   best.refined = true;

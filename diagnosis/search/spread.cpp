@@ -1,0 +1,151 @@
+#include "diagnosis/search/spread.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "diagnosis/search/integrated.hpp"
+#include "diagnosis/search/refine.hpp"
+#include "muster/random.hpp"
+
+namespace muster::search {
+namespace {
+
+constexpr int tuning = 200, steps = 1000, noise_draws = 12;
+
+// Columns beside the rest of the model.
+struct Beside {
+  Eigen::MatrixXd columns;  // whitened, without what the rest explains
+  Eigen::VectorXd coefficients;
+  Eigen::MatrixXd covariance;
+  double gain = 0;
+
+  Beside(const Stand& rest, const Eigen::MatrixXd& plain, bool whole)
+      : columns(rest.at.basis.rest(rest.whitener(plain))) {
+    const noise::Basis basis = noise::basis_of(columns);
+    const Eigen::VectorXd explained = basis.q.transpose() * rest.at.residual;
+    coefficients = basis.coefficients(explained, plain.cols());
+    covariance = basis.uncertainty(plain.cols());
+    gain = whole ? rest.gain_as_it_is(plain) : explained.squaredNorm();
+  }
+};
+
+class Walk {
+ public:
+  Walk(const Bench& bench, const Stand& rest, const Term& term)
+      : bench_(bench), rest_(rest), c_(*term.candidate), theta_(term.theta), at_(rest, term.columns, c_.whole) {
+    weight_ = weight(theta_, at_);
+  }
+
+  // One in three accepted suits few dimensions (Gelman, Roberts and Gilks 1996).
+  void step(uint64_t k, bool tune) {
+    const Eigen::MatrixXd moves = moves_at(c_, theta_);
+    Eigen::VectorXd mix(moves.cols());
+    for (Index j = 0; j < mix.size(); ++j) mix[j] = stream_.normal(k, static_cast<uint64_t>(j));
+    const Eigen::VectorXd theta = theta_ + moves * mix * (length_ / std::sqrt(static_cast<double>(mix.size())));
+    bool accepted = false;
+    if (theta == theta.cwiseMax(c_.lower).cwiseMin(c_.upper)) {
+      Beside there(rest_, bench_.columns_of(c_, theta), c_.whole);
+      const double log_ratio = weight(theta, there) - weight_;
+      if (std::log(stream_.uniform(k, 100)) < log_ratio) {
+        accepted = true;
+        theta_ = theta;
+        weight_ += log_ratio;
+        at_ = std::move(there);
+      }
+    }
+    if (tune) length_ = std::min(2.0, length_ * (accepted ? 1.2 : 0.91));
+  }
+
+  const Eigen::VectorXd& theta() const { return theta_; }
+  const Beside& at() const { return at_; }
+
+ private:
+  double weight(const Eigen::VectorXd& theta, const Beside& at) const {
+    if (c_.sign && at.coefficients[0] * c_.sign < 0) return 0;
+    return (c_.admitted ? c_.admitted(theta) : 1) * at.gain / 2;
+  }
+
+  const Bench& bench_;
+  const Stand& rest_;
+  const Candidate& c_;
+  const Stream stream_{key_of("walk")};
+  Eigen::VectorXd theta_;
+  Beside at_;
+  double weight_ = 0, length_ = 0.2;
+};
+
+// By how much the variance grows when the noise is not taken as known.
+double by_noise(const Bench& bench, const Term& term, const Beside& fitted) {
+  const Eigen::MatrixXd without = bench.design_without(term), all = beside(without, term.columns);
+  const noise::Prior& prior = bench.options().prior;
+  const Index width = term.columns.cols();
+  std::vector<double> logs;
+  std::vector<Eigen::VectorXd> means;
+  std::vector<double> traces;
+  for (const noise::Draw& draw : noise::draws(bench.fit, noise_draws, bench.options().seed)) {
+    if (draw.theta != prior.inside(draw.theta)) continue;
+    const Stand stand = bench.stand(all, {bench.fit.covariance.family, draw.theta});
+    logs.push_back(bench.fit.value - stand.at.value - draw.log_density);
+    means.push_back(stand.coefficients(all.cols()).tail(width));
+    traces.push_back(stand.at.basis.uncertainty(all.cols()).bottomRightCorner(width, width).trace());
+  }
+  if (logs.empty()) return 1;
+  const double top = *std::max_element(logs.begin(), logs.end());
+  double sum = 0, trace = 0;
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(width);
+  for (std::size_t k = 0; k < logs.size(); ++k) sum += logs[k] = std::exp(logs[k] - top);
+  for (std::size_t k = 0; k < logs.size(); ++k) mean += logs[k] / sum * means[k];
+  for (std::size_t k = 0; k < logs.size(); ++k)
+    trace += logs[k] / sum * (traces[k] + (means[k] - mean).squaredNorm());
+  return trace / fitted.covariance.trace();
+}
+
+// The same from the scatter of the residuals: scores added up over cells of places (Liang and Zeger 1986).
+double by_scatter(const Bench& bench, const Stand& rest, const Beside& fitted) {
+  const double side = std::max(1.0, bench.fit.covariance.decorrelation());
+  const noise::Sites& sites = bench.field().sites();
+  const Eigen::VectorXd residual = rest.at.residual - fitted.columns * fitted.coefficients;
+  std::map<std::tuple<int, long, long>, Eigen::VectorXd> scores;
+  for (Index i = 0; i < residual.size(); ++i) {
+    const std::tuple cell(sites.radio[static_cast<std::size_t>(i)], std::lround(std::floor(sites.place(0, i) / side)),
+                          std::lround(std::floor(sites.place(1, i) / side)));
+    Eigen::VectorXd& score = scores.try_emplace(cell, Eigen::VectorXd::Zero(fitted.columns.cols())).first->second;
+    score += residual[i] * fitted.columns.row(i).transpose();
+  }
+  Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(fitted.columns.cols(), fitted.columns.cols());
+  double squares = 0, fourths = 0;
+  for (const auto& [cell, score] : scores) {
+    meat += score * score.transpose();
+    squares += score.squaredNorm();
+    fourths += score.squaredNorm() * score.squaredNorm();
+  }
+  if (squares * squares < 10 * fourths) return 1;  // a few cells have most of it: too few to tell a scatter
+  return (fitted.covariance * meat * fitted.covariance).trace() / fitted.covariance.trace();
+}
+
+}  // namespace
+
+Spread spread_of(const Bench& bench, const Term& term) {
+  const Stand rest = bench.stand(bench.design_without(term));
+  const Beside fitted(rest, term.columns, term.candidate->whole);
+  const double grown = std::max({1.0, by_noise(bench, term, fitted), by_scatter(bench, rest, fitted)});
+  Spread result{{term.theta}, grown * fitted.covariance};
+  if (!term.candidate->refinable() || term.smooth()) return result;
+  Walk walk(bench, rest, term);
+  for (uint64_t k = 0; k < tuning; ++k) walk.step(k, true);
+  Eigen::MatrixXd within = Eigen::MatrixXd::Zero(term.columns.cols(), term.columns.cols()), between = within;
+  result.thetas.clear();
+  for (uint64_t k = tuning; k < tuning + steps; ++k) {
+    walk.step(k, false);
+    result.thetas.push_back(walk.theta());
+    within += walk.at().covariance / steps;
+    const Eigen::VectorXd off = walk.at().coefficients - fitted.coefficients;
+    between += off * off.transpose() / steps;
+  }
+  result.coefficients = grown * within + between;
+  return result;
+}
+
+}  // namespace muster::search
