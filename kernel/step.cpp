@@ -50,7 +50,7 @@ void Simulation::run(uint64_t index, uint32_t first, uint32_t last, uint32_t fla
 bool Simulation::stands(Instance& instance) {
   uint64_t read = 0;
   for (const Claim& claim : instance.claims()) {
-    if (claim.in) read += claim.in->version();
+    if (claim.in && claim.in != claim.out) read += claim.in->version();
   }
   const auto [found, first] = stood_.try_emplace(&instance);
   Stood& stood = found->second;
