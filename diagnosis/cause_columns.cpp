@@ -183,7 +183,7 @@ struct Maker {
     if (placed && !c.slow) c.pieces = "place";
     std::tie(c.covariates, c.stands_for) = covariates_of(shape);
     if (!c.refinable()) return;
-    c.starts = stands(c) ? (shape.place == PlaceShape::segment ? 10 : 8) : edit ? 2 : 1;
+    c.starts = stands(c) ? (shape.place == PlaceShape::segment ? 16 : 10) : edit ? 2 : 1;
     c.evaluations = edit ? 60 : placed ? 110 : 35;
     c.charge = shape.place == PlaceShape::segment ? 4.5 : placed ? 4 : 0.7;
   }

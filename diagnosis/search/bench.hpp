@@ -51,6 +51,7 @@ class Bench {
   const Problem& problem() const { return problem_; }
   const Options& options() const { return options_; }
   const noise::Rows& rows() const { return rows_; }
+  const noise::RowLimits& limits() const { return limits_; }
   const noise::Field& field() const { return field_; }
   double log_rows() const { return std::log(static_cast<double>(rows_.size())); }
 
@@ -92,6 +93,7 @@ class Bench {
 
   const Problem& problem_;
   Options options_;
+  noise::RowLimits limits_;
   noise::Rows rows_;
   noise::Field field_;
   Eigen::MatrixXd base_;

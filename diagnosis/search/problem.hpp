@@ -45,7 +45,8 @@ struct Options {
   double merge_share = 0.93;                          // of several pieces that one object must explain
   int most_terms = 6;
   uint64_t seed = 1;
-  noise::RowLimits rows;
+  // Readings are averaged to rows only as far as this needs: an average blurs the edges of shadows.
+  Index most_rows = 5000;
   noise::Prior prior;
 };
 

@@ -82,8 +82,9 @@ Eigen::VectorXd stride(const Eigen::MatrixXd& moves, const Stream& stream, uint6
   return moves * mix * (length / std::sqrt(among));
 }
 
-Top by_strides(const Candidate& candidate, Top top, uint64_t salt, int evaluations, const Value& value) {
-  constexpr double longest = 1, shortest = 0.04, longer = 1.5, shorter = 0.9;
+Top by_strides(const Candidate& candidate, Top top, uint64_t salt, int evaluations, double longest,
+               const Value& value) {
+  constexpr double shortest = 0.04, longer = 1.5, shorter = 0.9;
   const Stream stream(combined(key_of("strides"), salt));
   double length = longest;
   for (int k = 0; k < evaluations; ++k) {
@@ -110,7 +111,7 @@ Eigen::MatrixXd moves_at(const Candidate& candidate, const Eigen::VectorXd& thet
 
 Top climbed(const Candidate& candidate, const Eigen::VectorXd& start, int evaluations, const Value& value) {
   if (candidate.starts < 2) return by_simplex(candidate, start, evaluations, value);
-  return by_strides(candidate, {start, value(start)}, 0, evaluations, value);
+  return by_strides(candidate, {start, value(start)}, 0, evaluations, 1, value);
 }
 
 Top raced(const Candidate& candidate, const std::vector<Eigen::VectorXd>& starts, const Value& value) {
@@ -118,7 +119,9 @@ Top raced(const Candidate& candidate, const std::vector<Eigen::VectorXd>& starts
   for (const Eigen::VectorXd& start : starts) tops.emplace_back(start, value(start));
   for (const int lap : {1, 2, 4}) {
     const int evaluations = lap * candidate.evaluations / 3;
-    for (Top& top : tops) top = by_strides(candidate, std::move(top), static_cast<uint64_t>(lap), evaluations, value);
+    const double longest = lap == 1 ? 2 : 1;
+    for (Top& top : tops)
+      top = by_strides(candidate, std::move(top), static_cast<uint64_t>(lap), evaluations, longest, value);
     std::stable_sort(tops.begin(), tops.end(), [](const Top& a, const Top& b) { return a.second > b.second; });
     tops.resize((tops.size() + 1) / 2);
   }

@@ -1,6 +1,8 @@
 #include "diagnosis/search/spread.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <tuple>
@@ -12,7 +14,9 @@
 namespace muster::search {
 namespace {
 
-constexpr int tuning = 200, steps = 1000, noise_draws = 12;
+constexpr int noise_draws = 12;
+// Steps of the walk: along the moves, then along what those showed to be its own long axes, twice; the last ones count.
+constexpr std::array laps{200, 400, 1000};
 
 // Columns beside the rest of the model.
 struct Beside {
@@ -39,23 +43,32 @@ class Walk {
   }
 
   // One in three accepted suits few dimensions (Gelman, Roberts and Gilks 1996).
-  void step(uint64_t k, bool tune) {
-    const Eigen::MatrixXd moves = moves_at(c_, theta_);
-    Eigen::VectorXd mix(moves.cols());
-    for (Index j = 0; j < mix.size(); ++j) mix[j] = stream_.normal(k, static_cast<uint64_t>(j));
-    const Eigen::VectorXd theta = theta_ + moves * mix * (length_ / std::sqrt(static_cast<double>(mix.size())));
+  void step(bool tune) {
+    const Eigen::VectorXd theta = theta_ + stride();
     bool accepted = false;
     if (theta == theta.cwiseMax(c_.lower).cwiseMin(c_.upper)) {
       Beside there(rest_, bench_.columns_of(c_, theta), c_.whole);
       const double log_ratio = weight(theta, there) - weight_;
-      if (std::log(stream_.uniform(k, 100)) < log_ratio) {
+      if (std::log(stream_.uniform(k_, 100)) < log_ratio) {
         accepted = true;
         theta_ = theta;
         weight_ += log_ratio;
         at_ = std::move(there);
       }
     }
-    if (tune) length_ = std::min(2.0, length_ * (accepted ? 1.2 : 0.91));
+    if (tune) length_ = std::min(3.0, length_ * (accepted ? 1.2 : 0.91));
+    ++k_;
+  }
+
+  // Strides along the axes of these thetas (Haario, Saksman and Tamminen 2001), now and then along a move.
+  void learn(const std::vector<Eigen::VectorXd>& thetas) {
+    const Index n = theta_.size(), count = static_cast<Index>(thetas.size());
+    Eigen::MatrixXd all(n, count);
+    for (Index k = 0; k < count; ++k) all.col(k) = thetas[static_cast<std::size_t>(k)];
+    all.colwise() -= all.rowwise().mean().eval();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(all * all.transpose() / static_cast<double>(count));
+    axes_ = axes.eigenvectors() * axes.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+    length_ = 1;
   }
 
   const Eigen::VectorXd& theta() const { return theta_; }
@@ -67,10 +80,21 @@ class Walk {
     return (c_.admitted ? c_.admitted(theta) : 1) * at.gain / 2;
   }
 
+  Eigen::VectorXd stride() const {
+    const bool own = axes_.size() > 0 && stream_.uniform(k_, 101) < 0.7;
+    const Eigen::MatrixXd moves = own ? axes_ : moves_at(c_, theta_);
+    const double unit = axes_.size() == 0 ? length_ : own ? 2.4 * length_ : 0.1;
+    Eigen::VectorXd mix(moves.cols());
+    for (Index j = 0; j < mix.size(); ++j) mix[j] = stream_.normal(k_, static_cast<uint64_t>(j));
+    return moves * mix * (unit / std::sqrt(static_cast<double>(mix.size())));
+  }
+
   const Bench& bench_;
   const Stand& rest_;
   const Candidate& c_;
   const Stream stream_{key_of("walk")};
+  uint64_t k_ = 0;
+  Eigen::MatrixXd axes_;  // empty: the candidate's moves alone
   Eigen::VectorXd theta_;
   Beside at_;
   double weight_ = 0, length_ = 0.2;
@@ -134,15 +158,19 @@ Spread spread_of(const Bench& bench, const Term& term) {
   Spread result{{term.theta}, grown * fitted.covariance};
   if (!term.candidate->refinable() || term.smooth()) return result;
   Walk walk(bench, rest, term);
-  for (uint64_t k = 0; k < tuning; ++k) walk.step(k, true);
-  Eigen::MatrixXd within = Eigen::MatrixXd::Zero(term.columns.cols(), term.columns.cols()), between = within;
-  result.thetas.clear();
-  for (uint64_t k = tuning; k < tuning + steps; ++k) {
-    walk.step(k, false);
-    result.thetas.push_back(walk.theta());
-    within += walk.at().covariance / steps;
-    const Eigen::VectorXd off = walk.at().coefficients - fitted.coefficients;
-    between += off * off.transpose() / steps;
+  Eigen::MatrixXd within, between;
+  for (const int lap : laps) {
+    const bool last = lap == laps.back();
+    result.thetas.clear();
+    within = between = Eigen::MatrixXd::Zero(term.columns.cols(), term.columns.cols());
+    for (int k = 0; k < lap; ++k) {
+      walk.step(!last);
+      if (k >= lap / 4 || last) result.thetas.push_back(walk.theta());
+      const Eigen::VectorXd off = walk.at().coefficients - fitted.coefficients;
+      within += walk.at().covariance / lap;
+      between += off * off.transpose() / lap;
+    }
+    if (!last) walk.learn(result.thetas);
   }
   result.coefficients = grown * within + between;
   return result;
