@@ -20,14 +20,13 @@ noise::Sheet normals_of(Index rows, int count, uint64_t seed) {
   return result;
 }
 
-// The shortest rows that are few enough, up to the usual ones.
-noise::RowLimits limits_for(const noise::Readings& readings, Index most_rows) {
-  const noise::RowLimits usual;
+// The shortest rows that are few enough, up to the longest ones.
+noise::RowLimits limits_for(const noise::Readings& readings, const noise::RowLimits& longest, Index most_rows) {
   for (const double share : {0.0, 0.2, 0.3, 0.45, 0.67}) {
-    const noise::RowLimits limits{share * usual.time, usual.turn, share * usual.way};
+    const noise::RowLimits limits{share * longest.time, longest.turn, share * longest.way};
     if (noise::Rows(readings, limits).size() <= most_rows) return limits;
   }
-  return usual;
+  return longest;
 }
 
 }  // namespace
@@ -53,7 +52,7 @@ Eigen::VectorXd Stand::coefficients(Index columns) const {
 Bench::Bench(const Problem& problem, const Options& options)
     : problem_(problem),
       options_(options),
-      limits_(limits_for(problem.readings, options.most_rows)),
+      limits_(limits_for(problem.readings, options.rows, options.most_rows)),
       rows_(problem.readings, limits_),
       field_(rows_.sites(problem.readings), {10, 4, options.seed}),
       base_(rows_.mean(problem.base)),

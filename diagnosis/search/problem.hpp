@@ -45,8 +45,8 @@ struct Options {
   double merge_share = 0.93;                          // of several pieces that one object must explain
   int most_terms = 6;
   uint64_t seed = 1;
-  // Readings are averaged to rows only as far as this needs: an average blurs the edges of shadows.
-  Index most_rows = 5000;
+  noise::RowLimits rows;   // the longest ones,
+  Index most_rows = 5000;  // as long as this needs: an average blurs the edges of shadows
   noise::Prior prior;
 };
 

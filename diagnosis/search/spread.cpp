@@ -17,6 +17,9 @@ namespace {
 constexpr int noise_draws = 12;
 // Steps of the walk: along the moves, then along what those showed to be its own long axes, twice; the last ones count.
 constexpr std::array laps{200, 400, 1000};
+// The walk is over exp(gain / 2 / heat), which lets it over to other tops; what it meets is weighed back.
+constexpr double heat = 3;
+constexpr int kept = 400;  // thetas
 
 // Columns beside the rest of the model.
 struct Beside {
@@ -35,6 +38,30 @@ struct Beside {
   }
 };
 
+struct Met {
+  Eigen::VectorXd theta, coefficients;
+  Eigen::MatrixXd covariance;
+  double weight;  // its logarithm, until weigh()
+};
+
+void weigh(std::vector<Met>& met) {
+  double top = met[0].weight, sum = 0;
+  for (const Met& m : met) top = std::max(top, m.weight);
+  for (Met& m : met) sum += m.weight = std::exp(m.weight - top);
+  for (Met& m : met) m.weight /= sum;
+}
+
+// As many of each as its weight asks for.
+std::vector<Eigen::VectorXd> drawn(const std::vector<Met>& met) {
+  std::vector<Eigen::VectorXd> result;
+  double sum = 0;
+  for (const Met& m : met) {
+    sum += m.weight * kept;
+    while (static_cast<double>(result.size()) + 0.5 < sum) result.push_back(m.theta);
+  }
+  return result;
+}
+
 class Walk {
  public:
   Walk(const Bench& bench, const Stand& rest, const Term& term)
@@ -48,11 +75,11 @@ class Walk {
     bool accepted = false;
     if (theta == theta.cwiseMax(c_.lower).cwiseMin(c_.upper)) {
       Beside there(rest_, bench_.columns_of(c_, theta), c_.whole);
-      const double log_ratio = weight(theta, there) - weight_;
+      const double log_ratio = (weight(theta, there) - weight_) / heat;
       if (std::log(stream_.uniform(k_, 100)) < log_ratio) {
         accepted = true;
         theta_ = theta;
-        weight_ += log_ratio;
+        weight_ += heat * log_ratio;
         at_ = std::move(there);
       }
     }
@@ -60,11 +87,11 @@ class Walk {
     ++k_;
   }
 
-  // Strides along the axes of these thetas (Haario, Saksman and Tamminen 2001), now and then along a move.
-  void learn(const std::vector<Eigen::VectorXd>& thetas) {
-    const Index n = theta_.size(), count = static_cast<Index>(thetas.size());
+  // Strides along the axes of what was met (Haario, Saksman and Tamminen 2001), now and then along a move.
+  void learn(const std::vector<Met>& met) {
+    const Index n = theta_.size(), count = static_cast<Index>(met.size());
     Eigen::MatrixXd all(n, count);
-    for (Index k = 0; k < count; ++k) all.col(k) = thetas[static_cast<std::size_t>(k)];
+    for (Index k = 0; k < count; ++k) all.col(k) = met[static_cast<std::size_t>(k)].theta;
     all.colwise() -= all.rowwise().mean().eval();
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(all * all.transpose() / static_cast<double>(count));
     axes_ = axes.eigenvectors() * axes.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
@@ -73,6 +100,7 @@ class Walk {
 
   const Eigen::VectorXd& theta() const { return theta_; }
   const Beside& at() const { return at_; }
+  double log_weight() const { return weight_ * (1 - 1 / heat); }
 
  private:
   double weight(const Eigen::VectorXd& theta, const Beside& at) const {
@@ -158,20 +186,23 @@ Spread spread_of(const Bench& bench, const Term& term) {
   Spread result{{term.theta}, grown * fitted.covariance};
   if (!term.candidate->refinable() || term.smooth()) return result;
   Walk walk(bench, rest, term);
-  Eigen::MatrixXd within, between;
+  std::vector<Met> met;
   for (const int lap : laps) {
-    const bool last = lap == laps.back();
-    result.thetas.clear();
-    within = between = Eigen::MatrixXd::Zero(term.columns.cols(), term.columns.cols());
+    met.clear();
     for (int k = 0; k < lap; ++k) {
-      walk.step(!last);
-      if (k >= lap / 4 || last) result.thetas.push_back(walk.theta());
-      const Eigen::VectorXd off = walk.at().coefficients - fitted.coefficients;
-      within += walk.at().covariance / lap;
-      between += off * off.transpose() / lap;
+      walk.step(lap != laps.back());
+      met.push_back({walk.theta(), walk.at().coefficients, walk.at().covariance, walk.log_weight()});
     }
-    if (!last) walk.learn(result.thetas);
+    if (lap != laps.back()) walk.learn({met.begin() + lap / 4, met.end()});
   }
+  weigh(met);
+  Eigen::MatrixXd within = 0 * fitted.covariance, between = within;
+  for (const Met& m : met) {
+    const Eigen::VectorXd off = m.coefficients - fitted.coefficients;
+    within += m.weight * m.covariance;
+    between += m.weight * off * off.transpose();
+  }
+  result.thetas = drawn(met);
   result.coefficients = grown * within + between;
   return result;
 }
