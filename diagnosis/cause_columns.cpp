@@ -185,7 +185,7 @@ struct Maker {
     if (!c.refinable()) return;
     c.starts = stands(c) ? (shape.place == PlaceShape::segment ? 16 : 10) : edit ? 2 : 1;
     c.evaluations = edit ? 60 : placed ? 110 : 35;
-// refinement_charge() over clean cases of the exam: walls 3.8 and 3.2, things 4.8 and 2.3, rooms 1.7 and 1.1, strips
+    // refinement_charge() over clean cases of the exam: walls 3.8 and 3.2, things 4.8 and 2.3, rooms 1.7 and 1.1, strips
     // 2.0 and 2.0, all others -0.3 to 1.3 (16 or 24 draws each, standard error 0.4); and somewhat more, for it grows
     // towards the tail, where decisions fall.
     c.charge = stands(c) ? 4.4 : placed && !edit ? 2 : 0.8;
