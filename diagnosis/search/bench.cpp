@@ -21,15 +21,6 @@ noise::Sheet normals_of(Index rows, int count, uint64_t seed) {
   return result;
 }
 
-// The shortest rows that are few enough, up to the longest ones.
-noise::RowLimits limits_for(const noise::Readings& readings, const noise::RowLimits& longest, Index most_rows) {
-  for (const double share : {0.0, 0.2, 0.3, 0.45, 0.67}) {
-    const noise::RowLimits limits{share * longest.time, longest.turn, share * longest.way};
-    if (noise::Rows(readings, limits).size() <= most_rows) return limits;
-  }
-  return longest;
-}
-
 }  // namespace
 
 Eigen::MatrixXd Entry::atom(Index k) const {
@@ -62,8 +53,7 @@ Eigen::VectorXd Stand::coefficients(Index columns) const {
 Bench::Bench(const Problem& problem, const Options& options)
     : problem_(problem),
       options_(options),
-      limits_(limits_for(problem.readings, options.rows, options.most_rows)),
-      rows_(problem.readings, limits_),
+      rows_(problem.readings, options.rows),
       field_(rows_.sites(problem.readings), {10, 4, options.seed}),
       base_(rows_.mean(problem.base)),
       normals_(normals_of(rows_.size(), options.nulls, options.seed)) {
@@ -104,7 +94,7 @@ Eigen::MatrixXd Bench::design_without(const Term& term) const {
 Stand Bench::stand(const Eigen::MatrixXd& design, const noise::Covariance& covariance) const {
   noise::Whitener whitener(field_, covariance);
   noise::Whitened at = noise::whitened(whitener, y_, design, options_.prior);
-  return {std::move(whitener), std::move(at)};
+  return {std::move(whitener), std::move(at), design};
 }
 
 noise::Fit Bench::fitted(const Eigen::MatrixXd& design, const noise::Covariance& start, int steps) const {

@@ -36,6 +36,7 @@ struct Term {
 struct Stand {
   noise::Whitener whitener;
   noise::Whitened at;
+  Eigen::MatrixXd design;
 
   // The fall of the deviance if these columns (row means) are added.
   double gain(const Eigen::MatrixXd& columns) const;
@@ -54,7 +55,6 @@ class Bench {
   const Problem& problem() const { return problem_; }
   const Options& options() const { return options_; }
   const noise::Rows& rows() const { return rows_; }
-  const noise::RowLimits& limits() const { return limits_; }
   const noise::Field& field() const { return field_; }
   double log_rows() const { return std::log(static_cast<double>(rows_.size())); }
 
@@ -96,7 +96,6 @@ class Bench {
 
   const Problem& problem_;
   Options options_;
-  noise::RowLimits limits_;
   noise::Rows rows_;
   noise::Field field_;
   Eigen::MatrixXd base_;

@@ -45,8 +45,7 @@ struct Options {
   double merge_share = 0.93;                          // of several pieces that one object must explain
   int most_terms = 6;
   uint64_t seed = 1;
-  noise::RowLimits rows;   // the longest ones,
-  Index most_rows = 5000;  // as long as this needs: an average blurs the edges of shadows
+  noise::RowLimits rows;
   noise::Prior prior;
 };
 

@@ -114,16 +114,19 @@ Top climbed(const Candidate& candidate, const Eigen::VectorXd& start, int evalua
   return by_strides(candidate, {start, value(start)}, 0, evaluations, 1, value);
 }
 
-Top raced(const Candidate& candidate, const std::vector<Eigen::VectorXd>& starts, const Value& value) {
+Top raced(const Candidate& candidate, const std::vector<Eigen::VectorXd>& starts, const std::vector<Value>& laps) {
   std::vector<Top> tops;
-  for (const Eigen::VectorXd& start : starts) tops.emplace_back(start, value(start));
-  for (const int lap : {1, 2, 4}) {
-    const int evaluations = lap * candidate.evaluations / 3;
-    const double longest = lap == 1 ? 2 : 1;
-    for (Top& top : tops)
-      top = by_strides(candidate, std::move(top), static_cast<uint64_t>(lap), evaluations, longest, value);
+  for (const Eigen::VectorXd& start : starts) tops.emplace_back(start, 0.0);
+  int evaluations = candidate.evaluations / 3;
+  for (std::size_t lap = 0; lap < laps.size(); ++lap) {
+    const double longest = lap == 0 ? 2 : 1;
+    for (Top& top : tops) {
+      top.second = laps[lap](top.first);
+      top = by_strides(candidate, std::move(top), 1 + lap, evaluations, longest, laps[lap]);
+    }
     std::stable_sort(tops.begin(), tops.end(), [](const Top& a, const Top& b) { return a.second > b.second; });
     tops.resize((tops.size() + 1) / 2);
+    evaluations = std::min(2 * evaluations, 2 * candidate.evaluations);
   }
   return tops[0];
 }

@@ -15,8 +15,9 @@ using Top = std::pair<Eigen::VectorXd, double>;
 // with success and shrink without (Rechenberg's rule of one in five), and begin anew when they have become short.
 Top climbed(const Candidate& candidate, const Eigen::VectorXd& start, int evaluations, const Value& value);
 
-// From several starts, a race in three laps: after each the better half goes on, with twice the evaluations.
-Top raced(const Candidate& candidate, const std::vector<Eigen::VectorXd>& starts, const Value& value);
+// From several starts, a race in laps, each with a value of its own and more evaluations than the one before; after
+// each the better half goes on.
+Top raced(const Candidate& candidate, const std::vector<Eigen::VectorXd>& starts, const std::vector<Value>& laps);
 
 // The candidate's moves at theta: its own, or one column a step.
 Eigen::MatrixXd moves_at(const Candidate& candidate, const Eigen::VectorXd& theta);
