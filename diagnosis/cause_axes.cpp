@@ -92,8 +92,10 @@ std::optional<Axis> axis_of(const muster_param& p, const Survey& s, const CauseS
 }
 
 std::vector<Eigen::VectorXd> places_over(PlaceShape shape, const Survey& s, bool large) {
-  const double spacing = (large ? 2 : 1) * std::max(1.0, std::sqrt(s.east.length() * s.north.length() / 400));
-  const std::vector<double> lengths = large ? std::vector<double>{5, 10} : std::vector<double>{2, 3.5, 5};
+  const double area = s.east.length() * s.north.length();
+  const double spacing = large ? std::max(2.0, std::sqrt(area / 100)) : std::max(0.8, std::sqrt(area / 500));
+  const std::vector<double> lengths = large ? std::vector<double>{5, 10} : std::vector<double>{1.3, 2.2, 3.6, 5.2};
+  const int turns = large ? 2 : 4;
   std::vector<Eigen::VectorXd> result;
   for (double x = s.east.low + spacing / 2; x < s.east.high; x += spacing) {
     for (double y = s.north.low + spacing / 2; y < s.north.high; y += spacing) {
@@ -102,8 +104,7 @@ std::vector<Eigen::VectorXd> places_over(PlaceShape shape, const Survey& s, bool
         continue;
       }
       for (const double length : lengths) {
-        for (const double angle : {s.plan_angle, s.plan_angle + pi / 2})
-          result.push_back(Eigen::Vector4d(x, y, length, angle));
+        for (int k = 0; k < turns; ++k) result.push_back(Eigen::Vector4d(x, y, length, s.plan_angle + k * pi / turns));
       }
     }
   }
@@ -127,6 +128,22 @@ int driven_across(const Survey& s, double x, double y, double length, double ang
 bool driven_through(const Survey& s, double x, double y, double radius) {
   return std::any_of(s.ways.begin(), s.ways.end(),
                      [&](const auto& w) { return std::hypot(w[0] - x, w[1] - y) < 0.7 * radius; });
+}
+
+Eigen::MatrixXd moves_of_segment(const Eigen::VectorXd& t) {
+  constexpr double way = 0.4, turn = 0.15;  // m, rad
+  const Eigen::Vector2d along(std::cos(t[4]), std::sin(t[4])), across(-along.y(), along.x());
+  Eigen::MatrixXd moves = Eigen::MatrixXd::Zero(t.size(), 6);
+  moves.col(0).segment<2>(1) = way * along;
+  moves.col(1).segment<2>(1) = way * across;
+  for (const Eigen::Index end : {2, 3}) {
+    const double side = end == 2 ? 1 : -1;
+    moves.col(end).segment<2>(1) = side * way / 2 * along;
+    moves(3, end) = way;
+    moves.col(end + 2).segment<2>(1) = side * turn * t[3] / 2 * across;
+    moves(4, end + 2) = turn;
+  }
+  return moves;
 }
 
 std::vector<Eigen::VectorXd> spans(const std::vector<search::Piece>& pieces, const std::string& id) {

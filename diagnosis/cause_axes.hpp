@@ -18,6 +18,9 @@ int driven_across(const Survey& survey, double x, double y, double length, doubl
 // Whether a way leads through the disk.
 bool driven_through(const Survey& survey, double x, double y, double radius);
 
+// Moves of a segment: along and across, either end further out, about either end.
+Eigen::MatrixXd moves_of_segment(const Eigen::VectorXd& theta);
+
 // Segments between the ends that lie farthest apart, of each pair of pieces; those of `id` are segments, others points.
 std::vector<Eigen::VectorXd> spans(const std::vector<search::Piece>& pieces, const std::string& id);
 

@@ -148,7 +148,7 @@ class Checker {
     VectorXd shift = VectorXd::Zero(static_cast<Index>(clean.data.rows()));
     shift(clean.used) = cause->candidate.columns(hidden->theta) * hidden->coefficients;
     clean.run->clear();
-    result.difference = against_simulator(clean, *cause, *hidden, bench, shift);
+    result.difference = against_simulator(clean, *cause, *hidden, shift);
     look(clean, shift, number, result);
     return result;
   }
@@ -163,14 +163,14 @@ class Checker {
 
   // The world with an instance of the cause, as the diagnosis would write it, against the world without.
   double against_simulator(Prepared& clean, const CauseCandidate& cause, const Hidden& hidden,
-                           const search::Bench& bench, const VectorXd& shift) const {
+                           const VectorXd& shift) const {
     search::Finding finding{};
     finding.id = id_;
     finding.theta = hidden.theta;
     finding.coefficients = hidden.coefficients;
     finding.uncertainty = MatrixXd::Zero(hidden.coefficients.size(), hidden.coefficients.size());
     Diagnosis extended;
-    extended.causes.push_back(found_cause(finding, cause, bench, nullptr));
+    extended.causes.push_back(found_cause(finding, cause));
     const VectorXd before = clean.model.expected();
     for (std::size_t k = 0; k < clean.base.paths.size(); ++k)
       extended.parameters[clean.base.paths[k]] = clean.base.values[static_cast<Index>(k)];

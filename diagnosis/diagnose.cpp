@@ -66,7 +66,7 @@ class Diagnoser {
         out.unexplained.push_back({f.id.substr(f.id.rfind('~') + 1), f.evidence, f.gain, f.held_out});
         continue;
       }
-      out.causes.push_back(found_cause(f, *cause, bench, k < bench.terms.size() ? &bench.terms[k] : nullptr));
+      out.causes.push_back(found_cause(f, *cause));
       out.causes.back().effect = effect_of(bench, cause->candidate, f);
       give_tables(*cause->shape, out.causes.back());
     }

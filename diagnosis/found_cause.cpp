@@ -10,7 +10,6 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr double normal95 = 1.96;
-constexpr double fall95 = 3.84;  // of the deviance, chi-squared with one degree of freedom
 
 const muster_param& declared(const CauseShape& shape, const std::string& name) {
   const muster_plugin& plugin = *shape.cause.plugin;
@@ -23,52 +22,27 @@ CauseValue value_of(const muster_param& p, double value, double below, double ab
   return {p.name, p.unit, at, (below + above) / (2 * normal95), at - below, at + above, p.min, p.max};
 }
 
-// How far an entry of theta moves, the others held, until the deviance that the term takes away falls by 3.84.
-double reach(const search::Candidate& c, const VectorXd& theta, Index entry, double direction,
-             const std::function<double(const VectorXd&)>& gain) {
-  const double least = gain(theta) - fall95;
-  const double room = direction > 0 ? c.upper[entry] - theta[entry] : theta[entry] - c.lower[entry];
-  double inside = 0, outside = std::min(c.step[entry] / 8, room);
-  const auto at = [&](double way) {
-    VectorXd moved = theta;
-    moved[entry] += direction * way;
-    return gain(moved);
-  };
-  while (outside < room && at(outside) > least) {
-    inside = outside;
-    outside = std::min(2 * outside, room);
-  }
-  for (int k = 0; k < 4; ++k) {
-    const double middle = (inside + outside) / 2;
-    (at(middle) > least ? inside : outside) = middle;
-  }
-  return outside;
-}
-
 struct Reach {
-  double below = 0, above = 0;  // squares
+  double below = 0, above = 0;  // of a 95 % interval
 };
 
-// Of the sought parameters: the reaches of all entries of theta, added in squares.
-std::map<std::string, Reach> reaches(const CauseShape& shape, const search::Candidate& c, const VectorXd& theta,
-                                     const search::Bench& bench, const search::Term& term) {
-  std::map<std::string, Reach> result;
-  const search::Stand stand = bench.stand(bench.design_without(term));
-  const auto gain = [&](const VectorXd& t) {
-    const Eigen::MatrixXd columns = bench.columns_of(c, t);
-    return c.whole ? stand.gain_as_it_is(columns) : stand.gain(columns);
-  };
-  const auto middle = shape.parameters(theta);
-  for (Index entry = 1; entry < c.step.size(); ++entry) {
-    if (c.step[entry] == 0) continue;
-    for (const double direction : {-1.0, 1.0}) {
-      VectorXd moved = theta;
-      moved[entry] += direction * reach(c, theta, entry, direction, gain);
-      for (const auto& [name, value] : shape.parameters(moved)) {
-        const double by = value - middle.at(name);
-        (by < 0 ? result[name].below : result[name].above) += by * by;
-      }
+// Of the sought parameters, about their values at the found theta.
+std::map<std::string, Reach> reaches(const CauseShape& shape, const search::Finding& f) {
+  std::map<std::string, double> sum, squares;
+  const auto middle = shape.parameters(f.theta);
+  for (const VectorXd& theta : f.thetas) {
+    for (const auto& [name, value] : shape.parameters(theta)) {
+      double by = value - middle.at(name);
+      if (declared(shape, name).flags & MUSTER_CYCLIC) by = std::remainder(by, 2 * M_PI);
+      sum[name] += by;
+      squares[name] += by * by;
     }
+  }
+  std::map<std::string, Reach> result;
+  const auto count = static_cast<double>(f.thetas.size());
+  for (const auto& [name, total] : sum) {
+    const double mean = total / count, sd = std::sqrt(std::max(0.0, squares[name] / count - mean * mean));
+    result[name] = {std::max(0.0, normal95 * sd - mean), std::max(0.0, normal95 * sd + mean)};
   }
   return result;
 }
@@ -114,8 +88,7 @@ void add_row(FoundCause& out, const CauseShape& shape, const VectorXd& theta) {
 
 }  // namespace
 
-FoundCause found_cause(const search::Finding& f, const CauseCandidate& cause, const search::Bench& bench,
-                       const search::Term* term) {
+FoundCause found_cause(const search::Finding& f, const CauseCandidate& cause) {
   const CauseShape& shape = *cause.shape;
   FoundCause out;
   out.id = f.id;
@@ -132,11 +105,10 @@ FoundCause found_cause(const search::Finding& f, const CauseCandidate& cause, co
   out.held_out = f.held_out;
   out.rivals = f.rivals;
   add_linear(out, shape, f);
-  auto sure = term ? reaches(shape, cause.candidate, f.theta, bench, *term) : std::map<std::string, Reach>{};
+  auto sure = reaches(shape, f);
   for (const auto& [name, value] : shape.parameters(f.theta)) {
-    if (shape.held.count(name)) continue;
-    out.values.push_back(
-        value_of(declared(shape, name), value, std::sqrt(sure[name].below), std::sqrt(sure[name].above)));
+    if (!shape.held.count(name))
+      out.values.push_back(value_of(declared(shape, name), value, sure[name].below, sure[name].above));
   }
   return out;
 }

@@ -5,8 +5,7 @@
 
 namespace muster::diagnosis {
 
-// `term` of the bench behind the finding, or null for one that was set aside: then places and times have no interval.
-FoundCause found_cause(const search::Finding& finding, const CauseCandidate& cause, const search::Bench& bench,
-                       const search::Term* term);
+// Where nothing is known of how sure it is, as of what was set aside, places and times have no width.
+FoundCause found_cause(const search::Finding& finding, const CauseCandidate& cause);
 
 }  // namespace muster::diagnosis

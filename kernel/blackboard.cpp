@@ -110,10 +110,12 @@ void Table::publish(uint64_t tick) {
   next().tick = tick;
   published_at_ = 1 - published_at_;
   published_ = true;
+  ++version_;
 }
 
 void Table::take_back() {
   if (published_) published_at_ = 1 - published_at_;
+  ++version_;
   end_tick();
 }
 

@@ -67,7 +67,12 @@ class Table {
   // What was written in this tick, published or not; else what stands.
   const Cells& newest() const { return begun_ && !published_ ? cells_[1 - published_at_] : now(); }
   // To put initial or restored values in place; not for steps.
-  Cells& stored() { return cells_[published_at_]; }
+  Cells& stored() {
+    ++version_;
+    return cells_[published_at_];
+  }
+  // Grows whenever something new may stand.
+  uint64_t version() const { return version_; }
 
   // Opens `next` for writing, once a tick: with last values carried over, or not where every cell will be written.
   void begin(bool carry, uint64_t tick) {
@@ -102,6 +107,7 @@ class Table {
   Cells cells_[2];
   std::size_t published_at_ = 0;  // which of the two stands; the other one is being written
   bool begun_ = false, published_ = false;
+  uint64_t version_ = 0;
 };
 
 class Blackboard {

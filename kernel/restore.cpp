@@ -104,6 +104,7 @@ void Simulation::relink_anew() {
 }
 
 void Simulation::put(const Snapshot& snapshot) {
+  stood_.clear();
   for (const auto& [name, saved] : snapshot.sets) {
     Set& set = *board_.find_set(name);
     set.cut(0);

@@ -71,6 +71,7 @@ void Simulation::add_providers() {
 }
 
 void Simulation::relink() {
+  stood_.clear();
   std::vector<Instance*> all;
   for (const auto& instance : instances_) all.push_back(instance.get());
   Linker linker(all, standard_, world_, board_);

@@ -64,7 +64,8 @@ class Simulation {
   void step();
   // Destroys all instances, of which one may fail. Call it last; throws Error.
   void close();
-  // One phase alone at the time that stands, for instance the channel for a fit; time does not pass.
+  // One phase alone at the time that stands, for instance the channel for a fit; time does not pass. Again with nothing
+  // but parameters changed, it steps only the instances that those concern, directly or through what they read.
   void evaluate(uint32_t phase, bool expected);
 
   // By name: "robot/*/pose", "robot/leader/pose", "link/*/level@radio.multiwall.walls". Throws Error.
@@ -115,6 +116,7 @@ class Simulation {
 
   void run(uint64_t tick, uint32_t first, uint32_t last, uint32_t flags);
   void run_batch(Batch& batch, const muster_tick& tick);
+  bool stands(Instance& instance);
   void step_all(const muster_tick& tick);
   void check_sum(const Sum& sum, const muster_tick& tick) const;
   void take_back();
@@ -135,6 +137,14 @@ class Simulation {
   uint64_t tick_ = 0;
   uint64_t planned_from_ = 0;  // planned swaps of ticks before this one are done
   bool all_due_ = false;       // while one phase is evaluated
+  // Of each instance in the last evaluation: its parameters, and the versions of its inputs added up. Empty once
+  // anything else has happened.
+  struct Stood {
+    std::vector<double> params;
+    uint64_t read = 0;
+  };
+  std::map<const Instance*, Stood> stood_;
+  uint32_t stood_flags_ = 0;
   std::vector<Instance*> due_;                          // of the batch that steps
   std::vector<std::string> faults_;                     // of each of them, "" for none
   std::vector<std::pair<Set*, std::size_t>> listed_;    // rows of the listed sets before this tick

@@ -1,5 +1,6 @@
 #include "diagnosis/search/bench.hpp"
 
+#include <cmath>
 #include <stdexcept>
 
 #include "diagnosis/search/scores.hpp"
@@ -34,6 +35,15 @@ double Stand::gain(const Eigen::MatrixXd& columns) const {
 double Stand::gain_as_it_is(const Eigen::MatrixXd& columns) const {
   const Eigen::VectorXd left = at.basis.rest(whitener(columns)).rowwise().sum();
   return 2 * left.dot(at.residual) - left.squaredNorm();
+}
+
+double Stand::skew_charge(const Eigen::MatrixXd& columns) const {
+  const auto added = noise::basis_of(at.basis.rest(whitener(columns)));
+  const Eigen::ArrayXd effect = (added.q * (added.q.transpose() * at.residual)).array();
+  const Eigen::ArrayXd scatter = at.residual.array() - effect;
+  const double energy = effect.square().sum();
+  const double skewness = scatter.cube().mean() / std::pow(scatter.square().mean(), 1.5);
+  return search::skew_charge(std::sqrt(energy), skewness * effect.cube().sum() / std::pow(energy, 1.5));
 }
 
 Eigen::VectorXd Stand::coefficients(Index columns) const {
@@ -84,7 +94,7 @@ Eigen::MatrixXd Bench::design_without(const Term& term) const {
 Stand Bench::stand(const Eigen::MatrixXd& design, const noise::Covariance& covariance) const {
   noise::Whitener whitener(field_, covariance);
   noise::Whitened at = noise::whitened(whitener, y_, design, options_.prior);
-  return {std::move(whitener), std::move(at)};
+  return {std::move(whitener), std::move(at), design};
 }
 
 noise::Fit Bench::fitted(const Eigen::MatrixXd& design, const noise::Covariance& start, int steps) const {

@@ -36,11 +36,15 @@ struct Term {
 struct Stand {
   noise::Whitener whitener;
   noise::Whitened at;
+  Eigen::MatrixXd design;
 
   // The fall of the deviance if these columns (row means) are added.
   double gain(const Eigen::MatrixXd& columns) const;
   // The same with all coefficients at 1.
   double gain_as_it_is(const Eigen::MatrixXd& columns) const;
+  // Nats by which that fall is likelier than under normal noise, if residuals are as skewed as these: deep fades that
+  // lie together look like a loss.
+  double skew_charge(const Eigen::MatrixXd& columns) const;
   Eigen::VectorXd coefficients(Index columns) const;
 };
 

@@ -38,7 +38,9 @@ struct Candidate {
 
   // Continuous refinement: bounds of theta and the first simplex; step 0 holds an entry fixed. All empty: none.
   Eigen::VectorXd lower, upper, step;
-  int starts = 1;         // places to refine from
+  // Moves that suit its shape, as columns: one of each changes the gain about equally. Empty: the steps.
+  std::function<Eigen::MatrixXd(const Eigen::VectorXd& theta)> moves;
+  int starts = 1;         // places to refine from; more than one: its gain has many tops
   int evaluations = 110;  // of the columns, a start
   double charge = 0;      // nats that refinement costs beyond the grid (from nulls refined alike)
   // The share of its gain that a theta may keep: below 1 where it cannot stand. May be empty.

@@ -78,14 +78,16 @@ void test_each(Bench& bench, std::vector<Term>& aside, std::vector<Trial>& trial
     const Term term = bench.terms[k];
     const Candidate& c = *term.candidate;
     const Eigen::MatrixXd rest = bench.design_without(bench.terms[k]);
-    const double gain = bench.stand(rest).gain(term.columns);
+    const Stand stand = bench.stand(rest);
+    const double gain = stand.gain(term.columns);
     const double log_p = bench.log_p(c, gain, term.columns.cols(), true);
     if (term.smooth() || log_p < -40) {
       ++k;
       continue;
     }
     // The fit of the whole design, its columns in another order: the value does not depend on it.
-    const double integrated = integrated_log_p(bench, bench.fit, rest, term.columns, log_tests(bench, c));
+    const double integrated = integrated_log_p(bench, bench.fit, rest, term.columns, log_tests(bench, c)) +
+                              stand.skew_charge(term.columns);
     if (integrated <= threshold) {
       ++k;
       continue;

@@ -37,7 +37,7 @@ bool stands_clear_of_clip(const Bench& bench, const noise::Covariance& covarianc
   const noise::Field field(bench.field().sites().of(clear), {10, 4, bench.options().seed});
   noise::Whitener whitener(field, covariance);
   noise::Whitened at = noise::whitened(whitener, bench.y()(clear), design(clear, Eigen::all), bench.options().prior);
-  const double gain = Stand{std::move(whitener), std::move(at)}.gain(columns(clear, Eigen::all));
+  const double gain = Stand{std::move(whitener), std::move(at), {}}.gain(columns(clear, Eigen::all));
   return log_tail(gain, static_cast<double>(columns.cols())) < std::log(1e-3);
 }
 

@@ -8,6 +8,7 @@
 #include "diagnosis/search/integrated.hpp"
 #include "diagnosis/search/merge.hpp"
 #include "diagnosis/search/second_look.hpp"
+#include "diagnosis/search/settle.hpp"
 
 namespace muster::search {
 namespace {
@@ -52,6 +53,7 @@ Trial tried(const Bench& bench, const Lead& lead, const noise::Fit& fit, const E
   trial.integrated_log_p = trial.log_p;
   if (trial.log_p > -40)
     trial.integrated_log_p = integrated_log_p(bench, fit, design, lead.columns, log_tests(bench, c));
+  trial.integrated_log_p += stand.skew_charge(lead.columns);
   if (!c.pieces.empty() && share_of_others(bench, stand, lead.columns) < 0.08)
     trial.integrated_log_p += bench.options().one_radio_charge;
   if (c.level_like && bench.problem().bounds.any() &&
@@ -109,9 +111,16 @@ bool enter(Bench& bench, const Lead& lead, Blocked& blocked, std::vector<Trial>&
       {lead.entry->candidate, lead.theta, lead.columns, trial.gain, lead.evidence, trial.integrated_log_p});
   blocked.now = blocked.for_good;
   if (trial.gain > 30) choose_family_again(bench);
-  refine_again(bench, bench.terms.size() - 1);
   const std::string pieces = bench.terms.back().candidate->pieces;
-  if (!pieces.empty() && merge_pieces(bench, pieces)) bench.refit();
+  if (pieces.empty()) {
+    refine_again(bench, bench.terms.size() - 1);
+    return true;
+  }
+  settle_places(bench);
+  if (merge_pieces(bench, pieces)) {
+    bench.refit();
+    settle_places(bench);
+  }
   return true;
 }
 

@@ -7,12 +7,14 @@
 #include <exception>
 #include <memory>
 
+#include "muster/random.hpp"
+
 namespace muster::search {
 namespace {
 
 // The free entries of theta, as NLopt sees them; what a candidate throws waits until NLopt has returned.
 struct Climb {
-  const std::function<double(const Eigen::VectorXd&)>& value;
+  const Value& value;
   std::vector<Index> free;
   Eigen::VectorXd best;
   double highest;
@@ -38,10 +40,7 @@ struct Climb {
   }
 };
 
-}  // namespace
-
-std::pair<Eigen::VectorXd, double> climbed(const Candidate& candidate, const Eigen::VectorXd& start, int evaluations,
-                                           const std::function<double(const Eigen::VectorXd&)>& value) {
+Top by_simplex(const Candidate& candidate, const Eigen::VectorXd& start, int evaluations, const Value& value) {
   Climb climb{value, {}, start, value(start)};
   for (Index k = 0; k < candidate.step.size(); ++k) {
     if (candidate.step[k] != 0) climb.free.push_back(k);
@@ -69,6 +68,67 @@ std::pair<Eigen::VectorXd, double> climbed(const Candidate& candidate, const Eig
   nlopt_optimize(climb.optimiser, x.data(), &reached);
   if (climb.thrown) std::rethrow_exception(climb.thrown);
   return {climb.best, climb.highest};
+}
+
+// Now along one move, now along a mix of them all.
+Eigen::VectorXd stride(const Eigen::MatrixXd& moves, const Stream& stream, uint64_t k, double length) {
+  const auto among = static_cast<double>(moves.cols());
+  if (stream.uniform(k, 0) < 0.5) {
+    const auto one = static_cast<Index>(stream.uniform(k, 1) * among);
+    return moves.col(one) * (length * stream.normal(k, 2));
+  }
+  Eigen::VectorXd mix(moves.cols());
+  for (Index j = 0; j < mix.size(); ++j) mix[j] = stream.normal(k, 3 + static_cast<uint64_t>(j));
+  return moves * mix * (length / std::sqrt(among));
+}
+
+Top by_strides(const Candidate& candidate, Top top, uint64_t salt, int evaluations, double longest,
+               const Value& value) {
+  constexpr double shortest = 0.04, longer = 1.5, shorter = 0.9;
+  const Stream stream(combined(key_of("strides"), salt));
+  double length = longest;
+  for (int k = 0; k < evaluations; ++k) {
+    Eigen::VectorXd theta = top.first + stride(moves_at(candidate, top.first), stream, static_cast<uint64_t>(k), length);
+    theta = theta.cwiseMax(candidate.lower).cwiseMin(candidate.upper);
+    const double reached = value(theta);
+    length *= reached > top.second ? longer : shorter;
+    length = length < shortest ? longest : std::min(length, longest);
+    if (reached > top.second) top = {std::move(theta), reached};
+  }
+  return top;
+}
+
+}  // namespace
+
+Eigen::MatrixXd moves_at(const Candidate& candidate, const Eigen::VectorXd& theta) {
+  if (candidate.moves) return candidate.moves(theta);
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(theta.size(), (candidate.step.array() != 0).count());
+  for (Index k = 0, j = 0; k < theta.size(); ++k) {
+    if (candidate.step[k] != 0) result(k, j++) = candidate.step[k];
+  }
+  return result;
+}
+
+Top climbed(const Candidate& candidate, const Eigen::VectorXd& start, int evaluations, const Value& value) {
+  if (candidate.starts < 2) return by_simplex(candidate, start, evaluations, value);
+  return by_strides(candidate, {start, value(start)}, 0, evaluations, 1, value);
+}
+
+Top raced(const Candidate& candidate, const std::vector<Eigen::VectorXd>& starts, const std::vector<Value>& laps) {
+  std::vector<Top> tops;
+  for (const Eigen::VectorXd& start : starts) tops.emplace_back(start, 0.0);
+  int evaluations = candidate.evaluations / 3;
+  for (std::size_t lap = 0; lap < laps.size(); ++lap) {
+    const double longest = lap == 0 ? 2 : 1;
+    for (Top& top : tops) {
+      top.second = laps[lap](top.first);
+      top = by_strides(candidate, std::move(top), 1 + lap, evaluations, longest, laps[lap]);
+    }
+    std::stable_sort(tops.begin(), tops.end(), [](const Top& a, const Top& b) { return a.second > b.second; });
+    tops.resize((tops.size() + 1) / 2);
+    evaluations = std::min(2 * evaluations, 2 * candidate.evaluations);
+  }
+  return tops[0];
 }
 
 }  // namespace muster::search

@@ -70,19 +70,37 @@ bool far_from(const Candidate& candidate, const Eigen::VectorXd& theta, const st
   });
 }
 
-std::vector<Eigen::VectorXd> starts_of(const Lead& lead, bool alone) {
-  const Candidate& c = lead.candidate();
-  std::vector<Eigen::VectorXd> result{lead.theta};
-  if (alone || c.starts < 2 || lead.all.size() == 0) return result;
-  std::vector<Index> order(static_cast<std::size_t>(lead.all.size()));
+// The atoms with the largest gains that lie apart, beside those that are there.
+void add_starts(const Candidate& c, const Eigen::VectorXd& gains, int count, std::vector<Eigen::VectorXd>& starts) {
+  std::vector<Index> order(static_cast<std::size_t>(gains.size()));
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return lead.all[a] > lead.all[b]; });
-  for (std::size_t k = 0; k < std::min<std::size_t>(order.size(), 80); ++k) {
+  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return gains[a] > gains[b]; });
+  const std::size_t enough = starts.size() + static_cast<std::size_t>(count);
+  for (std::size_t k = 0; k < std::min<std::size_t>(order.size(), 160) && starts.size() < enough; ++k) {
     const Eigen::VectorXd& theta = c.grid[static_cast<std::size_t>(order[k])];
-    if (far_from(c, theta, result)) result.push_back(theta);
-    if (static_cast<int>(result.size()) >= c.starts) break;
+    if (far_from(c, theta, starts)) starts.push_back(theta);
   }
-  return result;
+}
+
+// The same total variance with less of it in the field. Whitened, a shadow is little more than its edges, and a place
+// that is off by more than their width gains nothing; in white noise what it covers counts.
+Stand softened(const Bench& bench, const Stand& stand, double share) {
+  noise::Covariance c = stand.whitener.covariance();
+  const double moved = (1 - share) * c.field_variance() * bench.rows().count().mean();
+  c.theta[2] = std::log(c.reading_variance() + moved);
+  c.theta[0] += std::log(share);
+  return bench.stand(stand.design, c);
+}
+
+Top raced_to(const Bench& bench, const Stand& stand, const Lead& lead, const Value& value) {
+  const Candidate& c = lead.candidate();
+  const Stand soft = softened(bench, stand, 0.05), half = softened(bench, stand, 0.4);
+  std::vector<Eigen::VectorXd> starts{lead.theta};
+  if (lead.all.size() > 0) add_starts(c, lead.all, c.starts / 2, starts);
+  const noise::Sheet unit = unit_atoms(*lead.entry, soft);
+  add_starts(c, gains(c, unit, soft.at.residual), c.starts, starts);
+  const auto of = [&](const Stand& s) { return [&](const Eigen::VectorXd& t) { return penalised(bench, s, c, t); }; };
+  return raced(c, starts, {of(soft), of(half), value, value});
 }
 
 }  // namespace
@@ -148,13 +166,9 @@ Lead refined(const Bench& bench, const Stand& stand, const Lead& lead, bool from
   Lead best = lead;
   if (c.refinable()) {
     const auto value = [&](const Eigen::VectorXd& theta) { return penalised(bench, stand, c, theta); };
-    double highest = value(lead.theta);
-    for (const Eigen::VectorXd& start : starts_of(lead, from_lead_alone)) {
-      auto [theta, reached] = climbed(c, start, c.evaluations, value);
-      if (reached <= highest) continue;
-      highest = reached;
-      best.theta = theta;
-    }
+    const bool race = !from_lead_alone && c.starts > 1;
+    Top top = race ? raced_to(bench, stand, lead, value) : climbed(c, lead.theta, c.evaluations, value);
+    if (top.second > value(lead.theta)) best.theta = std::move(top.first);
     best.columns = bench.columns_of(c, best.theta);
   }
   best.refined = true;

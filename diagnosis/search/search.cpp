@@ -6,6 +6,7 @@
 
 #include "diagnosis/search/clean_up.hpp"
 #include "diagnosis/search/integrated.hpp"
+#include "diagnosis/search/spread.hpp"
 
 namespace muster::search {
 namespace {
@@ -39,7 +40,12 @@ Result Search::run() {
   const std::vector<Term> aside = clean_up(bench_, result_.trials);
   for (const Term& term : bench_.terms) {
     result_.findings.push_back(finding_of(term, term.smooth() ? Status::unexplained : Status::named));
-    if (!term.smooth()) result_.findings.back().rivals = rivals_of(bench_, term);
+    if (term.smooth()) continue;
+    Finding& finding = result_.findings.back();
+    finding.rivals = rivals_of(bench_, term);
+    Spread spread = spread_of(bench_, term);
+    finding.uncertainty = std::move(spread.coefficients);
+    finding.thetas = std::move(spread.thetas);
   }
   for (const Term& term : aside)
     result_.findings.push_back(finding_of(term, term.smooth() ? Status::unexplained : Status::suspected));
@@ -73,6 +79,7 @@ Finding Search::finding_of(const Term& term, Status status) const {
                   term.theta,
                   stand.coefficients(design.cols()).tail(width),
                   stand.at.basis.uncertainty(design.cols()).bottomRightCorner(width, width),
+                  {},
                   term.gain,
                   term.evidence,
                   term.log_p,

@@ -51,7 +51,11 @@ std::vector<Lead> second_look(Bench& bench, const Stand& stand, const std::vecto
   for (Lead& lead : looked) {
     const Candidate& c = lead.candidate();
     if (!c.pieces.empty()) lead = refined(bench, stand, lead, false);
-    const noise::Fit fit = fit_with(bench, c, beside(design, lead.columns));
+    noise::Fit fit = fit_with(bench, c, beside(design, lead.columns));
+    if (!c.pieces.empty()) {  // the field of before holds a part of the place and draws it aside
+      lead = refined(bench, bench.stand(design, fit.covariance), lead, false);
+      fit = bench.fitted(beside(design, lead.columns), fit.covariance, 6);
+    }
     lead.gain = bench.stand(design, fit.covariance).gain(lead.columns);
     lead.evidence = bench.evidence(c, lead.gain, c.width, false);
     lead.log_p = bench.log_p(c, lead.gain, c.width, true);

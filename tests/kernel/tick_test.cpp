@@ -76,6 +76,27 @@ TEST_F(Ticks, EvaluateRunsOnePhaseAndTimeStands) {
   EXPECT_EQ(sim.tick(), 4u);
 }
 
+TEST_F(Ticks, EvaluateAgainStepsWhatChangedAndWhatReadsThat) {
+  Simulation sim = run(two_robots +
+                       "<toy.draw name='draw' mean='5'/>\n<toy.copy_sense name='alone' to='self/n' own='true' add='1'/>\n"
+                       "<toy.copy_sense name='after' from='robot/*/reading' columns='reading[m]' to='self/n' own='true'/>\n");
+  step(sim, 1);
+  sim.evaluate(MUSTER_SENSE, true);
+  const double alone = cell(sim, "instance/alone/n"), after = cell(sim, "instance/after/n");
+  sim.evaluate(MUSTER_SENSE, true);
+  EXPECT_EQ(cell(sim, "instance/alone/n"), alone);
+  EXPECT_EQ(cell(sim, "instance/after/n"), after);
+  sim.set_parameter("draw/mean", 7);
+  sim.evaluate(MUSTER_SENSE, true);
+  EXPECT_EQ(cell(sim, "instance/alone/n"), alone);
+  EXPECT_EQ(cell(sim, "instance/after/n"), after + 7);
+  sim.evaluate(MUSTER_SENSE, false);  // drawn, not expected: all again
+  EXPECT_EQ(cell(sim, "instance/alone/n"), alone + 1);
+  step(sim, 1);
+  sim.evaluate(MUSTER_SENSE, false);
+  EXPECT_EQ(cell(sim, "instance/alone/n"), alone + 3);
+}
+
 TEST_F(Ticks, EvaluateReachesInstancesThatAreNotDue) {
   Simulation sim = run(two_robots + "<toy.draw name='draw' mean='5' every='8'/>\n");
   step(sim, 3);

@@ -129,6 +129,28 @@ TEST(RefinementCharge, OfAWallIsAFewNatsAndOfAStepLess) {
   EXPECT_GT(wall, step + 1);
 }
 
+TEST(SkewCharge, IsHowMuchLikelierDeepFadesMakeALoss) {
+  // Sums of 40 Rayleigh fades in dB, upside down, against the normal tail.
+  const Stream stream(key_of("fades"));
+  constexpr int sums = 60000, terms = 40;
+  double cubes = 0;
+  std::vector<double> z(sums, 0);
+  const double sd = 10 / std::log(10.0) * M_PI / std::sqrt(6.0), mean = -10 / std::log(10.0) * 0.5772156649;
+  for (uint64_t k = 0; k < sums; ++k) {
+    for (uint64_t j = 0; j < terms; ++j) {
+      const double x = -(10 * std::log10(-std::log(stream.uniform(k, j) + 1e-300)) - mean) / sd;
+      cubes += x * x * x / (sums * terms);
+      z[k] += x / std::sqrt(static_cast<double>(terms));
+    }
+  }
+  double beyond = 0;
+  for (const double x : z) beyond += x > 2.6 ? 1.0 / sums : 0.0;
+  const double normal = 0.5 * std::erfc(2.6 / std::sqrt(2.0));
+  EXPECT_NEAR(skew_charge(2.6, cubes / std::sqrt(static_cast<double>(terms))), std::log(beyond / normal), 0.15);
+  EXPECT_EQ(skew_charge(6, -0.3), 0);
+  EXPECT_NEAR(skew_charge(6, 0), 0, 1e-9);
+}
+
 Term term_at(const Bench& bench, const std::string& id, const Eigen::VectorXd& theta) {
   for (const Entry& entry : bench.entries()) {
     if (entry.candidate->id == id) return {entry.candidate, theta, bench.columns_of(*entry.candidate, theta)};

@@ -1,0 +1,210 @@
+#include "diagnosis/search/spread.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "diagnosis/search/integrated.hpp"
+#include "diagnosis/search/refine.hpp"
+#include "muster/random.hpp"
+
+namespace muster::search {
+namespace {
+
+constexpr int noise_draws = 12;
+// Steps of the walk: along the moves, then along what those showed to be its own long axes, twice; the last ones count.
+constexpr std::array laps{200, 400, 1000};
+// The walk is over exp(gain / 2 / heat), which lets it over to other tops; what it meets is weighed back.
+constexpr double heat = 3;
+constexpr int kept = 400;  // thetas
+
+// Columns beside the rest of the model.
+struct Beside {
+  Eigen::MatrixXd columns;  // whitened, without what the rest explains
+  Eigen::VectorXd coefficients;
+  Eigen::MatrixXd covariance;
+  double gain = 0;
+
+  Beside(const Stand& rest, const Eigen::MatrixXd& plain, bool whole)
+      : columns(rest.at.basis.rest(rest.whitener(plain))) {
+    const noise::Basis basis = noise::basis_of(columns);
+    const Eigen::VectorXd explained = basis.q.transpose() * rest.at.residual;
+    coefficients = basis.coefficients(explained, plain.cols());
+    covariance = basis.uncertainty(plain.cols());
+    gain = whole ? rest.gain_as_it_is(plain) : explained.squaredNorm();
+  }
+};
+
+struct Met {
+  Eigen::VectorXd theta, coefficients;
+  Eigen::MatrixXd covariance;
+  double weight;  // its logarithm, until weigh()
+};
+
+void weigh(std::vector<Met>& met) {
+  double top = met[0].weight, sum = 0;
+  for (const Met& m : met) top = std::max(top, m.weight);
+  for (Met& m : met) sum += m.weight = std::exp(m.weight - top);
+  for (Met& m : met) m.weight /= sum;
+}
+
+// As many of each as its weight asks for.
+std::vector<Eigen::VectorXd> drawn(const std::vector<Met>& met) {
+  std::vector<Eigen::VectorXd> result;
+  double sum = 0;
+  for (const Met& m : met) {
+    sum += m.weight * kept;
+    while (static_cast<double>(result.size()) + 0.5 < sum) result.push_back(m.theta);
+  }
+  return result;
+}
+
+class Walk {
+ public:
+  Walk(const Bench& bench, const Stand& rest, const Term& term)
+      : bench_(bench), rest_(rest), c_(*term.candidate), theta_(term.theta), at_(rest, term.columns, c_.whole) {
+    weight_ = weight(theta_, at_);
+  }
+
+  // One in three accepted suits few dimensions (Gelman, Roberts and Gilks 1996).
+  void step(bool tune) {
+    const Eigen::VectorXd theta = theta_ + stride();
+    bool accepted = false;
+    if (theta == theta.cwiseMax(c_.lower).cwiseMin(c_.upper)) {
+      Beside there(rest_, bench_.columns_of(c_, theta), c_.whole);
+      const double log_ratio = (weight(theta, there) - weight_) / heat;
+      if (std::log(stream_.uniform(k_, 100)) < log_ratio) {
+        accepted = true;
+        theta_ = theta;
+        weight_ += heat * log_ratio;
+        at_ = std::move(there);
+      }
+    }
+    if (tune) length_ = std::min(3.0, length_ * (accepted ? 1.2 : 0.91));
+    ++k_;
+  }
+
+  // Strides along the axes of what was met (Haario, Saksman and Tamminen 2001), now and then along a move.
+  void learn(const std::vector<Met>& met) {
+    const Index n = theta_.size(), count = static_cast<Index>(met.size());
+    Eigen::MatrixXd all(n, count);
+    for (Index k = 0; k < count; ++k) all.col(k) = met[static_cast<std::size_t>(k)].theta;
+    all.colwise() -= all.rowwise().mean().eval();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(all * all.transpose() / static_cast<double>(count));
+    axes_ = axes.eigenvectors() * axes.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+    length_ = 1;
+  }
+
+  const Eigen::VectorXd& theta() const { return theta_; }
+  const Beside& at() const { return at_; }
+  double log_weight() const { return weight_ * (1 - 1 / heat); }
+
+ private:
+  double weight(const Eigen::VectorXd& theta, const Beside& at) const {
+    if (c_.sign && at.coefficients[0] * c_.sign < 0) return 0;
+    return (c_.admitted ? c_.admitted(theta) : 1) * at.gain / 2;
+  }
+
+  Eigen::VectorXd stride() const {
+    const bool own = axes_.size() > 0 && stream_.uniform(k_, 101) < 0.7;
+    const Eigen::MatrixXd moves = own ? axes_ : moves_at(c_, theta_);
+    const double unit = axes_.size() == 0 ? length_ : own ? 2.4 * length_ : 0.1;
+    Eigen::VectorXd mix(moves.cols());
+    for (Index j = 0; j < mix.size(); ++j) mix[j] = stream_.normal(k_, static_cast<uint64_t>(j));
+    return moves * mix * (unit / std::sqrt(static_cast<double>(mix.size())));
+  }
+
+  const Bench& bench_;
+  const Stand& rest_;
+  const Candidate& c_;
+  const Stream stream_{key_of("walk")};
+  uint64_t k_ = 0;
+  Eigen::MatrixXd axes_;  // empty: the candidate's moves alone
+  Eigen::VectorXd theta_;
+  Beside at_;
+  double weight_ = 0, length_ = 0.2;
+};
+
+// By how much the variance grows when the noise is not taken as known.
+double by_noise(const Bench& bench, const Term& term, const Beside& fitted) {
+  const Eigen::MatrixXd without = bench.design_without(term), all = beside(without, term.columns);
+  const noise::Prior& prior = bench.options().prior;
+  const Index width = term.columns.cols();
+  std::vector<double> logs;
+  std::vector<Eigen::VectorXd> means;
+  std::vector<double> traces;
+  for (const noise::Draw& draw : noise::draws(bench.fit, noise_draws, bench.options().seed)) {
+    if (draw.theta != prior.inside(draw.theta)) continue;
+    const Stand stand = bench.stand(all, {bench.fit.covariance.family, draw.theta});
+    logs.push_back(bench.fit.value - stand.at.value - draw.log_density);
+    means.push_back(stand.coefficients(all.cols()).tail(width));
+    traces.push_back(stand.at.basis.uncertainty(all.cols()).bottomRightCorner(width, width).trace());
+  }
+  if (logs.empty()) return 1;
+  const double top = *std::max_element(logs.begin(), logs.end());
+  double sum = 0, trace = 0;
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(width);
+  for (std::size_t k = 0; k < logs.size(); ++k) sum += logs[k] = std::exp(logs[k] - top);
+  for (std::size_t k = 0; k < logs.size(); ++k) mean += logs[k] / sum * means[k];
+  for (std::size_t k = 0; k < logs.size(); ++k)
+    trace += logs[k] / sum * (traces[k] + (means[k] - mean).squaredNorm());
+  return trace / fitted.covariance.trace();
+}
+
+// The same from the scatter of the residuals: scores added up over cells of places (Liang and Zeger 1986).
+double by_scatter(const Bench& bench, const Stand& rest, const Beside& fitted) {
+  const double side = std::max(1.0, bench.fit.covariance.decorrelation());
+  const noise::Sites& sites = bench.field().sites();
+  const Eigen::VectorXd residual = rest.at.residual - fitted.columns * fitted.coefficients;
+  std::map<std::tuple<int, long, long>, Eigen::VectorXd> scores;
+  for (Index i = 0; i < residual.size(); ++i) {
+    const std::tuple cell(sites.radio[static_cast<std::size_t>(i)], std::lround(std::floor(sites.place(0, i) / side)),
+                          std::lround(std::floor(sites.place(1, i) / side)));
+    Eigen::VectorXd& score = scores.try_emplace(cell, Eigen::VectorXd::Zero(fitted.columns.cols())).first->second;
+    score += residual[i] * fitted.columns.row(i).transpose();
+  }
+  Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(fitted.columns.cols(), fitted.columns.cols());
+  double squares = 0, fourths = 0;
+  for (const auto& [cell, score] : scores) {
+    meat += score * score.transpose();
+    squares += score.squaredNorm();
+    fourths += score.squaredNorm() * score.squaredNorm();
+  }
+  if (squares * squares < 10 * fourths) return 1;  // a few cells have most of it: too few to tell a scatter
+  return (fitted.covariance * meat * fitted.covariance).trace() / fitted.covariance.trace();
+}
+
+}  // namespace
+
+Spread spread_of(const Bench& bench, const Term& term) {
+  const Stand rest = bench.stand(bench.design_without(term));
+  const Beside fitted(rest, term.columns, term.candidate->whole);
+  const double grown = std::max({1.0, by_noise(bench, term, fitted), by_scatter(bench, rest, fitted)});
+  Spread result{{term.theta}, grown * fitted.covariance};
+  if (!term.candidate->refinable() || term.smooth()) return result;
+  Walk walk(bench, rest, term);
+  std::vector<Met> met;
+  for (const int lap : laps) {
+    met.clear();
+    for (int k = 0; k < lap; ++k) {
+      walk.step(lap != laps.back());
+      met.push_back({walk.theta(), walk.at().coefficients, walk.at().covariance, walk.log_weight()});
+    }
+    if (lap != laps.back()) walk.learn({met.begin() + lap / 4, met.end()});
+  }
+  weigh(met);
+  Eigen::MatrixXd within = 0 * fitted.covariance, between = within;
+  for (const Met& m : met) {
+    const Eigen::VectorXd off = m.coefficients - fitted.coefficients;
+    within += m.weight * m.covariance;
+    between += m.weight * off * off.transpose();
+  }
+  result.thetas = drawn(met);
+  result.coefficients = grown * within + between;
+  return result;
+}
+
+}  // namespace muster::search

@@ -1,0 +1,19 @@
+// How well a term's place, time or shape and its coefficients are known, together.
+#pragma once
+
+#include "diagnosis/search/bench.hpp"
+
+namespace muster::search {
+
+struct Spread {
+  // As likely as one another given the data, the coefficients integrated out: a Metropolis walk over exp(gain / 2).
+  // One where nothing is sought.
+  std::vector<Eigen::VectorXd> thetas;
+  // Covariance of the coefficients over those, over what the noise may be, and not below what the scatter of the
+  // residuals from place to place says (Huber 1967): a shape that fits only roughly shows there.
+  Eigen::MatrixXd coefficients;
+};
+
+Spread spread_of(const Bench& bench, const Term& term);
+
+}  // namespace muster::search
