@@ -218,8 +218,10 @@ std::vector<Picture> pictures_of(const Diagnosis& d) {
   const bool map = d.seen.places_known && places_of(d.seen).vary();
   if (map) out.push_back({"residual_map", residual_map(d)});
   if (d.stairs.size() > 1) out.push_back({"steps", staircase(d)});
-  for (std::size_t k = 0; k < d.causes.size(); ++k)
-    out.push_back({fmt::format("cause_{}", k + 1), partial_residual(d, d.causes[k])});
+  for (std::size_t k = 0; k < d.causes.size(); ++k) {
+    if (d.causes[k].effect.size() == d.seen.after.size())
+      out.push_back({fmt::format("cause_{}", k + 1), partial_residual(d, d.causes[k])});
+  }
   if (map && !d.stairs.empty() && (d.named() || !d.unexplained.empty()))
     out.push_back({"before_after", before_and_after(d)});
   out.push_back({"covariates", residual_by_covariate(d)});

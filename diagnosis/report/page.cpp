@@ -189,6 +189,15 @@ std::string not_tested(const Diagnosis& d) {
   return out + "</ul></div>\n";
 }
 
+std::string record(const Diagnosis& d) {
+  if (d.instrument.checks.empty()) return "";
+  std::vector<Row> rows;
+  for (const diagnosis::InstrumentCheck& c : d.instrument.checks)
+    rows.push_back(
+        {{(c.fine ? "" : "! ") + c.what}, {c.found + (c.row ? fmt::format(", first in row {}", *c.row) : "")}});
+  return heading("The record itself") + "<div class=\"card\">" + table({{"check"}, {"found"}}, rows) + "</div>\n";
+}
+
 std::string world(const Diagnosis& d) {
   std::vector<Row> rows;
   for (const auto& v : d.world_values)
@@ -248,8 +257,8 @@ std::string page_of(const Diagnosis& d, const Setting& setting, const std::vecto
   }
   if (d.stairs.size() > 1)
     body += heading("Gain") + figure_named(pictures, "steps") + figure_named(pictures, "before_after");
-  body += undecided(d) + checked(d) + figure_named(pictures, "covariates") + checked_table(d) + not_tested(d) +
-          world(d) + loop(d);
+  body += undecided(d) + checked(d) + figure_named(pictures, "covariates") + checked_table(d) + record(d) +
+          not_tested(d) + world(d) + loop(d);
   return fmt::format(
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
       "content=\"width=device-width, initial-scale=1\">\n<title>Diagnosis of {}</title>\n<style>{}</style>\n"

@@ -242,7 +242,7 @@ std::vector<std::string> reasons_not_tested(const Diagnosis& d) {
 
 std::string text_of(const Diagnosis& d, const Setting& setting) {
   std::string text = introduction(d, setting);
-  text += heading("What is wrong, and by how much") + errors(d);
+  text += heading("How far the world is off") + errors(d);
   text += causes(d) + unexplained(d) + stairs(d) + undecided(d) + checked(d) + record(d) + not_tested(d) + world(d) +
           loop(d);
   if (!setting.files.empty()) {
