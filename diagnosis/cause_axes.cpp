@@ -130,10 +130,16 @@ bool driven_through(const Survey& s, double x, double y, double radius) {
                      [&](const auto& w) { return std::hypot(w[0] - x, w[1] - y) < 0.7 * radius; });
 }
 
-Eigen::MatrixXd moves_of_segment(const Eigen::VectorXd& t) {
-  constexpr double way = 0.4, turn = 0.15;  // m, rad
+double belief_in_segment(const Survey& s, const Eigen::VectorXd& t) {
+  constexpr double slant = 0.2;  // rad
+  const double off = std::remainder(t[4] - s.plan_angle, pi / 2) / slant;
+  return -off * off / 2;
+}
+
+Eigen::MatrixXd moves_of_segment(const Survey& s, const Eigen::VectorXd& t) {
+  constexpr double way = 0.4, turn = 0.15, away = 0.25;  // m, rad, share of the distance
   const Eigen::Vector2d along(std::cos(t[4]), std::sin(t[4])), across(-along.y(), along.x());
-  Eigen::MatrixXd moves = Eigen::MatrixXd::Zero(t.size(), 6);
+  Eigen::MatrixXd moves = Eigen::MatrixXd::Zero(t.size(), s.standing.empty() ? 6 : 7);
   moves.col(0).segment<2>(1) = way * along;
   moves.col(1).segment<2>(1) = way * across;
   for (const Eigen::Index end : {2, 3}) {
@@ -143,6 +149,11 @@ Eigen::MatrixXd moves_of_segment(const Eigen::VectorXd& t) {
     moves.col(end + 2).segment<2>(1) = side * turn * t[3] / 2 * across;
     moves(4, end + 2) = turn;
   }
+  if (s.standing.empty()) return moves;
+  const auto far = [&](const std::array<double, 2>& p) { return std::hypot(t[1] - p[0], t[2] - p[1]); };
+  const auto radio = *std::min_element(s.standing.begin(), s.standing.end(),
+                                       [&](const auto& a, const auto& b) { return far(a) < far(b); });
+  moves.col(6).segment<3>(1) = away * Eigen::Vector3d(t[1] - radio[0], t[2] - radio[1], t[3]);
   return moves;
 }
 

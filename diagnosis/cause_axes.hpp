@@ -18,8 +18,12 @@ int driven_across(const Survey& survey, double x, double y, double length, doubl
 // Whether a way leads through the disk.
 bool driven_through(const Survey& survey, double x, double y, double radius);
 
-// Moves of a segment: along and across, either end further out, about either end.
-Eigen::MatrixXd moves_of_segment(const Eigen::VectorXd& theta);
+// Moves of a segment: along and across, either end further out, about either end, and away from the nearest radio that
+// stands, in whose shadow it then stays the same.
+Eigen::MatrixXd moves_of_segment(const Survey& survey, const Eigen::VectorXd& theta);
+// What is believed of a segment before the data, in nats: walls run along those of the plan, or across, but for a fifth
+// of a radian.
+double belief_in_segment(const Survey& survey, const Eigen::VectorXd& theta);
 
 // Segments between the ends that lie farthest apart, of each pair of pieces; those of `id` are segments, others points.
 std::vector<Eigen::VectorXd> spans(const std::vector<search::Piece>& pieces, const std::string& id);

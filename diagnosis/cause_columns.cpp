@@ -330,9 +330,11 @@ std::string make(const Cause& cause, const Maker& maker, CauseSearch& out) {
       if (shape->place == PlaceShape::point) return clear_of_ways(*shape, survey, t) ? 1.0 : 0.3;
       return std::pow(0.8, std::min(driven_across(survey, t[1], t[2], t[3], t[4]), 10));
     };
-    if (shape->place == PlaceShape::segment) c.moves = moves_of_segment;
-    if (shape->place == PlaceShape::segment)
+    if (shape->place == PlaceShape::segment) {
+      c.moves = [survey = maker.survey](const VectorXd& t) { return moves_of_segment(survey, t); };
+      c.belief = [survey = maker.survey](const VectorXd& t) { return belief_in_segment(survey, t); };
       c.spanning = [id = c.id](const std::vector<search::Piece>& pieces) { return spans(pieces, id); };
+    }
   }
   out.found.push_back({shape, std::move(c)});
   return "";

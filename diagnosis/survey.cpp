@@ -151,6 +151,7 @@ Survey survey_of(const LinkModel& model, const Dataset& data) {
     survey.moves.resize(static_cast<std::size_t>(radio) + 1, false);
     survey.turns[static_cast<std::size_t>(radio)] = trail.yaw.length() > 0.2;
     survey.moves[static_cast<std::size_t>(radio)] = trail.east.length() + trail.north.length() > 0.5;
+    if (!survey.moves[static_cast<std::size_t>(radio)]) survey.standing.push_back({trail.x, trail.y});
   }
   return survey;
 }

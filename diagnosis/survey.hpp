@@ -30,6 +30,7 @@ struct Survey {
   Span distance;                       // m, from the tenth to the 85th percentile of links
   double plan_angle = 0;               // rad, in [0, pi/2): most of the walls run along it or across it
   std::vector<bool> turns, moves;      // a radio
+  std::vector<std::array<double, 2>> standing;  // m, places of radios that do not move
   // Ways of radios that move, x0 y0 x1 y1 of each piece, in m.
   std::vector<std::array<double, 4>> ways;
   std::vector<Strip> strips;  // that could be corridors, the longest first

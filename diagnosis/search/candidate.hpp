@@ -45,6 +45,8 @@ struct Candidate {
   double charge = 0;      // nats that refinement costs beyond the grid (from nulls refined alike)
   // The share of its gain that a theta may keep: below 1 where it cannot stand. May be empty.
   std::function<double(const Eigen::VectorXd& theta)> admitted;
+  // What is known of theta before the data: the logarithm of its density over the highest, nats. May be empty.
+  std::function<double(const Eigen::VectorXd& theta)> belief;
 
   std::set<std::string> stands_for;  // covariates of smooths that it may take the place of
   std::string pieces;  // candidates of one such class may find one object in pieces ("place"); empty: none

@@ -47,7 +47,7 @@ Eigen::MatrixXf statistics(const Candidate& candidate, Eigen::MatrixXf along) {
   return result;
 }
 
-double penalised(const Bench& bench, const Stand& stand, const Candidate& candidate, const Eigen::VectorXd& theta) {
+double explained(const Bench& bench, const Stand& stand, const Candidate& candidate, const Eigen::VectorXd& theta) {
   const double admitted = candidate.admitted ? candidate.admitted(theta) : 1;
   if (admitted <= 0) return 0;
   const Eigen::MatrixXd columns = bench.columns_of(candidate, theta);
@@ -58,6 +58,11 @@ double penalised(const Bench& bench, const Stand& stand, const Candidate& candid
   if (length < 1e-6 || along * candidate.sign <= 0) return 0;
   if (candidate.whole) return admitted * (2 * along - length);
   return admitted * along * along / length;
+}
+
+// What refinement climbs: the fall of the deviance, and twice what is believed of the place.
+double penalised(const Bench& bench, const Stand& stand, const Candidate& candidate, const Eigen::VectorXd& theta) {
+  return explained(bench, stand, candidate, theta) + (candidate.belief ? 2 * candidate.belief(theta) : 0);
 }
 
 bool far_from(const Candidate& candidate, const Eigen::VectorXd& theta, const std::vector<Eigen::VectorXd>& others) {

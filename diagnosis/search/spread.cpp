@@ -105,7 +105,7 @@ class Walk {
  private:
   double weight(const Eigen::VectorXd& theta, const Beside& at) const {
     if (c_.sign && at.coefficients[0] * c_.sign < 0) return 0;
-    return (c_.admitted ? c_.admitted(theta) : 1) * at.gain / 2;
+    return (c_.admitted ? c_.admitted(theta) : 1) * at.gain / 2 + (c_.belief ? c_.belief(theta) : 0);
   }
 
   Eigen::VectorXd stride() const {

@@ -123,7 +123,7 @@ TEST(Fault25, ADiagnosisNamesNothingThatItCannotTell) {
   for (std::size_t row = 1; row <= 60; ++row) data.set(row, 7, fmt::format("{:.1f}", -60 + 0.01 * static_cast<double>(draw() % 500)));
   const auto outcome = asked("diagnose", data.text());
   EXPECT_EQ(outcome.exit, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("world.xml: adequate"));
+  EXPECT_THAT(outcome.out, HasSubstr("world.xml is adequate"));
   EXPECT_THAT(outcome.out, HasSubstr("note: not identifiable: no reading depends on material/drywall/loss"));
   EXPECT_THAT(outcome.out, HasSubstr("note: not identifiable: changing radio.multiwall/l0 by 1 dB together with radio.multiwall/n"));
   EXPECT_THAT(outcome.out, testing::Not(HasSubstr("evidence")));
