@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <mutex>
 
 namespace muster::diagnosis {
 namespace {
@@ -96,19 +98,32 @@ std::vector<double> widened(const std::vector<double>& table, double spread, dou
   return mixed(table, places, weights);
 }
 
+// Of fading whose K is a whole number of dB; worked out once for each n.
+double tabled_variance(int k_db, int averaged) {
+  static std::mutex lock;
+  static std::map<std::pair<int, int>, double> known;
+  const std::lock_guard guard(lock);
+  const auto [place, missing] = known.try_emplace({k_db, averaged}, 0);
+  if (missing) mean_of(fading_table(k_db, averaged, -60, 0.25, 360), -60, 0.25, &place->second);
+  return place->second;
+}
+
+constexpr int lowest_k = -40, highest_k = 36;  // dB
+
 }  // namespace
 
 double fading_variance(double rician_k, int averaged) {
-  double variance = 0;
-  mean_of(fading_table(rician_k, averaged, -70, 0.1, 1000), -70, 0.1, &variance);
-  return variance;
+  const double k = std::clamp(rician_k, static_cast<double>(lowest_k), static_cast<double>(highest_k));
+  const int below = std::min(static_cast<int>(std::floor(k)), highest_k - 1);
+  const double low = std::log(tabled_variance(below, averaged)), high = std::log(tabled_variance(below + 1, averaged));
+  return std::exp(low + (k - below) * (high - low));
 }
 
 double rician_k_of(double variance, int averaged) {
-  double low = -30, high = 35;
-  if (variance > fading_variance(low, averaged) || variance < fading_variance(high, averaged))
+  double low = lowest_k, high = highest_k;
+  if (!(variance <= fading_variance(low, averaged) && variance >= fading_variance(high, averaged)))
     return std::numeric_limits<double>::quiet_NaN();
-  for (int round = 0; round < 24; ++round) {
+  for (int round = 0; round < 30; ++round) {
     const double middle = (low + high) / 2;
     (fading_variance(middle, averaged) > variance ? low : high) = middle;
   }

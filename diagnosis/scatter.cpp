@@ -126,9 +126,11 @@ LawTest tested(const Scatter& s, const ReadingLaw& stated, const Base& null, con
   std::size_t best = 0;
   double highest = -1e300;
   for (std::size_t k = 0; k < family.strengths.size(); ++k) {
-    const ReadingLaw law = family.with(null.law, family.strengths[k]);
-    const double value = std::isnan(law.rician_k) ? -1e300 : s.log_likelihood(law, null.within);
-    if (value > highest) highest = value, best = k;
+    for (const ReadingLaw& from : {null.law, stated}) {  // what is averaged cannot vary much
+      const ReadingLaw law = family.with(from, family.strengths[k]);
+      const double value = std::isnan(law.rician_k) ? -1e300 : s.log_likelihood(law, null.within);
+      if (value > highest) highest = value, best = k;
+    }
   }
   const auto with = [&](double strength) {
     return best_base(
@@ -276,7 +278,8 @@ std::vector<LawTest> law_tests(const Scatter& scatter, const ReadingLaw& stated)
   Base null = best_base(scatter, stated, unchanged, 1);
   // What the field does between the readings of a row is known no better than this: fading so near counts as stated.
   const double variance = fading_variance(stated.rician_k, stated.averaged);
-  for (const double near : {variance * 1.1 + 0.15, variance / 1.1 - 0.15}) {
+  const double unsure = 0.15 + 0.6 * scatter.within;
+  for (const double near : {variance * 1.1 + unsure, variance / 1.1 - unsure}) {
     ReadingLaw law = stated;
     law.rician_k = rician_k_of(near, stated.averaged);
     if (!(near > 0) || std::isnan(law.rician_k)) continue;
