@@ -57,6 +57,7 @@ struct Candidate {
   bool observed = false;    // smooth of a column or factor of the data
   bool level_like = false;  // a function of the level: clipping imitates it
   bool offset = false;      // one constant a device: seen beside clipping too
+  int parameters = 1;       // of the cause: of two that the readings cannot tell apart, the one with fewer is meant
 
   bool refinable() const { return step.size() > 0 && step.any(); }
   std::string label_of(const Eigen::VectorXd& theta) const { return label ? label(theta) : id; }

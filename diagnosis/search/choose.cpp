@@ -62,6 +62,24 @@ void prefer_observed(std::vector<Lead>& pool) {
   if (chosen != pool.end()) to_front(pool, chosen);
 }
 
+// Whether two leads add the same to the readings, but for a hundredth.
+bool same_effect(const Stand& stand, const Lead& a, const Lead& b) {
+  const auto of_a = noise::basis_of(stand.at.basis.rest(stand.whitener(a.columns)));
+  const auto of_b = noise::basis_of(stand.at.basis.rest(stand.whitener(b.columns)));
+  return of_a.q.cols() == of_b.q.cols() &&
+         (of_b.q.transpose() * of_a.q).squaredNorm() > 0.99 * static_cast<double>(of_a.q.cols());
+}
+
+// Of causes that the readings cannot tell apart the simplest.
+void prefer_simple(std::vector<Lead>& pool, const Stand& stand) {
+  if (pool[0].candidate().kind != Kind::named) return;
+  for (auto lead = pool.begin() + 1; lead != pool.end(); ++lead) {
+    const Candidate& c = lead->candidate();
+    if (c.kind != Kind::named || c.parameters >= pool[0].candidate().parameters) continue;
+    if (same_effect(stand, pool[0], *lead)) return to_front(pool, lead);
+  }
+}
+
 }  // namespace
 
 std::vector<Lead> compared(const Bench& bench, const Stand& stand, const std::vector<Lead>& passing,
@@ -86,6 +104,7 @@ std::vector<Lead> compared(const Bench& bench, const Stand& stand, const std::ve
   by_evidence(pool);
   prefer_names(pool, bench.options().share);
   prefer_observed(pool);
+  prefer_simple(pool, stand);
   return pool;
 }
 

@@ -40,7 +40,8 @@ bool is_halo(const Term& term, const Company& company, bool clipped) {
 }
 
 void set_halos_aside(Bench& bench, std::vector<Term>& aside) {
-  if (bench.terms.size() < 2) return;
+  // Clipping is a strong term too, though none of the search's.
+  if (bench.terms.size() + bench.problem().bounds.any() < 2) return;
   measure_gains(bench);
   Company all;
   Eigen::MatrixXd smooths(bench.rows().size(), 0);
