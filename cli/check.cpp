@@ -1,13 +1,16 @@
 // muster check WORLD: everything that a run does before its first tick, and what it warns of.
-#include "verbs.hpp"
-
 #include <fmt/core.h>
+
 #include <nlohmann/json.hpp>
+
+#include "verbs.hpp"
 
 namespace muster::cli {
 
 int run_check(const Arguments& arguments) {
-  CLI::App app("Reads a world, loads and links its plugins, and says what is wrong.\nExample: muster check worlds/connectivity", "check");
+  CLI::App app(
+      "Reads a world, loads and links its plugins, and says what is wrong.\nExample: muster check worlds/connectivity",
+      "check");
   std::string path;
   std::vector<std::string> plugins;
   bool json = false;
@@ -17,14 +20,18 @@ int run_check(const Arguments& arguments) {
   parse(app, arguments);
   const Simulation run(read_world(path, standard()), standard(), {plugin_path(plugins), 1, {}});
   if (json) {
-    nlohmann::ordered_json out = {{"world", run.world().name}, {"instances", nlohmann::ordered_json::array()}, {"warnings", nlohmann::ordered_json::array()}};
-    for (const auto& instance : run.instances()) out["instances"].push_back({{"name", instance->name()}, {"plugin", instance->plugin().id}});
+    nlohmann::ordered_json out = {{"world", run.world().name},
+                                  {"instances", nlohmann::ordered_json::array()},
+                                  {"warnings", nlohmann::ordered_json::array()}};
+    for (const auto& instance : run.instances())
+      out["instances"].push_back({{"name", instance->name()}, {"plugin", instance->plugin().id}});
     for (const auto& event : run.events()) out["warnings"].push_back(event.message);
     fmt::print("{}\n", out.dump(2));
     return 0;
   }
   for (const auto& event : run.events()) fmt::print("{}\n", event.message);
-  fmt::print("{}: {} instances, {} tables; nothing is wrong\n", run.world().name, run.instances().size(), run.board().tables().size());
+  fmt::print("{}: {} instances, {} tables; nothing is wrong\n", run.world().name, run.instances().size(),
+             run.board().tables().size());
   return 0;
 }
 

@@ -1,10 +1,10 @@
-#include "verbs.hpp"
-
 #include <fmt/core.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdlib>
-#include <unistd.h>
+
+#include "verbs.hpp"
 
 namespace muster::cli {
 
@@ -16,7 +16,8 @@ void parse(CLI::App& app, const Arguments& arguments) {
     fmt::print("{}", app.help());
     throw Helped{};
   } catch (const CLI::ParseError& e) {
-    throw Error(Exit::invalid_input, fmt::format("muster {}: {}; see muster {} --help", app.get_name(), e.what(), app.get_name()));
+    throw Error(Exit::invalid_input,
+                fmt::format("muster {}: {}; see muster {} --help", app.get_name(), e.what(), app.get_name()));
   }
 }
 
@@ -46,7 +47,8 @@ void Progress::at(double share) {
   const int percent = static_cast<int>(share * 100);
   if (!shown_ || percent == last_) return;
   last_ = percent;
-  fmt::print(stderr, "\r{} {:3}% [{:<40}]", what_, percent, std::string(static_cast<std::size_t>(percent) * 40 / 100, '='));
+  fmt::print(stderr, "\r{} {:3}% [{:<40}]", what_, percent,
+             std::string(static_cast<std::size_t>(percent) * 40 / 100, '='));
   std::fflush(stderr);
 }
 

@@ -1,13 +1,12 @@
 // muster VERB ...: finds the verb, runs it, and turns errors into one line and an exit code.
-#include "verbs.hpp"
-
-#include "text/names.hpp"
-
 #include <fmt/core.h>
 
 #include <csignal>
 #include <cstdio>
 #include <new>
+
+#include "text/names.hpp"
+#include "verbs.hpp"
 
 namespace {
 
@@ -36,7 +35,9 @@ constexpr Verb verbs[] = {
 };
 
 void print_usage(std::FILE* to) {
-  fmt::print(to, "muster VERB ...: simulates teams of robots that move, sense and talk by radio, and holds them against measurements\n\n");
+  fmt::print(to,
+             "muster VERB ...: simulates teams of robots that move, sense and talk by radio, and holds them against "
+             "measurements\n\n");
   for (const auto& verb : verbs) fmt::print(to, "  {:<10} {}\n", verb.name, verb.summary);
   fmt::print(to, "\nmuster VERB --help says more.  Example: muster run worlds/connectivity --json\n");
 }

@@ -1,12 +1,6 @@
 // muster plugin-check CAUSE: whether a diagnosis finds an author's cause, and nothing where there is nothing.
-#include "verbs.hpp"
-
-#include "diagnosis/cause_check.hpp"
-
-#include <fmt/core.h>
-#include <nlohmann/json.hpp>
-
 #include <fcntl.h>
+#include <fmt/core.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -14,6 +8,10 @@
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
 #include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "diagnosis/cause_check.hpp"
+#include "verbs.hpp"
 
 namespace muster::cli {
 namespace {
@@ -22,8 +20,9 @@ namespace fs = std::filesystem;
 using diagnosis::CauseCheck;
 using diagnosis::HiddenCase;
 
-constexpr double goal_found = 0.95, goal_false = 0.01;  // shares; a check fails only beyond what chance does once in 1,000
-constexpr double largest_difference = 1e-6;             // dB
+constexpr double goal_found = 0.95,
+                 goal_false = 0.01;          // shares; a check fails only beyond what chance does once in 1,000
+constexpr double largest_difference = 1e-6;  // dB
 
 struct Scratch {
   Scratch() {
@@ -41,9 +40,19 @@ struct Scratch {
 // Worlds in which nothing is hidden, by the program that makes exams: their truth shares no code with any cause.
 std::vector<fs::path> clean_worlds(int count, uint64_t seed, const std::vector<int>& rows, const fs::path& folder) {
   const std::string program = (fs::read_symlink("/proc/self/exe").parent_path() / "muster_exam").string();
-  std::vector<std::string> words{program, "make", "--mix", "clean", "--seed", std::to_string(seed), "--cases",
-                                 std::to_string(count), "--rows", std::to_string(rows[0]), std::to_string(rows[1]),
-                                 "--out", folder.string()};
+  std::vector<std::string> words{program,
+                                 "make",
+                                 "--mix",
+                                 "clean",
+                                 "--seed",
+                                 std::to_string(seed),
+                                 "--cases",
+                                 std::to_string(count),
+                                 "--rows",
+                                 std::to_string(rows[0]),
+                                 std::to_string(rows[1]),
+                                 "--out",
+                                 folder.string()};
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
@@ -80,8 +89,10 @@ bool passes(const CauseCheck& check) {
 void print(const CauseCheck& check, double lambda) {
   for (const HiddenCase& c : check.cases) {
     const std::string world = c.world.filename().string();
-    if (!c.why_not.empty()) fmt::print("{}  not tested: {}\n", world, c.why_not);
-    else if (!c.alone) fmt::print("{}  hidden {}, named {}\n", world, c.where, c.named.empty() ? "nothing" : c.named);
+    if (!c.why_not.empty())
+      fmt::print("{}  not tested: {}\n", world, c.why_not);
+    else if (!c.alone)
+      fmt::print("{}  hidden {}, named {}\n", world, c.where, c.named.empty() ? "nothing" : c.named);
     if (c.named_on_clean) fmt::print("{}  named where nothing was hidden\n", world);
   }
   const int n = check.tested();
@@ -91,8 +102,8 @@ void print(const CauseCheck& check, double lambda) {
     return;
   }
   const auto alone = std::count_if(check.cases.begin(), check.cases.end(), [](const HiddenCase& c) { return c.alone; });
-  fmt::print("  found            {} of {} at lambda {} (goal {:.0f} %), {} of them with nothing besides\n", check.found(), n,
-             lambda, 100 * goal_found, alone);
+  fmt::print("  found            {} of {} at lambda {} (goal {:.0f} %), {} of them with nothing besides\n",
+             check.found(), n, lambda, 100 * goal_found, alone);
   fmt::print("  named on clean   {} of {} (goal at most {:.0f} %)\n", check.false_names(), n, 100 * goal_false);
   fmt::print("  executed         within {:.2g} dB of what the search adds (at most {:.0e})\n", check.difference(),
              largest_difference);
@@ -108,12 +119,24 @@ void print(const CauseCheck& check, double lambda) {
 nlohmann::ordered_json json_of(const CauseCheck& check) {
   nlohmann::ordered_json cases = nlohmann::ordered_json::array(), alike = nlohmann::ordered_json::object();
   for (const HiddenCase& c : check.cases)
-    cases.push_back({{"world", c.world.filename().string()}, {"not_tested", c.why_not}, {"hidden", c.where},
-                     {"lambda", c.lambda}, {"named", c.named}, {"found", c.found}, {"alone", c.alone},
-                     {"named_on_clean", c.named_on_clean}, {"difference_db", c.difference}});
+    cases.push_back({{"world", c.world.filename().string()},
+                     {"not_tested", c.why_not},
+                     {"hidden", c.where},
+                     {"lambda", c.lambda},
+                     {"named", c.named},
+                     {"found", c.found},
+                     {"alone", c.alone},
+                     {"named_on_clean", c.named_on_clean},
+                     {"difference_db", c.difference}});
   for (const auto& [other, share] : check.alike()) alike[other] = share;
-  return {{"cause", check.id}, {"passes", passes(check)}, {"tested", check.tested()}, {"found", check.found()},
-          {"false_names", check.false_names()}, {"difference_db", check.difference()}, {"alike", alike}, {"cases", cases}};
+  return {{"cause", check.id},
+          {"passes", passes(check)},
+          {"tested", check.tested()},
+          {"found", check.found()},
+          {"false_names", check.false_names()},
+          {"difference_db", check.difference()},
+          {"alike", alike},
+          {"cases", cases}};
 }
 
 }  // namespace
@@ -135,7 +158,9 @@ int run_plugin_check(const Arguments& arguments) {
   app.add_option("--plugins", plugins, "a folder of plugins, looked in first");
   app.add_option("--worlds", worlds, "how many")->check(CLI::Range(1, 10000))->capture_default_str();
   app.add_option("--rows", rows, "readings of a world: from, to")->expected(2)->check(CLI::Range(500, 100000));
-  app.add_option("--lambda", lambda, "strength: twice the expected log-likelihood ratio")->check(CLI::Range(1., 1e6))->capture_default_str();
+  app.add_option("--lambda", lambda, "strength: twice the expected log-likelihood ratio")
+      ->check(CLI::Range(1., 1e6))
+      ->capture_default_str();
   app.add_option("--seed", seed, "of worlds and places")->capture_default_str();
   app.add_flag("--json", json, "print the result as JSON");
   parse(app, arguments);
@@ -147,8 +172,10 @@ int run_plugin_check(const Arguments& arguments) {
     check = diagnosis::check_cause(id, made, plugin_path(plugins), {lambda, seed, scratch.folder},
                                    [&](double share) { progress.at(share); });
   }
-  if (json) fmt::print("{}\n", json_of(check).dump());
-  else print(check, lambda);
+  if (json)
+    fmt::print("{}\n", json_of(check).dump());
+  else
+    print(check, lambda);
   return passes(check) ? static_cast<int>(Exit::done) : 1;
 }
 

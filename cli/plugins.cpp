@@ -1,14 +1,13 @@
 // muster plugins and muster describe: what can be loaded, and a plugin's manual from its declarations alone.
-#include "verbs.hpp"
-
-#include "text/names.hpp"
-#include "text/number.hpp"
-#include "kernel/params.hpp"
-
 #include <fmt/core.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "kernel/params.hpp"
+#include "text/names.hpp"
+#include "text/number.hpp"
+#include "verbs.hpp"
 
 namespace muster::cli {
 namespace {
@@ -17,13 +16,18 @@ using nlohmann::ordered_json;
 
 std::string default_text(const muster_param& param) {
   if (param.flags & MUSTER_REQUIRED) return "required";
-  if (param.kind == MUSTER_TEXT || param.kind == MUSTER_FILE) return param.text && *param.text ? quote(param.text) : "none";
+  if (param.kind == MUSTER_TEXT || param.kind == MUSTER_FILE)
+    return param.text && *param.text ? quote(param.text) : "none";
   if (param.kind == MUSTER_REFERENCE) return "none";
   return value_text(param, param.value) + (*param.unit ? std::string(" ") + param.unit : "");
 }
 
 ordered_json param_json(const muster_param& param) {
-  ordered_json result = {{"name", param.name}, {"default", default_text(param)}, {"expected", expectation(param)}, {"unit", param.unit}, {"help", param.help},
+  ordered_json result = {{"name", param.name},
+                         {"default", default_text(param)},
+                         {"expected", expectation(param)},
+                         {"unit", param.unit},
+                         {"help", param.help},
                          {"free", (param.flags & MUSTER_FREE) != 0}};
   return result;
 }
@@ -36,7 +40,8 @@ void print_cause(const muster_cause& cause) {
 }
 
 void print_manual(const Library& library, const muster_plugin& plugin) {
-  fmt::print("{}  ({})\n  {}\n\n  phase {}, from {}\n", plugin.id, phase_name(plugin.phase), plugin.summary, phase_name(plugin.phase), library.file().string());
+  fmt::print("{}  ({})\n  {}\n\n  phase {}, from {}\n", plugin.id, phase_name(plugin.phase), plugin.summary,
+             phase_name(plugin.phase), library.file().string());
   if (plugin.manual) {
     fmt::print("\n");
     std::string line;
@@ -55,7 +60,8 @@ void print_manual(const Library& library, const muster_plugin& plugin) {
   if (plugin.param_count) fmt::print("\n  Attributes, beside {}:\n", expected_one_of(reserved_attributes).substr(16));
   for (uint32_t i = 0; i < plugin.param_count; ++i) {
     const auto& param = plugin.params[i];
-    fmt::print("    {:14} {}\n    {:14} {}; default {}{}\n", param.name, param.help, "", expectation(param), default_text(param), param.flags & MUSTER_FREE ? "; a fit may free it" : "");
+    fmt::print("    {:14} {}\n    {:14} {}; default {}{}\n", param.name, param.help, "", expectation(param),
+               default_text(param), param.flags & MUSTER_FREE ? "; a fit may free it" : "");
   }
 }
 
@@ -76,7 +82,10 @@ int run_plugins(const Arguments& arguments) {
       continue;
     }
     for (const auto& plugin : listed.library->plugins()) {
-      out.push_back({{"id", plugin.id}, {"phase", phase_name(plugin.phase)}, {"summary", plugin.summary}, {"file", listed.file.string()}});
+      out.push_back({{"id", plugin.id},
+                     {"phase", phase_name(plugin.phase)},
+                     {"summary", plugin.summary},
+                     {"file", listed.file.string()}});
       if (!json) fmt::print("{:24} {:8} {}\n", plugin.id, phase_name(plugin.phase), plugin.summary);
     }
   }
@@ -96,8 +105,12 @@ int run_describe(const Arguments& arguments) {
   const auto library = Library::load(id.substr(0, id.find('/')), {}, plugin_path(folders), {"muster describe"});
   auto out = ordered_json::array();
   for (const auto& plugin : library->plugins()) {
-    ordered_json one = {{"id", plugin.id}, {"phase", phase_name(plugin.phase)}, {"summary", plugin.summary}, {"manual", plugin.manual ? plugin.manual : ""},
-                        {"cannot_hold", plugin.cannot_hold ? plugin.cannot_hold : ""}, {"params", ordered_json::array()}};
+    ordered_json one = {{"id", plugin.id},
+                        {"phase", phase_name(plugin.phase)},
+                        {"summary", plugin.summary},
+                        {"manual", plugin.manual ? plugin.manual : ""},
+                        {"cannot_hold", plugin.cannot_hold ? plugin.cannot_hold : ""},
+                        {"params", ordered_json::array()}};
     for (uint32_t i = 0; i < plugin.param_count; ++i) one["params"].push_back(param_json(plugin.params[i]));
     out.push_back(std::move(one));
     if (!json) print_manual(*library, plugin);

@@ -1,20 +1,19 @@
 // muster run WORLD and muster swap WORLD: the same run, with or without an exchange on the way.
-#include "run_pictures.hpp"
-#include "verbs.hpp"
-
-#include "text/names.hpp"
-#include "text/number.hpp"
-#include "kernel/params.hpp"
-#include "kernel/record.hpp"
-#include "text/text_file.hpp"
-
 #include <fmt/core.h>
-#include <nlohmann/json.hpp>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
-#include <sys/stat.h>
+
+#include "kernel/params.hpp"
+#include "kernel/record.hpp"
+#include "run_pictures.hpp"
+#include "text/names.hpp"
+#include "text/number.hpp"
+#include "text/text_file.hpp"
+#include "verbs.hpp"
 
 namespace muster::cli {
 namespace {
@@ -45,7 +44,8 @@ void declare(CLI::App& app, RunWords& words) {
   app.add_option("--digest-every", words.digest_every, "print the digest every so many ticks");
   app.add_option("--plugins", words.plugins, "a folder of plugins, looked in first");
   app.add_flag("--watch", words.watch, "load a plugin again when its file changes on disk");
-  app.add_flag("--expected", words.expected, "run no tick: evaluate the radio channel once, as it is expected on average");
+  app.add_flag("--expected", words.expected,
+               "run no tick: evaluate the radio channel once, as it is expected on average");
   app.add_flag("--json", words.json, "print the outcome as JSON");
 }
 
@@ -60,11 +60,13 @@ World world_of(const RunWords& words) {
   if (words.until) world.ticks = ticks_of(real_of(*words.until, "--until"), world.dt, {"--until"});
   if (words.seed) {
     const auto seed = parse_integer(*words.seed);
-    if (!seed || *seed < 0) throw Error(Exit::invalid_input, "--seed: " + quote(*words.seed) + " is no seed; expected an integer from 0");
+    if (!seed || *seed < 0)
+      throw Error(Exit::invalid_input, "--seed: " + quote(*words.seed) + " is no seed; expected an integer from 0");
     world.seed = static_cast<uint64_t>(*seed);
   }
   for (const auto& table : words.record) world.records.push_back({table, 1, {}});
-  if (!words.record.empty() && words.out.empty()) throw Error(Exit::invalid_input, "--record needs --out, the folder to write to");
+  if (!words.record.empty() && words.out.empty())
+    throw Error(Exit::invalid_input, "--record needs --out, the folder to write to");
   return world;
 }
 
@@ -78,7 +80,8 @@ void set_parameters(Simulation& run, const std::vector<std::string>& given) {
     const FindRow no_rows = [](const std::string&, const std::string&, const Place& place) -> double {
       throw invalid(place, "a reference cannot be set on the command line");
     };
-    run.set_parameter(path, attribute_values(*info.declared, 1, attribute, no_rows, [](const Place&, const std::string&) {}).at(0));
+    run.set_parameter(
+        path, attribute_values(*info.declared, 1, attribute, no_rows, [](const Place&, const std::string&) {}).at(0));
   }
 }
 
@@ -132,27 +135,35 @@ std::string hexadecimal(uint64_t digest) { return fmt::format("{:016x}", digest)
 
 using Digests = std::vector<std::pair<uint64_t, uint64_t>>;  // tick, digest
 
-void print_outcome(const Simulation& run, const RunWords& words, const Digests& digests, const std::vector<std::filesystem::path>& files) {
-  ordered_json json = {{"world", run.world().name}, {"seed", run.world().seed}, {"dt", run.world().dt}, {"ticks", run.tick()},
-                       {"time", run.time()}, {"digest", hexadecimal(run.digest())}, {"observed", observed(run)}};
+void print_outcome(const Simulation& run, const RunWords& words, const Digests& digests,
+                   const std::vector<std::filesystem::path>& files) {
+  ordered_json json = {{"world", run.world().name}, {"seed", run.world().seed}, {"dt", run.world().dt},
+                       {"ticks", run.tick()},       {"time", run.time()},       {"digest", hexadecimal(run.digest())},
+                       {"observed", observed(run)}};
   json["events"] = ordered_json::array();
   for (const auto& event : run.events())
-    json["events"].push_back({{"time", static_cast<double>(event.tick) * run.world().dt}, {"instance", event.instance}, {"message", event.message}});
+    json["events"].push_back({{"time", static_cast<double>(event.tick) * run.world().dt},
+                              {"instance", event.instance},
+                              {"message", event.message}});
   if (words.digest_every) json["digests"] = ordered_json::array();
-  for (const auto& [tick, digest] : digests) json["digests"].push_back({{"tick", tick}, {"digest", hexadecimal(digest)}});
+  for (const auto& [tick, digest] : digests)
+    json["digests"].push_back({{"tick", tick}, {"digest", hexadecimal(digest)}});
   json["files"] = ordered_json::array();
   for (const auto& file : files) json["files"].push_back(file.string());
   if (words.json) {
     fmt::print("{}\n", json.dump(2));
     return;
   }
-  fmt::print("{}: {} ticks, {} s, digest {}\n", run.world().name, run.tick(), print_real(run.time()), hexadecimal(run.digest()));
+  fmt::print("{}: {} ticks, {} s, digest {}\n", run.world().name, run.tick(), print_real(run.time()),
+             hexadecimal(run.digest()));
   for (const auto& event : run.events())
-    fmt::print("  t = {} s  {}{}{}\n", print_real(static_cast<double>(event.tick) * run.world().dt), event.instance, event.instance.empty() ? "" : ": ", event.message);
+    fmt::print("  t = {} s  {}{}{}\n", print_real(static_cast<double>(event.tick) * run.world().dt), event.instance,
+               event.instance.empty() ? "" : ": ", event.message);
   for (const auto& [instance, tables] : json["observed"].items()) {
     for (const auto& [table, cells] : tables.items()) {
       for (const auto& [column, value] : cells.items())
-        fmt::print("  {}/{} {} = {}\n", instance, table, column, value.is_null() ? "" : print_real(value.get<double>()));
+        fmt::print("  {}/{} {} = {}\n", instance, table, column,
+                   value.is_null() ? "" : print_real(value.get<double>()));
     }
   }
   for (const auto& file : files) fmt::print("  wrote {}\n", file.string());
@@ -163,11 +174,13 @@ int run_world(const RunWords& words) {
   if (!words.swap.instance.empty()) {
     SwapDeclaration swap = words.swap;
     swap.tick = ticks_of(real_of(words.swap_at, "--at"), world.dt, {"--at"});
-    const auto known = std::any_of(world.instances.begin(), world.instances.end(), [&](const auto& i) { return i.name == swap.instance; });
+    const auto known = std::any_of(world.instances.begin(), world.instances.end(),
+                                   [&](const auto& i) { return i.name == swap.instance; });
     if (!known) {
       std::vector<std::string> names;
       for (const auto& instance : world.instances) names.push_back(instance.name);
-      throw Error(Exit::invalid_input, "--instance: no instance is called " + quote(swap.instance) + "; " + suggest(swap.instance, names));
+      throw Error(Exit::invalid_input,
+                  "--instance: no instance is called " + quote(swap.instance) + "; " + suggest(swap.instance, names));
     }
     world.swaps.push_back(std::move(swap));
   }
@@ -234,8 +247,10 @@ int run_run(const Arguments& arguments) {
 }
 
 int run_swap(const Arguments& arguments) {
-  CLI::App app("Runs a world and exchanges the plugin of an instance on the way, state carried over.\n"
-               "Example: muster swap worlds/hot_swap --at 5 --instance physics --plugin physics.planar acceleration=4", "swap");
+  CLI::App app(
+      "Runs a world and exchanges the plugin of an instance on the way, state carried over.\n"
+      "Example: muster swap worlds/hot_swap --at 5 --instance physics --plugin physics.planar acceleration=4",
+      "swap");
   RunWords words;
   std::vector<std::string> attributes;
   declare(app, words);
@@ -249,7 +264,8 @@ int run_swap(const Arguments& arguments) {
   replacement.name = words.swap.instance;
   for (const auto& one : attributes) {
     const auto equals = one.find('=');
-    if (equals == std::string::npos) throw Error(Exit::invalid_input, "muster swap: " + quote(one) + " is no attribute; expected NAME=VALUE");
+    if (equals == std::string::npos)
+      throw Error(Exit::invalid_input, "muster swap: " + quote(one) + " is no attribute; expected NAME=VALUE");
     replacement.attributes.push_back({one.substr(0, equals), one.substr(equals + 1), {"muster swap"}, {"muster swap"}});
   }
   return run_world(words);

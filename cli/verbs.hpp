@@ -2,14 +2,13 @@
 // Error for everything that ends it early.
 #pragma once
 
-#include "text/error.hpp"
-#include "kernel/simulation.hpp"
-
 #include <CLI/CLI.hpp>
-
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include "kernel/simulation.hpp"
+#include "text/error.hpp"
 
 namespace muster::cli {
 

@@ -37,7 +37,7 @@ void enter_cage(const CageLimits& limits) {
   limit(RLIMIT_CORE, 0);
   for (const int number : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU, SIGALRM, SIGINT, SIGTERM})
     std::signal(number, SIG_DFL);
-  ::alarm(static_cast<unsigned>(2 * limits.cpu));  // for a child that waits instead of working
+  ::alarm(static_cast<unsigned>(2 * limits.cpu));                    // for a child that waits instead of working
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // these reserve terabytes, and open pipes
   limit(RLIMIT_AS, limits.memory);
   limit(RLIMIT_NOFILE, 0);  // what is open stays open; nothing more can be opened

@@ -78,21 +78,24 @@ void write_measured(const Prepared& clean, const VectorXd& shift, const fs::path
   const auto cells = [](const std::string& line) {
     std::vector<std::string> result(1);
     for (const char c : line) {
-      if (c == ',') result.emplace_back();
-      else result.back() += c;
+      if (c == ',')
+        result.emplace_back();
+      else
+        result.back() += c;
     }
     return result;
   };
   const auto heads = cells(lines.at(0));
-  const auto rssi = static_cast<std::size_t>(std::find_if(heads.begin(), heads.end(), [](const std::string& h) {
-                                               return h.rfind("rssi", 0) == 0;
-                                             }) - heads.begin());
+  const auto rssi = static_cast<std::size_t>(
+      std::find_if(heads.begin(), heads.end(), [](const std::string& h) { return h.rfind("rssi", 0) == 0; }) -
+      heads.begin());
   std::ofstream out(file);
   out << lines[0] << '\n';
   for (std::size_t row = 0; row < clean.data.rows(); ++row) {
     auto words = cells(lines.at(row + 1));
     const double measured = clean.data.rssi[row], shifted = measured + shift[static_cast<Index>(row)];
-    if (!std::isnan(measured)) words[rssi] = print_real(measured == std::round(measured) ? std::round(shifted) : shifted);
+    if (!std::isnan(measured))
+      words[rssi] = print_real(measured == std::round(measured) ? std::round(shifted) : shifted);
     for (std::size_t k = 0; k < words.size(); ++k) out << (k ? "," : "") << words[k];
     out << '\n';
   }
@@ -121,9 +124,8 @@ std::string named_in(const Diagnosis& d) {
 }
 
 bool names(const Diagnosis& d, const std::string& id) {
-  return std::any_of(d.causes.begin(), d.causes.end(), [&](const FoundCause& c) {
-    return c.id == id && c.status == search::Status::named;
-  });
+  return std::any_of(d.causes.begin(), d.causes.end(),
+                     [&](const FoundCause& c) { return c.id == id && c.status == search::Status::named; });
 }
 
 class Checker {
@@ -181,7 +183,8 @@ class Checker {
   }
 
   void look(const Prepared& clean, const VectorXd& shift, uint64_t number, HiddenCase& result) const {
-    const fs::path world = clean.file.parent_path(), file = options_.scratch / ("hidden_" + std::to_string(number) + ".csv");
+    const fs::path world = clean.file.parent_path(),
+                   file = options_.scratch / ("hidden_" + std::to_string(number) + ".csv");
     write_measured(clean, shift, file);
     const Diagnosis d = diagnose(world, file, plugins_);
     result.named = named_in(d);

@@ -1,5 +1,5 @@
-// Whether a cause can be diagnosed: it is hidden at a known strength in measurements of worlds that are otherwise as the
-// world file says, and looked for.
+// Whether a cause can be diagnosed: it is hidden at a known strength in measurements of worlds that are otherwise as
+// the world file says, and looked for.
 #pragma once
 
 #include <functional>
@@ -17,13 +17,13 @@ struct CauseCheckOptions {
 // One world.
 struct HiddenCase {
   std::filesystem::path world;
-  std::string why_not{};                 // the data cannot speak of the cause: then nothing else is known
-  std::string where{};                   // the row or place
-  double lambda = 0;                     // as hidden; another one than asked for where the cause has no strength
-  double difference = 0;                 // dB, largest, between what the search adds and what the simulator executes
-  std::string named{};                   // what was named, the strongest first; "" for nothing
-  bool found = false, alone = false;     // as the strongest; and nothing besides
-  bool named_on_clean = false;           // where nothing was hidden
+  std::string why_not{};                  // the data cannot speak of the cause: then nothing else is known
+  std::string where{};                    // the row or place
+  double lambda = 0;                      // as hidden; another one than asked for where the cause has no strength
+  double difference = 0;                  // dB, largest, between what the search adds and what the simulator executes
+  std::string named{};                    // what was named, the strongest first; "" for nothing
+  bool found = false, alone = false;      // as the strongest; and nothing besides
+  bool named_on_clean = false;            // where nothing was hidden
   std::map<std::string, double> alike{};  // share of what was hidden that another cause explains at its best
 };
 

@@ -186,9 +186,9 @@ struct Maker {
     if (!c.refinable()) return;
     c.starts = stands(c) ? (shape.place == PlaceShape::segment ? 16 : 10) : edit ? 2 : 1;
     c.evaluations = edit ? 60 : placed ? 110 : 35;
-    // refinement_charge() over clean cases of the exam: walls 3.8 and 3.2, things 4.8 and 2.3, rooms 1.7 and 1.1, strips
-    // 2.0 and 2.0, all others -0.3 to 1.3 (standard error 0.4). It grows towards the tail, where decisions fall, by half
-    // a nat a sought parameter.
+    // refinement_charge() over clean cases of the exam: walls 3.8 and 3.2, things 4.8 and 2.3, rooms 1.7 and 1.1,
+    // strips 2.0 and 2.0, all others -0.3 to 1.3 (standard error 0.4). It grows towards the tail, where decisions fall,
+    // by half a nat a sought parameter.
     c.charge = stands(c) ? (shape.place == PlaceShape::segment ? 5.7 : 5.2) : placed && !edit ? 4 : 1;
   }
 

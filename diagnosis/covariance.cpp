@@ -150,8 +150,8 @@ void ErrorModel::fit(const Eigen::VectorXd& residual, const Eigen::MatrixXd& col
     Likelihood likelihood{kernels_[fitted[c].kernels], means, x, white};
     estimate(likelihood, fitted[c], scale);
     const auto count = static_cast<double>((fitted[c].variances.array() > 0).count());
-    fitted[c].belief = likelihood.value + prior_of(fitted[c], kernels_) -
-                       count;  // a nat for each variance, as in Akaike's criterion
+    fitted[c].belief =
+        likelihood.value + prior_of(fitted[c], kernels_) - count;  // a nat for each variance, as in Akaike's criterion
     best = std::max(best, likelihood.value);
   }
   Likelihood nothing{kernels_[0], means, x, white};

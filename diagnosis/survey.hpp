@@ -24,12 +24,12 @@ struct Strip {
 
 struct Survey {
   bool has_time = false, has_yaw = false, has_height = false;
-  bool has_places = true;              // false: the data have distances alone
-  std::set<std::string> counted = {};  // materials whose walls the data count, in columns walls_NAME
-  Span time, east, north, height;      // s, m
-  Span distance;                       // m, from the tenth to the 85th percentile of links
-  double plan_angle = 0;               // rad, in [0, pi/2): most of the walls run along it or across it
-  std::vector<bool> turns, moves;      // a radio
+  bool has_places = true;                       // false: the data have distances alone
+  std::set<std::string> counted = {};           // materials whose walls the data count, in columns walls_NAME
+  Span time, east, north, height;               // s, m
+  Span distance;                                // m, from the tenth to the 85th percentile of links
+  double plan_angle = 0;                        // rad, in [0, pi/2): most of the walls run along it or across it
+  std::vector<bool> turns, moves;               // a radio
   std::vector<std::array<double, 2>> standing;  // m, places of radios that do not move
   // Ways of radios that move, x0 y0 x1 y1 of each piece, in m.
   std::vector<std::array<double, 4>> ways;

@@ -1,11 +1,11 @@
 #include "blackboard.hpp"
 
-#include "text/number.hpp"
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <utility>
+
+#include "text/number.hpp"
 
 namespace muster {
 
@@ -36,7 +36,8 @@ Table::Table(std::string name, Set& set, Columns columns, std::string initial)
   }
   if (!initial.empty()) {
     const auto values = parse_reals(initial, columns_.size());
-    if (!values) throw std::invalid_argument("table " + name_ + ": initial values \"" + initial + "\" do not fit its columns");
+    if (!values)
+      throw std::invalid_argument("table " + name_ + ": initial values \"" + initial + "\" do not fit its columns");
     initial_ = *values;
   }
   if (set_->kind != SetKind::queue) grow();

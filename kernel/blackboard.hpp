@@ -1,18 +1,17 @@
 // The blackboard: sets of named rows, and tables of numbers over them.
 #pragma once
 
-#include "columns.hpp"
-
-#include <muster/sets.hpp>
-
 #include <bit>
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <muster/sets.hpp>
 #include <string>
 #include <unordered_map>
 #include <utility>
 #include <vector>
+
+#include "columns.hpp"
 
 namespace muster {
 
@@ -26,9 +25,9 @@ struct Set {
   SetKind kind = SetKind::fixed;
   std::string owner;  // queue: the set whose row stands in column 0
   std::vector<std::string> names;
-  std::vector<uint64_t> keys;   // random keys, from the names alone
-  std::vector<uint8_t> alive;   // 0: the row has left
-  std::size_t listed = 0;       // how many rows a listed set has now
+  std::vector<uint64_t> keys;  // random keys, from the names alone
+  std::vector<uint8_t> alive;  // 0: the row has left
+  std::size_t listed = 0;      // how many rows a listed set has now
   std::unordered_map<std::string, uint32_t> numbers;
 
   bool is_named() const { return kind == SetKind::fixed || kind == SetKind::live; }

@@ -1,10 +1,10 @@
 #include "cells.hpp"
 
-#include "text/names.hpp"
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
+
+#include "text/names.hpp"
 
 namespace muster {
 namespace {
@@ -34,7 +34,8 @@ void prepare(Claim& claim, uint64_t tick) {
   }
   claim.appended = 0;
   claim.puts.clear();
-  if (claim.lists || table.set().kind == SetKind::queue) claim.aside.clear();  // or rows of the step before would look filled
+  if (claim.lists || table.set().kind == SetKind::queue)
+    claim.aside.clear();  // or rows of the step before would look filled
   const bool queue = table.set().kind == SetKind::queue;
   if (claim.lists) return;  // begun when its rows are known
   const bool whole = claim.row < 0 && !claim.staged;
@@ -114,7 +115,8 @@ std::string cell_name(const Claim& claim, std::size_t row, std::size_t column) {
 bool is_others(const Claim& claim, std::size_t row) {
   const Set& set = claim.out->set();
   if (claim.row < 0 && set.is_named() && !set.alive[row]) return true;
-  return claim.staged && std::find(claim.others.begin(), claim.others.end(), static_cast<int>(row)) != claim.others.end();
+  return claim.staged &&
+         std::find(claim.others.begin(), claim.others.end(), static_cast<int>(row)) != claim.others.end();
 }
 
 // Who claims one owner's queue cannot append in the name of others.
@@ -132,8 +134,10 @@ std::string check(const Instance& instance, const Blackboard& board, const Claim
       const auto& column = claim.columns[c];
       if (column.bytes) continue;  // filled by put_bytes(), or empty
       std::string wrong = wrong_value(column, data[r * width + c]);
-      if (wrong.empty() && !column.reference.empty()) wrong = wrong_reference(instance, board, column, data[r * width + c]);
-      if (wrong.empty() && c == 0 && speaks_for_another(claim, data[r * width])) wrong = "is not " + claim.name.row + ", for which alone it may speak";
+      if (wrong.empty() && !column.reference.empty())
+        wrong = wrong_reference(instance, board, column, data[r * width + c]);
+      if (wrong.empty() && c == 0 && speaks_for_another(claim, data[r * width]))
+        wrong = "is not " + claim.name.row + ", for which alone it may speak";
       if (!wrong.empty()) return cell_name(claim, r, c) + ' ' + wrong;
     }
   }
@@ -145,7 +149,8 @@ void commit_bytes(Claim& claim, Cells& next, std::size_t first) {
   if (!claim.out->columns().any_bytes()) return;
   const auto width = claim.columns.size();
   const auto rows = written(claim).rows;
-  const std::size_t start = claim.row >= 0 && claim.out->set().kind != SetKind::queue ? static_cast<std::size_t>(claim.row) : first;
+  const std::size_t start =
+      claim.row >= 0 && claim.out->set().kind != SetKind::queue ? static_cast<std::size_t>(claim.row) : first;
   for (std::size_t c = 0; c < width; ++c) {
     if (!claim.columns[c].bytes) continue;
     for (std::size_t r = 0; r < rows; ++r) {
@@ -162,7 +167,8 @@ void commit_bytes(Claim& claim, Cells& next, std::size_t first) {
 void commit_rows(Claim& claim, Cells& next, uint64_t tick) {
   const auto width = claim.columns.size();
   const auto first = next.rows;
-  next.data.insert(next.data.end(), claim.aside.begin(), claim.aside.begin() + static_cast<std::ptrdiff_t>(claim.appended * width));
+  next.data.insert(next.data.end(), claim.aside.begin(),
+                   claim.aside.begin() + static_cast<std::ptrdiff_t>(claim.appended * width));
   next.rows += claim.appended;
   next.appended.insert(next.appended.end(), claim.appended, tick);
   commit_bytes(claim, next, first);
@@ -211,8 +217,10 @@ std::string commit_lists(Instance& instance, uint64_t tick) {
     if (!claim.out || !claim.lists) continue;
     for (const auto& other : instance.claims()) {
       if (&other == &claim) break;
-      if (!other.out || !other.lists || &other.out->set() != &claim.out->set() || other.appended == claim.appended) continue;
-      return "lists " + std::to_string(other.appended) + " rows of " + other.name.logical() + ", but " + std::to_string(claim.appended) + " of " + claim.name.logical();
+      if (!other.out || !other.lists || &other.out->set() != &claim.out->set() || other.appended == claim.appended)
+        continue;
+      return "lists " + std::to_string(other.appended) + " rows of " + other.name.logical() + ", but " +
+             std::to_string(claim.appended) + " of " + claim.name.logical();
     }
     claim.out->set().listed = claim.appended;
     commit_listed(claim, tick);
@@ -242,9 +250,12 @@ std::string check_cells(const Instance& instance, const Blackboard& board) {
 std::string commit_cells(Instance& instance, uint64_t tick) {
   for (auto& claim : instance.claims()) {
     if (!claim.out || claim.lists || claim.direct) continue;
-    if (claim.out->set().kind == SetKind::queue) commit_rows(claim, claim.out->next(), tick);
-    else if (claim.staged) commit_rest(claim);
-    else commit_bytes(claim, claim.out->next(), 0);
+    if (claim.out->set().kind == SetKind::queue)
+      commit_rows(claim, claim.out->next(), tick);
+    else if (claim.staged)
+      commit_rest(claim);
+    else
+      commit_bytes(claim, claim.out->next(), 0);
     if (claim.out->set().is_named()) keep_left(claim);
   }
   return commit_lists(instance, tick);

@@ -1,11 +1,11 @@
 // Changes between two ticks: instances swapped, inserted, removed, made again; parameters set.
-#include "text/names.hpp"
-#include "text/number.hpp"
-#include "params.hpp"
-#include "simulation.hpp"
-
 #include <algorithm>
 #include <cmath>
+
+#include "params.hpp"
+#include "simulation.hpp"
+#include "text/names.hpp"
+#include "text/number.hpp"
 
 namespace muster {
 
@@ -19,7 +19,8 @@ std::size_t Simulation::find(const std::string& instance) const {
 }
 
 // A change that is refused leaves no rows and no sets behind.
-template <class Change> void Simulation::guarded(Change&& change) {
+template <class Change>
+void Simulation::guarded(Change&& change) {
   const auto mark = board_.mark();
   try {
     change();
@@ -48,12 +49,16 @@ void Simulation::swap(const std::string& name, InstanceDeclaration replacement) 
   replacement.name = name;
   guarded([&] { replace(at, make(std::move(replacement))); });
   const auto& plugin = instances_[at]->plugin();
-  events_.push_back({tick_, name, "swapped from " + old + " to " + plugin.id + (plugin.cannot_hold ? std::string("; it cannot hold ") + plugin.cannot_hold : "")});
+  events_.push_back({tick_, name,
+                     "swapped from " + old + " to " + plugin.id +
+                         (plugin.cannot_hold ? std::string("; it cannot hold ") + plugin.cannot_hold : "")});
 }
 
 void Simulation::insert(InstanceDeclaration declaration, const std::string& before) {
   for (const auto& instance : instances_) {
-    if (instance->name() == declaration.name) throw Error(Exit::invalid_input, "an instance is called " + quote(declaration.name) + " already: " + instance->title());
+    if (instance->name() == declaration.name)
+      throw Error(Exit::invalid_input,
+                  "an instance is called " + quote(declaration.name) + " already: " + instance->title());
   }
   const auto at = before.empty() ? instances_.size() : find(before);
   guarded([&] {
@@ -151,7 +156,8 @@ void Simulation::check_planned() {
 void Simulation::drop_private_sets() {
   std::vector<std::string> unused;
   for (const auto& [name, set] : board_.sets()) {
-    const bool is_used = std::any_of(board_.tables().begin(), board_.tables().end(), [&](const auto& table) { return &table.second->set() == set.get(); });
+    const bool is_used = std::any_of(board_.tables().begin(), board_.tables().end(),
+                                     [&](const auto& table) { return &table.second->set() == set.get(); });
     if (name.starts_with("instance/") && !is_used) unused.push_back(name);
   }
   for (const auto& name : unused) board_.drop_set(name);
@@ -166,7 +172,9 @@ int column_of(const Attribute& attribute, std::size_t width) {
   std::vector<double> row(width, 0);
   attribute.store(&mark, row.data());
   const auto found = std::find(row.begin(), row.end(), mark);
-  return found != row.end() && std::count(row.begin(), row.end(), 0.0) == static_cast<std::ptrdiff_t>(width) - 1 ? static_cast<int>(found - row.begin()) : -1;
+  return found != row.end() && std::count(row.begin(), row.end(), 0.0) == static_cast<std::ptrdiff_t>(width) - 1
+             ? static_cast<int>(found - row.begin())
+             : -1;
 }
 
 Table* world_table(const Blackboard& board, const std::string& set_quantity) {
@@ -192,8 +200,10 @@ std::vector<ParameterInfo> Simulation::parameters() const {
       const Table* table = values.attribute ? world_table(board_, values.table) : nullptr;
       const int column = table ? column_of(*values.attribute, table->width()) : -1;
       if (column < 0) continue;
-      const auto at = static_cast<std::size_t>(table->set().find(row.name)) * table->width() + static_cast<std::size_t>(column);
-      result.push_back({row.set + '/' + row.name + '/' + values.attribute->param.name, &values.attribute->param, table->now().data[at]});
+      const auto at =
+          static_cast<std::size_t>(table->set().find(row.name)) * table->width() + static_cast<std::size_t>(column);
+      result.push_back({row.set + '/' + row.name + '/' + values.attribute->param.name, &values.attribute->param,
+                        table->now().data[at]});
     }
   }
   return result;
@@ -211,12 +221,16 @@ ParameterInfo Simulation::parameter(const std::string& path) const {
 namespace {
 
 void check_value(const std::string& path, const muster_param& declared, double value) {
-  const auto refuse = [&](const std::string& what) { throw Error(Exit::invalid_input, "parameter " + quote(path) + ": " + what); };
+  const auto refuse = [&](const std::string& what) {
+    throw Error(Exit::invalid_input, "parameter " + quote(path) + ": " + what);
+  };
   if (declared.kind == MUSTER_REFERENCE) refuse("a reference is claimed for good; expected a swap");
   if (declared.kind == MUSTER_TEXT || declared.kind == MUSTER_FILE) refuse("it is no number; expected a swap");
   const double most = declared.kind == MUSTER_CHOICE ? static_cast<double>(choices(declared).size()) - 1 : declared.max;
-  if (!(value >= declared.min && value <= most)) refuse(print_real(value) + " is out of bounds; expected " + expectation(declared));
-  if (declared.kind != MUSTER_REAL && value != std::floor(value)) refuse(print_real(value) + " is no integer; expected " + expectation(declared));
+  if (!(value >= declared.min && value <= most))
+    refuse(print_real(value) + " is out of bounds; expected " + expectation(declared));
+  if (declared.kind != MUSTER_REAL && value != std::floor(value))
+    refuse(print_real(value) + " is no integer; expected " + expectation(declared));
 }
 
 }  // namespace
@@ -240,7 +254,8 @@ void Simulation::set_parameter(const std::string& path, double value) {
       Table* table = world_table(board_, values.table);
       if (!table || column_of(*values.attribute, table->width()) < 0) continue;
       check_value(path, values.attribute->param, value);
-      values.store(&value, table->stored().data.data() + static_cast<std::size_t>(table->set().find(row.name)) * table->width());
+      values.store(
+          &value, table->stored().data.data() + static_cast<std::size_t>(table->set().find(row.name)) * table->width());
       return;
     }
   }

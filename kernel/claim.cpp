@@ -1,9 +1,9 @@
 #include "claim.hpp"
 
+#include <algorithm>
+
 #include "text/names.hpp"
 #include "text/text_table.hpp"
-
-#include <algorithm>
 
 namespace muster {
 namespace {
@@ -57,14 +57,16 @@ TableName parse_table_name(const std::string& text, const Instance& instance, co
       name.row = "*";
     }
   }
-  if (name.quantity.empty() || name.row.empty()) throw refused(instance, "claims " + quote(text) + "; expected set/row/quantity");
+  if (name.quantity.empty() || name.row.empty())
+    throw refused(instance, "claims " + quote(text) + "; expected set/row/quantity");
   return name;
 }
 
 Set& resolve_set(const TableName& name, const Instance& instance, Blackboard& board) {
   if (Set* found = board.find_set(name.set)) return *found;
   if (name.set.compare(0, 9, "instance/") != 0)
-    throw refused(instance, "claims a table of the set " + quote(name.set) + "; " + suggest(name.set, set_names(board)));
+    throw refused(instance,
+                  "claims a table of the set " + quote(name.set) + "; " + suggest(name.set, set_names(board)));
   Set& own = board.add_set(name.set, SetKind::fixed, "");
   own.add(name.set.substr(9));
   return own;
@@ -73,17 +75,22 @@ Set& resolve_set(const TableName& name, const Instance& instance, Blackboard& bo
 int resolve_row(const TableName& name, const Set& set, const Instance& instance) {
   if (name.row == "*") return -1;
   const Set* rows = &set;
-  if (set.kind == SetKind::listed) throw refused(instance, "claims one row of " + quote(set.name) + ", whose rows are listed anew each tick; expected *");
+  if (set.kind == SetKind::listed)
+    throw refused(instance,
+                  "claims one row of " + quote(set.name) + ", whose rows are listed anew each tick; expected *");
   const int row = rows->find(name.row);
-  if (row < 0) throw refused(instance, "claims a row of " + set.name + " called " + quote(name.row) + "; " + suggest(name.row, set.names));
+  if (row < 0)
+    throw refused(instance,
+                  "claims a row of " + set.name + " called " + quote(name.row) + "; " + suggest(name.row, set.names));
   return row;
 }
 
 void check_references(const Claim& claim, const Instance& instance, const Blackboard& board) {
   for (const auto& column : claim.columns) {
     if (column.reference.empty() || board.find_set(column.reference)) continue;
-    throw refused(instance, "claims " + quote(claim.name.set + '/' + claim.name.row + '/' + claim.name.quantity) + ": column " + quote(column.name) +
-                                " refers to the set " + quote(column.reference) + "; " + suggest(column.reference, set_names(board)));
+    throw refused(instance, "claims " + quote(claim.name.set + '/' + claim.name.row + '/' + claim.name.quantity) +
+                                ": column " + quote(column.name) + " refers to the set " + quote(column.reference) +
+                                "; " + suggest(column.reference, set_names(board)));
   }
 }
 
@@ -103,8 +110,8 @@ const Quantity* standard_quantity(const Standard& standard, const TableName& nam
   return nullptr;
 }
 
-// Private tables are the instance's own memory. Quantities that are not standard are judged by their writer's claim, when
-// the world is linked.
+// Private tables are the instance's own memory. Quantities that are not standard are judged by their writer's claim,
+// when the world is linked.
 void check_blindness(const Claim& claim, const Instance& instance, const Surroundings& around) {
   if (instance.phase() != MUSTER_CONTROL || claim.file) return;
   if (claim.name.set == "instance/" + instance.name()) return;
@@ -118,11 +125,14 @@ void check_blindness(const Claim& claim, const Instance& instance, const Surroun
         if (q.sensed) sensed += (sensed.empty() ? "" : ", ") + std::string(set.name) + '/' + q.name;
       }
     }
-    throw refused(instance, what + ", which is truth; a controller knows what its robot senses: expected one of " + sensed);
+    throw refused(instance,
+                  what + ", which is truth; a controller knows what its robot senses: expected one of " + sensed);
   }
   if (claim.kind == MUSTER_READ && !claim.name.part.empty())
-    throw refused(instance, "claims " + quote(claim.name.set + '/' + claim.name.row + '/' + claim.name.quantity + '@' + claim.name.part) +
-                                ", which is truth; a controller reads what comes out of the last stage");
+    throw refused(instance,
+                  "claims " +
+                      quote(claim.name.set + '/' + claim.name.row + '/' + claim.name.quantity + '@' + claim.name.part) +
+                      ", which is truth; a controller reads what comes out of the last stage");
   const std::string own = robot < 0 ? "" : around.board->find_set("robot")->names[static_cast<std::size_t>(robot)];
   if (robot >= 0 && claim.name.row != own)
     throw refused(instance, what + ", but it is bound to the robot " + quote(own) + "; expected that robot's own row");
@@ -143,7 +153,8 @@ std::vector<double> row_numbers(const TextTable& table, std::size_t at, const Co
     const int row = set.find(name);
     if (row < 0) {
       const auto first = std::find(names.level.begin(), names.level.end(), level) - names.level.begin();
-      throw invalid(table.place(static_cast<std::size_t>(first), at), "no " + set.name + " is called " + quote(name) + "; " + suggest(name, set.names));
+      throw invalid(table.place(static_cast<std::size_t>(first), at),
+                    "no " + set.name + " is called " + quote(name) + "; " + suggest(name, set.names));
     }
     of_level.push_back(row);
   }

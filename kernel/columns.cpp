@@ -46,7 +46,8 @@ std::size_t parse_word(std::string_view word, Column& column) {
       used = 2;
     } else if (mark == '*') {
       const auto [end, error] = std::from_chars(rest.data() + 1, rest.data() + rest.size(), count);
-      if (error != std::errc{} || count == 0 || count > most_columns) refuse(word, "has no count from 1 to 65536 after *");
+      if (error != std::errc{} || count == 0 || count > most_columns)
+        refuse(word, "has no count from 1 to 65536 after *");
       used = static_cast<std::size_t>(end - rest.data());
     } else if (mark == '?') {
       column.nullable = true;

@@ -1,12 +1,12 @@
 #include "host.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "claim.hpp"
 #include "instance.hpp"
 #include "text/names.hpp"
 #include "world_rows.hpp"
-
-#include <algorithm>
-#include <cmath>
 
 namespace muster {
 
@@ -15,7 +15,8 @@ struct Host {
   static Instance& of(const muster_host* host) { return *static_cast<Instance*>(host->kernel); }
 
   // Runs what may be refused: the message stays with the instance, the plugin gets `otherwise`.
-  template <class Body> static auto guarded(const muster_host* host, decltype(std::declval<Body>()()) otherwise, Body&& body) noexcept {
+  template <class Body>
+  static auto guarded(const muster_host* host, decltype(std::declval<Body>()()) otherwise, Body&& body) noexcept {
     Instance& instance = of(host);
     try {
       return body();
@@ -89,7 +90,8 @@ struct Host {
   // The claim, or null with the fault noted.
   static Claim* claim_of(const muster_host* host, int claim, const char* doing) {
     Instance& i = of(host);
-    if (i.in_step_ && claim >= 0 && static_cast<std::size_t>(claim) < i.claims_.size()) return &i.claims_[static_cast<std::size_t>(claim)];
+    if (i.in_step_ && claim >= 0 && static_cast<std::size_t>(claim) < i.claims_.size())
+      return &i.claims_[static_cast<std::size_t>(claim)];
     wrong(i, std::string(doing) + (i.in_step_ ? " on a claim that it does not have" : " outside step()"));
     return nullptr;
   }
@@ -98,7 +100,9 @@ struct Host {
     Instance& i = of(host);
     Claim* claim = claim_of(host, index, "append()");
     if (!claim || !claim->out || !(claim->lists || claim->out->set().kind == SetKind::queue)) {
-      wrong(i, "append() on a table whose rows it does not list; expected a queue, or a set of which it writes the first quantity");
+      wrong(i,
+            "append() on a table whose rows it does not list; expected a queue, or a set of which it writes the first "
+            "quantity");
       static thread_local std::vector<double> nowhere;  // where the plugin may write until its step is refused
       nowhere.resize(count * std::max<std::size_t>(claim ? claim->columns.size() : 0, 64));
       return nowhere.data();
@@ -130,7 +134,8 @@ struct Host {
     return bytes.data();
   }
 
-  static void put_bytes(const muster_host* host, int index, uint32_t row, uint32_t column, const uint8_t* data, uint64_t count) {
+  static void put_bytes(const muster_host* host, int index, uint32_t row, uint32_t column, const uint8_t* data,
+                        uint64_t count) {
     Instance& i = of(host);
     Claim* claim = claim_of(host, index, "put_bytes()");
     if (!claim || !claim->out) return;
@@ -148,7 +153,8 @@ struct Host {
     Claim* claim = claim_of(host, index, "join()");
     if (!claim || !(claim->flags & MUSTER_JOINS)) return wrong(i, "join() needs a claim with MUSTER_JOINS"), -1;
     Set& set = *i.around_.board->find_set(claim->name.set);
-    if (!is_name(name)) return wrong(i, "join(): " + quote(name) + " is not a name; expected letters, digits, _, - and ."), -1;
+    if (!is_name(name))
+      return wrong(i, "join(): " + quote(name) + " is not a name; expected letters, digits, _, - and ."), -1;
     if (like >= static_cast<int>(set.rows())) return wrong(i, "join() like a row that is not there"), -1;
     int number = static_cast<int>(set.rows());
     for (const auto& join : i.joins) {
@@ -163,22 +169,30 @@ struct Host {
   static int leave(const muster_host* host, int index, uint32_t row) {
     Instance& i = of(host);
     Claim* claim = claim_of(host, index, "leave()");
-    if (!claim || !(claim->flags & MUSTER_JOINS)) return wrong(i, "leave() needs a claim with MUSTER_JOINS"), MUSTER_FAILED;
+    if (!claim || !(claim->flags & MUSTER_JOINS))
+      return wrong(i, "leave() needs a claim with MUSTER_JOINS"), MUSTER_FAILED;
     Set& set = *i.around_.board->find_set(claim->name.set);
-    if (row >= set.alive.size() || !set.alive[row]) return wrong(i, "leave() of a row that is not there"), MUSTER_FAILED;
+    if (row >= set.alive.size() || !set.alive[row])
+      return wrong(i, "leave() of a row that is not there"), MUSTER_FAILED;
     i.leaves.push_back({&set, row});
     return MUSTER_OK;
   }
 
-  static int place(const muster_host* host, int index, uint32_t row, const char* quantity, uint32_t column, double value) {
+  static int place(const muster_host* host, int index, uint32_t row, const char* quantity, uint32_t column,
+                   double value) {
     Instance& i = of(host);
     Claim* claim = claim_of(host, index, "place()");
     if (!claim) return MUSTER_FAILED;
     const Table* table = i.around_.board->find(claim->name.set + "/*/" + quantity);
-    if (!table) return wrong(i, "place() of " + claim->name.set + "/*/" + quantity + ", which is no table here"), MUSTER_FAILED;
+    if (!table)
+      return wrong(i, "place() of " + claim->name.set + "/*/" + quantity + ", which is no table here"), MUSTER_FAILED;
     if (column >= table->width())
-      return wrong(i, "place() into column " + std::to_string(column) + " of " + table->name() + ", which has " + std::to_string(table->width())), MUSTER_FAILED;
-    if (!std::isfinite(value)) return wrong(i, "place() of " + table->name() + ": " + table->columns()[column].title() + " is not finite"), MUSTER_FAILED;
+      return wrong(i, "place() into column " + std::to_string(column) + " of " + table->name() + ", which has " +
+                          std::to_string(table->width())),
+             MUSTER_FAILED;
+    if (!std::isfinite(value))
+      return wrong(i, "place() of " + table->name() + ": " + table->columns()[column].title() + " is not finite"),
+             MUSTER_FAILED;
     auto number = static_cast<uint32_t>(i.around_.board->find_set(claim->name.set)->rows());
     for (auto& join : i.joins) {
       if (join.set->name != claim->name.set) continue;
@@ -200,9 +214,10 @@ struct Host {
 };
 
 muster_host make_host(Instance& instance) {
-  return {sizeof(muster_host), MUSTER_ABI, &instance, Host::claim, Host::file, Host::text, Host::search_path, Host::stream,
-          Host::param, Host::rows, Host::row_name, Host::row_key, Host::row_alive, Host::append, Host::get_bytes,
-          Host::put_bytes, Host::join, Host::leave, Host::place, Host::error, Host::refuse, Host::event};
+  return {sizeof(muster_host), MUSTER_ABI,   &instance,       Host::claim,     Host::file,     Host::text,
+          Host::search_path,   Host::stream, Host::param,     Host::rows,      Host::row_name, Host::row_key,
+          Host::row_alive,     Host::append, Host::get_bytes, Host::put_bytes, Host::join,     Host::leave,
+          Host::place,         Host::error,  Host::refuse,    Host::event};
 }
 
 }  // namespace muster

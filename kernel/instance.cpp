@@ -1,18 +1,19 @@
 #include "instance.hpp"
 
-#include "claim.hpp"
-#include "loader/float_guard.hpp"
-#include "host.hpp"
-#include "text/names.hpp"
-#include "text/number.hpp"
-#include "params.hpp"
-
 #include <algorithm>
 #include <utility>
 
+#include "claim.hpp"
+#include "host.hpp"
+#include "loader/float_guard.hpp"
+#include "params.hpp"
+#include "text/names.hpp"
+#include "text/number.hpp"
+
 namespace muster {
 
-template <class Body> auto Instance::guarded(decltype(std::declval<Body>()()) otherwise, Body&& body) noexcept {
+template <class Body>
+auto Instance::guarded(decltype(std::declval<Body>()()) otherwise, Body&& body) noexcept {
   try {
     return body();
   } catch (const std::exception& e) {
@@ -31,7 +32,8 @@ Instance::Instance(InstanceDeclaration declaration, std::shared_ptr<Library> lib
     const auto wanted = std::string(library_->id()) + '/' + std::to_string(*declared_.revision);
     const auto found = std::find_if(plugins.begin(), plugins.end(), [&](const auto& p) { return p.id == wanted; });
     if (found == plugins.end())
-      throw invalid(declared_.place, "there is no " + wanted + " in " + library_->file().string() + "; the newest is " + plugin_->id);
+      throw invalid(declared_.place,
+                    "there is no " + wanted + " in " + library_->file().string() + "; the newest is " + plugin_->id);
     plugin_ = &*found;
   }
   check_attributes();
@@ -89,21 +91,27 @@ void Instance::check_attributes() {
                                (found && !found->names.empty() ? suggest(row, found->names) : "the world has none"));
     return found->find(row);
   };
-  const Warn warn = [this](const Place& place, const std::string& message) { events.push_back(place.text() + ": " + message); };
+  const Warn warn = [this](const Place& place, const std::string& message) {
+    events.push_back(place.text() + ": " + message);
+  };
   for (const auto& given : declared_.attributes) {
     const int found = find_param(given.name);
     if (found < 0)
-      throw invalid(given.place, "<" + declared_.plugin + "> has no attribute " + quote(given.name) + "; " + suggest(given.name, valid));
+      throw invalid(given.place, "<" + declared_.plugin + "> has no attribute " + quote(given.name) + "; " +
+                                     suggest(given.name, valid));
     const auto& param = plugin_->params[found];
     const auto values = attribute_values(param, 1, given, find_row, warn);
-    if (values.empty()) texts_[given.name] = given.value;
-    else params_[static_cast<std::size_t>(found)] = values[0];
+    if (values.empty())
+      texts_[given.name] = given.value;
+    else
+      params_[static_cast<std::size_t>(found)] = values[0];
     places_[given.name] = given.value_place;
   }
   for (uint32_t i = 0; i < plugin_->param_count; ++i) {
     const auto& param = plugin_->params[i];
     if ((param.flags & MUSTER_REQUIRED) && !places_.count(param.name))
-      throw invalid(declared_.place, "<" + declared_.plugin + "> has no attribute " + quote(param.name) + ", which it needs; expected " + expectation(param));
+      throw invalid(declared_.place, "<" + declared_.plugin + "> has no attribute " + quote(param.name) +
+                                         ", which it needs; expected " + expectation(param));
   }
 }
 
@@ -113,7 +121,8 @@ int Instance::claim(uint32_t kind, uint32_t flags, const std::string& table, con
   made.kind = kind;
   made.flags = flags;
   made.name = parse_table_name(table, *this, around_);
-  if (kind < MUSTER_READ || kind > MUSTER_MODIFY) throw refused("claims " + quote(table) + " in a way that does not exist");
+  if (kind < MUSTER_READ || kind > MUSTER_MODIFY)
+    throw refused("claims " + quote(table) + " in a way that does not exist");
   try {
     made.columns = Columns(columns);
   } catch (const std::invalid_argument& e) {
@@ -124,9 +133,13 @@ int Instance::claim(uint32_t kind, uint32_t flags, const std::string& table, con
   Set& set = resolve_set(made.name, *this, *around_.board);
   // A queue's rows are numbered; who owns them has the names.
   made.row = resolve_row(made.name, set.kind == SetKind::queue ? *around_.board->find_set(set.owner) : set, *this);
-  if (kind == MUSTER_MODIFY && set.kind == SetKind::queue) throw refused("modifies " + quote(table) + ", but a queue has no stages");
-  const bool numbers = std::all_of(made.columns.begin(), made.columns.end(), [](const Column& c) { return !c.nullable && !c.infinite && !c.bytes && c.reference.empty(); });
-  if (kind == MUSTER_ADD && (set.kind == SetKind::queue || made.row >= 0 || !numbers)) throw refused("adds to " + quote(table) + "; expected a whole table of numbers");
+  if (kind == MUSTER_MODIFY && set.kind == SetKind::queue)
+    throw refused("modifies " + quote(table) + ", but a queue has no stages");
+  const bool numbers = std::all_of(made.columns.begin(), made.columns.end(), [](const Column& c) {
+    return !c.nullable && !c.infinite && !c.bytes && c.reference.empty();
+  });
+  if (kind == MUSTER_ADD && (set.kind == SetKind::queue || made.row >= 0 || !numbers))
+    throw refused("adds to " + quote(table) + "; expected a whole table of numbers");
   const auto* quantity = standard_quantity(*around_.standard, made.name);
   if (quantity && Columns(quantity->columns) != made.columns)
     throw refused("claims " + quote(table) + " as \"" + columns + "\"; its columns are \"" + quantity->columns + '"');
@@ -140,13 +153,17 @@ int Instance::claim(uint32_t kind, uint32_t flags, const std::string& table, con
 int Instance::file(const std::string& param, const std::string& columns) {
   const int found = find_param(param);
   if (found < 0 || plugin_->params[found].kind != MUSTER_FILE)
-    throw Error(Exit::plugin_fault, title() + ": asks for the file " + quote(param) + ", which is no file among its parameters");
+    throw Error(Exit::plugin_fault,
+                title() + ": asks for the file " + quote(param) + ", which is no file among its parameters");
   const std::string& given = texts_[param];
-  if (given.empty()) throw Error(Exit::invalid_input, title() + ": has no attribute " + quote(param) + ", which it needs; expected a path relative to the world file");
+  if (given.empty())
+    throw Error(Exit::invalid_input, title() + ": has no attribute " + quote(param) +
+                                         ", which it needs; expected a path relative to the world file");
   auto path = std::filesystem::path(given);
   if (path.is_relative()) path = around_.world->file.parent_path() / path;
   if (!std::filesystem::exists(path))
-    throw invalid(places_.count(param) ? places_[param] : declared_.place, "attribute " + quote(param) + ": there is no file " + quote(path.string()));
+    throw invalid(places_.count(param) ? places_[param] : declared_.place,
+                  "attribute " + quote(param) + ": there is no file " + quote(path.string()));
   Claim made;
   made.kind = MUSTER_READ;
   made.columns = Columns(columns);
@@ -161,9 +178,11 @@ Error Instance::failure(const std::string& callback, const muster_tick* tick, co
   const Exit fault = std::exchange(fault_, Exit::plugin_fault);
   said_.clear();
   if (std::exchange(refused_, false)) return Error(fault, said);  // which names its place
-  const std::string where = tick ? " at tick " + std::to_string(tick->index) + " (t = " + print_real(tick->time) + " s)" : "";
+  const std::string where =
+      tick ? " at tick " + std::to_string(tick->index) + " (t = " + print_real(tick->time) + " s)" : "";
   std::string words = said;  // a plugin's may have several lines; a message is one
-  std::replace_if(words.begin(), words.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+  std::replace_if(
+      words.begin(), words.end(), [](unsigned char c) { return c < 0x20; }, ' ');
   return Error(fault, title() + ": " + callback + " failed" + where + ": " + words);
 }
 
@@ -177,9 +196,11 @@ void Instance::gather(Claim& claim, muster_in& view, uint64_t tick) {
   claim.aside.clear();
   for (std::size_t r = 0; r < cells.rows; ++r) {
     const double* row = cells.data.data() + r * width;
-    if (is_new(cells.appended[r]) && (claim.row < 0 || row[0] == claim.row)) claim.aside.insert(claim.aside.end(), row, row + width);
+    if (is_new(cells.appended[r]) && (claim.row < 0 || row[0] == claim.row))
+      claim.aside.insert(claim.aside.end(), row, row + width);
   }
-  view = {claim.aside.data(), static_cast<uint32_t>(claim.aside.size() / width), static_cast<uint32_t>(width), cells.tick};
+  view = {claim.aside.data(), static_cast<uint32_t>(claim.aside.size() / width), static_cast<uint32_t>(width),
+          cells.tick};
 }
 
 void Instance::bind(uint64_t tick) {
@@ -225,7 +246,8 @@ bool Instance::step(muster_tick tick) noexcept {
   refused_ = false;
   static thread_local const FloatGuard guard;  // as this thread was before any plugin ran on it
   in_step_ = true;
-  const bool fine = guarded(MUSTER_FAILED, [&] { return plugin_->step(self_, &tick, in_.data(), out_.data()); }) == MUSTER_OK;
+  const bool fine =
+      guarded(MUSTER_FAILED, [&] { return plugin_->step(self_, &tick, in_.data(), out_.data()); }) == MUSTER_OK;
   in_step_ = false;
   if (guard.changed()) {
     said_ = guard.what() + " for the whole process; expected it to leave the arithmetic as it was";

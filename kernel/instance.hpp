@@ -1,16 +1,16 @@
 // An instance of a plugin: its parameters, its claims, and the host through which it asks the kernel.
 #pragma once
 
-#include "blackboard.hpp"
-#include "loader/library.hpp"
-#include "world.hpp"
-
 #include <muster/plugin.h>
 
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "blackboard.hpp"
+#include "loader/library.hpp"
+#include "world.hpp"
 
 namespace muster {
 
@@ -27,19 +27,19 @@ struct Claim {
   uint32_t kind = 0, flags = 0;
   TableName name;
   Columns columns;
-  int row = -1;            // the claimed row's number; -1: all rows
+  int row = -1;                 // the claimed row's number; -1: all rows
   std::unique_ptr<Cells> file;  // a claim on a file's table: its cells
 
   // Filled by the linker.
-  Table* in = nullptr;        // what is read: the table, the stage before, or what was last published
-  Table* out = nullptr;       // what is written
-  bool lists = false;         // write: its instance lists the rows of the set anew, by append()
-  bool staged = false;        // written aside and copied afterwards: a rest of rows, beside rows of others
-  bool direct = false;        // written whole, in its place, numbers only: nothing is left to do after a step
-  std::vector<int> others;    // staged: the rows that other instances write
-  uint64_t window = 0;     // queue read: rows that came at a tick > now - window ...
-  bool late = false;       // ... or, where its writers come later in a tick, >= now - window
-  bool from_start = true;  // queue read: it does not step in the SENSE pass before the first tick
+  Table* in = nullptr;      // what is read: the table, the stage before, or what was last published
+  Table* out = nullptr;     // what is written
+  bool lists = false;       // write: its instance lists the rows of the set anew, by append()
+  bool staged = false;      // written aside and copied afterwards: a rest of rows, beside rows of others
+  bool direct = false;      // written whole, in its place, numbers only: nothing is left to do after a step
+  std::vector<int> others;  // staged: the rows that other instances write
+  uint64_t window = 0;      // queue read: rows that came at a tick > now - window ...
+  bool late = false;        // ... or, where its writers come later in a tick, >= now - window
+  bool from_start = true;   // queue read: it does not step in the SENSE pass before the first tick
 
   // Of this step.
   std::vector<double> aside;  // staged, appended or gathered rows
@@ -125,7 +125,8 @@ class Instance {
  private:
   friend struct Host;
   // Calls a plugin that was written without plugin.hpp, whose exceptions nobody else stops.
-  template <class Body> auto guarded(decltype(std::declval<Body>()()) otherwise, Body&& body) noexcept;
+  template <class Body>
+  auto guarded(decltype(std::declval<Body>()()) otherwise, Body&& body) noexcept;
   void check_attributes();
   // What claim() and file() do; they throw Error where the host returns -1.
   int claim(uint32_t kind, uint32_t flags, const std::string& table, const std::string& columns);
@@ -144,7 +145,7 @@ class Instance {
   std::vector<Claim> claims_;
   std::vector<muster_in> in_;
   std::vector<muster_out> out_;
-  std::string said_;   // what the plugin said of its failure
+  std::string said_;  // what the plugin said of its failure
   Exit fault_ = Exit::plugin_fault;
   bool refused_ = false;  // what was said is the kernel's own refusal
   bool in_create_ = false, in_step_ = false, direct_ = false;

@@ -1,10 +1,10 @@
 #include "link.hpp"
 
-#include "claim.hpp"
-#include "text/names.hpp"
-
 #include <algorithm>
 #include <set>
+
+#include "claim.hpp"
+#include "text/names.hpp"
 
 namespace muster {
 
@@ -17,7 +17,8 @@ void Linker::gather() {
   for (Instance* instance : instances_) {
     for (std::size_t i = 0; i < instance->claims().size(); ++i) {
       const Claim& claim = instance->claims()[i];
-      const bool only_joins = claim.kind == MUSTER_WRITE && (claim.flags & MUSTER_JOINS);  // the right to join claims no cells
+      const bool only_joins =
+          claim.kind == MUSTER_WRITE && (claim.flags & MUSTER_JOINS);  // the right to join claims no cells
       if (claim.file || only_joins) continue;
       auto& claimed = claimed_[claim.name.logical()];
       auto& group = claim.kind == MUSTER_READ    ? claimed.readers
@@ -26,20 +27,25 @@ void Linker::gather() {
                                                  : claimed.modifiers;
       group.push_back({instance, i});
       const auto* set = standard_set(standard_, claim.name.set);
-      if (claim.kind == MUSTER_WRITE && set && set->kind == SetKind::listed && claim.name.quantity == set->quantities[0].name)
+      if (claim.kind == MUSTER_WRITE && set && set->kind == SetKind::listed &&
+          claim.name.quantity == set->quantities[0].name)
         listers_[claim.name.set].push_back(instance);
     }
   }
 }
 
 // Names of the tables that one quantity needs, each with the claim that fills it; the last is what readers get.
-std::vector<std::pair<std::string, const Claim*>> Linker::tables_of(const std::string& logical, const Claimed& c) const {
+std::vector<std::pair<std::string, const Claim*>> Linker::tables_of(const std::string& logical,
+                                                                    const Claimed& c) const {
   std::vector<std::pair<std::string, const Claim*>> result;
   for (const auto& by : c.adders) {
     const auto& part = by.get().name.part;
     result.emplace_back(logical + '@' + by.instance->name() + (part.empty() ? "" : '.' + part), &by.get());
   }
-  const auto* any = !c.writers.empty() ? &c.writers[0] : !c.adders.empty() ? &c.adders[0] : !c.readers.empty() ? &c.readers[0] : nullptr;
+  const auto* any = !c.writers.empty()   ? &c.writers[0]
+                    : !c.adders.empty()  ? &c.adders[0]
+                    : !c.readers.empty() ? &c.readers[0]
+                                         : nullptr;
   if (c.modifiers.empty()) {
     if (any) result.emplace_back(logical, &any->get());
     return result;
@@ -67,7 +73,8 @@ void Linker::order() {
       for (const auto& writer : chain) {
         const auto& name = writer.instance->name();
         const bool is_stage = writer.get().kind == MUSTER_MODIFY;
-        if (part.empty() || (part == "base" && !is_stage) || part == name || part.rfind(name + '.', 0) == 0) wait(reader.instance, writer.instance, logical);
+        if (part.empty() || (part == "base" && !is_stage) || part == name || part.rfind(name + '.', 0) == 0)
+          wait(reader.instance, writer.instance, logical);
       }
     }
     const auto listers = listers_.find(logical.substr(0, logical.find('/')));
@@ -107,9 +114,12 @@ void Linker::report_cycle(const std::vector<Instance*>& stuck) const {
     path.push_back(*next);
     if (static_cast<std::size_t>(first) + 1 == path.size()) continue;
     for (auto i = static_cast<std::size_t>(first); i + 1 < path.size(); ++i)
-      text += (text.empty() ? "" : "; ") + path[i]->name() + " needs " + quote(waits_.at(path[i]).at(path[i + 1])) + " of " + path[i + 1]->name();
+      text += (text.empty() ? "" : "; ") + path[i]->name() + " needs " + quote(waits_.at(path[i]).at(path[i + 1])) +
+              " of " + path[i + 1]->name();
     const Instance& one = *path[static_cast<std::size_t>(first)];
-    throw Error(Exit::invalid_input, one.title() + ": a cycle inside the phase " + phase_name(one.phase()) + ": " + text + "; let one of them work in another phase, so that it is read a tick later");
+    throw Error(Exit::invalid_input, one.title() + ": a cycle inside the phase " + phase_name(one.phase()) + ": " +
+                                         text +
+                                         "; let one of them work in another phase, so that it is read a tick later");
   }
 }
 
@@ -122,8 +132,10 @@ void Linker::fill_from_world(Table& table, const TableName& name) const {
     if (target == row.own_row) cells[0] = board_.find_set(row.set)->find(row.name);
     for (const auto& values : row.values) {
       if (values.table != target) continue;
-      if (values.store) values.store(values.values.data(), cells);
-      else std::copy(values.values.begin(), values.values.end(), cells);
+      if (values.store)
+        values.store(values.values.data(), cells);
+      else
+        std::copy(values.values.begin(), values.values.end(), cells);
     }
   }
 }
@@ -143,8 +155,8 @@ void adopt(const Table& old, Table& table) {
 
 }  // namespace
 
-// Where stages came or went, values go with those who wrote them: the base of a chain was the table itself, and the last
-// stage bears the table's name.
+// Where stages came or went, values go with those who wrote them: the base of a chain was the table itself, and the
+// last stage bears the table's name.
 const Table* Linker::before(const std::string& logical, const Claimed& c, std::size_t place) const {
   const Table* whole = board_.find(logical);
   if (place < c.adders.size()) return board_.find(tables_of(logical, c)[place].first);
@@ -155,10 +167,13 @@ const Table* Linker::before(const std::string& logical, const Claimed& c, std::s
 
 Table& Linker::make(const std::string& name, const Claim& claim, const Table* before) {
   const auto* quantity = standard_quantity(standard_, claim.name);
-  auto table = std::make_unique<Table>(name, *board_.find_set(claim.name.set), claim.columns, quantity ? quantity->initial : "");
+  auto table =
+      std::make_unique<Table>(name, *board_.find_set(claim.name.set), claim.columns, quantity ? quantity->initial : "");
   fill_from_world(*table, claim.name);
-  if (before && before->columns() == table->columns()) table->take_over(*before);
-  else if (before) adopt(*before, *table);
+  if (before && before->columns() == table->columns())
+    table->take_over(*before);
+  else if (before)
+    adopt(*before, *table);
   return board_.add(std::move(table));
 }
 
@@ -185,7 +200,8 @@ void Linker::make_tables(const std::string& logical, const Claimed& c, const std
     Claim& claim = by.get();
     claim.in = claim.out = stage;
     const auto& listers = listers_[claim.name.set];
-    claim.lists = stage->set().kind == SetKind::listed && std::find(listers.begin(), listers.end(), by.instance) != listers.end();
+    claim.lists =
+        stage->set().kind == SetKind::listed && std::find(listers.begin(), listers.end(), by.instance) != listers.end();
     claim.staged = false;
     claim.others.clear();
     for (const auto& other : c.writers) {
@@ -212,9 +228,12 @@ void Linker::point_readers(const std::string& logical, const Claimed& c) {
     if (!claim.in || claim.in->set().kind != SetKind::queue) continue;
     claim.window = by.instance->every();
     // Its own messages are published after its step, as those of later phases are.
-    claim.late = std::any_of(c.writers.begin(), c.writers.end(), [&](const auto& w) { return w.instance == by.instance || w.instance->phase() > by.instance->phase(); });
+    claim.late = std::any_of(c.writers.begin(), c.writers.end(), [&](const auto& w) {
+      return w.instance == by.instance || w.instance->phase() > by.instance->phase();
+    });
     claim.from_start = by.instance->phase() != MUSTER_SENSE;
-    claim.in->keep = std::max(claim.in->keep, claim.late || by.instance->phase() == MUSTER_OBSERVE ? claim.window : claim.window - 1);
+    claim.in->keep = std::max(claim.in->keep,
+                              claim.late || by.instance->phase() == MUSTER_OBSERVE ? claim.window : claim.window - 1);
   }
 }
 
@@ -249,7 +268,8 @@ std::vector<Batch> Linker::build() {
   std::map<std::string, std::vector<const Table*>> held;
   std::set<const Table*> used;
   for (const auto& [logical, c] : claimed_) {
-    for (std::size_t i = 0; i < tables_of(logical, c).size(); ++i) used.insert(held[logical].emplace_back(before(logical, c, i)));
+    for (std::size_t i = 0; i < tables_of(logical, c).size(); ++i)
+      used.insert(held[logical].emplace_back(before(logical, c, i)));
   }
   const auto old = board_.take_tables();
   for (const auto& [logical, c] : claimed_) make_tables(logical, c, held[logical]);
@@ -257,8 +277,8 @@ std::vector<Batch> Linker::build() {
   for (Instance* instance : instances_) {
     bool direct = true;
     for (Claim& claim : instance->claims()) {
-      claim.direct = claim.out && !claim.lists && !claim.staged && claim.row < 0 && claim.out->set().kind == SetKind::fixed &&
-                     !claim.columns.any_bytes();
+      claim.direct = claim.out && !claim.lists && !claim.staged && claim.row < 0 &&
+                     claim.out->set().kind == SetKind::fixed && !claim.columns.any_bytes();
       direct &= claim.direct || !claim.out;
     }
     instance->set_direct(direct);

@@ -2,11 +2,11 @@
 // whom inside a phase.
 #pragma once
 
-#include "instance.hpp"
-
 #include <map>
 #include <string>
 #include <vector>
+
+#include "instance.hpp"
 
 namespace muster {
 
@@ -88,9 +88,9 @@ class Linker {
   const World& world_;
   Blackboard& board_;
   std::map<std::string, Claimed> claimed_;
-  std::map<std::string, std::vector<Instance*>> listers_;      // of a listed set
+  std::map<std::string, std::vector<Instance*>> listers_;        // of a listed set
   std::map<Instance*, std::map<Instance*, std::string>> waits_;  // who waits for whom inside a phase, and for what
-  std::map<Instance*, std::size_t> depth_;                     // place inside the phase
+  std::map<Instance*, std::size_t> depth_;                       // place inside the phase
   std::vector<std::pair<Sum, std::vector<Instance*>>> sums_;
   std::map<Table*, std::vector<Instance*>> writers_of_;
   std::vector<std::string> dropped_;

@@ -1,10 +1,10 @@
 // What a world must fulfil before it is linked; each refusal names both sides.
+#include <algorithm>
+#include <set>
+
 #include "claim.hpp"
 #include "link.hpp"
 #include "text/names.hpp"
-
-#include <algorithm>
-#include <set>
 
 namespace muster {
 namespace {
@@ -53,12 +53,14 @@ std::vector<std::string> Linker::missing_providers() const {
   std::vector<std::string> result;
   for (const auto& [logical, c] : claimed_) {
     if (c.is_written() || c.readers.empty()) continue;
-    const bool needed = std::any_of(c.readers.begin(), c.readers.end(), [](const auto& by) { return !(by.get().flags & MUSTER_OPTIONAL); });
+    const bool needed = std::any_of(c.readers.begin(), c.readers.end(),
+                                    [](const auto& by) { return !(by.get().flags & MUSTER_OPTIONAL); });
     const auto& name = c.readers[0].get().name;
     const Set* set = board_.find_set(name.set);
     const auto* quantity = standard_quantity(standard_, name);
     if (!needed || !quantity || !*quantity->provider || (set->is_named() && set->names.empty())) continue;
-    if (std::find(result.begin(), result.end(), quantity->provider) == result.end()) result.push_back(quantity->provider);
+    if (std::find(result.begin(), result.end(), quantity->provider) == result.end())
+      result.push_back(quantity->provider);
   }
   return result;
 }
@@ -66,7 +68,8 @@ std::vector<std::string> Linker::missing_providers() const {
 void Linker::check() {
   for (const auto& [logical, c] : claimed_) {
     if (!c.adders.empty() && is_given(logical))
-      throw refused(*c.adders[0].instance, "adds to " + quote(logical) + ", which the world gives; expected a claim to modify it");
+      throw refused(*c.adders[0].instance,
+                    "adds to " + quote(logical) + ", which the world gives; expected a claim to modify it");
     check_columns(logical, c);
     check_writers(logical, c);
     check_stages(logical, c);
@@ -100,8 +103,9 @@ void Linker::check_reads(const std::string& logical, const Claimed& c) const {
     const Claim& claim = by.get();
     const std::string name = logical + (claim.name.part.empty() ? "" : '@' + claim.name.part);
     const auto tables = tables_of(logical, c);
-    const bool found = claim.name.part.empty() ? c.is_written() || is_of_the_world(logical)
-                                               : std::any_of(tables.begin(), tables.end(), [&](const auto& t) { return t.first == name; });
+    const bool found = claim.name.part.empty()
+                           ? c.is_written() || is_of_the_world(logical)
+                           : std::any_of(tables.begin(), tables.end(), [&](const auto& t) { return t.first == name; });
     if (!found && !(claim.flags & MUSTER_OPTIONAL)) {
       throw refused(*by.instance, "reads " + quote(name) + ", which nobody writes; " + suggest(name, readable()));
     }
@@ -111,7 +115,8 @@ void Linker::check_reads(const std::string& logical, const Claimed& c) const {
     for (const auto* group : {&c.writers, &c.adders}) {
       for (const auto& writer : *group) {
         if (!(writer.get().flags & MUSTER_SENSED))
-          throw refused(*by.instance, "reads " + quote(name) + ", which is truth: " + writer.instance->title() + " does not write it as sensed");
+          throw refused(*by.instance, "reads " + quote(name) + ", which is truth: " + writer.instance->title() +
+                                          " does not write it as sensed");
       }
     }
   }
@@ -119,20 +124,30 @@ void Linker::check_reads(const std::string& logical, const Claimed& c) const {
 
 void Linker::check_writers(const std::string& logical, const Claimed& c) const {
   if (!c.writers.empty() && !c.adders.empty())
-    throw refused(*c.adders[0].instance, "adds to " + quote(logical) + ", which " + c.writers[0].instance->title() + " writes");
+    throw refused(*c.adders[0].instance,
+                  "adds to " + quote(logical) + ", which " + c.writers[0].instance->title() + " writes");
   for (std::size_t i = 0; i < c.writers.size(); ++i) {
     const auto& one = c.writers[i];
     for (std::size_t j = 0; j < i; ++j) {
       const auto& other = c.writers[j];
       if (board_.find_set(one.get().name.set)->kind == SetKind::queue) continue;  // each appends rows of its own
-      if (collide(one.get(), other.get())) throw refused(*one.instance, "writes " + quote(one.get().name.set + '/' + one.get().name.row + '/' + one.get().name.quantity) + both(*other.instance));
+      if (collide(one.get(), other.get()))
+        throw refused(*one.instance,
+                      "writes " + quote(one.get().name.set + '/' + one.get().name.row + '/' + one.get().name.quantity) +
+                          both(*other.instance));
       if (one.instance->phase() != other.instance->phase())
-        throw refused(*one.instance, std::string("writes ") + quote(logical) + " in the phase " + phase_name(one.instance->phase()) + ", but " + other.instance->title() + " in " + phase_name(other.instance->phase()) + "; a table is written in one phase");
+        throw refused(*one.instance, std::string("writes ") + quote(logical) + " in the phase " +
+                                         phase_name(one.instance->phase()) + ", but " + other.instance->title() +
+                                         " in " + phase_name(other.instance->phase()) +
+                                         "; a table is written in one phase");
     }
   }
   for (const auto& by : c.adders) {
     if (by.instance->phase() != c.adders[0].instance->phase())
-      throw refused(*by.instance, std::string("adds to ") + quote(logical) + " in the phase " + phase_name(by.instance->phase()) + ", but " + c.adders[0].instance->title() + " in " + phase_name(c.adders[0].instance->phase()) + "; a table is written in one phase");
+      throw refused(*by.instance, std::string("adds to ") + quote(logical) + " in the phase " +
+                                      phase_name(by.instance->phase()) + ", but " + c.adders[0].instance->title() +
+                                      " in " + phase_name(c.adders[0].instance->phase()) +
+                                      "; a table is written in one phase");
   }
 }
 
@@ -142,7 +157,8 @@ void Linker::check_columns(const std::string& logical, const Claimed& c) const {
     for (const auto& by : *group) {
       if (!first) first = &by;
       if (by.get().columns != first->get().columns)
-        throw refused(*by.instance, "claims " + quote(logical) + " as \"" + by.get().columns.text() + "\", but " + first->instance->title() + " as \"" + first->get().columns.text() + '"');
+        throw refused(*by.instance, "claims " + quote(logical) + " as \"" + by.get().columns.text() + "\", but " +
+                                        first->instance->title() + " as \"" + first->get().columns.text() + '"');
     }
   }
 }
@@ -151,13 +167,19 @@ void Linker::check_columns(const std::string& logical, const Claimed& c) const {
 void Linker::check_stages(const std::string& logical, const Claimed& c) const {
   std::vector<Claimed::By> before = c.writers.empty() ? c.adders : c.writers;
   for (const auto& by : c.modifiers) {
-    if (before.empty() && !is_of_the_world(logical)) throw refused(*by.instance, "modifies " + quote(logical) + ", which nobody writes");
+    if (before.empty() && !is_of_the_world(logical))
+      throw refused(*by.instance, "modifies " + quote(logical) + ", which nobody writes");
     for (const auto& earlier : before) {
-      if (earlier.instance == by.instance) throw refused(*by.instance, "modifies " + quote(logical) + ", which it writes or modifies itself");
+      if (earlier.instance == by.instance)
+        throw refused(*by.instance, "modifies " + quote(logical) + ", which it writes or modifies itself");
       if (earlier.instance->phase() > by.instance->phase())
-        throw refused(*by.instance, "modifies " + quote(logical) + " before it is written: " + earlier.instance->title() + " comes in the phase " + phase_name(earlier.instance->phase()));
+        throw refused(*by.instance, "modifies " + quote(logical) +
+                                        " before it is written: " + earlier.instance->title() + " comes in the phase " +
+                                        phase_name(earlier.instance->phase()));
       if (earlier.instance->every() % by.instance->every() != 0)
-        throw refused(*by.instance, "modifies " + quote(logical) + " every " + std::to_string(by.instance->every()) + " ticks and would miss values: " + earlier.instance->title() + " writes every " + std::to_string(earlier.instance->every()));
+        throw refused(*by.instance, "modifies " + quote(logical) + " every " + std::to_string(by.instance->every()) +
+                                        " ticks and would miss values: " + earlier.instance->title() +
+                                        " writes every " + std::to_string(earlier.instance->every()));
     }
     before.push_back(by);
   }
@@ -171,16 +193,21 @@ void Linker::check_listed(const std::string& logical, const Claimed& c) const {
   for (const auto* group : {&c.writers, &c.adders, &c.modifiers}) {
     for (const auto& by : *group) {
       if (found != listers_.end() && group != &c.writers && by.instance == found->second.front())
-        throw refused(*by.instance, "adds to or modifies " + quote(logical) + ", whose rows it lists itself; expected it to write the table");
-      if (found == listers_.end()) throw refused(*by.instance, "writes " + quote(logical) + ", but nobody lists the rows of " + quote(set->name));
+        throw refused(*by.instance, "adds to or modifies " + quote(logical) +
+                                        ", whose rows it lists itself; expected it to write the table");
+      if (found == listers_.end())
+        throw refused(*by.instance, "writes " + quote(logical) + ", but nobody lists the rows of " + quote(set->name));
       const Instance& lister = *found->second.front();
       if (lister.every() % by.instance->every() != 0)
-        throw refused(*by.instance, "writes " + quote(logical) + " every " + std::to_string(by.instance->every()) + " ticks, but " + lister.title() + " lists its rows every " + std::to_string(lister.every()));
+        throw refused(*by.instance, "writes " + quote(logical) + " every " + std::to_string(by.instance->every()) +
+                                        " ticks, but " + lister.title() + " lists its rows every " +
+                                        std::to_string(lister.every()));
       if (by.instance->phase() < lister.phase())
         throw refused(*by.instance, "writes " + quote(logical) + " before " + lister.title() + " lists its rows");
       for (const auto& reader : c.readers) {
         if (reader.instance->phase() >= lister.phase() && reader.instance->phase() < by.instance->phase())
-          throw refused(*reader.instance, "reads " + quote(logical) + " after its rows are listed and before " + by.instance->title() + " writes it");
+          throw refused(*reader.instance, "reads " + quote(logical) + " after its rows are listed and before " +
+                                              by.instance->title() + " writes it");
       }
     }
   }
@@ -194,10 +221,14 @@ void Linker::check_names() const {
     for (std::size_t i = 0; i < tables.size(); ++i) {
       const auto stage = i - c.adders.size();
       const bool whole = i == c.adders.size();
-      const Instance* owner = i < c.adders.size() ? c.adders[i].instance : !whole ? c.modifiers[stage - 1].instance : c.writers.empty() ? nullptr : c.writers[0].instance;
+      const Instance* owner = i < c.adders.size() ? c.adders[i].instance
+                              : !whole            ? c.modifiers[stage - 1].instance
+                              : c.writers.empty() ? nullptr
+                                                  : c.writers[0].instance;
       const auto [other, is_new] = owners.emplace(tables[i].first, owner);
       if (is_new) continue;
-      throw refused(*owner, "claims " + quote(tables[i].first) + (other->second ? both(*other->second) : ", which is the world's"));
+      throw refused(*owner, "claims " + quote(tables[i].first) +
+                                (other->second ? both(*other->second) : ", which is the world's"));
     }
   }
 }
@@ -209,7 +240,8 @@ void Linker::check_joins() const {
     for (const auto& claim : instance->claims()) {
       if (claim.kind != MUSTER_WRITE || !(claim.flags & MUSTER_JOINS)) continue;
       const Instance* first = joiners.emplace(claim.name.set, instance).first->second;
-      if (first != instance) throw refused(*instance, "lets rows of " + quote(claim.name.set) + " join and leave" + both(*first));
+      if (first != instance)
+        throw refused(*instance, "lets rows of " + quote(claim.name.set) + " join and leave" + both(*first));
     }
   }
 }
@@ -224,9 +256,12 @@ void Linker::check_carried() const {
       if (!old || old->columns() == claim->columns || (claim->flags & MUSTER_ADOPTS)) continue;
       for (const auto& by : c.writers) {
         if (&by.get() == claim)
-          throw refused(*by.instance, "writes " + quote(name) + " as \"" + claim->columns.text() + "\", but it holds \"" + old->columns().text() + "\" and the plugin does not adopt that");
+          throw refused(*by.instance, "writes " + quote(name) + " as \"" + claim->columns.text() +
+                                          "\", but it holds \"" + old->columns().text() +
+                                          "\" and the plugin does not adopt that");
       }
-      throw Error(Exit::invalid_input, "the columns of " + quote(name) + " change from \"" + old->columns().text() + "\" to \"" + claim->columns.text() + '"');
+      throw Error(Exit::invalid_input, "the columns of " + quote(name) + " change from \"" + old->columns().text() +
+                                           "\" to \"" + claim->columns.text() + '"');
     }
   }
 }

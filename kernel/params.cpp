@@ -1,16 +1,17 @@
 #include "params.hpp"
 
-#include "text/names.hpp"
-#include "text/number.hpp"
-
 #include <algorithm>
 #include <cmath>
+
+#include "text/names.hpp"
+#include "text/number.hpp"
 
 namespace muster {
 namespace {
 
 [[noreturn]] void refuse(const muster_param& declared, int count, const XmlAttribute& given, const std::string& what) {
-  throw invalid(given.value_place, "attribute " + quote(given.name) + ": " + what + "; expected " + expectation(declared, count));
+  throw invalid(given.value_place,
+                "attribute " + quote(given.name) + ": " + what + "; expected " + expectation(declared, count));
 }
 
 void check_bounds(const muster_param& declared, int count, const XmlAttribute& given, double value, const Warn& warn) {
@@ -18,15 +19,16 @@ void check_bounds(const muster_param& declared, int count, const XmlAttribute& g
     refuse(declared, count, given, print_real(value) + " is out of bounds");
   constexpr double turn = 6.283185307179586;
   if (std::string(declared.unit) == "rad" && std::abs(value) > turn)
-    warn(given.value_place, "attribute " + quote(given.name) + ": " + print_real(value) + " rad is more than a full turn; are these degrees?");
+    warn(given.value_place, "attribute " + quote(given.name) + ": " + print_real(value) +
+                                " rad is more than a full turn; are these degrees?");
 }
 
 double choice_value(const muster_param& declared, const XmlAttribute& given) {
   const auto words = choices(declared);
   const auto found = std::find(words.begin(), words.end(), given.value);
   if (found == words.end()) {
-    throw invalid(given.value_place, "attribute " + quote(given.name) + ": " + quote(given.value) + " is not a choice; " +
-                                         suggest(given.value, words));
+    throw invalid(given.value_place, "attribute " + quote(given.name) + ": " + quote(given.value) +
+                                         " is not a choice; " + suggest(given.value, words));
   }
   return static_cast<double>(found - words.begin());
 }
@@ -36,8 +38,10 @@ double choice_value(const muster_param& declared, const XmlAttribute& given) {
 std::vector<std::string> choices(const muster_param& declared) {
   std::vector<std::string> words(1);
   for (const char* c = declared.text; *c; ++c) {
-    if (*c == '|') words.emplace_back();
-    else words.back() += *c;
+    if (*c == '|')
+      words.emplace_back();
+    else
+      words.back() += *c;
   }
   return words;
 }
@@ -48,12 +52,18 @@ std::string expectation(const muster_param& declared, int count) {
   switch (declared.kind) {
     case MUSTER_REAL:
       return many + " from " + print_real(declared.min) + " to " + print_real(declared.max) + unit;
-    case MUSTER_INTEGER: return "an integer from " + print_real(declared.min) + " to " + print_real(declared.max);
-    case MUSTER_FLAG: return "true or false";
-    case MUSTER_CHOICE: return expected_one_of(choices(declared)).substr(9);
-    case MUSTER_REFERENCE: return std::string("the name of a ") + declared.text;
-    case MUSTER_FILE: return "a path relative to the world file";
-    default: return "a text";
+    case MUSTER_INTEGER:
+      return "an integer from " + print_real(declared.min) + " to " + print_real(declared.max);
+    case MUSTER_FLAG:
+      return "true or false";
+    case MUSTER_CHOICE:
+      return expected_one_of(choices(declared)).substr(9);
+    case MUSTER_REFERENCE:
+      return std::string("the name of a ") + declared.text;
+    case MUSTER_FILE:
+      return "a path relative to the world file";
+    default:
+      return "a text";
   }
 }
 
@@ -75,11 +85,15 @@ std::vector<double> attribute_values(const muster_param& declared, int count, co
       return {static_cast<double>(*value)};
     }
     case MUSTER_FLAG:
-      if (given.value != "true" && given.value != "false") refuse(declared, count, given, quote(given.value) + " is neither");
+      if (given.value != "true" && given.value != "false")
+        refuse(declared, count, given, quote(given.value) + " is neither");
       return {given.value == "true" ? 1.0 : 0.0};
-    case MUSTER_CHOICE: return {choice_value(declared, given)};
-    case MUSTER_REFERENCE: return {find_row(declared.text, given.value, given.value_place)};
-    default: return {};
+    case MUSTER_CHOICE:
+      return {choice_value(declared, given)};
+    case MUSTER_REFERENCE:
+      return {find_row(declared.text, given.value, given.value_place)};
+    default:
+      return {};
   }
 }
 

@@ -1,14 +1,14 @@
 // Attributes of the world file held against the declarations of parameters: kind, bounds, unit, choices.
 #pragma once
 
-#include "text/error.hpp"
-#include "text/xml.hpp"
-
 #include <muster/plugin.h>
 
 #include <functional>
 #include <string>
 #include <vector>
+
+#include "text/error.hpp"
+#include "text/xml.hpp"
 
 namespace muster {
 

@@ -1,9 +1,9 @@
 #include "record.hpp"
 
-#include "text/names.hpp"
-
 #include <algorithm>
 #include <set>
+
+#include "text/names.hpp"
 
 namespace muster {
 namespace {
@@ -14,8 +14,10 @@ std::string file_name(const std::string& table) {
   for (const char c : table) {
     if (c == '*') continue;
     const bool break_here = c == '/' || c == '@';
-    if (!break_here) result += c;
-    else if (!result.empty() && result.back() != '_') result += '_';
+    if (!break_here)
+      result += c;
+    else if (!result.empty() && result.back() != '_')
+      result += '_';
   }
   return result + ".csv";
 }
@@ -38,16 +40,21 @@ std::string digits(const std::vector<uint8_t>& bytes) {
   return result;
 }
 
-void write_cell(TextTableWriter& writer, const Simulation& run, const Cells& cells, const Column& column, double value) {
+void write_cell(TextTableWriter& writer, const Simulation& run, const Cells& cells, const Column& column,
+                double value) {
   const Set* set = column.reference.empty() ? nullptr : run.board().find_set(column.reference);
-  if (column.bytes) writer.text(value == 0 ? "" : digits(*cells.blobs[static_cast<std::size_t>(value) - 1]));
-  else if (set && set->is_named()) writer.text(cell_text(run.board(), column, value));
-  else writer.real(value);
+  if (column.bytes)
+    writer.text(value == 0 ? "" : digits(*cells.blobs[static_cast<std::size_t>(value) - 1]));
+  else if (set && set->is_named())
+    writer.text(cell_text(run.board(), column, value));
+  else
+    writer.real(value);
 }
 
 }  // namespace
 
-Recorder::Recorder(const Simulation& run, const std::vector<RecordDeclaration>& tables, const std::filesystem::path& folder) {
+Recorder::Recorder(const Simulation& run, const std::vector<RecordDeclaration>& tables,
+                   const std::filesystem::path& folder) {
   std::error_code made;
   std::filesystem::create_directories(folder, made);
   if (made) throw Error(Exit::io, Place{folder.string()}, "cannot be made: " + made.message());
@@ -57,7 +64,8 @@ Recorder::Recorder(const Simulation& run, const std::vector<RecordDeclaration>& 
     try {
       const TableView view = run.table(declared.table);
       const auto path = folder / file_name(declared.table);
-      files_.push_back({declared.table, declared.every, path, std::make_unique<TextTableWriter>(path, header(*view.table))});
+      files_.push_back(
+          {declared.table, declared.every, path, std::make_unique<TextTableWriter>(path, header(*view.table))});
     } catch (const Error& e) {
       if (e.exit() != Exit::invalid_input || declared.place.file.empty()) throw;
       throw invalid(declared.place, std::string("record: ") + e.what());
@@ -70,7 +78,8 @@ void Recorder::write(const Simulation& run) {
     const TableView view = run.table(file.table);
     const Table& table = *view.table;
     const Set& set = table.set();
-    if (set.kind != SetKind::queue && run.tick() % file.every != 0) continue;  // a message is there once: none is left out
+    if (set.kind != SetKind::queue && run.tick() % file.every != 0)
+      continue;  // a message is there once: none is left out
     const Cells& cells = table.now();
     const std::size_t first = view.row >= 0 ? static_cast<std::size_t>(view.row) : 0;
     const std::size_t last = view.row >= 0 ? first + 1 : cells.rows;
@@ -78,8 +87,10 @@ void Recorder::write(const Simulation& run) {
       if (set.is_named() && !set.alive[r]) continue;
       if (set.kind == SetKind::queue && cells.appended[r] != run.tick()) continue;  // each message once
       file.writer->real(run.time());
-      if (set.is_named()) file.writer->text(set.names[r]);
-      else file.writer->real(static_cast<double>(r));
+      if (set.is_named())
+        file.writer->text(set.names[r]);
+      else
+        file.writer->real(static_cast<double>(r));
       for (std::size_t c = 0; c < table.width(); ++c)
         write_cell(*file.writer, run, cells, table.columns()[c], cells.data[r * table.width() + c]);
       file.writer->end_row();

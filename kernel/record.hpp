@@ -1,13 +1,13 @@
 // Tables of a run written as CSV while it runs: `t[s],robot,x[m],...`. Plugins read such files back by Setup::file.
 #pragma once
 
-#include "simulation.hpp"
-#include "text/text_table_writer.hpp"
-
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
+
+#include "simulation.hpp"
+#include "text/text_table_writer.hpp"
 
 namespace muster {
 

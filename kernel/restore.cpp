@@ -1,8 +1,8 @@
 // A snapshot put back in place: everything is held against the run before anything changes.
 #include <algorithm>
 
-#include "text/names.hpp"
 #include "simulation.hpp"
+#include "text/names.hpp"
 
 namespace muster {
 namespace {

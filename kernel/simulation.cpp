@@ -1,9 +1,9 @@
 #include "simulation.hpp"
 
+#include <algorithm>
+
 #include "text/names.hpp"
 #include "text/number.hpp"
-
-#include <algorithm>
 
 namespace muster {
 
@@ -16,7 +16,8 @@ Simulation::Simulation(World world, const Standard& standard, Options options)
   for (const auto& row : world_.rows) {
     for (const auto& set : row.sets) board_.find_set(set)->add(row.name);
   }
-  for (const auto& warning : world_.warnings) events_.push_back({0, "", "warning: " + warning.place.text() + ": " + warning.message});
+  for (const auto& warning : world_.warnings)
+    events_.push_back({0, "", "warning: " + warning.place.text() + ": " + warning.message});
   loader_ = std::make_unique<LibraryLoader>(options_.search_path);
   for (const auto& declaration : options_.more) instances_.push_back(make(declaration));
   for (const auto& declaration : world_.instances) instances_.push_back(make(declaration));
@@ -62,11 +63,13 @@ void Simulation::add_providers() {
     for (const auto& instance : instances_) all.push_back(instance.get());
     std::vector<std::string> missing;
     for (const auto& plugin : Linker(all, standard_, world_, board_).missing_providers()) {
-      const bool there = std::any_of(all.begin(), all.end(), [&](const Instance* i) { return i->declared().plugin == plugin; });
+      const bool there =
+          std::any_of(all.begin(), all.end(), [&](const Instance* i) { return i->declared().plugin == plugin; });
       if (!there) missing.push_back(plugin);
     }
     if (missing.empty()) return;
-    for (const auto& plugin : missing) instances_.push_back(make({plugin, plugin, 1, {}, {}, {}, {world_.file.string()}}));
+    for (const auto& plugin : missing)
+      instances_.push_back(make({plugin, plugin, 1, {}, {}, {}, {world_.file.string()}}));
   }
 }
 
@@ -77,7 +80,8 @@ void Simulation::relink() {
   Linker linker(all, standard_, world_, board_);
   linker.check();
   batches_ = linker.build();
-  for (const auto& table : linker.dropped()) events_.push_back({tick_, "", "dropped " + table + ", which nobody writes any more"});
+  for (const auto& table : linker.dropped())
+    events_.push_back({tick_, "", "dropped " + table + ", which nobody writes any more"});
   listed_.clear();
   for (const auto& [name, set] : board_.sets()) {
     if (set->kind == SetKind::listed) listed_.emplace_back(set.get(), set->listed);
@@ -96,7 +100,8 @@ TableView Simulation::table(const std::string& name) const {
     const int number = table && table->set().is_named() ? table->set().find(row) : -1;
     if (number >= 0) return {table, number};
     if (table && table->set().is_named())
-      throw Error(Exit::invalid_input, "there is no " + table->set().name + ' ' + quote(row) + "; " + suggest(row, table->set().names));
+      throw Error(Exit::invalid_input,
+                  "there is no " + table->set().name + ' ' + quote(row) + "; " + suggest(row, table->set().names));
   }
   std::vector<std::string> valid;
   for (const auto& [other, table] : board_.tables()) valid.push_back(other);
@@ -110,7 +115,8 @@ Snapshot Simulation::snapshot() const {
   for (const auto& [name, table] : board_.tables()) result.tables[name] = {table->columns().text(), table->now()};
   for (const auto& instance : instances_) {
     const Place& place = instance->declared().place;
-    result.instances[instance->name()] = {instance->plugin().id, static_cast<uint64_t>(place.line), static_cast<uint64_t>(place.column), instance->params()};
+    result.instances[instance->name()] = {instance->plugin().id, static_cast<uint64_t>(place.line),
+                                          static_cast<uint64_t>(place.column), instance->params()};
   }
   return result;
 }

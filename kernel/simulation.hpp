@@ -1,16 +1,16 @@
 // A world that runs: instances of plugins around a blackboard, stepped tick by tick, each tick whole or not at all.
 #pragma once
 
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
 #include "instance.hpp"
 #include "link.hpp"
 #include "snapshot.hpp"
 #include "thread_pool.hpp"
 #include "world.hpp"
-
-#include <functional>
-#include <memory>
-#include <string>
-#include <vector>
 
 namespace muster {
 
@@ -77,8 +77,8 @@ class Simulation {
   ParameterInfo parameter(const std::string& path) const;
   void set_parameter(const std::string& path, double value);
 
-  // Exchanges an instance's plugin, state carried over by the names of tables; the attributes are the new plugin's. What
-  // is dropped goes into the events. If it throws, the run stands as it was.
+  // Exchanges an instance's plugin, state carried over by the names of tables; the attributes are the new plugin's.
+  // What is dropped goes into the events. If it throws, the run stands as it was.
   void swap(const std::string& instance, InstanceDeclaration replacement);
   // Inserts an instance before another, or at the end where `before` is empty.
   void insert(InstanceDeclaration declaration, const std::string& before = "");
@@ -106,7 +106,8 @@ class Simulation {
   void planned_swaps();
   void check_planned();
   void drop_private_sets();
-  template <class Change> void guarded(Change&& change);
+  template <class Change>
+  void guarded(Change&& change);
   using Replaced = std::vector<std::pair<std::size_t, std::unique_ptr<Instance>>>;
   void replace_planned(const Snapshot& snapshot, Replaced& replaced);
   void relink_anew();
@@ -145,10 +146,10 @@ class Simulation {
   };
   std::map<const Instance*, Stood> stood_;
   uint32_t stood_flags_ = 0;
-  std::vector<Instance*> due_;                          // of the batch that steps
-  std::vector<std::string> faults_;                     // of each of them, "" for none
-  std::vector<std::pair<Set*, std::size_t>> listed_;    // rows of the listed sets before this tick
-  std::vector<std::shared_ptr<Library>> planned_;       // libraries of swaps to come
+  std::vector<Instance*> due_;                        // of the batch that steps
+  std::vector<std::string> faults_;                   // of each of them, "" for none
+  std::vector<std::pair<Set*, std::size_t>> listed_;  // rows of the listed sets before this tick
+  std::vector<std::shared_ptr<Library>> planned_;     // libraries of swaps to come
 };
 
 }  // namespace muster

@@ -1,13 +1,13 @@
 #include "snapshot.hpp"
 
-#include "text/error.hpp"
-#include "text/names.hpp"
-#include "text/text_file.hpp"
-
 #include <bit>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+
+#include "text/error.hpp"
+#include "text/names.hpp"
+#include "text/text_file.hpp"
 
 namespace muster {
 namespace {
@@ -38,7 +38,8 @@ class Hash {
   void add(const Cells& cells) {
     add(uint64_t{cells.rows});
     add_bytes(cells.data.data(), cells.data.size() * sizeof(double));
-    for (const auto& blob : cells.blobs) add(std::string_view(reinterpret_cast<const char*>(blob->data()), blob->size()));
+    for (const auto& blob : cells.blobs)
+      add(std::string_view(reinterpret_cast<const char*>(blob->data()), blob->size()));
     for (const auto tick : cells.appended) add(tick);
   }
   uint64_t value() const { return state_; }
@@ -54,7 +55,8 @@ class Writer {
     word(value.size());
     bytes_ += value;
   }
-  template <class Number> void numbers(const std::vector<Number>& values) {
+  template <class Number>
+  void numbers(const std::vector<Number>& values) {
     text({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Number)});
   }
   // A hash of all that was written, so that damage is found; and all of it.
@@ -79,7 +81,8 @@ class Reader {
     return value;
   }
   std::string_view text() { return take(word()); }
-  template <class Number> std::vector<Number> numbers() {
+  template <class Number>
+  std::vector<Number> numbers() {
     const auto bytes = text();
     if (bytes.size() % sizeof(Number)) fail();
     std::vector<Number> values(bytes.size() / sizeof(Number));
@@ -97,7 +100,8 @@ class Reader {
     if (hash.value() != word() || at_ != text_.size()) fail();
   }
   [[noreturn]] void fail() const {
-    throw Error(Exit::invalid_input, Place{file_}, "is not a whole snapshot; expected a file that `muster run --save` wrote");
+    throw Error(Exit::invalid_input, Place{file_},
+                "is not a whole snapshot; expected a file that `muster run --save` wrote");
   }
 
  private:
@@ -169,7 +173,8 @@ void Snapshot::save(const std::filesystem::path& file) const {
 
 Snapshot Snapshot::load(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
-  if (!in || !std::filesystem::is_regular_file(file)) throw Error(Exit::invalid_input, Place{file.string()}, "cannot be read: " + system_message(errno));
+  if (!in || !std::filesystem::is_regular_file(file))
+    throw Error(Exit::invalid_input, Place{file.string()}, "cannot be read: " + system_message(errno));
   Reader reader(std::string(std::istreambuf_iterator<char>(in), {}), file.string());
   if (reader.take(magic.size()) != magic) reader.fail();
   Snapshot result;

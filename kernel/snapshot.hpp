@@ -1,12 +1,13 @@
-// A run's state between two ticks: rows, published tables, parameters. In memory, and as a file (docs/snapshot_format.md).
+// A run's state between two ticks: rows, published tables, parameters. In memory, and as a file
+// (docs/snapshot_format.md).
 #pragma once
-
-#include "blackboard.hpp"
 
 #include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
+
+#include "blackboard.hpp"
 
 namespace muster {
 
@@ -18,7 +19,7 @@ struct Snapshot {
     bool operator==(const SavedSet&) const = default;
   };
   struct SavedInstance {
-    std::string plugin;           // "radio.multiwall/1"
+    std::string plugin;             // "radio.multiwall/1"
     uint64_t line = 0, column = 0;  // of its declaration in the world file
     std::vector<double> params;
     bool operator==(const SavedInstance&) const = default;

@@ -1,12 +1,12 @@
 // One tick: phases in order, batches inside them, and everything taken back if anything fails.
-#include "cells.hpp"
-#include "text/names.hpp"
-#include "text/number.hpp"
-#include "simulation.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "cells.hpp"
+#include "simulation.hpp"
+#include "text/names.hpp"
+#include "text/number.hpp"
 
 namespace muster {
 
@@ -94,9 +94,10 @@ void Simulation::check_sum(const Sum& sum, const muster_tick& tick) const {
   const auto& data = sum.total->next().data;
   const auto wrong = std::find_if(data.begin(), data.end(), [](double value) { return !std::isfinite(value); });
   if (wrong == data.end()) return;
-  throw Error(Exit::plugin_fault, Place{world_.file.string()}, "the sum " + quote(sum.total->name()) + " is infinite at tick " + std::to_string(tick.index) +
-                                                                   " (t = " + print_real(tick.time) + " s), in row " +
-                                                                   std::to_string(static_cast<std::size_t>(wrong - data.begin()) / sum.total->width()));
+  throw Error(Exit::plugin_fault, Place{world_.file.string()},
+              "the sum " + quote(sum.total->name()) + " is infinite at tick " + std::to_string(tick.index) +
+                  " (t = " + print_real(tick.time) + " s), in row " +
+                  std::to_string(static_cast<std::size_t>(wrong - data.begin()) / sum.total->width()));
 }
 
 // Threads take instances as they come; nothing that an instance writes is another's, so the order does not show.
@@ -105,11 +106,15 @@ void Simulation::step_all(const muster_tick& tick) {
   const auto one = [&](std::size_t i) {
     muster_tick own = tick;
     own.dt = world_.dt * static_cast<double>(due_[i]->every());
-    if (!due_[i]->step(own)) faults_[i] = due_[i]->said();
-    else if (std::string wrong = check_cells(*due_[i], board_); !wrong.empty()) faults_[i] = std::move(wrong);
+    if (!due_[i]->step(own))
+      faults_[i] = due_[i]->said();
+    else if (std::string wrong = check_cells(*due_[i], board_); !wrong.empty())
+      faults_[i] = std::move(wrong);
   };
-  if (workers_ && due_.size() > 1) workers_->each(due_.size(), one);
-  else for (std::size_t i = 0; i < due_.size(); ++i) one(i);
+  if (workers_ && due_.size() > 1)
+    workers_->each(due_.size(), one);
+  else
+    for (std::size_t i = 0; i < due_.size(); ++i) one(i);
 }
 
 void add_up(const Sum& sum, uint64_t tick) {
@@ -172,7 +177,8 @@ void Simulation::finish(uint64_t tick) {
     }
     for (const auto& leave : instance->leaves) {
       leave.set->alive[leave.row] = 0;
-      events_.push_back({tick, instance->name(), leave.set->name + ' ' + quote(leave.set->names[leave.row]) + " leaves"});
+      events_.push_back(
+          {tick, instance->name(), leave.set->name + ' ' + quote(leave.set->names[leave.row]) + " leaves"});
     }
     instance->joins.clear();
     instance->leaves.clear();

@@ -24,7 +24,8 @@ ThreadPool::~ThreadPool() = default;
 
 void ThreadPool::run(std::size_t count, Call call, void* work) {
   threads_->arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { call(work, i); }, tbb::simple_partitioner{});
+    tbb::parallel_for(
+        std::size_t{0}, count, [&](std::size_t i) { call(work, i); }, tbb::simple_partitioner{});
   });
 }
 

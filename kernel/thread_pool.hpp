@@ -23,7 +23,8 @@ class ThreadPool {
 
   // Calls body(i) for every i < count, in any order; returns when all have been called. What was written before is
   // seen by every body, and what the bodies wrote by the caller.
-  template <class Body> void each(std::size_t count, const Body& body) {
+  template <class Body>
+  void each(std::size_t count, const Body& body) {
     Work<Body> work{body};
     MUSTER_HANDS_OVER(&work.begun);
     run(count, Work<Body>::one, &work);
@@ -33,7 +34,8 @@ class ThreadPool {
  private:
   using Call = void (*)(void* work, std::size_t i);
 
-  template <class Body> struct Work {
+  template <class Body>
+  struct Work {
     const Body& body;
     char begun = 0, done = 0;  // marks for the sanitizer
 

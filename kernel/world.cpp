@@ -1,11 +1,11 @@
 #include "world.hpp"
 
+#include <cmath>
+#include <set>
+
 #include "text/names.hpp"
 #include "text/number.hpp"
 #include "world_rows.hpp"
-
-#include <cmath>
-#include <set>
 
 namespace muster {
 namespace {
@@ -14,8 +14,12 @@ constexpr double most_ticks = 1e12;
 
 double number(const XmlAttribute& given, double least, const char* expected) {
   const auto value = parse_real(given.value);
-  if (!value) throw invalid(given.value_place, "attribute " + quote(given.name) + ": " + why_not_real(given.value) + "; expected " + expected);
-  if (!(*value >= least)) throw invalid(given.value_place, "attribute " + quote(given.name) + ": " + given.value + " is out of bounds; expected " + expected);
+  if (!value)
+    throw invalid(given.value_place,
+                  "attribute " + quote(given.name) + ": " + why_not_real(given.value) + "; expected " + expected);
+  if (!(*value >= least))
+    throw invalid(given.value_place,
+                  "attribute " + quote(given.name) + ": " + given.value + " is out of bounds; expected " + expected);
   return *value;
 }
 
@@ -29,8 +33,10 @@ uint64_t positive_integer(const XmlAttribute& given) {
   return static_cast<uint64_t>(*value);
 }
 
-[[noreturn]] void unknown_attribute(const XmlAttribute& given, const std::string& element, const std::vector<std::string>& valid) {
-  throw invalid(given.place, "<" + element + "> has no attribute " + quote(given.name) + "; " + suggest(given.name, valid));
+[[noreturn]] void unknown_attribute(const XmlAttribute& given, const std::string& element,
+                                    const std::vector<std::string>& valid) {
+  throw invalid(given.place,
+                "<" + element + "> has no attribute " + quote(given.name) + "; " + suggest(given.name, valid));
 }
 
 const XmlAttribute& needed(const XmlElement& element, const char* name) {
@@ -44,12 +50,18 @@ void read_root(const XmlElement& root, World& world) {
   world.name = world.file.parent_path().filename().string();
   const XmlAttribute* until = nullptr;
   for (const auto& given : root.attributes) {
-    if (given.name == "name") world.name = given.value;
-    else if (given.name == "dt") world.dt = number(given, 1e-9, "the tick in seconds, from 1e-09");
-    else if (given.name == "until") until = &given;
+    if (given.name == "name")
+      world.name = given.value;
+    else if (given.name == "dt")
+      world.dt = number(given, 1e-9, "the tick in seconds, from 1e-09");
+    else if (given.name == "until")
+      until = &given;
     else if (given.name == "seed") {
       const auto seed = parse_integer(given.value);
-      if (!seed || *seed < 0) throw invalid(given.value_place, "attribute \"seed\": " + (seed ? given.value + " is out of bounds" : why_not_integer(given.value)) + "; expected an integer from 0");
+      if (!seed || *seed < 0)
+        throw invalid(given.value_place, "attribute \"seed\": " +
+                                             (seed ? given.value + " is out of bounds" : why_not_integer(given.value)) +
+                                             "; expected an integer from 0");
       world.seed = static_cast<uint64_t>(*seed);
     } else {
       unknown_attribute(given, "world", valid);
@@ -66,30 +78,40 @@ InstanceDeclaration read_instance(const XmlElement& element, const std::string& 
     if (given.name == "name") {
       check_name(given);
       result.name = given.value;
-    } else if (given.name == "every") result.every = positive_integer(given);
-    else if (given.name == "library") result.library = given.value;
-    else if (given.name == "revision") result.revision = positive_integer(given);
-    else result.attributes.push_back(given);
+    } else if (given.name == "every")
+      result.every = positive_integer(given);
+    else if (given.name == "library")
+      result.library = given.value;
+    else if (given.name == "revision")
+      result.revision = positive_integer(given);
+    else
+      result.attributes.push_back(given);
   }
-  if (!element.children.empty()) throw invalid(element.children[0].place, "<" + element.name + "> has an element inside; expected attributes only");
+  if (!element.children.empty())
+    throw invalid(element.children[0].place, "<" + element.name + "> has an element inside; expected attributes only");
   return result;
 }
 
 SwapDeclaration read_swap(const XmlElement& element, const World& world) {
   const auto& plugin = needed(element, "plugin");
   XmlElement rest = element;
-  std::erase_if(rest.attributes, [](const XmlAttribute& a) { return a.name == "at" || a.name == "instance" || a.name == "plugin"; });
+  std::erase_if(rest.attributes,
+                [](const XmlAttribute& a) { return a.name == "at" || a.name == "instance" || a.name == "plugin"; });
   const auto& at = needed(element, "at");
   if (const auto* name = element.attribute("name"))
-    throw invalid(name->place, "<swap> has no attribute \"name\"; the replacement keeps the name " + quote(needed(element, "instance").value));
-  return {ticks_of(number(at, 0, "a time in seconds, from 0"), world.dt, at.value_place), needed(element, "instance").value, read_instance(rest, plugin.value)};
+    throw invalid(name->place, "<swap> has no attribute \"name\"; the replacement keeps the name " +
+                                   quote(needed(element, "instance").value));
+  return {ticks_of(number(at, 0, "a time in seconds, from 0"), world.dt, at.value_place),
+          needed(element, "instance").value, read_instance(rest, plugin.value)};
 }
 
 RecordDeclaration read_record(const XmlElement& element) {
   RecordDeclaration result{needed(element, "table").value, 1, element.place};
   for (const auto& given : element.attributes) {
-    if (given.name == "every") result.every = positive_integer(given);
-    else if (given.name != "table") unknown_attribute(given, "record", {"table", "every"});
+    if (given.name == "every")
+      result.every = positive_integer(given);
+    else if (given.name != "table")
+      unknown_attribute(given, "record", {"table", "every"});
   }
   return result;
 }
@@ -99,7 +121,9 @@ void read_child(const XmlElement& element, const Standard& standard, World& worl
   if (element.name == "swap") {
     world.swaps.push_back(read_swap(element, world));
     const auto& swap = world.swaps.back();
-    if (swap.tick >= world.ticks) world.warnings.push_back({element.place, "the swap of " + quote(swap.instance) + " comes at the end of the run or after it"});
+    if (swap.tick >= world.ticks)
+      world.warnings.push_back(
+          {element.place, "the swap of " + quote(swap.instance) + " comes at the end of the run or after it"});
   } else if (element.name == "record") {
     world.records.push_back(read_record(element));
   } else if (element.name.find('.') != std::string::npos) {
@@ -110,7 +134,9 @@ void read_child(const XmlElement& element, const Standard& standard, World& worl
       if (element.name == known.name) return;  // read_rows() has read it
       valid.push_back(known.name);
     }
-    throw invalid(element.place, "<" + element.name + "> is no element of a world; expected a plugin (with a dot in its name) or " + suggest(element.name, valid).substr(9));
+    throw invalid(element.place, "<" + element.name +
+                                     "> is no element of a world; expected a plugin (with a dot in its name) or " +
+                                     suggest(element.name, valid).substr(9));
   }
 }
 
@@ -127,7 +153,8 @@ void check_names(const World& world) {
     if (seen.count(swap.instance)) continue;
     std::vector<std::string> valid;
     for (const auto& [name, place] : seen) valid.push_back(name);
-    throw invalid(swap.replacement.place, "no instance is called " + quote(swap.instance) + "; " + suggest(swap.instance, valid));
+    throw invalid(swap.replacement.place,
+                  "no instance is called " + quote(swap.instance) + "; " + suggest(swap.instance, valid));
   }
 }
 
@@ -135,8 +162,11 @@ void check_names(const World& world) {
 
 uint64_t ticks_of(double time, double dt, const Place& place) {
   const double ticks = std::round(time / dt);
-  if (!(ticks < most_ticks)) throw invalid(place, print_real(time) + " s are " + print_real(ticks) + " ticks of " + print_real(dt) + " s; expected fewer than 1e+12");
-  if (time > 0 && time < dt) throw invalid(place, print_real(time) + " s are less than a tick of " + print_real(dt) + " s");
+  if (!(ticks < most_ticks))
+    throw invalid(place, print_real(time) + " s are " + print_real(ticks) + " ticks of " + print_real(dt) +
+                             " s; expected fewer than 1e+12");
+  if (time > 0 && time < dt)
+    throw invalid(place, print_real(time) + " s are less than a tick of " + print_real(dt) + " s");
   return static_cast<uint64_t>(ticks);
 }
 

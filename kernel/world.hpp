@@ -2,22 +2,21 @@
 // plugin is loaded, and nothing refers to a plugin's declarations yet.
 #pragma once
 
-#include "text/error.hpp"
-#include "text/xml.hpp"
-
-#include <muster/sets.hpp>
-
 #include <filesystem>
 #include <map>
+#include <muster/sets.hpp>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "text/error.hpp"
+#include "text/xml.hpp"
 
 namespace muster {
 
 // Values for one table's row, in the order in which they are to be stored.
 struct StoredValues {
-  std::string table;  // "wall/shape"
+  std::string table;                                           // "wall/shape"
   void (*store)(const double* values, double* row) = nullptr;  // null: values are the whole row
   std::vector<double> values;
   const Attribute* attribute = nullptr;  // null where the values come from a file

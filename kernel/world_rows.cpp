@@ -1,14 +1,14 @@
 #include "world_rows.hpp"
 
-#include "blackboard.hpp"
-#include "text/names.hpp"
-#include "text/number.hpp"
-#include "params.hpp"
-#include "text/text_table.hpp"
-
 #include <algorithm>
 #include <bit>
 #include <set>
+
+#include "blackboard.hpp"
+#include "params.hpp"
+#include "text/names.hpp"
+#include "text/number.hpp"
+#include "text/text_table.hpp"
 
 namespace muster {
 namespace {
@@ -27,8 +27,10 @@ class RowReader {
       const Element* element = find(child.name);
       if (!element) continue;
       check_attributes(child, *element);
-      if (*element->file_of) add_file(child, *element);
-      else declare(*element, child);
+      if (*element->file_of)
+        add_file(child, *element);
+      else
+        declare(*element, child);
     }
     for (const auto& [given, element, row] : pending_) read_values(*given, *element, world_.rows[row]);
     for (const auto& load : files_) read_file_values(load);
@@ -61,11 +63,13 @@ class RowReader {
     }
     for (const auto& a : given.attributes) {  // before what is missing: it may be there, misspelt
       if (std::find(valid.begin(), valid.end(), a.name) == valid.end())
-        throw invalid(a.place, "<" + given.name + "> has no attribute " + quote(a.name) + "; " + suggest(a.name, valid));
+        throw invalid(a.place,
+                      "<" + given.name + "> has no attribute " + quote(a.name) + "; " + suggest(a.name, valid));
     }
     for (const auto& attribute : element.attributes) {
       if ((attribute.param.flags & MUSTER_REQUIRED) && !given.attribute(attribute.param.name))
-        throw invalid(given.place, "<" + given.name + "> has no attribute " + quote(attribute.param.name) + ", which it needs");
+        throw invalid(given.place,
+                      "<" + given.name + "> has no attribute " + quote(attribute.param.name) + ", which it needs");
     }
     if (!given.children.empty())
       throw invalid(given.children[0].place, "<" + given.name + "> has an element inside; expected attributes only");
@@ -81,7 +85,8 @@ class RowReader {
     for (const auto& set : row.sets) {
       const auto [first, is_new] = places_.emplace(set + '/' + name, place);
       if (!is_new) {
-        throw invalid(place, "a second " + set + " is called " + quote(name) + "; the first is at " + first->second.text());
+        throw invalid(place,
+                      "a second " + set + " is called " + quote(name) + "; the first is at " + first->second.text());
       }
       numbers_[set + '/' + name] = static_cast<double>(names_[set].size());
       names_[set].push_back(name);
@@ -108,7 +113,9 @@ class RowReader {
   }
 
   FindRow finder() const {
-    return [this](const std::string& set, const std::string& row, const Place& place) { return number_of(set, row, place); };
+    return [this](const std::string& set, const std::string& row, const Place& place) {
+      return number_of(set, row, place);
+    };
   }
   Warn warner() {
     return [this](const Place& place, const std::string& message) { world_.warnings.push_back({place, message}); };
@@ -119,13 +126,16 @@ class RowReader {
     for (const auto& attribute : element.attributes) {
       const auto* found = given.attribute(attribute.param.name);
       if (!*attribute.table) {
-        world_.texts[row.set + '/' + row.name + '/' + attribute.param.name] = found ? found->value : attribute.param.text;
+        world_.texts[row.set + '/' + row.name + '/' + attribute.param.name] =
+            found ? found->value : attribute.param.text;
       } else if (found) {
         row.values.push_back({attribute.table, attribute.store,
-                              attribute_values(attribute.param, attribute.count, *found, finder(), warner()), &attribute});
+                              attribute_values(attribute.param, attribute.count, *found, finder(), warner()),
+                              &attribute});
       } else if (attribute.param.kind != MUSTER_REFERENCE) {
         row.values.push_back({attribute.table, attribute.store,
-                              std::vector<double>(static_cast<std::size_t>(attribute.count), attribute.param.value), &attribute});
+                              std::vector<double>(static_cast<std::size_t>(attribute.count), attribute.param.value),
+                              &attribute});
       }
     }
   }
@@ -162,21 +172,25 @@ class RowReader {
     const std::string table = std::string(load.element->file_of) + '/' + quantity.name;
     std::vector<double> defaults(columns.size(), poison());
     for (const auto& attribute : single(*load.element).attributes) {
-      if (table == attribute.table && !(attribute.param.flags & MUSTER_REQUIRED) && attribute.param.kind != MUSTER_REFERENCE)
-        attribute.store(std::vector<double>(static_cast<std::size_t>(attribute.count), attribute.param.value).data(), defaults.data());
+      if (table == attribute.table && !(attribute.param.flags & MUSTER_REQUIRED) &&
+          attribute.param.kind != MUSTER_REFERENCE)
+        attribute.store(std::vector<double>(static_cast<std::size_t>(attribute.count), attribute.param.value).data(),
+                        defaults.data());
     }
     std::vector<std::vector<double>> cells;
     std::set<std::string> known = {"name"};
     for (std::size_t c = 0; c < columns.size(); ++c) {
       known.insert(columns[c].name);
       const bool may_miss = std::bit_cast<uint64_t>(defaults[c]) != poison_bits && !load.table.find(columns[c].name);
-      cells.push_back(may_miss ? std::vector<double>(load.table.rows(), defaults[c]) : read_column(load.table, columns[c]));
+      cells.push_back(may_miss ? std::vector<double>(load.table.rows(), defaults[c])
+                               : read_column(load.table, columns[c]));
       if (!may_miss) check_bounds(load.table, single(*load.element), table, columns, c, cells.back());
     }
     for (std::size_t c = 0; c < load.table.columns().size(); ++c) {
       const auto& name = load.table.columns()[c].name;
       if (!known.count(name))
-        throw invalid(load.table.header_place(c), "column " + quote(name) + " means nothing here; " + suggest(name, {known.begin(), known.end()}));
+        throw invalid(load.table.header_place(c),
+                      "column " + quote(name) + " means nothing here; " + suggest(name, {known.begin(), known.end()}));
     }
     for (std::size_t r = 0; r < load.table.rows(); ++r) {
       StoredValues values{table, nullptr, {}, nullptr};
@@ -186,8 +200,8 @@ class RowReader {
   }
 
   // The bounds of the attribute that gives this column where a row is an element of its own.
-  void check_bounds(const TextTable& table, const Element& one, const std::string& quantity, const Columns& columns, std::size_t c,
-                    const std::vector<double>& cells) const {
+  void check_bounds(const TextTable& table, const Element& one, const std::string& quantity, const Columns& columns,
+                    std::size_t c, const std::vector<double>& cells) const {
     for (const auto& attribute : one.attributes) {
       if (quantity != attribute.table || attribute.param.kind != MUSTER_REAL) continue;
       // Where the attribute's first number goes if it goes anywhere as it is.
@@ -198,7 +212,8 @@ class RowReader {
       for (std::size_t r = 0; r < cells.size(); ++r) {
         if (cells[r] >= attribute.param.min && cells[r] <= attribute.param.max) continue;
         const auto at = table.require(columns[c].name, columns[c].unit);
-        throw invalid(table.place(r, at), "column " + quote(columns[c].title()) + ": " + print_real(cells[r]) + " is out of bounds; expected " + expectation(attribute.param));
+        throw invalid(table.place(r, at), "column " + quote(columns[c].title()) + ": " + print_real(cells[r]) +
+                                              " is out of bounds; expected " + expectation(attribute.param));
       }
     }
   }
@@ -226,14 +241,19 @@ class RowReader {
 
 bool is_name(const std::string& text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.';
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
+           c == '.';
   });
 }
 
 void check_name(const XmlAttribute& given) {
-  if (!is_name(given.value)) throw invalid(given.value_place, "attribute " + quote(given.name) + ": " + quote(given.value) + " is not a name; expected letters, digits, _, - and .");
+  if (!is_name(given.value))
+    throw invalid(given.value_place, "attribute " + quote(given.name) + ": " + quote(given.value) +
+                                         " is not a name; expected letters, digits, _, - and .");
 }
 
-void read_rows(const XmlElement& root, const Standard& standard, World& world) { RowReader(standard, world).read(root); }
+void read_rows(const XmlElement& root, const Standard& standard, World& world) {
+  RowReader(standard, world).read(root);
+}
 
 }  // namespace muster

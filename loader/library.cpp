@@ -15,9 +15,9 @@
 #include "elf.hpp"
 #include "library_copy.hpp"
 #include "library_probe.hpp"
-#include "text/names.hpp"
 #include "process_guard.hpp"
 #include "registration.hpp"
+#include "text/names.hpp"
 
 namespace muster {
 

@@ -19,7 +19,8 @@ namespace {
 constexpr std::size_t first_size = offsetof(muster_plugin, step) + sizeof(muster_plugin::step);
 
 constexpr std::string_view reserved[] = {"name", "every", "library", "revision"};
-constexpr std::uint32_t known_flags = MUSTER_FREE | MUSTER_REQUIRED | MUSTER_LINEAR | MUSTER_LOG | MUSTER_CYCLIC | MUSTER_EAST | MUSTER_NORTH;
+constexpr std::uint32_t known_flags =
+    MUSTER_FREE | MUSTER_REQUIRED | MUSTER_LINEAR | MUSTER_LOG | MUSTER_CYCLIC | MUSTER_EAST | MUSTER_NORTH;
 
 template <class... Args>
 [[noreturn]] void refuse(fmt::format_string<Args...> format, Args&&... args) {

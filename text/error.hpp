@@ -7,7 +7,15 @@
 namespace muster {
 
 // The program's exit codes (docs/errors.md).
-enum class Exit { done = 0, check_failed = 1, invalid_input = 2, plugin_fault = 3, internal = 70, io = 74, interrupted = 130 };
+enum class Exit {
+  done = 0,
+  check_failed = 1,
+  invalid_input = 2,
+  plugin_fault = 3,
+  internal = 70,
+  io = 74,
+  interrupted = 130
+};
 
 // A place in a file; lines and columns count from 1, and 0 means "not known" and is not printed.
 struct Place {

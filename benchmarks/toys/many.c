@@ -13,9 +13,15 @@ static int step(void* made, const muster_tick* tick, const muster_in* in, const 
   return MUSTER_OK;
 }
 
-static const muster_plugin plugin = {
-    .size = sizeof(muster_plugin), .phase = MUSTER_OBSERVE, .id = BENCH_ID, .summary = "one of many",
-    .create = create, .destroy = destroy, .step = step};
+static const muster_plugin plugin = {.size = sizeof(muster_plugin),
+                                     .phase = MUSTER_OBSERVE,
+                                     .id = BENCH_ID,
+                                     .summary = "one of many",
+                                     .create = create,
+                                     .destroy = destroy,
+                                     .step = step};
 
 MUSTER_DECLARE_ABI
-int muster_register(uint32_t abi, void* registry, muster_add add) { return abi == MUSTER_ABI ? add(registry, &plugin) : MUSTER_FAILED; }
+int muster_register(uint32_t abi, void* registry, muster_add add) {
+  return abi == MUSTER_ABI ? add(registry, &plugin) : MUSTER_FAILED;
+}

@@ -87,8 +87,8 @@ void test_each(Bench& bench, std::vector<Term>& aside, std::vector<Trial>& trial
       continue;
     }
     // The fit of the whole design, its columns in another order: the value does not depend on it.
-    const double integrated = integrated_log_p(bench, bench.fit, rest, term.columns, log_tests(bench, c)) +
-                              stand.skew_charge(term.columns);
+    const double integrated =
+        integrated_log_p(bench, bench.fit, rest, term.columns, log_tests(bench, c)) + stand.skew_charge(term.columns);
     if (integrated <= threshold) {
       ++k;
       continue;

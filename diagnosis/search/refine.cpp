@@ -88,7 +88,8 @@ Top by_strides(const Candidate& candidate, Top top, uint64_t salt, int evaluatio
   const Stream stream(combined(key_of("strides"), salt));
   double length = longest;
   for (int k = 0; k < evaluations; ++k) {
-    Eigen::VectorXd theta = top.first + stride(moves_at(candidate, top.first), stream, static_cast<uint64_t>(k), length);
+    Eigen::VectorXd theta =
+        top.first + stride(moves_at(candidate, top.first), stream, static_cast<uint64_t>(k), length);
     theta = theta.cwiseMax(candidate.lower).cwiseMin(candidate.upper);
     const double reached = value(theta);
     length *= reached > top.second ? longer : shorter;

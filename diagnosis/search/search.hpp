@@ -15,14 +15,14 @@ struct Finding {
   std::string id, label;
   Status status = Status::named;
   std::vector<std::string> covariates;
-  Eigen::VectorXd theta;            // where, when or of what shape
-  Eigen::VectorXd coefficients;     // one a column
-  Eigen::MatrixXd uncertainty;      // covariance of the coefficients
+  Eigen::VectorXd theta;                // where, when or of what shape
+  Eigen::VectorXd coefficients;         // one a column
+  Eigen::MatrixXd uncertainty;          // covariance of the coefficients
   std::vector<Eigen::VectorXd> thetas;  // where else it may be, as likely as one another; none for a suspected one
-  double gain = 0;                  // deviance beside all other findings
-  double evidence = 0;              // nats
-  double log_p = 0;                 // integrated over the covariance
-  std::optional<HeldOut> held_out;  // without and with it; none for what is only suspected
+  double gain = 0;                      // deviance beside all other findings
+  double evidence = 0;                  // nats
+  double log_p = 0;                     // integrated over the covariance
+  std::optional<HeldOut> held_out;      // without and with it; none for what is only suspected
   std::vector<Rival> rivals;
 };
 

@@ -149,8 +149,7 @@ double by_noise(const Bench& bench, const Term& term, const Beside& fitted) {
   Eigen::VectorXd mean = Eigen::VectorXd::Zero(width);
   for (std::size_t k = 0; k < logs.size(); ++k) sum += logs[k] = std::exp(logs[k] - top);
   for (std::size_t k = 0; k < logs.size(); ++k) mean += logs[k] / sum * means[k];
-  for (std::size_t k = 0; k < logs.size(); ++k)
-    trace += logs[k] / sum * (traces[k] + (means[k] - mean).squaredNorm());
+  for (std::size_t k = 0; k < logs.size(); ++k) trace += logs[k] / sum * (traces[k] + (means[k] - mean).squaredNorm());
   return trace / fitted.covariance.trace();
 }
 

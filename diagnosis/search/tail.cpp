@@ -1,7 +1,7 @@
 #include "diagnosis/search/tail.hpp"
 
-#include <boost/math/special_functions/gamma.hpp>
 #include <algorithm>
+#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 
 namespace muster::search {

@@ -36,7 +36,8 @@ enum { MUSTER_OK = 0, MUSTER_FAILED = 1 };
 /* What an instance may do with a table; see muster_host.claim. */
 enum {
   MUSTER_READ = 1, /* in[i]: the table */
-  MUSTER_WRITE,    /* out[i]: to be filled, every cell; in[i]: what this claim last published, so an own state needs no second claim */
+  MUSTER_WRITE,    /* out[i]: to be filled, every cell; in[i]: what this claim last published, so an own state needs no
+                      second claim */
   MUSTER_ADD,      /* out[i]: a part of a sum; readers get the total in world-file order, or one part by its name */
   MUSTER_MODIFY    /* in[i]: the stage before; out[i]: this stage, to be filled; stages run in world-file order */
 };
@@ -44,8 +45,9 @@ enum {
   MUSTER_OPTIONAL = 1u, /* read: where nobody writes the table, in[i] has no rows instead of an error */
   MUSTER_REST = 2u,     /* write: every row that no other instance claims by its name, instead of all rows */
   MUSTER_SENSED = 4u,   /* write: a quantity that is not standard may be read by the controllers of its row */
-  MUSTER_ADOPTS = 8u,   /* write: at a swap, take the table over although its columns differ (missing cells are initial) */
-  MUSTER_JOINS = 16u    /* write: this instance may call join() and leave() for the set */
+  MUSTER_ADOPTS =
+      8u,            /* write: at a swap, take the table over although its columns differ (missing cells are initial) */
+  MUSTER_JOINS = 16u /* write: this instance may call join() and leave() for the set */
 };
 
 /* What stands in a nullable cell where nothing was there. Any other NaN is a fault of its writer. */
@@ -77,14 +79,14 @@ typedef struct muster_tick {
 /* Kinds of parameters. A value is a double: an integer; 0 or 1; the choice's place in its list; a row's number. */
 enum { MUSTER_REAL = 1, MUSTER_INTEGER, MUSTER_FLAG, MUSTER_CHOICE, MUSTER_REFERENCE, MUSTER_TEXT, MUSTER_FILE };
 enum {
-  MUSTER_FREE = 1u,    /* a fit may move it, inside its bounds */
+  MUSTER_FREE = 1u,     /* a fit may move it, inside its bounds */
   MUSTER_REQUIRED = 2u, /* the world file must give it */
   /* What a diagnosis knows of a cause's parameter when it searches. */
-  MUSTER_LINEAR = 4u, /* what the cause adds is proportional to it */
-  MUSTER_LOG = 8u,    /* its scale is logarithmic: 1, 2, 4, ... */
+  MUSTER_LINEAR = 4u,  /* what the cause adds is proportional to it */
+  MUSTER_LOG = 8u,     /* its scale is logarithmic: 1, 2, 4, ... */
   MUSTER_CYCLIC = 16u, /* max is min again: an angle */
-  MUSTER_EAST = 32u,  /* a coordinate in the world, to be sought over the plan's extent: x */
-  MUSTER_NORTH = 64u  /* the same: y */
+  MUSTER_EAST = 32u,   /* a coordinate in the world, to be sought over the plan's extent: x */
+  MUSTER_NORTH = 64u   /* the same: y */
 };
 
 /* One attribute of the plugin's element in the world file. XML check, schema, manual, fit and sweep derive from it. */
@@ -111,13 +113,13 @@ typedef struct muster_host {
    * "range[m]~" where it may be infinite, "payload{}" for bytes, "tx:endpoint" for a row number of another set. A
    * reader's must equal its writer's. */
   int (*claim)(const struct muster_host*, uint32_t kind, uint32_t flags, const char* table, const char* columns);
-  /* [setup] The table in the CSV file that parameter `param` names, with these columns in this order; a nullable column may
-   * be absent, names in a reference column must be rows of the set ("tx:radio+": or join it). Read as any claim. */
+  /* [setup] The table in the CSV file that parameter `param` names, with these columns in this order; a nullable column
+   * may be absent, names in a reference column must be rows of the set ("tx:radio+": or join it). Read as any claim. */
   int (*file)(const struct muster_host*, const char* param, const char* columns);
   /* [setup] A text parameter by its name, or a text attribute by its path ("robot/leader/model"); NULL if absent. */
   const char* (*text)(const struct muster_host*, const char* path);
-  /* [setup] The directories in which files such as robots' models are looked for: those of the plugins, then the world's
-   * own; NULL after the last. */
+  /* [setup] The directories in which files such as robots' models are looked for: those of the plugins, then the
+   * world's own; NULL after the last. */
   const char* (*search_path)(const struct muster_host*, uint32_t index);
   /* [setup] The key of a declared random stream, from the world's seed and this name alone. */
   uint64_t (*stream)(const struct muster_host*, const char* name);
@@ -133,7 +135,8 @@ typedef struct muster_host {
   double* (*append)(const struct muster_host*, int claim, uint32_t rows);
   /* [step] Bytes in a cell of a bytes column. get: of a read table, valid until step() returns; put: copied. */
   const uint8_t* (*get_bytes)(const struct muster_host*, int claim, uint32_t row, uint32_t column, uint64_t* count);
-  void (*put_bytes)(const struct muster_host*, int claim, uint32_t row, uint32_t column, const uint8_t* data, uint64_t count);
+  void (*put_bytes)(const struct muster_host*, int claim, uint32_t row, uint32_t column, const uint8_t* data,
+                    uint64_t count);
   /* [step] A new row of a live set, seen by all from the next tick on; its values are those of row `like`, or initial
    * ones if `like` is negative; the new row's number, or -1. leave: the row keeps its number and its last values. */
   int (*join)(const struct muster_host*, int claim, const char* name, int like);
@@ -157,15 +160,17 @@ enum {
   MUSTER_INSTRUMENT  /* a fault of the record itself: identities exchanged, a unit */
 };
 
-/* A named cause: an ordinary plugin that a diagnosis may accept as the explanation of a misfit, and what it says of itself. */
+/* A named cause: an ordinary plugin that a diagnosis may accept as the explanation of a misfit, and what it says of
+ * itself. */
 typedef struct muster_cause {
   uint32_t size, kind;
-  const char* title;       /* one sentence with {parameter} slots: "the radio {radio} sends {offset} more than given" */
-  const char* ranges_over; /* the reference parameter that says which row it is about: "radio", "wall"; "" for the world */
-  const char* covariates;  /* columns that measured data must have for it: "t", "rx_yaw"; "" for none */
-  const char* imitators;   /* ids of what it can be mistaken for, with blanks between */
-  const char* tell_apart;  /* what to measure to decide */
-  const char* replaces;    /* the plugin's part of a sum that it stands in for; NULL: it comes on top */
+  const char* title; /* one sentence with {parameter} slots: "the radio {radio} sends {offset} more than given" */
+  const char*
+      ranges_over; /* the reference parameter that says which row it is about: "radio", "wall"; "" for the world */
+  const char* covariates; /* columns that measured data must have for it: "t", "rx_yaw"; "" for none */
+  const char* imitators;  /* ids of what it can be mistaken for, with blanks between */
+  const char* tell_apart; /* what to measure to decide */
+  const char* replaces;   /* the plugin's part of a sum that it stands in for; NULL: it comes on top */
 } muster_cause;
 
 typedef struct muster_plugin {

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <muster/plugin.h>
-#include <muster/random.hpp>
-#include <muster/tables.hpp>
 
 #include <cstring>
 #include <exception>
 #include <iterator>
+#include <muster/random.hpp>
+#include <muster/tables.hpp>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -48,9 +48,7 @@ constexpr Param text(const char* name, const char* value, const char* help) {
   return {{name, MUSTER_TEXT, 0, 0, 0, 0, "", help, value}};
 }
 // A path, relative to the world file.
-constexpr Param file(const char* name, const char* help) {
-  return {{name, MUSTER_FILE, 0, 0, 0, 0, "", help, ""}};
-}
+constexpr Param file(const char* name, const char* help) { return {{name, MUSTER_FILE, 0, 0, 0, 0, "", help, ""}}; }
 
 // ---- Values -------------------------------------------------------------------------------------------------------
 
@@ -84,12 +82,23 @@ class Rows {
 };
 
 // Claimed tables: the row type travels with the index, so step() cannot read one as another.
-template <class Row> struct In { int index; };
-template <class Row> struct Out { int index; };
-template <class Row> struct Stage { int index; };
+template <class Row>
+struct In {
+  int index;
+};
+template <class Row>
+struct Out {
+  int index;
+};
+template <class Row>
+struct Stage {
+  int index;
+};
 
 // A declared number: its place among the declarations. `k[n]` is its value in this step.
-struct Value { int index; };
+struct Value {
+  int index;
+};
 
 // Throw it where not the plugin is wrong but what the user gave it: a parameter, a file.
 struct BadInput : std::runtime_error {
@@ -101,23 +110,34 @@ struct BadInput : std::runtime_error {
 // What a constructor may ask. Every call throws when the kernel refuses it; the kernel has the message already.
 class Setup {
  public:
-  Setup(const muster_host* host, const muster_param* params, uint32_t count) : host_(host), params_(params), count_(count) {}
+  Setup(const muster_host* host, const muster_param* params, uint32_t count)
+      : host_(host), params_(params), count_(count) {}
 
-  template <class Row> In<Row> read(const std::string& table, uint32_t flags = 0) {
+  template <class Row>
+  In<Row> read(const std::string& table, uint32_t flags = 0) {
     return {claimed(host_->claim(host_, MUSTER_READ, flags, table.c_str(), Row::columns))};
   }
-  template <class Row> In<Row> read_if_any(const std::string& table) { return read<Row>(table, MUSTER_OPTIONAL); }
-  template <class Row> Out<Row> write(const std::string& table, uint32_t flags = 0) {
+  template <class Row>
+  In<Row> read_if_any(const std::string& table) {
+    return read<Row>(table, MUSTER_OPTIONAL);
+  }
+  template <class Row>
+  Out<Row> write(const std::string& table, uint32_t flags = 0) {
     return {claimed(host_->claim(host_, MUSTER_WRITE, flags, table.c_str(), Row::columns))};
   }
-  template <class Row> Out<Row> add(const std::string& table) {
+  template <class Row>
+  Out<Row> add(const std::string& table) {
     return {claimed(host_->claim(host_, MUSTER_ADD, 0, table.c_str(), Row::columns))};
   }
-  template <class Row> Stage<Row> modify(const std::string& table) {
+  template <class Row>
+  Stage<Row> modify(const std::string& table) {
     return {claimed(host_->claim(host_, MUSTER_MODIFY, 0, table.c_str(), Row::columns))};
   }
   // The CSV file that a parameter names; Row::columns are its columns.
-  template <class Row> In<Row> file(const char* param) { return {claimed(host_->file(host_, param, Row::columns))}; }
+  template <class Row>
+  In<Row> file(const char* param) {
+    return {claimed(host_->file(host_, param, Row::columns))};
+  }
 
   // A number that step() reads as k[value], so that changing it needs no new instance.
   Value value(const char* name) const {
@@ -150,12 +170,27 @@ class Step {
   Step(const muster_host* host, const muster_tick* tick, const muster_in* in, const muster_out* out)
       : host_(host), tick_(tick), in_(in), out_(out) {}
 
-  template <class Row> Rows<const Row> operator[](In<Row> t) const { return {in_[t.index].data, in_[t.index].rows}; }
-  template <class Row> Rows<Row> operator[](Out<Row> t) const { return {out_[t.index].data, out_[t.index].rows}; }
-  template <class Row> Rows<Row> operator[](Stage<Row> t) const { return {out_[t.index].data, out_[t.index].rows}; }
+  template <class Row>
+  Rows<const Row> operator[](In<Row> t) const {
+    return {in_[t.index].data, in_[t.index].rows};
+  }
+  template <class Row>
+  Rows<Row> operator[](Out<Row> t) const {
+    return {out_[t.index].data, out_[t.index].rows};
+  }
+  template <class Row>
+  Rows<Row> operator[](Stage<Row> t) const {
+    return {out_[t.index].data, out_[t.index].rows};
+  }
   // What an Out claim last published, and what stands before a Stage.
-  template <class Row> Rows<const Row> last(Out<Row> t) const { return {in_[t.index].data, in_[t.index].rows}; }
-  template <class Row> Rows<const Row> before(Stage<Row> t) const { return {in_[t.index].data, in_[t.index].rows}; }
+  template <class Row>
+  Rows<const Row> last(Out<Row> t) const {
+    return {in_[t.index].data, in_[t.index].rows};
+  }
+  template <class Row>
+  Rows<const Row> before(Stage<Row> t) const {
+    return {in_[t.index].data, in_[t.index].rows};
+  }
   double operator[](Value v) const { return tick_->params[v.index]; }
 
   double time() const { return tick_->time; }
@@ -164,20 +199,24 @@ class Step {
   bool expected() const { return tick_->flags & MUSTER_EXPECTED; }
 
   // Queues and listed sets: room for `rows` more, to be filled.
-  template <class Row> Rows<Row> append(Out<Row> t, std::size_t rows) const {
+  template <class Row>
+  Rows<Row> append(Out<Row> t, std::size_t rows) const {
     return {host_->append(host_, t.index, static_cast<uint32_t>(rows)), rows};
   }
-  template <class Row> std::string_view bytes(In<Row> t, std::size_t row, unsigned column) const {
+  template <class Row>
+  std::string_view bytes(In<Row> t, std::size_t row, unsigned column) const {
     uint64_t count = 0;
     const uint8_t* data = host_->get_bytes(host_, t.index, static_cast<uint32_t>(row), column, &count);
     return {reinterpret_cast<const char*>(data), count};
   }
-  template <class Row> void put_bytes(Out<Row> t, std::size_t row, unsigned column, std::string_view data) const {
+  template <class Row>
+  void put_bytes(Out<Row> t, std::size_t row, unsigned column, std::string_view data) const {
     host_->put_bytes(host_, t.index, static_cast<uint32_t>(row), column, reinterpret_cast<const uint8_t*>(data.data()),
                      data.size());
   }
   // One more message in a queue whose row type names its payload_column: the row, to be filled but for the payload.
-  template <class Row> Row& send(Out<Row> t, std::size_t row, std::string_view payload) const {
+  template <class Row>
+  Row& send(Out<Row> t, std::size_t row, std::string_view payload) const {
     Row* made = append(t, 1).begin();
     put_bytes(t, row, Row::payload_column, payload);
     return *made;
@@ -188,8 +227,12 @@ class Step {
     const char* found = host_->row_name(host_, set, static_cast<uint32_t>(row));
     return found ? found : "";
   }
-  uint64_t key(const char* set, std::size_t row) const { return host_->row_key(host_, set, static_cast<uint32_t>(row)); }
-  bool alive(const char* set, std::size_t row) const { return host_->row_alive(host_, set, static_cast<uint32_t>(row)); }
+  uint64_t key(const char* set, std::size_t row) const {
+    return host_->row_key(host_, set, static_cast<uint32_t>(row));
+  }
+  bool alive(const char* set, std::size_t row) const {
+    return host_->row_alive(host_, set, static_cast<uint32_t>(row));
+  }
   void event(const std::string& message) const { host_->event(host_, message.c_str()); }
   const muster_host* host() const { return host_; }
 
@@ -205,7 +248,8 @@ class Step {
 namespace detail {
 
 // The one place where an exception stops being one: none crosses the border.
-template <class Body> bool guarded(const muster_host* host, Body&& body) noexcept {
+template <class Body>
+bool guarded(const muster_host* host, Body&& body) noexcept {
   try {
     body();
     return true;
@@ -219,30 +263,39 @@ template <class Body> bool guarded(const muster_host* host, Body&& body) noexcep
   return false;
 }
 
-template <class Plugin, class = void> struct Params {
+template <class Plugin, class = void>
+struct Params {
   static constexpr const Param* data = nullptr;
   static constexpr uint32_t count = 0;
 };
-template <class Plugin> struct Params<Plugin, std::void_t<decltype(Plugin::params)>> {
+template <class Plugin>
+struct Params<Plugin, std::void_t<decltype(Plugin::params)>> {
   static constexpr const Param* data = std::data(Plugin::params);
   static constexpr uint32_t count = static_cast<uint32_t>(std::size(Plugin::params));
 };
 static_assert(sizeof(Param) == sizeof(muster_param), "an array of one is an array of the other");
 
-template <class Plugin, class = void> constexpr const char* manual_of = nullptr;
-template <class Plugin> constexpr const char* manual_of<Plugin, std::void_t<decltype(Plugin::manual)>> = Plugin::manual;
-template <class Plugin, class = void> constexpr const muster_cause* cause_of = nullptr;
-template <class Plugin> constexpr const muster_cause* cause_of<Plugin, std::void_t<decltype(Plugin::cause)>> = &Plugin::cause;
-template <class Plugin, class = void> constexpr const char* cannot_hold_of = nullptr;
+template <class Plugin, class = void>
+constexpr const char* manual_of = nullptr;
+template <class Plugin>
+constexpr const char* manual_of<Plugin, std::void_t<decltype(Plugin::manual)>> = Plugin::manual;
+template <class Plugin, class = void>
+constexpr const muster_cause* cause_of = nullptr;
+template <class Plugin>
+constexpr const muster_cause* cause_of<Plugin, std::void_t<decltype(Plugin::cause)>> = &Plugin::cause;
+template <class Plugin, class = void>
+constexpr const char* cannot_hold_of = nullptr;
 template <class Plugin>
 constexpr const char* cannot_hold_of<Plugin, std::void_t<decltype(Plugin::cannot_hold)>> = Plugin::cannot_hold;
 
-template <class Plugin> struct Held {
+template <class Plugin>
+struct Held {
   const muster_host* host;
   Plugin plugin;
 };
 
-template <class Plugin> void* create(const muster_host* host) {
+template <class Plugin>
+void* create(const muster_host* host) {
   Held<Plugin>* made = nullptr;
   guarded(host, [&] {
     Setup setup(host, Params<Plugin>::data, Params<Plugin>::count);
@@ -251,20 +304,24 @@ template <class Plugin> void* create(const muster_host* host) {
   return made;
 }
 
-template <class Plugin> void destroy(void* self) {
+template <class Plugin>
+void destroy(void* self) {
   auto* held = static_cast<Held<Plugin>*>(self);
   guarded(held->host, [&] { delete held; });
 }
 
-template <class Plugin> int step(void* self, const muster_tick* tick, const muster_in* in, const muster_out* out) {
+template <class Plugin>
+int step(void* self, const muster_tick* tick, const muster_in* in, const muster_out* out) {
   auto* held = static_cast<Held<Plugin>*>(self);
   return guarded(held->host, [&] { held->plugin.step(Step(held->host, tick, in, out)); }) ? MUSTER_OK : MUSTER_FAILED;
 }
 
-template <class Plugin> const muster_plugin* descriptor() {
-  static const muster_plugin result{sizeof(muster_plugin), Plugin::phase, Plugin::id, Plugin::summary, manual_of<Plugin>,
-                                    Params<Plugin>::data, Params<Plugin>::count, cannot_hold_of<Plugin>,
-                                    create<Plugin>, destroy<Plugin>, step<Plugin>, cause_of<Plugin>};
+template <class Plugin>
+const muster_plugin* descriptor() {
+  static const muster_plugin result{sizeof(muster_plugin), Plugin::phase,          Plugin::id,
+                                    Plugin::summary,       manual_of<Plugin>,      Params<Plugin>::data,
+                                    Params<Plugin>::count, cannot_hold_of<Plugin>, create<Plugin>,
+                                    destroy<Plugin>,       step<Plugin>,           cause_of<Plugin>};
   return &result;
 }
 
@@ -276,8 +333,8 @@ template <class Plugin> const muster_plugin* descriptor() {
 //   static constexpr muster::Param params[] = {...};             optional, as are `manual`, `cannot_hold` and `cause`
 //   explicit Plugin(muster::Setup&);                             claims
 //   void step(const muster::Step&);                              or const
-#define MUSTER_PLUGIN_IS(Plugin)                                                              \
-  MUSTER_DECLARE_ABI                                                                          \
-  extern "C" int muster_register(uint32_t abi, void* registry, muster_add add) {              \
+#define MUSTER_PLUGIN_IS(Plugin)                                                                    \
+  MUSTER_DECLARE_ABI                                                                                \
+  extern "C" int muster_register(uint32_t abi, void* registry, muster_add add) {                    \
     return abi == MUSTER_ABI ? add(registry, muster::detail::descriptor<Plugin>()) : MUSTER_FAILED; \
   }

@@ -1,17 +1,16 @@
 // Pairs of links that run both ways between the same endpoints, so that a reciprocal term is evaluated once a pair.
 #pragma once
 
-#include <muster/plugin.hpp>
-
 #include <cstdint>
+#include <muster/plugin.hpp>
 #include <vector>
 
 namespace muster {
 
 constexpr std::uint32_t no_link = 0xffffffffu;
 
-// For each link, an earlier one that runs the other way, or no_link. It finds them all where links are grouped by sender
-// and receivers ascend, as radio.links lists them; in any other order it may miss some, and is never wrong.
+// For each link, an earlier one that runs the other way, or no_link. It finds them all where links are grouped by
+// sender and receivers ascend, as radio.links lists them; in any other order it may miss some, and is never wrong.
 inline std::vector<std::uint32_t> earlier_reverse(Rows<const Ends> links, std::size_t endpoints) {
   std::vector<std::uint32_t> result(links.size(), no_link);
   std::vector<std::uint32_t> next(endpoints, no_link);  // of each sender, the first link whose reverse may still come

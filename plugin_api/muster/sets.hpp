@@ -1,10 +1,9 @@
-// The standard sets: what the elements of a world file mean that are not plugins. To the kernel this is data; it knows no
-// robot, no radio and no wall.
+// The standard sets: what the elements of a world file mean that are not plugins. To the kernel this is data; it knows
+// no robot, no radio and no wall.
 #pragma once
 
-#include <muster/plugin.hpp>
-
 #include <cmath>
+#include <muster/plugin.hpp>
 #include <vector>
 
 namespace muster {
@@ -43,7 +42,7 @@ struct Attribute {
 
 struct Element {
   const char* name;
-  const char* set;   // an element adds one row to this set and to each that an attribute's table names
+  const char* set;  // an element adds one row to this set and to each that an attribute's table names
   const char* help;
   const char* file_of;  // "walls": its `file` attribute lists rows of this set, by column name; else ""
   std::vector<Attribute> attributes;
@@ -56,10 +55,12 @@ struct Standard {
 };
 
 namespace detail {
-template <int first, int count> void store_at(const double* values, double* row) {
+template <int first, int count>
+void store_at(const double* values, double* row) {
   for (int i = 0; i < count; ++i) row[first + i] = values[i];
 }
-template <int count> void store_yaw(const double* yaw, double* row) {
+template <int count>
+void store_yaw(const double* yaw, double* row) {
   row[count] = std::cos(*yaw / 2);
   row[count + 3] = std::sin(*yaw / 2);
 }
@@ -70,58 +71,110 @@ inline const Standard& standard() {
   constexpr double far = 1e6;  // [m] larger coordinates are a mistake of units
   static const Standard result{
       {
-          {"material", SetKind::fixed, "", "what walls and doors are made of",
+          {"material",
+           SetKind::fixed,
+           "",
+           "what walls and doors are made of",
            {{"loss", Loss::columns, "", false, ""}}},
           {"wall", SetKind::fixed, "", "upright walls, straight in plan", {{"shape", Wall::columns, "", false, ""}}},
-          {"door", SetKind::fixed, "", "gaps in walls that open and close",
+          {"door",
+           SetKind::fixed,
+           "",
+           "gaps in walls that open and close",
            {{"shape", Door::columns, "", false, ""}, {"state", DoorState::columns, "", false, ""}}},
-          {"robot", SetKind::live, "", "bodies that move",
+          {"robot",
+           SetKind::live,
+           "",
+           "bodies that move",
            {{"pose", Pose::columns, "0 0 0 1 0 0 0", false, "physics.simbody"},
             {"twist", Twist::columns, "", false, "physics.simbody"},
             {"wheels", Wheels::columns, "", false, "physics.simbody"},
             {"command", Command::columns, "", true, ""},
             {"drive", Drive::columns, "", false, "robots.drive"},
             {"odometry", Odometry::columns, "", true, "robots.odometry"}}},
-          {"radio", SetKind::live, "", "devices that send and receive",
+          {"radio",
+           SetKind::live,
+           "",
+           "devices that send and receive",
            {{"mount", Mount::columns, "", false, ""}, {"traffic", Traffic::columns, "", false, "network.ideal"}}},
-          {"endpoint", SetKind::listed, "", "radios at places and times",
+          {"endpoint",
+           SetKind::listed,
+           "",
+           "radios at places and times",
            {{"radio", Endpoint::columns, "", false, "radio.links"}, {"pose", Pose::columns, "", false, "radio.links"}}},
-          {"link", SetKind::listed, "", "pairs of endpoints that may hear each other",
+          {"link",
+           SetKind::listed,
+           "",
+           "pairs of endpoints that may hear each other",
            {{"ends", Ends::columns, "", false, "radio.links"},
             {"level", Level::columns, "", false, ""},
             {"fading", Fading::columns, "", false, ""},
             {"rssi", Rssi::columns, "", false, "radio.receiver"}}},
           {"outbox", SetKind::queue, "radio", "requests to send", {{"message", Outgoing::columns, "", true, ""}}},
-          {"inbox", SetKind::queue, "radio", "messages received",
+          {"inbox",
+           SetKind::queue,
+           "radio",
+           "messages received",
            {{"message", Incoming::columns, "", true, "network.ideal"}}},
       },
       {
-          {"material", "material", "a kind of wall", "",
-           {{real("loss", 0, 0, 100, "dB", "loss of a wall at the world's radio frequency").free().required(), 1, "material/loss", store_at<0, 1>}}, ""},
-          {"wall", "wall", "an upright wall", "",
+          {"material",
+           "material",
+           "a kind of wall",
+           "",
+           {{real("loss", 0, 0, 100, "dB", "loss of a wall at the world's radio frequency").free().required(), 1,
+             "material/loss", store_at<0, 1>}},
+           ""},
+          {"wall",
+           "wall",
+           "an upright wall",
+           "",
            {{real("from", 0, -far, far, "m", "first end: x y").required(), 2, "wall/shape", store_at<0, 2>},
             {real("to", 0, -far, far, "m", "second end: x y").required(), 2, "wall/shape", store_at<2, 2>},
             {real("base", 0, -far, far, "m", "height of its foot"), 1, "wall/shape", store_at<4, 1>},
             {real("height", 2.7, 0.001, far, "m", "height above its foot"), 1, "wall/shape", store_at<5, 1>},
             {real("thickness", 0.1, 0, 100, "m", "thickness, half to each side"), 1, "wall/shape", store_at<6, 1>},
-            {reference("material", "material", "what it is made of").required(), 1, "wall/shape", store_at<7, 1>}}, ""},
-          {"walls", "wall", "walls from a table", "wall",
-           {{file("file", "a table with columns name, x0[m], y0[m], x1[m], y1[m], height[m], thickness[m], material").required(), 0, "", nullptr}}, ""},
-          {"door", "door", "a gap in a wall", "",
+            {reference("material", "material", "what it is made of").required(), 1, "wall/shape", store_at<7, 1>}},
+           ""},
+          {"walls",
+           "wall",
+           "walls from a table",
+           "wall",
+           {{file("file", "a table with columns name, x0[m], y0[m], x1[m], y1[m], height[m], thickness[m], material")
+                 .required(),
+             0, "", nullptr}},
+           ""},
+          {"door",
+           "door",
+           "a gap in a wall",
+           "",
            {{reference("wall", "wall", "the wall it is in").required(), 1, "door/shape", store_at<0, 1>},
-            {real("at", 0, 0, far, "m", "where it begins, from the wall's first end").required(), 1, "door/shape", store_at<1, 1>},
+            {real("at", 0, 0, far, "m", "where it begins, from the wall's first end").required(), 1, "door/shape",
+             store_at<1, 1>},
             {real("width", 0.9, 0.001, far, "m", "width"), 1, "door/shape", store_at<2, 1>},
             {real("height", 2.0, 0.001, far, "m", "height above the wall's foot"), 1, "door/shape", store_at<3, 1>},
-            {reference("material", "material", "what it is made of; by default its wall's"), 1, "door/shape", store_at<4, 1>},
-            {choice("state", "closed|open", "how it stands at the start"), 1, "door/state", store_at<0, 1>}}, ""},
-          {"station", "radio", "a radio that does not move", "",
+            {reference("material", "material", "what it is made of; by default its wall's"), 1, "door/shape",
+             store_at<4, 1>},
+            {choice("state", "closed|open", "how it stands at the start"), 1, "door/state", store_at<0, 1>}},
+           ""},
+          {"station",
+           "radio",
+           "a radio that does not move",
+           "",
            {{real("at", 0, -far, far, "m", "place: x y z").required(), 3, "radio/mount", store_at<1, 3>},
-            {real("yaw", 0, -far, far, "rad", "heading of its antenna"), 1, "radio/mount", store_at<4, 1>}}, ""},
-          {"robot", "robot", "a robot, with its radio", "",
+            {real("yaw", 0, -far, far, "rad", "heading of its antenna"), 1, "radio/mount", store_at<4, 1>}},
+           ""},
+          {"robot",
+           "robot",
+           "a robot, with its radio",
+           "",
            {{text("model", "scarab", "a description among the models, or a URDF file"), 0, "", nullptr},
             {real("at", 0, -far, far, "m", "place: x y z").required(), 3, "robot/pose", store_at<0, 3>},
-            {real("heading", 0, -far, far, "rad", "heading, from east to north"), 1, "robot/pose", detail::store_yaw<3>},
-            {real("antenna", 0, -far, far, "m", "place of its radio in its own frame: x y z"), 3, "radio/mount", store_at<1, 3>}}, "radio/mount"},
+            {real("heading", 0, -far, far, "rad", "heading, from east to north"), 1, "robot/pose",
+             detail::store_yaw<3>},
+            {real("antenna", 0, -far, far, "m", "place of its radio in its own frame: x y z"), 3, "radio/mount",
+             store_at<1, 3>}},
+           "radio/mount"},
       }};
   return result;
 }

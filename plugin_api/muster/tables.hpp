@@ -45,8 +45,7 @@ struct Loss {
 };
 
 struct Wall {
-  static constexpr const char* columns =
-      "x0[m] y0[m] x1[m] y1[m] base[m] height[m] thickness[m] material:material";
+  static constexpr const char* columns = "x0[m] y0[m] x1[m] y1[m] base[m] height[m] thickness[m] material:material";
   double x0, y0, x1, y1, base, height, thickness, material;
 };
 

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "diagnosis/dataset.hpp"
-#include "text/error.hpp"
 #include "scratch.hpp"
+#include "text/error.hpp"
 
 namespace muster::diagnosis {
 namespace {

@@ -7,9 +7,9 @@
 
 #include "diagnosis/cell_map.hpp"
 #include "diagnosis/place_checks.hpp"
+#include "scratch.hpp"
 #include "text/error.hpp"
 #include "text/number.hpp"
-#include "scratch.hpp"
 #include "worlds.hpp"
 
 namespace muster::diagnosis {

@@ -30,9 +30,12 @@ std::vector<Sample> worlds_in(const fs::path& page) {
   int number = 0;
   for (std::string line; std::getline(lines, line);) {
     ++number;
-    if (line == "```xml") result.push_back({number}), inside = true;
-    else if (line.rfind("```", 0) == 0) inside = false;
-    else if (inside) result.back().text += line + '\n';
+    if (line == "```xml")
+      result.push_back({number}), inside = true;
+    else if (line.rfind("```", 0) == 0)
+      inside = false;
+    else if (inside)
+      result.back().text += line + '\n';
   }
   std::erase_if(result, [](const Sample& s) { return s.text.find("<world") == s.text.npos; });
   return result;
@@ -45,7 +48,8 @@ std::vector<fs::path> pages() {
       if (entry.path().extension() == ".md") result.push_back(entry.path());
     }
   }
-  for (const char* page : {"README.md", "CONTRIBUTING.md", "CHANGELOG.md"}) result.push_back(fs::path(MUSTER_SOURCE_DIR) / page);
+  for (const char* page : {"README.md", "CONTRIBUTING.md", "CHANGELOG.md"})
+    result.push_back(fs::path(MUSTER_SOURCE_DIR) / page);
   return result;
 }
 

@@ -1,6 +1,5 @@
-// FAULT 25: measured data that are wrong, each named with its row; and data that cannot tell, of which no number is made.
-#include "program.hpp"
-
+// FAULT 25: measured data that are wrong, each named with its row; and data that cannot tell, of which no number is
+// made.
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 
@@ -8,6 +7,8 @@
 #include <map>
 #include <random>
 #include <vector>
+
+#include "program.hpp"
 
 using namespace muster::test;
 using testing::HasSubstr;
@@ -31,8 +32,10 @@ class Data {
   Data() {
     for (int i = 0; i < 60; ++i) {
       const double x = 1 + i * 0.3, y = i % 7 - 3;
-      const double rssi = -40 - 20 * std::log10(std::hypot(x, y)) - ((x > 10 && std::abs(y) * 10 / x < 2) ? 4 : 0) + (i * 7 % 5 - 2) * 0.4;
-      rows_.push_back({std::to_string(i), "base", "rover", "0", "0", fmt::format("{:.1f}", x), fmt::format("{:.1f}", y), fmt::format("{:.1f}", rssi)});
+      const double rssi = -40 - 20 * std::log10(std::hypot(x, y)) - ((x > 10 && std::abs(y) * 10 / x < 2) ? 4 : 0) +
+                          (i * 7 % 5 - 2) * 0.4;
+      rows_.push_back({std::to_string(i), "base", "rover", "0", "0", fmt::format("{:.1f}", x), fmt::format("{:.1f}", y),
+                       fmt::format("{:.1f}", rssi)});
     }
   }
   // Rows count from 1; 0 is the header.
@@ -53,7 +56,8 @@ class Data {
   }
 
  private:
-  std::vector<std::vector<std::string>> rows_ = {{"t[s]", "tx", "rx", "tx_x[m]", "tx_y[m]", "rx_x[m]", "rx_y[m]", "rssi[dBm]"}};
+  std::vector<std::vector<std::string>> rows_ = {
+      {"t[s]", "tx", "rx", "tx_x[m]", "tx_y[m]", "rx_x[m]", "rx_y[m]", "rssi[dBm]"}};
 };
 
 Outcome asked(const std::string& verb, const std::string& data) {
@@ -70,34 +74,49 @@ void expect_refused(const std::string& data, const std::string& message) {
 }
 
 TEST(Fault25, ColumnsThatAreMissingOrInAnotherUnit) {
-  expect_refused(Data().set(0, 7, "level[dBm]").text(), ":1:1: no column \"rssi[dBm]\" in the table; expected one of t, tx, rx, tx_x, tx_y, rx_x, rx_y, level");
-  expect_refused(Data().set(0, 5, "rx_x[mm]").text(), ":1:28: column \"rx_x[mm]\" has the wrong unit; expected \"rx_x[m]\"");
+  expect_refused(
+      Data().set(0, 7, "level[dBm]").text(),
+      ":1:1: no column \"rssi[dBm]\" in the table; expected one of t, tx, rx, tx_x, tx_y, rx_x, rx_y, level");
+  expect_refused(Data().set(0, 5, "rx_x[mm]").text(),
+                 ":1:28: column \"rx_x[mm]\" has the wrong unit; expected \"rx_x[m]\"");
 }
 
 TEST(Fault25, RowsThatRepeatAndTimeThatRunsBackwards) {
-  expect_refused(Data().copy_row(3, 4).text(), ":5:1: row 4: base -> rover at t = 2 s repeats row 3; expected each (t, tx, rx) once");
+  expect_refused(Data().copy_row(3, 4).text(),
+                 ":5:1: row 4: base -> rover at t = 2 s repeats row 3; expected each (t, tx, rx) once");
   expect_refused(Data().set(5, 0, "1.5").text(),
-                 ":6:1: row 5: time runs backwards for base -> rover at t = 1.5 s, after 3 s in row 4; expected rows of a pair in the order of time");
+                 ":6:1: row 5: time runs backwards for base -> rover at t = 1.5 s, after 3 s in row 4; expected rows "
+                 "of a pair in the order of time");
 }
 
 TEST(Fault25, LevelsThatNoReceiverGives) {
-  expect_refused(Data().set(6, 7, "0").text(), ":7:26: row 6: an rssi of 0 dBm is what drivers give for none; expected an empty cell where nothing was received");
-  expect_refused(Data().set(6, 7, "31").text(), ":7:26: row 6: an rssi of 31 dBm is over +30 dBm; expected a level in dBm, which is mostly negative");
-  expect_refused(Data().set(6, 7, "-128").text(), ":7:26: row 6: an rssi of -128 dBm is a mark for none; expected an empty cell where nothing was received");
-  expect_refused(Data().set(6, 7, "nan").text(), ":7:26: column \"rssi[dBm]\": \"nan\" is not a number; it must be finite");
+  expect_refused(Data().set(6, 7, "0").text(),
+                 ":7:26: row 6: an rssi of 0 dBm is what drivers give for none; expected an empty cell where nothing "
+                 "was received");
+  expect_refused(Data().set(6, 7, "31").text(),
+                 ":7:26: row 6: an rssi of 31 dBm is over +30 dBm; expected a level in dBm, which is mostly negative");
+  expect_refused(
+      Data().set(6, 7, "-128").text(),
+      ":7:26: row 6: an rssi of -128 dBm is a mark for none; expected an empty cell where nothing was received");
+  expect_refused(Data().set(6, 7, "nan").text(),
+                 ":7:26: column \"rssi[dBm]\": \"nan\" is not a number; it must be finite");
 }
 
 TEST(Fault25, NumbersOfAnotherCountry) {
-  expect_refused(Data().set(6, 7, "\"-56,0\"").text(), ":7:26: column \"rssi[dBm]\": \"-56,0\" is not a number; a decimal point is written '.'");
-  expect_refused(Data().set(6, 7, "-56,0").text(), ":7:1: the row has 9 or more cells; expected 8, with ',' between them and '.' in numbers");
+  expect_refused(Data().set(6, 7, "\"-56,0\"").text(),
+                 ":7:26: column \"rssi[dBm]\": \"-56,0\" is not a number; a decimal point is written '.'");
+  expect_refused(Data().set(6, 7, "-56,0").text(),
+                 ":7:1: the row has 9 or more cells; expected 8, with ',' between them and '.' in numbers");
   expect_refused(Data().text("\n", ";"), ":1:1: no ',' in the header; expected ',' between cells");
 }
 
 TEST(Fault25, PlacesInAnotherUnitOrOrder) {
   expect_refused(Data().set(8, 5, "3100").text(),
-                 ":9:18: row 8: 3100 m, while half of the rows lie within 10.3 m; expected one unit in the whole column (millimetres here?)");
+                 ":9:18: row 8: 3100 m, while half of the rows lie within 10.3 m; expected one unit in the whole "
+                 "column (millimetres here?)");
   expect_refused(Data().set(0, 5, "rx_y[m]").set(0, 6, "rx_x[m]").text(),
-                 ":2:1: row 1 and others lie outside of the world's walls, and inside if x and y change places; expected x to the east and y to the "
+                 ":2:1: row 1 and others lie outside of the world's walls, and inside if x and y change places; "
+                 "expected x to the east and y to the "
                  "north, as in the world");
 }
 
@@ -120,12 +139,14 @@ TEST(Fault25, WhatIsNotIdentifiableHasNoNumber) {
 TEST(Fault25, ADiagnosisNamesNothingThatItCannotTell) {
   Data data = Data().set_all(5, "3").set_all(6, "0");
   std::minstd_rand draw(3);
-  for (std::size_t row = 1; row <= 60; ++row) data.set(row, 7, fmt::format("{:.1f}", -60 + 0.01 * static_cast<double>(draw() % 500)));
+  for (std::size_t row = 1; row <= 60; ++row)
+    data.set(row, 7, fmt::format("{:.1f}", -60 + 0.01 * static_cast<double>(draw() % 500)));
   const auto outcome = asked("diagnose", data.text());
   EXPECT_EQ(outcome.exit, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("world.xml is adequate"));
   EXPECT_THAT(outcome.out, HasSubstr("note: not identifiable: no reading depends on material/drywall/loss"));
-  EXPECT_THAT(outcome.out, HasSubstr("note: not identifiable: changing radio.multiwall/l0 by 1 dB together with radio.multiwall/n"));
+  EXPECT_THAT(outcome.out,
+              HasSubstr("note: not identifiable: changing radio.multiwall/l0 by 1 dB together with radio.multiwall/n"));
   EXPECT_THAT(outcome.out, testing::Not(HasSubstr("evidence")));
 }
 
@@ -135,7 +156,8 @@ TEST(Fault25, DistancesAndPathLosses) {
   };
   expect_refused(without_places("base,rover,0,70"), ":3:12: row 2: a distance of 0 m; expected more than 0 m");
   expect_refused(without_places("base,rover,4,-60"),
-                 ":3:14: row 2: a path loss of -60 dB, a level of 60 dBm, is over +30 dBm; expected a level in dBm, which is mostly negative");
+                 ":3:14: row 2: a path loss of -60 dB, a level of 60 dBm, is over +30 dBm; expected a level in dBm, "
+                 "which is mostly negative");
   expect_refused("tx,rx,path_loss[dB]\nbase,rover,60\nbase,rover,61\n",
                  ":1:1: no column \"tx_x[m]\" in the table; expected one of tx, rx, path_loss");
 }

@@ -1,9 +1,9 @@
 // FAULTS 1 to 4: files that are no world, and files made to hurt.
-#include "program.hpp"
-
 #include <sys/stat.h>
 
 #include <cstdlib>
+
+#include "program.hpp"
 
 using namespace muster::test;
 
@@ -36,10 +36,11 @@ TEST(Fault1, AFileThatIsNoWorldIsRefusedAtOnce) {
   folder.write("large.xml", "");
   std::filesystem::resize_file(folder.path() / "large.xml", std::uintmax_t{5} << 30);  // takes no room on disk
   ASSERT_EQ(::mkfifo((folder.path() / "fifo").c_str(), 0666), 0);
-  for (const Case& c : {Case{"absent.xml", "absent.xml: no such file"}, Case{"folder", "folder/world.xml: no such file"},
-                        Case{"empty.xml", "empty.xml: is empty; expected an XML element"},
-                        Case{"large.xml", "large.xml: has 5368709120 bytes; expected at most 16777216"},
-                        Case{"fifo", "fifo: is not a regular file"}, Case{"/dev/zero", "/dev/zero: is not a regular file"}}) {
+  for (const Case& c :
+       {Case{"absent.xml", "absent.xml: no such file"}, Case{"folder", "folder/world.xml: no such file"},
+        Case{"empty.xml", "empty.xml: is empty; expected an XML element"},
+        Case{"large.xml", "large.xml: has 5368709120 bytes; expected at most 16777216"},
+        Case{"fifo", "fifo: is not a regular file"}, Case{"/dev/zero", "/dev/zero: is not a regular file"}}) {
     SCOPED_TRACE(c.file);
     for (const char* verb : {"check", "run", "graph"}) {
       const auto outcome = folder.muster({verb, c.file});
@@ -56,7 +57,8 @@ TEST(Fault2, BrokenXmlIsRefusedWithItsPlace) {
   folder.expect_refused(root + "\n</world><world/>", "world.xml:2:9: <world> is a second root element; expected one");
   folder.expect_refused("<world name=\"w\"\n name=\"v\" dt=\"0.1\" until=\"1\"/>",
                         R"(world.xml:2:2: attribute "name" stands twice in the tag "world"; expected one)");
-  folder.expect_refused("<world name=\"\xff\" dt=\"0.1\" until=\"1\"/>", "world.xml:1:14: byte 13 of the file, 0xff, is not valid UTF-8");
+  folder.expect_refused("<world name=\"\xff\" dt=\"0.1\" until=\"1\"/>",
+                        "world.xml:1:14: byte 13 of the file, 0xff, is not valid UTF-8");
   folder.expect_refused(std::string("\xff\xfe<\0w\0", 6), "world.xml: is UTF-16; expected UTF-8");
 }
 
@@ -90,8 +92,9 @@ const char* const laughs =
 TEST(Fault4, EntitiesAreNotSupported) {
   const Folder folder;
   folder.expect_refused(laughs, "world.xml:1:1: entities are not supported; expected no <!DOCTYPE> and no <!ENTITY>");
-  folder.expect_refused("<world name=\"&b;\" dt=\"0.1\" until=\"1\"/>",
-                        R"(world.xml:1:14: entities are not supported: "b"; expected &lt; &gt; &amp; &quot; or &apos;)");
+  folder.expect_refused(
+      "<world name=\"&b;\" dt=\"0.1\" until=\"1\"/>",
+      R"(world.xml:1:14: entities are not supported: "b"; expected &lt; &gt; &amp; &quot; or &apos;)");
 }
 
 // The entity's file is a pipe that nobody writes: to open it would block, and its name would stand in a trace.
@@ -99,7 +102,8 @@ TEST(Fault4, NoFileThatAnEntityNamesIsOpened) {
   const Folder folder;
   const std::string target = (folder.path() / "secret").string();
   ASSERT_EQ(::mkfifo(target.c_str(), 0666), 0);
-  folder.write("world.xml", "<!DOCTYPE w [<!ENTITY a SYSTEM \"file://" + target + "\">]>\n<world name=\"&a;\" dt=\"0.1\" until=\"1\"/>");
+  folder.write("world.xml", "<!DOCTYPE w [<!ENTITY a SYSTEM \"file://" + target +
+                                "\">]>\n<world name=\"&a;\" dt=\"0.1\" until=\"1\"/>");
   const std::string message = "world.xml:1:1: entities are not supported; expected no <!DOCTYPE> and no <!ENTITY>";
   const auto plain = folder.muster({"check", "world.xml"});
   expect_error(plain, 2, message);

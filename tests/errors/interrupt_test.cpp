@@ -1,10 +1,10 @@
 // What may happen around a run: interrupts, output that cannot be written, a bare environment.
-#include "program.hpp"
-
 #include <gmock/gmock.h>
 #include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include "program.hpp"
 
 using namespace muster::test;
 using testing::HasSubstr;
@@ -15,7 +15,8 @@ namespace {
 const std::string toys = MUSTER_TOYS;
 
 std::vector<std::string> long_run() {
-  return {"run", "world.xml", "--plugins", toys, "--until", "100000", "--digest-every", "1000", "--out", "out", "--record", "instance/good/cell"};
+  return {"run",  "world.xml", "--plugins", toys,       "--until",           "100000", "--digest-every",
+          "1000", "--out",     "out",       "--record", "instance/good/cell"};
 }
 
 TEST(Interrupt, EndsTheRunWithWholeRecords) {
@@ -39,7 +40,8 @@ TEST(Output, ThatCannotBeWrittenIsAnErrorOfIts) {
   Surroundings full;
   full.standard_output = "/dev/full";
   expect_error(folder.muster(run, full), 74, "standard output cannot be written");
-  expect_error(folder.muster({"describe", "test.good", "--plugins", toys}, full), 74, "standard output cannot be written");
+  expect_error(folder.muster({"describe", "test.good", "--plugins", toys}, full), 74,
+               "standard output cannot be written");
   // More than a buffer's worth, so that a write fails on the way.
   auto many = run;
   many.insert(many.end(), {"--until", "2000", "--digest-every", "1"});
@@ -50,7 +52,8 @@ TEST(Output, AFolderThatCannotBeMadeOrWrittenIsNamed) {
   const Folder folder;
   folder.write("world.xml", world_of("<test.good name=\"good\"/>"));
   folder.write("file", "");
-  const std::vector<std::string> run = {"run", "world.xml", "--plugins", toys, "--record", "instance/good/cell", "--out"};
+  const std::vector<std::string> run = {"run",      "world.xml",          "--plugins", toys,
+                                        "--record", "instance/good/cell", "--out"};
   auto words = run;
   words.push_back("file");
   expect_error(folder.muster(words), 74, "file: cannot be made: Not a directory");
@@ -89,7 +92,8 @@ Outcome run_on_terminal(const Folder& folder, const std::vector<std::string>& en
 TEST(Terminal, ShowsProgressWithoutColoursAndADumbOneNothing) {
   const Folder folder;
   EXPECT_THAT(run_on_terminal(folder, {"TERM=xterm", "NO_COLOR"}).err, HasSubstr("muster run w  50% [===="));
-  EXPECT_THAT(run_on_terminal(folder, {"TERM=xterm", "NO_COLOR=1"}).err, Not(testing::ContainsRegex("\x1b\\[[0-9;]*m")));
+  EXPECT_THAT(run_on_terminal(folder, {"TERM=xterm", "NO_COLOR=1"}).err,
+              Not(testing::ContainsRegex("\x1b\\[[0-9;]*m")));
   EXPECT_EQ(run_on_terminal(folder, {"TERM=dumb"}).err, "");
 }
 

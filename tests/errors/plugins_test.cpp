@@ -1,12 +1,12 @@
 // FAULTS 15, 16 and 19: plugins that cannot be loaded, that throw, and that write or read what they must not.
-#include "program.hpp"
-
 #include <elf.h>
 #include <gmock/gmock.h>
 
 #include <cstddef>
 #include <cstring>
 #include <fstream>
+
+#include "program.hpp"
 
 using namespace muster::test;
 
@@ -42,7 +42,8 @@ void expect_not_loaded(const Folder& folder, const std::string& words) {
 TEST(Fault15, AnAbsentPluginIsToldWithTheFoldersAndTheNearest) {
   const Folder folder;
   expect_error(run_toy(folder, "<test.god/>"), 3,
-               "world.xml:1:36: plugin \"test.god\": test_god.so not found; looked in " + toys + ", " + MUSTER_PLUGINS_DIR + "; did you mean test.good?");
+               "world.xml:1:36: plugin \"test.god\": test_god.so not found; looked in " + toys + ", " +
+                   MUSTER_PLUGINS_DIR + "; did you mean test.good?");
 }
 
 TEST(Fault15, AFileThatIsNoPluginIsRefusedInOneLine) {
@@ -54,7 +55,8 @@ TEST(Fault15, AFileThatIsNoPluginIsRefusedInOneLine) {
   folder.write("test_good.so", good.substr(0, 1000));
   uint64_t size = 0;  // p_filesz of the first program header, which stands behind the file's own
   std::memcpy(&size, good.data() + sizeof(Elf64_Ehdr) + offsetof(Elf64_Phdr, p_filesz), sizeof size);
-  expect_not_loaded(folder, "is truncated: it has 1000 bytes, and its segment 0 has " + std::to_string(size) + " from byte 0 on; copy or build it again");
+  expect_not_loaded(folder, "is truncated: it has 1000 bytes, and its segment 0 has " + std::to_string(size) +
+                                " from byte 0 on; copy or build it again");
   std::string foreign = good;
   foreign[18] = static_cast<char>(183);  // e_machine: AArch64
   folder.write("test_good.so", foreign);
@@ -72,7 +74,9 @@ TEST(Fault15, ALibraryThatDoesNotFitIsRefusedInOneLine) {
   for (const Animal& animal :
        {Animal{"no_register", "does not export muster_register; expected one MUSTER_PLUGIN_IS in it"},
         Animal{"other_abi", "is built for plugin ABI 2; this muster has plugin ABI 1; rebuild it against plugin_api"},
-        Animal{"undefined", "needs missing::law(double, char const*), which neither it nor a library that it links defines; link what defines it"}}) {
+        Animal{"undefined",
+               "needs missing::law(double, char const*), which neither it nor a library that it links defines; link "
+               "what defines it"}}) {
     SCOPED_TRACE(animal.name);
     const std::string name = animal.name;
     folder.write("world.xml", world_of("<zoo." + name + "/>"));
@@ -91,13 +95,15 @@ TEST(Fault16, ThrowsInCreate) {
 
 TEST(Fault16, WhatTheUserGaveWrongIsTheUsers) {
   const Folder folder;
-  expect_error(run_toy(folder, "<test.refuses/>"), 2, "world.xml:1:36: test.refuses (test.refuses): create failed: the moon is no place for it");
+  expect_error(run_toy(folder, "<test.refuses/>"), 2,
+               "world.xml:1:36: test.refuses (test.refuses): create failed: the moon is no place for it");
 }
 
 TEST(Fault16, ThrowsInStepAndTheLogOfTheTicksBeforeIsWhole) {
   const std::vector<std::string> log = {"--out", "out", "--record", "instance/steady/cell"};
   for (const auto& [toy, said] : {std::pair{"throws_in_step", "!the shelf is empty"},
-                                  std::pair{"throws_a_number", "threw something that is not a std::exception"}, std::pair{"bare", "no such shelf"}}) {
+                                  std::pair{"throws_a_number", "threw something that is not a std::exception"},
+                                  std::pair{"bare", "no such shelf"}}) {
     SCOPED_TRACE(toy);
     const Folder folder;
     const std::string id = std::string("test.") + toy;
@@ -113,34 +119,45 @@ TEST(Fault16, ThrowsWhenItIsDestroyed) {
   const Folder folder;
   expect_error(run_toy(folder, "<test.throws_in_destroy name=\"shelf\"/>"), 3,
                "world.xml:1:36: shelf (test.throws_in_destroy): destroy failed: still in use");
-  expect_error(run_toy(folder, R"(<test.throws_in_destroy name="shelf"/><swap at="0.3" instance="shelf" plugin="test.good"/>)"), 3,
-               "world.xml:1:36: shelf (test.throws_in_destroy): destroy failed: still in use");
+  expect_error(
+      run_toy(folder, R"(<test.throws_in_destroy name="shelf"/><swap at="0.3" instance="shelf" plugin="test.good"/>)"),
+      3, "world.xml:1:36: shelf (test.throws_in_destroy): destroy failed: still in use");
 }
 
 // ---- 19: what it writes and reads ----
 
 TEST(Fault19, ValuesThatAreNoneAreTheirWritersFault) {
   const Folder folder;
-  for (const auto& [toy, wrong] : {std::pair{"nan", "is NaN"}, std::pair{"infinite", "is infinite"}, std::pair{"unfilled", "is not filled"}}) {
+  for (const auto& [toy, wrong] :
+       {std::pair{"nan", "is NaN"}, std::pair{"infinite", "is infinite"}, std::pair{"unfilled", "is not filled"}}) {
     SCOPED_TRACE(toy);
     const std::string id = std::string("test.") + toy;
     expect_error(run_toy(folder, "<" + id + " name=\"shelf\"/>"), 3,
-                 "world.xml:1:36: shelf (" + id + "): step failed at tick 5 (t = 0.5 s): instance/shelf/shelf/cell: value[m] " + wrong);
+                 "world.xml:1:36: shelf (" + id +
+                     "): step failed at tick 5 (t = 0.5 s): instance/shelf/shelf/cell: value[m] " + wrong);
   }
 }
 
 TEST(Fault19, ClaimsThatDoNotFitAreRefusedAtTheStart) {
   const Folder folder;
   expect_error(run_toy(folder, R"(<robot name="a" at="0 0 0"/><test.wrong_columns/>)"), 2,
-               "world.xml:1:64: test.wrong_columns (test.wrong_columns): claims \"robot/*/pose\" as \"value[m]\"; its columns are \"x[m] "
+               "world.xml:1:64: test.wrong_columns (test.wrong_columns): claims \"robot/*/pose\" as \"value[m]\"; its "
+               "columns are \"x[m] "
                "y[m] z[m] qw qx qy qz\"");
-  expect_error(run_toy(folder, R"(<robot name="a" at="0 0 0"/><test.second_writer name="one"/><test.second_writer name="two"/>)"), 2,
-               "world.xml:1:96: two (test.second_writer): writes \"robot/*/command\"; so does world.xml:1:64: one (test.second_writer)");
-  expect_error(run_toy(folder, R"(<robot name="a" at="0 0 0"/><test.reads_nobodys/>)"), 2,
-               "world.xml:1:64: test.reads_nobodys (test.reads_nobodys): reads \"robot/*/poise\", which nobody writes; expected one of door/*/shape, "
-               "door/*/state, endpoint/*/pose, endpoint/*/radio, inbox/*/message, instance/test.reads_nobodys/*/cell, link/*/ends, "
-               "link/*/rssi, material/*/loss, radio/*/mount, radio/*/traffic, robot/*/drive, robot/*/odometry, robot/*/pose, "
-               "robot/*/twist, robot/*/wheels, wall/*/shape; did you mean \"robot/*/pose\"?");
+  expect_error(
+      run_toy(folder,
+              R"(<robot name="a" at="0 0 0"/><test.second_writer name="one"/><test.second_writer name="two"/>)"),
+      2,
+      "world.xml:1:96: two (test.second_writer): writes \"robot/*/command\"; so does world.xml:1:64: one "
+      "(test.second_writer)");
+  expect_error(
+      run_toy(folder, R"(<robot name="a" at="0 0 0"/><test.reads_nobodys/>)"), 2,
+      "world.xml:1:64: test.reads_nobodys (test.reads_nobodys): reads \"robot/*/poise\", which nobody writes; expected "
+      "one of door/*/shape, "
+      "door/*/state, endpoint/*/pose, endpoint/*/radio, inbox/*/message, instance/test.reads_nobodys/*/cell, "
+      "link/*/ends, "
+      "link/*/rssi, material/*/loss, radio/*/mount, radio/*/traffic, robot/*/drive, robot/*/odometry, robot/*/pose, "
+      "robot/*/twist, robot/*/wheels, wall/*/shape; did you mean \"robot/*/pose\"?");
 }
 
 }  // namespace

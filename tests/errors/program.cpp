@@ -42,8 +42,10 @@ Ends make_ends(bool terminal) {
 [[noreturn]] void become(const std::vector<std::string>& words, const Surroundings& around, int out, int err) {
   for (const auto& variable : around.environment) {
     const auto equals = variable.find('=');
-    if (equals == std::string::npos) ::unsetenv(variable.c_str());
-    else ::setenv(variable.substr(0, equals).c_str(), variable.substr(equals + 1).c_str(), 1);
+    if (equals == std::string::npos)
+      ::unsetenv(variable.c_str());
+    else
+      ::setenv(variable.substr(0, equals).c_str(), variable.substr(equals + 1).c_str(), 1);
   }
   if (!around.folder.empty() && ::chdir(around.folder.c_str()) != 0) ::_exit(126);
   const int in = ::open("/dev/null", O_RDONLY);
@@ -75,8 +77,10 @@ void listen(int process, int out, int err, const Surroundings& around, Outcome& 
       if (!streams[i].revents) continue;
       char bytes[4096];
       const auto got = ::read(streams[i].fd, bytes, sizeof bytes);
-      if (got > 0) texts[i]->append(bytes, static_cast<std::size_t>(got));
-      else streams[i].fd = -1;  // of a terminal, the end is an error
+      if (got > 0)
+        texts[i]->append(bytes, static_cast<std::size_t>(got));
+      else
+        streams[i].fd = -1;  // of a terminal, the end is an error
     }
     if (!told && !(result.out.empty() && result.err.empty())) told = true, around.meanwhile(process);
   }
@@ -99,7 +103,9 @@ Outcome run_muster(const std::vector<std::string>& words, const Surroundings& ar
   struct rusage usage {};
   ::wait4(process, &status, 0, &usage);
   ::close(out.reader), ::close(err.reader);
-  const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
   result.wall_seconds = seconds_since(start);
   result.cpu_seconds = seconds(usage.ru_utime) + seconds(usage.ru_stime);
   result.peak_kilobytes = usage.ru_maxrss;
@@ -136,7 +142,9 @@ void Folder::expect_refused(const std::string& world, const std::string& message
   expect_error(muster({"check", "world.xml", "--plugins", MUSTER_TOYS}), exit, message);
 }
 
-std::string world_of(const std::string& elements) { return R"(<world name="w" dt="0.1" until="1">)" + elements + "</world>"; }
+std::string world_of(const std::string& elements) {
+  return R"(<world name="w" dt="0.1" until="1">)" + elements + "</world>";
+}
 
 void expect_error(const Outcome& outcome, int exit, const std::string& message) {
   EXPECT_EQ(outcome.exit, exit);

@@ -19,13 +19,13 @@ struct Outcome {
 };
 
 struct Surroundings {
-  std::vector<std::string> environment;              // "NAME=VALUE", set; "NAME", removed
-  std::filesystem::path folder;                      // working directory
-  std::filesystem::path standard_output;             // a file instead of a pipe
-  bool terminal = false;                             // standard error is a terminal
-  std::function<void(int process)> meanwhile;        // called once, when the program has printed its first bytes
-  std::vector<std::string> wrapper;                  // words before the program, such as strace
-  bool bound_by_permissions = false;                 // of files, even where the test is run by root
+  std::vector<std::string> environment;        // "NAME=VALUE", set; "NAME", removed
+  std::filesystem::path folder;                // working directory
+  std::filesystem::path standard_output;       // a file instead of a pipe
+  bool terminal = false;                       // standard error is a terminal
+  std::function<void(int process)> meanwhile;  // called once, when the program has printed its first bytes
+  std::vector<std::string> wrapper;            // words before the program, such as strace
+  bool bound_by_permissions = false;           // of files, even where the test is run by root
 };
 
 // Kills the program and fails the test after a minute.
@@ -45,7 +45,8 @@ class Folder {
 
   // Runs the program in this folder.
   Outcome muster(const std::vector<std::string>& words, Surroundings around = {}) const;
-  // With the toys on the plugin path: exit code and the one line on standard error after "muster: error: ", of `check` on a world with this text.
+  // With the toys on the plugin path: exit code and the one line on standard error after "muster: error: ", of `check`
+  // on a world with this text.
   void expect_refused(const std::string& world, const std::string& message, int exit = 2) const;
 
  private:

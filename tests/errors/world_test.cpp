@@ -1,7 +1,7 @@
 // FAULTS 5 to 7 and 13: a world that says what it cannot mean.
-#include "program.hpp"
-
 #include <gmock/gmock.h>
+
+#include "program.hpp"
 
 using namespace muster::test;
 
@@ -9,17 +9,22 @@ namespace {
 
 TEST(Fault5, WhatIsMisspeltIsToldWithTheNearestName) {
   const Folder folder;
-  folder.expect_refused(world_of(R"(<statoin name="b" at="0 0 1"/>)"),
-                        "world.xml:1:36: <statoin> is no element of a world; expected a plugin (with a dot in its name) or one of swap, "
-                        "record, material, wall, walls, door, station, robot; did you mean \"station\"?");
-  folder.expect_refused(world_of(R"(<station name="b" att="0 0 1"/>)"),
-                        "world.xml:1:54: <station> has no attribute \"att\"; expected one of name, at, yaw; did you mean \"at\"?");
-  folder.expect_refused(world_of(R"(<station name="b"/>)"), "world.xml:1:36: <station> has no attribute \"at\", which it needs");
+  folder.expect_refused(
+      world_of(R"(<statoin name="b" at="0 0 1"/>)"),
+      "world.xml:1:36: <statoin> is no element of a world; expected a plugin (with a dot in its name) or one of swap, "
+      "record, material, wall, walls, door, station, robot; did you mean \"station\"?");
+  folder.expect_refused(
+      world_of(R"(<station name="b" att="0 0 1"/>)"),
+      "world.xml:1:54: <station> has no attribute \"att\"; expected one of name, at, yaw; did you mean \"at\"?");
+  folder.expect_refused(world_of(R"(<station name="b"/>)"),
+                        "world.xml:1:36: <station> has no attribute \"at\", which it needs");
   folder.expect_refused(world_of(R"(<test.good siez="2"/>)"),
-                        "world.xml:1:47: <test.good> has no attribute \"siez\"; expected one of name, every, library, revision, size; did you "
+                        "world.xml:1:47: <test.good> has no attribute \"siez\"; expected one of name, every, library, "
+                        "revision, size; did you "
                         "mean \"size\"?");
   folder.expect_refused(R"(<world nmae="w" until="1"/>)",
-                        "world.xml:1:8: <world> has no attribute \"nmae\"; expected one of name, dt, until, seed; did you mean \"name\"?");
+                        "world.xml:1:8: <world> has no attribute \"nmae\"; expected one of name, dt, until, seed; did "
+                        "you mean \"name\"?");
   folder.expect_refused(R"(<wolrd until="1"/>)", "world.xml:1:1: the root element is <wolrd>; expected <world>");
 }
 
@@ -27,7 +32,8 @@ TEST(Fault5, WordsOfTheCommandLineToo) {
   const Folder folder;
   const auto misspelt = folder.muster({"chekc"});  // the list of verbs grows
   EXPECT_EQ(misspelt.exit, 2);
-  EXPECT_THAT(misspelt.err, testing::StartsWith("muster: error: there is no verb \"chekc\"; expected one of run, check, "));
+  EXPECT_THAT(misspelt.err,
+              testing::StartsWith("muster: error: there is no verb \"chekc\"; expected one of run, check, "));
   EXPECT_THAT(misspelt.err, testing::EndsWith("; did you mean \"check\"?\n"));
   expect_error(folder.muster({"check"}), 2, "muster check: world is required; see muster check --help");
 }
@@ -73,7 +79,9 @@ TEST(Fault7, ImpossibleQuantitiesAreRefused) {
   const Folder folder;
   folder.expect_refused(world_of(R"(<material name="m" loss="-4"/>)"),
                         "world.xml:1:61: attribute \"loss\": -4 is out of bounds; expected a number from 0 to 100 dB");
-  folder.expect_refused(R"(<world dt="0" until="1"/>)", "world.xml:1:12: attribute \"dt\": 0 is out of bounds; expected the tick in seconds, from 1e-09");
+  folder.expect_refused(
+      R"(<world dt="0" until="1"/>)",
+      "world.xml:1:12: attribute \"dt\": 0 is out of bounds; expected the tick in seconds, from 1e-09");
   folder.expect_refused(R"(<world dt="2" until="1"/>)", "world.xml:1:22: 1 s are less than a tick of 2 s");
   folder.expect_refused(R"(<world dt="0.001" until="1e12"/>)",
                         "world.xml:1:26: 1e+12 s are 1e+15 ticks of 0.001 s; expected fewer than 1e+12");
@@ -83,9 +91,10 @@ TEST(Fault13, TwoOfOneNameAreRefusedWithBothPlaces) {
   const Folder folder;
   folder.expect_refused(world_of("\n<robot name=\"a\" at=\"0 0 0\"/>\n<robot name=\"a\" at=\"1 0 0\"/>"),
                         "world.xml:3:1: a second robot is called \"a\"; the first is at world.xml:2:1");
-  folder.expect_refused(world_of("\n<test.good/>\n<test.good/>"),
-                        "world.xml:3:1: a second instance is called \"test.good\"; the first is at world.xml:2:1; give one of them a "
-                        "name=\"...\" of its own");
+  folder.expect_refused(
+      world_of("\n<test.good/>\n<test.good/>"),
+      "world.xml:3:1: a second instance is called \"test.good\"; the first is at world.xml:2:1; give one of them a "
+      "name=\"...\" of its own");
 }
 
 }  // namespace

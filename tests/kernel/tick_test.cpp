@@ -77,9 +77,10 @@ TEST_F(Ticks, EvaluateRunsOnePhaseAndTimeStands) {
 }
 
 TEST_F(Ticks, EvaluateAgainStepsWhatChangedAndWhatReadsThat) {
-  Simulation sim = run(two_robots +
-                       "<toy.draw name='draw' mean='5'/>\n<toy.copy_sense name='alone' to='self/n' own='true' add='1'/>\n"
-                       "<toy.copy_sense name='after' from='robot/*/reading' columns='reading[m]' to='self/n' own='true'/>\n");
+  Simulation sim =
+      run(two_robots +
+          "<toy.draw name='draw' mean='5'/>\n<toy.copy_sense name='alone' to='self/n' own='true' add='1'/>\n"
+          "<toy.copy_sense name='after' from='robot/*/reading' columns='reading[m]' to='self/n' own='true'/>\n");
   step(sim, 1);
   sim.evaluate(MUSTER_SENSE, true);
   const double alone = cell(sim, "instance/alone/n"), after = cell(sim, "instance/after/n");

@@ -8,9 +8,9 @@
 #include <algorithm>
 
 #include "error_of.hpp"
+#include "large_xml.hpp"
 #include "text/number.hpp"
 #include "text/xml.hpp"
-#include "large_xml.hpp"
 
 namespace muster {
 namespace {

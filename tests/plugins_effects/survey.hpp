@@ -58,7 +58,8 @@ inline std::vector<Reading> survey(int ticks = 40) {
 
 inline std::string csv(const std::vector<Reading>& readings) {
   std::string out =
-      "t[s],tx,rx,tx_x[m],tx_y[m],tx_z[m],tx_yaw[rad],rx_x[m],rx_y[m],rx_z[m],rx_yaw[rad],power[dBm],noise[dBm],walls_wood\n";
+      "t[s],tx,rx,tx_x[m],tx_y[m],tx_z[m],tx_yaw[rad],rx_x[m],rx_y[m],rx_z[m],rx_yaw[rad],power[dBm],noise[dBm],walls_"
+      "wood\n";
   for (const Reading& r : readings) {
     out += print_real(r.t) + ',' + r.tx + ',' + r.rx;
     for (const double x :

@@ -62,7 +62,8 @@ TEST(Gate, IsIsSaidOnlyWhereHeldOutDataShowIt) {
 TEST(Text, SaysLambdaGainAndBlocks) {
   const auto cause = wall(search::Status::named, search::HeldOut{3.5, 2.5, 6, 2.4, 11, 21});
   const std::string text = text_of(with(cause), {"hall", "a.csv"});
-  for (const char* what : {"lambda 51", "evidence    20.0 nats", "95 %: 2.40 to", "11.00, 21 blocks", "8.6 dB", "95 %: 8.3 to 8.9 dB"})
+  for (const char* what :
+       {"lambda 51", "evidence    20.0 nats", "95 %: 2.40 to", "11.00, 21 blocks", "8.6 dB", "95 %: 8.3 to 8.9 dB"})
     EXPECT_TRUE(says(text, what)) << what << "\n" << text;
 }
 

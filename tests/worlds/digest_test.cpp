@@ -1,13 +1,12 @@
 // A run is the same bit for bit, however it comes about.
-#include "world_runs.hpp"
-
-#include "tests/errors/program.hpp"
-
 #include <fmt/core.h>
 
 #include <clocale>
 #include <cstdlib>
 #include <locale>
+
+#include "tests/errors/program.hpp"
+#include "world_runs.hpp"
 
 namespace muster::test {
 namespace {
@@ -72,7 +71,8 @@ TEST_P(EveryWorld, IsTheSameInTwoProcesses) {
   for (int process = 0; process < 2; ++process) {
     Surroundings around;
     around.environment = {"LOCPATH=" MUSTER_LOCALES, process ? "LC_ALL=de_DE.UTF-8" : "LC_ALL=C"};
-    const auto outcome = run_muster({"run", folder_of(GetParam()), "--until", fmt::format("{}", until), "--json"}, around);
+    const auto outcome =
+        run_muster({"run", folder_of(GetParam()), "--until", fmt::format("{}", until), "--json"}, around);
     EXPECT_EQ(outcome.exit, 0) << outcome.err;
     EXPECT_NE(outcome.out.find(expected), outcome.out.npos) << expected << "\n" << outcome.out;
   }

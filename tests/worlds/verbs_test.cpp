@@ -1,13 +1,12 @@
 // Verbs that look at worlds and plugins run cleanly on all of them; and the kernel names none of them.
-#include "world_runs.hpp"
-
-#include "tests/errors/program.hpp"
-
 #include <gmock/gmock.h>
 
 #include <cstdio>
 #include <regex>
 #include <sstream>
+
+#include "tests/errors/program.hpp"
+#include "world_runs.hpp"
 
 namespace muster::test {
 namespace {
@@ -44,7 +43,8 @@ TEST(Plugins, AreAllListedAndDescribed) {
     EXPECT_THAT(expect_clean({"describe", id, "--json"}).out, HasSubstr('"' + id + '"'));
   }
   int files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(MUSTER_PLUGINS_DIR)) files += entry.path().extension() == ".so";
+  for (const auto& entry : std::filesystem::directory_iterator(MUSTER_PLUGINS_DIR))
+    files += entry.path().extension() == ".so";
   EXPECT_EQ(count, files);
 }
 

@@ -1,14 +1,14 @@
 // The worlds of the tree, and runs of them.
 #pragma once
 
-#include "kernel/simulation.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include "kernel/simulation.hpp"
 
 namespace muster::test {
 
@@ -22,7 +22,9 @@ inline std::vector<std::string> worlds() {
   return result;
 }
 
-inline std::filesystem::path folder_of(const std::string& world) { return std::filesystem::path(MUSTER_SOURCE_DIR "/worlds") / world; }
+inline std::filesystem::path folder_of(const std::string& world) {
+  return std::filesystem::path(MUSTER_SOURCE_DIR "/worlds") / world;
+}
 
 // Long enough that each phase has run many times, and that the swap of hot_swap is among them.
 constexpr uint64_t most_ticks = 500;
@@ -49,7 +51,8 @@ inline uint64_t plain_digest(const std::string& name) {
 
 inline std::string test_name(const testing::TestParamInfo<std::string>& info) {
   std::string result = info.param;
-  std::replace_if(result.begin(), result.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
+  std::replace_if(
+      result.begin(), result.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
   return result;
 }
 

@@ -1,10 +1,10 @@
 // Exchanging the physics in mid-run: the state is handed over whole, and the new backend keeps its declared bound.
-#include "kernel/simulation.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "kernel/simulation.hpp"
 
 namespace muster {
 namespace {
@@ -19,7 +19,9 @@ std::unique_ptr<Simulation> hot_swap(std::vector<SwapDeclaration> swaps = {}) {
 
 InstanceDeclaration backend(const std::string& plugin) { return {plugin, plugin, 1, {}, {}, {}, {"test"}}; }
 
-std::vector<double> cells(const Simulation& run, const std::string& table) { return run.table(table).table->now().data; }
+std::vector<double> cells(const Simulation& run, const std::string& table) {
+  return run.table(table).table->now().data;
+}
 
 void run_to(Simulation& run, double time) {
   while (run.time() < time - run.world().dt / 2) run.step();
@@ -33,7 +35,8 @@ TEST_P(HotSwap, HandsOverEveryBitAndKeepsTheAccelerationBound) {
   run_to(*run, 4);
   const auto pose = cells(*run, "robot/*/pose");
   const auto twist = cells(*run, "robot/*/twist");
-  for (std::size_t r = 0; r < 2; ++r) ASSERT_GT(std::hypot(twist[r * 6], twist[r * 6 + 1]), 0.05) << "robot " << r << " stands still";
+  for (std::size_t r = 0; r < 2; ++r)
+    ASSERT_GT(std::hypot(twist[r * 6], twist[r * 6 + 1]), 0.05) << "robot " << r << " stands still";
   run->swap("physics", backend(GetParam()));
   EXPECT_EQ(cells(*run, "robot/*/pose"), pose);
   EXPECT_EQ(cells(*run, "robot/*/twist"), twist);
@@ -46,7 +49,8 @@ TEST_P(HotSwap, HandsOverEveryBitAndKeepsTheAccelerationBound) {
     // The position is the old one plus the velocity over dt, within half the bound's share of it.
     const auto moved = cells(*run, "robot/*/pose");
     const double expected_x = pose[r * 7] + dt * twist[r * 6], expected_y = pose[r * 7 + 1] + dt * twist[r * 6 + 1];
-    EXPECT_LE(std::hypot(moved[r * 7] - expected_x, moved[r * 7 + 1] - expected_y), acceleration * dt * dt) << "robot " << r;
+    EXPECT_LE(std::hypot(moved[r * 7] - expected_x, moved[r * 7 + 1] - expected_y), acceleration * dt * dt)
+        << "robot " << r;
   }
 }
 INSTANTIATE_TEST_SUITE_P(Backends, HotSwap, testing::Values("physics.planar", "physics.simbody"),
@@ -70,7 +74,8 @@ TEST(HotSwapRun, EndsNearTheRunWithoutSwaps) {
   run_to(*plain, 12);
   run_to(*swapped, 12);
   const auto a = cells(*plain, "robot/*/pose"), b = cells(*swapped, "robot/*/pose");
-  for (std::size_t r = 0; r < 2; ++r) EXPECT_LT(std::hypot(a[r * 7] - b[r * 7], a[r * 7 + 1] - b[r * 7 + 1]), 0.02) << "robot " << r;
+  for (std::size_t r = 0; r < 2; ++r)
+    EXPECT_LT(std::hypot(a[r * 7] - b[r * 7], a[r * 7 + 1] - b[r * 7 + 1]), 0.02) << "robot " << r;
   EXPECT_NE(a, b);  // they are two models
 }
 

@@ -1,10 +1,9 @@
 // What goes wrong, and where, is a definition of the build: TOY_ID, TOY_CREATE, TOY_STEP, TOY_DESTROY are statements.
 #pragma once
 
-#include <muster/plugin.hpp>
-
 #include <cmath>
 #include <limits>
+#include <muster/plugin.hpp>
 
 #ifndef TOY_CREATE
 #define TOY_CREATE
