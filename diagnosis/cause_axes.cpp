@@ -111,6 +111,21 @@ std::vector<Eigen::VectorXd> places_over(PlaceShape shape, const Survey& s, bool
   return result;
 }
 
+std::vector<std::vector<double>> products(const std::vector<Axis>& axes) {
+  std::vector<std::vector<double>> result{{}};
+  for (const Axis& axis : axes) {
+    std::vector<std::vector<double>> longer;
+    for (const auto& begun : result) {
+      for (const double value : axis.values) {
+        longer.push_back(begun);
+        longer.back().push_back(value);
+      }
+    }
+    result = std::move(longer);
+  }
+  return result;
+}
+
 int driven_across(const Survey& s, double x, double y, double length, double angle) {
   const double ex = length / 2 * std::cos(angle), ey = length / 2 * std::sin(angle);
   const auto side = [](double ax, double ay, double bx, double by, double px, double py) {

@@ -78,21 +78,6 @@ VectorXd theta_of(std::size_t row, const VectorXd& place, const std::vector<doub
   return theta;
 }
 
-std::vector<std::vector<double>> products(const std::vector<Axis>& axes) {
-  std::vector<std::vector<double>> result{{}};
-  for (const Axis& axis : axes) {
-    std::vector<std::vector<double>> longer;
-    for (const auto& begun : result) {
-      for (const double value : axis.values) {
-        longer.push_back(begun);
-        longer.back().push_back(value);
-      }
-    }
-    result = std::move(longer);
-  }
-  return result;
-}
-
 // A place that takes level from links through it cannot stand where a radio was driven.
 bool stands(const search::Candidate& c) { return !c.pieces.empty(); }
 
