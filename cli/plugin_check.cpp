@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "diagnosis/cause_check.hpp"
+#include "diagnosis/temporary_folder.hpp"
 #include "verbs.hpp"
 
 namespace muster::cli {
@@ -23,19 +24,6 @@ using diagnosis::HiddenCase;
 constexpr double goal_found = 0.95,
                  goal_false = 0.01;          // shares; a check fails only beyond what chance does once in 1,000
 constexpr double largest_difference = 1e-6;  // dB
-
-struct Scratch {
-  Scratch() {
-    std::string name = (fs::temp_directory_path() / "muster_check_XXXXXX").string();
-    if (!::mkdtemp(name.data())) throw Error(Exit::io, name + ": cannot be made: " + std::strerror(errno));
-    folder = name;
-  }
-  ~Scratch() {
-    std::error_code ignored;
-    fs::remove_all(folder, ignored);
-  }
-  fs::path folder;
-};
 
 // Worlds in which nothing is hidden, by the program that makes exams: their truth shares no code with any cause.
 std::vector<fs::path> clean_worlds(int count, uint64_t seed, const std::vector<int>& rows, const fs::path& folder) {
@@ -164,12 +152,12 @@ int run_plugin_check(const Arguments& arguments) {
   app.add_option("--seed", seed, "of worlds and places")->capture_default_str();
   app.add_flag("--json", json, "print the result as JSON");
   parse(app, arguments);
-  const Scratch scratch;
-  const auto made = clean_worlds(worlds, seed, rows, scratch.folder);
+  const diagnosis::TemporaryFolder scratch;
+  const auto made = clean_worlds(worlds, seed, rows, scratch.path());
   CauseCheck check;
   {
     Progress progress("plugin-check");
-    check = diagnosis::check_cause(id, made, plugin_path(plugins), {lambda, seed, scratch.folder},
+    check = diagnosis::check_cause(id, made, plugin_path(plugins), {lambda, seed, scratch.path()},
                                    [&](double share) { progress.at(share); });
   }
   if (json)

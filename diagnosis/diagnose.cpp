@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <tuple>
 
 #include "diagnosis/cause_rows.hpp"
@@ -15,6 +14,7 @@
 #include "diagnosis/plans.hpp"
 #include "diagnosis/prepared.hpp"
 #include "diagnosis/seen_rows.hpp"
+#include "diagnosis/temporary_folder.hpp"
 #include "text/number.hpp"
 
 namespace muster::diagnosis {
@@ -181,21 +181,6 @@ const FoundCause* edit_in_company(const Diagnosis& found, const std::vector<Caus
   return named > 1 ? edit : nullptr;
 }
 
-struct TemporaryFolder {
-  std::filesystem::path path;
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "muster_XXXXXX").string();
-    if (!mkdtemp(name.data())) throw Error(Exit::io, name + ": cannot be made");
-    path = name;
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path, ignored);
-  }
-};
-
 }  // namespace
 
 // With a radio in the wrong place everything else was judged wrongly: it is judged again with the radio in the right
@@ -209,7 +194,7 @@ Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::pa
   first.causes = {*edit};
   first.parameters = found.parameters;
   const TemporaryFolder folder;
-  Diagnosis again = Diagnoser(write_extended_world(first, world, folder.path), data, plugins).run();
+  Diagnosis again = Diagnoser(write_extended_world(first, world, folder.path()), data, plugins).run();
   first.causes[0].effect = VectorXd::Zero(again.rows);
   again.causes.insert(again.causes.begin(), first.causes[0]);
   return again;
