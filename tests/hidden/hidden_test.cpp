@@ -20,7 +20,7 @@ struct Hidden {
 
 // Measured at the commit that last changed this table.
 constexpr Hidden table[] = {
-    {"tx_offset", 901, 3, 0},
+    {"tx_offset", 901, 3, 2},
     {"rx_offset", 902, 2, 2},
     {"antenna_tx", 903, 2, 2},
     {"antenna_rx", 904, 2, 2},
@@ -38,7 +38,7 @@ constexpr Hidden table[] = {
     {"height", 916, 2, 2},
     {"dual_slope", 917, 2, 2},
     {"two_ray", 918, 2, 0},
-    {"corridor", 919, 2, 1},
+    {"corridor", 919, 2, 2},
     {"drift", 920, 2, 2},
     {"step", 921, 2, 2},
     {"periodic", 922, 2, 2},

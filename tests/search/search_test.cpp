@@ -67,6 +67,21 @@ TEST(Search, TwoCausesAreBothNamed) {
   EXPECT_EQ(found, (std::vector<std::string>{"rx_offset", "unmapped_wall"}));
 }
 
+TEST(Search, OfCausesThatTheReadingsCannotTellApartTheSimplestIsNamed) {
+  const World world = world_of(varied(34, 4000));
+  auto causes = causes_of(world);
+  const Eigen::VectorXd effect = scaled_to(world, causes[1].columns(causes[1].grid[0]), 200);
+  for (const int more : {-1, 1}) {
+    auto twins = causes;
+    twins.insert(twins.begin() + (more > 0 ? 1 : 2), causes[1]);  // before and behind: the order must not decide
+    Candidate& twin = twins[more > 0 ? 1 : 2];
+    twin.id = "twin";
+    twin.parameters = causes[1].parameters + more;
+    const Problem problem = problem_of(world, effect, twins);
+    EXPECT_EQ(ids(Search(problem).run()), std::vector<std::string>{more > 0 ? "rx_offset" : "twin"});
+  }
+}
+
 TEST(Search, CoefficientsPlacesAndHeldOutGainAreThoseOfTheTruth) {
   const World world = world_of(varied(35, 6000));
   const auto causes = causes_of(world);
