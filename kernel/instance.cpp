@@ -239,8 +239,9 @@ void Instance::bind(uint64_t tick) {
   }
 }
 
-bool Instance::step(muster_tick tick) noexcept {
-  tick.params = params_.data();
+bool Instance::step(const muster_tick& now) noexcept {
+  const double dt = around_.world->dt * static_cast<double>(every());
+  const muster_tick tick{sizeof(muster_tick), now.flags, now.index, now.time, dt, params_.data()};
   said_.clear();  // of a step that was taken back
   fault_ = Exit::plugin_fault;
   refused_ = false;

@@ -108,7 +108,7 @@ class Instance {
   // Points the views at the tables. Call before step(), when nothing that it reads changes any more.
   void bind(uint64_t tick);
   // One call of step(); its error is kept in failure(). Never throws.
-  bool step(muster_tick tick) noexcept;
+  bool step(const muster_tick& now) noexcept;
   // What the plugin, or the kernel of it, said of its last failed callback.
   std::string said() const { return said_.empty() ? "gave no reason" : said_; }
   // The error of a failed callback, whole, and ready for the next call.

@@ -248,6 +248,7 @@ std::vector<Batch> Linker::make_batches() {
       if (batches.size() <= at) batches.resize(at + 1);
       batches[at].phase = phase;
       batches[at].instances.push_back(instance);
+      batches[at].any_shared |= !instance->is_direct();
       batch_of[instance] = at;
     }
   }

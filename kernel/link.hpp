@@ -20,6 +20,7 @@ struct Sum {
 struct Batch {
   uint32_t phase = 0;
   std::vector<Instance*> instances;
+  bool any_shared = false;  // some write tables beside others, or aside
   std::vector<Sum> sums;
   std::vector<Table*> publish;
 };

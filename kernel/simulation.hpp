@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -147,7 +148,8 @@ class Simulation {
   std::map<const Instance*, Stood> stood_;
   uint32_t stood_flags_ = 0;
   std::vector<Instance*> due_;                        // of the batch that steps
-  std::vector<std::string> faults_;                   // of each of them, "" for none
+  std::map<std::size_t, std::string> faults_;         // of those among them that failed; the first ends the tick
+  std::mutex faulty_;                                 // who writes there
   std::vector<std::pair<Set*, std::size_t>> listed_;  // rows of the listed sets before this tick
   std::vector<std::shared_ptr<Library>> planned_;     // libraries of swaps to come
 };

@@ -59,25 +59,22 @@ bool Simulation::stands(Instance& instance) {
   return false;
 }
 
+// Tables with one writer are opened by it in step_all(); the others here, before any of their writers steps.
 void Simulation::run_batch(Batch& batch, const muster_tick& tick) {
   due_.clear();
   for (Instance* instance : batch.instances) {
     if (all_due_ && stands(*instance)) continue;
     if (!all_due_ && instance->every() != 1 && tick.index % instance->every() != 0) continue;
     due_.push_back(instance);
-    prepare_cells(*instance, tick.index);
-    if (instance->is_direct()) instance->bind(tick.index);
+    if (batch.any_shared && !instance->is_direct()) prepare_cells(*instance, tick.index);
   }
-  for (Instance* instance : due_) {
-    if (!instance->is_direct()) instance->bind(tick.index);  // others may have begun the tables that it writes
-  }
+  faults_.clear();  // of a tick that was taken back
   step_all(tick);
-  for (std::size_t i = 0; i < due_.size(); ++i) {
-    if (faults_[i].empty() && !due_[i]->is_direct()) faults_[i] = commit_cells(*due_[i], tick.index);
-    if (faults_[i].empty()) continue;
-    const std::string fault = faults_[i];
-    faults_.clear();  // those of the others too
-    throw due_[i]->failure("step", &tick, fault);
+  if (!faults_.empty()) throw due_[faults_.begin()->first]->failure("step", &tick, faults_.begin()->second);
+  for (std::size_t i = 0; batch.any_shared && i < due_.size(); ++i) {
+    if (due_[i]->is_direct()) continue;
+    const std::string fault = commit_cells(*due_[i], tick.index);
+    if (!fault.empty()) throw due_[i]->failure("step", &tick, fault);
   }
   for (const auto& sum : batch.sums) {
     add_up(sum, tick.index);
@@ -102,14 +99,14 @@ void Simulation::check_sum(const Sum& sum, const muster_tick& tick) const {
 
 // Threads take instances as they come; nothing that an instance writes is another's, so the order does not show.
 void Simulation::step_all(const muster_tick& tick) {
-  faults_.resize(due_.size());  // all empty: the first that is not ends the tick
   const auto one = [&](std::size_t i) {
-    muster_tick own = tick;
-    own.dt = world_.dt * static_cast<double>(due_[i]->every());
-    if (!due_[i]->step(own))
-      faults_[i] = due_[i]->said();
-    else if (std::string wrong = check_cells(*due_[i], board_); !wrong.empty())
-      faults_[i] = std::move(wrong);
+    Instance& instance = *due_[i];
+    if (instance.is_direct()) prepare_cells(instance, tick.index);
+    instance.bind(tick.index);
+    std::string fault = instance.step(tick) ? check_cells(instance, board_) : instance.said();
+    if (fault.empty()) return;
+    const std::lock_guard lock(faulty_);
+    faults_.emplace(i, std::move(fault));
   };
   if (workers_ && due_.size() > 1)
     workers_->each(due_.size(), one);
