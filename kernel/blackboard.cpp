@@ -109,13 +109,13 @@ void Table::compact_blobs() {
 void Table::publish(uint64_t tick) {
   if (columns_.any_bytes()) compact_blobs();
   next().tick = tick;
-  published_at_ = 1 - published_at_;
+  std::swap(now_, next_);
   published_ = true;
   ++version_;
 }
 
 void Table::take_back() {
-  if (published_) published_at_ = 1 - published_at_;
+  if (published_) std::swap(now_, next_);
   ++version_;
   end_tick();
 }

@@ -55,20 +55,22 @@ struct Cells {
 class Table {
  public:
   Table(std::string name, Set& set, Columns columns, std::string initial);
+  Table(const Table&) = delete;
+  Table& operator=(const Table&) = delete;
 
   const std::string& name() const { return name_; }
   Set& set() const { return *set_; }
   const Columns& columns() const { return columns_; }
   std::size_t width() const { return columns_.size(); }
 
-  const Cells& now() const { return cells_[published_at_]; }
-  Cells& next() { return cells_[1 - published_at_]; }
+  const Cells& now() const { return *now_; }
+  Cells& next() { return *next_; }
   // What was written in this tick, published or not; else what stands.
-  const Cells& newest() const { return begun_ && !published_ ? cells_[1 - published_at_] : now(); }
+  const Cells& newest() const { return begun_ && !published_ ? *next_ : *now_; }
   // To put initial or restored values in place; not for steps.
   Cells& stored() {
     ++version_;
-    return cells_[published_at_];
+    return *now_;
   }
   // Grows whenever something new may stand.
   uint64_t version() const { return version_; }
@@ -104,7 +106,7 @@ class Table {
   Columns columns_;
   std::vector<double> initial_;
   Cells cells_[2];
-  std::size_t published_at_ = 0;  // which of the two stands; the other one is being written
+  Cells *now_ = &cells_[0], *next_ = &cells_[1];  // what stands, and what is being written
   bool begun_ = false, published_ = false;
   uint64_t version_ = 0;
 };

@@ -13,7 +13,7 @@ namespace muster {
 void Simulation::step() {
   planned_swaps();
   throw_destroy_fault();
-  stood_.clear();
+  if (!stood_.empty()) stood_.clear();
   run(tick_ + 1, MUSTER_CONTROL, MUSTER_OBSERVE, 0);
   ++tick_;
 }
