@@ -27,6 +27,16 @@ FitOptions hold_places_of_causes(const LinkModel& model) {
   return options;
 }
 
+// A wall that no map has shows best in short rows, while each row costs time and weakens what its neighbours say of the
+// field: rows are halved where few come of it.
+noise::RowLimits finest(const noise::Readings& readings) {
+  constexpr Index few = 4000;
+  noise::RowLimits half;
+  half.time /= 2;
+  half.way /= 2;
+  return noise::Rows(readings, half).size() <= few ? half : noise::RowLimits();
+}
+
 }  // namespace
 
 Prepared::Prepared(const std::filesystem::path& world, const std::filesystem::path& table,
@@ -46,6 +56,7 @@ Prepared::Prepared(const std::filesystem::path& world, const std::filesystem::pa
   for (const CauseCandidate& c : sought.found) problem.candidates.push_back(c.candidate);
   add_columns();
   problem.places_known = data.has_places();
+  options.rows = finest(problem.readings);
   if (!problem.places_known) options.rows.way = -1;  // readings at like distances are not at one place: each is a row
 }
 
@@ -66,6 +77,7 @@ void Prepared::fill_readings() {
     r.rx_at.col(i) << rx.x, rx.y, rx.z;
     if (!data.t.empty()) r.t.push_back(data.t[row]);
     if (!data.rx_yaw.empty()) r.rx_yaw.push_back(rx.yaw);
+    r.level.push_back(base.mean[used[static_cast<std::size_t>(i)]]);
     const double rssi = data.rssi[row];
     problem.measured[i] = std::isnan(rssi) ? fitted.readings.floor + problem.bounds.half_code : rssi;
     if (clips) problem.bounds.known.push_back(known_of(rssi));

@@ -14,6 +14,8 @@ std::string_view name_of(Family family) {
       return "matern52";
     case Family::two_scale:
       return "two_scale";
+    case Family::gaussian:
+      return "gaussian";
   }
   return "";
 }
@@ -28,6 +30,8 @@ double correlation(Family family, double u) {
       return (1 + u + u * u / 3) * std::exp(-u);
     case Family::two_scale:
       return 0.5 * std::exp(-2.5 * u) + 0.5 * std::exp(-0.4 * u);
+    case Family::gaussian:
+      return std::exp(-u * u);
   }
   return 0;
 }
@@ -42,6 +46,8 @@ double correlation_slope(Family family, double u) {
       return u * u * (1 + u) / 3 * std::exp(-u);
     case Family::two_scale:
       return 1.25 * u * std::exp(-2.5 * u) + 0.2 * u * std::exp(-0.4 * u);
+    case Family::gaussian:
+      return 2 * u * u * std::exp(-u * u);
   }
   return 0;
 }

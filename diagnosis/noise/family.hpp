@@ -1,4 +1,4 @@
-// Correlation of shadowing at two places: four families over one decorrelation distance.
+// Correlation of shadowing at two places: five families over one decorrelation distance.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,8 +7,9 @@
 
 namespace muster::noise {
 
-enum class Family { exponential = 1, matern32, matern52, two_scale };
-inline constexpr std::array families{Family::exponential, Family::matern32, Family::matern52, Family::two_scale};
+enum class Family { exponential = 1, matern32, matern52, two_scale, gaussian };
+inline constexpr std::array families{Family::exponential, Family::matern32, Family::matern52, Family::two_scale,
+                                     Family::gaussian};
 
 std::string_view name_of(Family family);
 

@@ -53,10 +53,15 @@ std::vector<Fit> fit_families(const Field& field, const Eigen::VectorXd& y, cons
   std::vector<Fit> fits{fit(field, y, design, prior, default_start(y, design, Family::exponential), 20)};
   for (const Family family : families) {
     if (family == Family::exponential) continue;
-    Covariance start{family, fits[0].covariance.theta};
-    start.theta[1] += log_scale_of(family);
+    // A smooth field's fit lies far from that of a rough one: it starts from the next smoother one's.
+    const auto like = std::find_if(fits.begin(), fits.end(), [&](const Fit& f) {
+      return f.covariance.family == (family == Family::gaussian ? Family::matern52 : Family::exponential);
+    });
+    Covariance start{family, like->covariance.theta};
+    start.theta[1] += log_scale_of(family) - log_scale_of(like->covariance.family);
     fits.push_back(fit(field, y, design, prior, start));
   }
+  std::erase_if(fits, [](const Fit& f) { return !std::isfinite(f.value); });
   const auto cost = [&](const Fit& f) {
     return f.value + (f.covariance.family == Family::exponential ? 0 : advantage);
   };

@@ -8,8 +8,8 @@
 namespace muster::noise {
 
 struct Conditioning {
-  int same = 10, others = 4;  // rows of the same anchor, and of other ones
-  uint64_t seed = 1;          // of the order
+  int same = 10, others = 12;  // rows of the same anchor, and of other ones, which tell its field from the shared one
+  uint64_t seed = 1;           // of the order
 
   int slots() const { return same + others; }
 };

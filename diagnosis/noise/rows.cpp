@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <tuple>
 
@@ -24,6 +25,7 @@ bool ends_row(const Readings& r, const RowLimits& limits, Index first, Index nex
   if (r.tx[a] != r.tx[b] || r.rx[a] != r.rx[b]) return true;
   if (!r.t.empty() && r.t[b] - r.t[a] >= limits.time) return true;
   if (!r.rx_yaw.empty() && std::abs(std::remainder(r.rx_yaw[b] - r.rx_yaw[a], 2 * M_PI)) > limits.turn) return true;
+  if (!r.level.empty() && std::abs(r.level[b] - r.level[a]) > limits.level) return true;
   return (r.rx_at.col(next) - r.rx_at.col(first)).norm() > limits.way ||
          (r.tx_at.col(next) - r.tx_at.col(first)).norm() > limits.way;
 }
@@ -34,6 +36,35 @@ double median(std::vector<double> values) {
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
+
+// How far the radios of each pair went. What shadows a link shadows its return, so both directions have one anchor: the
+// radio that moved less. Where neither did, it is that end of a lone direction that moves less in all.
+class Ways {
+ public:
+  void add(int tx, int rx, double tx_way, double rx_way) {
+    Pair& pair = of_[std::minmax(tx, rx)];
+    (tx < rx ? pair.low : pair.high) += tx_way;
+    (tx < rx ? pair.high : pair.low) += rx_way;
+    (tx < rx ? pair.up : pair.down) = true;
+    by_tx_ += tx_way;
+    by_rx_ += rx_way;
+  }
+
+  int anchor_of(int tx, int rx) const {
+    const auto found = of_.find(std::minmax(tx, rx));
+    const Pair pair = found == of_.end() ? Pair{} : found->second;
+    if (pair.low == pair.high && !(pair.up && pair.down)) return by_tx_ <= by_rx_ ? tx : rx;
+    return pair.low <= pair.high ? std::min(tx, rx) : std::max(tx, rx);
+  }
+
+ private:
+  struct Pair {
+    double low = 0, high = 0;       // m, of the radio with the lower number and of the other
+    bool up = false, down = false;  // whether the lower transmits, and the other
+  };
+  std::map<std::pair<int, int>, Pair> of_;
+  double by_tx_ = 0, by_rx_ = 0;  // m, of all
+};
 
 }  // namespace
 
@@ -72,22 +103,29 @@ Eigen::VectorXd Rows::at_readings(const Eigen::VectorXd& rows) const {
 Sites Rows::sites(const Readings& readings) const {
   const Eigen::Matrix3Xd tx = mean(readings.tx_at.transpose()).transpose();
   const Eigen::Matrix3Xd rx = mean(readings.rx_at.transpose()).transpose();
-  double tx_way = 0, rx_way = 0;
+  Ways ways;
   std::vector<double> lengths;
   for (Index i = 0; i < size(); ++i) {
     const Index a = example(i), b = order_[static_cast<std::size_t>(first_[static_cast<std::size_t>(i) + 1] - 1)];
     lengths.push_back((readings.rx_at.col(b) - readings.rx_at.col(a)).norm() +
                       (readings.tx_at.col(b) - readings.tx_at.col(a)).norm());
-    if (i == 0 || readings.tx[static_cast<std::size_t>(a)] != readings.tx[static_cast<std::size_t>(example(i - 1))] ||
-        readings.rx[static_cast<std::size_t>(a)] != readings.rx[static_cast<std::size_t>(example(i - 1))])
-      continue;
-    tx_way += (tx.col(i) - tx.col(i - 1)).norm();
-    rx_way += (rx.col(i) - rx.col(i - 1)).norm();
+    const std::size_t link = static_cast<std::size_t>(a);
+    const bool goes_on = i > 0 && readings.tx[link] == readings.tx[static_cast<std::size_t>(example(i - 1))] &&
+                         readings.rx[link] == readings.rx[static_cast<std::size_t>(example(i - 1))];
+    if (goes_on)
+      ways.add(readings.tx[link], readings.rx[link], (tx.col(i) - tx.col(i - 1)).norm(),
+               (rx.col(i) - rx.col(i - 1)).norm());
   }
-  const bool anchored_at_tx = tx_way <= rx_way;
-  Sites sites{anchored_at_tx ? rx : tx, anchored_at_tx ? tx : rx, {}, count_, median(std::move(lengths)) / 3};
-  for (Index i = 0; i < size(); ++i)
-    sites.radio.push_back((anchored_at_tx ? readings.tx : readings.rx)[static_cast<std::size_t>(example(i))]);
+  Sites sites{rx, tx, {}, count_, median(std::move(lengths)) / 3};
+  for (Index i = 0; i < size(); ++i) {
+    const auto link = static_cast<std::size_t>(example(i));
+    const bool anchored_at_tx = ways.anchor_of(readings.tx[link], readings.rx[link]) == readings.tx[link];
+    if (!anchored_at_tx) {
+      sites.place.col(i) = tx.col(i);
+      sites.anchor.col(i) = rx.col(i);
+    }
+    sites.radio.push_back(anchored_at_tx ? readings.tx[link] : readings.rx[link]);
+  }
   return sites;
 }
 

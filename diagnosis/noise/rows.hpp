@@ -14,6 +14,7 @@ struct Readings {
   std::vector<int> tx, rx;        // radios, by numbers that do not depend on the order of the readings
   Eigen::Matrix3Xd tx_at, rx_at;  // m
   std::vector<double> rx_yaw;     // rad; empty: unknown
+  std::vector<double> level;      // dB that a model expects; empty: unknown
 
   Index size() const { return static_cast<Index>(tx.size()); }
 };
@@ -23,9 +24,11 @@ struct RowLimits {
   double time = 1.2;     // s
   double turn = 0.6109;  // rad, 35 degrees
   double way = 1.0;      // m, of either end
+  double level = 1.5;    // dB: what a wall does to a link is not averaged with what it is without
 };
 
-// Where the rows' field lives: `place` is the end that moves more, `anchor` the other one.
+// Where the rows' field lives: `place` is the end that moves more, `anchor` the other one, the same for both directions
+// of a pair.
 struct Sites {
   Eigen::Matrix3Xd place, anchor;  // m
   std::vector<int> radio;          // the anchor's

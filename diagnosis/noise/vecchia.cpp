@@ -32,7 +32,24 @@ void apply(const Field& field, const Stencil& stencil, const Scalar* x, Index co
   }
 }
 
+// The same for one column, as refinement asks for it thousands of times.
+Eigen::VectorXd applied_to_one(const Field& field, const Stencil& stencil, const double* x) {
+  Eigen::VectorXd out(field.size());
+  const auto slots = static_cast<Index>(field.slots());
+  for (Index i = 0; i < field.size(); ++i) {
+    const double* const weights = stencil.beside.data() + i * slots;
+    double sum = stencil.own[at(i)] * x[i];
+    for (Index a = 0; a < slots; ++a) {
+      const Index j = field.neighbour(i, static_cast<int>(a));
+      sum += weights[a] * x[std::max<Index>(j, 0)];  // the weight of none is 0
+    }
+    out[i] = sum;
+  }
+  return out;
+}
+
 Eigen::MatrixXd applied(const Field& field, const Stencil& stencil, const Eigen::Ref<const Eigen::MatrixXd>& columns) {
+  if (columns.cols() == 1) return applied_to_one(field, stencil, columns.data());
   using ByRow = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const ByRow x = columns;
   ByRow out(x.rows(), x.cols());

@@ -1,8 +1,10 @@
 #include "diagnosis/search/bench.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "diagnosis/search/integrated.hpp"
 #include "diagnosis/search/scores.hpp"
 #include "diagnosis/search/smooths.hpp"
 #include "diagnosis/search/tail.hpp"
@@ -54,7 +56,9 @@ Bench::Bench(const Problem& problem, const Options& options)
     : problem_(problem),
       options_(options),
       rows_(problem.readings, options.rows),
-      field_(rows_.sites(problem.readings), {10, 4, options.seed}),
+      field_(rows_.sites(problem.readings), {.seed = options.seed}),
+      long_rows_(problem.readings, options.rows.way < 0 ? options.rows : noise::RowLimits()),
+      far_field_(long_rows_.sites(problem.readings), {.same = 16, .others = 20, .seed = options.seed}),
       base_(rows_.mean(problem.base)),
       normals_(normals_of(rows_.size(), options.nulls, options.seed)) {
   impute(6);
@@ -99,6 +103,32 @@ Stand Bench::stand(const Eigen::MatrixXd& design, const noise::Covariance& covar
 
 noise::Fit Bench::fitted(const Eigen::MatrixXd& design, const noise::Covariance& start, int steps) const {
   return noise::fit(field_, y_, design, options_.prior, start, steps);
+}
+
+double Bench::profile_gain(const Eigen::MatrixXd& design, const Eigen::MatrixXd& columns,
+                           const noise::Covariance& with) const {
+  const auto lengthened = [&](const Eigen::MatrixXd& of_rows) {
+    Eigen::MatrixXd result(long_rows_.size(), of_rows.cols());
+    for (Index j = 0; j < of_rows.cols(); ++j) result.col(j) = long_rows_.mean(rows_.at_readings(of_rows.col(j)));
+    return result;
+  };
+  const Eigen::VectorXd y = lengthened(y_);
+  const auto log_likelihood = [&](const Eigen::MatrixXd& all, const noise::Covariance& start) {
+    constexpr double likely = 3;  // nats that a family may lie behind the best one
+    double highest = -1e300;
+    for (const noise::Fit& family : families) {
+      if (family.covariance.family != start.family && family.value > families[0].value + likely) continue;
+      noise::Covariance from{family.covariance.family, start.theta};
+      from.theta[1] += noise::log_scale_of(from.family) - noise::log_scale_of(start.family);
+      const noise::Fit best = noise::fit(far_field_, y, all, options_.prior, from, 4);
+      const noise::Whitener whitener(far_field_, best.covariance);
+      const auto whitened = noise::whitened(whitener, y, all, options_.prior);
+      highest = std::max(highest, whitened.basis.log_determinant() - best.value);
+    }
+    return highest;
+  };
+  const Eigen::MatrixXd smaller = lengthened(design);
+  return 2 * (log_likelihood(beside(smaller, lengthened(columns)), with) - log_likelihood(smaller, fit.covariance));
 }
 
 Entry Bench::entry(Candidate candidate) const {

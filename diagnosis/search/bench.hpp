@@ -75,6 +75,11 @@ class Bench {
   Stand stand(const Eigen::MatrixXd& design) const { return stand(design, fit.covariance); }
   Stand stand(const Eigen::MatrixXd& design, const noise::Covariance& covariance) const;
   noise::Fit fitted(const Eigen::MatrixXd& design, const noise::Covariance& start, int steps) const;
+  // The fall of the deviance if these columns (row means) are added to the design, the noise being fitted with and
+  // without them: what they win though the noise could have taken their place. For what varies slowly: by longer rows
+  // with more neighbours each than the search has, since few near ones overstate it. `with`: the noise beside them.
+  double profile_gain(const Eigen::MatrixXd& design, const Eigen::MatrixXd& columns,
+                      const noise::Covariance& with) const;
   void refit(int steps = 6) { fit = fitted(design(), fit.covariance, steps); }
 
   // All candidates: the given ones, smooths, and those that depend on the model as it stands.
@@ -98,6 +103,8 @@ class Bench {
   Options options_;
   noise::Rows rows_;
   noise::Field field_;
+  noise::Rows long_rows_;
+  noise::Field far_field_;  // of the long rows, with more neighbours
   Eigen::MatrixXd base_;
   Eigen::VectorXd y_;
   std::vector<Entry> entries_;

@@ -34,7 +34,7 @@ bool stands_clear_of_clip(const Bench& bench, const noise::Covariance& covarianc
     if (predicted[i] > low + 1.5 * sd && predicted[i] < high - 1.5 * sd) clear.push_back(i);
   }
   if (clear.size() < 60) return false;
-  const noise::Field field(bench.field().sites().of(clear), {10, 4, bench.options().seed});
+  const noise::Field field(bench.field().sites().of(clear), {.seed = bench.options().seed});
   noise::Whitener whitener(field, covariance);
   noise::Whitened at = noise::whitened(whitener, bench.y()(clear), design(clear, Eigen::all), bench.options().prior);
   const double gain = Stand{std::move(whitener), std::move(at), {}}.gain(columns(clear, Eigen::all));

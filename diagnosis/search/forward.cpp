@@ -53,6 +53,10 @@ Trial tried(const Bench& bench, const Lead& lead, const noise::Fit& fit, const E
   trial.integrated_log_p = trial.log_p;
   if (trial.log_p > -40)
     trial.integrated_log_p = integrated_log_p(bench, fit, design, lead.columns, log_tests(bench, c));
+  if ((c.slow || c.kind == Kind::smooth) && trial.integrated_log_p <= bench.threshold()) {
+    const double profile = bench.profile_gain(design, lead.columns, fit.covariance);
+    trial.integrated_log_p = std::max(trial.integrated_log_p, bench.log_p(c, profile, lead.columns.cols(), true));
+  }
   trial.integrated_log_p += stand.skew_charge(lead.columns);
   if (!c.pieces.empty() && share_of_others(bench, stand, lead.columns) < 0.08)
     trial.integrated_log_p += bench.options().one_radio_charge;

@@ -71,7 +71,7 @@ std::vector<Rival> rivals_of(Bench& bench, const Term& term) {
 
 double predicted_separability(const Bench& bench, const Term& term, const std::string& rival, const Plan& plan) {
   const noise::Rows rows(plan.readings, bench.options().rows);
-  const noise::Field field(bench.field().sites().with(rows.sites(plan.readings)), {10, 4, bench.options().seed});
+  const noise::Field field(bench.field().sites().with(rows.sites(plan.readings)), {.seed = bench.options().seed});
   const noise::Whitener whitener(field, bench.fit.covariance);
   Eigen::MatrixXd old = bench.base(), added = rows.mean(plan.base);
   for (const Term& other : bench.terms) {

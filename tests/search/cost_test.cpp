@@ -51,7 +51,7 @@ TEST(Cost, TwentyThousandReadingsAndAThousandAtomsAreSearchedInTwoSeconds) {
   noise::objective(field, start, y, base, {});
   std::printf("one scoring step      %7.3f s\n", clock.lap());
   noise::fit_families(field, y, base, {});
-  std::printf("four families         %7.3f s\n", clock.lap());
+  std::printf("five families         %7.3f s\n", clock.lap());
   Search search(problem);
   std::printf("bench, with all that  %7.3f s\n", clock.lap());
   Index atoms = 0;

@@ -169,6 +169,28 @@ TEST(Fit, ASmoothFieldIsNotTakenForAnExponentialOne) {
             Family::exponential);
 }
 
+TEST(Rows, BothDirectionsOfAPairHaveOnePlaceAndOneAnchor) {
+  Readings two_ways;  // radio 1 stands, radio 0 moves; each reading is followed by its return
+  for (int k = 0; k < 20; ++k) {
+    two_ways.tx.insert(two_ways.tx.end(), {1, 0});
+    two_ways.rx.insert(two_ways.rx.end(), {0, 1});
+    two_ways.t.insert(two_ways.t.end(), {0.5 * k, 0.5 * k});
+  }
+  two_ways.tx_at = Eigen::Matrix3Xd::Zero(3, 40);
+  two_ways.rx_at = Eigen::Matrix3Xd::Zero(3, 40);
+  for (Index k = 0; k < 20; ++k)
+    two_ways.rx_at(0, 2 * k) = two_ways.tx_at(0, 2 * k + 1) = 5 + 0.2 * static_cast<double>(k);
+  const Sites sites = Rows(two_ways).sites(two_ways);
+  ASSERT_EQ(sites.size() % 2, 0);
+  const Index half = sites.size() / 2;
+  for (Index i = 0; i < half; ++i) {
+    EXPECT_EQ(sites.radio[static_cast<std::size_t>(i)], 1);
+    EXPECT_EQ(sites.radio[static_cast<std::size_t>(half + i)], 1);
+    EXPECT_TRUE(sites.place.col(i).isApprox(sites.place.col(half + i)));
+    EXPECT_GT(sites.place(0, i), 4);
+  }
+}
+
 TEST(Rows, AreTheSameForEveryOrderOfReadings) {
   const auto world = synthetic::world_of(synthetic::varied(2, 1500));
   std::vector<Index> order(1500);
