@@ -55,6 +55,7 @@ class Diagnoser {
     out.held_out = result.held_out;
     out.readings = at_.used.size();
     out.rows = bench.rows().size();
+    out.row_limits = at_.options.rows;
     const VectorXd coefficients = result.base_coefficients.cwiseMax(at_.base.lower).cwiseMin(at_.base.upper);
     for (std::size_t j = 0; j < at_.base.paths.size(); ++j)
       out.parameters[at_.base.paths[j]] = coefficients[static_cast<Index>(j)];

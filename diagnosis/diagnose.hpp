@@ -108,6 +108,7 @@ struct Diagnosis {
   Eigen::VectorXd mean;  // of the extended model at every row of the table, dBm
   std::size_t readings = 0;
   Eigen::Index rows = 0;
+  noise::RowLimits row_limits;
   std::optional<Loop> loop;
 
   bool named() const;

@@ -27,14 +27,17 @@ FitOptions hold_places_of_causes(const LinkModel& model) {
   return options;
 }
 
-// A wall that no map has shows best in short rows, while each row costs time and weakens what its neighbours say of the
-// field: rows are halved where few come of it.
+// A wall that no map has shows best in short rows, down to single readings, while each row costs time: they are as
+// short as few rows allow.
 noise::RowLimits finest(const noise::Readings& readings) {
   constexpr Index few = 4000;
-  noise::RowLimits half;
-  half.time /= 2;
-  half.way /= 2;
-  return noise::Rows(readings, half).size() <= few ? half : noise::RowLimits();
+  for (const double share : {0.0, 0.25, 0.5}) {
+    noise::RowLimits limits;
+    limits.time *= share;
+    limits.way *= share;
+    if (noise::Rows(readings, limits).size() <= few) return limits;
+  }
+  return {};
 }
 
 }  // namespace

@@ -161,7 +161,9 @@ std::string what_is_held_out(const Diagnosis& d) { return d.seen.places_known ? 
 
 std::string rows_in_words(const Diagnosis& d) {
   if (static_cast<std::size_t>(d.rows) == d.readings) return "each a row of its own";
-  return fmt::format("averaged to {} rows (neighbours on one link: at most 1.2 s, 1 m and 35 degrees apart)", d.rows);
+  return fmt::format(
+      "averaged to {} rows (neighbours on one link: at most {:.3g} s, {:.3g} m, {:.0f} degrees and {:.3g} dB apart)",
+      d.rows, d.row_limits.time, std::max(d.row_limits.way, 0.0), d.row_limits.turn * 180 / M_PI, d.row_limits.level);
 }
 
 std::string why_no_blocks(const Diagnosis& d) {

@@ -52,12 +52,16 @@ void prefer_names(std::vector<Lead>& pool, double share) {
   if (chosen != pool.end()) to_front(pool, chosen);
 }
 
+// What a lead won, less what chance wins by as many functions and searched parameters, twice over (Akaike 1974).
+double won(const Lead& lead) {
+  return lead.gain - 2 * static_cast<double>(lead.columns.cols() + (lead.candidate().step.array() != 0).count());
+}
+
 // A function of time gives way to an observed column that does as well for its number of functions.
 void prefer_observed(std::vector<Lead>& pool) {
   if (!pool[0].candidate().time_like) return;
-  const double least = pool[0].gain - (pool[0].candidate().width + 1);
   const auto chosen = std::find_if(pool.begin(), pool.end(), [&](const Lead& lead) {
-    return lead.candidate().observed && lead.gain - static_cast<double>(lead.columns.cols()) >= least;
+    return lead.candidate().observed && won(lead) >= won(pool[0]);
   });
   if (chosen != pool.end()) to_front(pool, chosen);
 }

@@ -5,6 +5,7 @@
 
 #include "diagnosis/search/integrated.hpp"
 #include "diagnosis/search/replace.hpp"
+#include "diagnosis/search/rivals.hpp"
 
 namespace muster::search {
 namespace {
@@ -18,6 +19,30 @@ void drop_backward(Bench& bench) {
     if (worst->evidence >= 1) return;
     bench.terms.erase(worst);
     bench.refit();
+  }
+}
+
+// A cause that was the best guess beside the noise of before may have a rival that is better now.
+void give_way_to_rivals(Bench& bench) {
+  constexpr double clearly = 1;  // nats
+  for (Term& term : bench.terms) {
+    if (term.smooth()) continue;
+    const std::vector<Rival> rivals = rivals_of(bench, term);
+    const Rival* best = nullptr;
+    for (const Rival& rival : rivals) {
+      const bool sought = std::none_of(bench.terms.begin(), bench.terms.end(),
+                                       [&](const Term& other) { return other.candidate->id == rival.id; });
+      if (rival.evidence_gap < -clearly && sought && (!best || rival.evidence_gap < best->evidence_gap)) best = &rival;
+    }
+    if (!best) continue;
+    for (const Entry& entry : bench.entries()) {
+      if (entry.candidate->id != best->id || entry.candidate->kind != Kind::named) continue;
+      term.candidate = entry.candidate;
+      term.theta = best->theta;
+      term.columns = bench.columns_of(*entry.candidate, best->theta);
+      bench.refit();
+      break;
+    }
   }
 }
 
@@ -114,6 +139,7 @@ std::vector<Term> clean_up(Bench& bench, std::vector<Trial>& trials) {
   std::vector<Term> aside;
   drop_backward(bench);
   replace_smooths(bench);
+  give_way_to_rivals(bench);
   set_halos_aside(bench, aside);
   withdraw_names_beside_smooths(bench);
   if (!bench.terms.empty()) bench.refit();
