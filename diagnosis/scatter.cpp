@@ -37,8 +37,8 @@ void predict(const noise::Sites& sites, const noise::Covariance& c, const std::v
   const auto covariance = [&](Index a, Index b) {
     const double d =
         (sites.place.col(a) - sites.place.col(b)).norm() + (sites.anchor.col(a) - sites.anchor.col(b)).norm();
-    const double soft = std::sqrt(d * d + sites.soft * sites.soft) - sites.soft;
-    return c.field_variance() * noise::correlation(c.family, soft / c.decorrelation());
+    return c.field_variance() *
+           noise::correlation(c.family, noise::softened(c.family, d, sites.soft) / c.decorrelation());
   };
   const auto n = static_cast<Index>(others.size());
   Eigen::MatrixXd among(n, n);

@@ -52,6 +52,11 @@ double correlation_slope(Family family, double u) {
   return 0;
 }
 
+double softened(Family family, double distance, double soft) {
+  const bool rough = family == Family::exponential || family == Family::two_scale;
+  return rough ? std::sqrt(distance * distance + soft * soft) - soft : distance;
+}
+
 double log_scale_of(Family family) {
   switch (family) {
     case Family::matern32:

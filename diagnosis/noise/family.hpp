@@ -22,6 +22,9 @@ double correlation_slope(Family family, double u);
 // The families differ in what they call a decorrelation distance: what to add to its logarithm beside the
 // exponential's.
 double log_scale_of(Family family);
+// The distance that counts between means over rows: softened, sqrt(h^2 + soft^2) - soft, where the field is rough. One
+// that is smooth hardly changes along a row, and 1 - O(h^4) would be no correlation of anything.
+double softened(Family family, double distance, double soft);
 
 // log variance of the field [dB^2], log decorrelation distance [m], log variance of one reading [dB^2], logit of the
 // correlation that links of different anchors have at one place.

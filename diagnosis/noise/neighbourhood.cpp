@@ -26,7 +26,8 @@ Neighbourhood::Neighbourhood(const Field& field, const Covariance& covariance)
   for (Table* table : {&near_, &joint_, &near_by_distance_, &joint_by_distance_, &near_by_share_, &joint_by_share_})
     table->assign(Field::distances + 1, 0.0);
   for (std::size_t k = 0; k < Field::distances; ++k) {
-    const double u = static_cast<double>(k) * field.spacing() / covariance.decorrelation();
+    const double distance = static_cast<double>(k) * field.spacing();
+    const double u = softened(covariance.family, distance, field.sites().soft) / covariance.decorrelation();
     const double value = correlation(covariance.family, u), slope = correlation_slope(covariance.family, u);
     near_[k] = s2 * share * value;
     joint_[k] = s2 * (1 - share) * value;

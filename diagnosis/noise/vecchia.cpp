@@ -107,8 +107,7 @@ void Field::each_pair(Each each) const {
 }
 
 uint16_t Field::entry(double distance) const {
-  const double soft = std::sqrt(distance * distance + sites_.soft * sites_.soft) - sites_.soft;
-  return static_cast<uint16_t>(std::min(soft / spacing_ + 0.5, distances - 1.0));
+  return static_cast<uint16_t>(std::min(distance / spacing_ + 0.5, distances - 1.0));
 }
 
 Whitener::Whitener(const Field& field, const Covariance& covariance)

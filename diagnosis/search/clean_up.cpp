@@ -22,27 +22,31 @@ void drop_backward(Bench& bench) {
   }
 }
 
+const Entry* named(const Bench& bench, const std::string& id) {
+  for (const Entry& entry : bench.entries()) {
+    if (entry.candidate->id == id && entry.candidate->kind == Kind::named) return &entry;
+  }
+  return nullptr;
+}
+
 // A cause that was the best guess beside the noise of before may have a rival that is better now.
 void give_way_to_rivals(Bench& bench) {
   constexpr double clearly = 1;  // nats
   for (Term& term : bench.terms) {
     if (term.smooth()) continue;
-    const std::vector<Rival> rivals = rivals_of(bench, term);
-    const Rival* best = nullptr;
-    for (const Rival& rival : rivals) {
-      const bool sought = std::none_of(bench.terms.begin(), bench.terms.end(),
-                                       [&](const Term& other) { return other.candidate->id == rival.id; });
-      if (rival.evidence_gap < -clearly && sought && (!best || rival.evidence_gap < best->evidence_gap)) best = &rival;
-    }
-    if (!best) continue;
-    for (const Entry& entry : bench.entries()) {
-      if (entry.candidate->id != best->id || entry.candidate->kind != Kind::named) continue;
-      term.candidate = entry.candidate;
-      term.theta = best->theta;
-      term.columns = bench.columns_of(*entry.candidate, best->theta);
-      bench.refit();
-      break;
-    }
+    std::vector<Rival> rivals = rivals_of(bench, term);
+    std::erase_if(rivals, [&](const Rival& rival) {
+      const auto is_rival = [&](const Term& other) { return other.candidate->id == rival.id; };
+      return rival.evidence_gap > -clearly || !named(bench, rival.id) ||
+             std::any_of(bench.terms.begin(), bench.terms.end(), is_rival);
+    });
+    if (rivals.empty()) continue;
+    const Rival& best = *std::min_element(
+        rivals.begin(), rivals.end(), [](const Rival& a, const Rival& b) { return a.evidence_gap < b.evidence_gap; });
+    term.candidate = named(bench, best.id)->candidate;
+    term.theta = best.theta;
+    term.columns = bench.columns_of(*term.candidate, term.theta);
+    bench.refit();
   }
 }
 

@@ -34,7 +34,7 @@ Eigen::MatrixXd dense(const Sites& sites, const Covariance& c) {
   Eigen::MatrixXd result(n, n);
   for (Index i = 0; i < n; ++i) {
     for (Index j = 0; j < n; ++j) {
-      const auto soft = [&](double h) { return std::sqrt(h * h + sites.soft * sites.soft) - sites.soft; };
+      const auto soft = [&](double h) { return softened(c.family, h, sites.soft); };
       const double h = (sites.place.col(i) - sites.place.col(j)).norm();
       const bool same = sites.radio[static_cast<std::size_t>(i)] == sites.radio[static_cast<std::size_t>(j)];
       const double k = correlation(c.family, soft(h) / c.decorrelation());
