@@ -183,9 +183,9 @@ TEST_F(Changes, APluginInsideASwapKeepsItsAttributesApart) {
     return error_of_world(two_robots + counter + "<swap at='2' instance='n'" + attributes + ">" + inside + "</swap>\n");
   };
   EXPECT_EQ(swap(" plugin='toy.join'", "<toy.join/>"),
-            "world.xml:5:28: <swap> has no attribute \"plugin\"; expected one of at, instance");
+            "world.xml:5:27: <swap> has no attribute \"plugin\"; expected one of at, instance");
   EXPECT_EQ(swap("", "<toy.join name='m'/>"),
-            "world.xml:5:38: <toy.join> has no attribute \"name\"; the replacement keeps the name \"n\"");
+            "world.xml:5:37: <toy.join> has no attribute \"name\"; the replacement keeps the name \"n\"");
   EXPECT_EQ(swap("", "<toy.join/><toy.join/>"), "world.xml:5:1: <swap> has no attribute \"plugin\", which it needs");
 }
 
