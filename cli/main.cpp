@@ -3,6 +3,7 @@
 
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <new>
 
 #include "text/names.hpp"
@@ -71,6 +72,8 @@ int main(int argc, char** argv) {
     code = fail(e.exit(), e.what());
   } catch (const std::bad_alloc&) {
     code = fail(Exit::internal, "out of memory");
+  } catch (const std::filesystem::filesystem_error& e) {
+    code = fail(Exit::io, e.path1().string() + ": " + e.code().message());
   } catch (const std::exception& e) {
     if (std::ferror(stdout)) return fail(Exit::io, "standard output cannot be written");
     code = fail(Exit::internal, e.what());

@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "diagnosis/cause_check.hpp"
-#include "diagnosis/temporary_folder.hpp"
+#include "text/temporary_folder.hpp"
 #include "verbs.hpp"
 
 namespace muster::cli {
@@ -152,7 +152,7 @@ int run_plugin_check(const Arguments& arguments) {
   app.add_option("--seed", seed, "of worlds and places")->capture_default_str();
   app.add_flag("--json", json, "print the result as JSON");
   parse(app, arguments);
-  const diagnosis::TemporaryFolder scratch;
+  const TemporaryFolder scratch;
   const auto made = clean_worlds(worlds, seed, rows, scratch.path());
   CauseCheck check;
   {

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "kernel/params.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
 #include "verbs.hpp"
+#include "world_file/params.hpp"
 
 namespace muster::cli {
 namespace {

@@ -7,13 +7,13 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "kernel/params.hpp"
 #include "kernel/record.hpp"
 #include "run_pictures.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
 #include "text/text_file.hpp"
 #include "verbs.hpp"
+#include "world_file/params.hpp"
 
 namespace muster::cli {
 namespace {

@@ -1,6 +1,7 @@
 #include "diagnosis/dataset.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <set>
 
@@ -10,6 +11,8 @@
 
 namespace muster::diagnosis {
 namespace {
+
+constexpr std::size_t most_rows = 2'000'000;  // a fit holds about 1.6 kB a row
 
 std::vector<double> reals_if_any(const TextTable& table, const std::string& name, const std::string& unit) {
   if (!table.find(name)) return {};
@@ -55,6 +58,24 @@ void read_covariates(Dataset& data) {
   }
 }
 
+// Degrees on the globe are no metres in a plan, and which is which is easily exchanged: who has them converts them.
+void refuse_degrees(const TextTable& table) {
+  static const std::set<std::string> words = {"lat", "lon", "lng", "long", "latitude", "longitude"};
+  if (table.find("tx_x") && table.find("rx_x")) return;
+  for (std::size_t c = 0; c < table.columns().size(); ++c) {
+    std::string word = table.columns()[c].name;
+    word.erase(0, word.rfind('_') + 1);
+    std::transform(word.begin(), word.end(), word.begin(), [](unsigned char l) { return std::tolower(l); });
+    if (!words.count(word)) continue;
+    throw invalid(
+        table.header_place(c),
+        "column " + quote(table.columns()[c].label()) +
+            " is a place on the globe; expected metres in the world's plan: x = 111320 m * cos(lat0) * (lon - "
+            "lon0) and y = 111320 m * (lat - lat0), in degrees, where (lat0, lon0) is the world's origin, as "
+            "tx_x[m], tx_y[m], rx_x[m], rx_y[m]");
+  }
+}
+
 // Places, or where there are none, distances, which are then all that is known of geometry.
 void read_places(Dataset& data) {
   const TextTable& table = data.table;
@@ -69,6 +90,7 @@ void read_places(Dataset& data) {
     data.notes.push_back("no places, only distances: nothing can be said of places, bearings and rooms");
     return;
   }
+  refuse_degrees(table);
   data.tx_at = places(table, "tx");
   data.rx_at = places(table, "rx");
 }
@@ -93,6 +115,11 @@ std::size_t Dataset::heard() const {
 Dataset read_dataset(const std::filesystem::path& file) {
   Dataset data{.table = TextTable::read(file)};
   const TextTable& table = data.table;
+  if (table.rows() > most_rows)
+    throw invalid({table.file()}, "the table has " + std::to_string(table.rows()) + " rows; expected at most " +
+                                      std::to_string(most_rows) + ": keep one row in " +
+                                      std::to_string((table.rows() + most_rows - 1) / most_rows) +
+                                      ", or a part of the time");
   data.tx = table.texts(table.require("tx", ""));
   data.rx = table.texts(table.require("rx", ""));
   read_places(data);

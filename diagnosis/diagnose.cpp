@@ -14,8 +14,8 @@
 #include "diagnosis/plans.hpp"
 #include "diagnosis/prepared.hpp"
 #include "diagnosis/seen_rows.hpp"
-#include "diagnosis/temporary_folder.hpp"
 #include "text/number.hpp"
+#include "text/temporary_folder.hpp"
 
 namespace muster::diagnosis {
 namespace {

@@ -14,11 +14,12 @@ int Set::find(const std::string& row) const {
   return found == numbers.end() ? -1 : static_cast<int>(found->second);
 }
 
-bool Set::add(const std::string& row) {
+bool Set::add(const std::string& row, int of) {
   if (!numbers.emplace(row, static_cast<uint32_t>(names.size())).second) return false;
   names.push_back(row);
   keys.push_back(key_of(row));
   alive.push_back(1);
+  like.push_back(of < 0 ? static_cast<uint32_t>(names.size() - 1) : like[static_cast<std::size_t>(of)]);
   return true;
 }
 
@@ -27,6 +28,7 @@ void Set::cut(std::size_t rows) {
   names.resize(std::min(rows, names.size()));
   keys.resize(names.size());
   alive.resize(names.size());
+  like.resize(names.size());
 }
 
 Table::Table(std::string name, Set& set, Columns columns, std::string initial)

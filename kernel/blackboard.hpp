@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "columns.hpp"
+#include "text/columns.hpp"
 
 namespace muster {
 
@@ -27,6 +27,7 @@ struct Set {
   std::vector<std::string> names;
   std::vector<uint64_t> keys;  // random keys, from the names alone
   std::vector<uint8_t> alive;  // 0: the row has left
+  std::vector<uint32_t> like;  // the row whose texts it has: its own, or that of which it joined as a copy
   std::size_t listed = 0;      // how many rows a listed set has now
   std::unordered_map<std::string, uint32_t> numbers;
 
@@ -34,8 +35,8 @@ struct Set {
   std::size_t rows() const { return kind == SetKind::listed ? listed : names.size(); }
   // The row's number, or -1.
   int find(const std::string& row) const;
-  // False if the name is taken.
-  bool add(const std::string& row);
+  // False if the name is taken. `like`: a row that there is, or negative.
+  bool add(const std::string& row, int like = -1);
   // Forgets the rows from this number on.
   void cut(std::size_t rows);
 };

@@ -2,10 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "params.hpp"
 #include "simulation.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
+#include "world_file/params.hpp"
+#include "world_file/rows.hpp"
 
 namespace muster {
 
@@ -168,13 +169,8 @@ namespace {
 // The one column into which an attribute goes as it is, or -1.
 int column_of(const Attribute& attribute, std::size_t width) {
   if (!attribute.store || attribute.count != 1 || attribute.param.kind != MUSTER_REAL) return -1;
-  constexpr double mark = 0.8125;
-  std::vector<double> row(width, 0);
-  attribute.store(&mark, row.data());
-  const auto found = std::find(row.begin(), row.end(), mark);
-  return found != row.end() && std::count(row.begin(), row.end(), 0.0) == static_cast<std::ptrdiff_t>(width) - 1
-             ? static_cast<int>(found - row.begin())
-             : -1;
+  const auto columns = plain_columns(attribute, width);
+  return columns.size() == 1 ? static_cast<int>(columns[0]) : -1;
 }
 
 Table* world_table(const Blackboard& board, const std::string& set_quantity) {

@@ -8,10 +8,6 @@
 namespace muster {
 namespace {
 
-Error refused(const Instance& instance, const std::string& what) {
-  return Error(Exit::invalid_input, instance.title() + ": " + what);
-}
-
 std::vector<std::string> set_names(const Blackboard& board) {
   std::vector<std::string> result;
   for (const auto& [name, set] : board.sets()) {
@@ -26,9 +22,9 @@ std::string substituted(const std::string& row, const Instance& instance, const 
   const std::string param = row.substr(1, row.size() - 2);
   const int found = instance.find_param(param);
   if (found < 0 || instance.plugin().params[found].kind != MUSTER_REFERENCE)
-    throw refused(instance, "claims {" + param + "}, which is no reference among its parameters");
+    throw instance.refused("claims {" + param + "}, which is no reference among its parameters");
   const double value = instance.params()[static_cast<std::size_t>(found)];
-  if (value < 0) throw refused(instance, "has no attribute " + quote(param) + ", which it needs");
+  if (value < 0) throw instance.refused("has no attribute " + quote(param) + ", which it needs");
   const Set& set = *around.board->find_set(instance.plugin().params[found].text);
   return set.names[static_cast<std::size_t>(value)];
 }
@@ -42,13 +38,13 @@ TableName parse_table_name(const std::string& text, const Instance& instance, co
   const std::string path = text.substr(0, at);
   const auto first = path.find('/');
   const auto last = path.rfind('/');
-  if (first == std::string::npos) throw refused(instance, "claims " + quote(text) + "; expected set/row/quantity");
+  if (first == std::string::npos) throw instance.refused("claims " + quote(text) + "; expected set/row/quantity");
   name.quantity = path.substr(last + 1);
   if (path.compare(0, first, "self") == 0 && first == last) {
     name.set = "instance/" + instance.name();
     name.row = "*";
   } else if (first == last) {
-    throw refused(instance, "claims " + quote(text) + "; expected set/row/quantity");
+    throw instance.refused("claims " + quote(text) + "; expected set/row/quantity");
   } else {
     name.set = path.substr(0, first);
     name.row = substituted(path.substr(first + 1, last - first - 1), instance, around);
@@ -58,15 +54,14 @@ TableName parse_table_name(const std::string& text, const Instance& instance, co
     }
   }
   if (name.quantity.empty() || name.row.empty())
-    throw refused(instance, "claims " + quote(text) + "; expected set/row/quantity");
+    throw instance.refused("claims " + quote(text) + "; expected set/row/quantity");
   return name;
 }
 
 Set& resolve_set(const TableName& name, const Instance& instance, Blackboard& board) {
   if (Set* found = board.find_set(name.set)) return *found;
   if (name.set.compare(0, 9, "instance/") != 0)
-    throw refused(instance,
-                  "claims a table of the set " + quote(name.set) + "; " + suggest(name.set, set_names(board)));
+    throw instance.refused("claims a table of the set " + quote(name.set) + "; " + suggest(name.set, set_names(board)));
   Set& own = board.add_set(name.set, SetKind::fixed, "");
   own.add(name.set.substr(9));
   return own;
@@ -76,21 +71,21 @@ int resolve_row(const TableName& name, const Set& set, const Instance& instance)
   if (name.row == "*") return -1;
   const Set* rows = &set;
   if (set.kind == SetKind::listed)
-    throw refused(instance,
-                  "claims one row of " + quote(set.name) + ", whose rows are listed anew each tick; expected *");
+    throw instance.refused("claims one row of " + quote(set.name) +
+                           ", whose rows are listed anew each tick; expected *");
   const int row = rows->find(name.row);
   if (row < 0)
-    throw refused(instance,
-                  "claims a row of " + set.name + " called " + quote(name.row) + "; " + suggest(name.row, set.names));
+    throw instance.refused("claims a row of " + set.name + " called " + quote(name.row) + "; " +
+                           suggest(name.row, set.names));
   return row;
 }
 
 void check_references(const Claim& claim, const Instance& instance, const Blackboard& board) {
   for (const auto& column : claim.columns) {
     if (column.reference.empty() || board.find_set(column.reference)) continue;
-    throw refused(instance, "claims " + quote(claim.name.set + '/' + claim.name.row + '/' + claim.name.quantity) +
-                                ": column " + quote(column.name) + " refers to the set " + quote(column.reference) +
-                                "; " + suggest(column.reference, set_names(board)));
+    throw instance.refused("claims " + quote(claim.name.text()) + ": column " + quote(column.name) +
+                           " refers to the set " + quote(column.reference) + "; " +
+                           suggest(column.reference, set_names(board)));
   }
 }
 
@@ -117,7 +112,7 @@ void check_blindness(const Claim& claim, const Instance& instance, const Surroun
   if (claim.name.set == "instance/" + instance.name()) return;
   const auto* quantity = standard_quantity(*around.standard, claim.name);
   const int robot = instance.bound_row();
-  const std::string what = "claims " + quote(claim.name.set + '/' + claim.name.row + '/' + claim.name.quantity);
+  const std::string what = "claims " + quote(claim.name.text());
   if (claim.name.set.compare(0, 9, "instance/") == 0 || (quantity && !quantity->sensed)) {
     std::string sensed;
     for (const auto& set : around.standard->sets) {
@@ -125,17 +120,15 @@ void check_blindness(const Claim& claim, const Instance& instance, const Surroun
         if (q.sensed) sensed += (sensed.empty() ? "" : ", ") + std::string(set.name) + '/' + q.name;
       }
     }
-    throw refused(instance,
-                  what + ", which is truth; a controller knows what its robot senses: expected one of " + sensed);
+    throw instance.refused(what + ", which is truth; a controller knows what its robot senses: expected one of " +
+                           sensed);
   }
   if (claim.kind == MUSTER_READ && !claim.name.part.empty())
-    throw refused(instance,
-                  "claims " +
-                      quote(claim.name.set + '/' + claim.name.row + '/' + claim.name.quantity + '@' + claim.name.part) +
-                      ", which is truth; a controller reads what comes out of the last stage");
+    throw instance.refused("claims " + quote(claim.name.text()) +
+                           ", which is truth; a controller reads what comes out of the last stage");
   const std::string own = robot < 0 ? "" : around.board->find_set("robot")->names[static_cast<std::size_t>(robot)];
   if (robot >= 0 && claim.name.row != own)
-    throw refused(instance, what + ", but it is bound to the robot " + quote(own) + "; expected that robot's own row");
+    throw instance.refused(what + ", but it is bound to the robot " + quote(own) + "; expected that robot's own row");
 }
 
 namespace {

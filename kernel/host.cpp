@@ -6,7 +6,6 @@
 #include "claim.hpp"
 #include "instance.hpp"
 #include "text/names.hpp"
-#include "world_rows.hpp"
 
 namespace muster {
 
@@ -48,7 +47,19 @@ struct Host {
     if (own != i.texts_.end()) return own->second.c_str();
     const auto& texts = i.around_.world->texts;
     const auto found = texts.find(path);
-    return found == texts.end() ? nullptr : found->second.c_str();
+    if (found != texts.end()) return found->second.c_str();
+    return guarded(host, nullptr, [&] { return inherited_text(i, path); });
+  }
+
+  // Of a row that joined as a copy of another: that one's text.
+  static const char* inherited_text(const Instance& i, const std::string& path) {
+    const auto first = path.find('/'), last = path.rfind('/');
+    const Set* set = first < last ? i.around_.board->find_set(path.substr(0, first)) : nullptr;
+    const int row = set ? set->find(path.substr(first + 1, last - first - 1)) : -1;
+    if (row < 0) return nullptr;
+    const std::string& like = set->names[set->like[static_cast<std::size_t>(row)]];
+    const auto found = i.around_.world->texts.find(set->name + '/' + like + path.substr(last));
+    return found == i.around_.world->texts.end() ? nullptr : found->second.c_str();
   }
 
   static const char* search_path(const muster_host* host, uint32_t index) {

@@ -6,9 +6,9 @@
 #include "claim.hpp"
 #include "host.hpp"
 #include "loader/float_guard.hpp"
-#include "params.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
+#include "world_file/params.hpp"
 
 namespace muster {
 
@@ -82,6 +82,13 @@ void Instance::check_attributes() {
     const auto& param = plugin_->params[i];
     valid.push_back(param.name);
     params_.push_back(param.value);
+    if (declared_.shares_element &&
+        std::find(swap_attributes.begin(), swap_attributes.end(), param.name) != swap_attributes.end())
+      throw invalid(
+          declared_.place,
+          "<swap> takes the attribute " + quote(param.name) + " for itself, but " + declared_.plugin +
+              " has one of that name; expected the plugin as an element inside: <swap at=\"...\" instance=\"...\"><" +
+              declared_.plugin + " .../></swap>");
     if (param.kind == MUSTER_TEXT || param.kind == MUSTER_FILE) texts_[param.name] = param.text ? param.text : "";
   }
   const FindRow find_row = [this](const std::string& set, const std::string& row, const Place& place) -> double {
@@ -96,9 +103,7 @@ void Instance::check_attributes() {
   };
   for (const auto& given : declared_.attributes) {
     const int found = find_param(given.name);
-    if (found < 0)
-      throw invalid(given.place, "<" + declared_.plugin + "> has no attribute " + quote(given.name) + "; " +
-                                     suggest(given.name, valid));
+    if (found < 0) refuse_unknown(given, declared_.plugin, valid);
     const auto& param = plugin_->params[found];
     const auto values = attribute_values(param, 1, given, find_row, warn);
     if (values.empty())
@@ -116,7 +121,6 @@ void Instance::check_attributes() {
 }
 
 int Instance::claim(uint32_t kind, uint32_t flags, const std::string& table, const std::string& columns) {
-  const auto refused = [&](const std::string& what) { return Error(Exit::invalid_input, title() + ": " + what); };
   Claim made;
   made.kind = kind;
   made.flags = flags;
@@ -157,8 +161,7 @@ int Instance::file(const std::string& param, const std::string& columns) {
                 title() + ": asks for the file " + quote(param) + ", which is no file among its parameters");
   const std::string& given = texts_[param];
   if (given.empty())
-    throw Error(Exit::invalid_input, title() + ": has no attribute " + quote(param) +
-                                         ", which it needs; expected a path relative to the world file");
+    throw refused("has no attribute " + quote(param) + ", which it needs; expected a path relative to the world file");
   auto path = std::filesystem::path(given);
   if (path.is_relative()) path = around_.world->file.parent_path() / path;
   if (!std::filesystem::exists(path))

@@ -10,7 +10,7 @@
 
 #include "blackboard.hpp"
 #include "loader/library.hpp"
-#include "world.hpp"
+#include "world_file/world.hpp"
 
 namespace muster {
 
@@ -21,6 +21,8 @@ struct TableName {
   std::string set, row, quantity, part;
   // "robot/*/pose", without row and part.
   std::string logical() const { return set + "/*/" + quantity; }
+  // "robot/leader/pose@stage", as it was claimed.
+  std::string text() const { return set + '/' + row + '/' + quantity + (part.empty() ? "" : '@' + part); }
 };
 
 struct Claim {
@@ -95,6 +97,8 @@ class Instance {
   uint64_t every() const { return declared_.every; }
   // "world.xml:8:3: physics (physics.simbody)"
   std::string title() const;
+  // What the instance asks for does not fit the world: "TITLE: what".
+  Error refused(const std::string& what) const { return {Exit::invalid_input, title() + ": " + what}; }
 
   std::vector<Claim>& claims() { return claims_; }
   const std::vector<Claim>& claims() const { return claims_; }

@@ -34,25 +34,24 @@ void Linker::gather() {
   }
 }
 
-// Names of the tables that one quantity needs, each with the claim that fills it; the last is what readers get.
-std::vector<std::pair<std::string, const Claim*>> Linker::tables_of(const std::string& logical,
-                                                                    const Claimed& c) const {
-  std::vector<std::pair<std::string, const Claim*>> result;
+// The last is what readers get.
+std::vector<Linker::Needed> Linker::tables_of(const std::string& logical, const Claimed& c) const {
+  std::vector<Needed> result;
   for (const auto& by : c.adders) {
     const auto& part = by.get().name.part;
-    result.emplace_back(logical + '@' + by.instance->name() + (part.empty() ? "" : '.' + part), &by.get());
+    result.push_back({logical + '@' + by.instance->name() + (part.empty() ? "" : '.' + part), &by.get(), by.instance});
   }
-  const auto* any = !c.writers.empty()   ? &c.writers[0]
-                    : !c.adders.empty()  ? &c.adders[0]
-                    : !c.readers.empty() ? &c.readers[0]
-                                         : nullptr;
-  if (c.modifiers.empty()) {
-    if (any) result.emplace_back(logical, &any->get());
-    return result;
-  }
-  result.emplace_back(logical + "@base", any ? &any->get() : &c.modifiers[0].get());
-  for (const auto& by : c.modifiers) result.emplace_back(logical + '@' + by.instance->name(), &by.get());
-  result.back().first = logical;
+  const auto* any = !c.writers.empty()     ? &c.writers[0]
+                    : !c.adders.empty()    ? &c.adders[0]
+                    : !c.readers.empty()   ? &c.readers[0]
+                    : !c.modifiers.empty() ? &c.modifiers[0]
+                                           : nullptr;
+  if (!any) return result;
+  result.push_back({logical, &any->get(), c.writers.empty() ? nullptr : any->instance});
+  if (c.modifiers.empty()) return result;
+  result.back().name += "@base";
+  for (const auto& by : c.modifiers) result.push_back({logical + '@' + by.instance->name(), &by.get(), by.instance});
+  result.back().name = logical;
   return result;
 }
 
@@ -159,7 +158,7 @@ void adopt(const Table& old, Table& table) {
 // last stage bears the table's name.
 const Table* Linker::before(const std::string& logical, const Claimed& c, std::size_t place) const {
   const Table* whole = board_.find(logical);
-  if (place < c.adders.size()) return board_.find(tables_of(logical, c)[place].first);
+  if (place < c.adders.size()) return board_.find(tables_of(logical, c)[place].name);
   const auto stage = place - c.adders.size();
   const Table* found = board_.find(logical + '@' + (stage == 0 ? "base" : c.modifiers[stage - 1].instance->name()));
   return found ? found : whole;
@@ -180,7 +179,8 @@ Table& Linker::make(const std::string& name, const Claim& claim, const Table* be
 void Linker::make_tables(const std::string& logical, const Claimed& c, const std::vector<const Table*>& held) {
   if (!c.is_written() && !is_of_the_world(logical)) return;  // optional reads that nobody answers
   std::vector<Table*> tables;
-  for (const auto& [name, claim] : tables_of(logical, c)) tables.push_back(&make(name, *claim, held[tables.size()]));
+  for (const auto& needed : tables_of(logical, c))
+    tables.push_back(&make(needed.name, *needed.claim, held[tables.size()]));
   Sum sum;
   std::vector<Instance*> adders;
   for (std::size_t i = 0; i < c.adders.size(); ++i) {

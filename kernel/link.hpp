@@ -49,6 +49,9 @@ class Linker {
   // Plugins that somebody's reads need and that no instance provides: ids of the sets' declared providers.
   std::vector<std::string> missing_providers() const;
 
+  // Warnings: who writes commands and messages that nobody takes.
+  std::vector<std::string> unread() const;
+
   // Refuses what does not fit, with the names of both sides; nothing is changed before it has returned. Throws Error.
   void check();
 
@@ -75,7 +78,13 @@ class Linker {
   void order();
   [[noreturn]] void report_cycle(const std::vector<Instance*>& stuck) const;
 
-  std::vector<std::pair<std::string, const Claim*>> tables_of(const std::string& logical, const Claimed& c) const;
+  // The tables that one quantity needs, each with the claim that gives its columns, and who fills it or null.
+  struct Needed {
+    std::string name;
+    const Claim* claim;
+    const Instance* owner;
+  };
+  std::vector<Needed> tables_of(const std::string& logical, const Claimed& c) const;
   // The table that held the values of the one at a place of tables_of() until now, or null.
   const Table* before(const std::string& logical, const Claimed& c, std::size_t place) const;
   Table& make(const std::string& name, const Claim& claim, const Table* before);

@@ -9,10 +9,6 @@
 namespace muster {
 namespace {
 
-Error refused(const Instance& instance, const std::string& what) {
-  return Error(Exit::invalid_input, instance.title() + ": " + what);
-}
-
 std::string both(const Instance& other) { return "; so does " + other.title(); }
 
 // True where the two write a row in common. A rest gives way to rows that are claimed by name.
@@ -65,11 +61,25 @@ std::vector<std::string> Linker::missing_providers() const {
   return result;
 }
 
+// What a controller or a command's chain writes for nobody moves nothing and sends nothing.
+std::vector<std::string> Linker::unread() const {
+  std::vector<std::string> result;
+  for (const auto& [logical, c] : claimed_) {
+    const auto is_record = [&](const auto& record) { return record.table == logical; };
+    if (!c.readers.empty() || std::any_of(world_.records.begin(), world_.records.end(), is_record)) continue;
+    for (const auto& by : c.writers) {
+      if (by.instance->phase() <= MUSTER_ACTUATE && standard_quantity(standard_, by.get().name))
+        result.push_back(by.instance->title() + ": writes " + quote(by.get().name.text()) + ", which nobody reads");
+    }
+  }
+  return result;
+}
+
 void Linker::check() {
   for (const auto& [logical, c] : claimed_) {
     if (!c.adders.empty() && is_given(logical))
-      throw refused(*c.adders[0].instance,
-                    "adds to " + quote(logical) + ", which the world gives; expected a claim to modify it");
+      throw c.adders[0].instance->refused("adds to " + quote(logical) +
+                                          ", which the world gives; expected a claim to modify it");
     check_columns(logical, c);
     check_writers(logical, c);
     check_stages(logical, c);
@@ -87,7 +97,7 @@ std::vector<std::string> Linker::readable() const {
   std::set<std::string> result;
   for (const auto& [logical, c] : claimed_) {
     if (!c.is_written() && !is_of_the_world(logical)) continue;
-    for (const auto& [table, first] : tables_of(logical, c)) result.insert(table);
+    for (const auto& table : tables_of(logical, c)) result.insert(table.name);
   }
   for (const auto& set : standard_.sets) {
     for (const auto& quantity : set.quantities) {
@@ -105,9 +115,9 @@ void Linker::check_reads(const std::string& logical, const Claimed& c) const {
     const auto tables = tables_of(logical, c);
     const bool found = claim.name.part.empty()
                            ? c.is_written() || is_of_the_world(logical)
-                           : std::any_of(tables.begin(), tables.end(), [&](const auto& t) { return t.first == name; });
+                           : std::any_of(tables.begin(), tables.end(), [&](const auto& t) { return t.name == name; });
     if (!found && !(claim.flags & MUSTER_OPTIONAL)) {
-      throw refused(*by.instance, "reads " + quote(name) + ", which nobody writes; " + suggest(name, readable()));
+      throw by.instance->refused("reads " + quote(name) + ", which nobody writes; " + suggest(name, readable()));
     }
     // A controller may read what is not standard only if its writer calls it sensed.
     const bool own = claim.name.set == "instance/" + by.instance->name();
@@ -115,40 +125,40 @@ void Linker::check_reads(const std::string& logical, const Claimed& c) const {
     for (const auto* group : {&c.writers, &c.adders}) {
       for (const auto& writer : *group) {
         if (!(writer.get().flags & MUSTER_SENSED))
-          throw refused(*by.instance, "reads " + quote(name) + ", which is truth: " + writer.instance->title() +
-                                          " does not write it as sensed");
+          throw by.instance->refused("reads " + quote(name) + ", which is truth: " + writer.instance->title() +
+                                     " does not write it as sensed");
       }
     }
   }
 }
 
+namespace {
+
+void check_phase(const std::string& does, const std::string& logical, const Claimed::By& one,
+                 const Claimed::By& other) {
+  if (one.instance->phase() == other.instance->phase()) return;
+  throw one.instance->refused(does + ' ' + quote(logical) + " in the phase " + phase_name(one.instance->phase()) +
+                              ", but " + other.instance->title() + " in " + phase_name(other.instance->phase()) +
+                              "; a table is written in one phase");
+}
+
+}  // namespace
+
 void Linker::check_writers(const std::string& logical, const Claimed& c) const {
   if (!c.writers.empty() && !c.adders.empty())
-    throw refused(*c.adders[0].instance,
-                  "adds to " + quote(logical) + ", which " + c.writers[0].instance->title() + " writes");
+    throw c.adders[0].instance->refused("adds to " + quote(logical) + ", which " + c.writers[0].instance->title() +
+                                        " writes");
   for (std::size_t i = 0; i < c.writers.size(); ++i) {
     const auto& one = c.writers[i];
     for (std::size_t j = 0; j < i; ++j) {
       const auto& other = c.writers[j];
       if (board_.find_set(one.get().name.set)->kind == SetKind::queue) continue;  // each appends rows of its own
       if (collide(one.get(), other.get()))
-        throw refused(*one.instance,
-                      "writes " + quote(one.get().name.set + '/' + one.get().name.row + '/' + one.get().name.quantity) +
-                          both(*other.instance));
-      if (one.instance->phase() != other.instance->phase())
-        throw refused(*one.instance, std::string("writes ") + quote(logical) + " in the phase " +
-                                         phase_name(one.instance->phase()) + ", but " + other.instance->title() +
-                                         " in " + phase_name(other.instance->phase()) +
-                                         "; a table is written in one phase");
+        throw one.instance->refused("writes " + quote(one.get().name.text()) + both(*other.instance));
+      check_phase("writes", logical, one, other);
     }
   }
-  for (const auto& by : c.adders) {
-    if (by.instance->phase() != c.adders[0].instance->phase())
-      throw refused(*by.instance, std::string("adds to ") + quote(logical) + " in the phase " +
-                                      phase_name(by.instance->phase()) + ", but " + c.adders[0].instance->title() +
-                                      " in " + phase_name(c.adders[0].instance->phase()) +
-                                      "; a table is written in one phase");
-  }
+  for (const auto& by : c.adders) check_phase("adds to", logical, by, c.adders[0]);
 }
 
 void Linker::check_columns(const std::string& logical, const Claimed& c) const {
@@ -157,8 +167,8 @@ void Linker::check_columns(const std::string& logical, const Claimed& c) const {
     for (const auto& by : *group) {
       if (!first) first = &by;
       if (by.get().columns != first->get().columns)
-        throw refused(*by.instance, "claims " + quote(logical) + " as \"" + by.get().columns.text() + "\", but " +
-                                        first->instance->title() + " as \"" + first->get().columns.text() + '"');
+        throw by.instance->refused("claims " + quote(logical) + " as \"" + by.get().columns.text() + "\", but " +
+                                   first->instance->title() + " as \"" + first->get().columns.text() + '"');
     }
   }
 }
@@ -168,18 +178,18 @@ void Linker::check_stages(const std::string& logical, const Claimed& c) const {
   std::vector<Claimed::By> before = c.writers.empty() ? c.adders : c.writers;
   for (const auto& by : c.modifiers) {
     if (before.empty() && !is_of_the_world(logical))
-      throw refused(*by.instance, "modifies " + quote(logical) + ", which nobody writes");
+      throw by.instance->refused("modifies " + quote(logical) + ", which nobody writes");
     for (const auto& earlier : before) {
       if (earlier.instance == by.instance)
-        throw refused(*by.instance, "modifies " + quote(logical) + ", which it writes or modifies itself");
+        throw by.instance->refused("modifies " + quote(logical) + ", which it writes or modifies itself");
       if (earlier.instance->phase() > by.instance->phase())
-        throw refused(*by.instance, "modifies " + quote(logical) +
-                                        " before it is written: " + earlier.instance->title() + " comes in the phase " +
-                                        phase_name(earlier.instance->phase()));
+        throw by.instance->refused("modifies " + quote(logical) +
+                                   " before it is written: " + earlier.instance->title() + " comes in the phase " +
+                                   phase_name(earlier.instance->phase()));
       if (earlier.instance->every() % by.instance->every() != 0)
-        throw refused(*by.instance, "modifies " + quote(logical) + " every " + std::to_string(by.instance->every()) +
-                                        " ticks and would miss values: " + earlier.instance->title() +
-                                        " writes every " + std::to_string(earlier.instance->every()));
+        throw by.instance->refused("modifies " + quote(logical) + " every " + std::to_string(by.instance->every()) +
+                                   " ticks and would miss values: " + earlier.instance->title() + " writes every " +
+                                   std::to_string(earlier.instance->every()));
     }
     before.push_back(by);
   }
@@ -193,21 +203,21 @@ void Linker::check_listed(const std::string& logical, const Claimed& c) const {
   for (const auto* group : {&c.writers, &c.adders, &c.modifiers}) {
     for (const auto& by : *group) {
       if (found != listers_.end() && group != &c.writers && by.instance == found->second.front())
-        throw refused(*by.instance, "adds to or modifies " + quote(logical) +
-                                        ", whose rows it lists itself; expected it to write the table");
+        throw by.instance->refused("adds to or modifies " + quote(logical) +
+                                   ", whose rows it lists itself; expected it to write the table");
       if (found == listers_.end())
-        throw refused(*by.instance, "writes " + quote(logical) + ", but nobody lists the rows of " + quote(set->name));
+        throw by.instance->refused("writes " + quote(logical) + ", but nobody lists the rows of " + quote(set->name));
       const Instance& lister = *found->second.front();
       if (lister.every() % by.instance->every() != 0)
-        throw refused(*by.instance, "writes " + quote(logical) + " every " + std::to_string(by.instance->every()) +
-                                        " ticks, but " + lister.title() + " lists its rows every " +
-                                        std::to_string(lister.every()));
+        throw by.instance->refused("writes " + quote(logical) + " every " + std::to_string(by.instance->every()) +
+                                   " ticks, but " + lister.title() + " lists its rows every " +
+                                   std::to_string(lister.every()));
       if (by.instance->phase() < lister.phase())
-        throw refused(*by.instance, "writes " + quote(logical) + " before " + lister.title() + " lists its rows");
+        throw by.instance->refused("writes " + quote(logical) + " before " + lister.title() + " lists its rows");
       for (const auto& reader : c.readers) {
         if (reader.instance->phase() >= lister.phase() && reader.instance->phase() < by.instance->phase())
-          throw refused(*reader.instance, "reads " + quote(logical) + " after its rows are listed and before " +
-                                              by.instance->title() + " writes it");
+          throw reader.instance->refused("reads " + quote(logical) + " after its rows are listed and before " +
+                                         by.instance->title() + " writes it");
       }
     }
   }
@@ -217,18 +227,12 @@ void Linker::check_listed(const std::string& logical, const Claimed& c) const {
 void Linker::check_names() const {
   for (const auto& [logical, c] : claimed_) {
     std::map<std::string, const Instance*> owners;
-    const auto tables = tables_of(logical, c);
-    for (std::size_t i = 0; i < tables.size(); ++i) {
-      const auto stage = i - c.adders.size();
-      const bool whole = i == c.adders.size();
-      const Instance* owner = i < c.adders.size() ? c.adders[i].instance
-                              : !whole            ? c.modifiers[stage - 1].instance
-                              : c.writers.empty() ? nullptr
-                                                  : c.writers[0].instance;
-      const auto [other, is_new] = owners.emplace(tables[i].first, owner);
+    for (const auto& [table, claim, owner] : tables_of(logical, c)) {
+      const auto [other, is_new] = owners.emplace(table, owner);
       if (is_new) continue;
-      throw refused(*owner, "claims " + quote(tables[i].first) +
-                                (other->second ? both(*other->second) : ", which is the world's"));
+      const Instance& one = owner ? *owner : *other->second;
+      const Instance* rival = owner ? other->second : nullptr;
+      throw one.refused("claims " + quote(table) + (rival ? both(*rival) : ", which is the world's"));
     }
   }
 }
@@ -241,7 +245,7 @@ void Linker::check_joins() const {
       if (claim.kind != MUSTER_WRITE || !(claim.flags & MUSTER_JOINS)) continue;
       const Instance* first = joiners.emplace(claim.name.set, instance).first->second;
       if (first != instance)
-        throw refused(*instance, "lets rows of " + quote(claim.name.set) + " join and leave" + both(*first));
+        throw instance->refused("lets rows of " + quote(claim.name.set) + " join and leave" + both(*first));
     }
   }
 }
@@ -251,15 +255,12 @@ void Linker::check_carried() const {
   for (const auto& [logical, c] : claimed_) {
     const auto tables = tables_of(logical, c);
     for (std::size_t i = 0; i < tables.size(); ++i) {
-      const auto& [name, claim] = tables[i];
+      const auto& [name, claim, owner] = tables[i];
       const Table* old = before(logical, c, i);
       if (!old || old->columns() == claim->columns || (claim->flags & MUSTER_ADOPTS)) continue;
-      for (const auto& by : c.writers) {
-        if (&by.get() == claim)
-          throw refused(*by.instance, "writes " + quote(name) + " as \"" + claim->columns.text() +
-                                          "\", but it holds \"" + old->columns().text() +
-                                          "\" and the plugin does not adopt that");
-      }
+      if (claim->kind == MUSTER_WRITE && owner)
+        throw owner->refused("writes " + quote(name) + " as \"" + claim->columns.text() + "\", but it holds \"" +
+                             old->columns().text() + "\" and the plugin does not adopt that");
       throw Error(Exit::invalid_input, "the columns of " + quote(name) + " change from \"" + old->columns().text() +
                                            "\" to \"" + claim->columns.text() + '"');
     }

@@ -53,7 +53,10 @@ void Simulation::check_fits(const Snapshot& snapshot) const {
     const auto common = std::min(set->names.size(), saved.names.size());
     const bool same =
         std::equal(saved.names.begin(), saved.names.begin() + static_cast<std::ptrdiff_t>(common), set->names.begin());
-    if (!same || saved.alive.size() != saved.names.size()) refuse("its set " + quote(name) + " has other rows");
+    const bool whole =
+        saved.alive.size() == saved.names.size() && saved.like.size() == saved.names.size() &&
+        std::all_of(saved.like.begin(), saved.like.end(), [&](auto row) { return row < saved.like.size(); });
+    if (!same || !whole) refuse("its set " + quote(name) + " has other rows");
   }
   for (const auto& [name, table] : board_.tables()) {
     const auto found = snapshot.tables.find(name);
@@ -110,6 +113,7 @@ void Simulation::put(const Snapshot& snapshot) {
     set.cut(0);
     for (const auto& row : saved.names) set.add(row);
     set.alive = saved.alive;
+    set.like = saved.like;
     set.listed = saved.listed;
   }
   for (const auto& [name, saved] : snapshot.tables) board_.find(name)->stored() = saved.cells;

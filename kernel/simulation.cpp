@@ -82,6 +82,12 @@ void Simulation::relink() {
   batches_ = linker.build();
   for (const auto& table : linker.dropped())
     events_.push_back({tick_, "", "dropped " + table + ", which nobody writes any more"});
+  auto unread = linker.unread();
+  for (const auto& warning : unread) {
+    if (std::find(unread_.begin(), unread_.end(), warning) == unread_.end())
+      events_.push_back({tick_, "", "warning: " + warning});
+  }
+  unread_ = std::move(unread);
   listed_.clear();
   for (const auto& [name, set] : board_.sets()) {
     if (set->kind == SetKind::listed) listed_.emplace_back(set.get(), set->listed);
@@ -111,7 +117,7 @@ TableView Simulation::table(const std::string& name) const {
 Snapshot Simulation::snapshot() const {
   Snapshot result;
   result.tick = tick_;
-  for (const auto& [name, set] : board_.sets()) result.sets[name] = {set->names, set->alive, set->listed};
+  for (const auto& [name, set] : board_.sets()) result.sets[name] = {set->names, set->alive, set->like, set->listed};
   for (const auto& [name, table] : board_.tables()) result.tables[name] = {table->columns().text(), table->now()};
   for (const auto& instance : instances_) {
     const Place& place = instance->declared().place;

@@ -11,7 +11,7 @@
 #include "link.hpp"
 #include "snapshot.hpp"
 #include "thread_pool.hpp"
-#include "world.hpp"
+#include "world_file/world.hpp"
 
 namespace muster {
 
@@ -152,6 +152,7 @@ class Simulation {
   std::mutex faulty_;                                 // who writes there
   std::vector<std::pair<Set*, std::size_t>> listed_;  // rows of the listed sets before this tick
   std::vector<std::shared_ptr<Library>> planned_;     // libraries of swaps to come
+  std::vector<std::string> unread_;                   // what was warned of at the last link
 };
 
 }  // namespace muster

@@ -12,7 +12,7 @@
 namespace muster {
 namespace {
 
-constexpr std::string_view magic = "muster.snapshot.1\n";
+constexpr std::string_view magic = "muster.snapshot.2\n";
 
 // A hash over words; each word is spread before the next comes.
 class Hash {
@@ -118,6 +118,9 @@ uint64_t Snapshot::digest() const {
     hash.add(name);
     for (const auto& row : set.names) hash.add(row);
     hash.add_bytes(set.alive.data(), set.alive.size());
+    for (std::size_t r = 0; r < set.like.size(); ++r) {
+      if (set.like[r] != r) hash.add(uint64_t{set.like[r]});
+    }
     hash.add(set.listed);
   }
   for (const auto& [name, table] : tables) {
@@ -139,6 +142,7 @@ void Snapshot::save(const std::filesystem::path& file) const {
     writer.word(set.names.size());
     for (const auto& row : set.names) writer.text(row);
     writer.numbers(set.alive);
+    writer.numbers(set.like);
     writer.word(set.listed);
   }
   writer.word(tables.size());
@@ -183,6 +187,7 @@ Snapshot Snapshot::load(const std::filesystem::path& file) {
     auto& set = result.sets[std::string(reader.text())];
     for (auto rows = reader.word(); rows > 0; --rows) set.names.emplace_back(reader.text());
     set.alive = reader.numbers<uint8_t>();
+    set.like = reader.numbers<uint32_t>();
     set.listed = reader.word();
   }
   for (auto n = reader.word(); n > 0; --n) {

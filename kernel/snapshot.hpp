@@ -15,6 +15,7 @@ struct Snapshot {
   struct SavedSet {
     std::vector<std::string> names;
     std::vector<uint8_t> alive;
+    std::vector<uint32_t> like;
     uint64_t listed = 0;
     bool operator==(const SavedSet&) const = default;
   };

@@ -168,7 +168,7 @@ void Simulation::finish(uint64_t tick) {
   for (auto& instance : instances_) {
     if (instance->joins.empty() && instance->leaves.empty() && instance->events.empty()) continue;
     for (const auto& join : instance->joins) {
-      join.set->add(join.name);
+      join.set->add(join.name, join.like);
       place(board_, join);
       events_.push_back({tick, instance->name(), join.set->name + ' ' + quote(join.name) + " joins"});
     }

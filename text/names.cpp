@@ -47,6 +47,13 @@ std::string quote(std::string_view text) {
   return result + (length < text.size() ? "...\"" : "\"");
 }
 
+bool is_name(std::string_view text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
+           c == '.';
+  });
+}
+
 std::string nearest(std::string_view wrong, const std::vector<std::string>& valid) {
   std::string best;
   std::size_t best_distance = wrong.size() + 1;

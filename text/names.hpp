@@ -10,6 +10,9 @@ namespace muster {
 // The text in double quotes, cut after about 60 bytes, with control characters written as \xNN.
 std::string quote(std::string_view text);
 
+// Names stand in paths: letters, digits, and _ - . but no more.
+bool is_name(std::string_view text);
+
 // The valid name that is fewest typing errors away (a letter lost, added, changed or exchanged with its neighbour; case
 // does not count), the first of equals; empty if all are more than a third of their length away.
 std::string nearest(std::string_view wrong, const std::vector<std::string>& valid);

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "kernel/simulation.hpp"
+#include "tests/folder.hpp"
 
 // The frozen header beside today's.
 namespace now {
@@ -19,6 +20,7 @@ constexpr unsigned long long null_bits = MUSTER_NULL_BITS;
 #undef MUSTER_DECLARE_ABI
 namespace v1 {
 #define muster_register muster_register_v1
+#include "tests/folder.hpp"
 #include "v1/muster/plugin.h"
 #undef muster_register
 }  // namespace v1
@@ -106,14 +108,14 @@ TEST(Abi, NumbersKeepTheirMeaning) {
 }
 
 TEST(Abi, APluginOfTheFrozenHeaderRuns) {
-  std::string name = (std::filesystem::temp_directory_path() / "muster_abi_XXXXXX").string();
-  const std::filesystem::path folder = ::mkdtemp(name.data());
-  std::ofstream(folder / "data.csv") << "robot,x[m]\na,1.5\n";
-  std::ofstream(folder / "world.xml") << "<world dt='0.5' until='9'>\n<robot name='a' at='0 0 0'/>\n<abi.v1 name='old' "
-                                         "data='data.csv' robot='a'/>\n</world>\n";
+  const test::Folder folder;
+  folder.write("data.csv", "robot,x[m]\na,1.5\n");
+  folder.write("world.xml",
+               "<world dt='0.5' until='9'>\n<robot name='a' at='0 0 0'/>\n<abi.v1 name='old' "
+               "data='data.csv' robot='a'/>\n</world>\n");
   Options options;
   options.search_path = {MUSTER_BUILD_DIR "/tests/abi_plugins"};
-  Simulation sim(read_world(folder, standard()), standard(), options);
+  Simulation sim(read_world(folder.path(), standard()), standard(), options);
   for (int tick = 1; tick <= 5; ++tick) sim.step();
   const TableView own = sim.table("instance/old/state");
   EXPECT_EQ(own.at(0, 0), 2);  // parameters
@@ -137,7 +139,6 @@ TEST(Abi, APluginOfTheFrozenHeaderRuns) {
     EXPECT_EQ(e.what(), (folder / "world.xml").string() +
                             ":3:1: old (abi.v1): step failed at tick 6 (t = 3 s): and that was all");
   }
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "kernel/simulation.hpp"
+#include "tests/folder.hpp"
 
 namespace muster {
 namespace {
@@ -33,19 +34,13 @@ struct Term {
 
 class RadioTerm : public testing::TestWithParam<Term> {
  protected:
-  RadioTerm() {
-    std::string name = (std::filesystem::temp_directory_path() / "muster_term_XXXXXX").string();
-    folder = ::mkdtemp(name.data());
-  }
-  ~RadioTerm() override { std::filesystem::remove_all(folder); }
-
   Simulation run(const std::string& order = "", const std::string& name = "term") const {
     std::ofstream(folder / "world.xml") << "<world dt='0.25' until='9' seed='3'>\n"
                                         << elements << "<conformance.links " << order << "/>\n<" << GetParam().id
                                         << " name='" << name << "'/>\n</world>\n";
     Options options;
     options.search_path = {MUSTER_BUILD_DIR "/tests/conformance", MUSTER_PLUGINS_DIR};
-    return Simulation(read_world(folder, standard()), standard(), options);
+    return Simulation(read_world(folder.path(), standard()), standard(), options);
   }
 
   // What the instance fills in, of every link.
@@ -67,7 +62,7 @@ class RadioTerm : public testing::TestWithParam<Term> {
     return result;
   }
 
-  std::filesystem::path folder;
+  const test::Folder folder;
 };
 
 void step(Simulation& sim, int ticks) {
@@ -135,21 +130,19 @@ std::vector<Term> terms() {
     for (uint32_t i = 0; i < plugin.param_count; ++i) needs |= (plugin.params[i].flags & MUSTER_REQUIRED) != 0;
     if (needs) continue;
     const std::string id(listed.library->id()), manual = plugin.manual ? plugin.manual : "";
-    std::string file = (std::filesystem::temp_directory_path() / "muster_terms_XXXXXX").string();
-    const std::filesystem::path folder = ::mkdtemp(file.data());
+    const test::Folder folder;
     std::ofstream(folder / "world.xml") << "<world until='1'>\n"
                                         << elements << "<conformance.links/>\n<" << id << " name='term'/>\n</world>\n";
     try {
       Options options;
       options.search_path = {MUSTER_BUILD_DIR "/tests/conformance", MUSTER_PLUGINS_DIR};
-      const Simulation sim(read_world(folder, standard()), standard(), options);
+      const Simulation sim(read_world(folder.path(), standard()), standard(), options);
       bool adds = false;
       for (const auto& claim : sim.instances()[1]->claims()) adds |= claim.out && claim.name.set == "link";
       if (adds)
         result.push_back({id, manual.find("both ways") != manual.npos || manual.find("eciprocal") != manual.npos});
     } catch (const Error&) {  // another lister, or one that needs more than a world of links
     }
-    std::filesystem::remove_all(folder);
   }
   return result;
 }

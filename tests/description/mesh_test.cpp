@@ -23,7 +23,7 @@ std::string triangle(const std::string& vertex) {
 
 std::string refusal(const Files& files, const std::string& name, const std::string& bytes) {
   files.write(name, bytes);
-  return message_of([&] { read_mesh(files.path(""), name, one); });
+  return message_of([&] { read_mesh(files.at(""), name, one); });
 }
 
 TEST(Mesh, StlObjAndDaeAreRead) {
@@ -40,7 +40,7 @@ TEST(Mesh, StlObjAndDaeAreRead) {
     </library_geometries><library_visual_scenes><visual_scene id="s"><node><instance_geometry url="#g"/></node></visual_scene>
     </library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>)");
   for (const char* name : {"t.stl", "t.obj", "t.dae"}) {
-    const Mesh mesh = read_mesh(files.path(""), name, one);
+    const Mesh mesh = read_mesh(files.at(""), name, one);
     ASSERT_EQ(mesh.faces.size(), 1u) << name;
     Eigen::AlignedBox3d bounds;
     for (const auto& vertex : mesh.vertices) bounds.extend(vertex);
@@ -51,7 +51,7 @@ TEST(Mesh, StlObjAndDaeAreRead) {
 TEST(Mesh, MirroredScaleKeepsFacesOutward) {
   Files files;
   files.write("t.stl", triangle("0 1 0"));
-  const Mesh mesh = read_mesh(files.path(""), "t.stl", {1, 1, -2});
+  const Mesh mesh = read_mesh(files.at(""), "t.stl", {1, 1, -2});
   const auto& f = mesh.faces.at(0);
   const Eigen::Vector3d normal =
       (mesh.vertices[f[1]] - mesh.vertices[f[0]]).cross(mesh.vertices[f[2]] - mesh.vertices[f[0]]);
@@ -62,16 +62,15 @@ TEST(Mesh, PathsOutsideTheFolderAreRefused) {
   Files files;
   files.write("secret.stl", triangle("0 1 0"));
   files.write("in/t.stl", triangle("0 1 0"));
-  std::filesystem::create_symlink(files.path("secret.stl"), files.path("in/link.stl"));
-  std::filesystem::create_symlink("t.stl", files.path("in/inner.stl"));
+  std::filesystem::create_symlink(files.at("secret.stl"), files.at("in/link.stl"));
+  std::filesystem::create_symlink("t.stl", files.at("in/inner.stl"));
   const std::string outside = "is outside the allowed folder";
   for (const std::string& path :
-       {std::string("../secret.stl"), std::string("link.stl"), files.path("in/t.stl"), std::string("file://host/t.stl"),
+       {std::string("../secret.stl"), std::string("link.stl"), files.at("in/t.stl"), std::string("file://host/t.stl"),
         std::string("http://host/t.stl"), std::string("package://in/t.stl")}) {
-    EXPECT_EQ(message_of([&] { read_mesh(files.path("in"), path, one); }).compare(0, outside.size(), outside), 0)
-        << path;
+    EXPECT_EQ(message_of([&] { read_mesh(files.at("in"), path, one); }).compare(0, outside.size(), outside), 0) << path;
   }
-  EXPECT_EQ(read_mesh(files.path("in"), "../in/inner.stl", one).faces.size(), 1u);
+  EXPECT_EQ(read_mesh(files.at("in"), "../in/inner.stl", one).faces.size(), 1u);
 }
 
 TEST(Mesh, WhatIsNotAMeshIsNamed) {
@@ -81,7 +80,7 @@ TEST(Mesh, WhatIsNotAMeshIsNamed) {
   EXPECT_EQ(refusal(files, "404.obj", "<!DOCTYPE html><html>404</html>"), "is an HTML page, not a mesh");
   EXPECT_EQ(refusal(files, "a.fbx", "x"), "is of a kind that is not read; expected .stl, .obj or .dae");
   EXPECT_EQ(refusal(files, "empty.stl", ""), "is empty");
-  EXPECT_EQ(message_of([&] { read_mesh(files.path(""), "absent.stl", one); }),
+  EXPECT_EQ(message_of([&] { read_mesh(files.at(""), "absent.stl", one); }),
             "cannot be opened: No such file or directory");
 }
 
@@ -119,7 +118,7 @@ TEST(Mesh, HostKeepsItsLimits) {
   files.write("t.stl", triangle("0 1 0"));
   rlimit before, after;
   getrlimit(RLIMIT_AS, &before);
-  read_mesh(files.path(""), "t.stl", one);
+  read_mesh(files.at(""), "t.stl", one);
   getrlimit(RLIMIT_AS, &after);
   EXPECT_EQ(before.rlim_cur, after.rlim_cur);
 }

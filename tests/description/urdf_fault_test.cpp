@@ -127,9 +127,8 @@ INSTANTIATE_TEST_SUITE_P(All, UrdfFault, testing::ValuesIn(cases),
 
 TEST(UrdfFile, AbsentFolderEmptyAndDeviceAreRefused) {
   Files files;
-  EXPECT_EQ(message_of([&] { read_robot(files.path("no.urdf")); }),
-            files.path("no.urdf") + ": No such file or directory");
-  EXPECT_EQ(message_of([&] { read_robot(files.path("")); }), files.path("") + ": is not a regular file");
+  EXPECT_EQ(message_of([&] { read_robot(files.at("no.urdf")); }), files.at("no.urdf") + ": No such file or directory");
+  EXPECT_EQ(message_of([&] { read_robot(files.at("")); }), files.at("") + ": is not a regular file");
   EXPECT_EQ(message_of([&] { read_robot("/dev/zero"); }), "/dev/zero: is not a regular file");
   const std::string empty = files.write("empty.urdf", "");
   EXPECT_EQ(message_of([&] { read_robot(empty); }), empty + ":1: is empty; expected <robot>");

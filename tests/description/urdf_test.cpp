@@ -104,7 +104,7 @@ TEST(Urdf, GermanLocaleReadsTheSameNumbers) {
 
 TEST(Urdf, MeshInMillimetresIsWarnedAbout) {
   Files files;
-  std::filesystem::copy_file(MUSTER_SOURCE_DIR "/plugins/robots/models/hokuyo.stl", files.path("hokuyo.stl"));
+  std::filesystem::copy_file(MUSTER_SOURCE_DIR "/plugins/robots/models/hokuyo.stl", files.at("hokuyo.stl"));
   const std::string path =
       files.write("r.urdf",
                   "<robot name='r'>\n<link name='a'><collision><geometry><mesh filename='hokuyo.stl' scale='10 10 10'/>"
@@ -119,17 +119,17 @@ TEST(Model, IsFoundByNameOrPath) {
   Files files;
   files.write("one/a.urdf", "");
   files.write("two/b.urdf", "");
-  const std::vector<std::string> folders = {files.path("one"), files.path("two")};
-  EXPECT_EQ(find_model("b", folders), files.path("two") + "/b.urdf");
-  EXPECT_EQ(find_model("two/b.urdf", {files.path("")}), files.path("two/b.urdf"));
-  EXPECT_EQ(find_model(files.path("one/a.urdf"), folders), files.path("one/a.urdf"));
+  const std::vector<std::string> folders = {files.at("one"), files.at("two")};
+  EXPECT_EQ(find_model("b", folders), files.at("two") + "/b.urdf");
+  EXPECT_EQ(find_model("two/b.urdf", {files.at("")}), files.at("two/b.urdf"));
+  EXPECT_EQ(find_model(files.at("one/a.urdf"), folders), files.at("one/a.urdf"));
 }
 
 TEST(Model, AbsentOneIsNamedWithItsNearest) {
   Files files;
   files.write("scarab.urdf", "");
-  EXPECT_EQ(message_of([&] { find_model("scrab", {files.path("")}); }),
-            "model 'scrab' is not known: no scrab.urdf in " + files.path("") + "; did you mean 'scarab'?");
+  EXPECT_EQ(message_of([&] { find_model("scrab", {files.at("")}); }),
+            "model 'scrab' is not known: no scrab.urdf in " + files.at("") + "; did you mean 'scarab'?");
 }
 
 TEST(Drive, RatesAndTwistAreEachOthersInverse) {

@@ -58,7 +58,7 @@ TEST(Pages, WorldsThatTheyShowAreFine) {
   for (const auto& page : pages()) {
     for (const auto& sample : worlds_in(page)) {
       SCOPED_TRACE(page.string() + ":" + std::to_string(sample.line));
-      const Folder folder;
+      const ProgramFolder folder;
       folder.write("world.xml", sample.text);
       const auto outcome = folder.muster({"check", "world.xml", "--plugins", MUSTER_SAMPLES_DIR});
       EXPECT_EQ(outcome.exit, 0) << outcome.err;

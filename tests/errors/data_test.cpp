@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "program.hpp"
+#include "tests/sanitized.hpp"
 
 using namespace muster::test;
 using testing::HasSubstr;
@@ -61,7 +62,7 @@ class Data {
 };
 
 Outcome asked(const std::string& verb, const std::string& data) {
-  const Folder folder;
+  const ProgramFolder folder;
   folder.write("world.xml", world);
   folder.write("data.csv", data);
   return folder.muster({verb, "world.xml", "--data", "data.csv"});
@@ -120,11 +121,38 @@ TEST(Fault25, PlacesInAnotherUnitOrOrder) {
                  "north, as in the world");
 }
 
+TEST(Fault25, PlacesOnTheGlobe) {
+  const std::string globe =
+      " is a place on the globe; expected metres in the world's plan: x = 111320 m * cos(lat0) * (lon - lon0) and y = "
+      "111320 m * (lat - lat0), in degrees, where (lat0, lon0) is the world's origin, as tx_x[m], tx_y[m], rx_x[m], "
+      "rx_y[m]";
+  expect_refused(Data().set(0, 5, "rx_lat[deg]").set(0, 6, "rx_lon[deg]").text(),
+                 ":1:28: column \"rx_lat[deg]\"" + globe);
+  expect_refused(Data().set(0, 3, "Longitude").set(0, 4, "Latitude").text(), ":1:12: column \"Longitude\"" + globe);
+  EXPECT_EQ(fit(Data().set(0, 0, "lat").text()).exit, 0);  // beside places it is a covariate like any other
+}
+
 TEST(Fault25, TooLittleToTellAnything) {
   expect_refused(Data().keep(0).text(), ": the table has no rows; expected readings");
   expect_refused(Data().keep(1).text(), ": the table has 1 row; one reading shows no law, expected many");
   expect_refused(Data().set_all(7, "-60").text(), ":2:27: every rssi is -60 dBm; expected readings that vary");
   expect_refused(Data().set_all(7, "").text(), ": every rssi is empty; expected some readings that were received");
+}
+
+// What would fill the memory of most machines is told at once.
+TEST(Fault25, MoreRowsThanAFitCanHold) {
+  std::string data = "tx,rx,distance[m],rssi[dBm]\n";
+  for (int row = 0; row < 2'000'001; ++row) data += "a,b,3,-50\n";
+  const ProgramFolder folder;
+  folder.write("world.xml", world);
+  folder.write("data.csv", data);
+  for (const char* verb : {"fit", "diagnose", "features"}) {
+    const auto outcome = folder.muster({verb, "world.xml", "--data", "data.csv"});
+    expect_error(outcome, 2,
+                 "data.csv: the table has 2000001 rows; expected at most 2000000: keep one row in 2, or a part of the "
+                 "time");
+    EXPECT_TRUE(sanitized || outcome.peak_kilobytes < 300'000) << outcome.peak_kilobytes;
+  }
 }
 
 TEST(Fault25, WhatIsNotIdentifiableHasNoNumber) {

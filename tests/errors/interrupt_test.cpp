@@ -20,7 +20,7 @@ std::vector<std::string> long_run() {
 }
 
 TEST(Interrupt, EndsTheRunWithWholeRecords) {
-  const Folder folder;
+  const ProgramFolder folder;
   folder.write("world.xml", world_of("<test.good name=\"good\"/>"));
   Surroundings around;
   around.meanwhile = [](int process) { ::kill(process, SIGINT); };
@@ -34,7 +34,7 @@ TEST(Interrupt, EndsTheRunWithWholeRecords) {
 }
 
 TEST(Output, ThatCannotBeWrittenIsAnErrorOfIts) {
-  const Folder folder;
+  const ProgramFolder folder;
   folder.write("world.xml", world_of("<test.good name=\"good\"/>"));
   const std::vector<std::string> run = {"run", "world.xml", "--plugins", toys};
   Surroundings full;
@@ -49,7 +49,7 @@ TEST(Output, ThatCannotBeWrittenIsAnErrorOfIts) {
 }
 
 TEST(Output, AFolderThatCannotBeMadeOrWrittenIsNamed) {
-  const Folder folder;
+  const ProgramFolder folder;
   folder.write("world.xml", world_of("<test.good name=\"good\"/>"));
   folder.write("file", "");
   const std::vector<std::string> run = {"run",      "world.xml",          "--plugins", toys,
@@ -57,6 +57,10 @@ TEST(Output, AFolderThatCannotBeMadeOrWrittenIsNamed) {
   auto words = run;
   words.push_back("file");
   expect_error(folder.muster(words), 74, "file: cannot be made: Not a directory");
+  folder.write("data.csv", "tx,rx,distance[m],rssi[dBm]\na,b,1,-40\na,b,2,-47\na,b,3,-50\na,b,4,-53\n");
+  folder.write("radio.xml", world_of("<radio.multiwall l0=\"40\" n=\"2\"/>"));
+  expect_error(folder.muster({"fit", "radio.xml", "--data", "data.csv", "--out", "file/in"}), 74,
+               "file/in: Not a directory");
   std::filesystem::create_directory(folder.path() / "locked");
   ::chmod((folder.path() / "locked").c_str(), 0555);
   Surroundings around;
@@ -66,7 +70,7 @@ TEST(Output, AFolderThatCannotBeMadeOrWrittenIsNamed) {
 }
 
 TEST(Environment, ABareOneIsEnough) {
-  const Folder folder;
+  const ProgramFolder folder;
   folder.write("world.xml", world_of("<test.good name=\"good\"/>"));
   ::chmod(folder.path().c_str(), 0555);
   Surroundings around;
@@ -79,7 +83,7 @@ TEST(Environment, ABareOneIsEnough) {
   EXPECT_THAT(outcome.out, testing::StartsWith("w: 10 ticks, 1 s, digest "));
 }
 
-Outcome run_on_terminal(const Folder& folder, const std::vector<std::string>& environment) {
+Outcome run_on_terminal(const ProgramFolder& folder, const std::vector<std::string>& environment) {
   folder.write("world.xml", world_of("<test.good name=\"good\"/>"));
   Surroundings around;
   around.terminal = true;
@@ -90,7 +94,7 @@ Outcome run_on_terminal(const Folder& folder, const std::vector<std::string>& en
 }
 
 TEST(Terminal, ShowsProgressWithoutColoursAndADumbOneNothing) {
-  const Folder folder;
+  const ProgramFolder folder;
   EXPECT_THAT(run_on_terminal(folder, {"TERM=xterm", "NO_COLOR"}).err, HasSubstr("muster run w  50% [===="));
   EXPECT_THAT(run_on_terminal(folder, {"TERM=xterm", "NO_COLOR=1"}).err,
               Not(testing::ContainsRegex("\x1b\\[[0-9;]*m")));
@@ -98,7 +102,7 @@ TEST(Terminal, ShowsProgressWithoutColoursAndADumbOneNothing) {
 }
 
 TEST(Terminal, NothingIsShownWhereThereIsNone) {
-  const Folder folder;
+  const ProgramFolder folder;
   folder.write("world.xml", world_of("<test.good name=\"good\"/>"));
   EXPECT_EQ(folder.muster({"run", "world.xml", "--plugins", toys}).err, "");
 }

@@ -14,7 +14,7 @@ namespace {
 
 const std::string toys = MUSTER_TOYS;
 
-Outcome run_toy(const Folder& folder, const std::string& elements, std::vector<std::string> more = {}) {
+Outcome run_toy(const ProgramFolder& folder, const std::string& elements, std::vector<std::string> more = {}) {
   folder.write("world.xml", world_of(elements));
   std::vector<std::string> words = {"run", "world.xml", "--plugins", toys};
   words.insert(words.end(), more.begin(), more.end());
@@ -30,7 +30,7 @@ std::string bytes_of(const std::string& file) {
 }
 
 // Of `check` and `run` alike: nothing has been simulated.
-void expect_not_loaded(const Folder& folder, const std::string& words) {
+void expect_not_loaded(const ProgramFolder& folder, const std::string& words) {
   folder.write("world.xml", world_of(R"(<test.good library="test_good.so"/>)"));
   for (const char* verb : {"check", "run"}) {
     const auto outcome = folder.muster({verb, "world.xml"});
@@ -40,14 +40,14 @@ void expect_not_loaded(const Folder& folder, const std::string& words) {
 }
 
 TEST(Fault15, AnAbsentPluginIsToldWithTheFoldersAndTheNearest) {
-  const Folder folder;
+  const ProgramFolder folder;
   expect_error(run_toy(folder, "<test.god/>"), 3,
                "world.xml:1:36: plugin \"test.god\": test_god.so not found; looked in " + toys + ", " +
                    MUSTER_PLUGINS_DIR + "; did you mean test.good?");
 }
 
 TEST(Fault15, AFileThatIsNoPluginIsRefusedInOneLine) {
-  const Folder folder;
+  const ProgramFolder folder;
   const std::string good = bytes_of(toys + "/test_good.so");
   expect_not_loaded(folder, "cannot be read: No such file or directory");
   folder.write("test_good.so", "a text, not a library\n");
@@ -69,7 +69,7 @@ struct Animal {
 };
 
 TEST(Fault15, ALibraryThatDoesNotFitIsRefusedInOneLine) {
-  const Folder folder;
+  const ProgramFolder folder;
   const std::string zoo = MUSTER_ZOO;
   for (const Animal& animal :
        {Animal{"no_register", "does not export muster_register; expected one MUSTER_PLUGIN_IS in it"},
@@ -88,13 +88,13 @@ TEST(Fault15, ALibraryThatDoesNotFitIsRefusedInOneLine) {
 // ---- 16: what throws, in process ----
 
 TEST(Fault16, ThrowsInCreate) {
-  const Folder folder;
+  const ProgramFolder folder;
   expect_error(run_toy(folder, "<test.throws_in_create name=\"shelf\"/>"), 3,
                "world.xml:1:36: shelf (test.throws_in_create): create failed: no licence found");
 }
 
 TEST(Fault16, WhatTheUserGaveWrongIsTheUsers) {
-  const Folder folder;
+  const ProgramFolder folder;
   expect_error(run_toy(folder, "<test.refuses/>"), 2,
                "world.xml:1:36: test.refuses (test.refuses): create failed: the moon is no place for it");
 }
@@ -105,7 +105,7 @@ TEST(Fault16, ThrowsInStepAndTheLogOfTheTicksBeforeIsWhole) {
                                   std::pair{"throws_a_number", "threw something that is not a std::exception"},
                                   std::pair{"bare", "no such shelf"}}) {
     SCOPED_TRACE(toy);
-    const Folder folder;
+    const ProgramFolder folder;
     const std::string id = std::string("test.") + toy;
     const auto outcome = run_toy(folder, "<test.good name=\"steady\"/>\n<" + id + " name=\"shelf\"/>", log);
     expect_error(outcome, 3, "world.xml:2:1: shelf (" + id + "): step failed at tick 5 (t = 0.5 s): " + said);
@@ -116,7 +116,7 @@ TEST(Fault16, ThrowsInStepAndTheLogOfTheTicksBeforeIsWhole) {
 }
 
 TEST(Fault16, ThrowsWhenItIsDestroyed) {
-  const Folder folder;
+  const ProgramFolder folder;
   expect_error(run_toy(folder, "<test.throws_in_destroy name=\"shelf\"/>"), 3,
                "world.xml:1:36: shelf (test.throws_in_destroy): destroy failed: still in use");
   expect_error(
@@ -127,7 +127,7 @@ TEST(Fault16, ThrowsWhenItIsDestroyed) {
 // ---- 19: what it writes and reads ----
 
 TEST(Fault19, ValuesThatAreNoneAreTheirWritersFault) {
-  const Folder folder;
+  const ProgramFolder folder;
   for (const auto& [toy, wrong] :
        {std::pair{"nan", "is NaN"}, std::pair{"infinite", "is infinite"}, std::pair{"unfilled", "is not filled"}}) {
     SCOPED_TRACE(toy);
@@ -139,7 +139,7 @@ TEST(Fault19, ValuesThatAreNoneAreTheirWritersFault) {
 }
 
 TEST(Fault19, ClaimsThatDoNotFitAreRefusedAtTheStart) {
-  const Folder folder;
+  const ProgramFolder folder;
   expect_error(run_toy(folder, R"(<robot name="a" at="0 0 0"/><test.wrong_columns/>)"), 2,
                "world.xml:1:64: test.wrong_columns (test.wrong_columns): claims \"robot/*/pose\" as \"value[m]\"; its "
                "columns are \"x[m] "

@@ -113,31 +113,12 @@ Outcome run_muster(const std::vector<std::string>& words, const Surroundings& ar
   return result;
 }
 
-Folder::Folder() {
-  std::string name = (std::filesystem::temp_directory_path() / "muster_errors_XXXXXX").string();
-  if (!::mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
-  path_ = name;
-}
-
-void Folder::write(const std::string& name, const std::string& text) const {
-  std::ofstream file(path_ / name, std::ios::binary);
-  file << text;
-  if (!file.flush()) throw std::runtime_error("cannot write " + name);
-}
-
-std::string Folder::read(const std::string& name) const {
-  std::ifstream file(path_ / name, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-Outcome Folder::muster(const std::vector<std::string>& words, Surroundings around) const {
-  if (around.folder.empty()) around.folder = path_;
+Outcome ProgramFolder::muster(const std::vector<std::string>& words, Surroundings around) const {
+  if (around.folder.empty()) around.folder = path();
   return run_muster(words, around);
 }
 
-void Folder::expect_refused(const std::string& world, const std::string& message, int exit) const {
+void ProgramFolder::expect_refused(const std::string& world, const std::string& message, int exit) const {
   write("world.xml", world);
   expect_error(muster({"check", "world.xml", "--plugins", MUSTER_TOYS}), exit, message);
 }

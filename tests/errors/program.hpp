@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/folder.hpp"
+
 namespace muster::test {
 
 struct Outcome {
@@ -32,25 +34,13 @@ struct Surroundings {
 Outcome run_muster(const std::vector<std::string>& words, const Surroundings& around = {});
 
 // A folder of files, removed in the end; the program runs in it, so that messages name files as a user would.
-class Folder {
+class ProgramFolder : public Folder {
  public:
-  Folder();
-  ~Folder() { std::filesystem::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-  void write(const std::string& name, const std::string& text) const;
-  std::string read(const std::string& name) const;
-
   // Runs the program in this folder.
   Outcome muster(const std::vector<std::string>& words, Surroundings around = {}) const;
   // With the toys on the plugin path: exit code and the one line on standard error after "muster: error: ", of `check`
   // on a world with this text.
   void expect_refused(const std::string& world, const std::string& message, int exit = 2) const;
-
- private:
-  std::filesystem::path path_;
 };
 
 // <world ...> around elements, all on the first line.

@@ -8,7 +8,7 @@ using namespace muster::test;
 namespace {
 
 TEST(Fault5, WhatIsMisspeltIsToldWithTheNearestName) {
-  const Folder folder;
+  const ProgramFolder folder;
   folder.expect_refused(
       world_of(R"(<statoin name="b" at="0 0 1"/>)"),
       "world.xml:1:36: <statoin> is no element of a world; expected a plugin (with a dot in its name) or one of swap, "
@@ -29,7 +29,7 @@ TEST(Fault5, WhatIsMisspeltIsToldWithTheNearestName) {
 }
 
 TEST(Fault5, WordsOfTheCommandLineToo) {
-  const Folder folder;
+  const ProgramFolder folder;
   const auto misspelt = folder.muster({"chekc"});  // the list of verbs grows
   EXPECT_EQ(misspelt.exit, 2);
   EXPECT_THAT(misspelt.err,
@@ -39,7 +39,7 @@ TEST(Fault5, WordsOfTheCommandLineToo) {
 }
 
 void expect_numbers_refused(const std::vector<std::string>& environment) {
-  const Folder folder;
+  const ProgramFolder folder;
   Surroundings around;
   around.environment = environment;
   const std::pair<const char*, const char*> cases[] = {
@@ -66,7 +66,7 @@ TEST(Fault6, NumbersAreStrict) { expect_numbers_refused({}); }
 TEST(Fault6, NumbersAreStrictInGermany) { expect_numbers_refused({"LOCPATH=" MUSTER_LOCALES, "LC_ALL=de_DE.UTF-8"}); }
 
 TEST(Fault7, DegreesInAFieldOfRadiansAreWarnedOf) {
-  const Folder folder;
+  const ProgramFolder folder;
   folder.write("world.xml", world_of(R"(<station name="b" at="0 0 1" yaw="90"/>)"));
   const auto outcome = folder.muster({"check", "world.xml"});
   EXPECT_EQ(outcome.exit, 0) << outcome.err;
@@ -76,7 +76,7 @@ TEST(Fault7, DegreesInAFieldOfRadiansAreWarnedOf) {
 }
 
 TEST(Fault7, ImpossibleQuantitiesAreRefused) {
-  const Folder folder;
+  const ProgramFolder folder;
   folder.expect_refused(world_of(R"(<material name="m" loss="-4"/>)"),
                         "world.xml:1:61: attribute \"loss\": -4 is out of bounds; expected a number from 0 to 100 dB");
   folder.expect_refused(
@@ -88,7 +88,7 @@ TEST(Fault7, ImpossibleQuantitiesAreRefused) {
 }
 
 TEST(Fault13, TwoOfOneNameAreRefusedWithBothPlaces) {
-  const Folder folder;
+  const ProgramFolder folder;
   folder.expect_refused(world_of("\n<robot name=\"a\" at=\"0 0 0\"/>\n<robot name=\"a\" at=\"1 0 0\"/>"),
                         "world.xml:3:1: a second robot is called \"a\"; the first is at world.xml:2:1");
   folder.expect_refused(

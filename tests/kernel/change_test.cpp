@@ -167,6 +167,28 @@ TEST_F(Changes, PlannedSwapsComeAtTheirTimeOnce) {
               ElementsAre("4 n: swapped from toy.copy_physics to toy.copy_physics/1; it cannot hold a tune"));
 }
 
+// toy.join has a parameter `at`, as <swap> has.
+TEST_F(Changes, APluginInsideASwapKeepsItsAttributesApart) {
+  EXPECT_EQ(
+      error_of_world(two_robots + counter + "<swap at='2' instance='n' plugin='toy.join' leave='9'/>\n"),
+      "world.xml:5:1: <swap> takes the attribute \"at\" for itself, but toy.join has one of that name; expected the "
+      "plugin as an element inside: <swap at=\"...\" instance=\"...\"><toy.join .../></swap>");
+  Simulation sim = run(two_robots + "<toy.copy_physics name='m' to='robot/*/pose' columns='" + pose + "'/>\n" +
+                       counter + "<swap at='1' instance='n'><toy.join at='4' leave='9'/></swap>\n");
+  step(sim, 3);
+  EXPECT_EQ(sim.board().find_set("robot")->names.size(), 2u);
+  step(sim, 1);
+  EXPECT_EQ(sim.board().find_set("robot")->names.size(), 3u);
+  const auto swap = [&](const std::string& attributes, const std::string& inside) {
+    return error_of_world(two_robots + counter + "<swap at='2' instance='n'" + attributes + ">" + inside + "</swap>\n");
+  };
+  EXPECT_EQ(swap(" plugin='toy.join'", "<toy.join/>"),
+            "world.xml:5:27: <swap> has no attribute \"plugin\"; expected one of at, instance");
+  EXPECT_EQ(swap("", "<toy.join name='m'/>"),
+            "world.xml:5:37: <toy.join> has no attribute \"name\"; the replacement keeps the name \"n\"");
+  EXPECT_EQ(swap("", "<toy.join/><toy.join/>"), "world.xml:5:1: <swap> has no attribute \"plugin\", which it needs");
+}
+
 TEST_F(Changes, WhatAPlannedSwapBroughtAndFailedMayBeSwappedAgain) {
   Simulation sim = run(
       two_robots +

@@ -178,6 +178,25 @@ TEST_F(Claims, AReadThatNobodyWritesNamesTheNearest) {
   EXPECT_EQ(cell(sim, "robot/a/x"), 4);  // an optional read has no rows
 }
 
+// A robot that a controller commands in a world where nothing obeys would just stand there.
+TEST_F(Claims, CommandsThatNobodyReadsAreWarnedAbout) {
+  const std::string commands = two_robots +
+                               "<toy.copy_control name='c' robot='a' to='robot/{robot}/command' columns='" +
+                               std::string(Command::columns) + "'/>\n";
+  const std::string warning =
+      (folder / "world.xml").string() + ":4:1: c (toy.copy_control): writes \"robot/a/command\", which nobody reads";
+  Simulation deaf = run(commands);
+  EXPECT_THAT(messages(deaf), ElementsAre("0 : warning: " + warning));
+  EXPECT_THAT(messages(run(commands + "<record table='robot/*/command'/>\n")), ElementsAre());
+  const std::string reader = "<toy.copy_physics name='p' from='robot/*/command' columns='" +
+                             std::string(Command::columns) + "' to='robot/*/moved'/>\n";
+  Simulation sim = run(commands + reader);
+  EXPECT_THAT(messages(sim), ElementsAre());
+  step(sim, 2);
+  sim.swap("p", instance("toy.copy_physics", "", {{"to", "robot/*/moved"}, {"columns", Command::columns}}));
+  EXPECT_THAT(messages(sim), testing::Contains("2 : warning: " + warning));
+}
+
 TEST_F(Claims, ClaimsThatMakeNoSense) {
   const auto claim = [&](const std::string& attributes) {
     return error_of_world(two_robots + "<toy.copy_radio name='r' " + attributes + "/>\n");

@@ -3,30 +3,20 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <bit>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include "kernel/simulation.hpp"
+#include "tests/folder.hpp"
 
 namespace muster {
 
 class ToyWorld : public testing::Test {
  protected:
-  ToyWorld() {
-    std::string name = (std::filesystem::temp_directory_path() / "muster_toys_XXXXXX").string();
-    folder = ::mkdtemp(name.data());
-  }
-  ~ToyWorld() override { std::filesystem::remove_all(folder); }
-
-  std::filesystem::path put(const std::string& name, const std::string& bytes) const {
-    std::ofstream(folder / name, std::ios::binary) << bytes;
-    return folder / name;
-  }
+  std::filesystem::path put(const std::string& name, const std::string& bytes) const { return temporary.write(name, bytes); }
 
   // The first of `elements` stands in line 2; dt is 0.5 s.
   World world(const std::string& elements,
@@ -44,9 +34,7 @@ class ToyWorld : public testing::Test {
     try {
       call();
     } catch (const Error& e) {
-      std::string text = e.what();
-      const std::string prefix = folder.string() + '/';
-      for (auto at = text.find(prefix); at != text.npos; at = text.find(prefix)) text.erase(at, prefix.size());
+      const std::string text = temporary.inside(e.what());
       return (e.exit() == Exit::invalid_input ? "" : std::to_string(static_cast<int>(e.exit())) + ' ') + text;
     }
     return "no error";
@@ -55,7 +43,8 @@ class ToyWorld : public testing::Test {
     return error_of([&] { run(elements); });
   }
 
-  std::filesystem::path folder;
+  const test::Folder temporary;
+  const std::filesystem::path& folder = temporary.path();
 };
 
 inline void step(Simulation& run, int ticks = 1) {

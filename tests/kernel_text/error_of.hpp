@@ -2,13 +2,12 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <string_view>
 
+#include "tests/folder.hpp"
 #include "text/error.hpp"
 
 namespace muster::test {
@@ -30,20 +29,12 @@ std::string error_of(Call&& call, const std::filesystem::path& folder = {}) {
 
 class FolderTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder = std::filesystem::temp_directory_path() /
-             ("muster_" + std::string(info->test_suite_name()) + "_" + info->name() + "_" + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder); }
-
   std::filesystem::path write(std::string_view name, std::string_view bytes) const {
-    std::ofstream(folder / name, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    return folder / name;
+    return temporary.write(std::string(name), std::string(bytes));
   }
 
-  std::filesystem::path folder;
+  const Folder temporary;
+  const std::filesystem::path& folder = temporary.path();
 };
 
 }  // namespace muster::test

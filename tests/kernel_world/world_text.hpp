@@ -4,27 +4,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <string>
 
-#include "kernel/world.hpp"
+#include "tests/folder.hpp"
+#include "world_file/world.hpp"
 
 namespace muster {
 
 class WorldText : public testing::Test {
  protected:
-  WorldText() {
-    std::string name = (std::filesystem::temp_directory_path() / "muster_world_XXXXXX").string();
-    folder = ::mkdtemp(name.data());
-  }
-  ~WorldText() override { std::filesystem::remove_all(folder); }
-
-  std::filesystem::path put(const std::string& name, const std::string& bytes) const {
-    std::ofstream(folder / name, std::ios::binary) << bytes;
-    return folder / name;
-  }
+  std::filesystem::path put(const std::string& name, const std::string& bytes) const { return temporary.write(name, bytes); }
   World read(const std::string& text) const { return read_world(put("world.xml", text), standard()); }
   // `elements` begin in line 2.
   World read_with(const std::string& elements) const {
@@ -36,9 +26,7 @@ class WorldText : public testing::Test {
       read(text);
     } catch (const Error& e) {
       EXPECT_EQ(e.exit(), Exit::invalid_input);
-      std::string said = e.what();
-      const std::string prefix = folder.string() + '/';
-      for (auto at = said.find(prefix); at != said.npos; at = said.find(prefix)) said.erase(at, prefix.size());
+      const std::string said = temporary.inside(e.what());
       return said;
     }
     return "no error";
@@ -47,7 +35,8 @@ class WorldText : public testing::Test {
     return error("<world dt='0.1' until='10'>\n" + elements + "\n</world>\n");
   }
 
-  std::filesystem::path folder;
+  const test::Folder temporary;
+  const std::filesystem::path& folder = temporary.path();
 };
 
 }  // namespace muster

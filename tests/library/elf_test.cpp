@@ -25,7 +25,7 @@ std::string refusal(const std::string& bytes) {
 }
 
 const std::string& good() {
-  static const std::string bytes = read_bytes(zoo / "zoo_good.so");
+  static const std::string bytes = test::contents(zoo / "zoo_good.so");
   return bytes;
 }
 

@@ -25,7 +25,7 @@ Held held() {
   std::fclose(statm);
   result.pages = resident - shared;
   result.files = std::distance(std::filesystem::directory_iterator("/proc/self/fd"), {});
-  const std::string maps = read_bytes("/proc/self/maps");
+  const std::string maps = test::contents("/proc/self/maps");
   result.maps = std::ranges::count(maps, '\n');
   return result;
 }

@@ -54,16 +54,16 @@ TEST_F(LibraryTest, TakesAPluginInPlainCWithTwoRevisionsInOrder) {
 }
 
 TEST_F(LibraryTest, TheFirstFolderWinsAndALibraryAttributeBeatsBoth) {
-  write_bytes(folder / "zoo_good.so", read_bytes(zoo / "zoo_good.so"));
+  write_bytes(folder / "zoo_good.so", test::contents(zoo / "zoo_good.so"));
   EXPECT_EQ(Library::load("zoo.good", std::nullopt, {folder, zoo}, {})->file(), folder / "zoo_good.so");
-  write_bytes(folder / "mine", read_bytes(zoo / "zoo_good.so"));
+  write_bytes(folder / "mine", test::contents(zoo / "zoo_good.so"));
   const Place where{(folder / "world.xml").string(), 1, 1};
   EXPECT_EQ(Library::load("zoo.good", "mine", {zoo}, where)->file(), folder / "mine");
 }
 
 TEST_F(LibraryTest, SurvivesStrip) {
   const std::filesystem::path file = folder / "zoo_good.so";
-  write_bytes(file, read_bytes(zoo / "zoo_good.so"));
+  write_bytes(file, test::contents(zoo / "zoo_good.so"));
   ASSERT_EQ(std::system(("strip --strip-all " + file.string()).c_str()), 0);
   EXPECT_EQ(Library::load("zoo.good", std::nullopt, {folder}, {})->id(), "zoo.good");
 }
@@ -118,7 +118,7 @@ TEST_F(LibraryTest, NamesWhatALibraryLacks) {
 
 TEST_F(LibraryTest, NamesTheVersionThatALibraryNeeds) {
   const std::filesystem::path file = folder / "zoo_good.so";
-  std::string bytes = read_bytes(zoo / "zoo_good.so");
+  std::string bytes = test::contents(zoo / "zoo_good.so");
   const std::string name = "GLIBCXX_3.4";
   for (std::size_t at = 0; (at = bytes.find(name, at)) != bytes.npos; ++at) bytes[at + 8] = '9';
   write_bytes(file, bytes);
@@ -163,7 +163,7 @@ TEST_F(LibraryTest, RestoresWhatOnlyTheHostSees) {
 // ---- Broken files ----
 
 TEST_F(LibraryTest, OutlivesTruncationAtEveryLength) {
-  const std::string good = read_bytes(zoo / "zoo_good.so");
+  const std::string good = test::contents(zoo / "zoo_good.so");
   const std::filesystem::path file = folder / "zoo_good.so";
   for (std::size_t size = 4; size < good.size(); size += 1 + size / 4) {
     write_bytes(file, good.substr(0, size));
@@ -184,7 +184,7 @@ Elf64_Shdr section_of(const std::string& bytes, const std::string& name) {
 
 // Random bytes where dlopen() follows them: it crashes on many, in the child.
 TEST_F(LibraryTest, OutlivesCorruption) {
-  const std::string good = read_bytes(zoo / "zoo_good.so");
+  const std::string good = test::contents(zoo / "zoo_good.so");
   const std::filesystem::path file = folder / "zoo_good.so";
   std::mt19937_64 random(1);
   int crashed = 0, refused = 0;
@@ -209,10 +209,10 @@ TEST_F(LibraryTest, OutlivesCorruption) {
 TEST_F(LibraryTest, ReloadRunsTheNewCode) {
   const std::filesystem::path file = folder / "zoo_version.so";
   const auto load = [&] { return Library::load("zoo.version", std::nullopt, {folder}, {}); };
-  write_bytes(file, read_bytes(zoo / "zoo_version_1.so"));
+  write_bytes(file, test::contents(zoo / "zoo_version_1.so"));
   auto first = load();
   EXPECT_STREQ(first->plugins()[0].summary, "the first");
-  write_bytes(file, read_bytes(zoo / "zoo_version_2.so"));  // in place, under the running library
+  write_bytes(file, test::contents(zoo / "zoo_version_2.so"));  // in place, under the running library
   const auto second = load();
   EXPECT_STREQ(second->plugins()[0].summary, "the second");
   EXPECT_STREQ(second->plugins()[0].id, "zoo.version/2");
@@ -234,7 +234,7 @@ int step_once(const muster_plugin& plugin) {
 
 TEST_F(LibraryTest, SurvivesItsFileBeingEmptied) {
   const std::filesystem::path file = folder / "zoo_good.so";
-  write_bytes(file, read_bytes(zoo / "zoo_good.so"));
+  write_bytes(file, test::contents(zoo / "zoo_good.so"));
   const auto library = Library::load("zoo.good", file, {}, {});
   write_bytes(file, "");  // a mapping of the file itself would now be SIGBUS
   EXPECT_EQ(step_once(library->plugins()[0]), MUSTER_OK);
@@ -244,15 +244,15 @@ TEST_F(LibraryTest, SurvivesItsFileBeingEmptied) {
 TEST_F(LibraryTest, ReloadRunsTheNewCodeThoughAThreadHoldsTheOld) {
   const std::filesystem::path file = folder / "zoo_version.so";
   const auto load = [&] { return Library::load("zoo.version", file, {}, {}); };
-  write_bytes(file, read_bytes(zoo / "zoo_version_1.so"));
+  write_bytes(file, test::contents(zoo / "zoo_version_1.so"));
   EXPECT_EQ(step_once(load()->plugins()[0]), MUSTER_OK);
-  EXPECT_NE(read_bytes("/proc/self/maps").find("zoo_version.so"), std::string::npos);
-  write_bytes(file, read_bytes(zoo / "zoo_version_2.so"));
+  EXPECT_NE(test::contents("/proc/self/maps").find("zoo_version.so"), std::string::npos);
+  write_bytes(file, test::contents(zoo / "zoo_version_2.so"));
   EXPECT_STREQ(load()->plugins()[0].summary, "the second");
 }
 
 TEST_F(LibraryTest, UnloadsWithItsLastOwner) {
-  const auto mapped = [] { return read_bytes("/proc/self/maps").find("zoo_good.so") != std::string::npos; };
+  const auto mapped = [] { return test::contents("/proc/self/maps").find("zoo_good.so") != std::string::npos; };
   auto one = Library::load("zoo.good", std::nullopt, {zoo}, {});
   auto two = one;
   one.reset();
@@ -264,7 +264,7 @@ TEST_F(LibraryTest, UnloadsWithItsLastOwner) {
 // ---- Listing ----
 
 TEST_F(LibraryTest, ListsEveryFileWithItsReason) {
-  const std::string good = read_bytes(zoo / "zoo_good.so");
+  const std::string good = test::contents(zoo / "zoo_good.so");
   write_bytes(folder / "zoo_good.so", good);
   write_bytes(folder / "zoo_misnamed.so", good);
   write_bytes(folder / "text.so", "hello\n");

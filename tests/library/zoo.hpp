@@ -2,24 +2,18 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <iterator>
 #include <string>
 
 #include "loader/library.hpp"
+#include "tests/folder.hpp"
 
 namespace muster {
 
 inline const std::filesystem::path zoo = ZOO;
-
-inline std::string read_bytes(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 // Overwrites in place, as cp does: the file keeps its inode.
 inline void write_bytes(const std::filesystem::path& file, const std::string& bytes) {
@@ -28,12 +22,6 @@ inline void write_bytes(const std::filesystem::path& file, const std::string& by
 
 class ZooTest : public testing::Test {
  protected:
-  ZooTest() {
-    std::string name = (std::filesystem::temp_directory_path() / "muster_zoo_XXXXXX").string();
-    folder = ::mkdtemp(name.data());
-  }
-  ~ZooTest() override { std::filesystem::remove_all(folder); }
-
   // The whole message of the Error that `action` throws, and its exit code checked; "" if it throws none.
   static std::string error_of(const std::function<void()>& action) {
     try {
@@ -48,7 +36,8 @@ class ZooTest : public testing::Test {
     return error_of([&] { Library::load(id, file, {}, {"world.xml", 5, 3}); });
   }
 
-  std::filesystem::path folder;
+  const test::Folder temporary;
+  const std::filesystem::path& folder = temporary.path();
 };
 
 }  // namespace muster

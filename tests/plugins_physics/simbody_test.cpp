@@ -55,10 +55,10 @@ TEST(Simbody, RestoredRunGoesOnWithTheSameBits) {
   const std::string world = course + "<physics.simbody/>";
   Simulation run = world_of(folder, world);
   run_to(run, 40);
-  run.snapshot().save(folder.path("at40"));
+  run.snapshot().save(folder / "at40");
   run_to(run, 80);
   Simulation again = world_of(folder, world);
-  again.restore(Snapshot::load(folder.path("at40")));
+  again.restore(Snapshot::load(folder / "at40"));
   run_to(again, 80);
   EXPECT_EQ(run.digest(), again.digest());
 }
@@ -90,8 +90,8 @@ TEST(Simbody, ModelsItCannotHoldAreRefused) {
     <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link></robot>)");
   for (const std::string backend : {"simbody", "planar"}) {
     try {
-      world_of(folder,
-               "<robot name=\"a\" at=\"0 0 0\" model=\"" + folder.path("box.urdf") + "\"/><physics." + backend + "/>");
+      world_of(folder, "<robot name=\"a\" at=\"0 0 0\" model=\"" + (folder / "box.urdf").string() + "\"/><physics." +
+                           backend + "/>");
       FAIL() << "nothing was thrown";
     } catch (const Error& error) {
       EXPECT_EQ(error.exit(), Exit::invalid_input);
@@ -103,8 +103,8 @@ TEST(Simbody, ModelsItCannotHoldAreRefused) {
 
 TEST(Simbody, ModelBesideTheWorldIsFound) {
   Folder folder;
-  std::filesystem::copy(MUSTER_SOURCE_DIR "/plugins/robots/models/hokuyo.stl", folder.path("hokuyo.stl"));
-  std::filesystem::copy(MUSTER_SOURCE_DIR "/plugins/robots/models/scarab.urdf", folder.path("mine.urdf"));
+  std::filesystem::copy(MUSTER_SOURCE_DIR "/plugins/robots/models/hokuyo.stl", folder / "hokuyo.stl");
+  std::filesystem::copy(MUSTER_SOURCE_DIR "/plugins/robots/models/scarab.urdf", folder / "mine.urdf");
   Simulation run = world_of(folder, "<robot name=\"a\" at=\"0 0 0\" model=\"mine.urdf\"/><physics.simbody/>");
   run.step();
   EXPECT_THROW(world_of(folder, "<robot name=\"a\" at=\"0 0 0\" model=\"yours.urdf\"/><physics.simbody/>"), Error);

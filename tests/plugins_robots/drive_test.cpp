@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "run_world.hpp"
+#include "robot_world.hpp"
 
 namespace {
 

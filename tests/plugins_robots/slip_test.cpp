@@ -5,7 +5,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "run_world.hpp"
+#include "robot_world.hpp"
 
 namespace {
 

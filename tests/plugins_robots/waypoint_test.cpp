@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "run_world.hpp"
+#include "robot_world.hpp"
 
 namespace {
 

@@ -30,7 +30,7 @@ TEST_P(EveryWorld, IsTheSameForAnyNumberOfWorkers) {
 
 TEST_P(EveryWorld, IsTheSameAfterSaveAndRestore) {
   const auto expected = plain_digest(GetParam());
-  const Folder folder;
+  const ProgramFolder folder;
   const auto file = folder.path() / "state";
   Simulation before = start(GetParam());
   run_until(before, before.world().ticks / 2);

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "tests/plugins_robots/run_world.hpp"
+#include "tests/plugins_robots/robot_world.hpp"
 
 namespace muster::test {
 

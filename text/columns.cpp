@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t most_columns = 1u << 16;
 
-bool is_name(std::string_view text) {
+bool is_word(std::string_view text) {
   if (text.empty()) return false;
   for (const char c : text) {
     const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
@@ -26,7 +26,7 @@ bool is_name(std::string_view text) {
 std::size_t parse_word(std::string_view word, Column& column) {
   const auto marks = word.find_first_of(":[{*?~+");
   column.name = word.substr(0, marks);
-  if (!is_name(column.name)) refuse(word, "has no name of letters, digits and _");
+  if (!is_word(column.name)) refuse(word, "has no name of letters, digits and _");
   std::size_t count = 1;
   std::string_view rest = marks == word.npos ? std::string_view{} : word.substr(marks);
   while (!rest.empty()) {
@@ -35,7 +35,7 @@ std::size_t parse_word(std::string_view word, Column& column) {
     if (mark == ':') {
       used = std::min(rest.find_first_of("[{*?~+", 1), rest.size());
       column.reference = rest.substr(1, used - 1);
-      if (!is_name(column.reference)) refuse(word, "refers to no set");
+      if (!is_word(column.reference)) refuse(word, "refers to no set");
     } else if (mark == '[') {
       const auto close = rest.find(']');
       if (close == rest.npos) refuse(word, "has no closing ]");

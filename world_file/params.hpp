@@ -22,6 +22,12 @@ using Warn = std::function<void(const Place& place, const std::string& message)>
 std::vector<double> attribute_values(const muster_param& declared, int count, const XmlAttribute& given,
                                      const FindRow& find_row, const Warn& warn);
 
+// Refusals of attributes, for any element.
+[[noreturn]] void refuse_unknown(const XmlAttribute& given, const std::string& element,
+                                 const std::vector<std::string>& valid);
+Error lacking(const XmlElement& element, const std::string& attribute);
+void check_name(const XmlAttribute& given);
+
 // The words of a choice, "a|b|c".
 std::vector<std::string> choices(const muster_param& declared);
 

@@ -35,6 +35,21 @@ double choice_value(const muster_param& declared, const XmlAttribute& given) {
 
 }  // namespace
 
+void refuse_unknown(const XmlAttribute& given, const std::string& element, const std::vector<std::string>& valid) {
+  throw invalid(given.place,
+                "<" + element + "> has no attribute " + quote(given.name) + "; " + suggest(given.name, valid));
+}
+
+Error lacking(const XmlElement& element, const std::string& attribute) {
+  return invalid(element.place, "<" + element.name + "> has no attribute " + quote(attribute) + ", which it needs");
+}
+
+void check_name(const XmlAttribute& given) {
+  if (!is_name(given.value))
+    throw invalid(given.value_place, "attribute " + quote(given.name) + ": " + quote(given.value) +
+                                         " is not a name; expected letters, digits, _, - and .");
+}
+
 std::vector<std::string> choices(const muster_param& declared) {
   std::vector<std::string> words(1);
   for (const char* c = declared.text; *c; ++c) {

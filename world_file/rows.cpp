@@ -1,11 +1,12 @@
-#include "world_rows.hpp"
+#include "rows.hpp"
 
 #include <algorithm>
-#include <bit>
+#include <cmath>
+#include <limits>
 #include <set>
 
-#include "blackboard.hpp"
 #include "params.hpp"
+#include "text/columns.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
 #include "text/text_table.hpp"
@@ -62,14 +63,11 @@ class RowReader {
       valid.push_back(attribute.param.name);
     }
     for (const auto& a : given.attributes) {  // before what is missing: it may be there, misspelt
-      if (std::find(valid.begin(), valid.end(), a.name) == valid.end())
-        throw invalid(a.place,
-                      "<" + given.name + "> has no attribute " + quote(a.name) + "; " + suggest(a.name, valid));
+      if (std::find(valid.begin(), valid.end(), a.name) == valid.end()) refuse_unknown(a, given.name, valid);
     }
     for (const auto& attribute : element.attributes) {
       if ((attribute.param.flags & MUSTER_REQUIRED) && !given.attribute(attribute.param.name))
-        throw invalid(given.place,
-                      "<" + given.name + "> has no attribute " + quote(attribute.param.name) + ", which it needs");
+        throw lacking(given, attribute.param.name);
     }
     if (!given.children.empty())
       throw invalid(given.children[0].place, "<" + given.name + "> has an element inside; expected attributes only");
@@ -170,7 +168,7 @@ class RowReader {
     const auto& quantity = set_of(standard_, load.element->file_of).quantities[0];
     const Columns columns(quantity.columns);
     const std::string table = std::string(load.element->file_of) + '/' + quantity.name;
-    std::vector<double> defaults(columns.size(), poison());
+    std::vector<double> defaults(columns.size(), std::numeric_limits<double>::quiet_NaN());
     for (const auto& attribute : single(*load.element).attributes) {
       if (table == attribute.table && !(attribute.param.flags & MUSTER_REQUIRED) &&
           attribute.param.kind != MUSTER_REFERENCE)
@@ -181,7 +179,7 @@ class RowReader {
     std::set<std::string> known = {"name"};
     for (std::size_t c = 0; c < columns.size(); ++c) {
       known.insert(columns[c].name);
-      const bool may_miss = std::bit_cast<uint64_t>(defaults[c]) != poison_bits && !load.table.find(columns[c].name);
+      const bool may_miss = !std::isnan(defaults[c]) && !load.table.find(columns[c].name);
       cells.push_back(may_miss ? std::vector<double>(load.table.rows(), defaults[c])
                                : read_column(load.table, columns[c]));
       if (!may_miss) check_bounds(load.table, single(*load.element), table, columns, c, cells.back());
@@ -204,11 +202,8 @@ class RowReader {
                     std::size_t c, const std::vector<double>& cells) const {
     for (const auto& attribute : one.attributes) {
       if (quantity != attribute.table || attribute.param.kind != MUSTER_REAL) continue;
-      // Where the attribute's first number goes if it goes anywhere as it is.
-      constexpr double mark = 0.8125;
-      std::vector<double> row(columns.size(), 0), values(static_cast<std::size_t>(attribute.count), mark);
-      attribute.store(values.data(), row.data());
-      if (row[c] != mark) continue;
+      const auto plain = plain_columns(attribute, columns.size());
+      if (std::find(plain.begin(), plain.end(), c) == plain.end()) continue;
       for (std::size_t r = 0; r < cells.size(); ++r) {
         if (cells[r] >= attribute.param.min && cells[r] <= attribute.param.max) continue;
         const auto at = table.require(columns[c].name, columns[c].unit);
@@ -239,17 +234,16 @@ class RowReader {
 
 }  // namespace
 
-bool is_name(const std::string& text) {
-  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
-           c == '.';
-  });
-}
-
-void check_name(const XmlAttribute& given) {
-  if (!is_name(given.value))
-    throw invalid(given.value_place, "attribute " + quote(given.name) + ": " + quote(given.value) +
-                                         " is not a name; expected letters, digits, _, - and .");
+std::vector<std::size_t> plain_columns(const Attribute& attribute, std::size_t width) {
+  constexpr double mark = 0.8125;  // nothing that a sine or a sum makes of it is the same
+  const std::vector<double> values(static_cast<std::size_t>(attribute.count), mark);
+  std::vector<double> row(width, 0);
+  attribute.store(values.data(), row.data());
+  std::vector<std::size_t> result;
+  for (std::size_t c = 0; c < width; ++c) {
+    if (row[c] == mark) result.push_back(c);
+  }
+  return result;
 }
 
 void read_rows(const XmlElement& root, const Standard& standard, World& world) {

@@ -40,6 +40,7 @@ struct InstanceDeclaration {
   std::optional<uint64_t> revision;
   std::vector<XmlAttribute> attributes;  // without the reserved ones
   Place place;
+  bool shares_element = false;  // its attributes stand beside those of <swap>
 };
 
 struct SwapDeclaration {
@@ -83,5 +84,7 @@ uint64_t ticks_of(double time, double dt, const Place& place);
 
 // The names that nothing else in a world may be called: attributes of every plugin's element.
 inline const std::vector<std::string> reserved_attributes = {"name", "every", "library", "revision"};
+// What <swap> takes for itself where the new plugin's attributes stand in the same element.
+inline const std::vector<std::string> swap_attributes = {"at", "instance", "plugin"};
 
 }  // namespace muster

@@ -1,11 +1,13 @@
 #include "world.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
+#include "params.hpp"
+#include "rows.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
-#include "world_rows.hpp"
 
 namespace muster {
 namespace {
@@ -33,15 +35,9 @@ uint64_t positive_integer(const XmlAttribute& given) {
   return static_cast<uint64_t>(*value);
 }
 
-[[noreturn]] void unknown_attribute(const XmlAttribute& given, const std::string& element,
-                                    const std::vector<std::string>& valid) {
-  throw invalid(given.place,
-                "<" + element + "> has no attribute " + quote(given.name) + "; " + suggest(given.name, valid));
-}
-
 const XmlAttribute& needed(const XmlElement& element, const char* name) {
   if (const auto* found = element.attribute(name)) return *found;
-  throw invalid(element.place, "<" + element.name + "> has no attribute " + quote(name) + ", which it needs");
+  throw lacking(element, name);
 }
 
 void read_root(const XmlElement& root, World& world) {
@@ -64,10 +60,10 @@ void read_root(const XmlElement& root, World& world) {
                                              "; expected an integer from 0");
       world.seed = static_cast<uint64_t>(*seed);
     } else {
-      unknown_attribute(given, "world", valid);
+      refuse_unknown(given, "world", valid);
     }
   }
-  if (!until) throw invalid(root.place, "<world> has no attribute \"until\", which it needs");
+  if (!until) throw lacking(root, "until");
   world.ticks = ticks_of(number(*until, 0, "the end of the run in seconds, from 0"), world.dt, until->value_place);
 }
 
@@ -92,17 +88,31 @@ InstanceDeclaration read_instance(const XmlElement& element, const std::string& 
   return result;
 }
 
+bool is_swaps_own(const XmlAttribute& given) {
+  return std::find(swap_attributes.begin(), swap_attributes.end(), given.name) != swap_attributes.end();
+}
+
+// <swap at= instance= plugin= ...>, or with the new plugin as an element inside.
 SwapDeclaration read_swap(const XmlElement& element, const World& world) {
-  const auto& plugin = needed(element, "plugin");
-  XmlElement rest = element;
-  std::erase_if(rest.attributes,
-                [](const XmlAttribute& a) { return a.name == "at" || a.name == "instance" || a.name == "plugin"; });
   const auto& at = needed(element, "at");
-  if (const auto* name = element.attribute("name"))
-    throw invalid(name->place, "<swap> has no attribute \"name\"; the replacement keeps the name " +
-                                   quote(needed(element, "instance").value));
-  return {ticks_of(number(at, 0, "a time in seconds, from 0"), world.dt, at.value_place),
-          needed(element, "instance").value, read_instance(rest, plugin.value)};
+  const uint64_t tick = ticks_of(number(at, 0, "a time in seconds, from 0"), world.dt, at.value_place);
+  const std::string& instance = needed(element, "instance").value;
+  const XmlElement* inside = element.children.size() == 1 ? &element.children[0] : nullptr;
+  const XmlElement& given = inside ? *inside : element;
+  if (const auto* name = given.attribute("name"))
+    throw invalid(name->place,
+                  "<" + given.name + "> has no attribute \"name\"; the replacement keeps the name " + quote(instance));
+  if (inside) {
+    for (const auto& a : element.attributes) {
+      if (a.name != "at" && a.name != "instance") refuse_unknown(a, element.name, {"at", "instance"});
+    }
+    return {tick, instance, read_instance(*inside, inside->name)};
+  }
+  XmlElement rest = element;
+  std::erase_if(rest.attributes, is_swaps_own);
+  InstanceDeclaration replacement = read_instance(rest, needed(element, "plugin").value);
+  replacement.shares_element = true;
+  return {tick, instance, std::move(replacement)};
 }
 
 RecordDeclaration read_record(const XmlElement& element) {
@@ -111,7 +121,7 @@ RecordDeclaration read_record(const XmlElement& element) {
     if (given.name == "every")
       result.every = positive_integer(given);
     else if (given.name != "table")
-      unknown_attribute(given, "record", {"table", "every"});
+      refuse_unknown(given, "record", {"table", "every"});
   }
   return result;
 }

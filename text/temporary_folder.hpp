@@ -8,9 +8,9 @@
 #include <filesystem>
 #include <string>
 
-#include "text/error.hpp"
+#include "error.hpp"
 
-namespace muster::diagnosis {
+namespace muster {
 
 class TemporaryFolder {
  public:
@@ -33,4 +33,4 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace muster::diagnosis
+}  // namespace muster

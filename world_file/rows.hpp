@@ -8,8 +8,7 @@ namespace muster {
 // Adds the rows of all standard elements below the root, references between them resolved.
 void read_rows(const XmlElement& root, const Standard& standard, World& world);
 
-// Names stand in paths: letters, digits, and _ - . but no more.
-bool is_name(const std::string& text);
-void check_name(const XmlAttribute& given);
+// The columns of a row of that width in which the attribute's numbers stand as they are.
+std::vector<std::size_t> plain_columns(const Attribute& attribute, std::size_t width);
 
 }  // namespace muster
