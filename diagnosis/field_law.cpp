@@ -2,24 +2,16 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "diagnosis/judge.hpp"
 #include "diagnosis/search/tail.hpp"
 
 namespace muster::diagnosis {
 namespace {
 
-constexpr double distance_tolerance = 1.2, size_tolerance = 1.15;  // factors
-
-// Decorrelation distances at which a family's correlation is 1/e.
-double efold(noise::Family family) {
-  double low = 0, high = 10;
-  for (int round = 0; round < 50; ++round) {
-    const double middle = (low + high) / 2;
-    (noise::correlation(family, middle) > std::exp(-1.0) ? low : high) = middle;
-  }
-  return (low + high) / 2;
-}
+constexpr double wider = 1.5;  // than a chi-square: what a family is, is not known
 
 // The likelihood alone.
 noise::Prior flat() {
@@ -59,8 +51,56 @@ double best_value(const search::Bench& bench, noise::Covariance at) {
   return here;
 }
 
+// Twice the log-likelihood ratio of rows: of the fitted field against the best one near the stated one.
+double gain_of_rows(const search::Bench& bench, const StatedField& stated) {
+  constexpr double tolerance = 1.08;
+  const StatedField fitted = said_by(bench.fit.covariance);
+  const auto near = [&](double value, double said) { return std::clamp(value, said / tolerance, said * tolerance); };
+  const double size = near(fitted.shadowing, stated.shadowing);
+  const double distance = near(fitted.decorrelation, stated.decorrelation);
+  double held = 1e300;
+  for (const noise::Family family : noise::families) {
+    for (const double start : {-0.7, 0.0, 0.7}) {  // of the log variance of one reading, beside the fitted one
+      noise::Covariance at{family, bench.fit.covariance.theta};
+      at.theta[0] = 2 * std::log(std::max(size, 0.05));
+      at.theta[1] = std::log(distance / efold(family));
+      at.theta[2] += start;
+      held = std::min(held, best_value(bench, at));
+    }
+  }
+  return std::max(0.0, 2 * (held - best_value(bench, bench.fit.covariance)));
+}
+
 LawValue value_of(const char* name, double value, double sd_of_log) {
   return {name, value, value * std::exp(-1.96 * sd_of_log), value * std::exp(1.96 * sd_of_log)};
+}
+
+int thousandths(double log) { return static_cast<int>(std::lround(1e3 * log)); }
+
+// The likeliest field that is as stated. Families differ in what they call a distance by more than data can
+// tell, so that all within a tolerance count as stated; a smoother field than Matern's has a longer one by his law.
+Peak as_stated(Judge& judge, const ReadingLaw& law, const StatedField& stated) {
+  const double log_variance = std::log(variance_of(law, judge.step()));
+  const auto at = [&](noise::Family family, double distance) {
+    Peak there{0,
+               {family, thousandths(std::log(distance * stated.decorrelation / efold(family)))},
+               thousandths(log_variance - 2 * std::log(stated.shadowing))};
+    there.value = judge.value(law, there);
+    return there;
+  };
+  std::vector<Peak> middle;
+  for (const noise::Family family : noise::families) middle.push_back(at(family, 1));
+  std::sort(middle.begin(), middle.end(), [](const Peak& a, const Peak& b) { return a.value > b.value; });
+  Peak best = middle[0];
+  for (std::size_t k = 0; k < 2; ++k) {
+    const bool smooth =
+        middle[k].shape.family == noise::Family::matern32 || middle[k].shape.family == noise::Family::matern52;
+    for (const double distance : smooth ? std::array{1.12, 1.25, 1.4} : std::array{0.9, 1.0, 1.1}) {
+      const Peak there = at(middle[k].shape.family, distance);
+      if (there.value > best.value) best = there;
+    }
+  }
+  return best;
 }
 
 }  // namespace
@@ -69,30 +109,27 @@ StatedField said_by(const noise::Covariance& c) {
   return {std::sqrt(c.field_variance()), c.decorrelation() * efold(c.family)};
 }
 
-LawTest field_test(const search::Bench& bench, const StatedField& stated) {
-  const StatedField fitted = said_by(bench.fit.covariance);
+LawTest field_test(ReadingField& field, double step, const ReadingLaw& law, const StatedField& stated,
+                   const search::Bench& bench) {
+  Judge judge(field, step);
+  const double log_variance = std::log(variance_of(law, step));
+  Peak best;
+  for (const Peak& peak : judge.shapes(law, bench.fit.covariance)) {
+    if (peak.value > best.value) best = peak;
+  }
+  const Peak held = as_stated(judge, law, stated);
+  const double gain_of_readings = std::max(0.0, 2 * (best.value - held.value));
   const Eigen::Matrix4d spread = bench.fit.curvature.inverse();
+  const double size = std::exp((log_variance - 1e-3 * best.place) / 2);
+  const double distance = std::exp(1e-3 * best.shape.distance) * efold(best.shape.family);
   LawTest test{"effect.shadowing_correlation",
-               {value_of("shadowing", fitted.shadowing, std::sqrt(spread(0, 0)) / 2),
-                value_of("decorrelation", fitted.decorrelation, std::sqrt(spread(1, 1)))},
-               0,
+               {value_of("shadowing", size, std::sqrt(spread(0, 0)) / 2),
+                value_of("decorrelation", distance, std::sqrt(spread(1, 1)))},
+               std::min(gain_of_readings, gain_of_rows(bench, stated)),
                0,
                0};
-  const double size =
-      std::clamp(fitted.shadowing, stated.shadowing / size_tolerance, stated.shadowing * size_tolerance);
-  const double distance = std::clamp(fitted.decorrelation, stated.decorrelation / distance_tolerance,
-                                     stated.decorrelation * distance_tolerance);
-  if (size == fitted.shadowing && distance == fitted.decorrelation) return test;
-  double held = 1e300;
-  for (const noise::Family family : noise::families) {
-    noise::Covariance at{family, bench.fit.covariance.theta};
-    at.theta[0] = 2 * std::log(std::max(size, 0.05));
-    at.theta[1] = std::log(distance / efold(family));
-    held = std::min(held, best_value(bench, at));
-  }
-  test.gain = std::max(0.0, 2 * (held - best_value(bench, bench.fit.covariance)));
-  test.log_p = search::log_tail(test.gain, 2);
-  test.evidence = test.gain / 2 - bench.log_rows();
+  test.log_p = search::log_tail(test.gain / wider, 2);
+  test.evidence = test.gain / 2 - std::log(static_cast<double>(field.size()));
   return test;
 }
 

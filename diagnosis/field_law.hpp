@@ -1,9 +1,8 @@
 // Whether shadowing has the size and the decorrelation distance that the world says.
 #pragma once
 
-#include <optional>
-
 #include "diagnosis/scatter.hpp"
+#include "diagnosis/search/bench.hpp"
 
 namespace muster::diagnosis {
 
@@ -14,10 +13,11 @@ struct StatedField {
 // What a fitted covariance says of the same two.
 StatedField said_by(const noise::Covariance& covariance);
 
-// The likelihood of the fitted covariance against the best one that has a size and a distance near the stated ones:
-// families of covariances differ in what they call a distance by more than data can tell, so that within `tolerance`
-// all count as stated.
-LawTest field_test(const search::Bench& bench, const StatedField& stated);
+// The likelihood of the best field against that of a field with the stated size and distance, asked of single readings,
+// which know how it begins to fall, and of rows, which know how far it reaches: the smaller of both gains counts. The
+// family of correlations, which no world states, is the likeliest in each. `law`: of a reading.
+LawTest field_test(ReadingField& field, double step, const ReadingLaw& law, const StatedField& stated,
+                   const search::Bench& bench);
 
 // Covariance of rows of which each has a residual: for a draw of the world's own shadowing.
 noise::Covariance fitted_to(const search::Bench& bench, const Eigen::VectorXd& row_means);

@@ -42,10 +42,11 @@ FoundCause named(const LawSources& s, const Cause& cause, const LawTest& test) {
   return out;
 }
 
-// The same threshold as for a term that is added to others.
-bool beyond_chance(const LawSources& s, const LawTest& test) {
-  return test.evidence > 0 &&
-         test.log_p < std::log(s.bench.options().further_alpha / static_cast<double>(s.bench.entries().size()));
+// Three questions are asked, how readings scatter, how the field does, and whether people pass: each may err on so
+// large a share of clean worlds.
+bool beyond_chance(const LawTest& test) {
+  constexpr double alpha = 0.002;
+  return test.evidence > 0 && test.log_p < std::log(alpha);
 }
 
 // A stage of the world that clips there already.
@@ -138,31 +139,28 @@ bool fades_apart(const LawSources& s) {
   return ways[ways.size() / 2] > half;
 }
 
-void add_scatter(const LawSources& s, Diagnosis& found) {
-  std::string why;
-  if (!s.data.has_places())
-    why = "not testable: the data have no places";
-  else if (!s.model.has_plugin("radio.fading"))
-    why = "not testable: the world has no radio.fading that states a law";
-  else if (!fades_apart(s))
-    why = "not testable: readings lie closer than the half wavelength over which fading changes";
-  const Scatter scatter = why.empty() ? scatter_of(s.bench, residual_of(s, found), found.instrument.step) : Scatter{};
-  if (why.empty() && scatter.rows.size() < 100)
-    why = "not testable: fewer than 100 rows of readings that are no bounds";
-  for (const char* id : {"effect.fading_law", "effect.outliers", "effect.channel_mixture"}) {
-    if (!cause_called(s, id)) continue;
-    why.empty() ? found.searched.push_back(id) : found.not_tested.push_back(std::string(id) + ": " + why);
-  }
-  if (!why.empty()) return;
-  const std::vector<LawTest> tests = law_tests(scatter, stated_law(s.model));
+// Why single readings cannot be asked; empty if they can.
+std::string why_not(const LawSources& s, const VectorXd& residual) {
+  if (!s.data.has_places()) return "not testable: the data have no places";
+  if (!s.model.has_plugin("radio.fading")) return "not testable: the world has no radio.fading that states a law";
+  if (!fades_apart(s)) return "not testable: readings lie closer than the half wavelength over which fading changes";
+  constexpr Index fewest = 300;
+  if (residual.array().isFinite().count() < fewest) return "not testable: fewer than 300 readings that are no bounds";
+  return "";
+}
+
+// The law that readings follow: the stated one, or the one that is named here.
+ReadingLaw add_scatter(const LawSources& s, ReadingField& field, Diagnosis& found) {
+  const auto [tests, likeliest] = law_tests(field, found.instrument.step, stated_law(s.model), s.bench.fit.covariance);
   const auto best =
       std::find_if(tests.begin(), tests.end(), [&](const LawTest& t) { return cause_called(s, t.cause); });
-  if (best == tests.end() || !beyond_chance(s, *best)) return;
+  if (best == tests.end() || !beyond_chance(*best)) return likeliest;
   found.causes.push_back(named(s, *cause_called(s, best->cause), *best));
   for (const LawTest& other : tests) {
     const double gap = best->evidence - other.evidence;
     if (&other != &*best && gap < 3) found.causes.back().rivals.push_back({other.cause, "all", {}, gap, 2 * gap});
   }
+  return best->law;
 }
 
 // What the fit of rows says of a draw of the world's own shadowing, if that is the same as of the data.
@@ -176,47 +174,99 @@ bool world_draws_alike(const LawSources& s) {
          std::abs(std::log(own.decorrelation / fitted.decorrelation)) < std::log(1.6);
 }
 
-void add_field(const LawSources& s, Diagnosis& found) {
+// Of readings that only a bound is known of.
+double bounds_share(const LawSources& s) {
+  const auto& known = s.bench.problem().bounds.known;
+  const auto bounds =
+      std::count_if(known.begin(), known.end(), [](noise::Known k) { return k != noise::Known::value; });
+  return static_cast<double>(bounds) / static_cast<double>(s.used.size());
+}
+
+void add_field(const LawSources& s, ReadingField& field, const ReadingLaw& law, Diagnosis& found) {
   const Cause* const cause = cause_called(s, "effect.shadowing_correlation");
   if (!cause) return;
   const auto stated = [&](const char* name) {
     return s.model.value_of(cause->id, name, s.model.value_of("radio.fading", name, 0));
   };
-  const StatedField field{stated("shadowing"), stated("decorrelation")};
-  if (field.shadowing <= 0 || !s.data.has_places()) {
-    found.not_tested.push_back(cause->id + ": not testable: " +
-                               (s.data.has_places() ? "the world states no shadowing" : "the data have no places"));
+  const StatedField said{stated("shadowing"), stated("decorrelation")};
+  if (said.shadowing <= 0) {
+    found.not_tested.push_back(cause->id + ": not testable: the world states no shadowing");
     return;
   }
-  const auto& known = s.bench.problem().bounds.known;
-  const auto bounds =
-      std::count_if(known.begin(), known.end(), [](noise::Known k) { return k != noise::Known::value; });
-  if (static_cast<double>(bounds) > 0.05 * static_cast<double>(s.used.size())) {
+  if (bounds_share(s) > 0.05) {
     found.not_tested.push_back(cause->id + ": not testable: of more than 5 % of the readings only a bound is known");
     return;
   }
   found.searched.push_back(cause->id);
-  const LawTest test = field_test(s.bench, field);
-  if (beyond_chance(s, test) && !world_draws_alike(s)) found.causes.push_back(named(s, *cause, test));
+  const LawTest test = field_test(field, found.instrument.step, law, said, s.bench);
+  if (beyond_chance(test) && !world_draws_alike(s)) found.causes.push_back(named(s, *cause, test));
 }
 
-void add_people(const LawSources& s, Diagnosis& found) {
-  const Cause* const cause = cause_called(s, "effect.people");
-  if (!cause) return;
-  if (s.data.t.empty()) {
-    found.not_tested.push_back(cause->id + ": not testable: the data have no t");
+// Either law can be taken for a part of the other: the weaker one of both stands only if it is beyond doubt.
+void leave_the_stronger(Diagnosis& found) {
+  constexpr double doubt = 30;  // of lambda
+  const auto weaker = std::min_element(found.causes.end() - 2, found.causes.end(),
+                                       [](const FoundCause& a, const FoundCause& b) { return a.lambda < b.lambda; });
+  if (weaker->lambda < doubt) found.causes.erase(weaker);
+}
+
+// What asks single readings, one after the other.
+void add_laws_of_readings(const LawSources& s, const VectorXd& residual, Diagnosis& found) {
+  const std::string why = why_not(s, residual);
+  for (const char* id : {"effect.fading_law", "effect.outliers", "effect.channel_mixture"}) {
+    if (!cause_called(s, id)) continue;
+    why.empty() ? found.searched.push_back(id) : found.not_tested.push_back(std::string(id) + ": " + why);
+  }
+  if (!why.empty()) {
+    if (cause_called(s, "effect.shadowing_correlation"))
+      found.not_tested.push_back("effect.shadowing_correlation: " + why);
     return;
   }
+  ReadingField field(s.bench.problem().readings, residual);
+  const std::size_t before = found.causes.size();
+  const ReadingLaw law = add_scatter(s, field, found);
+  add_field(s, field, law, found);
+  if (found.causes.size() == before + 2) leave_the_stronger(found);
+}
+
+// Whether they are named.
+bool add_people(const LawSources& s, Diagnosis& found) {
+  const Cause* const cause = cause_called(s, "effect.people");
+  if (!cause) return false;
+  if (s.data.t.empty()) {
+    found.not_tested.push_back(cause->id + ": not testable: the data have no t");
+    return false;
+  }
+  if (bounds_share(s) > 0.01) {  // what is clipped looks like bursts
+    found.not_tested.push_back(cause->id + ": not testable: of more than 1 % of the readings only a bound is known");
+    return false;
+  }
   found.searched.push_back(cause->id);
-  if (s.model.has_plugin(cause->id)) return;
+  if (s.model.has_plugin(cause->id)) return false;
   const Passages passages = passages_of(s.bench);
-  if (passages.radio < 0 || !beyond_chance(s, passages.test)) return;
+  // Beside other misfits, which may not be all understood, bursts must be clearer.
+  const bool alone = found.causes.empty() && found.unexplained.empty();
+  constexpr double in_company = -9;  // log p
+  if (passages.radio < 0 || !beyond_chance(passages.test) || (!alone && passages.test.log_p > in_company)) return false;
   FoundCause out = named(s, *cause, passages.test);
   out.row_parameter = "radio";
   out.row = s.model.radio_name(passages.radio);
   out.words["other"] = s.model.radio_name(passages.other);
   out.label = "radio/" + out.row + " radio/" + out.words["other"];
   found.causes.push_back(std::move(out));
+  return true;
+}
+
+// What people do to a link is no law of single readings.
+VectorXd without_link(const LawSources& s, const FoundCause& people, VectorXd residual) {
+  const noise::Readings& r = s.bench.problem().readings;
+  for (Index i = 0; i < residual.size(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const std::string tx = s.model.radio_name(r.tx[k]), rx = s.model.radio_name(r.rx[k]);
+    const std::string& other = people.words.at("other");
+    if ((tx == people.row && rx == other) || (tx == other && rx == people.row)) residual[i] = std::nan("");
+  }
+  return residual;
 }
 
 }  // namespace
@@ -231,9 +281,8 @@ void add_clips(const LawSources& s, Diagnosis& found) {
 }
 
 void add_laws(const LawSources& s, Diagnosis& found) {
-  add_scatter(s, found);
-  add_field(s, found);
-  add_people(s, found);
+  const VectorXd residual = residual_of(s, found);
+  add_laws_of_readings(s, add_people(s, found) ? without_link(s, found.causes.back(), residual) : residual, found);
 }
 
 }  // namespace muster::diagnosis

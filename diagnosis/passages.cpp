@@ -1,106 +1,249 @@
 #include "diagnosis/passages.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+
+#include "muster/random.hpp"
 
 namespace muster::diagnosis {
 namespace {
 
 using Eigen::Index;
+using Eigen::VectorXd;
 
-constexpr std::array durations{2.0, 4.0, 7.0};                     // s
-constexpr std::array losses{2.0, 3.0, 4.5, 6.5, 9.0, 13.0, 18.0};  // dB
-constexpr std::array shares{0.03, 0.07, 0.14, 0.25};
+constexpr std::array widths{0.8, 1.4, 2.5};              // s, at which a dip has fallen to 1/e
+constexpr std::array losses{2.5, 4.0, 6.5, 10.0, 15.0};  // dB
+constexpr double between = 25;                           // s, from one passage to the next, on average
+constexpr double spacing = 0.6;                          // s, of the times that are tried
+constexpr int shuffles = 60;
+constexpr std::size_t fewest_rows = 40;  // of a link
+constexpr double impossible = -1e300;
 
-// A window's whitened indicator: what it has in common with what is left, and its energy.
-struct Window {
-  double score, energy;
+struct Dip {
+  std::vector<std::pair<Index, double>> rows;  // share of the loss that each row shows
+  double energy = 0;                           // of a loss of 1 dB in whitened space
 };
 
-struct Found {
-  double gain = 0, loss = 0, share = 0, duration = 0;  // gain in nats
+// The dips of one width, by their time.
+struct Train {
+  double width;
+  std::vector<Dip> dips;
 };
 
-double log_ratio(const std::vector<Window>& windows, double loss, double share) {
-  double sum = 0;
-  for (const Window& w : windows)
-    sum += std::log1p(share * std::expm1(std::min(-loss * w.score - loss * loss * w.energy / 2, 600.0)));
-  return sum;
+struct Link {
+  std::pair<int, int> radios;
+  std::vector<Train> trains;
+};
+
+// Log likelihood ratios of one link's passages, by width and loss.
+using Ratios = std::array<std::array<double, losses.size()>, widths.size()>;
+
+double log_sum(double a, double b) {
+  const double high = std::max(a, b);
+  return high + std::log1p(std::exp(std::min(a, b) - high));
 }
 
-std::vector<Window> windows_of(const search::Stand& stand, Index rows, const std::map<long, std::vector<Index>>& cut) {
-  std::vector<Window> result;
-  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(rows, static_cast<Index>(cut.size()));
-  Index k = 0;
-  for (const auto& [number, members] : cut) {
-    for (const Index row : members) columns(row, k) = 1;
-    ++k;
+double log_mean(const Ratios& ratios) {
+  double sum = impossible;
+  for (const auto& of_width : ratios) {
+    for (const double r : of_width) sum = log_sum(sum, r);
   }
-  const Eigen::MatrixXd white = stand.at.basis.rest(stand.whitener(columns));
-  for (Index j = 0; j < white.cols(); ++j)
-    result.push_back({white.col(j).dot(stand.at.residual), white.col(j).squaredNorm()});
+  return sum - std::log(static_cast<double>(widths.size() * losses.size()));
+}
+
+class Scan {
+ public:
+  explicit Scan(const search::Bench& bench) : bench_(bench), stand_(bench.stand(bench.design())) {
+    const noise::Field& field = bench.field();
+    users_.resize(static_cast<std::size_t>(field.size()));
+    for (Index row = 0; row < field.size(); ++row) {
+      users_[static_cast<std::size_t>(row)].emplace_back(row, own(row));
+      for (int slot = 0; slot < field.slots(); ++slot) {
+        const Index near = field.neighbour(row, slot);
+        if (near >= 0) users_[static_cast<std::size_t>(near)].emplace_back(row, beside(row, slot));
+      }
+    }
+    for (const auto& [radios, readings] : readings_of_links()) links_.push_back(link(radios, readings));
+  }
+
+  const std::vector<Link>& links() const { return links_; }
+  const VectorXd& residual() const { return stand_.at.residual; }
+
+  // What each row says of a shift of its own: dips' scores are sums of these.
+  VectorXd pulls(const VectorXd& whitened) const {
+    VectorXd result = VectorXd::Zero(whitened.size());
+    for (Index row = 0; row < result.size(); ++row) {
+      for (const auto& [user, weight] : users_[static_cast<std::size_t>(row)]) result[row] += weight * whitened[user];
+    }
+    return result;
+  }
+
+  // Passages come at random, no two of them nearer than three widths.
+  Ratios ratios(const Link& link, const VectorXd& pulls) const {
+    Ratios result{};
+    const double log_rate = std::log(spacing / between), log_none = std::log1p(-spacing / between);
+    for (std::size_t w = 0; w < link.trains.size(); ++w) {
+      const Train& train = link.trains[w];
+      std::vector<double> scores;
+      for (const Dip& dip : train.dips) {
+        double score = 0;
+        for (const auto& [row, share] : dip.rows) score -= share * pulls[row];
+        scores.push_back(score);
+      }
+      const auto gap = static_cast<std::size_t>(std::ceil(3 * train.width / spacing));
+      for (std::size_t l = 0; l < losses.size(); ++l) {
+        std::vector<double> sum(scores.size() + 1, 0);  // of the ratios of all passages so far
+        for (std::size_t k = 0; k < scores.size(); ++k) {
+          const double gain = losses[l] * scores[k] - losses[l] * losses[l] * train.dips[k].energy / 2;
+          const double before = k + 1 > gap ? sum[k + 1 - gap] : 0;
+          sum[k + 1] = log_sum(log_none + sum[k], log_rate + before + gain);
+        }
+        result[w][l] = sum.back();
+      }
+    }
+    return result;
+  }
+
+ private:
+  double own(Index row) const { return stand_.whitener.stencil().own[static_cast<std::size_t>(row)]; }
+  double beside(Index row, int slot) const {
+    return stand_.whitener.stencil().beside[static_cast<std::size_t>(row * bench_.field().slots() + slot)];
+  }
+
+  // By time, both ways of a link together; of links with few rows none.
+  std::map<std::pair<int, int>, std::vector<Index>> readings_of_links() const {
+    const noise::Readings& r = bench_.problem().readings;
+    std::map<std::pair<int, int>, std::vector<Index>> result;
+    std::map<std::pair<int, int>, std::size_t> rows;
+    for (Index i = 0; i < r.size(); ++i)
+      result[std::minmax(r.tx[static_cast<std::size_t>(i)], r.rx[static_cast<std::size_t>(i)])].push_back(i);
+    for (Index row = 0; row < bench_.rows().size(); ++row) {
+      const auto i = static_cast<std::size_t>(bench_.rows().example(row));
+      ++rows[std::minmax(r.tx[i], r.rx[i])];
+    }
+    for (auto link = result.begin(); link != result.end();)
+      link = rows[link->first] < fewest_rows ? result.erase(link) : std::next(link);
+    for (auto& [radios, readings] : result) {
+      std::stable_sort(readings.begin(), readings.end(), [&](Index a, Index b) { return time(a) < time(b); });
+    }
+    return result;
+  }
+
+  double time(Index reading) const { return bench_.problem().readings.t[static_cast<std::size_t>(reading)]; }
+
+  Link link(const std::pair<int, int>& radios, const std::vector<Index>& readings) const {
+    Link result{radios, {}};
+    VectorXd sheet = VectorXd::Zero(bench_.rows().size());
+    const double first = time(readings.front()), last = time(readings.back());
+    for (const double width : widths) {
+      Train train{width, {}};
+      std::size_t from = 0;
+      for (double at = first; at <= last; at += spacing) {
+        while (from < readings.size() && time(readings[from]) < at - 2.5 * width) ++from;
+        std::map<Index, double> shares;
+        for (std::size_t k = from; k < readings.size() && time(readings[k]) <= at + 2.5 * width; ++k) {
+          const double u = (time(readings[k]) - at) / width;
+          const Index row = bench_.rows().row_of()[static_cast<std::size_t>(readings[k])];
+          shares[row] += std::exp(-u * u) / bench_.rows().count()[row];
+        }
+        train.dips.push_back({{shares.begin(), shares.end()}, 0});
+        train.dips.back().energy = energy(train.dips.back(), sheet);
+      }
+      result.trains.push_back(std::move(train));
+    }
+    return result;
+  }
+
+  // `sheet`: zeros, as it is left.
+  double energy(const Dip& dip, VectorXd& sheet) const {
+    for (const auto& [row, share] : dip.rows) {
+      for (const auto& [user, weight] : users_[static_cast<std::size_t>(row)]) sheet[user] += share * weight;
+    }
+    double sum = 0;
+    for (const auto& [row, share] : dip.rows) {
+      for (const auto& [user, weight] : users_[static_cast<std::size_t>(row)]) {
+        sum += sheet[user] * sheet[user];
+        sheet[user] = 0;
+      }
+    }
+    return sum;
+  }
+
+  const search::Bench& bench_;
+  search::Stand stand_;
+  std::vector<std::vector<std::pair<Index, double>>> users_;  // whitened rows that a row is part of, with its weight
+  std::vector<Link> links_;
+};
+
+// The highest of all links.
+double highest(const Scan& scan, const VectorXd& whitened) {
+  const VectorXd pulls = scan.pulls(whitened);
+  double most = impossible;
+  for (const Link& link : scan.links()) most = std::max(most, log_mean(scan.ratios(link, pulls)));
+  return most;
+}
+
+VectorXd shuffled(const VectorXd& values, uint64_t number) {
+  const Stream stream(combined(key_of("passages shuffled"), number));
+  VectorXd result = values;
+  for (Index i = result.size() - 1; i > 0; --i) {
+    const auto other = static_cast<Index>(stream.uniform(static_cast<uint64_t>(i)) * static_cast<double>(i + 1));
+    std::swap(result[i], result[other]);
+  }
   return result;
 }
 
-// Of a row: its readings' mean time.
-Eigen::VectorXd times_of(const search::Bench& bench) {
-  const auto& t = bench.problem().readings.t;
-  return bench.rows().mean(Eigen::Map<const Eigen::VectorXd>(t.data(), static_cast<Index>(t.size())));
-}
-
-Found best_of(const search::Stand& stand, const Eigen::VectorXd& t, const std::vector<Index>& members) {
-  Found best;
-  for (const double duration : durations) {
-    std::map<long, std::vector<Index>> cut;
-    for (const Index row : members) cut[std::lround(std::floor(t[row] / duration))].push_back(row);
-    const std::vector<Window> windows = windows_of(stand, t.size(), cut);
-    for (const double loss : losses) {
-      for (const double share : shares) {
-        const double gain = log_ratio(windows, loss, share);
-        if (gain > best.gain) best = {gain, loss, share, duration};
-      }
-    }
+// log p of the highest ratio, by a Gumbel law through the moments of the shuffled ones; a ratio's tail is never
+// shorter than exponential.
+double log_p(const Scan& scan, double ratio) {
+  double first = 0, second = 0;
+  for (uint64_t k = 0; k < shuffles; ++k) {
+    const double value = highest(scan, shuffled(scan.residual(), k));
+    first += value / shuffles;
+    second += value * value / shuffles;
   }
-  return best;
+  const double sd = std::sqrt(std::max(second - first * first, 0.0));
+  const double scale = std::max(1.0, sd * std::sqrt(6.0) / M_PI);
+  const double place = (ratio - (first - 0.5772 * scale)) / scale;
+  return place > 30 ? -place : std::log(-std::expm1(-std::exp(-place)));
 }
 
 }  // namespace
 
 Passages passages_of(const search::Bench& bench) {
-  const search::Stand stand = bench.stand(bench.design());
-  const Eigen::VectorXd t = times_of(bench);
-  const noise::Readings& r = bench.problem().readings;
-  std::map<std::pair<int, int>, std::vector<Index>> links;
-  for (Index row = 0; row < bench.rows().size(); ++row) {
-    const auto i = static_cast<std::size_t>(bench.rows().example(row));
-    links[std::minmax(r.tx[i], r.rx[i])].push_back(row);
-  }
+  const Scan scan(bench);
   Passages result;
-  Found best;
-  double second = 0;
-  for (const auto& [link, members] : links) {
-    if (members.size() < 40) continue;
-    const Found found = best_of(stand, t, members);
-    if (found.gain <= best.gain) {
-      second = std::max(second, found.gain);
-      continue;
-    }
-    second = best.gain;
-    best = found;
-    result.radio = link.first;
-    result.other = link.second;
+  result.test.cause = "effect.people";
+  const VectorXd pulls = scan.pulls(scan.residual());
+  double best = impossible;
+  Ratios at{};
+  for (const Link& link : scan.links()) {
+    const Ratios ratios = scan.ratios(link, pulls);
+    const double mean = log_mean(ratios);
+    if (mean <= best) continue;
+    best = mean;
+    at = ratios;
+    result.radio = link.radios.first;
+    result.other = link.radios.second;
   }
-  const double tests = static_cast<double>(links.size() * durations.size() * losses.size() * shares.size());
-  LawTest& test = result.test;
-  test.cause = "effect.people";
+  constexpr double promising = 3;  // nats; below that shuffles could only say no
+  if (best < promising) return result;
+  std::size_t width = 0, loss = 0;
+  for (std::size_t w = 0; w < widths.size(); ++w) {
+    for (std::size_t l = 0; l < losses.size(); ++l) {
+      if (at[w][l] > at[width][loss]) width = w, loss = l;
+    }
+  }
+  const double duration = widths[width] * std::sqrt(M_PI), share = duration / between;
   // Neighbouring entries of the grids bound each value.
-  test.values = {{"loss", best.loss, best.loss / 1.4, best.loss * 1.4},
-                 {"share", best.share, best.share / 2, std::min(1.0, best.share * 2)},
-                 {"duration", best.duration, best.duration / 2, best.duration * 2}};
-  test.gain = 2 * std::max(0.0, best.gain - second);
-  test.evidence = test.gain / 2 - std::log(tests);
-  test.log_p = std::min(0.0, -test.evidence);
+  result.test.values = {{"loss", losses[loss], losses[loss] / 1.6, losses[loss] * 1.6},
+                        {"share", share, share / 2, std::min(1.0, share * 2)},
+                        {"duration", duration, duration / 1.8, duration * 1.8}};
+  result.test.gain = 2 * at[width][loss];
+  result.test.evidence = best - std::log(static_cast<double>(scan.links().size()));
+  result.test.log_p = log_p(scan, best);
   return result;
 }
 

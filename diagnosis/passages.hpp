@@ -1,7 +1,9 @@
-// Bursts of loss on one link: somebody stands in the way for a while, again and again, at times that nobody knows.
+// Bursts of loss on one link: somebody crosses the line between two radios, again and again, at times that nobody
+// knows.
 #pragma once
 
 #include "diagnosis/scatter.hpp"
+#include "diagnosis/search/bench.hpp"
 
 namespace muster::diagnosis {
 
@@ -10,10 +12,9 @@ struct Passages {
   LawTest test;
 };
 
-// The likeliest link, loss, share and duration. Time is cut into windows of the duration, in each of which somebody may
-// stand in the way: the likelihood ratio of that mixture against nobody has mean 1 when nobody does, so that by
-// Markov's inequality its inverse bounds the p-value. What the next best link shows is taken off: skewed fading shows
-// on all.
+// The likeliest link, loss, share and duration. Each link is scanned with dips of some widths and losses: the
+// likelihood ratio of passages at unknown times, averaged over both, against nobody. Its p-value comes from the same
+// scan of what the model leaves, shuffled in whitened space: that keeps how skewed errors are, and breaks bursts up.
 Passages passages_of(const search::Bench& bench);
 
 }  // namespace muster::diagnosis

@@ -82,20 +82,40 @@ std::vector<double> with_outliers(const std::vector<double>& table, const Readin
   return mixed(table, places, weights);
 }
 
-// A normal spread and the uniform one of rounding.
-std::vector<double> widened(const std::vector<double>& table, double spread, double step, double bin) {
-  std::vector<double> places, weights;
-  const double variance = spread * spread + step * step / 12;
-  const auto reach = static_cast<int>(4 * std::sqrt(variance) / bin) + 1;
-  double sum = 0;
-  for (int k = -reach; k <= reach; ++k) {
-    const double z = k * bin;
-    places.push_back(k);
-    weights.push_back(std::exp(-z * z / (2 * variance + 1e-9)));
-    sum += weights.back();
+// Convolved with a kernel of these values at whole bins about the middle one.
+std::vector<double> smeared(const std::vector<double>& table, const std::vector<double>& kernel) {
+  const std::size_t reach = kernel.size() / 2;
+  std::vector<double> result(table.size(), 0);
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    if (table[i] == 0) continue;
+    const std::size_t from = i < reach ? reach - i : 0, to = std::min(kernel.size(), table.size() + reach - i);
+    for (std::size_t k = from; k < to; ++k) result[i + k - reach] += table[i] * kernel[k];
   }
-  for (double& w : weights) w /= sum;
-  return mixed(table, places, weights);
+  return result;
+}
+
+std::vector<double> normal_kernel(double variance, double bin) {
+  const auto reach = static_cast<std::ptrdiff_t>(4.5 * std::sqrt(variance) / bin) + 1;
+  std::vector<double> kernel;
+  double sum = 0;
+  for (std::ptrdiff_t k = -reach; k <= reach; ++k) {
+    const double z = static_cast<double>(k) * bin;
+    kernel.push_back(std::exp(-z * z / (2 * variance)));
+    sum += kernel.back();
+  }
+  for (double& v : kernel) v /= sum;
+  return kernel;
+}
+
+// Uniform over a step.
+std::vector<double> box_kernel(double step, double bin) {
+  const auto reach = static_cast<std::ptrdiff_t>(std::ceil(step / 2 / bin + 0.5));
+  std::vector<double> kernel;
+  for (std::ptrdiff_t k = -reach; k <= reach; ++k) {
+    const double left = (static_cast<double>(k) - 0.5) * bin, right = left + bin;
+    kernel.push_back(std::max(0.0, std::min(right, step / 2) - std::max(left, -step / 2)) / step);
+  }
+  return kernel;
 }
 
 // Of fading whose K is a whole number of dB; worked out once for each n.
@@ -130,17 +150,33 @@ double rician_k_of(double variance, int averaged) {
   return (low + high) / 2;
 }
 
-ReadingDensity::ReadingDensity(const ReadingLaw& law, double spread, double step) {
-  std::vector<double> table = fading_table(law.rician_k, law.averaged, lowest, bin, bins);
-  table = with_outliers(with_channels(table, law, bin), law, bin);
-  const double mean = mean_of(table, lowest, bin);
-  table = widened(mixed(table, {-mean / bin}, {1}), spread, step, bin);
-  const double total = [&] {
-    double sum = 0;
-    for (const double v : table) sum += v * bin;
-    return sum;
-  }();
-  for (const double v : table) log_.push_back(std::max(std::log(std::max(v / total, 1e-300)), log_floor));
+ReadingDensities::ReadingDensities(const ReadingLaw& law, double step, double lowest, double highest)
+    : lowest_(lowest), top_(std::max(1.0, std::ceil((highest - lowest) / log_factor))) {
+  constexpr int finer = 2;  // bins of the law itself, before anything is smooth
+  constexpr double fine = bin / finer;
+  const double start = first_db - bin / 2;
+  std::vector<double> law_table = fading_table(law.rician_k, law.averaged, start, fine, bins * finer);
+  law_table = with_outliers(with_channels(law_table, law, fine), law, fine);
+  const double mean = mean_of(law_table, start, fine);
+  if (step > 0) law_table = smeared(law_table, box_kernel(step, fine));
+  double total = 0;
+  for (const double v : law_table) total += v * bin / finer;
+  std::vector<double> level(bins, 0);
+  for (std::size_t i = 0; i < law_table.size(); ++i) {  // moved by its mean, shared out between two bins
+    const double place = (start + fine * (static_cast<double>(i) + 0.5) - mean - first_db) / bin;
+    if (!(place >= 0 && place < bins - 1)) continue;
+    const auto b = static_cast<std::size_t>(place);
+    const double along = place - static_cast<double>(b), mass = law_table[i] / finer / total;
+    level[b] += (1 - along) * mass;
+    level[b + 1] += along * mass;
+  }
+  double variance = 0;
+  for (std::size_t l = 0; l <= static_cast<std::size_t>(top_); ++l) {
+    const double next = std::exp(lowest + log_factor * static_cast<double>(l));
+    level = smeared(level, normal_kernel(next - variance, bin));
+    variance = next;
+    table_.insert(table_.end(), level.begin(), level.end());
+  }
 }
 
 }  // namespace muster::diagnosis

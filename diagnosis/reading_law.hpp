@@ -1,6 +1,8 @@
 // What a single reading adds to the level of its place: fading, hopping channels, outliers; as densities in dB.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace muster::diagnosis {
@@ -18,23 +20,33 @@ double fading_variance(double rician_k, int averaged);
 // The K whose fading has this variance; NaN where none has.
 double rician_k_of(double variance, int averaged);
 
-// The law's density per dB about its own mean, widened by a normal spread and by the step of the readings.
-class ReadingDensity {
+// The law's densities per dB about its own mean, widened by the step of the readings and by normal spreads.
+class ReadingDensities {
  public:
-  ReadingDensity(const ReadingLaw& law, double spread, double step);
+  // For spreads whose log variance lies between these.
+  ReadingDensities(const ReadingLaw& law, double step, double lowest, double highest);
 
-  // log of the density; between table entries the nearest one.
-  double log_at(double db) const {
-    const double place = (db - lowest) / bin;
-    if (!(place >= 0 && place < static_cast<double>(log_.size()))) return log_floor;
-    return log_[static_cast<std::size_t>(place)];
+  double log_at(double db, double log_variance) const {
+    const double place = (db - first_db) / bin;
+    if (!(place >= 0 && place < bins - 1)) return log_anything;
+    const auto b = static_cast<std::size_t>(place);
+    const double along = place - static_cast<double>(b);
+    const double level = std::min(std::max((log_variance - lowest_) / log_factor, 0.0), top_);
+    const auto l = std::min(static_cast<std::size_t>(level), static_cast<std::size_t>(top_) - 1);
+    const double part = std::expm1((level - static_cast<double>(l)) * log_factor) / std::expm1(log_factor);
+    const double* const low = table_.data() + l * bins + b;
+    const double* const high = low + bins;
+    const double at_low = low[0] + along * (low[1] - low[0]), at_high = high[0] + along * (high[1] - high[0]);
+    return std::log(at_low + part * (at_high - at_low) + anything);
   }
 
  private:
-  static constexpr double lowest = -70, bin = 0.1;  // dB
-  static constexpr double log_floor = -18.4;        // a hundred-millionth a dB: no law is trusted to its last tail
-  static constexpr std::size_t bins = 1400;
-  std::vector<double> log_;
+  static constexpr double first_db = -65, bin = 0.2, log_factor = 0.4;
+  static constexpr std::size_t bins = 601;
+  // No law is trusted to its last tail.
+  static constexpr double anything = 1e-8, log_anything = -18.42;  // per dB
+  double lowest_, top_;  // log variance of the first level; number of levels after it
+  std::vector<double> table_;
 };
 
 }  // namespace muster::diagnosis

@@ -1,117 +1,49 @@
 #include "diagnosis/scatter.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
-#include <numeric>
+#include <map>
 
+#include "diagnosis/judge.hpp"
 #include "diagnosis/search/tail.hpp"
 
 namespace muster::diagnosis {
 namespace {
 
 using Eigen::Index;
-using Eigen::VectorXd;
 
-constexpr std::size_t most_rows = 3000;
-constexpr Index neighbours = 12;
+constexpr std::array averages{1, 2, 3, 4, 6};  // fades in one reading
+constexpr double unlikely = 6;                 // nats behind the best shape of a field
+// Gains of clean worlds are so much wider than a chi-square: no family of correlations is quite the field's own.
+constexpr double wider = 1.5;
+const double averaged_cost = std::log(5.0);  // nats: the stated law is that of single fades
 
-// The rows of the same anchor that lie nearest.
-std::vector<Index> nearest(const noise::Sites& sites, Index row, const std::vector<bool>& usable) {
-  std::vector<std::pair<double, Index>> all;
-  for (Index j = 0; j < sites.size(); ++j) {
-    if (j == row || sites.radio[static_cast<std::size_t>(j)] != sites.radio[static_cast<std::size_t>(row)]) continue;
-    if (usable[static_cast<std::size_t>(j)]) all.emplace_back((sites.place.col(j) - sites.place.col(row)).norm(), j);
-  }
-  const auto count = std::min(all.size(), static_cast<std::size_t>(neighbours));
-  std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count), all.end());
-  std::vector<Index> result;
-  for (std::size_t k = 0; k < count; ++k) result.push_back(all[k].second);
-  return result;
+ReadingLaw averaged_over(ReadingLaw law, int n) {
+  const double variance = fading_variance(law.rician_k, law.averaged);
+  law.averaged = n;
+  if (n > 1) law.rician_k = rician_k_of(variance, n);
+  return law;
 }
 
-// The field at a row given its neighbours' means.
-void predict(const noise::Sites& sites, const noise::Covariance& c, const std::vector<Index>& others, Index row,
-             const VectorXd& means, ScatterRow& out) {
-  const auto covariance = [&](Index a, Index b) {
-    const double d =
-        (sites.place.col(a) - sites.place.col(b)).norm() + (sites.anchor.col(a) - sites.anchor.col(b)).norm();
-    return c.field_variance() *
-           noise::correlation(c.family, noise::softened(c.family, d, sites.soft) / c.decorrelation());
-  };
-  const auto n = static_cast<Index>(others.size());
-  Eigen::MatrixXd among(n, n);
-  VectorXd to(n), y(n);
-  for (Index i = 0; i < n; ++i) {
-    const Index a = others[static_cast<std::size_t>(i)];
-    for (Index j = 0; j <= i; ++j) among(i, j) = among(j, i) = covariance(a, others[static_cast<std::size_t>(j)]);
-    among(i, i) += c.reading_variance() / sites.count[a];
-    to[i] = covariance(a, row);
-    y[i] = means[a];
-  }
-  const VectorXd weights = n > 0 ? VectorXd(among.ldlt().solve(to)) : VectorXd();
-  out.level = n > 0 ? weights.dot(y) : 0;
-  out.variance = std::max(c.field_variance() - (n > 0 ? weights.dot(to) : 0), 0.02 * c.field_variance() + 1e-6);
-}
+bool possible(const ReadingLaw& law) { return !std::isnan(law.rician_k); }
 
-// What the field varies about its mean over a row's readings, at their true distances.
-double within_row(const search::Bench& bench, const std::vector<Index>& readings) {
-  const noise::Readings& r = bench.problem().readings;
-  const noise::Covariance& c = bench.fit.covariance;
-  double sum = 0;
-  for (const Index i : readings) {
-    for (const Index j : readings)
-      sum += noise::correlation(
-          c.family,
-          ((r.rx_at.col(i) - r.rx_at.col(j)).norm() + (r.tx_at.col(i) - r.tx_at.col(j)).norm()) / c.decorrelation());
-  }
-  const auto n = static_cast<double>(readings.size());
-  return c.field_variance() * (1 - sum / (n * n));
-}
+double cost_of(const ReadingLaw& law) { return law.averaged > 1 ? averaged_cost : 0; }
 
-struct Base {
-  ReadingLaw law;
-  double within = 1, log_likelihood = -1e300;
-};
-
-using Change = std::function<ReadingLaw(ReadingLaw)>;
-
-// The stated law with readings averaged over n fades of the same spread, each with more or less of the field within a
-// row; one after the other, twice.
-Base best_base(const Scatter& s, const ReadingLaw& stated, const Change& change, double within) {
-  Base best;
-  const double variance = fading_variance(stated.rician_k, stated.averaged);
-  const auto try_one = [&](int n, double share) {
-    ReadingLaw law = stated;
-    law.averaged = n;
-    if (n > 1) law.rician_k = rician_k_of(variance, n);
-    if (std::isnan(law.rician_k)) return;
-    law = change(law);
-    if (std::isnan(law.rician_k)) return;
-    const double value = s.log_likelihood(law, share);
-    if (value > best.log_likelihood) best = {law, share, value};
-  };
-  best.within = within;
-  for (const int n : {1, 2, 3, 4, 6}) try_one(n, within);
-  for (const double share : {0.0, 0.5, 1.0, 1.6, 2.4}) try_one(best.law.averaged, share);
-  for (const int n : {1, 2, 3, 4, 6}) {
-    if (best.within != within) try_one(n, best.within);
-  }
-  return best;
-}
-
-ReadingLaw unchanged(const ReadingLaw& law) { return law; }
-
-// A law along one strength, at the shape of fading that the stated law fits best with.
+// A law along one strength.
 struct Family {
   std::string cause, name;
   std::vector<double> strengths;
   std::function<ReadingLaw(ReadingLaw, double)> with;
   std::function<double(double)> reported;  // of a strength
   std::vector<LawValue> beside;
-  int parameters;
-  double tests;
+};
+
+struct Fitted {
+  Peak peak;
+  ReadingLaw base, law;  // without and with the strength
+  double strength = 0;
 };
 
 double crossing(const std::function<double(double)>& value, double from, double to, double least) {
@@ -122,46 +54,96 @@ double crossing(const std::function<double(double)>& value, double from, double 
   return (from + to) / 2;
 }
 
-LawTest tested(const Scatter& s, const ReadingLaw& stated, const Base& null, const Family& family) {
-  std::size_t best = 0;
-  double highest = -1e300;
-  for (std::size_t k = 0; k < family.strengths.size(); ++k) {
-    for (const ReadingLaw& from : {null.law, stated}) {  // what is averaged cannot vary much
-      const ReadingLaw law = family.with(from, family.strengths[k]);
-      const double value = std::isnan(law.rician_k) ? -1e300 : s.log_likelihood(law, null.within);
-      if (value > highest) highest = value, best = k;
+class Tests {
+ public:
+  Tests(ReadingField& field, double step, const ReadingLaw& stated, const noise::Covariance& fit)
+      : judge_(field, step), stated_(stated) {
+    for (const int n : averages) {
+      const ReadingLaw law = averaged_over(stated, n);
+      if (possible(law)) bases_.push_back(law);
+    }
+    starts_ = judge_.shapes(stated, fit);
+    const double most = std::max_element(starts_.begin(), starts_.end(), lower)->value;
+    starts_.erase(
+        std::remove_if(starts_.begin(), starts_.end(), [&](const Peak& p) { return p.value < most - unlikely; }),
+        starts_.end());
+    for (const ReadingLaw& law : bases_) {
+      for (const Peak& start : starts_) {
+        Peak peak = judge_.best(law, start);
+        peak.value -= cost_of(law);
+        if (peak.value > null_.value) null_ = peak, null_law_ = law;
+      }
     }
   }
-  const auto with = [&](double strength) {
-    return best_base(
-        s, stated, [&](const ReadingLaw& law) { return family.with(law, strength); }, null.within);
-  };
-  LawTest result{family.cause, {}, 0, 0, 0};
-  double strength = family.strengths[best];
-  Base at = with(strength);
-  const auto value = [&](double x) {
-    const ReadingLaw law = family.with(at.law, x);
-    return std::isnan(law.rician_k) ? -1e300 : s.log_likelihood(law, at.within);
-  };
-  const double below = best > 0 ? family.strengths[best - 1] : strength / 2;
-  const double above = best + 1 < family.strengths.size() ? family.strengths[best + 1] : strength * 1.5;
-  for (const double share : {0.25, 0.5, 0.75}) {
-    for (const double x : {below + share * (strength - below), strength + share * (above - strength)}) {
-      if (const double v = value(x); v > at.log_likelihood) at.log_likelihood = v, strength = x;
+
+  Fitted fitted(const Family& family) {
+    Fitted best;
+    for (const ReadingLaw& base : bases_) {  // roughly, at the field of the null
+      for (const double strength : family.strengths) {
+        const ReadingLaw law = family.with(base, strength);
+        if (!possible(law)) continue;
+        const double ratio = std::log(variance_of(law, judge_.step()) / variance_of(base, judge_.step()));
+        Peak there = null_;
+        there.place += Judge::places * static_cast<int>(std::lround(1e3 * ratio / Judge::places));
+        there.value = judge_.about(law, there) - cost_of(law);
+        if (there.value > best.peak.value) best = {there, base, law, strength};
+      }
     }
+    return refined(family, best);
   }
-  constexpr double fall = 1.92;  // of the log-likelihood at the ends of a 95 % interval
-  const double least = at.log_likelihood - fall;
-  const double a = family.reported(crossing(value, strength, strength / 3, least));
-  const double b = family.reported(crossing(value, strength, strength * 3, least));
-  result.values.push_back({family.name, family.reported(strength), std::min(a, b), std::max(a, b)});
-  result.values.insert(result.values.end(), family.beside.begin(), family.beside.end());
-  result.gain = std::max(0.0, 2 * (at.log_likelihood - null.log_likelihood));
-  result.log_p = std::log(family.tests) + search::log_tail(result.gain, family.parameters);
-  result.evidence =
-      result.gain / 2 - family.parameters / 2.0 * std::log(static_cast<double>(s.rows.size())) - std::log(family.tests);
-  return result;
-}
+
+  const ReadingLaw& stated() const { return null_law_; }
+  double gain(const Fitted& fitted) const { return std::max(0.0, 2 * (fitted.peak.value - null_.value)); }
+
+  // Of the strength: where the log-likelihood falls as much as at the ends of a 95 % interval.
+  LawValue value(const Family& family, const Fitted& best) {
+    constexpr double fall = 1.92;
+    const auto value = [&](double x) {
+      const ReadingLaw law = family.with(best.base, x);
+      return possible(law) ? judge_.best(law, best.peak).value - cost_of(law) : -1e300;
+    };
+    const double least = best.peak.value - fall;
+    const double a = family.reported(crossing(value, best.strength, best.strength / 3, least));
+    const double b = family.reported(crossing(value, best.strength, best.strength * 3, least));
+    return {family.name, family.reported(best.strength), std::min(a, b), std::max(a, b)};
+  }
+
+ private:
+  static bool lower(const Peak& a, const Peak& b) { return a.value < b.value; }
+
+  // Halves the steps of the strength's grid, at the best field of each.
+  Fitted refined(const Family& family, Fitted best) {
+    const auto at = std::find(family.strengths.begin(), family.strengths.end(), best.strength);
+    double step = at + 1 != family.strengths.end() ? std::log(*(at + 1) / *at) : std::log(*at / *(at - 1));
+    const auto try_one = [&](double strength, const ReadingLaw& base, const Peak& from) {
+      const ReadingLaw law = family.with(base, strength);
+      if (!possible(law)) return;
+      Peak peak = judge_.best(law, from);
+      peak.value -= cost_of(law);
+      if (peak.value > best.peak.value) best = {peak, base, law, strength};
+    };
+    const int moved = best.peak.place - null_.place;
+    best.peak.value = -1e300;
+    for (const Peak& start : starts_) {
+      Peak from = start;
+      from.place += moved;
+      try_one(best.strength, best.base, from);
+    }
+    for (int round = 0; round < 4; ++round) {
+      step /= 2;
+      const Fitted here = best;
+      for (const double by : {-step, step}) try_one(here.strength * std::exp(by), here.base, here.peak);
+    }
+    return best;
+  }
+
+  Judge judge_;
+  ReadingLaw stated_;
+  std::vector<ReadingLaw> bases_;
+  std::vector<Peak> starts_;
+  Peak null_;
+  ReadingLaw null_law_;
+};
 
 std::vector<Family> families_of(const ReadingLaw& stated) {
   const double variance = std::max(fading_variance(stated.rician_k, stated.averaged), 0.05);
@@ -180,9 +162,7 @@ std::vector<Family> families_of(const ReadingLaw& stated) {
                       const double k = rician_k_of(v, 1);
                       return std::isnan(k) ? (v > 20 ? -40 : 60) : k;
                     },
-                    {},
-                    1,
-                    1});
+                    {}});
   for (const double width : {12.0, 20.0, 30.0}) {
     result.push_back({"effect.outliers",
                       "share",
@@ -193,112 +173,52 @@ std::vector<Family> families_of(const ReadingLaw& stated) {
                         return law;
                       },
                       [](double share) { return share; },
-                      {{"half_width", width, width / 1.4, width * 1.3}},
-                      1,
-                      3});
+                      {{"half_width", width, width / 1.4, width * 1.3}}});
   }
   for (const int channels : {2, 3, 4}) {
     const double count = channels;
     result.push_back({"effect.channel_mixture",
                       "sd",
-                      {0.5, 0.8, 1.2, 1.7, 2.4, 3.4, 5, 7},
+                      {0.35, 0.5, 0.7, 1, 1.4, 2, 2.8, 4, 5.6},
                       [channels](ReadingLaw law, double sd) {
                         law.channel_sd = sd;
                         law.channels = channels;
                         return law;
                       },
                       [](double sd) { return sd; },
-                      {{"channels", count, count, count}},
-                      1,
-                      3});
+                      {{"channels", count, count, count}}});
   }
   return result;
 }
 
 }  // namespace
 
-double Scatter::log_likelihood(const ReadingLaw& law, double within_share) const {
-  const ReadingDensity density(law, std::sqrt(within * within_share), step);
-  constexpr int places = 33;
-  constexpr double reach = 3.5;  // sd
-  double sum = 0;
-  std::array<double, places> logs;
-  for (const ScatterRow& row : rows) {
-    const double sd = std::sqrt(row.variance);
-    double most = -1e300;
-    for (int q = 0; q < places; ++q) {
-      const double z = reach * (2.0 * q / (places - 1) - 1), level = row.level + sd * z;
-      double log = -z * z / 2;
-      for (const double reading : row.readings) log += density.log_at(reading - level);
-      logs[static_cast<std::size_t>(q)] = log;
-      most = std::max(most, log);
-    }
-    double total = 0;
-    for (const double log : logs) total += std::exp(log - most);
-    sum += most + std::log(total);
-  }
-  return sum;
-}
-
-Scatter scatter_of(const search::Bench& bench, const VectorXd& residual, double step) {
-  const noise::Sites& sites = bench.field().sites();
-  std::vector<std::vector<Index>> readings(static_cast<std::size_t>(sites.size()));
-  for (Index i = 0; i < residual.size(); ++i) {
-    const Index row = bench.rows().row_of()[static_cast<std::size_t>(i)];
-    readings[static_cast<std::size_t>(row)].push_back(i);
-  }
-  VectorXd means(sites.size());
-  std::vector<bool> usable(readings.size(), true);
-  for (std::size_t k = 0; k < readings.size(); ++k) {
-    double sum = 0;
-    for (const Index i : readings[k]) sum += residual[i];
-    means[static_cast<Index>(k)] = sum / static_cast<double>(readings[k].size());
-    usable[k] = std::isfinite(sum);
-  }
-  Scatter result;
-  result.step = step;
-  const std::size_t every = readings.size() / most_rows + 1;
-  double within = 0, count = 0;
-  for (std::size_t k = 0; k < readings.size(); k += every) {
-    if (!usable[k]) continue;
-    const auto row = static_cast<Index>(k);
-    ScatterRow out;
-    predict(sites, bench.fit.covariance, nearest(sites, row, usable), row, means, out);
-    for (const Index i : readings[k]) out.readings.push_back(residual[i]);
-    result.rows.push_back(std::move(out));
-    const auto n = static_cast<double>(readings[k].size());
-    within += n * within_row(bench, readings[k]);
-    count += n;
-  }
-  result.within = count > 0 ? within / count : 0;
-  return result;
-}
-
-std::vector<LawTest> law_tests(const Scatter& scatter, const ReadingLaw& stated) {
-  Base null = best_base(scatter, stated, unchanged, 1);
-  // What the field does between the readings of a row is known no better than this: fading so near counts as stated.
-  const double variance = fading_variance(stated.rician_k, stated.averaged);
-  const double unsure = 0.15 + 0.6 * scatter.within;
-  for (const double near : {variance * 1.1 + unsure, variance / 1.1 - unsure}) {
-    ReadingLaw law = stated;
-    law.rician_k = rician_k_of(near, stated.averaged);
-    if (!(near > 0) || std::isnan(law.rician_k)) continue;
-    const Base other = best_base(scatter, law, unchanged, null.within);
-    if (other.log_likelihood > null.log_likelihood) null = other;
+LawTests law_tests(ReadingField& field, double step, const ReadingLaw& stated, const noise::Covariance& fit) {
+  Tests tests(field, step, stated, fit);
+  const std::vector<Family> families = families_of(stated);
+  std::map<std::string, std::pair<const Family*, Fitted>> best;  // of each cause
+  for (const Family& family : families) {
+    const Fitted fitted = tests.fitted(family);
+    const auto [entry, is_new] = best.try_emplace(family.cause, &family, fitted);
+    if (!is_new && fitted.peak.value > entry->second.second.peak.value) entry->second = {&family, fitted};
   }
   std::vector<LawTest> result;
-  for (const Family& family : families_of(stated)) {
-    LawTest test = tested(scatter, stated, null, family);
-    const auto same =
-        std::find_if(result.begin(), result.end(), [&](const LawTest& t) { return t.cause == test.cause; });
-    if (same == result.end())
-      result.push_back(std::move(test));
-    else if (test.gain > same->gain)
-      *same = std::move(test);
+  for (const auto& [cause, found] : best) {
+    const auto& [family, fitted] = found;
+    LawTest test{cause, {}, tests.gain(fitted), 0, 0, fitted.law};
+    const auto forms = static_cast<double>(
+        std::count_if(families.begin(), families.end(), [&](const Family& f) { return f.cause == cause; }));
+    test.log_p = std::log(forms) + search::log_tail(test.gain / wider, 1);
+    test.evidence = test.gain / 2 - std::log(static_cast<double>(field.size())) / 2 - std::log(forms);
+    result.push_back(std::move(test));
   }
   std::stable_sort(result.begin(), result.end(),
                    [](const LawTest& a, const LawTest& b) { return a.evidence > b.evidence; });
-  return result;
+  const auto& [family, fitted] = best.at(result.front().cause);
+  result.front().values = family->beside;
+  if (result.front().gain > 0)
+    result.front().values.insert(result.front().values.begin(), tests.value(*family, fitted));
+  return {result, tests.stated()};
 }
 
 }  // namespace muster::diagnosis

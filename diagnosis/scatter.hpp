@@ -4,27 +4,10 @@
 
 #include <string>
 
+#include "diagnosis/reading_field.hpp"
 #include "diagnosis/reading_law.hpp"
-#include "diagnosis/search/bench.hpp"
 
 namespace muster::diagnosis {
-
-// Readings of one row share the level of their place, known from the rows around it: normal about `level`.
-struct ScatterRow {
-  double level = 0, variance = 0;  // dB, dB^2
-  std::vector<double> readings;    // dB, measured less the mean
-};
-
-struct Scatter {
-  std::vector<ScatterRow> rows;
-  double within = 0;  // dB^2: what the field itself varies within a row
-  double step = 1;    // dB between codes
-
-  double log_likelihood(const ReadingLaw& law, double within_share) const;
-};
-
-// `residual` is one a reading, NaN where only a bound is known; at most 3000 rows, evenly chosen.
-Scatter scatter_of(const search::Bench& bench, const Eigen::VectorXd& residual, double step);
 
 struct LawValue {
   std::string name;
@@ -38,10 +21,17 @@ struct LawTest {
   double gain = 0;      // twice the log-likelihood ratio
   double evidence = 0;  // nats
   double log_p = 0;
+  ReadingLaw law{};  // as fitted
 };
 
-// By falling evidence. That a reading may be the mean of several fades of the same spread as stated is part of the
-// null: receivers average, and the mean of a few fades has another shape.
-std::vector<LawTest> law_tests(const Scatter& scatter, const ReadingLaw& stated);
+struct LawTests {
+  std::vector<LawTest> tests;  // by falling evidence; values of the first alone
+  ReadingLaw stated;           // of as many fades in one reading as is likeliest
+};
+
+// `step` in dB between codes. That a reading may be the mean of several fades of the same spread
+// as stated is part of the null: receivers average, and the mean of a few fades has another shape. So is the field's
+// own variance, which is fitted anew under every law. `fit`: of the field to rows, where its shape is sought from.
+LawTests law_tests(ReadingField& field, double step, const ReadingLaw& stated, const noise::Covariance& fit);
 
 }  // namespace muster::diagnosis

@@ -2,11 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <muster/random.hpp>
 
 #include "diagnosis/instrument.hpp"
+#include "diagnosis/judge.hpp"
 #include "diagnosis/scatter.hpp"
 #include "tests/diagnosis/scratch.hpp"
+#include "tests/diagnosis/walk.hpp"
 
 namespace muster::diagnosis {
 namespace {
@@ -53,54 +54,37 @@ TEST(LawOfAReading, VariancesAreThoseOfRayleighAndGamma) {
 }
 
 TEST(LawOfAReading, DensitiesHaveTheirMassAboutTheirMean) {
-  const ReadingDensity density({.rician_k = 5, .outliers = 0.02, .channel_sd = 3, .channels = 2}, 0.7, 1);
-  double mass = 0, mean = 0;
-  for (double db = -60; db < 60; db += 0.05) {
-    mass += 0.05 * std::exp(density.log_at(db));
-    mean += 0.05 * db * std::exp(density.log_at(db));
+  const ReadingLaw law{.rician_k = 5, .outliers = 0.02, .channel_sd = 3, .channels = 2};
+  const ReadingDensities densities(law, 1, std::log(0.3), std::log(20.0));
+  for (const double spread : {0.3, 1.1, 7.0, 20.0}) {
+    double mass = 0, mean = 0, square = 0;
+    for (double db = -60; db < 50; db += 0.05) {
+      const double density = 0.05 * std::exp(densities.log_at(db, std::log(spread)));
+      mass += density;
+      mean += db * density;
+      square += db * db * density;
+    }
+    EXPECT_NEAR(mass, 1, 0.001);
+    EXPECT_NEAR(mean, 0, 0.01);
+    EXPECT_NEAR(square, variance_of(law, 1) + spread, 0.01 * (variance_of(law, 1) + spread));
   }
-  EXPECT_NEAR(mass, 1, 0.01);
-  EXPECT_NEAR(mean, 0, 0.05);
 }
 
-struct Truth {
-  double rician_k = 6, outliers = 0, channel_sd = 0;  // dB; channels: two
-};
+const noise::Covariance near_the_truth{noise::Family::exponential, {2.2, 0.4, 1.5, 0}};
 
-Scatter drawn(const Truth& truth, int rows) {
-  Scatter result;
-  const Stream random(combined(key_of("law test"), 3));
-  const double k = std::pow(10, truth.rician_k / 10), steady = std::sqrt(k / (1 + k)),
-               diffuse = std::sqrt(0.5 / (1 + k));
-  for (int r = 0; r < rows; ++r) {
-    const auto row = static_cast<uint64_t>(r);
-    ScatterRow out{0, 2.0, {}};
-    const double level = std::sqrt(2.0) * random.normal(row, 100);
-    for (uint64_t j = 0; j < 3; ++j) {
-      const double re = steady + diffuse * random.normal(row, 10 * j), im = diffuse * random.normal(row, 10 * j + 1);
-      double db = 10 * std::log10(re * re + im * im);
-      if (random.uniform(row, 10 * j + 2) < truth.outliers) db += 40 * random.uniform(row, 10 * j + 3) - 20;
-      if (truth.channel_sd > 0) db += random.uniform(row, 10 * j + 4) < 0.5 ? truth.channel_sd : -truth.channel_sd;
-      out.readings.push_back(std::round(level + db));
-    }
-    result.rows.push_back(out);
-  }
-  double sum = 0;
-  for (const ScatterRow& row : result.rows) sum += row.readings[0] + row.readings[1] + row.readings[2];
-  for (ScatterRow& row : result.rows) {
-    for (double& reading : row.readings) reading -= sum / (3 * rows);
-  }
-  result.within = 0.1;
-  return result;
+std::vector<LawTest> tested(const Truth& truth, const ReadingLaw& stated) {
+  const Walk walk = drawn(truth, 2000);
+  ReadingField field(walk.readings, walk.residual);
+  return law_tests(field, 1, stated, near_the_truth).tests;
 }
 
 TEST(LawsOfReadings, TheStatedLawIsNotLeftWithoutReason) {
-  for (const LawTest& test : law_tests(drawn({.rician_k = 6}, 700), {.rician_k = 6}))
-    EXPECT_LT(test.evidence, 0) << test.cause;
+  for (const LawTest& test : tested({.rician_k = 6}, {.rician_k = 6}))
+    EXPECT_GT(test.log_p, std::log(0.01)) << test.cause;
 }
 
 TEST(LawsOfReadings, AnotherFadingIsMeasured) {
-  const LawTest best = law_tests(drawn({.rician_k = 2}, 700), {.rician_k = 8}).front();
+  const LawTest best = tested({.rician_k = 2}, {.rician_k = 8}).front();
   EXPECT_EQ(best.cause, "effect.fading_law");
   EXPECT_GT(best.evidence, 20);
   EXPECT_LT(best.values[0].lower95, 2);
@@ -108,13 +92,13 @@ TEST(LawsOfReadings, AnotherFadingIsMeasured) {
 }
 
 TEST(LawsOfReadings, OutliersAreCounted) {
-  const LawTest best = law_tests(drawn({.rician_k = 8, .outliers = 0.03}, 700), {.rician_k = 8}).front();
+  const LawTest best = tested({.rician_k = 8, .outliers = 0.03}, {.rician_k = 8}).front();
   EXPECT_EQ(best.cause, "effect.outliers");
   EXPECT_NEAR(best.values[0].value, 0.03, 0.012);
 }
 
 TEST(LawsOfReadings, HoppingChannelsAreToldFromFading) {
-  const LawTest best = law_tests(drawn({.rician_k = 12, .channel_sd = 4}, 700), {.rician_k = 12}).front();
+  const LawTest best = tested({.rician_k = 12, .channel_sd = 4}, {.rician_k = 12}).front();
   EXPECT_EQ(best.cause, "effect.channel_mixture");
   EXPECT_NEAR(best.values[0].value, 4, 0.6);
 }

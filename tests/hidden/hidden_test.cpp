@@ -47,8 +47,8 @@ constexpr Hidden table[] = {
     {"noise_floor_rssi", 925, 2, 2},
     {"rssi_saturation", 926, 2, 2},
     {"rssi_floor", 927, 2, 2},
-    {"fading_law", 928, 2, 0},
-    {"outliers", 929, 2, 1},
+    {"fading_law", 928, 2, 2},
+    {"outliers", 929, 2, 2},
     {"channel_mixture", 930, 2, 0},
     {"shadowing_correlation", 931, 2, 1},
 };

@@ -1,0 +1,98 @@
+#include "diagnosis/judge.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace muster::diagnosis {
+namespace {
+
+using Eigen::Index;
+
+constexpr Index enough_readings = 3000;  // for a first look at a law
+
+}  // namespace
+
+double variance_of(const ReadingLaw& law, double step) {
+  return fading_variance(law.rician_k, law.averaged) + law.channel_sd * law.channel_sd +
+         law.outliers * law.half_width * law.half_width / 3 + step * step / 12;
+}
+
+double efold(noise::Family family) {
+  double low = 0, high = 10;
+  for (int round = 0; round < 50; ++round) {
+    const double middle = (low + high) / 2;
+    (noise::correlation(family, middle) > std::exp(-1.0) ? low : high) = middle;
+  }
+  return (low + high) / 2;
+}
+
+ReadingDensities Judge::densities_of(const ReadingLaw& law, double log_variance, const Peak& there, double margin) {
+  const ReadingView& view = field_.view(there.shape, there.place);
+  const double size = log_variance - view.log_ratio;
+  return {law, step_, size + view.log_spread.minCoeff() - margin, size + view.log_spread.maxCoeff() + margin};
+}
+
+double Judge::at(const ReadingDensities& densities, double log_variance, const FieldShape& shape, int place,
+                 Index every) {
+  const ReadingView& view = field_.view(shape, place);
+  const double size = log_variance - view.log_ratio;
+  double sum = 0;
+  for (Index i = 0; i < field_.size(); i += every) sum += densities.log_at(view.error[i], size + view.log_spread[i]);
+  return sum * static_cast<double>(every);
+}
+
+Peak Judge::best(const ReadingLaw& law, Peak from) {
+  const double log_variance = std::log(variance_of(law, step_));
+  const ReadingDensities densities = densities_of(law, log_variance, from, 0.5);
+  const auto value = [&](int place) { return at(densities, log_variance, from.shape, place); };
+  double here = value(from.place), below = value(from.place - places), above = value(from.place + places);
+  for (int round = 0; round < 12 && std::max(below, above) > here; ++round) {
+    if (above > below) {
+      from.place += places;
+      below = here, here = above, above = value(from.place + places);
+    } else {
+      from.place -= places;
+      above = here, here = below, below = value(from.place - places);
+    }
+  }
+  const double bend = below - 2 * here + above, slope = (above - below) / 2;
+  from.value = bend < 0 ? here - slope * slope / (2 * bend) : here;
+  return from;
+}
+
+Peak Judge::best_distance(const ReadingLaw& law, const Peak& from) {
+  Peak best = this->best(law, from);
+  for (const int way : {-distances, distances}) {
+    for (int step = 0; step < 4; ++step) {
+      Peak next = best;
+      next.shape.distance += way;
+      next = this->best(law, next);
+      if (next.value <= best.value) break;
+      best = next;
+    }
+  }
+  return best;
+}
+
+std::vector<Peak> Judge::shapes(const ReadingLaw& law, const noise::Covariance& from) {
+  std::vector<Peak> result;
+  const auto place = static_cast<int>(std::lround(1e3 * (from.theta[2] - from.theta[0])));
+  for (const noise::Family family : noise::families) {
+    const double distance = from.theta[1] + noise::log_scale_of(family) - noise::log_scale_of(from.family);
+    result.push_back(best_distance(law, {0, {family, static_cast<int>(std::lround(1e3 * distance))}, place}));
+  }
+  return result;
+}
+
+double Judge::value(const ReadingLaw& law, const Peak& there) {
+  const double log_variance = std::log(variance_of(law, step_));
+  return at(densities_of(law, log_variance, there, 0), log_variance, there.shape, there.place);
+}
+
+double Judge::about(const ReadingLaw& law, const Peak& there) {
+  const double log_variance = std::log(variance_of(law, step_));
+  const Index every = field_.size() / enough_readings + 1;
+  return at(densities_of(law, log_variance, there, 0), log_variance, there.shape, there.place, every);
+}
+
+}  // namespace muster::diagnosis

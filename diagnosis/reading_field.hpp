@@ -1,0 +1,52 @@
+// Single readings against the field of their places: each is predicted from readings near it, so that what is left
+// is the reading's own law widened by what the prediction does not know.
+#pragma once
+
+#include <compare>
+#include <map>
+#include <utility>
+
+#include "diagnosis/noise/fit.hpp"
+
+namespace muster::diagnosis {
+
+// Errors of prediction at one ratio of a reading's variance to the field's; they depend on nothing else.
+struct ReadingView {
+  double log_ratio = 0;        // of variances
+  Eigen::VectorXd error;       // dB, a reading less its prediction
+  Eigen::VectorXd log_spread;  // log variance of the level beside its prediction, for a field of variance 1
+};
+
+// A family of correlations with a decorrelation distance.
+struct FieldShape {
+  noise::Family family = noise::Family::exponential;
+  int distance = 0;  // a thousand times its logarithm [m]
+
+  friend auto operator<=>(const FieldShape&, const FieldShape&) = default;
+};
+
+class ReadingField {
+ public:
+  // A residual a reading; those that are not finite are left out.
+  ReadingField(const noise::Readings& readings, const Eigen::VectorXd& residual);
+
+  Eigen::Index size() const { return residual_.size(); }
+  // `place`: a thousand times log_ratio. Worked out once.
+  const ReadingView& view(const FieldShape& shape, int place);
+  // The same of other residuals at the same places.
+  Eigen::VectorXd error_of(const FieldShape& shape, int place, const Eigen::VectorXd& residual);
+  const Eigen::VectorXd& residual() const { return residual_; }
+
+ private:
+  struct Known {
+    ReadingView view;
+    noise::Whitener whitener;
+  };
+  const Known& known(const FieldShape& shape, int place);
+
+  Eigen::VectorXd residual_;
+  noise::Field field_;
+  std::map<std::pair<FieldShape, int>, Known> known_;
+};
+
+}  // namespace muster::diagnosis

@@ -1,0 +1,65 @@
+// Whether shadowing is as stated, and whether somebody crosses a link: walks whose field and bursts are known.
+#include <gtest/gtest.h>
+
+#include "diagnosis/field_law.hpp"
+#include "diagnosis/passages.hpp"
+#include "tests/diagnosis/walk.hpp"
+
+namespace muster::diagnosis {
+namespace {
+
+search::Problem problem_of(const Walk& walk) {
+  search::Problem problem;
+  problem.readings = walk.readings;
+  problem.measured = walk.residual;
+  problem.base = Eigen::MatrixXd::Ones(walk.residual.size(), 1);
+  return problem;
+}
+
+LawTest field_tested(double decorrelation, double stated) {
+  const Walk walk = drawn_of_four({.rician_k = 10}, 700, decorrelation);
+  const search::Problem problem = problem_of(walk);
+  const search::Bench bench(problem, {});
+  ReadingField field(walk.readings, walk.residual);
+  return field_test(field, 1, {.rician_k = 10}, {3, stated}, bench);
+}
+
+TEST(FieldOfShadowing, AsStatedIsLeftInPeace) {
+  for (const double decorrelation : {0.8, 1.5, 2.5})
+    EXPECT_GT(field_tested(decorrelation, decorrelation).log_p, std::log(0.01)) << decorrelation;
+}
+
+TEST(FieldOfShadowing, AnotherDistanceIsMeasured) {
+  const LawTest test = field_tested(3, 0.7);
+  EXPECT_LT(test.log_p, std::log(1e-4));
+  EXPECT_NEAR(std::log(test.values[1].value), std::log(3), std::log(1.8));
+}
+
+TEST(PeopleOnALink, NobodyIsSeenWhereNobodyIs) {
+  const Walk walk = drawn_of_four({.rician_k = 3}, 600, 1.5);  // deep fades
+  const search::Problem problem = problem_of(walk);
+  EXPECT_GT(passages_of(search::Bench(problem, {})).test.log_p, std::log(0.01));
+}
+
+TEST(PeopleOnALink, BurstsAreSeenAndMeasured) {
+  Walk walk = drawn_of_four({.rician_k = 8}, 600, 1.5);
+  for (std::size_t i = 0; i < 600; ++i) {                                      // of the first station
+    const double apart = std::remainder(walk.readings.t[i] - 11, 37.0) / 1.2;  // every 37 s, 1.2 s to 1/e
+    walk.residual[static_cast<Eigen::Index>(i)] -= std::round(20 * std::exp(-apart * apart));
+  }
+  const search::Problem problem = problem_of(walk);
+  const Passages found = passages_of(search::Bench(problem, {}));
+  EXPECT_EQ(found.radio, 0);
+  EXPECT_EQ(found.other, 9);
+  EXPECT_LT(found.test.log_p, std::log(1e-6));
+  for (const LawValue& v : found.test.values) {
+    const double truth = v.name == "loss"       ? 12
+                         : v.name == "duration" ? 1.2 * std::sqrt(M_PI)
+                                                : 1.2 * std::sqrt(M_PI) / 37;
+    EXPECT_LT(v.lower95, truth) << v.name;
+    EXPECT_GT(v.upper95, truth) << v.name;
+  }
+}
+
+}  // namespace
+}  // namespace muster::diagnosis
