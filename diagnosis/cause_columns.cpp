@@ -120,8 +120,11 @@ struct Maker {
     return base.householderQ() * rest;
   }
 
-  // Sought in the rooms that the plan has, which then stay as they are.
-  bool in_given_room(const CauseShape& shape) const { return shape.is_room() && !survey.rooms.empty(); }
+  // How many sizes of its place the plan gives: it is sought in the plan's rooms, or between its walls, as they are.
+  std::size_t given_sizes(const CauseShape& shape) const {
+    if (shape.is_room() && !survey.rooms.empty()) return 2;
+    return shape.is_strip() && !survey.strips.empty() ? 1 : 0;
+  }
 
   void bounds(const CauseShape& shape, search::Candidate& c) const {
     const Index places = place_entries(shape.place), n = 1 + places + static_cast<Index>(shape.axes.size());
@@ -130,7 +133,7 @@ struct Maker {
     if (places >= 2) {
       c.lower.segment(1, 2) << survey.east.low, survey.north.low;
       c.upper.segment(1, 2) << survey.east.high, survey.north.high;
-      c.step.segment(1, 2).setConstant(in_given_room(shape) ? 0 : places == 4 ? 0.4 : 0.3);
+      c.step.segment(1, 2).setConstant(places == 4 ? 0.4 : 0.3);
     }
     if (places == 4) {
       c.lower.segment(3, 2) << 0.8, -4;
@@ -141,8 +144,10 @@ struct Maker {
       const Index at = 1 + places + static_cast<Index>(k);
       c.lower[at] = shape.axes[k].lower;
       c.upper[at] = shape.axes[k].upper;
-      c.step[at] = in_given_room(shape) && k < 2 ? 0 : shape.axes[k].step;
+      c.step[at] = shape.axes[k].step;
     }
+    if (const auto sizes = static_cast<Index>(given_sizes(shape)); sizes > 0)
+      c.step.segment(1, places + sizes).setZero();
   }
 
   // What the search asks of a candidate, from what the plugin declares.
@@ -170,12 +175,12 @@ struct Maker {
   }
 
   // refinement_charge() over clean cases of the exam, median of three to four: walls 5.4, things 3.9, places on a grid
-  // 1.7 and 1.1, strips 2.0, rooms of the plan -0.1, radios elsewhere -2.9, all others -0.3 to 1.3 (standard error
-  // 0.4). It grows towards the tail, where decisions fall, by half a nat a sought parameter.
+  // 1.7 and 1.1, strips on a grid 2.0, rooms of the plan -0.1, radios elsewhere -2.9, all others -0.3 to 1.3 (standard
+  // error 0.4). It grows towards the tail, where decisions fall, by half a nat a sought parameter.
   double charge_of(const CauseShape& shape, const search::Candidate& c) const {
     if (stands(c)) return shape.place == PlaceShape::segment ? 7.4 : 5.4;
     if (shape.cause.meaning().kind == MUSTER_WORLD_EDIT) return 0;
-    if (in_given_room(shape)) return 0.5;
+    if (given_sizes(shape) > 0) return 0.5;
     return shape.place != PlaceShape::none ? 4 : 1;
   }
 
@@ -235,6 +240,17 @@ struct Maker {
     std::erase_if(shape.linear, [&](const muster_param* p) { return !std::count(kept.begin(), kept.end(), p); });
   }
 
+  // A radio is a few metres from where the map has it, hardly ever more.
+  void believe_in_map(const CauseShape& shape, search::Candidate& c) const {
+    constexpr double off = 3;  // m
+    std::vector<Eigen::Vector2d> mapped;
+    for (const CauseRow& row : shape.rows)
+      mapped.push_back(place_of_radio(sources.model, row.at(0)).value_or(Eigen::Vector2d(0, 0)));
+    c.belief = [mapped = std::move(mapped)](const VectorXd& t) {
+      return -(t.segment<2>(1) - mapped[static_cast<std::size_t>(t[0])]).squaredNorm() / (2 * off * off);
+    };
+  }
+
   // Where a wall or a thing could stand is swept over.
   void let_sweep(const CauseShape& shape, search::Candidate& c) const {
     const bool wall = shape.place == PlaceShape::segment && shape.axes.empty();
@@ -279,6 +295,7 @@ std::string make(const Cause& cause, const Maker& maker, CauseSearch& out) {
   c.columns = columns_at(shape, s.run, s.used);
   maker.grid(*shape, c);
   if (c.grid.empty()) return "not testable: no reading depends on it, or the base model takes it up";
+  if (cause.meaning().kind == MUSTER_WORLD_EDIT && shape->place == PlaceShape::point) maker.believe_in_map(*shape, c);
   if (stands(c)) {
     c.admitted = [shape, survey = maker.survey](const VectorXd& t) {
       if (shape->place == PlaceShape::point) return clear_of_ways(*shape, survey, t) ? 1.0 : 0.3;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace muster::diagnosis {
 namespace {
@@ -55,14 +54,6 @@ std::vector<std::vector<double>> products(const std::vector<Axis>& axes) {
   return result;
 }
 
-std::optional<Eigen::Vector2d> place_of_radio(const LinkModel& model, const std::string& name) {
-  for (const auto& ends : model.ends()) {
-    for (const End& end : ends)
-      if (model.radio_name(end.radio) == name) return Eigen::Vector2d(end.x, end.y);
-  }
-  return {};
-}
-
 // Places around where the map has each radio.
 std::vector<VectorXd> around_radios(const CauseShape& shape, const LinkModel& model) {
   std::vector<VectorXd> result;
@@ -105,12 +96,19 @@ std::vector<VectorXd> rooms_of_plan(const CauseShape& shape, const Survey& surve
 
 }  // namespace
 
+std::optional<Eigen::Vector2d> place_of_radio(const LinkModel& model, const std::string& name) {
+  for (const auto& ends : model.ends()) {
+    for (const End& end : ends)
+      if (model.radio_name(end.radio) == name) return Eigen::Vector2d(end.x, end.y);
+  }
+  return {};
+}
+
 std::vector<VectorXd> starts_of(const CauseShape& shape, const Survey& survey, const LinkModel& model, bool stands) {
   if (shape.cause.meaning().kind == MUSTER_WORLD_EDIT && shape.place == PlaceShape::point)
     return around_radios(shape, model);
   if (shape.is_room() && !survey.rooms.empty()) return rooms_of_plan(shape, survey);
-  if (shape.place == PlaceShape::segment && !stands && shape.axes.size() == 1 && !survey.strips.empty())
-    return between_walls(shape, survey);
+  if (shape.is_strip() && !survey.strips.empty()) return between_walls(shape, survey);
   std::vector<VectorXd> places{VectorXd()}, result;
   if (shape.place != PlaceShape::none) places = places_over(shape.place, survey, !stands);
   // Shapes outermost, rows innermost: rows at one shape cost one evaluation.

@@ -12,8 +12,8 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr double quarter_turn = 1.5707963267948966;
-constexpr double between_lines = 0.25, between_starts = 0.4, shortest = 0.8, longest = 6;  // m
-constexpr std::size_t most = 400;                                                          // thetas
+constexpr double between_lines = 0.25, between_starts = 0.4, shortest = 0.8, longest = 6, aside = 0.05;  // m
+constexpr std::size_t most = 400;                                                                        // thetas
 
 struct Swept {
   double gain;
@@ -82,7 +82,8 @@ class Lines {
     barred.push_back(crossings.back().at + 1);
     std::sort(barred.begin(), barred.end());
     for (std::size_t k = 0; k + 1 < barred.size(); ++k) {
-      if (barred[k + 1] - barred[k] > shortest) sweep_gap(q, barred[k], barred[k + 1], crossings, out);
+      if (barred[k + 1] - barred[k] > shortest + 2 * aside)
+        sweep_gap(q, barred[k] + aside, barred[k + 1] - aside, crossings, out);
     }
   }
 
