@@ -165,6 +165,10 @@ Eigen::VectorXd gains(const Candidate& candidate, const noise::Sheet& unit, cons
   return statistics(candidate, unit.transpose() * residual.cast<float>()).col(0).cast<double>();
 }
 
+double gain_of(const Candidate& candidate, const Stand& stand, const Eigen::MatrixXd& columns) {
+  return candidate.whole ? std::max(0.0, stand.gain_as_it_is(columns)) : stand.gain(columns);
+}
+
 double log_effective(const Candidate& candidate, const noise::Sheet& unit, const noise::Sheet& normals) {
   const Eigen::MatrixXf all = statistics(candidate, unit.transpose() * normals);
   Eigen::VectorXf most = all.colwise().maxCoeff();
@@ -220,7 +224,7 @@ Lead refined(const Bench& bench, const Stand& stand, const Lead& lead, bool from
     best.columns = bench.columns_of(c, best.theta);
   }
   best.refined = true;
-  best.gain = stand.gain(best.columns);
+  best.gain = gain_of(c, stand, best.columns);
   best.evidence = bench.evidence(c, best.gain, c.width, true);
   best.log_p = bench.log_p(c, best.gain, c.width, true);
   return best;

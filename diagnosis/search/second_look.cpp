@@ -57,7 +57,7 @@ std::vector<Lead> second_look(Bench& bench, const Stand& stand, const std::vecto
       lead = refined(bench, bench.stand(design, fit.covariance), lead, false);
       fit = bench.fitted(beside(design, lead.columns), fit.covariance, 6);
     }
-    lead.gain = bench.stand(design, fit.covariance).gain(lead.columns);
+    lead.gain = gain_of(c, bench.stand(design, fit.covariance), lead.columns);
     lead.evidence = bench.evidence(c, lead.gain, c.width, false);
     lead.log_p = bench.log_p(c, lead.gain, c.width, true);
   }
