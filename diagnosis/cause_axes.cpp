@@ -40,6 +40,9 @@ Axis duration(const muster_param& p, const Survey& s, const CauseShape& shape) {
 
 Axis length(const muster_param& p, const Survey& s, const CauseShape& shape) {
   if (shape.place == PlaceShape::segment) return logarithmic(p, 0.8, 6, {1.5, 3}, 0.2);
+  if (shape.place == PlaceShape::point && !shape.held.empty()) {
+    return p.max > 10 ? logarithmic(p, 1, 60, {3, 6}, 0.05) : logarithmic(p, 0.2, 5, {0.5, 1.5}, 0.4);
+  }
   if (shape.place == PlaceShape::point && p.max <= 10) return logarithmic(p, 0.15, 1.5, {0.45, 0.8}, 0.3);
   if (shape.place == PlaceShape::point) return logarithmic(p, 1.5, 15, {3, 6}, 0.2);
   const double low = std::log(s.distance.low * 1.1), high = std::log(s.distance.high * 0.8);
@@ -79,6 +82,12 @@ std::optional<Axis> axis_of(const muster_param& p, const Survey& s, const CauseS
     return logarithmic(p, p.min, p.max, {values[1], values[2], values[3]}, 0.2);
   }
   if (unit == "s") return moment(p, s, alone);
+  if (unit == "m" && shape.place != PlaceShape::none) {
+    // Up to where things stand: among moving radios alone, or among all.
+    std::vector<double> heights{s.above_moving, s.height.high + 0.5};
+    if (heights[0] >= s.height.high) heights.erase(heights.begin());
+    return Axis{p.name, false, heights.front(), heights.back(), 0, heights};
+  }
   if (unit == "m") {
     if (!s.has_height) return {};
     return Axis{p.name,
@@ -89,41 +98,6 @@ std::optional<Axis> axis_of(const muster_param& p, const Survey& s, const CauseS
                 evenly(s.height.at(0.1), s.height.at(0.9), 7)};
   }
   return Axis{p.name, false, p.min, p.max, (p.max - p.min) / 20, evenly(p.min, p.max, alone ? 9 : 5)};
-}
-
-std::vector<Eigen::VectorXd> places_over(PlaceShape shape, const Survey& s, bool large) {
-  const double area = s.east.length() * s.north.length();
-  const double spacing = large ? std::max(2.0, std::sqrt(area / 100)) : std::max(0.8, std::sqrt(area / 500));
-  const std::vector<double> lengths = large ? std::vector<double>{5, 10} : std::vector<double>{1.3, 2.2, 3.6, 5.2};
-  const int turns = large ? 2 : 4;
-  std::vector<Eigen::VectorXd> result;
-  for (double x = s.east.low + spacing / 2; x < s.east.high; x += spacing) {
-    for (double y = s.north.low + spacing / 2; y < s.north.high; y += spacing) {
-      if (shape == PlaceShape::point) {
-        result.push_back(Eigen::Vector2d(x, y));
-        continue;
-      }
-      for (const double length : lengths) {
-        for (int k = 0; k < turns; ++k) result.push_back(Eigen::Vector4d(x, y, length, s.plan_angle + k * pi / turns));
-      }
-    }
-  }
-  return result;
-}
-
-std::vector<std::vector<double>> products(const std::vector<Axis>& axes) {
-  std::vector<std::vector<double>> result{{}};
-  for (const Axis& axis : axes) {
-    std::vector<std::vector<double>> longer;
-    for (const auto& begun : result) {
-      for (const double value : axis.values) {
-        longer.push_back(begun);
-        longer.back().push_back(value);
-      }
-    }
-    result = std::move(longer);
-  }
-  return result;
 }
 
 int driven_across(const Survey& s, double x, double y, double length, double angle) {

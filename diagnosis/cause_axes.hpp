@@ -10,12 +10,6 @@ namespace muster::diagnosis {
 // `alone`: no other parameter is sought beside it, so that its grid may be fine. Nothing if the data cannot tell.
 std::optional<Axis> axis_of(const muster_param& declared, const Survey& survey, const CauseShape& shape, bool alone);
 
-// Places to begin with, as entries of theta; rooms and corridors (`large`) lie further apart than walls and things.
-std::vector<Eigen::VectorXd> places_over(PlaceShape shape, const Survey& survey, bool large);
-
-// Every combination of the axes' values.
-std::vector<std::vector<double>> products(const std::vector<Axis>& axes);
-
 // How often a segment was driven across.
 int driven_across(const Survey& survey, double x, double y, double length, double angle);
 // Whether a way leads through the disk.

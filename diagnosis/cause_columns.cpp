@@ -9,6 +9,8 @@
 
 #include "diagnosis/cause_axes.hpp"
 #include "diagnosis/cause_rows.hpp"
+#include "diagnosis/cause_starts.hpp"
+#include "diagnosis/place_sweep.hpp"
 
 namespace muster::diagnosis {
 namespace {
@@ -68,16 +70,6 @@ bool find_axes(CauseShape& shape, CauseModel& model, const Survey& survey) {
   return true;
 }
 
-Index place_entries(PlaceShape place) { return place == PlaceShape::none ? 0 : place == PlaceShape::point ? 2 : 4; }
-
-VectorXd theta_of(std::size_t row, const VectorXd& place, const std::vector<double>& axes) {
-  VectorXd theta(1 + place.size() + static_cast<Index>(axes.size()));
-  theta[0] = static_cast<double>(row);
-  theta.segment(1, place.size()) = place;
-  for (std::size_t k = 0; k < axes.size(); ++k) theta[1 + place.size() + static_cast<Index>(k)] = axes[k];
-  return theta;
-}
-
 // A place that takes level from links through it cannot stand where a radio was driven.
 bool stands(const search::Candidate& c) { return !c.pieces.empty(); }
 
@@ -128,6 +120,12 @@ struct Maker {
     return base.householderQ() * rest;
   }
 
+  // How many sizes of its place the plan gives: it is sought in the plan's rooms, or between its walls, as they are.
+  std::size_t given_sizes(const CauseShape& shape) const {
+    if (shape.is_room() && !survey.rooms.empty()) return 2;
+    return shape.is_strip() && !survey.strips.empty() ? 1 : 0;
+  }
+
   void bounds(const CauseShape& shape, search::Candidate& c) const {
     const Index places = place_entries(shape.place), n = 1 + places + static_cast<Index>(shape.axes.size());
     c.lower = c.upper = c.step = VectorXd::Zero(n);
@@ -148,6 +146,8 @@ struct Maker {
       c.upper[at] = shape.axes[k].upper;
       c.step[at] = shape.axes[k].step;
     }
+    if (const auto sizes = static_cast<Index>(given_sizes(shape)); sizes > 0)
+      c.step.segment(1, places + sizes).setZero();
   }
 
   // What the search asks of a candidate, from what the plugin declares.
@@ -169,12 +169,19 @@ struct Maker {
     if (placed && !c.slow) c.pieces = "place";
     std::tie(c.covariates, c.stands_for) = covariates_of(shape);
     if (!c.refinable()) return;
-    c.starts = stands(c) ? (shape.place == PlaceShape::segment ? 16 : 10) : edit ? 2 : 1;
+    c.starts = stands(c) ? (shape.place == PlaceShape::segment ? 16 : 10) : edit ? 12 : 1;
     c.evaluations = edit ? 60 : placed ? 110 : 35;
-    // refinement_charge() over clean cases of the exam: walls 3.8 and 3.2, things 4.8 and 2.3, rooms 1.7 and 1.1,
-    // strips 2.0 and 2.0, all others -0.3 to 1.3 (standard error 0.4). It grows towards the tail, where decisions fall,
-    // by half a nat a sought parameter.
-    c.charge = stands(c) ? (shape.place == PlaceShape::segment ? 5.7 : 5.2) : placed && !edit ? 4 : 1;
+    c.charge = charge_of(shape, c);
+  }
+
+  // refinement_charge() over clean cases of the exam, median of three to four: walls 5.4, things 3.9, places on a grid
+  // 1.7 and 1.1, strips on a grid 2.0, rooms of the plan -0.1, radios elsewhere -2.9, all others -0.3 to 1.3 (standard
+  // error 0.4). It grows towards the tail, where decisions fall, by half a nat a sought parameter.
+  double charge_of(const CauseShape& shape, const search::Candidate& c) const {
+    if (stands(c)) return shape.place == PlaceShape::segment ? 7.4 : 5.4;
+    if (shape.cause.meaning().kind == MUSTER_WORLD_EDIT) return 0;
+    if (given_sizes(shape) > 0) return 0.5;
+    return shape.place != PlaceShape::none ? 4 : 1;
   }
 
   // What it is a function of, its own covariate first, and the smooths whose place it may take.
@@ -233,53 +240,30 @@ struct Maker {
     std::erase_if(shape.linear, [&](const muster_param* p) { return !std::count(kept.begin(), kept.end(), p); });
   }
 
-  // Places around where the map has a radio, which are tried for it.
-  std::vector<VectorXd> places_around(const CauseShape& shape, std::size_t row) const {
-    std::vector<VectorXd> result;
-    const auto at = place_of_radio(shape.rows[row].at(0));
-    if (!at) return result;
-    for (const double r : {0.6, 1.5, 3.0, 5.0}) {
-      for (int k = 0; k < 8; ++k) {
-        const double angle = (k + (r == 1.5 || r == 5.0 ? 0.5 : 0)) * quarter_turn / 2;
-        result.push_back(Eigen::Vector2d(at->x() + r * std::cos(angle), at->y() + r * std::sin(angle)));
-      }
-    }
-    return result;
+  // A radio is a few metres from where the map has it, hardly ever more.
+  void believe_in_map(const CauseShape& shape, search::Candidate& c) const {
+    constexpr double off = 3;  // m
+    std::vector<Eigen::Vector2d> mapped;
+    for (const CauseRow& row : shape.rows)
+      mapped.push_back(place_of_radio(sources.model, row.at(0)).value_or(Eigen::Vector2d(0, 0)));
+    c.belief = [mapped = std::move(mapped)](const VectorXd& t) {
+      return -(t.segment<2>(1) - mapped[static_cast<std::size_t>(t[0])]).squaredNorm() / (2 * off * off);
+    };
   }
 
-  std::optional<Eigen::Vector2d> place_of_radio(const std::string& name) const {
-    for (const auto& ends : sources.model.ends()) {
-      for (const End& end : ends)
-        if (sources.model.radio_name(end.radio) == name) return Eigen::Vector2d(end.x, end.y);
-    }
-    return {};
+  // Where a wall or a thing could stand is swept over.
+  void let_sweep(const CauseShape& shape, search::Candidate& c) const {
+    const bool wall = shape.place == PlaceShape::segment && shape.axes.empty();
+    if (!wall && !(shape.place == PlaceShape::point && shape.axes.size() == 1)) return;
+    LinkEnds ends;
+    for (const Index i : sources.used) ends.push_back(sources.model.ends()[static_cast<std::size_t>(i)]);
+    c.proposed = [survey = survey, ends = std::move(ends), wall](search::Tally& tally) {
+      return wall ? swept_segments(survey, ends, tally) : swept_disks(survey, ends, tally);
+    };
   }
 
   void grid(const CauseShape& shape, search::Candidate& c) const {
-    const bool moves_radio = shape.cause.meaning().kind == MUSTER_WORLD_EDIT && shape.place == PlaceShape::point;
-    std::vector<VectorXd> places{VectorXd()};
-    if (shape.place != PlaceShape::none && !moves_radio) places = places_over(shape.place, survey, !stands(c));
-    const auto axes = products(shape.axes);
-    if (moves_radio) {
-      for (std::size_t row = 0; row < shape.rows.size(); ++row) {
-        for (const VectorXd& place : places_around(shape, row)) add_start(shape, theta_of(row, place, {}), c);
-      }
-      return;
-    }
-    if (shape.place == PlaceShape::segment && !stands(c) && shape.axes.size() == 1) {
-      for (const Strip& strip : survey.strips)
-        add_start(shape,
-                  theta_of(0, Eigen::Vector4d(strip.x, strip.y, strip.length, strip.angle),
-                           {std::clamp(std::log(strip.width), shape.axes[0].lower, shape.axes[0].upper)}),
-                  c);
-      if (!c.grid.empty()) return;
-    }
-    // Shapes outermost, rows innermost: rows at one shape cost one evaluation.
-    for (const VectorXd& place : places) {
-      for (const auto& values : axes) {
-        for (std::size_t row = 0; row < shape.rows.size(); ++row) add_start(shape, theta_of(row, place, values), c);
-      }
-    }
+    for (const VectorXd& theta : starts_of(shape, survey, sources.model, stands(c))) add_start(shape, theta, c);
   }
 
   void add_start(const CauseShape& shape, const VectorXd& theta, search::Candidate& c) const {
@@ -311,11 +295,13 @@ std::string make(const Cause& cause, const Maker& maker, CauseSearch& out) {
   c.columns = columns_at(shape, s.run, s.used);
   maker.grid(*shape, c);
   if (c.grid.empty()) return "not testable: no reading depends on it, or the base model takes it up";
+  if (cause.meaning().kind == MUSTER_WORLD_EDIT && shape->place == PlaceShape::point) maker.believe_in_map(*shape, c);
   if (stands(c)) {
     c.admitted = [shape, survey = maker.survey](const VectorXd& t) {
       if (shape->place == PlaceShape::point) return clear_of_ways(*shape, survey, t) ? 1.0 : 0.3;
       return std::pow(0.8, std::min(driven_across(survey, t[1], t[2], t[3], t[4]), 10));
     };
+    if (c.refinable()) maker.let_sweep(*shape, c);
     if (shape->place == PlaceShape::segment) {
       c.moves = [survey = maker.survey](const VectorXd& t) { return moves_of_segment(survey, t); };
       c.belief = [survey = maker.survey](const VectorXd& t) { return belief_in_segment(survey, t); };
@@ -356,6 +342,8 @@ std::map<std::string, double> CauseShape::parameters(const VectorXd& theta) cons
   }
   return result;
 }
+
+Index place_entries(PlaceShape place) { return place == PlaceShape::none ? 0 : place == PlaceShape::point ? 2 : 4; }
 
 search::Candidate at_readings_of(const CauseCandidate& cause, const CauseSources& s) {
   search::Candidate result = cause.candidate;

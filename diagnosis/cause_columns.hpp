@@ -18,6 +18,7 @@ struct Axis {
 
 // How the coordinates of a cause make a place.
 enum class PlaceShape { none = 1, point, segment };
+Eigen::Index place_entries(PlaceShape place);  // of theta
 
 // theta is: number of the row; then x y of a point, or x y of the middle, length and angle of a segment; then axes.
 struct CauseShape {
@@ -35,6 +36,10 @@ struct CauseShape {
   // "radio/beacon1", of two "radio/beacon1 radio/beacon2"; empty where it is about none.
   std::string row_label(const Eigen::VectorXd& theta) const;
   std::string set() const;  // of its first reference; "" without one
+  // A point with a length, a width and a heading that the plan gives.
+  bool is_room() const { return place == PlaceShape::point && axes.size() > 1 && !held.empty(); }
+  // A segment with a width.
+  bool is_strip() const { return place == PlaceShape::segment && axes.size() == 1; }
   Eigen::Index columns() const {
     return !wave.empty() ? 2 : linear.empty() ? 1 : static_cast<Eigen::Index>(linear.size());
   }

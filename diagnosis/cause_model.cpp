@@ -126,7 +126,10 @@ void CauseModel::remove(Simulation& run, Present& present) {
   present = {};
 }
 
-void CauseModel::clear() { remove(whole_, in_whole_); }
+void CauseModel::clear() {
+  remove(whole_, in_whole_);
+  remove(*bare_, in_bare_);
+}
 
 void CauseModel::put(Simulation& run, Present& present, const Cause& cause, const std::vector<CauseRow>& rows,
                      std::size_t first, std::size_t count) {

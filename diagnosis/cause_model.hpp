@@ -47,7 +47,7 @@ class CauseModel {
   // dB that an instance of the cause about rows[row] adds to each reading, the parameters being as given.
   Eigen::VectorXd column(const Cause& cause, const std::vector<CauseRow>& rows, std::size_t row,
                          const std::map<std::string, double>& parameters);
-  // Takes away what still stands in the whole world.
+  // Takes away what still stands in either world.
   void clear();
 
  private:

@@ -67,9 +67,10 @@ class Diagnoser {
         out.unexplained.push_back({f.id.substr(f.id.rfind('~') + 1), f.evidence, f.gain, f.held_out});
         continue;
       }
-      out.causes.push_back(found_cause(f, *cause));
-      out.causes.back().effect = effect_of(bench, cause->candidate, f);
-      give_tables(*cause->shape, out.causes.back());
+      const auto [finding, candidate] = simplest(f, *cause, causes, bench, coefficients);
+      out.causes.push_back(found_cause(finding, *candidate));
+      out.causes.back().effect = effect_of(bench, candidate->candidate, finding);
+      give_tables(*candidate->shape, out.causes.back());
     }
     at_.run->clear();
     for (const CauseCandidate& c : causes.found) out.searched.push_back(c.candidate.id);
@@ -81,6 +82,45 @@ class Diagnoser {
     out.world_values = world_values(bench, at_.base.paths, coefficients, at_.model);
     for (WorldValue& v : out.world_values) v.value = out.parameters.at(v.path);
     return out;
+  }
+
+  // A strength that may as well be the one at which the row has no effect at all is that: a wall that loses nothing is
+  // a wall that is not there. Asked with the base model's parameters as they are beside what was found.
+  std::pair<search::Finding, const CauseCandidate*> simplest(const search::Finding& f, const CauseCandidate& cause,
+                                                             const CauseSearch& causes, const search::Bench& bench,
+                                                             const VectorXd& base) {
+    constexpr double alike = 0.9, normal95 = 1.96;
+    if (cause.shape->columns() != 1 || cause.shape->linear.empty() || cause.candidate.refinable()) return {f, &cause};
+    const VectorXd own = bench.columns_of(cause.candidate, f.theta);
+    set_base(base);
+    for (const CauseCandidate& other : causes.found) {
+      if (!other.candidate.whole || other.candidate.refinable()) continue;
+      for (const VectorXd& theta : other.candidate.grid) {
+        if (f.label.empty() || other.shape->row_label(theta) != f.label) continue;
+        const VectorXd none = bench.columns_of(other.candidate, theta);
+        const double product = own.dot(none), strength = product / own.squaredNorm();
+        if (product * product < alike * own.squaredNorm() * none.squaredNorm() ||
+            std::abs(f.coefficients[0] - strength) > normal95 * std::sqrt(f.uncertainty(0, 0)))
+          continue;
+        search::Finding simple = f;
+        simple.id = other.candidate.id;
+        simple.theta = theta;
+        simple.thetas = {theta};
+        simple.coefficients = f.coefficients / strength;
+        simple.uncertainty = f.uncertainty / (strength * strength);
+        std::erase_if(simple.rivals, [&](const search::Rival& r) { return r.id == simple.id; });
+        set_base(at_.base.values);
+        return {simple, &other};
+      }
+    }
+    set_base(at_.base.values);
+    return {f, &cause};
+  }
+
+  void set_base(const VectorXd& values) {
+    at_.run->clear();
+    for (std::size_t j = 0; j < at_.base.paths.size(); ++j)
+      at_.model.set(at_.base.paths[j], values[static_cast<Index>(j)]);
   }
 
   void add_what_scatters(const search::Bench& bench, Diagnosis& out) {

@@ -83,6 +83,41 @@ std::vector<Strip> strips_of(const LinkModel& model) {
   return strips;
 }
 
+// Rooms in which moving radios took one reading in fifty, or more.
+std::vector<Strip> rooms_visited(const LinkModel& model, const Survey& survey) {
+  constexpr std::size_t least = 50;
+  const Table* table = model.simulation().board().find("wall/*/shape");
+  if (!table) return {};
+  const auto* walls = reinterpret_cast<const Wall*>(table->now().data.data());
+  std::vector<std::array<double, 4>> lines;
+  for (std::size_t k = 0; k < table->now().rows; ++k)
+    lines.push_back({walls[k].x0, walls[k].y0, walls[k].x1, walls[k].y1});
+  std::vector<std::array<double, 2>> places;
+  for (const auto& ends : model.ends()) {
+    for (const End& end : ends) {
+      if (survey.moves[static_cast<std::size_t>(end.radio)]) places.push_back({end.x, end.y});
+    }
+  }
+  std::vector<Strip> result;
+  for (const Room& room : rooms_of(lines, survey.plan_angle, places)) {
+    if (static_cast<std::size_t>(room.visits) * least >= places.size()) result.push_back(room.bounds);
+  }
+  return result;
+}
+
+double height_above_moving(const LinkModel& model, const Survey& survey) {
+  double top = -1e300, next = 1e300;
+  const auto each = [&](const auto& use) {
+    for (const auto& ends : model.ends())
+      for (const End& end : ends) use(end);
+  };
+  each([&](const End& end) {
+    if (survey.moves[static_cast<std::size_t>(end.radio)]) top = std::max(top, end.z);
+  });
+  each([&](const End& end) { next = end.z > top ? std::min(next, end.z) : next; });
+  return top < -1e299 || next > 1e299 ? survey.height.high : (top + next) / 2;
+}
+
 struct Trail {
   Span east, north, yaw;
   double x = 0, y = 0;
@@ -153,6 +188,8 @@ Survey survey_of(const LinkModel& model, const Dataset& data) {
     survey.moves[static_cast<std::size_t>(radio)] = trail.east.length() + trail.north.length() > 0.5;
     if (!survey.moves[static_cast<std::size_t>(radio)]) survey.standing.push_back({trail.x, trail.y});
   }
+  survey.rooms = rooms_visited(model, survey);
+  survey.above_moving = height_above_moving(model, survey);
   return survey;
 }
 

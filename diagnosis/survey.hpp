@@ -8,6 +8,7 @@
 
 #include "diagnosis/dataset.hpp"
 #include "diagnosis/model.hpp"
+#include "diagnosis/rooms.hpp"
 
 namespace muster::diagnosis {
 
@@ -17,23 +18,20 @@ struct Span {
   double at(double share) const { return low + share * length(); }
 };
 
-// Between two walls, or rows of walls, that run side by side.
-struct Strip {
-  double x, y, length, angle, width;  // of its middle, m; rad
-};
-
 struct Survey {
   bool has_time = false, has_yaw = false, has_height = false;
   bool has_places = true;                       // false: the data have distances alone
   std::set<std::string> counted = {};           // materials whose walls the data count, in columns walls_NAME
   Span time, east, north, height;               // s, m
   Span distance;                                // m, from the tenth to the 85th percentile of links
+  double above_moving = 0;                      // m: halfway from the highest place of radios that move to the next one
   double plan_angle = 0;                        // rad, in [0, pi/2): most of the walls run along it or across it
   std::vector<bool> turns, moves;               // a radio
   std::vector<std::array<double, 2>> standing;  // m, places of radios that do not move
   // Ways of radios that move, x0 y0 x1 y1 of each piece, in m.
   std::vector<std::array<double, 4>> ways;
-  std::vector<Strip> strips;  // that could be corridors, the longest first
+  std::vector<Strip> strips;  // between walls that run side by side and could be corridors, the longest first
+  std::vector<Strip> rooms;   // in which moving radios took some of the readings
 };
 
 Survey survey_of(const LinkModel& model, const Dataset& data);

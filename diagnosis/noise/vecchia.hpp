@@ -59,8 +59,8 @@ class Whitener {
   Whitener(const Field& field, const Covariance& covariance);
 
   const Covariance& covariance() const { return covariance_; }
-  double log_scale() const { return log_scale_; }  // sum of log own: minus half the log determinant
   const Stencil& stencil() const { return stencil_; }
+  double log_scale() const { return log_scale_; }  // sum of log own: minus half the log determinant
   Eigen::MatrixXd operator()(const Eigen::Ref<const Eigen::MatrixXd>& columns) const;
   Sheet sheet(const Sheet& columns) const;
 

@@ -20,6 +20,17 @@ struct Piece {
   Eigen::VectorXd theta;
 };
 
+// A column that grows row by row, and what it gains as it stands.
+class Tally {
+ public:
+  virtual ~Tally() = default;
+  virtual Index rows() const = 0;
+  virtual Index reading(Index row) const = 0;  // one of the row's
+  virtual void clear() = 0;
+  virtual void add(Index row, double value) = 0;
+  virtual double gain() const = 0;  // fall of the deviance; 0 where the coefficient would be negative
+};
+
 struct Candidate {
   std::string id;
   Kind kind = Kind::named;
@@ -40,6 +51,8 @@ struct Candidate {
   Eigen::VectorXd lower, upper, step;
   // Moves that suit its shape, as columns: one of each changes the gain about equally. Empty: the steps.
   std::function<Eigen::MatrixXd(const Eigen::VectorXd& theta)> moves;
+  // Thetas worth to be refined, the best first, by a search of its own over what a tally gains. Empty: from the grid.
+  std::function<std::vector<Eigen::VectorXd>(Tally& tally)> proposed;
   int starts = 1;         // places to refine from; more than one: its gain has many tops
   int evaluations = 110;  // of the columns, a start
   double charge = 0;      // nats that refinement costs beyond the grid (from nulls refined alike)

@@ -48,11 +48,12 @@ noise::Fit fit_with(const Bench& bench, const Lead& lead, const Eigen::MatrixXd&
 Trial tried(const Bench& bench, const Lead& lead, const noise::Fit& fit, const Eigen::MatrixXd& design) {
   const Candidate& c = lead.candidate();
   const Stand stand = bench.stand(design, fit.covariance);
-  Trial trial{c.id, c.label_of(lead.theta), stand.gain(lead.columns), 0, 0, false, ""};
+  Trial trial{c.id, c.label_of(lead.theta), gain_of(c, stand, lead.columns), 0, 0, false, ""};
   trial.log_p = bench.log_p(c, trial.gain, lead.columns.cols(), true);
   trial.integrated_log_p = trial.log_p;
   if (trial.log_p > -40)
     trial.integrated_log_p = integrated_log_p(bench, fit, design, lead.columns, log_tests(bench, c));
+  if (c.whole) trial.integrated_log_p = std::max(trial.integrated_log_p, trial.log_p);  // not by a multiple of itself
   if ((c.slow || c.kind == Kind::smooth) && trial.integrated_log_p <= bench.threshold()) {
     const double profile = bench.profile_gain(design, lead.columns, fit.covariance);
     trial.integrated_log_p = std::max(trial.integrated_log_p, bench.log_p(c, profile, lead.columns.cols(), true));

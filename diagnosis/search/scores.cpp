@@ -6,6 +6,7 @@
 
 #include "diagnosis/search/refine.hpp"
 #include "diagnosis/search/tail.hpp"
+#include "diagnosis/search/thin.hpp"
 
 namespace muster::search {
 namespace {
@@ -47,23 +48,49 @@ Eigen::MatrixXf statistics(const Candidate& candidate, Eigen::MatrixXf along) {
   return result;
 }
 
-double explained(const Bench& bench, const Stand& stand, const Candidate& candidate, const Eigen::VectorXd& theta) {
-  const double admitted = candidate.admitted ? candidate.admitted(theta) : 1;
-  if (admitted <= 0) return 0;
-  const Eigen::MatrixXd columns = bench.columns_of(candidate, theta);
-  const Eigen::VectorXd& residual = stand.at.residual;
-  if (candidate.width > 1 || candidate.sign == 0) return admitted * stand.gain(columns);
-  const Eigen::VectorXd left = stand.at.basis.rest(stand.whitener(columns));
-  const double length = left.squaredNorm(), along = left.dot(residual);
-  if (length < 1e-6 || along * candidate.sign <= 0) return 0;
-  if (candidate.whole) return admitted * (2 * along - length);
-  return admitted * along * along / length;
-}
+// What refinement climbs.
+class Height {
+ public:
+  Height(const Bench& bench, const Stand& stand, const Candidate& candidate)
+      : bench_(bench), stand_(stand), candidate_(candidate), thin_(bench, stand) {}
 
-// What refinement climbs: the fall of the deviance, and twice what is believed of the place.
-double penalised(const Bench& bench, const Stand& stand, const Candidate& candidate, const Eigen::VectorXd& theta) {
-  return explained(bench, stand, candidate, theta) + (candidate.belief ? 2 * candidate.belief(theta) : 0);
-}
+  Thin& thin() { return thin_; }
+
+  // The fall of the deviance, and twice what is believed of the place.
+  double operator()(const Eigen::VectorXd& theta) {
+    return explained(theta) + (candidate_.belief ? 2 * candidate_.belief(theta) : 0);
+  }
+
+ private:
+  double explained(const Eigen::VectorXd& theta) {
+    const double admitted = candidate_.admitted ? candidate_.admitted(theta) : 1;
+    if (admitted <= 0) return 0;
+    const Eigen::MatrixXd columns = bench_.columns_of(candidate_, theta);
+    if (candidate_.width > 1 || candidate_.sign == 0) return admitted * stand_.gain(columns);
+    const auto [along, length] = measured(columns);
+    if (length < 1e-6 || along * candidate_.sign <= 0) return 0;
+    return admitted * (candidate_.whole ? 2 * along - length : along * along / length);
+  }
+
+  // Product with the residual and squared length of what the design leaves of a column.
+  std::pair<double, double> measured(const Eigen::VectorXd& column) {
+    constexpr Index few = 5;  // a row reaches some fifteen; a whole column is whitened and projected in one go
+    if ((column.array() != 0).count() * few > column.size()) {
+      const Eigen::VectorXd left = stand_.at.basis.rest(stand_.whitener(column));
+      return {left.dot(stand_.at.residual), left.squaredNorm()};
+    }
+    thin_.clear();
+    for (Index i = 0; i < column.size(); ++i) {
+      if (column[i] != 0) thin_.add(i, column[i]);
+    }
+    return {thin_.along(), thin_.length()};
+  }
+
+  const Bench& bench_;
+  const Stand& stand_;
+  const Candidate& candidate_;
+  Thin thin_;
+};
 
 bool far_from(const Candidate& candidate, const Eigen::VectorXd& theta, const std::vector<Eigen::VectorXd>& others) {
   return std::all_of(others.begin(), others.end(), [&](const Eigen::VectorXd& other) {
@@ -97,15 +124,30 @@ Stand softened(const Bench& bench, const Stand& stand, double share) {
   return bench.stand(stand.design, c);
 }
 
-Top raced_to(const Bench& bench, const Stand& stand, const Lead& lead, const Value& value) {
+Eigen::VectorXd gains_of(const Entry& entry, const Stand& stand) {
+  return gains(*entry.candidate, unit_atoms(entry, stand), stand.at.residual);
+}
+
+Top raced_to(const Bench& bench, const Stand& stand, const Lead& lead, Height& height) {
   const Candidate& c = lead.candidate();
-  const Stand soft = softened(bench, stand, 0.05), half = softened(bench, stand, 0.4);
+  const auto value = [&](const Eigen::VectorXd& theta) { return height(theta); };
   std::vector<Eigen::VectorXd> starts{lead.theta};
+  if (c.proposed) {
+    for (Eigen::VectorXd& theta : c.proposed(height.thin())) {
+      if (static_cast<int>(starts.size()) < c.starts && far_from(c, theta, starts)) starts.push_back(std::move(theta));
+    }
+    return raced(c, starts, {value, value, value});
+  }
+  if (c.pieces.empty()) {  // no shadow: what is off by a little still gains
+    const Eigen::VectorXd all = lead.all.size() > 0 ? lead.all : gains_of(*lead.entry, stand);
+    add_starts(c, all, c.starts - 1, starts);
+    return raced(c, starts, {value, value, value});
+  }
+  const Stand soft = softened(bench, stand, 0.05), half = softened(bench, stand, 0.4);
   if (lead.all.size() > 0) add_starts(c, lead.all, c.starts / 2, starts);
-  const noise::Sheet unit = unit_atoms(*lead.entry, soft);
-  add_starts(c, gains(c, unit, soft.at.residual), c.starts, starts);
-  const auto of = [&](const Stand& s) { return [&](const Eigen::VectorXd& t) { return penalised(bench, s, c, t); }; };
-  return raced(c, starts, {of(soft), of(half), value, value});
+  add_starts(c, gains_of(*lead.entry, soft), c.starts, starts);
+  Height on_soft(bench, soft, c), on_half(bench, half, c);
+  return raced(c, starts, {std::ref(on_soft), std::ref(on_half), value, value});
 }
 
 }  // namespace
@@ -121,6 +163,10 @@ noise::Sheet unit_atoms(const Entry& entry, const Stand& stand) {
 
 Eigen::VectorXd gains(const Candidate& candidate, const noise::Sheet& unit, const Eigen::VectorXd& residual) {
   return statistics(candidate, unit.transpose() * residual.cast<float>()).col(0).cast<double>();
+}
+
+double gain_of(const Candidate& candidate, const Stand& stand, const Eigen::MatrixXd& columns) {
+  return candidate.whole ? std::max(0.0, stand.gain_as_it_is(columns)) : stand.gain(columns);
 }
 
 double log_effective(const Candidate& candidate, const noise::Sheet& unit, const noise::Sheet& normals) {
@@ -170,14 +216,15 @@ Lead refined(const Bench& bench, const Stand& stand, const Lead& lead, bool from
   const Candidate& c = lead.candidate();
   Lead best = lead;
   if (c.refinable()) {
-    const auto value = [&](const Eigen::VectorXd& theta) { return penalised(bench, stand, c, theta); };
+    Height height(bench, stand, c);
+    const auto value = [&](const Eigen::VectorXd& theta) { return height(theta); };
     const bool race = !from_lead_alone && c.starts > 1;
-    Top top = race ? raced_to(bench, stand, lead, value) : climbed(c, lead.theta, c.evaluations, value);
+    Top top = race ? raced_to(bench, stand, lead, height) : climbed(c, lead.theta, c.evaluations, value);
     if (top.second > value(lead.theta)) best.theta = std::move(top.first);
     best.columns = bench.columns_of(c, best.theta);
   }
   best.refined = true;
-  best.gain = stand.gain(best.columns);
+  best.gain = gain_of(c, stand, best.columns);
   best.evidence = bench.evidence(c, best.gain, c.width, true);
   best.log_p = bench.log_p(c, best.gain, c.width, true);
   return best;

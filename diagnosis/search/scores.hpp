@@ -11,6 +11,9 @@ noise::Sheet unit_atoms(const Entry& entry, const Stand& stand);
 // The fall of the deviance by each atom; zero where the sign is wrong.
 Eigen::VectorXd gains(const Candidate& candidate, const noise::Sheet& unit, const Eigen::VectorXd& residual);
 
+// The fall of the deviance by one atom; of a whole candidate as it is, since a multiple of it means nothing.
+double gain_of(const Candidate& candidate, const Stand& stand, const Eigen::MatrixXd& columns);
+
 // log of the number of independent tests whose largest statistic is distributed as that of these atoms over `normals`.
 double log_effective(const Candidate& candidate, const noise::Sheet& unit, const noise::Sheet& normals);
 

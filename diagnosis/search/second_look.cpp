@@ -13,7 +13,8 @@ bool has(const std::vector<Lead>& leads, const Lead& lead) {
                      [&](const Lead& other) { return other.entry == lead.entry && other.theta == lead.theta; });
 }
 
-// Three that nearly pass, everything that can be a place, and what the ladder brings up.
+// Three that nearly pass, everything whose gain has many tops, of which the grid may miss the highest, and what the
+// ladder brings up.
 std::vector<Lead> worth_a_look(Bench& bench, const std::vector<Lead>& first,
                                const std::function<bool(const Candidate&)>& usable) {
   std::vector<Lead> result;
@@ -23,7 +24,7 @@ std::vector<Lead> worth_a_look(Bench& bench, const std::vector<Lead>& first,
       result.push_back(lead);
   }
   for (const Lead& lead : first) {
-    if (!lead.candidate().pieces.empty() && usable(lead.candidate()) && !has(result, lead)) result.push_back(lead);
+    if (lead.candidate().starts > 1 && usable(lead.candidate()) && !has(result, lead)) result.push_back(lead);
   }
   std::vector<Lead> slow = ladder(bench, usable);
   slow.resize(std::min<std::size_t>(slow.size(), 4), slow.empty() ? Lead{} : slow[0]);
@@ -50,13 +51,13 @@ std::vector<Lead> second_look(Bench& bench, const Stand& stand, const std::vecto
   const Eigen::MatrixXd design = bench.design();
   for (Lead& lead : looked) {
     const Candidate& c = lead.candidate();
-    if (!c.pieces.empty()) lead = refined(bench, stand, lead, false);
+    if (c.starts > 1) lead = refined(bench, stand, lead, false);
     noise::Fit fit = fit_with(bench, c, beside(design, lead.columns));
-    if (!c.pieces.empty()) {  // the field of before holds a part of the place and draws it aside
+    if (c.starts > 1) {  // the field of before holds a part of the place and draws it aside
       lead = refined(bench, bench.stand(design, fit.covariance), lead, false);
       fit = bench.fitted(beside(design, lead.columns), fit.covariance, 6);
     }
-    lead.gain = bench.stand(design, fit.covariance).gain(lead.columns);
+    lead.gain = gain_of(c, bench.stand(design, fit.covariance), lead.columns);
     lead.evidence = bench.evidence(c, lead.gain, c.width, false);
     lead.log_p = bench.log_p(c, lead.gain, c.width, true);
   }

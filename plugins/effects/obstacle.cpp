@@ -1,4 +1,5 @@
 // A thing that stands about: a machine, a cabinet, a pillar.
+#include <cmath>
 #include <muster/plugin.hpp>
 
 #include "link_term.hpp"
@@ -9,11 +10,13 @@ namespace {
 using namespace muster;
 
 struct Obstacle {
-  static constexpr auto id = "effect.obstacle/1";
+  static constexpr auto id = "effect.obstacle/2";
   static constexpr auto summary = "a thing that is not on the map stands in the way of links";
   static constexpr auto manual =
-      "Takes away `loss` of a link through the middle of the upright cylinder about (x, y), and of others in "
-      "proportion to their way through it in plan.";
+      "Takes away `loss` of a link through the middle of the upright cylinder about (x, y), and of one whose way "
+      "through "
+      "it in plan is w loss (1 - exp(-w / radius)) / (1 - exp(-2)): what is lost in it grows with the way, and waves "
+      "that go around it bound that.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       real("x", 0, -1e6, 1e6, "m", "middle, east").required().free().with(MUSTER_EAST),
@@ -43,8 +46,9 @@ struct Obstacle {
 
   void step(const Step& k) const {
     const Disk thing{k[x], k[y], k[radius]};
-    links.add_both_ways(
-        k, [&](const End& a, const End& b) { return -k[loss] * thing.share_passed(a.at, b.at, k[height]); });
+    links.add_both_ways(k, [&](const End& a, const End& b) {
+      return k[loss] * std::expm1(-thing.way(a.at, b.at, k[height]) / k[radius]) / -std::expm1(-2);
+    });
   }
 
   Value x, y, radius, loss, height;

@@ -29,8 +29,8 @@ struct Segment {
 struct Disk {
   double x, y, radius;
 
-  // Of the way through the middle, the share that the link goes through it in plan: 0 to 1.
-  double share_passed(const Pose& a, const Pose& b, double height) const {
+  // The way that the link goes through it in plan, in m.
+  double way(const Pose& a, const Pose& b, double height) const {
     const double ex = b.x - a.x, ey = b.y - a.y, length = std::hypot(ex, ey);
     if (length <= 0 || radius <= 0) return 0;
     const double along = ((x - a.x) * ex + (y - a.y) * ey) / length, aside = side(a.x, a.y, b.x, b.y, x, y) / length;
@@ -39,7 +39,7 @@ struct Disk {
     const double from = std::max(along - half, 0.0), to = std::min(along + half, length);
     if (to <= from) return 0;
     const double z = a.z + (from + to) / (2 * length) * (b.z - a.z);
-    return z >= 0 && z < height ? (to - from) / (2 * radius) : 0;
+    return z >= 0 && z < height ? to - from : 0;
   }
 };
 
@@ -50,6 +50,21 @@ struct Rectangle {
   bool holds(const Pose& p) const {
     const double east = p.x - x, north = p.y - y, c = std::cos(heading), s = std::sin(heading);
     return std::abs(c * east + s * north) <= length / 2 && std::abs(c * north - s * east) <= width / 2;
+  }
+
+  // The way that the link from a to b goes inside in plan, in m.
+  double way(const Pose& a, const Pose& b) const {
+    const double c = std::cos(heading), s = std::sin(heading), ex = b.x - a.x, ey = b.y - a.y;
+    double from = 0, to = 1;
+    const auto cut = [&](double at, double by, double half) {
+      if (by == 0) return;  // the ends, one of them inside, say enough
+      const double one = (-half - at) / by, other = (half - at) / by;
+      from = std::max(from, std::min(one, other));
+      to = std::min(to, std::max(one, other));
+    };
+    cut(c * (a.x - x) + s * (a.y - y), c * ex + s * ey, length / 2);
+    cut(c * (a.y - y) - s * (a.x - x), c * ey - s * ex, width / 2);
+    return std::max(to - from, 0.0) * std::hypot(ex, ey);
   }
 };
 

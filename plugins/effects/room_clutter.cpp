@@ -1,4 +1,5 @@
 // A room full of things: whoever is in it is heard less.
+#include <cmath>
 #include <muster/plugin.hpp>
 
 #include "link_term.hpp"
@@ -9,11 +10,15 @@ namespace {
 using namespace muster;
 
 struct RoomClutter {
-  static constexpr auto id = "effect.room_clutter/1";
+  static constexpr auto id = "effect.room_clutter/2";
   static constexpr auto summary = "links into a cluttered room lose more";
   static constexpr auto manual =
-      "Takes away `loss` of every link with an end in the rectangle about (x, y), its length along `heading`; once, "
-      "where both are.";
+      "Takes away loss (1 - exp(-w / depth)) of every link with an end in the rectangle about (x, y), its length along "
+      "`heading`; w is the link's way inside it in plan. Clutter about an end takes more the further a wave has to "
+      "come "
+      "through it, and not beyond a bound (ITU-R P.833, section 2.1); an end above the things, at `height` or higher, "
+      "is "
+      "not among them (P.2108).";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       real("x", 0, -1e6, 1e6, "m", "middle, east").required().free().with(MUSTER_EAST),
@@ -22,7 +27,9 @@ struct RoomClutter {
       real("width", 4, 0.1, 1e3, "m", "across the heading").free().with(MUSTER_LOG),
       real("heading", 0, -3.141592653589793, 3.141592653589793, "rad", "of its length, from east to north")
           .with(MUSTER_CYCLIC),
-      real("loss", 0, -40, 40, "dB", "of a link with an end in it").free().with(MUSTER_LINEAR),
+      real("depth", 0.8, 0.05, 10, "m", "way inside on which all but 37 % of the loss is met").free().with(MUSTER_LOG),
+      real("height", 2.7, 0.01, 1e4, "m", "up to which things stand").free(),
+      real("loss", 0, -40, 40, "dB", "of a link that goes far inside it").free().with(MUSTER_LINEAR),
   };
   static constexpr muster_cause cause = {
       sizeof(muster_cause),
@@ -41,15 +48,21 @@ struct RoomClutter {
         length(s.value("length")),
         width(s.value("width")),
         heading(s.value("heading")),
+        depth(s.value("depth")),
+        height(s.value("height")),
         loss(s.value("loss")),
         links(s) {}
 
   void step(const Step& k) const {
     const Rectangle room{k[x], k[y], k[length], k[width], k[heading]};
-    links.add(k, [&](const End& a, const End& b) { return room.holds(a.at) || room.holds(b.at) ? -k[loss] : 0; });
+    const auto among = [&](const Pose& p) { return p.z < k[height] && room.holds(p); };
+    links.add_both_ways(k, [&](const End& a, const End& b) {
+      if (!among(a.at) && !among(b.at)) return 0.0;
+      return k[loss] * std::expm1(-room.way(a.at, b.at) / k[depth]);
+    });
   }
 
-  Value x, y, length, width, heading, loss;
+  Value x, y, length, width, heading, depth, height, loss;
   LinkTerm links;
 };
 

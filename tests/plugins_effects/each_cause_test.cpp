@@ -35,7 +35,7 @@ const std::vector<Example>& examples() {
       {"room_clutter", "x=\"6\" y=\"3\" loss=\"3\"", ""},
       {"corridor", here + "width=\"7\" gain=\"0.4\"", ""},
       {"dual_slope", "break=\"3\" n_change=\"0.7\"", ""},
-      {"two_ray", "reflection=\"-0.6\"", "reflection=\"0\""},
+      {"two_ray", "reflection=\"0.6\"", "reflection=\"0\""},
       {"multiwall_saturation", "knee=\"9\"", "knee=\"1e4\""},
       {"incidence", "share=\"0.5\"", ""},
       {"height", "loss=\"3\"", ""},

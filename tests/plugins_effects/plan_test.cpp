@@ -97,14 +97,14 @@ double way_through(const Reading& r, double x, double y, double radius) {
   return inside * std::hypot(r.to.x - r.from.x, r.to.y - r.from.y) / steps;
 }
 
-TEST(Obstacle, CostsAsTheWayThroughIt) {
+TEST(Obstacle, CostsMoreTheLongerTheWayThroughIt) {
   const Site site;
   const auto part = column(site.world(effect("obstacle", "x=\"6\" y=\"3\" radius=\"1.5\" loss=\"12\" height=\"10\"")),
                            "link/*/level@it");
   int hit = 0;
   for (std::size_t i = 0; i < part.size(); ++i) {
-    const double expected = -12 * way_through(site.readings[i], 6, 3, 1.5) / 3;
-    EXPECT_NEAR(part[i], expected, 0.01);
+    const double way = way_through(site.readings[i], 6, 3, 1.5);
+    EXPECT_NEAR(part[i], -12 * (1 - std::exp(-way / 1.5)) / (1 - std::exp(-2)), 0.01);
     hit += part[i] < -1;
   }
   EXPECT_GT(hit, 20);
@@ -125,10 +125,22 @@ bool inside(const Reading::At& p, double x, double y, double length, double widt
   return std::abs(u) < length / 2 && std::abs(v) < width / 2;
 }
 
-TEST(RoomClutter, IsLostOnceByLinksWithAnEndInTheRoom) {
-  expect_term(
-      "room_clutter", "x=\"8\" y=\"4\" length=\"9\" width=\"5\" heading=\"0.4\" loss=\"3\"",
-      [](const Reading& r) { return inside(r.from, 8, 4, 9, 5, 0.4) || inside(r.to, 8, 4, 9, 5, 0.4) ? -3 : 0; });
+TEST(RoomClutter, IsLostByLinksWithAnEndInTheRoomUpToABound) {
+  const auto lost = [](const Reading& r) {
+    constexpr int steps = 20000;
+    const auto among = [](const Reading::At& p) { return p.z < 1.2 && inside(p, 8, 4, 9, 5, 0.4); };
+    if (!among(r.from) && !among(r.to)) return 0.0;
+    int count = 0;
+    for (int i = 0; i < steps; ++i) {
+      const double u = (i + 0.5) / steps;
+      count += inside({r.from.x + u * (r.to.x - r.from.x), r.from.y + u * (r.to.y - r.from.y), 0, 0}, 8, 4, 9, 5, 0.4);
+    }
+    const double way = count * std::hypot(r.to.x - r.from.x, r.to.y - r.from.y) / steps;
+    return -3 * (1 - std::exp(-way / 1.5));
+  };
+  expect_term("room_clutter",
+              "x=\"8\" y=\"4\" length=\"9\" width=\"5\" heading=\"0.4\" depth=\"1.5\" height=\"1.2\" loss=\"3\"", lost,
+              0.01);
 }
 
 TEST(Corridor, LowersTheExponentOfLinksInsideIt) {

@@ -10,6 +10,7 @@
 #include "diagnosis/search/refine.hpp"
 #include "diagnosis/search/smooths.hpp"
 #include "diagnosis/search/tail.hpp"
+#include "diagnosis/search/thin.hpp"
 #include "muster/random.hpp"
 #include "tests/search/causes.hpp"
 
@@ -111,6 +112,30 @@ TEST(Smooths, NothingDependsOnPlacesThatAreNotKnown) {
     for (const std::string& covariate : c.covariates)
       EXPECT_TRUE(covariate.find("position") == std::string::npos && covariate.find("bearing") == std::string::npos)
           << c.id;
+  }
+}
+
+// Row by row the same as the whole column at once.
+TEST(Thin, GainsWhatTheWholeColumnGains) {
+  const auto world = world_of(varied(5, 900));
+  const Problem problem = problem_of(world, Eigen::VectorXd::Zero(900), causes_of(world));
+  Bench bench(problem, {});
+  const Stand stand = bench.stand(bench.design());
+  Thin thin(bench, stand);
+  const Stream stream(8);
+  for (uint64_t k = 0; k < 20; ++k) {
+    Eigen::MatrixXd column = Eigen::MatrixXd::Zero(bench.rows().size(), 1);
+    thin.clear();
+    for (uint64_t j = 0; j < 12; ++j) {
+      const auto row = static_cast<Index>(stream.uniform(k, 2 * j) * static_cast<double>(column.rows()));
+      const double value = stream.normal(k, 2 * j + 1);
+      column(row, 0) += value;
+      thin.add(row, value);
+    }
+    const Eigen::VectorXd left = stand.at.basis.rest(stand.whitener(column));
+    EXPECT_NEAR(thin.length(), left.squaredNorm(), 1e-9 * left.squaredNorm());
+    EXPECT_NEAR(thin.along(), left.dot(stand.at.residual), 1e-9 * left.norm() * stand.at.residual.norm());
+    EXPECT_NEAR(thin.gain(), thin.along() > 0 ? stand.gain(column) : 0, 1e-6);
   }
 }
 

@@ -1,0 +1,37 @@
+// Columns that are zero at most rows, whitened at those alone that they reach.
+#pragma once
+
+#include "diagnosis/search/bench.hpp"
+
+namespace muster::search {
+
+class Thin : public Tally {
+ public:
+  // Keeps references to both.
+  Thin(const Bench& bench, const Stand& stand);
+
+  Index rows() const override { return bench_.rows().size(); }
+  Index reading(Index row) const override { return bench_.rows().example(row); }
+  void clear() override;
+  void add(Index row, double value) override;
+  double gain() const override;
+
+  double along() const { return along_; }                               // product with the residual
+  double length() const { return length_ - explained_.squaredNorm(); }  // squared, of what the design leaves
+
+ private:
+  const Bench& bench_;
+  // The whitener by columns: row k of the readings reaches reached_[j] by weight_[j], j from first_[k] on.
+  std::vector<std::size_t> first_;
+  std::vector<Index> reached_;
+  std::vector<double> weight_;
+  Eigen::VectorXd scores_;  // products of each row's unit column with the residual
+  Eigen::MatrixXd design_;  // and with the design, whose columns are its rows
+
+  Eigen::VectorXd column_;  // whitened
+  std::vector<Index> touched_;
+  double along_ = 0, length_ = 0;
+  Eigen::VectorXd explained_;
+};
+
+}  // namespace muster::search
