@@ -18,7 +18,7 @@ std::vector<double> evenly(double from, double to, int count) {
 Axis logarithmic(const muster_param& p, double lower, double upper, const std::vector<double>& values, double step) {
   lower = std::max(lower, p.min);
   upper = std::min(upper, p.max);
-  Axis axis{p.name, true, std::log(lower), std::log(upper), step, {}};
+  Axis axis{p.name, true, std::log(lower), std::log(upper), step, {}, lower, upper};
   for (const double v : values) axis.values.push_back(std::log(std::clamp(v, lower, upper)));
   axis.values.erase(std::unique(axis.values.begin(), axis.values.end()), axis.values.end());
   return axis;
