@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "diagnosis/noise/reach.hpp"
 #include "muster/random.hpp"
 
 namespace muster::diagnosis {
@@ -55,16 +56,8 @@ double log_mean(const Ratios& ratios) {
 
 class Scan {
  public:
-  explicit Scan(const search::Bench& bench) : bench_(bench), stand_(bench.stand(bench.design())) {
-    const noise::Field& field = bench.field();
-    users_.resize(static_cast<std::size_t>(field.size()));
-    for (Index row = 0; row < field.size(); ++row) {
-      users_[static_cast<std::size_t>(row)].emplace_back(row, own(row));
-      for (int slot = 0; slot < field.slots(); ++slot) {
-        const Index near = field.neighbour(row, slot);
-        if (near >= 0) users_[static_cast<std::size_t>(near)].emplace_back(row, beside(row, slot));
-      }
-    }
+  explicit Scan(const search::Bench& bench)
+      : bench_(bench), stand_(bench.stand(bench.design())), reach_(bench.field(), stand_.whitener) {
     for (const auto& [radios, readings] : readings_of_links()) links_.push_back(link(radios, readings));
   }
 
@@ -72,13 +65,7 @@ class Scan {
   const VectorXd& residual() const { return stand_.at.residual; }
 
   // What each row says of a shift of its own: dips' scores are sums of these.
-  VectorXd pulls(const VectorXd& whitened) const {
-    VectorXd result = VectorXd::Zero(whitened.size());
-    for (Index row = 0; row < result.size(); ++row) {
-      for (const auto& [user, weight] : users_[static_cast<std::size_t>(row)]) result[row] += weight * whitened[user];
-    }
-    return result;
-  }
+  VectorXd pulls(const VectorXd& whitened) const { return reach_.transposed(whitened); }
 
   // Passages come at random, no two of them nearer than three widths.
   Ratios ratios(const Link& link, const VectorXd& pulls) const {
@@ -107,11 +94,6 @@ class Scan {
   }
 
  private:
-  double own(Index row) const { return stand_.whitener.stencil().own[static_cast<std::size_t>(row)]; }
-  double beside(Index row, int slot) const {
-    return stand_.whitener.stencil().beside[static_cast<std::size_t>(row * bench_.field().slots() + slot)];
-  }
-
   // By time, both ways of a link together; of links with few rows none.
   std::map<std::pair<int, int>, std::vector<Index>> readings_of_links() const {
     const noise::Readings& r = bench_.problem().readings;
@@ -159,11 +141,11 @@ class Scan {
   // `sheet`: zeros, as it is left.
   double energy(const Dip& dip, VectorXd& sheet) const {
     for (const auto& [row, share] : dip.rows) {
-      for (const auto& [user, weight] : users_[static_cast<std::size_t>(row)]) sheet[user] += share * weight;
+      for (const auto& [user, weight] : reach_.of(row)) sheet[user] += share * weight;
     }
     double sum = 0;
     for (const auto& [row, share] : dip.rows) {
-      for (const auto& [user, weight] : users_[static_cast<std::size_t>(row)]) {
+      for (const auto& [user, weight] : reach_.of(row)) {
         sum += sheet[user] * sheet[user];
         sheet[user] = 0;
       }
@@ -173,7 +155,7 @@ class Scan {
 
   const search::Bench& bench_;
   search::Stand stand_;
-  std::vector<std::vector<std::pair<Index, double>>> users_;  // whitened rows that a row is part of, with its weight
+  noise::Reach reach_;
   std::vector<Link> links_;
 };
 

@@ -24,6 +24,7 @@ noise::Readings some(const noise::Readings& all, const std::vector<Index>& which
   result.tx_at = all.tx_at(Eigen::all, which);
   result.rx_at = all.rx_at(Eigen::all, which);
   for (const Index i : which) {
+    if (!all.t.empty()) result.t.push_back(all.t[static_cast<std::size_t>(i)]);
     result.tx.push_back(all.tx[static_cast<std::size_t>(i)]);
     result.rx.push_back(all.rx[static_cast<std::size_t>(i)]);
   }
@@ -31,31 +32,17 @@ noise::Readings some(const noise::Readings& all, const std::vector<Index>& which
 }
 
 // Every reading a row of its own, in the given order.
-noise::Sites sites_of(const noise::Readings& readings, bool anchored_at_tx) {
-  return {anchored_at_tx ? readings.rx_at : readings.tx_at, anchored_at_tx ? readings.tx_at : readings.rx_at,
-          anchored_at_tx ? readings.tx : readings.rx, VectorXd::Ones(readings.size()), 0};
-}
-
-bool tx_moves_less(const noise::Readings& readings) {
-  const auto extent = [](const Eigen::Matrix3Xd& at, const std::vector<int>& radio) {
-    std::map<int, std::pair<Eigen::Vector3d, double>> radios;
-    for (Index i = 0; i < at.cols(); ++i) {
-      const Eigen::Vector3d place = at.col(i);
-      const auto [found, is_new] = radios.try_emplace(radio[static_cast<std::size_t>(i)], place, 0.0);
-      if (!is_new) found->second.second = std::max(found->second.second, (found->second.first - place).norm());
-    }
-    double sum = 0;
-    for (const auto& [number, way] : radios) sum += way.second;
-    return sum / static_cast<double>(radios.size());
-  };
-  return extent(readings.tx_at, readings.tx) <= extent(readings.rx_at, readings.rx);
+noise::Sites sites_of(const noise::Readings& readings) {
+  noise::RowLimits single;
+  single.way = -1;
+  const noise::Rows rows(readings, single);
+  return rows.sites(readings).of(rows.row_of());
 }
 
 }  // namespace
 
 ReadingField::ReadingField(const noise::Readings& readings, const VectorXd& residual)
-    : residual_(residual(finite(residual))),
-      field_(sites_of(some(readings, finite(residual)), tx_moves_less(readings)), conditioning) {}
+    : residual_(residual(finite(residual))), field_(sites_of(some(readings, finite(residual))), conditioning) {}
 
 const ReadingField::Known& ReadingField::known(const FieldShape& shape, int place) {
   const auto found = known_.find({shape, place});

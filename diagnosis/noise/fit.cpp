@@ -53,7 +53,7 @@ std::vector<Fit> fit_families(const Field& field, const Eigen::VectorXd& y, cons
   std::vector<Fit> fits{fit(field, y, design, prior, default_start(y, design, Family::exponential), 20)};
   for (const Family family : families) {
     if (family == Family::exponential) continue;
-    // A smooth field's fit lies far from that of a rough one: it starts from the next smoother one's.
+    // The smoothest family's fit lies far from that of the roughest: it starts from its neighbour's.
     const auto like = std::find_if(fits.begin(), fits.end(), [&](const Fit& f) {
       return f.covariance.family == (family == Family::gaussian ? Family::matern52 : Family::exponential);
     });

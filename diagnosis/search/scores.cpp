@@ -116,7 +116,7 @@ void add_starts(const Candidate& c, const Eigen::VectorXd& gains, int count, std
 
 // The same total variance with less of it in the field. Whitened, a shadow is little more than its edges, and a place
 // that is off by more than their width gains nothing; in white noise what it covers counts.
-Stand softened(const Bench& bench, const Stand& stand, double share) {
+Stand with_less_field(const Bench& bench, const Stand& stand, double share) {
   noise::Covariance c = stand.whitener.covariance();
   const double moved = (1 - share) * c.field_variance() * bench.rows().count().mean();
   c.theta[2] = std::log(c.reading_variance() + moved);
@@ -143,7 +143,7 @@ Top raced_to(const Bench& bench, const Stand& stand, const Lead& lead, Height& h
     add_starts(c, all, c.starts - 1, starts);
     return raced(c, starts, {value, value, value});
   }
-  const Stand soft = softened(bench, stand, 0.05), half = softened(bench, stand, 0.4);
+  const Stand soft = with_less_field(bench, stand, 0.05), half = with_less_field(bench, stand, 0.4);
   if (lead.all.size() > 0) add_starts(c, lead.all, c.starts / 2, starts);
   add_starts(c, gains_of(*lead.entry, soft), c.starts, starts);
   Height on_soft(bench, soft, c), on_half(bench, half, c);

@@ -1,6 +1,7 @@
 // Columns that are zero at most rows, whitened at those alone that they reach.
 #pragma once
 
+#include "diagnosis/noise/reach.hpp"
 #include "diagnosis/search/bench.hpp"
 
 namespace muster::search {
@@ -21,10 +22,7 @@ class Thin : public Tally {
 
  private:
   const Bench& bench_;
-  // The whitener by columns: row k of the readings reaches reached_[j] by weight_[j], j from first_[k] on.
-  std::vector<std::size_t> first_;
-  std::vector<Index> reached_;
-  std::vector<double> weight_;
+  noise::Reach reach_;
   Eigen::VectorXd scores_;  // products of each row's unit column with the residual
   Eigen::MatrixXd design_;  // and with the design, whose columns are its rows
 

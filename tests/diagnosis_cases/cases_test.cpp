@@ -53,7 +53,7 @@ TEST_P(SealedCase, IsNamedAndTheExtendedWorldIsSilent) {
 INSTANTIATE_TEST_SUITE_P(Effects, SealedCase,
                          testing::Values(Hidden{"antenna_rx", 1}, Hidden{"step", 2}, Hidden{"dual_slope", 3},
                                          Hidden{"drift", 6}, Hidden{"label_swap", 15}, Hidden{"rssi_saturation", 13},
-                                         Hidden{"outliers", 14}),
+                                         Hidden{"outliers", 14}, Hidden{"wall_absent", 16}),
                          [](const auto& hidden) { return std::string(hidden.param.effect); });
 
 // At this strength a short wall and a thing in its place are often not told apart; the place is what counts here.

@@ -1,22 +1,13 @@
 #include "tests/hidden/examined.hpp"
 
-#include <unistd.h>
-
 #include <array>
 #include <cstdio>
 #include <stdexcept>
 
+#include "text/temporary_folder.hpp"
+
 namespace muster::exam {
 namespace {
-
-namespace fs = std::filesystem;
-
-class Folder {
- public:
-  Folder() : at(fs::temp_directory_path() / ("muster_hidden_" + std::to_string(getpid()))) { fs::remove_all(at); }
-  ~Folder() { fs::remove_all(at); }
-  const fs::path at;
-};
 
 void muster(const std::string& arguments) {
   const std::string command = std::string(MUSTER_PROGRAM) + " exam " + arguments + " 2>&1";
@@ -30,11 +21,11 @@ void muster(const std::string& arguments) {
 }  // namespace
 
 Grades examined(const std::string& wanted) {
-  const Folder folder;
-  const std::string out = (folder.at / "exam").string();
+  const TemporaryFolder folder;
+  const std::string out = (folder.path() / "exam").string();
   muster("make " + wanted + " --out " + out);
   muster("run " + out);
-  return grade(out, folder.at / "exam/reports");
+  return grade(out, folder.path() / "exam/reports");
 }
 
 }  // namespace muster::exam

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,7 @@
 
 #include "diagnosis/noise/censored.hpp"
 #include "diagnosis/noise/fit.hpp"
+#include "diagnosis/noise/reach.hpp"
 #include "muster/random.hpp"
 #include "tests/search/synthetic.hpp"
 
@@ -167,6 +169,48 @@ TEST(Fit, ASmoothFieldIsNotTakenForAnExponentialOne) {
   const Field field(rows.sites(world.readings));
   EXPECT_NE(fit_families(field, rows.mean(world.rssi), rows.mean(world.base), Prior())[0].covariance.family,
             Family::exponential);
+}
+
+// A correlation of something: no combination of rows near each other has a negative variance.
+TEST(Families, ArePositiveDefiniteOverRows) {
+  Sites sites = scattered(60, 1, 21);
+  sites.place *= 0.15;
+  sites.soft = 0.3;
+  for (const Family family : families) {
+    Covariance c{family, some.theta};
+    c.theta[2] = std::log(1e-3);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(dense(sites, c), Eigen::EigenvaluesOnly);
+    EXPECT_GT(solver.eigenvalues().minCoeff(), 0) << name_of(family);
+  }
+}
+
+TEST(Rows, EndWhereAWallChangesTheLevel) {
+  Readings r;  // ten readings within a second and a quarter of a metre
+  for (int k = 0; k < 10; ++k) {
+    r.tx.push_back(0);
+    r.rx.push_back(1);
+    r.t.push_back(0.1 * k);
+    r.level.push_back(k < 4 ? -50 - 0.1 * k : -54.0);
+  }
+  r.tx_at = Eigen::Matrix3Xd::Zero(3, 10);
+  r.rx_at = Eigen::Matrix3Xd::Zero(3, 10);
+  for (Index k = 0; k < 10; ++k) r.rx_at(0, k) = 5 + 0.025 * static_cast<double>(k);
+  const Rows rows(r);
+  ASSERT_EQ(rows.size(), 2);
+  EXPECT_EQ(rows.count()[0], 4);
+  r.level.clear();
+  EXPECT_EQ(Rows(r).size(), 1);
+}
+
+TEST(Reach, IsTheWhitenersTranspose) {
+  const Field field(scattered(90, 3, 22));
+  const Whitener whitener(field, some);
+  const Reach reach(field, whitener);
+  Eigen::VectorXd z(90);
+  for (Index i = 0; i < 90; ++i) z[i] = Stream(7).normal(static_cast<uint64_t>(i));
+  const Eigen::MatrixXd all = whitener(Eigen::MatrixXd::Identity(90, 90));
+  EXPECT_LT((reach.transposed(z) - all.transpose() * z).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT((whitener(z) - all * z).cwiseAbs().maxCoeff(), 1e-12);  // one column goes its own way
 }
 
 TEST(Rows, BothDirectionsOfAPairHaveOnePlaceAndOneAnchor) {

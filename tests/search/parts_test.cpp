@@ -244,6 +244,21 @@ TEST(CleanUp, DropsWhatCarriesNothingAndSetsLeftoversAside) {
   EXPECT_NEAR(bench.terms[0].gain, 900, 300);
 }
 
+TEST(CleanUp, ACauseGivesWayToARivalThatDoesBetter) {
+  const auto world = world_of(varied(13, 4000));
+  const auto causes = causes_of(world);
+  const Eigen::VectorXd effect = scaled_to(world, causes[2].columns({}).col(0), 400);  // antenna_rx
+  const Problem problem = problem_of(world, effect, causes);
+  Bench bench(problem, {});
+  score(bench);
+  bench.terms = {term_at(bench, "drift", Eigen::VectorXd::Constant(1, 2))};
+  bench.refit();
+  std::vector<Trial> trials;
+  clean_up(bench, trials);
+  ASSERT_EQ(bench.terms.size(), 1u);
+  EXPECT_EQ(bench.terms[0].candidate->id, "antenna_rx");
+}
+
 TEST(CleanUp, ASmoothGivesWayToTheCauseThatExplainsIt) {
   const auto world = world_of(varied(14, 4000));
   const auto causes = causes_of(world);
