@@ -71,7 +71,7 @@ std::set<std::string> wanted(const Diagnosis& found, const CauseSearch& causes) 
   for (const FoundCause& c : found.causes) {
     if (c.status != search::Status::named) continue;
     if (reads_a_table(causes, c.id)) return {};
-    out.insert(c.id);
+    if (!c.sought_as.empty()) out.insert(c.sought_as);  // a law of readings is none of the search's
     std::size_t rivals = 0;
     for (const search::Rival& r : c.rivals) {
       if (r.separability >= decided || r.id[0] == '~' || reads_a_table(causes, r.id) || rivals++ >= most_rivals)
@@ -119,8 +119,11 @@ std::vector<Advice> advice_for(search::Search& search, const Diagnosis& found, c
     plans.push_back(simulated.back()->plan);
   }
   std::vector<Advice> out;
-  for (const search::Advice& a : search.advise(plans))
-    out.push_back({a.say, a.finding, a.rival, a.separability, a.predicted});
+  for (const search::Advice& a : search.advise(plans)) {
+    const auto cause = std::find_if(found.causes.begin(), found.causes.end(),
+                                    [&](const FoundCause& c) { return c.sought_as == a.finding; });
+    if (cause != found.causes.end()) out.push_back({a.say, cause->id, a.rival, a.separability, a.predicted});
+  }
   return out;
 }
 

@@ -82,7 +82,10 @@ std::optional<Axis> axis_of(const muster_param& p, const Survey& s, const CauseS
     return logarithmic(p, p.min, p.max, {values[1], values[2], values[3]}, 0.2);
   }
   if (unit == "s") return moment(p, s, alone);
-  if (unit == "m" && shape.place != PlaceShape::none) {
+  // What a wall is like at its ends.
+  if (unit == "m" && shape.place == PlaceShape::segment)
+    return Axis{p.name, false, p.min, p.max, (p.max - p.min) / 5, {p.min}};
+  if (unit == "m" && shape.place == PlaceShape::point) {
     // Up to where things stand: among moving radios alone, or among all.
     std::vector<double> heights{s.above_moving, s.height.high + 0.5};
     if (heights[0] >= s.height.high) heights.erase(heights.begin());
@@ -128,7 +131,9 @@ double belief_in_segment(const Survey& s, const Eigen::VectorXd& t) {
 Eigen::MatrixXd moves_of_segment(const Survey& s, const Eigen::VectorXd& t) {
   constexpr double way = 0.4, turn = 0.15, away = 0.25;  // m, rad, share of the distance
   const Eigen::Vector2d along(std::cos(t[4]), std::sin(t[4])), across(-along.y(), along.x());
-  Eigen::MatrixXd moves = Eigen::MatrixXd::Zero(t.size(), s.standing.empty() ? 6 : 7);
+  const Eigen::Index shapes = t.size() - 5, others = shapes + (s.standing.empty() ? 0 : 1);
+  Eigen::MatrixXd moves = Eigen::MatrixXd::Zero(t.size(), 6 + others);
+  for (Eigen::Index k = 0; k < shapes; ++k) moves(5 + k, 6 + k) = way;
   moves.col(0).segment<2>(1) = way * along;
   moves.col(1).segment<2>(1) = way * across;
   for (const Eigen::Index end : {2, 3}) {
@@ -142,7 +147,7 @@ Eigen::MatrixXd moves_of_segment(const Survey& s, const Eigen::VectorXd& t) {
   const auto far = [&](const std::array<double, 2>& p) { return std::hypot(t[1] - p[0], t[2] - p[1]); };
   const auto radio = *std::min_element(s.standing.begin(), s.standing.end(),
                                        [&](const auto& a, const auto& b) { return far(a) < far(b); });
-  moves.col(6).segment<3>(1) = away * Eigen::Vector3d(t[1] - radio[0], t[2] - radio[1], t[3]);
+  moves.rightCols(1).middleRows(1, 3) = away * Eigen::Vector3d(t[1] - radio[0], t[2] - radio[1], t[3]);
   return moves;
 }
 

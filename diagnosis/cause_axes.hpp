@@ -15,8 +15,8 @@ int driven_across(const Survey& survey, double x, double y, double length, doubl
 // Whether a way leads through the disk.
 bool driven_through(const Survey& survey, double x, double y, double radius);
 
-// Moves of a segment: along and across, either end further out, about either end, and away from the nearest radio that
-// stands, in whose shadow it then stays the same.
+// Moves of a segment: along and across, either end further out, about either end, each axis, and away from the nearest
+// radio that stands, in whose shadow it then stays the same.
 Eigen::MatrixXd moves_of_segment(const Survey& survey, const Eigen::VectorXd& theta);
 // What is believed of a segment before the data, in nats: walls run along those of the plan, or across, but for a fifth
 // of a radian.

@@ -101,6 +101,16 @@ std::function<Eigen::MatrixXd(const VectorXd&)> columns_at(const std::shared_ptr
   };
 }
 
+// The same places, with the axes of another theta.
+std::vector<VectorXd> shaped_as(const VectorXd& theta, std::vector<VectorXd> places) {
+  for (VectorXd& place : places) {
+    const Index entries = place.size(), axes = theta.size() - entries;
+    place.conservativeResize(theta.size());
+    place.tail(axes) = theta.tail(axes);
+  }
+  return places;
+}
+
 struct Maker {
   const Survey& survey;
   const CauseSources& sources;
@@ -137,7 +147,7 @@ struct Maker {
     }
     if (places == 4) {
       c.lower.segment(3, 2) << 0.8, -4;
-      c.upper.segment(3, 2) << (shape.axes.empty() ? 9 : 40), 4;
+      c.upper.segment(3, 2) << (shape.is_strip() ? 40 : 9), 4;
       c.step.segment(3, 2) << 0.8, 0.12;
     }
     for (std::size_t k = 0; k < shape.axes.size(); ++k) {
@@ -253,12 +263,12 @@ struct Maker {
 
   // Where a wall or a thing could stand is swept over.
   void let_sweep(const CauseShape& shape, search::Candidate& c) const {
-    const bool wall = shape.place == PlaceShape::segment && shape.axes.empty();
+    const bool wall = shape.place == PlaceShape::segment && !shape.is_strip();
     if (!wall && !(shape.place == PlaceShape::point && shape.axes.size() == 1)) return;
     LinkEnds ends;
     for (const Index i : sources.used) ends.push_back(sources.model.ends()[static_cast<std::size_t>(i)]);
-    c.proposed = [survey = survey, ends = std::move(ends), wall](search::Tally& tally) {
-      return wall ? swept_segments(survey, ends, tally) : swept_disks(survey, ends, tally);
+    c.proposed = [survey = survey, ends = std::move(ends), wall, first = c.grid[0]](search::Tally& tally) {
+      return wall ? shaped_as(first, swept_segments(survey, ends, tally)) : swept_disks(survey, ends, tally);
     };
   }
 
@@ -305,7 +315,9 @@ std::string make(const Cause& cause, const Maker& maker, CauseSearch& out) {
     if (shape->place == PlaceShape::segment) {
       c.moves = [survey = maker.survey](const VectorXd& t) { return moves_of_segment(survey, t); };
       c.belief = [survey = maker.survey](const VectorXd& t) { return belief_in_segment(survey, t); };
-      c.spanning = [id = c.id](const std::vector<search::Piece>& pieces) { return spans(pieces, id); };
+      c.spanning = [id = c.id, first = c.grid[0]](const std::vector<search::Piece>& pieces) {
+        return shaped_as(first, spans(pieces, id));
+      };
     }
   }
   out.found.push_back({shape, std::move(c)});

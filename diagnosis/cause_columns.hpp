@@ -39,8 +39,8 @@ struct CauseShape {
   std::string set() const;  // of its first reference; "" without one
   // A point with a length, a width and a heading that the plan gives.
   bool is_room() const { return place == PlaceShape::point && axes.size() > 1 && !held.empty(); }
-  // A segment with a width.
-  bool is_strip() const { return place == PlaceShape::segment && axes.size() == 1; }
+  // A segment with a width, which is sought by its logarithm.
+  bool is_strip() const { return place == PlaceShape::segment && !axes.empty() && axes[0].logarithmic; }
   Eigen::Index columns() const {
     return !wave.empty() ? 2 : linear.empty() ? 1 : static_cast<Eigen::Index>(linear.size());
   }

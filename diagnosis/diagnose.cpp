@@ -69,6 +69,7 @@ class Diagnoser {
       }
       const auto [finding, candidate] = simplest(f, *cause, causes, bench, coefficients);
       out.causes.push_back(found_cause(finding, *candidate));
+      out.causes.back().sought_as = f.id;
       out.causes.back().effect = effect_of(bench, candidate->candidate, finding);
       give_tables(*candidate->shape, out.causes.back());
     }

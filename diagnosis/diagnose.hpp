@@ -19,6 +19,7 @@ struct CauseValue {
 
 struct FoundCause {
   std::string id, label, title, tell_apart;
+  std::string sought_as;  // by which id the search had it: a wall that costs nothing may be told as one that is absent
   search::Status status = search::Status::named;
   std::vector<std::string> covariates;  // what it is a function of, its own one first: "map", "time", "bearing"
   std::string row_parameter, row;       // empty where it is about no row

@@ -91,7 +91,7 @@ void add_row(FoundCause& out, const CauseShape& shape, const VectorXd& theta) {
 FoundCause found_cause(const search::Finding& f, const CauseCandidate& cause) {
   const CauseShape& shape = *cause.shape;
   FoundCause out;
-  out.id = f.id;
+  out.id = out.sought_as = f.id;
   out.label = f.label;
   out.title = shape.cause.meaning().title;
   out.tell_apart = shape.cause.meaning().tell_apart;

@@ -16,12 +16,17 @@ inline double side(double ax, double ay, double bx, double by, double x, double 
 struct Segment {
   double x0, y0, x1, y1;
 
-  bool crossed(const Pose& a, const Pose& b, double height) const {
-    const double s0 = side(a.x, a.y, b.x, b.y, x0, y0), s1 = side(a.x, a.y, b.x, b.y, x1, y1);
+  // How much of it the link from a to b meets, 0 to 1: half where it passes an end, all of it from edge / 2 further in.
+  double share(const Pose& a, const Pose& b, double height, double edge) const {
+    const double length = std::hypot(x1 - x0, y1 - y0);
     const double sa = side(x0, y0, x1, y1, a.x, a.y), sb = side(x0, y0, x1, y1, b.x, b.y);
-    if ((s0 > 0) == (s1 > 0) || (sa > 0) == (sb > 0)) return false;
-    const double z = a.z + sa / (sa - sb) * (b.z - a.z);
-    return z >= 0 && z < height;
+    if ((sa > 0) == (sb > 0) || length <= 0) return 0;
+    const double at = sa / (sa - sb), z = a.z + at * (b.z - a.z);
+    if (z < 0 || z >= height) return 0;
+    const double x = a.x + at * (b.x - a.x), y = a.y + at * (b.y - a.y);
+    const double along = ((x - x0) * (x1 - x0) + (y - y0) * (y1 - y0)) / length;
+    const auto inside = [edge](double way) { return std::clamp(0.5 + way / std::max(edge, 1e-9), 0.0, 1.0); };
+    return std::max(inside(along) + inside(length - along) - 1, 0.0);
   }
 };
 

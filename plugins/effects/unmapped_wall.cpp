@@ -9,11 +9,12 @@ namespace {
 using namespace muster;
 
 struct UnmappedWall {
-  static constexpr auto id = "effect.unmapped_wall/1";
+  static constexpr auto id = "effect.unmapped_wall/2";
   static constexpr auto summary = "a wall that is not on the map";
   static constexpr auto manual =
       "Takes away `loss` of every link that crosses the upright wall from (x0, y0) to (x1, y1), which stands on the "
-      "ground (z = 0). The same as a wall element there, but that a search may move it.";
+      "ground (z = 0). Waves go around its ends: over `edge` metres along the wall, half of them beyond an end, the loss "
+      "rises from nothing to all of it. With an edge of 0 it is the same as a wall element there.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       real("x0", 0, -1e6, 1e6, "m", "first end, east").required().free().with(MUSTER_EAST),
@@ -21,6 +22,7 @@ struct UnmappedWall {
       real("x1", 0, -1e6, 1e6, "m", "second end, east").required().free().with(MUSTER_EAST),
       real("y1", 0, -1e6, 1e6, "m", "second end, north").required().free().with(MUSTER_NORTH),
       real("loss", 0, 0, 40, "dB", "of a link that crosses it").free().with(MUSTER_LINEAR),
+      real("edge", 0, 0, 1, "m", "over which the loss rises at an end").free(),
       real("height", 2.7, 0.01, 1e4, "m", "up to which it reaches"),
   };
   static constexpr muster_cause cause = {
@@ -40,16 +42,17 @@ struct UnmappedWall {
         x1(s.value("x1")),
         y1(s.value("y1")),
         loss(s.value("loss")),
+        edge(s.value("edge")),
         height(s.value("height")),
         links(s) {}
 
   void step(const Step& k) const {
     const Segment wall{k[x0], k[y0], k[x1], k[y1]};
-    links.add_both_ways(k,
-                        [&](const End& a, const End& b) { return wall.crossed(a.at, b.at, k[height]) ? -k[loss] : 0; });
+    links.add_both_ways(
+        k, [&](const End& a, const End& b) { return -k[loss] * wall.share(a.at, b.at, k[height], k[edge]); });
   }
 
-  Value x0, y0, x1, y1, loss, height;
+  Value x0, y0, x1, y1, loss, edge, height;
   LinkTerm links;
 };
 
