@@ -6,6 +6,7 @@
 #include "diagnosis/search/integrated.hpp"
 #include "diagnosis/search/replace.hpp"
 #include "diagnosis/search/rivals.hpp"
+#include "diagnosis/search/settle.hpp"
 
 namespace muster::search {
 namespace {
@@ -29,24 +30,34 @@ const Entry* named(const Bench& bench, const std::string& id) {
   return nullptr;
 }
 
-// A cause that was the best guess beside the noise of before may have a rival that is better now.
+// A cause that was the best guess at first may have a rival that is better now.
 void give_way_to_rivals(Bench& bench) {
-  constexpr double clearly = 1;  // nats
-  for (Term& term : bench.terms) {
-    if (term.smooth()) continue;
-    std::vector<Rival> rivals = rivals_of(bench, term);
-    std::erase_if(rivals, [&](const Rival& rival) {
-      const auto is_rival = [&](const Term& other) { return other.candidate->id == rival.id; };
-      return rival.evidence_gap > -clearly || !named(bench, rival.id) ||
-             std::any_of(bench.terms.begin(), bench.terms.end(), is_rival);
-    });
-    if (rivals.empty()) continue;
-    const Rival& best = *std::min_element(
-        rivals.begin(), rivals.end(), [](const Rival& a, const Rival& b) { return a.evidence_gap < b.evidence_gap; });
-    term.candidate = named(bench, best.id)->candidate;
-    term.theta = best.theta;
-    term.columns = bench.columns_of(*term.candidate, term.theta);
-    bench.refit();
+  constexpr double clearly = 1, near = 5;  // nats
+  const auto stands = [&](const Term& term) {
+    return standing(bench, bench.design_without(term), *term.candidate, term.columns);
+  };
+  for (std::size_t k = 0; k < bench.terms.size(); ++k) {
+    if (bench.terms[k].smooth()) continue;
+    double now = stands(bench.terms[k]);
+    for (const Rival& rival : rivals_of(bench, bench.terms[k])) {
+      const Entry* const entry = named(bench, rival.id);
+      const bool there = std::any_of(bench.terms.begin(), bench.terms.end(),
+                                     [&](const Term& term) { return term.candidate->id == rival.id; });
+      if (!entry || there || rival.evidence_gap > (rival.separability < inseparable ? near : -clearly)) continue;
+      const Term before = bench.terms[k];
+      const noise::Fit fit = bench.fit;
+      bench.terms[k].candidate = entry->candidate;
+      bench.terms[k].theta = rival.theta;
+      bench.terms[k].columns = bench.columns_of(*entry->candidate, rival.theta);
+      bench.refit();
+      settle(bench, k, false);
+      if (const double then = stands(bench.terms[k]); then > now + clearly) {
+        now = then;
+      } else {
+        bench.terms[k] = before;
+        bench.fit = fit;
+      }
+    }
   }
 }
 

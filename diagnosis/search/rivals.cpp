@@ -1,6 +1,7 @@
 #include "diagnosis/search/rivals.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 
 #include "diagnosis/search/integrated.hpp"
@@ -11,7 +12,6 @@ namespace {
 
 constexpr double near_gap = 3;         // nats
 constexpr double worth_refining = 15;  // nats
-constexpr double inseparable = 12;
 
 // The term's fitted effect at rows, dB.
 Eigen::VectorXd effect_of(const Bench& bench, const Term& term) {
@@ -34,6 +34,20 @@ std::pair<Eigen::VectorXd, double> explained_by(const Bench& bench, const Stand&
   });
 }
 
+// From its best atom, if that is worth it, and from where it explains the effect, if it does: of a strong effect even the
+// nearest atom may miss much.
+Lead at_its_best(const Bench& bench, const Stand& rest, const Lead& plain, const Eigen::VectorXd* explaining,
+                 double worth) {
+  const Candidate& c = plain.candidate();
+  if (!c.refinable()) return plain;
+  Lead best = plain.evidence > worth ? refined(bench, rest, plain, true) : plain;
+  if (!explaining) return best;
+  Lead other = plain;
+  other.theta = *explaining;
+  other = refined(bench, rest, other, true);
+  return other.gain > best.gain ? other : best;
+}
+
 const Candidate& planned(const Plan& plan, const std::string& id) {
   for (const Candidate& c : plan.candidates) {
     if (c.id == id) return c;
@@ -49,21 +63,37 @@ Eigen::MatrixXd above(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
 
 }  // namespace
 
+double standing(const Bench& bench, const Eigen::MatrixXd& design, const Candidate& c,
+                const Eigen::MatrixXd& columns) {
+  const Eigen::MatrixXd both = beside(design, columns);
+  const noise::Fit fit = bench.fitted(both, bench.fit.covariance, 4);
+  const Stand rest = bench.stand(design, fit.covariance);
+  const double by_a_multiple = rest.gain(columns) - gain_of(c, rest, columns);
+  return bench.stand(both, fit.covariance).at.basis.log_determinant() - fit.value - by_a_multiple / 2 +
+         bench.evidence(c, 0, c.width, c.refinable());
+}
+
 std::vector<Rival> rivals_of(Bench& bench, const Term& term) {
   const Stand rest = bench.stand(bench.design_without(term));
   const Eigen::VectorXd effect = rest.at.basis.rest(rest.whitener(effect_of(bench, term)));
-  const double evidence = bench.evidence(*term.candidate, rest.gain(term.columns), term.columns.cols(), false);
+  const Candidate& own = *term.candidate;
+  const double evidence = bench.evidence(own, rest.gain(term.columns), own.width, own.refinable());
+  std::optional<double> stands;
   std::vector<Rival> result;
   for (const Lead& plain : leads(bench, rest)) {
     const Candidate& c = plain.candidate();
-    if (c.id == term.candidate->id) continue;
-    const bool close = evidence - plain.evidence < worth_refining && c.refinable();
-    const Lead lead = close ? refined(bench, rest, plain, true) : plain;
+    if (c.id == own.id) continue;
     const auto [theta, explained] = explained_by(bench, rest, *plain.entry, effect);
-    Rival rival{c.id, "", lead.theta, evidence - lead.evidence, effect.squaredNorm() - explained};
+    const double separability = effect.squaredNorm() - explained;
+    const bool confused = c.kind == Kind::named && separability < inseparable;
+    const Lead lead = at_its_best(bench, rest, plain, confused ? &theta : nullptr, evidence - worth_refining);
+    Rival rival{c.id, "", lead.theta, evidence - lead.evidence, separability};
+    if (confused) {
+      if (!stands) stands = standing(bench, rest.design, own, term.columns);
+      rival.evidence_gap = *stands - standing(bench, rest.design, c, lead.columns);
+    }
     if (rival.evidence_gap >= near_gap) rival.theta = theta;  // what it can be mistaken for, not what it is best at
     rival.label = c.label_of(rival.theta);
-    const bool confused = c.kind == Kind::named && rival.separability < inseparable;
     if (rival.evidence_gap < near_gap || confused) result.push_back(std::move(rival));
   }
   return result;

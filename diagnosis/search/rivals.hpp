@@ -5,15 +5,21 @@
 
 namespace muster::search {
 
+constexpr double inseparable = 12;  // D below which two causes are not told apart
+
 struct Rival {
   std::string id, label;
   Eigen::VectorXd theta;
   double evidence_gap = 0;  // nats that the finding is ahead
-  double separability =
-      0;  // D: whitened energy of the finding left after the rival's best fit; below 12 not told apart
+  double separability = 0;  // D: whitened energy of the finding left after the rival's best fit
 };
 
-// Candidates within 3 nats of the term, and causes with D below 12.
+// What speaks for a cause with these columns beside a design, the noise being fitted beside both: nats, to be compared
+// with another in its place. Noise that was fitted beside one of them takes up what the other misses.
+double standing(const Bench& bench, const Eigen::MatrixXd& design, const Candidate& candidate,
+                const Eigen::MatrixXd& columns);
+
+// Candidates within 3 nats of the term, and causes that are not told from it.
 std::vector<Rival> rivals_of(Bench& bench, const Term& term);
 
 // A measurement that could be made: the same base and candidates at its readings.

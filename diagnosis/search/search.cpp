@@ -6,7 +6,6 @@
 
 #include "diagnosis/search/clean_up.hpp"
 #include "diagnosis/search/integrated.hpp"
-#include "diagnosis/search/spread.hpp"
 
 namespace muster::search {
 namespace {
@@ -38,14 +37,15 @@ Result Search::run() {
   result_ = {};
   forward(bench_, result_.trials);
   const std::vector<Term> aside = clean_up(bench_, result_.trials);
-  for (const Term& term : bench_.terms) {
+  const std::vector<Spread> spreads = settle_in_the_middle();
+  for (std::size_t k = 0; k < bench_.terms.size(); ++k) {
+    const Term& term = bench_.terms[k];
     result_.findings.push_back(finding_of(term, term.smooth() ? Status::unexplained : Status::named));
     if (term.smooth()) continue;
     Finding& finding = result_.findings.back();
     finding.rivals = rivals_of(bench_, term);
-    Spread spread = spread_of(bench_, term);
-    finding.uncertainty = std::move(spread.coefficients);
-    finding.thetas = std::move(spread.thetas);
+    finding.uncertainty = spreads[k].coefficients;
+    finding.thetas = spreads[k].thetas;
   }
   for (const Term& term : aside)
     result_.findings.push_back(finding_of(term, term.smooth() ? Status::unexplained : Status::suspected));
@@ -59,6 +59,19 @@ Result Search::run() {
   hold_out(result_);
   check_what_is_left(result_, stand);
   return result_;
+}
+
+std::vector<Spread> Search::settle_in_the_middle() {
+  std::vector<Spread> result;
+  for (Term& term : bench_.terms) {
+    result.push_back(term.smooth() ? Spread() : spread_of(bench_, term));
+    if (term.smooth() || term.candidate->pieces.empty()) continue;
+    term.theta = middle_of(bench_, term, result.back());
+    term.columns = bench_.columns_of(*term.candidate, term.theta);
+    bench_.refit(4);
+  }
+  measure_gains(bench_);
+  return result;
 }
 
 void Search::check_what_is_left(Result& result, const Stand& stand) {

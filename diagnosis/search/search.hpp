@@ -6,6 +6,7 @@
 #include "diagnosis/search/forward.hpp"
 #include "diagnosis/search/held_out.hpp"
 #include "diagnosis/search/rivals.hpp"
+#include "diagnosis/search/spread.hpp"
 
 namespace muster::search {
 
@@ -69,6 +70,8 @@ class Search {
  private:
   Finding finding_of(const Term& term, Status status) const;
   void hold_out(Result& result) const;
+  // How well each term is known; a place goes to the middle of those that are as likely.
+  std::vector<Spread> settle_in_the_middle();
   void check_what_is_left(Result& result, const Stand& stand);
 
   Bench bench_;

@@ -5,10 +5,12 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <tuple>
 
 #include "diagnosis/search/integrated.hpp"
 #include "diagnosis/search/refine.hpp"
+#include "diagnosis/search/scores.hpp"
 #include "muster/random.hpp"
 
 namespace muster::search {
@@ -204,6 +206,28 @@ Spread spread_of(const Bench& bench, const Term& term) {
   result.thetas = drawn(met);
   result.coefficients = grown * within + between;
   return result;
+}
+
+Eigen::VectorXd middle_of(const Bench& bench, const Term& term, const Spread& spread) {
+  constexpr double nearly = 4;  // of deviance, a 95 % region of one parameter
+  constexpr std::size_t tries = 20;
+  const Index n = term.theta.size(), count = static_cast<Index>(spread.thetas.size());
+  Eigen::MatrixXd all(n, count);
+  for (Index k = 0; k < count; ++k) all.col(k) = spread.thetas[static_cast<std::size_t>(k)];
+  const Eigen::VectorXd mean = all.rowwise().mean();
+  all.colwise() -= mean;
+  const Eigen::VectorXd sd = (all.rowwise().squaredNorm() / static_cast<double>(count)).cwiseSqrt();
+  const Eigen::VectorXd off = (sd.cwiseMax(1e-12).cwiseInverse().asDiagonal() * all).colwise().squaredNorm();
+  std::vector<Index> nearest(spread.thetas.size());
+  std::iota(nearest.begin(), nearest.end(), 0);
+  std::stable_sort(nearest.begin(), nearest.end(), [&](Index a, Index b) { return off[a] < off[b]; });
+  const Stand rest = bench.stand(bench.design_without(term));
+  const double best = gain_of(*term.candidate, rest, term.columns);
+  for (std::size_t k = 0; k < std::min(nearest.size(), tries); ++k) {
+    const Eigen::VectorXd& theta = spread.thetas[static_cast<std::size_t>(nearest[k])];
+    if (gain_of(*term.candidate, rest, bench.columns_of(*term.candidate, theta)) > best - nearly) return theta;
+  }
+  return term.theta;
 }
 
 }  // namespace muster::search

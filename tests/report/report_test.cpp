@@ -24,14 +24,14 @@ using Json = nlohmann::ordered_json;
 const Library::SearchPath plugins = {MUSTER_PLUGINS_DIR};
 const fs::path hall = fs::path(MUSTER_SOURCE_DIR) / "worlds" / "hall";
 
-// Readings first ... first + 3999 of the hall's.
+// Readings first ... first + 7999 of the hall's.
 std::string part_of_hall(int first) {
   std::istringstream lines(contents(hall / "measured.csv"));
   std::string text, line;
   std::getline(lines, line);
   text = line + '\n';
   for (int k = 0; std::getline(lines, line); ++k)
-    if (k >= first && k < first + 4000) text += line + '\n';
+    if (k >= first && k < first + 8000) text += line + '\n';
   return text;
 }
 
@@ -113,7 +113,7 @@ TEST_F(Report, JsonHoldsWhatWasFound) {
   EXPECT_GT(cause["lambda"], 100);
   EXPECT_LT(json["loop"]["mean_difference_db"], 0.1);
   EXPECT_EQ(json["loop"]["rediagnosis"], "silent");
-  EXPECT_EQ(json["loop"]["second"]["readings"], 4000);
+  EXPECT_EQ(json["loop"]["second"]["readings"], 8000);
   EXPECT_LT(json["loop"]["second"]["rmse_extended_db"], json["loop"]["second"]["rmse_given_db"]);
 }
 
