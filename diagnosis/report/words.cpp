@@ -154,7 +154,7 @@ std::string verdict_in_words(const Diagnosis& d) {
 
 double noise_floor(const Diagnosis& d) {
   if (d.seen.count.size() == 0) return std::nan("");
-  return std::sqrt(d.noise.field_variance() + d.noise.reading_variance() * d.seen.count.cwiseInverse().mean());
+  return std::sqrt(d.noise.field_variance() + d.noise.reading_variance());
 }
 
 std::string what_is_held_out(const Diagnosis& d) { return d.seen.places_known ? "places" : "distances"; }

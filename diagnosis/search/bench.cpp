@@ -78,7 +78,8 @@ void Bench::impute(int rounds) {
       for (Index j = 0; j < term.columns.cols(); ++j) design.col(from + j) = rows_.at_readings(term.columns.col(j));
     }
   }
-  y_ = rows_.mean(noise::imputed(problem_.measured, problem_.bounds, design, rounds));
+  measured_ = noise::imputed(problem_.measured, problem_.bounds, design, rounds);
+  y_ = rows_.mean(measured_);
 }
 
 Eigen::MatrixXd Bench::design(const std::function<bool(const Term&)>& left_out) const {

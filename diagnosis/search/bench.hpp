@@ -63,6 +63,7 @@ class Bench {
   std::vector<Term> terms;
 
   const Eigen::VectorXd& y() const { return y_; }
+  const Eigen::VectorXd& measured() const { return measured_; }  // the readings that y is the row means of
   // Readings with bounds filled in anew from the model as it stands.
   void impute(int rounds);
 
@@ -106,7 +107,7 @@ class Bench {
   noise::Rows long_rows_;
   noise::Field far_field_;  // of the long rows, with more neighbours
   Eigen::MatrixXd base_;
-  Eigen::VectorXd y_;
+  Eigen::VectorXd measured_, y_;
   std::vector<Entry> entries_;
   std::size_t fixed_ = 0;  // entries before those that depend on the model
   noise::Sheet normals_;

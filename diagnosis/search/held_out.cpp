@@ -50,37 +50,46 @@ Folds::Fold::Fold(const noise::Sites& sites, const noise::Covariance& covariance
                   std::vector<Index> out)
     : fitted(std::move(in)), left_out(std::move(out)), field(sites.of(fitted)), whitener(field, covariance) {}
 
-Folds::Folds(const noise::Sites& sites, const noise::Covariance& covariance, uint64_t seed) : seed_(seed) {
-  block_of_ = blocks_of(sites, decorrelations * covariance.decorrelation());
-  blocks_ = *std::max_element(block_of_.begin(), block_of_.end()) + 1;
+Folds::Folds(const noise::Sites& sites, const std::vector<Index>& row_of, const noise::Covariance& covariance,
+             uint64_t seed)
+    : seed_(seed) {
+  const std::vector<int> block_of_row = blocks_of(sites, decorrelations * covariance.decorrelation());
+  for (const Index row : row_of) block_of_.push_back(block_of_row[static_cast<std::size_t>(row)]);
+  blocks_ = *std::max_element(block_of_row.begin(), block_of_row.end()) + 1;
   if (!possible()) return;
   const std::vector<int> fold = fold_of_block(blocks_, seed);
+  const auto is_in = [&](int block, int k) { return fold[static_cast<std::size_t>(block)] == k; };
   for (int k = 0; k < std::min(blocks_, most_folds); ++k) {
-    std::vector<Index> in, out;
-    for (Index i = 0; i < sites.size(); ++i)
-      (fold[static_cast<std::size_t>(block_of_[static_cast<std::size_t>(i)])] == k ? out : in).push_back(i);
-    folds_.push_back(std::make_unique<Fold>(sites, covariance, std::move(in), std::move(out)));
+    std::vector<Index> rows, readings;
+    for (std::size_t i = 0; i < block_of_row.size(); ++i) {
+      if (!is_in(block_of_row[i], k)) rows.push_back(static_cast<Index>(i));
+    }
+    for (std::size_t i = 0; i < block_of_.size(); ++i) {
+      if (is_in(block_of_[i], k)) readings.push_back(static_cast<Index>(i));
+    }
+    folds_.push_back(std::make_unique<Fold>(sites, covariance, std::move(rows), std::move(readings)));
   }
 }
 
-Eigen::VectorXd Folds::squared_errors(const Eigen::VectorXd& y, const Eigen::MatrixXd& design) const {
-  Eigen::VectorXd result(y.size());
+Eigen::VectorXd Folds::squared_errors(const Sample& rows, const Sample& readings) const {
+  Eigen::VectorXd result(readings.y.size());
   for (const auto& fold : folds_) {
-    const Eigen::MatrixXd x = fold->whitener(design(fold->fitted, Eigen::all));
+    const Eigen::MatrixXd x = fold->whitener(rows.design(fold->fitted, Eigen::all));
     const auto basis = noise::basis_of(x);
-    const Eigen::VectorXd explained = basis.q.transpose() * fold->whitener(y(fold->fitted)).col(0);
-    const Eigen::VectorXd mean = design(fold->left_out, Eigen::all) * basis.coefficients(explained, design.cols());
-    result(fold->left_out) = (y(fold->left_out) - mean).cwiseAbs2();
+    const Eigen::VectorXd explained = basis.q.transpose() * fold->whitener(rows.y(fold->fitted)).col(0);
+    const Eigen::VectorXd mean =
+        readings.design(fold->left_out, Eigen::all) * basis.coefficients(explained, x.cols());
+    result(fold->left_out) = (readings.y(fold->left_out) - mean).cwiseAbs2();
   }
   return result;
 }
 
 HeldOut Folds::compared(const Eigen::VectorXd& before, const Eigen::VectorXd& after) const {
-  std::vector<double> won(static_cast<std::size_t>(blocks_)), rows(won.size()), means;
+  std::vector<double> won(static_cast<std::size_t>(blocks_)), readings(won.size()), means;
   for (Index i = 0; i < before.size(); ++i) {
     const auto block = static_cast<std::size_t>(block_of_[static_cast<std::size_t>(i)]);
     won[block] += before[i] - after[i];
-    rows[block] += 1;
+    readings[block] += 1;
   }
   const Stream stream(combined(key_of("block bootstrap"), seed_));
   for (uint64_t k = 0; k < resamples; ++k) {
@@ -88,7 +97,7 @@ HeldOut Folds::compared(const Eigen::VectorXd& before, const Eigen::VectorXd& af
     for (uint64_t j = 0; j < won.size(); ++j) {
       const auto block = static_cast<std::size_t>(stream.uniform(k, j) * static_cast<double>(won.size()));
       sum += won[block];
-      count += rows[block];
+      count += readings[block];
     }
     means.push_back(sum / count);
   }

@@ -1,5 +1,6 @@
 // Squared errors at places that a fit has not seen: blocks of space are left out in turn, generalised least squares on
-// the others (Roberts et al., Ecography 40, 2017). An interval by resampling whole blocks.
+// the others (Roberts et al., Ecography 40, 2017). An interval by resampling whole blocks. What is fitted are rows, what
+// is foretold are readings: how readings make rows depends on the model, errors of readings can be compared.
 #pragma once
 
 #include <memory>
@@ -11,26 +12,33 @@ namespace muster::search {
 using Eigen::Index;
 
 struct HeldOut {
-  double rmse_before = 0, rmse_after = 0;     // dB, of one row
+  double rmse_before = 0, rmse_after = 0;     // dB, of one reading
   double gain = 0, lower95 = 0, upper95 = 0;  // fall of the mean squared error, dB^2
   int blocks = 0;
 };
 
+// What was measured and the columns that are to explain it.
+struct Sample {
+  Eigen::VectorXd y;
+  Eigen::MatrixXd design;
+};
+
 class Folds {
  public:
-  // Blocks at least three decorrelation distances wide, dealt to five folds.
-  Folds(const noise::Sites& sites, const noise::Covariance& covariance, uint64_t seed);
+  // Blocks at least three decorrelation distances wide, dealt to five folds. `row_of`: of each reading.
+  Folds(const noise::Sites& sites, const std::vector<Index>& row_of, const noise::Covariance& covariance,
+        uint64_t seed);
 
   int blocks() const { return blocks_; }
   // Fewer than two blocks leave nothing to fit on.
   bool possible() const { return blocks_ >= 2; }
-  // Squared error of every row when its fold was left out.
-  Eigen::VectorXd squared_errors(const Eigen::VectorXd& y, const Eigen::MatrixXd& design) const;
+  // Squared error of every reading when its fold was left out.
+  Eigen::VectorXd squared_errors(const Sample& rows, const Sample& readings) const;
   HeldOut compared(const Eigen::VectorXd& before, const Eigen::VectorXd& after) const;
 
  private:
   struct Fold {
-    std::vector<Index> fitted, left_out;
+    std::vector<Index> fitted, left_out;  // rows, readings
     noise::Field field;
     noise::Whitener whitener;
     Fold(const noise::Sites& sites, const noise::Covariance& covariance, std::vector<Index> in, std::vector<Index> out);
@@ -39,7 +47,7 @@ class Folds {
 
   uint64_t seed_;
   int blocks_ = 0;
-  std::vector<int> block_of_;
+  std::vector<int> block_of_;  // a reading
   std::vector<std::unique_ptr<Fold>> folds_;
 };
 

@@ -102,23 +102,31 @@ Finding Search::finding_of(const Term& term, Status status) const {
 }
 
 void Search::hold_out(Result& result) const {
-  const Folds folds(bench_.field().sites(), result.noise.covariance, bench_.options().seed);
+  const Folds folds(bench_.field().sites(), bench_.rows().row_of(), result.noise.covariance, bench_.options().seed);
   if (!folds.possible()) return;
-  const Eigen::VectorXd base = folds.squared_errors(bench_.y(), bench_.base());
-  const Eigen::VectorXd full = bench_.terms.empty() ? base : folds.squared_errors(bench_.y(), bench_.design());
-  result.held_out = folds.compared(base, full);
+  std::vector<Eigen::MatrixXd> at_readings;
+  for (const Term& term : bench_.terms) at_readings.push_back(term.candidate->columns(term.theta));
+  const auto errors_with = [&](const std::function<bool(std::size_t)>& has) {
+    Sample rows{bench_.y(), bench_.base()}, readings{bench_.measured(), bench_.problem().base};
+    for (std::size_t k = 0; k < at_readings.size(); ++k) {
+      if (!has(k)) continue;
+      rows.design = beside(rows.design, bench_.terms[k].columns);
+      readings.design = beside(readings.design, at_readings[k]);
+    }
+    return folds.squared_errors(rows, readings);
+  };
   const auto step = [&](const Eigen::VectorXd& errors) {
     const HeldOut all = folds.compared(errors, Eigen::VectorXd::Zero(errors.size()));
     result.stairs.push_back({all.rmse_before, std::sqrt(all.lower95), std::sqrt(all.upper95)});
   };
+  const Eigen::VectorXd base = errors_with([](std::size_t) { return false; });
+  const Eigen::VectorXd full = errors_with([](std::size_t) { return true; });
+  result.held_out = folds.compared(base, full);
   step(base);
-  for (std::size_t k = 1; k < bench_.terms.size(); ++k)
-    step(folds.squared_errors(bench_.y(), bench_.design([&](const Term& t) { return &t >= &bench_.terms[k]; })));
-  if (!bench_.terms.empty()) step(full);
-  for (std::size_t k = 0; k < bench_.terms.size(); ++k) {
-    const Eigen::MatrixXd without = bench_.design_without(bench_.terms[k]);
-    result.findings[k].held_out = folds.compared(folds.squared_errors(bench_.y(), without), full);
-  }
+  for (std::size_t many = 1; many <= at_readings.size(); ++many)
+    step(errors_with([&](std::size_t k) { return k < many; }));
+  for (std::size_t one = 0; one < at_readings.size(); ++one)
+    result.findings[one].held_out = folds.compared(errors_with([&](std::size_t k) { return k != one; }), full);
 }
 
 std::vector<Advice> Search::advise(const std::vector<Plan>& plans) {

@@ -274,20 +274,23 @@ TEST(CleanUp, ASmoothGivesWayToTheCauseThatExplainsIt) {
   EXPECT_EQ(bench.terms[0].candidate->id, "antenna_rx");
 }
 
-TEST(Folds, BlocksAreThreeDecorrelationDistancesWideAndEveryRowIsLeftOutOnce) {
+TEST(Folds, BlocksAreThreeDecorrelationDistancesWideAndEveryReadingIsLeftOutOnce) {
   const auto world = world_of(varied(15, 3000));
   const noise::Rows rows(world.readings);
   const noise::Sites sites = rows.sites(world.readings);
   const noise::Covariance c{noise::Family::exponential, world.true_theta};
-  const Folds folds(sites, c, 1);
+  const Folds folds(sites, rows.row_of(), c, 1);
   const double side = 3 * c.decorrelation();
   EXPECT_LE(folds.blocks(), std::ceil(24 / side) * std::ceil(16 / side));
   EXPECT_GE(folds.blocks(), 8);
   // A mean that the design holds is predicted to the last bit; one that it lacks is not.
-  const Eigen::MatrixXd base = rows.mean(world.base);
-  const Eigen::VectorXd exact = base * Eigen::Vector3d(-30, 2, 5);
-  EXPECT_LT(folds.squared_errors(exact, base).maxCoeff(), 1e-12);
-  const Eigen::VectorXd missing = folds.squared_errors(exact, base.leftCols(2));
+  const Eigen::VectorXd exact = world.base * Eigen::Vector3d(-30, 2, 5);
+  const auto errors = [&](const Eigen::MatrixXd& design) {
+    return folds.squared_errors({rows.mean(exact), rows.mean(design)}, {exact, design});
+  };
+  EXPECT_LT(errors(world.base).maxCoeff(), 1e-12);
+  const Eigen::VectorXd missing = errors(world.base.leftCols(2));
+  EXPECT_EQ(missing.size(), world.readings.size());
   const HeldOut gain = folds.compared(missing, Eigen::VectorXd::Zero(missing.size()));
   EXPECT_NEAR(gain.gain, missing.mean(), 1e-9);
   EXPECT_LT(gain.lower95, gain.gain);
