@@ -70,6 +70,20 @@ TEST(Incidence, GrowsAsTheWayThroughAWallUpToABound) {
       1e-3);  // the scene snaps places to a quarter of a millimetre
 }
 
+TEST(UnmappedWall, LosesLessOverTheEdgesOfItsEnds) {
+  const double length = std::hypot(7, 9);
+  int between = 0;
+  expect_term("unmapped_wall", "x0=\"2\" y0=\"-1\" x1=\"9\" y1=\"8\" loss=\"5\" height=\"2\" edge=\"1\"",
+              [&](const Reading& r) {
+                const Meeting m = meeting(r, 2, -1, 9, 8);
+                if (m.along_link <= 0 || m.along_link >= 1 || height_at(r, m.along_link) >= 2) return 0.0;
+                const double inside = std::min(m.along_wall, 1 - m.along_wall) * length;
+                between += std::abs(inside) < 0.5;
+                return -5 * std::clamp(inside + 0.5, 0.0, 1.0);
+              });
+  EXPECT_GT(between, 5);
+}
+
 TEST(UnmappedWall, IsWhatTheWallWouldCostIfItWereMapped) {
   expect_term("unmapped_wall", "x0=\"2\" y0=\"-1\" x1=\"9\" y1=\"8\" loss=\"5\" height=\"2\"", [](const Reading& r) {
     const Meeting m = meeting(r, 2, -1, 9, 8);

@@ -9,6 +9,7 @@
 #include "diagnosis/search/merge.hpp"
 #include "diagnosis/search/refine.hpp"
 #include "diagnosis/search/smooths.hpp"
+#include "diagnosis/search/spread.hpp"
 #include "diagnosis/search/tail.hpp"
 #include "diagnosis/search/thin.hpp"
 #include "muster/random.hpp"
@@ -225,6 +226,23 @@ TEST(Merge, TwoWallsStayTwo) {
   bench.refit();
   EXPECT_FALSE(merge_pieces(bench, "place"));
   EXPECT_EQ(bench.terms.size(), 2u);
+}
+
+TEST(Spread, ItsMiddleIsAPlaceThatExplainsAsMuch) {
+  const auto world = world_of(varied(12, 4000));
+  const auto causes = causes_of(world);
+  const Candidate& wall = causes[causes.size() - 2];
+  const Eigen::Vector4d place(12, 8, 4, 0), east(1, 0, 0, 0);
+  const Problem problem = problem_of(world, -scaled_to(world, wall.columns(place), 300), causes);
+  Bench bench(problem, {});
+  bench.terms = {term_at(bench, "unmapped_wall", place)};
+  bench.refit();
+  Spread alike;
+  for (int k = 0; k <= 10; ++k) alike.thetas.push_back(place + 1e-6 * k * east);
+  EXPECT_EQ(middle_of(bench, bench.terms[0], alike), Eigen::VectorXd(place + 5e-6 * east));
+  Spread apart;
+  for (const double off : {0.0, 0.001, 4.0, 7.999, 8.0}) apart.thetas.push_back(place - off * east);
+  EXPECT_GT(middle_of(bench, bench.terms[0], apart)[0], 11.9);
 }
 
 TEST(CleanUp, DropsWhatCarriesNothingAndSetsLeftoversAside) {
