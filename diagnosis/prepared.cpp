@@ -56,11 +56,30 @@ Prepared::Prepared(const std::filesystem::path& world, const std::filesystem::pa
   // Linear in the parameters about the fit, so that coefficients are values of parameters.
   problem.measured -= (base.mean - base.slopes * base.values)(used);
   sought = cause_candidates(causes, survey_of(model, data), {run, model, data, used}, problem.base);
-  for (const CauseCandidate& c : sought.found) problem.candidates.push_back(c.candidate);
   add_columns();
   problem.places_known = data.has_places();
   options.rows = finest(problem.readings);
   if (!problem.places_known) options.rows.way = -1;  // readings at like distances are not at one place: each is a row
+  let_sketch(world, plugins);
+  for (const CauseCandidate& c : sought.found) problem.candidates.push_back(c.candidate);
+}
+
+// Where rows have many readings, a search over many places asks one of each.
+void Prepared::let_sketch(const std::filesystem::path& world, const Library::SearchPath& plugins) {
+  constexpr Index worth = 2;  // readings a row
+  const noise::Rows rows(problem.readings, options.rows);
+  if (problem.readings.size() < worth * rows.size() || reads_a_table(model)) return;
+  std::vector<std::string> radios;
+  for (Index i = 0; i < problem.readings.size(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    for (auto next = static_cast<int>(radios.size()); next <= std::max(problem.readings.tx[k], problem.readings.rx[k]);
+         ++next)
+      radios.push_back(model.radio_name(next));
+  }
+  sketched = std::make_unique<SimulatedReadings>(rows.middles(problem.readings), radios, world, plugins, base);
+  for (CauseCandidate& c : sought.found) {
+    if (c.candidate.starts > 1 && !c.shape->cause.file()) c.candidate.sketch = sketched->at(c, data).columns;
+  }
 }
 
 void Prepared::fill_readings() {

@@ -7,6 +7,7 @@
 #include "diagnosis/fit.hpp"
 #include "diagnosis/instrument.hpp"
 #include "diagnosis/search/problem.hpp"
+#include "diagnosis/simulated_readings.hpp"
 
 namespace muster::diagnosis {
 
@@ -27,11 +28,13 @@ struct Prepared {
   std::shared_ptr<CauseModel> run;  // what the candidates evaluate
   search::Problem problem;
   search::Options options;
-  CauseSearch sought;                 // behind the problem's candidates
-  std::vector<std::string> untested;  // columns, with the reason
+  CauseSearch sought;                           // behind the problem's candidates
+  std::vector<std::string> untested;            // columns, with the reason
+  std::unique_ptr<SimulatedReadings> sketched;  // one reading a row of the search; none if each is a row
 
  private:
   void fill_readings();
+  void let_sketch(const std::filesystem::path& world, const Library::SearchPath& plugins);
   noise::Known known_of(double rssi) const;
   void add_columns();
 };

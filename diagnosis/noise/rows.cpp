@@ -129,6 +129,23 @@ Sites Rows::sites(const Readings& readings) const {
   return sites;
 }
 
+Readings Rows::middles(const Readings& readings) const {
+  Readings result;
+  result.tx_at.resize(3, size());
+  result.rx_at.resize(3, size());
+  for (Index i = 0; i < size(); ++i) {
+    const auto k = static_cast<std::size_t>(middle(i));
+    result.tx.push_back(readings.tx[k]);
+    result.rx.push_back(readings.rx[k]);
+    result.tx_at.col(i) = readings.tx_at.col(middle(i));
+    result.rx_at.col(i) = readings.rx_at.col(middle(i));
+    if (!readings.t.empty()) result.t.push_back(readings.t[k]);
+    if (!readings.rx_yaw.empty()) result.rx_yaw.push_back(readings.rx_yaw[k]);
+    if (!readings.level.empty()) result.level.push_back(readings.level[k]);
+  }
+  return result;
+}
+
 Sites Sites::of(const std::vector<Index>& rows) const {
   Sites result{place(Eigen::all, rows), anchor(Eigen::all, rows), {}, count(rows), soft};
   for (const Index i : rows) result.radio.push_back(radio[static_cast<std::size_t>(i)]);

@@ -49,6 +49,11 @@ class Rows {
   const std::vector<Index>& row_of() const { return row_of_; }  // one a reading
   // A reading of each row: what its readings share can be read there.
   Index example(Index row) const { return order_[static_cast<std::size_t>(first_[static_cast<std::size_t>(row)])]; }
+  // The one in its middle.
+  Index middle(Index row) const {
+    const auto k = static_cast<std::size_t>(row);
+    return order_[static_cast<std::size_t>((first_[k] + first_[k + 1] - 1) / 2)];
+  }
   const Eigen::VectorXd& count() const { return count_; }
 
   // Means of columns that have one row a reading.
@@ -57,6 +62,8 @@ class Rows {
   Eigen::VectorXd at_readings(const Eigen::VectorXd& rows) const;
 
   Sites sites(const Readings& readings) const;
+  // The reading in the middle of each row.
+  Readings middles(const Readings& readings) const;
 
  private:
   std::vector<Index> order_;  // readings by link, then time

@@ -43,6 +43,9 @@ struct Candidate {
   std::vector<Eigen::VectorXd> grid;
   // One row a reading, `width` columns. Must not depend on anything but theta.
   std::function<Eigen::MatrixXd(const Eigen::VectorXd& theta)> columns;
+  // The same with one row a row of the search, as the reading in its middle has it: what a search over many thetas may
+  // do with. Empty: the columns' row means.
+  std::function<Eigen::MatrixXd(const Eigen::VectorXd& theta)> sketch;
   // A smooth with that many times the functions; may be empty.
   std::function<Eigen::MatrixXd(int times)> wider;
   std::function<std::string(const Eigen::VectorXd& theta)> label;  // empty: the id

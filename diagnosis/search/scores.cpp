@@ -48,11 +48,17 @@ Eigen::MatrixXf statistics(const Candidate& candidate, Eigen::MatrixXf along) {
   return result;
 }
 
+enum class Columns { exact = 1, sketched };
+
 // What refinement climbs.
 class Height {
  public:
-  Height(const Bench& bench, const Stand& stand, const Candidate& candidate)
-      : bench_(bench), stand_(stand), candidate_(candidate), thin_(bench, stand) {}
+  Height(const Bench& bench, const Stand& stand, const Candidate& candidate, Columns columns)
+      : bench_(bench),
+        stand_(stand),
+        candidate_(candidate),
+        sketched_(columns == Columns::sketched && candidate.sketch),
+        thin_(bench, stand) {}
 
   Thin& thin() { return thin_; }
 
@@ -65,7 +71,7 @@ class Height {
   double explained(const Eigen::VectorXd& theta) {
     const double admitted = candidate_.admitted ? candidate_.admitted(theta) : 1;
     if (admitted <= 0) return 0;
-    const Eigen::MatrixXd columns = bench_.columns_of(candidate_, theta);
+    const Eigen::MatrixXd columns = sketched_ ? candidate_.sketch(theta) : bench_.columns_of(candidate_, theta);
     if (candidate_.width > 1 || candidate_.sign == 0) return admitted * stand_.gain(columns);
     const auto [along, length] = measured(columns);
     if (length < 1e-6 || along * candidate_.sign <= 0) return 0;
@@ -89,6 +95,7 @@ class Height {
   const Bench& bench_;
   const Stand& stand_;
   const Candidate& candidate_;
+  bool sketched_;
   Thin thin_;
 };
 
@@ -128,8 +135,10 @@ Eigen::VectorXd gains_of(const Entry& entry, const Stand& stand) {
   return gains(*entry.candidate, unit_atoms(entry, stand), stand.at.residual);
 }
 
-Top raced_to(const Bench& bench, const Stand& stand, const Lead& lead, Height& height) {
+// From many starts.
+Top raced_to(const Bench& bench, const Stand& stand, const Lead& lead) {
   const Candidate& c = lead.candidate();
+  Height height(bench, stand, c, Columns::sketched);
   const auto value = [&](const Eigen::VectorXd& theta) { return height(theta); };
   std::vector<Eigen::VectorXd> starts{lead.theta};
   if (c.proposed) {
@@ -146,7 +155,7 @@ Top raced_to(const Bench& bench, const Stand& stand, const Lead& lead, Height& h
   const Stand soft = with_less_field(bench, stand, 0.05), half = with_less_field(bench, stand, 0.4);
   if (lead.all.size() > 0) add_starts(c, lead.all, c.starts / 2, starts);
   add_starts(c, gains_of(*lead.entry, soft), c.starts, starts);
-  Height on_soft(bench, soft, c), on_half(bench, half, c);
+  Height on_soft(bench, soft, c, Columns::sketched), on_half(bench, half, c, Columns::sketched);
   return raced(c, starts, {std::ref(on_soft), std::ref(on_half), value, value});
 }
 
@@ -216,10 +225,12 @@ Lead refined(const Bench& bench, const Stand& stand, const Lead& lead, bool from
   const Candidate& c = lead.candidate();
   Lead best = lead;
   if (c.refinable()) {
-    Height height(bench, stand, c);
+    Height height(bench, stand, c, Columns::exact);
     const auto value = [&](const Eigen::VectorXd& theta) { return height(theta); };
     const bool race = !from_lead_alone && c.starts > 1;
-    Top top = race ? raced_to(bench, stand, lead, height) : climbed(c, lead.theta, c.evaluations, value);
+    Top top{lead.theta, 0};
+    if (race) top = raced_to(bench, stand, lead);
+    if (!race || c.sketch) top = climbed(c, top.first, race ? c.evaluations / 2 : c.evaluations, value);
     if (top.second > value(lead.theta)) best.theta = std::move(top.first);
     best.columns = bench.columns_of(c, best.theta);
   }

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int noise_draws = 12;
 // Steps of the walk: along the moves, then along what those showed to be its own long axes, twice; the last ones count.
-constexpr std::array laps{200, 400, 1000};
+constexpr std::array laps{300, 600, 1500};
 // The walk is over exp(gain / 2 / heat), which lets it over to other tops; what it meets is weighed back.
 constexpr double heat = 3;
 constexpr int kept = 400;  // thetas
@@ -73,7 +73,8 @@ class Walk {
 
   // One in three accepted suits few dimensions (Gelman, Roberts and Gilks 1996).
   void step(bool tune) {
-    const Eigen::VectorXd theta = theta_ + stride();
+    const bool leaps = stream_.uniform(k_, 101) > 0.8;
+    const Eigen::VectorXd theta = theta_ + (leaps ? leap() : stride());
     bool accepted = false;
     if (theta == theta.cwiseMax(c_.lower).cwiseMin(c_.upper)) {
       Beside there(rest_, bench_.columns_of(c_, theta), c_.whole);
@@ -85,11 +86,11 @@ class Walk {
         at_ = std::move(there);
       }
     }
-    if (tune) length_ = std::min(3.0, length_ * (accepted ? 1.2 : 0.91));
+    if (tune && !leaps) length_ = std::min(3.0, length_ * (accepted ? 1.2 : 0.91));
     ++k_;
   }
 
-  // Strides along the axes of what was met (Haario, Saksman and Tamminen 2001), now and then along a move.
+  // Strides along the axes of what was met (Haario, Saksman and Tamminen 2001), now and then along a move, or a leap.
   void learn(const std::vector<Met>& met) {
     const Index n = theta_.size(), count = static_cast<Index>(met.size());
     Eigen::MatrixXd all(n, count);
@@ -111,12 +112,19 @@ class Walk {
   }
 
   Eigen::VectorXd stride() const {
-    const bool own = axes_.size() > 0 && stream_.uniform(k_, 101) < 0.7;
+    const bool own = axes_.size() > 0 && stream_.uniform(k_, 102) < 0.75;
     const Eigen::MatrixXd moves = own ? axes_ : moves_at(c_, theta_);
     const double unit = axes_.size() == 0 ? length_ : own ? 2.4 * length_ : 0.1;
     Eigen::VectorXd mix(moves.cols());
     for (Index j = 0; j < mix.size(); ++j) mix[j] = stream_.normal(k_, static_cast<uint64_t>(j));
     return moves * mix * (unit / std::sqrt(static_cast<double>(mix.size())));
+  }
+
+  // Along one move, by a length that has no mean: over places where nothing can stand.
+  Eigen::VectorXd leap() const {
+    const Eigen::MatrixXd moves = moves_at(c_, theta_);
+    const auto one = static_cast<Index>(stream_.uniform(k_, 102) * static_cast<double>(moves.cols()));
+    return moves.col(one) * std::tan(M_PI * (stream_.uniform(k_, 103) - 0.5));
   }
 
   const Bench& bench_;

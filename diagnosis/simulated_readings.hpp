@@ -1,0 +1,34 @@
+// Readings that nobody took: a world asked what it would expect there, and what causes would add.
+#pragma once
+
+#include "diagnosis/base_columns.hpp"
+#include "diagnosis/cause_columns.hpp"
+#include "diagnosis/noise/rows.hpp"
+
+namespace muster::diagnosis {
+
+class SimulatedReadings {
+ public:
+  // `radios`: names, by the numbers in tx and rx. The world's parameters are those at which `base` was taken. Throws
+  // Error.
+  SimulatedReadings(const noise::Readings& readings, const std::vector<std::string>& radios,
+                    const std::filesystem::path& world, const Library::SearchPath& plugins, const BaseColumns& base);
+  ~SimulatedReadings();
+  SimulatedReadings(const SimulatedReadings&) = delete;
+  SimulatedReadings& operator=(const SimulatedReadings&) = delete;
+
+  LinkModel& model() { return *model_; }
+  // The same candidate with its columns here, one row a reading.
+  search::Candidate at(const CauseCandidate& cause, const Dataset& data) const;
+
+ private:
+  std::filesystem::path table_;
+  std::unique_ptr<LinkModel> model_;
+  std::shared_ptr<CauseModel> run_;
+  std::vector<Eigen::Index> all_;
+};
+
+// Whether the world has an instance that reads a table of the measured readings: it says nothing of any other.
+bool reads_a_table(const LinkModel& model);
+
+}  // namespace muster::diagnosis
