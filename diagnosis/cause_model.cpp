@@ -138,6 +138,7 @@ void CauseModel::put(Simulation& run, Present& present, const Cause& cause, cons
   const Place place{run.world().file.string()};
   for (std::size_t k = first; k < first + count; ++k) {
     run.insert(instance_of(cause, name_of(k), rows[k], cause.file() ? data_ : "", 1, place));
+    loaded_.insert(run.instances().back()->library());
     present = {cause.id, first, k + 1 - first, {}, false};
   }
   // Tables that nothing has read so far are at the declared values.

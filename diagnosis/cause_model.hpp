@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <map>
 #include <memory>
+#include <set>
 
 #include "diagnosis/model.hpp"
 
@@ -67,6 +68,7 @@ class CauseModel {
   std::unique_ptr<Simulation> bare_;
   std::filesystem::path data_;
   Present in_whole_, in_bare_;
+  std::set<std::shared_ptr<Library>> loaded_;  // to be loaded once, though their instances come and go
   Eigen::VectorXd before_;  // dBm: the whole world's expected level, without any cause
 };
 
