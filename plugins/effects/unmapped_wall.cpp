@@ -9,7 +9,7 @@ namespace {
 using namespace muster;
 
 struct UnmappedWall {
-  static constexpr auto id = "effect.unmapped_wall/2";
+  static constexpr auto id = "effect.unmapped_wall/1";
   static constexpr auto summary = "a wall that is not on the map";
   static constexpr auto manual =
       "Takes away `loss` of every link that crosses the upright wall from (x0, y0) to (x1, y1), which stands on the "
