@@ -69,7 +69,7 @@ class CauseModel {
   std::filesystem::path data_;
   Present in_whole_, in_bare_;
   std::set<std::shared_ptr<Library>> loaded_;  // to be loaded once, though their instances come and go
-  Eigen::VectorXd before_;  // dBm: the whole world's expected level, without any cause
+  Eigen::VectorXd before_;                     // dBm: the whole world's expected level, without any cause
 };
 
 }  // namespace muster::diagnosis

@@ -77,8 +77,7 @@ Eigen::VectorXd Folds::squared_errors(const Sample& rows, const Sample& readings
     const Eigen::MatrixXd x = fold->whitener(rows.design(fold->fitted, Eigen::all));
     const auto basis = noise::basis_of(x);
     const Eigen::VectorXd explained = basis.q.transpose() * fold->whitener(rows.y(fold->fitted)).col(0);
-    const Eigen::VectorXd mean =
-        readings.design(fold->left_out, Eigen::all) * basis.coefficients(explained, x.cols());
+    const Eigen::VectorXd mean = readings.design(fold->left_out, Eigen::all) * basis.coefficients(explained, x.cols());
     result(fold->left_out) = (readings.y(fold->left_out) - mean).cwiseAbs2();
   }
   return result;
