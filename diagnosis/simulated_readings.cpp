@@ -33,7 +33,8 @@ void write(const noise::Readings& r, const std::vector<std::string>& radios, con
   for (Index i = 0; i < r.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
     if (!r.t.empty()) out << print_real(r.t[k]) << ',';
-    out << quoted(radios[static_cast<std::size_t>(r.tx[k])]) << ',' << quoted(radios[static_cast<std::size_t>(r.rx[k])]);
+    out << quoted(radios[static_cast<std::size_t>(r.tx[k])]) << ','
+        << quoted(radios[static_cast<std::size_t>(r.rx[k])]);
     for (const auto& at : {r.tx_at.col(i), r.rx_at.col(i)})
       for (Index c = 0; c < 3; ++c) out << ',' << print_real(at[c]);
     if (!r.rx_yaw.empty()) out << ',' << print_real(r.rx_yaw[k]);
@@ -45,8 +46,7 @@ void write(const noise::Readings& r, const std::vector<std::string>& radios, con
 }  // namespace
 
 SimulatedReadings::SimulatedReadings(const noise::Readings& readings, const std::vector<std::string>& radios,
-                                     const fs::path& world, const Library::SearchPath& plugins,
-                                     const BaseColumns& base)
+                                     const fs::path& world, const Library::SearchPath& plugins, const BaseColumns& base)
     : table_(new_file()), all_(static_cast<std::size_t>(readings.size())) {
   std::iota(all_.begin(), all_.end(), 0);
   write(readings, radios, table_);

@@ -1,6 +1,6 @@
 // Squared errors at places that a fit has not seen: blocks of space are left out in turn, generalised least squares on
-// the others (Roberts et al., Ecography 40, 2017). An interval by resampling whole blocks. What is fitted are rows, what
-// is foretold are readings: how readings make rows depends on the model, errors of readings can be compared.
+// the others (Roberts et al., Ecography 40, 2017). An interval by resampling whole blocks. What is fitted are rows,
+// what is foretold are readings: how readings make rows depends on the model, errors of readings can be compared.
 #pragma once
 
 #include <memory>

@@ -34,8 +34,8 @@ std::pair<Eigen::VectorXd, double> explained_by(const Bench& bench, const Stand&
   });
 }
 
-// From its best atom, if that is worth it, and from where it explains the effect, if it does: of a strong effect even the
-// nearest atom may miss much.
+// From its best atom, if that is worth it, and from where it explains the effect, if it does: of a strong effect even
+// the nearest atom may miss much.
 Lead at_its_best(const Bench& bench, const Stand& rest, const Lead& plain, const Eigen::VectorXd* explaining,
                  double worth) {
   const Candidate& c = plain.candidate();
@@ -63,8 +63,7 @@ Eigen::MatrixXd above(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
 
 }  // namespace
 
-double standing(const Bench& bench, const Eigen::MatrixXd& design, const Candidate& c,
-                const Eigen::MatrixXd& columns) {
+double standing(const Bench& bench, const Eigen::MatrixXd& design, const Candidate& c, const Eigen::MatrixXd& columns) {
   const Eigen::MatrixXd both = beside(design, columns);
   const noise::Fit fit = bench.fitted(both, bench.fit.covariance, 4);
   const Stand rest = bench.stand(design, fit.covariance);

@@ -13,7 +13,8 @@ struct UnmappedWall {
   static constexpr auto summary = "a wall that is not on the map";
   static constexpr auto manual =
       "Takes away `loss` of every link that crosses the upright wall from (x0, y0) to (x1, y1), which stands on the "
-      "ground (z = 0). Waves go around its ends: over `edge` metres along the wall, half of them beyond an end, the loss "
+      "ground (z = 0). Waves go around its ends: over `edge` metres along the wall, half of them beyond an end, the "
+      "loss "
       "rises from nothing to all of it. With an edge of 0 it is the same as a wall element there.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {

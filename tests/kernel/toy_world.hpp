@@ -16,7 +16,9 @@ namespace muster {
 
 class ToyWorld : public testing::Test {
  protected:
-  std::filesystem::path put(const std::string& name, const std::string& bytes) const { return temporary.write(name, bytes); }
+  std::filesystem::path put(const std::string& name, const std::string& bytes) const {
+    return temporary.write(name, bytes);
+  }
 
   // The first of `elements` stands in line 2; dt is 0.5 s.
   World world(const std::string& elements,

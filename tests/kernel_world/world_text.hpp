@@ -14,7 +14,9 @@ namespace muster {
 
 class WorldText : public testing::Test {
  protected:
-  std::filesystem::path put(const std::string& name, const std::string& bytes) const { return temporary.write(name, bytes); }
+  std::filesystem::path put(const std::string& name, const std::string& bytes) const {
+    return temporary.write(name, bytes);
+  }
   World read(const std::string& text) const { return read_world(put("world.xml", text), standard()); }
   // `elements` begin in line 2.
   World read_with(const std::string& elements) const {
