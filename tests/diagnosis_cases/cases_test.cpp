@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "diagnosis/diagnose.hpp"
+#include "diagnosis/prepared.hpp"
 #include "tests/diagnosis/scratch.hpp"
 
 namespace muster::diagnosis {
@@ -82,6 +83,27 @@ TEST_P(CleanCase, IsSilent) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, CleanCase, testing::Values(7, 8));
+
+// A race asks one reading a row, by a world of those readings alone: the same that the whole table says of them.
+TEST(Sketch, IsTheColumnsAtTheReadingsInTheMiddleOfRows) {
+  const std::filesystem::path hall = std::filesystem::path(MUSTER_SOURCE_DIR) / "worlds" / "hall";
+  const Prepared at(hall, hall / "measured_plain.csv", plugins);
+  const noise::Rows rows(at.problem.readings, at.options.rows);
+  ASSERT_LT(2 * rows.size(), at.problem.readings.size());
+  std::vector<Eigen::Index> middles;
+  for (Eigen::Index row = 0; row < rows.size(); ++row) middles.push_back(rows.middle(row));
+  int sketched = 0;
+  for (const search::Candidate& c : at.problem.candidates) {
+    if (!c.sketch) continue;
+    ++sketched;
+    for (const std::size_t k : {std::size_t(0), c.grid.size() / 2}) {
+      const Eigen::MatrixXd exact = c.columns(c.grid[k])(middles, Eigen::all);
+      EXPECT_GT(exact.cwiseAbs().maxCoeff(), 0.01) << c.id;
+      EXPECT_LT((c.sketch(c.grid[k]) - exact).cwiseAbs().maxCoeff(), 1e-9) << c.id;
+    }
+  }
+  EXPECT_EQ(sketched, 3);  // a wall, a thing, a radio elsewhere
+}
 
 }  // namespace
 }  // namespace muster::diagnosis
