@@ -278,15 +278,15 @@ static_assert(sizeof(Param) == sizeof(muster_param), "an array of one is an arra
 template <class Plugin, class = void>
 constexpr const char* manual_of = nullptr;
 template <class Plugin>
-constexpr const char* manual_of<Plugin, std::void_t<decltype(Plugin::manual)>> = Plugin::manual;
+inline constexpr const char* manual_of<Plugin, std::void_t<decltype(Plugin::manual)>> = Plugin::manual;
 template <class Plugin, class = void>
 constexpr const muster_cause* cause_of = nullptr;
 template <class Plugin>
-constexpr const muster_cause* cause_of<Plugin, std::void_t<decltype(Plugin::cause)>> = &Plugin::cause;
+inline constexpr const muster_cause* cause_of<Plugin, std::void_t<decltype(Plugin::cause)>> = &Plugin::cause;
 template <class Plugin, class = void>
 constexpr const char* cannot_hold_of = nullptr;
 template <class Plugin>
-constexpr const char* cannot_hold_of<Plugin, std::void_t<decltype(Plugin::cannot_hold)>> = Plugin::cannot_hold;
+inline constexpr const char* cannot_hold_of<Plugin, std::void_t<decltype(Plugin::cannot_hold)>> = Plugin::cannot_hold;
 
 template <class Plugin>
 struct Held {
