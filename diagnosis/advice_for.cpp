@@ -41,7 +41,7 @@ std::set<std::string> wanted(const Diagnosis& found, const CauseSearch& causes) 
 std::vector<Advice> advice_for(search::Search& search, const Diagnosis& found, const CauseSearch& causes,
                                const PlanSources& sources, const BaseColumns& base) {
   const std::set<std::string> ids = wanted(found, causes);
-  if (ids.empty() || reads_a_table(sources.model)) return {};
+  if (ids.empty() || holds_a_table_reader(sources.model)) return {};
   std::vector<std::unique_ptr<SimulatedReadings>> simulated;
   std::vector<search::Plan> plans;
   for (const PlannedReadings& p : planned_readings(found.seen, found.causes)) {

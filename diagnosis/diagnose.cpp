@@ -238,6 +238,7 @@ Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::pa
   const TemporaryFolder folder;
   Diagnosis again = Diagnoser(write_extended_world(first, world, folder.path()), data, plugins).run();
   first.causes[0].effect = VectorXd::Zero(again.rows);
+  first.causes[0].sought_as.clear();
   again.causes.insert(again.causes.begin(), first.causes[0]);
   return again;
 }

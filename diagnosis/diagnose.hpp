@@ -19,7 +19,9 @@ struct CauseValue {
 
 struct FoundCause {
   std::string id, label, title, tell_apart;
-  std::string sought_as;  // by which id the search had it: a wall that costs nothing may be told as one that is absent
+  // By which id the search had it: a wall that costs nothing may be told as one that is absent. Empty: none of the
+  // search's, but a law of readings or an edit that came before it.
+  std::string sought_as;
   search::Status status = search::Status::named;
   std::vector<std::string> covariates;  // what it is a function of, its own one first: "map", "time", "bearing"
   std::string row_parameter, row;       // empty where it is about no row

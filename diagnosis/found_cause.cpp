@@ -19,7 +19,8 @@ const muster_param& declared(const CauseShape& shape, const std::string& name) {
 
 CauseValue value_of(const muster_param& p, double value, double below, double above) {
   const double at = std::clamp(value, p.min, p.max);
-  return {p.name, p.unit, at, (below + above) / (2 * normal95), at - below, at + above, p.min, p.max};
+  const double low = std::max(at - below, p.min), high = std::min(at + above, p.max);
+  return {p.name, p.unit, at, (below + above) / (2 * normal95), low, high, p.min, p.max};
 }
 
 struct Reach {

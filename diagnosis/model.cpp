@@ -61,9 +61,9 @@ void LinkModel::read_ends() {
     ends_.push_back({end(static_cast<std::size_t>(link.at(i, 0))), end(static_cast<std::size_t>(link.at(i, 1)))});
 }
 
-std::string LinkModel::radio_name(int radio) const {
-  return run_->board().find_set("radio")->names.at(static_cast<std::size_t>(radio));
-}
+const std::vector<std::string>& LinkModel::radio_names() const { return run_->board().find_set("radio")->names; }
+
+std::string LinkModel::radio_name(int radio) const { return radio_names().at(static_cast<std::size_t>(radio)); }
 
 const Eigen::VectorXd& LinkModel::expected() {
   evaluate(true);

@@ -24,6 +24,7 @@ class LinkModel {
   std::size_t rows() const { return ends_.size(); }
   // Row i's two ends, tx first.
   const std::vector<std::array<End, 2>>& ends() const { return ends_; }
+  const std::vector<std::string>& radio_names() const;  // by row of the set `radio`
   std::string radio_name(int radio) const;
 
   // E[rssi in dBm] of every row.

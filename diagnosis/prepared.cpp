@@ -68,15 +68,9 @@ Prepared::Prepared(const std::filesystem::path& world, const std::filesystem::pa
 void Prepared::let_sketch(const std::filesystem::path& world, const Library::SearchPath& plugins) {
   constexpr Index worth = 2;  // readings a row
   const noise::Rows rows(problem.readings, options.rows);
-  if (problem.readings.size() < worth * rows.size() || reads_a_table(model)) return;
-  std::vector<std::string> radios;
-  for (Index i = 0; i < problem.readings.size(); ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    for (auto next = static_cast<int>(radios.size()); next <= std::max(problem.readings.tx[k], problem.readings.rx[k]);
-         ++next)
-      radios.push_back(model.radio_name(next));
-  }
-  sketched = std::make_unique<SimulatedReadings>(rows.middles(problem.readings), radios, world, plugins, base);
+  if (problem.readings.size() < worth * rows.size() || holds_a_table_reader(model)) return;
+  sketched =
+      std::make_unique<SimulatedReadings>(rows.middles(problem.readings), model.radio_names(), world, plugins, base);
   for (CauseCandidate& c : sought.found) {
     if (c.candidate.starts > 1 && !c.shape->cause.file()) c.candidate.sketch = sketched->at(c, data).columns;
   }

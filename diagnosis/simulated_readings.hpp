@@ -4,6 +4,7 @@
 #include "diagnosis/base_columns.hpp"
 #include "diagnosis/cause_columns.hpp"
 #include "diagnosis/noise/rows.hpp"
+#include "text/temporary_folder.hpp"
 
 namespace muster::diagnosis {
 
@@ -13,7 +14,6 @@ class SimulatedReadings {
   // Error.
   SimulatedReadings(const noise::Readings& readings, const std::vector<std::string>& radios,
                     const std::filesystem::path& world, const Library::SearchPath& plugins, const BaseColumns& base);
-  ~SimulatedReadings();
   SimulatedReadings(const SimulatedReadings&) = delete;
   SimulatedReadings& operator=(const SimulatedReadings&) = delete;
 
@@ -22,13 +22,13 @@ class SimulatedReadings {
   search::Candidate at(const CauseCandidate& cause, const Dataset& data) const;
 
  private:
-  std::filesystem::path table_;
+  TemporaryFolder folder_;  // of the table
   std::unique_ptr<LinkModel> model_;
   std::shared_ptr<CauseModel> run_;
   std::vector<Eigen::Index> all_;
 };
 
 // Whether the world has an instance that reads a table of the measured readings: it says nothing of any other.
-bool reads_a_table(const LinkModel& model);
+bool holds_a_table_reader(const LinkModel& model);
 
 }  // namespace muster::diagnosis

@@ -31,10 +31,10 @@ bool found(const Diagnosis& d, const std::string& id) {
 
 std::string name_of_step(const Diagnosis& d, std::size_t k) {
   if (k == 0) return "the world, fitted";
-  // Accepted findings stand before those set aside, causes and what is unexplained in one order of strength.
+  // Of what the search accepted, causes and what is unexplained in one order of strength.
   std::vector<std::pair<double, std::string>> steps;
   for (const FoundCause& c : d.causes) {
-    if (standing_of(c) != Standing::set_aside && shifts_mean(c)) steps.emplace_back(-c.lambda, short_name(c.id));
+    if (standing_of(c) != Standing::set_aside && !c.sought_as.empty()) steps.emplace_back(-c.lambda, short_name(c.id));
   }
   for (const auto& u : d.unexplained) steps.emplace_back(-u.lambda, covariate_in_words(u.covariate) + " (unexplained)");
   std::stable_sort(steps.begin(), steps.end(), [](const auto& a, const auto& b) { return a.first < b.first; });

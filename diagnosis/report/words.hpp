@@ -18,8 +18,6 @@ enum class Standing {
   set_aside       // found, and not beyond chance beside the others
 };
 Standing standing_of(const FoundCause& cause);
-// What changes how readings scatter, or clips them, has no place in held-out steps and no partial residual.
-inline bool shifts_mean(const FoundCause& cause) { return cause.effect.size() > 0; }
 
 inline constexpr double not_told_apart = 12, decided = 25;  // D
 std::string judged(double separability);                    // "cannot be told apart", "weakly told apart", "told apart"
