@@ -26,8 +26,9 @@ struct Effect {
   std::vector<std::string>
       covariates{};  // outside the vocabulary: names under which it may be reported; "a*b" a product
 
-  // dB on every reading.
+  // dB on every reading; of what comes at times that nobody knows, a column for each time that it comes.
   std::function<Eigen::VectorXd(const Data&, double strength)> shift{};
+  std::function<Eigen::MatrixXd(const Data&, double strength)> passages{};
   // What the receiver reports for a level in dBm; NaN: nothing.
   std::function<double(double level, double strength)> receive{};
   std::function<void(ReadingLaw&, double strength)> change_reading{};

@@ -74,15 +74,24 @@ Effect people(const Scene& s, Random& random) {
     passages.push_back({t, random.uniform(0.8, 3), random.uniform(0.7, 1.3)});
   Effect e{"people"};
   e.rows = {radio_row(s.site, station), "radio/" + robot_name(robot)};
+  const auto dip = [=](const Reading& r, const Passage& p) {
+    const double u = (r.t - p.at) / p.half;
+    const bool meets = r.station == station && r.robot == robot && std::abs(u) < 4;
+    return meets ? p.depth * std::exp(-u * u) * (u * u * 0.8 - 1) : 0.0;
+  };
   e.shift = scaled([=](const Reading& r) {
-    if (r.station != station || r.robot != robot) return 0.0;
     double sum = 0;
-    for (const Passage& p : passages) {
-      const double u = (r.t - p.at) / p.half;
-      if (std::abs(u) < 4) sum += p.depth * std::exp(-u * u) * (u * u * 0.8 - 1);
-    }
+    for (const Passage& p : passages) sum += dip(r, p);
     return sum;
   });
+  e.passages = [=](const Data& data, double strength) {
+    Eigen::MatrixXd result(data.size(), passages.size());
+    for (std::size_t k = 0; k < passages.size(); ++k)
+      result.col(static_cast<Eigen::Index>(k)) =
+          scaled([&](const Reading& r) { return dip(r, passages[k]); })(data, strength);
+    return result;
+  };
+  e.linear = false;
   e.most = 30;
   e.parameters = [count = static_cast<double>(passages.size())](double x) {
     return std::vector<Parameter>{{"loss", x, "dB"}, {"passages", count, ""}};

@@ -77,9 +77,15 @@ bool same_class(const std::string& a, const std::string& b) {
   return a == b || (stands(a) && stands(b)) || (mapped(a) && mapped(b)) || (deaf(a) && deaf(b));
 }
 
-const Verdict::Cause* found(const Verdict& verdict, const std::string& id) {
+// A radio that is heard better than it hears because it is deaf: of that very radio, both names say the same of every
+// reading.
+bool is_name_of(const Truth::Effect& effect, const Verdict::Cause& cause) {
+  return cause.id == effect.id || (effect.id == "asymmetry" && cause.id == "rx_offset" && at_right_row(effect, cause));
+}
+
+const Verdict::Cause* found(const Verdict& verdict, const Truth::Effect& effect) {
   for (const Verdict::Cause& c : verdict.named)
-    if (c.id == id) return &c;
+    if (is_name_of(effect, c)) return &c;
   return nullptr;
 }
 
@@ -135,7 +141,7 @@ void add_inside(Grades& grades, const Truth& truth, const Verdict& verdict) {
   };
   int hits = 0, class_hits = 0;
   for (const auto& effect : truth.effects) {
-    const Verdict::Cause* cause = found(verdict, effect.id);
+    const Verdict::Cause* cause = found(verdict, effect);
     hits += cause != nullptr;
     class_hits += std::any_of(verdict.named.begin(), verdict.named.end(),
                               [&](const auto& c) { return same_class(c.id, effect.id); });
@@ -146,7 +152,7 @@ void add_inside(Grades& grades, const Truth& truth, const Verdict& verdict) {
   }
   const int all = static_cast<int>(truth.effects.size());
   const auto is_true = [&](const Verdict::Cause& c) {
-    return std::any_of(truth.effects.begin(), truth.effects.end(), [&](const auto& e) { return e.id == c.id; });
+    return std::any_of(truth.effects.begin(), truth.effects.end(), [&](const auto& e) { return is_name_of(e, c); });
   };
   count("found", hits == all);
   count("found, by class", class_hits == all);
@@ -158,7 +164,7 @@ void add_inside(Grades& grades, const Truth& truth, const Verdict& verdict) {
   // The same id twice for one effect: one wall in pieces.
   count("one effect in pieces", std::any_of(truth.effects.begin(), truth.effects.end(), [&](const auto& e) {
           return std::count_if(verdict.named.begin(), verdict.named.end(),
-                               [&](const auto& c) { return c.id == e.id; }) > 1;
+                               [&](const auto& c) { return is_name_of(e, c); }) > 1;
         }));
   if (truth.oracle_gain > 0 && verdict.gain) {
     grades.gain[bin] += *verdict.gain;

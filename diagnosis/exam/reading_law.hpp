@@ -16,8 +16,9 @@ Moments fading_moments(const ReadingLaw& law);
 // Rician factor in dB of single fades with the same variance as the law's averaged ones: what a world file can say.
 double equivalent_rician_k(const ReadingLaw& law);
 
-// 2 x the Kullback-Leibler divergence of one reading, true against stated, quantised to 1 dB, means set equal: a fit of
-// the loss at 1 m sees to that.
-double reading_lambda(const ReadingLaw& truth, const ReadingLaw& stated);
+// 2 x the Kullback-Leibler divergence of readings, true against stated, quantised to 1 dB, means set equal: a fit of
+// the loss at 1 m sees to that. Each reading's level is known but for a Gaussian error of `level_deviations` dB, which
+// the stated law may take to be larger or smaller, all by one factor: nobody states how much shadowing varies.
+double reading_lambda(const ReadingLaw& truth, const ReadingLaw& stated, const std::vector<double>& level_deviations);
 
 }  // namespace muster::exam

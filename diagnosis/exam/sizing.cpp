@@ -38,6 +38,27 @@ Eigen::MatrixXd beside(const Eigen::MatrixXd& base, const std::vector<Eigen::Vec
 
 double heard_count(const std::vector<char>& use) { return static_cast<double>(std::count(use.begin(), use.end(), 1)); }
 
+// Twice the expected log-likelihood ratio of passages, columns in whitened space, to one who knows their shapes and how
+// often they come, and not when: each second one begins with the same chance. Along a passage of energy e its log ratio
+// is normal with mean e/2 and variance e, and with mean -e/2 where none begins.
+double lambda_of_passages(const Eigen::MatrixXd& whitened, double duration) {
+  const auto count = static_cast<double>(whitened.cols());
+  const double chance = count / duration;
+  const auto expected = [&](double energy, double side) {
+    double weights = 0, sum = 0;
+    for (double z = -6; z < 6.05; z += 0.1) {
+      const double w = std::exp(-z * z / 2), log_ratio = side * energy / 2 + std::sqrt(energy) * z;
+      const double more = log_ratio + std::log(chance), rest = std::log1p(-chance), high = std::max(more, rest);
+      weights += w;
+      sum += w * (high + std::log(std::exp(more - high) + std::exp(rest - high)));
+    }
+    return sum / weights;
+  };
+  double sum = (duration - count) * expected(whitened.squaredNorm() / count, -1);
+  for (Eigen::Index k = 0; k < whitened.cols(); ++k) sum += expected(whitened.col(k).squaredNorm(), 1);
+  return std::max(0.0, 2 * sum);
+}
+
 class Hider {
  public:
   Hider(Case& made, const std::vector<char>& use) : made_(made), use_(use), random_(made.seed, "effects") {}
@@ -86,7 +107,7 @@ class Hider {
       case Acts::reading_law: {
         ReadingLaw changed = made_.site->noise.reading;
         e.change_reading(changed, x);
-        return heard_count(use_) * reading_lambda(changed, made_.site->stated_reading);
+        return reading_lambda(changed, made_.site->stated_reading, whitener().level_deviations());
       }
       case Acts::field_law: {
         FieldLaw changed = made_.site->noise.field;
@@ -100,6 +121,7 @@ class Hider {
       case Acts::mean:
         break;
     }
+    if (e.passages) return lambda_of_passages(whitener()(e.passages(made_.measured, x)), made_.site->duration());
     return energy(whitener(), e.shift(made_.measured, x), beside(made_.measured.design, shifts_));
   }
 
@@ -214,7 +236,7 @@ void weigh(Case& made) {
   const Whitener whiten(made.measured, made.site->noise, heard(made.measured));
   for (std::size_t i = 0; i < made.hidden.size(); ++i) {
     Hidden& h = made.hidden[i];
-    if (h.effect.acts != Acts::mean) continue;
+    if (h.effect.acts != Acts::mean || h.effect.passages) continue;
     std::vector<Eigen::VectorXd> others;
     for (std::size_t j = 0; j < made.hidden.size(); ++j)
       if (j != i && made.hidden[j].effect.acts == Acts::mean)

@@ -151,6 +151,16 @@ Eigen::MatrixXd Whitener::operator()(const Eigen::MatrixXd& columns) const {
   return result;
 }
 
+std::vector<double> Whitener::level_deviations() const {
+  std::vector<double> result;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const double of_level = std::max(1e-9, weights_[i].deviation * weights_[i].deviation - nugget(rows_[i]));
+    for (std::size_t k = 0; k < rows_[i].readings.size(); ++k)  // those of the row before it say of it what they can
+      result.push_back(std::sqrt(1 / (1 / of_level + static_cast<double>(k) / rows_[i].within)));
+  }
+  return result;
+}
+
 double Whitener::field_lambda(const FieldLaw& truth, const FieldLaw& stated) const {
   const Kernel true_kernel(truth), stated_kernel(stated);
   double sum = 0;

@@ -20,6 +20,9 @@ class Whitener {
   // Columns over all readings; those in use become independent, of variance 1.
   Eigen::MatrixXd operator()(const Eigen::MatrixXd& columns) const;
 
+  // dB, of each reading in use: how well its level is known from the readings before it, in the order of conditioning.
+  std::vector<double> level_deviations() const;
+
   // 2 x the Kullback-Leibler divergence between two laws of the field, truth against stated.
   double field_lambda(const FieldLaw& truth, const FieldLaw& stated) const;
 

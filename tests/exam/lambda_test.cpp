@@ -111,13 +111,16 @@ TEST(Lambda, IsThePrecisionWithWhichTheEffectCanBeFittedInBothRuns) {
 
 TEST(Lambda, OfALawIsZeroForTheStatedOneAndGrowsAwayFromIt) {
   const ReadingLaw stated{6, 1, 0, {}};
-  EXPECT_EQ(reading_lambda(stated, stated), 0);
+  const std::vector<double> known(100, 0), unsure(100, 3);  // dB
+  EXPECT_EQ(reading_lambda(stated, stated, known), 0);
   double last = 0;
   for (const double share : {0.001, 0.01, 0.05}) {
     ReadingLaw changed = stated;
     changed.outliers = share;
-    EXPECT_GT(reading_lambda(changed, stated), last);
-    last = reading_lambda(changed, stated);
+    const double lambda = reading_lambda(changed, stated, known);
+    EXPECT_GT(lambda, last);
+    EXPECT_LT(reading_lambda(changed, stated, unsure), lambda);  // data processing never adds
+    last = lambda;
   }
   const Case c = made(3, "", 0, 900);
   const Whitener whiten(c.measured, c.site->noise, heard(c.measured));
