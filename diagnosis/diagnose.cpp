@@ -96,7 +96,9 @@ class Diagnoser {
     set_base(base);
     for (const CauseCandidate& other : causes.found) {
       if (!other.candidate.whole || other.candidate.refinable()) continue;
-      for (const VectorXd& theta : other.candidate.grid) {
+      VectorXd theta = other.candidate.grid[0];
+      for (std::size_t row = 0; row < other.shape->rows.size(); ++row) {  // also those that cost nothing before
+        theta[0] = static_cast<double>(row);
         if (f.label.empty() || other.shape->row_label(theta) != f.label) continue;
         const VectorXd none = bench.columns_of(other.candidate, theta);
         const double product = own.dot(none), strength = product / own.squaredNorm();

@@ -77,16 +77,20 @@ LawValue value_of(const char* name, double value, double sd_of_log) {
 
 int thousandths(double log) { return static_cast<int>(std::lround(1e3 * log)); }
 
+// The likelihood of single readings in a field of this size and decorrelation distance.
+Peak in_field(Judge& judge, const ReadingLaw& law, noise::Family family, const StatedField& field) {
+  Peak there{0,
+             {family, thousandths(std::log(field.decorrelation / efold(family)))},
+             thousandths(std::log(variance_of(law, judge.step())) - 2 * std::log(field.shadowing))};
+  there.value = judge.value(law, there);
+  return there;
+}
+
 // The likeliest field that is as stated. Families differ in what they call a distance by more than data can
 // tell, so that all within a tolerance count as stated; a smoother field than Matern's has a longer one by his law.
 Peak as_stated(Judge& judge, const ReadingLaw& law, const StatedField& stated) {
-  const double log_variance = std::log(variance_of(law, judge.step()));
   const auto at = [&](noise::Family family, double distance) {
-    Peak there{0,
-               {family, thousandths(std::log(distance * stated.decorrelation / efold(family)))},
-               thousandths(log_variance - 2 * std::log(stated.shadowing))};
-    there.value = judge.value(law, there);
-    return there;
+    return in_field(judge, law, family, {stated.shadowing, distance * stated.decorrelation});
   };
   std::vector<Peak> middle;
   for (const noise::Family family : noise::families) middle.push_back(at(family, 1));
@@ -103,39 +107,25 @@ Peak as_stated(Judge& judge, const ReadingLaw& law, const StatedField& stated) {
   return best;
 }
 
-// Whether rows and single readings speak of one field. Where readings lie dense they know its variance over its
-// distance alone, and a field of twice both looks the same.
-bool agree(const StatedField& a, const StatedField& b) {
-  constexpr double tolerance = 1.5;
-  const auto alike = [](double x, double y) { return std::abs(std::log(x / y)) < std::log(tolerance); };
-  return alike(a.shadowing, b.shadowing) && alike(a.decorrelation, b.decorrelation);
-}
-
 }  // namespace
 
 StatedField said_by(const noise::Covariance& c) {
   return {std::sqrt(c.field_variance()), c.decorrelation() * efold(c.family)};
 }
 
+// The field that rows say is held against the stated one by rows and by readings, and the weaker word counts. Readings
+// by themselves know little more than its variance over its distance where they lie dense.
 LawTest field_test(ReadingField& field, double step, const ReadingLaw& law, const StatedField& stated,
                    const search::Bench& bench) {
   Judge judge(field, step);
-  const double log_variance = std::log(variance_of(law, step));
-  Peak best;
-  for (const Peak& peak : judge.shapes(law, bench.fit.covariance)) {
-    if (peak.value > best.value) best = peak;
-  }
-  const Peak held = as_stated(judge, law, stated);
-  const double gain_of_readings = std::max(0.0, 2 * (best.value - held.value));
+  const StatedField fitted = said_by(bench.fit.covariance);
+  const double of_readings = 2 * (in_field(judge, law, bench.fit.covariance.family, fitted).value -
+                                  as_stated(judge, law, stated).value);
   const Eigen::Matrix4d spread = bench.fit.curvature.inverse();
-  const double size = std::exp((log_variance - 1e-3 * best.place) / 2);
-  const double distance = std::exp(1e-3 * best.shape.distance) * efold(best.shape.family);
   LawTest test{"effect.shadowing_correlation",
-               {value_of("shadowing", size, std::sqrt(spread(0, 0)) / 2),
-                value_of("decorrelation", distance, std::sqrt(spread(1, 1)))},
-               agree({size, distance}, said_by(bench.fit.covariance))
-                   ? std::min(gain_of_readings, gain_of_rows(bench, stated))
-                   : 0,
+               {value_of("shadowing", fitted.shadowing, std::sqrt(spread(0, 0)) / 2),
+                value_of("decorrelation", fitted.decorrelation, std::sqrt(spread(1, 1)))},
+               std::max(0.0, std::min(of_readings, gain_of_rows(bench, stated))),
                0,
                0};
   test.log_p = search::log_tail(test.gain / wider, 2);

@@ -30,7 +30,8 @@ const Entry* named(const Bench& bench, const std::string& id) {
   return nullptr;
 }
 
-// A cause that was the best guess at first may have a rival that is better now.
+// A cause that was the best guess at first may have a rival that is better now; or one of fewer parameters that is as
+// good, since a drift that settles within seconds is a step.
 void give_way_to_rivals(Bench& bench) {
   constexpr double clearly = 1, near = 5;  // nats
   const auto stands = [&](const Term& term) {
@@ -51,7 +52,8 @@ void give_way_to_rivals(Bench& bench) {
       bench.terms[k].columns = bench.columns_of(*entry->candidate, rival.theta);
       bench.refit();
       settle(bench, k, false);
-      if (const double then = stands(bench.terms[k]); then > now + clearly) {
+      const bool simpler = rival.separability < inseparable && entry->candidate->parameters < before.candidate->parameters;
+      if (const double then = stands(bench.terms[k]); then > now + (simpler ? -clearly : clearly)) {
         now = then;
       } else {
         bench.terms[k] = before;
