@@ -20,50 +20,22 @@ noise::Prior flat() {
   return prior;
 }
 
-double value_at(const search::Bench& bench, const noise::Covariance& covariance) {
-  const noise::Whitener whitener(bench.field(), covariance);
-  return noise::whitened(whitener, bench.y(), bench.design(), flat()).value;
-}
-
-// Scoring over the variance of one reading and the share between anchors, the field's size and distance being held.
-double best_value(const search::Bench& bench, noise::Covariance at) {
-  const Eigen::MatrixXd design = bench.design();
-  const noise::Prior prior = flat();
-  double here = value_at(bench, at);
-  for (int round = 0; round < 6; ++round) {
-    const noise::Objective o = noise::objective(bench.field(), at, bench.y(), design, prior);
-    Eigen::Vector2d gradient(o.gradient[2], o.gradient[3]);
-    Eigen::Matrix2d information;
-    information << o.information(2, 2) + 0.3, o.information(2, 3), o.information(3, 2), o.information(3, 3) + 0.3;
-    const Eigen::Vector2d step = -information.inverse() * gradient;
-    double share = std::min(1.0, 1 / step.cwiseAbs().maxCoeff());
-    bool better = false;
-    for (int shorter = 0; shorter < 4 && !better; ++shorter, share *= 0.35) {
-      noise::Covariance next = at;
-      next.theta[2] += share * step[0];
-      next.theta[3] = std::clamp(next.theta[3] + share * step[1], -6.0, 4.0);
-      const double there = value_at(bench, next);
-      better = there < here - 0.01;
-      if (better) at = next, here = there;
-    }
-    if (!better) break;
-  }
-  return here;
+// The variance of one reading and the share between anchors being fitted, the field's size and distance held.
+double best_value(const search::Bench& bench, const noise::Covariance& at) {
+  return noise::fit(bench.field(), bench.y(), bench.design(), flat(), at, 6, noise::unstated).value;
 }
 
 // Twice the log-likelihood ratio of rows: of the fitted field against the best one near the stated one.
-double gain_of_rows(const search::Bench& bench, const StatedField& stated) {
+double gain_of_rows(const search::Bench& bench, const noise::StatedField& stated) {
   constexpr double tolerance = 1.08;
-  const StatedField fitted = said_by(bench.fit.covariance);
+  const noise::StatedField fitted = said_by(bench.fit.covariance);
   const auto near = [&](double value, double said) { return std::clamp(value, said / tolerance, said * tolerance); };
   const double size = near(fitted.shadowing, stated.shadowing);
   const double distance = near(fitted.decorrelation, stated.decorrelation);
   double held = 1e300;
   for (const noise::Family family : noise::families) {
     for (const double start : {-0.7, 0.0, 0.7}) {  // of the log variance of one reading, beside the fitted one
-      noise::Covariance at{family, bench.fit.covariance.theta};
-      at.theta[0] = 2 * std::log(std::max(size, 0.05));
-      at.theta[1] = std::log(distance / efold(family));
+      noise::Covariance at = as_stated({size, distance}, family, bench.fit.covariance.theta);
       at.theta[2] += start;
       held = std::min(held, best_value(bench, at));
     }
@@ -78,9 +50,9 @@ LawValue value_of(const char* name, double value, double sd_of_log) {
 int thousandths(double log) { return static_cast<int>(std::lround(1e3 * log)); }
 
 // The likelihood of single readings in a field of this size and decorrelation distance.
-Peak in_field(Judge& judge, const ReadingLaw& law, noise::Family family, const StatedField& field) {
+Peak in_field(Judge& judge, const ReadingLaw& law, noise::Family family, const noise::StatedField& field) {
   Peak there{0,
-             {family, thousandths(std::log(field.decorrelation / efold(family)))},
+             {family, thousandths(std::log(field.decorrelation / noise::efold(family)))},
              thousandths(std::log(variance_of(law, judge.step())) - 2 * std::log(field.shadowing))};
   there.value = judge.value(law, there);
   return there;
@@ -88,7 +60,7 @@ Peak in_field(Judge& judge, const ReadingLaw& law, noise::Family family, const S
 
 // The likeliest field that is as stated. Families differ in what they call a distance by more than data can
 // tell, so that all within a tolerance count as stated; a smoother field than Matern's has a longer one by his law.
-Peak as_stated(Judge& judge, const ReadingLaw& law, const StatedField& stated) {
+Peak as_stated(Judge& judge, const ReadingLaw& law, const noise::StatedField& stated) {
   const auto at = [&](noise::Family family, double distance) {
     return in_field(judge, law, family, {stated.shadowing, distance * stated.decorrelation});
   };
@@ -109,18 +81,14 @@ Peak as_stated(Judge& judge, const ReadingLaw& law, const StatedField& stated) {
 
 }  // namespace
 
-StatedField said_by(const noise::Covariance& c) {
-  return {std::sqrt(c.field_variance()), c.decorrelation() * efold(c.family)};
-}
-
 // The field that rows say is held against the stated one by rows and by readings, and the weaker word counts. Readings
 // by themselves know little more than its variance over its distance where they lie dense.
-LawTest field_test(ReadingField& field, double step, const ReadingLaw& law, const StatedField& stated,
+LawTest field_test(ReadingField& field, double step, const ReadingLaw& law, const noise::StatedField& stated,
                    const search::Bench& bench) {
   Judge judge(field, step);
-  const StatedField fitted = said_by(bench.fit.covariance);
-  const double of_readings = 2 * (in_field(judge, law, bench.fit.covariance.family, fitted).value -
-                                  as_stated(judge, law, stated).value);
+  const noise::StatedField fitted = said_by(bench.fit.covariance);
+  const double of_readings =
+      2 * (in_field(judge, law, bench.fit.covariance.family, fitted).value - as_stated(judge, law, stated).value);
   const Eigen::Matrix4d spread = bench.fit.curvature.inverse();
   LawTest test{"effect.shadowing_correlation",
                {value_of("shadowing", fitted.shadowing, std::sqrt(spread(0, 0)) / 2),
@@ -131,6 +99,13 @@ LawTest field_test(ReadingField& field, double step, const ReadingLaw& law, cons
   test.log_p = search::log_tail(test.gain / wider, 2);
   test.evidence = test.gain / 2 - std::log(static_cast<double>(field.size()));
   return test;
+}
+
+noise::StatedField stated_field(const LinkModel& model) {
+  const auto stated = [&](const char* name) {
+    return model.value_of("effect.shadowing_correlation", name, model.value_of("radio.fading", name, 0));
+  };
+  return {stated("shadowing"), stated("decorrelation")};
 }
 
 noise::Covariance fitted_to(const search::Bench& bench, const Eigen::VectorXd& row_means) {

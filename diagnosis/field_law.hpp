@@ -1,22 +1,18 @@
 // Whether shadowing has the size and the decorrelation distance that the world says.
 #pragma once
 
+#include "diagnosis/model.hpp"
 #include "diagnosis/scatter.hpp"
 #include "diagnosis/search/bench.hpp"
 
 namespace muster::diagnosis {
 
-struct StatedField {
-  double shadowing = 0, decorrelation = 0;  // dB; m, at which correlation falls to 1/e
-};
+noise::StatedField stated_field(const LinkModel& model);
 
-// What a fitted covariance says of the same two.
-StatedField said_by(const noise::Covariance& covariance);
-
-// The likelihood of the best field against that of a field with the stated size and distance, asked of single readings,
-// which know how it begins to fall, and of rows, which know how far it reaches: the smaller of both gains counts. The
-// family of correlations, which no world states, is the likeliest in each. `law`: of a reading.
-LawTest field_test(ReadingField& field, double step, const ReadingLaw& law, const StatedField& stated,
+// The likelihood of the field that rows say against that of a field with the stated size and distance, asked of single
+// readings, which know how it begins to fall, and of rows, which know how far it reaches: the smaller of both gains
+// counts. The family of correlations, which no world states, is the likeliest in each. `law`: of a reading.
+LawTest field_test(ReadingField& field, double step, const ReadingLaw& law, const noise::StatedField& stated,
                    const search::Bench& bench);
 
 // Covariance of rows of which each has a residual: for a draw of the world's own shadowing.

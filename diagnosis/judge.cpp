@@ -17,15 +17,6 @@ double variance_of(const ReadingLaw& law, double step) {
          law.outliers * law.half_width * law.half_width / 3 + step * step / 12;
 }
 
-double efold(noise::Family family) {
-  double low = 0, high = 10;
-  for (int round = 0; round < 50; ++round) {
-    const double middle = (low + high) / 2;
-    (noise::correlation(family, middle) > std::exp(-1.0) ? low : high) = middle;
-  }
-  return (low + high) / 2;
-}
-
 ReadingDensities Judge::densities_of(const ReadingLaw& law, double log_variance, const Peak& there, double margin) {
   const ReadingView& view = field_.view(there.shape, there.place);
   const double size = log_variance - view.log_ratio;

@@ -18,9 +18,6 @@ struct Peak {
 // Of one reading, with its rounding; dB^2.
 double variance_of(const ReadingLaw& law, double step);
 
-// Distance in decorrelation distances at which a family's correlation falls to 1/e.
-double efold(noise::Family family);
-
 class Judge {
  public:
   static constexpr int places = 200, distances = 300;  // from one try to the next

@@ -168,8 +168,8 @@ bool world_draws_alike(const LawSources& s) {
   const VectorXd drawn = s.model.drawn(), expected = s.model.expected();
   const VectorXd apart = (drawn - expected)(s.used);
   if (!apart.allFinite()) return false;
-  const StatedField own = said_by(fitted_to(s.bench, s.bench.rows().mean(apart)));
-  const StatedField fitted = said_by(s.bench.fit.covariance);
+  const noise::StatedField own = said_by(fitted_to(s.bench, s.bench.rows().mean(apart)));
+  const noise::StatedField fitted = said_by(s.bench.fit.covariance);
   return std::abs(std::log(own.shadowing / fitted.shadowing)) < std::log(1.25) &&
          std::abs(std::log(own.decorrelation / fitted.decorrelation)) < std::log(1.6);
 }
@@ -185,10 +185,7 @@ double bounds_share(const LawSources& s) {
 void add_field(const LawSources& s, ReadingField& field, const ReadingLaw& law, Diagnosis& found) {
   const Cause* const cause = cause_called(s, "effect.shadowing_correlation");
   if (!cause) return;
-  const auto stated = [&](const char* name) {
-    return s.model.value_of(cause->id, name, s.model.value_of("radio.fading", name, 0));
-  };
-  const StatedField said{stated("shadowing"), stated("decorrelation")};
+  const noise::StatedField said = stated_field(s.model);
   if (said.shadowing <= 0) {
     found.not_tested.push_back(cause->id + ": not testable: the world states no shadowing");
     return;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "diagnosis/field_law.hpp"
 #include "diagnosis/place_checks.hpp"
 
 namespace muster::diagnosis {
@@ -58,6 +59,7 @@ Prepared::Prepared(const std::filesystem::path& world, const std::filesystem::pa
   sought = cause_candidates(causes, survey_of(model, data), {run, model, data, used}, problem.base);
   add_columns();
   problem.places_known = data.has_places();
+  problem.stated = stated_field(model);
   options.rows = finest(problem.readings);
   if (!problem.places_known) options.rows.way = -1;  // readings at like distances are not at one place: each is a row
   let_sketch(world, plugins);

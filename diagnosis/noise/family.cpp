@@ -68,6 +68,26 @@ double log_scale_of(Family family) {
   }
 }
 
+double efold(Family family) {
+  double low = 0, high = 10;
+  for (int round = 0; round < 50; ++round) {
+    const double middle = (low + high) / 2;
+    (correlation(family, middle) > std::exp(-1.0) ? low : high) = middle;
+  }
+  return (low + high) / 2;
+}
+
+StatedField said_by(const Covariance& c) {
+  return {std::sqrt(c.field_variance()), c.decorrelation() * efold(c.family)};
+}
+
+Covariance as_stated(const StatedField& field, Family family, const Theta& beside) {
+  Covariance result{family, beside};
+  result.theta[0] = 2 * std::log(std::max(field.shadowing, 0.05));
+  result.theta[1] = std::log(field.decorrelation / efold(family));
+  return result;
+}
+
 double Covariance::field_variance() const { return std::exp(theta[0]); }
 double Covariance::decorrelation() const { return std::exp(theta[1]); }
 double Covariance::reading_variance() const { return std::exp(theta[2]); }

@@ -26,6 +26,9 @@ double log_scale_of(Family family);
 // that is smooth hardly changes along a row, and 1 - O(h^4) would be no correlation of anything.
 double softened(Family family, double distance, double soft);
 
+// Distance in decorrelation distances at which the correlation falls to 1/e.
+double efold(Family family);
+
 // log variance of the field [dB^2], log decorrelation distance [m], log variance of one reading [dB^2], logit of the
 // correlation that links of different anchors have at one place.
 using Theta = Eigen::Vector4d;
@@ -39,5 +42,13 @@ struct Covariance {
   double reading_variance() const;  // dB^2
   double shared() const;            // correlation between anchors, 0 to 1
 };
+
+// A field as a world states it, which names no family of correlations.
+struct StatedField {
+  double shadowing = 0, decorrelation = 0;  // dB, 0 where nothing is stated; m, at which correlation falls to 1/e
+};
+StatedField said_by(const Covariance& covariance);
+// The rest of theta from `beside`.
+Covariance as_stated(const StatedField& field, Family family, const Theta& beside);
 
 }  // namespace muster::noise

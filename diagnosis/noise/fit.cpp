@@ -26,13 +26,13 @@ Covariance default_start(const Eigen::VectorXd& y, const Eigen::MatrixXd& design
 }
 
 Fit fit(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& design, const Prior& prior,
-        const Covariance& start, int steps) {
+        const Covariance& start, int steps, const Theta& moves) {
   Covariance at{start.family, prior.inside(start.theta)};
   Objective here = objective(field, at, y, design, prior);
   for (int step = 0; step < steps; ++step) {
-    const Eigen::Matrix4d curvature = bounded(here.information);
-    const Theta whole = -curvature.ldlt().solve(here.gradient);
-    if (-whole.dot(here.gradient) < 0.02) break;  // nats to win, doubled
+    const Eigen::Matrix4d curvature = bounded(moves.asDiagonal() * here.information * moves.asDiagonal());
+    const Theta gradient = moves.cwiseProduct(here.gradient), whole = -curvature.ldlt().solve(gradient);
+    if (-whole.dot(gradient) < 0.02) break;  // nats to win, doubled
     Theta move = whole / std::max(1.0, whole.cwiseAbs().maxCoeff());
     bool better = false;
     for (int shorter = 0; shorter < 5 && !better; ++shorter, move *= 0.35) {

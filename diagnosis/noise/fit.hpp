@@ -15,8 +15,11 @@ struct Fit {
 // Before anything is known of theta: seven tenths of what least squares leaves belong to the field.
 Covariance default_start(const Eigen::VectorXd& y, const Eigen::MatrixXd& design, Family family);
 
+// `moves`: 1 for what is fitted of theta, 0 for what is held at the start.
 Fit fit(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& design, const Prior& prior,
-        const Covariance& start, int steps = 12);
+        const Covariance& start, int steps = 12, const Theta& moves = Theta::Ones());
+// What of theta no world states: the variance of one reading and what links of different anchors share.
+inline const Theta unstated{0, 0, 1, 1};
 
 // Every family's fit, the best one first. Leaving the exponential family takes `advantage` nats.
 std::vector<Fit> fit_families(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& design,

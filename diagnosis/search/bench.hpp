@@ -27,6 +27,7 @@ struct Term {
   double evidence = 0;      // nats
   double log_p = 0;
   bool as_smooth = false;  // a name withdrawn: what stands is its covariate
+  bool as_stated = false;  // beyond chance beside the field that the model states, and not beside a fitted one
 
   bool smooth() const { return as_smooth || candidate->kind == Kind::smooth; }
   std::string id() const { return as_smooth ? "~" + candidate->own() : candidate->id; }

@@ -52,7 +52,8 @@ void give_way_to_rivals(Bench& bench) {
       bench.terms[k].columns = bench.columns_of(*entry->candidate, rival.theta);
       bench.refit();
       settle(bench, k, false);
-      const bool simpler = rival.separability < inseparable && entry->candidate->parameters < before.candidate->parameters;
+      const bool simpler =
+          rival.separability < inseparable && entry->candidate->parameters < before.candidate->parameters;
       if (const double then = stands(bench.terms[k]); then > now + (simpler ? -clearly : clearly)) {
         now = then;
       } else {
@@ -124,7 +125,7 @@ void test_each(Bench& bench, std::vector<Term>& aside, std::vector<Trial>& trial
     const Stand stand = bench.stand(rest);
     const double gain = stand.gain(term.columns);
     const double log_p = bench.log_p(c, gain, term.columns.cols(), true);
-    if (term.smooth() || log_p < -40) {
+    if (term.smooth() || term.as_stated || log_p < -40) {
       ++k;
       continue;
     }

@@ -9,6 +9,7 @@
 #include "diagnosis/search/merge.hpp"
 #include "diagnosis/search/second_look.hpp"
 #include "diagnosis/search/settle.hpp"
+#include "diagnosis/search/stated_look.hpp"
 
 namespace muster::search {
 namespace {
@@ -129,6 +130,18 @@ bool enter(Bench& bench, const Lead& lead, Blocked& blocked, std::vector<Trial>&
   return true;
 }
 
+void enter_as_stated(Bench& bench, const Lead& lead) {
+  const Candidate& c = lead.candidate();
+  const Eigen::MatrixXd design = bench.design();
+  bench.fit = fit_with(bench, lead, beside(design, lead.columns));
+  const double gain = gain_of(c, bench.stand(design), lead.columns);
+  bench.terms.push_back({lead.entry->candidate, lead.theta, lead.columns, gain,
+                         bench.evidence(c, gain, lead.columns.cols(), false), lead.log_p});
+  bench.terms.back().as_stated = true;
+  if (lead.gain > 30) choose_family_again(bench);
+  refine_again(bench, bench.terms.size() - 1);
+}
+
 bool usable(const Bench& bench, const Blocked& blocked, const Candidate& c) {
   if (blocked.now.count(c.id)) return false;
   return std::none_of(bench.terms.begin(), bench.terms.end(), [&](const Term& term) {
@@ -156,7 +169,14 @@ void forward(Bench& bench, std::vector<Trial>& trials) {
       const std::vector<Lead> looked = second_look(bench, stand, all, may_enter);
       std::copy_if(looked.begin(), looked.end(), std::back_inserter(passing), passes);
     }
-    if (passing.empty()) return;
+    if (passing.empty()) {
+      const Blocked only{blocked.for_good, blocked.for_good};
+      const auto lead = stated_look(bench, [&](const Candidate& c) { return usable(bench, only, c); });
+      if (!lead) return;
+      enter_as_stated(bench, *lead);
+      blocked.now = blocked.for_good;
+      continue;
+    }
     enter(bench, compared(bench, stand, passing, all, may_enter).front(), blocked, trials);
   }
 }

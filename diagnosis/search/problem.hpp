@@ -30,7 +30,8 @@ struct Problem {
   std::vector<Candidate> candidates;
   std::vector<Covariate> covariates;
   std::vector<Factor> factors;
-  bool places_known = true;  // false: only distances are, and places stand for them
+  noise::StatedField stated;  // shadowing, as the model states it
+  bool places_known = true;   // false: only distances are, and places stand for them
   // Candidates that need the base coefficients of the model as it stands. May be empty.
   std::function<std::vector<Candidate>(const Eigen::VectorXd& base_coefficients)> depending;
 };

@@ -41,12 +41,32 @@ TEST(PeopleOnALink, NobodyIsSeenWhereNobodyIs) {
   EXPECT_GT(passages_of(search::Bench(problem, {})).test.log_p, std::log(0.01));
 }
 
+// Of the first station, 1.2 s to 1/e each.
+void add_bursts(Walk& walk, double first, double every, double dB) {
+  for (std::size_t i = 0; i < 600; ++i) {
+    const double apart = std::remainder(walk.readings.t[i] - first, every) / 1.2;
+    walk.residual[static_cast<Eigen::Index>(i)] += std::round(dB * std::exp(-apart * apart));
+  }
+}
+
+TEST(PeopleOnALink, LevelsThatRiseAsOftenAsTheyFallAreNobody) {
+  Walk walk = drawn_of_four({.rician_k = 8}, 600, 1.5);
+  add_bursts(walk, 11, 74, -35);
+  add_bursts(walk, 48, 74, 35);
+  const search::Problem problem = problem_of(walk);
+  EXPECT_GT(passages_of(search::Bench(problem, {})).test.log_p, std::log(0.01));
+}
+
+TEST(PeopleOnALink, DeepFadesOfSingleReadingsAreNobody) {
+  Walk walk = drawn_of_four({.rician_k = 8}, 600, 1.5);
+  for (Eigen::Index i = 20; i < 600; i += 60) walk.residual[i] -= 25;
+  const search::Problem problem = problem_of(walk);
+  EXPECT_GT(passages_of(search::Bench(problem, {})).test.log_p, std::log(0.01));
+}
+
 TEST(PeopleOnALink, BurstsAreSeenAndMeasured) {
   Walk walk = drawn_of_four({.rician_k = 8}, 600, 1.5);
-  for (std::size_t i = 0; i < 600; ++i) {                                      // of the first station
-    const double apart = std::remainder(walk.readings.t[i] - 11, 37.0) / 1.2;  // every 37 s, 1.2 s to 1/e
-    walk.residual[static_cast<Eigen::Index>(i)] -= std::round(20 * std::exp(-apart * apart));
-  }
+  add_bursts(walk, 11, 37, -20);
   const search::Problem problem = problem_of(walk);
   const Passages found = passages_of(search::Bench(problem, {}));
   EXPECT_EQ(found.radio, 0);

@@ -82,6 +82,29 @@ TEST(Search, OfCausesThatTheReadingsCannotTellApartTheSimplestIsNamed) {
   }
 }
 
+// What is named if a sender is off by an offset of that lambda and the world states its field's size and this multiple
+// of its distance; 0: it states nothing.
+std::vector<std::string> named_beside_stated_field(uint64_t seed, double lambda, double multiple) {
+  const World world = world_of(varied(seed, 2500));
+  const auto causes = causes_of(world);
+  const Eigen::VectorXd offset = scaled_to(world, causes[0].columns(causes[0].grid[1]).col(0), 1);
+  Problem problem = problem_of(world, std::sqrt(lambda) * offset, causes);
+  if (multiple > 0) problem.stated = {world.recipe.sigma, multiple * world.recipe.decorrelation};
+  return ids(Search(problem).run());
+}
+
+TEST(Search, AnOffsetThatAFittedFieldTakesUpShowsBesideTheStatedOne) {
+  int free = 0, stated = 0;
+  for (uint64_t seed = 200; seed < 208; ++seed) {
+    const std::vector<std::string> offset{"tx_offset"};
+    free += named_beside_stated_field(seed, 60, 0) == offset;
+    stated += named_beside_stated_field(seed, 60, 1) == offset;
+    for (const double multiple : {0.5, 1.0, 1.5})
+      EXPECT_EQ(named_beside_stated_field(seed, 0, multiple), std::vector<std::string>{}) << seed << ' ' << multiple;
+  }
+  EXPECT_GT(stated, free);
+}
+
 TEST(Search, CoefficientsPlacesAndHeldOutGainAreThoseOfTheTruth) {
   const World world = world_of(varied(35, 6000));
   const auto causes = causes_of(world);
