@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "diagnosis/search/choose.hpp"
 #include "diagnosis/search/clipping.hpp"
@@ -14,25 +15,41 @@
 namespace muster::search {
 namespace {
 
+constexpr const char* like_clipping = "cannot be told from clipping";
+
 struct Blocked {
   std::set<std::string> now;       // until the model changes
   std::set<std::string> for_good;  // cannot be told from clipping
 };
 
-// The share of the gain that comes from anchors other than the strongest one.
-double share_of_others(const Bench& bench, const Stand& stand, const Eigen::MatrixXd& columns) {
+// The fall of the deviance at each row.
+Eigen::VectorXd won_by_rows(const Stand& stand, const Eigen::MatrixXd& columns) {
   const auto added = noise::basis_of(stand.at.basis.rest(stand.whitener(columns)));
   const Eigen::VectorXd& r = stand.at.residual;
-  const Eigen::VectorXd left = r - added.q * (added.q.transpose() * r);
+  return r.array().square() - (r - added.q * (added.q.transpose() * r)).array().square();
+}
+
+// The share of the gain that comes from anchors other than the strongest one.
+double share_of_others(const Bench& bench, const Eigen::VectorXd& won) {
   std::map<int, double> by_anchor;
-  double all = 0, most = 0;
-  for (Index i = 0; i < r.size(); ++i) {
-    const double won = r[i] * r[i] - left[i] * left[i];
-    all += won;
-    by_anchor[bench.field().sites().radio[static_cast<std::size_t>(i)]] += won;
+  for (Index i = 0; i < won.size(); ++i) by_anchor[bench.field().sites().radio[static_cast<std::size_t>(i)]] += won[i];
+  double most = 0;
+  for (const auto& [anchor, sum] : by_anchor) most = std::max(most, sum);
+  return 1 - most / won.sum();
+}
+
+// Of how many readings at least half of the gain comes: of few, it is an outlier that a place was found for.
+double readings_behind(const Bench& bench, const Eigen::VectorXd& won) {
+  std::vector<Index> rows(static_cast<std::size_t>(won.size()));
+  std::iota(rows.begin(), rows.end(), 0);
+  std::sort(rows.begin(), rows.end(), [&](Index a, Index b) { return won[a] > won[b]; });
+  double sum = 0, readings = 0;
+  for (const Index row : rows) {
+    if (sum >= won.sum() / 2) break;
+    sum += won[row];
+    readings += bench.rows().count()[row];
   }
-  for (const auto& [anchor, won] : by_anchor) most = std::max(most, won);
-  return 1 - most / all;
+  return readings;
 }
 
 // The noise with the lead's columns inside; after a large effect also from scratch, since the old fit may be stuck.
@@ -60,13 +77,16 @@ Trial tried(const Bench& bench, const Lead& lead, const noise::Fit& fit, const E
     trial.integrated_log_p = std::max(trial.integrated_log_p, bench.log_p(c, profile, lead.columns.cols(), true));
   }
   trial.integrated_log_p += stand.skew_charge(lead.columns);
-  if (!c.pieces.empty() && share_of_others(bench, stand, lead.columns) < 0.08)
+  const Eigen::VectorXd won = won_by_rows(stand, lead.columns);
+  if (!c.pieces.empty() && share_of_others(bench, won) < 0.08)
     trial.integrated_log_p += bench.options().one_radio_charge;
   if (c.level_like && bench.problem().bounds.any() &&
       !stands_clear_of_clip(bench, fit.covariance, design, lead.columns))
-    trial.reason = "cannot be told from clipping";
+    trial.reason = like_clipping;
   else if (trial.integrated_log_p > bench.threshold())
     trial.reason = "not beyond chance";
+  else if (constexpr double few = 5; readings_behind(bench, won) < few)
+    trial.reason = "rests on fewer than five readings";
   trial.accepted = trial.reason.empty();
   return trial;
 }
@@ -109,7 +129,7 @@ bool enter(Bench& bench, const Lead& lead, Blocked& blocked, std::vector<Trial>&
   const Trial& trial = trials.back();
   if (!trial.accepted) {
     blocked.now.insert(trial.id);
-    if (trial.integrated_log_p <= bench.threshold()) blocked.for_good.insert(trial.id);
+    if (trial.reason == like_clipping) blocked.for_good.insert(trial.id);
     return false;
   }
   bench.fit = fit;

@@ -14,6 +14,7 @@ namespace {
 
 using synthetic::causes_of;
 using synthetic::problem_of;
+using synthetic::Recipe;
 using synthetic::scaled_to;
 using synthetic::varied;
 using synthetic::World;
@@ -79,6 +80,17 @@ TEST(Search, OfCausesThatTheReadingsCannotTellApartTheSimplestIsNamed) {
     twin.parameters = causes[1].parameters + more;
     const Problem problem = problem_of(world, effect, twins);
     EXPECT_EQ(ids(Search(problem).run()), std::vector<std::string>{more > 0 ? "rx_offset" : "twin"});
+  }
+}
+
+TEST(Search, AnOutlierIsNoWall) {
+  for (uint64_t seed = 220; seed < 228; ++seed) {
+    Recipe recipe = varied(seed, 2500);
+    recipe.fading = 0.8;
+    const World world = world_of(recipe);
+    Eigen::VectorXd far = Eigen::VectorXd::Zero(2500);
+    far[700] = -60;
+    EXPECT_EQ(ids(result_of(world, far)), std::vector<std::string>{}) << seed;
   }
 }
 
