@@ -42,7 +42,9 @@ std::map<std::string, Reach> reaches(const CauseShape& shape, const search::Find
   std::map<std::string, Reach> result;
   const auto count = static_cast<double>(f.thetas.size());
   for (const auto& [name, total] : sum) {
+    constexpr double same = 1e-6;  // a room's place: every theta has it, but for rounding
     const double mean = total / count, sd = std::sqrt(std::max(0.0, squares[name] / count - mean * mean));
+    if (sd + std::abs(mean) < same) continue;
     result[name] = {std::max(0.0, normal95 * sd - mean), std::max(0.0, normal95 * sd + mean)};
   }
   return result;

@@ -197,10 +197,17 @@ LawTests law_tests(ReadingField& field, double step, const ReadingLaw& stated, c
   Tests tests(field, step, stated, fit);
   const std::vector<Family> families = families_of(stated);
   std::map<std::string, std::pair<const Family*, Fitted>> best;  // of each cause
+  std::vector<std::pair<const Family*, double>> values;
   for (const Family& family : families) {
     const Fitted fitted = tests.fitted(family);
+    values.emplace_back(&family, fitted.peak.value);
     const auto [entry, is_new] = best.try_emplace(family.cause, &family, fitted);
     if (!is_new && fitted.peak.value > entry->second.second.peak.value) entry->second = {&family, fitted};
+  }
+  constexpr double within = 1.92;  // nats, of a 95 % interval
+  std::map<std::string, std::vector<const Family*>> as_likely;
+  for (const auto& [family, value] : values) {
+    if (value > best.at(family->cause).second.peak.value - within) as_likely[family->cause].push_back(family);
   }
   std::vector<LawTest> result;
   for (const auto& [cause, found] : best) {
@@ -216,6 +223,13 @@ LawTests law_tests(ReadingField& field, double step, const ReadingLaw& stated, c
                    [](const LawTest& a, const LawTest& b) { return a.evidence > b.evidence; });
   const auto& [family, fitted] = best.at(result.front().cause);
   result.front().values = family->beside;
+  for (LawValue& value : result.front().values) {  // of the forms that are as likely
+    for (const Family* form : as_likely[family->cause]) {
+      const LawValue& other = form->beside[static_cast<std::size_t>(&value - result.front().values.data())];
+      value.lower95 = std::min(value.lower95, other.lower95);
+      value.upper95 = std::max(value.upper95, other.upper95);
+    }
+  }
   if (result.front().gain > 0)
     result.front().values.insert(result.front().values.begin(), tests.value(*family, fitted));
   return {result, tests.stated()};

@@ -204,18 +204,27 @@ Effect incidence(const Scene&, Random& random) {
   return e;
 }
 
-// A ceiling that the map does not know, under the two stations that hang above it.
+// A ceiling that the map does not know, under the two stations that hang above it. Its loss is the mean one of links
+// through it, most of which go through at a flat angle.
 Effect height(const Scene& s, Random&) {
   Effect e{"height"};
   for (std::size_t i = 0; i < s.site.plan.stations.size(); ++i)
     if (s.site.plan.stations[i].at.z > 2.7) e.rows.push_back(radio_row(s.site, static_cast<int>(i)));
-  e.shift = scaled([&site = s.site](const Reading& r) {
+  const auto loss = [&site = s.site](const Reading& r) {
     const Vec3 from = place_of(site, r);
     if (from.z < 2.7) return 0.0;
     const double sine = (from.z - r.at.z) / distance_of(from, r.at);
-    return -(1 + 0.15 * (std::min(1 / sine, 4.0) - 1));
-  });
-  e.parameters = [](double x) { return std::vector<Parameter>{{"loss", x, "dB"}}; };
+    return 1 + 0.15 * (std::min(1 / sine, 4.0) - 1);
+  };
+  double sum = 0, links = 0;
+  for (const Reading& r : s.measured.readings) {
+    sum += loss(r);
+    links += loss(r) > 0;
+  }
+  e.shift = scaled([=](const Reading& r) { return -loss(r); });
+  e.parameters = [mean = sum / std::max(links, 1.0)](double x) {
+    return std::vector<Parameter>{{"loss", x * mean, "dB"}};
+  };
   return e;
 }
 

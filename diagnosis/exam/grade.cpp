@@ -147,8 +147,9 @@ void add_inside(Grades& grades, const Truth& truth, const Verdict& verdict) {
                               [&](const auto& c) { return same_class(c.id, effect.id); });
     grades.by_effect[effect.id + " / " + lambda_bin(effect.lambda)].count(cause != nullptr);
     if (!cause) continue;
-    add_parameters(grades, effect, *cause);
-    if (!effect.rows.empty()) count("right row, where found", at_right_row(effect, *cause));
+    const bool right_row = effect.rows.empty() || at_right_row(effect, *cause);
+    if (right_row) add_parameters(grades, effect, *cause);  // of another radio they are other quantities
+    if (!effect.rows.empty()) count("right row, where found", right_row);
   }
   const int all = static_cast<int>(truth.effects.size());
   const auto is_true = [&](const Verdict::Cause& c) {
