@@ -118,8 +118,10 @@ int driven_across(const Survey& s, double x, double y, double length, double ang
 }
 
 bool driven_through(const Survey& s, double x, double y, double radius) {
-  return std::any_of(s.ways.begin(), s.ways.end(),
-                     [&](const auto& w) { return std::hypot(w[0] - x, w[1] - y) < 0.7 * radius; });
+  return std::any_of(s.ways.begin(), s.ways.end(), [&](const auto& w) {
+    const double across = w[0] - x, along = w[1] - y;
+    return across * across + along * along < 0.49 * radius * radius;
+  });
 }
 
 double belief_in_segment(const Survey& s, const Eigen::VectorXd& t) {
