@@ -22,14 +22,7 @@ struct Blocked {
   std::set<std::string> for_good;  // cannot be told from clipping
 };
 
-// The fall of the deviance at each row.
-Eigen::VectorXd won_by_rows(const Stand& stand, const Eigen::MatrixXd& columns) {
-  const auto added = noise::basis_of(stand.at.basis.rest(stand.whitener(columns)));
-  const Eigen::VectorXd& r = stand.at.residual;
-  return r.array().square() - (r - added.q * (added.q.transpose() * r)).array().square();
-}
-
-// The share of the gain that comes from anchors other than the strongest one.
+// The share of the gain that comes from anchors other than the strongest one. `won`: the gain of each row.
 double share_of_others(const Bench& bench, const Eigen::VectorXd& won) {
   std::map<int, double> by_anchor;
   for (Index i = 0; i < won.size(); ++i) by_anchor[bench.field().sites().radio[static_cast<std::size_t>(i)]] += won[i];
@@ -38,8 +31,9 @@ double share_of_others(const Bench& bench, const Eigen::VectorXd& won) {
   return 1 - most / won.sum();
 }
 
-// Of how many readings at least half of the gain comes: of few, it is an outlier that a place was found for.
-double readings_behind(const Bench& bench, const Eigen::VectorXd& won) {
+// Whether half of the gain comes from fewer than five readings.
+bool from_few(const Bench& bench, const Eigen::VectorXd& won) {
+  constexpr double few = 5;
   std::vector<Index> rows(static_cast<std::size_t>(won.size()));
   std::iota(rows.begin(), rows.end(), 0);
   std::sort(rows.begin(), rows.end(), [&](Index a, Index b) { return won[a] > won[b]; });
@@ -49,7 +43,25 @@ double readings_behind(const Bench& bench, const Eigen::VectorXd& won) {
     sum += won[row];
     readings += bench.rows().count()[row];
   }
-  return readings;
+  return readings < few;
+}
+
+// The gain of columns where it is won, and whether it is an outlier's, for which a place was found: a gain of few
+// readings, most of which is gone with all beyond four standard errors.
+struct Winnings {
+  Eigen::VectorXd won;
+  bool of_outlier;
+};
+
+Winnings winnings_of(const Bench& bench, const Stand& stand, const Eigen::MatrixXd& columns) {
+  constexpr double usual = 4;
+  const auto added = noise::basis_of(stand.at.basis.rest(stand.whitener(columns)));
+  const Eigen::VectorXd &r = stand.at.residual, tame = r.cwiseMax(-usual).cwiseMin(usual);
+  const Eigen::VectorXd along = added.q.transpose() * r, left = r - added.q * along;
+  Winnings result{r.array().square() - left.array().square(), false};
+  const bool tamed = (added.q.transpose() * tame).squaredNorm() < along.squaredNorm() / 2;
+  result.of_outlier = tamed && from_few(bench, result.won);
+  return result;
 }
 
 // The noise with the lead's columns inside; after a large effect also from scratch, since the old fit may be stuck.
@@ -77,15 +89,15 @@ Trial tried(const Bench& bench, const Lead& lead, const noise::Fit& fit, const E
     trial.integrated_log_p = std::max(trial.integrated_log_p, bench.log_p(c, profile, lead.columns.cols(), true));
   }
   trial.integrated_log_p += stand.skew_charge(lead.columns);
-  const Eigen::VectorXd won = won_by_rows(stand, lead.columns);
-  if (!c.pieces.empty() && share_of_others(bench, won) < 0.08)
+  const Winnings winnings = winnings_of(bench, stand, lead.columns);
+  if (!c.pieces.empty() && share_of_others(bench, winnings.won) < 0.08)
     trial.integrated_log_p += bench.options().one_radio_charge;
   if (c.level_like && bench.problem().bounds.any() &&
       !stands_clear_of_clip(bench, fit.covariance, design, lead.columns))
     trial.reason = like_clipping;
   else if (trial.integrated_log_p > bench.threshold())
     trial.reason = "not beyond chance";
-  else if (constexpr double few = 5; readings_behind(bench, won) < few)
+  else if (winnings.of_outlier)
     trial.reason = "rests on fewer than five readings";
   trial.accepted = trial.reason.empty();
   return trial;
