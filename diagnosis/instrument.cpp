@@ -1,8 +1,11 @@
 #include "diagnosis/instrument.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "text/number.hpp"
 
@@ -32,14 +35,15 @@ double step_of(const Codes& codes, std::size_t readings) {
   return all ? least : 0;
 }
 
-// log P(X >= k) of n fair throws.
-double log_binomial_tail(std::size_t k, std::size_t n) {
+// log P(X >= k) of n throws that each hit with this chance.
+double log_binomial_tail(std::size_t k, std::size_t n, double chance) {
   double most = -1e300;
   std::vector<double> terms;
   const auto count = static_cast<double>(n);
   for (std::size_t i = k; i <= n; ++i) {
     const auto x = static_cast<double>(i);
-    terms.push_back(std::lgamma(count + 1) - std::lgamma(x + 1) - std::lgamma(count - x + 1) - count * std::log(2.0));
+    terms.push_back(std::lgamma(count + 1) - std::lgamma(x + 1) - std::lgamma(count - x + 1) + x * std::log(chance) +
+                    (count - x) * std::log1p(-chance));
     most = std::max(most, terms.back());
   }
   double sum = 0;
@@ -47,11 +51,13 @@ double log_binomial_tail(std::size_t k, std::size_t n) {
   return std::min(most + std::log(sum), 0.0);
 }
 
-// A law that falls off towards its end has no more readings at the last code than at the one before.
-std::optional<Clip> pile(const Dataset& data, double level, std::size_t count, std::size_t beside) {
+// A law that falls off towards its end has no more readings at the last code than at any of the codes before it, the
+// nearest first.
+std::optional<Clip> pile(const Dataset& data, double level, std::size_t count, const std::vector<std::size_t>& before) {
   constexpr std::size_t least = 15;
-  if (count < least || count <= 2 * beside) return {};
-  Clip clip{level, count, beside, log_binomial_tail(count, count + beside), 0};
+  if (count < least || count <= 2 * before[0]) return {};
+  const std::size_t all = std::accumulate(before.begin(), before.end(), count);
+  Clip clip{level, count, before[0], log_binomial_tail(count, all, 1 / (1.0 + static_cast<double>(before.size()))), 0};
   if (clip.log_p > std::log(1e-6)) return {};
   clip.row = static_cast<std::size_t>(std::find(data.rssi.begin(), data.rssi.end(), level) - data.rssi.begin());
   return clip;
@@ -78,14 +84,18 @@ Instrument instrument_of(const Dataset& data) {
   const Codes codes = codes_of(data);
   result.step = step_of(codes, data.heard());
   const auto low = codes.begin(), high = std::prev(codes.end());
-  const double inside = result.step > 0 ? result.step : 0;
-  const auto beside = [&](double level, double next) { return inside > 0 ? at(codes, level) : at(codes, next); };
+  const auto before = [&](double level, double inward, double next) -> std::vector<std::size_t> {
+    if (result.step <= 0) return {at(codes, next)};
+    std::vector<std::size_t> counts;
+    for (const int steps : {1, 2, 3}) counts.push_back(at(codes, level + inward * steps * result.step));
+    return counts;
+  };
   if (codes.size() > 2) {
-    result.top = pile(data, high->first, high->second, beside(high->first - inside, std::prev(high)->first));
-    result.bottom = pile(data, low->first, low->second, beside(low->first + inside, std::next(low)->first));
+    result.top = pile(data, high->first, high->second, before(high->first, -1, std::prev(high)->first));
+    result.bottom = pile(data, low->first, low->second, before(low->first, 1, std::next(low)->first));
   }
   result.checks.push_back({"the step between readings",
-                           result.step > 0 ? print_real(result.step) + " dB" : "none: no common step",
+                           result.step > 0 ? fmt::format("{:.6g} dB", result.step) : "none: no common step",
                            true,
                            {}});
   result.checks.push_back(pile_check("highest", result.top, high->first, high->second));

@@ -12,15 +12,15 @@
 namespace muster::diagnosis {
 namespace {
 
-// `at_top` readings at -40 dBm, five at -41, and 10 at each level from -42 to -60.
-Dataset readings(const Scratch& scratch, int at_top) {
+// `at_top` readings at -40 dBm, five at -41, `before` at -42 and -43, and 10 at each level down to -60.
+Dataset readings(const Scratch& scratch, int at_top, int before = 10) {
   std::string text = "t[s],tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],rssi[dBm]\n";
   int row = 0;
   const auto add = [&](int level, int count) {
     for (int k = 0; k < count; ++k, ++row)
       text += std::to_string(row) + ",a,b,0,0," + std::to_string(row % 9 + 1) + ",2," + std::to_string(level) + "\n";
   };
-  for (int level = -60; level < -41; ++level) add(level, 10);
+  for (int level = -60; level < -41; ++level) add(level, level < -43 ? 10 : before);
   add(-41, 5);
   add(-40, at_top);
   return read_dataset(scratch.write("data.csv", text));
@@ -43,6 +43,12 @@ TEST(InstrumentChecks, ALevelThatIsReadOftenIsNoClip) {
   const Scratch scratch;
   EXPECT_FALSE(instrument_of(readings(scratch, 10)).top);  // no more than neighbours have
   EXPECT_FALSE(instrument_of(readings(scratch, 14)).top);  // too few to say
+}
+
+TEST(InstrumentChecks, ASmallPileShowsBesideAllThatIsNear) {
+  const Scratch scratch;
+  EXPECT_FALSE(instrument_of(readings(scratch, 27)).top);
+  EXPECT_TRUE(instrument_of(readings(scratch, 27, 3)).top);
 }
 
 TEST(LawOfAReading, VariancesAreThoseOfRayleighAndGamma) {
