@@ -1,4 +1,4 @@
-// Grades beside the goals of a diagnosis, as a table for the docs.
+// Grades beside the goals of a diagnosis, as a table for the docs; measures that no case was about are left out.
 #include <fmt/format.h>
 
 #include "grade.hpp"
@@ -58,7 +58,7 @@ std::string verdict_of(const Goal& goal, const Share& s) {
 }
 
 std::string share_row(const Goal& goal, const Share& s) {
-  if (s.of == 0) return row(goal.measure, "no such case", "", "");
+  if (s.of == 0) return "";
   const std::string reached = fmt::format("{}/{} = {} [{:.1f}, {:.1f}]", s.hits, s.of, percent(s.value()),
                                           100 * s.lower95(), 100 * s.upper95());
   if (goal.goal <= 0) return row(goal.measure, reached, "", "");  // stated against an oracle that is not computed
@@ -67,7 +67,7 @@ std::string share_row(const Goal& goal, const Share& s) {
 
 std::string spread_row(const std::string& measure, const std::vector<double>& values, const char* unit,
                        double median_goal, double p90_goal) {
-  if (values.empty()) return row(measure, "no such case", "", "");
+  if (values.empty()) return "";
   const double median = quantile(values, 0.5), p90 = quantile(values, 0.9);
   return row(measure, fmt::format("{:.2f} / {:.2f} {} ({})", median, p90, unit, values.size()),
              fmt::format("{} / {} {}", median_goal, p90_goal, unit),
@@ -92,7 +92,7 @@ std::string as_table(const Grades& g) {
   if (!g.seconds.empty())
     out += row("CPU seconds a case, median / largest",
                fmt::format("{:.1f} / {:.1f}", quantile(g.seconds, 0.5), quantile(g.seconds, 1)), "", "");
-  out += "\n| effect | found (outside the vocabulary: right covariate) |\n|---|---|\n";
+  if (!g.by_effect.empty()) out += "\n| effect | found (outside the vocabulary: right covariate) |\n|---|---|\n";
   for (const auto& [name, share] : g.by_effect) out += fmt::format("| {} | {}/{} |\n", name, share.hits, share.of);
   if (!g.missing.empty()) out += fmt::format("\n{} cases without a readable report.\n", g.missing.size());
   return out;

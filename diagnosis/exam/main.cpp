@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 #include "grade.hpp"
@@ -16,8 +17,9 @@ using namespace muster::exam;
 
 constexpr const char* usage = R"(muster_exam: sealed cases for radio diagnosis
 
-  muster_exam make --seed S --cases N --out DIR [--mix clean,one,two,outside] [--rows MIN MAX]
+  muster_exam make --seed S --cases N --out DIR [--mix clean,one,two,outside | each] [--rows MIN MAX]
                    [--lambda L | --size weak|medium|strong] [--effects ID,ID...] [--first N]
+      "each": every effect in turn, those outside the vocabulary among them.
       writes DIR/case_0001/{world.xml, walls.csv, measured.csv, second.csv} ... and DIR/answers/case_0001.json ...
   muster_exam run DIR [--reports DIR] [--command COMMAND] [--jobs N]
       runs a diagnosis over the cases, by default muster diagnose {world} --data {data} --json; what it prints becomes
@@ -102,9 +104,10 @@ Syllabus syllabus_of(const Arguments& arguments) {
   Syllabus syllabus;
   syllabus.seed = number<std::uint64_t>(required(arguments, "--seed"), 0, ~std::uint64_t{0});
   if (const auto at = arguments.find("--mix"); at != arguments.end()) syllabus.kinds = listed(at->second[0]);
+  const std::set<std::string> kinds{"clean", "one", "two", "outside", "each"};
   for (const std::string& kind : syllabus.kinds)
-    if (kind != "clean" && kind != "one" && kind != "two" && kind != "outside")
-      throw std::invalid_argument("a kind is clean, one, two or outside, not \"" + kind + "\"");
+    if (!kinds.contains(kind))
+      throw std::invalid_argument("a kind is clean, one, two, outside or each, not \"" + kind + "\"");
   if (const auto at = arguments.find("--rows"); at != arguments.end()) {
     syllabus.least_rows = number(at->second[0], 200.0, 200000.0);
     syllabus.most_rows = number(at->second[1], syllabus.least_rows, 200000.0);

@@ -8,14 +8,28 @@
 namespace muster::exam {
 namespace {
 
+bool wanted(const Syllabus& syllabus, const Recipe& r) {
+  const auto& ids = syllabus.effects;
+  return ids.empty() || std::find(ids.begin(), ids.end(), r.id) != ids.end();
+}
+
+// Each effect in turn, those outside the vocabulary among them.
+const Recipe& in_turn(const Syllabus& syllabus, int number) {
+  std::vector<const Recipe*> all;
+  for (const Recipe& r : recipes()) {
+    if (wanted(syllabus, r)) all.push_back(&r);
+  }
+  if (all.empty()) throw std::invalid_argument("no effect is left for cases of kind \"each\"");
+  return *all[static_cast<std::size_t>(number - 1) % all.size()];
+}
+
 std::vector<std::string> candidates(const Syllabus& syllabus, const std::string& kind) {
   std::vector<std::string> result;
   for (const Recipe& r : recipes()) {
-    const bool wanted = syllabus.effects.empty() ||
-                        std::find(syllabus.effects.begin(), syllabus.effects.end(), r.id) != syllabus.effects.end();
     // Exchanged names move every level of two stations; beside that no second effect would have its own meaning.
     const bool alone = std::string_view(r.id) == "label_swap";
-    if (wanted && r.in_vocabulary == (kind != "outside") && !(kind == "two" && alone)) result.push_back(r.id);
+    if (wanted(syllabus, r) && r.in_vocabulary == (kind != "outside") && !(kind == "two" && alone))
+      result.push_back(r.id);
   }
   if (result.empty()) throw std::invalid_argument("no effect is left for cases of kind \"" + kind + "\"");
   return result;
@@ -47,9 +61,15 @@ Order draw_order(const Syllabus& syllabus, int number) {
               {},
               static_cast<int>(log_uniform(random, syllabus.least_rows, syllabus.most_rows))};
   if (order.kind == "clean") return order;
-  const std::vector<std::string> from = candidates(syllabus, order.kind);
-  order.effects.push_back(random.pick(from));
+  if (order.kind == "each") {
+    const Recipe& r = in_turn(syllabus, number);
+    order.kind = r.in_vocabulary ? "one" : "outside";
+    order.effects.push_back(r.id);
+  } else {
+    order.effects.push_back(random.pick(candidates(syllabus, order.kind)));
+  }
   if (order.kind == "two") {
+    const std::vector<std::string> from = candidates(syllabus, order.kind);
     std::vector<std::string> others;
     std::copy_if(from.begin(), from.end(), std::back_inserter(others),
                  [&](const auto& id) { return go_together(order.effects[0], id); });

@@ -68,6 +68,18 @@ TEST_P(EveryEffect, NamesRowsOfItsWorldAndItsParameters) {
 INSTANTIATE_TEST_SUITE_P(Exam, EveryEffect, testing::ValuesIn(recipes()),
                          [](const auto& of) { return std::string(of.param.id); });
 
+TEST(Orders, EachEffectComesInItsTurn) {
+  Syllabus syllabus;
+  syllabus.kinds = {"each"};
+  const int all = static_cast<int>(recipes().size());
+  for (int number = 1; number <= 2 * all; ++number) {
+    const Order order = draw_order(syllabus, number);
+    const Recipe& turn = recipes()[static_cast<std::size_t>((number - 1) % all)];
+    EXPECT_EQ(order.effects, std::vector<std::string>{turn.id});
+    EXPECT_EQ(order.kind, turn.in_vocabulary ? "one" : "outside");
+  }
+}
+
 TEST(Effects, AreAllThatTheVocabularyHas) {
   for (const char* id : {"tx_offset",
                          "rx_offset",
