@@ -110,13 +110,20 @@ uint16_t Field::entry(double distance) const {
   return static_cast<uint16_t>(std::min(distance / spacing_ + 0.5, distances - 1.0));
 }
 
+Whitener::Whitener(const Field& field, const Covariance& covariance, Stencil stencil)
+    : field_(&field), covariance_(covariance), stencil_(std::move(stencil)) {}
+
 Whitener::Whitener(const Field& field, const Covariance& covariance)
-    : field_(&field), covariance_(covariance), stencil_(empty_stencil(field)) {
+    : Whitener(field, covariance, empty_stencil(field)) {
   Neighbourhood neighbourhood(field, covariance);
   for (Index g = 0; g < field.groups(); ++g) {
     neighbourhood.factorise(g);
     store(field, g, neighbourhood.combination(), stencil_);
   }
+  sum_up();
+}
+
+void Whitener::sum_up() {
   for (const double own : stencil_.own) log_scale_ += std::log(own);
 }
 
@@ -131,11 +138,12 @@ Sheet Whitener::sheet(const Sheet& columns) const {
 }
 
 WhitenerSlopes::WhitenerSlopes(const Field& field, const Covariance& covariance)
-    : field_(&field), whitener_(field, covariance) {
+    : field_(&field), whitener_(field, covariance, empty_stencil(field)) {
   for (Stencil& stencil : stencils_) stencil = empty_stencil(field);
   Neighbourhood neighbourhood(field, covariance);
   for (Index g = 0; g < field.groups(); ++g) {
     neighbourhood.factorise(g);
+    store(field, g, neighbourhood.combination(), whitener_.stencil_);
     neighbourhood.differentiate(g);
     const Index used = std::min<Index>(Field::lanes, field.size() - g * Field::lanes);
     for (std::size_t p = 0; p < 4; ++p) {
@@ -151,6 +159,7 @@ WhitenerSlopes::WhitenerSlopes(const Field& field, const Covariance& covariance)
       }
     }
   }
+  whitener_.sum_up();
 }
 
 Eigen::MatrixXd WhitenerSlopes::operator()(int parameter, const Eigen::Ref<const Eigen::MatrixXd>& columns) const {

@@ -66,6 +66,9 @@ class Whitener {
 
  private:
   friend class WhitenerSlopes;
+  Whitener(const Field& field, const Covariance& covariance, Stencil stencil);  // not yet worked out
+  void sum_up();
+
   const Field* field_;
   Covariance covariance_;
   Stencil stencil_;
