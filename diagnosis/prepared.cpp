@@ -29,16 +29,18 @@ FitOptions hold_places_of_causes(const LinkModel& model) {
 }
 
 // A wall that no map has shows best in short rows, down to single readings, while each row costs time: they are as
-// short as few rows allow.
+// short as few rows allow. Of many readings they are longer than usual, not for time's sake alone: each row is
+// conditioned on so many near ones, and where these lie dense nothing of them tells how far the field reaches.
 noise::RowLimits finest(const noise::Readings& readings) {
-  constexpr Index few = 4000;
-  for (const double share : {0.0, 0.25, 0.5}) {
-    noise::RowLimits limits;
+  constexpr Index few = 4000, many = 10000;
+  noise::RowLimits limits;
+  for (const double share : {0.0, 0.25, 0.5, 1.0, 2.0, 4.0}) {
+    limits = {};
     limits.time *= share;
     limits.way *= share;
-    if (noise::Rows(readings, limits).size() <= few) return limits;
+    if (noise::Rows(readings, limits).size() <= (share < 1 ? few : many)) break;
   }
-  return {};
+  return limits;
 }
 
 }  // namespace
