@@ -46,7 +46,8 @@ void to_front(std::vector<Lead>& pool, std::vector<Lead>::iterator chosen) {
 void prefer_names(std::vector<Lead>& pool, double share) {
   if (pool[0].candidate().kind != Kind::smooth) return;
   const auto chosen = std::find_if(pool.begin(), pool.end(), [&](const Lead& lead) {
-    return lead.candidate().kind == Kind::named && lead.gain >= share * pool[0].gain &&
+    const auto by_chance = static_cast<double>(std::max<Index>(0, pool[0].columns.cols() - lead.columns.cols()));
+    return lead.candidate().kind == Kind::named && lead.gain >= share * (pool[0].gain - by_chance) &&
            lead.candidate().stands_for.count(pool[0].candidate().own()) > 0;
   });
   if (chosen != pool.end()) to_front(pool, chosen);

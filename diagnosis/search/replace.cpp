@@ -14,6 +14,7 @@ struct Replacement {
   std::string covariate;
   Eigen::MatrixXd rest;  // design without the terms of this covariate
   double group_gain;     // of all of those
+  Index group_width;     // their functions
 
   Eigen::MatrixXd with(const std::vector<Term>& found, const Term* without = nullptr) const {
     Eigen::MatrixXd result = rest;
@@ -69,7 +70,9 @@ struct Replacement {
       result.push_back(std::move(*next));
       if (number == 2) refine_in_turn(result);
       const Eigen::MatrixXd all = with(result).rightCols(with(result).cols() - rest.cols());
-      if (bench.stand(rest).gain(all) >= bench.options().share * group_gain) return result;
+      // Each function that the smooths have more wins one by chance.
+      const auto by_chance = static_cast<double>(std::max<Index>(0, group_width - all.cols()));
+      if (bench.stand(rest).gain(all) >= bench.options().share * (group_gain - by_chance)) return result;
     }
     return {};
   }
@@ -94,7 +97,7 @@ void replace_smooths(Bench& bench) {
       if (in_group(term)) group = beside(group, term.columns);
     }
     const Eigen::MatrixXd rest = bench.design(in_group);
-    const Replacement replacement{bench, covariate, rest, bench.stand(rest).gain(group)};
+    const Replacement replacement{bench, covariate, rest, bench.stand(rest).gain(group), group.cols()};
     const std::vector<Term> found = replacement.found();
     // Names beside the smooth on the same covariate go in either case: they were guesses at the same structure.
     std::erase_if(bench.terms, [&](const Term& term) { return in_group(term) && (!term.smooth() || !found.empty()); });

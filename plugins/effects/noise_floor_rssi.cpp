@@ -9,17 +9,21 @@ namespace {
 using namespace muster;
 
 struct Noise {
-  static constexpr const char* columns = "t[s] rx:radio noise[dBm]";
-  Setting setting;
+  static constexpr const char* columns = "t[s] tx:radio rx:radio noise[dBm]";
+  double t, tx, rx, noise;
 };
+
+double number_of(double tx, double rx) { return tx + 1e6 * rx; }
 
 struct NoiseFloorRssi {
   static constexpr auto id = "effect.noise_floor_rssi/1";
   static constexpr auto summary = "the reported RSSI follows the noise: it is a ratio to it";
   static constexpr auto manual =
       "Takes away share x (noise - reference) from each reading, the noise at the receiver being the column "
-      "noise[dBm] of `file` (t, rx and noise; what stood last at or before a time holds; the measured readings will "
-      "do). With share 1 the reading is a signal-to-noise ratio.";
+      "noise[dBm] of `file` (t, tx, rx and noise: two packets of one tick meet two noises; what stood last for the "
+      "pair "
+      "at or before a time holds, else for the receiver; the measured readings will do). With share 1 the reading is a "
+      "signal-to-noise ratio.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       file("file", "the noise at each receiver, a CSV table").required(),
@@ -46,10 +50,13 @@ struct NoiseFloorRssi {
         rssi(s) {}
 
   void step(const Step& k) {
-    settings.read(k[noises]);
+    of_pairs.read(k[noises], [](const Noise& row) { return Setting{row.t, number_of(row.tx, row.rx), row.noise}; });
+    of_receivers.read(k[noises], [](const Noise& row) { return Setting{row.t, row.rx, row.noise}; });
     rssi.each(k, [&](double reading, std::size_t i) {
+      const Endpoint& from = k[endpoint][static_cast<std::size_t>(k[ends][i].tx)];
       const Endpoint& to = k[endpoint][static_cast<std::size_t>(k[ends][i].rx)];
-      const double noise = settings.at(to.radio, to.t);
+      const double of_pair = of_pairs.at(number_of(from.radio, to.radio), to.t);
+      const double noise = is_null(of_pair) ? of_receivers.at(to.radio, to.t) : of_pair;
       return is_null(noise) ? reading : reading - k[share] * (noise - k[reference]);
     });
   }
@@ -58,7 +65,7 @@ struct NoiseFloorRssi {
   In<Noise> noises;
   In<Endpoint> endpoint;
   In<Ends> ends;
-  Settings settings;
+  Settings of_pairs, of_receivers;
   RssiStage rssi;
 };
 

@@ -51,7 +51,7 @@ struct PowerSteps {
         links(s) {}
 
   void step(const Step& k) {
-    settings.read(k[powers]);
+    settings.read(k[powers], [](const Power& row) { return row.setting; });
     const std::vector<double> levels = settings.values();
     if (levels.size() > std::size(errors))
       throw BadInput("attribute \"file\": more than six different powers; expected at most six");

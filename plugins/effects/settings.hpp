@@ -8,18 +8,18 @@
 
 namespace muster {
 
-// A row of the table: when, of which radio, and the value from then on.
+// A row of the table: when, of which radio (or other number), and the value from then on.
 struct Setting {
   double t, radio, value;
 };
 
 class Settings {
  public:
-  // The file does not change: it is put in order once.
-  template <class Row>
-  void read(Rows<const Row> rows) {
+  // The file does not change: it is put in order once. `setting_of` makes a Setting of a row.
+  template <class Row, class Of>
+  void read(Rows<const Row> rows, Of setting_of) {
     if (!by_radio_.empty()) return;
-    for (const Row& row : rows) by_radio_.push_back(row.setting);
+    for (const Row& row : rows) by_radio_.push_back(setting_of(row));
     std::sort(by_radio_.begin(), by_radio_.end(), [](const Setting& a, const Setting& b) {
       return std::tie(a.radio, a.t, a.value) < std::tie(b.radio, b.t, b.value);
     });
