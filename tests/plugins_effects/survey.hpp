@@ -49,8 +49,9 @@ inline std::vector<Reading> survey(int ticks = 40) {
     const double power = i % 3 == 0 ? -10 : i % 3 == 1 ? 0 : 4, noise = uniform(-100, -80);
     for (const auto& [one, other, from, to] :
          {std::tuple{"a", "r", a, r}, {"b", "r", b, r}, {"a", "s", a, s}, {"b", "s", b, s}, {"r", "s", r, s}}) {
-      result.push_back({t, one, other, from, to, power, noise + own_noise(other)});
-      result.push_back({t, other, one, to, from, power, noise + own_noise(one)});
+      // Packets of one tick come one after the other, so the noise is that of a packet.
+      result.push_back({t, one, other, from, to, power, noise + own_noise(other) + 0.4 * own_noise(one)});
+      result.push_back({t, other, one, to, from, power, noise + own_noise(one) + 0.4 * own_noise(other)});
     }
   }
   return result;
