@@ -17,6 +17,7 @@ const std::vector<Goal> goals{
     {"false name on clean worlds", {"clean / false name / all"}, 0.007, false},
     {"false \"unexplained\" on clean worlds", {"clean / false unexplained / all"}, 0.007, false},
     {"top name right, lambda >= 50", {"one / top name right / lambda >= 50"}, 0.99, true},
+    {"the same, by class", {"one / top name right, by class / lambda >= 50"}, 0.99, true},
     {"found, lambda >= 50", {"one / found / lambda >= 50"}, 0.99, true},
     {"found, lambda 20-50", {"one / found / lambda 20-30", "one / found / lambda 30-50"}, 0, true},
     {"found, lambda 10-20", {"one / found / lambda 10-20"}, 0, true},

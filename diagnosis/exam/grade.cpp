@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace muster::exam {
 namespace {
@@ -68,24 +69,21 @@ bool at_right_row(const Truth::Effect& effect, const Verdict::Cause& cause) {
   });
 }
 
-// A wall and a thing both stand in the way of links, and data may not tell which it is; a wall that is not there loses
-// nothing, as does one of another material; a radio that is heard better than it hears reads every level too low.
-bool same_class(const std::string& a, const std::string& b) {
-  const auto stands = [](const std::string& id) { return id == "unmapped_wall" || id == "obstacle"; };
-  const auto mapped = [](const std::string& id) { return id == "wall_material" || id == "wall_absent"; };
-  const auto deaf = [](const std::string& id) { return id == "asymmetry" || id == "rx_offset"; };
-  return a == b || (stands(a) && stands(b)) || (mapped(a) && mapped(b)) || (deaf(a) && deaf(b));
+// Names of one thing that readings may not tell apart: a wall and a thing both stand in the way of links; a wall that
+// is not there loses nothing, as does one of another material; of a radio that sends and hears, a weak transmitter, a
+// deaf receiver and an asymmetry differ by the mean level of its pairs alone, which shadowing takes up.
+bool same_class(const Truth::Effect& effect, const Verdict::Cause& cause) {
+  static const std::vector<std::set<std::string>> classes{
+      {"unmapped_wall", "obstacle"}, {"wall_material", "wall_absent"}, {"asymmetry", "rx_offset", "tx_offset"}};
+  return cause.id == effect.id || std::any_of(classes.begin(), classes.end(), [&](const auto& one) {
+           return one.contains(effect.id) && one.contains(cause.id) &&
+                  (effect.rows.empty() || at_right_row(effect, cause));
+         });
 }
 
-// A radio that is heard better than it hears because it is deaf: of that very radio, both names say the same of every
-// reading.
-bool is_name_of(const Truth::Effect& effect, const Verdict::Cause& cause) {
-  return cause.id == effect.id || (effect.id == "asymmetry" && cause.id == "rx_offset" && at_right_row(effect, cause));
-}
-
-const Verdict::Cause* found(const Verdict& verdict, const Truth::Effect& effect) {
+const Verdict::Cause* found(const Verdict& verdict, const std::string& id) {
   for (const Verdict::Cause& c : verdict.named)
-    if (is_name_of(effect, c)) return &c;
+    if (c.id == id) return &c;
   return nullptr;
 }
 
@@ -141,10 +139,10 @@ void add_inside(Grades& grades, const Truth& truth, const Verdict& verdict) {
   };
   int hits = 0, class_hits = 0;
   for (const auto& effect : truth.effects) {
-    const Verdict::Cause* cause = found(verdict, effect);
+    const Verdict::Cause* cause = found(verdict, effect.id);
     hits += cause != nullptr;
-    class_hits += std::any_of(verdict.named.begin(), verdict.named.end(),
-                              [&](const auto& c) { return same_class(c.id, effect.id); });
+    class_hits +=
+        std::any_of(verdict.named.begin(), verdict.named.end(), [&](const auto& c) { return same_class(effect, c); });
     grades.by_effect[effect.id + " / " + lambda_bin(effect.lambda)].count(cause != nullptr);
     if (!cause) continue;
     const bool right_row = effect.rows.empty() || at_right_row(effect, *cause);
@@ -153,19 +151,23 @@ void add_inside(Grades& grades, const Truth& truth, const Verdict& verdict) {
   }
   const int all = static_cast<int>(truth.effects.size());
   const auto is_true = [&](const Verdict::Cause& c) {
-    return std::any_of(truth.effects.begin(), truth.effects.end(), [&](const auto& e) { return is_name_of(e, c); });
+    return std::any_of(truth.effects.begin(), truth.effects.end(), [&](const auto& e) { return e.id == c.id; });
+  };
+  const auto is_kin = [&](const Verdict::Cause& c) {
+    return std::any_of(truth.effects.begin(), truth.effects.end(), [&](const auto& e) { return same_class(e, c); });
   };
   count("found", hits == all);
   count("found, by class", class_hits == all);
   if (all > 1) count("at least one found", hits > 0);
   count("top name right", !verdict.named.empty() && is_true(verdict.named[0]));
+  count("top name right, by class", !verdict.named.empty() && is_kin(verdict.named[0]));
   count("wrong extra name", hits > 0 && !std::all_of(verdict.named.begin(), verdict.named.end(), is_true));
   count("only wrong names", hits == 0 && !verdict.named.empty());
   count("silent", verdict.named.empty() && verdict.unexplained.empty());
   // The same id twice for one effect: one wall in pieces.
   count("one effect in pieces", std::any_of(truth.effects.begin(), truth.effects.end(), [&](const auto& e) {
           return std::count_if(verdict.named.begin(), verdict.named.end(),
-                               [&](const auto& c) { return is_name_of(e, c); }) > 1;
+                               [&](const auto& c) { return e.id == c.id; }) > 1;
         }));
   if (truth.oracle_gain > 0 && verdict.gain) {
     grades.gain[bin] += *verdict.gain;

@@ -41,13 +41,14 @@ TEST(Grade, FewestHitsThatChanceLeaves) {
   EXPECT_EQ(least_hits(0, 0.5), 0);
 }
 
-TEST(Grade, ADeafRadioHasTwoNames) {
+TEST(Grade, ADeafRadioHasAWeakTransmittersClass) {
   for (const auto& [radio, right] : {std::pair("beacon2", 1), std::pair("beacon3", 0)}) {
     Grades g;
     add(g, one("asymmetry", 60),
         said(R"({"verdict":"extended","causes":[{"id":"effect.rx_offset","label":"radio/)" + std::string(radio) +
              R"(","status":"named","evidence":20}]})"));
-    EXPECT_EQ(share(g, "one / top name right / lambda >= 50").hits, right) << radio;
+    EXPECT_EQ(share(g, "one / top name right / lambda >= 50").hits, 0);
+    EXPECT_EQ(share(g, "one / top name right, by class / lambda >= 50").hits, right) << radio;
   }
 }
 
