@@ -6,6 +6,7 @@
 #include "diagnosis/search/integrated.hpp"
 #include "diagnosis/search/replace.hpp"
 #include "diagnosis/search/rivals.hpp"
+#include "diagnosis/search/scores.hpp"
 #include "diagnosis/search/settle.hpp"
 
 namespace muster::search {
@@ -115,6 +116,32 @@ void withdraw_names_beside_smooths(Bench& bench) {
     term.as_smooth = term.as_smooth || (!term.smooth() && unexplained.count(term.candidate->own()));
 }
 
+// One cause named twice about the same row, where it is no place: what is there is neither.
+bool named_twice(const Bench& bench, const Term& term) {
+  const auto name = [](const Term& t) { return std::pair(t.candidate->id, t.candidate->label_of(t.theta)); };
+  return !term.smooth() && term.candidate->pieces.empty() &&
+         std::count_if(bench.terms.begin(), bench.terms.end(),
+                       [&](const Term& other) { return name(other) == name(term); }) > 1;
+}
+
+// A name beside which much is left along its own covariate is no more than a part of what is there.
+void withdraw_names_of_parts(Bench& bench) {
+  std::vector<bool> twice;
+  for (const Term& term : bench.terms) twice.push_back(named_twice(bench, term));
+  for (std::size_t k = 0; k < bench.terms.size(); ++k) bench.terms[k].as_smooth = bench.terms[k].as_smooth || twice[k];
+  constexpr double doubt = 0.01;  // that chance leaves as much
+  constexpr double much = 0.3;    // of the name's own gain: no formula is quite the truth's
+  const Stand stand = bench.stand(bench.design());
+  for (const Entry& entry : bench.entries()) {
+    const Candidate& smooth = *entry.candidate;
+    const auto concerns = [&](const Term& term) { return !term.smooth() && term.candidate->own() == smooth.own(); };
+    if (smooth.kind != Kind::smooth || std::none_of(bench.terms.begin(), bench.terms.end(), concerns)) continue;
+    const double left = gains(smooth, unit_atoms(entry, stand), stand.at.residual).maxCoeff();
+    if (bench.log_p(smooth, left, smooth.width, false) > std::log(doubt)) continue;
+    for (Term& term : bench.terms) term.as_smooth = term.as_smooth || (concerns(term) && left > much * term.gain);
+  }
+}
+
 // Each name again, beside all the others.
 void test_each(Bench& bench, std::vector<Term>& aside, std::vector<Trial>& trials) {
   const double threshold = std::log(bench.options().further_alpha / static_cast<double>(bench.entries().size()));
@@ -163,6 +190,8 @@ std::vector<Term> clean_up(Bench& bench, std::vector<Trial>& trials) {
   if (!bench.terms.empty()) bench.refit();
   test_each(bench, aside, trials);
   measure_gains(bench);
+  withdraw_names_of_parts(bench);
+  withdraw_names_beside_smooths(bench);
   std::stable_sort(bench.terms.begin(), bench.terms.end(),
                    [](const Term& a, const Term& b) { return a.gain > b.gain; });
   return aside;

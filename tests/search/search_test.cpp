@@ -83,6 +83,18 @@ TEST(Search, OfCausesThatTheReadingsCannotTellApartTheSimplestIsNamed) {
   }
 }
 
+TEST(Search, AChirpIsNoPeriod) {
+  int unexplained = 0;
+  for (uint64_t seed = 240; seed < 246; ++seed) {
+    const World world = world_of(varied(seed, 4000));
+    const Eigen::ArrayXd part = world.time.array() / world.time.maxCoeff();
+    const auto said = ids(result_of(world, scaled_to(world, (6 * M_PI * (part + part * part)).sin(), 150)));
+    for (const std::string& id : said) EXPECT_EQ(id[0], '~') << seed << ": " << id;
+    unexplained += std::count(said.begin(), said.end(), "~time") > 0;
+  }
+  EXPECT_EQ(unexplained, 6);
+}
+
 TEST(Search, AnOutlierIsNoWall) {
   for (uint64_t seed = 220; seed < 228; ++seed) {
     Recipe recipe = varied(seed, 2500);
