@@ -106,13 +106,22 @@ noise::Fit Bench::fitted(const Eigen::MatrixXd& design, const noise::Covariance&
   return noise::fit(field_, y_, design, options_.prior, start, steps);
 }
 
+Eigen::MatrixXd Bench::lengthened(const Eigen::MatrixXd& of_rows) const {
+  Eigen::MatrixXd result(long_rows_.size(), of_rows.cols());
+  for (Index j = 0; j < of_rows.cols(); ++j) result.col(j) = long_rows_.mean(rows_.at_readings(of_rows.col(j)));
+  return result;
+}
+
+double Bench::far_gain(const Eigen::MatrixXd& design, const Eigen::MatrixXd& columns,
+                       const noise::Covariance& covariance) const {
+  const noise::Whitener whitener(far_field_, covariance);
+  const auto at = noise::whitened(whitener, lengthened(y_), lengthened(design), options_.prior);
+  const auto added = noise::basis_of(at.basis.rest(whitener(lengthened(columns))));
+  return (added.q.transpose() * at.residual).squaredNorm();
+}
+
 double Bench::profile_gain(const Eigen::MatrixXd& design, const Eigen::MatrixXd& columns,
                            const noise::Covariance& with) const {
-  const auto lengthened = [&](const Eigen::MatrixXd& of_rows) {
-    Eigen::MatrixXd result(long_rows_.size(), of_rows.cols());
-    for (Index j = 0; j < of_rows.cols(); ++j) result.col(j) = long_rows_.mean(rows_.at_readings(of_rows.col(j)));
-    return result;
-  };
   const Eigen::VectorXd y = lengthened(y_);
   const auto log_likelihood = [&](const Eigen::MatrixXd& all, const noise::Covariance& start) {
     constexpr double likely = 3;  // nats that a family may lie behind the best one

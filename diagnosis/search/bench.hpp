@@ -82,6 +82,9 @@ class Bench {
   // with more neighbours each than the search has, since few near ones overstate it. `with`: the noise beside them.
   double profile_gain(const Eigen::MatrixXd& design, const Eigen::MatrixXd& columns,
                       const noise::Covariance& with) const;
+  // The fall of the deviance at this covariance, by the same longer rows.
+  double far_gain(const Eigen::MatrixXd& design, const Eigen::MatrixXd& columns,
+                  const noise::Covariance& covariance) const;
   void refit(int steps = 6) { fit = fitted(design(), fit.covariance, steps); }
 
   // All candidates: the given ones, smooths, and those that depend on the model as it stands.
@@ -100,6 +103,8 @@ class Bench {
 
  private:
   Entry entry(Candidate candidate) const;
+  // Row means as means of the longer rows.
+  Eigen::MatrixXd lengthened(const Eigen::MatrixXd& of_rows) const;
 
   const Problem& problem_;
   Options options_;
