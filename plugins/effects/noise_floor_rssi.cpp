@@ -16,7 +16,7 @@ struct Noise {
 double number_of(double tx, double rx) { return tx + 1e6 * rx; }
 
 struct NoiseFloorRssi {
-  static constexpr auto id = "effect.noise_floor_rssi/1";
+  static constexpr auto id = "effect.noise_floor_rssi/2";
   static constexpr auto summary = "the reported RSSI follows the noise: it is a ratio to it";
   static constexpr auto manual =
       "Takes away share x (noise - reference) from each reading, the noise at the receiver being the column "
