@@ -20,14 +20,14 @@ struct Hidden {
 
 // Measured at the commit that last changed this table.
 constexpr Hidden table[] = {
-    {"tx_offset", 901, 3, 2},
+    {"tx_offset", 901, 3, 3},
     {"rx_offset", 902, 2, 2},
     {"antenna_tx", 903, 2, 2},
     {"antenna_rx", 904, 2, 2},
     {"body_shadow", 905, 2, 2},
     {"tx_misplaced", 906, 2, 1},
     {"label_swap", 907, 2, 2},
-    {"asymmetry", 908, 2, 1},
+    {"asymmetry", 908, 2, 2},
     {"wall_material", 909, 2, 2},
     {"wall_absent", 910, 2, 1},
     {"unmapped_wall", 911, 3, 1},
@@ -49,7 +49,7 @@ constexpr Hidden table[] = {
     {"rssi_floor", 927, 2, 2},
     {"fading_law", 928, 2, 2},
     {"outliers", 929, 2, 2},
-    {"channel_mixture", 930, 2, 0},
+    {"channel_mixture", 930, 2, 1},
     {"shadowing_correlation", 931, 2, 1},
 };
 
