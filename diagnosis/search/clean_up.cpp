@@ -130,11 +130,13 @@ void withdraw_names_of_parts(Bench& bench) {
   for (const Term& term : bench.terms) twice.push_back(named_twice(bench, term));
   for (std::size_t k = 0; k < bench.terms.size(); ++k) bench.terms[k].as_smooth = bench.terms[k].as_smooth || twice[k];
   constexpr double doubt = 0.01;  // that chance leaves as much
-  constexpr double much = 0.3;    // of the name's own gain: no formula is quite the truth's
+  constexpr double much = 0.5;    // of the name's own gain: no formula is quite the truth's
   const Stand stand = bench.stand(bench.design());
   for (const Entry& entry : bench.entries()) {
     const Candidate& smooth = *entry.candidate;
-    const auto concerns = [&](const Term& term) { return !term.smooth() && term.candidate->own() == smooth.own(); };
+    const auto concerns = [&](const Term& term) {
+      return !term.smooth() && !term.candidate->whole && term.candidate->own() == smooth.own();
+    };
     if (smooth.kind != Kind::smooth || std::none_of(bench.terms.begin(), bench.terms.end(), concerns)) continue;
     const double left = gains(smooth, unit_atoms(entry, stand), stand.at.residual).maxCoeff();
     if (bench.log_p(smooth, left, smooth.width, false) > std::log(doubt)) continue;
