@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <stdexcept>
 
 namespace muster::diagnosis {
 
@@ -56,7 +57,12 @@ namespace {
 template <class Likelihood>
 void maximise(Likelihood& likelihood, Components& c, double scale) {
   Eigen::VectorXd& at = c.variances;
-  likelihood.evaluate(at, true);
+  // Shapes are means over examples of clusters, which need not be covariances of anything: weak ones are, beside the
+  // white part.
+  for (int tries = 0; !likelihood.evaluate(at, true); ++tries) {
+    if (tries > 10) throw std::runtime_error("residuals that are not numbers");
+    at *= tries < 10 ? 0.25 : 0;
+  }
   for (int i = 0; i < 30; ++i) {
     const double before = likelihood.value;
     Eigen::MatrixXd a = likelihood.information;
