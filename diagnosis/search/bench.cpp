@@ -23,6 +23,12 @@ noise::Sheet normals_of(Index rows, int count, uint64_t seed) {
   return result;
 }
 
+// Of the usual length, unless each reading is a row or the rows are longer already.
+noise::RowLimits never_shorter(const noise::RowLimits& rows) {
+  const noise::RowLimits usual;
+  return rows.way < 0 || rows.way > usual.way ? rows : usual;
+}
+
 }  // namespace
 
 Eigen::MatrixXd Entry::atom(Index k) const {
@@ -57,7 +63,7 @@ Bench::Bench(const Problem& problem, const Options& options)
       options_(options),
       rows_(problem.readings, options.rows),
       field_(rows_.sites(problem.readings), {.seed = options.seed}),
-      long_rows_(problem.readings, options.rows.way < 0 ? options.rows : noise::RowLimits()),
+      long_rows_(problem.readings, never_shorter(options.rows)),
       far_field_(long_rows_.sites(problem.readings), {.same = 16, .others = 20, .seed = options.seed}),
       base_(rows_.mean(problem.base)),
       normals_(normals_of(rows_.size(), options.nulls, options.seed)) {
@@ -120,15 +126,22 @@ double Bench::far_gain(const Eigen::MatrixXd& design, const Eigen::MatrixXd& col
   return (added.q.transpose() * at.residual).squaredNorm();
 }
 
+std::vector<noise::Family> Bench::likely_families(noise::Family first) const {
+  std::vector<noise::Family> result{first};
+  for (const noise::Fit& other : families) {
+    if (other.covariance.family != first && other.value < families[0].value + likely_nats)
+      result.push_back(other.covariance.family);
+  }
+  return result;
+}
+
 double Bench::profile_gain(const Eigen::MatrixXd& design, const Eigen::MatrixXd& columns,
                            const noise::Covariance& with) const {
   const Eigen::VectorXd y = lengthened(y_);
   const auto log_likelihood = [&](const Eigen::MatrixXd& all, const noise::Covariance& start) {
-    constexpr double likely = 3;  // nats that a family may lie behind the best one
     double highest = -1e300;
-    for (const noise::Fit& family : families) {
-      if (family.covariance.family != start.family && family.value > families[0].value + likely) continue;
-      noise::Covariance from{family.covariance.family, start.theta};
+    for (const noise::Family family : likely_families(start.family)) {
+      noise::Covariance from{family, start.theta};
       from.theta[1] += noise::log_scale_of(from.family) - noise::log_scale_of(start.family);
       const noise::Fit best = noise::fit(far_field_, y, all, options_.prior, from, 4);
       const noise::Whitener whitener(far_field_, best.covariance);

@@ -9,6 +9,8 @@
 
 namespace muster::search {
 
+constexpr double likely_nats = 3;  // that a family may lie behind the best one
+
 // A candidate with the row means of its grid's columns, `width` an atom.
 struct Entry {
   std::shared_ptr<const Candidate> candidate;
@@ -61,6 +63,8 @@ class Bench {
 
   noise::Fit fit;                    // of the noise beside the design
   std::vector<noise::Fit> families;  // of the first fit, the best one first
+  // This family, and those that lay near the best one at first.
+  std::vector<noise::Family> likely_families(noise::Family first) const;
   std::vector<Term> terms;
 
   const Eigen::VectorXd& y() const { return y_; }

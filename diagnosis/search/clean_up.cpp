@@ -116,7 +116,6 @@ void withdraw_names_beside_smooths(Bench& bench) {
     term.as_smooth = term.as_smooth || (!term.smooth() && unexplained.count(term.candidate->own()));
 }
 
-// One cause named twice about the same row, where it is no place: what is there is neither.
 bool named_twice(const Bench& bench, const Term& term) {
   const auto name = [](const Term& t) { return std::pair(t.candidate->id, t.candidate->label_of(t.theta)); };
   return !term.smooth() && term.candidate->pieces.empty() &&
@@ -124,11 +123,15 @@ bool named_twice(const Bench& bench, const Term& term) {
                        [&](const Term& other) { return name(other) == name(term); }) > 1;
 }
 
-// A name beside which much is left along its own covariate is no more than a part of what is there.
-void withdraw_names_of_parts(Bench& bench) {
+// One cause named twice about the same row, where it is no place: what is there is neither.
+void withdraw_names_given_twice(Bench& bench) {
   std::vector<bool> twice;
   for (const Term& term : bench.terms) twice.push_back(named_twice(bench, term));
   for (std::size_t k = 0; k < bench.terms.size(); ++k) bench.terms[k].as_smooth = bench.terms[k].as_smooth || twice[k];
+}
+
+// A name beside which much is left along its own covariate is no more than a part of what is there.
+void withdraw_names_of_parts(Bench& bench) {
   constexpr double doubt = 0.01;  // that chance leaves as much
   constexpr double much = 0.5;    // of the name's own gain: no formula is quite the truth's
   const Stand stand = bench.stand(bench.design());
@@ -192,6 +195,7 @@ std::vector<Term> clean_up(Bench& bench, std::vector<Trial>& trials) {
   if (!bench.terms.empty()) bench.refit();
   test_each(bench, aside, trials);
   measure_gains(bench);
+  withdraw_names_given_twice(bench);
   withdraw_names_of_parts(bench);
   withdraw_names_beside_smooths(bench);
   std::stable_sort(bench.terms.begin(), bench.terms.end(),

@@ -133,6 +133,12 @@ void choose_family_again(Bench& bench) {
   bench.fit = best;
 }
 
+void take(Bench& bench, const noise::Fit& fit, const Term& term) {
+  bench.fit = fit;
+  bench.terms.push_back(term);
+  if (term.gain > 30) choose_family_again(bench);
+}
+
 // False if the lead fails.
 bool enter(Bench& bench, const Lead& lead, Blocked& blocked, std::vector<Trial>& trials) {
   const Eigen::MatrixXd design = bench.design();
@@ -144,11 +150,9 @@ bool enter(Bench& bench, const Lead& lead, Blocked& blocked, std::vector<Trial>&
     if (trial.reason == like_clipping) blocked.for_good.insert(trial.id);
     return false;
   }
-  bench.fit = fit;
-  bench.terms.push_back(
-      {lead.entry->candidate, lead.theta, lead.columns, trial.gain, lead.evidence, trial.integrated_log_p});
+  take(bench, fit,
+       {lead.entry->candidate, lead.theta, lead.columns, trial.gain, lead.evidence, trial.integrated_log_p});
   blocked.now = blocked.for_good;
-  if (trial.gain > 30) choose_family_again(bench);
   const std::string pieces = bench.terms.back().candidate->pieces;
   if (pieces.empty()) {
     refine_again(bench, bench.terms.size() - 1);
@@ -165,12 +169,16 @@ bool enter(Bench& bench, const Lead& lead, Blocked& blocked, std::vector<Trial>&
 void enter_as_stated(Bench& bench, const Lead& lead) {
   const Candidate& c = lead.candidate();
   const Eigen::MatrixXd design = bench.design();
-  bench.fit = fit_with(bench, lead, beside(design, lead.columns));
-  const double gain = gain_of(c, bench.stand(design), lead.columns);
-  bench.terms.push_back({lead.entry->candidate, lead.theta, lead.columns, gain,
-                         bench.evidence(c, gain, lead.columns.cols(), false), lead.log_p});
-  bench.terms.back().as_stated = true;
-  if (lead.gain > 30) choose_family_again(bench);
+  const noise::Fit fit = fit_with(bench, lead, beside(design, lead.columns));
+  const double gain = gain_of(c, bench.stand(design, fit.covariance), lead.columns);
+  Term term{lead.entry->candidate,
+            lead.theta,
+            lead.columns,
+            gain,
+            bench.evidence(c, gain, lead.columns.cols(), false),
+            lead.log_p};
+  term.as_stated = true;
+  take(bench, fit, term);
   refine_again(bench, bench.terms.size() - 1);
 }
 

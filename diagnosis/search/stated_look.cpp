@@ -9,27 +9,15 @@
 namespace muster::search {
 namespace {
 
-constexpr double likely = 3;  // nats that a family may lie behind the best one
-
-// The family of the fit and those that lay near it at first.
-std::vector<noise::Family> likely_families(const Bench& bench) {
-  std::vector<noise::Family> result{bench.fit.covariance.family};
-  for (const noise::Fit& first : bench.families) {
-    if (first.covariance.family != result[0] && first.value < bench.families[0].value + likely)
-      result.push_back(first.covariance.family);
-  }
-  return result;
-}
-
 // With the stated size and distance, each likely family, the best one first.
 std::vector<noise::Fit> fitted_as_stated(const Bench& bench, const Eigen::MatrixXd& design) {
   std::vector<noise::Fit> fits;
-  for (const noise::Family family : likely_families(bench)) {
+  for (const noise::Family family : bench.likely_families(bench.fit.covariance.family)) {
     const auto start = as_stated(bench.problem().stated, family, bench.fit.covariance.theta);
     fits.push_back(noise::fit(bench.field(), bench.y(), design, bench.options().prior, start, 6, noise::unstated));
   }
   std::sort(fits.begin(), fits.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
-  const double most = fits[0].value + likely;
+  const double most = fits[0].value + likely_nats;
   std::erase_if(fits, [&](const noise::Fit& fit) { return fit.value > most; });
   return fits;
 }

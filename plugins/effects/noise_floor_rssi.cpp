@@ -1,5 +1,6 @@
 // What the chip calls RSSI is a ratio to its own noise.
 #include <muster/plugin.hpp>
+#include <utility>
 
 #include "rssi_stage.hpp"
 #include "settings.hpp"
@@ -13,7 +14,7 @@ struct Noise {
   double t, tx, rx, noise;
 };
 
-double number_of(double tx, double rx) { return tx + 1e6 * rx; }
+using Pair = std::pair<double, double>;
 
 struct NoiseFloorRssi {
   static constexpr auto id = "effect.noise_floor_rssi/2";
@@ -21,9 +22,8 @@ struct NoiseFloorRssi {
   static constexpr auto manual =
       "Takes away share x (noise - reference) from each reading, the noise at the receiver being the column "
       "noise[dBm] of `file` (t, tx, rx and noise: two packets of one tick meet two noises; what stood last for the "
-      "pair "
-      "at or before a time holds, else for the receiver; the measured readings will do). With share 1 the reading is a "
-      "signal-to-noise ratio.";
+      "pair at or before a time holds, else for the receiver; the measured readings will do). With share 1 the reading "
+      "is a signal-to-noise ratio.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       file("file", "the noise at each receiver, a CSV table").required(),
@@ -50,12 +50,12 @@ struct NoiseFloorRssi {
         rssi(s) {}
 
   void step(const Step& k) {
-    of_pairs.read(k[noises], [](const Noise& row) { return Setting{row.t, number_of(row.tx, row.rx), row.noise}; });
-    of_receivers.read(k[noises], [](const Noise& row) { return Setting{row.t, row.rx, row.noise}; });
+    of_pairs.read(k[noises], [](const Noise& row) { return Setting<Pair>{row.t, {row.tx, row.rx}, row.noise}; });
+    of_receivers.read(k[noises], [](const Noise& row) { return Setting<double>{row.t, row.rx, row.noise}; });
     rssi.each(k, [&](double reading, std::size_t i) {
       const Endpoint& from = k[endpoint][static_cast<std::size_t>(k[ends][i].tx)];
       const Endpoint& to = k[endpoint][static_cast<std::size_t>(k[ends][i].rx)];
-      const double of_pair = of_pairs.at(number_of(from.radio, to.radio), to.t);
+      const double of_pair = of_pairs.at({from.radio, to.radio}, to.t);
       const double noise = is_null(of_pair) ? of_receivers.at(to.radio, to.t) : of_pair;
       return is_null(noise) ? reading : reading - k[share] * (noise - k[reference]);
     });
@@ -65,7 +65,8 @@ struct NoiseFloorRssi {
   In<Noise> noises;
   In<Endpoint> endpoint;
   In<Ends> ends;
-  Settings of_pairs, of_receivers;
+  Settings<Pair> of_pairs;
+  Settings<double> of_receivers;
   RssiStage rssi;
 };
 

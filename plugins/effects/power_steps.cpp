@@ -12,7 +12,7 @@ using namespace muster;
 
 struct Power {
   static constexpr const char* columns = "t[s] tx:radio power[dBm]";
-  Setting setting;
+  Setting<double> setting;
 };
 
 struct PowerSteps {
@@ -65,7 +65,7 @@ struct PowerSteps {
 
   Value errors[6];
   In<Power> powers;
-  Settings settings;
+  Settings<double> settings;
   LinkTerm links;
 };
 

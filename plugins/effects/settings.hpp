@@ -1,4 +1,4 @@
-// A column of measured data that belongs to a radio and changes in time.
+// A column of measured data that belongs to a radio, or a pair of them, and changes in time.
 #pragma once
 
 #include <algorithm>
@@ -8,43 +8,46 @@
 
 namespace muster {
 
-// A row of the table: when, of which radio (or other number), and the value from then on.
+// A row of the table: when, of whom, and the value from then on.
+template <class Owner>
 struct Setting {
-  double t, radio, value;
+  double t;
+  Owner owner;
+  double value;
 };
 
+template <class Owner>
 class Settings {
  public:
   // The file does not change: it is put in order once. `setting_of` makes a Setting of a row.
   template <class Row, class Of>
   void read(Rows<const Row> rows, Of setting_of) {
-    if (!by_radio_.empty()) return;
-    for (const Row& row : rows) by_radio_.push_back(setting_of(row));
-    std::sort(by_radio_.begin(), by_radio_.end(), [](const Setting& a, const Setting& b) {
-      return std::tie(a.radio, a.t, a.value) < std::tie(b.radio, b.t, b.value);
+    if (!settings_.empty()) return;
+    for (const Row& row : rows) settings_.push_back(setting_of(row));
+    std::sort(settings_.begin(), settings_.end(), [](const Setting<Owner>& a, const Setting<Owner>& b) {
+      return std::tie(a.owner, a.t, a.value) < std::tie(b.owner, b.t, b.value);
     });
   }
 
-  // What was last set for the radio at the time, or first where it is earlier; null for a radio that is not in the
-  // file.
-  double at(double radio, double t) const {
-    const auto after = std::upper_bound(
-        by_radio_.begin(), by_radio_.end(), Setting{t, radio, 0},
-        [](const Setting& a, const Setting& b) { return std::tie(a.radio, a.t) < std::tie(b.radio, b.t); });
-    if (after != by_radio_.begin() && (after - 1)->radio == radio) return (after - 1)->value;
-    return after != by_radio_.end() && after->radio == radio ? after->value : null();
+  // What was last set for the owner at the time, or first where it is earlier; null for one that is not in the file.
+  double at(const Owner& owner, double t) const {
+    const auto after =
+        std::upper_bound(settings_.begin(), settings_.end(), std::tie(owner, t),
+                         [](const auto& sought, const Setting<Owner>& s) { return sought < std::tie(s.owner, s.t); });
+    if (after != settings_.begin() && (after - 1)->owner == owner) return (after - 1)->value;
+    return after != settings_.end() && after->owner == owner ? after->value : null();
   }
 
   std::vector<double> values() const {
     std::vector<double> result;
-    for (const Setting& s : by_radio_) result.push_back(s.value);
+    for (const Setting<Owner>& s : settings_) result.push_back(s.value);
     std::sort(result.begin(), result.end());
     result.erase(std::unique(result.begin(), result.end()), result.end());
     return result;
   }
 
  private:
-  std::vector<Setting> by_radio_;
+  std::vector<Setting<Owner>> settings_;
 };
 
 }  // namespace muster

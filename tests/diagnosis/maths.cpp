@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "diagnosis/covariance.hpp"
 #include "diagnosis/identifiable.hpp"
 #include "diagnosis/least_squares.hpp"
 #include "diagnosis/missing.hpp"
@@ -152,6 +153,32 @@ TEST(Missing, ALossThatRisesGentlyIsNoFloorAndNotChance) {
 TEST(Missing, NothingMissing) {
   EXPECT_FALSE(missing_where([](double, double) { return false; }).rises());
   EXPECT_EQ(missing_where([](double, double) { return false; }).count, 0u);
+}
+
+// Shapes are means over examples of clusters, which need not be covariances of anything.
+TEST(ErrorModels, OutliveShapesThatAreNoCovariance) {
+  constexpr int rows_each = 100;
+  Clusters clusters{{}, {rows_each, rows_each, rows_each}, {}};
+  Eigen::VectorXd residual(3 * rows_each);
+  std::mt19937 random(3);
+  std::normal_distribution<double> error(0, 1);
+  for (int i = 0; i < residual.size(); ++i) {
+    clusters.of_row.push_back(i / rows_each);
+    residual[i] = 10 * (i / rows_each - 1) + error(random);
+  }
+  const Eigen::Matrix3d shape{{1, 5, 5}, {5, 1, 5}, {5, 5, 1}};
+  const Eigen::Vector3d apart(1, -1, 0);
+  ASSERT_LT(apart.dot(shape * apart), 0);
+  const std::vector<Kernels> kernels{{1.8, {shape, shape}}};
+  ErrorModel errors(clusters, kernels);
+  const Eigen::MatrixXd constant = Eigen::MatrixXd::Ones(residual.size(), 1);
+  errors.fit(residual, constant);
+  EXPECT_FALSE(errors.components().empty());
+  EXPECT_TRUE(std::isfinite(errors.shared_sd()));
+  EXPECT_NEAR(errors.white_sd(), 1, 0.2);
+  const double variance = errors.of_sums(constant)(0, 0);
+  EXPECT_TRUE(std::isfinite(variance));
+  EXPECT_GT(variance, 0);
 }
 
 }  // namespace

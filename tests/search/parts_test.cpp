@@ -140,6 +140,21 @@ TEST(Thin, GainsWhatTheWholeColumnGains) {
   }
 }
 
+// The same few rows again, each several times, would win several times as much.
+TEST(Bench, JudgesWhatIsSlowByRowsNoShorterThanItsOwn) {
+  const auto world = world_of(varied(17, 4000));
+  const auto causes = causes_of(world);
+  const Problem problem = problem_of(world, scaled_to(world, causes[0].columns(causes[0].grid[0]), 200), causes);
+  Options options;
+  options.rows.time *= 4;
+  options.rows.way *= 4;
+  const Bench bench(problem, options);
+  ASSERT_LT(bench.rows().size(), noise::Rows(problem.readings).size() / 2);
+  const Eigen::MatrixXd offset = bench.columns_of(problem.candidates[0], causes[0].grid[0]);
+  const double near_rows = bench.stand(bench.design()).gain(offset);
+  EXPECT_NEAR(bench.far_gain(bench.design(), offset, bench.fit.covariance) / near_rows, 1, 0.2);
+}
+
 TEST(RefinementCharge, OfAWallIsAFewNatsAndOfAStepLess) {
   const auto world = world_of(varied(16, 3000));
   const Problem problem = problem_of(world, Eigen::VectorXd::Zero(3000), causes_of(world));
