@@ -24,17 +24,17 @@ std::uint64_t seed_of_commit() {
 struct Measure {
   const char* share;
   double goal;   // of DIAGNOSIS.md, section 11
-  double holds;  // what the tool is held to today: the goal, or the rate measured if that is worse
+  double holds;  // what the tool is held to today: the goal, or the worse end of the measured rate's 95 % interval
   bool at_least;
 };
 
 constexpr Measure measures[] = {
     {"clean / false name / all", 0.007, 0.02, false},
     {"clean / false unexplained / all", 0.007, 0.02, false},
-    {"one / top name right / lambda >= 50", 0.99, 0.45, true},
-    {"one / wrong extra name / all", 0.01, 0.08, false},
+    {"one / top name right / lambda >= 50", 0.99, 0.78, true},
+    {"one / wrong extra name / all", 0.01, 0.03, false},
     {"two / at least one found / lambda >= 50", 0.97, 0.5, true},
-    {"outside / right covariate / lambda >= 50", 0.97, 0.6, true},
+    {"outside / right covariate / lambda >= 50", 0.97, 0.61, true},
     {"outside / false name / all", 0.02, 0.25, false},
 };
 

@@ -15,42 +15,43 @@ struct Hidden {
   const char* effect;
   int seed;
   int cases;
-  int found;  // of these, measured
+  int found;     // of these, measured
+  int of_class;  // found by this name or by one that the readings may not tell from it
 };
 
 // Measured at the commit that last changed this table.
 constexpr Hidden table[] = {
-    {"tx_offset", 901, 3, 3},
-    {"rx_offset", 902, 2, 2},
-    {"antenna_tx", 903, 2, 2},
-    {"antenna_rx", 904, 2, 2},
-    {"body_shadow", 905, 2, 2},
-    {"tx_misplaced", 906, 2, 1},
-    {"label_swap", 907, 2, 2},
-    {"asymmetry", 908, 2, 2},
-    {"wall_material", 909, 2, 2},
-    {"wall_absent", 910, 2, 1},
-    {"unmapped_wall", 911, 3, 1},
-    {"obstacle", 912, 2, 2},
-    {"room_clutter", 913, 2, 2},
-    {"multiwall_saturation", 914, 2, 1},
-    {"incidence", 915, 2, 2},
-    {"height", 916, 2, 2},
-    {"dual_slope", 917, 2, 2},
-    {"two_ray", 918, 2, 2},
-    {"corridor", 919, 2, 2},
-    {"drift", 920, 2, 2},
-    {"step", 921, 2, 1},
-    {"periodic", 922, 2, 2},
-    {"people", 923, 2, 2},
-    {"power_steps", 924, 2, 2},
-    {"noise_floor_rssi", 925, 2, 2},
-    {"rssi_saturation", 926, 2, 2},
-    {"rssi_floor", 927, 2, 2},
-    {"fading_law", 928, 2, 2},
-    {"outliers", 929, 2, 2},
-    {"channel_mixture", 930, 2, 1},
-    {"shadowing_correlation", 931, 2, 1},
+    {"tx_offset", 901, 3, 3, 3},
+    {"rx_offset", 902, 2, 2, 2},
+    {"antenna_tx", 903, 2, 2, 2},
+    {"antenna_rx", 904, 2, 2, 2},
+    {"body_shadow", 905, 2, 2, 2},
+    {"tx_misplaced", 906, 2, 1, 1},
+    {"label_swap", 907, 2, 2, 2},
+    {"asymmetry", 908, 2, 0, 2},
+    {"wall_material", 909, 2, 2, 2},
+    {"wall_absent", 910, 2, 1, 1},
+    {"unmapped_wall", 911, 3, 1, 1},
+    {"obstacle", 912, 2, 2, 2},
+    {"room_clutter", 913, 2, 2, 2},
+    {"multiwall_saturation", 914, 2, 1, 1},
+    {"incidence", 915, 2, 2, 2},
+    {"height", 916, 2, 2, 2},
+    {"dual_slope", 917, 2, 2, 2},
+    {"two_ray", 918, 2, 2, 2},
+    {"corridor", 919, 2, 2, 2},
+    {"drift", 920, 2, 2, 2},
+    {"step", 921, 2, 1, 1},
+    {"periodic", 922, 2, 2, 2},
+    {"people", 923, 2, 2, 2},
+    {"power_steps", 924, 2, 2, 2},
+    {"noise_floor_rssi", 925, 2, 2, 2},
+    {"rssi_saturation", 926, 2, 2, 2},
+    {"rssi_floor", 927, 2, 2, 2},
+    {"fading_law", 928, 2, 2, 2},
+    {"outliers", 929, 2, 2, 2},
+    {"channel_mixture", 930, 2, 1, 1},
+    {"shadowing_correlation", 931, 2, 1, 1},
 };
 
 void PrintTo(const Hidden& hidden, std::ostream* out) { *out << hidden.effect; }
@@ -58,20 +59,16 @@ void PrintTo(const Hidden& hidden, std::ostream* out) { *out << hidden.effect; }
 class HiddenEffect : public testing::TestWithParam<Hidden> {};
 
 TEST_P(HiddenEffect, IsFoundAtLambda60) {
-  const auto& [effect, seed, cases, found] = GetParam();
+  const auto& [effect, seed, cases, found, of_class] = GetParam();
   const Grades grades = examined("--seed " + std::to_string(seed) + " --cases " + std::to_string(cases) +
                                  " --mix one --lambda 60 --rows 2000 3000 --effects " + effect);
   ASSERT_TRUE(grades.missing.empty());
-  // A wall and a thing in its place count as one class.
-  const Share& share = grades.shares.at("one / found, by class / all");
-  std::printf("%s: %d of %d found\n", effect, share.hits, share.of);
-  // A change of the search may turn one world; a cause that is no longer found at all turns the test. One that is not
-  // found yet must at least not be taken for another.
-  if (found > 0) {
-    EXPECT_GE(share.hits, std::max(found - 1, 1)) << as_text(grades);
-  } else {
-    EXPECT_EQ(grades.shares.at("one / only wrong names / all").hits, 0) << as_text(grades);
-  }
+  const Share &by_name = grades.shares.at("one / found / all"),
+              &by_class = grades.shares.at("one / found, by class / all");
+  std::printf("%s: %d of %d found, %d by class\n", effect, by_name.hits, by_name.of, by_class.hits);
+  // A change of the search may turn one world; a cause that is no longer found at all turns the test.
+  EXPECT_GE(by_name.hits, found - 1) << as_text(grades);
+  EXPECT_GE(by_class.hits, std::max(of_class - 1, 1)) << as_text(grades);
 }
 
 INSTANTIATE_TEST_SUITE_P(Effects, HiddenEffect, testing::ValuesIn(table),
