@@ -31,6 +31,8 @@ constexpr Verb verbs[] = {
     {"fit", run_fit, "fit a world's free parameters to measured data, and say where it misfits"},
     {"diagnose", run_diagnose, "find what a world gets wrong about measured data, name the cause and extend the world"},
     {"exam", run_exam, "make sealed cases for a diagnosis, run it on them and grade what it says"},
+    {"map", run_map, "the RSSI of a world's radios over its floor"},
+    {"probe", run_probe, "a link's budget, line by line, and why nothing is received"},
     {"features", run_features, "distance, walls and angles of each measured reading"},
     {"import", run_import, "bring a foreign file into the format of measured data"},
 };

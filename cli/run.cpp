@@ -49,12 +49,6 @@ void declare(CLI::App& app, RunWords& words) {
   app.add_flag("--json", words.json, "print the outcome as JSON");
 }
 
-double real_of(const std::string& text, const char* option) {
-  const auto value = parse_real(text);
-  if (!value) throw Error(Exit::invalid_input, std::string(option) + ": " + why_not_real(text));
-  return *value;
-}
-
 World world_of(const RunWords& words) {
   World world = read_world(words.world, standard());
   if (words.until) world.ticks = ticks_of(real_of(*words.until, "--until"), world.dt, {"--until"});

@@ -37,7 +37,6 @@ class RunPictures {
     std::vector<double> rssi{}, smooth{};  // a link; NaN before the first
   };
 
-  void find_plan(const Simulation& run);
   void find_links(const Simulation& run);
   Moment moment(const Simulation& run) const;
   std::vector<const Moment*> snapshots() const;

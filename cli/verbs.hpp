@@ -22,8 +22,10 @@ int run_features(const Arguments& arguments);
 int run_fit(const Arguments& arguments);
 int run_graph(const Arguments& arguments);
 int run_import(const Arguments& arguments);
+int run_map(const Arguments& arguments);
 int run_plugin_check(const Arguments& arguments);
 int run_plugins(const Arguments& arguments);
+int run_probe(const Arguments& arguments);
 int run_run(const Arguments& arguments);
 int run_swap(const Arguments& arguments);
 
@@ -32,6 +34,9 @@ int run_swap(const Arguments& arguments);
 // Parses a verb's words. Throws Usage where they are off, Helped where only help was asked for.
 void parse(CLI::App& app, const Arguments& arguments);
 struct Helped {};
+
+// The number that the whole text is. Throws Error that names the option.
+double real_of(const std::string& text, const char* option);
 
 // The folders in which plugins are looked for: --plugins, MUSTER_PLUGIN_PATH, and `plugins` beside the program.
 Library::SearchPath plugin_path(const std::vector<std::string>& given = {});

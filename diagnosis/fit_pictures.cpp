@@ -7,6 +7,7 @@
 #include <muster/tables.hpp>
 
 #include "diagnosis/picture/figure.hpp"
+#include "diagnosis/plan.hpp"
 
 namespace muster::diagnosis {
 namespace {
@@ -14,18 +15,6 @@ namespace {
 namespace pic = picture;
 
 constexpr std::size_t most_maps = 6;
-
-pic::FloorPlan plan_of(const Simulation& run) {
-  pic::FloorPlan plan;
-  const Table* table = run.board().find("wall/*/shape");
-  const Set* materials = run.board().find_set("material");
-  for (std::size_t i = 0; table && i < table->now().rows; ++i) {
-    const Wall& w = reinterpret_cast<const Wall*>(table->now().data.data())[i];
-    plan.walls.push_back(
-        {{w.x0, w.y0}, {w.x1, w.y1}, w.thickness, materials->names.at(static_cast<std::size_t>(w.material))});
-  }
-  return plan;
-}
 
 class Artist {
  public:
@@ -38,7 +27,9 @@ class Artist {
         errors_(errors),
         options_(options),
         name_(model.simulation().world().name),
-        plan_(plan_of(model.simulation())) {}
+        plan_(plan_of(model.simulation())) {
+    plan_.stations.clear();  // they stand where the readings say
+  }
 
   pic::Figure samples() const {
     pic::Points above, side;

@@ -1,0 +1,257 @@
+// muster map WORLD: what of a radio is received where.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <muster/tables.hpp>
+#include <nlohmann/json.hpp>
+
+#include "diagnosis/model.hpp"
+#include "diagnosis/picture/figure.hpp"
+#include "diagnosis/picture/raster.hpp"
+#include "diagnosis/plan.hpp"
+#include "diagnosis/run_tables.hpp"
+#include "text/names.hpp"
+#include "text/number.hpp"
+#include "text/temporary_folder.hpp"
+#include "text/text_table_writer.hpp"
+#include "verbs.hpp"
+
+namespace muster::cli {
+namespace {
+
+namespace fs = std::filesystem;
+namespace pic = picture;
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+struct MapWords {
+  std::string world, out;
+  std::vector<std::string> from, plugins;
+  double at = 0, height = 1;
+  std::vector<double> area;
+  int cells = 100;
+  bool drawn = false, json = false;
+};
+
+MapWords words_of(const Arguments& arguments) {
+  CLI::App app(
+      "The RSSI of a world's radios over its floor: a table, and pictures. It is what the channel expects on average, "
+      "or\n"
+      "with --drawn what it is with this world's shadowing and fading. Doors stand as the world file has them.\n"
+      "Example: muster map worlds/hall --out build/map",
+      "map");
+  MapWords words;
+  std::string at = "0", height = "1";
+  std::vector<std::string> area;
+  app.add_option("world", words.world, "the world's folder or file")->required();
+  app.add_option("--from", words.from, "radios that send; all that do not move, or else all");
+  app.add_option("--at", at, "seconds after the start: robots stand where they are then")->capture_default_str();
+  app.add_option("--height", height, "of the receiver above the floor, in m")->capture_default_str();
+  app.add_option("--cells", words.cells, "along the longer side")->check(CLI::Range(2, 2000))->capture_default_str();
+  app.add_option("--area", area, "X0 Y0 X1 Y1 in m; all walls and radios, with some room around them")->expected(4);
+  app.add_flag("--drawn", words.drawn, "with shadowing and fading, not received below the receiver's sensitivity");
+  app.add_option("--out", words.out, "a folder for map.csv and the pictures")->required();
+  app.add_option("--plugins", words.plugins, "a folder of plugins, looked in first");
+  app.add_flag("--json", words.json, "print a summary as JSON");
+  parse(app, arguments);
+  words.at = real_of(at, "--at");
+  words.height = real_of(height, "--height");
+  for (const std::string& one : area) words.area.push_back(real_of(one, "--area"));
+  return words;
+}
+
+struct Sender {
+  std::string name;
+  Pose at;
+};
+
+// Square cells, rows from the south.
+struct Grid {
+  double x0, y0, cell;
+  std::size_t width, height;
+
+  std::size_t size() const { return width * height; }
+  double x(std::size_t i) const { return x0 + (static_cast<double>(i % width) + 0.5) * cell; }
+  double y(std::size_t i) const { return y0 + (static_cast<double>(i / width) + 0.5) * cell; }
+};
+
+std::vector<Sender> senders_of(const Simulation& run, const MapWords& words) {
+  const auto names = names_of(run, "radio");
+  const auto mounts = rows_of<Mount>(run, "radio/*/mount");
+  const auto endpoints = rows_of<Endpoint>(run, "endpoint/*/radio");
+  const auto places = rows_of<Pose>(run, "endpoint/*/pose");
+  std::vector<std::string> wanted = words.from;
+  for (std::size_t i = 0; words.from.empty() && i < names.size(); ++i)
+    if (std::isnan(mounts[i].robot)) wanted.push_back(names[i]);
+  if (wanted.empty()) wanted = names;
+  if (wanted.empty()) throw Error(Exit::invalid_input, run.world().file.string() + ": the world has no radio");
+  std::vector<Sender> senders;
+  for (const std::string& name : wanted) {
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw Error(Exit::invalid_input, "--from: no radio is called " + quote(name) + "; " + suggest(name, names));
+    const auto at = std::find_if(endpoints.begin(), endpoints.end(), [&](const Endpoint& e) {
+      return names.at(static_cast<std::size_t>(e.radio)) == name;
+    });
+    if (at == endpoints.end())
+      throw Error(Exit::invalid_input, "--from: radio " + quote(name) + " is not there at that time");
+    senders.push_back({name, places[static_cast<std::size_t>(at - endpoints.begin())]});
+  }
+  return senders;
+}
+
+Grid grid_of(const pic::FloorPlan& plan, const std::vector<Sender>& senders, const MapWords& words) {
+  pic::Extent x, y;
+  const auto add = [&](double px, double py) { x.add(px), y.add(py); };
+  if (words.area.empty()) {
+    for (const pic::Wall& w : plan.walls) add(w.from.x, w.from.y), add(w.to.x, w.to.y);
+    for (const Sender& s : senders) add(s.at.x, s.at.y);
+    const double room = plan.walls.empty() ? 10 : 0.5;  // m
+    const pic::Range w = x.range(), h = y.range();
+    add(w.low - room, h.low - room), add(w.high + room, h.high + room);
+  } else {
+    add(words.area[0], words.area[1]), add(words.area[2], words.area[3]);
+  }
+  const double width = x.range().span(), height = y.range().span();
+  if (!(width > 0 && height > 0)) throw Error(Exit::invalid_input, "--area: X0 and X1, or Y0 and Y1, are the same");
+  const double cell = std::max(width, height) / words.cells;
+  const auto count = [&](double length) {
+    return static_cast<std::size_t>(std::max(1.0, std::ceil(length / cell - 1e-9)));
+  };
+  return {x.range().low, y.range().low, cell, count(width), count(height)};
+}
+
+// A reading from the sender in the middle of each cell.
+void write_readings(const Sender& sender, const std::string& receiver, const Grid& grid, const MapWords& words,
+                    const fs::path& file) {
+  TextTableWriter table(file, {{"t", "s"},
+                               {"tx", ""},
+                               {"rx", ""},
+                               {"tx_x", "m"},
+                               {"tx_y", "m"},
+                               {"tx_z", "m"},
+                               {"tx_yaw", "rad"},
+                               {"rx_x", "m"},
+                               {"rx_y", "m"},
+                               {"rx_z", "m"}});
+  const Pose& p = sender.at;
+  const double yaw = std::atan2(2 * (p.qw * p.qz + p.qx * p.qy), 1 - 2 * (p.qy * p.qy + p.qz * p.qz));
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    table.real(words.at);
+    table.text(sender.name), table.text(receiver);
+    for (const double v : {p.x, p.y, p.z, yaw, grid.x(i), grid.y(i), words.height}) table.real(v);
+    table.end_row();
+  }
+  table.close();
+}
+
+std::vector<double> map_of(const Sender& sender, const std::string& receiver, const Grid& grid, const MapWords& words) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "cells.csv";
+  write_readings(sender, receiver, grid, words, file);
+  diagnosis::LinkModel model(words.world, file, plugin_path(words.plugins));
+  const Eigen::VectorXd rssi = words.drawn ? model.drawn() : model.expected();
+  return {rssi.begin(), rssi.end()};
+}
+
+void write_table(const std::vector<Sender>& senders, const std::vector<std::vector<double>>& maps, const Grid& grid,
+                 const fs::path& file) {
+  std::vector<TextColumn> columns{{"x", "m"}, {"y", "m"}};
+  for (const Sender& s : senders) columns.push_back({s.name, "dBm"});
+  TextTableWriter table(file, columns);
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    table.real(grid.x(i)), table.real(grid.y(i));
+    for (const auto& map : maps) table.real(map[i]);
+    table.end_row();
+  }
+  table.close();
+}
+
+pic::Figure figure_of(const std::string& world, const Sender& sender, const std::vector<double>& map, const Grid& grid,
+                      pic::FloorPlan plan, const MapWords& words) {
+  pic::Cells cells{.size = grid.cell};
+  for (std::size_t i = 0; i < map.size(); ++i) {
+    cells.x.push_back(grid.x(i));
+    cells.y.push_back(grid.y(i));
+    cells.value.push_back(map[i]);
+  }
+  plan.stations = {{{sender.at.x, sender.at.y}, sender.name}};
+  const std::string what = words.drawn ? "with shadowing and fading" : "expected on average";
+  return {.title = world + ": " + sender.name,
+          .caption = fmt::format("RSSI {}, {} m above the floor.", what, print_real(words.height)),
+          .width = 900,
+          .panels = {{.value = {.label = "RSSI", .unit = "dBm"},
+                      .frame = pic::Frame::scale_bar,
+                      .layers = {std::move(cells), std::move(plan)}}}};
+}
+
+pic::Range range_of(const std::vector<double>& map) {
+  pic::Extent extent;
+  for (const double v : map) extent.add(v);
+  return extent.empty() ? pic::Range{} : extent.range();
+}
+
+}  // namespace
+
+int run_map(const Arguments& arguments) {
+  const MapWords words = words_of(arguments);
+  World world = read_world(words.world, standard());
+  const uint64_t until = ticks_of(words.at, world.dt, {"--at"});
+  Simulation run(std::move(world), standard(), {plugin_path(words.plugins), 1, {}});
+  Progress progress("map");
+  watch_interrupt();
+  while (run.tick() < until && !interrupted()) {
+    run.step();
+    progress.at(0.5 * static_cast<double>(run.tick()) / static_cast<double>(until));
+  }
+  if (interrupted()) return static_cast<int>(Exit::interrupted);
+  run.evaluate(MUSTER_RADIO, true);
+  const std::vector<Sender> senders = senders_of(run, words);
+  const pic::FloorPlan plan = plan_of(run);
+  const Grid grid = grid_of(plan, senders, words);
+  const auto radios = names_of(run, "radio");
+  std::string receiver = "probe";
+  while (std::find(radios.begin(), radios.end(), receiver) != radios.end()) receiver += '_';
+
+  std::error_code failed;
+  fs::create_directories(words.out, failed);
+  if (failed) throw Error(Exit::io, words.out + ": " + failed.message());
+  nlohmann::ordered_json json{{"world", run.world().name},
+                              {"cell_m", grid.cell},
+                              {"cells", {grid.width, grid.height}},
+                              {"from_m", {grid.x0, grid.y0}},
+                              {"radios", nlohmann::ordered_json::object()},
+                              {"files", nlohmann::ordered_json::array()}};
+  const auto wrote = [&](const fs::path& file) { json["files"].push_back(file.string()); };
+  std::vector<std::vector<double>> maps;
+  try {
+    for (const Sender& sender : senders) {
+      maps.push_back(map_of(sender, receiver, grid, words));
+      const pic::Range range = range_of(maps.back());
+      json["radios"][sender.name] = {{"lowest_dbm", range.low}, {"highest_dbm", range.high}};
+      const fs::path file = fs::path(words.out) / ("map_" + sender.name + ".svg");
+      pic::save(figure_of(run.world().name, sender, maps.back(), grid, plan, words), file);
+      wrote(file);
+      const std::size_t pixels = std::max<std::size_t>(1, 400 / grid.width);
+      const fs::path raster = fs::path(file).replace_extension("png");
+      pic::save_png(maps.back(), grid.width, range, pic::Map::viridis, pixels, raster);
+      wrote(raster);
+      progress.at(0.5 + 0.5 * static_cast<double>(maps.size()) / static_cast<double>(senders.size()));
+    }
+  } catch (const Error&) {
+    throw;
+  } catch (const std::runtime_error& e) {  // of the pictures
+    throw Error(Exit::io, e.what());
+  }
+  wrote(fs::path(words.out) / "map.csv");
+  write_table(senders, maps, grid, fs::path(words.out) / "map.csv");
+  if (words.json) return fmt::print("{}\n", json.dump(2)), 0;
+  fmt::print("{}: {} x {} cells of {:.3g} m\n", run.world().name, grid.width, grid.height, grid.cell);
+  for (const auto& [name, r] : json["radios"].items())
+    fmt::print("  {:<16} {:.1f} to {:.1f} dBm\n", name, r["lowest_dbm"].get<double>(), r["highest_dbm"].get<double>());
+  for (const auto& file : json["files"]) fmt::print("  wrote {}\n", file.get<std::string>());
+  return 0;
+}
+
+}  // namespace muster::cli
