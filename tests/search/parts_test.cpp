@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "diagnosis/search/charge.hpp"
+#include "diagnosis/search/choose.hpp"
 #include "diagnosis/search/clean_up.hpp"
 #include "diagnosis/search/held_out.hpp"
 #include "diagnosis/search/merge.hpp"
@@ -296,6 +297,45 @@ TEST(CleanUp, ACauseGivesWayToARivalThatDoesBetter) {
   clean_up(bench, trials);
   ASSERT_EQ(bench.terms.size(), 1u);
   EXPECT_EQ(bench.terms[0].candidate->id, "antenna_rx");
+}
+
+// An offset, and the same with one parameter more.
+std::vector<Candidate> twins_of(const synthetic::World& world) {
+  std::vector<Candidate> twins = causes_of(world);
+  twins.insert(twins.begin(), twins[1]);
+  twins[0].id = "twin";
+  ++twins[0].parameters;
+  return twins;
+}
+
+TEST(CleanUp, ACauseGivesWayToASimplerOneThatTheReadingsCannotTellFromIt) {
+  const auto world = world_of(varied(34, 4000));
+  const auto twins = twins_of(world);
+  const Problem problem = problem_of(world, scaled_to(world, twins[0].columns(twins[0].grid[0]), 200), twins);
+  Bench bench(problem, {});
+  score(bench);
+  bench.terms = {term_at(bench, "twin", twins[0].grid[0])};
+  bench.refit();
+  std::vector<Trial> trials;
+  clean_up(bench, trials);
+  ASSERT_EQ(bench.terms.size(), 1u);
+  EXPECT_EQ(bench.terms[0].candidate->id, "rx_offset");
+}
+
+TEST(Compared, TheSimplerOfTwoWithTheSameEffectComesFirst) {
+  const auto world = world_of(varied(34, 4000));
+  const auto twins = twins_of(world);
+  const Problem problem = problem_of(world, scaled_to(world, twins[0].columns(twins[0].grid[0]), 200), twins);
+  Bench bench(problem, {});
+  const Stand stand = bench.stand(bench.base());
+  bench.renew_depending(stand.coefficients(bench.base_columns()));
+  std::vector<Lead> pair;
+  for (const Lead& lead : leads(bench, stand))
+    if (lead.candidate().id == "twin" || lead.candidate().id == "rx_offset") pair.push_back(lead);
+  ASSERT_EQ(pair.size(), 2u);
+  for (int order = 0; order < 2; ++order, std::swap(pair[0], pair[1]))
+    EXPECT_EQ(compared(bench, stand, pair, pair, [](const Candidate&) { return true; }).front().candidate().id,
+              "rx_offset");
 }
 
 TEST(CleanUp, ASmoothGivesWayToTheCauseThatExplainsIt) {
