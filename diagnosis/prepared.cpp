@@ -28,21 +28,6 @@ FitOptions hold_places_of_causes(const LinkModel& model) {
   return options;
 }
 
-// A wall that no map has shows best in short rows, down to single readings, while each row costs time: they are as
-// short as few rows allow. Of many readings they are longer than usual, not for time's sake alone: each row is
-// conditioned on so many near ones, and where these lie dense nothing of them tells how far the field reaches.
-noise::RowLimits finest(const noise::Readings& readings) {
-  constexpr Index few = 4000, many = 10000;
-  noise::RowLimits limits;
-  for (const double share : {0.0, 0.25, 0.5, 1.0, 2.0, 4.0}) {
-    limits = {};
-    limits.time *= share;
-    limits.way *= share;
-    if (noise::Rows(readings, limits).size() <= (share < 1 ? few : many)) break;
-  }
-  return limits;
-}
-
 }  // namespace
 
 Prepared::Prepared(const std::filesystem::path& world, const std::filesystem::path& table,
@@ -62,7 +47,7 @@ Prepared::Prepared(const std::filesystem::path& world, const std::filesystem::pa
   add_columns();
   problem.places_known = data.has_places();
   problem.stated = stated_field(model);
-  options.rows = finest(problem.readings);
+  options.rows = noise::limits_for(problem.readings);
   if (!problem.places_known) options.rows.way = -1;  // readings at like distances are not at one place: each is a row
   let_sketch(world, plugins);
   for (const CauseCandidate& c : sought.found) problem.candidates.push_back(c.candidate);

@@ -164,4 +164,16 @@ Sites Sites::with(const Sites& more) const {
   return result;
 }
 
+RowLimits limits_for(const Readings& readings) {
+  constexpr Index few = 4000, many = 10000;
+  RowLimits limits;
+  for (const double share : {0.0, 0.25, 0.5, 1.0, 2.0, 4.0}) {
+    limits = {};
+    limits.time *= share;
+    limits.way *= share;
+    if (Rows(readings, limits).size() <= (share < 1 ? few : many)) break;
+  }
+  return limits;
+}
+
 }  // namespace muster::noise

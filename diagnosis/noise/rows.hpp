@@ -72,4 +72,10 @@ class Rows {
   Eigen::VectorXd count_;
 };
 
+// What suits a search. A wall that no map has shows best in short rows, down to single readings, while each row costs
+// time: they are as short as 4,000 rows allow. Of many readings they are longer than usual, up to four times where
+// there would be more than 10,000, and not for time's sake alone: each row is conditioned on so many near ones, and
+// where these lie dense nothing of them tells how far the field reaches.
+RowLimits limits_for(const Readings& readings);
+
 }  // namespace muster::noise

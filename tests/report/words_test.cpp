@@ -1,6 +1,7 @@
 // Words, digits and gates, on results that are made up.
 #include <gtest/gtest.h>
 
+#include "diagnosis/report/advice.hpp"
 #include "diagnosis/report/text.hpp"
 
 namespace muster::report {
@@ -82,6 +83,23 @@ TEST(Text, RivalsThatAreNotDecidedAreQuestions) {
   const std::string text = text_of(d, {"hall", "a.csv"});
   EXPECT_TRUE(says(text, "unmapped wall or obstacle: D 6, cannot be told apart")) << text;
   EXPECT_LT(text.find("move base: predicted D 74, decides"), text.find("turn on the spot: predicted D 15")) << text;
+}
+
+// Of all that was accepted, named or not; clips and laws of what scatters are no step.
+TEST(Steps, AreInTheOrderOfStrength) {
+  Diagnosis d = with(wall(search::Status::named, {}));
+  d.causes[0].sought_as = d.causes[0].id;
+  FoundCause drift = d.causes[0];
+  drift.id = drift.sought_as = "effect.drift";
+  drift.lambda = 80;
+  FoundCause fading = d.causes[0];
+  fading.id = "effect.fading_law";
+  fading.sought_as = "";
+  fading.lambda = 200;
+  d.causes.insert(d.causes.begin(), {fading, drift});
+  d.unexplained = {{"battery", 30, 60, {}}};
+  const char* expected[] = {"the world, fitted", "+ drift", "+ battery (unexplained)", "+ unmapped wall", ""};
+  for (std::size_t k = 0; k < 5; ++k) EXPECT_EQ(name_of_step(d, k), expected[k]) << k;
 }
 
 TEST(Text, NothingFoundIsAdequate) {

@@ -202,6 +202,31 @@ TEST(Rows, EndWhereAWallChangesTheLevel) {
   EXPECT_EQ(Rows(r).size(), 1);
 }
 
+TEST(Rows, AreAsShortAsTheirNumberAllows) {
+  for (const Index readings : {3000, 12000, 60000, 200000}) {
+    Readings r;  // of one link, 20 a second, at 0.5 m/s
+    r.tx.assign(static_cast<std::size_t>(readings), 0);
+    r.rx.assign(static_cast<std::size_t>(readings), 1);
+    r.tx_at = r.rx_at = Eigen::Matrix3Xd::Zero(3, readings);
+    for (Index k = 0; k < readings; ++k) {
+      r.t.push_back(0.05 * static_cast<double>(k));
+      r.rx_at(0, k) = 5 + 0.025 * static_cast<double>(k);
+    }
+    const RowLimits limits = limits_for(r), usual;
+    const Index rows = Rows(r, limits).size();
+    if (readings == 3000) {
+      EXPECT_EQ(rows, readings);  // each is a row
+    } else if (readings == 12000) {
+      EXPECT_LT(limits.time, usual.time);
+      EXPECT_LE(rows, 4000);
+    } else {
+      EXPECT_LE(rows, 10000);
+      EXPECT_EQ(limits.way > usual.way, readings == 200000);
+    }
+    EXPECT_EQ(limits.way / usual.way, limits.time / usual.time);
+  }
+}
+
 TEST(Reach, IsTheWhitenersTranspose) {
   const Field field(scattered(90, 3, 22));
   const Whitener whitener(field, some);
