@@ -6,6 +6,7 @@
 #include <muster/tables.hpp>
 #include <sstream>
 
+#include "cli/pose_angles.hpp"
 #include "text/error.hpp"
 #include "text/number.hpp"
 
@@ -26,10 +27,6 @@ std::vector<Row> rows_of(const Simulation& run, const std::string& name) {
 std::vector<std::string> names_of(const Simulation& run, const std::string& set) {
   const Set* found = run.board().find_set(set);
   return found ? found->names : std::vector<std::string>{};
-}
-
-double yaw_of(const Pose& p) {
-  return std::atan2(2 * (p.qw * p.qz + p.qx * p.qy), 1 - 2 * (p.qy * p.qy + p.qz * p.qz));
 }
 
 std::vector<std::string> words_of(const std::string& text) {
@@ -63,20 +60,12 @@ std::string time_text(double time) { return print_real(std::round(time * 10) / 1
 
 }  // namespace
 
-RunPictures::RunPictures(const Simulation& run) : world_(run.world().name) {
-  constexpr std::size_t most_numbers = 4'000'000;  // some 100 MB of moments
-  most_ = std::clamp(most_numbers / (names_of(run, "robot").size() + names_of(run, "radio").size() + 1),
-                     std::size_t{64}, std::size_t{2048});
-  find_plan(run);
-  find_links(run);
-}
-
-void RunPictures::find_plan(const Simulation& run) {
+picture::FloorPlan floor_plan(const Simulation& run) {
+  picture::FloorPlan plan;
   const auto materials = names_of(run, "material");
   const auto walls = rows_of<Wall>(run, "wall/*/shape");
   for (const Wall& w : walls) {
-    plan_.walls.push_back(
-        {{w.x0, w.y0}, {w.x1, w.y1}, w.thickness, materials.at(static_cast<std::size_t>(w.material))});
+    plan.walls.push_back({{w.x0, w.y0}, {w.x1, w.y1}, w.thickness, materials.at(static_cast<std::size_t>(w.material))});
   }
   const auto states = rows_of<DoorState>(run, "door/*/state");
   const auto doors = rows_of<Door>(run, "door/*/shape");
@@ -87,13 +76,21 @@ void RunPictures::find_plan(const Simulation& run) {
       return picture::Point{w.x0 + s / length * (w.x1 - w.x0), w.y0 + s / length * (w.y1 - w.y0)};
     };
     const bool open = i < states.size() && states[i].open != 0;
-    plan_.doors.push_back({at(doors[i].at), at(doors[i].at + doors[i].width), open, w.thickness});
+    plan.doors.push_back({at(doors[i].at), at(doors[i].at + doors[i].width), open, w.thickness});
   }
   const auto radios = names_of(run, "radio");
   const auto mounts = rows_of<Mount>(run, "radio/*/mount");
   for (std::size_t i = 0; i < mounts.size(); ++i) {
-    if (std::isnan(mounts[i].robot)) plan_.stations.push_back({{mounts[i].x, mounts[i].y}, radios[i]});
+    if (std::isnan(mounts[i].robot)) plan.stations.push_back({{mounts[i].x, mounts[i].y}, radios[i]});
   }
+  return plan;
+}
+
+RunPictures::RunPictures(const Simulation& run) : world_(run.world().name), plan_(floor_plan(run)) {
+  constexpr std::size_t most_numbers = 4'000'000;  // some 100 MB of moments
+  most_ = std::clamp(most_numbers / (names_of(run, "robot").size() + names_of(run, "radio").size() + 1),
+                     std::size_t{64}, std::size_t{2048});
+  find_links(run);
 }
 
 void RunPictures::find_links(const Simulation& run) {

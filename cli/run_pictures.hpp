@@ -12,6 +12,9 @@
 
 namespace muster {
 
+// Walls, doors and stations.
+picture::FloorPlan floor_plan(const Simulation& run);
+
 class RunPictures {
  public:
   explicit RunPictures(const Simulation& run);
@@ -37,7 +40,6 @@ class RunPictures {
     std::vector<double> rssi{}, smooth{};  // a link; NaN before the first
   };
 
-  void find_plan(const Simulation& run);
   void find_links(const Simulation& run);
   Moment moment(const Simulation& run) const;
   std::vector<const Moment*> snapshots() const;

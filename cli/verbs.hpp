@@ -15,6 +15,7 @@ namespace muster::cli {
 using Arguments = std::vector<std::string>;
 
 int run_check(const Arguments& arguments);
+int run_compare(const Arguments& arguments);
 int run_describe(const Arguments& arguments);
 int run_diagnose(const Arguments& arguments);
 int run_exam(const Arguments& arguments);
