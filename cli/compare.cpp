@@ -118,6 +118,7 @@ class Comparison {
     else
       print_comparison(runs_, not_run_);
     std::fflush(stdout);
+    for (const auto& r : runs_) r.run->close();
     if (interrupted()) return Exit::interrupted;
     for (const auto& r : runs_) {
       if (r.fault) throw Error(*r.fault);

@@ -20,10 +20,11 @@ std::string time_text(const Simulation& run, uint64_t tick) {
 
 bool is_own_line(const Measure& measure) { return measure.column[0] < 0; }
 
-// The tables that a reader is shown, in order.
+// The tables that a reader is shown, in order. Endpoints are left out: radios are where their robots are.
 std::vector<std::string> shown(const Simulation& run) {
   std::vector<std::string> result;
   for (const auto& set : standard().sets) {
+    if (set.name == std::string("endpoint")) continue;
     for (const auto& quantity : set.quantities) result.push_back(std::string(set.name) + "/*/" + quantity.name);
   }
   for (const auto& instance : run.instances()) {
@@ -107,9 +108,13 @@ void print_runs(const std::vector<ComparedRun>& runs) {
   }
   const bool common = std::all_of(
       runs.begin(), runs.end(), [&](const ComparedRun& r) { return r.run->world().seed == runs[0].run->world().seed; });
-  fmt::print("{}\n", common ? "Common random numbers: a draw depends on the seed, its stream, names and the tick or "
-                              "place, so each run meets the same."
-                            : "The seeds differ, and with them the random numbers.");
+  if (common)
+    fmt::print(
+        "Common random numbers: all have seed {}, and a draw depends on it, its stream, names, and tick or place "
+        "alone.\n",
+        runs[0].run->world().seed);
+  else
+    fmt::print("The seeds differ, and with them the random numbers.\n");
 }
 
 // What happened in this run and not in the first.
@@ -162,7 +167,7 @@ std::string where(const Quantity& q) {
 
 std::string remark(const Simulation& run, const Quantity& q) {
   std::string result;
-  if (q.unlike) result += fmt::format("  for {} ticks in one run only, or not the same name", q.unlike);
+  if (q.unlike) result += fmt::format("  not comparable in {} tick{}", q.unlike, q.unlike == 1 ? "" : "s");
   if (std::isnan(q.tolerance)) return result;
   const std::string tolerance = fmt::format("{:.3g}{}{}", q.tolerance, q.unit.empty() ? "" : " ", q.unit);
   return result + (q.beyond == Course::never ? "  within " + tolerance

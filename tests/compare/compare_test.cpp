@@ -65,6 +65,18 @@ TEST(Compare, NamesTheFirstCellThatDiffersAndWhoWroteIt) {
                         "            B = 0.4, by steer (control.waypoint/1)\n"));
 }
 
+// Not in the order of names: a body moves before its radio is heard.
+TEST(Compare, NamesTheCauseBeforeWhatFollowsFromIt) {
+  const CompareFolder folder;
+  folder.write("world.xml", drive_world("<station name=\"base\" at=\"0 0 1\"/><control.beacon radio=\"base\"/>"
+                                        "<network.ideal/><radio.multiwall tx_power=\"0\" l0=\"40\" n=\"2\"/>"));
+  const auto one = folder.json({"world.xml", "physics=physics.planar:acceleration=1"})["comparisons"][0];
+  ASSERT_NE(course(one, "link/*/level", "base r", "level"), nullptr);
+  EXPECT_EQ(course(one, "link/*/level", "base r", "level")["first_tick"], one["first"]["tick"]);
+  EXPECT_EQ(one["first"]["table"], "robot/*/pose");
+  EXPECT_EQ(one["first"]["writers"][0], "physics (physics.planar/1)");
+}
+
 // A heading is told round the circle: from just under half a turn to just over it is a step of 0.02.
 TEST(Compare, TakesTheShorterWayRoundTheCircle) {
   const CompareFolder folder;
