@@ -12,7 +12,7 @@ constexpr std::size_t most_robots = 12, most_lines = 6, most_panels = 5;
 
 // What people look at first; the others follow in the order of the standard sets.
 const std::vector<std::string> first_of_all = {"robot/*/pose distance [m]", "robot/*/pose heading [rad]",
-                                               "link/*/level [dBm]",        "link/*/rssi [dBm]",
+                                               "link/*/level [dB]",         "link/*/rssi [dB]",
                                                "inbox/*/message count",     "robot/*/twist [m/s]"};
 
 picture::Line line_of(const std::vector<double>& trace, const Divergence& divergence, double dt, std::string label) {

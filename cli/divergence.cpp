@@ -143,6 +143,9 @@ void Divergence::look(const Simulation& a, const Simulation& b) {
 void Divergence::pair_columns(const Pair& pair, TableDivergence& found) {
   for (int i = 0; i < 2; ++i) found.columns[i] = pair.table[i]->columns().text();
   found.measures = common_columns(pair.table, only_);
+  for (Measure& measure : found.measures) {
+    if (measure.unit == "dBm") measure.unit = "dB";  // what levels differ by
+  }
   const bool poses = is_pose(*pair.table[0]) && is_pose(*pair.table[1]);
   if (poses) found.measures = {{"distance", "m"}, {"heading", "rad"}, {"tilt", "rad"}};
   if (is_queue(*pair.table[0])) found.measures.push_back({"count", ""});

@@ -15,7 +15,7 @@ namespace muster {
 
 // A number of a row in which runs may differ: a column, or what the columns of a pose are together.
 struct Measure {
-  std::string name, unit;
+  std::string name, unit;    // of a difference: dB where the columns are in dBm
   int column[2] = {-1, -1};  // in either run; -1: made of several
 
   std::string title() const { return unit.empty() ? name : name + '[' + unit + ']'; }

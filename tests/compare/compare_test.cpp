@@ -130,7 +130,7 @@ TEST(Compare, CountsMessagesAndLevelsOfLinksByTheirEnds) {
   EXPECT_EQ(course(json["comparisons"][0], "link/*/level", "base far", "level"), nullptr);
   const auto level = course(json["comparisons"][1], "link/*/level", "base far", "level");
   EXPECT_NEAR(level["end"].get<double>(), -20 * std::log10(2), 1e-9);
-  EXPECT_EQ(level["unit"], "dBm");
+  EXPECT_EQ(level["unit"], "dB") << "levels in dBm differ by dB";
   EXPECT_EQ(course(json["comparisons"][1], "inbox/*/message", "far base", "count"), nullptr);
 }
 
