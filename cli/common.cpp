@@ -4,7 +4,6 @@
 #include <csignal>
 #include <cstdlib>
 
-#include "text/number.hpp"
 #include "verbs.hpp"
 
 namespace muster::cli {
@@ -20,12 +19,6 @@ void parse(CLI::App& app, const Arguments& arguments) {
     throw Error(Exit::invalid_input,
                 fmt::format("muster {}: {}; see muster {} --help", app.get_name(), e.what(), app.get_name()));
   }
-}
-
-double real_of(const std::string& text, const char* option) {
-  const auto value = parse_real(text);
-  if (!value) throw Error(Exit::invalid_input, std::string(option) + ": " + why_not_real(text));
-  return *value;
 }
 
 Library::SearchPath plugin_path(const std::vector<std::string>& given) {

@@ -7,6 +7,7 @@
 #include <muster/tables.hpp>
 #include <nlohmann/json.hpp>
 
+#include "cli/pose_angles.hpp"
 #include "diagnosis/model.hpp"
 #include "diagnosis/picture/figure.hpp"
 #include "diagnosis/picture/raster.hpp"
@@ -16,7 +17,7 @@
 #include "text/number.hpp"
 #include "text/temporary_folder.hpp"
 #include "text/text_table_writer.hpp"
-#include "verbs.hpp"
+#include "world_words.hpp"
 
 namespace muster::cli {
 namespace {
@@ -136,7 +137,7 @@ void write_readings(const Sender& sender, const std::string& receiver, const Gri
                                {"rx_y", "m"},
                                {"rx_z", "m"}});
   const Pose& p = sender.at;
-  const double yaw = std::atan2(2 * (p.qw * p.qz + p.qx * p.qy), 1 - 2 * (p.qy * p.qy + p.qz * p.qz));
+  const double yaw = yaw_of(p);
   for (std::size_t i = 0; i < grid.size(); ++i) {
     table.real(words.at);
     table.text(sender.name), table.text(receiver);

@@ -10,7 +10,7 @@
 #include "diagnosis/run_tables.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
-#include "verbs.hpp"
+#include "world_words.hpp"
 
 namespace muster::cli {
 namespace {

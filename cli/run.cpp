@@ -11,72 +11,30 @@
 #include "run_pictures.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
-#include "text/text_file.hpp"
-#include "verbs.hpp"
-#include "world_file/params.hpp"
+#include "world_words.hpp"
 
 namespace muster::cli {
 namespace {
 
 using nlohmann::ordered_json;
 
-struct RunWords {
-  std::string world, out, save, restore;
-  std::vector<std::string> plugins, record, set;
-  int workers = 1;
-  std::optional<std::string> until, seed;
+struct RunWords : WorldWords {
+  std::string world, save, restore;
   uint64_t digest_every = 0;
-  bool json = false, watch = false, expected = false;
+  bool watch = false, expected = false;
   SwapDeclaration swap;  // of the verb swap
   std::string swap_at;
 };
 
 void declare(CLI::App& app, RunWords& words) {
   app.add_option("world", words.world, "the world's folder or file")->required();
-  app.add_option("--workers", words.workers, "threads; the results do not depend on it")->check(CLI::Range(1, 256));
-  app.add_option("--until", words.until, "end of the run in seconds, instead of the world's");
-  app.add_option("--seed", words.seed, "seed of all random numbers, instead of the world's");
-  app.add_option("--set", words.set, "PATH=VALUE: a parameter of the world or of a plugin");
-  app.add_option("--out", words.out, "folder for tables and pictures");
-  app.add_option("--record", words.record, "a table to write to --out as CSV, such as 'robot/*/pose'");
+  declare(app, static_cast<WorldWords&>(words));
   app.add_option("--save", words.save, "write the state at the end to this file");
   app.add_option("--restore", words.restore, "begin from a state that --save wrote");
   app.add_option("--digest-every", words.digest_every, "print the digest every so many ticks");
-  app.add_option("--plugins", words.plugins, "a folder of plugins, looked in first");
   app.add_flag("--watch", words.watch, "load a plugin again when its file changes on disk");
   app.add_flag("--expected", words.expected,
                "run no tick: evaluate the radio channel once, as it is expected on average");
-  app.add_flag("--json", words.json, "print the outcome as JSON");
-}
-
-World world_of(const RunWords& words) {
-  World world = read_world(words.world, standard());
-  if (words.until) world.ticks = ticks_of(real_of(*words.until, "--until"), world.dt, {"--until"});
-  if (words.seed) {
-    const auto seed = parse_integer(*words.seed);
-    if (!seed || *seed < 0)
-      throw Error(Exit::invalid_input, "--seed: " + quote(*words.seed) + " is no seed; expected an integer from 0");
-    world.seed = static_cast<uint64_t>(*seed);
-  }
-  for (const auto& table : words.record) world.records.push_back({table, 1, {}});
-  if (!words.record.empty() && words.out.empty())
-    throw Error(Exit::invalid_input, "--record needs --out, the folder to write to");
-  return world;
-}
-
-void set_parameters(Simulation& run, const std::vector<std::string>& given) {
-  for (const auto& one : given) {
-    const auto equals = one.find('=');
-    if (equals == std::string::npos) throw Error(Exit::invalid_input, "--set " + quote(one) + ": expected PATH=VALUE");
-    const std::string path = one.substr(0, equals);
-    const auto info = run.parameter(path);
-    const XmlAttribute attribute{path, one.substr(equals + 1), {"--set"}, {"--set"}};
-    const FindRow no_rows = [](const std::string&, const std::string&, const Place& place) -> double {
-      throw invalid(place, "a reference cannot be set on the command line");
-    };
-    run.set_parameter(
-        path, attribute_values(*info.declared, 1, attribute, no_rows, [](const Place&, const std::string&) {}).at(0));
-  }
 }
 
 // Loads plugins again whose files have changed since the last look.
@@ -125,8 +83,6 @@ ordered_json observed(const Simulation& run) {
   return result;
 }
 
-std::string hexadecimal(uint64_t digest) { return fmt::format("{:016x}", digest); }
-
 using Digests = std::vector<std::pair<uint64_t, uint64_t>>;  // tick, digest
 
 void print_outcome(const Simulation& run, const RunWords& words, const Digests& digests,
@@ -164,7 +120,7 @@ void print_outcome(const Simulation& run, const RunWords& words, const Digests& 
 }
 
 int run_world(const RunWords& words) {
-  World world = world_of(words);
+  World world = world_of(words.world, words);
   if (!words.swap.instance.empty()) {
     SwapDeclaration swap = words.swap;
     swap.tick = ticks_of(real_of(words.swap_at, "--at"), world.dt, {"--at"});
@@ -254,14 +210,7 @@ int run_swap(const Arguments& arguments) {
   app.add_option("attributes", attributes, "NAME=VALUE: attributes of the new plugin");
   parse(app, arguments);
   auto& replacement = words.swap.replacement;
-  replacement.place = {"muster swap"};
-  replacement.name = words.swap.instance;
-  for (const auto& one : attributes) {
-    const auto equals = one.find('=');
-    if (equals == std::string::npos)
-      throw Error(Exit::invalid_input, "muster swap: " + quote(one) + " is no attribute; expected NAME=VALUE");
-    replacement.attributes.push_back({one.substr(0, equals), one.substr(equals + 1), {"muster swap"}, {"muster swap"}});
-  }
+  replacement = instance_of(words.swap.instance, replacement.plugin, attributes, "muster swap");
   return run_world(words);
 }
 

@@ -6,6 +6,7 @@
 #include <muster/tables.hpp>
 #include <sstream>
 
+#include "cli/pose_angles.hpp"
 #include "diagnosis/plan.hpp"
 #include "diagnosis/run_tables.hpp"
 #include "text/error.hpp"
@@ -15,10 +16,6 @@ namespace muster {
 namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-
-double yaw_of(const Pose& p) {
-  return std::atan2(2 * (p.qw * p.qz + p.qx * p.qy), 1 - 2 * (p.qy * p.qy + p.qz * p.qz));
-}
 
 std::vector<std::string> words_of(const std::string& text) {
   std::istringstream words(text);

@@ -15,6 +15,7 @@ namespace muster::cli {
 using Arguments = std::vector<std::string>;
 
 int run_check(const Arguments& arguments);
+int run_compare(const Arguments& arguments);
 int run_describe(const Arguments& arguments);
 int run_diagnose(const Arguments& arguments);
 int run_exam(const Arguments& arguments);
@@ -34,9 +35,6 @@ int run_swap(const Arguments& arguments);
 // Parses a verb's words. Throws Usage where they are off, Helped where only help was asked for.
 void parse(CLI::App& app, const Arguments& arguments);
 struct Helped {};
-
-// The number that the whole text is. Throws Error that names the option.
-double real_of(const std::string& text, const char* option);
 
 // The folders in which plugins are looked for: --plugins, MUSTER_PLUGIN_PATH, and `plugins` beside the program.
 Library::SearchPath plugin_path(const std::vector<std::string>& given = {});

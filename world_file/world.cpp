@@ -67,27 +67,6 @@ void read_root(const XmlElement& root, World& world) {
   world.ticks = ticks_of(number(*until, 0, "the end of the run in seconds, from 0"), world.dt, until->value_place);
 }
 
-// Takes the reserved attributes out of an element's; what remains is for the plugin.
-InstanceDeclaration read_instance(const XmlElement& element, const std::string& plugin) {
-  InstanceDeclaration result{plugin, plugin, 1, {}, {}, {}, element.place};
-  for (const auto& given : element.attributes) {
-    if (given.name == "name") {
-      check_name(given);
-      result.name = given.value;
-    } else if (given.name == "every")
-      result.every = positive_integer(given);
-    else if (given.name == "library")
-      result.library = given.value;
-    else if (given.name == "revision")
-      result.revision = positive_integer(given);
-    else
-      result.attributes.push_back(given);
-  }
-  if (!element.children.empty())
-    throw invalid(element.children[0].place, "<" + element.name + "> has an element inside; expected attributes only");
-  return result;
-}
-
 bool is_swaps_own(const XmlAttribute& given) {
   return std::find(swap_attributes.begin(), swap_attributes.end(), given.name) != swap_attributes.end();
 }
@@ -169,6 +148,26 @@ void check_names(const World& world) {
 }
 
 }  // namespace
+
+InstanceDeclaration read_instance(const XmlElement& element, const std::string& plugin) {
+  InstanceDeclaration result{plugin, plugin, 1, {}, {}, {}, element.place};
+  for (const auto& given : element.attributes) {
+    if (given.name == "name") {
+      check_name(given);
+      result.name = given.value;
+    } else if (given.name == "every")
+      result.every = positive_integer(given);
+    else if (given.name == "library")
+      result.library = given.value;
+    else if (given.name == "revision")
+      result.revision = positive_integer(given);
+    else
+      result.attributes.push_back(given);
+  }
+  if (!element.children.empty())
+    throw invalid(element.children[0].place, "<" + element.name + "> has an element inside; expected attributes only");
+  return result;
+}
 
 uint64_t ticks_of(double time, double dt, const Place& place) {
   const double ticks = std::round(time / dt);

@@ -79,6 +79,9 @@ struct World {
 // `path` is the file, or a folder with a world.xml. Throws Error.
 World read_world(const std::filesystem::path& path, const Standard& standard);
 
+// The plugin's element as an instance: reserved attributes taken out, the others left for the plugin. Throws Error.
+InstanceDeclaration read_instance(const XmlElement& element, const std::string& plugin);
+
 // The whole number of ticks nearest to a time, or an error where there are none or more than 1e12.
 uint64_t ticks_of(double time, double dt, const Place& place);
 

@@ -43,6 +43,18 @@ TEST_P(EveryWorld, IsTheSameAfterSaveAndRestore) {
   EXPECT_EQ(finish(before), expected) << "to save disturbs";
 }
 
+// To restart a run is to restore what stood before its first tick.
+TEST_P(EveryWorld, RestartsFromTheSnapshotOfItsStart) {
+  Simulation run = start(GetParam());
+  const Snapshot at_start = run.snapshot();
+  const auto first = finish(run);
+  EXPECT_EQ(first, plain_digest(GetParam()));
+  run.restore(at_start);
+  EXPECT_EQ(run.tick(), 0u);
+  EXPECT_EQ(run.digest(), start(GetParam()).digest());
+  EXPECT_EQ(finish(run), first);
+}
+
 TEST_P(EveryWorld, IsTheSameAfterEveryInstanceWasMadeAgain) {
   Simulation run = start(GetParam());
   std::vector<std::string> names;

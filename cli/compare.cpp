@@ -1,0 +1,229 @@
+// muster compare WORLD ...: a world against itself with an instance exchanged, or against other worlds, in step.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "compare_pictures.hpp"
+#include "compare_report.hpp"
+#include "divergence_file.hpp"
+#include "text/names.hpp"
+#include "text/number.hpp"
+#include "world_words.hpp"
+
+namespace muster::cli {
+namespace {
+
+constexpr std::size_t most_runs = 26;  // labels are letters
+constexpr uint64_t most_spans = 400;   // moments in the file and the picture
+
+struct CompareWords : WorldWords {
+  std::string world;
+  std::vector<std::string> others, within;
+};
+
+// "physics=physics.simbody:integrator=rk3"
+struct Exchange {
+  std::string instance, plugin;
+  std::vector<std::string> attributes;
+};
+
+// Nothing where the word is a world's path.
+std::optional<Exchange> exchange_of(const std::string& word) {
+  const auto equals = word.find('=');
+  if (equals == std::string::npos || std::filesystem::exists(word)) return {};
+  Exchange result{word.substr(0, equals), "", {}};
+  std::istringstream parts(word.substr(equals + 1));
+  std::getline(parts, result.plugin, ':');
+  for (std::string part; std::getline(parts, part, ':');) result.attributes.push_back(part);
+  if (result.instance.empty() || result.plugin.empty())
+    throw Error(Exit::invalid_input,
+                "muster compare: " + quote(word) + " is neither a world nor INSTANCE=PLUGIN[:NAME=VALUE...]");
+  return result;
+}
+
+// The instance keeps its name, its place among the others, and how often it steps; of its own plugin also the
+// attributes that are not given.
+void exchange(World& world, const Exchange& wanted, const Simulation& given) {
+  std::vector<std::string> names;
+  for (const auto& instance : given.instances()) names.push_back(instance->name());
+  if (std::find(names.begin(), names.end(), wanted.instance) == names.end())
+    throw Error(Exit::invalid_input, "muster compare: no instance is called " + quote(wanted.instance) + "; " +
+                                         suggest(wanted.instance, names));
+  InstanceDeclaration made = instance_of(wanted.instance, wanted.plugin, wanted.attributes, "muster compare");
+  const auto old = std::find_if(world.instances.begin(), world.instances.end(),
+                                [&](const auto& i) { return i.name == wanted.instance; });
+  if (old == world.instances.end()) return world.instances.push_back(std::move(made));  // a provider, which came last
+  const auto is_given = [&](const std::string& name) {
+    return std::any_of(wanted.attributes.begin(), wanted.attributes.end(),
+                       [&](const auto& word) { return word.starts_with(name + '='); });
+  };
+  if (!is_given("every")) made.every = old->every;
+  if (old->plugin == made.plugin) {
+    if (!is_given("library")) made.library = old->library;
+    if (!is_given("revision")) made.revision = old->revision;
+    for (const auto& attribute : old->attributes) {
+      if (!is_given(attribute.name)) made.attributes.push_back(attribute);
+    }
+  }
+  *old = std::move(made);
+}
+
+Tolerances tolerances_of(const std::vector<std::string>& words) {
+  Tolerances result;
+  for (const auto& word : words) {
+    const auto equals = word.rfind('=');
+    if (equals == std::string::npos)
+      throw Error(Exit::invalid_input, "--within " + quote(word) + ": expected QUANTITY=TOLERANCE");
+    const double tolerance = real_of(word.substr(equals + 1), "--within");
+    if (tolerance < 0) throw Error(Exit::invalid_input, "--within " + quote(word) + ": expected a tolerance from 0");
+    result[word.substr(0, equals)] = tolerance;
+  }
+  return result;
+}
+
+class Comparison {
+ public:
+  explicit Comparison(const CompareWords& words) : words_(words) {
+    if (words.others.empty())
+      throw Error(Exit::invalid_input,
+                  "muster compare: there is nothing to compare with; expected INSTANCE=PLUGIN or a second world");
+    if (words.others.size() >= most_runs) throw Error(Exit::invalid_input, "muster compare: more than 26 runs");
+    const bool all_given = std::all_of(words.others.begin(), words.others.end(),
+                                       [](const auto& word) { return exchange_of(word).has_value(); });
+    add(world_of(words.world, words), all_given ? "as given" : words.world);
+    for (const auto& word : words.others) add_other(word);
+    if (runs_.size() < 2) throw Error(*refused_);
+    begin();
+  }
+
+  void run() {
+    Progress progress("muster compare " + runs_[0].run->world().name);
+    watch_interrupt();
+    const auto goes_on = [](const ComparedRun& r) { return r.goes_on(); };
+    while (std::any_of(runs_.begin(), runs_.end(), goes_on) && !interrupted()) {
+      for (auto& r : runs_) {
+        if (r.goes_on()) r.step();
+      }
+      ++tick_;
+      look();
+      progress.at(static_cast<double>(tick_) / static_cast<double>(longest_));
+    }
+    finish();
+  }
+
+  Exit report() const {
+    if (words_.json)
+      fmt::print("{}\n", comparison_json(runs_, not_run_).dump(2));
+    else
+      print_comparison(runs_, not_run_);
+    std::fflush(stdout);
+    for (const auto& r : runs_) r.run->close();
+    if (interrupted()) return Exit::interrupted;
+    for (const auto& r : runs_) {
+      if (r.fault) throw Error(*r.fault);
+    }
+    if (refused_) throw Error(refused_->exit(), not_run_.front() + " could not be run");
+    const bool within = std::all_of(runs_.begin(), runs_.end(),
+                                    [](const ComparedRun& r) { return !r.divergence || r.divergence->within(); });
+    return within ? Exit::done : Exit::check_failed;
+  }
+
+ private:
+  void add(World world, std::string what) {
+    const std::string label(1, static_cast<char>('A' + runs_.size()));
+    auto run = std::make_unique<Simulation>(std::move(world), standard(),
+                                            Options{plugin_path(words_.plugins), words_.workers, {}});
+    set_parameters(*run, words_.set);
+    runs_.push_back({label, std::move(what), std::move(run)});
+  }
+
+  // What cannot be run is told in the end; the others go on.
+  void add_other(const std::string& word) {
+    const auto wanted = exchange_of(word);
+    World world = world_of(wanted ? words_.world : word, words_);
+    if (wanted) exchange(world, *wanted, *runs_[0].run);
+    if (world.dt != runs_[0].run->world().dt)
+      throw Error(Exit::invalid_input, word + ": ticks of " + print_real(world.dt) + " s against " +
+                                           print_real(runs_[0].run->world().dt) + " s; expected one dt");
+    try {
+      add(std::move(world), word);
+    } catch (const Error& e) {
+      if (words_.others.size() > 1) fmt::print(stderr, "muster: note: {} cannot be run: {}\n", word, e.what());
+      if (!refused_) refused_ = e;
+      not_run_.push_back(word);
+    }
+  }
+
+  void begin() {
+    for (const auto& r : runs_) longest_ = std::max(longest_, r.run->world().ticks);
+    span_ = std::max<uint64_t>(1, (longest_ + most_spans - 1) / most_spans);
+    const auto tolerances = tolerances_of(words_.within);
+    for (std::size_t i = 1; i < runs_.size(); ++i) runs_[i].divergence.emplace(tolerances, span_);
+    const std::filesystem::path folder = words_.out;
+    for (std::size_t i = 0; i < runs_.size() && !words_.out.empty(); ++i) runs_[i].write_to(folder / runs_[i].label);
+    if (!words_.out.empty()) file_.emplace(folder / "divergence.csv");
+    look();
+  }
+
+  // A tick that both runs have.
+  void look() {
+    const bool is_moment = tick_ % span_ == 0;
+    for (auto& r : runs_) {
+      if (r.run->tick() != tick_) continue;
+      if (r.divergence && runs_[0].run->tick() == tick_) {
+        r.divergence->look(*runs_[0].run, *r.run);
+        if (file_ && is_moment) file_->write(r.label, r.run->time(), *r.divergence);
+      }
+      if (file_ && is_moment) r.look_at_robots();
+    }
+  }
+
+  void finish() {
+    for (auto& r : runs_) r.finish();
+    if (!file_) return;
+    file_->close();
+    const std::filesystem::path folder = words_.out;
+    runs_.back().files.push_back(folder / "divergence.csv");
+    const auto figure = comparison_figure(runs_);
+    if (figure.panels.empty()) return;
+    try {
+      save(figure, folder / "divergence.svg");
+    } catch (const std::runtime_error& e) {
+      throw Error(Exit::io, e.what());
+    }
+    runs_.back().files.push_back(folder / "divergence.svg");
+  }
+
+  const CompareWords& words_;
+  std::vector<ComparedRun> runs_;
+  std::optional<Error> refused_;  // the first that was
+  std::vector<std::string> not_run_;
+  std::optional<DivergenceFile> file_;
+  uint64_t tick_ = 0, longest_ = 0, span_ = 1;
+};
+
+}  // namespace
+
+int run_compare(const Arguments& arguments) {
+  CLI::App app(
+      "Runs a world as it is given and with an instance exchanged, or several worlds, in step and with the same "
+      "random\n"
+      "numbers, and says what differs: where first, by how much, since when.\n"
+      "Example: muster compare worlds/square_path physics=physics.planar physics=physics.simbody:integrator=rk3 "
+      "--out out",
+      "compare");
+  CompareWords words;
+  app.add_option("world", words.world, "the world's folder or file")->required();
+  app.add_option("other", words.others,
+                 "INSTANCE=PLUGIN[:NAME=VALUE...], the world with this instance exchanged, or another world");
+  declare(app, words);
+  app.add_option("--within", words.within,
+                 "QUANTITY=TOLERANCE, such as pose/distance=0.05: exit code 1 where a difference is larger");
+  parse(app, arguments);
+  Comparison comparison(words);
+  comparison.run();
+  return static_cast<int>(comparison.report());
+}
+
+}  // namespace muster::cli

@@ -1,0 +1,37 @@
+// What verbs that run worlds are told alike: the seed, the end, parameters, plugins, and what is to be written where.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "verbs.hpp"
+
+namespace muster::cli {
+
+struct WorldWords {
+  std::vector<std::string> plugins, record, set;
+  std::string out;
+  int workers = 1;
+  std::optional<std::string> until, seed;
+  bool json = false;
+};
+
+void declare(CLI::App& app, WorldWords& words);
+
+// The number, or Error that names the option.
+double real_of(const std::string& text, const char* option);
+
+// The world as its file has it, with what the words say instead. Throws Error.
+World world_of(const std::string& path, const WorldWords& words);
+
+// Each "PATH=VALUE". Throws Error.
+void set_parameters(Simulation& run, const std::vector<std::string>& given);
+
+// An instance of a plugin, its attributes as words "NAME=VALUE"; `who` gave them, for messages. Throws Error.
+InstanceDeclaration instance_of(const std::string& name, const std::string& plugin,
+                                const std::vector<std::string>& attributes, const std::string& who);
+
+std::string hexadecimal(uint64_t digest);
+
+}  // namespace muster::cli
