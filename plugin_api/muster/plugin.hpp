@@ -205,9 +205,12 @@ class Step {
   }
   template <class Row>
   std::string_view bytes(In<Row> t, std::size_t row, unsigned column) const {
-    uint64_t count = 0;
-    const uint8_t* data = host_->get_bytes(host_, t.index, static_cast<uint32_t>(row), column, &count);
-    return {reinterpret_cast<const char*>(data), count};
+    return bytes_at(t.index, row, column);
+  }
+  // Of what an Out claim last published.
+  template <class Row>
+  std::string_view last_bytes(Out<Row> t, std::size_t row, unsigned column) const {
+    return bytes_at(t.index, row, column);
   }
   template <class Row>
   void put_bytes(Out<Row> t, std::size_t row, unsigned column, std::string_view data) const {
@@ -237,6 +240,12 @@ class Step {
   const muster_host* host() const { return host_; }
 
  private:
+  std::string_view bytes_at(int claim, std::size_t row, unsigned column) const {
+    uint64_t count = 0;
+    const uint8_t* data = host_->get_bytes(host_, claim, static_cast<uint32_t>(row), column, &count);
+    return {reinterpret_cast<const char*>(data), count};
+  }
+
   const muster_host* host_;
   const muster_tick* tick_;
   const muster_in* in_;

@@ -110,10 +110,12 @@ struct Incoming {
   double radio, from, rssi, t_sent, t_received, payload;
 };
 
-// What became of a radio's requests: copies asked for (one a receiver of a broadcast) and their outcomes.
+// What became of a radio's requests: copies asked for (one a receiver of a broadcast) and their outcomes; those that are
+// still under way are the rest. Which outcomes there are is the network's affair.
 struct Traffic {
-  static constexpr const char* columns = "asked delivered too_weak no_link";
-  double asked, delivered, too_weak, no_link;
+  static constexpr const char* columns =
+      "asked delivered too_weak no_link collided no_access queue_full no_ack gone";
+  double asked, delivered, too_weak, no_link, collided, no_access, queue_full, no_ack, gone;
 };
 
 }  // namespace muster

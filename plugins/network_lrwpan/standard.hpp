@@ -1,0 +1,54 @@
+// What IEEE 802.15.4-2006 fixes for its 2.4 GHz band, where a symbol is 4 bits and takes 16 us. MAC constants with the
+// standard's default values.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace muster::lrwpan {
+
+using Time = std::int64_t;  // ns
+
+constexpr Time symbol = 16000;
+constexpr Time octet = 2 * symbol;
+constexpr Time unit_backoff = 20 * symbol;  // aUnitBackoffPeriod
+constexpr Time turnaround = 12 * symbol;    // aTurnaroundTime
+constexpr Time cca_window = 8 * symbol;
+constexpr Time ack_wait = 54 * symbol;                                   // macAckWaitDuration
+constexpr Time short_spacing = 12 * symbol, long_spacing = 40 * symbol;  // of frames: after up to 18 octets, and more
+constexpr int least_exponent = 3, most_exponent = 5, most_backoffs = 4;  // macMinBE, macMaxBE, macMaxCSMABackoffs
+constexpr Time bit = symbol / 4;
+
+constexpr std::size_t largest_frame = 127;  // aMaxPHYPacketSize
+constexpr std::size_t preamble = 6;         // preamble, start of frame, length
+constexpr std::size_t header = 11;  // control, sequence, PAN, two short addresses in one PAN; check sequence at the end
+constexpr std::size_t ack_frame = 5;
+
+// Fragments as RFC 4944 cuts them: all but the last carry a multiple of 8 octets behind a header of 4, then of 5.
+constexpr std::size_t in_one_frame = largest_frame - header;
+constexpr std::size_t in_a_fragment = (in_one_frame - 5) / 8 * 8;
+
+constexpr std::size_t frames_of(std::size_t payload) {
+  return payload <= in_one_frame ? 1 : (payload + in_a_fragment - 1) / in_a_fragment;
+}
+
+// Octets of the n-th frame of a payload, from its control field on.
+constexpr std::size_t frame_size(std::size_t payload, std::size_t n) {
+  if (payload <= in_one_frame) return header + payload;
+  return header + (n == 0 ? 4 : 5) + std::min(in_a_fragment, payload - n * in_a_fragment);
+}
+
+constexpr Time air_time(std::size_t size) { return static_cast<Time>(preamble + size) * octet; }
+
+// Share of bits that come wrong at a ratio of signal to noise and interference (IEEE 802.15.4-2006, annex E.4.1.8).
+inline double bit_error_rate(double ratio) {
+  constexpr double binomial[] = {120,  -560,  1820, -4368, 8008, -11440, 12870, -11440,
+                                 8008, -4368, 1820, -560,  120,  -16,    1};
+  double sum = 0;
+  for (int k = 2; k <= 16; ++k) sum += binomial[k - 2] * std::exp(20 * ratio * (1.0 / k - 1));
+  return std::clamp(8.0 / 15 / 16 * sum, 0.0, 0.5);
+}
+
+}  // namespace muster::lrwpan
