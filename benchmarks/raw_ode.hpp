@@ -1,0 +1,138 @@
+// Scarabs in ODE as a program without a kernel has them: bodies that live in ODE from step to step. Written for speed,
+// as the peer of our engine: spheres for wheels, one box a robot, its own collision, eight walls that nobody reaches.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "plugins/physics_ode/library.hpp"
+#include "plugins/physics_ode/model.hpp"
+#include "toys/arcs.hpp"
+
+namespace muster::bench {
+
+class RawOde {
+ public:
+  // iterations 0: dWorldStep; else of dWorldQuickStep.
+  RawOde(const description::Robot& robot, const std::vector<Arc>& arcs, int iterations)
+      : model_(robot), arcs_(arcs), iterations_(iterations), world_(dWorldCreate()), space_(dHashSpaceCreate(nullptr)) {
+    thread_.carry(world_.get());
+    dWorldSetGravity(world_.get(), 0, 0, -9.81);
+    dWorldSetERP(world_.get(), 0.2);
+    dWorldSetCFM(world_.get(), 1e-10);
+    if (iterations) dWorldSetQuickStepNumIterations(world_.get(), iterations);
+    dCreatePlane(space_.get(), 0, 0, 1, 0);
+    for (int i = 0; i < 8; ++i) {
+      const dGeomID wall = dCreateBox(space_.get(), i % 2 ? 4 : 0.2, i % 2 ? 0.2 : 4, 1);
+      dGeomSetPosition(wall, apart * (i % 3 + 0.5), apart * (i / 3 + 0.5), 0.5);
+    }
+    for (const Arc& arc : arcs) add(arc);
+  }
+
+  void step(double t, double h) {
+    for (std::size_t i = 0; i < arcs_.size(); ++i) {
+      dJointSetHingeParam(robots_[i].motor[0], dParamVel, arcs_[i].left(t + h / 2));
+      dJointSetHingeParam(robots_[i].motor[1], dParamVel, arcs_[i].right(t + h / 2));
+    }
+    dJointGroupEmpty(contacts_.get());
+    dSpaceCollide(space_.get(), this, touch);
+    if (iterations_) {
+      dWorldQuickStep(world_.get(), h);
+    } else {
+      dWorldStep(world_.get(), h);
+    }
+  }
+
+  // x, y of the robot's frame.
+  std::array<double, 2> place(std::size_t robot) const {
+    const auto& c = model_.body.centre;
+    dVector3 origin;
+    dBodyGetRelPointPos(robots_[robot].body, -c.x(), -c.y(), -c.z(), origin);
+    return {origin[0], origin[1]};
+  }
+
+ private:
+  struct Made {
+    dBodyID body;
+    std::array<dJointID, 2> motor;
+  };
+
+  void add(const Arc& arc) {
+    const Eigen::Isometry3d at =
+        Eigen::Translation3d(arc.x, arc.y, 0) * Eigen::AngleAxisd(arc.heading, Eigen::Vector3d::UnitZ());
+    const Eigen::Quaterniond turned(at.linear());
+    const auto body = [&](const description::Mass& mass, const Eigen::Vector3d& centre) {
+      const dBodyID made = dBodyCreate(world_.get());
+      const auto& i = mass.inertia;
+      dMass m;
+      dMassSetParameters(&m, mass.mass, 0, 0, 0, i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2), i(1, 2));
+      dBodySetMass(made, &m);
+      const Eigen::Vector3d place = at * centre;
+      dBodySetPosition(made, place.x(), place.y(), place.z());
+      const dQuaternion q = {turned.w(), turned.x(), turned.y(), turned.z()};
+      dBodySetQuaternion(made, q);
+      return made;
+    };
+    const dSpaceID own = dSimpleSpaceCreate(space_.get());
+    const auto shape = [&](dGeomID geom, dBodyID on, const Eigen::Vector3d& place, double friction) {
+      frictions_.push_back(friction);
+      dGeomSetData(geom, reinterpret_cast<void*>(frictions_.size()));  // the ground and walls have 0
+      dGeomSetBody(geom, on);
+      const Eigen::Vector3d p = at * place;
+      dGeomSetOffsetWorldPosition(geom, p.x(), p.y(), p.z());
+    };
+    Made made;
+    made.body = body(model_.body, model_.body.centre);
+    for (const ode::Slider& slider : model_.sliders)
+      shape(dCreateSphere(own, slider.radius), made.body, slider.centre, 0);
+    const ode::Block& box = model_.blocks.front();
+    shape(dCreateBox(own, box.size.x(), box.size.y(), box.size.z()), made.body, box.pose.translation(), 0.3);
+    for (std::size_t w = 0; w < 2; ++w) {
+      const Eigen::Vector3d hub = model_.wheel[w].frame.translation(), axle = at.linear() * model_.wheel[w].axis;
+      const dBodyID wheel = body(model_.wheel[w].mass, hub);
+      dBodySetFiniteRotationMode(wheel, 1);
+      shape(dCreateSphere(own, model_.drive.wheel_radius), wheel, hub, model_.drive.friction);
+      made.motor[w] = dJointCreateHinge(world_.get(), nullptr);
+      dJointAttach(made.motor[w], wheel, made.body);
+      const Eigen::Vector3d anchor = at * hub;
+      dJointSetHingeAnchor(made.motor[w], anchor.x(), anchor.y(), anchor.z());
+      dJointSetHingeAxis(made.motor[w], axle.x(), axle.y(), axle.z());
+      dJointSetHingeParam(made.motor[w], dParamFMax, model_.drive.max_torque);
+    }
+    robots_.push_back(made);
+  }
+
+  static void touch(void* self, dGeomID a, dGeomID b) {
+    if (dGeomIsSpace(a) || dGeomIsSpace(b)) return dSpaceCollide2(a, b, self, touch);
+    auto& raw = *static_cast<RawOde*>(self);
+    const dBodyID on_a = dGeomGetBody(a), on_b = dGeomGetBody(b);
+    if (!on_a && !on_b) return;
+    dContact contact[4];
+    const int count = dCollide(a, b, 4, &contact[0].geom, sizeof contact[0]);
+    if (!count) return;
+    const double friction = std::min(raw.friction(a), raw.friction(b));
+    for (int i = 0; i < count; ++i) {
+      contact[i].surface.mode = dContactApprox1;
+      contact[i].surface.mu = friction;
+      dJointAttach(dJointCreateContact(raw.world_.get(), raw.contacts_.get(), &contact[i]), on_a, on_b);
+    }
+  }
+
+  double friction(dGeomID geom) const {
+    const auto number = reinterpret_cast<std::size_t>(dGeomGetData(geom));
+    return number ? frictions_[number - 1] : dInfinity;
+  }
+
+  ode::Library library_;
+  ode::OwnThread thread_;
+  ode::RobotModel model_;
+  std::vector<Arc> arcs_;
+  int iterations_;
+  std::unique_ptr<dxWorld, ode::Destroy> world_;
+  std::unique_ptr<dxSpace, ode::Destroy> space_;
+  std::unique_ptr<dxJointGroup, ode::Destroy> contacts_{dJointGroupCreate(0)};
+  std::vector<Made> robots_;
+  std::vector<double> frictions_;
+};
+
+}  // namespace muster::bench

@@ -1,0 +1,91 @@
+#include "model.hpp"
+
+#include <Eigen/Cholesky>
+#include <stdexcept>
+
+namespace muster::ode {
+
+using description::Robot;
+using description::Shape;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double thinnest = 1e-3;  // [m] of a block: ODE takes no flat ones
+
+bool has_inertia(const description::Mass& mass) { return mass.mass > 0 && mass.inertia.llt().info() == Eigen::Success; }
+
+std::vector<std::string> lacks(const Robot& robot) {
+  if (!robot.drive) return {"it has no <muster><differential .../></muster> drive"};
+  std::vector<std::string> result;
+  const auto& drive = *robot.drive;
+  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
+    if (i != drive.left && i != drive.right && robot.joints[i].kind != description::JointKind::fixed) {
+      result.push_back("joint '" + robot.joints[i].name + "' moves and is no wheel of its drive");
+    }
+  }
+  if (!has_inertia(rigid_mass(robot, 0))) result.push_back("its body has no mass or inertia");
+  for (const std::size_t joint : {drive.left, drive.right}) {
+    if (has_inertia(rigid_mass(robot, robot.joints[joint].child))) continue;
+    result.push_back("the wheel of joint '" + robot.joints[joint].name + "' has no mass or inertia");
+  }
+  return result;
+}
+
+Wheel wheel_of(const Robot& robot, std::size_t index) {
+  const description::Joint& joint = robot.joints[index];
+  Isometry3d frame = joint.origin;
+  for (std::size_t link = joint.parent; link != 0; link = robot.joints[link - 1].parent) {
+    frame = robot.joints[link - 1].origin * frame;
+  }
+  return {rigid_mass(robot, joint.child), frame, joint.axis};
+}
+
+// A shape as a box in its own frame: itself, or the smallest around it along the frame's axes.
+Block block_of(const Shape& shape, const Isometry3d& frame, bool is_wheel) {
+  Vector3d low, high;
+  if (const auto* box = std::get_if<description::Box>(&shape.geometry)) {
+    high = box->size / 2, low = -high;
+  } else if (const auto* sphere = std::get_if<description::Sphere>(&shape.geometry)) {
+    high.setConstant(sphere->radius), low = -high;
+  } else if (const auto* cylinder = std::get_if<description::Cylinder>(&shape.geometry)) {
+    high << cylinder->radius, cylinder->radius, cylinder->length / 2;
+    low = -high;
+  } else {
+    const auto& vertices = std::get<description::Mesh>(shape.geometry).vertices;
+    high = low = vertices.empty() ? Vector3d(Vector3d::Zero()) : vertices.front();
+    for (const Vector3d& v : vertices) low = low.cwiseMin(v), high = high.cwiseMax(v);
+  }
+  const Isometry3d pose = frame * shape.pose * Eigen::Translation3d((low + high) / 2);
+  return {pose, (high - low).cwiseMax(thinnest), is_wheel};
+}
+
+}  // namespace
+
+RobotModel::RobotModel(const Robot& robot) {
+  std::string list;
+  for (const std::string& one : lacks(robot)) list += (list.empty() ? "" : "; ") + one;
+  if (!list.empty()) {
+    throw std::runtime_error("robot model '" + robot.name + "' (" + robot.file +
+                             ") cannot be simulated by physics.ode: " + list);
+  }
+  drive = *robot.drive;
+  body = rigid_mass(robot, 0);
+  for (const Shape& shape : rigid_shapes(robot, 0)) {
+    if (const auto* sphere = std::get_if<description::Sphere>(&shape.geometry)) {
+      sliders.push_back({shape.pose.translation(), sphere->radius});
+    } else {
+      blocks.push_back(block_of(shape, Isometry3d::Identity(), false));
+    }
+  }
+  const std::size_t joints[] = {drive.left, drive.right};
+  for (std::size_t w = 0; w < 2; ++w) {
+    wheel[w] = wheel_of(robot, joints[w]);
+    for (const Shape& shape : rigid_shapes(robot, robot.joints[joints[w]].child)) {
+      blocks.push_back(block_of(shape, wheel[w].frame, true));
+    }
+  }
+}
+
+}  // namespace muster::ode

@@ -1,0 +1,41 @@
+// What of a robot ODE is given: a rigid body, two wheels that hinge on it, and shapes that touch.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "description/robot.hpp"
+
+namespace muster::ode {
+
+// A smooth sphere fixed to the body, on which it slides.
+struct Slider {
+  Eigen::Vector3d centre;  // in the body's frame [m]
+  double radius;           // [m]
+};
+
+// A box fixed to the body.
+struct Block {
+  Eigen::Isometry3d pose;  // in the body's frame
+  Eigen::Vector3d size;    // full edges [m]
+  bool is_wheel;           // it stands for a wheel among obstacles, where it does not turn; the ground feels its sphere
+};
+
+struct Wheel {
+  description::Mass mass;   // in the joint's frame
+  Eigen::Isometry3d frame;  // of the joint in the body's
+  Eigen::Vector3d axis;     // unit, in the joint's frame
+};
+
+struct RobotModel {
+  // Throws std::runtime_error that lists all that this backend lacks for the robot.
+  explicit RobotModel(const description::Robot& robot);
+
+  description::DifferentialDrive drive;
+  description::Mass body;  // all that is rigid with the root, in its frame
+  std::array<Wheel, 2> wheel;
+  std::vector<Slider> sliders;
+  std::vector<Block> blocks;
+};
+
+}  // namespace muster::ode

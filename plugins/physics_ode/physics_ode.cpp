@@ -1,0 +1,214 @@
+// physics.ode: ODE on the blackboard.
+#include <algorithm>
+#include <cstring>
+#include <muster/plugin.hpp>
+
+#include "description/world_robots.hpp"
+#include "world.hpp"
+
+namespace {
+
+using namespace muster;
+using description::Model;
+using description::WorldRobots;
+
+// Wheels as ODE has them, see ode::HingedWheel: the left one, then the right one.
+struct Hinged {
+  static constexpr const char* columns =
+      "left_x[m] left_y[m] left_z[m] left_qw left_qx left_qy left_qz left_vx[m/s] left_vy[m/s] left_vz[m/s] "
+      "left_wx[rad/s] left_wy[rad/s] left_wz[rad/s] right_x[m] right_y[m] right_z[m] right_qw right_qx right_qy "
+      "right_qz "
+      "right_vx[m/s] right_vy[m/s] right_vz[m/s] right_wx[rad/s] right_wy[rad/s] right_wz[rad/s]";
+  std::array<ode::HingedWheel, 2> wheel;
+};
+
+struct Complained {
+  static constexpr const char* columns = "count";
+  double count;
+};
+
+struct PhysicsOde {
+  static constexpr auto id = "physics.ode/1";
+  static constexpr auto summary = "the ODE engine: rigid robots on flat ground, walls and robots as obstacles";
+  static constexpr auto manual =
+      "Bodies and wheels from the robot's URDF, hinged; the ground is flat, at z = 0. Wheels touch it as spheres, "
+      "with\n"
+      "ODE's friction pyramid along the world's axes: up to 1.41 times Coulomb's bound between them. Spheres of the "
+      "body\n"
+      "slide. Motors turn the wheels as asked, within the drive's torque and speed. Walls, closed doors and other "
+      "robots\n"
+      "are obstacles (obstacles=\"false\": the ground alone is), where meshes, cylinders and wheels count as boxes.\n"
+      "solver: exact is dWorldStep; quick is dWorldQuickStep with `iterations`: with 50 at a step of 1 ms what Gazebo\n"
+      "uses. exact is of second order. robot/*/hinged is what wheels are off their hinges by: ODE goes on from it.\n"
+      "self/complaints counts ODE's messages, such as a contact that its exact solver could not settle.\n"
+      "Not modelled: wheels as discs on the ground, rolling resistance, shapes other than boxes and spheres.";
+  static constexpr auto phase = MUSTER_PHYSICS;
+  static constexpr Param params[] = {
+      real("step", 0.001, 1e-6, 0.1, "s", "longest step inside a tick"),
+      choice("solver", "exact|quick", "dWorldStep or dWorldQuickStep"),
+      integer("iterations", 50, 1, 100000, "of the quick solver in a step"),
+      real("over_relaxation", 1.3, 0.1, 1.99, "", "of the quick solver"),
+      real("erp", 0.2, 0, 1, "", "share of an error of joints and contacts that a step takes back"),
+      real("cfm", 1e-10, 0, 1, "", "softness of joints and contacts, as ODE defines it"),
+      real("friction", 0.3, 0, 10, "", "of bodies with walls, robots and ground; wheels have their model's"),
+      flag("obstacles", true, "walls and other robots stop a robot")};
+
+  explicit PhysicsOde(Setup& s)
+      : step_size(s.value("step")),
+        solver(s.value("solver")),
+        iterations(s.value("iterations")),
+        over_relaxation(s.value("over_relaxation")),
+        erp(s.value("erp")),
+        cfm(s.value("cfm")),
+        friction(s.value("friction")),
+        obstacles(s.value("obstacles")),
+        shuffle(s.stream("ode_quickstep")),
+        robots(s, description::Meshes::import),
+        drive(s.read<Drive>("robot/*/drive")),
+        walls(s.read<Wall>("wall/*/shape")),
+        doors(s.read<Door>("door/*/shape")),
+        door_states(s.read<DoorState>("door/*/state")),
+        pose(s.write<Pose>("robot/*/pose")),
+        twist(s.write<Twist>("robot/*/twist")),
+        wheels(s.write<Wheels>("robot/*/wheels")),
+        model(s.write<Model>("robot/*/body")),
+        hinged(s.write<Hinged>("robot/*/hinged")),
+        complained(s.write<Complained>("self/complaints")) {
+    for (std::size_t row = 0; row < robots.size(); ++row) {
+      made.rows.push_back(row);
+      made.models.push_back(WorldRobots::model_of(0, row));
+    }
+    make([&](std::size_t row) { return s.host()->row_name(s.host(), "robot", static_cast<uint32_t>(row)); });
+  }
+
+  // What the engine is made of. Parameters come with the first step.
+  struct Made {
+    ode::Settings settings;
+    std::vector<std::size_t> rows;
+    std::vector<double> models;
+    bool operator==(const Made& b) const { return settings == b.settings && rows == b.rows && models == b.models; }
+  };
+
+  ode::Settings settings(const Step& k) const {
+    return {k[step_size], k[solver] != 0,   static_cast<int>(k[iterations]), k[over_relaxation], k[erp], k[cfm],
+            k[friction],  k[obstacles] != 0};
+  }
+
+  template <class NameOf>
+  void make(NameOf name_of) {
+    std::vector<ode::NamedRobot> named;
+    for (std::size_t i = 0; i < made.rows.size(); ++i) {
+      const std::string name(name_of(made.rows[i]));
+      const description::Robot* robot = robots.of(made.models[i]);
+      if (!robot) throw BadInput("robot '" + name + "' has no model; expected the attribute model in the world file");
+      named.push_back({name, robot});
+    }
+    try {
+      world = std::make_unique<ode::World>(named, made.settings);
+    } catch (const std::runtime_error& wrong) {
+      throw BadInput(wrong.what());
+    }
+    known_walls.clear();
+  }
+
+  void step(const Step& k) {
+    Made now{settings(k), {}, {}};
+    for (std::size_t i = 0; i < k[pose].size(); ++i) {
+      k[pose][i] = k.last(pose)[i];  // what has left stays as it was
+      k[twist][i] = k.last(twist)[i];
+      k[wheels][i] = k.last(wheels)[i];
+      k[hinged][i] = k.last(hinged)[i];
+      k[model][i].model = WorldRobots::model_of(k.last(model)[i].model, i);
+      if (!k.alive("robot", i)) continue;
+      now.rows.push_back(i);
+      now.models.push_back(k[model][i].model);
+    }
+    if (!(now == made)) {
+      made = now;
+      make([&](std::size_t row) { return k.name("robot", row); });
+    }
+    stand_walls(k);
+    move(k);
+  }
+
+  // As they stand in this tick: doors may have moved.
+  void stand_walls(const Step& k) {
+    std::vector<double> now{1};  // never empty: none are known yet
+    const auto append = [&](const auto rows) {
+      const std::size_t from = now.size(), count = rows.size() * sizeof(*rows.begin()) / sizeof(double);
+      now.resize(from + count);
+      if (count) std::memcpy(now.data() + from, rows.begin(), count * sizeof(double));
+    };
+    append(k[walls]), append(k[doors]), append(k[door_states]);
+    const bool same = now.size() == known_walls.size() &&
+                      std::memcmp(now.data(), known_walls.data(), now.size() * sizeof(double)) == 0;  // some are NaN
+    if (same) return;
+    world->set_walls(ode::wall_boxes(k[walls], k[doors], k[door_states]));
+    known_walls = now;
+  }
+
+  void move(const Step& k) {
+    const auto asked = k[drive];
+    states.resize(made.rows.size());
+    commands.assign(made.rows.size(), {});
+    for (std::size_t i = 0; i < made.rows.size(); ++i) {
+      const std::size_t row = made.rows[i];
+      states[i] = gather(k, row);
+      if (row < asked.size()) {
+        commands[i] = {asked[row].left, asked[row].right, asked[row].left_rate, asked[row].right_rate};
+      }
+    }
+    const auto seed = static_cast<unsigned long>(shuffle.uniform(k.tick()) * 0x1p32);
+    report(k, world->step(k.dt(), commands, states, seed));
+    for (std::size_t i = 0; i < made.rows.size(); ++i) spread(k, made.rows[i], states[i]);
+  }
+
+  void report(const Step& k, int complaints) const {
+    const double before = k.last(complained)->count;
+    k[complained]->count = before + complaints;
+    if (before == 0 && complaints > 0) k.event("ODE complains of a step; self/complaints counts how often it does");
+  }
+
+  ode::RobotState gather(const Step& k, std::size_t row) const {
+    const Pose& p = k.last(pose)[row];
+    const Twist& t = k.last(twist)[row];
+    const Wheels& w = k.last(wheels)[row];
+    return {{p.x, p.y, p.z, p.qw, p.qx, p.qy, p.qz},
+            {t.vx, t.vy, t.vz, t.wx, t.wy, t.wz},
+            {w.left, w.right},
+            {w.left_rate, w.right_rate},
+            k.last(hinged)[row].wheel};
+  }
+
+  void spread(const Step& k, std::size_t row, const ode::RobotState& s) const {
+    const auto& p = s.pose;
+    const auto& t = s.twist;
+    k[pose][row] = {p[0], p[1], p[2], p[3], p[4], p[5], p[6]};
+    k[twist][row] = {t[0], t[1], t[2], t[3], t[4], t[5]};
+    k[wheels][row] = {s.angle[0], s.angle[1], s.rate[0], s.rate[1]};
+    k[hinged][row].wheel = s.hinged;
+  }
+
+  Value step_size, solver, iterations, over_relaxation, erp, cfm, friction, obstacles;
+  Stream shuffle;
+  WorldRobots robots;
+  In<Drive> drive;
+  In<Wall> walls;
+  In<Door> doors;
+  In<DoorState> door_states;
+  Out<Pose> pose;
+  Out<Twist> twist;
+  Out<Wheels> wheels;
+  Out<Model> model;
+  Out<Hinged> hinged;
+  Out<Complained> complained;
+  Made made;
+  std::unique_ptr<ode::World> world;
+  std::vector<double> known_walls;      // and doors, that stand in `world`
+  std::vector<ode::RobotState> states;  // room, kept from step to step
+  std::vector<ode::Command> commands;
+};
+
+}  // namespace
+
+MUSTER_PLUGIN_IS(PhysicsOde)

@@ -1,0 +1,254 @@
+#include "world.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace muster::ode {
+
+using Eigen::Isometry3d;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double push_out = 0.2;  // fastest way out of what was entered [m/s]
+constexpr double fastest = 1e3;   // [m/s], [rad/s]: beyond, the motion has blown up
+constexpr int most_contacts = 8;  // of two shapes: as many as two boxes make
+constexpr double smooth = 0, as_the_other = std::numeric_limits<double>::infinity();  // friction of a surface
+
+// What meets what. Robots are spaces of their own, whose parts do not meet.
+constexpr unsigned long ground = 1, part = 2, wall = 4, tyre = 8;
+
+dMass mass_of(const description::Mass& m) {
+  dMass result;
+  const auto& i = m.inertia;
+  dMassSetParameters(&result, m.mass, 0, 0, 0, i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2), i(1, 2));
+  return result;
+}
+
+void set_quaternion(dBodyID body, const Quaterniond& q) {
+  const dQuaternion values = {q.w(), q.x(), q.y(), q.z()};
+  dBodySetQuaternion(body, values);
+}
+
+Vector3d vector(const dReal* values) { return {values[0], values[1], values[2]}; }
+std::array<double, 3> array(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+Quaterniond quaternion(const dReal* values) { return {values[0], values[1], values[2], values[3]}; }
+
+// Of a wheel's centre of mass, in the body's frame, at an angle of the wheel.
+Vector3d centre(const Wheel& wheel, double angle) {
+  return wheel.frame * (Eigen::AngleAxisd(angle, wheel.axis) * wheel.mass.centre);
+}
+
+// Where its hinge wants it, on a body that turns with `spin` (in its own frame).
+HingedWheel as_hinged(const Wheel& wheel, const Vector3d& body_centre, const Vector3d& spin, double angle,
+                      double rate) {
+  const Vector3d hub = wheel.frame.translation(), middle = centre(wheel, angle);
+  const Vector3d own = rate * (wheel.frame.linear() * wheel.axis);
+  const Vector3d place = middle - body_centre;
+  const Vector3d velocity = spin.cross(hub - body_centre) + (spin + own).cross(middle - hub);
+  const Quaterniond q = Quaterniond(wheel.frame.linear()) * Eigen::AngleAxisd(angle, wheel.axis);
+  return {array(place), {q.w(), q.x(), q.y(), q.z()}, array(velocity), array(own)};
+}
+
+}  // namespace
+
+World::World(const std::vector<NamedRobot>& robots, const Settings& settings)
+    : settings_(settings),
+      world_(dWorldCreate()),
+
+      space_(dHashSpaceCreate(nullptr)),
+      contacts_(dJointGroupCreate(0)) {
+  thread_.carry(world_.get());
+  dWorldSetGravity(world_.get(), 0, 0, -gravity);
+  dWorldSetERP(world_.get(), settings.erp);
+  dWorldSetCFM(world_.get(), settings.cfm);
+  dWorldSetQuickStepNumIterations(world_.get(), settings.iterations);
+  dWorldSetQuickStepW(world_.get(), settings.over_relaxation);
+  dWorldSetContactMaxCorrectingVel(world_.get(), push_out);
+  dSpaceAdd(space_.get(), add_geom(dCreatePlane(nullptr, 0, 0, 1, 0), ground, 0, as_the_other));
+  for (const NamedRobot& named : robots) robots_.push_back({named.name, RobotModel(*named.description)});
+  for (Robot& robot : robots_) add(robot);
+  surfaces_of_robots_ = friction_.size();
+}
+
+// Bodies stand where the robot's frame is the world's; their joints and shapes keep the places that they have then.
+void World::add(Robot& robot) {
+  const auto body = [&](const description::Mass& mass, const Vector3d& at, const Quaterniond& turned) {
+    const dBodyID made = dBodyCreate(world_.get());
+    const dMass m = mass_of(mass);
+    dBodySetMass(made, &m);
+    dBodySetPosition(made, at.x(), at.y(), at.z());
+    set_quaternion(made, turned);
+    dBodySetFiniteRotationMode(made, 1);
+    return made;
+  };
+  robot.body = body(robot.model.body, robot.model.body.centre, Quaterniond::Identity());
+  for (std::size_t w = 0; w < 2; ++w) {
+    const Wheel& wheel = robot.model.wheel[w];
+    const Vector3d anchor = wheel.frame.translation(), axis = wheel.frame.linear() * wheel.axis;
+    robot.wheel[w] = body(wheel.mass, centre(wheel, 0), Quaterniond(wheel.frame.linear()));
+    robot.hinge[w] = dJointCreateHinge(world_.get(), nullptr);
+    dJointAttach(robot.hinge[w], robot.wheel[w], robot.body);
+    dJointSetHingeAnchor(robot.hinge[w], anchor.x(), anchor.y(), anchor.z());
+    dJointSetHingeAxis(robot.hinge[w], axis.x(), axis.y(), axis.z());
+    dJointSetHingeParam(robot.hinge[w], dParamFMax, robot.model.drive.max_torque);
+  }
+  add_shapes(robot);
+}
+
+void World::add_shapes(const Robot& robot) {
+  const dSpaceID own = dSimpleSpaceCreate(space_.get());
+  const auto fix = [&](dGeomID geom, dBodyID body, const Isometry3d& pose) {  // in the world, where bodies stand now
+    const Quaterniond q(pose.linear());
+    const dQuaternion turned = {q.w(), q.x(), q.y(), q.z()};
+    dSpaceAdd(own, geom);
+    dGeomSetBody(geom, body);
+    dGeomSetOffsetWorldPosition(geom, pose.translation().x(), pose.translation().y(), pose.translation().z());
+    dGeomSetOffsetWorldQuaternion(geom, turned);
+  };
+  const unsigned long others = settings_.obstacles ? part | wall : 0;
+  for (std::size_t w = 0; w < 2; ++w) {
+    const dGeomID sphere = dCreateSphere(nullptr, robot.model.drive.wheel_radius);
+    fix(add_geom(sphere, tyre, ground, robot.model.drive.friction), robot.wheel[w], robot.model.wheel[w].frame);
+  }
+  for (const Slider& slider : robot.model.sliders) {
+    fix(add_geom(dCreateSphere(nullptr, slider.radius), part, ground | others, smooth), robot.body,
+        Isometry3d(Eigen::Translation3d(slider.centre)));
+  }
+  for (const Block& block : robot.model.blocks) {
+    const dGeomID box = dCreateBox(nullptr, block.size.x(), block.size.y(), block.size.z());
+    fix(add_geom(box, part, block.is_wheel ? others : ground | others, settings_.friction), robot.body, block.pose);
+  }
+}
+
+// Surfaces are numbered as they come: contacts are made in the order of these numbers, whatever order ODE finds.
+dGeomID World::add_geom(dGeomID geom, unsigned long category, unsigned long meets, double friction) {
+  dGeomSetCategoryBits(geom, category);
+  dGeomSetCollideBits(geom, meets);
+  dGeomSetData(geom, reinterpret_cast<void*>(friction_.size()));
+  friction_.push_back(friction);
+  return geom;
+}
+
+void World::set_walls(const std::vector<WallBox>& walls) {
+  for (const dGeomID old : walls_) dGeomDestroy(old);
+  walls_.clear();
+  friction_.resize(surfaces_of_robots_);
+  if (!settings_.obstacles) return;
+  for (const WallBox& box : walls) {
+    const dGeomID geom = dCreateBox(nullptr, box.size.x(), box.size.y(), box.size.z());
+    dSpaceAdd(space_.get(), add_geom(geom, wall, 0, as_the_other));
+    dGeomSetPosition(geom, box.centre.x(), box.centre.y(), box.centre.z());
+    const dQuaternion turned = {std::cos(box.heading / 2), 0, 0, std::sin(box.heading / 2)};
+    dGeomSetQuaternion(geom, turned);
+    walls_.push_back(geom);
+  }
+}
+
+int World::step(double dt, const std::vector<Command>& commands, std::vector<RobotState>& states, unsigned long seed) {
+  const Complaints complaints;
+  const int count = std::max(1, static_cast<int>(std::ceil(dt / settings_.step - 1e-9)));
+  const double h = dt / count;
+  for (std::size_t i = 0; i < robots_.size(); ++i) place(robots_[i], states[i]);
+  for (int k = 0; k < count; ++k) {
+    for (std::size_t i = 0; i < robots_.size(); ++i) ask(robots_[i], commands[i], (k + 0.5) * h);
+    touch();
+    advance(h, seed + k);
+    for (std::size_t i = 0; i < robots_.size(); ++i) {
+      for (int w = 0; w < 2; ++w) states[i].angle[w] += h * dJointGetHingeAngleRate(robots_[i].hinge[w]);
+    }
+  }
+  for (std::size_t i = 0; i < robots_.size(); ++i) read(robots_[i], states[i]);
+  return complaints.count();
+}
+
+void World::place(const Robot& robot, const RobotState& s) const {
+  const Quaterniond turned = Quaterniond(s.pose[3], s.pose[4], s.pose[5], s.pose[6]).normalized();
+  const Vector3d origin = vector(s.pose.data()), v = vector(s.twist.data()), w = vector(s.twist.data() + 3);
+  const auto put = [](dBodyID body, const Vector3d& at, const Quaterniond& q, const Vector3d& speed,
+                      const Vector3d& spin) {
+    dBodySetPosition(body, at.x(), at.y(), at.z());
+    set_quaternion(body, q);
+    dBodySetLinearVel(body, speed.x(), speed.y(), speed.z());
+    dBodySetAngularVel(body, spin.x(), spin.y(), spin.z());
+  };
+  const Vector3d arm = turned * robot.model.body.centre, speed = v + w.cross(arm);
+  put(robot.body, origin + arm, turned, speed, w);
+  for (std::size_t k = 0; k < 2; ++k) {
+    HingedWheel wheel = s.hinged[k];
+    if (wheel.quaternion == std::array<double, 4>{}) {
+      wheel = as_hinged(robot.model.wheel[k], robot.model.body.centre, turned.conjugate() * w, s.angle[k], s.rate[k]);
+    }
+    const auto& q = wheel.quaternion;
+    put(robot.wheel[k], origin + arm + turned * vector(wheel.place.data()),
+        turned * Quaterniond(q[0], q[1], q[2], q[3]), speed + turned * vector(wheel.velocity.data()),
+        w + turned * vector(wheel.spin.data()));
+  }
+}
+
+void World::ask(const Robot& robot, const Command& command, double at) const {
+  const double rates[] = {command.left + at * command.left_rate, command.right + at * command.right_rate};
+  for (int w = 0; w < 2; ++w) {
+    dJointSetHingeParam(robot.hinge[w], dParamVel, robot.model.drive.limited_rate(rates[w]));
+  }
+}
+
+void World::near(void* world, dGeomID a, dGeomID b) {
+  if (dGeomIsSpace(a) || dGeomIsSpace(b)) return dSpaceCollide2(a, b, world, near);
+  const auto number = [](dGeomID geom) {
+    return static_cast<int>(reinterpret_cast<std::intptr_t>(dGeomGetData(geom)));
+  };
+  if (number(b) < number(a)) std::swap(a, b);
+  static_cast<World*>(world)->pairs_.push_back({number(a), number(b), a, b});
+}
+
+// Contacts of the step to come. ODE finds pairs in an order that depends on what moved last: they are sorted.
+void World::touch() {
+  dJointGroupEmpty(contacts_.get());
+  pairs_.clear();
+  dSpaceCollide(space_.get(), this, near);
+  std::sort(pairs_.begin(), pairs_.end());
+  for (const Pair& pair : pairs_) touch(pair);
+}
+
+void World::touch(const Pair& pair) {
+  dContact contact[most_contacts];
+  const int count = dCollide(pair.a, pair.b, most_contacts, &contact[0].geom, sizeof contact[0]);
+  for (int i = 0; i < count; ++i) {
+    contact[i].surface.mode = dContactApprox1;  // friction's bound follows the normal force
+    contact[i].surface.mu = std::min(friction_[pair.first], friction_[pair.second]);
+    const dJointID joint = dJointCreateContact(world_.get(), contacts_.get(), &contact[i]);
+    dJointAttach(joint, dGeomGetBody(pair.a), dGeomGetBody(pair.b));
+  }
+}
+
+void World::advance(double h, unsigned long seed) {
+  const bool done = settings_.quick ? quick_step(world_.get(), h, seed) : dWorldStep(world_.get(), h) != 0;
+  if (!done) throw std::runtime_error("ODE has no memory left for a step");
+}
+
+void World::read(const Robot& robot, RobotState& s) const {
+  const Quaterniond q = quaternion(dBodyGetQuaternion(robot.body)), to_body = q.conjugate();
+  const Vector3d place = vector(dBodyGetPosition(robot.body)), arm = q * robot.model.body.centre;
+  const Vector3d v = vector(dBodyGetLinearVel(robot.body)), w = vector(dBodyGetAngularVel(robot.body));
+  const Vector3d origin = place - arm, speed = v - w.cross(arm);
+  if (!(std::max(speed.cwiseAbs().maxCoeff(), w.cwiseAbs().maxCoeff()) < fastest)) {
+    throw std::runtime_error("robot '" + robot.name + "': its motion blew up");
+  }
+  s.pose = {origin.x(), origin.y(), origin.z(), q.w(), q.x(), q.y(), q.z()};
+  s.twist = {speed.x(), speed.y(), speed.z(), w.x(), w.y(), w.z()};
+  for (int k = 0; k < 2; ++k) {
+    const dBodyID wheel = robot.wheel[k];
+    const Quaterniond turned = to_body * quaternion(dBodyGetQuaternion(wheel));
+    s.rate[k] = dJointGetHingeAngleRate(robot.hinge[k]);
+    s.hinged[k] = {array(to_body * (vector(dBodyGetPosition(wheel)) - place)),
+                   {turned.w(), turned.x(), turned.y(), turned.z()},
+                   array(to_body * (vector(dBodyGetLinearVel(wheel)) - v)),
+                   array(to_body * (vector(dBodyGetAngularVel(wheel)) - w))};
+  }
+}
+
+}  // namespace muster::ode

@@ -1,0 +1,110 @@
+// Robots in an ODE world, as a function of what is handed in: pose, twist, wheels, what hinges are off by, and
+// commands. Bodies are set from it before each step, so a remade world does the same arithmetic, bit for bit.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "library.hpp"
+#include "model.hpp"
+#include "walls.hpp"
+
+namespace muster::ode {
+
+constexpr double gravity = 9.81;  // [m/s2]
+
+struct Settings {
+  double step = 0.001;           // the longest inside a tick [s]
+  bool quick = false;            // dWorldQuickStep instead of dWorldStep
+  int iterations = 50;           // of it
+  double over_relaxation = 1.3;  // of it
+  double erp = 0.2;              // share of a joint's or contact's error that a step takes back
+  double cfm = 1e-10;            // softness of joints and contacts
+  double friction = 0.3;         // of bodies, with walls, robots and ground
+  bool obstacles = true;         // walls and other robots stop a robot
+
+  bool operator==(const Settings& b) const {
+    return step == b.step && quick == b.quick && iterations == b.iterations && over_relaxation == b.over_relaxation &&
+           erp == b.erp && cfm == b.cfm && friction == b.friction && obstacles == b.obstacles;
+  }
+};
+
+// Wheel rates asked for at the tick's start, and their slopes over the tick.
+struct Command {
+  double left, right;            // [rad/s]
+  double left_rate, right_rate;  // [rad/s2]
+};
+
+// A wheel as ODE has it: a body of its own, which a hinge holds only nearly. What it is off by matters: the drift of an
+// axle that turns is what makes ODE's step of second order. In the body's frame, relative to its centre of mass.
+struct HingedWheel {
+  std::array<double, 3> place;       // [m]
+  std::array<double, 4> quaternion;  // all 0: not known yet, as its hinge wants it
+  std::array<double, 3> velocity;    // [m/s]
+  std::array<double, 3> spin;        // [rad/s]
+};
+
+struct RobotState {
+  std::array<double, 7> pose;   // x y z [m], qw qx qy qz, body to world
+  std::array<double, 6> twist;  // v [m/s] of the body's origin, w [rad/s]; both in the world's frame
+  std::array<double, 2> angle;  // of the wheels, left and right [rad]
+  std::array<double, 2> rate;   // [rad/s]
+  std::array<HingedWheel, 2> hinged;
+};
+
+struct NamedRobot {
+  std::string name;
+  const description::Robot* description;
+};
+
+class World {
+ public:
+  // Throws std::runtime_error for a robot that it cannot hold.
+  World(const std::vector<NamedRobot>& robots, const Settings& settings);
+
+  void set_walls(const std::vector<WallBox>& walls);
+
+  // From t to t + dt [s]; one command and one state a robot, in the order of the robots. `seed`: of quick steps.
+  // Returns how often ODE complained. Throws std::runtime_error naming the robot whose motion is no longer finite.
+  int step(double dt, const std::vector<Command>& commands, std::vector<RobotState>& states, unsigned long seed);
+
+ private:
+  struct Robot {
+    std::string name;
+    RobotModel model;
+    dBodyID body = nullptr;
+    std::array<dBodyID, 2> wheel{};
+    std::array<dJointID, 2> hinge{};
+  };
+  struct Pair {
+    int first, second;  // indices of surfaces
+    dGeomID a, b;
+    bool operator<(const Pair& o) const { return first != o.first ? first < o.first : second < o.second; }
+  };
+
+  void add(Robot& robot);
+  void add_shapes(const Robot& robot);
+  dGeomID add_geom(dGeomID geom, unsigned long category, unsigned long meets, double friction);
+  void place(const Robot& robot, const RobotState& state) const;
+  void ask(const Robot& robot, const Command& command, double at) const;
+  void touch();
+  void touch(const Pair& pair);
+  void advance(double h, unsigned long seed);
+  void read(const Robot& robot, RobotState& state) const;
+  static void near(void* world, dGeomID a, dGeomID b);
+
+  Library library_;
+  Settings settings_;
+  OwnThread thread_;
+  std::unique_ptr<dxWorld, Destroy> world_;
+  std::unique_ptr<dxSpace, Destroy> space_;
+  std::unique_ptr<dxJointGroup, Destroy> contacts_;
+  std::vector<Robot> robots_;
+  std::vector<double> friction_;  // by surface: below 0 where the other's counts
+  std::vector<dGeomID> walls_;
+  std::size_t surfaces_of_robots_ = 0;
+  std::vector<Pair> pairs_;
+};
+
+}  // namespace muster::ode
