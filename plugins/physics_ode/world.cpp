@@ -58,7 +58,6 @@ HingedWheel as_hinged(const Wheel& wheel, const Vector3d& body_centre, const Vec
 World::World(const std::vector<NamedRobot>& robots, const Settings& settings)
     : settings_(settings),
       world_(dWorldCreate()),
-
       space_(dHashSpaceCreate(nullptr)),
       contacts_(dJointGroupCreate(0)) {
   thread_.carry(world_.get());
