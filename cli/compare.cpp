@@ -207,9 +207,8 @@ class Comparison {
 
 int run_compare(const Arguments& arguments) {
   CLI::App app(
-      "Runs a world as it is given and with an instance exchanged, or several worlds, in step and with the same "
-      "random\n"
-      "numbers, and says what differs: where first, by how much, since when.\n"
+      "Runs a world as it is given and with an instance exchanged, or several worlds, with the same random numbers,\n"
+      "and says what differs: where first, by how much, since when.\n"
       "Example: muster compare worlds/square_path physics=physics.planar physics=physics.simbody:integrator=rk3 "
       "--out out",
       "compare");
@@ -219,7 +218,8 @@ int run_compare(const Arguments& arguments) {
                  "INSTANCE=PLUGIN[:NAME=VALUE...], the world with this instance exchanged, or another world");
   declare(app, words);
   app.add_option("--within", words.within,
-                 "QUANTITY=TOLERANCE, such as pose/distance=0.05: exit code 1 where a difference is larger");
+                 "QUANTITY=TOLERANCE, such as pose/distance=0.05: exit code 1 where a difference is larger")
+      ->allow_extra_args(false);
   parse(app, arguments);
   Comparison comparison(words);
   comparison.run();

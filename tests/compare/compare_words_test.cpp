@@ -23,6 +23,11 @@ TEST(CompareWords, ToleranceDecidesTheExitCode) {
   // 0.1 t - 0.0175 passes 0.2 at 2.175 s.
   EXPECT_THAT(narrow.out, HasSubstr("  BEYOND 0.2 m from 2.2 s on\n"));
   EXPECT_EQ(whole.exit, 1);
+  // Each tolerance is one word, so that runs may be named after it; the second is not met.
+  const auto two = folder.muster({"compare", "world.xml", "--within", "pose/distance=0.5", "--within", "command/v=0.05",
+                                  "steer=control.waypoint:speed=0.4"});
+  EXPECT_EQ(two.exit, 1) << two.err;
+  EXPECT_THAT(two.out, HasSubstr("  BEYOND 0.05 m/s from 0.05 s on\n"));
   const auto misspelt = with("pose/distnce=1");
   EXPECT_EQ(misspelt.exit, 2);
   EXPECT_THAT(misspelt.err, testing::StartsWith("muster: error: --within: both runs have no quantity \"pose/distnce\"; "

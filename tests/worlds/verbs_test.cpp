@@ -1,4 +1,5 @@
 // Verbs that look at worlds and plugins run cleanly on all of them; and the kernel names none of them.
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 
 #include <cstdio>
@@ -31,6 +32,14 @@ TEST_P(EveryWorldsVerbs, CheckAndGraph) {
   EXPECT_THAT(expect_clean({"graph", folder}).out, HasSubstr("at once:"));
   EXPECT_THAT(expect_clean({"graph", folder, "--dot"}).out, StartsWith("digraph muster {"));
   EXPECT_THAT(expect_clean({"graph", folder, "--json"}).out, StartsWith("["));
+}
+
+TEST_P(EveryWorldsVerbs, CompareFindsNoDifferenceBetweenAWorldAndItself) {
+  const std::string folder = folder_of(GetParam());
+  const World world = read_world(folder, standard());
+  const auto until = fmt::format("{}", static_cast<double>(std::min(world.ticks, most_ticks)) * world.dt);
+  EXPECT_THAT(expect_clean({"compare", folder, folder, "--until", until}).out,
+              HasSubstr("B against A: no difference, to t = "));
 }
 
 TEST(Plugins, AreAllListedAndDescribed) {
