@@ -37,27 +37,29 @@ struct Polygon {
 // a prism follows from them: its width along any direction, its faces (each lies along one side and the axis, or across
 // the axis), its edges.
 struct Prism {
-  explicit Prism(const Solid& solid) : centre(solid.centre) {
+  // The middle of one side of a cylinder's prism lies towards `place`, on the circle itself.
+  Prism(const Solid& solid, const Vector3d& place) : centre(solid.centre) {
     if (solid.kind == Solid::Kind::box) {
       sides = 2;
       for (int i = 0; i < 3; ++i) set(i, solid.axes.col(i), solid.half[i]);
       return;
     }
-    // Corners stand out of the circle by as much as the sides' middles lie in it.
     constexpr double pi = 3.141592653589793;
-    sides = most_sides;
-    static const double outer = 2 / (1 + std::cos(pi / most_corners));
-    static const double half_side = std::sin(pi / most_corners) * outer;
-    static const std::array<std::array<double, 2>, most_sides> ways = [] {
+    static const double half_side = std::tan(pi / most_corners);  // of a circle of radius 1
+    static const std::array<std::array<double, 2>, most_sides> circle = [] {
       std::array<std::array<double, 2>, most_sides> result{};
       for (int i = 0; i < most_sides; ++i) result[i] = {std::cos(i * pi / most_sides), std::sin(i * pi / most_sides)};
       return result;
     }();
-    for (int i = 0; i < sides; ++i) {
-      const auto& on_circle = ways[i];
-      set(i, on_circle[0] * solid.axes.col(0) + on_circle[1] * solid.axes.col(1), half_side * solid.half[0]);
-    }
-    set(sides, solid.axes.col(2), solid.half[2]);
+    sides = most_sides;
+    const Vector3d axis = solid.axes.col(2);
+    Vector3d outward = place - centre;
+    outward -= axis.dot(outward) * axis;
+    const double distance = outward.norm();
+    outward = distance > 1e-6 ? Vector3d(outward / distance) : Vector3d(solid.axes.col(0));
+    const Vector3d along = axis.cross(outward);
+    for (int i = 0; i < sides; ++i) set(i, circle[i][0] * along - circle[i][1] * outward, half_side * solid.half[0]);
+    set(sides, axis, solid.half[2]);
   }
 
   void set(int i, const Vector3d& direction, double length) {
@@ -344,7 +346,7 @@ Touch touch(const Solid& a, const Solid& b, double margin) {
     result.normal = -result.normal;
     return result;
   }
-  const Prism first(a), second(b);
+  const Prism first(a, nearest_point(b, a.centre)), second(b, nearest_point(a, b.centre));
   Axis axis;
   if (!separate(first, second, margin, axis)) return {};
   Touch result = axis.edge[0] >= 0 ? touch_edges(first, second, axis) : touch_faces(first, second, axis, margin);
@@ -370,7 +372,7 @@ Touch touch_ground(const Solid& solid, double margin) {
     if (gap < margin) result.add({{solid.centre.x(), solid.centre.y(), 0.5 * gap}, gap, 0});
     return result;
   }
-  const Prism prism(solid);
+  const Prism prism(solid, solid.centre - Vector3d::UnitZ());
   if (prism.centre.z() - prism.half_width(result.normal) >= margin) return result;
   std::array<TouchPoint, room> points;
   int count = 0;

@@ -1,8 +1,9 @@
 // Where two convex solids touch, or would soon: points with one normal, gaps and marks that stay from step to step.
 //
-// Spheres are exact against everything. Boxes are exact against boxes; a cylinder against boxes and cylinders is a
-// prism of 16 sides whose surface lies within 1 % of its radius. Separating axes are those of faces and of pairs of
-// edges (Gottschalk, Lin, Manocha 1996), and touching faces are clipped against each other (Sutherland, Hodgman 1974).
+// Spheres are exact against everything, boxes against boxes. A cylinder is, to boxes and cylinders, the prism of 16
+// sides around it that has the middle of a side where they are nearest: exact there, 2 % of the radius too far out at
+// its corners. Separating axes are those of faces and of pairs of edges (Gottschalk, Lin, Manocha 1996), and touching
+// faces are clipped against each other (Sutherland, Hodgman 1974).
 #pragma once
 
 #include <Eigen/Dense>

@@ -45,7 +45,7 @@ double apart_along(const Solid& a, const Solid& b, const Vector3d& n) {
 // What a cylinder's prism may differ by.
 double roughness(const Solid& a, const Solid& b) {
   double sum = 0;
-  for (const Solid* s : {&a, &b}) sum += s->kind == Kind::cylinder ? 0.01 * s->half[0] : 0;
+  for (const Solid* s : {&a, &b}) sum += s->kind == Kind::cylinder ? 0.02 * s->half[0] : 0;
   return sum;
 }
 
@@ -155,13 +155,13 @@ TEST(NarrowPhase, SphereIsExact) {
   EXPECT_LT((t.normal - Vector3d::UnitY()).norm(), 1e-12);
 }
 
-TEST(NarrowPhase, UprightCylindersTouchWithinTheirRoughness) {
+TEST(NarrowPhase, UprightCylindersTouchExactlySideOnSide) {
   for (double angle = 0; angle < 6.3; angle += 0.1) {
     const Vector3d way(std::cos(angle), std::sin(angle), 0);
     const Touch t = touch(cylinder(0.3 * way, 0.1, 1), cylinder({0, 0, 0}, 0.2, 1), 0.01);
     ASSERT_GT(t.count, 0) << angle;
-    EXPECT_NEAR(least_gap(t), 0, 0.003) << angle;
-    EXPECT_GT(t.normal.dot(way), 0.98) << angle;
+    EXPECT_NEAR(least_gap(t), 0, 1e-9) << angle;
+    EXPECT_GT(t.normal.dot(way), 1 - 1e-9) << angle;
   }
 }
 
@@ -171,7 +171,7 @@ TEST(NarrowPhase, CylinderOnItsEndStandsOnSpreadPoints) {
   Vector3d sum = Vector3d::Zero();
   for (int k = 0; k < t.count; ++k) {
     EXPECT_NEAR(t.points[k].gap, 0, 1e-12);
-    EXPECT_NEAR(t.points[k].place.head<2>().norm(), 0.1, 0.001);
+    EXPECT_NEAR(t.points[k].place.head<2>().norm(), 0.1, 0.0021);
     sum += t.points[k].place;
   }
   EXPECT_LT(sum.head<2>().norm() / t.count, 0.03);
