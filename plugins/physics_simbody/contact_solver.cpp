@@ -5,247 +5,321 @@
 
 namespace muster::simbody {
 
-namespace {
-
 using Eigen::Vector2d;
+
+namespace {
 
 // Softness of friction and motors: creep below a micrometre a second at this project's loads. [m/s per N s], [rad/s per
 // N m s]
 constexpr double grip_softness = 1e-6;
 constexpr double motor_softness = 1e-4;
-constexpr double tolerance = 1e-7;  // of the residual as a velocity [m/s]
-constexpr double bound_tolerance = 1e-3;
-constexpr int outer_passes = 12, first_newton = 4, later_newton = 2, last_newton = 50;
+constexpr int first_newton = 4, later_newton = 2, last_newton = 50;
 constexpr double turn_arm = 0.1, rim = 0.05;  // [m]: rates as speeds, in the residual only
-
-// A contact at some velocity, its friction bound by `bound`.
-struct Local {
-  double speed;                      // normal
-  Vector2d slip;                     // tangential
-  double bound = 0;                  // [N s]
-  Vector2d dual = Vector2d::Zero();  // estimate of the grip, kept beside the velocity for a better Hessian
-  bool sticks(double s) const { return s <= grip_softness * bound; }
-};
 
 Vector2d within(const Vector2d& v, double radius) {
   const double size = v.norm();
   return size > radius ? Vector2d((radius / size) * v) : v;
 }
 
-class Solver {
- public:
-  explicit Solver(Problem& problem) : p_(problem), local_(problem.contacts.size()) {}
+double speed_of(const Contact& c, const std::vector<Velocity>& u) {
+  const double own = c.normal.dot(u[c.body]);
+  return c.other < 0 ? own : own + c.of_other.normal.dot(u[c.other]);
+}
 
-  Outcome run() {
-    Outcome outcome;
-    if (stick_all()) {
-      outcome.direct = true;
-    } else {
-      outcome.converged = slip();
-    }
-    outcome.velocity = u_;
-    return outcome;
-  }
+Vector2d slip_of(const Contact& c, const std::vector<Velocity>& u) {
+  Vector2d slip(c.tangent[0].dot(u[c.body]), c.tangent[1].dot(u[c.body]));
+  if (c.other >= 0) slip += Vector2d(c.of_other.tangent[0].dot(u[c.other]), c.of_other.tangent[1].dot(u[c.other]));
+  return slip;
+}
 
- private:
-  void locate(const Velocity& u) {
-    for (std::size_t i = 0; i < local_.size(); ++i) {
-      const Contact& c = p_.contacts[i];
-      local_[i].speed = c.normal.dot(u);
-      local_[i].slip = Vector2d(c.tangent[0].dot(u), c.tangent[1].dot(u));
-    }
-  }
+// Takes what the contact's impulses give from the momenta.
+void take_impulse(const Contact& c, std::vector<Velocity>& momenta) {
+  momenta[c.body] -= c.push * c.normal + c.grip[0] * c.tangent[0] + c.grip[1] * c.tangent[1];
+  if (c.other < 0) return;
+  const ContactRows& o = c.of_other;
+  momenta[c.other] -= c.push * o.normal + c.grip[0] * o.tangent[0] + c.grip[1] * o.tangent[1];
+}
 
-  double motor_impulse(int m, double rate) const {
-    const Motor& motor = p_.motors[m];
-    return std::clamp((motor.asked - rate) / motor_softness, -motor.limit, motor.limit);
-  }
+double motor_impulse(const Motor& motor, double rate) {
+  return std::clamp((motor.asked - rate) / motor_softness, -motor.limit, motor.limit);
+}
 
-  static Vector2d grip(const Local& at) {
-    const double size = at.slip.norm();
-    if (at.bound <= 0) return Vector2d::Zero();
-    return at.sticks(size) ? Vector2d(-at.slip / grip_softness) : Vector2d(-(at.bound / size) * at.slip);
-  }
+bool sticks(double slip_speed, double bound) { return slip_speed <= grip_softness * bound; }
 
-  // Impulses at u_, and the energy's gradient there. With `refresh` the bounds follow the normal impulses at once: the
-  // gradient is then the residual of Coulomb's law itself.
-  Velocity gradient(bool refresh) {
-    locate(u_);
-    Velocity g = p_.mass * (u_ - p_.free);
-    for (std::size_t i = 0; i < local_.size(); ++i) {
-      Contact& c = p_.contacts[i];
-      c.push = std::max(0.0, (c.target - local_[i].speed) / c.softness);
-      if (refresh) local_[i].bound = c.friction * c.push;
-      c.grip = grip(local_[i]);
-      g -= c.push * c.normal + c.grip[0] * c.tangent[0] + c.grip[1] * c.tangent[1];
-    }
-    for (int m = 0; m < 2; ++m) g[6 + m] -= motor_impulse(m, u_[6 + m]);
-    return g;
-  }
+Vector2d grip_of(const Vector2d& slip, double bound) {
+  const double size = slip.norm();
+  if (bound <= 0) return Vector2d::Zero();
+  return sticks(size, bound) ? Vector2d(-slip / grip_softness) : Vector2d(-(bound / size) * slip);
+}
 
-  // The largest change of velocity that the gradient would still make.
-  double residual(const Velocity& g) const {
-    const Velocity v = p_.inverse_mass * g;
-    return std::max({v.segment<3>(3).norm(), turn_arm * v.head<3>().norm(), rim * v.tail<2>().norm()});
-  }
-
-  static void add(MassMatrix& h, double k, const Velocity& a, const Velocity& b) {
-    h.noalias() += (k * a) * b.transpose();
-  }
-
-  void add_motors(MassMatrix& h, bool all) const {
-    for (int m = 0; m < 2; ++m) {
-      const bool free = std::abs(p_.motors[m].asked - u_[6 + m]) >= motor_softness * p_.motors[m].limit;
-      if (all || !free) h(6 + m, 6 + m) += 1 / motor_softness;
-    }
-  }
-
-  // The guess that is true on a clear floor: what closes under the free motion closes, and sticks; motors hold their
-  // rate.
-  bool stick_all() {
-    u_ = p_.free;
-    locate(u_);
-    MassMatrix h = p_.mass;
-    Velocity impulse = Velocity::Zero();
-    for (std::size_t i = 0; i < local_.size(); ++i) {
-      const Contact& c = p_.contacts[i];
-      const double push = (c.target - local_[i].speed) / c.softness;
-      if (!(push > 0)) continue;
-      add(h, 1 / c.softness, c.normal, c.normal);
-      impulse += push * c.normal;
-      if (!(c.friction > 0)) continue;
-      for (int k = 0; k < 2; ++k) {
-        add(h, 1 / grip_softness, c.tangent[k], c.tangent[k]);
-        impulse -= (local_[i].slip[k] / grip_softness) * c.tangent[k];
-      }
-    }
-    add_motors(h, true);
-    for (int m = 0; m < 2; ++m) impulse[6 + m] += (p_.motors[m].asked - u_[6 + m]) / motor_softness;
-    u_ += h.llt().solve(impulse);
-    return residual(gradient(true)) <= tolerance;
-  }
-
-  bool slip() {
-    for (std::size_t i = 0; i < local_.size(); ++i) {
-      local_[i].bound = p_.contacts[i].friction * start_[i].first;
-      local_[i].dual = within(start_[i].second, local_[i].bound);
-    }
-    u_ = p_.previous;
-    for (int pass = 0; pass < outer_passes; ++pass) {
-      const bool last = pass + 1 == outer_passes;
-      const bool done = minimise(last ? last_newton : pass == 0 ? first_newton : later_newton);
-      double change = 0, size = 0;
-      for (std::size_t i = 0; i < local_.size(); ++i) {
-        const double bound = p_.contacts[i].friction * p_.contacts[i].push;
-        change = std::max(change, std::abs(bound - local_[i].bound));
-        size = std::max(size, bound);
-      }
-      if (done && change <= bound_tolerance * (size + 1e-9)) return true;
-      if (!last) refresh_bounds(pass);
-    }
-    return false;
-  }
-
-  void refresh_bounds(int pass) {
-    for (std::size_t i = 0; i < local_.size(); ++i) {
-      const double bound = p_.contacts[i].friction * p_.contacts[i].push;
-      local_[i].bound = pass < 2 ? bound : 0.5 * (bound + local_[i].bound);  // an average ends cycles
-      local_[i].dual = within(local_[i].dual, local_[i].bound);
-    }
-  }
-
-  // Newton with exact line search on the convex energy of fixed bounds; the impulses are those at u_ when it returns.
-  bool minimise(int limit) {
-    for (int iteration = 0;; ++iteration) {
-      const Velocity g = gradient(false);
-      if (residual(g) <= tolerance) return true;
-      if (iteration == limit) return false;
-      const Velocity d = -(hessian().llt().solve(g));
-      move_duals(d);
-      u_ += line_search(d) * d;
-    }
-  }
-
-  MassMatrix hessian() const {
-    MassMatrix h = p_.mass;
-    for (std::size_t i = 0; i < local_.size(); ++i) {
-      const Contact& c = p_.contacts[i];
-      const Local& at = local_[i];
-      if (c.push > 0) add(h, 1 / c.softness, c.normal, c.normal);
-      if (at.bound <= 0) continue;
-      const double size = at.slip.norm();
-      Eigen::Matrix2d k = Eigen::Matrix2d::Identity();
-      if (at.sticks(size)) {
-        k /= grip_softness;
-      } else {  // sym: half of each product, so that the Hessian stays symmetric
-        const Eigen::Matrix2d product = (-1 / (at.bound * size)) * at.dual * at.slip.transpose();
-        k = (at.bound / size) * (k - 0.5 * (product + product.transpose()));
-      }
-      for (int r = 0; r < 2; ++r) {
-        for (int s = 0; s < 2; ++s) add(h, k(r, s), c.tangent[r], c.tangent[s]);
-      }
-    }
-    add_motors(h, false);
-    return h;
-  }
-
-  void move_duals(const Velocity& d) {
-    for (std::size_t i = 0; i < local_.size(); ++i) {
-      Local& at = local_[i];
-      if (at.bound <= 0) continue;
-      const Contact& c = p_.contacts[i];
-      const Vector2d change(c.tangent[0].dot(d), c.tangent[1].dot(d));
-      const double size = std::max(at.slip.norm(), grip_softness * at.bound);
-      Vector2d x = at.slip + change;
-      if (!at.sticks(at.slip.norm())) x += (at.slip.dot(change) / (size * at.bound)) * at.dual;
-      at.dual = within(-(at.bound / size) * x, at.bound);
-    }
-  }
-
-  // The energy's slope along d at u_ + a d, which rises with a.
-  double slope(const Velocity& d, double a) const {
-    const Velocity u = u_ + a * d;
-    double s = d.dot(p_.mass * (u - p_.free));
-    for (std::size_t i = 0; i < local_.size(); ++i) {
-      const Contact& c = p_.contacts[i];
-      s -= std::max(0.0, (c.target - c.normal.dot(u)) / c.softness) * c.normal.dot(d);
-      Local there = local_[i];
-      there.slip = Vector2d(c.tangent[0].dot(u), c.tangent[1].dot(u));
-      s -= grip(there).dot(Vector2d(c.tangent[0].dot(d), c.tangent[1].dot(d)));
-    }
-    for (int m = 0; m < 2; ++m) s -= motor_impulse(m, u[6 + m]) * d[6 + m];
-    return s;
-  }
-
-  double line_search(const Velocity& d) const {
-    const double at_zero = slope(d, 0), at_one = slope(d, 1);
-    if (at_one <= 0.5 * std::abs(at_zero)) return 1;
-    double low = 0, high = 1, slope_low = at_zero, slope_high = at_one;
-    for (int i = 0; i < 30 && high - low > 1e-9; ++i) {
-      double middle = low - slope_low * (high - low) / (slope_high - slope_low);
-      if (i % 3 == 2 || !(middle > low && middle < high)) middle = 0.5 * (low + high);
-      const double s = slope(d, middle);
-      if (std::abs(s) < 0.1 * std::abs(at_zero)) return middle;
-      (s < 0 ? low : high) = middle;
-      (s < 0 ? slope_low : slope_high) = s;
-    }
-    return low > 0 ? low : high;
-  }
-
-  Problem& p_;
-  std::vector<Local> local_;
-  std::vector<std::pair<double, Vector2d>> start_ = starts(p_);
-  Velocity u_;
-
-  static std::vector<std::pair<double, Vector2d>> starts(const Problem& problem) {
-    std::vector<std::pair<double, Vector2d>> result;
-    for (const Contact& c : problem.contacts) result.push_back({std::max(0.0, c.push), c.grip});
-    return result;
-  }
-};
+const Velocity& row_of(const ContactRows& rows, int row) { return row == 0 ? rows.normal : rows.tangent[row - 1]; }
 
 }  // namespace
 
-Outcome solve(Problem& problem) { return Solver(problem).run(); }
+Outcome ContactSolver::solve(Problem& problem) {
+  p_ = &problem;
+  begin();
+  Outcome outcome;
+  if (stick_all()) {
+    outcome.direct = true;
+  } else {
+    slip(outcome);
+  }
+  for (std::size_t i = 0; i < u_.size(); ++i) problem.bodies[i].velocity = u_[i];
+  return outcome;
+}
+
+void ContactSolver::begin() {
+  const std::size_t count = p_->bodies.size();
+  for (Velocities* v : {&u_, &gradient_, &d_, &there_}) v->resize(count);
+  local_.assign(p_->contacts.size(), {});
+  motor_duals_.assign(count, {0, 0});
+  pairs_.clear();
+  for (std::size_t i = 0; i < local_.size(); ++i) {
+    const Contact& c = p_->contacts[i];
+    local_[i].start_push = std::max(0.0, c.push);
+    local_[i].start_grip = c.grip;
+    if (c.other >= 0) pairs_.push_back({c.body, c.other});
+  }
+  hessian_.arrange(static_cast<int>(count), pairs_);
+}
+
+void ContactSolver::locate(const Velocities& u) {
+  for (std::size_t i = 0; i < local_.size(); ++i) {
+    local_[i].speed = speed_of(p_->contacts[i], u);
+    local_[i].slip = slip_of(p_->contacts[i], u);
+  }
+}
+
+// Impulses at u_, and the energy's gradient there. With `refresh` the bounds follow the normal impulses at once: the
+// gradient is then the residual of Coulomb's law itself.
+void ContactSolver::gradient(bool refresh) {
+  locate(u_);
+  for (std::size_t b = 0; b < u_.size(); ++b) gradient_[b] = p_->bodies[b].mass * (u_[b] - p_->bodies[b].free);
+  for (std::size_t i = 0; i < local_.size(); ++i) {
+    Contact& c = p_->contacts[i];
+    c.push = std::max(0.0, (c.target - local_[i].speed) / c.softness);
+    if (refresh) local_[i].bound = c.friction * c.push;
+    c.grip = grip_of(local_[i].slip, local_[i].bound);
+    take_impulse(c, gradient_);
+  }
+  for (std::size_t b = 0; b < u_.size(); ++b) {
+    for (int m = 0; m < 2; ++m) gradient_[b][6 + m] -= motor_impulse(p_->bodies[b].motors[m], u_[b][6 + m]);
+  }
+}
+
+// The largest change of velocity that the gradient would still make.
+double ContactSolver::residual() const {
+  double most = 0;
+  for (std::size_t b = 0; b < u_.size(); ++b) {
+    const Velocity v = p_->bodies[b].inverse_mass * gradient_[b];
+    most = std::max({most, v.segment<3>(3).norm(), turn_arm * v.head<3>().norm(), rim * v.tail<2>().norm()});
+    if (std::isnan(v.sum())) return v.sum();
+  }
+  return most;
+}
+
+void ContactSolver::add(const Contact& c, double k, int row, int column) {
+  const Velocity &a = row_of(c, row), &b = row_of(c, column);
+  hessian_.diagonal(c.body).noalias() += (k * a) * b.transpose();
+  if (c.other < 0) return;
+  const Velocity &of_other = row_of(c.of_other, row), &of_other_b = row_of(c.of_other, column);
+  hessian_.diagonal(c.other).noalias() += (k * of_other) * of_other_b.transpose();
+  hessian_.add(c.body, c.other, k, a, of_other_b);
+}
+
+// The guess that is true on a clear floor: what closes under the free motion closes; against what stands still it
+// sticks; motors hold their rate.
+bool ContactSolver::stick_all() {
+  for (std::size_t b = 0; b < u_.size(); ++b) {
+    u_[b] = p_->bodies[b].free;
+    hessian_.diagonal(static_cast<int>(b)) = p_->bodies[b].mass;
+    d_[b].setZero();
+  }
+  hessian_.clear_pairs();
+  locate(u_);
+  for (std::size_t i = 0; i < local_.size(); ++i) {
+    const Contact& c = p_->contacts[i];
+    const double push = (c.target - local_[i].speed) / c.softness;
+    if (!(push > 0)) continue;
+    add(c, 1 / c.softness, 0, 0);
+    d_[c.body] += push * c.normal;
+    if (c.other >= 0) {
+      d_[c.other] += push * c.of_other.normal;
+    } else if (c.friction > 0) {
+      for (int k = 0; k < 2; ++k) {
+        add(c, 1 / grip_softness, 1 + k, 1 + k);
+        d_[c.body] -= (local_[i].slip[k] / grip_softness) * c.tangent[k];
+      }
+    }
+  }
+  for (std::size_t b = 0; b < u_.size(); ++b) {
+    for (int m = 0; m < 2; ++m) {
+      hessian_.diagonal(static_cast<int>(b))(6 + m, 6 + m) += 1 / motor_softness;
+      d_[b][6 + m] += (p_->bodies[b].motors[m].asked - u_[b][6 + m]) / motor_softness;
+    }
+  }
+  hessian_.factor();
+  hessian_.solve(d_);
+  for (std::size_t b = 0; b < u_.size(); ++b) u_[b] += d_[b];
+  gradient(true);
+  return residual() <= p_->search.tolerance;
+}
+
+void ContactSolver::slip(Outcome& outcome) {
+  for (std::size_t i = 0; i < local_.size(); ++i) {
+    local_[i].bound = p_->contacts[i].friction * local_[i].start_push;
+    local_[i].dual = within(local_[i].start_grip, local_[i].bound);
+  }
+  for (std::size_t b = 0; b < u_.size(); ++b) u_[b] = p_->bodies[b].previous;
+  for (int pass = 0; pass < p_->search.passes; ++pass) {
+    const bool last = pass + 1 == p_->search.passes;
+    outcome.minimised = minimise(last ? last_newton : pass == 0 ? first_newton : later_newton);
+    double change = 0, size = 0;
+    for (std::size_t i = 0; i < local_.size(); ++i) {
+      const double bound = p_->contacts[i].friction * p_->contacts[i].push;
+      change = std::max(change, std::abs(bound - local_[i].bound));
+      size = std::max(size, bound);
+    }
+    outcome.converged = outcome.minimised && change <= p_->search.bound_tolerance * (size + 1e-9);
+    if (outcome.converged) return;
+    if (!last) refresh_bounds(pass);
+  }
+}
+
+void ContactSolver::refresh_bounds(int pass) {
+  for (std::size_t i = 0; i < local_.size(); ++i) {
+    const double bound = p_->contacts[i].friction * p_->contacts[i].push;
+    local_[i].bound = pass < 2 ? bound : 0.5 * (bound + local_[i].bound);  // an average ends cycles
+    local_[i].dual = within(local_[i].dual, local_[i].bound);
+  }
+}
+
+// Newton with exact line search on the convex energy of fixed bounds; the impulses are those at u_ when it returns.
+bool ContactSolver::minimise(int limit) {
+  for (int iteration = 0;; ++iteration) {
+    gradient(false);
+    if (residual() <= p_->search.tolerance) return true;
+    if (iteration == limit) return false;
+    set_hessian();
+    hessian_.factor();
+    d_ = gradient_;
+    hessian_.solve(d_);
+    for (Velocity& d : d_) d = -d;
+    look_ahead();
+    move_duals();
+    const double a = line_search();
+    for (std::size_t b = 0; b < u_.size(); ++b) u_[b] += a * d_[b];
+  }
+}
+
+// What d_ does to contacts and, in a search for many, to the energy of motion: a quadratic along d_.
+void ContactSolver::look_ahead() {
+  for (std::size_t i = 0; i < local_.size(); ++i) {
+    local_[i].speed_ahead = speed_of(p_->contacts[i], d_);
+    local_[i].slip_ahead = slip_of(p_->contacts[i], d_);
+  }
+  slope_of_motion_ = curve_of_motion_ = 0;
+  for (std::size_t b = 0; p_->search.together && b < u_.size(); ++b) {
+    const Velocity momentum = p_->bodies[b].mass * d_[b];
+    slope_of_motion_ += momentum.dot(u_[b] - p_->bodies[b].free);
+    curve_of_motion_ += momentum.dot(d_[b]);
+  }
+}
+
+void ContactSolver::set_hessian() {
+  for (std::size_t b = 0; b < u_.size(); ++b) hessian_.diagonal(static_cast<int>(b)) = p_->bodies[b].mass;
+  hessian_.clear_pairs();
+  for (std::size_t i = 0; i < local_.size(); ++i) {
+    const Contact& c = p_->contacts[i];
+    const Local& at = local_[i];
+    if (c.push > 0) add(c, 1 / c.softness, 0, 0);
+    if (at.bound <= 0) continue;
+    const double size = at.slip.norm();
+    Eigen::Matrix2d k = Eigen::Matrix2d::Identity();
+    if (sticks(size, at.bound)) {
+      k /= grip_softness;
+    } else {  // sym: half of each product, so that the Hessian stays symmetric
+      const Eigen::Matrix2d product = (-1 / (at.bound * size)) * at.dual * at.slip.transpose();
+      k = (at.bound / size) * (k - 0.5 * (product + product.transpose()));
+    }
+    for (int r = 0; r < 2; ++r) {
+      for (int s = 0; s < 2; ++s) add(c, k(r, s), 1 + r, 1 + s);
+    }
+  }
+  for (std::size_t b = 0; b < u_.size(); ++b) {
+    for (int m = 0; m < 2; ++m) hessian_.diagonal(static_cast<int>(b))(6 + m, 6 + m) += motor_stiffness(b, m);
+  }
+}
+
+// A motor at its limit is a friction of one dimension, and is met alike: near others by an estimate of its impulse kept
+// beside the rate, without which the wheels of many robots take turns in overshooting.
+double ContactSolver::motor_stiffness(std::size_t body, int m) const {
+  const Motor& motor = p_->bodies[body].motors[m];
+  const double slip = u_[body][6 + m] - motor.asked, size = std::abs(slip);
+  if (size < motor_softness * motor.limit) return 1 / motor_softness;
+  if (!p_->search.together || motor.limit <= 0) return 0;
+  return (motor.limit / size) * (1 + motor_duals_[body][m] / motor.limit * (slip < 0 ? -1 : 1));
+}
+
+void ContactSolver::move_duals() {
+  for (std::size_t i = 0; i < local_.size(); ++i) {
+    Local& at = local_[i];
+    if (at.bound <= 0) continue;
+    const Vector2d& change = at.slip_ahead;
+    const double size = std::max(at.slip.norm(), grip_softness * at.bound);
+    Vector2d x = at.slip + change;
+    if (!sticks(at.slip.norm(), at.bound)) x += (at.slip.dot(change) / (size * at.bound)) * at.dual;
+    at.dual = within(-(at.bound / size) * x, at.bound);
+  }
+  for (std::size_t b = 0; p_->search.together && b < u_.size(); ++b) {
+    for (int m = 0; m < 2; ++m) {
+      const Motor& motor = p_->bodies[b].motors[m];
+      if (motor.limit <= 0) continue;
+      const double slip = u_[b][6 + m] - motor.asked, change = d_[b][6 + m];
+      const double size = std::max(std::abs(slip), motor_softness * motor.limit);
+      double x = slip + change;
+      if (std::abs(slip) > motor_softness * motor.limit) x += slip * change / (size * motor.limit) * motor_duals_[b][m];
+      motor_duals_[b][m] = std::clamp(-(motor.limit / size) * x, -motor.limit, motor.limit);
+    }
+  }
+}
+
+// The energy's slope along d_ at u_ + a d_, which rises with a.
+double ContactSolver::slope(double a) {
+  double s = p_->search.together ? slope_of_motion_ + a * curve_of_motion_ : 0;
+  for (std::size_t b = 0; b < u_.size(); ++b) {
+    there_[b] = u_[b] + a * d_[b];
+    if (!p_->search.together) s += d_[b].dot(p_->bodies[b].mass * (there_[b] - p_->bodies[b].free));
+  }
+  for (std::size_t i = 0; i < local_.size(); ++i) {
+    const Contact& c = p_->contacts[i];
+    const Local& at = local_[i];
+    const double speed = p_->search.together ? at.speed + a * at.speed_ahead : speed_of(c, there_);
+    s -= std::max(0.0, (c.target - speed) / c.softness) * at.speed_ahead;
+    if (at.bound <= 0) continue;
+    const Vector2d slip = p_->search.together ? Vector2d(at.slip + a * at.slip_ahead) : slip_of(c, there_);
+    s -= grip_of(slip, at.bound).dot(at.slip_ahead);
+  }
+  for (std::size_t b = 0; b < u_.size(); ++b) {
+    for (int m = 0; m < 2; ++m) s -= motor_impulse(p_->bodies[b].motors[m], there_[b][6 + m]) * d_[b][6 + m];
+  }
+  return s;
+}
+
+double ContactSolver::line_search() {
+  const double at_zero = slope(0), at_one = slope(1);
+  if (at_one <= 0.5 * std::abs(at_zero)) return 1;
+  double low = 0, high = 1, slope_low = at_zero, slope_high = at_one;
+  for (int i = 0; i < 30 && high - low > 1e-9; ++i) {
+    double middle = low - slope_low * (high - low) / (slope_high - slope_low);
+    if (i % 3 == 2 || !(middle > low && middle < high)) middle = 0.5 * (low + high);
+    const double s = slope(middle);
+    if (std::abs(s) < 0.1 * std::abs(at_zero)) return middle;
+    (s < 0 ? low : high) = middle;
+    (s < 0 ? slope_low : slope_high) = s;
+  }
+  return low > 0 ? low : high;
+}
 
 }  // namespace muster::simbody

@@ -1,23 +1,27 @@
-// One robot's step on the velocities: stiff normal contacts, Coulomb's isotropic cone, motors with a torque limit.
+// A step on the velocities of robots that touch: stiff normal contacts, Coulomb's isotropic cone, motors with a torque
+// limit.
 // With friction's bound held fixed the step minimises a convex energy; the bound is refreshed a few times until it
 // agrees with the normal impulse. Found and measured in the project's trials; the ideas: Castro, Permenter, Han 2022
 // (primal regularised Newton), Castro, Han, Masterjohn 2023 (lagged bound), Chan, Golub, Mulet 1999 (primal-dual sums
 // of norms).
 #pragma once
 
-#include <Eigen/Dense>
 #include <array>
 #include <vector>
 
+#include "block_cholesky.hpp"
+
 namespace muster::simbody {
 
-constexpr int unknowns = 8;  // w and v in the body's frame, rates of the left and right wheel
-using Velocity = Eigen::Matrix<double, unknowns, 1>;
-using MassMatrix = Eigen::Matrix<double, unknowns, unknowns>;
+// Rows that turn a body's velocity into what it adds to a contact's: normal speed, and slip along two tangents.
+struct ContactRows {
+  Velocity normal = Velocity::Zero();
+  std::array<Velocity, 2> tangent{Velocity::Zero(), Velocity::Zero()};
+};
 
-struct Contact {
-  Velocity normal;                  // u -> normal speed
-  std::array<Velocity, 2> tangent;  // u -> slip speed along the world's x and y
+struct Contact : ContactRows {
+  int body = 0, other = -1;  // among the problem's bodies; -1: what it touches stands still
+  ContactRows of_other;      // its sign included
   double friction = 0;
   double softness = 0;  // [m/s per N s]
   double target = 0;    // normal speed below which it pushes [m/s]
@@ -32,21 +36,78 @@ struct Motor {
   double limit = 0;  // impulse: torque times step [N m s]
 };
 
-struct Problem {
+struct Body {
   MassMatrix mass, inverse_mass;
   Velocity free;      // without contacts and motors
   Velocity previous;  // where the search for a slipping step begins
-  std::vector<Contact> contacts;
   std::array<Motor, 2> motors;
+
+  Velocity velocity;  // the result
+};
+
+// How the solution is searched for, and when it is good enough.
+struct Search {
+  double tolerance = 1e-7;        // of the residual as a velocity [m/s]
+  double bound_tolerance = 1e-3;  // of friction's bound, relative to the largest
+  int passes = 12;                // that refresh the bounds
+  bool together = false;          // for many: motors at their limit are searched for as friction is
+};
+
+struct Problem {
+  std::vector<Body> bodies;
+  std::vector<Contact> contacts;
+  Search search;
 };
 
 struct Outcome {
-  Velocity velocity;
   bool direct = false;    // everything stuck: one linear solve
-  bool converged = true;  // the bound of friction agreed with the normal impulse to 1 %
+  bool converged = true;  // the bounds of friction agreed with the normal impulses
+  bool minimised = true;  // the last bounds' energy is at its least
 };
 
-// Solves the step and leaves the impulses in the problem's contacts.
-Outcome solve(Problem& problem);
+class ContactSolver {
+ public:
+  // Solves the step and leaves velocities in the problem's bodies, impulses in its contacts.
+  Outcome solve(Problem& problem);
+
+ private:
+  using Velocities = std::vector<Velocity>;
+
+  // A contact at some velocity, its friction bound by `bound`.
+  struct Local {
+    double speed;                                    // normal
+    Eigen::Vector2d slip;                            // tangential
+    double bound = 0;                                // [N s]
+    Eigen::Vector2d dual = Eigen::Vector2d::Zero();  // estimate of the grip, kept for a better Hessian
+    double speed_ahead = 0;                          // what the direction of a search adds to speed and slip
+    Eigen::Vector2d slip_ahead = Eigen::Vector2d::Zero();
+    double start_push = 0;  // as handed in
+    Eigen::Vector2d start_grip = Eigen::Vector2d::Zero();
+  };
+
+  void begin();
+  void locate(const Velocities& u);
+  void gradient(bool refresh);
+  double residual() const;
+  bool stick_all();
+  void slip(Outcome& outcome);
+  void refresh_bounds(int pass);
+  bool minimise(int limit);
+  void set_hessian();
+  void look_ahead();
+  void move_duals();
+  double slope(double a);
+  double line_search();
+  double motor_stiffness(std::size_t body, int m) const;
+  void add(const Contact& c, double k, int row, int column);
+
+  Problem* p_ = nullptr;
+  std::vector<Local> local_;
+  std::vector<std::array<double, 2>> motor_duals_;  // estimates of the motors' impulses [N m s]
+  std::vector<std::pair<int, int>> pairs_;
+  BlockCholesky hessian_;
+  double slope_of_motion_ = 0, curve_of_motion_ = 0;
+  Velocities u_, gradient_, d_, there_;  // d_: the direction of a search, there_: a place along it
+};
 
 }  // namespace muster::simbody

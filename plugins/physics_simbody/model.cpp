@@ -1,5 +1,8 @@
 #include "model.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "state.hpp"
@@ -36,6 +39,26 @@ bool balanced(const description::Mass& wheel, const Eigen::Vector3d& axis) {
   return wheel.centre.cross(axis).norm() < 1e-6 && (across - even).norm() < 1e-6 * size;
 }
 
+Solid solid_of(const Eigen::Isometry3d& frame, const description::Shape& shape) {
+  const Eigen::Isometry3d pose = frame * shape.pose;
+  Solid solid{Solid::Kind::box, pose.translation(), pose.linear(), {}};
+  if (const auto* box = std::get_if<description::Box>(&shape.geometry)) {
+    solid.half = 0.5 * box->size;
+  } else if (const auto* sphere = std::get_if<description::Sphere>(&shape.geometry)) {
+    solid.kind = Solid::Kind::sphere;
+    solid.half.setConstant(sphere->radius);
+  } else if (const auto* cylinder = std::get_if<description::Cylinder>(&shape.geometry)) {
+    solid.kind = Solid::Kind::cylinder;
+    solid.half = {cylinder->radius, cylinder->radius, 0.5 * cylinder->length};
+  } else {
+    Eigen::AlignedBox3d around;
+    for (const Eigen::Vector3d& vertex : std::get<description::Mesh>(shape.geometry).vertices) around.extend(vertex);
+    solid.centre = pose * around.center();
+    solid.half = 0.5 * around.sizes();
+  }
+  return solid;
+}
+
 [[noreturn]] void refuse(const description::Robot& robot, const std::string& why) {
   throw std::runtime_error("robot model '" + robot.name + "' (" + robot.file +
                            ") cannot be simulated by physics.simbody: " + why);
@@ -64,6 +87,8 @@ RobotModel::RobotModel(const description::Robot& robot) : name(robot.name) {
     for (std::size_t link = joint.parent; link != 0; link = robot.joints[link - 1].parent) {
       wheel_frame[w] = robot.joints[link - 1].origin * wheel_frame[w];
     }
+    for (const description::Shape& shape : rigid_shapes(robot, joint.child))
+      parts.push_back({solid_of(wheel_frame[w], shape), static_cast<int>(w)});
     // Simbody's pin turns about z: turn the joint's frame so that its z is the axle.
     const Eigen::Quaterniond to_axis = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), joint.axis);
     wheel_frame[w] = wheel_frame[w] * to_axis;
@@ -73,7 +98,31 @@ RobotModel::RobotModel(const description::Robot& robot) : name(robot.name) {
     if (const auto* sphere = std::get_if<description::Sphere>(&shape.geometry)) {
       sliders.push_back({shape.pose.translation(), sphere->radius});
     }
+    parts.push_back({solid_of(Eigen::Isometry3d::Identity(), shape)});
   }
+  Eigen::AlignedBox3d around(Eigen::Vector3d::Zero().eval());
+  for (const Part& part : parts) {
+    const Eigen::Vector3d half = part.solid.axes.cwiseAbs() * part.solid.half;
+    around.extend(part.solid.centre - half).extend(part.solid.centre + half);
+  }
+  middle = around.center();
+  const Eigen::Vector3d far = around.min().cwiseAbs().cwiseMax(around.max().cwiseAbs());
+  arm = {std::hypot(far.y(), far.z()), std::hypot(far.x(), far.z()), std::hypot(far.x(), far.y())};
+  for (const Part& part : parts) reach = std::max(reach, (part.solid.centre - middle).norm() + part.solid.reach());
+}
+
+double RobotModel::lowest_corner(const Eigen::Vector3d& up) const {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Part& part : parts) {
+    const Solid& solid = part.solid;
+    if (part.wheel >= 0 || solid.kind == Solid::Kind::sphere) continue;
+    const Eigen::Vector3d along = solid.axes.transpose() * up;
+    const double half_width = solid.kind == Solid::Kind::box
+                                  ? solid.half.dot(along.cwiseAbs())
+                                  : 1.02 * solid.half[0] * along.head<2>().norm() + solid.half[2] * std::abs(along[2]);
+    lowest = std::min(lowest, up.dot(solid.centre) - half_width);
+  }
+  return lowest;
 }
 
 System::System() : matter(system), forces(system) { SimTK::Force::Gravity(forces, matter, Vec3(0, 0, -gravity)); }

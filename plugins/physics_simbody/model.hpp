@@ -2,6 +2,7 @@
 #pragma once
 
 #include "description/robot.hpp"
+#include "narrow_phase.hpp"
 #include "simbody.hpp"
 
 namespace muster::simbody {
@@ -12,9 +13,19 @@ struct Slider {
   double radius;           // [m]
 };
 
+// What of a robot others can touch: a box, sphere or cylinder in the body's frame. A mesh is the box around it, along
+// the axes of its own frame; what belongs to a wheel moves with its tread but keeps its place.
+struct Part {
+  Solid solid;
+  int wheel = -1;  // 0 left, 1 right
+};
+
 // What of a robot this backend can hold; throws std::runtime_error for any other.
 struct RobotModel {
   explicit RobotModel(const description::Robot& robot);
+
+  // Height of the lowest corner of the body's boxes and cylinders above its origin; `up` in the body's frame [m].
+  double lowest_corner(const Eigen::Vector3d& up) const;
 
   std::string name;
   description::DifferentialDrive drive;
@@ -22,6 +33,10 @@ struct RobotModel {
   std::array<description::Mass, 2> wheel;        // in the wheel joint's frame
   std::array<Eigen::Isometry3d, 2> wheel_frame;  // of the joints in the body's frame
   std::vector<Slider> sliders;
+  std::vector<Part> parts;
+  Eigen::Vector3d arm;     // how far they reach from the body's x, y and z axes [m]
+  Eigen::Vector3d middle;  // of a sphere that holds them all, in the body's frame [m]
+  double reach = 0;        // its radius [m]
 };
 
 struct RobotBodies {

@@ -1,5 +1,6 @@
 // physics.simbody: the engine on the blackboard.
 #include <algorithm>
+#include <cstring>
 #include <muster/plugin.hpp>
 
 #include "description/world_robots.hpp"
@@ -16,30 +17,45 @@ struct Memory {
   static constexpr const char* columns = simbody::Memory::columns;
   double previous_step;
   double impulse[2][3];
+  double kept[8][4];
 };
 
 struct PhysicsSimbody {
-  static constexpr auto id = "physics.simbody/1";
-  static constexpr auto summary = "rigid robots on flat ground: friction, slip, torque limits, weight transfer";
+  static constexpr auto id = "physics.simbody/2";
+  static constexpr auto summary =
+      "rigid robots on flat ground, among walls and each other: friction, slip, torque limits, weight transfer";
   static constexpr auto manual =
       "Bodies and wheels from the robot's URDF, a Simbody multibody system; the ground is flat, at z = 0. Wheels touch "
       "it\n"
       "in a point with Coulomb's isotropic friction, spheres of the body slide on it. Motors turn the wheels as asked, "
       "within\n"
       "the drive's torque and speed. The acceleration along the ground is bounded by friction times 9.81 m/s2.\n"
+      "Robots touch walls, closed doors and each other with their collision shapes: plastic impacts, Coulomb's "
+      "friction "
+      "of\n"
+      "`body_friction`. A mesh touches as the box around it, a cylinder as a prism of 16 sides, exact where it is "
+      "nearest.\n"
+      "Where a robot is near others or walls and would go 5 mm in a step, the step is divided.\n"
       "integrator: midpoint is second order, on velocities; twist is the mean over its last step. rk3 (fixed step), "
       "rkm and\n"
-      "cpodes (adaptive) are Simbody's own on rolling constraints, as reference: no slip, no lift, no torque limit.\n"
-      "Not modelled: walls and robots as obstacles, wheels as discs (they touch as spheres would), rolling resistance.";
+      "cpodes (adaptive) are Simbody's own on rolling constraints, as reference: no slip, no lift, no torque limit, no "
+      "walls and\n"
+      "no other robots.\n"
+      "Not modelled: wheels as discs on the ground (they stand on it as spheres would), rolling resistance, bouncing.";
   static constexpr auto phase = MUSTER_PHYSICS;
   static constexpr Param params[] = {real("step", 0.001, 1e-6, 0.1, "s", "longest step inside a tick"),
-                                     choice("integrator", "midpoint|rk3|rkm|cpodes", "what steps the bodies")};
+                                     choice("integrator", "midpoint|rk3|rkm|cpodes", "what steps the bodies"),
+                                     real("body_friction", 0.3, 0, 10, "", "between robots, and of robots with walls")};
 
   explicit PhysicsSimbody(Setup& s)
       : step_size(s.value("step")),
         integrator(s.value("integrator")),
+        body_friction(s.value("body_friction")),
         robots(s, description::Meshes::import),
         drive(s.read<Drive>("robot/*/drive")),
+        wall(s.read<Wall>("wall/*/shape")),
+        door(s.read<Door>("door/*/shape")),
+        door_state(s.read<DoorState>("door/*/state")),
         pose(s.write<Pose>("robot/*/pose")),
         twist(s.write<Twist>("robot/*/twist")),
         wheels(s.write<Wheels>("robot/*/wheels")),
@@ -79,6 +95,36 @@ struct PhysicsSimbody {
     } catch (const std::runtime_error& wrong) {
       throw BadInput(wrong.what());
     }
+    surroundings = {};
+  }
+
+  // What stands around the robots, as the engine was told.
+  struct Surroundings {
+    std::vector<double> cells;
+    bool told = false;
+  };
+
+  void tell_surroundings(const Step& k) {
+    std::vector<double> cells = {k[body_friction]};
+    const auto append = [&](const auto& rows) {
+      const auto* data = reinterpret_cast<const double*>(rows.begin());
+      cells.insert(cells.end(), data, data + rows.size() * sizeof(*rows.begin()) / sizeof(double));
+    };
+    append(k[wall]);
+    append(k[door]);
+    append(k[door_state]);
+    const bool same = cells.size() == surroundings.cells.size() &&
+                      !std::memcmp(cells.data(), surroundings.cells.data(), cells.size() * sizeof(double));
+    if (same && surroundings.told) return;
+    std::vector<scene::Wall> walls;
+    for (const Wall& w : k[wall]) walls.push_back({w.x0, w.y0, w.x1, w.y1, w.base, w.height, w.thickness, 0});
+    std::vector<scene::Door> doors;
+    for (std::size_t i = 0; i < k[door].size(); ++i) {
+      const Door& d = k[door][i];
+      doors.push_back({static_cast<int>(d.wall), d.at, d.width, d.height, 0, k[door_state][i].open != 0});
+    }
+    engine->set_surroundings(scene::slabs(walls, doors), k[body_friction]);
+    surroundings = {std::move(cells), true};
   }
 
   void step(const Step& k) {
@@ -99,6 +145,7 @@ struct PhysicsSimbody {
       made = now;
       make_engine([&](std::size_t row) { return k.name("robot", row); });
     }
+    tell_surroundings(k);
     move(k);
   }
 
@@ -129,6 +176,7 @@ struct PhysicsSimbody {
     s.rate = {w.left_rate, w.right_rate};
     s.memory.previous_step = m.previous_step;
     for (int i = 0; i < 2; ++i) std::copy_n(m.impulse[i], 3, s.memory.impulse[i].begin());
+    for (int i = 0; i < 8; ++i) s.memory.kept[i] = {m.kept[i][0], {m.kept[i][1], m.kept[i][2], m.kept[i][3]}};
     return s;
   }
 
@@ -140,11 +188,18 @@ struct PhysicsSimbody {
     k[wheels][row] = {s.angle[0], s.angle[1], s.rate[0], s.rate[1]};
     k[memory][row].previous_step = s.memory.previous_step;
     for (int i = 0; i < 2; ++i) std::copy_n(s.memory.impulse[i].begin(), 3, k[memory][row].impulse[i]);
+    for (int i = 0; i < 8; ++i) {
+      k[memory][row].kept[i][0] = s.memory.kept[i].id;
+      std::copy_n(s.memory.kept[i].impulse.begin(), 3, k[memory][row].kept[i] + 1);
+    }
   }
 
-  Value step_size, integrator;
+  Value step_size, integrator, body_friction;
   WorldRobots robots;
   In<Drive> drive;
+  In<Wall> wall;
+  In<Door> door;
+  In<DoorState> door_state;
   Out<Pose> pose;
   Out<Twist> twist;
   Out<Wheels> wheels;
@@ -152,6 +207,7 @@ struct PhysicsSimbody {
   Out<Memory> memory;
   Made made;
   std::unique_ptr<simbody::Engine> engine;
+  Surroundings surroundings;
   std::vector<simbody::RobotState> states;  // room, kept from step to step
   std::vector<simbody::Command> commands;
 };

@@ -14,13 +14,24 @@ struct Command {
   double left_rate, right_rate;  // [rad/s2]
 };
 
+// The impulse of a contact of the body, kept by the robot with the smaller row.
+struct KeptImpulse {
+  double id = 0;                    // of robot, wall or ground, of both shapes and their features; 0: none
+  std::array<double, 3> impulse{};  // on the robot, in the world's frame [N s]
+};
+
 // What the stepper remembers beside the standard rows: the length of its last step (0: none, its velocities stand for
-// an instant), and the impulses of the wheels' contacts, from which a step in which they slip begins to search.
+// an instant), and the impulses of contacts, from which a step in which they slip begins to search: of the wheels, and
+// of the strongest of what else the robot touches. One that is forgotten costs some steps of the search, no result.
 struct Memory {
   static constexpr const char* columns =
-      "previous_step[s] left_n[N*s] left_x[N*s] left_y[N*s] right_n[N*s] right_x[N*s] right_y[N*s]";
+      "previous_step[s] left_n[N*s] left_x[N*s] left_y[N*s] right_n[N*s] right_x[N*s] right_y[N*s] "
+      "id1 x1[N*s] y1[N*s] z1[N*s] id2 x2[N*s] y2[N*s] z2[N*s] id3 x3[N*s] y3[N*s] z3[N*s] "
+      "id4 x4[N*s] y4[N*s] z4[N*s] id5 x5[N*s] y5[N*s] z5[N*s] id6 x6[N*s] y6[N*s] z6[N*s] "
+      "id7 x7[N*s] y7[N*s] z7[N*s] id8 x8[N*s] y8[N*s] z8[N*s]";
   double previous_step = 0;
   std::array<std::array<double, 3>, 2> impulse{};  // [wheel][normal, x, y of the world]
+  std::array<KeptImpulse, 8> kept{};
 };
 
 struct RobotState {

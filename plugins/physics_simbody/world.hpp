@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "description/robot.hpp"
+#include "scene/slabs.hpp"
 #include "state.hpp"
 
 namespace muster::simbody {
@@ -24,6 +25,10 @@ class Engine {
   // From t to t + dt [s]; one command and one state a robot, in the order of the robots.
   // Throws std::runtime_error naming the robot whose motion is no longer finite.
   virtual void step(double dt, const std::vector<Command>& commands, std::vector<RobotState>& states) = 0;
+
+  // What stands in the way from now on, and Coulomb's friction between bodies and with walls. Simbody's own integrators
+  // know no obstacles and take no notice.
+  virtual void set_surroundings(const std::vector<scene::Slab>& /*walls*/, double /*friction*/) {}
 };
 
 struct NamedRobot {

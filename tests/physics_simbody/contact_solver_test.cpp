@@ -12,12 +12,14 @@ namespace {
 // A point mass of 2 kg as the linear part; what turns weighs 1 and feels nothing.
 Problem point(const Eigen::Vector3d& velocity, double friction) {
   Problem p;
-  p.mass = MassMatrix::Identity();
-  p.mass.diagonal().segment<3>(3).setConstant(2);
-  p.inverse_mass = p.mass.inverse();
-  p.free.setZero();
-  p.free.segment<3>(3) = velocity;
-  p.previous = p.free;
+  p.bodies.resize(1);
+  Body& body = p.bodies[0];
+  body.mass = MassMatrix::Identity();
+  body.mass.diagonal().segment<3>(3).setConstant(2);
+  body.inverse_mass = body.mass.inverse();
+  body.free.setZero();
+  body.free.segment<3>(3) = velocity;
+  body.previous = body.free;
   Contact c;
   c.normal.setZero();
   c.normal[5] = 1;
@@ -33,9 +35,9 @@ Problem point(const Eigen::Vector3d& velocity, double friction) {
 
 TEST(ContactSolver, SticksInsideTheCone) {
   Problem p = point({0.3, 0.4, -1}, 0.6);
-  const Outcome out = solve(p);
+  const Outcome out = ContactSolver().solve(p);
   EXPECT_TRUE(out.direct);
-  EXPECT_LT(out.velocity.segment<3>(3).norm(), 1e-5);
+  EXPECT_LT(p.bodies[0].velocity.segment<3>(3).norm(), 1e-5);
   EXPECT_NEAR(p.contacts[0].push, 2, 1e-4);
   EXPECT_NEAR(p.contacts[0].grip.norm(), 1, 1e-4);
 }
@@ -44,27 +46,27 @@ TEST(ContactSolver, SlidesAgainstItsSlipOutsideTheCone) {
   for (double angle = 0; angle < 6.3; angle += 0.37) {
     const Eigen::Vector2d way(std::cos(angle), std::sin(angle));
     Problem p = point({way.x(), way.y(), -1}, 0.25);
-    const Outcome out = solve(p);
+    const Outcome out = ContactSolver().solve(p);
     EXPECT_FALSE(out.direct);
     EXPECT_TRUE(out.converged);
     // 2 kg: the push of 2 N s allows 0.5 N s of friction, which takes 0.25 m/s.
-    EXPECT_LT((out.velocity.segment<2>(3) - 0.75 * way).norm(), 1e-4) << angle;
+    EXPECT_LT((p.bodies[0].velocity.segment<2>(3) - 0.75 * way).norm(), 1e-4) << angle;
   }
 }
 
 TEST(ContactSolver, PullsAtNothing) {
   Problem p = point({1, 0, 0.5}, 0.6);
-  const Outcome out = solve(p);
+  ContactSolver().solve(p);
   EXPECT_EQ(p.contacts[0].push, 0);
-  EXPECT_LT((out.velocity - p.free).norm(), 1e-9);
+  EXPECT_LT((p.bodies[0].velocity - p.bodies[0].free).norm(), 1e-9);
 }
 
 TEST(ContactSolver, MotorsStopAtTheirLimit) {
   Problem p = point({0, 0, 1}, 0.6);
-  p.motors = {Motor{3, 0.5}, Motor{0.2, 0.5}};
-  const Outcome out = solve(p);
-  EXPECT_NEAR(out.velocity[6], 0.5, 1e-9);  // inertia 1: the impulse itself
-  EXPECT_NEAR(out.velocity[7], 0.2, 1e-4);
+  p.bodies[0].motors = {Motor{3, 0.5}, Motor{0.2, 0.5}};
+  ContactSolver().solve(p);
+  EXPECT_NEAR(p.bodies[0].velocity[6], 0.5, 1e-9);  // inertia 1: the impulse itself
+  EXPECT_NEAR(p.bodies[0].velocity[7], 0.2, 1e-4);
 }
 
 // Random masses and contacts: whatever comes out obeys the law.
@@ -75,8 +77,8 @@ TEST(ContactSolver, ObeysCoulombOnRandomProblems) {
   for (int trial = 0; trial < 2000; ++trial) {
     Problem p = point({draw(), draw(), -std::abs(draw())}, 0.1 + 0.4 * std::abs(draw()));
     MassMatrix a = MassMatrix::NullaryExpr([&](Eigen::Index, Eigen::Index) { return draw(); });
-    p.mass = a * a.transpose() + MassMatrix::Identity();
-    p.inverse_mass = p.mass.inverse();
+    p.bodies[0].mass = a * a.transpose() + MassMatrix::Identity();
+    p.bodies[0].inverse_mass = p.bodies[0].mass.inverse();
     const Contact base = p.contacts[0];
     for (int c = 0; c < 2; ++c) {
       Contact more = base;
@@ -85,8 +87,8 @@ TEST(ContactSolver, ObeysCoulombOnRandomProblems) {
       more.softness = 0.01;
       p.contacts.push_back(more);
     }
-    p.motors = {Motor{draw(), 0.2 * std::abs(draw())}, Motor{draw(), 0.2 * std::abs(draw())}};
-    const Outcome out = solve(p);
+    p.bodies[0].motors = {Motor{draw(), 0.2 * std::abs(draw())}, Motor{draw(), 0.2 * std::abs(draw())}};
+    const Outcome out = ContactSolver().solve(p);
     slipping += !out.direct;
     unsettled += !out.converged;
     double largest = 0;
@@ -97,15 +99,15 @@ TEST(ContactSolver, ObeysCoulombOnRandomProblems) {
       if (out.converged) {
         EXPECT_LE(c.grip.norm(), c.friction * c.push + 1.01e-3 * largest + 1e-6);
       }
-      const Eigen::Vector2d slip(c.tangent[0].dot(out.velocity), c.tangent[1].dot(out.velocity));
+      const Eigen::Vector2d slip(c.tangent[0].dot(p.bodies[0].velocity), c.tangent[1].dot(p.bodies[0].velocity));
       if (slip.norm() > 1e-4 && c.grip.norm() > 1e-9) {
         EXPECT_LT(c.grip.dot(slip), -0.999 * c.grip.norm() * slip.norm());
       }
       impulse += c.push * c.normal + c.grip[0] * c.tangent[0] + c.grip[1] * c.tangent[1];
     }
-    const Velocity rest = p.mass * (out.velocity - p.free) - impulse;
+    const Velocity rest = p.bodies[0].mass * (p.bodies[0].velocity - p.bodies[0].free) - impulse;
     EXPECT_LT(rest.head<6>().norm(), 1e-5);  // momentum
-    for (int m = 0; m < 2; ++m) EXPECT_LE(std::abs(rest[6 + m]), p.motors[m].limit + 1e-6);
+    for (int m = 0; m < 2; ++m) EXPECT_LE(std::abs(rest[6 + m]), p.bodies[0].motors[m].limit + 1e-6);
   }
   EXPECT_GT(slipping, 500);
   EXPECT_LT(unsettled, 200);  // couplings this wild need not have a solution

@@ -50,7 +50,17 @@ class Fleet {
     for (std::size_t i = 0; i < states.size(); ++i)
       robots.push_back({std::string("r").append(std::to_string(i)), &model_});
     engine_ = make_engine(robots, integrator_, step_);
+    engine_->set_surroundings(slabs(walls_, {}), friction_);
   }
+
+  // `friction` between bodies, and of bodies with walls.
+  Fleet& among(std::vector<scene::Wall> walls, double friction) {
+    walls_ = std::move(walls);
+    friction_ = friction;
+    remake();
+    return *this;
+  }
+  const std::vector<scene::Wall>& walls() const { return walls_; }
 
   void tick(double dt, const std::vector<Command>& commands) { engine_->step(dt, commands, states); }
 
@@ -70,6 +80,8 @@ class Fleet {
   const description::Robot& model_;
   Integrator integrator_;
   double step_;
+  std::vector<scene::Wall> walls_;
+  double friction_ = 0.3;
   std::unique_ptr<Engine> engine_;
 };
 
@@ -80,6 +92,10 @@ inline void expect_same_bits(const RobotState& a, const RobotState& b) {
   EXPECT_EQ(a.rate, b.rate);
   EXPECT_EQ(a.memory.previous_step, b.memory.previous_step);
   EXPECT_EQ(a.memory.impulse, b.memory.impulse);
+  for (std::size_t k = 0; k < a.memory.kept.size(); ++k) {
+    EXPECT_EQ(a.memory.kept[k].id, b.memory.kept[k].id);
+    EXPECT_EQ(a.memory.kept[k].impulse, b.memory.kept[k].impulse);
+  }
 }
 
 }  // namespace muster::simbody

@@ -84,6 +84,59 @@ TEST(Simbody, StepCanBeChangedInMidRun) {
   EXPECT_NEAR(a.x, b.x, 1e-4);
 }
 
+// A wall half a metre ahead, with a door where the robot meets it.
+double reached(const std::string& door) {
+  Folder folder;
+  Simulation run = world_of(
+      folder, R"(<material name="board" loss="1"/>
+    <wall name="w" from="0.5 -1" to="0.5 1" thickness="0.1" material="board"/>)" +
+                  door + R"(<robot name="a" at="0 0 0"/><test.wheels v="0.3"/><physics.simbody step="0.01"/>)");
+  run_to(run, 400);
+  return row<Pose>(run, "robot/a/pose").x;
+}
+
+TEST(Simbody, WallsAndClosedDoorsStopRobotsAndOpenDoorsDoNot) {
+  EXPECT_NEAR(reached(""), 0.35, 1e-3);
+  EXPECT_NEAR(reached(R"(<door name="d" wall="w" at="0.5" width="1" state="closed"/>)"), 0.35, 1e-3);
+  EXPECT_NEAR(reached(R"(<door name="d" wall="w" at="0.5" width="1" state="open"/>)"), 1.2, 0.05);
+  EXPECT_NEAR(reached(R"(<door name="d" wall="w" at="0.5" width="1" height="0.1" state="open"/>)"), 0.35, 1e-3);
+}
+
+// Six robots that push towards one place.
+std::string jam() {
+  std::string inside;
+  for (int i = 0; i < 6; ++i) {
+    const double angle = 1.0471975511965976 * i;
+    inside += "<robot name=\"r" + std::to_string(i) + "\" at=\"" + std::to_string(0.4 * std::cos(angle)) + " " +
+              std::to_string(0.4 * std::sin(angle)) + " 0\" heading=\"" + std::to_string(angle + 3.2) + "\"/>";
+  }
+  return inside + R"(<test.wheels v="0.3"/><physics.simbody name="physics" step="0.01"/>)";
+}
+
+TEST(Simbody, JamIsTheSameForAnyWorkersAfterRestoreAndAfterRemaking) {
+  Folder folder;
+  Simulation run = world_of(folder, jam());
+  run_to(run, 150);
+  run.snapshot().save(folder / "at150");
+  run_to(run, 300);
+  const auto a = row<Pose>(run, "robot/r0/pose"), b = row<Pose>(run, "robot/r3/pose");
+  EXPECT_LT(std::hypot(a.x - b.x, a.y - b.y), 0.6);  // they are in each other's way,
+  EXPECT_GT(std::hypot(a.x - b.x, a.y - b.y), 0.2);  // not in each other
+  Simulation three = world_of(folder, jam(), 3);
+  run_to(three, 300);
+  EXPECT_EQ(run.digest(), three.digest());
+  Simulation restored = world_of(folder, jam());
+  restored.restore(Snapshot::load(folder / "at150"));
+  run_to(restored, 300);
+  EXPECT_EQ(run.digest(), restored.digest());
+  Simulation remade = world_of(folder, jam());
+  while (remade.tick() < 300) {
+    if (remade.tick() % 17 == 5) remade.remake("physics");
+    remade.step();
+  }
+  EXPECT_EQ(run.digest(), remade.digest());
+}
+
 TEST(Simbody, ModelsItCannotHoldAreRefused) {
   Folder folder;
   folder.write("box.urdf", R"(<robot name="box"><link name="l"><inertial><mass value="1"/>

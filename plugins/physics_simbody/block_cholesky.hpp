@@ -1,0 +1,43 @@
+// A sparse symmetric positive definite system whose entries are the 8 x 8 blocks of robots that touch.
+#pragma once
+
+#include <Eigen/Dense>
+#include <utility>
+#include <vector>
+
+namespace muster::simbody {
+
+constexpr int unknowns = 8;  // of a robot: w and v in the body's frame, rates of the left and right wheel
+using Velocity = Eigen::Matrix<double, unknowns, 1>;
+using MassMatrix = Eigen::Matrix<double, unknowns, unknowns>;
+
+class BlockCholesky {
+ public:
+  // `count` blocks on the diagonal, and one for each pair beside it. The order of elimination is that of least degree
+  // (the smaller index where degrees are equal), so it depends on nothing but the pairs.
+  void arrange(int count, const std::vector<std::pair<int, int>>& pairs);
+
+  // Between arrange() or solve() and factor(): blocks beside the diagonal begin at zero, those on it are to be set.
+  void clear_pairs();
+  MassMatrix& diagonal(int i) { return diagonal_[i]; }
+  // Adds k a b^T at block (i, j), i != j, and its mirror image.
+  void add(int i, int j, double k, const Velocity& a, const Velocity& b);
+
+  void factor();
+  void solve(std::vector<Velocity>& x) const;
+
+ private:
+  struct Below {
+    int row;
+    MassMatrix block;
+  };
+
+  MassMatrix& below(int row, int column);
+
+  std::vector<MassMatrix> diagonal_;
+  std::vector<std::vector<Below>> columns_;  // what stands below the diagonal once the order is applied
+  std::vector<int> order_, place_;           // of elimination, and its inverse
+  std::vector<Eigen::LLT<MassMatrix>> factor_;
+};
+
+}  // namespace muster::simbody

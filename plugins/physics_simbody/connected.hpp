@@ -1,0 +1,27 @@
+// Who is connected with whom: union-find in which the smallest member stands for all, so that no order matters.
+#pragma once
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+namespace muster::simbody {
+
+class Connected {
+ public:
+  explicit Connected(int count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
+
+  int root(int i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(int i, int j) {
+    i = root(i), j = root(j);
+    parent_[std::max(i, j)] = std::min(i, j);
+  }
+
+ private:
+  std::vector<int> parent_;
+};
+
+}  // namespace muster::simbody

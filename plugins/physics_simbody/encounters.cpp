@@ -1,0 +1,229 @@
+#include "encounters.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace muster::simbody {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+namespace {
+
+// Stiffness and damping of a normal contact, by the robot's weight: a Scarab of 8 kg sinks by 0.03 mm in all.
+constexpr double stiffness_per_mass = 125000;  // [1/s2]
+constexpr double damping_per_mass = 2500;      // [1/s]
+constexpr double push_out = 0.2;               // fastest way out of the ground and of each other [m/s]
+constexpr double slack = 0.002;                // [m] what others may push a contact by that would not close by itself
+constexpr double nearby = 0.003;               // [m] at least so far off touching is looked for
+
+struct Compliance {
+  Compliance(double mass, double h) {
+    const double stiffness = stiffness_per_mass * mass, damping = damping_per_mass * mass;
+    share = h * stiffness / (h * stiffness + damping);
+    softness = 1 / (h * (h * stiffness + damping));
+  }
+  // Normal speed below which a contact pushes, with the gap at the step's start: what is apart may close, not more.
+  double target(double gap, double h) const { return gap > 0 ? -gap / h : std::min(-share * gap / h, push_out); }
+
+  double share;  // of a penetration that one step takes back
+  double softness;
+};
+
+// The row that gives the speed along `direction` of the body's point `arm`, all in the body's frame.
+Velocity point_row(const Vector3d& arm, const Vector3d& direction) {
+  Velocity row;
+  row << arm.cross(direction), direction, 0, 0;
+  return row;
+}
+
+// What a robot's velocity adds to a contact at `place`, with the sign of its side.
+ContactRows rows_at(const Placed& robot, const Part& part, const Vector3d& place, const Matrix3d& frame, double sign) {
+  const Matrix3d to_body = robot.to_world.transpose();
+  const Vector3d arm = to_body * (place - robot.position);
+  const Matrix3d ways = sign * (to_body * frame);
+  ContactRows rows;
+  rows.normal = point_row(arm, ways.col(0));
+  for (int k = 0; k < 2; ++k) {
+    rows.tangent[k] = point_row(arm, ways.col(1 + k));
+    if (part.wheel < 0) continue;
+    const Vector3d centre = robot.model->wheel_frame[part.wheel].translation();
+    rows.tangent[k][6 + part.wheel] = Vector3d::UnitY().cross(arm - centre).dot(ways.col(1 + k));
+  }
+  return rows;
+}
+
+Matrix3d frame_about(const Vector3d& normal) {
+  Matrix3d frame;
+  frame.col(0) = normal;
+  frame.col(1) = normal.unitOrthogonal();
+  frame.col(2) = normal.cross(frame.col(1));
+  return frame;
+}
+
+// 0 for the ground, odd for walls, even for robots.
+double id_of(int partner, std::size_t part, std::size_t other_part, int mark) {
+  return (1 + partner * 64.0 + static_cast<double>(part % 64)) * 64 * 16384 +
+         static_cast<double>(other_part % 64) * 16384 + mark;
+}
+
+Solid placed(const Solid& solid, const Placed& robot) {
+  return {solid.kind, robot.position + robot.to_world * solid.centre, robot.to_world * solid.axes, solid.half};
+}
+
+bool may_touch(const Solid& a, const Solid& b, double margin) {
+  const double reach = a.reach() + b.reach() + margin;
+  return (a.centre - b.centre).squaredNorm() < reach * reach;
+}
+
+// From the box to the middle of a solid, at least so far.
+bool may_touch_wall(const Solid& solid, const Solid& wall, double margin) {
+  const Vector3d p = wall.axes.transpose() * (solid.centre - wall.centre);
+  return ((p.cwiseAbs() - wall.half).array() < solid.reach() + margin).all();
+}
+
+}  // namespace
+
+void Encounters::begin(double h, double friction) {
+  h_ = h;
+  friction_ = friction;
+  contacts.clear();
+  traces.clear();
+}
+
+double Encounters::margin(double speed) const { return nearby + h_ * speed; }
+
+void Encounters::stand(int index, const Placed& robot, const Memory& memory) {
+  const Compliance compliance(robot.mass, h_);
+  const Matrix3d to_body = robot.to_world.transpose();
+  const Vector3d up = to_body.col(2);
+  const auto contact = [&](const Vector3d& centre, double radius) {
+    const Vector3d arm = centre - radius * up;
+    Contact c;
+    c.body = index;
+    c.normal = point_row(arm, up);
+    for (int k = 0; k < 2; ++k) c.tangent[k] = point_row(arm, to_body.col(k));
+    c.softness = compliance.softness;
+    const double gap = robot.position.z() + up.dot(arm) - 0.5 * h_ * c.normal.dot(robot.body.previous);
+    c.target = compliance.target(gap, h_);
+    return c;
+  };
+  for (int w = 0; w < 2; ++w) {
+    const double radius = robot.model->drive.wheel_radius;
+    Contact c = contact(robot.model->wheel_frame[w].translation(), radius);
+    const Vector3d surface = Vector3d::UnitY().cross(-radius * up);  // of the tread, per rate
+    for (int k = 0; k < 2; ++k) c.tangent[k][6 + w] = surface.dot(to_body.col(k));
+    c.friction = robot.model->drive.friction;
+    const auto& impulse = memory.impulse[w];
+    c.push = impulse[0];
+    c.grip = {impulse[1], impulse[2]};
+    contacts.push_back(c);
+    traces.push_back({index, w});
+  }
+  for (const Slider& slider : robot.model->sliders) {
+    contacts.push_back(contact(slider.centre, slider.radius));
+    traces.push_back({index});
+  }
+}
+
+void Encounters::with_ground(int index, const Placed& robot, const Memory& memory) {
+  stand(index, robot, memory);
+  // Boxes and cylinders of the body reach the ground only where it has tipped.
+  const double near = margin(robot.speed);
+  if (robot.position.z() + robot.model->lowest_corner(robot.to_world.row(2)) > near) return;
+  for (std::size_t k = 0; k < robot.model->parts.size(); ++k) {
+    const Part& part = robot.model->parts[k];
+    if (part.wheel >= 0 || part.solid.kind == Solid::Kind::sphere) continue;
+    const Touch t = touch_ground(placed(part.solid, robot), near);
+    for (int n = 0; n < t.count; ++n) {
+      const Trace trace{index, -1, id_of(0, k, 0, t.points[n].mark), frame_about(t.normal)};
+      add({&robot, &part}, {}, trace, memory, -1, t.points[n]);
+    }
+  }
+}
+
+void Encounters::with_wall(int index, const Placed& robot, const Memory& memory, int wall_index, const Solid& wall) {
+  const double near = margin(robot.speed);
+  for (std::size_t k = 0; k < robot.solids.size(); ++k) {
+    if (!may_touch_wall(robot.solids[k], wall, near)) continue;
+    const Touch t = touch(robot.solids[k], wall, near);
+    for (int n = 0; n < t.count; ++n) {
+      const Trace trace{index, -1, id_of(1 + 2 * wall_index, k, 0, t.points[n].mark), frame_about(t.normal)};
+      add({&robot, &robot.model->parts[k]}, {}, trace, memory, -1, t.points[n]);
+    }
+  }
+}
+
+void Encounters::between(int index_a, const Placed& a, const Memory& memory_a, int index_b, const Placed& b) {
+  const double near = margin(a.speed + b.speed);
+  for (std::size_t i = 0; i < a.solids.size(); ++i) {
+    for (std::size_t j = 0; j < b.solids.size(); ++j) {
+      if (!may_touch(a.solids[i], b.solids[j], near)) continue;
+      const Touch t = touch(a.solids[i], b.solids[j], near);
+      for (int n = 0; n < t.count; ++n) {
+        const Trace trace{index_a, -1, id_of(2 + 2 * index_b, i, j, t.points[n].mark), frame_about(t.normal)};
+        add({&a, &a.model->parts[i]}, {&b, &b.model->parts[j]}, trace, memory_a, index_b, t.points[n]);
+      }
+    }
+  }
+}
+
+// A contact, unless it cannot close within this step.
+void Encounters::add(const Side& a, const Side& b, const Trace& trace, const Memory& memory, int other,
+                     const TouchPoint& point) {
+  Contact c;
+  static_cast<ContactRows&>(c) = rows_at(*a.robot, *a.part, point.place, trace.frame, 1);
+  double speed = c.normal.dot(a.robot->body.previous), free = c.normal.dot(a.robot->body.free), mass = a.robot->mass;
+  if (b.robot) {
+    c.of_other = rows_at(*b.robot, *b.part, point.place, trace.frame, -1);
+    speed += c.of_other.normal.dot(b.robot->body.previous);
+    free += c.of_other.normal.dot(b.robot->body.free);
+    mass = 2 * a.robot->mass * b.robot->mass / (a.robot->mass + b.robot->mass);
+  }
+  const double gap = point.gap - 0.5 * h_ * speed;  // at the step's start
+  if (gap + h_ * std::min(speed, free) > slack) return;
+  const Compliance compliance(mass, h_);
+  c.body = trace.robot;
+  c.other = other;
+  c.friction = friction_;
+  c.softness = compliance.softness;
+  c.target = compliance.target(gap, h_);
+  for (const KeptImpulse& kept : memory.kept) {
+    if (kept.id != trace.id) continue;
+    const Vector3d impulse = trace.frame.transpose() * Vector3d(kept.impulse[0], kept.impulse[1], kept.impulse[2]);
+    c.push = impulse[0];
+    c.grip = impulse.tail<2>();
+  }
+  contacts.push_back(c);
+  traces.push_back(trace);
+}
+
+Solid solid_of(const scene::Slab& slab) {
+  Matrix3d axes;
+  axes << slab.cos_yaw, -slab.sin_yaw, 0, slab.sin_yaw, slab.cos_yaw, 0, 0, 0, 1;
+  return {Solid::Kind::box, {slab.x, slab.y, slab.z}, axes, {slab.length / 2, slab.thickness / 2, slab.height / 2}};
+}
+
+void place_parts(Placed& robot) {
+  robot.solids.clear();
+  for (const Part& part : robot.model->parts) robot.solids.push_back(placed(part.solid, robot));
+}
+
+void keep(const Contact& contact, const Trace& trace, Memory& memory) {
+  if (trace.wheel >= 0) {
+    memory.impulse[trace.wheel] = {contact.push, contact.grip[0], contact.grip[1]};
+    return;
+  }
+  if (trace.id == 0 || !(contact.push > 0)) return;
+  const Vector3d impulse = trace.frame * Vector3d(contact.push, contact.grip[0], contact.grip[1]);
+  KeptImpulse made{trace.id, {impulse[0], impulse[1], impulse[2]}};
+  const auto size = [](const KeptImpulse& k) {
+    return Vector3d(k.impulse[0], k.impulse[1], k.impulse[2]).squaredNorm();
+  };
+  for (KeptImpulse& kept : memory.kept) {  // sorted, the strongest first
+    if (kept.id == 0 || size(made) > size(kept)) std::swap(made, kept);
+    if (made.id == 0) return;
+  }
+}
+
+}  // namespace muster::simbody

@@ -1,0 +1,65 @@
+// What a robot meets in a step, as contacts for the solver: the ground under its wheels and sliders, walls, other
+// robots.
+#pragma once
+
+#include "contact_solver.hpp"
+#include "model.hpp"
+#include "scene/slabs.hpp"
+#include "state.hpp"
+
+namespace muster::simbody {
+
+// A robot half a step ahead.
+struct Placed {
+  const RobotModel* model = nullptr;
+  double mass = 0;
+  Eigen::Matrix3d to_world;
+  Eigen::Vector3d position;
+  Body body;                  // its velocities as the step finds them
+  double speed = 0;           // no part of it is faster [m/s]
+  std::vector<Solid> solids;  // its parts in the world; filled where something is near
+};
+
+// Where the impulse of a contact is kept from step to step.
+struct Trace {
+  int robot = 0;
+  int wheel = -1;                                       // on the ground: 0 left, 1 right
+  double id = 0;                                        // of others; 0: not kept
+  Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();  // normal and tangents as columns, in the world
+};
+
+class Encounters {
+ public:
+  // A step of length h [s]; friction as between bodies.
+  void begin(double h, double friction);
+
+  // Robots by their index, which the contacts bear too.
+  void with_ground(int index, const Placed& robot, const Memory& memory);
+  void with_wall(int index, const Placed& robot, const Memory& memory, int wall_index, const Solid& wall);
+  void between(int index_a, const Placed& a, const Memory& memory_a, int index_b, const Placed& b);
+
+  std::vector<Contact> contacts;
+  std::vector<Trace> traces;  // one a contact
+
+ private:
+  struct Side {
+    const Placed* robot;
+    const Part* part;
+  };
+
+  double margin(double speed) const;
+  void add(const Side& a, const Side& b, const Trace& trace, const Memory& memory, int other, const TouchPoint& point);
+  void stand(int index, const Placed& robot, const Memory& memory);
+
+  double h_ = 0, friction_ = 0;
+};
+
+Solid solid_of(const scene::Slab& slab);
+
+// Puts the robot's parts where it is.
+void place_parts(Placed& robot);
+
+// The impulse of a contact as its trace keeps it.
+void keep(const Contact& contact, const Trace& trace, Memory& memory);
+
+}  // namespace muster::simbody
