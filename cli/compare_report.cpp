@@ -139,7 +139,7 @@ void print_first(const ComparedRun& a, const ComparedRun& b) {
   const FirstDifference& first = *b.divergence->first();
   fmt::print("  first     tick {} (t = {}): {}, row {}{}{}\n", first.tick, time_text(*a.run, first.tick), first.table,
              first.row, first.column.empty() ? "" : ", ", first.column);
-  for (int i = 0; i < 2; ++i)
+  for (std::size_t i = 0; i < 2; ++i)
     fmt::print("            {} = {}, by {}\n", i == 0 ? a.label : b.label, first.value[i], first.writer[i]);
 }
 
@@ -216,7 +216,7 @@ void print_pair(const ComparedRun& a, const ComparedRun& b) {
   }
   print_quantities(*a.run, all);
   if (!others.empty()) fmt::print("  also differ: {}\n", listed(others));
-  for (int i = 0; i < 2; ++i) {
+  for (std::size_t i = 0; i < 2; ++i) {
     const auto& only = divergence.only(i);
     if (!only.empty())
       fmt::print("  only in {}, at some time: {}\n", i == 0 ? a.label : b.label, listed({only.begin(), only.end()}));

@@ -36,22 +36,38 @@ bool same_cell(const Simulation* const run[2], const Table* const table[2], cons
   return !a.reference.empty() && cell_name(*run[0], a, value[0]) == cell_name(*run[1], b, value[1]);
 }
 
-// "physics (physics.simbody/1)"
-std::string writer_of(const Simulation& run, const Table& table, std::size_t row) {
+// Null where no instance does. Who writes a queue's row claims it by its owner.
+const Instance* writer_of(const Simulation& run, const Table& table, std::size_t row) {
+  const int claimed = static_cast<int>(is_queue(table) ? *cells_of(table, row) : static_cast<double>(row));
   const auto writes = [&](const Claim& claim) {
-    return claim.out == &table && (claim.row < 0 || static_cast<std::size_t>(claim.row) == row) &&
-           std::find(claim.others.begin(), claim.others.end(), static_cast<int>(row)) == claim.others.end();
+    return claim.out == &table && (claim.row < 0 || claim.row == claimed) &&
+           std::find(claim.others.begin(), claim.others.end(), claimed) == claim.others.end();
   };
   for (const auto& instance : run.instances()) {
-    if (std::any_of(instance->claims().begin(), instance->claims().end(), writes))
-      return instance->name() + " (" + instance->plugin().id + ')';
+    if (std::any_of(instance->claims().begin(), instance->claims().end(), writes)) return instance.get();
   }
+  return nullptr;
+}
+
+// "physics (physics.simbody/1)"
+std::string title(const Instance& instance) { return instance.name() + " (" + instance.plugin().id + ')'; }
+
+std::string writer_text(const Simulation& run, const Table& table, std::size_t row) {
+  if (const Instance* writer = writer_of(run, table, row)) return title(*writer);
   for (const auto& batch : run.batches()) {
     for (const auto& sum : batch.sums) {
       if (sum.total == &table) return "the sum of its parts";
     }
   }
   return "the world file";
+}
+
+// Who would write in this run what that instance of the other one writes.
+std::string counterpart(const Simulation& run, const Instance* writer) {
+  for (const auto& instance : run.instances()) {
+    if (writer && instance->name() == writer->name()) return title(*instance);
+  }
+  return "nobody";
 }
 
 // Names of tables, what the world gives before what instances write, in the order in which they do.
@@ -73,15 +89,15 @@ std::vector<std::string> in_order(const Simulation& run) {
 }
 
 // Columns of one name and unit, or, if asked, what one run alone has.
-std::vector<Measure> common_columns(const Table* const table[2], std::set<std::string>* only = nullptr) {
+std::vector<Measure> common_columns(const Table* const table[2], std::array<std::set<std::string>, 2>* only = nullptr) {
   std::vector<Measure> result;
-  for (int i = 0; i < 2; ++i) {
+  for (std::size_t i = 0; i < 2; ++i) {
     const Columns &columns = table[i]->columns(), &others = table[1 - i]->columns();
     for (std::size_t c = 0; c < columns.size(); ++c) {
       const int other = others.find(columns[c].name);
       const bool both = other >= 0 && others[static_cast<std::size_t>(other)].title() == columns[c].title();
       if (both && i == 0) result.push_back({columns[c].name, columns[c].unit, {static_cast<int>(c), other}});
-      if (!both && only) only[i].insert(table[i]->name() + ' ' + columns[c].title());
+      if (!both && only) (*only)[i].insert(table[i]->name() + ' ' + columns[c].title());
     }
   }
   return result;
@@ -99,21 +115,23 @@ std::optional<FirstDifference> first_in(const Simulation* const run[2], const Ta
       FirstDifference result;
       result.row = row_name(*run[0], *table[0], in_a);
       result.column = measure.title();
-      for (int i = 0; i < 2; ++i) {
+      for (std::size_t i = 0; i < 2; ++i) {
         const Column& column = table[i]->columns()[static_cast<std::size_t>(measure.column[i])];
         result.value[i] = column.bytes ? "other bytes" : cell_name(*run[i], column, value[i]);
-        result.writer[i] = writer_of(*run[i], *table[i], i == 0 ? in_a : in_b);
+        result.writer[i] = writer_text(*run[i], *table[i], i == 0 ? in_a : in_b);
       }
       return result;
     }
   }
-  for (int i = 0; i < 2; ++i) {
+  for (std::size_t i = 0; i < 2; ++i) {
     if (rows.only[i].empty()) continue;
+    const auto& [name, row] = rows.only[i].front();
     FirstDifference result;
-    result.row = rows.only[i].front();
+    result.row = name;
     result.value[i] = "there";
     result.value[1 - i] = "not there";
-    for (int k = 0; k < 2; ++k) result.writer[k] = writer_of(*run[k], *table[k], ~std::size_t{0});
+    result.writer[i] = writer_text(*run[i], *table[i], row);
+    result.writer[1 - i] = counterpart(*run[1 - i], writer_of(*run[i], *table[i], row));
     return result;
   }
   return {};
@@ -141,8 +159,8 @@ void Divergence::look(const Simulation& a, const Simulation& b) {
 }
 
 void Divergence::pair_columns(const Pair& pair, TableDivergence& found) {
-  for (int i = 0; i < 2; ++i) found.columns[i] = pair.table[i]->columns().text();
-  found.measures = common_columns(pair.table, only_);
+  for (std::size_t i = 0; i < 2; ++i) found.columns[i] = pair.table[i]->columns().text();
+  found.measures = common_columns(pair.table, &only_);
   for (Measure& measure : found.measures) {
     if (measure.unit == "dBm") measure.unit = "dB";  // what levels differ by
   }
@@ -218,7 +236,7 @@ void Divergence::compare_rows(const Pair& pair, TableDivergence& found, std::siz
 
 // Messages that differ in number go on doing so when none comes.
 void Divergence::compare_counts(const Pair& pair, TableDivergence& found) {
-  for (int i = 0; i < 2; ++i) {
+  for (std::size_t i = 0; i < 2; ++i) {
     const Cells& cells = pair.table[i]->now();
     for (std::size_t row = 0; row < cells.rows; ++row) {
       if (cells.appended[row] != tick_) continue;
@@ -233,8 +251,8 @@ void Divergence::compare_counts(const Pair& pair, TableDivergence& found) {
 
 void Divergence::note_only(const Pair& pair, TableDivergence& found, const RowPairs& rows) {
   const Set& set = pair.table[0]->set();
-  for (int i = 0; i < 2; ++i) {
-    for (const std::string& row : rows.only[i]) {
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (const auto& [row, number] : rows.only[i]) {
       if (set.is_named()) only_[i].insert(set.name + '/' + row);
       for (std::size_t m = 0; set.kind == SetKind::listed && m < found.measures.size(); ++m)
         note(found, row, m, 0, true);

@@ -2,6 +2,7 @@
 // columns by name and unit.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -39,8 +40,8 @@ struct Course {
 };
 
 struct TableDivergence {
-  std::string columns[2];  // of the table in either run
-  bool by_row = false;     // courses have traces of their own
+  std::array<std::string, 2> columns;  // of the table in either run
+  bool by_row = false;                 // courses have traces of their own
   std::vector<Measure> measures;
   std::vector<double> tolerance;                    // of each measure; NaN: none
   std::map<std::string, std::vector<Course>> rows;  // those that have differed, a course a measure
@@ -51,7 +52,7 @@ struct TableDivergence {
 struct FirstDifference {
   uint64_t tick = 0;
   std::string table, row, column;  // no column: the row is there in one run only
-  std::string value[2], writer[2];
+  std::array<std::string, 2> value, writer;
 };
 
 // "QUANTITY/MEASURE", or more of the measure's whole name from its end, such as "robot/*/pose/distance".
@@ -69,7 +70,7 @@ class Divergence {
   const std::map<std::string, TableDivergence>& tables() const { return tables_; }
   const std::optional<FirstDifference>& first() const { return first_; }
   // Tables, columns and rows that one run alone has.
-  const std::set<std::string>& only(int run) const { return only_[run]; }
+  const std::set<std::string>& only(std::size_t run) const { return only_[run]; }
   bool same() const { return !first_ && only_[0].empty() && only_[1].empty(); }
   // Whether every difference is within its tolerance.
   bool within() const;
@@ -95,9 +96,10 @@ class Divergence {
   uint64_t span_;
   uint64_t tick_ = 0;
   std::map<std::string, TableDivergence> tables_;
-  std::map<std::string, std::map<std::string, double>> counts_[2];  // of a queue's rows so far, by their names
+  std::array<std::map<std::string, std::map<std::string, double>>, 2>
+      counts_;  // of a queue's rows so far, by their names
   std::optional<FirstDifference> first_;
-  std::set<std::string> only_[2];
+  std::array<std::set<std::string>, 2> only_;
 };
 
 }  // namespace muster

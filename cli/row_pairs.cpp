@@ -86,10 +86,10 @@ RowPairs row_pairs(const Simulation& a, const Table& in_a, const Simulation& b, 
     if (found != of_b.end())
       result.both.emplace_back(row, found->second);
     else
-      result.only[0].push_back(name);
+      result.only[0].emplace_back(name, row);
   }
   for (const auto& [name, row] : of_b) {
-    if (!of_a.count(name)) result.only[1].push_back(name);
+    if (!of_a.count(name)) result.only[1].emplace_back(name, row);
   }
   return result;
 }

@@ -2,6 +2,7 @@
 // have only numbers, are named by whom they refer to, such as "base rover".
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -21,7 +22,8 @@ std::string cell_name(const Simulation& run, const Column& column, double value)
 struct RowPairs {
   bool in_place = false;  // all rows are the same in both runs, and stand at the same numbers
   std::vector<std::pair<std::size_t, std::size_t>> both;
-  std::vector<std::string> only[2];  // names of rows that one run alone has
+  std::array<std::vector<std::pair<std::string, std::size_t>>, 2>
+      only;  // rows that one run alone has, with their names
 };
 
 // Of a queue, the rows that came in this tick.

@@ -128,6 +128,11 @@ TEST(Compare, CountsMessagesAndLevelsOfLinksByTheirEnds) {
   const auto fewer = course(json["comparisons"][0], "inbox/*/message", "far base", "count");
   EXPECT_EQ(fewer["end"], -10) << "of 20 messages";
   EXPECT_EQ(course(json["comparisons"][0], "link/*/level", "base far", "level"), nullptr);
+  const auto& first = json["comparisons"][0]["first"];
+  EXPECT_EQ(first["table"], "outbox/*/message");
+  EXPECT_EQ(first["row"], "base");
+  EXPECT_EQ(first["values"], nlohmann::json({"there", "not there"}));
+  EXPECT_EQ(first["writers"], nlohmann::json({"calls (control.beacon/1)", "calls (control.beacon/1)"}));
   const auto level = course(json["comparisons"][1], "link/*/level", "base far", "level");
   EXPECT_NEAR(level["end"].get<double>(), -20 * std::log10(2), 1e-9);
   EXPECT_EQ(level["unit"], "dB") << "levels in dBm differ by dB";

@@ -76,6 +76,12 @@ TEST(Ticks, BearTheNumbersThatPeopleWouldWrite) {
               testing::ElementsAre("0", "10\u2009000", "20\u2009000", "30\u2009000", "40\u2009000", "50\u2009000"));
 }
 
+TEST(Ticks, ZeroAmongPowersOfTenIsShort) {
+  EXPECT_EQ(ticks_within({0, 4e-6}, 9).front().label, "0");
+  EXPECT_EQ(ticks_within({0, 4e-6}, 9).back().label, "4×10⁻⁶");
+  EXPECT_EQ(ticks_within({0, 0.004}, 9).front().label, "0.000");
+}
+
 TEST(Ticks, AreExactDecimals) {
   const auto ticks = ticks_within({0, 0.5});
   EXPECT_EQ(ticks[3].value, 0.3);  // and not 0.30000000000000004
