@@ -2,7 +2,9 @@
 // as the peer of our engine: spheres for wheels, one box a robot, its own collision, eight walls that nobody reaches.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <deque>
 #include <vector>
 
 #include "plugins/physics_ode/library.hpp"
@@ -23,7 +25,7 @@ class RawOde {
     if (iterations) dWorldSetQuickStepNumIterations(world_.get(), iterations);
     dCreatePlane(space_.get(), 0, 0, 1, 0);
     for (int i = 0; i < 8; ++i) {
-      const dGeomID wall = dCreateBox(space_.get(), i % 2 ? 4 : 0.2, i % 2 ? 0.2 : 4, 1);
+      dGeomID wall = dCreateBox(space_.get(), i % 2 ? 4 : 0.2, i % 2 ? 0.2 : 4, 1);
       dGeomSetPosition(wall, apart * (i % 3 + 0.5), apart * (i / 3 + 0.5), 0.5);
     }
     for (const Arc& arc : arcs) add(arc);
@@ -62,7 +64,7 @@ class RawOde {
         Eigen::Translation3d(arc.x, arc.y, 0) * Eigen::AngleAxisd(arc.heading, Eigen::Vector3d::UnitZ());
     const Eigen::Quaterniond turned(at.linear());
     const auto body = [&](const description::Mass& mass, const Eigen::Vector3d& centre) {
-      const dBodyID made = dBodyCreate(world_.get());
+      dBodyID made = dBodyCreate(world_.get());
       const auto& i = mass.inertia;
       dMass m;
       dMassSetParameters(&m, mass.mass, 0, 0, 0, i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2), i(1, 2));
@@ -73,10 +75,10 @@ class RawOde {
       dBodySetQuaternion(made, q);
       return made;
     };
-    const dSpaceID own = dSimpleSpaceCreate(space_.get());
+    dSpaceID own = dSimpleSpaceCreate(space_.get());
     const auto shape = [&](dGeomID geom, dBodyID on, const Eigen::Vector3d& place, double friction) {
       frictions_.push_back(friction);
-      dGeomSetData(geom, reinterpret_cast<void*>(frictions_.size()));  // the ground and walls have 0
+      dGeomSetData(geom, &frictions_.back());
       dGeomSetBody(geom, on);
       const Eigen::Vector3d p = at * place;
       dGeomSetOffsetWorldPosition(geom, p.x(), p.y(), p.z());
@@ -89,7 +91,7 @@ class RawOde {
     shape(dCreateBox(own, box.size.x(), box.size.y(), box.size.z()), made.body, box.pose.translation(), 0.3);
     for (std::size_t w = 0; w < 2; ++w) {
       const Eigen::Vector3d hub = model_.wheel[w].frame.translation(), axle = at.linear() * model_.wheel[w].axis;
-      const dBodyID wheel = body(model_.wheel[w].mass, hub);
+      dBodyID wheel = body(model_.wheel[w].mass, hub);
       dBodySetFiniteRotationMode(wheel, 1);
       shape(dCreateSphere(own, model_.drive.wheel_radius), wheel, hub, model_.drive.friction);
       made.motor[w] = dJointCreateHinge(world_.get(), nullptr);
@@ -105,22 +107,23 @@ class RawOde {
   static void touch(void* self, dGeomID a, dGeomID b) {
     if (dGeomIsSpace(a) || dGeomIsSpace(b)) return dSpaceCollide2(a, b, self, touch);
     auto& raw = *static_cast<RawOde*>(self);
-    const dBodyID on_a = dGeomGetBody(a), on_b = dGeomGetBody(b);
+    dBodyID on_a = dGeomGetBody(a), on_b = dGeomGetBody(b);
     if (!on_a && !on_b) return;
     dContact contact[4];
     const int count = dCollide(a, b, 4, &contact[0].geom, sizeof contact[0]);
     if (!count) return;
-    const double friction = std::min(raw.friction(a), raw.friction(b));
+    const double mu = std::min(friction(a), friction(b));
     for (int i = 0; i < count; ++i) {
       contact[i].surface.mode = dContactApprox1;
-      contact[i].surface.mu = friction;
+      contact[i].surface.mu = mu;
       dJointAttach(dJointCreateContact(raw.world_.get(), raw.contacts_.get(), &contact[i]), on_a, on_b);
     }
   }
 
-  double friction(dGeomID geom) const {
-    const auto number = reinterpret_cast<std::size_t>(dGeomGetData(geom));
-    return number ? frictions_[number - 1] : dInfinity;
+  // The ground and walls have none of their own.
+  static double friction(dGeomID geom) {
+    const auto* own = static_cast<const double*>(dGeomGetData(geom));
+    return own ? *own : dInfinity;
   }
 
   ode::Library library_;
@@ -132,7 +135,7 @@ class RawOde {
   std::unique_ptr<dxSpace, ode::Destroy> space_;
   std::unique_ptr<dxJointGroup, ode::Destroy> contacts_{dJointGroupCreate(0)};
   std::vector<Made> robots_;
-  std::vector<double> frictions_;
+  std::deque<double> frictions_;  // what shapes point at
 };
 
 }  // namespace muster::bench

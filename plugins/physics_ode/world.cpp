@@ -70,13 +70,13 @@ World::World(const std::vector<NamedRobot>& robots, const Settings& settings)
   dSpaceAdd(space_.get(), add_geom(dCreatePlane(nullptr, 0, 0, 1, 0), ground, 0, as_the_other));
   for (const NamedRobot& named : robots) robots_.push_back({named.name, RobotModel(*named.description)});
   for (Robot& robot : robots_) add(robot);
-  surfaces_of_robots_ = friction_.size();
+  surfaces_of_robots_ = surfaces_.size();
 }
 
 // Bodies stand where the robot's frame is the world's; their joints and shapes keep the places that they have then.
 void World::add(Robot& robot) {
   const auto body = [&](const description::Mass& mass, const Vector3d& at, const Quaterniond& turned) {
-    const dBodyID made = dBodyCreate(world_.get());
+    dBodyID made = dBodyCreate(world_.get());
     const dMass m = mass_of(mass);
     dBodySetMass(made, &m);
     dBodySetPosition(made, at.x(), at.y(), at.z());
@@ -99,7 +99,7 @@ void World::add(Robot& robot) {
 }
 
 void World::add_shapes(const Robot& robot) {
-  const dSpaceID own = dSimpleSpaceCreate(space_.get());
+  dSpaceID own = dSimpleSpaceCreate(space_.get());
   const auto fix = [&](dGeomID geom, dBodyID body, const Isometry3d& pose) {  // in the world, where bodies stand now
     const Quaterniond q(pose.linear());
     const dQuaternion turned = {q.w(), q.x(), q.y(), q.z()};
@@ -110,7 +110,7 @@ void World::add_shapes(const Robot& robot) {
   };
   const unsigned long others = settings_.obstacles ? part | wall : 0;
   for (std::size_t w = 0; w < 2; ++w) {
-    const dGeomID sphere = dCreateSphere(nullptr, robot.model.drive.wheel_radius);
+    dGeomID sphere = dCreateSphere(nullptr, robot.model.drive.wheel_radius);
     fix(add_geom(sphere, tyre, ground, robot.model.drive.friction), robot.wheel[w], robot.model.wheel[w].frame);
   }
   for (const Slider& slider : robot.model.sliders) {
@@ -118,7 +118,7 @@ void World::add_shapes(const Robot& robot) {
         Isometry3d(Eigen::Translation3d(slider.centre)));
   }
   for (const Block& block : robot.model.blocks) {
-    const dGeomID box = dCreateBox(nullptr, block.size.x(), block.size.y(), block.size.z());
+    dGeomID box = dCreateBox(nullptr, block.size.x(), block.size.y(), block.size.z());
     fix(add_geom(box, part, block.is_wheel ? others : ground | others, settings_.friction), robot.body, block.pose);
   }
 }
@@ -127,18 +127,18 @@ void World::add_shapes(const Robot& robot) {
 dGeomID World::add_geom(dGeomID geom, unsigned long category, unsigned long meets, double friction) {
   dGeomSetCategoryBits(geom, category);
   dGeomSetCollideBits(geom, meets);
-  dGeomSetData(geom, reinterpret_cast<void*>(friction_.size()));
-  friction_.push_back(friction);
+  surfaces_.push_back({surfaces_.size(), friction});
+  dGeomSetData(geom, &surfaces_.back());
   return geom;
 }
 
 void World::set_walls(const std::vector<WallBox>& walls) {
-  for (const dGeomID old : walls_) dGeomDestroy(old);
+  for (dGeomID old : walls_) dGeomDestroy(old);
   walls_.clear();
-  friction_.resize(surfaces_of_robots_);
+  while (surfaces_.size() > surfaces_of_robots_) surfaces_.pop_back();
   if (!settings_.obstacles) return;
   for (const WallBox& box : walls) {
-    const dGeomID geom = dCreateBox(nullptr, box.size.x(), box.size.y(), box.size.z());
+    dGeomID geom = dCreateBox(nullptr, box.size.x(), box.size.y(), box.size.z());
     dSpaceAdd(space_.get(), add_geom(geom, wall, 0, as_the_other));
     dGeomSetPosition(geom, box.centre.x(), box.centre.y(), box.centre.z());
     const dQuaternion turned = {std::cos(box.heading / 2), 0, 0, std::sin(box.heading / 2)};
@@ -197,11 +197,11 @@ void World::ask(const Robot& robot, const Command& command, double at) const {
 
 void World::near(void* world, dGeomID a, dGeomID b) {
   if (dGeomIsSpace(a) || dGeomIsSpace(b)) return dSpaceCollide2(a, b, world, near);
-  const auto number = [](dGeomID geom) {
-    return static_cast<int>(reinterpret_cast<std::intptr_t>(dGeomGetData(geom)));
-  };
-  if (number(b) < number(a)) std::swap(a, b);
-  static_cast<World*>(world)->pairs_.push_back({number(a), number(b), a, b});
+  const auto* first = static_cast<const Surface*>(dGeomGetData(a));
+  const auto* second = static_cast<const Surface*>(dGeomGetData(b));
+  const bool ordered = first->number < second->number;
+  auto& pairs = static_cast<World*>(world)->pairs_;
+  pairs.push_back(ordered ? Pair{a, b, first, second} : Pair{b, a, second, first});
 }
 
 // Contacts of the step to come. ODE finds pairs in an order that depends on what moved last: they are sorted.
@@ -218,8 +218,8 @@ void World::touch(const Pair& pair) {
   const int count = dCollide(pair.a, pair.b, most_contacts, &contact[0].geom, sizeof contact[0]);
   for (int i = 0; i < count; ++i) {
     contact[i].surface.mode = dContactApprox1;  // friction's bound follows the normal force
-    contact[i].surface.mu = std::min(friction_[pair.first], friction_[pair.second]);
-    const dJointID joint = dJointCreateContact(world_.get(), contacts_.get(), &contact[i]);
+    contact[i].surface.mu = std::min(pair.first->friction, pair.second->friction);
+    dJointID joint = dJointCreateContact(world_.get(), contacts_.get(), &contact[i]);
     dJointAttach(joint, dGeomGetBody(pair.a), dGeomGetBody(pair.b));
   }
 }
@@ -240,7 +240,7 @@ void World::read(const Robot& robot, RobotState& s) const {
   s.pose = {origin.x(), origin.y(), origin.z(), q.w(), q.x(), q.y(), q.z()};
   s.twist = {speed.x(), speed.y(), speed.z(), w.x(), w.y(), w.z()};
   for (int k = 0; k < 2; ++k) {
-    const dBodyID wheel = robot.wheel[k];
+    dBodyID wheel = robot.wheel[k];
     const Quaterniond turned = to_body * quaternion(dBodyGetQuaternion(wheel));
     s.rate[k] = dJointGetHingeAngleRate(robot.hinge[k]);
     s.hinged[k] = {array(to_body * (vector(dBodyGetPosition(wheel)) - place)),

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <deque>
 #include <string>
 #include <vector>
 
@@ -77,10 +78,16 @@ class World {
     std::array<dBodyID, 2> wheel{};
     std::array<dJointID, 2> hinge{};
   };
+  struct Surface {
+    std::size_t number;  // in the order in which shapes were added
+    double friction;
+  };
   struct Pair {
-    int first, second;  // indices of surfaces
     dGeomID a, b;
-    bool operator<(const Pair& o) const { return first != o.first ? first < o.first : second < o.second; }
+    const Surface *first, *second;  // of a and b, a's number below b's
+    bool operator<(const Pair& o) const {
+      return first != o.first ? first->number < o.first->number : second->number < o.second->number;
+    }
   };
 
   void add(Robot& robot);
@@ -101,7 +108,7 @@ class World {
   std::unique_ptr<dxSpace, Destroy> space_;
   std::unique_ptr<dxJointGroup, Destroy> contacts_;
   std::vector<Robot> robots_;
-  std::vector<double> friction_;  // by surface: below 0 where the other's counts
+  std::deque<Surface> surfaces_;  // what shapes point at
   std::vector<dGeomID> walls_;
   std::size_t surfaces_of_robots_ = 0;
   std::vector<Pair> pairs_;

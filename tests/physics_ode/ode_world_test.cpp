@@ -50,15 +50,15 @@ TEST(OdeWorld, AWallStopsARobotUnlessObstaclesAreOff) {
 }
 
 TEST(OdeWorld, DoorsLetThroughWhileTheyAreOpen) {
-  const std::string door = "<door name='d' wall='w' at='1.5' width='1' state='";
+  const std::string door = scarab + wall + "<door name='d' wall='w' at='1.5' width='1' state='";
   for (const std::string state : {"open", "closed"}) {
     const Folder folder;
-    Forwards run(folder, scarab + wall + door + state + "'/>");
+    Forwards run(folder, std::string(door).append(state).append("'/>"));
     run.run_to(600);
     EXPECT_NEAR(run.pose("a").x, state == "open" ? 1.8 : 0.95 - front, 0.02) << state;
   }
   const Folder folder;
-  Forwards run(folder, scarab + wall + door + "open'/><test.shut_doors at='0.5'/>");  // in front of the robot
+  Forwards run(folder, door + "open'/><test.shut_doors at='0.5'/>");  // in front of the robot
   run.run_to(600);
   EXPECT_NEAR(run.pose("a").x, 0.95 - front, 2e-3);
 }
@@ -98,9 +98,11 @@ TEST(OdeWorld, RunsSideBySideChangeNothing) {
   const std::string two = scarab + wall + "<robot name='b' at='0.5 0.5 0' heading='-1'/>";
   const Folder folder;
   std::vector<std::unique_ptr<Forwards>> runs;
+  runs.reserve(5);
   for (int i = 0; i < 5; ++i) runs.push_back(std::make_unique<Forwards>(folder, two, "solver='quick'"));
   runs[0]->run_to(150);
   std::vector<std::thread> threads;
+  threads.reserve(4);
   for (int i = 1; i < 5; ++i) threads.emplace_back([&run = *runs[i]] { run.run_to(150); });
   for (std::thread& thread : threads) thread.join();
   for (int i = 1; i < 5; ++i) EXPECT_EQ(runs[i]->digest(), runs[0]->digest());
