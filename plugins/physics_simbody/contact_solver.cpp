@@ -128,9 +128,33 @@ void ContactSolver::add(const Contact& c, double k, int row, int column) {
   hessian_.add(c.body, c.other, k, a, of_other_b);
 }
 
-// The guess that is true on a clear floor: what closes under the free motion closes; against what stands still it
-// sticks; motors hold their rate.
+// The guess that is true on a clear floor: what touches and closes under the free motion closes; against what stands
+// still it sticks; motors hold their rate. What would have to pull does not touch after all, and what comes nearer than
+// it may does: the guess is made again.
 bool ContactSolver::stick_all() {
+  constexpr int guesses = 3;
+  for (std::size_t b = 0; b < u_.size(); ++b) u_[b] = p_->bodies[b].free;
+  locate(u_);
+  for (std::size_t i = 0; i < local_.size(); ++i) {
+    const double target = p_->contacts[i].target;
+    local_[i].closes = target >= 0 && target > local_[i].speed;
+  }
+  for (int guess = 0; guess < guesses; ++guess) {
+    stick();
+    gradient(true);
+    if (residual() <= p_->search.tolerance) return true;
+    bool changed = false;
+    for (std::size_t i = 0; i < local_.size(); ++i) {
+      const bool pushes = p_->contacts[i].push > 0;
+      changed |= pushes != local_[i].closes;
+      local_[i].closes = pushes;
+    }
+    if (!changed) return false;
+  }
+  return false;
+}
+
+void ContactSolver::stick() {
   for (std::size_t b = 0; b < u_.size(); ++b) {
     u_[b] = p_->bodies[b].free;
     hessian_.diagonal(static_cast<int>(b)) = p_->bodies[b].mass;
@@ -140,8 +164,8 @@ bool ContactSolver::stick_all() {
   locate(u_);
   for (std::size_t i = 0; i < local_.size(); ++i) {
     const Contact& c = p_->contacts[i];
+    if (!local_[i].closes) continue;
     const double push = (c.target - local_[i].speed) / c.softness;
-    if (!(push > 0)) continue;
     add(c, 1 / c.softness, 0, 0);
     d_[c.body] += push * c.normal;
     if (c.other >= 0) {
@@ -162,8 +186,6 @@ bool ContactSolver::stick_all() {
   hessian_.factor();
   hessian_.solve(d_);
   for (std::size_t b = 0; b < u_.size(); ++b) u_[b] += d_[b];
-  gradient(true);
-  return residual() <= p_->search.tolerance;
 }
 
 void ContactSolver::slip(Outcome& outcome) {

@@ -81,6 +81,7 @@ class ContactSolver {
     Eigen::Vector2d dual = Eigen::Vector2d::Zero();  // estimate of the grip, kept for a better Hessian
     double speed_ahead = 0;                          // what the direction of a search adds to speed and slip
     Eigen::Vector2d slip_ahead = Eigen::Vector2d::Zero();
+    bool closes = false;    // in a guess
     double start_push = 0;  // as handed in
     Eigen::Vector2d start_grip = Eigen::Vector2d::Zero();
   };
@@ -90,6 +91,7 @@ class ContactSolver {
   void gradient(bool refresh);
   double residual() const;
   bool stick_all();
+  void stick();
   void slip(Outcome& outcome);
   void refresh_bounds(int pass);
   bool minimise(int limit);

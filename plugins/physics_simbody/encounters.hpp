@@ -13,6 +13,7 @@ namespace muster::simbody {
 struct Placed {
   const RobotModel* model = nullptr;
   double mass = 0;
+  std::array<double, 4> turned;  // quaternion, body to world; not quite of unit length
   Eigen::Matrix3d to_world;
   Eigen::Vector3d position;
   Body body;                  // its velocities as the step finds them

@@ -37,14 +37,6 @@ Quaternion quaternion_of(const RobotState& s) { return {s.pose[3], s.pose[4], s.
 Vector3d velocity_of(const RobotState& s) { return {s.twist[0], s.twist[1], s.twist[2]}; }
 Vector3d rates_of(const RobotState& s) { return {s.twist[3], s.twist[4], s.twist[5]}; }
 
-Matrix3d eigen(const SimTK::Rotation& r) {
-  Matrix3d m;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) m(i, j) = r[i][j];
-  }
-  return m;
-}
-
 Matrix3d cross_matrix(const Vector3d& v) {
   Matrix3d m;
   m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
@@ -69,7 +61,7 @@ Extent extent_of(const RobotModel& model, const RobotState& state, double more) 
 
 Midpoint::Midpoint(const std::vector<NamedRobot>& robots, double step) : longest_step_(step) {
   for (const NamedRobot& named : robots) {
-    Robot robot{named.name, RobotModel(*named.description), {}, 0, 0, {}, {}, {}, {}, {}, {}};
+    Robot robot{named.name, RobotModel(*named.description), {}, {}, {}, {}, {}, {}, {}};
     robot.bodies = system_.add(robot.model);
     robot.whole = whole_mass(*named.description);
     const Matrix3d c = cross_matrix(robot.whole.centre);
@@ -79,8 +71,8 @@ Midpoint::Midpoint(const std::vector<NamedRobot>& robots, double step) : longest
   }
   system_.finish();
   system_.system.realize(system_.state, SimTK::Stage::Position);
+  read_masses();
   for (Robot& robot : robots_) {
-    read_mass(robot);
     robot.now.model = &robot.model;
     robot.now.mass = robot.whole.mass;
   }
@@ -101,19 +93,20 @@ void Midpoint::set_surroundings(const std::vector<scene::Slab>& walls, double fr
 }
 
 // Simbody's own mass matrix at the reference pose; in the body's frame it is the same in every other, as wheels are
-// balanced.
-void Midpoint::read_mass(Robot& robot) {
+// balanced. Robots are not joined, so that one product has a column of each.
+void Midpoint::read_masses() {
   const SimTK::State& state = system_.state;
-  robot.first_q = robot.bodies.body.getFirstQIndex(state);
-  robot.first_u = robot.bodies.body.getFirstUIndex(state);
-  SimTK::Vector unit(state.getNU(), 0.0), column;
+  SimTK::Vector columns;
   for (int c = 0; c < unknowns; ++c) {
-    unit[robot.first_u + c] = 1;
-    system_.matter.multiplyByM(state, unit, column);
-    unit[robot.first_u + c] = 0;
-    for (int r = 0; r < unknowns; ++r) robot.mass(r, c) = column[robot.first_u + r];
+    SimTK::Vector units(state.getNU(), 0.0);
+    for (const Robot& robot : robots_) units[robot.bodies.body.getFirstUIndex(state) + c] = 1;
+    system_.matter.multiplyByM(state, units, columns);
+    for (Robot& robot : robots_) {
+      const int first = robot.bodies.body.getFirstUIndex(state);
+      for (int r = 0; r < unknowns; ++r) robot.mass(r, c) = columns[first + r];
+    }
   }
-  robot.inverse_mass = robot.mass.inverse();
+  for (Robot& robot : robots_) robot.inverse_mass = robot.mass.inverse();
 }
 
 void Midpoint::step(double dt, const std::vector<Command>& commands, std::vector<RobotState>& states) {
@@ -125,10 +118,6 @@ void Midpoint::step(double dt, const std::vector<Command>& commands, std::vector
     for (const Group& group : groups_) most = std::max(most, group.parts);
     for (int part = 0; part < most; ++part) {
       const auto has_part = [&](const Group& group) { return !group.robots.empty() && part < group.parts; };
-      for (const Group& group : groups_) {
-        if (has_part(group)) move_to_middle(group, h / group.parts, states);
-      }
-      system_.system.realize(system_.state, SimTK::Stage::Position);
       for (const Group& group : groups_) {
         if (has_part(group)) advance(group, h / group.parts, (k + (part + 0.5) / group.parts) * h, commands, states);
       }
@@ -162,19 +151,6 @@ int Midpoint::parts_of(const Group& group, double h, const std::vector<RobotStat
   return static_cast<int>(std::clamp(std::ceil(fast * h / longest_way - 1e-9), 1.0, static_cast<double>(most_parts)));
 }
 
-// Puts Simbody's state half a step ahead along the velocities that stand.
-void Midpoint::move_to_middle(const Group& group, double h, const std::vector<RobotState>& states) {
-  SimTK::Vector& q = system_.state.updQ();
-  for (const int i : group.robots) {
-    const RobotState& s = states[i];
-    double* to = &q[robots_[i].first_q];
-    const Quaternion middle = turned(quaternion_of(s), quaternion_of(s), rates_of(s), 0.5 * h);
-    std::copy(middle.begin(), middle.end(), to);
-    for (int k = 0; k < 3; ++k) to[4 + k] = s.pose[k] + 0.5 * h * s.twist[k];
-    for (int w = 0; w < 2; ++w) to[7 + w] = s.angle[w] + 0.5 * h * s.rate[w];
-  }
-}
-
 Velocity Midpoint::free_acceleration(std::size_t index, const Matrix3d& to_world, const Velocity& u) const {
   const Robot& robot = robots_[index];
   const Vector3d w = u.head<3>(), centre = robot.whole.centre;
@@ -195,13 +171,16 @@ void Midpoint::advance(const Group& group, double h, double at, const std::vecto
   for (const int i : group.robots) finish(robots_[i], h, states[i]);
 }
 
+// Half a step ahead along the velocities that stand. The one rotation that is needed follows from its quaternion: to
+// have Simbody work out the places of all bodies takes twice as long as all the rest of a step.
 void Midpoint::place(int index, double h, double at, const Command& command, const RobotState& state) {
   Robot& robot = robots_[index];
   Placed& now = robot.now;
   const auto& drive = robot.model.drive;
-  const SimTK::Transform& pose = robot.bodies.body.getBodyTransform(system_.state);
-  now.to_world = eigen(pose.R());
-  now.position = {pose.p()[0], pose.p()[1], pose.p()[2]};
+  now.turned = turned(quaternion_of(state), quaternion_of(state), rates_of(state), 0.5 * h);
+  now.to_world =
+      Eigen::Quaterniond(now.turned[0], now.turned[1], now.turned[2], now.turned[3]).normalized().toRotationMatrix();
+  for (int k = 0; k < 3; ++k) now.position[k] = state.pose[k] + 0.5 * h * state.twist[k];
   now.speed = speed_of(robot.model, state);
   now.body.previous << now.to_world.transpose() * rates_of(state), now.to_world.transpose() * velocity_of(state),
       state.rate[0], state.rate[1];
@@ -280,8 +259,7 @@ void Midpoint::finish(Robot& robot, double h, RobotState& state) const {
   if (!(u.cwiseAbs().maxCoeff() < fastest)) throw std::runtime_error("robot '" + robot.name + "': its motion blew up");
 
   const Vector3d w = robot.now.to_world * u.head<3>(), v = robot.now.to_world * u.segment<3>(3);
-  const double* middle = &system_.state.getQ()[robot.first_q];
-  const Quaternion q = turned(quaternion_of(state), {middle[0], middle[1], middle[2], middle[3]}, w, h);
+  const Quaternion q = turned(quaternion_of(state), robot.now.turned, w, h);
   const double size = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
   for (int k = 0; k < 4; ++k) state.pose[3 + k] = q[k] / size;
   for (int k = 0; k < 3; ++k) {

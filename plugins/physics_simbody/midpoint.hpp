@@ -34,7 +34,6 @@ class Midpoint : public Engine {
     std::string name;
     RobotModel model;
     RobotBodies bodies;
-    int first_q = 0, first_u = 0;
     description::Mass whole;            // wheels included
     Eigen::Matrix3d inertia_at_origin;  // of the whole, in the body's frame
     double wheel_inertia[2];            // about the axle
@@ -54,10 +53,9 @@ class Midpoint : public Engine {
     std::vector<int> robots, contacts;
   };
 
-  void read_mass(Robot& robot);
+  void read_masses();
   void find_groups(double h, const std::vector<RobotState>& states);
   int parts_of(const Group& group, double h, const std::vector<RobotState>& states) const;
-  void move_to_middle(const Group& group, double h, const std::vector<RobotState>& states);
   void advance(const Group& group, double h, double at, const std::vector<Command>& commands,
                std::vector<RobotState>& states);
   void place(int index, double h, double at, const Command& command, const RobotState& state);
