@@ -64,6 +64,10 @@ Outcome ContactSolver::solve(Problem& problem) {
     outcome.direct = true;
   } else {
     slip(outcome);
+    if (!outcome.minimised && !problem.search.together) {  // rare: motors at their limits, which the other search meets
+      problem.search.together = true;
+      slip(outcome);
+    }
   }
   for (std::size_t i = 0; i < u_.size(); ++i) problem.bodies[i].velocity = u_[i];
   return outcome;

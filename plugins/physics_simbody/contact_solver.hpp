@@ -50,7 +50,8 @@ struct Search {
   double tolerance = 1e-7;        // of the residual as a velocity [m/s]
   double bound_tolerance = 1e-3;  // of friction's bound, relative to the largest
   int passes = 12;                // that refresh the bounds
-  bool together = false;          // for many: motors at their limit are searched for as friction is
+  bool together = false;          // for many: motors at their limit are searched for as friction is. Set where a
+                                  // search without it fails.
 };
 
 struct Problem {

@@ -141,6 +141,17 @@ TEST(Contact, FastRobotsPassThroughNothing) {
   EXPECT_LT(seen.deepest, 0.005);
 }
 
+TEST(Contact, StepIsDividedWhereAFastRobotIsNearOthers) {
+  const description::Robot sled = on_ice();
+  Fleet run({moving(0, 0, 0, 1, 0), moving(0, 5, 0, 1, 0), moving(0, 9, 0, 0.1, 0)}, sled, Integrator::midpoint,
+            coarse);
+  run.among({wall(0.2, -1, 0.2, 1, 0.1), wall(0.2, 8, 0.2, 10, 0.1)}, 0.3);
+  run.tick(coarse, std::vector<Command>(3, command(0, 0)));
+  EXPECT_EQ(run.states[0].memory.previous_step, coarse / 2);
+  EXPECT_EQ(run.states[1].memory.previous_step, coarse);  // fast, but alone
+  EXPECT_EQ(run.states[2].memory.previous_step, coarse);
+}
+
 TEST(Contact, TippedRobotLiesOnItsSide) {
   RobotState tipped = at_rest(0, 0, 0);
   tipped.pose = {0, 0, 0.2, std::cos(0.9), std::sin(0.9), 0, 0};  // rolled by 103 degrees
