@@ -6,6 +6,7 @@
 #include <muster/tables.hpp>
 
 #include "tests/run_world.hpp"
+#include "text/number.hpp"
 
 namespace muster::test {
 namespace {
@@ -23,7 +24,7 @@ struct Errors {
 InstanceDeclaration plugin(const std::string& id, const std::vector<std::pair<std::string, double>>& attributes = {}) {
   InstanceDeclaration result{id, id, 1, {}, {}, {}, {"test"}};
   for (const auto& [name, value] : attributes)
-    result.attributes.push_back({name, std::to_string(value), {"test"}, {"test"}});
+    result.attributes.push_back({name, print_real(value), {"test"}, {"test"}});
   return result;
 }
 
