@@ -54,6 +54,7 @@ std::optional<Hidden> hide(const CauseCandidate& cause, const search::Bench& ben
     hidden.theta = c.grid[static_cast<std::size_t>(stream.uniform(k, 0) * static_cast<double>(c.grid.size()))];
     for (Index j = 0; j < c.step.size(); ++j)
       hidden.theta[j] += c.step[j] * (stream.uniform(k, 1 + static_cast<uint64_t>(j)) - 0.5);
+    if (c.lower.size() > 0) hidden.theta = hidden.theta.cwiseMax(c.lower).cwiseMin(c.upper);
     if (c.admitted && c.admitted(hidden.theta) < 1) continue;
     const MatrixXd columns = bench.columns_of(c, hidden.theta);
     VectorXd weights(columns.cols());
