@@ -102,7 +102,6 @@ void Encounters::stand(int index, const Placed& robot, const Memory& memory) {
     Contact c;
     c.body = index;
     c.normal = point_row(arm, up);
-    for (int k = 0; k < 2; ++k) c.tangent[k] = point_row(arm, to_body.col(k));
     c.softness = compliance.softness;
     const double gap = robot.position.z() + up.dot(arm) - 0.5 * h_ * c.normal.dot(robot.body.previous);
     c.target = compliance.target(gap, h_);
@@ -110,9 +109,13 @@ void Encounters::stand(int index, const Placed& robot, const Memory& memory) {
   };
   for (int w = 0; w < 2; ++w) {
     const double radius = robot.model->drive.wheel_radius;
-    Contact c = contact(robot.model->wheel_frame[w].translation(), radius);
+    const Vector3d centre = robot.model->wheel_frame[w].translation();
+    Contact c = contact(centre, radius);
     const Vector3d surface = Vector3d::UnitY().cross(-radius * up);  // of the tread, per rate
-    for (int k = 0; k < 2; ++k) c.tangent[k][6 + w] = surface.dot(to_body.col(k));
+    for (int k = 0; k < 2; ++k) {
+      c.tangent[k] = point_row(centre - radius * up, to_body.col(k));
+      c.tangent[k][6 + w] = surface.dot(to_body.col(k));
+    }
     c.friction = robot.model->drive.friction;
     const auto& impulse = memory.impulse[w];
     c.push = impulse[0];

@@ -61,7 +61,7 @@ Extent extent_of(const RobotModel& model, const RobotState& state, double more) 
 
 Midpoint::Midpoint(const std::vector<NamedRobot>& robots, double step) : longest_step_(step) {
   for (const NamedRobot& named : robots) {
-    Robot robot{named.name, RobotModel(*named.description), {}, {}, {}, {}, {}, {}, {}};
+    Robot robot{named.name, RobotModel(*named.description), {}, {}, {}, {}, {}};
     robot.bodies = system_.add(robot.model);
     robot.whole = whole_mass(*named.description);
     const Matrix3d c = cross_matrix(robot.whole.centre);
@@ -103,10 +103,10 @@ void Midpoint::read_masses() {
     system_.matter.multiplyByM(state, units, columns);
     for (Robot& robot : robots_) {
       const int first = robot.bodies.body.getFirstUIndex(state);
-      for (int r = 0; r < unknowns; ++r) robot.mass(r, c) = columns[first + r];
+      for (int r = 0; r < unknowns; ++r) robot.now.body.mass(r, c) = columns[first + r];
     }
   }
-  for (Robot& robot : robots_) robot.inverse_mass = robot.mass.inverse();
+  for (Robot& robot : robots_) robot.now.body.inverse_mass = robot.now.body.mass.inverse();
 }
 
 void Midpoint::step(double dt, const std::vector<Command>& commands, std::vector<RobotState>& states) {
@@ -160,7 +160,7 @@ Velocity Midpoint::free_acceleration(std::size_t index, const Matrix3d& to_world
   Velocity force;
   force << centre.cross(weight) - w.cross(robot.inertia_at_origin * w + spin),
       weight - robot.whole.mass * w.cross(w.cross(centre)), 0, 0;
-  return robot.inverse_mass * force;
+  return robot.now.body.inverse_mass * force;
 }
 
 void Midpoint::advance(const Group& group, double h, double at, const std::vector<Command>& commands,
@@ -228,12 +228,7 @@ void Midpoint::solve(const Island& island, std::vector<RobotState>& states) {
   problem_.search = std::all_of(island.contacts.begin(), island.contacts.end(), on_clear_floor) ? alone : together;
   problem_.bodies.resize(island.robots.size());
   problem_.contacts.clear();
-  for (std::size_t i = 0; i < island.robots.size(); ++i) {
-    const Robot& robot = robots_[island.robots[i]];
-    problem_.bodies[i] = robot.now.body;
-    problem_.bodies[i].mass = robot.mass;
-    problem_.bodies[i].inverse_mass = robot.inverse_mass;
-  }
+  for (std::size_t i = 0; i < island.robots.size(); ++i) problem_.bodies[i] = robots_[island.robots[i]].now.body;
   for (const int k : island.contacts) {
     Contact contact = encounters_.contacts[k];
     contact.body = member(contact.body);

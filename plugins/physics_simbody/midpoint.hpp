@@ -37,7 +37,6 @@ class Midpoint : public Engine {
     description::Mass whole;            // wheels included
     Eigen::Matrix3d inertia_at_origin;  // of the whole, in the body's frame
     double wheel_inertia[2];            // about the axle
-    MassMatrix mass, inverse_mass;
     Placed now;
   };
 
