@@ -293,7 +293,7 @@ void Medium::end_unicast(const Frame& frame, Time at, Fate heard) {
     if (!settings_.acknowledged) settle(frame.sender, message, message.to, heard);
     return;
   }
-  if (!sender.arrived && is_last_frame(sender)) deliver(frame.sender, message, message.to, at);
+  if (is_last_frame(sender)) deliver(frame.sender, message, message.to, at);
   sender.arrived = true;
   Radio& receiver = radios_[message.to];
   if (!settings_.acknowledged || receiver.ack_phase != Phase::idle) return;

@@ -4,6 +4,7 @@
 #include <muster/plugin.hpp>
 
 #include "description/world_robots.hpp"
+#include "plugins/scene_rows.hpp"
 #include "world.hpp"
 
 namespace {
@@ -143,7 +144,7 @@ struct PhysicsOde {
     const bool same = now.size() == known_walls.size() &&
                       std::memcmp(now.data(), known_walls.data(), now.size() * sizeof(double)) == 0;  // some are NaN
     if (same) return;
-    world->set_walls(ode::wall_boxes(k[walls], k[doors], k[door_states]));
+    world->set_walls(scene::slabs(scene_walls(k[walls]), scene_doors(k[doors], k[door_states], k[walls])));
     known_walls = now;
   }
 

@@ -13,9 +13,10 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double push_out = 0.2;  // fastest way out of what was entered [m/s]
-constexpr double fastest = 1e3;   // [m/s], [rad/s]: beyond, the motion has blown up
-constexpr int most_contacts = 8;  // of two shapes: as many as two boxes make
+constexpr double push_out = 0.2;        // fastest way out of what was entered [m/s]
+constexpr double fastest = 1e3;         // [m/s], [rad/s]: beyond, the motion has blown up
+constexpr double thinnest_wall = 0.02;  // [m]: through less, a robot may step without having touched it
+constexpr int most_contacts = 8;        // of two shapes: as many as two boxes make
 constexpr double smooth = 0, as_the_other = std::numeric_limits<double>::infinity();  // friction of a surface
 
 // What meets what. Robots are spaces of their own, whose parts do not meet.
@@ -56,10 +57,7 @@ HingedWheel as_hinged(const Wheel& wheel, const Vector3d& body_centre, const Vec
 }  // namespace
 
 World::World(const std::vector<NamedRobot>& robots, const Settings& settings)
-    : settings_(settings),
-      world_(dWorldCreate()),
-      space_(dHashSpaceCreate(nullptr)),
-      contacts_(dJointGroupCreate(0)) {
+    : settings_(settings), world_(dWorldCreate()), space_(dHashSpaceCreate(nullptr)), contacts_(dJointGroupCreate(0)) {
   thread_.carry(world_.get());
   dWorldSetGravity(world_.get(), 0, 0, -gravity);
   dWorldSetERP(world_.get(), settings.erp);
@@ -132,16 +130,17 @@ dGeomID World::add_geom(dGeomID geom, unsigned long category, unsigned long meet
   return geom;
 }
 
-void World::set_walls(const std::vector<WallBox>& walls) {
+void World::set_walls(const std::vector<scene::Slab>& walls) {
   for (dGeomID old : walls_) dGeomDestroy(old);
   walls_.clear();
   while (surfaces_.size() > surfaces_of_robots_) surfaces_.pop_back();
   if (!settings_.obstacles) return;
-  for (const WallBox& box : walls) {
-    dGeomID geom = dCreateBox(nullptr, box.size.x(), box.size.y(), box.size.z());
+  for (const scene::Slab& slab : walls) {
+    dGeomID geom = dCreateBox(nullptr, slab.length, std::max(slab.thickness, thinnest_wall), slab.height);
     dSpaceAdd(space_.get(), add_geom(geom, wall, 0, as_the_other));
-    dGeomSetPosition(geom, box.centre.x(), box.centre.y(), box.centre.z());
-    const dQuaternion turned = {std::cos(box.heading / 2), 0, 0, std::sin(box.heading / 2)};
+    dGeomSetPosition(geom, slab.x, slab.y, slab.z);
+    const double half_heading = std::atan2(slab.sin_yaw, slab.cos_yaw) / 2;
+    const dQuaternion turned = {std::cos(half_heading), 0, 0, std::sin(half_heading)};
     dGeomSetQuaternion(geom, turned);
     walls_.push_back(geom);
   }

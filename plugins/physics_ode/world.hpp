@@ -9,7 +9,7 @@
 
 #include "library.hpp"
 #include "model.hpp"
-#include "walls.hpp"
+#include "scene/slabs.hpp"
 
 namespace muster::ode {
 
@@ -64,7 +64,7 @@ class World {
   // Throws std::runtime_error for a robot that it cannot hold.
   World(const std::vector<NamedRobot>& robots, const Settings& settings);
 
-  void set_walls(const std::vector<WallBox>& walls);
+  void set_walls(const std::vector<scene::Slab>& walls);
 
   // From t to t + dt [s]; one command and one state a robot, in the order of the robots. `seed`: of quick steps.
   // Returns how often ODE complained. Throws std::runtime_error naming the robot whose motion is no longer finite.

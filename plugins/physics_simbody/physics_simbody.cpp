@@ -4,6 +4,7 @@
 #include <muster/plugin.hpp>
 
 #include "description/world_robots.hpp"
+#include "plugins/scene_rows.hpp"
 #include "world.hpp"
 
 namespace {
@@ -116,14 +117,8 @@ struct PhysicsSimbody {
     const bool same = cells.size() == surroundings.cells.size() &&
                       !std::memcmp(cells.data(), surroundings.cells.data(), cells.size() * sizeof(double));
     if (same && surroundings.told) return;
-    std::vector<scene::Wall> walls;
-    for (const Wall& w : k[wall]) walls.push_back({w.x0, w.y0, w.x1, w.y1, w.base, w.height, w.thickness, 0});
-    std::vector<scene::Door> doors;
-    for (std::size_t i = 0; i < k[door].size(); ++i) {
-      const Door& d = k[door][i];
-      doors.push_back({static_cast<int>(d.wall), d.at, d.width, d.height, 0, k[door_state][i].open != 0});
-    }
-    engine->set_surroundings(scene::slabs(walls, doors), k[body_friction]);
+    engine->set_surroundings(scene::slabs(scene_walls(k[wall]), scene_doors(k[door], k[door_state], k[wall])),
+                             k[body_friction]);
     surroundings = {std::move(cells), true};
   }
 

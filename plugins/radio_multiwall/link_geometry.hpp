@@ -13,6 +13,8 @@
 #include <scene/walls.hpp>
 #include <vector>
 
+#include "plugins/scene_rows.hpp"
+
 namespace muster {
 
 class LinkGeometry {
@@ -26,7 +28,8 @@ class LinkGeometry {
     links_.clear();
     materials_ = materials;
     scene_.reset();  // so that none is left if the new one is refused
-    scene_ = std::make_unique<scene::Scene>(built(walls), built(doors, states, walls), static_cast<int>(materials));
+    scene_ = std::make_unique<scene::Scene>(scene_walls(walls), scene_doors(doors, states, walls),
+                                            static_cast<int>(materials));
     return true;
   }
 
@@ -77,25 +80,6 @@ class LinkGeometry {
       return false;
     kept.assign(now.begin(), now.end());
     return true;
-  }
-
-  static std::vector<scene::Wall> built(Rows<const Wall> walls) {
-    std::vector<scene::Wall> result;
-    for (const Wall& w : walls) {
-      result.push_back({w.x0, w.y0, w.x1, w.y1, w.base, w.height, w.thickness, static_cast<int>(w.material)});
-    }
-    return result;
-  }
-
-  static std::vector<scene::Door> built(Rows<const Door> doors, Rows<const DoorState> states, Rows<const Wall> walls) {
-    std::vector<scene::Door> result;
-    for (std::size_t i = 0; i < doors.size(); ++i) {
-      const Door& d = doors[i];
-      const double material = is_null(d.material) ? walls[static_cast<std::size_t>(d.wall)].material : d.material;
-      result.push_back(
-          {static_cast<int>(d.wall), d.at, d.width, d.height, static_cast<int>(material), states[i].open != 0});
-    }
-    return result;
   }
 
   std::vector<Wall> walls_;

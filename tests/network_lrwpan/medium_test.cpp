@@ -174,6 +174,37 @@ TEST(Acknowledgement, LostFramesAreSentAgain) {
   EXPECT_EQ(of(books, Fate::delivered) + of(books, Fate::too_weak), sent);  // and none arrives twice
 }
 
+// Whose acknowledgements are not heard: what one frame carries has arrived, of more the sender gives up the rest.
+TEST(Acknowledgement, NotHeardItEndsAMessageOfSeveralFrames) {
+  for (const std::size_t size : {std::size_t{40}, std::size_t{400}}) {
+    Pair pair;
+    pair.channel.power[1 * 2 + 0] = 0;
+    pair.channel.rssi[1 * 2 + 0] = std::nan("");
+    pair.medium.ask(0, 0, 1, std::string(size, 'x'));
+    Books books{};
+    const Report report = pair.run();
+    add(books, report);
+    EXPECT_EQ(report.deliveries.size(), size == 40 ? 1u : 0u);  // once, though it is sent four times
+    EXPECT_EQ(of(books, size == 40 ? Fate::delivered : Fate::no_ack), 1);
+  }
+}
+
+TEST(Frame, FollowsAnotherAfterItsSpacing) {
+  for (const std::size_t size : {std::size_t{2}, std::size_t{40}}) {
+    Time least = second;
+    for (uint64_t seed = 0; seed < 40; ++seed) {
+      Pair pair;
+      pair.medium = Medium(Stream(seed));
+      for (int i = 0; i < 2; ++i) pair.medium.ask(0, 0, Medium::everyone, std::string(size, 'x'));
+      const auto deliveries = pair.run().deliveries;
+      ASSERT_EQ(deliveries.size(), 2u);
+      least = std::min(least, deliveries[1].received - deliveries[0].received);
+    }
+    const Time frame = air_time(header + size), spacing = size == 2 ? short_spacing : long_spacing;
+    EXPECT_EQ(least, spacing + cca_window + turnaround + frame);
+  }
+}
+
 // Two that do not hear each other talk over one another at the one between them. It keeps to the frame that it heard
 // first, whose spread bits survive another one as strong; the second is lost, if it begins during the first.
 TEST(HiddenTerminals, Collide) {

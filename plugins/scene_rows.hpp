@@ -1,0 +1,29 @@
+// Rows of walls and doors as the scene has them, numbered alike.
+#pragma once
+
+#include <muster/plugin.hpp>
+#include <scene/walls.hpp>
+#include <vector>
+
+namespace muster {
+
+inline std::vector<scene::Wall> scene_walls(Rows<const Wall> walls) {
+  std::vector<scene::Wall> result;
+  for (const Wall& w : walls)
+    result.push_back({w.x0, w.y0, w.x1, w.y1, w.base, w.height, w.thickness, static_cast<int>(w.material)});
+  return result;
+}
+
+inline std::vector<scene::Door> scene_doors(Rows<const Door> doors, Rows<const DoorState> states,
+                                            Rows<const Wall> walls) {
+  std::vector<scene::Door> result;
+  for (std::size_t i = 0; i < doors.size(); ++i) {
+    const Door& d = doors[i];
+    const double material = is_null(d.material) ? walls[static_cast<std::size_t>(d.wall)].material : d.material;
+    result.push_back(
+        {static_cast<int>(d.wall), d.at, d.width, d.height, static_cast<int>(material), states[i].open != 0});
+  }
+  return result;
+}
+
+}  // namespace muster
