@@ -82,6 +82,7 @@ void Prepared::fill_readings() {
     r.rx_at.col(i) << rx.x, rx.y, rx.z;
     if (!data.t.empty()) r.t.push_back(data.t[row]);
     if (!data.rx_yaw.empty()) r.rx_yaw.push_back(rx.yaw);
+    if (!data.tx_yaw.empty()) r.tx_yaw.push_back(tx.yaw);
     r.level.push_back(base.mean[used[static_cast<std::size_t>(i)]]);
     const double rssi = data.rssi[row];
     problem.measured[i] = std::isnan(rssi) ? fitted.readings.floor + problem.bounds.half_code : rssi;

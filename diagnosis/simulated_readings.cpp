@@ -15,6 +15,7 @@ void write(const noise::Readings& r, const std::vector<std::string>& radios, con
                                   {"tx_z", "m"}, {"rx_x", "m"}, {"rx_y", "m"}, {"rx_z", "m"}};
   if (!r.t.empty()) columns.push_back({"t", "s"});
   if (!r.rx_yaw.empty()) columns.push_back({"rx_yaw", "rad"});
+  if (!r.tx_yaw.empty()) columns.push_back({"tx_yaw", "rad"});
   TextTableWriter table(file, columns);
   for (Index i = 0; i < r.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
@@ -24,6 +25,7 @@ void write(const noise::Readings& r, const std::vector<std::string>& radios, con
       for (Index c = 0; c < 3; ++c) table.real(at[c]);
     if (!r.t.empty()) table.real(r.t[k]);
     if (!r.rx_yaw.empty()) table.real(r.rx_yaw[k]);
+    if (!r.tx_yaw.empty()) table.real(r.tx_yaw[k]);
     table.end_row();
   }
   table.close();

@@ -24,7 +24,9 @@ bool ends_row(const Readings& r, const RowLimits& limits, Index first, Index nex
   const auto a = static_cast<std::size_t>(first), b = static_cast<std::size_t>(next);
   if (r.tx[a] != r.tx[b] || r.rx[a] != r.rx[b]) return true;
   if (!r.t.empty() && r.t[b] - r.t[a] >= limits.time) return true;
-  if (!r.rx_yaw.empty() && std::abs(std::remainder(r.rx_yaw[b] - r.rx_yaw[a], 2 * M_PI)) > limits.turn) return true;
+  for (const std::vector<double>* yaw : {&r.rx_yaw, &r.tx_yaw}) {
+    if (!yaw->empty() && std::abs(std::remainder((*yaw)[b] - (*yaw)[a], 2 * M_PI)) > limits.turn) return true;
+  }
   if (!r.level.empty() && std::abs(r.level[b] - r.level[a]) > limits.level) return true;
   return (r.rx_at.col(next) - r.rx_at.col(first)).norm() > limits.way ||
          (r.tx_at.col(next) - r.tx_at.col(first)).norm() > limits.way;
@@ -141,6 +143,7 @@ Readings Rows::middles(const Readings& readings) const {
     result.rx_at.col(i) = readings.rx_at.col(middle(i));
     if (!readings.t.empty()) result.t.push_back(readings.t[k]);
     if (!readings.rx_yaw.empty()) result.rx_yaw.push_back(readings.rx_yaw[k]);
+    if (!readings.tx_yaw.empty()) result.tx_yaw.push_back(readings.tx_yaw[k]);
     if (!readings.level.empty()) result.level.push_back(readings.level[k]);
   }
   return result;

@@ -14,6 +14,7 @@ struct Readings {
   std::vector<int> tx, rx;        // radios, by numbers that do not depend on the order of the readings
   Eigen::Matrix3Xd tx_at, rx_at;  // m
   std::vector<double> rx_yaw;     // rad; empty: unknown
+  std::vector<double> tx_yaw;     // the same of the transmitter
   std::vector<double> level;      // dB that a model expects; empty: unknown
 
   Index size() const { return static_cast<Index>(tx.size()); }

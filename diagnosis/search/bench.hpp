@@ -32,7 +32,7 @@ struct Term {
   bool as_stated = false;  // beyond chance beside the field that the model states, and not beside a fitted one
 
   bool smooth() const { return as_smooth || candidate->kind == Kind::smooth; }
-  std::string id() const { return as_smooth ? "~" + candidate->own() : candidate->id; }
+  std::string id() const { return smooth() ? "~" + candidate->own() : candidate->id; }
 };
 
 // A design whitened at one covariance.

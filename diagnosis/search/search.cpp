@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 #include "diagnosis/search/clean_up.hpp"
@@ -74,10 +75,24 @@ std::vector<Spread> Search::settle_in_the_middle() {
   return result;
 }
 
+// One check a cause and a covariate. Of several ways to look along a covariate it is what chance does least, times
+// their number.
 void Search::check_what_is_left(Result& result, const Stand& stand) {
+  std::map<std::string, std::pair<std::size_t, double>> along;  // where it stands, ways to look
   for (const Lead& lead : leads(bench_, stand)) {
     const Candidate& c = lead.candidate();
-    result.checks.push_back({c.id, c.label_of(lead.theta), c.kind, lead.gain, lead.log_p});
+    const Check check{c.kind == Kind::smooth ? "~" + c.own() : c.id, c.label_of(lead.theta), c.kind, lead.gain,
+                      lead.log_p};
+    const auto [at, first] = along.try_emplace(check.id, result.checks.size(), 1.0);
+    if (first) {
+      result.checks.push_back(check);
+      continue;
+    }
+    auto& [place, ways] = at->second;
+    Check& known = result.checks[place];
+    const double one = std::min(known.log_p - std::log(ways), check.log_p);
+    if (check.gain > known.gain) known.gain = check.gain;
+    known.log_p = one + std::log(++ways);
   }
 }
 

@@ -13,13 +13,15 @@ bool has(const std::vector<Lead>& leads, const Lead& lead) {
                      [&](const Lead& other) { return other.entry == lead.entry && other.theta == lead.theta; });
 }
 
+bool looked_at_again(const Candidate& c) { return c.kind == Kind::named || c.slow; }
+
 // Three that nearly pass, everything whose gain has many tops, of which the grid may miss the highest, and what the
 // ladder brings up.
 std::vector<Lead> worth_a_look(Bench& bench, const std::vector<Lead>& first,
                                const std::function<bool(const Candidate&)>& usable) {
   std::vector<Lead> result;
   for (const Lead& lead : first) {
-    if (lead.candidate().kind == Kind::named && lead.log_p < std::log(0.5) && usable(lead.candidate()) &&
+    if (looked_at_again(lead.candidate()) && lead.log_p < std::log(0.5) && usable(lead.candidate()) &&
         result.size() < 3)
       result.push_back(lead);
   }
@@ -82,7 +84,7 @@ std::vector<Lead> ladder(Bench& bench, const std::function<bool(const Candidate&
       if (lost > 60) continue;
       for (const Entry& entry : bench.entries()) {
         const Candidate& c = *entry.candidate;
-        if (!c.slow || c.kind != Kind::named || !usable(c)) continue;
+        if (!c.slow || !usable(c)) continue;
         Index at = 0;
         const double gain = gains(c, unit_atoms(entry, stand), stand.at.residual).maxCoeff(&at) - lost;
         const auto found = best.find(c.id);

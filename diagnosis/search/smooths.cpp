@@ -69,6 +69,28 @@ Candidate factor(const std::string& name, const std::vector<int>& level) {
   return c;
 }
 
+// Flat up to a bend and straight beyond it, to either side (Friedman 1991): one function where a smooth needs five.
+Candidate bend(const std::string& name, const Eigen::VectorXd& values) {
+  constexpr int bends = 9;
+  Candidate c = smooth(
+      {name}, [rows = values.size()](int) { return Eigen::MatrixXd::Zero(rows, 1); }, false);
+  c.id = "bend~" + name;
+  c.observed = true;
+  std::vector<double> sorted(values.begin(), values.end());
+  std::sort(sorted.begin(), sorted.end());
+  c.grid.clear();
+  for (int k = 0; k < bends; ++k) {
+    const double at = sorted[(sorted.size() - 1) * static_cast<std::size_t>(k) / bends];
+    const double mirrored = sorted[(sorted.size() - 1) * static_cast<std::size_t>(bends - k) / bends];
+    c.grid.push_back(Eigen::Vector2d(at, 1));
+    if (k > 0) c.grid.push_back(Eigen::Vector2d(mirrored, -1));  // from the end on it is the same straight line
+  }
+  c.columns = [values](const Eigen::VectorXd& theta) {
+    return Eigen::MatrixXd((theta[1] * (values.array() - theta[0])).max(0.0).matrix());
+  };
+  return c;
+}
+
 // From -1 to 1.
 Eigen::ArrayXd signed_scale(const Eigen::VectorXd& x) { return 2 * scaled(x).array() - 1; }
 Eigen::ArrayXd centred(const Eigen::ArrayXd& x) { return x - x.mean(); }
@@ -98,37 +120,71 @@ Candidate with_position(const std::string& name, const Eigen::VectorXd& values, 
       false);
 }
 
-Candidate by_position(const Eigen::MatrixXd& place) {
-  return smooth(
-      {"position"},
-      [place](int) {
-        const Eigen::MatrixXd x = cosines(place.col(0), 5), y = cosines(place.col(1), 3);
-        Eigen::MatrixXd result(place.rows(), 23);
-        Index k = 0;
-        for (Index a = 0; a < 6; ++a) {
-          for (Index b = 0; b < 4; ++b) {
-            if (a + b == 0 || 2 * a + 3 * b > 12) continue;  // a / 6 + b / 4 <= 1
-            result.col(k++) = (a ? Eigen::ArrayXd(x.col(a - 1)) : Eigen::ArrayXd::Ones(place.rows()).eval()) *
-                              (b ? Eigen::ArrayXd(y.col(b - 1)) : Eigen::ArrayXd::Ones(place.rows()).eval());
-          }
-        }
-        result.conservativeResize(Eigen::NoChange, k);
-        return result;
-      },
-      false);
+// Products of cosines over the place's range: a half-waves along x and b along y, a / (high + 1) + b / (across + 1)
+// < 1.
+Eigen::MatrixXd surface(const Eigen::MatrixXd& place, int high, int across) {
+  const Eigen::MatrixXd x = cosines(place.col(0), high), y = cosines(place.col(1), across);
+  const Eigen::ArrayXd flat = Eigen::ArrayXd::Ones(place.rows());
+  Eigen::MatrixXd result(place.rows(), 0);
+  for (int a = 0; a <= high; ++a) {
+    for (int b = 0; b <= across; ++b) {
+      if (a + b == 0 || a * (across + 1) + b * (high + 1) >= (high + 1) * (across + 1)) continue;
+      result.conservativeResize(Eigen::NoChange, result.cols() + 1);
+      result.rightCols(1) = ((a ? x.col(a - 1).array() : flat) * (b ? y.col(b - 1).array() : flat)).matrix();
+    }
+  }
+  return result;
 }
 
+Candidate by_position(const Eigen::MatrixXd& place) {
+  return smooth(
+      {"position"}, [place](int) { return surface(place, 5, 3); }, false);
+}
+
+// What bends no more than once over the plan: a field can swallow it, and few functions see it sooner than many.
+Candidate slope_over_position(const Eigen::MatrixXd& place) {
+  Candidate c = smooth(
+      {"position"}, [place](int) { return surface(place, 2, 2); }, false);
+  c.id = "slope~position";
+  c.slow = true;
+  return c;
+}
+
+// How far a radio got from where it was first.
+std::map<int, double> ways_of(const noise::Readings& r) {
+  std::map<int, std::pair<Eigen::Vector3d, double>> seen;
+  const auto add = [&](int radio, const Eigen::Vector3d& at) {
+    auto& [first, way] = seen.try_emplace(radio, at, 0.0).first->second;
+    way = std::max(way, (at - first).norm());
+  };
+  for (Index i = 0; i < r.size(); ++i) {
+    add(r.tx[static_cast<std::size_t>(i)], r.tx_at.col(i));
+    add(r.rx[static_cast<std::size_t>(i)], r.rx_at.col(i));
+  }
+  std::map<int, double> result;
+  for (const auto& [radio, of] : seen) result[radio] = of.second;
+  return result;
+}
+
+// Of a link's ends the one that goes farther, the receiver where both go as far: what depends on where a robot is and
+// which way it looks does so both when it hears and when it sends.
 struct Geometry {
-  Eigen::MatrixXd place;  // x, y of the receiver, one row a reading
-  Eigen::VectorXd log_distance, bearing, from_tx;
+  Eigen::MatrixXd place;  // x, y of that end, one row a reading
+  Eigen::VectorXd log_distance, bearing, heading, from_tx;
 
   explicit Geometry(const noise::Readings& r)
-      : place(r.rx_at.topRows(2).transpose()), bearing(r.size()), from_tx(r.size()) {
+      : place(r.rx_at.topRows(2).transpose()), bearing(r.size()), heading(r.size()), from_tx(r.size()) {
     const Eigen::Matrix3Xd to_tx = r.tx_at - r.rx_at;
     log_distance = to_tx.colwise().norm().transpose().cwiseMax(0.5).array().log10();
+    const std::map<int, double> ways = ways_of(r);
     for (Index i = 0; i < r.size(); ++i) {
-      const double yaw = r.rx_yaw.empty() ? 0 : r.rx_yaw[static_cast<std::size_t>(i)];
-      bearing[i] = std::atan2(to_tx(1, i), to_tx(0, i)) - yaw;
+      const auto k = static_cast<std::size_t>(i);
+      const bool sends = ways.at(r.tx[k]) > ways.at(r.rx[k]);
+      if (sends) place.row(i) = r.tx_at.col(i).head<2>().transpose();
+      const bool looks_from_tx = sends && !r.tx_yaw.empty();
+      const double sign = looks_from_tx ? -1 : 1;
+      heading[i] = looks_from_tx ? r.tx_yaw[k] : r.rx_yaw.empty() ? 0 : r.rx_yaw[k];
+      bearing[i] = std::atan2(sign * to_tx(1, i), sign * to_tx(0, i)) - heading[i];
       from_tx[i] = std::atan2(-to_tx(1, i), -to_tx(0, i));
     }
   }
@@ -144,11 +200,38 @@ std::vector<int> links(const noise::Readings& readings) {
   return result;
 }
 
+// A swing whose pace changes steadily from one end of the data to the other: no period, though it swings.
+Candidate chirp(const Eigen::VectorXd& time) {
+  constexpr double cycles_apart = 0.5, change_apart = 0.5, slowest = 1, fastest = 14;  // cycles over the data
+  const auto columns = [u = scaled(time)](const Eigen::VectorXd& theta) {
+    // theta: cycles in all, and how many more of them the second half has.
+    const Eigen::ArrayXd turns = 2 * M_PI * (theta[0] * u.array() - 2 * theta[1] * u.array() * (1 - u.array()));
+    Eigen::MatrixXd result(u.size(), 2);
+    result << turns.cos().matrix(), turns.sin().matrix();
+    return result;
+  };
+  Candidate c = smooth(
+      {"time"}, [columns](int) { return columns(Eigen::Vector2d(2, 1)); }, false);
+  c.id = "chirp~time";
+  c.grid.clear();
+  for (double cycles = 2; cycles <= 9; cycles += cycles_apart) {
+    for (double change = 0.75; change <= 3; change += change_apart) {
+      for (const double sign : {-1.0, 1.0}) {
+        if (cycles - 2 * change >= slowest && cycles + 2 * change <= fastest)
+          c.grid.push_back(Eigen::Vector2d(cycles, sign * change));
+      }
+    }
+  }
+  c.columns = columns;
+  return c;
+}
+
 void add_time(const Problem& problem, const Geometry& geometry, std::vector<Candidate>& out) {
   const auto& t = problem.readings.t;
   if (t.empty()) return;
   const Eigen::VectorXd time = Eigen::Map<const Eigen::VectorXd>(t.data(), static_cast<Index>(t.size()));
   out.push_back(smooth_of("time", time, 10));
+  out.push_back(chirp(time));
   out.push_back(smooth_by_level("time_per_tx", problem.readings.tx, cosines(time, 5)));
   if (problem.places_known) out.push_back(with_position("time", time, geometry.place));
 }
@@ -171,12 +254,12 @@ std::vector<Candidate> smooths_of(const Problem& problem) {
   result.back().level_like = true;
   if (!readings.rx_yaw.empty()) {
     if (problem.places_known) result.push_back(smooth_of_angle("bearing", geometry.bearing, 4));
-    const Eigen::Map<const Eigen::VectorXd> yaw(readings.rx_yaw.data(), readings.size());
-    result.push_back(smooth_of_angle("heading", yaw, 3));
+    result.push_back(smooth_of_angle("heading", geometry.heading, 3));
   }
   if (problem.places_known) {
     result.push_back(smooth_by_level("txbearing", readings.tx, harmonics_of(geometry.from_tx, 3)));
     result.push_back(by_position(geometry.place));
+    result.push_back(slope_over_position(geometry.place));
   }
   add_time(problem, geometry, result);
   result.push_back(factor("link", links(readings)));
@@ -185,7 +268,9 @@ std::vector<Candidate> smooths_of(const Problem& problem) {
     result.push_back(c.angle ? smooth_of_angle(c.name, c.values, (c.functions + 1) / 2)
                              : smooth_of(c.name, c.values, c.functions));
     result.back().observed = true;
-    if (c.angle || !c.products) continue;
+    if (c.angle) continue;
+    result.push_back(bend(c.name, c.values));
+    if (!c.products) continue;
     result.push_back(with_distance(c.name, c.values, geometry.log_distance));
     if (problem.places_known) result.push_back(with_position(c.name, c.values, geometry.place));
   }

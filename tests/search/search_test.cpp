@@ -89,11 +89,38 @@ TEST(Search, AChirpIsNoPeriod) {
   for (uint64_t seed = 240; seed < 246; ++seed) {
     const World world = world_of(varied(seed, 4000));
     const Eigen::ArrayXd part = world.time.array() / world.time.maxCoeff();
-    const auto said = ids(result_of(world, scaled_to(world, (6 * M_PI * (part + part * part)).sin(), 150)));
+    const auto said = ids(result_of(world, scaled_to(world, (6 * M_PI * (part + part * part)).sin(), 70)));
     for (const std::string& id : said) EXPECT_EQ(id[0], '~') << seed << ": " << id;
     unexplained += std::count(said.begin(), said.end(), "~time") > 0;
   }
   EXPECT_EQ(unexplained, 6);
+}
+
+// The battery falls with time, so that its knee is nearly a drift.
+TEST(Search, AKneeOfTheBatteryIsNoDrift) {
+  int right = 0;
+  for (uint64_t seed = 250; seed < 256; ++seed) {
+    const World world = world_of(varied(seed, 3000));
+    const Eigen::VectorXd effect = scaled_to(world, -(11.7 - world.battery.array()).max(0.0).pow(1.4), 70);
+    const auto said = ids(result_of(world, effect));
+    for (const char* of_time : {"drift", "step", "periodic"})
+      EXPECT_EQ(std::count(said.begin(), said.end(), of_time), 0) << seed << ": " << of_time;
+    right += std::count(said.begin(), said.end(), "~battery") > 0;
+  }
+  EXPECT_GE(right, 5);
+}
+
+// A damp end of the house, which the field can swallow.
+TEST(Search, ASlopeOverThePlanIsReportedAlongThePlace) {
+  int right = 0;
+  for (uint64_t seed = 260; seed < 266; ++seed) {
+    const World world = world_of(varied(seed, 3000));
+    const Eigen::ArrayXd u = world.readings.rx_at.row(0).transpose().array() / 12 - 1;
+    const auto said = ids(result_of(world, scaled_to(world, -(u + 0.7 * u * u), 70)));
+    for (const std::string& id : said) EXPECT_EQ(id[0], '~') << seed << ": " << id;
+    right += std::count(said.begin(), said.end(), "~position") > 0;
+  }
+  EXPECT_GE(right, 5);
 }
 
 TEST(Search, AnOutlierIsNoWall) {
