@@ -207,11 +207,26 @@ VectorXd shuffled(const VectorXd& values, uint64_t number) {
   return result;
 }
 
-// log p of the highest ratio, by a Gumbel law through the moments of the shuffled ones; a ratio's tail is never
-// shorter than exponential. What errs alike for seconds without people, a way over which the field changes as no family
-// says, raises levels as often as it lowers them: it shows in the mirrored residuals, and dips have to be ahead of the
-// mirror's by as much as those are ahead of the shuffled. The difference of two Gumbel draws is logistic.
+// P(X > x) of a Gumbel law of location 0 and scale 1.
+double beyond(double x) { return -std::expm1(-std::exp(-x)); }
+
+// P(X > x) of a Gumbel law whose location has moved up by an unknown step, exponential with this mean, given one draw.
+// In scales.
+double beyond_after_a_step(double x, double draw, double mean) {
+  double sum = 0, weights = 0;
+  for (double step = 0; step < 40; step += 0.05) {
+    const double away = draw - step, weight = std::exp(-step / mean - away - std::exp(-away));
+    sum += weight * beyond(x - step);
+    weights += weight;
+  }
+  return weights > 0 ? sum / weights : 1;
+}
+
+// log p of the highest ratio, by a Gumbel law through the moments of the shuffled ones; a ratio's tail is never shorter
+// than exponential. What errs alike for seconds without people, a way over which the field changes as no family says,
+// raises levels as often as it lowers them: the mirrored residuals are one draw of what it does to the ratios.
 double log_p(const Scan& scan, double ratio) {
+  constexpr double usual_misfit = 2;  // scales: several times what the mirror is ahead of the shuffled in clean worlds
   double first = 0, second = 0;
   for (uint64_t k = 0; k < shuffles; ++k) {
     const double value = highest(scan, shuffled(scan.residual(), k));
@@ -219,13 +234,9 @@ double log_p(const Scan& scan, double ratio) {
     second += value * value / shuffles;
   }
   const double sd = std::sqrt(std::max(second - first * first, 0.0));
-  const double scale = std::max(1.0, sd * std::sqrt(6.0) / M_PI), usual = first - 0.5772 * scale;
-  const double place = (ratio - usual) / scale;
-  const double by_shuffles = place > 30 ? -place : std::log(-std::expm1(-std::exp(-place)));
-  const double mirror = highest(scan, -scan.residual());
-  const double ahead = (ratio - mirror - std::max(mirror - usual, 0.0)) / scale;
-  const double by_mirror = ahead > 30 ? -ahead : -std::log1p(std::exp(ahead));
-  return std::max(by_shuffles, by_mirror);
+  const double scale = std::max(1.0, sd * std::sqrt(6.0) / M_PI), location = first - 0.5772 * scale;
+  const double mirrored = (highest(scan, -scan.residual()) - location) / scale;
+  return std::log(std::max(beyond_after_a_step((ratio - location) / scale, mirrored, usual_misfit), 1e-300));
 }
 
 }  // namespace
