@@ -54,6 +54,7 @@ struct SeenRows {
   std::vector<int> tx, rx;
   Eigen::Matrix3Xd tx_at, rx_at;              // m
   Eigen::VectorXd count, t, yaw;              // readings; s, rad: empty where the data have none
+  Eigen::VectorXd heading, bearing;           // rad, of and from the end that moves: empty where no heading is known
   Eigen::VectorXd before, after;              // dB, measured less the world fitted alone, less the extended one
   Eigen::VectorXd white_before, white_after;  // the same, in its sd, without what its neighbours share with it
   std::vector<search::Covariate> columns;     // further columns of the data, means

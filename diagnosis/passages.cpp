@@ -224,7 +224,8 @@ double beyond_after_a_step(double x, double draw, double mean) {
 
 // log p of the highest ratio, by a Gumbel law through the moments of the shuffled ones; a ratio's tail is never shorter
 // than exponential. What errs alike for seconds without people, a way over which the field changes as no family says,
-// raises levels as often as it lowers them: the mirrored residuals are one draw of what it does to the ratios.
+// raises levels as often as it lowers them: the mirrored residuals are one draw of what it does to the ratios. How much
+// those of a large misfit scatter is not known, so dips have to win twice what the mirror does.
 double log_p(const Scan& scan, double ratio) {
   constexpr double usual_misfit = 2;  // scales: several times what the mirror is ahead of the shuffled in clean worlds
   double first = 0, second = 0;
@@ -236,7 +237,8 @@ double log_p(const Scan& scan, double ratio) {
   const double sd = std::sqrt(std::max(second - first * first, 0.0));
   const double scale = std::max(1.0, sd * std::sqrt(6.0) / M_PI), location = first - 0.5772 * scale;
   const double mirrored = (highest(scan, -scan.residual()) - location) / scale;
-  return std::log(std::max(beyond_after_a_step((ratio - location) / scale, mirrored, usual_misfit), 1e-300));
+  const double ahead = (ratio - location) / scale;
+  return ahead < 2 * mirrored ? 0 : std::log(std::max(beyond_after_a_step(ahead, mirrored, usual_misfit), 1e-300));
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <muster/tables.hpp>
 
+#include "diagnosis/search/moving_ends.hpp"
+
 namespace muster::diagnosis {
 namespace {
 
@@ -16,10 +18,10 @@ VectorXd mean_of(const noise::Rows& rows, const std::vector<double>& values) {
 }
 
 // A row ends before its readings turn far, but the mean of angles must not cross their cut.
-VectorXd first_of(const noise::Rows& rows, const std::vector<double>& values) {
-  if (values.empty()) return {};
+VectorXd first_of(const noise::Rows& rows, const Eigen::Ref<const VectorXd>& values) {
+  if (values.size() == 0) return {};
   VectorXd result(rows.size());
-  for (Index i = 0; i < rows.size(); ++i) result[i] = values[static_cast<std::size_t>(rows.example(i))];
+  for (Index i = 0; i < rows.size(); ++i) result[i] = values[rows.example(i)];
   return result;
 }
 
@@ -60,7 +62,13 @@ SeenRows seen_rows(const search::Bench& bench, const LinkModel& model) {
   out.rx_at = rows.mean(readings.rx_at.transpose()).transpose();
   out.count = rows.count();
   out.t = mean_of(rows, readings.t);
-  out.yaw = first_of(rows, readings.rx_yaw);
+  out.yaw =
+      first_of(rows, Eigen::Map<const VectorXd>(readings.rx_yaw.data(), static_cast<Index>(readings.rx_yaw.size())));
+  if (!readings.rx_yaw.empty() || !readings.tx_yaw.empty()) {
+    const search::MovingEnds moving = search::moving_ends(readings);
+    out.heading = first_of(rows, moving.heading);
+    out.bearing = first_of(rows, moving.bearing);
+  }
   const Eigen::MatrixXd full = bench.design();
   const search::Stand before = bench.stand(bench.base()), after = bench.stand(full);
   out.before = left_by(bench, bench.base(), before);

@@ -77,14 +77,11 @@ void add_geometry(const diagnosis::SeenRows& rows, std::vector<Along>& out) {
   const Eigen::Matrix3Xd way = rows.tx_at - rows.rx_at;
   out.push_back({"distance", "m", "~logd", way.colwise().norm().transpose().cwiseMax(0.1), true});
   if (rows.t.size()) out.push_back({"time", "s", "~time", rows.t});
-  VectorXd bearing(way.cols()), from_tx(way.cols());
-  for (Index i = 0; i < way.cols(); ++i) {
-    bearing[i] = in_degrees(std::atan2(way(1, i), way(0, i)) - (rows.yaw.size() ? rows.yaw[i] : 0));
-    from_tx[i] = in_degrees(std::atan2(-way(1, i), -way(0, i)));
-  }
-  if (rows.yaw.size()) {
-    out.push_back({"bearing of the other radio", "deg", "~bearing", bearing});
-    out.push_back({"heading", "deg", "~heading", rows.yaw.unaryExpr(&in_degrees)});
+  VectorXd from_tx(way.cols());
+  for (Index i = 0; i < way.cols(); ++i) from_tx[i] = in_degrees(std::atan2(-way(1, i), -way(0, i)));
+  if (rows.heading.size()) {
+    out.push_back({"bearing of the other radio", "deg", "~bearing", rows.bearing.unaryExpr(&in_degrees)});
+    out.push_back({"heading", "deg", "~heading", rows.heading.unaryExpr(&in_degrees)});
   }
   if (!rows.places_known) return;
   out.push_back({"direction from the transmitter", "deg", "~txbearing", from_tx});

@@ -115,8 +115,8 @@ std::string short_name(const std::string& id) {
 std::string covariate_in_words(const std::string& name) {
   static const std::map<std::string, std::string> words = {
       {"logd", "distance"},
-      {"bearing", "the other radio's bearing, seen from the receiver's heading"},
-      {"heading", "the receiver's heading"},
+      {"bearing", "the other radio's bearing, seen from the heading of the one that moves"},
+      {"heading", "the heading of the radio that moves"},
       {"txbearing", "the direction from each transmitter"},
       {"position", "the place in the plan"},
       {"map", "the place in the plan"},

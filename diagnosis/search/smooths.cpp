@@ -5,6 +5,8 @@
 #include <map>
 #include <memory>
 
+#include "diagnosis/search/moving_ends.hpp"
+
 namespace muster::search {
 namespace {
 
@@ -150,43 +152,14 @@ Candidate slope_over_position(const Eigen::MatrixXd& place) {
   return c;
 }
 
-// How far a radio got from where it was first.
-std::map<int, double> ways_of(const noise::Readings& r) {
-  std::map<int, std::pair<Eigen::Vector3d, double>> seen;
-  const auto add = [&](int radio, const Eigen::Vector3d& at) {
-    auto& [first, way] = seen.try_emplace(radio, at, 0.0).first->second;
-    way = std::max(way, (at - first).norm());
-  };
-  for (Index i = 0; i < r.size(); ++i) {
-    add(r.tx[static_cast<std::size_t>(i)], r.tx_at.col(i));
-    add(r.rx[static_cast<std::size_t>(i)], r.rx_at.col(i));
-  }
-  std::map<int, double> result;
-  for (const auto& [radio, of] : seen) result[radio] = of.second;
-  return result;
-}
-
-// Of a link's ends the one that goes farther, the receiver where both go as far: what depends on where a robot is and
-// which way it looks does so both when it hears and when it sends.
 struct Geometry {
-  Eigen::MatrixXd place;  // x, y of that end, one row a reading
-  Eigen::VectorXd log_distance, bearing, heading, from_tx;
+  MovingEnds moving;
+  Eigen::VectorXd log_distance, from_tx;
 
-  explicit Geometry(const noise::Readings& r)
-      : place(r.rx_at.topRows(2).transpose()), bearing(r.size()), heading(r.size()), from_tx(r.size()) {
-    const Eigen::Matrix3Xd to_tx = r.tx_at - r.rx_at;
-    log_distance = to_tx.colwise().norm().transpose().cwiseMax(0.5).array().log10();
-    const std::map<int, double> ways = ways_of(r);
-    for (Index i = 0; i < r.size(); ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      const bool sends = ways.at(r.tx[k]) > ways.at(r.rx[k]);
-      if (sends) place.row(i) = r.tx_at.col(i).head<2>().transpose();
-      const bool looks_from_tx = sends && !r.tx_yaw.empty();
-      const double sign = looks_from_tx ? -1 : 1;
-      heading[i] = looks_from_tx ? r.tx_yaw[k] : r.rx_yaw.empty() ? 0 : r.rx_yaw[k];
-      bearing[i] = std::atan2(sign * to_tx(1, i), sign * to_tx(0, i)) - heading[i];
-      from_tx[i] = std::atan2(-to_tx(1, i), -to_tx(0, i));
-    }
+  explicit Geometry(const noise::Readings& r) : moving(moving_ends(r)), from_tx(r.size()) {
+    const Eigen::Matrix3Xd to_rx = r.rx_at - r.tx_at;
+    log_distance = to_rx.colwise().norm().transpose().cwiseMax(0.5).array().log10();
+    for (Index i = 0; i < r.size(); ++i) from_tx[i] = std::atan2(to_rx(1, i), to_rx(0, i));
   }
 };
 
@@ -233,7 +206,7 @@ void add_time(const Problem& problem, const Geometry& geometry, std::vector<Cand
   out.push_back(smooth_of("time", time, 10));
   out.push_back(chirp(time));
   out.push_back(smooth_by_level("time_per_tx", problem.readings.tx, cosines(time, 5)));
-  if (problem.places_known) out.push_back(with_position("time", time, geometry.place));
+  if (problem.places_known) out.push_back(with_position("time", time, geometry.moving.place));
 }
 
 }  // namespace
@@ -252,14 +225,14 @@ std::vector<Candidate> smooths_of(const Problem& problem) {
   std::vector<Candidate> result;
   result.push_back(smooth_of("logd", geometry.log_distance, 6));
   result.back().level_like = true;
-  if (!readings.rx_yaw.empty()) {
-    if (problem.places_known) result.push_back(smooth_of_angle("bearing", geometry.bearing, 4));
-    result.push_back(smooth_of_angle("heading", geometry.heading, 3));
+  if (!(readings.rx_yaw.empty() && readings.tx_yaw.empty())) {
+    if (problem.places_known) result.push_back(smooth_of_angle("bearing", geometry.moving.bearing, 4));
+    result.push_back(smooth_of_angle("heading", geometry.moving.heading, 3));
   }
   if (problem.places_known) {
     result.push_back(smooth_by_level("txbearing", readings.tx, harmonics_of(geometry.from_tx, 3)));
-    result.push_back(by_position(geometry.place));
-    result.push_back(slope_over_position(geometry.place));
+    result.push_back(by_position(geometry.moving.place));
+    result.push_back(slope_over_position(geometry.moving.place));
   }
   add_time(problem, geometry, result);
   result.push_back(factor("link", links(readings)));
@@ -272,7 +245,7 @@ std::vector<Candidate> smooths_of(const Problem& problem) {
     result.push_back(bend(c.name, c.values));
     if (!c.products) continue;
     result.push_back(with_distance(c.name, c.values, geometry.log_distance));
-    if (problem.places_known) result.push_back(with_position(c.name, c.values, geometry.place));
+    if (problem.places_known) result.push_back(with_position(c.name, c.values, geometry.moving.place));
   }
   return result;
 }
