@@ -38,23 +38,27 @@ class LinkGeometry {
     links_.resize(links.size());
     counts_.resize(links.size() * materials_);
     const auto back = earlier_reverse(links, at.size());
-    std::size_t computed = 0;
+    New found(at.size());
     for (std::size_t i = 0; i < links.size(); ++i) {
-      const Pose& a = at[static_cast<std::size_t>(links[i].tx)];
-      const Pose& b = at[static_cast<std::size_t>(links[i].rx)];
-      const std::array<scene::Point, 2> ends{{{a.x, a.y, a.z}, {b.x, b.y, b.z}}};
+      const auto tx = static_cast<std::size_t>(links[i].tx), rx = static_cast<std::size_t>(links[i].rx);
+      const std::array<scene::Point, 2> ends{{{at[tx].x, at[tx].y, at[tx].z}, {at[rx].x, at[rx].y, at[rx].z}}};
       if (links_[i].known && !std::memcmp(&ends, &links_[i].ends, sizeof ends)) continue;
-      links_[i].known = false;   // so that no old answer is left if the point is refused
-      if (back[i] != no_link) {  // computed already, the other way
-        std::copy_n(counts(back[i]), materials_, counts_.data() + i * materials_);
-        links_[i] = {ends, links_[back[i]].log_distance, true};
-        continue;
-      }
-      scene_->counts(ends[0], ends[1], counts_.data() + i * materials_);
-      links_[i] = {ends, log_distance(ends[0], ends[1]), true};
-      ++computed;
+      links_[i] = {ends, 0, false};  // so that no old answer is left if a point is refused
+      (back[i] != no_link ? found.reverse : found.forth).push_back(i);
+      if (back[i] == no_link) found.pairs.push_back({found.place(tx, ends[0]), found.place(rx, ends[1])});
     }
-    return computed;
+    std::vector<int> counted;
+    scene_->counts(found.points, found.pairs, counted);
+    for (std::size_t k = 0; k < found.forth.size(); ++k) {
+      const std::size_t i = found.forth[k];
+      for (std::size_t m = 0; m < materials_; ++m) counts_[i * materials_ + m] = counted[m * found.forth.size() + k];
+      links_[i] = {links_[i].ends, log_distance(links_[i].ends[0], links_[i].ends[1]), true};
+    }
+    for (const std::size_t i : found.reverse) {  // counted already, the other way
+      std::copy_n(counts(back[i]), materials_, counts_.data() + i * materials_);
+      links_[i] = {links_[i].ends, links_[back[i]].log_distance, true};
+    }
+    return found.forth.size();
   }
 
   // log10 of the length in metres, which is taken as at least 1 cm: nearer, no far field has formed.
@@ -67,6 +71,24 @@ class LinkGeometry {
     std::array<scene::Point, 2> ends;
     double log_distance = 0;
     bool known = false;
+  };
+
+  // Links that moved, those that an earlier link already runs along the other way, and the places that matter.
+  struct New {
+    explicit New(std::size_t endpoints) : places(endpoints, no_link) {}
+
+    std::uint32_t place(std::size_t endpoint, const scene::Point& at) {
+      if (places[endpoint] == no_link) {
+        places[endpoint] = static_cast<std::uint32_t>(points.size());
+        points.push_back(at);
+      }
+      return places[endpoint];
+    }
+
+    std::vector<std::uint32_t> places;
+    std::vector<scene::Point> points;
+    std::vector<scene::Pair> pairs;
+    std::vector<std::size_t> forth, reverse;
   };
 
   static double log_distance(const scene::Point& p, const scene::Point& q) {
