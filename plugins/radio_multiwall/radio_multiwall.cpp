@@ -51,7 +51,7 @@ struct RadioMultiwall {
     for (std::size_t i = 0; i < by_distance.size(); ++i) {
       by_distance[i].level = at_1m - slope * geometry.log_distance(i);
       double sum = 0;
-      for (std::size_t m = 0; m < losses.size(); ++m) sum -= geometry.counts(i)[m] * losses[m].loss;
+      for (std::size_t m = 0; m < losses.size(); ++m) sum -= geometry.count(i, m) * losses[m].loss;
       by_walls[i].level = sum;
     }
   }
