@@ -7,6 +7,7 @@
 #include "compare_pictures.hpp"
 #include "compare_report.hpp"
 #include "divergence_file.hpp"
+#include "ladder_run.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
 #include "world_words.hpp"
@@ -17,9 +18,9 @@ namespace {
 constexpr std::size_t most_runs = 26;  // labels are letters
 constexpr uint64_t most_spans = 400;   // moments in the file and the picture
 
-struct CompareWords : WorldWords {
-  std::string world;
+struct CompareWords : LadderWords {
   std::vector<std::string> others, within;
+  bool ladder = false;
 };
 
 // "physics=physics.simbody:integrator=rk3"
@@ -208,7 +209,9 @@ class Comparison {
 int run_compare(const Arguments& arguments) {
   CLI::App app(
       "Runs a world as it is given and with an instance exchanged, or several worlds, with the same random numbers,\n"
-      "and says what differs: where first, by how much, since when.\n"
+      "and says what differs: where first, by how much, since when. With --ladder, runs it on channels from perfect "
+      "to\n"
+      "contended, and says what came of its mission on each.\n"
       "Example: muster compare worlds/square_path physics=physics.planar physics=physics.simbody:integrator=rk3 "
       "--out out",
       "compare");
@@ -220,7 +223,18 @@ int run_compare(const Arguments& arguments) {
   app.add_option("--within", words.within,
                  "QUANTITY=TOLERANCE, such as pose/distance=0.05: exit code 1 where a difference is larger")
       ->allow_extra_args(false);
+  app.add_flag("--ladder", words.ladder, "run the world on each rung of the fidelity ladder instead");
+  app.add_option("--metric", words.metrics,
+                 "TABLE/COLUMN, such as robot/leader/pose/x: what the ladder shows in place of moved and delivered")
+      ->allow_extra_args(false);
   parse(app, arguments);
+  if (words.ladder && !(words.others.empty() && words.within.empty() && words.record.empty()))
+    throw Error(
+        Exit::invalid_input,
+        "muster compare --ladder: the rungs are what is compared; expected no other world, --within or --record");
+  if (!words.ladder && !words.metrics.empty())
+    throw Error(Exit::invalid_input, "muster compare: --metric is of the ladder; expected --ladder beside it");
+  if (words.ladder) return static_cast<int>(run_ladder(words));
   Comparison comparison(words);
   comparison.run();
   return static_cast<int>(comparison.report());

@@ -6,11 +6,10 @@
 #include <stdexcept>
 #include <string>
 
+#include "scene/crossing_link.hpp"
+
 namespace muster::scene {
 namespace {
-
-// A height or a place along a wall, times an orientation: below 2^73.
-__extension__ using Wide = __int128;
 
 // In any locale; six significant digits.
 std::string text(double number) {
@@ -40,6 +39,18 @@ void check_wall(const Wall& wall, int row, int materials) {
   check_material("wall", row, wall.material, materials);
 }
 
+}  // namespace
+
+LatticePoint snapped(const Point& point) {
+  if (within_extent(point.x) && within_extent(point.y) && within_extent(point.z)) {
+    return {{snap(point.x), snap(point.y)}, snap(point.z)};
+  }
+  throw std::runtime_error("the point " + text(point.x) + ' ' + text(point.y) + ' ' + text(point.z) +
+                           " lies beyond the scene; expected coordinates within 1000 m");
+}
+
+namespace {
+
 Box box_around(const Spot& a, const Spot& b) {
   return {{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}};
 }
@@ -52,49 +63,17 @@ double length_of(const Spot& a, const Spot& b, std::int64_t rise = 0) {
 
 }  // namespace
 
-// A snapped link with its ends in canonical order, so that p -> q and q -> p are one link.
-struct Scene::Link {
-  Span span;
-  std::int64_t from_z = 0, to_z = 0;
-  bool turned = false;
-
-  Link(const Point& p, const Point& q) {
-    const Spot from = snapped(p), to = snapped(q);
-    turned = !runs_northward(from, to);
-    span = turned ? Span{to, from} : Span{from, to};
-    from_z = snap(turned ? q.z : p.z);
-    to_z = snap(turned ? p.z : q.z);
-  }
-
-  static Spot snapped(const Point& point) {
-    if (within_extent(point.x) && within_extent(point.y) && within_extent(point.z)) {
-      return {snap(point.x), snap(point.y)};
-    }
-    throw std::runtime_error("the point " + text(point.x) + ' ' + text(point.y) + ' ' + text(point.z) +
-                             " lies beyond the scene; expected coordinates within 1000 m");
-  }
-};
-
-// A crossing before it is put into metres: `from` and `to` are the orientations of the link's ends about the wall.
-struct Scene::Hit {
-  int wall = 0;
-  int door = -1;
-  int material = 0;
-  std::int64_t from = 0, to = 0;
-
-  // The link's height above `height` where it crosses, times |to - from|: its sign is exact.
-  Wide height_above(const Link& link, std::int64_t height) const {
-    const Wide sum = Wide{link.from_z - height} * to - Wide{link.to_z - height} * from;
-    return to > from ? sum : -sum;
-  }
-};
-
 Scene::Scene(const std::vector<Wall>& walls, const std::vector<Door>& doors, int materials) : materials_(materials) {
   for (const Wall& wall : walls) add_wall(wall);
   std::vector<Box> boxes;
   for (const LatticeWall& wall : walls_) boxes.push_back(box_around(wall.a, wall.b));
   tree_ = BoxTree(boxes);
   for (const Door& door : doors) add_door(door);
+  std::vector<WallColumns::Source> columns;
+  for (const LatticeWall& wall : walls_) {
+    columns.push_back({wall.a, wall.b, wall.base, wall.top, wall.material, !wall.doors.empty()});
+  }
+  columns_ = WallColumns(columns, materials_);
 }
 
 void Scene::add_wall(const Wall& wall) {
@@ -182,7 +161,7 @@ void Scene::for_each_crossing(const Link& link, const Report& report) const {
 
 void Scene::crossings(const Point& p, const Point& q, std::vector<Crossing>& out) const {
   out.clear();
-  const Link link(p, q);
+  const Link link(snapped(p), snapped(q));
   const double length = length_of(link.span.from, link.span.to, link.to_z - link.from_z);
   for_each_crossing(link, [&](const Hit& hit) {
     const LatticeWall& wall = walls_[hit.wall];
@@ -198,7 +177,7 @@ void Scene::crossings(const Point& p, const Point& q, std::vector<Crossing>& out
 
 void Scene::counts(const Point& p, const Point& q, int* by_material) const {
   std::fill_n(by_material, materials_, 0);
-  for_each_crossing(Link(p, q), [&](const Hit& hit) { ++by_material[hit.material]; });
+  for_each_crossing(Link(snapped(p), snapped(q)), [&](const Hit& hit) { ++by_material[hit.material]; });
 }
 
 }  // namespace muster::scene

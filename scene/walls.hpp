@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scene/box_tree.hpp"
+#include "scene/wall_columns.hpp"
 
 namespace muster::scene {
 
@@ -41,6 +42,17 @@ struct Crossing {
   double cos_incidence = 0;  // between the link and the wall's normal: (0, 1]
 };
 
+// A link between two of a list of points, by their places in it.
+struct Pair {
+  std::uint32_t from = 0, to = 0;
+};
+
+// The points in an order in which neighbours follow one another, as places in the list.
+std::vector<std::uint32_t> spatial_order(const std::vector<Point>& points);
+
+// The fastest that this machine can run. All give the same counts.
+const WallKernel& best_wall_kernel();
+
 // Walls stay as they are; doors open and close. Reading is safe from several threads while no door moves.
 class Scene {
  public:
@@ -58,6 +70,11 @@ class Scene {
 
   // The same as counts: fills by_material[0 .. materials()).
   void counts(const Point& p, const Point& q, int* by_material) const;
+
+  // The same of many links at once, much faster: fills by_material[material x number of links + link]. Fastest where
+  // points come in spatial order and links in ascending order of both ends.
+  void counts(const std::vector<Point>& points, const std::vector<Pair>& links, std::vector<int>& by_material,
+              const WallKernel& kernel = best_wall_kernel()) const;
 
  private:
   // In lattice steps; a -> b runs southward, turned if need be.
@@ -79,6 +96,7 @@ class Scene {
 
   struct Link;
   struct Hit;
+  class ManyLinks;
 
   void add_wall(const Wall& wall);
   void add_door(const Door& door);
@@ -89,6 +107,7 @@ class Scene {
   std::vector<LatticeWall> walls_;
   std::vector<LatticeDoor> doors_;
   BoxTree tree_;
+  WallColumns columns_;
   int materials_ = 0;
 };
 

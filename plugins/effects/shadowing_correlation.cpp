@@ -51,9 +51,7 @@ struct ShadowingCorrelation {
       for (Level& link : out) link.level = 0;
     } else {
       const auto at = at_each(field, k[pose], k[decorrelation]);
-      once_a_pair(k[ends], at.size(), out, [&](const Ends& link) {
-        return Level{k[shadowing] * field.between(of(at, link.tx), of(at, link.rx))};
-      });
+      once_a_pair(k[ends], field, at, out, [&](const Ends&, double between) { return Level{k[shadowing] * between}; });
     }
     for (std::size_t i = 0; i < out.size(); ++i) out[i].level -= k[old][i].level;
   }

@@ -12,16 +12,18 @@
 #include <muster/random.hpp>
 
 #include "even_points.hpp"
+#include "widest.hpp"
 
 namespace muster {
 
 class Multipath {
  public:
   static constexpr std::size_t waves = 32;
+  static constexpr std::size_t batch = 8;  // links that are summed side by side
 
   // A point as each wave's phasor there, leaving (k) and arriving (l).
   struct End {
-    std::array<std::complex<double>, waves> leaving, arriving;
+    std::array<double, waves> leaving_re, leaving_im, arriving_re, arriving_im;
   };
 
   explicit Multipath(const Stream& random) {
@@ -38,21 +40,24 @@ class Multipath {
   End end_at(double x, double y, double z) const {
     End result;
     for (std::size_t m = 0; m < waves; ++m) {
-      result.leaving[m] = phasor(leaving_[m], x, y, z);
-      result.arriving[m] = phasor(arriving_[m], x, y, z);
+      const double leaving = phase(leaving_[m], x, y, z), arriving = phase(arriving_[m], x, y, z);
+      result.leaving_re[m] = std::cos(leaving), result.leaving_im[m] = std::sin(leaving);
+      result.arriving_re[m] = std::cos(arriving), result.arriving_im[m] = std::sin(arriving);
     }
     return result;
   }
 
   // Nearly complex normal, of mean 0 and mean power 1 over places. Bit for bit the same both ways.
   std::complex<double> between(const End& p, const End& q) const {
-    double re = 0, im = 0;
-    for (std::size_t m = 0; m < waves; ++m) {
-      const auto &a = p.leaving[m], &b = q.arriving[m], &c = q.leaving[m], &d = p.arriving[m];
-      re += (a.real() * b.real() - a.imag() * b.imag()) + (c.real() * d.real() - c.imag() * d.imag());
-      im += (a.real() * b.imag() + a.imag() * b.real()) + (c.real() * d.imag() + c.imag() * d.real());
-    }
-    return std::complex<double>(re, im) * std::sqrt(0.5 / waves);
+    const End *from = &p, *to = &q;
+    std::complex<double> result;
+    Links<1>::run(&from, &to, &result);
+    return result;
+  }
+
+  // The same for a batch of links.
+  void between(const End* const* p, const End* const* q, std::complex<double>* out) const {
+    Widest<Links<batch>, const End* const*, const End* const*, std::complex<double>*>::run(p, q, out);
   }
 
  private:
@@ -68,10 +73,32 @@ class Multipath {
             full_turn * up, phase};
   }
 
-  static std::complex<double> phasor(const Wave& w, double x, double y, double z) {
-    const double phase = w.x * x + w.y * y + w.z * z + w.phase;
-    return {std::cos(phase), std::sin(phase)};
-  }
+  static double phase(const Wave& w, double x, double y, double z) { return w.x * x + w.y * y + w.z * z + w.phase; }
+
+  // Loops without a branch, which the compiler makes vectors of; each link is summed in the order of the waves.
+  template <std::size_t links>
+  struct Links {
+    [[gnu::always_inline]] static void run(const End* const* p, const End* const* q, std::complex<double>* out) {
+      double re[links][waves], im[links][waves];
+      for (std::size_t i = 0; i < links; ++i) {
+        for (std::size_t m = 0; m < waves; ++m) {
+          const double a_re = p[i]->leaving_re[m], a_im = p[i]->leaving_im[m];
+          const double b_re = q[i]->arriving_re[m], b_im = q[i]->arriving_im[m];
+          const double c_re = q[i]->leaving_re[m], c_im = q[i]->leaving_im[m];
+          const double d_re = p[i]->arriving_re[m], d_im = p[i]->arriving_im[m];
+          re[i][m] = (a_re * b_re - a_im * b_im) + (c_re * d_re - c_im * d_im);
+          im[i][m] = (a_re * b_im + a_im * b_re) + (c_re * d_im + c_im * d_re);
+        }
+      }
+      double sum_re[links] = {}, sum_im[links] = {};
+      for (std::size_t m = 0; m < waves; ++m) {
+        for (std::size_t i = 0; i < links; ++i) sum_re[i] += re[i][m], sum_im[i] += im[i][m];
+      }
+      for (std::size_t i = 0; i < links; ++i) {
+        out[i] = std::complex<double>(sum_re[i], sum_im[i]) * std::sqrt(0.5 / waves);
+      }
+    }
+  };
 
   std::array<Wave, waves> leaving_, arriving_;
 };

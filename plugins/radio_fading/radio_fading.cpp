@@ -70,16 +70,15 @@ the gain whose dB is the mean of its dB: -2.507 dB under Rayleigh fading.)";
       return;
     }
     const auto at = at_each(field, k[pose], k[decorrelation]);
-    once_a_pair(k[ends], at.size(), k[shadowing],
-                [&](const Ends& link) { return Level{k[sd] * field.between(of(at, link.tx), of(at, link.rx))}; });
+    once_a_pair(k[ends], field, at, k[shadowing], [&](const Ends&, double between) { return Level{k[sd] * between}; });
   }
 
   void interfere(const Step& k, double ratio) const {
     const double wavelength = light_speed / k[frequency];
     const auto at = at_each(multipath, k[pose], wavelength);
-    once_a_pair(k[ends], at.size(), k[gain], [&](const Ends& link) {
+    once_a_pair(k[ends], multipath, at, k[gain], [&](const Ends& link, std::complex<double> diffuse) {
       const double turns = -distance(of(k[pose], link.tx), of(k[pose], link.rx)) / wavelength;
-      return Fading{rician_gain(ratio, multipath.between(of(at, link.tx), of(at, link.rx)), 6.283185307179586 * turns)};
+      return Fading{rician_gain(ratio, diffuse, 6.283185307179586 * turns)};
     });
   }
 

@@ -9,15 +9,18 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <muster/random.hpp>
 
 #include "even_points.hpp"
+#include "widest.hpp"
 
 namespace muster {
 
 class ShadowField {
  public:
   static constexpr std::size_t waves = 64;
+  static constexpr std::size_t batch = 8;  // links that are summed side by side
 
   // A point, in decorrelation distances, and each wave's sine there.
   struct End {
@@ -45,17 +48,15 @@ class ShadowField {
 
   // Normal, of mean 0 and the variance below. Bit for bit the same both ways: every difference changes its sign alone.
   double between(const End& p, const End& q) const {
-    const double x = q.x - p.x, y = q.y - p.y, z = q.z - p.z;
-    std::array<double, waves> along, part;  // in loops without a branch, which the compiler makes vectors of
-    for (std::size_t m = 0; m < waves; ++m) along[m] = x_[m] * x + y_[m] * y + z_[m] * z;
-    for (std::size_t m = 0; m < waves; ++m) {
-      part[m] = (q.sine[m] - p.sine[m]) / (std::abs(along[m]) > across ? along[m] : across);
-    }
-    double sum = 0;
-    for (std::size_t m = 0; m < waves; ++m) {
-      sum += std::abs(along[m]) > across ? part[m] : middle(m, p, q) * (1 - along[m] * along[m] / 24);
-    }
-    return sum * std::sqrt(std::sqrt(x * x + y * y + z * z) / waves);
+    const End *from = &p, *to = &q;
+    double result;
+    Links<1>::run(this, &from, &to, &result);
+    return result;
+  }
+
+  // The same for a batch of links.
+  void between(const End* const* p, const End* const* q, double* out) const {
+    Widest<Links<batch>, const ShadowField*, const End* const*, const End* const*, double*>::run(this, p, q, out);
   }
 
   // Of a link of this length: grows to 1 for links much longer than a decorrelation distance.
@@ -81,6 +82,41 @@ class ShadowField {
   }
   double middle(std::size_t m, const End& p, const End& q) const {
     return std::cos(phase(m, (p.x + q.x) / 2, (p.y + q.y) / 2, (p.z + q.z) / 2));
+  }
+
+  // Loops without a branch, which the compiler makes vectors of; each link is summed in the order of the waves.
+  template <std::size_t links>
+  struct Links {
+    [[gnu::always_inline]] static void run(const ShadowField* field, const End* const* p, const End* const* q,
+                                           double* out) {
+      double part[links][waves];
+      for (std::size_t i = 0; i < links; ++i) field->parts(*p[i], *q[i], part[i]);
+      double sum[links] = {};
+      for (std::size_t m = 0; m < waves; ++m) {
+        for (std::size_t i = 0; i < links; ++i) sum[i] += part[i][m];
+      }
+      for (std::size_t i = 0; i < links; ++i) {
+        const double x = q[i]->x - p[i]->x, y = q[i]->y - p[i]->y, z = q[i]->z - p[i]->z;
+        out[i] = sum[i] * std::sqrt(std::sqrt(x * x + y * y + z * z) / waves);
+      }
+    }
+  };
+
+  // What each wave adds, but for the length.
+  [[gnu::always_inline]] void parts(const End& p, const End& q, double* part) const {
+    const double x = q.x - p.x, y = q.y - p.y, z = q.z - p.z;
+    double along[waves];
+    std::int64_t slow = 0;
+    for (std::size_t m = 0; m < waves; ++m) along[m] = x_[m] * x + y_[m] * y + z_[m] * z;
+    for (std::size_t m = 0; m < waves; ++m) {
+      part[m] = (q.sine[m] - p.sine[m]) / (std::abs(along[m]) > across ? along[m] : across);
+      slow += std::abs(along[m]) > across ? 0 : 1;
+    }
+    for (std::size_t m = 0; slow > 0; ++m) {
+      if (std::abs(along[m]) > across) continue;
+      part[m] = middle(m, p, q) * (1 - along[m] * along[m] / 24);
+      --slow;
+    }
   }
 
   std::array<double, waves> x_, y_, z_, phase_;

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <memory>
@@ -25,7 +24,7 @@ class LinkGeometry {
     changed = keep(doors, doors_) || changed;
     changed = keep(states, states_) || changed || !scene_ || materials != materials_;
     if (!changed) return false;
-    links_.clear();
+    at_.clear();
     materials_ = materials;
     scene_.reset();  // so that none is left if the new one is refused
     scene_ = std::make_unique<scene::Scene>(scene_walls(walls), scene_doors(doors, states, walls),
@@ -33,47 +32,88 @@ class LinkGeometry {
     return true;
   }
 
-  // How many links were computed anew.
+  // How many links were computed anew: links that run both ways are one.
   std::size_t set_links(Rows<const Ends> links, Rows<const Pose> at) {
-    links_.resize(links.size());
-    counts_.resize(links.size() * materials_);
-    const auto back = earlier_reverse(links, at.size());
-    std::size_t computed = 0;
-    for (std::size_t i = 0; i < links.size(); ++i) {
-      const Pose& a = at[static_cast<std::size_t>(links[i].tx)];
-      const Pose& b = at[static_cast<std::size_t>(links[i].rx)];
-      const std::array<scene::Point, 2> ends{{{a.x, a.y, a.z}, {b.x, b.y, b.z}}};
-      if (links_[i].known && !std::memcmp(&ends, &links_[i].ends, sizeof ends)) continue;
-      links_[i].known = false;   // so that no old answer is left if the point is refused
-      if (back[i] != no_link) {  // computed already, the other way
-        std::copy_n(counts(back[i]), materials_, counts_.data() + i * materials_);
-        links_[i] = {ends, links_[back[i]].log_distance, true};
-        continue;
-      }
-      scene_->counts(ends[0], ends[1], counts_.data() + i * materials_);
-      links_[i] = {ends, log_distance(ends[0], ends[1]), true};
-      ++computed;
+    if (keep(links, ends_)) {
+      at_.clear();
+      number(links, at.size());
     }
-    return computed;
+    std::vector<scene::Point> now;
+    for (const Pose& pose : at) now.push_back({pose.x, pose.y, pose.z});
+    find_moved(now);
+    at_.clear();  // so that no old answer is left if a point is refused
+    scene_->counts(moved_.points, moved_.pairs, counted_);
+    log_distances_.resize(slots_);
+    counts_.resize(slots_ * materials_);
+    for (std::size_t k = 0; k < moved_.pairs.size(); ++k) {
+      log_distances_[moved_.slots[k]] =
+          log_distance(moved_.points[moved_.pairs[k].from], moved_.points[moved_.pairs[k].to]);
+    }
+    for (std::size_t m = 0; m < materials_; ++m) {
+      const int* const of_material = counted_.data() + m * moved_.pairs.size();
+      for (std::size_t k = 0; k < moved_.pairs.size(); ++k) counts_[m * slots_ + moved_.slots[k]] = of_material[k];
+    }
+    at_ = std::move(now);
+    return moved_.pairs.size();
   }
 
   // log10 of the length in metres, which is taken as at least 1 cm: nearer, no far field has formed.
-  double log_distance(std::size_t link) const { return links_[link].log_distance; }
-  // Walls crossed, by material.
-  const int* counts(std::size_t link) const { return counts_.data() + link * materials_; }
+  double log_distance(std::size_t link) const { return log_distances_[slot_[link]]; }
+  // How many walls of a material it crosses.
+  int count(std::size_t link, std::size_t material) const { return counts_[material * slots_ + slot_[link]]; }
 
  private:
-  struct Link {
-    std::array<scene::Point, 2> ends;
-    double log_distance = 0;
-    bool known = false;
+  // The links to compute anew, each as a pair of the points that they need.
+  struct Moved {
+    std::vector<scene::Point> points;
+    std::vector<scene::Pair> pairs;
+    std::vector<std::uint32_t> slots;
   };
+
+  // Links that run both ways share a slot for what is computed.
+  void number(Rows<const Ends> links, std::size_t endpoints) {
+    const auto back = earlier_reverse(links, endpoints);
+    slot_.resize(links.size());
+    slots_ = 0;
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      slot_[i] = back[i] != no_link ? slot_[back[i]] : static_cast<std::uint32_t>(slots_++);
+    }
+  }
+
+  void find_moved(const std::vector<scene::Point>& now) {
+    std::vector<char> moved(now.size(), 1);
+    for (std::size_t i = 0; i < now.size() && at_.size() == now.size(); ++i) {
+      moved[i] = std::memcmp(&now[i], &at_[i], sizeof now[i]) != 0;
+    }
+    moved_.points.clear();
+    moved_.pairs.clear();
+    moved_.slots.clear();
+    std::vector<std::uint32_t> place(now.size(), no_link);
+    const auto place_of = [&](std::size_t end) {
+      if (place[end] == no_link) {
+        place[end] = static_cast<std::uint32_t>(moved_.points.size());
+        moved_.points.push_back(now[end]);
+      }
+      return place[end];
+    };
+    std::uint32_t next = 0;  // the slot that the first of its links meets
+    for (std::size_t i = 0; i < ends_.size(); ++i) {
+      if (slot_[i] != next) continue;
+      ++next;
+      const auto tx = static_cast<std::size_t>(ends_[i].tx), rx = static_cast<std::size_t>(ends_[i].rx);
+      if (!moved[tx] && !moved[rx]) continue;
+      const std::uint32_t from = place_of(tx);
+      moved_.pairs.push_back({from, place_of(rx)});
+      moved_.slots.push_back(slot_[i]);
+    }
+  }
 
   static double log_distance(const scene::Point& p, const scene::Point& q) {
     const double x = p.x - q.x, y = p.y - q.y, z = p.z - q.z;
     return std::log10(std::max(std::sqrt(x * x + y * y + z * z), 0.01));
   }
 
+  // True if the rows are not those that are kept, which they then are.
   template <class Row>
   static bool keep(Rows<const Row> now, std::vector<Row>& kept) {
     if (now.size() == kept.size() && (now.empty() || !std::memcmp(now.begin(), kept.data(), now.size() * sizeof(Row))))
@@ -87,8 +127,14 @@ class LinkGeometry {
   std::vector<DoorState> states_;
   std::size_t materials_ = 0;
   std::unique_ptr<scene::Scene> scene_;
-  std::vector<Link> links_;
-  std::vector<int> counts_;
+  std::vector<Ends> ends_;
+  std::vector<scene::Point> at_;  // where ends were; empty if nothing is known
+  std::vector<std::uint32_t> slot_;
+  std::size_t slots_ = 0;
+  std::vector<double> log_distances_;
+  std::vector<int> counts_;  // material by material
+  Moved moved_;
+  std::vector<int> counted_;
 };
 
 }  // namespace muster

@@ -22,12 +22,16 @@ struct RadioMultiwall {
       real("tx_power", 0, -100, 100, "dBm", "transmit power"),
       real("l0", 40, 0, 150, "dB", "loss at 1 m").free(),
       real("n", 2, 0, 10, "", "path-loss exponent").free(),
+      choice("model", "multi_wall|log_distance|disc|perfect", "what is modelled"),
+      real("radius", 20, 0.01, 1e6, "m", "of the disc"),
   };
 
   explicit RadioMultiwall(Setup& s)
       : tx_power(s.value("tx_power")),
         l0(s.value("l0")),
         n(s.value("n")),
+        model(s.value("model")),
+        radius(s.value("radius")),
         pose(s.read<Pose>("endpoint/*/pose")),
         ends(s.read<Ends>("link/*/ends")),
         wall(s.read<Wall>("wall/*/shape")),
@@ -47,16 +51,23 @@ struct RadioMultiwall {
     }
     const auto by_distance = k[distance];
     const auto by_walls = k[walls];
-    const double at_1m = k[tx_power] - k[l0], slope = 10 * k[n];
+    const double at_1m = k[tx_power] - k[l0], slope = 10 * k[n], edge = std::log10(k[radius]);
     for (std::size_t i = 0; i < by_distance.size(); ++i) {
-      by_distance[i].level = at_1m - slope * geometry.log_distance(i);
+      const double far = geometry.log_distance(i);
+      by_distance[i].level = at_1m - (k[model] <= log_distance         ? slope * far
+                                      : k[model] == disc && far > edge ? 200
+                                                                       : 0);
       double sum = 0;
-      for (std::size_t m = 0; m < losses.size(); ++m) sum -= geometry.counts(i)[m] * losses[m].loss;
+      for (std::size_t m = 0; k[model] == multi_wall && m < losses.size(); ++m) {
+        sum -= geometry.count(i, m) * losses[m].loss;
+      }
       by_walls[i].level = sum;
     }
   }
 
-  Value tx_power, l0, n;
+  enum Model { multi_wall, log_distance, disc, perfect };
+
+  Value tx_power, l0, n, model, radius;
   In<Pose> pose;
   In<Ends> ends;
   In<Wall> wall;

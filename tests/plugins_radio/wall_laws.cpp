@@ -35,7 +35,7 @@ struct Plan {
 };
 
 std::vector<int> counts(const LinkGeometry& g, std::size_t link) {
-  return {g.counts(link), g.counts(link) + Plan::materials};
+  return {g.count(link, Plan::brick), g.count(link, Plan::glass), g.count(link, Plan::wood)};
 }
 using Counts = std::vector<int>;
 

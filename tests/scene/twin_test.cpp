@@ -3,33 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include "drawing.hpp"
+#include "adversary.hpp"
 
 namespace muster::scene {
 namespace {
-
-struct Building {
-  std::vector<Wall> walls;
-  std::vector<Door> doors;
-};
-
-// Doors half a metre wide at every half metre may be drawn: their posts fall between lattice points of an oblique wall.
-Building draw(SmallLattice& lattice) {
-  Building result{lattice.walls(12), {}};
-  for (int row = 0; row < 12; row += 2) {
-    const Wall& wall = result.walls[row];
-    const double length = std::hypot(wall.x1 - wall.x0, wall.y1 - wall.y0);
-    double end = 0;
-    while (true) {
-      const double at = end + 0.5 * lattice.below(3), width = 0.5 * (1 + lattice.below(3));
-      if (at + width > length) break;
-      const double height = 0.5 * (1 + lattice.below(2 * static_cast<int>(wall.height)));
-      result.doors.push_back({row, at, width, height, lattice.below(materials), lattice.below(2) == 1});
-      end = at + width;
-    }
-  }
-  return result;
-}
 
 std::vector<std::pair<int, int>> wall_and_door(const std::vector<Crossing>& crossings) {
   std::vector<std::pair<int, int>> result;
@@ -37,16 +14,12 @@ std::vector<std::pair<int, int>> wall_and_door(const std::vector<Crossing>& cros
   return result;
 }
 
-std::string text(const Point& p) {
-  return std::to_string(p.x) + ' ' + std::to_string(p.y) + ' ' + std::to_string(p.z) + "; ";
-}
-
 TEST(Twin, AgreesOnAMillionLinks) {
   SmallLattice lattice(1);
   std::vector<Crossing> found;
   int through_walls = 0, through_doors = 0;
   for (int building = 0; building < 1000; ++building) {
-    const Building drawn = draw(lattice);
+    const Building drawn(lattice);
     Scene scene(drawn.walls, drawn.doors, materials);
     Twin twin(drawn.walls, drawn.doors);
     for (int link = 0; link < 1000; ++link) {

@@ -1,0 +1,16 @@
+// A world run on each rung of the fidelity ladder, and what came of its mission there.
+#pragma once
+
+#include "world_words.hpp"
+
+namespace muster::cli {
+
+struct LadderWords : WorldWords {
+  std::string world;
+  std::vector<std::string> metrics;
+};
+
+// Prints a table, or JSON; with --out also ladder.csv and ladder.svg. Throws Error.
+Exit run_ladder(const LadderWords& words);
+
+}  // namespace muster::cli
