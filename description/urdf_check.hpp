@@ -39,6 +39,6 @@ Quadrotor read_quadrotor(const Source& source, const tinyxml2::XMLElement& eleme
 // An attribute that must be there and not empty; one that must be a number above 0; those that may be there.
 std::string required(const Source& source, const tinyxml2::XMLElement& element, const char* attribute);
 double positive(const Source& source, const tinyxml2::XMLElement& element, const char* attribute);
-void check_attributes(const Source& source, const tinyxml2::XMLElement& element, const std::vector<std::string>& known);
+void only_attributes(const Source& source, const tinyxml2::XMLElement& element, const std::vector<std::string>& known);
 
 }  // namespace muster::description

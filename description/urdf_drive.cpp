@@ -53,7 +53,7 @@ void check_wheel(const Source& source, int line, const Robot& robot, std::size_t
 }
 
 DifferentialDrive read_differential(const Source& source, const XMLElement& element, const Robot& robot) {
-  check_attributes(
+  only_attributes(
       source, element,
       {"left", "right", "wheel_radius", "wheel_base", "max_torque", "max_speed", "max_acceleration", "friction"});
   DifferentialDrive drive;
@@ -86,7 +86,7 @@ double positive(const Source& source, const XMLElement& element, const char* att
   return *value;
 }
 
-void check_attributes(const Source& source, const XMLElement& element, const std::vector<std::string>& known) {
+void only_attributes(const Source& source, const XMLElement& element, const std::vector<std::string>& known) {
   for (const auto* attribute = element.FirstAttribute(); attribute; attribute = attribute->Next()) {
     if (std::find(known.begin(), known.end(), attribute->Name()) != known.end()) continue;
     source.fail(element.GetLineNum(), std::string("<") + element.Name() + "> has no attribute '" + attribute->Name() +

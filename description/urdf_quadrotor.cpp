@@ -48,9 +48,9 @@ void check_quadrotor(const Source& source, int line, const Quadrotor& drive, con
 }  // namespace
 
 Quadrotor read_quadrotor(const Source& source, const XMLElement& element, const Robot& robot) {
-  check_attributes(source, element,
-                   {"arm", "height", "thrust_factor", "torque_factor", "drag_factor", "max_speed", "lag_up", "lag_down",
-                    "attitude_p", "attitude_i", "attitude_d", "yaw_p", "yaw_i"});
+  only_attributes(source, element,
+                  {"arm", "height", "thrust_factor", "torque_factor", "drag_factor", "max_speed", "lag_up", "lag_down",
+                   "attitude_p", "attitude_i", "attitude_d", "yaw_p", "yaw_i"});
   Quadrotor drive;
   drive.arm = positive(source, element, "arm");
   drive.height = from_zero(source, element, "height");

@@ -27,13 +27,14 @@ struct ControlAttitude {
       : commands(s.file<Row>("file")), command(s.write<AttitudeThrust>("robot/{robot}/attitude_thrust")) {}
 
   void step(const Step& k) const {
-    const double now = k.time() - k.dt() / 2;  // commands hold over the tick: of two, the one for most of it
+    const double tick = k.time() / static_cast<double>(k.tick());
+    const double now = k.time() - tick / 2;  // commands hold over the tick: of two, the one for most of it
     *k[command] = {0, 0, 0, 0};
-    double last = -1;
-    for (const Row& row : k[commands]) {
-      if (!(row.t > last)) throw BadInput("commands: t does not rise after " + std::to_string(last) + " s");
-      last = row.t;
-      if (row.t <= now) *k[command] = row.asked;
+    const auto rows = k[commands];
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (i > 0 && !(rows[i].t > rows[i - 1].t))
+        throw BadInput("commands, row " + std::to_string(i + 1) + ": t does not rise");
+      if (rows[i].t <= now) *k[command] = rows[i].asked;
     }
   }
 

@@ -52,9 +52,12 @@ struct AttitudeLaw {
     }
     const Eigen::Vector3d error = turn_between(q, turned(asked.roll, asked.pitch, angles_of(q).yaw));
     const double turn_error = asked.yaw_rate - w.z();
+    // Rates of a body that turns about the vertical and keeps its roll and pitch: these are not to be damped.
+    const Eigen::Vector3d up = q.conjugate() * Eigen::Vector3d::UnitZ();
+    const Eigen::Vector3d even = up.z() > 0.1 ? Eigen::Vector3d(w.z() / up.z() * up) : Eigen::Vector3d::Zero();
     const Eigen::Vector3d acceleration(
-        drive.attitude_p * error.x() + drive.attitude_i * integral.x() - drive.attitude_d * w.x(),
-        drive.attitude_p * error.y() + drive.attitude_i * integral.y() - drive.attitude_d * w.y(),
+        drive.attitude_p * error.x() + drive.attitude_i * integral.x() - drive.attitude_d * (w.x() - even.x()),
+        drive.attitude_p * error.y() + drive.attitude_i * integral.y() - drive.attitude_d * (w.y() - even.y()),
         drive.yaw_p * turn_error + drive.yaw_i * integral.z());
     const auto moved = [&](double sum, double by, double p, double i) {
       return i > 0 ? std::clamp(sum + by * dt, -wound_up * p / i, wound_up * p / i) : 0;
