@@ -393,7 +393,7 @@ TEST_P(EachBackend, ConvergesInItsOrderInTheAir) {
 }
 
 // One takes off from the ground, one flies beside a Scarab that drives.
-const std::string air = bird("a", "0 0 0") + bird("b", "3 0 4") + "<robot name='c' at='0 4 0'/>" + lift(470, 20);
+const std::string air = bird("a", "0 0 0.06") + bird("b", "3 0 4") + "<robot name='c' at='0 4 0'/>" + lift(470, 20);
 
 TEST_P(EachBackend, GivesTheSameBitsInTheAirForAnyWorkersRemadeAndRestored) {
   if (!GetParam().rotors) return;

@@ -146,7 +146,7 @@ TEST(Flight, DroppedItStandsOnTheGroundAndTakesOffAgain) {
   high.pose[2] = 0.2;
   Fleet run({high}, hummingbird());
   for (int k = 0; k < 200; ++k) run.tick(0.01, {rotors(0, 0, 0, 0)});
-  EXPECT_NEAR(run.states[0].pose[2], 0, 1e-4);
+  EXPECT_NEAR(run.states[0].pose[2], 0.06, 1e-4);
   EXPECT_LT(spin_of(run.states[0]).norm(), 1e-6);
   const double lift = 4 * hummingbird().quadrotor->thrust_factor * 500 * 500 / whole_mass(hummingbird()).mass - gravity;
   for (int k = 0; k < 100; ++k) run.tick(0.01, {rotors(500, 500, 500, 500)});

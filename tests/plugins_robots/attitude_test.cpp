@@ -158,8 +158,8 @@ TEST(Attitude, TheIntegralLevelsAnUnevenBody) {
   for (const std::string integral : {"0", "200"}) {
     const Folder folder;
     std::string urdf = contents(hummingbird(folder, {{"attitude_i", integral}}));
-    const std::string centre = "xyz=\"0 0 0.06\"";
-    urdf.replace(urdf.find(centre), centre.size(), "xyz=\"0 0.005 0.06\"");
+    const std::string body = "<mass value=\"0.68\"/>";
+    urdf.replace(urdf.find(body), body.size(), "<origin xyz=\"0 0.005 0\"/>" + body);
     Simulation run = commanded(folder, {{"attitude_i", integral}}, "0,0,0", "0.01");
     folder.write("bird.urdf", urdf);
     Simulation uneven(read_world(folder / "world.xml", standard()), standard(), options());
@@ -174,7 +174,7 @@ TEST(Attitude, TheIntegralLevelsAnUnevenBody) {
 TEST(Attitude, NobodysRobotAndNoThrustLeaveRotorsAtRest) {
   const Folder folder;
   Simulation run = world_of(folder,
-                            "<robot name=\"r\" model=\"hummingbird\" at=\"0 0 0\"/><robot name=\"s\" at=\"3 0 0\"/>"
+                            "<robot name=\"r\" model=\"hummingbird\" at=\"0 0 0.06\"/><robot name=\"s\" at=\"3 0 0\"/>"
                             "<physics.simbody/><robots.attitude/>");
   for (int k = 0; k < 20; ++k) run.step();
   for (const char* robot : {"r", "s"}) {
@@ -200,7 +200,8 @@ TEST(Attitude, CommandsMustRiseInTime) {
 
 TEST(Mocap, SeesThePoseAndAddsTheNoiseDeclared) {
   const Folder folder;
-  const std::string still = "<robot name=\"r\" model=\"hummingbird\" at=\"1 2 0\" heading=\"0.7\"/><physics.simbody/>";
+  const std::string still =
+      "<robot name=\"r\" model=\"hummingbird\" at=\"1 2 0.06\" heading=\"0.7\"/><physics.simbody/>";
   Simulation plain = world_of(folder, still + "<robots.mocap/>");
   plain.step();
   const auto pose = row<Pose>(plain, "robot/r/pose");
