@@ -19,17 +19,9 @@ RotorRates Quadrotor::later(const RotorRates& now, const RotorRates& asked, cons
 }
 
 Wrench Quadrotor::wrench(const RotorRates& rates, const Vector3d& v, const Vector3d& w) const {
-  const auto& [front, left, back, right] = rates;
-  const double f2 = front * front, l2 = left * left, b2 = back * back, r2 = right * right;
-  // Sums over rotors of their rates, and of these times their places.
-  const double sum = front + left + back + right, along = arm * (front - back), across = arm * (left - right);
-  const double vx = v.x() + height * w.y(), vy = v.y() - height * w.x();  // of the middle of the rotors
-  const double drag_x = -drag_factor * (sum * vx - across * w.z());
-  const double drag_y = -drag_factor * (sum * vy + along * w.z());
-  const double drag_z = -drag_factor * (along * vy - across * vx + arm * arm * sum * w.z());
-  return {{drag_x, drag_y, thrust_factor * (f2 + l2 + b2 + r2)},
-          {thrust_factor * arm * (l2 - r2) - height * drag_y, thrust_factor * arm * (b2 - f2) + height * drag_x,
-           torque_factor * (f2 + b2 - l2 - r2) + drag_z}};
+  RotorRates squares;
+  for (std::size_t i = 0; i < 4; ++i) squares[i] = rates[i] * rates[i];
+  return wrench(rates, squares, v, w);
 }
 
 RotorRates Quadrotor::rates_for(double thrust, const Vector3d& torque) const {

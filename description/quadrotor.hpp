@@ -45,7 +45,10 @@ struct Quadrotor {
   RotorDecay decay(double time) const;
   RotorRates later(const RotorRates& now, const RotorRates& asked, const RotorDecay& decay) const;
 
-  // Of rotors on a body whose origin moves at `v` and that turns at `w`, both in its own frame.
+  // Of rotors on a body whose origin moves at `v` and that turns at `w`, both in its own frame. `squares` of the rates
+  // are apart for who averages both over time.
+  Wrench wrench(const RotorRates& rates, const RotorRates& squares, const Eigen::Vector3d& v,
+                const Eigen::Vector3d& w) const;
   Wrench wrench(const RotorRates& rates, const Eigen::Vector3d& v, const Eigen::Vector3d& w) const;
 
   // Rates that lift with `thrust` [N] and turn with `torque` [N m]. What is too much gives way in this order: turning
@@ -55,5 +58,20 @@ struct Quadrotor {
   // Force against a slow sideways motion while the rotors together lift `thrust` [N s/m].
   double hover_drag(double thrust) const;
 };
+
+inline Wrench Quadrotor::wrench(const RotorRates& rates, const RotorRates& squares, const Eigen::Vector3d& v,
+                                const Eigen::Vector3d& w) const {
+  const auto& [front, left, back, right] = rates;
+  const auto& [f2, l2, b2, r2] = squares;
+  // Sums over rotors of their rates, and of these times their places.
+  const double sum = front + left + back + right, along = arm * (front - back), across = arm * (left - right);
+  const double vx = v.x() + height * w.y(), vy = v.y() - height * w.x();  // of the middle of the rotors
+  const double drag_x = -drag_factor * (sum * vx - across * w.z());
+  const double drag_y = -drag_factor * (sum * vy + along * w.z());
+  const double drag_z = -drag_factor * (along * vy - across * vx + arm * arm * sum * w.z());
+  return {{drag_x, drag_y, thrust_factor * (f2 + l2 + b2 + r2)},
+          {thrust_factor * arm * (l2 - r2) - height * drag_y, thrust_factor * arm * (b2 - f2) + height * drag_x,
+           torque_factor * (f2 + b2 - l2 - r2) + drag_z}};
+}
 
 }  // namespace muster::description

@@ -208,7 +208,7 @@ bool Midpoint::is_in_the_air(const Group& group, double h, const std::vector<Rob
   return states[i].pose[2] + model.lowest_point(up) > way_of(model, states[i], h);
 }
 
-void Midpoint::fly(int index, double h, const Command& command, RobotState& state) const {
+void Midpoint::fly(int index, double h, const Command& command, RobotState& state) {
   robots_[index].flight->step(h, command.rotors, state);
   check_speed(robots_[index].name, state);
 }

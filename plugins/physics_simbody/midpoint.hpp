@@ -61,7 +61,7 @@ class Midpoint : public Engine {
   void advance(const Group& group, double h, double at, const std::vector<Command>& commands,
                std::vector<RobotState>& states);
   bool is_in_the_air(const Group& group, double h, const std::vector<RobotState>& states) const;
-  void fly(int index, double h, const Command& command, RobotState& state) const;
+  void fly(int index, double h, const Command& command, RobotState& state);
   void place(int index, double h, double at, const Command& command, const RobotState& state);
   void meet(const Group& group, double h, const std::vector<RobotState>& states);
   void solve_islands(const Group& group, std::vector<RobotState>& states);

@@ -69,7 +69,7 @@ TEST(Flight, AccelerationIsSimbodys) {
     system.system.realize(state, SimTK::Stage::Acceleration);
     const Vector3d turning(state.getUDot()[0], state.getUDot()[1], state.getUDot()[2]);
     const Vector3d origin(state.getUDot()[3], state.getUDot()[4], state.getUDot()[5]), arm = r * centre;
-    const auto mine = flight.change(r, v + w.cross(arm), r.transpose() * w, rates);
+    const auto mine = flight.change(r, v + w.cross(arm), r.transpose() * w, Flight::spin(rates));
     EXPECT_LT((r * mine.w - turning).norm(), 1e-9 * (1 + turning.norm()));
     EXPECT_LT((mine.v - origin - turning.cross(arm) - w.cross(w.cross(arm))).norm(), 1e-9 * (1 + origin.norm()));
   }
