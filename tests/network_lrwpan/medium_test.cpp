@@ -189,6 +189,23 @@ TEST(Acknowledgement, NotHeardItEndsAMessageOfSeveralFrames) {
   }
 }
 
+// From the end of a frame that it acknowledges until its acknowledgement is out, a radio begins nothing of its own,
+// though it hears nobody: else its own frame would go out on top of its acknowledgement.
+TEST(Acknowledgement, WhoOwesOneDoesNotSendItsOwn) {
+  for (const Cca cca : {Cca::standard, Cca::ns3, Cca::instant}) {
+    Books books{};
+    for (Time asked = 2'600'000; asked < 4'300'000; asked += 10'000) {  // while the other's frame is in the air
+      Pair pair;
+      pair.medium = Medium(Stream(static_cast<uint64_t>(asked)));
+      pair.medium.ask(0, 0, 1, std::string(in_one_frame, 'x'));
+      pair.medium.ask(asked, 1, Medium::everyone, std::string(40, 'x'));
+      add(books, pair.medium.run(0, second, pair.channel, as_ns3(cca)));
+    }
+    EXPECT_EQ(of(books, Fate::delivered), of(books, Fate::under_way));
+    EXPECT_EQ(of(books, Fate::collided), 0);
+  }
+}
+
 TEST(Frame, FollowsAnotherAfterItsSpacing) {
   for (const std::size_t size : {std::size_t{2}, std::size_t{40}}) {
     Time least = second;
