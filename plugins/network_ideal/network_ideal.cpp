@@ -81,6 +81,7 @@ struct NetworkIdeal {
       made[i].from = static_cast<double>(it.from);
       made[i].rssi = it.rssi;
       made[i].t_sent = made[i].t_received = k.time();
+      made[i].lqi = null();
       k.put_bytes(inbox, i, Incoming::payload_column, k.bytes(request, it.request, Outgoing::payload_column));
     }
   }

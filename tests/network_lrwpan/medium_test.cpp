@@ -11,7 +11,8 @@ namespace {
 
 constexpr Time second = 1'000'000'000;
 
-double milliwatts(double dbm) { return std::pow(10, dbm / 10); }
+using packets::Delivery;
+using packets::milliwatts;
 
 // As ns-3 has it: noise of 5 MHz at 290 K, and a channel that is busy 10 dB above the sensitivity of -106.58 dBm.
 Settings as_ns3(Cca cca = Cca::ns3) {
@@ -153,10 +154,10 @@ TEST(Payload, ArrivesByteForByteInAsManyFragmentsAsItNeeds) {
       std::string payload(size, '\0');
       for (std::size_t i = 0; i < size; ++i) payload[i] = static_cast<char>(mixed(i));
       pair.medium.ask(0, 0, to, payload);
-      const auto deliveries = pair.run().deliveries;
-      ASSERT_EQ(deliveries.size(), 1u) << size;
-      EXPECT_TRUE(deliveries[0].payload == payload) << size;
-      EXPECT_GE(deliveries[0].received, static_cast<Time>(size) * octet);
+      const Report report = pair.run();
+      ASSERT_EQ(report.deliveries.size(), 1u) << size;
+      EXPECT_TRUE(report.payload(report.deliveries[0]) == payload) << size;
+      EXPECT_GE(report.deliveries[0].received, static_cast<Time>(size) * octet);
     }
   }
 }

@@ -1,0 +1,121 @@
+// Messages on their way: who wants to send what to whom, each radio's queue, and what became of every copy. A medium
+// access takes the first message of a queue, sends its frames, and says here what became of them.
+#pragma once
+
+#include <array>
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "packets/air.hpp"
+
+namespace muster::packets {
+
+// What may become of a copy, one of which goes to each receiver of a message.
+enum class Fate : std::uint8_t {
+  under_way = 0,
+  delivered,
+  too_weak,    // below the receiver's sensitivity, or lost in noise alone
+  no_link,     // beyond the range of all links
+  collided,    // lost to what else was in the air, or the receiver was talking or heard another one
+  no_access,   // the channel was busy each time its sender listened
+  queue_full,  // its sender had too many others to send
+  no_ack,      // it arrived in part, and the sender gave up for lack of acknowledgements
+  gone,        // sender or receiver left
+  count
+};
+Fate fate_of(Heard heard);
+
+constexpr std::size_t everyone = static_cast<std::size_t>(-1);
+
+// Those to whom a copy of a message is still under way.
+class Receivers {
+ public:
+  Receivers() = default;
+  explicit Receivers(std::size_t one) : one_(one) {}
+  explicit Receivers(std::vector<std::uint8_t> all) : all_(std::move(all)) {}
+
+  // Each of them once, in order of their numbers; those for whom `is_settled` says so are so no more.
+  template <class IsSettled>
+  void each(IsSettled&& is_settled) {
+    if (one_ != everyone && is_settled(one_)) one_ = everyone;
+    for (std::size_t i = 0; i < all_.size(); ++i)
+      if (all_[i] && is_settled(i)) all_[i] = false;
+  }
+  void save(Writer& out) const { out.put(one_), out.put_all(all_); }
+  void load(Reader& in) { in.get(one_), in.get_all(all_); }
+
+ private:
+  std::size_t one_ = everyone;
+  std::vector<std::uint8_t> all_;
+};
+
+struct Message {
+  Time asked = 0;
+  std::size_t to = everyone;
+  std::string payload;
+  Receivers receivers;
+  std::size_t frame = 0;  // the one that is sent
+};
+
+struct Delivery {
+  std::size_t from, to;
+  Time sent, received;  // when it was asked for, and when its last frame ended
+  double rssi, ratio;   // of that frame: dBm as its preamble was found; signal to noise and others
+  std::size_t payload;  // among the report's
+};
+
+struct Report {
+  std::vector<Delivery> deliveries;
+  std::vector<std::string> payloads;
+  // Of each sender's copies, by what became of them in this time; under_way counts those newly asked for.
+  std::vector<std::array<std::uint64_t, static_cast<std::size_t>(Fate::count)>> fates;
+
+  const std::string& payload(const Delivery& delivery) const { return payloads[delivery.payload]; }
+};
+
+class Post {
+ public:
+  // A message that `from` wants to send at a time of the next run.
+  void ask(Time at, std::size_t from, std::size_t to, std::string payload);
+
+  struct Request {
+    Time at;
+    std::size_t from, to;
+    std::string payload;
+  };
+  const std::vector<Request>& requests() const { return requests_; }
+
+  // Of a run, which begins by settling all that radios which left had to send.
+  void open(const Channel& channel);
+  Report close();
+  // Puts a request into its sender's queue, where no more than `limit` may wait. True if it is to be sent at once.
+  bool take(std::size_t request, std::size_t limit);
+
+  bool is_waiting(std::size_t radio) const { return !queues_[radio].empty(); }
+  Message& first(std::size_t radio) { return queues_[radio].front(); }
+  const Message& first(std::size_t radio) const { return queues_[radio].front(); }
+  void drop_first(std::size_t radio) { queues_[radio].pop_front(); }
+
+  // What became of a frame of the first message, at each receiver that it is still under way to; where it arrived, its
+  // copy is delivered with the message's last frame.
+  void frame_heard(std::size_t sender, const std::vector<Heard>& heard, const Air& air, Time at, bool is_last);
+  void deliver(std::size_t sender, std::size_t to, const Air& air, Time at);
+  // All copies of the first message that are under way.
+  void settle(std::size_t sender, Fate fate) { settle(sender, first(sender), fate); }
+
+  void save(Writer& out) const;
+  void load(Reader& in);
+
+ private:
+  void settle(std::size_t sender, Message& message, Fate fate);
+  std::uint64_t& count(std::size_t sender, Fate fate) { return report_.fates[sender][static_cast<std::size_t>(fate)]; }
+  void put_delivery(std::size_t sender, std::size_t to, const Air& air, Time at);
+
+  const Channel* channel_ = nullptr;
+  std::vector<std::deque<Message>> queues_;
+  std::vector<Request> requests_;
+  Report report_;
+};
+
+}  // namespace muster::packets
