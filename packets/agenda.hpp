@@ -19,20 +19,29 @@ struct Event {
   }
 };
 
+// What is known before the run is sorted once; what comes up in it goes into a heap, which so stays small.
 class Agenda {
  public:
   void clear(Time until) {
-    heap_.clear();
+    known_.clear(), heap_.clear();
+    next_ = 0;
+    has_begun_ = false;
     until_ = until;
   }
   // What lies beyond the run is left out: the medium's state tells it to the next one.
   void put(Time at, int kind, std::uint64_t which) {
     if (at >= until_) return;
-    heap_.push_back({at, kind, which});
-    std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
+    auto& events = has_begun_ ? heap_ : known_;
+    events.push_back({at, kind, which});
+    if (has_begun_) std::push_heap(events.begin(), events.end(), std::greater<>());
   }
-  bool empty() const { return heap_.empty(); }
+  void begin() {
+    std::sort(known_.begin(), known_.end(), [](const Event& a, const Event& b) { return b > a; });
+    has_begun_ = true;
+  }
+  bool empty() const { return heap_.empty() && next_ == known_.size(); }
   Event take() {
+    if (heap_.empty() || (next_ < known_.size() && heap_.front() > known_[next_])) return known_[next_++];
     std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
     const Event next = heap_.back();
     heap_.pop_back();
@@ -41,7 +50,9 @@ class Agenda {
 
  private:
   Time until_ = 0;
-  std::vector<Event> heap_;
+  bool has_begun_ = false;
+  std::size_t next_ = 0;
+  std::vector<Event> known_, heap_;
 };
 
 }  // namespace muster::packets

@@ -92,19 +92,29 @@ void Air::hear(Time until) {
   std::uint64_t id = nothing;
   Bits bits{};
   const Format* format = nullptr;
+  double clean = 0;
   for (std::size_t i = 0; i < lock_.size(); ++i) {
     if (lock_[i] == nothing) continue;
     if (lock_[i] != id) {
       id = lock_[i];
       format = &formats_[frame(id).format];
       bits = bits_of(frame(id), *format, from, until);
+      clean = std::max(format->body_law->clean(), bits.head > 0 ? format->head_law->clean() : 0);
     }
     const double others = total_[i] - signal_[i];
-    const double ratio = signal_[i] / (others + hearing_.noise);
     others_[i] += others * lasted;
+    if (signal_[i] >= clean * (others + hearing_.noise)) continue;
+    const double ratio = signal_[i] / (others + hearing_.noise);
     if (bits.head > 0) log_right_[i] += bits.head * format->head_law->log_right(ratio);
     if (bits.body > 0) log_right_[i] += bits.body * format->body_law->log_right(ratio);
   }
+}
+
+// A number is drawn only where the outcome is open.
+bool Air::is_whole(std::size_t radio, std::uint64_t frame) const {
+  const double log_right = log_right_[radio];
+  if (log_right > -1e-12 || log_right < -40) return log_right > -1;
+  return random_.of(channel_->keys[radio]).uniform(frame) < std::exp(log_right);
 }
 
 const std::vector<Heard>& Air::end(const Frame& frame) {
@@ -116,10 +126,7 @@ const std::vector<Heard>& Air::end(const Frame& frame) {
     if (lock_[i] == frame.id) {
       lock_[i] = nothing;
       ratio_[i] = signal_[i] / (others_[i] / lasted + hearing_.noise);
-      // No draw where nothing can be wrong.
-      const bool whole =
-          log_right_[i] > -1e-15 || random_.of(channel_->keys[i]).uniform(frame.id) < std::exp(log_right_[i]);
-      heard_[i] = whole ? Heard::whole : others_[i] > 0 ? Heard::collided : Heard::too_weak;
+      heard_[i] = is_whole(i, frame.id) ? Heard::whole : others_[i] > 0 ? Heard::collided : Heard::too_weak;
     } else if (!channel_->alive[i]) {
       heard_[i] = Heard::gone;
     } else if (power[i] == 0) {

@@ -83,6 +83,7 @@ class Air {
 
  private:
   void hear(Time until);
+  bool is_whole(std::size_t radio, std::uint64_t frame) const;
   void sum_up(Time at);
   Stream random_;
   std::vector<Format> formats_;

@@ -16,7 +16,11 @@ class BitLaw {
   template <class ErrorRate>
   explicit BitLaw(ErrorRate error_rate) {
     for (std::size_t i = 0; i < log_right_.size(); ++i) log_right_[i] = std::log1p(-error_rate(ratio_at(i)));
+    while (first_clean_ > 0 && log_right_[first_clean_ - 1] > -1e-18) --first_clean_;
   }
+
+  // The ratio from which on no bit comes wrong, within 1e-18.
+  double clean() const { return ratio_at(first_clean_); }
 
   // ln of the probability that a bit comes right; 0 beyond 36 dB.
   double log_right(double ratio) const {
@@ -43,6 +47,7 @@ class BitLaw {
   }
 
   std::array<double, 20 * 128 + 1> log_right_;
+  std::size_t first_clean_ = log_right_.size() - 1;
 };
 
 }  // namespace muster::packets

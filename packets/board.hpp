@@ -40,7 +40,7 @@ class Board {
     look(k);
     if (const auto bytes = k.last_bytes(state_, 0, 0); bytes != saved_) medium.load(bytes);
     ask(k, medium);
-    const Report report = medium.run(nanoseconds(k.time() - k.dt()), nanoseconds(k.time()), channel_, settings);
+    const Report& report = medium.run(nanoseconds(k.time() - k.dt()), nanoseconds(k.time()), channel_, settings);
     hand_over(k, report);
     count(k, report);
     saved_ = medium.save();
@@ -94,13 +94,14 @@ class Board {
     const auto made = k.append(inbox_, report.deliveries.size());
     for (std::size_t i = 0; i < report.deliveries.size(); ++i) {
       const Delivery& it = report.deliveries[i];
+      const Arrival& message = report.arrivals[it.arrival];
       made[i].radio = static_cast<double>(it.to);
-      made[i].from = static_cast<double>(it.from);
+      made[i].from = static_cast<double>(message.from);
       made[i].rssi = it.rssi;
       made[i].lqi = lqi(it.ratio);
-      made[i].t_sent = 1e-9 * static_cast<double>(it.sent);
-      made[i].t_received = 1e-9 * static_cast<double>(it.received);
-      k.put_bytes(inbox_, i, Incoming::payload_column, report.payload(it));
+      made[i].t_sent = 1e-9 * static_cast<double>(message.sent);
+      made[i].t_received = 1e-9 * static_cast<double>(message.received);
+      k.put_bytes(inbox_, i, Incoming::payload_column, message.payload);
     }
   }
 

@@ -23,8 +23,8 @@ void Post::ask(Time at, std::size_t from, std::size_t to, std::string payload) {
 
 void Post::open(const Channel& channel) {
   channel_ = &channel;
-  report_ = {};
-  report_.fates.resize(channel.radios);
+  report_.arrivals.clear(), report_.deliveries.clear();
+  report_.fates.assign(channel.radios, {});
   queues_.resize(channel.radios);
   for (std::size_t i = 0; i < channel.radios; ++i) {
     if (channel.alive[i]) continue;
@@ -33,24 +33,26 @@ void Post::open(const Channel& channel) {
   }
 }
 
-Report Post::close() {
+const Report& Post::close() {
   requests_.clear();
-  return std::move(report_);
+  return report_;
 }
 
 bool Post::take(std::size_t number, std::size_t limit) {
   Request& request = requests_[number];
   const std::size_t from = request.from;
-  Message message{request.at, request.to, std::move(request.payload), Receivers(request.to), 0};
+  Message message;
+  message.asked = request.at;
+  message.to = request.to;
+  message.size = request.payload.size();
+  message.payload = std::move(request.payload);
+  message.receivers = Receivers(request.to);
   if (request.to == everyone) {
     std::vector<std::uint8_t> others = channel_->alive;
     others[from] = false;
     message.receivers = Receivers(std::move(others));
   }
-  message.receivers.each([&](std::size_t) {
-    ++count(from, Fate::under_way);
-    return false;
-  });
+  count(from, Fate::under_way, message.receivers.count());
   if (!channel_->alive[from]) {
     settle(from, message, Fate::gone);
   } else if (request.to == from) {
@@ -64,40 +66,50 @@ bool Post::take(std::size_t number, std::size_t limit) {
   return false;
 }
 
-void Post::frame_heard(std::size_t sender, const std::vector<Heard>& heard, const Air& air, Time at, bool is_last) {
-  first(sender).receivers.each([&](std::size_t to) {
-    const bool arrived = heard[to] == Heard::whole;
-    if (arrived && !is_last) return false;
-    ++count(sender, fate_of(heard[to]));
-    if (arrived) put_delivery(sender, to, air, at);
-    return true;
-  });
+void Post::frame_heard(std::size_t sender, const std::vector<Heard>& heard) {
+  Receivers& receivers = first(sender).receivers;
+  for (std::size_t i = 0; i < heard.size(); ++i) {
+    if (heard[i] == Heard::whole || !receivers.has(i)) continue;
+    count(sender, fate_of(heard[i]));
+    receivers.drop(i);
+  }
 }
 
-void Post::deliver(std::size_t sender, std::size_t receiver, const Air& air, Time at) {
-  first(sender).receivers.each([&](std::size_t to) {
-    if (to != receiver) return false;
-    ++count(sender, Fate::delivered);
-    put_delivery(sender, to, air, at);
-    return true;
+void Post::last_frame_heard(std::size_t sender, const std::vector<Heard>& heard, const Air& air, Time at) {
+  std::array<std::size_t, static_cast<std::size_t>(Heard::gone) + 1> tally{};
+  Message& message = first(sender);
+  message.receivers.each([&](std::size_t to) {
+    ++tally[static_cast<std::size_t>(heard[to])];
+    if (heard[to] == Heard::whole) put_delivery(to, air);
   });
+  if (tally[static_cast<std::size_t>(Heard::whole)] > 0) put_arrival(sender, at);
+  for (const Heard each : {Heard::whole, Heard::too_weak, Heard::no_link, Heard::collided, Heard::gone})
+    count(sender, fate_of(each), tally[static_cast<std::size_t>(each)]);
+  message.receivers = {};
 }
 
-// The copies of one broadcast share their payload in the report.
-void Post::put_delivery(std::size_t sender, std::size_t to, const Air& air, Time at) {
-  const Message& message = first(sender);
-  const bool is_first = report_.deliveries.empty() || report_.deliveries.back().from != sender ||
-                        report_.deliveries.back().received != at;
-  if (is_first) report_.payloads.push_back(message.payload);
-  report_.deliveries.push_back(
-      {sender, to, message.asked, at, air.rssi(to), air.ratio(to), report_.payloads.size() - 1});
+void Post::deliver(std::size_t sender, std::size_t to, const Air& air, Time at) {
+  if (!first(sender).receivers.has(to)) return;
+  count(sender, Fate::delivered);
+  put_delivery(to, air);
+  put_arrival(sender, at);
+  first(sender).receivers.drop(to);
+}
+
+void Post::put_arrival(std::size_t sender, Time at) {
+  Message& message = first(sender);
+  report_.arrivals.push_back({sender, message.asked, at, std::move(message.payload)});
+}
+
+// Before the arrival that it belongs to.
+void Post::put_delivery(std::size_t to, const Air& air) {
+  const auto arrival = static_cast<std::uint32_t>(report_.arrivals.size());
+  report_.deliveries.push_back({arrival, static_cast<std::uint32_t>(to), air.rssi(to), air.ratio(to)});
 }
 
 void Post::settle(std::size_t sender, Message& message, Fate fate) {
-  message.receivers.each([&](std::size_t) {
-    ++count(sender, fate);
-    return true;
-  });
+  count(sender, fate, message.receivers.count());
+  message.receivers = {};
 }
 
 void Post::save(Writer& out) const {
@@ -105,7 +117,7 @@ void Post::save(Writer& out) const {
   for (const auto& queue : queues_) {
     out.put(queue.size());
     for (const Message& message : queue) {
-      out.put(message.asked), out.put(message.to), out.put(message.frame);
+      out.put(message.asked), out.put(message.to), out.put(message.size), out.put(message.frame);
       out.put_text(message.payload);
       message.receivers.save(out);
     }
@@ -117,7 +129,7 @@ void Post::load(Reader& in) {
   for (auto& queue : queues_) {
     queue.resize(in.get<std::size_t>());
     for (Message& message : queue) {
-      in.get(message.asked), in.get(message.to), in.get(message.frame);
+      in.get(message.asked), in.get(message.to), in.get(message.size), in.get(message.frame);
       message.payload = in.text();
       message.receivers.load(in);
     }

@@ -32,46 +32,59 @@ constexpr std::size_t everyone = static_cast<std::size_t>(-1);
 class Receivers {
  public:
   Receivers() = default;
-  explicit Receivers(std::size_t one) : one_(one) {}
-  explicit Receivers(std::vector<std::uint8_t> all) : all_(std::move(all)) {}
-
-  // Each of them once, in order of their numbers; those for whom `is_settled` says so are so no more.
-  template <class IsSettled>
-  void each(IsSettled&& is_settled) {
-    if (one_ != everyone && is_settled(one_)) one_ = everyone;
-    for (std::size_t i = 0; i < all_.size(); ++i)
-      if (all_[i] && is_settled(i)) all_[i] = false;
+  explicit Receivers(std::size_t one) : count_(1), one_(one) {}
+  explicit Receivers(std::vector<std::uint8_t> all) : all_(std::move(all)) {
+    for (const std::uint8_t is_one : all_) count_ += is_one;
   }
-  void save(Writer& out) const { out.put(one_), out.put_all(all_); }
-  void load(Reader& in) { in.get(one_), in.get_all(all_); }
+
+  std::size_t count() const { return count_; }
+  bool has(std::size_t radio) const { return radio == one_ || (radio < all_.size() && all_[radio]); }
+  // In order of their numbers.
+  template <class Do>
+  void each(Do&& what) const {
+    if (one_ != everyone) what(one_);
+    for (std::size_t i = 0; i < all_.size(); ++i)
+      if (all_[i]) what(i);
+  }
+  void drop(std::size_t radio) {
+    --count_;
+    if (radio == one_) one_ = everyone;
+    if (radio < all_.size()) all_[radio] = false;
+  }
+  void save(Writer& out) const { out.put(count_), out.put(one_), out.put_all(all_); }
+  void load(Reader& in) { in.get(count_), in.get(one_), in.get_all(all_); }
 
  private:
-  std::size_t one_ = everyone;
+  std::size_t count_ = 0, one_ = everyone;
   std::vector<std::uint8_t> all_;
 };
 
 struct Message {
   Time asked = 0;
   std::size_t to = everyone;
-  std::string payload;
+  std::size_t size = 0;  // bytes
+  std::string payload;   // until its first copy is delivered
   Receivers receivers;
   std::size_t frame = 0;  // the one that is sent
 };
 
-struct Delivery {
-  std::size_t from, to;
+// A message that arrived at somebody.
+struct Arrival {
+  std::size_t from;
   Time sent, received;  // when it was asked for, and when its last frame ended
-  double rssi, ratio;   // of that frame: dBm as its preamble was found; signal to noise and others
-  std::size_t payload;  // among the report's
+  std::string payload;
+};
+
+struct Delivery {
+  std::uint32_t arrival, to;  // its number in the report; a radio
+  double rssi, ratio;         // of its last frame: dBm as its preamble was found; signal to noise and others
 };
 
 struct Report {
+  std::vector<Arrival> arrivals;
   std::vector<Delivery> deliveries;
-  std::vector<std::string> payloads;
   // Of each sender's copies, by what became of them in this time; under_way counts those newly asked for.
   std::vector<std::array<std::uint64_t, static_cast<std::size_t>(Fate::count)>> fates;
-
-  const std::string& payload(const Delivery& delivery) const { return payloads[delivery.payload]; }
 };
 
 class Post {
@@ -88,7 +101,7 @@ class Post {
 
   // Of a run, which begins by settling all that radios which left had to send.
   void open(const Channel& channel);
-  Report close();
+  const Report& close();
   // Puts a request into its sender's queue, where no more than `limit` may wait. True if it is to be sent at once.
   bool take(std::size_t request, std::size_t limit);
 
@@ -97,9 +110,10 @@ class Post {
   const Message& first(std::size_t radio) const { return queues_[radio].front(); }
   void drop_first(std::size_t radio) { queues_[radio].pop_front(); }
 
-  // What became of a frame of the first message, at each receiver that it is still under way to; where it arrived, its
-  // copy is delivered with the message's last frame.
-  void frame_heard(std::size_t sender, const std::vector<Heard>& heard, const Air& air, Time at, bool is_last);
+  // What became of a frame of the first message, at each receiver that it is still under way to. With the last frame
+  // each copy is settled, and delivered where it arrived.
+  void frame_heard(std::size_t sender, const std::vector<Heard>& heard);
+  void last_frame_heard(std::size_t sender, const std::vector<Heard>& heard, const Air& air, Time at);
   void deliver(std::size_t sender, std::size_t to, const Air& air, Time at);
   // All copies of the first message that are under way.
   void settle(std::size_t sender, Fate fate) { settle(sender, first(sender), fate); }
@@ -109,8 +123,11 @@ class Post {
 
  private:
   void settle(std::size_t sender, Message& message, Fate fate);
-  std::uint64_t& count(std::size_t sender, Fate fate) { return report_.fates[sender][static_cast<std::size_t>(fate)]; }
-  void put_delivery(std::size_t sender, std::size_t to, const Air& air, Time at);
+  void count(std::size_t sender, Fate fate, std::size_t copies = 1) {
+    report_.fates[sender][static_cast<std::size_t>(fate)] += copies;
+  }
+  void put_delivery(std::size_t to, const Air& air);
+  void put_arrival(std::size_t sender, Time at);
 
   const Channel* channel_ = nullptr;
   std::vector<std::deque<Message>> queues_;

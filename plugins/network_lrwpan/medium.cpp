@@ -29,7 +29,7 @@ Medium::Medium(const Stream& random) : random_(random), air_(random.of(key_of("b
 
 // ---- Time ---------------------------------------------------------------------------------------------------------
 
-Report Medium::run(Time since, Time until, const Channel& channel, const Settings& settings) {
+const Report& Medium::run(Time since, Time until, const Channel& channel, const Settings& settings) {
   settings_ = settings;
   channel_ = &channel;
   radios_.resize(channel.radios);
@@ -51,6 +51,7 @@ Report Medium::run(Time since, Time until, const Channel& channel, const Setting
     agenda_.put(radios_[i].due, phase_ends, i);
     agenda_.put(radios_[i].ack_due, ack_is_due, i);
   }
+  agenda_.begin();
   while (!agenda_.empty()) handle(agenda_.take());
   return post_.close();
 }
@@ -146,7 +147,7 @@ void Medium::end_phase(std::size_t number, Time at) {
 
 void Medium::send(std::size_t number, Time at) {
   const packets::Message& message = post_.first(number);
-  const Time length = air_time(frame_size(message.payload.size(), message.frame));
+  const Time length = air_time(frame_size(message.size, message.frame));
   wait(number, Phase::sending, never);
   const Frame& frame = air_.begin(number, at, length, 0, nothing, message.to, cca_window);
   agenda_.put(frame.end, frame_ends, frame.id);
@@ -187,7 +188,10 @@ void Medium::end_ack(const Frame& frame, const std::vector<Heard>& heard, Time a
 }
 
 void Medium::end_broadcast(std::size_t sender, const std::vector<Heard>& heard, Time at) {
-  post_.frame_heard(sender, heard, air_, at, is_last_frame(sender));
+  if (is_last_frame(sender))
+    post_.last_frame_heard(sender, heard, air_, at);
+  else
+    post_.frame_heard(sender, heard);
   go_on_with_message(sender, at);
 }
 
@@ -214,7 +218,7 @@ void Medium::end_unicast(const Frame& frame, Heard heard, Time at) {
 
 bool Medium::is_last_frame(std::size_t sender) const {
   const packets::Message& message = post_.first(sender);
-  return message.frame + 1 == frames_of(message.payload.size());
+  return message.frame + 1 == frames_of(message.size);
 }
 
 void Medium::go_on_with_message(std::size_t sender, Time at) {

@@ -47,8 +47,8 @@ class Medium {
     post_.ask(at, from, to, std::move(payload));
   }
 
-  // From `since` to `until`.
-  Report run(Time since, Time until, const Channel& channel, const Settings& settings);
+  // From `since` to `until`. The report stands until the next run.
+  const Report& run(Time since, Time until, const Channel& channel, const Settings& settings);
 
  private:
   enum class Phase : std::uint8_t { idle, backing_off, turning, sending, awaiting_ack };

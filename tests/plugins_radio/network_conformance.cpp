@@ -120,7 +120,7 @@ TEST_P(EachNetwork, Row19TheReceivingSideSaysFromWhomHowStrongHowWellAndWhen) {
       EXPECT_LT(inbox.at(i, t_received), sim.time() + 1e-9);
       EXPECT_EQ(std::isnan(inbox.at(i, lqi)), !shares_a_channel());
       if (shares_a_channel()) {
-        EXPECT_EQ(inbox.at(i, lqi), 255);  // 3 m
+        EXPECT_GT(inbox.at(i, lqi), 200);  // 3 m
       }
     }
   }
