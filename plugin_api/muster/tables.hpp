@@ -135,11 +135,12 @@ struct Outgoing {
   double radio, to, payload;
 };
 
-// A message as it arrived; all but the payload is filled by the receiving side.
+// A message as it arrived; all but the payload is filled by the receiving side. lqi is link quality from 0 to 255; null
+// where a network has no notion of it.
 struct Incoming {
-  static constexpr const char* columns = "radio:radio from:radio rssi[dBm] t_sent[s] t_received[s] payload{}";
-  static constexpr unsigned payload_column = 5;
-  double radio, from, rssi, t_sent, t_received, payload;
+  static constexpr const char* columns = "radio:radio from:radio rssi[dBm] t_sent[s] t_received[s] lqi? payload{}";
+  static constexpr unsigned payload_column = 6;
+  double radio, from, rssi, t_sent, t_received, lqi, payload;
 };
 
 // What became of a radio's requests: copies asked for (one a receiver of a broadcast) and their outcomes; those that

@@ -16,13 +16,13 @@ struct Delivery {
 };
 
 struct NetworkIdeal {
-  static constexpr auto id = "network.ideal/1";
+  static constexpr auto id = "network.ideal/2";
   static constexpr auto summary = "delivers every message whose link is strong enough";
   static constexpr auto manual =
       "A copy is asked for each receiver: one for a unicast, every other living radio for a broadcast. It is "
       "delivered\n"
       "in the same tick if the link from sender to receiver has an rssi of at least `sensitivity`; else it is counted\n"
-      "as too weak, or as without link. Sender, rssi and times are filled in here, never by the sender.\n"
+      "as too weak, without link, or gone. Sender, rssi and times are filled in here, never by the sender.\n"
       "No contention, no delay, no loss by noise, no limit on size.";
   static constexpr auto phase = MUSTER_NETWORK;
   static constexpr Param params[] = {real("sensitivity", -95, -250, 50, "dBm", "weaker messages are lost")};
@@ -63,7 +63,9 @@ struct NetworkIdeal {
     ++count.asked;
     const std::size_t link = links.find(from, to);
     const double level = link == LinkIndex::none ? null() : k[rssi][link].rssi;
-    if (link == LinkIndex::none) {
+    if (!k.alive("radio", to)) {
+      ++count.gone;
+    } else if (link == LinkIndex::none) {
       ++count.no_link;
     } else if (is_null(level) || level < k[sensitivity]) {
       ++count.too_weak;
@@ -81,6 +83,7 @@ struct NetworkIdeal {
       made[i].from = static_cast<double>(it.from);
       made[i].rssi = it.rssi;
       made[i].t_sent = made[i].t_received = k.time();
+      made[i].lqi = null();
       k.put_bytes(inbox, i, Incoming::payload_column, k.bytes(request, it.request, Outgoing::payload_column));
     }
   }

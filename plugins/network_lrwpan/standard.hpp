@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
+
+#include "packets/channel.hpp"
 
 namespace muster::lrwpan {
 
-using Time = std::int64_t;  // ns
+using packets::Time;
 
 constexpr Time symbol = 16000;
 constexpr Time octet = 2 * symbol;

@@ -40,9 +40,10 @@ class Folder {
 };
 
 // `elements` are what stands inside <world>.
-inline Simulation world_of(const Folder& folder, const std::string& elements, int workers = 1) {
-  const auto file =
-      folder.put("world.xml", "<world name=\"test\" dt=\"0.1\" until=\"100\" seed=\"7\">\n" + elements + "</world>\n");
+inline Simulation world_of(const Folder& folder, const std::string& elements, int workers = 1,
+                           const std::string& dt = "0.1") {
+  const auto file = folder.put(
+      "world.xml", "<world name=\"test\" dt=\"" + dt + "\" until=\"100\" seed=\"7\">\n" + elements + "</world>\n");
   Options options;
   options.search_path = {MUSTER_PLUGINS_DIR, MUSTER_ACTORS_DIR};
   options.workers = workers;

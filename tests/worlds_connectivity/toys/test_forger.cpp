@@ -23,7 +23,7 @@ struct TestForger {
     std::size_t row = 0;
     for (const Forged& m : k[messages]) {
       if (std::abs(m.t - k.time()) < k.dt() / 2)
-        k.send(inbox, row++, "beacon") = {m.radio, m.from, m.rssi, k.time(), k.time(), 0};
+        k.send(inbox, row++, "beacon") = {m.radio, m.from, m.rssi, k.time(), k.time(), null(), 0};
     }
   }
 

@@ -6,8 +6,9 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
-namespace muster::lrwpan {
+namespace muster::packets {
 
 class Writer {
  public:
@@ -15,6 +16,12 @@ class Writer {
   void put(const T& value) {
     static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>);  // no padding
     bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+  template <class T>
+  void put_all(const std::vector<T>& values) {
+    static_assert(std::is_arithmetic_v<T>);
+    put(values.size());
+    bytes_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
   }
   void put_text(std::string_view text) {
     put(text.size());
@@ -41,6 +48,12 @@ class Reader {
     get(value);
     return value;
   }
+  template <class T>
+  void get_all(std::vector<T>& values) {
+    static_assert(std::is_arithmetic_v<T>);
+    values.resize(get<std::size_t>());
+    if (!values.empty()) std::memcpy(values.data(), next(values.size() * sizeof(T)).data(), values.size() * sizeof(T));
+  }
   std::string_view text() { return next(get<std::size_t>()); }
 
  private:
@@ -53,4 +66,4 @@ class Reader {
   std::string_view bytes_;
 };
 
-}  // namespace muster::lrwpan
+}  // namespace muster::packets

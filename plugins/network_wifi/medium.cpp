@@ -1,0 +1,352 @@
+#include "medium.hpp"
+
+#include <algorithm>
+
+namespace muster::wifi {
+namespace {
+
+using packets::Frame;
+using packets::never;
+using packets::nothing;
+
+// At the same time frames end, then requests come, stations send, and what began before is noticed.
+enum Kind { frame_ends, request_comes, station_is_due, ack_is_due, wait_ends, frame_is_noticed, reservation_ends };
+
+// A preamble is found in noise and interference 4 dB below it, at the end of the detection; the strongest of those that
+// begin within it (as ns-3 3.37 has it).
+const double found_above = std::pow(10, 0.4);
+
+// aRxPHYStartDelay: a sender waits so long, a SIFS and a slot for an acknowledgement to begin.
+constexpr Time found_after = 20 * microsecond;
+
+std::vector<packets::Format> formats() {
+  static const std::vector<packets::BitLaw> laws = [] {
+    std::vector<packets::BitLaw> made;
+    for (const Rate& rate : rates) made.emplace_back([&](double ratio) { return bit_error_rate(rate, ratio); });
+    return made;
+  }();
+  std::vector<packets::Format> result;
+  for (std::size_t i = 0; i < rates.size(); ++i) {
+    packets::Format format;
+    format.head_law = &laws[0];
+    format.head_from = preamble;
+    format.head_until = preamble + signal_field;
+    format.head_bits = 24.0 / static_cast<double>(signal_field);
+    format.body_law = &laws[i];
+    format.body_bits = 1e-3 * rates[i].mbit;
+    format.tail = extension;
+    result.push_back(format);
+  }
+  return result;
+}
+
+}  // namespace
+
+Medium::Medium(const Stream& random) : random_(random), air_(random.of(key_of("bits")), formats()) {}
+
+// ---- Time ---------------------------------------------------------------------------------------------------------
+
+const Report& Medium::run(Time since, Time until, const Channel& channel, const Settings& settings) {
+  settings_ = settings;
+  channel_ = &channel;
+  stations_.resize(channel.radios);
+  air_.enter(channel, {settings.noise, found_above, detection, found_above});
+  post_.open(channel);
+  for (std::size_t i = 0; i < stations_.size(); ++i) {
+    if (channel.alive[i]) continue;
+    const std::uint64_t draws = stations_[i].draws;
+    stations_[i] = {};
+    stations_[i].draws = draws;
+    air_.forget(i);
+  }
+  agenda_.clear(until);
+  fill_agenda(since);
+  agenda_.begin();
+  while (!agenda_.empty()) handle(agenda_.take());
+  return post_.close();
+}
+
+void Medium::fill_agenda(Time since) {
+  const auto put = [&](Time at, int kind, std::uint64_t which) {
+    if (at >= since) agenda_.put(at, kind, which);
+  };
+  for (const Frame& frame : air_.frames()) {
+    put(frame.begin + detection, frame_is_noticed, frame.id);
+    put(frame.end, frame_ends, frame.id);
+  }
+  for (std::size_t i = 0; i < post_.requests().size(); ++i) put(post_.requests()[i].at, request_comes, i);
+  for (std::size_t i = 0; i < stations_.size(); ++i) {
+    put(stations_[i].due, station_is_due, 0);
+    put(stations_[i].ack_due, ack_is_due, i);
+    put(stations_[i].timeout, wait_ends, i);
+    if (i == 0 || stations_[i].reserved != stations_[i - 1].reserved) put(stations_[i].reserved, reservation_ends, 0);
+  }
+}
+
+void Medium::handle(const packets::Event& event) {
+  const Time at = event.at;
+  switch (event.kind) {
+    case frame_ends:
+      return end_frame(event.which, at);
+    case request_comes:
+      if (post_.take(event.which, settings_.queue)) start(post_.requests()[event.which].from, at);
+      return;
+    case station_is_due:
+      return send_due(at);
+    case ack_is_due:
+      if (stations_[event.which].ack_due == at) send_ack(event.which, at);
+      return;
+    case wait_ends:
+      if (stations_[event.which].timeout == at) end_wait(event.which, at);
+      return;
+    case frame_is_noticed:
+      air_.drop_weak(event.which, at, found_above);
+      return look_all(at);
+    default:
+      look_all(at);
+  }
+}
+
+// ---- Access -------------------------------------------------------------------------------------------------------
+
+int Medium::draw_slots(std::size_t number) {
+  Station& station = stations_[number];
+  return static_cast<int>(random_.of(channel_->keys[number]).uniform(station.draws++) * (station.window + 1));
+}
+
+// With a first message, perhaps while the slots after its last one are still counted.
+void Medium::start(std::size_t number, Time at) {
+  Station& station = stations_[number];
+  station.phase = Phase::contending;
+  if (station.is_busy) {
+    if (station.slots == 0) station.slots = draw_slots(number);
+    return;
+  }
+  if (slots_end(station) <= at) {
+    station.slots = 0;
+    station.is_immediate = true;
+    station.counts_from = at;
+  }
+  station.due = slots_end(station);
+  agenda_.put(station.due, station_is_due, 0);
+}
+
+// What the channel is to a station from now on.
+void Medium::look(std::size_t number, Time at) {
+  Station& station = stations_[number];
+  const std::uint64_t heard = air_.listens_to(number);
+  const bool is_busy = station.phase == Phase::sending || station.sends_ack || station.reserved > at ||
+                       air_.power(number) >= settings_.busy ||
+                       (heard != nothing && air_.frame(heard).begin + detection <= at);
+  if (is_busy == station.is_busy) return;
+  is_busy ? freeze(number, at) : resume(number, at);
+}
+
+void Medium::look_all(Time at) {
+  for (std::size_t i = 0; i < stations_.size(); ++i) look(i, at);
+}
+
+void Medium::freeze(std::size_t number, Time at) {
+  Station& station = stations_[number];
+  station.is_busy = true;
+  if (station.is_immediate)
+    station.slots = draw_slots(number);
+  else if (at > station.counts_from)
+    station.slots = std::max(0, station.slots - static_cast<int>((at - station.counts_from) / settings_.slot));
+  station.is_immediate = false;
+  station.due = never;
+}
+
+void Medium::resume(std::size_t number, Time at) {
+  Station& station = stations_[number];
+  station.is_busy = false;
+  station.counts_from = at + (station.heard_wrong ? eifs() : difs());
+  if (station.phase != Phase::contending) return;
+  station.due = slots_end(station);
+  agenda_.put(station.due, station_is_due, 0);
+}
+
+// All whose slots end now: none of them could notice the others.
+void Medium::send_due(Time at) {
+  for (std::size_t i = 0; i < stations_.size(); ++i) {
+    Station& station = stations_[i];
+    if (station.due != at) continue;
+    const packets::Message& message = post_.first(i);
+    station.due = never;
+    station.slots = 0;
+    station.is_immediate = false;
+    station.phase = Phase::sending;
+    station.is_busy = true;
+    const std::size_t size = frame_size(message.size, message.frame);
+    put_on_air(i, at, air_time(size, rates[settings_.rate]), settings_.rate, nothing, message.to);
+  }
+}
+
+void Medium::send_ack(std::size_t number, Time at) {
+  Station& station = stations_[number];
+  station.ack_due = never;
+  station.sends_ack = true;
+  look(number, at);
+  const Rate& rate = rates[settings_.rate];
+  put_on_air(number, at, ack_time(rate), rate_of(rate.ack_mbit), station.ack_of, station.ack_to);
+}
+
+void Medium::put_on_air(std::size_t number, Time at, Time length, std::size_t format, std::uint64_t ack_of,
+                        std::size_t to) {
+  air_.deafen(number, never);
+  const Frame& frame = air_.begin(number, at, length, format, ack_of, to, 0);
+  if (ack_of == nothing) stations_[number].sent = frame.id;
+  agenda_.put(at + detection, frame_is_noticed, frame.id);
+  agenda_.put(frame.end, frame_ends, frame.id);
+}
+
+// ---- Frames -------------------------------------------------------------------------------------------------------
+
+void Medium::end_frame(std::uint64_t id, Time at) {
+  const Frame frame = air_.frame(id);
+  for (std::size_t i = 0; i < stations_.size(); ++i)
+    if (air_.listens_to(i) == id) stations_[i].heard_wrong = true;  // unless it is whole
+  const std::vector<Heard>& heard = air_.end(frame);
+  for (std::size_t i = 0; i < stations_.size(); ++i)
+    if (heard[i] == Heard::whole) stations_[i].heard_wrong = false;
+  Station& sender = stations_[frame.sender];
+  const bool is_ack = frame.ack_of != nothing;
+  if (is_ack ? sender.sends_ack : sender.phase == Phase::sending && sender.sent == id) {  // else it has left meanwhile
+    air_.deafen(frame.sender, at);
+    sender.heard_wrong = false;
+    if (is_ack)
+      sender.sends_ack = false;
+    else
+      end_data(frame, heard, at);
+  }
+  if (is_ack) {
+    const Station& waits = stations_[frame.to];
+    const bool is_its_own = waits.phase == Phase::awaiting_ack && waits.sent == frame.ack_of;
+    if (is_its_own && heard[frame.to] == Heard::whole) go_on_with_message(frame.to);
+  }
+  look_all(at);
+}
+
+void Medium::end_data(const Frame& frame, const std::vector<Heard>& heard, Time at) {
+  if (frame.to != everyone) return end_unicast(frame, heard, at);
+  if (is_last_frame(frame.sender))
+    post_.last_frame_heard(frame.sender, heard, air_, at);
+  else
+    post_.frame_heard(frame.sender, heard);
+  go_on_with_message(frame.sender);
+}
+
+void Medium::end_unicast(const Frame& frame, const std::vector<Heard>& heard, Time at) {
+  Station& sender = stations_[frame.sender];
+  const bool arrived = heard[frame.to] == Heard::whole;
+  if (!arrived)
+    sender.last_loss = packets::fate_of(heard[frame.to]);
+  else if (is_last_frame(frame.sender))
+    post_.deliver(frame.sender, frame.to, air_, at);
+  sender.arrived |= arrived;
+  if (!settings_.acknowledged) {
+    if (!arrived) post_.settle(frame.sender, sender.last_loss);
+    return go_on_with_message(frame.sender);
+  }
+  sender.phase = Phase::awaiting_ack;
+  sender.timeout = at + sifs + settings_.slot + found_after;
+  agenda_.put(sender.timeout, wait_ends, frame.sender);
+  const Time reserved = at + sifs + ack_time(rates[settings_.rate]);
+  for (std::size_t i = 0; i < stations_.size(); ++i) {
+    if (heard[i] != Heard::whole || i == frame.to) continue;
+    stations_[i].reserved = std::max(stations_[i].reserved, reserved);
+  }
+  agenda_.put(reserved, reservation_ends, 0);
+  Station& receiver = stations_[frame.to];
+  if (!arrived || receiver.ack_due != never || receiver.sends_ack) return;
+  receiver.ack_of = frame.id;
+  receiver.ack_to = frame.sender;
+  receiver.ack_due = at + sifs;
+  agenda_.put(receiver.ack_due, ack_is_due, frame.to);
+}
+
+// An acknowledgement that is being heard by now may still come.
+void Medium::end_wait(std::size_t number, Time at) {
+  Station& station = stations_[number];
+  station.timeout = never;
+  if (const std::uint64_t heard = air_.listens_to(number); heard != nothing) {
+    station.timeout = air_.frame(heard).end + 1;
+    return agenda_.put(station.timeout, wait_ends, number);
+  }
+  if (++station.tries > settings_.retries) {
+    post_.settle(number, station.arrived ? Fate::no_ack : station.last_loss);
+    end_message(number);
+  } else {
+    compete(number, std::min(2 * station.window + 1, most_window));
+  }
+  if (station.is_busy) return;
+  resume(number, at);
+}
+
+// ---- Messages -----------------------------------------------------------------------------------------------------
+
+bool Medium::is_last_frame(std::size_t station) const {
+  const packets::Message& message = post_.first(station);
+  return message.frame + 1 == frames_of(message.size);
+}
+
+void Medium::go_on_with_message(std::size_t number) {
+  if (is_last_frame(number)) return end_message(number);
+  ++post_.first(number).frame;
+  stations_[number].tries = 0;
+  stations_[number].arrived = false;
+  compete(number, least_window);
+}
+
+void Medium::end_message(std::size_t number) {
+  post_.drop_first(number);
+  stations_[number].tries = 0;
+  stations_[number].arrived = false;
+  compete(number, least_window);
+  if (!post_.is_waiting(number)) stations_[number].phase = Phase::idle;
+}
+
+// After every frame a station backs off, whether it has another one or not.
+void Medium::compete(std::size_t number, int window) {
+  Station& station = stations_[number];
+  station.timeout = never;
+  station.window = window;
+  station.slots = draw_slots(number);
+  station.phase = Phase::contending;
+}
+
+// ---- State --------------------------------------------------------------------------------------------------------
+
+namespace {
+
+// One list of what a record holds, for both directions.
+template <class Archive, class Record>
+void put_station(Archive&& field, Record& s) {
+  field(s.phase), field(s.sends_ack), field(s.is_busy), field(s.heard_wrong), field(s.is_immediate), field(s.slots),
+      field(s.window);
+  field(s.tries), field(s.counts_from), field(s.due), field(s.timeout), field(s.reserved), field(s.sent);
+  field(s.arrived), field(s.last_loss), field(s.ack_due), field(s.ack_of), field(s.ack_to), field(s.draws);
+}
+
+}  // namespace
+
+std::string Medium::save() const {
+  packets::Writer out;
+  air_.save(out);
+  post_.save(out);
+  out.put(stations_.size());
+  for (const Station& station : stations_) put_station([&](const auto& value) { out.put(value); }, station);
+  return out.take();
+}
+
+void Medium::load(std::string_view bytes) {
+  *this = Medium(random_);
+  if (bytes.empty()) return;
+  packets::Reader in(bytes);
+  air_.load(in);
+  post_.load(in);
+  stations_.resize(in.get<std::size_t>());
+  for (Station& station : stations_) put_station([&](auto& value) { in.get(value); }, station);
+}
+
+}  // namespace muster::wifi

@@ -1,0 +1,110 @@
+// Stations that share one channel by the distributed coordination function (IEEE 802.11-2016, 10.3): who counts down,
+// who talks over whom, who acknowledges. A discrete-event simulation with events a transmission, never a receiver and
+// never a slot.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "packets/agenda.hpp"
+#include "packets/air.hpp"
+#include "packets/post.hpp"
+#include "standard.hpp"
+
+namespace muster::wifi {
+
+using packets::Channel;
+using packets::Fate;
+using packets::Heard;
+using packets::Report;
+
+struct Settings {
+  double noise = 0;  // mW
+  double busy = 0;   // power above which the channel is, whatever it is made of, mW
+  std::size_t rate = 0;
+  Time slot = long_slot;
+  std::size_t queue = 64;    // messages that wait at a station
+  bool acknowledged = true;  // frames to one receiver
+  int retries = 6;           // of a frame; dot11ShortRetryLimit counts the first try, too
+};
+
+class Medium {
+ public:
+  explicit Medium(const Stream& random);
+
+  // Everything that outlives a call of run(): the same bytes make the same future.
+  std::string save() const;
+  void load(std::string_view bytes);
+
+  // A message that `from` wants to send at `at`, a time of the next run(). `to`: a radio, or `everyone`.
+  static constexpr std::size_t everyone = packets::everyone;
+  void ask(Time at, std::size_t from, std::size_t to, std::string payload) {
+    post_.ask(at, from, to, std::move(payload));
+  }
+
+  // From `since` to `until`. The report stands until the next run.
+  const Report& run(Time since, Time until, const Channel& channel, const Settings& settings);
+
+ private:
+  enum class Phase : std::uint8_t { idle, contending, sending, awaiting_ack };
+
+  struct Station {
+    Phase phase = Phase::idle;
+    bool sends_ack = false;
+    bool is_busy = false;       // the channel, to it
+    bool heard_wrong = false;   // the last frame that it listened to
+    bool is_immediate = false;  // it found the channel idle, and counts no slots
+    int slots = 0;              // left to count down, at counts_from
+    int window = least_window;
+    int tries = 0;
+    Time counts_from = 0;           // while the channel is idle: since when slots count
+    Time due = packets::never;      // when it sends
+    Time timeout = packets::never;  // when it stops to wait for an acknowledgement
+    Time reserved = 0;              // until then others told it to keep silent
+    std::uint64_t sent = packets::nothing;
+    bool arrived = false;             // the frame, at its one receiver
+    Fate last_loss = Fate::too_weak;  // of the frame, there
+    Time ack_due = packets::never;
+    std::uint64_t ack_of = packets::nothing;
+    std::size_t ack_to = everyone;
+    std::uint64_t draws = 0;  // random numbers used up
+  };
+
+  Time difs() const { return sifs + 2 * settings_.slot; }
+  Time eifs() const { return sifs + air_time(ack_frame, rates[0]) + difs(); }  // after a frame that came wrong
+  Time slots_end(const Station& station) const { return station.counts_from + station.slots * settings_.slot; }
+
+  void fill_agenda(Time since);
+  void handle(const packets::Event& event);
+
+  int draw_slots(std::size_t station);
+  void start(std::size_t station, Time at);
+  void look(std::size_t station, Time at);
+  void look_all(Time at);
+  void freeze(std::size_t station, Time at);
+  void resume(std::size_t station, Time at);
+  void send_due(Time at);
+  void send_ack(std::size_t station, Time at);
+  void put_on_air(std::size_t station, Time at, Time length, std::size_t format, std::uint64_t ack_of, std::size_t to);
+
+  void end_frame(std::uint64_t id, Time at);
+  void end_data(const packets::Frame& frame, const std::vector<Heard>& heard, Time at);
+  void end_unicast(const packets::Frame& frame, const std::vector<Heard>& heard, Time at);
+  void end_wait(std::size_t station, Time at);
+
+  bool is_last_frame(std::size_t station) const;
+  void go_on_with_message(std::size_t station);
+  void end_message(std::size_t station);
+  void compete(std::size_t station, int window);
+
+  Settings settings_;
+  Stream random_;
+  packets::Air air_;
+  packets::Post post_;
+  packets::Agenda agenda_;
+  std::vector<Station> stations_;
+  const Channel* channel_ = nullptr;  // of the run
+};
+
+}  // namespace muster::wifi

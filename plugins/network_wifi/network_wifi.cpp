@@ -1,0 +1,66 @@
+// network.wifi: 802.11's medium access on the blackboard.
+#include "medium.hpp"
+#include "packets/board.hpp"
+
+namespace {
+
+using namespace muster;
+using packets::milliwatts;
+
+struct NetworkWifi {
+  static constexpr auto id = "network.wifi/1";
+  static constexpr auto summary = "IEEE 802.11g ad hoc: stations that share a channel by DCF";
+  static constexpr auto manual =
+      R"(Messages as frames of ERP-OFDM (IEEE 802.11-2016, clause 18) under the distributed coordination function: DIFS, EIFS and
+slots; back-off that stands still while the channel is busy; frames to one receiver are acknowledged, reserve the
+channel meanwhile, and are sent again with a doubled window. What is larger than 2296 bytes goes in pieces. A
+receiver takes up a frame that it hears (rssi not null) and that stands 4 dB above noise and interference at the end of
+4 us, the strongest of those that begin within them; bits come wrong by the union bound of its code, for the ratio to noise
+and to all other frames in the air. Power is link/*/level with link/*/fading, as it stands in the tick.
+`spread`: a request is made at some moment of its tick, since robots' clocks do not agree; else at its start, all at
+once. noise: 20 MHz at 290 K and a noise figure of 7 dB.
+Each copy has one outcome in radio/*/traffic: asked = delivered + too_weak + no_link + collided + queue_full + no_ack +
+gone + those still under way.)";
+  static constexpr auto phase = MUSTER_NETWORK;
+  static constexpr Param params[] = {
+      choice("rate", "6|9|12|18|24|36|48|54", "Mbit/s"),
+      choice("slot", "long|short", "20 us, as the standard has it without access point; or 9 us"),
+      real("busy_threshold", -62, -250, 50, "dBm", "power of any kind above which the channel is busy"),
+      real("noise", -93.966, -250, 50, "dBm", "of a receiver"),
+      flag("acknowledge", true, "messages to one receiver are acknowledged"),
+      integer("retries", 6, 0, 255, "of a frame that was not acknowledged"),
+      integer("queue", 64, 0, 1e6, "messages that may wait at a station beside the one that it sends"),
+      packets::Board::spread_param,
+  };
+
+  explicit NetworkWifi(Setup& s)
+      : rate(s.value("rate")),
+        slot(s.value("slot")),
+        busy_threshold(s.value("busy_threshold")),
+        noise(s.value("noise")),
+        acknowledge(s.value("acknowledge")),
+        retries(s.value("retries")),
+        queue(s.value("queue")),
+        board(s, {4, 40}),
+        medium(s.stream("medium access")) {}
+
+  void step(const Step& k) {
+    wifi::Settings settings;
+    settings.rate = static_cast<std::size_t>(k[rate]);
+    settings.slot = k[slot] == 0 ? wifi::long_slot : wifi::short_slot;
+    settings.busy = milliwatts(k[busy_threshold]);
+    settings.noise = milliwatts(k[noise]);
+    settings.acknowledged = k[acknowledge] != 0;
+    settings.retries = static_cast<int>(k[retries]);
+    settings.queue = static_cast<std::size_t>(k[queue]);
+    board.step(k, medium, settings);
+  }
+
+  Value rate, slot, busy_threshold, noise, acknowledge, retries, queue;
+  packets::Board board;
+  wifi::Medium medium;
+};
+
+}  // namespace
+
+MUSTER_PLUGIN_IS(NetworkWifi)

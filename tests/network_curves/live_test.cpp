@@ -1,0 +1,26 @@
+// ns-3 itself and our media on the same places and moments, in one run.
+#include <gtest/gtest.h>
+
+#include "cases.hpp"
+#include "peers/ns3.hpp"
+
+namespace muster::peers {
+namespace {
+
+void compare(Case c, unsigned runs, double within, const std::function<Counts(const Task&)>& ns3) {
+  c.runs = runs;
+  const Curve theirs = mean_of(c, ns3), ours = mean_of(c, [&](const Task&t) { return c.ours(t); });
+  std::printf("arrived %.4f (%.4f), no access %.4f (%.4f)\n", ours.arrived, theirs.arrived, ours.no_access,
+              theirs.no_access);
+  EXPECT_NEAR(ours.arrived, theirs.arrived, within);
+  EXPECT_NEAR(ours.no_access, theirs.no_access, 0.01);
+}
+
+TEST(Live, LrWpanUnderLoad) { compare({"lr_wpan", "load", 30, 12, 10, 0}, 3, 0.02, ns3_lr_wpan); }
+TEST(Live, LrWpanInNoise) { compare({"lr_wpan", "noise", 2, 185, 25, 0}, 3, 0.03, ns3_lr_wpan); }
+TEST(Live, WifiUnderLoad) {
+  compare({"wifi", "load", 20, 150, 0.5, 0}, 3, 0.02, [](const Task& t) { return ns3_wifi(t, 6); });
+}
+
+}  // namespace
+}  // namespace muster::peers
