@@ -35,6 +35,18 @@ Outline check_urdf(const Source& source, const tinyxml2::XMLElement& robot);
 // <muster><differential .../></muster>, if there is one; the robot's links and joints are there already.
 void read_drive(const Source& source, const tinyxml2::XMLElement& element, Robot& robot);
 
+// <legs ...><leg .../>...</legs>, the drive of a robot that walks.
+LegDrive read_legs(const Source& source, const tinyxml2::XMLElement& element, const Robot& robot);
+
+// For drives: no other attributes than these; a number above 0; the index of a joint that turns without end about the
+// body's +y axis, with its place on the body.
+void only_attributes(const Source& source, const tinyxml2::XMLElement& element, const std::vector<std::string>& known);
+double positive(const Source& source, const tinyxml2::XMLElement& element, const char* attribute);
+std::size_t find_joint(const Source& source, const tinyxml2::XMLElement& element, const char* attribute,
+                       const Robot& robot);
+Eigen::Vector3d place_of_turning(const Source& source, const tinyxml2::XMLElement& element, const Robot& robot,
+                                 std::size_t joint);
+
 // An attribute that must be there and not empty.
 std::string required(const Source& source, const tinyxml2::XMLElement& element, const char* attribute);
 

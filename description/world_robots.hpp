@@ -50,7 +50,18 @@ class WorldRobots {
     return robot && robot->drive ? &*robot->drive : nullptr;
   }
 
+  const LegDrive* legs_of(double model) const {
+    const Robot* robot = of(model);
+    return robot && robot->legs ? &*robot->legs : nullptr;
+  }
+
   std::size_t size() const { return robots_.size(); }
+  bool any_walks() const {
+    for (const auto& robot : robots_) {
+      if (robot && robot->legs) return true;
+    }
+    return false;
+  }
 
  private:
   static std::string find(const std::string& model, const std::vector<std::string>& directories) {

@@ -17,6 +17,7 @@ constexpr double thinnest = 1e-3;  // [m] of a block: ODE takes no flat ones
 bool has_inertia(const description::Mass& mass) { return mass.mass > 0 && mass.inertia.llt().info() == Eigen::Success; }
 
 std::vector<std::string> lacks(const Robot& robot) {
+  if (robot.legs) return {"it walks; half-circle legs, their controllers and their springs are not modelled"};
   if (!robot.drive) return {"it has no <muster><differential .../></muster> drive"};
   std::vector<std::string> result;
   const auto& drive = *robot.drive;

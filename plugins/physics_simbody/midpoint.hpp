@@ -1,4 +1,5 @@
-// The stepper: second order, on velocities, one small problem a robot or for robots that touch.
+// The stepper: second order, on velocities, one small problem a robot or for robots that touch. N: unknowns of a robot,
+// more where some walk.
 //
 // Velocities stand at the middle of steps: u is found for the configuration half a step ahead and carries the robot
 // over the whole step, x += h N(x_mid) u. So forces act over (previous step + step) / 2, and commands are taken at
@@ -11,9 +12,12 @@
 
 namespace muster::simbody {
 
-class Midpoint : public Engine {
+template <int N>
+class MidpointOf : public Engine {
  public:
-  Midpoint(const std::vector<NamedRobot>& robots, double step);
+  using Velocity = VelocityOf<N>;
+
+  MidpointOf(const std::vector<NamedRobot>& robots, double step, LegModel legs = LegModel::as_described);
   void step(double dt, const std::vector<Command>& commands, std::vector<RobotState>& states) override;
   void set_surroundings(const std::vector<scene::Slab>& walls, double friction) override;
 
@@ -37,7 +41,7 @@ class Midpoint : public Engine {
     description::Mass whole;            // wheels included
     Eigen::Matrix3d inertia_at_origin;  // of the whole, in the body's frame
     double wheel_inertia[2];            // about the axle
-    Placed now;
+    PlacedOf<N> now;
   };
 
   // Robots that may meet in this step, with what else they may meet. Groups do not meet each other.
@@ -58,6 +62,8 @@ class Midpoint : public Engine {
   void advance(const Group& group, double h, double at, const std::vector<Command>& commands,
                std::vector<RobotState>& states);
   void place(int index, double h, double at, const Command& command, const RobotState& state);
+  void place_wheels(Robot& robot, int index, double h, double at, const Command& command, const RobotState& state);
+  void place_legs(Robot& robot, double h, double at, const Command& command, const RobotState& state);
   void meet(const Group& group, double h, const std::vector<RobotState>& states);
   void solve_islands(const Group& group, std::vector<RobotState>& states);
   void solve(const Island& island, std::vector<RobotState>& states);
@@ -73,11 +79,14 @@ class Midpoint : public Engine {
   BroadPhase broad_phase_;
   std::vector<Extent> extents_;
   std::vector<Group> groups_;
-  Encounters encounters_;
+  EncountersOf<N> encounters_;
   std::vector<Island> islands_;
-  ContactSolver solver_;
-  Problem problem_;
+  ContactSolverOf<N> solver_;
+  ProblemOf<N> problem_;
   Count count_;
 };
+
+using Midpoint = MidpointOf<unknowns>;
+using MidpointWithLegs = MidpointOf<unknowns_with_legs>;
 
 }  // namespace muster::simbody

@@ -1,4 +1,5 @@
-// Robots as Simbody multibody systems: a free body with two wheels on pins, gravity, and flat ground at z = 0.
+// Robots as Simbody multibody systems: a free body with two wheels or six legs on pins, gravity, and flat ground at z =
+// 0.
 #pragma once
 
 #include "description/robot.hpp"
@@ -20,6 +21,15 @@ struct Part {
   int wheel = -1;  // 0 left, 1 right
 };
 
+// A leg on its hip; see description::LegDrive.
+struct Leg {
+  Eigen::Vector3d hip;     // in the body's frame [m]
+  description::Mass mass;  // about the hip at angle 0, axes of the body
+
+  // Of the half circle in the body's frame at an angle of the leg: from the hip (way 0) to the end (way pi) [m].
+  Eigen::Vector3d place(double angle, double radius, double way) const;
+};
+
 // What of a robot this backend can hold; throws std::runtime_error for any other.
 struct RobotModel {
   explicit RobotModel(const description::Robot& robot);
@@ -28,20 +38,28 @@ struct RobotModel {
   double lowest_corner(const Eigen::Vector3d& up) const;
 
   std::string name;
-  description::DifferentialDrive drive;
+  description::DifferentialDrive drive;          // of a robot on wheels, as all of wheels
   description::Mass body;                        // all that is rigid with the root, in its frame
   std::array<description::Mass, 2> wheel;        // in the wheel joint's frame
   std::array<Eigen::Isometry3d, 2> wheel_frame;  // of the joints in the body's frame
+  description::LegDrive leg_drive;
+  std::vector<Leg> legs;  // none: on wheels
   std::vector<Slider> sliders;
   std::vector<Part> parts;
   Eigen::Vector3d arm;     // how far they reach from the body's x, y and z axes [m]
   Eigen::Vector3d middle;  // of a sphere that holds them all, in the body's frame [m]
   double reach = 0;        // its radius [m]
+
+ private:
+  void take_wheels(const description::Robot& robot);
+  void take_legs(const description::Robot& robot);
+  void measure();
 };
 
 struct RobotBodies {
   SimTK::MobilizedBody::Free body;
-  std::array<SimTK::MobilizedBody::Pin, 2> wheel;
+  std::array<SimTK::MobilizedBody::Pin, 2> wheel;  // of a robot on wheels
+  std::vector<SimTK::MobilizedBody::Pin> legs;
 };
 
 // The system keeps what is added to it alive; state() is realised through Model once finish() was called.

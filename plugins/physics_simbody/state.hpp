@@ -8,10 +8,11 @@ namespace muster::simbody {
 
 constexpr double gravity = 9.81;  // [m/s2]
 
-// Wheel rates asked for at the tick's start, and their slopes over the tick.
+// What is asked for at the tick's start, and its slopes over the tick: rates of wheels, angles of legs.
 struct Command {
-  double left, right;            // [rad/s]
-  double left_rate, right_rate;  // [rad/s2]
+  double left, right;                             // [rad/s]
+  double left_rate, right_rate;                   // [rad/s2]
+  std::array<double, 6> leg_angle{}, leg_rate{};  // [rad], [rad/s]
 };
 
 // The impulse of a contact of the body, kept by the robot with the smaller row.
@@ -40,6 +41,8 @@ struct RobotState {
   std::array<double, 2> angle;  // of the wheels, left and right [rad]
   std::array<double, 2> rate;   // [rad/s]
   Memory memory;
+  std::array<double, 6> leg_angle{}, leg_rate{};  // in the order of the model [rad], [rad/s]
+  std::array<double, 6> leg_torque{};             // of their motors, the mean over the last step [N m]
 };
 
 }  // namespace muster::simbody

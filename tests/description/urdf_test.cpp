@@ -26,6 +26,24 @@ TEST(Urdf, ScarabHasThePapersFigures) {
   EXPECT_TRUE(robot.warnings.empty());
 }
 
+TEST(Urdf, RdkHasThePapersFigures) {
+  const Robot robot = read_robot(MUSTER_SOURCE_DIR "/plugins/robots/models/rdk.urdf");
+  EXPECT_NEAR(whole_mass(robot).mass, 2.7, 1e-12);
+  ASSERT_TRUE(robot.legs);
+  const auto& box = std::get<Box>(robot.links[0].shapes[0].geometry);
+  EXPECT_EQ(box.size.x(), 0.35);
+  EXPECT_EQ(box.size.z(), 0.1);
+  EXPECT_NEAR(robot.legs->track() + 0.02, 0.3, 1e-12);  // legs are 2 cm wide
+  EXPECT_FALSE(robot.legs->is_rigid());
+  for (std::size_t i = 0; i < LegDrive::count; ++i) {
+    const LegDrive::Leg &leg = robot.legs->legs[i], &beside = robot.legs->legs[(i + 3) % 6];
+    EXPECT_NE(leg.tripod, beside.tripod);
+    EXPECT_EQ(leg.hip.x(), beside.hip.x());
+    EXPECT_EQ(leg.hip.y(), -beside.hip.y());
+  }
+  EXPECT_TRUE(robot.warnings.empty());
+}
+
 TEST(Urdf, ScarabFillsItsMeasuredBox) {
   const Robot robot = read_robot(scarab);
   Eigen::AlignedBox3d body;

@@ -222,7 +222,7 @@ TEST(Motion, OtherDrivesAreRefusedByName) {
     EXPECT_EQ(std::string(error.what()),
               "robot model 'scarab' (" + none.file +
                   ") cannot be simulated by physics.simbody: it has no <muster><differential "
-                  ".../></muster> drive");
+                  ".../></muster> drive and no <legs>");
   }
 }
 
