@@ -114,6 +114,11 @@ struct LegDrive {
   bool is_rigid() const { return stiffness == std::numeric_limits<double>::infinity(); }
   // Between the legs' planes, left to right [m].
   double track() const;
+  // Where a point of the half circle is from its hip at an angle of the leg, in the body's frame [m]; `way` goes from the
+  // hip (0) to the end (pi).
+  Eigen::Vector3d place(double angle, double way) const;
+  // The way to its lowest point; `up` in the body's frame.
+  static double lowest_way(double angle, const Eigen::Vector3d& up);
 };
 
 struct Robot {

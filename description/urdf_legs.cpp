@@ -91,10 +91,4 @@ LegDrive read_legs(const Source& source, const XMLElement& element, const Robot&
   return drive;
 }
 
-double LegDrive::track() const {
-  double left = 0, right = 0;
-  for (const Leg& leg : legs) (leg.hip.y() > 0 ? left : right) += leg.hip.y() / 3;
-  return left - right;
-}
-
 }  // namespace muster::description

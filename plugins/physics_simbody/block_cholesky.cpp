@@ -68,6 +68,15 @@ void BlockCholeskyOf<N>::add(int i, int j, double k, const Velocity& a, const Ve
 
 template <int N>
 void BlockCholeskyOf<N>::factor() {
+  if (is_alone()) {
+    const MassMatrix& m = diagonal_[0];
+    joints_by_body_ =
+        m.diagonal().template tail<N - 6>().cwiseInverse().asDiagonal() * m.template bottomLeftCorner<N - 6, 6>();
+    BodyBlock rest = m.template topLeftCorner<6, 6>();
+    rest.noalias() -= m.template topRightCorner<6, N - 6>().lazyProduct(joints_by_body_);
+    body_.compute(rest);
+    return;
+  }
   for (const int k : order_) {
     factor_[k].compute(diagonal_[k]);
     auto& column = columns_[k];
@@ -89,6 +98,16 @@ void BlockCholeskyOf<N>::factor() {
 
 template <int N>
 void BlockCholeskyOf<N>::solve(std::vector<Velocity>& x) const {
+  if (is_alone()) {
+    Eigen::Matrix<double, 6, 1> body = x[0].template head<6>();
+    auto joints = x[0].template tail<N - 6>();
+    body.noalias() -= joints_by_body_.transpose() * joints;
+    body_.solveInPlace(body);
+    x[0].template head<6>() = body;
+    joints = joints.cwiseQuotient(diagonal_[0].diagonal().template tail<N - 6>()).eval();
+    joints.noalias() -= joints_by_body_ * body;
+    return;
+  }
   if (order_.size() == 1) {
     factor_[0].solveInPlace(x[0]);
     return;

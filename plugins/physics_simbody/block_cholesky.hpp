@@ -18,6 +18,8 @@ using MassMatrixOf = Eigen::Matrix<double, N, N>;
 using Velocity = VelocityOf<unknowns>;
 using MassMatrix = MassMatrixOf<unknowns>;
 
+// Joints of one robot are coupled through its body alone: with many of them a robot by itself costs little more than
+// its body.
 template <int N>
 class BlockCholeskyOf {
  public:
@@ -43,12 +45,18 @@ class BlockCholeskyOf {
     MassMatrix block;
   };
 
+  static constexpr bool has_many_joints = N > unknowns;
+  using BodyBlock = Eigen::Matrix<double, 6, 6>;
+
   MassMatrix& below(int row, int column);
+  bool is_alone() const { return has_many_joints && order_.size() == 1; }
 
   std::vector<MassMatrix> diagonal_;
   std::vector<std::vector<Below>> columns_;  // what stands below the diagonal once the order is applied
   std::vector<int> order_, place_;           // of elimination, and its inverse
   std::vector<Eigen::LLT<MassMatrix>> factor_;
+  Eigen::LLT<BodyBlock> body_;                      // of one alone: what its joints leave of the body
+  Eigen::Matrix<double, N - 6, 6> joints_by_body_;  // and how they follow it
 };
 
 using BlockCholesky = BlockCholeskyOf<unknowns>;

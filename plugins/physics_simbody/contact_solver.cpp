@@ -54,6 +54,22 @@ const VelocityOf<N>& row_of(const ContactRowsOf<N>& rows, int row) {
   return row == 0 ? rows.normal : rows.tangent[row - 1];
 }
 
+// Adds k a b^T, where the rows are known to be zero but for the body's unknowns and one joint's.
+template <int N>
+void add_product(MassMatrixOf<N>& block, double k, const VelocityOf<N>& a, const VelocityOf<N>& b, int joint) {
+  if (joint == ContactRowsOf<N>::any) {
+    block.noalias() += (k * a) * b.transpose();
+    return;
+  }
+  const Eigen::Matrix<double, 6, 1> body = k * a.template head<6>();
+  block.template topLeftCorner<6, 6>().noalias() += body * b.template head<6>().transpose();
+  if (joint < 0) return;
+  const double own = k * a[joint];
+  block.row(joint).template head<6>() += own * b.template head<6>().transpose();
+  block.col(joint).template head<6>() += body * b[joint];
+  block(joint, joint) += own * b[joint];
+}
+
 }  // namespace
 
 template <int N>
@@ -61,7 +77,7 @@ Outcome ContactSolverOf<N>::solve(Problem& problem) {
   p_ = &problem;
   begin();
   Outcome outcome;
-  if (stick_all()) {
+  if (problem.search.guess && stick_all()) {
     outcome.direct = true;
   } else {
     slip(outcome);
@@ -132,10 +148,10 @@ double ContactSolverOf<N>::residual() const {
 template <int N>
 void ContactSolverOf<N>::add(const Contact& c, double k, int row, int column) {
   const Velocity &a = row_of(c, row), &b = row_of(c, column);
-  hessian_.diagonal(c.body).noalias() += (k * a) * b.transpose();
+  add_product<N>(hessian_.diagonal(c.body), k, a, b, c.joint);
   if (c.other < 0) return;
   const Velocity &of_other = row_of(c.of_other, row), &of_other_b = row_of(c.of_other, column);
-  hessian_.diagonal(c.other).noalias() += (k * of_other) * of_other_b.transpose();
+  add_product<N>(hessian_.diagonal(c.other), k, of_other, of_other_b, c.of_other.joint);
   hessian_.add(c.body, c.other, k, a, of_other_b);
 }
 

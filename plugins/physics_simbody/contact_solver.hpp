@@ -18,8 +18,11 @@ namespace muster::simbody {
 template <int N>
 struct ContactRowsOf {
   using Velocity = VelocityOf<N>;
+  static constexpr int any = -2;
+
   Velocity normal = Velocity::Zero();
   std::array<Velocity, 2> tangent{Velocity::Zero(), Velocity::Zero()};
+  int joint = any;  // index of the only unknown beside the body's six that is not zero; -1: none. Saves arithmetic
 };
 
 template <int N>
@@ -60,6 +63,7 @@ struct Search {
   double tolerance = 1e-7;        // of the residual as a velocity [m/s]
   double bound_tolerance = 1e-3;  // of friction's bound, relative to the largest
   int passes = 12;                // that refresh the bounds
+  bool guess = true;              // that all sticks, first
   bool together = false;          // for many: motors at their limit are searched for as friction is. Set where a
                                   // search without it fails.
 };

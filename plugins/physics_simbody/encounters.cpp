@@ -62,6 +62,7 @@ ContactRowsOf<N> rows_at(const PlacedOf<N>& robot, int wheel, int leg, const Vec
   const Vector3d arm = to_body * (place - robot.position);
   const Matrix3d ways = sign * (to_body * frame);
   ContactRowsOf<N> rows;
+  rows.joint = wheel >= 0 ? 6 + wheel : leg >= 0 ? 6 + leg : -1;
   rows.normal = point_row<N>(arm, ways.col(0));
   for (int k = 0; k < 2; ++k) {
     rows.tangent[k] = point_row<N>(arm, ways.col(1 + k));
@@ -134,6 +135,7 @@ void EncountersOf<N>::stand(int index, const Placed& robot, const Memory& memory
     const Vector3d arm = centre - radius * up;
     Contact c;
     c.body = index;
+    c.joint = -1;
     c.normal = point_row<N>(arm, up);
     c.softness = compliance.softness;
     const double gap = robot.position.z() + up.dot(arm) - 0.5 * h_ * c.normal.dot(robot.body.previous);
@@ -145,6 +147,7 @@ void EncountersOf<N>::stand(int index, const Placed& robot, const Memory& memory
     const double radius = robot.model->drive.wheel_radius;
     const Vector3d centre = robot.model->wheel_frame[w].translation();
     Contact c = contact(centre, radius);
+    c.joint = 6 + w;
     const Vector3d surface = Vector3d::UnitY().cross(-radius * up);  // of the tread, per rate
     for (int k = 0; k < 2; ++k) {
       c.tangent[k] = point_row<N>(centre - radius * up, to_body.col(k));
@@ -246,13 +249,15 @@ void EncountersOf<N>::each_leg_at(const Placed& robot, const Solid& solid, doubl
 // Each leg rolls on its lowest point.
 template <int N>
 void EncountersOf<N>::stand_on_legs(int index, const Placed& robot, const Memory& memory) {
-  const double near = margin(robot.speed), radius = robot.model->leg_drive.radius;
+  const double near = margin(robot.speed);
+  const description::LegDrive& drive = robot.model->leg_drive;
   const Vector3d up = robot.to_world.row(2);
   for (std::size_t i = 0; i < robot.model->legs.size(); ++i) {
     const Leg& leg = robot.model->legs[i];
-    if (robot.position.z() + up.dot(leg.hip) > 2 * radius + near) continue;
+    if (robot.position.z() + up.dot(leg.hip) > 2 * drive.radius + near) continue;
     const double angle = robot.leg_angle[i];
-    const Vector3d place = robot.position + robot.to_world * leg.place(angle, radius, lowest_way(angle, up));
+    const Vector3d place =
+        robot.position + robot.to_world * (leg.hip + drive.place(angle, drive.lowest_way(angle, up)));
     if (place.z() > near) continue;
     const Trace trace{index, -1, id_of(0, leg_part(static_cast<int>(i)), 0, 0), frame_about(Vector3d::UnitZ())};
     add({&robot, -1, static_cast<int>(i)}, {}, trace, memory, -1, {place, place.z(), 0});

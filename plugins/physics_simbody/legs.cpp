@@ -100,13 +100,6 @@ Motor leg_motor(const description::LegDrive& drive, double asked, double asked_r
   return motor;
 }
 
-// The direction from the circle's middle to its lowest point, if that is of the half that the leg has.
-double lowest_way(double angle, const Vector3d& up) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  const double ahead = c * up.x() - s * up.z(), above = s * up.x() + c * up.z();  // how far the leg's axes rise
-  return ahead > 0 ? std::atan2(ahead, -above) : above > 0 ? pi : 0;
-}
-
 LegTouches touch_leg(const Vector3d& hip, const Vector3d& ahead, const Vector3d& above, double radius,
                      const Solid& solid, double margin) {
   const auto at = [&](double way) {

@@ -25,9 +25,6 @@ MassMatrixOf<unknowns_with_legs> inverse(const MassMatrixOf<unknowns_with_legs>&
 // of the angle and rate_gain times that of the rate, both at mid-step, within the limits. `asked` [rad] is at mid-step.
 Motor leg_motor(const description::LegDrive& drive, double asked, double asked_rate, double angle, double h);
 
-// Where along a leg (0 at the hip, pi at its end) it lies lowest; `up` in the body's frame.
-double lowest_way(double angle, const Eigen::Vector3d& up);
-
 // Where a leg touches a solid, or would soon: at most at two places, the marks are 0 and 1. `ahead` and `above` are the
 // leg's own x and z axes in the world, the hip is in the world as well.
 struct LegTouch {

@@ -83,12 +83,6 @@ void refuse_other_joints(const description::Robot& robot, const std::vector<std:
 
 }  // namespace
 
-Eigen::Vector3d Leg::place(double angle, double radius, double way) const {
-  const double x = -radius * std::sin(way), z = radius * (std::cos(way) - 1);
-  const double c = std::cos(angle), s = std::sin(angle);
-  return hip + Eigen::Vector3d(c * x + s * z, 0, c * z - s * x);
-}
-
 RobotModel::RobotModel(const description::Robot& robot) : name(robot.name) {
   if (!robot.drive && !robot.legs) refuse(robot, "it has no <muster><differential .../></muster> drive and no <legs>");
   body = rigid_mass(robot, 0);

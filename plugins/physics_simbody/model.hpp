@@ -25,9 +25,6 @@ struct Part {
 struct Leg {
   Eigen::Vector3d hip;     // in the body's frame [m]
   description::Mass mass;  // about the hip at angle 0, axes of the body
-
-  // Of the half circle in the body's frame at an angle of the leg: from the hip (way 0) to the end (way pi) [m].
-  Eigen::Vector3d place(double angle, double radius, double way) const;
 };
 
 // What of a robot this backend can hold; throws std::runtime_error for any other.

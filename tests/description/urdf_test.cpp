@@ -44,6 +44,21 @@ TEST(Urdf, RdkHasThePapersFigures) {
   EXPECT_TRUE(robot.warnings.empty());
 }
 
+TEST(Urdf, NoPointOfALegLiesBelowItsLowest) {
+  const LegDrive drive = *read_robot(MUSTER_SOURCE_DIR "/plugins/robots/models/rdk.urdf").legs;
+  for (int trial = 0; trial < 200; ++trial) {
+    const Eigen::Vector3d up = Eigen::Vector3d(std::sin(trial), std::sin(2.3 * trial), std::cos(3.7 * trial)).normalized();
+    const double angle = 0.1 * trial;
+    double lowest = 1e9;
+    for (int k = 0; k <= 10000; ++k)
+      lowest = std::min(lowest, up.dot(drive.place(angle, 3.14159265358979 * k / 10000)));
+    EXPECT_NEAR(up.dot(drive.place(angle, drive.lowest_way(angle, up))), lowest, 1e-9);
+  }
+  EXPECT_NEAR(drive.place(0, 3.14159265358979).z(), -0.12, 1e-12);  // upright on its end
+  EXPECT_LT(drive.place(0, 1.5).x(), 0);                            // bulging backwards
+  EXPECT_LT(drive.place(0.3, 3.14159265358979).x(), 0);             // positive rates push the ground back
+}
+
 TEST(Urdf, ScarabFillsItsMeasuredBox) {
   const Robot robot = read_robot(scarab);
   Eigen::AlignedBox3d body;

@@ -49,17 +49,6 @@ TEST_F(Legs, DynamicsAreSimbodys) {
   }
 }
 
-TEST_F(Legs, LowestPointIsNoneOfTheOthers) {
-  for (int trial = 0; trial < 200; ++trial) {
-    const Vector3d up = draw_vector().normalized();
-    const double angle = 4 * draw();
-    double lowest = 1e9;
-    for (int k = 0; k <= 20000; ++k)
-      lowest = std::min(lowest, up.dot(model_.legs[2].place(angle, 0.06, 3.14159265358979 * k / 20000)));
-    EXPECT_NEAR(up.dot(model_.legs[2].place(angle, 0.06, lowest_way(angle, up))), lowest, 1e-9);
-  }
-}
-
 TEST_F(Legs, NearestToABoxIsFound) {
   constexpr double margin = 0.005;
   int met = 0;

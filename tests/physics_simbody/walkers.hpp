@@ -56,8 +56,8 @@ void walk(Fleet& fleet, const Walk& gait, double from, double until, double dt, 
 inline double foot_height(const RobotState& s, std::size_t leg, const RobotModel& model) {
   const Eigen::Matrix3d turned = Eigen::Quaterniond(s.pose[3], s.pose[4], s.pose[5], s.pose[6]).toRotationMatrix();
   const Eigen::Vector3d up = turned.row(2);
-  const double way = lowest_way(s.leg_angle[leg], up);
-  return s.pose[2] + up.dot(model.legs[leg].place(s.leg_angle[leg], model.leg_drive.radius, way));
+  const double angle = s.leg_angle[leg], way = model.leg_drive.lowest_way(angle, up);
+  return s.pose[2] + up.dot(model.legs[leg].hip + model.leg_drive.place(angle, way));
 }
 
 }  // namespace muster::simbody
