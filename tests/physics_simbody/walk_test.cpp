@@ -30,6 +30,20 @@ TEST(Walking, RigidLegsGoAsFarAsTheyRoll) {
   }
 }
 
+// Where the approximation of rigid legs stops: docs/hexapod.md.
+TEST(Walking, FasterGaitsAreFasterAndLeaveRigidLegsBehind) {
+  double before = 0;
+  for (const double frequency : {0.25, 0.5, 1.0, 1.6}) {
+    const double compliant = frequency * travel(rdk(), frequency, 0.001);
+    const double rigid = frequency * travel(rigid_rdk(), frequency, 0.001);
+    EXPECT_GT(compliant, before);
+    before = compliant;
+    const double gap = compliant / rigid - 1;
+    if (frequency <= 0.5) EXPECT_LT(std::abs(gap), 0.025) << frequency;
+    if (frequency > 1.5) EXPECT_GT(gap, 0.05) << frequency;
+  }
+}
+
 TEST(Walking, ShortStepsChangeLittle) {
   const double fine = travel(rdk(), 1, 0.0005);
   EXPECT_NEAR(travel(rdk(), 1, 0.002), fine, 0.002 * fine);
