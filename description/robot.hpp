@@ -11,6 +11,8 @@
 #include <variant>
 #include <vector>
 
+#include "description/quadrotor.hpp"
+
 namespace muster::description {
 
 // Mass properties in the frame of a link.
@@ -114,8 +116,8 @@ struct LegDrive {
   bool is_rigid() const { return stiffness == std::numeric_limits<double>::infinity(); }
   // Between the legs' planes, left to right [m].
   double track() const;
-  // Where a point of the half circle is from its hip at an angle of the leg, in the body's frame [m]; `way` goes from the
-  // hip (0) to the end (pi).
+  // Where a point of the half circle is from its hip at an angle of the leg, in the body's frame [m]; `way` goes from
+  // the hip (0) to the end (pi).
   Eigen::Vector3d place(double angle, double way) const;
   // The way to its lowest point; `up` in the body's frame.
   static double lowest_way(double angle, const Eigen::Vector3d& up);
@@ -128,6 +130,7 @@ struct Robot {
   std::vector<Joint> joints;  // one for each link but the root: joints[i].child == i + 1
   std::optional<DifferentialDrive> drive;
   std::optional<LegDrive> legs;
+  std::optional<Quadrotor> quadrotor;
   std::vector<std::string> warnings;  // one line each, for the user
 };
 

@@ -32,22 +32,20 @@ void parse_urdf(const Source& source, const std::string& text, tinyxml2::XMLDocu
 // Every number strictly a number, every needed attribute there, links a tree.
 Outline check_urdf(const Source& source, const tinyxml2::XMLElement& robot);
 
-// <muster><differential .../></muster>, if there is one; the robot's links and joints are there already.
+// The one drive in <muster>, if there is one; the robot's links and joints are there already.
 void read_drive(const Source& source, const tinyxml2::XMLElement& element, Robot& robot);
-
-// <legs ...><leg .../>...</legs>, the drive of a robot that walks.
+Quadrotor read_quadrotor(const Source& source, const tinyxml2::XMLElement& element, const Robot& robot);
 LegDrive read_legs(const Source& source, const tinyxml2::XMLElement& element, const Robot& robot);
 
-// For drives: no other attributes than these; a number above 0; the index of a joint that turns without end about the
-// body's +y axis, with its place on the body.
-void only_attributes(const Source& source, const tinyxml2::XMLElement& element, const std::vector<std::string>& known);
-double positive(const Source& source, const tinyxml2::XMLElement& element, const char* attribute);
+// The index of a joint; where one that turns without end about the body's +y axis is on the body.
 std::size_t find_joint(const Source& source, const tinyxml2::XMLElement& element, const char* attribute,
                        const Robot& robot);
 Eigen::Vector3d place_of_turning(const Source& source, const tinyxml2::XMLElement& element, const Robot& robot,
                                  std::size_t joint);
 
-// An attribute that must be there and not empty.
+// An attribute that must be there and not empty; one that must be a number above 0; those that may be there.
 std::string required(const Source& source, const tinyxml2::XMLElement& element, const char* attribute);
+double positive(const Source& source, const tinyxml2::XMLElement& element, const char* attribute);
+void only_attributes(const Source& source, const tinyxml2::XMLElement& element, const std::vector<std::string>& known);
 
 }  // namespace muster::description

@@ -106,15 +106,13 @@ Eigen::Vector3d place_of_turning(const Source& source, const XMLElement& element
 void read_drive(const Source& source, const XMLElement& muster, Robot& robot) {
   for (const auto* child = muster.FirstChildElement(); child; child = child->NextSiblingElement()) {
     const std::string name = child->Name();
-    if (name != "differential" && name != "legs") {
-      source.fail(child->GetLineNum(), "<" + name + "> is not a drive; expected <differential> or <legs>");
+    if (name != "differential" && name != "quadrotor" && name != "legs") {
+      source.fail(child->GetLineNum(), "<" + name + "> is not a drive; expected <differential>, <quadrotor> or <legs>");
     }
-    if (robot.drive || robot.legs) source.fail(child->GetLineNum(), "has a second drive");
-    if (name == "legs") {
-      robot.legs = read_legs(source, *child, robot);
-    } else {
-      robot.drive = read_differential(source, *child, robot);
-    }
+    if (robot.drive || robot.quadrotor || robot.legs) source.fail(child->GetLineNum(), "has a second drive");
+    if (name == "differential") robot.drive = read_differential(source, *child, robot);
+    if (name == "quadrotor") robot.quadrotor = read_quadrotor(source, *child, robot);
+    if (name == "legs") robot.legs = read_legs(source, *child, robot);
   }
 }
 

@@ -142,8 +142,7 @@ void EncountersOf<N>::stand(int index, const Placed& robot, const Memory& memory
     c.target = compliance.target(gap, h_);
     return c;
   };
-  const bool on_wheels = robot.model->legs.empty();
-  for (int w = 0; w < 2 && on_wheels; ++w) {
+  for (int w = 0; robot.model->has_wheels && w < 2; ++w) {
     const double radius = robot.model->drive.wheel_radius;
     const Vector3d centre = robot.model->wheel_frame[w].translation();
     Contact c = contact(centre, radius);

@@ -53,6 +53,17 @@ double speed_of(const RobotModel& model, const RobotState& state) {
   return velocity_of(state).norm() + rates.cwiseAbs().dot(model.arm) + legs;
 }
 
+// What is further away is not met in a step: twice the way, since a contact may make a robot faster, and the fall.
+double way_of(const RobotModel& model, const RobotState& state, double h) {
+  return nearby + 2 * h * speed_of(model, state) + gravity * h * h;
+}
+
+void check_speed(const std::string& name, const RobotState& state) {
+  for (const double speed : state.twist) {
+    if (!(std::abs(speed) < fastest)) throw std::runtime_error("robot '" + name + "': its motion blew up");
+  }
+}
+
 Extent extent_of(const RobotModel& model, const RobotState& state, double more) {
   const Eigen::Quaterniond turned_by(state.pose[3], state.pose[4], state.pose[5], state.pose[6]);
   const Vector3d middle = Vector3d(state.pose[0], state.pose[1], state.pose[2]) + turned_by * model.middle;
@@ -60,18 +71,29 @@ Extent extent_of(const RobotModel& model, const RobotState& state, double more) 
   return {middle - reach, middle + reach};
 }
 
+// What its rotors do to a robot, as a force for its velocities.
+template <int N>
+VelocityOf<N> rotor_force(const description::Quadrotor& rotors, const RobotState& state, const VelocityOf<N>& u) {
+  const description::Wrench wrench = rotors.wrench(state.rotors, u.template segment<3>(3), u.template head<3>());
+  VelocityOf<N> force = VelocityOf<N>::Zero();
+  force.template head<3>() = wrench.torque;
+  force.template segment<3>(3) = wrench.force;
+  return force;
+}
+
 }  // namespace
 
 template <int N>
 MidpointOf<N>::MidpointOf(const std::vector<NamedRobot>& robots, double step, LegModel legs) : longest_step_(step) {
   for (const NamedRobot& named : robots) {
-    Robot robot{named.name, RobotModel(*named.description), {}, {}, {}, {}, {}};
+    Robot robot{named.name, RobotModel(*named.description), {}, {}, {}, {}, {}, {}};
     if (legs == LegModel::rigid) robot.model.leg_drive.stiffness = std::numeric_limits<double>::infinity();
     robot.bodies = system_.add(robot.model);
     robot.whole = whole_mass(*named.description);
     const Matrix3d c = cross_matrix(robot.whole.centre);
     robot.inertia_at_origin = robot.whole.inertia - robot.whole.mass * c * c;
     for (std::size_t w = 0; w < 2; ++w) robot.wheel_inertia[w] = robot.model.wheel[w].inertia(2, 2);
+    if (robot.model.rotors) robot.flight.emplace(robot.whole, *robot.model.rotors);
     robots_.push_back(std::move(robot));
   }
   system_.finish();
@@ -100,7 +122,8 @@ void MidpointOf<N>::set_surroundings(const std::vector<scene::Slab>& walls, doub
 }
 
 // Simbody's own mass matrix at the reference pose; in the body's frame it is the same in every other, as wheels are
-// balanced. Robots are not joined, so that one product has a column of each. Legs are weighed anew in each step.
+// balanced. Robots are not joined, so that one product has a column of each. Joints that are not there have an inertia
+// of one, which nothing turns; legs are weighed anew in each step.
 template <int N>
 void MidpointOf<N>::read_masses() {
   const SimTK::State& state = system_.state;
@@ -108,11 +131,16 @@ void MidpointOf<N>::read_masses() {
   for (Robot& robot : robots_) robot.now.body.mass.setIdentity();
   for (int c = 0; c < unknowns; ++c) {
     SimTK::Vector units(state.getNU(), 0.0);
-    for (const Robot& robot : robots_) units[robot.bodies.body.getFirstUIndex(state) + c] = 1;
+    const auto has = [c](const Robot& robot) { return c < 6 || robot.model.has_wheels; };
+    for (const Robot& robot : robots_) {
+      if (has(robot)) units[robot.bodies.body.getFirstUIndex(state) + c] = 1;
+    }
     system_.matter.multiplyByM(state, units, columns);
     for (Robot& robot : robots_) {
-      const int first = robot.bodies.body.getFirstUIndex(state);
-      for (int r = 0; r < unknowns; ++r) robot.now.body.mass(r, c) = columns[first + r];
+      const int first = robot.bodies.body.getFirstUIndex(state), own = robot.model.has_wheels ? unknowns : 6;
+      robot.now.body.mass.col(c).setZero();
+      robot.now.body.mass(c, c) = 1;
+      for (int r = 0; has(robot) && r < own; ++r) robot.now.body.mass(r, c) = columns[first + r];
     }
   }
   for (Robot& robot : robots_) robot.now.body.inverse_mass = robot.now.body.mass.inverse();
@@ -141,9 +169,7 @@ void MidpointOf<N>::find_groups(double h, const std::vector<RobotState>& states)
   const int count = static_cast<int>(robots_.size());
   extents_.clear();
   for (int i = 0; i < count; ++i) {
-    // Twice the way: a contact may make a robot faster; and the fall of the step.
-    const double way = nearby + 2 * h * speed_of(robots_[i].model, states[i]) + gravity * h * h;
-    extents_.push_back(extent_of(robots_[i].model, states[i], way));
+    extents_.push_back(extent_of(robots_[i].model, states[i], way_of(robots_[i].model, states[i], h)));
   }
   broad_phase_.find(extents_);
   Connected connected(count);
@@ -179,10 +205,30 @@ VelocityOf<N> MidpointOf<N>::free_acceleration(std::size_t index, const Matrix3d
 template <int N>
 void MidpointOf<N>::advance(const Group& group, double h, double at, const std::vector<Command>& commands,
                             std::vector<RobotState>& states) {
+  if (is_in_the_air(group, h, states)) {
+    const int i = group.robots.front();
+    return fly(i, h, commands[i], states[i]);
+  }
   for (const int i : group.robots) place(i, h, at, commands[i], states[i]);
   meet(group, h, states);
   solve_islands(group, states);
-  for (const int i : group.robots) finish(robots_[i], h, states[i]);
+  for (const int i : group.robots) finish(robots_[i], h, commands[i], states[i]);
+}
+
+template <int N>
+bool MidpointOf<N>::is_in_the_air(const Group& group, double h, const std::vector<RobotState>& states) const {
+  const int i = group.robots.front();
+  const RobotModel& model = robots_[i].model;
+  if (!robots_[i].flight || !group.pairs.empty() || !group.walls.empty()) return false;
+  const Quaternion q = quaternion_of(states[i]);
+  const Vector3d up = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix().row(2);
+  return states[i].pose[2] + model.lowest_point(up) > way_of(model, states[i], h);
+}
+
+template <int N>
+void MidpointOf<N>::fly(int index, double h, const Command& command, RobotState& state) {
+  robots_[index].flight->step(h, command.rotors, state);
+  check_speed(robots_[index].name, state);
 }
 
 // Half a step ahead along the velocities that stand. The one rotation that is needed follows from its quaternion: to
@@ -213,6 +259,8 @@ void MidpointOf<N>::place_wheels(Robot& robot, int index, double h, double at, c
   for (int w = 0; w < 2; ++w) body.previous[6 + w] = state.rate[w];
   const double kick = 0.5 * (state.memory.previous_step + h);
   body.free = body.previous + kick * free_acceleration(index, robot.now.to_world, body.previous);
+  if (robot.model.rotors)
+    body.free += kick * (body.inverse_mass * rotor_force<N>(*robot.model.rotors, state, body.previous));
   const double asked[] = {command.left + at * command.left_rate, command.right + at * command.right_rate};
   for (int w = 0; w < 2; ++w) body.motors[w] = {drive.limited_rate(asked[w]), drive.max_torque * h};
 }
@@ -307,7 +355,7 @@ void MidpointOf<N>::solve(const Island& island, std::vector<RobotState>& states)
 }
 
 template <int N>
-void MidpointOf<N>::finish(Robot& robot, double h, RobotState& state) const {
+void MidpointOf<N>::finish(Robot& robot, double h, const Command& command, RobotState& state) const {
   const Velocity& u = robot.now.body.velocity;
   if (!(u.cwiseAbs().maxCoeff() < fastest)) throw std::runtime_error("robot '" + robot.name + "': its motion blew up");
 
@@ -330,6 +378,8 @@ void MidpointOf<N>::finish(Robot& robot, double h, RobotState& state) const {
     state.leg_rate[k] = rate;
     state.leg_torque[k] = robot.now.body.motors[k].impulse(rate) / h;
   }
+  if (const auto& rotors = robot.model.rotors)
+    state.rotors = rotors->later(state.rotors, command.rotors, rotors->decay(h));
   state.memory.previous_step = h;
 }
 

@@ -84,13 +84,18 @@ void refuse_other_joints(const description::Robot& robot, const std::vector<std:
 }  // namespace
 
 RobotModel::RobotModel(const description::Robot& robot) : name(robot.name) {
-  if (!robot.drive && !robot.legs) refuse(robot, "it has no <muster><differential .../></muster> drive and no <legs>");
+  if (!robot.drive && !robot.quadrotor && !robot.legs)
+    refuse(robot, "it has no <muster><differential .../></muster> drive, no <quadrotor .../> and no <legs>");
+  has_wheels = robot.drive.has_value();
+  rotors = robot.quadrotor;
   body = rigid_mass(robot, 0);
   if (!(body.mass > 0)) refuse(robot, "its body has no mass");
   if (robot.legs) {
     take_legs(robot);
-  } else {
+  } else if (has_wheels) {
     take_wheels(robot);
+  } else {
+    refuse_other_joints(robot, {}, "is no wheel of its drive");
   }
   for (const description::Shape& shape : rigid_shapes(robot, 0)) {
     if (const auto* sphere = std::get_if<description::Sphere>(&shape.geometry)) {
@@ -165,6 +170,12 @@ double RobotModel::lowest_corner(const Eigen::Vector3d& up) const {
   return lowest;
 }
 
+double RobotModel::lowest_point(const Eigen::Vector3d& up) const {
+  double lowest = lowest_corner(up);
+  for (const Slider& slider : sliders) lowest = std::min(lowest, up.dot(slider.centre) - slider.radius);
+  return lowest;
+}
+
 System::System() : matter(system), forces(system) { SimTK::Force::Gravity(forces, matter, Vec3(0, 0, -gravity)); }
 
 RobotBodies System::add(const RobotModel& model) {
@@ -175,7 +186,7 @@ RobotBodies System::add(const RobotModel& model) {
     return SimTK::MobilizedBody::Pin(bodies.body, transform(frame), SimTK::Body::Rigid(properties(mass)),
                                      SimTK::Transform());
   };
-  for (std::size_t w = 0; w < 2 && model.legs.empty(); ++w) bodies.wheel[w] = pin(model.wheel_frame[w], model.wheel[w]);
+  for (std::size_t w = 0; model.has_wheels && w < 2; ++w) bodies.wheel[w] = pin(model.wheel_frame[w], model.wheel[w]);
   // A pin turns about z: turn a leg's frame so that its z is the body's y.
   const Eigen::Quaterniond to_axis =
       Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitY());

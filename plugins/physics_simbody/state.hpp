@@ -1,4 +1,5 @@
-// What a backend is a function of: the rows of robot/*/pose, twist, wheels and drive, and its own memory.
+// What a backend is a function of: the rows of robot/*/pose, twist, wheels, rotors and what drives
+// them, and its own memory.
 #pragma once
 
 #include <array>
@@ -8,10 +9,12 @@ namespace muster::simbody {
 
 constexpr double gravity = 9.81;  // [m/s2]
 
-// What is asked for at the tick's start, and its slopes over the tick: rates of wheels, angles of legs.
+// What is asked for at the tick's start, and its slopes over the tick: rates of wheels, angles of legs; rotors' rates,
+// held over it.
 struct Command {
   double left, right;                             // [rad/s]
   double left_rate, right_rate;                   // [rad/s2]
+  std::array<double, 4> rotors{};                 // front, left, back, right [rad/s]
   std::array<double, 6> leg_angle{}, leg_rate{};  // [rad], [rad/s]
 };
 
@@ -43,6 +46,7 @@ struct RobotState {
   Memory memory;
   std::array<double, 6> leg_angle{}, leg_rate{};  // in the order of the model [rad], [rad/s]
   std::array<double, 6> leg_torque{};             // of their motors, the mean over the last step [N m]
+  std::array<double, 4> rotors{};                 // as they turn [rad/s]
 };
 
 }  // namespace muster::simbody

@@ -122,7 +122,7 @@ const Case cases[] = {
     {"wheel_base_contradicts_joints", wheels(good, "0 1 0", "0.11"),
      "7: <differential> joint 'jl' is not half a wheel_base from the body's x axis (left: +y, right: -y)"},
     {"another_drive", link("a", mass) + "<muster><tracks/></muster>",
-     "3: <tracks> is not a drive; expected <differential> or <legs>"},
+     "3: <tracks> is not a drive; expected <differential>, <quadrotor> or <legs>"},
     {"leg_without_gain", legs("radius='0.05' rate_gain='1' max_torque='1' max_speed='9' friction='0.8'"),
      "16: <legs> has no attribute 'position_gain'"},
     {"legs_attribute_misspelt", legs(good_legs + " stifness='1'"),

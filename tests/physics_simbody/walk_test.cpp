@@ -39,8 +39,12 @@ TEST(Walking, FasterGaitsAreFasterAndLeaveRigidLegsBehind) {
     EXPECT_GT(compliant, before);
     before = compliant;
     const double gap = compliant / rigid - 1;
-    if (frequency <= 0.5) EXPECT_LT(std::abs(gap), 0.025) << frequency;
-    if (frequency > 1.5) EXPECT_GT(gap, 0.05) << frequency;
+    if (frequency <= 0.5) {
+      EXPECT_LT(std::abs(gap), 0.025) << frequency;
+    }
+    if (frequency > 1.5) {
+      EXPECT_GT(gap, 0.05) << frequency;
+    }
   }
 }
 

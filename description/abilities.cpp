@@ -1,0 +1,34 @@
+#include "description/abilities.hpp"
+
+#include <algorithm>
+
+namespace muster::description {
+
+std::string lacking(const Robot& robot, Ability have) {
+  std::string list;
+  const auto need = [&](bool needed, Ability ability, const std::string& words) {
+    if (!needed || (static_cast<unsigned>(have) & static_cast<unsigned>(ability))) return;
+    list += (list.empty() ? "" : ", ") + words;
+  };
+  need(robot.drive.has_value(), Ability::wheels, "wheels (<differential>)");
+  need(robot.quadrotor.has_value(), Ability::rotors, "rotors (<quadrotor>)");
+  need(robot.legs.has_value(), Ability::legs, "legs (<legs>)");
+  const bool leaves_the_plane = robot.quadrotor || robot.legs;
+  need(leaves_the_plane, Ability::height, "changes of height");
+  need(leaves_the_plane, Ability::tilting, "roll and pitch");
+  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
+    const bool is_wheel = robot.drive && (i == robot.drive->left || i == robot.drive->right);
+    const bool is_leg = robot.legs && std::any_of(robot.legs->legs.begin(), robot.legs->legs.end(),
+                                                  [i](const LegDrive::Leg& leg) { return leg.joint == i; });
+    need(!is_wheel && !is_leg && robot.joints[i].kind != JointKind::fixed, Ability::joints,
+         "joint '" + robot.joints[i].name + "' that moves");
+  }
+  if (!robot.drive && !robot.quadrotor && !robot.legs) {
+    list +=
+        std::string(list.empty() ? "" : ", ") +
+        "motion without a drive (its model has no <muster><differential .../></muster>, <quadrotor .../> or <legs>)";
+  }
+  return list;
+}
+
+}  // namespace muster::description
