@@ -83,12 +83,6 @@ class WorldRobots {
   }
 
   std::size_t size() const { return robots_.size(); }
-  bool any_walks() const {
-    for (const auto& robot : robots_) {
-      if (robot && robot->legs) return true;
-    }
-    return false;
-  }
 
  private:
   static std::string find(const std::string& model, const std::vector<std::string>& directories) {
