@@ -359,6 +359,25 @@ TEST_P(EachBackend, ClimbsAsItsRotorsSpeedUpOrRefusesWithTheList) {
   EXPECT_LT(state(sim).distance(1, 2), 1e-9);
 }
 
+// Lifted beside its centre of mass by rotors that speed up together, it rolls as their thrust's moment says.
+TEST_P(EachBackend, RollsWhereItIsLiftedBesideItsCentreOfMass) {
+  if (!GetParam().rotors) return;
+  std::string urdf = contents(models + "hummingbird.urdf");
+  const std::string body = "<mass value=\"0.68\"/>";
+  urdf.insert(urdf.find(body), "<origin xyz=\"0 0.002 0\"/>");
+  const auto robot = description::read_robot(folder.write("uneven.urdf", urdf).string());
+  Started sim = run("<robot name='a' model='uneven.urdf' at='0 0 50'/>" + lift(600), {}, {});
+  run_for(sim, 30);
+  const auto whole = whole_mass(robot);
+  const double t = 0.3, lag = robot.quadrotor->lag_up;
+  const double rise = t * t / 2 - 2 * lag * (t - lag * (1 - std::exp(-t / lag))) +
+                      lag / 2 * (t - lag / 2 * (1 - std::exp(-2 * t / lag)));
+  const double moment = -whole.centre.y() * 4 * robot.quadrotor->thrust_factor * 600 * 600;
+  const double roll = moment / whole.inertia(0, 0) * rise;
+  const Pose p = state(sim).pose;
+  EXPECT_NEAR(2 * std::atan2(p.qx, p.qw), roll, 0.02 * std::abs(roll));
+}
+
 TEST_P(EachBackend, TumblesWithItsMomentum) {
   if (!GetParam().rotors) return;
   const auto whole = whole_mass(description::read_robot(models + "hummingbird.urdf"));
