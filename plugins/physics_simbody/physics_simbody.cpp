@@ -47,7 +47,11 @@ struct PhysicsSimbody {
       "an\n"
       "approximation for slow gaits); their controllers turn them as asked within the torque of their motors. Legs of\n"
       "two robots do not touch each other.\n"
-      "Not modelled: wheels as discs on the ground (they stand on it as spheres would), rolling resistance, bouncing.";
+      "Robots with rotors that can touch nothing in a step fly by Runge and Kutta's fourth order; robot/*/rotors are "
+      "their\n"
+      "rotors as they turn.\n"
+      "Not modelled: wheels as discs on the ground (they stand on it as spheres would), rolling resistance, bouncing,\n"
+      "downwash and ground effect of rotors.";
   static constexpr auto phase = MUSTER_PHYSICS;
   static constexpr auto abilities = description::Ability::wheels | description::Ability::rotors |
                                     description::Ability::legs | description::Ability::height |
