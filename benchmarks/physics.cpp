@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "hexapods.hpp"
 #include "kernel/simulation.hpp"
 #include "plugins/physics_simbody/world.hpp"
 #include "raw_ode.hpp"

@@ -1,5 +1,7 @@
 #include "description/abilities.hpp"
 
+#include <algorithm>
+
 namespace muster::description {
 
 std::string lacking(const Robot& robot, Ability have) {
@@ -10,16 +12,21 @@ std::string lacking(const Robot& robot, Ability have) {
   };
   need(robot.drive.has_value(), Ability::wheels, "wheels (<differential>)");
   need(robot.quadrotor.has_value(), Ability::rotors, "rotors (<quadrotor>)");
-  need(robot.quadrotor.has_value(), Ability::height, "changes of height");
-  need(robot.quadrotor.has_value(), Ability::tilting, "roll and pitch");
+  need(robot.legs.has_value(), Ability::legs, "legs (<legs>)");
+  const bool leaves_the_plane = robot.quadrotor || robot.legs;
+  need(leaves_the_plane, Ability::height, "changes of height");
+  need(leaves_the_plane, Ability::tilting, "roll and pitch");
   for (std::size_t i = 0; i < robot.joints.size(); ++i) {
     const bool is_wheel = robot.drive && (i == robot.drive->left || i == robot.drive->right);
-    need(!is_wheel && robot.joints[i].kind != JointKind::fixed, Ability::joints,
+    const bool is_leg = robot.legs && std::any_of(robot.legs->legs.begin(), robot.legs->legs.end(),
+                                                  [i](const LegDrive::Leg& leg) { return leg.joint == i; });
+    need(!is_wheel && !is_leg && robot.joints[i].kind != JointKind::fixed, Ability::joints,
          "joint '" + robot.joints[i].name + "' that moves");
   }
-  if (!robot.drive && !robot.quadrotor) {
-    list += std::string(list.empty() ? "" : ", ") +
-            "motion without a drive (its model has no <muster><differential .../></muster> and no <quadrotor .../>)";
+  if (!robot.drive && !robot.quadrotor && !robot.legs) {
+    list +=
+        std::string(list.empty() ? "" : ", ") +
+        "motion without a drive (its model has no <muster><differential .../></muster>, <quadrotor .../> or <legs>)";
   }
   return list;
 }

@@ -13,7 +13,8 @@ enum class Ability : unsigned {
   rotors = 2,   // thrust of four rotors
   height = 4,   // it changes
   tilting = 8,  // roll and pitch change
-  joints = 16,  // others than wheels that move
+  joints = 16,  // others than wheels and legs that move
+  legs = 32,    // six half circles on motors, with springs
 };
 
 constexpr Ability operator|(Ability a, Ability b) {

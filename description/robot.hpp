@@ -91,12 +91,45 @@ struct DifferentialDrive {
   }
 };
 
+// Six legs, each a half circle that hangs from its hip and bulges backwards, turned whole turns by its own motor: at
+// angle 0 it stands on its end, two radii under the hip; positive rates carry the robot forward. Three legs are a
+// tripod.
+struct LegDrive {
+  static constexpr std::size_t count = 6;
+  struct Leg {
+    std::size_t joint = 0;                          // index
+    int tripod = 0;                                 // 0 or 1
+    Eigen::Vector3d hip = Eigen::Vector3d::Zero();  // in the body's frame [m]
+  };
+
+  std::array<Leg, count> legs;
+  double radius = 0;         // of the half circles [m]
+  double position_gain = 0;  // of the motors' controllers [N m/rad]
+  double rate_gain = 0;      // [N m s/rad]
+  double max_torque = 0;     // of a motor at its hip [N m]
+  double max_speed = 0;      // of a leg [rad/s]
+  double friction = 0;       // Coulomb, between leg and ground
+  // A leg as a spring and a damper along the ground's normal. Without a stiffness it is rigid.
+  double stiffness = std::numeric_limits<double>::infinity();  // [N/m]
+  double damping = 0;                                          // [N s/m]
+
+  bool is_rigid() const { return stiffness == std::numeric_limits<double>::infinity(); }
+  // Between the legs' planes, left to right [m].
+  double track() const;
+  // Where a point of the half circle is from its hip at an angle of the leg, in the body's frame [m]; `way` goes from
+  // the hip (0) to the end (pi).
+  Eigen::Vector3d place(double angle, double way) const;
+  // The way to its lowest point; `up` in the body's frame.
+  static double lowest_way(double angle, const Eigen::Vector3d& up);
+};
+
 struct Robot {
   std::string name;
   std::string file;
   std::vector<Link> links;    // parents before children; the first is the root, whose frame is the robot's
   std::vector<Joint> joints;  // one for each link but the root: joints[i].child == i + 1
   std::optional<DifferentialDrive> drive;
+  std::optional<LegDrive> legs;
   std::optional<Quadrotor> quadrotor;
   std::vector<std::string> warnings;  // one line each, for the user
 };

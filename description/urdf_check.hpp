@@ -35,6 +35,13 @@ Outline check_urdf(const Source& source, const tinyxml2::XMLElement& robot);
 // The one drive in <muster>, if there is one; the robot's links and joints are there already.
 void read_drive(const Source& source, const tinyxml2::XMLElement& element, Robot& robot);
 Quadrotor read_quadrotor(const Source& source, const tinyxml2::XMLElement& element, const Robot& robot);
+LegDrive read_legs(const Source& source, const tinyxml2::XMLElement& element, const Robot& robot);
+
+// The index of a joint; where one that turns without end about the body's +y axis is on the body.
+std::size_t find_joint(const Source& source, const tinyxml2::XMLElement& element, const char* attribute,
+                       const Robot& robot);
+Eigen::Vector3d place_of_turning(const Source& source, const tinyxml2::XMLElement& element, const Robot& robot,
+                                 std::size_t joint);
 
 // An attribute that must be there and not empty; one that must be a number above 0; those that may be there.
 std::string required(const Source& source, const tinyxml2::XMLElement& element, const char* attribute);

@@ -12,16 +12,7 @@ namespace {
 
 constexpr double placement_tolerance = 1e-4;  // [m]: a drive that contradicts the joints by more is a mistake
 
-std::size_t find_joint(const Source& source, const XMLElement& element, const char* attribute, const Robot& robot) {
-  const std::string name = required(source, element, attribute);
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
-    if (robot.joints[i].name == name) return i;
-    names.push_back(robot.joints[i].name);
-  }
-  source.fail(element.GetLineNum(), std::string("<differential> ") + attribute + ": joint '" + name + "' is not known" +
-                                        nearest(name, names));
-}
+std::string tag(const XMLElement& element) { return std::string("<") + element.Name() + "> "; }
 
 // The joint's frame in the root's, or nothing where a joint between them moves.
 std::optional<Eigen::Isometry3d> frame_on_body(const Robot& robot, const Joint& joint) {
@@ -36,20 +27,14 @@ std::optional<Eigen::Isometry3d> frame_on_body(const Robot& robot, const Joint& 
 }
 
 // The axle lies along the body's y axis, left wheel on the left, and turns forward for positive rates.
-void check_wheel(const Source& source, int line, const Robot& robot, std::size_t index, double y,
-                 Eigen::Vector3d& middle) {
-  const Joint& joint = robot.joints[index];
-  const std::string what = "<differential> joint '" + joint.name + "' ";
-  if (joint.kind != JointKind::continuous) source.fail(line, what + "is not continuous");
-  const auto frame = frame_on_body(robot, joint);
-  if (!frame) source.fail(line, what + "is not on the robot's body: a joint between them moves");
-  if (!(frame->linear() * joint.axis - Eigen::Vector3d::UnitY()).isZero(1e-6)) {
-    source.fail(line, what + "does not turn about the body's +y axis");
-  }
-  middle = frame->translation();
+Eigen::Vector3d check_wheel(const Source& source, const XMLElement& element, const Robot& robot, std::size_t index,
+                            double y) {
+  const Eigen::Vector3d middle = place_of_turning(source, element, robot, index);
   if (std::abs(middle.y() - y) > placement_tolerance) {
-    source.fail(line, what + "is not half a wheel_base from the body's x axis (left: +y, right: -y)");
+    source.fail(element.GetLineNum(), tag(element) + "joint '" + robot.joints[index].name +
+                                          "' is not half a wheel_base from the body's x axis (left: +y, right: -y)");
   }
+  return middle;
 }
 
 DifferentialDrive read_differential(const Source& source, const XMLElement& element, const Robot& robot) {
@@ -65,44 +50,69 @@ DifferentialDrive read_differential(const Source& source, const XMLElement& elem
   drive.max_speed = positive(source, element, "max_speed");
   if (element.Attribute("max_acceleration")) drive.max_acceleration = positive(source, element, "max_acceleration");
   drive.friction = positive(source, element, "friction");
-  Eigen::Vector3d left, right;
-  check_wheel(source, element.GetLineNum(), robot, drive.left, drive.wheel_base / 2, left);
-  check_wheel(source, element.GetLineNum(), robot, drive.right, -drive.wheel_base / 2, right);
+  const Eigen::Vector3d left = check_wheel(source, element, robot, drive.left, drive.wheel_base / 2);
+  const Eigen::Vector3d right = check_wheel(source, element, robot, drive.right, -drive.wheel_base / 2);
   if (std::hypot(left.x() - right.x(), left.z() - right.z()) > placement_tolerance) {
-    source.fail(element.GetLineNum(), "<differential> the wheels are not on one axle");
+    source.fail(element.GetLineNum(), tag(element) + "the wheels are not on one axle");
   }
   return drive;
 }
 
 }  // namespace
 
+void only_attributes(const Source& source, const XMLElement& element, const std::vector<std::string>& known) {
+  for (const auto* attribute = element.FirstAttribute(); attribute; attribute = attribute->Next()) {
+    if (std::find(known.begin(), known.end(), attribute->Name()) != known.end()) continue;
+    source.fail(element.GetLineNum(),
+                tag(element) + "has no attribute '" + attribute->Name() + "'" + nearest(attribute->Name(), known));
+  }
+}
+
 double positive(const Source& source, const XMLElement& element, const char* attribute) {
   const std::string text = required(source, element, attribute);
   const auto value = parse_number(text);
   if (!value || !(*value > 0)) {
-    source.fail(element.GetLineNum(), std::string("<") + element.Name() + "> " + attribute + "=\"" + text +
-                                          "\" is wrong; expected a number above 0");
+    source.fail(element.GetLineNum(),
+                tag(element) + attribute + "=\"" + text + "\" is wrong; expected a number above 0");
   }
   return *value;
 }
 
-void only_attributes(const Source& source, const XMLElement& element, const std::vector<std::string>& known) {
-  for (const auto* attribute = element.FirstAttribute(); attribute; attribute = attribute->Next()) {
-    if (std::find(known.begin(), known.end(), attribute->Name()) != known.end()) continue;
-    source.fail(element.GetLineNum(), std::string("<") + element.Name() + "> has no attribute '" + attribute->Name() +
-                                          "'" + nearest(attribute->Name(), known));
+std::size_t find_joint(const Source& source, const XMLElement& element, const char* attribute, const Robot& robot) {
+  const std::string name = required(source, element, attribute);
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
+    if (robot.joints[i].name == name) return i;
+    names.push_back(robot.joints[i].name);
   }
+  source.fail(element.GetLineNum(),
+              tag(element) + attribute + ": joint '" + name + "' is not known" + nearest(name, names));
+}
+
+Eigen::Vector3d place_of_turning(const Source& source, const XMLElement& element, const Robot& robot,
+                                 std::size_t index) {
+  const Joint& joint = robot.joints[index];
+  const int line = element.GetLineNum();
+  const std::string what = tag(element) + "joint '" + joint.name + "' ";
+  if (joint.kind != JointKind::continuous) source.fail(line, what + "is not continuous");
+  const auto frame = frame_on_body(robot, joint);
+  if (!frame) source.fail(line, what + "is not on the robot's body: a joint between them moves");
+  if (!(frame->linear() * joint.axis - Eigen::Vector3d::UnitY()).isZero(1e-6)) {
+    source.fail(line, what + "does not turn about the body's +y axis");
+  }
+  return frame->translation();
 }
 
 void read_drive(const Source& source, const XMLElement& muster, Robot& robot) {
   for (const auto* child = muster.FirstChildElement(); child; child = child->NextSiblingElement()) {
     const std::string name = child->Name();
-    if (name != "differential" && name != "quadrotor") {
-      source.fail(child->GetLineNum(), "<" + name + "> is not a drive; expected <differential> or <quadrotor>");
+    if (name != "differential" && name != "quadrotor" && name != "legs") {
+      source.fail(child->GetLineNum(), "<" + name + "> is not a drive; expected <differential>, <quadrotor> or <legs>");
     }
-    if (robot.drive || robot.quadrotor) source.fail(child->GetLineNum(), "has a second drive");
+    if (robot.drive || robot.quadrotor || robot.legs) source.fail(child->GetLineNum(), "has a second drive");
     if (name == "differential") robot.drive = read_differential(source, *child, robot);
     if (name == "quadrotor") robot.quadrotor = read_quadrotor(source, *child, robot);
+    if (name == "legs") robot.legs = read_legs(source, *child, robot);
   }
 }
 

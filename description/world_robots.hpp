@@ -51,6 +51,13 @@ class WorldRobots {
     return robot && robot->drive ? &*robot->drive : nullptr;
   }
 
+  const LegDrive* legs_of(double model) const {
+    const Robot* robot = of(model);
+    return robot && robot->legs ? &*robot->legs : nullptr;
+  }
+  bool any_walks() const {
+    return std::any_of(robots_.begin(), robots_.end(), [](const auto& robot) { return robot && robot->legs; });
+  }
   const Quadrotor* quadrotor_of(double model) const {
     const Robot* robot = of(model);
     return robot && robot->quadrotor ? &*robot->quadrotor : nullptr;

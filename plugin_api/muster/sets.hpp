@@ -91,6 +91,8 @@ inline const Standard& standard() {
             {"wheels", Wheels::columns, "", false, "physics.simbody"},
             {"command", Command::columns, "", true, ""},
             {"drive", Drive::columns, "", false, "robots.drive"},
+            {"gait", Gait::columns, "", false, "robots.gait"},
+            {"legs", Legs::columns, "", false, "physics.simbody"},
             {"odometry", Odometry::columns, "", true, "robots.odometry"},
             {"attitude_thrust", AttitudeThrust::columns, "", true, ""},
             {"velocity3d", Velocity3d::columns, "", true, ""},

@@ -33,6 +33,23 @@ struct Wheels {
   double left, right, left_rate, right_rate;
 };
 
+// What six legs are asked for, in the order of the robot's model: angles at the tick's start and their slopes over it.
+struct Gait {
+  static constexpr const char* columns =
+      "angle1[rad] angle2[rad] angle3[rad] angle4[rad] angle5[rad] angle6[rad] "
+      "rate1[rad/s] rate2[rad/s] rate3[rad/s] rate4[rad/s] rate5[rad/s] rate6[rad/s]";
+  double angle[6], rate[6];
+};
+
+// Legs as they turn: angle since the start, rate, and what their motors gave, as a mean over the last step.
+struct Legs {
+  static constexpr const char* columns =
+      "angle1[rad] angle2[rad] angle3[rad] angle4[rad] angle5[rad] angle6[rad] "
+      "rate1[rad/s] rate2[rad/s] rate3[rad/s] rate4[rad/s] rate5[rad/s] rate6[rad/s] "
+      "torque1[N*m] torque2[N*m] torque3[N*m] torque4[N*m] torque5[N*m] torque6[N*m]";
+  double angle[6], rate[6], torque[6];
+};
+
 // Where a robot believes to be, from its wheels, and how fast it believes to go.
 struct Odometry {
   static constexpr const char* columns = "x[m] y[m] yaw[rad] v[m/s] w[rad/s]";

@@ -4,7 +4,8 @@
 
 namespace muster::simbody {
 
-void BlockCholesky::arrange(int count, const std::vector<std::pair<int, int>>& pairs) {
+template <int N>
+void BlockCholeskyOf<N>::arrange(int count, const std::vector<std::pair<int, int>>& pairs) {
   diagonal_.resize(count);
   factor_.resize(count);
   columns_.resize(count);
@@ -42,19 +43,22 @@ void BlockCholesky::arrange(int count, const std::vector<std::pair<int, int>>& p
   }
 }
 
-void BlockCholesky::clear_pairs() {
+template <int N>
+void BlockCholeskyOf<N>::clear_pairs() {
   for (auto& column : columns_) {
     for (Below& below : column) below.block.setZero();
   }
 }
 
-MassMatrix& BlockCholesky::below(int row, int column) {
+template <int N>
+MassMatrixOf<N>& BlockCholeskyOf<N>::below(int row, int column) {
   const auto at = std::lower_bound(columns_[column].begin(), columns_[column].end(), row,
                                    [](const Below& b, int wanted) { return b.row < wanted; });
   return at->block;
 }
 
-void BlockCholesky::add(int i, int j, double k, const Velocity& a, const Velocity& b) {
+template <int N>
+void BlockCholeskyOf<N>::add(int i, int j, double k, const Velocity& a, const Velocity& b) {
   if (place_[i] > place_[j]) {
     below(i, j).noalias() += (k * a) * b.transpose();
   } else {
@@ -62,11 +66,21 @@ void BlockCholesky::add(int i, int j, double k, const Velocity& a, const Velocit
   }
 }
 
-void BlockCholesky::factor() {
+template <int N>
+void BlockCholeskyOf<N>::factor() {
+  if (is_alone()) {
+    const MassMatrix& m = diagonal_[0];
+    joints_by_body_ =
+        m.diagonal().template tail<N - 6>().cwiseInverse().asDiagonal() * m.template bottomLeftCorner<N - 6, 6>();
+    BodyBlock rest = m.template topLeftCorner<6, 6>();
+    rest.noalias() -= m.template topRightCorner<6, N - 6>().lazyProduct(joints_by_body_);
+    body_.compute(rest);
+    return;
+  }
   for (const int k : order_) {
     factor_[k].compute(diagonal_[k]);
     auto& column = columns_[k];
-    for (Below& below_k : column) factor_[k].matrixU().solveInPlace<Eigen::OnTheRight>(below_k.block);
+    for (Below& below_k : column) factor_[k].matrixU().template solveInPlace<Eigen::OnTheRight>(below_k.block);
     for (std::size_t m = 0; m < column.size(); ++m) {
       const Below& a = column[m];
       diagonal_[a.row].noalias() -= a.block.lazyProduct(a.block.transpose());
@@ -82,7 +96,18 @@ void BlockCholesky::factor() {
   }
 }
 
-void BlockCholesky::solve(std::vector<Velocity>& x) const {
+template <int N>
+void BlockCholeskyOf<N>::solve(std::vector<Velocity>& x) const {
+  if (is_alone()) {
+    Eigen::Matrix<double, 6, 1> body = x[0].template head<6>();
+    auto joints = x[0].template tail<N - 6>();
+    body.noalias() -= joints_by_body_.transpose() * joints;
+    body_.solveInPlace(body);
+    x[0].template head<6>() = body;
+    joints = joints.cwiseQuotient(diagonal_[0].diagonal().template tail<N - 6>()).eval();
+    joints.noalias() -= joints_by_body_ * body;
+    return;
+  }
   if (order_.size() == 1) {
     factor_[0].solveInPlace(x[0]);
     return;
@@ -96,5 +121,8 @@ void BlockCholesky::solve(std::vector<Velocity>& x) const {
     factor_[*k].matrixU().solveInPlace(x[*k]);
   }
 }
+
+template class BlockCholeskyOf<unknowns>;
+template class BlockCholeskyOf<unknowns_with_legs>;
 
 }  // namespace muster::simbody

@@ -9,10 +9,8 @@ using Eigen::Vector2d;
 
 namespace {
 
-// Softness of friction and motors: creep below a micrometre a second at this project's loads. [m/s per N s], [rad/s per
-// N m s]
+// Softness of friction: creep below a micrometre a second at this project's loads. [m/s per N s]
 constexpr double grip_softness = 1e-6;
-constexpr double motor_softness = 1e-4;
 constexpr int first_newton = 4, later_newton = 2, last_newton = 50;
 constexpr double turn_arm = 0.1, rim = 0.05;  // [m]: rates as speeds, in the residual only
 
@@ -21,27 +19,26 @@ Vector2d within(const Vector2d& v, double radius) {
   return size > radius ? Vector2d((radius / size) * v) : v;
 }
 
-double speed_of(const Contact& c, const std::vector<Velocity>& u) {
+template <int N>
+double speed_of(const ContactOf<N>& c, const std::vector<VelocityOf<N>>& u) {
   const double own = c.normal.dot(u[c.body]);
   return c.other < 0 ? own : own + c.of_other.normal.dot(u[c.other]);
 }
 
-Vector2d slip_of(const Contact& c, const std::vector<Velocity>& u) {
+template <int N>
+Vector2d slip_of(const ContactOf<N>& c, const std::vector<VelocityOf<N>>& u) {
   Vector2d slip(c.tangent[0].dot(u[c.body]), c.tangent[1].dot(u[c.body]));
   if (c.other >= 0) slip += Vector2d(c.of_other.tangent[0].dot(u[c.other]), c.of_other.tangent[1].dot(u[c.other]));
   return slip;
 }
 
 // Takes what the contact's impulses give from the momenta.
-void take_impulse(const Contact& c, std::vector<Velocity>& momenta) {
+template <int N>
+void take_impulse(const ContactOf<N>& c, std::vector<VelocityOf<N>>& momenta) {
   momenta[c.body] -= c.push * c.normal + c.grip[0] * c.tangent[0] + c.grip[1] * c.tangent[1];
   if (c.other < 0) return;
-  const ContactRows& o = c.of_other;
+  const ContactRowsOf<N>& o = c.of_other;
   momenta[c.other] -= c.push * o.normal + c.grip[0] * o.tangent[0] + c.grip[1] * o.tangent[1];
-}
-
-double motor_impulse(const Motor& motor, double rate) {
-  return std::clamp((motor.asked - rate) / motor_softness, -motor.limit, motor.limit);
 }
 
 bool sticks(double slip_speed, double bound) { return slip_speed <= grip_softness * bound; }
@@ -52,15 +49,35 @@ Vector2d grip_of(const Vector2d& slip, double bound) {
   return sticks(size, bound) ? Vector2d(-slip / grip_softness) : Vector2d(-(bound / size) * slip);
 }
 
-const Velocity& row_of(const ContactRows& rows, int row) { return row == 0 ? rows.normal : rows.tangent[row - 1]; }
+template <int N>
+const VelocityOf<N>& row_of(const ContactRowsOf<N>& rows, int row) {
+  return row == 0 ? rows.normal : rows.tangent[row - 1];
+}
+
+// Adds k a b^T, where the rows are known to be zero but for the body's unknowns and one joint's.
+template <int N>
+void add_product(MassMatrixOf<N>& block, double k, const VelocityOf<N>& a, const VelocityOf<N>& b, int joint) {
+  if (joint == ContactRowsOf<N>::any) {
+    block.noalias() += (k * a) * b.transpose();
+    return;
+  }
+  const Eigen::Matrix<double, 6, 1> body = k * a.template head<6>();
+  block.template topLeftCorner<6, 6>().noalias() += body * b.template head<6>().transpose();
+  if (joint < 0) return;
+  const double own = k * a[joint];
+  block.row(joint).template head<6>() += own * b.template head<6>().transpose();
+  block.col(joint).template head<6>() += body * b[joint];
+  block(joint, joint) += own * b[joint];
+}
 
 }  // namespace
 
-Outcome ContactSolver::solve(Problem& problem) {
+template <int N>
+Outcome ContactSolverOf<N>::solve(Problem& problem) {
   p_ = &problem;
   begin();
   Outcome outcome;
-  if (stick_all()) {
+  if (problem.search.guess && stick_all()) {
     outcome.direct = true;
   } else {
     slip(outcome);
@@ -73,11 +90,12 @@ Outcome ContactSolver::solve(Problem& problem) {
   return outcome;
 }
 
-void ContactSolver::begin() {
+template <int N>
+void ContactSolverOf<N>::begin() {
   const std::size_t count = p_->bodies.size();
   for (Velocities* v : {&u_, &gradient_, &d_, &there_}) v->resize(count);
   local_.assign(p_->contacts.size(), {});
-  motor_duals_.assign(count, {0, 0});
+  motor_duals_.assign(count, {});
   pairs_.clear();
   for (std::size_t i = 0; i < local_.size(); ++i) {
     const Contact& c = p_->contacts[i];
@@ -88,7 +106,8 @@ void ContactSolver::begin() {
   hessian_.arrange(static_cast<int>(count), pairs_);
 }
 
-void ContactSolver::locate(const Velocities& u) {
+template <int N>
+void ContactSolverOf<N>::locate(const Velocities& u) {
   for (std::size_t i = 0; i < local_.size(); ++i) {
     local_[i].speed = speed_of(p_->contacts[i], u);
     local_[i].slip = slip_of(p_->contacts[i], u);
@@ -97,7 +116,8 @@ void ContactSolver::locate(const Velocities& u) {
 
 // Impulses at u_, and the energy's gradient there. With `refresh` the bounds follow the normal impulses at once: the
 // gradient is then the residual of Coulomb's law itself.
-void ContactSolver::gradient(bool refresh) {
+template <int N>
+void ContactSolverOf<N>::gradient(bool refresh) {
   locate(u_);
   for (std::size_t b = 0; b < u_.size(); ++b) gradient_[b] = p_->bodies[b].mass * (u_[b] - p_->bodies[b].free);
   for (std::size_t i = 0; i < local_.size(); ++i) {
@@ -108,34 +128,38 @@ void ContactSolver::gradient(bool refresh) {
     take_impulse(c, gradient_);
   }
   for (std::size_t b = 0; b < u_.size(); ++b) {
-    for (int m = 0; m < 2; ++m) gradient_[b][6 + m] -= motor_impulse(p_->bodies[b].motors[m], u_[b][6 + m]);
+    for (int m = 0; m < joints; ++m) gradient_[b][6 + m] -= p_->bodies[b].motors[m].impulse(u_[b][6 + m]);
   }
 }
 
 // The largest change of velocity that the gradient would still make.
-double ContactSolver::residual() const {
+template <int N>
+double ContactSolverOf<N>::residual() const {
   double most = 0;
   for (std::size_t b = 0; b < u_.size(); ++b) {
     const Velocity v = p_->bodies[b].inverse_mass * gradient_[b];
-    most = std::max({most, v.segment<3>(3).norm(), turn_arm * v.head<3>().norm(), rim * v.tail<2>().norm()});
+    most = std::max({most, v.template segment<3>(3).norm(), turn_arm * v.template head<3>().norm(),
+                     rim * v.template tail<joints>().norm()});
     if (std::isnan(v.sum())) return v.sum();
   }
   return most;
 }
 
-void ContactSolver::add(const Contact& c, double k, int row, int column) {
+template <int N>
+void ContactSolverOf<N>::add(const Contact& c, double k, int row, int column) {
   const Velocity &a = row_of(c, row), &b = row_of(c, column);
-  hessian_.diagonal(c.body).noalias() += (k * a) * b.transpose();
+  add_product<N>(hessian_.diagonal(c.body), k, a, b, c.joint);
   if (c.other < 0) return;
   const Velocity &of_other = row_of(c.of_other, row), &of_other_b = row_of(c.of_other, column);
-  hessian_.diagonal(c.other).noalias() += (k * of_other) * of_other_b.transpose();
+  add_product<N>(hessian_.diagonal(c.other), k, of_other, of_other_b, c.of_other.joint);
   hessian_.add(c.body, c.other, k, a, of_other_b);
 }
 
 // The guess that is true on a clear floor: what touches and closes under the free motion closes; against what stands
 // still it sticks; motors hold their rate. What would have to pull does not touch after all, and what comes nearer than
 // it may does: the guess is made again.
-bool ContactSolver::stick_all() {
+template <int N>
+bool ContactSolverOf<N>::stick_all() {
   constexpr int guesses = 3;
   for (std::size_t b = 0; b < u_.size(); ++b) u_[b] = p_->bodies[b].free;
   locate(u_);
@@ -158,7 +182,8 @@ bool ContactSolver::stick_all() {
   return false;
 }
 
-void ContactSolver::stick() {
+template <int N>
+void ContactSolverOf<N>::stick() {
   for (std::size_t b = 0; b < u_.size(); ++b) {
     u_[b] = p_->bodies[b].free;
     hessian_.diagonal(static_cast<int>(b)) = p_->bodies[b].mass;
@@ -182,9 +207,10 @@ void ContactSolver::stick() {
     }
   }
   for (std::size_t b = 0; b < u_.size(); ++b) {
-    for (int m = 0; m < 2; ++m) {
-      hessian_.diagonal(static_cast<int>(b))(6 + m, 6 + m) += 1 / motor_softness;
-      d_[b][6 + m] += (p_->bodies[b].motors[m].asked - u_[b][6 + m]) / motor_softness;
+    for (int m = 0; m < joints; ++m) {
+      const Motor& motor = p_->bodies[b].motors[m];
+      hessian_.diagonal(static_cast<int>(b))(6 + m, 6 + m) += 1 / motor.softness;
+      d_[b][6 + m] += (motor.asked - u_[b][6 + m]) / motor.softness;
     }
   }
   hessian_.factor();
@@ -192,7 +218,8 @@ void ContactSolver::stick() {
   for (std::size_t b = 0; b < u_.size(); ++b) u_[b] += d_[b];
 }
 
-void ContactSolver::slip(Outcome& outcome) {
+template <int N>
+void ContactSolverOf<N>::slip(Outcome& outcome) {
   for (std::size_t i = 0; i < local_.size(); ++i) {
     local_[i].bound = p_->contacts[i].friction * local_[i].start_push;
     local_[i].dual = within(local_[i].start_grip, local_[i].bound);
@@ -213,7 +240,8 @@ void ContactSolver::slip(Outcome& outcome) {
   }
 }
 
-void ContactSolver::refresh_bounds(int pass) {
+template <int N>
+void ContactSolverOf<N>::refresh_bounds(int pass) {
   for (std::size_t i = 0; i < local_.size(); ++i) {
     const double bound = p_->contacts[i].friction * p_->contacts[i].push;
     local_[i].bound = pass < 2 ? bound : 0.5 * (bound + local_[i].bound);  // an average ends cycles
@@ -222,7 +250,8 @@ void ContactSolver::refresh_bounds(int pass) {
 }
 
 // Newton with exact line search on the convex energy of fixed bounds; the impulses are those at u_ when it returns.
-bool ContactSolver::minimise(int limit) {
+template <int N>
+bool ContactSolverOf<N>::minimise(int limit) {
   for (int iteration = 0;; ++iteration) {
     gradient(false);
     if (residual() <= p_->search.tolerance) return true;
@@ -240,7 +269,8 @@ bool ContactSolver::minimise(int limit) {
 }
 
 // What d_ does to contacts and, in a search for many, to the energy of motion: a quadratic along d_.
-void ContactSolver::look_ahead() {
+template <int N>
+void ContactSolverOf<N>::look_ahead() {
   for (std::size_t i = 0; i < local_.size(); ++i) {
     local_[i].speed_ahead = speed_of(p_->contacts[i], d_);
     local_[i].slip_ahead = slip_of(p_->contacts[i], d_);
@@ -253,7 +283,8 @@ void ContactSolver::look_ahead() {
   }
 }
 
-void ContactSolver::set_hessian() {
+template <int N>
+void ContactSolverOf<N>::set_hessian() {
   for (std::size_t b = 0; b < u_.size(); ++b) hessian_.diagonal(static_cast<int>(b)) = p_->bodies[b].mass;
   hessian_.clear_pairs();
   for (std::size_t i = 0; i < local_.size(); ++i) {
@@ -274,21 +305,23 @@ void ContactSolver::set_hessian() {
     }
   }
   for (std::size_t b = 0; b < u_.size(); ++b) {
-    for (int m = 0; m < 2; ++m) hessian_.diagonal(static_cast<int>(b))(6 + m, 6 + m) += motor_stiffness(b, m);
+    for (int m = 0; m < joints; ++m) hessian_.diagonal(static_cast<int>(b))(6 + m, 6 + m) += motor_stiffness(b, m);
   }
 }
 
 // A motor at its limit is a friction of one dimension, and is met alike: near others by an estimate of its impulse kept
 // beside the rate, without which the wheels of many robots take turns in overshooting.
-double ContactSolver::motor_stiffness(std::size_t body, int m) const {
+template <int N>
+double ContactSolverOf<N>::motor_stiffness(std::size_t body, int m) const {
   const Motor& motor = p_->bodies[body].motors[m];
   const double slip = u_[body][6 + m] - motor.asked, size = std::abs(slip);
-  if (size < motor_softness * motor.limit) return 1 / motor_softness;
+  if (size < motor.softness * motor.limit) return 1 / motor.softness;
   if (!p_->search.together || motor.limit <= 0) return 0;
   return (motor.limit / size) * (1 + motor_duals_[body][m] / motor.limit * (slip < 0 ? -1 : 1));
 }
 
-void ContactSolver::move_duals() {
+template <int N>
+void ContactSolverOf<N>::move_duals() {
   for (std::size_t i = 0; i < local_.size(); ++i) {
     Local& at = local_[i];
     if (at.bound <= 0) continue;
@@ -299,20 +332,21 @@ void ContactSolver::move_duals() {
     at.dual = within(-(at.bound / size) * x, at.bound);
   }
   for (std::size_t b = 0; p_->search.together && b < u_.size(); ++b) {
-    for (int m = 0; m < 2; ++m) {
+    for (int m = 0; m < joints; ++m) {
       const Motor& motor = p_->bodies[b].motors[m];
       if (motor.limit <= 0) continue;
       const double slip = u_[b][6 + m] - motor.asked, change = d_[b][6 + m];
-      const double size = std::max(std::abs(slip), motor_softness * motor.limit);
+      const double size = std::max(std::abs(slip), motor.softness * motor.limit);
       double x = slip + change;
-      if (std::abs(slip) > motor_softness * motor.limit) x += slip * change / (size * motor.limit) * motor_duals_[b][m];
+      if (std::abs(slip) > motor.softness * motor.limit) x += slip * change / (size * motor.limit) * motor_duals_[b][m];
       motor_duals_[b][m] = std::clamp(-(motor.limit / size) * x, -motor.limit, motor.limit);
     }
   }
 }
 
 // The energy's slope along d_ at u_ + a d_, which rises with a.
-double ContactSolver::slope(double a) {
+template <int N>
+double ContactSolverOf<N>::slope(double a) {
   double s = p_->search.together ? slope_of_motion_ + a * curve_of_motion_ : 0;
   for (std::size_t b = 0; b < u_.size(); ++b) {
     there_[b] = u_[b] + a * d_[b];
@@ -328,12 +362,13 @@ double ContactSolver::slope(double a) {
     s -= grip_of(slip, at.bound).dot(at.slip_ahead);
   }
   for (std::size_t b = 0; b < u_.size(); ++b) {
-    for (int m = 0; m < 2; ++m) s -= motor_impulse(p_->bodies[b].motors[m], there_[b][6 + m]) * d_[b][6 + m];
+    for (int m = 0; m < joints; ++m) s -= p_->bodies[b].motors[m].impulse(there_[b][6 + m]) * d_[b][6 + m];
   }
   return s;
 }
 
-double ContactSolver::line_search() {
+template <int N>
+double ContactSolverOf<N>::line_search() {
   const double at_zero = slope(0), at_one = slope(1);
   if (at_one <= 0.5 * std::abs(at_zero)) return 1;
   double low = 0, high = 1, slope_low = at_zero, slope_high = at_one;
@@ -347,5 +382,8 @@ double ContactSolver::line_search() {
   }
   return low > 0 ? low : high;
 }
+
+template class ContactSolverOf<unknowns>;
+template class ContactSolverOf<unknowns_with_legs>;
 
 }  // namespace muster::simbody

@@ -6,6 +6,7 @@
 // of norms).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -14,14 +15,20 @@
 namespace muster::simbody {
 
 // Rows that turn a body's velocity into what it adds to a contact's: normal speed, and slip along two tangents.
-struct ContactRows {
+template <int N>
+struct ContactRowsOf {
+  using Velocity = VelocityOf<N>;
+  static constexpr int any = -2;
+
   Velocity normal = Velocity::Zero();
   std::array<Velocity, 2> tangent{Velocity::Zero(), Velocity::Zero()};
+  int joint = any;  // index of the only unknown beside the body's six that is not zero; -1: none. Saves arithmetic
 };
 
-struct Contact : ContactRows {
-  int body = 0, other = -1;  // among the problem's bodies; -1: what it touches stands still
-  ContactRows of_other;      // its sign included
+template <int N>
+struct ContactOf : ContactRowsOf<N> {
+  int body = 0, other = -1;   // among the problem's bodies; -1: what it touches stands still
+  ContactRowsOf<N> of_other;  // its sign included
   double friction = 0;
   double softness = 0;  // [m/s per N s]
   double target = 0;    // normal speed below which it pushes [m/s]
@@ -32,17 +39,23 @@ struct Contact : ContactRows {
 };
 
 struct Motor {
-  double asked = 0;  // rate of the wheel [rad/s]
-  double limit = 0;  // impulse: torque times step [N m s]
+  double asked = 0;        // rate of the joint [rad/s]
+  double limit = 0;        // impulse: torque times step [N m s]
+  double softness = 1e-4;  // of its hold on the rate; this much creeps at no load of ours [rad/s per N m s]
+
+  double impulse(double rate) const { return std::clamp((asked - rate) / softness, -limit, limit); }
 };
 
-struct Body {
-  MassMatrix mass, inverse_mass;
-  Velocity free;      // without contacts and motors
-  Velocity previous;  // where the search for a slipping step begins
-  std::array<Motor, 2> motors;
+template <int N>
+struct BodyOf {
+  static constexpr int joints = N - 6;
 
-  Velocity velocity;  // the result
+  MassMatrixOf<N> mass, inverse_mass;
+  VelocityOf<N> free;      // without contacts and motors
+  VelocityOf<N> previous;  // where the search for a slipping step begins
+  std::array<Motor, joints> motors;
+
+  VelocityOf<N> velocity;  // the result
 };
 
 // How the solution is searched for, and when it is good enough.
@@ -50,13 +63,15 @@ struct Search {
   double tolerance = 1e-7;        // of the residual as a velocity [m/s]
   double bound_tolerance = 1e-3;  // of friction's bound, relative to the largest
   int passes = 12;                // that refresh the bounds
+  bool guess = true;              // that all sticks, first
   bool together = false;          // for many: motors at their limit are searched for as friction is. Set where a
                                   // search without it fails.
 };
 
-struct Problem {
-  std::vector<Body> bodies;
-  std::vector<Contact> contacts;
+template <int N>
+struct ProblemOf {
+  std::vector<BodyOf<N>> bodies;
+  std::vector<ContactOf<N>> contacts;
   Search search;
 };
 
@@ -66,13 +81,19 @@ struct Outcome {
   bool minimised = true;  // the last bounds' energy is at its least
 };
 
-class ContactSolver {
+template <int N>
+class ContactSolverOf {
  public:
+  using Contact = ContactOf<N>;
+  using Problem = ProblemOf<N>;
+
   // Solves the step and leaves velocities in the problem's bodies, impulses in its contacts.
   Outcome solve(Problem& problem);
 
  private:
+  using Velocity = VelocityOf<N>;
   using Velocities = std::vector<Velocity>;
+  static constexpr int joints = N - 6;
 
   // A contact at some velocity, its friction bound by `bound`.
   struct Local {
@@ -106,11 +127,17 @@ class ContactSolver {
 
   Problem* p_ = nullptr;
   std::vector<Local> local_;
-  std::vector<std::array<double, 2>> motor_duals_;  // estimates of the motors' impulses [N m s]
+  std::vector<std::array<double, joints>> motor_duals_;  // estimates of the motors' impulses [N m s]
   std::vector<std::pair<int, int>> pairs_;
-  BlockCholesky hessian_;
+  BlockCholeskyOf<N> hessian_;
   double slope_of_motion_ = 0, curve_of_motion_ = 0;
   Velocities u_, gradient_, d_, there_;  // d_: the direction of a search, there_: a place along it
 };
+
+using ContactRows = ContactRowsOf<unknowns>;
+using Contact = ContactOf<unknowns>;
+using Body = BodyOf<unknowns>;
+using Problem = ProblemOf<unknowns>;
+using ContactSolver = ContactSolverOf<unknowns>;
 
 }  // namespace muster::simbody

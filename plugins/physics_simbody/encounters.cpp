@@ -30,25 +30,50 @@ struct Compliance {
   double softness;
 };
 
+// A leg as a spring and a damper. Its force is that at the step's start, between the velocities that stand half a step
+// before and after it: of second order, and stable for any step.
+struct Spring {
+  Spring(const description::LegDrive& drive, double h)
+      : stiffness(drive.stiffness),
+        ahead(0.25 * h * drive.stiffness + 0.5 * drive.damping),
+        behind(0.25 * h * drive.stiffness - 0.5 * drive.damping),
+        softness(1 / (h * ahead)) {}
+  // `previous`: the normal speed half a step before.
+  double target(double gap, double previous) const { return (behind * previous - stiffness * gap) / ahead; }
+
+  double stiffness, ahead, behind, softness;
+};
+
 // The row that gives the speed along `direction` of the body's point `arm`, all in the body's frame.
-Velocity point_row(const Vector3d& arm, const Vector3d& direction) {
-  Velocity row;
-  row << arm.cross(direction), direction, 0, 0;
+template <int N>
+VelocityOf<N> point_row(const Vector3d& arm, const Vector3d& direction) {
+  VelocityOf<N> row = VelocityOf<N>::Zero();
+  row.template head<3>() = arm.cross(direction);
+  row.template segment<3>(3) = direction;
   return row;
 }
 
-// What a robot's velocity adds to a contact at `place`, with the sign of its side.
-ContactRows rows_at(const Placed& robot, const Part& part, const Vector3d& place, const Matrix3d& frame, double sign) {
+// What a robot's velocity adds to a contact at `place` on its body, wheel or leg, with the sign of its side. A wheel's
+// tread moves along the contact only.
+template <int N>
+ContactRowsOf<N> rows_at(const PlacedOf<N>& robot, int wheel, int leg, const Vector3d& place, const Matrix3d& frame,
+                         double sign) {
   const Matrix3d to_body = robot.to_world.transpose();
   const Vector3d arm = to_body * (place - robot.position);
   const Matrix3d ways = sign * (to_body * frame);
-  ContactRows rows;
-  rows.normal = point_row(arm, ways.col(0));
+  ContactRowsOf<N> rows;
+  rows.joint = wheel >= 0 ? 6 + wheel : leg >= 0 ? 6 + leg : -1;
+  rows.normal = point_row<N>(arm, ways.col(0));
   for (int k = 0; k < 2; ++k) {
-    rows.tangent[k] = point_row(arm, ways.col(1 + k));
-    if (part.wheel < 0) continue;
-    const Vector3d centre = robot.model->wheel_frame[part.wheel].translation();
-    rows.tangent[k][6 + part.wheel] = Vector3d::UnitY().cross(arm - centre).dot(ways.col(1 + k));
+    rows.tangent[k] = point_row<N>(arm, ways.col(1 + k));
+    if (wheel < 0) continue;
+    const Vector3d centre = robot.model->wheel_frame[wheel].translation();
+    rows.tangent[k][6 + wheel] = Vector3d::UnitY().cross(arm - centre).dot(ways.col(1 + k));
+  }
+  if (leg >= 0) {
+    const Vector3d turning = Vector3d::UnitY().cross(arm - robot.model->legs[leg].hip);
+    rows.normal[6 + leg] = turning.dot(ways.col(0));
+    for (int k = 0; k < 2; ++k) rows.tangent[k][6 + leg] = turning.dot(ways.col(1 + k));
   }
   return rows;
 }
@@ -61,13 +86,17 @@ Matrix3d frame_about(const Vector3d& normal) {
   return frame;
 }
 
+// Legs count as parts behind those of the body.
+std::size_t leg_part(int leg) { return 48 + static_cast<std::size_t>(leg); }
+
 // 0 for the ground, odd for walls, even for robots.
 double id_of(int partner, std::size_t part, std::size_t other_part, int mark) {
   return (1 + partner * 64.0 + static_cast<double>(part % 64)) * 64 * 16384 +
          static_cast<double>(other_part % 64) * 16384 + mark;
 }
 
-Solid placed(const Solid& solid, const Placed& robot) {
+template <int N>
+Solid placed(const Solid& solid, const PlacedOf<N>& robot) {
   return {solid.kind, robot.position + robot.to_world * solid.centre, robot.to_world * solid.axes, solid.half};
 }
 
@@ -84,16 +113,21 @@ bool may_touch_wall(const Solid& solid, const Solid& wall, double margin) {
 
 }  // namespace
 
-void Encounters::begin(double h, double friction) {
+template <int N>
+void EncountersOf<N>::begin(double h, double friction) {
   h_ = h;
   friction_ = friction;
   contacts.clear();
   traces.clear();
 }
 
-double Encounters::margin(double speed) const { return nearby + h_ * speed; }
+template <int N>
+double EncountersOf<N>::margin(double speed) const {
+  return nearby + h_ * speed;
+}
 
-void Encounters::stand(int index, const Placed& robot, const Memory& memory) {
+template <int N>
+void EncountersOf<N>::stand(int index, const Placed& robot, const Memory& memory) {
   const Compliance compliance(robot.mass, h_);
   const Matrix3d to_body = robot.to_world.transpose();
   const Vector3d up = to_body.col(2);
@@ -101,7 +135,8 @@ void Encounters::stand(int index, const Placed& robot, const Memory& memory) {
     const Vector3d arm = centre - radius * up;
     Contact c;
     c.body = index;
-    c.normal = point_row(arm, up);
+    c.joint = -1;
+    c.normal = point_row<N>(arm, up);
     c.softness = compliance.softness;
     const double gap = robot.position.z() + up.dot(arm) - 0.5 * h_ * c.normal.dot(robot.body.previous);
     c.target = compliance.target(gap, h_);
@@ -111,9 +146,10 @@ void Encounters::stand(int index, const Placed& robot, const Memory& memory) {
     const double radius = robot.model->drive.wheel_radius;
     const Vector3d centre = robot.model->wheel_frame[w].translation();
     Contact c = contact(centre, radius);
+    c.joint = 6 + w;
     const Vector3d surface = Vector3d::UnitY().cross(-radius * up);  // of the tread, per rate
     for (int k = 0; k < 2; ++k) {
-      c.tangent[k] = point_row(centre - radius * up, to_body.col(k));
+      c.tangent[k] = point_row<N>(centre - radius * up, to_body.col(k));
       c.tangent[k][6 + w] = surface.dot(to_body.col(k));
     }
     c.friction = robot.model->drive.friction;
@@ -129,8 +165,10 @@ void Encounters::stand(int index, const Placed& robot, const Memory& memory) {
   }
 }
 
-void Encounters::with_ground(int index, const Placed& robot, const Memory& memory) {
+template <int N>
+void EncountersOf<N>::with_ground(int index, const Placed& robot, const Memory& memory) {
   stand(index, robot, memory);
+  if (!robot.model->legs.empty()) stand_on_legs(index, robot, memory);
   // Boxes and cylinders of the body reach the ground only where it has tipped.
   const double near = margin(robot.speed);
   if (robot.position.z() + robot.model->lowest_corner(robot.to_world.row(2)) > near) return;
@@ -140,24 +178,31 @@ void Encounters::with_ground(int index, const Placed& robot, const Memory& memor
     const Touch t = touch_ground(placed(part.solid, robot), near);
     for (int n = 0; n < t.count; ++n) {
       const Trace trace{index, -1, id_of(0, k, 0, t.points[n].mark), frame_about(t.normal)};
-      add({&robot, &part}, {}, trace, memory, -1, t.points[n]);
+      add({&robot, part.wheel}, {}, trace, memory, -1, t.points[n]);
     }
   }
 }
 
-void Encounters::with_wall(int index, const Placed& robot, const Memory& memory, int wall_index, const Solid& wall) {
+template <int N>
+void EncountersOf<N>::with_wall(int index, const Placed& robot, const Memory& memory, int wall_index,
+                                const Solid& wall) {
   const double near = margin(robot.speed);
   for (std::size_t k = 0; k < robot.solids.size(); ++k) {
     if (!may_touch_wall(robot.solids[k], wall, near)) continue;
     const Touch t = touch(robot.solids[k], wall, near);
     for (int n = 0; n < t.count; ++n) {
       const Trace trace{index, -1, id_of(1 + 2 * wall_index, k, 0, t.points[n].mark), frame_about(t.normal)};
-      add({&robot, &robot.model->parts[k]}, {}, trace, memory, -1, t.points[n]);
+      add({&robot, robot.model->parts[k].wheel}, {}, trace, memory, -1, t.points[n]);
     }
   }
+  each_leg_at(robot, wall, near, [&](int leg, const LegTouch& t) {
+    const Trace trace{index, -1, id_of(1 + 2 * wall_index, leg_part(leg), 0, t.point.mark), frame_about(t.normal)};
+    add({&robot, -1, leg}, {}, trace, memory, -1, t.point);
+  });
 }
 
-void Encounters::between(int index_a, const Placed& a, const Memory& memory_a, int index_b, const Placed& b) {
+template <int N>
+void EncountersOf<N>::between(int index_a, const Placed& a, const Memory& memory_a, int index_b, const Placed& b) {
   const double near = margin(a.speed + b.speed);
   for (std::size_t i = 0; i < a.solids.size(); ++i) {
     for (std::size_t j = 0; j < b.solids.size(); ++j) {
@@ -165,32 +210,90 @@ void Encounters::between(int index_a, const Placed& a, const Memory& memory_a, i
       const Touch t = touch(a.solids[i], b.solids[j], near);
       for (int n = 0; n < t.count; ++n) {
         const Trace trace{index_a, -1, id_of(2 + 2 * index_b, i, j, t.points[n].mark), frame_about(t.normal)};
-        add({&a, &a.model->parts[i]}, {&b, &b.model->parts[j]}, trace, memory_a, index_b, t.points[n]);
+        add({&a, a.model->parts[i].wheel}, {&b, b.model->parts[j].wheel}, trace, memory_a, index_b, t.points[n]);
       }
     }
+  }
+  for (std::size_t j = 0; j < b.solids.size(); ++j) {
+    each_leg_at(a, b.solids[j], near, [&](int leg, const LegTouch& t) {
+      const Trace trace{index_a, -1, id_of(2 + 2 * index_b, leg_part(leg), j, t.point.mark), frame_about(t.normal)};
+      add({&a, -1, leg}, {&b, b.model->parts[j].wheel}, trace, memory_a, index_b, t.point);
+    });
+  }
+  for (std::size_t i = 0; i < a.solids.size(); ++i) {
+    each_leg_at(b, a.solids[i], near, [&](int leg, const LegTouch& t) {
+      const Trace trace{index_a, -1, id_of(2 + 2 * index_b, i, leg_part(leg), t.point.mark), frame_about(-t.normal)};
+      add({&a, a.model->parts[i].wheel}, {&b, -1, leg}, trace, memory_a, index_b, t.point);
+    });
+  }
+}
+
+// Calls meet(leg, touch) for legs that touch the solid, or would soon.
+template <int N>
+template <class Meet>
+void EncountersOf<N>::each_leg_at(const Placed& robot, const Solid& solid, double margin, Meet meet) const {
+  const double radius = robot.model->leg_drive.radius;
+  for (std::size_t i = 0; i < robot.model->legs.size(); ++i) {
+    const Leg& leg = robot.model->legs[i];
+    const double c = std::cos(robot.leg_angle[i]), s = std::sin(robot.leg_angle[i]);
+    const Vector3d ahead = robot.to_world * Vector3d(c, 0, -s), above = robot.to_world * Vector3d(s, 0, c);
+    const Vector3d hip = robot.position + robot.to_world * leg.hip;
+    const Solid around{Solid::Kind::sphere, hip - radius * above, Matrix3d::Identity(), Vector3d::Constant(radius)};
+    if (!may_touch(around, solid, margin)) continue;
+    const LegTouches t = touch_leg(hip, ahead, above, radius, solid, margin);
+    for (int n = 0; n < t.count; ++n) meet(static_cast<int>(i), t.touch[n]);
+  }
+}
+
+// Each leg rolls on its lowest point.
+template <int N>
+void EncountersOf<N>::stand_on_legs(int index, const Placed& robot, const Memory& memory) {
+  const double near = margin(robot.speed);
+  const description::LegDrive& drive = robot.model->leg_drive;
+  const Vector3d up = robot.to_world.row(2);
+  for (std::size_t i = 0; i < robot.model->legs.size(); ++i) {
+    const Leg& leg = robot.model->legs[i];
+    if (robot.position.z() + up.dot(leg.hip) > 2 * drive.radius + near) continue;
+    const double angle = robot.leg_angle[i];
+    const Vector3d place =
+        robot.position + robot.to_world * (leg.hip + drive.place(angle, drive.lowest_way(angle, up)));
+    if (place.z() > near) continue;
+    const Trace trace{index, -1, id_of(0, leg_part(static_cast<int>(i)), 0, 0), frame_about(Vector3d::UnitZ())};
+    add({&robot, -1, static_cast<int>(i)}, {}, trace, memory, -1, {place, place.z(), 0});
   }
 }
 
 // A contact, unless it cannot close within this step.
-void Encounters::add(const Side& a, const Side& b, const Trace& trace, const Memory& memory, int other,
-                     const TouchPoint& point) {
+template <int N>
+void EncountersOf<N>::add(const Side& a, const Side& b, const Trace& trace, const Memory& memory, int other,
+                          const TouchPoint& point) {
   Contact c;
-  static_cast<ContactRows&>(c) = rows_at(*a.robot, *a.part, point.place, trace.frame, 1);
+  static_cast<ContactRowsOf<N>&>(c) = rows_at<N>(*a.robot, a.wheel, a.leg, point.place, trace.frame, 1);
   double speed = c.normal.dot(a.robot->body.previous), free = c.normal.dot(a.robot->body.free), mass = a.robot->mass;
   if (b.robot) {
-    c.of_other = rows_at(*b.robot, *b.part, point.place, trace.frame, -1);
+    c.of_other = rows_at<N>(*b.robot, b.wheel, b.leg, point.place, trace.frame, -1);
     speed += c.of_other.normal.dot(b.robot->body.previous);
     free += c.of_other.normal.dot(b.robot->body.free);
     mass = 2 * a.robot->mass * b.robot->mass / (a.robot->mass + b.robot->mass);
   }
   const double gap = point.gap - 0.5 * h_ * speed;  // at the step's start
   if (gap + h_ * std::min(speed, free) > slack) return;
-  const Compliance compliance(mass, h_);
   c.body = trace.robot;
   c.other = other;
-  c.friction = friction_;
-  c.softness = compliance.softness;
-  c.target = compliance.target(gap, h_);
+  c.friction = a.leg >= 0 && !b.robot ? a.robot->model->leg_drive.friction : friction_;
+  const description::LegDrive* leg = a.leg >= 0   ? &a.robot->model->leg_drive
+                                     : b.leg >= 0 ? &b.robot->model->leg_drive
+                                                  : nullptr;
+  if (leg && !leg->is_rigid()) {
+    if (gap > 0) return;
+    const Spring spring(*leg, h_);
+    c.softness = spring.softness;
+    c.target = spring.target(gap, speed);
+  } else {
+    const Compliance compliance(mass, h_);
+    c.softness = compliance.softness;
+    c.target = compliance.target(gap, h_);
+  }
   for (const KeptImpulse& kept : memory.kept) {
     if (kept.id != trace.id) continue;
     const Vector3d impulse = trace.frame.transpose() * Vector3d(kept.impulse[0], kept.impulse[1], kept.impulse[2]);
@@ -207,12 +310,14 @@ Solid solid_of(const scene::Slab& slab) {
   return {Solid::Kind::box, {slab.x, slab.y, slab.z}, axes, {slab.length / 2, slab.thickness / 2, slab.height / 2}};
 }
 
-void place_parts(Placed& robot) {
+template <int N>
+void place_parts(PlacedOf<N>& robot) {
   robot.solids.clear();
   for (const Part& part : robot.model->parts) robot.solids.push_back(placed(part.solid, robot));
 }
 
-void keep(const Contact& contact, const Trace& trace, Memory& memory) {
+template <int N>
+void keep(const ContactOf<N>& contact, const Trace& trace, Memory& memory) {
   if (trace.wheel >= 0) {
     memory.impulse[trace.wheel] = {contact.push, contact.grip[0], contact.grip[1]};
     return;
@@ -228,5 +333,12 @@ void keep(const Contact& contact, const Trace& trace, Memory& memory) {
     if (made.id == 0) return;
   }
 }
+
+template class EncountersOf<unknowns>;
+template class EncountersOf<unknowns_with_legs>;
+template void place_parts(PlacedOf<unknowns>&);
+template void place_parts(PlacedOf<unknowns_with_legs>&);
+template void keep(const ContactOf<unknowns>&, const Trace&, Memory&);
+template void keep(const ContactOf<unknowns_with_legs>&, const Trace&, Memory&);
 
 }  // namespace muster::simbody

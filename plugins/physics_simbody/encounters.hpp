@@ -1,8 +1,9 @@
-// What a robot meets in a step, as contacts for the solver: the ground under its wheels and sliders, walls, other
+// What a robot meets in a step, as contacts for the solver: the ground under its wheels, legs and sliders, walls, other
 // robots.
 #pragma once
 
 #include "contact_solver.hpp"
+#include "legs.hpp"
 #include "model.hpp"
 #include "scene/slabs.hpp"
 #include "state.hpp"
@@ -10,16 +11,20 @@
 namespace muster::simbody {
 
 // A robot half a step ahead.
-struct Placed {
+template <int N>
+struct PlacedOf {
   const RobotModel* model = nullptr;
   double mass = 0;
   std::array<double, 4> turned;  // quaternion, body to world; not quite of unit length
   Eigen::Matrix3d to_world;
   Eigen::Vector3d position;
-  Body body;                  // its velocities as the step finds them
+  BodyOf<N> body;             // its velocities as the step finds them
+  LegAngles leg_angle;        // of a robot that walks
   double speed = 0;           // no part of it is faster [m/s]
   std::vector<Solid> solids;  // its parts in the world; filled where something is near
 };
+
+using Placed = PlacedOf<unknowns>;
 
 // Where the impulse of a contact is kept from step to step.
 struct Trace {
@@ -29,8 +34,12 @@ struct Trace {
   Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();  // normal and tangents as columns, in the world
 };
 
-class Encounters {
+template <int N>
+class EncountersOf {
  public:
+  using Contact = ContactOf<N>;
+  using Placed = PlacedOf<N>;
+
   // A step of length h [s]; friction as between bodies.
   void begin(double h, double friction);
 
@@ -44,23 +53,30 @@ class Encounters {
 
  private:
   struct Side {
-    const Placed* robot;
-    const Part* part;
+    const Placed* robot = nullptr;
+    int wheel = -1, leg = -1;  // that touches; neither: the body
   };
 
   double margin(double speed) const;
   void add(const Side& a, const Side& b, const Trace& trace, const Memory& memory, int other, const TouchPoint& point);
   void stand(int index, const Placed& robot, const Memory& memory);
+  void stand_on_legs(int index, const Placed& robot, const Memory& memory);
+  template <class Meet>
+  void each_leg_at(const Placed& robot, const Solid& solid, double margin, Meet meet) const;
 
   double h_ = 0, friction_ = 0;
 };
 
+using Encounters = EncountersOf<unknowns>;
+
 Solid solid_of(const scene::Slab& slab);
 
 // Puts the robot's parts where it is.
-void place_parts(Placed& robot);
+template <int N>
+void place_parts(PlacedOf<N>& robot);
 
 // The impulse of a contact as its trace keeps it.
-void keep(const Contact& contact, const Trace& trace, Memory& memory);
+template <int N>
+void keep(const ContactOf<N>& contact, const Trace& trace, Memory& memory);
 
 }  // namespace muster::simbody

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "connected.hpp"
@@ -20,7 +21,7 @@ constexpr double nearby = 0.003;  // [m]
 
 // A robot on a clear floor, and robots that touch walls or each other: many contacts agree on less, at a fraction of
 // the cost, and their errors stay below a micrometre a step.
-constexpr Search alone{1e-7, 1e-3, 12, false}, together{1e-5, 1e-2, 5, true};
+constexpr Search alone{1e-7, 1e-3, 12, true, false}, together{1e-5, 1e-2, 5, true, true};
 
 // Quaternions as pose columns: w x y z from index 3.
 using Quaternion = std::array<double, 4>;
@@ -45,9 +46,11 @@ Matrix3d cross_matrix(const Vector3d& v) {
 
 // No part of the robot is faster.
 double speed_of(const RobotModel& model, const RobotState& state) {
+  double legs = 0;
+  for (const double rate : state.leg_rate) legs = std::max(legs, 2 * model.leg_drive.radius * std::abs(rate));
   const Quaternion q = quaternion_of(state);
   const Vector3d rates = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).conjugate() * rates_of(state);
-  return velocity_of(state).norm() + rates.cwiseAbs().dot(model.arm);
+  return velocity_of(state).norm() + rates.cwiseAbs().dot(model.arm) + legs;
 }
 
 // What is further away is not met in a step: twice the way, since a contact may make a robot faster, and the fall.
@@ -69,18 +72,22 @@ Extent extent_of(const RobotModel& model, const RobotState& state, double more) 
 }
 
 // What its rotors do to a robot, as a force for its velocities.
-Velocity rotor_force(const description::Quadrotor& rotors, const RobotState& state, const Velocity& u) {
-  const description::Wrench wrench = rotors.wrench(state.rotors, u.segment<3>(3), u.head<3>());
-  Velocity force;
-  force << wrench.torque, wrench.force, 0, 0;
+template <int N>
+VelocityOf<N> rotor_force(const description::Quadrotor& rotors, const RobotState& state, const VelocityOf<N>& u) {
+  const description::Wrench wrench = rotors.wrench(state.rotors, u.template segment<3>(3), u.template head<3>());
+  VelocityOf<N> force = VelocityOf<N>::Zero();
+  force.template head<3>() = wrench.torque;
+  force.template segment<3>(3) = wrench.force;
   return force;
 }
 
 }  // namespace
 
-Midpoint::Midpoint(const std::vector<NamedRobot>& robots, double step) : longest_step_(step) {
+template <int N>
+MidpointOf<N>::MidpointOf(const std::vector<NamedRobot>& robots, double step, LegModel legs) : longest_step_(step) {
   for (const NamedRobot& named : robots) {
     Robot robot{named.name, RobotModel(*named.description), {}, {}, {}, {}, {}, {}};
+    if (legs == LegModel::rigid) robot.model.leg_drive.stiffness = std::numeric_limits<double>::infinity();
     robot.bodies = system_.add(robot.model);
     robot.whole = whole_mass(*named.description);
     const Matrix3d c = cross_matrix(robot.whole.centre);
@@ -95,11 +102,13 @@ Midpoint::Midpoint(const std::vector<NamedRobot>& robots, double step) : longest
   for (Robot& robot : robots_) {
     robot.now.model = &robot.model;
     robot.now.mass = robot.whole.mass;
+    for (int k = 6; k < N; ++k) robot.now.body.previous[k] = 0;
   }
   groups_.resize(robots_.size());
 }
 
-void Midpoint::set_surroundings(const std::vector<scene::Slab>& walls, double friction) {
+template <int N>
+void MidpointOf<N>::set_surroundings(const std::vector<scene::Slab>& walls, double friction) {
   friction_ = friction;
   walls_.clear();
   std::vector<Extent> extents;
@@ -113,11 +122,13 @@ void Midpoint::set_surroundings(const std::vector<scene::Slab>& walls, double fr
 }
 
 // Simbody's own mass matrix at the reference pose; in the body's frame it is the same in every other, as wheels are
-// balanced. Robots are not joined, so that one product has a column of each. Wheels that are not there have an inertia
-// of one, which nothing turns.
-void Midpoint::read_masses() {
+// balanced. Robots are not joined, so that one product has a column of each. Joints that are not there have an inertia
+// of one, which nothing turns; legs are weighed anew in each step.
+template <int N>
+void MidpointOf<N>::read_masses() {
   const SimTK::State& state = system_.state;
   SimTK::Vector columns;
+  for (Robot& robot : robots_) robot.now.body.mass.setIdentity();
   for (int c = 0; c < unknowns; ++c) {
     SimTK::Vector units(state.getNU(), 0.0);
     const auto has = [c](const Robot& robot) { return c < 6 || robot.model.has_wheels; };
@@ -135,7 +146,8 @@ void Midpoint::read_masses() {
   for (Robot& robot : robots_) robot.now.body.inverse_mass = robot.now.body.mass.inverse();
 }
 
-void Midpoint::step(double dt, const std::vector<Command>& commands, std::vector<RobotState>& states) {
+template <int N>
+void MidpointOf<N>::step(double dt, const std::vector<Command>& commands, std::vector<RobotState>& states) {
   const int count = std::max(1, static_cast<int>(std::ceil(dt / longest_step_ - 1e-9)));
   const double h = dt / count;
   for (int k = 0; k < count; ++k) {
@@ -152,7 +164,8 @@ void Midpoint::step(double dt, const std::vector<Command>& commands, std::vector
 }
 
 // Robots whose ways in this step may cross are of one group; it stands where its first robot does.
-void Midpoint::find_groups(double h, const std::vector<RobotState>& states) {
+template <int N>
+void MidpointOf<N>::find_groups(double h, const std::vector<RobotState>& states) {
   const int count = static_cast<int>(robots_.size());
   extents_.clear();
   for (int i = 0; i < count; ++i) {
@@ -168,27 +181,30 @@ void Midpoint::find_groups(double h, const std::vector<RobotState>& states) {
   for (Group& group : groups_) group.parts = parts_of(group, h, states);
 }
 
-int Midpoint::parts_of(const Group& group, double h, const std::vector<RobotState>& states) const {
+template <int N>
+int MidpointOf<N>::parts_of(const Group& group, double h, const std::vector<RobotState>& states) const {
   if (group.pairs.empty() && group.walls.empty()) return 1;
   double fast = 0;
   for (const int i : group.robots) fast = std::max(fast, speed_of(robots_[i].model, states[i]));
   return static_cast<int>(std::clamp(std::ceil(fast * h / longest_way - 1e-9), 1.0, static_cast<double>(most_parts)));
 }
 
-Velocity Midpoint::free_acceleration(std::size_t index, const Matrix3d& to_world, const Velocity& u) const {
+template <int N>
+VelocityOf<N> MidpointOf<N>::free_acceleration(std::size_t index, const Matrix3d& to_world, const Velocity& u) const {
   const Robot& robot = robots_[index];
-  const Vector3d w = u.head<3>(), centre = robot.whole.centre;
+  const Vector3d w = u.template head<3>(), centre = robot.whole.centre;
   const Vector3d axle = Vector3d::UnitY();
   const Vector3d weight = to_world.transpose() * Vector3d(0, 0, -gravity * robot.whole.mass);
   const Vector3d spin = (robot.wheel_inertia[0] * u[6] + robot.wheel_inertia[1] * u[7]) * axle;
-  Velocity force;
-  force << centre.cross(weight) - w.cross(robot.inertia_at_origin * w + spin),
-      weight - robot.whole.mass * w.cross(w.cross(centre)), 0, 0;
+  Velocity force = Velocity::Zero();
+  force.template head<3>() = centre.cross(weight) - w.cross(robot.inertia_at_origin * w + spin);
+  force.template segment<3>(3) = weight - robot.whole.mass * w.cross(w.cross(centre));
   return robot.now.body.inverse_mass * force;
 }
 
-void Midpoint::advance(const Group& group, double h, double at, const std::vector<Command>& commands,
-                       std::vector<RobotState>& states) {
+template <int N>
+void MidpointOf<N>::advance(const Group& group, double h, double at, const std::vector<Command>& commands,
+                            std::vector<RobotState>& states) {
   if (is_in_the_air(group, h, states)) {
     const int i = group.robots.front();
     return fly(i, h, commands[i], states[i]);
@@ -199,7 +215,8 @@ void Midpoint::advance(const Group& group, double h, double at, const std::vecto
   for (const int i : group.robots) finish(robots_[i], h, commands[i], states[i]);
 }
 
-bool Midpoint::is_in_the_air(const Group& group, double h, const std::vector<RobotState>& states) const {
+template <int N>
+bool MidpointOf<N>::is_in_the_air(const Group& group, double h, const std::vector<RobotState>& states) const {
   const int i = group.robots.front();
   const RobotModel& model = robots_[i].model;
   if (!robots_[i].flight || !group.pairs.empty() || !group.walls.empty()) return false;
@@ -208,33 +225,67 @@ bool Midpoint::is_in_the_air(const Group& group, double h, const std::vector<Rob
   return states[i].pose[2] + model.lowest_point(up) > way_of(model, states[i], h);
 }
 
-void Midpoint::fly(int index, double h, const Command& command, RobotState& state) {
+template <int N>
+void MidpointOf<N>::fly(int index, double h, const Command& command, RobotState& state) {
   robots_[index].flight->step(h, command.rotors, state);
   check_speed(robots_[index].name, state);
 }
 
 // Half a step ahead along the velocities that stand. The one rotation that is needed follows from its quaternion: to
 // have Simbody work out the places of all bodies takes twice as long as all the rest of a step.
-void Midpoint::place(int index, double h, double at, const Command& command, const RobotState& state) {
+template <int N>
+void MidpointOf<N>::place(int index, double h, double at, const Command& command, const RobotState& state) {
   Robot& robot = robots_[index];
-  Placed& now = robot.now;
-  const auto& drive = robot.model.drive;
+  auto& now = robot.now;
   now.turned = turned(quaternion_of(state), quaternion_of(state), rates_of(state), 0.5 * h);
   now.to_world =
       Eigen::Quaterniond(now.turned[0], now.turned[1], now.turned[2], now.turned[3]).normalized().toRotationMatrix();
   for (int k = 0; k < 3; ++k) now.position[k] = state.pose[k] + 0.5 * h * state.twist[k];
   now.speed = speed_of(robot.model, state);
-  now.body.previous << now.to_world.transpose() * rates_of(state), now.to_world.transpose() * velocity_of(state),
-      state.rate[0], state.rate[1];
-  const double kick = 0.5 * (state.memory.previous_step + h);
-  now.body.free = now.body.previous + kick * free_acceleration(index, now.to_world, now.body.previous);
-  if (robot.model.rotors)
-    now.body.free += kick * (now.body.inverse_mass * rotor_force(*robot.model.rotors, state, now.body.previous));
-  const double asked[] = {command.left + at * command.left_rate, command.right + at * command.right_rate};
-  for (int w = 0; w < 2; ++w) now.body.motors[w] = {drive.limited_rate(asked[w]), drive.max_torque * h};
+  now.body.previous.template head<3>() = now.to_world.transpose() * rates_of(state);
+  now.body.previous.template segment<3>(3) = now.to_world.transpose() * velocity_of(state);
+  if (robot.model.legs.empty()) {
+    place_wheels(robot, index, h, at, command, state);
+  } else {
+    place_legs(robot, h, at, command, state);
+  }
 }
 
-void Midpoint::meet(const Group& group, double h, const std::vector<RobotState>& states) {
+template <int N>
+void MidpointOf<N>::place_wheels(Robot& robot, int index, double h, double at, const Command& command,
+                                 const RobotState& state) {
+  const auto& drive = robot.model.drive;
+  auto& body = robot.now.body;
+  for (int w = 0; w < 2; ++w) body.previous[6 + w] = state.rate[w];
+  const double kick = 0.5 * (state.memory.previous_step + h);
+  body.free = body.previous + kick * free_acceleration(index, robot.now.to_world, body.previous);
+  if (robot.model.rotors)
+    body.free += kick * (body.inverse_mass * rotor_force<N>(*robot.model.rotors, state, body.previous));
+  const double asked[] = {command.left + at * command.left_rate, command.right + at * command.right_rate};
+  for (int w = 0; w < 2; ++w) body.motors[w] = {drive.limited_rate(asked[w]), drive.max_torque * h};
+}
+
+template <int N>
+void MidpointOf<N>::place_legs(Robot& robot, double h, double at, const Command& command, const RobotState& state) {
+  if constexpr (N == unknowns_with_legs) {
+    auto& body = robot.now.body;
+    for (int i = 0; i < 6; ++i) {
+      robot.now.leg_angle[i] = state.leg_angle[i] + 0.5 * h * state.leg_rate[i];
+      body.previous[6 + i] = state.leg_rate[i];
+      body.motors[i] = leg_motor(robot.model.leg_drive, command.leg_angle[i] + at * command.leg_rate[i],
+                                 command.leg_rate[i], state.leg_angle[i], h);
+    }
+    const Vector3d fall = robot.now.to_world.transpose() * Vector3d(0, 0, -gravity);
+    const LeggedMass legged = weigh(robot.model, robot.now.leg_angle, body.previous, fall);
+    body.mass = legged.mass;
+    body.inverse_mass = inverse(legged.mass);
+    const double kick = 0.5 * (state.memory.previous_step + h);
+    body.free = body.previous + kick * (body.inverse_mass * legged.force);
+  }
+}
+
+template <int N>
+void MidpointOf<N>::meet(const Group& group, double h, const std::vector<RobotState>& states) {
   encounters_.begin(h, friction_);
   for (const int i : group.robots) encounters_.with_ground(i, robots_[i].now, states[i].memory);
   if (group.pairs.empty() && group.walls.empty()) return;
@@ -245,12 +296,13 @@ void Midpoint::meet(const Group& group, double h, const std::vector<RobotState>&
 }
 
 // Robots that touch are solved for together, the others apart: the same, but faster.
-void Midpoint::solve_islands(const Group& group, std::vector<RobotState>& states) {
+template <int N>
+void MidpointOf<N>::solve_islands(const Group& group, std::vector<RobotState>& states) {
   Connected connected(static_cast<int>(group.robots.size()));
   const auto member = [&](int robot) {
     return static_cast<int>(std::lower_bound(group.robots.begin(), group.robots.end(), robot) - group.robots.begin());
   };
-  for (const Contact& c : encounters_.contacts) {
+  for (const auto& c : encounters_.contacts) {
     if (c.other >= 0) connected.join(member(c.body), member(c.other));
   }
   if (islands_.size() < group.robots.size()) islands_.resize(group.robots.size());
@@ -263,18 +315,27 @@ void Midpoint::solve_islands(const Group& group, std::vector<RobotState>& states
   }
 }
 
-void Midpoint::solve(const Island& island, std::vector<RobotState>& states) {
+template <int N>
+void MidpointOf<N>::solve(const Island& island, std::vector<RobotState>& states) {
   const auto member = [&](int robot) {
     return static_cast<int>(std::lower_bound(island.robots.begin(), island.robots.end(), robot) -
                             island.robots.begin());
   };
   const auto on_clear_floor = [&](int k) { return encounters_.traces[k].id == 0; };
+  const auto slipped = [&](int k) {
+    const auto& c = encounters_.contacts[k];
+    return c.friction > 0 && c.grip.norm() > 0.99 * c.friction * c.push && c.push > 0;
+  };
   problem_.search = std::all_of(island.contacts.begin(), island.contacts.end(), on_clear_floor) ? alone : together;
+  // Feet that slipped, as those of a tripod do that sways, will again.
+  if (N > unknowns && std::any_of(island.contacts.begin(), island.contacts.end(), slipped)) {
+    problem_.search.guess = false;
+  }
   problem_.bodies.resize(island.robots.size());
   problem_.contacts.clear();
   for (std::size_t i = 0; i < island.robots.size(); ++i) problem_.bodies[i] = robots_[island.robots[i]].now.body;
   for (const int k : island.contacts) {
-    Contact contact = encounters_.contacts[k];
+    ContactOf<N> contact = encounters_.contacts[k];
     contact.body = member(contact.body);
     if (contact.other >= 0) contact.other = member(contact.other);
     problem_.contacts.push_back(contact);
@@ -293,11 +354,12 @@ void Midpoint::solve(const Island& island, std::vector<RobotState>& states) {
   }
 }
 
-void Midpoint::finish(Robot& robot, double h, const Command& command, RobotState& state) const {
+template <int N>
+void MidpointOf<N>::finish(Robot& robot, double h, const Command& command, RobotState& state) const {
   const Velocity& u = robot.now.body.velocity;
   if (!(u.cwiseAbs().maxCoeff() < fastest)) throw std::runtime_error("robot '" + robot.name + "': its motion blew up");
 
-  const Vector3d w = robot.now.to_world * u.head<3>(), v = robot.now.to_world * u.segment<3>(3);
+  const Vector3d w = robot.now.to_world * u.template head<3>(), v = robot.now.to_world * u.template segment<3>(3);
   const Quaternion q = turned(quaternion_of(state), robot.now.turned, w, h);
   const double size = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
   for (int k = 0; k < 4; ++k) state.pose[3 + k] = q[k] / size;
@@ -306,13 +368,22 @@ void Midpoint::finish(Robot& robot, double h, const Command& command, RobotState
     state.twist[k] = v[k];
     state.twist[3 + k] = w[k];
   }
-  for (int k = 0; k < 2; ++k) {
+  for (int k = 0; k < 2 && robot.model.legs.empty(); ++k) {
     state.angle[k] += h * u[6 + k];
     state.rate[k] = u[6 + k];
+  }
+  for (std::size_t k = 0; k < robot.model.legs.size(); ++k) {
+    const double rate = u[6 + static_cast<int>(k)];
+    state.leg_angle[k] += h * rate;
+    state.leg_rate[k] = rate;
+    state.leg_torque[k] = robot.now.body.motors[k].impulse(rate) / h;
   }
   if (const auto& rotors = robot.model.rotors)
     state.rotors = rotors->later(state.rotors, command.rotors, rotors->decay(h));
   state.memory.previous_step = h;
 }
+
+template class MidpointOf<unknowns>;
+template class MidpointOf<unknowns_with_legs>;
 
 }  // namespace muster::simbody

@@ -1,5 +1,5 @@
 // The stepper: second order, on velocities, one small problem a robot or for robots that touch. Robots with rotors that
-// can touch nothing in a step fly by fourth order instead.
+// can touch nothing in a step fly by fourth order instead. N: unknowns of a robot, more where some walk.
 //
 // Velocities stand at the middle of steps: u is found for the configuration half a step ahead and carries the robot
 // over the whole step, x += h N(x_mid) u. So forces act over (previous step + step) / 2, and commands are taken at
@@ -13,9 +13,12 @@
 
 namespace muster::simbody {
 
-class Midpoint : public Engine {
+template <int N>
+class MidpointOf : public Engine {
  public:
-  Midpoint(const std::vector<NamedRobot>& robots, double step);
+  using Velocity = VelocityOf<N>;
+
+  MidpointOf(const std::vector<NamedRobot>& robots, double step, LegModel legs = LegModel::as_described);
   void step(double dt, const std::vector<Command>& commands, std::vector<RobotState>& states) override;
   void set_surroundings(const std::vector<scene::Slab>& walls, double friction) override;
 
@@ -40,7 +43,7 @@ class Midpoint : public Engine {
     Eigen::Matrix3d inertia_at_origin;  // of the whole, in the body's frame
     double wheel_inertia[2];            // about the axle
     std::optional<Flight> flight;       // where it has rotors
-    Placed now;
+    PlacedOf<N> now;
   };
 
   // Robots that may meet in this step, with what else they may meet. Groups do not meet each other.
@@ -63,6 +66,8 @@ class Midpoint : public Engine {
   bool is_in_the_air(const Group& group, double h, const std::vector<RobotState>& states) const;
   void fly(int index, double h, const Command& command, RobotState& state);
   void place(int index, double h, double at, const Command& command, const RobotState& state);
+  void place_wheels(Robot& robot, int index, double h, double at, const Command& command, const RobotState& state);
+  void place_legs(Robot& robot, double h, double at, const Command& command, const RobotState& state);
   void meet(const Group& group, double h, const std::vector<RobotState>& states);
   void solve_islands(const Group& group, std::vector<RobotState>& states);
   void solve(const Island& island, std::vector<RobotState>& states);
@@ -78,11 +83,14 @@ class Midpoint : public Engine {
   BroadPhase broad_phase_;
   std::vector<Extent> extents_;
   std::vector<Group> groups_;
-  Encounters encounters_;
+  EncountersOf<N> encounters_;
   std::vector<Island> islands_;
-  ContactSolver solver_;
-  Problem problem_;
+  ContactSolverOf<N> solver_;
+  ProblemOf<N> problem_;
   Count count_;
 };
+
+using Midpoint = MidpointOf<unknowns>;
+using MidpointWithLegs = MidpointOf<unknowns_with_legs>;
 
 }  // namespace muster::simbody

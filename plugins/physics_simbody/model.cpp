@@ -64,38 +64,38 @@ Solid solid_of(const Eigen::Isometry3d& frame, const description::Shape& shape) 
                            ") cannot be simulated by physics.simbody: " + why);
 }
 
+Eigen::Isometry3d frame_on_body(const description::Robot& robot, const description::Joint& joint) {
+  Eigen::Isometry3d frame = joint.origin;
+  for (std::size_t link = joint.parent; link != 0; link = robot.joints[link - 1].parent) {
+    frame = robot.joints[link - 1].origin * frame;
+  }
+  return frame;
+}
+
+void refuse_other_joints(const description::Robot& robot, const std::vector<std::size_t>& known, const char* what) {
+  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
+    const bool is_known = std::find(known.begin(), known.end(), i) != known.end();
+    if (!is_known && robot.joints[i].kind != description::JointKind::fixed) {
+      refuse(robot, "joint '" + robot.joints[i].name + "' moves and " + what);
+    }
+  }
+}
+
 }  // namespace
 
 RobotModel::RobotModel(const description::Robot& robot) : name(robot.name) {
-  if (!robot.drive && !robot.quadrotor)
-    refuse(robot, "it has neither a <muster><differential .../></muster> drive nor a <quadrotor .../>");
+  if (!robot.drive && !robot.quadrotor && !robot.legs)
+    refuse(robot, "it has no <muster><differential .../></muster> drive, no <quadrotor .../> and no <legs>");
   has_wheels = robot.drive.has_value();
-  if (has_wheels) drive = *robot.drive;
   rotors = robot.quadrotor;
-  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
-    const bool is_wheel = has_wheels && (i == drive.left || i == drive.right);
-    if (!is_wheel && robot.joints[i].kind != description::JointKind::fixed) {
-      refuse(robot, "joint '" + robot.joints[i].name + "' moves and is no wheel of its drive");
-    }
-  }
   body = rigid_mass(robot, 0);
   if (!(body.mass > 0)) refuse(robot, "its body has no mass");
-  const std::size_t joints[] = {drive.left, drive.right};
-  for (std::size_t w = 0; has_wheels && w < 2; ++w) {
-    const description::Joint& joint = robot.joints[joints[w]];
-    wheel[w] = rigid_mass(robot, joint.child);
-    if (!balanced(wheel[w], joint.axis))
-      refuse(robot, "the wheel of joint '" + joint.name + "' is not balanced about its axis");
-    wheel_frame[w] = joint.origin;
-    for (std::size_t link = joint.parent; link != 0; link = robot.joints[link - 1].parent) {
-      wheel_frame[w] = robot.joints[link - 1].origin * wheel_frame[w];
-    }
-    for (const description::Shape& shape : rigid_shapes(robot, joint.child))
-      parts.push_back({solid_of(wheel_frame[w], shape), static_cast<int>(w)});
-    // Simbody's pin turns about z: turn the joint's frame so that its z is the axle.
-    const Eigen::Quaterniond to_axis = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), joint.axis);
-    wheel_frame[w] = wheel_frame[w] * to_axis;
-    wheel[w] = in_parent(Eigen::Isometry3d(to_axis.inverse()), wheel[w]);
+  if (robot.legs) {
+    take_legs(robot);
+  } else if (has_wheels) {
+    take_wheels(robot);
+  } else {
+    refuse_other_joints(robot, {}, "is no wheel of its drive");
   }
   for (const description::Shape& shape : rigid_shapes(robot, 0)) {
     if (const auto* sphere = std::get_if<description::Sphere>(&shape.geometry)) {
@@ -103,15 +103,57 @@ RobotModel::RobotModel(const description::Robot& robot) : name(robot.name) {
     }
     parts.push_back({solid_of(Eigen::Isometry3d::Identity(), shape)});
   }
+  measure();
+}
+
+void RobotModel::take_wheels(const description::Robot& robot) {
+  drive = *robot.drive;
+  refuse_other_joints(robot, {drive.left, drive.right}, "is no wheel of its drive");
+  const std::size_t joints[] = {drive.left, drive.right};
+  for (std::size_t w = 0; w < 2; ++w) {
+    const description::Joint& joint = robot.joints[joints[w]];
+    wheel[w] = rigid_mass(robot, joint.child);
+    if (!balanced(wheel[w], joint.axis))
+      refuse(robot, "the wheel of joint '" + joint.name + "' is not balanced about its axis");
+    wheel_frame[w] = frame_on_body(robot, joint);
+    for (const description::Shape& shape : rigid_shapes(robot, joint.child))
+      parts.push_back({solid_of(wheel_frame[w], shape), static_cast<int>(w)});
+    // Simbody's pin turns about z: turn the joint's frame so that its z is the axle.
+    const Eigen::Quaterniond to_axis = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), joint.axis);
+    wheel_frame[w] = wheel_frame[w] * to_axis;
+    wheel[w] = in_parent(Eigen::Isometry3d(to_axis.inverse()), wheel[w]);
+  }
+}
+
+void RobotModel::take_legs(const description::Robot& robot) {
+  leg_drive = *robot.legs;
+  std::vector<std::size_t> joints;
+  for (const auto& leg : leg_drive.legs) {
+    const description::Joint& joint = robot.joints[leg.joint];
+    const Eigen::Isometry3d turned(frame_on_body(robot, joint).linear());
+    legs.push_back({leg.hip, in_parent(turned, rigid_mass(robot, joint.child))});
+    joints.push_back(leg.joint);
+  }
+  refuse_other_joints(robot, joints, "is no leg of its drive");
+}
+
+// How far it all reaches; a leg by a circle of its length about its hip.
+void RobotModel::measure() {
+  const double leg = 2 * leg_drive.radius;
   Eigen::AlignedBox3d around(Eigen::Vector3d::Zero().eval());
   for (const Part& part : parts) {
     const Eigen::Vector3d half = part.solid.axes.cwiseAbs() * part.solid.half;
     around.extend(part.solid.centre - half).extend(part.solid.centre + half);
   }
+  for (const Leg& l : legs) {
+    const Eigen::Vector3d half(leg, 0, leg);
+    around.extend(l.hip - half).extend(l.hip + half);
+  }
   middle = around.center();
   const Eigen::Vector3d far = around.min().cwiseAbs().cwiseMax(around.max().cwiseAbs());
   arm = {std::hypot(far.y(), far.z()), std::hypot(far.x(), far.z()), std::hypot(far.x(), far.y())};
   for (const Part& part : parts) reach = std::max(reach, (part.solid.centre - middle).norm() + part.solid.reach());
+  for (const Leg& l : legs) reach = std::max(reach, (l.hip - middle).norm() + leg);
 }
 
 double RobotModel::lowest_corner(const Eigen::Vector3d& up) const {
@@ -140,9 +182,17 @@ RobotBodies System::add(const RobotModel& model) {
   RobotBodies bodies;
   bodies.body = SimTK::MobilizedBody::Free(matter.updGround(), SimTK::Transform(),
                                            SimTK::Body::Rigid(properties(model.body)), SimTK::Transform());
-  for (std::size_t w = 0; model.has_wheels && w < 2; ++w) {
-    bodies.wheel[w] = SimTK::MobilizedBody::Pin(bodies.body, transform(model.wheel_frame[w]),
-                                                SimTK::Body::Rigid(properties(model.wheel[w])), SimTK::Transform());
+  const auto pin = [&](const Eigen::Isometry3d& frame, const description::Mass& mass) {
+    return SimTK::MobilizedBody::Pin(bodies.body, transform(frame), SimTK::Body::Rigid(properties(mass)),
+                                     SimTK::Transform());
+  };
+  for (std::size_t w = 0; model.has_wheels && w < 2; ++w) bodies.wheel[w] = pin(model.wheel_frame[w], model.wheel[w]);
+  // A pin turns about z: turn a leg's frame so that its z is the body's y.
+  const Eigen::Quaterniond to_axis =
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitY());
+  for (const Leg& leg : model.legs) {
+    bodies.legs.push_back(pin(Eigen::Translation3d(leg.hip) * Eigen::Isometry3d(to_axis),
+                              in_parent(Eigen::Isometry3d(to_axis.inverse()), leg.mass)));
   }
   return bodies;
 }

@@ -1,5 +1,5 @@
-// Robots as Simbody multibody systems: a free body, with two wheels on pins or without, gravity, and flat ground at z =
-// 0.
+// Robots as Simbody multibody systems: a free body, with two wheels or six legs on pins or without, gravity, and flat
+// ground at z = 0.
 #pragma once
 
 #include "description/robot.hpp"
@@ -21,6 +21,12 @@ struct Part {
   int wheel = -1;  // 0 left, 1 right
 };
 
+// A leg on its hip; see description::LegDrive.
+struct Leg {
+  Eigen::Vector3d hip;     // in the body's frame [m]
+  description::Mass mass;  // about the hip at angle 0, axes of the body
+};
+
 // What of a robot this backend can hold; throws std::runtime_error for any other.
 struct RobotModel {
   explicit RobotModel(const description::Robot& robot);
@@ -37,16 +43,24 @@ struct RobotModel {
   description::Mass body;                        // all that is rigid with the root, in its frame
   std::array<description::Mass, 2> wheel;        // in the wheel joint's frame
   std::array<Eigen::Isometry3d, 2> wheel_frame;  // of the joints in the body's frame
+  description::LegDrive leg_drive;
+  std::vector<Leg> legs;  // none: on wheels
   std::vector<Slider> sliders;
   std::vector<Part> parts;
   Eigen::Vector3d arm;     // how far they reach from the body's x, y and z axes [m]
   Eigen::Vector3d middle;  // of a sphere that holds them all, in the body's frame [m]
   double reach = 0;        // its radius [m]
+
+ private:
+  void take_wheels(const description::Robot& robot);
+  void take_legs(const description::Robot& robot);
+  void measure();
 };
 
 struct RobotBodies {
   SimTK::MobilizedBody::Free body;
-  std::array<SimTK::MobilizedBody::Pin, 2> wheel;
+  std::array<SimTK::MobilizedBody::Pin, 2> wheel;  // of a robot on wheels
+  std::vector<SimTK::MobilizedBody::Pin> legs;
 };
 
 // The system keeps what is added to it alive; state() is realised through Model once finish() was called.

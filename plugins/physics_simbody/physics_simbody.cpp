@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstring>
 #include <muster/plugin.hpp>
+#include <optional>
 
 #include "description/world_robots.hpp"
 #include "plugins/scene_rows.hpp"
@@ -24,7 +25,7 @@ struct Memory {
 struct PhysicsSimbody {
   static constexpr auto id = "physics.simbody/2";
   static constexpr auto summary =
-      "rigid robots on flat ground, among walls and each other: friction, slip, torque limits, weight transfer";
+      "rigid robots on wheels or legs, among walls and each other: friction, slip, torque limits, weight transfer";
   static constexpr auto manual =
       "Bodies and wheels from the robot's URDF, a Simbody multibody system; the ground is flat, at z = 0. Wheels touch "
       "it\n"
@@ -42,18 +43,29 @@ struct PhysicsSimbody {
       "cpodes (adaptive) are Simbody's own on rolling constraints, as reference: no slip, no lift, no torque limit, no "
       "walls and\n"
       "no other robots.\n"
-      "Not modelled: wheels as discs on the ground (they stand on it as spheres would), rolling resistance, bouncing.";
+      "Legs of robots that walk are half circles, springs and dampers along the ground's normal (rigid_legs: rigid, "
+      "an\n"
+      "approximation for slow gaits); their controllers turn them as asked within the torque of their motors. Legs of\n"
+      "two robots do not touch each other.\n"
+      "Robots with rotors that can touch nothing in a step fly by Runge and Kutta's fourth order; robot/*/rotors are "
+      "their\n"
+      "rotors as they turn.\n"
+      "Not modelled: wheels as discs on the ground (they stand on it as spheres would), rolling resistance, bouncing,\n"
+      "downwash and ground effect of rotors.";
   static constexpr auto phase = MUSTER_PHYSICS;
   static constexpr auto abilities = description::Ability::wheels | description::Ability::rotors |
-                                    description::Ability::height | description::Ability::tilting;
+                                    description::Ability::legs | description::Ability::height |
+                                    description::Ability::tilting;
   static constexpr Param params[] = {real("step", 0.001, 1e-6, 0.1, "s", "longest step inside a tick"),
                                      choice("integrator", "midpoint|rk3|rkm|cpodes", "what steps the bodies"),
-                                     real("body_friction", 0.3, 0, 10, "", "between robots, and of robots with walls")};
+                                     real("body_friction", 0.3, 0, 10, "", "between robots, and of robots with walls"),
+                                     flag("rigid_legs", false, "whatever their model says: for slow gaits")};
 
   explicit PhysicsSimbody(Setup& s)
       : step_size(s.value("step")),
         integrator(s.value("integrator")),
         body_friction(s.value("body_friction")),
+        rigid_legs(s.value("rigid_legs")),
         robots(s, description::Meshes::import),
         flies(robots.any_quadrotor()),
         drive(s.read<Drive>("robot/*/drive")),
@@ -66,12 +78,17 @@ struct PhysicsSimbody {
         model(s.write<Model>("robot/*/body")),
         memory(s.write<Memory>("robot/*/contact")) {
     robots.require(abilities, s);
+    if (robots.any_walks()) {
+      gait = s.read<Gait>("robot/*/gait");
+      legs = s.write<Legs>("robot/*/legs");
+    }
     if (flies) {
       rotor_drive = s.read<RotorDrive>("robot/*/rotor_drive");
       rotors = s.write<Rotors>("robot/*/rotors");
     }
     made.step = s.param("step");
     made.integrator = s.param("integrator");
+    made.rigid_legs = s.param("rigid_legs");
     for (std::size_t row = 0; row < robots.size(); ++row) {
       made.rows.push_back(row);
       made.models.push_back(WorldRobots::model_of(0, row));
@@ -81,11 +98,12 @@ struct PhysicsSimbody {
 
   // What an engine is made of.
   struct Made {
-    double step = 0, integrator = 0;
+    double step = 0, integrator = 0, rigid_legs = 0;
     std::vector<std::size_t> rows;
     std::vector<double> models;
     bool operator!=(const Made& b) const {
-      return step != b.step || integrator != b.integrator || rows != b.rows || models != b.models;
+      return step != b.step || integrator != b.integrator || rigid_legs != b.rigid_legs || rows != b.rows ||
+             models != b.models;
     }
   };
 
@@ -100,7 +118,8 @@ struct PhysicsSimbody {
     }
     try {
       engine = simbody::make_engine(named, static_cast<simbody::Integrator>(static_cast<int>(made.integrator) + 1),
-                                    made.step);
+                                    made.step,
+                                    made.rigid_legs != 0 ? simbody::LegModel::rigid : simbody::LegModel::as_described);
     } catch (const std::runtime_error& wrong) {
       throw BadInput(wrong.what());
     }
@@ -134,11 +153,13 @@ struct PhysicsSimbody {
     Made now;
     now.step = k[step_size];
     now.integrator = k[integrator];
+    now.rigid_legs = k[rigid_legs];
     for (std::size_t i = 0; i < k[pose].size(); ++i) {
       k[pose][i] = k.last(pose)[i];  // what has left stays as it was
       k[twist][i] = k.last(twist)[i];
       k[wheels][i] = k.last(wheels)[i];
       k[memory][i] = k.last(memory)[i];
+      if (legs) k[*legs][i] = k.last(*legs)[i];
       if (flies) k[rotors][i] = k.last(rotors)[i];
       k[model][i].model = WorldRobots::model_of(k.last(model)[i].model, i);
       if (!k.alive("robot", i)) continue;
@@ -162,6 +183,10 @@ struct PhysicsSimbody {
       states[i] = gather(k, row);
       if (row < asked.size()) {
         commands[i] = {asked[row].left, asked[row].right, asked[row].left_rate, asked[row].right_rate};
+      }
+      if (gait) {
+        std::copy_n(k[*gait][row].angle, 6, commands[i].leg_angle.begin());
+        std::copy_n(k[*gait][row].rate, 6, commands[i].leg_rate.begin());
       }
       if (flies && row < k[rotor_drive].size()) {
         const RotorDrive& r = k[rotor_drive][row];
@@ -189,6 +214,11 @@ struct PhysicsSimbody {
     }
     for (int i = 0; i < 2; ++i) std::copy_n(m.impulse[i], 3, s.memory.impulse[i].begin());
     for (int i = 0; i < 8; ++i) s.memory.kept[i] = {m.kept[i][0], {m.kept[i][1], m.kept[i][2], m.kept[i][3]}};
+    if (!legs) return s;
+    const Legs& l = k.last(*legs)[row];
+    std::copy_n(l.angle, 6, s.leg_angle.begin());
+    std::copy_n(l.rate, 6, s.leg_rate.begin());
+    std::copy_n(l.torque, 6, s.leg_torque.begin());
     return s;
   }
 
@@ -205,9 +235,14 @@ struct PhysicsSimbody {
       k[memory][row].kept[i][0] = s.memory.kept[i].id;
       std::copy_n(s.memory.kept[i].impulse.begin(), 3, k[memory][row].kept[i] + 1);
     }
+    if (!legs) return;
+    Legs& l = k[*legs][row];
+    std::copy_n(s.leg_angle.begin(), 6, l.angle);
+    std::copy_n(s.leg_rate.begin(), 6, l.rate);
+    std::copy_n(s.leg_torque.begin(), 6, l.torque);
   }
 
-  Value step_size, integrator, body_friction;
+  Value step_size, integrator, body_friction, rigid_legs;
   WorldRobots robots;
   bool flies;  // some robots have rotors; else nothing is claimed about them
   In<Drive> drive;
@@ -221,6 +256,8 @@ struct PhysicsSimbody {
   Out<Rotors> rotors{};
   Out<Model> model;
   Out<Memory> memory;
+  std::optional<In<Gait>> gait;  // where a robot walks
+  std::optional<Out<Legs>> legs;
   Made made;
   std::unique_ptr<simbody::Engine> engine;
   Surroundings surroundings;

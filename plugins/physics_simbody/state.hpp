@@ -9,11 +9,13 @@ namespace muster::simbody {
 
 constexpr double gravity = 9.81;  // [m/s2]
 
-// Wheel rates asked for at the tick's start, and their slopes over the tick; rotors' rates held over it.
+// What is asked for at the tick's start, and its slopes over the tick: rates of wheels, angles of legs; rotors' rates,
+// held over it.
 struct Command {
-  double left, right;              // [rad/s]
-  double left_rate, right_rate;    // [rad/s2]
-  std::array<double, 4> rotors{};  // front, left, back, right [rad/s]
+  double left, right;                             // [rad/s]
+  double left_rate, right_rate;                   // [rad/s2]
+  std::array<double, 4> rotors{};                 // front, left, back, right [rad/s]
+  std::array<double, 6> leg_angle{}, leg_rate{};  // [rad], [rad/s]
 };
 
 // The impulse of a contact of the body, kept by the robot with the smaller row.
@@ -42,7 +44,9 @@ struct RobotState {
   std::array<double, 2> angle;  // of the wheels, left and right [rad]
   std::array<double, 2> rate;   // [rad/s]
   Memory memory;
-  std::array<double, 4> rotors{};  // as they turn [rad/s]
+  std::array<double, 6> leg_angle{}, leg_rate{};  // in the order of the model [rad], [rad/s]
+  std::array<double, 6> leg_torque{};             // of their motors, the mean over the last step [N m]
+  std::array<double, 4> rotors{};                 // as they turn [rad/s]
 };
 
 }  // namespace muster::simbody

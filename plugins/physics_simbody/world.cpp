@@ -1,5 +1,6 @@
 #include "world.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "midpoint.hpp"
@@ -7,8 +8,14 @@
 
 namespace muster::simbody {
 
-std::unique_ptr<Engine> make_engine(const std::vector<NamedRobot>& robots, Integrator integrator, double step) {
-  if (integrator == Integrator::midpoint) return std::make_unique<Midpoint>(robots, step);
+std::unique_ptr<Engine> make_engine(const std::vector<NamedRobot>& robots, Integrator integrator, double step,
+                                    LegModel legs) {
+  const bool any_walks = std::any_of(robots.begin(), robots.end(),
+                                     [](const NamedRobot& robot) { return robot.description->legs.has_value(); });
+  if (integrator == Integrator::midpoint) {
+    if (any_walks) return std::make_unique<MidpointWithLegs>(robots, step, legs);
+    return std::make_unique<Midpoint>(robots, step);
+  }
   return std::make_unique<Stock>(robots, integrator, step);
 }
 
@@ -18,7 +25,9 @@ RobotState at_rest(double x, double y, double yaw) {
   return state;
 }
 
-// Along the ground only the wheels' friction acts, and in sum it is at most friction times the weight.
-double max_acceleration(const description::Robot& robot) { return robot.drive ? robot.drive->friction * gravity : 0; }
+// Along the ground only the friction of wheels or legs acts, and in sum it is at most friction times the weight.
+double max_acceleration(const description::Robot& robot) {
+  return gravity * (robot.drive ? robot.drive->friction : robot.legs ? robot.legs->friction : 0);
+}
 
 }  // namespace muster::simbody

@@ -36,13 +36,19 @@ struct NamedRobot {
   const description::Robot* description;
 };
 
+enum class LegModel {
+  as_described = 1,
+  rigid  // whatever their description says: an approximation for slow gaits
+};
+
 // `step` [s]: the longest step inside a tick. Throws std::runtime_error for a robot that it cannot hold.
-std::unique_ptr<Engine> make_engine(const std::vector<NamedRobot>& robots, Integrator integrator, double step);
+std::unique_ptr<Engine> make_engine(const std::vector<NamedRobot>& robots, Integrator integrator, double step,
+                                    LegModel legs = LegModel::as_described);
 
 // A standing robot: at rest on the ground, its frame at x, y [m] and turned by yaw [rad].
 RobotState at_rest(double x, double y, double yaw);
 
-// Bound on the acceleration of the centre of mass along the ground while the wheels carry the robot [m/s2].
+// Bound on the acceleration of the centre of mass along the ground while wheels or legs carry the robot [m/s2].
 double max_acceleration(const description::Robot& robot);
 
 }  // namespace muster::simbody

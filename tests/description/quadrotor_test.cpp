@@ -159,7 +159,7 @@ TEST(Abilities, WhatIsLackingIsListed) {
   EXPECT_EQ(lacking(driven, all), "joint 'right_wheel_joint' that moves");
   driven.drive.reset();
   EXPECT_EQ(lacking(driven, Ability::wheels | Ability::joints),
-            "motion without a drive (its model has no <muster><differential .../></muster> and no <quadrotor .../>)");
+            "motion without a drive (its model has no <muster><differential .../></muster>, <quadrotor .../> or <legs>)");
 }
 
 }  // namespace

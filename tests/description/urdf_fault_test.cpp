@@ -38,6 +38,25 @@ std::string wheels(const std::string& attributes, const std::string& axis = "0 1
 const std::string good =
     "left='jl' right='jr' wheel_radius='0.05' wheel_base='0.2' max_torque='1' max_speed='9' friction='0.8'";
 
+// Six legs of radius 0.05 on hips at the given height; `last` is how the sixth is declared.
+std::string legs(const std::string& attributes, const std::string& last = "<leg joint='j6' tripod='2'/>",
+                 const std::string& height = "0.1", const std::string& sixth = mass) {
+  std::string text = link("b", mass);
+  const char* places[] = {"1 1", "0 1", "-1 1", "1 -1", "0 -1", "-1 -1"};
+  for (int i = 1; i <= 6; ++i) {
+    const std::string number = std::to_string(i);
+    text += link("l" + number, i == 6 ? sixth : mass) +
+            joint("j" + number, "b", "l" + number, "continuous",
+                  std::string("<origin xyz='") + places[i - 1] + " " + height + "'/><axis xyz='0 1 0'/>");
+  }
+  return text + "<muster>\n<legs " + attributes +
+         ">\n<leg joint='j1' tripod='1'/><leg joint='j2' tripod='2'/><leg joint='j3' tripod='1'/>"
+         "<leg joint='j4' tripod='2'/><leg joint='j5' tripod='1'/>\n" +
+         last + "\n</legs></muster>\n";
+}
+const std::string good_legs =
+    "radius='0.05' position_gain='9' rate_gain='1' max_torque='1' max_speed='9' friction='0.8'";
+
 const Case cases[] = {
     {"negative_mass", link("a", inertial("-3", "1", "1", "1")), "2: link 'a': mass is not above 0"},
     {"no_mass", link("a", inertial("0", "1", "1", "1")), "2: link 'a': mass is not above 0"},
@@ -103,7 +122,27 @@ const Case cases[] = {
     {"wheel_base_contradicts_joints", wheels(good, "0 1 0", "0.11"),
      "7: <differential> joint 'jl' is not half a wheel_base from the body's x axis (left: +y, right: -y)"},
     {"another_drive", link("a", mass) + "<muster><tracks/></muster>",
-     "3: <tracks> is not a drive; expected <differential> or <quadrotor>"},
+     "3: <tracks> is not a drive; expected <differential>, <quadrotor> or <legs>"},
+    {"leg_without_gain", legs("radius='0.05' rate_gain='1' max_torque='1' max_speed='9' friction='0.8'"),
+     "16: <legs> has no attribute 'position_gain'"},
+    {"legs_attribute_misspelt", legs(good_legs + " stifness='1'"),
+     "16: <legs> has no attribute 'stifness'; did you mean 'stiffness'?"},
+    {"damping_of_rigid_legs", legs(good_legs + " damping='1'"), "16: <legs> has a damping, but no stiffness"},
+    {"leg_of_unknown_joint", legs(good_legs, "<leg joint='j7' tripod='2'/>"),
+     "18: <leg> joint: joint 'j7' is not known; did you mean 'j1'?"},
+    {"leg_twice", legs(good_legs, "<leg joint='j5' tripod='2'/>"), "18: <leg> joint 'j5' has a leg already"},
+    {"third_tripod", legs(good_legs, "<leg joint='j6' tripod='3'/>"),
+     "18: <leg> tripod=\"3\" is wrong; expected 1 or 2"},
+    {"four_legs_and_two", legs(good_legs, "<leg joint='j6' tripod='1'/>"),
+     "16: <legs> tripod 1 has 4 legs; expected 3"},
+    {"five_legs", legs(good_legs, ""), "16: <legs> has 5 legs; expected 6"},
+    {"foot", legs(good_legs, "<foot/>"), "18: <legs> has no element <foot>; expected <leg>"},
+    {"hip_too_low", legs(good_legs, "", "0.09"),
+     "17: <leg> joint 'j1' is not two radii above the ground, which is at z = 0 of the robot's frame"},
+    {"leg_with_shape",
+     legs(good_legs, "<leg joint='j6' tripod='2'/>", "0.1",
+          mass + "<collision><geometry><sphere radius='1'/></geometry></collision>"),
+     "18: <leg> joint 'j6' has a link with a <collision>; a leg is a half circle, and nothing else of it touches"},
     {"mesh_outside",
      link("a", "<collision><geometry><mesh filename='package://../../etc/passwd'/></geometry></collision>"),
      "2: link 'a': mesh 'package://../../etc/passwd' is outside the allowed folder; expected a path relative to "

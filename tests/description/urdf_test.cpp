@@ -26,6 +26,39 @@ TEST(Urdf, ScarabHasThePapersFigures) {
   EXPECT_TRUE(robot.warnings.empty());
 }
 
+TEST(Urdf, RdkHasThePapersFigures) {
+  const Robot robot = read_robot(MUSTER_SOURCE_DIR "/plugins/robots/models/rdk.urdf");
+  EXPECT_NEAR(whole_mass(robot).mass, 2.7, 1e-12);
+  ASSERT_TRUE(robot.legs);
+  const auto& box = std::get<Box>(robot.links[0].shapes[0].geometry);
+  EXPECT_EQ(box.size.x(), 0.35);
+  EXPECT_EQ(box.size.z(), 0.1);
+  EXPECT_NEAR(robot.legs->track() + 0.02, 0.3, 1e-12);  // legs are 2 cm wide
+  EXPECT_FALSE(robot.legs->is_rigid());
+  for (std::size_t i = 0; i < LegDrive::count; ++i) {
+    const LegDrive::Leg &leg = robot.legs->legs[i], &beside = robot.legs->legs[(i + 3) % 6];
+    EXPECT_NE(leg.tripod, beside.tripod);
+    EXPECT_EQ(leg.hip.x(), beside.hip.x());
+    EXPECT_EQ(leg.hip.y(), -beside.hip.y());
+  }
+  EXPECT_TRUE(robot.warnings.empty());
+}
+
+TEST(Urdf, NoPointOfALegLiesBelowItsLowest) {
+  const LegDrive drive = *read_robot(MUSTER_SOURCE_DIR "/plugins/robots/models/rdk.urdf").legs;
+  for (int trial = 0; trial < 200; ++trial) {
+    const Eigen::Vector3d up = Eigen::Vector3d(std::sin(trial), std::sin(2.3 * trial), std::cos(3.7 * trial)).normalized();
+    const double angle = 0.1 * trial;
+    double lowest = 1e9;
+    for (int k = 0; k <= 10000; ++k)
+      lowest = std::min(lowest, up.dot(drive.place(angle, 3.14159265358979 * k / 10000)));
+    EXPECT_NEAR(up.dot(drive.place(angle, drive.lowest_way(angle, up))), lowest, 1e-9);
+  }
+  EXPECT_NEAR(drive.place(0, 3.14159265358979).z(), -0.12, 1e-12);  // upright on its end
+  EXPECT_LT(drive.place(0, 1.5).x(), 0);                            // bulging backwards
+  EXPECT_LT(drive.place(0.3, 3.14159265358979).x(), 0);             // positive rates push the ground back
+}
+
 TEST(Urdf, ScarabFillsItsMeasuredBox) {
   const Robot robot = read_robot(scarab);
   Eigen::AlignedBox3d body;
