@@ -76,8 +76,9 @@ class WorldRobots {
       seen.push_back(robot);
       const std::string lack = lacking(*robot, have);
       if (lack.empty()) continue;
-      const std::string name = setup.host()->row_name(setup.host(), "robot", static_cast<uint32_t>(row));
-      list += (list.empty() ? "robot '" : "; robot '") + name + "' (model '" + robot->name + "') needs " + lack;
+      list.append(list.empty() ? "robot '" : "; robot '");
+      list.append(setup.host()->row_name(setup.host(), "robot", static_cast<uint32_t>(row)));
+      list.append("' (model '").append(robot->name).append("') needs ").append(lack);
     }
     if (!list.empty()) throw BadInput("it lacks what the world's robots need: " + list);
   }

@@ -192,6 +192,26 @@ TEST(Attitude, IntegralsDoNotWindUpWhileRotorsStand) {
   for (unsigned c = 0; c < 3; ++c) EXPECT_EQ(run.table("robot/r/attitude_integral").at(0, c), 0);
 }
 
+TEST(Attitude, AFileOfSeveralRobotsServesEach) {
+  const Folder folder;
+  Simulation run = world_of(folder,
+                            "<robot name=\"a\" model=\"hummingbird\" at=\"0 0 9\"/><robot name=\"b\" "
+                            "model=\"hummingbird\" at=\"3 0 9\"/><physics.simbody/><robots.attitude/>"
+                            "<control.attitude name=\"fly_a\" robot=\"a\" file=\"both.csv\"/>"
+                            "<control.attitude name=\"fly_b\" robot=\"b\" file=\"both.csv\"/>",
+                            {{"both.csv",
+                              "t[s],robot,x[m],cmd_thrust[N],cmd_roll[rad],cmd_pitch[rad],cmd_yaw_rate[rad/s]\n"
+                              "0,a,1,5,0,0,0\n0,b,1,6,0,0,0\n0.2,a,1,7,0,0,0\n0.3,b,1,8,0,0,0\n"}});
+  const auto thrust = [&](const std::string& robot) {
+    return row<AttitudeThrust>(run, "robot/" + robot + "/attitude_thrust").thrust;
+  };
+  for (int k = 0; k < 5; ++k) run.step();  // of 0.05 s: this one begins at 0.2 s
+  EXPECT_EQ(thrust("a"), 7);
+  EXPECT_EQ(thrust("b"), 6);
+  for (int k = 0; k < 2; ++k) run.step();
+  EXPECT_EQ(thrust("b"), 8);
+}
+
 TEST(Attitude, CommandsMustRiseInTime) {
   const Folder folder;
   commanded(folder, {}, "0,0,0", "0.01");
