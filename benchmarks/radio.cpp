@@ -130,7 +130,7 @@ BENCHMARK(walls_against_embree)
     ->Args({39, 26, 200})
     ->Args({39, 26, 1000})
     ->Unit(benchmark::kMillisecond)
-    ->Iterations(3)
+    ->Iterations(6)
     ->MeasureProcessCPUTime();
 
 #ifdef MUSTER_HAS_NS3
@@ -229,7 +229,7 @@ BENCHMARK(channel_against_ns3)
     ->ArgName("radios")
     ->Arg(1000)
     ->Unit(benchmark::kMillisecond)
-    ->Iterations(3)
+    ->Iterations(6)
     ->MeasureProcessCPUTime();
 
 #endif
