@@ -1,5 +1,6 @@
 // Counts for many links: kernels find what is clear, and what is not is worked out exactly, wall by wall.
 #include <algorithm>
+#include <cstring>
 #include <memory>
 #include <numeric>
 
@@ -41,13 +42,20 @@ std::vector<std::uint32_t> sorted(const std::vector<std::uint32_t>& items, std::
   return result;
 }
 
+// In both ends; without a branch, since most links do.
+bool ascend(const std::vector<Pair>& links) {
+  const auto key = [](const Pair& link) { return std::uint64_t{link.from} << 32 | link.to; };
+  bool result = true;
+  for (std::size_t i = 1; i < links.size(); ++i) result &= key(links[i - 1]) < key(links[i]);
+  return result;
+}
+
 // Links in the order of their senders, and of each sender's receivers, along the curve. Empty if they are so already,
 // or are too few for it to pay.
 std::vector<std::uint32_t> better_order(const std::vector<LatticePoint>& points, const std::vector<Pair>& links) {
   if (links.size() < many * points.size() / 2) return {};
   const auto order = along_curve(points);
-  const auto ascend = [](const Pair& a, const Pair& b) { return a.from < b.from || (a.from == b.from && a.to < b.to); };
-  if (std::is_sorted(order.begin(), order.end()) && std::is_sorted(links.begin(), links.end(), ascend)) return {};
+  if (std::is_sorted(order.begin(), order.end()) && ascend(links)) return {};
   std::vector<std::uint32_t> rank(points.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) rank[order[i]] = i;
   std::vector<std::uint32_t> items(links.size());
@@ -75,17 +83,16 @@ class Scene::ManyLinks {
         by_material_(by_material),
         seen_(new SeenBlock[static_cast<std::size_t>(table_.blocks)]),
         unsure_(new std::uint16_t[static_cast<std::size_t>(table_.blocks)]),
-        lists_(new int[2 * (walls() + block)]),
-        doubts_(new Doubt[walls()]),
-        tallies_(new Tallies[static_cast<std::size_t>(scene.materials_)]),
-        counts_(static_cast<std::size_t>(scene.materials_) * receivers),
+        lists_(new int[3 * (walls() + block)]),
+        doubts_(new Doubt[2 * walls()]),
+        counts_(new Counts[static_cast<std::size_t>(scene.materials_)]),
         counts_of_one_(static_cast<std::size_t>(scene.materials_)) {
     by_material_.resize(links.size() * static_cast<std::size_t>(scene.materials_));
     view_.seen = seen_.get();
     view_.unsure = unsure_.get();
     view_.one = lists_.get();
     view_.other = view_.one + walls() + block;
-    view_.tallies = tallies_.get()->of;
+    view_.third = view_.other + walls() + block;
     for (const LatticePoint& point : points_) {
       x_.push_back(static_cast<float>(point.spot.x));
       y_.push_back(static_cast<float>(point.spot.y));
@@ -109,8 +116,8 @@ class Scene::ManyLinks {
   }
 
  private:
-  struct alignas(64) Tallies {
-    float of[receivers];
+  struct alignas(64) Counts {
+    int of[receivers];
   };
 
   std::size_t walls() const { return static_cast<std::size_t>(table_.blocks) * block; }
@@ -189,20 +196,21 @@ class Scene::ManyLinks {
       const std::uint32_t each = link(first + std::min(i, number - 1)).to;
       x[i] = x_[each], y[i] = y_[each], z[i] = z_[each];
     }
-    const int doubts = in_row ? kernel_.count(table_, view_, &x_[to], &y_[to], &z_[to], counts_.data(), doubts_.get())
-                              : kernel_.count(table_, view_, x, y, z, counts_.data(), doubts_.get());
+    const int doubts = in_row
+                           ? kernel_.count(table_, view_, &x_[to], &y_[to], &z_[to], counts_.get()->of, doubts_.get())
+                           : kernel_.count(table_, view_, x, y, z, counts_.get()->of, doubts_.get());
     for (int k = 0; k < doubts; ++k) {
       for (unsigned set = doubts_[k].lanes & ~0u >> (receivers - number); set != 0; set &= set - 1) {
         const int lane = __builtin_ctz(set);
         const int material = crossed(doubts_[k].wall, link(first + lane));
-        if (material >= 0) ++counts_[material * receivers + lane];
+        if (material >= 0) ++counts_[material].of[lane];
       }
     }
     for (int m = 0; m < scene_.materials_; ++m) {
-      const int* const counted = counts_.data() + m * receivers;
+      const int* const counted = counts_[m].of;
       int* const out = by_material_.data() + static_cast<std::size_t>(m) * links_.size();
       if (in_row) {
-        std::copy_n(counted, receivers, out + first);
+        std::memcpy(out + first, counted, receivers * sizeof *counted);  // of a size that the compiler knows
       } else if (order_.empty()) {
         std::copy_n(counted, number, out + first);
       } else {
@@ -235,8 +243,8 @@ class Scene::ManyLinks {
   const std::unique_ptr<std::uint16_t[]> unsure_;
   const std::unique_ptr<int[]> lists_;
   const std::unique_ptr<Doubt[]> doubts_;
-  const std::unique_ptr<Tallies[]> tallies_;
-  std::vector<int> counts_, counts_of_one_;
+  const std::unique_ptr<Counts[]> counts_;
+  std::vector<int> counts_of_one_;
   std::vector<float> x_, y_, z_;  // of points, in lattice steps
   WallView view_ = {};
 };

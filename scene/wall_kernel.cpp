@@ -21,7 +21,7 @@ using Floats = stdx::native_simd<float>;
 using Mask = Floats::mask_type;
 using Integers = stdx::rebind_simd_t<int, Floats>;
 using Numbers = stdx::fixed_size_simd<int, 8>;
-constexpr int lanes = static_cast<int>(Floats::size()), parts = receivers / lanes;
+constexpr int lanes = static_cast<int>(Floats::size()), parts = receivers / lanes, halves = 2;
 static_assert(block % lanes == 0 && receivers % block == 0 && sizeof(Floats) <= alignof(WallBlock));
 
 constexpr float rounding = 0x1p-19f;  // the margin above
@@ -37,6 +37,13 @@ MUSTER_INLINE float max(float a, float b) { return a > b ? a : b; }
 MUSTER_INLINE Floats choose(const Mask& mask, Floats yes, const Floats& no) {
   stdx::where(!mask, yes) = no;
   return yes;
+}
+// -1 where the sign bit is set, 0 elsewhere.
+MUSTER_INLINE Integers minus_if_negative(const Floats& a) {
+  Integers result;
+  static_assert(sizeof result == sizeof a);
+  __builtin_memcpy(static_cast<void*>(&result), &a, sizeof a);
+  return result >> 31;
 }
 MUSTER_INLINE Floats magnitude(const Floats& a) { return stdx::abs(a); }
 MUSTER_INLINE float magnitude(float a) { return a < 0 ? -a : a; }
@@ -116,33 +123,43 @@ void look(const WallTable& table, WallView& view) {
 }
 
 // Receivers relative to the radio, and what surrounds them as it sees them.
-struct Shaft {
-  Floats x[parts], y[parts];
-  float west, east, south, north;          // of the receivers
-  float low, high;                         // of the receivers and the radio
-  float reach;                             // the largest coordinate
-  bool narrow = false;                     // all receivers lie between two directions less than a half turn apart:
-  float left_x, left_y, right_x, right_y;  // none is left of the one or right of the other
+struct Directions {
+  float left_x, left_y, right_x, right_y;
 };
 
-// Directions are found as slopes about the middle of the receivers, and opened by far more than rounding: 1e-5 rad.
+struct Shaft {
+  Floats x[parts], y[parts];
+  float west, east, south, north;  // of the receivers
+  float low, high;                 // of the receivers and the radio
+  float reach;                     // the largest coordinate
+  bool narrow = false;             // all receivers lie between two directions less than a half turn apart:
+  Directions all;                  // none is left of the one or right of the other;
+  Directions of[halves];           // and so for each half of them
+};
+
+// From slopes about a direction; opened by far more than rounding, 1e-5 rad.
+MUSTER_INLINE Directions opened(float x, float y, float left, float right) {
+  const float up = left + 1e-5f * (1 + left * left), down = right - 1e-5f * (1 + right * right);
+  return {x - up * y, y + up * x, x - down * y, y + down * x};
+}
+
 MUSTER_INLINE void find_directions(Shaft& shaft) {
   const float x = (shaft.west + shaft.east) / 2, y = (shaft.south + shaft.north) / 2;
-  Floats most = -huge, least = huge;
-  for (int i = 0; i < parts; ++i) {
-    const Floats along = x * shaft.x[i] + y * shaft.y[i], across = x * shaft.y[i] - y * shaft.x[i];
-    if (!stdx::all_of(along > 0)) return;
-    most = max(most, across / along);
-    least = min(least, across / along);
+  float left[halves], right[halves];
+  for (int half = 0; half < halves; ++half) {
+    Floats most = -huge, least = huge;
+    for (int i = half * parts / halves; i < (half + 1) * parts / halves; ++i) {
+      const Floats along = x * shaft.x[i] + y * shaft.y[i], across = x * shaft.y[i] - y * shaft.x[i];
+      if (!stdx::all_of(along > 0)) return;
+      most = max(most, across / along);
+      least = min(least, across / along);
+    }
+    left[half] = stdx::hmax(most), right[half] = stdx::hmin(least);
+    if (left[half] > 1000 || right[half] < -1000) return;
+    shaft.of[half] = opened(x, y, left[half], right[half]);
   }
-  const float left = stdx::hmax(most), right = stdx::hmin(least);
-  if (left > 1000 || right < -1000) return;
   shaft.narrow = true;
-  const float up = left + 1e-5f * (1 + left * left), down = right - 1e-5f * (1 + right * right);
-  shaft.left_x = x - up * y;
-  shaft.left_y = y + up * x;
-  shaft.right_x = x - down * y;
-  shaft.right_y = y + down * x;
+  shaft.all = opened(x, y, max(left[0], left[1]), min(right[0], right[1]));
 }
 
 MUSTER_INLINE Shaft shaft_to(const WallView& view, const float* x, const float* y, const float* z) {
@@ -175,17 +192,17 @@ MUSTER_INLINE Mask meets(const Shaft& shaft, const Floats& west, const Floats& e
   if (!shaft.narrow) return result;
   const Floats x = (west + east) * 0.5f, y = (south + north) * 0.5f;
   const Floats half_x = (east - west) * 0.5f, half_y = (north - south) * 0.5f;
-  const Floats from_left = shaft.left_x * y - shaft.left_y * x, from_right = shaft.right_x * y - shaft.right_y * x;
-  result = result && from_left <= magnitude(shaft.left_x) * half_y + magnitude(shaft.left_y) * half_x;
-  return result && from_right >= -(magnitude(shaft.right_x) * half_y + magnitude(shaft.right_y) * half_x);
+  const Directions& to = shaft.all;
+  const Floats from_left = to.left_x * y - to.left_y * x, from_right = to.right_x * y - to.right_y * x;
+  result = result && from_left <= magnitude(to.left_x) * half_y + magnitude(to.left_y) * half_x;
+  return result && from_right >= -(magnitude(to.right_x) * half_y + magnitude(to.right_y) * half_x);
 }
 
 // Of a wall in its block: how many floats from the first wall's, in either kind of block.
 constexpr int stride = static_cast<int>(sizeof(WallBlock) / sizeof(float));
 
-// Lists the walls that some link of the shaft may cross, as offsets, and sets their margins.
-int list_walls(const WallTable& table, const WallView& view, const Shaft& shaft, int blocks, int* list) {
-  int* end = list;
+// Lists the walls that links of each half may cross, as offsets, and sets their margins. Moves `end` to their ends.
+void list_walls(const WallTable& table, const WallView& view, const Shaft& shaft, int blocks, int** end) {
   const float x = (shaft.west + shaft.east) * 0.5f, y = (shaft.south + shaft.north) * 0.5f;
   const float half_x = (shaft.east - shaft.west) * 0.5f, half_y = (shaft.north - shaft.south) * 0.5f;
   for (int i = 0; i < blocks; ++i) {
@@ -202,17 +219,54 @@ int list_walls(const WallTable& table, const WallView& view, const Shaft& shaft,
       const Floats over_x = ay - by, over_y = bx - ax;
       const Floats nearest =
           x * over_x + y * over_y + load(seen.area + k) - (half_x * magnitude(over_x) + half_y * magnitude(over_y));
-      Mask kept = nearest <= 2 * margin && base <= shaft.high && load(wall.top + k) > shaft.low;
-      if (shaft.narrow) {
-        const Floats left_a = shaft.left_x * ay - shaft.left_y * ax, left_b = shaft.left_x * by - shaft.left_y * bx;
-        const Floats right_a = shaft.right_x * ay - shaft.right_y * ax;
-        const Floats right_b = shaft.right_x * by - shaft.right_y * bx;
-        kept = kept && min(left_a, left_b) <= 0 && max(right_a, right_b) >= 0;
+      const Mask kept = nearest <= 2 * margin && base <= shaft.high && load(wall.top + k) > shaft.low;
+      for (int half = 0; half < halves; ++half) {
+        const Directions& to = shaft.of[half];
+        Mask between = kept;
+        if (shaft.narrow) {
+          const Floats left_a = to.left_x * ay - to.left_y * ax, left_b = to.left_x * by - to.left_y * bx;
+          const Floats right_a = to.right_x * ay - to.right_y * ax, right_b = to.right_x * by - to.right_y * bx;
+          between = kept && min(left_a, left_b) <= 0 && max(right_a, right_b) >= 0;
+        }
+        end[half] = append(bits(between), view.one[i] * stride + k, end[half]);
       }
-      end = append(bits(kept), view.one[i] * stride + k, end);
     }
   }
-  return static_cast<int>(end - list);
+}
+
+// Adds the listed walls to the counts of one half of the receivers.
+MUSTER_INLINE Doubt* count_half(const WallTable& table, const WallView& view, const Shaft& shaft, int half,
+                                const int* list, const int* end, int* counts, Doubt* doubts) {
+  constexpr int own = parts / halves;
+  const int first = half * receivers / halves;
+  Floats x[own], y[own];
+  for (int i = 0; i < own; ++i) x[i] = shaft.x[half * own + i], y[i] = shaft.y[half * own + i];
+  const int* const materials = table.walls->material;
+  const float* const first_seen = view.seen->ax;
+  for (; list != end; ++list) {
+    const float* const seen = first_seen + *list;  // its columns are a block apart
+    const float ax = seen[0], ay = seen[block], bx = seen[2 * block], by = seen[3 * block], area = seen[4 * block];
+    const float surely = seen[6 * block], perhaps = seen[7 * block];
+    int* const count = counts + materials[*list] * receivers + first;
+    Mask doubtful[own], any(false);
+    Integers counted[own];
+    for (int i = 0; i < own; ++i) {
+      const Floats from_a = x[i] * ay - y[i] * ax, from_b = y[i] * bx - x[i] * by;
+      const Floats decides = max(max(from_a, from_b), from_a + from_b + area);
+      counted[i] = minus_if_negative(decides);
+      (Integers(count + i * lanes, stdx::vector_aligned) - counted[i]).copy_to(count + i * lanes, stdx::vector_aligned);
+      doubtful[i] = decides > surely && decides < perhaps;
+      any = any || doubtful[i];
+    }
+    if (stdx::none_of(any)) continue;
+    *doubts = {*list / stride * block + *list % stride, 0};
+    for (int i = 0; i < own; ++i) {
+      doubts->lanes |= bits(doubtful[i]) << (first + i * lanes);
+      for (int k = 0; k < lanes; ++k) count[i * lanes + k] += doubtful[i][k] ? counted[i][k] : 0;
+    }
+    ++doubts;
+  }
+  return doubts;
 }
 
 int count(const WallTable& table, const WallView& view, const float* x, const float* y, const float* z, int* counts,
@@ -222,40 +276,12 @@ int count(const WallTable& table, const WallView& view, const float* x, const fl
       surviving(table, view, [&](const Floats& west, const Floats& east, const Floats& south, const Floats& north) {
         return meets(shaft, west, east, south, north);
       });
-  const int walls = list_walls(table, view, shaft, blocks, view.other);
+  int* end[halves] = {view.other, view.third};
+  list_walls(table, view, shaft, blocks, end);
+  for (int i = 0; i < table.materials * receivers; i += lanes) Integers(0).copy_to(counts + i, stdx::vector_aligned);
   const Doubt* const first = doubts;
-  for (int i = 0; i < table.materials * receivers; i += lanes) store(0, view.tallies + i);
-  // Kept here: for all the compiler knows, a tally might be where these are.
-  const Shaft to = shaft;
-  const int *const list = view.other, *const materials = table.walls->material;
-  float* const tallies = view.tallies;
-  const SeenBlock& seen = *view.seen;
-  const float *const all_ax = seen.ax, *const all_ay = seen.ay, *const all_bx = seen.bx, *const all_by = seen.by;
-  const float *const areas = seen.area, *const all_surely = seen.surely, *const all_perhaps = seen.perhaps;
-  for (int i = 0; i < walls; ++i) {
-    const int wall = list[i];
-    const float ax = all_ax[wall], ay = all_ay[wall], bx = all_bx[wall], by = all_by[wall], area = areas[wall];
-    const float surely = all_surely[wall], perhaps = all_perhaps[wall];
-    float* const tally = tallies + materials[wall] * receivers;
-    Mask doubtful[parts], any(false);
-    for (int part = 0; part < parts; ++part) {
-      const Floats from_a = to.x[part] * ay - to.y[part] * ax, from_b = to.y[part] * bx - to.x[part] * by;
-      const Floats decides = max(max(from_a, from_b), from_a + from_b + area);
-      const Mask crossed = decides <= surely;
-      doubtful[part] = (decides < perhaps) ^ crossed;
-      any = any || doubtful[part];
-      Floats sum = load(tally + part * lanes);
-      stdx::where(crossed, sum) += 1;
-      store(sum, tally + part * lanes);
-    }
-    if (stdx::none_of(any)) continue;
-    *doubts = {wall / stride * block + wall % stride, 0};
-    for (int part = 0; part < parts; ++part) doubts->lanes |= bits(doubtful[part]) << (part * lanes);
-    ++doubts;
-  }
-  for (int i = 0; i < table.materials * receivers; i += lanes) {
-    stdx::static_simd_cast<Integers>(load(tallies + i)).copy_to(counts + i, stdx::element_aligned);
-  }
+  doubts = count_half(table, view, shaft, 0, view.other, end[0], counts, doubts);
+  doubts = count_half(table, view, shaft, 1, view.third, end[1], counts, doubts);
   return static_cast<int>(doubts - first);
 }
 

@@ -45,9 +45,8 @@ static_assert(sizeof(SeenBlock) == sizeof(WallBlock), "one offset serves both");
 struct WallView {
   float x, y, z;
   SeenBlock* seen;
-  std::uint16_t* unsure;  // of each block, the walls of which it must be worked out exactly which side is left
-  int *one, *other;       // scratch: lists of boxes or walls, of 16 x blocks + 16
-  float* tallies;         // scratch: 32 for each material, aligned
+  std::uint16_t* unsure;     // of each block, the walls of which it must be worked out exactly which side is left
+  int *one, *other, *third;  // scratch: lists of boxes or walls, of 16 x blocks + 16
 };
 
 // Lanes in which rounding leaves open whether the wall is crossed, or height or a door may decide.
@@ -60,8 +59,9 @@ struct WallKernel {
   const char* name;
   // Fills what a view sees from its x and y, but for the scratch.
   void (*look)(const WallTable&, WallView&);
-  // The walls from the view's radio to 32 receivers: fills counts[material x 32 + receiver] and returns the number of
-  // doubts, at most one a wall.
+  // The walls from the view's radio to 32 receivers: fills counts[material x 32 + receiver], aligned as
+  // blocks are, and returns the number of
+  // doubts, at most two a wall.
   int (*count)(const WallTable&, const WallView&, const float* x, const float* y, const float* z, int* counts,
                Doubt* doubts);
   // The same for one link, added to counts[material], from the view's radio, without having looked. Each doubt is of a
