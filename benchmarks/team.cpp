@@ -1,0 +1,83 @@
+// What a team of three kinds costs that moves and talks (worlds/mixed_team): 20 Scarabs, 5 hexapods and 5 quadrotors,
+// 30 radios on one channel. Goal (the project's): 20 times as fast as real time on two cores. Counters: real_time,
+// simulated over CPU time, which two workers share; us_tick, of CPU time.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <ctime>
+#include <stdexcept>
+#include <vector>
+
+#include "kernel/simulation.hpp"
+
+namespace {
+
+using namespace muster;
+
+constexpr double goal = 20;
+
+double cpu_seconds() {
+  timespec now;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+void require(bool holds, const char* what) {
+  if (!holds) throw std::logic_error(what);
+}
+
+struct Place {
+  double x, y;
+};
+
+std::vector<Place> places(const Simulation& run) {
+  const TableView pose = run.table("robot/*/pose");
+  std::vector<Place> result;
+  for (std::size_t i = 0; i < pose.rows(); ++i) result.push_back({pose.at(i, 0), pose.at(i, 1)});
+  return result;
+}
+
+// Everybody went somewhere, and what became of each copy of a message is known, but for those in the air.
+void check(const Simulation& run, const std::vector<Place>& before) {
+  const std::vector<Place> now = places(run);
+  for (std::size_t i = 0; i < now.size(); ++i)
+    require(std::hypot(now[i].x - before[i].x, now[i].y - before[i].y) > 0.05, "a robot stands still");
+  const TableView traffic = run.table("radio/*/traffic");
+  double asked = 0, known = 0;
+  for (std::size_t i = 0; i < traffic.rows(); ++i) {
+    asked += traffic.at(i, 0);
+    for (std::size_t c = 1; c < traffic.cols(); ++c) known += traffic.at(i, c);
+  }
+  require(asked > 0 && known <= asked && known > 0.99 * asked, "copies of messages are lost without a word");
+}
+
+void mixed_team(benchmark::State& state) {
+  const auto workers = static_cast<int>(state.range(0));
+  double seconds = 0, simulated = 0, ticks = 0;
+  for (auto _ : state) {
+    const Standard known = standard();
+    Simulation run(read_world(MUSTER_SOURCE_DIR "/worlds/mixed_team", known), known,
+                   {{MUSTER_PLUGINS_DIR}, workers, {}});
+    run.step();
+    const std::vector<Place> before = places(run);
+    const double from = run.time(), start = cpu_seconds();
+    for (; !run.done(); ++ticks) run.step();
+    seconds += cpu_seconds() - start;
+    simulated += run.time() - from;
+    check(run, before);
+  }
+  state.counters["us_tick"] = 1e6 * seconds / ticks;
+  state.counters["real_time"] = simulated / seconds;
+  state.counters["of_goal"] = simulated / seconds / goal;
+}
+BENCHMARK(mixed_team)
+    ->ArgName("workers")
+    ->Arg(1)
+    ->Arg(2)
+    ->Unit(benchmark::kSecond)
+    ->Iterations(2)
+    ->MeasureProcessCPUTime();
+
+}  // namespace
+
+BENCHMARK_MAIN();
