@@ -1,4 +1,5 @@
 // Attitude and thrust from a table, as a pilot's record has them.
+#include <limits>
 #include <muster/plugin.hpp>
 
 namespace {
@@ -33,7 +34,7 @@ struct ControlAttitude {
     const double tick = k.time() / static_cast<double>(k.tick());
     const double now = k.time() - tick / 2;  // commands hold over the tick: of two, the one for most of it
     *k[command] = {0, 0, 0, 0};
-    double last = -1;
+    double last = -std::numeric_limits<double>::infinity();
     std::size_t number = 0;
     for (const Row& row : k[commands]) {
       ++number;
