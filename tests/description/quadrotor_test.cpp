@@ -158,8 +158,9 @@ TEST(Abilities, WhatIsLackingIsListed) {
   driven.drive->right = driven.drive->left;
   EXPECT_EQ(lacking(driven, all), "joint 'right_wheel_joint' that moves");
   driven.drive.reset();
-  EXPECT_EQ(lacking(driven, Ability::wheels | Ability::joints),
-            "motion without a drive (its model has no <muster><differential .../></muster>, <quadrotor .../> or <legs>)");
+  EXPECT_EQ(
+      lacking(driven, Ability::wheels | Ability::joints),
+      "motion without a drive (its model has no <muster><differential .../></muster>, <quadrotor .../> or <legs>)");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "description/abilities.hpp"
 #include "description/robot.hpp"
 #include "files.hpp"
 
@@ -35,6 +36,9 @@ TEST(Urdf, RdkHasThePapersFigures) {
   EXPECT_EQ(box.size.z(), 0.1);
   EXPECT_NEAR(robot.legs->track() + 0.02, 0.3, 1e-12);  // legs are 2 cm wide
   EXPECT_FALSE(robot.legs->is_rigid());
+  const Ability rolls = Ability::wheels | Ability::rotors;
+  EXPECT_EQ(lacking(robot, rolls), "legs (<legs>), changes of height, roll and pitch");
+  EXPECT_EQ(lacking(robot, rolls | Ability::legs | Ability::height | Ability::tilting), "");
   for (std::size_t i = 0; i < LegDrive::count; ++i) {
     const LegDrive::Leg &leg = robot.legs->legs[i], &beside = robot.legs->legs[(i + 3) % 6];
     EXPECT_NE(leg.tripod, beside.tripod);
@@ -47,7 +51,8 @@ TEST(Urdf, RdkHasThePapersFigures) {
 TEST(Urdf, NoPointOfALegLiesBelowItsLowest) {
   const LegDrive drive = *read_robot(MUSTER_SOURCE_DIR "/plugins/robots/models/rdk.urdf").legs;
   for (int trial = 0; trial < 200; ++trial) {
-    const Eigen::Vector3d up = Eigen::Vector3d(std::sin(trial), std::sin(2.3 * trial), std::cos(3.7 * trial)).normalized();
+    const Eigen::Vector3d up =
+        Eigen::Vector3d(std::sin(trial), std::sin(2.3 * trial), std::cos(3.7 * trial)).normalized();
     const double angle = 0.1 * trial;
     double lowest = 1e9;
     for (int k = 0; k <= 10000; ++k)
