@@ -4,7 +4,7 @@
 // torque grow with the square of a rotor's rate, which follows what is asked as a lag of first order (Powers,
 // Mellinger, Kumar: Quadrotor kinematics and dynamics. Handbook of Unmanned Aerial Vehicles, 2015). Air that comes from
 // the side drags at a rotor in proportion to its rate (Martin, Salaun: The true role of accelerometer feedback in
-// quadrotor control. ICRA 2010). Rotors weigh nothing of their own and do not flap.
+// quadrotor control. ICRA 2010). Rotors have no angular momentum of their own and do not flap.
 #pragma once
 
 #include <Eigen/Core>

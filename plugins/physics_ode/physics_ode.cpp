@@ -41,6 +41,7 @@ struct PhysicsOde {
       "are obstacles (obstacles=\"false\": the ground alone is), where meshes, cylinders and wheels count as boxes.\n"
       "solver: exact is dWorldStep; quick is dWorldQuickStep with `iterations`: with 50 at a step of 1 ms what Gazebo\n"
       "uses. exact is of second order. robot/*/hinged is what wheels are off their hinges by: ODE goes on from it.\n"
+      "Rotors are forces on the body, of first order. "
       "self/complaints counts ODE's messages, such as a contact that its exact solver could not settle.\n"
       "Not modelled: wheels as discs on the ground, rolling resistance, shapes other than boxes and spheres.";
   static constexpr auto phase = MUSTER_PHYSICS;

@@ -42,7 +42,11 @@ struct PhysicsSimbody {
       "cpodes (adaptive) are Simbody's own on rolling constraints, as reference: no slip, no lift, no torque limit, no "
       "walls and\n"
       "no other robots.\n"
-      "Not modelled: wheels as discs on the ground (they stand on it as spheres would), rolling resistance, bouncing.";
+      "Robots with rotors that can touch nothing in a step fly by Runge and Kutta's fourth order; robot/*/rotors are "
+      "their\n"
+      "rotors as they turn.\n"
+      "Not modelled: wheels as discs on the ground (they stand on it as spheres would), rolling resistance, bouncing,\n"
+      "downwash and ground effect of rotors.";
   static constexpr auto phase = MUSTER_PHYSICS;
   static constexpr auto abilities = description::Ability::wheels | description::Ability::rotors |
                                     description::Ability::height | description::Ability::tilting;

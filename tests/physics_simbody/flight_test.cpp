@@ -124,21 +124,65 @@ TEST(Flight, IsOfFourthOrder) {
   EXPECT_NEAR(std::log2(errors[1] / errors[2]), 4, 0.3) << errors[1] << " " << errors[2];
 }
 
-// Four rotors that speed up from rest: thrust by their lag's square, so that the climb is a sum of exponentials.
-TEST(Flight, ClimbsAsItsRotorsSpeedUp) {
+// Four rotors that speed up from rest: thrust by their lag's square, so that the climb is a sum of exponentials. Steps
+// of eight lags do not miss any of it.
+TEST(Flight, ClimbsAsItsRotorsSpeedUpWhateverTheStep) {
   const description::Robot& robot = hummingbird();
   const auto& drive = *robot.quadrotor;
-  RobotState start = at_rest(0, 0, 0);
-  start.pose[2] = 10;
-  Fleet run({start}, robot);
   const double rate = 500, t = 0.5, lag = drive.lag_up, mass = whole_mass(robot).mass;
-  for (int k = 0; k < 50; ++k) run.tick(0.01, {rotors(rate, rate, rate, rate)});
   // Twice the integral of (1 - exp(-t / lag))^2.
   const double rise = t * t / 2 - 2 * lag * (t - lag * (1 - std::exp(-t / lag))) +
                       lag / 2 * (t - lag / 2 * (1 - std::exp(-2 * t / lag)));
-  EXPECT_NEAR(run.states[0].pose[2], 10 + 4 * drive.thrust_factor * rate * rate / mass * rise - gravity * t * t / 2,
-              1e-6);
-  EXPECT_NEAR(run.states[0].rotors[2], rate * (1 - std::exp(-t / lag)), 1e-9);
+  for (const double step : {0.1, 0.01, 0.001}) {
+    RobotState start = at_rest(0, 0, 0);
+    start.pose[2] = 10;
+    Fleet run({start}, robot, Integrator::midpoint, step);
+    for (int k = 0; k < 5; ++k) run.tick(0.1, {rotors(rate, rate, rate, rate)});
+    EXPECT_NEAR(run.states[0].pose[2], 10 + 4 * drive.thrust_factor * rate * rate / mass * rise - gravity * t * t / 2,
+                1e-7)
+        << step;
+    EXPECT_NEAR(run.states[0].rotors[2], rate * (1 - std::exp(-t / lag)), 1e-9) << step;
+  }
+}
+
+// It leaves the ground when its thrust passes its weight; from then on its velocity is the sum of what they differ by,
+// whichever method moved it.
+TEST(Flight, TakesOffWhenThrustPassesWeight) {
+  const auto& drive = *hummingbird().quadrotor;
+  const double mass = whole_mass(hummingbird()).mass, rate = 480;
+  const auto excess = [&](double t) {
+    const double now = rate * (1 - std::exp(-t / drive.lag_up));
+    return std::max(0.0, 4 * drive.thrust_factor * now * now / mass - gravity);
+  };
+  double velocity = 0;
+  for (int k = 0; k < 100000; ++k) velocity += 5e-6 * excess((k + 0.5) * 5e-6);
+  RobotState standing = at_rest(0, 0, 0);
+  standing.pose[2] = 0.06;
+  Fleet run({standing}, hummingbird());
+  for (int k = 0; k < 100; ++k) run.tick(0.01, {rotors(0, 0, 0, 0)});
+  for (int k = 0; k < 50; ++k) run.tick(0.01, {rotors(rate, rate, rate, rate)});
+  EXPECT_NEAR(run.states[0].twist[2], velocity, 1e-3 * velocity);
+}
+
+// After a contact velocities stand half a step before: the same as if they stood for the instant.
+TEST(Flight, TakesUpVelocitiesOfHalfAStepBefore) {
+  const description::Robot robot = uneven(0);
+  Flight flight(whole_mass(robot), *robot.quadrotor);
+  RobotState now = in_the_air();
+  now.rotors = {450, 460, 470, 455};
+  const double h = 0.01;
+  const auto change = flight.change(turn_of(now).toRotationMatrix(), {1, -2, 3}, {0, 0, 0}, Flight::spin(now.rotors));
+  RobotState before = now;
+  before.memory.previous_step = h;
+  const Vector3d turning = turn_of(now) * change.w,
+                 v = change.v - turning.cross(turn_of(now) * whole_mass(robot).centre);
+  for (int k = 0; k < 3; ++k) before.twist[k] -= h / 2 * v[k], before.twist[3 + k] -= h / 2 * turning[k];
+  flight.step(h, now.rotors, now);
+  flight.step(h, before.rotors, before);
+  EXPECT_LT((place_of(before) - place_of(now)).norm(), 1e-6);
+  EXPECT_LT((spin_of(before) - spin_of(now)).norm(), 1e-3);
+  EXPECT_GT(turning.norm() * h / 2, 5e-3);
+  EXPECT_EQ(before.memory.previous_step, 0);
 }
 
 TEST(Flight, DroppedItStandsOnTheGroundAndTakesOffAgain) {

@@ -183,6 +183,15 @@ TEST(Attitude, NobodysRobotAndNoThrustLeaveRotorsAtRest) {
   }
 }
 
+TEST(Attitude, IntegralsDoNotWindUpWhileRotorsStand) {
+  const Folder folder;
+  commanded(folder, {}, "0,0,0", "0.01");
+  folder.write("steps.csv", "t[s],cmd_thrust[N],cmd_roll[rad],cmd_pitch[rad],cmd_yaw_rate[rad/s]\n0,0,0.2,0,1\n");
+  Simulation run(read_world(folder / "world.xml", standard()), standard(), options());
+  for (int k = 0; k < 20; ++k) run.step();
+  for (unsigned c = 0; c < 3; ++c) EXPECT_EQ(run.table("robot/r/attitude_integral").at(0, c), 0);
+}
+
 TEST(Attitude, CommandsMustRiseInTime) {
   const Folder folder;
   commanded(folder, {}, "0,0,0", "0.01");
