@@ -44,9 +44,11 @@ TEST(Ladder, TakesAwayWhatMakesAChannelHard) {
 TEST(Ladder, ShowsMessagesAndMovesWhereNothingElseIsAskedFor) {
   const CompareFolder folder;
   folder.write("way.csv", "x[m],y[m]\n100,0\n");
-  folder.write("world.xml",
-               calling_world("<network.ideal/><control.beacon radio=\"a\"/><robot name=\"r\" at=\"0 3 0\"/><physics.planar name=\"p\"/>"
-                             "<control.waypoint robot=\"r\" path=\"way.csv\" speed=\"0.3\"/>"));
+  folder.write(
+      "world.xml",
+      calling_world(
+          "<network.ideal/><control.beacon radio=\"a\"/><robot name=\"r\" at=\"0 3 0\"/><physics.planar name=\"p\"/>"
+          "<control.waypoint robot=\"r\" path=\"way.csv\" speed=\"0.3\"/>"));
   const auto told = folder.json({"--ladder", "world.xml", "--out", "out"});
   EXPECT_EQ(told["rungs"][0]["metrics"][0]["name"], "moved");
   EXPECT_EQ(told["rungs"][0]["metrics"][1]["name"], "delivered");
