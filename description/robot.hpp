@@ -11,6 +11,8 @@
 #include <variant>
 #include <vector>
 
+#include "description/quadrotor.hpp"
+
 namespace muster::description {
 
 // Mass properties in the frame of a link.
@@ -95,6 +97,7 @@ struct Robot {
   std::vector<Link> links;    // parents before children; the first is the root, whose frame is the robot's
   std::vector<Joint> joints;  // one for each link but the root: joints[i].child == i + 1
   std::optional<DifferentialDrive> drive;
+  std::optional<Quadrotor> quadrotor;
   std::vector<std::string> warnings;  // one line each, for the user
 };
 

@@ -32,10 +32,13 @@ void parse_urdf(const Source& source, const std::string& text, tinyxml2::XMLDocu
 // Every number strictly a number, every needed attribute there, links a tree.
 Outline check_urdf(const Source& source, const tinyxml2::XMLElement& robot);
 
-// <muster><differential .../></muster>, if there is one; the robot's links and joints are there already.
+// The one drive in <muster>, if there is one; the robot's links and joints are there already.
 void read_drive(const Source& source, const tinyxml2::XMLElement& element, Robot& robot);
+Quadrotor read_quadrotor(const Source& source, const tinyxml2::XMLElement& element, const Robot& robot);
 
-// An attribute that must be there and not empty.
+// An attribute that must be there and not empty; one that must be a number above 0; those that may be there.
 std::string required(const Source& source, const tinyxml2::XMLElement& element, const char* attribute);
+double positive(const Source& source, const tinyxml2::XMLElement& element, const char* attribute);
+void only_attributes(const Source& source, const tinyxml2::XMLElement& element, const std::vector<std::string>& known);
 
 }  // namespace muster::description

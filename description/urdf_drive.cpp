@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "description/file_text.hpp"
@@ -10,16 +11,6 @@ using tinyxml2::XMLElement;
 namespace {
 
 constexpr double placement_tolerance = 1e-4;  // [m]: a drive that contradicts the joints by more is a mistake
-
-double positive(const Source& source, const XMLElement& element, const char* attribute) {
-  const std::string text = required(source, element, attribute);
-  const auto value = parse_number(text);
-  if (!value || !(*value > 0)) {
-    source.fail(element.GetLineNum(),
-                std::string("<differential> ") + attribute + "=\"" + text + "\" is wrong; expected a number above 0");
-  }
-  return *value;
-}
 
 std::size_t find_joint(const Source& source, const XMLElement& element, const char* attribute, const Robot& robot) {
   const std::string name = required(source, element, attribute);
@@ -61,40 +52,57 @@ void check_wheel(const Source& source, int line, const Robot& robot, std::size_t
   }
 }
 
+DifferentialDrive read_differential(const Source& source, const XMLElement& element, const Robot& robot) {
+  only_attributes(
+      source, element,
+      {"left", "right", "wheel_radius", "wheel_base", "max_torque", "max_speed", "max_acceleration", "friction"});
+  DifferentialDrive drive;
+  drive.left = find_joint(source, element, "left", robot);
+  drive.right = find_joint(source, element, "right", robot);
+  drive.wheel_radius = positive(source, element, "wheel_radius");
+  drive.wheel_base = positive(source, element, "wheel_base");
+  drive.max_torque = positive(source, element, "max_torque");
+  drive.max_speed = positive(source, element, "max_speed");
+  if (element.Attribute("max_acceleration")) drive.max_acceleration = positive(source, element, "max_acceleration");
+  drive.friction = positive(source, element, "friction");
+  Eigen::Vector3d left, right;
+  check_wheel(source, element.GetLineNum(), robot, drive.left, drive.wheel_base / 2, left);
+  check_wheel(source, element.GetLineNum(), robot, drive.right, -drive.wheel_base / 2, right);
+  if (std::hypot(left.x() - right.x(), left.z() - right.z()) > placement_tolerance) {
+    source.fail(element.GetLineNum(), "<differential> the wheels are not on one axle");
+  }
+  return drive;
+}
+
 }  // namespace
+
+double positive(const Source& source, const XMLElement& element, const char* attribute) {
+  const std::string text = required(source, element, attribute);
+  const auto value = parse_number(text);
+  if (!value || !(*value > 0)) {
+    source.fail(element.GetLineNum(), std::string("<") + element.Name() + "> " + attribute + "=\"" + text +
+                                          "\" is wrong; expected a number above 0");
+  }
+  return *value;
+}
+
+void only_attributes(const Source& source, const XMLElement& element, const std::vector<std::string>& known) {
+  for (const auto* attribute = element.FirstAttribute(); attribute; attribute = attribute->Next()) {
+    if (std::find(known.begin(), known.end(), attribute->Name()) != known.end()) continue;
+    source.fail(element.GetLineNum(), std::string("<") + element.Name() + "> has no attribute '" + attribute->Name() +
+                                          "'" + nearest(attribute->Name(), known));
+  }
+}
 
 void read_drive(const Source& source, const XMLElement& muster, Robot& robot) {
   for (const auto* child = muster.FirstChildElement(); child; child = child->NextSiblingElement()) {
-    if (child->Name() != std::string("differential")) {
-      source.fail(child->GetLineNum(), std::string("<") + child->Name() + "> is not a drive; expected <differential>");
+    const std::string name = child->Name();
+    if (name != "differential" && name != "quadrotor") {
+      source.fail(child->GetLineNum(), "<" + name + "> is not a drive; expected <differential> or <quadrotor>");
     }
-    if (robot.drive) source.fail(child->GetLineNum(), "has a second drive");
-    const std::vector<std::string> known = {"left",       "right",     "wheel_radius",     "wheel_base",
-                                            "max_torque", "max_speed", "max_acceleration", "friction"};
-    for (const auto* attribute = child->FirstAttribute(); attribute; attribute = attribute->Next()) {
-      bool is_known = false;
-      for (const auto& name : known) is_known = is_known || name == attribute->Name();
-      if (!is_known) {
-        source.fail(child->GetLineNum(), std::string("<differential> has no attribute '") + attribute->Name() + "'" +
-                                             nearest(attribute->Name(), known));
-      }
-    }
-    DifferentialDrive drive;
-    drive.left = find_joint(source, *child, "left", robot);
-    drive.right = find_joint(source, *child, "right", robot);
-    drive.wheel_radius = positive(source, *child, "wheel_radius");
-    drive.wheel_base = positive(source, *child, "wheel_base");
-    drive.max_torque = positive(source, *child, "max_torque");
-    drive.max_speed = positive(source, *child, "max_speed");
-    if (child->Attribute("max_acceleration")) drive.max_acceleration = positive(source, *child, "max_acceleration");
-    drive.friction = positive(source, *child, "friction");
-    Eigen::Vector3d left, right;
-    check_wheel(source, child->GetLineNum(), robot, drive.left, drive.wheel_base / 2, left);
-    check_wheel(source, child->GetLineNum(), robot, drive.right, -drive.wheel_base / 2, right);
-    if (std::hypot(left.x() - right.x(), left.z() - right.z()) > placement_tolerance) {
-      source.fail(child->GetLineNum(), "<differential> the wheels are not on one axle");
-    }
-    robot.drive = drive;
+    if (robot.drive || robot.quadrotor) source.fail(child->GetLineNum(), "has a second drive");
+    if (name == "differential") robot.drive = read_differential(source, *child, robot);
+    if (name == "quadrotor") robot.quadrotor = read_quadrotor(source, *child, robot);
   }
 }
 

@@ -1,13 +1,14 @@
 // The descriptions of a world's robots, for plugins: the only header here that knows the plugin contract.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <muster/plugin.hpp>
 #include <string>
 #include <vector>
 
-#include "description/robot.hpp"
+#include "description/abilities.hpp"
 
 namespace muster::description {
 
@@ -48,6 +49,30 @@ class WorldRobots {
   const DifferentialDrive* drive_of(double model) const {
     const Robot* robot = of(model);
     return robot && robot->drive ? &*robot->drive : nullptr;
+  }
+
+  const Quadrotor* quadrotor_of(double model) const {
+    const Robot* robot = of(model);
+    return robot && robot->quadrotor ? &*robot->quadrotor : nullptr;
+  }
+  bool any_quadrotor() const {
+    return std::any_of(robots_.begin(), robots_.end(), [](const auto& robot) { return robot && robot->quadrotor; });
+  }
+
+  // For backends: throws BadInput with all that robots need and `have` lacks, a robot of each model named.
+  void require(Ability have, const Setup& setup) const {
+    std::string list;
+    std::vector<const Robot*> seen;
+    for (std::size_t row = 0; row < robots_.size(); ++row) {
+      const Robot* robot = robots_[row].get();
+      if (!robot || std::find(seen.begin(), seen.end(), robot) != seen.end()) continue;
+      seen.push_back(robot);
+      const std::string lack = lacking(*robot, have);
+      if (lack.empty()) continue;
+      const std::string name = setup.host()->row_name(setup.host(), "robot", static_cast<uint32_t>(row));
+      list += (list.empty() ? "robot '" : "; robot '") + name + "' (model '" + robot->name + "') needs " + lack;
+    }
+    if (!list.empty()) throw BadInput("it lacks what the world's robots need: " + list);
   }
 
   std::size_t size() const { return robots_.size(); }

@@ -39,6 +39,38 @@ struct Odometry {
   double x, y, yaw, v, w;
 };
 
+// What a controller asks of a robot that flies (attitude_thrust): the sum of its rotors' thrusts, roll and pitch of its
+// body (about x, then y, of axes that have its heading), and its turn rate about its own z axis.
+struct AttitudeThrust {
+  static constexpr const char* columns = "thrust[N] roll[rad] pitch[rad] yaw_rate[rad/s]";
+  double thrust, roll, pitch, yaw_rate;
+};
+
+// A velocity asked for in the world's frame, how it is about to change anyway, and a turn rate.
+struct Velocity3d {
+  static constexpr const char* columns = "vx[m/s] vy[m/s] vz[m/s] yaw_rate[rad/s] ax[m/s2] ay[m/s2] az[m/s2]";
+  double vx, vy, vz, yaw_rate, ax, ay, az;
+};
+
+// Where a robot is seen to be and how fast it goes (Player's position3d): roll, pitch, yaw turn it about x, y and z, in
+// this order; the velocity is in the world's frame.
+struct Position3d {
+  static constexpr const char* columns = "x[m] y[m] z[m] roll[rad] pitch[rad] yaw[rad] vx[m/s] vy[m/s] vz[m/s]";
+  double x, y, z, roll, pitch, yaw, vx, vy, vz;
+};
+
+// Rates asked of four rotors, held over the tick.
+struct RotorDrive {
+  static constexpr const char* columns = "front[rad/s] left[rad/s] back[rad/s] right[rad/s]";
+  double front, left, back, right;
+};
+
+// Rotors as they turn.
+struct Rotors {
+  static constexpr const char* columns = "front[rad/s] left[rad/s] back[rad/s] right[rad/s]";
+  double front, left, back, right;
+};
+
 struct Loss {
   static constexpr const char* columns = "loss[dB]";
   double loss;
@@ -111,11 +143,10 @@ struct Incoming {
   double radio, from, rssi, t_sent, t_received, lqi, payload;
 };
 
-// What became of a radio's requests: copies asked for (one a receiver of a broadcast) and their outcomes; those that are
-// still under way are the rest. Which outcomes there are is the network's affair.
+// What became of a radio's requests: copies asked for (one a receiver of a broadcast) and their outcomes; those that
+// are still under way are the rest. Which outcomes there are is the network's affair.
 struct Traffic {
-  static constexpr const char* columns =
-      "asked delivered too_weak no_link collided no_access queue_full no_ack gone";
+  static constexpr const char* columns = "asked delivered too_weak no_link collided no_access queue_full no_ack gone";
   double asked, delivered, too_weak, no_link, collided, no_access, queue_full, no_ack, gone;
 };
 

@@ -1,6 +1,7 @@
 #include "model.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <stdexcept>
 
 namespace muster::ode {
@@ -17,16 +18,19 @@ constexpr double thinnest = 1e-3;  // [m] of a block: ODE takes no flat ones
 bool has_inertia(const description::Mass& mass) { return mass.mass > 0 && mass.inertia.llt().info() == Eigen::Success; }
 
 std::vector<std::string> lacks(const Robot& robot) {
-  if (!robot.drive) return {"it has no <muster><differential .../></muster> drive"};
+  if (!robot.drive && !robot.quadrotor)
+    return {"it has neither a <muster><differential .../></muster> drive nor a <quadrotor .../>"};
   std::vector<std::string> result;
-  const auto& drive = *robot.drive;
+  std::vector<std::size_t> wheels;
+  if (robot.drive) wheels = {robot.drive->left, robot.drive->right};
   for (std::size_t i = 0; i < robot.joints.size(); ++i) {
-    if (i != drive.left && i != drive.right && robot.joints[i].kind != description::JointKind::fixed) {
+    const bool is_wheel = std::find(wheels.begin(), wheels.end(), i) != wheels.end();
+    if (!is_wheel && robot.joints[i].kind != description::JointKind::fixed) {
       result.push_back("joint '" + robot.joints[i].name + "' moves and is no wheel of its drive");
     }
   }
   if (!has_inertia(rigid_mass(robot, 0))) result.push_back("its body has no mass or inertia");
-  for (const std::size_t joint : {drive.left, drive.right}) {
+  for (const std::size_t joint : wheels) {
     if (has_inertia(rigid_mass(robot, robot.joints[joint].child))) continue;
     result.push_back("the wheel of joint '" + robot.joints[joint].name + "' has no mass or inertia");
   }
@@ -70,7 +74,8 @@ RobotModel::RobotModel(const Robot& robot) {
     throw std::runtime_error("robot model '" + robot.name + "' (" + robot.file +
                              ") cannot be simulated by physics.ode: " + list);
   }
-  drive = *robot.drive;
+  has_wheels = robot.drive.has_value();
+  rotors = robot.quadrotor;
   body = rigid_mass(robot, 0);
   for (const Shape& shape : rigid_shapes(robot, 0)) {
     if (const auto* sphere = std::get_if<description::Sphere>(&shape.geometry)) {
@@ -79,6 +84,8 @@ RobotModel::RobotModel(const Robot& robot) {
       blocks.push_back(block_of(shape, Isometry3d::Identity(), false));
     }
   }
+  if (!has_wheels) return;
+  drive = *robot.drive;
   const std::size_t joints[] = {drive.left, drive.right};
   for (std::size_t w = 0; w < 2; ++w) {
     wheel[w] = wheel_of(robot, joints[w]);

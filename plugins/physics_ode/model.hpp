@@ -1,4 +1,5 @@
-// What of a robot ODE is given: a rigid body, two wheels that hinge on it, and shapes that touch.
+// What of a robot ODE is given: a rigid body, two wheels that hinge on it or rotors that lift it, and shapes that
+// touch.
 #pragma once
 
 #include <string>
@@ -31,7 +32,9 @@ struct RobotModel {
   // Throws std::runtime_error that lists all that this backend lacks for the robot.
   explicit RobotModel(const description::Robot& robot);
 
+  bool has_wheels = true;  // else what is said of them below is nothing
   description::DifferentialDrive drive;
+  std::optional<description::Quadrotor> rotors;
   description::Mass body;  // all that is rigid with the root, in its frame
   std::array<Wheel, 2> wheel;
   std::vector<Slider> sliders;

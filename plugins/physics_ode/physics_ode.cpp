@@ -41,9 +41,12 @@ struct PhysicsOde {
       "are obstacles (obstacles=\"false\": the ground alone is), where meshes, cylinders and wheels count as boxes.\n"
       "solver: exact is dWorldStep; quick is dWorldQuickStep with `iterations`: with 50 at a step of 1 ms what Gazebo\n"
       "uses. exact is of second order. robot/*/hinged is what wheels are off their hinges by: ODE goes on from it.\n"
+      "Rotors are forces on the body, of first order. "
       "self/complaints counts ODE's messages, such as a contact that its exact solver could not settle.\n"
       "Not modelled: wheels as discs on the ground, rolling resistance, shapes other than boxes and spheres.";
   static constexpr auto phase = MUSTER_PHYSICS;
+  static constexpr auto abilities = description::Ability::wheels | description::Ability::rotors |
+                                    description::Ability::height | description::Ability::tilting;
   static constexpr Param params[] = {
       real("step", 0.001, 1e-6, 0.1, "s", "longest step inside a tick"),
       choice("solver", "exact|quick", "dWorldStep or dWorldQuickStep"),
@@ -65,6 +68,7 @@ struct PhysicsOde {
         obstacles(s.value("obstacles")),
         shuffle(s.stream("ode_quickstep")),
         robots(s, description::Meshes::import),
+        flies(robots.any_quadrotor()),
         drive(s.read<Drive>("robot/*/drive")),
         walls(s.read<Wall>("wall/*/shape")),
         doors(s.read<Door>("door/*/shape")),
@@ -75,6 +79,11 @@ struct PhysicsOde {
         model(s.write<Model>("robot/*/body")),
         hinged(s.write<Hinged>("robot/*/hinged")),
         complained(s.write<Complained>("self/complaints")) {
+    robots.require(abilities, s);
+    if (flies) {
+      rotor_drive = s.read<RotorDrive>("robot/*/rotor_drive");
+      rotors = s.write<Rotors>("robot/*/rotors");
+    }
     for (std::size_t row = 0; row < robots.size(); ++row) {
       made.rows.push_back(row);
       made.models.push_back(WorldRobots::model_of(0, row));
@@ -119,6 +128,7 @@ struct PhysicsOde {
       k[twist][i] = k.last(twist)[i];
       k[wheels][i] = k.last(wheels)[i];
       k[hinged][i] = k.last(hinged)[i];
+      if (flies) k[rotors][i] = k.last(rotors)[i];
       k[model][i].model = WorldRobots::model_of(k.last(model)[i].model, i);
       if (!k.alive("robot", i)) continue;
       now.rows.push_back(i);
@@ -158,6 +168,10 @@ struct PhysicsOde {
       if (row < asked.size()) {
         commands[i] = {asked[row].left, asked[row].right, asked[row].left_rate, asked[row].right_rate};
       }
+      if (flies && row < k[rotor_drive].size()) {
+        const RotorDrive& r = k[rotor_drive][row];
+        commands[i].rotors = {r.front, r.left, r.back, r.right};
+      }
     }
     const auto seed = static_cast<unsigned long>(shuffle.uniform(k.tick()) * 0x1p32);
     report(k, world->step(k.dt(), commands, states, seed));
@@ -174,11 +188,16 @@ struct PhysicsOde {
     const Pose& p = k.last(pose)[row];
     const Twist& t = k.last(twist)[row];
     const Wheels& w = k.last(wheels)[row];
-    return {{p.x, p.y, p.z, p.qw, p.qx, p.qy, p.qz},
-            {t.vx, t.vy, t.vz, t.wx, t.wy, t.wz},
-            {w.left, w.right},
-            {w.left_rate, w.right_rate},
-            k.last(hinged)[row].wheel};
+    ode::RobotState s{{p.x, p.y, p.z, p.qw, p.qx, p.qy, p.qz},
+                      {t.vx, t.vy, t.vz, t.wx, t.wy, t.wz},
+                      {w.left, w.right},
+                      {w.left_rate, w.right_rate},
+                      k.last(hinged)[row].wheel};
+    if (flies) {
+      const Rotors& r = k.last(rotors)[row];
+      s.rotors = {r.front, r.left, r.back, r.right};
+    }
+    return s;
   }
 
   void spread(const Step& k, std::size_t row, const ode::RobotState& s) const {
@@ -188,18 +207,22 @@ struct PhysicsOde {
     k[twist][row] = {t[0], t[1], t[2], t[3], t[4], t[5]};
     k[wheels][row] = {s.angle[0], s.angle[1], s.rate[0], s.rate[1]};
     k[hinged][row].wheel = s.hinged;
+    if (flies) k[rotors][row] = {s.rotors[0], s.rotors[1], s.rotors[2], s.rotors[3]};
   }
 
   Value step_size, solver, iterations, over_relaxation, erp, cfm, friction, obstacles;
   Stream shuffle;
   WorldRobots robots;
+  bool flies;  // some robots have rotors; else nothing is claimed about them
   In<Drive> drive;
+  In<RotorDrive> rotor_drive{};
   In<Wall> walls;
   In<Door> doors;
   In<DoorState> door_states;
   Out<Pose> pose;
   Out<Twist> twist;
   Out<Wheels> wheels;
+  Out<Rotors> rotors{};
   Out<Model> model;
   Out<Hinged> hinged;
   Out<Complained> complained;

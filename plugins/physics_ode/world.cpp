@@ -83,7 +83,7 @@ void World::add(Robot& robot) {
     return made;
   };
   robot.body = body(robot.model.body, robot.model.body.centre, Quaterniond::Identity());
-  for (std::size_t w = 0; w < 2; ++w) {
+  for (std::size_t w = 0; robot.model.has_wheels && w < 2; ++w) {
     const Wheel& wheel = robot.model.wheel[w];
     const Vector3d anchor = wheel.frame.translation(), axis = wheel.frame.linear() * wheel.axis;
     robot.wheel[w] = body(wheel.mass, centre(wheel, 0), Quaterniond(wheel.frame.linear()));
@@ -107,7 +107,7 @@ void World::add_shapes(const Robot& robot) {
     dGeomSetOffsetWorldQuaternion(geom, turned);
   };
   const unsigned long others = settings_.obstacles ? part | wall : 0;
-  for (std::size_t w = 0; w < 2; ++w) {
+  for (std::size_t w = 0; robot.model.has_wheels && w < 2; ++w) {
     dGeomID sphere = dCreateSphere(nullptr, robot.model.drive.wheel_radius);
     fix(add_geom(sphere, tyre, ground, robot.model.drive.friction), robot.wheel[w], robot.model.wheel[w].frame);
   }
@@ -152,11 +152,15 @@ int World::step(double dt, const std::vector<Command>& commands, std::vector<Rob
   const double h = dt / count;
   for (std::size_t i = 0; i < robots_.size(); ++i) place(robots_[i], states[i]);
   for (int k = 0; k < count; ++k) {
-    for (std::size_t i = 0; i < robots_.size(); ++i) ask(robots_[i], commands[i], (k + 0.5) * h);
+    for (std::size_t i = 0; i < robots_.size(); ++i) {
+      if (robots_[i].model.has_wheels) ask(robots_[i], commands[i], (k + 0.5) * h);
+      if (robots_[i].model.rotors) lift(robots_[i], commands[i], h, states[i]);
+    }
     touch();
     advance(h, seed + k);
     for (std::size_t i = 0; i < robots_.size(); ++i) {
-      for (int w = 0; w < 2; ++w) states[i].angle[w] += h * dJointGetHingeAngleRate(robots_[i].hinge[w]);
+      for (int w = 0; robots_[i].model.has_wheels && w < 2; ++w)
+        states[i].angle[w] += h * dJointGetHingeAngleRate(robots_[i].hinge[w]);
     }
   }
   for (std::size_t i = 0; i < robots_.size(); ++i) read(robots_[i], states[i]);
@@ -175,7 +179,7 @@ void World::place(const Robot& robot, const RobotState& s) const {
   };
   const Vector3d arm = turned * robot.model.body.centre, speed = v + w.cross(arm);
   put(robot.body, origin + arm, turned, speed, w);
-  for (std::size_t k = 0; k < 2; ++k) {
+  for (std::size_t k = 0; robot.model.has_wheels && k < 2; ++k) {
     HingedWheel wheel = s.hinged[k];
     if (wheel.quaternion == std::array<double, 4>{}) {
       wheel = as_hinged(robot.model.wheel[k], robot.model.body.centre, turned.conjugate() * w, s.angle[k], s.rate[k]);
@@ -192,6 +196,20 @@ void World::ask(const Robot& robot, const Command& command, double at) const {
   for (int w = 0; w < 2; ++w) {
     dJointSetHingeParam(robot.hinge[w], dParamVel, robot.model.drive.limited_rate(rates[w]));
   }
+}
+
+// Rotors as they turn in the middle of the step, on the body as it moves at its start.
+void World::lift(const Robot& robot, const Command& command, double h, RobotState& state) {
+  const description::Quadrotor& rotors = *robot.model.rotors;
+  const auto middle = rotors.later(state.rotors, command.rotors, rotors.decay(h / 2));
+  const Quaterniond to_body = quaternion(dBodyGetQuaternion(robot.body)).conjugate();
+  const Vector3d centre = robot.model.body.centre, w = to_body * vector(dBodyGetAngularVel(robot.body));
+  const Vector3d v = to_body * vector(dBodyGetLinearVel(robot.body)) - w.cross(centre);
+  const auto [force, torque] = rotors.wrench(middle, v, w);
+  const Vector3d about_centre = torque - centre.cross(force);
+  dBodyAddRelForce(robot.body, force.x(), force.y(), force.z());
+  dBodyAddRelTorque(robot.body, about_centre.x(), about_centre.y(), about_centre.z());
+  state.rotors = rotors.later(state.rotors, command.rotors, rotors.decay(h));
 }
 
 void World::near(void* world, dGeomID a, dGeomID b) {
@@ -238,7 +256,7 @@ void World::read(const Robot& robot, RobotState& s) const {
   }
   s.pose = {origin.x(), origin.y(), origin.z(), q.w(), q.x(), q.y(), q.z()};
   s.twist = {speed.x(), speed.y(), speed.z(), w.x(), w.y(), w.z()};
-  for (int k = 0; k < 2; ++k) {
+  for (int k = 0; robot.model.has_wheels && k < 2; ++k) {
     dBodyID wheel = robot.wheel[k];
     const Quaterniond turned = to_body * quaternion(dBodyGetQuaternion(wheel));
     s.rate[k] = dJointGetHingeAngleRate(robot.hinge[k]);

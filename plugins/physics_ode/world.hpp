@@ -31,10 +31,11 @@ struct Settings {
   }
 };
 
-// Wheel rates asked for at the tick's start, and their slopes over the tick.
+// Wheel rates asked for at the tick's start, and their slopes over the tick; rotors' rates held over it.
 struct Command {
-  double left, right;            // [rad/s]
-  double left_rate, right_rate;  // [rad/s2]
+  double left, right;              // [rad/s]
+  double left_rate, right_rate;    // [rad/s2]
+  std::array<double, 4> rotors{};  // front, left, back, right [rad/s]
 };
 
 // A wheel as ODE has it: a body of its own, which a hinge holds only nearly. What it is off by matters: the drift of an
@@ -52,6 +53,7 @@ struct RobotState {
   std::array<double, 2> angle;  // of the wheels, left and right [rad]
   std::array<double, 2> rate;   // [rad/s]
   std::array<HingedWheel, 2> hinged;
+  std::array<double, 4> rotors{};  // as they turn [rad/s]
 };
 
 struct NamedRobot {
@@ -95,6 +97,7 @@ class World {
   dGeomID add_geom(dGeomID geom, unsigned long category, unsigned long meets, double friction);
   void place(const Robot& robot, const RobotState& state) const;
   void ask(const Robot& robot, const Command& command, double at) const;
+  static void lift(const Robot& robot, const Command& command, double h, RobotState& state);
   void touch();
   void touch(const Pair& pair);
   void advance(double h, unsigned long seed);

@@ -20,6 +20,7 @@ struct PhysicsPlanar {
       "body.\n"
       "Not modelled: masses, forces, slip of single wheels, anything above the plane; height and tilt stay as found.";
   static constexpr auto phase = MUSTER_PHYSICS;
+  static constexpr auto abilities = description::Ability::wheels;
   static constexpr auto cannot_hold = "changes of height, roll and pitch, and wheel slip";
   static constexpr Param params[] = {real("acceleration", 7.848, 1e-6, 1e6, "m/s2",
                                           "bound on the change of velocity; by default friction 0.8 times 9.81 m/s2")};
@@ -32,20 +33,7 @@ struct PhysicsPlanar {
         twist(s.write<Twist>("robot/*/twist")),
         wheels(s.write<Wheels>("robot/*/wheels")),
         model(s.write<Model>("robot/*/body")) {
-    for (std::size_t row = 0; row < robots.size(); ++row) {
-      const std::string name = s.host()->row_name(s.host(), "robot", static_cast<uint32_t>(row));
-      require(robots, WorldRobots::model_of(0, row), name);
-    }
-  }
-
-  static const description::DifferentialDrive& require(const WorldRobots& robots, double model, std::string_view name) {
-    const auto* drive = robots.drive_of(model);
-    if (!drive) {
-      throw BadInput("robot '" + std::string(name) +
-                     "' cannot be simulated by physics.planar: its model has no <muster>" +
-                     "<differential .../></muster> drive");
-    }
-    return *drive;
+    robots.require(abilities, s);
   }
 
   void step(const Step& k) const {
@@ -54,8 +42,9 @@ struct PhysicsPlanar {
       planar::Body body{k.last(pose)[i], k.last(twist)[i], k.last(wheels)[i]};
       k[model][i].model = WorldRobots::model_of(k.last(model)[i].model, i);
       if (k.alive("robot", i)) {
-        const auto& motors = require(robots, k[model][i].model, k.name("robot", i));
-        body = planar::stepped(body, i < asked.size() ? asked[i] : Drive{0, 0, 0, 0}, motors, k[acceleration], k.dt());
+        const auto* motors = robots.drive_of(k[model][i].model);
+        if (!motors) throw BadInput("robot '" + std::string(k.name("robot", i)) + "' has no model");
+        body = planar::stepped(body, i < asked.size() ? asked[i] : Drive{0, 0, 0, 0}, *motors, k[acceleration], k.dt());
       }
       k[pose][i] = body.pose;
       k[twist][i] = body.twist;

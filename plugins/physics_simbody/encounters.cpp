@@ -107,7 +107,7 @@ void Encounters::stand(int index, const Placed& robot, const Memory& memory) {
     c.target = compliance.target(gap, h_);
     return c;
   };
-  for (int w = 0; w < 2; ++w) {
+  for (int w = 0; robot.model->has_wheels && w < 2; ++w) {
     const double radius = robot.model->drive.wheel_radius;
     const Vector3d centre = robot.model->wheel_frame[w].translation();
     Contact c = contact(centre, radius);

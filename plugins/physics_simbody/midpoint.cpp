@@ -50,6 +50,17 @@ double speed_of(const RobotModel& model, const RobotState& state) {
   return velocity_of(state).norm() + rates.cwiseAbs().dot(model.arm);
 }
 
+// What is further away is not met in a step: twice the way, since a contact may make a robot faster, and the fall.
+double way_of(const RobotModel& model, const RobotState& state, double h) {
+  return nearby + 2 * h * speed_of(model, state) + gravity * h * h;
+}
+
+void check_speed(const std::string& name, const RobotState& state) {
+  for (const double speed : state.twist) {
+    if (!(std::abs(speed) < fastest)) throw std::runtime_error("robot '" + name + "': its motion blew up");
+  }
+}
+
 Extent extent_of(const RobotModel& model, const RobotState& state, double more) {
   const Eigen::Quaterniond turned_by(state.pose[3], state.pose[4], state.pose[5], state.pose[6]);
   const Vector3d middle = Vector3d(state.pose[0], state.pose[1], state.pose[2]) + turned_by * model.middle;
@@ -57,16 +68,25 @@ Extent extent_of(const RobotModel& model, const RobotState& state, double more) 
   return {middle - reach, middle + reach};
 }
 
+// What its rotors do to a robot, as a force for its velocities.
+Velocity rotor_force(const description::Quadrotor& rotors, const RobotState& state, const Velocity& u) {
+  const description::Wrench wrench = rotors.wrench(state.rotors, u.segment<3>(3), u.head<3>());
+  Velocity force;
+  force << wrench.torque, wrench.force, 0, 0;
+  return force;
+}
+
 }  // namespace
 
 Midpoint::Midpoint(const std::vector<NamedRobot>& robots, double step) : longest_step_(step) {
   for (const NamedRobot& named : robots) {
-    Robot robot{named.name, RobotModel(*named.description), {}, {}, {}, {}, {}};
+    Robot robot{named.name, RobotModel(*named.description), {}, {}, {}, {}, {}, {}};
     robot.bodies = system_.add(robot.model);
     robot.whole = whole_mass(*named.description);
     const Matrix3d c = cross_matrix(robot.whole.centre);
     robot.inertia_at_origin = robot.whole.inertia - robot.whole.mass * c * c;
     for (std::size_t w = 0; w < 2; ++w) robot.wheel_inertia[w] = robot.model.wheel[w].inertia(2, 2);
+    if (robot.model.rotors) robot.flight.emplace(robot.whole, *robot.model.rotors);
     robots_.push_back(std::move(robot));
   }
   system_.finish();
@@ -93,17 +113,23 @@ void Midpoint::set_surroundings(const std::vector<scene::Slab>& walls, double fr
 }
 
 // Simbody's own mass matrix at the reference pose; in the body's frame it is the same in every other, as wheels are
-// balanced. Robots are not joined, so that one product has a column of each.
+// balanced. Robots are not joined, so that one product has a column of each. Wheels that are not there have an inertia
+// of one, which nothing turns.
 void Midpoint::read_masses() {
   const SimTK::State& state = system_.state;
   SimTK::Vector columns;
   for (int c = 0; c < unknowns; ++c) {
     SimTK::Vector units(state.getNU(), 0.0);
-    for (const Robot& robot : robots_) units[robot.bodies.body.getFirstUIndex(state) + c] = 1;
+    const auto has = [c](const Robot& robot) { return c < 6 || robot.model.has_wheels; };
+    for (const Robot& robot : robots_) {
+      if (has(robot)) units[robot.bodies.body.getFirstUIndex(state) + c] = 1;
+    }
     system_.matter.multiplyByM(state, units, columns);
     for (Robot& robot : robots_) {
-      const int first = robot.bodies.body.getFirstUIndex(state);
-      for (int r = 0; r < unknowns; ++r) robot.now.body.mass(r, c) = columns[first + r];
+      const int first = robot.bodies.body.getFirstUIndex(state), own = robot.model.has_wheels ? unknowns : 6;
+      robot.now.body.mass.col(c).setZero();
+      robot.now.body.mass(c, c) = 1;
+      for (int r = 0; has(robot) && r < own; ++r) robot.now.body.mass(r, c) = columns[first + r];
     }
   }
   for (Robot& robot : robots_) robot.now.body.inverse_mass = robot.now.body.mass.inverse();
@@ -130,9 +156,7 @@ void Midpoint::find_groups(double h, const std::vector<RobotState>& states) {
   const int count = static_cast<int>(robots_.size());
   extents_.clear();
   for (int i = 0; i < count; ++i) {
-    // Twice the way: a contact may make a robot faster; and the fall of the step.
-    const double way = nearby + 2 * h * speed_of(robots_[i].model, states[i]) + gravity * h * h;
-    extents_.push_back(extent_of(robots_[i].model, states[i], way));
+    extents_.push_back(extent_of(robots_[i].model, states[i], way_of(robots_[i].model, states[i], h)));
   }
   broad_phase_.find(extents_);
   Connected connected(count);
@@ -165,10 +189,28 @@ Velocity Midpoint::free_acceleration(std::size_t index, const Matrix3d& to_world
 
 void Midpoint::advance(const Group& group, double h, double at, const std::vector<Command>& commands,
                        std::vector<RobotState>& states) {
+  if (is_in_the_air(group, h, states)) {
+    const int i = group.robots.front();
+    return fly(i, h, commands[i], states[i]);
+  }
   for (const int i : group.robots) place(i, h, at, commands[i], states[i]);
   meet(group, h, states);
   solve_islands(group, states);
-  for (const int i : group.robots) finish(robots_[i], h, states[i]);
+  for (const int i : group.robots) finish(robots_[i], h, commands[i], states[i]);
+}
+
+bool Midpoint::is_in_the_air(const Group& group, double h, const std::vector<RobotState>& states) const {
+  const int i = group.robots.front();
+  const RobotModel& model = robots_[i].model;
+  if (!robots_[i].flight || !group.pairs.empty() || !group.walls.empty()) return false;
+  const Quaternion q = quaternion_of(states[i]);
+  const Vector3d up = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix().row(2);
+  return states[i].pose[2] + model.lowest_point(up) > way_of(model, states[i], h);
+}
+
+void Midpoint::fly(int index, double h, const Command& command, RobotState& state) {
+  robots_[index].flight->step(h, command.rotors, state);
+  check_speed(robots_[index].name, state);
 }
 
 // Half a step ahead along the velocities that stand. The one rotation that is needed follows from its quaternion: to
@@ -186,6 +228,8 @@ void Midpoint::place(int index, double h, double at, const Command& command, con
       state.rate[0], state.rate[1];
   const double kick = 0.5 * (state.memory.previous_step + h);
   now.body.free = now.body.previous + kick * free_acceleration(index, now.to_world, now.body.previous);
+  if (robot.model.rotors)
+    now.body.free += kick * (now.body.inverse_mass * rotor_force(*robot.model.rotors, state, now.body.previous));
   const double asked[] = {command.left + at * command.left_rate, command.right + at * command.right_rate};
   for (int w = 0; w < 2; ++w) now.body.motors[w] = {drive.limited_rate(asked[w]), drive.max_torque * h};
 }
@@ -249,7 +293,7 @@ void Midpoint::solve(const Island& island, std::vector<RobotState>& states) {
   }
 }
 
-void Midpoint::finish(Robot& robot, double h, RobotState& state) const {
+void Midpoint::finish(Robot& robot, double h, const Command& command, RobotState& state) const {
   const Velocity& u = robot.now.body.velocity;
   if (!(u.cwiseAbs().maxCoeff() < fastest)) throw std::runtime_error("robot '" + robot.name + "': its motion blew up");
 
@@ -266,6 +310,8 @@ void Midpoint::finish(Robot& robot, double h, RobotState& state) const {
     state.angle[k] += h * u[6 + k];
     state.rate[k] = u[6 + k];
   }
+  if (const auto& rotors = robot.model.rotors)
+    state.rotors = rotors->later(state.rotors, command.rotors, rotors->decay(h));
   state.memory.previous_step = h;
 }
 

@@ -1,4 +1,5 @@
-// The stepper: second order, on velocities, one small problem a robot or for robots that touch.
+// The stepper: second order, on velocities, one small problem a robot or for robots that touch. Robots with rotors that
+// can touch nothing in a step fly by fourth order instead.
 //
 // Velocities stand at the middle of steps: u is found for the configuration half a step ahead and carries the robot
 // over the whole step, x += h N(x_mid) u. So forces act over (previous step + step) / 2, and commands are taken at
@@ -7,6 +8,7 @@
 
 #include "broad_phase.hpp"
 #include "encounters.hpp"
+#include "flight.hpp"
 #include "world.hpp"
 
 namespace muster::simbody {
@@ -37,6 +39,7 @@ class Midpoint : public Engine {
     description::Mass whole;            // wheels included
     Eigen::Matrix3d inertia_at_origin;  // of the whole, in the body's frame
     double wheel_inertia[2];            // about the axle
+    std::optional<Flight> flight;       // where it has rotors
     Placed now;
   };
 
@@ -57,11 +60,13 @@ class Midpoint : public Engine {
   int parts_of(const Group& group, double h, const std::vector<RobotState>& states) const;
   void advance(const Group& group, double h, double at, const std::vector<Command>& commands,
                std::vector<RobotState>& states);
+  bool is_in_the_air(const Group& group, double h, const std::vector<RobotState>& states) const;
+  void fly(int index, double h, const Command& command, RobotState& state);
   void place(int index, double h, double at, const Command& command, const RobotState& state);
   void meet(const Group& group, double h, const std::vector<RobotState>& states);
   void solve_islands(const Group& group, std::vector<RobotState>& states);
   void solve(const Island& island, std::vector<RobotState>& states);
-  void finish(Robot& robot, double h, RobotState& state) const;
+  void finish(Robot& robot, double h, const Command& command, RobotState& state) const;
 
   System system_;
   std::vector<Robot> robots_;

@@ -67,10 +67,13 @@ Solid solid_of(const Eigen::Isometry3d& frame, const description::Shape& shape) 
 }  // namespace
 
 RobotModel::RobotModel(const description::Robot& robot) : name(robot.name) {
-  if (!robot.drive) refuse(robot, "it has no <muster><differential .../></muster> drive");
-  drive = *robot.drive;
+  if (!robot.drive && !robot.quadrotor)
+    refuse(robot, "it has neither a <muster><differential .../></muster> drive nor a <quadrotor .../>");
+  has_wheels = robot.drive.has_value();
+  if (has_wheels) drive = *robot.drive;
+  rotors = robot.quadrotor;
   for (std::size_t i = 0; i < robot.joints.size(); ++i) {
-    const bool is_wheel = i == drive.left || i == drive.right;
+    const bool is_wheel = has_wheels && (i == drive.left || i == drive.right);
     if (!is_wheel && robot.joints[i].kind != description::JointKind::fixed) {
       refuse(robot, "joint '" + robot.joints[i].name + "' moves and is no wheel of its drive");
     }
@@ -78,7 +81,7 @@ RobotModel::RobotModel(const description::Robot& robot) : name(robot.name) {
   body = rigid_mass(robot, 0);
   if (!(body.mass > 0)) refuse(robot, "its body has no mass");
   const std::size_t joints[] = {drive.left, drive.right};
-  for (std::size_t w = 0; w < 2; ++w) {
+  for (std::size_t w = 0; has_wheels && w < 2; ++w) {
     const description::Joint& joint = robot.joints[joints[w]];
     wheel[w] = rigid_mass(robot, joint.child);
     if (!balanced(wheel[w], joint.axis))
@@ -125,13 +128,19 @@ double RobotModel::lowest_corner(const Eigen::Vector3d& up) const {
   return lowest;
 }
 
+double RobotModel::lowest_point(const Eigen::Vector3d& up) const {
+  double lowest = lowest_corner(up);
+  for (const Slider& slider : sliders) lowest = std::min(lowest, up.dot(slider.centre) - slider.radius);
+  return lowest;
+}
+
 System::System() : matter(system), forces(system) { SimTK::Force::Gravity(forces, matter, Vec3(0, 0, -gravity)); }
 
 RobotBodies System::add(const RobotModel& model) {
   RobotBodies bodies;
   bodies.body = SimTK::MobilizedBody::Free(matter.updGround(), SimTK::Transform(),
                                            SimTK::Body::Rigid(properties(model.body)), SimTK::Transform());
-  for (std::size_t w = 0; w < 2; ++w) {
+  for (std::size_t w = 0; model.has_wheels && w < 2; ++w) {
     bodies.wheel[w] = SimTK::MobilizedBody::Pin(bodies.body, transform(model.wheel_frame[w]),
                                                 SimTK::Body::Rigid(properties(model.wheel[w])), SimTK::Transform());
   }

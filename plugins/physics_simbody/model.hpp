@@ -1,4 +1,5 @@
-// Robots as Simbody multibody systems: a free body with two wheels on pins, gravity, and flat ground at z = 0.
+// Robots as Simbody multibody systems: a free body, with two wheels on pins or without, gravity, and flat ground at z =
+// 0.
 #pragma once
 
 #include "description/robot.hpp"
@@ -24,11 +25,15 @@ struct Part {
 struct RobotModel {
   explicit RobotModel(const description::Robot& robot);
 
-  // Height of the lowest corner of the body's boxes and cylinders above its origin; `up` in the body's frame [m].
+  // Height of the lowest corner of the body's boxes and cylinders above its origin, and of the lowest point of its
+  // spheres too; `up` in the body's frame [m].
   double lowest_corner(const Eigen::Vector3d& up) const;
+  double lowest_point(const Eigen::Vector3d& up) const;
 
   std::string name;
+  bool has_wheels = true;  // else what is said of them below is nothing
   description::DifferentialDrive drive;
+  std::optional<description::Quadrotor> rotors;
   description::Mass body;                        // all that is rigid with the root, in its frame
   std::array<description::Mass, 2> wheel;        // in the wheel joint's frame
   std::array<Eigen::Isometry3d, 2> wheel_frame;  // of the joints in the body's frame

@@ -42,8 +42,14 @@ struct PhysicsSimbody {
       "cpodes (adaptive) are Simbody's own on rolling constraints, as reference: no slip, no lift, no torque limit, no "
       "walls and\n"
       "no other robots.\n"
-      "Not modelled: wheels as discs on the ground (they stand on it as spheres would), rolling resistance, bouncing.";
+      "Robots with rotors that can touch nothing in a step fly by Runge and Kutta's fourth order; robot/*/rotors are "
+      "their\n"
+      "rotors as they turn.\n"
+      "Not modelled: wheels as discs on the ground (they stand on it as spheres would), rolling resistance, bouncing,\n"
+      "downwash and ground effect of rotors.";
   static constexpr auto phase = MUSTER_PHYSICS;
+  static constexpr auto abilities = description::Ability::wheels | description::Ability::rotors |
+                                    description::Ability::height | description::Ability::tilting;
   static constexpr Param params[] = {real("step", 0.001, 1e-6, 0.1, "s", "longest step inside a tick"),
                                      choice("integrator", "midpoint|rk3|rkm|cpodes", "what steps the bodies"),
                                      real("body_friction", 0.3, 0, 10, "", "between robots, and of robots with walls")};
@@ -53,6 +59,7 @@ struct PhysicsSimbody {
         integrator(s.value("integrator")),
         body_friction(s.value("body_friction")),
         robots(s, description::Meshes::import),
+        flies(robots.any_quadrotor()),
         drive(s.read<Drive>("robot/*/drive")),
         wall(s.read<Wall>("wall/*/shape")),
         door(s.read<Door>("door/*/shape")),
@@ -62,6 +69,11 @@ struct PhysicsSimbody {
         wheels(s.write<Wheels>("robot/*/wheels")),
         model(s.write<Model>("robot/*/body")),
         memory(s.write<Memory>("robot/*/contact")) {
+    robots.require(abilities, s);
+    if (flies) {
+      rotor_drive = s.read<RotorDrive>("robot/*/rotor_drive");
+      rotors = s.write<Rotors>("robot/*/rotors");
+    }
     made.step = s.param("step");
     made.integrator = s.param("integrator");
     for (std::size_t row = 0; row < robots.size(); ++row) {
@@ -131,6 +143,7 @@ struct PhysicsSimbody {
       k[twist][i] = k.last(twist)[i];
       k[wheels][i] = k.last(wheels)[i];
       k[memory][i] = k.last(memory)[i];
+      if (flies) k[rotors][i] = k.last(rotors)[i];
       k[model][i].model = WorldRobots::model_of(k.last(model)[i].model, i);
       if (!k.alive("robot", i)) continue;
       now.rows.push_back(i);
@@ -154,6 +167,10 @@ struct PhysicsSimbody {
       if (row < asked.size()) {
         commands[i] = {asked[row].left, asked[row].right, asked[row].left_rate, asked[row].right_rate};
       }
+      if (flies && row < k[rotor_drive].size()) {
+        const RotorDrive& r = k[rotor_drive][row];
+        commands[i].rotors = {r.front, r.left, r.back, r.right};
+      }
     }
     engine->step(k.dt(), commands, states);
     for (std::size_t i = 0; i < made.rows.size(); ++i) spread(k, made.rows[i], states[i]);
@@ -170,6 +187,10 @@ struct PhysicsSimbody {
     s.angle = {w.left, w.right};
     s.rate = {w.left_rate, w.right_rate};
     s.memory.previous_step = m.previous_step;
+    if (flies) {
+      const Rotors& r = k.last(rotors)[row];
+      s.rotors = {r.front, r.left, r.back, r.right};
+    }
     for (int i = 0; i < 2; ++i) std::copy_n(m.impulse[i], 3, s.memory.impulse[i].begin());
     for (int i = 0; i < 8; ++i) s.memory.kept[i] = {m.kept[i][0], {m.kept[i][1], m.kept[i][2], m.kept[i][3]}};
     return s;
@@ -181,6 +202,7 @@ struct PhysicsSimbody {
     k[pose][row] = {p[0], p[1], p[2], p[3], p[4], p[5], p[6]};
     k[twist][row] = {t[0], t[1], t[2], t[3], t[4], t[5]};
     k[wheels][row] = {s.angle[0], s.angle[1], s.rate[0], s.rate[1]};
+    if (flies) k[rotors][row] = {s.rotors[0], s.rotors[1], s.rotors[2], s.rotors[3]};
     k[memory][row].previous_step = s.memory.previous_step;
     for (int i = 0; i < 2; ++i) std::copy_n(s.memory.impulse[i].begin(), 3, k[memory][row].impulse[i]);
     for (int i = 0; i < 8; ++i) {
@@ -191,13 +213,16 @@ struct PhysicsSimbody {
 
   Value step_size, integrator, body_friction;
   WorldRobots robots;
+  bool flies;  // some robots have rotors; else nothing is claimed about them
   In<Drive> drive;
+  In<RotorDrive> rotor_drive{};
   In<Wall> wall;
   In<Door> door;
   In<DoorState> door_state;
   Out<Pose> pose;
   Out<Twist> twist;
   Out<Wheels> wheels;
+  Out<Rotors> rotors{};
   Out<Model> model;
   Out<Memory> memory;
   Made made;

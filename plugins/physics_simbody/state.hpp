@@ -1,4 +1,5 @@
-// What a backend is a function of: the rows of robot/*/pose, twist, wheels and drive, and its own memory.
+// What a backend is a function of: the rows of robot/*/pose, twist, wheels, rotors and what drives
+// them, and its own memory.
 #pragma once
 
 #include <array>
@@ -8,10 +9,11 @@ namespace muster::simbody {
 
 constexpr double gravity = 9.81;  // [m/s2]
 
-// Wheel rates asked for at the tick's start, and their slopes over the tick.
+// Wheel rates asked for at the tick's start, and their slopes over the tick; rotors' rates held over it.
 struct Command {
-  double left, right;            // [rad/s]
-  double left_rate, right_rate;  // [rad/s2]
+  double left, right;              // [rad/s]
+  double left_rate, right_rate;    // [rad/s2]
+  std::array<double, 4> rotors{};  // front, left, back, right [rad/s]
 };
 
 // The impulse of a contact of the body, kept by the robot with the smaller row.
@@ -40,6 +42,7 @@ struct RobotState {
   std::array<double, 2> angle;  // of the wheels, left and right [rad]
   std::array<double, 2> rate;   // [rad/s]
   Memory memory;
+  std::array<double, 4> rotors{};  // as they turn [rad/s]
 };
 
 }  // namespace muster::simbody

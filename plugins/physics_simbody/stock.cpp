@@ -62,6 +62,8 @@ std::unique_ptr<SimTK::Integrator> make(Integrator kind, const SimTK::System& sy
 
 struct Stock::Robot {
   explicit Robot(const NamedRobot& named) : name(named.name), model(*named.description) {
+    if (!model.has_wheels)
+      throw std::runtime_error("robot '" + name + "' has no wheels: integrator=\"midpoint\" flies it");
     bodies = system.add(model);
     MobilizedBody& ground = system.matter.updGround();
     const SimTK::Transform floor;  // its z points up

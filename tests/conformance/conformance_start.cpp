@@ -11,6 +11,7 @@ struct Start {
   static constexpr auto phase = MUSTER_PHYSICS;
   static constexpr Param params[] = {real("forward", 0, -9, 9, "m/s", "along the body's x axis"),
                                      real("rise", 0, -9, 9, "m/s", "upwards"),
+                                     real("tumble", 0, -9, 9, "rad/s", "about the body's x axis"),
                                      real("turn", 0, -9, 9, "rad/s", "about the vertical"),
                                      real("left", 0, -99, 99, "rad/s", "rate of the left wheel"),
                                      real("right", 0, -99, 99, "rad/s", "rate of the right wheel")};
@@ -18,6 +19,7 @@ struct Start {
   explicit Start(Setup& s)
       : forward(s.value("forward")),
         rise(s.value("rise")),
+        tumble(s.value("tumble")),
         turn(s.value("turn")),
         left(s.value("left")),
         right(s.value("right")),
@@ -29,12 +31,12 @@ struct Start {
     for (std::size_t i = 0; i < k[pose].size(); ++i) {
       const Pose& p = k[pose][i] = k.last(pose)[i];
       const double cosine = p.qw * p.qw - p.qz * p.qz, sine = 2 * p.qw * p.qz;
-      k[twist][i] = {k[forward] * cosine, k[forward] * sine, k[rise], 0, 0, k[turn]};
+      k[twist][i] = {k[forward] * cosine, k[forward] * sine, k[rise], k[tumble] * cosine, k[tumble] * sine, k[turn]};
       k[wheels][i] = {0, 0, k[left], k[right]};
     }
   }
 
-  Value forward, rise, turn, left, right;
+  Value forward, rise, tumble, turn, left, right;
   Out<Pose> pose;
   Out<Twist> twist;
   Out<Wheels> wheels;

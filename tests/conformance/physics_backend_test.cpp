@@ -24,34 +24,43 @@ struct Backend {
   bool torque = false;           // motors are
   bool round_friction = false;   // bounded alike in every direction
   bool load_transfer = false;    // friction's bound knows of the weight that friction itself shifts
+  bool rotors = false;           // lift and turn a robot
   int order = 0;                 // of convergence; 0: the solver's own error hides it
   double coarsest_of_order = 0;  // the step from which it shows [s]
+  int flight_order = 0;          // of convergence in the air
   // Tolerances.
-  double fall = 0;    // after 1 s of it [m]
-  double rest = 0;    // drift in 2 s [m], [rad]
-  double arc = 0;     // of the radius, relative
-  double course = 0;  // at the end of 4 s of S-bends in ticks of 10 ms [m]
-  double ramp = 0;    // of 1 m of speeding up [m]
-  double force = 0;   // of a sliding distance, and of an acceleration at the limit of torque, relative
+  double fall = 0;       // after 1 s of it [m]
+  double rest = 0;       // drift in 2 s [m], [rad]
+  double arc = 0;        // of the radius, relative
+  double course = 0;     // at the end of 4 s of S-bends in ticks of 10 ms [m]
+  double ramp = 0;       // of 1 m of speeding up [m]
+  double climb = 0;      // of 5 m in 1 s, by rotors that speed up from rest [m]
+  double spin = 0;       // of the momentum of tumbling for 2 s, relative
+  double collision = 0;  // of the momentum of two that meet in the air, relative
+  double bounce = 0;     // after a fall of 0.3 m [m/s]
+  double force = 0;      // of a sliding distance, and of an acceleration at the limit of torque, relative
 };
 void PrintTo(const Backend& backend, std::ostream* out) { *out << backend.name; }
 
 std::vector<Backend> table() {
   Backend simbody{"simbody", "physics.simbody", {}, true};
   simbody.height = simbody.slip = simbody.torque = simbody.round_friction = simbody.load_transfer = true;
-  simbody.order = 2, simbody.coarsest_of_order = 0.08;
+  simbody.rotors = true;
+  simbody.order = 2, simbody.coarsest_of_order = 0.08, simbody.flight_order = 4;
   simbody.fall = 1e-6, simbody.rest = 1e-6, simbody.arc = 1e-3, simbody.course = 1e-4, simbody.ramp = 1e-3;
-  simbody.force = 0.01;
+  simbody.climb = 1e-7, simbody.spin = 1e-11, simbody.collision = 1e-6, simbody.bounce = 0.02, simbody.force = 0.01;
 
   Backend ode{"ode_exact", "physics.ode", {}, true};
-  ode.height = ode.slip = ode.torque = true;
-  ode.order = 2, ode.coarsest_of_order = 0.04;
+  ode.height = ode.slip = ode.torque = ode.rotors = true;
+  ode.order = 2, ode.coarsest_of_order = 0.04, ode.flight_order = 1;
   ode.fall = 5e-3, ode.rest = 1e-6, ode.arc = 1e-3, ode.course = 1e-4, ode.ramp = 1e-3, ode.force = 0.01;
+  ode.climb = 5e-3, ode.spin = 3e-3, ode.collision = 1e-12, ode.bounce = 0.8;
 
   Backend quick = ode;
   quick.name = "ode_quick", quick.attributes = {{"solver", "quick"}};
   quick.load_transfer = true;
   quick.order = 0;
+  quick.bounce = 0.1;
   quick.rest = 3e-3, quick.arc = 1e-2, quick.course = 5e-3, quick.ramp = 0.015, quick.force = 0.02;
 
   Backend planar{"planar", "physics.planar", {}};
@@ -317,6 +326,151 @@ TEST_P(EachBackend, RestoredInMidRunItGoesOnWithTheSameBits) {
   EXPECT_EQ(sim.digest(), again.digest());
 }
 
+// A Hummingbird in the air, and what its rotors are asked for.
+std::string bird(const std::string& name, const std::string& at) {
+  return "<robot name='" + name + "' model='hummingbird' heading='0.4' at='" + at + "'/>";
+}
+std::string lift(double rate, double swing = 0) {
+  return "<conformance.lift rate='" + std::to_string(rate) + "' swing='" + std::to_string(swing) + "'/>";
+}
+
+// Rotors that lag speed up from rest, so that thrust grows as (1 - exp(-t / lag))^2: twice integrated.
+TEST_P(EachBackend, ClimbsAsItsRotorsSpeedUpOrRefusesWithTheList) {
+  const std::string world = bird("a", "1 2 20") + lift(600);
+  if (!GetParam().rotors) {
+    try {
+      run(world, {}, {});
+      FAIL() << "nothing was thrown";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.exit(), Exit::invalid_input);
+      EXPECT_THAT(error.what(), testing::HasSubstr("it lacks what the world's robots need: robot 'a' (model "
+                                                   "'hummingbird') needs rotors (<quadrotor>), "));
+    }
+    return;
+  }
+  Started sim = run(world, {}, {});
+  run_for(sim, 100);
+  const auto robot = description::read_robot(models + "hummingbird.urdf");
+  const double t = 1, lag = robot.quadrotor->lag_up;
+  const double rise = t * t / 2 - 2 * lag * (t - lag * (1 - std::exp(-t / lag))) +
+                      lag / 2 * (t - lag / 2 * (1 - std::exp(-2 * t / lag)));
+  const double up = 4 * robot.quadrotor->thrust_factor * 600 * 600 / whole_mass(robot).mass;
+  EXPECT_NEAR(state(sim).pose.z, 20 + up * rise - gravity * t * t / 2, GetParam().climb);
+  EXPECT_LT(state(sim).distance(1, 2), 1e-9);
+}
+
+// Lifted beside its centre of mass by rotors that speed up together, it rolls as their thrust's moment says.
+TEST_P(EachBackend, RollsWhereItIsLiftedBesideItsCentreOfMass) {
+  if (!GetParam().rotors) return;
+  std::string urdf = contents(models + "hummingbird.urdf");
+  const std::string body = "<mass value=\"0.68\"/>";
+  urdf.insert(urdf.find(body), "<origin xyz=\"0 0.002 0\"/>");
+  const auto robot = description::read_robot(folder.write("uneven.urdf", urdf).string());
+  Started sim = run("<robot name='a' model='uneven.urdf' at='0 0 50'/>" + lift(600), {}, {});
+  run_for(sim, 30);
+  const auto whole = whole_mass(robot);
+  const double t = 0.3, lag = robot.quadrotor->lag_up;
+  const double rise = t * t / 2 - 2 * lag * (t - lag * (1 - std::exp(-t / lag))) +
+                      lag / 2 * (t - lag / 2 * (1 - std::exp(-2 * t / lag)));
+  const double moment = -whole.centre.y() * 4 * robot.quadrotor->thrust_factor * 600 * 600;
+  const double roll = moment / whole.inertia(0, 0) * rise;
+  const Pose p = state(sim).pose;
+  EXPECT_NEAR(2 * std::atan2(p.qx, p.qw), roll, 0.02 * std::abs(roll));
+}
+
+TEST_P(EachBackend, TumblesWithItsMomentum) {
+  if (!GetParam().rotors) return;
+  const auto whole = whole_mass(description::read_robot(models + "hummingbird.urdf"));
+  Started sim = run(bird("a", "0 0 50") + lift(0), {{"forward", "1"}, {"tumble", "4"}, {"turn", "3"}}, {});
+  const auto turned = [&] {
+    const Pose p = state(sim).pose;
+    return Eigen::Quaterniond(p.qw, p.qx, p.qy, p.qz);
+  };
+  const auto momentum = [&]() -> Eigen::Vector3d {
+    const Twist t = state(sim).twist;
+    return turned() * (whole.inertia * (turned().conjugate() * Eigen::Vector3d(t.wx, t.wy, t.wz)));
+  };
+  const Eigen::Vector3d before = momentum();
+  const Eigen::Quaterniond stood = turned();
+  run_for(sim, 200);
+  EXPECT_LT((momentum() - before).norm(), GetParam().spin * before.norm());
+  EXPECT_GT(turned().angularDistance(stood), 0.1);
+}
+
+// Two that fall and meet on the way, not quite head on: what they push each other sideways adds up to nothing.
+TEST_P(EachBackend, KeepsMomentumInACollision) {
+  if (!GetParam().rotors) return;
+  const auto whole = whole_mass(description::read_robot(models + "hummingbird.urdf"));
+  const std::string other = "<robot name='b' model='hummingbird' heading='3.5' at='1 0.12 50'/>";
+  Started sim = run(bird("a", "0 0 50") + other + lift(0), {{"forward", "1"}}, {});
+  const auto momentum = [&](const std::string& robot) -> Eigen::Vector3d {
+    const State s = state(sim, robot);
+    const Eigen::Quaterniond q(s.pose.qw, s.pose.qx, s.pose.qy, s.pose.qz);
+    const Eigen::Vector3d v(s.twist.vx, s.twist.vy, s.twist.vz), w(s.twist.wx, s.twist.wy, s.twist.wz);
+    return whole.mass * (v + w.cross(q * whole.centre));
+  };
+  const Eigen::Vector3d alone = momentum("a"), both = alone + momentum("b");
+  run_for(sim, 120);
+  EXPECT_LT((momentum("a") + momentum("b") - both).head<2>().norm(), GetParam().collision * alone.norm());
+  EXPECT_GT((momentum("a") - alone).head<2>().norm(), 0.3 * alone.norm());  // they did meet
+}
+
+// What lands at 2.4 m/s hardly rises again: impacts are plastic, as far as a solver knows how.
+TEST_P(EachBackend, LandsWithoutBouncing) {
+  if (!GetParam().height) return;
+  Started sim = run("<robot name='a' at='0 0 0.3'/>", {}, {});
+  bool landed = false;
+  double fastest = 0;
+  for (int k = 0; k < 100; ++k) {
+    sim.step();
+    landed |= state(sim).pose.z < 0.01;
+    if (landed) fastest = std::max(fastest, state(sim).twist.vz);
+  }
+  EXPECT_TRUE(landed);
+  EXPECT_LT(fastest, GetParam().bounce);
+}
+
+TEST_P(EachBackend, ConvergesInItsOrderInTheAir) {
+  if (GetParam().flight_order == 0) return;
+  const auto end = [&](double step) {
+    Started sim = started(GetParam(), bird("a", "0 0 50") + lift(460, 6), {{"forward", "1"}, {"tumble", "0.5"}}, {},
+                          0.2, 1, {{"step", std::to_string(step)}});
+    run_for(sim, 10);
+    const Pose p = state(sim).pose;
+    return Eigen::Vector3d(p.x, p.y, p.z);
+  };
+  const Eigen::Vector3d truth = end(0.0002);
+  std::vector<double> errors;
+  const double coarsest = GetParam().flight_order > 2 ? 0.0125 : 0.00625;
+  for (const double share : {1.0, 0.5, 0.25}) errors.push_back((end(share * coarsest) - truth).norm());
+  EXPECT_NEAR(std::log2(errors[0] / errors[1]), GetParam().flight_order, 0.3) << errors[0] << ' ' << errors[1];
+  EXPECT_NEAR(std::log2(errors[1] / errors[2]), GetParam().flight_order, 0.3) << errors[1] << ' ' << errors[2];
+}
+
+// One takes off from the ground, one flies beside a Scarab that drives.
+const std::string air = bird("a", "0 0 0.06") + bird("b", "3 0 4") + "<robot name='c' at='0 4 0'/>" + lift(470, 20);
+
+TEST_P(EachBackend, GivesTheSameBitsInTheAirForAnyWorkersRemadeAndRestored) {
+  if (!GetParam().rotors) return;
+  Started straight = run(air, {}, wild);
+  run_for(straight, 40);
+  straight.snapshot().save(folder / "then");
+  run_for(straight, 40);
+  Started three = run(air, {}, wild, 3);
+  run_for(three, 80);
+  EXPECT_EQ(straight.digest(), three.digest());
+  Started restored = run(air, {}, wild);
+  restored.restore(Snapshot::load(folder / "then"));
+  run_for(restored, 40);
+  EXPECT_EQ(straight.digest(), restored.digest());
+  Started remade = run(air, {}, wild);
+  while (remade.tick() < straight.tick()) {
+    if (remade.tick() % 17 == 5) remade.remake("physics");
+    remade.step();
+  }
+  EXPECT_EQ(straight.digest(), remade.digest());
+}
+
 std::string test_name(const testing::TestParamInfo<Backend>& info) { return info.param.name; }
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(EachBackend);
 INSTANTIATE_TEST_SUITE_P(Plugins, EachBackend, testing::ValuesIn(backends()), test_name);
@@ -347,6 +501,30 @@ TEST_P(EachSwap, NothingJumps) {
   expect_no_jump(b, state(sim, "b"), 0.01);
   run_for(sim, 50);
   EXPECT_GT(row<Wheels>(sim, "robot/a/wheels").left, 10);  // angles went on
+}
+
+TEST_P(EachSwap, NothingJumpsInTheAir) {
+  const auto& [from, to] = GetParam();
+  if (!from.rotors || !to.rotors) return;
+  Started sim = started(from, air, {}, wild);
+  run_for(sim, 60);
+  const State before = state(sim, "b");
+  const auto rotors = row<Rotors>(sim, "robot/b/rotors");
+  sim.swap("physics", instance(to));
+  EXPECT_TRUE(same_bits(before.pose, state(sim, "b").pose));
+  EXPECT_TRUE(same_bits(before.twist, state(sim, "b").twist));
+  EXPECT_TRUE(same_bits(rotors, row<Rotors>(sim, "robot/b/rotors")));
+  sim.step();
+  const State after = state(sim, "b");
+  const double dt = 0.01, fastest_change = 4 * gravity;  // thrust is at most 3.4 times the weight
+  EXPECT_LT(
+      std::hypot(after.twist.vx - before.twist.vx, after.twist.vy - before.twist.vy, after.twist.vz - before.twist.vz),
+      fastest_change * dt);
+  EXPECT_LT(std::hypot(after.pose.x - before.pose.x - before.twist.vx * dt,
+                       after.pose.y - before.pose.y - before.twist.vy * dt,
+                       after.pose.z - before.pose.z - before.twist.vz * dt),
+            fastest_change * dt * dt);
+  EXPECT_NEAR(row<Rotors>(sim, "robot/b/rotors").front, rotors.front, 20);
 }
 
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(EachSwap);

@@ -103,7 +103,7 @@ const Case cases[] = {
     {"wheel_base_contradicts_joints", wheels(good, "0 1 0", "0.11"),
      "7: <differential> joint 'jl' is not half a wheel_base from the body's x axis (left: +y, right: -y)"},
     {"another_drive", link("a", mass) + "<muster><tracks/></muster>",
-     "3: <tracks> is not a drive; expected <differential>"},
+     "3: <tracks> is not a drive; expected <differential> or <quadrotor>"},
     {"mesh_outside",
      link("a", "<collision><geometry><mesh filename='package://../../etc/passwd'/></geometry></collision>"),
      "2: link 'a': mesh 'package://../../etc/passwd' is outside the allowed folder; expected a path relative to "

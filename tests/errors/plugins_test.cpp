@@ -157,7 +157,8 @@ TEST(Fault19, ClaimsThatDoNotFitAreRefusedAtTheStart) {
       "door/*/state, endpoint/*/pose, endpoint/*/radio, inbox/*/message, instance/test.reads_nobodys/*/cell, "
       "link/*/ends, "
       "link/*/rssi, material/*/loss, radio/*/mount, radio/*/traffic, robot/*/drive, robot/*/odometry, robot/*/pose, "
-      "robot/*/twist, robot/*/wheels, wall/*/shape; did you mean \"robot/*/pose\"?");
+      "robot/*/position3d, robot/*/rotor_drive, robot/*/rotors, robot/*/twist, robot/*/wheels, wall/*/shape; did you "
+      "mean \"robot/*/pose\"?");
 }
 
 }  // namespace

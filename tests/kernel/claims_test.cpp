@@ -163,8 +163,8 @@ TEST_F(Claims, AReadThatNobodyWritesNamesTheNearest) {
             "door/*/shape, door/*/state, "
             "endpoint/*/pose, endpoint/*/radio, inbox/*/message, instance/r/*/x, link/*/ends, link/*/rssi, "
             "material/*/loss, radio/*/mount, "
-            "radio/*/traffic, robot/*/charge, robot/*/drive, robot/*/odometry, robot/*/pose, robot/*/twist, "
-            "robot/*/wheels, wall/*/shape; "
+            "radio/*/traffic, robot/*/charge, robot/*/drive, robot/*/odometry, robot/*/pose, "
+            "robot/*/position3d, robot/*/rotor_drive, robot/*/rotors, robot/*/twist, robot/*/wheels, wall/*/shape; "
             "did you mean \"robot/*/charge\"?");
   EXPECT_THAT(
       error_of_world(two_robots + "<toy.copy_physics name='w' to='robot/*/v' as='add'/>\n<toy.copy_radio name='r' "

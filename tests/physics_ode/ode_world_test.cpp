@@ -144,8 +144,8 @@ TEST(OdeWorld, WhatItLacksForARobotIsListed) {
     FAIL() << "nothing was thrown";
   } catch (const Error& error) {
     EXPECT_EQ(error.exit(), Exit::invalid_input);
-    EXPECT_THAT(error.what(), testing::HasSubstr("cannot be simulated by physics.ode: joint 'lift_joint' moves and is "
-                                                 "no wheel of its drive; joint 'elbow_joint' moves and is no wheel"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("it lacks what the world's robots need: robot 'a' (model 'arm') needs "
+                                                 "joint 'lift_joint' that moves, joint 'elbow_joint' that moves"));
   }
 }
 

@@ -221,8 +221,8 @@ TEST(Motion, OtherDrivesAreRefusedByName) {
   } catch (const std::runtime_error& error) {
     EXPECT_EQ(std::string(error.what()),
               "robot model 'scarab' (" + none.file +
-                  ") cannot be simulated by physics.simbody: it has no <muster><differential "
-                  ".../></muster> drive");
+                  ") cannot be simulated by physics.simbody: it has neither a <muster><differential .../></muster> "
+                  "drive nor a <quadrotor .../>");
   }
 }
 

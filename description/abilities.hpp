@@ -1,0 +1,27 @@
+// What robots need of a physics backend, and what a backend has: one that lacks anything refuses the world with the
+// list.
+#pragma once
+
+#include <string>
+
+#include "description/robot.hpp"
+
+namespace muster::description {
+
+enum class Ability : unsigned {
+  wheels = 1,   // two driven wheels on the ground
+  rotors = 2,   // thrust of four rotors
+  height = 4,   // it changes
+  tilting = 8,  // roll and pitch change
+  joints = 16,  // others than wheels that move
+};
+
+constexpr Ability operator|(Ability a, Ability b) {
+  return static_cast<Ability>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
+}
+
+// What the robot needs and `have` lacks, in words and with commas between; "" if nothing. A robot without any drive
+// needs what nobody has.
+std::string lacking(const Robot& robot, Ability have);
+
+}  // namespace muster::description

@@ -1,0 +1,77 @@
+// Four rotors that lift and turn a body, without an engine.
+//
+// The front and the back rotor turn clockwise seen from above, the left and the right one the other way. Thrust and
+// torque grow with the square of a rotor's rate, which follows what is asked as a lag of first order (Powers,
+// Mellinger, Kumar: Quadrotor kinematics and dynamics. Handbook of Unmanned Aerial Vehicles, 2015). Air that comes from
+// the side drags at a rotor in proportion to its rate (Martin, Salaun: The true role of accelerometer feedback in
+// quadrotor control. ICRA 2010). Rotors have no angular momentum of their own and do not flap.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+namespace muster::description {
+
+using RotorRates = std::array<double, 4>;  // front, left, back, right [rad/s], from 0
+
+struct Wrench {
+  Eigen::Vector3d force, torque;  // in the body's frame, the torque about the body's origin [N], [N m]
+};
+
+// By which share of the way to what is asked a rotor that speeds up, or slows down, falls short after some time.
+struct RotorDecay {
+  double up = 0, down = 0;
+};
+
+struct Quadrotor {
+  double arm = 0;            // of the rotors' axes from the body's z axis [m]
+  double height = 0;         // of the rotors' plane above the body's origin [m]
+  double thrust_factor = 0;  // [N s2/rad2]
+  double torque_factor = 0;  // [N m s2/rad2]
+  double drag_factor = 0;    // [N s2/(rad m)]
+  double max_speed = 0;      // of a rotor [rad/s]
+  double lag_up = 0;         // time constant of a rotor that speeds up [s]
+  double lag_down = 0;       // of one that slows down
+
+  // The controller on board: angular acceleration asked for each radian of error, its integral and its rate.
+  double attitude_p = 0;  // [1/s2]
+  double attitude_i = 0;  // [1/s3]
+  double attitude_d = 0;  // [1/s]
+  double yaw_p = 0;       // for each rad/s of error of the turn rate [1/s]
+  double yaw_i = 0;       // [1/s2]
+
+  double max_thrust() const { return 4 * thrust_factor * max_speed * max_speed; }
+
+  RotorDecay decay(double time) const;
+  RotorRates later(const RotorRates& now, const RotorRates& asked, const RotorDecay& decay) const;
+
+  // Of rotors on a body whose origin moves at `v` and that turns at `w`, both in its own frame. `squares` of the rates
+  // are apart for who averages both over time.
+  Wrench wrench(const RotorRates& rates, const RotorRates& squares, const Eigen::Vector3d& v,
+                const Eigen::Vector3d& w) const;
+  Wrench wrench(const RotorRates& rates, const Eigen::Vector3d& v, const Eigen::Vector3d& w) const;
+
+  // Rates that lift with `thrust` [N] and turn with `torque` [N m]. What is too much gives way in this order: turning
+  // about z, then thrust (raised or lowered), then roll and pitch. Without thrust the rotors stand.
+  RotorRates rates_for(double thrust, const Eigen::Vector3d& torque) const;
+
+  // Force against a slow sideways motion while the rotors together lift `thrust` [N s/m].
+  double hover_drag(double thrust) const;
+};
+
+inline Wrench Quadrotor::wrench(const RotorRates& rates, const RotorRates& squares, const Eigen::Vector3d& v,
+                                const Eigen::Vector3d& w) const {
+  const auto& [front, left, back, right] = rates;
+  const auto& [f2, l2, b2, r2] = squares;
+  // Sums over rotors of their rates, and of these times their places.
+  const double sum = front + left + back + right, along = arm * (front - back), across = arm * (left - right);
+  const double vx = v.x() + height * w.y(), vy = v.y() - height * w.x();  // of the middle of the rotors
+  const double drag_x = -drag_factor * (sum * vx - across * w.z());
+  const double drag_y = -drag_factor * (sum * vy + along * w.z());
+  const double drag_z = -drag_factor * (along * vy - across * vx + arm * arm * sum * w.z());
+  return {{drag_x, drag_y, thrust_factor * (f2 + l2 + b2 + r2)},
+          {thrust_factor * arm * (l2 - r2) - height * drag_y, thrust_factor * arm * (b2 - f2) + height * drag_x,
+           torque_factor * (f2 + b2 - l2 - r2) + drag_z}};
+}
+
+}  // namespace muster::description
