@@ -124,7 +124,6 @@ void Medium::start(std::size_t number, Time at) {
   }
   if (slots_end(station) <= at) {
     station.slots = 0;
-    station.is_immediate = true;
     station.counts_from = at;
   }
   station.due = slots_end(station);
@@ -134,10 +133,8 @@ void Medium::start(std::size_t number, Time at) {
 // What the channel is to a station from now on.
 void Medium::look(std::size_t number, Time at) {
   Station& station = stations_[number];
-  const std::uint64_t heard = air_.listens_to(number);
   const bool is_busy = station.phase == Phase::sending || station.sends_ack || station.reserved > at ||
-                       air_.power(number) >= settings_.busy ||
-                       (heard != nothing && air_.frame(heard).begin + detection <= at);
+                       air_.power(number) >= settings_.busy || air_.listens_to(number) != nothing;
   if (is_busy == station.is_busy) return;
   is_busy ? freeze(number, at) : resume(number, at);
 }
@@ -149,11 +146,8 @@ void Medium::look_all(Time at) {
 void Medium::freeze(std::size_t number, Time at) {
   Station& station = stations_[number];
   station.is_busy = true;
-  if (station.is_immediate)
-    station.slots = draw_slots(number);
-  else if (at > station.counts_from)
+  if (at > station.counts_from)
     station.slots = std::max(0, station.slots - static_cast<int>((at - station.counts_from) / settings_.slot));
-  station.is_immediate = false;
   station.due = never;
 }
 
@@ -174,7 +168,6 @@ void Medium::send_due(Time at) {
     const packets::Message& message = post_.first(i);
     station.due = never;
     station.slots = 0;
-    station.is_immediate = false;
     station.phase = Phase::sending;
     station.is_busy = true;
     const std::size_t size = frame_size(message.size, message.frame);
@@ -322,8 +315,7 @@ namespace {
 // One list of what a record holds, for both directions.
 template <class Archive, class Record>
 void put_station(Archive&& field, Record& s) {
-  field(s.phase), field(s.sends_ack), field(s.is_busy), field(s.heard_wrong), field(s.is_immediate), field(s.slots),
-      field(s.window);
+  field(s.phase), field(s.sends_ack), field(s.is_busy), field(s.heard_wrong), field(s.slots), field(s.window);
   field(s.tries), field(s.counts_from), field(s.due), field(s.timeout), field(s.reserved), field(s.sent);
   field(s.arrived), field(s.last_loss), field(s.ack_due), field(s.ack_of), field(s.ack_to), field(s.draws);
 }

@@ -52,10 +52,9 @@ class Medium {
   struct Station {
     Phase phase = Phase::idle;
     bool sends_ack = false;
-    bool is_busy = false;       // the channel, to it
-    bool heard_wrong = false;   // the last frame that it listened to
-    bool is_immediate = false;  // it found the channel idle, and counts no slots
-    int slots = 0;              // left to count down, at counts_from
+    bool is_busy = false;      // the channel, to it
+    bool heard_wrong = false;  // the last frame that it listened to
+    int slots = 0;             // left to count down, at counts_from
     int window = least_window;
     int tries = 0;
     Time counts_from = 0;           // while the channel is idle: since when slots count
