@@ -157,15 +157,16 @@ TEST_F(Claims, TwoTablesNeverBearOneName) {
 }
 
 TEST_F(Claims, AReadThatNobodyWritesNamesTheNearest) {
-  EXPECT_EQ(error_of_world(two_robots + "<toy.copy_physics name='w' to='robot/*/charge'/>\n<toy.copy_radio name='r' "
-                                        "from='robot/*/chargr' to='self/x'/>\n"),
-            "world.xml:5:1: r (toy.copy_radio): reads \"robot/*/chargr\", which nobody writes; expected one of "
-            "door/*/shape, door/*/state, "
-            "endpoint/*/pose, endpoint/*/radio, inbox/*/message, instance/r/*/x, link/*/ends, link/*/rssi, "
-            "material/*/loss, radio/*/mount, "
-            "radio/*/traffic, robot/*/charge, robot/*/drive, robot/*/odometry, robot/*/pose, "
-            "robot/*/position3d, robot/*/rotor_drive, robot/*/rotors, robot/*/twist, robot/*/wheels, wall/*/shape; "
-            "did you mean \"robot/*/charge\"?");
+  EXPECT_EQ(
+      error_of_world(two_robots + "<toy.copy_physics name='w' to='robot/*/charge'/>\n<toy.copy_radio name='r' "
+                                  "from='robot/*/chargr' to='self/x'/>\n"),
+      "world.xml:5:1: r (toy.copy_radio): reads \"robot/*/chargr\", which nobody writes; expected one of "
+      "door/*/shape, door/*/state, "
+      "endpoint/*/pose, endpoint/*/radio, inbox/*/message, instance/r/*/x, link/*/ends, link/*/rssi, "
+      "material/*/loss, radio/*/mount, "
+      "radio/*/traffic, robot/*/charge, robot/*/drive, robot/*/gait, robot/*/legs, robot/*/odometry, robot/*/pose, "
+      "robot/*/position3d, robot/*/rotor_drive, robot/*/rotors, robot/*/twist, robot/*/wheels, wall/*/shape; "
+      "did you mean \"robot/*/charge\"?");
   EXPECT_THAT(
       error_of_world(two_robots + "<toy.copy_physics name='w' to='robot/*/v' as='add'/>\n<toy.copy_radio name='r' "
                                   "from='robot/*/v@u' to='self/x'/>\n"),
