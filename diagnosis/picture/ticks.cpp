@@ -111,7 +111,7 @@ std::vector<Tick> ticks_within(Range range, int at_most) {
   const Step step = choose_step(range, at_most);
   std::vector<Tick> ticks;
   for (double k = first_inside(range, step); k <= last_inside(range, step); ++k) {
-    const double value = step.multiple(k) + 0.0;  // + 0.0 turns -0 into 0
+    const double value = step.multiple(k) + 0.0;   // + 0.0 turns -0 into 0
     const bool among_powers = step.size() < 1e-4;  // which have no decimals that a zero should share
     ticks.push_back({value, number_label(value, value == 0 && among_powers ? 0 : step.decimals())});
   }

@@ -98,7 +98,8 @@ TEST(Steps, AreInTheOrderOfStrength) {
   fading.lambda = 200;
   d.causes.insert(d.causes.begin(), {fading, drift});
   d.unexplained = {{"battery", 30, 60, {}}};
-  const char* expected[] = {"the world, fitted", "+ drift", "+ the column battery (unexplained)", "+ unmapped wall", ""};
+  const char* expected[] = {"the world, fitted", "+ drift", "+ the column battery (unexplained)", "+ unmapped wall",
+                            ""};
   for (std::size_t k = 0; k < 5; ++k) EXPECT_EQ(name_of_step(d, k), expected[k]) << k;
 }
 
