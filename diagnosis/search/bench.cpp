@@ -204,19 +204,9 @@ double Bench::evidence(const Candidate& candidate, double gain, Index width, boo
   return gain / 2 - strengths / 2 * log_rows() - log_atoms(candidate) - (refined ? candidate.charge : 0);
 }
 
-double Bench::threshold(const Candidate& candidate) const {
-  return threshold(candidate, terms.empty() ? options_.first_alpha : options_.further_alpha);
-}
-
-double Bench::threshold(const Candidate& candidate, double alpha) const {
-  constexpr double share_of_places = 1.0 / 3;
-  const auto sought = [](const Candidate& c) { return !c.pieces.empty(); };
-  const auto places =
-      std::count_if(entries_.begin(), entries_.end(), [&](const Entry& entry) { return sought(*entry.candidate); });
-  const auto all = static_cast<double>(entries_.size()), of_places = static_cast<double>(places);
-  if (places == 0) return std::log(alpha / all);
-  return std::log(alpha * (sought(candidate) ? share_of_places / of_places
-                                             : (1 - share_of_places) / std::max(all - of_places, 1.0)));
+double Bench::threshold() const {
+  const double alpha = terms.empty() ? options_.first_alpha : options_.further_alpha;
+  return std::log(alpha / static_cast<double>(entries_.size()));
 }
 
 }  // namespace muster::search

@@ -102,10 +102,8 @@ class Bench {
   double log_atoms(const Candidate& candidate) const { return log_atoms_.at(candidate.id); }
   double log_p(const Candidate& candidate, double gain, Index width, bool refined) const;
   double evidence(const Candidate& candidate, double gain, Index width, bool refined) const;
-  // log p below which a term is accepted. Places that are sought together have a third of the chances of error: they
-  // pay most for the search, and so much more is seen of them than is lost elsewhere (Roeder and Wasserman 2009).
-  double threshold(const Candidate& candidate) const;
-  double threshold(const Candidate& candidate, double alpha) const;
+  // log p below which a term is accepted.
+  double threshold() const;
 
  private:
   Entry entry(Candidate candidate) const;

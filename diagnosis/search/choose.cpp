@@ -103,7 +103,7 @@ std::vector<Lead> compared(const Bench& bench, const Stand& stand, const std::ve
     const Lead* const passed = same_entry(passing, lead);
     if (!passed && lead.evidence <= best_smooth - 400) continue;
     Lead best = at_its_best(bench, stand, lead, passed);
-    if (best.log_p < bench.threshold(best.candidate())) pool.push_back(std::move(best));
+    if (best.log_p < bench.threshold()) pool.push_back(std::move(best));
   }
   if (pool.empty()) pool = passing;
   by_evidence(pool);

@@ -149,6 +149,7 @@ void withdraw_names_of_parts(Bench& bench) {
 
 // Each name again, beside all the others.
 void test_each(Bench& bench, std::vector<Term>& aside, std::vector<Trial>& trials) {
+  const double threshold = std::log(bench.options().further_alpha / static_cast<double>(bench.entries().size()));
   for (std::size_t k = 0; k < bench.terms.size() && bench.terms.size() > 1;) {
     const Term term = bench.terms[k];
     const Candidate& c = *term.candidate;
@@ -163,7 +164,7 @@ void test_each(Bench& bench, std::vector<Term>& aside, std::vector<Trial>& trial
     // The fit of the whole design, its columns in another order: the value does not depend on it.
     const double integrated =
         integrated_log_p(bench, bench.fit, rest, term.columns, log_tests(bench, c)) + stand.skew_charge(term.columns);
-    if (integrated <= bench.threshold(c, bench.options().further_alpha)) {
+    if (integrated <= threshold) {
       ++k;
       continue;
     }

@@ -84,7 +84,7 @@ Trial tried(const Bench& bench, const Lead& lead, const noise::Fit& fit, const E
   if (trial.log_p > -40)
     trial.integrated_log_p = integrated_log_p(bench, fit, design, lead.columns, log_tests(bench, c));
   if (c.whole) trial.integrated_log_p = std::max(trial.integrated_log_p, trial.log_p);  // not by a multiple of itself
-  if ((c.slow || c.kind == Kind::smooth) && trial.integrated_log_p <= bench.threshold(c)) {
+  if ((c.slow || c.kind == Kind::smooth) && trial.integrated_log_p <= bench.threshold()) {
     const double profile = bench.profile_gain(design, lead.columns, fit.covariance);
     trial.integrated_log_p = std::max(trial.integrated_log_p, bench.log_p(c, profile, lead.columns.cols(), true));
   }
@@ -95,7 +95,7 @@ Trial tried(const Bench& bench, const Lead& lead, const noise::Fit& fit, const E
   if (c.level_like && bench.problem().bounds.any() &&
       !stands_clear_of_clip(bench, fit.covariance, design, lead.columns))
     trial.reason = like_clipping;
-  else if (trial.integrated_log_p > bench.threshold(c))
+  else if (trial.integrated_log_p > bench.threshold())
     trial.reason = "not beyond chance";
   else if (winnings.of_outlier)
     trial.reason = "rests on fewer than five readings";
@@ -202,9 +202,7 @@ void forward(Bench& bench, std::vector<Trial>& trials) {
     bench.renew_depending(stand.coefficients(design.cols()));
     const std::vector<Lead> all = leads(bench, stand);
     if (static_cast<int>(bench.terms.size()) >= bench.options().most_terms) return;
-    const auto passes = [&](const Lead& lead) {
-      return lead.log_p < bench.threshold(lead.candidate()) && may_enter(lead.candidate());
-    };
+    const auto passes = [&](const Lead& lead) { return lead.log_p < bench.threshold() && may_enter(lead.candidate()); };
     std::vector<Lead> passing;
     std::copy_if(all.begin(), all.end(), std::back_inserter(passing), passes);
     if (passing.empty()) {

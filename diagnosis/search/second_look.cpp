@@ -57,7 +57,7 @@ std::vector<Lead> second_look(Bench& bench, const Stand& stand, const std::vecto
     noise::Fit fit = fit_with(bench, c, beside(design, lead.columns));
     // The field of before holds a part of the place and draws it aside: up to two thirds of the gain, as far as seen.
     const double gain = gain_of(c, bench.stand(design, fit.covariance), lead.columns);
-    if (c.starts > 1 && bench.log_p(c, 3 * gain, c.width, true) < bench.threshold(c)) {
+    if (c.starts > 1 && bench.log_p(c, 3 * gain, c.width, true) < bench.threshold()) {
       lead = refined(bench, bench.stand(design, fit.covariance), lead, false);
       fit = bench.fitted(beside(design, lead.columns), fit.covariance, 6);
     }

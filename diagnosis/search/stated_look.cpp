@@ -32,8 +32,7 @@ bool stands_as_stated(const Bench& bench, const Eigen::MatrixXd& both, const noi
 }
 
 // The likeliest first.
-std::vector<Lead> beyond_chance(Bench& bench, const Stand& stand,
-                                const std::function<double(const Candidate&)>& threshold,
+std::vector<Lead> beyond_chance(Bench& bench, const Stand& stand, double threshold,
                                 const std::function<bool(const Candidate&)>& usable) {
   std::vector<Lead> result;
   for (const Entry& entry : bench.entries()) {
@@ -42,7 +41,7 @@ std::vector<Lead> beyond_chance(Bench& bench, const Stand& stand,
     Index at = 0;
     const double gain = gains(c, unit_atoms(entry, stand), stand.at.residual).maxCoeff(&at);
     const double log_p = bench.log_p(c, gain, c.width, false);
-    if (log_p >= threshold(c)) continue;
+    if (log_p >= threshold) continue;
     const Eigen::VectorXd& theta = c.grid[static_cast<std::size_t>(at)];
     result.push_back({&entry, theta, entry.atom(at), gain, bench.evidence(c, gain, c.width, false), log_p, false, {}});
   }
@@ -68,7 +67,7 @@ void weigh_beside(const Bench& bench, const Eigen::MatrixXd& design, const std::
 std::optional<Lead> stated_look(Bench& bench, const std::function<bool(const Candidate&)>& usable) {
   if (bench.problem().stated.shadowing <= 0 || bench.problem().bounds.any()) return {};
   constexpr std::size_t looked_at = 3;
-  const auto threshold = [&](const Candidate& c) { return bench.threshold(c) - std::log(2.0); };  // a second chance
+  const double threshold = bench.threshold() - std::log(2.0);  // a second chance
   const Eigen::MatrixXd design = bench.design();
   const Stand alone = bench.stand(design, fitted_as_stated(bench, design)[0].covariance);
   std::vector<Lead> leads = beyond_chance(bench, alone, threshold, usable);
@@ -76,7 +75,7 @@ std::optional<Lead> stated_look(Bench& bench, const std::function<bool(const Can
     const Eigen::MatrixXd both = beside(design, leads[k].columns);
     const std::vector<noise::Fit> fits = fitted_as_stated(bench, both);
     weigh_beside(bench, design, fits, leads[k]);
-    if (leads[k].log_p < threshold(leads[k].candidate()) && stands_as_stated(bench, both, fits[0])) return leads[k];
+    if (leads[k].log_p < threshold && stands_as_stated(bench, both, fits[0])) return leads[k];
   }
   return {};
 }

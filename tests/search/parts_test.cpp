@@ -156,20 +156,6 @@ TEST(Smooths, NothingDependsOnPlacesThatAreNotKnown) {
   }
 }
 
-TEST(Thresholds, ShareTheChancesOfErrorAmongAllAndAThirdAmongPlaces) {
-  const auto world = world_of(varied(8, 400));
-  const Problem problem = problem_of(world, Eigen::VectorXd::Zero(400), causes_of(world));
-  const Bench bench(problem, {});
-  double all = 0, of_places = 0;
-  for (const Entry& entry : bench.entries()) {
-    const double one = std::exp(bench.threshold(*entry.candidate));
-    all += one;
-    if (!entry.candidate->pieces.empty()) of_places += one;
-  }
-  EXPECT_NEAR(all, bench.options().first_alpha, 1e-12);
-  EXPECT_NEAR(of_places, bench.options().first_alpha / 3, 1e-12);
-}
-
 // Row by row the same as the whole column at once.
 TEST(Thin, GainsWhatTheWholeColumnGains) {
   const auto world = world_of(varied(5, 900));
