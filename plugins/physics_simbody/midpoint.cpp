@@ -276,7 +276,8 @@ void MidpointOf<N>::place_legs(Robot& robot, double h, double at, const Command&
                                  command.leg_rate[i], state.leg_angle[i], h);
     }
     const Vector3d fall = robot.now.to_world.transpose() * Vector3d(0, 0, -gravity);
-    const LeggedMass legged = weigh(robot.model, robot.now.leg_angle, body.previous, fall);
+    // Weighed as they stand at the step's start, between the two velocities: half a step later, legs would be damped.
+    const LeggedMass legged = weigh(robot.model, state.leg_angle, body.previous, fall);
     body.mass = legged.mass;
     body.inverse_mass = inverse(legged.mass);
     const double kick = 0.5 * (state.memory.previous_step + h);

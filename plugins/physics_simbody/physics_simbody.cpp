@@ -23,7 +23,7 @@ struct Memory {
 };
 
 struct PhysicsSimbody {
-  static constexpr auto id = "physics.simbody/2";
+  static constexpr auto id = "physics.simbody/3";
   static constexpr auto summary =
       "rigid robots on wheels or legs, among walls and each other: friction, slip, torque limits, weight transfer";
   static constexpr auto manual =

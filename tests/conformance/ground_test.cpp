@@ -1,0 +1,195 @@
+// Robots on wheels, on flat ground: what any backend must keep, known by nothing but its file and what it claims.
+#include "tests/conformance/physics_backends.hpp"
+
+namespace muster::test {
+namespace {
+
+class OnTheGround : public EachBackend {
+ protected:
+  // A Scarab with another number in its <differential> element.
+  std::string changed(const std::string& attribute, const std::string& value) const {
+    std::string urdf = contents(models + "scarab.urdf");
+    const auto at = urdf.find(attribute + "=\"") + attribute.size() + 2;
+    urdf.replace(at, urdf.find('"', at) - at, value);
+    std::filesystem::copy_file(models + "hokuyo.stl", folder / "hokuyo.stl",
+                               std::filesystem::copy_options::skip_existing);
+    folder.write(attribute + ".urdf", urdf);
+    return " model='" + attribute + ".urdf'";
+  }
+};
+
+TEST_P(OnTheGround, FallsFreelyOrSaysThatItCannot) {
+  Started sim = run("<robot name='a' at='0 0 20' heading='0.5'/>", {{"forward", "1"}, {"rise", "2"}}, {});
+  run_for(sim, 100);
+  const double z = state(sim).pose.z;
+  if (GetParam().height) {
+    EXPECT_NEAR(z, 20 + 2 - gravity / 2, GetParam().fall);
+    EXPECT_LT(state(sim).distance(std::cos(0.5), std::sin(0.5)), 1e-6);
+  } else {
+    EXPECT_EQ(z, 20);
+    EXPECT_THAT(sim.events().back().message, testing::HasSubstr("it cannot hold changes of height"));
+  }
+}
+
+TEST_P(OnTheGround, StandsStillAtRest) {
+  Started sim = run("<robot name='a' at='3 -2 0' heading='1'/>", {}, {});
+  run_for(sim, 200);
+  EXPECT_LT(state(sim).distance(3, -2), GetParam().rest);
+  EXPECT_NEAR(2 * std::atan2(state(sim).pose.qz, state(sim).pose.qw), 1, GetParam().rest);
+  EXPECT_LT(state(sim).speed(), 1e-3);
+  EXPECT_NEAR(state(sim).pose.z, 0, 1e-4);
+}
+
+TEST_P(OnTheGround, RollsOnAnArcOfSpeedOverTurnRate) {
+  const double v = 0.3, w = 0.5, r = v / w;
+  Started sim = run(one + "/>",
+                    {{"forward", "0.3"},
+                     {"turn", "0.5"},
+                     {"left", std::to_string((v - w * half_base) / radius)},
+                     {"right", std::to_string((v + w * half_base) / radius)}},
+                    {{"v", "0.3"}, {"w", "0.5"}});
+  for (int k = 0; k < 400; ++k) {
+    sim.step();
+    ASSERT_NEAR(state(sim).distance(0, r), r, GetParam().arc * r) << sim.time();
+  }
+  const State end = state(sim);
+  EXPECT_LT(end.distance(r * std::sin(4 * w), r - r * std::cos(4 * w)), 2 * GetParam().arc);
+}
+
+// Thrown with its wheels held, a robot slides as far as friction on what its wheels carry lets it: statics with the
+// pull at the ground, the inertia at the centre of mass and a smooth caster behind.
+TEST_P(OnTheGround, SlidesAsFarAsCoulombSays) {
+  const double mu = 0.1, v = 0.5;
+  const auto thrown = [&](const std::string& heading) {
+    Started sim = run(one + " heading='" + heading + "'" + changed("friction", "0.1") + "/>", {{"forward", "0.5"}}, {});
+    run_for(sim, 200);
+    return state(sim).distance(0, 0);
+  };
+  if (!GetParam().slip) {
+    const Started sim = run(one + "/>", {}, {});
+    EXPECT_THAT(sim.events().back().message, testing::HasSubstr("wheel slip"));  // it cannot hold
+    return;
+  }
+  const auto whole = whole_mass(description::read_robot(models + "scarab.urdf"));
+  const double caster = 0.08, behind = -whole.centre.x(), high = whole.centre.z();
+  const double shifted = GetParam().load_transfer ? mu * high : 0;
+  const double pull = mu * gravity * (caster - behind) / (caster - shifted);
+  const double expected = v * v / (2 * pull), along = thrown("0");
+  EXPECT_NEAR(along, expected, GetParam().force * expected);
+  if (GetParam().round_friction) {
+    EXPECT_NEAR(thrown("0.7853981633974483"), along, 1e-3 * along);
+  } else {  // a pyramid's corner holds more
+    EXPECT_NEAR(thrown("0.7853981633974483"), along / std::sqrt(2.0), 0.05 * along);
+  }
+}
+
+// Two wheels pull with torque over radius; they also spin up themselves.
+TEST_P(OnTheGround, AcceleratesAsTorqueAllows) {
+  if (!GetParam().torque) return;
+  const double torque = 0.2, wheel_inertia = 0.00025;
+  Started sim = run(one + changed("max_torque", "0.2") + "/>", {}, {{"v", "9"}});
+  run_for(sim, 50);
+  const double expected = 2 * torque / radius / (8 + 2 * wheel_inertia / (radius * radius));
+  EXPECT_NEAR(state(sim).twist.vx / 0.5, expected, GetParam().force * expected);
+}
+
+// What lands at 2.4 m/s hardly rises again: impacts are plastic, as far as a solver knows how.
+TEST_P(OnTheGround, LandsWithoutBouncing) {
+  if (!GetParam().height) return;
+  Started sim = run("<robot name='a' at='0 0 0.3'/>", {}, {});
+  bool landed = false;
+  double fastest = 0;
+  for (int k = 0; k < 100; ++k) {
+    sim.step();
+    landed |= state(sim).pose.z < 0.01;
+    if (landed) fastest = std::max(fastest, state(sim).twist.vz);
+  }
+  EXPECT_TRUE(landed);
+  EXPECT_LT(fastest, GetParam().bounce);
+}
+
+// Held over the tick or with a slope: the same commands at the ticks' ends, half a tick apart.
+TEST_P(OnTheGround, TakesHeldAndRatedCommandsInMidStep) {
+  std::map<std::string, double> way;
+  for (const std::string rated : {"true", "false"}) {
+    Started sim =
+        started(GetParam(), one + "/>", {}, {{"a", "0.5"}, {"rated", rated}}, 0.01, 1, whole_ticks(GetParam()));
+    run_for(sim, 200);
+    way[rated] = state(sim).pose.x;
+  }
+  EXPECT_NEAR(way["true"], 1, GetParam().ramp);
+  EXPECT_NEAR(way["true"] - way["false"], 0.005, 1e-3);
+}
+
+// Ideal wheels on the course v = 0.25 + 0.15 sin(1.3 t), w = 0.8 sin(0.9 t), by fine quadrature.
+std::array<double, 2> ideal_course(double until) {
+  const int n = 100000;
+  const double h = until / n;
+  double x = 0, y = 0;
+  for (int k = 0; k < n; ++k) {
+    const double t = (k + 0.5) * h, heading = 0.8 / 0.9 * (1 - std::cos(0.9 * t)), v = 0.25 + 0.15 * std::sin(1.3 * t);
+    x += h * v * std::cos(heading);
+    y += h * v * std::sin(heading);
+  }
+  return {x, y};
+}
+
+State after_bends(Started sim, double h) {
+  for (int k = 0; k < std::lround(4 / h); ++k) sim.step();
+  return state(sim);
+}
+
+TEST_P(OnTheGround, FollowsIdealWheels) {
+  const auto [x, y] = ideal_course(4);
+  EXPECT_LT(after_bends(run(one + "/>", rolling, bends), 0.01).distance(x, y), GetParam().course);
+}
+
+TEST_P(OnTheGround, ConvergesInItsOrder) {
+  if (GetParam().order == 0) return;
+  const auto [x, y] = ideal_course(4);
+  std::vector<double> errors;
+  for (const double share : {1.0, 0.5, 0.25}) {
+    const double h = share * GetParam().coarsest_of_order;
+    const State end = after_bends(started(GetParam(), one + "/>", rolling, bends, h, 1, whole_ticks(GetParam())), h);
+    errors.push_back(end.distance(x, y));
+  }
+  EXPECT_NEAR(std::log2(errors[0] / errors[1]), GetParam().order, 0.3) << errors[0] << ' ' << errors[1];
+  EXPECT_NEAR(std::log2(errors[1] / errors[2]), GetParam().order, 0.3) << errors[1] << ' ' << errors[2];
+}
+
+std::string slippery(const std::string& model) { return one + model + "/><robot name='b' at='3 1 0'" + model + "/>"; }
+
+TEST_P(OnTheGround, GivesTheSameBitsForAnyWorkersAndAfterRemaking) {
+  const std::string robots = slippery(changed("friction", "0.05"));
+  Started straight = run(robots, {}, wild);
+  run_for(straight, 100);
+  for (const int workers : {2, 3}) {
+    Started other = run(robots, {}, wild, workers);
+    run_for(other, 100);
+    EXPECT_EQ(straight.digest(), other.digest()) << workers;
+  }
+  Started remade = run(robots, {}, wild);
+  while (remade.tick() < straight.tick()) {
+    if (remade.tick() % 17 == 5) remade.remake("physics");
+    remade.step();
+  }
+  EXPECT_EQ(straight.digest(), remade.digest());
+}
+
+TEST_P(OnTheGround, RestoredInMidRunItGoesOnWithTheSameBits) {
+  const std::string robots = slippery(changed("friction", "0.05"));
+  Started sim = run(robots, {}, wild), again = run(robots, {}, wild);
+  run_for(sim, 40);
+  sim.snapshot().save(folder / "then");
+  run_for(sim, 40);
+  EXPECT_NE(sim.digest(), again.digest());
+  again.restore(Snapshot::load(folder / "then"));
+  run_for(again, 40);
+  EXPECT_EQ(sim.digest(), again.digest());
+}
+
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(OnTheGround);
+INSTANTIATE_TEST_SUITE_P(Plugins, OnTheGround, testing::ValuesIn(backends()), test_name);
+
+}  // namespace
+}  // namespace muster::test
