@@ -86,8 +86,16 @@ Outcome ContactSolverOf<N>::solve(Problem& problem) {
       slip(outcome);
     }
   }
+  if (u_.size() > 1 && outcome.minimised) obey_impulses();
   for (std::size_t i = 0; i < u_.size(); ++i) problem.bodies[i].velocity = u_[i];
   return outcome;
+}
+
+// What the search left over, less than its tolerance, would be momentum from nowhere: velocities become exactly what
+// the impulses make of them, so that what bodies give each other adds up to nothing.
+template <int N>
+void ContactSolverOf<N>::obey_impulses() {
+  for (std::size_t b = 0; b < u_.size(); ++b) u_[b] -= p_->bodies[b].inverse_mass * gradient_[b];
 }
 
 template <int N>

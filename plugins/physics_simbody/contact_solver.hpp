@@ -109,6 +109,7 @@ class ContactSolverOf {
   };
 
   void begin();
+  void obey_impulses();
   void locate(const Velocities& u);
   void gradient(bool refresh);
   double residual() const;

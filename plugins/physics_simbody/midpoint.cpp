@@ -35,6 +35,9 @@ Quaternion turned(const Quaternion& q, const Quaternion& at, const Vector3d& w, 
 }
 
 Quaternion quaternion_of(const RobotState& s) { return {s.pose[3], s.pose[4], s.pose[5], s.pose[6]}; }
+Matrix3d matrix_of(const RobotState& s) {
+  return Eigen::Quaterniond(s.pose[3], s.pose[4], s.pose[5], s.pose[6]).toRotationMatrix();
+}
 Vector3d velocity_of(const RobotState& s) { return {s.twist[0], s.twist[1], s.twist[2]}; }
 Vector3d rates_of(const RobotState& s) { return {s.twist[3], s.twist[4], s.twist[5]}; }
 
@@ -82,6 +85,14 @@ VelocityOf<N> rotor_force(const description::Quadrotor& rotors, const RobotState
 }
 
 }  // namespace
+
+// What the origin is faster by half a step ahead or behind than at the state's attitude, the mass centre being as fast.
+// Robots that meet in the air carry the velocity of their mass centres from step to step, so that what two give each
+// other is kept to the last digits.
+template <int N>
+Vector3d MidpointOf<N>::origin_lead(const Robot& robot, const RobotState& state) {
+  return rates_of(state).cross((matrix_of(state) - robot.now.to_world) * robot.whole.centre);
+}
 
 template <int N>
 MidpointOf<N>::MidpointOf(const std::vector<NamedRobot>& robots, double step, LegModel legs) : longest_step_(step) {
@@ -243,7 +254,9 @@ void MidpointOf<N>::place(int index, double h, double at, const Command& command
   for (int k = 0; k < 3; ++k) now.position[k] = state.pose[k] + 0.5 * h * state.twist[k];
   now.speed = speed_of(robot.model, state);
   now.body.previous.template head<3>() = now.to_world.transpose() * rates_of(state);
-  now.body.previous.template segment<3>(3) = now.to_world.transpose() * velocity_of(state);
+  Vector3d v = velocity_of(state);
+  if (robot.flight) v += origin_lead(robot, state);
+  now.body.previous.template segment<3>(3) = now.to_world.transpose() * v;
   if (robot.model.legs.empty()) {
     place_wheels(robot, index, h, at, command, state);
   } else {
@@ -259,8 +272,11 @@ void MidpointOf<N>::place_wheels(Robot& robot, int index, double h, double at, c
   for (int w = 0; w < 2; ++w) body.previous[6 + w] = state.rate[w];
   const double kick = 0.5 * (state.memory.previous_step + h);
   body.free = body.previous + kick * free_acceleration(index, robot.now.to_world, body.previous);
-  if (robot.model.rotors)
+  if (robot.model.rotors) {
     body.free += kick * (body.inverse_mass * rotor_force<N>(*robot.model.rotors, state, body.previous));
+    const Vector3d w = body.previous.template head<3>();  // in origin_lead() already
+    body.free.template segment<3>(3) += kick * w.cross(w.cross(robot.whole.centre));
+  }
   const double asked[] = {command.left + at * command.left_rate, command.right + at * command.right_rate};
   for (int w = 0; w < 2; ++w) body.motors[w] = {drive.limited_rate(asked[w]), drive.max_torque * h};
 }
@@ -368,6 +384,10 @@ void MidpointOf<N>::finish(Robot& robot, double h, const Command& command, Robot
     state.pose[k] += h * v[k];
     state.twist[k] = v[k];
     state.twist[3 + k] = w[k];
+  }
+  if (robot.flight) {
+    const Vector3d lead = origin_lead(robot, state);
+    for (int k = 0; k < 3; ++k) state.twist[k] -= lead[k];
   }
   for (int k = 0; k < 2 && robot.model.legs.empty(); ++k) {
     state.angle[k] += h * u[6 + k];

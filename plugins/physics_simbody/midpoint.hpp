@@ -65,6 +65,7 @@ class MidpointOf : public Engine {
                std::vector<RobotState>& states);
   bool is_in_the_air(const Group& group, double h, const std::vector<RobotState>& states) const;
   void fly(int index, double h, const Command& command, RobotState& state);
+  static Eigen::Vector3d origin_lead(const Robot& robot, const RobotState& state);
   void place(int index, double h, double at, const Command& command, const RobotState& state);
   void place_wheels(Robot& robot, int index, double h, double at, const Command& command, const RobotState& state);
   void place_legs(Robot& robot, double h, double at, const Command& command, const RobotState& state);
