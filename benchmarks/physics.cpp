@@ -8,6 +8,7 @@
 #include <ctime>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <stdexcept>
 #include <string>
 
@@ -15,6 +16,7 @@
 #include "kernel/simulation.hpp"
 #include "plugins/physics_simbody/world.hpp"
 #include "raw_ode.hpp"
+#include "smooth_coulomb.hpp"
 #include "text/number.hpp"
 #include "text/temporary_folder.hpp"
 
@@ -78,9 +80,9 @@ std::vector<simbody::RobotState> standing(const std::vector<Arc>& course) {
   return states;
 }
 
-std::unique_ptr<simbody::Engine> engine(std::size_t count, double step) {
+std::unique_ptr<simbody::Engine> engine(const description::Robot& robot, std::size_t count, double step) {
   std::vector<simbody::NamedRobot> robots;
-  for (std::size_t i = 0; i < count; ++i) robots.push_back({"r" + std::to_string(i), &scarab()});
+  for (std::size_t i = 0; i < count; ++i) robots.push_back({"r" + std::to_string(i), &robot});
   return simbody::make_engine(robots, simbody::Integrator::midpoint, step);
 }
 
@@ -100,7 +102,7 @@ void drive(simbody::Engine& engine, const std::vector<Arc>& course, int steps,
 }
 
 Outcome ours(const std::vector<Arc>& course, int steps) {
-  const auto made = engine(course.size(), 1);
+  const auto made = engine(scarab(), course.size(), 1);
   auto states = standing(course);
   const double start = cpu_seconds();
   drive(*made, course, steps, states);
@@ -166,6 +168,68 @@ void against_gazebos_setting(benchmark::State& state) {
 }
 BENCHMARK(against_gazebos_setting)->Unit(benchmark::kMillisecond)->Iterations(1)->MeasureProcessCPUTime();
 
+std::vector<std::array<double, 2>> ends_of_ours(const description::Robot& robot, const std::vector<Arc>& course,
+                                                int steps) {
+  const auto made = engine(robot, course.size(), 1);
+  auto states = standing(course);
+  drive(*made, course, steps, states);
+  std::vector<std::array<double, 2>> result;
+  for (const auto& state : states) result.push_back({state.pose[0], state.pose[1]});
+  return result;
+}
+
+std::vector<std::array<double, 2>> ends_of_ode(const description::Robot& robot, const std::vector<Arc>& course,
+                                               int steps) {
+  bench::RawOde ode(robot, course, 0);
+  const double h = bench::until / steps;
+  for (int k = 0; k < steps; ++k) ode.step(k * h, h);
+  std::vector<std::array<double, 2>> result;
+  for (std::size_t i = 0; i < course.size(); ++i) result.push_back(ode.place(i));
+  return result;
+}
+
+// Wheels that slip. Argument: friction in thousandths. percent_*: how far the worst of 50 robots ends from where
+// Coulomb's isotropic law has it, of how far slip takes the worst one from its course (mm_slipped); uncertain: of that
+// law's own integration.
+void slip_against_coulomb(benchmark::State& state) {
+  description::Robot robot = scarab();
+  robot.drive->friction = 1e-3 * static_cast<double>(state.range(0));
+  const auto course = arcs(50);
+  const auto law = [&](std::size_t i, const bench::SmoothCoulomb::Fineness& fineness) {
+    return bench::SmoothCoulomb(robot, robot.drive->friction, fineness).drive(course[i]);
+  };
+  for (auto _ : state) {
+    const auto we = ends_of_ours(robot, course, 1000), we_fine = ends_of_ours(robot, course, 10000),
+               they = ends_of_ode(robot, course, 1000), they_fine = ends_of_ode(robot, course, 10000);
+    std::map<std::string, double> most;
+    for (std::size_t i = 0; i < course.size(); ++i) {
+      const auto truth = law(i, {});
+      const auto see = [&](const std::string& what, const std::array<double, 2>& end) {
+        most[what] = std::max(most[what], std::hypot(end[0] - truth[0], end[1] - truth[1]));
+      };
+      see("slipped", ideal(course[i]));
+      see("uncertain", law(i, bench::SmoothCoulomb::Fineness().coarser()));
+      see("ours_10_ms", we[i]);
+      see("ours_1_ms", we_fine[i]);
+      see("ode_10_ms", they[i]);
+      see("ode_1_ms", they_fine[i]);
+    }
+    require(most["uncertain"] < 0.01 * most["slipped"], "the law is not known well enough");
+    state.counters["mm_slipped"] = 1e3 * most["slipped"];
+    for (const auto& [what, error] : most) {
+      if (what != "slipped") state.counters["percent_" + what] = 100 * error / most["slipped"];
+    }
+  }
+}
+BENCHMARK(slip_against_coulomb)
+    ->ArgName("friction")
+    ->Arg(30)
+    ->Arg(50)
+    ->Arg(100)
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(1)
+    ->MeasureProcessCPUTime();
+
 // The fewest steps that stay below a limit of error. Kinks of the course lie between steps.
 template <class Run>
 int fewest_steps(double limit, Run run) {
@@ -222,7 +286,7 @@ void boundary(benchmark::State& state) {
   constexpr int ticks = 1000;
   Outcome alone, whole;
   for (auto _ : state) {
-    const auto made = engine(course.size(), step);
+    const auto made = engine(scarab(), course.size(), step);
     auto states = standing(course);
     double start = cpu_seconds();
     drive(*made, course, ticks, states);
