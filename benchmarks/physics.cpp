@@ -110,12 +110,31 @@ Outcome ours(const std::vector<Arc>& course, int steps) {
   return {seconds, worst(course, [&](std::size_t i) { return std::array{states[i].pose[0], states[i].pose[1]}; })};
 }
 
+bench::RawOde ode_of(const description::Robot& robot, const std::vector<Arc>& course, int iterations) {
+  std::vector<bench::RawOde::Start> starts;
+  for (const Arc& arc : course) starts.push_back({arc.x, arc.y, arc.heading});
+  std::vector<scene::Slab> walls;  // that nobody reaches
+  for (int i = 0; i < 8; ++i) {
+    const double x = bench::apart * (i % 3 + 0.5), y = bench::apart * (i / 3 + 0.5);
+    walls.push_back({x, y, 0.5, i % 2 ? 1.0 : 0.0, i % 2 ? 0.0 : 1.0, 4, 0.2, 1});
+  }
+  return {robot, starts, walls, iterations};
+}
+
+void drive(bench::RawOde& ode, const std::vector<Arc>& course, int steps) {
+  const double h = bench::until / steps;
+  for (int k = 0; k < steps; ++k) {
+    const double middle = (k + 0.5) * h;
+    ode.step(h, [&](std::size_t i) { return std::array{course[i].left(middle), course[i].right(middle)}; });
+  }
+}
+
 Outcome theirs(const std::vector<Arc>& course, int steps, int iterations = 0) {
-  bench::RawOde ode(scarab(), course, iterations);
-  const double h = bench::until / steps, start = cpu_seconds();
-  for (int k = 0; k < steps; ++k) ode.step(k * h, h);
+  bench::RawOde ode = ode_of(scarab(), course, iterations);
+  const double start = cpu_seconds();
+  drive(ode, course, steps);
   const double seconds = cpu_seconds() - start;
-  return {seconds, worst(course, [&](std::size_t i) { return ode.place(i); })};
+  return {seconds, worst(course, [&](std::size_t i) { return ode.pose(i); })};
 }
 
 double us(const Outcome& outcome, std::size_t robots, int steps) {
@@ -180,11 +199,10 @@ std::vector<std::array<double, 2>> ends_of_ours(const description::Robot& robot,
 
 std::vector<std::array<double, 2>> ends_of_ode(const description::Robot& robot, const std::vector<Arc>& course,
                                                int steps) {
-  bench::RawOde ode(robot, course, 0);
-  const double h = bench::until / steps;
-  for (int k = 0; k < steps; ++k) ode.step(k * h, h);
+  bench::RawOde ode = ode_of(robot, course, 0);
+  drive(ode, course, steps);
   std::vector<std::array<double, 2>> result;
-  for (std::size_t i = 0; i < course.size(); ++i) result.push_back(ode.place(i));
+  for (std::size_t i = 0; i < course.size(); ++i) result.push_back({ode.pose(i)[0], ode.pose(i)[1]});
   return result;
 }
 

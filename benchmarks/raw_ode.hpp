@@ -1,5 +1,5 @@
 // Scarabs in ODE as a program without a kernel has them: bodies that live in ODE from step to step. Written for speed,
-// as the peer of our engine: spheres for wheels, one box a robot, its own collision, eight walls that nobody reaches.
+// as the peer of our engine: spheres for wheels, one box a robot, its own collision.
 #pragma once
 
 #include <algorithm>
@@ -9,32 +9,42 @@
 
 #include "plugins/physics_ode/library.hpp"
 #include "plugins/physics_ode/model.hpp"
-#include "toys/arcs.hpp"
+#include "scene/slabs.hpp"
 
 namespace muster::bench {
 
 class RawOde {
  public:
+  struct Start {
+    double x, y, heading;
+  };
+
   // iterations 0: dWorldStep; else of dWorldQuickStep.
-  RawOde(const description::Robot& robot, const std::vector<Arc>& arcs, int iterations)
-      : model_(robot), arcs_(arcs), iterations_(iterations), world_(dWorldCreate()), space_(dHashSpaceCreate(nullptr)) {
+  RawOde(const description::Robot& robot, const std::vector<Start>& starts, const std::vector<scene::Slab>& walls,
+         int iterations)
+      : model_(robot), iterations_(iterations), world_(dWorldCreate()), space_(dHashSpaceCreate(nullptr)) {
     thread_.carry(world_.get());
     dWorldSetGravity(world_.get(), 0, 0, -9.81);
     dWorldSetERP(world_.get(), 0.2);
     dWorldSetCFM(world_.get(), 1e-10);
     if (iterations) dWorldSetQuickStepNumIterations(world_.get(), iterations);
     dCreatePlane(space_.get(), 0, 0, 1, 0);
-    for (int i = 0; i < 8; ++i) {
-      dGeomID wall = dCreateBox(space_.get(), i % 2 ? 4 : 0.2, i % 2 ? 0.2 : 4, 1);
-      dGeomSetPosition(wall, apart * (i % 3 + 0.5), apart * (i / 3 + 0.5), 0.5);
+    for (const scene::Slab& wall : walls) {
+      dGeomID box = dCreateBox(space_.get(), wall.length, wall.thickness, wall.height);
+      dGeomSetPosition(box, wall.x, wall.y, wall.z);
+      const double half = std::atan2(wall.sin_yaw, wall.cos_yaw) / 2;
+      const dQuaternion turned = {std::cos(half), 0, 0, std::sin(half)};
+      dGeomSetQuaternion(box, turned);
     }
-    for (const Arc& arc : arcs) add(arc);
+    for (const Start& start : starts) add(start);
   }
 
-  void step(double t, double h) {
-    for (std::size_t i = 0; i < arcs_.size(); ++i) {
-      dJointSetHingeParam(robots_[i].motor[0], dParamVel, arcs_[i].left(t + h / 2));
-      dJointSetHingeParam(robots_[i].motor[1], dParamVel, arcs_[i].right(t + h / 2));
+  // rates(robot): of its left and right wheel, for the step.
+  template <class Rates>
+  void step(double h, Rates rates) {
+    for (std::size_t i = 0; i < robots_.size(); ++i) {
+      const std::array<double, 2> asked = rates(i);
+      for (std::size_t w = 0; w < 2; ++w) dJointSetHingeParam(robots_[i].motor[w], dParamVel, asked[w]);
     }
     dJointGroupEmpty(contacts_.get());
     dSpaceCollide(space_.get(), this, touch);
@@ -45,12 +55,13 @@ class RawOde {
     }
   }
 
-  // x, y of the robot's frame.
-  std::array<double, 2> place(std::size_t robot) const {
+  // Of the robot's frame: x y z, qw qx qy qz.
+  std::array<double, 7> pose(std::size_t robot) const {
     const auto& c = model_.body.centre;
     dVector3 origin;
     dBodyGetRelPointPos(robots_[robot].body, -c.x(), -c.y(), -c.z(), origin);
-    return {origin[0], origin[1]};
+    const dReal* q = dBodyGetQuaternion(robots_[robot].body);
+    return {origin[0], origin[1], origin[2], q[0], q[1], q[2], q[3]};
   }
 
  private:
@@ -59,9 +70,9 @@ class RawOde {
     std::array<dJointID, 2> motor;
   };
 
-  void add(const Arc& arc) {
+  void add(const Start& start) {
     const Eigen::Isometry3d at =
-        Eigen::Translation3d(arc.x, arc.y, 0) * Eigen::AngleAxisd(arc.heading, Eigen::Vector3d::UnitZ());
+        Eigen::Translation3d(start.x, start.y, 0) * Eigen::AngleAxisd(start.heading, Eigen::Vector3d::UnitZ());
     const Eigen::Quaterniond turned(at.linear());
     const auto body = [&](const description::Mass& mass, const Eigen::Vector3d& centre) {
       dBodyID made = dBodyCreate(world_.get());
@@ -129,7 +140,6 @@ class RawOde {
   ode::Library library_;
   ode::OwnThread thread_;
   ode::RobotModel model_;
-  std::vector<Arc> arcs_;
   int iterations_;
   std::unique_ptr<dxWorld, ode::Destroy> world_;
   std::unique_ptr<dxSpace, ode::Destroy> space_;

@@ -1,5 +1,6 @@
 // Robots that touch walls and each other, against closed forms and conservation laws.
-#include "crowds.hpp"
+#include "benchmarks/crowds.hpp"
+#include "scarabs.hpp"
 
 namespace muster::simbody {
 namespace {
@@ -132,7 +133,7 @@ TEST(Contact, FastRobotsPassThroughNothing) {
   Trouble seen;
   for (int k = 0; k < 60; ++k) {
     run.tick(coarse, std::vector<Command>(3, command(0, 0)));
-    seen.see(run, coarse);
+    seen.see(run.states, slabs(run.walls(), {}), coarse);
     ASSERT_LT(run.states[0].pose[0], 1 - front);
     ASSERT_LT(run.states[1].pose[0], run.states[2].pose[0] - front);
     ASSERT_LT(run.states[2].pose[0], 1 - front);
@@ -194,7 +195,7 @@ TEST(Contact, JamHolds) {
   Trouble seen;
   for (int k = 0; k < 300; ++k) {
     run.tick(coarse, inward(count, k));
-    seen.see(run, coarse);
+    seen.see(run.states, slabs(run.walls(), {}), coarse);
   }
   EXPECT_LT(seen.deepest, 1e-3);
   EXPECT_LT(seen.rise, 0.3);
@@ -253,7 +254,7 @@ TEST(Contact, CrowdNeitherOverlapsNorJumps) {
       std::vector<Command> commands;
       for (int i = 0; i < count; ++i) commands.push_back(arcs.between(i, k * coarse, (k + 1) * coarse));
       run.tick(coarse, commands);
-      seen.see(run, coarse);
+      seen.see(run.states, slabs(run.walls(), {}), coarse);
       for (const RobotState& s : run.states) touching += s.memory.kept[0].id != 0;
     }
     EXPECT_LT(seen.deepest, 1e-3) << seed;

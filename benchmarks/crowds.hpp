@@ -5,7 +5,7 @@
 #include <muster/random.hpp>
 
 #include "encounters.hpp"
-#include "scarabs.hpp"
+#include "tests/physics_simbody/fleet.hpp"
 
 namespace muster::simbody {
 
@@ -58,18 +58,34 @@ class RandomArcs {
   Stream stream_;
 };
 
+constexpr int crowd = 50;
+
+// Fifty that stand anyhow in an arena, and random arcs for them.
+inline std::vector<RobotState> crowd_at_rest(uint64_t seed) {
+  return square(crowd, [&](int i, double, double) { return 6.28 * Stream(seed).uniform(1000 + i); });
+}
+
+// Fifty that face their middle, and push on to it: one island in the end.
+inline std::vector<RobotState> jam_at_rest() {
+  const double middle = 0.5 * spacing * (std::ceil(std::sqrt(crowd)) - 1);
+  return square(crowd, [&](int, double x, double y) { return std::atan2(middle - y, middle - x); });
+}
+inline Command inward(const Stream& stream, int robot, double t) {
+  return command(0.4 * std::min(1.0, 2 * t), 0.6 * (stream.uniform(robot, static_cast<uint64_t>(t + 1e-9)) - 0.5));
+}
+
 // The worst that was seen.
 struct Trouble {
   double deepest = 0;  // penetration of robots into each other, walls and ground [m]
   double rise = 0;     // of a mass centre [m/s]
   double tilt = 0;     // [rad]
 
-  void see(const Fleet& fleet, double dt) {
+  void see(const std::vector<RobotState>& states, const std::vector<scene::Slab>& slabs, double dt) {
     static const RobotModel model(scarab());
     static const Eigen::Vector3d centre = whole_mass(scarab()).centre;
-    std::vector<Placed> robots(fleet.states.size());
+    std::vector<Placed> robots(states.size());
     for (std::size_t i = 0; i < robots.size(); ++i) {
-      const auto& pose = fleet.states[i].pose;
+      const auto& pose = states[i].pose;
       robots[i].model = &model;
       robots[i].to_world = Eigen::Quaterniond(pose[3], pose[4], pose[5], pose[6]).toRotationMatrix();
       robots[i].position = {pose[0], pose[1], pose[2]};
@@ -84,7 +100,7 @@ struct Trouble {
       heights_[i] = height;
     }
     std::vector<Solid> walls;
-    for (const scene::Slab& s : slabs(fleet.walls(), {})) walls.push_back(solid_of(s));
+    for (const scene::Slab& s : slabs) walls.push_back(solid_of(s));
     for (std::size_t i = 0; i < robots.size(); ++i) {
       for (const Solid& part : robots[i].solids) {
         for (const Solid& obstacle : walls) look(part, obstacle);
