@@ -44,7 +44,10 @@ class Match {
   }
 
   void report(benchmark::State& state) const {
-    if (ours_.seen.deepest > 1e-3 || ours_.seen.rise > 0.3) throw std::logic_error("ours sink or rise");
+    if (ours_.seen.deepest > 1e-3 || ours_.seen.rise > 0.3) {
+      throw std::logic_error("ours sink by " + std::to_string(1e3 * ours_.seen.deepest) + " mm and rise at " +
+                             std::to_string(ours_.seen.rise) + " m/s");
+    }
     state.counters["us_ours"] = 1e6 * ours_.seconds / steps_;
     state.counters["us_ode"] = 1e6 * theirs_.seconds / steps_;
     state.counters["mm_ours"] = 1e3 * ours_.seen.deepest;

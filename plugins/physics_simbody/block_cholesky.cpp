@@ -4,10 +4,29 @@
 
 namespace muster::simbody {
 
+namespace {
+
+// Of the lower triangle. Products with it are unrolled, which solving by a triangle of this size is not.
+template <class Matrix>
+void invert(const Matrix& lower, Matrix& inverse) {
+  inverse.setZero();
+  for (int column = 0; column < lower.cols(); ++column) {
+    inverse(column, column) = 1 / lower(column, column);
+    for (int row = column + 1; row < lower.rows(); ++row) {
+      double sum = 0;
+      for (int k = column; k < row; ++k) sum += lower(row, k) * inverse(k, column);
+      inverse(row, column) = -sum / lower(row, row);
+    }
+  }
+}
+
+}  // namespace
+
 template <int N>
 void BlockCholeskyOf<N>::arrange(int count, const std::vector<std::pair<int, int>>& pairs) {
   diagonal_.resize(count);
   factor_.resize(count);
+  inverse_.resize(count);
   columns_.resize(count);
   order_.resize(count);
   place_.assign(count, -1);
@@ -77,10 +96,15 @@ void BlockCholeskyOf<N>::factor() {
     body_.compute(rest);
     return;
   }
+  if (order_.size() == 1) {
+    factor_[0].compute(diagonal_[0]);
+    return;
+  }
   for (const int k : order_) {
     factor_[k].compute(diagonal_[k]);
+    invert(factor_[k].matrixLLT(), inverse_[k]);
     auto& column = columns_[k];
-    for (Below& below_k : column) factor_[k].matrixU().template solveInPlace<Eigen::OnTheRight>(below_k.block);
+    for (Below& below_k : column) below_k.block = below_k.block.lazyProduct(inverse_[k].transpose()).eval();
     for (std::size_t m = 0; m < column.size(); ++m) {
       const Below& a = column[m];
       diagonal_[a.row].noalias() -= a.block.lazyProduct(a.block.transpose());
@@ -113,12 +137,12 @@ void BlockCholeskyOf<N>::solve(std::vector<Velocity>& x) const {
     return;
   }
   for (const int k : order_) {
-    factor_[k].matrixL().solveInPlace(x[k]);
-    for (const Below& b : columns_[k]) x[b.row].noalias() -= b.block * x[k];
+    x[k] = inverse_[k].lazyProduct(x[k]).eval();
+    for (const Below& b : columns_[k]) x[b.row].noalias() -= b.block.lazyProduct(x[k]);
   }
   for (auto k = order_.rbegin(); k != order_.rend(); ++k) {
-    for (const Below& b : columns_[*k]) x[*k].noalias() -= b.block.transpose() * x[b.row];
-    factor_[*k].matrixU().solveInPlace(x[*k]);
+    for (const Below& b : columns_[*k]) x[*k].noalias() -= b.block.transpose().lazyProduct(x[b.row]);
+    x[*k] = inverse_[*k].transpose().lazyProduct(x[*k]).eval();
   }
 }
 

@@ -55,6 +55,7 @@ class BlockCholeskyOf {
   std::vector<std::vector<Below>> columns_;  // what stands below the diagonal once the order is applied
   std::vector<int> order_, place_;           // of elimination, and its inverse
   std::vector<Eigen::LLT<MassMatrix>> factor_;
+  std::vector<MassMatrix> inverse_;                 // of the factors' triangles, where there are several
   Eigen::LLT<BodyBlock> body_;                      // of one alone: what its joints leave of the body
   Eigen::Matrix<double, N - 6, 6> joints_by_body_;  // and how they follow it
 };

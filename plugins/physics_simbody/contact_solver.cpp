@@ -163,6 +163,22 @@ void ContactSolverOf<N>::add(const Contact& c, double k, int row, int column) {
   hessian_.add(c.body, c.other, k, a, of_other_b);
 }
 
+// Of both tangents at once: two products where their four pairs would take as many.
+template <int N>
+void ContactSolverOf<N>::add_friction(const Contact& c, const Eigen::Matrix2d& k) {
+  const auto turned = [&](const ContactRowsOf<N>& rows, int row) -> Velocity {
+    return k(row, 0) * rows.tangent[0] + k(row, 1) * rows.tangent[1];
+  };
+  for (int row = 0; row < 2; ++row) {
+    const Velocity b = turned(c, row);
+    add_product<N>(hessian_.diagonal(c.body), 1, c.tangent[row], b, c.joint);
+    if (c.other < 0) continue;
+    const Velocity of_other = turned(c.of_other, row);
+    add_product<N>(hessian_.diagonal(c.other), 1, c.of_other.tangent[row], of_other, c.of_other.joint);
+    hessian_.add(c.body, c.other, 1, c.tangent[row], of_other);
+  }
+}
+
 // The guess that is true on a clear floor: what touches and closes under the free motion closes; against what stands
 // still it sticks; motors hold their rate. What would have to pull does not touch after all, and what comes nearer than
 // it may does: the guess is made again.
@@ -308,9 +324,7 @@ void ContactSolverOf<N>::set_hessian() {
       const Eigen::Matrix2d product = (-1 / (at.bound * size)) * at.dual * at.slip.transpose();
       k = (at.bound / size) * (k - 0.5 * (product + product.transpose()));
     }
-    for (int r = 0; r < 2; ++r) {
-      for (int s = 0; s < 2; ++s) add(c, k(r, s), 1 + r, 1 + s);
-    }
+    add_friction(c, k);
   }
   for (std::size_t b = 0; b < u_.size(); ++b) {
     for (int m = 0; m < joints; ++m) hessian_.diagonal(static_cast<int>(b))(6 + m, 6 + m) += motor_stiffness(b, m);

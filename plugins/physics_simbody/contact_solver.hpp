@@ -125,6 +125,7 @@ class ContactSolverOf {
   double line_search();
   double motor_stiffness(std::size_t body, int m) const;
   void add(const Contact& c, double k, int row, int column);
+  void add_friction(const Contact& c, const Eigen::Matrix2d& k);
 
   Problem* p_ = nullptr;
   std::vector<Local> local_;

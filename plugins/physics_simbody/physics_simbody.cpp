@@ -37,7 +37,7 @@ struct PhysicsSimbody {
       "of\n"
       "`body_friction`. A mesh touches as the box around it, a cylinder as a prism of 16 sides, exact where it is "
       "nearest.\n"
-      "Where two near each other, or one near a wall, would go 1 cm in a step, the step is divided.\n"
+      "Where a robot is near others or walls and would go 5 mm in a step, the step is divided.\n"
       "integrator: midpoint is second order, on velocities; twist is the mean over its last step. rk3 (fixed step), "
       "rkm and\n"
       "cpodes (adaptive) are Simbody's own on rolling constraints, as reference: no slip, no lift, no torque limit, no "

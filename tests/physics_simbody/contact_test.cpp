@@ -144,15 +144,13 @@ TEST(Contact, FastRobotsPassThroughNothing) {
 
 TEST(Contact, StepIsDividedWhereAFastRobotIsNearOthers) {
   const description::Robot sled = on_ice();
-  Fleet run({moving(0, 0, 0, 1.5, 0), moving(0, 5, 0, 1.5, 0), moving(0, 9, 0, 0.1, 0), moving(5, 0, 0, 0.8, 0),
-             moving(5.25, 0, 0, -0.8, 0)},
-            sled, Integrator::midpoint, coarse);
+  Fleet run({moving(0, 0, 0, 1, 0), moving(0, 5, 0, 1, 0), moving(0, 9, 0, 0.1, 0)}, sled, Integrator::midpoint,
+            coarse);
   run.among({wall(0.2, -1, 0.2, 1, 0.1), wall(0.2, 8, 0.2, 10, 0.1)}, 0.3);
-  run.tick(coarse, std::vector<Command>(5, command(0, 0)));
+  run.tick(coarse, std::vector<Command>(3, command(0, 0)));
   EXPECT_EQ(run.states[0].memory.previous_step, coarse / 2);
   EXPECT_EQ(run.states[1].memory.previous_step, coarse);  // fast, but alone
   EXPECT_EQ(run.states[2].memory.previous_step, coarse);
-  EXPECT_EQ(run.states[3].memory.previous_step, coarse / 2);  // two make 1.6 cm
 }
 
 TEST(Contact, TippedRobotLiesOnItsSide) {
