@@ -7,19 +7,12 @@
 #include <cstring>
 
 #include "files.hpp"
+#include "mesh_files.hpp"
 
 namespace muster::description {
 namespace {
 
 const Eigen::Vector3d one = Eigen::Vector3d::Ones();
-
-std::string facet(const std::string& a, const std::string& b, const std::string& c) {
-  return "facet normal 0 0 1\nouter loop\nvertex " + a + "\nvertex " + b + "\nvertex " + c + "\nendloop\nendfacet\n";
-}
-
-std::string triangle(const std::string& vertex) {
-  return "solid t\n" + facet("0 0 0", "1 0 0", vertex) + "endsolid t\n";
-}
 
 std::string refusal(const Files& files, const std::string& name, const std::string& bytes) {
   files.write(name, bytes);
@@ -29,16 +22,8 @@ std::string refusal(const Files& files, const std::string& name, const std::stri
 TEST(Mesh, StlObjAndDaeAreRead) {
   Files files;
   files.write("t.stl", triangle("0 1 0"));
-  files.write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  files.write("t.dae",
-              R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
-    <asset><unit meter="0.1"/><up_axis>Y_UP</up_axis></asset>
-    <library_geometries><geometry id="g"><mesh><source id="p"><float_array id="pa" count="9">0 0 0 10 0 0 0 10 0</float_array>
-    <technique_common><accessor source="#pa" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
-    <param name="Z" type="float"/></accessor></technique_common></source><vertices id="v"><input semantic="POSITION" source="#p"/>
-    </vertices><triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles></mesh></geometry>
-    </library_geometries><library_visual_scenes><visual_scene id="s"><node><instance_geometry url="#g"/></node></visual_scene>
-    </library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>)");
+  files.write("t.obj", obj);
+  files.write("t.dae", collada);
   for (const char* name : {"t.stl", "t.obj", "t.dae"}) {
     const Mesh mesh = read_mesh(files.at(""), name, one);
     ASSERT_EQ(mesh.faces.size(), 1u) << name;
