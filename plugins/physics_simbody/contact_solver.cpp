@@ -127,7 +127,7 @@ void ContactSolverOf<N>::locate(const Velocities& u) {
 template <int N>
 void ContactSolverOf<N>::gradient(bool refresh) {
   locate(u_);
-  for (std::size_t b = 0; b < u_.size(); ++b) gradient_[b] = p_->bodies[b].mass * (u_[b] - p_->bodies[b].free);
+  for (std::size_t b = 0; b < u_.size(); ++b) gradient_[b] = p_->bodies[b].mass.lazyProduct(u_[b] - p_->bodies[b].free);
   for (std::size_t i = 0; i < local_.size(); ++i) {
     Contact& c = p_->contacts[i];
     c.push = std::max(0.0, (c.target - local_[i].speed) / c.softness);
@@ -145,7 +145,7 @@ template <int N>
 double ContactSolverOf<N>::residual() const {
   double most = 0;
   for (std::size_t b = 0; b < u_.size(); ++b) {
-    const Velocity v = p_->bodies[b].inverse_mass * gradient_[b];
+    const Velocity v = p_->bodies[b].inverse_mass.lazyProduct(gradient_[b]);  // unrolled
     most = std::max({most, v.template segment<3>(3).norm(), turn_arm * v.template head<3>().norm(),
                      rim * v.template tail<joints>().norm()});
     if (std::isnan(v.sum())) return v.sum();
@@ -301,7 +301,7 @@ void ContactSolverOf<N>::look_ahead() {
   }
   slope_of_motion_ = curve_of_motion_ = 0;
   for (std::size_t b = 0; p_->search.together && b < u_.size(); ++b) {
-    const Velocity momentum = p_->bodies[b].mass * d_[b];
+    const Velocity momentum = p_->bodies[b].mass.lazyProduct(d_[b]);
     slope_of_motion_ += momentum.dot(u_[b] - p_->bodies[b].free);
     curve_of_motion_ += momentum.dot(d_[b]);
   }
@@ -372,7 +372,7 @@ double ContactSolverOf<N>::slope(double a) {
   double s = p_->search.together ? slope_of_motion_ + a * curve_of_motion_ : 0;
   for (std::size_t b = 0; b < u_.size(); ++b) {
     there_[b] = u_[b] + a * d_[b];
-    if (!p_->search.together) s += d_[b].dot(p_->bodies[b].mass * (there_[b] - p_->bodies[b].free));
+    if (!p_->search.together) s += d_[b].dot(p_->bodies[b].mass.lazyProduct(there_[b] - p_->bodies[b].free).eval());
   }
   for (std::size_t i = 0; i < local_.size(); ++i) {
     const Contact& c = p_->contacts[i];

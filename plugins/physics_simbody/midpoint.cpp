@@ -210,7 +210,7 @@ VelocityOf<N> MidpointOf<N>::free_acceleration(std::size_t index, const Matrix3d
   Velocity force = Velocity::Zero();
   force.template head<3>() = centre.cross(weight) - w.cross(robot.inertia_at_origin * w + spin);
   force.template segment<3>(3) = weight - robot.whole.mass * w.cross(w.cross(centre));
-  return robot.now.body.inverse_mass * force;
+  return robot.now.body.inverse_mass.lazyProduct(force);
 }
 
 template <int N>

@@ -141,7 +141,7 @@ class Fuzz {
   // Takes parts away as long as the kind stays.
   void shrink() {
     for (auto& [kind, bytes] : smallest_) {
-      int tries = kind == "slow" ? 20 : 2000;
+      int tries = kind == "slow" ? 20 : kind == "memory" ? 200 : 2000;
       for (std::size_t part = bytes.size() / 2; part > 0; part /= 2) {
         for (std::size_t at = 0; at < bytes.size() && tries-- > 0;) {
           std::string less = bytes;
