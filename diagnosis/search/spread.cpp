@@ -77,6 +77,7 @@ class Walk {
     const Eigen::VectorXd theta = theta_ + (leaps ? leap() : stride());
     bool accepted = false;
     if (theta == theta.cwiseMax(c_.lower).cwiseMin(c_.upper)) {
+      // No sketch: of a strong effect it is off by many nats.
       Beside there(rest_, bench_.columns_of(c_, theta), c_.whole);
       const double log_ratio = (weight(theta, there) - weight_) / heat;
       if (std::log(stream_.uniform(k_, 100)) < log_ratio) {
