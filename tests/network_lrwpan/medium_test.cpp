@@ -178,7 +178,7 @@ TEST(HiddenTerminals, Collide) {
 // not.
 TEST(NearAndFar, TheNearOneSurvives) {
   Channel channel = channel_of({{0, 0}, {2, 0}, {60, 0}});
-  Settings settings = as_ns3();
+  Settings settings = as_ns3(Cca::instant);
   settings.acknowledged = false;
   settings.busy = 1;  // nobody waits
   int near = 0, far = 0, together = 0;
