@@ -154,6 +154,7 @@ TEST(Frame, FollowsAnotherAfterItsSpacing) {
 
 // Two that do not hear each other talk over one another at the one between them. It keeps to the frame that it heard
 // first, whose spread bits survive another one as strong; the second is lost, if it begins during the first.
+// Row 25 of the requirements.
 TEST(HiddenTerminals, Collide) {
   const auto lost = [](bool hidden) {
     Channel channel = channel_of({{0, 0}, {20, 0}, {40, 0}});
