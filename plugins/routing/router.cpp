@@ -268,12 +268,6 @@ void Router::count(const Step& k) {
   }
 }
 
-namespace {
-
-void put(packets::Writer& out, const Packet& packet) { out.put_text(encoded(packet)); }
-
-}  // namespace
-
 std::string Router::save() const {
   packets::Writer out;
   out.put(last_journey_);
@@ -286,9 +280,9 @@ std::string Router::save() const {
   out.put(nodes_.size());
   for (const Node& node : nodes_) {
     out.put(node.queue.size());
-    for (const auto& [to, packet] : node.queue) out.put(to), put(out, packet);
+    for (const auto& [to, packet] : node.queue) out.put(to), out.put_text(encoded(packet));
     out.put(node.parked.size());
-    for (const Packet& packet : node.parked) put(out, packet);
+    for (const Packet& packet : node.parked) out.put_text(encoded(packet));
     out.put(node.given.size());
     for (const Given& given : node.given)
       out.put(given.to), out.put(given.journey), out.put(given.head), out.put(given.arrived);
