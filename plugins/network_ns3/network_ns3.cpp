@@ -10,11 +10,12 @@ struct NetworkNs3 {
   static constexpr auto id = "network.ns3/1";
   static constexpr auto summary = "IEEE 802.15.4 by ns-3 3.37 (its module lr-wpan), under this world's channel";
   static constexpr auto manual =
-      R"(ns-3's own radios, medium access and error model; received power is link/*/level with link/*/fading, and places are those of
-the world. What a receiver's chain makes null is not heard. Every copy has one outcome in radio/*/traffic; ns-3 does not say why a
-receiver missed a frame: beyond 3 dB above noise it counts as collided, below as too weak.
-ns-3's state cannot be saved: a run with it goes from its start, and is refused after restore, remake or a tick that was taken
-back. ns-3 holds one simulation a process: a second one is refused.)";
+      R"(ns-3's own radios, medium access and error model; received power is link/*/level with link/*/fading, and places
+are those of the world. What a receiver's chain makes null is not heard. Every copy has one outcome in
+radio/*/traffic; ns-3 does not say why a receiver missed a frame: beyond 3 dB above noise it counts as collided,
+below as too weak.
+ns-3's state cannot be saved: a run with it goes from its start, and is refused after restore, remake or a tick
+that was taken back. ns-3 holds one simulation a process: a second one is refused.)";
   static constexpr auto phase = MUSTER_NETWORK;
   static constexpr auto cannot_hold = "messages that another network has under way";
   static constexpr Param params[] = {

@@ -12,8 +12,9 @@ struct RadioBodies {
   static constexpr auto id = "radio.bodies/1";
   static constexpr auto summary = "robots that stand between two radios cost a loss each";
   static constexpr auto manual =
-      R"(Adds -`loss` to the level of a link for each living robot whose upright cylinder, `radius` about its origin and `height` up from
-it, the straight way between both radios passes; a robot does not stand in the way of its own radio.)";
+      R"(Adds -`loss` to the level of a link for each living robot whose upright cylinder, `radius` about its origin and
+`height` up from it, the straight way between both radios passes; a robot does not stand in the way of its own
+radio.)";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {real("loss", 3, 0, 60, "dB", "of a robot in the way").free(),
                                      real("radius", 0.2, 0.01, 10, "m", "of a robot"),

@@ -13,10 +13,11 @@ struct RoutingAodv {
   static constexpr auto id = "routing.aodv/1";
   static constexpr auto summary = "finds ways on demand: ad hoc on-demand distance vector routing (RFC 3561)";
   static constexpr auto manual =
-      R"(A radio that has no route floods a request, in rings that grow; its target, or who has a fresh route, sends a reply back along
-the way that the request came. Sequence numbers of the targets keep routes free of loops. A neighbour to which a packet did
-not arrive is gone, which errors tell those who sent by way of it. Names and constants are those of RFC 3561. Broadcasts
-reach the neighbours. `node_traversal_time` is at least two ticks, since a hop takes one or two, and `active_route_timeout` twenty.
+      R"(A radio that has no route floods a request, in rings that grow; its target, or who has a fresh route, sends a
+reply back along the way that the request came. Sequence numbers of the targets keep routes free of loops. A
+neighbour to which a packet did not arrive is gone, which errors tell those who sent by way of it. Names and
+constants are those of RFC 3561. Broadcasts reach the neighbours. `node_traversal_time` is at least two ticks,
+since a hop takes one or two, and `active_route_timeout` twenty.
 Not modelled: hello messages, local repair, gratuitous replies, rate limits, blacklists, subnets, multicast.)";
   static constexpr auto phase = Router::phase;
   static constexpr Param params[] = {

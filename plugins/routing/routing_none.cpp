@@ -20,8 +20,8 @@ struct RoutingNone {
   static constexpr auto id = "routing.none/1";
   static constexpr auto summary = "messages go as far as their sender is heard";
   static constexpr auto manual =
-      R"(The yardstick of the other routings: the same packets and counts, without relays. A message reaches whom its sender reaches
-itself.)";
+      R"(The yardstick of the other routings: the same packets and counts, without relays. A message reaches whom its
+sender reaches itself.)";
   static constexpr auto phase = Router::phase;
   static constexpr Param params[] = {Router::queue_param};
 

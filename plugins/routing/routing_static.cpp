@@ -40,9 +40,9 @@ struct RoutingStatic {
   static constexpr auto id = "routing.static/1";
   static constexpr auto summary = "messages go along a table of next hops";
   static constexpr auto manual =
-      R"(A row of `routes` says to whom a message goes next, by the radio that has it and the one that it is for; an empty `to` stands
-for all that have no row of their own. A message for whom there is no row ends as no_route; one that goes round in the table
-ends as ttl_expired. Broadcasts reach the neighbours.)";
+      R"(A row of `routes` says to whom a message goes next, by the radio that has it and the one that it is for; an
+empty `to` stands for all that have no row of their own. A message for whom there is no row ends as no_route;
+one that goes round in the table ends as ttl_expired. Broadcasts reach the neighbours.)";
   static constexpr auto phase = Router::phase;
   static constexpr Param params[] = {file("routes", "a table with columns at, to, next: names of radios").required(),
                                      integer("ttl", 64, 1, 255, "hops that a message may go"), Router::queue_param};
