@@ -26,10 +26,10 @@ struct RoutingFlooding {
   static constexpr auto id = "routing.flooding/1";
   static constexpr auto summary = "every radio repeats each message once, up to a number of hops";
   static constexpr auto manual =
-      R"(A message is broadcast; who hears it for the first time broadcasts it again, unless it is the one whom it is for
-or `ttl` hops are gone. So it takes the shortest ways, all of them, at the cost of a transmission a radio.
-Broadcasts reach everybody within `ttl` hops. Broadcasts are not acknowledged: where a network loses one, only
-another neighbour's copy makes up for it.)";
+      R"(A message is broadcast; who hears it for the first time broadcasts it again, unless it is the one whom it
+is for or `ttl` hops are gone. So it takes the shortest ways, all of them, at the cost of a transmission a
+radio. Broadcasts reach everybody within `ttl` hops. Broadcasts are not acknowledged: where a network
+loses one, only another neighbour's copy makes up for it.)";
   static constexpr auto phase = Router::phase;
   static constexpr Param params[] = {integer("ttl", 35, 1, 255, "hops that a message may go"), Router::queue_param};
 
