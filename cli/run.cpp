@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <chrono>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -85,8 +86,9 @@ ordered_json observed(const Simulation& run) {
 
 using Digests = std::vector<std::pair<uint64_t, uint64_t>>;  // tick, digest
 
+// `pace`: simulated time over time that passed; not in the JSON, which is the same each time.
 void print_outcome(const Simulation& run, const RunWords& words, const Digests& digests,
-                   const std::vector<std::filesystem::path>& files) {
+                   const std::vector<std::filesystem::path>& files, double pace) {
   ordered_json json = {{"world", run.world().name}, {"seed", run.world().seed}, {"dt", run.world().dt},
                        {"ticks", run.tick()},       {"time", run.time()},       {"digest", hexadecimal(run.digest())},
                        {"observed", observed(run)}};
@@ -106,6 +108,7 @@ void print_outcome(const Simulation& run, const RunWords& words, const Digests& 
   }
   fmt::print("{}: {} ticks, {} s, digest {}\n", run.world().name, run.tick(), print_real(run.time()),
              hexadecimal(run.digest()));
+  if (pace > 0) fmt::print("  {:.{}f} times real time\n", pace, pace < 10 ? 1 : 0);
   for (const auto& event : run.events())
     fmt::print("  t = {} s  {}{}{}\n", print_real(static_cast<double>(event.tick) * run.world().dt), event.instance,
                event.instance.empty() ? "" : ": ", event.message);
@@ -152,6 +155,8 @@ int run_world(const RunWords& words) {
   Digests digests;
   Progress progress("muster run " + run.world().name);
   watch_interrupt();
+  const double began_at = run.time();
+  const auto began = std::chrono::steady_clock::now();
   const auto finish = [&] {
     std::vector<std::filesystem::path> files;
     if (recorder) files = recorder->close();
@@ -177,11 +182,12 @@ int run_world(const RunWords& words) {
     finish();  // what stands up to the last whole tick is kept
     throw;
   }
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
   auto files = finish();
   if (pictures) {
     for (auto& file : pictures->write(words.out)) files.push_back(std::move(file));
   }
-  print_outcome(run, words, digests, files);
+  print_outcome(run, words, digests, files, (run.time() - began_at) / took.count());
   run.close();
   return static_cast<int>(interrupted() ? Exit::interrupted : Exit::done);
 }

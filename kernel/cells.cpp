@@ -41,7 +41,7 @@ void prepare(Claim& claim, uint64_t tick) {
   const bool whole = claim.row < 0 && !claim.staged;
   if (!table.begun()) {
     table.begin(!whole || any_dead(table.set()), tick);
-    if (claim.kind == MUSTER_MODIFY && (!whole || any_dead(table.set()))) {
+    if (claim.kind == MUSTER_MODIFY && !queue && (!whole || any_dead(table.set()))) {
       table.next().data = claim.in->now().data;  // rows that this stage does not touch pass through
       table.next().blobs = claim.in->now().blobs;
     }

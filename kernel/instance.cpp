@@ -137,8 +137,8 @@ int Instance::claim(uint32_t kind, uint32_t flags, const std::string& table, con
   Set& set = resolve_set(made.name, *this, *around_.board);
   // A queue's rows are numbered; who owns them has the names.
   made.row = resolve_row(made.name, set.kind == SetKind::queue ? *around_.board->find_set(set.owner) : set, *this);
-  if (kind == MUSTER_MODIFY && set.kind == SetKind::queue)
-    throw refused("modifies " + quote(table) + ", but a queue has no stages");
+  if (kind == MUSTER_MODIFY && set.kind == SetKind::queue && made.row >= 0)
+    throw refused("modifies " + quote(table) + "; expected a whole queue");
   const bool numbers = std::all_of(made.columns.begin(), made.columns.end(), [](const Column& c) {
     return !c.nullable && !c.infinite && !c.bytes && c.reference.empty();
   });
@@ -196,13 +196,13 @@ void Instance::gather(Claim& claim, muster_in& view, uint64_t tick) {
   const bool is_first = tick == 0 || (last == 0 && claim.from_start);
   const auto is_new = [&](uint64_t came) { return claim.late || is_first ? came >= last : came > last; };
   const auto width = claim.in->width();
-  claim.aside.clear();
+  claim.gathered.clear();
   for (std::size_t r = 0; r < cells.rows; ++r) {
     const double* row = cells.data.data() + r * width;
     if (is_new(cells.appended[r]) && (claim.row < 0 || row[0] == claim.row))
-      claim.aside.insert(claim.aside.end(), row, row + width);
+      claim.gathered.insert(claim.gathered.end(), row, row + width);
   }
-  view = {claim.aside.data(), static_cast<uint32_t>(claim.aside.size() / width), static_cast<uint32_t>(width),
+  view = {claim.gathered.data(), static_cast<uint32_t>(claim.gathered.size() / width), static_cast<uint32_t>(width),
           cells.tick};
 }
 
@@ -219,7 +219,7 @@ void Instance::bind(uint64_t tick) {
     }
     const Cells* cells = claim.in ? &claim.in->now() : claim.file.get();
     const bool is_queue = claim.in && claim.in->set().kind == SetKind::queue;
-    if (is_queue && claim.kind == MUSTER_READ) {
+    if (is_queue && claim.kind != MUSTER_WRITE) {
       gather(claim, in_[i], tick);
     } else if (!cells || is_queue) {
       in_[i] = {nullptr, 0, width, 0};

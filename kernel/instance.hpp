@@ -39,13 +39,14 @@ struct Claim {
   bool staged = false;      // written aside and copied afterwards: a rest of rows, beside rows of others
   bool direct = false;      // written whole, in its place, numbers only: nothing is left to do after a step
   std::vector<int> others;  // staged: the rows that other instances write
-  uint64_t window = 0;      // queue read: rows that came at a tick > now - window ...
+  uint64_t window = 0;      // queue, read or modified: rows that came at a tick > now - window ...
   bool late = false;        // ... or, where its writers come later in a tick, >= now - window
-  bool from_start = true;   // queue read: it does not step in the SENSE pass before the first tick
+  bool from_start = true;   // queue: it does not step in the SENSE pass before the first tick
 
   // Of this step.
-  std::vector<double> aside;  // staged, appended or gathered rows
-  std::size_t appended = 0;   // rows appended to `aside`
+  std::vector<double> aside;     // staged or appended rows
+  std::vector<double> gathered;  // rows of a queue that it has not seen
+  std::size_t appended = 0;      // rows appended to `aside`
   struct Put {
     std::size_t row, column;
     Blob blob;

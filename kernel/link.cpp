@@ -225,16 +225,25 @@ void Linker::point_readers(const std::string& logical, const Claimed& c) {
     Claim& claim = by.get();
     claim.in = board_.find(logical + (claim.name.part.empty() ? "" : '@' + claim.name.part));
     if ((claim.flags & MUSTER_OPTIONAL) && !c.is_written() && !is_of_the_world(logical)) claim.in = nullptr;
-    if (!claim.in || claim.in->set().kind != SetKind::queue) continue;
-    claim.window = by.instance->every();
-    // Its own messages are published after its step, as those of later phases are.
-    claim.late = std::any_of(c.writers.begin(), c.writers.end(), [&](const auto& w) {
-      return w.instance == by.instance || w.instance->phase() > by.instance->phase();
-    });
-    claim.from_start = by.instance->phase() != MUSTER_SENSE;
-    claim.in->keep = std::max(claim.in->keep,
-                              claim.late || by.instance->phase() == MUSTER_OBSERVE ? claim.window : claim.window - 1);
+    if (claim.in) see_each_once(by);
   }
+  for (const auto& by : c.modifiers) see_each_once(by);
+}
+
+// Which rows of a queue the claim has not seen when its instance steps.
+void Linker::see_each_once(const Claimed::By& by) const {
+  Claim& claim = by.get();
+  if (claim.in->set().kind != SetKind::queue) return;
+  claim.window = by.instance->every();
+  // Its own messages are published after its step, as those of later phases are.
+  const auto writers = writers_of_.find(claim.in);
+  claim.late = writers != writers_of_.end() &&
+               std::any_of(writers->second.begin(), writers->second.end(), [&](const Instance* writer) {
+                 return writer == by.instance || writer->phase() > by.instance->phase();
+               });
+  claim.from_start = by.instance->phase() != MUSTER_SENSE;
+  claim.in->keep =
+      std::max(claim.in->keep, claim.late || by.instance->phase() == MUSTER_OBSERVE ? claim.window : claim.window - 1);
 }
 
 std::vector<Batch> Linker::make_batches() {

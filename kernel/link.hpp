@@ -73,6 +73,7 @@ class Linker {
   void check_stages(const std::string& logical, const Claimed& c) const;
   void check_listed(const std::string& logical, const Claimed& c) const;
   void check_carried() const;
+  void check_queue_stages(const std::string& logical, const Claimed& c) const;
   void check_joins() const;
   void check_names() const;
   void order();
@@ -91,6 +92,7 @@ class Linker {
   void fill_from_world(Table& table, const TableName& name) const;
   void make_tables(const std::string& logical, const Claimed& c, const std::vector<const Table*>& held);
   void point_readers(const std::string& logical, const Claimed& c);
+  void see_each_once(const Claimed::By& by) const;
   std::vector<Batch> make_batches();
 
   const std::vector<Instance*>& instances_;

@@ -250,9 +250,27 @@ void Linker::check_joins() const {
   }
 }
 
+// Who has seen which of a queue's rows would change with its stages: messages would come twice, or never.
+void Linker::check_queue_stages(const std::string& logical, const Claimed& c) const {
+  const Table* old = board_.find(logical);
+  if (!old || old->set().kind != SetKind::queue || !c.is_written()) return;
+  std::set<std::string> stages{logical};
+  for (const auto& by : c.modifiers) stages.insert(logical + '@' + by.instance->name());
+  if (!c.modifiers.empty()) stages.insert(logical + "@base");
+  const bool all_held = std::all_of(stages.begin(), stages.end(), [&](const auto& name) { return board_.find(name); });
+  const bool all_kept = std::all_of(board_.tables().begin(), board_.tables().end(), [&](const auto& table) {
+    return table.first.rfind(logical + '@', 0) != 0 || stages.count(table.first);
+  });
+  if (all_held && all_kept) return;
+  throw Error(Exit::invalid_input, "the stages of the queue " + quote(logical) +
+                                       " change in mid-run; expected them to stand from the start, and one to be "
+                                       "swapped for another under its name");
+}
+
 // A table of before whose columns differ is somebody's state: it is not thrown away unasked.
 void Linker::check_carried() const {
   for (const auto& [logical, c] : claimed_) {
+    check_queue_stages(logical, c);
     const auto tables = tables_of(logical, c);
     for (std::size_t i = 0; i < tables.size(); ++i) {
       const auto& [name, claim, owner] = tables[i];

@@ -39,7 +39,8 @@ enum {
   MUSTER_WRITE,    /* out[i]: to be filled, every cell; in[i]: what this claim last published, so an own state needs no
                       second claim */
   MUSTER_ADD,      /* out[i]: a part of a sum; readers get the total in world-file order, or one part by its name */
-  MUSTER_MODIFY    /* in[i]: the stage before; out[i]: this stage, to be filled; stages run in world-file order */
+  MUSTER_MODIFY    /* in[i]: the stage before; out[i]: this stage, to be filled; stages run in world-file order. Queues:
+                      in[i]: rows that it has not seen; what goes on is appended */
 };
 enum {
   MUSTER_OPTIONAL = 1u, /* read: where nobody writes the table, in[i] has no rows instead of an error */

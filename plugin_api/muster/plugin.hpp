@@ -224,6 +224,15 @@ class Step {
     put_bytes(t, row, Row::payload_column, payload);
     return *made;
   }
+  // A stage of a queue: bytes that stand before it, and what goes on.
+  template <class Row>
+  std::string_view bytes(Stage<Row> t, std::size_t row, unsigned column) const {
+    return bytes_at(t.index, row, column);
+  }
+  template <class Row>
+  Row& send(Stage<Row> t, std::size_t row, std::string_view payload) const {
+    return send(Out<Row>{t.index}, row, payload);
+  }
 
   uint32_t rows(const char* set) const { return host_->rows(host_, set); }
   std::string_view name(const char* set, std::size_t row) const {

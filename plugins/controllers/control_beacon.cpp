@@ -9,19 +9,23 @@ using namespace muster;
 
 struct ControlBeacon {
   static constexpr auto id = "control.beacon/1";
-  static constexpr auto summary = "broadcasts a message every period, for others to measure";
+  static constexpr auto summary = "sends a message every period, to all or to one";
   static constexpr auto phase = MUSTER_CONTROL;
   static constexpr Param params[] = {reference("radio", "radio", "the radio it speaks on").required(),
+                                     reference("to", "radio", "whom it speaks to; by default all"),
                                      real("period", 0.5, 0.001, 1000, "s", "of its messages")};
 
   explicit ControlBeacon(Setup& s)
-      : period(s.value("period")), radio(s.param("radio")), outbox(s.write<Outgoing>("outbox/{radio}/message")) {}
+      : to(s.value("to")),
+        period(s.value("period")),
+        radio(s.param("radio")),
+        outbox(s.write<Outgoing>("outbox/{radio}/message")) {}
 
   void step(const Step& k) const {
-    if (is_due(k.time(), k.dt(), k[period])) k.send(outbox, 0, "beacon") = {radio, null(), 0};
+    if (is_due(k.time(), k.dt(), k[period])) k.send(outbox, 0, "beacon") = {radio, k[to] < 0 ? null() : k[to], 0};
   }
 
-  Value period;
+  Value to, period;
   double radio;
   Out<Outgoing> outbox;
 };

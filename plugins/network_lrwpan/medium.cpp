@@ -124,6 +124,7 @@ bool Medium::is_busy(std::size_t radio, Time at) const {
     return energy >= settings_.busy * static_cast<double>(cca_window);
   }
   if (air_.power_at(radio, at - 1) >= settings_.busy) return true;
+  if (settings_.cca == Cca::ns3 && air_.listens_to(radio) != packets::nothing) return true;
   const auto& frames = air_.frames();
   return settings_.cca == Cca::ns3 && std::any_of(frames.begin(), frames.end(), [&](const Frame& frame) {
            return frame.begin > since && frame.begin < at && air_.power_at(radio, frame.begin) >= settings_.busy;

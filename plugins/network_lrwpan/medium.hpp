@@ -20,7 +20,8 @@ using packets::Report;
 
 // How a radio listens before it talks. All ask for the power of others against a threshold: its mean over the 8 symbols
 // that the standard says; as ns-3 3.37 does it, at their end and whenever a frame begins among them, so that one that
-// ends among them goes unnoticed; or at their end alone.
+// ends among them goes unnoticed, while a radio that listens to a frame, however weak, finds the channel busy; or at
+// their end alone.
 enum class Cca { standard = 1, ns3, instant };
 
 struct Settings {

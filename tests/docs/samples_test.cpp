@@ -65,6 +65,7 @@ TEST(Samples, OfTheReadmeAreTheFilesThatAreBuilt) {
   }
 }
 
+// Row 27 of the requirements.
 TEST(Samples, ARadioTermTakes25LinesAControllerTakes20AndACauseTakes40) {
   EXPECT_LE(lines_with_text(text_of(source / "docs/samples/radio_one_slope.cpp")), 25);
   EXPECT_LE(lines_with_text(text_of(source / "docs/samples/control_keep_in_touch.cpp")), 20);

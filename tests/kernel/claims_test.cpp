@@ -233,8 +233,8 @@ TEST_F(Claims, ClaimsThatMakeNoSense) {
             "endpoint, inbox, link, material, outbox, radio, robot, wall; did you mean \"robot\"?");
   EXPECT_EQ(claim("to='robot/*/twist' columns='v'"),
             "world.xml:4:1: r (toy.copy_radio): claims \"robot/*/twist\" as \"v\"; its columns are \"" + twist + "\"");
-  EXPECT_EQ(claim("to='outbox/*/message' as='modify' columns='radio:radio to:radio? payload{}'"),
-            "world.xml:4:1: r (toy.copy_radio): modifies \"outbox/*/message\", but a queue has no stages");
+  EXPECT_EQ(claim("to='outbox/a/message' as='modify' columns='radio:radio to:radio? payload{}'"),
+            "world.xml:4:1: r (toy.copy_radio): modifies \"outbox/a/message\"; expected a whole queue");
 }
 
 TEST_F(Claims, ReaderAndWriterAgreeOnColumns) {

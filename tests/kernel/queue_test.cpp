@@ -117,6 +117,62 @@ TEST_F(Queues, WhoAnswersIntoTheQueueThatItReadsSeesEachMessageOnce) {
   EXPECT_EQ(cell(sim, "instance/echo/heard"), 19 + 18);
 }
 
+// ---- Stages -------------------------------------------------------------------------------------------------------
+
+class QueueStages : public ToyWorld, public testing::WithParamInterface<std::string> {};
+
+// Whatever the phase of the stage, which is that of the messages' writer or a later one.
+TEST_P(QueueStages, EveryReaderSeesEachMessageOnceBeforeAStageAndAfterIt) {
+  const std::string readers =
+      "<toy.listen_control name='early'/>\n<toy.listen_network name='with'/>\n<toy.listen_network name='seldom' "
+      "every='3'/>\n<toy.listen_observe name='after'/>\n<toy.listen_network name='raw' "
+      "from='outbox/*/message@base'/>\n";
+  Simulation sim = run(two_robots + "<toy.send_control name='s' robot='a' to='outbox/{robot}/message' count='3'/>\n" +
+                       "<toy.relay_" + GetParam() + " name='relay'/>\n" + readers);
+  step(sim, ticks);
+  const bool is_late = GetParam() == "sense", is_early = GetParam() == "control";
+  const auto heard = [&](const std::string& who, std::size_t what) {
+    return cell(sim, "instance/" + who + "/heard", what);
+  };
+  for (const auto& [who, seen] : std::map<std::string, int>{
+           {"early", ticks - !is_early}, {"with", ticks - is_late}, {"seldom", ticks - is_late}, {"after", ticks}}) {
+    EXPECT_EQ(heard(who, 0), 3 * seen) << who;
+    EXPECT_EQ(heard(who, 2), 10'000'100) << who;
+    EXPECT_EQ(heard(who, 3), 10'000'002 + 100 * seen) << who;
+  }
+  expect_all_once(sim, "raw", 3, 1, ticks);
+  EXPECT_LE(sim.table("outbox/*/message@base").rows(), 3u);
+  EXPECT_LE(sim.table("outbox/*/message").rows(), 3u * 4);
+}
+INSTANTIATE_TEST_SUITE_P(All, QueueStages, testing::Values("control", "actuate", "network", "sense"));
+
+TEST_F(Queues, StagesFollowEachOther) {
+  Simulation sim =
+      run(two_robots +
+          "<toy.send_control name='s' robot='a' to='outbox/{robot}/message'/>\n<toy.relay_sense name='one'/>\n"
+          "<toy.relay_observe name='two'/>\n<toy.listen_observe name='all'/>\n");
+  step(sim, 20);
+  EXPECT_EQ(cell(sim, "instance/all/heard"), 20);
+  EXPECT_EQ(cell(sim, "instance/all/heard", 3), 20'002'000);
+}
+
+TEST_F(Queues, AStageDoesNotGoInMidRunButIsSwapped) {
+  Simulation sim =
+      run(two_robots +
+          "<toy.send_control name='s' robot='a' to='outbox/{robot}/message'/>\n<toy.relay_sense name='relay'/>\n"
+          "<toy.listen_network name='all'/>\n");
+  step(sim, 4);
+  const std::string refused =
+      "the stages of the queue \"outbox/*/message\" change in mid-run; expected them to stand from the start, and one "
+      "to be swapped for another under its name";
+  EXPECT_EQ(error_of([&] { sim.remove("relay"); }), refused);
+  EXPECT_EQ(error_of([&] { sim.insert(instance("toy.relay_observe", "second"), "all"); }), refused);
+  sim.swap("relay", instance("toy.relay_sense", "relay"));
+  step(sim, 4);
+  EXPECT_EQ(cell(sim, "instance/all/heard"), 7);
+  EXPECT_EQ(cell(sim, "instance/all/heard", 3), 10'000'700);
+}
+
 TEST_F(Queues, BytesArriveExactlyAndTenMegabytesToo) {
   const std::string ends = "<toy.listen_network name='near'/>\n<toy.listen_control name='far'/>\n";
   Simulation sim =

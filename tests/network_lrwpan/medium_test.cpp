@@ -154,6 +154,7 @@ TEST(Frame, FollowsAnotherAfterItsSpacing) {
 
 // Two that do not hear each other talk over one another at the one between them. It keeps to the frame that it heard
 // first, whose spread bits survive another one as strong; the second is lost, if it begins during the first.
+// Row 25 of the requirements.
 TEST(HiddenTerminals, Collide) {
   const auto lost = [](bool hidden) {
     Channel channel = channel_of({{0, 0}, {20, 0}, {40, 0}});
@@ -178,7 +179,7 @@ TEST(HiddenTerminals, Collide) {
 // not.
 TEST(NearAndFar, TheNearOneSurvives) {
   Channel channel = channel_of({{0, 0}, {2, 0}, {60, 0}});
-  Settings settings = as_ns3();
+  Settings settings = as_ns3(Cca::instant);
   settings.acknowledged = false;
   settings.busy = 1;  // nobody waits
   int near = 0, far = 0, together = 0;

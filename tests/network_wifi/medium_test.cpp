@@ -226,6 +226,7 @@ class Saturated : public testing::TestWithParam<std::tuple<int, int>> {};
 INSTANTIATE_TEST_SUITE_P(Stations, Saturated,
                          testing::Combine(testing::Values(2, 5, 10, 20, 30), testing::Values(6, 54)));
 
+// Row 25 of the requirements.
 TEST_P(Saturated, ThroughputIsBianchis) {
   const auto [n, mbit] = GetParam();
   std::vector<std::array<double, 2>> at{{0, 0}};
@@ -251,6 +252,7 @@ TEST_P(Saturated, ThroughputIsBianchis) {
 
 // Two that do not hear each other talk over one another at the one between them, whose loss is what chance says: a
 // frame begins during another, or another during it. Acknowledgements and retries get most of it through.
+// Row 25 of the requirements.
 TEST(HiddenTerminals, Collide) {
   const auto lost = [](bool hidden, bool acknowledged) {
     Cell cell({{0, 0}, {20, 0}, {40, 0}});

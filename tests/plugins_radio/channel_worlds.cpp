@@ -22,6 +22,7 @@ std::string stations() {
          station("e", "9.7 -6 6");
 }
 
+// Row 30 of the requirements, as are the laws of shadowing and fading.
 TEST(Channel, IsTheSameBothWaysBitForBit) {
   for (const char* fading : {"<radio.fading rician_k=\"3\"/>", "<radio.fading per_reading=\"true\"/>"}) {
     const Folder folder;

@@ -253,9 +253,9 @@ TEST_P(EachNetwork, Row21AirTimeThrottles) {
     sim.step();
     bits += 8 * 10000.0 * static_cast<double>(sim.table("inbox/*/message").rows());
   }
-  const double rate = GetParam() == "network.lrwpan" ? 250e3 : 54e6;  // the most that its air takes
+  const double rate = GetParam() == "network.wifi" ? 54e6 : 250e3;  // the most that its air takes
   EXPECT_LT(bits / sim.time(), 0.9 * rate);
-  EXPECT_GT(bits / sim.time(), GetParam() == "network.lrwpan" ? 80e3 : 3e6);
+  EXPECT_GT(bits / sim.time(), GetParam() == "network.wifi" ? 3e6 : 80e3);
   EXPECT_GT(traffic(sim, "a", "queue_full"), 0);
 }
 
@@ -357,6 +357,7 @@ TEST_P(EachNetwork, Row30MessagesMeetTheSameChannelOnReturn) {
 // ---- However it is run --------------------------------------------------------------------------------------------
 
 TEST_P(EachNetwork, ARunIsTheSameBitsHoweverItIsRun) {
+  if (GetParam() == "network.ns3") GTEST_SKIP() << "one a process, and it cannot be restored";
   Simulation straight = world(busy);
   run(straight, 50);
   for (const int workers : {2, 3}) {

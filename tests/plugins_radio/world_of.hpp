@@ -45,7 +45,7 @@ inline Simulation world_of(const Folder& folder, const std::string& elements, in
   const auto file = folder.put(
       "world.xml", "<world name=\"test\" dt=\"" + dt + "\" until=\"100\" seed=\"7\">\n" + elements + "</world>\n");
   Options options;
-  options.search_path = {MUSTER_PLUGINS_DIR, MUSTER_ACTORS_DIR};
+  options.search_path = {MUSTER_PLUGINS_DIR, MUSTER_ACTORS_DIR, MUSTER_BUILD_DIR "/tests/toys"};
   options.workers = workers;
   return Simulation(read_world(file, standard()), standard(), options);
 }

@@ -57,6 +57,12 @@ TEST(Plugins, AreAllListedAndDescribed) {
   EXPECT_EQ(count, files);
 }
 
+// Row 29 of the requirements.
+TEST(Verbs, RunSaysHowFastItWent) {
+  const std::string out = expect_clean({"run", folder_of("connectivity"), "--until", "1"}).out;
+  EXPECT_TRUE(std::regex_search(out, std::regex("\n  [0-9.]+ times real time\n"))) << out;
+}
+
 TEST(Verbs, EachHasHelpWithAnExample) {
   const std::string usage = expect_clean({"--help"}).out;
   const std::regex verb("\n  ([a-z-]+) +");

@@ -1,0 +1,13 @@
+# find_ns3(RESULT modules...): their libraries, or nothing where ns-3 is not installed (scripts/setup --peers).
+function(find_ns3 result)
+  find_path(NS3_INCLUDE ns3/lr-wpan-module.h)
+  set(libraries)
+  foreach(module IN LISTS ARGN)
+    find_library(NS3_${module} ns3-${module})
+    list(APPEND libraries ${NS3_${module}})
+  endforeach()
+  if(NOT NS3_INCLUDE OR libraries MATCHES "NOTFOUND")
+    set(libraries)
+  endif()
+  set(${result} ${libraries} PARENT_SCOPE)
+endfunction()

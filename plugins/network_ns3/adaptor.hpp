@@ -1,0 +1,75 @@
+// A network simulator from elsewhere on the blackboard: levels, places and requests go in, messages and counts come
+// out.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <muster/plugin.hpp>
+
+#include "backend.hpp"
+#include "packets/post.hpp"
+
+namespace muster::external {
+
+class Adaptor {
+ public:
+  static constexpr Param spread_param = flag("spread", true, "requests come at any moment of their tick");
+
+  explicit Adaptor(Setup& s);
+
+  // `make`: the backend, called in the first step; `noise`: at each radio, in dBm.
+  void step(const Step& k, const std::function<std::unique_ptr<Backend>()>& make, double noise);
+
+ private:
+  // What a simulator from elsewhere remembers cannot be put on the blackboard. This much can: how far it is, and a hash
+  // of all that it was asked.
+  struct Progress {
+    static constexpr const char* columns = "ticks history";
+    double ticks, history;
+  };
+  struct Message {
+    std::size_t from;
+    double asked;  // s
+    packets::Receivers receivers;
+    bool is_unicast;
+  };
+
+  void begin(const Step& k, const std::function<std::unique_ptr<Backend>()>& make);
+  void check_history(const Step& k) const;
+  void look(const Step& k);
+  void ask(const Step& k);
+  void deliver(Arrival arrival);
+  void end(std::uint64_t number, End why);
+  packets::Fate fate_of(const Message& message, std::size_t to, End why) const;
+  void settle(Message& message, packets::Fate fate);
+  void hand_over(const Step& k);
+  void count(const Step& k);
+  void note(std::uint64_t what) { history_ = combined(history_, what); }
+  double history() const { return static_cast<double>(history_ >> 12); }  // exact in a double
+
+  Value spread_;
+  In<Outgoing> request_;
+  In<Endpoint> endpoint_;
+  In<Pose> pose_;
+  In<Ends> ends_;
+  In<Level> level_;
+  In<Fading> fading_;
+  In<Rssi> rssi_;
+  Out<Incoming> inbox_;
+  Out<Traffic> traffic_;
+  Out<Progress> progress_;
+  Stream moments_;
+  std::uint64_t seed_;
+
+  std::unique_ptr<Backend> backend_;
+  std::uint64_t ticks_ = 0, history_ = 0, last_message_ = 0;
+  std::map<std::uint64_t, Message> messages_;  // under way
+
+  // Of this step.
+  World world_;
+  double noise_ = 0;
+  std::vector<std::pair<Message, Arrival>> arrivals_;
+  std::vector<std::array<double, static_cast<std::size_t>(packets::Fate::count)>> fates_;
+};
+
+}  // namespace muster::external

@@ -1,0 +1,158 @@
+// Row 26 of the requirements: ns-3 behind the same messages, against our own network on one world; and what it cannot
+// do. What every network keeps, it keeps in tests/plugins_radio/network_conformance.cpp.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "tests/plugins_radio/world_of.hpp"
+
+namespace muster {
+namespace {
+
+// The columns of radio/*/traffic.
+enum { asked = 0, delivered, too_weak, no_link, collided, no_access, queue_full, no_ack, gone };
+
+const std::string ns3 = "<network.ns3 name=\"network\"/>\n";
+const std::string ours = "<network.lrwpan name=\"network\" cca=\"ns3\" cca_threshold=\"-96.58\" noise=\"-106.987\"/>\n";
+
+double share(const Simulation& sim, std::size_t column) {
+  const TableView traffic = sim.table("radio/*/traffic");
+  double sum = 0, all = 0;
+  for (std::size_t r = 0; r < traffic.rows(); ++r) sum += traffic.at(r, column), all += traffic.at(r, asked);
+  return sum / all;
+}
+
+// An office: 16 radios in rooms of 10 m.
+std::string office() {
+  std::string result = "<material name=\"brick\" loss=\"8\"/>\n";
+  for (int i = 1; i < 4; ++i) {
+    const std::string at = std::to_string(10 * i), name = std::to_string(i);
+    result += "<wall name=\"x" + name + "\" from=\"" + at + " 0\" to=\"" + at + " 40\" material=\"brick\"/>\n";
+    result += "<wall name=\"y" + name + "\" from=\"0 " + at + "\" to=\"40 " + at + "\" material=\"brick\"/>\n";
+  }
+  for (int i = 0; i < 16; ++i)
+    result += station("r" + std::to_string(i), std::to_string(10 * (i % 4) + 2 + 3 * (i % 3)) + ' ' +
+                                                   std::to_string(10 * (i / 4) + 3 + 2 * (i % 4)) + " 1");
+  return result + "<radio.multiwall n=\"3\"/><radio.receiver sensitivity=\"-150\"/>\n";
+}
+
+std::string everybody_sends(const std::string& attributes) {
+  std::string result;
+  for (int i = 0; i < 16; ++i)
+    result +=
+        "<test.sender name=\"s" + std::to_string(i) + "\" from=\"r" + std::to_string(i) + "\" " + attributes + "/>\n";
+  return result;
+}
+
+class Ns3 : public testing::Test {
+ protected:
+  Simulation world(const std::string& elements, int workers = 1) const { return world_of(folder, elements, workers); }
+  std::string error_of(const std::function<void()>& call) const {
+    try {
+      call();
+    } catch (const Error& e) {
+      EXPECT_EQ(e.exit(), Exit::invalid_input);
+      return e.what();
+    }
+    return "no error";
+  }
+  const Folder folder;
+};
+
+TEST_F(Ns3, AsManyBroadcastsArriveAsInOurNetwork) {
+  for (const std::string load : {"size=\"20\"", "count=\"2\" size=\"60\""}) {
+    Simulation theirs = world(office() + everybody_sends(load) + ns3);
+    Simulation our_own = world(office() + everybody_sends(load) + ours);
+    run(theirs, 400), run(our_own, 400);
+    std::printf("delivered %.4f (%.4f), no access %.4f (%.4f)\n", share(our_own, delivered), share(theirs, delivered),
+                share(our_own, no_access), share(theirs, no_access));
+    EXPECT_NEAR(share(our_own, delivered), share(theirs, delivered), 0.01);
+    EXPECT_NEAR(share(our_own, no_access), share(theirs, no_access), 0.01);
+    EXPECT_LT(share(theirs, delivered), 0.98);
+    EXPECT_GT(share(theirs, delivered), 0.3);
+  }
+}
+
+TEST_F(Ns3, AsManyAcknowledgedMessagesArriveAsInOurNetwork) {
+  Simulation theirs = world(office() + everybody_sends("to=\"r5\" size=\"80\"") + ns3);
+  Simulation our_own = world(office() + everybody_sends("to=\"r5\" size=\"80\"") + ours);
+  run(theirs, 600), run(our_own, 600);
+  std::printf("delivered %.4f (%.4f), no access %.4f (%.4f)\n", share(our_own, delivered), share(theirs, delivered),
+              share(our_own, no_access), share(theirs, no_access));
+  EXPECT_NEAR(share(our_own, delivered), share(theirs, delivered), 0.02);
+}
+
+TEST_F(Ns3, InNoiseTheSameShareArrivesAtEachDistance) {
+  for (const int distance : {165, 180, 190}) {
+    const std::string two =
+        station("a", "0 0 1") + station("b", std::to_string(distance) + " 0 1") +
+        "<radio.links range=\"600\"/><radio.multiwall n=\"3\"/><radio.receiver sensitivity=\"-150\"/>"
+        "<test.sender from=\"a\" count=\"2\" size=\"40\"/>\n";
+    Simulation theirs = world(two + ns3), our_own = world(two + ours);
+    run(theirs, 900), run(our_own, 900);
+    std::printf("%d m: %.4f (%.4f)\n", distance, share(our_own, delivered), share(theirs, delivered));
+    EXPECT_NEAR(share(our_own, delivered), share(theirs, delivered), 0.05);  // three deviations of 1800 messages
+  }
+}
+
+const std::string pair =
+    station("a", "0 0 1") + station("b", "5 0 1") + "<radio.multiwall n=\"3\"/><test.sender name=\"s\" from=\"a\"/>\n";
+
+// Toys in its phase have it stepped by threads that change.
+TEST_F(Ns3, ARunIsTheSameForAnyNumberOfWorkers) {
+  std::string toys;
+  for (const std::string name : {"t1", "t2", "t3"}) toys += "<toy.listen_network name=\"" + name + "\"/>\n";
+  const auto digest = [&](int workers) {
+    Simulation sim = world(office() + toys + everybody_sends("size=\"30\"") + ns3, workers);
+    run(sim, 30);
+    return sim.digest();
+  };
+  const auto alone = digest(1);
+  EXPECT_EQ(alone, digest(1));
+  EXPECT_EQ(alone, digest(3));
+}
+
+TEST_F(Ns3, CannotBeRestored) {
+  Simulation sim = world(pair + ns3);
+  run(sim, 5);
+  const Snapshot middle = sim.snapshot();
+  run(sim, 5);
+  sim.restore(middle);
+  EXPECT_THAT(error_of([&] { sim.step(); }), testing::HasSubstr("network (network.ns3): step failed at tick 6"));
+  EXPECT_THAT(
+      error_of([&] { sim.step(); }),
+      testing::HasSubstr("the simulator behind this network keeps its state to itself and cannot be restored: it "
+                         "has done 10 ticks of its own, the run goes on after 5 ticks of another past; expected a "
+                         "run from its start"));
+}
+
+TEST_F(Ns3, CannotBeMadeAnewInMidRun) {
+  Simulation sim = world(pair + ns3);
+  run(sim, 5);
+  sim.remake("network");
+  EXPECT_THAT(error_of([&] { sim.step(); }), testing::HasSubstr("it has done 0 ticks of its own"));
+}
+
+TEST_F(Ns3, TakesOverFromAnotherNetworkInMidRun) {
+  Simulation sim = world(pair + ours + "<swap at=\"1\" instance=\"network\" plugin=\"network.ns3\"/>\n");
+  run(sim, 30);
+  EXPECT_GE(sim.table("radio/a/traffic").at(0, delivered), 28);
+}
+
+TEST_F(Ns3, HoldsOneSimulationAProcess) {
+  {
+    Simulation one = world(pair + ns3), two = world(pair + ns3);
+    one.step();
+    EXPECT_THAT(
+        error_of([&] { two.step(); }),
+        testing::HasSubstr("network (network.ns3): step failed at tick 1 (t = 0.1 s): ns-3 holds one simulation a "
+                           "process, and another instance has it; expected one network.ns3"));
+    one.step();
+  }
+  Simulation next = world(pair + ns3);
+  run(next, 10);
+  EXPECT_GE(next.table("radio/a/traffic").at(0, delivered), 9);
+}
+
+}  // namespace
+}  // namespace muster
