@@ -39,6 +39,7 @@ struct Hearing {
   double found_above = 0;    // ratio
   Time capture_within = 0;   // so long after a frame's begin another one may still take its receiver over,
   double capture_above = 0;  // above this ratio
+  Band band;                 // what it lets in of jammers
 };
 
 // What became of a frame at a receiver.
@@ -50,6 +51,9 @@ class Air {
 
   // Before anything else in a run: what is in the air goes on under this channel.
   void enter(const Channel& channel, const Hearing& hearing);
+
+  // What was heard since frames last began or ended, or a jammer went on or off. Both begin() and end() call it.
+  void hear(Time until);
 
   // Until then a radio finds no frame, and what it listens to is lost.
   void deafen(std::size_t radio, Time until);
@@ -67,12 +71,11 @@ class Air {
   const Frame& frame(std::uint64_t id) const { return frames_[id - frames_.front().id]; }
   const std::vector<Frame>& frames() const { return frames_; }  // in the air, or not yet forgotten
   std::uint64_t listens_to(std::size_t radio) const { return lock_[radio]; }
-  double power(std::size_t radio) const { return total_[radio]; }  // of all frames in the air and of interference, mW
+  double power(std::size_t radio) const { return total_[radio]; }  // of all frames in the air and of jammers, mW
   double power_at(std::size_t radio, Time at) const;               // the same, at a time that is remembered
 
-  double background(std::size_t radio) const {  // what is no frame of this medium, mW
-    return channel_->interference.empty() ? 0 : channel_->interference[radio];
-  }
+  double jammed(std::size_t radio, Time from, Time until) const;  // mean power of jammers, mW
+  Time next_switch(Time after) const;                             // when one of them goes on or off
 
   // Of the frame that a radio heard last: rssi as its preamble was found [dBm]; mean ratio.
   double rssi(std::size_t radio) const { return rssi_[radio]; }
@@ -82,7 +85,7 @@ class Air {
   void load(Reader& in);
 
  private:
-  void hear(Time until);
+  void hear_piece(Time until);
   bool is_whole(std::size_t radio, std::uint64_t frame) const;
   void sum_up(Time at);
   Stream random_;
@@ -101,6 +104,7 @@ class Air {
   std::vector<Time> deaf_until_;
 
   // The same again, as follows from the channel.
+  std::vector<double> shares_;  // of each jammer's power that lies in the band
   std::vector<double> total_, signal_, ratio_;
   std::vector<Heard> heard_;
 };

@@ -34,7 +34,8 @@ const Report& Medium::run(Time since, Time until, const Channel& channel, const 
   channel_ = &channel;
   radios_.resize(channel.radios);
   const bool captures = settings.capture > 0;
-  air_.enter(channel, {settings.noise, found_above, captures ? never : 0, captures ? settings.capture : found_above});
+  air_.enter(channel, {settings.noise, found_above, captures ? never : 0, captures ? settings.capture : found_above,
+                       band_of(settings.channel)});
   post_.open(channel);
   agenda_.clear(until);
   for (std::size_t i = 0; i < radios_.size(); ++i) {
@@ -116,7 +117,7 @@ void Medium::assess(std::size_t number, Time at) {
 bool Medium::is_busy(std::size_t radio, Time at) const {
   const Time since = at - cca_window;
   if (settings_.cca == Cca::standard) {
-    double energy = air_.background(radio) * static_cast<double>(cca_window);  // mW ns
+    double energy = air_.jammed(radio, since, at) * static_cast<double>(cca_window);  // mW ns
     for (const Frame& frame : air_.frames()) {
       const Time overlap = std::min(frame.end, at) - std::max(frame.begin, since);
       if (overlap > 0) energy += channel_->power_from(frame.sender)[radio] * static_cast<double>(overlap);

@@ -26,6 +26,7 @@ enum class Cca { standard = 1, ns3, instant };
 struct Settings {
   double noise = 0;  // mW
   double busy = 0;   // power above which the channel is, mW
+  int channel = 11;
   Cca cca = Cca::standard;
   std::size_t queue = 16;    // messages that wait at a radio
   bool acknowledged = true;  // frames to one receiver

@@ -10,7 +10,16 @@ using packets::never;
 using packets::nothing;
 
 // At the same time frames end, then requests come, stations send, and what began before is noticed.
-enum Kind { frame_ends, request_comes, station_is_due, ack_is_due, wait_ends, frame_is_noticed, reservation_ends };
+enum Kind {
+  frame_ends,
+  request_comes,
+  station_is_due,
+  ack_is_due,
+  wait_ends,
+  frame_is_noticed,
+  reservation_ends,
+  jammer_switches
+};
 
 // A preamble is found in noise and interference 4 dB below it, at the end of the detection; the strongest of those that
 // begin within it (as ns-3 3.37 has it).
@@ -50,7 +59,7 @@ const Report& Medium::run(Time since, Time until, const Channel& channel, const 
   settings_ = settings;
   channel_ = &channel;
   stations_.resize(channel.radios);
-  air_.enter(channel, {settings.noise, found_above, detection, found_above});
+  air_.enter(channel, {settings.noise, found_above, detection, found_above, band_of(settings.channel)});
   post_.open(channel);
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     if (channel.alive[i]) continue;
@@ -61,6 +70,7 @@ const Report& Medium::run(Time since, Time until, const Channel& channel, const 
   }
   agenda_.clear(until);
   fill_agenda(since);
+  look_for_jammers(since);
   agenda_.begin();
   while (!agenda_.empty()) handle(agenda_.take());
   return post_.close();
@@ -83,6 +93,17 @@ void Medium::fill_agenda(Time since) {
   }
 }
 
+// One may have come, moved or gone since the last run. While frames are in the air only it is looked at, since they
+// take their time to be noticed.
+void Medium::look_for_jammers(Time since) {
+  const auto& frames = air_.frames();
+  const bool is_idle = std::none_of(frames.begin(), frames.end(), [&](const Frame& f) { return f.end > since; });
+  if (!channel_->jammers.empty()) air_.hear(since);
+  for (std::size_t i = 0; i < stations_.size(); ++i)
+    if (is_idle || air_.jammed(i, since, since + 1) >= settings_.busy) look(i, since);
+  agenda_.put(air_.next_switch(since), jammer_switches, 0);
+}
+
 void Medium::handle(const packets::Event& event) {
   const Time at = event.at;
   switch (event.kind) {
@@ -101,6 +122,10 @@ void Medium::handle(const packets::Event& event) {
       return;
     case frame_is_noticed:
       air_.drop_weak(event.which, at, found_above);
+      return look_all(at);
+    case jammer_switches:
+      air_.hear(at);
+      agenda_.put(air_.next_switch(at), jammer_switches, 0);
       return look_all(at);
     default:
       look_all(at);

@@ -72,6 +72,10 @@ const std::string busy = send("s1", "a") + send("s2", "b", "to=\"c\" count=\"5\"
                          send("s5", "b", "to=\"far\"") + send("s6", "b", "to=\"gone\"") +
                          "<test.leaver radio=\"d\" at=\"30\"/>";
 
+// A radio that only jams, from so far that it drowns some and not others.
+const std::string jammed = busy + station("jammer", "60 0 1") +
+                           "<radio.jammer radio=\"jammer\" excess=\"55\" period=\"0.0131\" duty=\"0.4\"/>";
+
 // ---- 19: messages -------------------------------------------------------------------------------------------------
 
 TEST_P(EachNetwork, Row19PayloadsOfAnySizeArriveByteForByte) {
@@ -195,22 +199,24 @@ TEST_P(EachNetwork, Row21NoCopyHasTwoOutcomesAndEachGetsOne) {
   for (const auto& [name, radio] :
        std::map<std::string, std::string>{{"s1", "a"}, {"s2", "b"}, {"s3", "c"}, {"s5", "b"}, {"s6", "b"}})
     quiet += "<swap at=\"6\" instance=\"" + name + "\" plugin=\"test.sender\" from=\"" + radio + "\" count=\"0\"/>\n";
-  Simulation sim = world(busy + quiet);
-  std::vector<double> before(6, 0);
-  for (int tick = 0; tick < 90; ++tick) {
-    sim.step();
-    const TableView traffic = sim.table("radio/*/traffic");
-    for (std::size_t i = 0; i < 6; ++i) {
-      EXPECT_LE(sum_of_outcomes(traffic, i), traffic.at(i, 0));
-      EXPECT_GE(sum_of_outcomes(traffic, i), before[i]);
-      before[i] = sum_of_outcomes(traffic, i);
+  for (const std::string& senders : {busy, jammed}) {
+    Simulation sim = world(senders + quiet);
+    std::vector<double> before(6, 0);
+    for (int tick = 0; tick < 90; ++tick) {
+      sim.step();
+      const TableView traffic = sim.table("radio/*/traffic");
+      for (std::size_t i = 0; i < 6; ++i) {
+        EXPECT_LE(sum_of_outcomes(traffic, i), traffic.at(i, 0));
+        EXPECT_GE(sum_of_outcomes(traffic, i), before[i]);
+        before[i] = sum_of_outcomes(traffic, i);
+      }
     }
-  }
-  // Three seconds after the last request nothing is under way.
-  const TableView traffic = sim.table("radio/*/traffic");
-  for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_GT(traffic.at(i, 0), 0);
-    EXPECT_EQ(sum_of_outcomes(traffic, i), traffic.at(i, 0)) << i;
+    // Three seconds after the last request nothing is under way.
+    const TableView traffic = sim.table("radio/*/traffic");
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_GT(traffic.at(i, 0), 0);
+      EXPECT_EQ(sum_of_outcomes(traffic, i), traffic.at(i, 0)) << i;
+    }
   }
 }
 
@@ -357,24 +363,26 @@ TEST_P(EachNetwork, Row30MessagesMeetTheSameChannelOnReturn) {
 // ---- However it is run --------------------------------------------------------------------------------------------
 
 TEST_P(EachNetwork, ARunIsTheSameBitsHoweverItIsRun) {
-  Simulation straight = world(busy);
-  run(straight, 50);
-  for (const int workers : {2, 3}) {
-    Simulation other = world(busy, workers);
-    run(other, 50);
-    EXPECT_EQ(straight.digest(), other.digest()) << workers;
+  for (const std::string& senders : {busy, jammed}) {
+    Simulation straight = world(senders);
+    run(straight, 50);
+    for (const int workers : {2, 3}) {
+      Simulation other = world(senders, workers);
+      run(other, 50);
+      EXPECT_EQ(straight.digest(), other.digest()) << workers;
+    }
+    Simulation remade = world(senders);
+    while (remade.tick() < 50) {
+      if (remade.tick() % 7 == 3) remade.remake("network");
+      remade.step();
+    }
+    EXPECT_EQ(straight.digest(), remade.digest());
+    Simulation first = world(senders), again = world(senders);
+    run(first, 20);
+    again.restore(first.snapshot());
+    run(again, 30);
+    EXPECT_EQ(straight.digest(), again.digest());
   }
-  Simulation remade = world(busy);
-  while (remade.tick() < 50) {
-    if (remade.tick() % 7 == 3) remade.remake("network");
-    remade.step();
-  }
-  EXPECT_EQ(straight.digest(), remade.digest());
-  Simulation first = world(busy), again = world(busy);
-  run(first, 20);
-  again.restore(first.snapshot());
-  run(again, 30);
-  EXPECT_EQ(straight.digest(), again.digest());
 }
 
 std::vector<std::string> networks() {
