@@ -25,8 +25,7 @@ Bits bits_of(const Frame& frame, const Format& format, Time from, Time until) {
 void Air::enter(const Channel& channel, const Hearing& hearing) {
   channel_ = &channel;
   hearing_ = hearing;
-  shares_.clear();
-  for (const Jammer& jammer : channel.jammers) shares_.push_back(share_of(jammer.band, hearing.band));
+  share_out();
   const std::size_t n = channel.radios;
   lock_.resize(n, nothing);
   log_right_.resize(n), others_.resize(n), rssi_.resize(n), deaf_until_.resize(n);
@@ -34,6 +33,18 @@ void Air::enter(const Channel& channel, const Hearing& hearing) {
   for (std::size_t i = 0; i < n; ++i)
     if (lock_[i] != nothing) signal_[i] = channel.power_from(frame(lock_[i]).sender)[i];
   sum_up(heard_until_);
+}
+
+void Air::share_out() {
+  shares_.clear();
+  for (const Jammer& jammer : channel_->jammers) shares_.push_back(share_of(jammer.band, hearing_.band));
+}
+
+void Air::tune(Time at, const Band& band) {
+  hear(at);
+  hearing_.band = band;
+  share_out();
+  sum_up(at);
 }
 
 void Air::deafen(std::size_t radio, Time until) {

@@ -55,6 +55,9 @@ class Air {
   // What was heard since frames last began or ended, or a jammer went on or off. Both begin() and end() call it.
   void hear(Time until);
 
+  // From now on all receive in this band.
+  void tune(Time at, const Band& band);
+
   // Until then a radio finds no frame, and what it listens to is lost.
   void deafen(std::size_t radio, Time until);
   bool is_deaf(std::size_t radio, Time at) const { return deaf_until_[radio] > at; }
@@ -88,6 +91,7 @@ class Air {
   void hear_piece(Time until);
   bool is_whole(std::size_t radio, std::uint64_t frame) const;
   void sum_up(Time at);
+  void share_out();
   Stream random_;
   std::vector<Format> formats_;
   const Channel* channel_ = nullptr;

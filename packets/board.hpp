@@ -89,6 +89,7 @@ class Board {
       const Time period = nanoseconds(e.period), on = nanoseconds(e.duty * e.period);
       if (on == 0 || !channel_.alive[i]) continue;
       Jammer jammer;
+      jammer.radio = i;
       jammer.band = {e.frequency - e.bandwidth / 2, e.frequency + e.bandwidth / 2};
       jammer.pulses = {period, on, nanoseconds(e.phase)};
       for (std::size_t to = 0; to < channel_.radios; ++to)

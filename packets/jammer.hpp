@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <vector>
 
 #include "packets/time.hpp"
@@ -40,6 +41,7 @@ struct Pulses {
 };
 
 struct Jammer {
+  std::size_t radio = 0;  // whose it is
   Band band;
   Pulses pulses;
   std::vector<double> power;  // mW at each radio while it is on, over all of its band

@@ -26,7 +26,7 @@ struct Jammed {
   explicit Jammed(double power, const Pulses& pulses = {}) {
     channel = peers::channel_of({{0, 0}, {3, 0}});
     channel.power = {0, signal, signal, 0};
-    channel.jammers = {Jammer{band_of(1), pulses, {0, power}}};
+    channel.jammers = {Jammer{2, band_of(1), pulses, {0, power}}};
     settings.noise = noise;
     settings.busy = milliwatts(-62);
     settings.rate = rate_of(24);
