@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "packets/state.hpp"
+
 namespace muster::bluetooth {
 namespace {
 
@@ -107,7 +109,7 @@ void Medium::take_turn(Time at) {
   std::size_t next = everyone;
   Time wanted = never;
   for (std::size_t i = 0; i < radios_.size(); ++i) {
-    const Time wants = wants_turn(i);
+    const Time wants = wants_turn(i, at);
     wanted = std::min(wanted, wants);
     if (wants <= at && (next == everyone || radios_[i].addressed < radios_[next].addressed)) next = i;
   }
@@ -119,12 +121,12 @@ void Medium::take_turn(Time at) {
 }
 
 // The master's own turn is a broadcast.
-Time Medium::wants_turn(std::size_t radio) const {
+Time Medium::wants_turn(std::size_t radio, Time at) const {
   const std::size_t master = settings_.master;
   if (!is_there_[radio] || !is_there_[master]) return never;
-  if (has_for(master, radio == master ? everyone : radio)) return 0;
+  if (has_for(master, radio == master ? everyone : radio)) return at;
   if (radio == master) return never;
-  return radios_[radio].has_more ? 0 : radios_[radio].addressed + settings_.poll_interval;
+  return at < radios_[radio].has_more_until ? at : radios_[radio].addressed + settings_.poll_interval;
 }
 
 void Medium::wait_for_turn(Time at) {
@@ -148,10 +150,10 @@ std::size_t Medium::put_on_air(std::size_t from, std::size_t to, Time at, std::u
   std::size_t type = dh1;
   Time length = bare;
   if (has_data) {
-    const packets::Message& message = post_.first(from);
-    const std::size_t size = packet_size(message.size, message.frame, settings_.largest);
+    const std::size_t size = std::min(types[settings_.largest].payload, rest(from));
     type = type_for(size, settings_.largest);
     length = air_time(type, size);
+    radios_[from].carried = size;
   }
   air_.tune(at, band_of(channel_at(at)));
   const Frame& frame = air_.begin(from, at, length, type, ack_of, to, 0);
@@ -208,7 +210,7 @@ void Medium::end_up(const Frame& frame, Heard heard, Time at) {
     if (bears_data) slave.last_loss = packets::fate_of(heard);
     return;
   }
-  slave.has_more = bears_data;
+  slave.has_more_until = bears_data ? at + settings_.poll_interval : 0;
   if (bears_data) {
     slave.heard = frame.id;
     arrive(frame.sender, frame.to, at);
@@ -244,9 +246,9 @@ bool Medium::has_for(std::size_t from, std::size_t to) const {
   return from != settings_.master || post_.first(from).to == to;
 }
 
-bool Medium::is_last_packet(std::size_t sender) const {
-  const packets::Message& message = post_.first(sender);
-  return message.frame + 1 == packets_of(message.size, settings_.largest);
+// Octets of its first message that were not acknowledged.
+std::size_t Medium::rest(std::size_t sender) const {
+  return l2cap_header + post_.first(sender).size - radios_[sender].done;
 }
 
 // Slaves have no link to one another.
@@ -269,6 +271,7 @@ bool Medium::settle_unreachable(std::size_t sender) {
 void Medium::begin_message(std::size_t sender, Time at) {
   while (post_.is_waiting(sender) && settle_unreachable(sender)) {
   }
+  radios_[sender].done = 0;
   begin_packet(sender, at);
 }
 
@@ -284,7 +287,7 @@ void Medium::begin_packet(std::size_t sender, Time at) {
 
 void Medium::go_on_with_message(std::size_t sender, Time at) {
   if (!is_last_packet(sender)) {
-    ++post_.first(sender).frame;
+    radios_[sender].done += radios_[sender].carried;
     return begin_packet(sender, at);
   }
   post_.drop_first(sender);
@@ -296,21 +299,17 @@ void Medium::go_on_with_message(std::size_t sender, Time at) {
 namespace {
 
 // One list of what a record holds, for both directions.
-template <class Archive, class Record>
-void put_radio(Archive&& field, Record& r) {
-  field(r.sent), field(r.sent_until), field(r.arrived), field(r.last_loss), field(r.expires);
-  field(r.addressed), field(r.has_more), field(r.heard), field(r.answers), field(r.answers_to);
-}
+constexpr auto fields = [](auto&& field, auto& r) {
+  field(r.done), field(r.carried), field(r.sent), field(r.sent_until), field(r.arrived), field(r.last_loss);
+  field(r.expires), field(r.addressed), field(r.has_more_until), field(r.heard), field(r.answers), field(r.answers_to);
+};
 
 }  // namespace
 
 std::string Medium::save() const {
   packets::Writer out;
-  air_.save(out);
-  post_.save(out);
   out.put(free_), out.put(turn_);
-  out.put(radios_.size());
-  for (const Radio& radio : radios_) put_radio([&](const auto& value) { out.put(value); }, radio);
+  packets::save(out, air_, post_, radios_, fields);
   return out.take();
 }
 
@@ -318,11 +317,8 @@ void Medium::load(std::string_view bytes) {
   *this = Medium(random_);
   if (bytes.empty()) return;
   packets::Reader in(bytes);
-  air_.load(in);
-  post_.load(in);
   in.get(free_), in.get(turn_);
-  radios_.resize(in.get<std::size_t>());
-  for (Radio& radio : radios_) put_radio([&](auto& value) { in.get(value); }, radio);
+  packets::load(in, air_, post_, radios_, fields);
 }
 
 }  // namespace muster::bluetooth

@@ -56,17 +56,18 @@ class Medium {
 
  private:
   struct Radio {
-    // Of the packet that it has to send, the first message's.
-    std::uint64_t sent = packets::nothing;  // the frame that carried it last
+    // Of its first message: octets that were acknowledged, and those in the packet that is to be sent.
+    std::size_t done = 0, carried = 0;
+    std::uint64_t sent = packets::nothing;  // the frame that carried the packet last
     Time sent_until = 0;
     bool arrived = false;
     Fate last_loss = Fate::too_weak;
     Time expires = packets::never;
 
-    // As a slave: when it was last addressed, whether its last answer bore data, the last data that the master heard
-    // from it, and when it answers to which frame.
+    // As a slave: when it was last addressed, how long it is believed to have more to say, the last data that the
+    // master heard from it, and when it answers to which frame.
     Time addressed = -(Time{1} << 40);
-    bool has_more = false;
+    Time has_more_until = 0;
     std::uint64_t heard = packets::nothing;
     Time answers = packets::never;
     std::uint64_t answers_to = packets::nothing;
@@ -77,7 +78,7 @@ class Medium {
   void handle(const packets::Event& event);
 
   void take_turn(Time at);
-  Time wants_turn(std::size_t radio) const;
+  Time wants_turn(std::size_t radio, Time at) const;
   void wake(Time at);
   void wait_for_turn(Time at);
   void answer(std::size_t slave, Time at);
@@ -92,7 +93,8 @@ class Medium {
   void expire(std::size_t radio, Time at);
 
   bool has_for(std::size_t from, std::size_t to) const;
-  bool is_last_packet(std::size_t sender) const;
+  std::size_t rest(std::size_t sender) const;
+  bool is_last_packet(std::size_t sender) const { return radios_[sender].carried == rest(sender); }
   bool settle_unreachable(std::size_t sender);
   void begin_message(std::size_t sender, Time at);
   void begin_packet(std::size_t sender, Time at);

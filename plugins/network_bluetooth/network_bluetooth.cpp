@@ -11,11 +11,11 @@ struct NetworkBluetooth {
   static constexpr auto id = "network.bluetooth/1";
   static constexpr auto summary = "Bluetooth at its basic rate: a master and up to seven slaves, polled in slots";
   static constexpr auto manual =
-      R"(Messages as packets of Bluetooth (Core Specification 2.0, basic rate): slots of 625 us, over 79 channels of 1 MHz. All
-radios are of one piconet but those that jam. The master sends, and in the slot after its packet the slave that it
+      R"(Messages as packets of Bluetooth (Core Specification 2.0, basic rate): slots of 625 us, 79 channels of 1 MHz.
+All radios are of one piconet but those that jam. The master sends, and in the slot after its packet the slave that it
 addressed answers; nobody else talks. It addresses whoever has data or had some in its last answer, all in turn, and
-each slave once in `poll_interval`. A message is cut into packets, the last as short as its rest allows; each is sent until it is
-acknowledged, or given up after `flush_timeout`. What the master sends to all is sent once.
+each slave once in `poll_interval`. A message is cut into packets, the last as short as its rest allows; each is sent
+until it is acknowledged, or given up after `flush_timeout`. What the master sends to all is sent once.
 Slaves have no link to one another: what one sends to another ends as no_link. A plugin for routing may relay it.
 Bits come wrong by the formula of binary FSK for their ratio to noise and to jammers in the slot's channel; a header's
 are sent three times. Power is link/*/level with link/*/fading, as it stands in the tick.

@@ -43,12 +43,6 @@ constexpr Time air_time(std::size_t type, std::size_t payload) {
 
 // A message goes as one frame of L2CAP (volume 3, part A, 3.1), cut into packets; its limit of 64 kB is not kept.
 constexpr std::size_t l2cap_header = 4;
-constexpr std::size_t packets_of(std::size_t message, std::size_t largest) {
-  return (l2cap_header + message + types[largest].payload - 1) / types[largest].payload;
-}
-constexpr std::size_t packet_size(std::size_t message, std::size_t n, std::size_t largest) {
-  return std::min(types[largest].payload, l2cap_header + message - n * types[largest].payload);
-}
 
 constexpr packets::Band band_of(int channel) {
   const double middle = 2402e6 + 1e6 * channel;

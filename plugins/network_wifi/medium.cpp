@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "packets/state.hpp"
+
 namespace muster::wifi {
 namespace {
 
@@ -247,7 +249,7 @@ void Medium::end_frame(std::uint64_t id, Time at) {
 
 void Medium::end_data(const Frame& frame, const std::vector<Heard>& heard, Time at) {
   if (frame.to != everyone) return end_unicast(frame, heard, at);
-  if (is_last_frame(frame.sender))
+  if (post_.is_last_frame(frame.sender))
     post_.last_frame_heard(frame.sender, heard, air_, at);
   else
     post_.frame_heard(frame.sender, heard);
@@ -259,7 +261,7 @@ void Medium::end_unicast(const Frame& frame, const std::vector<Heard>& heard, Ti
   const bool arrived = heard[frame.to] == Heard::whole;
   if (!arrived)
     sender.last_loss = packets::fate_of(heard[frame.to]);
-  else if (is_last_frame(frame.sender))
+  else if (post_.is_last_frame(frame.sender))
     post_.deliver(frame.sender, frame.to, air_, at);
   sender.arrived |= arrived;
   if (!settings_.acknowledged) {
@@ -303,13 +305,8 @@ void Medium::end_wait(std::size_t number, Time at) {
 
 // ---- Messages -----------------------------------------------------------------------------------------------------
 
-bool Medium::is_last_frame(std::size_t station) const {
-  const packets::Message& message = post_.first(station);
-  return message.frame + 1 == frames_of(message.size);
-}
-
 void Medium::go_on_with_message(std::size_t number) {
-  if (is_last_frame(number)) return end_message(number);
+  if (post_.is_last_frame(number)) return end_message(number);
   ++post_.first(number).frame;
   stations_[number].tries = 0;
   stations_[number].arrived = false;
@@ -338,21 +335,17 @@ void Medium::compete(std::size_t number, int window) {
 namespace {
 
 // One list of what a record holds, for both directions.
-template <class Archive, class Record>
-void put_station(Archive&& field, Record& s) {
+constexpr auto fields = [](auto&& field, auto& s) {
   field(s.phase), field(s.sends_ack), field(s.is_busy), field(s.heard_wrong), field(s.slots), field(s.window);
   field(s.tries), field(s.counts_from), field(s.due), field(s.timeout), field(s.reserved), field(s.sent);
   field(s.arrived), field(s.last_loss), field(s.ack_due), field(s.ack_of), field(s.ack_to), field(s.draws);
-}
+};
 
 }  // namespace
 
 std::string Medium::save() const {
   packets::Writer out;
-  air_.save(out);
-  post_.save(out);
-  out.put(stations_.size());
-  for (const Station& station : stations_) put_station([&](const auto& value) { out.put(value); }, station);
+  packets::save(out, air_, post_, stations_, fields);
   return out.take();
 }
 
@@ -360,10 +353,7 @@ void Medium::load(std::string_view bytes) {
   *this = Medium(random_);
   if (bytes.empty()) return;
   packets::Reader in(bytes);
-  air_.load(in);
-  post_.load(in);
-  stations_.resize(in.get<std::size_t>());
-  for (Station& station : stations_) put_station([&](auto& value) { in.get(value); }, station);
+  packets::load(in, air_, post_, stations_, fields);
 }
 
 }  // namespace muster::wifi

@@ -94,7 +94,6 @@ class Medium {
   void end_unicast(const packets::Frame& frame, const std::vector<Heard>& heard, Time at);
   void end_wait(std::size_t station, Time at);
 
-  bool is_last_frame(std::size_t station) const;
   void go_on_with_message(std::size_t station);
   void end_message(std::size_t station);
   void compete(std::size_t station, int window);
@@ -102,7 +101,7 @@ class Medium {
   Settings settings_;
   Stream random_;
   packets::Air air_;
-  packets::Post post_;
+  packets::Post post_{frames_of};
   packets::Agenda agenda_;
   std::vector<Station> stations_;
   const Channel* channel_ = nullptr;  // of the run

@@ -96,9 +96,6 @@ TEST(Row24, RatesAreTheSpecifications) {
 }
 
 TEST(Row24, MessagesAreCutIntoPacketsOfTheLongestTypeAllowed) {
-  EXPECT_EQ(packets_of(339 - 4, dh5), 1u);
-  EXPECT_EQ(packets_of(340 - 4, dh5), 2u);
-  EXPECT_EQ(packets_of(0, dh1), 1u);
   for (const std::size_t largest : {dh1, dh3, dh5}) {
     Piconet piconet(1);
     piconet.settings.largest = largest;
@@ -193,6 +190,31 @@ TEST(Polls, GoOnBesideAStream) {
   piconet.fill(0, 1, dh5, 9000);
   const Report report = piconet.run(10 * second);
   EXPECT_NEAR(rate(report, 0, 10), 723.2 * (1 - 6 * 2 / 40.0), 723.2 * 0.04);
+}
+
+// Who had something to say and then is heard no more is soon addressed no more often than others.
+TEST(Polls, LeaveASlaveBeThatFellSilent) {
+  Piconet piconet(2);
+  piconet.fill(0, 1, dh5, 9000);
+  piconet.fill(2, 0, dh5, 9000);
+  EXPECT_NEAR(rate(piconet.run(10 * second), 0, 10), 723.2 / 2, 1);
+  for (const std::size_t link : {2 * 3 + 0, 0 * 3 + 2}) piconet.channel.power[link] = 0;
+  EXPECT_NEAR(rate(piconet.run(20 * second), 0, 10), 723.2 * (1 - 2 / 40.0), 723.2 * 0.04);
+}
+
+// A swap may change the longest type in the middle of a message, and between two tries of a packet.
+TEST(Packets, MayChangeTheirTypeOnTheWay) {
+  Piconet piconet(1);
+  piconet.set_ratio(milliwatts(14));
+  std::string payload(20000, '\0');
+  for (std::size_t i = 0; i < payload.size(); ++i) payload[i] = static_cast<char>(mixed(i));
+  for (const std::size_t from : {0, 1}) piconet.medium.ask(0, from, 1 - from, payload);
+  std::size_t arrived = 0;
+  for (int i = 1; i < 2000; ++i) {
+    piconet.settings.largest = static_cast<std::size_t>(i % 3);
+    for (const Arrival& a : piconet.run(i * slot).arrivals) arrived += a.payload == payload;
+  }
+  EXPECT_EQ(arrived, 2u);
 }
 
 // ---- Losses -------------------------------------------------------------------------------------------------------
