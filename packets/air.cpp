@@ -72,7 +72,7 @@ double Air::power_at(std::size_t radio, Time at) const {
   return sum;
 }
 
-double Air::jammed(std::size_t radio, Time from, Time until) const {
+double Air::sum_of_jammers(std::size_t radio, Time from, Time until) const {
   double sum = 0;
   for (std::size_t i = 0; i < shares_.size(); ++i) {
     const Jammer& jammer = channel_->jammers[i];
@@ -114,8 +114,7 @@ const Frame& Air::begin(std::size_t sender, Time at, Time length, std::size_t fo
   return frames_.back();
 }
 
-void Air::hear(Time until) {
-  if (shares_.empty()) return hear_piece(until);
+void Air::hear_between_switches(Time until) {
   const bool is_heard = std::any_of(lock_.begin(), lock_.end(), [](std::uint64_t id) { return id != nothing; });
   for (Time at = heard_until_; is_heard && (at = next_switch(at)) <= until;) {
     hear_piece(at);

@@ -53,7 +53,7 @@ class Air {
   void enter(const Channel& channel, const Hearing& hearing);
 
   // What was heard since frames last began or ended, or a jammer went on or off. Both begin() and end() call it.
-  void hear(Time until);
+  void hear(Time until) { shares_.empty() ? hear_piece(until) : hear_between_switches(until); }
 
   // From now on all receive in this band.
   void tune(Time at, const Band& band);
@@ -77,8 +77,11 @@ class Air {
   double power(std::size_t radio) const { return total_[radio]; }  // of all frames in the air and of jammers, mW
   double power_at(std::size_t radio, Time at) const;               // the same, at a time that is remembered
 
-  double jammed(std::size_t radio, Time from, Time until) const;  // mean power of jammers, mW
-  Time next_switch(Time after) const;                             // when one of them goes on or off
+  // Mean power of jammers, mW.
+  double jammed(std::size_t radio, Time from, Time until) const {
+    return shares_.empty() ? 0 : sum_of_jammers(radio, from, until);
+  }
+  Time next_switch(Time after) const;  // when one of them goes on or off
 
   // Of the frame that a radio heard last: rssi as its preamble was found [dBm]; mean ratio.
   double rssi(std::size_t radio) const { return rssi_[radio]; }
@@ -89,6 +92,8 @@ class Air {
 
  private:
   void hear_piece(Time until);
+  void hear_between_switches(Time until);
+  double sum_of_jammers(std::size_t radio, Time from, Time until) const;
   bool is_whole(std::size_t radio, std::uint64_t frame) const;
   void sum_up(Time at);
   void share_out();
