@@ -86,8 +86,8 @@ class Board {
     channel_.jammers.clear();
     for (std::size_t i = 0; i < k[emission_].size(); ++i) {
       const Emission& e = k[emission_][i];
-      const Time period = nanoseconds(e.period), on = nanoseconds(e.duty * e.period);
-      if (on == 0 || !channel_.alive[i]) continue;
+      const Time period = nanoseconds(e.period), on = std::min(period, nanoseconds(e.duty * e.period));
+      if (on <= 0 || !channel_.alive[i]) continue;
       Jammer jammer;
       jammer.radio = i;
       jammer.band = {e.frequency - e.bandwidth / 2, e.frequency + e.bandwidth / 2};

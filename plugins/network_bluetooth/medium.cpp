@@ -52,7 +52,7 @@ const Report& Medium::run(Time since, Time until, const Channel& channel, const 
   for (const Frame& frame : frames)
     if (frame.end >= since) agenda_.put(frame.end, frame_ends, frame.id);
   for (std::size_t i = 0; i < post_.requests().size(); ++i) agenda_.put(post_.requests()[i].at, request_comes, i);
-  wait_for_turn(std::max(turn_, turn_from(since)));
+  wake(since);
   for (std::size_t i = 0; i < radios_.size(); ++i) {
     if (post_.is_waiting(i) && settle_unreachable(i)) begin_message(i, since);  // somebody left
     agenda_.put(radios_[i].expires, packet_expires, i);
@@ -134,6 +134,7 @@ void Medium::wait_for_turn(Time at) {
   agenda_.put(at, master_turns, 0);
 }
 
+// The master looks around as soon as it may.
 void Medium::wake(Time at) { wait_for_turn(std::max(free_, turn_from(at))); }
 
 void Medium::answer(std::size_t slave, Time at) {
@@ -171,7 +172,7 @@ void Medium::end_frame(std::uint64_t id, Time at) {
   const std::vector<Heard>& heard = air_.end(frame);
   if (!is_there_[frame.sender]) return;
   if (frame.to == everyone) {
-    if (radios_[frame.sender].sent == id) end_broadcast(heard, at);
+    if (radios_[frame.sender].sent == id) end_broadcast(frame.sender, heard, at);
   } else if (frame.sender == settings_.master) {
     end_down(frame, heard[frame.to], at);
   } else {
@@ -180,12 +181,12 @@ void Medium::end_frame(std::uint64_t id, Time at) {
 }
 
 // Sent once, and not acknowledged.
-void Medium::end_broadcast(const std::vector<Heard>& heard, Time at) {
-  if (is_last_packet(settings_.master))
-    post_.last_frame_heard(settings_.master, heard, air_, at);
+void Medium::end_broadcast(std::size_t sender, const std::vector<Heard>& heard, Time at) {
+  if (is_last_packet(sender))
+    post_.last_frame_heard(sender, heard, air_, at);
   else
-    post_.frame_heard(settings_.master, heard);
-  go_on_with_message(settings_.master, at);
+    post_.frame_heard(sender, heard);
+  go_on_with_message(sender, at);
 }
 
 void Medium::end_down(const Frame& frame, Heard heard, Time at) {
@@ -308,7 +309,7 @@ constexpr auto fields = [](auto&& field, auto& r) {
 
 std::string Medium::save() const {
   packets::Writer out;
-  out.put(free_), out.put(turn_);
+  out.put(free_);
   packets::save(out, air_, post_, radios_, fields);
   return out.take();
 }
@@ -317,7 +318,7 @@ void Medium::load(std::string_view bytes) {
   *this = Medium(random_);
   if (bytes.empty()) return;
   packets::Reader in(bytes);
-  in.get(free_), in.get(turn_);
+  in.get(free_);
   packets::load(in, air_, post_, radios_, fields);
 }
 

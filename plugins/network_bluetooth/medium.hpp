@@ -85,7 +85,7 @@ class Medium {
   std::size_t put_on_air(std::size_t from, std::size_t to, Time at, std::uint64_t ack_of);
 
   void end_frame(std::uint64_t id, Time at);
-  void end_broadcast(const std::vector<Heard>& heard, Time at);
+  void end_broadcast(std::size_t sender, const std::vector<Heard>& heard, Time at);
   void end_down(const packets::Frame& frame, Heard heard, Time at);
   void end_up(const packets::Frame& frame, Heard heard, Time at);
   void arrive(std::size_t from, std::size_t to, Time at);

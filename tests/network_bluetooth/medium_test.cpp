@@ -309,6 +309,33 @@ TEST(Flush, EndsWhatNobodyAsksFor) {
   EXPECT_EQ(of(books_of(piconet.run()), Fate::no_link), 1);
 }
 
+TEST(Joining, IsNoticedByAMasterThatWasAlone) {
+  Piconet piconet(1);
+  piconet.channel.alive[1] = 0;
+  piconet.run(second);
+  piconet.channel.alive[1] = 1;
+  piconet.medium.ask(second, 1, 0, "x");
+  EXPECT_EQ(of(books_of(piconet.run(2 * second)), Fate::delivered), 1);
+}
+
+// Whoever is master meanwhile, each copy has one outcome.
+TEST(Master, MayBecomeAnotherAtAnyTime) {
+  Piconet piconet(3);
+  piconet.settings.flush = 80 * slot;
+  Books books{};
+  for (int i = 1; i < 2000; ++i) {
+    piconet.settings.master = static_cast<std::size_t>(i / 23) % 4;
+    const auto from = static_cast<std::size_t>(i) % 4;
+    if (i % 3 == 0)
+      piconet.medium.ask(piconet.now, from, i % 2 ? (from + 1) % 4 : Medium::everyone, std::string(300, 'x'));
+    add(books, piconet.run(i * (slot / 2)));
+  }
+  add(books, piconet.run(30 * second));
+  EXPECT_GT(of(books, Fate::delivered), 20);
+  EXPECT_GT(of(books, Fate::no_link), 20);
+  EXPECT_EQ(std::accumulate(books.begin() + 1, books.end(), 0.0), of(books, Fate::under_way));
+}
+
 TEST(Queue, RefusesWhatItHasNoRoomFor) {
   Piconet piconet(1);
   piconet.settings.queue = 3;
