@@ -122,7 +122,9 @@ CauseModel::CauseModel(LinkModel& whole, const std::filesystem::path& world, con
 }
 
 void CauseModel::remove(Simulation& run, Present& present) {
-  for (std::size_t k = present.first; k < present.first + present.count; ++k) run.remove(name_of(k));
+  std::vector<std::string> names;
+  for (std::size_t k = present.first; k < present.first + present.count; ++k) names.push_back(name_of(k));
+  if (!names.empty()) run.remove_all(names);
   present = {};
 }
 
@@ -136,11 +138,12 @@ void CauseModel::put(Simulation& run, Present& present, const Cause& cause, cons
   if (present.cause == cause.id && present.first == first && present.count == count) return;
   remove(run, present);
   const Place place{run.world().file.string()};
-  for (std::size_t k = first; k < first + count; ++k) {
-    run.insert(instance_of(cause, name_of(k), rows[k], cause.file() ? data_ : "", 1, place));
-    loaded_.insert(run.instances().back()->library());
-    present = {cause.id, first, k + 1 - first, {}, false};
-  }
+  std::vector<InstanceDeclaration> declarations;
+  for (std::size_t k = first; k < first + count; ++k)
+    declarations.push_back(instance_of(cause, name_of(k), rows[k], cause.file() ? data_ : "", 1, place));
+  run.insert_all(std::move(declarations));
+  loaded_.insert(run.instances().back()->library());
+  present = {cause.id, first, count, {}, false};
   // Tables that nothing has read so far are at the declared values.
   if (&run == &whole_) return;
   std::map<std::string, double> fitted;

@@ -56,38 +56,58 @@ void Simulation::swap(const std::string& name, InstanceDeclaration replacement) 
 }
 
 void Simulation::insert(InstanceDeclaration declaration, const std::string& before) {
-  for (const auto& instance : instances_) {
-    if (instance->name() == declaration.name)
-      throw Error(Exit::invalid_input,
-                  "an instance is called " + quote(declaration.name) + " already: " + instance->title());
-  }
-  const auto at = before.empty() ? instances_.size() : find(before);
-  guarded([&] {
-    instances_.insert(instances_.begin() + static_cast<std::ptrdiff_t>(at), make(std::move(declaration)));
-    try {
-      relink();
-    } catch (...) {
-      instances_.erase(instances_.begin() + static_cast<std::ptrdiff_t>(at));
-      throw;
-    }
-  });
-  take_events(*instances_[at], tick_);
-  events_.push_back({tick_, instances_[at]->name(), std::string("inserted ") + instances_[at]->plugin().id});
+  insert_at(before.empty() ? instances_.size() : find(before), {std::move(declaration)});
 }
 
-void Simulation::remove(const std::string& name) {
-  const auto at = static_cast<std::ptrdiff_t>(find(name));
-  auto gone = std::move(instances_[static_cast<std::size_t>(at)]);
-  instances_.erase(instances_.begin() + at);
+void Simulation::insert_all(std::vector<InstanceDeclaration> declarations) {
+  insert_at(instances_.size(), std::move(declarations));
+}
+
+void Simulation::insert_at(std::size_t at, std::vector<InstanceDeclaration> declarations) {
+  std::size_t end = at;
   guarded([&] {
     try {
+      for (InstanceDeclaration& declaration : declarations) {
+        for (const auto& instance : instances_) {
+          if (instance->name() == declaration.name)
+            throw Error(Exit::invalid_input,
+                        "an instance is called " + quote(declaration.name) + " already: " + instance->title());
+        }
+        instances_.insert(instances_.begin() + static_cast<std::ptrdiff_t>(end), make(std::move(declaration)));
+        ++end;
+      }
       relink();
     } catch (...) {
-      instances_.insert(instances_.begin() + at, std::move(gone));
+      instances_.erase(instances_.begin() + static_cast<std::ptrdiff_t>(at),
+                       instances_.begin() + static_cast<std::ptrdiff_t>(end));
       throw;
     }
   });
-  events_.push_back({tick_, name, "removed"});
+  for (; at < end; ++at) {
+    take_events(*instances_[at], tick_);
+    events_.push_back({tick_, instances_[at]->name(), std::string("inserted ") + instances_[at]->plugin().id});
+  }
+}
+
+void Simulation::remove(const std::string& name) { remove_all({name}); }
+
+void Simulation::remove_all(const std::vector<std::string>& names) {
+  std::vector<std::pair<std::ptrdiff_t, std::unique_ptr<Instance>>> gone;
+  guarded([&] {
+    try {
+      for (const std::string& name : names) {
+        const auto at = instances_.begin() + static_cast<std::ptrdiff_t>(find(name));
+        gone.emplace_back(at - instances_.begin(), std::move(*at));
+        instances_.erase(at);
+      }
+      relink();
+    } catch (...) {
+      for (; !gone.empty(); gone.pop_back())
+        instances_.insert(instances_.begin() + gone.back().first, std::move(gone.back().second));
+      throw;
+    }
+  });
+  for (const std::string& name : names) events_.push_back({tick_, name, "removed"});
 }
 
 void Simulation::remake(const std::string& name) {

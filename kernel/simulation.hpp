@@ -84,6 +84,9 @@ class Simulation {
   // Inserts an instance before another, or at the end where `before` is empty.
   void insert(InstanceDeclaration declaration, const std::string& before = "");
   void remove(const std::string& instance);
+  // All of them, at the end, or none; linked once.
+  void insert_all(std::vector<InstanceDeclaration> declarations);
+  void remove_all(const std::vector<std::string>& instances);
   // Destroys the instance and makes it again; reload also loads its library again from its file.
   void remake(const std::string& instance);
   void reload(const std::string& instance);
@@ -103,6 +106,7 @@ class Simulation {
   void add_providers();
   void relink();
   std::size_t find(const std::string& instance) const;
+  void insert_at(std::size_t at, std::vector<InstanceDeclaration> declarations);
   void replace(std::size_t at, std::unique_ptr<Instance> instance);
   void planned_swaps();
   void check_planned();

@@ -120,10 +120,10 @@ void add_up(const Sum& sum, uint64_t tick) {
   if (!fresh) return;
   sum.total->begin(false, tick);
   auto& total = sum.total->next().data;
-  for (std::size_t i = 0; i < total.size(); ++i) {
-    double value = 0;
-    for (const Table* part : sum.parts) value += part->newest().data[i];
-    total[i] = value;
+  std::fill(total.begin(), total.end(), 0.0);
+  for (const Table* part : sum.parts) {
+    const auto& data = part->newest().data;
+    for (std::size_t i = 0; i < total.size(); ++i) total[i] += data[i];
   }
 }
 

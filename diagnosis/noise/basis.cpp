@@ -1,5 +1,7 @@
 #include "diagnosis/noise/basis.hpp"
 
+#include "diagnosis/noise/row_kernel.hpp"
+
 namespace muster::noise {
 
 constexpr double least_share = 1e-6;  // of a column's length that must be left for it to be a column of its own
@@ -28,6 +30,12 @@ Basis basis_of(const Eigen::Ref<const Eigen::MatrixXd>& columns) {
   basis.q.conservativeResize(Eigen::NoChange, used);
   basis.r.conservativeResize(used, used);
   return basis;
+}
+
+void Basis::take_out_of(Sheet& x) const {
+  const Sheet by_row = q.cast<float>();
+  Eigen::Matrix<float, 32, Eigen::Dynamic> scratch(32, q.cols());
+  row_kernels().best().take_out(by_row.data(), q.rows(), q.cols(), x.data(), x.cols(), scratch.data());
 }
 
 Eigen::VectorXd Basis::coefficients(const Eigen::VectorXd& explained, Eigen::Index columns) const {

@@ -6,6 +6,9 @@
 
 namespace muster::noise {
 
+// Many columns at once, one row a row.
+using Sheet = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 struct Basis {
   Eigen::MatrixXd q;  // orthonormal
   Eigen::MatrixXd r;  // upper triangle: the kept columns are q r
@@ -14,6 +17,8 @@ struct Basis {
   double log_determinant() const { return r.diagonal().array().log().sum(); }
   // x less what the basis explains.
   Eigen::MatrixXd rest(const Eigen::Ref<const Eigen::MatrixXd>& x) const { return x - q * (q.transpose() * x); }
+  // The same of many.
+  void take_out_of(Sheet& x) const;
   // Coefficients of the given columns; zero where one was left out. `explained` = q^T y.
   Eigen::VectorXd coefficients(const Eigen::VectorXd& explained, Eigen::Index columns) const;
   // Covariance of the coefficients for unit variance; zero where a column was left out.

@@ -38,15 +38,13 @@ Objective objective(const Field& field, const Covariance& covariance, const Eige
                     const Eigen::MatrixXd& design, const Prior& prior) {
   const WhitenerSlopes slopes(field, covariance);
   const Whitened at = whitened(slopes.whitener(), y, design, prior);
-  const Eigen::MatrixXd both = beside(design, y);
-  const Eigen::VectorXd beta = at.basis.coefficients(at.basis.q.transpose() * at.y, design.cols());
-  Objective result{at.value, -slopes.of_log_scale(), slopes.information()};
-  for (int p = 0; p < 4; ++p) {
-    const Eigen::MatrixXd moved = slopes(p, both);
-    const Eigen::MatrixXd x = moved.leftCols(design.cols())(Eigen::all, at.basis.kept);
-    result.gradient[p] += at.residual.dot(moved.rightCols(1).col(0) - moved.leftCols(design.cols()) * beta);
-    result.gradient[p] += at.basis.r.triangularView<Eigen::Upper>().solve(at.basis.q.transpose() * x).trace();
-  }
+  const Basis& basis = at.basis;
+  const Eigen::VectorXd beta = basis.coefficients(basis.q.transpose() * at.y, design.cols());
+  // Of the residual sum of squares, and of the design's determinant: the trace of R^-1 Q^T dW X.
+  const Eigen::MatrixXd turned = basis.r.triangularView<Eigen::Upper>().solve(basis.q.transpose()).transpose();
+  const Theta of_design =
+      slopes.contracted(beside(design(Eigen::all, basis.kept), y - design * beta), beside(turned, at.residual));
+  Objective result{at.value, of_design - slopes.of_log_scale(), slopes.information()};
   const PriorTerm distance = on_distance(covariance, prior), share = on_share(covariance, prior);
   result.gradient[1] += distance.precision * distance.offset;
   result.gradient[3] += share.precision * share.offset;

@@ -8,31 +8,11 @@
 namespace muster::noise {
 namespace {
 
+using ByRow = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-// out_i = own_i x_i + sum of beside_ia x_neighbour for columns that lie row by row.
-template <class Scalar>
-void apply(const Field& field, const Stencil& stencil, const Scalar* x, Index columns, Scalar* out) {
-  constexpr Index block = 128;  // columns whose rows stay in the cache together
-  for (Index from = 0; from < columns; from += block) {
-    const Index width = std::min(block, columns - from);
-    for (Index i = 0; i < field.size(); ++i) {
-      Scalar* const to = out + i * columns + from;
-      const Scalar* const own = x + i * columns + from;
-      const auto scale = static_cast<Scalar>(stencil.own[at(i)]);
-      for (Index k = 0; k < width; ++k) to[k] = scale * own[k];
-      for (int a = 0; a < field.slots(); ++a) {
-        const Index j = field.neighbour(i, a);
-        if (j < 0) continue;
-        const auto weight = static_cast<Scalar>(stencil.beside[at(i * field.slots() + a)]);
-        const Scalar* const other = x + j * columns + from;
-        for (Index k = 0; k < width; ++k) to[k] += weight * other[k];
-      }
-    }
-  }
-}
-
-// The same for one column, as refinement asks for it thousands of times.
+// As refinement asks for it thousands of times.
 Eigen::VectorXd applied_to_one(const Field& field, const Stencil& stencil, const double* x) {
   Eigen::VectorXd out(field.size());
   const auto slots = static_cast<Index>(field.slots());
@@ -50,10 +30,9 @@ Eigen::VectorXd applied_to_one(const Field& field, const Stencil& stencil, const
 
 Eigen::MatrixXd applied(const Field& field, const Stencil& stencil, const Eigen::Ref<const Eigen::MatrixXd>& columns) {
   if (columns.cols() == 1) return applied_to_one(field, stencil, columns.data());
-  using ByRow = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const ByRow x = columns;
   ByRow out(x.rows(), x.cols());
-  apply(field, stencil, x.data(), x.cols(), out.data());
+  row_kernels().best().combine(field.combinations(stencil), x.data(), x.cols(), out.data());
   return out;
 }
 
@@ -62,12 +41,12 @@ Stencil empty_stencil(const Field& field) {
 }
 
 // Writes lane by lane what was worked out for a group of rows; `combination` has a value a slot, then the row's own.
-void store(const Field& field, Index group, const std::vector<Lanes>& combination, Stencil& stencil) {
-  for (Index lane = 0; lane < Field::lanes; ++lane) {
-    const Index i = group * Field::lanes + lane;
+void store(const Field& field, Index group, const Lanes* combination, Stencil& stencil) {
+  for (Index lane = 0; lane < lanes; ++lane) {
+    const Index i = group * lanes + lane;
     if (i >= field.size()) return;
-    for (int a = 0; a < field.slots(); ++a) stencil.beside[at(i * field.slots() + a)] = combination[at(a)][lane];
-    stencil.own[at(i)] = combination[at(field.slots())][lane];
+    for (int a = 0; a < field.slots(); ++a) stencil.beside[at(i * field.slots() + a)] = combination[a].of[lane];
+    stencil.own[at(i)] = combination[field.slots()].of[lane];
   }
 }
 
@@ -89,6 +68,24 @@ Field::Field(Sites sites, const Conditioning& conditioning)
     if (sites_.radio[at(i)] != sites_.radio[at(j)]) return;
     joint_[slot] = entry(std::sqrt(place + (sites_.anchor.col(i) - sites_.anchor.col(j)).squaredNorm()));
   });
+  compare_ends();
+}
+
+void Field::compare_ends() {
+  kinds_.assign(near_.size() / lanes, Joint::other);
+  for (std::size_t pair = 0; pair < kinds_.size(); ++pair) {
+    const auto near = near_.begin() + static_cast<std::ptrdiff_t>(pair * lanes);
+    const auto joint = joint_.begin() + static_cast<std::ptrdiff_t>(pair * lanes);
+    if (std::equal(near, near + lanes, joint)) {
+      kinds_[pair] = Joint::same;
+    } else if (std::all_of(joint, joint + lanes, [](uint16_t entry) { return entry == distances; })) {
+      kinds_[pair] = Joint::uncorrelated;
+    }
+  }
+}
+
+Combinations Field::combinations(const Stencil& stencil) const {
+  return {size(), slots_, neighbours_.data(), stencil.own.data(), stencil.beside.data()};
 }
 
 template <class Each>
@@ -133,7 +130,7 @@ Eigen::MatrixXd Whitener::operator()(const Eigen::Ref<const Eigen::MatrixXd>& co
 
 Sheet Whitener::sheet(const Sheet& columns) const {
   Sheet out(columns.rows(), columns.cols());
-  apply(*field_, stencil_, columns.data(), columns.cols(), out.data());
+  row_kernels().best().combine_floats(field_->combinations(stencil_), columns.data(), columns.cols(), out.data());
   return out;
 }
 
@@ -144,17 +141,13 @@ WhitenerSlopes::WhitenerSlopes(const Field& field, const Covariance& covariance)
   for (Index g = 0; g < field.groups(); ++g) {
     neighbourhood.factorise(g);
     store(field, g, neighbourhood.combination(), whitener_.stencil_);
-    neighbourhood.differentiate(g);
-    const Index used = std::min<Index>(Field::lanes, field.size() - g * Field::lanes);
-    for (std::size_t p = 0; p < 4; ++p) {
-      store(field, g, neighbourhood.slope(p), stencils_[p]);
-      for (Index lane = 0; lane < used; ++lane)
-        of_log_scale_[static_cast<Index>(p)] += neighbourhood.log_slope(p)[lane];
-    }
-    for (Index p = 0; p < 4; ++p) {
-      for (Index q = 0; q <= p; ++q) {
-        const Lanes product = neighbourhood.information(at(p), at(q));
-        for (Index lane = 0; lane < used; ++lane) information_(p, q) += product[lane];
+    neighbourhood.differentiate();
+    const int used = static_cast<int>(std::min<Index>(lanes, field.size() - g * lanes));
+    for (int p = 0; p < parameters; ++p) {
+      store(field, g, neighbourhood.slope(p), stencils_[static_cast<std::size_t>(p)]);
+      for (int lane = 0; lane < used; ++lane) of_log_scale_[p] += neighbourhood.log_slope(p, lane);
+      for (int q = 0; q <= p; ++q) {
+        for (int lane = 0; lane < used; ++lane) information_(p, q) += neighbourhood.information(p, q).of[lane];
         information_(q, p) = information_(p, q);
       }
     }
@@ -162,8 +155,18 @@ WhitenerSlopes::WhitenerSlopes(const Field& field, const Covariance& covariance)
   whitener_.sum_up();
 }
 
-Eigen::MatrixXd WhitenerSlopes::operator()(int parameter, const Eigen::Ref<const Eigen::MatrixXd>& columns) const {
-  return applied(*field_, stencils_[static_cast<std::size_t>(parameter)], columns);
+Theta WhitenerSlopes::contracted(const Eigen::MatrixXd& x, const Eigen::MatrixXd& with) const {
+  const auto filled = [](const Eigen::MatrixXd& columns) {
+    ByRow result = ByRow::Zero(columns.rows(), (columns.cols() + lanes - 1) / lanes * lanes);
+    result.leftCols(columns.cols()) = columns;
+    return result;
+  };
+  const ByRow one = filled(x), other = filled(with);
+  std::array<Combinations, parameters> four;
+  for (std::size_t p = 0; p < parameters; ++p) four[p] = field_->combinations(stencils_[p]);
+  Theta sums;
+  row_kernels().best().contract(four.data(), one.data(), other.data(), one.cols(), sums.data());
+  return sums;
 }
 
 }  // namespace muster::noise

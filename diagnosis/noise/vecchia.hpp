@@ -6,21 +6,22 @@
 #include <array>
 #include <cstdint>
 
+#include "diagnosis/noise/basis.hpp"
 #include "diagnosis/noise/family.hpp"
 #include "diagnosis/noise/neighbours.hpp"
+#include "diagnosis/noise/row_kernel.hpp"
 
 namespace muster::noise {
 
-// Many columns at once, one row a row.
-using Sheet = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+// A row's combination with its neighbours: whitened_i = own_i x_i + sum over slots of beside_ia x_neighbour.
+struct Stencil {
+  std::vector<double> own, beside;
+};
 
 // What does not depend on the covariance's parameters: neighbours, and the distances inside each row's neighbourhood as
 // places in a table of correlations.
 class Field {
  public:
-  static constexpr int lanes = 8;         // rows that are worked on side by side
-  static constexpr int distances = 4096;  // entries of the table; one more stands for "uncorrelated"
-
   explicit Field(Sites sites, const Conditioning& conditioning = {});
 
   Index size() const { return sites_.size(); }
@@ -35,23 +36,23 @@ class Field {
   const uint16_t* joint(Index group) const {
     return joint_.data() + group * pairs() * lanes;
   }  // both ends, same anchor
+  const Joint* kinds(Index group) const { return kinds_.data() + group * pairs(); }
   Index pairs() const { return Index{slots_} * (slots_ + 1) / 2; }
+  // These weights for each row's neighbours, then its own.
+  Combinations combinations(const Stencil& stencil) const;
 
  private:
   template <class Each>
   void each_pair(Each each) const;
   uint16_t entry(double distance) const;
+  void compare_ends();
 
   Sites sites_;
   int slots_;
   std::vector<Index> neighbours_;
   double spacing_ = 0.01;
   std::vector<uint16_t> near_, joint_;
-};
-
-// A row's combination with its neighbours: whitened_i = own_i x_i + sum over slots of beside_ia x_neighbour.
-struct Stencil {
-  std::vector<double> own, beside;
+  std::vector<Joint> kinds_;
 };
 
 class Whitener {
@@ -84,7 +85,8 @@ class WhitenerSlopes {
   const Theta& of_log_scale() const { return of_log_scale_; }
   // Fisher's information of theta in the rows (Guinness, Statistics and Computing 31, 2021).
   const Eigen::Matrix4d& information() const { return information_; }
-  Eigen::MatrixXd operator()(int parameter, const Eigen::Ref<const Eigen::MatrixXd>& columns) const;
+  // For each parameter the sum over rows of products: of `x` combined by the whitener's derivative, and of `with`.
+  Theta contracted(const Eigen::MatrixXd& x, const Eigen::MatrixXd& with) const;
 
  private:
   const Field* field_;

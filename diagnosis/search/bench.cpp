@@ -160,8 +160,10 @@ Entry Bench::entry(Candidate candidate) const {
   Entry result{std::make_shared<const Candidate>(std::move(candidate)), {}};
   const Candidate& c = *result.candidate;
   result.atoms.resize(rows_.size(), result.count() * c.width);
-  for (Index k = 0; k < result.count(); ++k)
-    result.atoms.middleCols(k * c.width, c.width) = columns_of(c, c.grid[static_cast<std::size_t>(k)]).cast<float>();
+  for (Index k = 0; k < result.count(); ++k) {
+    const Eigen::VectorXd& theta = c.grid[static_cast<std::size_t>(k)];
+    result.atoms.middleCols(k * c.width, c.width) = (c.sketch ? c.sketch(theta) : columns_of(c, theta)).cast<float>();
+  }
   return result;
 }
 

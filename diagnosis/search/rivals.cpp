@@ -1,6 +1,7 @@
 #include "diagnosis/search/rivals.hpp"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <stdexcept>
 
@@ -19,19 +20,24 @@ Eigen::VectorXd effect_of(const Bench& bench, const Term& term) {
   return term.columns * bench.stand(design).coefficients(design.cols()).tail(term.columns.cols());
 }
 
-// How much of the whitened effect the rival's best theta explains.
-std::pair<Eigen::VectorXd, double> explained_by(const Bench& bench, const Stand& rest, const Entry& entry,
-                                                const Eigen::VectorXd& effect) {
-  const Candidate& c = *entry.candidate;
+// How much of the whitened effect the rival explains at its best theta. `by_atom`: at those of its grid.
+std::pair<Eigen::VectorXd, double> explained_by(const Bench& bench, const Stand& rest, const Candidate& c,
+                                                const Eigen::VectorXd& by_atom, const Eigen::VectorXd& effect) {
   Index at = 0;
-  const double best = gains(c, unit_atoms(entry, rest), effect).maxCoeff(&at);
+  const double best = by_atom.maxCoeff(&at);
   const Eigen::VectorXd& start = c.grid[static_cast<std::size_t>(at)];
   if (!c.refinable()) return {start, best};
-  return climbed(c, start, std::min(60, c.evaluations), [&](const Eigen::VectorXd& theta) {
+  const auto share = [&](const Eigen::VectorXd& theta, const Eigen::MatrixXd& columns) {
     const double admitted = c.admitted ? c.admitted(theta) : 1;
-    const auto added = noise::basis_of(rest.at.basis.rest(rest.whitener(bench.columns_of(c, theta))));
+    const auto added = noise::basis_of(rest.at.basis.rest(rest.whitener(columns)));
     return admitted * (added.q.transpose() * effect).squaredNorm();
-  });
+  };
+  const auto exact = [&](const Eigen::VectorXd& theta) { return share(theta, bench.columns_of(c, theta)); };
+  const int evaluations = std::min(60, c.evaluations);
+  if (!c.sketch) return climbed(c, start, evaluations, exact);
+  Top top = climbed(c, start, evaluations, [&](const Eigen::VectorXd& theta) { return share(theta, c.sketch(theta)); });
+  top.second = exact(top.first);
+  return top;
 }
 
 // From its best atom, if that is worth it, and from where it explains the effect, if it does: of a strong effect even
@@ -79,10 +85,12 @@ std::vector<Rival> rivals_of(Bench& bench, const Term& term) {
   const double evidence = bench.evidence(own, rest.gain(term.columns), own.width, own.refinable());
   std::optional<double> stands;
   std::vector<Rival> result;
-  for (const Lead& plain : leads(bench, rest)) {
+  std::map<std::string, Eigen::VectorXd> by_atom;  // of what each explains of the effect
+  const auto also = [&](const Candidate& c, const noise::Sheet& unit) { by_atom[c.id] = gains(c, unit, effect); };
+  for (const Lead& plain : leads(bench, rest, also)) {
     const Candidate& c = plain.candidate();
     if (c.id == own.id) continue;
-    const auto [theta, explained] = explained_by(bench, rest, *plain.entry, effect);
+    const auto [theta, explained] = explained_by(bench, rest, c, by_atom.at(c.id), effect);
     const double separability = effect.squaredNorm() - explained;
     const bool confused = c.kind == Kind::named && separability < inseparable;
     const Lead lead = at_its_best(bench, rest, plain, confused ? &theta : nullptr, evidence - worth_refining);

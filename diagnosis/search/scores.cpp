@@ -23,15 +23,21 @@ void orthonormalise(noise::Sheet& sheet, Index width) {
     sheet.array().rowwise() *= scale.transpose().array();
     return;
   }
-  for (Index j = 0; j < sheet.cols(); ++j) {
-    Eigen::VectorXf x = sheet.col(j);
-    const Index first = j - j % width, earlier = j % width;
-    for (int pass = 0; pass < 2 && earlier > 0; ++pass) {
-      const Eigen::VectorXf along = sheet.middleCols(first, earlier).transpose() * x;
-      x -= sheet.middleCols(first, earlier) * along;
+  for (Index first = 0; first < sheet.cols(); first += width) {
+    Eigen::MatrixXf atom = sheet.middleCols(first, width);  // here a column's values lie together
+    for (Index j = 0; j < width; ++j) {
+      for (int pass = 0; pass < 2 && j > 0; ++pass) {
+        const Eigen::VectorXf along = atom.leftCols(j).transpose() * atom.col(j);
+        atom.col(j) -= atom.leftCols(j) * along;
+      }
+      const float left = atom.col(j).squaredNorm();
+      if (left > least) {
+        atom.col(j) /= std::sqrt(left);
+      } else {
+        atom.col(j).setZero();
+      }
     }
-    const float left = x.squaredNorm();
-    sheet.col(j) = left > least ? Eigen::VectorXf(x / std::sqrt(left)) : Eigen::VectorXf::Zero(x.size()).eval();
+    sheet.middleCols(first, width) = atom;
   }
 }
 
@@ -163,9 +169,7 @@ Top raced_to(const Bench& bench, const Stand& stand, const Lead& lead) {
 
 noise::Sheet unit_atoms(const Entry& entry, const Stand& stand) {
   noise::Sheet unit = stand.whitener.sheet(entry.atoms);
-  const noise::Sheet q = stand.at.basis.q.cast<float>();
-  const noise::Sheet explained = q.transpose() * unit;
-  unit.noalias() -= q * explained;
+  stand.at.basis.take_out_of(unit);
   orthonormalise(unit, entry.candidate->width);
   return unit;
 }
@@ -198,12 +202,14 @@ void by_evidence(std::vector<Lead>& leads) {
   std::stable_sort(leads.begin(), leads.end(), [](const Lead& a, const Lead& b) { return a.evidence > b.evidence; });
 }
 
-std::vector<Lead> leads(Bench& bench, const Stand& stand) {
+std::vector<Lead> leads(Bench& bench, const Stand& stand,
+                        const std::function<void(const Candidate&, const noise::Sheet&)>& also) {
   std::vector<Lead> result;
   for (const Entry& entry : bench.entries()) {
     const Candidate& c = *entry.candidate;
     const noise::Sheet unit = unit_atoms(entry, stand);
     bench.log_atoms(entry, unit);
+    if (also) also(c, unit);
     Lead lead{&entry, {}, {}, 0, 0, 0, false, gains(c, unit, stand.at.residual)};
     if (c.whole && !c.refinable()) {
       for (Index k = 0; k < lead.all.size(); ++k)
@@ -229,8 +235,12 @@ Lead refined(const Bench& bench, const Stand& stand, const Lead& lead, bool from
     const auto value = [&](const Eigen::VectorXd& theta) { return height(theta); };
     const bool race = !from_lead_alone && c.starts > 1;
     Top top{lead.theta, 0};
-    if (race) top = raced_to(bench, stand, lead);
-    if (!race || c.sketch) top = climbed(c, top.first, race ? c.evaluations / 2 : c.evaluations, value);
+    if (race) {
+      top = raced_to(bench, stand, lead);
+    } else if (c.sketch) {
+      top = climbed(c, lead.theta, c.evaluations, Height(bench, stand, c, Columns::sketched));
+    }
+    if (!race || c.sketch) top = climbed(c, top.first, c.sketch ? c.evaluations / 2 : c.evaluations, value);
     if (top.second > value(lead.theta)) best.theta = std::move(top.first);
     best.columns = bench.columns_of(c, best.theta);
   }

@@ -29,8 +29,9 @@ struct Lead {
   const Candidate& candidate() const { return *entry->candidate; }
 };
 
-// By falling evidence.
-std::vector<Lead> leads(Bench& bench, const Stand& stand);
+// By falling evidence. `also` is shown the unit atoms of each candidate.
+std::vector<Lead> leads(Bench& bench, const Stand& stand,
+                        const std::function<void(const Candidate&, const noise::Sheet& unit)>& also = {});
 void by_evidence(std::vector<Lead>& leads);
 
 // The best theta by continuous refinement, from as many starts as the candidate asks for, or from `lead` alone. Keeps

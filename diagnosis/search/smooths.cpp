@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <memory>
 
 #include "diagnosis/search/moving_ends.hpp"
 
@@ -43,24 +42,28 @@ Candidate smooth(std::vector<std::string> covariates, std::function<Eigen::Matri
   return c;
 }
 
-// The same functions for one level of a factor at a time.
-Candidate smooth_by_level(const std::string& name, const std::vector<int>& level, Eigen::MatrixXd functions) {
+// One of several shapes along a covariate, by its theta, `width` functions each.
+Candidate shaped(const std::string& id, const std::string& covariate, int width,
+                 std::function<Eigen::MatrixXd(const Eigen::VectorXd&)> columns) {
   Candidate c;
-  c.id = "~" + name;
+  c.id = id;
   c.kind = Kind::smooth;
-  c.covariates = {name};
-  c.width = static_cast<int>(functions.cols());
-  std::set<int> levels(level.begin(), level.end());
-  for (const int k : levels) c.grid.push_back(Eigen::VectorXd::Constant(1, k));
-  const auto shared = std::make_shared<const Eigen::MatrixXd>(std::move(functions));
-  const auto of = std::make_shared<const std::vector<int>>(level);
-  c.columns = [shared, of](const Eigen::VectorXd& theta) {
-    Eigen::MatrixXd result = *shared;
+  c.covariates = {covariate};
+  c.width = width;
+  c.columns = std::move(columns);
+  return c;
+}
+
+// The same functions for one level of a factor at a time.
+Candidate smooth_by_level(const std::string& name, const std::vector<int>& level, const Eigen::MatrixXd& functions) {
+  Candidate c = shaped("~" + name, name, static_cast<int>(functions.cols()), [=](const Eigen::VectorXd& theta) {
+    Eigen::MatrixXd result = functions;
     for (Index i = 0; i < result.rows(); ++i) {
-      if ((*of)[static_cast<std::size_t>(i)] != static_cast<int>(theta[0])) result.row(i).setZero();
+      if (level[static_cast<std::size_t>(i)] != static_cast<int>(theta[0])) result.row(i).setZero();
     }
     return result;
-  };
+  });
+  for (const int k : std::set<int>(level.begin(), level.end())) c.grid.push_back(Eigen::VectorXd::Constant(1, k));
   c.label = [name](const Eigen::VectorXd& theta) { return name + "/" + std::to_string(static_cast<int>(theta[0])); };
   return c;
 }
@@ -74,22 +77,17 @@ Candidate factor(const std::string& name, const std::vector<int>& level) {
 // Flat up to a bend and straight beyond it, to either side (Friedman 1991): one function where a smooth needs five.
 Candidate bend(const std::string& name, const Eigen::VectorXd& values) {
   constexpr int bends = 9;
-  Candidate c = smooth(
-      {name}, [rows = values.size()](int) { return Eigen::MatrixXd::Zero(rows, 1); }, false);
-  c.id = "bend~" + name;
+  Candidate c = shaped("bend~" + name, name, 1, [values](const Eigen::VectorXd& theta) {
+    return Eigen::MatrixXd((theta[1] * (values.array() - theta[0])).max(0.0).matrix());
+  });
   c.observed = true;
   std::vector<double> sorted(values.begin(), values.end());
   std::sort(sorted.begin(), sorted.end());
-  c.grid.clear();
+  const auto quantile = [&](int k) { return sorted[(sorted.size() - 1) * static_cast<std::size_t>(k) / bends]; };
   for (int k = 0; k < bends; ++k) {
-    const double at = sorted[(sorted.size() - 1) * static_cast<std::size_t>(k) / bends];
-    const double mirrored = sorted[(sorted.size() - 1) * static_cast<std::size_t>(bends - k) / bends];
-    c.grid.push_back(Eigen::Vector2d(at, 1));
-    if (k > 0) c.grid.push_back(Eigen::Vector2d(mirrored, -1));  // from the end on it is the same straight line
+    c.grid.push_back(Eigen::Vector2d(quantile(k), 1));
+    if (k > 0) c.grid.push_back(Eigen::Vector2d(quantile(bends - k), -1));  // from the end on it is the same line
   }
-  c.columns = [values](const Eigen::VectorXd& theta) {
-    return Eigen::MatrixXd((theta[1] * (values.array() - theta[0])).max(0.0).matrix());
-  };
   return c;
 }
 
@@ -173,20 +171,16 @@ std::vector<int> links(const noise::Readings& readings) {
   return result;
 }
 
-// A swing whose pace changes steadily from one end of the data to the other: no period, though it swings.
+// A swing whose pace changes steadily from one end of the data to the other: no period, though it swings. Theta: cycles
+// in all, and how many more of them the second half has.
 Candidate chirp(const Eigen::VectorXd& time) {
   constexpr double cycles_apart = 0.5, change_apart = 0.5, slowest = 1, fastest = 14;  // cycles over the data
-  const auto columns = [u = scaled(time)](const Eigen::VectorXd& theta) {
-    // theta: cycles in all, and how many more of them the second half has.
+  Candidate c = shaped("chirp~time", "time", 2, [u = scaled(time)](const Eigen::VectorXd& theta) {
     const Eigen::ArrayXd turns = 2 * M_PI * (theta[0] * u.array() - 2 * theta[1] * u.array() * (1 - u.array()));
     Eigen::MatrixXd result(u.size(), 2);
     result << turns.cos().matrix(), turns.sin().matrix();
     return result;
-  };
-  Candidate c = smooth(
-      {"time"}, [columns](int) { return columns(Eigen::Vector2d(2, 1)); }, false);
-  c.id = "chirp~time";
-  c.grid.clear();
+  });
   for (double cycles = 2; cycles <= 9; cycles += cycles_apart) {
     for (double change = 0.75; change <= 3; change += change_apart) {
       for (const double sign : {-1.0, 1.0}) {
@@ -195,7 +189,6 @@ Candidate chirp(const Eigen::VectorXd& time) {
       }
     }
   }
-  c.columns = columns;
   return c;
 }
 

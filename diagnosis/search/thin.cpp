@@ -13,8 +13,8 @@ Thin::Thin(const Bench& bench, const Stand& stand)
 }
 
 void Thin::clear() {
-  for (const Index i : touched_) column_[i] = 0;
-  touched_.clear();
+  for (std::size_t k = 0; k < reached_; ++k) column_[touched_[k]] = 0;
+  reached_ = 0;
   along_ = length_ = 0;
   explained_.setZero();
 }
@@ -22,10 +22,14 @@ void Thin::clear() {
 void Thin::add(Index row, double value) {
   along_ += value * scores_[row];
   explained_ += value * design_.col(row);
-  for (const auto& [reached, weight] : reach_.of(row)) {
+  const noise::Reach::Entries entries = reach_.of(row);
+  const auto most = reached_ + static_cast<std::size_t>(entries.last - entries.first);
+  if (touched_.size() < most) touched_.resize(2 * most);
+  for (const auto& [reached, weight] : entries) {
     double& to = column_[reached];
     const double by = value * weight;
-    if (to == 0) touched_.push_back(reached);
+    touched_[reached_] = reached;
+    reached_ += to == 0;  // without a branch, which nothing foretells
     length_ += by * (2 * to + by);
     to += by;
   }

@@ -27,7 +27,8 @@ class Thin : public Tally {
   Eigen::MatrixXd design_;  // and with the design, whose columns are its rows
 
   Eigen::VectorXd column_;  // whitened
-  std::vector<Index> touched_;
+  std::vector<Index> touched_;  // places that are not zero: the first reached_ ones
+  std::size_t reached_ = 0;
   double along_ = 0, length_ = 0;
   Eigen::VectorXd explained_;
 };

@@ -47,7 +47,8 @@ struct Obstacle {
   void step(const Step& k) const {
     const Disk thing{k[x], k[y], k[radius]};
     links.add_both_ways(k, [&](const End& a, const End& b) {
-      return k[loss] * std::expm1(-thing.way(a.at, b.at, k[height]) / k[radius]) / -std::expm1(-2);
+      const double way = thing.way(a.at, b.at, k[height]);
+      return way > 0 ? k[loss] * std::expm1(-way / k[radius]) / -std::expm1(-2) : 0;
     });
   }
 

@@ -18,9 +18,9 @@ struct Segment {
 
   // How much of it the link from a to b meets, 0 to 1: half where it passes an end, all of it from edge / 2 further in.
   double share(const Pose& a, const Pose& b, double height, double edge) const {
-    const double length = std::hypot(x1 - x0, y1 - y0);
     const double sa = side(x0, y0, x1, y1, a.x, a.y), sb = side(x0, y0, x1, y1, b.x, b.y);
-    if ((sa > 0) == (sb > 0) || length <= 0) return 0;
+    if ((sa > 0) == (sb > 0)) return 0;  // of no length, too
+    const double length = std::hypot(x1 - x0, y1 - y0);
     const double at = sa / (sa - sb), z = a.z + at * (b.z - a.z);
     if (z < 0 || z >= height) return 0;
     const double x = a.x + at * (b.x - a.x), y = a.y + at * (b.y - a.y);
@@ -36,9 +36,11 @@ struct Disk {
 
   // The way that the link goes through it in plan, in m.
   double way(const Pose& a, const Pose& b, double height) const {
-    const double ex = b.x - a.x, ey = b.y - a.y, length = std::hypot(ex, ey);
+    const double ex = b.x - a.x, ey = b.y - a.y, passes = side(a.x, a.y, b.x, b.y, x, y);
+    if (passes * passes > 1.001 * radius * radius * (ex * ex + ey * ey)) return 0;  // most links, clearly
+    const double length = std::hypot(ex, ey);
     if (length <= 0 || radius <= 0) return 0;
-    const double along = ((x - a.x) * ex + (y - a.y) * ey) / length, aside = side(a.x, a.y, b.x, b.y, x, y) / length;
+    const double along = ((x - a.x) * ex + (y - a.y) * ey) / length, aside = passes / length;
     if (std::abs(aside) >= radius) return 0;
     const double half = std::sqrt(radius * radius - aside * aside);
     const double from = std::max(along - half, 0.0), to = std::min(along + half, length);

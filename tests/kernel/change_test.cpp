@@ -127,6 +127,38 @@ TEST_F(Changes, AFailedChangeLeavesTheRunAsItWas) {
   EXPECT_THAT(messages(sim), IsEmpty());
 }
 
+TEST_F(Changes, ManyComeAndGoAtOnceOrNoneDoes) {
+  const auto added = [](const std::string& name) {
+    return instance("toy.copy_physics", name, {{"to", "self/q"}, {"own", "true"}, {"add", "1"}});
+  };
+  const auto names = [](const Simulation& sim) {
+    std::vector<std::string> result;
+    for (const auto& one : sim.instances()) result.push_back(one->name());
+    return result;
+  };
+  Simulation sim = run(two_robots + counter), one_by_one = run(two_robots + counter);
+  EXPECT_THAT(error_of([&] {
+                sim.insert_all({added("a"), added("n")});
+              }),
+              StartsWith("an instance is called \"n\" already"));
+  EXPECT_THAT(error_of([&] {
+                sim.insert_all({added("a"), added("a")});
+              }),
+              StartsWith("an instance is called \"a\" already"));
+  EXPECT_THAT(names(sim), ElementsAre("n"));
+  sim.insert_all({added("a"), added("b"), added("c")});
+  for (const char* name : {"a", "b", "c"}) one_by_one.insert(added(name));
+  step(sim, 2), step(one_by_one, 2);
+  EXPECT_EQ(sim.digest(), one_by_one.digest());
+  EXPECT_EQ(messages(sim), messages(one_by_one));
+  EXPECT_THAT(error_of([&] { sim.remove_all({"b", "b"}); }), StartsWith("no instance is called \"b\""));
+  EXPECT_THAT(names(sim), ElementsAre("n", "a", "b", "c"));
+  sim.remove_all({"b", "n"});
+  EXPECT_THAT(names(sim), ElementsAre("a", "c"));
+  step(sim);
+  EXPECT_EQ(cell(sim, "instance/c/q"), 3);
+}
+
 TEST_F(Changes, WhatIsReadCannotBeRemoved) {
   Simulation sim =
       run(two_robots +

@@ -202,6 +202,30 @@ TEST(Rows, EndWhereAWallChangesTheLevel) {
   EXPECT_EQ(Rows(r).size(), 1);
 }
 
+TEST(Rows, EndWhereEitherRadioTurns) {
+  Readings still;  // ten readings within a second at one place
+  for (int k = 0; k < 10; ++k) {
+    still.tx.push_back(0);
+    still.rx.push_back(1);
+    still.t.push_back(0.1 * k);
+  }
+  still.tx_at = Eigen::Matrix3Xd::Zero(3, 10);
+  still.rx_at = Eigen::Matrix3Xd::Ones(3, 10);
+  std::vector<double> turns(10, 3.1);
+  for (std::size_t k = 5; k < 10; ++k) turns[k] = -3.1;  // past half a turn: 0.08 rad
+  EXPECT_EQ(Rows(still).size(), 1);
+  for (std::vector<double> Readings::*yaw : {&Readings::tx_yaw, &Readings::rx_yaw}) {
+    Readings turning = still;
+    turning.*yaw = turns;
+    EXPECT_EQ(Rows(turning).size(), 1);
+    (turning.*yaw)[7] = (turning.*yaw)[8] = (turning.*yaw)[9] = -2.2;
+    const Rows rows(turning);
+    ASSERT_EQ(rows.size(), 2);
+    EXPECT_EQ(rows.count()[0], 7);
+    EXPECT_EQ(rows.middles(turning).*yaw, (std::vector<double>{3.1, -2.2}));
+  }
+}
+
 TEST(Rows, AreAsShortAsTheirNumberAllows) {
   for (const Index readings : {3000, 12000, 60000, 400000}) {
     Readings r;  // of one link, 20 a second, at 0.5 m/s

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "muster/random.hpp"
 #include "tests/search/causes.hpp"
@@ -42,6 +43,23 @@ TEST(Search, SpeedOutsideTheVocabularyIsReportedAsUnexplained) {
   EXPECT_EQ(result.findings[0].id, "~speed");
   EXPECT_EQ(result.findings[0].status, Status::unexplained);
   for (const Finding& f : result.findings) EXPECT_NE(f.status, Status::named) << f.id;
+}
+
+TEST(Search, EveryCauseAndEveryCovariateIsCheckedOnce) {
+  const World world = world_of(varied(34, 2000));
+  const Problem problem = problem_of(world, Eigen::VectorXd::Zero(world.readings.size()), causes_of(world));
+  const Result result = Search(problem).run();
+  std::set<std::string> checked;
+  for (const Check& check : result.checks) {
+    EXPECT_TRUE(checked.insert(check.id).second) << check.id;
+    EXPECT_GE(check.gain, 0) << check.id;
+  }
+  for (const Candidate& c : problem.candidates) EXPECT_EQ(checked.count(c.id), 1u) << c.id;
+  for (const Covariate& c : problem.covariates) EXPECT_EQ(checked.count('~' + c.name), 1u) << c.name;
+  // Of many looks one is low by chance; each is weighed by their number.
+  const auto low = std::count_if(result.checks.begin(), result.checks.end(),
+                                 [](const Check& check) { return check.log_p < std::log(0.02); });
+  EXPECT_LE(low, static_cast<std::ptrdiff_t>(result.checks.size() / 10));
 }
 
 TEST(Search, LobesThatNoCauseHasAreReportedAlongTheBearing) {
