@@ -22,7 +22,7 @@ constexpr Time access_code = 72 * bit;
 constexpr Time header = 54 * bit;            // 18 bits, each sent three times
 constexpr Time bare = access_code + header;  // all of a POLL and of a NULL
 
-// Packets without error correction of their payload (part B, 6.5.4 and table 6.9).
+// Packets without error correction of their payload (part B, ACL packets).
 struct Type {
   int slots;
   std::size_t header, payload;  // octets
@@ -50,8 +50,8 @@ constexpr packets::Band band_of(int channel) {
 }
 
 // Share of bits that come wrong at a ratio of signal to noise and interference: binary FSK of modulation index 0.315,
-// the middle of what is allowed, detected without its phase (Proakis, Digital communications, 4th edition, 5.4-47 to
-// 5.4-53; Marcum's function as a series of Bessel functions).
+// the middle of what is allowed, detected without its phase (Proakis, Digital communications, 4th edition, 5.4.4;
+// Marcum's function as a series of Bessel functions).
 inline double bit_error_rate(double ratio) {
   if (ratio > 200) return 0;  // below 1e-24
   constexpr double turned = 2 * 3.14159265358979323846 * 0.315;

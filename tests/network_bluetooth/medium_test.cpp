@@ -77,7 +77,7 @@ TEST(AirTime, IsTheSpecifications) {
 
 // ---- 24: what the mode sets ---------------------------------------------------------------------------------------
 
-// Bluetooth Core Specification 2.0, volume 2, part B, table 6.9: greatest rates of asynchronous links, kbit/s.
+// Bluetooth Core Specification 2.0, volume 2, part B, packet summary: greatest rates of asynchronous links, kbit/s.
 TEST(Row24, RatesAreTheSpecifications) {
   struct Case {
     std::size_t down, up;
