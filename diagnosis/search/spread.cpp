@@ -67,7 +67,7 @@ std::vector<Eigen::VectorXd> drawn(const std::vector<Met>& met) {
 class Walk {
  public:
   Walk(const Bench& bench, const Stand& rest, const Term& term)
-      : bench_(bench), rest_(rest), c_(*term.candidate), theta_(term.theta), at_(beside(theta_)) {
+      : bench_(bench), rest_(rest), c_(*term.candidate), theta_(term.theta), at_(rest, term.columns, c_.whole) {
     weight_ = weight(theta_, at_);
   }
 
@@ -77,7 +77,8 @@ class Walk {
     const Eigen::VectorXd theta = theta_ + (leaps ? leap() : stride());
     bool accepted = false;
     if (theta == theta.cwiseMax(c_.lower).cwiseMin(c_.upper)) {
-      Beside there = beside(theta);
+      // No sketch: of a strong effect it is off by many nats.
+      Beside there(rest_, bench_.columns_of(c_, theta), c_.whole);
       const double log_ratio = (weight(theta, there) - weight_) / heat;
       if (std::log(stream_.uniform(k_, 100)) < log_ratio) {
         accepted = true;
@@ -106,10 +107,6 @@ class Walk {
   double log_weight() const { return weight_ * (1 - 1 / heat); }
 
  private:
-  Beside beside(const Eigen::VectorXd& theta) const {
-    return {rest_, c_.sketch ? c_.sketch(theta) : bench_.columns_of(c_, theta), c_.whole};
-  }
-
   double weight(const Eigen::VectorXd& theta, const Beside& at) const {
     if (c_.sign && at.coefficients[0] * c_.sign < 0) return 0;
     return (c_.admitted ? c_.admitted(theta) : 1) * at.gain / 2 + (c_.belief ? c_.belief(theta) : 0);
@@ -199,7 +196,6 @@ Spread spread_of(const Bench& bench, const Term& term) {
   Spread result{{term.theta}, grown * fitted.covariance};
   if (!term.candidate->refinable() || term.smooth()) return result;
   Walk walk(bench, rest, term);
-  const Eigen::VectorXd middle = walk.at().coefficients;
   std::vector<Met> met;
   for (const int lap : laps) {
     met.clear();
@@ -212,7 +208,7 @@ Spread spread_of(const Bench& bench, const Term& term) {
   weigh(met);
   Eigen::MatrixXd within = 0 * fitted.covariance, between = within;
   for (const Met& m : met) {
-    const Eigen::VectorXd off = m.coefficients - middle;
+    const Eigen::VectorXd off = m.coefficients - fitted.coefficients;
     within += m.weight * m.covariance;
     between += m.weight * off * off.transpose();
   }
