@@ -25,6 +25,7 @@ Bits bits_of(const Frame& frame, const Format& format, Time from, Time until) {
 void Air::enter(const Channel& channel, const Hearing& hearing) {
   channel_ = &channel;
   hearing_ = hearing;
+  share_out();
   const std::size_t n = channel.radios;
   lock_.resize(n, nothing);
   log_right_.resize(n), others_.resize(n), rssi_.resize(n), deaf_until_.resize(n);
@@ -32,6 +33,18 @@ void Air::enter(const Channel& channel, const Hearing& hearing) {
   for (std::size_t i = 0; i < n; ++i)
     if (lock_[i] != nothing) signal_[i] = channel.power_from(frame(lock_[i]).sender)[i];
   sum_up(heard_until_);
+}
+
+void Air::share_out() {
+  shares_.clear();
+  for (const Jammer& jammer : channel_->jammers) shares_.push_back(share_of(jammer.band, hearing_.band));
+}
+
+void Air::tune(Time at, const Band& band) {
+  hear(at);
+  hearing_.band = band;
+  share_out();
+  sum_up(at);
 }
 
 void Air::deafen(std::size_t radio, Time until) {
@@ -44,7 +57,7 @@ void Air::forget(std::size_t radio) { deafen(radio, 0); }
 // In the order in which they began, so that the sum does not depend on which of them have ended since.
 void Air::sum_up(Time at) {
   const std::size_t n = total_.size();
-  for (std::size_t i = 0; i < n; ++i) total_[i] = background(i);
+  for (std::size_t i = 0; i < n; ++i) total_[i] = jammed(i, at, at + 1);
   for (const Frame& frame : frames_) {
     if (frame.end <= at) continue;
     const double* power = channel_->power_from(frame.sender);
@@ -53,10 +66,28 @@ void Air::sum_up(Time at) {
 }
 
 double Air::power_at(std::size_t radio, Time at) const {
-  double sum = background(radio);
+  double sum = jammed(radio, at, at + 1);
   for (const Frame& frame : frames_)
     if (frame.begin <= at && at < frame.end) sum += channel_->power_from(frame.sender)[radio];
   return sum;
+}
+
+double Air::sum_of_jammers(std::size_t radio, Time from, Time until) const {
+  double sum = 0;
+  for (std::size_t i = 0; i < shares_.size(); ++i) {
+    const Jammer& jammer = channel_->jammers[i];
+    const Time on = jammer.pulses.on_between(from, until);
+    if (shares_[i] > 0 && on > 0)  // its power at its own radio is infinite
+      sum += shares_[i] * jammer.power[radio] * (static_cast<double>(on) / static_cast<double>(until - from));
+  }
+  return sum;
+}
+
+Time Air::next_switch(Time after) const {
+  Time next = never;
+  for (std::size_t i = 0; i < shares_.size(); ++i)
+    if (shares_[i] > 0) next = std::min(next, channel_->jammers[i].pulses.next_switch(after));
+  return next;
 }
 
 const Frame& Air::begin(std::size_t sender, Time at, Time length, std::size_t format, std::uint64_t ack_of,
@@ -83,8 +114,18 @@ const Frame& Air::begin(std::size_t sender, Time at, Time length, std::size_t fo
   return frames_.back();
 }
 
-// What was heard since frames last began or ended: all of it under the same ones.
-void Air::hear(Time until) {
+void Air::hear_between_switches(Time until) {
+  const bool is_heard = std::any_of(lock_.begin(), lock_.end(), [](std::uint64_t id) { return id != nothing; });
+  for (Time at = heard_until_; is_heard && (at = next_switch(at)) <= until;) {
+    hear_piece(at);
+    sum_up(at);
+  }
+  hear_piece(until);
+  sum_up(until);
+}
+
+// All of it under the same frames and jammers.
+void Air::hear_piece(Time until) {
   const Time from = heard_until_;
   heard_until_ = until;
   if (from == until || frames_.empty()) return;

@@ -39,6 +39,7 @@ struct Hearing {
   double found_above = 0;    // ratio
   Time capture_within = 0;   // so long after a frame's begin another one may still take its receiver over,
   double capture_above = 0;  // above this ratio
+  Band band;                 // what it lets in of jammers
 };
 
 // What became of a frame at a receiver.
@@ -50,6 +51,12 @@ class Air {
 
   // Before anything else in a run: what is in the air goes on under this channel.
   void enter(const Channel& channel, const Hearing& hearing);
+
+  // What was heard since frames last began or ended, or a jammer went on or off. Both begin() and end() call it.
+  void hear(Time until) { shares_.empty() ? hear_piece(until) : hear_between_switches(until); }
+
+  // From now on all receive in this band.
+  void tune(Time at, const Band& band);
 
   // Until then a radio finds no frame, and what it listens to is lost.
   void deafen(std::size_t radio, Time until);
@@ -67,12 +74,14 @@ class Air {
   const Frame& frame(std::uint64_t id) const { return frames_[id - frames_.front().id]; }
   const std::vector<Frame>& frames() const { return frames_; }  // in the air, or not yet forgotten
   std::uint64_t listens_to(std::size_t radio) const { return lock_[radio]; }
-  double power(std::size_t radio) const { return total_[radio]; }  // of all frames in the air and of interference, mW
+  double power(std::size_t radio) const { return total_[radio]; }  // of all frames in the air and of jammers, mW
   double power_at(std::size_t radio, Time at) const;               // the same, at a time that is remembered
 
-  double background(std::size_t radio) const {  // what is no frame of this medium, mW
-    return channel_->interference.empty() ? 0 : channel_->interference[radio];
+  // Mean power of jammers, mW.
+  double jammed(std::size_t radio, Time from, Time until) const {
+    return shares_.empty() ? 0 : sum_of_jammers(radio, from, until);
   }
+  Time next_switch(Time after) const;  // when one of them goes on or off
 
   // Of the frame that a radio heard last: rssi as its preamble was found [dBm]; mean ratio.
   double rssi(std::size_t radio) const { return rssi_[radio]; }
@@ -82,9 +91,12 @@ class Air {
   void load(Reader& in);
 
  private:
-  void hear(Time until);
+  void hear_piece(Time until);
+  void hear_between_switches(Time until);
+  double sum_of_jammers(std::size_t radio, Time from, Time until) const;
   bool is_whole(std::size_t radio, std::uint64_t frame) const;
   void sum_up(Time at);
+  void share_out();
   Stream random_;
   std::vector<Format> formats_;
   const Channel* channel_ = nullptr;
@@ -101,6 +113,7 @@ class Air {
   std::vector<Time> deaf_until_;
 
   // The same again, as follows from the channel.
+  std::vector<double> shares_;  // of each jammer's power that lies in the band
   std::vector<double> total_, signal_, ratio_;
   std::vector<Heard> heard_;
 };

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <muster/emission.hpp>
 #include <muster/plugin.hpp>
 #include <string>
 
@@ -29,6 +31,7 @@ class Board {
         level_(s.read<Level>("link/*/level")),
         fading_(s.read_if_any<Fading>("link/*/fading")),
         rssi_(s.read<Rssi>("link/*/rssi")),
+        emission_(s.read_if_any<Emission>("radio/*/emission")),
         inbox_(s.write<Incoming>("inbox/*/message")),
         traffic_(s.write<Traffic>("radio/*/traffic")),
         state_(s.write<State>("self/state")),
@@ -75,6 +78,24 @@ class Board {
       const std::size_t at = radio(k[ends_][i].tx) * n + radio(k[ends_][i].rx);
       channel_.power[at] = milliwatts(k[level_][i].level) * (gains.empty() ? 1 : gains[i].gain);
       channel_.rssi[at] = k[rssi_][i].rssi;
+    }
+    look_for_jammers(k);
+  }
+
+  void look_for_jammers(const Step& k) {
+    channel_.jammers.clear();
+    for (std::size_t i = 0; i < k[emission_].size(); ++i) {
+      const Emission& e = k[emission_][i];
+      const Time period = nanoseconds(e.period), on = std::min(period, nanoseconds(e.duty * e.period));
+      if (on <= 0 || !channel_.alive[i]) continue;
+      Jammer jammer;
+      jammer.radio = i;
+      jammer.band = {e.frequency - e.bandwidth / 2, e.frequency + e.bandwidth / 2};
+      jammer.pulses = {period, on, nanoseconds(e.phase)};
+      for (std::size_t to = 0; to < channel_.radios; ++to)
+        jammer.power.push_back(milliwatts(e.excess) * channel_.power_from(i)[to]);
+      jammer.power[i] = std::numeric_limits<double>::infinity();
+      channel_.jammers.push_back(std::move(jammer));
     }
   }
 
@@ -135,6 +156,7 @@ class Board {
   In<Level> level_;
   In<Fading> fading_;
   In<Rssi> rssi_;
+  In<Emission> emission_;
   Out<Incoming> inbox_;
   Out<Traffic> traffic_;
   Out<State> state_;

@@ -6,16 +6,15 @@
 #include <cstdint>
 #include <vector>
 
-namespace muster::packets {
+#include "packets/jammer.hpp"
 
-using Time = std::int64_t;  // ns
-constexpr Time never = INT64_MAX;
+namespace muster::packets {
 
 struct Channel {
   std::size_t radios = 0;
-  std::vector<double> power;         // mW, [from x radios + to]; 0 where there is no link
-  std::vector<double> rssi;          // dBm, the same, as the receiver reports it; NaN where that hears nothing
-  std::vector<double> interference;  // mW, at each radio, of what is no radio of the network; or empty
+  std::vector<double> power;  // mW, [from x radios + to]; 0 where there is no link
+  std::vector<double> rssi;   // dBm, the same, as the receiver reports it; NaN where that hears nothing
+  std::vector<Jammer> jammers;
   std::vector<std::uint8_t> alive;
   std::vector<std::uint64_t> keys;  // of each radio's random numbers
 

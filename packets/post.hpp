@@ -89,6 +89,9 @@ struct Report {
 
 class Post {
  public:
+  // `frames_of`: how many frames a payload of so many bytes goes in; where a medium counts otherwise, none.
+  explicit Post(std::size_t (*frames_of)(std::size_t) = nullptr) : frames_of_(frames_of) {}
+
   // A message that `from` wants to send at a time of the next run.
   void ask(Time at, std::size_t from, std::size_t to, std::string payload);
 
@@ -108,6 +111,7 @@ class Post {
   bool is_waiting(std::size_t radio) const { return !queues_[radio].empty(); }
   Message& first(std::size_t radio) { return queues_[radio].front(); }
   const Message& first(std::size_t radio) const { return queues_[radio].front(); }
+  bool is_last_frame(std::size_t radio) const { return first(radio).frame + 1 == frames_of_(first(radio).size); }
   void drop_first(std::size_t radio) { queues_[radio].pop_front(); }
 
   // What became of a frame of the first message, at each receiver that it is still under way to. With the last frame
@@ -129,6 +133,7 @@ class Post {
   void put_delivery(std::size_t to, const Air& air);
   void put_arrival(std::size_t sender, Time at);
 
+  std::size_t (*frames_of_)(std::size_t);
   const Channel* channel_ = nullptr;
   std::vector<std::deque<Message>> queues_;
   std::vector<Request> requests_;

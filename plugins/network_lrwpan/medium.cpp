@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "packets/state.hpp"
+
 namespace muster::lrwpan {
 namespace {
 
@@ -34,7 +36,8 @@ const Report& Medium::run(Time since, Time until, const Channel& channel, const 
   channel_ = &channel;
   radios_.resize(channel.radios);
   const bool captures = settings.capture > 0;
-  air_.enter(channel, {settings.noise, found_above, captures ? never : 0, captures ? settings.capture : found_above});
+  air_.enter(channel, {settings.noise, found_above, captures ? never : 0, captures ? settings.capture : found_above,
+                       band_of(settings.channel)});
   post_.open(channel);
   agenda_.clear(until);
   for (std::size_t i = 0; i < radios_.size(); ++i) {
@@ -116,7 +119,7 @@ void Medium::assess(std::size_t number, Time at) {
 bool Medium::is_busy(std::size_t radio, Time at) const {
   const Time since = at - cca_window;
   if (settings_.cca == Cca::standard) {
-    double energy = air_.background(radio) * static_cast<double>(cca_window);  // mW ns
+    double energy = air_.jammed(radio, since, at) * static_cast<double>(cca_window);  // mW ns
     for (const Frame& frame : air_.frames()) {
       const Time overlap = std::min(frame.end, at) - std::max(frame.begin, since);
       if (overlap > 0) energy += channel_->power_from(frame.sender)[radio] * static_cast<double>(overlap);
@@ -189,7 +192,7 @@ void Medium::end_ack(const Frame& frame, const std::vector<Heard>& heard, Time a
 }
 
 void Medium::end_broadcast(std::size_t sender, const std::vector<Heard>& heard, Time at) {
-  if (is_last_frame(sender))
+  if (post_.is_last_frame(sender))
     post_.last_frame_heard(sender, heard, air_, at);
   else
     post_.frame_heard(sender, heard);
@@ -202,7 +205,7 @@ void Medium::end_unicast(const Frame& frame, Heard heard, Time at) {
     sender.last_loss = packets::fate_of(heard);
     if (!settings_.acknowledged) post_.settle(frame.sender, sender.last_loss);
   } else {
-    if (is_last_frame(frame.sender)) post_.deliver(frame.sender, frame.to, air_, at);
+    if (post_.is_last_frame(frame.sender)) post_.deliver(frame.sender, frame.to, air_, at);
     sender.arrived = true;
   }
   if (!settings_.acknowledged) return go_on_with_message(frame.sender, at);
@@ -217,13 +220,8 @@ void Medium::end_unicast(const Frame& frame, Heard heard, Time at) {
 
 // ---- Messages -----------------------------------------------------------------------------------------------------
 
-bool Medium::is_last_frame(std::size_t sender) const {
-  const packets::Message& message = post_.first(sender);
-  return message.frame + 1 == frames_of(message.size);
-}
-
 void Medium::go_on_with_message(std::size_t sender, Time at) {
-  if (is_last_frame(sender)) return end_message(sender, at);
+  if (post_.is_last_frame(sender)) return end_message(sender, at);
   ++post_.first(sender).frame;
   radios_[sender].tries = 0;
   radios_[sender].arrived = false;
@@ -251,21 +249,17 @@ void Medium::end_message(std::size_t sender, Time at) {
 namespace {
 
 // One list of what a record holds, for both directions.
-template <class Archive, class Record>
-void put_radio(Archive&& field, Record& r) {
+constexpr auto fields = [](auto&& field, auto& r) {
   field(r.phase), field(r.due), field(r.spaced), field(r.backoffs), field(r.exponent), field(r.tries), field(r.sent);
   field(r.arrived), field(r.last_loss), field(r.ack_phase), field(r.ack_due), field(r.ack_of), field(r.ack_to);
   field(r.draws);
-}
+};
 
 }  // namespace
 
 std::string Medium::save() const {
   packets::Writer out;
-  air_.save(out);
-  post_.save(out);
-  out.put(radios_.size());
-  for (const Radio& radio : radios_) put_radio([&](const auto& value) { out.put(value); }, radio);
+  packets::save(out, air_, post_, radios_, fields);
   return out.take();
 }
 
@@ -273,10 +267,7 @@ void Medium::load(std::string_view bytes) {
   *this = Medium(random_);
   if (bytes.empty()) return;
   packets::Reader in(bytes);
-  air_.load(in);
-  post_.load(in);
-  radios_.resize(in.get<std::size_t>());
-  for (Radio& radio : radios_) put_radio([&](auto& value) { in.get(value); }, radio);
+  packets::load(in, air_, post_, radios_, fields);
 }
 
 }  // namespace muster::lrwpan

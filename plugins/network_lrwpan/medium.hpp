@@ -27,6 +27,7 @@ enum class Cca { standard = 1, ns3, instant };
 struct Settings {
   double noise = 0;  // mW
   double busy = 0;   // power above which the channel is, mW
+  int channel = 11;
   Cca cca = Cca::standard;
   std::size_t queue = 16;    // messages that wait at a radio
   bool acknowledged = true;  // frames to one receiver
@@ -89,7 +90,6 @@ class Medium {
   void end_broadcast(std::size_t sender, const std::vector<Heard>& heard, Time at);
   void end_unicast(const packets::Frame& frame, Heard heard, Time at);
 
-  bool is_last_frame(std::size_t sender) const;
   void go_on_with_message(std::size_t sender, Time at);
   void give_up(std::size_t sender, Fate why, Time at);
   void end_message(std::size_t sender, Time at);
@@ -97,7 +97,7 @@ class Medium {
   Settings settings_;
   Stream random_;
   packets::Air air_;
-  packets::Post post_;
+  packets::Post post_{frames_of};
   packets::Agenda agenda_;
   std::vector<Radio> radios_;
   const Channel* channel_ = nullptr;  // of the run

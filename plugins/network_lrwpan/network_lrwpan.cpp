@@ -24,6 +24,7 @@ Each copy has one outcome in radio/*/traffic: asked = delivered + too_weak + no_
 queue_full + no_ack + gone + those still under way.)";
   static constexpr auto phase = MUSTER_NETWORK;
   static constexpr Param params[] = {
+      integer("channel", 11, 11, 26, "5 MHz each, from 2405 MHz up: what it hears of jammers"),
       choice("cca", "standard|ns3|instant", "how a radio listens before it talks"),
       real("cca_threshold", -77, -250, 50, "dBm", "power above which the channel is busy"),
       real("noise", -106.987, -250, 50, "dBm", "of a receiver"),
@@ -35,7 +36,8 @@ queue_full + no_ack + gone + those still under way.)";
   };
 
   explicit NetworkLrwpan(Setup& s)
-      : cca(s.value("cca")),
+      : channel(s.value("channel")),
+        cca(s.value("cca")),
         cca_threshold(s.value("cca_threshold")),
         noise(s.value("noise")),
         acknowledge(s.value("acknowledge")),
@@ -49,6 +51,7 @@ queue_full + no_ack + gone + those still under way.)";
     lrwpan::Settings settings;
     settings.noise = milliwatts(k[noise]);
     settings.busy = milliwatts(k[cca_threshold]);
+    settings.channel = static_cast<int>(k[channel]);
     settings.cca = static_cast<lrwpan::Cca>(static_cast<int>(k[cca]) + 1);
     settings.queue = static_cast<std::size_t>(k[queue]);
     settings.acknowledged = k[acknowledge] != 0;
@@ -57,7 +60,7 @@ queue_full + no_ack + gone + those still under way.)";
     board.step(k, medium, settings);
   }
 
-  Value cca, cca_threshold, noise, acknowledge, retries, queue, capture;
+  Value channel, cca, cca_threshold, noise, acknowledge, retries, queue, capture;
   packets::Board board;
   lrwpan::Medium medium;
 };

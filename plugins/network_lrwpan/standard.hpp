@@ -22,6 +22,12 @@ constexpr Time short_spacing = 12 * symbol, long_spacing = 40 * symbol;  // of f
 constexpr int least_exponent = 3, most_exponent = 5, most_backoffs = 4;  // macMinBE, macMaxBE, macMaxCSMABackoffs
 constexpr Time bit = symbol / 4;
 
+// Of channels 11 to 26. What a receiver lets in: all that lies between its neighbours, as its noise is counted.
+constexpr packets::Band band_of(int channel) {
+  const double middle = 2405e6 + 5e6 * (channel - 11);
+  return {middle - 2.5e6, middle + 2.5e6};
+}
+
 constexpr std::size_t largest_frame = 127;  // aMaxPHYPacketSize
 constexpr std::size_t preamble = 6;         // preamble, start of frame, length
 constexpr std::size_t header = 11;  // control, sequence, PAN, two short addresses in one PAN; check sequence at the end

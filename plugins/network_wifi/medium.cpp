@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "packets/state.hpp"
+
 namespace muster::wifi {
 namespace {
 
@@ -10,7 +12,16 @@ using packets::never;
 using packets::nothing;
 
 // At the same time frames end, then requests come, stations send, and what began before is noticed.
-enum Kind { frame_ends, request_comes, station_is_due, ack_is_due, wait_ends, frame_is_noticed, reservation_ends };
+enum Kind {
+  frame_ends,
+  request_comes,
+  station_is_due,
+  ack_is_due,
+  wait_ends,
+  frame_is_noticed,
+  reservation_ends,
+  jammer_switches
+};
 
 // A preamble is found in noise and interference 4 dB below it, at the end of the detection; the strongest of those that
 // begin within it (as ns-3 3.37 has it).
@@ -50,7 +61,7 @@ const Report& Medium::run(Time since, Time until, const Channel& channel, const 
   settings_ = settings;
   channel_ = &channel;
   stations_.resize(channel.radios);
-  air_.enter(channel, {settings.noise, found_above, detection, found_above});
+  air_.enter(channel, {settings.noise, found_above, detection, found_above, band_of(settings.channel)});
   post_.open(channel);
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     if (channel.alive[i]) continue;
@@ -61,6 +72,7 @@ const Report& Medium::run(Time since, Time until, const Channel& channel, const 
   }
   agenda_.clear(until);
   fill_agenda(since);
+  look_for_jammers(since);
   agenda_.begin();
   while (!agenda_.empty()) handle(agenda_.take());
   return post_.close();
@@ -83,6 +95,17 @@ void Medium::fill_agenda(Time since) {
   }
 }
 
+// One may have come, moved or gone since the last run. While frames are in the air only it is looked at, since they
+// take their time to be noticed.
+void Medium::look_for_jammers(Time since) {
+  const auto& frames = air_.frames();
+  const bool is_idle = std::none_of(frames.begin(), frames.end(), [&](const Frame& f) { return f.end > since; });
+  if (!channel_->jammers.empty()) air_.hear(since);
+  for (std::size_t i = 0; i < stations_.size(); ++i)
+    if (is_idle || air_.jammed(i, since, since + 1) >= settings_.busy) look(i, since);
+  agenda_.put(air_.next_switch(since), jammer_switches, 0);
+}
+
 void Medium::handle(const packets::Event& event) {
   const Time at = event.at;
   switch (event.kind) {
@@ -101,6 +124,10 @@ void Medium::handle(const packets::Event& event) {
       return;
     case frame_is_noticed:
       air_.drop_weak(event.which, at, found_above);
+      return look_all(at);
+    case jammer_switches:
+      air_.hear(at);
+      agenda_.put(air_.next_switch(at), jammer_switches, 0);
       return look_all(at);
     default:
       look_all(at);
@@ -222,7 +249,7 @@ void Medium::end_frame(std::uint64_t id, Time at) {
 
 void Medium::end_data(const Frame& frame, const std::vector<Heard>& heard, Time at) {
   if (frame.to != everyone) return end_unicast(frame, heard, at);
-  if (is_last_frame(frame.sender))
+  if (post_.is_last_frame(frame.sender))
     post_.last_frame_heard(frame.sender, heard, air_, at);
   else
     post_.frame_heard(frame.sender, heard);
@@ -234,7 +261,7 @@ void Medium::end_unicast(const Frame& frame, const std::vector<Heard>& heard, Ti
   const bool arrived = heard[frame.to] == Heard::whole;
   if (!arrived)
     sender.last_loss = packets::fate_of(heard[frame.to]);
-  else if (is_last_frame(frame.sender))
+  else if (post_.is_last_frame(frame.sender))
     post_.deliver(frame.sender, frame.to, air_, at);
   sender.arrived |= arrived;
   if (!settings_.acknowledged) {
@@ -278,13 +305,8 @@ void Medium::end_wait(std::size_t number, Time at) {
 
 // ---- Messages -----------------------------------------------------------------------------------------------------
 
-bool Medium::is_last_frame(std::size_t station) const {
-  const packets::Message& message = post_.first(station);
-  return message.frame + 1 == frames_of(message.size);
-}
-
 void Medium::go_on_with_message(std::size_t number) {
-  if (is_last_frame(number)) return end_message(number);
+  if (post_.is_last_frame(number)) return end_message(number);
   ++post_.first(number).frame;
   stations_[number].tries = 0;
   stations_[number].arrived = false;
@@ -313,21 +335,17 @@ void Medium::compete(std::size_t number, int window) {
 namespace {
 
 // One list of what a record holds, for both directions.
-template <class Archive, class Record>
-void put_station(Archive&& field, Record& s) {
+constexpr auto fields = [](auto&& field, auto& s) {
   field(s.phase), field(s.sends_ack), field(s.is_busy), field(s.heard_wrong), field(s.slots), field(s.window);
   field(s.tries), field(s.counts_from), field(s.due), field(s.timeout), field(s.reserved), field(s.sent);
   field(s.arrived), field(s.last_loss), field(s.ack_due), field(s.ack_of), field(s.ack_to), field(s.draws);
-}
+};
 
 }  // namespace
 
 std::string Medium::save() const {
   packets::Writer out;
-  air_.save(out);
-  post_.save(out);
-  out.put(stations_.size());
-  for (const Station& station : stations_) put_station([&](const auto& value) { out.put(value); }, station);
+  packets::save(out, air_, post_, stations_, fields);
   return out.take();
 }
 
@@ -335,10 +353,7 @@ void Medium::load(std::string_view bytes) {
   *this = Medium(random_);
   if (bytes.empty()) return;
   packets::Reader in(bytes);
-  air_.load(in);
-  post_.load(in);
-  stations_.resize(in.get<std::size_t>());
-  for (Station& station : stations_) put_station([&](auto& value) { in.get(value); }, station);
+  packets::load(in, air_, post_, stations_, fields);
 }
 
 }  // namespace muster::wifi

@@ -23,6 +23,7 @@ struct Settings {
   double noise = 0;  // mW
   double busy = 0;   // power above which the channel is, whatever it is made of, mW
   std::size_t rate = 0;
+  int channel = 1;
   Time slot = long_slot;
   std::size_t queue = 64;    // messages that wait at a station
   bool acknowledged = true;  // frames to one receiver
@@ -75,6 +76,7 @@ class Medium {
   Time slots_end(const Station& station) const { return station.counts_from + station.slots * settings_.slot; }
 
   void fill_agenda(Time since);
+  void look_for_jammers(Time since);
   void handle(const packets::Event& event);
 
   int draw_slots(std::size_t station);
@@ -92,7 +94,6 @@ class Medium {
   void end_unicast(const packets::Frame& frame, const std::vector<Heard>& heard, Time at);
   void end_wait(std::size_t station, Time at);
 
-  bool is_last_frame(std::size_t station) const;
   void go_on_with_message(std::size_t station);
   void end_message(std::size_t station);
   void compete(std::size_t station, int window);
@@ -100,7 +101,7 @@ class Medium {
   Settings settings_;
   Stream random_;
   packets::Air air_;
-  packets::Post post_;
+  packets::Post post_{frames_of};
   packets::Agenda agenda_;
   std::vector<Station> stations_;
   const Channel* channel_ = nullptr;  // of the run

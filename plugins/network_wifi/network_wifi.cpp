@@ -23,6 +23,7 @@ Each copy has one outcome in radio/*/traffic: asked = delivered + too_weak + no_
 gone + those still under way.)";
   static constexpr auto phase = MUSTER_NETWORK;
   static constexpr Param params[] = {
+      integer("channel", 1, 1, 13, "20 MHz each, in steps of 5 from 2412 MHz up: what it hears of jammers"),
       choice("rate", "6|9|12|18|24|36|48|54", "Mbit/s"),
       choice("slot", "long|short", "20 us, as the standard has it without access point; or 9 us"),
       real("busy_threshold", -62, -250, 50, "dBm", "power of any kind above which the channel is busy"),
@@ -34,7 +35,8 @@ gone + those still under way.)";
   };
 
   explicit NetworkWifi(Setup& s)
-      : rate(s.value("rate")),
+      : channel(s.value("channel")),
+        rate(s.value("rate")),
         slot(s.value("slot")),
         busy_threshold(s.value("busy_threshold")),
         noise(s.value("noise")),
@@ -46,6 +48,7 @@ gone + those still under way.)";
 
   void step(const Step& k) {
     wifi::Settings settings;
+    settings.channel = static_cast<int>(k[channel]);
     settings.rate = static_cast<std::size_t>(k[rate]);
     settings.slot = k[slot] == 0 ? wifi::long_slot : wifi::short_slot;
     settings.busy = milliwatts(k[busy_threshold]);
@@ -56,7 +59,7 @@ gone + those still under way.)";
     board.step(k, medium, settings);
   }
 
-  Value rate, slot, busy_threshold, noise, acknowledge, retries, queue;
+  Value channel, rate, slot, busy_threshold, noise, acknowledge, retries, queue;
   packets::Board board;
   wifi::Medium medium;
 };

@@ -22,6 +22,12 @@ constexpr Time extension = 6 * microsecond;  // of every frame, without signal
 constexpr Time detection = 4 * microsecond;  // aCCATime: by then a frame that began is noticed
 constexpr int least_window = 15, most_window = 1023;
 
+// Of channels 1 to 13 at 2.4 GHz.
+constexpr packets::Band band_of(int channel) {
+  const double middle = 2407e6 + 5e6 * channel;
+  return {middle - 10e6, middle + 10e6};
+}
+
 // Octets. A larger payload goes in pieces, each behind a header of 8 octets as fragments of IPv6 are (RFC 8200).
 constexpr std::size_t header = 24 + 8 + 4;  // of the frame, of LLC and SNAP, and its check sequence
 constexpr std::size_t ack_frame = 14;

@@ -73,6 +73,16 @@ TEST(Frame, TakesItsTimeOnTheAir) {
   }
 }
 
+// Row 24 of the requirements: 250 kbit/s; addresses of 16 bits in one PAN, after control and sequence number and before
+// the check sequence; frames of 127 octets, fragments beyond. Acknowledgements and retries are tested below.
+TEST(Row24, TheModeSetsRateAddressesAndPieces) {
+  EXPECT_EQ(8 * second / octet, 250'000);
+  EXPECT_EQ(header, 2u + 1 + 2 + 2 + 2 + 2);
+  EXPECT_EQ(frame_size(116, 0), 127u);
+  EXPECT_EQ(frame_size(117, 0), header + 4 + 104);
+  EXPECT_EQ(frame_size(117, 1), header + 5 + 13);
+}
+
 TEST(Payload, ArrivesByteForByteInAsManyFragmentsAsItNeeds) {
   EXPECT_EQ(frames_of(0), 1u);
   EXPECT_EQ(frames_of(116), 1u);

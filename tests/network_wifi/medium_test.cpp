@@ -55,6 +55,18 @@ TEST(AirTime, IsTheStandards) {
   EXPECT_EQ(air_time(76, rates[rate_of(6)]), (20 + 108 + 6) * microsecond);     // 630 bits in 27
 }
 
+// Row 24 of the requirements: 6 to 54 Mbit/s; three addresses of 48 bits between control, duration and sequence number,
+// then LLC, SNAP and the check sequence; 2304 octets of payload with LLC and SNAP, pieces beyond.
+TEST(Row24, TheModeSetsRatesAddressesAndPieces) {
+  for (const Rate& rate : rates) {
+    const auto bits = static_cast<double>(8 * 1'000'000);
+    EXPECT_NEAR(1e3 * bits / static_cast<double>(air_time(1'000'000, rate)), rate.mbit, 1e-3 * rate.mbit);
+  }
+  EXPECT_EQ(header, 2u + 2 + 3 * 6 + 2 + 8 + 4);
+  EXPECT_EQ(frames_of(2304 - 8), 1u);
+  EXPECT_EQ(frames_of(2304 - 7), 2u);
+}
+
 TEST(Access, AtAnIdleChannelIsImmediate) {
   Cell cell({{0, 0}, {3, 0}});
   cell.medium.ask(second / 2, 0, Medium::everyone, std::string(40, 'x'));

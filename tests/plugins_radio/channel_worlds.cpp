@@ -1,6 +1,10 @@
 // The channel in running worlds: reciprocity, independence of order, walls and doors, expectations, the receiver's
 // floor.
+#include <gmock/gmock.h>
+
+#include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "world_of.hpp"
 
@@ -127,6 +131,39 @@ TEST(Channel, ReceivesNothingBelowTheSensitivity) {
   }
   EXPECT_GT(heard, 0);
   EXPECT_LT(heard, 20);
+}
+
+// Row 24 of the requirements: the steps and the ends of a mode's rssi.
+TEST(Channel, Row24ReportsRssiInStepsBetweenItsEnds) {
+  const Folder folder;
+  const std::string plain = stations() + "<radio.multiwall/><radio.fading/><radio.receiver sensitivity=\"-68\"/>";
+  const std::string steps = "<radio.rssi_steps step=\"2\" least=\"-66\" most=\"-58\"/>";
+  Simulation exact = world_of(folder, plain), world = world_of(folder, plain + steps);
+  run(exact, 3), run(world, 3);
+  std::set<double> seen;
+  for (const auto& [pair, rssi] : by_pair(world, "link/*/rssi")) {
+    const double before = by_pair(exact, "link/*/rssi").at(pair);
+    EXPECT_EQ(std::isnan(rssi), std::isnan(before));
+    if (std::isnan(rssi)) continue;
+    EXPECT_EQ(std::fmod(rssi, 2), 0);
+    EXPECT_LE(std::abs(rssi - std::clamp(before, -66.0, -58.0)), 1);
+    seen.insert(rssi);
+  }
+  EXPECT_GE(seen.size(), 3u);
+  EXPECT_EQ(*seen.begin(), -66);
+  EXPECT_EQ(*seen.rbegin(), -58);
+}
+
+TEST(Channel, RefusesStepsWithoutRange) {
+  const Folder folder;
+  Simulation world =
+      world_of(folder, stations() + "<radio.multiwall/>" + quiet + "<radio.rssi_steps least=\"3\" most=\"2\"/>");
+  try {
+    world.step();
+    FAIL() << "not refused";
+  } catch (const Error& refused) {
+    EXPECT_THAT(refused.what(), testing::EndsWith("attribute \"least\": is above \"most\"; expected at most that"));
+  }
 }
 
 TEST(Channel, OfAPlaceIsTheSameOnReturn) {

@@ -1,6 +1,7 @@
 // Messages: each copy has one outcome, payloads arrive byte for byte, and who sent them is not the sender's to say.
 #include <gmock/gmock.h>
 
+#include "messages.hpp"
 #include "world_of.hpp"
 
 namespace muster {
@@ -16,20 +17,6 @@ struct Counts {
 Counts traffic(const Simulation& world, const std::string& radio) {
   const TableView row = world.table("radio/" + radio + "/traffic");
   return {row.at(0, 0), row.at(0, 1), row.at(0, 2), row.at(0, 3)};
-}
-
-std::string payload(const Simulation& world, std::size_t row) {
-  const TableView inbox = world.table("inbox/*/message");
-  const auto blob = static_cast<std::size_t>(inbox.at(row, Incoming::payload_column));
-  if (blob == 0) return "";
-  const auto& bytes = *inbox.table->now().blobs[blob - 1];
-  return {bytes.begin(), bytes.end()};
-}
-
-std::string sent(std::size_t size, uint64_t tick) {
-  std::string result(size, '\0');
-  for (std::size_t i = 0; i < size; ++i) result[i] = static_cast<char>(mixed(i + tick));
-  return result;
 }
 
 // Strong from a: near (-40). Weak, yet received: -77 at 70 m. Below the receiver: far. Without link: beyond the range.

@@ -1,0 +1,115 @@
+// A piconet: one master, at most seven slaves, slots of 625 us. The master addresses its slaves in turn; a slave talks
+// only in the slot after a packet that the master sent to it. What did not arrive is sent again. A discrete-event
+// simulation of every packet.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "packets/agenda.hpp"
+#include "packets/air.hpp"
+#include "packets/post.hpp"
+#include "standard.hpp"
+
+namespace muster::bluetooth {
+
+using packets::Channel;
+using packets::Fate;
+using packets::Heard;
+using packets::Report;
+
+struct Settings {
+  std::size_t master = 0;
+  std::size_t largest = dh5;       // packets
+  Time poll_interval = 40 * slot;  // T_poll: each slave is addressed at least so often
+  Time flush = 80 * slot;  // a packet that was not acknowledged so long after it could first be sent is given up
+  double noise = 0;        // mW
+  std::size_t queue = 64;  // messages that wait at a radio
+};
+
+struct TooManyRadios : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+class Medium {
+ public:
+  explicit Medium(const Stream& random);
+
+  // Everything that outlives a call of run(): the same bytes make the same future.
+  std::string save() const;
+  void load(std::string_view bytes);
+
+  // A message that `from` wants to send at `at`, a time of the next run(). `to`: a radio, or `everyone`.
+  static constexpr std::size_t everyone = packets::everyone;
+  void ask(Time at, std::size_t from, std::size_t to, std::string payload) {
+    post_.ask(at, from, to, std::move(payload));
+  }
+
+  // From `since` to `until`. The report stands until the next run. All radios are of the piconet but those that jam;
+  // throws TooManyRadios where these are more than a master and seven slaves.
+  const Report& run(Time since, Time until, const Channel& channel, const Settings& settings);
+
+  // Of the slot that begins at this time, 0 to 78.
+  int channel_at(Time at) const;
+
+ private:
+  struct Radio {
+    // Of its first message: octets that were acknowledged, and those in the packet that is to be sent.
+    std::size_t done = 0, carried = 0;
+    std::uint64_t sent = packets::nothing;  // the frame that carried the packet last
+    Time sent_until = 0;
+    bool arrived = false;
+    Fate last_loss = Fate::too_weak;
+    Time expires = packets::never;
+
+    // As a slave: when it was last addressed, how long it is believed to have more to say, the last data that the
+    // master heard from it, and when it answers to which frame.
+    Time addressed = -(Time{1} << 40);
+    Time has_more_until = 0;
+    std::uint64_t heard = packets::nothing;
+    Time answers = packets::never;
+    std::uint64_t answers_to = packets::nothing;
+  };
+
+  void look_who_is_there();
+  bool is_linked(std::size_t one, std::size_t other) const;
+  void handle(const packets::Event& event);
+
+  void take_turn(Time at);
+  Time wants_turn(std::size_t radio, Time at) const;
+  void wake(Time at);
+  void wait_for_turn(Time at);
+  void answer(std::size_t slave, Time at);
+  std::size_t put_on_air(std::size_t from, std::size_t to, Time at, std::uint64_t ack_of);
+
+  void end_frame(std::uint64_t id, Time at);
+  void end_broadcast(std::size_t sender, const std::vector<Heard>& heard, Time at);
+  void end_down(const packets::Frame& frame, Heard heard, Time at);
+  void end_up(const packets::Frame& frame, Heard heard, Time at);
+  void arrive(std::size_t from, std::size_t to, Time at);
+  void acknowledge(std::size_t from, std::uint64_t frame, Time at);
+  void expire(std::size_t radio, Time at);
+
+  bool has_for(std::size_t from, std::size_t to) const;
+  std::size_t rest(std::size_t sender) const;
+  bool is_last_packet(std::size_t sender) const { return radios_[sender].carried == rest(sender); }
+  bool settle_unreachable(std::size_t sender);
+  void begin_message(std::size_t sender, Time at);
+  void begin_packet(std::size_t sender, Time at);
+  void go_on_with_message(std::size_t sender, Time at);
+
+  Settings settings_;
+  Stream random_;
+  packets::Air air_;
+  packets::Post post_;
+  packets::Agenda agenda_;
+  std::vector<Radio> radios_;
+  Time free_ = 0;                       // until then somebody may be sending
+  Time turn_ = 0;                       // when the master looks next whom to address
+  const Channel* channel_ = nullptr;    // of the run
+  std::vector<std::uint8_t> is_there_;  // of each radio, in the piconet
+};
+
+}  // namespace muster::bluetooth
