@@ -1,6 +1,8 @@
 #include "diagnosis/reading_field.hpp"
 
+#include <Eigen/LU>
 #include <cmath>
+#include <limits>
 
 namespace muster::diagnosis {
 namespace {
@@ -67,6 +69,40 @@ VectorXd ReadingField::error_of(const FieldShape& shape, int place, const Vector
   const VectorXd white = whitener(residual);
   const VectorXd off = (white - white.cwiseMax(-far_off).cwiseMin(far_off)).cwiseQuotient(own);
   return whitener(residual - off).cwiseQuotient(own) + off;
+}
+
+CloseReadings ReadingField::close_readings() const {
+  constexpr double close = 0.3;  // m, of both ends together: over so little the variogram of shadowing is a line
+  constexpr Index fewest = 100;
+  const noise::Sites& sites = field_.sites();
+  std::vector<bool> paired(static_cast<std::size_t>(size()), false);
+  std::vector<double> apart, half;
+  for (Index i = 0; i < size(); ++i) {
+    for (int a = 0; a < field_.slots() && !paired[static_cast<std::size_t>(i)]; ++a) {
+      const Index j = field_.neighbour(i, a);
+      if (j < 0 || paired[static_cast<std::size_t>(j)]) continue;
+      const double distance = std::hypot((sites.place.col(i) - sites.place.col(j)).norm(),
+                                         (sites.anchor.col(i) - sites.anchor.col(j)).norm());
+      if (distance > close) break;  // the nearest come first
+      apart.push_back(distance);
+      half.push_back(std::pow(residual_[i] - residual_[j], 2) / 2);
+      paired[static_cast<std::size_t>(i)] = paired[static_cast<std::size_t>(j)] = true;
+    }
+  }
+  const auto pairs = static_cast<Index>(half.size());
+  const CloseReadings nothing{pairs, 0, std::numeric_limits<double>::infinity()};
+  if (pairs < fewest) return nothing;
+  Eigen::MatrixX2d line(pairs, 2);
+  line << VectorXd::Ones(pairs), Eigen::Map<const VectorXd>(apart.data(), pairs);
+  const Eigen::Map<const VectorXd> y(half.data(), pairs);
+  const Eigen::Matrix2d normal = line.transpose() * line;
+  if (normal.determinant() < 1e-6 * static_cast<double>(pairs * pairs)) return nothing;
+  const Eigen::Matrix2d inverse = normal.inverse();
+  const Eigen::Vector2d fitted = inverse * (line.transpose() * y);
+  // Farther differences scatter more (White 1980).
+  const Eigen::VectorXd left = (y - line * fitted).array().square();
+  const Eigen::Matrix2d uncertainty = inverse * (line.transpose() * left.asDiagonal() * line) * inverse;
+  return {pairs, fitted[0], std::sqrt(uncertainty(0, 0))};
 }
 
 }  // namespace muster::diagnosis

@@ -25,6 +25,13 @@ struct FieldShape {
   friend auto operator<=>(const FieldShape&, const FieldShape&) = default;
 };
 
+// Half the squared differences of readings side by side, a line over their distance, where it meets distance zero: the
+// variance of one reading, whatever the field is.
+struct CloseReadings {
+  Eigen::Index pairs = 0;
+  double variance = 0, standard_error = 0;  // dB^2; without enough distances or pairs 0 and infinite
+};
+
 class ReadingField {
  public:
   // A residual a reading; those that are not finite are left out.
@@ -36,6 +43,8 @@ class ReadingField {
   // The same of other residuals at the same places.
   Eigen::VectorXd error_of(const FieldShape& shape, int place, const Eigen::VectorXd& residual);
   const Eigen::VectorXd& residual() const { return residual_; }
+  // Each reading in one pair at most.
+  CloseReadings close_readings() const;
 
  private:
   struct Known {

@@ -89,6 +89,22 @@ TEST(LawsOfReadings, TheStatedLawIsNotLeftWithoutReason) {
     EXPECT_GT(test.log_p, std::log(0.01)) << test.cause;
 }
 
+TEST(LawsOfReadings, ReadingsSideBySideTellTheVarianceOfOne) {
+  for (const double distance : {0.7, 1.5}) {
+    const Walk walk = drawn({.rician_k = 4}, 6000, distance);
+    noise::Readings near = walk.readings;
+    near.rx_at *= 0.1;  // 1.5 cm apart, in a field that changes ten times as fast as this says
+    const CloseReadings close = ReadingField(near, walk.residual).close_readings();
+    EXPECT_GT(close.pairs, 2500);
+    EXPECT_LE(close.pairs, 3000);
+    const double one = variance_of({.rician_k = 4}, 1);
+    EXPECT_NEAR(close.variance, one, 3 * close.standard_error) << distance;
+    EXPECT_LT(close.standard_error, 0.12 * one);
+  }
+  const Walk far = drawn({.rician_k = 4}, 150);  // all as far apart
+  EXPECT_TRUE(std::isinf(ReadingField(far.readings, far.residual).close_readings().standard_error));
+}
+
 TEST(LawsOfReadings, AnotherFadingIsMeasured) {
   const LawTest best = tested({.rician_k = 2}, {.rician_k = 8}).front();
   EXPECT_EQ(best.cause, "effect.fading_law");
