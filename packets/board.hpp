@@ -22,7 +22,8 @@ class Board {
   // For messages asked for at any moment of their tick, a plugin declares this flag.
   static constexpr Param spread_param = flag("spread", true, "requests come at any moment of their tick");
 
-  Board(Setup& s, Quality quality)
+  // `state`: its table, another one for each kind of medium, which does not read what others remember.
+  Board(Setup& s, const char* state, Quality quality)
       : quality_(quality),
         spread_(s.value("spread")),
         request_(s.read<Outgoing>("outbox/*/message")),
@@ -34,7 +35,7 @@ class Board {
         emission_(s.read_if_any<Emission>("radio/*/emission")),
         inbox_(s.write<Incoming>("inbox/*/message")),
         traffic_(s.write<Traffic>("radio/*/traffic")),
-        state_(s.write<State>("self/state")),
+        state_(s.write<State>(state)),
         moments_(s.stream("moments of requests")) {}
 
   // Runs the medium through the tick.

@@ -42,7 +42,7 @@ gone + those still under way.)";
         flush_timeout(s.value("flush_timeout")),
         noise(s.value("noise")),
         queue(s.value("queue")),
-        board(s, {8, 40}),
+        board(s, "self/bluetooth", {8, 40}),
         medium(s.stream("medium access")) {}
 
   void step(const Step& k) {

@@ -44,7 +44,7 @@ queue_full + no_ack + gone + those still under way.)";
         retries(s.value("retries")),
         queue(s.value("queue")),
         capture(s.value("capture")),
-        board(s, {-5, 30}),
+        board(s, "self/lrwpan", {-5, 30}),
         medium(s.stream("medium access")) {}
 
   void step(const Step& k) {

@@ -43,7 +43,7 @@ gone + those still under way.)";
         acknowledge(s.value("acknowledge")),
         retries(s.value("retries")),
         queue(s.value("queue")),
-        board(s, {4, 40}),
+        board(s, "self/wifi", {4, 40}),
         medium(s.stream("medium access")) {}
 
   void step(const Step& k) {

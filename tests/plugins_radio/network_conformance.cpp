@@ -18,6 +18,16 @@ const std::string walls_and_fading =
     "<radio.links range=\"600\"/><radio.multiwall n=\"3\"/><radio.fading shadowing=\"2\"/>"
     "<radio.receiver sensitivity=\"-90\"/>";
 
+std::vector<std::string> networks(const std::string& but = "") {
+  std::vector<std::string> result;
+  for (const auto& entry : std::filesystem::directory_iterator(MUSTER_PLUGINS_DIR)) {
+    const std::string name = entry.path().stem().string();
+    if (entry.path().extension() == ".so" && name.compare(0, 8, "network_") == 0 && name.substr(8) != but)
+      result.push_back("network." + name.substr(8));
+  }
+  return result;
+}
+
 class EachNetwork : public testing::TestWithParam<std::string> {
  protected:
   std::string network(const std::string& attributes = "") const {
@@ -352,6 +362,26 @@ TEST_P(EachNetwork, Row30MessagesMeetTheSameChannelOnReturn) {
 
 // ---- However it is run --------------------------------------------------------------------------------------------
 
+// What was under way is gone, and told so; what comes after is carried on by the other one.
+TEST_P(EachNetwork, AnotherTakesOverInMidRun) {
+  if (GetParam() == "network.ns3") GTEST_SKIP() << "one a process";
+  for (const std::string& other : networks(GetParam().substr(8))) {
+    if (other == "network.ns3") continue;
+    Simulation sim = world(busy);
+    run(sim, 20);
+    InstanceDeclaration declared;
+    declared.plugin = other;
+    sim.swap("network", declared);
+    double arrived = 0;
+    for (int k = 0; k < 30; ++k) {
+      sim.step();
+      arrived += static_cast<double>(sim.table("inbox/*/message").rows());
+    }
+    EXPECT_GT(arrived, 0) << other;
+    EXPECT_GT(traffic(sim, "a", "asked"), 0) << other;
+  }
+}
+
 TEST_P(EachNetwork, ARunIsTheSameBitsHoweverItIsRun) {
   if (GetParam() == "network.ns3") GTEST_SKIP() << "one a process, and it cannot be restored";
   for (const std::string& senders : {busy, jammed}) {
@@ -376,15 +406,6 @@ TEST_P(EachNetwork, ARunIsTheSameBitsHoweverItIsRun) {
   }
 }
 
-std::vector<std::string> networks(const std::string& but = "") {
-  std::vector<std::string> result;
-  for (const auto& entry : std::filesystem::directory_iterator(MUSTER_PLUGINS_DIR)) {
-    const std::string name = entry.path().stem().string();
-    if (entry.path().extension() == ".so" && name.compare(0, 8, "network_") == 0 && name.substr(8) != but)
-      result.push_back("network." + name.substr(8));
-  }
-  return result;
-}
 const auto name_of = [](const testing::TestParamInfo<std::string>& network) { return network.param.substr(8); };
 INSTANTIATE_TEST_SUITE_P(Plugins, EachNetwork, testing::ValuesIn(networks()), name_of);
 INSTANTIATE_TEST_SUITE_P(Plugins, EachSharedChannel, testing::ValuesIn(networks("ideal")), name_of);
