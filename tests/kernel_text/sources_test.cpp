@@ -20,7 +20,11 @@ const std::regex forbidden(
     R"(Query\w*(Value|Attribute|Text)|(Int|Int64|Unsigned|Unsigned64|Bool|Float|Double)(Value|Attribute|Text)|)"
     R"(IntText|FloatText|DoubleText)\s*[(<])");
 
-std::string without_comment(const std::string& line) { return line.substr(0, line.find("//")); }
+// Without its comment, and without ns-3's own types, which hold numbers and read none.
+std::string code_of(const std::string& line) {
+  static const std::regex of_ns3(R"(\bns3::\w+)");
+  return std::regex_replace(line.substr(0, line.find("//")), of_ns3, "");
+}
 
 bool is_source(const fs::path& path) {
   const std::string extension = path.extension().string();
@@ -54,7 +58,7 @@ TEST(Sources, ReadNoNumberButThroughFromChars) {
     std::ifstream file(path);
     std::string line;
     for (int number = 1; std::getline(file, line); ++number) {
-      EXPECT_FALSE(std::regex_search(without_comment(line), forbidden))
+      EXPECT_FALSE(std::regex_search(code_of(line), forbidden))
           << path.string() << ":" << number << ": " << line;
     }
     return true;
