@@ -26,7 +26,7 @@ class Thin : public Tally {
   Eigen::VectorXd scores_;  // products of each row's unit column with the residual
   Eigen::MatrixXd design_;  // and with the design, whose columns are its rows
 
-  Eigen::VectorXd column_;  // whitened
+  Eigen::VectorXd column_;      // whitened
   std::vector<Index> touched_;  // places that are not zero: the first reached_ ones
   std::size_t reached_ = 0;
   double along_ = 0, length_ = 0;

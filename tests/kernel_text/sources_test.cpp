@@ -58,8 +58,7 @@ TEST(Sources, ReadNoNumberButThroughFromChars) {
     std::ifstream file(path);
     std::string line;
     for (int number = 1; std::getline(file, line); ++number) {
-      EXPECT_FALSE(std::regex_search(code_of(line), forbidden))
-          << path.string() << ":" << number << ": " << line;
+      EXPECT_FALSE(std::regex_search(code_of(line), forbidden)) << path.string() << ":" << number << ": " << line;
     }
     return true;
   });
