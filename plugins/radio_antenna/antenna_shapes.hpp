@@ -1,0 +1,29 @@
+// Antennas with a formula: what they radiate in a direction, over what they radiate along their lobe, in dB.
+#pragma once
+
+#include "direction.hpp"
+
+namespace muster {
+
+// Half a wavelength of wire along z, thin and centre-fed (Balanis, Antenna Theory, section 4.6).
+inline double dipole_shape(const Direction& d) {
+  const double across = 1 - d.z * d.z;  // squared sine of the angle to the wire
+  if (across <= 0) return -1e9;
+  const double field = std::cos(half_turn / 2 * d.z);
+  return 10 * std::log10(std::max(field * field / across, 1e-100));
+}
+
+// Power goes as a cosine's power off the lobe, and nothing to the back; half of it is left at half the beamwidth [rad].
+inline double cosine_shape(const Direction& d, double beamwidth) {
+  const double order = std::log(0.5) / std::log(std::cos(beamwidth / 2));
+  return d.x > 0 ? 10 * order * std::log10(d.x) : -1e9;
+}
+
+// The sector of 3GPP TR 36.814, table A.2.1.1-2: parabolas in dB over azimuth and elevation, no further down than
+// `depth`. Beamwidths at half power [rad].
+inline double sector_shape(const Direction& d, double beamwidth, double beamwidth_up, double depth) {
+  const double aside = azimuth(d) / beamwidth, up = elevation(d) / beamwidth_up;
+  return -std::min(12 * aside * aside, depth) - std::min(12 * up * up, depth);
+}
+
+}  // namespace muster

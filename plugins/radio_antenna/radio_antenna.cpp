@@ -1,0 +1,159 @@
+// What the antennas at both ends of a link make of its direction.
+#include <array>
+#include <muster/plugin.hpp>
+#include <optional>
+#include <vector>
+
+#include "antenna_shapes.hpp"
+#include "gain_table.hpp"
+
+namespace {
+
+using namespace muster;
+
+// The highest gain of the antenna that a radio has from an instance; null where it has none from it.
+struct HighestGain {
+  static constexpr const char* columns = "gain[dBi]?";
+  double gain;
+};
+
+struct RadioAntenna {
+  static constexpr auto id = "radio.antenna/1";
+  static constexpr auto summary = "an antenna that radiates more in some directions than in others";
+  static constexpr auto manual =
+      R"(Adds to the level of a link the gain in dBi that the antenna of `radio` has in the direction of the other radio, at
+either end: an antenna is reciprocal. Without `radio` it is the antenna of all whom no other radio.antenna names. It
+turns with its body in all three axes. Its x axis is the lobe, forward on the radio; a dipole's wire is its z axis,
+upright on the radio; azimuth, elevation and roll turn it.
+    isotropic   0 dBi everywhere
+    dipole      half a wavelength of wire, 2.15 dBi
+    cosine      power as cos^n off the lobe, with half of it at beamwidth/2
+    sector      3GPP TR 36.814: 12 (angle/beamwidth)^2 dB less in azimuth and, by beamwidth_up, in elevation
+    table       azimuth[rad],elevation[rad],gain[dBi] from `file`, on a grid over the whole sphere
+All that an antenna is fed it radiates, but for `loss`: a narrower lobe is a stronger one, and of a table the mean gain
+is at most 0 dBi. Polarisation does not count, nor a coupling to the body.)";
+  static constexpr auto phase = MUSTER_RADIO;
+  static constexpr Param params[] = {
+      reference("radio", "radio", "whose antenna; without it, that of all others"),
+      choice("pattern", "dipole|isotropic|cosine|sector|table", "its gain by direction"),
+      real("beamwidth", 1.1345, 0.02, 3.1, "rad", "cosine, sector: between the two directions of half power"),
+      real("beamwidth_up", 1.1345, 0.02, 3.1, "rad", "sector: the same in elevation"),
+      real("depth", 30, 3, 100, "dB", "from its highest gain to its lowest; not of a table"),
+      real("loss", 0, 0, 60, "dB", "of the power fed to it, in itself and its cable").free(),
+      real("azimuth", 0, -half_turn, half_turn, "rad", "of its lobe, from the radio's heading to the left")
+          .free()
+          .with(MUSTER_CYCLIC),
+      real("elevation", 0, -half_turn / 2, half_turn / 2, "rad", "of its lobe, upward").free(),
+      real("roll", 0, -half_turn, half_turn, "rad", "about its lobe").free().with(MUSTER_CYCLIC),
+      file("file", "table: its gains"),
+  };
+
+  explicit RadioAntenna(Setup& s)
+      : radio(s.value("radio")),
+        pattern(s.value("pattern")),
+        beamwidth(s.value("beamwidth")),
+        beamwidth_up(s.value("beamwidth_up")),
+        depth(s.value("depth")),
+        loss(s.value("loss")),
+        azimuth(s.value("azimuth")),
+        elevation(s.value("elevation")),
+        roll(s.value("roll")),
+        endpoint(s.read<Endpoint>("endpoint/*/radio")),
+        pose(s.read<Pose>("endpoint/*/pose")),
+        ends(s.read<Ends>("link/*/ends")),
+        level(s.add<Level>("link/*/level")),
+        is_of_one(s.param("radio") >= 0) {
+    // A radio's second antenna is its second writer, and the second that is common to all others is theirs.
+    if (is_of_one) {
+      highest = s.write<HighestGain>("radio/{radio}/antenna");
+    } else {
+      others = s.read_if_any<HighestGain>("radio/*/antenna");
+      highest = s.write<HighestGain>("radio/*/common_antenna");
+    }
+    if (s.param("pattern") == table) {
+      rows = s.file<MeasuredGain>("file");
+    } else if (!s.text("file").empty()) {
+      throw BadInput("attribute \"file\": only pattern=\"table\" reads one");
+    }
+  }
+
+  void step(const Step& k) {
+    prepare(k);
+    const auto links = k[ends];
+    const auto at = k[pose];
+    const std::vector<char> own = own_radios(k);
+    const auto gain = [&](double end, double other) {
+      const auto from = static_cast<std::size_t>(end), to = static_cast<std::size_t>(other);
+      if (!own[static_cast<std::size_t>(k[endpoint][from].radio)]) return 0.0;
+      return gain_toward(k, in_frame(mounted, in_frame(at[from], from_to(at[from], at[to]))));
+    };
+    for (std::size_t i = 0; i < links.size(); ++i)
+      k[level][i].level = gain(links[i].tx, links[i].rx) + gain(links[i].rx, links[i].tx);
+  }
+
+  // Which radios have this antenna, and that they have.
+  std::vector<char> own_radios(const Step& k) const {
+    std::vector<char> own(k.rows("radio"), is_of_one ? 0 : 1);
+    const double gain = (k[pattern] == table ? measured.highest() : directivity) - k[loss];
+    if (is_of_one) {
+      own[static_cast<std::size_t>(k[radio])] = 1;
+      k[highest]->gain = gain;
+      return own;
+    }
+    const auto named = k[others];
+    for (std::size_t i = 0; i < k[highest].size(); ++i) {
+      own[i] = named.empty() || is_null(named[i].gain);
+      k[highest][i].gain = own[i] ? gain : null();
+    }
+    return own;
+  }
+
+  // What depends on parameters alone is made again when they change.
+  void prepare(const Step& k) {
+    mounted = turn(k[azimuth], k[elevation], k[roll]);
+    const std::array<double, 4> now{k[pattern], k[beamwidth], k[beamwidth_up], k[depth]};
+    if (prepared == now) return;
+    if (k[pattern] == table && measured.empty()) {
+      if (!rows) throw BadInput("attribute \"file\": pattern=\"table\" needs it from the start");
+      measured = GainTable(k[*rows]);
+    }
+    directivity =
+        -10 * std::log10(mean_over_sphere([&](const Direction& d) { return std::pow(10, shape(k, d) / 10); }));
+    prepared = now;
+  }
+
+  // In dBi. Where there is no direction it is that of the mean over all.
+  double gain_toward(const Step& k, const Direction& d) const {
+    if (d.x == 0 && d.y == 0 && d.z == 0) return -k[loss];
+    return (k[pattern] == table ? measured.gain(d) : directivity + shape(k, d)) - k[loss];
+  }
+
+  // In dB, to the highest gain.
+  double shape(const Step& k, const Direction& d) const {
+    double result = 0;
+    if (k[pattern] == dipole) result = dipole_shape(d);
+    if (k[pattern] == cosine) result = cosine_shape(d, k[beamwidth]);
+    if (k[pattern] == sector) result = sector_shape(d, k[beamwidth], k[beamwidth_up], k[depth]);
+    return std::max(result, -k[depth]);
+  }
+
+  enum Pattern { dipole, isotropic, cosine, sector, table };
+
+  Value radio, pattern, beamwidth, beamwidth_up, depth, loss, azimuth, elevation, roll;
+  In<Endpoint> endpoint;
+  In<Pose> pose;
+  In<Ends> ends;
+  Out<Level> level;
+  bool is_of_one;
+  In<HighestGain> others{};
+  Out<HighestGain> highest{};
+  std::optional<In<MeasuredGain>> rows;
+  GainTable measured;
+  std::optional<std::array<double, 4>> prepared;
+  double directivity = 0;  // dBi, of a shape
+  Pose mounted{};          // how the antenna is turned on its radio
+};
+
+}  // namespace
+
+MUSTER_PLUGIN_IS(RadioAntenna)
