@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <muster/meshes.hpp>
 #include <muster/plugin.hpp>
 #include <vector>
 
@@ -82,6 +83,11 @@ inline const Standard& standard() {
            "",
            "gaps in walls that open and close",
            {{"shape", Door::columns, "", false, ""}, {"state", DoorState::columns, "", false, ""}}},
+          {"mesh",
+           SetKind::fixed,
+           "",
+           "bodies and surfaces from files",
+           {{"shape", MeshShape::columns, "", false, ""}}},
           {"robot",
            SetKind::live,
            "",
@@ -163,6 +169,18 @@ inline const Standard& standard() {
             {reference("material", "material", "what it is made of; by default its wall's"), 1, "door/shape",
              store_at<4, 1>},
             {choice("state", "closed|open", "how it stands at the start"), 1, "door/state", store_at<0, 1>}},
+           ""},
+          {"mesh",
+           "mesh",
+           "a body or a surface from a file",
+           "",
+           {{text("file", "", ".stl, .obj or .dae, in the world's folder").required(), 0, "", nullptr},
+            {reference("material", "material", "what it is made of").required(), 1, "mesh/shape", store_at<5, 1>},
+            {real("at", 0, -far, far, "m", "where its origin is: x y z"), 3, "mesh/shape", store_at<0, 3>},
+            {real("yaw", 0, -far, far, "rad", "how it is turned about the upright"), 1, "mesh/shape", store_at<3, 1>},
+            {real("scale", 1, 1e-6, 1e6, "", "metres a unit of the file"), 1, "mesh/shape", store_at<4, 1>},
+            {choice("kind", "solid|sheet", "a closed body, which counts once, or a surface"), 1, "mesh/shape",
+             store_at<6, 1>}},
            ""},
           {"station",
            "radio",

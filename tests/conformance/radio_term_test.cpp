@@ -22,10 +22,15 @@ const std::string elements =
     "<material name='brick' loss='6'/>\n<material name='wood' loss='2'/>\n"
     "<wall name='w1' from='2 -5' to='2 5' material='brick'/>\n<wall name='w2' from='-5 3' to='9 3.5' "
     "material='wood'/>\n"
-    "<door wall='w1' at='4' width='1'/>\n"
+    "<door wall='w1' at='4' width='1'/>\n<mesh file='tent.obj' material='wood' at='1 -1 0'/>\n"
     "<station name='a' at='0 0 1'/>\n<station name='b' at='5 1 1'/>\n<station name='c' at='5 1 1'/>\n"  // b and c
                                                                                                         // coincide
     "<station name='d' at='0.5 8 2'/>\n<station name='e' at='-3 -4 0'/>\n";
+
+// A tetrahedron between a and most of the others.
+void write_mesh(const test::Folder& folder) {
+  folder.write("tent.obj", "v 0 0 0\nv 2 0 0\nv 0 3 0\nv 0 1 4\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+}
 
 struct Term {
   std::string id;
@@ -35,6 +40,7 @@ struct Term {
 class RadioTerm : public testing::TestWithParam<Term> {
  protected:
   Simulation run(const std::string& order = "", const std::string& name = "term") const {
+    write_mesh(folder);
     std::ofstream(folder / "world.xml") << "<world dt='0.25' until='9' seed='3'>\n"
                                         << elements << "<conformance.links " << order << "/>\n<" << GetParam().id
                                         << " name='" << name << "'/>\n</world>\n";
@@ -131,6 +137,7 @@ std::vector<Term> terms() {
     if (needs) continue;
     const std::string id(listed.library->id()), manual = plugin.manual ? plugin.manual : "";
     const test::Folder folder;
+    write_mesh(folder);
     std::ofstream(folder / "world.xml") << "<world until='1'>\n"
                                         << elements << "<conformance.links/>\n<" << id << " name='term'/>\n</world>\n";
     try {

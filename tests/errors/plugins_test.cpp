@@ -156,7 +156,8 @@ TEST(Fault19, ClaimsThatDoNotFitAreRefusedAtTheStart) {
       "one of door/*/shape, "
       "door/*/state, endpoint/*/pose, endpoint/*/radio, inbox/*/message, instance/test.reads_nobodys/*/cell, "
       "link/*/ends, "
-      "link/*/rssi, material/*/loss, radio/*/mount, radio/*/traffic, robot/*/drive, robot/*/gait, robot/*/legs, "
+      "link/*/rssi, material/*/loss, mesh/*/shape, radio/*/mount, radio/*/traffic, robot/*/drive, robot/*/gait, "
+      "robot/*/legs, "
       "robot/*/odometry, robot/*/pose, "
       "robot/*/position3d, robot/*/rotor_drive, robot/*/rotors, robot/*/twist, robot/*/wheels, wall/*/shape; did you "
       "mean \"robot/*/pose\"?");

@@ -1,0 +1,40 @@
+// Meshes in the world, and how often a straight link crosses the surface of each. Embree finds the triangles that a
+// link may meet; whether it crosses one is decided exactly (triangle.hpp), so its answers do not depend on how Embree
+// rounds, nor on the instructions that the machine has.
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <vector>
+
+#include "triangle.hpp"
+
+namespace muster {
+
+// A mesh where it stands, in lattice steps.
+struct PlacedMesh {
+  std::vector<Triangle> triangles;
+};
+
+class MeshScene {
+ public:
+  // Throws std::runtime_error where Embree fails.
+  explicit MeshScene(const std::vector<PlacedMesh>& meshes);
+  MeshScene(const MeshScene&) = delete;
+  MeshScene& operator=(const MeshScene&) = delete;
+  ~MeshScene();
+
+  // Adds to crossings[mesh] for each triangle that the link crosses.
+  void count(const Vector& p, const Vector& q, int* crossings) const;
+
+ private:
+  static void bounds(const RTCBoundsFunctionArguments* asked);
+  static void cross_one(const RTCOccludedFunctionNArguments* met);
+
+  std::vector<Triangle> triangles_;
+  std::vector<int> mesh_;  // of a triangle
+  RTCDevice device_;
+  RTCScene scene_;
+};
+
+}  // namespace muster

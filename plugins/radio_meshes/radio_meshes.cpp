@@ -1,0 +1,113 @@
+// Meshes in the way of radio links.
+#include <cstring>
+#include <muster/plugin.hpp>
+#include <muster/reverse_links.hpp>
+#include <optional>
+#include <vector>
+
+#include "mesh_scene.hpp"
+#include "world_meshes.hpp"
+
+namespace {
+
+using namespace muster;
+
+struct RadioMeshes {
+  static constexpr auto id = "radio.meshes/1";
+  static constexpr auto summary = "meshes that stand between two radios cost their material's loss";
+  static constexpr auto manual =
+      R"(Adds to the level of a link minus the loss of its material for each body of a <mesh> that the straight way between both
+radios passes, and for each crossing of a sheet. A solid's surface is entered and left: two crossings are one body, and a
+radio inside leaves through one. Counts are exact on the lattice of walls, ties included, and the same both ways.)";
+  static constexpr auto phase = MUSTER_RADIO;
+
+  explicit RadioMeshes(Setup& s)
+      : pose(s.read<Pose>("endpoint/*/pose")),
+        ends(s.read<Ends>("link/*/ends")),
+        shape(s.read<MeshShape>("mesh/*/shape")),
+        loss(s.read<Loss>("material/*/loss")),
+        level(s.add<Level>("link/*/level")),
+        meshes(s) {}
+
+  void step(const Step& k) {
+    place(k);
+    count(k);
+    const auto shapes = k[shape];
+    for (std::size_t i = 0; i < k[ends].size(); ++i) {
+      double sum = 0;
+      for (std::size_t m = 0; m < shapes.size(); ++m) {
+        const int crossings = counted[i * shapes.size() + m];
+        const int times = shapes[m].sheet != 0 ? crossings : (crossings + 1) / 2;
+        sum -= times * k[loss][static_cast<std::size_t>(shapes[m].material)].loss;
+      }
+      k[level][i].level = sum;
+    }
+  }
+
+  // The scene is kept while no mesh is another.
+  void place(const Step& k) {
+    if (scene && same(k[shape], shapes_kept)) return;
+    scene.reset();
+    ends_kept.clear();
+    scene.emplace(meshes.placed(k[shape]));
+    shapes_kept.assign(k[shape].begin(), k[shape].end());
+  }
+
+  // Counts are kept for links whose ends are where they were, to the bit.
+  void count(const Step& k) {
+    const auto links = k[ends];
+    const auto at = k[pose];
+    const std::size_t width = k[shape].size();
+    const bool known = same(links, ends_kept) && at.size() == at_kept.size();
+    std::vector<char> moved(at.size(), 1);
+    std::vector<Vector> places(at.size());
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      if (known) moved[i] = std::memcmp(&at[i], &at_kept[i], sizeof(Pose)) != 0;
+      places[i] = on_lattice(at[i]);
+    }
+    ends_kept.clear();  // so that nothing old is left if this fails
+    counted.resize(links.size() * width);
+    const auto back = earlier_reverse(links, at.size());
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      const auto tx = static_cast<std::size_t>(links[i].tx), rx = static_cast<std::size_t>(links[i].rx);
+      if (!moved[tx] && !moved[rx]) continue;
+      int* const own = counted.data() + i * width;
+      if (back[i] != no_link) {
+        std::copy_n(counted.data() + back[i] * width, width, own);
+      } else {
+        std::fill_n(own, width, 0);
+        scene->count(places[tx], places[rx], own);
+      }
+    }
+    ends_kept.assign(links.begin(), links.end());
+    at_kept.assign(at.begin(), at.end());
+  }
+
+  static Vector on_lattice(const Pose& p) {
+    if (!scene::within_extent(p.x) || !scene::within_extent(p.y) || !scene::within_extent(p.z))
+      throw BadInput("a radio is farther than 1 km from the origin; expected all within");
+    return {scene::snap(p.x), scene::snap(p.y), scene::snap(p.z)};
+  }
+
+  template <class Row>
+  static bool same(Rows<const Row> now, const std::vector<Row>& kept) {
+    return now.size() == kept.size() &&
+           (now.empty() || !std::memcmp(now.begin(), kept.data(), now.size() * sizeof(Row)));
+  }
+
+  In<Pose> pose;
+  In<Ends> ends;
+  In<MeshShape> shape;
+  In<Loss> loss;
+  Out<Level> level;
+  WorldMeshes meshes;
+  std::optional<MeshScene> scene;
+  std::vector<MeshShape> shapes_kept;
+  std::vector<Ends> ends_kept;
+  std::vector<Pose> at_kept;
+  std::vector<int> counted;  // by link and mesh
+};
+
+}  // namespace
+
+MUSTER_PLUGIN_IS(RadioMeshes)
