@@ -39,12 +39,10 @@ is at most 0 dBi. Polarisation does not count, nor a coupling to the body.)";
       real("beamwidth", 1.1345, 0.02, 3.1, "rad", "cosine, sector: between the two directions of half power"),
       real("beamwidth_up", 1.1345, 0.02, 3.1, "rad", "sector: the same in elevation"),
       real("depth", 30, 3, 100, "dB", "from its highest gain to its lowest; not of a table"),
-      real("loss", 0, 0, 60, "dB", "of the power fed to it, in itself and its cable").free(),
-      real("azimuth", 0, -half_turn, half_turn, "rad", "of its lobe, from the radio's heading to the left")
-          .free()
-          .with(MUSTER_CYCLIC),
-      real("elevation", 0, -half_turn / 2, half_turn / 2, "rad", "of its lobe, upward").free(),
-      real("roll", 0, -half_turn, half_turn, "rad", "about its lobe").free().with(MUSTER_CYCLIC),
+      real("loss", 0, 0, 60, "dB", "of the power fed to it, in itself and its cable"),
+      real("azimuth", 0, -half_turn, half_turn, "rad", "of its lobe, from the radio's heading to the left"),
+      real("elevation", 0, -half_turn / 2, half_turn / 2, "rad", "of its lobe, upward"),
+      real("roll", 0, -half_turn, half_turn, "rad", "about its lobe"),
       file("file", "table: its gains"),
   };
 

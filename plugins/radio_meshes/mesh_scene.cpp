@@ -9,7 +9,7 @@ namespace {
 // What a ray carries to the triangles that it may meet.
 struct Link {
   RTCIntersectContext embree;  // first: Embree hands its address on
-  const Vector &p, &q;
+  const Vector *p, *q;
   int* crossings;
 };
 
@@ -58,7 +58,7 @@ void MeshScene::count(const Vector& p, const Vector& q, int* crossings) const {
   ray.dir_x = static_cast<float>(q.x - p.x), ray.dir_y = static_cast<float>(q.y - p.y);
   ray.dir_z = static_cast<float>(q.z - p.z);
   ray.tfar = 1, ray.mask = ~0u;
-  Link link{{}, p, q, crossings};
+  Link link{{}, &p, &q, crossings};
   rtcInitIntersectContext(&link.embree);
   rtcOccluded1(scene_, &link.embree, &ray);
 }
@@ -84,7 +84,7 @@ void MeshScene::cross_one(const RTCOccludedFunctionNArguments* met) {
   if (met->valid[0] == 0) return;
   const auto& scene = *static_cast<const MeshScene*>(met->geometryUserPtr);
   const Link& link = *reinterpret_cast<const Link*>(met->context);
-  if (scene.triangles_[met->primID].is_crossed(link.p, link.q)) ++link.crossings[scene.mesh_[met->primID]];
+  if (scene.triangles_[met->primID].is_crossed(*link.p, *link.q)) ++link.crossings[scene.mesh_[met->primID]];
 }
 
 }  // namespace muster
