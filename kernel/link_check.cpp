@@ -61,9 +61,28 @@ std::vector<std::string> Linker::missing_providers() const {
   return result;
 }
 
-// What a controller or a command's chain writes for nobody moves nothing and sends nothing.
+// True where somebody reads a table of the set, or one that refers to its rows.
+bool Linker::is_minded(const std::string& set) const {
+  return std::any_of(claimed_.begin(), claimed_.end(), [&](const auto& each) {
+    const auto& readers = each.second.readers;
+    return std::any_of(readers.begin(), readers.end(), [&](const Claimed::By& by) {
+      const auto& columns = by.get().columns;
+      return by.get().name.set == set ||
+             std::any_of(columns.begin(), columns.end(), [&](const Column& c) { return c.reference == set; });
+    });
+  });
+}
+
+// What a controller or a command's chain writes for nobody moves nothing and sends nothing; what the world has for
+// nobody stands in nobody's way.
 std::vector<std::string> Linker::unread() const {
   std::vector<std::string> result;
+  std::set<std::string> told;
+  for (const auto& row : world_.rows) {
+    const Set* set = board_.find_set(row.set);
+    if (set && set->kind == SetKind::fixed && told.insert(row.set).second && !is_minded(row.set))
+      result.push_back(row.place.text() + ": nobody reads the world's " + row.set + " rows, which do nothing");
+  }
   for (const auto& [logical, c] : claimed_) {
     const auto is_record = [&](const auto& record) { return record.table == logical; };
     if (!c.readers.empty() || std::any_of(world_.records.begin(), world_.records.end(), is_record)) continue;

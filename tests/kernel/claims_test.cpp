@@ -179,6 +179,25 @@ TEST_F(Claims, AReadThatNobodyWritesNamesTheNearest) {
   EXPECT_EQ(cell(sim, "robot/a/x"), 4);  // an optional read has no rows
 }
 
+// A mesh where no channel knows of meshes. What a read table refers to is minded with it.
+TEST_F(Claims, RowsThatNobodyReadsAreWarnedAbout) {
+  const std::string rows = two_robots +
+                           "<material name='m' loss='3'/>\n<wall from='0 0' to='1 0' material='m'/>\n"
+                           "<wall from='0 1' to='1 1' material='m'/>\n";
+  const std::string file = (folder / "world.xml").string();
+  const std::string nothing = " rows, which do nothing";
+  EXPECT_THAT(messages(run(rows)),
+              ElementsAre("0 : warning: " + file + ":4:1: nobody reads the world's material" + nothing,
+                          "0 : warning: " + file + ":5:1: nobody reads the world's wall" + nothing));
+  const auto copy = [](const std::string& from, const std::string& columns) {
+    return "<toy.copy_radio from='" + from + "/*/" + (from == "wall" ? "shape" : "loss") + "' columns='" + columns +
+           "' to='" + from + "/*/seen'/>\n";
+  };
+  EXPECT_THAT(messages(run(rows + copy("material", Loss::columns))),
+              ElementsAre("0 : warning: " + file + ":5:1: nobody reads the world's wall" + nothing));
+  EXPECT_THAT(messages(run(rows + copy("wall", Wall::columns))), ElementsAre());
+}
+
 // A robot that a controller commands in a world where nothing obeys would just stand there.
 TEST_F(Claims, CommandsThatNobodyReadsAreWarnedAbout) {
   const std::string commands = two_robots +
