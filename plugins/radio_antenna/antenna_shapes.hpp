@@ -1,22 +1,26 @@
 // Antennas with a formula: what they radiate in a direction, over what they radiate along their lobe, in dB.
 #pragma once
 
+#include <limits>
+
 #include "direction.hpp"
 
 namespace muster {
 
+constexpr double nothing = -std::numeric_limits<double>::infinity();  // dB
+
 // Half a wavelength of wire along z, thin and centre-fed (Balanis, Antenna Theory, section 4.6).
 inline double dipole_shape(const Direction& d) {
   const double across = 1 - d.z * d.z;  // squared sine of the angle to the wire
-  if (across <= 0) return -1e9;
+  if (across <= 0) return nothing;
   const double field = std::cos(half_turn / 2 * d.z);
-  return 10 * std::log10(std::max(field * field / across, 1e-100));
+  return 10 * std::log10(field * field / across);
 }
 
 // Power goes as a cosine's power off the lobe, and nothing to the back; half of it is left at half the beamwidth [rad].
 inline double cosine_shape(const Direction& d, double beamwidth) {
   const double order = std::log(0.5) / std::log(std::cos(beamwidth / 2));
-  return d.x > 0 ? 10 * order * std::log10(d.x) : -1e9;
+  return d.x > 0 ? 10 * order * std::log10(d.x) : nothing;
 }
 
 // The sector of 3GPP TR 36.814, table A.2.1.1-2: parabolas in dB over azimuth and elevation, no further down than

@@ -36,8 +36,8 @@ is at most 0 dBi. Polarisation does not count, nor a coupling to the body.)";
   static constexpr Param params[] = {
       reference("radio", "radio", "whose antenna; without it, that of all others"),
       choice("pattern", "dipole|isotropic|cosine|sector|table", "its gain by direction"),
-      real("beamwidth", 1.1345, 0.02, 3.1, "rad", "cosine, sector: between the two directions of half power"),
-      real("beamwidth_up", 1.1345, 0.02, 3.1, "rad", "sector: the same in elevation"),
+      real("beamwidth", 1.1345, 0.1, 3.1, "rad", "cosine, sector: between the two directions of half power"),
+      real("beamwidth_up", 1.1345, 0.1, 3.1, "rad", "sector: the same in elevation"),
       real("depth", 30, 3, 100, "dB", "from its highest gain to its lowest; not of a table"),
       real("loss", 0, 0, 60, "dB", "of the power fed to it, in itself and its cable"),
       real("azimuth", 0, -half_turn, half_turn, "rad", "of its lobe, from the radio's heading to the left"),

@@ -41,7 +41,7 @@ TEST(Antenna, DipoleHasTheDirectivityAndTheBeamOfTheTextbook) {
 }
 
 TEST(Antenna, CosineLobeIsStrongerAsItIsNarrower) {
-  for (const double beamwidth : {0.3, 0.8, 1.5, 2.0943951023931953, 2.8}) {
+  for (const double beamwidth : {0.1, 0.3, 0.8, 1.5, 2.0943951023931953, 2.8}) {
     const auto shape = [&](const Direction& d) { return cosine_shape(d, beamwidth); };
     const double order = std::log(0.5) / std::log(std::cos(beamwidth / 2));
     EXPECT_NEAR(directivity(shape), 10 * std::log10(2 * (order + 1)), 5e-3) << beamwidth;
