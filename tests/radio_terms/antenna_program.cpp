@@ -28,19 +28,67 @@ TEST(AntennaProgram, ProbeHasALineForIt) {
   EXPECT_DOUBLE_EQ(sum, level);
 }
 
+struct Cell {
+  std::string x, y;
+  double rssi;
+};
+
+// A map of one radio.
+std::vector<Cell> cells_of(const ProgramFolder& folder) {
+  std::istringstream lines(folder.read("out/map.csv"));
+  std::string line;
+  std::getline(lines, line);
+  std::vector<Cell> result;
+  while (std::getline(lines, line)) {
+    const auto first = line.find(','), last = line.rfind(',');
+    result.push_back(
+        {line.substr(0, first), line.substr(first + 1, last - first - 1), std::stod(line.substr(last + 1))});
+  }
+  return result;
+}
+
 TEST(AntennaProgram, MapShowsItsFrontAndItsBack) {
   const ProgramFolder folder;
   folder.write("world.xml", world_of(elements));
   const Outcome map = folder.muster(
       {"map", "world.xml", "--from", "base", "--area", "-1", "-11", "1", "11", "--cells", "11", "--out", "out"});
   ASSERT_EQ(map.exit, 0) << map.err;
-  std::istringstream cells(folder.read("out/map.csv"));
-  std::string line;
-  std::getline(cells, line);
   std::vector<double> rssi;  // from south to north
-  while (std::getline(cells, line)) rssi.push_back(std::stod(line.substr(line.rfind(',') + 1)));
+  for (const Cell& cell : cells_of(folder)) rssi.push_back(cell.rssi);
   ASSERT_EQ(rssi.size(), 11u);
   for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(rssi[10 - i] - rssi[i], 20, 1e-9) << i;
+}
+
+// Readings around a lobe that stands otherwise than the world has it.
+TEST(AntennaProgram, FitFindsWhereTheLobeIs) {
+  const ProgramFolder folder;
+  const auto write = [&](const std::string& azimuth) {
+    folder.write("world.xml", world_of("<station name='base' at='0 0 1'/><radio.multiwall/><radio.receiver/>"
+                                       "<radio.antenna name='panel' radio='base' pattern='cosine' azimuth='" +
+                                       azimuth + "'/>"));
+  };
+  write("0.6");
+  const Outcome map =
+      folder.muster({"map", "world.xml", "--area", "-10", "-10", "10", "10", "--cells", "20", "--out", "out"});
+  ASSERT_EQ(map.exit, 0) << map.err;
+  std::string readings = "tx,rx,tx_x[m],tx_y[m],tx_z[m],rx_x[m],rx_y[m],rx_z[m],rssi[dBm]\n";
+  int wrong = 1;  // dB, one too much and one too little in turn
+  for (const Cell& cell : cells_of(folder)) {
+    readings += "base,rover,0,0,1," + cell.x + ',' + cell.y + ",1," + std::to_string(cell.rssi + wrong) + '\n';
+    wrong = -wrong;
+  }
+  folder.write("readings.csv", readings);
+  write("0.1");
+  const Outcome fit =
+      folder.muster({"fit", "world.xml", "--data", "readings.csv", "--free", "panel/azimuth", "--json"});
+  ASSERT_EQ(fit.exit, 0) << fit.err;
+  const auto found = nlohmann::json::parse(fit.out);
+  for (const auto& parameter : found["parameters"]) {
+    if (parameter["name"] != "panel/azimuth") continue;
+    EXPECT_NEAR(parameter["value"].get<double>(), 0.6, 0.02);
+    return;
+  }
+  FAIL() << fit.out;
 }
 
 }  // namespace
