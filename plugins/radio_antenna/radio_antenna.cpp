@@ -21,17 +21,17 @@ struct RadioAntenna {
   static constexpr auto id = "radio.antenna/1";
   static constexpr auto summary = "an antenna that radiates more in some directions than in others";
   static constexpr auto manual =
-      R"(Adds to the level of a link the gain in dBi that the antenna of `radio` has in the direction of the other radio, at
-either end: an antenna is reciprocal. Without `radio` it is the antenna of all whom no other radio.antenna names. It
-turns with its body in all three axes. Its x axis is the lobe, forward on the radio; a dipole's wire is its z axis,
-upright on the radio; azimuth, elevation and roll turn it.
+      R"(Adds to the level of a link the gain in dBi that the antenna of `radio` has in the direction of the other
+radio, at either end: an antenna is reciprocal. Without `radio` it is the antenna of all whom no other radio.antenna
+names. It turns with its body in all three axes. Its x axis is the lobe, forward on the radio; a dipole's wire
+is its z axis, upright on the radio; azimuth, elevation and roll turn it.
     isotropic   0 dBi everywhere
     dipole      half a wavelength of wire, 2.15 dBi
     cosine      power as cos^n off the lobe, with half of it at beamwidth/2
     sector      3GPP TR 36.814: 12 (angle/beamwidth)^2 dB less in azimuth and, by beamwidth_up, in elevation
     table       azimuth[rad],elevation[rad],gain[dBi] from `file`, on a grid over the whole sphere
-All that an antenna is fed it radiates, but for `loss`: a narrower lobe is a stronger one, and of a table the mean gain
-is at most 0 dBi. Polarisation does not count, nor a coupling to the body.)";
+All that an antenna is fed it radiates, but for `loss`: a narrower lobe is a stronger one, and of a table the
+mean gain is at most 0 dBi. Polarisation does not count, nor a coupling to the body.)";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       reference("radio", "radio", "whose antenna; without it, that of all others"),

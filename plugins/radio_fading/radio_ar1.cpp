@@ -23,12 +23,12 @@ struct RadioAr1 {
   static constexpr auto id = "radio.ar1/1";
   static constexpr auto summary = "shadowing and fading as AR(1) processes along the way of each pair of radios";
   static constexpr auto manual =
-      R"(What network simulators do, in the place of radio.fading, for comparison. From place to place a pair's shadowing
-keeps the share exp(-(a + b)/D), its complex gain J0(2 pi a/wavelength) J0(2 pi b/wavelength), where a and b are the ways
-that its ends moved in the tick; the rest is drawn anew. The same both ways; still while both stand.
-It forgets places: out and back by D leaves exp(-2) of the shadowing. Pairs know nothing of each other. The correlation of
-fading at a distance depends on the tick: the finer, the higher.
-A pair that was not listed for a tick begins anew. Expectations are those of radio.fading.)";
+      R"(What network simulators do, in the place of radio.fading, for comparison. From place to place a pair's
+shadowing keeps the share exp(-(a + b)/D), its complex gain J0(2 pi a/wavelength) J0(2 pi b/wavelength), where a and
+b are the ways that its ends moved in the tick; the rest is drawn anew. The same both ways; still while both stand.
+It forgets places: out and back by D leaves exp(-2) of the shadowing. Pairs know nothing of each other. The
+correlation of fading at a distance depends on the tick: the finer, the higher. A pair that was not listed for a
+tick begins anew. Expectations are those of radio.fading.)";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       real("shadowing", 4, 0, 30, "dB", "standard deviation"),

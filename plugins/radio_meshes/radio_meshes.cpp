@@ -16,9 +16,10 @@ struct RadioMeshes {
   static constexpr auto id = "radio.meshes/1";
   static constexpr auto summary = "meshes that stand between two radios cost their material's loss";
   static constexpr auto manual =
-      R"(Adds to the level of a link minus the loss of its material for each body of a <mesh> that the straight way between both
-radios passes, and for each crossing of a sheet. A solid's surface is entered and left: two crossings are one body, and a
-radio inside leaves through one. Counts are exact on the lattice of walls, ties included, and the same both ways.)";
+      R"(Adds to the level of a link minus the loss of its material for each body of a <mesh> that the straight way
+between both radios passes, and for each crossing of a sheet. A solid's surface is entered and left: two
+crossings are one body, and a radio inside leaves through one. Counts are exact on the lattice of walls, ties
+included, and the same both ways.)";
   static constexpr auto phase = MUSTER_RADIO;
 
   explicit RadioMeshes(Setup& s)
