@@ -2,6 +2,7 @@
 // simulators have them: each value from the last one and something new.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <muster/random.hpp>
@@ -15,6 +16,9 @@ inline double fading_left(double a, double b, double wavelength) {  // Akki and 
   const double turn = 6.283185307179586 / wavelength;
   return std::cyl_bessel_j(0, turn * a) * std::cyl_bessel_j(0, turn * b);
 }
+
+// How much of a new draw keeps the variance. A share may be rounded beyond one.
+inline double rest(double left) { return std::sqrt(std::max(0.0, 1 - left * left)); }
 
 // The state of a pair, kept from tick to tick: doubles and no more.
 struct PairProcess {
@@ -39,8 +43,8 @@ struct PairProcess {
     const double of_shadow = moves > 0 ? shadowing_left(a, b, decorrelation) : 0;
     const double of_fading = moves > 0 ? fading_left(a, b, wavelength) : 0;
     const auto draw = static_cast<uint64_t>(moves);
-    shadow = of_shadow * shadow + std::sqrt(1 - of_shadow * of_shadow) * random.normal(draw, 0);
-    const double fresh = std::sqrt((1 - of_fading * of_fading) / 2);
+    shadow = of_shadow * shadow + rest(of_shadow) * random.normal(draw, 0);
+    const double fresh = rest(of_fading) * std::sqrt(0.5);
     re = of_fading * re + fresh * random.normal(draw, 1);
     im = of_fading * im + fresh * random.normal(draw, 2);
     at_low = {now_low.x, now_low.y, now_low.z};

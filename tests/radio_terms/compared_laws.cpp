@@ -163,6 +163,14 @@ TEST(Ar1, CorrelationIsAPowerOfThatOfAStep) {
   }
 }
 
+TEST(Ar1, HardlyChangesOverAHairsBreadth) {
+  for (const double step : {1e-15, 1e-12, 1e-9, 1e-7}) {
+    const auto way = walk(5, 20, [&](int i) { return step * i; });
+    EXPECT_NEAR(way.front().shadow, way.back().shadow, 1e-2) << step;
+    EXPECT_NEAR(std::abs(way.front().diffuse() - way.back().diffuse()), 0, 1e-3) << step;
+  }
+}
+
 TEST(Ar1, StandsStillWithItsRadios) {
   const auto stood = walk(3, 6, [](int i) { return i < 3 ? 0.1 * i : 0.2; });
   EXPECT_NE(stood[1].shadow, stood[2].shadow);
