@@ -1,6 +1,7 @@
 // physics.simbody: the engine on the blackboard.
 #include <algorithm>
 #include <cstring>
+#include <muster/parallel.hpp>
 #include <muster/plugin.hpp>
 #include <optional>
 
@@ -193,7 +194,7 @@ struct PhysicsSimbody {
         commands[i].rotors = {r.front, r.left, r.back, r.right};
       }
     }
-    engine->step(k.dt(), commands, states);
+    engine->step(k.dt(), commands, states, [&k](std::size_t count, const auto& part) { each(k, count, part); });
     for (std::size_t i = 0; i < made.rows.size(); ++i) spread(k, made.rows[i], states[i]);
   }
 

@@ -1,6 +1,5 @@
 #include "world.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "midpoint.hpp"
@@ -10,13 +9,12 @@ namespace muster::simbody {
 
 std::unique_ptr<Engine> make_engine(const std::vector<NamedRobot>& robots, Integrator integrator, double step,
                                     LegModel legs) {
-  const bool any_walks = std::any_of(robots.begin(), robots.end(),
-                                     [](const NamedRobot& robot) { return robot.description->legs.has_value(); });
-  if (integrator == Integrator::midpoint) {
-    if (any_walks) return std::make_unique<MidpointWithLegs>(robots, step, legs);
-    return std::make_unique<Midpoint>(robots, step);
-  }
+  if (integrator == Integrator::midpoint) return std::make_unique<Midpoint>(robots, step, legs);
   return std::make_unique<Stock>(robots, integrator, step);
+}
+
+void one_by_one(std::size_t count, const std::function<void(std::size_t)>& call) {
+  for (std::size_t i = 0; i < count; ++i) call(i);
 }
 
 RobotState at_rest(double x, double y, double yaw) {
