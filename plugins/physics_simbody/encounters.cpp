@@ -62,7 +62,6 @@ ContactRowsOf<N> rows_at(const PlacedOf<N>& robot, int wheel, int leg, const Vec
   const Vector3d arm = to_body * (place - robot.position);
   const Matrix3d ways = sign * (to_body * frame);
   ContactRowsOf<N> rows;
-  rows.joint = wheel >= 0 ? 6 + wheel : leg >= 0 ? 6 + leg : -1;
   rows.normal = point_row<N>(arm, ways.col(0));
   for (int k = 0; k < 2; ++k) {
     rows.tangent[k] = point_row<N>(arm, ways.col(1 + k));
@@ -135,7 +134,6 @@ void EncountersOf<N>::stand(int body, const Placed& robot, const Memory& memory)
     const Vector3d arm = centre - radius * up;
     Contact c;
     c.body = body;
-    c.joint = -1;
     c.normal = point_row<N>(arm, up);
     c.softness = compliance.softness;
     const double gap = robot.position.z() + up.dot(arm) - 0.5 * h_ * c.normal.dot(robot.body.previous);
@@ -146,7 +144,6 @@ void EncountersOf<N>::stand(int body, const Placed& robot, const Memory& memory)
     const double radius = robot.model->drive.wheel_radius;
     const Vector3d centre = robot.model->wheel_frame[w].translation();
     Contact c = contact(centre, radius);
-    c.joint = 6 + w;
     const Vector3d surface = Vector3d::UnitY().cross(-radius * up);  // of the tread, per rate
     for (int k = 0; k < 2; ++k) {
       c.tangent[k] = point_row<N>(centre - radius * up, to_body.col(k));
@@ -205,7 +202,10 @@ void EncountersOf<N>::with_wall(int body, const Placed& robot, const Memory& mem
 template <int N>
 void EncountersOf<N>::between(int body_a, const Placed& a, const Memory& memory_a, int body_b, const Placed& b) {
   const double near = margin(a.speed + b.speed);
+  const Vector3d middle_of_b = b.position + b.to_world * b.model->middle;
   for (std::size_t i = 0; i < a.solids.size(); ++i) {
+    const double reach = a.solids[i].reach() + b.model->reach + near;
+    if ((a.solids[i].centre - middle_of_b).squaredNorm() >= reach * reach) continue;
     for (std::size_t j = 0; j < b.solids.size(); ++j) {
       if (!may_touch(a.solids[i], b.solids[j], near)) continue;
       const Touch t = touch(a.solids[i], b.solids[j], near);

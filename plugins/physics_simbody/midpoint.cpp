@@ -18,8 +18,8 @@ constexpr int most_shares = 16;
 
 }  // namespace
 
-Midpoint::Midpoint(const std::vector<NamedRobot>& robots, double step, LegModel legs)
-    : arena_(robots, legs), longest_step_(step), place_(robots.size()), clusters_(robots.size()) {}
+Midpoint::Midpoint(const std::vector<NamedRobot>& robots, Steps longest, LegModel legs)
+    : arena_(robots, legs), longest_(longest), place_(robots.size()), clusters_(robots.size()) {}
 
 void Midpoint::set_surroundings(const std::vector<scene::Slab>& walls, double friction) {
   arena_.friction = friction;
@@ -44,14 +44,22 @@ Count Midpoint::count() const {
 // that was not enough the tick begins again with more. So what is found depends neither on the room nor on threads.
 void Midpoint::step(double dt, const std::vector<Command>& commands, std::vector<RobotState>& states,
                     const Each& each) {
-  const int count = std::max(1, static_cast<int>(std::ceil(dt / longest_step_ - 1e-9)));
-  if (count > 1) start_ = states;
-  for (double room = count > 1 ? 2 : 1;; room *= 2) {
+  const bool many_steps = dt > longest_.of_all * (1 + 1e-9) || dt > longest_.of_legs * (1 + 1e-9);
+  if (many_steps) start_ = states;
+  for (double room = many_steps ? 2 : 1;; room *= 2) {
     find_clusters(dt, room, states);
-    share_out(count);
-    if (move(dt, count, commands, states, each)) return;
+    share_out(dt);
+    if (move(dt, commands, states, each)) return;
     states = start_;
   }
+}
+
+// Whoever may meet a robot that walks takes its steps.
+int Midpoint::steps_of(const Cluster& cluster, double dt) const {
+  const bool walks = std::any_of(cluster.robots.begin(), cluster.robots.end(),
+                                 [&](int i) { return !arena_.crew[i].model.legs.empty(); });
+  const double longest = walks ? std::min(longest_.of_all, longest_.of_legs) : longest_.of_all;
+  return std::max(1, static_cast<int>(std::ceil(dt / longest - 1e-9)));
 }
 
 void Midpoint::find_clusters(double dt, double room, const std::vector<RobotState>& states) {
@@ -73,11 +81,11 @@ void Midpoint::find_clusters(double dt, double room, const std::vector<RobotStat
 }
 
 // Consecutive clusters to each mover, of about the same work.
-void Midpoint::share_out(int count) {
+void Midpoint::share_out(double dt) {
   const auto work = [&](const Cluster& cluster) {
     double sum = 0;
     for (const int i : cluster.robots) sum += arena_.crew[i].model.legs.empty() ? on_wheels : on_legs;
-    return count * sum * (cluster.pairs.empty() ? 1 : near_others);
+    return steps_of(cluster, dt) * sum * (cluster.pairs.empty() ? 1 : near_others);
   };
   double all = 0, done = 0;
   for (const Cluster& cluster : clusters_) all += work(cluster);
@@ -93,13 +101,14 @@ void Midpoint::share_out(int count) {
   while (movers_.size() < shares_.size()) movers_.push_back(std::make_unique<Mover>(arena_));
 }
 
-bool Midpoint::move(double dt, int count, const std::vector<Command>& commands, std::vector<RobotState>& states,
+bool Midpoint::move(double dt, const std::vector<Command>& commands, std::vector<RobotState>& states,
                     const Each& each) {
   kept_.assign(shares_.size(), true);
   each(shares_.size(), [&](std::size_t share) {
     for (std::size_t k = share == 0 ? 0 : shares_[share - 1]; k < shares_[share] && kept_[share]; ++k) {
-      if (!clusters_[k].robots.empty())
-        kept_[share] = movers_[share]->move(clusters_[k], reach_, count, dt / count, commands, states);
+      const Cluster& cluster = clusters_[k];
+      if (cluster.robots.empty()) continue;
+      kept_[share] = movers_[share]->move(cluster, reach_, steps_of(cluster, dt), dt, commands, states);
     }
   });
   return std::all_of(kept_.begin(), kept_.end(), [](char kept) { return kept; });

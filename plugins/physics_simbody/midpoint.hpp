@@ -9,7 +9,7 @@ namespace muster::simbody {
 
 class Midpoint : public Engine {
  public:
-  Midpoint(const std::vector<NamedRobot>& robots, double step, LegModel legs = LegModel::as_described);
+  Midpoint(const std::vector<NamedRobot>& robots, Steps longest, LegModel legs = LegModel::as_described);
   void step(double dt, const std::vector<Command>& commands, std::vector<RobotState>& states,
             const Each& each = one_by_one) override;
   void set_surroundings(const std::vector<scene::Slab>& walls, double friction) override;
@@ -18,12 +18,12 @@ class Midpoint : public Engine {
 
  private:
   void find_clusters(double dt, double room, const std::vector<RobotState>& states);
-  void share_out(int count);
-  bool move(double dt, int count, const std::vector<Command>& commands, std::vector<RobotState>& states,
-            const Each& each);
+  int steps_of(const Cluster& cluster, double dt) const;
+  void share_out(double dt);
+  bool move(double dt, const std::vector<Command>& commands, std::vector<RobotState>& states, const Each& each);
 
   Arena arena_;
-  double longest_step_;
+  Steps longest_;
 
   // Room that is kept from step to step; nothing of it outlives one.
   BroadPhase broad_phase_;

@@ -34,8 +34,9 @@ Count Mover::count() const {
   return sum;
 }
 
-bool Mover::move(const Cluster& cluster, const std::vector<Extent>& reach, int count, double h,
+bool Mover::move(const Cluster& cluster, const std::vector<Extent>& reach, int count, double dt,
                  const std::vector<Command>& commands, std::vector<RobotState>& states) {
+  const double h = dt / count;
   for (int k = 0; k < count; ++k) {
     if (!find_groups(cluster, count > 1 ? &reach : nullptr, h, states)) return false;
     for (std::size_t g = 0; g < cluster.robots.size(); ++g) {

@@ -22,9 +22,9 @@ class Mover {
  public:
   Mover(Arena& arena);
 
-  // Through `count` steps of length h. `reach`: of each robot in the whole time. False where one was about to leave it,
+  // Through dt in `count` equal steps. `reach`: of each robot in the whole time. False where one was about to leave it,
   // and might have met what is not in the cluster; what `states` hold of the cluster then is nothing.
-  bool move(const Cluster& cluster, const std::vector<Extent>& reach, int count, double h,
+  bool move(const Cluster& cluster, const std::vector<Extent>& reach, int count, double dt,
             const std::vector<Command>& commands, std::vector<RobotState>& states);
 
   Count count() const;

@@ -48,8 +48,16 @@ enum class LegModel {
   rigid  // whatever their description says: an approximation for slow gaits
 };
 
-// `step` [s]: the longest step inside a tick. Throws std::runtime_error for a robot that it cannot hold.
-std::unique_ptr<Engine> make_engine(const std::vector<NamedRobot>& robots, Integrator integrator, double step,
+// The longest steps inside a tick [s]: of robots that walk and who may meet them within it, and of all.
+struct Steps {
+  Steps(double all) : of_all(all), of_legs(all) {}  // NOLINT: a length alone is meant for all
+  Steps(double all, double legs) : of_all(all), of_legs(legs) {}
+
+  double of_all, of_legs;
+};
+
+// Throws std::runtime_error for a robot that it cannot hold.
+std::unique_ptr<Engine> make_engine(const std::vector<NamedRobot>& robots, Integrator integrator, Steps longest,
                                     LegModel legs = LegModel::as_described);
 
 // A standing robot: at rest on the ground, its frame at x, y [m] and turned by yaw [rad].

@@ -10,7 +10,7 @@ class Parts : public ToyWorld {
  protected:
   Simulation of(int workers, const std::string& fault = "none") const {
     std::string robots;
-    for (int i = 0; i < 20; ++i) robots += "<robot name='r" + std::to_string(i) + "'/>\n";
+    for (int i = 0; i < 20; ++i) robots += "<robot name='r" + std::to_string(i) + "' at='0 0 0'/>\n";
     return run(robots + "<toy.parts name='p' fault='" + fault + "'/>\n", workers);
   }
   std::string fault(int workers, const std::string& name) const {
