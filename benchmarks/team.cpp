@@ -57,6 +57,12 @@ void check(const Simulation& run, const std::vector<Place>& before) {
   require(asked > 0 && known <= asked && known > 0.99 * asked, "copies of messages are lost without a word");
 }
 
+// The same bits, however many workers there are.
+void check_bits(const Simulation& run) {
+  static const uint64_t first = run.digest();
+  require(run.digest() == first, "the number of workers shows in the results");
+}
+
 void mixed_team(benchmark::State& state) {
   const auto workers = static_cast<int>(state.range(0));
   std::array<double, clocks.size()> seconds{};
@@ -73,6 +79,7 @@ void mixed_team(benchmark::State& state) {
     for (std::size_t i = 0; i < clocks.size(); ++i) seconds[i] += seconds_by(clocks[i]);
     simulated += run.time() - from;
     check(run, before);
+    check_bits(run);
   }
   state.counters["us_tick"] = 1e6 * seconds[0] / ticks;
   state.counters["real_time"] = simulated / seconds[0];

@@ -370,7 +370,7 @@ double ContactSolverOf<N>::line_search() const {
     double middle = low - slope_low * (high - low) / (slope_high - slope_low);
     if (i % 3 == 2 || !(middle > low && middle < high)) middle = 0.5 * (low + high);
     const double s = slope(middle);
-    if (std::abs(s) < 0.25 * std::abs(at_zero)) return middle;
+    if (std::abs(s) < 0.1 * std::abs(at_zero)) return middle;
     (s < 0 ? low : high) = middle;
     (s < 0 ? slope_low : slope_high) = s;
   }

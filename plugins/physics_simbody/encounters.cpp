@@ -130,9 +130,9 @@ void EncountersOf<N>::stand(int body, const Placed& robot, const Memory& memory)
   const Compliance compliance(robot.mass, h_);
   const Matrix3d to_body = robot.to_world.transpose();
   const Vector3d up = to_body.col(2);
-  const auto contact = [&](const Vector3d& centre, double radius) {
+  const auto add_contact = [&](const Vector3d& centre, double radius) -> Contact& {
     const Vector3d arm = centre - radius * up;
-    Contact c;
+    Contact& c = contacts.emplace_back();
     c.body = body;
     c.normal = point_row<N>(arm, up);
     c.softness = compliance.softness;
@@ -143,7 +143,7 @@ void EncountersOf<N>::stand(int body, const Placed& robot, const Memory& memory)
   for (int w = 0; robot.model->has_wheels && w < 2; ++w) {
     const double radius = robot.model->drive.wheel_radius;
     const Vector3d centre = robot.model->wheel_frame[w].translation();
-    Contact c = contact(centre, radius);
+    Contact& c = add_contact(centre, radius);
     const Vector3d surface = Vector3d::UnitY().cross(-radius * up);  // of the tread, per rate
     for (int k = 0; k < 2; ++k) {
       c.tangent[k] = point_row<N>(centre - radius * up, to_body.col(k));
@@ -153,11 +153,10 @@ void EncountersOf<N>::stand(int body, const Placed& robot, const Memory& memory)
     const auto& impulse = memory.impulse[w];
     c.push = impulse[0];
     c.grip = {impulse[1], impulse[2]};
-    contacts.push_back(c);
     traces.push_back({robot.index, w});
   }
   for (const Slider& slider : robot.model->sliders) {
-    contacts.push_back(contact(slider.centre, slider.radius));
+    add_contact(slider.centre, slider.radius);
     traces.push_back({robot.index});
   }
 }

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "connected.hpp"
-
 namespace muster::simbody {
 
 using Eigen::Vector3d;
@@ -67,17 +65,17 @@ void Midpoint::find_clusters(double dt, double room, const std::vector<RobotStat
   reach_.clear();
   for (int i = 0; i < count; ++i) reach_.push_back(extent_of(arena_.crew[i].model, states[i], dt, room));
   broad_phase_.find(reach_);
-  Connected connected(count);
-  for (const auto& [i, j] : broad_phase_.among()) connected.join(i, j);
+  connected_.begin(count);
+  for (const auto& [i, j] : broad_phase_.among()) connected_.join(i, j);
   for (Cluster& cluster : clusters_) cluster.robots.clear(), cluster.pairs.clear(), cluster.walls.clear();
   for (int i = 0; i < count; ++i) {
-    std::vector<int>& robots = clusters_[connected.root(i)].robots;
+    std::vector<int>& robots = clusters_[connected_.root(i)].robots;
     place_[i] = static_cast<int>(robots.size());
     robots.push_back(i);
   }
-  for (const auto& [i, j] : broad_phase_.among()) clusters_[connected.root(i)].pairs.push_back({place_[i], place_[j]});
+  for (const auto& [i, j] : broad_phase_.among()) clusters_[connected_.root(i)].pairs.push_back({place_[i], place_[j]});
   for (const auto& [i, wall] : broad_phase_.with_standing())
-    clusters_[connected.root(i)].walls.push_back({place_[i], wall});
+    clusters_[connected_.root(i)].walls.push_back({place_[i], wall});
 }
 
 // Consecutive clusters to each mover, of about the same work.

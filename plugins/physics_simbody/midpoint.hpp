@@ -27,6 +27,7 @@ class Midpoint : public Engine {
 
   // Room that is kept from step to step; nothing of it outlives one.
   BroadPhase broad_phase_;
+  Connected connected_;
   std::vector<Extent> reach_;
   std::vector<int> place_;           // of each robot in its cluster
   std::vector<Cluster> clusters_;    // by their first robots; others are empty

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "connected.hpp"
 #include "motion.hpp"
 
 namespace muster::simbody {
@@ -62,19 +61,19 @@ bool Mover::find_groups(const Cluster& cluster, const std::vector<Extent>* reach
   }
   if (groups_.size() < count) groups_.resize(count);
   for (std::size_t g = 0; g < count; ++g) groups_[g].robots.clear(), groups_[g].pairs.clear(), groups_[g].walls.clear();
-  Connected connected(static_cast<int>(count));
+  connected_.begin(static_cast<int>(count));
   for (const auto& [i, j] : cluster.pairs) {
-    if (extents_[i].overlaps(extents_[j])) connected.join(i, j);
+    if (extents_[i].overlaps(extents_[j])) connected_.join(i, j);
   }
   for (std::size_t i = 0; i < count; ++i)
-    groups_[connected.root(static_cast<int>(i))].robots.push_back(cluster.robots[i]);
+    groups_[connected_.root(static_cast<int>(i))].robots.push_back(cluster.robots[i]);
   for (const auto& [i, j] : cluster.pairs) {
     if (extents_[i].overlaps(extents_[j]))
-      groups_[connected.root(i)].pairs.push_back({cluster.robots[i], cluster.robots[j]});
+      groups_[connected_.root(i)].pairs.push_back({cluster.robots[i], cluster.robots[j]});
   }
   for (const auto& [i, wall] : cluster.walls) {
     if (extents_[i].overlaps(arena_.wall_extents[wall]))
-      groups_[connected.root(i)].walls.push_back({cluster.robots[i], wall});
+      groups_[connected_.root(i)].walls.push_back({cluster.robots[i], wall});
   }
   for (std::size_t g = 0; g < count; ++g) groups_[g].parts = parts_of(groups_[g], h, states);
   return true;

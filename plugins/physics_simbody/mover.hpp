@@ -42,6 +42,7 @@ class Mover {
   std::unique_ptr<StepperOf<unknowns_with_legs>> stepper_with_legs_;  // where a robot walks
 
   // Room that is kept from step to step.
+  Connected connected_;
   std::vector<Extent> extents_;
   std::vector<Group> groups_;
 };

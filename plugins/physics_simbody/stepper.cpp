@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "connected.hpp"
 #include "motion.hpp"
 
 namespace muster::simbody {
@@ -156,22 +155,35 @@ void StepperOf<N>::meet(const Group& group, double h, const std::vector<RobotSta
 template <int N>
 void StepperOf<N>::solve_islands(const Group& group, std::vector<RobotState>& states) {
   const std::size_t count = group.robots.size();
-  Connected connected(static_cast<int>(count));
+  connected_.begin(static_cast<int>(count));
   for (const auto& c : encounters_.contacts) {
-    if (c.other >= 0) connected.join(c.body, c.other);
+    if (c.other >= 0) connected_.join(c.body, c.other);
   }
   if (islands_.size() < count) islands_.resize(count);
   for (std::size_t i = 0; i < count; ++i) islands_[i].robots.clear(), islands_[i].contacts.clear();
   place_.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
-    std::vector<int>& robots = islands_[connected.root(static_cast<int>(i))].robots;
+    std::vector<int>& robots = islands_[connected_.root(static_cast<int>(i))].robots;
     place_[i] = static_cast<int>(robots.size());
     robots.push_back(group.robots[i]);
   }
   for (std::size_t k = 0; k < encounters_.contacts.size(); ++k)
-    islands_[connected.root(encounters_.contacts[k].body)].contacts.push_back(static_cast<int>(k));
+    islands_[connected_.root(encounters_.contacts[k].body)].contacts.push_back(static_cast<int>(k));
   for (std::size_t i = 0; i < count; ++i) {
     if (!islands_[i].robots.empty()) solve(islands_[i], states);
+  }
+}
+
+// Into the problem, whose bodies are the island's. Where that is the whole group, they have the same places.
+template <int N>
+void StepperOf<N>::take_contacts(const Island& island) {
+  if (island.robots.size() == place_.size()) return std::swap(problem_.contacts, encounters_.contacts);
+  problem_.contacts.clear();
+  for (const int k : island.contacts) {
+    problem_.contacts.push_back(encounters_.contacts[k]);
+    auto& contact = problem_.contacts.back();
+    contact.body = place_[contact.body];
+    if (contact.other >= 0) contact.other = place_[contact.other];
   }
 }
 
@@ -188,14 +200,8 @@ void StepperOf<N>::solve(const Island& island, std::vector<RobotState>& states) 
     problem_.search.guess = false;
   }
   problem_.bodies.resize(island.robots.size());
-  problem_.contacts.clear();
   for (std::size_t i = 0; i < island.robots.size(); ++i) problem_.bodies[i] = placed()[island.robots[i]].body;
-  for (const int k : island.contacts) {
-    problem_.contacts.push_back(encounters_.contacts[k]);
-    auto& contact = problem_.contacts.back();
-    contact.body = place_[contact.body];
-    if (contact.other >= 0) contact.other = place_[contact.other];
-  }
+  take_contacts(island);
   const Outcome outcome = solver_.solve(problem_);
   ++count_.solved;
   count_.unsettled += !outcome.converged;

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "arena.hpp"
+#include "connected.hpp"
 
 namespace muster::simbody {
 
@@ -53,6 +54,7 @@ class StepperOf {
                   PlacedOf<N>& now);
   void meet(const Group& group, double h, const std::vector<RobotState>& states);
   void solve_islands(const Group& group, std::vector<RobotState>& states);
+  void take_contacts(const Island& island);
   void solve(const Island& island, std::vector<RobotState>& states);
   void finish(int index, double h, const Command& command, RobotState& state) const;
 
@@ -60,6 +62,7 @@ class StepperOf {
 
   // Room that is kept from step to step; nothing of it outlives one.
   EncountersOf<N> encounters_;
+  Connected connected_;
   std::vector<Island> islands_;
   std::vector<int> place_;  // of each of the group's robots in its island
   ContactSolverOf<N> solver_;
