@@ -47,7 +47,7 @@ class BlockCholeskyOf {
     MassMatrix block;
   };
 
-  static constexpr bool has_many_joints = N == 12;
+  static constexpr bool has_many_joints = N == unknowns_with_legs;
   using BodyBlock = Eigen::Matrix<double, 6, 6>;
 
   MassMatrix& below(int row, int column);

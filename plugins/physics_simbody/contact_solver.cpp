@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 
 namespace muster::simbody {
 
@@ -147,7 +146,7 @@ double ContactSolverOf<N>::residual() const {
 // The contact's part of the Hessian: all its rows, or those along the ground alone, or the normal alone.
 template <int N>
 void ContactSolverOf<N>::add(const Contact& c, double normal, const std::array<double, 3>& grip) {
-  const bool slips = grip[0] > 0;
+  const bool slips = grip[0] != 0 || grip[2] != 0;
   const int first = normal == 0 ? 1 : 0, rows = (slips ? 3 : 1) - first;
   if (rows == 0) return;
   const auto weighed = [&](const ContactRowsOf<N>& of) {

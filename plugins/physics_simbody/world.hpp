@@ -50,7 +50,7 @@ enum class LegModel {
 
 // The longest steps inside a tick [s]: of robots that walk and who may meet them within it, and of all.
 struct Steps {
-  Steps(double all) : of_all(all), of_legs(all) {}  // NOLINT: a length alone is meant for all
+  Steps(double all) : of_all(all), of_legs(all) {}
   Steps(double all, double legs) : of_all(all), of_legs(legs) {}
 
   double of_all, of_legs;
