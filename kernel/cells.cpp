@@ -101,11 +101,20 @@ std::size_t rows_of(const Instance& instance, const Set& set) {
   return set.rows();
 }
 
-std::string wrong_reference(const Instance& instance, const Blackboard& board, const Column& column, double value) {
-  const Set* set = board.find_set(column.reference);
-  if (column.nullable && std::isnan(value)) return "";
-  const auto rows = set ? static_cast<double>(rows_of(instance, *set)) : 0;
-  if (value >= 0 && value < rows && value == std::floor(value)) return "";
+// Of each column, how many rows its numbers may name; 0 where it names none.
+std::vector<double> referred_rows(const Instance& instance, const Blackboard& board, const Columns& columns) {
+  std::vector<double> rows(columns.size());
+  for (std::size_t c = 0; c < rows.size(); ++c) {
+    const Set* set = columns[c].reference.empty() ? nullptr : board.find_set(columns[c].reference);
+    if (set) rows[c] = static_cast<double>(rows_of(instance, *set));
+  }
+  return rows;
+}
+
+bool names_row(double value, double rows) { return value >= 0 && value < rows && value == std::floor(value); }
+
+std::string wrong_reference(const Column& column, double value, double rows) {
+  if (column.reference.empty() || (column.nullable && std::isnan(value)) || names_row(value, rows)) return "";
   return "is no row of " + column.reference;
 }
 
@@ -133,14 +142,14 @@ std::string check(const Instance& instance, const Blackboard& board, const Claim
   const auto [data, rows] = written(claim);
   const auto width = claim.columns.size();
   if (!claim.columns.any_references() && !claim.columns.any_bytes() && all_finite(data, rows * width)) return "";
+  const std::vector<double> referred = referred_rows(instance, board, claim.columns);
   for (std::size_t r = 0; r < rows; ++r) {
     if (is_others(claim, r)) continue;
     for (std::size_t c = 0; c < width; ++c) {
       const auto& column = claim.columns[c];
       if (column.bytes) continue;  // filled by put_bytes(), or empty
       std::string wrong = wrong_value(column, data[r * width + c]);
-      if (wrong.empty() && !column.reference.empty())
-        wrong = wrong_reference(instance, board, column, data[r * width + c]);
+      if (wrong.empty()) wrong = wrong_reference(column, data[r * width + c], referred[c]);
       if (wrong.empty() && c == 0 && speaks_for_another(claim, data[r * width]))
         wrong = "is not " + claim.name.row + ", for which alone it may speak";
       if (!wrong.empty()) return cell_name(claim, r, c) + ' ' + wrong;

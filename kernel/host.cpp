@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 #include "claim.hpp"
 #include "instance.hpp"
+#include "loader/float_guard.hpp"
 #include "text/names.hpp"
 
 namespace muster {
@@ -222,13 +224,32 @@ struct Host {
   static void event(const muster_host* host, const char* message) {
     guarded(host, 0, [&] { return of(host).events.emplace_back(message), 0; });
   }
+
+  static void each(const muster_host* host, uint32_t count, void (*one)(void*, uint32_t), void* work) {
+    Instance& i = of(host);
+    if (!i.in_step_) return wrong(i, "each() outside step()");
+    std::string changed;
+    std::mutex changing;
+    const auto call = [&](std::size_t k) {
+      const FloatGuard guard;
+      one(work, static_cast<uint32_t>(k));
+      if (!guard.changed()) return;
+      const std::lock_guard lock(changing);
+      changed = guard.what();
+    };
+    if (i.around_.workers && count > 1)
+      i.around_.workers->each(count, call);
+    else
+      for (uint32_t k = 0; k < count; ++k) call(k);
+    if (!changed.empty()) wrong(i, changed + " for a thread; expected it to leave the arithmetic as it was");
+  }
 };
 
 muster_host make_host(Instance& instance) {
   return {sizeof(muster_host), MUSTER_ABI,   &instance,       Host::claim,     Host::file,     Host::text,
           Host::search_path,   Host::stream, Host::param,     Host::rows,      Host::row_name, Host::row_key,
           Host::row_alive,     Host::append, Host::get_bytes, Host::put_bytes, Host::join,     Host::leave,
-          Host::place,         Host::error,  Host::refuse,    Host::event};
+          Host::place,         Host::error,  Host::refuse,    Host::event,     Host::each};
 }
 
 }  // namespace muster

@@ -10,6 +10,7 @@
 
 #include "blackboard.hpp"
 #include "loader/library.hpp"
+#include "thread_pool.hpp"
 #include "world_file/world.hpp"
 
 namespace muster {
@@ -62,6 +63,7 @@ struct Surroundings {
   Library::SearchPath search_path;
   uint64_t seed = 0;
   std::vector<std::string> destroy_faults;  // what failed while instances were destroyed; a destructor cannot throw it
+  ThreadPool* workers = nullptr;            // none: one thread
 };
 
 struct Join {

@@ -11,7 +11,7 @@ Simulation::Simulation(World world, const Standard& standard, Options options)
     : world_(std::move(world)), standard_(standard), options_(std::move(options)) {
   auto folders = options_.search_path;
   folders.push_back(std::filesystem::absolute(world_.file).parent_path());  // a world's own files come last
-  around_ = {&standard_, &world_, &board_, std::move(folders), world_.seed, {}};
+  around_ = {&standard_, &world_, &board_, std::move(folders), world_.seed, {}, nullptr};
   for (const auto& set : standard_.sets) board_.add_set(set.name, set.kind, set.owner);
   for (const auto& row : world_.rows) {
     for (const auto& set : row.sets) board_.find_set(set)->add(row.name);
@@ -26,6 +26,7 @@ Simulation::Simulation(World world, const Standard& standard, Options options)
   loader_.reset();
   check_planned();
   if (options_.workers > 1) workers_ = std::make_unique<ThreadPool>(options_.workers);
+  around_.workers = workers_.get();
   relink();
   run(0, MUSTER_SENSE, MUSTER_SENSE, 0);
 }

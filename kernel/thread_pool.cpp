@@ -24,8 +24,10 @@ ThreadPool::~ThreadPool() = default;
 
 void ThreadPool::run(std::size_t count, Call call, void* work) {
   threads_->arena.execute([&] {
-    tbb::parallel_for(
-        std::size_t{0}, count, [&](std::size_t i) { call(work, i); }, tbb::simple_partitioner{});
+    tbb::this_task_arena::isolate([&] {  // who waits for his own parts takes no other's work meanwhile
+      tbb::parallel_for(
+          std::size_t{0}, count, [&](std::size_t i) { call(work, i); }, tbb::simple_partitioner{});
+    });
   });
 }
 

@@ -150,6 +150,10 @@ typedef struct muster_host {
   void (*refuse)(const struct muster_host*, const char* message);
   /* [any] A line for the run's list of events. */
   void (*event)(const struct muster_host*, const char* message);
+  /* [step] Calls one(work, i) for each i below `count`, on the run's threads and in any order, and returns when all are
+   * done. `one` asks nothing of the host and writes nothing that another call reads or writes, so that the result does
+   * not depend on how many threads there are. */
+  void (*each)(const struct muster_host*, uint32_t count, void (*one)(void* work, uint32_t i), void* work);
 } muster_host;
 
 /* What kind of difference a cause makes to the simulation. */

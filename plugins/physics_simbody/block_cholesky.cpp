@@ -4,28 +4,9 @@
 
 namespace muster::simbody {
 
-namespace {
-
-// Of the lower triangle. Products with it are unrolled, which solving by a triangle of this size is not.
-template <class Matrix>
-void invert(const Matrix& lower, Matrix& inverse) {
-  inverse.setZero();
-  for (int column = 0; column < lower.cols(); ++column) {
-    inverse(column, column) = 1 / lower(column, column);
-    for (int row = column + 1; row < lower.rows(); ++row) {
-      double sum = 0;
-      for (int k = column; k < row; ++k) sum += lower(row, k) * inverse(k, column);
-      inverse(row, column) = -sum / lower(row, row);
-    }
-  }
-}
-
-}  // namespace
-
 template <int N>
 void BlockCholeskyOf<N>::arrange(int count, const std::vector<std::pair<int, int>>& pairs) {
   diagonal_.resize(count);
-  factor_.resize(count);
   inverse_.resize(count);
   columns_.resize(count);
   order_.resize(count);
@@ -77,43 +58,32 @@ MassMatrixOf<N>& BlockCholeskyOf<N>::below(int row, int column) {
 }
 
 template <int N>
-void BlockCholeskyOf<N>::add(int i, int j, double k, const Velocity& a, const Velocity& b) {
+void BlockCholeskyOf<N>::add(int i, int j, int rows, const Velocity* a, const Velocity* b) {
   if (place_[i] > place_[j]) {
-    below(i, j).noalias() += (k * a) * b.transpose();
+    of_robots_.add_rows(below(i, j).data(), rows, a->data(), b->data());
   } else {
-    below(j, i).noalias() += (k * b) * a.transpose();
+    of_robots_.add_rows(below(j, i).data(), rows, b->data(), a->data());
   }
 }
 
 template <int N>
 void BlockCholeskyOf<N>::factor() {
-  if (is_alone()) {
-    const MassMatrix& m = diagonal_[0];
-    joints_by_body_ =
-        m.diagonal().template tail<N - 6>().cwiseInverse().asDiagonal() * m.template bottomLeftCorner<N - 6, 6>();
-    BodyBlock rest = m.template topLeftCorner<6, 6>();
-    rest.noalias() -= m.template topRightCorner<6, N - 6>().lazyProduct(joints_by_body_);
-    body_.compute(rest);
-    return;
-  }
-  if (order_.size() == 1) {
-    factor_[0].compute(diagonal_[0]);
-    return;
+  if constexpr (has_many_joints) {
+    if (order_.size() == 1) return factor_alone();
   }
   for (const int k : order_) {
-    factor_[k].compute(diagonal_[k]);
-    invert(factor_[k].matrixLLT(), inverse_[k]);
+    of_robots_.invert_factor(diagonal_[k].data(), inverse_[k].data());
     auto& column = columns_[k];
-    for (Below& below_k : column) below_k.block = below_k.block.lazyProduct(inverse_[k].transpose()).eval();
+    for (Below& below_k : column) of_robots_.multiply(below_k.block.data(), inverse_[k].data());
     for (std::size_t m = 0; m < column.size(); ++m) {
       const Below& a = column[m];
-      diagonal_[a.row].noalias() -= a.block.lazyProduct(a.block.transpose());
+      of_robots_.subtract(diagonal_[a.row].data(), a.block.data(), a.block.data());
       for (std::size_t n = 0; n < m; ++n) {
         const Below& b = column[n];
         if (place_[a.row] > place_[b.row]) {
-          below(a.row, b.row).noalias() -= a.block.lazyProduct(b.block.transpose());
+          of_robots_.subtract(below(a.row, b.row).data(), a.block.data(), b.block.data());
         } else {
-          below(b.row, a.row).noalias() -= b.block.lazyProduct(a.block.transpose());
+          of_robots_.subtract(below(b.row, a.row).data(), b.block.data(), a.block.data());
         }
       }
     }
@@ -121,29 +91,38 @@ void BlockCholeskyOf<N>::factor() {
 }
 
 template <int N>
+void BlockCholeskyOf<N>::factor_alone() {
+  const MassMatrix& m = diagonal_[0];
+  const Eigen::Matrix<double, 6, N - 6> coupling = m.template topRightCorner<6, N - 6>();
+  body_by_joints_ = coupling * m.diagonal().template tail<N - 6>().cwiseInverse().asDiagonal();
+  BodyBlock rest = m.template topLeftCorner<6, 6>();
+  of_bodies_.subtract(rest.data(), body_by_joints_.data(), coupling.data());
+  of_bodies_.invert_factor(rest.data(), body_.data());
+}
+
+template <int N>
 void BlockCholeskyOf<N>::solve(std::vector<Velocity>& x) const {
-  if (is_alone()) {
-    Eigen::Matrix<double, 6, 1> body = x[0].template head<6>();
-    auto joints = x[0].template tail<N - 6>();
-    body.noalias() -= joints_by_body_.transpose() * joints;
-    body_.solveInPlace(body);
-    x[0].template head<6>() = body;
-    joints = joints.cwiseQuotient(diagonal_[0].diagonal().template tail<N - 6>()).eval();
-    joints.noalias() -= joints_by_body_ * body;
-    return;
-  }
-  if (order_.size() == 1) {
-    factor_[0].solveInPlace(x[0]);
-    return;
+  if constexpr (has_many_joints) {
+    if (order_.size() == 1) return solve_alone(x[0]);
   }
   for (const int k : order_) {
-    x[k] = inverse_[k].lazyProduct(x[k]).eval();
-    for (const Below& b : columns_[k]) x[b.row].noalias() -= b.block.lazyProduct(x[k]);
+    of_robots_.apply_transposed(x[k].data(), inverse_[k].data());
+    for (const Below& b : columns_[k]) of_robots_.subtract_product(x[b.row].data(), b.block.data(), x[k].data());
   }
   for (auto k = order_.rbegin(); k != order_.rend(); ++k) {
-    for (const Below& b : columns_[*k]) x[*k].noalias() -= b.block.transpose().lazyProduct(x[b.row]);
-    x[*k] = inverse_[*k].transpose().lazyProduct(x[*k]).eval();
+    for (const Below& b : columns_[*k]) of_robots_.subtract_transposed(x[*k].data(), b.block.data(), x[b.row].data());
+    of_robots_.apply(x[*k].data(), inverse_[*k].data());
   }
+}
+
+template <int N>
+void BlockCholeskyOf<N>::solve_alone(Velocity& x) const {
+  double *body = x.data(), *joints = body + 6;
+  of_bodies_.subtract_product(body, body_by_joints_.data(), joints);
+  of_bodies_.apply_transposed(body, body_.data());
+  of_bodies_.apply(body, body_.data());
+  for (int j = 0; j < N - 6; ++j) joints[j] /= diagonal_[0](6 + j, 6 + j);
+  of_bodies_.subtract_transposed(joints, body_by_joints_.data(), body);
 }
 
 template class BlockCholeskyOf<unknowns>;

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "block_kernel.hpp"
+
 namespace muster::simbody {
 
 // Unknowns of a robot: w and v in the body's frame, and the rates of its joints. Wheels: the left and the right one. A
@@ -33,8 +35,8 @@ class BlockCholeskyOf {
   // Between arrange() or solve() and factor(): blocks beside the diagonal begin at zero, those on it are to be set.
   void clear_pairs();
   MassMatrix& diagonal(int i) { return diagonal_[i]; }
-  // Adds k a b^T at block (i, j), i != j, and its mirror image.
-  void add(int i, int j, double k, const Velocity& a, const Velocity& b);
+  // Adds a_0 b_0^T + a_1 b_1^T + ... at block (i, j), i != j, and its mirror image.
+  void add(int i, int j, int rows, const Velocity* a, const Velocity* b);
 
   void factor();
   void solve(std::vector<Velocity>& x) const;
@@ -45,19 +47,22 @@ class BlockCholeskyOf {
     MassMatrix block;
   };
 
-  static constexpr bool has_many_joints = N > unknowns;
+  static constexpr bool has_many_joints = N == unknowns_with_legs;
   using BodyBlock = Eigen::Matrix<double, 6, 6>;
 
   MassMatrix& below(int row, int column);
-  bool is_alone() const { return has_many_joints && order_.size() == 1; }
+  void factor_alone();
+  void solve_alone(Velocity& x) const;
+
+  const BlockArithmetic<N>& of_robots_ = block_arithmetic<N>();
+  const BlockArithmetic<6>& of_bodies_ = block_arithmetic<6>();
 
   std::vector<MassMatrix> diagonal_;
-  std::vector<std::vector<Below>> columns_;  // what stands below the diagonal once the order is applied
-  std::vector<int> order_, place_;           // of elimination, and its inverse
-  std::vector<Eigen::LLT<MassMatrix>> factor_;
-  std::vector<MassMatrix> inverse_;                 // of the factors' triangles, where there are several
-  Eigen::LLT<BodyBlock> body_;                      // of one alone: what its joints leave of the body
-  Eigen::Matrix<double, N - 6, 6> joints_by_body_;  // and how they follow it
+  std::vector<std::vector<Below>> columns_;         // what stands below the diagonal once the order is applied
+  std::vector<int> order_, place_;                  // of elimination, and its inverse
+  std::vector<MassMatrix> inverse_;                 // of the transposed factors
+  BodyBlock body_;                                  // the same of one alone: of what its joints leave of the body
+  Eigen::Matrix<double, 6, N - 6> body_by_joints_;  // and how they pull at it
 };
 
 using BlockCholesky = BlockCholeskyOf<unknowns>;

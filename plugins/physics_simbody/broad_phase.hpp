@@ -13,6 +13,7 @@ struct Extent {
   bool overlaps(const Extent& b) const {
     return (low.array() <= b.high.array() && b.low.array() <= high.array()).all();
   }
+  bool holds(const Extent& b) const { return (low.array() <= b.low.array() && b.high.array() <= high.array()).all(); }
 };
 
 class BroadPhase {

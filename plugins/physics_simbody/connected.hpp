@@ -9,7 +9,11 @@ namespace muster::simbody {
 
 class Connected {
  public:
-  explicit Connected(int count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
+  // Nobody with anybody.
+  void begin(int count) {
+    parent_.resize(count);
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
 
   int root(int i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];

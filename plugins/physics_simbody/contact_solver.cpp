@@ -19,28 +19,6 @@ Vector2d within(const Vector2d& v, double radius) {
   return size > radius ? Vector2d((radius / size) * v) : v;
 }
 
-template <int N>
-double speed_of(const ContactOf<N>& c, const std::vector<VelocityOf<N>>& u) {
-  const double own = c.normal.dot(u[c.body]);
-  return c.other < 0 ? own : own + c.of_other.normal.dot(u[c.other]);
-}
-
-template <int N>
-Vector2d slip_of(const ContactOf<N>& c, const std::vector<VelocityOf<N>>& u) {
-  Vector2d slip(c.tangent[0].dot(u[c.body]), c.tangent[1].dot(u[c.body]));
-  if (c.other >= 0) slip += Vector2d(c.of_other.tangent[0].dot(u[c.other]), c.of_other.tangent[1].dot(u[c.other]));
-  return slip;
-}
-
-// Takes what the contact's impulses give from the momenta.
-template <int N>
-void take_impulse(const ContactOf<N>& c, std::vector<VelocityOf<N>>& momenta) {
-  momenta[c.body] -= c.push * c.normal + c.grip[0] * c.tangent[0] + c.grip[1] * c.tangent[1];
-  if (c.other < 0) return;
-  const ContactRowsOf<N>& o = c.of_other;
-  momenta[c.other] -= c.push * o.normal + c.grip[0] * o.tangent[0] + c.grip[1] * o.tangent[1];
-}
-
 bool sticks(double slip_speed, double bound) { return slip_speed <= grip_softness * bound; }
 
 Vector2d grip_of(const Vector2d& slip, double bound) {
@@ -49,25 +27,15 @@ Vector2d grip_of(const Vector2d& slip, double bound) {
   return sticks(size, bound) ? Vector2d(-slip / grip_softness) : Vector2d(-(bound / size) * slip);
 }
 
-template <int N>
-const VelocityOf<N>& row_of(const ContactRowsOf<N>& rows, int row) {
-  return row == 0 ? rows.normal : rows.tangent[row - 1];
-}
-
-// Adds k a b^T, where the rows are known to be zero but for the body's unknowns and one joint's.
-template <int N>
-void add_product(MassMatrixOf<N>& block, double k, const VelocityOf<N>& a, const VelocityOf<N>& b, int joint) {
-  if (joint == ContactRowsOf<N>::any) {
-    block.noalias() += (k * a) * b.transpose();
-    return;
-  }
-  const Eigen::Matrix<double, 6, 1> body = k * a.template head<6>();
-  block.template topLeftCorner<6, 6>().noalias() += body * b.template head<6>().transpose();
-  if (joint < 0) return;
-  const double own = k * a[joint];
-  block.row(joint).template head<6>() += own * b.template head<6>().transpose();
-  block.col(joint).template head<6>() += body * b[joint];
-  block(joint, joint) += own * b[joint];
+// How the grip answers slip, [xx, xy, yy]: the primal-dual Hessian of a friction with the given bound.
+std::array<double, 3> grip_stiffness(const Vector2d& slip, double bound, const Vector2d& dual) {
+  if (bound <= 0) return {};
+  const double size = slip.norm();
+  if (sticks(size, bound)) return {1 / grip_softness, 0, 1 / grip_softness};
+  const double stiffness = bound / size, turn = 1 / (size * size);
+  // Half of the product of dual and slip, and half of its mirror image, so that the Hessian stays symmetric.
+  return {stiffness + turn * dual[0] * slip[0], 0.5 * turn * (dual[0] * slip[1] + dual[1] * slip[0]),
+          stiffness + turn * dual[1] * slip[1]};
 }
 
 }  // namespace
@@ -101,7 +69,7 @@ void ContactSolverOf<N>::obey_impulses() {
 template <int N>
 void ContactSolverOf<N>::begin() {
   const std::size_t count = p_->bodies.size();
-  for (Velocities* v : {&u_, &gradient_, &d_, &there_}) v->resize(count);
+  for (Velocities* v : {&u_, &gradient_, &d_}) v->resize(count);
   local_.assign(p_->contacts.size(), {});
   motor_duals_.assign(count, {});
   pairs_.clear();
@@ -114,11 +82,29 @@ void ContactSolverOf<N>::begin() {
   hessian_.arrange(static_cast<int>(count), pairs_);
 }
 
+// Normal speed and slip of a contact.
+template <int N>
+std::array<double, 3> ContactSolverOf<N>::speeds_of(const Contact& c, const Velocities& u) const {
+  std::array<double, 3> speeds{};
+  blocks_.add_speeds(speeds.data(), c.normal.data(), u[c.body].data());
+  if (c.other >= 0) blocks_.add_speeds(speeds.data(), c.of_other.normal.data(), u[c.other].data());
+  return speeds;
+}
+
+// Takes what the contact's impulses give from the momenta.
+template <int N>
+void ContactSolverOf<N>::take_impulse(const Contact& c, Velocities& momenta) const {
+  const double impulses[] = {c.push, c.grip[0], c.grip[1]};
+  blocks_.subtract_rows(momenta[c.body].data(), c.normal.data(), impulses);
+  if (c.other >= 0) blocks_.subtract_rows(momenta[c.other].data(), c.of_other.normal.data(), impulses);
+}
+
 template <int N>
 void ContactSolverOf<N>::locate(const Velocities& u) {
   for (std::size_t i = 0; i < local_.size(); ++i) {
-    local_[i].speed = speed_of(p_->contacts[i], u);
-    local_[i].slip = slip_of(p_->contacts[i], u);
+    const auto [speed, x, y] = speeds_of(p_->contacts[i], u);
+    local_[i].speed = speed;
+    local_[i].slip = {x, y};
   }
 }
 
@@ -127,7 +113,10 @@ void ContactSolverOf<N>::locate(const Velocities& u) {
 template <int N>
 void ContactSolverOf<N>::gradient(bool refresh) {
   locate(u_);
-  for (std::size_t b = 0; b < u_.size(); ++b) gradient_[b] = p_->bodies[b].mass.lazyProduct(u_[b] - p_->bodies[b].free);
+  for (std::size_t b = 0; b < u_.size(); ++b) {
+    gradient_[b] = u_[b] - p_->bodies[b].free;
+    blocks_.apply(gradient_[b].data(), p_->bodies[b].mass.data());
+  }
   for (std::size_t i = 0; i < local_.size(); ++i) {
     Contact& c = p_->contacts[i];
     c.push = std::max(0.0, (c.target - local_[i].speed) / c.softness);
@@ -145,7 +134,8 @@ template <int N>
 double ContactSolverOf<N>::residual() const {
   double most = 0;
   for (std::size_t b = 0; b < u_.size(); ++b) {
-    const Velocity v = p_->bodies[b].inverse_mass.lazyProduct(gradient_[b]);  // unrolled
+    Velocity v = gradient_[b];
+    blocks_.apply(v.data(), p_->bodies[b].inverse_mass.data());
     most = std::max({most, v.template segment<3>(3).norm(), turn_arm * v.template head<3>().norm(),
                      rim * v.template tail<joints>().norm()});
     if (std::isnan(v.sum())) return v.sum();
@@ -153,30 +143,25 @@ double ContactSolverOf<N>::residual() const {
   return most;
 }
 
+// The contact's part of the Hessian: all its rows, or those along the ground alone, or the normal alone.
 template <int N>
-void ContactSolverOf<N>::add(const Contact& c, double k, int row, int column) {
-  const Velocity &a = row_of(c, row), &b = row_of(c, column);
-  add_product<N>(hessian_.diagonal(c.body), k, a, b, c.joint);
-  if (c.other < 0) return;
-  const Velocity &of_other = row_of(c.of_other, row), &of_other_b = row_of(c.of_other, column);
-  add_product<N>(hessian_.diagonal(c.other), k, of_other, of_other_b, c.of_other.joint);
-  hessian_.add(c.body, c.other, k, a, of_other_b);
-}
-
-// Of both tangents at once: two products where their four pairs would take as many.
-template <int N>
-void ContactSolverOf<N>::add_friction(const Contact& c, const Eigen::Matrix2d& k) {
-  const auto turned = [&](const ContactRowsOf<N>& rows, int row) -> Velocity {
-    return k(row, 0) * rows.tangent[0] + k(row, 1) * rows.tangent[1];
+void ContactSolverOf<N>::add(const Contact& c, double normal, const std::array<double, 3>& grip) {
+  const bool slips = grip[0] != 0 || grip[2] != 0;
+  const int first = normal == 0 ? 1 : 0, rows = (slips ? 3 : 1) - first;
+  if (rows == 0) return;
+  const auto weighed = [&](const ContactRowsOf<N>& of) {
+    std::array<Velocity, 3> result;
+    result[0] = normal * of.normal;
+    for (int k = 0; slips && k < 2; ++k) result[1 + k] = grip[k] * of.tangent[0] + grip[1 + k] * of.tangent[1];
+    return result;
   };
-  for (int row = 0; row < 2; ++row) {
-    const Velocity b = turned(c, row);
-    add_product<N>(hessian_.diagonal(c.body), 1, c.tangent[row], b, c.joint);
-    if (c.other < 0) continue;
-    const Velocity of_other = turned(c.of_other, row);
-    add_product<N>(hessian_.diagonal(c.other), 1, c.of_other.tangent[row], of_other, c.of_other.joint);
-    hessian_.add(c.body, c.other, 1, c.tangent[row], of_other);
-  }
+  const Velocity *own = &c.normal + first, *others = &c.of_other.normal + first;
+  const auto of_own = weighed(c);
+  blocks_.add_rows(hessian_.diagonal(c.body).data(), rows, own->data(), of_own[first].data());
+  if (c.other < 0) return;
+  const auto of_other = weighed(c.of_other);
+  blocks_.add_rows(hessian_.diagonal(c.other).data(), rows, others->data(), of_other[first].data());
+  hessian_.add(c.body, c.other, rows, own, &of_other[first]);
 }
 
 // The guess that is true on a clear floor: what touches and closes under the free motion closes; against what stands
@@ -185,13 +170,13 @@ void ContactSolverOf<N>::add_friction(const Contact& c, const Eigen::Matrix2d& k
 template <int N>
 bool ContactSolverOf<N>::stick_all() {
   constexpr int guesses = 3;
-  for (std::size_t b = 0; b < u_.size(); ++b) u_[b] = p_->bodies[b].free;
-  locate(u_);
-  for (std::size_t i = 0; i < local_.size(); ++i) {
-    const double target = p_->contacts[i].target;
-    local_[i].closes = target >= 0 && target > local_[i].speed;
-  }
   for (int guess = 0; guess < guesses; ++guess) {
+    for (std::size_t b = 0; b < u_.size(); ++b) u_[b] = p_->bodies[b].free;
+    locate(u_);
+    for (std::size_t i = 0; guess == 0 && i < local_.size(); ++i) {
+      const double target = p_->contacts[i].target;
+      local_[i].closes = target >= 0 && target > local_[i].speed;
+    }
     stick();
     gradient(true);
     if (residual() <= p_->search.tolerance) return true;
@@ -206,28 +191,25 @@ bool ContactSolverOf<N>::stick_all() {
   return false;
 }
 
+// From the free motion, where all has been located.
 template <int N>
 void ContactSolverOf<N>::stick() {
   for (std::size_t b = 0; b < u_.size(); ++b) {
-    u_[b] = p_->bodies[b].free;
-    hessian_.diagonal(static_cast<int>(b)) = p_->bodies[b].mass;
+    blocks_.copy(hessian_.diagonal(static_cast<int>(b)).data(), p_->bodies[b].mass.data());
     d_[b].setZero();
   }
   hessian_.clear_pairs();
-  locate(u_);
   for (std::size_t i = 0; i < local_.size(); ++i) {
     const Contact& c = p_->contacts[i];
     if (!local_[i].closes) continue;
     const double push = (c.target - local_[i].speed) / c.softness;
-    add(c, 1 / c.softness, 0, 0);
+    const bool grips = c.other < 0 && c.friction > 0;
+    add(c, 1 / c.softness, grip_stiffness(Vector2d::Zero(), grips ? 1 : 0, Vector2d::Zero()));
     d_[c.body] += push * c.normal;
     if (c.other >= 0) {
       d_[c.other] += push * c.of_other.normal;
-    } else if (c.friction > 0) {
-      for (int k = 0; k < 2; ++k) {
-        add(c, 1 / grip_softness, 1 + k, 1 + k);
-        d_[c.body] -= (local_[i].slip[k] / grip_softness) * c.tangent[k];
-      }
+    } else if (grips) {
+      for (int k = 0; k < 2; ++k) d_[c.body] -= (local_[i].slip[k] / grip_softness) * c.tangent[k];
     }
   }
   for (std::size_t b = 0; b < u_.size(); ++b) {
@@ -292,16 +274,18 @@ bool ContactSolverOf<N>::minimise(int limit) {
   }
 }
 
-// What d_ does to contacts and, in a search for many, to the energy of motion: a quadratic along d_.
+// What d_ does to contacts and to the energy of motion, a quadratic along d_.
 template <int N>
 void ContactSolverOf<N>::look_ahead() {
   for (std::size_t i = 0; i < local_.size(); ++i) {
-    local_[i].speed_ahead = speed_of(p_->contacts[i], d_);
-    local_[i].slip_ahead = slip_of(p_->contacts[i], d_);
+    const auto [speed, x, y] = speeds_of(p_->contacts[i], d_);
+    local_[i].speed_ahead = speed;
+    local_[i].slip_ahead = {x, y};
   }
   slope_of_motion_ = curve_of_motion_ = 0;
-  for (std::size_t b = 0; p_->search.together && b < u_.size(); ++b) {
-    const Velocity momentum = p_->bodies[b].mass.lazyProduct(d_[b]);
+  for (std::size_t b = 0; b < u_.size(); ++b) {
+    Velocity momentum = d_[b];
+    blocks_.apply(momentum.data(), p_->bodies[b].mass.data());
     slope_of_motion_ += momentum.dot(u_[b] - p_->bodies[b].free);
     curve_of_motion_ += momentum.dot(d_[b]);
   }
@@ -309,22 +293,13 @@ void ContactSolverOf<N>::look_ahead() {
 
 template <int N>
 void ContactSolverOf<N>::set_hessian() {
-  for (std::size_t b = 0; b < u_.size(); ++b) hessian_.diagonal(static_cast<int>(b)) = p_->bodies[b].mass;
+  for (std::size_t b = 0; b < u_.size(); ++b)
+    blocks_.copy(hessian_.diagonal(static_cast<int>(b)).data(), p_->bodies[b].mass.data());
   hessian_.clear_pairs();
   for (std::size_t i = 0; i < local_.size(); ++i) {
     const Contact& c = p_->contacts[i];
     const Local& at = local_[i];
-    if (c.push > 0) add(c, 1 / c.softness, 0, 0);
-    if (at.bound <= 0) continue;
-    const double size = at.slip.norm();
-    Eigen::Matrix2d k = Eigen::Matrix2d::Identity();
-    if (sticks(size, at.bound)) {
-      k /= grip_softness;
-    } else {  // sym: half of each product, so that the Hessian stays symmetric
-      const Eigen::Matrix2d product = (-1 / (at.bound * size)) * at.dual * at.slip.transpose();
-      k = (at.bound / size) * (k - 0.5 * (product + product.transpose()));
-    }
-    add_friction(c, k);
+    add(c, c.push > 0 ? 1 / c.softness : 0, grip_stiffness(at.slip, at.bound, at.dual));
   }
   for (std::size_t b = 0; b < u_.size(); ++b) {
     for (int m = 0; m < joints; ++m) hessian_.diagonal(static_cast<int>(b))(6 + m, 6 + m) += motor_stiffness(b, m);
@@ -368,29 +343,25 @@ void ContactSolverOf<N>::move_duals() {
 
 // The energy's slope along d_ at u_ + a d_, which rises with a.
 template <int N>
-double ContactSolverOf<N>::slope(double a) {
-  double s = p_->search.together ? slope_of_motion_ + a * curve_of_motion_ : 0;
-  for (std::size_t b = 0; b < u_.size(); ++b) {
-    there_[b] = u_[b] + a * d_[b];
-    if (!p_->search.together) s += d_[b].dot(p_->bodies[b].mass.lazyProduct(there_[b] - p_->bodies[b].free).eval());
-  }
+double ContactSolverOf<N>::slope(double a) const {
+  double s = slope_of_motion_ + a * curve_of_motion_;
   for (std::size_t i = 0; i < local_.size(); ++i) {
     const Contact& c = p_->contacts[i];
     const Local& at = local_[i];
-    const double speed = p_->search.together ? at.speed + a * at.speed_ahead : speed_of(c, there_);
-    s -= std::max(0.0, (c.target - speed) / c.softness) * at.speed_ahead;
-    if (at.bound <= 0) continue;
-    const Vector2d slip = p_->search.together ? Vector2d(at.slip + a * at.slip_ahead) : slip_of(c, there_);
-    s -= grip_of(slip, at.bound).dot(at.slip_ahead);
+    s -= std::max(0.0, (c.target - at.speed - a * at.speed_ahead) / c.softness) * at.speed_ahead;
+    if (at.bound > 0) s -= grip_of(at.slip + a * at.slip_ahead, at.bound).dot(at.slip_ahead);
   }
   for (std::size_t b = 0; b < u_.size(); ++b) {
-    for (int m = 0; m < joints; ++m) s -= p_->bodies[b].motors[m].impulse(there_[b][6 + m]) * d_[b][6 + m];
+    for (int m = 0; m < joints; ++m) {
+      const double ahead = d_[b][6 + m];
+      s -= p_->bodies[b].motors[m].impulse(u_[b][6 + m] + a * ahead) * ahead;
+    }
   }
   return s;
 }
 
 template <int N>
-double ContactSolverOf<N>::line_search() {
+double ContactSolverOf<N>::line_search() const {
   const double at_zero = slope(0), at_one = slope(1);
   if (at_one <= 0.5 * std::abs(at_zero)) return 1;
   double low = 0, high = 1, slope_low = at_zero, slope_high = at_one;

@@ -14,16 +14,17 @@
 
 namespace muster::simbody {
 
-// Rows that turn a body's velocity into what it adds to a contact's: normal speed, and slip along two tangents.
+// Rows that turn a body's velocity into what it adds to a contact's: normal speed, and slip along two tangents. They
+// stand one after the other.
 template <int N>
 struct ContactRowsOf {
   using Velocity = VelocityOf<N>;
-  static constexpr int any = -2;
 
   Velocity normal = Velocity::Zero();
   std::array<Velocity, 2> tangent{Velocity::Zero(), Velocity::Zero()};
-  int joint = any;  // index of the only unknown beside the body's six that is not zero; -1: none. Saves arithmetic
 };
+static_assert(sizeof(ContactRowsOf<unknowns>) == 3 * sizeof(VelocityOf<unknowns>));
+static_assert(sizeof(ContactRowsOf<unknowns_with_legs>) == 3 * sizeof(VelocityOf<unknowns_with_legs>));
 
 template <int N>
 struct ContactOf : ContactRowsOf<N> {
@@ -121,19 +122,21 @@ class ContactSolverOf {
   void set_hessian();
   void look_ahead();
   void move_duals();
-  double slope(double a);
-  double line_search();
+  double slope(double a) const;
+  double line_search() const;
   double motor_stiffness(std::size_t body, int m) const;
-  void add(const Contact& c, double k, int row, int column);
-  void add_friction(const Contact& c, const Eigen::Matrix2d& k);
+  void add(const Contact& c, double normal, const std::array<double, 3>& grip);
+  std::array<double, 3> speeds_of(const Contact& c, const Velocities& u) const;
+  void take_impulse(const Contact& c, Velocities& momenta) const;
 
   Problem* p_ = nullptr;
   std::vector<Local> local_;
   std::vector<std::array<double, joints>> motor_duals_;  // estimates of the motors' impulses [N m s]
   std::vector<std::pair<int, int>> pairs_;
   BlockCholeskyOf<N> hessian_;
+  const BlockArithmetic<N>& blocks_ = block_arithmetic<N>();
   double slope_of_motion_ = 0, curve_of_motion_ = 0;
-  Velocities u_, gradient_, d_, there_;  // d_: the direction of a search, there_: a place along it
+  Velocities u_, gradient_, d_;  // d_: the direction of a search
 };
 
 using ContactRows = ContactRowsOf<unknowns>;

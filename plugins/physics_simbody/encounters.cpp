@@ -62,7 +62,6 @@ ContactRowsOf<N> rows_at(const PlacedOf<N>& robot, int wheel, int leg, const Vec
   const Vector3d arm = to_body * (place - robot.position);
   const Matrix3d ways = sign * (to_body * frame);
   ContactRowsOf<N> rows;
-  rows.joint = wheel >= 0 ? 6 + wheel : leg >= 0 ? 6 + leg : -1;
   rows.normal = point_row<N>(arm, ways.col(0));
   for (int k = 0; k < 2; ++k) {
     rows.tangent[k] = point_row<N>(arm, ways.col(1 + k));
@@ -127,15 +126,14 @@ double EncountersOf<N>::margin(double speed) const {
 }
 
 template <int N>
-void EncountersOf<N>::stand(int index, const Placed& robot, const Memory& memory) {
+void EncountersOf<N>::stand(int body, const Placed& robot, const Memory& memory) {
   const Compliance compliance(robot.mass, h_);
   const Matrix3d to_body = robot.to_world.transpose();
   const Vector3d up = to_body.col(2);
-  const auto contact = [&](const Vector3d& centre, double radius) {
+  const auto add_contact = [&](const Vector3d& centre, double radius) -> Contact& {
     const Vector3d arm = centre - radius * up;
-    Contact c;
-    c.body = index;
-    c.joint = -1;
+    Contact& c = contacts.emplace_back();
+    c.body = body;
     c.normal = point_row<N>(arm, up);
     c.softness = compliance.softness;
     const double gap = robot.position.z() + up.dot(arm) - 0.5 * h_ * c.normal.dot(robot.body.previous);
@@ -145,8 +143,7 @@ void EncountersOf<N>::stand(int index, const Placed& robot, const Memory& memory
   for (int w = 0; robot.model->has_wheels && w < 2; ++w) {
     const double radius = robot.model->drive.wheel_radius;
     const Vector3d centre = robot.model->wheel_frame[w].translation();
-    Contact c = contact(centre, radius);
-    c.joint = 6 + w;
+    Contact& c = add_contact(centre, radius);
     const Vector3d surface = Vector3d::UnitY().cross(-radius * up);  // of the tread, per rate
     for (int k = 0; k < 2; ++k) {
       c.tangent[k] = point_row<N>(centre - radius * up, to_body.col(k));
@@ -156,19 +153,18 @@ void EncountersOf<N>::stand(int index, const Placed& robot, const Memory& memory
     const auto& impulse = memory.impulse[w];
     c.push = impulse[0];
     c.grip = {impulse[1], impulse[2]};
-    contacts.push_back(c);
-    traces.push_back({index, w});
+    traces.push_back({robot.index, w});
   }
   for (const Slider& slider : robot.model->sliders) {
-    contacts.push_back(contact(slider.centre, slider.radius));
-    traces.push_back({index});
+    add_contact(slider.centre, slider.radius);
+    traces.push_back({robot.index});
   }
 }
 
 template <int N>
-void EncountersOf<N>::with_ground(int index, const Placed& robot, const Memory& memory) {
-  stand(index, robot, memory);
-  if (!robot.model->legs.empty()) stand_on_legs(index, robot, memory);
+void EncountersOf<N>::with_ground(int body, const Placed& robot, const Memory& memory) {
+  stand(body, robot, memory);
+  if (!robot.model->legs.empty()) stand_on_legs(body, robot, memory);
   // Boxes and cylinders of the body reach the ground only where it has tipped.
   const double near = margin(robot.speed);
   if (robot.position.z() + robot.model->lowest_corner(robot.to_world.row(2)) > near) return;
@@ -177,53 +173,57 @@ void EncountersOf<N>::with_ground(int index, const Placed& robot, const Memory& 
     if (part.wheel >= 0 || part.solid.kind == Solid::Kind::sphere) continue;
     const Touch t = touch_ground(placed(part.solid, robot), near);
     for (int n = 0; n < t.count; ++n) {
-      const Trace trace{index, -1, id_of(0, k, 0, t.points[n].mark), frame_about(t.normal)};
-      add({&robot, part.wheel}, {}, trace, memory, -1, t.points[n]);
+      const Trace trace{robot.index, -1, id_of(0, k, 0, t.points[n].mark), frame_about(t.normal)};
+      add({&robot, body, part.wheel}, {}, trace, memory, t.points[n]);
     }
   }
 }
 
 template <int N>
-void EncountersOf<N>::with_wall(int index, const Placed& robot, const Memory& memory, int wall_index,
+void EncountersOf<N>::with_wall(int body, const Placed& robot, const Memory& memory, int wall_index,
                                 const Solid& wall) {
   const double near = margin(robot.speed);
   for (std::size_t k = 0; k < robot.solids.size(); ++k) {
     if (!may_touch_wall(robot.solids[k], wall, near)) continue;
     const Touch t = touch(robot.solids[k], wall, near);
     for (int n = 0; n < t.count; ++n) {
-      const Trace trace{index, -1, id_of(1 + 2 * wall_index, k, 0, t.points[n].mark), frame_about(t.normal)};
-      add({&robot, robot.model->parts[k].wheel}, {}, trace, memory, -1, t.points[n]);
+      const Trace trace{robot.index, -1, id_of(1 + 2 * wall_index, k, 0, t.points[n].mark), frame_about(t.normal)};
+      add({&robot, body, robot.model->parts[k].wheel}, {}, trace, memory, t.points[n]);
     }
   }
   each_leg_at(robot, wall, near, [&](int leg, const LegTouch& t) {
-    const Trace trace{index, -1, id_of(1 + 2 * wall_index, leg_part(leg), 0, t.point.mark), frame_about(t.normal)};
-    add({&robot, -1, leg}, {}, trace, memory, -1, t.point);
+    const Trace trace{robot.index, -1, id_of(1 + 2 * wall_index, leg_part(leg), 0, t.point.mark),
+                      frame_about(t.normal)};
+    add({&robot, body, -1, leg}, {}, trace, memory, t.point);
   });
 }
 
 template <int N>
-void EncountersOf<N>::between(int index_a, const Placed& a, const Memory& memory_a, int index_b, const Placed& b) {
+void EncountersOf<N>::between(int body_a, const Placed& a, const Memory& memory_a, int body_b, const Placed& b) {
   const double near = margin(a.speed + b.speed);
+  const Vector3d middle_of_b = b.position + b.to_world * b.model->middle;
   for (std::size_t i = 0; i < a.solids.size(); ++i) {
+    const double reach = a.solids[i].reach() + b.model->reach + near;
+    if ((a.solids[i].centre - middle_of_b).squaredNorm() >= reach * reach) continue;
     for (std::size_t j = 0; j < b.solids.size(); ++j) {
       if (!may_touch(a.solids[i], b.solids[j], near)) continue;
       const Touch t = touch(a.solids[i], b.solids[j], near);
       for (int n = 0; n < t.count; ++n) {
-        const Trace trace{index_a, -1, id_of(2 + 2 * index_b, i, j, t.points[n].mark), frame_about(t.normal)};
-        add({&a, a.model->parts[i].wheel}, {&b, b.model->parts[j].wheel}, trace, memory_a, index_b, t.points[n]);
+        const Trace trace{a.index, -1, id_of(2 + 2 * b.index, i, j, t.points[n].mark), frame_about(t.normal)};
+        add({&a, body_a, a.model->parts[i].wheel}, {&b, body_b, b.model->parts[j].wheel}, trace, memory_a, t.points[n]);
       }
     }
   }
   for (std::size_t j = 0; j < b.solids.size(); ++j) {
     each_leg_at(a, b.solids[j], near, [&](int leg, const LegTouch& t) {
-      const Trace trace{index_a, -1, id_of(2 + 2 * index_b, leg_part(leg), j, t.point.mark), frame_about(t.normal)};
-      add({&a, -1, leg}, {&b, b.model->parts[j].wheel}, trace, memory_a, index_b, t.point);
+      const Trace trace{a.index, -1, id_of(2 + 2 * b.index, leg_part(leg), j, t.point.mark), frame_about(t.normal)};
+      add({&a, body_a, -1, leg}, {&b, body_b, b.model->parts[j].wheel}, trace, memory_a, t.point);
     });
   }
   for (std::size_t i = 0; i < a.solids.size(); ++i) {
     each_leg_at(b, a.solids[i], near, [&](int leg, const LegTouch& t) {
-      const Trace trace{index_a, -1, id_of(2 + 2 * index_b, i, leg_part(leg), t.point.mark), frame_about(-t.normal)};
-      add({&a, a.model->parts[i].wheel}, {&b, -1, leg}, trace, memory_a, index_b, t.point);
+      const Trace trace{a.index, -1, id_of(2 + 2 * b.index, i, leg_part(leg), t.point.mark), frame_about(-t.normal)};
+      add({&a, body_a, a.model->parts[i].wheel}, {&b, body_b, -1, leg}, trace, memory_a, t.point);
     });
   }
 }
@@ -247,7 +247,7 @@ void EncountersOf<N>::each_leg_at(const Placed& robot, const Solid& solid, doubl
 
 // Each leg rolls on its lowest point.
 template <int N>
-void EncountersOf<N>::stand_on_legs(int index, const Placed& robot, const Memory& memory) {
+void EncountersOf<N>::stand_on_legs(int body, const Placed& robot, const Memory& memory) {
   const double near = margin(robot.speed);
   const description::LegDrive& drive = robot.model->leg_drive;
   const Vector3d up = robot.to_world.row(2);
@@ -258,14 +258,14 @@ void EncountersOf<N>::stand_on_legs(int index, const Placed& robot, const Memory
     const Vector3d place =
         robot.position + robot.to_world * (leg.hip + drive.place(angle, drive.lowest_way(angle, up)));
     if (place.z() > near) continue;
-    const Trace trace{index, -1, id_of(0, leg_part(static_cast<int>(i)), 0, 0), frame_about(Vector3d::UnitZ())};
-    add({&robot, -1, static_cast<int>(i)}, {}, trace, memory, -1, {place, place.z(), 0});
+    const Trace trace{robot.index, -1, id_of(0, leg_part(static_cast<int>(i)), 0, 0), frame_about(Vector3d::UnitZ())};
+    add({&robot, body, -1, static_cast<int>(i)}, {}, trace, memory, {place, place.z(), 0});
   }
 }
 
 // A contact, unless it cannot close within this step.
 template <int N>
-void EncountersOf<N>::add(const Side& a, const Side& b, const Trace& trace, const Memory& memory, int other,
+void EncountersOf<N>::add(const Side& a, const Side& b, const Trace& trace, const Memory& memory,
                           const TouchPoint& point) {
   Contact c;
   static_cast<ContactRowsOf<N>&>(c) = rows_at<N>(*a.robot, a.wheel, a.leg, point.place, trace.frame, 1);
@@ -278,8 +278,8 @@ void EncountersOf<N>::add(const Side& a, const Side& b, const Trace& trace, cons
   }
   const double gap = point.gap - 0.5 * h_ * speed;  // at the step's start
   if (gap + h_ * std::min(speed, free) > slack) return;
-  c.body = trace.robot;
-  c.other = other;
+  c.body = a.body;
+  c.other = b.body;
   c.friction = a.leg >= 0 && !b.robot ? a.robot->model->leg_drive.friction : friction_;
   const description::LegDrive* leg = a.leg >= 0   ? &a.robot->model->leg_drive
                                      : b.leg >= 0 ? &b.robot->model->leg_drive

@@ -14,6 +14,7 @@ namespace muster::simbody {
 template <int N>
 struct PlacedOf {
   const RobotModel* model = nullptr;
+  int index = 0;  // among all robots
   double mass = 0;
   std::array<double, 4> turned;  // quaternion, body to world; not quite of unit length
   Eigen::Matrix3d to_world;
@@ -43,10 +44,10 @@ class EncountersOf {
   // A step of length h [s]; friction as between bodies.
   void begin(double h, double friction);
 
-  // Robots by their index, which the contacts bear too.
-  void with_ground(int index, const Placed& robot, const Memory& memory);
-  void with_wall(int index, const Placed& robot, const Memory& memory, int wall_index, const Solid& wall);
-  void between(int index_a, const Placed& a, const Memory& memory_a, int index_b, const Placed& b);
+  // `body`: what the contacts name the robot by; their traces bear its index.
+  void with_ground(int body, const Placed& robot, const Memory& memory);
+  void with_wall(int body, const Placed& robot, const Memory& memory, int wall_index, const Solid& wall);
+  void between(int body_a, const Placed& a, const Memory& memory_a, int body_b, const Placed& b);
 
   std::vector<Contact> contacts;
   std::vector<Trace> traces;  // one a contact
@@ -54,13 +55,14 @@ class EncountersOf {
  private:
   struct Side {
     const Placed* robot = nullptr;
+    int body = -1;
     int wheel = -1, leg = -1;  // that touches; neither: the body
   };
 
   double margin(double speed) const;
-  void add(const Side& a, const Side& b, const Trace& trace, const Memory& memory, int other, const TouchPoint& point);
-  void stand(int index, const Placed& robot, const Memory& memory);
-  void stand_on_legs(int index, const Placed& robot, const Memory& memory);
+  void add(const Side& a, const Side& b, const Trace& trace, const Memory& memory, const TouchPoint& point);
+  void stand(int body, const Placed& robot, const Memory& memory);
+  void stand_on_legs(int body, const Placed& robot, const Memory& memory);
   template <class Meet>
   void each_leg_at(const Placed& robot, const Solid& solid, double margin, Meet meet) const;
 

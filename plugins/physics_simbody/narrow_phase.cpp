@@ -332,11 +332,24 @@ TouchPoint deepest(const Prism& a, const Prism& b, const Axis& axis) {
   return {corner + (axis.of_first ? -0.5 : 0.5) * axis.apart * axis.normal, axis.apart, 16001};
 }
 
+// Whether the plane through the place of `a` nearest to `on_b`, across the way there, keeps the solids apart: all of
+// `a` lies on its far side. Nearly all that are apart are found so, at a fraction of what all axes cost.
+bool are_apart(const Solid& a, const Solid& b, const Vector3d& on_b, double margin) {
+  const Vector3d on_a = nearest_point(a, on_b), way = on_a - on_b;
+  const double distance = way.norm();
+  if (distance <= margin) return false;
+  const Vector3d n = way / distance, along = b.axes.transpose() * n;
+  const double half_width = b.kind == Solid::Kind::box
+                                ? b.half.dot(along.cwiseAbs())
+                                : b.half[0] * along.head<2>().norm() + b.half[2] * std::abs(along[2]);
+  return n.dot(on_a - b.centre) - half_width > margin;
+}
+
 }  // namespace
 
 double Solid::reach() const {
   if (kind == Kind::sphere) return half[0];
-  return kind == Kind::box ? half.norm() : std::hypot(half[0], half[2]);
+  return kind == Kind::box ? half.norm() : std::sqrt(half[0] * half[0] + half[2] * half[2]);
 }
 
 Touch touch(const Solid& a, const Solid& b, double margin) {
@@ -346,7 +359,9 @@ Touch touch(const Solid& a, const Solid& b, double margin) {
     result.normal = -result.normal;
     return result;
   }
-  const Prism first(a, nearest_point(b, a.centre)), second(b, nearest_point(a, b.centre));
+  const Vector3d on_b = nearest_point(b, a.centre);
+  if (are_apart(a, b, on_b, margin)) return {};
+  const Prism first(a, on_b), second(b, nearest_point(a, b.centre));
   Axis axis;
   if (!separate(first, second, margin, axis)) return {};
   Touch result = axis.edge[0] >= 0 ? touch_edges(first, second, axis) : touch_faces(first, second, axis, margin);

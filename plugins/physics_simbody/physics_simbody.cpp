@@ -1,6 +1,7 @@
 // physics.simbody: the engine on the blackboard.
 #include <algorithm>
 #include <cstring>
+#include <muster/parallel.hpp>
 #include <muster/plugin.hpp>
 #include <optional>
 
@@ -14,16 +15,8 @@ using namespace muster;
 using description::Model;
 using description::WorldRobots;
 
-// What the engine remembers, as columns.
-struct Memory {
-  static constexpr const char* columns = simbody::Memory::columns;
-  double previous_step;
-  double impulse[2][3];
-  double kept[8][4];
-};
-
 struct PhysicsSimbody {
-  static constexpr auto id = "physics.simbody/3";
+  static constexpr auto id = "physics.simbody/4";
   static constexpr auto summary =
       "rigid robots on wheels or legs, among walls and each other: friction, slip, torque limits, weight transfer";
   static constexpr auto manual =
@@ -37,7 +30,11 @@ struct PhysicsSimbody {
       "of\n"
       "`body_friction`. A mesh touches as the box around it, a cylinder as a prism of 16 sides, exact where it is "
       "nearest.\n"
-      "Where a robot is near others or walls and would go 5 mm in a step, the step is divided.\n"
+      "Where a robot is near others or walls and would go 5 mm in a step, the step is divided. `leg_step` is for "
+      "robots that\n"
+      "walk, whose feet slip on springs, and for who may meet them within a tick; others go on in steps of `step`. "
+      "Robots that\n"
+      "may not meet within a tick are moved apart from each other, on as many threads as the run has.\n"
       "integrator: midpoint is second order, on velocities; twist is the mean over its last step. rk3 (fixed step), "
       "rkm and\n"
       "cpodes (adaptive) are Simbody's own on rolling constraints, as reference: no slip, no lift, no torque limit, no "
@@ -56,13 +53,16 @@ struct PhysicsSimbody {
   static constexpr auto abilities = description::Ability::wheels | description::Ability::rotors |
                                     description::Ability::legs | description::Ability::height |
                                     description::Ability::tilting;
-  static constexpr Param params[] = {real("step", 0.001, 1e-6, 0.1, "s", "longest step inside a tick"),
-                                     choice("integrator", "midpoint|rk3|rkm|cpodes", "what steps the bodies"),
-                                     real("body_friction", 0.3, 0, 10, "", "between robots, and of robots with walls"),
-                                     flag("rigid_legs", false, "whatever their model says: for slow gaits")};
+  static constexpr Param params[] = {
+      real("step", 0.001, 1e-6, 0.1, "s", "longest step inside a tick"),
+      real("leg_step", 0.1, 1e-6, 0.1, "s", "as step, of robots that walk and who may meet them"),
+      choice("integrator", "midpoint|rk3|rkm|cpodes", "what steps the bodies"),
+      real("body_friction", 0.3, 0, 10, "", "between robots, and of robots with walls"),
+      flag("rigid_legs", false, "whatever their model says: for slow gaits")};
 
   explicit PhysicsSimbody(Setup& s)
       : step_size(s.value("step")),
+        leg_step(s.value("leg_step")),
         integrator(s.value("integrator")),
         body_friction(s.value("body_friction")),
         rigid_legs(s.value("rigid_legs")),
@@ -76,7 +76,7 @@ struct PhysicsSimbody {
         twist(s.write<Twist>("robot/*/twist")),
         wheels(s.write<Wheels>("robot/*/wheels")),
         model(s.write<Model>("robot/*/body")),
-        memory(s.write<Memory>("robot/*/contact")) {
+        memory(s.write<simbody::Memory>("robot/*/contact")) {
     robots.require(abilities, s);
     if (robots.any_walks()) {
       gait = s.read<Gait>("robot/*/gait");
@@ -87,6 +87,7 @@ struct PhysicsSimbody {
       rotors = s.write<Rotors>("robot/*/rotors");
     }
     made.step = s.param("step");
+    made.leg_step = s.param("leg_step");
     made.integrator = s.param("integrator");
     made.rigid_legs = s.param("rigid_legs");
     for (std::size_t row = 0; row < robots.size(); ++row) {
@@ -98,12 +99,12 @@ struct PhysicsSimbody {
 
   // What an engine is made of.
   struct Made {
-    double step = 0, integrator = 0, rigid_legs = 0;
+    double step = 0, leg_step = 0, integrator = 0, rigid_legs = 0;
     std::vector<std::size_t> rows;
     std::vector<double> models;
     bool operator!=(const Made& b) const {
-      return step != b.step || integrator != b.integrator || rigid_legs != b.rigid_legs || rows != b.rows ||
-             models != b.models;
+      return step != b.step || leg_step != b.leg_step || integrator != b.integrator || rigid_legs != b.rigid_legs ||
+             rows != b.rows || models != b.models;
     }
   };
 
@@ -118,7 +119,7 @@ struct PhysicsSimbody {
     }
     try {
       engine = simbody::make_engine(named, static_cast<simbody::Integrator>(static_cast<int>(made.integrator) + 1),
-                                    made.step,
+                                    {made.step, made.leg_step},
                                     made.rigid_legs != 0 ? simbody::LegModel::rigid : simbody::LegModel::as_described);
     } catch (const std::runtime_error& wrong) {
       throw BadInput(wrong.what());
@@ -152,17 +153,15 @@ struct PhysicsSimbody {
   void step(const Step& k) {
     Made now;
     now.step = k[step_size];
+    now.leg_step = k[leg_step];
     now.integrator = k[integrator];
     now.rigid_legs = k[rigid_legs];
     for (std::size_t i = 0; i < k[pose].size(); ++i) {
-      k[pose][i] = k.last(pose)[i];  // what has left stays as it was
-      k[twist][i] = k.last(twist)[i];
-      k[wheels][i] = k.last(wheels)[i];
-      k[memory][i] = k.last(memory)[i];
-      if (legs) k[*legs][i] = k.last(*legs)[i];
-      if (flies) k[rotors][i] = k.last(rotors)[i];
       k[model][i].model = WorldRobots::model_of(k.last(model)[i].model, i);
-      if (!k.alive("robot", i)) continue;
+      if (!k.alive("robot", i)) {
+        stay(k, i);
+        continue;
+      }
       now.rows.push_back(i);
       now.models.push_back(k[model][i].model);
     }
@@ -172,6 +171,16 @@ struct PhysicsSimbody {
     }
     tell_surroundings(k);
     move(k);
+  }
+
+  // What has left stays as it was.
+  void stay(const Step& k, std::size_t row) const {
+    k[pose][row] = k.last(pose)[row];
+    k[twist][row] = k.last(twist)[row];
+    k[wheels][row] = k.last(wheels)[row];
+    k[memory][row] = k.last(memory)[row];
+    if (legs) k[*legs][row] = k.last(*legs)[row];
+    if (flies) k[rotors][row] = k.last(rotors)[row];
   }
 
   void move(const Step& k) {
@@ -193,7 +202,7 @@ struct PhysicsSimbody {
         commands[i].rotors = {r.front, r.left, r.back, r.right};
       }
     }
-    engine->step(k.dt(), commands, states);
+    engine->step(k.dt(), commands, states, [&k](std::size_t count, const auto& part) { each(k, count, part); });
     for (std::size_t i = 0; i < made.rows.size(); ++i) spread(k, made.rows[i], states[i]);
   }
 
@@ -201,19 +210,16 @@ struct PhysicsSimbody {
     const Pose& p = k.last(pose)[row];
     const Twist& t = k.last(twist)[row];
     const Wheels& w = k.last(wheels)[row];
-    const Memory& m = k.last(memory)[row];
     simbody::RobotState s;
     s.pose = {p.x, p.y, p.z, p.qw, p.qx, p.qy, p.qz};
     s.twist = {t.vx, t.vy, t.vz, t.wx, t.wy, t.wz};
     s.angle = {w.left, w.right};
     s.rate = {w.left_rate, w.right_rate};
-    s.memory.previous_step = m.previous_step;
+    s.memory = k.last(memory)[row];
     if (flies) {
       const Rotors& r = k.last(rotors)[row];
       s.rotors = {r.front, r.left, r.back, r.right};
     }
-    for (int i = 0; i < 2; ++i) std::copy_n(m.impulse[i], 3, s.memory.impulse[i].begin());
-    for (int i = 0; i < 8; ++i) s.memory.kept[i] = {m.kept[i][0], {m.kept[i][1], m.kept[i][2], m.kept[i][3]}};
     if (!legs) return s;
     const Legs& l = k.last(*legs)[row];
     std::copy_n(l.angle, 6, s.leg_angle.begin());
@@ -229,12 +235,7 @@ struct PhysicsSimbody {
     k[twist][row] = {t[0], t[1], t[2], t[3], t[4], t[5]};
     k[wheels][row] = {s.angle[0], s.angle[1], s.rate[0], s.rate[1]};
     if (flies) k[rotors][row] = {s.rotors[0], s.rotors[1], s.rotors[2], s.rotors[3]};
-    k[memory][row].previous_step = s.memory.previous_step;
-    for (int i = 0; i < 2; ++i) std::copy_n(s.memory.impulse[i].begin(), 3, k[memory][row].impulse[i]);
-    for (int i = 0; i < 8; ++i) {
-      k[memory][row].kept[i][0] = s.memory.kept[i].id;
-      std::copy_n(s.memory.kept[i].impulse.begin(), 3, k[memory][row].kept[i] + 1);
-    }
+    k[memory][row] = s.memory;
     if (!legs) return;
     Legs& l = k[*legs][row];
     std::copy_n(s.leg_angle.begin(), 6, l.angle);
@@ -242,7 +243,7 @@ struct PhysicsSimbody {
     std::copy_n(s.leg_torque.begin(), 6, l.torque);
   }
 
-  Value step_size, integrator, body_friction, rigid_legs;
+  Value step_size, leg_step, integrator, body_friction, rigid_legs;
   WorldRobots robots;
   bool flies;  // some robots have rotors; else nothing is claimed about them
   In<Drive> drive;
@@ -255,7 +256,7 @@ struct PhysicsSimbody {
   Out<Wheels> wheels;
   Out<Rotors> rotors{};
   Out<Model> model;
-  Out<Memory> memory;
+  Out<simbody::Memory> memory;   // what the engine remembers
   std::optional<In<Gait>> gait;  // where a robot walks
   std::optional<Out<Legs>> legs;
   Made made;

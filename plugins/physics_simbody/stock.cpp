@@ -98,8 +98,8 @@ Stock::Stock(const std::vector<NamedRobot>& robots, Integrator integrator, doubl
 
 Stock::~Stock() = default;
 
-void Stock::step(double dt, const std::vector<Command>& commands, std::vector<RobotState>& states) {
-  for (std::size_t i = 0; i < robots_.size(); ++i) {
+void Stock::step(double dt, const std::vector<Command>& commands, std::vector<RobotState>& states, const Each& each) {
+  each(robots_.size(), [&](std::size_t i) {
     Robot& robot = *robots_[i];
     RobotState& s = states[i];
     const double asked[] = {commands[i].left, commands[i].right};
@@ -136,7 +136,7 @@ void Stock::step(double dt, const std::vector<Command>& commands, std::vector<Ro
       s.rate[w] = state.getU()[6 + w];
     }
     s.memory = Memory();
-  }
+  });
 }
 
 }  // namespace muster::simbody

@@ -12,7 +12,8 @@ class Stock : public Engine {
  public:
   Stock(const std::vector<NamedRobot>& robots, Integrator integrator, double step);
   ~Stock() override;
-  void step(double dt, const std::vector<Command>& commands, std::vector<RobotState>& states) override;
+  void step(double dt, const std::vector<Command>& commands, std::vector<RobotState>& states,
+            const Each& each = one_by_one) override;
 
  private:
   struct Robot;

@@ -1,6 +1,5 @@
 #include "world.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "midpoint.hpp"
@@ -8,15 +7,14 @@
 
 namespace muster::simbody {
 
-std::unique_ptr<Engine> make_engine(const std::vector<NamedRobot>& robots, Integrator integrator, double step,
+std::unique_ptr<Engine> make_engine(const std::vector<NamedRobot>& robots, Integrator integrator, Steps longest,
                                     LegModel legs) {
-  const bool any_walks = std::any_of(robots.begin(), robots.end(),
-                                     [](const NamedRobot& robot) { return robot.description->legs.has_value(); });
-  if (integrator == Integrator::midpoint) {
-    if (any_walks) return std::make_unique<MidpointWithLegs>(robots, step, legs);
-    return std::make_unique<Midpoint>(robots, step);
-  }
-  return std::make_unique<Stock>(robots, integrator, step);
+  if (integrator == Integrator::midpoint) return std::make_unique<Midpoint>(robots, longest, legs);
+  return std::make_unique<Stock>(robots, integrator, longest.of_all);
+}
+
+void one_by_one(std::size_t count, const std::function<void(std::size_t)>& call) {
+  for (std::size_t i = 0; i < count; ++i) call(i);
 }
 
 RobotState at_rest(double x, double y, double yaw) {

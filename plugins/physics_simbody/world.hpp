@@ -2,6 +2,7 @@
 // only what follows from the robots' descriptions, so a remade one does the same arithmetic, bit for bit.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,12 +20,18 @@ enum class Integrator {
   cpodes
 };
 
+// Calls the function for every index below a count, on any threads and in any order, and returns when all are done.
+// What one of them threw it throws, of several that of the lowest index.
+using Each = std::function<void(std::size_t, const std::function<void(std::size_t)>&)>;
+void one_by_one(std::size_t count, const std::function<void(std::size_t)>& call);
+
 class Engine {
  public:
   virtual ~Engine() = default;
-  // From t to t + dt [s]; one command and one state a robot, in the order of the robots.
-  // Throws std::runtime_error naming the robot whose motion is no longer finite.
-  virtual void step(double dt, const std::vector<Command>& commands, std::vector<RobotState>& states) = 0;
+  // From t to t + dt [s]; one command and one state a robot, in the order of the robots. The result is the same however
+  // `each` goes about it. Throws std::runtime_error naming the robot whose motion is no longer finite.
+  virtual void step(double dt, const std::vector<Command>& commands, std::vector<RobotState>& states,
+                    const Each& each = one_by_one) = 0;
 
   // What stands in the way from now on, and Coulomb's friction between bodies and with walls. Simbody's own integrators
   // know no obstacles and take no notice.
@@ -41,8 +48,16 @@ enum class LegModel {
   rigid  // whatever their description says: an approximation for slow gaits
 };
 
-// `step` [s]: the longest step inside a tick. Throws std::runtime_error for a robot that it cannot hold.
-std::unique_ptr<Engine> make_engine(const std::vector<NamedRobot>& robots, Integrator integrator, double step,
+// The longest steps inside a tick [s]: of robots that walk and who may meet them within it, and of all.
+struct Steps {
+  Steps(double all) : of_all(all), of_legs(all) {}
+  Steps(double all, double legs) : of_all(all), of_legs(legs) {}
+
+  double of_all, of_legs;
+};
+
+// Throws std::runtime_error for a robot that it cannot hold.
+std::unique_ptr<Engine> make_engine(const std::vector<NamedRobot>& robots, Integrator integrator, Steps longest,
                                     LegModel legs = LegModel::as_described);
 
 // A standing robot: at rest on the ground, its frame at x, y [m] and turned by yaw [rad].

@@ -37,7 +37,8 @@ TEST(BlockCholesky, SolvesWhatTheDenseMatrixSolves) {
         dense += 3 * row * row.transpose();
         sparse.diagonal(i) += 3 * a * a.transpose();
         sparse.diagonal(j) += 3 * b * b.transpose();
-        sparse.add(i, j, 3, a, b);
+        const Velocity three_b = 3 * b;
+        sparse.add(i, j, 1, &a, &three_b);
       }
       std::vector<Velocity> x(count);
       Eigen::VectorXd right(count * unknowns);

@@ -1,7 +1,7 @@
 // Legs: their dynamics are Simbody's, their contact geometry is exact, their springs and motors follow their laws.
 #include <random>
 
-#include "midpoint.hpp"
+#include "crew.hpp"
 #include "walkers.hpp"
 
 namespace muster::simbody {
@@ -22,16 +22,16 @@ class Legs : public testing::Test {
 
 TEST_F(Legs, DynamicsAreSimbodys) {
   constexpr int n = unknowns_with_legs;
-  const MidpointWithLegs engine({{"r", &rdk()}}, 0.001);
+  const Crew crew({{"r", &rdk()}});
   for (int trial = 0; trial < 20; ++trial) {
-    SimTK::State state = engine.system().state;
+    SimTK::State state = crew.system().state;
     const Eigen::Quaterniond q = draw_turn();
     const double values[] = {q.w(), q.x(), q.y(), q.z(), draw(), draw(), draw()};
     for (int k = 0; k < 7; ++k) state.updQ()[k] = values[k];
     LegAngles angle;
     for (int k = 0; k < 6; ++k) state.updQ()[7 + k] = angle[k] = 3 * draw();
     for (int k = 0; k < n; ++k) state.updU()[k] = 5 * draw();
-    engine.system().system.realize(state, SimTK::Stage::Acceleration);
+    crew.system().system.realize(state, SimTK::Stage::Acceleration);
     const Matrix3d r = q.toRotationMatrix();
     const auto in_body = [&](const SimTK::Vector& v) {
       VelocityOf<n> result = Eigen::Map<const VelocityOf<n>>(&v[0]);
@@ -42,7 +42,7 @@ TEST_F(Legs, DynamicsAreSimbodys) {
     const LeggedMass mine = weigh(model_, angle, in_body(state.getU()), r.transpose() * Vector3d(0, 0, -gravity));
     SimTK::Vector column, unit(n, 0.0);
     for (int k = 0; k < n; ++k) unit[k] = draw();
-    engine.system().matter.multiplyByM(state, unit, column);
+    crew.system().matter.multiplyByM(state, unit, column);
     EXPECT_LT((mine.mass * in_body(unit) - in_body(column)).norm(), 1e-9 * in_body(column).norm());
     const VelocityOf<n> expected = in_body(state.getUDot()), found = inverse(mine.mass) * mine.force;
     EXPECT_LT((found - expected).norm(), 1e-9 * expected.norm()) << found.transpose() << "\n" << expected.transpose();

@@ -139,19 +139,6 @@ TEST(Walking, RemadeEngineGivesTheSameBits) {
   EXPECT_GT(straight.states[0].pose[0], 0.4);  // over the slab
 }
 
-// With room for legs, wheels move as without.
-TEST(Walking, ScarabsDoNotMind) {
-  const Command c = command(0.3, 0.5);
-  Fleet alone({at_rest(5, 0, 0)}, scarab(), Integrator::midpoint, 0.002);
-  const auto both = make_engine({{"walker", &rdk()}, {"roller", &scarab()}}, Integrator::midpoint, 0.002);
-  std::vector<RobotState> states = {at_rest(0, 0, 0), at_rest(5, 0, 0)};
-  for (int k = 0; k < 200; ++k) {
-    alone.tick(0.01, {c});
-    both->step(0.01, {Walk{1}.over(k * 0.01, 0.01), c}, states);
-  }
-  for (std::size_t k = 0; k < 7; ++k) EXPECT_NEAR(states[1].pose[k], alone.states[0].pose[k], 1e-9);
-}
-
 TEST(Walking, AScarabInTheWayIsPushedAndNotPassed) {
   const auto both = make_engine({{"walker", &rdk()}, {"roller", &scarab()}}, Integrator::midpoint, 0.001);
   both->set_surroundings({}, 0.3);

@@ -1,0 +1,45 @@
+// Robots and what stands around them, as all that move them share it.
+#pragma once
+
+#include "broad_phase.hpp"
+#include "crew.hpp"
+#include "encounters.hpp"
+
+namespace muster::simbody {
+
+struct Arena {
+  explicit Arena(const std::vector<NamedRobot>& robots, LegModel legs = LegModel::as_described) : crew(robots, legs) {
+    make(placed);
+    if (crew.any_walks()) make(placed_with_legs);
+  }
+  Arena(const Arena&) = delete;
+  Arena& operator=(const Arena&) = delete;
+
+  Crew crew;
+  // Each robot half a step ahead, for the steppers of eight and of twelve unknowns; a robot is one thread's at a time.
+  std::vector<PlacedOf<unknowns>> placed;
+  std::vector<PlacedOf<unknowns_with_legs>> placed_with_legs;  // none where nobody walks
+
+  std::vector<Solid> walls;
+  std::vector<Extent> wall_extents;
+  double friction = 0;  // between bodies, and of bodies with walls
+
+ private:
+  template <int N>
+  void make(std::vector<PlacedOf<N>>& all) const {
+    all.resize(crew.size());
+    for (std::size_t i = 0; i < crew.size(); ++i) {
+      auto& now = all[i];
+      now.model = &crew[i].model;
+      now.index = static_cast<int>(i);
+      now.mass = crew[i].whole.mass;
+      now.body.mass.setIdentity();
+      now.body.inverse_mass.setIdentity();
+      now.body.mass.template topLeftCorner<unknowns, unknowns>() = crew[i].mass;
+      now.body.inverse_mass.template topLeftCorner<unknowns, unknowns>() = crew[i].inverse_mass;
+      now.body.previous.setZero();
+    }
+  }
+};
+
+}  // namespace muster::simbody

@@ -1,0 +1,51 @@
+// Arithmetic on square blocks of few unknowns, several lanes at a time: the part that is built for each instruction
+// set. All kernels give the same bits: lanes are rows, whose sums have one order, and nothing is fused.
+//
+// Only plain data cross this border: a function that both sides compile could be linked in its newest form everywhere.
+#pragma once
+
+namespace muster::simbody {
+
+// Matrices are N x N by columns, rows of contacts N numbers each, one after the other.
+template <int N>
+struct BlockArithmetic {
+  void (*copy)(double* to, const double* from);
+  // block += a_0 b_0^T + a_1 b_1^T + ..., for `rows` rows.
+  void (*add_rows)(double* block, int rows, const double* a, const double* b);
+  // What each of a contact's three rows makes of a velocity, added to `sums`; and to -= k_0 a_0 + k_1 a_1 + k_2 a_2.
+  void (*add_speeds)(double* sums, const double* a, const double* velocity);
+  void (*subtract_rows)(double* to, const double* a, const double* k);
+  // Of a symmetric positive definite block, of which only what is on and below the diagonal counts: the inverse of the
+  // transposed Cholesky factor, L^-T. Destroys the block. No numbers where it is not positive definite.
+  void (*invert_factor)(double* block, double* inverse);
+  // a := a u, where u is an upper triangle.
+  void (*multiply)(double* a, const double* u);
+  // to -= a b^T.
+  void (*subtract)(double* to, const double* a, const double* b);
+  // to -= a x; to -= a^T x.
+  void (*subtract_product)(double* to, const double* a, const double* x);
+  void (*subtract_transposed)(double* to, const double* a, const double* x);
+  // x := a x; x := a^T x.
+  void (*apply)(double* x, const double* a);
+  void (*apply_transposed)(double* x, const double* a);
+};
+
+struct BlockKernel {
+  const char* name;
+  BlockArithmetic<6> six;
+  BlockArithmetic<8> eight;
+  BlockArithmetic<12> twelve;
+};
+
+// Those that this machine can run, the best last; at least one.
+struct BlockKernels {
+  int number = 0;
+  const BlockKernel* all[3] = {};
+};
+BlockKernels block_kernels();
+
+// Of the best.
+template <int N>
+const BlockArithmetic<N>& block_arithmetic();
+
+}  // namespace muster::simbody

@@ -1,0 +1,47 @@
+// The robots of an engine: what of them never changes, with Simbody's own word for their masses.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "block_cholesky.hpp"
+#include "flight.hpp"
+#include "model.hpp"
+#include "world.hpp"
+
+namespace muster::simbody {
+
+struct CrewMember {
+  // u of a robot without legs after no time, without contacts and motors, at the given attitude.
+  Velocity free_acceleration(const Eigen::Matrix3d& to_world, const Velocity& u) const;
+
+  std::string name;
+  RobotModel model;
+  RobotBodies bodies;
+  description::Mass whole;              // wheels included
+  Eigen::Matrix3d inertia_at_origin;    // of the whole, in the body's frame
+  std::array<double, 2> wheel_inertia;  // about the axle
+  std::optional<Flight> flight;         // where it has rotors
+  MassMatrix mass, inverse_mass;        // without legs, which weigh otherwise in each step
+};
+
+class Crew {
+ public:
+  explicit Crew(const std::vector<NamedRobot>& robots, LegModel legs = LegModel::as_described);
+
+  std::size_t size() const { return members_.size(); }
+  CrewMember& operator[](std::size_t i) { return members_[i]; }
+  const CrewMember& operator[](std::size_t i) const { return members_[i]; }
+  bool any_walks() const;
+  const System& system() const { return system_; }
+
+ private:
+  void read_masses();
+
+  System system_;
+  std::vector<CrewMember> members_;
+};
+
+}  // namespace muster::simbody

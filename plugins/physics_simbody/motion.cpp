@@ -1,0 +1,35 @@
+#include "motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace muster::simbody {
+
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double fastest = 1e3;   // [m/s], [rad/s]: beyond, the motion has blown up
+constexpr double nearby = 0.003;  // [m]
+
+}  // namespace
+
+double speed_of(const RobotModel& model, const RobotState& state) {
+  double legs = 0;
+  for (const double rate : state.leg_rate) legs = std::max(legs, 2 * model.leg_drive.radius * std::abs(rate));
+  const Eigen::Quaterniond q(state.pose[3], state.pose[4], state.pose[5], state.pose[6]);
+  const Vector3d rates = q.conjugate() * rates_of(state);
+  return velocity_of(state).norm() + rates.cwiseAbs().dot(model.arm) + legs;
+}
+
+// Twice the way, since a contact may make a robot faster, and the fall.
+double way_of(const RobotModel& model, const RobotState& state, double h) {
+  return nearby + 2 * h * speed_of(model, state) + gravity * h * h;
+}
+
+void check_speed(const std::string& name, double largest) {
+  if (!(largest < fastest)) throw std::runtime_error("robot '" + name + "': its motion blew up");
+}
+
+}  // namespace muster::simbody

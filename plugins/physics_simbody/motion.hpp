@@ -1,0 +1,24 @@
+// A robot's state as vectors, and how fast and far it may go.
+#pragma once
+
+#include "model.hpp"
+#include "state.hpp"
+
+namespace muster::simbody {
+
+inline Eigen::Matrix3d matrix_of(const RobotState& s) {
+  return Eigen::Quaterniond(s.pose[3], s.pose[4], s.pose[5], s.pose[6]).toRotationMatrix();
+}
+inline Eigen::Vector3d velocity_of(const RobotState& s) { return {s.twist[0], s.twist[1], s.twist[2]}; }
+inline Eigen::Vector3d rates_of(const RobotState& s) { return {s.twist[3], s.twist[4], s.twist[5]}; }
+
+// No part of the robot is faster [m/s].
+double speed_of(const RobotModel& model, const RobotState& state);
+
+// What is further away [m] is not met within h [s].
+double way_of(const RobotModel& model, const RobotState& state, double h);
+
+// Throws std::runtime_error naming the robot where a speed is beyond all reason, or none at all.
+void check_speed(const std::string& name, double largest);
+
+}  // namespace muster::simbody

@@ -1,0 +1,257 @@
+#include "stepper.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "motion.hpp"
+
+namespace muster::simbody {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+namespace {
+
+// A robot on a clear floor, and robots that touch walls or each other: many contacts agree on less, at a fraction of
+// the cost, and their errors stay below a micrometre a step.
+constexpr Search alone{1e-7, 1e-3, 12, true, false}, together{1e-5, 1e-2, 5, true, true};
+
+// Quaternions as pose columns: w x y z from index 3.
+using Quaternion = std::array<double, 4>;
+
+// q + s/2 (0, w) q_at, w in the world's frame: a step along the sphere's tangent, not of unit length.
+Quaternion turned(const Quaternion& q, const Quaternion& at, const Vector3d& w, double s) {
+  const double a = 0.5 * s;
+  return {
+      q[0] + a * (-at[1] * w[0] - at[2] * w[1] - at[3] * w[2]), q[1] + a * (at[0] * w[0] + w[1] * at[3] - w[2] * at[2]),
+      q[2] + a * (at[0] * w[1] + w[2] * at[1] - w[0] * at[3]), q[3] + a * (at[0] * w[2] + w[0] * at[2] - w[1] * at[1])};
+}
+
+Quaternion quaternion_of(const RobotState& s) { return {s.pose[3], s.pose[4], s.pose[5], s.pose[6]}; }
+// What its rotors do to a robot, as a force for its velocities.
+Velocity rotor_force(const description::Quadrotor& rotors, const RobotState& state, const Velocity& u) {
+  const description::Wrench wrench = rotors.wrench(state.rotors, u.segment<3>(3), u.head<3>());
+  Velocity force = Velocity::Zero();
+  force.head<3>() = wrench.torque;
+  force.segment<3>(3) = wrench.force;
+  return force;
+}
+
+// What the origin is faster by half a step ahead or behind than at the state's attitude, the mass centre being as fast.
+// Robots that meet in the air carry the velocity of their mass centres from step to step, so that what two give each
+// other is kept to the last digits.
+Vector3d origin_lead(const CrewMember& robot, const Matrix3d& to_world, const RobotState& state) {
+  return rates_of(state).cross((matrix_of(state) - to_world) * robot.whole.centre);
+}
+
+int place_in(const std::vector<int>& robots, int robot) {
+  return static_cast<int>(std::lower_bound(robots.begin(), robots.end(), robot) - robots.begin());
+}
+
+}  // namespace
+
+template <int N>
+StepperOf<N>::StepperOf(Arena& arena) : arena_(arena) {}
+
+template <int N>
+std::vector<PlacedOf<N>>& StepperOf<N>::placed() const {
+  if constexpr (N == unknowns) {
+    return arena_.placed;
+  } else {
+    return arena_.placed_with_legs;
+  }
+}
+
+template <int N>
+void StepperOf<N>::advance(const Group& group, double h, double at, const std::vector<Command>& commands,
+                           std::vector<RobotState>& states) {
+  for (const int i : group.robots) place(i, h, at, commands[i], states[i]);
+  meet(group, h, states);
+  solve_islands(group, states);
+  for (const int i : group.robots) finish(i, h, commands[i], states[i]);
+}
+
+// Half a step ahead along the velocities that stand. The one rotation that is needed follows from its quaternion: to
+// have Simbody work out the places of all bodies takes twice as long as all the rest of a step.
+template <int N>
+void StepperOf<N>::place(int index, double h, double at, const Command& command, const RobotState& state) {
+  const CrewMember& robot = arena_.crew[index];
+  auto& now = placed()[index];
+  now.turned = turned(quaternion_of(state), quaternion_of(state), rates_of(state), 0.5 * h);
+  now.to_world =
+      Eigen::Quaterniond(now.turned[0], now.turned[1], now.turned[2], now.turned[3]).normalized().toRotationMatrix();
+  for (int k = 0; k < 3; ++k) now.position[k] = state.pose[k] + 0.5 * h * state.twist[k];
+  now.speed = speed_of(robot.model, state);
+  now.body.previous.template head<3>() = now.to_world.transpose() * rates_of(state);
+  Vector3d v = velocity_of(state);
+  if (robot.flight) v += origin_lead(robot, now.to_world, state);
+  now.body.previous.template segment<3>(3) = now.to_world.transpose() * v;
+  if (robot.model.legs.empty()) {
+    place_wheels(robot, h, at, command, state, now);
+  } else {
+    place_legs(robot, h, at, command, state, now);
+  }
+}
+
+template <int N>
+void StepperOf<N>::place_wheels(const CrewMember& robot, double h, double at, const Command& command,
+                                const RobotState& state, PlacedOf<N>& now) {
+  const auto& drive = robot.model.drive;
+  auto& body = now.body;
+  for (int w = 0; w < 2; ++w) body.previous[6 + w] = state.rate[w];
+  const Velocity previous = body.previous.template head<unknowns>();
+  const double kick = 0.5 * (state.memory.previous_step + h);
+  Velocity free = previous + kick * robot.free_acceleration(now.to_world, previous);
+  if (robot.model.rotors) {
+    free += kick * (robot.inverse_mass * rotor_force(*robot.model.rotors, state, previous));
+    const Vector3d w = previous.head<3>();  // in origin_lead() already
+    free.segment<3>(3) += kick * w.cross(w.cross(robot.whole.centre));
+  }
+  body.free = body.previous;  // idle joints stand still
+  body.free.template head<unknowns>() = free;
+  const double asked[] = {command.left + at * command.left_rate, command.right + at * command.right_rate};
+  for (int w = 0; w < 2; ++w) body.motors[w] = {drive.limited_rate(asked[w]), drive.max_torque * h};
+}
+
+template <int N>
+void StepperOf<N>::place_legs(const CrewMember& robot, double h, double at, const Command& command,
+                              const RobotState& state, PlacedOf<N>& now) {
+  if constexpr (N == unknowns_with_legs) {
+    auto& body = now.body;
+    for (int i = 0; i < 6; ++i) {
+      now.leg_angle[i] = state.leg_angle[i] + 0.5 * h * state.leg_rate[i];
+      body.previous[6 + i] = state.leg_rate[i];
+      body.motors[i] = leg_motor(robot.model.leg_drive, command.leg_angle[i] + at * command.leg_rate[i],
+                                 command.leg_rate[i], state.leg_angle[i], h);
+    }
+    const Vector3d fall = now.to_world.transpose() * Vector3d(0, 0, -gravity);
+    // Weighed as they stand at the step's start, between the two velocities: half a step later, legs would be damped.
+    const LeggedMass legged = weigh(robot.model, state.leg_angle, body.previous, fall);
+    body.mass = legged.mass;
+    body.inverse_mass = inverse(legged.mass);
+    const double kick = 0.5 * (state.memory.previous_step + h);
+    body.free = body.previous + kick * (body.inverse_mass * legged.force);
+  }
+}
+
+// Contacts bear the place of their robots in the group.
+template <int N>
+void StepperOf<N>::meet(const Group& group, double h, const std::vector<RobotState>& states) {
+  encounters_.begin(h, arena_.friction);
+  const auto slot = [&](int robot) { return place_in(group.robots, robot); };
+  for (std::size_t k = 0; k < group.robots.size(); ++k) {
+    const int i = group.robots[k];
+    encounters_.with_ground(static_cast<int>(k), placed()[i], states[i].memory);
+  }
+  if (group.pairs.empty() && group.walls.empty()) return;
+  for (const int i : group.robots) place_parts(placed()[i]);
+  for (const auto& [i, wall] : group.walls)
+    encounters_.with_wall(slot(i), placed()[i], states[i].memory, wall, arena_.walls[wall]);
+  for (const auto& [i, j] : group.pairs)
+    encounters_.between(slot(i), placed()[i], states[i].memory, slot(j), placed()[j]);
+}
+
+// Robots that touch are solved for together, the others apart: the same, but faster.
+template <int N>
+void StepperOf<N>::solve_islands(const Group& group, std::vector<RobotState>& states) {
+  const std::size_t count = group.robots.size();
+  connected_.begin(static_cast<int>(count));
+  for (const auto& c : encounters_.contacts) {
+    if (c.other >= 0) connected_.join(c.body, c.other);
+  }
+  if (islands_.size() < count) islands_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) islands_[i].robots.clear(), islands_[i].contacts.clear();
+  place_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    std::vector<int>& robots = islands_[connected_.root(static_cast<int>(i))].robots;
+    place_[i] = static_cast<int>(robots.size());
+    robots.push_back(group.robots[i]);
+  }
+  for (std::size_t k = 0; k < encounters_.contacts.size(); ++k)
+    islands_[connected_.root(encounters_.contacts[k].body)].contacts.push_back(static_cast<int>(k));
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!islands_[i].robots.empty()) solve(islands_[i], states);
+  }
+}
+
+// Into the problem, whose bodies are the island's. Where that is the whole group, they have the same places.
+template <int N>
+void StepperOf<N>::take_contacts(const Island& island) {
+  if (island.robots.size() == place_.size()) return std::swap(problem_.contacts, encounters_.contacts);
+  problem_.contacts.clear();
+  for (const int k : island.contacts) {
+    problem_.contacts.push_back(encounters_.contacts[k]);
+    auto& contact = problem_.contacts.back();
+    contact.body = place_[contact.body];
+    if (contact.other >= 0) contact.other = place_[contact.other];
+  }
+}
+
+template <int N>
+void StepperOf<N>::solve(const Island& island, std::vector<RobotState>& states) {
+  const auto on_clear_floor = [&](int k) { return encounters_.traces[k].id == 0; };
+  const auto slipped = [&](int k) {
+    const auto& c = encounters_.contacts[k];
+    return c.friction > 0 && c.grip.norm() > 0.99 * c.friction * c.push && c.push > 0;
+  };
+  problem_.search = std::all_of(island.contacts.begin(), island.contacts.end(), on_clear_floor) ? alone : together;
+  // Feet that slipped, as those of a tripod do that sways, will again.
+  if (N > unknowns && std::any_of(island.contacts.begin(), island.contacts.end(), slipped)) {
+    problem_.search.guess = false;
+  }
+  problem_.bodies.resize(island.robots.size());
+  for (std::size_t i = 0; i < island.robots.size(); ++i) problem_.bodies[i] = placed()[island.robots[i]].body;
+  take_contacts(island);
+  const Outcome outcome = solver_.solve(problem_);
+  ++count_.solved;
+  count_.unsettled += !outcome.converged;
+  count_.failed += !outcome.minimised;
+  for (std::size_t i = 0; i < island.robots.size(); ++i) {
+    placed()[island.robots[i]].body.velocity = problem_.bodies[i].velocity;
+    states[island.robots[i]].memory = Memory();
+  }
+  for (std::size_t k = 0; k < island.contacts.size(); ++k) {
+    const Trace& trace = encounters_.traces[island.contacts[k]];
+    keep(problem_.contacts[k], trace, states[trace.robot].memory);
+  }
+}
+
+template <int N>
+void StepperOf<N>::finish(int index, double h, const Command& command, RobotState& state) const {
+  const CrewMember& robot = arena_.crew[index];
+  const PlacedOf<N>& now = placed()[index];
+  const VelocityOf<N>& u = now.body.velocity;
+  check_speed(robot.name, u.cwiseAbs().maxCoeff());
+
+  const Vector3d w = now.to_world * u.template head<3>(), v = now.to_world * u.template segment<3>(3);
+  const Quaternion q = turned(quaternion_of(state), now.turned, w, h);
+  const double size = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+  for (int k = 0; k < 4; ++k) state.pose[3 + k] = q[k] / size;
+  for (int k = 0; k < 3; ++k) {
+    state.pose[k] += h * v[k];
+    state.twist[k] = v[k];
+    state.twist[3 + k] = w[k];
+  }
+  if (robot.flight) {
+    const Vector3d lead = origin_lead(robot, now.to_world, state);
+    for (int k = 0; k < 3; ++k) state.twist[k] -= lead[k];
+  }
+  for (int k = 0; k < 2 && robot.model.legs.empty(); ++k) {
+    state.angle[k] += h * u[6 + k];
+    state.rate[k] = u[6 + k];
+  }
+  for (std::size_t k = 0; k < robot.model.legs.size(); ++k) {
+    const double rate = u[6 + static_cast<int>(k)];
+    state.leg_angle[k] += h * rate;
+    state.leg_rate[k] = rate;
+    state.leg_torque[k] = now.body.motors[k].impulse(rate) / h;
+  }
+  if (const auto& rotors = robot.model.rotors)
+    state.rotors = rotors->later(state.rotors, command.rotors, rotors->decay(h));
+  state.memory.previous_step = h;
+}
+
+template class StepperOf<unknowns>;
+template class StepperOf<unknowns_with_legs>;
+
+}  // namespace muster::simbody

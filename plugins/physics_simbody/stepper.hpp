@@ -1,0 +1,73 @@
+// A step of robots that may meet: half a step ahead, what they meet there, one small problem an island, and on. Second
+// order, on velocities. N: unknowns of a robot.
+//
+// Velocities stand at the middle of steps: u is found for the configuration half a step ahead and carries the robot
+// over the whole step, x += h N(x_mid) u. So forces act over (previous step + step) / 2, and commands are taken at
+// mid-step.
+#pragma once
+
+#include "arena.hpp"
+#include "connected.hpp"
+
+namespace muster::simbody {
+
+// Robots that may meet in this step, with what else they may meet. Groups do not meet each other.
+struct Group {
+  std::vector<int> robots;         // in order
+  BroadPhase::Pairs pairs, walls;  // of robots; of a robot and a wall
+  int parts = 1;                   // of the step, so that nobody passes through anything
+};
+
+// Problems solved so far; those in which friction's bounds and normal impulses did not agree in the end; and those
+// whose search failed.
+struct Count {
+  long solved = 0, unsettled = 0, failed = 0;
+
+  Count& operator+=(const Count& b) {
+    solved += b.solved, unsettled += b.unsettled, failed += b.failed;
+    return *this;
+  }
+};
+
+template <int N>
+class StepperOf {
+ public:
+  explicit StepperOf(Arena& arena);
+
+  // A step of length h [s]; commands are taken `at` [s] after the tick's start.
+  void advance(const Group& group, double h, double at, const std::vector<Command>& commands,
+               std::vector<RobotState>& states);
+
+  const Count& count() const { return count_; }
+
+ private:
+  // Robots that touch, by index, and all their contacts.
+  struct Island {
+    std::vector<int> robots, contacts;
+  };
+
+  std::vector<PlacedOf<N>>& placed() const;
+  void place(int index, double h, double at, const Command& command, const RobotState& state);
+  void place_wheels(const CrewMember& robot, double h, double at, const Command& command, const RobotState& state,
+                    PlacedOf<N>& now);
+  void place_legs(const CrewMember& robot, double h, double at, const Command& command, const RobotState& state,
+                  PlacedOf<N>& now);
+  void meet(const Group& group, double h, const std::vector<RobotState>& states);
+  void solve_islands(const Group& group, std::vector<RobotState>& states);
+  void take_contacts(const Island& island);
+  void solve(const Island& island, std::vector<RobotState>& states);
+  void finish(int index, double h, const Command& command, RobotState& state) const;
+
+  Arena& arena_;
+
+  // Room that is kept from step to step; nothing of it outlives one.
+  EncountersOf<N> encounters_;
+  Connected connected_;
+  std::vector<Island> islands_;
+  std::vector<int> place_;  // of each of the group's robots in its island
+  ContactSolverOf<N> solver_;
+  ProblemOf<N> problem_;
+  Count count_;
+};
+
+}  // namespace muster::simbody

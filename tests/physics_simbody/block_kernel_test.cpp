@@ -1,0 +1,100 @@
+// Arithmetic on blocks is what Eigen makes of it, in the same bits for every instruction set.
+#include "block_kernel.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cstring>
+#include <random>
+
+namespace muster::simbody {
+namespace {
+
+template <int N>
+const BlockArithmetic<N>& of(const BlockKernel& kernel) {
+  if constexpr (N == 6) return kernel.six;
+  if constexpr (N == 8) return kernel.eight;
+  if constexpr (N == 12) return kernel.twelve;
+}
+
+template <int N>
+class Check {
+ public:
+  void products() {
+    for (int trial = 0; trial < 20; ++trial) {
+      const Block a = draw<Block>(), b = draw<Block>();
+      const Rows p = draw<Rows>(), q = draw<Rows>();
+      const Column x = draw<Column>(), y = draw<Column>();
+      const Eigen::Vector3d k = draw<Eigen::Vector3d>();
+      expect(b, a, [&](const auto& by, double* to) { by.copy(to, b.data()); });
+      for (int rows = 1; rows <= 3; ++rows) {
+        const Block sum = a + p.leftCols(rows) * q.leftCols(rows).transpose();
+        expect(sum, a, [&](const auto& by, double* to) { by.add_rows(to, rows, p.data(), q.data()); });
+      }
+      const Eigen::Vector3d speeds = k + p.transpose() * x;
+      expect(speeds, k, [&](const auto& by, double* to) { by.add_speeds(to, p.data(), x.data()); });
+      const Column left = x - p * k, less = x - a * y, less_transposed = x - a.transpose() * y;
+      expect(left, x, [&](const auto& by, double* to) { by.subtract_rows(to, p.data(), k.data()); });
+      expect(less, x, [&](const auto& by, double* to) { by.subtract_product(to, a.data(), y.data()); });
+      expect(less_transposed, x, [&](const auto& by, double* to) { by.subtract_transposed(to, a.data(), y.data()); });
+      const Column product = a * x, transposed = a.transpose() * x;
+      expect(product, x, [&](const auto& by, double* to) { by.apply(to, a.data()); });
+      expect(transposed, x, [&](const auto& by, double* to) { by.apply_transposed(to, a.data()); });
+      const Block upper = b.template triangularView<Eigen::Upper>(), times = a * upper, rest = a - b * b.transpose();
+      expect(times, a, [&](const auto& by, double* to) { by.multiply(to, upper.data()); });
+      expect(rest, a, [&](const auto& by, double* to) { by.subtract(to, b.data(), b.data()); });
+    }
+  }
+
+  void factors() {
+    for (int trial = 0; trial < 20; ++trial) {
+      const Block a = draw<Block>(), square = a * a.transpose() + Block::Identity();
+      const Block lower = square.llt().matrixL(), expected = lower.inverse().transpose();
+      expect(expected, Block(Block::Zero()), [&](const auto& by, double* to) {
+        Block destroyed = square;
+        by.invert_factor(destroyed.data(), to);
+      });
+    }
+  }
+
+ private:
+  using Block = Eigen::Matrix<double, N, N>;
+  using Column = Eigen::Matrix<double, N, 1>;
+  using Rows = Eigen::Matrix<double, N, 3>;  // one after the other
+
+  template <class Matrix>
+  Matrix draw() {
+    return Matrix::NullaryExpr([&](Eigen::Index) { return static_cast<double>(random_()) / 2147483648.0 - 1; });
+  }
+
+  // Runs the operation on `start` by every kernel; all must agree in all bits, and with Eigen.
+  template <class Matrix, class Operation>
+  void expect(const Matrix& expected, const Matrix& start, Operation operation) {
+    const BlockKernels kernels = block_kernels();
+    Matrix first;
+    for (int k = 0; k < kernels.number; ++k) {
+      Matrix result = start;
+      operation(of<N>(*kernels.all[k]), result.data());
+      EXPECT_LT((result - expected).norm(), 1e-12 * (1 + expected.norm())) << kernels.all[k]->name << ' ' << N;
+      if (k == 0) first = result;
+      EXPECT_EQ(std::memcmp(result.data(), first.data(), sizeof first), 0) << kernels.all[k]->name << ' ' << N;
+    }
+  }
+
+  std::mt19937 random_{3};
+};
+
+TEST(BlockKernel, ProductsAreEigensInTheSameBits) {
+  Check<6>().products();
+  Check<8>().products();
+  Check<12>().products();
+}
+
+TEST(BlockKernel, FactorsAreInvertedInTheSameBits) {
+  Check<6>().factors();
+  Check<8>().factors();
+  Check<12>().factors();
+}
+
+}  // namespace
+}  // namespace muster::simbody
