@@ -1,0 +1,71 @@
+#include "diagnosis/noise/exact.hpp"
+
+#include <Eigen/Cholesky>
+#include <array>
+#include <cmath>
+
+#include "diagnosis/noise/neighbourhood.hpp"
+#include "diagnosis/noise/reach.hpp"
+
+namespace muster::noise {
+namespace {
+
+// The correlation at a distance in m, by the nearest entry of a table, as the whitener has it.
+class Correlations {
+ public:
+  Correlations(const Covariance& covariance, double soft, double longest)
+      : per_metre_(entries / std::max(longest, 1.0)) {
+    for (int i = 0; i <= entries; ++i)
+      values_[static_cast<std::size_t>(i)] = correlation(
+          covariance.family, softened(covariance.family, i / per_metre_, soft) / covariance.decorrelation());
+  }
+  double operator()(double distance) const { return values_[static_cast<std::size_t>(distance * per_metre_ + 0.5)]; }
+
+ private:
+  static constexpr int entries = 16384;
+  double per_metre_;
+  std::array<double, entries + 1> values_;
+};
+
+// No two rows lie farther apart, both ends together.
+double longest_in(const Sites& sites) {
+  const auto size = [](const Eigen::Matrix3Xd& at) {
+    return (at.rowwise().maxCoeff() - at.rowwise().minCoeff()).norm();
+  };
+  return size(sites.place) + size(sites.anchor);
+}
+
+}  // namespace
+
+Eigen::MatrixXd covariance_of_sums(const Sites& sites, const Covariance& covariance, const Eigen::MatrixXd& weights) {
+  using ByRow = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const Correlations at(covariance, sites.soft, longest_in(sites));
+  const double everywhere = covariance.field_variance() * covariance.shared();
+  const double own = covariance.field_variance() - everywhere;
+  const ByRow w = weights;
+  ByRow below = ByRow::Zero(w.rows(), w.cols());  // the covariance's lower triangle times the weights
+  for (Index i = 0; i < sites.size(); ++i) {
+    for (Index j = 0; j < i; ++j) {
+      const double apart = (sites.place.col(i) - sites.place.col(j)).squaredNorm();
+      double c = everywhere * at(std::sqrt(apart));
+      if (sites.radio[static_cast<std::size_t>(i)] == sites.radio[static_cast<std::size_t>(j)])
+        c += own * at(std::sqrt(apart + (sites.anchor.col(i) - sites.anchor.col(j)).squaredNorm()));
+      below.row(i) += c * w.row(j);
+    }
+  }
+  const Eigen::VectorXd alone =
+      covariance.field_variance() + floor_variance + covariance.reading_variance() / sites.count.array();
+  const Eigen::MatrixXd half = weights.transpose() * below;
+  return half + half.transpose() + weights.transpose() * alone.asDiagonal() * weights;
+}
+
+double exact_gain(const Field& field, const Whitener& whitener, const Eigen::MatrixXd& added,
+                  const Eigen::VectorXd& residual) {
+  const Reach reach(field, whitener);
+  Eigen::MatrixXd weights(added.rows(), added.cols());
+  for (Index j = 0; j < added.cols(); ++j) weights.col(j) = reach.transposed(added.col(j));
+  const Eigen::VectorXd sums = added.transpose() * residual;
+  return sums.dot(covariance_of_sums(field.sites(), whitener.covariance(), weights).llt().solve(sums));
+}
+
+}  // namespace muster::noise
