@@ -113,9 +113,9 @@ class Tests {
     return off(fitted.law) - off(null_law_) < against;
   }
 
-  // Of the strength: where the log-likelihood falls as much as at the ends of a 95 % interval.
+  // Of the strength: where the log-likelihood falls as much as at the ends of a 95 % interval, gains being wider.
   LawValue value(const Family& family, const Fitted& best) {
-    constexpr double fall = 1.92;
+    const double fall = 1.92 * wider(family.cause);
     const auto value = [&](double x) {
       const ReadingLaw law = family.with(best.base, x);
       return possible(law) ? judge_.best(law, best.peak).value - cost_of(law) : -1e300;

@@ -59,13 +59,17 @@ Eigen::MatrixXd covariance_of_sums(const Sites& sites, const Covariance& covaria
   return half + half.transpose() + weights.transpose() * alone.asDiagonal() * weights;
 }
 
-double exact_gain(const Field& field, const Whitener& whitener, const Eigen::MatrixXd& added,
-                  const Eigen::VectorXd& residual) {
+Eigen::MatrixXd scatter_of(const Field& field, const Whitener& whitener, const Eigen::MatrixXd& added) {
   const Reach reach(field, whitener);
   Eigen::MatrixXd weights(added.rows(), added.cols());
   for (Index j = 0; j < added.cols(); ++j) weights.col(j) = reach.transposed(added.col(j));
+  return covariance_of_sums(field.sites(), whitener.covariance(), weights);
+}
+
+double exact_gain(const Field& field, const Whitener& whitener, const Eigen::MatrixXd& added,
+                  const Eigen::VectorXd& residual) {
   const Eigen::VectorXd sums = added.transpose() * residual;
-  return sums.dot(covariance_of_sums(field.sites(), whitener.covariance(), weights).llt().solve(sums));
+  return sums.dot(scatter_of(field, whitener, added).llt().solve(sums));
 }
 
 }  // namespace muster::noise

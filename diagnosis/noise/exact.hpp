@@ -9,8 +9,12 @@ namespace muster::noise {
 // Covariance of weights^T rows, dB^2 times the weights' units; a row a row, a sum a column. Takes every pair of rows.
 Eigen::MatrixXd covariance_of_sums(const Sites& sites, const Covariance& covariance, const Eigen::MatrixXd& weights);
 
-// The fall of the deviance by these whitened columns, orthonormal and apart from the design, that is distributed as
-// chi-square under the covariance itself where nothing is there.
+// Covariance of added^T residual: whitened columns, orthonormal and apart from the design, and what the design leaves
+// of whitened rows. The approximation takes it for the identity.
+Eigen::MatrixXd scatter_of(const Field& field, const Whitener& whitener, const Eigen::MatrixXd& added);
+
+// The fall of the deviance by such columns that is distributed as chi-square under the covariance itself where nothing
+// is there.
 double exact_gain(const Field& field, const Whitener& whitener, const Eigen::MatrixXd& added,
                   const Eigen::VectorXd& residual);
 
