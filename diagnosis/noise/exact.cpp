@@ -43,13 +43,18 @@ Eigen::MatrixXd covariance_of_sums(const Sites& sites, const Covariance& covaria
   const double everywhere = covariance.field_variance() * covariance.shared();
   const double own = covariance.field_variance() - everywhere;
   const ByRow w = weights;
+  const Eigen::ArrayX3d places = sites.place.transpose().array(), anchors = sites.anchor.transpose().array();
+  const auto squares = [](const Eigen::ArrayX3d& points, Index i) {  // of distances from i to those before it
+    const auto along = [&](int axis) { return (points.col(axis).head(i) - points(i, axis)).square(); };
+    return Eigen::ArrayXd(along(0) + along(1) + along(2));
+  };
   ByRow below = ByRow::Zero(w.rows(), w.cols());  // the covariance's lower triangle times the weights
   for (Index i = 0; i < sites.size(); ++i) {
+    const Eigen::ArrayXd apart = squares(places, i), near = apart.sqrt();
+    const Eigen::ArrayXd joint = (apart + squares(anchors, i)).sqrt();
     for (Index j = 0; j < i; ++j) {
-      const double apart = (sites.place.col(i) - sites.place.col(j)).squaredNorm();
-      double c = everywhere * at(std::sqrt(apart));
-      if (sites.radio[static_cast<std::size_t>(i)] == sites.radio[static_cast<std::size_t>(j)])
-        c += own * at(std::sqrt(apart + (sites.anchor.col(i) - sites.anchor.col(j)).squaredNorm()));
+      double c = everywhere * at(near[j]);
+      if (sites.radio[static_cast<std::size_t>(i)] == sites.radio[static_cast<std::size_t>(j)]) c += own * at(joint[j]);
       below.row(i) += c * w.row(j);
     }
   }

@@ -99,7 +99,8 @@ Trial tried(const Bench& bench, const Lead& lead, const noise::Fit& fit, const E
   if (trial.log_p > -40)
     trial.integrated_log_p = integrated_log_p(bench, fit, design, lead.columns, log_tests(bench, c));
   if (c.whole) trial.integrated_log_p = std::max(trial.integrated_log_p, trial.log_p);  // not by a multiple of itself
-  if (trial.integrated_log_p <= bench.threshold())
+  constexpr double beyond_doubt = -100;  // no approximation overstates so much
+  if (trial.integrated_log_p <= bench.threshold() && trial.log_p > beyond_doubt)
     trial.integrated_log_p = std::max(trial.integrated_log_p, sure_log_p(bench, lead, fit, stand));
   trial.integrated_log_p += stand.skew_charge(lead.columns);
   const Winnings winnings = winnings_of(bench, stand, lead.columns);
