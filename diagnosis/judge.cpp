@@ -65,6 +65,20 @@ Peak Judge::best_distance(const ReadingLaw& law, const Peak& from) {
   return best;
 }
 
+Peak Judge::closer_distance(const ReadingLaw& law, Peak best) {
+  for (int by = distances / 2; by >= distances / 16; by /= 2) {
+    for (const int way : {-by, by}) {
+      Peak next = best;
+      next.shape.distance += way;
+      next = this->best(law, next);
+      if (next.value <= best.value) continue;
+      best = next;
+      break;
+    }
+  }
+  return best;
+}
+
 std::vector<Peak> Judge::shapes(const ReadingLaw& law, const noise::Covariance& from) {
   std::vector<Peak> result;
   const auto place = static_cast<int>(std::lround(1e3 * (from.theta[2] - from.theta[0])));

@@ -28,6 +28,8 @@ class Judge {
   Peak best(const ReadingLaw& law, Peak from);
   // Over size and decorrelation distance.
   Peak best_distance(const ReadingLaw& law, const Peak& from);
+  // From there, the distance to a fiftieth.
+  Peak closer_distance(const ReadingLaw& law, Peak from);
   // The best of each family, sought from a covariance.
   std::vector<Peak> shapes(const ReadingLaw& law, const noise::Covariance& from);
   // At one place alone.

@@ -45,7 +45,7 @@ FoundCause named(const LawSources& s, const Cause& cause, const LawTest& test) {
 // Three questions are asked, how readings scatter, how the field does, and whether people pass: each may err on so
 // large a share of clean worlds.
 bool beyond_chance(const LawTest& test) {
-  constexpr double alpha = 0.002;
+  constexpr double alpha = 0.001;
   return test.evidence > 0 && test.log_p < std::log(alpha);
 }
 

@@ -11,7 +11,6 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr noise::Conditioning conditioning{12, 0, 1};
-constexpr double far_off = 4;  // standard deviations; what is further off tells its neighbours no more than that
 
 std::vector<Index> finite(const VectorXd& residual) {
   std::vector<Index> result;
@@ -46,6 +45,13 @@ noise::Sites sites_of(const noise::Readings& readings) {
 ReadingField::ReadingField(const noise::Readings& readings, const VectorXd& residual)
     : residual_(residual(finite(residual))), field_(sites_of(some(readings, finite(residual))), conditioning) {}
 
+ReadingField ReadingField::untamed() const {
+  ReadingField result = *this;
+  result.far_off_ = std::numeric_limits<double>::infinity();
+  result.known_.clear();
+  return result;
+}
+
 const ReadingField::Known& ReadingField::known(const FieldShape& shape, int place) {
   const auto found = known_.find({shape, place});
   if (found != known_.end()) return found->second;
@@ -67,7 +73,7 @@ VectorXd ReadingField::error_of(const FieldShape& shape, int place, const Vector
   const noise::Whitener& whitener = known(shape, place).whitener;
   const VectorXd own = Eigen::Map<const VectorXd>(whitener.stencil().own.data(), size());
   const VectorXd white = whitener(residual);
-  const VectorXd off = (white - white.cwiseMax(-far_off).cwiseMin(far_off)).cwiseQuotient(own);
+  const VectorXd off = (white - white.cwiseMax(-far_off_).cwiseMin(far_off_)).cwiseQuotient(own);
   return whitener(residual - off).cwiseQuotient(own) + off;
 }
 

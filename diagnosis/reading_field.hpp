@@ -36,6 +36,10 @@ class ReadingField {
  public:
   // A residual a reading; those that are not finite are left out.
   ReadingField(const noise::Readings& readings, const Eigen::VectorXd& residual);
+  // With every reading telling its neighbours all that it is off by. An outlier then spoils them; but where there are
+  // none, this is the sum of errors whose variance is known, while tamed ones vary less than a law with rare deep fades
+  // says.
+  ReadingField untamed() const;
 
   Eigen::Index size() const { return residual_.size(); }
   // `place`: a thousand times log_ratio. Worked out once.
@@ -55,6 +59,7 @@ class ReadingField {
 
   Eigen::VectorXd residual_;
   noise::Field field_;
+  double far_off_ = 4;  // standard deviations; what is further off tells its neighbours no more than that
   std::map<std::pair<FieldShape, int>, Known> known_;
 };
 

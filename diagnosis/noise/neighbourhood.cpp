@@ -5,7 +5,6 @@
 namespace muster::noise {
 namespace {
 
-constexpr double floor_variance = 1e-3;  // dB^2: readings are at best quantised to 0.1 dB
 constexpr double least_variance = 1e-9;  // dB^2: of rows at one place
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }

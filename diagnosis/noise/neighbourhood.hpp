@@ -6,6 +6,8 @@
 
 namespace muster::noise {
 
+constexpr double floor_variance = 1e-3;  // dB^2, of every row: readings are at best quantised to 0.1 dB
+
 // A value of each of the eight rows.
 struct alignas(alignment) Lanes {
   double of[lanes];

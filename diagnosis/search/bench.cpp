@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "diagnosis/search/integrated.hpp"
+#include "diagnosis/noise/exact.hpp"
 #include "diagnosis/search/scores.hpp"
 #include "diagnosis/search/smooths.hpp"
 #include "diagnosis/search/tail.hpp"
@@ -23,12 +23,6 @@ noise::Sheet normals_of(Index rows, int count, uint64_t seed) {
   return result;
 }
 
-// Of the usual length, unless each reading is a row or the rows are longer already.
-noise::RowLimits never_shorter(const noise::RowLimits& rows) {
-  const noise::RowLimits usual;
-  return rows.way < 0 || rows.way > usual.way ? rows : usual;
-}
-
 }  // namespace
 
 Eigen::MatrixXd Entry::atom(Index k) const {
@@ -38,6 +32,11 @@ Eigen::MatrixXd Entry::atom(Index k) const {
 double Stand::gain(const Eigen::MatrixXd& columns) const {
   const auto added = noise::basis_of(at.basis.rest(whitener(columns)));
   return (added.q.transpose() * at.residual).squaredNorm();
+}
+
+double Stand::exact_gain(const noise::Field& field, const Eigen::MatrixXd& columns) const {
+  const auto added = noise::basis_of(at.basis.rest(whitener(columns)));
+  return noise::exact_gain(field, whitener, added.q, at.residual);
 }
 
 double Stand::gain_as_it_is(const Eigen::MatrixXd& columns) const {
@@ -63,8 +62,7 @@ Bench::Bench(const Problem& problem, const Options& options)
       options_(options),
       rows_(problem.readings, options.rows),
       field_(rows_.sites(problem.readings), {.seed = options.seed}),
-      long_rows_(problem.readings, never_shorter(options.rows)),
-      far_field_(long_rows_.sites(problem.readings), {.same = 16, .others = 20, .seed = options.seed}),
+      far_(problem.readings, options, rows_),
       base_(rows_.mean(problem.base)),
       normals_(normals_of(rows_.size(), options.nulls, options.seed)) {
   impute(6);
@@ -112,20 +110,6 @@ noise::Fit Bench::fitted(const Eigen::MatrixXd& design, const noise::Covariance&
   return noise::fit(field_, y_, design, options_.prior, start, steps);
 }
 
-Eigen::MatrixXd Bench::lengthened(const Eigen::MatrixXd& of_rows) const {
-  Eigen::MatrixXd result(long_rows_.size(), of_rows.cols());
-  for (Index j = 0; j < of_rows.cols(); ++j) result.col(j) = long_rows_.mean(rows_.at_readings(of_rows.col(j)));
-  return result;
-}
-
-double Bench::far_gain(const Eigen::MatrixXd& design, const Eigen::MatrixXd& columns,
-                       const noise::Covariance& covariance) const {
-  const noise::Whitener whitener(far_field_, covariance);
-  const auto at = noise::whitened(whitener, lengthened(y_), lengthened(design), options_.prior);
-  const auto added = noise::basis_of(at.basis.rest(whitener(lengthened(columns))));
-  return (added.q.transpose() * at.residual).squaredNorm();
-}
-
 std::vector<noise::Family> Bench::likely_families(noise::Family first) const {
   std::vector<noise::Family> result{first};
   for (const noise::Fit& other : families) {
@@ -133,25 +117,6 @@ std::vector<noise::Family> Bench::likely_families(noise::Family first) const {
       result.push_back(other.covariance.family);
   }
   return result;
-}
-
-double Bench::profile_gain(const Eigen::MatrixXd& design, const Eigen::MatrixXd& columns,
-                           const noise::Covariance& with) const {
-  const Eigen::VectorXd y = lengthened(y_);
-  const auto log_likelihood = [&](const Eigen::MatrixXd& all, const noise::Covariance& start) {
-    double highest = -1e300;
-    for (const noise::Family family : likely_families(start.family)) {
-      noise::Covariance from{family, start.theta};
-      from.theta[1] += noise::log_scale_of(from.family) - noise::log_scale_of(start.family);
-      const noise::Fit best = noise::fit(far_field_, y, all, options_.prior, from, 4);
-      const noise::Whitener whitener(far_field_, best.covariance);
-      const auto whitened = noise::whitened(whitener, y, all, options_.prior);
-      highest = std::max(highest, whitened.basis.log_determinant() - best.value);
-    }
-    return highest;
-  };
-  const Eigen::MatrixXd smaller = lengthened(design);
-  return 2 * (log_likelihood(beside(smaller, lengthened(columns)), with) - log_likelihood(smaller, fit.covariance));
 }
 
 Entry Bench::entry(Candidate candidate) const {

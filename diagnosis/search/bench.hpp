@@ -5,11 +5,9 @@
 #include <memory>
 
 #include "diagnosis/noise/vecchia.hpp"
-#include "diagnosis/search/problem.hpp"
+#include "diagnosis/search/far_rows.hpp"
 
 namespace muster::search {
-
-constexpr double likely_nats = 3;  // that a family may lie behind the best one
 
 // A candidate with the row means of its grid's columns, `width` an atom.
 struct Entry {
@@ -43,6 +41,8 @@ struct Stand {
 
   // The fall of the deviance if these columns (row means) are added.
   double gain(const Eigen::MatrixXd& columns) const;
+  // The same as a chi-square under the covariance itself (noise/exact.hpp). Slow.
+  double exact_gain(const noise::Field& field, const Eigen::MatrixXd& columns) const;
   // The same with all coefficients at 1.
   double gain_as_it_is(const Eigen::MatrixXd& columns) const;
   // Nats by which that fall is likelier than under normal noise, if residuals are as skewed as these: deep fades that
@@ -59,6 +59,7 @@ class Bench {
   const Options& options() const { return options_; }
   const noise::Rows& rows() const { return rows_; }
   const noise::Field& field() const { return field_; }
+  const FarRows& far() const { return far_; }
   double log_rows() const { return std::log(static_cast<double>(rows_.size())); }
 
   noise::Fit fit;                    // of the noise beside the design
@@ -81,14 +82,6 @@ class Bench {
   Stand stand(const Eigen::MatrixXd& design) const { return stand(design, fit.covariance); }
   Stand stand(const Eigen::MatrixXd& design, const noise::Covariance& covariance) const;
   noise::Fit fitted(const Eigen::MatrixXd& design, const noise::Covariance& start, int steps) const;
-  // The fall of the deviance if these columns (row means) are added to the design, the noise being fitted with and
-  // without them: what they win though the noise could have taken their place. For what varies slowly: by longer rows
-  // with more neighbours each than the search has, since few near ones overstate it. `with`: the noise beside them.
-  double profile_gain(const Eigen::MatrixXd& design, const Eigen::MatrixXd& columns,
-                      const noise::Covariance& with) const;
-  // The fall of the deviance at this covariance, by the same longer rows.
-  double far_gain(const Eigen::MatrixXd& design, const Eigen::MatrixXd& columns,
-                  const noise::Covariance& covariance) const;
   void refit(int steps = 6) { fit = fitted(design(), fit.covariance, steps); }
 
   // All candidates: the given ones, smooths, and those that depend on the model as it stands.
@@ -107,15 +100,12 @@ class Bench {
 
  private:
   Entry entry(Candidate candidate) const;
-  // Row means as means of the longer rows.
-  Eigen::MatrixXd lengthened(const Eigen::MatrixXd& of_rows) const;
 
   const Problem& problem_;
   Options options_;
   noise::Rows rows_;
   noise::Field field_;
-  noise::Rows long_rows_;
-  noise::Field far_field_;  // of the long rows, with more neighbours
+  FarRows far_;
   Eigen::MatrixXd base_;
   Eigen::VectorXd measured_, y_;
   std::vector<Entry> entries_;

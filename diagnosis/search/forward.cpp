@@ -74,6 +74,21 @@ noise::Fit fit_with(const Bench& bench, const Lead& lead, const Eigen::MatrixXd&
   return fresh.value < fit.value ? fresh : fit;
 }
 
+// What the covariance itself says by these rows; of what is no place, by longer ones on more neighbours too.
+double sure_log_p(const Bench& bench, const Lead& lead, const noise::Fit& fit, const Stand& stand) {
+  const Candidate& c = lead.candidate();
+  double gain = stand.exact_gain(bench.field(), lead.columns);
+  if (c.pieces.empty()) {
+    const FarRows::Question question{bench.y(), stand.design, lead.columns, fit.covariance};
+    gain = std::min(gain, bench.far().sure_gain(question));
+    if (c.slow || c.kind == Kind::smooth) {
+      const std::vector<noise::Family> families = bench.likely_families(fit.covariance.family);
+      gain = std::min(gain, bench.far().profile_gain(question, bench.fit.covariance, families));
+    }
+  }
+  return bench.log_p(c, gain, lead.columns.cols(), true);
+}
+
 // The name must survive what is not known of the covariance, the lone transmitter and the clip.
 Trial tried(const Bench& bench, const Lead& lead, const noise::Fit& fit, const Eigen::MatrixXd& design) {
   const Candidate& c = lead.candidate();
@@ -84,10 +99,9 @@ Trial tried(const Bench& bench, const Lead& lead, const noise::Fit& fit, const E
   if (trial.log_p > -40)
     trial.integrated_log_p = integrated_log_p(bench, fit, design, lead.columns, log_tests(bench, c));
   if (c.whole) trial.integrated_log_p = std::max(trial.integrated_log_p, trial.log_p);  // not by a multiple of itself
-  if ((c.slow || c.kind == Kind::smooth) && trial.integrated_log_p <= bench.threshold()) {
-    const double profile = bench.profile_gain(design, lead.columns, fit.covariance);
-    trial.integrated_log_p = std::max(trial.integrated_log_p, bench.log_p(c, profile, lead.columns.cols(), true));
-  }
+  constexpr double beyond_doubt = -100;  // no approximation overstates so much
+  if (trial.integrated_log_p <= bench.threshold() && trial.log_p > beyond_doubt)
+    trial.integrated_log_p = std::max(trial.integrated_log_p, sure_log_p(bench, lead, fit, stand));
   trial.integrated_log_p += stand.skew_charge(lead.columns);
   const Winnings winnings = winnings_of(bench, stand, lead.columns);
   if (!c.pieces.empty() && share_of_others(bench, winnings.won) < 0.08)

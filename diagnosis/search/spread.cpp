@@ -8,6 +8,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "diagnosis/noise/exact.hpp"
 #include "diagnosis/search/integrated.hpp"
 #include "diagnosis/search/refine.hpp"
 #include "diagnosis/search/scores.hpp"
@@ -66,8 +67,14 @@ std::vector<Eigen::VectorXd> drawn(const std::vector<Met>& met) {
 
 class Walk {
  public:
-  Walk(const Bench& bench, const Stand& rest, const Term& term)
-      : bench_(bench), rest_(rest), c_(*term.candidate), theta_(term.theta), at_(rest, term.columns, c_.whole) {
+  // `overstated`: by how much gains are.
+  Walk(const Bench& bench, const Stand& rest, const Term& term, double overstated)
+      : bench_(bench),
+        rest_(rest),
+        c_(*term.candidate),
+        overstated_(overstated),
+        theta_(term.theta),
+        at_(rest, term.columns, c_.whole) {
     weight_ = weight(theta_, at_);
   }
 
@@ -109,7 +116,7 @@ class Walk {
  private:
   double weight(const Eigen::VectorXd& theta, const Beside& at) const {
     if (c_.sign && at.coefficients[0] * c_.sign < 0) return 0;
-    return (c_.admitted ? c_.admitted(theta) : 1) * at.gain / 2 + (c_.belief ? c_.belief(theta) : 0);
+    return (c_.admitted ? c_.admitted(theta) : 1) * at.gain / (2 * overstated_) + (c_.belief ? c_.belief(theta) : 0);
   }
 
   Eigen::VectorXd stride() const {
@@ -131,6 +138,7 @@ class Walk {
   const Bench& bench_;
   const Stand& rest_;
   const Candidate& c_;
+  const double overstated_;
   const Stream stream_{key_of("walk")};
   uint64_t k_ = 0;
   Eigen::MatrixXd axes_;  // empty: the candidate's moves alone
@@ -164,6 +172,12 @@ double by_noise(const Bench& bench, const Term& term, const Beside& fitted) {
   return trace / fitted.covariance.trace();
 }
 
+// By how much it is larger under the covariance itself than by Vecchia's approximation.
+double by_approximation(const Bench& bench, const Stand& rest, const Beside& fitted) {
+  const noise::Basis basis = noise::basis_of(fitted.columns);
+  return noise::scatter_of(bench.field(), rest.whitener, basis.q).trace() / static_cast<double>(basis.q.cols());
+}
+
 // The same from the scatter of the residuals: scores added up over cells of places (Liang and Zeger 1986).
 double by_scatter(const Bench& bench, const Stand& rest, const Beside& fitted) {
   const double side = std::max(1.0, bench.fit.covariance.decorrelation());
@@ -192,10 +206,12 @@ double by_scatter(const Bench& bench, const Stand& rest, const Beside& fitted) {
 Spread spread_of(const Bench& bench, const Term& term) {
   const Stand rest = bench.stand(bench.design_without(term));
   const Beside fitted(rest, term.columns, term.candidate->whole);
-  const double grown = std::max({1.0, by_noise(bench, term, fitted), by_scatter(bench, rest, fitted)});
+  const double overstated = std::max(1.0, by_approximation(bench, rest, fitted));
+  const double grown =
+      std::max(overstated * std::max(1.0, by_noise(bench, term, fitted)), by_scatter(bench, rest, fitted));
   Spread result{{term.theta}, grown * fitted.covariance};
   if (!term.candidate->refinable() || term.smooth()) return result;
-  Walk walk(bench, rest, term);
+  Walk walk(bench, rest, term, overstated);
   std::vector<Met> met;
   for (const int lap : laps) {
     met.clear();

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "diagnosis/search/integrated.hpp"
 
@@ -49,14 +48,16 @@ std::vector<Lead> beyond_chance(Bench& bench, const Stand& stand, double thresho
   return result;
 }
 
-// Few near neighbours overstate what is slow, and which family it is nobody says: the least that any allows.
+// Few near neighbours overstate what is slow, and which family it is nobody says: the least that any allows, the field
+// as stated or fitted beside the lead.
 void weigh_beside(const Bench& bench, const Eigen::MatrixXd& design, const std::vector<noise::Fit>& fits, Lead& lead) {
   const Candidate& c = lead.candidate();
-  lead.log_p = -std::numeric_limits<double>::infinity();
+  const double sure = bench.far().sure_gain({bench.y(), design, lead.columns, fits[0].covariance});
+  lead.log_p = bench.log_p(c, sure, c.width, false);
   for (const noise::Fit& fit : fits) {
     const Stand stand = bench.stand(design, fit.covariance);
     const double near_rows = gain_of(c, stand, lead.columns);
-    const double gain = std::min(near_rows, bench.far_gain(design, lead.columns, fit.covariance));
+    const double gain = std::min(near_rows, bench.far().gain({bench.y(), design, lead.columns, fit.covariance}));
     lead.gain = std::min(lead.gain, gain);
     lead.log_p = std::max(lead.log_p, bench.log_p(c, gain, c.width, false) + stand.skew_charge(lead.columns));
   }

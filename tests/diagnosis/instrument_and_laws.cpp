@@ -122,6 +122,15 @@ TEST(LawsOfReadings, ReadingsSideBySideSpeakAgainstAnotherLaw) {
   }
 }
 
+// Readings a fiftieth of the field's distance apart, deep fades among them: with what they tell their neighbours tamed
+// alone, a law of weaker fading would win 24.
+TEST(LawsOfReadings, TamedDeepFadesAreNoOtherFading) {
+  const Walk walk = drawn_of_four({.rician_k = 5}, 1500, 30, 30);
+  ReadingField field(walk.readings, walk.residual);
+  const noise::Covariance dense{noise::Family::exponential, {2.2, std::log(30), std::log(fading_variance(5, 1)), 0}};
+  for (const LawTest& test : law_tests(field, 1, {.rician_k = 5}, dense).tests) EXPECT_LT(test.gain, 9) << test.cause;
+}
+
 TEST(LawsOfReadings, AnotherFadingIsMeasured) {
   const LawTest best = tested({.rician_k = 2}, {.rician_k = 8}).front();
   EXPECT_EQ(best.cause, "effect.fading_law");

@@ -47,9 +47,9 @@ inline Walk drawn(const Truth& truth, int count, double decorrelation = 1.5, int
 }
 
 // Four stations at one place, each with a field of its own.
-inline Walk drawn_of_four(const Truth& truth, int count, double decorrelation) {
-  Walk all = drawn(truth, count, decorrelation);
-  for (int station = 1; station < 4; ++station) {
+inline Walk drawn_of_four(const Truth& truth, int count, double decorrelation, int first = 0) {
+  Walk all = drawn(truth, count, decorrelation, first);
+  for (int station = first + 1; station < first + 4; ++station) {
     const Walk more = drawn(truth, count, decorrelation, station);
     const Eigen::Index from = all.residual.size();
     for (auto list : {&noise::Readings::tx, &noise::Readings::rx})

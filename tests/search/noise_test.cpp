@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "diagnosis/noise/censored.hpp"
+#include "diagnosis/noise/exact.hpp"
 #include "diagnosis/noise/fit.hpp"
 #include "diagnosis/noise/reach.hpp"
 #include "muster/random.hpp"
@@ -48,6 +49,43 @@ Eigen::MatrixXd dense(const Sites& sites, const Covariance& c) {
 }
 
 const Covariance some{Family::exponential, {std::log(9.0), std::log(1.7), std::log(4.0), -1.2}};
+
+TEST(Exact, CovarianceOfSumsIsTheDenseOne) {
+  const Sites sites = scattered(80, 3, 6);
+  const Eigen::MatrixXd weights = Eigen::MatrixXd::Random(80, 3);
+  for (const Family family : families) {
+    const Covariance c{family, some.theta};
+    const Eigen::MatrixXd expected = weights.transpose() * dense(sites, c) * weights;
+    EXPECT_LT((covariance_of_sums(sites, c, weights) - expected).norm(), 1e-3 * expected.norm()) << name_of(family);
+  }
+}
+
+// An offset of one radio in a field of two scales, where readings lie close: by few neighbours its gain is more than a
+// chi-square's, and by as much as the covariance itself says.
+TEST(Exact, GainsOfPureNoiseAreChiSquare) {
+  const Sites sites = scattered(900, 3, 7);
+  const Covariance c{Family::two_scale, {std::log(9.0), std::log(2.0), std::log(2.0), -1.2}};
+  const Field field(sites);
+  const Whitener whitener(field, c);
+  Eigen::MatrixXd columns(900, 2);
+  for (Index i = 0; i < 900; ++i) columns.row(i) << 1, sites.radio[static_cast<std::size_t>(i)] == 0;
+  const Basis design = basis_of(whitener(columns.col(0)));
+  const Basis added = basis_of(design.rest(whitener(columns.col(1))));
+  const Eigen::MatrixXd root = dense(sites, c).llt().matrixL();
+  const Stream stream(key_of("exact gains"));
+  constexpr int draws = 400;
+  double mean = 0, overstated = 0;
+  for (uint64_t draw = 0; draw < draws; ++draw) {
+    Eigen::VectorXd z(900);
+    for (Index i = 0; i < 900; ++i) z[i] = stream.normal(static_cast<uint64_t>(i), draw);
+    const Eigen::VectorXd residual = design.rest(whitener(Eigen::VectorXd(root * z))).col(0);
+    const double gain = (added.q.transpose() * residual).squaredNorm();
+    if (draw == 0) overstated = gain / exact_gain(field, whitener, added.q, residual);  // the same of any residual
+    mean += gain / draws;
+  }
+  EXPECT_GT(overstated, 1.25);
+  EXPECT_NEAR(mean / overstated, 1, 3 * std::sqrt(2.0 / draws));
+}
 
 TEST(Vecchia, IsTheDenseLikelihoodWhereEveryEarlierRowIsANeighbour) {
   const Sites sites = scattered(60, 3, 5);

@@ -10,6 +10,7 @@
 #include "diagnosis/search/held_out.hpp"
 #include "diagnosis/search/merge.hpp"
 #include "diagnosis/search/refine.hpp"
+#include "diagnosis/search/search.hpp"
 #include "diagnosis/search/spread.hpp"
 #include "diagnosis/search/tail.hpp"
 #include "diagnosis/search/thin.hpp"
@@ -121,10 +122,36 @@ TEST(Bench, LongerRowsTellNoMore) {
       options.rows.time *= share;
       options.rows.way *= share;
       const Bench bench(problem, options);
-      return bench.profile_gain(bench.design(), bench.columns_of(*drift, settling), bench.fit.covariance);
+      const noise::Covariance& noise = bench.fit.covariance;
+      return bench.far().profile_gain({bench.y(), bench.design(), bench.columns_of(*drift, settling), noise}, noise,
+                                      bench.likely_families(noise.family));
     };
     EXPECT_LT(winnings(4), 1.2 * winnings(1));
   }
+}
+
+// In a smooth field under much noise a sender's offset: what few neighbours, and the family that needs the offset most,
+// say too much is not believed.
+TEST(FarRows, ANameIsWorthNoMoreThanTheCovarianceItselfSays) {
+  const auto world = world_of({.seed = 3,
+                               .readings = 2600,
+                               .sigma = 2.25,
+                               .decorrelation = 2.3,
+                               .fading = 3.7,
+                               .shape = synthetic::Shape::gaussian});
+  Eigen::VectorXd effect(world.readings.size());
+  for (Index i = 0; i < effect.size(); ++i) effect[i] = world.readings.tx[static_cast<std::size_t>(i)] == 0 ? 2.6 : 0;
+  const Problem problem = problem_of(world, effect, causes_of(world));
+  Search search(problem, {});
+  const Result result = search.run();
+  ASSERT_EQ(result.findings.size(), 1u);
+  const Bench& bench = search.bench();
+  const Term& offset = bench.terms[0];
+  EXPECT_EQ(offset.id(), "tx_offset");
+  const double near = bench.stand(bench.base()).gain(offset.columns);
+  const double sure = bench.far().sure_gain({bench.y(), bench.base(), offset.columns, bench.fit.covariance});
+  EXPECT_LT(sure, 0.9 * near);
+  EXPECT_NEAR(result.trials[0].integrated_log_p, bench.log_p(*offset.candidate, sure, 1, true), 0.2);
 }
 
 TEST(RefinementCharge, OfAWallIsAFewNatsAndOfAStepLess) {

@@ -1,0 +1,81 @@
+#include "diagnosis/search/far_rows.hpp"
+
+#include <algorithm>
+
+#include "diagnosis/noise/exact.hpp"
+#include "diagnosis/search/integrated.hpp"
+
+namespace muster::search {
+namespace {
+
+// Of the usual length, unless each reading is a row or the rows are longer already.
+noise::RowLimits never_shorter(const noise::RowLimits& rows) {
+  const noise::RowLimits usual;
+  return rows.way < 0 || rows.way > usual.way ? rows : usual;
+}
+
+}  // namespace
+
+FarRows::FarRows(const noise::Readings& readings, const Options& options, const noise::Rows& rows)
+    : rows_(rows),
+      prior_(options.prior),
+      long_rows_(readings, never_shorter(options.rows)),
+      field_(long_rows_.sites(readings), {.same = 16, .others = 20, .seed = options.seed}) {}
+
+Eigen::MatrixXd FarRows::lengthened(const Eigen::MatrixXd& of_rows) const {
+  Eigen::MatrixXd result(long_rows_.size(), of_rows.cols());
+  for (Index j = 0; j < of_rows.cols(); ++j) result.col(j) = long_rows_.mean(rows_.at_readings(of_rows.col(j)));
+  return result;
+}
+
+double FarRows::gain(const Question& q) const {
+  const noise::Whitener whitener(field_, q.with);
+  const auto at = noise::whitened(whitener, lengthened(q.y), lengthened(q.design), prior_);
+  const auto added = noise::basis_of(at.basis.rest(whitener(lengthened(q.columns))));
+  return (added.q.transpose() * at.residual).squaredNorm();
+}
+
+noise::Fit FarRows::fitted(const Eigen::VectorXd& y, const Eigen::MatrixXd& design, const noise::Covariance& near,
+                           noise::Family family) const {
+  noise::Covariance from{family, near.theta};
+  from.theta[1] += noise::log_scale_of(family) - noise::log_scale_of(near.family);
+  return noise::fit(field_, y, design, prior_, from, 4);
+}
+
+double FarRows::profile_gain(const Question& q, const noise::Covariance& without,
+                             const std::vector<noise::Family>& families) const {
+  const Eigen::VectorXd y = lengthened(q.y);
+  const auto log_likelihood = [&](const Eigen::MatrixXd& design, const noise::Covariance& start) {
+    double highest = -1e300;
+    for (const noise::Family family : families) {
+      const noise::Fit best = fitted(y, design, start, family);
+      const noise::Whitener whitener(field_, best.covariance);
+      highest = std::max(highest, noise::whitened(whitener, y, design, prior_).basis.log_determinant() - best.value);
+    }
+    return highest;
+  };
+  const Eigen::MatrixXd design = lengthened(q.design);
+  return 2 * (log_likelihood(beside(design, lengthened(q.columns)), q.with) - log_likelihood(design, without));
+}
+
+double FarRows::sure_gain(const Question& q) const {
+  constexpr double hopeless = 15;  // nats behind: no gain is so large that it would be the least
+  const Eigen::VectorXd y = lengthened(q.y);
+  const Eigen::MatrixXd design = lengthened(q.design), columns = lengthened(q.columns);
+  std::vector<noise::Fit> fits;
+  for (const noise::Family family : noise::families) fits.push_back(fitted(y, beside(design, columns), q.with, family));
+  const auto likelier = [](const noise::Fit& a, const noise::Fit& b) { return a.value < b.value; };
+  const double best = std::min_element(fits.begin(), fits.end(), likelier)->value;
+  double least = std::numeric_limits<double>::infinity();
+  for (const noise::Fit& fit : fits) {
+    if (fit.value > best + hopeless) continue;
+    const noise::Whitener whitener(field_, fit.covariance);
+    const auto at = noise::whitened(whitener, y, design, prior_);
+    const auto added = noise::basis_of(at.basis.rest(whitener(columns)));
+    const double unlikely = std::max(0.0, fit.value - best - likely_nats);
+    least = std::min(least, noise::exact_gain(field_, whitener, added.q, at.residual) + 2 * unlikely);
+  }
+  return least;
+}
+
+}  // namespace muster::search

@@ -1,0 +1,45 @@
+// What varies slowly, judged by longer rows on more neighbours each than the search has: of few near ones none tells
+// how far the field reaches.
+#pragma once
+
+#include "diagnosis/search/problem.hpp"
+
+namespace muster::search {
+
+constexpr double likely_nats = 3;  // that a family may lie behind the best one
+
+// Everything that is given has a value a row of the search.
+class FarRows {
+ public:
+  FarRows(const noise::Readings& readings, const Options& options, const noise::Rows& rows);
+
+  // Columns that a design is extended by, and the noise beside both.
+  struct Question {
+    const Eigen::VectorXd& y;
+    const Eigen::MatrixXd& design;
+    const Eigen::MatrixXd& columns;
+    const noise::Covariance& with;
+  };
+  // The fall of the deviance.
+  double gain(const Question& question) const;
+  // The same with the noise fitted beside the columns, and without them from `without`, in each of the families: what
+  // they win though the noise could have taken their place.
+  double profile_gain(const Question& question, const noise::Covariance& without,
+                      const std::vector<noise::Family>& families) const;
+  // The fall of the deviance as a chi-square under the covariance itself (noise/exact.hpp), the noise fitted beside the
+  // columns: the least by any family. One that is less likely than the likeliest, by more than `likely_nats`, has to
+  // say so much less.
+  double sure_gain(const Question& question) const;
+
+ private:
+  Eigen::MatrixXd lengthened(const Eigen::MatrixXd& of_rows) const;
+  noise::Fit fitted(const Eigen::VectorXd& y, const Eigen::MatrixXd& design, const noise::Covariance& near,
+                    noise::Family family) const;
+
+  const noise::Rows& rows_;
+  noise::Prior prior_;
+  noise::Rows long_rows_;
+  noise::Field field_;
+};
+
+}  // namespace muster::search
