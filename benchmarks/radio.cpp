@@ -14,9 +14,7 @@
 #include "floor_plan.hpp"
 #ifdef MUSTER_HAS_NS3
 #include "ns3_channel.hpp"
-#include "plugins/radio_fading/each_end.hpp"
 #include "plugins/radio_fading/multipath.hpp"
-#include "plugins/radio_fading/rician.hpp"
 #include "plugins/radio_fading/shadow_field.hpp"
 #include "plugins/radio_multiwall/link_geometry.hpp"
 #endif
@@ -174,12 +172,19 @@ class Channel {
   void all(std::vector<double>& levels) {
     geometry_.set_scene(rows(walls_), rows(no_doors_), rows(no_states_), FloorPlan::materials);
     geometry_.set_links(rows(links_), rows(poses_));
-    const auto shadows = at_each(field_, rows(poses_), 2);
-    once_a_pair<Level>(rows(links_), field_, shadows, {&shadowing_.data()->level, links_.size()},
-                       [&](const Ends&, double between) { return Level{4 * between}; });
-    const auto waves = at_each(multipath_, rows(poses_), 0.1229);
-    once_a_pair<Fading>(rows(links_), multipath_, waves, {&gain_.data()->gain, links_.size()},
-                        [&](const Ends&, std::complex<double> diffuse) { return Fading{rician_gain(0, diffuse, 0)}; });
+    const auto shadow_at = field_.at(places(rows(poses_), 2));
+    const auto waves_at = multipath_.at(places(rows(poses_), 0.1229));
+    double shadow[waves::tile][waves::tile], power[waves::tile][waves::tile];
+    by_tiles(
+        rows(links_), poses_.size(),
+        [&](std::size_t from, int place, std::size_t to, unsigned wanted) {
+          field_.between(shadow_at[from], place, shadow_at[to], wanted, shadow[place]);
+          multipath_.gains(waves_at[from], place, waves_at[to], wanted, 0, power[place]);
+        },
+        [&](std::size_t link, std::size_t place, std::size_t other) {
+          shadowing_[link].level = 4 * shadow[place][other];
+          gain_[link].gain = power[place][other];
+        });
     levels.resize(links_.size());
     for (std::size_t i = 0; i < links_.size(); ++i) {
       double level = -40 - 20 * geometry_.log_distance(i) + shadowing_[i].level + 10 * std::log10(gain_[i].gain);
