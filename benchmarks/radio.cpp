@@ -166,7 +166,9 @@ class Channel {
     geometry_.set_scene(rows(no_walls_), rows(no_doors_), rows(no_states_), 0);
     geometry_.set_links(rows(links_), rows(poses_));
     levels.resize(links_.size());
-    for (std::size_t i = 0; i < links_.size(); ++i) levels[i] = -40 - 20 * geometry_.log_distance(i);
+    by_pair_.resize(geometry_.pairs());
+    for (std::size_t i = 0; i < by_pair_.size(); ++i) by_pair_[i] = -40 - 20 * geometry_.log_distances()[i];
+    for (std::size_t i = 0; i < links_.size(); ++i) levels[i] = by_pair_[geometry_.pair(i)];
   }
 
   void all(std::vector<double>& levels) {
@@ -185,11 +187,16 @@ class Channel {
           shadowing_[link].level = 4 * shadow[place][other];
           gain_[link].gain = power[place][other];
         });
+    by_pair_.resize(geometry_.pairs());
+    for (std::size_t i = 0; i < by_pair_.size(); ++i) by_pair_[i] = -40 - 20 * geometry_.log_distances()[i];
+    for (std::size_t m = 0; m < FloorPlan::materials; ++m) {
+      const int* const counts = geometry_.counts(m);
+      for (std::size_t i = 0; i < by_pair_.size(); ++i) by_pair_[i] -= 3 * counts[i];
+    }
+    log10_of_all(&gain_.data()->gain, gain_.size());
     levels.resize(links_.size());
     for (std::size_t i = 0; i < links_.size(); ++i) {
-      double level = -40 - 20 * geometry_.log_distance(i) + shadowing_[i].level + 10 * std::log10(gain_[i].gain);
-      for (std::size_t m = 0; m < FloorPlan::materials; ++m) level -= 3 * geometry_.count(i, m);
-      levels[i] = level;
+      levels[i] = by_pair_[geometry_.pair(i)] + shadowing_[i].level + 10 * gain_[i].gain;
     }
   }
 
@@ -201,6 +208,7 @@ class Channel {
   std::vector<Ends> links_;
   std::vector<Level> shadowing_;
   std::vector<Fading> gain_;
+  std::vector<double> by_pair_;
   LinkGeometry geometry_;
   const ShadowField field_{Stream(1)};
   const Multipath multipath_{Stream(2)};

@@ -1,5 +1,6 @@
 // The multi-wall model of COST 231: distance and walls, as two terms of the received level.
 #include <muster/plugin.hpp>
+#include <vector>
 
 #include "link_geometry.hpp"
 
@@ -8,7 +9,7 @@ namespace {
 using namespace muster;
 
 struct RadioMultiwall {
-  static constexpr auto id = "radio.multiwall/1";
+  static constexpr auto id = "radio.multiwall/2";
   static constexpr auto summary = "path loss by distance and by the walls that a link crosses";
   static constexpr auto manual =
       "level@distance = tx_power - l0 - 10 n log10(d), d in metres and at least 0.01;\n"
@@ -49,23 +50,36 @@ struct RadioMultiwall {
     } catch (const std::runtime_error& e) {  // the scene refuses walls, doors and places, which are the user's
       throw BadInput(e.what());
     }
+    evaluate(k);
     const auto by_distance = k[distance];
     const auto by_walls = k[walls];
-    const double at_1m = k[tx_power] - k[l0], slope = 10 * k[n], edge = std::log10(k[radius]);
     for (std::size_t i = 0; i < by_distance.size(); ++i) {
-      const double far = geometry.log_distance(i);
-      by_distance[i].level = at_1m - (k[model] <= log_distance         ? slope * far
-                                      : k[model] == disc && far > edge ? 200
-                                                                       : 0);
-      double sum = 0;
-      for (std::size_t m = 0; k[model] == multi_wall && m < losses.size(); ++m) {
-        sum -= geometry.count(i, m) * losses[m].loss;
-      }
-      by_walls[i].level = sum;
+      const Terms& terms = of_pair[geometry.pair(i)];
+      by_distance[i].level = terms.distance;
+      by_walls[i].level = terms.walls;
+    }
+  }
+
+  void evaluate(const Step& k) {
+    const double at_1m = k[tx_power] - k[l0], slope = 10 * k[n], edge = std::log10(k[radius]);
+    const double per_decade = k[model] <= log_distance ? slope : 0, beyond = k[model] == disc ? 200 : 0;
+    const double* const far = geometry.log_distances();
+    of_pair.resize(geometry.pairs());
+    for (std::size_t i = 0; i < of_pair.size(); ++i) {
+      of_pair[i] = {at_1m - (far[i] > edge ? beyond : 0) - per_decade * far[i], 0};
+    }
+    for (std::size_t m = 0; k[model] == multi_wall && m < k[loss].size(); ++m) {
+      const double each = k[loss][m].loss;
+      const int* const counts = geometry.counts(m);
+      for (std::size_t i = 0; i < of_pair.size(); ++i) of_pair[i].walls -= counts[i] * each;
     }
   }
 
   enum Model { multi_wall, log_distance, disc, perfect };
+
+  struct Terms {
+    double distance, walls;
+  };
 
   Value tx_power, l0, n, model, radius;
   In<Pose> pose;
@@ -76,6 +90,7 @@ struct RadioMultiwall {
   In<Loss> loss;
   Out<Level> distance, walls;
   LinkGeometry geometry;
+  std::vector<Terms> of_pair;
 };
 
 }  // namespace
