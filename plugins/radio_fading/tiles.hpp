@@ -39,6 +39,9 @@ std::vector<Tile> tiles(const std::vector<Place>& places, const Fill& fill) {
 class SendersLinks {
  public:
   static constexpr std::size_t none = ~std::size_t{0};
+  struct Some {
+    const Ends *begin = nullptr, *end = nullptr;
+  };
 
   SendersLinks(Rows<const Ends> links, std::size_t endpoints) : links_(links), next_(endpoints) {
     const Ends* first = links.begin();
@@ -60,18 +63,14 @@ class SendersLinks {
                : none;
   }
 
-  // Takes the sender's links as long as they go to this tile: use(link, place in the tile).
-  template <class Use>
-  void take(std::size_t sender, std::size_t tile, const Use& use) {
+  // Takes the sender's links as long as they go to this tile.
+  Some take(std::size_t sender, std::size_t tile) {
     const double from = static_cast<double>(sender), first = static_cast<double>(tile * waves::tile);
-    const Ends* next = next_[sender];
-    for (; next != links_.end() && next->tx == from; ++next) {
-      const double place = next->rx - first;
-      if (!(place >= 0 && place < waves::tile)) break;
-      use(static_cast<std::uint32_t>(next - links_.begin()), static_cast<std::uint16_t>(place));
-    }
-    taken_ += static_cast<std::size_t>(next - next_[sender]);
+    const Ends *const start = next_[sender], *next = start;
+    while (next != links_.end() && next->tx == from && next->rx >= first && next->rx < first + waves::tile) ++next;
     next_[sender] = next;
+    taken_ += static_cast<std::size_t>(next - start);
+    return {start, next};
   }
 
   bool all_taken() const { return taken_ == links_.size(); }
@@ -89,36 +88,36 @@ class SendersLinks {
 template <class Evaluate, class Put>
 void by_tiles(Rows<const Ends> links, std::size_t endpoints, const Evaluate& evaluate, const Put& put) {
   constexpr std::size_t tile = waves::tile;
-  struct Found {
-    std::uint32_t link;
-    std::uint16_t place, other;
-  };
-  std::vector<Found> found;
   SendersLinks by_sender(links, endpoints);
   const auto senders = [&](std::size_t of) { return std::min(tile, endpoints - of * tile); };
+  // For each link of some: use(link, place of its receiver in the tile).
+  const auto each = [&](const SendersLinks::Some& some, std::size_t of, const auto& use) {
+    for (const Ends* link = some.begin; link != some.end; ++link) {
+      use(static_cast<std::size_t>(link - links.begin()), static_cast<std::size_t>(link->rx) - of * tile);
+    }
+  };
   for (std::size_t one = 0; one * tile < endpoints; ++one) {
     for (;;) {
       std::size_t other = SendersLinks::none;
       for (std::size_t i = 0; i < senders(one); ++i) other = std::min(other, by_sender.tile(one * tile + i));
       if (other == SendersLinks::none) break;
+      SendersLinks::Some there[tile], back[tile];
       unsigned wanted[tile] = {};
-      found.clear();
-      for (std::uint16_t i = 0; i < senders(one); ++i) {
-        by_sender.take(one * tile + i, other, [&](std::uint32_t link, std::uint16_t place) {
-          wanted[i] |= 1u << place;
-          found.push_back({link, i, place});
-        });
+      for (std::size_t i = 0; i < senders(one); ++i) {
+        there[i] = by_sender.take(one * tile + i, other);
+        each(there[i], other, [&](std::size_t, std::size_t place) { wanted[i] |= 1u << place; });
       }
-      for (std::uint16_t i = 0; other > one && i < senders(other); ++i) {
-        by_sender.take(other * tile + i, one, [&](std::uint32_t link, std::uint16_t place) {
-          wanted[place] |= 1u << i;
-          found.push_back({link, place, i});
-        });
+      for (std::size_t i = 0; other > one && i < senders(other); ++i) {
+        back[i] = by_sender.take(other * tile + i, one);
+        each(back[i], one, [&](std::size_t, std::size_t place) { wanted[place] |= 1u << i; });
       }
       for (std::size_t i = 0; i < tile; ++i) {
         if (wanted[i] != 0) evaluate(one, static_cast<int>(i), other, wanted[i]);
       }
-      for (const Found& each : found) put(each.link, each.place, each.other);
+      for (std::size_t i = 0; i < tile; ++i) {
+        each(there[i], other, [&](std::size_t link, std::size_t place) { put(link, i, place); });
+        each(back[i], one, [&](std::size_t link, std::size_t place) { put(link, place, i); });
+      }
     }
   }
   if (by_sender.all_taken()) return;
