@@ -163,12 +163,12 @@ class Channel {
   }
 
   void log_distance(std::vector<double>& levels) {
-    geometry_.set_scene(rows(no_walls_), rows(no_doors_), rows(no_states_), 0);
-    geometry_.set_links(rows(links_), rows(poses_));
+    free_.set_scene(rows(no_walls_), rows(no_doors_), rows(no_states_), 0);
+    free_.set_links(rows(links_), rows(poses_));
     levels.resize(links_.size());
-    by_pair_.resize(geometry_.pairs());
-    for (std::size_t i = 0; i < by_pair_.size(); ++i) by_pair_[i] = -40 - 20 * geometry_.log_distances()[i];
-    for (std::size_t i = 0; i < links_.size(); ++i) levels[i] = by_pair_[geometry_.pair(i)];
+    by_pair_.resize(free_.pairs());
+    for (std::size_t i = 0; i < by_pair_.size(); ++i) by_pair_[i] = -40 - 20 * free_.log_distances()[i];
+    for (std::size_t i = 0; i < links_.size(); ++i) levels[i] = by_pair_[free_.pair(i)];
   }
 
   void all(std::vector<double>& levels) {
@@ -176,17 +176,12 @@ class Channel {
     geometry_.set_links(rows(links_), rows(poses_));
     const auto shadow_at = field_.at(places(rows(poses_), 2));
     const auto waves_at = multipath_.at(places(rows(poses_), 0.1229));
-    double shadow[waves::tile][waves::tile], power[waves::tile][waves::tile];
-    by_tiles(
-        rows(links_), poses_.size(),
-        [&](std::size_t from, int place, std::size_t to, unsigned wanted) {
-          field_.between(shadow_at[from], place, shadow_at[to], wanted, shadow[place]);
-          multipath_.gains(waves_at[from], place, waves_at[to], wanted, 0, power[place]);
-        },
-        [&](std::size_t link, std::size_t place, std::size_t other) {
-          shadowing_[link].level = 4 * shadow[place][other];
-          gain_[link].gain = power[place][other];
-        });
+    const std::array<double*, 2> columns{&shadowing_.data()->level, &gain_.data()->gain};
+    by_tiles(rows(links_), poses_.size(), columns,
+             [&](std::size_t from, int place, std::size_t to, unsigned wanted, auto& values) {
+               field_.between(shadow_at[from], place, shadow_at[to], wanted, 4, values[0]);
+               multipath_.gains(waves_at[from], place, waves_at[to], wanted, 0, values[1]);
+             });
     by_pair_.resize(geometry_.pairs());
     for (std::size_t i = 0; i < by_pair_.size(); ++i) by_pair_[i] = -40 - 20 * geometry_.log_distances()[i];
     for (std::size_t m = 0; m < FloorPlan::materials; ++m) {
@@ -209,7 +204,7 @@ class Channel {
   std::vector<Level> shadowing_;
   std::vector<Fading> gain_;
   std::vector<double> by_pair_;
-  LinkGeometry geometry_;
+  LinkGeometry geometry_, free_;
   const ShadowField field_{Stream(1)};
   const Multipath multipath_{Stream(2)};
 };

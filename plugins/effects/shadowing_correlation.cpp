@@ -1,4 +1,5 @@
 // Shadowing that is wider or finer than the world says, or stronger.
+#include <array>
 #include <muster/plugin.hpp>
 
 #include "link_term.hpp"
@@ -50,15 +51,11 @@ struct ShadowingCorrelation {
       for (Level& link : out) link.level = 0;
     } else {
       const auto at = field.at(places(k[pose], k[decorrelation]));
-      double between[waves::tile][waves::tile];
-      by_tiles(
-          k[ends], k[pose].size(),
-          [&](std::size_t from, int place, std::size_t to, unsigned wanted) {
-            field.between(at[from], place, at[to], wanted, between[place]);
-          },
-          [&](std::size_t link, std::size_t place, std::size_t other) {
-            out[link].level = k[shadowing] * between[place][other];
-          });
+      const std::array<double*, 1> columns{&out.begin()->level};
+      by_tiles(k[ends], k[pose].size(), columns,
+               [&](std::size_t from, int place, std::size_t to, unsigned wanted, auto& values) {
+                 field.between(at[from], place, at[to], wanted, k[shadowing], values[0]);
+               });
     }
     for (std::size_t i = 0; i < out.size(); ++i) out[i].level -= k[old][i].level;
   }

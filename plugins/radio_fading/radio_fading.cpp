@@ -1,4 +1,5 @@
 // What the floor plan does not tell: shadowing as a field over the environment, and fading by interference of waves.
+#include <array>
 #include <muster/plugin.hpp>
 #include <muster/reverse_links.hpp>
 #include <vector>
@@ -71,20 +72,14 @@ the gain whose dB is the mean of its dB: -2.507 dB under Rayleigh fading.)";
     const auto shadow_at = shadows ? field.at(places(k[pose], k[decorrelation])) : std::vector<ShadowField::Tile>();
     const auto waves_at =
         interferes ? multipath.at(places(k[pose], light_speed / k[frequency])) : std::vector<Multipath::Tile>();
-    const auto levels = k[shadowing];
-    const auto gains = k[gain];
     const double size = k[sd];
-    double level[waves::tile][waves::tile], power[waves::tile][waves::tile];
-    by_tiles(
-        k[ends], k[pose].size(),
-        [&](std::size_t from, int place, std::size_t to, unsigned wanted) {
-          if (shadows) field.between(shadow_at[from], place, shadow_at[to], wanted, level[place]);
-          if (interferes) multipath.gains(waves_at[from], place, waves_at[to], wanted, ratio, power[place]);
-        },
-        [&](std::size_t link, std::size_t place, std::size_t other) {
-          if (shadows) levels[link].level = size * level[place][other];
-          if (interferes) gains[link].gain = power[place][other];
-        });
+    const std::array<double*, 2> columns{shadows ? &k[shadowing].begin()->level : nullptr,
+                                         interferes ? &k[gain].begin()->gain : nullptr};
+    by_tiles(k[ends], k[pose].size(), columns,
+             [&](std::size_t from, int place, std::size_t to, unsigned wanted, auto& values) {
+               if (shadows) field.between(shadow_at[from], place, shadow_at[to], wanted, size, values[0]);
+               if (interferes) multipath.gains(waves_at[from], place, waves_at[to], wanted, ratio, values[1]);
+             });
   }
 
   void draw(const Step& k, double ratio) const {

@@ -41,7 +41,7 @@ std::vector<ShadowField::Tile> ShadowField::at(const std::vector<Place>& places,
 double ShadowField::between(const Place& p, const Place& q) const {
   double all[waves::tile];
   const auto both = at({p, q});
-  between(both[0], 0, both[0], 2, all);
+  between(both[0], 0, both[0], 2, 1, all);
   return all[1];
 }
 

@@ -24,11 +24,11 @@ class ShadowField {
   std::vector<Tile> at(const std::vector<Place>& places,
                        const waves::WaveKernel& kernel = waves::best_wave_kernel()) const;
 
-  // From a place of one tile to the wanted ones of another: normal, of mean 0 and the variance below. Bit for bit the
-  // same both ways.
-  void between(const Tile& from, int place, const Tile& to, unsigned wanted, double* out,
+  // From a place of one tile to the wanted ones of another: normal, of mean 0 and the variance below, times `sd`. Bit
+  // for bit the same both ways.
+  void between(const Tile& from, int place, const Tile& to, unsigned wanted, double sd, double* out,
                const waves::WaveKernel& kernel = waves::best_wave_kernel()) const {
-    kernel.shadow(waves_, from, place, to, wanted, out);
+    kernel.shadow(waves_, from, place, to, wanted, sd, out);
   }
 
   // Of one link.

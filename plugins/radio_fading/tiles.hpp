@@ -2,7 +2,7 @@
 #pragma once
 
 #include <algorithm>
-#include <cstdint>
+#include <array>
 #include <muster/plugin.hpp>
 #include <vector>
 
@@ -35,13 +35,31 @@ std::vector<Tile> tiles(const std::vector<Place>& places, const Fill& fill) {
   return result;
 }
 
+// Links of one sender to one tile, by their numbers.
+struct LinksToTile {
+  const Ends* ends = nullptr;
+  std::size_t first = 0, number = 0;
+  double first_place = 0;
+  bool whole = false;  // to every place in turn
+
+  // use(link, place in the tile)
+  template <class Use>
+  void each(const Use& use) const {
+    for (std::size_t i = 0; whole && i < waves::tile; ++i) use(first + i, i);
+    for (std::size_t i = 0; !whole && i < number; ++i) {
+      use(first + i, static_cast<std::size_t>(ends[i].rx - first_place));
+    }
+  }
+  // Where there are many links, their values lie far apart: they are fetched while they are worked out.
+  void prefetch(double* column) const {
+    for (std::size_t i = 0; column != nullptr && i < number + 7; i += 8) __builtin_prefetch(column + first + i, 1);
+  }
+};
+
 // The links of each sender, taken in order. Finds them where they are grouped by ascending sender.
 class SendersLinks {
  public:
   static constexpr std::size_t none = ~std::size_t{0};
-  struct Some {
-    const Ends *begin = nullptr, *end = nullptr;
-  };
 
   SendersLinks(Rows<const Ends> links, std::size_t endpoints) : links_(links), next_(endpoints) {
     const Ends* first = links.begin();
@@ -64,67 +82,78 @@ class SendersLinks {
   }
 
   // Takes the sender's links as long as they go to this tile.
-  Some take(std::size_t sender, std::size_t tile) {
+  LinksToTile take(std::size_t sender, std::size_t tile) {
     const double from = static_cast<double>(sender), first = static_cast<double>(tile * waves::tile);
     const Ends *const start = next_[sender], *next = start;
+    const bool whole = links_.end() - start >= waves::tile && is_whole(start, from, first);
+    if (whole) next += waves::tile;
     while (next != links_.end() && next->tx == from && next->rx >= first && next->rx < first + waves::tile) ++next;
+    const auto number = static_cast<std::size_t>(next - start);
     next_[sender] = next;
-    taken_ += static_cast<std::size_t>(next - start);
-    return {start, next};
+    taken_ += number;
+    return {start, static_cast<std::size_t>(start - links_.begin()), number, first, whole && number == waves::tile};
   }
 
   bool all_taken() const { return taken_ == links_.size(); }
 
  private:
+  // Without a branch, since most are where all hear all.
+  static bool is_whole(const Ends* links, double from, double first) {
+    int same = 0;
+    for (int i = 0; i < waves::tile; ++i) same += (links[i].tx == from) & (links[i].rx == first + i);
+    return same == waves::tile;
+  }
+
   const Rows<const Ends> links_;
   std::vector<const Ends*> next_;
   std::size_t taken_ = 0;
 };
 
-// What links between two tiles need: evaluate(tile, place, other tile, wanted) is called for places of the first, then
-// put(link, place, other place) for each link, whichever way it runs. Where links are grouped by sender and receivers
-// ascend, as radio.links lists them, each pair is evaluated once; in any other order, perhaps once for each of its
-// links.
-template <class Evaluate, class Put>
-void by_tiles(Rows<const Ends> links, std::size_t endpoints, const Evaluate& evaluate, const Put& put) {
+// Fills columns of one value a link, those that are not null: evaluate(tile, place, other tile, wanted, values) gives
+// each column's values[column][0 .. tile), from a place of the one tile to the wanted ones of the other. Where links
+// are grouped by sender and receivers ascend, as radio.links lists them, each pair is evaluated once; in any other
+// order, perhaps once for each of its links.
+template <std::size_t columns, class Evaluate>
+void by_tiles(Rows<const Ends> links, std::size_t endpoints, const std::array<double*, columns>& out,
+              const Evaluate& evaluate) {
   constexpr std::size_t tile = waves::tile;
+  double values[tile][columns][tile];
   SendersLinks by_sender(links, endpoints);
   const auto senders = [&](std::size_t of) { return std::min(tile, endpoints - of * tile); };
-  // For each link of some: use(link, place of its receiver in the tile).
-  const auto each = [&](const SendersLinks::Some& some, std::size_t of, const auto& use) {
-    for (const Ends* link = some.begin; link != some.end; ++link) {
-      use(static_cast<std::size_t>(link - links.begin()), static_cast<std::size_t>(link->rx) - of * tile);
-    }
-  };
   for (std::size_t one = 0; one * tile < endpoints; ++one) {
     for (;;) {
       std::size_t other = SendersLinks::none;
       for (std::size_t i = 0; i < senders(one); ++i) other = std::min(other, by_sender.tile(one * tile + i));
       if (other == SendersLinks::none) break;
-      SendersLinks::Some there[tile], back[tile];
+      LinksToTile there[tile], back[tile];
       unsigned wanted[tile] = {};
       for (std::size_t i = 0; i < senders(one); ++i) {
         there[i] = by_sender.take(one * tile + i, other);
-        each(there[i], other, [&](std::size_t, std::size_t place) { wanted[i] |= 1u << place; });
+        there[i].each([&](std::size_t, std::size_t place) { wanted[i] |= 1u << place; });
+        for (double* column : out) there[i].prefetch(column);
       }
       for (std::size_t i = 0; other > one && i < senders(other); ++i) {
         back[i] = by_sender.take(other * tile + i, one);
-        each(back[i], one, [&](std::size_t, std::size_t place) { wanted[place] |= 1u << i; });
+        back[i].each([&](std::size_t, std::size_t place) { wanted[place] |= 1u << i; });
+        for (double* column : out) back[i].prefetch(column);
       }
       for (std::size_t i = 0; i < tile; ++i) {
-        if (wanted[i] != 0) evaluate(one, static_cast<int>(i), other, wanted[i]);
+        if (wanted[i] != 0) evaluate(one, static_cast<int>(i), other, wanted[i], values[i]);
       }
-      for (std::size_t i = 0; i < tile; ++i) {
-        each(there[i], other, [&](std::size_t link, std::size_t place) { put(link, i, place); });
-        each(back[i], one, [&](std::size_t link, std::size_t place) { put(link, place, i); });
+      for (std::size_t c = 0; c < columns; ++c) {
+        for (std::size_t i = 0; out[c] != nullptr && i < tile; ++i) {
+          there[i].each([&](std::size_t link, std::size_t place) { out[c][link] = values[i][c][place]; });
+          back[i].each([&](std::size_t link, std::size_t place) { out[c][link] = values[place][c][i]; });
+        }
       }
     }
   }
-  if (by_sender.all_taken()) return;
-  for (std::size_t link = 0; link < links.size(); ++link) {
-    const auto from = static_cast<std::size_t>(links[link].tx), to = static_cast<std::size_t>(links[link].rx);
-    evaluate(from / tile, static_cast<int>(from % tile), to / tile, 1u << to % tile);
-    put(link, from % tile, to % tile);
+  for (std::size_t i = 0; !by_sender.all_taken() && i < links.size(); ++i) {
+    const auto from = static_cast<std::size_t>(links[i].tx), to = static_cast<std::size_t>(links[i].rx);
+    evaluate(from / tile, static_cast<int>(from % tile), to / tile, 1u << to % tile, values[0]);
+    for (std::size_t c = 0; c < columns; ++c) {
+      if (out[c] != nullptr) out[c][i] = values[0][c][to % tile];
+    }
   }
 }
 

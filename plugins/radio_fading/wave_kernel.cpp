@@ -108,7 +108,7 @@ MUSTER_INLINE Quotient mean_along(const ShadowWaves& waves, int m, const Way& wa
                                   const ShadowTile& to, int first) {
   Floats along = waves.x[m] * way.x + waves.y[m] * way.y + waves.z[m] * way.z;
   Floats over = load(to.sine[m] + first) - from.sine[m][place];
-  const Mask slow = stdx::abs(along) < 0.0625f;
+  const Mask slow = stdx::abs(along) < 0.015625f;
   if (__builtin_expect(stdx::any_of(slow), false)) {
     const Floats middle = load(to.half_cosine[m] + first) * from.half_cosine[m][place] -
                           load(to.half_sine[m] + first) * from.half_sine[m][place];
@@ -120,12 +120,13 @@ MUSTER_INLINE Quotient mean_along(const ShadowWaves& waves, int m, const Way& wa
 }
 
 void shadow(const ShadowWaves& waves, const ShadowTile& from, int place, const ShadowTile& to, unsigned wanted,
-            double* out) {
+            double sd, double* out) {
   for (int first = 0; first < tile; first += lanes) {
     if (!is_wanted(wanted, first)) continue;
     const Way between = way(from.at, place, to.at, first);
-    const auto mean = [&](int m)
-        __attribute__((always_inline)) { return mean_along(waves, m, between, from, place, to, first); };
+    const auto mean = [&](int m) __attribute__((always_inline)) {
+      return mean_along(waves, m, between, from, place, to, first);
+    };
     Floats sum = 0;
     for (int m = 0; m < shadow_waves; m += 4) {
       const Quotient four = (mean(m) + mean(m + 1)) + (mean(m + 2) + mean(m + 3));
@@ -134,7 +135,7 @@ void shadow(const ShadowWaves& waves, const ShadowTile& from, int place, const S
     const Floats squared = between.x * between.x + between.y * between.y + between.z * between.z;
     for (int i = 0; i < lanes; ++i) {
       const double length = __builtin_sqrt(static_cast<double>(squared[i]));
-      out[first + i] = static_cast<double>(sum[i]) * __builtin_sqrt(length / shadow_waves);
+      out[first + i] = sd * (static_cast<double>(sum[i]) * __builtin_sqrt(length / shadow_waves));
     }
   }
 }
@@ -161,6 +162,10 @@ void fading(const FadingTile& from, int place, const FadingTile& to, unsigned wa
 
 void power(const PlaceTile& from, int place, const PlaceTile& to, double steady, double diffuse, const double* re,
            const double* im, double* out) {
+  if (steady == 0) {
+    for (int i = 0; i < tile; ++i) out[i] = diffuse * diffuse * (re[i] * re[i] + im[i] * im[i]);
+    return;
+  }
   for (int i = 0; i < tile; ++i) {
     const double x = to.x[i] - from.x[place], y = to.y[i] - from.y[place], z = to.z[i] - from.z[place];
     const Turned phase = turned(-__builtin_sqrt(x * x + y * y + z * z));

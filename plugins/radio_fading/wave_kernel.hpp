@@ -48,9 +48,9 @@ struct WaveKernel {
   void (*shadow_at)(const ShadowWaves&, ShadowTile&);
   void (*fading_at)(const FadingWaves&, FadingTile&);
   // From place number `place` of one tile to all of another: the sum of the waves' line integrals over the root of the
-  // length, over that of the number of waves.
+  // length, over that of the number of waves, times `sd`.
   void (*shadow)(const ShadowWaves&, const ShadowTile& from, int place, const ShadowTile& to, unsigned wanted,
-                 double* out);
+                 double sd, double* out);
   // The same for the complex gain, of mean power 1.
   void (*fading)(const FadingTile& from, int place, const FadingTile& to, unsigned wanted, double* re, double* im);
   // |steady exp(-2 pi i length) + diffuse (re + i im)|^2, lengths in the unit of the places.

@@ -39,16 +39,16 @@ class LinkGeometry {
     endpoints_ = at.size();
     if (order_.empty()) number(links, at);
     std::vector<scene::Point> now = in_order(at);
-    find_moved(now);
-    if (all_moved() && !scene::in_spatial_order(now)) {
+    const std::vector<char> moved = which_moved(now);
+    const bool all = std::find(moved.begin(), moved.end(), 0) == moved.end();
+    if (all && !scene::in_spatial_order(now)) {
       number(links, at);
       now = in_order(at);
     }
-    if (moved_.empty()) return 0;
     at_.clear();  // so that no old answer is left if a point is refused
-    all_moved() ? measure_all(now) : measure_moved(now);
+    const std::size_t measured = all ? measure_all(now) : measure_moved(now, moved);
     at_ = std::move(now);
-    return moved_.size();
+    return measured;
   }
 
   std::size_t pairs() const { return pairs_.size(); }
@@ -126,20 +126,16 @@ class LinkGeometry {
     return result;
   }
 
-  // The pairs of which an end is not where it was.
-  void find_moved(const std::vector<scene::Point>& now) {
+  // Of each place, whether somebody is there who was not.
+  std::vector<char> which_moved(const std::vector<scene::Point>& now) const {
     std::vector<char> moved(now.size(), 1);
     for (std::size_t i = 0; i < now.size() && at_.size() == now.size(); ++i) {
       moved[i] = std::memcmp(&now[i], &at_[i], sizeof now[i]) != 0;
     }
-    moved_.clear();
-    for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
-      if (moved[pairs_[i].from] || moved[pairs_[i].to]) moved_.push_back(i);
-    }
+    return moved;
   }
-  bool all_moved() const { return moved_.size() == pairs_.size(); }
 
-  void measure_all(const std::vector<scene::Point>& now) {
+  std::size_t measure_all(const std::vector<scene::Point>& now) {
     scene_->counts(now, pairs_, counts_);
     log_distances_.resize(pairs_.size());
     std::vector<double> x, y, z;
@@ -150,19 +146,27 @@ class LinkGeometry {
       Widest<LogLengths, const double*, const double* const*, double*, std::size_t>::run(own, others, out, number);
       out += number;
     }
+    return pairs_.size();
   }
 
-  void measure_moved(const std::vector<scene::Point>& now) {
+  std::size_t measure_moved(const std::vector<scene::Point>& now, const std::vector<char>& moved) {
     std::vector<scene::Pair> some;
-    for (const std::uint32_t i : moved_) some.push_back(pairs_[i]);
-    scene_->counts(now, some, counted_);
+    std::vector<std::size_t> numbers;
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+      if (moved[pairs_[i].from] == 0 && moved[pairs_[i].to] == 0) continue;
+      some.push_back(pairs_[i]);
+      numbers.push_back(i);
+    }
+    std::vector<int> counted;
+    scene_->counts(now, some, counted);
     for (std::size_t k = 0; k < some.size(); ++k) {
       const scene::Point &p = now[some[k].from], &q = now[some[k].to];
-      log_distances_[moved_[k]] = LogLengths::of(q.x - p.x, q.y - p.y, q.z - p.z);
+      log_distances_[numbers[k]] = LogLengths::of(q.x - p.x, q.y - p.y, q.z - p.z);
       for (std::size_t m = 0; m < materials_; ++m) {
-        counts_[m * pairs_.size() + moved_[k]] = counted_[m * some.size() + k];
+        counts_[m * pairs_.size() + numbers[k]] = counted[m * some.size() + k];
       }
     }
+    return some.size();
   }
 
   struct LogLengths {
@@ -200,9 +204,7 @@ class LinkGeometry {
   std::vector<Run> runs_;             // the same
   std::vector<std::uint32_t> pair_;   // of each link
   std::vector<double> log_distances_;
-  std::vector<int> counts_;           // material by material
-  std::vector<std::uint32_t> moved_;  // pairs
-  std::vector<int> counted_;          // of those
+  std::vector<int> counts_;  // material by material
 };
 
 }  // namespace muster

@@ -2,6 +2,7 @@
 // each link evaluated between its own ends, however links are listed.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
 #include <vector>
 
@@ -47,18 +48,16 @@ constexpr unsigned all = (1u << tile) - 1;
 
 std::vector<double> shadowing(const std::vector<Place>& places, const waves::WaveKernel& kernel) {
   const ShadowField field(Stream(7));
-  return all_pairs(field.at(places, kernel),
-                   [&](const auto& one, int place, const auto& other, double* out) {
-                     field.between(one, place, other, all, out, kernel);
-                   });
+  return all_pairs(field.at(places, kernel), [&](const auto& one, int place, const auto& other, double* out) {
+    field.between(one, place, other, all, 4, out, kernel);
+  });
 }
 
 std::vector<double> fading(const std::vector<Place>& places, double k, const waves::WaveKernel& kernel) {
   const Multipath field(Stream(7));
-  return all_pairs(field.at(places, kernel),
-                   [&](const auto& one, int place, const auto& other, double* out) {
-                     field.gains(one, place, other, all, k, out, kernel);
-                   });
+  return all_pairs(field.at(places, kernel), [&](const auto& one, int place, const auto& other, double* out) {
+    field.gains(one, place, other, all, k, out, kernel);
+  });
 }
 
 bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
@@ -126,27 +125,30 @@ TEST(Waves, ShadowingIsTheMeanAlongTheWay) {
 }
 
 struct Evaluated {
-  std::vector<Ends> links;
-  std::vector<std::size_t> put;  // how often each was
-  std::size_t pairs = 0;         // how many places were asked for
+  std::vector<double> values;
+  std::size_t pairs = 0;  // how many were asked for
 };
 
-// Each link must be put with its own ends, of which one tile evaluated the other just before.
-Evaluated evaluated(std::vector<Ends> links, std::size_t endpoints) {
-  Evaluated result{links, std::vector<std::size_t>(links.size()), 0};
-  std::size_t from = 0, to = 0;
-  by_tiles(
-      Rows<const Ends>(&result.links.data()->tx, links.size()), endpoints,
-      [&](std::size_t one, int, std::size_t other, unsigned wanted) {
-        from = one, to = other;
-        result.pairs += static_cast<std::size_t>(__builtin_popcount(wanted));
-      },
-      [&](std::size_t link, std::size_t place, std::size_t other) {
-        const double one = static_cast<double>(from * tile + place), two = static_cast<double>(to * tile + other);
-        const auto [tx, rx] = links[link];
-        EXPECT_TRUE((tx == one && rx == two) || (tx == two && rx == one)) << tx << " to " << rx;
-        ++result.put[link];
-      });
+double code(double a, double b) { return 1000 * std::min(a, b) + std::max(a, b); }
+
+// What by_tiles gives each link when the value of a pair is its code; NaN where it gives nothing.
+Evaluated evaluated(const std::vector<Ends>& links, std::size_t endpoints) {
+  Evaluated result{std::vector<double>(links.size(), null()), 0};
+  const std::array<double*, 2> columns{nullptr, result.values.data()};
+  by_tiles(Rows<const Ends>(&links.data()->tx, links.size()), endpoints, columns,
+           [&](std::size_t one, int place, std::size_t other, unsigned wanted, auto& values) {
+             for (int i = 0; i < tile; ++i) {
+               if ((wanted >> i & 1) == 0) continue;
+               values[1][i] = code(static_cast<double>(one * tile) + place, static_cast<double>(other * tile) + i);
+               ++result.pairs;
+             }
+           });
+  return result;
+}
+
+std::vector<double> codes(const std::vector<Ends>& links) {
+  std::vector<double> result;
+  for (const Ends& link : links) result.push_back(code(link.tx, link.rx));
   return result;
 }
 
@@ -166,7 +168,7 @@ TEST(Tiles, EvaluateEachPairOnce) {
   for (const std::size_t endpoints : {2, 16, 17, 100}) {
     for (const auto& links : {listed(endpoints, everyone), listed(endpoints, near)}) {
       const auto found = evaluated(links, endpoints);
-      EXPECT_EQ(found.put, std::vector<std::size_t>(links.size(), 1));
+      EXPECT_EQ(found.values, codes(links));
       // Between places of one tile both orders are asked for.
       std::size_t within = 0;
       for (const Ends& link : links) within += static_cast<int>(link.tx) / tile == static_cast<int>(link.rx) / tile;
@@ -180,7 +182,7 @@ TEST(Tiles, TakeLinksThatRunOneWayOnly) {
   const auto downward = [](std::size_t a, std::size_t b) { return a > b; };
   const auto some = [](std::size_t a, std::size_t b) { return (7 * a + 3 * b) % 5 == 0; };
   for (const auto& links : {listed(70, upward), listed(70, downward), listed(70, some)}) {
-    EXPECT_EQ(evaluated(links, 70).put, std::vector<std::size_t>(links.size(), 1));
+    EXPECT_EQ(evaluated(links, 70).values, codes(links));
   }
 }
 
@@ -190,9 +192,9 @@ TEST(Tiles, TakeLinksInAnyOrder) {
   for (uint64_t i = 0; i < 3000; ++i) {
     links.push_back({std::floor(50 * random.uniform(i, 0)), std::floor(50 * random.uniform(i, 1))});
   }
-  for (const std::size_t each : evaluated(links, 50).put) EXPECT_GE(each, 1u);
-  EXPECT_TRUE(evaluated({}, 3).put.empty());
-  EXPECT_TRUE(evaluated({}, 0).put.empty());
+  EXPECT_EQ(evaluated(links, 50).values, codes(links));
+  EXPECT_TRUE(evaluated({}, 3).values.empty());
+  EXPECT_TRUE(evaluated({}, 0).values.empty());
 }
 
 }  // namespace
