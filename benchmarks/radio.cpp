@@ -166,9 +166,9 @@ class Channel {
     free_.set_scene(rows(no_walls_), rows(no_doors_), rows(no_states_), 0);
     free_.set_links(rows(links_), rows(poses_));
     levels.resize(links_.size());
-    by_pair_.resize(free_.pairs());
-    for (std::size_t i = 0; i < by_pair_.size(); ++i) by_pair_[i] = -40 - 20 * free_.log_distances()[i];
-    for (std::size_t i = 0; i < links_.size(); ++i) levels[i] = by_pair_[free_.pair(i)];
+    free_.losses(20, {}, by_pair_);
+    levels.resize(links_.size());
+    for (std::size_t i = 0; i < links_.size(); ++i) levels[i] = -40 - by_pair_[free_.pair(i)].distance;
   }
 
   void all(std::vector<double>& levels) {
@@ -182,16 +182,12 @@ class Channel {
                field_.between(shadow_at[from], place, shadow_at[to], wanted, 4, values[0]);
                multipath_.gains(waves_at[from], place, waves_at[to], wanted, 0, values[1]);
              });
-    by_pair_.resize(geometry_.pairs());
-    for (std::size_t i = 0; i < by_pair_.size(); ++i) by_pair_[i] = -40 - 20 * geometry_.log_distances()[i];
-    for (std::size_t m = 0; m < FloorPlan::materials; ++m) {
-      const int* const counts = geometry_.counts(m);
-      for (std::size_t i = 0; i < by_pair_.size(); ++i) by_pair_[i] -= 3 * counts[i];
-    }
+    geometry_.losses(20, std::vector<double>(FloorPlan::materials, 3), by_pair_);
     log10_of_all(&gain_.data()->gain, gain_.size());
     levels.resize(links_.size());
     for (std::size_t i = 0; i < links_.size(); ++i) {
-      levels[i] = by_pair_[geometry_.pair(i)] + shadowing_[i].level + 10 * gain_[i].gain;
+      const auto& lost = by_pair_[geometry_.pair(i)];
+      levels[i] = -40 - lost.distance - lost.walls + shadowing_[i].level + 10 * gain_[i].gain;
     }
   }
 
@@ -203,7 +199,7 @@ class Channel {
   std::vector<Ends> links_;
   std::vector<Level> shadowing_;
   std::vector<Fading> gain_;
-  std::vector<double> by_pair_;
+  std::vector<LinkGeometry::PairLoss> by_pair_;
   LinkGeometry geometry_, free_;
   const ShadowField field_{Stream(1)};
   const Multipath multipath_{Stream(2)};
@@ -238,6 +234,7 @@ void channel_against_ns3(benchmark::State& state) {
 }
 BENCHMARK(channel_against_ns3)
     ->ArgName("radios")
+    ->Arg(200)
     ->Arg(1000)
     ->Unit(benchmark::kMillisecond)
     ->Iterations(6)

@@ -25,11 +25,10 @@ ShadowField::ShadowField(const Stream& random) {
   for (int m = 0; m < waves::shadow_waves; ++m) {
     const auto [size, height, turn] = even_point(static_cast<std::size_t>(m), shift);
     const double number = wave_number(size), up = 2 * height - 1, along = std::sqrt(1 - up * up);
-    const double x = number * along * std::cos(full_turn * turn), y = number * along * std::sin(full_turn * turn);
-    const double z = number * up;
-    waves_.x[m] = static_cast<float>(x), waves_.y[m] = static_cast<float>(y), waves_.z[m] = static_cast<float>(z);
-    waves_.at.x[m] = x / full_turn, waves_.at.y[m] = y / full_turn, waves_.at.z[m] = z / full_turn;
-    waves_.at.phase[m] = random.uniform(static_cast<uint64_t>(m));
+    waves_.x[m] = number * along * std::cos(full_turn * turn) / full_turn;
+    waves_.y[m] = number * along * std::sin(full_turn * turn) / full_turn;
+    waves_.z[m] = number * up / full_turn;
+    waves_.phase[m] = random.uniform(static_cast<uint64_t>(m));
   }
 }
 

@@ -28,7 +28,7 @@ class ShadowField {
   // for bit the same both ways.
   void between(const Tile& from, int place, const Tile& to, unsigned wanted, double sd, double* out,
                const waves::WaveKernel& kernel = waves::best_wave_kernel()) const {
-    kernel.shadow(waves_, from, place, to, wanted, sd, out);
+    kernel.shadow(from, place, to, wanted, sd, out);
   }
 
   // Of one link.
@@ -38,7 +38,7 @@ class ShadowField {
   static double variance(double length) { return length > 0 ? 1 + std::expm1(-length) / length : 0; }
 
  private:
-  waves::ShadowWaves waves_;
+  waves::PlaneWaves<waves::shadow_waves> waves_;
 };
 
 }  // namespace muster

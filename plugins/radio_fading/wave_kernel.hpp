@@ -19,15 +19,11 @@ struct PlaneWaves {
   double x[number], y[number], z[number], phase[number];
 };
 
-struct ShadowWaves {
-  PlaneWaves<shadow_waves> at;
-  float x[shadow_waves], y[shadow_waves], z[shadow_waves];  // the same in radians
-};
-
-// Each wave at each place: the sine of its phase, and of half the phase both.
+// Each wave at each place: its phase in radians, but for that at the origin; the sine of its phase, and of half the phase
+// both.
 struct alignas(64) ShadowTile {
   PlaceTile at;
-  float sine[shadow_waves][tile], half_cosine[shadow_waves][tile], half_sine[shadow_waves][tile];
+  float along[shadow_waves][tile], sine[shadow_waves][tile], half_cosine[shadow_waves][tile], half_sine[shadow_waves][tile];
 };
 
 struct FadingWaves {
@@ -45,12 +41,11 @@ struct alignas(64) FadingTile {
 struct WaveKernel {
   const char* name;
   // Fill a tile from its places.
-  void (*shadow_at)(const ShadowWaves&, ShadowTile&);
+  void (*shadow_at)(const PlaneWaves<shadow_waves>&, ShadowTile&);
   void (*fading_at)(const FadingWaves&, FadingTile&);
   // From place number `place` of one tile to all of another: the sum of the waves' line integrals over the root of the
   // length, over that of the number of waves, times `sd`.
-  void (*shadow)(const ShadowWaves&, const ShadowTile& from, int place, const ShadowTile& to, unsigned wanted,
-                 double sd, double* out);
+  void (*shadow)(const ShadowTile& from, int place, const ShadowTile& to, unsigned wanted, double sd, double* out);
   // The same for the complex gain, of mean power 1.
   void (*fading)(const FadingTile& from, int place, const FadingTile& to, unsigned wanted, double* re, double* im);
   // |steady exp(-2 pi i length) + diffuse (re + i im)|^2, lengths in the unit of the places.

@@ -19,6 +19,11 @@ namespace muster {
 
 class LinkGeometry {
  public:
+  // In dB.
+  struct PairLoss {
+    double distance, walls;
+  };
+
   // True if walls or doors are not what they were.
   bool set_scene(Rows<const Wall> walls, Rows<const Door> doors, Rows<const DoorState> states, std::size_t materials) {
     bool changed = keep(walls, walls_);
@@ -35,7 +40,7 @@ class LinkGeometry {
 
   // How many pairs were computed anew: links that run both ways are one pair.
   std::size_t set_links(Rows<const Ends> links, Rows<const Pose> at) {
-    if (keep(links, ends_) || at.size() != endpoints_) order_.clear();
+    if (!are_listed(links) || at.size() != endpoints_) order_.clear();
     endpoints_ = at.size();
     if (order_.empty()) number(links, at);
     std::vector<scene::Point> now = in_order(at);
@@ -58,11 +63,50 @@ class LinkGeometry {
   // Of each pair, how many walls of a material it crosses.
   const int* counts(std::size_t material) const { return counts_.data() + material * pairs_.size(); }
 
+  // Of each pair, what distance and walls take away: `per_decade` of the length in metres, and what each material does.
+  void losses(double per_decade, const std::vector<double>& materials, std::vector<PairLoss>& out) const {
+    constexpr std::size_t block = 1024;  // pairs whose values stay near while materials are gone through
+    out.resize(pairs_.size());
+    for (std::size_t first = 0; first < out.size(); first += block) {
+      const std::size_t last = std::min(out.size(), first + block);
+      for (std::size_t i = first; i < last; ++i) out[i] = {per_decade * log_distances_[i], 0};
+      for (std::size_t m = 0; m < materials.size(); ++m) {
+        const int* const of_material = counts(m);
+        for (std::size_t i = first; i < last; ++i) out[i].walls += of_material[i] * materials[m];
+      }
+    }
+  }
+
  private:
-  // Pairs from one place to places that follow one another.
+  // From one end to ends that follow one another.
   struct Run {
     std::uint32_t from, to, number;
   };
+
+  template <class All, class Number>
+  static std::vector<Run> in_runs(const All& all, const Number& ends) {
+    std::vector<Run> result;
+    for (const auto& each : all) {
+      const auto [from, to] = ends(each);
+      if (result.empty() || from != result.back().from || to != result.back().to + result.back().number) {
+        result.push_back({from, to, 0});
+      }
+      ++result.back().number;
+    }
+    return result;
+  }
+
+  // Whether links are those that are numbered.
+  bool are_listed(Rows<const Ends> links) const {
+    if (links.size() != pair_.size()) return false;
+    std::size_t same = 0;
+    const Ends* link = links.begin();
+    for (const auto& [from, to, number] : listed_) {
+      const double tx = from, rx = to;
+      for (std::uint32_t i = 0; i < number; ++i, ++link) same += (link->tx == tx) & (link->rx == rx + i);
+    }
+    return same == links.size();
+  }
 
   // Gives those endpoints that have links their places in spatial order, and numbers pairs by them: what is computed
   // for neighbours then lies side by side.
@@ -95,7 +139,10 @@ class LinkGeometry {
     for (std::size_t i = 0; i < links.size(); ++i) {
       if (back[i] != no_link) pair_[i] = pair_[back[i]];
     }
-    find_runs();
+    runs_ = in_runs(pairs_, [](const scene::Pair& pair) { return pair; });
+    listed_ = in_runs(links, [](const Ends& link) {
+      return scene::Pair{static_cast<std::uint32_t>(link.tx), static_cast<std::uint32_t>(link.rx)};
+    });
   }
 
   static std::vector<std::uint32_t> with_links(Rows<const Ends> links, std::size_t endpoints) {
@@ -108,16 +155,6 @@ class LinkGeometry {
       if (has_links[end]) result.push_back(end);
     }
     return result;
-  }
-
-  void find_runs() {
-    runs_.clear();
-    for (const auto& [from, to] : pairs_) {
-      if (runs_.empty() || from != runs_.back().from || to != runs_.back().to + runs_.back().number) {
-        runs_.push_back({from, to, 0});
-      }
-      ++runs_.back().number;
-    }
   }
 
   std::vector<scene::Point> in_order(Rows<const Pose> at) const {
@@ -196,12 +233,12 @@ class LinkGeometry {
   std::vector<DoorState> states_;
   std::size_t materials_ = 0;
   std::unique_ptr<scene::Scene> scene_;
-  std::vector<Ends> ends_;
   std::size_t endpoints_ = 0;
   std::vector<std::uint32_t> order_;  // endpoints that have links, by place; empty if they are not numbered
   std::vector<scene::Point> at_;      // where they were; empty if nothing is known
   std::vector<scene::Pair> pairs_;    // of places
   std::vector<Run> runs_;             // the same
+  std::vector<Run> listed_;           // links, by endpoints
   std::vector<std::uint32_t> pair_;   // of each link
   std::vector<double> log_distances_;
   std::vector<int> counts_;  // material by material

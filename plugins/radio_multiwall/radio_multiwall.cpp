@@ -50,36 +50,28 @@ struct RadioMultiwall {
     } catch (const std::runtime_error& e) {  // the scene refuses walls, doors and places, which are the user's
       throw BadInput(e.what());
     }
-    evaluate(k);
+    const double slope = k[model] <= log_distance ? 10 * k[n] : 0, at_1m = k[tx_power] - k[l0];
+    std::vector<double> each;
+    for (const Loss& material : losses) each.push_back(k[model] == multi_wall ? material.loss : 0);
+    geometry.losses(slope, each, of_pair);
+    if (k[model] == disc) cut_off(k[radius]);
     const auto by_distance = k[distance];
     const auto by_walls = k[walls];
     for (std::size_t i = 0; i < by_distance.size(); ++i) {
-      const Terms& terms = of_pair[geometry.pair(i)];
-      by_distance[i].level = terms.distance;
-      by_walls[i].level = terms.walls;
+      const auto& lost = of_pair[geometry.pair(i)];
+      by_distance[i].level = at_1m - lost.distance;
+      by_walls[i].level = 0 - lost.walls;
     }
   }
 
-  void evaluate(const Step& k) {
-    const double at_1m = k[tx_power] - k[l0], slope = 10 * k[n], edge = std::log10(k[radius]);
-    const double per_decade = k[model] <= log_distance ? slope : 0, beyond = k[model] == disc ? 200 : 0;
-    const double* const far = geometry.log_distances();
-    of_pair.resize(geometry.pairs());
+  void cut_off(double at) {
+    const double edge = std::log10(at);
     for (std::size_t i = 0; i < of_pair.size(); ++i) {
-      of_pair[i] = {at_1m - (far[i] > edge ? beyond : 0) - per_decade * far[i], 0};
-    }
-    for (std::size_t m = 0; k[model] == multi_wall && m < k[loss].size(); ++m) {
-      const double each = k[loss][m].loss;
-      const int* const counts = geometry.counts(m);
-      for (std::size_t i = 0; i < of_pair.size(); ++i) of_pair[i].walls -= counts[i] * each;
+      if (geometry.log_distances()[i] > edge) of_pair[i].distance = 200;
     }
   }
 
   enum Model { multi_wall, log_distance, disc, perfect };
-
-  struct Terms {
-    double distance, walls;
-  };
 
   Value tx_power, l0, n, model, radius;
   In<Pose> pose;
@@ -90,7 +82,7 @@ struct RadioMultiwall {
   In<Loss> loss;
   Out<Level> distance, walls;
   LinkGeometry geometry;
-  std::vector<Terms> of_pair;
+  std::vector<LinkGeometry::PairLoss> of_pair;
 };
 
 }  // namespace

