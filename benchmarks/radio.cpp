@@ -165,15 +165,15 @@ class Channel {
   void log_distance(std::vector<double>& levels) {
     free_.set_scene(rows(no_walls_), rows(no_doors_), rows(no_states_), 0);
     free_.set_links(rows(links_), rows(poses_));
-    levels.resize(links_.size());
-    free_.losses(20, {}, by_pair_);
-    levels.resize(links_.size());
-    for (std::size_t i = 0; i < links_.size(); ++i) levels[i] = -40 - by_pair_[free_.pair(i)].distance;
+    const auto& far = free_.log_distances();
+    levels.resize(far.size());
+    for (std::size_t i = 0; i < far.size(); ++i) levels[i] = -40 - 20 * far[i];
   }
 
   void all(std::vector<double>& levels) {
     geometry_.set_scene(rows(walls_), rows(no_doors_), rows(no_states_), FloorPlan::materials);
     geometry_.set_links(rows(links_), rows(poses_));
+    geometry_.wall_losses(std::vector<double>(FloorPlan::materials, 3), lost_);
     const auto shadow_at = field_.at(places(rows(poses_), 2));
     const auto waves_at = multipath_.at(places(rows(poses_), 0.1229));
     const std::array<double*, 2> columns{&shadowing_.data()->level, &gain_.data()->gain};
@@ -182,12 +182,11 @@ class Channel {
                field_.between(shadow_at[from], place, shadow_at[to], wanted, 4, values[0]);
                multipath_.gains(waves_at[from], place, waves_at[to], wanted, 0, values[1]);
              });
-    geometry_.losses(20, std::vector<double>(FloorPlan::materials, 3), by_pair_);
     log10_of_all(&gain_.data()->gain, gain_.size());
-    levels.resize(links_.size());
-    for (std::size_t i = 0; i < links_.size(); ++i) {
-      const auto& lost = by_pair_[geometry_.pair(i)];
-      levels[i] = -40 - lost.distance - lost.walls + shadowing_[i].level + 10 * gain_[i].gain;
+    const auto& far = geometry_.log_distances();
+    levels.resize(far.size());
+    for (std::size_t i = 0; i < far.size(); ++i) {
+      levels[i] = -40 - 20 * far[i] - lost_[geometry_.pair(i)] + shadowing_[i].level + 10 * gain_[i].gain;
     }
   }
 
@@ -199,7 +198,7 @@ class Channel {
   std::vector<Ends> links_;
   std::vector<Level> shadowing_;
   std::vector<Fading> gain_;
-  std::vector<LinkGeometry::PairLoss> by_pair_;
+  std::vector<double> lost_;
   LinkGeometry geometry_, free_;
   const ShadowField field_{Stream(1)};
   const Multipath multipath_{Stream(2)};

@@ -42,12 +42,12 @@ std::vector<std::uint32_t> sorted(const std::vector<std::uint32_t>& items, std::
   return result;
 }
 
-// In both ends; without a branch, since most links do.
+// In both ends, which are below 2^31: else a difference of neighbours has its highest bit set.
 bool ascend(const std::vector<Pair>& links) {
   const auto key = [](const Pair& link) { return std::uint64_t{link.from} << 32 | link.to; };
-  bool result = true;
-  for (std::size_t i = 1; i < links.size(); ++i) result &= key(links[i - 1]) < key(links[i]);
-  return result;
+  std::uint64_t differences = 0;
+  for (std::size_t i = 1; i < links.size(); ++i) differences |= key(links[i]) - key(links[i - 1]) - 1;
+  return differences >> 63 == 0;
 }
 
 // Most of them within a block of receivers of their place.
@@ -262,6 +262,11 @@ class Scene::ManyLinks {
 
 void Scene::counts(const std::vector<Point>& points, const std::vector<Pair>& links, std::vector<int>& by_material,
                    const WallKernel& kernel) const {
+  if (walls_.empty()) {
+    snapped(points);  // which are refused beyond the scene all the same
+    by_material.assign(links.size() * static_cast<std::size_t>(materials_), 0);
+    return;
+  }
   ManyLinks(*this, kernel, points, links, by_material).count();
 }
 

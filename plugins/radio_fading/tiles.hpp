@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <muster/plugin.hpp>
+#include <muster/reverse_links.hpp>
 #include <vector>
 
 #include "radio_fading/wave_kernel.hpp"
@@ -50,6 +51,14 @@ struct LinksToTile {
       use(first + i, static_cast<std::size_t>(ends[i].rx - first_place));
     }
   }
+  // A bit for each place.
+  unsigned places() const {
+    unsigned result = whole ? (1u << waves::tile) - 1 : 0;
+    for (std::size_t i = 0; !whole && i < number; ++i) {
+      result |= 1u << static_cast<std::size_t>(ends[i].rx - first_place);
+    }
+    return result;
+  }
   // Where there are many links, their values lie far apart: they are fetched while they are worked out.
   void prefetch(double* column) const {
     for (std::size_t i = 0; column != nullptr && i < number + 7; i += 8) __builtin_prefetch(column + first + i, 1);
@@ -85,7 +94,7 @@ class SendersLinks {
   LinksToTile take(std::size_t sender, std::size_t tile) {
     const double from = static_cast<double>(sender), first = static_cast<double>(tile * waves::tile);
     const Ends *const start = next_[sender], *next = start;
-    const bool whole = links_.end() - start >= waves::tile && is_whole(start, from, first);
+    const bool whole = links_.end() - start >= waves::tile && run_on(start, waves::tile, from, first);
     if (whole) next += waves::tile;
     while (next != links_.end() && next->tx == from && next->rx >= first && next->rx < first + waves::tile) ++next;
     const auto number = static_cast<std::size_t>(next - start);
@@ -97,13 +106,6 @@ class SendersLinks {
   bool all_taken() const { return taken_ == links_.size(); }
 
  private:
-  // Without a branch, since most are where all hear all.
-  static bool is_whole(const Ends* links, double from, double first) {
-    int same = 0;
-    for (int i = 0; i < waves::tile; ++i) same += (links[i].tx == from) & (links[i].rx == first + i);
-    return same == waves::tile;
-  }
-
   const Rows<const Ends> links_;
   std::vector<const Ends*> next_;
   std::size_t taken_ = 0;
@@ -129,12 +131,13 @@ void by_tiles(Rows<const Ends> links, std::size_t endpoints, const std::array<do
       unsigned wanted[tile] = {};
       for (std::size_t i = 0; i < senders(one); ++i) {
         there[i] = by_sender.take(one * tile + i, other);
-        there[i].each([&](std::size_t, std::size_t place) { wanted[i] |= 1u << place; });
+        wanted[i] = there[i].places();
         for (double* column : out) there[i].prefetch(column);
       }
       for (std::size_t i = 0; other > one && i < senders(other); ++i) {
         back[i] = by_sender.take(other * tile + i, one);
-        back[i].each([&](std::size_t, std::size_t place) { wanted[place] |= 1u << i; });
+        const unsigned places = back[i].places();
+        for (std::size_t place = 0; place < tile; ++place) wanted[place] |= (places >> place & 1) << i;
         for (double* column : out) back[i].prefetch(column);
       }
       for (std::size_t i = 0; i < tile; ++i) {

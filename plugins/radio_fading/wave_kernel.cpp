@@ -114,8 +114,7 @@ MUSTER_INLINE Quotient mean_along(const ShadowTile& from, int place, const Shado
 void shadow(const ShadowTile& from, int place, const ShadowTile& to, unsigned wanted, double sd, double* out) {
   for (int first = 0; first < tile; first += lanes) {
     if (!is_wanted(wanted, first)) continue;
-    const auto mean = [&](int m)
-        __attribute__((always_inline)) { return mean_along(from, place, to, first, m); };
+    const auto mean = [&](int m) __attribute__((always_inline)) { return mean_along(from, place, to, first, m); };
     Floats sum = 0;
     for (int m = 0; m < shadow_waves; m += 4) {
       const Quotient four = (mean(m) + mean(m + 1)) + (mean(m + 2) + mean(m + 3));

@@ -19,11 +19,12 @@ struct PlaneWaves {
   double x[number], y[number], z[number], phase[number];
 };
 
-// Each wave at each place: its phase in radians, but for that at the origin; the sine of its phase, and of half the phase
-// both.
+// Each wave at each place: its phase in radians, but for that at the origin; the sine of its phase, and of half the
+// phase both.
 struct alignas(64) ShadowTile {
   PlaceTile at;
-  float along[shadow_waves][tile], sine[shadow_waves][tile], half_cosine[shadow_waves][tile], half_sine[shadow_waves][tile];
+  float along[shadow_waves][tile], sine[shadow_waves][tile], half_cosine[shadow_waves][tile],
+      half_sine[shadow_waves][tile];
 };
 
 struct FadingWaves {

@@ -19,11 +19,6 @@ namespace muster {
 
 class LinkGeometry {
  public:
-  // In dB.
-  struct PairLoss {
-    double distance, walls;
-  };
-
   // True if walls or doors are not what they were.
   bool set_scene(Rows<const Wall> walls, Rows<const Door> doors, Rows<const DoorState> states, std::size_t materials) {
     bool changed = keep(walls, walls_);
@@ -46,33 +41,33 @@ class LinkGeometry {
     std::vector<scene::Point> now = in_order(at);
     const std::vector<char> moved = which_moved(now);
     const bool all = std::find(moved.begin(), moved.end(), 0) == moved.end();
-    if (all && !scene::in_spatial_order(now)) {
+    if (all && !walls_.empty() && !scene::in_spatial_order(now)) {
       number(links, at);
       now = in_order(at);
     }
     at_.clear();  // so that no old answer is left if a point is refused
     const std::size_t measured = all ? measure_all(now) : measure_moved(now, moved);
+    if (measured > 0) measure_lengths(at);
     at_ = std::move(now);
     return measured;
   }
 
-  std::size_t pairs() const { return pairs_.size(); }
+  // Of each link, log10 of the length in metres, which is taken as at least 1 cm: nearer, no far field has formed.
+  const std::vector<double>& log_distances() const { return log_distances_; }
+  // The pair that it belongs to.
   std::size_t pair(std::size_t link) const { return pair_[link]; }
-  // Of each pair, log10 of the length in metres, which is taken as at least 1 cm: nearer, no far field has formed.
-  const double* log_distances() const { return log_distances_.data(); }
   // Of each pair, how many walls of a material it crosses.
   const int* counts(std::size_t material) const { return counts_.data() + material * pairs_.size(); }
 
-  // Of each pair, what distance and walls take away: `per_decade` of the length in metres, and what each material does.
-  void losses(double per_decade, const std::vector<double>& materials, std::vector<PairLoss>& out) const {
-    constexpr std::size_t block = 1024;  // pairs whose values stay near while materials are gone through
-    out.resize(pairs_.size());
+  // Of each pair, the sum over materials of its crossings times the loss of one.
+  void wall_losses(const std::vector<double>& losses, std::vector<double>& out) const {
+    constexpr std::size_t block = 1024;  // pairs whose sums stay near while materials are gone through
+    out.assign(pairs_.size(), 0);
     for (std::size_t first = 0; first < out.size(); first += block) {
       const std::size_t last = std::min(out.size(), first + block);
-      for (std::size_t i = first; i < last; ++i) out[i] = {per_decade * log_distances_[i], 0};
-      for (std::size_t m = 0; m < materials.size(); ++m) {
+      for (std::size_t m = 0; m < losses.size(); ++m) {
         const int* const of_material = counts(m);
-        for (std::size_t i = first; i < last; ++i) out[i].walls += of_material[i] * materials[m];
+        for (std::size_t i = first; i < last; ++i) out[i] += of_material[i] * losses[m];
       }
     }
   }
@@ -83,11 +78,10 @@ class LinkGeometry {
     std::uint32_t from, to, number;
   };
 
-  template <class All, class Number>
-  static std::vector<Run> in_runs(const All& all, const Number& ends) {
+  static std::vector<Run> in_runs(Rows<const Ends> links) {
     std::vector<Run> result;
-    for (const auto& each : all) {
-      const auto [from, to] = ends(each);
+    for (const Ends& link : links) {
+      const auto from = static_cast<std::uint32_t>(link.tx), to = static_cast<std::uint32_t>(link.rx);
       if (result.empty() || from != result.back().from || to != result.back().to + result.back().number) {
         result.push_back({from, to, 0});
       }
@@ -99,13 +93,12 @@ class LinkGeometry {
   // Whether links are those that are numbered.
   bool are_listed(Rows<const Ends> links) const {
     if (links.size() != pair_.size()) return false;
-    std::size_t same = 0;
-    const Ends* link = links.begin();
+    const Ends* first = links.begin();
     for (const auto& [from, to, number] : listed_) {
-      const double tx = from, rx = to;
-      for (std::uint32_t i = 0; i < number; ++i, ++link) same += (link->tx == tx) & (link->rx == rx + i);
+      if (!run_on(first, number, from, to)) return false;
+      first += number;
     }
-    return same == links.size();
+    return true;
   }
 
   // Gives those endpoints that have links their places in spatial order, and numbers pairs by them: what is computed
@@ -139,10 +132,7 @@ class LinkGeometry {
     for (std::size_t i = 0; i < links.size(); ++i) {
       if (back[i] != no_link) pair_[i] = pair_[back[i]];
     }
-    runs_ = in_runs(pairs_, [](const scene::Pair& pair) { return pair; });
-    listed_ = in_runs(links, [](const Ends& link) {
-      return scene::Pair{static_cast<std::uint32_t>(link.tx), static_cast<std::uint32_t>(link.rx)};
-    });
+    listed_ = in_runs(links);
   }
 
   static std::vector<std::uint32_t> with_links(Rows<const Ends> links, std::size_t endpoints) {
@@ -174,15 +164,6 @@ class LinkGeometry {
 
   std::size_t measure_all(const std::vector<scene::Point>& now) {
     scene_->counts(now, pairs_, counts_);
-    log_distances_.resize(pairs_.size());
-    std::vector<double> x, y, z;
-    for (const scene::Point& p : now) x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
-    double* out = log_distances_.data();
-    for (const auto& [from, to, number] : runs_) {
-      const double own[] = {x[from], y[from], z[from]}, *const others[] = {&x[to], &y[to], &z[to]};
-      Widest<LogLengths, const double*, const double* const*, double*, std::size_t>::run(own, others, out, number);
-      out += number;
-    }
     return pairs_.size();
   }
 
@@ -197,8 +178,6 @@ class LinkGeometry {
     std::vector<int> counted;
     scene_->counts(now, some, counted);
     for (std::size_t k = 0; k < some.size(); ++k) {
-      const scene::Point &p = now[some[k].from], &q = now[some[k].to];
-      log_distances_[numbers[k]] = LogLengths::of(q.x - p.x, q.y - p.y, q.z - p.z);
       for (std::size_t m = 0; m < materials_; ++m) {
         counts_[m * pairs_.size() + numbers[k]] = counted[m * some.size() + k];
       }
@@ -206,6 +185,19 @@ class LinkGeometry {
     return some.size();
   }
 
+  void measure_lengths(Rows<const Pose> at) {
+    log_distances_.resize(pair_.size());
+    std::vector<double> x, y, z;
+    for (const Pose& p : at) x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
+    double* out = log_distances_.data();
+    for (const auto& [from, to, number] : listed_) {
+      const double own[] = {x[from], y[from], z[from]}, *const others[] = {&x[to], &y[to], &z[to]};
+      Widest<LogLengths, const double*, const double* const*, double*, std::size_t>::run(own, others, out, number);
+      out += number;
+    }
+  }
+
+  // The same bits both ways: differences change their sign alone.
   struct LogLengths {
     [[gnu::always_inline]] static double of(double x, double y, double z) {
       const double squared = x * x + y * y + z * z;
@@ -237,7 +229,6 @@ class LinkGeometry {
   std::vector<std::uint32_t> order_;  // endpoints that have links, by place; empty if they are not numbered
   std::vector<scene::Point> at_;      // where they were; empty if nothing is known
   std::vector<scene::Pair> pairs_;    // of places
-  std::vector<Run> runs_;             // the same
   std::vector<Run> listed_;           // links, by endpoints
   std::vector<std::uint32_t> pair_;   // of each link
   std::vector<double> log_distances_;

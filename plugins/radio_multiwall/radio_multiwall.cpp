@@ -50,25 +50,19 @@ struct RadioMultiwall {
     } catch (const std::runtime_error& e) {  // the scene refuses walls, doors and places, which are the user's
       throw BadInput(e.what());
     }
+    const auto& far = geometry.log_distances();
     const double slope = k[model] <= log_distance ? 10 * k[n] : 0, at_1m = k[tx_power] - k[l0];
+    const auto by_distance = k[distance];
+    for (std::size_t i = 0; i < far.size(); ++i) by_distance[i].level = at_1m - slope * far[i];
+    const double edge = std::log10(k[radius]);
+    for (std::size_t i = 0; k[model] == disc && i < far.size(); ++i) {
+      if (far[i] > edge) by_distance[i].level = at_1m - 200;
+    }
     std::vector<double> each;
     for (const Loss& material : losses) each.push_back(k[model] == multi_wall ? material.loss : 0);
-    geometry.losses(slope, each, of_pair);
-    if (k[model] == disc) cut_off(k[radius]);
-    const auto by_distance = k[distance];
+    geometry.wall_losses(each, lost);
     const auto by_walls = k[walls];
-    for (std::size_t i = 0; i < by_distance.size(); ++i) {
-      const auto& lost = of_pair[geometry.pair(i)];
-      by_distance[i].level = at_1m - lost.distance;
-      by_walls[i].level = 0 - lost.walls;
-    }
-  }
-
-  void cut_off(double at) {
-    const double edge = std::log10(at);
-    for (std::size_t i = 0; i < of_pair.size(); ++i) {
-      if (geometry.log_distances()[i] > edge) of_pair[i].distance = 200;
-    }
+    for (std::size_t i = 0; i < far.size(); ++i) by_walls[i].level = 0 - lost[geometry.pair(i)];
   }
 
   enum Model { multi_wall, log_distance, disc, perfect };
@@ -82,7 +76,7 @@ struct RadioMultiwall {
   In<Loss> loss;
   Out<Level> distance, walls;
   LinkGeometry geometry;
-  std::vector<LinkGeometry::PairLoss> of_pair;
+  std::vector<double> lost;  // through walls, of each pair
 };
 
 }  // namespace

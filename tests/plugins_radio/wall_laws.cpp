@@ -37,7 +37,7 @@ struct Plan {
 std::vector<int> counts(const LinkGeometry& g, std::size_t link) {
   return {g.counts(Plan::brick)[g.pair(link)], g.counts(Plan::glass)[g.pair(link)], g.counts(Plan::wood)[g.pair(link)]};
 }
-double log_distance(const LinkGeometry& g, std::size_t link) { return g.log_distances()[g.pair(link)]; }
+double log_distance(const LinkGeometry& g, std::size_t link) { return g.log_distances()[link]; }
 using Counts = std::vector<int>;
 
 TEST(Walls, AreCountedByMaterialHeightAndDoorState) {
@@ -74,6 +74,7 @@ TEST(Walls, DistanceIsInSpaceAndAtLeastACentimetre) {
   LinkGeometry g;
   plan.put(g);
   EXPECT_NEAR(log_distance(g, 0), std::log10(7.0), 1e-15);
+  EXPECT_EQ(log_distance(g, 1), log_distance(g, 0));
   EXPECT_EQ(g.pair(1), g.pair(0));
   EXPECT_EQ(counts(g, 1), counts(g, 0));
   EXPECT_EQ(log_distance(g, 2), -2);
