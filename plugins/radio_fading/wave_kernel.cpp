@@ -1,7 +1,7 @@
 // Built once for each instruction set, as MUSTER_KERNEL. Everything here but the kernel itself is internal.
 //
 // Phases are reduced in double, where a kilometre of short waves leaves them exact to 1e-9. What is summed is float:
-// gains within 1e-6, shadowing within 1e-5 of a standard deviation for each decorrelation distance that places lie from
+// gains within 1e-5, shadowing within 1e-5 of a standard deviation for each decorrelation distance that places lie from
 // the origin.
 #include "plugins/radio_fading/wave_kernel.hpp"
 

@@ -147,6 +147,45 @@ TEST(Kept, AnswersAreThoseOfAFreshStart) {
   }
 }
 
+// Pairs are numbered anew where the crowd is mixed; each link's counts are then still its own.
+TEST(Kept, AnswersAreThoseOfAFreshStartHoweverACrowdMixes) {
+  Plan plan;
+  for (double a = 0; a < 120; ++a) {
+    for (double b = 0; b < 120; ++b) {
+      if (a != b) plan.links.push_back({a, b});
+    }
+  }
+  const Stream random(8);
+  LinkGeometry kept;
+  for (uint64_t step = 0; step < 4; ++step) {
+    plan.at.clear();
+    for (uint64_t i = 0; i < 120; ++i) {
+      const auto at = [&](uint64_t k) { return 10 * random.uniform(120 * step + i, k); };
+      plan.at.push_back({at(0), at(1), at(2) / 3, 1, 0, 0, 0});
+    }
+    EXPECT_EQ(plan.put(kept), 7140u);
+    for (std::size_t i = 0; i < plan.links.size(); i += 97) {
+      Plan alone = plan;
+      alone.links = {plan.links[i]};
+      LinkGeometry fresh;
+      alone.put(fresh);
+      EXPECT_EQ(counts(kept, i), counts(fresh, 0));
+      EXPECT_EQ(log_distance(kept, i), log_distance(fresh, 0));
+    }
+  }
+}
+
+TEST(Kept, WithoutWallsNothingIsCrossedAndPlacesAreStillRefused) {
+  Plan plan;
+  plan.walls.clear(), plan.doors.clear(), plan.states.clear();
+  plan.link(2.5, 0.5, 0.5);
+  LinkGeometry g;
+  plan.put(g);
+  EXPECT_EQ(counts(g, 0), (Counts{0, 0, 0}));
+  plan.at[1].x = 5000;
+  EXPECT_THROW(plan.put(g), std::runtime_error);
+}
+
 TEST(Kept, NoAnswerOutlivesARefusal) {
   Plan plan;
   plan.link(2.5, 0.5, 0.5);
