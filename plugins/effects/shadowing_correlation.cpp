@@ -51,7 +51,7 @@ struct ShadowingCorrelation {
       for (Level& link : out) link.level = 0;
     } else {
       const auto at = field.at(places(k[pose], k[decorrelation]));
-      const std::array<double*, 1> columns{&out.begin()->level};
+      const std::array<double*, 1> columns{column_of(out)};
       by_tiles(k[ends], k[pose].size(), columns,
                [&](std::size_t from, int place, std::size_t to, unsigned wanted, auto& values) {
                  field.between(at[from], place, at[to], wanted, k[shadowing], values[0]);

@@ -73,8 +73,8 @@ the gain whose dB is the mean of its dB: -2.507 dB under Rayleigh fading.)";
     const auto waves_at =
         interferes ? multipath.at(places(k[pose], light_speed / k[frequency])) : std::vector<Multipath::Tile>();
     const double size = k[sd];
-    const std::array<double*, 2> columns{shadows ? &k[shadowing].begin()->level : nullptr,
-                                         interferes ? &k[gain].begin()->gain : nullptr};
+    const std::array<double*, 2> columns{shadows ? column_of(k[shadowing]) : nullptr,
+                                         interferes ? column_of(k[gain]) : nullptr};
     by_tiles(k[ends], k[pose].size(), columns,
              [&](std::size_t from, int place, std::size_t to, unsigned wanted, auto& values) {
                if (shadows) field.between(shadow_at[from], place, shadow_at[to], wanted, size, values[0]);

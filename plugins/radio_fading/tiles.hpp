@@ -23,6 +23,13 @@ inline std::vector<Place> places(Rows<const Pose> poses, double unit) {
   return result;
 }
 
+// A column of one double a link.
+template <class Row>
+double* column_of(Rows<Row> rows) {
+  static_assert(sizeof(Row) == sizeof(double));
+  return reinterpret_cast<double*>(rows.begin());
+}
+
 // Tiles of a field, each filled by fill(tile) from its places; what is left of the last repeats its last place.
 template <class Tile, class Fill>
 std::vector<Tile> tiles(const std::vector<Place>& places, const Fill& fill) {

@@ -47,7 +47,7 @@ class LinkGeometry {
     }
     at_.clear();  // so that no old answer is left if a point is refused
     const std::size_t measured = all ? measure_all(now) : measure_moved(now, moved);
-    if (measured > 0) measure_lengths(at);
+    if (measured > 0 || links.empty()) measure_lengths(at);
     at_ = std::move(now);
     return measured;
   }

@@ -186,6 +186,17 @@ TEST(Kept, WithoutWallsNothingIsCrossedAndPlacesAreStillRefused) {
   EXPECT_THROW(plan.put(g), std::runtime_error);
 }
 
+TEST(Kept, NothingIsLeftWhenTheLastLinkGoes) {
+  Plan plan;
+  plan.link(2.5, 0.5, 0.5);
+  LinkGeometry g;
+  plan.put(g);
+  EXPECT_EQ(g.log_distances().size(), 1u);
+  plan.links.clear();
+  EXPECT_EQ(plan.put(g), 0u);
+  EXPECT_TRUE(g.log_distances().empty());
+}
+
 TEST(Kept, NoAnswerOutlivesARefusal) {
   Plan plan;
   plan.link(2.5, 0.5, 0.5);

@@ -135,7 +135,7 @@ double code(double a, double b) { return 1000 * std::min(a, b) + std::max(a, b);
 Evaluated evaluated(const std::vector<Ends>& links, std::size_t endpoints) {
   Evaluated result{std::vector<double>(links.size(), null()), 0};
   const std::array<double*, 2> columns{nullptr, result.values.data()};
-  by_tiles(Rows<const Ends>(&links.data()->tx, links.size()), endpoints, columns,
+  by_tiles(Rows<const Ends>(reinterpret_cast<const double*>(links.data()), links.size()), endpoints, columns,
            [&](std::size_t one, int place, std::size_t other, unsigned wanted, auto& values) {
              for (int i = 0; i < tile; ++i) {
                if ((wanted >> i & 1) == 0) continue;
