@@ -26,11 +26,12 @@ Multipath::Multipath(const Stream& random) {
   }
 }
 
-std::vector<Multipath::Tile> Multipath::at(const std::vector<Place>& places, const waves::WaveKernel& kernel) const {
+std::vector<Multipath::Tile> Multipath::at(const std::vector<FieldPoint>& places,
+                                           const waves::WaveKernel& kernel) const {
   return tiles<Tile>(places, [&](Tile& each) { kernel.fading_at(waves_, each); });
 }
 
-std::complex<double> Multipath::between(const Place& p, const Place& q) const {
+std::complex<double> Multipath::between(const FieldPoint& p, const FieldPoint& q) const {
   double re[waves::tile], im[waves::tile];
   const auto both = at({p, q});
   waves::best_wave_kernel().fading(both[0], 0, both[0], 2, re, im);

@@ -21,7 +21,7 @@ class Multipath {
   explicit Multipath(const Stream& random);
 
   // What links need of their ends; places in wavelengths.
-  std::vector<Tile> at(const std::vector<Place>& places,
+  std::vector<Tile> at(const std::vector<FieldPoint>& places,
                        const waves::WaveKernel& kernel = waves::best_wave_kernel()) const;
 
   // Power gains from a place of one tile to the wanted ones of another, with a steady part K times as strong as the
@@ -34,7 +34,7 @@ class Multipath {
   }
 
   // The diffuse part of one link: nearly complex normal, of mean 0 and mean power 1 over places.
-  std::complex<double> between(const Place& p, const Place& q) const;
+  std::complex<double> between(const FieldPoint& p, const FieldPoint& q) const;
 
  private:
   waves::FadingWaves waves_;

@@ -32,12 +32,12 @@ ShadowField::ShadowField(const Stream& random) {
   }
 }
 
-std::vector<ShadowField::Tile> ShadowField::at(const std::vector<Place>& places,
+std::vector<ShadowField::Tile> ShadowField::at(const std::vector<FieldPoint>& places,
                                                const waves::WaveKernel& kernel) const {
   return tiles<Tile>(places, [&](Tile& each) { kernel.shadow_at(waves_, each); });
 }
 
-double ShadowField::between(const Place& p, const Place& q) const {
+double ShadowField::between(const FieldPoint& p, const FieldPoint& q) const {
   double all[waves::tile];
   const auto both = at({p, q});
   between(both[0], 0, both[0], 2, 1, all);

@@ -21,7 +21,7 @@ class ShadowField {
   explicit ShadowField(const Stream& random);
 
   // What links need of their ends; places in decorrelation distances.
-  std::vector<Tile> at(const std::vector<Place>& places,
+  std::vector<Tile> at(const std::vector<FieldPoint>& places,
                        const waves::WaveKernel& kernel = waves::best_wave_kernel()) const;
 
   // From a place of one tile to the wanted ones of another: normal, of mean 0 and the variance below, times `sd`. Bit
@@ -32,7 +32,7 @@ class ShadowField {
   }
 
   // Of one link.
-  double between(const Place& p, const Place& q) const;
+  double between(const FieldPoint& p, const FieldPoint& q) const;
 
   // Of a link of this length: grows to 1 for links much longer than a decorrelation distance.
   static double variance(double length) { return length > 0 ? 1 + std::expm1(-length) / length : 0; }

@@ -11,13 +11,13 @@
 
 namespace muster {
 
-struct Place {
+struct FieldPoint {
   double x, y, z;
 };
 
 // In another unit of length.
-inline std::vector<Place> places(Rows<const Pose> poses, double unit) {
-  std::vector<Place> result;
+inline std::vector<FieldPoint> places(Rows<const Pose> poses, double unit) {
+  std::vector<FieldPoint> result;
   result.reserve(poses.size());
   for (const Pose& p : poses) result.push_back({p.x / unit, p.y / unit, p.z / unit});
   return result;
@@ -32,10 +32,10 @@ double* column_of(Rows<Row> rows) {
 
 // Tiles of a field, each filled by fill(tile) from its places; what is left of the last repeats its last place.
 template <class Tile, class Fill>
-std::vector<Tile> tiles(const std::vector<Place>& places, const Fill& fill) {
+std::vector<Tile> tiles(const std::vector<FieldPoint>& places, const Fill& fill) {
   std::vector<Tile> result((places.size() + waves::tile - 1) / waves::tile);
   for (std::size_t i = 0; i < result.size() * waves::tile; ++i) {
-    const Place& place = places[std::min(i, places.size() - 1)];
+    const FieldPoint& place = places[std::min(i, places.size() - 1)];
     waves::PlaceTile& at = result[i / waves::tile].at;
     at.x[i % waves::tile] = place.x, at.y[i % waves::tile] = place.y, at.z[i % waves::tile] = place.z;
   }

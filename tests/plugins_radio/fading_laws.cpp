@@ -118,7 +118,7 @@ TEST(Multipath, IsTheSameBothWaysBitForBit) {
   const Stream random(1);
   for (uint64_t i = 0; i < 2000; ++i) {
     const auto at = [&](uint64_t j) { return 900 * random.uniform(i, j); };
-    const Place p{at(0), at(1), at(2)}, q{at(3), at(4), at(5)};
+    const FieldPoint p{at(0), at(1), at(2)}, q{at(3), at(4), at(5)};
     EXPECT_EQ(field.between(p, q), field.between(q, p));
   }
 }
@@ -139,7 +139,7 @@ double correlation(double east, double north, double up) {
     for (uint64_t j = 0; j < places; ++j) {
       const auto at = [&](uint64_t k) { return 500 * random.uniform(i * places + j, k); };
       const double x = at(0), y = at(1);
-      const Place q{at(2), at(3), 0};
+      const FieldPoint q{at(2), at(3), 0};
       const auto here = field.between({x, y, 0}, q), there = field.between({x + east, y + north, up}, q);
       sum += (here * std::conj(there)).real() / (fields * places);
     }

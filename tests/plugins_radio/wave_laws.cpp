@@ -16,13 +16,13 @@ namespace {
 using waves::tile;
 
 // Some close together, two at the same place.
-std::vector<Place> scattered(std::size_t number, double size) {
-  std::vector<Place> result;
+std::vector<FieldPoint> scattered(std::size_t number, double size) {
+  std::vector<FieldPoint> result;
   const Stream random(5);
   for (std::size_t i = 0; i < number; ++i) {
     const auto at = [&](uint64_t k) { return size * random.uniform(i, k); };
-    result.push_back(i % 7 == 3 ? Place{result.back().x + 1e-3, result.back().y, result.back().z}
-                                : Place{at(0), at(1), at(2) / 20});
+    result.push_back(i % 7 == 3 ? FieldPoint{result.back().x + 1e-3, result.back().y, result.back().z}
+                                : FieldPoint{at(0), at(1), at(2) / 20});
   }
   result[1] = result[0];
   return result;
@@ -46,14 +46,14 @@ std::vector<double> all_pairs(const std::vector<Tile>& at, const Evaluate& evalu
 
 constexpr unsigned all = (1u << tile) - 1;
 
-std::vector<double> shadowing(const std::vector<Place>& places, const waves::WaveKernel& kernel) {
+std::vector<double> shadowing(const std::vector<FieldPoint>& places, const waves::WaveKernel& kernel) {
   const ShadowField field(Stream(7));
   return all_pairs(field.at(places, kernel), [&](const auto& one, int place, const auto& other, double* out) {
     field.between(one, place, other, all, 4, out, kernel);
   });
 }
 
-std::vector<double> fading(const std::vector<Place>& places, double k, const waves::WaveKernel& kernel) {
+std::vector<double> fading(const std::vector<FieldPoint>& places, double k, const waves::WaveKernel& kernel) {
   const Multipath field(Stream(7));
   return all_pairs(field.at(places, kernel), [&](const auto& one, int place, const auto& other, double* out) {
     field.gains(one, place, other, all, k, out, kernel);
@@ -95,7 +95,7 @@ TEST(Waves, GainsAreThoseOfTheComplexGain) {
   const auto found = fading(places, 2, waves::best_wave_kernel());
   for (std::size_t i = 0; i < places.size(); ++i) {
     for (std::size_t j = 0; j < places.size(); ++j) {
-      const Place &p = places[i], &q = places[j];
+      const FieldPoint &p = places[i], &q = places[j];
       const double length = std::hypot(p.x - q.x, p.y - q.y, p.z - q.z);
       const double expected = rician_gain(2, field.between(p, q), -6.283185307179586 * length);
       EXPECT_NEAR(found[i * places.size() + j], expected, 1e-8);
@@ -111,7 +111,7 @@ TEST(Waves, ShadowingIsTheMeanAlongTheWay) {
     for (uint64_t i = 0; i < 20; ++i) {
       const double x = 40 * random.uniform(i, 0), y = 40 * random.uniform(i, 1), turn = 6.2832 * random.uniform(i, 2);
       const auto on = [&](double share) {
-        return Place{x + share * length * std::cos(turn), y + share * length * std::sin(turn), 0.4};
+        return FieldPoint{x + share * length * std::cos(turn), y + share * length * std::sin(turn), 0.4};
       };
       // Pieces of a way add up to it: integrals do, of which a link's value is one over the root of its length.
       double sum = 0;
