@@ -38,6 +38,10 @@ class Ns3Channel {
     hybrid_->SetAttribute("Frequency", DoubleValue(2.44e9));
   }
 
+  Ns3Channel(const Ns3Channel&) = delete;
+  Ns3Channel& operator=(const Ns3Channel&) = delete;
+  ~Ns3Channel() { ns3::Simulator::Destroy(); }  // or its buildings stand in the next one's way
+
   void move(double x) {
     for (const auto& place : places_) {
       ns3::Vector at = place->GetPosition();

@@ -14,9 +14,7 @@
 #include "floor_plan.hpp"
 #ifdef MUSTER_HAS_NS3
 #include "ns3_channel.hpp"
-#include "plugins/radio_fading/each_end.hpp"
 #include "plugins/radio_fading/multipath.hpp"
-#include "plugins/radio_fading/rician.hpp"
 #include "plugins/radio_fading/shadow_field.hpp"
 #include "plugins/radio_multiwall/link_geometry.hpp"
 #endif
@@ -165,26 +163,30 @@ class Channel {
   }
 
   void log_distance(std::vector<double>& levels) {
-    geometry_.set_scene(rows(no_walls_), rows(no_doors_), rows(no_states_), 0);
-    geometry_.set_links(rows(links_), rows(poses_));
-    levels.resize(links_.size());
-    for (std::size_t i = 0; i < links_.size(); ++i) levels[i] = -40 - 20 * geometry_.log_distance(i);
+    free_.set_scene(rows(no_walls_), rows(no_doors_), rows(no_states_), 0);
+    free_.set_links(rows(links_), rows(poses_));
+    const auto& far = free_.log_distances();
+    levels.resize(far.size());
+    for (std::size_t i = 0; i < far.size(); ++i) levels[i] = -40 - 20 * far[i];
   }
 
   void all(std::vector<double>& levels) {
     geometry_.set_scene(rows(walls_), rows(no_doors_), rows(no_states_), FloorPlan::materials);
     geometry_.set_links(rows(links_), rows(poses_));
-    const auto shadows = at_each(field_, rows(poses_), 2);
-    once_a_pair<Level>(rows(links_), field_, shadows, {&shadowing_.data()->level, links_.size()},
-                       [&](const Ends&, double between) { return Level{4 * between}; });
-    const auto waves = at_each(multipath_, rows(poses_), 0.1229);
-    once_a_pair<Fading>(rows(links_), multipath_, waves, {&gain_.data()->gain, links_.size()},
-                        [&](const Ends&, std::complex<double> diffuse) { return Fading{rician_gain(0, diffuse, 0)}; });
-    levels.resize(links_.size());
-    for (std::size_t i = 0; i < links_.size(); ++i) {
-      double level = -40 - 20 * geometry_.log_distance(i) + shadowing_[i].level + 10 * std::log10(gain_[i].gain);
-      for (std::size_t m = 0; m < FloorPlan::materials; ++m) level -= 3 * geometry_.count(i, m);
-      levels[i] = level;
+    geometry_.wall_losses(std::vector<double>(FloorPlan::materials, 3), lost_);
+    const auto shadow_at = field_.at(places(rows(poses_), 2));
+    const auto waves_at = multipath_.at(places(rows(poses_), 0.1229));
+    const std::array<double*, 2> columns{&shadowing_.data()->level, &gain_.data()->gain};
+    by_tiles(rows(links_), poses_.size(), columns,
+             [&](std::size_t from, int place, std::size_t to, unsigned wanted, auto& values) {
+               field_.between(shadow_at[from], place, shadow_at[to], wanted, 4, values[0]);
+               multipath_.gains(waves_at[from], place, waves_at[to], wanted, 0, values[1]);
+             });
+    log10_of_all(&gain_.data()->gain, gain_.size());
+    const auto& far = geometry_.log_distances();
+    levels.resize(far.size());
+    for (std::size_t i = 0; i < far.size(); ++i) {
+      levels[i] = -40 - 20 * far[i] - lost_[geometry_.pair(i)] + shadowing_[i].level + 10 * gain_[i].gain;
     }
   }
 
@@ -196,7 +198,8 @@ class Channel {
   std::vector<Ends> links_;
   std::vector<Level> shadowing_;
   std::vector<Fading> gain_;
-  LinkGeometry geometry_;
+  std::vector<double> lost_;
+  LinkGeometry geometry_, free_;
   const ShadowField field_{Stream(1)};
   const Multipath multipath_{Stream(2)};
 };
@@ -230,6 +233,7 @@ void channel_against_ns3(benchmark::State& state) {
 }
 BENCHMARK(channel_against_ns3)
     ->ArgName("radios")
+    ->Arg(200)
     ->Arg(1000)
     ->Unit(benchmark::kMillisecond)
     ->Iterations(6)

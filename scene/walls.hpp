@@ -50,6 +50,10 @@ struct Pair {
 // The points in an order in which neighbours follow one another, as places in the list.
 std::vector<std::uint32_t> spatial_order(const std::vector<Point>& points);
 
+// Whether neighbours follow one another already, near enough: most points are where that order would have them, or not
+// far from it.
+bool in_spatial_order(const std::vector<Point>& points);
+
 // The fastest that this machine can run. All give the same counts.
 const WallKernel& best_wall_kernel();
 

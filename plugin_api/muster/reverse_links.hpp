@@ -26,4 +26,22 @@ inline std::vector<std::uint32_t> earlier_reverse(Rows<const Ends> links, std::s
   return result;
 }
 
+// Whether links all run from `tx`, to receivers that follow one another from `rx` on. Where all hear all most do, so
+// that it is asked without a branch.
+inline bool run_on(const Ends* links, std::size_t number, double tx, double rx) {
+  using Two = double __attribute__((vector_size(2 * sizeof(double)), aligned(alignof(double)), may_alias));
+  using Bits = std::int64_t __attribute__((vector_size(2 * sizeof(double))));
+  static_assert(sizeof(Two) == sizeof(Ends));
+  const auto* const ends = reinterpret_cast<const Two*>(links);
+  Two expected = {tx, rx};
+  Bits other = {};
+  std::size_t i = 0;
+  for (; i + 4 <= number; i += 4, expected += Two{0, 4}) {  // one addition in the way of the next four comparisons
+    other |= (ends[i] != expected) | (ends[i + 1] != expected + Two{0, 1});
+    other |= (ends[i + 2] != expected + Two{0, 2}) | (ends[i + 3] != expected + Two{0, 3});
+  }
+  for (; i < number; ++i, expected += Two{0, 1}) other |= ends[i] != expected;
+  return (other[0] | other[1]) == 0;
+}
+
 }  // namespace muster

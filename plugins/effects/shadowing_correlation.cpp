@@ -1,8 +1,8 @@
 // Shadowing that is wider or finer than the world says, or stronger.
+#include <array>
 #include <muster/plugin.hpp>
 
 #include "link_term.hpp"
-#include "radio_fading/each_end.hpp"
 #include "radio_fading/shadow_field.hpp"
 
 namespace {
@@ -10,7 +10,7 @@ namespace {
 using namespace muster;
 
 struct ShadowingCorrelation {
-  static constexpr auto id = "effect.shadowing_correlation/1";
+  static constexpr auto id = "effect.shadowing_correlation/2";
   static constexpr auto summary = "shadowing has another size or decorrelation distance";
   static constexpr auto manual =
       "Adds the shadowing of radio.fading with this size and decorrelation distance, less what the instance that `of` "
@@ -50,8 +50,12 @@ struct ShadowingCorrelation {
     if (k.expected() || k[shadowing] == 0) {
       for (Level& link : out) link.level = 0;
     } else {
-      const auto at = at_each(field, k[pose], k[decorrelation]);
-      once_a_pair(k[ends], field, at, out, [&](const Ends&, double between) { return Level{k[shadowing] * between}; });
+      const auto at = field.at(places(k[pose], k[decorrelation]));
+      const std::array<double*, 1> columns{column_of(out)};
+      by_tiles(k[ends], k[pose].size(), columns,
+               [&](std::size_t from, int place, std::size_t to, unsigned wanted, auto& values) {
+                 field.between(at[from], place, at[to], wanted, k[shadowing], values[0]);
+               });
     }
     for (std::size_t i = 0; i < out.size(); ++i) out[i].level -= k[old][i].level;
   }

@@ -1,8 +1,9 @@
 // What the floor plan does not tell: shadowing as a field over the environment, and fading by interference of waves.
+#include <array>
 #include <muster/plugin.hpp>
+#include <muster/reverse_links.hpp>
 #include <vector>
 
-#include "each_end.hpp"
 #include "multipath.hpp"
 #include "reading_key.hpp"
 #include "rician.hpp"
@@ -15,7 +16,7 @@ using namespace muster;
 constexpr double light_speed = 299792458;  // m/s
 
 struct RadioFading {
-  static constexpr auto id = "radio.fading/1";
+  static constexpr auto id = "radio.fading/2";
   static constexpr auto summary = "shadowing that belongs to the place, and Rayleigh or Rician fading";
   static constexpr auto manual =
       R"(level@shadowing: a link's share of a random loss field over the environment, normal in dB. Its sd grows with the
@@ -51,35 +52,34 @@ the gain whose dB is the mean of its dB: -2.507 dB under Rayleigh fading.)";
         multipath(random) {}
 
   void step(const Step& k) const {
-    shadow(k);
     const double ratio = rician_ratio(k[rician_k]);
-    const bool fades = k[has_fading] != 0;
-    if (!fades || k.expected()) {
-      const double everywhere = fades ? rician_typical_gain(ratio) : 1;
-      for (Fading& link : k[gain]) link.gain = everywhere;
-    } else if (k[per_reading] != 0) {
-      draw(k, ratio);
-    } else {
-      interfere(k, ratio);
-    }
-  }
-
-  void shadow(const Step& k) const {
-    if (k.expected() || k[sd] == 0) {
+    const bool fades = k[has_fading] != 0 && !k.expected();
+    const bool shadows = k[sd] != 0 && !k.expected(), interferes = fades && k[per_reading] == 0;
+    if (!shadows) {
       for (Level& link : k[shadowing]) link.level = 0;
-      return;
     }
-    const auto at = at_each(field, k[pose], k[decorrelation]);
-    once_a_pair(k[ends], field, at, k[shadowing], [&](const Ends&, double between) { return Level{k[sd] * between}; });
+    if (!fades) {
+      const double everywhere = k[has_fading] != 0 ? rician_typical_gain(ratio) : 1;
+      for (Fading& link : k[gain]) link.gain = everywhere;
+    } else if (!interferes) {
+      draw(k, ratio);
+    }
+    if (shadows || interferes) evaluate(k, shadows, interferes, ratio);
   }
 
-  void interfere(const Step& k, double ratio) const {
-    const double wavelength = light_speed / k[frequency];
-    const auto at = at_each(multipath, k[pose], wavelength);
-    once_a_pair(k[ends], multipath, at, k[gain], [&](const Ends& link, std::complex<double> diffuse) {
-      const double turns = -distance(of(k[pose], link.tx), of(k[pose], link.rx)) / wavelength;
-      return Fading{rician_gain(ratio, diffuse, 6.283185307179586 * turns)};
-    });
+  // Of both fields those that are asked for.
+  void evaluate(const Step& k, bool shadows, bool interferes, double ratio) const {
+    const auto shadow_at = shadows ? field.at(places(k[pose], k[decorrelation])) : std::vector<ShadowField::Tile>();
+    const auto waves_at =
+        interferes ? multipath.at(places(k[pose], light_speed / k[frequency])) : std::vector<Multipath::Tile>();
+    const double size = k[sd];
+    const std::array<double*, 2> columns{shadows ? column_of(k[shadowing]) : nullptr,
+                                         interferes ? column_of(k[gain]) : nullptr};
+    by_tiles(k[ends], k[pose].size(), columns,
+             [&](std::size_t from, int place, std::size_t to, unsigned wanted, auto& values) {
+               if (shadows) field.between(shadow_at[from], place, shadow_at[to], wanted, size, values[0]);
+               if (interferes) multipath.gains(waves_at[from], place, waves_at[to], wanted, ratio, values[1]);
+             });
   }
 
   void draw(const Step& k, double ratio) const {
@@ -88,9 +88,14 @@ the gain whose dB is the mean of its dB: -2.507 dB under Rayleigh fading.)";
       const Endpoint& end = k[endpoint][i];
       keys.push_back(end_key(k.key("radio", static_cast<std::size_t>(end.radio)), end.t, k[pose][i]));
     }
-    once_a_pair(k[ends], keys.size(), k[gain], [&](const Ends& link) {
-      return Fading{rician_gain(ratio, diffuse(random, of(keys, link.tx), of(keys, link.rx)), 0)};
-    });
+    const auto links = k[ends];
+    const auto gains = k[gain];
+    const auto back = earlier_reverse(links, keys.size());
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      const auto tx = static_cast<std::size_t>(links[i].tx), rx = static_cast<std::size_t>(links[i].rx);
+      gains[i].gain =
+          back[i] != no_link ? gains[back[i]].gain : rician_gain(ratio, diffuse(random, keys[tx], keys[rx]), 0);
+    }
   }
 
   Value sd, decorrelation, has_fading, rician_k, frequency, per_reading;

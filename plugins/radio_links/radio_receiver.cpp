@@ -1,5 +1,5 @@
 // The first stage of every receiver: received power in dBm, nothing below its sensitivity.
-#include <cmath>
+#include <muster/logarithm.hpp>
 #include <muster/plugin.hpp>
 
 namespace {
@@ -7,7 +7,7 @@ namespace {
 using namespace muster;
 
 struct RadioReceiver {
-  static constexpr auto id = "radio.receiver/1";
+  static constexpr auto id = "radio.receiver/2";
   static constexpr auto summary = "rssi = mean level + fading in dB, null below the sensitivity";
   static constexpr auto manual =
       "rssi = level + 10 log10(fading gain), in dBm; null below `sensitivity`. What a chip does to it (saturation,\n"
@@ -28,8 +28,10 @@ struct RadioReceiver {
     const auto gains = k[fading];
     const auto out = k[rssi];
     const double least = k[sensitivity];
+    for (std::size_t i = 0; i < out.size(); ++i) out[i].rssi = gains.empty() ? 1 : gains[i].gain;
+    if (!out.empty()) log10_of_all(&out[0].rssi, out.size());
     for (std::size_t i = 0; i < out.size(); ++i) {
-      const double received = levels[i].level + (gains.empty() ? 0.0 : 10 * std::log10(gains[i].gain));
+      const double received = levels[i].level + 10 * out[i].rssi;
       out[i].rssi = received >= least || k.expected() ? received : null();
     }
   }

@@ -4,12 +4,13 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <memory>
+#include <muster/logarithm.hpp>
 #include <muster/plugin.hpp>
 #include <muster/reverse_links.hpp>
 #include <scene/walls.hpp>
+#include <utility>
 #include <vector>
 
 #include "plugins/scene_rows.hpp"
@@ -32,86 +33,183 @@ class LinkGeometry {
     return true;
   }
 
-  // How many links were computed anew: links that run both ways are one.
+  // How many pairs were computed anew: links that run both ways are one pair.
   std::size_t set_links(Rows<const Ends> links, Rows<const Pose> at) {
-    if (keep(links, ends_)) {
-      at_.clear();
-      number(links, at.size());
+    if (!are_listed(links) || at.size() != endpoints_) order_.clear();
+    endpoints_ = at.size();
+    if (order_.empty()) number(links, at);
+    std::vector<scene::Point> now = in_order(at);
+    const std::vector<char> moved = which_moved(now);
+    const bool all = std::find(moved.begin(), moved.end(), 0) == moved.end();
+    if (all && !walls_.empty() && !scene::in_spatial_order(now)) {
+      number(links, at);
+      now = in_order(at);
     }
-    std::vector<scene::Point> now;
-    for (const Pose& pose : at) now.push_back({pose.x, pose.y, pose.z});
-    find_moved(now);
     at_.clear();  // so that no old answer is left if a point is refused
-    scene_->counts(moved_.points, moved_.pairs, counted_);
-    log_distances_.resize(slots_);
-    counts_.resize(slots_ * materials_);
-    for (std::size_t k = 0; k < moved_.pairs.size(); ++k) {
-      log_distances_[moved_.slots[k]] =
-          log_distance(moved_.points[moved_.pairs[k].from], moved_.points[moved_.pairs[k].to]);
-    }
-    for (std::size_t m = 0; m < materials_; ++m) {
-      const int* const of_material = counted_.data() + m * moved_.pairs.size();
-      for (std::size_t k = 0; k < moved_.pairs.size(); ++k) counts_[m * slots_ + moved_.slots[k]] = of_material[k];
-    }
+    const std::size_t measured = all ? measure_all(now) : measure_moved(now, moved);
+    if (measured > 0 || links.empty()) measure_lengths(at);
     at_ = std::move(now);
-    return moved_.pairs.size();
+    return measured;
   }
 
-  // log10 of the length in metres, which is taken as at least 1 cm: nearer, no far field has formed.
-  double log_distance(std::size_t link) const { return log_distances_[slot_[link]]; }
-  // How many walls of a material it crosses.
-  int count(std::size_t link, std::size_t material) const { return counts_[material * slots_ + slot_[link]]; }
+  // Of each link, log10 of the length in metres, which is taken as at least 1 cm: nearer, no far field has formed.
+  const std::vector<double>& log_distances() const { return log_distances_; }
+  // The pair that it belongs to.
+  std::size_t pair(std::size_t link) const { return pair_[link]; }
+  // Of each pair, how many walls of a material it crosses.
+  const int* counts(std::size_t material) const { return counts_.data() + material * pairs_.size(); }
+
+  // Of each pair, the sum over materials of its crossings times the loss of one.
+  void wall_losses(const std::vector<double>& losses, std::vector<double>& out) const {
+    constexpr std::size_t block = 1024;  // pairs whose sums stay near while materials are gone through
+    out.assign(pairs_.size(), 0);
+    for (std::size_t first = 0; first < out.size(); first += block) {
+      const std::size_t last = std::min(out.size(), first + block);
+      for (std::size_t m = 0; m < losses.size(); ++m) {
+        const int* const of_material = counts(m);
+        for (std::size_t i = first; i < last; ++i) out[i] += of_material[i] * losses[m];
+      }
+    }
+  }
 
  private:
-  // The links to compute anew, each as a pair of the points that they need.
-  struct Moved {
-    std::vector<scene::Point> points;
-    std::vector<scene::Pair> pairs;
-    std::vector<std::uint32_t> slots;
+  // From one end to ends that follow one another.
+  struct Run {
+    std::uint32_t from, to, number;
   };
 
-  // Links that run both ways share a slot for what is computed.
-  void number(Rows<const Ends> links, std::size_t endpoints) {
-    const auto back = earlier_reverse(links, endpoints);
-    slot_.resize(links.size());
-    slots_ = 0;
-    for (std::size_t i = 0; i < links.size(); ++i) {
-      slot_[i] = back[i] != no_link ? slot_[back[i]] : static_cast<std::uint32_t>(slots_++);
+  static std::vector<Run> in_runs(Rows<const Ends> links) {
+    std::vector<Run> result;
+    for (const Ends& link : links) {
+      const auto from = static_cast<std::uint32_t>(link.tx), to = static_cast<std::uint32_t>(link.rx);
+      if (result.empty() || from != result.back().from || to != result.back().to + result.back().number) {
+        result.push_back({from, to, 0});
+      }
+      ++result.back().number;
     }
+    return result;
   }
 
-  void find_moved(const std::vector<scene::Point>& now) {
+  // Whether links are those that are numbered.
+  bool are_listed(Rows<const Ends> links) const {
+    if (links.size() != pair_.size()) return false;
+    const Ends* first = links.begin();
+    for (const auto& [from, to, number] : listed_) {
+      if (!run_on(first, number, from, to)) return false;
+      first += number;
+    }
+    return true;
+  }
+
+  // Gives those endpoints that have links their places in spatial order, and numbers pairs by them: what is computed
+  // for neighbours then lies side by side.
+  void number(Rows<const Ends> links, Rows<const Pose> at) {
+    at_.clear();
+    order_.clear();
+    const auto used = with_links(links, at.size());
+    std::vector<scene::Point> points;
+    for (const std::uint32_t end : used) points.push_back({at[end].x, at[end].y, at[end].z});
+    std::vector<std::uint32_t> place(at.size());
+    for (const std::uint32_t i : scene::spatial_order(points)) {
+      place[used[i]] = static_cast<std::uint32_t>(order_.size());
+      order_.push_back(used[i]);
+    }
+    const auto back = earlier_reverse(links, at.size());
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> sorted;  // places of both ends, link
+    for (std::uint32_t i = 0; i < links.size(); ++i) {
+      if (back[i] != no_link) continue;
+      const std::uint64_t tx = place[static_cast<std::size_t>(links[i].tx)];
+      const std::uint64_t rx = place[static_cast<std::size_t>(links[i].rx)];
+      sorted.emplace_back(std::min(tx, rx) << 32 | std::max(tx, rx), i);
+    }
+    std::sort(sorted.begin(), sorted.end());
+    pairs_.clear();
+    pair_.resize(links.size());
+    for (const auto& [places, link] : sorted) {
+      pair_[link] = static_cast<std::uint32_t>(pairs_.size());
+      pairs_.push_back({static_cast<std::uint32_t>(places >> 32), static_cast<std::uint32_t>(places)});
+    }
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      if (back[i] != no_link) pair_[i] = pair_[back[i]];
+    }
+    listed_ = in_runs(links);
+  }
+
+  static std::vector<std::uint32_t> with_links(Rows<const Ends> links, std::size_t endpoints) {
+    std::vector<char> has_links(endpoints, 0);
+    for (const Ends& link : links) {
+      has_links[static_cast<std::size_t>(link.tx)] = has_links[static_cast<std::size_t>(link.rx)] = 1;
+    }
+    std::vector<std::uint32_t> result;
+    for (std::uint32_t end = 0; end < endpoints; ++end) {
+      if (has_links[end]) result.push_back(end);
+    }
+    return result;
+  }
+
+  std::vector<scene::Point> in_order(Rows<const Pose> at) const {
+    std::vector<scene::Point> result;
+    for (const std::uint32_t end : order_) result.push_back({at[end].x, at[end].y, at[end].z});
+    return result;
+  }
+
+  // Of each place, whether somebody is there who was not.
+  std::vector<char> which_moved(const std::vector<scene::Point>& now) const {
     std::vector<char> moved(now.size(), 1);
     for (std::size_t i = 0; i < now.size() && at_.size() == now.size(); ++i) {
       moved[i] = std::memcmp(&now[i], &at_[i], sizeof now[i]) != 0;
     }
-    moved_.points.clear();
-    moved_.pairs.clear();
-    moved_.slots.clear();
-    std::vector<std::uint32_t> place(now.size(), no_link);
-    const auto place_of = [&](std::size_t end) {
-      if (place[end] == no_link) {
-        place[end] = static_cast<std::uint32_t>(moved_.points.size());
-        moved_.points.push_back(now[end]);
+    return moved;
+  }
+
+  std::size_t measure_all(const std::vector<scene::Point>& now) {
+    scene_->counts(now, pairs_, counts_);
+    return pairs_.size();
+  }
+
+  std::size_t measure_moved(const std::vector<scene::Point>& now, const std::vector<char>& moved) {
+    std::vector<scene::Pair> some;
+    std::vector<std::size_t> numbers;
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+      if (moved[pairs_[i].from] == 0 && moved[pairs_[i].to] == 0) continue;
+      some.push_back(pairs_[i]);
+      numbers.push_back(i);
+    }
+    std::vector<int> counted;
+    scene_->counts(now, some, counted);
+    for (std::size_t k = 0; k < some.size(); ++k) {
+      for (std::size_t m = 0; m < materials_; ++m) {
+        counts_[m * pairs_.size() + numbers[k]] = counted[m * some.size() + k];
       }
-      return place[end];
-    };
-    std::uint32_t next = 0;  // the slot that the first of its links meets
-    for (std::size_t i = 0; i < ends_.size(); ++i) {
-      if (slot_[i] != next) continue;
-      ++next;
-      const auto tx = static_cast<std::size_t>(ends_[i].tx), rx = static_cast<std::size_t>(ends_[i].rx);
-      if (!moved[tx] && !moved[rx]) continue;
-      const std::uint32_t from = place_of(tx);
-      moved_.pairs.push_back({from, place_of(rx)});
-      moved_.slots.push_back(slot_[i]);
+    }
+    return some.size();
+  }
+
+  void measure_lengths(Rows<const Pose> at) {
+    log_distances_.resize(pair_.size());
+    std::vector<double> x, y, z;
+    for (const Pose& p : at) x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
+    double* out = log_distances_.data();
+    for (const auto& [from, to, number] : listed_) {
+      const double own[] = {x[from], y[from], z[from]}, *const others[] = {&x[to], &y[to], &z[to]};
+      Widest<LogLengths, const double*, const double* const*, double*, std::size_t>::run(own, others, out, number);
+      out += number;
     }
   }
 
-  static double log_distance(const scene::Point& p, const scene::Point& q) {
-    const double x = p.x - q.x, y = p.y - q.y, z = p.z - q.z;
-    return std::log10(std::max(std::sqrt(x * x + y * y + z * z), 0.01));
-  }
+  // The same bits both ways: differences change their sign alone.
+  struct LogLengths {
+    [[gnu::always_inline]] static double of(double x, double y, double z) {
+      const double squared = x * x + y * y + z * z;
+      return 0.5 * Log10::of(squared > 1e-4 ? squared : 1e-4);
+    }
+    [[gnu::always_inline]] static void run(const double* own, const double* const* others, double* out,
+                                           std::size_t number) {
+      const double x = own[0], y = own[1], z = own[2];
+      const double *const to_x = others[0], *const to_y = others[1], *const to_z = others[2];
+      for (std::size_t i = 0; i < number; ++i) out[i] = of(to_x[i] - x, to_y[i] - y, to_z[i] - z);
+    }
+  };
 
   // True if the rows are not those that are kept, which they then are.
   template <class Row>
@@ -127,14 +225,14 @@ class LinkGeometry {
   std::vector<DoorState> states_;
   std::size_t materials_ = 0;
   std::unique_ptr<scene::Scene> scene_;
-  std::vector<Ends> ends_;
-  std::vector<scene::Point> at_;  // where ends were; empty if nothing is known
-  std::vector<std::uint32_t> slot_;
-  std::size_t slots_ = 0;
+  std::size_t endpoints_ = 0;
+  std::vector<std::uint32_t> order_;  // endpoints that have links, by place; empty if they are not numbered
+  std::vector<scene::Point> at_;      // where they were; empty if nothing is known
+  std::vector<scene::Pair> pairs_;    // of places
+  std::vector<Run> listed_;           // links, by endpoints
+  std::vector<std::uint32_t> pair_;   // of each link
   std::vector<double> log_distances_;
   std::vector<int> counts_;  // material by material
-  Moved moved_;
-  std::vector<int> counted_;
 };
 
 }  // namespace muster

@@ -1,5 +1,6 @@
 // The multi-wall model of COST 231: distance and walls, as two terms of the received level.
 #include <muster/plugin.hpp>
+#include <vector>
 
 #include "link_geometry.hpp"
 
@@ -8,7 +9,7 @@ namespace {
 using namespace muster;
 
 struct RadioMultiwall {
-  static constexpr auto id = "radio.multiwall/1";
+  static constexpr auto id = "radio.multiwall/2";
   static constexpr auto summary = "path loss by distance and by the walls that a link crosses";
   static constexpr auto manual =
       "level@distance = tx_power - l0 - 10 n log10(d), d in metres and at least 0.01;\n"
@@ -49,20 +50,19 @@ struct RadioMultiwall {
     } catch (const std::runtime_error& e) {  // the scene refuses walls, doors and places, which are the user's
       throw BadInput(e.what());
     }
+    const auto& far = geometry.log_distances();
+    const double slope = k[model] <= log_distance ? 10 * k[n] : 0, at_1m = k[tx_power] - k[l0];
     const auto by_distance = k[distance];
-    const auto by_walls = k[walls];
-    const double at_1m = k[tx_power] - k[l0], slope = 10 * k[n], edge = std::log10(k[radius]);
-    for (std::size_t i = 0; i < by_distance.size(); ++i) {
-      const double far = geometry.log_distance(i);
-      by_distance[i].level = at_1m - (k[model] <= log_distance         ? slope * far
-                                      : k[model] == disc && far > edge ? 200
-                                                                       : 0);
-      double sum = 0;
-      for (std::size_t m = 0; k[model] == multi_wall && m < losses.size(); ++m) {
-        sum -= geometry.count(i, m) * losses[m].loss;
-      }
-      by_walls[i].level = sum;
+    for (std::size_t i = 0; i < far.size(); ++i) by_distance[i].level = at_1m - slope * far[i];
+    const double edge = std::log10(k[radius]);
+    for (std::size_t i = 0; k[model] == disc && i < far.size(); ++i) {
+      if (far[i] > edge) by_distance[i].level = at_1m - 200;
     }
+    std::vector<double> each;
+    for (const Loss& material : losses) each.push_back(k[model] == multi_wall ? material.loss : 0);
+    geometry.wall_losses(each, lost);
+    const auto by_walls = k[walls];
+    for (std::size_t i = 0; i < far.size(); ++i) by_walls[i].level = 0 - lost[geometry.pair(i)];
   }
 
   enum Model { multi_wall, log_distance, disc, perfect };
@@ -76,6 +76,7 @@ struct RadioMultiwall {
   In<Loss> loss;
   Out<Level> distance, walls;
   LinkGeometry geometry;
+  std::vector<double> lost;  // through walls, of each pair
 };
 
 }  // namespace

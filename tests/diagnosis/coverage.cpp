@@ -80,7 +80,7 @@ Errors field_along_ways(double sd, double decorrelation) {
     Eigen::VectorXd errors = rayleigh(ends.size(), world);
     for (std::size_t i = 0; i < ends.size(); ++i) {
       const auto at = [&](const End& e) {
-        return field.end_at(e.x / decorrelation, e.y / decorrelation, e.z / decorrelation);
+        return FieldPoint{e.x / decorrelation, e.y / decorrelation, e.z / decorrelation};
       };
       errors[static_cast<Eigen::Index>(i)] += sd * field.between(at(ends[i][0]), at(ends[i][1]));
     }

@@ -25,7 +25,7 @@ std::vector<std::complex<double>> gains_by_place(std::size_t count, std::size_t 
     const Multipath field(Stream(mixed(i)));
     for (std::size_t j = 0; j < per_field; ++j) {
       const auto at = [&](uint64_t k) { return 500 * random.uniform(i * per_field + j, k); };
-      result.push_back(field.between(field.end_at(at(0), at(1), 1), field.end_at(at(2), at(3), 2)));
+      result.push_back(field.between({at(0), at(1), 1}, {at(2), at(3), 2}));
     }
   }
   return result;
@@ -118,15 +118,13 @@ TEST(Multipath, IsTheSameBothWaysBitForBit) {
   const Stream random(1);
   for (uint64_t i = 0; i < 2000; ++i) {
     const auto at = [&](uint64_t j) { return 900 * random.uniform(i, j); };
-    const auto p = field.end_at(at(0), at(1), at(2)), q = field.end_at(at(3), at(4), at(5));
+    const FieldPoint p{at(0), at(1), at(2)}, q{at(3), at(4), at(5)};
     EXPECT_EQ(field.between(p, q), field.between(q, p));
   }
 }
 
 TEST(Multipath, IsTheSameOnReturn) {
-  const auto there = [](const Multipath& field) {
-    return field.between(field.end_at(1, 2, 3), field.end_at(40, 50, 6));
-  };
+  const auto there = [](const Multipath& field) { return field.between({1, 2, 3}, {40, 50, 6}); };
   EXPECT_EQ(there(Multipath(Stream(7))), there(Multipath(Stream(7))));
   EXPECT_NE(there(Multipath(Stream(7))), there(Multipath(Stream(8))));
 }
@@ -141,9 +139,8 @@ double correlation(double east, double north, double up) {
     for (uint64_t j = 0; j < places; ++j) {
       const auto at = [&](uint64_t k) { return 500 * random.uniform(i * places + j, k); };
       const double x = at(0), y = at(1);
-      const auto q = field.end_at(at(2), at(3), 0);
-      const auto here = field.between(field.end_at(x, y, 0), q),
-                 there = field.between(field.end_at(x + east, y + north, up), q);
+      const FieldPoint q{at(2), at(3), 0};
+      const auto here = field.between({x, y, 0}, q), there = field.between({x + east, y + north, up}, q);
       sum += (here * std::conj(there)).real() / (fields * places);
     }
   }

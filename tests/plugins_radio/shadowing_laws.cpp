@@ -9,16 +9,11 @@
 namespace muster {
 namespace {
 
-struct Point {
-  double x, y, z;
-};
 struct Segment {
-  Point p, q;
+  FieldPoint p, q;
 };
 
-double shadow(const ShadowField& field, const Segment& s) {
-  return field.between(field.end_at(s.p.x, s.p.y, s.p.z), field.end_at(s.q.x, s.q.y, s.q.z));
-}
+double shadow(const ShadowField& field, const Segment& s) { return field.between(s.p, s.q); }
 
 Segment random_segment(const Stream& random, uint64_t i) {
   const auto at = [&](uint64_t j) { return 40 * random.uniform(i, j) - 20; };
@@ -31,12 +26,12 @@ double covariance(const Segment& a, const Segment& b) {
   const auto length = [](const Segment& s) { return std::hypot(s.q.x - s.p.x, s.q.y - s.p.y, s.q.z - s.p.z); };
   const auto on = [](const Segment& s, int i) {
     const double f = (i + 0.5) / steps;
-    return Point{s.p.x + f * (s.q.x - s.p.x), s.p.y + f * (s.q.y - s.p.y), s.p.z + f * (s.q.z - s.p.z)};
+    return FieldPoint{s.p.x + f * (s.q.x - s.p.x), s.p.y + f * (s.q.y - s.p.y), s.p.z + f * (s.q.z - s.p.z)};
   };
   double sum = 0;
   for (int i = 0; i < steps; ++i) {
     for (int j = 0; j < steps; ++j) {
-      const Point u = on(a, i), v = on(b, j);
+      const FieldPoint u = on(a, i), v = on(b, j);
       sum += std::exp(-std::hypot(u.x - v.x, u.y - v.y, u.z - v.z));
     }
   }

@@ -35,8 +35,9 @@ struct Plan {
 };
 
 std::vector<int> counts(const LinkGeometry& g, std::size_t link) {
-  return {g.count(link, Plan::brick), g.count(link, Plan::glass), g.count(link, Plan::wood)};
+  return {g.counts(Plan::brick)[g.pair(link)], g.counts(Plan::glass)[g.pair(link)], g.counts(Plan::wood)[g.pair(link)]};
 }
+double log_distance(const LinkGeometry& g, std::size_t link) { return g.log_distances()[link]; }
 using Counts = std::vector<int>;
 
 TEST(Walls, AreCountedByMaterialHeightAndDoorState) {
@@ -72,10 +73,11 @@ TEST(Walls, DistanceIsInSpaceAndAtLeastACentimetre) {
   plan.links = {{0, 1}, {1, 0}, {0, 2}};
   LinkGeometry g;
   plan.put(g);
-  EXPECT_EQ(g.log_distance(0), std::log10(7.0));
-  EXPECT_EQ(g.log_distance(1), g.log_distance(0));
+  EXPECT_NEAR(log_distance(g, 0), std::log10(7.0), 1e-15);
+  EXPECT_EQ(log_distance(g, 1), log_distance(g, 0));
+  EXPECT_EQ(g.pair(1), g.pair(0));
   EXPECT_EQ(counts(g, 1), counts(g, 0));
-  EXPECT_EQ(g.log_distance(2), std::log10(0.01));
+  EXPECT_EQ(log_distance(g, 2), -2);
 }
 
 TEST(Pairs, ReverseLinksAreFoundInTheOrderOfListing) {
@@ -140,9 +142,59 @@ TEST(Kept, AnswersAreThoseOfAFreshStart) {
     plan.put(kept);
     for (std::size_t i = 0; i < plan.links.size(); ++i) {
       EXPECT_EQ(counts(kept, i), counts(fresh, i));
-      EXPECT_EQ(kept.log_distance(i), fresh.log_distance(i));
+      EXPECT_EQ(log_distance(kept, i), log_distance(fresh, i));
     }
   }
+}
+
+// Pairs are numbered anew where the crowd is mixed; each link's counts are then still its own.
+TEST(Kept, AnswersAreThoseOfAFreshStartHoweverACrowdMixes) {
+  Plan plan;
+  for (double a = 0; a < 120; ++a) {
+    for (double b = 0; b < 120; ++b) {
+      if (a != b) plan.links.push_back({a, b});
+    }
+  }
+  const Stream random(8);
+  LinkGeometry kept;
+  for (uint64_t step = 0; step < 4; ++step) {
+    plan.at.clear();
+    for (uint64_t i = 0; i < 120; ++i) {
+      const auto at = [&](uint64_t k) { return 10 * random.uniform(120 * step + i, k); };
+      plan.at.push_back({at(0), at(1), at(2) / 3, 1, 0, 0, 0});
+    }
+    EXPECT_EQ(plan.put(kept), 7140u);
+    for (std::size_t i = 0; i < plan.links.size(); i += 97) {
+      Plan alone = plan;
+      alone.links = {plan.links[i]};
+      LinkGeometry fresh;
+      alone.put(fresh);
+      EXPECT_EQ(counts(kept, i), counts(fresh, 0));
+      EXPECT_EQ(log_distance(kept, i), log_distance(fresh, 0));
+    }
+  }
+}
+
+TEST(Kept, WithoutWallsNothingIsCrossedAndPlacesAreStillRefused) {
+  Plan plan;
+  plan.walls.clear(), plan.doors.clear(), plan.states.clear();
+  plan.link(2.5, 0.5, 0.5);
+  LinkGeometry g;
+  plan.put(g);
+  EXPECT_EQ(counts(g, 0), (Counts{0, 0, 0}));
+  plan.at[1].x = 5000;
+  EXPECT_THROW(plan.put(g), std::runtime_error);
+}
+
+TEST(Kept, NothingIsLeftWhenTheLastLinkGoes) {
+  Plan plan;
+  plan.link(2.5, 0.5, 0.5);
+  LinkGeometry g;
+  plan.put(g);
+  EXPECT_EQ(g.log_distances().size(), 1u);
+  plan.links.clear();
+  EXPECT_EQ(plan.put(g), 0u);
+  EXPECT_TRUE(g.log_distances().empty());
 }
 
 TEST(Kept, NoAnswerOutlivesARefusal) {

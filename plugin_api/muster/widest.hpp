@@ -4,13 +4,29 @@
 
 namespace muster {
 
-// Body::run is always inlined.
+// Body::run is always inlined: loops without a branch, which the compiler makes vectors of.
 template <class Body, class... Arguments>
 class Widest {
  public:
+  using Function = void (*)(Arguments...);
+
   static void run(Arguments... arguments) {
-    static const auto widest = choose();
+    static const Function widest = all().of[all().number - 1];
     widest(arguments...);
+  }
+
+  // Those that this machine can run, the widest last.
+  struct Functions {
+    Function of[3];
+    int number;
+  };
+  static Functions all() {
+    Functions result{{plain}, 1};
+#ifdef __x86_64__
+    if (__builtin_cpu_supports("x86-64-v3")) result.of[result.number++] = v3;
+    if (__builtin_cpu_supports("x86-64-v4")) result.of[result.number++] = v4;
+#endif
+    return result;
   }
 
  private:
@@ -20,11 +36,6 @@ class Widest {
   [[gnu::target("arch=x86-64-v4,prefer-vector-width=512")]] static void v4(Arguments... arguments) {
     Body::run(arguments...);
   }
-  static auto choose() {
-    return __builtin_cpu_supports("x86-64-v4") ? v4 : __builtin_cpu_supports("x86-64-v3") ? v3 : plain;
-  }
-#else
-  static auto choose() { return plain; }
 #endif
 };
 
