@@ -26,6 +26,14 @@ struct Link {
 
 double normal_share(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
 
+double of_link(const PerEndField& field, const Link& link) {
+  return field.between(field.end_at(link.p.x, link.p.y, link.p.z), field.end_at(link.q.x, link.q.y, link.q.z));
+}
+
+double of_link(const ShadowField& field, const Link& link) {
+  return field.between({link.p.x, link.p.y, link.p.z}, {link.q.x, link.q.y, link.q.z});
+}
+
 // A link's value in each of many independent fields.
 template <class Field>
 std::vector<double> in_fields(const Link& link) {
@@ -35,9 +43,7 @@ std::vector<double> in_fields(const Link& link) {
     return made;
   }();
   std::vector<double> result;
-  for (const Field& field : fields)
-    result.push_back(
-        field.between(field.end_at(link.p.x, link.p.y, link.p.z), field.end_at(link.q.x, link.q.y, link.q.z)));
+  for (const Field& field : fields) result.push_back(of_link(field, link));
   return result;
 }
 
