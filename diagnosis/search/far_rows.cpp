@@ -28,11 +28,20 @@ Eigen::MatrixXd FarRows::lengthened(const Eigen::MatrixXd& of_rows) const {
   return result;
 }
 
-double FarRows::gain(const Question& q) const {
-  const noise::Whitener whitener(field_, q.with);
-  const auto at = noise::whitened(whitener, lengthened(q.y), lengthened(q.design), prior_);
-  const auto added = noise::basis_of(at.basis.rest(whitener(lengthened(q.columns))));
-  return (added.q.transpose() * at.residual).squaredNorm();
+struct FarRows::Long {
+  Eigen::VectorXd y;
+  Eigen::MatrixXd design, columns;
+};
+
+double FarRows::exact_gain(const Long& q, const noise::Covariance& covariance) const {
+  const noise::Whitener whitener(field_, covariance);
+  const auto at = noise::whitened(whitener, q.y, q.design, prior_);
+  const auto added = noise::basis_of(at.basis.rest(whitener(q.columns)));
+  return noise::exact_gain(field_, whitener, added.q, at.residual);
+}
+
+double FarRows::exact_gain(const Question& q) const {
+  return exact_gain({lengthened(q.y), lengthened(q.design), lengthened(q.columns)}, q.with);
 }
 
 noise::Fit FarRows::fitted(const Eigen::VectorXd& y, const Eigen::MatrixXd& design, const noise::Covariance& near,
@@ -59,21 +68,16 @@ double FarRows::profile_gain(const Question& q, const noise::Covariance& without
 }
 
 double FarRows::sure_gain(const Question& q) const {
-  constexpr double hopeless = 15;  // nats behind: no gain is so large that it would be the least
-  const Eigen::VectorXd y = lengthened(q.y);
-  const Eigen::MatrixXd design = lengthened(q.design), columns = lengthened(q.columns);
+  const Long question{lengthened(q.y), lengthened(q.design), lengthened(q.columns)};
   std::vector<noise::Fit> fits;
-  for (const noise::Family family : noise::families) fits.push_back(fitted(y, beside(design, columns), q.with, family));
+  for (const noise::Family family : noise::families)
+    fits.push_back(fitted(question.y, beside(question.design, question.columns), q.with, family));
   const auto likelier = [](const noise::Fit& a, const noise::Fit& b) { return a.value < b.value; };
   const double best = std::min_element(fits.begin(), fits.end(), likelier)->value;
   double least = std::numeric_limits<double>::infinity();
   for (const noise::Fit& fit : fits) {
-    if (fit.value > best + hopeless) continue;
-    const noise::Whitener whitener(field_, fit.covariance);
-    const auto at = noise::whitened(whitener, y, design, prior_);
-    const auto added = noise::basis_of(at.basis.rest(whitener(columns)));
     const double unlikely = std::max(0.0, fit.value - best - likely_nats);
-    least = std::min(least, noise::exact_gain(field_, whitener, added.q, at.residual) + 2 * unlikely);
+    if (unlikely < hopeless_nats) least = std::min(least, exact_gain(question, fit.covariance) + 2 * unlikely);
   }
   return least;
 }

@@ -6,7 +6,8 @@
 
 namespace muster::search {
 
-constexpr double likely_nats = 3;  // that a family may lie behind the best one
+constexpr double likely_nats = 3;     // that a family may lie behind the best one
+constexpr double hopeless_nats = 12;  // beyond those: no gain is so large that it would be the least of all families
 
 // Everything that is given has a value a row of the search.
 class FarRows {
@@ -20,19 +21,20 @@ class FarRows {
     const Eigen::MatrixXd& columns;
     const noise::Covariance& with;
   };
-  // The fall of the deviance.
-  double gain(const Question& question) const;
-  // The same with the noise fitted beside the columns, and without them from `without`, in each of the families: what
-  // they win though the noise could have taken their place.
+  // The fall of the deviance, as a chi-square under the covariance itself (noise/exact.hpp).
+  double exact_gain(const Question& question) const;
+  // The fall of the deviance with the noise fitted beside the columns, and without them from `without`, in each of the
+  // families: what they win though the noise could have taken their place.
   double profile_gain(const Question& question, const noise::Covariance& without,
                       const std::vector<noise::Family>& families) const;
-  // The fall of the deviance as a chi-square under the covariance itself (noise/exact.hpp), the noise fitted beside the
-  // columns: the least by any family. One that is less likely than the likeliest, by more than `likely_nats`, has to
-  // say so much less.
+  // The exact gain, the noise fitted beside the columns: the least by any family. One that is less likely than the
+  // likeliest, by more than `likely_nats`, has to say so much less.
   double sure_gain(const Question& question) const;
 
  private:
   Eigen::MatrixXd lengthened(const Eigen::MatrixXd& of_rows) const;
+  struct Long;  // a question by longer rows
+  double exact_gain(const Long& question, const noise::Covariance& covariance) const;
   noise::Fit fitted(const Eigen::VectorXd& y, const Eigen::MatrixXd& design, const noise::Covariance& near,
                     noise::Family family) const;
 

@@ -2,22 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "diagnosis/search/integrated.hpp"
 
 namespace muster::search {
 namespace {
 
-// With the stated size and distance, each likely family, the best one first.
+// With the stated size and distance, each family, the best one first.
 std::vector<noise::Fit> fitted_as_stated(const Bench& bench, const Eigen::MatrixXd& design) {
   std::vector<noise::Fit> fits;
-  for (const noise::Family family : bench.likely_families(bench.fit.covariance.family)) {
+  for (const noise::Family family : noise::families) {
     const auto start = as_stated(bench.problem().stated, family, bench.fit.covariance.theta);
     fits.push_back(noise::fit(bench.field(), bench.y(), design, bench.options().prior, start, 6, noise::unstated));
   }
   std::sort(fits.begin(), fits.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
-  const double most = fits[0].value + likely_nats;
-  std::erase_if(fits, [&](const noise::Fit& fit) { return fit.value > most; });
   return fits;
 }
 
@@ -48,16 +47,17 @@ std::vector<Lead> beyond_chance(Bench& bench, const Stand& stand, double thresho
   return result;
 }
 
-// Few near neighbours overstate what is slow, and which family it is nobody says: the least that any allows, the field
-// as stated or fitted beside the lead.
+// Few near neighbours overstate what is slow, and which family it is nobody says: the least that any allows. One that
+// is less likely than the likeliest has to say so much less.
 void weigh_beside(const Bench& bench, const Eigen::MatrixXd& design, const std::vector<noise::Fit>& fits, Lead& lead) {
   const Candidate& c = lead.candidate();
-  const double sure = bench.far().sure_gain({bench.y(), design, lead.columns, fits[0].covariance});
-  lead.log_p = bench.log_p(c, sure, c.width, false);
+  lead.log_p = -std::numeric_limits<double>::infinity();
   for (const noise::Fit& fit : fits) {
+    const double unlikely = std::max(0.0, fit.value - fits[0].value - likely_nats);
+    if (unlikely > hopeless_nats) continue;
     const Stand stand = bench.stand(design, fit.covariance);
-    const double near_rows = gain_of(c, stand, lead.columns);
-    const double gain = std::min(near_rows, bench.far().gain({bench.y(), design, lead.columns, fit.covariance}));
+    const double far = bench.far().exact_gain({bench.y(), design, lead.columns, fit.covariance});
+    const double gain = std::min(gain_of(c, stand, lead.columns), far) + 2 * unlikely;
     lead.gain = std::min(lead.gain, gain);
     lead.log_p = std::max(lead.log_p, bench.log_p(c, gain, c.width, false) + stand.skew_charge(lead.columns));
   }
