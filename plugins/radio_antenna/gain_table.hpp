@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <muster/plugin.hpp>
+#include <muster/printed.hpp>
 #include <string>
 #include <vector>
 
@@ -35,12 +36,12 @@ class GainTable {
     }
     fill(rows);
     if (elevations_.front() > -half_turn / 2 + slack || elevations_.back() < half_turn / 2 - slack)
-      throw refused("it ends at the elevations " + number(elevations_.front()) + " and " + number(elevations_.back()) +
-                    "; expected gains from -pi/2 to pi/2");
+      throw refused("it ends at the elevations " + printed(elevations_.front()) + " and " +
+                    printed(elevations_.back()) + "; expected gains from -pi/2 to pi/2");
     const double mean =
         10 * std::log10(mean_over_sphere([&](const Direction& d) { return std::pow(10, gain(d) / 10); }));
     if (mean > calibration)
-      throw refused("it radiates more than it is fed: its mean gain over all directions is " + number(mean) +
+      throw refused("it radiates more than it is fed: its mean gain over all directions is " + printed(mean) +
                     " dBi; expected at most 0, or 0.5 for errors of calibration");
   }
 
@@ -66,12 +67,8 @@ class GainTable {
   };
 
   static BadInput refused(const std::string& why) { return BadInput("attribute \"file\": " + why); }
-  static std::string number(double value) {
-    const std::string digits = std::to_string(value);
-    return digits.substr(0, digits.find('.') + 4);
-  }
   static std::string place(double azimuth, double elevation) {
-    return "azimuth " + number(azimuth) + ", elevation " + number(elevation);
+    return "azimuth " + printed(azimuth) + ", elevation " + printed(elevation);
   }
 
   void fill(Rows<const MeasuredGain> rows) {

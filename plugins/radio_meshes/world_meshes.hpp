@@ -7,6 +7,7 @@
 #include <map>
 #include <muster/meshes.hpp>
 #include <muster/plugin.hpp>
+#include <muster/printed.hpp>
 #include <scene/lattice.hpp>
 #include <string>
 #include <tuple>
@@ -77,10 +78,7 @@ class WorldMeshes {
   }
 
   static std::string text(const std::tuple<std::int64_t, std::int64_t, std::int64_t>& corner) {
-    const auto metres = [](std::int64_t steps) {
-      const std::string digits = std::to_string(static_cast<double>(steps) / scene::steps_per_metre);
-      return digits.substr(0, digits.find('.') + 4);
-    };
+    const auto metres = [](std::int64_t steps) { return printed(static_cast<double>(steps) / scene::steps_per_metre); };
     return metres(std::get<0>(corner)) + ' ' + metres(std::get<1>(corner)) + ' ' + metres(std::get<2>(corner));
   }
 
