@@ -27,14 +27,15 @@ struct Reach {
   double below = 0, above = 0;  // of a 95 % interval
 };
 
-// Of the sought parameters, about their values at the found theta.
+// Of the sought parameters, about their values at the found theta; on the scale of each.
 std::map<std::string, Reach> reaches(const CauseShape& shape, const search::Finding& f) {
   std::map<std::string, double> sum, squares;
   const auto middle = shape.parameters(f.theta);
   for (const VectorXd& theta : f.thetas) {
     for (const auto& [name, value] : shape.parameters(theta)) {
-      double by = value - middle.at(name);
-      if (declared(shape, name).flags & MUSTER_CYCLIC) by = std::remainder(by, 2 * M_PI);
+      const unsigned scale = declared(shape, name).flags;
+      double by = scale & MUSTER_LOG ? std::log(value / middle.at(name)) : value - middle.at(name);
+      if (scale & MUSTER_CYCLIC) by = std::remainder(by, 2 * M_PI);
       sum[name] += by;
       squares[name] += by * by;
     }
@@ -45,7 +46,10 @@ std::map<std::string, Reach> reaches(const CauseShape& shape, const search::Find
     constexpr double same = 1e-6;  // a room's place: every theta has it, but for rounding
     const double mean = total / count, sd = std::sqrt(std::max(0.0, squares[name] / count - mean * mean));
     if (sd + std::abs(mean) < same) continue;
-    result[name] = {std::max(0.0, normal95 * sd - mean), std::max(0.0, normal95 * sd + mean)};
+    Reach reach{std::max(0.0, normal95 * sd - mean), std::max(0.0, normal95 * sd + mean)};
+    if (declared(shape, name).flags & MUSTER_LOG)
+      reach = {middle.at(name) * -std::expm1(-reach.below), middle.at(name) * std::expm1(reach.above)};
+    result[name] = reach;
   }
   return result;
 }

@@ -18,6 +18,7 @@ struct Unknown {
   std::string path;
   double lower, upper;
   CauseValue* value;  // null for a parameter of the world
+  bool log = false;   // its scale is logarithmic
 };
 
 class Joint {
@@ -50,7 +51,9 @@ class Joint {
       if (!shifts_levels(*cause)) continue;
       const bool whole = cause->linear().empty();
       for (CauseValue& v : found.values) {
-        if (whole || is_linear(*cause, v.name)) unknown_.push_back({name + '/' + v.name, v.minimum, v.maximum, &v});
+        const unsigned flags = flags_of(*cause, v.name);
+        if (whole || flags & MUSTER_LINEAR)
+          unknown_.push_back({name + '/' + v.name, v.minimum, v.maximum, &v, (flags & MUSTER_LOG) != 0});
       }
     }
   }
@@ -84,9 +87,11 @@ class Joint {
   }
 
  private:
-  static bool is_linear(const Cause& cause, const std::string& name) {
-    const auto linear = cause.linear();
-    return std::any_of(linear.begin(), linear.end(), [&](const muster_param* p) { return p->name == name; });
+  static unsigned flags_of(const Cause& cause, const std::string& name) {
+    const muster_plugin& plugin = *cause.plugin;
+    return std::find_if(plugin.params, plugin.params + plugin.param_count,
+                        [&](const muster_param& p) { return p.name == name; })
+        ->flags;
   }
 
   InstanceDeclaration declared(const FoundCause& found, const Cause& cause, const std::string& name) const {
@@ -135,7 +140,7 @@ class Joint {
     }
     return result;
   }
-  // Intervals keep their widths.
+  // Intervals keep their widths inside the parameters' bounds.
   void store(const VectorXd& x) {
     for (std::size_t j = 0; j < unknown_.size(); ++j) {
       const double value = x[static_cast<Index>(j)];
@@ -144,8 +149,10 @@ class Joint {
         found_.parameters[unknown_[j].path] = value;
         continue;
       }
-      v->lower95 += value - v->value;
-      v->upper95 += value - v->value;
+      for (double* end : {&v->lower95, &v->upper95}) {
+        const double moved = unknown_[j].log ? *end * value / v->value : *end + value - v->value;
+        *end = std::clamp(moved, v->minimum, v->maximum);
+      }
       v->value = value;
     }
   }

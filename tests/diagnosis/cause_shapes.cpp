@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "diagnosis/cause_axes.hpp"
+#include "diagnosis/found_cause.hpp"
 
 namespace muster::diagnosis {
 namespace {
@@ -23,6 +24,32 @@ TEST(CauseShape, AParameterSoughtByItsLogarithmStaysInsideItsBounds) {
     EXPECT_GE(value, permittivity.min);
     EXPECT_LE(value, permittivity.max);
   }
+}
+
+// A factor of e either way: 1.96 of those, and not 216 dB about 100.
+TEST(FoundCause, IntervalOfAParameterSoughtByItsLogarithmIsAFactor) {
+  muster_param knee{};
+  knee.name = "knee";
+  knee.unit = "dB";
+  knee.min = 1;
+  knee.max = 1e4;
+  knee.flags = MUSTER_LOG;
+  muster_cause meaning{};
+  meaning.title = meaning.ranges_over = meaning.tell_apart = "";
+  muster_plugin plugin{};
+  plugin.params = &knee;
+  plugin.param_count = 1;
+  plugin.cause = &meaning;
+  auto shape = std::make_shared<CauseShape>();
+  shape->cause.plugin = &plugin;
+  shape->axes = {*axis_of(knee, Survey{}, *shape, true)};
+  search::Finding found;
+  found.theta = Eigen::Vector2d(0, std::log(100));
+  for (const double way : {-1, 1}) found.thetas.push_back(Eigen::Vector2d(0, std::log(100) + way));
+  const FoundCause cause = found_cause(found, {shape, {}});
+  ASSERT_EQ(cause.values.size(), 1u);
+  EXPECT_NEAR(cause.values[0].lower95, 100 * std::exp(-1.96), 1e-9);
+  EXPECT_NEAR(cause.values[0].upper95, 100 * std::exp(1.96), 1e-9);
 }
 
 }  // namespace
