@@ -154,6 +154,22 @@ TEST(FarRows, ANameIsWorthNoMoreThanTheCovarianceItselfSays) {
   EXPECT_NEAR(result.trials[0].integrated_log_p, bench.log_p(*offset.candidate, sure, 1, true), 0.2);
 }
 
+// What has no name must win a tenth more than a chi-square says.
+TEST(FarRows, WhatHasNoNameMustWinMore) {
+  const auto world = world_of(varied(32, 3000));
+  const Eigen::VectorXd effect = scaled_to(world, (3 * world.bearing().array() + 1).cos(), 80);
+  const Problem problem = problem_of(world, effect, causes_of(world));
+  Search search(problem, {});
+  const Result result = search.run();
+  const auto lobes = std::find_if(result.trials.begin(), result.trials.end(),
+                                  [](const Trial& t) { return t.id == "~bearing" && t.accepted; });
+  ASSERT_NE(lobes, result.trials.end());
+  const Bench& bench = search.bench();
+  ASSERT_EQ(bench.terms.size(), 1u);
+  const Term& term = bench.terms[0];
+  EXPECT_GE(lobes->integrated_log_p, bench.log_p(*term.candidate, lobes->gain / 1.1, term.columns.cols(), true) - 0.1);
+}
+
 // A swing of the level from row to row is gone from longer rows, an offset is not.
 TEST(FarRows, KeepWhatChangesLittleWithinThem) {
   const auto world = world_of(varied(21, 3000));
