@@ -1,4 +1,4 @@
-// The first try for robots near others: each contact and each motor goes on as it did in the step before.
+// The first try for robots near others: each contact goes on as it did in the step before, and motors hold their rates.
 #include <cmath>
 #include <limits>
 

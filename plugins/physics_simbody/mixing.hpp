@@ -2,6 +2,7 @@
 // the combination that leaves least of d.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
