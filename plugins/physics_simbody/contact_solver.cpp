@@ -9,34 +9,7 @@ using Eigen::Vector2d;
 
 namespace {
 
-// Softness of friction: creep below a micrometre a second at this project's loads. [m/s per N s]
-constexpr double grip_softness = 1e-6;
 constexpr int first_newton = 4, later_newton = 2, last_newton = 50;
-constexpr double turn_arm = 0.1, rim = 0.05;  // [m]: rates as speeds, in the residual only
-
-Vector2d within(const Vector2d& v, double radius) {
-  const double size = v.norm();
-  return size > radius ? Vector2d((radius / size) * v) : v;
-}
-
-bool sticks(double slip_speed, double bound) { return slip_speed <= grip_softness * bound; }
-
-Vector2d grip_of(const Vector2d& slip, double bound) {
-  const double size = slip.norm();
-  if (bound <= 0) return Vector2d::Zero();
-  return sticks(size, bound) ? Vector2d(-slip / grip_softness) : Vector2d(-(bound / size) * slip);
-}
-
-// How the grip answers slip, [xx, xy, yy]: the primal-dual Hessian of a friction with the given bound.
-std::array<double, 3> grip_stiffness(const Vector2d& slip, double bound, const Vector2d& dual) {
-  if (bound <= 0) return {};
-  const double size = slip.norm();
-  if (sticks(size, bound)) return {1 / grip_softness, 0, 1 / grip_softness};
-  const double stiffness = bound / size, turn = 1 / (size * size);
-  // Half of the product of dual and slip, and half of its mirror image, so that the Hessian stays symmetric.
-  return {stiffness + turn * dual[0] * slip[0], 0.5 * turn * (dual[0] * slip[1] + dual[1] * slip[0]),
-          stiffness + turn * dual[1] * slip[1]};
-}
 
 }  // namespace
 
@@ -45,7 +18,7 @@ Outcome ContactSolverOf<N>::solve(Problem& problem) {
   p_ = &problem;
   begin();
   Outcome outcome;
-  if (problem.search.guess && stick_all()) {
+  if (problem.search.first == Search::First::all_sticks ? stick_all() : go_on()) {
     outcome.direct = true;
   } else {
     slip(outcome);
@@ -72,6 +45,7 @@ void ContactSolverOf<N>::begin() {
   for (Velocities* v : {&u_, &gradient_, &d_}) v->resize(count);
   local_.assign(p_->contacts.size(), {});
   motor_duals_.assign(count, {});
+  motor_habits_.resize(count);
   pairs_.clear();
   for (std::size_t i = 0; i < local_.size(); ++i) {
     const Contact& c = p_->contacts[i];
@@ -121,7 +95,7 @@ void ContactSolverOf<N>::gradient(bool refresh) {
     Contact& c = p_->contacts[i];
     c.push = std::max(0.0, (c.target - local_[i].speed) / c.softness);
     if (refresh) local_[i].bound = c.friction * c.push;
-    c.grip = grip_of(local_[i].slip, local_[i].bound);
+    c.grip = grip_of(local_[i].slip, local_[i].bound, c.grip_softness);
     take_impulse(c, gradient_);
   }
   for (std::size_t b = 0; b < u_.size(); ++b) {
@@ -145,7 +119,7 @@ double ContactSolverOf<N>::residual() const {
 
 // The contact's part of the Hessian: all its rows, or those along the ground alone, or the normal alone.
 template <int N>
-void ContactSolverOf<N>::add(const Contact& c, double normal, const std::array<double, 3>& grip) {
+void ContactSolverOf<N>::add(const Contact& c, double normal, const GripStiffness& grip) {
   const bool slips = grip[0] != 0 || grip[2] != 0;
   const int first = normal == 0 ? 1 : 0, rows = (slips ? 3 : 1) - first;
   if (rows == 0) return;
@@ -204,12 +178,12 @@ void ContactSolverOf<N>::stick() {
     if (!local_[i].closes) continue;
     const double push = (c.target - local_[i].speed) / c.softness;
     const bool grips = c.other < 0 && c.friction > 0;
-    add(c, 1 / c.softness, grip_stiffness(Vector2d::Zero(), grips ? 1 : 0, Vector2d::Zero()));
+    add(c, 1 / c.softness, grips ? sticking(c.grip_softness) : GripStiffness{});
     d_[c.body] += push * c.normal;
     if (c.other >= 0) {
       d_[c.other] += push * c.of_other.normal;
     } else if (grips) {
-      for (int k = 0; k < 2; ++k) d_[c.body] -= (local_[i].slip[k] / grip_softness) * c.tangent[k];
+      for (int k = 0; k < 2; ++k) d_[c.body] -= (local_[i].slip[k] / c.grip_softness) * c.tangent[k];
     }
   }
   for (std::size_t b = 0; b < u_.size(); ++b) {
@@ -299,7 +273,7 @@ void ContactSolverOf<N>::set_hessian() {
   for (std::size_t i = 0; i < local_.size(); ++i) {
     const Contact& c = p_->contacts[i];
     const Local& at = local_[i];
-    add(c, c.push > 0 ? 1 / c.softness : 0, grip_stiffness(at.slip, at.bound, at.dual));
+    add(c, c.push > 0 ? 1 / c.softness : 0, grip_stiffness(at.slip, at.bound, at.dual, c.grip_softness));
   }
   for (std::size_t b = 0; b < u_.size(); ++b) {
     for (int m = 0; m < joints; ++m) hessian_.diagonal(static_cast<int>(b))(6 + m, 6 + m) += motor_stiffness(b, m);
@@ -322,10 +296,11 @@ void ContactSolverOf<N>::move_duals() {
   for (std::size_t i = 0; i < local_.size(); ++i) {
     Local& at = local_[i];
     if (at.bound <= 0) continue;
+    const double softness = p_->contacts[i].grip_softness;
     const Vector2d& change = at.slip_ahead;
-    const double size = std::max(at.slip.norm(), grip_softness * at.bound);
+    const double size = std::max(at.slip.norm(), softness * at.bound);
     Vector2d x = at.slip + change;
-    if (!sticks(at.slip.norm(), at.bound)) x += (at.slip.dot(change) / (size * at.bound)) * at.dual;
+    if (!sticks(at.slip.norm(), at.bound, softness)) x += (at.slip.dot(change) / (size * at.bound)) * at.dual;
     at.dual = within(-(at.bound / size) * x, at.bound);
   }
   for (std::size_t b = 0; p_->search.together && b < u_.size(); ++b) {
@@ -349,7 +324,7 @@ double ContactSolverOf<N>::slope(double a) const {
     const Contact& c = p_->contacts[i];
     const Local& at = local_[i];
     s -= std::max(0.0, (c.target - at.speed - a * at.speed_ahead) / c.softness) * at.speed_ahead;
-    if (at.bound > 0) s -= grip_of(at.slip + a * at.slip_ahead, at.bound).dot(at.slip_ahead);
+    if (at.bound > 0) s -= grip_of(at.slip + a * at.slip_ahead, at.bound, c.grip_softness).dot(at.slip_ahead);
   }
   for (std::size_t b = 0; b < u_.size(); ++b) {
     for (int m = 0; m < joints; ++m) {

@@ -1,9 +1,10 @@
 // A step on the velocities of robots that touch: stiff normal contacts, Coulomb's isotropic cone, motors with a torque
 // limit.
-// With friction's bound held fixed the step minimises a convex energy; the bound is refreshed a few times until it
-// agrees with the normal impulse. Found and measured in the project's trials; the ideas: Castro, Permenter, Han 2022
-// (primal regularised Newton), Castro, Han, Masterjohn 2023 (lagged bound), Chan, Golub, Mulet 1999 (primal-dual sums
-// of norms).
+// First, all is taken to do what it did in the step before (contact_habits.cpp), or to stick. Where that leads nowhere
+// friction's bound is held fixed, with which the step minimises a convex energy; the bound is refreshed a few times
+// until it agrees with the normal impulse. Found and measured in the project's trials; the ideas: Castro, Permenter,
+// Han 2022 (primal regularised Newton), Castro, Han, Masterjohn 2023 (lagged bound), Chan, Golub, Mulet 1999
+// (primal-dual sums of norms).
 #pragma once
 
 #include <algorithm>
@@ -11,6 +12,8 @@
 #include <vector>
 
 #include "block_cholesky.hpp"
+#include "grip.hpp"
+#include "mixing.hpp"
 
 namespace muster::simbody {
 
@@ -31,13 +34,16 @@ struct ContactOf : ContactRowsOf<N> {
   int body = 0, other = -1;   // among the problem's bodies; -1: what it touches stands still
   ContactRowsOf<N> of_other;  // its sign included
   double friction = 0;
-  double softness = 0;  // [m/s per N s]
-  double target = 0;    // normal speed below which it pushes [m/s]
+  double softness = 0;          // [m/s per N s]
+  double grip_softness = 1e-6;  // of friction: what sticks creeps by this [m/s per N s]
+  double target = 0;            // normal speed below which it pushes [m/s]
 
   // Results, and where the search for a slipping step begins.
   double push = 0;                                 // normal impulse [N s]
   Eigen::Vector2d grip = Eigen::Vector2d::Zero();  // tangential impulse [N s]
 };
+
+constexpr double turn_arm = 0.1, rim = 0.05;  // [m]: rates as speeds, where a solver compares them
 
 struct Motor {
   double asked = 0;        // rate of the joint [rad/s]
@@ -64,9 +70,13 @@ struct Search {
   double tolerance = 1e-7;        // of the residual as a velocity [m/s]
   double bound_tolerance = 1e-3;  // of friction's bound, relative to the largest
   int passes = 12;                // that refresh the bounds
-  bool guess = true;              // that all sticks, first
-  bool together = false;          // for many: motors at their limit are searched for as friction is. Set where a
-                                  // search without it fails.
+  // What is tried first.
+  enum class First {
+    all_sticks = 1,
+    as_before,  // all does what it did in the step before
+  } first = First::all_sticks;
+  bool together = false;  // for many: motors at their limit are searched for as friction is. Set where a
+                          // search without it fails.
 };
 
 template <int N>
@@ -77,7 +87,7 @@ struct ProblemOf {
 };
 
 struct Outcome {
-  bool direct = false;    // everything stuck: one linear solve
+  bool direct = false;    // what was tried first was true
   bool converged = true;  // the bounds of friction agreed with the normal impulses
   bool minimised = true;  // the last bounds' energy is at its least
 };
@@ -96,6 +106,10 @@ class ContactSolverOf {
   using Velocities = std::vector<Velocity>;
   static constexpr int joints = N - 6;
 
+  // What a contact does in a first try.
+  enum class Habit { open = 1, smooth, sticks, slides };
+  enum class MotorHabit { holds = 1, pulls, brakes };  // at its limit, forwards or backwards
+
   // A contact at some velocity, its friction bound by `bound`.
   struct Local {
     double speed;                                    // normal
@@ -104,8 +118,11 @@ class ContactSolverOf {
     Eigen::Vector2d dual = Eigen::Vector2d::Zero();  // estimate of the grip, kept for a better Hessian
     double speed_ahead = 0;                          // what the direction of a search adds to speed and slip
     Eigen::Vector2d slip_ahead = Eigen::Vector2d::Zero();
-    bool closes = false;    // in a guess
-    double start_push = 0;  // as handed in
+    bool closes = false;  // in a guess
+    Habit habit = Habit::open;
+    Eigen::Vector2d way = Eigen::Vector2d::Zero();  // of the grip of what slides, unit
+    double stiffness = 0;                           // with which it keeps to its way [N s per m/s]
+    double start_push = 0;                          // as handed in
     Eigen::Vector2d start_grip = Eigen::Vector2d::Zero();
   };
 
@@ -116,6 +133,17 @@ class ContactSolverOf {
   double residual() const;
   bool stick_all();
   void stick();
+  bool go_on();
+  void begin_as_before();
+  bool see_habits();
+  bool see_motor_habits();
+  void factor_habits();
+  void step_by_habits();
+  Eigen::Vector2d grip_by_habit(std::size_t contact) const;
+  static Eigen::Vector2d sliding_grip(const Local& at);
+  void note_grips();
+  Eigen::Vector2d pull(std::size_t contact) const;
+  double weight(std::size_t contact) const;
   void slip(Outcome& outcome);
   void refresh_bounds(int pass);
   bool minimise(int limit);
@@ -125,7 +153,7 @@ class ContactSolverOf {
   double slope(double a) const;
   double line_search() const;
   double motor_stiffness(std::size_t body, int m) const;
-  void add(const Contact& c, double normal, const std::array<double, 3>& grip);
+  void add(const Contact& c, double normal, const GripStiffness& grip);
   std::array<double, 3> speeds_of(const Contact& c, const Velocities& u) const;
   void take_impulse(const Contact& c, Velocities& momenta) const;
 
@@ -133,7 +161,9 @@ class ContactSolverOf {
   std::vector<Local> local_;
   std::vector<std::array<double, joints>> motor_duals_;  // estimates of the motors' impulses [N m s]
   std::vector<std::pair<int, int>> pairs_;
+  std::vector<std::array<MotorHabit, joints>> motor_habits_;
   BlockCholeskyOf<N> hessian_;
+  MixingOf<N> mixing_;
   const BlockArithmetic<N>& blocks_ = block_arithmetic<N>();
   double slope_of_motion_ = 0, curve_of_motion_ = 0;
   Velocities u_, gradient_, d_;  // d_: the direction of a search

@@ -14,8 +14,11 @@ namespace {
 constexpr double stiffness_per_mass = 125000;  // [1/s2]
 constexpr double damping_per_mass = 2500;      // [1/s]
 constexpr double push_out = 0.2;               // fastest way out of the ground and of each other [m/s]
-constexpr double slack = 0.002;                // [m] what others may push a contact by that would not close by itself
-constexpr double nearby = 0.003;               // [m] at least so far off touching is looked for
+// What sticks to another robot creeps by this share of what its grip takes from a speed: 0.06 mm/s at most between two
+// Scarabs that push each other with all their wheels.
+constexpr double creep_of_pairs = 2.4e-3;
+constexpr double slack = 0.002;   // [m] what others may push a contact by that would not close by itself
+constexpr double nearby = 0.003;  // [m] at least so far off touching is looked for
 
 struct Compliance {
   Compliance(double mass, double h) {
@@ -275,6 +278,7 @@ void EncountersOf<N>::add(const Side& a, const Side& b, const Trace& trace, cons
     speed += c.of_other.normal.dot(b.robot->body.previous);
     free += c.of_other.normal.dot(b.robot->body.free);
     mass = 2 * a.robot->mass * b.robot->mass / (a.robot->mass + b.robot->mass);
+    c.grip_softness = creep_of_pairs / mass;
   }
   const double gap = point.gap - 0.5 * h_ * speed;  // at the step's start
   if (gap + h_ * std::min(speed, free) > slack) return;

@@ -13,6 +13,25 @@ namespace {
 
 constexpr double longest_way = 0.005;  // [m] that a robot near others may go in one step: two make 1 cm
 constexpr int most_parts = 100;
+// [s] for a robot whose wheels slide, or may begin to: friction has the direction of the slip at a step's end, and one
+// that begins within a step has the friction of all of it, errors of first order.
+constexpr double longest_slide = 0.005;
+
+// Whether wheels are asked to speed up by more than half of what friction gives.
+bool may_slide(const RobotModel& model, const Command& command) {
+  const double fastest = std::max(std::abs(command.left_rate), std::abs(command.right_rate));
+  return model.has_wheels && fastest * model.drive.wheel_radius > 0.5 * model.drive.friction * gravity;
+}
+
+bool slides(const RobotModel& model, const Memory& memory) {
+  return std::any_of(memory.impulse.begin(), memory.impulse.end(), [&](const auto& impulse) {
+    return impulse[0] > 0 && std::hypot(impulse[1], impulse[2]) > 0.99 * model.drive.friction * impulse[0];
+  });
+}
+
+int parts_within(double whole, double longest) {
+  return static_cast<int>(std::clamp(std::ceil(whole / longest - 1e-9), 1.0, static_cast<double>(most_parts)));
+}
 
 }  // namespace
 
@@ -39,9 +58,7 @@ bool Mover::move(const Cluster& cluster, const std::vector<Extent>& reach, int c
   for (int k = 0; k < count; ++k) {
     if (!find_groups(cluster, count > 1 ? &reach : nullptr, h, states)) return false;
     for (std::size_t g = 0; g < cluster.robots.size(); ++g) {
-      const Group& group = groups_[g];
-      for (int part = 0; !group.robots.empty() && part < group.parts; ++part)
-        advance(group, h / group.parts, (k + (part + 0.5) / group.parts) * h, commands, states);
+      if (!groups_[g].robots.empty()) advance(groups_[g], h, k * h, commands, states);
     }
   }
   return true;
@@ -83,11 +100,29 @@ int Mover::parts_of(const Group& group, double h, const std::vector<RobotState>&
   if (group.pairs.empty() && group.walls.empty()) return 1;
   double fast = 0;
   for (const int i : group.robots) fast = std::max(fast, speed_of(arena_.crew[i].model, states[i]));
-  return static_cast<int>(std::clamp(std::ceil(fast * h / longest_way - 1e-9), 1.0, static_cast<double>(most_parts)));
+  return parts_within(fast * h, longest_way);
 }
 
+// A robot by itself whose wheels turn out to slide begins again, in shorter steps.
 void Mover::advance(const Group& group, double h, double at, const std::vector<Command>& commands,
                     std::vector<RobotState>& states) {
+  const auto in_parts = [&](int parts) {
+    for (int part = 0; part < parts; ++part)
+      take_step(group, h / parts, at + (part + 0.5) / parts * h, commands, states);
+  };
+  const int first = group.robots.front(), if_it_slides = parts_within(h, longest_slide);
+  if (group.robots.size() > 1 || if_it_slides <= group.parts) return in_parts(group.parts);
+  const RobotModel& model = arena_.crew[first].model;
+  if (may_slide(model, commands[first])) return in_parts(if_it_slides);
+  const RobotState before = states[first];
+  in_parts(group.parts);
+  if (!slides(model, states[first].memory)) return;
+  states[first] = before;
+  in_parts(if_it_slides);
+}
+
+void Mover::take_step(const Group& group, double h, double at, const std::vector<Command>& commands,
+                      std::vector<RobotState>& states) {
   const auto walks = [&](int i) { return !arena_.crew[i].model.legs.empty(); };
   if (is_in_the_air(group, h, states)) {
     const int i = group.robots.front();

@@ -35,6 +35,8 @@ class Mover {
   int parts_of(const Group& group, double h, const std::vector<RobotState>& states) const;
   void advance(const Group& group, double h, double at, const std::vector<Command>& commands,
                std::vector<RobotState>& states);
+  void take_step(const Group& group, double h, double at, const std::vector<Command>& commands,
+                 std::vector<RobotState>& states);
   bool is_in_the_air(const Group& group, double h, const std::vector<RobotState>& states) const;
 
   Arena& arena_;

@@ -14,7 +14,8 @@ namespace {
 
 // A robot on a clear floor, and robots that touch walls or each other: many contacts agree on less, at a fraction of
 // the cost, and their errors stay below a micrometre a step.
-constexpr Search alone{1e-7, 1e-3, 12, true, false}, together{1e-5, 1e-2, 5, true, true};
+constexpr Search alone{1e-7, 1e-3, 12, Search::First::all_sticks, false},
+    together{1e-5, 1e-2, 5, Search::First::as_before, true};
 
 // Quaternions as pose columns: w x y z from index 3.
 using Quaternion = std::array<double, 4>;
@@ -190,15 +191,7 @@ void StepperOf<N>::take_contacts(const Island& island) {
 template <int N>
 void StepperOf<N>::solve(const Island& island, std::vector<RobotState>& states) {
   const auto on_clear_floor = [&](int k) { return encounters_.traces[k].id == 0; };
-  const auto slipped = [&](int k) {
-    const auto& c = encounters_.contacts[k];
-    return c.friction > 0 && c.grip.norm() > 0.99 * c.friction * c.push && c.push > 0;
-  };
   problem_.search = std::all_of(island.contacts.begin(), island.contacts.end(), on_clear_floor) ? alone : together;
-  // Feet that slipped, as those of a tripod do that sways, will again.
-  if (N > unknowns && std::any_of(island.contacts.begin(), island.contacts.end(), slipped)) {
-    problem_.search.guess = false;
-  }
   problem_.bodies.resize(island.robots.size());
   for (std::size_t i = 0; i < island.robots.size(); ++i) problem_.bodies[i] = placed()[island.robots[i]].body;
   take_contacts(island);

@@ -69,25 +69,31 @@ TEST(ContactSolver, MotorsStopAtTheirLimit) {
   EXPECT_NEAR(p.bodies[0].velocity[7], 0.2, 1e-4);
 }
 
-// Random masses and contacts: whatever comes out obeys the law.
+// Random masses and contacts.
+Problem random_problem(std::mt19937& random) {
+  const auto draw = [&] { return static_cast<double>(random()) / 2147483648.0 - 1; };
+  Problem p = point({draw(), draw(), -std::abs(draw())}, 0.1 + 0.4 * std::abs(draw()));
+  MassMatrix a = MassMatrix::NullaryExpr([&](Eigen::Index, Eigen::Index) { return draw(); });
+  p.bodies[0].mass = a * a.transpose() + MassMatrix::Identity();
+  p.bodies[0].inverse_mass = p.bodies[0].mass.inverse();
+  const Contact base = p.contacts[0];
+  for (int c = 0; c < 2; ++c) {
+    Contact more = base;
+    more.normal.head<3>() << draw(), draw(), draw();
+    for (auto& t : more.tangent) t.head<3>() << draw(), draw(), draw();
+    more.softness = 0.01;
+    p.contacts.push_back(more);
+  }
+  p.bodies[0].motors = {Motor{draw(), 0.2 * std::abs(draw())}, Motor{draw(), 0.2 * std::abs(draw())}};
+  return p;
+}
+
+// Whatever comes out obeys the law.
 TEST(ContactSolver, ObeysCoulombOnRandomProblems) {
   std::mt19937 random(3);
-  const auto draw = [&] { return static_cast<double>(random()) / 2147483648.0 - 1; };
   int slipping = 0, unsettled = 0;
   for (int trial = 0; trial < 2000; ++trial) {
-    Problem p = point({draw(), draw(), -std::abs(draw())}, 0.1 + 0.4 * std::abs(draw()));
-    MassMatrix a = MassMatrix::NullaryExpr([&](Eigen::Index, Eigen::Index) { return draw(); });
-    p.bodies[0].mass = a * a.transpose() + MassMatrix::Identity();
-    p.bodies[0].inverse_mass = p.bodies[0].mass.inverse();
-    const Contact base = p.contacts[0];
-    for (int c = 0; c < 2; ++c) {
-      Contact more = base;
-      more.normal.head<3>() << draw(), draw(), draw();
-      for (auto& t : more.tangent) t.head<3>() << draw(), draw(), draw();
-      more.softness = 0.01;
-      p.contacts.push_back(more);
-    }
-    p.bodies[0].motors = {Motor{draw(), 0.2 * std::abs(draw())}, Motor{draw(), 0.2 * std::abs(draw())}};
+    Problem p = random_problem(random);
     const Outcome out = ContactSolver().solve(p);
     slipping += !out.direct;
     unsettled += !out.converged;
@@ -111,6 +117,49 @@ TEST(ContactSolver, ObeysCoulombOnRandomProblems) {
   }
   EXPECT_GT(slipping, 500);
   EXPECT_LT(unsettled, 200);  // couplings this wild need not have a solution
+}
+
+// What went on for a step goes on: from there the next one is found at the first try, and is the one that all passes
+// lead to.
+TEST(ContactSolver, GoesOnAsBefore) {
+  std::mt19937 random(5);
+  int found = 0, slipping = 0, asked = 0;
+  for (int trial = 0; trial < 500; ++trial) {
+    Problem p = random_problem(random);
+    for (Motor& motor : p.bodies[0].motors) motor.limit = 100;  // that of a step before is not known
+    p.search.bound_tolerance = 1e-8;
+    p.search.passes = 100;
+    const Outcome before = ContactSolver().solve(p);
+    if (!before.converged) continue;
+    Body& body = p.bodies[0];
+    body.previous = body.velocity;
+    body.free *= 1.001;
+    Problem on = p;
+    on.search.first = Search::First::as_before;
+    if (!ContactSolver().solve(p).converged) continue;
+    const bool direct = ContactSolver().solve(on).direct;
+    ++asked;
+    slipping += !before.direct;
+    found += direct;
+    if (direct) {
+      EXPECT_LT((on.bodies[0].velocity - body.velocity).norm(), 1e-5) << trial;
+    }
+  }
+  EXPECT_GT(slipping, 200);
+  EXPECT_GT(found, 0.9 * asked);
+}
+
+// A linear iteration whose matrix has three values is over after as many steps and one.
+TEST(Mixing, EndsALinearIteration) {
+  const Velocity rates{{0.5, -0.9, 0.2, 0.5, -0.9, 0.2, 0.5, 0.2}};  // what a step leaves of each unknown
+  std::vector<Velocity> u{Velocity::Ones(), 2 * Velocity::Ones()}, d(2);
+  MixingOf<unknowns> mixing;
+  for (int step = 0; step < 4; ++step) {
+    for (std::size_t b = 0; b < 2; ++b) d[b] = (rates.array() - 1) * u[b].array();
+    mixing.mix(u, d, Velocity::Ones());
+    for (std::size_t b = 0; b < 2; ++b) u[b] += d[b];
+  }
+  EXPECT_LT(u[0].norm() + u[1].norm(), 1e-6);
 }
 
 }  // namespace

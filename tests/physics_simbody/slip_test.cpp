@@ -46,7 +46,7 @@ TEST_P(Slip, FollowsCoulombsLaw) {
   EXPECT_LT(at_1_ms, 0.005 * slipped);
 }
 
-INSTANTIATE_TEST_SUITE_P(Friction, Slip, testing::Values(Goal{0.03, 0.02}, Goal{0.05, 0.02}, Goal{0.1, 0.021}),
+INSTANTIATE_TEST_SUITE_P(Friction, Slip, testing::Values(Goal{0.03, 0.01}, Goal{0.05, 0.015}, Goal{0.1, 0.015}),
                          [](const auto& made) { return std::to_string(std::lround(100 * made.param.friction)); });
 
 }  // namespace

@@ -1,0 +1,46 @@
+// Coulomb's friction at one contact, its bound held fixed: a little soft, so that what sticks has an impulse that
+// follows from its slip.
+#pragma once
+
+#include <Eigen/Dense>
+#include <array>
+
+namespace muster::simbody {
+
+inline Eigen::Vector2d within(const Eigen::Vector2d& v, double radius) {
+  const double size = v.norm();
+  return size > radius ? Eigen::Vector2d((radius / size) * v) : v;
+}
+
+// softness [m/s per N s], bound [N s]
+inline bool sticks(double slip_speed, double bound, double softness) { return slip_speed <= softness * bound; }
+
+inline Eigen::Vector2d grip_of(const Eigen::Vector2d& slip, double bound, double softness) {
+  const double size = slip.norm();
+  if (bound <= 0) return Eigen::Vector2d::Zero();
+  return sticks(size, bound, softness) ? Eigen::Vector2d(-slip / softness) : Eigen::Vector2d(-(bound / size) * slip);
+}
+
+// How the grip answers slip, [xx, xy, yy].
+using GripStiffness = std::array<double, 3>;
+
+inline GripStiffness sticking(double softness) { return {1 / softness, 0, 1 / softness}; }
+
+// Of what slides along `way` (unit), and may do so freely, but not turn.
+inline GripStiffness across(const Eigen::Vector2d& way, double stiffness) {
+  return {stiffness * way[1] * way[1], -stiffness * way[0] * way[1], stiffness * way[0] * way[0]};
+}
+
+// The primal-dual Hessian.
+inline GripStiffness grip_stiffness(const Eigen::Vector2d& slip, double bound, const Eigen::Vector2d& dual,
+                                    double softness) {
+  if (bound <= 0) return {};
+  const double size = slip.norm();
+  if (sticks(size, bound, softness)) return sticking(softness);
+  const double stiffness = bound / size, turn = 1 / (size * size);
+  // Half of the product of dual and slip, and half of its mirror image, so that the Hessian stays symmetric.
+  return {stiffness + turn * dual[0] * slip[0], 0.5 * turn * (dual[0] * slip[1] + dual[1] * slip[0]),
+          stiffness + turn * dual[1] * slip[1]};
+}
+
+}  // namespace muster::simbody
