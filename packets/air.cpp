@@ -96,7 +96,9 @@ const Frame& Air::begin(std::size_t sender, Time at, Time length, std::size_t fo
   const auto kept =
       std::find_if(frames_.begin(), frames_.end(), [&](const Frame& f) { return f.end >= at - remembered; });
   frames_.erase(frames_.begin(), kept);
-  frames_.push_back({++begun_, sender, at, at + length, format, ack_of, to});
+  Frame& latest = frames_.emplace_back();
+  latest.id = ++begun_, latest.sender = sender, latest.begin = at, latest.end = at + length;
+  latest.format = format, latest.ack_of = ack_of, latest.to = to;
   const double* power = channel_->power_from(sender);
   const double* rssi = channel_->rssi_from(sender);
   for (std::size_t i = 0; i < total_.size(); ++i) {
