@@ -169,8 +169,9 @@ struct Maker {
     const bool decibels = shape.linear.size() == 1 && shape.linear[0]->unit == std::string("dB");
     c.id = cause.id;
     c.width = static_cast<int>(shape.columns());
-    c.whole = shape.linear.empty();
-    c.sign = c.whole || (c.width == 1 && shape.linear[0]->min == 0) ? 1 : 0;
+    // A term of sought parameters without a size of its own has that of what is fitted beside it.
+    c.whole = shape.linear.empty() && (edit || shape.axes.empty());
+    c.sign = shape.linear.empty() || (c.width == 1 && shape.linear[0]->min == 0) ? 1 : 0;
     c.time_like = time && column.empty();
     c.parameters = static_cast<int>(cause.plugin->param_count + shape.axes.size());
     c.offset = shape.set() == "radio" && !time && !heading && !needs(cause, "tx_x");

@@ -42,12 +42,11 @@ FoundCause named(const LawSources& s, const Cause& cause, const LawTest& test) {
   return out;
 }
 
-// Three questions are asked, how readings scatter, how the field does, and whether people pass: each may err on so
-// large a share of clean worlds.
-bool beyond_chance(const LawTest& test) {
-  constexpr double alpha = 0.001;
-  return test.evidence > 0 && test.log_p < std::log(alpha);
-}
+// Three questions are asked, each of which may err on so large a share of clean worlds: how readings scatter, whether
+// people pass, and how the field does, of which two tests have to speak (field_law.hpp).
+constexpr double alpha = 0.001, alpha_of_field = 0.002;
+
+bool beyond_chance(const LawTest& test, double share) { return test.evidence > 0 && test.log_p < std::log(share); }
 
 // A stage of the world that clips there already.
 bool clips_at(const LawSources& s, const std::string& plugin, const std::string& parameter, double level, double step) {
@@ -154,7 +153,7 @@ ReadingLaw add_scatter(const LawSources& s, ReadingField& field, Diagnosis& foun
   const auto [tests, likeliest] = law_tests(field, found.instrument.step, stated_law(s.model), s.bench.fit.covariance);
   const auto best =
       std::find_if(tests.begin(), tests.end(), [&](const LawTest& t) { return cause_called(s, t.cause); });
-  if (best == tests.end() || !beyond_chance(*best)) return likeliest;
+  if (best == tests.end() || !beyond_chance(*best, alpha)) return likeliest;
   found.causes.push_back(named(s, *cause_called(s, best->cause), *best));
   for (const LawTest& other : tests) {
     const double gap = best->evidence - other.evidence;
@@ -196,7 +195,7 @@ void add_field(const LawSources& s, ReadingField& field, const ReadingLaw& law, 
   }
   found.searched.push_back(cause->id);
   const LawTest test = field_test(field, found.instrument.step, law, said, s.bench);
-  if (beyond_chance(test) && !world_draws_alike(s)) found.causes.push_back(named(s, *cause, test));
+  if (beyond_chance(test, alpha_of_field) && !world_draws_alike(s)) found.causes.push_back(named(s, *cause, test));
 }
 
 // Either law can be taken for a part of the other: the weaker one of both stands only if it is beyond doubt.
@@ -244,7 +243,8 @@ bool add_people(const LawSources& s, Diagnosis& found) {
   // Beside other misfits, which may not be all understood, bursts must be clearer.
   const bool alone = found.causes.empty() && found.unexplained.empty();
   constexpr double in_company = -9;  // log p
-  if (passages.radio < 0 || !beyond_chance(passages.test) || (!alone && passages.test.log_p > in_company)) return false;
+  if (passages.radio < 0 || !beyond_chance(passages.test, alpha) || (!alone && passages.test.log_p > in_company))
+    return false;
   FoundCause out = named(s, *cause, passages.test);
   out.row_parameter = "radio";
   out.row = s.model.radio_name(passages.radio);

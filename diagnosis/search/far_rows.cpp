@@ -14,6 +14,13 @@ noise::RowLimits never_shorter(const noise::RowLimits& rows) {
   return rows.way < 0 || rows.way > usual.way ? rows : usual;
 }
 
+// The information on columns beside a design: their squared lengths, whitened, as far as the design leaves them.
+double told(const noise::Field& field, const noise::Covariance& covariance, const Eigen::MatrixXd& design,
+            const Eigen::MatrixXd& columns) {
+  const noise::Whitener whitener(field, covariance);
+  return noise::basis_of(whitener(design)).rest(whitener(columns)).squaredNorm();
+}
+
 }  // namespace
 
 FarRows::FarRows(const noise::Readings& readings, const Options& options, const noise::Rows& rows)
@@ -33,6 +40,15 @@ struct FarRows::Long {
   Eigen::MatrixXd design, columns;
 };
 
+FarRows::Long FarRows::lengthened(const Question& q) const {
+  return {lengthened(q.y), lengthened(q.design), lengthened(q.columns)};
+}
+
+double FarRows::kept(const Question& q, const noise::Field& own) const {
+  const Long by_long = lengthened(q);
+  return told(field_, q.with, by_long.design, by_long.columns) / told(own, q.with, q.design, q.columns);
+}
+
 double FarRows::exact_gain(const Long& q, const noise::Covariance& covariance) const {
   const noise::Whitener whitener(field_, covariance);
   const auto at = noise::whitened(whitener, q.y, q.design, prior_);
@@ -40,9 +56,7 @@ double FarRows::exact_gain(const Long& q, const noise::Covariance& covariance) c
   return noise::exact_gain(field_, whitener, added.q, at.residual);
 }
 
-double FarRows::exact_gain(const Question& q) const {
-  return exact_gain({lengthened(q.y), lengthened(q.design), lengthened(q.columns)}, q.with);
-}
+double FarRows::exact_gain(const Question& q) const { return exact_gain(lengthened(q), q.with); }
 
 noise::Fit FarRows::fitted(const Eigen::VectorXd& y, const Eigen::MatrixXd& design, const noise::Covariance& near,
                            noise::Family family) const {
@@ -68,7 +82,7 @@ double FarRows::profile_gain(const Question& q, const noise::Covariance& without
 }
 
 double FarRows::sure_gain(const Question& q) const {
-  const Long question{lengthened(q.y), lengthened(q.design), lengthened(q.columns)};
+  const Long question = lengthened(q);
   std::vector<noise::Fit> fits;
   for (const noise::Family family : noise::families)
     fits.push_back(fitted(question.y, beside(question.design, question.columns), q.with, family));

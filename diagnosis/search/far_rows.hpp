@@ -21,6 +21,9 @@ class FarRows {
     const Eigen::MatrixXd& columns;
     const noise::Covariance& with;
   };
+  // The share that longer rows keep of what the search's own tell about the columns: little where those change within a
+  // row's way.
+  double kept(const Question& question, const noise::Field& own) const;
   // The fall of the deviance, as a chi-square under the covariance itself (noise/exact.hpp).
   double exact_gain(const Question& question) const;
   // The fall of the deviance with the noise fitted beside the columns, and without them from `without`, in each of the
@@ -34,6 +37,7 @@ class FarRows {
  private:
   Eigen::MatrixXd lengthened(const Eigen::MatrixXd& of_rows) const;
   struct Long;  // a question by longer rows
+  Long lengthened(const Question& question) const;
   double exact_gain(const Long& question, const noise::Covariance& covariance) const;
   noise::Fit fitted(const Eigen::VectorXd& y, const Eigen::MatrixXd& design, const noise::Covariance& near,
                     noise::Family family) const;

@@ -74,12 +74,14 @@ noise::Fit fit_with(const Bench& bench, const Lead& lead, const Eigen::MatrixXd&
   return fresh.value < fit.value ? fresh : fit;
 }
 
-// What the covariance itself says by these rows; of what is no place, by longer ones on more neighbours too.
+// What the covariance itself says by these rows; of what is no place and changes little within longer ones, by those on
+// more neighbours too.
 double sure_log_p(const Bench& bench, const Lead& lead, const noise::Fit& fit, const Stand& stand) {
   const Candidate& c = lead.candidate();
+  constexpr double enough = 0.6;
   double gain = stand.exact_gain(bench.field(), lead.columns);
-  if (c.pieces.empty()) {
-    const FarRows::Question question{bench.y(), stand.design, lead.columns, fit.covariance};
+  const FarRows::Question question{bench.y(), stand.design, lead.columns, fit.covariance};
+  if (c.pieces.empty() && bench.far().kept(question, bench.field()) > enough) {
     gain = std::min(gain, bench.far().sure_gain(question));
     if (c.slow || c.kind == Kind::smooth) {
       const std::vector<noise::Family> families = bench.likely_families(fit.covariance.family);

@@ -73,6 +73,15 @@ TEST(SealedWall, IsFoundInItsPlace) {
   EXPECT_NEAR(wall ? (at["y0"] + at["y1"]) / 2 : at["y"], 20.80, 0.8);
 }
 
+// Walls that saturate look weak in the base fit: how much the cause gives back is known only beside other losses.
+TEST(SealedSaturation, IsNamedThoughTheWallsOfTheFitAreTooWeak) {
+  const Scratch scratch;
+  const auto world = sealed_case(scratch, "--mix one --lambda 60 --effects multiwall_saturation", 3);
+  const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
+  ASSERT_TRUE(found.named()) << told(found);
+  EXPECT_EQ(found.causes[0].id, "effect.multiwall_saturation") << told(found);
+}
+
 class CleanCase : public testing::TestWithParam<int> {};
 
 TEST_P(CleanCase, IsSilent) {

@@ -26,7 +26,7 @@ constexpr Hidden table[] = {
     {"antenna_tx", 903, 2, 2, 2},
     {"antenna_rx", 904, 2, 2, 2},
     {"body_shadow", 905, 2, 2, 2},
-    {"tx_misplaced", 906, 2, 1, 1},
+    {"tx_misplaced", 906, 2, 2, 2},
     {"label_swap", 907, 2, 2, 2},
     {"asymmetry", 908, 2, 0, 2},
     {"wall_material", 909, 2, 2, 2},

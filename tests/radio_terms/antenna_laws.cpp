@@ -139,10 +139,10 @@ TEST(GainTable, RefusesWhatIsNoAntenna) {
   rows.pop_back();
   EXPECT_EQ(
       refusal(rows),
-      "attribute \"file\": it has no gain at azimuth 2.199, elevation -1.570; expected one at each of its azimuths "
+      "attribute \"file\": it has no gain at azimuth 2.199, elevation -1.571; expected one at each of its azimuths "
       "and elevations");
   rows.push_back(rows.front());
-  EXPECT_EQ(refusal(rows), "attribute \"file\": it has two gains at azimuth -2.513, elevation 1.570");
+  EXPECT_EQ(refusal(rows), "attribute \"file\": it has two gains at azimuth -2.513, elevation 1.571");
   EXPECT_EQ(
       refusal({{0, 90, 0}}),
       "attribute \"file\": row 1 is azimuth 0.000, elevation 90.000; expected radians, an azimuth within -pi and pi "

@@ -154,6 +154,26 @@ TEST(FarRows, ANameIsWorthNoMoreThanTheCovarianceItselfSays) {
   EXPECT_NEAR(result.trials[0].integrated_log_p, bench.log_p(*offset.candidate, sure, 1, true), 0.2);
 }
 
+// A swing of the level from row to row is gone from longer rows, an offset is not.
+TEST(FarRows, KeepWhatChangesLittleWithinThem) {
+  const auto world = world_of(varied(21, 3000));
+  const Problem problem = problem_of(world, Eigen::VectorXd::Zero(3000), causes_of(world));
+  Options options;
+  options.rows.way = 0.2;
+  const Bench bench(problem, options);
+  Eigen::MatrixXd offset(bench.rows().size(), 1), swing = offset;
+  const noise::Sites& sites = bench.field().sites();
+  for (Index i = 0; i < offset.rows(); ++i) {
+    offset(i, 0) = sites.radio[static_cast<std::size_t>(i)] == 0;
+    swing(i, 0) = i % 2 ? 1 : -1;
+  }
+  const auto kept = [&](const Eigen::MatrixXd& columns) {
+    return bench.far().kept({bench.y(), bench.base(), columns, bench.fit.covariance}, bench.field());
+  };
+  EXPECT_GT(kept(offset), 0.6);
+  EXPECT_LT(kept(swing), 0.3);
+}
+
 TEST(RefinementCharge, OfAWallIsAFewNatsAndOfAStepLess) {
   const auto world = world_of(varied(16, 3000));
   const Problem problem = problem_of(world, Eigen::VectorXd::Zero(3000), causes_of(world));
