@@ -236,7 +236,7 @@ BENCHMARK(channel_against_ns3)
     ->Arg(200)
     ->Arg(1000)
     ->Unit(benchmark::kMillisecond)
-    ->Iterations(6)
+    ->Iterations(24)
     ->MeasureProcessCPUTime();
 
 #endif

@@ -9,14 +9,18 @@
 
 namespace muster::packets {
 
+// In two words, which are compared and moved all the time.
 struct Event {
   Time at;
-  int kind;  // of those at the same time, the lower kind comes first, then the lower `which`
-  std::uint64_t which;
+  std::uint64_t what;  // of those at the same time, the lower kind comes first, then the lower number
 
-  bool operator>(const Event& b) const {
-    return at != b.at ? at > b.at : kind != b.kind ? kind > b.kind : which > b.which;
-  }
+  Event(Time when, int kind, std::uint64_t number)
+      : at(when), what(static_cast<std::uint64_t>(kind) << number_bits | number) {}
+  int kind() const { return static_cast<int>(what >> number_bits); }
+  std::uint64_t number() const { return what & ((std::uint64_t{1} << number_bits) - 1); }
+  bool operator>(const Event& b) const { return at != b.at ? at > b.at : what > b.what; }
+
+  static constexpr int number_bits = 56;
 };
 
 // What is known before the run is sorted once; what comes up in it goes into a heap, which so stays small.
@@ -29,10 +33,10 @@ class Agenda {
     until_ = until;
   }
   // What lies beyond the run is left out: the medium's state tells it to the next one.
-  void put(Time at, int kind, std::uint64_t which) {
+  void put(Time at, int kind, std::uint64_t number) {
     if (at >= until_) return;
     auto& events = has_begun_ ? heap_ : known_;
-    events.push_back({at, kind, which});
+    events.emplace_back(at, kind, number);
     if (has_begun_) std::push_heap(events.begin(), events.end(), std::greater<>());
   }
   void begin() {

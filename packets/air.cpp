@@ -96,15 +96,18 @@ const Frame& Air::begin(std::size_t sender, Time at, Time length, std::size_t fo
   const auto kept =
       std::find_if(frames_.begin(), frames_.end(), [&](const Frame& f) { return f.end >= at - remembered; });
   frames_.erase(frames_.begin(), kept);
-  frames_.push_back({++begun_, sender, at, at + length, format, ack_of, to});
+  Frame& latest = frames_.emplace_back();
+  latest.id = ++begun_, latest.sender = sender, latest.begin = at, latest.end = at + length;
+  latest.format = format, latest.ack_of = ack_of, latest.to = to;
+  const bool captures = hearing_.capture_within > 0;
   const double* power = channel_->power_from(sender);
   const double* rssi = channel_->rssi_from(sender);
   for (std::size_t i = 0; i < total_.size(); ++i) {
     const double others = total_[i] + hearing_.noise;
     total_[i] += power[i];
     const bool is_free = lock_[i] == nothing;
+    if (!is_free && (!captures || at - frame(lock_[i]).begin >= hearing_.capture_within)) continue;
     if (power[i] <= (is_free ? hearing_.found_above : hearing_.capture_above) * others) continue;
-    if (!is_free && at - frame(lock_[i]).begin >= hearing_.capture_within) continue;
     if (i == sender || is_deaf(i, at) || std::isnan(rssi[i])) continue;
     lock_[i] = begun_;
     signal_[i] = power[i];

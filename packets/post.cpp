@@ -76,15 +76,20 @@ void Post::frame_heard(std::size_t sender, const std::vector<Heard>& heard) {
 }
 
 void Post::last_frame_heard(std::size_t sender, const std::vector<Heard>& heard, const Air& air, Time at) {
-  std::array<std::size_t, static_cast<std::size_t>(Heard::gone) + 1> tally{};
+  std::array<std::size_t, static_cast<std::size_t>(Heard::gone) + 1> lost{};
   Message& message = first(sender);
+  const std::size_t before = report_.deliveries.size();
   message.receivers.each([&](std::size_t to) {
-    ++tally[static_cast<std::size_t>(heard[to])];
-    if (heard[to] == Heard::whole) put_delivery(to, air);
+    if (heard[to] == Heard::whole)
+      put_delivery(to, air);
+    else
+      ++lost[static_cast<std::size_t>(heard[to])];
   });
-  if (tally[static_cast<std::size_t>(Heard::whole)] > 0) put_arrival(sender, at);
-  for (const Heard each : {Heard::whole, Heard::too_weak, Heard::no_link, Heard::collided, Heard::gone})
-    count(sender, fate_of(each), tally[static_cast<std::size_t>(each)]);
+  const std::size_t delivered = report_.deliveries.size() - before;
+  count(sender, Fate::delivered, delivered);
+  if (delivered > 0) put_arrival(sender, at);
+  for (const Heard each : {Heard::too_weak, Heard::no_link, Heard::collided, Heard::gone})
+    count(sender, fate_of(each), lost[static_cast<std::size_t>(each)]);
   message.receivers = {};
 }
 
@@ -104,7 +109,7 @@ void Post::put_arrival(std::size_t sender, Time at) {
 // Before the arrival that it belongs to.
 void Post::put_delivery(std::size_t to, const Air& air) {
   const auto arrival = static_cast<std::uint32_t>(report_.arrivals.size());
-  report_.deliveries.push_back({arrival, static_cast<std::uint32_t>(to), air.rssi(to), air.ratio(to)});
+  report_.deliveries.emplace_back(arrival, static_cast<std::uint32_t>(to), air.rssi(to), air.ratio(to));
 }
 
 void Post::settle(std::size_t sender, Message& message, Fate fate) {

@@ -78,6 +78,10 @@ struct Arrival {
 struct Delivery {
   std::uint32_t arrival, to;  // its number in the report; a radio
   double rssi, ratio;         // of its last frame: dBm as its preamble was found; signal to noise and others
+
+  // Where it is to stand: a copy of what was just written would wait for that.
+  Delivery(std::uint32_t a, std::uint32_t receiver, double dbm, double r)
+      : arrival(a), to(receiver), rssi(dbm), ratio(r) {}
 };
 
 struct Report {

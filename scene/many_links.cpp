@@ -13,10 +13,6 @@ namespace {
 // From so many receivers of one radio on, it pays to look at the walls from there.
 constexpr std::size_t many = 12;
 
-// From so many blocks of walls on, receivers are taken as they lie around the radio, not as they lie together: fewer
-// walls stand between.
-constexpr int widest_scene = 64;
-
 std::vector<std::uint32_t> along_curve(const std::vector<LatticePoint>& points) {
   std::vector<std::uint32_t> place, order(points.size());
   for (const LatticePoint& point : points) place.push_back(place_on_curve(point.spot));
@@ -42,14 +38,6 @@ std::vector<std::uint32_t> sorted(const std::vector<std::uint32_t>& items, std::
   return result;
 }
 
-// In both ends, which are below 2^31: else a difference of neighbours has its highest bit set.
-bool ascend(const std::vector<Pair>& links) {
-  const auto key = [](const Pair& link) { return std::uint64_t{link.from} << 32 | link.to; };
-  std::uint64_t differences = 0;
-  for (std::size_t i = 1; i < links.size(); ++i) differences |= key(links[i]) - key(links[i - 1]) - 1;
-  return differences >> 63 == 0;
-}
-
 // Most of them within a block of receivers of their place.
 bool nearly_sorted(const std::vector<std::uint32_t>& order) {
   std::size_t displaced = 0;
@@ -59,18 +47,14 @@ bool nearly_sorted(const std::vector<std::uint32_t>& order) {
   return displaced * 8 <= order.size();
 }
 
-// Links in the order of their senders, and of each sender's receivers, along the curve. Empty if they are so already,
-// or nearly, or are too few for it to pay.
-std::vector<std::uint32_t> better_order(const std::vector<LatticePoint>& points, const std::vector<Pair>& links) {
-  if (links.size() < many * points.size() / 2) return {};
-  const auto order = along_curve(points);
-  if (nearly_sorted(order) && ascend(links)) return {};
-  std::vector<std::uint32_t> rank(points.size());
+// Links in the order of their senders, and of each sender's receivers, along the curve.
+std::vector<std::uint32_t> by_both_ends(const std::vector<std::uint32_t>& order, const std::vector<Pair>& links) {
+  std::vector<std::uint32_t> rank(order.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) rank[order[i]] = i;
   std::vector<std::uint32_t> items(links.size());
   std::iota(items.begin(), items.end(), 0u);
-  items = sorted(items, points.size(), [&](std::uint32_t i) { return rank[links[i].to]; });
-  return sorted(items, points.size(), [&](std::uint32_t i) { return rank[links[i].from]; });
+  items = sorted(items, order.size(), [&](std::uint32_t i) { return rank[links[i].to]; });
+  return sorted(items, order.size(), [&](std::uint32_t i) { return rank[links[i].from]; });
 }
 
 }  // namespace
@@ -90,20 +74,17 @@ class Scene::ManyLinks {
         table_(scene.columns_.table()),
         points_(snapped(points)),
         links_(links),
-        order_(better_order(points_, links)),
         by_material_(by_material),
         seen_(new SeenBlock[static_cast<std::size_t>(table_.blocks)]),
         unsure_(new std::uint16_t[static_cast<std::size_t>(table_.blocks)]),
-        lists_(new int[3 * (walls() + block)]),
+        lists_(new int[std::size(view_.lists) * (walls() + block)]),
         doubts_(new Doubt[2 * walls()]),
         counts_(new Counts[static_cast<std::size_t>(scene.materials_)]),
         counts_of_one_(static_cast<std::size_t>(scene.materials_)) {
     by_material_.resize(links.size() * static_cast<std::size_t>(scene.materials_));
     view_.seen = seen_.get();
     view_.unsure = unsure_.get();
-    view_.one = lists_.get();
-    view_.other = view_.one + walls() + block;
-    view_.third = view_.other + walls() + block;
+    for (std::size_t i = 0; i < std::size(view_.lists); ++i) view_.lists[i] = lists_.get() + i * (walls() + block);
     for (const LatticePoint& point : points_) {
       x_.push_back(static_cast<float>(point.spot.x));
       y_.push_back(static_cast<float>(point.spot.y));
@@ -112,17 +93,17 @@ class Scene::ManyLinks {
   }
 
   void count() {
+    const bool worth_sorting = links_.size() >= many * points_.size() / 2;
+    const auto curve = worth_sorting ? along_curve(points_) : std::vector<std::uint32_t>();
+    if (worth_sorting && !nearly_sorted(curve)) sort_by(curve);
     for (std::size_t first = 0, last = 0; first < links_.size(); first = last) {
-      const std::uint32_t from = link(first).from;
-      while (last < links_.size() && link(last).from == from) ++last;
-      view_.x = x_[from], view_.y = y_[from], view_.z = z_[from];
-      if (last - first < many) {
-        for (std::size_t i = first; i < last; ++i) count_one(i);
+      last = end_of_sender(first);
+      if (worth_sorting && !sorted_ && !ascend(first, last)) {
+        sort_by(curve);
+        last = 0;  // all over again: what is counted twice is counted the same
         continue;
       }
-      look_from(from);
-      if (table_.blocks > widest_scene) sort_by_direction(from, first, last);
-      for (std::size_t i = first; i < last; i += receivers) count_block(i, std::min<std::size_t>(last - i, receivers));
+      count_from(link(first).from, first, last);
     }
   }
 
@@ -130,6 +111,43 @@ class Scene::ManyLinks {
   struct alignas(64) Counts {
     int of[receivers];
   };
+
+  void sort_by(const std::vector<std::uint32_t>& curve) {
+    order_ = by_both_ends(curve, links_);
+    sorted_ = true;
+  }
+
+  void count_from(std::uint32_t from, std::size_t first, std::size_t last) {
+    view_.x = x_[from], view_.y = y_[from], view_.z = z_[from];
+    if (last - first < many) {
+      for (std::size_t i = first; i < last; ++i) count_one(i);
+      return;
+    }
+    look_from(from);
+    if (table_.blocks > widest_scene) sort_by_direction(from, first, last);
+    shafts_.resize((last - first + receivers - 1) / receivers);
+    for (std::size_t i = first; i < last; i += receivers) aim(i, last, shafts_[(i - first) / receivers]);
+    for (std::size_t i = first; i < last; i += receivers) count_block(i, last, shafts_[(i - first) / receivers]);
+  }
+
+  std::size_t end_of_sender(std::size_t first) const {
+    const std::uint32_t from = link(first).from;
+    std::size_t last = first + 1;
+    for (std::uint32_t others = 0; !sorted_ && last + receivers <= links_.size(); last += receivers) {
+      for (std::size_t i = 0; i < receivers; ++i) others |= links_[last + i].from ^ from;
+      if (others != 0) break;
+    }
+    while (last < links_.size() && link(last).from == from) ++last;
+    return last;
+  }
+
+  // Whether a sender's links, and the one after them, ascend in both ends. Those are below 2^31: else a difference of
+  // neighbours has its highest bit set.
+  bool ascend(std::size_t first, std::size_t last) const {
+    std::uint32_t differences = last < links_.size() ? links_[last].from - links_[first].from - 1 : 0;
+    for (std::size_t i = first + 1; i < last; ++i) differences |= links_[i].to - links_[i - 1].to - 1;
+    return differences >> 31 == 0;
+  }
 
   std::size_t walls() const { return static_cast<std::size_t>(table_.blocks) * block; }
   std::size_t row(std::size_t i) const { return order_.empty() ? i : order_[i]; }
@@ -199,17 +217,25 @@ class Scene::ManyLinks {
       by_material_[m * links_.size() + row(i)] = counts_of_one_[m];
   }
 
-  void count_block(std::size_t first, std::size_t number) {
-    float x[receivers], y[receivers], z[receivers];
+  // The links from the first on, as many as are taken at once, as long as they are before the last.
+  void aim(std::size_t first, std::size_t last, Shaft& shaft) {
     const std::uint32_t to = link(first).to;
-    const bool in_row = number == receivers && consecutive(first);
-    for (std::size_t i = 0; i < receivers && !in_row; ++i) {
-      const std::uint32_t each = link(first + std::min(i, number - 1)).to;
+    if (consecutive(first, last)) {
+      kernel_.aim(view_, &x_[to], &y_[to], &z_[to], shaft);
+      return;
+    }
+    float x[receivers], y[receivers], z[receivers];
+    for (std::size_t i = 0; i < receivers; ++i) {
+      const std::uint32_t each = link(std::min(first + i, last - 1)).to;
       x[i] = x_[each], y[i] = y_[each], z[i] = z_[each];
     }
-    const int doubts = in_row
-                           ? kernel_.count(table_, view_, &x_[to], &y_[to], &z_[to], counts_.get()->of, doubts_.get())
-                           : kernel_.count(table_, view_, x, y, z, counts_.get()->of, doubts_.get());
+    kernel_.aim(view_, x, y, z, shaft);
+  }
+
+  void count_block(std::size_t first, std::size_t last, const Shaft& shaft) {
+    const std::size_t number = std::min<std::size_t>(last - first, receivers);
+    fetch_rows(first, number);
+    const int doubts = kernel_.count(table_, view_, shaft, counts_.get()->of, doubts_.get());
     for (int k = 0; k < doubts; ++k) {
       for (unsigned set = doubts_[k].lanes & ~0u >> (receivers - number); set != 0; set &= set - 1) {
         const int lane = __builtin_ctz(set);
@@ -220,7 +246,7 @@ class Scene::ManyLinks {
     for (int m = 0; m < scene_.materials_; ++m) {
       const int* const counted = counts_[m].of;
       int* const out = by_material_.data() + static_cast<std::size_t>(m) * links_.size();
-      if (in_row) {
+      if (order_.empty() && number == receivers) {
         std::memcpy(out + first, counted, receivers * sizeof *counted);  // of a size that the compiler knows
       } else if (order_.empty()) {
         std::copy_n(counted, number, out + first);
@@ -230,9 +256,18 @@ class Scene::ManyLinks {
     }
   }
 
+  // Where there are many links, their rows lie far apart: they are fetched while they are worked out.
+  void fetch_rows(std::size_t first, std::size_t number) {
+    constexpr std::size_t line = 64 / sizeof(int);
+    for (int m = 0; m < scene_.materials_ && order_.empty(); ++m) {
+      const int* const out = by_material_.data() + static_cast<std::size_t>(m) * links_.size() + first;
+      for (std::size_t i = 0; i < number; i += line) __builtin_prefetch(out + i, 1);
+    }
+  }
+
   // Whether a whole block of receivers follow one another as points do, too.
-  bool consecutive(std::size_t first) const {
-    if (!order_.empty()) return false;
+  bool consecutive(std::size_t first, std::size_t last) const {
+    if (!order_.empty() || last - first < receivers) return false;
     std::uint32_t gaps = 0;
     for (std::uint32_t i = 0; i < receivers; ++i) gaps |= links_[first + i].to - links_[first].to - i;
     return gaps == 0;
@@ -243,11 +278,13 @@ class Scene::ManyLinks {
   const WallTable table_;
   const std::vector<LatticePoint> points_;
   const std::vector<Pair>& links_;
-  std::vector<std::uint32_t> order_;
+  std::vector<std::uint32_t> order_;  // in which links are taken; empty if as they came
+  bool sorted_ = false;               // if not, those whose turn has not come are taken as they came
   struct Directed {
     std::uint32_t direction, link;
   };
   std::vector<Directed> directed_;
+  std::vector<Shaft> shafts_;
   std::vector<int>& by_material_;
   // Not filled before they are used: a few links must not pay for all walls.
   const std::unique_ptr<SeenBlock[]> seen_;

@@ -21,7 +21,7 @@ using Floats = stdx::native_simd<float>;
 using Mask = Floats::mask_type;
 using Integers = stdx::rebind_simd_t<int, Floats>;
 using Numbers = stdx::fixed_size_simd<int, 8>;
-constexpr int lanes = static_cast<int>(Floats::size()), parts = receivers / lanes, halves = 2;
+constexpr int lanes = static_cast<int>(Floats::size());
 static_assert(block % lanes == 0 && receivers % block == 0 && sizeof(Floats) <= alignof(WallBlock));
 
 constexpr float rounding = 0x1p-19f;  // the margin above
@@ -46,7 +46,7 @@ MUSTER_INLINE Integers minus_if_negative(const Floats& a) {
   return result >> 31;
 }
 MUSTER_INLINE Floats magnitude(const Floats& a) { return stdx::abs(a); }
-MUSTER_INLINE float magnitude(float a) { return a < 0 ? -a : a; }
+MUSTER_INLINE float magnitude(float a) { return __builtin_fabsf(a); }
 
 // For each byte, the numbers of its set bits in order.
 struct Bits {
@@ -72,10 +72,11 @@ MUSTER_INLINE int* append(unsigned set, int first, int* to) {
   return to;
 }
 
-// The blocks of walls whose boxes, and all boxes around them, pass a test. The list is left in view.one.
+// The blocks of walls whose boxes, and all boxes around them, pass a test. The list is left in view.lists[0].
 template <class Test>
-int surviving(const WallTable& table, const WallView& view, const Test& test) {
-  int *now = view.one, *next = view.other;
+MUSTER_INLINE int surviving(const WallTable& table, const WallView& view, const Test test) {
+  const Floats x = view.x, y = view.y;
+  int *now = view.lists[0], *next = view.lists[1];
   int number = 1;
   now[0] = 0;
   for (int level = table.levels - 1; level >= 0; --level) {
@@ -83,8 +84,8 @@ int surviving(const WallTable& table, const WallView& view, const Test& test) {
     for (int i = 0; i < number; ++i) {
       const BoxBlock& box = table.boxes[level][now[i]];
       for (int k = 0; k < block; k += lanes) {
-        end = append(bits(test(load(box.west + k) - view.x, load(box.east + k) - view.x, load(box.south + k) - view.y,
-                               load(box.north + k) - view.y)),
+        end = append(bits(test(load(box.west + k) - x, load(box.east + k) - x, load(box.south + k) - y,
+                               load(box.north + k) - y)),
                      now[i] * block + k, end);
       }
     }
@@ -93,8 +94,8 @@ int surviving(const WallTable& table, const WallView& view, const Test& test) {
     now = next;
     next = done;
   }
-  if (now != view.one) {
-    for (int i = 0; i < number; ++i) view.one[i] = now[i];
+  if (now != view.lists[0]) {
+    for (int i = 0; i < number; ++i) view.lists[0][i] = now[i];
   }
   return number;
 }
@@ -122,167 +123,227 @@ void look(const WallTable& table, WallView& view) {
   }
 }
 
-// Receivers relative to the radio, and what surrounds them as it sees them.
-struct Directions {
-  float left_x, left_y, right_x, right_y;
-};
-
-struct Shaft {
-  Floats x[parts], y[parts];
-  float west, east, south, north;  // of the receivers
-  float low, high;                 // of the receivers and the radio
-  float reach;                     // the largest coordinate
-  bool narrow = false;             // all receivers lie between two directions less than a half turn apart:
-  Directions all;                  // none is left of the one or right of the other;
-  Directions of[halves];           // and so for each half of them
-};
-
-// From slopes about a direction; opened by far more than rounding, 1e-5 rad.
-MUSTER_INLINE Directions opened(float x, float y, float left, float right) {
-  const float up = left + 1e-5f * (1 + left * left), down = right - 1e-5f * (1 + right * right);
-  return {x - up * y, y + up * x, x - down * y, y + down * x};
-}
-
-MUSTER_INLINE void find_directions(Shaft& shaft) {
+// Between which the receivers [first, last) lie: opened by far more than rounding, 1e-5 rad.
+MUSTER_INLINE Directions directions(const Shaft& shaft, int first, int last) {
   const float x = (shaft.west + shaft.east) / 2, y = (shaft.south + shaft.north) / 2;
-  float left[halves], right[halves];
-  for (int half = 0; half < halves; ++half) {
-    Floats most = -huge, least = huge;
-    for (int i = half * parts / halves; i < (half + 1) * parts / halves; ++i) {
-      const Floats along = x * shaft.x[i] + y * shaft.y[i], across = x * shaft.y[i] - y * shaft.x[i];
-      if (!stdx::all_of(along > 0)) return;
-      most = max(most, across / along);
-      least = min(least, across / along);
-    }
-    left[half] = stdx::hmax(most), right[half] = stdx::hmin(least);
-    if (left[half] > 1000 || right[half] < -1000) return;
-    shaft.of[half] = opened(x, y, left[half], right[half]);
+  Floats most = -huge, least = huge, nearest = huge;
+  for (int i = first; i < last; i += lanes) {
+    const Floats to_x = load(shaft.x + i), to_y = load(shaft.y + i);
+    const Floats along = x * to_x + y * to_y, slope = (x * to_y - y * to_x) / along;
+    nearest = min(nearest, along);
+    most = max(most, slope);
+    least = min(least, slope);
   }
-  shaft.narrow = true;
-  shaft.all = opened(x, y, max(left[0], left[1]), min(right[0], right[1]));
+  float left = stdx::hmax(most), right = stdx::hmin(least);
+  if (!(stdx::all_of(nearest > 0) && left < 1000 && right > -1000)) return {0, 0, 0, 0};
+  left += 1e-5f * (1 + left * left), right -= 1e-5f * (1 + right * right);
+  return {x - left * y, y + left * x, x - right * y, y + right * x};
 }
 
-MUSTER_INLINE Shaft shaft_to(const WallView& view, const float* x, const float* y, const float* z) {
-  Shaft shaft;
+void aim(const WallView& view, const float* x, const float* y, const float* z, Shaft& shaft) {
   Floats west = huge, east = -huge, south = huge, north = -huge, low = view.z, high = view.z;
-  for (int i = 0; i < parts; ++i) {
-    shaft.x[i] = Floats(x + i * lanes, stdx::element_aligned) - view.x;
-    shaft.y[i] = Floats(y + i * lanes, stdx::element_aligned) - view.y;
-    west = min(west, shaft.x[i]);
-    east = max(east, shaft.x[i]);
-    south = min(south, shaft.y[i]);
-    north = max(north, shaft.y[i]);
-    low = min(low, Floats(z + i * lanes, stdx::element_aligned));
-    high = max(high, Floats(z + i * lanes, stdx::element_aligned));
+  for (int i = 0; i < receivers; i += lanes) {
+    const Floats to_x = Floats(x + i, stdx::element_aligned) - view.x;
+    const Floats to_y = Floats(y + i, stdx::element_aligned) - view.y;
+    const Floats to_z(z + i, stdx::element_aligned);
+    store(to_x, shaft.x + i);
+    store(to_y, shaft.y + i);
+    west = min(west, to_x), east = max(east, to_x);
+    south = min(south, to_y), north = max(north, to_y);
+    low = min(low, to_z), high = max(high, to_z);
   }
   shaft.west = stdx::hmin(west), shaft.east = stdx::hmax(east);
   shaft.south = stdx::hmin(south), shaft.north = stdx::hmax(north);
   shaft.low = stdx::hmin(low), shaft.high = stdx::hmax(high);
   shaft.reach =
       max(max(magnitude(shaft.west), magnitude(shaft.east)), max(magnitude(shaft.south), magnitude(shaft.north)));
-  find_directions(shaft);
-  return shaft;
+  shaft.all = directions(shaft, 0, receivers);
 }
 
-// Boxes that some link of the shaft may meet.
-MUSTER_INLINE Mask meets(const Shaft& shaft, const Floats& west, const Floats& east, const Floats& south,
-                         const Floats& north) {
-  Mask result = west <= max(shaft.east, 0) && east >= min(shaft.west, 0) && south <= max(shaft.north, 0) &&
-                north >= min(shaft.south, 0);
-  if (!shaft.narrow) return result;
-  const Floats x = (west + east) * 0.5f, y = (south + north) * 0.5f;
-  const Floats half_x = (east - west) * 0.5f, half_y = (north - south) * 0.5f;
-  const Directions& to = shaft.all;
-  const Floats from_left = to.left_x * y - to.left_y * x, from_right = to.right_x * y - to.right_y * x;
-  result = result && from_left <= magnitude(to.left_x) * half_y + magnitude(to.left_y) * half_x;
-  return result && from_right >= -(magnitude(to.right_x) * half_y + magnitude(to.right_y) * half_x);
-}
+// Boxes that some link of a shaft may meet.
+struct BoxesInShaft {
+  Floats west, east, south, north, left_x, left_y, right_x, right_y;
+
+  MUSTER_INLINE explicit BoxesInShaft(const Shaft& shaft)
+      : west(min(shaft.west, 0)),
+        east(max(shaft.east, 0)),
+        south(min(shaft.south, 0)),
+        north(max(shaft.north, 0)),
+        left_x(shaft.all.left_x),
+        left_y(shaft.all.left_y),
+        right_x(shaft.all.right_x),
+        right_y(shaft.all.right_y) {}
+
+  MUSTER_INLINE Mask operator()(const Floats& from_x, const Floats& to_x, const Floats& from_y,
+                                const Floats& to_y) const {
+    const Floats x = (from_x + to_x) * 0.5f, y = (from_y + to_y) * 0.5f;
+    const Floats half_x = (to_x - from_x) * 0.5f, half_y = (to_y - from_y) * 0.5f;
+    const Floats from_left = left_x * y - left_y * x, from_right = right_x * y - right_y * x;
+    return from_x <= east && to_x >= west && from_y <= north && to_y >= south &&
+           from_left <= magnitude(left_x) * half_y + magnitude(left_y) * half_x &&
+           from_right >= -(magnitude(right_x) * half_y + magnitude(right_y) * half_x);
+  }
+};
 
 // Of a wall in its block: how many floats from the first wall's, in either kind of block.
 constexpr int stride = static_cast<int>(sizeof(WallBlock) / sizeof(float));
 
-// Lists the walls that links of each half may cross, as offsets, and sets their margins. Moves `end` to their ends.
-void list_walls(const WallTable& table, const WallView& view, const Shaft& shaft, int blocks, int** end) {
-  const float x = (shaft.west + shaft.east) * 0.5f, y = (shaft.south + shaft.north) * 0.5f;
-  const float half_x = (shaft.east - shaft.west) * 0.5f, half_y = (shaft.north - shaft.south) * 0.5f;
+// Walls that lie between two directions, at least in part.
+struct Between {
+  Floats left_x, left_y, right_x, right_y;
+
+  MUSTER_INLINE explicit Between(const Directions& to)
+      : left_x(to.left_x), left_y(to.left_y), right_x(to.right_x), right_y(to.right_y) {}
+
+  MUSTER_INLINE Mask operator()(const Floats& ax, const Floats& ay, const Floats& bx, const Floats& by) const {
+    const Floats left_a = left_x * ay - left_y * ax, left_b = left_x * by - left_y * bx;
+    const Floats right_a = right_x * ay - right_y * ax, right_b = right_x * by - right_y * bx;
+    return min(left_a, left_b) <= 0 && max(right_a, right_b) >= 0;
+  }
+};
+
+// The walls that links of a shaft may cross, as offsets.
+template <int parts>
+struct Listed {
+  int* end[parts];  // of view.lists[1] and the following: of those that links of each part may cross
+  int* open_end;    // of view.lists[3]: of those whose doors or heights may decide
+};
+
+template <int parts>
+MUSTER_INLINE Listed<parts> list_walls(const WallTable& table, const WallView& view, const Shaft& shaft,
+                                       const Between (&between)[parts]) {
+  const int blocks = surviving(table, view, BoxesInShaft(shaft));
+  const Floats x = (shaft.west + shaft.east) * 0.5f, y = (shaft.south + shaft.north) * 0.5f;
+  const Floats half_x = (shaft.east - shaft.west) * 0.5f, half_y = (shaft.north - shaft.south) * 0.5f;
+  const Floats low = shaft.low, high = shaft.high, far = shaft.reach;
+  Listed<parts> listed;
+  for (int part = 0; part < parts; ++part) listed.end[part] = view.lists[1 + part];
+  listed.open_end = view.lists[3];
   for (int i = 0; i < blocks; ++i) {
-    const WallBlock& wall = table.walls[view.one[i]];
-    SeenBlock& seen = view.seen[view.one[i]];
+    const int number = view.lists[0][i];
+    const WallBlock& wall = table.walls[number];
+    SeenBlock& seen = view.seen[number];
     for (int k = 0; k < block; k += lanes) {
       const Floats ax = load(seen.ax + k), ay = load(seen.ay + k), bx = load(seen.bx + k), by = load(seen.by + k);
-      const Floats reach = load(seen.reach + k), margin = rounding * reach * max(reach, shaft.reach);
+      const Floats reach = load(seen.reach + k), margin = rounding * reach * max(reach, far);
+      store(margin, seen.margin + k);
       const Floats base = load(wall.base + k);
-      const Mask plain = base <= shaft.low && load(wall.plain_top + k) > shaft.high;
-      store(choose(plain, -margin, -huge), seen.surely + k);
-      store(margin, seen.perhaps + k);
       // Somebody is on the wall's far side, and heights meet.
       const Floats over_x = ay - by, over_y = bx - ax;
       const Floats nearest =
           x * over_x + y * over_y + load(seen.area + k) - (half_x * magnitude(over_x) + half_y * magnitude(over_y));
-      const Mask kept = nearest <= 2 * margin && base <= shaft.high && load(wall.top + k) > shaft.low;
-      for (int half = 0; half < halves; ++half) {
-        const Directions& to = shaft.of[half];
-        Mask between = kept;
-        if (shaft.narrow) {
-          const Floats left_a = to.left_x * ay - to.left_y * ax, left_b = to.left_x * by - to.left_y * bx;
-          const Floats right_a = to.right_x * ay - to.right_y * ax, right_b = to.right_x * by - to.right_y * bx;
-          between = kept && min(left_a, left_b) <= 0 && max(right_a, right_b) >= 0;
-        }
-        end[half] = append(bits(between), view.one[i] * stride + k, end[half]);
+      const Mask met = nearest <= 2 * margin && base <= high && load(wall.top + k) > low;
+      const Mask plain = base <= low && load(wall.plain_top + k) > high;
+      const int first = number * stride + k;
+      Mask kept(false);
+      for (int part = 0; part < parts; ++part) {
+        const Mask crossed = met && between[part](ax, ay, bx, by);
+        listed.end[part] = append(bits(crossed && plain), first, listed.end[part]);
+        kept = kept || crossed;
       }
+      const unsigned open = bits(kept && !plain);
+      if (open != 0) listed.open_end = append(open, first, listed.open_end);
     }
   }
+  return listed;
 }
 
-// Adds the listed walls to the counts of one half of the receivers.
-MUSTER_INLINE Doubt* count_half(const WallTable& table, const WallView& view, const Shaft& shaft, int half,
-                                const int* list, const int* end, int* counts, Doubt* doubts) {
-  constexpr int own = parts / halves;
-  const int first = half * receivers / halves;
-  Floats x[own], y[own];
-  for (int i = 0; i < own; ++i) x[i] = shaft.x[half * own + i], y[i] = shaft.y[half * own + i];
-  const int* const materials = table.walls->material;
-  const float* const first_seen = view.seen->ax;
-  for (; list != end; ++list) {
-    const float* const seen = first_seen + *list;  // its columns are a block apart
-    const float ax = seen[0], ay = seen[block], bx = seen[2 * block], by = seen[3 * block], area = seen[4 * block];
-    const float surely = seen[6 * block], perhaps = seen[7 * block];
-    int* const count = counts + materials[*list] * receivers + first;
-    Mask doubtful[own], any(false);
-    Integers counted[own];
-    for (int i = 0; i < own; ++i) {
-      const Floats from_a = x[i] * ay - y[i] * ax, from_b = y[i] * bx - x[i] * by;
-      const Floats decides = max(max(from_a, from_b), from_a + from_b + area);
-      counted[i] = minus_if_negative(decides);
-      (Integers(count + i * lanes, stdx::vector_aligned) - counted[i]).copy_to(count + i * lanes, stdx::vector_aligned);
-      doubtful[i] = decides > surely && decides < perhaps;
-      any = any || doubtful[i];
-    }
-    if (stdx::none_of(any)) continue;
-    *doubts = {*list / stride * block + *list % stride, 0};
-    for (int i = 0; i < own; ++i) {
-      doubts->lanes |= bits(doubtful[i]) << (first + i * lanes);
-      for (int k = 0; k < lanes; ++k) count[i * lanes + k] += doubtful[i][k] ? counted[i][k] : 0;
-    }
+MUSTER_INLINE void add(const Integers& number, int* to) {
+  (Integers(to, stdx::vector_aligned) + number).copy_to(to, stdx::vector_aligned);
+}
+
+// One wall, as a radio sees it.
+struct Wall {
+  Floats ax, ay, bx, by, area, margin;
+
+  MUSTER_INLINE explicit Wall(const float* seen)  // its columns are a block apart
+      : ax(seen[0]),
+        ay(seen[block]),
+        bx(seen[2 * block]),
+        by(seen[3 * block]),
+        area(seen[4 * block]),
+        margin(seen[6 * block]) {}
+  // Below zero where the link to a receiver crosses it.
+  MUSTER_INLINE Floats decides(const Floats& x, const Floats& y) const {
+    const Floats from_a = x * ay - y * ax, from_b = y * bx - x * by;
+    return max(max(from_a, from_b), from_a + from_b + area);
+  }
+};
+
+// Counts a wall for the receivers [first, last) and returns those for whom rounding may decide, who are not counted.
+template <int first, int last>
+MUSTER_INLINE unsigned count_wall(const Wall& wall, const Shaft& shaft, int* counts) {
+  constexpr int number = (last - first) / lanes;
+  Floats decides[number], nearest = huge;
+  for (int i = 0; i < number; ++i) {
+    const int from = first + i * lanes;
+    decides[i] = wall.decides(load(shaft.x + from), load(shaft.y + from));
+    add(-minus_if_negative(decides[i]), counts + from);
+    nearest = min(magnitude(decides[i]), nearest);
+  }
+  if (__builtin_expect(stdx::none_of(nearest < wall.margin), true)) return 0;
+  unsigned doubtful = 0;
+  for (int i = 0; i < number; ++i) {
+    const Mask near = magnitude(decides[i]) < wall.margin;
+    add(minus_if_negative(choose(near, decides[i], 0)), counts + first + i * lanes);
+    doubtful |= bits(near) << (first + i * lanes);
+  }
+  return doubtful;
+}
+
+// For whom the wall may be crossed.
+MUSTER_INLINE unsigned may_cross(const Wall& wall, const Shaft& shaft) {
+  unsigned result = 0;
+  for (int i = 0; i < receivers; i += lanes) {
+    result |= bits(wall.decides(load(shaft.x + i), load(shaft.y + i)) < wall.margin) << i;
+  }
+  return result;
+}
+
+// What a shaft's walls are counted into.
+struct Counting {
+  const WallTable& table;
+  const WallView& view;
+  const Shaft& shaft;
+  int* counts;
+  Doubt* doubts;
+
+  MUSTER_INLINE Wall wall(int offset) const { return Wall(view.seen->ax + offset); }
+  MUSTER_INLINE void doubt(int offset, unsigned for_whom) {
+    *doubts = {offset / stride * block + offset % stride, for_whom};
     ++doubts;
   }
-  return doubts;
-}
+  template <int first, int last>
+  MUSTER_INLINE void add_walls(const int* offset, const int* end) {
+    for (; offset != end; ++offset) {
+      int* const of_material = counts + table.walls->material[*offset] * receivers;
+      const unsigned doubtful = count_wall<first, last>(wall(*offset), shaft, of_material);
+      if (doubtful != 0) doubt(*offset, doubtful);
+    }
+  }
+  MUSTER_INLINE void doubt_walls(const int* offset, const int* end) {
+    for (; offset != end; ++offset) {
+      if (const unsigned for_whom = may_cross(wall(*offset), shaft); for_whom != 0) doubt(*offset, for_whom);
+    }
+  }
+};
 
-int count(const WallTable& table, const WallView& view, const float* x, const float* y, const float* z, int* counts,
-          Doubt* doubts) {
-  const Shaft shaft = shaft_to(view, x, y, z);
-  const int blocks =
-      surviving(table, view, [&](const Floats& west, const Floats& east, const Floats& south, const Floats& north) {
-        return meets(shaft, west, east, south, north);
-      });
-  int* end[halves] = {view.other, view.third};
-  list_walls(table, view, shaft, blocks, end);
+int count(const WallTable& table, const WallView& view, const Shaft& shaft, int* counts, Doubt* doubts) {
   for (int i = 0; i < table.materials * receivers; i += lanes) Integers(0).copy_to(counts + i, stdx::vector_aligned);
-  const Doubt* const first = doubts;
-  doubts = count_half(table, view, shaft, 0, view.other, end[0], counts, doubts);
-  doubts = count_half(table, view, shaft, 1, view.third, end[1], counts, doubts);
-  return static_cast<int>(doubts - first);
+  Counting counting{table, view, shaft, counts, doubts};
+  if (table.blocks <= widest_scene) {
+    const auto listed = list_walls<1>(table, view, shaft, {Between(shaft.all)});
+    counting.add_walls<0, receivers>(view.lists[1], listed.end[0]);
+    counting.doubt_walls(view.lists[3], listed.open_end);
+  } else {
+    constexpr int half = receivers / 2;
+    const Between one(directions(shaft, 0, half)), other(directions(shaft, half, receivers));
+    const auto listed = list_walls<2>(table, view, shaft, {one, other});
+    counting.add_walls<0, half>(view.lists[1], listed.end[0]);
+    counting.add_walls<half, receivers>(view.lists[2], listed.end[1]);
+    counting.doubt_walls(view.lists[3], listed.open_end);
+  }
+  return static_cast<int>(counting.doubts - doubts);
 }
 
 // Boxes that reach over the line of the one link to (x, y), and within its own box.
@@ -303,12 +364,12 @@ int count_one(const WallTable& table, const WallView& view, float to_x, float to
   const Line line{to_x - view.x, to_y - view.y};
   const float low = min(view.z, to_z), high = max(view.z, to_z), far = max(magnitude(line.x), magnitude(line.y));
   const int blocks =
-      surviving(table, view, [&](const Floats& west, const Floats& east, const Floats& south, const Floats& north) {
+      surviving(table, view, [=](const Floats& west, const Floats& east, const Floats& south, const Floats& north) {
         return line.meets(west, east, south, north);
       });
   const Doubt* const first = doubts;
   for (int i = 0; i < blocks; ++i) {
-    const WallBlock& wall = table.walls[view.one[i]];
+    const WallBlock& wall = table.walls[view.lists[0][i]];
     unsigned open = 0;
     for (int k = 0; k < block; k += lanes) {
       const Floats ax = load(wall.ax + k) - view.x, ay = load(wall.ay + k) - view.y;
@@ -325,7 +386,7 @@ int count_one(const WallTable& table, const WallView& view, float to_x, float to
       for (unsigned set = bits(crossed); set != 0; set &= set - 1) ++counts[wall.material[k + __builtin_ctz(set)]];
       open |= bits(near && !crossed) << k;
     }
-    if (open != 0) *doubts++ = {view.one[i] * block, open};
+    if (open != 0) *doubts++ = {view.lists[0][i] * block, open};
   }
   return static_cast<int>(doubts - first);
 }
@@ -333,6 +394,6 @@ int count_one(const WallTable& table, const WallView& view, float to_x, float to
 }  // namespace
 
 extern const WallKernel MUSTER_KERNEL;
-const WallKernel MUSTER_KERNEL = {MUSTER_TEXT(MUSTER_KERNEL), look, count, count_one};
+const WallKernel MUSTER_KERNEL = {MUSTER_TEXT(MUSTER_KERNEL), look, aim, count, count_one};
 
 }  // namespace muster::scene

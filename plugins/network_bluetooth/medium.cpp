@@ -78,17 +78,17 @@ void Medium::look_who_is_there() {
 }
 
 void Medium::handle(const packets::Event& event) {
-  switch (event.kind) {
+  switch (event.kind()) {
     case frame_ends:
-      return end_frame(event.which, event.at);
+      return end_frame(event.number(), event.at);
     case request_comes:
-      if (post_.take(event.which, settings_.queue)) begin_message(post_.requests()[event.which].from, event.at);
+      if (post_.take(event.number(), settings_.queue)) begin_message(post_.requests()[event.number()].from, event.at);
       return;
     case packet_expires:
-      if (radios_[event.which].expires == event.at) expire(event.which, event.at);
+      if (radios_[event.number()].expires == event.at) expire(event.number(), event.at);
       return;
     case slave_answers:
-      if (radios_[event.which].answers == event.at) answer(event.which, event.at);
+      if (radios_[event.number()].answers == event.at) answer(event.number(), event.at);
       return;
     default:
       if (turn_ == event.at) take_turn(event.at);

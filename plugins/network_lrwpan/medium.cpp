@@ -60,17 +60,17 @@ const Report& Medium::run(Time since, Time until, const Channel& channel, const 
 }
 
 void Medium::handle(const packets::Event& event) {
-  switch (event.kind) {
+  switch (event.kind()) {
     case frame_ends:
-      return end_frame(event.which, event.at);
+      return end_frame(event.number(), event.at);
     case request_comes:
-      if (post_.take(event.which, settings_.queue)) compete(post_.requests()[event.which].from, event.at);
+      if (post_.take(event.number(), settings_.queue)) compete(post_.requests()[event.number()].from, event.at);
       return;
     case phase_ends:
-      if (radios_[event.which].due == event.at) end_phase(event.which, event.at);  // else it ended early
+      if (radios_[event.number()].due == event.at) end_phase(event.number(), event.at);  // else it ended early
       return;
     default:
-      if (radios_[event.which].ack_due == event.at) send_ack(event.which, event.at);
+      if (radios_[event.number()].ack_due == event.at) send_ack(event.number(), event.at);
   }
 }
 

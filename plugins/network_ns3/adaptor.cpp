@@ -139,10 +139,19 @@ Fate Adaptor::fate_of(const Message& message, std::size_t to, End why) const {
   if (!world_.alive[to]) return Fate::gone;
   if (why == End::queue_full) return Fate::queue_full;
   if (why == End::no_access) return Fate::no_access;
+  if (why == End::lost) return hears_anybody(to) ? Fate::collided : Fate::no_link;
   const std::size_t link = world_.link(message.from, to);
   if (!std::isfinite(world_.level[link])) return Fate::no_link;
   if (is_null(world_.rssi[link]) || world_.level[link] < noise_ + 3) return Fate::too_weak;
   return why == End::no_ack ? Fate::no_ack : Fate::collided;
+}
+
+bool Adaptor::hears_anybody(std::size_t radio) const {
+  for (std::size_t from = 0; from < world_.radios(); ++from) {
+    const std::size_t link = world_.link(from, radio);
+    if (world_.alive[from] && std::isfinite(world_.level[link]) && !is_null(world_.rssi[link])) return true;
+  }
+  return false;
 }
 
 void Adaptor::settle(Message& message, Fate fate) {
@@ -158,7 +167,7 @@ void Adaptor::hand_over(const Step& k) {
     made[i].from = static_cast<double>(message.from);
     made[i].rssi = arrival.rssi;
     // On the scale of network.lrwpan, from noise alone.
-    const double snr = world_.level[world_.link(message.from, arrival.to)] - noise_;
+    const double snr = world_.level[world_.link(arrival.hop, arrival.to)] - noise_;
     made[i].lqi = std::round(255 * std::clamp((snr + 5) / 35, 0.0, 1.0));
     made[i].t_sent = message.asked;
     made[i].t_received = arrival.at;

@@ -41,6 +41,7 @@ class Adaptor {
   void deliver(Arrival arrival);
   void end(std::uint64_t number, End why);
   packets::Fate fate_of(const Message& message, std::size_t to, End why) const;
+  bool hears_anybody(std::size_t radio) const;
   void settle(Message& message, packets::Fate fate);
   void hand_over(const Step& k);
   void count(const Step& k);

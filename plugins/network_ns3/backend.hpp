@@ -35,14 +35,14 @@ struct Request {
 // A message that came to a radio.
 struct Arrival {
   std::uint64_t message;
-  std::size_t to;
-  double at;    // s
-  double rssi;  // dBm, of its last frame
+  std::size_t to, hop;  // at whom, and from whom it came there
+  double at;            // s
+  double rssi;          // dBm, of its last frame
   std::string payload;
 };
 
-// Why nothing more comes of a message.
-enum class End { sent = 1, no_access, no_ack, queue_full };
+// Why nothing more comes of a message. `lost`: somewhere on a way over several radios.
+enum class End { sent = 1, no_access, no_ack, queue_full, lost };
 
 class Backend {
  public:

@@ -1,49 +1,15 @@
 #include "ns3_lr_wpan.hpp"
 
 #include <ns3/core-module.h>
-#include <ns3/lr-wpan-module.h>
-#include <ns3/mobility-module.h>
-#include <ns3/network-module.h>
-#include <ns3/propagation-module.h>
-#include <ns3/spectrum-module.h>
 
-#include <algorithm>
-#include <cmath>
 #include <deque>
 #include <map>
 #include <unordered_map>
 
+#include "ns3_radios.hpp"
+
 namespace muster::external {
 namespace {
-
-// Our channel as ns-3's: what a radio receives of another that sends at 0 dBm. A frame is received at the level of the
-// moment when it begins.
-class OurLoss final : public ns3::PropagationLossModel {
- public:
-  void join(const ns3::MobilityModel* place) { numbers_.emplace(place, numbers_.size()); }
-  void set(const World& world) {
-    world_ = &world;
-    rssi_.resize(world.radios());
-    for (auto& row : rssi_) row.resize(world.radios());
-  }
-  // Of the last frame between the two.
-  double rssi(std::size_t from, std::size_t to) const { return rssi_[from][to]; }
-
- private:
-  double DoCalcRxPower(double tx_power, ns3::Ptr<ns3::MobilityModel> a, ns3::Ptr<ns3::MobilityModel> b) const override {
-    const std::size_t from = numbers_.at(ns3::PeekPointer(a)), to = numbers_.at(ns3::PeekPointer(b));
-    const std::size_t link = world_->link(from, to);
-    rssi_[from][to] = world_->rssi[link];
-    const bool both = world_->alive[from] && world_->alive[to];
-    return both ? std::max(nothing, tx_power + world_->level[link]) : nothing;
-  }
-  int64_t DoAssignStreams(int64_t) override { return 0; }
-
-  std::unordered_map<const ns3::MobilityModel*, std::size_t> numbers_;
-  const World* world_ = nullptr;
-  mutable std::vector<std::vector<double>> rssi_;
-  static constexpr double nothing = -1000;  // dBm
-};
 
 // Fragments as RFC 4944 cuts them: all but the last carry a multiple of 8 octets behind a header of 4, then of 5.
 constexpr std::size_t in_one_frame = 127 - 11, in_a_fragment = (in_one_frame - 5) / 8 * 8;
@@ -54,57 +20,38 @@ std::size_t fragments_of(std::size_t size) {
 
 class Ns3LrWpan final : public Backend {
  public:
-  explicit Ns3LrWpan(const LrWpanSettings& settings) : settings_(settings) {}
+  explicit Ns3LrWpan(const LrWpanSettings& settings) : settings_(settings), air_(settings.noise) {}
   ~Ns3LrWpan() override {
-    if (!channel_) return;
     for (auto& radio : radios_) {
-      radio->device->GetMac()->SetMcpsDataConfirmCallback(ns3::McpsDataConfirmCallback());
-      radio->device->GetMac()->SetMcpsDataIndicationCallback(ns3::McpsDataIndicationCallback());
+      radio->mac->SetMcpsDataConfirmCallback(ns3::McpsDataConfirmCallback());
+      radio->mac->SetMcpsDataIndicationCallback(ns3::McpsDataIndicationCallback());
     }
-    ns3::Simulator::Destroy();
   }
 
-  void init(const World& world, std::uint64_t seed) override {
-    start_ = world.time;
-    ns3::RngSeedManager::SetSeed(static_cast<std::uint32_t>(seed % 4294967087u) + 1);
-    ns3::RngSeedManager::SetRun(1);
-    loss_ = ns3::CreateObject<OurLoss>();
-    channel_ = ns3::CreateObject<ns3::SingleModelSpectrumChannel>();
-    channel_->SetAttribute("MaxLossDb", ns3::DoubleValue(300));
-    channel_->AddPropagationLossModel(loss_);
-    channel_->SetPropagationDelayModel(ns3::CreateObject<ns3::ConstantSpeedPropagationDelayModel>());
-  }
+  void init(const World& world, std::uint64_t seed) override { air_.init(world, seed); }
 
   void moved(const World& world) override {
-    world_ = world;
-    while (radios_.size() < world.radios()) join();
+    air_.moved(world);
+    while (radios_.size() < world.radios()) join(air_.all()[radios_.size()].device->GetMac());
     for (std::size_t i = 0; i < radios_.size(); ++i) {
-      const auto& [x, y, z] = world.places[i];
-      radios_[i]->place->SetPosition({x, y, z});
       if (!world.alive[i]) radios_[i]->queue.clear();
     }
-    loss_->set(world_);
   }
 
   void request(Request request) override {
     const auto node = static_cast<std::uint32_t>(request.from);
-    const ns3::Time after = std::max(at(request.at) - ns3::Simulator::Now(), ns3::Time(0));
-    ns3::Simulator::ScheduleWithContext(node, after,
+    ns3::Simulator::ScheduleWithContext(node, air_.until(request.at),
                                         [this, request = std::move(request)]() mutable { take(std::move(request)); });
   }
 
-  void advance(double until) override {
-    ns3::Simulator::Stop(at(until) - ns3::Simulator::Now());
-    ns3::Simulator::Run();
-  }
+  void advance(double until) override { air_.advance(until); }
 
  private:
   // What one radio still has to send, and ns-3's radio.
   struct Radio {
     Ns3LrWpan* owner;
     std::size_t number;
-    ns3::Ptr<ns3::ConstantPositionMobilityModel> place;
-    ns3::Ptr<ns3::LrWpanNetDevice> device;
+    ns3::Ptr<ns3::LrWpanMac> mac;
     std::deque<Request> queue;
     std::size_t next = 0;                // fragment of the first message
     std::uint64_t sending = 0, uid = 0;  // the message whose frame ns-3 has, and its number there; 0: none
@@ -124,41 +71,14 @@ class Ns3LrWpan final : public Backend {
     std::uint64_t message;
   };
 
-  // Since the simulation began; ns-3 counts nanoseconds.
-  ns3::Time at(double time) const { return ns3::NanoSeconds(std::llround(1e9 * (time - start_))); }
-
-  void join() {
+  void join(const ns3::Ptr<ns3::LrWpanMac>& mac) {
     auto radio = std::make_unique<Radio>();
     radio->owner = this;
     radio->number = radios_.size();
-    radio->place = ns3::CreateObject<ns3::ConstantPositionMobilityModel>();
-    radio->device = ns3::CreateObject<ns3::LrWpanNetDevice>();
-    radio->device->SetChannel(channel_);
-    auto node = ns3::CreateObject<ns3::Node>();
-    node->AggregateObject(radio->place);
-    node->AddDevice(radio->device);
-    ns3::LrWpanSpectrumValueHelper spectrum;
-    auto phy = radio->device->GetPhy();
-    phy->SetMobility(radio->place);
-    phy->SetTxPowerSpectralDensity(spectrum.CreateTxPowerSpectralDensity(0, 11));
-    auto noise = spectrum.CreateNoisePowerSpectralDensity(11);
-    *noise *= std::pow(10, (settings_.noise - ns3_noise) / 10);
-    phy->SetNoisePowerSpectralDensity(noise);
-    auto mac = radio->device->GetMac();
-    radio->device->SetAddress(address_of(radio->number));
-    mac->SetPanId(0);
+    radio->mac = mac;
     mac->SetMcpsDataConfirmCallback(ns3::MakeCallback(&Radio::confirm, radio.get()));
     mac->SetMcpsDataIndicationCallback(ns3::MakeCallback(&Radio::indicate, radio.get()));
-    radio->device->AssignStreams(static_cast<int64_t>(16 * radio->number));
-    loss_->join(ns3::PeekPointer(radio->place));
     radios_.push_back(std::move(radio));
-  }
-
-  static ns3::Mac16Address address_of(std::size_t radio) {
-    const std::uint8_t bytes[] = {static_cast<std::uint8_t>((radio + 1) >> 8), static_cast<std::uint8_t>(radio + 1)};
-    ns3::Mac16Address result;
-    result.CopyFrom(bytes);
-    return result;
   }
 
   void take(Request request) {
@@ -183,9 +103,9 @@ class Ns3LrWpan final : public Backend {
     ns3::McpsDataRequestParams how;
     how.m_dstPanId = 0;
     how.m_srcAddrMode = how.m_dstAddrMode = ns3::SHORT_ADDR;
-    how.m_dstAddr = message.to == everyone ? ns3::Mac16Address("ff:ff") : address_of(message.to);
+    how.m_dstAddr = message.to == everyone ? ns3::Mac16Address("ff:ff") : Ns3Radios::address_of(message.to);
     how.m_txOptions = message.to != everyone && settings_.acknowledge ? ns3::TX_OPTION_ACK : ns3::TX_OPTION_NONE;
-    radio.device->GetMac()->McpsDataRequest(how, frame);
+    radio.mac->McpsDataRequest(how, frame);
   }
 
   // A frame that was sent again, since its acknowledgement was lost, comes twice.
@@ -204,8 +124,7 @@ class Ns3LrWpan final : public Backend {
     frame->CopyData(reinterpret_cast<std::uint8_t*>(all.data()), frame->GetSize());
     bytes.append(all, head);
     if (++count == fragments)
-      deliver({it.message, at.number, start_ + ns3::Simulator::Now().GetSeconds(), loss_->rssi(it.from, at.number),
-               std::move(bytes)});
+      deliver({it.message, at.number, it.from, air_.now(), air_.rssi(it.from, at.number), std::move(bytes)});
   }
 
   void confirm(Radio& radio, const ns3::McpsDataConfirmParams& result) {
@@ -236,12 +155,8 @@ class Ns3LrWpan final : public Backend {
     send(radio);
   }
 
-  static constexpr double ns3_noise = -106.987;  // dBm, of 5 MHz at 290 K
   LrWpanSettings settings_;
-  World world_;
-  double start_ = 0;
-  ns3::Ptr<OurLoss> loss_;
-  ns3::Ptr<ns3::SingleModelSpectrumChannel> channel_;
+  Ns3Radios air_;
   std::vector<std::unique_ptr<Radio>> radios_;
   std::unordered_map<std::uint64_t, Sent> sent_;  // by ns-3's number of the packet
 };

@@ -108,22 +108,22 @@ void Medium::look_for_jammers(Time since) {
 
 void Medium::handle(const packets::Event& event) {
   const Time at = event.at;
-  switch (event.kind) {
+  switch (event.kind()) {
     case frame_ends:
-      return end_frame(event.which, at);
+      return end_frame(event.number(), at);
     case request_comes:
-      if (post_.take(event.which, settings_.queue)) start(post_.requests()[event.which].from, at);
+      if (post_.take(event.number(), settings_.queue)) start(post_.requests()[event.number()].from, at);
       return;
     case station_is_due:
       return send_due(at);
     case ack_is_due:
-      if (stations_[event.which].ack_due == at) send_ack(event.which, at);
+      if (stations_[event.number()].ack_due == at) send_ack(event.number(), at);
       return;
     case wait_ends:
-      if (stations_[event.which].timeout == at) end_wait(event.which, at);
+      if (stations_[event.number()].timeout == at) end_wait(event.number(), at);
       return;
     case frame_is_noticed:
-      air_.drop_weak(event.which, at, found_above);
+      air_.drop_weak(event.number(), at, found_above);
       return look_all(at);
     case jammer_switches:
       air_.hear(at);

@@ -127,6 +127,13 @@ void shadow(const ShadowTile& from, int place, const ShadowTile& to, unsigned wa
   }
 }
 
+// By way of memory, lest each number be taken out of its vector by itself.
+MUSTER_INLINE void put(const Floats& sums, double factor, double* out) {
+  alignas(64) float each[lanes];
+  sums.copy_to(each, stdx::vector_aligned);
+  for (int i = 0; i < lanes; ++i) out[i] = factor * static_cast<double>(each[i]);
+}
+
 void fading(const FadingTile& from, int place, const FadingTile& to, unsigned wanted, double* re, double* im) {
   for (int first = 0; first < tile; first += lanes) {
     if (!is_wanted(wanted, first)) continue;
@@ -140,10 +147,8 @@ void fading(const FadingTile& from, int place, const FadingTile& to, unsigned wa
       sum_im += (a_re * b_im + a_im * b_re) + (c_re * d_im + c_im * d_re);
     }
     static_assert(fading_waves == 32, "the root of 0.5 / 32 is 1 / 8");
-    for (int i = 0; i < lanes; ++i) {
-      re[first + i] = 0.125 * static_cast<double>(sum_re[i]);
-      im[first + i] = 0.125 * static_cast<double>(sum_im[i]);
-    }
+    put(sum_re, 0.125, re + first);
+    put(sum_im, 0.125, im + first);
   }
 }
 

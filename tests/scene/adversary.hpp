@@ -1,15 +1,18 @@
 // Links that are hard to count, through every kernel, against what is known to be right: the twin, which moves the
-// radios and works in rational numbers, where nearly every link is degenerate; one link at a time, on large floors.
+// radios and works in rational numbers, where nearly every link is degenerate; and radios that are shifted in symbols,
+// on large floors.
 #pragma once
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "drawing.hpp"
 #include "scene/lattice.hpp"
+#include "shifted.hpp"
 #include "twin.hpp"
 
 namespace muster::scene {
@@ -108,11 +111,12 @@ inline long compare_with_twin(unsigned seed, int buildings) {
 // step beside them, in line with them, one on another.
 class Floor {
  public:
-  explicit Floor(unsigned seed) : random_(seed), x_(900 * real(-1, 1)), y_(900 * real(-1, 1)) {
+  explicit Floor(unsigned seed, int rows = 10, int columns = 14)
+      : random_(seed), x_((970 - 3 * (rows + columns)) * real(-1, 1)), y_((970 - 3 * (rows + columns)) * real(-1, 1)) {
     const double turn = random_() % 2 == 0 ? 0 : real(0, 7);
     const double dx = 3 * std::cos(turn), dy = 3 * std::sin(turn);
-    for (int i = 0; i < 14; ++i) {
-      for (int k = 0; k < 10; ++k) {
+    for (int i = 0; i < columns; ++i) {
+      for (int k = 0; k < rows; ++k) {
         const double x = x_ + i * dx - k * dy, y = y_ + i * dy + k * dx;
         if (below(4) > 0) add(x, y, x + dx, y + dy);
         if (below(4) > 0) add(x, y, x - dy, y + dx);
@@ -148,20 +152,29 @@ class Floor {
   double x_, y_;
 };
 
-// Floors of some 250 walls, against one link at a time. Returns the number of links, or 0 if one was wrong.
-inline long compare_with_single_links(unsigned seed, int floors) {
+// Floors of some 250 walls, or with so many rows and columns of rooms: many links at once and one at a time, against
+// shifted radios. Returns the number of links, or 0 if one was wrong.
+inline long compare_with_shifted_radios(unsigned seed, int floors, int rows = 10, int columns = 14) {
   long compared = 0;
   for (int i = 0; i < floors; ++i) {
-    Floor floor(seed + static_cast<unsigned>(i));
+    Floor floor(seed + static_cast<unsigned>(i), rows, columns);
     const Scene scene(floor.walls, floor.doors, materials);
+    const ShiftedRadios shifted(floor.walls, floor.doors);
     for (const int number : {100, 10}) {
       std::vector<Point> points;
       for (int k = 0; k < number; ++k) points.push_back(floor.point());
       const auto links = all_pairs(points.size());
+      bool alone = true;
       const auto exact = [&](const Pair& link, int* by_material) {
-        scene.counts(points[link.from], points[link.to], by_material);
+        int of_one[materials];
+        scene.counts(points[link.from], points[link.to], of_one);
+        std::fill_n(by_material, materials, 0);
+        shifted.add_counts(points[link.from], points[link.to], by_material);
+        alone = alone && std::equal(of_one, of_one + materials, by_material);
       };
       if (!agree(scene, points, links, exact)) return 0;
+      EXPECT_TRUE(alone) << "a single link is counted otherwise, of floor " << seed + static_cast<unsigned>(i);
+      if (!alone) return 0;
       compared += static_cast<long>(links.size());
     }
   }

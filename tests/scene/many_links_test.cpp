@@ -11,7 +11,10 @@ namespace {
 
 TEST(ManyLinks, AgreeWithTheTwinOnHalfAMillion) { EXPECT_GT(compare_with_twin(1, 500), 500'000); }
 
-TEST(ManyLinks, AgreeWithSingleLinksOnHalfAMillion) { EXPECT_GT(compare_with_single_links(2, 50), 500'000); }
+TEST(ManyLinks, AgreeWithShiftedRadiosOnHalfAMillion) { EXPECT_GT(compare_with_shifted_radios(2, 50), 500'000); }
+
+// So large that receivers are taken by their direction, and by halves.
+TEST(ManyLinks, AgreeWithShiftedRadiosOnLargeFloors) { EXPECT_GT(compare_with_shifted_radios(3, 5, 30, 30), 50'000); }
 
 // The width of a machine's vectors is no part of the result, so each that it has must be there to be compared.
 TEST(ManyLinks, AreCountedByEveryKernelOfThisMachine) {

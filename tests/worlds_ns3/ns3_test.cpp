@@ -1,8 +1,10 @@
-// Row 26 of the requirements: ns-3 behind the same messages, against our own network on one world; and what it cannot
-// do. What every network keeps, it keeps in tests/plugins_radio/network_conformance.cpp.
+// Rows 23 and 26 of the requirements: ns-3 behind the same messages, against our own network on one world, and as a
+// network that routes by itself; and what it cannot do. What every network keeps, it keeps in
+// tests/plugins_radio/network_conformance.cpp.
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <map>
 
 #include "tests/plugins_radio/world_of.hpp"
 
@@ -94,6 +96,116 @@ TEST_F(Ns3, InNoiseTheSameShareArrivesAtEachDistance) {
     EXPECT_NEAR(share(our_own, delivered), share(theirs, delivered), 0.05);  // three deviations of 1800 messages
   }
 }
+
+// ---- Routing by ns-3 ------------------------------------------------------------------------------------------------
+
+// Radios r0, r1, ... 10 m apart, of which each hears its neighbours only, and a message from the first.
+std::string chain(int radios, const std::string& message, int missing = -1) {
+  std::string result;
+  for (int i = 0; i < radios; ++i)
+    if (i != missing) result += station('r' + std::to_string(i), std::to_string(10 * i) + " 0 1");
+  return result + "<radio.links range=\"600\"/><radio.multiwall n=\"3\"/><radio.receiver sensitivity=\"-73.5\"/>" +
+         "<test.sender name=\"s\" from=\"r0\" only=\"1\" " + message + "/>\n";
+}
+const std::string mesh = "<network.ns3 name=\"network\" routing=\"mesh\"/>\n";
+
+double of_first(const Simulation& sim, std::size_t column) { return sim.table("radio/r0/traffic").at(0, column); }
+
+// Runs so many ticks. Who got the message of the first as it was sent in tick 1, radio by radio: r12, say.
+std::string who_got_it(Simulation& sim, int ticks, std::size_t size) {
+  std::string result = "r";
+  for (int tick = 0; tick < ticks; ++tick) {
+    sim.step();
+    const TableView inbox = sim.table("inbox/*/message");
+    const Cells& cells = inbox.table->now();
+    for (std::size_t row = 0; row < inbox.rows(); ++row) {
+      if (cells.appended[row] != sim.tick()) continue;
+      EXPECT_EQ(inbox.at(row, 1), 0) << "from another radio";
+      EXPECT_NEAR(inbox.at(row, 2), -70, 1) << "rssi is that of the last hop, of 10 m";
+      const auto blob = static_cast<std::size_t>(inbox.at(row, Incoming::payload_column));
+      const auto& bytes = *cells.blobs.at(blob - 1);
+      EXPECT_EQ(bytes.size(), size);
+      for (std::size_t i = 0; i < size; ++i) EXPECT_EQ(static_cast<char>(bytes[i]), static_cast<char>(mixed(i + 1)));
+      result += std::to_string(static_cast<int>(inbox.at(row, 0)));
+    }
+  }
+  return result;
+}
+
+TEST_F(Ns3, Row23OnlyItsMeshReachesWhoIsOutOfHearing) {
+  const auto reached = [&](const std::string& to, const std::string& network) {
+    Simulation sim = world(chain(5, to + " size=\"20\"") + network);
+    return who_got_it(sim, 30, 20);
+  };
+  EXPECT_EQ(reached("to=\"r4\"", ns3), "r");
+  EXPECT_EQ(reached("to=\"r4\"", mesh), "r4");
+  EXPECT_EQ(reached("", ns3), "r1");
+  EXPECT_EQ(reached("", mesh), "r1234");
+}
+
+// Nobody acknowledges, so that what is passed on must not meet what is still to come.
+TEST_F(Ns3, Row23ItsMeshPutsLongMessagesTogether) {
+  const auto reached = [&](int radios, const std::string& to, std::size_t size) {
+    Simulation sim = world(chain(radios, to + " size=\"" + std::to_string(size) + "\"") + mesh);
+    return who_got_it(sim, 60, size);
+  };
+  EXPECT_EQ(reached(2, "", 0), "r1");
+  EXPECT_EQ(reached(3, "to=\"r2\"", 300), "r2") << "in fragments";
+  EXPECT_EQ(reached(2, "to=\"r1\"", 5000), "r1") << "in packets";
+}
+
+// The same message by a routing of ours on ns-3's network and on our own.
+TEST_F(Ns3, Row23RoutingsOfOursReachThemToo) {
+  const std::string to = "to=\"r4\" size=\"20\"";
+  for (const std::string routing : {"routing.flooding", "routing.aodv"}) {
+    for (const std::string& network : {ns3, ours}) {
+      Simulation sim = world(chain(5, to) + network + "<" + routing + " name=\"routing\"/>\n");
+      EXPECT_EQ(who_got_it(sim, 100, 20), "r4") << routing;
+    }
+  }
+}
+
+TEST_F(Ns3, ItsMeshTakesSoManyHopsAndNoMore) {
+  for (const auto& [hops, reached] : std::map<int, std::string>{{3, "r123"}, {4, "r1234"}}) {
+    Simulation sim = world(chain(5, "") + "<network.ns3 name=\"network\" routing=\"mesh\" hops=\"" +
+                           std::to_string(hops) + "\"/>\n");
+    EXPECT_EQ(who_got_it(sim, 30, 16), reached);
+  }
+}
+
+// Ten seconds after its last frame a copy that has not come is lost.
+TEST_F(Ns3, EachCopyInItsMeshHasOneOutcome) {
+  Simulation sim = world(chain(5, "", 3) + mesh);
+  EXPECT_EQ(who_got_it(sim, 90, 16), "r12");
+  EXPECT_EQ(of_first(sim, asked), 3);
+  EXPECT_EQ(of_first(sim, delivered), 2);
+  EXPECT_EQ(of_first(sim, collided) + of_first(sim, no_link), 0) << "too early";
+  run(sim, 30);
+  EXPECT_EQ(of_first(sim, no_link), 1) << "it hears nobody";
+}
+
+// The flood of many messages at once fills the air: some are lost, none twice, and the counts add up.
+TEST_F(Ns3, AMeshUnderLoadLosesMessagesAndCountsThem) {
+  std::string senders;
+  for (int i = 0; i < 5; ++i)
+    senders += "<test.sender name=\"t" + std::to_string(i) + "\" from=\"r" + std::to_string(i) + "\" to=\"r" +
+               std::to_string((i + 3) % 5) + "\" count=\"3\" size=\"80\"/>\n" + "<swap at=\"3\" instance=\"t" +
+               std::to_string(i) + "\" plugin=\"test.sender\" from=\"r0\" count=\"0\"/>\n";
+  Simulation sim = world(chain(5, "count=\"0\"") + senders + mesh);
+  run(sim, 600);
+  const TableView traffic = sim.table("radio/*/traffic");
+  for (std::size_t r = 0; r < traffic.rows(); ++r) {
+    double ended = 0;
+    for (const auto column : {delivered, too_weak, no_link, collided, no_access, queue_full, no_ack, gone})
+      ended += traffic.at(r, column);
+    EXPECT_EQ(ended, traffic.at(r, asked));
+    EXPECT_GE(traffic.at(r, asked), 85);
+  }
+  EXPECT_GT(share(sim, delivered), 0.2);
+  EXPECT_LT(share(sim, delivered), 0.95);
+}
+
+// ---- What it cannot do ----------------------------------------------------------------------------------------------
 
 const std::string pair =
     station("a", "0 0 1") + station("b", "5 0 1") + "<radio.multiwall n=\"3\"/><test.sender name=\"s\" from=\"a\"/>\n";
