@@ -23,6 +23,7 @@ bool may_slide(const RobotModel& model, const Command& command) {
   return model.has_wheels && fastest * model.drive.wheel_radius > 0.5 * model.drive.friction * gravity;
 }
 
+// Whether they did in the last step.
 bool slides(const RobotModel& model, const Memory& memory) {
   return std::any_of(memory.impulse.begin(), memory.impulse.end(), [&](const auto& impulse) {
     return impulse[0] > 0 && std::hypot(impulse[1], impulse[2]) > 0.99 * model.drive.friction * impulse[0];
@@ -58,7 +59,11 @@ bool Mover::move(const Cluster& cluster, const std::vector<Extent>& reach, int c
   for (int k = 0; k < count; ++k) {
     if (!find_groups(cluster, count > 1 ? &reach : nullptr, h, states)) return false;
     for (std::size_t g = 0; g < cluster.robots.size(); ++g) {
-      if (!groups_[g].robots.empty()) advance(groups_[g], h, k * h, commands, states);
+      const Group& group = groups_[g];
+      const int parts =
+          group.robots.empty() ? 0 : std::max(group.parts, parts_if_it_slides(group, h, commands, states));
+      for (int part = 0; part < parts; ++part)
+        advance(group, h / parts, (k + (part + 0.5) / parts) * h, commands, states);
     }
   }
   return true;
@@ -103,26 +108,16 @@ int Mover::parts_of(const Group& group, double h, const std::vector<RobotState>&
   return parts_within(fast * h, longest_way);
 }
 
-// A robot by itself whose wheels turn out to slide begins again, in shorter steps.
-void Mover::advance(const Group& group, double h, double at, const std::vector<Command>& commands,
-                    std::vector<RobotState>& states) {
-  const auto in_parts = [&](int parts) {
-    for (int part = 0; part < parts; ++part)
-      take_step(group, h / parts, at + (part + 0.5) / parts * h, commands, states);
-  };
-  const int first = group.robots.front(), if_it_slides = parts_within(h, longest_slide);
-  if (group.robots.size() > 1 || if_it_slides <= group.parts) return in_parts(group.parts);
+int Mover::parts_if_it_slides(const Group& group, double h, const std::vector<Command>& commands,
+                              const std::vector<RobotState>& states) const {
+  const int parts = parts_within(h, longest_slide), first = group.robots.front();
+  if (group.robots.size() > 1 || parts == 1) return 1;
   const RobotModel& model = arena_.crew[first].model;
-  if (may_slide(model, commands[first])) return in_parts(if_it_slides);
-  const RobotState before = states[first];
-  in_parts(group.parts);
-  if (!slides(model, states[first].memory)) return;
-  states[first] = before;
-  in_parts(if_it_slides);
+  return may_slide(model, commands[first]) || slides(model, states[first].memory) ? parts : 1;
 }
 
-void Mover::take_step(const Group& group, double h, double at, const std::vector<Command>& commands,
-                      std::vector<RobotState>& states) {
+void Mover::advance(const Group& group, double h, double at, const std::vector<Command>& commands,
+                    std::vector<RobotState>& states) {
   const auto walks = [&](int i) { return !arena_.crew[i].model.legs.empty(); };
   if (is_in_the_air(group, h, states)) {
     const int i = group.robots.front();

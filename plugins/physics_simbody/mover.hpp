@@ -33,10 +33,10 @@ class Mover {
   bool find_groups(const Cluster& cluster, const std::vector<Extent>* reach, double h,
                    const std::vector<RobotState>& states);
   int parts_of(const Group& group, double h, const std::vector<RobotState>& states) const;
+  int parts_if_it_slides(const Group& group, double h, const std::vector<Command>& commands,
+                         const std::vector<RobotState>& states) const;
   void advance(const Group& group, double h, double at, const std::vector<Command>& commands,
                std::vector<RobotState>& states);
-  void take_step(const Group& group, double h, double at, const std::vector<Command>& commands,
-                 std::vector<RobotState>& states);
   bool is_in_the_air(const Group& group, double h, const std::vector<RobotState>& states) const;
 
   Arena& arena_;
