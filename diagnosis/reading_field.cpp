@@ -45,36 +45,28 @@ noise::Sites sites_of(const noise::Readings& readings) {
 ReadingField::ReadingField(const noise::Readings& readings, const VectorXd& residual)
     : residual_(residual(finite(residual))), field_(sites_of(some(readings, finite(residual))), conditioning) {}
 
-ReadingField ReadingField::untamed() const {
-  ReadingField result = *this;
-  result.far_off_ = std::numeric_limits<double>::infinity();
-  result.known_.clear();
-  return result;
-}
+ReadingField::ReadingField(VectorXd residual, noise::Field field, double far_off)
+    : residual_(std::move(residual)), field_(std::move(field)), far_off_(far_off) {}
 
-const ReadingField::Known& ReadingField::known(const FieldShape& shape, int place) {
+ReadingField ReadingField::untamed() const { return {residual_, field_, std::numeric_limits<double>::infinity()}; }
+
+const ReadingView& ReadingField::view(const FieldShape& shape, int place) {
   const auto found = known_.find({shape, place});
   if (found != known_.end()) return found->second;
   constexpr double log_variance = 3;  // the field's, dB^2; what is worked out does not depend on it
   const noise::Covariance at{shape.family, {log_variance, 1e-3 * shape.distance, log_variance + 1e-3 * place, 0}};
   const noise::Whitener whitener(field_, at);
   const VectorXd own = Eigen::Map<const VectorXd>(whitener.stencil().own.data(), size());
-  ReadingView view{1e-3 * place, {}, {}};
   const auto spread = (own.array().inverse().square() - at.reading_variance()) / at.field_variance();
-  view.log_spread = spread.max(1e-3).log();
-  const auto entry = known_.emplace(std::pair(shape, place), Known{std::move(view), whitener}).first;
-  entry->second.view.error = error_of(shape, place, residual_);
-  return entry->second;
+  ReadingView view{1e-3 * place, error_by(whitener), spread.max(1e-3).log()};
+  return known_.emplace(std::pair(shape, place), std::move(view)).first->second;
 }
 
-const ReadingView& ReadingField::view(const FieldShape& shape, int place) { return known(shape, place).view; }
-
-VectorXd ReadingField::error_of(const FieldShape& shape, int place, const VectorXd& residual) {
-  const noise::Whitener& whitener = known(shape, place).whitener;
+VectorXd ReadingField::error_by(const noise::Whitener& whitener) const {
   const VectorXd own = Eigen::Map<const VectorXd>(whitener.stencil().own.data(), size());
-  const VectorXd white = whitener(residual);
+  const VectorXd white = whitener(residual_);
   const VectorXd off = (white - white.cwiseMax(-far_off_).cwiseMin(far_off_)).cwiseQuotient(own);
-  return whitener(residual - off).cwiseQuotient(own) + off;
+  return whitener(residual_ - off).cwiseQuotient(own) + off;
 }
 
 CloseReadings ReadingField::close_readings() const {

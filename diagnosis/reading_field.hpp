@@ -44,23 +44,18 @@ class ReadingField {
   Eigen::Index size() const { return residual_.size(); }
   // `place`: a thousand times log_ratio. Worked out once.
   const ReadingView& view(const FieldShape& shape, int place);
-  // The same of other residuals at the same places.
-  Eigen::VectorXd error_of(const FieldShape& shape, int place, const Eigen::VectorXd& residual);
   const Eigen::VectorXd& residual() const { return residual_; }
   // Each reading in one pair at most.
   CloseReadings close_readings() const;
 
  private:
-  struct Known {
-    ReadingView view;
-    noise::Whitener whitener;
-  };
-  const Known& known(const FieldShape& shape, int place);
+  ReadingField(Eigen::VectorXd residual, noise::Field field, double far_off);
+  Eigen::VectorXd error_by(const noise::Whitener& whitener) const;
 
   Eigen::VectorXd residual_;
   noise::Field field_;
   double far_off_ = 4;  // standard deviations; what is further off tells its neighbours no more than that
-  std::map<std::pair<FieldShape, int>, Known> known_;
+  std::map<std::pair<FieldShape, int>, ReadingView> known_;
 };
 
 }  // namespace muster::diagnosis

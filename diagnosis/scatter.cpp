@@ -23,7 +23,7 @@ constexpr double unlikely = 6;                 // nats behind the best shape of 
 double wider(const std::string& cause) {
   return cause == "effect.fading_law" ? 3 : cause == "effect.channel_mixture" ? 2 : 1.5;
 }
-constexpr double worth_asking = 9;           // gain of a law that may be beyond chance
+const double may_be_named = std::log(0.01);  // log p; untamed readings, which take as long again, only raise it
 const double averaged_cost = std::log(5.0);  // nats: the stated law is that of single fades
 
 ReadingLaw averaged_over(ReadingLaw law, int n) {
@@ -254,7 +254,7 @@ LawTests law_tests(ReadingField& field, double step, const ReadingLaw& stated, c
   std::stable_sort(result.begin(), result.end(),
                    [](const LawTest& a, const LawTest& b) { return a.evidence > b.evidence; });
   const auto& [family, fitted] = best.at(result.front().cause);
-  if (result.front().gain > worth_asking && family->cause != "effect.outliers") {
+  if (result.front().log_p < may_be_named && family->cause != "effect.outliers") {
     const double untamed = gain_untamed(field, step, stated, fit, *family);
     const double over = std::max(0.0, result.front().gain - untamed);
     for (LawTest& test : result) weigh(test, std::max(0.0, test.gain - over));  // as far apart as they were
