@@ -46,6 +46,10 @@ World bare_world(const std::filesystem::path& file, const Simulation& whole) {
 
 }  // namespace
 
+const muster_param& Cause::parameter(const std::string& name) const {
+  return *those(*plugin, [&](const muster_param& p) { return p.name == name; }).at(0);
+}
+
 std::vector<const muster_param*> Cause::linear() const {
   return those(*plugin, [](const muster_param& p) { return (p.flags & MUSTER_LINEAR) != 0; });
 }

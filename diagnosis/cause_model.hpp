@@ -17,6 +17,8 @@ struct Cause {
   const muster_plugin* plugin = nullptr;  // the newest revision; lives as long as the library
 
   const muster_cause& meaning() const { return *plugin->cause; }
+  // One that it has.
+  const muster_param& parameter(const std::string& name) const;
   // The parameters that what it adds is proportional to.
   std::vector<const muster_param*> linear() const;
   // The references that say which rows it is about: none, one, or two radios.

@@ -11,12 +11,6 @@ using Eigen::VectorXd;
 
 constexpr double normal95 = 1.96;
 
-const muster_param& declared(const CauseShape& shape, const std::string& name) {
-  const muster_plugin& plugin = *shape.cause.plugin;
-  return *std::find_if(plugin.params, plugin.params + plugin.param_count,
-                       [&](const muster_param& p) { return p.name == name; });
-}
-
 CauseValue value_of(const muster_param& p, double value, double below, double above) {
   const double at = std::clamp(value, p.min, p.max);
   const double low = std::max(at - below, p.min), high = std::min(at + above, p.max);
@@ -33,7 +27,7 @@ std::map<std::string, Reach> reaches(const CauseShape& shape, const search::Find
   const auto middle = shape.parameters(f.theta);
   for (const VectorXd& theta : f.thetas) {
     for (const auto& [name, value] : shape.parameters(theta)) {
-      const unsigned scale = declared(shape, name).flags;
+      const unsigned scale = shape.cause.parameter(name).flags;
       double by = scale & MUSTER_LOG ? std::log(value / middle.at(name)) : value - middle.at(name);
       if (scale & MUSTER_CYCLIC) by = std::remainder(by, 2 * M_PI);
       sum[name] += by;
@@ -47,7 +41,7 @@ std::map<std::string, Reach> reaches(const CauseShape& shape, const search::Find
     const double mean = total / count, sd = std::sqrt(std::max(0.0, squares[name] / count - mean * mean));
     if (sd + std::abs(mean) < same) continue;
     Reach reach{std::max(0.0, normal95 * sd - mean), std::max(0.0, normal95 * sd + mean)};
-    if (declared(shape, name).flags & MUSTER_LOG)
+    if (shape.cause.parameter(name).flags & MUSTER_LOG)
       reach = {middle.at(name) * -std::expm1(-reach.below), middle.at(name) * std::expm1(reach.above)};
     result[name] = reach;
   }
@@ -75,7 +69,7 @@ void add_linear(FoundCause& out, const CauseShape& shape, const search::Finding&
   const double half = normal95 * std::sqrt(along.dot(f.uncertainty * along));
   const double turn = normal95 * std::sqrt(across.dot(f.uncertainty * across)) / size;
   out.values.push_back(value_of(*shape.linear[0], size, half, half));
-  out.values.push_back(value_of(declared(shape, shape.wave), std::atan2(along.y(), along.x()), turn, turn));
+  out.values.push_back(value_of(shape.cause.parameter(shape.wave), std::atan2(along.y(), along.x()), turn, turn));
 }
 
 // The first reference is the row that it is about, further ones are attributes beside it.
@@ -115,7 +109,7 @@ FoundCause found_cause(const search::Finding& f, const CauseCandidate& cause) {
   auto sure = reaches(shape, f);
   for (const auto& [name, value] : shape.parameters(f.theta)) {
     if (!shape.held.count(name))
-      out.values.push_back(value_of(declared(shape, name), value, sure[name].below, sure[name].above));
+      out.values.push_back(value_of(shape.cause.parameter(name), value, sure[name].below, sure[name].above));
   }
   return out;
 }

@@ -51,7 +51,7 @@ class Joint {
       if (!shifts_levels(*cause)) continue;
       const bool whole = cause->linear().empty();
       for (CauseValue& v : found.values) {
-        const unsigned flags = flags_of(*cause, v.name);
+        const unsigned flags = cause->parameter(v.name).flags;
         if (whole || flags & MUSTER_LINEAR)
           unknown_.push_back({name + '/' + v.name, v.minimum, v.maximum, &v, (flags & MUSTER_LOG) != 0});
       }
@@ -87,13 +87,6 @@ class Joint {
   }
 
  private:
-  static unsigned flags_of(const Cause& cause, const std::string& name) {
-    const muster_plugin& plugin = *cause.plugin;
-    return std::find_if(plugin.params, plugin.params + plugin.param_count,
-                        [&](const muster_param& p) { return p.name == name; })
-        ->flags;
-  }
-
   InstanceDeclaration declared(const FoundCause& found, const Cause& cause, const std::string& name) const {
     const Place place{fit_.model.simulation().world().file.string()};
     InstanceDeclaration result{cause.id, name, 1, {}, {}, {}, place};
