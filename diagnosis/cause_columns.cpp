@@ -137,12 +137,14 @@ struct Maker {
   }
 
   void bounds(const CauseShape& shape, search::Candidate& c) const {
+    constexpr double beyond_map = 10;  // m: a radio may stand outside of all that was mapped and driven through
+    const double around = shape.cause.meaning().kind == MUSTER_WORLD_EDIT ? beyond_map : 0;
     const Index places = place_entries(shape.place), n = 1 + places + static_cast<Index>(shape.axes.size());
     c.lower = c.upper = c.step = VectorXd::Zero(n);
     c.upper[0] = static_cast<double>(shape.rows.size());
     if (places >= 2) {
-      c.lower.segment(1, 2) << survey.east.low, survey.north.low;
-      c.upper.segment(1, 2) << survey.east.high, survey.north.high;
+      c.lower.segment(1, 2) << survey.east.low - around, survey.north.low - around;
+      c.upper.segment(1, 2) << survey.east.high + around, survey.north.high + around;
       c.step.segment(1, 2).setConstant(places == 4 ? 0.4 : 0.3);
     }
     if (places == 4) {

@@ -60,7 +60,7 @@ std::vector<VectorXd> around_radios(const CauseShape& shape, const LinkModel& mo
   for (std::size_t row = 0; row < shape.rows.size(); ++row) {
     const auto at = place_of_radio(model, shape.rows[row].at(0));
     if (!at) continue;
-    for (const double r : {0.6, 1.5, 3.0, 5.0}) {
+    for (const double r : {0.25, 0.6, 1.5, 3.0, 5.0}) {
       for (int k = 0; k < 8; ++k) {
         const double angle = (k + (r == 1.5 || r == 5.0 ? 0.5 : 0)) * pi / 4;
         result.push_back(

@@ -32,7 +32,8 @@ Lead at_its_best(const Bench& bench, const Stand& stand, const Lead& plain, cons
   if (passing && passing->refined) return *passing;
   const Lead& from = passing ? *passing : plain;
   Lead result = refined(bench, stand, from, false);
-  result.gain = from.gain + std::max(0.0, result.gain - gain_of(from.candidate(), stand, from.columns));
+  if (!from.candidate().whole)
+    result.gain = from.gain + std::max(0.0, result.gain - gain_of(from.candidate(), stand, from.columns));
   result.log_p = bench.log_p(from.candidate(), result.gain, from.candidate().width, true);
   result.evidence = bench.evidence(from.candidate(), result.gain, from.candidate().width, true);
   return result;

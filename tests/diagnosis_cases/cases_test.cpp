@@ -114,5 +114,22 @@ TEST(Sketch, IsTheColumnsAtTheReadingsInTheMiddleOfRows) {
   EXPECT_EQ(sketched, 3);  // a wall, a thing, a radio elsewhere
 }
 
+// A radio at the edge of what is known may stand beyond it.
+TEST(Candidates, StartWithinTheBoundsThatTheyAreSoughtIn) {
+  const Scratch scratch;
+  const auto world = sealed_case(scratch, "--mix clean", 1);
+  const Prepared at(world, world / "measured.csv", plugins);
+  int refinable = 0;
+  for (const search::Candidate& c : at.problem.candidates) {
+    if (!c.refinable()) continue;
+    ++refinable;
+    const auto outside = [&](const Eigen::VectorXd& theta) {
+      return (c.step.array() != 0 && (theta.array() < c.lower.array() || theta.array() > c.upper.array())).any();
+    };
+    EXPECT_TRUE(std::none_of(c.grid.begin(), c.grid.end(), outside)) << c.id;
+  }
+  EXPECT_GE(refinable, 8);
+}
+
 }  // namespace
 }  // namespace muster::diagnosis
