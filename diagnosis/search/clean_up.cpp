@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "diagnosis/search/integrated.hpp"
 #include "diagnosis/search/replace.hpp"
@@ -62,6 +63,41 @@ void give_way_to_rivals(Bench& bench) {
         bench.fit = fit;
       }
     }
+  }
+}
+
+// The best of the causes that act in time, beside the rest of the model.
+std::optional<Term> best_in_time(Bench& bench, const Eigen::MatrixXd& rest) {
+  const Stand stand = bench.stand(rest);
+  std::optional<Term> best;
+  for (const Lead& lead : leads(bench, stand)) {
+    const Candidate& c = lead.candidate();
+    if (c.kind != Kind::named || !c.time_like) continue;
+    const Lead at = refined(bench, stand, lead, true);
+    if (!best || at.evidence > best->evidence)
+      best = Term{lead.entry->candidate, at.theta, at.columns, at.gain, at.evidence, 0};
+  }
+  return best;
+}
+
+// A column that falls with time came first, beside a field that held much of either: now each has one of its own.
+void give_way_to_time(Bench& bench) {
+  constexpr double clearly = 3;  // nats
+  for (std::size_t k = 0; k < bench.terms.size(); ++k) {
+    if (!bench.terms[k].smooth() || !bench.terms[k].candidate->observed) continue;
+    const Term before = bench.terms[k];
+    const noise::Fit fit = bench.fit;
+    const Eigen::MatrixXd rest = bench.design_without(bench.terms[k]);
+    const double now = standing(bench, rest, *before.candidate, before.columns);
+    const std::optional<Term> other = best_in_time(bench, rest);
+    if (!other) return;
+    bench.terms[k] = *other;
+    bench.refit();
+    settle(bench, k, false);
+    const double then = standing(bench, rest, *other->candidate, bench.terms[k].columns);
+    if (then > now + clearly) continue;
+    bench.terms[k] = before;
+    bench.fit = fit;
   }
 }
 
@@ -189,6 +225,7 @@ std::vector<Term> clean_up(Bench& bench, std::vector<Trial>& trials) {
   std::vector<Term> aside;
   drop_backward(bench);
   replace_smooths(bench);
+  give_way_to_time(bench);
   give_way_to_rivals(bench);
   set_halos_aside(bench, aside);
   withdraw_names_beside_smooths(bench);

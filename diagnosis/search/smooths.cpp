@@ -196,8 +196,10 @@ void add_time(const Problem& problem, const Geometry& geometry, std::vector<Cand
   const auto& t = problem.readings.t;
   if (t.empty()) return;
   const Eigen::VectorXd time = Eigen::Map<const Eigen::VectorXd>(t.data(), static_cast<Index>(t.size()));
-  out.push_back(smooth_of("time", time, 10));
-  out.push_back(chirp(time));
+  for (Candidate c : {smooth_of("time", time, 10), chirp(time)}) {
+    c.time_like = true;
+    out.push_back(std::move(c));
+  }
   out.push_back(smooth_by_level("time_per_tx", problem.readings.tx, cosines(time, 5)));
   if (problem.places_known) out.push_back(with_position("time", time, geometry.moving.place));
 }

@@ -212,6 +212,24 @@ TEST(Spread, ItsMiddleIsAPlaceThatExplainsAsMuch) {
   EXPECT_GT(middle_of(bench, bench.terms[0], apart)[0], 11.9);
 }
 
+// A function of the battery may enter first, while the field holds a part of what acts in time.
+TEST(CleanUp, WhatActsInTimeIsNotTheBatteryThatFallsMeanwhile) {
+  const auto world = world_of(varied(254, 3000));
+  const Eigen::VectorXd step = (world.time.array() > 0.4 * world.time.maxCoeff()).cast<double>(),
+                        knee = -(11.7 - world.battery.array()).max(0.0).pow(1.4);
+  for (const auto& [effect, name] : {std::pair(step, "step"), std::pair(knee, "~battery")}) {
+    const Problem problem = problem_of(world, scaled_to(world, effect, 120), causes_of(world));
+    Bench bench(problem, {});
+    score(bench);
+    bench.terms = {term_at(bench, "~battery", {})};
+    bench.refit();
+    std::vector<Trial> trials;
+    clean_up(bench, trials);
+    ASSERT_EQ(bench.terms.size(), 1u);
+    EXPECT_EQ(bench.terms[0].id(), name);
+  }
+}
+
 TEST(CleanUp, DropsWhatCarriesNothingAndSetsLeftoversAside) {
   const auto world = world_of(varied(13, 4000));
   const auto causes = causes_of(world);

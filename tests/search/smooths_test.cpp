@@ -39,6 +39,14 @@ TEST(Smooths, CoverEveryColumnFactorAndProduct) {
 }
 
 // What depends on where a robot is, and on which way it looks, does so when it sends as when it hears.
+// Time passes whatever happens: what was observed comes before a function of it that does as well.
+TEST(Smooths, OfTimeGiveWayToColumns) {
+  const auto world = world_of(varied(4, 400));
+  const Problem problem = problem_of(world, Eigen::VectorXd::Zero(400), {});
+  for (const Candidate& c : smooths_of(problem))
+    EXPECT_EQ(c.time_like, c.id == "~time" || c.id == "chirp~time") << c.id;
+}
+
 TEST(Smooths, AreTheSameForBothDirectionsOfALink) {
   const auto world = world_of(varied(6, 300));
   const Problem heard = problem_of(world, Eigen::VectorXd::Zero(300), {});
