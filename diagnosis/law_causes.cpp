@@ -74,8 +74,9 @@ void add_silence(const LawSources& s, double step, Diagnosis& found) {
   const Missing& missing = s.fit.missing;
   const Cause* const cause = cause_called(s, "effect.rssi_floor");
   const double least = std::log(s.bench.options().further_alpha / static_cast<double>(s.bench.entries().size()));
-  LawTest test{"effect.rssi_floor", {}, missing.evidence, missing.evidence / 2, search::log_tail(missing.evidence, 1)};
-  if (!cause || !missing.censored || test.log_p > least) return;
+  const double gain = missing.censored ? missing.evidence : missing.evidence / 2;  // neighbours are lost together
+  LawTest test{"effect.rssi_floor", {}, gain, gain / 2, search::log_tail(gain, 1)};
+  if (!cause || !(missing.censored || missing.cut_off) || test.log_p > least) return;
   if (clips_at(s, test.cause, "level", missing.floor, step) ||
       clips_at(s, "radio.receiver", "sensitivity", missing.floor, step))
     return;
@@ -162,15 +163,12 @@ ReadingLaw add_scatter(const LawSources& s, ReadingField& field, Diagnosis& foun
   return best->law;
 }
 
-// What the fit of rows says of a draw of the world's own shadowing, if that is the same as of the data.
-bool world_draws_alike(const LawSources& s) {
+// Row means of a draw of the world's own noise; empty where it draws none for some reading.
+VectorXd drawn_rows(const LawSources& s) {
   const VectorXd drawn = s.model.drawn(), expected = s.model.expected();
   const VectorXd apart = (drawn - expected)(s.used);
-  if (!apart.allFinite()) return false;
-  const noise::StatedField own = said_by(fitted_to(s.bench, s.bench.rows().mean(apart)));
-  const noise::StatedField fitted = said_by(s.bench.fit.covariance);
-  return std::abs(std::log(own.shadowing / fitted.shadowing)) < std::log(1.25) &&
-         std::abs(std::log(own.decorrelation / fitted.decorrelation)) < std::log(1.6);
+  if (!apart.allFinite()) return {};
+  return s.bench.rows().mean(apart);
 }
 
 // Of readings that only a bound is known of.
@@ -194,8 +192,11 @@ void add_field(const LawSources& s, ReadingField& field, const ReadingLaw& law, 
     return;
   }
   found.searched.push_back(cause->id);
-  const LawTest test = field_test(field, found.instrument.step, law, said, s.bench);
-  if (beyond_chance(test, alpha_of_field) && !world_draws_alike(s)) found.causes.push_back(named(s, *cause, test));
+  LawTest test = field_test(field, found.instrument.step, law, said, s.bench);
+  if (!beyond_chance(test, alpha_of_field)) return;
+  if (const VectorXd drawn = drawn_rows(s); drawn.size() > 0)
+    test = beside_own_draw(std::move(test), said, s.bench, drawn);
+  if (beyond_chance(test, alpha_of_field)) found.causes.push_back(named(s, *cause, test));
 }
 
 // Either law can be taken for a part of the other: the weaker one of both stands only if it is beyond doubt.

@@ -11,7 +11,10 @@ double below(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
 
 struct Mixture {
   double log_likelihood = 0, random = 0, by_floor = 0;
+  double below = 0, above = 0;  // how many would be heard below the floor, were there none, and closely above it
 };
+
+constexpr double closely = 3;  // dB
 
 // A reading is lost by chance with probability `random`, or because its level, normal about the mean, lies below the
 // floor. The likeliest `random` by EM; the floor's share of the missing ones is their mean posterior.
@@ -38,7 +41,21 @@ Mixture with_floor(const std::vector<double>& lost_at, const std::vector<double>
   for (const double f : heard_chance)
     result.log_likelihood += std::log1p(-std::min(result.random + (1 - result.random) * f, 1 - 1e-12));
   result.by_floor = by_floor / lost;
+  for (const std::vector<double>* levels : {&lost_at, &heard_at}) {
+    for (const double m : *levels) {
+      const double lower = below((floor - m) / sigma);
+      result.below += (1 - result.random) * lower;
+      result.above += (1 - result.random) * (below((floor + closely - m) / sigma) - lower);
+    }
+  }
   return result;
+}
+
+// The chance of so few events where `expected` come (Poisson's law).
+double at_most(std::size_t events, double expected) {
+  double term = std::exp(-expected), sum = term;
+  for (std::size_t k = 1; k <= events; ++k) sum += term *= expected / static_cast<double>(k);
+  return sum;
 }
 
 std::vector<Missing::Bin> binned(const Eigen::VectorXd& rssi, const Eigen::VectorXd& mean) {
@@ -80,8 +97,9 @@ Missing why_missing(const Eigen::VectorXd& rssi, const Eigen::VectorXd& mean, do
     (std::isnan(rssi[i]) ? lost_at : heard_at).push_back(mean[i]);
     if (!std::isnan(rssi[i])) heard_levels.push_back(rssi[i]);
   }
-  // The floor is where nothing weaker was ever heard, but for strays: one in a thousand.
-  const auto weakest = heard_levels.begin() + static_cast<std::ptrdiff_t>(heard_levels.size() / 1000);
+  // The floor is where nothing weaker was ever heard, but for strays.
+  const std::size_t strays = heard_levels.size() / 1000;
+  const auto weakest = heard_levels.begin() + static_cast<std::ptrdiff_t>(strays);
   std::nth_element(heard_levels.begin(), weakest, heard_levels.end());
   Missing result{.count = lost_at.size(), .floor = *weakest};
   if (result.count == 0) return result;
@@ -96,6 +114,11 @@ Missing why_missing(const Eigen::VectorXd& rssi, const Eigen::VectorXd& mean, do
   // Censored needs both: a rise that chance does not make (10 is p < 0.002 for one parameter, and neighbouring readings
   // are lost together), and that the floor took most of what is missing.
   result.censored = result.evidence > 10 && result.by_floor > 0.5;
+  // Where chance took most of them, levels that end at the floor must say so too, and end there at once.
+  constexpr double by_chance = 2e-5;
+  const auto heard_above = std::count_if(
+      rssi.begin(), rssi.end(), [&](double level) { return level >= result.floor && level < result.floor + closely; });
+  result.cut_off = at_most(strays, best.below)<by_chance&& static_cast<double>(heard_above)> best.above / 2;
   return result;
 }
 

@@ -7,7 +7,8 @@ namespace muster::diagnosis {
 
 struct Missing {
   std::size_t count = 0;
-  bool censored = false;
+  bool censored = false;       // most of them, by the floor
+  bool cut_off = false;        // levels end at the floor at once, where many would be weaker
   double floor = 0;            // dBm; of the fitted mixture
   double share_at_random = 0;  // of all readings, at every level
   double by_floor = 0;         // share of the missing ones that the floor explains

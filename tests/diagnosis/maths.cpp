@@ -141,11 +141,21 @@ TEST(Missing, AFloorIsCalledAFloor) {
   EXPECT_EQ(found.bins.back().missing, 0);
 }
 
+TEST(Missing, AFloorBesideMuchRandomLossCutsLevelsOff) {
+  const Missing found = missing_where([](double level, double chance) { return level < -93 || chance < 0.1; });
+  EXPECT_FALSE(found.censored);
+  EXPECT_LT(found.by_floor, 0.3);
+  EXPECT_TRUE(found.cut_off);
+  EXPECT_GT(found.evidence, 30);
+  EXPECT_FALSE(missing_where([](double, double chance) { return chance < 0.1; }).cut_off);
+}
+
 // A receiver that hears half of all, and of weak ones fewer and fewer.
 TEST(Missing, ALossThatRisesGentlyIsNoFloorAndNotChance) {
   const auto gentle = [](double level, double chance) { return chance > 0.5 / (1 + std::exp((-78 - level) / 5)); };
   const Missing found = missing_where(gentle);
   EXPECT_FALSE(found.censored);
+  EXPECT_FALSE(found.cut_off);
   EXPECT_TRUE(found.rises());
   EXPECT_FALSE(missing_where([](double, double chance) { return chance < 0.5; }).rises());
 }
