@@ -24,7 +24,8 @@ struct Effect {
   double least = 0.1, most = 25;    // of its strength
   std::vector<std::string> rows{};  // of the world that it is about: "radio/beacon2", "wall/w7"
   std::vector<std::string>
-      covariates{};  // outside the vocabulary: names under which it may be reported; "a*b" a product
+      covariates{};                 // outside the vocabulary: names under which it may be reported; "a*b" a product
+  std::vector<std::string> also{};  // other names in the vocabulary of the very same shift of readings
 
   // dB on every reading; of what comes at times that nobody knows, a column for each time that it comes.
   std::function<Eigen::VectorXd(const Data&, double strength)> shift{};

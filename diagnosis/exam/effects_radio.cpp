@@ -163,6 +163,7 @@ Effect label_swap(const Scene& s, Random& random) {
 Effect asymmetry(const Scene& s, Random& random) {
   const int station = any_station(s, random);
   Effect e{"asymmetry"};
+  e.also = {"rx_offset"};
   e.rows = {radio_row(s.site, station)};
   e.shift = scaled([=](const Reading& r) { return r.up && r.station == station ? -1.0 : 0.0; });
   e.parameters = [](double x) { return std::vector<Parameter>{{"loss", x, "dB"}}; };

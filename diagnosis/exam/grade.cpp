@@ -81,9 +81,14 @@ bool same_class(const Truth::Effect& effect, const Verdict::Cause& cause) {
          });
 }
 
-const Verdict::Cause* found(const Verdict& verdict, const std::string& id) {
+bool names(const Verdict::Cause& cause, const Truth::Effect& effect) {
+  return cause.id == effect.id ||
+         (std::count(effect.also.begin(), effect.also.end(), cause.id) > 0 && at_right_row(effect, cause));
+}
+
+const Verdict::Cause* found(const Verdict& verdict, const Truth::Effect& effect) {
   for (const Verdict::Cause& c : verdict.named)
-    if (c.id == id) return &c;
+    if (names(c, effect)) return &c;
   return nullptr;
 }
 
@@ -139,7 +144,7 @@ void add_inside(Grades& grades, const Truth& truth, const Verdict& verdict) {
   };
   int hits = 0, class_hits = 0;
   for (const auto& effect : truth.effects) {
-    const Verdict::Cause* cause = found(verdict, effect.id);
+    const Verdict::Cause* cause = found(verdict, effect);
     hits += cause != nullptr;
     class_hits +=
         std::any_of(verdict.named.begin(), verdict.named.end(), [&](const auto& c) { return same_class(effect, c); });
@@ -151,7 +156,7 @@ void add_inside(Grades& grades, const Truth& truth, const Verdict& verdict) {
   }
   const int all = static_cast<int>(truth.effects.size());
   const auto is_true = [&](const Verdict::Cause& c) {
-    return std::any_of(truth.effects.begin(), truth.effects.end(), [&](const auto& e) { return e.id == c.id; });
+    return std::any_of(truth.effects.begin(), truth.effects.end(), [&](const auto& e) { return names(c, e); });
   };
   const auto is_kin = [&](const Verdict::Cause& c) {
     return std::any_of(truth.effects.begin(), truth.effects.end(), [&](const auto& e) { return same_class(e, c); });
@@ -166,8 +171,8 @@ void add_inside(Grades& grades, const Truth& truth, const Verdict& verdict) {
   count("silent", verdict.named.empty() && verdict.unexplained.empty());
   // The same id twice for one effect: one wall in pieces.
   count("one effect in pieces", std::any_of(truth.effects.begin(), truth.effects.end(), [&](const auto& e) {
-          return std::count_if(verdict.named.begin(), verdict.named.end(),
-                               [&](const auto& c) { return e.id == c.id; }) > 1;
+          return std::count_if(verdict.named.begin(), verdict.named.end(), [&](const auto& c) { return names(c, e); }) >
+                 1;
         }));
   if (truth.oracle_gain > 0 && verdict.gain) {
     grades.gain[bin] += *verdict.gain;

@@ -30,6 +30,7 @@ struct Truth {
   struct Effect {
     std::string id;
     std::vector<std::string> rows, covariates;
+    std::vector<std::string> also;  // other names of the same, of its rows
     std::map<std::string, double> parameters;
     double lambda = 0;
   };

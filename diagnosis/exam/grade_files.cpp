@@ -105,7 +105,8 @@ Truth read_truth(const std::string& text) {
   if (from.value("format", "") != "muster_exam/1") throw std::runtime_error("not an answer of muster_exam/1");
   Truth truth{from.at("case"), from.at("kind"), {}, from.at("oracle").at("gain_db2")};
   for (const json& e : from.at("effects")) {
-    Truth::Effect effect{e.at("id"), e.at("rows"), e.at("covariates"), {}, e.at("lambda")};
+    Truth::Effect effect{e.at("id"), e.at("rows"), e.at("covariates"), {}, {}, e.at("lambda")};
+    effect.also = e.value("also", effect.also);
     for (const json& p : e.at("parameters")) effect.parameters[p.at("name")] = p.at("value");
     truth.effects.push_back(effect);
   }

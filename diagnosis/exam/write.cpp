@@ -39,9 +39,15 @@ ordered_json effect_json(const Hidden& h) {
   for (const Parameter& p : h.effect.parameters(h.strength))
     parameters.push_back({{"name", p.name}, {"value", p.value}, {"unit", p.unit}});
   constexpr const char* acts[] = {"", "mean", "receiver", "reading_law", "field_law"};
-  return {{"id", h.effect.id},     {"in_vocabulary", h.in_vocabulary},  {"acts", acts[static_cast<int>(h.effect.acts)]},
-          {"rows", h.effect.rows}, {"covariates", h.effect.covariates}, {"parameters", parameters},
-          {"lambda", h.lambda},    {"wanted_lambda", h.wanted}};
+  return {{"id", h.effect.id},
+          {"also", h.effect.also},
+          {"in_vocabulary", h.in_vocabulary},
+          {"acts", acts[static_cast<int>(h.effect.acts)]},
+          {"rows", h.effect.rows},
+          {"covariates", h.effect.covariates},
+          {"parameters", parameters},
+          {"lambda", h.lambda},
+          {"wanted_lambda", h.wanted}};
 }
 
 ordered_json data_json(const Data& data) {

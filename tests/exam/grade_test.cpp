@@ -9,7 +9,7 @@ namespace muster::exam {
 namespace {
 
 Truth one(const std::string& id, double lambda) {
-  return {"case_0001", "one", {{id, {"radio/beacon2"}, {}, {{"offset", 4}}, lambda}}, 10};
+  return {"case_0001", "one", {{id, {"radio/beacon2"}, {}, {}, {{"offset", 4}}, lambda}}, 10};
 }
 
 Verdict said(const std::string& json) { return read_verdict("some text before\n" + json + "\nand after\n"); }
@@ -52,6 +52,19 @@ TEST(Grade, ADeafRadioHasAWeakTransmittersClass) {
   }
 }
 
+TEST(Grade, AnotherNameOfTheSameIsRightAtItsRow) {
+  for (const auto& [radio, right] : {std::pair("beacon2", 1), std::pair("beacon3", 0)}) {
+    Grades g;
+    Truth truth = one("asymmetry", 60);
+    truth.effects[0].also = {"rx_offset"};
+    add(g, truth,
+        said(R"({"verdict":"extended","causes":[{"id":"effect.rx_offset","label":"radio/)" + std::string(radio) +
+             R"(","status":"named","evidence":20}]})"));
+    EXPECT_EQ(share(g, "one / top name right / lambda >= 50").hits, right) << radio;
+    EXPECT_EQ(share(g, "one / found / lambda >= 50").hits, right) << radio;
+  }
+}
+
 TEST(Grade, CountsWhatIsRight) {
   Grades g;
   add(g, one("tx_offset", 60), said(right_report));
@@ -89,7 +102,7 @@ TEST(Grade, CountsWhatIsWrong) {
 TEST(Grade, TwoEffectsStandInTheBinOfTheWeaker) {
   Truth truth = one("tx_offset", 820);
   truth.kind = "two";
-  truth.effects.push_back({"drift", {}, {}, {}, 12});
+  truth.effects.push_back({"drift", {}, {}, {}, {}, 12});
   Grades g;
   add(g, truth, said(right_report));
   EXPECT_EQ(share(g, "two / found / lambda 10-20").hits, 0);
@@ -101,7 +114,7 @@ TEST(Grade, TwoEffectsStandInTheBinOfTheWeaker) {
 
 TEST(Grade, CleanWorldsAndTheOutside) {
   Grades g;
-  const Truth clean{"c", "clean", {}, 0}, outside{"c", "outside", {{"x", {}, {"speed*logd", "speed"}, {}, 70}}, 0};
+  const Truth clean{"c", "clean", {}, 0}, outside{"c", "outside", {{"x", {}, {"speed*logd", "speed"}, {}, {}, 70}}, 0};
   const Verdict smooth =
       said(R"({"verdict":"unexplained","causes":[],"unexplained":[{"covariate":"~LogD*speed[m/s]","evidence":9}]})");
   add(g, clean, said(R"({"verdict":"adequate","causes":[],"unexplained":[]})"));
@@ -123,7 +136,7 @@ TEST(Grade, WallsAreComparedAsSegments) {
   EXPECT_NEAR(segment_distance({0, 0, 4, 0}, {0, 0, 2, 0}), 0.25,
               0.01);  // 2 m of 4 m lie 1 m off on average: 0.5 one way, 0 back
   Truth truth{
-      "c", "one", {{"unmapped_wall", {}, {}, {{"x0", 0}, {"y0", 0}, {"x1", 4}, {"y1", 0}, {"loss", 8}}, 90}}, 0};
+      "c", "one", {{"unmapped_wall", {}, {}, {}, {{"x0", 0}, {"y0", 0}, {"x1", 4}, {"y1", 0}, {"loss", 8}}, 90}}, 0};
   Grades g;
   add(g, truth,
       said(
@@ -134,7 +147,7 @@ TEST(Grade, WallsAreComparedAsSegments) {
 }
 
 TEST(Grade, DirectionsWrap) {
-  Truth truth{"c", "one", {{"antenna_rx", {}, {}, {{"direction", 3.1}}, 90}}, 0};
+  Truth truth{"c", "one", {{"antenna_rx", {}, {}, {}, {{"direction", 3.1}}, 90}}, 0};
   Grades g;
   add(g, truth,
       said(
