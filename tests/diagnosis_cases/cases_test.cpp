@@ -131,5 +131,22 @@ TEST(Candidates, StartWithinTheBoundsThatTheyAreSoughtIn) {
   EXPECT_GE(refinable, 8);
 }
 
+// A few millimetres turn links past the end of a wall; a map does not tell them.
+TEST(Candidates, ARadioMovedByLessThanATenthOfAMetreIsWhereTheMapHasIt) {
+  const Scratch scratch;
+  const auto world = sealed_case(scratch, "--mix clean", 1);
+  const Prepared at(world, world / "measured.csv", plugins);
+  for (const search::Candidate& c : at.problem.candidates) {
+    if (c.id != "effect.tx_misplaced") continue;
+    const Eigen::VectorXd &start = c.grid[0], &opposite = c.grid[4], mapped = (start + opposite) / 2;
+    EXPECT_NEAR((start - mapped).norm(), 0.25, 1e-9);
+    EXPECT_EQ(c.admitted(start), 1);
+    EXPECT_EQ(c.admitted(mapped + 0.5 * (start - mapped)), 1);
+    EXPECT_EQ(c.admitted(mapped + 0.3 * (start - mapped)), 0);
+    return;
+  }
+  FAIL() << "no radio is sought elsewhere";
+}
+
 }  // namespace
 }  // namespace muster::diagnosis
