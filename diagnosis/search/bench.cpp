@@ -124,7 +124,7 @@ Entry Bench::entry(Candidate candidate) const {
     throw std::invalid_argument(candidate.id + ": a candidate has at least one start and one covariate");
   std::shared_ptr<const noise::Sheet> known = std::move(candidate.atoms);
   Entry result{std::make_shared<const Candidate>(std::move(candidate)), std::move(known)};
-  if (result.atoms) return result;
+  if (result.atoms && result.atoms->rows() == rows_.size()) return result;
   const Candidate& c = *result.candidate;
   noise::Sheet atoms(rows_.size(), result.count() * c.width);
   for (Index k = 0; k < result.count(); ++k) {
