@@ -10,6 +10,7 @@
 #include "diagnosis/cause_axes.hpp"
 #include "diagnosis/cause_rows.hpp"
 #include "diagnosis/cause_starts.hpp"
+#include "diagnosis/noise/basis.hpp"
 #include "diagnosis/place_sweep.hpp"
 
 namespace muster::diagnosis {
@@ -116,6 +117,7 @@ struct Maker {
   const CauseSources& sources;
   Eigen::HouseholderQR<Eigen::MatrixXd> base;
   Index base_columns;
+  const noise::Rows& rows;
 
   // Whether readings tell this column from the base model's parameters.
   bool shows(const VectorXd& column) const {
@@ -279,14 +281,19 @@ struct Maker {
   }
 
   void grid(const CauseShape& shape, search::Candidate& c) const {
-    for (const VectorXd& theta : starts_of(shape, survey, sources.model, stands(c))) add_start(shape, theta, c);
-  }
-
-  void add_start(const CauseShape& shape, const VectorXd& theta, search::Candidate& c) const {
-    if (stands(c) && !clear_of_ways(shape, survey, theta)) return;
-    const Eigen::MatrixXd columns = c.columns(theta);
-    const double share = (columns.array() != 0).cast<double>().mean();
-    if (share >= (shape.place == PlaceShape::none ? 0 : least_share) && shows(columns.col(0))) c.grid.push_back(theta);
+    std::vector<Eigen::MatrixXf> atoms;
+    for (const VectorXd& theta : starts_of(shape, survey, sources.model, stands(c))) {
+      if (stands(c) && !clear_of_ways(shape, survey, theta)) continue;
+      const Eigen::MatrixXd columns = c.columns(theta);
+      const double share = (columns.array() != 0).cast<double>().mean();
+      if (share < (shape.place == PlaceShape::none ? 0 : least_share) || !shows(columns.col(0))) continue;
+      c.grid.push_back(theta);
+      atoms.push_back(rows.mean(columns).cast<float>());
+    }
+    noise::Sheet together(rows.size(), c.width * static_cast<Index>(atoms.size()));
+    for (std::size_t k = 0; k < atoms.size(); ++k)
+      together.middleCols(c.width * static_cast<Index>(k), c.width) = atoms[k];
+    c.atoms = std::make_shared<const noise::Sheet>(std::move(together));
   }
 };
 
@@ -366,6 +373,7 @@ Index place_entries(PlaceShape place) { return place == PlaceShape::none ? 0 : p
 search::Candidate at_readings_of(const CauseCandidate& cause, const CauseSources& s) {
   search::Candidate result = cause.candidate;
   result.columns = columns_at(cause.shape, s.run, s.used);
+  result.atoms = nullptr;
   return result;
 }
 
@@ -390,9 +398,9 @@ bool shifts_levels(const Cause& cause) {
 }
 
 CauseSearch cause_candidates(const std::vector<Cause>& causes, const Survey& survey, const CauseSources& sources,
-                             const Eigen::MatrixXd& base) {
+                             const Eigen::MatrixXd& base, const noise::Rows& rows) {
   CauseSearch result;
-  const Maker maker{survey, sources, Eigen::HouseholderQR<Eigen::MatrixXd>(base), base.cols()};
+  const Maker maker{survey, sources, Eigen::HouseholderQR<Eigen::MatrixXd>(base), base.cols(), rows};
   for (const Cause& cause : causes) {
     if (!shifts_levels(cause)) continue;
     const std::string why = made(cause, maker, result);

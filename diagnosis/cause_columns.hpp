@@ -3,6 +3,7 @@
 #pragma once
 
 #include "diagnosis/cause_model.hpp"
+#include "diagnosis/noise/rows.hpp"
 #include "diagnosis/search/candidate.hpp"
 #include "diagnosis/survey.hpp"
 
@@ -68,9 +69,9 @@ struct CauseSources {
 search::Candidate at_readings_of(const CauseCandidate& cause, const CauseSources& sources);
 
 // Of those causes that shift the expected level. Columns that no reading depends on, or that the base model can take
-// up, are left out.
+// up, are left out. `rows`: of the search.
 CauseSearch cause_candidates(const std::vector<Cause>& causes, const Survey& survey, const CauseSources& sources,
-                             const Eigen::MatrixXd& base);
+                             const Eigen::MatrixXd& base, const noise::Rows& rows);
 // Whether it shifts the expected level; what does not clips readings or changes how they scatter.
 bool shifts_levels(const Cause& cause);
 

@@ -19,13 +19,6 @@ std::vector<const muster_param*> those(const muster_plugin& plugin, const Is& is
   return result;
 }
 
-Eigen::VectorXd first_column(const Simulation& run, const std::string& table) {
-  const TableView view = run.table(table);
-  Eigen::VectorXd result(static_cast<Eigen::Index>(view.rows()));
-  for (std::size_t i = 0; i < view.rows(); ++i) result[static_cast<Eigen::Index>(i)] = view.at(i, 0);
-  return result;
-}
-
 // Whether an instance changes where radios are, which every term is to see.
 bool edits_world(const Instance& instance) {
   const muster_cause* const cause = instance.plugin().cause;
@@ -172,11 +165,11 @@ Eigen::VectorXd CauseModel::column(const Cause& cause, const std::vector<CauseRo
   if (cause.needs_world()) {
     put(whole_, in_whole_, cause, rows, row, 1);
     evaluate(whole_, in_whole_, parameters);
-    return first_column(whole_, "link/*/rssi") - before_;
+    return first_column(whole_.table("link/*/rssi")) - before_;
   }
   put(*bare_, in_bare_, cause, rows, 0, rows.size());
   evaluate(*bare_, in_bare_, parameters);
-  return first_column(*bare_, "link/*/level@" + name_of(row));
+  return first_column(bare_->table("link/*/level@" + name_of(row)));
 }
 
 }  // namespace muster::diagnosis

@@ -80,6 +80,20 @@ Peak Judge::closer_distance(const ReadingLaw& law, Peak best) {
 }
 
 std::vector<Peak> Judge::shapes(const ReadingLaw& law, const noise::Covariance& from) {
+  constexpr Index many = 30000, some = 10000;
+  constexpr double hopeless = 60;  // nats behind the best: a step of the distance wins less
+  if (field_.size() < many) return shapes_by_all(law, from);
+  ReadingField sample = field_.some(some);
+  std::vector<Peak> result = Judge(sample, step_).shapes_by_all(law, from);
+  double most = -1e300;
+  for (Peak& peak : result) most = std::max(most, peak.value = value(law, peak));
+  for (Peak& peak : result) {
+    if (peak.value > most - hopeless) peak = best_distance(law, peak);
+  }
+  return result;
+}
+
+std::vector<Peak> Judge::shapes_by_all(const ReadingLaw& law, const noise::Covariance& from) {
   std::vector<Peak> result;
   const auto place = static_cast<int>(std::lround(1e3 * (from.theta[2] - from.theta[0])));
   for (const noise::Family family : noise::families) {

@@ -30,7 +30,8 @@ class Judge {
   Peak best_distance(const ReadingLaw& law, const Peak& from);
   // From there, the distance to a fiftieth.
   Peak closer_distance(const ReadingLaw& law, Peak from);
-  // The best of each family, sought from a covariance.
+  // The best of each family, sought from a covariance; among many readings first by some of them, and further by all
+  // only where these do not speak clearly against a family.
   std::vector<Peak> shapes(const ReadingLaw& law, const noise::Covariance& from);
   // At one place alone.
   double value(const ReadingLaw& law, const Peak& there);
@@ -41,6 +42,7 @@ class Judge {
   double step() const { return step_; }
 
  private:
+  std::vector<Peak> shapes_by_all(const ReadingLaw& law, const noise::Covariance& from);
   double at(const ReadingDensities& densities, double log_variance, const FieldShape& shape, int place,
             Eigen::Index every = 1);
   ReadingDensities densities_of(const ReadingLaw& law, double log_variance, const Peak& there, double margin);

@@ -32,6 +32,12 @@ Options options_for(const World& world, const std::filesystem::path& data, const
 
 }  // namespace
 
+Eigen::VectorXd first_column(const TableView& table) {
+  const auto rows = static_cast<Eigen::Index>(table.rows()), columns = static_cast<Eigen::Index>(table.cols());
+  return Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<>>(table.table->now().data.data(), rows,
+                                                                    Eigen::InnerStride<>(columns));
+}
+
 LinkModel::LinkModel(const std::filesystem::path& world, const std::filesystem::path& data,
                      const Library::SearchPath& plugins) {
   World declared = world_for(world);
@@ -44,9 +50,7 @@ LinkModel::LinkModel(const std::filesystem::path& world, const std::filesystem::
 void LinkModel::evaluate(bool expected) {
   run_->evaluate(MUSTER_RADIO, expected);
   ++evaluations_;
-  const TableView rssi = run_->table("link/*/rssi");
-  values_.resize(static_cast<Eigen::Index>(rssi.rows()));
-  for (std::size_t i = 0; i < rssi.rows(); ++i) values_[static_cast<Eigen::Index>(i)] = rssi.at(i, 0);
+  values_ = first_column(run_->table("link/*/rssi"));
 }
 
 void LinkModel::read_ends() {

@@ -16,6 +16,8 @@ struct End {
   int radio;  // row of the set `radio`
 };
 
+Eigen::VectorXd first_column(const TableView& table);
+
 class LinkModel {
  public:
   // The world with the readings of `data` in the place of its links. Throws Error.

@@ -43,25 +43,26 @@ Prepared::Prepared(const std::filesystem::path& world, const std::filesystem::pa
   problem.base = base.slopes(used, Eigen::all);
   // Linear in the parameters about the fit, so that coefficients are values of parameters.
   problem.measured -= (base.mean - base.slopes * base.values)(used);
-  sought = cause_candidates(causes, survey_of(model, data), {run, model, data, used}, problem.base);
-  add_columns();
   problem.places_known = data.has_places();
   problem.stated = stated_field(model);
   options.rows = noise::limits_for(problem.readings);
   if (!problem.places_known) options.rows.way = -1;  // readings at like distances are not at one place: each is a row
-  let_sketch(world, plugins);
+  const noise::Rows rows(problem.readings, options.rows);
+  sought = cause_candidates(causes, survey_of(model, data), {run, model, data, used}, problem.base, rows);
+  add_columns();
+  let_sketch(rows, world, plugins);
   for (const CauseCandidate& c : sought.found) problem.candidates.push_back(c.candidate);
 }
 
-// Where rows have many readings, a search over many places asks one of each.
-void Prepared::let_sketch(const std::filesystem::path& world, const Library::SearchPath& plugins) {
+// Where rows have many readings, a search over many places, times or shapes asks one of each.
+void Prepared::let_sketch(const noise::Rows& rows, const std::filesystem::path& world,
+                          const Library::SearchPath& plugins) {
   constexpr Index worth = 2;  // readings a row
-  const noise::Rows rows(problem.readings, options.rows);
   if (problem.readings.size() < worth * rows.size() || holds_a_table_reader(model)) return;
   sketched =
       std::make_unique<SimulatedReadings>(rows.middles(problem.readings), model.radio_names(), world, plugins, base);
   for (CauseCandidate& c : sought.found) {
-    if (c.candidate.starts > 1 && !c.shape->cause.file()) c.candidate.sketch = sketched->at(c, data).columns;
+    if (c.candidate.refinable() && !c.shape->cause.file()) c.candidate.sketch = sketched->at(c, data).columns;
   }
 }
 

@@ -34,7 +34,7 @@ struct Prepared {
 
  private:
   void fill_readings();
-  void let_sketch(const std::filesystem::path& world, const Library::SearchPath& plugins);
+  void let_sketch(const noise::Rows& rows, const std::filesystem::path& world, const Library::SearchPath& plugins);
   noise::Known known_of(double rssi) const;
   void add_columns();
 };

@@ -1,8 +1,10 @@
 #include "diagnosis/reading_field.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace muster::diagnosis {
 namespace {
@@ -20,7 +22,7 @@ std::vector<Index> finite(const VectorXd& residual) {
   return result;
 }
 
-noise::Readings some(const noise::Readings& all, const std::vector<Index>& which) {
+noise::Readings those(const noise::Readings& all, const std::vector<Index>& which) {
   noise::Readings result;
   result.tx_at = all.tx_at(Eigen::all, which);
   result.rx_at = all.rx_at(Eigen::all, which);
@@ -40,15 +42,42 @@ noise::Sites sites_of(const noise::Readings& readings) {
   return rows.sites(readings).of(rows.row_of());
 }
 
+// Cells of this side in the order in which they are met, of each anchor's radio on its own.
+std::vector<Index> cells_of(const noise::Sites& sites, double side) {
+  std::map<std::tuple<int, long, long, long>, Index> numbers;
+  std::vector<Index> result;
+  for (Index i = 0; i < sites.size(); ++i) {
+    const auto along = [&](int axis) { return std::lround(sites.place(axis, i) / side); };
+    const std::tuple cell(sites.radio[static_cast<std::size_t>(i)], along(0), along(1), along(2));
+    result.push_back(numbers.try_emplace(cell, static_cast<Index>(numbers.size())).first->second);
+  }
+  return result;
+}
+
 }  // namespace
 
 ReadingField::ReadingField(const noise::Readings& readings, const VectorXd& residual)
-    : residual_(residual(finite(residual))), field_(sites_of(some(readings, finite(residual))), conditioning) {}
+    : residual_(residual(finite(residual))), field_(sites_of(those(readings, finite(residual))), conditioning) {}
 
 ReadingField::ReadingField(VectorXd residual, noise::Field field, double far_off)
     : residual_(std::move(residual)), field_(std::move(field)), far_off_(far_off) {}
 
 ReadingField ReadingField::untamed() const { return {residual_, field_, std::numeric_limits<double>::infinity()}; }
+
+ReadingField ReadingField::some(Index about) const {
+  constexpr Index whole = 100;  // readings that a cell has on average: more than a neighbourhood
+  std::vector<Index> cells;
+  for (double side = 0.5; side < 1000; side *= 2) {  // m
+    cells = cells_of(field_.sites(), side);
+    if (size() >= whole * (*std::max_element(cells.begin(), cells.end()) + 1)) break;
+  }
+  const Index every = (size() + about - 1) / about;
+  std::vector<Index> chosen;
+  for (Index i = 0; i < size(); ++i) {
+    if (cells[static_cast<std::size_t>(i)] % every == 0) chosen.push_back(i);
+  }
+  return {residual_(chosen), noise::Field(field_.sites().of(chosen), conditioning), far_off_};
+}
 
 const ReadingView& ReadingField::view(const FieldShape& shape, int place) {
   const auto found = known_.find({shape, place});

@@ -40,6 +40,9 @@ class ReadingField {
   // none, this is the sum of errors whose variance is known, while tamed ones vary less than a law with rare deep fades
   // says.
   ReadingField untamed() const;
+  // The readings of evenly chosen places, about so many: whole neighbourhoods, so that they tell each other what they
+  // tell each other among all.
+  ReadingField some(Eigen::Index about) const;
 
   Eigen::Index size() const { return residual_.size(); }
   // `place`: a thousand times log_ratio. Worked out once.

@@ -1,31 +1,15 @@
 #include "diagnosis/noise/exact.hpp"
 
 #include <Eigen/Cholesky>
-#include <array>
 #include <cmath>
+#include <map>
 
 #include "diagnosis/noise/neighbourhood.hpp"
 #include "diagnosis/noise/reach.hpp"
+#include "diagnosis/noise/row_kernel.hpp"
 
 namespace muster::noise {
 namespace {
-
-// The correlation at a distance in m, by the nearest entry of a table, as the whitener has it.
-class Correlations {
- public:
-  Correlations(const Covariance& covariance, double soft, double longest)
-      : per_metre_(entries / std::max(longest, 1.0)) {
-    for (int i = 0; i <= entries; ++i)
-      values_[static_cast<std::size_t>(i)] = correlation(
-          covariance.family, softened(covariance.family, i / per_metre_, soft) / covariance.decorrelation());
-  }
-  double operator()(double distance) const { return values_[static_cast<std::size_t>(distance * per_metre_ + 0.5)]; }
-
- private:
-  static constexpr int entries = 16384;
-  double per_metre_;
-  std::array<double, entries + 1> values_;
-};
 
 // No two rows lie farther apart, both ends together.
 double longest_in(const Sites& sites) {
@@ -35,28 +19,66 @@ double longest_in(const Sites& sites) {
   return size(sites.place) + size(sites.anchor);
 }
 
+bool anchors_move(const Sites& sites) {
+  std::map<int, Index> first;  // of each radio
+  for (Index i = 0; i < sites.size(); ++i) {
+    const Index other = first.try_emplace(sites.radio[static_cast<std::size_t>(i)], i).first->second;
+    if (sites.anchor.col(i) != sites.anchor.col(other)) return true;
+  }
+  return false;
+}
+
+// Sites and a table of correlations, as the kernel asks for them.
+class PlacedRows {
+ public:
+  PlacedRows(const Sites& sites, const Covariance& covariance)
+      : place_(filled_up(sites.place)), anchor_(filled_up(sites.anchor)), radio_(sites.radio), table_(entries + 1) {
+    radio_.resize(static_cast<std::size_t>(place_.rows()));
+    const double per_metre = entries / std::max(longest_in(sites), 1.0);
+    for (int i = 0; i <= entries; ++i) {
+      const double soft = softened(covariance.family, i / per_metre, sites.soft);
+      table_[i] = static_cast<float>(correlation(covariance.family, soft / covariance.decorrelation()));
+    }
+    const double variance = covariance.field_variance(), everywhere = variance * covariance.shared();
+    pairs_ = {{place_.col(0).data(), place_.col(1).data(), place_.col(2).data()},
+              {anchor_.col(0).data(), anchor_.col(1).data(), anchor_.col(2).data()},
+              radio_.data(),
+              table_.data(),
+              static_cast<float>(per_metre),
+              static_cast<float>(everywhere),
+              static_cast<float>(variance - everywhere),
+              anchors_move(sites)};
+  }
+
+  Index filled() const { return place_.rows(); }
+  // dB^2, of a row and those before it.
+  void covariances(Index row, double* out) const { row_kernels().best().covariances(pairs_, row, out); }
+
+ private:
+  static constexpr int entries = 16384;
+
+  // About the first one, so that floats tell them well.
+  static Eigen::MatrixX3f filled_up(const Eigen::Matrix3Xd& at) {
+    Eigen::MatrixX3f result = Eigen::MatrixX3f::Zero((at.cols() + many - 1) / many * many, 3);
+    result.topRows(at.cols()) = (at.colwise() - at.col(0)).transpose().cast<float>();
+    return result;
+  }
+
+  Eigen::MatrixX3f place_, anchor_;
+  std::vector<int> radio_;
+  Eigen::VectorXf table_;
+  Pairs pairs_;
+};
+
 }  // namespace
 
 Eigen::MatrixXd covariance_of_sums(const Sites& sites, const Covariance& covariance, const Eigen::MatrixXd& weights) {
-  using ByRow = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const Correlations at(covariance, sites.soft, longest_in(sites));
-  const double everywhere = covariance.field_variance() * covariance.shared();
-  const double own = covariance.field_variance() - everywhere;
-  const ByRow w = weights;
-  const Eigen::ArrayX3d places = sites.place.transpose().array(), anchors = sites.anchor.transpose().array();
-  const auto squares = [](const Eigen::ArrayX3d& points, Index i) {  // of distances from i to those before it
-    const auto along = [&](int axis) { return (points.col(axis).head(i) - points(i, axis)).square(); };
-    return Eigen::ArrayXd(along(0) + along(1) + along(2));
-  };
-  ByRow below = ByRow::Zero(w.rows(), w.cols());  // the covariance's lower triangle times the weights
+  const PlacedRows rows(sites, covariance);
+  Eigen::VectorXd before(rows.filled());
+  Eigen::MatrixXd below(weights.rows(), weights.cols());  // the covariance's lower triangle times the weights
   for (Index i = 0; i < sites.size(); ++i) {
-    const Eigen::ArrayXd apart = squares(places, i), near = apart.sqrt();
-    const Eigen::ArrayXd joint = (apart + squares(anchors, i)).sqrt();
-    for (Index j = 0; j < i; ++j) {
-      double c = everywhere * at(near[j]);
-      if (sites.radio[static_cast<std::size_t>(i)] == sites.radio[static_cast<std::size_t>(j)]) c += own * at(joint[j]);
-      below.row(i) += c * w.row(j);
-    }
+    rows.covariances(i, before.data());
+    below.row(i).noalias() = before.head(i).transpose() * weights.topRows(i);
   }
   const Eigen::VectorXd alone =
       covariance.field_variance() + floor_variance + covariance.reading_variance() / sites.count.array();

@@ -15,9 +15,9 @@ Neighbourhood::Neighbourhood(const Field& field, const Covariance& covariance, c
     : field_(field),
       kernel_(kernel),
       slots_(field.slots()),
-      reading_variance_(covariance.reading_variance()),
       correlation_(distances + 1),
       by_distance_(distances + 1),
+      reading_variance_(covariance.reading_variance() / field.sites().count.array()),
       nugget_(at(slots_ + 1)),
       present_(at(slots_)),
       root_(at(slots_ * slots_)),
@@ -66,9 +66,9 @@ void Neighbourhood::own_variances(Index group) {
       const Index j = field_.neighbour(i, static_cast<int>(a));
       const bool here = j >= 0 && group * lanes + lane < field_.size();
       present_[at(a)].of[lane] = here;
-      nugget_[at(a)].of[lane] = here ? reading_variance_ / field_.sites().count[j] : 0.0;
+      nugget_[at(a)].of[lane] = here ? reading_variance_[j] : 0.0;
     }
-    nugget_[at(slots_)].of[lane] = reading_variance_ / field_.sites().count[i];
+    nugget_[at(slots_)].of[lane] = reading_variance_[i];
   }
 }
 

@@ -39,8 +39,8 @@ class Neighbourhood {
   const Field& field_;
   const RowKernel& kernel_;
   Index slots_;
-  double reading_variance_;
   std::vector<double> correlation_, by_distance_;
+  Eigen::VectorXd reading_variance_;  // of the rows' means
   std::vector<Lanes> nugget_, present_, root_, cross_, combination_, turned_, slope_, information_;
   Neighbourhoods arrays_;
 };

@@ -253,6 +253,38 @@ void contract(const Combinations* four, const double* x, const double* with, lon
   }
 }
 
+using Ints = int __attribute__((vector_size(many * sizeof(int)), aligned(alignof(int)), may_alias));
+using ManyDoubles = double __attribute__((vector_size(many * sizeof(double)), aligned(alignof(double)), may_alias));
+static_assert(sizeof(Floats) == many * sizeof(float));
+
+// Squared distances of a row from those that start at `first`.
+MUSTER_INLINE Floats squares(const float* const* at, long row, long first) {
+  Floats sum{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const Floats along = *reinterpret_cast<const Floats*>(at[axis] + first) - at[axis][row];
+    sum += along * along;
+  }
+  return sum;
+}
+
+MUSTER_INLINE Floats correlations(const Pairs& p, Floats squares) {
+  Floats result;
+  for (int k = 0; k < many; ++k) result[k] = __builtin_sqrtf(squares[k]);
+  const Ints entries = __builtin_convertvector(result * p.entries_per_metre + 0.5f, Ints);
+  for (int k = 0; k < many; ++k) result[k] = p.correlation[entries[k]];
+  return result;
+}
+
+void covariances(const Pairs& p, long row, double* out) {
+  for (long first = 0; first < row; first += many) {
+    const Floats apart = squares(p.place, row, first), near = correlations(p, apart);
+    const Ints same = *reinterpret_cast<const Ints*>(p.radio + first) == p.radio[row];
+    const Floats joint = p.anchors_move ? correlations(p, apart + squares(p.anchor, row, first)) : near;
+    const Floats sum = p.everywhere * near + (same ? p.joint * joint : Floats{});
+    *reinterpret_cast<ManyDoubles*>(out + first) = __builtin_convertvector(sum, ManyDoubles);
+  }
+}
+
 template <class Vector, int parts>
 MUSTER_INLINE void take_out_of(Tile<Vector, parts>, const float* q, long rows, long width, float* x, long columns,
                                float* scratch) {
@@ -284,6 +316,6 @@ void take_out(const float* q, long rows, long width, float* x, long columns, flo
 
 extern const RowKernel MUSTER_KERNEL;
 const RowKernel MUSTER_KERNEL{
-    MUSTER_TEXT(MUSTER_KERNEL), factorise, differentiate, combine, combine_floats, contract, take_out};
+    MUSTER_TEXT(MUSTER_KERNEL), factorise, differentiate, combine, combine_floats, contract, covariances, take_out};
 
 }  // namespace muster::noise

@@ -45,6 +45,17 @@ struct Combinations {
   const double *own, *beside;
 };
 
+// Rows whose covariances are asked for two by two. Arrays have a value a row, filled up to a multiple of `many`.
+constexpr int many = 16;
+struct Pairs {
+  const float *place[3], *anchor[3];  // m
+  const int* radio;                   // the anchor's
+  const float* correlation;           // by the nearest entry
+  float entries_per_metre;
+  float everywhere, joint;  // variances: between places, and in addition between both ends of the same anchor
+  bool anchors_move;        // or stand where all others of their radio do
+};
+
 struct RowKernel {
   const char* name;
   // Slots without a neighbour hold an independent value of variance one and get weight zero.
@@ -57,6 +68,8 @@ struct RowKernel {
   // Of four combinations c, the sum over rows i of (c x)_i . with_i, both row by row and `columns` a multiple of
   // `lanes`.
   void (*contract)(const Combinations* four, const double* x, const double* with, long columns, double* sums);
+  // Of a row and those before it; some values beyond are written too, up to a multiple of `many`.
+  void (*covariances)(const Pairs&, long row, double* out);
   // x less what the orthonormal columns of q explain, both row by row. `scratch`: width x 32 floats.
   void (*take_out)(const float* q, long rows, long width, float* x, long columns, float* scratch);
 };

@@ -26,7 +26,7 @@ noise::Sheet normals_of(Index rows, int count, uint64_t seed) {
 }  // namespace
 
 Eigen::MatrixXd Entry::atom(Index k) const {
-  return atoms.middleCols(k * candidate->width, candidate->width).cast<double>();
+  return atoms->middleCols(k * candidate->width, candidate->width).cast<double>();
 }
 
 double Stand::gain(const Eigen::MatrixXd& columns) const {
@@ -122,13 +122,16 @@ std::vector<noise::Family> Bench::likely_families(noise::Family first) const {
 Entry Bench::entry(Candidate candidate) const {
   if (candidate.grid.empty() || candidate.covariates.empty())
     throw std::invalid_argument(candidate.id + ": a candidate has at least one start and one covariate");
-  Entry result{std::make_shared<const Candidate>(std::move(candidate)), {}};
+  std::shared_ptr<const noise::Sheet> known = std::move(candidate.atoms);
+  Entry result{std::make_shared<const Candidate>(std::move(candidate)), std::move(known)};
+  if (result.atoms && result.atoms->rows() == rows_.size()) return result;
   const Candidate& c = *result.candidate;
-  result.atoms.resize(rows_.size(), result.count() * c.width);
+  noise::Sheet atoms(rows_.size(), result.count() * c.width);
   for (Index k = 0; k < result.count(); ++k) {
     const Eigen::VectorXd& theta = c.grid[static_cast<std::size_t>(k)];
-    result.atoms.middleCols(k * c.width, c.width) = (c.sketch ? c.sketch(theta) : columns_of(c, theta)).cast<float>();
+    atoms.middleCols(k * c.width, c.width) = columns_of(c, theta).cast<float>();
   }
+  result.atoms = std::make_shared<const noise::Sheet>(std::move(atoms));
   return result;
 }
 

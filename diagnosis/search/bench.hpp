@@ -12,7 +12,7 @@ namespace muster::search {
 // A candidate with the row means of its grid's columns, `width` an atom.
 struct Entry {
   std::shared_ptr<const Candidate> candidate;
-  noise::Sheet atoms;
+  std::shared_ptr<const noise::Sheet> atoms;
 
   Index count() const { return static_cast<Index>(candidate->grid.size()); }
   Eigen::MatrixXd atom(Index k) const;

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -41,6 +42,8 @@ struct Candidate {
 
   // One atom a theta; at least one (a candidate without parameters has one empty theta).
   std::vector<Eigen::VectorXd> grid;
+  // Row means of the grid's columns, an atom after the other, where they are known already. May be empty.
+  std::shared_ptr<const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> atoms;
   // One row a reading, `width` columns. Must not depend on anything but theta.
   std::function<Eigen::MatrixXd(const Eigen::VectorXd& theta)> columns;
   // The same with one row a row of the search, as the reading in its middle has it: what a search over many thetas may

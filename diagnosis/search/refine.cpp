@@ -99,6 +99,20 @@ Top by_strides(const Candidate& candidate, Top top, uint64_t salt, int evaluatio
   return top;
 }
 
+// The better half, in which two within a step of each other go on as one.
+std::vector<Top> better_half(std::vector<Top> tops, const Candidate& candidate) {
+  std::stable_sort(tops.begin(), tops.end(), [](const Top& a, const Top& b) { return a.second > b.second; });
+  tops.resize((tops.size() + 1) / 2);
+  std::vector<Top> result;
+  for (Top& top : tops) {
+    const bool known = std::any_of(result.begin(), result.end(), [&](const Top& better) {
+      return ((better.first - top.first).array().abs() <= candidate.step.array().abs()).all();
+    });
+    if (!known) result.push_back(std::move(top));
+  }
+  return result;
+}
+
 }  // namespace
 
 Eigen::MatrixXd moves_at(const Candidate& candidate, const Eigen::VectorXd& theta) {
@@ -125,8 +139,7 @@ Top raced(const Candidate& candidate, const std::vector<Eigen::VectorXd>& starts
       top.second = laps[lap](top.first);
       top = by_strides(candidate, std::move(top), 1 + lap, evaluations, longest, laps[lap]);
     }
-    std::stable_sort(tops.begin(), tops.end(), [](const Top& a, const Top& b) { return a.second > b.second; });
-    tops.resize((tops.size() + 1) / 2);
+    tops = better_half(std::move(tops), candidate);
     evaluations = std::min(2 * evaluations, 2 * candidate.evaluations);
   }
   return tops[0];

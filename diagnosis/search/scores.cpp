@@ -168,7 +168,7 @@ Top raced_to(const Bench& bench, const Stand& stand, const Lead& lead) {
 }  // namespace
 
 noise::Sheet unit_atoms(const Entry& entry, const Stand& stand) {
-  noise::Sheet unit = stand.whitener.sheet(entry.atoms);
+  noise::Sheet unit = stand.whitener.sheet(*entry.atoms);
   stand.at.basis.take_out_of(unit);
   orthonormalise(unit, entry.candidate->width);
   return unit;

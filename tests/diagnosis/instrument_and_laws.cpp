@@ -1,6 +1,7 @@
 // What readings show of their receiver, and the laws of a single reading: closed forms, and draws whose law is known.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "diagnosis/instrument.hpp"
@@ -87,6 +88,29 @@ std::vector<LawTest> tested(const Truth& truth, const ReadingLaw& stated) {
 TEST(LawsOfReadings, TheStatedLawIsNotLeftWithoutReason) {
   for (const LawTest& test : tested({.rician_k = 6}, {.rician_k = 6}))
     EXPECT_GT(test.log_p, std::log(0.01)) << test.cause;
+}
+
+// Some of the readings say where to look; what is likely is the best by all.
+TEST(LawsOfReadings, ShapesOfManyReadingsAreTheBestByAllOfThem) {
+  constexpr double likely = 6;  // nats
+  const ReadingLaw law{.rician_k = 6};
+  Walk walk = drawn_of_four({.rician_k = 6}, 7750, 7.5);
+  walk.readings.rx_at *= 0.2;
+  ReadingField field(walk.readings, walk.residual);
+  Judge judge(field, 1);
+  const std::vector<Peak> peaks = judge.shapes(law, near_the_truth);
+  const auto lower = [](const Peak& a, const Peak& b) { return a.value < b.value; };
+  const Peak best = *std::max_element(peaks.begin(), peaks.end(), lower);
+  for (const Peak& peak : peaks) {
+    const double further = judge.best_distance(law, peak).value;
+    EXPECT_LT(further, peak.value > best.value - likely ? peak.value + 1 : best.value - likely);
+  }
+  ReadingField some = field.some(10000);
+  EXPECT_GT(some.size(), 5000);
+  EXPECT_LT(some.size(), 11000);
+  // Whole neighbourhoods: every fourth reading would be told less by its neighbours.
+  const auto told = [&](ReadingField& of) { return of.view(best.shape, best.place).log_spread.mean(); };
+  EXPECT_NEAR(told(some), told(field), 0.06);
 }
 
 TEST(LawsOfReadings, ReadingsSideBySideTellTheVarianceOfOne) {

@@ -103,6 +103,7 @@ TEST(Sketch, IsTheColumnsAtTheReadingsInTheMiddleOfRows) {
   for (Eigen::Index row = 0; row < rows.size(); ++row) middles.push_back(rows.middle(row));
   int sketched = 0;
   for (const search::Candidate& c : at.problem.candidates) {
+    EXPECT_EQ(static_cast<bool>(c.sketch), c.refinable()) << c.id;
     if (!c.sketch) continue;
     ++sketched;
     for (const std::size_t k : {std::size_t(0), c.grid.size() / 2}) {
@@ -111,7 +112,7 @@ TEST(Sketch, IsTheColumnsAtTheReadingsInTheMiddleOfRows) {
       EXPECT_LT((c.sketch(c.grid[k]) - exact).cwiseAbs().maxCoeff(), 1e-9) << c.id;
     }
   }
-  EXPECT_EQ(sketched, 3);  // a wall, a thing, a radio elsewhere
+  EXPECT_GT(sketched, 3);
 }
 
 // A radio at the edge of what is known may stand beyond it.

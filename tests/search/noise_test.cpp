@@ -38,10 +38,11 @@ Eigen::MatrixXd dense(const Sites& sites, const Covariance& c) {
   for (Index i = 0; i < n; ++i) {
     for (Index j = 0; j < n; ++j) {
       const auto soft = [&](double h) { return softened(c.family, h, sites.soft); };
-      const double h = (sites.place.col(i) - sites.place.col(j)).norm();
+      const double near = (sites.place.col(i) - sites.place.col(j)).norm();
+      const double both = std::hypot(near, (sites.anchor.col(i) - sites.anchor.col(j)).norm());
       const bool same = sites.radio[static_cast<std::size_t>(i)] == sites.radio[static_cast<std::size_t>(j)];
-      const double k = correlation(c.family, soft(h) / c.decorrelation());
-      result(i, j) = c.field_variance() * (c.shared() + (same ? 1 - c.shared() : 0)) * k;
+      const auto k = [&](double h) { return correlation(c.family, soft(h) / c.decorrelation()); };
+      result(i, j) = c.field_variance() * (c.shared() * k(near) + (same ? (1 - c.shared()) * k(both) : 0));
     }
     result(i, i) += c.reading_variance() / sites.count[i] + 1e-3;
   }
@@ -51,12 +52,15 @@ Eigen::MatrixXd dense(const Sites& sites, const Covariance& c) {
 const Covariance some{Family::exponential, {std::log(9.0), std::log(1.7), std::log(4.0), -1.2}};
 
 TEST(Exact, CovarianceOfSumsIsTheDenseOne) {
-  const Sites sites = scattered(80, 3, 6);
-  const Eigen::MatrixXd weights = Eigen::MatrixXd::Random(80, 3);
-  for (const Family family : families) {
-    const Covariance c{family, some.theta};
-    const Eigen::MatrixXd expected = weights.transpose() * dense(sites, c) * weights;
-    EXPECT_LT((covariance_of_sums(sites, c, weights) - expected).norm(), 1e-3 * expected.norm()) << name_of(family);
+  const Eigen::MatrixXd weights = Eigen::MatrixXd::Random(83, 3);
+  for (const bool anchors_move : {false, true}) {
+    Sites sites = scattered(83, 3, 6);
+    if (anchors_move) sites.anchor.row(1).setRandom();
+    for (const Family family : families) {
+      const Covariance c{family, some.theta};
+      const Eigen::MatrixXd expected = weights.transpose() * dense(sites, c) * weights;
+      EXPECT_LT((covariance_of_sums(sites, c, weights) - expected).norm(), 1e-3 * expected.norm()) << name_of(family);
+    }
   }
 }
 

@@ -130,6 +130,38 @@ TEST(RowKernels, ContractFourCombinationsAtOnce) {
   }
 }
 
+TEST(RowKernels, TellCovariancesOfPairsToTheSameBits) {
+  const Index rows = 4 * many;
+  const Eigen::MatrixXf at = normals<Eigen::MatrixXf>(rows, 6, 10);
+  std::vector<int> radio;
+  for (Index i = 0; i < rows; ++i) radio.push_back(static_cast<int>(i % 3));
+  const Eigen::VectorXf falling = Eigen::VectorXf::LinSpaced(401, 1, 0);
+  for (const bool anchors_move : {false, true}) {
+    const Pairs pairs{{at.col(0).data(), at.col(1).data(), at.col(2).data()},
+                      {at.col(3).data(), at.col(4).data(), at.col(5).data()},
+                      radio.data(),
+                      falling.data(),
+                      20,
+                      2,
+                      5,
+                      anchors_move};
+    const Index row = rows - 3;
+    Eigen::VectorXd first(rows);
+    for (int k = 0; k < row_kernels().number; ++k) {
+      Eigen::VectorXd told(rows);
+      row_kernels().all[k]->covariances(pairs, row, told.data());
+      if (k == 0) first = told;
+      EXPECT_EQ(told.head(row), first.head(row)) << row_kernels().all[k]->name;
+    }
+    for (Index i = 0; i < row; ++i) {
+      const Eigen::RowVectorXf apart = at.row(row) - at.row(i);
+      const double near = apart.head(3).norm(), both = anchors_move ? apart.norm() : near;
+      const double expected = 2 * (1 - near / 20) + (i % 3 == row % 3 ? 5 * (1 - both / 20) : 0);
+      EXPECT_NEAR(first[i], expected, 0.01) << i;  // half an entry is 0.00125
+    }
+  }
+}
+
 TEST(RowKernels, TakeOutWhatABasisExplains) {
   const Eigen::MatrixXd design = normals<Eigen::MatrixXd>(157, 6, 8);
   const Basis basis = basis_of(design);
