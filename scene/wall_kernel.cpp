@@ -215,8 +215,6 @@ MUSTER_INLINE Listed<parts> list_walls(const WallTable& table, const WallView& v
   const int blocks = surviving(table, view, BoxesInShaft(shaft));
   const Floats x = (shaft.west + shaft.east) * 0.5f, y = (shaft.south + shaft.north) * 0.5f;
   const Floats half_x = (shaft.east - shaft.west) * 0.5f, half_y = (shaft.north - shaft.south) * 0.5f;
-  const Floats west = min(shaft.west, 0), east = max(shaft.east, 0);
-  const Floats south = min(shaft.south, 0), north = max(shaft.north, 0);
   const Floats low = shaft.low, high = shaft.high, far = shaft.reach;
   Listed<parts> listed;
   for (int part = 0; part < parts; ++part) listed.end[part] = view.lists[1 + part];
@@ -234,8 +232,7 @@ MUSTER_INLINE Listed<parts> list_walls(const WallTable& table, const WallView& v
       const Floats over_x = ay - by, over_y = bx - ax;
       const Floats nearest =
           x * over_x + y * over_y + load(seen.area + k) - (half_x * magnitude(over_x) + half_y * magnitude(over_y));
-      const Mask met = nearest <= 2 * margin && base <= high && load(wall.top + k) > low && min(ax, bx) <= east &&
-                       max(ax, bx) >= west && min(ay, by) <= north && max(ay, by) >= south;
+      const Mask met = nearest <= 2 * margin && base <= high && load(wall.top + k) > low;
       const Mask plain = base <= low && load(wall.plain_top + k) > high;
       const int first = number * stride + k;
       Mask kept(false);
