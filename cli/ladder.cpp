@@ -1,5 +1,8 @@
 #include "ladder.hpp"
 
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 #include "text/error.hpp"
@@ -9,6 +12,7 @@ namespace muster::cli {
 namespace {
 
 constexpr const char* who = "muster compare --ladder";
+using Names = std::vector<std::string>;
 
 void set(InstanceDeclaration& instance, const std::string& name, const std::string& value) {
   const auto found = std::find_if(instance.attributes.begin(), instance.attributes.end(),
@@ -19,72 +23,132 @@ void set(InstanceDeclaration& instance, const std::string& name, const std::stri
     instance.attributes.push_back({name, value, {who}, {who}});
 }
 
-InstanceDeclaration* find(World& world, const std::string& plugin) {
+bool has(const Names& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool claims(const Instance& instance, uint32_t kind, const std::string& table) {
+  const auto& all = instance.claims();
+  return std::any_of(all.begin(), all.end(),
+                     [&](const Claim& claim) { return claim.kind == kind && claim.name.logical() == table; });
+}
+
+bool has_model(const muster_plugin& plugin, const std::string& model) {
+  return std::any_of(plugin.params, plugin.params + plugin.param_count, [&](const muster_param& param) {
+    return param.kind == MUSTER_CHOICE && std::string("model") == param.name &&
+           ('|' + std::string(param.text) + '|').find('|' + model + '|') != std::string::npos;
+  });
+}
+
+// What the instances of a world are to its channel, by what they claim and which parameters they have: their names.
+struct Channel {
+  std::string path_loss;  // with a parameter `model`
+  Names shadows;          // terms with a parameter `shadowing`, which is none at 0
+  Names fades;            // what writes the fading, and has a flag for it
+  Names fades_always;     // what else makes it
+  Names other_terms;      // of the level
+  std::string network;    // carries messages
+
+  bool has_fading() const { return !fades.empty() || !fades_always.empty(); }
+};
+
+Channel channel_of(const Simulation& given) {
+  Channel result;
+  for (const auto& each : given.instances()) {
+    const bool adds = claims(*each, MUSTER_ADD, "link/*/level"), shadows = each->find_param("shadowing") >= 0;
+    const bool fades = claims(*each, MUSTER_WRITE, "link/*/fading") || claims(*each, MUSTER_MODIFY, "link/*/fading");
+    if (fades) (each->find_param("fading") >= 0 ? result.fades : result.fades_always).push_back(each->name());
+    if (adds && has_model(each->plugin(), "perfect"))
+      result.path_loss = each->name();
+    else if (adds && (shadows || !fades))
+      (shadows ? result.shadows : result.other_terms).push_back(each->name());
+    if (claims(*each, MUSTER_WRITE, "inbox/*/message")) result.network = each->name();
+  }
+  return result;
+}
+
+void remove(World& world, const Names& names) {
+  const auto gone = [&](const std::string& name) { return has(names, name); };
+  std::erase_if(world.instances, [&](const InstanceDeclaration& each) { return gone(each.name); });
+  std::erase_if(world.swaps, [&](const SwapDeclaration& each) { return gone(each.instance); });
+}
+
+InstanceDeclaration* find(World& world, const std::string& name) {
   const auto found = std::find_if(world.instances.begin(), world.instances.end(),
-                                  [&](const InstanceDeclaration& i) { return i.plugin == plugin; });
+                                  [&](const InstanceDeclaration& each) { return each.name == name; });
   return found == world.instances.end() ? nullptr : &*found;
 }
 
-bool is_network(const std::string& plugin) { return plugin.starts_with("network."); }
-
-// The instance that carries messages is of `plugin`; where that changes, without attributes.
-void set_network(World& world, const std::string& plugin) {
-  for (InstanceDeclaration& each : world.instances) {
-    if (!is_network(each.plugin) || each.plugin == plugin) continue;
-    auto made = instance_of(each.name, plugin, {}, who);
-    made.every = each.every;
-    each = std::move(made);
-    return;
-  }
-  if (!find(world, plugin)) world.instances.push_back(instance_of(plugin, plugin, {}, who));
+// Of instances that the world has, their plugins.
+std::string plugins_of(World world, const Names& names) {
+  Names result;
+  for (const std::string& name : names) result.push_back(find(world, name)->plugin);
+  return fmt::format("{}", fmt::join(result, ", "));
 }
 
-// With neither, the plugin need not be there.
-void set_fading(World& world, bool shadowing, bool fading) {
-  InstanceDeclaration* instance = find(world, "radio.fading");
-  if (!instance && !shadowing) return;
-  if (!instance) {
-    world.instances.push_back(instance_of("radio.fading", "radio.fading", {}, who));
-    instance = &world.instances.back();
+// Where nothing of the world's own shadows or fades, radio.fading does.
+void set_fading(World& world, const Channel& channel, bool shadowing, bool fading) {
+  for (InstanceDeclaration& each : world.instances) {
+    if (!shadowing && has(channel.shadows, each.name)) set(each, "shadowing", "0");
+    if (has(channel.fades, each.name)) set(each, "fading", fading ? "true" : "false");
   }
-  if (!shadowing) set(*instance, "shadowing", "0");
-  set(*instance, "fading", fading ? "true" : "false");
+  if (!fading) remove(world, channel.fades_always);
+  if (channel.has_fading() || (channel.shadows.empty() ? !shadowing : !fading)) return;
+  auto own = instance_of("radio.fading", "radio.fading", {}, who);
+  if (!channel.shadows.empty()) set(own, "shadowing", "0");
+  set(own, "fading", fading ? "true" : "false");
+  world.instances.push_back(std::move(own));
+}
+
+// What carries messages is of `plugin`; where that changes, without attributes.
+void set_network(World& world, const Channel& channel, const std::string& plugin) {
+  InstanceDeclaration* const network = find(world, channel.network);
+  if (network == nullptr) {
+    world.instances.push_back(instance_of(plugin, plugin, {}, who));
+  } else if (network->plugin != plugin) {
+    auto made = instance_of(network->name, plugin, {}, who);
+    made.every = network->every;
+    *network = std::move(made);
+  }
 }
 
 }  // namespace
 
 std::vector<Rung> ladder(const World& world, const Simulation& given) {
-  World lowest = world;
-  if (!find(lowest, "radio.multiwall"))
+  const Channel channel = channel_of(given);
+  World ideal = world;
+  if (!find(ideal, channel.path_loss))
     throw Error(Exit::invalid_input, std::string(who) +
                                          ": no instance of the world is a radio.multiwall, whose model the "
                                          "first rungs set");
+  const bool talks = !channel.network.empty();
   std::string shared = "network.lrwpan";
-  bool talks = false;
-  for (const auto& instance : given.instances()) talks |= is_network(instance->plugin().id);
-  for (const auto& each : world.instances) {
-    if (is_network(each.plugin) && each.plugin != "network.ideal") shared = each.plugin;
-  }
-  if (talks) set_network(lowest, "network.ideal");
+  if (const auto* own = find(ideal, channel.network); own && own->plugin != "network.ideal") shared = own->plugin;
+  if (talks) set_network(ideal, channel, "network.ideal");
 
   std::vector<Rung> result;
-  for (const std::string model : {"perfect", "disc", "log_distance", "multi_wall"}) {
-    World rung = lowest;
-    set(*find(rung, "radio.multiwall"), "model", model);
-    set_fading(rung, false, false);
-    result.push_back({model, "radio.multiwall model=\"" + model + '"', std::move(rung)});
-  }
-  set_fading(lowest, true, false);
-  set(*find(lowest, "radio.multiwall"), "model", "multi_wall");
-  result.push_back({"+ shadowing", "radio.fading shadowing", lowest});
-  set_fading(lowest, true, true);
-  result.push_back({"+ fading", "radio.fading fading=\"true\"", lowest});
+  const auto put = [&](const std::string& name, const std::string& change, World rung, const std::string& model,
+                       bool shadowing, bool fading) {
+    set(*find(rung, channel.path_loss), "model", model);
+    set_fading(rung, channel, shadowing, fading);
+    result.push_back({name, change, std::move(rung)});
+  };
+  World plain = ideal;
+  remove(plain, channel.other_terms);
+  const std::string path_loss = plugins_of(world, {channel.path_loss});
+  for (const std::string model : {"perfect", "disc", "log_distance", "multi_wall"})
+    put(model, path_loss + " model=\"" + model + '"', plain, model, false, false);
+  const auto plugins = [&](const Names& own) { return own.empty() ? "radio.fading" : plugins_of(world, own); };
+  if (!channel.other_terms.empty())
+    put("+ other terms", plugins(channel.other_terms), ideal, "multi_wall", false, false);
+  if (!channel.shadows.empty() || !channel.has_fading())
+    put("+ shadowing", plugins(channel.shadows) + " shadowing", ideal, "multi_wall", true, false);
+  put("+ fading", plugins(channel.fades.empty() ? channel.fades_always : channel.fades) + " fading=\"true\"", ideal,
+      "multi_wall", true, true);
   if (!talks) return result;
-  lowest = world;
-  set(*find(lowest, "radio.multiwall"), "model", "multi_wall");
-  set_fading(lowest, true, true);
-  set_network(lowest, shared);
-  result.push_back({"+ contention", shared, std::move(lowest)});
+  World contended = world;
+  set_network(contended, channel, shared);
+  put("+ contention", shared, std::move(contended), "multi_wall", true, true);
   return result;
 }
 

@@ -1,4 +1,4 @@
-// The fidelity ladder: one world on seven channels, each with one thing more than the one before it.
+// The fidelity ladder: one world on seven or eight channels, each with one thing more than the one before it.
 #pragma once
 
 #include <string>
@@ -15,9 +15,10 @@ struct Rung {
 };
 
 // From a perfect channel up to contention, as far as the world has what a rung needs: only where messages are sent can
-// they contend. `given` is the world as its file has it, made. What its file says of shadowing, fading and a shared
-// channel holds on their rungs; of what it does not say, the plugins' defaults. Throws Error where nothing models
-// the path loss.
+// they contend. `given` is the world as its file has it, made: what its instances claim and which parameters they have
+// tells what shadows, what fades and what else adds to a link's level, whatever their names. What its file says of all
+// these and of a shared channel holds on their rungs; of what it does not say, the plugins' defaults. Throws Error
+// where nothing models the path loss.
 std::vector<Rung> ladder(const World& world, const Simulation& given);
 
 }  // namespace muster::cli

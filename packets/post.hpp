@@ -95,6 +95,7 @@ class Post {
  public:
   // `frames_of`: how many frames a payload of so many bytes goes in; where a medium counts otherwise, none.
   explicit Post(std::size_t (*frames_of)(std::size_t) = nullptr) : frames_of_(frames_of) {}
+  void cut_by(std::size_t (*frames_of)(std::size_t)) { frames_of_ = frames_of; }
 
   // A message that `from` wants to send at a time of the next run.
   void ask(Time at, std::size_t from, std::size_t to, std::string payload);
@@ -115,7 +116,7 @@ class Post {
   bool is_waiting(std::size_t radio) const { return !queues_[radio].empty(); }
   Message& first(std::size_t radio) { return queues_[radio].front(); }
   const Message& first(std::size_t radio) const { return queues_[radio].front(); }
-  bool is_last_frame(std::size_t radio) const { return first(radio).frame + 1 == frames_of_(first(radio).size); }
+  bool is_last_frame(std::size_t radio) const { return first(radio).frame + 1 >= frames_of_(first(radio).size); }
   void drop_first(std::size_t radio) { queues_[radio].pop_front(); }
 
   // What became of a frame of the first message, at each receiver that it is still under way to. With the last frame

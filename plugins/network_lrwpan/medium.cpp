@@ -39,6 +39,8 @@ const Report& Medium::run(Time since, Time until, const Channel& channel, const 
   air_.enter(channel, {settings.noise, found_above, captures ? never : 0, captures ? settings.capture : found_above,
                        band_of(settings.channel)});
   post_.open(channel);
+  post_.cut_by([](std::size_t size) { return frames_of(size, header); });
+  if (settings.extended) post_.cut_by([](std::size_t size) { return frames_of(size, extended_header); });
   agenda_.clear(until);
   for (std::size_t i = 0; i < radios_.size(); ++i) {
     if (channel.alive[i]) continue;
@@ -151,7 +153,7 @@ void Medium::end_phase(std::size_t number, Time at) {
 
 void Medium::send(std::size_t number, Time at) {
   const packets::Message& message = post_.first(number);
-  const Time length = air_time(frame_size(message.size, message.frame));
+  const Time length = air_time(frame_size(message.size, message.frame, head()));
   wait(number, Phase::sending, never);
   const Frame& frame = air_.begin(number, at, length, 0, nothing, message.to, cca_window);
   agenda_.put(frame.end, frame_ends, frame.id);

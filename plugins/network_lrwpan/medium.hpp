@@ -32,6 +32,7 @@ struct Settings {
   std::size_t queue = 16;    // messages that wait at a radio
   bool acknowledged = true;  // frames to one receiver
   int retries = 3;           // macMaxFrameRetries
+  bool extended = false;     // addresses of 64 bits, not 16
   double capture = 0;        // ratio above which a later frame takes a receiver over; 0: never
 };
 
@@ -73,6 +74,7 @@ class Medium {
     std::uint64_t draws = 0;  // random numbers used up
   };
 
+  std::size_t head() const { return settings_.extended ? extended_header : header; }
   void wait(std::size_t radio, Phase phase, Time until);
   void wait_with_ack(std::size_t radio, Phase phase, Time until);
   void handle(const packets::Event& event);
@@ -97,7 +99,7 @@ class Medium {
   Settings settings_;
   Stream random_;
   packets::Air air_;
-  packets::Post post_{frames_of};
+  packets::Post post_;
   packets::Agenda agenda_;
   std::vector<Radio> radios_;
   const Channel* channel_ = nullptr;  // of the run

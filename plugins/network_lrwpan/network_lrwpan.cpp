@@ -13,7 +13,7 @@ struct NetworkLrwpan {
   static constexpr auto manual =
       R"(Messages as frames of IEEE 802.15.4-2006 (the radio of Zigbee), unslotted CSMA/CA, 250 kbit/s: back-off, clear-channel
 assessment, turnaround, frame spacing; frames to one receiver are acknowledged and sent again. What is larger than 116
-bytes goes in fragments cut as RFC 4944 does. A receiver locks on a frame that it hears (rssi not null) and
+bytes (104 with extended addresses) goes in fragments cut as RFC 4944 does. A receiver locks on a frame that it hears (rssi not null) and
 that stands 5 dB below noise and interference or better; each bit then comes right or wrong by the standard's O-QPSK
 formula for its ratio to noise and to all other frames in the air; a lock is kept, whatever stronger begins, unless
 `capture` says else. Power is link/*/level with link/*/fading, as it stands in the tick.
@@ -30,6 +30,7 @@ queue_full + no_ack + gone + those still under way.)";
       real("noise", -106.987, -250, 50, "dBm", "of a receiver"),
       flag("acknowledge", true, "messages to one receiver are acknowledged"),
       integer("retries", 3, 0, 7, "of a frame that was not acknowledged"),
+      choice("addresses", "short|extended", "of 16 or of 64 bits, which every frame bears"),
       integer("queue", 16, 0, 1e6, "messages that may wait at a radio beside the one that it sends"),
       real("capture", 0, 0, 60, "dB", "a later frame so far above all others takes a receiver over; 0: none does"),
       packets::Board::spread_param,
@@ -42,6 +43,7 @@ queue_full + no_ack + gone + those still under way.)";
         noise(s.value("noise")),
         acknowledge(s.value("acknowledge")),
         retries(s.value("retries")),
+        addresses(s.value("addresses")),
         queue(s.value("queue")),
         capture(s.value("capture")),
         board(s, "self/lrwpan", {-5, 30}),
@@ -56,11 +58,12 @@ queue_full + no_ack + gone + those still under way.)";
     settings.queue = static_cast<std::size_t>(k[queue]);
     settings.acknowledged = k[acknowledge] != 0;
     settings.retries = static_cast<int>(k[retries]);
+    settings.extended = k[addresses] != 0;
     settings.capture = k[capture] > 0 ? milliwatts(k[capture]) : 0;
     board.step(k, medium, settings);
   }
 
-  Value channel, cca, cca_threshold, noise, acknowledge, retries, queue, capture;
+  Value channel, cca, cca_threshold, noise, acknowledge, retries, addresses, queue, capture;
   packets::Board board;
   lrwpan::Medium medium;
 };

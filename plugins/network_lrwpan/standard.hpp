@@ -31,20 +31,22 @@ constexpr packets::Band band_of(int channel) {
 constexpr std::size_t largest_frame = 127;  // aMaxPHYPacketSize
 constexpr std::size_t preamble = 6;         // preamble, start of frame, length
 constexpr std::size_t header = 11;  // control, sequence, PAN, two short addresses in one PAN; check sequence at the end
+constexpr std::size_t extended_header = header + 2 * (8 - 2);  // the same with two extended addresses
 constexpr std::size_t ack_frame = 5;
 
 // Fragments as RFC 4944 cuts them: all but the last carry a multiple of 8 octets behind a header of 4, then of 5.
-constexpr std::size_t in_one_frame = largest_frame - header;
-constexpr std::size_t in_a_fragment = (in_one_frame - 5) / 8 * 8;
+constexpr std::size_t in_one_frame(std::size_t head) { return largest_frame - head; }
+constexpr std::size_t in_a_fragment(std::size_t head) { return (in_one_frame(head) - 5) / 8 * 8; }
 
-constexpr std::size_t frames_of(std::size_t payload) {
-  return payload <= in_one_frame ? 1 : (payload + in_a_fragment - 1) / in_a_fragment;
+constexpr std::size_t frames_of(std::size_t payload, std::size_t head) {
+  return payload <= in_one_frame(head) ? 1 : (payload + in_a_fragment(head) - 1) / in_a_fragment(head);
 }
 
 // Octets of the n-th frame of a payload, from its control field on.
-constexpr std::size_t frame_size(std::size_t payload, std::size_t n) {
-  if (payload <= in_one_frame) return header + payload;
-  return header + (n == 0 ? 4 : 5) + std::min(in_a_fragment, payload - n * in_a_fragment);
+constexpr std::size_t frame_size(std::size_t payload, std::size_t n, std::size_t head) {
+  if (payload <= in_one_frame(head)) return head + payload;
+  const std::size_t before = std::min(payload, n * in_a_fragment(head));
+  return head + (n == 0 ? 4 : 5) + std::min(in_a_fragment(head), payload - before);
 }
 
 constexpr Time air_time(std::size_t size) { return static_cast<Time>(preamble + size) * octet; }

@@ -43,28 +43,22 @@ std::vector<Tile> tiles(const std::vector<FieldPoint>& places, const Fill& fill)
   return result;
 }
 
-// Links of one sender to one tile, by their numbers.
+// Links of one sender to one tile: their numbers follow one another, and their places ascend.
 struct LinksToTile {
-  const Ends* ends = nullptr;
+  static constexpr unsigned everywhere = (1u << waves::tile) - 1;
+
   std::size_t first = 0, number = 0;
-  double first_place = 0;
-  bool whole = false;  // to every place in turn
+  unsigned places = 0;  // a bit for each
 
   // use(link, place in the tile)
   template <class Use>
   void each(const Use& use) const {
-    for (std::size_t i = 0; whole && i < waves::tile; ++i) use(first + i, i);
-    for (std::size_t i = 0; !whole && i < number; ++i) {
-      use(first + i, static_cast<std::size_t>(ends[i].rx - first_place));
+    if (places == everywhere) {
+      for (std::size_t i = 0; i < waves::tile; ++i) use(first + i, i);
+    } else {
+      std::size_t link = first;
+      for (unsigned left = places; left != 0; left &= left - 1) use(link++, __builtin_ctz(left));
     }
-  }
-  // A bit for each place.
-  unsigned places() const {
-    unsigned result = whole ? (1u << waves::tile) - 1 : 0;
-    for (std::size_t i = 0; !whole && i < number; ++i) {
-      result |= 1u << static_cast<std::size_t>(ends[i].rx - first_place);
-    }
-    return result;
   }
   // Where there are many links, their values lie far apart: they are fetched while they are worked out.
   void prefetch(double* column) const {
@@ -72,49 +66,117 @@ struct LinksToTile {
   }
 };
 
+// Links of all places of one tile to another tile.
+struct LinksBetweenTiles {
+  LinksToTile from[waves::tile];
+  unsigned senders = 0, receivers = 0;  // a bit for each
+
+  // Of each sender, the places to which a link of its runs, or from which one of `back` does.
+  std::array<unsigned, waves::tile> pairs(const LinksBetweenTiles& back) const {
+    std::array<unsigned, waves::tile> result;
+    unsigned to_everywhere = 0;
+    for (unsigned i = 0; i < waves::tile; ++i) {
+      to_everywhere |= unsigned{back.from[i].places == LinksToTile::everywhere} << i;
+    }
+    for (std::size_t i = 0; i < waves::tile; ++i) result[i] = from[i].places | to_everywhere;
+    for (unsigned left = back.senders & ~to_everywhere; left != 0; left &= left - 1) {
+      const int other = __builtin_ctz(left);
+      back.from[other].each([&](std::size_t, std::size_t i) { result[i] |= 1u << other; });
+    }
+    return result;
+  }
+};
+
 // The links of each sender, taken in order. Finds them where they are grouped by ascending sender.
 class SendersLinks {
  public:
-  static constexpr std::size_t none = ~std::size_t{0};
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
 
-  SendersLinks(Rows<const Ends> links, std::size_t endpoints) : links_(links), next_(endpoints) {
-    const Ends* first = links.begin();
+  SendersLinks(Rows<const Ends> links, std::size_t endpoints)
+      : links_(links), of_(endpoints), next_tile_(endpoints + waves::tile, none) {
+    const Ends* at = links.begin();
     for (std::size_t sender = 0; sender < endpoints; ++sender) {
-      next_[sender] = first;
-      for (std::ptrdiff_t step = 1; step > 0;) {  // most senders have few links, or as many as the last
-        const bool within = step <= links.end() - first && first[step - 1].tx <= static_cast<double>(sender);
-        if (within) first += step;
-        step = within ? 2 * step : step / 2;
+      of_[sender].next = runs_.size();
+      while (at != links.end() && at->tx == static_cast<double>(sender)) {
+        const std::size_t number = follow_one_another(at, links.end());
+        runs_.push_back({static_cast<std::size_t>(at - links.begin()), static_cast<std::size_t>(at->rx), number});
+        at += number;
       }
+      of_[sender].end = runs_.size();
     }
+    for (std::size_t sender = 0; sender < endpoints; ++sender) look_ahead(sender);
   }
 
-  // The tile that the sender's next link goes to, if it has one.
-  std::size_t tile(std::size_t sender) const {
-    const Ends* const next = next_[sender];
-    return next != links_.end() && next->tx == static_cast<double>(sender)
-               ? static_cast<std::size_t>(next->rx) / waves::tile
-               : none;
+  // The least tile that a tile's next links go to, or none.
+  std::uint32_t next(std::size_t tile) const {
+    const std::uint32_t* const of_tile = next_tile_.data() + tile * waves::tile;
+    return *std::min_element(of_tile, of_tile + waves::tile);
   }
 
-  // Takes the sender's links as long as they go to this tile.
-  LinksToTile take(std::size_t sender, std::size_t tile) {
-    const double from = static_cast<double>(sender), first = static_cast<double>(tile * waves::tile);
-    const Ends *const start = next_[sender], *next = start;
-    const bool whole = links_.end() - start >= waves::tile && run_on(start, waves::tile, from, first);
-    if (whole) next += waves::tile;
-    while (next != links_.end() && next->tx == from && next->rx >= first && next->rx < first + waves::tile) ++next;
-    const auto number = static_cast<std::size_t>(next - start);
-    next_[sender] = next;
-    taken_ += number;
-    return {start, static_cast<std::size_t>(start - links_.begin()), number, first, whole && number == waves::tile};
+  // Takes the links of a tile's places as long as they go to the other one.
+  LinksBetweenTiles take(std::size_t tile, std::size_t other) {
+    LinksBetweenTiles result;
+    for (std::size_t i = tile * waves::tile; i < std::min(of_.size(), (tile + 1) * waves::tile); ++i) {
+      if (next_tile_[i] != other) continue;
+      const LinksToTile taken = take_from(of_[i], other);
+      look_ahead(i);
+      result.from[i % waves::tile] = taken;
+      result.senders |= unsigned{taken.number != 0} << i % waves::tile;
+      result.receivers |= taken.places;
+      taken_ += taken.number;
+    }
+    return result;
   }
 
   bool all_taken() const { return taken_ == links_.size(); }
 
  private:
+  // Links of one sender to receivers that follow one another.
+  struct Run {
+    std::size_t first, to, number;
+  };
+  struct Runs {
+    std::size_t next, end;
+  };
+
+  static std::size_t follow_one_another(const Ends* first, const Ends* end) {
+    constexpr std::size_t some = waves::tile;
+    const auto [tx, rx] = *first;
+    std::size_t number = 1;
+    const auto left = [&] { return static_cast<std::size_t>(end - first) - number; };
+    const auto goes_on = [&](std::size_t by) {
+      return left() >= by && run_on(first + number, by, tx, rx + static_cast<double>(number));
+    };
+    while (goes_on(some)) number += some;
+    while (goes_on(1)) ++number;
+    return number;
+  }
+
+  void look_ahead(std::size_t sender) {
+    const auto [next, end] = of_[sender];
+    next_tile_[sender] = next == end ? none : static_cast<std::uint32_t>(runs_[next].to / waves::tile);
+  }
+
+  LinksToTile take_from(Runs& of, std::size_t tile) {
+    LinksToTile result;
+    for (; of.next != of.end; ++of.next) {
+      Run& run = runs_[of.next];
+      const std::size_t place = run.to % waves::tile, number = std::min(run.number, waves::tile - place);
+      if (run.to / waves::tile != tile || result.places >> place != 0) break;
+      if (result.number == 0) result.first = run.first;
+      result.number += number;
+      result.places |= ((1u << number) - 1) << place;
+      if (number == run.number) continue;
+      run.first += number, run.to += number, run.number -= number;
+      break;
+    }
+    return result;
+  }
+
   const Rows<const Ends> links_;
-  std::vector<const Ends*> next_;
+  std::vector<Run> runs_;
+  std::vector<Runs> of_;                  // each sender
+  std::vector<std::uint32_t> next_tile_;  // that each one's next links go to; padded by none to whole tiles
   std::size_t taken_ = 0;
 };
 
@@ -128,32 +190,26 @@ void by_tiles(Rows<const Ends> links, std::size_t endpoints, const std::array<do
   constexpr std::size_t tile = waves::tile;
   double values[tile][columns][tile];
   SendersLinks by_sender(links, endpoints);
-  const auto senders = [&](std::size_t of) { return std::min(tile, endpoints - of * tile); };
   for (std::size_t one = 0; one * tile < endpoints; ++one) {
-    for (;;) {
-      std::size_t other = SendersLinks::none;
-      for (std::size_t i = 0; i < senders(one); ++i) other = std::min(other, by_sender.tile(one * tile + i));
-      if (other == SendersLinks::none) break;
-      LinksToTile there[tile], back[tile];
-      unsigned wanted[tile] = {};
-      for (std::size_t i = 0; i < senders(one); ++i) {
-        there[i] = by_sender.take(one * tile + i, other);
-        wanted[i] = there[i].places();
-        for (double* column : out) there[i].prefetch(column);
+    for (std::uint32_t other; (other = by_sender.next(one)) != SendersLinks::none;) {
+      const LinksBetweenTiles there = by_sender.take(one, other);
+      const LinksBetweenTiles back = other > one ? by_sender.take(other, one) : LinksBetweenTiles{};
+      for (double* column : out) {
+        for (std::size_t i = 0; i < tile; ++i) there.from[i].prefetch(column), back.from[i].prefetch(column);
       }
-      for (std::size_t i = 0; other > one && i < senders(other); ++i) {
-        back[i] = by_sender.take(other * tile + i, one);
-        const unsigned places = back[i].places();
-        for (std::size_t place = 0; place < tile; ++place) wanted[place] |= (places >> place & 1) << i;
-        for (double* column : out) back[i].prefetch(column);
-      }
+      // A place to a whole tile is one evaluation, so the tile with fewer places goes first.
+      const bool turned =
+          __builtin_popcount(back.senders | there.receivers) < __builtin_popcount(there.senders | back.receivers);
+      const LinksBetweenTiles &along = turned ? back : there, &across = turned ? there : back;
+      const auto wanted = along.pairs(across);
       for (std::size_t i = 0; i < tile; ++i) {
-        if (wanted[i] != 0) evaluate(one, static_cast<int>(i), other, wanted[i], values[i]);
+        if (wanted[i] == 0) continue;
+        evaluate(turned ? other : one, static_cast<int>(i), turned ? one : other, wanted[i], values[i]);
       }
       for (std::size_t c = 0; c < columns; ++c) {
         for (std::size_t i = 0; out[c] != nullptr && i < tile; ++i) {
-          there[i].each([&](std::size_t link, std::size_t place) { out[c][link] = values[i][c][place]; });
-          back[i].each([&](std::size_t link, std::size_t place) { out[c][link] = values[place][c][i]; });
+          along.from[i].each([&](std::size_t link, std::size_t place) { out[c][link] = values[i][c][place]; });
+          across.from[i].each([&](std::size_t link, std::size_t place) { out[c][link] = values[place][c][i]; });
         }
       }
     }

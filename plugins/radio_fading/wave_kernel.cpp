@@ -95,31 +95,42 @@ MUSTER_INLINE Quotient operator+(const Quotient& a, const Quotient& b) {
   return {a.over * b.under + b.over * a.under, a.under * b.under};
 }
 
-// A wave's mean along the way: the difference of its sines over that of its phases; where that is small, by its middle
-// and a series. The other way round, every difference changes its sign alone.
+// A wave's mean along the way: the difference of its sines over that of its phases. The other way round, both change
+// their sign alone.
 MUSTER_INLINE Quotient mean_along(const ShadowTile& from, int place, const ShadowTile& to, int first, int m) {
-  Floats along = load(to.along[m] + first) - from.along[m][place];
-  Floats over = load(to.sine[m] + first) - from.sine[m][place];
-  const Mask slow = stdx::abs(along) < 0.015625f;
-  if (__builtin_expect(stdx::any_of(slow), false)) {
-    const Floats middle = load(to.half_cosine[m] + first) * from.half_cosine[m][place] -
-                          load(to.half_sine[m] + first) * from.half_sine[m][place];
-    const Floats squared = along * along;
-    stdx::where(slow, over) = middle * (1 - squared * (1 / 24.0f - squared * (1 / 1920.0f)));
-    stdx::where(slow, along) = 1;
+  return {load(to.sine[m] + first) - from.sine[m][place], load(to.along[m] + first) - from.along[m][place]};
+}
+
+constexpr float slow = 0.015625f;  // below, a difference of phases is small
+
+// The same where that is small: by the wave's middle and a series.
+MUSTER_INLINE void mend_slow(const ShadowTile& from, int place, const ShadowTile& to, int first, int m,
+                             Quotient& mean) {
+  const Mask is_slow = stdx::abs(mean.under) < slow;
+  const Floats middle = load(to.half_cosine[m] + first) * from.half_cosine[m][place] -
+                        load(to.half_sine[m] + first) * from.half_sine[m][place];
+  const Floats squared = mean.under * mean.under;
+  stdx::where(is_slow, mean.over) = middle * (1 - squared * (1 / 24.0f - squared * (1 / 1920.0f)));
+  stdx::where(is_slow, mean.under) = 1;
+}
+
+MUSTER_INLINE Floats sum_of_four(const ShadowTile& from, int place, const ShadowTile& to, int first, int m) {
+  Quotient mean[4];
+  for (int i = 0; i < 4; ++i) mean[i] = mean_along(from, place, to, first, m + i);
+  const Floats least = stdx::min(stdx::min(stdx::abs(mean[0].under), stdx::abs(mean[1].under)),
+                                 stdx::min(stdx::abs(mean[2].under), stdx::abs(mean[3].under)));
+  if (__builtin_expect(stdx::any_of(least < slow), false)) {
+    for (int i = 0; i < 4; ++i) mend_slow(from, place, to, first, m + i, mean[i]);
   }
-  return {over, along};
+  const Quotient four = (mean[0] + mean[1]) + (mean[2] + mean[3]);
+  return four.over / four.under;
 }
 
 void shadow(const ShadowTile& from, int place, const ShadowTile& to, unsigned wanted, double sd, double* out) {
   for (int first = 0; first < tile; first += lanes) {
     if (!is_wanted(wanted, first)) continue;
-    const auto mean = [&](int m) __attribute__((always_inline)) { return mean_along(from, place, to, first, m); };
     Floats sum = 0;
-    for (int m = 0; m < shadow_waves; m += 4) {
-      const Quotient four = (mean(m) + mean(m + 1)) + (mean(m + 2) + mean(m + 3));
-      sum += four.over / four.under;
-    }
+    for (int m = 0; m < shadow_waves; m += 4) sum += sum_of_four(from, place, to, first, m);
     for (int i = 0; i < lanes; ++i) {
       const double root = __builtin_sqrt(length(from.at, place, to.at, first + i) / shadow_waves);
       out[first + i] = sd * (static_cast<double>(sum[i]) * root);

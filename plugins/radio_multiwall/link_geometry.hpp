@@ -64,10 +64,10 @@ class LinkGeometry {
     constexpr std::size_t block = 1024;  // pairs whose sums stay near while materials are gone through
     out.assign(pairs_.size(), 0);
     for (std::size_t first = 0; first < out.size(); first += block) {
-      const std::size_t last = std::min(out.size(), first + block);
+      const std::size_t number = std::min(block, out.size() - first);
       for (std::size_t m = 0; m < losses.size(); ++m) {
-        const int* const of_material = counts(m);
-        for (std::size_t i = first; i < last; ++i) out[i] += of_material[i] * losses[m];
+        Widest<AddLosses, const int*, double, double*, std::size_t>::run(counts(m) + first, losses[m], &out[first],
+                                                                         number);
       }
     }
   }
@@ -196,6 +196,12 @@ class LinkGeometry {
       out += number;
     }
   }
+
+  struct AddLosses {
+    [[gnu::always_inline]] static void run(const int* counts, double loss, double* sums, std::size_t number) {
+      for (std::size_t i = 0; i < number; ++i) sums[i] += counts[i] * loss;
+    }
+  };
 
   // The same bits both ways: differences change their sign alone.
   struct LogLengths {

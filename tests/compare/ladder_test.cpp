@@ -72,6 +72,50 @@ TEST(Ladder, EndsWithTheWorldAsItIsGiven) {
   EXPECT_EQ(digests.size(), told["rungs"].size()) << "each rung is another channel";
 }
 
+// What takes the place of radio.fading, in whole or in part, under whatever name.
+TEST(Ladder, KnowsWhatShadowsAndFadesByWhatItSaysOfItself) {
+  for (const std::string terms : {"<radio.ar1 name=\"chance\" shadowing=\"6\"/>",
+                                  "<radio.gudmundson name=\"g\" shadowing=\"6\"/><radio.fading shadowing=\"0\"/>"}) {
+    const CompareFolder folder;
+    folder.write("world.xml", calling_world(terms));
+    const auto told =
+        folder.json({"--ladder", "world.xml", "--metric", "link/*/level/level", "--metric", "link/*/fading/gain"});
+    const auto level = values(told, 0), gain = values(told, 1);
+    ASSERT_EQ(level.size(), 6u) << terms;
+    EXPECT_NEAR(level[3], -77.5, 1e-9) << terms;
+    EXPECT_GT(std::abs(level[4] - level[3]), 1e-3) << terms;
+    EXPECT_THAT(std::vector(gain.begin(), gain.end() - 1), testing::Each(1)) << terms;
+    const auto run = folder.muster({"run", "world.xml", "--json"});
+    ASSERT_EQ(run.exit, 0) << run.err;
+    EXPECT_EQ(told["rungs"].back()["digest"], nlohmann::json::parse(run.out)["digest"]) << terms;
+  }
+}
+
+TEST(Ladder, AddsFadingWhereShadowingIsAllThatTheWorldHas) {
+  const CompareFolder folder;
+  folder.write("world.xml", calling_world("<radio.gudmundson shadowing=\"6\"/>"));
+  const auto told = folder.json({"--ladder", "world.xml", "--metric", "link/*/level/level"});
+  const auto level = values(told, 0);
+  EXPECT_EQ(told["rungs"][4]["made_by"], "radio.gudmundson shadowing");
+  EXPECT_EQ(told["rungs"][5]["made_by"], "radio.fading fading=\"true\"");
+  EXPECT_NE(level[4], level[3]);
+  EXPECT_EQ(level[5], level[4]) << "nothing shadows twice";
+  EXPECT_NE(told["rungs"][5]["digest"], told["rungs"][4]["digest"]);
+}
+
+TEST(Ladder, LeavesOtherTermsOutUntilTheirRung) {
+  const CompareFolder folder;
+  folder.write("world.xml", calling_world("<radio.antenna name=\"mast\"/>"));
+  const auto told = folder.json({"--ladder", "world.xml", "--metric", "link/*/level/level"});
+  const auto level = values(told, 0);
+  ASSERT_EQ(level.size(), 7u);
+  EXPECT_EQ(level[0], -50);
+  EXPECT_NEAR(level[3], -77.5, 1e-9);
+  EXPECT_EQ(told["rungs"][4]["rung"], "+ other terms");
+  EXPECT_EQ(told["rungs"][4]["made_by"], "radio.antenna");
+  EXPECT_NEAR(level[4], -77.5 + 2 * 2.15, 0.01);  // broadside, at both ends
+}
+
 TEST(Ladder, HasNoContentionWhereNobodyTalks) {
   const CompareFolder folder;
   folder.write("world.xml", calling_world());
