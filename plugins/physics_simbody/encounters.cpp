@@ -17,8 +17,13 @@ constexpr double push_out = 0.2;               // fastest way out of the ground 
 // What sticks to another robot creeps by this share of what its grip takes from a speed: 0.06 mm/s at most between two
 // Scarabs that push each other with all their wheels.
 constexpr double creep_of_pairs = 2.4e-3;
-constexpr double slack = 0.002;   // [m] what others may push a contact by that would not close by itself
+constexpr double slack = 0.003;   // [m] what others may push a contact by that would not close by itself
 constexpr double nearby = 0.003;  // [m] at least so far off touching is looked for
+
+// Nothing sinks in deeper than this [m]. What seems to have been deeper at a step's start meets there by another face
+// than the one that kept it apart so far, as happens at corners that half a step brings past each other.
+constexpr double never_so_deep = 5e-4;
+constexpr double longest_way_of_corners = 0.005;  // [m] past each other in one step
 
 struct Compliance {
   Compliance(double mass, double h) {
@@ -78,6 +83,20 @@ ContactRowsOf<N> rows_at(const PlacedOf<N>& robot, int wheel, int leg, const Vec
     for (int k = 0; k < 2; ++k) rows.tangent[k][6 + leg] = turning.dot(ways.col(1 + k));
   }
   return rows;
+}
+
+// No place of the first robot near `place` moves faster past the second, or past what stands still [m/s].
+template <int N>
+double closing_speed(const PlacedOf<N>& a, const PlacedOf<N>* b, const Vector3d& place) {
+  Vector3d velocity = Vector3d::Zero(), spin = Vector3d::Zero();
+  const auto add = [&](const PlacedOf<N>& robot, double sign) {
+    const Vector3d w = sign * (robot.to_world * robot.body.previous.template head<3>());
+    spin += w;
+    velocity += sign * (robot.to_world * robot.body.previous.template segment<3>(3)) + w.cross(place - robot.position);
+  };
+  add(a, 1);
+  if (b) add(*b, -1);
+  return velocity.norm() + a.model->reach * spin.norm();
 }
 
 Matrix3d frame_about(const Vector3d& normal) {
@@ -268,8 +287,7 @@ void EncountersOf<N>::stand_on_legs(int body, const Placed& robot, const Memory&
 
 // A contact, unless it cannot close within this step.
 template <int N>
-void EncountersOf<N>::add(const Side& a, const Side& b, const Trace& trace, const Memory& memory,
-                          const TouchPoint& point) {
+void EncountersOf<N>::add(const Side& a, const Side& b, Trace trace, const Memory& memory, const TouchPoint& point) {
   Contact c;
   static_cast<ContactRowsOf<N>&>(c) = rows_at<N>(*a.robot, a.wheel, a.leg, point.place, trace.frame, 1);
   double speed = c.normal.dot(a.robot->body.previous), free = c.normal.dot(a.robot->body.free), mass = a.robot->mass;
@@ -280,8 +298,14 @@ void EncountersOf<N>::add(const Side& a, const Side& b, const Trace& trace, cons
     mass = 2 * a.robot->mass * b.robot->mass / (a.robot->mass + b.robot->mass);
     c.grip_softness = creep_of_pairs / mass;
   }
-  const double gap = point.gap - 0.5 * h_ * speed;  // at the step's start
-  if (gap + h_ * std::min(speed, free) > slack) return;
+  const double gap = point.gap - 0.5 * h_ * speed;            // at the step's start
+  const double least_gap = gap + h_ * std::min(speed, free);  // at the step's end
+  if (a.leg < 0 && b.leg < 0) {
+    const auto is_too_far = [&](double way) { return way > std::max(gap, longest_way_of_corners); };
+    trace.step_is_too_long =
+        gap < -never_so_deep || (point.of_corners && is_too_far(h_ * closing_speed(*a.robot, b.robot, point.place)));
+  }
+  if (least_gap > slack && !trace.step_is_too_long) return;
   c.body = a.body;
   c.other = b.body;
   c.friction = a.leg >= 0 && !b.robot ? a.robot->model->leg_drive.friction : friction_;

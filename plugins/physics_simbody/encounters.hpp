@@ -33,6 +33,7 @@ struct Trace {
   int wheel = -1;                                       // on the ground: 0 left, 1 right
   double id = 0;                                        // of others; 0: not kept
   Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();  // normal and tangents as columns, in the world
+  bool step_is_too_long = false;                        // for what meets here
 };
 
 template <int N>
@@ -60,7 +61,7 @@ class EncountersOf {
   };
 
   double margin(double speed) const;
-  void add(const Side& a, const Side& b, const Trace& trace, const Memory& memory, const TouchPoint& point);
+  void add(const Side& a, const Side& b, Trace trace, const Memory& memory, const TouchPoint& point);
   void stand(int body, const Placed& robot, const Memory& memory);
   void stand_on_legs(int body, const Placed& robot, const Memory& memory);
   template <class Meet>

@@ -11,7 +11,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double longest_way = 0.005;  // [m] that a robot near others may go in one step: two make 1 cm
+constexpr double longest_way = 0.01;  // [m] that a robot near others may go in one step
 constexpr int most_parts = 100;
 // [s] for a robot whose wheels slide, or may begin to: friction has the direction of the slip at a step's end, and one
 // that begins within a step has the friction of all of it, errors of first order.

@@ -12,6 +12,7 @@ namespace {
 constexpr double face_lead = 1e-5, edge_lead = 1e-4;  // [m] by which a later axis must be better, so that none flickers
 constexpr double parallel = 1e-3;                     // sine of an angle between edges that name no axis
 constexpr double like_a_face = 0.999;                 // cosine above which an edges' axis is a face's
+constexpr double nearly_a_face = 0.99;                // the same, of a way between corners beside which a face touches
 constexpr int passes_to_corner = 100;
 constexpr double still = 1e-7;  // [m] less than this a pass between corners does not move them
 
@@ -322,7 +323,7 @@ Touch touch_corners(const Solid& a, const Solid& b, double margin) {
   const double gap = (p - q).norm();
   if (gap > margin) return result;
   result.normal = (p - q).normalized();
-  result.add({0.5 * (p + q), gap, 16000});
+  result.add({0.5 * (p + q), gap, 16000, true});
   return result;
 }
 
@@ -371,7 +372,8 @@ Touch touch(const Solid& a, const Solid& b, double margin) {
     const Touch corners = touch_corners(a, b, margin);
     if (corners.count == 0) return result;
     const Vector3d &n = corners.normal, d = a.centre - b.centre;
-    if (n.dot(d) - first.half_width(n) - second.half_width(n) > axis.apart) return corners;
+    const bool is_alone = result.count == 0 || n.dot(result.normal) < nearly_a_face;
+    if (is_alone && n.dot(d) - first.half_width(n) - second.half_width(n) > axis.apart) return corners;
     result.add({corners.points[0].place, axis.apart, 16000});
     return result;
   }

@@ -24,6 +24,7 @@ struct TouchPoint {
   Eigen::Vector3d place = Eigen::Vector3d::Zero();  // in the middle of the gap [m]
   double gap = 0;                                   // [m], negative inside
   int mark = 0;                                     // the same for the same features, below 2^14
+  bool of_corners = false;                          // before which no face lies
 };
 
 struct Touch {

@@ -17,6 +17,8 @@ namespace {
 constexpr Search alone{1e-7, 1e-3, 12, Search::First::all_sticks, false},
     together{1e-5, 1e-2, 5, Search::First::as_before, true};
 
+constexpr int most_halvings = 2;
+
 // Quaternions as pose columns: w x y z from index 3.
 using Quaternion = std::array<double, 4>;
 
@@ -65,11 +67,43 @@ std::vector<PlacedOf<N>>& StepperOf<N>::placed() const {
 
 template <int N>
 void StepperOf<N>::advance(const Group& group, double h, double at, const std::vector<Command>& commands,
-                           std::vector<RobotState>& states) {
+                           std::vector<RobotState>& states, int halvings) {
   for (const int i : group.robots) place(i, h, at, commands[i], states[i]);
   meet(group, h, states);
-  solve_islands(group, states);
-  for (const int i : group.robots) finish(i, h, commands[i], states[i]);
+  find_islands(group);
+  std::vector<Group> in_halves;
+  for (std::size_t k = 0; k < group.robots.size(); ++k) {
+    const Island& island = islands_[k];
+    if (halvings < most_halvings && needs_halves(island)) {
+      in_halves.push_back(part_of(group, island));
+      continue;
+    }
+    if (!island.robots.empty()) solve(island, states);
+    for (const int i : island.robots) finish(i, h, commands[i], states[i]);
+  }
+  for (const Group& part : in_halves) {
+    for (const double half : {-0.25, 0.25}) advance(part, h / 2, at + half * h, commands, states, halvings + 1);
+  }
+}
+
+template <int N>
+bool StepperOf<N>::needs_halves(const Island& island) const {
+  return std::any_of(island.contacts.begin(), island.contacts.end(),
+                     [&](int k) { return encounters_.traces[k].step_is_too_long; });
+}
+
+template <int N>
+Group StepperOf<N>::part_of(const Group& group, const Island& island) {
+  Group part;
+  part.robots = island.robots;
+  const auto is_in = [&](int robot) { return std::binary_search(island.robots.begin(), island.robots.end(), robot); };
+  for (const auto& pair : group.pairs) {
+    if (is_in(pair.first) && is_in(pair.second)) part.pairs.push_back(pair);
+  }
+  for (const auto& pair : group.walls) {
+    if (is_in(pair.first)) part.walls.push_back(pair);
+  }
+  return part;
 }
 
 // Half a step ahead along the velocities that stand. The one rotation that is needed follows from its quaternion: to
@@ -152,9 +186,10 @@ void StepperOf<N>::meet(const Group& group, double h, const std::vector<RobotSta
     encounters_.between(slot(i), placed()[i], states[i].memory, slot(j), placed()[j]);
 }
 
-// Robots that touch are solved for together, the others apart: the same, but faster.
+// Robots that touch are solved for together, the others apart: the same, but faster. An island stands where its first
+// robot does.
 template <int N>
-void StepperOf<N>::solve_islands(const Group& group, std::vector<RobotState>& states) {
+void StepperOf<N>::find_islands(const Group& group) {
   const std::size_t count = group.robots.size();
   connected_.begin(static_cast<int>(count));
   for (const auto& c : encounters_.contacts) {
@@ -170,9 +205,6 @@ void StepperOf<N>::solve_islands(const Group& group, std::vector<RobotState>& st
   }
   for (std::size_t k = 0; k < encounters_.contacts.size(); ++k)
     islands_[connected_.root(encounters_.contacts[k].body)].contacts.push_back(static_cast<int>(k));
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!islands_[i].robots.empty()) solve(islands_[i], states);
-  }
 }
 
 // Into the problem, whose bodies are the island's. Where that is the whole group, they have the same places.

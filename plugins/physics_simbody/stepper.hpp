@@ -34,9 +34,10 @@ class StepperOf {
  public:
   explicit StepperOf(Arena& arena);
 
-  // A step of length h [s]; commands are taken `at` [s] after the tick's start.
+  // A step of length h [s]; commands are taken `at` [s] after the tick's start. Robots that touch and for whom the step
+  // is too long take it in two halves, which may be divided again.
   void advance(const Group& group, double h, double at, const std::vector<Command>& commands,
-               std::vector<RobotState>& states);
+               std::vector<RobotState>& states, int halvings = 0);
 
   const Count& count() const { return count_; }
 
@@ -53,7 +54,9 @@ class StepperOf {
   void place_legs(const CrewMember& robot, double h, double at, const Command& command, const RobotState& state,
                   PlacedOf<N>& now);
   void meet(const Group& group, double h, const std::vector<RobotState>& states);
-  void solve_islands(const Group& group, std::vector<RobotState>& states);
+  void find_islands(const Group& group);
+  bool needs_halves(const Island& island) const;
+  static Group part_of(const Group& group, const Island& island);
   void take_contacts(const Island& island);
   void solve(const Island& island, std::vector<RobotState>& states);
   void finish(int index, double h, const Command& command, RobotState& state) const;
