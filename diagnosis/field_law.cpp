@@ -20,35 +20,27 @@ noise::Prior flat() {
   return prior;
 }
 
-// Rows of readings, what explains their mean, and the covariance that was fitted to them.
-struct FittedRows {
-  const noise::Field& field;
-  const Eigen::VectorXd& y;
-  const Eigen::MatrixXd& design;
-  const noise::Covariance& covariance;
-
-  // The variance of one reading and the share between anchors being fitted, the field's size and distance held.
-  double best_value(const noise::Covariance& at) const {
-    return noise::fit(field, y, design, flat(), at, 6, noise::unstated).value;
-  }
-};
+// The variance of one reading and the share between anchors being fitted, the field's size and distance held.
+double best_value(const search::Bench& bench, const noise::Covariance& at) {
+  return noise::fit(bench.field(), bench.y(), bench.design(), flat(), at, 6, noise::unstated).value;
+}
 
 // Twice the log-likelihood ratio of rows: of the fitted field against the best one near the stated one.
-double gain_of_rows(const FittedRows& rows, const noise::StatedField& stated) {
+double gain_of_rows(const search::Bench& bench, const noise::StatedField& stated) {
   constexpr double tolerance = 1.08;
-  const noise::StatedField fitted = said_by(rows.covariance);
+  const noise::StatedField fitted = said_by(bench.fit.covariance);
   const auto near = [&](double value, double said) { return std::clamp(value, said / tolerance, said * tolerance); };
   const double size = near(fitted.shadowing, stated.shadowing);
   const double distance = near(fitted.decorrelation, stated.decorrelation);
   double held = 1e300;
   for (const noise::Family family : noise::families) {
     for (const double start : {-0.7, 0.0, 0.7}) {  // of the log variance of one reading, beside the fitted one
-      noise::Covariance at = as_stated({size, distance}, family, rows.covariance.theta);
+      noise::Covariance at = as_stated({size, distance}, family, bench.fit.covariance.theta);
       at.theta[2] += start;
-      held = std::min(held, rows.best_value(at));
+      held = std::min(held, best_value(bench, at));
     }
   }
-  return std::max(0.0, 2 * (held - rows.best_value(rows.covariance)));
+  return std::max(0.0, 2 * (held - best_value(bench, bench.fit.covariance)));
 }
 
 LawValue value_of(const char* name, double value, double sd_of_log) {
@@ -97,13 +89,11 @@ LawTest field_test(ReadingField& field, double step, const ReadingLaw& law, cons
   const noise::StatedField fitted = said_by(bench.fit.covariance);
   const double of_readings =
       2 * (in_field(judge, law, bench.fit.covariance.family, fitted).value - as_stated(judge, law, stated).value);
-  const Eigen::MatrixXd design = bench.design();
-  const double of_rows = gain_of_rows({bench.field(), bench.y(), design, bench.fit.covariance}, stated);
   const Eigen::Matrix4d spread = bench.fit.curvature.inverse();
   LawTest test{"effect.shadowing_correlation",
                {value_of("shadowing", fitted.shadowing, std::sqrt(spread(0, 0)) / 2),
                 value_of("decorrelation", fitted.decorrelation, std::sqrt(spread(1, 1)))},
-               std::max(0.0, std::min(of_readings, of_rows)),
+               std::max(0.0, std::min(of_readings, gain_of_rows(bench, stated))),
                0,
                0};
   test.log_p = search::log_tail(test.gain / wider, 2);
@@ -118,15 +108,10 @@ noise::StatedField stated_field(const LinkModel& model) {
   return {stated("shadowing"), stated("decorrelation")};
 }
 
-LawTest beside_own_draw(LawTest test, const noise::StatedField& stated, const search::Bench& bench,
-                        const Eigen::VectorXd& drawn) {
+noise::Covariance fitted_to(const search::Bench& bench, const Eigen::VectorXd& row_means) {
   const noise::Fit fit =
-      noise::fit(bench.field(), drawn, bench.base(), bench.options().prior, bench.fit.covariance, 14);
-  const double as_readily = gain_of_rows({bench.field(), drawn, bench.base(), fit.covariance}, stated);
-  test.gain = std::max(0.0, test.gain - as_readily);
-  test.log_p = search::log_tail(test.gain / wider, 2);
-  test.evidence -= as_readily / 2;
-  return test;
+      noise::fit(bench.field(), row_means, bench.base(), bench.options().prior, bench.fit.covariance, 14);
+  return fit.covariance;
 }
 
 }  // namespace muster::diagnosis

@@ -15,9 +15,7 @@ noise::StatedField stated_field(const LinkModel& model);
 LawTest field_test(ReadingField& field, double step, const ReadingLaw& law, const noise::StatedField& stated,
                    const search::Bench& bench);
 
-// The same, less what rows gain as readily of a draw of the world's own shadowing, whose law is no family's. `drawn`:
-// row means of the draw less its mean.
-LawTest beside_own_draw(LawTest test, const noise::StatedField& stated, const search::Bench& bench,
-                        const Eigen::VectorXd& drawn);
+// Covariance of rows of which each has a residual: for a draw of the world's own shadowing.
+noise::Covariance fitted_to(const search::Bench& bench, const Eigen::VectorXd& row_means);
 
 }  // namespace muster::diagnosis

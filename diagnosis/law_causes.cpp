@@ -163,12 +163,15 @@ ReadingLaw add_scatter(const LawSources& s, ReadingField& field, Diagnosis& foun
   return best->law;
 }
 
-// Row means of a draw of the world's own noise; empty where it draws none for some reading.
-VectorXd drawn_rows(const LawSources& s) {
+// What the fit of rows says of a draw of the world's own shadowing, if that is the same as of the data.
+bool world_draws_alike(const LawSources& s) {
   const VectorXd drawn = s.model.drawn(), expected = s.model.expected();
   const VectorXd apart = (drawn - expected)(s.used);
-  if (!apart.allFinite()) return {};
-  return s.bench.rows().mean(apart);
+  if (!apart.allFinite()) return false;
+  const noise::StatedField own = said_by(fitted_to(s.bench, s.bench.rows().mean(apart)));
+  const noise::StatedField fitted = said_by(s.bench.fit.covariance);
+  return std::abs(std::log(own.shadowing / fitted.shadowing)) < std::log(1.25) &&
+         std::abs(std::log(own.decorrelation / fitted.decorrelation)) < std::log(1.6);
 }
 
 // Of readings that only a bound is known of.
@@ -192,11 +195,8 @@ void add_field(const LawSources& s, ReadingField& field, const ReadingLaw& law, 
     return;
   }
   found.searched.push_back(cause->id);
-  LawTest test = field_test(field, found.instrument.step, law, said, s.bench);
-  if (!beyond_chance(test, alpha_of_field)) return;
-  if (const VectorXd drawn = drawn_rows(s); drawn.size() > 0)
-    test = beside_own_draw(std::move(test), said, s.bench, drawn);
-  if (beyond_chance(test, alpha_of_field)) found.causes.push_back(named(s, *cause, test));
+  const LawTest test = field_test(field, found.instrument.step, law, said, s.bench);
+  if (beyond_chance(test, alpha_of_field) && !world_draws_alike(s)) found.causes.push_back(named(s, *cause, test));
 }
 
 // Either law can be taken for a part of the other: the weaker one of both stands only if it is beyond doubt.

@@ -35,21 +35,6 @@ TEST(FieldOfShadowing, AnotherDistanceIsMeasured) {
   EXPECT_NEAR(std::log(test.values[1].value), std::log(3), std::log(1.8));
 }
 
-// What the data gain over the stated field counts as far as the world's own draw does not gain it as well.
-TEST(FieldOfShadowing, IsHeldAgainstTheWorldsOwnDraw) {
-  const Walk data = drawn_of_four({.rician_k = 10}, 700, 3), alike = drawn_of_four({.rician_k = 10}, 700, 3, 20),
-             as_stated = drawn_of_four({.rician_k = 10}, 700, 0.7, 20);
-  const search::Problem problem = problem_of(data);
-  const search::Bench bench(problem, {});
-  ReadingField field(data.readings, data.residual);
-  const LawTest test = field_test(field, 1, {.rician_k = 10}, {3, 0.7}, bench);
-  const auto beside = [&](const Walk& own) {
-    return beside_own_draw(test, {3, 0.7}, bench, bench.rows().mean(own.residual)).log_p;
-  };
-  EXPECT_LT(beside(as_stated), std::log(1e-4));
-  EXPECT_GT(beside(alike), std::log(0.01));
-}
-
 TEST(PeopleOnALink, NobodyIsSeenWhereNobodyIs) {
   const Walk walk = drawn_of_four({.rician_k = 3}, 600, 1.5);  // deep fades
   const search::Problem problem = problem_of(walk);
