@@ -36,6 +36,7 @@ const Entry* named(const Bench& bench, const std::string& id) {
 // good, since a drift that settles within seconds is a step.
 void give_way_to_rivals(Bench& bench) {
   constexpr double clearly = 1, near = 5;  // nats
+  constexpr double the_same = 0.5;         // of D
   const auto stands = [&](const Term& term) {
     return standing(bench, bench.design_without(term), *term.candidate, term.columns);
   };
@@ -47,6 +48,9 @@ void give_way_to_rivals(Bench& bench) {
       const bool there = std::any_of(bench.terms.begin(), bench.terms.end(),
                                      [&](const Term& term) { return term.candidate->id == rival.id; });
       if (!entry || there || rival.evidence_gap > (rival.separability < inseparable ? near : -clearly)) continue;
+      // Of two that are one to the readings only what the search for them cost differs: that makes no name better.
+      const bool one = rival.separability < the_same && std::abs(rival.evidence_gap) < near;
+      if (one && entry->candidate->parameters >= bench.terms[k].candidate->parameters) continue;
       const Term before = bench.terms[k];
       const noise::Fit fit = bench.fit;
       bench.terms[k].candidate = entry->candidate;
@@ -56,7 +60,8 @@ void give_way_to_rivals(Bench& bench) {
       settle(bench, k, false);
       const bool simpler =
           rival.separability < inseparable && entry->candidate->parameters < before.candidate->parameters;
-      if (const double then = stands(bench.terms[k]); then > now + (simpler ? -clearly : clearly)) {
+      const double may_lose = one ? near : clearly;
+      if (const double then = stands(bench.terms[k]); then > now + (simpler ? -may_lose : clearly)) {
         now = then;
       } else {
         bench.terms[k] = before;

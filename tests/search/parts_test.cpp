@@ -285,6 +285,33 @@ TEST(CleanUp, ACauseGivesWayToASimplerOneThatTheReadingsCannotTellFromIt) {
   EXPECT_EQ(bench.terms[0].candidate->id, "rx_offset");
 }
 
+// A twin that is sought at one transmitter alone costs less to find, and is no more likely for that.
+TEST(CleanUp, ASimpleCauseGivesNoWayToATwinThatIsSoughtAtFewerPlaces) {
+  const auto world = world_of(varied(34, 4000));
+  std::vector<Candidate> causes = causes_of(world);
+  const auto simple =
+      std::find_if(causes.begin(), causes.end(), [](const Candidate& c) { return c.id == "tx_offset"; });
+  ASSERT_NE(simple, causes.end());
+  Candidate twin = *simple;
+  const Eigen::VectorXd theta = simple->grid[0];
+  twin.id = "twin";
+  twin.grid = {theta};
+  ++twin.parameters;
+  const Eigen::VectorXd effect = scaled_to(world, simple->columns(theta), 200);
+  causes.push_back(twin);
+  const Problem problem = problem_of(world, effect, causes);
+  for (const char* first : {"tx_offset", "twin"}) {
+    Bench bench(problem, {});
+    score(bench);
+    bench.terms = {term_at(bench, first, theta)};
+    bench.refit();
+    std::vector<Trial> trials;
+    clean_up(bench, trials);
+    ASSERT_EQ(bench.terms.size(), 1u);
+    EXPECT_EQ(bench.terms[0].candidate->id, "tx_offset") << "from " << first;
+  }
+}
+
 TEST(Compared, TheSimplerOfTwoWithTheSameEffectComesFirst) {
   const auto world = world_of(varied(34, 4000));
   const auto twins = twins_of(world);
