@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "plugins/radio_meshes/embree_scene.hpp"
 #include "plugins/radio_meshes/triangle.hpp"
 
 namespace muster::bench {
@@ -19,18 +20,7 @@ class EmbreeMeshes {
  public:
   explicit EmbreeMeshes(const std::vector<Triangle>& triangles) : triangles_(triangles) {
     device_ = rtcNewDevice(nullptr);
-    scene_ = rtcNewScene(device_);
-    rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
-    rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_MEDIUM);
-    const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_USER);
-    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(triangles_.size()));
-    rtcSetGeometryUserData(geometry, this);
-    rtcSetGeometryBoundsFunction(geometry, bounds, nullptr);
-    rtcSetGeometryOccludedFunction(geometry, cross_some);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene_, geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(scene_);
+    scene_ = scene_of_triangles(device_, triangles_.size(), this, bounds, cross_some);
   }
   EmbreeMeshes(const EmbreeMeshes&) = delete;
   EmbreeMeshes& operator=(const EmbreeMeshes&) = delete;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "embree_scene.hpp"
+
 namespace muster {
 namespace {
 
@@ -26,19 +28,7 @@ MeshScene::MeshScene(const std::vector<PlacedMesh>& meshes) {
   device_ = rtcNewDevice(nullptr);  // a number of threads would be the limit of the whole process, see TBB
   if (!device_) throw std::runtime_error("Embree does not start on this machine");
   rtcSetDeviceErrorFunction(device_, count_error, &failed);
-  scene_ = rtcNewScene(device_);
-  // Robust boxes, and not the highest quality: that splits triangles in space, and a link would meet some twice.
-  rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
-  rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_MEDIUM);
-  const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_USER);
-  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(triangles_.size()));
-  rtcSetGeometryUserData(geometry, this);
-  rtcSetGeometryBoundsFunction(geometry, bounds, nullptr);
-  rtcSetGeometryOccludedFunction(geometry, cross_one);
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene_, geometry);
-  rtcReleaseGeometry(geometry);
-  rtcCommitScene(scene_);
+  scene_ = scene_of_triangles(device_, triangles_.size(), this, bounds, cross_one);
   rtcSetDeviceErrorFunction(device_, nullptr, nullptr);
   if (!failed) return;
   rtcReleaseScene(scene_);
