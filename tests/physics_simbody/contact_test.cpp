@@ -166,6 +166,16 @@ TEST(Contact, StepIsHalvedWhereBodiesBeganTooDeep) {
   EXPECT_LT(run.states[0].pose[0], at_wall + 0.8e-3);
 }
 
+// Half a step ahead, a corner that passes another by 8 mm in a step is not where it will meet it.
+TEST(Contact, StepIsHalvedWhereCornersPassEachOther) {
+  const description::Robot sled = on_ice();
+  Fleet run({moving(0.0935, 0, 0, 0.8, 0), moving(0.0935, 5, 0, 0.8, 0)}, sled, Integrator::midpoint, coarse);
+  run.among({wall(0.2, 0.1175, 0.2, 1, 0.1), wall(0.2, 5.15, 0.2, 6, 0.1)}, 0.3);
+  run.tick(coarse, std::vector<Command>(2, command(0, 0)));
+  EXPECT_EQ(run.states[0].memory.previous_step, coarse / 2);
+  EXPECT_EQ(run.states[1].memory.previous_step, coarse);  // past a wall's end 3 cm off
+}
+
 TEST(Contact, TippedRobotLiesOnItsSide) {
   RobotState tipped = at_rest(0, 0, 0);
   tipped.pose = {0, 0, 0.2, std::cos(0.9), std::sin(0.9), 0, 0};  // rolled by 103 degrees
