@@ -50,10 +50,19 @@ void store(const Field& field, Index group, const Lanes* combination, Stencil& s
   }
 }
 
+// Without slots that would stay empty: where all rows have one anchor none is another's.
+Conditioning fillable(Conditioning conditioning, const std::vector<int>& radio) {
+  const bool one = std::all_of(radio.begin(), radio.end(), [&](int other) { return other == radio.front(); });
+  if (one) conditioning.others = 0;
+  return conditioning;
+}
+
 }  // namespace
 
-Field::Field(Sites sites, const Conditioning& conditioning)
-    : sites_(std::move(sites)), slots_(conditioning.slots()), neighbours_(neighbours_of(sites_, conditioning)) {
+Field::Field(Sites sites, const Conditioning& conditioning) : sites_(std::move(sites)) {
+  const Conditioning with = fillable(conditioning, sites_.radio);
+  slots_ = with.slots();
+  neighbours_ = neighbours_of(sites_, with);
   double longest = 0;
   each_pair([&](std::size_t, Index i, Index j) {
     longest = std::max(longest, (sites_.place.col(i) - sites_.place.col(j)).norm() +

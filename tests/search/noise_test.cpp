@@ -107,6 +107,12 @@ TEST(Vecchia, IsTheDenseLikelihoodWhereEveryEarlierRowIsANeighbour) {
   }
 }
 
+// Rows of one anchor have no others to be conditioned on: slots for these would stay empty and cost their time.
+TEST(Vecchia, KeepsNoSlotsForOtherAnchorsWhereThereIsOne) {
+  EXPECT_EQ(Field(scattered(50, 1, 5), {8, 7, 1}).slots(), 8);
+  EXPECT_EQ(Field(scattered(50, 2, 5), {8, 7, 1}).slots(), 15);
+}
+
 TEST(Vecchia, WhitenedDrawsOfTheFieldAreIndependentWithVarianceOne) {
   const Index n = 400, draws = 300;
   const Sites sites = scattered(n, 3, 7);
