@@ -273,11 +273,20 @@ struct Maker {
   void let_sweep(const CauseShape& shape, search::Candidate& c) const {
     const bool wall = shape.place == PlaceShape::segment && !shape.is_strip();
     if (!wall && !(shape.place == PlaceShape::point && shape.axes.size() == 1)) return;
-    LinkEnds ends;
-    for (const Index i : sources.used) ends.push_back(sources.model.ends()[static_cast<std::size_t>(i)]);
-    c.proposed = [survey = survey, ends = std::move(ends), wall, first = c.grid[0]](search::Tally& tally) {
-      return wall ? shaped_as(first, swept_segments(survey, ends, tally)) : swept_disks(survey, ends, tally);
-    };
+    Links links;
+    for (Index row = 0; row < rows.size(); ++row) {
+      const Index reading = sources.used[static_cast<std::size_t>(rows.middle(row))];
+      const auto& [a, b] = sources.model.ends()[static_cast<std::size_t>(reading)];
+      links.push_back({a.x, a.y, b.x, b.y});
+    }
+    if (wall) {
+      c.proposed = [sweep = std::make_shared<const SegmentSweep>(survey, links),
+                    first = c.grid[0]](search::Tally& tally) { return shaped_as(first, (*sweep)(tally)); };
+    } else {
+      c.proposed = [sweep = std::make_shared<const DiskSweep>(survey, std::move(links))](search::Tally& tally) {
+        return (*sweep)(tally);
+      };
+    }
   }
 
   void grid(const CauseShape& shape, search::Candidate& c) const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "diagnosis/cause_axes.hpp"
 
@@ -28,145 +29,144 @@ std::vector<VectorXd> best_of(std::vector<Swept> all) {
   return result;
 }
 
-// A way in the frame of the lines.
-struct Way {
+void check(const search::Tally& tally, std::size_t rows) {
+  if (tally.rows() != static_cast<Index>(rows)) throw std::logic_error("a sweep over other rows");
+}
+
+VectorXd segment(double angle, double across, double from, double to) {
+  const double c = std::cos(angle), s = std::sin(angle), p = (from + to) / 2;
+  VectorXd result(5);
+  result << 0, c * p - s * across, s * p + c * across, to - from, angle;
+  return result;
+}
+
+}  // namespace
+
+// In the frame of lines in one direction.
+struct SegmentSweep::Way {
   double p0, q0, p1, q1;  // m, along and across
 
+  Way(const std::array<double, 4>& plan, double angle) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    const auto [x0, y0, x1, y1] = plan;
+    p0 = c * x0 + s * y0, q0 = c * y0 - s * x0;
+    p1 = c * x1 + s * y1, q1 = c * y1 - s * x1;
+  }
   bool crosses(double q) const { return (q0 < q) != (q1 < q); }
   double at(double q) const { return p0 + (p1 - p0) * (q - q0) / (q1 - q0); }
 };
 
-// All segments in one direction.
-class Lines {
- public:
-  Lines(const Survey& survey, const LinkEnds& ends, search::Tally& tally, double angle)
-      : survey_(survey), tally_(tally), angle_(angle), c_(std::cos(angle)), s_(std::sin(angle)) {
-    for (Index row = 0; row < tally.rows(); ++row) {
-      const auto& [a, b] = ends[static_cast<std::size_t>(tally.reading(row))];
-      links_.push_back(turned(a.x, a.y, b.x, b.y));
-    }
-    for (const auto& w : survey.ways) driven_.push_back(turned(w[0], w[1], w[2], w[3]));
-  }
-
-  void sweep(std::vector<Swept>& out) {
-    double low = 1e300, high = -1e300;
-    for (const Way& w : links_) {
-      low = std::min({low, w.q0, w.q1});
-      high = std::max({high, w.q0, w.q1});
-    }
-    for (double q = low + between_lines / 2; q < high; q += between_lines) sweep_line(q, out);
-  }
-
- private:
-  struct Crossing {
-    double at;
-    Index row;
-  };
-
-  Way turned(double x0, double y0, double x1, double y1) const {
-    return {c_ * x0 + s_ * y0, c_ * y0 - s_ * x0, c_ * x1 + s_ * y1, c_ * y1 - s_ * x1};
-  }
-
-  void sweep_line(double q, std::vector<Swept>& out) {
-    std::vector<Crossing> crossings;
-    for (std::size_t k = 0; k < links_.size(); ++k) {
-      if (links_[k].crosses(q)) crossings.push_back({links_[k].at(q), static_cast<Index>(k)});
-    }
-    if (crossings.empty()) return;
-    std::sort(crossings.begin(), crossings.end(),
-              [](const Crossing& a, const Crossing& b) { return std::pair(a.at, a.row) < std::pair(b.at, b.row); });
-    std::vector<double> barred{crossings.front().at - 1};
-    for (const Way& w : driven_) {
-      if (w.crosses(q)) barred.push_back(w.at(q));
-    }
-    barred.push_back(crossings.back().at + 1);
-    std::sort(barred.begin(), barred.end());
-    for (std::size_t k = 0; k + 1 < barred.size(); ++k) {
-      if (barred[k + 1] - barred[k] > shortest + 2 * aside)
-        sweep_gap(q, barred[k] + aside, barred[k + 1] - aside, crossings, out);
+SegmentSweep::SegmentSweep(const Survey& survey, const Links& links) : rows_(links.size()) {
+  for (const double turn : {0.0, quarter_turn}) {
+    for (const double slant : {-0.3, -0.15, 0.0, 0.15, 0.3}) {
+      const double angle = survey.plan_angle + turn + slant;
+      std::vector<Way> turned, driven;
+      for (const auto& link : links) turned.emplace_back(link, angle);
+      for (const auto& way : survey.ways) driven.emplace_back(way, angle);
+      double low = 1e300, high = -1e300;
+      for (const Way& w : turned) {
+        low = std::min({low, w.q0, w.q1});
+        high = std::max({high, w.q0, w.q1});
+      }
+      for (double q = low + between_lines / 2; q < high; q += between_lines) lay_out(survey, turned, driven, angle, q);
     }
   }
+}
 
-  // From every start in a gap between ways on to its end; the best piece of the gap.
-  void sweep_gap(double q, double from, double to, const std::vector<Crossing>& crossings, std::vector<Swept>& out) {
-    Swept best{0, {}};
-    const double belief = 2 * belief_in_segment(survey_, theta(q, from, to));
-    for (double start = from; start < to - shortest; start += between_starts) {
-      const double end = std::min(to, start + longest);
-      tally_.clear();
-      auto next = std::lower_bound(crossings.begin(), crossings.end(), start,
+// One line.
+void SegmentSweep::lay_out(const Survey& survey, const std::vector<Way>& links, const std::vector<Way>& driven,
+                           double angle, double across) {
+  std::vector<Crossing> crossings;
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    if (links[k].crosses(across)) crossings.push_back({links[k].at(across), static_cast<Index>(k)});
+  }
+  if (crossings.empty()) return;
+  std::sort(crossings.begin(), crossings.end(),
+            [](const Crossing& a, const Crossing& b) { return std::pair(a.at, a.row) < std::pair(b.at, b.row); });
+  std::vector<double> barred{crossings.front().at - 1};
+  for (const Way& w : driven) {
+    if (w.crosses(across)) barred.push_back(w.at(across));
+  }
+  barred.push_back(crossings.back().at + 1);
+  std::sort(barred.begin(), barred.end());
+  for (std::size_t k = 0; k + 1 < barred.size(); ++k) {
+    if (!(barred[k + 1] - barred[k] > shortest + 2 * aside)) continue;
+    const double from = barred[k] + aside, to = barred[k + 1] - aside;
+    const auto before = [](const Crossing& c, double at) { return c.at < at; };
+    const auto first = std::lower_bound(crossings.begin(), crossings.end(), from, before);
+    const auto last = std::lower_bound(first, crossings.end(), to, before);
+    if (first == last) continue;
+    const double belief = 2 * belief_in_segment(survey, segment(angle, across, from, to));
+    gaps_.push_back({angle, across, from, to, belief, {first, last}});
+  }
+}
+
+// From every start in a gap on to its end; the best piece of each gap.
+std::vector<VectorXd> SegmentSweep::operator()(search::Tally& tally) const {
+  check(tally, rows_);
+  std::vector<Swept> found;
+  for (const Gap& gap : gaps_) {
+    double best = 0, best_from = 0, best_to = 0;
+    for (double start = gap.from; start < gap.to - shortest; start += between_starts) {
+      const double end = std::min(gap.to, start + longest);
+      tally.clear();
+      auto next = std::lower_bound(gap.crossings.begin(), gap.crossings.end(), start,
                                    [](const Crossing& c, double at) { return c.at < at; });
-      for (; next != crossings.end() && next->at < end; ++next) {
-        tally_.add(next->row, -1);
+      for (; next != gap.crossings.end() && next->at < end; ++next) {
+        tally.add(next->row, -1);
         const auto after = next + 1;
-        const double until = after == crossings.end() ? end : std::min(end, after->at);
+        const double until = after == gap.crossings.end() ? end : std::min(end, after->at);
         if (until - start < shortest) continue;
-        const double gain = tally_.gain() + belief;
+        const double gain = tally.gain() + gap.belief;
+        if (gain <= best) continue;
+        best = gain;
+        best_from = start;
         // It ends between this link, which it stops, and the next, which passes.
-        if (gain > best.gain) best = {gain, theta(q, start, std::max((next->at + until) / 2, start + shortest))};
+        best_to = std::max((next->at + until) / 2, start + shortest);
       }
     }
-    if (best.gain > 0) out.push_back(std::move(best));
-  }
-
-  VectorXd theta(double q, double from, double to) const {
-    VectorXd result(5);
-    const double p = (from + to) / 2;
-    result << 0, c_ * p - s_ * q, s_ * p + c_ * q, to - from, angle_;
-    return result;
-  }
-
-  const Survey& survey_;
-  search::Tally& tally_;
-  double angle_, c_, s_;
-  std::vector<Way> links_, driven_;
-};
-
-}  // namespace
-
-std::vector<VectorXd> swept_segments(const Survey& survey, const LinkEnds& ends, search::Tally& tally) {
-  std::vector<Swept> found;
-  for (const double turn : {0.0, quarter_turn}) {
-    for (const double slant : {-0.3, -0.15, 0.0, 0.15, 0.3})
-      Lines(survey, ends, tally, survey.plan_angle + turn + slant).sweep(found);
+    if (best > 0) found.push_back({best, segment(gap.angle, gap.across, best_from, best_to)});
   }
   return best_of(std::move(found));
 }
 
-std::vector<VectorXd> swept_disks(const Survey& survey, const LinkEnds& ends, search::Tally& tally) {
+DiskSweep::DiskSweep(const Survey& survey, Links links) : links_(std::move(links)) {
   constexpr double between_places = 0.4;
   constexpr std::array radii{0.3, 0.5, 0.8};
-  std::vector<std::array<double, 4>> links;
-  for (Index row = 0; row < tally.rows(); ++row) {
-    const auto& [a, b] = ends[static_cast<std::size_t>(tally.reading(row))];
-    links.push_back({a.x, a.y, b.x - a.x, b.y - a.y});
-  }
-  std::vector<Swept> found;
-  const auto gain = [&](double x, double y, double radius) {
-    tally.clear();
-    for (std::size_t k = 0; k < links.size(); ++k) {
-      const auto& [ax, ay, ex, ey] = links[k];
-      const double squared = ex * ex + ey * ey;
-      if (squared <= 0) continue;
-      const double along = ((x - ax) * ex + (y - ay) * ey), side = ((x - ax) * ey - (y - ay) * ex);
-      if (side * side >= radius * radius * squared) continue;
-      const double length = std::sqrt(squared), half = std::sqrt(radius * radius - side * side / squared);
-      const double way = std::min(along / length + half, length) - std::max(along / length - half, 0.0);
-      if (way > 0) tally.add(static_cast<Index>(k), std::expm1(-way / radius));
-    }
-    return tally.gain();
-  };
   for (double x = survey.east.low; x < survey.east.high; x += between_places) {
     for (double y = survey.north.low; y < survey.north.high; y += between_places) {
       for (const double radius : radii) {
-        if (driven_through(survey, x, y, radius)) continue;
-        VectorXd theta(4);
-        theta << 0, x, y, std::log(radius);
-        found.push_back({gain(x, y, radius), theta});
+        if (!driven_through(survey, x, y, radius)) disks_.push_back({x, y, radius});
       }
     }
   }
+}
+
+std::vector<VectorXd> DiskSweep::operator()(search::Tally& tally) const {
+  check(tally, links_.size());
+  std::vector<Swept> found;
+  for (const Disk& disk : disks_) {
+    VectorXd theta(4);
+    theta << 0, disk.x, disk.y, std::log(disk.radius);
+    found.push_back({gain(disk, tally), std::move(theta)});
+  }
   return best_of(std::move(found));
+}
+
+double DiskSweep::gain(const Disk& disk, search::Tally& tally) const {
+  const auto& [x, y, radius] = disk;
+  tally.clear();
+  for (std::size_t k = 0; k < links_.size(); ++k) {
+    const auto& [ax, ay, bx, by] = links_[k];
+    const double ex = bx - ax, ey = by - ay, squared = ex * ex + ey * ey;
+    if (squared <= 0) continue;
+    const double along = ((x - ax) * ex + (y - ay) * ey), side = ((x - ax) * ey - (y - ay) * ex);
+    if (side * side >= radius * radius * squared) continue;
+    const double length = std::sqrt(squared), half = std::sqrt(radius * radius - side * side / squared);
+    const double way = std::min(along / length + half, length) - std::max(along / length - half, 0.0);
+    if (way > 0) tally.add(static_cast<Index>(k), std::expm1(-way / radius));
+  }
+  return tally.gain();
 }
 
 }  // namespace muster::diagnosis

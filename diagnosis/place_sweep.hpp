@@ -1,4 +1,5 @@
-// Walls and things wherever in the plan they could stand: what each would gain, before any is refined.
+// Walls and things wherever in the plan they could stand: what each would gain, before any is refined. Which places
+// there are and which rows they concern is worked out once, for any number of sweeps.
 #pragma once
 
 #include "diagnosis/search/candidate.hpp"
@@ -6,14 +7,53 @@
 
 namespace muster::diagnosis {
 
-// The ends of the readings that a tally speaks of.
-using LinkEnds = std::vector<std::array<End, 2>>;
+// Of each row of a search, x y of either end of its link, m.
+using Links = std::vector<std::array<double, 4>>;
 
-// Thetas of segments (no row, x, y, length, angle), the best first: on lines along the plan and a little aslant, a
-// quarter of a metre apart, all pieces that no radio was driven across.
-std::vector<Eigen::VectorXd> swept_segments(const Survey& survey, const LinkEnds& ends, search::Tally& tally);
+// On lines along the plan and a little aslant, a quarter of a metre apart, all pieces that no radio was driven across.
+class SegmentSweep {
+ public:
+  SegmentSweep(const Survey& survey, const Links& links);
 
-// Of disks (no row, x, y, log radius), the best first: a few radii about places 0.4 m apart, clear of all ways.
-std::vector<Eigen::VectorXd> swept_disks(const Survey& survey, const LinkEnds& ends, search::Tally& tally);
+  // Thetas (no row, x, y, length, angle), the best first.
+  std::vector<Eigen::VectorXd> operator()(search::Tally& tally) const;
+
+ private:
+  struct Crossing {
+    double at;  // m along the line
+    Eigen::Index row;
+  };
+  // A piece of a line in which no radio was driven across.
+  struct Gap {
+    double angle, across, from, to, belief;
+    std::vector<Crossing> crossings;  // in their order along the line
+  };
+
+  struct Way;
+  void lay_out(const Survey& survey, const std::vector<Way>& links, const std::vector<Way>& driven, double angle,
+               double across);
+
+  std::size_t rows_;
+  std::vector<Gap> gaps_;
+};
+
+// A few radii about places 0.4 m apart, clear of all ways.
+class DiskSweep {
+ public:
+  DiskSweep(const Survey& survey, Links links);
+
+  // Thetas (no row, x, y, log radius), the best first.
+  std::vector<Eigen::VectorXd> operator()(search::Tally& tally) const;
+
+ private:
+  struct Disk {
+    double x, y, radius;
+  };
+
+  double gain(const Disk& disk, search::Tally& tally) const;
+
+  Links links_;
+  std::vector<Disk> disks_;
+};
 
 }  // namespace muster::diagnosis

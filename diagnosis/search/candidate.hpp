@@ -26,7 +26,6 @@ class Tally {
  public:
   virtual ~Tally() = default;
   virtual Index rows() const = 0;
-  virtual Index reading(Index row) const = 0;  // one of the row's
   virtual void clear() = 0;
   virtual void add(Index row, double value) = 0;
   virtual double gain() const = 0;  // fall of the deviance; 0 where the coefficient would be negative

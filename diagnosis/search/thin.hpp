@@ -12,7 +12,6 @@ class Thin : public Tally {
   Thin(const Bench& bench, const Stand& stand);
 
   Index rows() const override { return bench_.rows().size(); }
-  Index reading(Index row) const override { return bench_.rows().middle(row); }
   void clear() override;
   void add(Index row, double value) override;
   double gain() const override;
