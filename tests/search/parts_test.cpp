@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 
 #include "diagnosis/search/charge.hpp"
 #include "diagnosis/search/choose.hpp"
@@ -81,6 +83,51 @@ TEST(Climbed, HandsOnWhatACandidateThrows) {
     return calls;
   };
   EXPECT_THROW(climbed(c, Eigen::VectorXd::Constant(1, 2), 50, value), std::runtime_error);
+}
+
+// Tops of heights 1, 2, 4 and 3 at 1, 3, 5 and 7, and how often each was looked at.
+struct Tops {
+  std::array<int, 4> looked = {};
+
+  double operator()(const Eigen::VectorXd& theta) {
+    constexpr std::array heights{1, 2, 4, 3};
+    const auto nearest = static_cast<std::size_t>(std::clamp(std::lround((theta[0] - 1) / 2), 0l, 3l));
+    ++looked[nearest];
+    return heights[nearest] - std::abs(theta[0] - 1 - 2 * static_cast<double>(nearest));
+  }
+};
+
+Candidate along_a_line() {
+  Candidate c;
+  c.lower = Eigen::VectorXd::Zero(1);
+  c.upper = Eigen::VectorXd::Constant(1, 8);
+  c.step = Eigen::VectorXd::Constant(1, 0.1);
+  c.evaluations = 30;
+  return c;
+}
+
+std::vector<Eigen::VectorXd> starting_at(const std::vector<double>& places) {
+  std::vector<Eigen::VectorXd> result;
+  for (const double place : places) result.push_back(Eigen::VectorXd::Constant(1, place));
+  return result;
+}
+
+TEST(Raced, TheBetterHalfGoesOnWithTwiceAsManyEvaluations) {
+  std::array<Tops, 3> laps;
+  const Top top = raced(along_a_line(), starting_at({1.1, 3.1, 5.1, 7.1}),
+                        {std::ref(laps[0]), std::ref(laps[1]), std::ref(laps[2])});
+  EXPECT_EQ(laps[0].looked, (std::array{11, 11, 11, 11}));
+  EXPECT_EQ(laps[1].looked, (std::array{0, 0, 21, 21}));
+  EXPECT_EQ(laps[2].looked, (std::array{0, 0, 41, 0}));
+  EXPECT_NEAR(top.first[0], 5, 0.05);
+  EXPECT_NEAR(top.second, 4, 0.05);
+}
+
+TEST(Raced, TwoThatMeetGoOnAsOne) {
+  std::array<Tops, 2> laps;
+  raced(along_a_line(), starting_at({4.99, 5.01, 1, 3}), {std::ref(laps[0]), std::ref(laps[1])});
+  EXPECT_EQ(laps[0].looked, (std::array{11, 11, 22, 0}));
+  EXPECT_EQ(laps[1].looked, (std::array{0, 0, 21, 0}));
 }
 
 // Row by row the same as the whole column at once.
@@ -212,6 +259,22 @@ TEST(Spread, ItsMiddleIsAPlaceThatExplainsAsMuch) {
   EXPECT_GT(middle_of(bench, bench.terms[0], apart)[0], 11.9);
 }
 
+struct Guess {
+  std::string id;
+  Eigen::VectorXd theta;
+};
+
+// What cleaning up leaves of a model that was guessed so.
+std::vector<Term> cleaned_up(const Problem& problem, const std::vector<Guess>& guesses) {
+  Bench bench(problem, {});
+  score(bench);
+  for (const auto& [id, theta] : guesses) bench.terms.push_back(term_at(bench, id, theta));
+  bench.refit();
+  std::vector<Trial> trials;
+  clean_up(bench, trials);
+  return bench.terms;
+}
+
 // A function of the battery may enter first, while the field holds a part of what acts in time.
 TEST(CleanUp, WhatActsInTimeIsNotTheBatteryThatFallsMeanwhile) {
   const auto world = world_of(varied(254, 3000));
@@ -219,14 +282,9 @@ TEST(CleanUp, WhatActsInTimeIsNotTheBatteryThatFallsMeanwhile) {
                         knee = -(11.7 - world.battery.array()).max(0.0).pow(1.4);
   for (const auto& [effect, name] : {std::pair(step, "step"), std::pair(knee, "~battery")}) {
     const Problem problem = problem_of(world, scaled_to(world, effect, 120), causes_of(world));
-    Bench bench(problem, {});
-    score(bench);
-    bench.terms = {term_at(bench, "~battery", {})};
-    bench.refit();
-    std::vector<Trial> trials;
-    clean_up(bench, trials);
-    ASSERT_EQ(bench.terms.size(), 1u);
-    EXPECT_EQ(bench.terms[0].id(), name);
+    const std::vector<Term> terms = cleaned_up(problem, {{"~battery", {}}});
+    ASSERT_EQ(terms.size(), 1u);
+    EXPECT_EQ(terms[0].id(), name);
   }
 }
 
@@ -235,16 +293,11 @@ TEST(CleanUp, DropsWhatCarriesNothingAndSetsLeftoversAside) {
   const auto causes = causes_of(world);
   const Eigen::VectorXd effect = scaled_to(world, causes[2].columns({}).col(0), 900);  // antenna_rx
   const Problem problem = problem_of(world, effect, causes);
-  Bench bench(problem, {});
-  score(bench);
-  bench.terms = {term_at(bench, "antenna_rx", {}), term_at(bench, "step", Eigen::Vector2d(100, -1)),
-                 term_at(bench, "drift", Eigen::VectorXd::Constant(1, 2))};
-  bench.refit();
-  std::vector<Trial> trials;
-  clean_up(bench, trials);
-  ASSERT_EQ(bench.terms.size(), 1u);
-  EXPECT_EQ(bench.terms[0].candidate->id, "antenna_rx");
-  EXPECT_NEAR(bench.terms[0].gain, 900, 300);
+  const std::vector<Term> terms = cleaned_up(
+      problem, {{"antenna_rx", {}}, {"step", Eigen::Vector2d(100, -1)}, {"drift", Eigen::VectorXd::Constant(1, 2)}});
+  ASSERT_EQ(terms.size(), 1u);
+  EXPECT_EQ(terms[0].candidate->id, "antenna_rx");
+  EXPECT_NEAR(terms[0].gain, 900, 300);
 }
 
 TEST(CleanUp, ACauseGivesWayToARivalThatDoesBetter) {
@@ -252,14 +305,9 @@ TEST(CleanUp, ACauseGivesWayToARivalThatDoesBetter) {
   const auto causes = causes_of(world);
   const Eigen::VectorXd effect = scaled_to(world, causes[2].columns({}).col(0), 400);  // antenna_rx
   const Problem problem = problem_of(world, effect, causes);
-  Bench bench(problem, {});
-  score(bench);
-  bench.terms = {term_at(bench, "drift", Eigen::VectorXd::Constant(1, 2))};
-  bench.refit();
-  std::vector<Trial> trials;
-  clean_up(bench, trials);
-  ASSERT_EQ(bench.terms.size(), 1u);
-  EXPECT_EQ(bench.terms[0].candidate->id, "antenna_rx");
+  const std::vector<Term> terms = cleaned_up(problem, {{"drift", Eigen::VectorXd::Constant(1, 2)}});
+  ASSERT_EQ(terms.size(), 1u);
+  EXPECT_EQ(terms[0].candidate->id, "antenna_rx");
 }
 
 // An offset, and the same with one parameter more.
@@ -275,14 +323,9 @@ TEST(CleanUp, ACauseGivesWayToASimplerOneThatTheReadingsCannotTellFromIt) {
   const auto world = world_of(varied(34, 4000));
   const auto twins = twins_of(world);
   const Problem problem = problem_of(world, scaled_to(world, twins[0].columns(twins[0].grid[0]), 200), twins);
-  Bench bench(problem, {});
-  score(bench);
-  bench.terms = {term_at(bench, "twin", twins[0].grid[0])};
-  bench.refit();
-  std::vector<Trial> trials;
-  clean_up(bench, trials);
-  ASSERT_EQ(bench.terms.size(), 1u);
-  EXPECT_EQ(bench.terms[0].candidate->id, "rx_offset");
+  const std::vector<Term> terms = cleaned_up(problem, {{"twin", twins[0].grid[0]}});
+  ASSERT_EQ(terms.size(), 1u);
+  EXPECT_EQ(terms[0].candidate->id, "rx_offset");
 }
 
 // A twin that is sought at one transmitter alone costs less to find, and is no more likely for that.
@@ -301,14 +344,9 @@ TEST(CleanUp, ASimpleCauseGivesNoWayToATwinThatIsSoughtAtFewerPlaces) {
   causes.push_back(twin);
   const Problem problem = problem_of(world, effect, causes);
   for (const char* first : {"tx_offset", "twin"}) {
-    Bench bench(problem, {});
-    score(bench);
-    bench.terms = {term_at(bench, first, theta)};
-    bench.refit();
-    std::vector<Trial> trials;
-    clean_up(bench, trials);
-    ASSERT_EQ(bench.terms.size(), 1u);
-    EXPECT_EQ(bench.terms[0].candidate->id, "tx_offset") << "from " << first;
+    const std::vector<Term> terms = cleaned_up(problem, {{first, theta}});
+    ASSERT_EQ(terms.size(), 1u);
+    EXPECT_EQ(terms[0].candidate->id, "tx_offset") << "from " << first;
   }
 }
 
@@ -328,19 +366,44 @@ TEST(Compared, TheSimplerOfTwoWithTheSameEffectComesFirst) {
               "rx_offset");
 }
 
+// A step of 2 dB, as it is or by any multiple, where a lead of it lies off. What a second look won is its own
+// beside what refinement wins, unless a multiple of it means nothing.
+TEST(Compared, ALeadIsRefinedAndKeepsWhatItWonUnlessItCountsAsItIs) {
+  const auto world = world_of(varied(254, 3000));
+  std::vector<Candidate> causes = causes_of(world);
+  const auto step = std::find_if(causes.begin(), causes.end(), [](const Candidate& c) { return c.id == "step"; });
+  ASSERT_NE(step, causes.end());
+  step->columns = [plain = step->columns](const Eigen::VectorXd& theta) { return Eigen::MatrixXd(2 * plain(theta)); };
+  const double last = world.time.maxCoeff(), won = 500;
+  const Eigen::VectorXd effect = step->columns(Eigen::Vector2d(0.43 * last, -1));
+  for (const bool whole : {false, true}) {
+    step->whole = whole;
+    const Problem problem = problem_of(world, effect, causes);
+    Bench bench(problem, {});
+    score(bench);
+    const Stand stand = bench.stand(bench.base());
+    Lead lead{&bench.entry_of(*step), Eigen::Vector2d(0.405 * last, -1), {}, 0, 0, 0, false, {}};
+    lead.columns = bench.columns_of(*step, lead.theta);
+    const double plain = gain_of(*step, stand, lead.columns);
+    lead.gain = plain + won;
+    const Lead best = compared(bench, stand, {lead}, {lead}, [](const Candidate&) { return true; }).front();
+    const double refined = gain_of(*step, stand, best.columns);
+    EXPECT_NEAR(best.theta[0], 0.43 * last, 0.01 * last);
+    EXPECT_GT(refined, plain + 5);
+    EXPECT_NEAR(best.gain, whole ? refined : refined + won, 1e-6) << whole;
+    EXPECT_NEAR(best.log_p, bench.log_p(*step, best.gain, 1, true), 1e-6);
+    EXPECT_NEAR(best.evidence, bench.evidence(*step, best.gain, 1, true), 1e-6);
+  }
+}
+
 TEST(CleanUp, ASmoothGivesWayToTheCauseThatExplainsIt) {
   const auto world = world_of(varied(14, 4000));
   const auto causes = causes_of(world);
   const Eigen::VectorXd effect = scaled_to(world, causes[2].columns({}).col(1), 400);
   const Problem problem = problem_of(world, effect, causes);
-  Bench bench(problem, {});
-  score(bench);
-  bench.terms = {term_at(bench, "~bearing", {})};
-  bench.refit();
-  std::vector<Trial> trials;
-  clean_up(bench, trials);
-  ASSERT_EQ(bench.terms.size(), 1u);
-  EXPECT_EQ(bench.terms[0].candidate->id, "antenna_rx");
+  const std::vector<Term> terms = cleaned_up(problem, {{"~bearing", {}}});
+  ASSERT_EQ(terms.size(), 1u);
+  EXPECT_EQ(terms[0].candidate->id, "antenna_rx");
 }
 
 TEST(Folds, BlocksAreThreeDecorrelationDistancesWideAndEveryReadingIsLeftOutOnce) {
