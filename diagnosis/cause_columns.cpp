@@ -1,6 +1,5 @@
 #include "diagnosis/cause_columns.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -10,6 +9,7 @@
 #include "diagnosis/cause_axes.hpp"
 #include "diagnosis/cause_rows.hpp"
 #include "diagnosis/cause_starts.hpp"
+#include "diagnosis/cause_strengths.hpp"
 #include "diagnosis/noise/basis.hpp"
 #include "diagnosis/place_sweep.hpp"
 
@@ -81,11 +81,6 @@ bool clear_of_ways(const CauseShape& shape, const Survey& survey, const VectorXd
 
 bool is_share(const muster_param& p) { return p.min == 0 && p.max == 1 && std::string_view(p.unit).empty(); }
 
-// One strength at 1 and all others at 0.
-void set_one(const CauseShape& shape, std::size_t one, std::map<std::string, double>& parameters) {
-  for (const muster_param* p : shape.cause.linear()) parameters[p->name] = p == shape.linear[one] ? 1 : 0;
-}
-
 std::function<Eigen::MatrixXd(const VectorXd&)> columns_at(const std::shared_ptr<const CauseShape>& shape,
                                                            const std::shared_ptr<CauseModel>& run,
                                                            const std::vector<Index>& used) {
@@ -95,7 +90,7 @@ std::function<Eigen::MatrixXd(const VectorXd&)> columns_at(const std::shared_ptr
     const auto row = static_cast<std::size_t>(t[0]);
     for (Index j = 0; j < result.cols(); ++j) {
       if (!shape->wave.empty()) parameters[shape->wave] = j ? quarter_turn : 0;
-      if (shape->linear.size() > 1) set_one(*shape, static_cast<std::size_t>(j), parameters);
+      if (shape->linear.size() > 1) shape->set_one(static_cast<std::size_t>(j), parameters);
       result.col(j) = run->column(shape->cause, shape->rows, row, parameters)(used);
     }
     return result;
@@ -115,22 +110,8 @@ std::vector<VectorXd> shaped_as(const VectorXd& theta, std::vector<VectorXd> pla
 struct Maker {
   const Survey& survey;
   const CauseSources& sources;
-  Eigen::HouseholderQR<Eigen::MatrixXd> base;
-  Index base_columns;
+  const BaseSpace base;
   const noise::Rows& rows;
-
-  // Whether readings tell this column from the base model's parameters.
-  bool shows(const VectorXd& column) const {
-    VectorXd rest = base.householderQ().transpose() * column;
-    return column.norm() > 0 && rest.tail(rest.size() - base_columns).norm() > 1e-6 * column.norm();
-  }
-
-  // What the base model leaves of it.
-  VectorXd rest_of(const VectorXd& column) const {
-    VectorXd rest = base.householderQ().transpose() * column;
-    rest.head(base_columns).setZero();
-    return base.householderQ() * rest;
-  }
 
   // How many sizes of its place the plan gives: it is sought in the plan's rooms, or between its walls, as they are.
   std::size_t given_sizes(const CauseShape& shape) const {
@@ -223,38 +204,6 @@ struct Maker {
     };
   }
 
-  // Of several strengths those that readings tell apart beside the base model. What most readings have is the first to
-  // be the reference, at which nothing is added.
-  void choose_strengths(CauseShape& shape) const {
-    shape.linear = shape.cause.linear();
-    if (shape.linear.size() < 2) return;
-    struct Strength {
-      const muster_param* parameter;
-      VectorXd column;
-      Index count;
-    };
-    std::vector<Strength> all;
-    for (std::size_t k = 0; k < shape.linear.size(); ++k) {
-      std::map<std::string, double> parameters = shape.held;
-      set_one(shape, k, parameters);
-      VectorXd column = sources.run->column(shape.cause, shape.rows, 0, parameters)(sources.used);
-      const Index count = (column.array() != 0).count();
-      if (count > 0) all.push_back({shape.linear[k], std::move(column), count});
-    }
-    std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.count < b.count; });
-    Eigen::MatrixXd together(static_cast<Index>(sources.used.size()), 0);
-    std::vector<const muster_param*> kept;
-    for (const Strength& s : all) {
-      VectorXd rest = rest_of(s.column);
-      for (int twice = 0; twice < 2; ++twice) rest -= together * (together.transpose() * rest);
-      if (!(rest.norm() > 1e-6 * s.column.norm())) continue;
-      together.conservativeResize(Eigen::NoChange, together.cols() + 1);
-      together.rightCols(1) = rest.normalized();
-      kept.push_back(s.parameter);
-    }
-    std::erase_if(shape.linear, [&](const muster_param* p) { return !std::count(kept.begin(), kept.end(), p); });
-  }
-
   // A radio is a few metres from where the map has it, hardly ever more. Less than a map or a mount leaves open is no
   // other place: millimetres turn links past the end of a wall, which shows clearly in a smooth field.
   void believe_in_map(const CauseShape& shape, search::Candidate& c) const {
@@ -295,7 +244,7 @@ struct Maker {
       if (stands(c) && !clear_of_ways(shape, survey, theta)) continue;
       const Eigen::MatrixXd columns = c.columns(theta);
       const double share = (columns.array() != 0).cast<double>().mean();
-      if (share < (shape.place == PlaceShape::none ? 0 : least_share) || !shows(columns.col(0))) continue;
+      if (share < (shape.place == PlaceShape::none ? 0 : least_share) || !base.leaves(columns.col(0))) continue;
       c.grid.push_back(theta);
       atoms.push_back(rows.mean(columns).cast<float>());
     }
@@ -315,7 +264,7 @@ std::string make(const Cause& cause, const Maker& maker, CauseSearch& out) {
   if (shape->rows.empty()) return "not testable: the world has no row that it could be about";
   find_place(*shape);
   if (!find_axes(*shape, *s.run, maker.survey)) return "not testable: what it depends on does not vary";
-  maker.choose_strengths(*shape);
+  choose_strengths(*shape, s, maker.base);
   if (shape->linear.empty() && !cause.linear().empty())
     return "not testable: no reading depends on it, or the base model takes it up";
   // A share of what the map has: all of it is what there is to be told from another strength.
@@ -377,6 +326,10 @@ std::map<std::string, double> CauseShape::parameters(const VectorXd& theta) cons
   return result;
 }
 
+void CauseShape::set_one(std::size_t one, std::map<std::string, double>& parameters) const {
+  for (const muster_param* p : cause.linear()) parameters[p->name] = p == linear[one] ? 1 : 0;
+}
+
 Index place_entries(PlaceShape place) { return place == PlaceShape::none ? 0 : place == PlaceShape::point ? 2 : 4; }
 
 search::Candidate at_readings_of(const CauseCandidate& cause, const CauseSources& s) {
@@ -409,7 +362,7 @@ bool shifts_levels(const Cause& cause) {
 CauseSearch cause_candidates(const std::vector<Cause>& causes, const Survey& survey, const CauseSources& sources,
                              const Eigen::MatrixXd& base, const noise::Rows& rows) {
   CauseSearch result;
-  const Maker maker{survey, sources, Eigen::HouseholderQR<Eigen::MatrixXd>(base), base.cols(), rows};
+  const Maker maker{survey, sources, BaseSpace(base), rows};
   for (const Cause& cause : causes) {
     if (!shifts_levels(cause)) continue;
     const std::string why = made(cause, maker, result);

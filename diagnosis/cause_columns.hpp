@@ -34,6 +34,8 @@ struct CauseShape {
   std::string wave;                    // the cyclic parameter that two columns stand for; empty: one column
 
   std::map<std::string, double> parameters(const Eigen::VectorXd& theta) const;
+  // One strength at 1 and all others at 0.
+  void set_one(std::size_t one, std::map<std::string, double>& parameters) const;
   const CauseRow& row(const Eigen::VectorXd& theta) const { return rows[static_cast<std::size_t>(theta[0])]; }
   // "radio/beacon1", of two "radio/beacon1 radio/beacon2"; empty where it is about none.
   std::string row_label(const Eigen::VectorXd& theta) const;
