@@ -42,17 +42,17 @@ Table::Table(std::string name, Set& set, Columns columns, std::string initial)
       throw std::invalid_argument("table " + name_ + ": initial values \"" + initial + "\" do not fit its columns");
     initial_ = *values;
   }
-  if (set_->kind != SetKind::queue) grow();
 }
 
 void Table::fill_initial(double* row) const { std::copy(initial_.begin(), initial_.end(), row); }
 
 void Table::take_over(const Table& other) {
   stored() = other.now();
-  if (set_->kind != SetKind::queue) grow();  // rows may have joined with the instance that is being linked
+  grow();  // rows may have joined with the instance that is being linked
 }
 
 void Table::grow() {
+  if (set_->kind == SetKind::queue) return;
   Cells& now = stored();
   const auto from = now.rows;
   now.rows = set_->rows();

@@ -91,7 +91,7 @@ class Table {
   // Queue: for how many ticks after its own a row is still to be seen by some reader.
   uint64_t keep = 0;
 
-  // One row of initial values; and room for rows that joined the set.
+  // One row of initial values; and such rows for those of the set that it lacks, as all do in a new table.
   void fill_initial(double* row) const;
   // Puts what another table of the same set and columns holds in place.
   void take_over(const Table& other);

@@ -57,18 +57,6 @@ void prepare(Claim& claim, uint64_t tick) {
   }
 }
 
-// Nearly always every number is finite: one sum tells, for a NaN or an infinity stays in it.
-bool all_finite(const double* data, std::size_t count) {
-  constexpr std::size_t lanes = 8;  // sums that need not wait for one another
-  double sums[lanes] = {};
-  std::size_t i = 0;
-  for (; i + lanes <= count; i += lanes) {
-    for (std::size_t lane = 0; lane < lanes; ++lane) sums[lane] += data[i + lane] * 0;
-  }
-  for (; i < count; ++i) sums[0] += data[i] * 0;
-  return std::all_of(sums, sums + lanes, [](double sum) { return sum == 0; });
-}
-
 // The rows that a claim has written in this step.
 struct Written {
   const double* data;
@@ -243,6 +231,17 @@ std::string commit_lists(Instance& instance, uint64_t tick) {
 }
 
 }  // namespace
+
+bool all_finite(const double* data, std::size_t count) {
+  constexpr std::size_t lanes = 8;  // sums that need not wait for one another
+  double sums[lanes] = {};
+  std::size_t i = 0;
+  for (; i + lanes <= count; i += lanes) {
+    for (std::size_t lane = 0; lane < lanes; ++lane) sums[lane] += data[i + lane] * 0;
+  }
+  for (; i < count; ++i) sums[0] += data[i] * 0;
+  return std::all_of(sums, sums + lanes, [](double sum) { return sum == 0; });
+}
 
 void prepare_cells(Instance& instance, uint64_t tick) {
   for (auto& claim : instance.claims()) {

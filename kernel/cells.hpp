@@ -7,6 +7,9 @@
 
 namespace muster {
 
+// Nearly always every number is finite: one sum tells, for a NaN or an infinity stays in it.
+bool all_finite(const double* data, std::size_t count);
+
 // Opens the tables that the instance writes and poisons the cells that it must fill.
 void prepare_cells(Instance& instance, uint64_t tick);
 

@@ -168,11 +168,13 @@ Table& Linker::make(const std::string& name, const Claim& claim, const Table* be
   const auto* quantity = standard_quantity(standard_, claim.name);
   auto table =
       std::make_unique<Table>(name, *board_.find_set(claim.name.set), claim.columns, quantity ? quantity->initial : "");
-  fill_from_world(*table, claim.name);
-  if (before && before->columns() == table->columns())
+  if (before && before->columns() == table->columns()) {
     table->take_over(*before);
-  else if (before)
-    adopt(*before, *table);
+  } else {
+    table->grow();
+    fill_from_world(*table, claim.name);
+    if (before) adopt(*before, *table);
+  }
   return board_.add(std::move(table));
 }
 

@@ -89,8 +89,8 @@ void Simulation::run_batch(Batch& batch, const muster_tick& tick) {
 void Simulation::check_sum(const Sum& sum, const muster_tick& tick) const {
   if (!sum.total->begun()) return;
   const auto& data = sum.total->next().data;
+  if (all_finite(data.data(), data.size())) return;
   const auto wrong = std::find_if(data.begin(), data.end(), [](double value) { return !std::isfinite(value); });
-  if (wrong == data.end()) return;
   throw Error(Exit::plugin_fault, Place{world_.file.string()},
               "the sum " + quote(sum.total->name()) + " is infinite at tick " + std::to_string(tick.index) +
                   " (t = " + print_real(tick.time) + " s), in row " +
