@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <muster/plugin.hpp>
 #include <tuple>
 
@@ -65,13 +66,24 @@ class LinkTerm {
   // A term that is the same both ways: the ends come in an order of their places, so it is so to the last bit.
   template <class Term>
   void add_both_ways(const Step& k, const Term& term) const {
-    const auto place = [](const Pose& p) { return std::tie(p.x, p.y, p.z); };
-    add(k, [&](const End& a, const End& b) { return place(b.at) < place(a.at) ? term(b, a) : term(a, b); });
+    add(k, [&](const End& a, const End& b) { return is_before(b.at, a.at) ? term(b, a) : term(a, b); });
+  }
+
+  // Where most links have nothing to do with it: `concerns` says so, whichever end comes first, and they have `none`.
+  template <class Concerns, class Term>
+  void add_both_ways(const Step& k, double none, const Concerns& concerns, const Term& term) const {
+    add(k, [&](const End& a, const End& b) {
+      if (!concerns(a.at, b.at)) return none;
+      const bool turned = is_before(b.at, a.at);
+      return term(turned ? b : a, turned ? a : b);
+    });
   }
 
  private:
+  static bool is_before(const Pose& a, const Pose& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
+
   End end(const Step& k, double row) const {
-    const auto i = static_cast<std::size_t>(row);
+    const auto i = static_cast<std::size_t>(static_cast<std::int64_t>(row));  // as machines convert
     return {k[endpoint][i].radio, k[endpoint][i].t, k[pose][i]};
   }
 

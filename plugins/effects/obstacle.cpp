@@ -46,10 +46,13 @@ struct Obstacle {
 
   void step(const Step& k) const {
     const Disk thing{k[x], k[y], k[radius]};
-    links.add_both_ways(k, [&](const End& a, const End& b) {
-      const double way = thing.way(a.at, b.at, k[height]);
-      return way > 0 ? k[loss] * std::expm1(-way / k[radius]) / -std::expm1(-2) : 0;
-    });
+    const double most = k[loss], up_to = k[height];
+    links.add_both_ways(
+        k, 0, [&](const Pose& a, const Pose& b) { return thing.may_stop(a, b); },
+        [&](const End& a, const End& b) {
+          const double way = thing.way(a.at, b.at, up_to);
+          return way > 0 ? most * std::expm1(-way / thing.radius) / -std::expm1(-2) : 0;
+        });
   }
 
   Value x, y, radius, loss, height;

@@ -15,17 +15,25 @@ inline double side(double ax, double ay, double bx, double by, double x, double 
 // An upright wall without thickness, from the ground up.
 struct Segment {
   double x0, y0, x1, y1;
+  double length = std::hypot(x1 - x0, y1 - y0);
+
+  // Whether the places lie on different sides of the line that it is a part of; never if it has no length.
+  bool parts(const Pose& a, const Pose& b) const {
+    return (side(x0, y0, x1, y1, a.x, a.y) > 0) != (side(x0, y0, x1, y1, b.x, b.y) > 0);
+  }
 
   // How much of it the link from a to b meets, 0 to 1: half where it passes an end, all of it from edge / 2 further in.
   double share(const Pose& a, const Pose& b, double height, double edge) const {
+    if (!parts(a, b)) return 0;
     const double sa = side(x0, y0, x1, y1, a.x, a.y), sb = side(x0, y0, x1, y1, b.x, b.y);
-    if ((sa > 0) == (sb > 0)) return 0;  // of no length, too
-    const double length = std::hypot(x1 - x0, y1 - y0);
-    const double at = sa / (sa - sb), z = a.z + at * (b.z - a.z);
-    if (z < 0 || z >= height) return 0;
+    const double over = std::max(edge, 1e-9), at = sa / (sa - sb);
     const double x = a.x + at * (b.x - a.x), y = a.y + at * (b.y - a.y);
-    const double along = ((x - x0) * (x1 - x0) + (y - y0) * (y1 - y0)) / length;
-    const auto inside = [edge](double way) { return std::clamp(0.5 + way / std::max(edge, 1e-9), 0.0, 1.0); };
+    const double lengthwise = (x - x0) * (x1 - x0) + (y - y0) * (y1 - y0);
+    if (lengthwise < -over * length || lengthwise > (length + over) * length) return 0;  // most of them, clearly
+    const double z = a.z + at * (b.z - a.z);
+    if (z < 0 || z >= height) return 0;
+    const double along = lengthwise / length;
+    const auto inside = [over](double way) { return std::clamp(0.5 + way / over, 0.0, 1.0); };
     return std::max(inside(along) + inside(length - along) - 1, 0.0);
   }
 };
@@ -34,10 +42,15 @@ struct Segment {
 struct Disk {
   double x, y, radius;
 
+  // Whether the link may go through it, which few do; the same from b to a but for what lies within rounding.
+  bool may_stop(const Pose& a, const Pose& b) const {
+    const double ex = b.x - a.x, ey = b.y - a.y, passes = side(a.x, a.y, b.x, b.y, x, y);
+    return passes * passes <= 1.001 * radius * radius * (ex * ex + ey * ey);
+  }
+
   // The way that the link goes through it in plan, in m.
   double way(const Pose& a, const Pose& b, double height) const {
     const double ex = b.x - a.x, ey = b.y - a.y, passes = side(a.x, a.y, b.x, b.y, x, y);
-    if (passes * passes > 1.001 * radius * radius * (ex * ex + ey * ey)) return 0;  // most links, clearly
     const double length = std::hypot(ex, ey);
     if (length <= 0 || radius <= 0) return 0;
     const double along = ((x - a.x) * ex + (y - a.y) * ey) / length, aside = passes / length;

@@ -49,8 +49,10 @@ struct UnmappedWall {
 
   void step(const Step& k) const {
     const Segment wall{k[x0], k[y0], k[x1], k[y1]};
+    const double most = -k[loss], up_to = k[height], over = k[edge];
     links.add_both_ways(
-        k, [&](const End& a, const End& b) { return -k[loss] * wall.share(a.at, b.at, k[height], k[edge]); });
+        k, most * 0, [&](const Pose& a, const Pose& b) { return wall.parts(a, b); },
+        [&](const End& a, const End& b) { return most * wall.share(a.at, b.at, up_to, over); });
   }
 
   Value x0, y0, x1, y1, loss, edge, height;
