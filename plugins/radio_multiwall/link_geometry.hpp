@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <memory>
 #include <muster/logarithm.hpp>
@@ -37,7 +38,7 @@ class LinkGeometry {
 
   // How many pairs were computed anew: links that run both ways are one pair.
   std::size_t set_links(Rows<const Ends> links, Rows<const Pose> at) {
-    if (!are_listed(links) || at.size() != endpoints_) order_.clear();
+    if (!are_listed(links) || at.size() != endpoints_ || !are_together(at)) order_.clear();
     endpoints_ = at.size();
     if (order_.empty()) number(links, at);
     std::vector<scene::Point> now = in_order(at);
@@ -103,26 +104,46 @@ class LinkGeometry {
     return true;
   }
 
+  // Whether endpoints that share a place still do.
+  bool are_together(Rows<const Pose> at) const {
+    return std::all_of(together_.begin(), together_.end(),
+                       [&](const auto& two) { return same(point_of(at[two.first]), point_of(at[two.second])); });
+  }
+
+  static scene::Point point_of(const Pose& p) { return {p.x, p.y, p.z}; }
+  static bool same(const scene::Point& a, const scene::Point& b) { return !std::memcmp(&a, &b, sizeof a); }
+
   // Gives those endpoints that have links their places in spatial order, and numbers pairs by them: what is computed
-  // for neighbours then lies side by side.
+  // for neighbours then lies side by side. Endpoints at one point share a place, as those of a radio that stands do
+  // where each measured link has endpoints of its own; a pair runs from the place that has more links.
   void number(Rows<const Ends> links, Rows<const Pose> at) {
     at_.clear();
     order_.clear();
+    together_.clear();
     const auto used = with_links(links, at.size());
     std::vector<scene::Point> points;
-    for (const std::uint32_t end : used) points.push_back({at[end].x, at[end].y, at[end].z});
+    for (const std::uint32_t end : used) points.push_back(point_of(at[end]));
     std::vector<std::uint32_t> place(at.size());
     for (const std::uint32_t i : scene::spatial_order(points)) {
-      place[used[i]] = static_cast<std::uint32_t>(order_.size());
-      order_.push_back(used[i]);
+      if (!order_.empty() && same(points[i], point_of(at[order_.back()]))) {
+        together_.emplace_back(order_.back(), used[i]);
+      } else {
+        order_.push_back(used[i]);
+      }
+      place[used[i]] = static_cast<std::uint32_t>(order_.size() - 1);
     }
     const auto back = earlier_reverse(links, at.size());
+    std::vector<std::uint32_t> partners(order_.size());
+    for (const Ends& link : links) {
+      for (const double end : {link.tx, link.rx}) ++partners[place[static_cast<std::size_t>(end)]];
+    }
     std::vector<std::pair<std::uint64_t, std::uint32_t>> sorted;  // places of both ends, link
     for (std::uint32_t i = 0; i < links.size(); ++i) {
       if (back[i] != no_link) continue;
       const std::uint64_t tx = place[static_cast<std::size_t>(links[i].tx)];
       const std::uint64_t rx = place[static_cast<std::size_t>(links[i].rx)];
-      sorted.emplace_back(std::min(tx, rx) << 32 | std::max(tx, rx), i);
+      const bool turned = std::pair(partners[rx], tx) > std::pair(partners[tx], rx);
+      sorted.emplace_back(turned ? rx << 32 | tx : tx << 32 | rx, i);
     }
     std::sort(sorted.begin(), sorted.end());
     pairs_.clear();
@@ -151,7 +172,8 @@ class LinkGeometry {
 
   std::vector<scene::Point> in_order(Rows<const Pose> at) const {
     std::vector<scene::Point> result;
-    for (const std::uint32_t end : order_) result.push_back({at[end].x, at[end].y, at[end].z});
+    result.reserve(order_.size());
+    for (const std::uint32_t end : order_) result.push_back(point_of(at[end]));
     return result;
   }
 
@@ -159,7 +181,7 @@ class LinkGeometry {
   std::vector<char> which_moved(const std::vector<scene::Point>& now) const {
     std::vector<char> moved(now.size(), 1);
     for (std::size_t i = 0; i < now.size() && at_.size() == now.size(); ++i) {
-      moved[i] = std::memcmp(&now[i], &at_[i], sizeof now[i]) != 0;
+      moved[i] = !same(now[i], at_[i]);
     }
     return moved;
   }
@@ -189,14 +211,34 @@ class LinkGeometry {
 
   void measure_lengths(Rows<const Pose> at) {
     log_distances_.resize(pair_.size());
-    std::vector<double> x, y, z;
-    for (const Pose& p : at) x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
+    std::array<std::vector<double>, 3> place;
+    for (auto& axis : place) axis.reserve(at.size());
+    for (const Pose& p : at) place[0].push_back(p.x), place[1].push_back(p.y), place[2].push_back(p.z);
+    constexpr std::size_t worth_a_call = 8;  // links
+    if (listed_.size() * worth_a_call > pair_.size()) return measure_lengths_one_by_one(place);
     double* out = log_distances_.data();
     for (const auto& [from, to, number] : listed_) {
-      const double own[] = {x[from], y[from], z[from]}, *const others[] = {&x[to], &y[to], &z[to]};
-      Widest<LogLengths, const double*, const double* const*, double*, std::size_t>::run(own, others, out, number);
+      const double own[] = {place[0][from], place[1][from], place[2][from]};
+      log_lengths(own, {&place[0][to], &place[1][to], &place[2][to]}, out, number);
       out += number;
     }
+  }
+
+  void measure_lengths_one_by_one(const std::array<std::vector<double>, 3>& place) {
+    std::array<std::vector<double>, 3> apart;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      apart[axis].reserve(pair_.size());
+      for (const auto& [from, to, number] : listed_) {
+        for (std::uint32_t i = 0; i < number; ++i) apart[axis].push_back(place[axis][to + i] - place[axis][from]);
+      }
+    }
+    constexpr double nowhere[] = {0, 0, 0};
+    log_lengths(nowhere, {apart[0].data(), apart[1].data(), apart[2].data()}, log_distances_.data(), pair_.size());
+  }
+
+  static void log_lengths(const double* own, const std::array<const double*, 3>& others, double* out,
+                          std::size_t number) {
+    Widest<LogLengths, const double*, const double* const*, double*, std::size_t>::run(own, others.data(), out, number);
   }
 
   struct AddLosses {
@@ -235,11 +277,12 @@ class LinkGeometry {
   std::size_t materials_ = 0;
   std::unique_ptr<scene::Scene> scene_;
   std::size_t endpoints_ = 0;
-  std::vector<std::uint32_t> order_;  // endpoints that have links, by place; empty if they are not numbered
-  std::vector<scene::Point> at_;      // where they were; empty if nothing is known
-  std::vector<scene::Pair> pairs_;    // of places
-  std::vector<Run> listed_;           // links, by endpoints
-  std::vector<std::uint32_t> pair_;   // of each link
+  std::vector<std::uint32_t> order_;  // an endpoint that has links, of each place; empty if they are not numbered
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> together_;  // endpoints: that of a place, another one there
+  std::vector<scene::Point> at_;                                   // where they were; empty if nothing is known
+  std::vector<scene::Pair> pairs_;                                 // of places
+  std::vector<Run> listed_;                                        // links, by endpoints
+  std::vector<std::uint32_t> pair_;                                // of each link
   std::vector<double> log_distances_;
   std::vector<int> counts_;  // material by material
 };

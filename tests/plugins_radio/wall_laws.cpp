@@ -143,6 +143,33 @@ TEST(Kept, LinksAreComputedAgainOnlyWhereSomethingMoved) {
   EXPECT_EQ(plan.put(g), 8u);
 }
 
+// Of a radio that stands each measured link has an endpoint of its own.
+TEST(Kept, EndpointsAtOnePointAreTakenTogetherUntilTheyPart) {
+  Plan plan;
+  for (int i = 0; i < 40; ++i) plan.link(0.1 + 0.24 * i, 0.3, 3.1);
+  LinkGeometry together;
+  const auto stand_at = [&](double x, double y) {
+    for (std::size_t i = 0; i < plan.at.size(); i += 2) plan.at[i].x = x, plan.at[i].y = y;
+  };
+  const auto expect_those_of_each_alone = [&] {
+    plan.put(together);
+    for (std::size_t i = 0; i < plan.links.size(); ++i) {
+      Plan one = plan;
+      one.links = {plan.links[i]};
+      LinkGeometry alone;
+      one.put(alone);
+      EXPECT_EQ(counts(together, i), counts(alone, 0)) << i;
+      EXPECT_EQ(log_distance(together, i), log_distance(alone, 0)) << i;
+    }
+  };
+  stand_at(0, 5);
+  expect_those_of_each_alone();
+  stand_at(6, 2);
+  expect_those_of_each_alone();
+  plan.at[6].x = 1;
+  expect_those_of_each_alone();
+}
+
 TEST(Kept, AnswersAreThoseOfAFreshStart) {
   Plan plan;
   for (int i = 0; i < 40; ++i) plan.link(0.1 + 0.24 * i, 0.3, 3.1);
