@@ -12,10 +12,11 @@ namespace muster::external {
 namespace {
 
 // Fragments as RFC 4944 cuts them: all but the last carry a multiple of 8 octets behind a header of 4, then of 5.
-constexpr std::size_t in_one_frame = 127 - 11, in_a_fragment = (in_one_frame - 5) / 8 * 8;
+// A header has 11 octets, and 13 to another PAN.
+constexpr std::size_t in_one_frame = 127 - 11, in_one_frame_across = 127 - 13, in_a_fragment = 104;
 
-std::size_t fragments_of(std::size_t size) {
-  return size <= in_one_frame ? 1 : (size + in_a_fragment - 1) / in_a_fragment;
+std::size_t fragments_of(std::size_t size, bool across) {
+  return size <= (across ? in_one_frame_across : in_one_frame) ? 1 : (size + in_a_fragment - 1) / in_a_fragment;
 }
 
 class Ns3LrWpan final : public Backend {
@@ -53,9 +54,9 @@ class Ns3LrWpan final : public Backend {
     std::size_t number;
     ns3::Ptr<ns3::LrWpanMac> mac;
     std::deque<Request> queue;
-    std::size_t next = 0;                // fragment of the first message
-    std::uint64_t sending = 0, uid = 0;  // the message whose frame ns-3 has, and its number there; 0: none
-    bool has_arrived = false;            // some of it, at somebody
+    std::size_t next = 0, fragments = 0;  // of the first message
+    std::uint64_t sending = 0, uid = 0;   // the message whose frame ns-3 has, and its number there; 0: none
+    bool has_arrived = false;             // some of it, at somebody
     std::map<std::size_t, std::pair<std::size_t, std::string>> parts;  // by receiver: fragments that came, and bytes
 
     // Not any more, once it left.
@@ -91,7 +92,10 @@ class Ns3LrWpan final : public Backend {
   void send(Radio& radio) {
     if (radio.queue.empty()) return;
     const Request& message = radio.queue.front();
-    const bool is_whole = fragments_of(message.payload.size()) == 1;
+    const ns3::Ptr<ns3::LrWpanMac>& to = radios_[message.to == everyone ? radio.number : message.to]->mac;
+    if (radio.next == 0)
+      radio.fragments = fragments_of(message.payload.size(), to->GetPanId() != radio.mac->GetPanId());
+    const bool is_whole = radio.fragments == 1;
     const std::size_t head = is_whole ? 0 : radio.next == 0 ? 4 : 5;
     std::string bytes(head, '\0');
     bytes += message.payload.substr(radio.next * in_a_fragment, is_whole ? std::string::npos : in_a_fragment);
@@ -101,7 +105,7 @@ class Ns3LrWpan final : public Backend {
     radio.sending = message.message;
     radio.uid = frame->GetUid();
     ns3::McpsDataRequestParams how;
-    how.m_dstPanId = 0;
+    how.m_dstPanId = to->GetPanId();
     how.m_srcAddrMode = how.m_dstAddrMode = ns3::SHORT_ADDR;
     how.m_dstAddr = message.to == everyone ? ns3::Mac16Address("ff:ff") : Ns3Radios::address_of(message.to);
     how.m_txOptions = message.to != everyone && settings_.acknowledge ? ns3::TX_OPTION_ACK : ns3::TX_OPTION_NONE;
@@ -118,12 +122,11 @@ class Ns3LrWpan final : public Backend {
     auto& [count, bytes] = from.parts[at.number];
     if (count != it.fragment) return;
     from.has_arrived = true;
-    const std::size_t size = from.queue.front().payload.size(), fragments = fragments_of(size);
-    const std::size_t head = fragments == 1 ? 0 : it.fragment == 0 ? 4 : 5;
+    const std::size_t head = from.fragments == 1 ? 0 : it.fragment == 0 ? 4 : 5;
     std::string all(frame->GetSize(), '\0');
     frame->CopyData(reinterpret_cast<std::uint8_t*>(all.data()), frame->GetSize());
     bytes.append(all, head);
-    if (++count == fragments)
+    if (++count == from.fragments)
       deliver({it.message, at.number, it.from, air_.now(), air_.rssi(it.from, at.number), std::move(bytes)});
   }
 
@@ -134,7 +137,7 @@ class Ns3LrWpan final : public Backend {
       start_next(radio);
     } else if (result.m_status == ns3::IEEE_802_15_4_SUCCESS) {
       ++radio.next;
-      if (radio.next < fragments_of(radio.queue.front().payload.size())) return send(radio);
+      if (radio.next < radio.fragments) return send(radio);
       finish(radio, End::sent);
     } else {
       const bool no_access = result.m_status == ns3::IEEE_802_15_4_CHANNEL_ACCESS_FAILURE;
