@@ -1,6 +1,5 @@
 // Rows 23 and 26 of the requirements: ns-3 behind the same messages, against our own network on one world, and as a
-// network that routes by itself; and what it cannot do. What every network keeps, it keeps in
-// tests/plugins_radio/network_conformance.cpp.
+// network that routes by itself; and what it cannot do. What every network keeps, it keeps in tests/plugins_radio.
 #include <gmock/gmock.h>
 
 #include <cmath>
