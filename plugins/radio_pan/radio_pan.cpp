@@ -13,9 +13,9 @@ struct RadioPan {
   static constexpr auto id = "radio.pan/1";
   static constexpr auto summary = "a personal area network (PAN) of IEEE 802.15.4, and the radios in it";
   static constexpr auto manual =
-      R"(The radios named in `radios`, of stations and of robots, are in the PAN `id`; a robot's radio has the robot's name.
-Whom no radio.pan names is in the PAN 0. What is sent to all goes to the sender's PAN; a message to one receiver may go
-to another PAN, in frames two octets longer. All PANs share the channel: a radio hears the frames of others, waits for
+      R"(The radios named in `radios` are in the PAN `id`: stations, and robots by their names. Whom no radio.pan names is
+in the PAN 0. What is sent to all goes to the sender's PAN; a message to one receiver may go to another PAN, in frames
+two octets longer. All PANs share the channel: a radio hears the frames of others, waits for
 them and is busy with them.
 network.lrwpan and network.ns3 read it, other networks do not.)";
   static constexpr auto phase = MUSTER_RADIO;
