@@ -32,6 +32,7 @@ struct Part {
   std::size_t missing = 0;
 };
 
+// What one radio still has to send, what came to it in part, and ns-3's radio under its mesh.
 struct Member {
   Ns3Mesh* owner;
   std::size_t number;
