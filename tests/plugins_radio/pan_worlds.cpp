@@ -147,6 +147,17 @@ TEST_F(PanWorld, ARunIsTheSameBitsHoweverItIsRun) {
   EXPECT_EQ(straight.digest(), again.digest());
 }
 
+TEST_F(PanWorld, WhereTheNetworkKnowsNoneItIsWarnedOf) {
+  for (const std::string known : {"network.lrwpan", "network.ideal"}) {
+    const Simulation sim =
+        world_of(folder, four + pan("ours", "2", "a b") + everybody_sends() + channel + "<" + known + "/>\n");
+    std::size_t told = 0;
+    for (const auto& event : sim.events())
+      told += event.message.find("ours (radio.pan): writes \"radio/") != std::string::npos;
+    EXPECT_EQ(told, known == "network.ideal" ? 1u : 0u) << known;
+  }
+}
+
 TEST_F(PanWorld, WhatIsDeclaredWronglyIsTold) {
   const std::string at = "world.xml:2:1: p (radio.pan): ", expected = "; expected an integer from 0 to 65534";
   EXPECT_EQ(error_of(pan("p", "65535", "a")), "world.xml:2:25: attribute \"id\": 65535 is out of bounds" + expected);
