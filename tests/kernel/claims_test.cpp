@@ -198,6 +198,16 @@ TEST_F(Claims, RowsThatNobodyReadsAreWarnedAbout) {
   EXPECT_THAT(messages(run(rows + copy("wall", Wall::columns))), ElementsAre());
 }
 
+// A jammer in a world whose network feels no jammers.
+TEST_F(Claims, WhatAPluginOfTheRadioSaysToNobodyIsWarnedAbout) {
+  const std::string said = two_robots + "<toy.copy_radio name='r' to='robot/*/loudness' columns='v'/>\n";
+  EXPECT_THAT(messages(run(said)),
+              ElementsAre("0 : warning: " + (folder / "world.xml").string() +
+                          ":4:1: r (toy.copy_radio): writes \"robot/*/loudness\", which nobody reads"));
+  EXPECT_THAT(messages(run(said + "<toy.copy_sense name='s' from='robot/*/loudness' columns='v' to='self/x'/>\n")),
+              ElementsAre());
+}
+
 // A robot that a controller commands in a world where nothing obeys would just stand there.
 TEST_F(Claims, CommandsThatNobodyReadsAreWarnedAbout) {
   const std::string commands = two_robots +
