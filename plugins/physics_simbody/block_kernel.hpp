@@ -4,14 +4,19 @@
 // Only plain data cross this border: a function that both sides compile could be linked in its newest form everywhere.
 #pragma once
 
+#include "contact_lanes.hpp"
+
 namespace muster::simbody {
 
 // Matrices are N x N by columns, rows of contacts N numbers each, one after the other.
 template <int N>
 struct BlockArithmetic {
+  static constexpr int most_contacts = 8;
+
   void (*copy)(double* to, const double* from);
-  // block += a_0 b_0^T + a_1 b_1^T + ..., for `rows` rows.
-  void (*add_rows)(double* block, int rows, const double* a, const double* b);
+  // block += a^T K b for each of at most so many contacts: a and b are its three rows, K is [n 0 0; 0 xx xy; 0 xy yy],
+  // of which `k` has those four.
+  void (*add_contacts)(double* block, int count, const double* const* a, const double* const* b, const double* k);
   // What each of a contact's three rows makes of a velocity, added to `sums`; and to -= k_0 a_0 + k_1 a_1 + k_2 a_2.
   void (*add_speeds)(double* sums, const double* a, const double* velocity);
   void (*subtract_rows)(double* to, const double* a, const double* k);
@@ -35,6 +40,7 @@ struct BlockKernel {
   BlockArithmetic<6> six;
   BlockArithmetic<8> eight;
   BlockArithmetic<12> twelve;
+  LaneArithmetic lanes;
 };
 
 // Those that this machine can run, the best last; at least one.
@@ -47,5 +53,6 @@ BlockKernels block_kernels();
 // Of the best.
 template <int N>
 const BlockArithmetic<N>& block_arithmetic();
+const LaneArithmetic& lane_arithmetic();
 
 }  // namespace muster::simbody

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <array>
 #include <cstring>
 #include <random>
+#include <vector>
 
 namespace muster::simbody {
 namespace {
@@ -23,14 +25,10 @@ class Check {
   void products() {
     for (int trial = 0; trial < 20; ++trial) {
       const Block a = draw<Block>(), b = draw<Block>();
-      const Rows p = draw<Rows>(), q = draw<Rows>();
+      const Rows p = draw<Rows>();
       const Column x = draw<Column>(), y = draw<Column>();
       const Eigen::Vector3d k = draw<Eigen::Vector3d>();
       expect(b, a, [&](const auto& by, double* to) { by.copy(to, b.data()); });
-      for (int rows = 1; rows <= 3; ++rows) {
-        const Block sum = a + p.leftCols(rows) * q.leftCols(rows).transpose();
-        expect(sum, a, [&](const auto& by, double* to) { by.add_rows(to, rows, p.data(), q.data()); });
-      }
       const Eigen::Vector3d speeds = k + p.transpose() * x;
       expect(speeds, k, [&](const auto& by, double* to) { by.add_speeds(to, p.data(), x.data()); });
       const Column left = x - p * k, less = x - a * y, less_transposed = x - a.transpose() * y;
@@ -43,6 +41,27 @@ class Check {
       const Block upper = b.template triangularView<Eigen::Upper>(), times = a * upper, rest = a - b * b.transpose();
       expect(times, a, [&](const auto& by, double* to) { by.multiply(to, upper.data()); });
       expect(rest, a, [&](const auto& by, double* to) { by.subtract(to, b.data(), b.data()); });
+    }
+  }
+
+  void contacts() {
+    for (int count = 1; count <= BlockArithmetic<N>::most_contacts; ++count) {
+      const Block start = draw<Block>();
+      std::array<Rows, BlockArithmetic<N>::most_contacts> p, q;
+      std::array<const double*, BlockArithmetic<N>::most_contacts> a, b;
+      std::vector<double> k;
+      Block sum = start;
+      for (int i = 0; i < count; ++i) {
+        p[i] = draw<Rows>(), q[i] = draw<Rows>();
+        a[i] = p[i].data(), b[i] = q[i].data();
+        const Eigen::Vector4d of_contact = draw<Eigen::Vector4d>();
+        k.insert(k.end(), of_contact.data(), of_contact.data() + 4);
+        Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero();
+        stiffness(0, 0) = of_contact[0];
+        stiffness.bottomRightCorner<2, 2>() << of_contact[1], of_contact[2], of_contact[2], of_contact[3];
+        sum += p[i] * stiffness * q[i].transpose();
+      }
+      expect(sum, start, [&](const auto& by, double* to) { by.add_contacts(to, count, a.data(), b.data(), k.data()); });
     }
   }
 
@@ -88,6 +107,12 @@ TEST(BlockKernel, ProductsAreEigensInTheSameBits) {
   Check<6>().products();
   Check<8>().products();
   Check<12>().products();
+}
+
+TEST(BlockKernel, ContactsOfAPairAddUp) {
+  Check<6>().contacts();
+  Check<8>().contacts();
+  Check<12>().contacts();
 }
 
 TEST(BlockKernel, FactorsAreInvertedInTheSameBits) {
