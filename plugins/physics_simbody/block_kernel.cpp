@@ -53,6 +53,34 @@ struct Column {
     for (int i = 0; i < fours; ++i) four[i] -= b.four[i] * k;
     if (has_two) two -= b.two * k;
   }
+  MUSTER_INLINE void multiply(const Column& b) {
+    for (int i = 0; i < eights; ++i) eight[i] *= b.eight[i];
+    for (int i = 0; i < fours; ++i) four[i] *= b.four[i];
+    if (has_two) two *= b.two;
+  }
+  MUSTER_INLINE void add_product(const Column& b, const Column& c) {
+    for (int i = 0; i < eights; ++i) eight[i] += b.eight[i] * c.eight[i];
+    for (int i = 0; i < fours; ++i) four[i] += b.four[i] * c.four[i];
+    if (has_two) two += b.two * c.two;
+  }
+  // By twos in their order, whatever the pieces.
+  MUSTER_INLINE double sum() const {
+    Two sum = {};
+    for (int i = 0; i < eights; ++i) {
+      const Eight& e = eight[i];
+      sum += __builtin_shufflevector(e, e, 0, 1);
+      sum += __builtin_shufflevector(e, e, 2, 3);
+      sum += __builtin_shufflevector(e, e, 4, 5);
+      sum += __builtin_shufflevector(e, e, 6, 7);
+    }
+    for (int i = 0; i < fours; ++i) {
+      const Four& f = four[i];
+      sum += __builtin_shufflevector(f, f, 0, 1);
+      sum += __builtin_shufflevector(f, f, 2, 3);
+    }
+    if (has_two) sum += two;
+    return sum[0] + sum[1];
+  }
 
   Eight eight[eights > 0 ? eights : 1];
   Four four[fours > 0 ? fours : 1];
@@ -114,6 +142,38 @@ struct Arithmetic {
     C rest = C::of(to);
     for (int row = 0; row < 3; ++row) rest.subtract(C::of(a + N * row), k[row]);
     rest.store(to);
+  }
+
+  static void look_ahead(const ContactTable& table, const double* velocities, ContactLanes* contacts) {
+    for (int i = 0; i < table.count; ++i) {
+      const int body = table.bodies[2 * i], other = table.bodies[2 * i + 1];
+      const double* rows = table.rows + table.stride * i;
+      const C own = C::of(velocities + N * body), others = C::of(velocities + N * (other < 0 ? body : other));
+      double speeds[3];
+      for (int row = 0; row < 3; ++row) {
+        C product = C::of(rows + N * row);
+        product.multiply(own);
+        if (other >= 0) product.add_product(C::of(rows + table.other + N * row), others);
+        speeds[row] = product.sum();
+      }
+      ContactLanes& lanes = contacts[i / ContactLanes::width];
+      const int k = i % ContactLanes::width;
+      lanes.speed_ahead[k] = speeds[0];
+      lanes.slip_ahead[0][k] = speeds[1];
+      lanes.slip_ahead[1][k] = speeds[2];
+    }
+  }
+  static void take_impulses(const ContactTable& table, const ContactLanes* contacts, double* momenta) {
+    for (int i = 0; i < table.count; ++i) {
+      const ContactLanes& lanes = contacts[i / ContactLanes::width];
+      const int k = i % ContactLanes::width;
+      if (!(lanes.push[k] > 0 || lanes.bound[k] > 0)) continue;
+      const double impulses[] = {lanes.push[k], lanes.grip[0][k], lanes.grip[1][k]};
+      const int body = table.bodies[2 * i], other = table.bodies[2 * i + 1];
+      const double* rows = table.rows + table.stride * i;
+      subtract_rows(momenta + N * body, rows, impulses);
+      if (other >= 0) subtract_rows(momenta + N * other, rows + table.other, impulses);
+    }
   }
 
   // Column by column; the row operations that make D L^T of the block, L of ones on its diagonal, make L^-1 of the unit
@@ -178,8 +238,8 @@ struct Arithmetic {
   }
 
   static constexpr BlockArithmetic<N> all = {
-      copy,     add_contacts,     add_speeds,          subtract_rows, invert_factor,   multiply,
-      subtract, subtract_product, subtract_transposed, apply,         apply_transposed};
+      copy,     add_contacts, add_speeds,       subtract_rows,       look_ahead, take_impulses,   invert_factor,
+      multiply, subtract,     subtract_product, subtract_transposed, apply,      apply_transposed};
 };
 
 }  // namespace

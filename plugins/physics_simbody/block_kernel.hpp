@@ -8,6 +8,15 @@
 
 namespace muster::simbody {
 
+// Rows of contacts where they lie: of each three of its body and, `other` numbers on, three of the other; both by
+// number in `bodies`, -1 where there is no other. Contacts stand `stride` numbers apart.
+struct ContactTable {
+  int count;
+  const double* rows;
+  long stride, other;
+  const int* bodies;
+};
+
 // Matrices are N x N by columns, rows of contacts N numbers each, one after the other.
 template <int N>
 struct BlockArithmetic {
@@ -20,6 +29,10 @@ struct BlockArithmetic {
   // What each of a contact's three rows makes of a velocity, added to `sums`; and to -= k_0 a_0 + k_1 a_1 + k_2 a_2.
   void (*add_speeds)(double* sums, const double* a, const double* velocity);
   void (*subtract_rows)(double* to, const double* a, const double* k);
+  // The same of all contacts: what the bodies' velocities make of their speeds and slips ahead, and what their impulses
+  // take from the bodies' momenta. Both stand one after the other.
+  void (*look_ahead)(const ContactTable& table, const double* velocities, ContactLanes* contacts);
+  void (*take_impulses)(const ContactTable& table, const ContactLanes* contacts, double* momenta);
   // Of a symmetric positive definite block, of which only what is on and below the diagonal counts: the inverse of the
   // transposed Cholesky factor, L^-T. Destroys the block. No numbers where it is not positive definite.
   void (*invert_factor)(double* block, double* inverse);

@@ -22,8 +22,13 @@ void ContactSolverOf<N>::slip(Outcome& outcome) {
     outcome.minimised = minimise(last ? last_newton : pass == 0 ? first_newton : later_newton);
     double change = 0, size = 0;
     for (std::size_t i = 0; i < local_.size(); ++i) {
-      const double bound = p_->contacts[i].friction * p_->contacts[i].push;
-      change = std::max(change, std::abs(bound - lanes_[i / ContactLanes::width].bound[i % ContactLanes::width]));
+      const ContactLanes& lanes = lanes_[i / ContactLanes::width];
+      const std::size_t k = i % ContactLanes::width;
+      Contact& c = p_->contacts[i];
+      c.push = lanes.push[k];
+      c.grip = {lanes.grip[0][k], lanes.grip[1][k]};
+      const double bound = c.friction * c.push;
+      change = std::max(change, std::abs(bound - lanes.bound[k]));
       size = std::max(size, bound);
     }
     outcome.converged = outcome.minimised && change <= p_->search.bound_tolerance * (size + 1e-9);
@@ -32,15 +37,17 @@ void ContactSolverOf<N>::slip(Outcome& outcome) {
   }
 }
 
-// As the search begins.
+// As the search begins, at u_.
 template <int N>
 void ContactSolverOf<N>::fill_lanes() {
   lanes_.assign((local_.size() + ContactLanes::width - 1) / ContactLanes::width, ContactLanes{});
+  bodies_.clear();
   for (std::size_t i = 0; i < local_.size(); ++i) {
     const Contact& c = p_->contacts[i];
     ContactLanes& lanes = lanes_[i / ContactLanes::width];
     const std::size_t k = i % ContactLanes::width;
     const auto [speed, x, y] = speeds_of(c, u_);
+    bodies_.insert(bodies_.end(), {c.body, c.other});
     lanes.target[k] = c.target;
     lanes.hardness[k] = 1 / c.softness;
     lanes.grip_softness[k] = c.grip_softness;
@@ -71,6 +78,7 @@ void ContactSolverOf<N>::refresh_bounds(int pass) {
 }
 
 // Newton with exact line search on the convex energy of fixed bounds; the impulses are those at u_ when it returns.
+// Speeds at contacts go along with u_, and are not worked out from it again.
 template <int N>
 bool ContactSolverOf<N>::minimise(int limit) {
   for (int iteration = 0;; ++iteration) {
@@ -90,19 +98,21 @@ bool ContactSolverOf<N>::minimise(int limit) {
   }
 }
 
+template <int N>
+ContactTable ContactSolverOf<N>::table() const {
+  if (p_->contacts.empty()) return {};
+  const Contact& first = p_->contacts.front();
+  const double* rows = first.normal.data();
+  return {static_cast<int>(p_->contacts.size()), rows, sizeof(Contact) / sizeof(double),
+          first.of_other.normal.data() - rows, bodies_.data()};
+}
+
 // Impulses at u_, and the energy's gradient there.
 template <int N>
 void ContactSolverOf<N>::respond() {
   in_lanes_.respond(lanes_.data(), lane_count());
   begin_gradient();
-  for (std::size_t i = 0; i < local_.size(); ++i) {
-    const ContactLanes& lanes = lanes_[i / ContactLanes::width];
-    const std::size_t k = i % ContactLanes::width;
-    Contact& c = p_->contacts[i];
-    c.push = lanes.push[k];
-    c.grip = {lanes.grip[0][k], lanes.grip[1][k]};
-    if (c.push > 0 || lanes.bound[k] > 0) take_impulse(c, gradient_);
-  }
+  blocks_.take_impulses(table(), lanes_.data(), gradient_.front().data());
   end_gradient();
 }
 
@@ -125,8 +135,8 @@ void ContactSolverOf<N>::set_hessian() {
       std::copy(std::begin(of_contact), std::end(of_contact), &stiffness[4 * count]);
       ++count;
     }
-    const bool goes_on = i + 1 < local_.size() && c.body == p_->contacts[i + 1].body &&
-                         c.other == p_->contacts[i + 1].other && count < most_in_run;
+    const bool goes_on = i + 1 < local_.size() && count < most_in_run && bodies_[2 * i] == bodies_[2 * i + 2] &&
+                         bodies_[2 * i + 1] == bodies_[2 * i + 3];
     if (goes_on || count == 0) continue;
     add_run(c, count, own.data(), others.data(), stiffness.data());
     count = 0;
@@ -150,13 +160,7 @@ double ContactSolverOf<N>::motor_stiffness(std::size_t body, int m) const {
 // What d_ does to contacts and to the energy of motion, a quadratic along d_.
 template <int N>
 void ContactSolverOf<N>::look_ahead() {
-  for (std::size_t i = 0; i < local_.size(); ++i) {
-    ContactLanes& lanes = lanes_[i / ContactLanes::width];
-    const std::size_t k = i % ContactLanes::width;
-    const auto [speed, x, y] = speeds_of(p_->contacts[i], d_);
-    lanes.speed_ahead[k] = speed;
-    lanes.slip_ahead[0][k] = x, lanes.slip_ahead[1][k] = y;
-  }
+  blocks_.look_ahead(table(), d_.front().data(), lanes_.data());
   slope_of_motion_ = curve_of_motion_ = 0;
   for (std::size_t b = 0; b < u_.size(); ++b) {
     Velocity momentum = d_[b];

@@ -149,6 +149,7 @@ class ContactSolverOf {
   void slip(Outcome& outcome);
   void fill_lanes();
   int lane_count() const { return static_cast<int>(lanes_.size()); }
+  ContactTable table() const;
   void set_dual(std::size_t contact, const Eigen::Vector2d& dual);
   void refresh_bounds(int pass);
   bool minimise(int limit);
@@ -169,6 +170,7 @@ class ContactSolverOf {
   Problem* p_ = nullptr;
   std::vector<Local> local_;
   std::vector<ContactLanes> lanes_;
+  std::vector<int> bodies_;                              // two of each contact
   std::vector<std::array<double, joints>> motor_duals_;  // estimates of the motors' impulses [N m s]
   std::vector<std::pair<int, int>> pairs_;
   std::vector<std::array<MotorHabit, joints>> motor_habits_;

@@ -65,6 +65,46 @@ class Check {
     }
   }
 
+  // Ten contacts among three bodies, the first of them with what stands still.
+  void tables() {
+    constexpr int count = 10, bodies = 3;
+    struct Contact {
+      Rows own, others;
+    };
+    std::vector<Contact> contacts(count);
+    std::vector<int> of;
+    std::array<ContactLanes, 2> lanes{};
+    using Table = Eigen::Matrix<double, N, bodies>;
+    const Table velocities = draw<Table>(), momenta = draw<Table>();
+    Table left = momenta;
+    Eigen::Matrix<double, 3, count> speeds;
+    for (int i = 0; i < count; ++i) {
+      contacts[i] = {draw<Rows>(), draw<Rows>()};
+      const int body = i % bodies, other = i == 0 ? -1 : (i + 1) % bodies;
+      of.insert(of.end(), {body, other});
+      Eigen::Vector3d impulse = draw<Eigen::Vector3d>().cwiseAbs();
+      if (i == 7) impulse.setZero();  // it neither pushes nor has any friction
+      ContactLanes& c = lanes[i / 8];
+      c.push[i % 8] = impulse[0], c.grip[0][i % 8] = impulse[1], c.grip[1][i % 8] = impulse[2];
+      speeds.col(i) = contacts[i].own.transpose() * velocities.col(body);
+      left.col(body) -= contacts[i].own * impulse;
+      if (other < 0) continue;
+      speeds.col(i) += contacts[i].others.transpose() * velocities.col(other);
+      left.col(other) -= contacts[i].others * impulse;
+    }
+    const double *rows = contacts[0].own.data(), *others = contacts[0].others.data();
+    const ContactTable table{count, rows, sizeof(Contact) / sizeof(double), others - rows, of.data()};
+    expect(left, momenta, [&](const auto& by, double* to) { by.take_impulses(table, lanes.data(), to); });
+    expect(speeds, speeds, [&](const auto& by, double* to) {
+      by.look_ahead(table, velocities.data(), lanes.data());
+      for (int i = 0; i < count; ++i) {
+        const ContactLanes& c = lanes[i / 8];
+        to[3 * i] = c.speed_ahead[i % 8];
+        to[3 * i + 1] = c.slip_ahead[0][i % 8], to[3 * i + 2] = c.slip_ahead[1][i % 8];
+      }
+    });
+  }
+
   void factors() {
     for (int trial = 0; trial < 20; ++trial) {
       const Block a = draw<Block>(), square = a * a.transpose() + Block::Identity();
@@ -113,6 +153,12 @@ TEST(BlockKernel, ContactsOfAPairAddUp) {
   Check<6>().contacts();
   Check<8>().contacts();
   Check<12>().contacts();
+}
+
+TEST(BlockKernel, TablesOfContactsAreReadWhereTheyLie) {
+  Check<6>().tables();
+  Check<8>().tables();
+  Check<12>().tables();
 }
 
 TEST(BlockKernel, FactorsAreInvertedInTheSameBits) {
