@@ -23,7 +23,7 @@ constexpr bool has_eights = false;
 // A column of N numbers, even ones, in as few pieces as the machine takes.
 template <int N>
 struct Column {
-  static constexpr int eights = has_eights ? N / 8 : 0, fours = (N - 8 * eights) / 4;
+  static constexpr int eights = has_eights && N % 8 == 0 ? N / 8 : 0, fours = (N - 8 * eights) / 4;
   static constexpr bool has_two = N % 4 == 2;
 
   MUSTER_INLINE static Column of(const double* p) {
@@ -123,7 +123,7 @@ struct Arithmetic {
       x.store(weighed + 3 * N * i + N);
       y.store(weighed + 3 * N * i + 2 * N);
     }
-    constexpr int some = N % 8 == 0 && has_eights ? 8 : N % 4 == 0 ? 4 : 2;  // columns that registers hold
+    constexpr int some = C::eights > 0 ? 8 : N % 4 == 0 ? 4 : 2;  // columns that registers hold
     for (int first = 0; first < N; first += some) {
       C sums[some];
       for (int j = 0; j < some; ++j) sums[j] = C::of(block + N * (first + j));
