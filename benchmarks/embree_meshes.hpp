@@ -7,9 +7,12 @@
 #include <vector>
 
 #include "plugins/radio_meshes/embree_scene.hpp"
-#include "plugins/radio_meshes/triangle.hpp"
+#include "scene/triangle.hpp"
 
 namespace muster::bench {
+
+using scene::Triangle;
+using scene::Vector;
 
 struct MeshLink {
   Vector p, q;

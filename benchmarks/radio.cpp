@@ -163,7 +163,7 @@ class Channel {
   }
 
   void log_distance(std::vector<double>& levels) {
-    free_.set_scene(rows(no_walls_), rows(no_doors_), rows(no_states_), 0);
+    free_.set_scene(rows(no_walls_), rows(no_doors_), rows(no_states_), rows(no_floors_), 0);
     free_.set_links(rows(links_), rows(poses_));
     const auto& far = free_.log_distances();
     levels.resize(far.size());
@@ -171,7 +171,7 @@ class Channel {
   }
 
   void all(std::vector<double>& levels) {
-    geometry_.set_scene(rows(walls_), rows(no_doors_), rows(no_states_), FloorPlan::materials);
+    geometry_.set_scene(rows(walls_), rows(no_doors_), rows(no_states_), rows(no_floors_), FloorPlan::materials);
     geometry_.set_links(rows(links_), rows(poses_));
     geometry_.wall_losses(std::vector<double>(FloorPlan::materials, 3), lost_);
     const auto shadow_at = field_.at(places(rows(poses_), 2));
@@ -194,6 +194,7 @@ class Channel {
   std::vector<Wall> walls_, no_walls_;
   std::vector<Door> no_doors_;
   std::vector<DoorState> no_states_;
+  std::vector<FloorShape> no_floors_;
   std::vector<Pose> poses_;
   std::vector<Ends> links_;
   std::vector<Level> shadowing_;

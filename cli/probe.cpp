@@ -26,7 +26,8 @@ struct ProbeWords {
 
 ProbeWords words_of(const Arguments& arguments) {
   CLI::App app(
-      "A link's budget at a moment of a run: each wall on the way, each term of the channel, each stage of the "
+      "A link's budget at a moment of a run: each wall and floor on the way, each term of the channel, each stage of "
+      "the "
       "receiver,\n"
       "and why nothing is received where nothing is.\n"
       "Example: muster probe worlds/connectivity base leader --at 30",
@@ -92,11 +93,13 @@ ordered_json walls_between(const Simulation& run, const Pose& a, const Pose& b) 
   }
   std::sort(crossings.begin(), crossings.end(), [](const auto& p, const auto& q) { return p.fraction < q.fraction; });
   const auto walls = names_of(run, "wall"), doors = names_of(run, "door"), materials = names_of(run, "material");
+  const auto floors = names_of(run, "floor");
   const auto losses = rows_of<Loss>(run, "material/*/loss");
   ordered_json result = ordered_json::array();
   for (const auto& c : crossings) {
     const auto material = static_cast<std::size_t>(c.material);
-    ordered_json wall{{"wall", walls.at(static_cast<std::size_t>(c.wall))}};
+    ordered_json wall = c.floor >= 0 ? ordered_json{{"floor", floors.at(static_cast<std::size_t>(c.floor))}}
+                                     : ordered_json{{"wall", walls.at(static_cast<std::size_t>(c.wall))}};
     if (c.door >= 0) wall["door"] = doors.at(static_cast<std::size_t>(c.door));
     wall["material"] = materials.at(material);
     wall["loss_db"] = losses.at(material).loss;
@@ -194,8 +197,9 @@ void print(const ordered_json& b) {
              print_real(b["time"].get<double>()), b["distance_m"].get<double>());
   for (const auto& w : b["walls"]) {
     const std::string door = w.contains("door") ? ", door " + w["door"].get<std::string>() : "";
-    fmt::print("  at {:6.2f} m  wall {}{} ({}, {:.2f} dB), {:.0f} degrees from its normal\n", w["at_m"].get<double>(),
-               w["wall"].get<std::string>(), door, w["material"].get<std::string>(), w["loss_db"].get<double>(),
+    const std::string kind = w.contains("floor") ? "floor" : "wall";
+    fmt::print("  at {:6.2f} m  {} {}{} ({}, {:.2f} dB), {:.0f} degrees from its normal\n", w["at_m"].get<double>(),
+               kind, w[kind].get<std::string>(), door, w["material"].get<std::string>(), w["loss_db"].get<double>(),
                w["incidence_rad"].get<double>() * 180 / 3.141592653589793);
   }
   for (const auto& line : b["lines"]) {

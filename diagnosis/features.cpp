@@ -41,7 +41,7 @@ Features features_of(const LinkModel& model) {
       scene.crossings({tx.x, tx.y, tx.z}, {rx.x, rx.y, rx.z}, crossings);
       double incidence = 0;
       for (const auto& c : crossings) {
-        f.crossed.push_back(c.wall);
+        if (c.wall >= 0) f.crossed.push_back(c.wall);
         ++f.by_material[at(c.material)][row];
         incidence += std::acos(std::min(1.0, c.cos_incidence));
       }

@@ -12,9 +12,9 @@ struct Features {
   std::vector<double> distance;                // m
   std::vector<double> azimuth, elevation;      // rad, from tx to rx, in the world
   std::vector<double> tx_bearing, rx_bearing;  // rad, of the other radio as seen from the antenna's heading
-  std::vector<double> incidence;               // rad, mean angle to the normals of the walls crossed; NaN: none
+  std::vector<double> incidence;               // rad, mean angle to the normals of walls and floors crossed; NaN: none
   std::vector<std::string> materials, walls;   // names
-  std::vector<std::vector<int>> by_material;   // [material][row]: walls crossed
+  std::vector<std::vector<int>> by_material;   // [material][row]: walls and floors crossed
   // Walls crossed by row r: crossed[first[r]] ... crossed[first[r + 1] - 1].
   std::vector<std::size_t> first;
   std::vector<int> crossed;

@@ -1,6 +1,7 @@
 #include "diagnosis/plan.hpp"
 
 #include <cmath>
+#include <muster/floors.hpp>
 #include <muster/tables.hpp>
 
 #include "diagnosis/run_tables.hpp"
@@ -24,7 +25,10 @@ scene::Scene scene_of(const Simulation& run) {
     const bool open = states.at(doors.size()).open != 0;
     doors.push_back({static_cast<int>(d.wall), d.at, d.width, d.height, static_cast<int>(material), open});
   }
-  return {walls, doors, static_cast<int>(names_of(run, "material").size())};
+  std::vector<scene::Floor> floors;
+  for (const FloorShape& f : rows_of<FloorShape>(run, "floor/*/shape"))
+    floors.push_back({{f.x0, f.x1, f.x2, f.x3}, {f.y0, f.y1, f.y2, f.y3}, f.z, static_cast<int>(f.material)});
+  return {walls, doors, static_cast<int>(names_of(run, "material").size()), floors};
 }
 
 picture::FloorPlan plan_of(const Simulation& run) {

@@ -49,7 +49,7 @@ class Linker {
   // Plugins that somebody's reads need and that no instance provides: ids of the sets' declared providers.
   std::vector<std::string> missing_providers() const;
 
-  // Warnings: who writes commands and messages that nobody takes, and what the world has that nobody minds.
+  // Warnings: who writes commands, messages and the like that nobody takes, and what the world has that nobody minds.
   std::vector<std::string> unread() const;
 
   // Refuses what does not fit, with the names of both sides; nothing is changed before it has returned. Throws Error.
@@ -67,6 +67,7 @@ class Linker {
   bool is_of_the_world(const std::string& logical) const;
   bool is_given(const std::string& logical) const;
   bool is_minded(const std::string& set) const;
+  bool is_for_others(const Claimed::By& writer) const;
   std::vector<std::string> readable() const;
   void check_reads(const std::string& logical, const Claimed& c) const;
   void check_writers(const std::string& logical, const Claimed& c) const;

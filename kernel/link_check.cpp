@@ -73,8 +73,17 @@ bool Linker::is_minded(const std::string& set) const {
   });
 }
 
-// What a controller or a command's chain writes for nobody moves nothing and sends nothing; what the world has for
-// nobody stands in nobody's way.
+// True where to write it for nobody is to do nothing: a command, a message, what a radio's plugin says of radios or
+// robots to the plugins that know of it.
+bool Linker::is_for_others(const Claimed::By& writer) const {
+  const Claim& claim = writer.get();
+  const bool is_standard = standard_quantity(standard_, claim.name);
+  if (writer.instance->phase() <= MUSTER_ACTUATE) return is_standard;
+  const Set* set = board_.find_set(claim.name.set);
+  return writer.instance->phase() == MUSTER_RADIO && !is_standard && set && set->kind == SetKind::live;
+}
+
+// What is written for nobody moves nothing and sends nothing; what the world has for nobody stands in nobody's way.
 std::vector<std::string> Linker::unread() const {
   std::vector<std::string> result;
   std::set<std::string> told;
@@ -86,8 +95,9 @@ std::vector<std::string> Linker::unread() const {
   for (const auto& [logical, c] : claimed_) {
     const auto is_record = [&](const auto& record) { return record.table == logical; };
     if (!c.readers.empty() || std::any_of(world_.records.begin(), world_.records.end(), is_record)) continue;
+    std::set<const Instance*> silent;  // of several rows that one writes, the first is named
     for (const auto& by : c.writers) {
-      if (by.instance->phase() <= MUSTER_ACTUATE && standard_quantity(standard_, by.get().name))
+      if (is_for_others(by) && silent.insert(by.instance).second)
         result.push_back(by.instance->title() + ": writes " + quote(by.get().name.text()) + ", which nobody reads");
     }
   }

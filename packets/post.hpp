@@ -93,9 +93,8 @@ struct Report {
 
 class Post {
  public:
-  // `frames_of`: how many frames a payload of so many bytes goes in; where a medium counts otherwise, none.
+  // `frames_of`: how many frames a payload of so many bytes goes in; where a medium counts them itself, none.
   explicit Post(std::size_t (*frames_of)(std::size_t) = nullptr) : frames_of_(frames_of) {}
-  void cut_by(std::size_t (*frames_of)(std::size_t)) { frames_of_ = frames_of; }
 
   // A message that `from` wants to send at a time of the next run.
   void ask(Time at, std::size_t from, std::size_t to, std::string payload);

@@ -1,6 +1,7 @@
-// Rows of walls and doors as the scene has them, numbered alike.
+// Rows of walls, doors and floors as the scene has them, numbered alike.
 #pragma once
 
+#include <muster/floors.hpp>
 #include <muster/plugin.hpp>
 #include <scene/walls.hpp>
 #include <vector>
@@ -23,6 +24,13 @@ inline std::vector<scene::Door> scene_doors(Rows<const Door> doors, Rows<const D
     result.push_back(
         {static_cast<int>(d.wall), d.at, d.width, d.height, static_cast<int>(material), states[i].open != 0});
   }
+  return result;
+}
+
+inline std::vector<scene::Floor> scene_floors(Rows<const FloorShape> floors) {
+  std::vector<scene::Floor> result;
+  for (const FloorShape& f : floors)
+    result.push_back({{f.x0, f.x1, f.x2, f.x3}, {f.y0, f.y1, f.y2, f.y3}, f.z, static_cast<int>(f.material)});
   return result;
 }
 

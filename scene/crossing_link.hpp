@@ -5,13 +5,12 @@
 
 namespace muster::scene {
 
-// A height or a place along a wall, times an orientation: below 2^73.
-__extension__ using Wide = __int128;
-
 struct LatticePoint {
   Spot spot;
   std::int64_t z = 0;
 };
+
+inline Vector vector(const LatticePoint& point) { return {point.spot.x, point.spot.y, point.z}; }
 
 // Throws std::runtime_error where the point lies beyond 1 km.
 LatticePoint snapped(const Point& point);
@@ -36,7 +35,7 @@ struct Scene::Hit {
   int material = 0;
   std::int64_t from = 0, to = 0;
 
-  // The link's height above `height` where it crosses, times |to - from|: its sign is exact.
+  // The link's height above `height` where it crosses, times |to - from|: below 2^73, so its sign is exact.
   Wide height_above(const Link& link, std::int64_t height) const {
     const Wide sum = Wide{link.from_z - height} * to - Wide{link.to_z - height} * from;
     return to > from ? sum : -sum;

@@ -15,6 +15,9 @@ constexpr double extent = 1000;  // m; coordinates are smaller in size
 // False for NaN and infinity too.
 inline bool within_extent(double metres) { return std::abs(metres) < extent; }
 
+// Products of three coordinates or more: below 2^73.
+__extension__ using Wide = __int128;
+
 // The lattice step nearest to a length or coordinate within the extent.
 inline std::int64_t snap(double metres) { return std::llround(metres * steps_per_metre); }
 

@@ -302,9 +302,17 @@ void Scene::counts(const std::vector<Point>& points, const std::vector<Pair>& li
   if (walls_.empty()) {
     snapped(points);  // which are refused beyond the scene all the same
     by_material.assign(links.size() * static_cast<std::size_t>(materials_), 0);
-    return;
+  } else {
+    ManyLinks(*this, kernel, points, links, by_material).count();
   }
-  ManyLinks(*this, kernel, points, links, by_material).count();
+  if (floors_.empty()) return;
+  std::vector<Vector> places;
+  for (const Point& point : points) places.push_back(vector(snapped(point)));
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    floors_.for_each_crossing(places[links[i].from], places[links[i].to], [&](int, const LatticeFloor& floor) {
+      ++by_material[static_cast<std::size_t>(floor.material) * links.size() + i];
+    });
+  }
 }
 
 }  // namespace muster::scene

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "scene/crossing_link.hpp"
+#include "scene/refusal.hpp"
 
 namespace muster::scene {
 namespace {
@@ -16,17 +17,6 @@ std::string text(double number) {
   char digits[32];
   const auto end = std::to_chars(digits, digits + sizeof digits, number, std::chars_format::general, 6);
   return {digits, end.ptr};
-}
-
-[[noreturn]] void refuse(const char* what, int row, const std::string& why) {
-  throw std::runtime_error(std::string(what) + " row " + std::to_string(row) + ": " + why);
-}
-
-void check_material(const char* what, int row, int material, int materials) {
-  if (material >= 0 && material < materials) return;
-  refuse(what, row,
-         "material row " + std::to_string(material) + " does not exist; expected one of the first " +
-             std::to_string(materials));
 }
 
 void check_wall(const Wall& wall, int row, int materials) {
@@ -63,7 +53,9 @@ double length_of(const Spot& a, const Spot& b, std::int64_t rise = 0) {
 
 }  // namespace
 
-Scene::Scene(const std::vector<Wall>& walls, const std::vector<Door>& doors, int materials) : materials_(materials) {
+Scene::Scene(const std::vector<Wall>& walls, const std::vector<Door>& doors, int materials,
+             const std::vector<Floor>& floors)
+    : floors_(floors, materials), materials_(materials) {
   for (const Wall& wall : walls) add_wall(wall);
   std::vector<Box> boxes;
   for (const LatticeWall& wall : walls_) boxes.push_back(box_around(wall.a, wall.b));
@@ -173,11 +165,23 @@ void Scene::crossings(const Point& p, const Point& q, std::vector<Crossing>& out
     out.push_back(crossing);
   });
   std::sort(out.begin(), out.end(), [](const Crossing& a, const Crossing& b) { return a.wall < b.wall; });
+  const Vector from = vector(snapped(p)), to = vector(snapped(q));
+  floors_.for_each_crossing(from, to, [&](int row, const LatticeFloor& floor) {
+    Crossing crossing{-1, -1, floor.material};
+    crossing.fraction = static_cast<double>(floor.z - from.z) / static_cast<double>(to.z - from.z);
+    crossing.z = static_cast<double>(floor.z) / steps_per_metre;
+    crossing.cos_incidence = std::min(1.0, static_cast<double>(std::abs(to.z - from.z)) / length);
+    crossing.floor = row;
+    out.push_back(crossing);
+  });
 }
 
 void Scene::counts(const Point& p, const Point& q, int* by_material) const {
   std::fill_n(by_material, materials_, 0);
-  for_each_crossing(Link(snapped(p), snapped(q)), [&](const Hit& hit) { ++by_material[hit.material]; });
+  const LatticePoint from = snapped(p), to = snapped(q);
+  for_each_crossing(Link(from, to), [&](const Hit& hit) { ++by_material[hit.material]; });
+  floors_.for_each_crossing(vector(from), vector(to),
+                            [&](int, const LatticeFloor& floor) { ++by_material[floor.material]; });
 }
 
 }  // namespace muster::scene

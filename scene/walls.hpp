@@ -1,5 +1,5 @@
-// Upright walls, the doors in them, and what a straight radio link crosses: exactly, and the same in both directions.
-// README.md says what counts as a crossing and why.
+// Upright walls, the doors in them, level floors, and what a straight radio link crosses: exactly, and the same in both
+// directions. README.md says what counts as a crossing and why.
 #pragma once
 
 #include <cstddef>
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scene/box_tree.hpp"
+#include "scene/floors.hpp"
 #include "scene/wall_columns.hpp"
 
 namespace muster::scene {
@@ -34,12 +35,13 @@ struct Door {
 };
 
 struct Crossing {
-  int wall = 0;
+  int wall = 0;   // or -1, of a floor
   int door = -1;  // the closed door that is crossed in place of its wall, or -1
   int material = 0;
   double fraction = 0;       // of the way along the link, from the end that was named first: [0, 1]
   double z = 0;              // m
-  double cos_incidence = 0;  // between the link and the wall's normal: (0, 1]
+  double cos_incidence = 0;  // between the link and the normal of the wall or floor: (0, 1]
+  int floor = -1;            // or -1, of a wall
 };
 
 // A link between two of a list of points, by their places in it.
@@ -62,13 +64,15 @@ class Scene {
  public:
   // Materials are numbered from 0 to materials - 1. Throws std::runtime_error that names the row at fault and its
   // reason.
-  Scene(const std::vector<Wall>& walls, const std::vector<Door>& doors, int materials);
+  Scene(const std::vector<Wall>& walls, const std::vector<Door>& doors, int materials,
+        const std::vector<Floor>& floors = {});
 
   int materials() const { return materials_; }
   bool is_open(int door) const { return doors_.at(door).open; }
   void set_open(int door, bool open) { doors_.at(door).open = open; }
 
-  // Replaces `out` by what the straight line from p to q crosses, by ascending wall. All but `fraction` is the same,
+  // Replaces `out` by what the straight line from p to q crosses, by ascending wall, then by
+  // ascending floor. All but `fraction` is the same,
   // bit for bit, from q to p. Throws std::runtime_error where a point lies beyond 1 km.
   void crossings(const Point& p, const Point& q, std::vector<Crossing>& out) const;
 
@@ -110,6 +114,7 @@ class Scene {
 
   std::vector<LatticeWall> walls_;
   std::vector<LatticeDoor> doors_;
+  Floors floors_;
   BoxTree tree_;
   WallColumns columns_;
   int materials_ = 0;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <muster/floors.hpp>
 #include <muster/meshes.hpp>
 #include <muster/plugin.hpp>
 #include <vector>
@@ -75,7 +76,7 @@ inline const Standard& standard() {
           {"material",
            SetKind::fixed,
            "",
-           "what walls and doors are made of",
+           "what walls, doors, floors and meshes are made of",
            {{"loss", Loss::columns, "", false, ""}}},
           {"wall", SetKind::fixed, "", "upright walls, straight in plan", {{"shape", Wall::columns, "", false, ""}}},
           {"door",
@@ -83,6 +84,7 @@ inline const Standard& standard() {
            "",
            "gaps in walls that open and close",
            {{"shape", Door::columns, "", false, ""}, {"state", DoorState::columns, "", false, ""}}},
+          {"floor", SetKind::fixed, "", "level floors and ceilings", {{"shape", FloorShape::columns, "", false, ""}}},
           {"mesh",
            SetKind::fixed,
            "",
@@ -169,6 +171,15 @@ inline const Standard& standard() {
             {reference("material", "material", "what it is made of; by default its wall's"), 1, "door/shape",
              store_at<4, 1>},
             {choice("state", "closed|open", "how it stands at the start"), 1, "door/state", store_at<0, 1>}},
+           ""},
+          {"floor",
+           "floor",
+           "a level floor or ceiling",
+           "",
+           {{real("corners", 0, -far, far, "m", "its four corners in turn: x y of each").required(), 8, "floor/shape",
+             store_at<0, 8>},
+            {real("z", 0, -far, far, "m", "its height").required(), 1, "floor/shape", store_at<8, 1>},
+            {reference("material", "material", "what it is made of").required(), 1, "floor/shape", store_at<9, 1>}},
            ""},
           {"mesh",
            "mesh",

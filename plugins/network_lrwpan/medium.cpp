@@ -39,8 +39,6 @@ const Report& Medium::run(Time since, Time until, const Channel& channel, const 
   air_.enter(channel, {settings.noise, found_above, captures ? never : 0, captures ? settings.capture : found_above,
                        band_of(settings.channel)});
   post_.open(channel);
-  post_.cut_by([](std::size_t size) { return frames_of(size, header); });
-  if (settings.extended) post_.cut_by([](std::size_t size) { return frames_of(size, extended_header); });
   agenda_.clear(until);
   for (std::size_t i = 0; i < radios_.size(); ++i) {
     if (channel.alive[i]) continue;
@@ -151,9 +149,21 @@ void Medium::end_phase(std::size_t number, Time at) {
   }
 }
 
+// Octets about what a radio's frames carry of its first message.
+std::size_t Medium::head(std::size_t sender) const {
+  const std::size_t to = post_.first(sender).to;
+  const std::size_t more = to == everyone || are_in_one_pan(sender, to) ? 0 : sender_pan;
+  return (settings_.extended ? extended_header : header) + more;
+}
+
+bool Medium::is_last_frame(std::size_t sender) const {
+  const packets::Message& message = post_.first(sender);
+  return message.frame + 1 >= frames_of(message.size, head(sender));
+}
+
 void Medium::send(std::size_t number, Time at) {
   const packets::Message& message = post_.first(number);
-  const Time length = air_time(frame_size(message.size, message.frame, head()));
+  const Time length = air_time(frame_size(message.size, message.frame, head(number)));
   wait(number, Phase::sending, never);
   const Frame& frame = air_.begin(number, at, length, 0, nothing, message.to, cca_window);
   agenda_.put(frame.end, frame_ends, frame.id);
@@ -178,7 +188,7 @@ void Medium::end_frame(std::uint64_t id, Time at) {
   sender.sent = id;
   sender.spaced = at + (frame.end - frame.begin > air_time(18) ? long_spacing : short_spacing);
   if (frame.to == everyone)
-    end_broadcast(frame.sender, heard, at);
+    end_broadcast(frame.sender, filtered(frame.sender, heard), at);
   else
     end_unicast(frame, heard[frame.to], at);
 }
@@ -193,8 +203,17 @@ void Medium::end_ack(const Frame& frame, const std::vector<Heard>& heard, Time a
   if (is_its_own && heard[frame.to] == Heard::whole) go_on_with_message(frame.to, at);
 }
 
+// Whose PAN is not the frame's heard it, and does not take it (7.5.6.2, third level).
+const std::vector<Heard>& Medium::filtered(std::size_t sender, const std::vector<Heard>& heard) {
+  if (settings_.pans.empty()) return heard;
+  filtered_ = heard;
+  for (std::size_t i = 0; i < heard.size(); ++i)
+    if (heard[i] != Heard::gone && !are_in_one_pan(sender, i)) filtered_[i] = Heard::no_link;
+  return filtered_;
+}
+
 void Medium::end_broadcast(std::size_t sender, const std::vector<Heard>& heard, Time at) {
-  if (post_.is_last_frame(sender))
+  if (is_last_frame(sender))
     post_.last_frame_heard(sender, heard, air_, at);
   else
     post_.frame_heard(sender, heard);
@@ -207,7 +226,7 @@ void Medium::end_unicast(const Frame& frame, Heard heard, Time at) {
     sender.last_loss = packets::fate_of(heard);
     if (!settings_.acknowledged) post_.settle(frame.sender, sender.last_loss);
   } else {
-    if (post_.is_last_frame(frame.sender)) post_.deliver(frame.sender, frame.to, air_, at);
+    if (is_last_frame(frame.sender)) post_.deliver(frame.sender, frame.to, air_, at);
     sender.arrived = true;
   }
   if (!settings_.acknowledged) return go_on_with_message(frame.sender, at);
@@ -223,7 +242,7 @@ void Medium::end_unicast(const Frame& frame, Heard heard, Time at) {
 // ---- Messages -----------------------------------------------------------------------------------------------------
 
 void Medium::go_on_with_message(std::size_t sender, Time at) {
-  if (post_.is_last_frame(sender)) return end_message(sender, at);
+  if (is_last_frame(sender)) return end_message(sender, at);
   ++post_.first(sender).frame;
   radios_[sender].tries = 0;
   radios_[sender].arrived = false;

@@ -34,6 +34,8 @@ struct Settings {
   int retries = 3;           // macMaxFrameRetries
   bool extended = false;     // addresses of 64 bits, not 16
   double capture = 0;        // ratio above which a later frame takes a receiver over; 0: never
+
+  std::vector<std::uint16_t> pans;  // of each radio; none: all are in one
 };
 
 class Medium {
@@ -74,7 +76,11 @@ class Medium {
     std::uint64_t draws = 0;  // random numbers used up
   };
 
-  std::size_t head() const { return settings_.extended ? extended_header : header; }
+  bool are_in_one_pan(std::size_t a, std::size_t b) const {
+    return settings_.pans.empty() || settings_.pans[a] == settings_.pans[b];
+  }
+  std::size_t head(std::size_t sender) const;
+  bool is_last_frame(std::size_t sender) const;
   void wait(std::size_t radio, Phase phase, Time until);
   void wait_with_ack(std::size_t radio, Phase phase, Time until);
   void handle(const packets::Event& event);
@@ -89,6 +95,7 @@ class Medium {
 
   void end_frame(std::uint64_t id, Time at);
   void end_ack(const packets::Frame& frame, const std::vector<Heard>& heard, Time at);
+  const std::vector<Heard>& filtered(std::size_t sender, const std::vector<Heard>& heard);
   void end_broadcast(std::size_t sender, const std::vector<Heard>& heard, Time at);
   void end_unicast(const packets::Frame& frame, Heard heard, Time at);
 
@@ -103,6 +110,7 @@ class Medium {
   packets::Agenda agenda_;
   std::vector<Radio> radios_;
   const Channel* channel_ = nullptr;  // of the run
+  std::vector<Heard> filtered_;       // room, kept from frame to frame
 };
 
 }  // namespace muster::lrwpan

@@ -1,4 +1,6 @@
 // network.lrwpan: Zigbee's radio and medium access on the blackboard.
+#include <muster/pan.hpp>
+
 #include "medium.hpp"
 #include "packets/board.hpp"
 
@@ -13,10 +15,11 @@ struct NetworkLrwpan {
   static constexpr auto manual =
       R"(Messages as frames of IEEE 802.15.4-2006 (the radio of Zigbee), unslotted CSMA/CA, 250 kbit/s: back-off, clear-channel
 assessment, turnaround, frame spacing; frames to one receiver are acknowledged and sent again. What is larger than 116
-bytes (104 with extended addresses) goes in fragments cut as RFC 4944 does. A receiver locks on a frame that it hears (rssi not null) and
-that stands 5 dB below noise and interference or better; each bit then comes right or wrong by the standard's O-QPSK
-formula for its ratio to noise and to all other frames in the air; a lock is kept, whatever stronger begins, unless
-`capture` says else. Power is link/*/level with link/*/fading, as it stands in the tick.
+bytes (104 with extended addresses) goes in fragments cut as RFC 4944 does. radio.pan puts radios into PANs: what is
+sent to all goes to the sender's, and ends as no_link elsewhere. A receiver locks on a frame that it hears (rssi not
+null) and that stands 5 dB below noise and interference or better; each bit then comes right or wrong by the standard's
+O-QPSK formula for its ratio to noise and to all other frames in the air; a lock is kept, whatever stronger begins,
+unless `capture` says else. Power is link/*/level with link/*/fading, as it stands in the tick.
 `spread`: a request is made at some moment of its tick, since robots' clocks do not agree; else at its start, all at
 once. `cca`: power of others against cca_threshold, as its mean over 8 symbols (standard), as ns-3 3.37 samples it
 (ns3), or at the end alone (instant). -77 dBm: a CC2420's data sheet; noise: 5 MHz at 290 K.
@@ -46,6 +49,7 @@ queue_full + no_ack + gone + those still under way.)";
         addresses(s.value("addresses")),
         queue(s.value("queue")),
         capture(s.value("capture")),
+        pan(s.read_if_any<Pan>("radio/*/pan")),
         board(s, "self/lrwpan", {-5, 30}),
         medium(s.stream("medium access")) {}
 
@@ -60,10 +64,12 @@ queue_full + no_ack + gone + those still under way.)";
     settings.retries = static_cast<int>(k[retries]);
     settings.extended = k[addresses] != 0;
     settings.capture = k[capture] > 0 ? milliwatts(k[capture]) : 0;
+    for (const Pan& each : k[pan]) settings.pans.push_back(static_cast<std::uint16_t>(each.id));
     board.step(k, medium, settings);
   }
 
   Value channel, cca, cca_threshold, noise, acknowledge, retries, addresses, queue, capture;
+  In<Pan> pan;
   packets::Board board;
   lrwpan::Medium medium;
 };

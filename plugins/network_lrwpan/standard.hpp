@@ -32,6 +32,7 @@ constexpr std::size_t largest_frame = 127;  // aMaxPHYPacketSize
 constexpr std::size_t preamble = 6;         // preamble, start of frame, length
 constexpr std::size_t header = 11;  // control, sequence, PAN, two short addresses in one PAN; check sequence at the end
 constexpr std::size_t extended_header = header + 2 * (8 - 2);  // the same with two extended addresses
+constexpr std::size_t sender_pan = 2;  // more, to a receiver in another PAN: then the sender's stands there, too
 constexpr std::size_t ack_frame = 5;
 
 // Fragments as RFC 4944 cuts them: all but the last carry a multiple of 8 octets behind a header of 4, then of 5.

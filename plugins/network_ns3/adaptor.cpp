@@ -18,6 +18,7 @@ Adaptor::Adaptor(Setup& s)
       level_(s.read<Level>("link/*/level")),
       fading_(s.read_if_any<Fading>("link/*/fading")),
       rssi_(s.read<Rssi>("link/*/rssi")),
+      pan_(s.read_if_any<Pan>("radio/*/pan")),
       inbox_(s.write<Incoming>("inbox/*/message")),
       traffic_(s.write<Traffic>("radio/*/traffic")),
       progress_(s.write<Progress>("self/progress")),
@@ -62,11 +63,13 @@ void Adaptor::look(const Step& k) {
   world_.time = k.time() - k.dt();
   world_.places.resize(n);
   world_.alive.resize(n);
+  world_.pans.assign(n, 0);
   world_.level.assign(n * n, -std::numeric_limits<double>::infinity());
   world_.rssi.assign(n * n, null());
   fates_.assign(n, {});
   arrivals_.clear();
   for (std::size_t i = 0; i < n; ++i) world_.alive[i] = k.alive("radio", i);
+  for (std::size_t i = 0; i < k[pan_].size(); ++i) world_.pans[i] = static_cast<std::uint16_t>(k[pan_][i].id);
   const auto radio = [&](std::size_t end) { return static_cast<std::size_t>(k[endpoint_][end].radio); };
   for (std::size_t i = 0; i < k[endpoint_].size(); ++i) {
     const Pose& at = k[pose_][i];
@@ -139,6 +142,8 @@ Fate Adaptor::fate_of(const Message& message, std::size_t to, End why) const {
   if (!world_.alive[to]) return Fate::gone;
   if (why == End::queue_full) return Fate::queue_full;
   if (why == End::no_access) return Fate::no_access;
+  const bool is_for_its_pan = !message.is_unicast || why == End::lost;  // no mesh goes beyond
+  if (is_for_its_pan && world_.pans[message.from] != world_.pans[to]) return Fate::no_link;
   if (why == End::lost) return hears_anybody(to) ? Fate::collided : Fate::no_link;
   const std::size_t link = world_.link(message.from, to);
   if (!std::isfinite(world_.level[link])) return Fate::no_link;

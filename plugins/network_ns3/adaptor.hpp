@@ -4,6 +4,7 @@
 
 #include <map>
 #include <memory>
+#include <muster/pan.hpp>
 #include <muster/plugin.hpp>
 
 #include "backend.hpp"
@@ -56,6 +57,7 @@ class Adaptor {
   In<Level> level_;
   In<Fading> fading_;
   In<Rssi> rssi_;
+  In<Pan> pan_;
   Out<Incoming> inbox_;
   Out<Traffic> traffic_;
   Out<Progress> progress_;

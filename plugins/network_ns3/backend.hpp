@@ -17,8 +17,9 @@ struct World {
   double time = 0;            // s, since when it stands so
   std::vector<Place> places;  // of the radios
   std::vector<std::uint8_t> alive;
-  std::vector<double> level;  // dBm, [from x radios + to], as it is received; -infinity where there is no link
-  std::vector<double> rssi;   // dBm, the same, as the receiver reports it; NaN where that hears nothing
+  std::vector<std::uint16_t> pans;  // of IEEE 802.15.4
+  std::vector<double> level;        // dBm, [from x radios + to], as it is received; -infinity where there is no link
+  std::vector<double> rssi;         // dBm, the same, as the receiver reports it; NaN where that hears nothing
   std::size_t radios() const { return places.size(); }
   std::size_t link(std::size_t from, std::size_t to) const { return from * radios() + to; }
 };

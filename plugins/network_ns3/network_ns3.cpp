@@ -14,7 +14,7 @@ struct NetworkNs3 {
       R"(ns-3's own radios, medium access and error model; received power is link/*/level with link/*/fading, and places
 are those of the world. What a receiver's chain makes null is not heard. Every copy has one outcome in
 radio/*/traffic; ns-3 does not say why a receiver missed a frame: beyond 3 dB above noise it counts as collided,
-below as too weak.
+below as too weak. radio.pan puts radios into PANs.
 routing="mesh": its 6LoWPAN (module sixlowpan) with mesh-under routing, RFC 4944 and 6282, without acknowledgements:
 everyone who hears a frame passes it on once, up to `hops` hops in all. A copy that has not come 10 s after its last
 frame left is lost: collided, or no_link if its receiver hears nobody. rssi and lqi are those of the last hop.

@@ -1,97 +1,99 @@
 #include "ns3_lr_wpan.hpp"
 
-#include <ns3/core-module.h>
-
-#include <deque>
 #include <map>
 #include <unordered_map>
 
-#include "ns3_radios.hpp"
+#include "ns3_backend.hpp"
 
 namespace muster::external {
 namespace {
 
 // Fragments as RFC 4944 cuts them: all but the last carry a multiple of 8 octets behind a header of 4, then of 5.
-constexpr std::size_t in_one_frame = 127 - 11, in_a_fragment = (in_one_frame - 5) / 8 * 8;
+// A header has 11 octets, and 13 to another PAN.
+constexpr std::size_t in_one_frame = 127 - 11, in_one_frame_across = 127 - 13, in_a_fragment = 104;
 
-std::size_t fragments_of(std::size_t size) {
-  return size <= in_one_frame ? 1 : (size + in_a_fragment - 1) / in_a_fragment;
+std::size_t fragments_of(std::size_t size, bool across) {
+  return size <= (across ? in_one_frame_across : in_one_frame) ? 1 : (size + in_a_fragment - 1) / in_a_fragment;
 }
 
-class Ns3LrWpan final : public Backend {
+class Ns3LrWpan;
+
+// What one radio still has to send, and ns-3's radio.
+struct Sender {
+  Ns3LrWpan* owner;
+  std::size_t number;
+  ns3::Ptr<ns3::LrWpanMac> mac;
+  std::deque<Request> queue{};
+  std::size_t next = 0, fragments = 0;  // of the first message
+  std::uint64_t sending = 0, uid = 0;   // the message whose frame ns-3 has, and its number there; 0: none
+  bool has_arrived = false;             // some of it, at somebody
+  std::map<std::size_t, std::pair<std::size_t, std::string>> parts{};  // by receiver: fragments that came, and bytes
+
+  // Not any more, once it left.
+  bool has(std::uint64_t message) const { return !queue.empty() && queue.front().message == message; }
+  void confirm(ns3::McpsDataConfirmParams result);
+  void indicate(ns3::McpsDataIndicationParams, ns3::Ptr<ns3::Packet> frame);
+};
+
+class Ns3LrWpan final : public Ns3Backend<Sender> {
  public:
-  explicit Ns3LrWpan(const LrWpanSettings& settings) : settings_(settings), air_(settings.noise) {}
-  ~Ns3LrWpan() override {
-    for (auto& radio : radios_) {
-      radio->mac->SetMcpsDataConfirmCallback(ns3::McpsDataConfirmCallback());
-      radio->mac->SetMcpsDataIndicationCallback(ns3::McpsDataIndicationCallback());
+  explicit Ns3LrWpan(const LrWpanSettings& settings)
+      : Ns3Backend(settings.noise, settings.queue), acknowledge_(settings.acknowledge) {}
+
+  // A frame that was sent again, since its acknowledgement was lost, comes twice.
+  void hear(Sender& at, const ns3::Ptr<ns3::Packet>& frame) {
+    const auto found = sent_.find(frame->GetUid());
+    if (found == sent_.end()) return;
+    const Sent& it = found->second;
+    Sender& from = *radios_[it.from];
+    if (!from.has(it.message)) return;
+    auto& [count, bytes] = from.parts[at.number];
+    if (count != it.fragment) return;
+    from.has_arrived = true;
+    const std::size_t head = from.fragments == 1 ? 0 : it.fragment == 0 ? 4 : 5;
+    std::string all(frame->GetSize(), '\0');
+    frame->CopyData(reinterpret_cast<std::uint8_t*>(all.data()), frame->GetSize());
+    bytes.append(all, head);
+    if (++count == from.fragments)
+      deliver({it.message, at.number, it.from, air_.now(), air_.rssi(it.from, at.number), std::move(bytes)});
+  }
+
+  void confirm(Sender& radio, const ns3::McpsDataConfirmParams& result) {
+    sent_.erase(radio.uid);
+    const std::uint64_t message = std::exchange(radio.sending, 0);
+    if (!radio.has(message)) {
+      start_next(radio);
+    } else if (result.m_status == ns3::IEEE_802_15_4_SUCCESS) {
+      ++radio.next;
+      if (radio.next < radio.fragments) return send(radio);
+      finish(radio, End::sent);
+    } else {
+      const bool no_access = result.m_status == ns3::IEEE_802_15_4_CHANNEL_ACCESS_FAILURE;
+      finish(radio, no_access ? End::no_access : radio.has_arrived ? End::no_ack : End::sent);
     }
   }
-
-  void init(const World& world, std::uint64_t seed) override { air_.init(world, seed); }
-
-  void moved(const World& world) override {
-    air_.moved(world);
-    while (radios_.size() < world.radios()) join(air_.all()[radios_.size()].device->GetMac());
-    for (std::size_t i = 0; i < radios_.size(); ++i) {
-      if (!world.alive[i]) radios_[i]->queue.clear();
-    }
-  }
-
-  void request(Request request) override {
-    const auto node = static_cast<std::uint32_t>(request.from);
-    ns3::Simulator::ScheduleWithContext(node, air_.until(request.at),
-                                        [this, request = std::move(request)]() mutable { take(std::move(request)); });
-  }
-
-  void advance(double until) override { air_.advance(until); }
 
  private:
-  // What one radio still has to send, and ns-3's radio.
-  struct Radio {
-    Ns3LrWpan* owner;
-    std::size_t number;
-    ns3::Ptr<ns3::LrWpanMac> mac;
-    std::deque<Request> queue;
-    std::size_t next = 0;                // fragment of the first message
-    std::uint64_t sending = 0, uid = 0;  // the message whose frame ns-3 has, and its number there; 0: none
-    bool has_arrived = false;            // some of it, at somebody
-    std::map<std::size_t, std::pair<std::size_t, std::string>> parts;  // by receiver: fragments that came, and bytes
-
-    // Not any more, once it left.
-    bool has(std::uint64_t message) const { return !queue.empty() && queue.front().message == message; }
-    // Receivers hear the end of a frame later than its sender, by the time that it travels.
-    void confirm(ns3::McpsDataConfirmParams result) {
-      ns3::Simulator::Schedule(ns3::MicroSeconds(10), [this, result] { owner->confirm(*this, result); });
-    }
-    void indicate(ns3::McpsDataIndicationParams, ns3::Ptr<ns3::Packet> frame) { owner->hear(*this, frame); }
-  };
-  struct Sent {
-    std::size_t from, fragment;
-    std::uint64_t message;
-  };
-
-  void join(const ns3::Ptr<ns3::LrWpanMac>& mac) {
-    auto radio = std::make_unique<Radio>();
-    radio->owner = this;
-    radio->number = radios_.size();
-    radio->mac = mac;
-    mac->SetMcpsDataConfirmCallback(ns3::MakeCallback(&Radio::confirm, radio.get()));
-    mac->SetMcpsDataIndicationCallback(ns3::MakeCallback(&Radio::indicate, radio.get()));
-    radios_.push_back(std::move(radio));
+  std::unique_ptr<Sender> join(std::size_t number, const Ns3Radio& air) override {
+    const ns3::Ptr<ns3::LrWpanMac> mac = air.device->GetMac();
+    auto radio = std::make_unique<Sender>(Sender{this, number, mac});
+    mac->SetMcpsDataConfirmCallback(ns3::MakeCallback(&Sender::confirm, radio.get()));
+    mac->SetMcpsDataIndicationCallback(ns3::MakeCallback(&Sender::indicate, radio.get()));
+    return radio;
   }
 
-  void take(Request request) {
-    Radio& radio = *radios_[request.from];
-    if (radio.queue.size() > settings_.queue) return end(request.message, End::queue_full);
-    radio.queue.push_back(std::move(request));
-    if (radio.queue.size() == 1 && radio.sending == 0) send(radio);
+  // Else when ns-3 has done with the frame that it still has.
+  void start(Sender& radio) override {
+    if (radio.sending == 0) send(radio);
   }
 
-  void send(Radio& radio) {
+  void send(Sender& radio) {
     if (radio.queue.empty()) return;
     const Request& message = radio.queue.front();
-    const bool is_whole = fragments_of(message.payload.size()) == 1;
+    const ns3::Ptr<ns3::LrWpanMac>& to = radios_[message.to == everyone ? radio.number : message.to]->mac;
+    if (radio.next == 0)
+      radio.fragments = fragments_of(message.payload.size(), to->GetPanId() != radio.mac->GetPanId());
+    const bool is_whole = radio.fragments == 1;
     const std::size_t head = is_whole ? 0 : radio.next == 0 ? 4 : 5;
     std::string bytes(head, '\0');
     bytes += message.payload.substr(radio.next * in_a_fragment, is_whole ? std::string::npos : in_a_fragment);
@@ -101,65 +103,40 @@ class Ns3LrWpan final : public Backend {
     radio.sending = message.message;
     radio.uid = frame->GetUid();
     ns3::McpsDataRequestParams how;
-    how.m_dstPanId = 0;
+    how.m_dstPanId = to->GetPanId();
     how.m_srcAddrMode = how.m_dstAddrMode = ns3::SHORT_ADDR;
     how.m_dstAddr = message.to == everyone ? ns3::Mac16Address("ff:ff") : Ns3Radios::address_of(message.to);
-    how.m_txOptions = message.to != everyone && settings_.acknowledge ? ns3::TX_OPTION_ACK : ns3::TX_OPTION_NONE;
+    how.m_txOptions = message.to != everyone && acknowledge_ ? ns3::TX_OPTION_ACK : ns3::TX_OPTION_NONE;
     radio.mac->McpsDataRequest(how, frame);
   }
 
-  // A frame that was sent again, since its acknowledgement was lost, comes twice.
-  void hear(Radio& at, const ns3::Ptr<ns3::Packet>& frame) {
-    const auto found = sent_.find(frame->GetUid());
-    if (found == sent_.end()) return;
-    const Sent& it = found->second;
-    Radio& from = *radios_[it.from];
-    if (!from.has(it.message)) return;
-    auto& [count, bytes] = from.parts[at.number];
-    if (count != it.fragment) return;
-    from.has_arrived = true;
-    const std::size_t size = from.queue.front().payload.size(), fragments = fragments_of(size);
-    const std::size_t head = fragments == 1 ? 0 : it.fragment == 0 ? 4 : 5;
-    std::string all(frame->GetSize(), '\0');
-    frame->CopyData(reinterpret_cast<std::uint8_t*>(all.data()), frame->GetSize());
-    bytes.append(all, head);
-    if (++count == fragments)
-      deliver({it.message, at.number, it.from, air_.now(), air_.rssi(it.from, at.number), std::move(bytes)});
-  }
-
-  void confirm(Radio& radio, const ns3::McpsDataConfirmParams& result) {
-    sent_.erase(radio.uid);
-    const std::uint64_t message = std::exchange(radio.sending, 0);
-    if (!radio.has(message)) {
-      start_next(radio);
-    } else if (result.m_status == ns3::IEEE_802_15_4_SUCCESS) {
-      ++radio.next;
-      if (radio.next < fragments_of(radio.queue.front().payload.size())) return send(radio);
-      finish(radio, End::sent);
-    } else {
-      const bool no_access = result.m_status == ns3::IEEE_802_15_4_CHANNEL_ACCESS_FAILURE;
-      finish(radio, no_access ? End::no_access : radio.has_arrived ? End::no_ack : End::sent);
-    }
-  }
-
-  void finish(Radio& radio, End why) {
+  void finish(Sender& radio, End why) {
     const std::uint64_t message = radio.queue.front().message;
     radio.queue.pop_front();
     start_next(radio);
     end(message, why);
   }
-  void start_next(Radio& radio) {
+  void start_next(Sender& radio) {
     radio.next = 0;
     radio.has_arrived = false;
     radio.parts.clear();
     send(radio);
   }
 
-  LrWpanSettings settings_;
-  Ns3Radios air_;
-  std::vector<std::unique_ptr<Radio>> radios_;
+  struct Sent {
+    std::size_t from, fragment;
+    std::uint64_t message;
+  };
+
+  bool acknowledge_;
   std::unordered_map<std::uint64_t, Sent> sent_;  // by ns-3's number of the packet
 };
+
+// Receivers hear the end of a frame later than its sender, by the time that it travels.
+void Sender::confirm(ns3::McpsDataConfirmParams result) {
+  ns3::Simulator::Schedule(ns3::MicroSeconds(10), [this, result] { owner->confirm(*this, result); });
+}
+void Sender::indicate(ns3::McpsDataIndicationParams, ns3::Ptr<ns3::Packet> frame) { owner->hear(*this, frame); }
 
 }  // namespace
 

@@ -1,15 +1,13 @@
 #include "ns3_mesh.hpp"
 
-#include <ns3/core-module.h>
 #include <ns3/internet-module.h>
 #include <ns3/sixlowpan-module.h>
 
 #include <cmath>
 #include <cstring>
-#include <deque>
 #include <map>
 
-#include "ns3_radios.hpp"
+#include "ns3_backend.hpp"
 
 namespace muster::external {
 namespace {
@@ -26,106 +24,44 @@ constexpr double patience = 10;  // s; what has not come so long after it was se
 
 std::size_t pieces_of(std::size_t size) { return size == 0 ? 1 : (size + in_a_piece - 1) / in_a_piece; }
 
-class Ns3Mesh final : public Backend {
+class Ns3Mesh;
+
+// What one radio has of a message whose pieces have not all come.
+struct Part {
+  std::vector<std::string> pieces;
+  std::size_t missing = 0;
+};
+
+// What one radio still has to send, what came to it in part, and ns-3's radio under its mesh.
+struct Member {
+  Ns3Mesh* owner;
+  std::size_t number;
+  Ns3Radio air;
+  ns3::Ptr<ns3::SixLowPanNetDevice> mesh;
+  std::deque<Request> queue{};
+  std::size_t next = 0;       // piece of the first message
+  std::uint64_t sending = 0;  // the message of which pieces were given to the medium access
+  std::size_t frames = 0;     // that the medium access has, of others too
+  std::size_t own = 0;        // of them, which it sends first
+  bool no_access = false;     // for one of its own
+  std::size_t hop = 0;        // from whom its last frame came
+  std::map<std::uint64_t, Part> parts{};
+
+  void enqueued(ns3::Ptr<const ns3::Packet>) { ++frames; }
+  void confirm(ns3::McpsDataConfirmParams result);
+  void indicate(ns3::McpsDataIndicationParams how, ns3::Ptr<ns3::Packet> frame);
+  bool hear(ns3::Ptr<ns3::NetDevice>, ns3::Ptr<const ns3::Packet> packet, std::uint16_t, const ns3::Address&);
+};
+
+class Ns3Mesh final : public Ns3Backend<Member> {
  public:
-  explicit Ns3Mesh(const MeshSettings& settings) : settings_(settings), air_(settings.noise) {}
-  ~Ns3Mesh() override {
-    for (auto& radio : radios_) {
-      radio->air.device->GetMac()->SetMcpsDataConfirmCallback(ns3::McpsDataConfirmCallback());
-      radio->air.device->GetMac()->SetMcpsDataIndicationCallback(ns3::McpsDataIndicationCallback());
-    }
-  }
-
-  void init(const World& world, std::uint64_t seed) override { air_.init(world, seed); }
-
-  void moved(const World& world) override {
-    air_.moved(world);
-    while (radios_.size() < world.radios()) join(air_.all()[radios_.size()]);
-    for (std::size_t i = 0; i < radios_.size(); ++i) {
-      if (!world.alive[i]) radios_[i]->queue.clear();
-    }
-  }
-
-  void request(Request request) override {
-    const auto node = static_cast<std::uint32_t>(request.from);
-    ns3::Simulator::ScheduleWithContext(node, air_.until(request.at),
-                                        [this, request = std::move(request)]() mutable { take(std::move(request)); });
-  }
-
-  void advance(double until) override { air_.advance(until); }
-
- private:
-  // What one radio has of a message whose pieces have not all come.
-  struct Part {
-    std::vector<std::string> pieces;
-    std::size_t missing = 0;
-  };
-  struct Radio {
-    Ns3Mesh* owner;
-    std::size_t number;
-    Ns3Radio air;
-    ns3::Ptr<ns3::SixLowPanNetDevice> mesh;
-    std::deque<Request> queue;
-    std::size_t next = 0;       // piece of the first message
-    std::uint64_t sending = 0;  // the message of which pieces were given to the medium access
-    std::size_t frames = 0;     // that the medium access has, of others too
-    std::size_t own = 0;        // of them, which it sends first
-    bool no_access = false;     // for one of its own
-    std::size_t hop = 0;        // from whom its last frame came
-    std::map<std::uint64_t, Part> parts;
-
-    void enqueued(ns3::Ptr<const ns3::Packet>) { ++frames; }
-    void confirm(ns3::McpsDataConfirmParams result) {
-      --frames;
-      if (own > 0) {
-        --own;
-        no_access = no_access || result.m_status == ns3::IEEE_802_15_4_CHANNEL_ACCESS_FAILURE;
-      }
-      // The medium access goes on to its next frame first.
-      if (frames == 0) ns3::Simulator::ScheduleNow([this] { owner->go_on(*this); });
-    }
-    void indicate(ns3::McpsDataIndicationParams how, ns3::Ptr<ns3::Packet> frame) {
-      hop = Ns3Radios::radio_at(how.m_srcAddr);
-      if (owner->hears(number, hop)) air.device->McpsDataIndication(how, frame);
-    }
-    bool hear(ns3::Ptr<ns3::NetDevice>, ns3::Ptr<const ns3::Packet> packet, std::uint16_t, const ns3::Address&) {
-      owner->hear(*this, packet->Copy());
-      return true;
-    }
-  };
+  explicit Ns3Mesh(const MeshSettings& settings) : Ns3Backend(settings.noise, settings.queue), hops_(settings.hops) {}
 
   // What the receiver's chain makes null does not get to who would pass it on.
   bool hears(std::size_t radio, std::size_t hop) const { return !std::isnan(air_.rssi(hop, radio)); }
 
-  void join(const Ns3Radio& air) {
-    auto radio = std::make_unique<Radio>();
-    radio->owner = this;
-    radio->number = radios_.size();
-    radio->air = air;
-    radio->mesh = ns3::CreateObject<ns3::SixLowPanNetDevice>();
-    radio->mesh->SetAttribute("UseMeshUnder", ns3::BooleanValue(true));
-    radio->mesh->SetAttribute("MeshUnderRadius", ns3::UintegerValue(settings_.hops - 1));
-    radio->mesh->SetAttribute("MeshCacheLength", ns3::UintegerValue(100));  // of 256 numbers
-    air.node->AddDevice(radio->mesh);
-    radio->mesh->SetNetDevice(air.device);
-    radio->mesh->SetReceiveCallback(ns3::MakeCallback(&Radio::hear, radio.get()));
-    radio->mesh->AssignStreams(static_cast<int64_t>(16 * radio->number + 8));
-    auto mac = air.device->GetMac();
-    mac->TraceConnectWithoutContext("MacTxEnqueue", ns3::MakeCallback(&Radio::enqueued, radio.get()));
-    mac->SetMcpsDataConfirmCallback(ns3::MakeCallback(&Radio::confirm, radio.get()));
-    mac->SetMcpsDataIndicationCallback(ns3::MakeCallback(&Radio::indicate, radio.get()));
-    radios_.push_back(std::move(radio));
-  }
-
-  void take(Request request) {
-    Radio& radio = *radios_[request.from];
-    if (radio.queue.size() > settings_.queue) return end(request.message, End::queue_full);
-    radio.queue.push_back(std::move(request));
-    if (radio.queue.size() == 1) go_on(radio);
-  }
-
   // A radio's next piece, or next message, as soon as its medium access has nothing left to do.
-  void go_on(Radio& radio) {
+  void go_on(Member& radio) {
     if (radio.frames > 0) return;
     const bool is_sent = !radio.queue.empty() && radio.sending == radio.queue.front().message;
     if (is_sent && (radio.no_access || radio.next == pieces_of(radio.queue.front().payload.size()))) {
@@ -141,7 +77,48 @@ class Ns3Mesh final : public Backend {
     send_piece(radio);
   }
 
-  void send_piece(Radio& radio) {
+  void hear(Member& at, const ns3::Ptr<ns3::Packet>& packet) {
+    ns3::Ipv6Header ip;
+    packet->RemoveHeader(ip);
+    std::string bytes(packet->GetSize(), '\0');
+    packet->CopyData(reinterpret_cast<std::uint8_t*>(bytes.data()), packet->GetSize());
+    Head head;
+    std::memcpy(&head, bytes.data(), sizeof head);
+    Part& part = at.parts[head.message];
+    if (part.pieces.empty()) {
+      part.pieces.resize(head.pieces);
+      part.missing = head.pieces;
+    }
+    std::string& piece = part.pieces[head.piece];
+    if (part.missing == 0 || !piece.empty()) return;  // it came before
+    piece = std::move(bytes);
+    if (--part.missing > 0) return;
+    std::string payload;
+    for (const std::string& each : part.pieces) payload.append(each, sizeof head);
+    part.pieces.assign(head.pieces, {});
+    deliver({head.message, at.number, at.hop, air_.now(), air_.rssi(at.hop, at.number), std::move(payload)});
+  }
+
+ private:
+  std::unique_ptr<Member> join(std::size_t number, const Ns3Radio& air) override {
+    auto radio = std::make_unique<Member>(Member{this, number, air, ns3::CreateObject<ns3::SixLowPanNetDevice>()});
+    radio->mesh->SetAttribute("UseMeshUnder", ns3::BooleanValue(true));
+    radio->mesh->SetAttribute("MeshUnderRadius", ns3::UintegerValue(hops_ - 1));
+    radio->mesh->SetAttribute("MeshCacheLength", ns3::UintegerValue(100));  // of 256 numbers
+    air.node->AddDevice(radio->mesh);
+    radio->mesh->SetNetDevice(air.device);
+    radio->mesh->SetReceiveCallback(ns3::MakeCallback(&Member::hear, radio.get()));
+    radio->mesh->AssignStreams(static_cast<int64_t>(16 * number + 8));
+    auto mac = air.device->GetMac();
+    mac->TraceConnectWithoutContext("MacTxEnqueue", ns3::MakeCallback(&Member::enqueued, radio.get()));
+    mac->SetMcpsDataConfirmCallback(ns3::MakeCallback(&Member::confirm, radio.get()));
+    mac->SetMcpsDataIndicationCallback(ns3::MakeCallback(&Member::indicate, radio.get()));
+    return radio;
+  }
+
+  void start(Member& radio) override { go_on(radio); }
+
+  void send_piece(Member& radio) {
     const Request& message = radio.queue.front();
     const Head head{message.message, static_cast<std::uint32_t>(radio.next),
                     static_cast<std::uint32_t>(pieces_of(message.payload.size()))};
@@ -164,28 +141,6 @@ class Ns3Mesh final : public Backend {
     radio.own = radio.frames;
   }
 
-  void hear(Radio& at, const ns3::Ptr<ns3::Packet>& packet) {
-    ns3::Ipv6Header ip;
-    packet->RemoveHeader(ip);
-    std::string bytes(packet->GetSize(), '\0');
-    packet->CopyData(reinterpret_cast<std::uint8_t*>(bytes.data()), packet->GetSize());
-    Head head;
-    std::memcpy(&head, bytes.data(), sizeof head);
-    Part& part = at.parts[head.message];
-    if (part.pieces.empty()) {
-      part.pieces.resize(head.pieces);
-      part.missing = head.pieces;
-    }
-    std::string& piece = part.pieces[head.piece];
-    if (part.missing == 0 || !piece.empty()) return;  // it came before
-    piece = std::move(bytes);
-    if (--part.missing > 0) return;
-    std::string payload;
-    for (const std::string& each : part.pieces) payload.append(each, sizeof head);
-    part.pieces.assign(head.pieces, {});
-    deliver({head.message, at.number, at.hop, air_.now(), air_.rssi(at.hop, at.number), std::move(payload)});
-  }
-
   // No more frames of a message leave its sender.
   void finish(std::uint64_t message, bool no_access) {
     if (no_access) return forget(message, End::no_access);
@@ -196,10 +151,26 @@ class Ns3Mesh final : public Backend {
     end(message, why);
   }
 
-  MeshSettings settings_;
-  Ns3Radios air_;
-  std::vector<std::unique_ptr<Radio>> radios_;
+  unsigned hops_;
 };
+
+void Member::confirm(ns3::McpsDataConfirmParams result) {
+  --frames;
+  if (own > 0) {
+    --own;
+    no_access = no_access || result.m_status == ns3::IEEE_802_15_4_CHANNEL_ACCESS_FAILURE;
+  }
+  // The medium access goes on to its next frame first.
+  if (frames == 0) ns3::Simulator::ScheduleNow([this] { owner->go_on(*this); });
+}
+void Member::indicate(ns3::McpsDataIndicationParams how, ns3::Ptr<ns3::Packet> frame) {
+  hop = Ns3Radios::radio_at(how.m_srcAddr);
+  if (owner->hears(number, hop)) air.device->McpsDataIndication(how, frame);
+}
+bool Member::hear(ns3::Ptr<ns3::NetDevice>, ns3::Ptr<const ns3::Packet> packet, std::uint16_t, const ns3::Address&) {
+  owner->hear(*this, packet->Copy());
+  return true;
+}
 
 }  // namespace
 

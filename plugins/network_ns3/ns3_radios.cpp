@@ -49,6 +49,7 @@ void Ns3Radios::moved(const World& world) {
   for (std::size_t i = 0; i < radios_.size(); ++i) {
     const auto& [x, y, z] = world.places[i];
     radios_[i].place->SetPosition({x, y, z});
+    radios_[i].device->GetMac()->SetPanId(world.pans[i]);
   }
   loss_->set(world_);
 }
@@ -68,7 +69,6 @@ void Ns3Radios::join() {
   *noise *= std::pow(10, (noise_ - ns3_noise) / 10);
   phy->SetNoisePowerSpectralDensity(noise);
   radio.device->SetAddress(address_of(number));
-  radio.device->GetMac()->SetPanId(0);
   radio.device->AssignStreams(static_cast<int64_t>(16 * number));
   loss_->join(ns3::PeekPointer(radio.place));
   radios_.push_back(std::move(radio));

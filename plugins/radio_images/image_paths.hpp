@@ -21,24 +21,27 @@ struct ImagePath {
   int mirrors = 0;
   double length = 0;      // m
   double reflection = 1;  // share of the amplitude that the mirrors leave, negative where they turn it over
-  double walls = 0;       // dB, lost in the walls that stand in the way, mirrors not among them
+  double walls = 0;       // dB, lost in the walls and floors in the way, mirrors not among them
 };
 
 class ImagePaths {
  public:
-  // `losses` in dB, by material. Throws std::runtime_error where the scene refuses a wall or a door.
-  ImagePaths(std::vector<scene::Wall> walls, std::vector<scene::Door> doors, std::vector<double> losses)
+  // `losses` in dB, by material. Throws std::runtime_error where the scene refuses a wall, a door or a floor.
+  ImagePaths(std::vector<scene::Wall> walls, std::vector<scene::Door> doors, const std::vector<scene::Floor>& floors,
+             std::vector<double> losses)
       : walls_(std::move(walls)),
         doors_(std::move(doors)),
         losses_(std::move(losses)),
-        scene_(walls_, doors_, static_cast<int>(losses_.size())) {}
+        scene_(walls_, doors_, static_cast<int>(losses_.size()), floors) {}
 
-  // What the walls on the straight line between two points take, in dB, but for the walls `but` and `also_but`.
+  // What the walls and floors on the straight line between two points take, in dB, but for the walls `but` and
+  // `also_but`.
   double loss(const scene::Point& p, const scene::Point& q, int but = -1, int also_but = -1) {
     scene_.crossings(p, q, crossings_);
     double sum = 0;
     for (const scene::Crossing& each : crossings_) {
-      if (each.wall != but && each.wall != also_but) sum += losses_[static_cast<std::size_t>(each.material)];
+      if (each.floor >= 0 || (each.wall != but && each.wall != also_but))
+        sum += losses_[static_cast<std::size_t>(each.material)];
     }
     return sum;
   }

@@ -43,6 +43,7 @@ Open doors reflect nothing. McKown and Hamilton, Ray tracing as a design tool fo
         wall(s.read<Wall>("wall/*/shape")),
         door(s.read<Door>("door/*/shape")),
         state(s.read<DoorState>("door/*/state")),
+        floor(s.read<FloorShape>("floor/*/shape")),
         loss(s.read<Loss>("material/*/loss")),
         level(s.add<Level>("link/*/level@paths")) {}
 
@@ -54,7 +55,7 @@ Open doors reflect nothing. McKown and Hamilton, Ray tracing as a design tool fo
     for (const Loss& each : k[loss]) losses.push_back(each.loss);
     const auto back = earlier_reverse(links, at.size());
     try {
-      ImagePaths paths(scene_walls(k[wall]), scene_doors(k[door], k[state], k[wall]), losses);
+      ImagePaths paths(scene_walls(k[wall]), scene_doors(k[door], k[state], k[wall]), scene_floors(k[floor]), losses);
       for (std::size_t i = 0; i < links.size(); ++i) {
         const Pose &a = at[static_cast<std::size_t>(links[i].tx)], &b = at[static_cast<std::size_t>(links[i].rx)];
         // In an order of their places, so that both ways are the same to the last bit.
@@ -62,7 +63,7 @@ Open doors reflect nothing. McKown and Hamilton, Ray tracing as a design tool fo
         const Pose &p = turned ? b : a, &q = turned ? a : b;
         out[i].level = back[i] != no_link ? out[back[i]].level : added(k, paths, {p.x, p.y, p.z}, {q.x, q.y, q.z});
       }
-    } catch (const std::runtime_error& e) {  // the scene refuses walls, doors and places, which are the user's
+    } catch (const std::runtime_error& e) {  // the scene refuses walls, doors, floors and places, which are the user's
       throw BadInput(e.what());
     }
   }
@@ -88,6 +89,7 @@ Open doors reflect nothing. McKown and Hamilton, Ray tracing as a design tool fo
   In<Wall> wall;
   In<Door> door;
   In<DoorState> state;
+  In<FloorShape> floor;
   In<Loss> loss;
   Out<Level> level;
 };

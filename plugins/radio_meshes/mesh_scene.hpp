@@ -1,15 +1,17 @@
 // Meshes in the world, and how often a straight link crosses the surface of each. Embree finds the triangles that a
-// link may meet; whether it crosses one is decided exactly (triangle.hpp), so its answers do not depend on how Embree
-// rounds, nor on the instructions that the machine has.
+// link may meet; whether it crosses one is decided exactly (scene/triangle.hpp), so its answers do not depend on how
+// Embree rounds, nor on the instructions that the machine has.
 #pragma once
 
 #include <embree3/rtcore.h>
 
+#include <scene/triangle.hpp>
 #include <vector>
 
-#include "triangle.hpp"
-
 namespace muster {
+
+using scene::Triangle;
+using scene::Vector;
 
 // A mesh where it stands, in lattice steps.
 struct PlacedMesh {

@@ -1,6 +1,6 @@
-// What the terms of a multi-wall channel need of each link: its length and how many walls of each material it crosses.
-// Kept from step to step for links, walls and doors that stayed where they were, bit for bit; so asking again under
-// other parameters costs a comparison, and a kept answer cannot differ from a new one.
+// What the terms of a multi-wall channel need of each link: its length and how many walls and floors of each material
+// it crosses. Kept from step to step for links, walls, doors and floors that stayed where they were, bit for bit; so
+// asking again under other parameters costs a comparison, and a kept answer cannot differ from a new one.
 #pragma once
 
 #include <algorithm>
@@ -19,17 +19,19 @@ namespace muster {
 
 class LinkGeometry {
  public:
-  // True if walls or doors are not what they were.
-  bool set_scene(Rows<const Wall> walls, Rows<const Door> doors, Rows<const DoorState> states, std::size_t materials) {
+  // True if walls, doors or floors are not what they were.
+  bool set_scene(Rows<const Wall> walls, Rows<const Door> doors, Rows<const DoorState> states,
+                 Rows<const FloorShape> floors, std::size_t materials) {
     bool changed = keep(walls, walls_);
     changed = keep(doors, doors_) || changed;
+    changed = keep(floors, floors_) || changed;
     changed = keep(states, states_) || changed || !scene_ || materials != materials_;
     if (!changed) return false;
     at_.clear();
     materials_ = materials;
     scene_.reset();  // so that none is left if the new one is refused
     scene_ = std::make_unique<scene::Scene>(scene_walls(walls), scene_doors(doors, states, walls),
-                                            static_cast<int>(materials));
+                                            static_cast<int>(materials), scene_floors(floors));
     return true;
   }
 
@@ -56,7 +58,7 @@ class LinkGeometry {
   const std::vector<double>& log_distances() const { return log_distances_; }
   // The pair that it belongs to.
   std::size_t pair(std::size_t link) const { return pair_[link]; }
-  // Of each pair, how many walls of a material it crosses.
+  // Of each pair, how many walls and floors of a material it crosses.
   const int* counts(std::size_t material) const { return counts_.data() + material * pairs_.size(); }
 
   // Of each pair, the sum over materials of its crossings times the loss of one.
@@ -229,6 +231,7 @@ class LinkGeometry {
   std::vector<Wall> walls_;
   std::vector<Door> doors_;
   std::vector<DoorState> states_;
+  std::vector<FloorShape> floors_;
   std::size_t materials_ = 0;
   std::unique_ptr<scene::Scene> scene_;
   std::size_t endpoints_ = 0;

@@ -1,4 +1,4 @@
-// The multi-wall model of COST 231: distance and walls, as two terms of the received level.
+// The multi-wall model of COST 231: distance, walls and floors, as two terms of the received level.
 #include <muster/plugin.hpp>
 #include <vector>
 
@@ -10,10 +10,10 @@ using namespace muster;
 
 struct RadioMultiwall {
   static constexpr auto id = "radio.multiwall/2";
-  static constexpr auto summary = "path loss by distance and by the walls that a link crosses";
+  static constexpr auto summary = "path loss by distance and by the walls and floors that a link crosses";
   static constexpr auto manual =
       "level@distance = tx_power - l0 - 10 n log10(d), d in metres and at least 0.01;\n"
-      "level@walls    = - sum over materials of (walls crossed) x material/NAME/loss.\n"
+      "level@walls    = - sum over materials of (walls and floors crossed) x material/NAME/loss.\n"
       "Crossings are exact, in three dimensions, and the same both ways; a closed door counts as its material, an "
       "open\n"
       "one as nothing. Thickness and angle of incidence do not change a wall's loss.\n"
@@ -38,6 +38,7 @@ struct RadioMultiwall {
         wall(s.read<Wall>("wall/*/shape")),
         door(s.read<Door>("door/*/shape")),
         state(s.read<DoorState>("door/*/state")),
+        floor(s.read<FloorShape>("floor/*/shape")),
         loss(s.read<Loss>("material/*/loss")),
         distance(s.add<Level>("link/*/level@distance")),
         walls(s.add<Level>("link/*/level@walls")) {}
@@ -45,9 +46,9 @@ struct RadioMultiwall {
   void step(const Step& k) {
     const auto losses = k[loss];
     try {
-      geometry.set_scene(k[wall], k[door], k[state], losses.size());
+      geometry.set_scene(k[wall], k[door], k[state], k[floor], losses.size());
       geometry.set_links(k[ends], k[pose]);
-    } catch (const std::runtime_error& e) {  // the scene refuses walls, doors and places, which are the user's
+    } catch (const std::runtime_error& e) {  // the scene refuses walls, doors, floors and places, which are the user's
       throw BadInput(e.what());
     }
     const auto& far = geometry.log_distances();
@@ -73,6 +74,7 @@ struct RadioMultiwall {
   In<Wall> wall;
   In<Door> door;
   In<DoorState> state;
+  In<FloorShape> floor;
   In<Loss> loss;
   Out<Level> distance, walls;
   LinkGeometry geometry;

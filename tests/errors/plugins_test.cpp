@@ -154,7 +154,8 @@ TEST(Fault19, ClaimsThatDoNotFitAreRefusedAtTheStart) {
       run_toy(folder, R"(<robot name="a" at="0 0 0"/><test.reads_nobodys/>)"), 2,
       "world.xml:1:64: test.reads_nobodys (test.reads_nobodys): reads \"robot/*/poise\", which nobody writes; expected "
       "one of door/*/shape, "
-      "door/*/state, endpoint/*/pose, endpoint/*/radio, inbox/*/message, instance/test.reads_nobodys/*/cell, "
+      "door/*/state, endpoint/*/pose, endpoint/*/radio, floor/*/shape, inbox/*/message, "
+      "instance/test.reads_nobodys/*/cell, "
       "link/*/ends, "
       "link/*/rssi, material/*/loss, mesh/*/shape, radio/*/mount, radio/*/traffic, robot/*/drive, robot/*/gait, "
       "robot/*/legs, "

@@ -162,7 +162,7 @@ TEST_F(Claims, AReadThatNobodyWritesNamesTheNearest) {
                                   "from='robot/*/chargr' to='self/x'/>\n"),
       "world.xml:5:1: r (toy.copy_radio): reads \"robot/*/chargr\", which nobody writes; expected one of "
       "door/*/shape, door/*/state, "
-      "endpoint/*/pose, endpoint/*/radio, inbox/*/message, instance/r/*/x, link/*/ends, link/*/rssi, "
+      "endpoint/*/pose, endpoint/*/radio, floor/*/shape, inbox/*/message, instance/r/*/x, link/*/ends, link/*/rssi, "
       "material/*/loss, mesh/*/shape, radio/*/mount, "
       "radio/*/traffic, robot/*/charge, robot/*/drive, robot/*/gait, robot/*/legs, robot/*/odometry, robot/*/pose, "
       "robot/*/position3d, robot/*/rotor_drive, robot/*/rotors, robot/*/twist, robot/*/wheels, wall/*/shape; "
@@ -198,6 +198,16 @@ TEST_F(Claims, RowsThatNobodyReadsAreWarnedAbout) {
   EXPECT_THAT(messages(run(rows + copy("wall", Wall::columns))), ElementsAre());
 }
 
+// A jammer in a world whose network feels no jammers.
+TEST_F(Claims, WhatAPluginOfTheRadioSaysToNobodyIsWarnedAbout) {
+  const std::string said = two_robots + "<toy.copy_radio name='r' to='robot/*/loudness' columns='v'/>\n";
+  EXPECT_THAT(messages(run(said)),
+              ElementsAre("0 : warning: " + (folder / "world.xml").string() +
+                          ":4:1: r (toy.copy_radio): writes \"robot/*/loudness\", which nobody reads"));
+  EXPECT_THAT(messages(run(said + "<toy.copy_sense name='s' from='robot/*/loudness' columns='v' to='self/x'/>\n")),
+              ElementsAre());
+}
+
 // A robot that a controller commands in a world where nothing obeys would just stand there.
 TEST_F(Claims, CommandsThatNobodyReadsAreWarnedAbout) {
   const std::string commands = two_robots +
@@ -221,10 +231,11 @@ TEST_F(Claims, ClaimsThatMakeNoSense) {
   const auto claim = [&](const std::string& attributes) {
     return error_of_world(two_robots + "<toy.copy_radio name='r' " + attributes + "/>\n");
   };
-  EXPECT_EQ(claim("to='robots/*/x'"),
-            "world.xml:4:1: r (toy.copy_radio): claims a table of the set \"robots\"; expected one of door, endpoint, "
-            "inbox, link, "
-            "material, mesh, outbox, radio, robot, wall; did you mean \"robot\"?");
+  EXPECT_EQ(
+      claim("to='robots/*/x'"),
+      "world.xml:4:1: r (toy.copy_radio): claims a table of the set \"robots\"; expected one of door, endpoint, floor, "
+      "inbox, link, "
+      "material, mesh, outbox, radio, robot, wall; did you mean \"robot\"?");
   EXPECT_EQ(claim("to='robot/c/x'"),
             "world.xml:4:1: r (toy.copy_radio): claims a row of robot called \"c\"; expected one of a, b");
   EXPECT_EQ(claim("to='robot'"), "world.xml:4:1: r (toy.copy_radio): claims \"robot\"; expected set/row/quantity");
@@ -249,7 +260,7 @@ TEST_F(Claims, ClaimsThatMakeNoSense) {
   EXPECT_EQ(claim("to='robot/*/x' columns='x:robots'"),
             "world.xml:4:1: r (toy.copy_radio): claims \"robot/*/x\": column \"x\" refers to the set \"robots\"; "
             "expected one of door, "
-            "endpoint, inbox, link, material, mesh, outbox, radio, robot, wall; did you mean \"robot\"?");
+            "endpoint, floor, inbox, link, material, mesh, outbox, radio, robot, wall; did you mean \"robot\"?");
   EXPECT_EQ(claim("to='robot/*/twist' columns='v'"),
             "world.xml:4:1: r (toy.copy_radio): claims \"robot/*/twist\" as \"v\"; its columns are \"" + twist + "\"");
   EXPECT_EQ(claim("to='outbox/a/message' as='modify' columns='radio:radio to:radio? payload{}'"),

@@ -107,12 +107,10 @@ TEST(Addresses, OfSixtyFourBitsTakeTheirTimeOnTheAir) {
   }
 }
 
+// A frame of at most 116 octets, or 104 behind extended addresses; else fragments of 104, or 96, behind a header of 4
+// and then of 5. Each waits for whole back-off periods beside what is the same for all.
 TEST(Payload, ArrivesByteForByteInAsManyFragmentsAsItNeeds) {
-  EXPECT_EQ(frames_of(0, header), 1u);
-  EXPECT_EQ(frames_of(116, header), 1u);
-  EXPECT_EQ(frames_of(117, header), 2u);
-  EXPECT_EQ(frames_of(117, extended_header), 2u);
-  for (const std::size_t size : {0, 1, 116, 117, 5000}) {
+  for (const std::size_t size : {0, 1, 104, 105, 116, 117, 5000}) {
     for (const std::size_t to : {std::size_t{1}, Medium::everyone}) {
       for (const bool extended : {false, true}) {
         Pair pair;
@@ -124,7 +122,15 @@ TEST(Payload, ArrivesByteForByteInAsManyFragmentsAsItNeeds) {
         const Report report = pair.medium.run(0, second, pair.channel, settings);
         ASSERT_EQ(report.deliveries.size(), 1u) << size;
         EXPECT_TRUE(report.arrivals[0].payload == payload) << size;
-        EXPECT_GE(report.arrivals[0].received, static_cast<Time>(size) * octet);
+        const bool is_whole = size <= (extended ? 104 : 116);
+        const std::size_t piece = extended ? 96 : 104, frames = is_whole ? 1 : (size + piece - 1) / piece;
+        const std::size_t octets = size + frames * (6 + (extended ? 23 : 11)) + (is_whole ? 0 : 5 * frames - 1);
+        const auto count = static_cast<Time>(frames);
+        const Time waited = report.arrivals[0].received - static_cast<Time>(octets) * octet -
+                            count * (cca_window + turnaround) - (count - 1) * long_spacing;
+        EXPECT_EQ(waited % unit_backoff, 0) << size;
+        EXPECT_GE(waited, 0) << size;
+        EXPECT_LE(waited, 7 * count * unit_backoff) << size;
       }
     }
   }

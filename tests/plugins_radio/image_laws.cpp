@@ -20,8 +20,9 @@ Wall wall(double x0, double y0, double x1, double y1, int material = 0) {
 }
 
 std::vector<ImagePath> ways(const std::vector<Wall>& walls, const Point& p, const Point& q, int bounces = 1,
-                            const std::vector<Door>& doors = {}, double permittivity = 5) {
-  ImagePaths paths(walls, doors, {6, 11});
+                            const std::vector<Door>& doors = {}, double permittivity = 5,
+                            const std::vector<scene::Floor>& floors = {}) {
+  ImagePaths paths(walls, doors, floors, {6, 11});
   std::vector<ImagePath> result;
   paths.visit(p, q, bounces, permittivity, [&](const ImagePath& way) { result.push_back(way); });
   return result;
@@ -112,10 +113,20 @@ TEST(Images, PayForTheWallsInTheirWay) {
   EXPECT_EQ(by_mirror[0].walls, 17);
 }
 
+// By a mirror whose whole height can be seen, from one storey to the next.
+TEST(Images, PayForTheFloorsInTheirWay) {
+  std::vector<Wall> mirror{wall(-10, 0, 10, 0)};
+  mirror[0].height = 6;
+  const scene::Floor here{{-10, 10, 10, -10}, {0, 0, 5, 5}, 3, 1}, elsewhere{{5, 10, 10, 5}, {0, 0, 5, 5}, 3, 0};
+  const auto by_mirror = ways(mirror, {0, 2, 2}, {4, 2, 5}, 1, {}, 5, {here, elsewhere});
+  ASSERT_EQ(by_mirror.size(), 1u);
+  EXPECT_EQ(by_mirror[0].walls, 11);
+}
+
 // In a field of a point source and a mirror, the power averaged over fringes is the sum of the two powers.
 TEST(Images, PowerAveragedOverFringesIsTheSumOfPowers) {
   const std::vector<Wall> walls{wall(-400, 0, 400, 0)};
-  ImagePaths paths(walls, {}, {6, 11});
+  ImagePaths paths(walls, {}, {}, {6, 11});
   const double number = 6.283185307179586 / 0.123;
   const Stream random(2);
   double coherent = 0, incoherent = 0;

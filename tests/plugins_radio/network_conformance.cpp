@@ -1,79 +1,18 @@
-// What every network must keep, known by nothing but its file. Numbers are rows of the requirements
-// (../shared/design/REQUIREMENTS.md).
+// What every network must keep of messages and of the world that they pass; of outcomes: outcome_conformance.cpp.
+// Numbers are rows of the requirements (../shared/design/REQUIREMENTS.md).
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <set>
 
+#include "each_network.hpp"
 #include "messages.hpp"
-#include "world_of.hpp"
 
 namespace muster {
 namespace {
 
 // Columns of an inbox.
 enum { to = 0, from = 1, rssi = 2, t_sent = 3, t_received = 4, lqi = 5 };
-
-const std::string walls_and_fading =
-    "<radio.links range=\"600\"/><radio.multiwall n=\"3\"/><radio.fading shadowing=\"2\"/>"
-    "<radio.receiver sensitivity=\"-90\"/>";
-
-std::vector<std::string> networks(const std::string& but = "") {
-  std::vector<std::string> result;
-  for (const auto& entry : std::filesystem::directory_iterator(MUSTER_PLUGINS_DIR)) {
-    const std::string name = entry.path().stem().string();
-    if (entry.path().extension() == ".so" && name.compare(0, 8, "network_") == 0 && name.substr(8) != but)
-      result.push_back("network." + name.substr(8));
-  }
-  return result;
-}
-
-class EachNetwork : public testing::TestWithParam<std::string> {
- protected:
-  std::string network(const std::string& attributes = "") const {
-    return "<" + GetParam() + " name=\"network\" " + attributes + "/>\n";
-  }
-  bool shares_a_channel() const { return GetParam() != "network.ideal"; }
-
-  // Four radios in a room, one out of hearing, one without any link.
-  Simulation world(const std::string& senders, int workers = 1, const std::string& dt = "0.1") const {
-    return world_of(folder,
-                    station("a", "0 0 1") + station("b", "3 0 1") + station("c", "0 4 1") + station("d", "5 5 1") +
-                        station("far", "400 0 1") + station("gone", "0 900 1") + walls_and_fading + network() + senders,
-                    workers, dt);
-  }
-  const Folder folder;
-};
-
-// Those in which radios contend for the air: all but the ideal one.
-class EachSharedChannel : public EachNetwork {};
-
-std::string send(const std::string& name, const std::string& sender, const std::string& attributes = "") {
-  return "<test.sender name=\"" + name + "\" from=\"" + sender + "\" " + attributes + "/>\n";
-}
-
-// A radio's counts by their columns' names.
-double traffic(const Simulation& sim, const std::string& radio, const std::string& column) {
-  const std::vector<std::string> names{"asked",     "delivered",  "too_weak", "no_link", "collided",
-                                       "no_access", "queue_full", "no_ack",   "gone"};
-  const auto at = std::find(names.begin(), names.end(), column) - names.begin();
-  return sim.table("radio/" + radio + "/traffic").at(0, static_cast<std::size_t>(at));
-}
-
-double sum_of_outcomes(const TableView& traffic, std::size_t row) {
-  double sum = 0;
-  for (std::size_t c = 1; c < traffic.cols(); ++c) sum += traffic.at(row, c);
-  return sum;
-}
-
-const std::string busy = send("s1", "a") + send("s2", "b", "to=\"c\" count=\"5\" size=\"90\"") +
-                         send("s3", "c", "size=\"60\" count=\"3\"") + send("s4", "d", "to=\"a\" size=\"700\"") +
-                         send("s5", "b", "to=\"far\"") + send("s6", "b", "to=\"gone\"") +
-                         "<test.leaver radio=\"d\" at=\"30\"/>";
-
-// A radio that only jams, from so far that it drowns some and not others.
-const std::string jammed = busy + station("jammer", "60 0 1") +
-                           "<radio.jammer radio=\"jammer\" excess=\"55\" period=\"0.0131\" duty=\"0.4\"/>";
 
 // ---- 19: messages -------------------------------------------------------------------------------------------------
 
@@ -188,81 +127,6 @@ TEST_P(EachNetwork, Row20TheSameControllerRunsOnIt) {
                   "<control.connectivity robot=\"leader\" roadmap=\"roadmap.csv\" parent=\"base\" role=\"leader\"/>");
   run(sim, 100);
   EXPECT_GT(sim.table("robot/leader/pose").at(0, 0), 2);  // it drives only while it hears the base well
-}
-
-// ---- 21: every request is evaluated -------------------------------------------------------------------------------
-
-TEST_P(EachNetwork, Row21NoCopyHasTwoOutcomesAndEachGetsOne) {
-  std::string quiet;
-  for (const auto& [name, radio] :
-       std::map<std::string, std::string>{{"s1", "a"}, {"s2", "b"}, {"s3", "c"}, {"s5", "b"}, {"s6", "b"}})
-    quiet += "<swap at=\"6\" instance=\"" + name + "\" plugin=\"test.sender\" from=\"" + radio + "\" count=\"0\"/>\n";
-  for (const std::string& senders : {busy, jammed}) {
-    Simulation sim = world(senders + quiet);
-    std::vector<double> before(6, 0);
-    for (int tick = 0; tick < 90; ++tick) {
-      sim.step();
-      const TableView traffic = sim.table("radio/*/traffic");
-      for (std::size_t i = 0; i < 6; ++i) {
-        EXPECT_LE(sum_of_outcomes(traffic, i), traffic.at(i, 0));
-        EXPECT_GE(sum_of_outcomes(traffic, i), before[i]);
-        before[i] = sum_of_outcomes(traffic, i);
-      }
-    }
-    // Three seconds after the last request nothing is under way.
-    const TableView traffic = sim.table("radio/*/traffic");
-    for (std::size_t i = 0; i < 3; ++i) {
-      EXPECT_GT(traffic.at(i, 0), 0);
-      EXPECT_EQ(sum_of_outcomes(traffic, i), traffic.at(i, 0)) << i;
-    }
-  }
-}
-
-TEST_P(EachNetwork, Row21AsMuchArrivesAsIsCountedAsDelivered) {
-  Simulation sim = world(busy);
-  std::vector<double> arrived(6, 0);
-  for (int tick = 0; tick < 50; ++tick) {
-    sim.step();
-    const TableView inbox = sim.table("inbox/*/message");
-    for (std::size_t i = 0; i < inbox.rows(); ++i) ++arrived[static_cast<std::size_t>(inbox.at(i, from))];
-  }
-  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(sim.table("radio/*/traffic").at(i, 1), arrived[i]) << i;
-}
-
-TEST_P(EachNetwork, Row21NothingArrivesWithoutALinkOrOutOfHearing) {
-  Simulation sim = world(send("s1", "a", "to=\"far\"") + send("s2", "b", "to=\"gone\""));
-  for (int tick = 0; tick < 30; ++tick) {
-    sim.step();
-    EXPECT_EQ(sim.table("inbox/*/message").rows(), 0u);
-  }
-  EXPECT_GT(traffic(sim, "a", "too_weak"), 20);
-  EXPECT_GT(traffic(sim, "b", "no_link"), 20);
-}
-
-TEST_P(EachSharedChannel, Row21AQueueHoldsSoManyAndRefusesTheRest) {
-  Simulation sim = world_of(folder, station("a", "0 0 1") + station("b", "3 0 1") + walls_and_fading +
-                                        network("queue=\"5\" spread=\"false\"") +
-                                        send("s", "a", "to=\"b\" count=\"20\" only=\"1\""));
-  run(sim, 10);
-  EXPECT_EQ(traffic(sim, "a", "delivered"), 6);  // and the one that is sent at once
-  EXPECT_EQ(traffic(sim, "a", "queue_full"), 14);
-}
-
-TEST_P(EachSharedChannel, Row21AirTimeThrottles) {
-  Simulation sim = world(send("s", "a", "to=\"b\" count=\"100\" size=\"10000\""));
-  double bits = 0;
-  for (int tick = 0; tick < 30; ++tick) {
-    sim.step();
-    bits += 8 * 10000.0 * static_cast<double>(sim.table("inbox/*/message").rows());
-  }
-  // How much it gets through at least, and at most, for nothing is without overhead; else as 802.15.4.
-  const std::map<std::string, std::pair<double, double>> rates{{"network.wifi", {3e6, 49e6}},
-                                                               {"network.bluetooth", {400e3, 723e3}}};
-  const auto found = rates.find(GetParam());
-  const auto [least, most] = found != rates.end() ? found->second : std::pair{80e3, 225e3};
-  EXPECT_GT(bits / sim.time(), least);
-  EXPECT_LT(bits / sim.time(), most);
-  EXPECT_GT(traffic(sim, "a", "queue_full"), 0);
 }
 
 // ---- 22: connections come and go ----------------------------------------------------------------------------------

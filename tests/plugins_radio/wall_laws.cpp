@@ -15,6 +15,7 @@ struct Plan {
   std::vector<Wall> walls{{5, 0, 5, 10, 0, 3, 0.1, brick}, {8, 0, 8, 10, 0, 1, 0.1, glass}};
   std::vector<Door> doors{{0, 4, 1, 2, wood}};
   std::vector<DoorState> states{{0}};
+  std::vector<FloorShape> floors;
   std::vector<Pose> at;
   std::vector<Ends> links;
 
@@ -24,7 +25,7 @@ struct Plan {
     links.push_back({static_cast<double>(at.size() - 2), static_cast<double>(at.size() - 1)});
   }
   std::size_t put(LinkGeometry& g) const {
-    g.set_scene(view(walls), view(doors), view(states), materials);
+    g.set_scene(view(walls), view(doors), view(states), view(floors), materials);
     return g.set_links(view(links), view(at));
   }
 
@@ -65,6 +66,20 @@ TEST(Walls, ADoorWithoutMaterialIsOfItsWalls) {
   LinkGeometry g;
   plan.put(g);
   EXPECT_EQ(counts(g, 0), (Counts{1, 1, 0}));
+}
+
+TEST(Floors, AreCountedByMaterialAndAnewWhenTheyChange) {
+  Plan plan;
+  plan.link(2.5, 0.5, 2.5);  // through the brick wall; at x = 7.5 it is 2 m high, over the glass
+  LinkGeometry g;
+  plan.put(g);
+  EXPECT_EQ(counts(g, 0), (Counts{1, 0, 0}));
+  plan.floors = {{0, 0, 10, 0, 10, 10, 0, 10, 2, Plan::wood}, {0, 0, 5, 0, 5, 10, 0, 10, 2, Plan::glass}};
+  plan.put(g);
+  EXPECT_EQ(counts(g, 0), (Counts{1, 0, 1}));
+  plan.floors[1].x1 = plan.floors[1].x2 = 8;
+  plan.put(g);
+  EXPECT_EQ(counts(g, 0), (Counts{1, 1, 1}));
 }
 
 TEST(Walls, DistanceIsInSpaceAndAtLeastACentimetre) {

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <random>
+#include <scene/triangle.hpp>
 #include <vector>
 
-#include "radio_meshes/triangle.hpp"
-
 namespace muster {
+
+using scene::Triangle;
+using scene::Vector;
 
 class Drawing {
  public:

@@ -107,11 +107,11 @@ inline long compare_with_twin(unsigned seed, int buildings) {
   return compared;
 }
 
-// A floor of a building far from the origin, walls askew, and radios where it hurts: on walls and their ends, a lattice
-// step beside them, in line with them, one on another.
-class Floor {
+// A storey of a building far from the origin, walls askew, and radios where it hurts: on walls and their ends, a
+// lattice step beside them, in line with them, one on another.
+class Storey {
  public:
-  explicit Floor(unsigned seed, int rows = 10, int columns = 14)
+  explicit Storey(unsigned seed, int rows = 10, int columns = 14)
       : random_(seed), x_((970 - 3 * (rows + columns)) * real(-1, 1)), y_((970 - 3 * (rows + columns)) * real(-1, 1)) {
     const double turn = random_() % 2 == 0 ? 0 : real(0, 7);
     const double dx = 3 * std::cos(turn), dy = 3 * std::sin(turn);
@@ -157,12 +157,12 @@ class Floor {
 inline long compare_with_shifted_radios(unsigned seed, int floors, int rows = 10, int columns = 14) {
   long compared = 0;
   for (int i = 0; i < floors; ++i) {
-    Floor floor(seed + static_cast<unsigned>(i), rows, columns);
-    const Scene scene(floor.walls, floor.doors, materials);
-    const ShiftedRadios shifted(floor.walls, floor.doors);
+    Storey storey(seed + static_cast<unsigned>(i), rows, columns);
+    const Scene scene(storey.walls, storey.doors, materials);
+    const ShiftedRadios shifted(storey.walls, storey.doors);
     for (const int number : {100, 10}) {
       std::vector<Point> points;
-      for (int k = 0; k < number; ++k) points.push_back(floor.point());
+      for (int k = 0; k < number; ++k) points.push_back(storey.point());
       const auto links = all_pairs(points.size());
       bool alone = true;
       const auto exact = [&](const Pair& link, int* by_material) {
@@ -173,7 +173,7 @@ inline long compare_with_shifted_radios(unsigned seed, int floors, int rows = 10
         alone = alone && std::equal(of_one, of_one + materials, by_material);
       };
       if (!agree(scene, points, links, exact)) return 0;
-      EXPECT_TRUE(alone) << "a single link is counted otherwise, of floor " << seed + static_cast<unsigned>(i);
+      EXPECT_TRUE(alone) << "a single link is counted otherwise, of storey " << seed + static_cast<unsigned>(i);
       if (!alone) return 0;
       compared += static_cast<long>(links.size());
     }

@@ -46,10 +46,10 @@ TEST(ManyLinks, AgreeInALargeScene) {
 }
 
 TEST(ManyLinks, DependOnNoOrder) {
-  Floor floor(4);
-  const Scene scene(floor.walls, floor.doors, materials);
+  Storey storey(4);
+  const Scene scene(storey.walls, storey.doors, materials);
   std::vector<Point> points;
-  for (int i = 0; i < 60; ++i) points.push_back(floor.point());
+  for (int i = 0; i < 60; ++i) points.push_back(storey.point());
   auto links = all_pairs(points.size());
   std::vector<int> counted, shuffled;
   scene.counts(points, links, counted);
@@ -67,10 +67,10 @@ TEST(ManyLinks, DependOnNoOrder) {
 }
 
 TEST(ManyLinks, AreTheSameBothWays) {
-  Floor floor(6);
-  const Scene scene(floor.walls, floor.doors, materials);
+  Storey storey(6);
+  const Scene scene(storey.walls, storey.doors, materials);
   std::vector<Point> points;
-  for (int i = 0; i < 200; ++i) points.push_back(floor.point());
+  for (int i = 0; i < 200; ++i) points.push_back(storey.point());
   const std::size_t n = points.size();
   std::vector<int> counted;
   scene.counts(points, all_pairs(n), counted);
@@ -82,15 +82,15 @@ TEST(ManyLinks, AreTheSameBothWays) {
 }
 
 TEST(ManyLinks, FollowDoors) {
-  Floor floor(7);
-  Scene scene(floor.walls, floor.doors, materials);
+  Storey storey(7);
+  Scene scene(storey.walls, storey.doors, materials);
   std::vector<Point> points;
-  for (int i = 0; i < 40; ++i) points.push_back(floor.point());
+  for (int i = 0; i < 40; ++i) points.push_back(storey.point());
   const auto links = all_pairs(points.size());
   std::vector<int> before, after;
   scene.counts(points, links, before);
-  for (std::size_t door = 0; door < floor.doors.size(); ++door) {
-    scene.set_open(static_cast<int>(door), !floor.doors[door].open);
+  for (std::size_t door = 0; door < storey.doors.size(); ++door) {
+    scene.set_open(static_cast<int>(door), !storey.doors[door].open);
   }
   scene.counts(points, links, after);
   EXPECT_NE(before, after);
@@ -135,17 +135,17 @@ TEST(OneLink, AgreesWithRationalNumbersOnTheWholeLattice) {
   };
   int crossed = 0;
   for (unsigned seed = 0; seed < 12; ++seed) {
-    Floor floor(seed);
-    for (Wall& wall : floor.walls) wall.base = 0;
-    const Scene scene(floor.walls, {}, materials);
+    Storey storey(seed);
+    for (Wall& wall : storey.walls) wall.base = 0;
+    const Scene scene(storey.walls, {}, materials);
     for (int i = 0; i < 40; ++i) {
-      Point p = floor.point(), q = floor.point();
+      Point p = storey.point(), q = storey.point();
       if (i % 10 == 0) q = p;
       p.z = q.z = 0.5;  // within every wall's height
       const Vector from = at(p.x, p.y, 1), to = at(q.x, q.y, 1);
       const bool moves = from.x != to.x || from.y != to.y;
       std::vector<int> expected(materials, 0);
-      for (const Wall& wall : floor.walls) {
+      for (const Wall& wall : storey.walls) {
         const Vector a = at(wall.x0, wall.y0, 0), b = at(wall.x1, wall.y1, 0);
         if (moves && side(from, to, a) != side(from, to, b) && side(a, b, from) != side(a, b, to)) {
           ++expected[wall.material];

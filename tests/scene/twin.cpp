@@ -15,13 +15,13 @@ __extension__ using Wide = __int128;
 constexpr Wide metre = Wide{1} << 32;
 constexpr Wide shift_east = 16, shift_north = 1, shift_up = 1 << 12;
 
-struct Vector {
+struct PlanVector {
   Wide x, y;
 };
 
-Vector spot(double x, double y) { return {static_cast<Wide>(x) * metre, static_cast<Wide>(y) * metre}; }
-Vector operator-(const Vector& a, const Vector& b) { return {a.x - b.x, a.y - b.y}; }
-Wide cross(const Vector& a, const Vector& b) { return a.x * b.y - a.y * b.x; }
+PlanVector spot(double x, double y) { return {static_cast<Wide>(x) * metre, static_cast<Wide>(y) * metre}; }
+PlanVector operator-(const PlanVector& a, const PlanVector& b) { return {a.x - b.x, a.y - b.y}; }
+Wide cross(const PlanVector& a, const PlanVector& b) { return a.x * b.y - a.y * b.x; }
 
 // numerator / denominator, denominator > 0.
 struct Ratio {
@@ -40,8 +40,8 @@ struct Meeting {
 };
 
 // Where the two lines meet in plan; nothing if they are parallel.
-std::optional<Meeting> meeting(const Vector& p, const Vector& q, const Vector& a, const Vector& b) {
-  const Vector link = q - p, wall = b - a;
+std::optional<Meeting> meeting(const PlanVector& p, const PlanVector& q, const PlanVector& a, const PlanVector& b) {
+  const PlanVector link = q - p, wall = b - a;
   const Wide denominator = cross(link, wall);
   if (denominator == 0) return {};
   const Wide sign = denominator > 0 ? 1 : -1;
@@ -64,8 +64,9 @@ bool is_over_height(const Ratio& along_link, double pz, double qz, double height
 
 std::vector<std::pair<int, int>> Twin::crossings(const Point& p, const Point& q) const {
   std::vector<std::pair<int, int>> result;
-  const Vector shift{shift_east, shift_north};
-  const Vector from = spot(p.x, p.y) - Vector{-shift.x, -shift.y}, to = spot(q.x, q.y) - Vector{-shift.x, -shift.y};
+  const PlanVector shift{shift_east, shift_north};
+  const PlanVector from = spot(p.x, p.y) - PlanVector{-shift.x, -shift.y},
+                   to = spot(q.x, q.y) - PlanVector{-shift.x, -shift.y};
   for (std::size_t row = 0; row < walls_.size(); ++row) {
     const Wall& wall = walls_[row];
     const auto meet = meeting(from, to, spot(wall.x0, wall.y0), spot(wall.x1, wall.y1));

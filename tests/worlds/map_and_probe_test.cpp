@@ -60,6 +60,25 @@ TEST(Budget, NamesWallsInTheOrderInWhichTheyAreMetAndSumsTheTerms) {
   EXPECT_EQ(value_of(back, "level"), value_of(there, "level"));
 }
 
+TEST(Budget, NamesFloorsAmongWallsAndSumsThem) {
+  const ProgramFolder folder;
+  const std::string floor =
+      "<floor name=\"first\" corners=\"0 -5 6 -5 6 5 0 5\" z=\"2\" material=\"brick\"/>"
+      "<station name=\"above\" at=\"6 0 3\"/>";
+  folder.write("world.xml", world_of(walls + floor + radios));
+  const json budget = probed(folder, {"a", "above"});
+  std::vector<std::string> names;
+  for (const auto& each : budget["walls"]) names.push_back(each.value(each.contains("floor") ? "floor" : "wall", ""));
+  EXPECT_THAT(names, ElementsAre("inner", "first", "outer"));
+  const double length = std::sqrt(40);
+  EXPECT_NEAR(budget["walls"][1]["at_m"].get<double>(), length / 2, 1e-9);
+  EXPECT_NEAR(std::cos(budget["walls"][1]["incidence_rad"].get<double>()), 2 / length, 1e-9);
+  EXPECT_NEAR(value_of(budget, "level@walls"), -15, 1e-9);
+  EXPECT_NEAR(value_of(budget, "level"), level(length, 15), 1e-9);
+  EXPECT_THAT(folder.muster({"probe", "world.xml", "a", "above"}).out, HasSubstr("floor first (brick, 6.00 dB)"));
+  EXPECT_EQ(probed(folder, {"a", "b"})["walls"].size(), 2u);  // below it
+}
+
 TEST(Budget, AClosedDoorStandsInItsWallAndAnOpenOneDoesNot) {
   const ProgramFolder folder;
   for (const std::string state : {"open", "closed"}) {

@@ -1,6 +1,5 @@
 // Rows 23 and 26 of the requirements: ns-3 behind the same messages, against our own network on one world, and as a
-// network that routes by itself; and what it cannot do. What every network keeps, it keeps in
-// tests/plugins_radio/network_conformance.cpp.
+// network that routes by itself; and what it cannot do. What every network keeps, it keeps in tests/plugins_radio.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -97,6 +96,40 @@ TEST_F(Ns3, InNoiseTheSameShareArrivesAtEachDistance) {
   }
 }
 
+// ---- Personal area networks -----------------------------------------------------------------------------------------
+
+// Every other radio is in another PAN than the rest.
+const std::string two_pans = "<radio.pan name=\"even\" id=\"4660\" radios=\"r0 r2 r4 r6 r8 r10 r12 r14\"/>\n";
+
+TEST_F(Ns3, InTwoPansAsMuchArrivesAsInOurNetwork) {
+  for (const std::string load : {"count=\"2\" size=\"60\"", "to=\"r5\" size=\"80\""}) {
+    Simulation theirs = world(office() + two_pans + everybody_sends(load) + ns3);
+    Simulation our_own = world(office() + two_pans + everybody_sends(load) + ours);
+    run(theirs, 600), run(our_own, 600);
+    for (const auto column : {delivered, no_link, no_access}) {
+      std::printf("%d: %.4f (%.4f)\n", column, share(our_own, column), share(theirs, column));
+      EXPECT_NEAR(share(our_own, column), share(theirs, column), 0.02);
+    }
+  }
+}
+
+// A frame from one PAN to another is two octets longer. What arrives has waited for whole back-off periods beside.
+TEST_F(Ns3, FramesAreAsLongAsInOurNetwork) {
+  const auto beyond_periods = [&](const std::string& network, const std::string& pans) {
+    Simulation sim =
+        world(station("a", "0 0 1") + station("b", "3 0 1") +
+              "<radio.multiwall n=\"3\"/><test.sender from=\"a\" to=\"b\" only=\"1\" size=\"60\"/>\n" + pans + network);
+    for (int tick = 0; tick < 5 && sim.table("inbox/*/message").rows() == 0; ++tick) sim.step();
+    const TableView inbox = sim.table("inbox/*/message");
+    return inbox.rows() == 1 ? std::fmod(1e6 * (inbox.at(0, 4) - inbox.at(0, 3)), 320) : -1;
+  };
+  const std::string one = "<radio.pan id=\"7\" radios=\"b\"/>\n";
+  for (const std::string& network : {ns3, ours}) {
+    EXPECT_NEAR(beyond_periods(network, ""), (192 + 128 + 32 * (6 + 11 + 60)) % 320, 0.1);
+    EXPECT_NEAR(beyond_periods(network, one), (192 + 128 + 32 * (6 + 13 + 60)) % 320, 0.1);
+  }
+}
+
 // ---- Routing by ns-3 ------------------------------------------------------------------------------------------------
 
 // Radios r0, r1, ... 10 m apart, of which each hears its neighbours only, and a message from the first.
@@ -170,6 +203,14 @@ TEST_F(Ns3, ItsMeshTakesSoManyHopsAndNoMore) {
     Simulation sim = world(chain(5, "") + "<network.ns3 name=\"network\" routing=\"mesh\" hops=\"" +
                            std::to_string(hops) + "\"/>\n");
     EXPECT_EQ(who_got_it(sim, 30, 16), reached);
+  }
+}
+
+TEST_F(Ns3, ItsMeshStaysInItsPan) {
+  for (const std::string to : {"", "to=\"r2\""}) {
+    Simulation sim = world(chain(3, to) + "<radio.pan id=\"1\" radios=\"r2\"/>\n" + mesh);
+    EXPECT_EQ(who_got_it(sim, 130, 16), to.empty() ? "r1" : "r");
+    EXPECT_EQ(of_first(sim, no_link), 1);
   }
 }
 

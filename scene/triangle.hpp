@@ -1,6 +1,6 @@
 // Whether a straight link crosses a triangle: exactly, the same both ways, and with one answer where it grazes.
 //
-// All points lie on the lattice of 2^-12 m within 1 km (scene/README.md), so differences are below 2^23 and each
+// All points lie on the lattice of 2^-12 m within 1 km (README.md), so differences are below 2^23 and each
 // determinant below 2^73. Ties are broken as for walls: as if every radio stood an infinitesimal step to the east, a
 // far smaller one to the north, and a far greater one up. The shift is the same at both ends and for all triangles, so
 // a link through an edge or a vertex crosses a closed surface as often as a link beside it.
@@ -8,7 +8,9 @@
 
 #include <cstdint>
 
-namespace muster {
+#include "scene/lattice.hpp"
+
+namespace muster::scene {
 
 // In lattice steps, east, north and up.
 struct Vector {
@@ -20,7 +22,6 @@ inline Vector cross(const Vector& a, const Vector& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-__extension__ using Wide = __int128;
 inline Wide dot(const Vector& a, const Vector& b) { return Wide{a.x} * b.x + Wide{a.y} * b.y + Wide{a.z} * b.z; }
 
 // The sign of a value that grows along `growth` when the radios move. Zero if it does not grow in any direction.
@@ -47,4 +48,4 @@ struct Triangle {
   }
 };
 
-}  // namespace muster
+}  // namespace muster::scene

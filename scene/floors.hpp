@@ -1,0 +1,51 @@
+// Level floors, four corners each, and which of them a straight link passes through: exactly.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "scene/triangle.hpp"
+
+namespace muster::scene {
+
+// A level quadrilateral, by its corners in turn, in metres. A corner given twice makes a triangle of it.
+struct Floor {
+  double x[4] = {}, y[4] = {};
+  double z = 0;
+  int material = 0;
+};
+
+// In lattice steps. A place inside is in one half, or, about a corner that points inwards, in both or neither but once.
+struct LatticeFloor {
+  Triangle halves[2];
+  std::int64_t z = 0;
+  int material = 0;
+
+  bool is_crossed(const Vector& p, const Vector& q) const {
+    if ((p.z < z) == (q.z < z)) return false;  // a radio that lies on a floor is above it
+    return halves[0].is_crossed(p, q) != halves[1].is_crossed(p, q);
+  }
+};
+
+class Floors {
+ public:
+  Floors() = default;
+  // Materials are numbered from 0 to materials - 1. Throws std::runtime_error that names the row at fault and its
+  // reason.
+  Floors(const std::vector<Floor>& floors, int materials);
+
+  bool empty() const { return floors_.empty(); }
+
+  // Calls report(row, floor) for each that the way from p to q passes; the same both ways.
+  template <class Report>
+  void for_each_crossing(const Vector& p, const Vector& q, const Report& report) const {
+    for (std::size_t row = 0; row < floors_.size(); ++row) {
+      if (floors_[row].is_crossed(p, q)) report(static_cast<int>(row), floors_[row]);
+    }
+  }
+
+ private:
+  std::vector<LatticeFloor> floors_;
+};
+
+}  // namespace muster::scene
