@@ -45,8 +45,9 @@ void BlockCholeskyOf<N>::arrange(int count, const std::vector<std::pair<int, int
 
 template <int N>
 void BlockCholeskyOf<N>::clear_pairs() {
+  static const MassMatrix zero = MassMatrix::Zero();
   for (auto& column : columns_) {
-    for (Below& below : column) below.block.setZero();
+    for (Below& below : column) of_robots_.copy(below.block.data(), zero.data());
   }
 }
 
@@ -58,11 +59,12 @@ MassMatrixOf<N>& BlockCholeskyOf<N>::below(int row, int column) {
 }
 
 template <int N>
-void BlockCholeskyOf<N>::add(int i, int j, int rows, const Velocity* a, const Velocity* b) {
+void BlockCholeskyOf<N>::add_contacts(int i, int j, int count, const double* const* a, const double* const* b,
+                                      const double* k) {
   if (place_[i] > place_[j]) {
-    of_robots_.add_rows(below(i, j).data(), rows, a->data(), b->data());
+    of_robots_.add_contacts(below(i, j).data(), count, a, b, k);
   } else {
-    of_robots_.add_rows(below(j, i).data(), rows, b->data(), a->data());
+    of_robots_.add_contacts(below(j, i).data(), count, b, a, k);
   }
 }
 
@@ -101,7 +103,7 @@ void BlockCholeskyOf<N>::factor_alone() {
 }
 
 template <int N>
-void BlockCholeskyOf<N>::solve(std::vector<Velocity>& x) const {
+void BlockCholeskyOf<N>::solve(Blocks<Velocity>& x) const {
   if constexpr (has_many_joints) {
     if (order_.size() == 1) return solve_alone(x[0]);
   }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "block_kernel.hpp"
+#include "blocks.hpp"
 
 namespace muster::simbody {
 
@@ -35,16 +36,16 @@ class BlockCholeskyOf {
   // Between arrange() or solve() and factor(): blocks beside the diagonal begin at zero, those on it are to be set.
   void clear_pairs();
   MassMatrix& diagonal(int i) { return diagonal_[i]; }
-  // Adds a_0 b_0^T + a_1 b_1^T + ... at block (i, j), i != j, and its mirror image.
-  void add(int i, int j, int rows, const Velocity* a, const Velocity* b);
+  // Adds a^T K b of each contact, as BlockArithmetic has it, at block (i, j), i != j, and its mirror image.
+  void add_contacts(int i, int j, int count, const double* const* a, const double* const* b, const double* k);
 
   void factor();
-  void solve(std::vector<Velocity>& x) const;
+  void solve(Blocks<Velocity>& x) const;
 
  private:
-  struct Below {
-    int row;
+  struct alignas(cache_line) Below {
     MassMatrix block;
+    int row;
   };
 
   static constexpr bool has_many_joints = N == unknowns_with_legs;
@@ -57,10 +58,10 @@ class BlockCholeskyOf {
   const BlockArithmetic<N>& of_robots_ = block_arithmetic<N>();
   const BlockArithmetic<6>& of_bodies_ = block_arithmetic<6>();
 
-  std::vector<MassMatrix> diagonal_;
+  Blocks<MassMatrix> diagonal_;
   std::vector<std::vector<Below>> columns_;         // what stands below the diagonal once the order is applied
   std::vector<int> order_, place_;                  // of elimination, and its inverse
-  std::vector<MassMatrix> inverse_;                 // of the transposed factors
+  Blocks<MassMatrix> inverse_;                      // of the transposed factors
   BodyBlock body_;                                  // the same of one alone: of what its joints leave of the body
   Eigen::Matrix<double, 6, N - 6> body_by_joints_;  // and how they pull at it
 };

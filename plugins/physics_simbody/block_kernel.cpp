@@ -1,6 +1,8 @@
 // Built once for each instruction set, as MUSTER_KERNEL. Everything here but the kernel itself is internal.
 #include "block_kernel.hpp"
 
+#include "lane_arithmetic.hpp"
+
 #define MUSTER_INLINE [[gnu::always_inline]] inline
 #define MUSTER_TEXT_OF(name) #name
 #define MUSTER_TEXT(name) MUSTER_TEXT_OF(name)
@@ -8,38 +10,80 @@
 namespace muster::simbody {
 namespace {
 
+typedef double Eight __attribute__((vector_size(64)));
 typedef double Four __attribute__((vector_size(32)));
 typedef double Two __attribute__((vector_size(16)));
 
-// A column of N numbers, even ones: fours, and two that may be left over.
+#ifdef __AVX512F__
+constexpr bool has_eights = true;
+#else
+constexpr bool has_eights = false;
+#endif
+
+// A column of N numbers, even ones, in as few pieces as the machine takes.
 template <int N>
 struct Column {
-  static constexpr int fours = N / 4;
+  static constexpr int eights = has_eights && N % 8 == 0 ? N / 8 : 0, fours = (N - 8 * eights) / 4;
   static constexpr bool has_two = N % 4 == 2;
 
   MUSTER_INLINE static Column of(const double* p) {
     Column c;
-    for (int i = 0; i < fours; ++i) __builtin_memcpy(&c.four[i], p + 4 * i, sizeof(Four));
-    if (has_two) __builtin_memcpy(&c.two, p + 4 * fours, sizeof(Two));
+    for (int i = 0; i < eights; ++i) __builtin_memcpy(&c.eight[i], p + 8 * i, sizeof(Eight));
+    for (int i = 0; i < fours; ++i) __builtin_memcpy(&c.four[i], p + 8 * eights + 4 * i, sizeof(Four));
+    if (has_two) __builtin_memcpy(&c.two, p + N - 2, sizeof(Two));
     return c;
   }
   MUSTER_INLINE void store(double* p) const {
-    for (int i = 0; i < fours; ++i) __builtin_memcpy(p + 4 * i, &four[i], sizeof(Four));
-    if (has_two) __builtin_memcpy(p + 4 * fours, &two, sizeof(Two));
+    for (int i = 0; i < eights; ++i) __builtin_memcpy(p + 8 * i, &eight[i], sizeof(Eight));
+    for (int i = 0; i < fours; ++i) __builtin_memcpy(p + 8 * eights + 4 * i, &four[i], sizeof(Four));
+    if (has_two) __builtin_memcpy(p + N - 2, &two, sizeof(Two));
   }
   MUSTER_INLINE void scale(double k) {
+    for (int i = 0; i < eights; ++i) eight[i] *= k;
     for (int i = 0; i < fours; ++i) four[i] *= k;
     if (has_two) two *= k;
   }
   MUSTER_INLINE void add(const Column& b, double k) {
+    for (int i = 0; i < eights; ++i) eight[i] += b.eight[i] * k;
     for (int i = 0; i < fours; ++i) four[i] += b.four[i] * k;
     if (has_two) two += b.two * k;
   }
   MUSTER_INLINE void subtract(const Column& b, double k) {
+    for (int i = 0; i < eights; ++i) eight[i] -= b.eight[i] * k;
     for (int i = 0; i < fours; ++i) four[i] -= b.four[i] * k;
     if (has_two) two -= b.two * k;
   }
-  Four four[fours];
+  MUSTER_INLINE void multiply(const Column& b) {
+    for (int i = 0; i < eights; ++i) eight[i] *= b.eight[i];
+    for (int i = 0; i < fours; ++i) four[i] *= b.four[i];
+    if (has_two) two *= b.two;
+  }
+  MUSTER_INLINE void add_product(const Column& b, const Column& c) {
+    for (int i = 0; i < eights; ++i) eight[i] += b.eight[i] * c.eight[i];
+    for (int i = 0; i < fours; ++i) four[i] += b.four[i] * c.four[i];
+    if (has_two) two += b.two * c.two;
+  }
+  // By twos in their order, whatever the pieces.
+  MUSTER_INLINE double sum() const {
+    Two sum = {};
+    for (int i = 0; i < eights; ++i) {
+      const Eight& e = eight[i];
+      sum += __builtin_shufflevector(e, e, 0, 1);
+      sum += __builtin_shufflevector(e, e, 2, 3);
+      sum += __builtin_shufflevector(e, e, 4, 5);
+      sum += __builtin_shufflevector(e, e, 6, 7);
+    }
+    for (int i = 0; i < fours; ++i) {
+      const Four& f = four[i];
+      sum += __builtin_shufflevector(f, f, 0, 1);
+      sum += __builtin_shufflevector(f, f, 2, 3);
+    }
+    if (has_two) sum += two;
+    return sum[0] + sum[1];
+  }
+
+  Eight eight[eights > 0 ? eights : 1];
+  Four four[fours > 0 ? fours : 1];
   Two two;
 };
 
@@ -64,24 +108,30 @@ struct Arithmetic {
     for (int j = 0; j < N; ++j) C::of(from + N * j).store(to + N * j);
   }
 
-  static void add_rows(double* block, int rows, const double* a, const double* b) {
-    const C a0 = C::of(a);
-    if (rows == 1) {
-      for (int j = 0; j < N; ++j) {
-        C sum = C::of(block + N * j);
-        sum.add(a0, b[j]);
-        sum.store(block + N * j);
-      }
-      return;
+  static void add_contacts(double* block, int count, const double* const* a, const double* const* b, const double* k) {
+    double weighed[3 * N * BlockArithmetic<N>::most_contacts];
+    for (int i = 0; i < count; ++i) {
+      const double* of_k = k + 4 * i;
+      C normal = C::of(b[i]), x = C::of(b[i] + N), y = x;
+      const C slip_y = C::of(b[i] + 2 * N);
+      normal.scale(of_k[0]);
+      x.scale(of_k[1]);
+      x.add(slip_y, of_k[2]);
+      y.scale(of_k[2]);
+      y.add(slip_y, of_k[3]);
+      normal.store(weighed + 3 * N * i);
+      x.store(weighed + 3 * N * i + N);
+      y.store(weighed + 3 * N * i + 2 * N);
     }
-    const C a1 = C::of(a + N), a2 = C::of(a + N * (rows - 1));
-    const double* last = b + N * (rows - 1);
-    for (int j = 0; j < N; ++j) {
-      C sum = C::of(block + N * j);
-      sum.add(a0, b[j]);
-      sum.add(a1, b[N + j]);
-      if (rows == 3) sum.add(a2, last[j]);
-      sum.store(block + N * j);
+    constexpr int some = C::eights > 0 ? 8 : N % 4 == 0 ? 4 : 2;  // columns that registers hold
+    for (int first = 0; first < N; first += some) {
+      C sums[some];
+      for (int j = 0; j < some; ++j) sums[j] = C::of(block + N * (first + j));
+      for (int row = 0; row < 3 * count; ++row) {
+        const C of_a = C::of(a[row / 3] + N * (row % 3));
+        for (int j = 0; j < some; ++j) sums[j].add(of_a, weighed[N * row + first + j]);
+      }
+      for (int j = 0; j < some; ++j) sums[j].store(block + N * (first + j));
     }
   }
 
@@ -94,24 +144,58 @@ struct Arithmetic {
     rest.store(to);
   }
 
-  // Column by column; the row operations that make L of the block make L^-1 of the unit matrix, kept by its rows.
+  static void look_ahead(const ContactTable& table, const double* velocities, ContactLanes* contacts) {
+    for (int i = 0; i < table.count; ++i) {
+      const int body = table.bodies[2 * i], other = table.bodies[2 * i + 1];
+      const double* rows = table.rows + table.stride * i;
+      const C own = C::of(velocities + N * body), others = C::of(velocities + N * (other < 0 ? body : other));
+      double speeds[3];
+      for (int row = 0; row < 3; ++row) {
+        C product = C::of(rows + N * row);
+        product.multiply(own);
+        if (other >= 0) product.add_product(C::of(rows + table.other + N * row), others);
+        speeds[row] = product.sum();
+      }
+      ContactLanes& lanes = contacts[i / ContactLanes::width];
+      const int k = i % ContactLanes::width;
+      lanes.speed_ahead[k] = speeds[0];
+      lanes.slip_ahead[0][k] = speeds[1];
+      lanes.slip_ahead[1][k] = speeds[2];
+    }
+  }
+  static void take_impulses(const ContactTable& table, const ContactLanes* contacts, double* momenta) {
+    for (int i = 0; i < table.count; ++i) {
+      const ContactLanes& lanes = contacts[i / ContactLanes::width];
+      const int k = i % ContactLanes::width;
+      if (!(lanes.push[k] > 0 || lanes.bound[k] > 0)) continue;
+      const double impulses[] = {lanes.push[k], lanes.grip[0][k], lanes.grip[1][k]};
+      const int body = table.bodies[2 * i], other = table.bodies[2 * i + 1];
+      const double* rows = table.rows + table.stride * i;
+      subtract_rows(momenta + N * body, rows, impulses);
+      if (other >= 0) subtract_rows(momenta + N * other, rows + table.other, impulses);
+    }
+  }
+
+  // Column by column; the row operations that make D L^T of the block, L of ones on its diagonal, make L^-1 of the unit
+  // matrix, kept by its rows, whose lengths the square roots of D give at last: so no step waits for a square root.
   static void invert_factor(double* block, double* inverse) {
     for (int k = 0; k < N * N; ++k) inverse[k] = k % (N + 1) == 0;
     for (int k = 0; k < N; ++k) {
-      C column = C::of(block + N * k), row = C::of(inverse + N * k);
-      const double scale = 1 / __builtin_sqrt(block[(N + 1) * k]);
-      column.scale(scale);
-      row.scale(scale);
-      column.store(block + N * k);
-      row.store(inverse + N * k);
+      const C column = C::of(block + N * k);
+      C row = C::of(inverse + N * k), factors = column;
+      const double pivot = block[(N + 1) * k];
+      factors.scale(1 / pivot);
+      double by_row[N];
+      factors.store(by_row);
       for (int j = k + 1; j < N; ++j) {
-        const double factor = block[N * k + j];
         C rest = C::of(block + N * j), to = C::of(inverse + N * j);
-        rest.subtract(column, factor);
-        to.subtract(row, factor);
+        rest.subtract(column, by_row[j]);
+        to.subtract(row, by_row[j]);
         rest.store(block + N * j);
         to.store(inverse + N * j);
       }
+      row.scale(1 / __builtin_sqrt(pivot));
+      row.store(inverse + N * k);
     }
   }
 
@@ -154,14 +238,14 @@ struct Arithmetic {
   }
 
   static constexpr BlockArithmetic<N> all = {
-      copy,     add_rows,         add_speeds,          subtract_rows, invert_factor,   multiply,
-      subtract, subtract_product, subtract_transposed, apply,         apply_transposed};
+      copy,     add_contacts, add_speeds,       subtract_rows,       look_ahead, take_impulses,   invert_factor,
+      multiply, subtract,     subtract_product, subtract_transposed, apply,      apply_transposed};
 };
 
 }  // namespace
 
 extern const BlockKernel MUSTER_KERNEL;
 const BlockKernel MUSTER_KERNEL = {MUSTER_TEXT(MUSTER_KERNEL), Arithmetic<6>::all, Arithmetic<8>::all,
-                                   Arithmetic<12>::all};
+                                   Arithmetic<12>::all, Lanes::all};
 
 }  // namespace muster::simbody

@@ -42,5 +42,6 @@ template <>
 const BlockArithmetic<12>& block_arithmetic() {
   return best().twelve;
 }
+const LaneArithmetic& lane_arithmetic() { return best().lanes; }
 
 }  // namespace muster::simbody

@@ -1,4 +1,5 @@
 // The first try for robots near others: each contact goes on as it did in the step before, and motors hold their rates.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -11,6 +12,7 @@ using Eigen::Vector2d;
 namespace {
 
 constexpr int most_steps = 20, most_factors = 10;
+constexpr int most_that_slide = 40;      // contacts: where more do, they hardly ever keep to it
 constexpr double lost = 1;               // [m/s] off, after a step: it will not be found this way
 constexpr double slow = 0.5;             // what a step leaves of the residual at most, or habits are worked out anew
 constexpr double at_rest = 1e-6;         // [m/s] slip that has no direction of its own
@@ -31,13 +33,14 @@ bool ContactSolverOf<N>::go_on() {
   bool anew = true;
   for (int step = 0, factors = 0; step < most_steps; ++step) {
     anew |= see_habits();
+    if (step == 0 && number_that_slide() > most_that_slide) return false;
     if (anew) {
       if (++factors > most_factors) return false;
       factor_habits();
       mixing_.begin();
     }
     step_by_habits();
-    gradient(true);
+    obey_law();
     const double rest = residual();
     if (rest <= p_->search.tolerance) return true;
     if (!(rest < lost)) return false;
@@ -92,6 +95,12 @@ bool ContactSolverOf<N>::see_habits() {
 }
 
 template <int N>
+int ContactSolverOf<N>::number_that_slide() const {
+  return static_cast<int>(
+      std::count_if(local_.begin(), local_.end(), [](const Local& at) { return at.habit == Habit::slides; }));
+}
+
+template <int N>
 bool ContactSolverOf<N>::see_motor_habits() {
   bool changed = false;
   for (std::size_t b = 0; b < u_.size(); ++b) {
@@ -110,14 +119,13 @@ bool ContactSolverOf<N>::see_motor_habits() {
 
 template <int N>
 void ContactSolverOf<N>::factor_habits() {
+  begin_hessian();
   for (std::size_t b = 0; b < u_.size(); ++b) {
     MassMatrixOf<N>& block = hessian_.diagonal(static_cast<int>(b));
-    blocks_.copy(block.data(), p_->bodies[b].mass.data());
     for (int m = 0; m < joints; ++m) {
       if (motor_habits_[b][m] == MotorHabit::holds) block(6 + m, 6 + m) += 1 / p_->bodies[b].motors[m].softness;
     }
   }
-  hessian_.clear_pairs();
   for (std::size_t i = 0; i < local_.size(); ++i) {
     const Contact& c = p_->contacts[i];
     Local& at = local_[i];

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "block_cholesky.hpp"
@@ -20,19 +21,19 @@ namespace muster::simbody {
 // Rows that turn a body's velocity into what it adds to a contact's: normal speed, and slip along two tangents. They
 // stand one after the other.
 template <int N>
-struct ContactRowsOf {
+struct alignas(cache_line) ContactRowsOf {
   using Velocity = VelocityOf<N>;
 
   Velocity normal = Velocity::Zero();
   std::array<Velocity, 2> tangent{Velocity::Zero(), Velocity::Zero()};
 };
-static_assert(sizeof(ContactRowsOf<unknowns>) == 3 * sizeof(VelocityOf<unknowns>));
-static_assert(sizeof(ContactRowsOf<unknowns_with_legs>) == 3 * sizeof(VelocityOf<unknowns_with_legs>));
+static_assert(offsetof(ContactRowsOf<unknowns>, tangent) == sizeof(VelocityOf<unknowns>));
+static_assert(offsetof(ContactRowsOf<unknowns_with_legs>, tangent) == sizeof(VelocityOf<unknowns_with_legs>));
 
 template <int N>
 struct ContactOf : ContactRowsOf<N> {
-  int body = 0, other = -1;   // among the problem's bodies; -1: what it touches stands still
   ContactRowsOf<N> of_other;  // its sign included
+  int body = 0, other = -1;   // among the problem's bodies; -1: what it touches stands still
   double friction = 0;
   double softness = 0;          // [m/s per N s]
   double grip_softness = 1e-6;  // of friction: what sticks creeps by this [m/s per N s]
@@ -54,7 +55,7 @@ struct Motor {
 };
 
 template <int N>
-struct BodyOf {
+struct alignas(cache_line) BodyOf {
   static constexpr int joints = N - 6;
 
   MassMatrixOf<N> mass, inverse_mass;
@@ -103,22 +104,20 @@ class ContactSolverOf {
 
  private:
   using Velocity = VelocityOf<N>;
-  using Velocities = std::vector<Velocity>;
+  using Velocities = Blocks<Velocity>;
   static constexpr int joints = N - 6;
 
   // What a contact does in a first try.
   enum class Habit { open = 1, smooth, sticks, slides };
   enum class MotorHabit { holds = 1, pulls, brakes };  // at its limit, forwards or backwards
 
-  // A contact at some velocity, its friction bound by `bound`.
+  // A contact at some velocity, its friction bound by `bound`; Newton's method has its own, in lanes.
   struct Local {
     double speed;                                    // normal
     Eigen::Vector2d slip;                            // tangential
     double bound = 0;                                // [N s]
-    Eigen::Vector2d dual = Eigen::Vector2d::Zero();  // estimate of the grip, kept for a better Hessian
-    double speed_ahead = 0;                          // what the direction of a search adds to speed and slip
-    Eigen::Vector2d slip_ahead = Eigen::Vector2d::Zero();
-    bool closes = false;  // in a guess
+    Eigen::Vector2d dual = Eigen::Vector2d::Zero();  // estimate of the grip
+    bool closes = false;                             // in a guess
     Habit habit = Habit::open;
     Eigen::Vector2d way = Eigen::Vector2d::Zero();  // of the grip of what slides, unit
     double stiffness = 0;                           // with which it keeps to its way [N s per m/s]
@@ -129,13 +128,16 @@ class ContactSolverOf {
   void begin();
   void obey_impulses();
   void locate(const Velocities& u);
-  void gradient(bool refresh);
+  void obey_law();
+  void begin_gradient();
+  void end_gradient();
   double residual() const;
   bool stick_all();
   void stick();
   bool go_on();
   void begin_as_before();
   bool see_habits();
+  int number_that_slide() const;
   bool see_motor_habits();
   void factor_habits();
   void step_by_habits();
@@ -145,26 +147,37 @@ class ContactSolverOf {
   Eigen::Vector2d pull(std::size_t contact) const;
   double weight(std::size_t contact) const;
   void slip(Outcome& outcome);
+  void fill_lanes();
+  int lane_count() const { return static_cast<int>(lanes_.size()); }
+  ContactTable table() const;
+  void set_dual(std::size_t contact, const Eigen::Vector2d& dual);
   void refresh_bounds(int pass);
   bool minimise(int limit);
+  void respond();
   void set_hessian();
   void look_ahead();
   void move_duals();
   double slope(double a) const;
   double line_search() const;
   double motor_stiffness(std::size_t body, int m) const;
+  void begin_hessian();
   void add(const Contact& c, double normal, const GripStiffness& grip);
+  void add_run(const Contact& c, int count, const double* const* own, const double* const* others,
+               const double* stiffness);
   std::array<double, 3> speeds_of(const Contact& c, const Velocities& u) const;
   void take_impulse(const Contact& c, Velocities& momenta) const;
 
   Problem* p_ = nullptr;
   std::vector<Local> local_;
+  std::vector<ContactLanes> lanes_;
+  std::vector<int> bodies_;                              // two of each contact
   std::vector<std::array<double, joints>> motor_duals_;  // estimates of the motors' impulses [N m s]
   std::vector<std::pair<int, int>> pairs_;
   std::vector<std::array<MotorHabit, joints>> motor_habits_;
   BlockCholeskyOf<N> hessian_;
   MixingOf<N> mixing_;
   const BlockArithmetic<N>& blocks_ = block_arithmetic<N>();
+  const LaneArithmetic& in_lanes_ = lane_arithmetic();
   double slope_of_motion_ = 0, curve_of_motion_ = 0;
   Velocities u_, gradient_, d_;  // d_: the direction of a search
 };

@@ -31,16 +31,4 @@ inline GripStiffness across(const Eigen::Vector2d& way, double stiffness) {
   return {stiffness * way[1] * way[1], -stiffness * way[0] * way[1], stiffness * way[0] * way[0]};
 }
 
-// The primal-dual Hessian.
-inline GripStiffness grip_stiffness(const Eigen::Vector2d& slip, double bound, const Eigen::Vector2d& dual,
-                                    double softness) {
-  if (bound <= 0) return {};
-  const double size = slip.norm();
-  if (sticks(size, bound, softness)) return sticking(softness);
-  const double stiffness = bound / size, turn = 1 / (size * size);
-  // Half of the product of dual and slip, and half of its mirror image, so that the Hessian stays symmetric.
-  return {stiffness + turn * dual[0] * slip[0], 0.5 * turn * (dual[0] * slip[1] + dual[1] * slip[0]),
-          stiffness + turn * dual[1] * slip[1]};
-}
-
 }  // namespace muster::simbody

@@ -13,7 +13,7 @@ namespace muster::simbody {
 template <int N>
 class MixingOf {
  public:
-  using Velocities = std::vector<VelocityOf<N>>;
+  using Velocities = Blocks<VelocityOf<N>>;
 
   void begin() { count_ = 0; }
   int count() const { return count_; }  // of steps since

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "prism.hpp"
+
 namespace muster::simbody {
 
 using Eigen::Vector3d;
@@ -13,115 +15,9 @@ constexpr double face_lead = 1e-5, edge_lead = 1e-4;  // [m] by which a later ax
 constexpr double parallel = 1e-3;                     // sine of an angle between edges that name no axis
 constexpr double like_a_face = 0.999;                 // cosine above which an edges' axis is a face's
 constexpr double nearly_a_face = 0.99;                // the same, of a way between corners beside which a face touches
+constexpr double rounding = 1e-12;                    // [m]
 constexpr int passes_to_corner = 100;
 constexpr double still = 1e-7;  // [m] less than this a pass between corners does not move them
-
-constexpr int most_sides = 8;  // pairs of opposite sides of a cylinder's prism
-constexpr int most_corners = 2 * most_sides;
-
-constexpr int room = 2 * most_corners;  // a side that clips a convex polygon adds one corner at most
-
-// A polygon of a face, in order around its normal; a mark with each corner.
-struct Polygon {
-  int count = 0;
-  std::array<Vector3d, room> corner;
-  std::array<int, room> mark;
-
-  void add(const Vector3d& p, int m) {
-    if (count == room) return;
-    corner[count] = p;
-    mark[count++] = m;
-  }
-};
-
-// A box or a cylinder as the sum of segments: its sides' half edges, in order of angle, and its axis at last. All of
-// a prism follows from them: its width along any direction, its faces (each lies along one side and the axis, or across
-// the axis), its edges.
-struct Prism {
-  // The middle of one side of a cylinder's prism lies towards `place`, on the circle itself.
-  Prism(const Solid& solid, const Vector3d& place) : centre(solid.centre) {
-    if (solid.kind == Solid::Kind::box) {
-      sides = 2;
-      for (int i = 0; i < 3; ++i) set(i, solid.axes.col(i), solid.half[i]);
-      return;
-    }
-    constexpr double pi = 3.141592653589793;
-    static const double half_side = std::tan(pi / most_corners);  // of a circle of radius 1
-    static const std::array<std::array<double, 2>, most_sides> circle = [] {
-      std::array<std::array<double, 2>, most_sides> result{};
-      for (int i = 0; i < most_sides; ++i) result[i] = {std::cos(i * pi / most_sides), std::sin(i * pi / most_sides)};
-      return result;
-    }();
-    sides = most_sides;
-    const Vector3d axis = solid.axes.col(2);
-    Vector3d outward = place - centre;
-    outward -= axis.dot(outward) * axis;
-    const double distance = outward.norm();
-    outward = distance > 1e-6 ? Vector3d(outward / distance) : Vector3d(solid.axes.col(0));
-    const Vector3d along = axis.cross(outward);
-    for (int i = 0; i < sides; ++i) set(i, circle[i][0] * along - circle[i][1] * outward, half_side * solid.half[0]);
-    set(sides, axis, solid.half[2]);
-  }
-
-  void set(int i, const Vector3d& direction, double length) {
-    way[i] = direction;
-    half[i] = length;
-  }
-  const Vector3d& edge(int i) const { return way[i]; }
-  Vector3d half_edge(int i) const { return half[i] * edge(i); }
-  int edges() const { return sides + 1; }
-  int faces() const { return sides + 1; }
-  // Of one of a pair of opposite faces: those along a side, at last those across the axis.
-  Vector3d normal(int face) const { return face < sides ? edge(face).cross(edge(sides)) : edge(sides); }
-
-  double half_width(const Vector3d& n) const {
-    double sum = 0;
-    for (int i = 0; i < edges(); ++i) sum += half[i] * std::abs(n.dot(edge(i)));
-    return sum;
-  }
-  // The farthest place along n; where edges lie across n (all of `but`), their middle.
-  Vector3d farthest(const Vector3d& n, int but = -1, int but_too = -1) const {
-    Vector3d p = centre;
-    for (int i = 0; i < edges(); ++i) {
-      if (i != but && i != but_too) p += std::copysign(1.0, n.dot(edge(i))) * half_edge(i);
-    }
-    return p;
-  }
-
-  Polygon face(int f, const Vector3d& n) const {
-    Polygon polygon;
-    if (f < sides) {
-      const Vector3d middle = farthest(n, f, sides), u = half_edge(f), v = half_edge(sides);
-      polygon.add(middle + u + v, 0);
-      polygon.add(middle - u + v, 1);
-      polygon.add(middle - u - v, 2);
-      polygon.add(middle + u - v, 3);
-    } else {
-      Vector3d p = centre + std::copysign(1.0, n.dot(edge(sides))) * half_edge(sides);
-      for (int i = 0; i < sides; ++i) p += half_edge(i);
-      for (int k = 0; k < 2 * sides; ++k) {
-        polygon.add(p, k);
-        p += (k < sides ? -2 : 2) * half_edge(k % sides);
-      }
-    }
-    return polygon;
-  }
-
-  int face_towards(const Vector3d& n) const {
-    int best = 0;
-    double most = -1;
-    for (int f = 0; f < faces(); ++f) {
-      const double along = std::abs(n.dot(normal(f)));
-      if (along > most) most = along, best = f;
-    }
-    return best;
-  }
-
-  int sides;
-  Vector3d centre;
-  std::array<Vector3d, most_sides + 1> way;  // unit: kept apart from lengths, which may be zero
-  std::array<double, most_sides + 1> half;
-};
 
 Vector3d nearest_point(const Solid& solid, const Vector3d& to) {
   Vector3d p = solid.axes.transpose() * (to - solid.centre);
@@ -189,20 +85,38 @@ struct Axis {
   Vector3d normal;         // from the first to the second
 };
 
+// Two convex solids and prisms around them.
+struct Pair {
+  const Solid &solid_a, &solid_b;
+  const Prism &a, &b;
+  double at_most;  // two of their places are so far apart
+};
+
+// How far the corner of one that comes nearest to a face of the other is from that other.
+double nearest_corner(const Pair& of, const Axis& face) {
+  const Vector3d corner = face.of_first ? of.b.farthest(-face.normal) : of.a.farthest(face.normal);
+  return (nearest_point(face.of_first ? of.solid_a : of.solid_b, corner) - corner).norm();
+}
+
 // The axis that separates best; false where one separates by more than the margin.
-bool separate(const Prism& a, const Prism& b, double margin, Axis& best) {
+bool separate(const Pair& of, double margin, Axis& best) {
+  const Prism &a = of.a, &b = of.b;
   const Vector3d d = b.centre - a.centre;
   const auto apart = [&](const Vector3d& n) { return std::abs(d.dot(n)) - a.half_width(n) - b.half_width(n); };
-  for (const Prism* of : {&a, &b}) {
-    for (int f = 0; f < of->faces(); ++f) {
-      const Vector3d n = of->normal(f);
+  for (const Prism* one : {&a, &b}) {
+    for (int f = 0; f < one->faces(); ++f) {
+      const Vector3d n = one->normal(f);
       const double s = apart(n);
       if (s > margin) return false;
-      if (s > best.apart + face_lead) best = {s, of == &a, f, {-1, -1}, n};
+      if (s > best.apart + face_lead) best = {s, one == &a, f, {-1, -1}, n};
     }
   }
+  if (best.normal.dot(d) < 0) best.normal = -best.normal;
   Axis edges = best;
   edges.apart += edge_lead;
+  // No axis separates by more than two places are apart: hardly ever is there a need to look on.
+  const double enough = std::min(edges.apart, margin) - rounding;
+  if (of.at_most <= enough || nearest_corner(of, best) <= enough) return true;
   for (int i = 0; i < a.edges(); ++i) {
     for (int j = 0; j < b.edges(); ++j) {
       Vector3d n = a.edge(i).cross(b.edge(j));
@@ -267,13 +181,13 @@ void clip(Polygon& polygon, const Polygon& face, const Vector3d& n) {
 }
 
 // Of many points those that carry: the outermost along four ways, diagonal to u, and the deepest.
-void keep_few(const std::array<TouchPoint, room>& points, int count, const Vector3d& u, Touch& result) {
+void keep_few(const std::array<TouchPoint, Polygon::room>& points, int count, const Vector3d& u, Touch& result) {
   if (count < Touch::most_points) {
     for (int k = 0; k < count; ++k) result.add(points[k]);
     return;
   }
   const Vector3d v = result.normal.cross(u);
-  std::array<bool, room> kept{};
+  std::array<bool, Polygon::room> kept{};
   const auto keep_most = [&](auto measure) {
     int best = 0;
     for (int k = 1; k < count; ++k) {
@@ -298,7 +212,7 @@ Touch touch_faces(const Prism& a, const Prism& b, const Axis& axis, double margi
   clip(inside, face, n);
   Touch result;
   result.normal = -axis.normal;
-  std::array<TouchPoint, room> points;
+  std::array<TouchPoint, Polygon::room> points;
   int count = 0;
   for (int k = 0; k < inside.count; ++k) {
     const Vector3d& p = inside.corner[k];
@@ -335,8 +249,8 @@ TouchPoint deepest(const Prism& a, const Prism& b, const Axis& axis) {
 
 // Whether the plane through the place of `a` nearest to `on_b`, across the way there, keeps the solids apart: all of
 // `a` lies on its far side. Nearly all that are apart are found so, at a fraction of what all axes cost.
-bool are_apart(const Solid& a, const Solid& b, const Vector3d& on_b, double margin) {
-  const Vector3d on_a = nearest_point(a, on_b), way = on_a - on_b;
+bool are_apart(const Solid& b, const Vector3d& on_a, const Vector3d& on_b, double margin) {
+  const Vector3d way = on_a - on_b;
   const double distance = way.norm();
   if (distance <= margin) return false;
   const Vector3d n = way / distance, along = b.axes.transpose() * n;
@@ -360,11 +274,11 @@ Touch touch(const Solid& a, const Solid& b, double margin) {
     result.normal = -result.normal;
     return result;
   }
-  const Vector3d on_b = nearest_point(b, a.centre);
-  if (are_apart(a, b, on_b, margin)) return {};
+  const Vector3d on_b = nearest_point(b, a.centre), on_a = nearest_point(a, on_b);
+  if (are_apart(b, on_a, on_b, margin)) return {};
   const Prism first(a, on_b), second(b, nearest_point(a, b.centre));
   Axis axis;
-  if (!separate(first, second, margin, axis)) return {};
+  if (!separate({a, b, first, second, (on_a - on_b).norm()}, margin, axis)) return {};
   Touch result = axis.edge[0] >= 0 ? touch_edges(first, second, axis) : touch_faces(first, second, axis, margin);
   if (least_gap(result, margin) <= axis.apart + face_lead) return result;
   // What is nearest lies over no face.
@@ -391,7 +305,7 @@ Touch touch_ground(const Solid& solid, double margin) {
   }
   const Prism prism(solid, solid.centre - Vector3d::UnitZ());
   if (prism.centre.z() - prism.half_width(result.normal) >= margin) return result;
-  std::array<TouchPoint, room> points;
+  std::array<TouchPoint, Polygon::room> points;
   int count = 0;
   for (const double end : {1.0, -1.0}) {
     const Polygon face = prism.face(prism.sides, end * prism.edge(prism.sides));

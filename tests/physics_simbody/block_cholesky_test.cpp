@@ -8,6 +8,15 @@
 namespace muster::simbody {
 namespace {
 
+// 3 a b^T, as a contact that answers along its normal alone.
+void add(BlockCholesky& sparse, int i, int j, const Velocity& a, const Velocity& b) {
+  Eigen::Matrix<double, unknowns, 3> rows_a = Eigen::Matrix<double, unknowns, 3>::Zero(), rows_b = rows_a;
+  rows_a.col(0) = a;
+  rows_b.col(0) = b;
+  const double *of_a = rows_a.data(), *of_b = rows_b.data(), k[] = {3, 0, 0, 0};
+  sparse.add_contacts(i, j, 1, &of_a, &of_b, k);
+}
+
 TEST(BlockCholesky, SolvesWhatTheDenseMatrixSolves) {
   std::mt19937 random(2);
   const auto draw = [&] { return static_cast<double>(random()) / 2147483648.0 - 1; };
@@ -37,10 +46,9 @@ TEST(BlockCholesky, SolvesWhatTheDenseMatrixSolves) {
         dense += 3 * row * row.transpose();
         sparse.diagonal(i) += 3 * a * a.transpose();
         sparse.diagonal(j) += 3 * b * b.transpose();
-        const Velocity three_b = 3 * b;
-        sparse.add(i, j, 1, &a, &three_b);
+        add(sparse, i, j, a, b);
       }
-      std::vector<Velocity> x(count);
+      Blocks<Velocity> x(count);
       Eigen::VectorXd right(count * unknowns);
       for (int i = 0; i < count; ++i) {
         x[i] = Velocity::NullaryExpr([&](Eigen::Index) { return draw(); });

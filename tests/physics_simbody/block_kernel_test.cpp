@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <array>
 #include <cstring>
 #include <random>
+#include <vector>
 
 namespace muster::simbody {
 namespace {
@@ -23,14 +25,10 @@ class Check {
   void products() {
     for (int trial = 0; trial < 20; ++trial) {
       const Block a = draw<Block>(), b = draw<Block>();
-      const Rows p = draw<Rows>(), q = draw<Rows>();
+      const Rows p = draw<Rows>();
       const Column x = draw<Column>(), y = draw<Column>();
       const Eigen::Vector3d k = draw<Eigen::Vector3d>();
       expect(b, a, [&](const auto& by, double* to) { by.copy(to, b.data()); });
-      for (int rows = 1; rows <= 3; ++rows) {
-        const Block sum = a + p.leftCols(rows) * q.leftCols(rows).transpose();
-        expect(sum, a, [&](const auto& by, double* to) { by.add_rows(to, rows, p.data(), q.data()); });
-      }
       const Eigen::Vector3d speeds = k + p.transpose() * x;
       expect(speeds, k, [&](const auto& by, double* to) { by.add_speeds(to, p.data(), x.data()); });
       const Column left = x - p * k, less = x - a * y, less_transposed = x - a.transpose() * y;
@@ -44,6 +42,67 @@ class Check {
       expect(times, a, [&](const auto& by, double* to) { by.multiply(to, upper.data()); });
       expect(rest, a, [&](const auto& by, double* to) { by.subtract(to, b.data(), b.data()); });
     }
+  }
+
+  void contacts() {
+    for (int count = 1; count <= BlockArithmetic<N>::most_contacts; ++count) {
+      const Block start = draw<Block>();
+      std::array<Rows, BlockArithmetic<N>::most_contacts> p, q;
+      std::array<const double*, BlockArithmetic<N>::most_contacts> a, b;
+      std::vector<double> k;
+      Block sum = start;
+      for (int i = 0; i < count; ++i) {
+        p[i] = draw<Rows>(), q[i] = draw<Rows>();
+        a[i] = p[i].data(), b[i] = q[i].data();
+        const Eigen::Vector4d of_contact = draw<Eigen::Vector4d>();
+        k.insert(k.end(), of_contact.data(), of_contact.data() + 4);
+        Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero();
+        stiffness(0, 0) = of_contact[0];
+        stiffness.bottomRightCorner<2, 2>() << of_contact[1], of_contact[2], of_contact[2], of_contact[3];
+        sum += p[i] * stiffness * q[i].transpose();
+      }
+      expect(sum, start, [&](const auto& by, double* to) { by.add_contacts(to, count, a.data(), b.data(), k.data()); });
+    }
+  }
+
+  // Ten contacts among three bodies, the first of them with what stands still.
+  void tables() {
+    constexpr int count = 10, bodies = 3;
+    struct Contact {
+      Rows own, others;
+    };
+    std::vector<Contact> contacts(count);
+    std::vector<int> of;
+    std::array<ContactLanes, 2> lanes{};
+    using Table = Eigen::Matrix<double, N, bodies>;
+    const Table velocities = draw<Table>(), momenta = draw<Table>();
+    Table left = momenta;
+    Eigen::Matrix<double, 3, count> speeds;
+    for (int i = 0; i < count; ++i) {
+      contacts[i] = {draw<Rows>(), draw<Rows>()};
+      const int body = i % bodies, other = i == 0 ? -1 : (i + 1) % bodies;
+      of.insert(of.end(), {body, other});
+      Eigen::Vector3d impulse = draw<Eigen::Vector3d>().cwiseAbs();
+      if (i == 7) impulse.setZero();  // it neither pushes nor has any friction
+      ContactLanes& c = lanes[i / 8];
+      c.push[i % 8] = impulse[0], c.grip[0][i % 8] = impulse[1], c.grip[1][i % 8] = impulse[2];
+      speeds.col(i) = contacts[i].own.transpose() * velocities.col(body);
+      left.col(body) -= contacts[i].own * impulse;
+      if (other < 0) continue;
+      speeds.col(i) += contacts[i].others.transpose() * velocities.col(other);
+      left.col(other) -= contacts[i].others * impulse;
+    }
+    const double *rows = contacts[0].own.data(), *others = contacts[0].others.data();
+    const ContactTable table{count, rows, sizeof(Contact) / sizeof(double), others - rows, of.data()};
+    expect(left, momenta, [&](const auto& by, double* to) { by.take_impulses(table, lanes.data(), to); });
+    expect(speeds, speeds, [&](const auto& by, double* to) {
+      by.look_ahead(table, velocities.data(), lanes.data());
+      for (int i = 0; i < count; ++i) {
+        const ContactLanes& c = lanes[i / 8];
+        to[3 * i] = c.speed_ahead[i % 8];
+        to[3 * i + 1] = c.slip_ahead[0][i % 8], to[3 * i + 2] = c.slip_ahead[1][i % 8];
+      }
+    });
   }
 
   void factors() {
@@ -88,6 +147,18 @@ TEST(BlockKernel, ProductsAreEigensInTheSameBits) {
   Check<6>().products();
   Check<8>().products();
   Check<12>().products();
+}
+
+TEST(BlockKernel, ContactsOfAPairAddUp) {
+  Check<6>().contacts();
+  Check<8>().contacts();
+  Check<12>().contacts();
+}
+
+TEST(BlockKernel, TablesOfContactsAreReadWhereTheyLie) {
+  Check<6>().tables();
+  Check<8>().tables();
+  Check<12>().tables();
 }
 
 TEST(BlockKernel, FactorsAreInvertedInTheSameBits) {

@@ -152,7 +152,7 @@ TEST(ContactSolver, GoesOnAsBefore) {
 // A linear iteration whose matrix has three values is over after as many steps and one.
 TEST(Mixing, EndsALinearIteration) {
   const Velocity rates{{0.5, -0.9, 0.2, 0.5, -0.9, 0.2, 0.5, 0.2}};  // what a step leaves of each unknown
-  std::vector<Velocity> u{Velocity::Ones(), 2 * Velocity::Ones()}, d(2);
+  Blocks<Velocity> u{Velocity::Ones(), 2 * Velocity::Ones()}, d(2);
   MixingOf<unknowns> mixing;
   for (int step = 0; step < 4; ++step) {
     for (std::size_t b = 0; b < 2; ++b) d[b] = (rates.array() - 1) * u[b].array();

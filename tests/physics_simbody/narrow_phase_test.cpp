@@ -137,6 +137,28 @@ TEST(NarrowPhase, CornerPassingCornerSeesTheirDistance) {
   EXPECT_LT((t.normal - Vector3d(0.6, 0.8, 0)).norm(), 1e-6);
 }
 
+// A box that lies over a corner of another, tilted so little that its lowest corner, beside the other, is lower by less
+// than an axis across edges has to be better: it rests on all of the overlap still, not on the place nearest to it.
+TEST(NarrowPhase, FacesKeepTheirPointsBesideANearerCorner) {
+  constexpr double tilt = 5e-4;
+  const Vector3d about = Vector3d(1, 1, 0).normalized();
+  Solid a = box({0.15, 0.15, 0.2}, {0.1, 0.1, 0.1});
+  a.axes = Eigen::AngleAxisd(tilt, about).toRotationMatrix();
+  a.centre.z() += 0.001 + 0.1 * std::sqrt(2.0) * std::sin(tilt);  // its lowest corner is 1 mm above the other
+  const Touch t = touch(a, box({0, 0, 0}, {0.1, 0.1, 0.1}), 0.01);
+  ASSERT_GE(t.count, 4);
+  EXPECT_NEAR(least_gap(t), 0.001, 1e-4);
+  Eigen::AlignedBox3d spread;
+  for (int k = 0; k < t.count; ++k) {
+    EXPECT_FALSE(t.points[k].of_corners);
+    spread.extend(t.points[k].place);
+  }
+  for (int way : {0, 1}) {
+    EXPECT_NEAR(spread.min()[way], 0.05, 2e-4);
+    EXPECT_NEAR(spread.max()[way], 0.1, 2e-4);
+  }
+}
+
 TEST(NarrowPhase, SphereIsExact) {
   const Solid ball = sphere({0.3, 0.4, 0}, 0.45);
   Touch t = touch(ball, sphere({0, 0, 0}, 0.1), 0.01);  // centres 0.5 apart
