@@ -71,7 +71,8 @@ TEST_F(Rows, WhoWritesListedRowsComesWithTheLister) {
 
 TEST_F(Rows, ARobotJoinsAndLeaves) {
   Simulation sim = run(two_robots + mover +
-                       "<toy.join name='j'/>\n<toy.copy_radio name='w' to='robot/*/own' own='true' add='1'/>\n");
+                       "<toy.join name='j'/>\n<toy.copy_radio name='w' to='robot/*/own' own='true' add='1'/>\n"
+                       "<record table='robot/*/own'/>\n");
   step(sim, 2);
   EXPECT_THAT(column(sim, "robot/*/pose", 0),
               ElementsAre(3, 4, 0));  // initial values: it is seen from the next tick on
