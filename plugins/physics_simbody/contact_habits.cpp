@@ -61,7 +61,7 @@ void ContactSolverOf<N>::begin_as_before() {
   for (std::size_t i = 0; i < local_.size(); ++i) {
     const Contact& c = p_->contacts[i];
     Local& at = local_[i];
-    const double push = at.start_push > 0 ? at.start_push : std::max(0.0, (c.target - at.speed) / c.softness);
+    const double push = at.start_push > 0 ? at.start_push : std::max(0.0, (c.target - at.speed()) / c.softness);
     at.closes = push > 0;
     at.bound = c.friction * push;
     at.dual = at.start_grip;
@@ -72,7 +72,7 @@ void ContactSolverOf<N>::begin_as_before() {
 // tells who is about to stick or to slide, and where to.
 template <int N>
 Vector2d ContactSolverOf<N>::pull(std::size_t contact) const {
-  return local_[contact].dual - weight(contact) * local_[contact].slip;
+  return local_[contact].dual - weight(contact) * local_[contact].slip();
 }
 template <int N>
 double ContactSolverOf<N>::weight(std::size_t contact) const {
@@ -161,7 +161,7 @@ void ContactSolverOf<N>::step_by_habits() {
     Contact& c = p_->contacts[i];
     const Local& at = local_[i];
     if (at.habit == Habit::open) continue;
-    c.push = (c.target - at.speed) / c.softness;
+    c.push = (c.target - at.speed()) / c.softness;
     c.grip = grip_by_habit(i);
     take_impulse(c, d_);
   }
@@ -178,16 +178,16 @@ template <int N>
 Vector2d ContactSolverOf<N>::grip_by_habit(std::size_t contact) const {
   const Contact& c = p_->contacts[contact];
   const Local& at = local_[contact];
-  if (at.habit == Habit::sticks) return -at.slip / c.grip_softness;
+  if (at.habit == Habit::sticks) return -at.slip() / c.grip_softness;
   if (at.habit != Habit::slides) return Vector2d::Zero();
-  return at.slip.norm() < at_rest ? sliding_grip(at) : grip_of(at.slip, at.bound, c.grip_softness);
+  return at.slip().norm() < at_rest ? sliding_grip(at) : grip_of(at.slip(), at.bound, c.grip_softness);
 }
 
 // Of what keeps to its way.
 template <int N>
 Vector2d ContactSolverOf<N>::sliding_grip(const Local& at) {
   const Vector2d side = beside(at.way);
-  return at.bound * at.way - at.stiffness * side.dot(at.slip) * side;
+  return at.bound * at.way - at.stiffness * side.dot(at.slip()) * side;
 }
 
 // After a step: the grips that habits came to, whether bounds allow them or not.
@@ -198,8 +198,8 @@ void ContactSolverOf<N>::note_grips() {
     Local& at = local_[i];
     at.closes = c.push > 0;
     if (at.habit == Habit::sticks) {
-      at.dual = -at.slip / c.grip_softness;
-    } else if (at.habit == Habit::slides && at.slip.dot(at.way) > 0) {  // the other way than it should
+      at.dual = -at.slip() / c.grip_softness;
+    } else if (at.habit == Habit::slides && at.slip().dot(at.way) > 0) {  // the other way than it should
       at.dual = within(sliding_grip(at), at.bound);
     } else {
       at.dual = c.grip;

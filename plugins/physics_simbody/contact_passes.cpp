@@ -46,14 +46,15 @@ void ContactSolverOf<N>::fill_lanes() {
     const Contact& c = p_->contacts[i];
     ContactLanes& lanes = lanes_[i / ContactLanes::width];
     const std::size_t k = i % ContactLanes::width;
-    const auto [speed, x, y] = speeds_of(c, u_);
+    std::array<double, 3> speeds;
+    speeds_of(c, u_, speeds);
     bodies_.insert(bodies_.end(), {c.body, c.other});
     lanes.target[k] = c.target;
     lanes.hardness[k] = 1 / c.softness;
     lanes.grip_softness[k] = c.grip_softness;
     lanes.bound[k] = c.friction * local_[i].start_push;
-    lanes.speed[k] = speed;
-    lanes.slip[0][k] = x, lanes.slip[1][k] = y;
+    lanes.speed[k] = speeds[0];
+    lanes.slip[0][k] = speeds[1], lanes.slip[1][k] = speeds[2];
     set_dual(i, local_[i].start_grip);
   }
 }

@@ -50,13 +50,13 @@ void ContactSolverOf<N>::begin() {
   hessian_.arrange(static_cast<int>(count), pairs_);
 }
 
-// Normal speed and slip of a contact.
+// Normal speed and slip of a contact, written where they are kept: read as a pair, what was just written one by one
+// would be waited for.
 template <int N>
-std::array<double, 3> ContactSolverOf<N>::speeds_of(const Contact& c, const Velocities& u) const {
-  std::array<double, 3> speeds{};
+void ContactSolverOf<N>::speeds_of(const Contact& c, const Velocities& u, std::array<double, 3>& speeds) const {
+  speeds = {};
   blocks_.add_speeds(speeds.data(), c.normal.data(), u[c.body].data());
   if (c.other >= 0) blocks_.add_speeds(speeds.data(), c.of_other.normal.data(), u[c.other].data());
-  return speeds;
 }
 
 // Takes what the contact's impulses give from the momenta.
@@ -69,11 +69,7 @@ void ContactSolverOf<N>::take_impulse(const Contact& c, Velocities& momenta) con
 
 template <int N>
 void ContactSolverOf<N>::locate(const Velocities& u) {
-  for (std::size_t i = 0; i < local_.size(); ++i) {
-    const auto [speed, x, y] = speeds_of(p_->contacts[i], u);
-    local_[i].speed = speed;
-    local_[i].slip = {x, y};
-  }
+  for (std::size_t i = 0; i < local_.size(); ++i) speeds_of(p_->contacts[i], u, local_[i].speeds);
 }
 
 // Impulses at u_ by Coulomb's law itself, whose residual the gradient is then: friction's bounds follow the normal
@@ -84,9 +80,9 @@ void ContactSolverOf<N>::obey_law() {
   begin_gradient();
   for (std::size_t i = 0; i < local_.size(); ++i) {
     Contact& c = p_->contacts[i];
-    c.push = std::max(0.0, (c.target - local_[i].speed) / c.softness);
+    c.push = std::max(0.0, (c.target - local_[i].speed()) / c.softness);
     local_[i].bound = c.friction * c.push;
-    c.grip = grip_of(local_[i].slip, local_[i].bound, c.grip_softness);
+    c.grip = grip_of(local_[i].slip(), local_[i].bound, c.grip_softness);
     take_impulse(c, gradient_);
   }
   end_gradient();
@@ -157,7 +153,7 @@ bool ContactSolverOf<N>::stick_all() {
     locate(u_);
     for (std::size_t i = 0; guess == 0 && i < local_.size(); ++i) {
       const double target = p_->contacts[i].target;
-      local_[i].closes = target >= 0 && target > local_[i].speed;
+      local_[i].closes = target >= 0 && target > local_[i].speed();
     }
     stick();
     obey_law();
@@ -181,14 +177,14 @@ void ContactSolverOf<N>::stick() {
   for (std::size_t i = 0; i < local_.size(); ++i) {
     const Contact& c = p_->contacts[i];
     if (!local_[i].closes) continue;
-    const double push = (c.target - local_[i].speed) / c.softness;
+    const double push = (c.target - local_[i].speed()) / c.softness;
     const bool grips = c.other < 0 && c.friction > 0;
     add(c, 1 / c.softness, grips ? sticking(c.grip_softness) : GripStiffness{});
     d_[c.body] += push * c.normal;
     if (c.other >= 0) {
       d_[c.other] += push * c.of_other.normal;
     } else if (grips) {
-      for (int k = 0; k < 2; ++k) d_[c.body] -= (local_[i].slip[k] / c.grip_softness) * c.tangent[k];
+      for (int k = 0; k < 2; ++k) d_[c.body] -= (local_[i].speeds[1 + k] / c.grip_softness) * c.tangent[k];
     }
   }
   for (std::size_t b = 0; b < u_.size(); ++b) {

@@ -113,8 +113,7 @@ class ContactSolverOf {
 
   // A contact at some velocity, its friction bound by `bound`; Newton's method has its own, in lanes.
   struct Local {
-    double speed;                                    // normal
-    Eigen::Vector2d slip;                            // tangential
+    std::array<double, 3> speeds;                    // normal, tangential
     double bound = 0;                                // [N s]
     Eigen::Vector2d dual = Eigen::Vector2d::Zero();  // estimate of the grip
     bool closes = false;                             // in a guess
@@ -123,6 +122,9 @@ class ContactSolverOf {
     double stiffness = 0;                           // with which it keeps to its way [N s per m/s]
     double start_push = 0;                          // as handed in
     Eigen::Vector2d start_grip = Eigen::Vector2d::Zero();
+
+    double speed() const { return speeds[0]; }
+    Eigen::Vector2d slip() const { return {speeds[1], speeds[2]}; }
   };
 
   void begin();
@@ -164,7 +166,7 @@ class ContactSolverOf {
   void add(const Contact& c, double normal, const GripStiffness& grip);
   void add_run(const Contact& c, int count, const double* const* own, const double* const* others,
                const double* stiffness);
-  std::array<double, 3> speeds_of(const Contact& c, const Velocities& u) const;
+  void speeds_of(const Contact& c, const Velocities& u, std::array<double, 3>& speeds) const;
   void take_impulse(const Contact& c, Velocities& momenta) const;
 
   Problem* p_ = nullptr;

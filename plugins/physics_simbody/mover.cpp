@@ -26,7 +26,8 @@ bool may_slide(const RobotModel& model, const Command& command) {
 // Whether they did in the last step.
 bool slides(const RobotModel& model, const Memory& memory) {
   return std::any_of(memory.impulse.begin(), memory.impulse.end(), [&](const auto& impulse) {
-    return impulse[0] > 0 && std::hypot(impulse[1], impulse[2]) > 0.99 * model.drive.friction * impulse[0];
+    const double bound = 0.99 * model.drive.friction * impulse[0];
+    return bound > 0 && impulse[1] * impulse[1] + impulse[2] * impulse[2] > bound * bound;
   });
 }
 
