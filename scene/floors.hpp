@@ -15,7 +15,7 @@ struct Floor {
   int material = 0;
 };
 
-// In lattice steps. A place inside is in one half, or, about a corner that points inwards, in both or neither but once.
+// In lattice steps. What lies in just one of the halves is floor: they overlap outside a corner that points inwards.
 struct LatticeFloor {
   Triangle halves[2];
   std::int64_t z = 0;

@@ -71,9 +71,8 @@ class Scene {
   bool is_open(int door) const { return doors_.at(door).open; }
   void set_open(int door, bool open) { doors_.at(door).open = open; }
 
-  // Replaces `out` by what the straight line from p to q crosses, by ascending wall, then by
-  // ascending floor. All but `fraction` is the same,
-  // bit for bit, from q to p. Throws std::runtime_error where a point lies beyond 1 km.
+  // Replaces `out` by what the straight line from p to q crosses, walls by their rows, then floors by theirs. All but
+  // `fraction` is the same, bit for bit, from q to p. Throws std::runtime_error where a point lies beyond 1 km.
   void crossings(const Point& p, const Point& q, std::vector<Crossing>& out) const;
 
   // The same as counts: fills by_material[0 .. materials()).
