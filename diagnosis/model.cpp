@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+
+#include "text/text_table.hpp"
 
 namespace muster::diagnosis {
 namespace {
@@ -11,10 +14,36 @@ bool lists_links(const InstanceDeclaration& instance) {
   return instance.plugin == "radio.links" || instance.plugin == "data.links";
 }
 
-World world_for(const std::filesystem::path& file) {
+// False also where the file is no table: whoever reads it will say so.
+bool has_columns_of(const TextTable& data, const std::filesystem::path& file) try {
+  const TextTable table = TextTable::read(file);
+  return std::all_of(table.columns().begin(), table.columns().end(), [&](const TextColumn& column) {
+    const auto found = data.find(column.name);
+    return found && data.columns()[*found].unit == column.unit;
+  });
+} catch (const Error&) {
+  return false;
+}
+
+// What a world's file tells of the times of one measurement, such as to which power each radio was set, readings of
+// other times tell of theirs: where they have all columns of an instance's `file`, they stand in for it.
+void take_settings_from(const std::filesystem::path& data, World& world) {
+  std::optional<TextTable> readings;
+  for (InstanceDeclaration& instance : world.instances) {
+    for (XmlAttribute& attribute : instance.attributes) {
+      if (attribute.name != "file") continue;
+      if (!readings) readings = TextTable::read(data);
+      if (has_columns_of(*readings, world.file.parent_path() / attribute.value))
+        attribute.value = std::filesystem::absolute(data).string();
+    }
+  }
+}
+
+World world_for(const std::filesystem::path& file, const std::filesystem::path& data) {
   World world = read_world(file, standard());
   std::erase_if(world.instances, lists_links);
   std::erase_if(world.swaps, [](const SwapDeclaration& s) { return lists_links(s.replacement); });
+  take_settings_from(data, world);
   return world;
 }
 
@@ -40,7 +69,7 @@ Eigen::VectorXd first_column(const TableView& table) {
 
 LinkModel::LinkModel(const std::filesystem::path& world, const std::filesystem::path& data,
                      const Library::SearchPath& plugins) {
-  World declared = world_for(world);
+  World declared = world_for(world, data);
   Options options = options_for(declared, data, plugins);
   run_ = std::make_unique<Simulation>(std::move(declared), standard(), std::move(options));
   evaluate(true);
