@@ -21,7 +21,8 @@ struct PowerSteps {
   static constexpr auto manual =
       "A radio was set to several powers while it was measured, which the column power[dBm] of `file` tells (t, tx "
       "and power; what stood last at or before a time holds; the measured readings will do). Adds `error1` to what "
-      "was sent at the lowest of the powers in the file, `error2` at the next, up to six. Data in which each reading "
+      "was sent at the lowest of the powers in the file, `error2` at the next, up to six: readings that the world is "
+      "held against, and whose powers stand in for the file's, are to have the same ones. Data in which each reading "
       "was referred to its nominal power need nothing else.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
