@@ -1,4 +1,4 @@
-// Rows of walls, doors and floors as the scene has them, numbered alike.
+// Rows of walls, doors and floors, of a table or a vector, as the scene has them, numbered alike.
 #pragma once
 
 #include <muster/floors.hpp>
@@ -8,15 +8,16 @@
 
 namespace muster {
 
-inline std::vector<scene::Wall> scene_walls(Rows<const Wall> walls) {
+template <class Walls>
+std::vector<scene::Wall> scene_walls(const Walls& walls) {
   std::vector<scene::Wall> result;
   for (const Wall& w : walls)
     result.push_back({w.x0, w.y0, w.x1, w.y1, w.base, w.height, w.thickness, static_cast<int>(w.material)});
   return result;
 }
 
-inline std::vector<scene::Door> scene_doors(Rows<const Door> doors, Rows<const DoorState> states,
-                                            Rows<const Wall> walls) {
+template <class Doors, class States, class Walls>
+std::vector<scene::Door> scene_doors(const Doors& doors, const States& states, const Walls& walls) {
   std::vector<scene::Door> result;
   for (std::size_t i = 0; i < doors.size(); ++i) {
     const Door& d = doors[i];
@@ -27,7 +28,8 @@ inline std::vector<scene::Door> scene_doors(Rows<const Door> doors, Rows<const D
   return result;
 }
 
-inline std::vector<scene::Floor> scene_floors(Rows<const FloorShape> floors) {
+template <class Floors>
+std::vector<scene::Floor> scene_floors(const Floors& floors) {
   std::vector<scene::Floor> result;
   for (const FloorShape& f : floors)
     result.push_back({{f.x0, f.x1, f.x2, f.x3}, {f.y0, f.y1, f.y2, f.y3}, f.z, static_cast<int>(f.material)});

@@ -137,11 +137,12 @@ pic::Figure staircase(const Diagnosis& d) {
   }
   panel.layers = {pic::Rule{.at = noise_floor(d), .label = fmt::format("noise alone, {:.2f} dB", noise_floor(d))},
                   steps, bars};
-  return {.title = "Error at " + what_is_held_out(d) + " not seen, step by step",
-          .caption = fmt::format("Root mean square over rows of held-out blocks, {} in all; intervals by resampling "
-                                 "blocks. A perfect model would come down to the dashed line.",
-                                 d.held_out ? d.held_out->blocks : 0),
-          .panels = {panel}};
+  return {
+      .title = "Error at " + what_is_held_out(d) + " not seen, step by step",
+      .caption = fmt::format("Root mean square over readings of held-out blocks, {} in all; intervals by resampling "
+                             "blocks. A perfect model would come down to the dashed line.",
+                             d.held_out ? d.held_out->blocks : 0),
+      .panels = {panel}};
 }
 
 pic::Figure partial_residual(const Diagnosis& d, const FoundCause& c) {

@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "plugins/scene_rows.hpp"
+
 namespace muster {
 
 class WallTerm {
@@ -65,17 +67,8 @@ class WallTerm {
     if (!changed && scene_) return;
     links_.clear();
     scene_.reset();  // so that none is left if the new one is refused
-    std::vector<scene::Wall> walls;
-    for (const Wall& w : walls_)
-      walls.push_back({w.x0, w.y0, w.x1, w.y1, w.base, w.height, w.thickness, static_cast<int>(w.material)});
-    std::vector<scene::Door> doors;
-    for (std::size_t i = 0; i < doors_.size(); ++i) {
-      const Door& d = doors_[i];
-      const double material = is_null(d.material) ? walls_[static_cast<std::size_t>(d.wall)].material : d.material;
-      doors.push_back(
-          {static_cast<int>(d.wall), d.at, d.width, d.height, static_cast<int>(material), states_[i].open != 0});
-    }
-    scene_ = std::make_unique<scene::Scene>(walls, doors, static_cast<int>(k[loss].size()));
+    scene_ = std::make_unique<scene::Scene>(scene_walls(walls_), scene_doors(doors_, states_, walls_),
+                                            static_cast<int>(k[loss].size()));
   }
 
   void update_links(const Step& k) {

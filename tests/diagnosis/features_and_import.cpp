@@ -41,6 +41,25 @@ TEST(Features, ByHand) {
   EXPECT_EQ(f.crossed, (std::vector<int>{0, 1, 0}));
 }
 
+// A floor counts by its material, and is no wall that a link crosses.
+TEST(Features, OfAFloor) {
+  const Scratch scratch;
+  const auto world = scratch.write("world.xml",
+                                   "<world name=\"w\" dt=\"1\" until=\"1\" seed=\"1\">\n"
+                                   "  <material name=\"brick\" loss=\"6\"/>\n"
+                                   "  <wall name=\"a\" from=\"3 -5\" to=\"3 5\" height=\"6\" material=\"brick\"/>\n"
+                                   "  <floor name=\"f\" corners=\"0 -5 9 -5 9 5 0 5\" z=\"3\" material=\"brick\"/>\n"
+                                   "  <station name=\"s\" at=\"0 0 1\"/>\n  <radio.multiwall/>\n</world>\n");
+  const auto file = scratch.write("d.csv",
+                                  "tx,rx,tx_x[m],tx_y[m],tx_z[m],rx_x[m],rx_y[m],rx_z[m],rssi[dBm]\n"
+                                  "s,r,0,0,1,4,0,5,-50\ns,r,0,0,1,2,0,5,-50\ns,r,0,0,1,4,0,2,-50\n");
+  const Features f = features_of(LinkModel(world, file, plugins));
+  EXPECT_EQ(f.by_material, (std::vector<std::vector<int>>{{2, 1, 1}}));
+  EXPECT_EQ(f.crossed, (std::vector<int>{0, 0}));
+  EXPECT_EQ(f.first, (std::vector<std::size_t>{0, 1, 1, 2}));
+  EXPECT_NEAR(f.incidence[1], std::atan2(2, 4), 1e-12);
+}
+
 TEST(Features, AnglesAreWrapped) {
   EXPECT_NEAR(wrapped(7), 7 - 2 * 3.141592653589793, 1e-12);
   EXPECT_DOUBLE_EQ(wrapped(-3.141592653589793), 3.141592653589793);

@@ -42,10 +42,6 @@ class EachNetwork : public testing::TestWithParam<std::string> {
 // Those in which radios contend for the air: all but the ideal one.
 class EachSharedChannel : public EachNetwork {};
 
-inline std::string send(const std::string& name, const std::string& sender, const std::string& attributes = "") {
-  return "<test.sender name=\"" + name + "\" from=\"" + sender + "\" " + attributes + "/>\n";
-}
-
 // A radio's counts by their columns' names.
 inline double traffic(const Simulation& sim, const std::string& radio, const std::string& column) {
   const std::vector<std::string> names{"asked",     "delivered",  "too_weak", "no_link", "collided",

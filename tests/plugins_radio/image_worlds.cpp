@@ -29,6 +29,24 @@ TEST(ImageTerm, IsTheInterferenceOfTwoWaves) {
   }
 }
 
+// The direct wave passes a floor that the reflected one, by the mirror beside it, goes round.
+TEST(ImageTerm, GoesRoundAFloor) {
+  const auto gained = [](const std::string& floor) {
+    const Folder folder;
+    Simulation world = world_of(folder,
+                                "<material name=\"brick\" loss=\"7.5\"/>\n"
+                                "<wall name=\"w\" from=\"-50 0\" to=\"50 0\" height=\"6\" material=\"brick\"/>\n" +
+                                    floor + station("a", "0 3 1") + station("b", "8 3 5") +
+                                    "<radio.images coherent=\"false\"/>" + quiet);
+    run(world, 1);
+    return std::pow(10, by_pair(world, paths).at({"a", "b"}) / 10) - 1;  // power of the reflected wave to the direct's
+  };
+  const double free = gained("");
+  EXPECT_GT(free, 0.01);
+  const std::string floor = "<floor corners=\"2 2 6 2 6 4 2 4\" z=\"3\" material=\"brick\"/>\n";
+  EXPECT_NEAR(gained(floor) / free, std::pow(10, 0.75), 1e-9);
+}
+
 TEST(ImageTerm, IsTheSameBothWaysBitForBit) {
   const Folder folder;
   std::string walls = mirror;

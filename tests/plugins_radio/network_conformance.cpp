@@ -248,26 +248,8 @@ TEST_P(EachNetwork, AnotherTakesOverInMidRun) {
 
 TEST_P(EachNetwork, ARunIsTheSameBitsHoweverItIsRun) {
   if (GetParam() == "network.ns3") GTEST_SKIP() << "one a process, and it cannot be restored";
-  for (const std::string& senders : {busy, jammed}) {
-    Simulation straight = world(senders);
-    run(straight, 50);
-    for (const int workers : {2, 3}) {
-      Simulation other = world(senders, workers);
-      run(other, 50);
-      EXPECT_EQ(straight.digest(), other.digest()) << workers;
-    }
-    Simulation remade = world(senders);
-    while (remade.tick() < 50) {
-      if (remade.tick() % 7 == 3) remade.remake("network");
-      remade.step();
-    }
-    EXPECT_EQ(straight.digest(), remade.digest());
-    Simulation first = world(senders), again = world(senders);
-    run(first, 20);
-    again.restore(first.snapshot());
-    run(again, 30);
-    EXPECT_EQ(straight.digest(), again.digest());
-  }
+  for (const std::string& senders : {busy, jammed})
+    expect_same_run([&](int workers) { return world(senders, workers); }, {"network"}, 20);
 }
 
 const auto name_of = [](const testing::TestParamInfo<std::string>& network) { return network.param.substr(8); };

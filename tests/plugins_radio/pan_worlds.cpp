@@ -19,9 +19,8 @@ std::string pan(const std::string& name, const std::string& id, const std::strin
 
 // Everybody to all, and a to d besides.
 std::string everybody_sends() {
-  std::string result = "<test.sender name=\"to_d\" from=\"a\" to=\"d\" size=\"300\"/>\n";
-  for (const std::string radio : {"a", "b", "c", "d"})
-    result += "<test.sender name=\"of_" + radio + "\" from=\"" + radio + "\" count=\"4\" size=\"60\"/>\n";
+  std::string result = send("to_d", "a", "to=\"d\" size=\"300\"");
+  for (const std::string radio : {"a", "b", "c", "d"}) result += send("of_" + radio, radio, "count=\"4\" size=\"60\"");
   return result;
 }
 
@@ -76,11 +75,9 @@ class PanWorld : public testing::Test {
 using testing::ElementsAre;
 
 TEST_F(PanWorld, StationsAndRobotsAreInIt) {
-  Simulation sim = world(
-      station("base", "0 0 1") + station("a", "0 2 1") + station("b", "0 4 1") +
-      "<robot name=\"r\" at=\"1 0 0\"/><test.mover/>" + pan("ours", "2", "base r") +
-      "<test.sender name=\"1\" from=\"base\"/><test.sender name=\"2\" from=\"r\"/><test.sender name=\"3\" from=\"a\"/>"
-      "<test.sender name=\"4\" from=\"b\" to=\"r\"/>");
+  Simulation sim = world(station("base", "0 0 1") + station("a", "0 2 1") + station("b", "0 4 1") +
+                         "<robot name=\"r\" at=\"1 0 0\"/><test.mover/>" + pan("ours", "2", "base r") +
+                         send("1", "base") + send("2", "r") + send("3", "a") + send("4", "b", "to=\"r\""));
   EXPECT_THAT(heard(sim, 30), ElementsAre("a>b", "b>r", "base>r", "r>base"));
 }
 
@@ -132,19 +129,7 @@ TEST_F(PanWorld, ACopyOfARadioIsInItsPan) {
 TEST_F(PanWorld, ARunIsTheSameBitsHoweverItIsRun) {
   const std::string elements = four + everybody_sends() + pan("p", "1", "a c") + pan("q", "2", "b") +
                                "<swap at=\"2\" instance=\"q\" plugin=\"radio.pan\" id=\"1\" radios=\"b\"/>";
-  Simulation straight = world(elements), parallel = world(elements, 3), remade = world(elements);
-  run(straight, 50), run(parallel, 50);
-  EXPECT_EQ(straight.digest(), parallel.digest());
-  while (remade.tick() < 50) {
-    if (remade.tick() % 7 == 3) remade.remake("network"), remade.remake("p");
-    remade.step();
-  }
-  EXPECT_EQ(straight.digest(), remade.digest());
-  Simulation first = world(elements), again = world(elements);
-  run(first, 15);
-  again.restore(first.snapshot());
-  run(again, 35);
-  EXPECT_EQ(straight.digest(), again.digest());
+  expect_same_run([&](int workers) { return world(elements, workers); }, {"network", "p"}, 15);
 }
 
 TEST_F(PanWorld, WhereTheNetworkKnowsNoneItIsWarnedOf) {

@@ -54,6 +54,10 @@ inline std::string station(const std::string& name, const std::string& at) {
   return "<station name=\"" + name + "\" at=\"" + at + "\"/>\n";
 }
 
+inline std::string send(const std::string& name, const std::string& sender, const std::string& attributes = "") {
+  return "<test.sender name=\"" + name + "\" from=\"" + sender + "\" " + attributes + "/>\n";
+}
+
 using Pair = std::pair<std::string, std::string>;
 
 // The first column of a link table, by names of sender and receiver.
@@ -82,6 +86,32 @@ inline void expect_same_bits(const std::map<Pair, double>& a, const std::map<Pai
 
 inline void run(Simulation& world, int ticks) {
   for (int i = 0; i < ticks; ++i) world.step();
+}
+
+// 50 ticks of make_world(workers) are the same bits on other numbers of workers, with instances made anew time and
+// again, and restored from a snapshot of the tick `middle`.
+template <class MakeWorld>
+void expect_same_run(const MakeWorld& make_world, const std::vector<std::string>& made_anew, int middle) {
+  constexpr int ticks = 50;
+  Simulation straight = make_world(1);
+  run(straight, ticks);
+  for (const int workers : {2, 3}) {
+    Simulation other = make_world(workers);
+    run(other, ticks);
+    EXPECT_EQ(straight.digest(), other.digest()) << workers;
+  }
+  Simulation remade = make_world(1);
+  for (int k = 0; k < ticks; ++k) {
+    for (const auto& instance : made_anew)
+      if (remade.tick() % 7 == 3) remade.remake(instance);
+    remade.step();
+  }
+  EXPECT_EQ(straight.digest(), remade.digest());
+  Simulation first = make_world(1), again = make_world(1);
+  run(first, middle);
+  again.restore(first.snapshot());
+  run(again, ticks - middle);
+  EXPECT_EQ(straight.digest(), again.digest());
 }
 
 }  // namespace muster

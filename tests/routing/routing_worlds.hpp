@@ -15,10 +15,6 @@ namespace muster {
 inline const std::string channel =
     "<radio.links range=\"600\"/><radio.multiwall n=\"3\"/><radio.receiver sensitivity=\"-73.5\"/>";
 
-inline std::string send(const std::string& name, const std::string& sender, const std::string& attributes = "") {
-  return "<test.sender name=\"" + name + "\" from=\"" + sender + "\" " + attributes + "/>\n";
-}
-
 // Radios r0, r1, ... 10 m apart, of which each hears its neighbours only.
 inline std::string chain(int radios) {
   std::string result;

@@ -1,0 +1,238 @@
+// What becomes of a guessed model: pieces that merge, places in the middle, causes that give way or are dropped.
+#include "diagnosis/search/clean_up.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/search/choose.hpp"
+#include "diagnosis/search/merge.hpp"
+#include "diagnosis/search/spread.hpp"
+#include "tests/search/causes.hpp"
+
+namespace muster::search {
+namespace {
+
+using synthetic::causes_of;
+using synthetic::problem_of;
+using synthetic::varied;
+using synthetic::world_of;
+
+Term term_at(const Bench& bench, const std::string& id, const Eigen::VectorXd& theta) {
+  for (const Entry& entry : bench.entries()) {
+    if (entry.candidate->id == id) return {entry.candidate, theta, bench.columns_of(*entry.candidate, theta)};
+  }
+  throw std::logic_error(id);
+}
+
+// Nulls for every candidate, as the forward search would have worked out.
+void score(Bench& bench) {
+  const Stand stand = bench.stand(bench.base());
+  bench.renew_depending(stand.coefficients(bench.base_columns()));
+  leads(bench, stand);
+}
+
+TEST(Merge, TwoHalvesOfOneWallBecomeTheWall) {
+  const auto world = world_of(varied(11, 4000));
+  const auto causes = causes_of(world);
+  const Candidate& wall = causes[causes.size() - 2];
+  ASSERT_EQ(wall.id, "unmapped_wall");
+  const Eigen::VectorXd whole = Eigen::Vector4d(12, 8, 5, 0.35);
+  const Eigen::VectorXd effect = -scaled_to(world, wall.columns(whole), 400);
+  const Problem problem = problem_of(world, effect, causes);
+  Bench bench(problem, {});
+  score(bench);
+  const double x = 1.25 * std::cos(0.35), y = 1.25 * std::sin(0.35);
+  bench.terms.push_back(term_at(bench, "unmapped_wall", Eigen::Vector4d(12 - x, 8 - y, 2.5, 0.35)));
+  bench.terms.push_back(term_at(bench, "unmapped_wall", Eigen::Vector4d(12 + x, 8 + y, 2.5, 0.35)));
+  bench.refit();
+  ASSERT_TRUE(merge_pieces(bench, "place"));
+  ASSERT_EQ(bench.terms.size(), 1u);
+  const Eigen::VectorXd& found = bench.terms[0].theta;
+  EXPECT_EQ(bench.terms[0].candidate->id, "unmapped_wall");
+  EXPECT_LT(std::hypot(found[0] - 12, found[1] - 8), 0.5);
+  EXPECT_NEAR(found[2], 5, 1);
+}
+
+TEST(Merge, TwoWallsStayTwo) {
+  const auto world = world_of(varied(12, 4000));
+  const auto causes = causes_of(world);
+  const Candidate& wall = causes[causes.size() - 2];
+  const Eigen::VectorXd one = Eigen::Vector4d(6, 5, 4, 0), other = Eigen::Vector4d(18, 10, 4, M_PI / 2);
+  const Eigen::VectorXd effect = -scaled_to(world, wall.columns(one), 150) - scaled_to(world, wall.columns(other), 150);
+  const Problem problem = problem_of(world, effect, causes);
+  Bench bench(problem, {});
+  score(bench);
+  bench.terms = {term_at(bench, "unmapped_wall", one), term_at(bench, "unmapped_wall", other)};
+  bench.refit();
+  EXPECT_FALSE(merge_pieces(bench, "place"));
+  EXPECT_EQ(bench.terms.size(), 2u);
+}
+
+TEST(Spread, ItsMiddleIsAPlaceThatExplainsAsMuch) {
+  const auto world = world_of(varied(12, 4000));
+  const auto causes = causes_of(world);
+  const Candidate& wall = causes[causes.size() - 2];
+  const Eigen::Vector4d place(12, 8, 4, 0), east(1, 0, 0, 0);
+  const Problem problem = problem_of(world, -scaled_to(world, wall.columns(place), 300), causes);
+  Bench bench(problem, {});
+  bench.terms = {term_at(bench, "unmapped_wall", place)};
+  bench.refit();
+  Spread alike;
+  for (int k = 0; k <= 10; ++k) alike.thetas.push_back(place + 1e-6 * k * east);
+  EXPECT_EQ(middle_of(bench, bench.terms[0], alike), Eigen::VectorXd(place + 5e-6 * east));
+  Spread apart;
+  for (const double off : {0.0, 0.001, 4.0, 7.999, 8.0}) apart.thetas.push_back(place - off * east);
+  EXPECT_GT(middle_of(bench, bench.terms[0], apart)[0], 11.9);
+}
+
+struct Guess {
+  std::string id;
+  Eigen::VectorXd theta;
+};
+
+// What cleaning up leaves of a model that was guessed so.
+std::vector<Term> cleaned_up(const Problem& problem, const std::vector<Guess>& guesses) {
+  Bench bench(problem, {});
+  score(bench);
+  for (const auto& [id, theta] : guesses) bench.terms.push_back(term_at(bench, id, theta));
+  bench.refit();
+  std::vector<Trial> trials;
+  clean_up(bench, trials);
+  return bench.terms;
+}
+
+// A function of the battery may enter first, while the field holds a part of what acts in time.
+TEST(CleanUp, WhatActsInTimeIsNotTheBatteryThatFallsMeanwhile) {
+  const auto world = world_of(varied(254, 3000));
+  const Eigen::VectorXd step = (world.time.array() > 0.4 * world.time.maxCoeff()).cast<double>(),
+                        knee = -(11.7 - world.battery.array()).max(0.0).pow(1.4);
+  for (const auto& [effect, name] : {std::pair(step, "step"), std::pair(knee, "~battery")}) {
+    const Problem problem = problem_of(world, scaled_to(world, effect, 120), causes_of(world));
+    const std::vector<Term> terms = cleaned_up(problem, {{"~battery", {}}});
+    ASSERT_EQ(terms.size(), 1u);
+    EXPECT_EQ(terms[0].id(), name);
+  }
+}
+
+TEST(CleanUp, DropsWhatCarriesNothingAndSetsLeftoversAside) {
+  const auto world = world_of(varied(13, 4000));
+  const auto causes = causes_of(world);
+  const Eigen::VectorXd effect = scaled_to(world, causes[2].columns({}).col(0), 900);  // antenna_rx
+  const Problem problem = problem_of(world, effect, causes);
+  const std::vector<Term> terms = cleaned_up(
+      problem, {{"antenna_rx", {}}, {"step", Eigen::Vector2d(100, -1)}, {"drift", Eigen::VectorXd::Constant(1, 2)}});
+  ASSERT_EQ(terms.size(), 1u);
+  EXPECT_EQ(terms[0].candidate->id, "antenna_rx");
+  EXPECT_NEAR(terms[0].gain, 900, 300);
+}
+
+TEST(CleanUp, ACauseGivesWayToARivalThatDoesBetter) {
+  const auto world = world_of(varied(13, 4000));
+  const auto causes = causes_of(world);
+  const Eigen::VectorXd effect = scaled_to(world, causes[2].columns({}).col(0), 400);  // antenna_rx
+  const Problem problem = problem_of(world, effect, causes);
+  const std::vector<Term> terms = cleaned_up(problem, {{"drift", Eigen::VectorXd::Constant(1, 2)}});
+  ASSERT_EQ(terms.size(), 1u);
+  EXPECT_EQ(terms[0].candidate->id, "antenna_rx");
+}
+
+// An offset, and the same with one parameter more.
+std::vector<Candidate> twins_of(const synthetic::World& world) {
+  std::vector<Candidate> twins = causes_of(world);
+  twins.insert(twins.begin(), twins[1]);
+  twins[0].id = "twin";
+  ++twins[0].parameters;
+  return twins;
+}
+
+TEST(CleanUp, ACauseGivesWayToASimplerOneThatTheReadingsCannotTellFromIt) {
+  const auto world = world_of(varied(34, 4000));
+  const auto twins = twins_of(world);
+  const Problem problem = problem_of(world, scaled_to(world, twins[0].columns(twins[0].grid[0]), 200), twins);
+  const std::vector<Term> terms = cleaned_up(problem, {{"twin", twins[0].grid[0]}});
+  ASSERT_EQ(terms.size(), 1u);
+  EXPECT_EQ(terms[0].candidate->id, "rx_offset");
+}
+
+// A twin that is sought at one transmitter alone costs less to find, and is no more likely for that.
+TEST(CleanUp, ASimpleCauseGivesNoWayToATwinThatIsSoughtAtFewerPlaces) {
+  const auto world = world_of(varied(34, 4000));
+  std::vector<Candidate> causes = causes_of(world);
+  const auto simple =
+      std::find_if(causes.begin(), causes.end(), [](const Candidate& c) { return c.id == "tx_offset"; });
+  ASSERT_NE(simple, causes.end());
+  Candidate twin = *simple;
+  const Eigen::VectorXd theta = simple->grid[0];
+  twin.id = "twin";
+  twin.grid = {theta};
+  ++twin.parameters;
+  const Eigen::VectorXd effect = scaled_to(world, simple->columns(theta), 200);
+  causes.push_back(twin);
+  const Problem problem = problem_of(world, effect, causes);
+  for (const char* first : {"tx_offset", "twin"}) {
+    const std::vector<Term> terms = cleaned_up(problem, {{first, theta}});
+    ASSERT_EQ(terms.size(), 1u);
+    EXPECT_EQ(terms[0].candidate->id, "tx_offset") << "from " << first;
+  }
+}
+
+TEST(Compared, TheSimplerOfTwoWithTheSameEffectComesFirst) {
+  const auto world = world_of(varied(34, 4000));
+  const auto twins = twins_of(world);
+  const Problem problem = problem_of(world, scaled_to(world, twins[0].columns(twins[0].grid[0]), 200), twins);
+  Bench bench(problem, {});
+  const Stand stand = bench.stand(bench.base());
+  bench.renew_depending(stand.coefficients(bench.base_columns()));
+  std::vector<Lead> pair;
+  for (const Lead& lead : leads(bench, stand))
+    if (lead.candidate().id == "twin" || lead.candidate().id == "rx_offset") pair.push_back(lead);
+  ASSERT_EQ(pair.size(), 2u);
+  for (int order = 0; order < 2; ++order, std::swap(pair[0], pair[1]))
+    EXPECT_EQ(compared(bench, stand, pair, pair, [](const Candidate&) { return true; }).front().candidate().id,
+              "rx_offset");
+}
+
+// A step of 2 dB, as it is or by any multiple, where a lead of it lies off. What a second look won is its own
+// beside what refinement wins, unless a multiple of it means nothing.
+TEST(Compared, ALeadIsRefinedAndKeepsWhatItWonUnlessItCountsAsItIs) {
+  const auto world = world_of(varied(254, 3000));
+  std::vector<Candidate> causes = causes_of(world);
+  const auto step = std::find_if(causes.begin(), causes.end(), [](const Candidate& c) { return c.id == "step"; });
+  ASSERT_NE(step, causes.end());
+  step->columns = [plain = step->columns](const Eigen::VectorXd& theta) { return Eigen::MatrixXd(2 * plain(theta)); };
+  const double last = world.time.maxCoeff(), won = 500;
+  const Eigen::VectorXd effect = step->columns(Eigen::Vector2d(0.43 * last, -1));
+  for (const bool whole : {false, true}) {
+    step->whole = whole;
+    const Problem problem = problem_of(world, effect, causes);
+    Bench bench(problem, {});
+    score(bench);
+    const Stand stand = bench.stand(bench.base());
+    Lead lead{&bench.entry_of(*step), Eigen::Vector2d(0.405 * last, -1), {}, 0, 0, 0, false, {}};
+    lead.columns = bench.columns_of(*step, lead.theta);
+    const double plain = gain_of(*step, stand, lead.columns);
+    lead.gain = plain + won;
+    const Lead best = compared(bench, stand, {lead}, {lead}, [](const Candidate&) { return true; }).front();
+    const double refined = gain_of(*step, stand, best.columns);
+    EXPECT_NEAR(best.theta[0], 0.43 * last, 0.01 * last);
+    EXPECT_GT(refined, plain + 5);
+    EXPECT_NEAR(best.gain, whole ? refined : refined + won, 1e-6) << whole;
+    EXPECT_NEAR(best.log_p, bench.log_p(*step, best.gain, 1, true), 1e-6);
+    EXPECT_NEAR(best.evidence, bench.evidence(*step, best.gain, 1, true), 1e-6);
+  }
+}
+
+TEST(CleanUp, ASmoothGivesWayToTheCauseThatExplainsIt) {
+  const auto world = world_of(varied(14, 4000));
+  const auto causes = causes_of(world);
+  const Eigen::VectorXd effect = scaled_to(world, causes[2].columns({}).col(1), 400);
+  const Problem problem = problem_of(world, effect, causes);
+  const std::vector<Term> terms = cleaned_up(problem, {{"~bearing", {}}});
+  ASSERT_EQ(terms.size(), 1u);
+  EXPECT_EQ(terms[0].candidate->id, "antenna_rx");
+}
+
+}  // namespace
+}  // namespace muster::search
