@@ -51,6 +51,12 @@ void Table::take_over(const Table& other) {
   grow();  // rows may have joined with the instance that is being linked
 }
 
+void Table::take_over(Table&& other) {
+  stored() = std::move(*other.now_);
+  *next_ = std::move(*other.next_);
+  grow();
+}
+
 void Table::grow() {
   if (set_->kind == SetKind::queue) return;
   Cells& now = stored();
@@ -67,7 +73,7 @@ void Table::begin_anew(bool carry, uint64_t tick) {
   if (set_->kind == SetKind::queue) return begin_queue(tick);
   if (set_->kind == SetKind::listed) {
     next.rows = set_->rows();  // other rows than last time: nothing carries over
-    next.data.assign(next.rows * width(), poison());
+    next.data.resize(next.rows * width());
     return;
   }
   next.rows = now.rows;

@@ -93,8 +93,9 @@ class Table {
 
   // One row of initial values; and such rows for those of the set that it lacks, as all do in a new table.
   void fill_initial(double* row) const;
-  // Puts what another table of the same set and columns holds in place.
+  // Puts what another table of the same set and columns holds in place; or takes it, where nobody else will ask.
   void take_over(const Table& other);
+  void take_over(Table&& other);
   void grow();
 
  private:

@@ -52,7 +52,7 @@ void prepare(Claim& claim, uint64_t tick) {
     poison_alive(claim.aside, table);
   } else if (claim.row >= 0) {
     poison_row(table.next().data, static_cast<std::size_t>(claim.row), table.width());
-  } else if (table.set().is_named()) {
+  } else {
     poison_alive(table.next().data, table);
   }
 }
@@ -99,7 +99,9 @@ std::vector<double> referred_rows(const Instance& instance, const Blackboard& bo
   return rows;
 }
 
-bool names_row(double value, double rows) { return value >= 0 && value < rows && value == std::floor(value); }
+bool names_row(double value, double rows) {
+  return value >= 0 && value < rows && value == static_cast<double>(static_cast<std::int64_t>(value));
+}
 
 std::string wrong_reference(const Column& column, double value, double rows) {
   if (column.reference.empty() || (column.nullable && std::isnan(value)) || names_row(value, rows)) return "";
@@ -121,16 +123,29 @@ bool is_others(const Claim& claim, std::size_t row) {
          std::find(claim.others.begin(), claim.others.end(), static_cast<int>(row)) != claim.others.end();
 }
 
+bool is_queue_of_one(const Claim& claim) { return claim.row >= 0 && claim.out->set().kind == SetKind::queue; }
+
 // Who claims one owner's queue cannot append in the name of others.
-bool speaks_for_another(const Claim& claim, double owner) {
-  return claim.row >= 0 && claim.out->set().kind == SetKind::queue && owner != claim.row;
+bool speaks_for_another(const Claim& claim, double owner) { return is_queue_of_one(claim) && owner != claim.row; }
+
+// Whether all that was written is finite numbers, and rows where it stands for rows: most of what is asked of a cell,
+// without a word about any.
+bool is_plain(const Columns& columns, const Written& cells, const std::vector<double>& referred) {
+  const std::size_t width = columns.size();
+  if (columns.any_bytes() || !all_finite(cells.data, cells.rows * width)) return false;
+  for (std::size_t c = 0; c < width; ++c) {
+    for (std::size_t r = 0; !columns[c].reference.empty() && r < cells.rows; ++r) {
+      if (!names_row(cells.data[r * width + c], referred[c])) return false;
+    }
+  }
+  return true;
 }
 
 std::string check(const Instance& instance, const Blackboard& board, const Claim& claim) {
   const auto [data, rows] = written(claim);
   const auto width = claim.columns.size();
-  if (!claim.columns.any_references() && !claim.columns.any_bytes() && all_finite(data, rows * width)) return "";
   const std::vector<double> referred = referred_rows(instance, board, claim.columns);
+  if (!is_queue_of_one(claim) && is_plain(claim.columns, {data, rows}, referred)) return "";
   for (std::size_t r = 0; r < rows; ++r) {
     if (is_others(claim, r)) continue;
     for (std::size_t c = 0; c < width; ++c) {

@@ -1,7 +1,6 @@
 #include "link.hpp"
 
 #include <algorithm>
-#include <set>
 
 #include "claim.hpp"
 #include "text/names.hpp"
@@ -156,20 +155,23 @@ void adopt(const Table& old, Table& table) {
 
 // Where stages came or went, values go with those who wrote them: the base of a chain was the table itself, and the
 // last stage bears the table's name.
-const Table* Linker::before(const std::string& logical, const Claimed& c, std::size_t place) const {
-  const Table* whole = board_.find(logical);
+Table* Linker::before(const std::string& logical, const Claimed& c, std::size_t place) const {
+  Table* whole = board_.find(logical);
   if (place < c.adders.size()) return board_.find(tables_of(logical, c)[place].name);
   const auto stage = place - c.adders.size();
-  const Table* found = board_.find(logical + '@' + (stage == 0 ? "base" : c.modifiers[stage - 1].instance->name()));
+  Table* found = board_.find(logical + '@' + (stage == 0 ? "base" : c.modifiers[stage - 1].instance->name()));
   return found ? found : whole;
 }
 
-Table& Linker::make(const std::string& name, const Claim& claim, const Table* before) {
+Table& Linker::make(const std::string& name, const Claim& claim, Table* before) {
   const auto* quantity = standard_quantity(standard_, claim.name);
   auto table =
       std::make_unique<Table>(name, *board_.find_set(claim.name.set), claim.columns, quantity ? quantity->initial : "");
   if (before && before->columns() == table->columns()) {
-    table->take_over(*before);
+    if (held_by_.at(before) == 1)
+      table->take_over(std::move(*before));
+    else
+      table->take_over(*before);
   } else {
     table->grow();
     fill_from_world(*table, claim.name);
@@ -178,7 +180,7 @@ Table& Linker::make(const std::string& name, const Claim& claim, const Table* be
   return board_.add(std::move(table));
 }
 
-void Linker::make_tables(const std::string& logical, const Claimed& c, const std::vector<const Table*>& held) {
+void Linker::make_tables(const std::string& logical, const Claimed& c, const std::vector<Table*>& held) {
   if (!c.is_written() && !is_of_the_world(logical)) return;  // optional reads that nobody answers
   std::vector<Table*> tables;
   for (const auto& needed : tables_of(logical, c))
@@ -277,11 +279,10 @@ std::vector<Batch> Linker::make_batches() {
 }
 
 std::vector<Batch> Linker::build() {
-  std::map<std::string, std::vector<const Table*>> held;
-  std::set<const Table*> used;
+  std::map<std::string, std::vector<Table*>> held;
   for (const auto& [logical, c] : claimed_) {
     for (std::size_t i = 0; i < tables_of(logical, c).size(); ++i)
-      used.insert(held[logical].emplace_back(before(logical, c, i)));
+      ++held_by_[held[logical].emplace_back(before(logical, c, i))];
   }
   const auto old = board_.take_tables();
   for (const auto& [logical, c] : claimed_) make_tables(logical, c, held[logical]);
@@ -296,7 +297,7 @@ std::vector<Batch> Linker::build() {
     instance->set_direct(direct);
   }
   for (const auto& [name, table] : old) {
-    if (!used.count(table.get()) && !board_.find(name)) dropped_.push_back(name);
+    if (!held_by_.count(table.get()) && !board_.find(name)) dropped_.push_back(name);
   }
   return make_batches();
 }

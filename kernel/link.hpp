@@ -89,10 +89,10 @@ class Linker {
   };
   std::vector<Needed> tables_of(const std::string& logical, const Claimed& c) const;
   // The table that held the values of the one at a place of tables_of() until now, or null.
-  const Table* before(const std::string& logical, const Claimed& c, std::size_t place) const;
-  Table& make(const std::string& name, const Claim& claim, const Table* before);
+  Table* before(const std::string& logical, const Claimed& c, std::size_t place) const;
+  Table& make(const std::string& name, const Claim& claim, Table* before);
   void fill_from_world(Table& table, const TableName& name) const;
-  void make_tables(const std::string& logical, const Claimed& c, const std::vector<const Table*>& held);
+  void make_tables(const std::string& logical, const Claimed& c, const std::vector<Table*>& held);
   void point_readers(const std::string& logical, const Claimed& c);
   void see_each_once(const Claimed::By& by) const;
   std::vector<Batch> make_batches();
@@ -107,6 +107,7 @@ class Linker {
   std::map<Instance*, std::size_t> depth_;                       // place inside the phase
   std::vector<std::pair<Sum, std::vector<Instance*>>> sums_;
   std::map<Table*, std::vector<Instance*>> writers_of_;
+  std::map<const Table*, int> held_by_;  // of the tables until now: how many new ones go on from each
   std::vector<std::string> dropped_;
 };
 

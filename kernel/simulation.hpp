@@ -86,6 +86,8 @@ class Simulation {
   void remove(const std::string& instance);
   // All of them, at the end, or none; linked once.
   void insert_all(std::vector<InstanceDeclaration> declarations);
+  // As long as somebody holds it, instances of its plugin that name no library of their own run from this one.
+  void share(const std::shared_ptr<Library>& library) { libraries_[std::string(library->id())] = library; }
   void remove_all(const std::vector<std::string>& instances);
   // Destroys the instance and makes it again; reload also loads its library again from its file.
   void remake(const std::string& instance);

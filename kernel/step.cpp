@@ -85,9 +85,9 @@ void Simulation::run_batch(Batch& batch, const muster_tick& tick) {
   }
 }
 
-// Finite parts may have a sum that is not.
+// Finite parts may have a sum that is not, if there are two of them.
 void Simulation::check_sum(const Sum& sum, const muster_tick& tick) const {
-  if (!sum.total->begun()) return;
+  if (!sum.total->begun() || sum.parts.size() < 2) return;
   const auto& data = sum.total->next().data;
   if (all_finite(data.data(), data.size())) return;
   const auto wrong = std::find_if(data.begin(), data.end(), [](double value) { return !std::isfinite(value); });
@@ -120,10 +120,11 @@ void add_up(const Sum& sum, uint64_t tick) {
   if (!fresh) return;
   sum.total->begin(false, tick);
   auto& total = sum.total->next().data;
-  std::fill(total.begin(), total.end(), 0.0);
-  for (const Table* part : sum.parts) {
-    const auto& data = part->newest().data;
-    for (std::size_t i = 0; i < total.size(); ++i) total[i] += data[i];
+  for (std::size_t k = 0; k < sum.parts.size(); ++k) {
+    const auto& data = sum.parts[k]->newest().data;
+    // From 0 on, which a part of -0 does not change.
+    if (k == 0) std::transform(data.begin(), data.end(), total.begin(), [](double value) { return 0.0 + value; });
+    for (std::size_t i = 0; k > 0 && i < total.size(); ++i) total[i] += data[i];
   }
 }
 

@@ -127,6 +127,17 @@ TEST_F(Changes, AFailedChangeLeavesTheRunAsItWas) {
   EXPECT_THAT(messages(sim), IsEmpty());
 }
 
+TEST_F(Changes, ARunMayShareALibraryWithAnother) {
+  Simulation one = run(two_robots + counter), other = run(two_robots + counter);
+  const auto library = one.instances().back()->library();
+  ASSERT_NE(other.instances().back()->library(), library);
+  other.share(library);
+  other.insert(instance("toy.copy_physics", "m", {{"to", "self/q"}, {"own", "true"}, {"add", "2"}}));
+  EXPECT_EQ(other.instances().back()->library(), library);
+  step(other);
+  EXPECT_EQ(cell(other, "instance/m/q"), 2);
+}
+
 TEST_F(Changes, ManyComeAndGoAtOnceOrNoneDoes) {
   const auto added = [](const std::string& name) {
     return instance("toy.copy_physics", name, {{"to", "self/q"}, {"own", "true"}, {"add", "1"}});
