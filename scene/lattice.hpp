@@ -18,8 +18,14 @@ inline bool within_extent(double metres) { return std::abs(metres) < extent; }
 // Products of three coordinates or more: below 2^73.
 __extension__ using Wide = __int128;
 
-// The lattice step nearest to a length or coordinate within the extent.
-inline std::int64_t snap(double metres) { return std::llround(metres * steps_per_metre); }
+// The lattice step nearest to a length or coordinate within the extent, of two the one farther from 0: std::llround(),
+// which is a call.
+inline std::int64_t snap(double metres) {
+  const double steps = metres * steps_per_metre;
+  const auto whole = static_cast<std::int64_t>(steps);
+  const double rest = steps - static_cast<double>(whole);
+  return whole + (rest >= 0.5) - (rest <= -0.5);
+}
 
 // A point of the plan, in lattice steps.
 struct Spot {

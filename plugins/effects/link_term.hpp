@@ -59,8 +59,14 @@ class LinkTerm {
   template <class Term>
   void add(const Step& k, const Term& term) const {
     const auto links = k[ends];
+    const auto radios = k[endpoint];
+    const auto poses = k[pose];
     const auto out = k[level];
-    for (std::size_t i = 0; i < links.size(); ++i) out[i].level = term(end(k, links[i].tx), end(k, links[i].rx));
+    const auto end = [&](double row) {
+      const auto i = static_cast<std::size_t>(static_cast<std::int64_t>(row));  // as machines convert
+      return End{radios[i].radio, radios[i].t, poses[i]};
+    };
+    for (std::size_t i = 0; i < links.size(); ++i) out[i].level = term(end(links[i].tx), end(links[i].rx));
   }
 
   // A term that is the same both ways: the ends come in an order of their places, so it is so to the last bit.
@@ -81,11 +87,6 @@ class LinkTerm {
 
  private:
   static bool is_before(const Pose& a, const Pose& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
-
-  End end(const Step& k, double row) const {
-    const auto i = static_cast<std::size_t>(static_cast<std::int64_t>(row));  // as machines convert
-    return {k[endpoint][i].radio, k[endpoint][i].t, k[pose][i]};
-  }
 
   In<Endpoint> endpoint;
   In<Pose> pose;

@@ -30,10 +30,10 @@ struct WallAbsent {
       nullptr,
   };
 
-  explicit WallAbsent(Setup& s) : wall(s.value("wall")), share(s.value("share")), walls(s) {}
+  explicit WallAbsent(Setup& s) : wall(s.value("wall")), share(s.value("share")), walls(s, wall) {}
 
   void step(const Step& k) {
-    walls.add(k, [&](const scene::Crossing& it, double loss) { return it.wall == k[wall] ? k[share] * loss : 0; });
+    walls.add(k, [&](const scene::Crossing&, double loss) { return k[share] * loss; });
   }
 
   Value wall, share;

@@ -30,10 +30,10 @@ struct WallMaterial {
       nullptr,
   };
 
-  explicit WallMaterial(Setup& s) : wall(s.value("wall")), change(s.value("change")), walls(s) {}
+  explicit WallMaterial(Setup& s) : wall(s.value("wall")), change(s.value("change")), walls(s, wall) {}
 
   void step(const Step& k) {
-    walls.add(k, [&](const scene::Crossing& it, double) { return it.wall == k[wall] && it.door < 0 ? -k[change] : 0; });
+    walls.add(k, [&](const scene::Crossing& it, double) { return it.door < 0 ? -k[change] : 0; });
   }
 
   Value wall, change;

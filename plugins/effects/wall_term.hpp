@@ -5,6 +5,7 @@
 #include <cstring>
 #include <memory>
 #include <muster/plugin.hpp>
+#include <optional>
 #include <scene/walls.hpp>
 #include <stdexcept>
 #include <vector>
@@ -15,8 +16,10 @@ namespace muster {
 
 class WallTerm {
  public:
-  explicit WallTerm(Setup& s)
-      : pose(s.read<Pose>("endpoint/*/pose")),
+  // Of all walls, or of the row of one alone.
+  explicit WallTerm(Setup& s, std::optional<Value> only = std::nullopt)
+      : only_(only),
+        pose(s.read<Pose>("endpoint/*/pose")),
         ends(s.read<Ends>("link/*/ends")),
         wall(s.read<Wall>("wall/*/shape")),
         door(s.read<Door>("door/*/shape")),
@@ -67,8 +70,20 @@ class WallTerm {
     if (!changed && scene_) return;
     links_.clear();
     scene_.reset();  // so that none is left if the new one is refused
-    scene_ = std::make_unique<scene::Scene>(scene_walls(walls_), scene_doors(doors_, states_, walls_),
-                                            static_cast<int>(k[loss].size()));
+    const auto walls = scene_walls(walls_);
+    const auto doors = scene_doors(doors_, states_, walls_);
+    const int materials = static_cast<int>(k[loss].size());
+    scene_ = std::make_unique<scene::Scene>(walls, doors, materials);
+    if (!only_) return;
+    // What is crossed of one wall does not depend on others.
+    const int row = static_cast<int>(k[*only_]);
+    std::vector<scene::Door> own;
+    for (const scene::Door& d : doors) {
+      if (d.wall != row) continue;
+      own.push_back(d);
+      own.back().wall = 0;
+    }
+    scene_ = std::make_unique<scene::Scene>(std::vector{walls[static_cast<std::size_t>(row)]}, own, materials);
   }
 
   void update_links(const Step& k) {
@@ -87,6 +102,7 @@ class WallTerm {
     }
   }
 
+  std::optional<Value> only_;
   In<Pose> pose;
   In<Ends> ends;
   In<Wall> wall;
