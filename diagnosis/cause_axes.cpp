@@ -103,14 +103,27 @@ std::optional<Axis> axis_of(const muster_param& p, const Survey& s, const CauseS
   return Axis{p.name, false, p.min, p.max, (p.max - p.min) / 20, evenly(p.min, p.max, alone ? 9 : 5)};
 }
 
+namespace {
+
+using Ways = std::vector<std::array<double, 4>>;
+
+// From the first way that begins no further west than so far from x.
+Ways::const_iterator from_west_of(const Ways& ways, double x, double reach) {
+  return std::partition_point(ways.begin(), ways.end(), [&](const auto& w) { return w[0] - x < -reach; });
+}
+
+}  // namespace
+
 int driven_across(const Survey& s, double x, double y, double length, double angle) {
+  const double reach = length / 2 + 2;  // a way is shorter than 2 m
   const double ex = length / 2 * std::cos(angle), ey = length / 2 * std::sin(angle);
   const auto side = [](double ax, double ay, double bx, double by, double px, double py) {
     return (bx - ax) * (py - ay) - (by - ay) * (px - ax) > 0;
   };
   int count = 0;
-  for (const auto& w : s.ways) {
-    if (std::abs(w[0] - x) > length / 2 + 2 || std::abs(w[1] - y) > length / 2 + 2) continue;
+  for (auto at = from_west_of(s.ways, x, reach); at != s.ways.end() && at->front() - x <= reach; ++at) {
+    const auto& w = *at;
+    if (std::abs(w[1] - y) > reach) continue;
     count += side(x - ex, y - ey, x + ex, y + ey, w[0], w[1]) != side(x - ex, y - ey, x + ex, y + ey, w[2], w[3]) &&
              side(w[0], w[1], w[2], w[3], x - ex, y - ey) != side(w[0], w[1], w[2], w[3], x + ex, y + ey);
   }
@@ -118,10 +131,12 @@ int driven_across(const Survey& s, double x, double y, double length, double ang
 }
 
 bool driven_through(const Survey& s, double x, double y, double radius) {
-  return std::any_of(s.ways.begin(), s.ways.end(), [&](const auto& w) {
-    const double across = w[0] - x, along = w[1] - y;
-    return across * across + along * along < 0.49 * radius * radius;
-  });
+  const double reach = radius;
+  for (auto at = from_west_of(s.ways, x, reach); at != s.ways.end() && at->front() - x <= reach; ++at) {
+    const double across = at->front() - x, along = (*at)[1] - y;
+    if (across * across + along * along < 0.49 * radius * radius) return true;
+  }
+  return false;
 }
 
 double belief_in_segment(const Survey& s, const Eigen::VectorXd& t) {

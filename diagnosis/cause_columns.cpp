@@ -32,11 +32,13 @@ void find_place(CauseShape& shape) {
 }
 
 // Two columns stand for all directions where the effect is a wave in the cyclic parameter.
-bool is_wave(CauseModel& model, const CauseShape& shape, const std::string& parameter) {
+bool is_wave(const CauseSources& sources, const CauseShape& shape, const std::string& parameter) {
   auto others = shape.held;
   const auto at = [&](double angle) {
     others[parameter] = angle;
-    return model.column(shape.cause, shape.rows, 0, others);
+    VectorXd column(static_cast<Index>(sources.used.size()));
+    sources.run->fill(shape.cause, shape.rows, 0, others, sources.used, column);
+    return column;
   };
   const VectorXd zero = at(0), quarter = at(quarter_turn), one = at(1);
   return zero.norm() > 0 && (std::cos(1) * zero + std::sin(1) * quarter - one).norm() < 1e-9 * zero.norm();
@@ -53,14 +55,14 @@ std::vector<const muster_param*> sought(const Cause& cause) {
 }
 
 // False if the data cannot tell one of its parameters.
-bool find_axes(CauseShape& shape, CauseModel& model, const Survey& survey) {
+bool find_axes(CauseShape& shape, const CauseSources& sources, const Survey& survey) {
   for (uint32_t k = 0; k < shape.cause.plugin->param_count; ++k) {
     const muster_param& p = shape.cause.plugin->params[k];
     if ((p.flags & MUSTER_CYCLIC) && !(p.flags & MUSTER_FREE)) shape.held[p.name] = survey.plan_angle;
   }
   auto parameters = sought(shape.cause);
   for (const muster_param* p : parameters) {
-    if ((p->flags & MUSTER_CYCLIC) && shape.wave.empty() && is_wave(model, shape, p->name)) shape.wave = p->name;
+    if ((p->flags & MUSTER_CYCLIC) && shape.wave.empty() && is_wave(sources, shape, p->name)) shape.wave = p->name;
   }
   std::erase_if(parameters, [&](const muster_param* p) { return p->name == shape.wave; });
   for (const muster_param* p : parameters) {
@@ -91,7 +93,7 @@ std::function<Eigen::MatrixXd(const VectorXd&)> columns_at(const std::shared_ptr
     for (Index j = 0; j < result.cols(); ++j) {
       if (!shape->wave.empty()) parameters[shape->wave] = j ? quarter_turn : 0;
       if (shape->linear.size() > 1) shape->set_one(static_cast<std::size_t>(j), parameters);
-      result.col(j) = run->column(shape->cause, shape->rows, row, parameters)(used);
+      run->fill(shape->cause, shape->rows, row, parameters, used, result.col(j));
     }
     return result;
   };
@@ -263,7 +265,7 @@ std::string make(const Cause& cause, const Maker& maker, CauseSearch& out) {
   shape->rows = rows_for(cause, s.model, maker.survey);
   if (shape->rows.empty()) return "not testable: the world has no row that it could be about";
   find_place(*shape);
-  if (!find_axes(*shape, *s.run, maker.survey)) return "not testable: what it depends on does not vary";
+  if (!find_axes(*shape, s, maker.survey)) return "not testable: what it depends on does not vary";
   choose_strengths(*shape, s, maker.base);
   if (shape->linear.empty() && !cause.linear().empty())
     return "not testable: no reading depends on it, or the base model takes it up";

@@ -138,8 +138,8 @@ void CauseModel::put(Simulation& run, Present& present, const Cause& cause, cons
   std::vector<InstanceDeclaration> declarations;
   for (std::size_t k = first; k < first + count; ++k)
     declarations.push_back(instance_of(cause, name_of(k), rows[k], cause.file() ? data_ : "", 1, place));
+  run.share(cause.library);
   run.insert_all(std::move(declarations));
-  loaded_.insert(run.instances().back()->library());
   present = {cause.id, first, count, {}, false};
   // Tables that nothing has read so far are at the declared values.
   if (&run == &whole_) return;
@@ -160,16 +160,23 @@ void CauseModel::evaluate(Simulation& run, Present& present, const std::map<std:
   present.evaluated = true;
 }
 
-Eigen::VectorXd CauseModel::column(const Cause& cause, const std::vector<CauseRow>& rows, std::size_t row,
-                                   const std::map<std::string, double>& parameters) {
+void CauseModel::fill(const Cause& cause, const std::vector<CauseRow>& rows, std::size_t row,
+                      const std::map<std::string, double>& parameters, const std::vector<Eigen::Index>& readings,
+                      Eigen::Ref<Eigen::VectorXd> column) {
+  const auto fill_by = [&](const auto& value) {
+    for (Eigen::Index i = 0; i < column.size(); ++i) column[i] = value(readings[static_cast<std::size_t>(i)]);
+  };
   if (cause.needs_world()) {
     put(whole_, in_whole_, cause, rows, row, 1);
     evaluate(whole_, in_whole_, parameters);
-    return first_column(whole_.table("link/*/rssi")) - before_;
+    const FirstColumn with = first_column(whole_.table("link/*/rssi"));
+    fill_by([&](Eigen::Index reading) { return with[reading] - before_[reading]; });
+  } else {
+    put(*bare_, in_bare_, cause, rows, 0, rows.size());
+    evaluate(*bare_, in_bare_, parameters);
+    const FirstColumn added = first_column(bare_->table("link/*/level@" + name_of(row)));
+    fill_by([&](Eigen::Index reading) { return added[reading]; });
   }
-  put(*bare_, in_bare_, cause, rows, 0, rows.size());
-  evaluate(*bare_, in_bare_, parameters);
-  return first_column(bare_->table("link/*/level@" + name_of(row)));
 }
 
 }  // namespace muster::diagnosis

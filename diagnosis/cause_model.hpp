@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <map>
 #include <memory>
-#include <set>
 
 #include "diagnosis/model.hpp"
 
@@ -47,9 +46,11 @@ class CauseModel {
   CauseModel(LinkModel& whole, const std::filesystem::path& world, const std::filesystem::path& data,
              const Library::SearchPath& plugins);
 
-  // dB that an instance of the cause about rows[row] adds to each reading, the parameters being as given.
-  Eigen::VectorXd column(const Cause& cause, const std::vector<CauseRow>& rows, std::size_t row,
-                         const std::map<std::string, double>& parameters);
+  // Fills `column` with the dB that an instance of the cause about rows[row] adds to these readings, the parameters
+  // being as given.
+  void fill(const Cause& cause, const std::vector<CauseRow>& rows, std::size_t row,
+            const std::map<std::string, double>& parameters, const std::vector<Eigen::Index>& readings,
+            Eigen::Ref<Eigen::VectorXd> column);
   // Takes away what still stands in either world.
   void clear();
 
@@ -70,8 +71,7 @@ class CauseModel {
   std::unique_ptr<Simulation> bare_;
   std::filesystem::path data_;
   Present in_whole_, in_bare_;
-  std::set<std::shared_ptr<Library>> loaded_;  // to be loaded once, though their instances come and go
-  Eigen::VectorXd before_;                     // dBm: the whole world's expected level, without any cause
+  Eigen::VectorXd before_;  // dBm: the whole world's expected level, without any cause
 };
 
 }  // namespace muster::diagnosis

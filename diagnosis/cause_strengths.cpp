@@ -35,7 +35,8 @@ void choose_strengths(CauseShape& shape, const CauseSources& sources, const Base
   for (std::size_t k = 0; k < shape.linear.size(); ++k) {
     std::map<std::string, double> parameters = shape.held;
     shape.set_one(k, parameters);
-    VectorXd column = sources.run->column(shape.cause, shape.rows, 0, parameters)(sources.used);
+    VectorXd column(static_cast<Index>(sources.used.size()));
+    sources.run->fill(shape.cause, shape.rows, 0, parameters, sources.used, column);
     const Index count = (column.array() != 0).count();
     if (count > 0) all.push_back({shape.linear[k], std::move(column), count});
   }

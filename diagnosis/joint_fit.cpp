@@ -46,6 +46,7 @@ class Joint {
           std::find_if(fit_.causes.begin(), fit_.causes.end(), [&](const Cause& c) { return c.id == found.id; });
       if (found.status != search::Status::named || cause == fit_.causes.end()) continue;
       const std::string name = "found" + std::to_string(number++);
+      fit_.model.simulation().share(cause->library);
       fit_.model.simulation().insert(declared(found, *cause, name));
       inserted_.push_back(name);
       if (!shifts_levels(*cause)) continue;

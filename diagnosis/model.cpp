@@ -61,10 +61,9 @@ Options options_for(const World& world, const std::filesystem::path& data, const
 
 }  // namespace
 
-Eigen::VectorXd first_column(const TableView& table) {
+FirstColumn first_column(const TableView& table) {
   const auto rows = static_cast<Eigen::Index>(table.rows()), columns = static_cast<Eigen::Index>(table.cols());
-  return Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<>>(table.table->now().data.data(), rows,
-                                                                    Eigen::InnerStride<>(columns));
+  return {table.table->now().data.data(), rows, Eigen::InnerStride<>(columns)};
 }
 
 LinkModel::LinkModel(const std::filesystem::path& world, const std::filesystem::path& data,

@@ -16,7 +16,9 @@ struct End {
   int radio;  // row of the set `radio`
 };
 
-Eigen::VectorXd first_column(const TableView& table);
+// Of a published table; valid as long as the view is.
+using FirstColumn = Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<>>;
+FirstColumn first_column(const TableView& table);
 
 class LinkModel {
  public:

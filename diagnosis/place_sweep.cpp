@@ -132,12 +132,11 @@ std::vector<VectorXd> SegmentSweep::operator()(search::Tally& tally) const {
 
 DiskSweep::DiskSweep(const Survey& survey, Links links) : links_(std::move(links)) {
   constexpr double between_places = 0.4;
-  constexpr std::array radii{0.3, 0.5, 0.8};
   for (double x = survey.east.low; x < survey.east.high; x += between_places) {
     for (double y = survey.north.low; y < survey.north.high; y += between_places) {
-      for (const double radius : radii) {
-        if (!driven_through(survey, x, y, radius)) disks_.push_back({x, y, radius});
-      }
+      std::size_t fit = 0;
+      while (fit < radii.size() && !driven_through(survey, x, y, radii[fit])) ++fit;
+      if (fit > 0) places_.push_back({x, y, fit});
     }
   }
 }
@@ -145,26 +144,39 @@ DiskSweep::DiskSweep(const Survey& survey, Links links) : links_(std::move(links
 std::vector<VectorXd> DiskSweep::operator()(search::Tally& tally) const {
   check(tally, links_.size());
   std::vector<Swept> found;
-  for (const Disk& disk : disks_) {
-    VectorXd theta(4);
-    theta << 0, disk.x, disk.y, std::log(disk.radius);
-    found.push_back({gain(disk, tally), std::move(theta)});
+  std::vector<Passing> passing;
+  for (const Place& place : places_) {
+    find_passing(place, passing);
+    for (std::size_t k = 0; k < place.fit; ++k) {
+      VectorXd theta(4);
+      theta << 0, place.x, place.y, std::log(radii[k]);
+      found.push_back({gain(radii[k], passing, tally), std::move(theta)});
+    }
   }
   return best_of(std::move(found));
 }
 
-double DiskSweep::gain(const Disk& disk, search::Tally& tally) const {
-  const auto& [x, y, radius] = disk;
-  tally.clear();
+// Links that may go through the widest disk about the place.
+void DiskSweep::find_passing(const Place& place, std::vector<Passing>& passing) const {
+  passing.clear();
+  const double widest = radii[place.fit - 1];
   for (std::size_t k = 0; k < links_.size(); ++k) {
     const auto& [ax, ay, bx, by] = links_[k];
     const double ex = bx - ax, ey = by - ay, squared = ex * ex + ey * ey;
     if (squared <= 0) continue;
-    const double along = ((x - ax) * ex + (y - ay) * ey), side = ((x - ax) * ey - (y - ay) * ex);
+    const double along = ((place.x - ax) * ex + (place.y - ay) * ey),
+                 side = ((place.x - ax) * ey - (place.y - ay) * ex);
+    if (side * side < widest * widest * squared) passing.push_back({static_cast<Index>(k), along, side, squared});
+  }
+}
+
+double DiskSweep::gain(double radius, const std::vector<Passing>& passing, search::Tally& tally) {
+  tally.clear();
+  for (const auto& [row, along, side, squared] : passing) {
     if (side * side >= radius * radius * squared) continue;
     const double length = std::sqrt(squared), half = std::sqrt(radius * radius - side * side / squared);
     const double way = std::min(along / length + half, length) - std::max(along / length - half, 0.0);
-    if (way > 0) tally.add(static_cast<Index>(k), std::expm1(-way / radius));
+    if (way > 0) tally.add(row, std::expm1(-way / radius));
   }
   return tally.gain();
 }

@@ -2,6 +2,8 @@
 // there are and which rows they concern is worked out once, for any number of sweeps.
 #pragma once
 
+#include <array>
+
 #include "diagnosis/search/candidate.hpp"
 #include "diagnosis/survey.hpp"
 
@@ -46,14 +48,23 @@ class DiskSweep {
   std::vector<Eigen::VectorXd> operator()(search::Tally& tally) const;
 
  private:
-  struct Disk {
-    double x, y, radius;
+  static constexpr std::array radii{0.3, 0.5, 0.8};  // m
+
+  struct Place {
+    double x, y;
+    std::size_t fit;  // radii that are clear
+  };
+  // A link that passes by a place: how far along it, times its length; how far aside, the same; its length squared.
+  struct Passing {
+    Eigen::Index row;
+    double along, side, squared;
   };
 
-  double gain(const Disk& disk, search::Tally& tally) const;
+  void find_passing(const Place& place, std::vector<Passing>& passing) const;
+  static double gain(double radius, const std::vector<Passing>& passing, search::Tally& tally);
 
   Links links_;
-  std::vector<Disk> disks_;
+  std::vector<Place> places_;
 };
 
 }  // namespace muster::diagnosis

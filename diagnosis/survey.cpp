@@ -175,6 +175,7 @@ Survey survey_of(const LinkModel& model, const Dataset& data) {
     if (survey.has_time) widen(survey.time, data.t[row], distances.empty());
     distances.push_back(std::hypot(std::hypot(ends[0].x - ends[1].x, ends[0].y - ends[1].y), ends[0].z - ends[1].z));
   }
+  std::sort(survey.ways.begin(), survey.ways.end());
   survey.has_height = survey.height.length() > 0.3;
   std::sort(distances.begin(), distances.end());
   const auto quantile = [&](double share) {

@@ -28,7 +28,7 @@ struct Survey {
   double plan_angle = 0;                        // rad, in [0, pi/2): most of the walls run along it or across it
   std::vector<bool> turns, moves;               // a radio
   std::vector<std::array<double, 2>> standing;  // m, places of radios that do not move
-  // Ways of radios that move, x0 y0 x1 y1 of each piece, in m.
+  // Ways of radios that move, x0 y0 x1 y1 of each piece, in m; by their x0.
   std::vector<std::array<double, 4>> ways;
   std::vector<Strip> strips;  // between walls that run side by side and could be corridors, the longest first
   std::vector<Strip> rooms;   // in which moving radios took some of the readings

@@ -81,12 +81,15 @@ Rows::Rows(const Readings& readings, const RowLimits& limits)
   count_.resize(size());
   for (Index i = 0; i < size(); ++i)
     count_[i] = static_cast<double>(first_[static_cast<std::size_t>(i) + 1] - first_[static_cast<std::size_t>(i)]);
+  by_count_.resize(static_cast<std::size_t>(size()));
+  std::iota(by_count_.begin(), by_count_.end(), 0);
+  std::stable_sort(by_count_.begin(), by_count_.end(), [this](Index a, Index b) { return count_[a] < count_[b]; });
 }
 
 Eigen::MatrixXd Rows::mean(const Eigen::Ref<const Eigen::MatrixXd>& columns) const {
   Eigen::MatrixXd result(size(), columns.cols());
   for (Index j = 0; j < columns.cols(); ++j) {
-    for (Index i = 0; i < size(); ++i) {
+    for (const Index i : by_count_) {
       double sum = 0;
       for (Index k = first_[static_cast<std::size_t>(i)]; k < first_[static_cast<std::size_t>(i) + 1]; ++k)
         sum += columns(order_[static_cast<std::size_t>(k)], j);

@@ -71,6 +71,7 @@ class Rows {
   std::vector<Index> first_;  // in order_; one past the last row too
   std::vector<Index> row_of_;
   Eigen::VectorXd count_;
+  std::vector<Index> by_count_;  // rows in the order of how many readings they have: one loop is as long as the next
 };
 
 // What suits a search. A wall that no map has shows best in short rows, down to single readings, while each row costs

@@ -62,7 +62,6 @@ Bench::Bench(const Problem& problem, const Options& options)
       options_(options),
       rows_(problem.readings, options.rows),
       field_(rows_.sites(problem.readings), {.seed = options.seed}),
-      far_(problem.readings, options, rows_),
       base_(rows_.mean(problem.base)),
       normals_(normals_of(rows_.size(), options.nulls, options.seed)) {
   impute(6);
@@ -117,6 +116,11 @@ std::vector<noise::Family> Bench::likely_families(noise::Family first) const {
       result.push_back(other.covariance.family);
   }
   return result;
+}
+
+const FarRows& Bench::far() const {
+  if (!far_) far_ = std::make_unique<const FarRows>(problem_.readings, options_, rows_);
+  return *far_;
 }
 
 Entry Bench::entry(Candidate candidate) const {

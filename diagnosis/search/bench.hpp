@@ -59,7 +59,8 @@ class Bench {
   const Options& options() const { return options_; }
   const noise::Rows& rows() const { return rows_; }
   const noise::Field& field() const { return field_; }
-  const FarRows& far() const { return far_; }
+  // Made when it is first asked for: most searches do without.
+  const FarRows& far() const;
   double log_rows() const { return std::log(static_cast<double>(rows_.size())); }
 
   noise::Fit fit;                    // of the noise beside the design
@@ -105,7 +106,7 @@ class Bench {
   Options options_;
   noise::Rows rows_;
   noise::Field field_;
-  FarRows far_;
+  mutable std::unique_ptr<const FarRows> far_;
   Eigen::MatrixXd base_;
   Eigen::VectorXd measured_, y_;
   std::vector<Entry> entries_;

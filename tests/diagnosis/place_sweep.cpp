@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "diagnosis/cause_axes.hpp"
 #include "muster/random.hpp"
 
 namespace muster::diagnosis {
@@ -93,6 +95,37 @@ TEST(PlaceSweep, LeavesOutWhatWasDrivenAcross) {
     const Ends e = ends_of(theta);
     EXPECT_FALSE(meets_segment({6, 2}, {6, 7}, e.from, e.to)) << theta.transpose();
   }
+}
+
+TEST(PlaceSweep, CountsEachWayThatIsInTheWay) {
+  Survey survey;
+  const Stream stream(7);
+  for (uint64_t k = 0; k < 2000; ++k) {
+    const double x = 12 * stream.uniform(k, 0), y = 9 * stream.uniform(k, 1), to = 7 * stream.uniform(k, 2);
+    survey.ways.push_back({x, y, x + 0.7 * std::cos(to), y + 0.7 * std::sin(to)});
+  }
+  std::sort(survey.ways.begin(), survey.ways.end());
+  int across = 0, clear = 0;
+  for (uint64_t k = 0; k < 300; ++k) {
+    Eigen::VectorXd theta(5);
+    theta << 0, 14 * stream.uniform(k, 3) - 1, 9 * stream.uniform(k, 4), 3 * stream.uniform(k, 5),
+        6 * stream.uniform(k, 6);
+    const Ends e = ends_of(theta);
+    const auto crossed = std::count_if(survey.ways.begin(), survey.ways.end(), [&](const auto& w) {
+      return meets_segment({w[0], w[1]}, {w[2], w[3]}, e.from, e.to);
+    });
+    ASSERT_EQ(driven_across(survey, theta[1], theta[2], theta[3], theta[4]), crossed) << theta.transpose();
+    const double radius = theta[3] / 3;
+    const bool through = std::any_of(survey.ways.begin(), survey.ways.end(), [&](const auto& w) {
+      return std::hypot(w[0] - theta[1], w[1] - theta[2]) < 0.7 * radius;
+    });
+    ASSERT_EQ(driven_through(survey, theta[1], theta[2], radius), through) << theta.transpose();
+    across += static_cast<int>(crossed);
+    clear += !through;
+  }
+  EXPECT_GT(across, 300);
+  EXPECT_GT(clear, 30);
+  EXPECT_LT(clear, 270);
 }
 
 TEST(PlaceSweep, FindsADisk) {
