@@ -131,8 +131,7 @@ int driven_across(const Survey& s, double x, double y, double length, double ang
 }
 
 bool driven_through(const Survey& s, double x, double y, double radius) {
-  const double reach = radius;
-  for (auto at = from_west_of(s.ways, x, reach); at != s.ways.end() && at->front() - x <= reach; ++at) {
+  for (auto at = from_west_of(s.ways, x, radius); at != s.ways.end() && at->front() - x <= radius; ++at) {
     const double across = at->front() - x, along = (*at)[1] - y;
     if (across * across + along * along < 0.49 * radius * radius) return true;
   }
