@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <tuple>
 
 #include "diagnosis/noise/exact.hpp"
@@ -234,25 +233,21 @@ Spread spread_of(const Bench& bench, const Term& term) {
 }
 
 Eigen::VectorXd middle_of(const Bench& bench, const Term& term, const Spread& spread) {
-  constexpr double nearly = 4;  // of deviance, a 95 % region of one parameter
-  constexpr std::size_t tries = 20;
-  const Index n = term.theta.size(), count = static_cast<Index>(spread.thetas.size());
-  Eigen::MatrixXd all(n, count);
-  for (Index k = 0; k < count; ++k) all.col(k) = spread.thetas[static_cast<std::size_t>(k)];
-  const Eigen::VectorXd mean = all.rowwise().mean();
-  all.colwise() -= mean;
-  const Eigen::VectorXd sd = (all.rowwise().squaredNorm() / static_cast<double>(count)).cwiseSqrt();
-  const Eigen::VectorXd off = (sd.cwiseMax(1e-12).cwiseInverse().asDiagonal() * all).colwise().squaredNorm();
-  std::vector<Index> nearest(spread.thetas.size());
-  std::iota(nearest.begin(), nearest.end(), 0);
-  std::stable_sort(nearest.begin(), nearest.end(), [&](Index a, Index b) { return off[a] < off[b]; });
+  constexpr std::size_t tries = 40;
+  const std::size_t every = std::max<std::size_t>(1, spread.thetas.size() / tries);
+  const Candidate& c = *term.candidate;
   const Stand rest = bench.stand(bench.design_without(term));
-  const double best = gain_of(*term.candidate, rest, term.columns);
-  for (std::size_t k = 0; k < std::min(nearest.size(), tries); ++k) {
-    const Eigen::VectorXd& theta = spread.thetas[static_cast<std::size_t>(nearest[k])];
-    if (gain_of(*term.candidate, rest, bench.columns_of(*term.candidate, theta)) > best - nearly) return theta;
+  std::vector<Eigen::VectorXd> thetas{term.theta};
+  for (std::size_t k = every / 2; k < spread.thetas.size(); k += every) thetas.push_back(spread.thetas[k]);
+  Eigen::MatrixXd effects(rest.at.residual.size(), static_cast<Index>(thetas.size()));
+  for (std::size_t k = 0; k < thetas.size(); ++k) {
+    const Beside there(rest, bench.columns_of(c, thetas[k]), c.whole);
+    effects.col(static_cast<Index>(k)) = there.columns * there.coefficients;
   }
-  return term.theta;
+  const Eigen::VectorXd mean = effects.rightCols(effects.cols() - 1).rowwise().mean();
+  Index nearest = 0;
+  (effects.colwise() - mean).colwise().squaredNorm().minCoeff(&nearest);
+  return thetas[static_cast<std::size_t>(nearest)];
 }
 
 }  // namespace muster::search
