@@ -24,6 +24,7 @@ double wider(const std::string& cause) {
   return cause == "effect.fading_law" ? 3 : cause == "effect.channel_mixture" ? 2 : 1.5;
 }
 const double may_be_named = std::log(0.01);  // log p; untamed readings, which take as long again, only raise it
+const double worth_a_closer_look = 3;        // gain: far from what may be named
 const double averaged_cost = std::log(5.0);  // nats: the stated law is that of single fades
 
 ReadingLaw averaged_over(ReadingLaw law, int n) {
@@ -111,7 +112,6 @@ class Tests {
       likelier(judge_.closer_distance(best.law, best.peak));
       best = narrowed(family, best, 0.3);
     }
-    if (std::getenv("DBG")) fprintf(stderr, "%s end fam %d %.3f\n", family.cause.c_str(), (int)best.peak.shape.family, family.reported(best.strength));
     return best;
   }
 
@@ -261,6 +261,9 @@ LawTests law_tests(ReadingField& field, double step, const ReadingLaw& stated, c
   for (const auto& [family, value] : values) {
     if (value > best.at(family->cause).second.peak.value - within) as_likely[family->cause].push_back(family);
   }
+  for (auto& [cause, found] : best) {
+    if (tests.gain(found.second) > worth_a_closer_look) found.second = tests.settled(*found.first, found.second);
+  }
   const auto weigh = [&](LawTest& test, double gain) {  // what a gain says, of the forms that were tried
     const auto forms = static_cast<double>(
         std::count_if(families.begin(), families.end(), [&](const Family& f) { return f.cause == test.cause; }));
@@ -291,9 +294,8 @@ LawTests law_tests(ReadingField& field, double step, const ReadingLaw& stated, c
       value.upper95 = std::max(value.upper95, other.upper95);
     }
   }
-  const bool may = result.front().log_p < may_be_named;
   if (result.front().gain > 0)
-    result.front().values.insert(result.front().values.begin(), tests.value(*family, may ? tests.settled(*family, fitted) : fitted));
+    result.front().values.insert(result.front().values.begin(), tests.value(*family, fitted));
   return {result, tests.stated()};
 }
 
