@@ -233,21 +233,27 @@ Spread spread_of(const Bench& bench, const Term& term) {
 }
 
 Eigen::VectorXd middle_of(const Bench& bench, const Term& term, const Spread& spread) {
+  constexpr double nearly = 4;  // of deviance, a 95 % region of one parameter
   constexpr std::size_t tries = 40;
-  const std::size_t every = std::max<std::size_t>(1, spread.thetas.size() / tries);
   const Candidate& c = *term.candidate;
   const Stand rest = bench.stand(bench.design_without(term));
+  const double best = Beside(rest, term.columns, c.whole).gain;
   std::vector<Eigen::VectorXd> thetas{term.theta};
-  for (std::size_t k = every / 2; k < spread.thetas.size(); k += every) thetas.push_back(spread.thetas[k]);
+  const std::size_t every = spread.thetas.size() / tries + 1;
+  for (std::size_t k = 0; k < spread.thetas.size(); k += every) thetas.push_back(spread.thetas[k]);
   Eigen::MatrixXd effects(rest.at.residual.size(), static_cast<Index>(thetas.size()));
+  std::vector<bool> explains(thetas.size());
   for (std::size_t k = 0; k < thetas.size(); ++k) {
     const Beside there(rest, bench.columns_of(c, thetas[k]), c.whole);
     effects.col(static_cast<Index>(k)) = there.columns * there.coefficients;
+    explains[k] = there.gain > best - nearly;
   }
   const Eigen::VectorXd mean = effects.rightCols(effects.cols() - 1).rowwise().mean();
-  Index nearest = 0;
-  (effects.colwise() - mean).colwise().squaredNorm().minCoeff(&nearest);
-  return thetas[static_cast<std::size_t>(nearest)];
+  const Eigen::VectorXd off = (effects.colwise() - mean).colwise().squaredNorm();
+  std::size_t middle = 0;
+  for (std::size_t k = 1; k < thetas.size(); ++k)
+    if (explains[k] && off[static_cast<Index>(k)] < off[static_cast<Index>(middle)]) middle = k;
+  return thetas[middle];
 }
 
 }  // namespace muster::search
