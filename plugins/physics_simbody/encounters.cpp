@@ -20,9 +20,6 @@ constexpr double creep_of_pairs = 2.4e-3;
 constexpr double slack = 0.003;   // [m] what others may push a contact by that would not close by itself
 constexpr double nearby = 0.003;  // [m] at least so far off touching is looked for
 
-// Nothing sinks in deeper than this [m]. What seems to have been deeper at a step's start meets there by another face
-// than the one that kept it apart so far, as happens at corners that half a step brings past each other.
-constexpr double never_so_deep = 5e-4;
 constexpr double longest_way_of_corners = 0.005;  // [m] past each other in one step
 
 struct Compliance {
@@ -152,7 +149,7 @@ void EncountersOf<N>::stand(int body, const Placed& robot, const Memory& memory)
   const Compliance compliance(robot.mass, h_);
   const Matrix3d to_body = robot.to_world.transpose();
   const Vector3d up = to_body.col(2);
-  const auto add_contact = [&](const Vector3d& centre, double radius) -> Contact& {
+  const auto add_contact = [&](const Vector3d& centre, double radius, int wheel = -1) -> Contact& {
     const Vector3d arm = centre - radius * up;
     Contact& c = contacts.emplace_back();
     c.body = body;
@@ -160,12 +157,17 @@ void EncountersOf<N>::stand(int body, const Placed& robot, const Memory& memory)
     c.softness = compliance.softness;
     const double gap = robot.position.z() + up.dot(arm) - 0.5 * h_ * c.normal.dot(robot.body.previous);
     c.target = compliance.target(gap, h_);
+    Trace& trace = traces.emplace_back();
+    trace.robot = robot.index;
+    trace.wheel = wheel;
+    trace.gap = gap;
+    trace.restitution = robot.model->restitution;
     return c;
   };
   for (int w = 0; robot.model->has_wheels && w < 2; ++w) {
     const double radius = robot.model->drive.wheel_radius;
     const Vector3d centre = robot.model->wheel_frame[w].translation();
-    Contact& c = add_contact(centre, radius);
+    Contact& c = add_contact(centre, radius, w);
     const Vector3d surface = Vector3d::UnitY().cross(-radius * up);  // of the tread, per rate
     for (int k = 0; k < 2; ++k) {
       c.tangent[k] = point_row<N>(centre - radius * up, to_body.col(k));
@@ -175,12 +177,8 @@ void EncountersOf<N>::stand(int body, const Placed& robot, const Memory& memory)
     const auto& impulse = memory.impulse[w];
     c.push = impulse[0];
     c.grip = {impulse[1], impulse[2]};
-    traces.push_back({robot.index, w});
   }
-  for (const Slider& slider : robot.model->sliders) {
-    add_contact(slider.centre, slider.radius);
-    traces.push_back({robot.index});
-  }
+  for (const Slider& slider : robot.model->sliders) add_contact(slider.centre, slider.radius);
 }
 
 template <int N>
@@ -306,6 +304,10 @@ void EncountersOf<N>::add(const Side& a, const Side& b, Trace trace, const Memor
         gap < -never_so_deep || (point.of_corners && is_too_far(h_ * closing_speed(*a.robot, b.robot, point.place)));
   }
   if (least_gap > slack && !trace.step_is_too_long) return;
+  trace.gap = gap;
+  trace.restitution = a.leg >= 0 || b.leg >= 0 ? 0
+                      : b.robot                ? std::min(a.robot->model->restitution, b.robot->model->restitution)
+                                               : a.robot->model->restitution;
   c.body = a.body;
   c.other = b.body;
   c.friction = a.leg >= 0 && !b.robot ? a.robot->model->leg_drive.friction : friction_;
@@ -313,7 +315,7 @@ void EncountersOf<N>::add(const Side& a, const Side& b, Trace trace, const Memor
                                      : b.leg >= 0 ? &b.robot->model->leg_drive
                                                   : nullptr;
   if (leg && !leg->is_rigid()) {
-    if (gap > 0) return;
+    if (gap > 0 || h_ == 0) return;
     const Spring spring(*leg, h_);
     c.softness = spring.softness;
     c.target = spring.target(gap, speed);

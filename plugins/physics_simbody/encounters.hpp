@@ -27,13 +27,19 @@ struct PlacedOf {
 
 using Placed = PlacedOf<unknowns>;
 
-// Where the impulse of a contact is kept from step to step.
+// Nothing sinks in deeper than this [m]. What seems to have been deeper at a step's start meets there by another face
+// than the one that kept it apart so far, as happens at corners that half a step brings past each other.
+constexpr double never_so_deep = 5e-4;
+
+// Where the impulse of a contact is kept from step to step, and what its solver need not know.
 struct Trace {
   int robot = 0;
   int wheel = -1;                                       // on the ground: 0 left, 1 right
   double id = 0;                                        // of others; 0: not kept
   Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();  // normal and tangents as columns, in the world
   bool step_is_too_long = false;                        // for what meets here
+  double gap = 0;                                       // at the step's start [m]
+  double restitution = 0;
 };
 
 template <int N>
@@ -42,7 +48,8 @@ class EncountersOf {
   using Contact = ContactOf<N>;
   using Placed = PlacedOf<N>;
 
-  // A step of length h [s]; friction as between bodies.
+  // A step of length h [s]; friction as between bodies. With h = 0, an instant, springs give nothing, and what other
+  // contacts aim at is not said.
   void begin(double h, double friction);
 
   // `body`: what the contacts name the robot by; their traces bear its index.

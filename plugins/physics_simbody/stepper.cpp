@@ -67,10 +67,29 @@ std::vector<PlacedOf<N>>& StepperOf<N>::placed() const {
 
 template <int N>
 void StepperOf<N>::advance(const Group& group, double h, double at, const std::vector<Command>& commands,
-                           std::vector<RobotState>& states, int halvings) {
+                           std::vector<RobotState>& states) {
+  prepare(group, h, at, commands, states);
+  if (bounces(group)) {
+    go_by_impacts(group, h, at, commands, states);
+  } else {
+    complete(group, h, at, commands, states);
+  }
+}
+
+// Robots half a step ahead, and what they meet there.
+template <int N>
+void StepperOf<N>::prepare(const Group& group, double h, double at, const std::vector<Command>& commands,
+                           const std::vector<RobotState>& states) {
   for (const int i : group.robots) place(i, h, at, commands[i], states[i]);
   meet(group, h, states);
   find_islands(group);
+}
+
+// The step that was prepared. Robots that touch and for whom it is too long take it in two halves, which may be divided
+// again.
+template <int N>
+void StepperOf<N>::complete(const Group& group, double h, double at, const std::vector<Command>& commands,
+                            std::vector<RobotState>& states, int halvings) {
   std::vector<Group> in_halves;
   for (std::size_t k = 0; k < group.robots.size(); ++k) {
     const Island& island = islands_[k];
@@ -82,7 +101,10 @@ void StepperOf<N>::advance(const Group& group, double h, double at, const std::v
     for (const int i : island.robots) finish(i, h, commands[i], states[i]);
   }
   for (const Group& part : in_halves) {
-    for (const double half : {-0.25, 0.25}) advance(part, h / 2, at + half * h, commands, states, halvings + 1);
+    for (const double half : {-0.25, 0.25}) {
+      prepare(part, h / 2, at + half * h, commands, states);
+      complete(part, h / 2, at + half * h, commands, states, halvings + 1);
+    }
   }
 }
 
@@ -227,10 +249,7 @@ void StepperOf<N>::solve(const Island& island, std::vector<RobotState>& states) 
   problem_.bodies.resize(island.robots.size());
   for (std::size_t i = 0; i < island.robots.size(); ++i) problem_.bodies[i] = placed()[island.robots[i]].body;
   take_contacts(island);
-  const Outcome outcome = solver_.solve(problem_);
-  ++count_.solved;
-  count_.unsettled += !outcome.converged;
-  count_.failed += !outcome.minimised;
+  solve_problem();
   for (std::size_t i = 0; i < island.robots.size(); ++i) {
     placed()[island.robots[i]].body.velocity = problem_.bodies[i].velocity;
     states[island.robots[i]].memory = Memory();
@@ -239,6 +258,14 @@ void StepperOf<N>::solve(const Island& island, std::vector<RobotState>& states) 
     const Trace& trace = encounters_.traces[island.contacts[k]];
     keep(problem_.contacts[k], trace, states[trace.robot].memory);
   }
+}
+
+template <int N>
+void StepperOf<N>::solve_problem() {
+  const Outcome outcome = solver_.solve(problem_);
+  ++count_.solved;
+  count_.unsettled += !outcome.converged;
+  count_.failed += !outcome.minimised;
 }
 
 template <int N>
@@ -252,8 +279,24 @@ void StepperOf<N>::finish(int index, double h, const Command& command, RobotStat
   const Quaternion q = turned(quaternion_of(state), now.turned, w, h);
   const double size = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
   for (int k = 0; k < 4; ++k) state.pose[3 + k] = q[k] / size;
+  for (int k = 0; k < 3; ++k) state.pose[k] += h * v[k];
+  set_velocity(robot, now, v, w, state);
+  for (int k = 0; k < 2 && robot.model.legs.empty(); ++k) state.angle[k] += h * u[6 + k];
+  for (std::size_t k = 0; k < robot.model.legs.size(); ++k) {
+    const double rate = u[6 + static_cast<int>(k)];
+    state.leg_angle[k] += h * rate;
+    state.leg_torque[k] = now.body.motors[k].impulse(rate) / h;
+  }
+  if (const auto& rotors = robot.model.rotors)
+    state.rotors = rotors->later(state.rotors, command.rotors, rotors->decay(h));
+  state.memory.previous_step = h;
+}
+
+// As found for the robot where it is placed; v and w of its body in the world.
+template <int N>
+void StepperOf<N>::set_velocity(const CrewMember& robot, const PlacedOf<N>& now, const Vector3d& v, const Vector3d& w,
+                                RobotState& state) {
   for (int k = 0; k < 3; ++k) {
-    state.pose[k] += h * v[k];
     state.twist[k] = v[k];
     state.twist[3 + k] = w[k];
   }
@@ -261,19 +304,12 @@ void StepperOf<N>::finish(int index, double h, const Command& command, RobotStat
     const Vector3d lead = origin_lead(robot, now.to_world, state);
     for (int k = 0; k < 3; ++k) state.twist[k] -= lead[k];
   }
-  for (int k = 0; k < 2 && robot.model.legs.empty(); ++k) {
-    state.angle[k] += h * u[6 + k];
-    state.rate[k] = u[6 + k];
+  const auto rates = now.body.velocity.template tail<N - 6>();
+  if (robot.model.legs.empty()) {
+    for (int k = 0; k < 2; ++k) state.rate[k] = rates[k];
+  } else {
+    for (std::size_t k = 0; k < robot.model.legs.size(); ++k) state.leg_rate[k] = rates[static_cast<int>(k)];
   }
-  for (std::size_t k = 0; k < robot.model.legs.size(); ++k) {
-    const double rate = u[6 + static_cast<int>(k)];
-    state.leg_angle[k] += h * rate;
-    state.leg_rate[k] = rate;
-    state.leg_torque[k] = now.body.motors[k].impulse(rate) / h;
-  }
-  if (const auto& rotors = robot.model.rotors)
-    state.rotors = rotors->later(state.rotors, command.rotors, rotors->decay(h));
-  state.memory.previous_step = h;
 }
 
 template class StepperOf<unknowns>;
