@@ -89,16 +89,14 @@ void StepperOf<N>::go_by_impacts(const Group& group, double h, double at, const 
   };
   for (std::size_t tries = most_impacts * group.robots.size(); tries > 0; --tries) {
     const double first = first_impact(group, ahead, states);
-    const bool some = first < ahead;
-    bool struck = false;
-    if (!some && ahead == left) break;
-    if (first > 0) {
-      const double time = some ? first : ahead;
-      if (some) prepare_for(time);
+    if (first >= ahead && ahead == left) break;
+    const double time = std::min(first, ahead);
+    if (time > 0) {
+      if (time < ahead) prepare_for(time);
       go(time);
     }
-    if (some) struck = strike(group, now, commands, states);
-    ahead = first > 0 || struck ? left : 0.5 * ahead;
+    const bool struck = first < ahead && strike(group, now, commands, states);
+    ahead = time > 0 || struck ? left : 0.5 * ahead;
     prepare_for(ahead);
   }
   if (ahead < left) prepare_for(left);

@@ -201,6 +201,26 @@ TEST(Bounce, LongTicksAndRemadeEnginesGiveTheSameBits) {
   }
 }
 
+TEST(Bounce, CrowdNeitherOverlapsNorJumps) {
+  constexpr int count = 25;
+  const description::Robot robot = elastic("scarab", 0.5);
+  for (uint64_t seed : {1, 2}) {
+    Fleet run(square(count, [&](int i, double, double) { return 6.28 * Stream(seed).uniform(1000 + i); }), robot,
+              Integrator::midpoint, 0.01);
+    run.among(arena(count), 0.3);
+    const RandomArcs arcs(seed);
+    Trouble seen;
+    for (int k = 0; k < 400; ++k) {
+      std::vector<Command> commands;
+      for (int i = 0; i < count; ++i) commands.push_back(arcs.between(i, k * 0.01, (k + 1) * 0.01));
+      run.tick(0.01, commands);
+      seen.see(run.states, slabs(run.walls(), {}), 0.01);
+    }
+    EXPECT_LT(seen.deepest, 1e-3) << seed;
+    EXPECT_LT(seen.rise, 0.3) << seed;
+  }
+}
+
 TEST(Bounce, SimbodysOwnIntegratorsRefuseIt) {
   const description::Robot robot = elastic("scarab", 0.5);
   try {
