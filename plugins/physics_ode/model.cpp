@@ -29,8 +29,7 @@ std::vector<std::string> lacks(const Robot& robot) {
       result.push_back("joint '" + robot.joints[i].name + "' moves and is no wheel of its drive");
     }
   }
-  if (robot.restitution > 0 && robot.drive)
-    result.push_back("it bounces and has wheels, with whose hinges ODE's impacts gain energy");
+  if (robot.restitution > 0 && robot.drive) result.push_back("it bounces on wheels, where ODE's impacts gain energy");
   if (!has_inertia(rigid_mass(robot, 0))) result.push_back("its body has no mass or inertia");
   for (const std::size_t joint : wheels) {
     if (has_inertia(rigid_mass(robot, robot.joints[joint].child))) continue;

@@ -304,16 +304,14 @@ void EncountersOf<N>::add(const Side& a, const Side& b, Trace trace, const Memor
         gap < -never_so_deep || (point.of_corners && is_too_far(h_ * closing_speed(*a.robot, b.robot, point.place)));
   }
   if (least_gap > slack && !trace.step_is_too_long) return;
-  trace.gap = gap;
-  trace.restitution = a.leg >= 0 || b.leg >= 0 ? 0
-                      : b.robot                ? std::min(a.robot->model->restitution, b.robot->model->restitution)
-                                               : a.robot->model->restitution;
   c.body = a.body;
   c.other = b.body;
   c.friction = a.leg >= 0 && !b.robot ? a.robot->model->leg_drive.friction : friction_;
   const description::LegDrive* leg = a.leg >= 0   ? &a.robot->model->leg_drive
                                      : b.leg >= 0 ? &b.robot->model->leg_drive
                                                   : nullptr;
+  trace.gap = gap;
+  if (!leg) trace.restitution = std::min(a.robot->model->restitution, (b.robot ? b : a).robot->model->restitution);
   if (leg && !leg->is_rigid()) {
     if (gap > 0 || h_ == 0) return;
     const Spring spring(*leg, h_);

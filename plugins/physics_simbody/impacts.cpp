@@ -1,6 +1,7 @@
 // Robots that bounce. Their steps end where something meets, and an impact takes no time: all that touches then parts
 // with a share of the speed at which it met (Newton's law of restitution for all contacts at once, Moreau 1988, with
 // Coulomb's friction). Where friction would let that gain energy (Kane 1984), it bounces by so much less.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 

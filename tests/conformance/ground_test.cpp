@@ -132,7 +132,7 @@ TEST_P(OnTheGround, BouncesToTheSquareOfItsRestitutionOrRefuses) {
       FAIL() << "nothing was thrown";
     } catch (const Error& error) {
       EXPECT_EQ(error.exit(), Exit::invalid_input);
-      EXPECT_THAT(error.what(), testing::HasSubstr(GetParam().bouncing ? "it bounces and has wheels"
+      EXPECT_THAT(error.what(), testing::HasSubstr(GetParam().bouncing ? "it bounces on wheels"
                                                                        : "it lacks what the world's robots need: robot "
                                                                          "'a' (model 'scarab') needs bouncing "
                                                                          "(<muster restitution=...>)"));

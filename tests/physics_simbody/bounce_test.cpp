@@ -163,6 +163,24 @@ TEST(Bounce, WallsReflectAndFrictionTakesItsShare) {
   }
 }
 
+// Its body, that is: legs swing on in their hips, and pull at it from then on.
+TEST(Bounce, AHexapodBouncesOffAWall) {
+  description::Robot robot = elastic("rdk", 0.5);
+  robot.legs->max_torque = 1e-9;
+  RobotState start = moving(0, 0, 0, 1, 0);
+  start.pose[2] = 3;
+  Fleet run({start}, robot);
+  run.among({{0.5, -2, 0.5, 2, 0, 5, 0.1, 0}}, 0);
+  for (int k = 0; k < 400; ++k) {
+    run.tick(0.001, {Command{}});
+    ASSERT_LT(run.states[0].pose[0], 0.45 - 0.175 + 1e-5) << k;
+    if (run.states[0].twist[0] > 0) continue;
+    EXPECT_NEAR(run.states[0].twist[0], -0.5, 0.01);
+    return;
+  }
+  FAIL() << "it did not come back";
+}
+
 TEST(Bounce, StandsAndDrivesWithTheBitsOfPlasticRobots) {
   const auto driven = [](double e) {
     const description::Robot robot = elastic("scarab", e);
