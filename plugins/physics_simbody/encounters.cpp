@@ -132,11 +132,13 @@ bool may_touch_wall(const Solid& solid, const Solid& wall, double margin) {
 }  // namespace
 
 template <int N>
-void EncountersOf<N>::begin(double h, double friction) {
+void EncountersOf<N>::begin(double h, double friction, bool somebody_bounces) {
   h_ = h;
   friction_ = friction;
+  somebody_bounces_ = somebody_bounces;
   contacts.clear();
   traces.clear();
+  meetings.clear();
 }
 
 template <int N>
@@ -149,7 +151,7 @@ void EncountersOf<N>::stand(int body, const Placed& robot, const Memory& memory)
   const Compliance compliance(robot.mass, h_);
   const Matrix3d to_body = robot.to_world.transpose();
   const Vector3d up = to_body.col(2);
-  const auto add_contact = [&](const Vector3d& centre, double radius, int wheel = -1) -> Contact& {
+  const auto add_contact = [&](const Vector3d& centre, double radius) -> Contact& {
     const Vector3d arm = centre - radius * up;
     Contact& c = contacts.emplace_back();
     c.body = body;
@@ -157,17 +159,13 @@ void EncountersOf<N>::stand(int body, const Placed& robot, const Memory& memory)
     c.softness = compliance.softness;
     const double gap = robot.position.z() + up.dot(arm) - 0.5 * h_ * c.normal.dot(robot.body.previous);
     c.target = compliance.target(gap, h_);
-    Trace& trace = traces.emplace_back();
-    trace.robot = robot.index;
-    trace.wheel = wheel;
-    trace.gap = gap;
-    trace.restitution = robot.model->restitution;
+    if (somebody_bounces_) meetings.push_back({gap, robot.model->restitution});
     return c;
   };
   for (int w = 0; robot.model->has_wheels && w < 2; ++w) {
     const double radius = robot.model->drive.wheel_radius;
     const Vector3d centre = robot.model->wheel_frame[w].translation();
-    Contact& c = add_contact(centre, radius, w);
+    Contact& c = add_contact(centre, radius);
     const Vector3d surface = Vector3d::UnitY().cross(-radius * up);  // of the tread, per rate
     for (int k = 0; k < 2; ++k) {
       c.tangent[k] = point_row<N>(centre - radius * up, to_body.col(k));
@@ -177,8 +175,12 @@ void EncountersOf<N>::stand(int body, const Placed& robot, const Memory& memory)
     const auto& impulse = memory.impulse[w];
     c.push = impulse[0];
     c.grip = {impulse[1], impulse[2]};
+    traces.push_back({robot.index, w});
   }
-  for (const Slider& slider : robot.model->sliders) add_contact(slider.centre, slider.radius);
+  for (const Slider& slider : robot.model->sliders) {
+    add_contact(slider.centre, slider.radius);
+    traces.push_back({robot.index});
+  }
 }
 
 template <int N>
@@ -310,8 +312,6 @@ void EncountersOf<N>::add(const Side& a, const Side& b, Trace trace, const Memor
   const description::LegDrive* leg = a.leg >= 0   ? &a.robot->model->leg_drive
                                      : b.leg >= 0 ? &b.robot->model->leg_drive
                                                   : nullptr;
-  trace.gap = gap;
-  if (!leg) trace.restitution = std::min(a.robot->model->restitution, (b.robot ? b : a).robot->model->restitution);
   if (leg && !leg->is_rigid()) {
     if (gap > 0 || h_ == 0) return;
     const Spring spring(*leg, h_);
@@ -330,6 +330,10 @@ void EncountersOf<N>::add(const Side& a, const Side& b, Trace trace, const Memor
   }
   contacts.push_back(c);
   traces.push_back(trace);
+  if (somebody_bounces_) {
+    const double elastic = std::min(a.robot->model->restitution, (b.robot ? b : a).robot->model->restitution);
+    meetings.push_back({gap, leg ? 0 : elastic});
+  }
 }
 
 Solid solid_of(const scene::Slab& slab) {

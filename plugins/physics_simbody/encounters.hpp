@@ -31,15 +31,19 @@ using Placed = PlacedOf<unknowns>;
 // than the one that kept it apart so far, as happens at corners that half a step brings past each other.
 constexpr double never_so_deep = 5e-4;
 
-// Where the impulse of a contact is kept from step to step, and what its solver need not know.
+// Where the impulse of a contact is kept from step to step.
 struct Trace {
   int robot = 0;
   int wheel = -1;                                       // on the ground: 0 left, 1 right
   double id = 0;                                        // of others; 0: not kept
   Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();  // normal and tangents as columns, in the world
   bool step_is_too_long = false;                        // for what meets here
-  double gap = 0;                                       // at the step's start [m]
-  double restitution = 0;
+};
+
+// What of a contact matters to who bounces.
+struct Meeting {
+  double gap;  // at the step's start [m]
+  double restitution;
 };
 
 template <int N>
@@ -48,9 +52,9 @@ class EncountersOf {
   using Contact = ContactOf<N>;
   using Placed = PlacedOf<N>;
 
-  // A step of length h [s]; friction as between bodies. With h = 0, an instant, springs give nothing, and what other
-  // contacts aim at is not said.
-  void begin(double h, double friction);
+  // A step of length h [s]; friction as between bodies; whether to note meetings. With h = 0, an instant, springs give
+  // nothing, and what other contacts aim at is not said.
+  void begin(double h, double friction, bool somebody_bounces);
 
   // `body`: what the contacts name the robot by; their traces bear its index.
   void with_ground(int body, const Placed& robot, const Memory& memory);
@@ -58,7 +62,8 @@ class EncountersOf {
   void between(int body_a, const Placed& a, const Memory& memory_a, int body_b, const Placed& b);
 
   std::vector<Contact> contacts;
-  std::vector<Trace> traces;  // one a contact
+  std::vector<Trace> traces;      // one a contact
+  std::vector<Meeting> meetings;  // the same, or none
 
  private:
   struct Side {
@@ -75,6 +80,7 @@ class EncountersOf {
   void each_leg_at(const Placed& robot, const Solid& solid, double margin, Meet meet) const;
 
   double h_ = 0, friction_ = 0;
+  bool somebody_bounces_ = false;
 };
 
 using Encounters = EncountersOf<unknowns>;

@@ -9,8 +9,6 @@
 
 namespace muster::simbody {
 
-using Eigen::Vector3d;
-
 namespace {
 
 constexpr double slowest = 0.02;          // [m/s] what meets more slowly does not bounce
@@ -109,10 +107,10 @@ template <int N>
 double StepperOf<N>::first_impact(const Group& group, double h, const std::vector<RobotState>& states) const {
   double first = never;
   for (std::size_t k = 0; k < encounters_.contacts.size(); ++k) {
-    const Trace& trace = encounters_.traces[k];
-    if (trace.restitution <= 0) continue;
+    const Meeting& meeting = encounters_.meetings[k];
+    if (meeting.restitution <= 0) continue;
     const auto& c = encounters_.contacts[k];
-    Approach approach{trace.gap};
+    Approach approach{meeting.gap};
     const auto add = [&](int place, const VelocityOf<N>& normal) {
       const int robot = group.robots[place];
       const BodyOf<N>& body = placed()[robot].body;
@@ -138,12 +136,9 @@ bool StepperOf<N>::strike(const Group& group, double at, const std::vector<Comma
     rebound();
     for (std::size_t i = 0; i < island.robots.size(); ++i) {
       const int robot = island.robots[i];
-      auto& now = placed()[robot];
-      now.body.velocity = problem_.bodies[i].velocity;
-      const Vector3d w = now.to_world * now.body.velocity.template head<3>();
-      const Vector3d v = now.to_world * now.body.velocity.template segment<3>(3);
-      set_velocity(arena_.crew[robot], now, v, w, states[robot]);
+      placed()[robot].body.velocity = problem_.bodies[i].velocity;
       states[robot].memory = Memory();
+      finish(robot, 0, commands[robot], states[robot]);
     }
   }
   return any;
@@ -162,15 +157,15 @@ bool StepperOf<N>::take_impact(const Island& island) {
   std::vector<double> restitution;
   bool any_meets = false;
   for (const int k : island.contacts) {
-    const Trace& trace = encounters_.traces[k];
-    if (trace.gap > touching || trace.gap < -never_so_deep) continue;
+    const auto [gap, share] = encounters_.meetings[k];
+    if (gap > touching || gap < -never_so_deep) continue;
     auto& c = problem_.contacts.emplace_back(encounters_.contacts[k]);
     c.body = place_[c.body];
     if (c.other >= 0) c.other = place_[c.other];
-    c.softness = softness_by_mass / placed()[trace.robot].mass;
-    restitution.push_back(trace.restitution);
+    c.softness = softness_by_mass / placed()[encounters_.traces[k].robot].mass;
+    restitution.push_back(share);
     const double stands = normal_speed(c, problem_.bodies, &BodyOf<N>::previous);
-    any_meets |= stands < -slowest && trace.restitution > 0;
+    any_meets |= stands < -slowest && share > 0;
     if (std::abs(stands) > slowest) continue;
     for (const int body : {c.body, c.other}) {  // what rests does not fall: the ground has borne it since
       if (body >= 0) problem_.bodies[body].free = problem_.bodies[body].previous;

@@ -54,7 +54,7 @@ int place_in(const std::vector<int>& robots, int robot) {
 }  // namespace
 
 template <int N>
-StepperOf<N>::StepperOf(Arena& arena) : arena_(arena) {}
+StepperOf<N>::StepperOf(Arena& arena) : arena_(arena), somebody_bounces_(arena.crew.any_bounces()) {}
 
 template <int N>
 std::vector<PlacedOf<N>>& StepperOf<N>::placed() const {
@@ -69,7 +69,7 @@ template <int N>
 void StepperOf<N>::advance(const Group& group, double h, double at, const std::vector<Command>& commands,
                            std::vector<RobotState>& states) {
   prepare(group, h, at, commands, states);
-  if (bounces(group)) {
+  if (somebody_bounces_ && bounces(group)) {
     go_by_impacts(group, h, at, commands, states);
   } else {
     complete(group, h, at, commands, states);
@@ -194,7 +194,7 @@ void StepperOf<N>::place_legs(const CrewMember& robot, double h, double at, cons
 // Contacts bear the place of their robots in the group.
 template <int N>
 void StepperOf<N>::meet(const Group& group, double h, const std::vector<RobotState>& states) {
-  encounters_.begin(h, arena_.friction);
+  encounters_.begin(h, arena_.friction, somebody_bounces_);
   const auto slot = [&](int robot) { return place_in(group.robots, robot); };
   for (std::size_t k = 0; k < group.robots.size(); ++k) {
     const int i = group.robots[k];
@@ -279,24 +279,8 @@ void StepperOf<N>::finish(int index, double h, const Command& command, RobotStat
   const Quaternion q = turned(quaternion_of(state), now.turned, w, h);
   const double size = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
   for (int k = 0; k < 4; ++k) state.pose[3 + k] = q[k] / size;
-  for (int k = 0; k < 3; ++k) state.pose[k] += h * v[k];
-  set_velocity(robot, now, v, w, state);
-  for (int k = 0; k < 2 && robot.model.legs.empty(); ++k) state.angle[k] += h * u[6 + k];
-  for (std::size_t k = 0; k < robot.model.legs.size(); ++k) {
-    const double rate = u[6 + static_cast<int>(k)];
-    state.leg_angle[k] += h * rate;
-    state.leg_torque[k] = now.body.motors[k].impulse(rate) / h;
-  }
-  if (const auto& rotors = robot.model.rotors)
-    state.rotors = rotors->later(state.rotors, command.rotors, rotors->decay(h));
-  state.memory.previous_step = h;
-}
-
-// As found for the robot where it is placed; v and w of its body in the world.
-template <int N>
-void StepperOf<N>::set_velocity(const CrewMember& robot, const PlacedOf<N>& now, const Vector3d& v, const Vector3d& w,
-                                RobotState& state) {
   for (int k = 0; k < 3; ++k) {
+    state.pose[k] += h * v[k];
     state.twist[k] = v[k];
     state.twist[3 + k] = w[k];
   }
@@ -304,12 +288,19 @@ void StepperOf<N>::set_velocity(const CrewMember& robot, const PlacedOf<N>& now,
     const Vector3d lead = origin_lead(robot, now.to_world, state);
     for (int k = 0; k < 3; ++k) state.twist[k] -= lead[k];
   }
-  const auto rates = now.body.velocity.template tail<N - 6>();
-  if (robot.model.legs.empty()) {
-    for (int k = 0; k < 2; ++k) state.rate[k] = rates[k];
-  } else {
-    for (std::size_t k = 0; k < robot.model.legs.size(); ++k) state.leg_rate[k] = rates[static_cast<int>(k)];
+  for (int k = 0; k < 2 && robot.model.legs.empty(); ++k) {
+    state.angle[k] += h * u[6 + k];
+    state.rate[k] = u[6 + k];
   }
+  for (std::size_t k = 0; k < robot.model.legs.size(); ++k) {
+    const double rate = u[6 + static_cast<int>(k)];
+    state.leg_angle[k] += h * rate;
+    state.leg_rate[k] = rate;
+    if (h > 0) state.leg_torque[k] = now.body.motors[k].impulse(rate) / h;
+  }
+  if (const auto& rotors = robot.model.rotors)
+    state.rotors = rotors->later(state.rotors, command.rotors, rotors->decay(h));
+  state.memory.previous_step = h;
 }
 
 template class StepperOf<unknowns>;

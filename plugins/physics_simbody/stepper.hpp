@@ -65,8 +65,6 @@ class StepperOf {
   void solve(const Island& island, std::vector<RobotState>& states);
   void solve_problem();
   void finish(int index, double h, const Command& command, RobotState& state) const;
-  static void set_velocity(const CrewMember& robot, const PlacedOf<N>& now, const Eigen::Vector3d& v,
-                           const Eigen::Vector3d& w, RobotState& state);
 
   // impacts.cpp
   bool bounces(const Group& group) const;
@@ -78,6 +76,7 @@ class StepperOf {
   void rebound();
 
   Arena& arena_;
+  const bool somebody_bounces_;
 
   // Room that is kept from step to step; nothing of it outlives one.
   EncountersOf<N> encounters_;
