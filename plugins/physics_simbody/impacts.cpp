@@ -60,7 +60,7 @@ double normal_speed(const ContactOf<N>& c, const std::vector<BodyOf<N>>& bodies,
 
 // Twice the energy of motion.
 template <int N>
-double liveliness(const std::vector<BodyOf<N>>& bodies, VelocityOf<N> BodyOf<N>::*velocity) {
+double twice_energy(const std::vector<BodyOf<N>>& bodies, VelocityOf<N> BodyOf<N>::*velocity) {
   double sum = 0;
   for (const BodyOf<N>& body : bodies) sum += (body.*velocity).dot(body.mass * (body.*velocity));
   return sum;
@@ -184,8 +184,8 @@ void StepperOf<N>::rebound() {
   using BodyN = BodyOf<N>;
   std::vector<BodyN>& bodies = problem_.bodies;
   solve_problem();
-  const double before = liveliness(bodies, &BodyN::free);
-  if (liveliness(bodies, &BodyN::velocity) <= before) return;
+  const double before = twice_energy(bodies, &BodyN::free);
+  if (twice_energy(bodies, &BodyN::velocity) <= before) return;
   // As much of it as can be between the plastic impact, which gains nothing, and this one: a share of the difference,
   // kept in `previous`.
   std::vector<VelocityOf<N>> elastic;
@@ -197,8 +197,8 @@ void StepperOf<N>::rebound() {
     bodies[i].previous = elastic[i] - bodies[i].velocity;
     slope += bodies[i].previous.dot(bodies[i].mass * bodies[i].velocity);
   }
-  const double curve = liveliness(bodies, &BodyN::previous);
-  const double room = std::max(0.0, before - liveliness(bodies, &BodyN::velocity));
+  const double curve = twice_energy(bodies, &BodyN::previous);
+  const double room = std::max(0.0, before - twice_energy(bodies, &BodyN::velocity));
   const double share = (-slope + std::sqrt(slope * slope + curve * room)) / curve;
   for (BodyN& body : bodies) body.velocity += share * body.previous;
 }
