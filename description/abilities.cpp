@@ -16,6 +16,7 @@ std::string lacking(const Robot& robot, Ability have) {
   const bool leaves_the_plane = robot.quadrotor || robot.legs;
   need(leaves_the_plane, Ability::height, "changes of height");
   need(leaves_the_plane, Ability::tilting, "roll and pitch");
+  need(robot.restitution > 0, Ability::bouncing, "bouncing (<muster restitution=...>)");
   for (std::size_t i = 0; i < robot.joints.size(); ++i) {
     const bool is_wheel = robot.drive && (i == robot.drive->left || i == robot.drive->right);
     const bool is_leg = robot.legs && std::any_of(robot.legs->legs.begin(), robot.legs->legs.end(),

@@ -15,6 +15,7 @@ enum class Ability : unsigned {
   tilting = 8,  // roll and pitch change
   joints = 16,  // others than wheels and legs that move
   legs = 32,    // six half circles on motors, with springs
+  bouncing = 64,
 };
 
 constexpr Ability operator|(Ability a, Ability b) {

@@ -222,7 +222,7 @@ Robot read_robot(const std::string& path, Meshes meshes) {
   const auto model = parse(source, text);
   Robot robot = Converter(source, outline, *model, meshes).convert();
   check_moving_masses(source, outline, robot);
-  if (const auto* muster = root.FirstChildElement("muster")) read_drive(source, *muster, robot);
+  if (const auto* muster = root.FirstChildElement("muster")) read_muster(source, *muster, robot);
   return robot;
 }
 

@@ -32,8 +32,8 @@ void parse_urdf(const Source& source, const std::string& text, tinyxml2::XMLDocu
 // Every number strictly a number, every needed attribute there, links a tree.
 Outline check_urdf(const Source& source, const tinyxml2::XMLElement& robot);
 
-// The one drive in <muster>, if there is one; the robot's links and joints are there already.
-void read_drive(const Source& source, const tinyxml2::XMLElement& element, Robot& robot);
+// How elastic the robot is, and the one drive in <muster>, if there is one; its links and joints are there already.
+void read_muster(const Source& source, const tinyxml2::XMLElement& element, Robot& robot);
 Quadrotor read_quadrotor(const Source& source, const tinyxml2::XMLElement& element, const Robot& robot);
 LegDrive read_legs(const Source& source, const tinyxml2::XMLElement& element, const Robot& robot);
 
