@@ -4,6 +4,20 @@
 
 namespace muster::description {
 
+static Ability ability_of(JointKind kind) {
+  switch (kind) {
+    case JointKind::revolute:
+    case JointKind::continuous:
+      return Ability::hinges;
+    case JointKind::prismatic:
+      return Ability::sliders;
+    case JointKind::ball:
+      return Ability::balls;
+    default:
+      return Ability::loose;
+  }
+}
+
 std::string lacking(const Robot& robot, Ability have) {
   std::string list;
   const auto need = [&](bool needed, Ability ability, const std::string& words) {
@@ -20,8 +34,9 @@ std::string lacking(const Robot& robot, Ability have) {
     const bool is_wheel = robot.drive && (i == robot.drive->left || i == robot.drive->right);
     const bool is_leg = robot.legs && std::any_of(robot.legs->legs.begin(), robot.legs->legs.end(),
                                                   [i](const LegDrive::Leg& leg) { return leg.joint == i; });
-    need(!is_wheel && !is_leg && robot.joints[i].kind != JointKind::fixed, Ability::joints,
-         "joint '" + robot.joints[i].name + "' that moves");
+    const JointKind kind = robot.joints[i].kind;
+    need(!is_wheel && !is_leg && kind != JointKind::fixed, ability_of(kind),
+         "joint '" + robot.joints[i].name + "' (" + law_of(kind).name + ") without a motor");
   }
   if (!robot.drive && !robot.quadrotor && !robot.legs) {
     list +=

@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "description/joint.hpp"
 #include "description/quadrotor.hpp"
 
 namespace muster::description {
@@ -50,20 +51,6 @@ struct Link {
   std::string name;
   Mass mass;                  // mass 0: a frame only
   std::vector<Shape> shapes;  // what collides
-};
-
-enum class JointKind { fixed = 1, revolute, continuous, prismatic, floating, planar };
-
-struct Joint {
-  std::string name;
-  JointKind kind = JointKind::fixed;
-  std::size_t parent = 0, child = 0;                         // indices of links
-  Eigen::Isometry3d origin = Eigen::Isometry3d::Identity();  // of the child's frame in the parent's, at position 0
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();           // unit, in the child's frame; the normal if planar
-  double lower = -std::numeric_limits<double>::infinity();   // [rad] or [m]
-  double upper = std::numeric_limits<double>::infinity();
-  double max_effort = std::numeric_limits<double>::infinity();  // [N m] or [N]
-  double max_speed = std::numeric_limits<double>::infinity();   // [rad/s] or [m/s]
 };
 
 // Two wheels on one axle, each turned by its own motor; anything else that touches the ground slides.
