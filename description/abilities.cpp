@@ -18,6 +18,17 @@ static Ability ability_of(JointKind kind) {
   }
 }
 
+std::vector<std::size_t> limb_joints(const Robot& robot) {
+  std::vector<std::size_t> result;
+  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
+    const bool is_wheel = robot.drive && (i == robot.drive->left || i == robot.drive->right);
+    const bool is_leg = robot.legs && std::any_of(robot.legs->legs.begin(), robot.legs->legs.end(),
+                                                  [i](const LegDrive::Leg& leg) { return leg.joint == i; });
+    if (!is_wheel && !is_leg && robot.joints[i].kind != JointKind::fixed) result.push_back(i);
+  }
+  return result;
+}
+
 std::string lacking(const Robot& robot, Ability have) {
   std::string list;
   const auto need = [&](bool needed, Ability ability, const std::string& words) {
@@ -30,13 +41,9 @@ std::string lacking(const Robot& robot, Ability have) {
   const bool leaves_the_plane = robot.quadrotor || robot.legs;
   need(leaves_the_plane, Ability::height, "changes of height");
   need(leaves_the_plane, Ability::tilting, "roll and pitch");
-  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
-    const bool is_wheel = robot.drive && (i == robot.drive->left || i == robot.drive->right);
-    const bool is_leg = robot.legs && std::any_of(robot.legs->legs.begin(), robot.legs->legs.end(),
-                                                  [i](const LegDrive::Leg& leg) { return leg.joint == i; });
-    const JointKind kind = robot.joints[i].kind;
-    need(!is_wheel && !is_leg && kind != JointKind::fixed, ability_of(kind),
-         "joint '" + robot.joints[i].name + "' (" + law_of(kind).name + ") without a motor");
+  for (const std::size_t i : limb_joints(robot)) {
+    const Joint& joint = robot.joints[i];
+    need(true, ability_of(joint.kind), "joint '" + joint.name + "' (" + law_of(joint.kind).name + ") without a motor");
   }
   if (!robot.drive && !robot.quadrotor && !robot.legs) {
     list +=

@@ -125,6 +125,9 @@ struct Robot {
 Mass rigid_mass(const Robot& robot, std::size_t link);
 std::vector<Shape> rigid_shapes(const Robot& robot, std::size_t link);
 
+// The joints that move without a motor, by index.
+std::vector<std::size_t> limb_joints(const Robot& robot);
+
 // Everything, every joint at zero, in the root's frame.
 Mass whole_mass(const Robot& robot);
 

@@ -27,6 +27,7 @@ struct Backend {
   bool load_transfer = false;    // friction's bound knows of the weight that friction itself shifts
   bool rotors = false;           // lift and turn a robot
   std::string pendulum{};        // the joint that may carry one: "hip" or "axle" (of a wheel without balance)
+  bool limbs = false;            // on hinges and balls that no motor turns
   int order = 0;                 // of convergence; 0: the solver's own error hides it
   double coarsest_of_order = 0;  // the step from which it shows [s]
   int flight_order = 0;          // of convergence in the air
