@@ -47,6 +47,8 @@ struct PhysicsSimbody {
       "Robots with rotors that can touch nothing in a step fly by Runge and Kutta's fourth order; robot/*/rotors are "
       "their\n"
       "rotors as they turn.\n"
+      "Limbs hang on hinges, sliders and balls without a motor, with limits, damping and friction, and touch nothing;\n"
+      "robot/*/limbs are these as they hang.\n"
       "Not modelled: wheels as discs on the ground (they stand on it as spheres would), rolling resistance, bouncing,\n"
       "downwash and ground effect of rotors.";
   static constexpr auto phase = MUSTER_PHYSICS;

@@ -250,7 +250,7 @@ TEST_P(LimbsAtRandom, FlightConvergesToSimbodysInSecondOrder) {
   const double coarse = error(0.002), middle = error(0.001), fine = error(0.0005);
   EXPECT_NEAR(std::log2(coarse / middle), 2, 0.15) << coarse << ' ' << middle;
   EXPECT_NEAR(std::log2(middle / fine), 2, 0.15) << middle << ' ' << fine;
-  EXPECT_LT(fine, 1e-4);
+  EXPECT_LT(fine, 2e-6);
 }
 
 INSTANTIATE_TEST_SUITE_P(Robots, LimbsAtRandom, testing::Bool(),
@@ -269,7 +269,7 @@ TEST(Limbs, ConicalPendulumTakesItsPeriod) {
     }
     const Vector3d start = Vector3d(-std::sin(deflection), 0, 0), end = hangs_to(run.limb());
     EXPECT_NEAR(std::atan2(start.x() * end.y(), start.x() * end.x()) / (2 * pi * turns), 0, 1e-5) << deflection;
-    EXPECT_LT(off, 1e-4) << deflection;
+    EXPECT_LT(off, 5e-6) << deflection;
   }
 }
 
@@ -288,7 +288,7 @@ TEST(Limbs, PlanePendulumTakesItsPeriod) {
     ASSERT_GT(passes.size(), 2u);
     const double period =
         4 * std::sqrt(swing_inertia / (mass * gravity * arm)) * std::comp_ellint_1(std::sin(amplitude / 2));
-    EXPECT_NEAR((passes.back() - passes.front()) / static_cast<double>(passes.size() - 1), period, 3e-5 * period)
+    EXPECT_NEAR((passes.back() - passes.front()) / static_cast<double>(passes.size() - 1), period, 5e-6 * period)
         << amplitude;
   }
 }
@@ -317,7 +317,7 @@ TEST(Limbs, SphericalPendulumKeepsEnergyAndAngularMomentum) {
     highest = std::max(highest, hangs_to(run.limb()).z()), lowest = std::min(lowest, hangs_to(run.limb()).z());
   }
   EXPECT_LT(off_energy, 1e-4);
-  EXPECT_LT(off_momentum, 1e-4);
+  EXPECT_LT(off_momentum, 1e-5);
   EXPECT_GT(highest - lowest, 0.2);
 }
 
