@@ -1,7 +1,5 @@
 #include "description/abilities.hpp"
 
-#include <algorithm>
-
 namespace muster::description {
 
 static Ability ability_of(JointKind kind) {
@@ -18,17 +16,6 @@ static Ability ability_of(JointKind kind) {
   }
 }
 
-std::vector<std::size_t> limb_joints(const Robot& robot) {
-  std::vector<std::size_t> result;
-  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
-    const bool is_wheel = robot.drive && (i == robot.drive->left || i == robot.drive->right);
-    const bool is_leg = robot.legs && std::any_of(robot.legs->legs.begin(), robot.legs->legs.end(),
-                                                  [i](const LegDrive::Leg& leg) { return leg.joint == i; });
-    if (!is_wheel && !is_leg && robot.joints[i].kind != JointKind::fixed) result.push_back(i);
-  }
-  return result;
-}
-
 std::string lacking(const Robot& robot, Ability have) {
   std::string list;
   const auto need = [&](bool needed, Ability ability, const std::string& words) {
@@ -41,8 +28,8 @@ std::string lacking(const Robot& robot, Ability have) {
   const bool leaves_the_plane = robot.quadrotor || robot.legs;
   need(leaves_the_plane, Ability::height, "changes of height");
   need(leaves_the_plane, Ability::tilting, "roll and pitch");
-  for (const std::size_t i : limb_joints(robot)) {
-    const Joint& joint = robot.joints[i];
+  for (const LimbJoint& limb : limbs_of(robot)) {
+    const Joint& joint = robot.joints[limb.joint];
     need(true, ability_of(joint.kind), "joint '" + joint.name + "' (" + law_of(joint.kind).name + ") without a motor");
   }
   if (!robot.drive && !robot.quadrotor && !robot.legs) {

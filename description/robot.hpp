@@ -125,8 +125,15 @@ struct Robot {
 Mass rigid_mass(const Robot& robot, std::size_t link);
 std::vector<Shape> rigid_shapes(const Robot& robot, std::size_t link);
 
-// The joints that move without a motor, by index.
-std::vector<std::size_t> limb_joints(const Robot& robot);
+// What hangs on a joint that no motor turns.
+struct LimbJoint {
+  static constexpr int body = -1, driven = -2;  // a wheel or leg
+
+  std::size_t joint = 0;    // index
+  int carrier = body;       // a limb before it, by its place among them, or one of the above
+  Eigen::Isometry3d frame;  // of the joint, in the frame of what carries it
+};
+std::vector<LimbJoint> limbs_of(const Robot& robot);
 
 // Everything, every joint at zero, in the root's frame.
 Mass whole_mass(const Robot& robot);

@@ -60,7 +60,7 @@ class WorldRobots {
   }
   bool any_has_limbs() const {
     return std::any_of(robots_.begin(), robots_.end(),
-                       [](const auto& robot) { return robot && !limb_joints(*robot).empty(); });
+                       [](const auto& robot) { return robot && !limbs_of(*robot).empty(); });
   }
   const Quadrotor* quadrotor_of(double model) const {
     const Robot* robot = of(model);

@@ -73,26 +73,6 @@ Eigen::Isometry3d frame_on_body(const description::Robot& robot, const descripti
   return frame;
 }
 
-// The joint above the link that moves, or none: the link is of the body.
-std::optional<std::size_t> moving_joint(const description::Robot& robot, std::size_t link) {
-  while (link != 0) {
-    const description::Joint& joint = robot.joints[link - 1];
-    if (joint.kind != description::JointKind::fixed) return link - 1;
-    link = joint.parent;
-  }
-  return std::nullopt;
-}
-
-// Of a joint in that of the link that carries it, through what is fixed.
-Eigen::Isometry3d frame_on_carrier(const description::Robot& robot, const description::Joint& joint) {
-  Eigen::Isometry3d frame = joint.origin;
-  for (std::size_t link = joint.parent; link != 0; link = robot.joints[link - 1].parent) {
-    if (robot.joints[link - 1].kind != description::JointKind::fixed) break;
-    frame = robot.joints[link - 1].origin * frame;
-  }
-  return frame;
-}
-
 void check_limb(const description::Robot& robot, const description::Joint& joint) {
   using description::JointKind;
   const std::string what = "joint '" + joint.name + "' (" + law_of(joint.kind).name + ") without a motor ";
@@ -156,20 +136,14 @@ void RobotModel::take_legs(const description::Robot& robot) {
 }
 
 void RobotModel::take_limbs(const description::Robot& robot) {
-  const std::vector<std::size_t> joints = limb_joints(robot);
-  if (joints.empty()) return;
-  if (robot.legs)
-    refuse(robot, "joint '" + robot.joints[joints[0]].name + "' has no motor; what walks may not have limbs");
   int next = has_wheels ? 8 : 6;
-  for (const std::size_t index : joints) {
-    const description::Joint& joint = robot.joints[index];
+  for (const description::LimbJoint& limb : limbs_of(robot)) {
+    const description::Joint& joint = robot.joints[limb.joint];
+    if (robot.legs) refuse(robot, "joint '" + joint.name + "' has no motor; what walks may not have limbs");
+    if (limb.carrier == description::LimbJoint::driven) refuse(robot, "joint '" + joint.name + "' hangs on a wheel");
     check_limb(robot, joint);
-    const auto carrier = moving_joint(robot, joint.parent);
-    const auto place = carrier ? std::find(joints.begin(), joints.end(), *carrier) : joints.end();
-    if (carrier && place == joints.end()) refuse(robot, "joint '" + joint.name + "' hangs on a wheel");
-    limbs.push_back({joint.kind, carrier ? static_cast<int>(place - joints.begin()) : -1,
-                     frame_on_carrier(robot, joint), joint.axis, rigid_mass(robot, joint.child), next, joint.lower,
-                     joint.upper, joint.damping, joint.friction});
+    limbs.push_back({joint.kind, limb.carrier, limb.frame, joint.axis, rigid_mass(robot, joint.child), next,
+                     joint.lower, joint.upper, joint.damping, joint.friction});
     next += law_of(joint.kind).rates;
   }
   if (limbs.size() > Limbs::most || next > unknowns_with_legs) {
