@@ -20,31 +20,37 @@ noise::Prior flat() {
   return prior;
 }
 
+// What rows say by themselves: a belief about distances would hold a long one near the usual.
+noise::Fit unbelieving(const search::Bench& bench) {
+  return noise::fit(bench.field(), bench.y(), bench.design(), flat(), bench.fit.covariance, 20);
+}
+
 // The variance of one reading and the share between anchors being fitted, the field's size and distance held.
 double best_value(const search::Bench& bench, const noise::Covariance& at) {
   return noise::fit(bench.field(), bench.y(), bench.design(), flat(), at, 6, noise::unstated).value;
 }
 
 // Twice the log-likelihood ratio of rows: of the fitted field against the best one near the stated one.
-double gain_of_rows(const search::Bench& bench, const noise::StatedField& stated) {
+double gain_of_rows(const search::Bench& bench, const noise::StatedField& stated, const noise::Fit& free) {
   constexpr double tolerance = 1.08;
-  const noise::StatedField fitted = said_by(bench.fit.covariance);
+  const noise::StatedField fitted = said_by(free.covariance);
   const auto near = [&](double value, double said) { return std::clamp(value, said / tolerance, said * tolerance); };
   const double size = near(fitted.shadowing, stated.shadowing);
   const double distance = near(fitted.decorrelation, stated.decorrelation);
   double held = 1e300;
   for (const noise::Family family : noise::families) {
     for (const double start : {-0.7, 0.0, 0.7}) {  // of the log variance of one reading, beside the fitted one
-      noise::Covariance at = as_stated({size, distance}, family, bench.fit.covariance.theta);
+      noise::Covariance at = as_stated({size, distance}, family, free.covariance.theta);
       at.theta[2] += start;
       held = std::min(held, best_value(bench, at));
     }
   }
-  return std::max(0.0, 2 * (held - best_value(bench, bench.fit.covariance)));
+  return std::max(0.0, 2 * (held - best_value(bench, free.covariance)));
 }
 
-LawValue value_of(const char* name, double value, double sd_of_log) {
-  return {name, value, value * std::exp(-1.96 * sd_of_log), value * std::exp(1.96 * sd_of_log)};
+LawValue value_of(const char* name, double value, double variance_of_log) {
+  const double half = 1.96 * std::sqrt(wider * variance_of_log);
+  return {name, value, value * std::exp(-half), value * std::exp(half)};
 }
 
 int thousandths(double log) { return static_cast<int>(std::lround(1e3 * log)); }
@@ -86,14 +92,15 @@ Peak as_stated(Judge& judge, const ReadingLaw& law, const noise::StatedField& st
 LawTest field_test(ReadingField& field, double step, const ReadingLaw& law, const noise::StatedField& stated,
                    const search::Bench& bench) {
   Judge judge(field, step);
-  const noise::StatedField fitted = said_by(bench.fit.covariance);
+  const noise::Fit free = unbelieving(bench);
+  const noise::StatedField fitted = said_by(free.covariance);
   const double of_readings =
-      2 * (in_field(judge, law, bench.fit.covariance.family, fitted).value - as_stated(judge, law, stated).value);
-  const Eigen::Matrix4d spread = bench.fit.curvature.inverse();
+      2 * (in_field(judge, law, free.covariance.family, fitted).value - as_stated(judge, law, stated).value);
+  const Eigen::Matrix4d spread = free.curvature.inverse();
   LawTest test{"effect.shadowing_correlation",
-               {value_of("shadowing", fitted.shadowing, std::sqrt(spread(0, 0)) / 2),
-                value_of("decorrelation", fitted.decorrelation, std::sqrt(spread(1, 1)))},
-               std::max(0.0, std::min(of_readings, gain_of_rows(bench, stated))),
+               {value_of("shadowing", fitted.shadowing, spread(0, 0) / 4),
+                value_of("decorrelation", fitted.decorrelation, spread(1, 1))},
+               std::max(0.0, std::min(of_readings, gain_of_rows(bench, stated, free))),
                0,
                0};
   test.log_p = search::log_tail(test.gain / wider, 2);

@@ -24,6 +24,7 @@ double wider(const std::string& cause) {
   return cause == "effect.fading_law" ? 3 : cause == "effect.channel_mixture" ? 2 : 1.5;
 }
 const double may_be_named = std::log(0.01);  // log p; untamed readings, which take as long again, only raise it
+const double worth_a_closer_look = 3;        // gain: far from what may be named
 const double averaged_cost = std::log(5.0);  // nats: the stated law is that of single fades
 
 ReadingLaw averaged_over(ReadingLaw law, int n) {
@@ -63,7 +64,7 @@ double crossing(const std::function<double(double)>& value, double from, double 
 class Tests {
  public:
   Tests(ReadingField& field, double step, const ReadingLaw& stated, const noise::Covariance& fit)
-      : judge_(field, step), stated_(stated) {
+      : judge_(field, step), stated_(stated), fit_(fit) {
     for (const int n : averages) {
       const ReadingLaw law = averaged_over(stated, n);
       if (possible(law)) bases_.push_back(law);
@@ -99,6 +100,21 @@ class Tests {
     return refined(family, best);
   }
 
+  // Among all fields: those so far were sought under the stated law, which holds a strength near what is stated.
+  Fitted settled(const Family& family, Fitted best) {
+    constexpr int rounds = 2;
+    for (int round = 0; round < rounds; ++round) {
+      const auto likelier = [&](Peak peak) {
+        peak.value -= cost_of(best.law);
+        if (peak.value > best.peak.value) best.peak = peak;
+      };
+      for (const Peak& peak : judge_.shapes(best.law, fit_)) likelier(peak);
+      likelier(judge_.closer_distance(best.law, best.peak));
+      best = narrowed(family, best, 0.3);
+    }
+    return best;
+  }
+
   const ReadingLaw& stated() const { return null_law_; }
   double gain(const Fitted& fitted) const { return std::max(0.0, 2 * (fitted.peak.value - null_.value)); }
 
@@ -129,34 +145,42 @@ class Tests {
  private:
   static bool lower(const Peak& a, const Peak& b) { return a.value < b.value; }
 
-  // Halves the steps of the strength's grid, at the best field of each.
+  // Takes the law and the field if both together are likelier.
+  void try_one(const Family& family, Fitted& best, double strength, const ReadingLaw& base, const Peak& from) {
+    const ReadingLaw law = family.with(base, strength);
+    if (!possible(law)) return;
+    Peak peak = judge_.best(law, from);
+    peak.value -= cost_of(law);
+    if (peak.value > best.peak.value) best = {peak, base, law, strength};
+  }
+
+  // Halves the steps of the strength's grid.
+  Fitted narrowed(const Family& family, Fitted best, double step) {
+    for (int round = 0; round < 4; ++round) {
+      step /= 2;
+      const Fitted here = best;
+      for (const double by : {-step, step}) try_one(family, best, here.strength * std::exp(by), here.base, here.peak);
+    }
+    return best;
+  }
+
+  // At the best field of each.
   Fitted refined(const Family& family, Fitted best) {
     const auto at = std::find(family.strengths.begin(), family.strengths.end(), best.strength);
-    double step = at + 1 != family.strengths.end() ? std::log(*(at + 1) / *at) : std::log(*at / *(at - 1));
-    const auto try_one = [&](double strength, const ReadingLaw& base, const Peak& from) {
-      const ReadingLaw law = family.with(base, strength);
-      if (!possible(law)) return;
-      Peak peak = judge_.best(law, from);
-      peak.value -= cost_of(law);
-      if (peak.value > best.peak.value) best = {peak, base, law, strength};
-    };
+    const double step = at + 1 != family.strengths.end() ? std::log(*(at + 1) / *at) : std::log(*at / *(at - 1));
     const int moved = best.peak.place - null_.place;
     best.peak.value = -1e300;
     for (const Peak& start : starts_) {
       Peak from = start;
       from.place += moved;
-      try_one(best.strength, best.base, from);
+      try_one(family, best, best.strength, best.base, from);
     }
-    for (int round = 0; round < 4; ++round) {
-      step /= 2;
-      const Fitted here = best;
-      for (const double by : {-step, step}) try_one(here.strength * std::exp(by), here.base, here.peak);
-    }
-    return best;
+    return narrowed(family, best, step);
   }
 
   Judge judge_;
   ReadingLaw stated_;
+  noise::Covariance fit_;
   std::vector<ReadingLaw> bases_;
   std::vector<Peak> starts_;
   Peak null_;
@@ -236,6 +260,9 @@ LawTests law_tests(ReadingField& field, double step, const ReadingLaw& stated, c
   std::map<std::string, std::vector<const Family*>> as_likely;
   for (const auto& [family, value] : values) {
     if (value > best.at(family->cause).second.peak.value - within) as_likely[family->cause].push_back(family);
+  }
+  for (auto& [cause, found] : best) {
+    if (tests.gain(found.second) > worth_a_closer_look) found.second = tests.settled(*found.first, found.second);
   }
   const auto weigh = [&](LawTest& test, double gain) {  // what a gain says, of the forms that were tried
     const auto forms = static_cast<double>(

@@ -121,8 +121,9 @@ void add_place(Grades& grades, const Truth::Effect& effect, const Verdict::Cause
 }
 
 // A wall's ends have no order, and its error is that of the whole segment: coordinates of ends are not counted one by
-// one.
+// one. Values of another row are no word on this one's: of two receivers, one deaf is the other one keen.
 void add_parameters(Grades& grades, const Truth::Effect& effect, const Verdict::Cause& cause) {
+  if (!effect.rows.empty() && !at_right_row(effect, cause)) return;
   add_place(grades, effect, cause);
   for (const auto& [name, value] : effect.parameters) {
     const auto said = cause.parameters.find(name);

@@ -66,7 +66,7 @@ std::vector<Spread> Search::settle_in_the_middle() {
   std::vector<Spread> result;
   for (Term& term : bench_.terms) {
     result.push_back(term.smooth() ? Spread() : spread_of(bench_, term));
-    if (term.smooth() || term.candidate->pieces.empty()) continue;
+    if (result.back().thetas.size() < 2) continue;
     term.theta = middle_of(bench_, term, result.back());
     term.columns = bench_.columns_of(*term.candidate, term.theta);
     bench_.refit(4);

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <tuple>
 
 #include "diagnosis/noise/exact.hpp"
@@ -235,24 +234,26 @@ Spread spread_of(const Bench& bench, const Term& term) {
 
 Eigen::VectorXd middle_of(const Bench& bench, const Term& term, const Spread& spread) {
   constexpr double nearly = 4;  // of deviance, a 95 % region of one parameter
-  constexpr std::size_t tries = 20;
-  const Index n = term.theta.size(), count = static_cast<Index>(spread.thetas.size());
-  Eigen::MatrixXd all(n, count);
-  for (Index k = 0; k < count; ++k) all.col(k) = spread.thetas[static_cast<std::size_t>(k)];
-  const Eigen::VectorXd mean = all.rowwise().mean();
-  all.colwise() -= mean;
-  const Eigen::VectorXd sd = (all.rowwise().squaredNorm() / static_cast<double>(count)).cwiseSqrt();
-  const Eigen::VectorXd off = (sd.cwiseMax(1e-12).cwiseInverse().asDiagonal() * all).colwise().squaredNorm();
-  std::vector<Index> nearest(spread.thetas.size());
-  std::iota(nearest.begin(), nearest.end(), 0);
-  std::stable_sort(nearest.begin(), nearest.end(), [&](Index a, Index b) { return off[a] < off[b]; });
+  constexpr std::size_t tries = 40;
+  const Candidate& c = *term.candidate;
   const Stand rest = bench.stand(bench.design_without(term));
-  const double best = gain_of(*term.candidate, rest, term.columns);
-  for (std::size_t k = 0; k < std::min(nearest.size(), tries); ++k) {
-    const Eigen::VectorXd& theta = spread.thetas[static_cast<std::size_t>(nearest[k])];
-    if (gain_of(*term.candidate, rest, bench.columns_of(*term.candidate, theta)) > best - nearly) return theta;
+  const double best = Beside(rest, term.columns, c.whole).gain;
+  std::vector<Eigen::VectorXd> thetas{term.theta};
+  const std::size_t every = spread.thetas.size() / tries + 1;
+  for (std::size_t k = 0; k < spread.thetas.size(); k += every) thetas.push_back(spread.thetas[k]);
+  Eigen::MatrixXd effects(rest.at.residual.size(), static_cast<Index>(thetas.size()));
+  std::vector<bool> explains(thetas.size());
+  for (std::size_t k = 0; k < thetas.size(); ++k) {
+    const Beside there(rest, bench.columns_of(c, thetas[k]), c.whole);
+    effects.col(static_cast<Index>(k)) = there.columns * there.coefficients;
+    explains[k] = there.gain > best - nearly;
   }
-  return term.theta;
+  const Eigen::VectorXd mean = effects.rightCols(effects.cols() - 1).rowwise().mean();
+  const Eigen::VectorXd off = (effects.colwise() - mean).colwise().squaredNorm();
+  std::size_t middle = 0;
+  for (std::size_t k = 1; k < thetas.size(); ++k)
+    if (explains[k] && off[static_cast<Index>(k)] < off[static_cast<Index>(middle)]) middle = k;
+  return thetas[middle];
 }
 
 }  // namespace muster::search

@@ -17,8 +17,8 @@ struct Spread {
 
 Spread spread_of(const Bench& bench, const Term& term);
 
-// Of the thetas that are as likely as one another the one nearest to their mean, if it explains nearly as much as the
-// term's: where many places cast the same shadow, the middle of them errs least.
+// Of the thetas that are as likely as one another and explain nearly as much as the term's, the one whose effect on the
+// readings is nearest to the mean of all their effects: it errs least on readings that nobody has seen.
 Eigen::VectorXd middle_of(const Bench& bench, const Term& term, const Spread& spread);
 
 }  // namespace muster::search

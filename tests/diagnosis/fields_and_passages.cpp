@@ -35,6 +35,13 @@ TEST(FieldOfShadowing, AnotherDistanceIsMeasured) {
   EXPECT_NEAR(std::log(test.values[1].value), std::log(3), std::log(1.8));
 }
 
+// A belief about how far shadowing reaches indoors told a decorrelation of 9 m as 5.
+TEST(FieldOfShadowing, AnUnusualDistanceIsMeasured) {
+  const LawTest test = field_tested(8, 2);
+  EXPECT_LT(test.values[1].lower95, 8);
+  EXPECT_GT(test.values[1].upper95, 8);
+}
+
 TEST(PeopleOnALink, NobodyIsSeenWhereNobodyIs) {
   const Walk walk = drawn_of_four({.rician_k = 3}, 600, 1.5);  // deep fades
   const search::Problem problem = problem_of(walk);

@@ -163,6 +163,19 @@ TEST(LawsOfReadings, AnotherFadingIsMeasured) {
   EXPECT_GT(best.values[0].upper95, 2);
 }
 
+// Sought in the field that suits the stated law, a fading was told a quarter of the way towards the stated one.
+TEST(LawsOfReadings, WhatIsStatedDoesNotPullWhatIsMeasured) {
+  std::vector<double> measured;
+  for (const double stated : {2.0, 3.5, 12.0}) {
+    const LawTest best = tested({.rician_k = 6}, {.rician_k = stated}).front();
+    ASSERT_EQ(best.cause, "effect.fading_law") << stated;
+    EXPECT_NEAR(best.values[0].value, 6, 0.6) << stated;
+    measured.push_back(best.values[0].value);
+  }
+  EXPECT_NEAR(measured[0], measured[2], 0.1);
+  EXPECT_NEAR(measured[1], measured[2], 0.1);
+}
+
 TEST(LawsOfReadings, OutliersAreCounted) {
   const LawTest best = tested({.rician_k = 8, .outliers = 0.03}, {.rician_k = 8}).front();
   EXPECT_EQ(best.cause, "effect.outliers");

@@ -156,6 +156,19 @@ TEST(Grade, DirectionsWrap) {
   EXPECT_LT(g.relative_errors.at(0), 0.03);
 }
 
+TEST(Grade, ValuesOfAnotherRowAreNotCompared) {
+  for (const auto& [radio, compared] : {std::pair("robot1", 1u), std::pair("robot2", 0u)}) {
+    Truth truth{"c", "one", {{"rx_offset", {"radio/robot1"}, {}, {}, {{"offset", 1.4}}, 90}}, 0};
+    Grades g;
+    add(g, truth,
+        said(R"({"verdict":"extended","causes":[{"id":"effect.rx_offset","label":"radio/)" + std::string(radio) +
+             R"(","status":"named",)" +
+             R"("parameters":[{"name":"offset","value":1.5,"lower95":1.2,"upper95":1.8}]}]})"));
+    EXPECT_EQ(g.covered.of, compared) << radio;
+    EXPECT_EQ(g.relative_errors.size(), compared) << radio;
+  }
+}
+
 TEST(Grade, TextWithoutAReportIsRefused) { EXPECT_THROW(read_verdict("Segmentation fault"), std::runtime_error); }
 
 }  // namespace
