@@ -177,6 +177,35 @@ TEST(Urdf, BackendsAreToldWhichJointsTheyLack) {
             "joint 'ball' (ball) without a motor");
 }
 
+TEST(Urdf, LimbsHangOnWhatCarriesThem) {
+  Files files;
+  const std::string mass =
+      "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial>";
+  std::string text = "<robot name='r'><link name='base'>" + mass + "</link>";
+  const auto hang = [&](const std::string& name, const std::string& on, const std::string& type,
+                        const std::string& at) {
+    text += "<link name='" + name + "'>" + mass + "</link><joint name='" + name + "' type='" + type +
+            "'><parent link='" + on + "'/><child link='" + name + "'/><origin xyz='" + at +
+            "' rpy='0 0 1.5707963267948966'/></joint>";
+  };
+  hang("mast", "base", "fixed", "1 0 0");
+  hang("arm", "mast", "floating", "2 0 0");
+  hang("sleeve", "arm", "fixed", "3 0 0");
+  hang("hand", "sleeve", "continuous", "4 0 0");
+  const Robot robot = read_robot(files.write("r.urdf", text + "<muster><ball joint='arm'/></muster></robot>"));
+  const std::vector<LimbJoint> limbs = limbs_of(robot);
+  ASSERT_EQ(limbs.size(), 2u);
+  EXPECT_EQ(robot.joints[limbs[0].joint].name, "arm");
+  EXPECT_EQ(limbs[0].carrier, LimbJoint::body);
+  EXPECT_TRUE(limbs[0].frame.translation().isApprox(Eigen::Vector3d(1, 2, 0)));
+  EXPECT_EQ(robot.joints[limbs[1].joint].name, "hand");
+  EXPECT_EQ(limbs[1].carrier, 0);
+  EXPECT_TRUE(limbs[1].frame.translation().isApprox(Eigen::Vector3d(3, 4, 0)));
+  EXPECT_TRUE(limbs[1].frame.linear().col(0).isApprox(-Eigen::Vector3d::UnitX()));
+  EXPECT_EQ(rigid_mass(robot, robot.joints[limbs[0].joint].child).mass, 2);
+  EXPECT_TRUE(limbs_of(read_robot(scarab)).empty());
+}
+
 TEST(Urdf, GermanLocaleReadsTheSameNumbers) {
   const std::string before = std::setlocale(LC_ALL, nullptr);
   ::setenv("LOCPATH", MUSTER_LOCALES, 1);
