@@ -28,6 +28,7 @@ std::string lacking(const Robot& robot, Ability have) {
   const bool leaves_the_plane = robot.quadrotor || robot.legs;
   need(leaves_the_plane, Ability::height, "changes of height");
   need(leaves_the_plane, Ability::tilting, "roll and pitch");
+  need(robot.restitution > 0, Ability::bouncing, "bouncing (<muster restitution=...>)");
   for (const LimbJoint& limb : limbs_of(robot)) {
     const Joint& joint = robot.joints[limb.joint];
     need(true, ability_of(joint.kind), "joint '" + joint.name + "' (" + law_of(joint.kind).name + ") without a motor");

@@ -14,6 +14,7 @@ enum class Ability : unsigned {
   height = 4,   // it changes
   tilting = 8,  // roll and pitch change
   legs = 16,    // six half circles on motors, with springs
+  bouncing = 512,
   // Limbs: what hangs on joints that no motor turns.
   hinges = 32,   // revolute, continuous
   sliders = 64,  // prismatic

@@ -118,6 +118,9 @@ struct Robot {
   std::optional<DifferentialDrive> drive;
   std::optional<LegDrive> legs;
   std::optional<Quadrotor> quadrotor;
+  // The share of the speed at which things meet that they part with, 0 to 1; of two things that of the less elastic
+  // one. The ground and walls are as elastic as what meets them, legs not at all.
+  double restitution = 0;
   std::vector<std::string> warnings;  // one line each, for the user
 };
 

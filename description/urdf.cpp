@@ -236,7 +236,7 @@ Robot read_robot(const std::string& path, Meshes meshes) {
   Robot robot = Converter(source, outline, *model, meshes).convert();
   check_moving_masses(source, outline, robot);
   for (const auto* muster = root.FirstChildElement("muster"); muster; muster = muster->NextSiblingElement("muster")) {
-    read_extension(source, *muster, robot);
+    read_muster(source, *muster, robot);
   }
   return robot;
 }

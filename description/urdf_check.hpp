@@ -32,8 +32,9 @@ void parse_urdf(const Source& source, const std::string& text, tinyxml2::XMLDocu
 // Every number strictly a number, every needed attribute there, links a tree.
 Outline check_urdf(const Source& source, const tinyxml2::XMLElement& robot);
 
-// What <muster> adds to a robot whose links and joints are there already: balls, and at most one drive.
-void read_extension(const Source& source, const tinyxml2::XMLElement& element, Robot& robot);
+// What <muster> adds to a robot whose links and joints are there already: how elastic it is, balls, and at most one
+// drive.
+void read_muster(const Source& source, const tinyxml2::XMLElement& element, Robot& robot);
 Quadrotor read_quadrotor(const Source& source, const tinyxml2::XMLElement& element, const Robot& robot);
 LegDrive read_legs(const Source& source, const tinyxml2::XMLElement& element, const Robot& robot);
 void read_ball(const Source& source, const tinyxml2::XMLElement& element, Robot& robot);

@@ -37,6 +37,18 @@ Eigen::Vector3d check_wheel(const Source& source, const XMLElement& element, con
   return middle;
 }
 
+// 0 where it is not said.
+double share(const Source& source, const XMLElement& element, const char* attribute) {
+  const char* text = element.Attribute(attribute);
+  if (!text) return 0;
+  const auto value = parse_number(text);
+  if (!value || *value < 0 || *value > 1) {
+    source.fail(element.GetLineNum(),
+                tag(element) + attribute + "=\"" + text + "\" is wrong; expected a number from 0 to 1");
+  }
+  return *value;
+}
+
 DifferentialDrive read_differential(const Source& source, const XMLElement& element, const Robot& robot) {
   only_attributes(
       source, element,
@@ -103,7 +115,9 @@ Eigen::Vector3d place_of_turning(const Source& source, const XMLElement& element
   return frame->translation();
 }
 
-void read_extension(const Source& source, const XMLElement& muster, Robot& robot) {
+void read_muster(const Source& source, const XMLElement& muster, Robot& robot) {
+  only_attributes(source, muster, {"restitution"});
+  if (muster.Attribute("restitution")) robot.restitution = share(source, muster, "restitution");
   const std::vector<std::string> known = {"differential", "quadrotor", "legs", "ball"};
   for (const auto* child = muster.FirstChildElement(); child; child = child->NextSiblingElement()) {
     const std::string name = child->Name();

@@ -29,6 +29,7 @@ std::vector<std::string> lacks(const Robot& robot) {
       result.push_back("joint '" + robot.joints[i].name + "' moves and is no wheel of its drive");
     }
   }
+  if (robot.restitution > 0 && robot.drive) result.push_back("it bounces on wheels, where ODE's impacts gain energy");
   if (!has_inertia(rigid_mass(robot, 0))) result.push_back("its body has no mass or inertia");
   for (const std::size_t joint : wheels) {
     if (has_inertia(rigid_mass(robot, robot.joints[joint].child))) continue;
@@ -76,6 +77,7 @@ RobotModel::RobotModel(const Robot& robot) {
   }
   has_wheels = robot.drive.has_value();
   rotors = robot.quadrotor;
+  restitution = robot.restitution;
   body = rigid_mass(robot, 0);
   for (const Shape& shape : rigid_shapes(robot, 0)) {
     if (const auto* sphere = std::get_if<description::Sphere>(&shape.geometry)) {

@@ -35,6 +35,7 @@ struct RobotModel {
   bool has_wheels = true;  // else what is said of them below is nothing
   description::DifferentialDrive drive;
   std::optional<description::Quadrotor> rotors;
+  double restitution = 0;
   description::Mass body;  // all that is rigid with the root, in its frame
   std::array<Wheel, 2> wheel;
   std::vector<Slider> sliders;

@@ -46,7 +46,8 @@ struct PhysicsOde {
       "Not modelled: wheels as discs on the ground, rolling resistance, shapes other than boxes and spheres.";
   static constexpr auto phase = MUSTER_PHYSICS;
   static constexpr auto abilities = description::Ability::wheels | description::Ability::rotors |
-                                    description::Ability::height | description::Ability::tilting;
+                                    description::Ability::height | description::Ability::tilting |
+                                    description::Ability::bouncing;
   static constexpr Param params[] = {
       real("step", 0.001, 1e-6, 0.1, "s", "longest step inside a tick"),
       choice("solver", "exact|quick", "dWorldStep or dWorldQuickStep"),

@@ -17,7 +17,8 @@ constexpr double push_out = 0.2;        // fastest way out of what was entered [
 constexpr double fastest = 1e3;         // [m/s], [rad/s]: beyond, the motion has blown up
 constexpr double thinnest_wall = 0.02;  // [m]: through less, a robot may step without having touched it
 constexpr int most_contacts = 8;        // of two shapes: as many as two boxes make
-constexpr double smooth = 0, as_the_other = std::numeric_limits<double>::infinity();  // friction of a surface
+constexpr double smooth = 0, as_the_other = std::numeric_limits<double>::infinity();  // of a surface
+constexpr double slowest_bounce = 0.02;                                               // [m/s]
 
 // What meets what. Robots are spaces of their own, whose parts do not meet.
 constexpr unsigned long ground = 1, part = 2, wall = 4, tyre = 8;
@@ -65,7 +66,7 @@ World::World(const std::vector<NamedRobot>& robots, const Settings& settings)
   dWorldSetQuickStepNumIterations(world_.get(), settings.iterations);
   dWorldSetQuickStepW(world_.get(), settings.over_relaxation);
   dWorldSetContactMaxCorrectingVel(world_.get(), push_out);
-  dSpaceAdd(space_.get(), add_geom(dCreatePlane(nullptr, 0, 0, 1, 0), ground, 0, as_the_other));
+  dSpaceAdd(space_.get(), add_geom(dCreatePlane(nullptr, 0, 0, 1, 0), ground, 0, as_the_other, as_the_other));
   for (const NamedRobot& named : robots) robots_.push_back({named.name, RobotModel(*named.description)});
   for (Robot& robot : robots_) add(robot);
   surfaces_of_robots_ = surfaces_.size();
@@ -109,23 +110,26 @@ void World::add_shapes(const Robot& robot) {
   const unsigned long others = settings_.obstacles ? part | wall : 0;
   for (std::size_t w = 0; robot.model.has_wheels && w < 2; ++w) {
     dGeomID sphere = dCreateSphere(nullptr, robot.model.drive.wheel_radius);
-    fix(add_geom(sphere, tyre, ground, robot.model.drive.friction), robot.wheel[w], robot.model.wheel[w].frame);
+    fix(add_geom(sphere, tyre, ground, robot.model.drive.friction, robot.model.restitution), robot.wheel[w],
+        robot.model.wheel[w].frame);
   }
   for (const Slider& slider : robot.model.sliders) {
-    fix(add_geom(dCreateSphere(nullptr, slider.radius), part, ground | others, smooth), robot.body,
-        Isometry3d(Eigen::Translation3d(slider.centre)));
+    fix(add_geom(dCreateSphere(nullptr, slider.radius), part, ground | others, smooth, robot.model.restitution),
+        robot.body, Isometry3d(Eigen::Translation3d(slider.centre)));
   }
   for (const Block& block : robot.model.blocks) {
     dGeomID box = dCreateBox(nullptr, block.size.x(), block.size.y(), block.size.z());
-    fix(add_geom(box, part, block.is_wheel ? others : ground | others, settings_.friction), robot.body, block.pose);
+    fix(add_geom(box, part, block.is_wheel ? others : ground | others, settings_.friction, robot.model.restitution),
+        robot.body, block.pose);
   }
 }
 
 // Surfaces are numbered as they come: contacts are made in the order of these numbers, whatever order ODE finds.
-dGeomID World::add_geom(dGeomID geom, unsigned long category, unsigned long meets, double friction) {
+dGeomID World::add_geom(dGeomID geom, unsigned long category, unsigned long meets, double friction,
+                        double restitution) {
   dGeomSetCategoryBits(geom, category);
   dGeomSetCollideBits(geom, meets);
-  surfaces_.push_back({surfaces_.size(), friction});
+  surfaces_.push_back({surfaces_.size(), friction, restitution});
   dGeomSetData(geom, &surfaces_.back());
   return geom;
 }
@@ -137,7 +141,7 @@ void World::set_walls(const std::vector<scene::Slab>& walls) {
   if (!settings_.obstacles) return;
   for (const scene::Slab& slab : walls) {
     dGeomID geom = dCreateBox(nullptr, slab.length, std::max(slab.thickness, thinnest_wall), slab.height);
-    dSpaceAdd(space_.get(), add_geom(geom, wall, 0, as_the_other));
+    dSpaceAdd(space_.get(), add_geom(geom, wall, 0, as_the_other, as_the_other));
     dGeomSetPosition(geom, slab.x, slab.y, slab.z);
     const double half_heading = std::atan2(slab.sin_yaw, slab.cos_yaw) / 2;
     const dQuaternion turned = {std::cos(half_heading), 0, 0, std::sin(half_heading)};
@@ -236,6 +240,11 @@ void World::touch(const Pair& pair) {
   for (int i = 0; i < count; ++i) {
     contact[i].surface.mode = dContactApprox1;  // friction's bound follows the normal force
     contact[i].surface.mu = std::min(pair.first->friction, pair.second->friction);
+    if (const double share = std::min(pair.first->restitution, pair.second->restitution); share > 0) {
+      contact[i].surface.mode |= dContactBounce;
+      contact[i].surface.bounce = share;
+      contact[i].surface.bounce_vel = slowest_bounce;
+    }
     dJointID joint = dJointCreateContact(world_.get(), contacts_.get(), &contact[i]);
     dJointAttach(joint, dGeomGetBody(pair.a), dGeomGetBody(pair.b));
   }

@@ -82,7 +82,7 @@ class World {
   };
   struct Surface {
     std::size_t number;  // in the order in which shapes were added
-    double friction;
+    double friction, restitution;
   };
   struct Pair {
     dGeomID a, b;
@@ -94,7 +94,7 @@ class World {
 
   void add(Robot& robot);
   void add_shapes(const Robot& robot);
-  dGeomID add_geom(dGeomID geom, unsigned long category, unsigned long meets, double friction);
+  dGeomID add_geom(dGeomID geom, unsigned long category, unsigned long meets, double friction, double restitution);
   void place(const Robot& robot, const RobotState& state) const;
   void ask(const Robot& robot, const Command& command, double at) const;
   static void lift(const Robot& robot, const Command& command, double h, RobotState& state);

@@ -39,6 +39,10 @@ bool Crew::any_is_articulated() const {
   return std::any_of(members_.begin(), members_.end(), [](const CrewMember& m) { return m.model.is_articulated(); });
 }
 
+bool Crew::any_bounces() const {
+  return std::any_of(members_.begin(), members_.end(), [](const CrewMember& m) { return m.model.restitution > 0; });
+}
+
 // Simbody's own mass matrix at the reference pose; in the body's frame it is the same in every other, as wheels are
 // balanced. Robots are not joined, so that one product has a column of each. Wheels that are not there have an inertia
 // of one, which nothing turns.

@@ -35,6 +35,7 @@ class Crew {
   CrewMember& operator[](std::size_t i) { return members_[i]; }
   const CrewMember& operator[](std::size_t i) const { return members_[i]; }
   bool any_is_articulated() const;
+  bool any_bounces() const;
   const System& system() const { return system_; }
 
  private:

@@ -20,9 +20,6 @@ constexpr double creep_of_pairs = 2.4e-3;
 constexpr double slack = 0.003;   // [m] what others may push a contact by that would not close by itself
 constexpr double nearby = 0.003;  // [m] at least so far off touching is looked for
 
-// Nothing sinks in deeper than this [m]. What seems to have been deeper at a step's start meets there by another face
-// than the one that kept it apart so far, as happens at corners that half a step brings past each other.
-constexpr double never_so_deep = 5e-4;
 constexpr double longest_way_of_corners = 0.005;  // [m] past each other in one step
 
 struct Compliance {
@@ -135,11 +132,13 @@ bool may_touch_wall(const Solid& solid, const Solid& wall, double margin) {
 }  // namespace
 
 template <int N>
-void EncountersOf<N>::begin(double h, double friction) {
+void EncountersOf<N>::begin(double h, double friction, bool somebody_bounces) {
   h_ = h;
   friction_ = friction;
+  somebody_bounces_ = somebody_bounces;
   contacts.clear();
   traces.clear();
+  meetings.clear();
 }
 
 template <int N>
@@ -160,6 +159,7 @@ void EncountersOf<N>::stand(int body, const Placed& robot, const Memory& memory)
     c.softness = compliance.softness;
     const double gap = robot.position.z() + up.dot(arm) - 0.5 * h_ * c.normal.dot(robot.body.previous);
     c.target = compliance.target(gap, h_);
+    if (somebody_bounces_) meetings.push_back({gap, robot.model->restitution});
     return c;
   };
   for (int w = 0; robot.model->has_wheels && w < 2; ++w) {
@@ -313,7 +313,7 @@ void EncountersOf<N>::add(const Side& a, const Side& b, Trace trace, const Memor
                                      : b.leg >= 0 ? &b.robot->model->leg_drive
                                                   : nullptr;
   if (leg && !leg->is_rigid()) {
-    if (gap > 0) return;
+    if (gap > 0 || h_ == 0) return;
     const Spring spring(*leg, h_);
     c.softness = spring.softness;
     c.target = spring.target(gap, speed);
@@ -330,6 +330,10 @@ void EncountersOf<N>::add(const Side& a, const Side& b, Trace trace, const Memor
   }
   contacts.push_back(c);
   traces.push_back(trace);
+  if (somebody_bounces_) {
+    const double elastic = std::min(a.robot->model->restitution, (b.robot ? b : a).robot->model->restitution);
+    meetings.push_back({gap, leg ? 0 : elastic});
+  }
 }
 
 Solid solid_of(const scene::Slab& slab) {

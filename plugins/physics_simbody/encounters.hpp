@@ -29,6 +29,10 @@ struct PlacedOf {
 
 using Placed = PlacedOf<unknowns>;
 
+// Nothing sinks in deeper than this [m]. What seems to have been deeper at a step's start meets there by another face
+// than the one that kept it apart so far, as happens at corners that half a step brings past each other.
+constexpr double never_so_deep = 5e-4;
+
 // Where the impulse of a contact is kept from step to step.
 struct Trace {
   int robot = 0;
@@ -38,14 +42,21 @@ struct Trace {
   bool step_is_too_long = false;                        // for what meets here
 };
 
+// What of a contact matters to who bounces.
+struct Meeting {
+  double gap;  // at the step's start [m]
+  double restitution;
+};
+
 template <int N>
 class EncountersOf {
  public:
   using Contact = ContactOf<N>;
   using Placed = PlacedOf<N>;
 
-  // A step of length h [s]; friction as between bodies.
-  void begin(double h, double friction);
+  // A step of length h [s]; friction as between bodies; whether to note meetings. With h = 0, an instant, springs give
+  // nothing, and what other contacts aim at is not said.
+  void begin(double h, double friction, bool somebody_bounces);
 
   // `body`: what the contacts name the robot by; their traces bear its index.
   void with_ground(int body, const Placed& robot, const Memory& memory);
@@ -53,7 +64,8 @@ class EncountersOf {
   void between(int body_a, const Placed& a, const Memory& memory_a, int body_b, const Placed& b);
 
   std::vector<Contact> contacts;
-  std::vector<Trace> traces;  // one a contact
+  std::vector<Trace> traces;      // one a contact
+  std::vector<Meeting> meetings;  // the same, or none
 
  private:
   struct Side {
@@ -70,6 +82,7 @@ class EncountersOf {
   void each_leg_at(const Placed& robot, const Solid& solid, double margin, Meet meet) const;
 
   double h_ = 0, friction_ = 0;
+  bool somebody_bounces_ = false;
 };
 
 using Encounters = EncountersOf<unknowns>;

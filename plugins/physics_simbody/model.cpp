@@ -92,6 +92,7 @@ RobotModel::RobotModel(const description::Robot& robot) : name(robot.name) {
     refuse(robot, "it has no <muster><differential .../></muster> drive, no <quadrotor .../> and no <legs>");
   has_wheels = robot.drive.has_value();
   rotors = robot.quadrotor;
+  restitution = robot.restitution;
   body = rigid_mass(robot, 0);
   if (!(body.mass > 0)) refuse(robot, "its body has no mass");
   core = body;

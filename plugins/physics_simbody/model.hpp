@@ -59,6 +59,7 @@ struct RobotModel {
   description::Mass body;                        // all that is rigid with the root, in its frame
   std::array<description::Mass, 2> wheel;        // in the wheel joint's frame
   std::array<Eigen::Isometry3d, 2> wheel_frame;  // of the joints in the body's frame
+  double restitution = 0;
   description::LegDrive leg_drive;
   std::vector<Leg> legs;  // none: on wheels
   std::vector<LimbModel> limbs;

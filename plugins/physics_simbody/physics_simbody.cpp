@@ -25,11 +25,10 @@ struct PhysicsSimbody {
       "in a point with Coulomb's isotropic friction, spheres of the body slide on it. Motors turn the wheels as asked, "
       "within\n"
       "the drive's torque and speed. The acceleration along the ground is bounded by friction times 9.81 m/s2.\n"
-      "Robots touch walls, closed doors and each other with their collision shapes: plastic impacts, Coulomb's "
-      "friction "
-      "of\n"
-      "`body_friction`. A mesh touches as the box around it, a cylinder as a prism of 16 sides, exact where it is "
-      "nearest.\n"
+      "Robots touch walls, closed doors and each other with their collision shapes: Coulomb's friction of\n"
+      "`body_friction`, and impacts by the `restitution` of their model (plastic by default). A mesh touches as the "
+      "box\n"
+      "around it, a cylinder as a prism of 16 sides, exact where it is nearest.\n"
       "Where a robot is near others or walls and would go 5 mm in a step, the step is divided. `leg_step` is for "
       "robots that\n"
       "walk, whose feet slip on springs, and for who may meet them within a tick; others go on in steps of `step`. "
@@ -49,13 +48,13 @@ struct PhysicsSimbody {
       "rotors as they turn.\n"
       "Limbs hang on hinges, sliders and balls without a motor, with limits, damping and friction, and touch nothing;\n"
       "robot/*/limbs are these as they hang.\n"
-      "Not modelled: wheels as discs on the ground (they stand on it as spheres would), rolling resistance, bouncing,\n"
+      "Not modelled: wheels as discs on the ground (they stand on it as spheres would), rolling resistance,\n"
       "downwash and ground effect of rotors.";
   static constexpr auto phase = MUSTER_PHYSICS;
-  static constexpr auto abilities = description::Ability::wheels | description::Ability::rotors |
-                                    description::Ability::legs | description::Ability::height |
-                                    description::Ability::tilting | description::Ability::hinges |
-                                    description::Ability::sliders | description::Ability::balls;
+  static constexpr auto abilities =
+      description::Ability::wheels | description::Ability::rotors | description::Ability::legs |
+      description::Ability::height | description::Ability::tilting | description::Ability::hinges |
+      description::Ability::sliders | description::Ability::balls | description::Ability::bouncing;
   static constexpr Param params[] = {
       real("step", 0.001, 1e-6, 0.1, "s", "longest step inside a tick"),
       real("leg_step", 0.1, 1e-6, 0.1, "s", "as step, of robots that walk and who may meet them"),

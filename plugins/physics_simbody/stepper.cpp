@@ -54,7 +54,7 @@ int place_in(const std::vector<int>& robots, int robot) {
 }  // namespace
 
 template <int N>
-StepperOf<N>::StepperOf(Arena& arena) : arena_(arena) {}
+StepperOf<N>::StepperOf(Arena& arena) : arena_(arena), somebody_bounces_(arena.crew.any_bounces()) {}
 
 template <int N>
 std::vector<PlacedOf<N>>& StepperOf<N>::placed() const {
@@ -67,10 +67,29 @@ std::vector<PlacedOf<N>>& StepperOf<N>::placed() const {
 
 template <int N>
 void StepperOf<N>::advance(const Group& group, double h, double at, const std::vector<Command>& commands,
-                           std::vector<RobotState>& states, int halvings) {
+                           std::vector<RobotState>& states) {
+  prepare(group, h, at, commands, states);
+  if (somebody_bounces_ && bounces(group)) {
+    go_by_impacts(group, h, at, commands, states);
+  } else {
+    complete(group, h, at, commands, states);
+  }
+}
+
+// Robots half a step ahead, and what they meet there.
+template <int N>
+void StepperOf<N>::prepare(const Group& group, double h, double at, const std::vector<Command>& commands,
+                           const std::vector<RobotState>& states) {
   for (const int i : group.robots) place(i, h, at, commands[i], states[i]);
   meet(group, h, states);
   find_islands(group);
+}
+
+// The step that was prepared. Robots that touch and for whom it is too long take it in two halves, which may be divided
+// again.
+template <int N>
+void StepperOf<N>::complete(const Group& group, double h, double at, const std::vector<Command>& commands,
+                            std::vector<RobotState>& states, int halvings) {
   std::vector<Group> in_halves;
   for (std::size_t k = 0; k < group.robots.size(); ++k) {
     const Island& island = islands_[k];
@@ -82,7 +101,10 @@ void StepperOf<N>::advance(const Group& group, double h, double at, const std::v
     for (const int i : island.robots) finish(i, h, commands[i], states[i]);
   }
   for (const Group& part : in_halves) {
-    for (const double half : {-0.25, 0.25}) advance(part, h / 2, at + half * h, commands, states, halvings + 1);
+    for (const double half : {-0.25, 0.25}) {
+      prepare(part, h / 2, at + half * h, commands, states);
+      complete(part, h / 2, at + half * h, commands, states, halvings + 1);
+    }
   }
 }
 
@@ -201,7 +223,8 @@ void StepperOf<N>::push(const CrewMember& robot, double h, const RobotState& sta
                         PlacedOf<N>& now) {
   if constexpr (N == unknowns_with_legs) {
     auto& body = now.body;
-    const double kick = 0.5 * (state.memory.previous_step + h), share = 0.5 * state.memory.previous_step / kick;
+    const double kick = 0.5 * (state.memory.previous_step + h),
+                 share = kick > 0 ? 0.5 * state.memory.previous_step / kick : 0;
     const VelocityOf<N> between = body.previous + share * (after - body.previous);
     const Vector3d fall = now.to_world.transpose() * Vector3d(0, 0, -gravity);
     LimbedMass limbed = weigh(robot.model, now.posture, between, fall);
@@ -231,7 +254,7 @@ void StepperOf<N>::stop_limbs(const CrewMember& robot, double h, const RobotStat
 // Contacts bear the place of their robots in the group.
 template <int N>
 void StepperOf<N>::meet(const Group& group, double h, const std::vector<RobotState>& states) {
-  encounters_.begin(h, arena_.friction);
+  encounters_.begin(h, arena_.friction, somebody_bounces_);
   const auto slot = [&](int robot) { return place_in(group.robots, robot); };
   for (std::size_t k = 0; k < group.robots.size(); ++k) {
     const int i = group.robots[k];
@@ -286,11 +309,8 @@ void StepperOf<N>::solve(const Island& island, double h, std::vector<RobotState>
   problem_.bodies.resize(island.robots.size());
   for (std::size_t i = 0; i < island.robots.size(); ++i) problem_.bodies[i] = placed()[island.robots[i]].body;
   take_contacts(island);
-  Outcome outcome = solver_.solve(problem_);
-  if (push_again(island, h, states)) outcome = solver_.solve(problem_);
-  ++count_.solved;
-  count_.unsettled += !outcome.converged;
-  count_.failed += !outcome.minimised;
+  solve_problem();
+  if (push_again(island, h, states)) solve_problem();
   for (std::size_t i = 0; i < island.robots.size(); ++i) {
     placed()[island.robots[i]].body.velocity = problem_.bodies[i].velocity;
     states[island.robots[i]].memory = Memory();
@@ -316,6 +336,14 @@ bool StepperOf<N>::push_again(const Island& island, double h, const std::vector<
     any = true;
   }
   return any;
+}
+
+template <int N>
+void StepperOf<N>::solve_problem() {
+  const Outcome outcome = solver_.solve(problem_);
+  ++count_.solved;
+  count_.unsettled += !outcome.converged;
+  count_.failed += !outcome.minimised;
 }
 
 template <int N>
@@ -347,7 +375,7 @@ void StepperOf<N>::finish(int index, double h, const Command& command, RobotStat
     const double rate = u[6 + static_cast<int>(k)];
     state.leg_angle[k] += h * rate;
     state.leg_rate[k] = rate;
-    state.leg_torque[k] = now.body.motors[k].impulse(rate) / h;
+    if (h > 0) state.leg_torque[k] = now.body.motors[k].impulse(rate) / h;
   }
   if (const auto& rotors = robot.model.rotors)
     state.rotors = rotors->later(state.rotors, command.rotors, rotors->decay(h));

@@ -34,10 +34,10 @@ class StepperOf {
  public:
   explicit StepperOf(Arena& arena);
 
-  // A step of length h [s]; commands are taken `at` [s] after the tick's start. Robots that touch and for whom the step
-  // is too long take it in two halves, which may be divided again.
+  // A step of length h [s]; commands are taken `at` [s] after the tick's start. Robots that bounce take it from impact
+  // to impact.
   void advance(const Group& group, double h, double at, const std::vector<Command>& commands,
-               std::vector<RobotState>& states, int halvings = 0);
+               std::vector<RobotState>& states);
 
   const Count& count() const { return count_; }
 
@@ -48,6 +48,10 @@ class StepperOf {
   };
 
   std::vector<PlacedOf<N>>& placed() const;
+  void prepare(const Group& group, double h, double at, const std::vector<Command>& commands,
+               const std::vector<RobotState>& states);
+  void complete(const Group& group, double h, double at, const std::vector<Command>& commands,
+                std::vector<RobotState>& states, int halvings = 0);
   void place(int index, double h, double at, const Command& command, const RobotState& state);
   void place_wheels(const CrewMember& robot, double h, double at, const Command& command, const RobotState& state,
                     PlacedOf<N>& now);
@@ -65,10 +69,21 @@ class StepperOf {
   void take_contacts(const Island& island);
   bool push_again(const Island& island, double h, const std::vector<RobotState>& states);
   void solve(const Island& island, double h, std::vector<RobotState>& states);
+  void solve_problem();
   void finish(int index, double h, const Command& command, RobotState& state) const;
   void finish_limbs(const CrewMember& robot, double h, const PlacedOf<N>& now, RobotState& state) const;
 
+  // impacts.cpp
+  bool bounces(const Group& group) const;
+  void go_by_impacts(const Group& group, double h, double at, const std::vector<Command>& commands,
+                     std::vector<RobotState>& states);
+  double first_impact(const Group& group, double h, const std::vector<RobotState>& states) const;
+  bool strike(const Group& group, double at, const std::vector<Command>& commands, std::vector<RobotState>& states);
+  bool take_impact(const Island& island);
+  void rebound();
+
   Arena& arena_;
+  const bool somebody_bounces_;
 
   // Room that is kept from step to step; nothing of it outlives one.
   EncountersOf<N> encounters_;

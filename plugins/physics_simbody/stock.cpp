@@ -66,6 +66,9 @@ struct Stock::Robot {
       throw std::runtime_error("robot '" + name + "' walks; Simbody's own integrators roll on wheels: use midpoint");
     if (!model.has_wheels)
       throw std::runtime_error("robot '" + name + "' has no wheels: integrator=\"midpoint\" flies it");
+    if (model.restitution > 0)
+      throw std::runtime_error("robot '" + name +
+                               "' bounces; Simbody's own integrators keep wheels on the ground: use midpoint");
     bodies = system.add(model);
     MobilizedBody& ground = system.matter.updGround();
     const SimTK::Transform floor;  // its z points up

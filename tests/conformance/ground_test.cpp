@@ -16,6 +16,15 @@ class OnTheGround : public EachBackend {
     folder.write(attribute + ".urdf", urdf);
     return " model='" + attribute + ".urdf'";
   }
+
+  std::string bouncing(const std::string& model, double restitution) const {
+    std::filesystem::copy_file(models + "hokuyo.stl", folder / "hokuyo.stl",
+                               std::filesystem::copy_options::skip_existing);
+    std::string urdf = contents(models + model + ".urdf");
+    urdf.insert(urdf.find("<muster>") + 7, " restitution=\"" + std::to_string(restitution) + "\"");
+    folder.write("bouncing.urdf", urdf);
+    return " model='bouncing.urdf' heading='0.3'/>";
+  }
 };
 
 TEST_P(OnTheGround, FallsFreelyOrSaysThatItCannot) {
@@ -80,6 +89,88 @@ TEST_P(OnTheGround, SlidesAsFarAsCoulombSays) {
     EXPECT_NEAR(thrown("0.7853981633974483"), along, 1e-3 * along);
   } else {  // a pyramid's corner holds more
     EXPECT_NEAR(thrown("0.7853981633974483"), along / std::sqrt(2.0), 0.05 * along);
+  }
+}
+
+// A box (a Hummingbird whose rotors stand) that is thrown along the ground.
+TEST_P(OnTheGround, SlidesAsABoxTheSquareOfItsSpeedOverTwiceFrictionAndGravity) {
+  if (!GetParam().rotors) return;
+  const double mu = 0.3, v = 1, expected = v * v / (2 * mu * gravity);  // the default between bodies and ground
+  std::vector<double> headings{0};
+  if (GetParam().round_friction) headings = {0, 0.3, 0.7853981633974483, 2};
+  for (const double heading : headings) {
+    Started sim =
+        run("<robot name='a' model='hummingbird' at='0 0 0.06' heading='" + std::to_string(heading) + "'/>" + lift(0),
+            {{"forward", "1"}}, {});
+    run_for(sim, 100);
+    const Pose p = state(sim).pose;
+    const double along = p.x * std::cos(heading) + p.y * std::sin(heading);
+    EXPECT_NEAR(along, expected, GetParam().slide * expected) << heading;
+    EXPECT_NEAR(p.y * std::cos(heading), p.x * std::sin(heading), GetParam().slide * expected) << heading;
+  }
+}
+
+// The first heights above where it stands that it rises to again.
+std::vector<double> apexes(Started sim, double ground, std::size_t count) {
+  std::vector<double> result;
+  double before = state(sim).pose.z;
+  for (bool rises = false; result.size() < count && sim.time() < 4;) {
+    sim.step();
+    const double now = state(sim).pose.z;
+    if (rises && now < before) result.push_back(before - ground);
+    rises = now > before;
+    before = now;
+  }
+  return result;
+}
+
+// Dropped flat from 1 m.
+TEST_P(OnTheGround, BouncesToTheSquareOfItsRestitutionOrRefuses) {
+  if (!GetParam().bounces_on_wheels) {
+    try {
+      run("<robot name='a' at='0 0 0'" + bouncing("scarab", 0.5), {}, {});
+      FAIL() << "nothing was thrown";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.exit(), Exit::invalid_input);
+      EXPECT_THAT(error.what(), testing::HasSubstr(GetParam().bouncing ? "it bounces on wheels"
+                                                                       : "it lacks what the world's robots need: robot "
+                                                                         "'a' (model 'scarab') needs bouncing "
+                                                                         "(<muster restitution=...>)"));
+    }
+  }
+  if (!GetParam().bouncing) return;
+  for (const double e : {0.5, 0.9, 1.0}) {
+    const auto dropped = [&](const std::string& model, double ground) {
+      const std::string at = "0 0 " + std::to_string(1 + ground);
+      return apexes(
+          started(GetParam(), "<robot name='a' at='" + at + "'" + bouncing(model, e) + lift(0), {}, {}, 0.002), ground,
+          2);
+    };
+    std::vector<std::vector<double>> all{dropped("hummingbird", 0.06)};
+    if (GetParam().bounces_on_wheels) all.push_back(dropped("scarab", 0));
+    for (const auto& heights : all) {
+      ASSERT_EQ(heights.size(), 2u) << e;
+      EXPECT_NEAR(heights[0], e * e, GetParam().apex * e * e) << e;
+      EXPECT_NEAR(heights[1], e * e * e * e, GetParam().apex * e * e * e * e) << e;
+    }
+  }
+}
+
+// Thrown so that it tumbles over the ground: no higher than its energy lifts it.
+TEST_P(OnTheGround, BouncesWithTheEnergyThatItHas) {
+  if (!GetParam().bouncing) return;
+  for (const std::string tumble : {"-7", "-2", "3", "8"}) {
+    Started sim = run("<robot name='a' at='0 0 1'" + bouncing("hummingbird", 1) + lift(0),
+                      {{"forward", "1"}, {"tumble", tumble}, {"turn", "2"}}, {});
+    const auto whole = whole_mass(description::read_robot(models + "hummingbird.urdf"));
+    const Eigen::Vector3d spin(std::stod(tumble), 0, 2);
+    const double highest = 1 + (0.5 * whole.mass + 0.5 * spin.dot(whole.inertia * spin)) / (whole.mass * gravity);
+    double seen = 0;
+    for (int k = 0; k < 600; ++k) {
+      sim.step();
+      seen = std::max(seen, state(sim).pose.z);
+    }
+    EXPECT_LT(seen, highest * 1.001) << tumble;
   }
 }
 

@@ -20,17 +20,19 @@ struct Backend {
   Attributes attributes;
   bool has_step = false;  // shorter than the tick
   // Abilities.
-  bool height = false;           // falls and lands
-  bool slip = false;             // friction is bounded
-  bool torque = false;           // motors are
-  bool round_friction = false;   // bounded alike in every direction
-  bool load_transfer = false;    // friction's bound knows of the weight that friction itself shifts
-  bool rotors = false;           // lift and turn a robot
-  std::string pendulum{};        // the joint that may carry one: "hip" or "axle" (of a wheel without balance)
-  bool limbs = false;            // on hinges and balls that no motor turns
-  int order = 0;                 // of convergence; 0: the solver's own error hides it
-  double coarsest_of_order = 0;  // the step from which it shows [s]
-  int flight_order = 0;          // of convergence in the air
+  bool height = false;             // falls and lands
+  bool slip = false;               // friction is bounded
+  bool torque = false;             // motors are
+  bool round_friction = false;     // bounded alike in every direction
+  bool load_transfer = false;      // friction's bound knows of the weight that friction itself shifts
+  bool rotors = false;             // lift and turn a robot
+  bool bouncing = false;           // from what it lands on
+  bool bounces_on_wheels = false;  // too
+  std::string pendulum{};          // the joint that may carry one: "hip" or "axle" (of a wheel without balance)
+  bool limbs = false;              // on hinges and balls that no motor turns
+  int order = 0;                   // of convergence; 0: the solver's own error hides it
+  double coarsest_of_order = 0;    // the step from which it shows [s]
+  int flight_order = 0;            // of convergence in the air
   // Tolerances.
   double fall = 0;       // after 1 s of it [m]
   double rest = 0;       // drift in 2 s [m], [rad]
@@ -41,7 +43,9 @@ struct Backend {
   double spin = 0;       // of the momentum of tumbling for 2 s, relative
   double collision = 0;  // of the momentum of two that meet in the air, relative
   double bounce = 0;     // after a fall of 0.3 m [m/s]
-  double force = 0;      // of a sliding distance, and of an acceleration at the limit of torque, relative
+  double apex = 0;       // of what a body that bounces rises to, relative
+  double slide = 0;      // of how far a box slides, relative
+  double force = 0;      // of a robot's sliding distance, and of an acceleration at the limit of torque, relative
   double swing = 0;      // of a pendulum's period, relative
 };
 inline void PrintTo(const Backend& backend, std::ostream* out) { *out << backend.name; }

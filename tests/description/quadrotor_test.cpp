@@ -155,6 +155,10 @@ TEST(Abilities, WhatIsLackingIsListed) {
   Robot driven = read_robot(MUSTER_SOURCE_DIR "/plugins/robots/models/scarab.urdf");
   EXPECT_EQ(lacking(driven, Ability::wheels), "");
   EXPECT_EQ(lacking(driven, Ability::rotors), "wheels (<differential>)");
+  driven.restitution = 0.5;
+  EXPECT_EQ(lacking(driven, all), "bouncing (<muster restitution=...>)");
+  EXPECT_EQ(lacking(driven, all | Ability::bouncing), "");
+  driven.restitution = 0;
   driven.drive->right = driven.drive->left;
   EXPECT_EQ(lacking(driven, all), "joint 'right_wheel_joint' (continuous) without a motor");
   driven.drive.reset();

@@ -157,6 +157,10 @@ const Case cases[] = {
      link("a", mass) + link("b", mass) +
          joint("j", "a", "b", "continuous", "<axis xyz='0 0 1'/><dynamics damping='-1'/>"),
      "4: joint 'j': damping and friction must not be below 0"},
+    {"restitution_above_one", link("a", mass) + "<muster restitution='1.1'/>",
+     "3: <muster> restitution=\"1.1\" is wrong; expected a number from 0 to 1"},
+    {"restitution_misspelt", link("a", mass) + "<muster restitutoin='0.5'/>",
+     "3: <muster> has no attribute 'restitutoin'; did you mean 'restitution'?"},
     {"leg_without_gain", legs("radius='0.05' rate_gain='1' max_torque='1' max_speed='9' friction='0.8'"),
      "16: <legs> has no attribute 'position_gain'"},
     {"legs_attribute_misspelt", legs(good_legs + " stifness='1'"),

@@ -107,6 +107,17 @@ TEST(Urdf, MassesLumpAsRigidBodies) {
   EXPECT_TRUE(sum.inertia.isApprox(Eigen::Vector3d(1 + 2, 1 + 1 + 4, 1 + 2.5 + 4).asDiagonal().toDenseMatrix(), 1e-12));
 }
 
+TEST(Urdf, RestitutionIsReadAndPlasticWhereItIsNotSaid) {
+  Files files;
+  const auto read = [&](const std::string& muster) {
+    return read_robot(files.write("r.urdf", "<robot name='r'><link name='a'/>" + muster + "</robot>")).restitution;
+  };
+  EXPECT_EQ(read("<muster restitution='0.5'/>"), 0.5);
+  EXPECT_EQ(read("<muster restitution='1'/>"), 1);
+  EXPECT_EQ(read("<muster/>"), 0);
+  EXPECT_EQ(read(""), 0);
+}
+
 TEST(Urdf, EveryKindOfJointIsRead) {
   Files files;
   std::string text = "<robot name='r'>\n<link name='l0'/>";

@@ -408,6 +408,25 @@ TEST(Limbs, RobotsWithLimbsPushEachOther) {
   EXPECT_LT(std::hypot(a[0] - b[0], a[1] - b[1]), 0.3);
 }
 
+// Dropped with a bob on a ball: it parts from the ground as it would without, but for what the bob keeps.
+TEST(Limbs, ARobotWithLimbsBounces) {
+  Robot robot = hummingbird();
+  robot.restitution = 0.5;
+  hang(robot, JointKind::ball, {0, 0, 0.2}, {1e-3, {0.1, 0, 0}, 1e-5 * Matrix3d::Identity()});
+  RobotState start = at_rest(0, 0, 0);
+  start.pose[2] = 0.06 + 0.5;
+  Fleet run({start}, robot);
+  double lowest = 1, highest = 0;
+  for (int k = 0; k < 530; ++k) {
+    run.tick(0.001, {Command{}});
+    const double height = run.states[0].pose[2] - 0.06;
+    if (height < lowest && highest == 0) lowest = height;
+    if (k > 330) highest = std::max(highest, height);
+  }
+  EXPECT_NEAR(lowest, 0, 1e-3);
+  EXPECT_NEAR(highest, 0.125, 2e-3);
+}
+
 TEST(Limbs, WhatItCannotHoldIsRefused) {
   const auto message = [](const std::function<void(Robot&)>& change) -> std::string {
     Robot robot = hummingbird();
