@@ -1,8 +1,20 @@
 #include "description/abilities.hpp"
 
-#include <algorithm>
-
 namespace muster::description {
+
+static Ability ability_of(JointKind kind) {
+  switch (kind) {
+    case JointKind::revolute:
+    case JointKind::continuous:
+      return Ability::hinges;
+    case JointKind::prismatic:
+      return Ability::sliders;
+    case JointKind::ball:
+      return Ability::balls;
+    default:
+      return Ability::loose;
+  }
+}
 
 std::string lacking(const Robot& robot, Ability have) {
   std::string list;
@@ -17,12 +29,9 @@ std::string lacking(const Robot& robot, Ability have) {
   need(leaves_the_plane, Ability::height, "changes of height");
   need(leaves_the_plane, Ability::tilting, "roll and pitch");
   need(robot.restitution > 0, Ability::bouncing, "bouncing (<muster restitution=...>)");
-  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
-    const bool is_wheel = robot.drive && (i == robot.drive->left || i == robot.drive->right);
-    const bool is_leg = robot.legs && std::any_of(robot.legs->legs.begin(), robot.legs->legs.end(),
-                                                  [i](const LegDrive::Leg& leg) { return leg.joint == i; });
-    need(!is_wheel && !is_leg && robot.joints[i].kind != JointKind::fixed, Ability::joints,
-         "joint '" + robot.joints[i].name + "' that moves");
+  for (const LimbJoint& limb : limbs_of(robot)) {
+    const Joint& joint = robot.joints[limb.joint];
+    need(true, ability_of(joint.kind), "joint '" + joint.name + "' (" + law_of(joint.kind).name + ") without a motor");
   }
   if (!robot.drive && !robot.quadrotor && !robot.legs) {
     list +=

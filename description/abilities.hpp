@@ -13,9 +13,13 @@ enum class Ability : unsigned {
   rotors = 2,   // thrust of four rotors
   height = 4,   // it changes
   tilting = 8,  // roll and pitch change
-  joints = 16,  // others than wheels and legs that move
-  legs = 32,    // six half circles on motors, with springs
-  bouncing = 64,
+  legs = 16,    // six half circles on motors, with springs
+  bouncing = 512,
+  // Limbs: what hangs on joints that no motor turns.
+  hinges = 32,   // revolute, continuous
+  sliders = 64,  // prismatic
+  balls = 128,
+  loose = 256,  // planar, floating
 };
 
 constexpr Ability operator|(Ability a, Ability b) {

@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "description/joint.hpp"
 #include "description/quadrotor.hpp"
 
 namespace muster::description {
@@ -50,20 +51,6 @@ struct Link {
   std::string name;
   Mass mass;                  // mass 0: a frame only
   std::vector<Shape> shapes;  // what collides
-};
-
-enum class JointKind { fixed = 1, revolute, continuous, prismatic, floating, planar };
-
-struct Joint {
-  std::string name;
-  JointKind kind = JointKind::fixed;
-  std::size_t parent = 0, child = 0;                         // indices of links
-  Eigen::Isometry3d origin = Eigen::Isometry3d::Identity();  // of the child's frame in the parent's, at position 0
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();           // unit, in the child's frame; the normal if planar
-  double lower = -std::numeric_limits<double>::infinity();   // [rad] or [m]
-  double upper = std::numeric_limits<double>::infinity();
-  double max_effort = std::numeric_limits<double>::infinity();  // [N m] or [N]
-  double max_speed = std::numeric_limits<double>::infinity();   // [rad/s] or [m/s]
 };
 
 // Two wheels on one axle, each turned by its own motor; anything else that touches the ground slides.
@@ -140,6 +127,16 @@ struct Robot {
 // The link and all that is fixed to it, in the link's frame.
 Mass rigid_mass(const Robot& robot, std::size_t link);
 std::vector<Shape> rigid_shapes(const Robot& robot, std::size_t link);
+
+// What hangs on a joint that no motor turns.
+struct LimbJoint {
+  static constexpr int body = -1, driven = -2;  // a wheel or leg
+
+  std::size_t joint = 0;    // index
+  int carrier = body;       // a limb before it, by its place among them, or one of the above
+  Eigen::Isometry3d frame;  // of the joint, in the frame of what carries it
+};
+std::vector<LimbJoint> limbs_of(const Robot& robot);
 
 // Everything, every joint at zero, in the root's frame.
 Mass whole_mass(const Robot& robot);

@@ -142,29 +142,42 @@ class Converter {
     Joint joint;
     joint.name = name;
     joint.kind = kind(from->type);
+    const JointLaw& law = law_of(joint.kind);
     joint.parent = index_.at(from->parent_link_name);
     add_link(from->child_link_name);
     joint.child = robot_.links.size() - 1;
     joint.origin = frame(from->parent_to_joint_origin_transform);
-    if (joint.kind != JointKind::fixed && joint.kind != JointKind::floating) {
+    if (law.has_axis) {
       joint.axis = vector(from->axis);
       if (!(joint.axis.norm() > 1e-9)) source_.fail(line, "joint '" + name + "': axis has no length");
       joint.axis.normalize();
     }
     if (from->limits) set_limits(*from->limits, joint, line);
+    if (from->dynamics) set_dynamics(*from->dynamics, joint, line);
     robot_.joints.push_back(joint);
   }
 
-  void set_limits(const urdf::JointLimits& limits, Joint& joint, int line) const {
+  void set_limits(const urdf::JointLimits& limits, Joint& joint, int line) {
     const auto fail = [&](const char* what) { source_.fail(line, "joint '" + joint.name + "': " + what); };
     if (limits.lower > limits.upper) fail("lower limit is above the upper one");
     if (limits.effort < 0 || limits.velocity < 0) fail("effort and velocity limits must not be below 0");
-    if (joint.kind == JointKind::revolute || joint.kind == JointKind::prismatic) {
+    if (law_of(joint.kind).has_limits) {
       joint.lower = limits.lower;
       joint.upper = limits.upper;
+    } else if (limits.lower != 0 || limits.upper != 0) {
+      robot_.warnings.push_back(source_.file + ":" + std::to_string(line) + ": joint '" + joint.name + "': a " +
+                                law_of(joint.kind).name + " joint has no lower and upper limit; they are left out");
     }
     if (limits.effort > 0) joint.max_effort = limits.effort;
     if (limits.velocity > 0) joint.max_speed = limits.velocity;
+  }
+
+  void set_dynamics(const urdf::JointDynamics& dynamics, Joint& joint, int line) const {
+    if (dynamics.damping < 0 || dynamics.friction < 0) {
+      source_.fail(line, "joint '" + joint.name + "': damping and friction must not be below 0");
+    }
+    joint.damping = dynamics.damping;
+    joint.friction = dynamics.friction;
   }
 
   static JointKind kind(int type) {
@@ -222,7 +235,9 @@ Robot read_robot(const std::string& path, Meshes meshes) {
   const auto model = parse(source, text);
   Robot robot = Converter(source, outline, *model, meshes).convert();
   check_moving_masses(source, outline, robot);
-  if (const auto* muster = root.FirstChildElement("muster")) read_muster(source, *muster, robot);
+  for (const auto* muster = root.FirstChildElement("muster"); muster; muster = muster->NextSiblingElement("muster")) {
+    read_muster(source, *muster, robot);
+  }
   return robot;
 }
 

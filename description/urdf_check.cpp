@@ -104,6 +104,11 @@ Edge joint_edge(const Source& source, const XMLElement& joint, const std::string
 void check_joint(const Source& source, const XMLElement& joint, const std::string& name) {
   const std::string type = required(source, joint, "type");
   const std::vector<std::string> types = {"fixed", "revolute", "continuous", "prismatic", "floating", "planar"};
+  if (type == "ball" || type == "spherical") {
+    source.fail(joint.GetLineNum(), "joint '" + name + "': URDF has no type '" + type +
+                                        "'; expected type 'floating' and <muster><ball joint=\"" + name +
+                                        "\"/></muster>");
+  }
   if (std::find(types.begin(), types.end(), type) == types.end()) {
     source.fail(joint.GetLineNum(),
                 "joint '" + name + "': type '" + type +

@@ -32,10 +32,12 @@ void parse_urdf(const Source& source, const std::string& text, tinyxml2::XMLDocu
 // Every number strictly a number, every needed attribute there, links a tree.
 Outline check_urdf(const Source& source, const tinyxml2::XMLElement& robot);
 
-// How elastic the robot is, and the one drive in <muster>, if there is one; its links and joints are there already.
+// What <muster> adds to a robot whose links and joints are there already: how elastic it is, balls, and at most one
+// drive.
 void read_muster(const Source& source, const tinyxml2::XMLElement& element, Robot& robot);
 Quadrotor read_quadrotor(const Source& source, const tinyxml2::XMLElement& element, const Robot& robot);
 LegDrive read_legs(const Source& source, const tinyxml2::XMLElement& element, const Robot& robot);
+void read_ball(const Source& source, const tinyxml2::XMLElement& element, Robot& robot);
 
 // The index of a joint; where one that turns without end about the body's +y axis is on the body.
 std::size_t find_joint(const Source& source, const tinyxml2::XMLElement& element, const char* attribute,

@@ -117,11 +117,19 @@ Eigen::Vector3d place_of_turning(const Source& source, const XMLElement& element
 
 void read_muster(const Source& source, const XMLElement& muster, Robot& robot) {
   only_attributes(source, muster, {"restitution"});
-  robot.restitution = share(source, muster, "restitution");
+  if (muster.Attribute("restitution")) robot.restitution = share(source, muster, "restitution");
+  const std::vector<std::string> known = {"differential", "quadrotor", "legs", "ball"};
   for (const auto* child = muster.FirstChildElement(); child; child = child->NextSiblingElement()) {
     const std::string name = child->Name();
-    if (name != "differential" && name != "quadrotor" && name != "legs") {
-      source.fail(child->GetLineNum(), "<" + name + "> is not a drive; expected <differential>, <quadrotor> or <legs>");
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      source.fail(child->GetLineNum(), "<" + name +
+                                           "> is not known in <muster>; expected <differential>, <quadrotor>, <legs> "
+                                           "or <ball>" +
+                                           nearest(name, known));
+    }
+    if (name == "ball") {
+      read_ball(source, *child, robot);
+      continue;
     }
     if (robot.drive || robot.quadrotor || robot.legs) source.fail(child->GetLineNum(), "has a second drive");
     if (name == "differential") robot.drive = read_differential(source, *child, robot);

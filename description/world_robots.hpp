@@ -58,6 +58,10 @@ class WorldRobots {
   bool any_walks() const {
     return std::any_of(robots_.begin(), robots_.end(), [](const auto& robot) { return robot && robot->legs; });
   }
+  bool any_has_limbs() const {
+    return std::any_of(robots_.begin(), robots_.end(),
+                       [](const auto& robot) { return robot && !limbs_of(*robot).empty(); });
+  }
   const Quadrotor* quadrotor_of(double model) const {
     const Robot* robot = of(model);
     return robot && robot->quadrotor ? &*robot->quadrotor : nullptr;

@@ -10,7 +10,7 @@ namespace muster::simbody {
 struct Arena {
   explicit Arena(const std::vector<NamedRobot>& robots, LegModel legs = LegModel::as_described) : crew(robots, legs) {
     make(placed);
-    if (crew.any_walks()) make(placed_with_legs);
+    if (crew.any_is_articulated()) make(placed_with_legs);
   }
   Arena(const Arena&) = delete;
   Arena& operator=(const Arena&) = delete;
@@ -18,7 +18,7 @@ struct Arena {
   Crew crew;
   // Each robot half a step ahead, for the steppers of eight and of twelve unknowns; a robot is one thread's at a time.
   std::vector<PlacedOf<unknowns>> placed;
-  std::vector<PlacedOf<unknowns_with_legs>> placed_with_legs;  // none where nobody walks
+  std::vector<PlacedOf<unknowns_with_legs>> placed_with_legs;  // none where nobody has any
 
   std::vector<Solid> walls;
   std::vector<Extent> wall_extents;

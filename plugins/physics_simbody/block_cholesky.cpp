@@ -71,7 +71,8 @@ void BlockCholeskyOf<N>::add_contacts(int i, int j, int count, const double* con
 template <int N>
 void BlockCholeskyOf<N>::factor() {
   if constexpr (has_many_joints) {
-    if (order_.size() == 1) return factor_alone();
+    is_alone_ = order_.size() == 1 && couples_joints_by_body();
+    if (is_alone_) return factor_alone();
   }
   for (const int k : order_) {
     of_robots_.invert_factor(diagonal_[k].data(), inverse_[k].data());
@@ -93,6 +94,16 @@ void BlockCholeskyOf<N>::factor() {
 }
 
 template <int N>
+bool BlockCholeskyOf<N>::couples_joints_by_body() const {
+  for (int j = 6; j < N; ++j) {
+    for (int i = j + 1; i < N; ++i) {
+      if (diagonal_[0](i, j) != 0) return false;
+    }
+  }
+  return true;
+}
+
+template <int N>
 void BlockCholeskyOf<N>::factor_alone() {
   const MassMatrix& m = diagonal_[0];
   const Eigen::Matrix<double, 6, N - 6> coupling = m.template topRightCorner<6, N - 6>();
@@ -105,7 +116,7 @@ void BlockCholeskyOf<N>::factor_alone() {
 template <int N>
 void BlockCholeskyOf<N>::solve(Blocks<Velocity>& x) const {
   if constexpr (has_many_joints) {
-    if (order_.size() == 1) return solve_alone(x[0]);
+    if (is_alone_) return solve_alone(x[0]);
   }
   for (const int k : order_) {
     of_robots_.apply_transposed(x[k].data(), inverse_[k].data());

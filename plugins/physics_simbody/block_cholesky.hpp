@@ -21,8 +21,8 @@ using MassMatrixOf = Eigen::Matrix<double, N, N>;
 using Velocity = VelocityOf<unknowns>;
 using MassMatrix = MassMatrixOf<unknowns>;
 
-// Joints of one robot are coupled through its body alone: with many of them a robot by itself costs little more than
-// its body.
+// Legs of one robot are coupled through its body alone: then a robot by itself costs little more than its body. Limbs
+// may be coupled with each other.
 template <int N>
 class BlockCholeskyOf {
  public:
@@ -52,6 +52,7 @@ class BlockCholeskyOf {
   using BodyBlock = Eigen::Matrix<double, 6, 6>;
 
   MassMatrix& below(int row, int column);
+  bool couples_joints_by_body() const;
   void factor_alone();
   void solve_alone(Velocity& x) const;
 
@@ -62,6 +63,7 @@ class BlockCholeskyOf {
   std::vector<std::vector<Below>> columns_;         // what stands below the diagonal once the order is applied
   std::vector<int> order_, place_;                  // of elimination, and its inverse
   Blocks<MassMatrix> inverse_;                      // of the transposed factors
+  bool is_alone_ = false;                           // one robot whose joints are coupled through its body
   BodyBlock body_;                                  // the same of one alone: of what its joints leave of the body
   Eigen::Matrix<double, 6, N - 6> body_by_joints_;  // and how they pull at it
 };

@@ -27,7 +27,7 @@ Crew::Crew(const std::vector<NamedRobot>& robots, LegModel legs) {
     const Matrix3d c = cross_matrix(robot.whole.centre);
     robot.inertia_at_origin = robot.whole.inertia - robot.whole.mass * c * c;
     for (std::size_t w = 0; w < 2; ++w) robot.wheel_inertia[w] = robot.model.wheel[w].inertia(2, 2);
-    if (robot.model.rotors) robot.flight.emplace(robot.whole, *robot.model.rotors);
+    if (robot.model.rotors && robot.model.limbs.empty()) robot.flight.emplace(robot.whole, *robot.model.rotors);
     members_.push_back(std::move(robot));
   }
   system_.finish();
@@ -35,8 +35,8 @@ Crew::Crew(const std::vector<NamedRobot>& robots, LegModel legs) {
   read_masses();
 }
 
-bool Crew::any_walks() const {
-  return std::any_of(members_.begin(), members_.end(), [](const CrewMember& m) { return !m.model.legs.empty(); });
+bool Crew::any_is_articulated() const {
+  return std::any_of(members_.begin(), members_.end(), [](const CrewMember& m) { return m.model.is_articulated(); });
 }
 
 bool Crew::any_bounces() const {

@@ -23,8 +23,8 @@ struct CrewMember {
   description::Mass whole;              // wheels included
   Eigen::Matrix3d inertia_at_origin;    // of the whole, in the body's frame
   std::array<double, 2> wheel_inertia;  // about the axle
-  std::optional<Flight> flight;         // where it has rotors
-  MassMatrix mass, inverse_mass;        // without legs, which weigh otherwise in each step
+  std::optional<Flight> flight;         // where it has rotors and no limbs
+  MassMatrix mass, inverse_mass;        // of what has neither legs nor limbs, which weigh otherwise in each step
 };
 
 class Crew {
@@ -34,7 +34,7 @@ class Crew {
   std::size_t size() const { return members_.size(); }
   CrewMember& operator[](std::size_t i) { return members_[i]; }
   const CrewMember& operator[](std::size_t i) const { return members_[i]; }
-  bool any_walks() const;
+  bool any_is_articulated() const;
   bool any_bounces() const;
   const System& system() const { return system_; }
 

@@ -4,6 +4,7 @@
 
 #include "contact_solver.hpp"
 #include "legs.hpp"
+#include "limbs.hpp"
 #include "model.hpp"
 #include "scene/slabs.hpp"
 #include "state.hpp"
@@ -21,6 +22,7 @@ struct PlacedOf {
   Eigen::Vector3d position;
   BodyOf<N> body;             // its velocities as the step finds them
   LegAngles leg_angle;        // of a robot that walks
+  Posture posture;            // of one with limbs, at the step's start
   double speed = 0;           // no part of it is faster [m/s]
   std::vector<Solid> solids;  // its parts in the world; filled where something is near
 };

@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "block_cholesky.hpp"
 #include "state.hpp"
 
 namespace muster::simbody {
@@ -72,13 +73,16 @@ Eigen::Isometry3d frame_on_body(const description::Robot& robot, const descripti
   return frame;
 }
 
-void refuse_other_joints(const description::Robot& robot, const std::vector<std::size_t>& known, const char* what) {
-  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
-    const bool is_known = std::find(known.begin(), known.end(), i) != known.end();
-    if (!is_known && robot.joints[i].kind != description::JointKind::fixed) {
-      refuse(robot, "joint '" + robot.joints[i].name + "' moves and " + what);
-    }
-  }
+void check_limb(const description::Robot& robot, const description::Joint& joint) {
+  using description::JointKind;
+  const std::string what = "joint '" + joint.name + "' (" + law_of(joint.kind).name + ") without a motor ";
+  if (joint.kind == JointKind::planar || joint.kind == JointKind::floating)
+    refuse(robot, what + "is no hinge, slider or ball");
+  if (!rigid_shapes(robot, joint.child).empty())
+    refuse(robot, what + "has a link with a <collision>; limbs touch nothing here");
+  if (joint.kind == JointKind::ball && joint.friction > 0)
+    refuse(robot, what + "has a friction; a damping is modelled");
+  if (joint.lower > 0 || joint.upper < 0) refuse(robot, what + "does not have 0 within its limits");
 }
 
 }  // namespace
@@ -91,13 +95,10 @@ RobotModel::RobotModel(const description::Robot& robot) : name(robot.name) {
   restitution = robot.restitution;
   body = rigid_mass(robot, 0);
   if (!(body.mass > 0)) refuse(robot, "its body has no mass");
-  if (robot.legs) {
-    take_legs(robot);
-  } else if (has_wheels) {
-    take_wheels(robot);
-  } else {
-    refuse_other_joints(robot, {}, "is no wheel of its drive");
-  }
+  core = body;
+  if (robot.legs) take_legs(robot);
+  if (has_wheels) take_wheels(robot);
+  take_limbs(robot);
   for (const description::Shape& shape : rigid_shapes(robot, 0)) {
     if (const auto* sphere = std::get_if<description::Sphere>(&shape.geometry)) {
       sliders.push_back({shape.pose.translation(), sphere->radius});
@@ -109,7 +110,6 @@ RobotModel::RobotModel(const description::Robot& robot) : name(robot.name) {
 
 void RobotModel::take_wheels(const description::Robot& robot) {
   drive = *robot.drive;
-  refuse_other_joints(robot, {drive.left, drive.right}, "is no wheel of its drive");
   const std::size_t joints[] = {drive.left, drive.right};
   for (std::size_t w = 0; w < 2; ++w) {
     const description::Joint& joint = robot.joints[joints[w]];
@@ -123,19 +123,34 @@ void RobotModel::take_wheels(const description::Robot& robot) {
     const Eigen::Quaterniond to_axis = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), joint.axis);
     wheel_frame[w] = wheel_frame[w] * to_axis;
     wheel[w] = in_parent(Eigen::Isometry3d(to_axis.inverse()), wheel[w]);
+    core = core + in_parent(wheel_frame[w], wheel[w]);
   }
 }
 
 void RobotModel::take_legs(const description::Robot& robot) {
   leg_drive = *robot.legs;
-  std::vector<std::size_t> joints;
   for (const auto& leg : leg_drive.legs) {
     const description::Joint& joint = robot.joints[leg.joint];
     const Eigen::Isometry3d turned(frame_on_body(robot, joint).linear());
     legs.push_back({leg.hip, in_parent(turned, rigid_mass(robot, joint.child))});
-    joints.push_back(leg.joint);
   }
-  refuse_other_joints(robot, joints, "is no leg of its drive");
+}
+
+void RobotModel::take_limbs(const description::Robot& robot) {
+  int next = has_wheels ? 8 : 6;
+  for (const description::LimbJoint& limb : limbs_of(robot)) {
+    const description::Joint& joint = robot.joints[limb.joint];
+    if (robot.legs) refuse(robot, "joint '" + joint.name + "' has no motor; what walks may not have limbs");
+    if (limb.carrier == description::LimbJoint::driven) refuse(robot, "joint '" + joint.name + "' hangs on a wheel");
+    check_limb(robot, joint);
+    limbs.push_back({joint.kind, limb.carrier, limb.frame, joint.axis, rigid_mass(robot, joint.child), next,
+                     joint.lower, joint.upper, joint.damping, joint.friction});
+    next += law_of(joint.kind).rates;
+  }
+  if (limbs.size() > Limbs::most || next > unknowns_with_legs) {
+    refuse(robot, "its joints without motors have " + std::to_string(next - (has_wheels ? 8 : 6)) +
+                      " rates; expected at most 4 joints, of 4 rates beside wheels and of 6 beside rotors");
+  }
 }
 
 // How far it all reaches; a leg by a circle of its length about its hip.
@@ -177,6 +192,23 @@ double RobotModel::lowest_point(const Eigen::Vector3d& up) const {
   return lowest;
 }
 
+namespace {
+
+// Simbody's pin turns about z, its slider goes along x.
+SimTK::MobilizedBody hang(SimTK::MobilizedBody& carrier, const LimbModel& limb) {
+  using description::JointKind;
+  const SimTK::Body::Rigid body(properties(limb.mass));
+  const Eigen::Vector3d own = limb.kind == JointKind::prismatic ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitZ();
+  const Eigen::Isometry3d to_axis(Eigen::Quaterniond::FromTwoVectors(own, limb.axis));
+  if (limb.kind == JointKind::ball)
+    return SimTK::MobilizedBody::Ball(carrier, transform(limb.frame), body, SimTK::Transform());
+  const SimTK::Transform on_carrier = transform(limb.frame * to_axis), on_limb = transform(to_axis);
+  if (limb.kind == JointKind::prismatic) return SimTK::MobilizedBody::Slider(carrier, on_carrier, body, on_limb);
+  return SimTK::MobilizedBody::Pin(carrier, on_carrier, body, on_limb);
+}
+
+}  // namespace
+
 System::System() : matter(system), forces(system) { SimTK::Force::Gravity(forces, matter, Vec3(0, 0, -gravity)); }
 
 RobotBodies System::add(const RobotModel& model) {
@@ -195,7 +227,36 @@ RobotBodies System::add(const RobotModel& model) {
     bodies.legs.push_back(pin(Eigen::Translation3d(leg.hip) * Eigen::Isometry3d(to_axis),
                               in_parent(Eigen::Isometry3d(to_axis.inverse()), leg.mass)));
   }
+  for (const LimbModel& limb : model.limbs) {
+    SimTK::MobilizedBody& carrier = limb.carrier < 0 ? bodies.body : bodies.limbs[limb.carrier];
+    bodies.limbs.push_back(hang(carrier, limb));
+  }
   return bodies;
+}
+
+void set_limb(const SimTK::MobilizedBody& body, const LimbModel& model, const Limb& limb, SimTK::State& state) {
+  if (model.kind == description::JointKind::ball) {
+    const bool is_turned = limb.qw != 0 || limb.qx != 0 || limb.qy != 0 || limb.qz != 0;
+    const double turn[] = {is_turned ? limb.qw : 1, limb.qx, limb.qy, limb.qz}, spin[] = {limb.wx, limb.wy, limb.wz};
+    for (int k = 0; k < 4; ++k) body.setOneQ(state, k, turn[k]);
+    for (int k = 0; k < 3; ++k) body.setOneU(state, k, spin[k]);
+    return;
+  }
+  const bool slides = model.kind == description::JointKind::prismatic;
+  body.setOneQ(state, 0, slides ? limb.way : limb.angle);
+  body.setOneU(state, 0, slides ? limb.speed : limb.rate);
+}
+
+void get_limb(const SimTK::MobilizedBody& body, const LimbModel& model, const SimTK::State& state, Limb& limb) {
+  const auto q = [&](int k) { return body.getOneQ(state, k); };
+  const auto u = [&](int k) { return body.getOneU(state, k); };
+  if (model.kind == description::JointKind::ball) {
+    limb = {0, 0, 0, 0, q(0), q(1), q(2), q(3), u(0), u(1), u(2)};
+  } else if (model.kind == description::JointKind::prismatic) {
+    limb.way = q(0), limb.speed = u(0);
+  } else {
+    limb.angle = q(0), limb.rate = u(0);
+  }
 }
 
 void System::finish() {

@@ -5,6 +5,7 @@
 #include "description/robot.hpp"
 #include "narrow_phase.hpp"
 #include "simbody.hpp"
+#include "state.hpp"
 
 namespace muster::simbody {
 
@@ -27,9 +28,24 @@ struct Leg {
   description::Mass mass;  // about the hip at angle 0, axes of the body
 };
 
+// What hangs on a joint that no motor turns.
+struct LimbModel {
+  description::JointKind kind;
+  int carrier;              // a limb before it, or -1: the body
+  Eigen::Isometry3d frame;  // of the joint, in what carries it
+  Eigen::Vector3d axis;     // unit, in the joint's frame
+  description::Mass mass;   // in the joint's frame, where it stands at 0
+  int first;                // of its unknowns
+  double lower, upper;      // [rad] or [m]
+  double damping, friction;
+};
+
 // What of a robot this backend can hold; throws std::runtime_error for any other.
 struct RobotModel {
   explicit RobotModel(const description::Robot& robot);
+
+  // Whether its mass is another in each step.
+  bool is_articulated() const { return !legs.empty() || !limbs.empty(); }
 
   // Height of the lowest corner of the body's boxes and cylinders above its origin, and of the lowest point of its
   // spheres too; `up` in the body's frame [m].
@@ -46,6 +62,8 @@ struct RobotModel {
   double restitution = 0;
   description::LegDrive leg_drive;
   std::vector<Leg> legs;  // none: on wheels
+  std::vector<LimbModel> limbs;
+  description::Mass core;  // body and wheels
   std::vector<Slider> sliders;
   std::vector<Part> parts;
   Eigen::Vector3d arm;     // how far they reach from the body's x, y and z axes [m]
@@ -55,6 +73,7 @@ struct RobotModel {
  private:
   void take_wheels(const description::Robot& robot);
   void take_legs(const description::Robot& robot);
+  void take_limbs(const description::Robot& robot);
   void measure();
 };
 
@@ -62,7 +81,12 @@ struct RobotBodies {
   SimTK::MobilizedBody::Free body;
   std::array<SimTK::MobilizedBody::Pin, 2> wheel;  // of a robot on wheels
   std::vector<SimTK::MobilizedBody::Pin> legs;
+  std::vector<SimTK::MobilizedBody> limbs;
 };
+
+// A limb in a state of the system, and back.
+void set_limb(const SimTK::MobilizedBody& body, const LimbModel& model, const Limb& limb, SimTK::State& state);
+void get_limb(const SimTK::MobilizedBody& body, const LimbModel& model, const SimTK::State& state, Limb& limb);
 
 // The system keeps what is added to it alive; state() is realised through Model once finish() was called.
 struct System {

@@ -45,7 +45,7 @@ Extent extent_of(const RobotModel& model, const RobotState& state, double time, 
 }
 
 Mover::Mover(Arena& arena) : arena_(arena), stepper_(arena) {
-  if (arena.crew.any_walks()) stepper_with_legs_ = std::make_unique<StepperOf<unknowns_with_legs>>(arena);
+  if (arena.crew.any_is_articulated()) stepper_with_legs_ = std::make_unique<StepperOf<unknowns_with_legs>>(arena);
 }
 
 Count Mover::count() const {
@@ -119,14 +119,14 @@ int Mover::parts_if_it_slides(const Group& group, double h, const std::vector<Co
 
 void Mover::advance(const Group& group, double h, double at, const std::vector<Command>& commands,
                     std::vector<RobotState>& states) {
-  const auto walks = [&](int i) { return !arena_.crew[i].model.legs.empty(); };
+  const auto is_articulated = [&](int i) { return arena_.crew[i].model.is_articulated(); };
   if (is_in_the_air(group, h, states)) {
     const int i = group.robots.front();
     arena_.crew[i].flight->step(h, commands[i].rotors, states[i]);
     double largest = 0;
     for (const double speed : states[i].twist) largest = std::abs(speed) <= largest ? largest : std::abs(speed);
     check_speed(arena_.crew[i].name, largest);
-  } else if (std::any_of(group.robots.begin(), group.robots.end(), walks)) {
+  } else if (std::any_of(group.robots.begin(), group.robots.end(), is_articulated)) {
     stepper_with_legs_->advance(group, h, at, commands, states);
   } else {
     stepper_.advance(group, h, at, commands, states);

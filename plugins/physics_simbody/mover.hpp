@@ -1,5 +1,5 @@
 // Moves robots that may meet within a tick through its steps. In each step those that may meet are a group, divided
-// into parts where somebody is fast, and a group with legs has twelve unknowns a robot, any other eight.
+// into parts where somebody is fast, and a group with legs or limbs has twelve unknowns a robot, any other eight.
 #pragma once
 
 #include <memory>
@@ -41,7 +41,7 @@ class Mover {
 
   Arena& arena_;
   StepperOf<unknowns> stepper_;
-  std::unique_ptr<StepperOf<unknowns_with_legs>> stepper_with_legs_;  // where a robot walks
+  std::unique_ptr<StepperOf<unknowns_with_legs>> stepper_with_legs_;  // or limbs: where a robot has any
 
   // Room that is kept from step to step.
   Connected connected_;

@@ -46,12 +46,15 @@ struct PhysicsSimbody {
       "Robots with rotors that can touch nothing in a step fly by Runge and Kutta's fourth order; robot/*/rotors are "
       "their\n"
       "rotors as they turn.\n"
+      "Limbs hang on hinges, sliders and balls without a motor, with limits, damping and friction, and touch nothing;\n"
+      "robot/*/limbs are these as they hang.\n"
       "Not modelled: wheels as discs on the ground (they stand on it as spheres would), rolling resistance,\n"
       "downwash and ground effect of rotors.";
   static constexpr auto phase = MUSTER_PHYSICS;
-  static constexpr auto abilities = description::Ability::wheels | description::Ability::rotors |
-                                    description::Ability::legs | description::Ability::height |
-                                    description::Ability::tilting | description::Ability::bouncing;
+  static constexpr auto abilities =
+      description::Ability::wheels | description::Ability::rotors | description::Ability::legs |
+      description::Ability::height | description::Ability::tilting | description::Ability::hinges |
+      description::Ability::sliders | description::Ability::balls | description::Ability::bouncing;
   static constexpr Param params[] = {
       real("step", 0.001, 1e-6, 0.1, "s", "longest step inside a tick"),
       real("leg_step", 0.1, 1e-6, 0.1, "s", "as step, of robots that walk and who may meet them"),
@@ -81,6 +84,7 @@ struct PhysicsSimbody {
       gait = s.read<Gait>("robot/*/gait");
       legs = s.write<Legs>("robot/*/legs");
     }
+    if (robots.any_has_limbs()) limbs = s.write<Limbs>("robot/*/limbs");
     if (flies) {
       rotor_drive = s.read<RotorDrive>("robot/*/rotor_drive");
       rotors = s.write<Rotors>("robot/*/rotors");
@@ -179,6 +183,7 @@ struct PhysicsSimbody {
     k[wheels][row] = k.last(wheels)[row];
     k[memory][row] = k.last(memory)[row];
     if (legs) k[*legs][row] = k.last(*legs)[row];
+    if (limbs) k[*limbs][row] = k.last(*limbs)[row];
     if (flies) k[rotors][row] = k.last(rotors)[row];
   }
 
@@ -219,6 +224,7 @@ struct PhysicsSimbody {
       const Rotors& r = k.last(rotors)[row];
       s.rotors = {r.front, r.left, r.back, r.right};
     }
+    if (limbs) s.limbs = k.last(*limbs)[row];
     if (!legs) return s;
     const Legs& l = k.last(*legs)[row];
     std::copy_n(l.angle, 6, s.leg_angle.begin());
@@ -235,6 +241,7 @@ struct PhysicsSimbody {
     k[wheels][row] = {s.angle[0], s.angle[1], s.rate[0], s.rate[1]};
     if (flies) k[rotors][row] = {s.rotors[0], s.rotors[1], s.rotors[2], s.rotors[3]};
     k[memory][row] = s.memory;
+    if (limbs) k[*limbs][row] = s.limbs;
     if (!legs) return;
     Legs& l = k[*legs][row];
     std::copy_n(s.leg_angle.begin(), 6, l.angle);
@@ -258,6 +265,7 @@ struct PhysicsSimbody {
   Out<simbody::Memory> memory;   // what the engine remembers
   std::optional<In<Gait>> gait;  // where a robot walks
   std::optional<Out<Legs>> legs;
+  std::optional<Out<Limbs>> limbs;  // where a robot has any
   Made made;
   std::unique_ptr<simbody::Engine> engine;
   Surroundings surroundings;

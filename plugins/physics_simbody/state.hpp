@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <muster/limbs.hpp>
 
 namespace muster::simbody {
 
@@ -47,6 +48,7 @@ struct RobotState {
   std::array<double, 6> leg_angle{}, leg_rate{};  // in the order of the model [rad], [rad/s]
   std::array<double, 6> leg_torque{};             // of their motors, the mean over the last step [N m]
   std::array<double, 4> rotors{};                 // as they turn [rad/s]
+  Limbs limbs{};                                  // as they hang
 };
 
 }  // namespace muster::simbody

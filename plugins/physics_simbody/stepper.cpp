@@ -97,7 +97,7 @@ void StepperOf<N>::complete(const Group& group, double h, double at, const std::
       in_halves.push_back(part_of(group, island));
       continue;
     }
-    if (!island.robots.empty()) solve(island, states);
+    if (!island.robots.empty()) solve(island, h, states);
     for (const int i : island.robots) finish(i, h, commands[i], states[i]);
   }
   for (const Group& part : in_halves) {
@@ -143,10 +143,12 @@ void StepperOf<N>::place(int index, double h, double at, const Command& command,
   Vector3d v = velocity_of(state);
   if (robot.flight) v += origin_lead(robot, now.to_world, state);
   now.body.previous.template segment<3>(3) = now.to_world.transpose() * v;
-  if (robot.model.legs.empty()) {
-    place_wheels(robot, h, at, command, state, now);
-  } else {
+  if (!robot.model.legs.empty()) {
     place_legs(robot, h, at, command, state, now);
+  } else if (!robot.model.limbs.empty()) {
+    place_limbs(robot, h, at, command, state, now);
+  } else {
+    place_wheels(robot, h, at, command, state, now);
   }
 }
 
@@ -188,6 +190,64 @@ void StepperOf<N>::place_legs(const CrewMember& robot, double h, double at, cons
     body.inverse_mass = inverse(legged.mass);
     const double kick = 0.5 * (state.memory.previous_step + h);
     body.free = body.previous + kick * (body.inverse_mass * legged.force);
+  }
+}
+
+template <int N>
+void StepperOf<N>::place_limbs(const CrewMember& robot, double h, double at, const Command& command,
+                               const RobotState& state, PlacedOf<N>& now) {
+  if constexpr (N == unknowns_with_legs) {
+    auto& body = now.body;
+    const auto& drive = robot.model.drive;
+    const double asked[] = {command.left + at * command.left_rate, command.right + at * command.right_rate};
+    for (int w = 0; robot.model.has_wheels && w < 2; ++w) {
+      body.previous[6 + w] = state.rate[w];
+      body.motors[w] = {drive.limited_rate(asked[w]), drive.max_torque * h};
+    }
+    now.posture = posture_of(robot.model, state.limbs, now.to_world.transpose() * matrix_of(state));
+    take_rates(robot.model, now.posture, state.limbs, body.previous);
+    for (const LimbModel& limb : robot.model.limbs) {
+      for (int k = limb.first; k < limb.first + law_of(limb.kind).rates; ++k)
+        body.motors[k - 6] = joint_motor(limb, 0.5 * (state.memory.previous_step + h));
+    }
+    push(robot, h, state, body.previous, now);
+    push(robot, h, state, body.free, now);
+    stop_limbs(robot, h, state, body.free, now);
+  }
+}
+
+// Forces that depend on velocities are those between the two steps, half way to the velocities that are found: `after`
+// is as good an estimate of these as there is.
+template <int N>
+void StepperOf<N>::push(const CrewMember& robot, double h, const RobotState& state, const VelocityOf<N>& after,
+                        PlacedOf<N>& now) {
+  if constexpr (N == unknowns_with_legs) {
+    auto& body = now.body;
+    const double kick = 0.5 * (state.memory.previous_step + h),
+                 share = kick > 0 ? 0.5 * state.memory.previous_step / kick : 0;
+    const VelocityOf<N> between = body.previous + share * (after - body.previous);
+    const Vector3d fall = now.to_world.transpose() * Vector3d(0, 0, -gravity);
+    LimbedMass limbed = weigh(robot.model, now.posture, between, fall);
+    if (robot.model.rotors) {
+      const Matrix3d& turn = now.posture.body;
+      const auto wrench = robot.model.rotors->wrench(state.rotors, turn.transpose() * between.template segment<3>(3),
+                                                     turn.transpose() * between.template head<3>());
+      limbed.force.template head<3>() += turn * wrench.torque;
+      limbed.force.template segment<3>(3) += turn * wrench.force;
+    }
+    body.mass = limbed.mass + kick * share * limbed.damping;
+    body.inverse_mass = body.mass.llt().solve(MassMatrixOf<N>::Identity());
+    body.free = body.previous + kick * (body.inverse_mass * (limbed.force - limbed.damping * body.previous));
+  }
+}
+
+template <int N>
+void StepperOf<N>::stop_limbs(const CrewMember& robot, double h, const RobotState& state, const VelocityOf<N>& rates,
+                              PlacedOf<N>& now) {
+  for (std::size_t i = 0; i < robot.model.limbs.size(); ++i) {
+    const LimbModel& limb = robot.model.limbs[i];
+    if (law_of(limb.kind).rates == 1)
+      stop_at_limits(limb, state.limbs.limb[i], rates[limb.first], h, now.body.motors[limb.first - 6]);
   }
 }
 
@@ -243,13 +303,14 @@ void StepperOf<N>::take_contacts(const Island& island) {
 }
 
 template <int N>
-void StepperOf<N>::solve(const Island& island, std::vector<RobotState>& states) {
+void StepperOf<N>::solve(const Island& island, double h, std::vector<RobotState>& states) {
   const auto on_clear_floor = [&](int k) { return encounters_.traces[k].id == 0; };
   problem_.search = std::all_of(island.contacts.begin(), island.contacts.end(), on_clear_floor) ? alone : together;
   problem_.bodies.resize(island.robots.size());
   for (std::size_t i = 0; i < island.robots.size(); ++i) problem_.bodies[i] = placed()[island.robots[i]].body;
   take_contacts(island);
   solve_problem();
+  if (push_again(island, h, states)) solve_problem();
   for (std::size_t i = 0; i < island.robots.size(); ++i) {
     placed()[island.robots[i]].body.velocity = problem_.bodies[i].velocity;
     states[island.robots[i]].memory = Memory();
@@ -258,6 +319,23 @@ void StepperOf<N>::solve(const Island& island, std::vector<RobotState>& states) 
     const Trace& trace = encounters_.traces[island.contacts[k]];
     keep(problem_.contacts[k], trace, states[trace.robot].memory);
   }
+}
+
+// Now that contacts and motors have had their say. False where nobody has limbs.
+template <int N>
+bool StepperOf<N>::push_again(const Island& island, double h, const std::vector<RobotState>& states) {
+  bool any = false;
+  for (std::size_t i = 0; i < island.robots.size(); ++i) {
+    const int index = island.robots[i];
+    const CrewMember& robot = arena_.crew[index];
+    if (robot.model.limbs.empty()) continue;
+    PlacedOf<N>& now = placed()[index];
+    push(robot, h, states[index], problem_.bodies[i].velocity, now);
+    stop_limbs(robot, h, states[index], problem_.bodies[i].velocity, now);
+    problem_.bodies[i] = now.body;
+    any = true;
+  }
+  return any;
 }
 
 template <int N>
@@ -288,10 +366,11 @@ void StepperOf<N>::finish(int index, double h, const Command& command, RobotStat
     const Vector3d lead = origin_lead(robot, now.to_world, state);
     for (int k = 0; k < 3; ++k) state.twist[k] -= lead[k];
   }
-  for (int k = 0; k < 2 && robot.model.legs.empty(); ++k) {
+  for (int k = 0; k < 2 && robot.model.has_wheels; ++k) {
     state.angle[k] += h * u[6 + k];
     state.rate[k] = u[6 + k];
   }
+  finish_limbs(robot, h, now, state);
   for (std::size_t k = 0; k < robot.model.legs.size(); ++k) {
     const double rate = u[6 + static_cast<int>(k)];
     state.leg_angle[k] += h * rate;
@@ -301,6 +380,16 @@ void StepperOf<N>::finish(int index, double h, const Command& command, RobotStat
   if (const auto& rotors = robot.model.rotors)
     state.rotors = rotors->later(state.rotors, command.rotors, rotors->decay(h));
   state.memory.previous_step = h;
+}
+
+template <int N>
+void StepperOf<N>::finish_limbs(const CrewMember& robot, double h, const PlacedOf<N>& now, RobotState& state) const {
+  if constexpr (N == unknowns_with_legs) {
+    if (robot.model.limbs.empty()) return;
+    Posture posture = now.posture;
+    move_limbs(robot.model, h, now.to_world.transpose() * matrix_of(state), now.body.velocity, posture, state.limbs);
+    leave_rates(robot.model, posture, now.body.velocity, state.limbs);
+  }
 }
 
 template class StepperOf<unknowns>;

@@ -82,9 +82,21 @@ struct Stock::Robot {
     const auto lowest = std::min_element(
         model.sliders.begin(), model.sliders.end(),
         [](const Slider& a, const Slider& b) { return a.centre.z() - a.radius < b.centre.z() - b.radius; });
+    for (std::size_t i = 0; i < model.limbs.size(); ++i) hang(model.limbs[i], bodies.limbs[i]);
     const Vec3 centre(lowest->centre.x(), lowest->centre.y(), lowest->centre.z());
     SimTK::Constraint::SphereOnPlaneContact(ground, floor, bodies.body, centre, lowest->radius, false);
     system.finish();
+  }
+
+  void hang(const LimbModel& limb, SimTK::MobilizedBody& body) {
+    const bool has_stops = std::isfinite(limb.lower) || std::isfinite(limb.upper);
+    if (limb.friction > 0 || has_stops || (limb.damping > 0 && limb.kind == description::JointKind::ball)) {
+      throw std::runtime_error("robot '" + name +
+                               "' has a limb with a limit or a friction, or a ball with a damping: Simbody's own "
+                               "integrators here have none; use midpoint");
+    }
+    if (limb.damping > 0)
+      SimTK::Force::MobilityLinearDamper(system.forces, body, SimTK::MobilizerUIndex(0), limb.damping);
   }
 
   std::string name;
@@ -120,6 +132,8 @@ void Stock::step(double dt, const std::vector<Command>& commands, std::vector<Ro
       state.updQ()[7 + w] = s.angle[w];
       state.updU()[6 + w] = s.rate[w];
     }
+    const auto& limbs = robot.model.limbs;
+    for (std::size_t k = 0; k < limbs.size(); ++k) set_limb(robot.bodies.limbs[k], limbs[k], s.limbs.limb[k], state);
     try {
       const auto integrator = make(integrator_, robot.system.system, std::min(step_, dt));
       integrator->initialize(state);
@@ -138,6 +152,7 @@ void Stock::step(double dt, const std::vector<Command>& commands, std::vector<Ro
       s.angle[w] = state.getQ()[7 + w];
       s.rate[w] = state.getU()[6 + w];
     }
+    for (std::size_t k = 0; k < limbs.size(); ++k) get_limb(robot.bodies.limbs[k], limbs[k], state, s.limbs.limb[k]);
     s.memory = Memory();
   });
 }

@@ -1,4 +1,6 @@
 // What hangs on a joint that turns: what any backend with such joints must keep.
+#include <muster/limbs.hpp>
+
 #include "tests/conformance/physics_backends.hpp"
 #include "text/number.hpp"
 
@@ -20,13 +22,14 @@ std::string body() {
 }
 
 // Hangs on a joint at `place`, its centre of mass deflected by `angle` from straight down where the joint stands at 0.
-std::string pendulum(const std::string& name, const std::string& place, double angle) {
+std::string pendulum(const std::string& name, const std::string& place, double angle,
+                     const std::string& type = "continuous") {
   const auto number = [](double value) { return print_real(value); };
   const std::string moment = number(inertia);
   return "<link name='" + name + "'><inertial><origin xyz='" + number(arm * std::sin(angle)) + " 0 " +
          number(-arm * std::cos(angle)) + "'/><mass value='" + number(mass) + "'/><inertia ixx='" + moment +
          "' ixy='0' ixz='0' iyy='" + moment + "' iyz='0' izz='" + moment + "'/></inertial></link><joint name='" + name +
-         "_joint' type='continuous'><parent link='body'/><child link='" + name + "'/><origin xyz='" + place +
+         "_joint' type='" + type + "'><parent link='body'/><child link='" + name + "'/><origin xyz='" + place +
          "'/><axis xyz='0 1 0'/></joint>";
 }
 
@@ -53,13 +56,58 @@ std::string on_hips(const std::vector<double>& angles) {
          "' position_gain='1e-9' rate_gain='1e-9'" + no_torque + ">" + legs + "</legs></muster></robot>";
 }
 
+// Limbs beside wheels that turn nothing: a ball with a pendulum each of the angles, or on hinges where they are named
+// so.
+std::string on_limbs(const std::vector<std::pair<std::string, double>>& angles) {
+  std::string links = body() + pendulum("left", "0 0.1 0.3", 0) + pendulum("right", "0 -0.1 0.3", 0), balls;
+  for (const std::string wheel : {"left", "right"}) {  // balanced
+    const std::string offset = "<origin xyz='0 0 " + print_real(-arm) + "'/>";
+    const auto at = links.find(offset, links.find("name='" + wheel + "'"));
+    links.erase(at, offset.size());
+  }
+  for (const auto& [type, angle] : angles) {
+    const std::string name = type + std::to_string(balls.size());
+    links += pendulum(name, "0.5 0 1", angle, type);
+    if (type == "floating") balls += "<ball joint='" + name + "_joint'/>";
+  }
+  return "<robot name='limbs'>" + links +
+         "<muster><differential left='left_joint' right='right_joint' wheel_radius='0.05' wheel_base='0.2'" +
+         no_torque + "/>" + balls + "</muster></robot>";
+}
+
 // By the complete elliptic integral of the first kind.
 double period(double amplitude) {
   return 4 * std::sqrt((inertia + mass * arm * arm) / (mass * gravity * arm)) *
          std::comp_ellint_1(std::sin(amplitude / 2));
 }
 
-class OnJoints : public EachBackend {};
+class OnJoints : public EachBackend {
+ protected:
+  // Joints turn from 0 past the amplitude, where what hangs on them is lowest, to twice of it and back.
+  void expect_periods(Started& sim, double dt, const std::vector<double>& amplitudes,
+                      const std::function<std::vector<double>()>& angles) const {
+    std::vector<std::vector<double>> lowest(amplitudes.size());
+    std::vector<double> last = angles(), farthest(amplitudes.size());
+    for (int tick = 0; tick < 2000; ++tick) {
+      sim.step();
+      const std::vector<double> now = angles();
+      for (std::size_t i = 0; i < now.size(); ++i) {
+        const double before = last[i] - amplitudes[i], after = now[i] - amplitudes[i];
+        if (before < 0 && after >= 0) lowest[i].push_back(sim.time() - dt * after / (after - before));
+        farthest[i] = std::max(farthest[i], now[i]);
+      }
+      last = now;
+    }
+    for (std::size_t i = 0; i < amplitudes.size(); ++i) {
+      ASSERT_GT(lowest[i].size(), 2u) << amplitudes[i];
+      const double swings = static_cast<double>(lowest[i].size() - 1);
+      const double expected = period(amplitudes[i]);
+      EXPECT_NEAR((lowest[i].back() - lowest[i].front()) / swings, expected, GetParam().swing * expected)
+          << amplitudes[i];
+      EXPECT_NEAR(farthest[i], 2 * amplitudes[i], 2e-3) << amplitudes[i];  // the body settles by 0.1 mm first
+    }
+  }
+};
 
 TEST_P(OnJoints, PendulumsTakeTheirPeriod) {
   if (GetParam().pendulum.empty()) return;
@@ -69,32 +117,78 @@ TEST_P(OnJoints, PendulumsTakeTheirPeriod) {
   const double dt = 0.002;
   Started sim =
       started(GetParam(), "<robot name='a' model='pendulums.urdf' at='0 0 0.02'/><conformance.slack/>", {}, {}, dt);
-  const auto angles = [&] {
+  expect_periods(sim, dt, amplitudes, [&] {
     if (!hips) return std::vector{row<Wheels>(sim, "robot/a/wheels").left, row<Wheels>(sim, "robot/a/wheels").right};
     const auto legs = row<Legs>(sim, "robot/a/legs");
     return std::vector(std::begin(legs.angle), std::end(legs.angle));
-  };
-  // Joints turn from 0 past the amplitude, where what hangs on them is lowest, to twice of it and back.
-  std::vector<std::vector<double>> lowest(amplitudes.size());
-  std::vector<double> last = angles(), farthest(amplitudes.size());
-  for (int tick = 0; tick < 2000; ++tick) {
-    sim.step();
-    const std::vector<double> now = angles();
-    for (std::size_t i = 0; i < now.size(); ++i) {
-      const double before = last[i] - amplitudes[i], after = now[i] - amplitudes[i];
-      if (before < 0 && after >= 0) lowest[i].push_back(sim.time() - dt * after / (after - before));
-      farthest[i] = std::max(farthest[i], now[i]);
+  });
+}
+
+const std::string with_limbs = "<robot name='a' model='limbs.urdf' at='0 0 0.02'/>";
+
+TEST_P(OnJoints, LimbsTakeTheirPeriodOrAreRefusedWithTheList) {
+  const std::vector<double> amplitudes = {0.6, 1.2};
+  folder.write("limbs.urdf", on_limbs({{"continuous", amplitudes[0]}, {"floating", amplitudes[1]}}));
+  const double dt = 0.002;
+  if (!GetParam().limbs) {
+    try {
+      started(GetParam(), with_limbs, {}, {}, dt);
+      FAIL() << "nothing was thrown";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.exit(), Exit::invalid_input);
+      EXPECT_THAT(error.what(), testing::HasSubstr("it lacks what the world's robots need: robot 'a' (model 'limbs') "
+                                                   "needs joint 'continuous0_joint' (continuous) without a motor, "
+                                                   "joint 'floating0_joint' (ball) without a motor"));
     }
-    last = now;
+    return;
   }
-  for (std::size_t i = 0; i < amplitudes.size(); ++i) {
-    ASSERT_GT(lowest[i].size(), 2u) << amplitudes[i];
-    const double swings = static_cast<double>(lowest[i].size() - 1);
-    const double expected = period(amplitudes[i]);
-    EXPECT_NEAR((lowest[i].back() - lowest[i].front()) / swings, expected, GetParam().swing * expected)
-        << amplitudes[i];
-    EXPECT_NEAR(farthest[i], 2 * amplitudes[i], 2e-3) << amplitudes[i];  // the body settles by 0.1 mm first
+  Started sim = started(GetParam(), with_limbs, {}, {}, dt);
+  expect_periods(sim, dt, amplitudes, [&] {
+    const auto limbs = row<Limbs>(sim, "robot/a/limbs");
+    EXPECT_NEAR(std::hypot(limbs.limb[1].qx, limbs.limb[1].qz), 0, 1e-6);
+    return std::vector{limbs.limb[0].angle, 2 * std::atan2(limbs.limb[1].qy, limbs.limb[1].qw)};
+  });
+}
+
+// In a circle at a constant deflection: it only turns about the vertical.
+TEST_P(OnJoints, ALimbOnABallGoesInACircle) {
+  if (!GetParam().limbs) return;
+  constexpr double pi = 3.14159265358979, turns = 10, dt = 0.002;
+  for (const double deflection : {0.1, 0.9}) {
+    const double rate = std::sqrt(gravity / (arm * std::cos(deflection)));
+    folder.write("limbs.urdf", on_limbs({{"floating", deflection}}));
+    Started sim = started(GetParam(), with_limbs, {{"cone", print_real(rate)}}, {}, dt);
+    const double start = sim.time();
+    while (sim.time() < start + 2 * pi * turns / rate) sim.step();
+    const Limb limb = row<Limbs>(sim, "robot/a/limbs").limb[0];
+    const Eigen::Quaterniond turned(limb.qw, limb.qx, limb.qy, limb.qz),
+        expected(Eigen::AngleAxisd(rate * (sim.time() - start), Eigen::Vector3d::UnitZ()));
+    EXPECT_LT(turned.angularDistance(expected), GetParam().swing * 2 * pi * turns) << deflection;
   }
+}
+
+TEST_P(OnJoints, LimbsGiveTheSameBitsForAnyWorkersRemadeAndRestored) {
+  if (!GetParam().limbs) return;
+  folder.write("limbs.urdf", on_limbs({{"continuous", 0.6}, {"floating", 1.2}}));
+  const std::string robots = with_limbs + "<robot name='b' model='limbs.urdf' at='20 0 0.02'/>";
+  const auto begun = [&](int workers) { return started(GetParam(), robots, {{"cone", "2"}}, {}, 0.01, workers); };
+  Started straight = begun(1);
+  run_for(straight, 30);
+  straight.snapshot().save(folder / "then");
+  run_for(straight, 30);
+  Started three = begun(3);
+  run_for(three, 60);
+  EXPECT_EQ(straight.digest(), three.digest());
+  Started restored = begun(1);
+  restored.restore(Snapshot::load(folder / "then"));
+  run_for(restored, 30);
+  EXPECT_EQ(straight.digest(), restored.digest());
+  Started remade = begun(1);
+  while (remade.tick() < straight.tick()) {
+    if (remade.tick() % 17 == 5) remade.remake("physics");
+    remade.step();
+  }
+  EXPECT_EQ(straight.digest(), remade.digest());
 }
 
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(OnJoints);

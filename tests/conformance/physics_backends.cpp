@@ -5,7 +5,7 @@ namespace muster::test {
 std::vector<Backend> table() {
   Backend simbody{"simbody", "physics.simbody", {}, true};
   simbody.height = simbody.slip = simbody.torque = simbody.round_friction = simbody.load_transfer = true;
-  simbody.rotors = simbody.bouncing = simbody.bounces_on_wheels = true;
+  simbody.rotors = simbody.limbs = simbody.bouncing = simbody.bounces_on_wheels = true;
   simbody.order = 2, simbody.coarsest_of_order = 0.08, simbody.flight_order = 4;
   simbody.fall = 1e-6, simbody.rest = 1e-6, simbody.arc = 1e-3, simbody.course = 1e-4, simbody.ramp = 1e-3;
   simbody.climb = 1e-7, simbody.spin = 1e-11, simbody.collision = 1e-12, simbody.bounce = 0.02, simbody.force = 0.01;

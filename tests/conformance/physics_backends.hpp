@@ -29,6 +29,7 @@ struct Backend {
   bool bouncing = false;           // from what it lands on
   bool bounces_on_wheels = false;  // too
   std::string pendulum{};          // the joint that may carry one: "hip" or "axle" (of a wheel without balance)
+  bool limbs = false;              // on hinges and balls that no motor turns
   int order = 0;                   // of convergence; 0: the solver's own error hides it
   double coarsest_of_order = 0;    // the step from which it shows [s]
   int flight_order = 0;            // of convergence in the air

@@ -160,10 +160,10 @@ TEST(Abilities, WhatIsLackingIsListed) {
   EXPECT_EQ(lacking(driven, all | Ability::bouncing), "");
   driven.restitution = 0;
   driven.drive->right = driven.drive->left;
-  EXPECT_EQ(lacking(driven, all), "joint 'right_wheel_joint' that moves");
+  EXPECT_EQ(lacking(driven, all), "joint 'right_wheel_joint' (continuous) without a motor");
   driven.drive.reset();
   EXPECT_EQ(
-      lacking(driven, Ability::wheels | Ability::joints),
+      lacking(driven, Ability::wheels | Ability::hinges),
       "motion without a drive (its model has no <muster><differential .../></muster>, <quadrotor .../> or <legs>)");
 }
 

@@ -38,6 +38,12 @@ std::string wheels(const std::string& attributes, const std::string& axis = "0 1
 const std::string good =
     "left='jl' right='jr' wheel_radius='0.05' wheel_base='0.2' max_torque='1' max_speed='9' friction='0.8'";
 
+// A joint and its <muster>, from line 6 on.
+std::string ball(const std::string& inside, const std::string& type = "floating") {
+  return link("a", mass) + link("b", mass) + joint("j", "a", "b", type, "<axis xyz='0 0 1'/>") + "<muster>\n" + inside +
+         "</muster>\n";
+}
+
 // Six legs of radius 0.05 on hips at the given height; `last` is how the sixth is declared.
 std::string legs(const std::string& attributes, const std::string& last = "<leg joint='j6' tripod='2'/>",
                  const std::string& height = "0.1", const std::string& sixth = mass) {
@@ -122,7 +128,35 @@ const Case cases[] = {
     {"wheel_base_contradicts_joints", wheels(good, "0 1 0", "0.11"),
      "7: <differential> joint 'jl' is not half a wheel_base from the body's x axis (left: +y, right: -y)"},
     {"another_drive", link("a", mass) + "<muster><tracks/></muster>",
-     "3: <tracks> is not a drive; expected <differential>, <quadrotor> or <legs>"},
+     "3: <tracks> is not known in <muster>; expected <differential>, <quadrotor>, <legs> or <ball>"},
+    {"ball_as_a_type", link("a", mass) + link("b", mass) + joint("j", "a", "b", "ball"),
+     "4: joint 'j': URDF has no type 'ball'; expected type 'floating' and <muster><ball joint=\"j\"/></muster>"},
+    {"spherical", link("a", mass) + link("b", mass) + joint("j", "a", "b", "spherical"),
+     "4: joint 'j': URDF has no type 'spherical'; expected type 'floating' and <muster><ball joint=\"j\"/></muster>"},
+    {"ball_of_unknown_joint", ball("<ball joint='k'/>"), "6: <ball> joint: joint 'k' is not known; did you mean 'j'?"},
+    {"ball_of_no_joint", ball("<ball/>"), "6: <ball> has no attribute 'joint'"},
+    {"ball_attribute_misspelt", ball("<ball joint='j' limit='1'/>"), "6: <ball> has no attribute 'limit'"},
+    {"ball_with_limits", ball("<ball joint='j'><limit/></ball>"), "6: <ball> has no element <limit>"},
+    {"ball_twice", ball("<ball joint='j'/>\n<ball joint='j'/>"), "7: <ball> joint 'j' is a ball already"},
+    {"ball_in_a_second_extension", ball("<ball joint='j'/></muster>\n<muster><ball joint='j'/>"),
+     "7: <ball> joint 'j' is a ball already"},
+    {"ball_on_an_axis", ball("<ball joint='j'/>", "continuous"),
+     "6: <ball> joint 'j' is continuous; expected type 'floating'"},
+    {"ball_misspelt", ball("<bal joint='j'/>"),
+     "6: <bal> is not known in <muster>; expected <differential>, <quadrotor>, <legs> or <ball>; did you mean 'ball'?"},
+    {"ball_without_mass",
+     link("a", mass) + link("b", "") + joint("j", "a", "b", "floating") + "<muster><ball joint='j'/></muster>",
+     "3: link 'b' moves by joint 'j' but has no <inertial>"},
+    {"wheel_on_a_ball",
+     link("w", mass) + joint("jw", "b", "w", "floating") +
+         wheels(
+             "left='jw' right='jr' wheel_radius='0.05' wheel_base='0.2' max_torque='1' max_speed='9' friction='0.8'") +
+         "<muster><ball joint='jw'/></muster>",
+     "9: <differential> joint 'jw' is not continuous"},
+    {"negative_damping",
+     link("a", mass) + link("b", mass) +
+         joint("j", "a", "b", "continuous", "<axis xyz='0 0 1'/><dynamics damping='-1'/>"),
+     "4: joint 'j': damping and friction must not be below 0"},
     {"restitution_above_one", link("a", mass) + "<muster restitution='1.1'/>",
      "3: <muster> restitution=\"1.1\" is wrong; expected a number from 0 to 1"},
     {"restitution_misspelt", link("a", mass) + "<muster restitutoin='0.5'/>",

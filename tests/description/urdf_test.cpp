@@ -1,6 +1,7 @@
 // Good descriptions are read as they stand.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <clocale>
 #include <cmath>
 #include <cstdlib>
@@ -119,26 +120,101 @@ TEST(Urdf, RestitutionIsReadAndPlasticWhereItIsNotSaid) {
 
 TEST(Urdf, EveryKindOfJointIsRead) {
   Files files;
-  std::string text = "<robot name='r'><link name='l0'/>";
+  std::string text = "<robot name='r'>\n<link name='l0'/>";
   const std::string mass =
       "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial>";
-  const char* kinds[] = {"fixed", "revolute", "continuous", "prismatic", "floating", "planar"};
-  for (int i = 0; i < 6; ++i) {
-    const std::string child = std::string("l").append(std::to_string(i + 1));
-    text += "<link name='" + child + "'>" + mass + "</link><joint name='j" + child + "' type='" + kinds[i] +
-            "'><parent link='l0'/><child link='" + child +
-            "'/><axis xyz='0 0 2'/><limit lower='-1' upper='2' effort='3' velocity='4'/></joint>";
+  for (std::size_t i = 0; i < joint_laws.size(); ++i) {
+    const std::string kind = joint_laws[i].name, child = "l" + std::to_string(i + 1);
+    text += "<link name='" + child + "'>" + mass + "</link><joint name='" + kind + "' type='" +
+            (kind == "ball" ? "floating" : kind) + "'><parent link='l0'/><child link='" + child +
+            "'/><axis xyz='0 0 2'/><limit lower='-1' upper='2' effort='3' velocity='4'/>"
+            "<dynamics damping='5' friction='6'/></joint>";
   }
-  const Robot robot = read_robot(files.write("r.urdf", text + "</robot>"));
-  ASSERT_EQ(robot.joints.size(), 6u);
-  for (std::size_t i = 0; i < 6; ++i) {
-    EXPECT_EQ(robot.joints[i].kind, static_cast<JointKind>(i + 1));
-    EXPECT_EQ(robot.joints[i].child, i + 1);
+  const std::string file = files.write("r.urdf", text + "<muster><ball joint='ball'/></muster></robot>");
+  const Robot robot = read_robot(file);
+  ASSERT_EQ(robot.joints.size(), joint_laws.size());
+  for (std::size_t i = 0; i < joint_laws.size(); ++i) {
+    const Joint& joint = robot.joints[i];
+    const JointLaw& law = law_of(joint.kind);
+    EXPECT_EQ(joint.name, law.name);
+    EXPECT_EQ(joint.child, i + 1);
+    EXPECT_EQ(joint.axis, law.has_axis ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX()) << law.name;
+    EXPECT_EQ(std::isfinite(joint.lower), law.has_limits) << law.name;
+    EXPECT_EQ(std::isfinite(joint.upper), law.has_limits) << law.name;
+    const std::string type = joint.kind == JointKind::ball ? "floating" : law.name;
+    const auto warning =
+        file + ":2: joint '" + law.name + "': a " + type + " joint has no lower and upper limit; they are left out";
+    EXPECT_EQ(std::count(robot.warnings.begin(), robot.warnings.end(), warning), !law.has_limits) << law.name;
   }
   EXPECT_EQ(robot.joints[1].lower, -1);
   EXPECT_EQ(robot.joints[3].upper, 2);
   EXPECT_EQ(robot.joints[1].max_effort, 3);
-  EXPECT_EQ(robot.joints[1].axis, Eigen::Vector3d::UnitZ());
+  EXPECT_EQ(robot.joints[1].max_speed, 4);
+  EXPECT_EQ(robot.joints[1].damping, 5);
+  EXPECT_EQ(robot.joints[1].friction, 6);
+}
+
+// A coordinate for each rate, but where a quaternion stands for three of them.
+TEST(Urdf, JointsHaveAsManyRatesAsTheyLetMove) {
+  for (const JointLaw& law : joint_laws) {
+    const bool turns_about_all = law.kind == JointKind::ball || law.kind == JointKind::floating;
+    EXPECT_EQ(law.positions, law.rates + turns_about_all) << law.name;
+    EXPECT_EQ(&law_of(law.kind), &law);
+  }
+}
+
+TEST(Urdf, BackendsAreToldWhichJointsTheyLack) {
+  Files files;
+  const std::string mass =
+      "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial>";
+  std::string text = "<robot name='r'><link name='l0'>" + mass + "</link>";
+  for (const JointLaw& law : joint_laws) {
+    const std::string kind = law.name;
+    text += "<link name='of_" + kind + "'>" + mass + "</link><joint name='" + kind + "' type='" +
+            (kind == "ball" ? "floating" : kind) + "'><parent link='l0'/><child link='of_" + kind +
+            "'/><axis xyz='0 0 1'/><limit lower='-1' upper='2' effort='3' velocity='4'/></joint>";
+  }
+  text += "<muster><ball joint='ball'/></muster>";
+  text +=
+      "<muster><quadrotor arm='0.2' thrust_factor='1e-3' torque_factor='1e-7' max_speed='900' lag_up='0.01' "
+      "lag_down='0.01' attitude_p='196' attitude_d='22.4' yaw_p='4'/></muster></robot>";
+  const Robot robot = read_robot(files.write("r.urdf", text));
+  const Ability flies = Ability::rotors | Ability::height | Ability::tilting;
+  EXPECT_EQ(lacking(robot, flies | Ability::balls),
+            "joint 'revolute' (revolute) without a motor, joint 'continuous' (continuous) without a motor, "
+            "joint 'prismatic' (prismatic) without a motor, joint 'floating' (floating) without a motor, "
+            "joint 'planar' (planar) without a motor");
+  EXPECT_EQ(lacking(robot, flies | Ability::hinges | Ability::sliders | Ability::loose),
+            "joint 'ball' (ball) without a motor");
+}
+
+TEST(Urdf, LimbsHangOnWhatCarriesThem) {
+  Files files;
+  const std::string mass =
+      "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial>";
+  std::string text = "<robot name='r'><link name='base'>" + mass + "</link>";
+  const auto hang = [&](const std::string& name, const std::string& on, const std::string& type,
+                        const std::string& at) {
+    text += "<link name='" + name + "'>" + mass + "</link><joint name='" + name + "' type='" + type +
+            "'><parent link='" + on + "'/><child link='" + name + "'/><origin xyz='" + at +
+            "' rpy='0 0 1.5707963267948966'/></joint>";
+  };
+  hang("mast", "base", "fixed", "1 0 0");
+  hang("arm", "mast", "floating", "2 0 0");
+  hang("sleeve", "arm", "fixed", "3 0 0");
+  hang("hand", "sleeve", "continuous", "4 0 0");
+  const Robot robot = read_robot(files.write("r.urdf", text + "<muster><ball joint='arm'/></muster></robot>"));
+  const std::vector<LimbJoint> limbs = limbs_of(robot);
+  ASSERT_EQ(limbs.size(), 2u);
+  EXPECT_EQ(robot.joints[limbs[0].joint].name, "arm");
+  EXPECT_EQ(limbs[0].carrier, LimbJoint::body);
+  EXPECT_TRUE(limbs[0].frame.translation().isApprox(Eigen::Vector3d(1, 2, 0)));
+  EXPECT_EQ(robot.joints[limbs[1].joint].name, "hand");
+  EXPECT_EQ(limbs[1].carrier, 0);
+  EXPECT_TRUE(limbs[1].frame.translation().isApprox(Eigen::Vector3d(3, 4, 0)));
+  EXPECT_TRUE(limbs[1].frame.linear().col(0).isApprox(-Eigen::Vector3d::UnitX()));
+  EXPECT_EQ(rigid_mass(robot, robot.joints[limbs[0].joint].child).mass, 2);
+  EXPECT_TRUE(limbs_of(read_robot(scarab)).empty());
 }
 
 TEST(Urdf, GermanLocaleReadsTheSameNumbers) {

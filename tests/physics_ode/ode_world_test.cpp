@@ -144,8 +144,10 @@ TEST(OdeWorld, WhatItLacksForARobotIsListed) {
     FAIL() << "nothing was thrown";
   } catch (const Error& error) {
     EXPECT_EQ(error.exit(), Exit::invalid_input);
-    EXPECT_THAT(error.what(), testing::HasSubstr("it lacks what the world's robots need: robot 'a' (model 'arm') needs "
-                                                 "joint 'lift_joint' that moves, joint 'elbow_joint' that moves"));
+    EXPECT_THAT(error.what(),
+                testing::HasSubstr(
+                    "it lacks what the world's robots need: robot 'a' (model 'arm') needs "
+                    "joint 'lift_joint' (prismatic) without a motor, joint 'elbow_joint' (revolute) without a motor"));
   }
 }
 

@@ -1,0 +1,34 @@
+#include <algorithm>
+
+#include "description/robot.hpp"
+
+namespace muster::description {
+
+static bool is_driven(const Robot& robot, std::size_t joint) {
+  if (robot.drive && (joint == robot.drive->left || joint == robot.drive->right)) return true;
+  return robot.legs && std::any_of(robot.legs->legs.begin(), robot.legs->legs.end(),
+                                   [&](const LegDrive::Leg& leg) { return leg.joint == joint; });
+}
+
+std::vector<LimbJoint> limbs_of(const Robot& robot) {
+  std::vector<LimbJoint> result;
+  std::vector<int> carrier = {LimbJoint::body};                            // of each link
+  std::vector<Eigen::Isometry3d> frame = {Eigen::Isometry3d::Identity()};  // of each link in that
+  for (std::size_t i = 0; i < robot.joints.size(); ++i) {                  // parents come first
+    const Joint& joint = robot.joints[i];
+    const LimbJoint here{i, carrier[joint.parent], frame[joint.parent] * joint.origin};
+    const bool is_fixed = joint.kind == JointKind::fixed;
+    frame.push_back(is_fixed ? here.frame : Eigen::Isometry3d::Identity());
+    if (is_fixed) {
+      carrier.push_back(here.carrier);
+    } else if (is_driven(robot, i)) {
+      carrier.push_back(LimbJoint::driven);
+    } else {
+      carrier.push_back(static_cast<int>(result.size()));
+      result.push_back(here);
+    }
+  }
+  return result;
+}
+
+}  // namespace muster::description

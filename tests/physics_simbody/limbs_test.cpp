@@ -1,0 +1,467 @@
+// Limbs on hinges, sliders and balls: their dynamics are Simbody's, what hangs swings as it must.
+#include "limbs.hpp"
+
+#include <random>
+
+#include "crew.hpp"
+#include "scarabs.hpp"
+
+namespace muster::simbody {
+namespace {
+
+using description::JointKind;
+using description::Robot;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr double pi = 3.14159265358979323846;
+
+const Robot& hummingbird() {
+  static const Robot robot = description::read_robot(MUSTER_SOURCE_DIR "/plugins/robots/models/hummingbird.urdf");
+  return robot;
+}
+
+description::Joint& hang(Robot& robot, JointKind kind, const Vector3d& at, const description::Mass& mass,
+                         std::size_t parent = 0) {
+  const std::string name = "limb" + std::to_string(robot.links.size());
+  robot.links.push_back({name, mass, {}});
+  description::Joint joint;
+  joint.name = name + "_joint";
+  joint.kind = kind;
+  joint.parent = parent;
+  joint.child = robot.links.size() - 1;
+  joint.origin = Eigen::Translation3d(at);
+  robot.joints.push_back(joint);
+  return robot.joints.back();
+}
+
+// A body of a thousand tons on four smooth feet, 2 cm under its frame; what hangs on it shakes it by next to nothing.
+Robot stand() {
+  Robot robot;
+  robot.name = "stand";
+  description::Link body{"body", {1e6, {0, 0, 0.2}, 1e6 * Matrix3d::Identity()}, {}};
+  for (const double x : {-1, 1}) {
+    for (const double y : {-1, 1})
+      body.shapes.push_back({Eigen::Isometry3d(Eigen::Translation3d(x, y, 0.03)), description::Sphere{0.05}});
+  }
+  robot.links.push_back(body);
+  robot.quadrotor = hummingbird().quadrotor;
+  return robot;
+}
+// Settled on them.
+RobotState standing() {
+  static const double height = [] {
+    RobotState s = at_rest(0, 0, 0);
+    s.pose[2] = 0.02;
+    const Robot robot = stand();
+    Fleet run({s}, robot);
+    for (int k = 0; k < 200; ++k) run.tick(0.001, {Command{}});
+    return run.states[0].pose[2];
+  }();
+  RobotState s = at_rest(0, 0, 0);
+  s.pose[2] = height;
+  return s;
+}
+
+// A bob below its joint, longer than wide; its moments about the joint across and along its own axis.
+constexpr double mass = 0.1, arm = 0.3, across = 4e-4, along = 1e-4;
+constexpr double swing_inertia = across + mass * arm * arm;
+const description::Mass bob{mass, {0, 0, -arm}, Vector3d(across, across, along).asDiagonal()};
+
+Eigen::Quaterniond turn_of(const Limb& limb) { return {limb.qw, limb.qx, limb.qy, limb.qz}; }
+Vector3d hangs_to(const Limb& limb) { return turn_of(limb) * Vector3d(0, 0, -1); }
+void turn(Limb& limb, const Eigen::Quaterniond& q) {
+  limb.qw = q.w(), limb.qx = q.x(), limb.qy = q.y(), limb.qz = q.z();
+}
+
+class OnABall {
+ public:
+  OnABall(double deflection, const Vector3d& spin, double step, double damping = 0) : robot_(stand()) {
+    hang(robot_, JointKind::ball, {0, 0, 1}, bob).damping = damping;
+    RobotState start = standing();
+    turn(start.limbs.limb[0], Eigen::Quaterniond(Eigen::AngleAxisd(deflection, Vector3d::UnitY())));
+    start.limbs.limb[0].wx = spin.x(), start.limbs.limb[0].wy = spin.y(), start.limbs.limb[0].wz = spin.z();
+    fleet_ = std::make_unique<Fleet>(std::vector<RobotState>{start}, robot_, Integrator::midpoint, step);
+    step_ = step;
+  }
+  void tick() { fleet_->tick(step_, {Command{}}); }
+  const Limb& limb() const { return fleet_->states[0].limbs.limb[0]; }
+  const RobotState& state() const { return fleet_->states[0]; }
+
+ private:
+  Robot robot_;
+  std::unique_ptr<Fleet> fleet_;
+  double step_;
+};
+
+// Of the parts and the axes of a robot with every kind of limb: on the body, on each other, none of them straight.
+Robot tree(const Robot& root, bool with_slider) {
+  Robot robot = root;
+  const auto body = [](double m, const Vector3d& centre) {
+    return description::Mass{m, centre, (1e-3 * Vector3d(1, 1.5, 2)).asDiagonal()};
+  };
+  const Vector3d tilted = Vector3d(1, 2, -0.5).normalized();
+  hang(robot, JointKind::continuous, {0.1, 0, 0.2}, body(0.3, {0.1, 0.02, -0.1})).axis = tilted;
+  robot.joints.back().origin.rotate(Eigen::AngleAxisd(0.4, tilted));
+  robot.joints.back().damping = 0.01;
+  hang(robot, JointKind::ball, {0, 0.1, -0.2}, body(0.2, {0.05, 0.03, -0.2}), robot.links.size() - 1).damping = 0.02;
+  robot.joints.back().origin.rotate(Eigen::AngleAxisd(-0.7, Vector3d::UnitX()));
+  if (!with_slider) return robot;
+  hang(robot, JointKind::prismatic, {0, 0, -0.1}, body(0.1, {0.01, 0.02, 0.03}), robot.links.size() - 1).axis = tilted;
+  hang(robot, JointKind::revolute, {-0.1, 0, 0}, body(0.25, {0, 0.1, 0.1})).axis = Vector3d::UnitX();
+  return robot;
+}
+
+// Its system in Simbody, and how a state of ours is one of that.
+struct AsSimbody {
+  explicit AsSimbody(const Robot& robot) : model(robot) {
+    bodies = system.add(model);
+    for (std::size_t i = 0; i < model.limbs.size(); ++i) {
+      const LimbModel& limb = model.limbs[i];
+      if (limb.kind != JointKind::ball && limb.damping > 0)
+        SimTK::Force::MobilityLinearDamper(system.forces, bodies.limbs[i], SimTK::MobilizerUIndex(0), limb.damping);
+    }
+    system.finish();
+  }
+
+  SimTK::State state_of(const RobotState& s) const {
+    SimTK::State state = system.state;
+    for (int k = 0; k < 4; ++k) state.updQ()[k] = s.pose[3 + k];
+    for (int k = 0; k < 3; ++k) {
+      state.updQ()[4 + k] = s.pose[k];
+      state.updU()[k] = s.twist[3 + k];
+      state.updU()[3 + k] = s.twist[k];
+    }
+    for (int w = 0; model.has_wheels && w < 2; ++w) {
+      state.updQ()[7 + w] = s.angle[w];
+      state.updU()[6 + w] = s.rate[w];
+    }
+    for (std::size_t i = 0; i < model.limbs.size(); ++i)
+      set_limb(bodies.limbs[i], model.limbs[i], s.limbs.limb[i], state);
+    return state;
+  }
+
+  RobotModel model;
+  System system;
+  RobotBodies bodies;
+};
+
+class LimbsAtRandom : public testing::TestWithParam<bool> {
+ protected:
+  double draw() { return static_cast<double>(random_()) / 2147483648.0 - 1; }
+  Robot robot() const { return GetParam() ? tree(hummingbird(), true) : tree(scarab(), false); }
+
+  RobotState draw_state(const RobotModel& model) {
+    RobotState s = at_rest(draw(), draw(), 0);
+    const auto q = Eigen::Quaterniond(draw(), draw(), draw(), draw()).normalized();
+    s.pose = {draw(), draw(), 100 + draw(), q.w(), q.x(), q.y(), q.z()};
+    for (double& v : s.twist) v = 3 * draw();
+    for (int w = 0; model.has_wheels && w < 2; ++w) s.angle[w] = draw(), s.rate[w] = 5 * draw();
+    for (std::size_t i = 0; i < model.limbs.size(); ++i) {
+      Limb& limb = s.limbs.limb[i];
+      if (model.limbs[i].kind == JointKind::ball) {
+        turn(limb, Eigen::Quaterniond(draw(), draw(), draw(), draw()).normalized());
+        limb.wx = 3 * draw(), limb.wy = 3 * draw(), limb.wz = 3 * draw();
+      } else if (model.limbs[i].kind == JointKind::prismatic) {
+        limb.way = draw(), limb.speed = 3 * draw();
+      } else {
+        limb.angle = 3 * draw(), limb.rate = 3 * draw();
+      }
+    }
+    return s;
+  }
+
+  std::mt19937 random_{7};
+};
+
+TEST_P(LimbsAtRandom, DynamicsAreSimbodys) {
+  Robot free = robot();
+  for (auto& joint : free.joints) joint.damping = 0;
+  const AsSimbody simbody(free);
+  const RobotModel& model = simbody.model;
+  for (int trial = 0; trial < 20; ++trial) {
+    const RobotState s = draw_state(model);
+    const SimTK::State state = simbody.state_of(s);
+    simbody.system.system.realize(state, SimTK::Stage::Acceleration);
+    const Matrix3d r = Eigen::Quaterniond(s.pose[3], s.pose[4], s.pose[5], s.pose[6]).toRotationMatrix();
+    const Posture posture = posture_of(model, s.limbs, r);
+    VelocityOf<12> u = VelocityOf<12>::Zero(), expected = u;
+    for (int k = 0; k < 3; ++k) u[k] = s.twist[3 + k], u[3 + k] = s.twist[k];
+    for (int k = 0; k < (model.has_wheels ? 8 : 6); ++k) expected[k] = state.getUDot()[k];
+    for (int w = 0; model.has_wheels && w < 2; ++w) u[6 + w] = s.rate[w];
+    take_rates(model, posture, s.limbs, u);
+    for (std::size_t i = 0; i < model.limbs.size(); ++i) {
+      const SimTK::MobilizedBody& body = simbody.bodies.limbs[i];
+      const SimTK::Vec3 spin = body.getBodyAngularVelocity(state), change = body.getBodyAngularAcceleration(state);
+      const bool is_ball = model.limbs[i].kind == JointKind::ball;
+      for (int k = 0; k < 3 && is_ball; ++k) {
+        expected[model.limbs[i].first + k] = change[k];
+        EXPECT_NEAR(u[model.limbs[i].first + k], spin[k], 1e-12);
+      }
+      if (!is_ball) expected[model.limbs[i].first] = body.getOneUDot(state, 0);
+    }
+    const LimbedMass mine = weigh(model, posture, u, {0, 0, -gravity});
+    const double energy = simbody.system.matter.calcKineticEnergy(state);
+    EXPECT_NEAR(0.5 * u.dot(mine.mass * u), energy, 1e-10 * energy);
+    const VelocityOf<12> found = mine.mass.llt().solve(mine.force);
+    EXPECT_LT((found - expected).norm(), 1e-9 * expected.norm()) << found.transpose() << "\n" << expected.transpose();
+    Limbs back = s.limbs;
+    for (Limb& limb : back.limb) limb.rate = limb.speed = limb.wx = limb.wy = limb.wz = 99;
+    leave_rates(model, posture, u, back);
+    for (std::size_t i = 0; i < model.limbs.size(); ++i) {
+      const Limb &is = back.limb[i], &was = s.limbs.limb[i];
+      const JointKind kind = model.limbs[i].kind;
+      if (kind == JointKind::ball) {
+        EXPECT_NEAR(std::hypot(is.wx - was.wx, is.wy - was.wy, is.wz - was.wz), 0, 1e-12);
+      } else {
+        EXPECT_EQ(kind == JointKind::prismatic ? is.speed : is.rate,
+                  kind == JointKind::prismatic ? was.speed : was.rate);
+      }
+    }
+  }
+}
+
+// Through the air with all limbs swinging and one damped, against Simbody's Runge-Kutta method to ten digits.
+TEST_P(LimbsAtRandom, FlightConvergesToSimbodysInSecondOrder) {
+  Robot flying = robot();
+  for (auto& joint : flying.joints) joint.damping *= joint.kind != JointKind::ball;
+  if (flying.drive) flying.drive->max_torque = 1e-12;
+  const AsSimbody simbody(flying);
+  const RobotState start = draw_state(simbody.model);
+  constexpr double until = 0.4;
+  SimTK::RungeKuttaMersonIntegrator integrator(simbody.system.system);
+  integrator.setAccuracy(1e-11);
+  integrator.setAllowInterpolation(false);
+  integrator.initialize(simbody.state_of(start));
+  while (integrator.getTime() < until) integrator.stepTo(until);
+  const SimTK::State& truth = integrator.getState();
+  const auto error = [&](double h) {
+    Fleet run({start}, flying, Integrator::midpoint, h);
+    const int ticks = static_cast<int>(std::lround(until / h));
+    for (int k = 0; k < ticks; ++k) run.tick(h, {Command{}});
+    const SimTK::State end = simbody.state_of(run.states[0]);
+    SimTK::Vector off = end.getQ() - truth.getQ();
+    for (const auto& limb : simbody.bodies.limbs) {
+      if (limb.getNumQ(end) == 4 && ~limb.getQAsVector(end) * limb.getQAsVector(truth) < 0)
+        for (int k = 0; k < 4; ++k) off[limb.getFirstQIndex(end) + k] += 2 * truth.getQ()[limb.getFirstQIndex(end) + k];
+    }
+    return off.norm();
+  };
+  const double coarse = error(0.002), middle = error(0.001), fine = error(0.0005);
+  EXPECT_NEAR(std::log2(coarse / middle), 2, 0.15) << coarse << ' ' << middle;
+  EXPECT_NEAR(std::log2(middle / fine), 2, 0.15) << middle << ' ' << fine;
+  EXPECT_LT(fine, 2e-6);
+}
+
+INSTANTIATE_TEST_SUITE_P(Robots, LimbsAtRandom, testing::Bool(),
+                         [](const auto& one) { return one.param ? "Hummingbird" : "Scarab"; });
+
+// In a circle at a constant deflection gravity's moment turns the angular momentum.
+TEST(Limbs, ConicalPendulumTakesItsPeriod) {
+  for (const double deflection : {0.05, 0.6, 1.2}) {
+    const double rate = std::sqrt(mass * gravity * arm / ((swing_inertia - along) * std::cos(deflection)));
+    constexpr int turns = 10, steps = 1000;
+    OnABall run(deflection, rate * Vector3d::UnitZ(), 2 * pi / rate / steps);
+    double off = 0;
+    for (int k = 0; k < turns * steps; ++k) {
+      run.tick();
+      off = std::max(off, std::abs(std::cos(deflection) + hangs_to(run.limb()).z()));
+    }
+    const Vector3d start = Vector3d(-std::sin(deflection), 0, 0), end = hangs_to(run.limb());
+    EXPECT_NEAR(std::atan2(start.x() * end.y(), start.x() * end.x()) / (2 * pi * turns), 0, 1e-5) << deflection;
+    EXPECT_LT(off, 5e-6) << deflection;
+  }
+}
+
+TEST(Limbs, PlanePendulumTakesItsPeriod) {
+  for (const double amplitude : {0.01, 1.0, 2.5}) {
+    constexpr double h = 0.001;
+    OnABall run(amplitude, Vector3d::Zero(), h);
+    std::vector<double> passes;
+    double before = hangs_to(run.limb()).x();
+    for (int k = 1; k < 6000; ++k) {
+      run.tick();
+      const double now = hangs_to(run.limb()).x();
+      if (before < 0 && now >= 0) passes.push_back(h * (k - now / (now - before)));
+      before = now;
+    }
+    ASSERT_GT(passes.size(), 2u);
+    const double period =
+        4 * std::sqrt(swing_inertia / (mass * gravity * arm)) * std::comp_ellint_1(std::sin(amplitude / 2));
+    EXPECT_NEAR((passes.back() - passes.front()) / static_cast<double>(passes.size() - 1), period, 5e-6 * period)
+        << amplitude;
+  }
+}
+
+// Around and up and down, with a spin about its own axis, for 30 s.
+TEST(Limbs, SphericalPendulumKeepsEnergyAndAngularMomentum) {
+  constexpr double h = 0.001;
+  const Vector3d spin(0.5, -1, 3);
+  OnABall run(0.8, spin, h);
+  const auto momentum = [](const Eigen::Quaterniond& q, const Vector3d& w) {
+    return Vector3d(q * (Vector3d(swing_inertia, swing_inertia, along).asDiagonal() * (q.conjugate() * w)));
+  };
+  const auto energy = [&](const Eigen::Quaterniond& q, const Vector3d& w) {
+    return 0.5 * w.dot(momentum(q, w)) + mass * gravity * arm * (1 + (q * Vector3d(0, 0, -1)).z());
+  };
+  Eigen::Quaterniond q = turn_of(run.limb());
+  const double first_energy = energy(q, spin), first_momentum = momentum(q, spin).z();
+  double off_energy = 0, off_momentum = 0, highest = -1, lowest = 1;
+  for (int k = 0; k < 30000; ++k) {
+    run.tick();
+    const Eigen::Quaterniond now = turn_of(run.limb()), half = q.slerp(0.5, now);  // where velocities stand
+    const Vector3d w(run.limb().wx, run.limb().wy, run.limb().wz);
+    off_energy = std::max(off_energy, std::abs(energy(half, w) / first_energy - 1));
+    off_momentum = std::max(off_momentum, std::abs(momentum(half, w).z() / first_momentum - 1));
+    q = now;
+    highest = std::max(highest, hangs_to(run.limb()).z()), lowest = std::min(lowest, hangs_to(run.limb()).z());
+  }
+  EXPECT_LT(off_energy, 1e-4);
+  EXPECT_LT(off_momentum, 1e-5);
+  EXPECT_GT(highest - lowest, 0.2);
+}
+
+TEST(Limbs, DampingTakesWhatItShould) {
+  constexpr double damping = 2e-3, h = 0.001, amplitude = 0.005;
+  OnABall run(amplitude, Vector3d::Zero(), h, damping);
+  double most = 0;
+  const double rate = std::sqrt(mass * gravity * arm / swing_inertia), decay = damping / (2 * swing_inertia);
+  const double own = std::sqrt(rate * rate - decay * decay);
+  for (int k = 1; k <= 3000; ++k) {
+    run.tick();
+    const double t = k * h;
+    const double expected = amplitude * std::exp(-decay * t) * (std::cos(own * t) + decay / own * std::sin(own * t));
+    most = std::max(most, std::abs(-hangs_to(run.limb()).x() - expected));
+  }
+  EXPECT_LT(most, 1e-4 * amplitude);
+  EXPECT_GT(decay * 3, 0.2);
+}
+
+// A carriage on a rail that falls onto its stop, and one that its friction holds.
+TEST(Limbs, StopsAtLimitsAndSticksByFriction) {
+  Robot robot = stand();
+  const description::Mass carriage{2, {0, 0, 0}, 0.01 * Matrix3d::Identity()};
+  for (const double friction : {0.0, 15.0, 25.0}) {
+    description::Joint& rail = hang(robot, JointKind::prismatic, {0, 0, 1}, carriage);
+    rail.axis = Vector3d::UnitZ();
+    rail.lower = -0.1, rail.upper = 0.1;
+    rail.friction = friction;
+  }
+  Fleet run({standing()}, robot);
+  const auto way = [&](int limb) { return run.states[0].limbs.limb[limb].way; };
+  for (int k = 0; k < 100; ++k) run.tick(0.001, {Command{}});
+  EXPECT_NEAR(way(0), -gravity / 2 * 0.01, 2e-5);
+  EXPECT_NEAR(way(1), -(gravity - 15.0 / 2) / 2 * 0.01, 2e-5);
+  double lowest = 0;
+  for (int k = 0; k < 1000; ++k) {
+    run.tick(0.001, {Command{}});
+    lowest = std::min(lowest, way(0));
+  }
+  EXPECT_NEAR(lowest, -0.1, 1e-8);
+  EXPECT_NEAR(way(0), -0.1, 1e-8);
+  EXPECT_NEAR(way(1), -0.1, 1e-8);
+  EXPECT_NEAR(way(2), 0, 1e-6);
+}
+
+// A Scarab that drives with an arm on its back.
+TEST(Limbs, ADriveWithLimbsAgreesWithRungeKutta) {
+  Robot robot = tree(scarab(), false);
+  for (auto& joint : robot.joints) joint.damping *= joint.kind != JointKind::ball;
+  const auto end_of = [&](Integrator integrator, double step) {
+    Fleet run({rolling(0, 0, 0, 0.25, 0)}, robot, integrator, step);
+    run.drive(1, 0.01, [](double t) { return command(0.25 + 0.15 * std::sin(1.3 * t), 0.8 * std::sin(0.9 * t)); });
+    return run.states[0];
+  };
+  const RobotState reference = end_of(Integrator::rk3, 0.002), mine = end_of(Integrator::midpoint, 0.001);
+  EXPECT_LT(std::hypot(mine.pose[0] - reference.pose[0], mine.pose[1] - reference.pose[1]), 2e-4);
+  EXPECT_NEAR(mine.limbs.limb[0].angle, reference.limbs.limb[0].angle, 2e-3);
+  EXPECT_LT(turn_of(mine.limbs.limb[1]).angularDistance(turn_of(reference.limbs.limb[1])), 2e-3);
+  EXPECT_GT(std::abs(reference.limbs.limb[0].angle), 0.1);
+}
+
+TEST(Limbs, RemadeEngineAndNeighboursChangeNoBit) {
+  const Robot robot = tree(scarab(), false);
+  const RobotState start = rolling(0, 0, 0.3, 0.3, 0);
+  const auto wild = [](int k) { return command(0.3 + 0.2 * std::sin(0.02 * k), std::sin(0.03 * k)); };
+  Fleet straight({start}, robot), remade({start}, robot), beside({start, rolling(9, 9, 1, 0.2, 0)}, robot);
+  for (int k = 0; k < 60; ++k) {
+    straight.tick(0.01, {wild(k)});
+    if (k % 7 == 3) remade.remake();
+    remade.tick(0.01, {wild(k)});
+    beside.tick(0.01, {wild(k), command(0.2, 1)});
+  }
+  for (const Fleet* other : {&remade, &beside}) {
+    expect_same_bits(straight.states[0], other->states[0]);
+    EXPECT_EQ(0, std::memcmp(&straight.states[0].limbs, &other->states[0].limbs, sizeof(Limbs)));
+  }
+  EXPECT_NE(straight.states[0].limbs.limb[0].angle, 0);
+}
+
+// Both have twelve unknowns, and touch.
+TEST(Limbs, RobotsWithLimbsPushEachOther) {
+  const Robot robot = tree(scarab(), false);
+  Fleet run({rolling(0, 0, 0, 0.2, 0), rolling(0.4, 0.01, pi, 0.2, 0)}, robot);
+  for (int k = 0; k < 200; ++k) run.tick(0.01, {command(0.2, 0), command(0.2, 0)});
+  const auto& a = run.states[0].pose;
+  const auto& b = run.states[1].pose;
+  EXPECT_GT(std::hypot(a[0] - b[0], a[1] - b[1]), 0.15);
+  EXPECT_LT(std::hypot(a[0] - b[0], a[1] - b[1]), 0.3);
+}
+
+// Dropped with a bob on a ball: it parts from the ground as it would without, but for what the bob keeps.
+TEST(Limbs, ARobotWithLimbsBounces) {
+  Robot robot = hummingbird();
+  robot.restitution = 0.5;
+  hang(robot, JointKind::ball, {0, 0, 0.2}, {1e-3, {0.1, 0, 0}, 1e-5 * Matrix3d::Identity()});
+  RobotState start = at_rest(0, 0, 0);
+  start.pose[2] = 0.06 + 0.5;
+  Fleet run({start}, robot);
+  double lowest = 1, highest = 0;
+  for (int k = 0; k < 530; ++k) {
+    run.tick(0.001, {Command{}});
+    const double height = run.states[0].pose[2] - 0.06;
+    if (height < lowest && highest == 0) lowest = height;
+    if (k > 330) highest = std::max(highest, height);
+  }
+  EXPECT_NEAR(lowest, 0, 1e-3);
+  EXPECT_NEAR(highest, 0.125, 2e-3);
+}
+
+TEST(Limbs, WhatItCannotHoldIsRefused) {
+  const auto message = [](const std::function<void(Robot&)>& change) -> std::string {
+    Robot robot = hummingbird();
+    hang(robot, JointKind::ball, {0, 0, 0}, bob);
+    change(robot);
+    try {
+      RobotModel model(robot);
+    } catch (const std::runtime_error& error) {
+      const std::string text = error.what();
+      return text.substr(text.find("simbody: ") + 9);
+    }
+    return "";
+  };
+  const std::string joint = "joint 'limb5_joint' (";
+  EXPECT_EQ(message([](Robot&) {}), "");
+  EXPECT_EQ(message([](Robot& r) {
+              r.links.back().shapes.push_back({{}, description::Sphere{0.1}});
+            }),
+            joint + "ball) without a motor has a link with a <collision>; limbs touch nothing here");
+  EXPECT_EQ(message([](Robot& r) { r.joints.back().friction = 1; }),
+            joint + "ball) without a motor has a friction; a damping is modelled");
+  EXPECT_EQ(message([](Robot& r) { r.joints.back().kind = JointKind::planar; }),
+            joint + "planar) without a motor is no hinge, slider or ball");
+  EXPECT_EQ(message([](Robot& r) {
+              r.joints.back().kind = JointKind::revolute;
+              r.joints.back().lower = 0.1;
+            }),
+            joint + "revolute) without a motor does not have 0 within its limits");
+  EXPECT_EQ(
+      message([](Robot& r) {
+        for (int k = 0; k < 2; ++k) hang(r, JointKind::ball, {0, 0, 0}, bob);
+      }),
+      "its joints without motors have 9 rates; expected at most 4 joints, of 4 rates beside wheels and of 6 beside "
+      "rotors");
+}
+
+}  // namespace
+}  // namespace muster::simbody
