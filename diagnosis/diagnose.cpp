@@ -202,43 +202,68 @@ std::string in_short(const Diagnosis& d) {
   return result.empty() ? "silent" : result;
 }
 
+bool FoundCause::changes_in_time() const {
+  return std::find(covariates.begin(), covariates.end(), "time") != covariates.end();
+}
+
+bool Unexplained::changes_in_time() const { return covariate.find("time") != std::string::npos; }
+
 const char* Diagnosis::verdict() const {
   return !unexplained.empty() ? "unexplained" : named() ? "extended" : "adequate";
 }
 
 namespace {
 
+const std::string people = "effect.people";
+
 bool edits_world(const Cause& cause) {
   return cause.meaning().kind == MUSTER_WORLD_EDIT || cause.meaning().kind == MUSTER_INSTRUMENT;
 }
 
-// The strongest named cause by which radios stand elsewhere, if anything was found beside it.
-const FoundCause* edit_in_company(const Diagnosis& found, const std::vector<Cause>& causes) {
-  const FoundCause* edit = nullptr;
+// People are a law of what is random, about no covariate.
+bool something_changes_in_time(const Diagnosis& found) {
+  return std::any_of(found.causes.begin(), found.causes.end(),
+                     [](const FoundCause& c) { return c.status == search::Status::named && c.changes_in_time(); }) ||
+         std::any_of(found.unexplained.begin(), found.unexplained.end(),
+                     [](const Unexplained& u) { return u.changes_in_time(); });
+}
+
+// The strongest named cause by which radios stand elsewhere, if anything was found beside it; or people, beside what
+// changes in time.
+const FoundCause* first_in_company(const Diagnosis& found, const std::vector<Cause>& causes) {
+  const FoundCause* first = nullptr;
   std::size_t named = found.unexplained.size();
   for (const FoundCause& c : found.causes) {
     if (c.status != search::Status::named) continue;
     ++named;
     const auto cause = std::find_if(causes.begin(), causes.end(), [&](const Cause& k) { return k.id == c.id; });
-    if (!edit && cause != causes.end() && edits_world(*cause)) edit = &c;
+    if (first || cause == causes.end()) continue;
+    if (edits_world(*cause) || (c.id == people && something_changes_in_time(found))) first = &c;
   }
-  return named > 1 ? edit : nullptr;
+  return named > 1 ? first : nullptr;
 }
 
 }  // namespace
 
 // With a radio in the wrong place everything else was judged wrongly: it is judged again with the radio in the right
-// one.
+// one; and so it is with people who are known of, whose link is then left out. What still changes in time is no burst
+// of theirs, and beside it they must be beyond doubt.
 Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::path& data,
                    const Library::SearchPath& plugins) {
   Diagnosis found = Diagnoser(world, data, plugins).run();
-  const FoundCause* const edit = edit_in_company(found, causes_on(plugins));
-  if (!edit) return found;
+  const FoundCause* const spoiler = first_in_company(found, causes_on(plugins));
+  if (!spoiler) return found;
   Diagnosis first;
-  first.causes = {*edit};
+  first.causes = {*spoiler};
   first.parameters = found.parameters;
   const TemporaryFolder folder;
   Diagnosis again = Diagnoser(write_extended_world(first, world, folder.path()), data, plugins).run();
+  if (first.causes[0].id == people && first.causes[0].log_p > people_in_company && something_changes_in_time(again)) {
+    const auto named =
+        std::remove_if(found.causes.begin(), found.causes.end(), [](const FoundCause& c) { return c.id == people; });
+    found.causes.erase(named, found.causes.end());
+    return found;
+  }
   first.causes[0].effect = VectorXd::Zero(again.rows);
   first.causes[0].sought_as.clear();
   again.causes.insert(again.causes.begin(), first.causes[0]);

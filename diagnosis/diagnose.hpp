@@ -34,6 +34,8 @@ struct FoundCause {
   Eigen::VectorXd effect;  // dB it adds to each of the rows seen
   std::optional<search::HeldOut> held_out;
   std::vector<search::Rival> rivals;
+
+  bool changes_in_time() const;
 };
 
 struct Unexplained {
@@ -41,6 +43,8 @@ struct Unexplained {
   double evidence = 0;
   double lambda = 0;
   std::optional<search::HeldOut> held_out;
+
+  bool changes_in_time() const;
 };
 
 struct MappedWall {

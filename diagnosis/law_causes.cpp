@@ -226,6 +226,13 @@ void add_laws_of_readings(const LawSources& s, const VectorXd& residual, Diagnos
   if (found.causes.size() == before + 2) leave_the_stronger(found);
 }
 
+// What changes in time may be the very bursts.
+bool all_changes_in_time(const Diagnosis& found) {
+  const auto in_time = [](const auto& one) { return one.changes_in_time(); };
+  return std::all_of(found.causes.begin(), found.causes.end(), in_time) &&
+         std::all_of(found.unexplained.begin(), found.unexplained.end(), in_time);
+}
+
 // Whether they are named.
 bool add_people(const LawSources& s, Diagnosis& found) {
   const Cause* const cause = cause_called(s, "effect.people");
@@ -241,10 +248,8 @@ bool add_people(const LawSources& s, Diagnosis& found) {
   found.searched.push_back(cause->id);
   if (s.model.has_plugin(cause->id)) return false;
   const Passages passages = passages_of(s.bench);
-  // Beside other misfits, which may not be all understood, bursts must be clearer.
-  const bool alone = found.causes.empty() && found.unexplained.empty();
-  constexpr double in_company = -9;  // log p
-  if (passages.radio < 0 || !beyond_chance(passages.test, alpha) || (!alone && passages.test.log_p > in_company))
+  if (passages.radio < 0 || !beyond_chance(passages.test, alpha) ||
+      (passages.test.log_p > people_in_company && !all_changes_in_time(found)))
     return false;
   FoundCause out = named(s, *cause, passages.test);
   out.row_parameter = "radio";

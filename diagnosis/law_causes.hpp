@@ -14,6 +14,9 @@ struct LawSources {
   const Fit& fit;
 };
 
+// log p: beside other misfits, which may not be all understood, the bursts of people must be so clear.
+constexpr double people_in_company = -9;
+
 // Each adds to the causes of `found`, to what was searched and what could not be.
 void add_clips(const LawSources& sources, Diagnosis& found);
 void add_laws(const LawSources& sources, Diagnosis& found);

@@ -28,7 +28,38 @@ FitOptions hold_places_of_causes(const LinkModel& model) {
   return options;
 }
 
+std::string attribute_of(const InstanceDeclaration& instance, const std::string& name) {
+  for (const XmlAttribute& a : instance.attributes) {
+    if (a.name == name) return a.value;
+  }
+  return "";
+}
+
 }  // namespace
+
+// Nobody knows when people came, so that their bursts would look like whatever changes in time. A radio that is heard
+// on its crossed link alone keeps it.
+void Prepared::leave_out_crossed_links() {
+  for (const auto& instance : model.simulation().instances()) {
+    const InstanceDeclaration& declared = instance->declared();
+    const std::string one = attribute_of(declared, "radio"), other = attribute_of(declared, "other");
+    if (declared.plugin != "effect.people" || one.empty() || other.empty()) continue;
+    std::vector<Index> left;
+    std::size_t of_one = 0, of_other = 0;  // of what is left
+    for (const Index row : used) {
+      const auto& [tx, rx] = model.ends()[static_cast<std::size_t>(row)];
+      const std::set<std::string> ends{model.radio_name(tx.radio), model.radio_name(rx.radio)};
+      if (ends == std::set{one, other}) continue;
+      of_one += ends.count(one);
+      of_other += ends.count(other);
+      left.push_back(row);
+    }
+    if (std::min(of_one, of_other) < (used.size() - left.size()) / 2) continue;
+    data.notes.push_back("people cross the link " + one + " " + other + " of the world: its " +
+                         std::to_string(used.size() - left.size()) + " readings are left out of the search");
+    used = std::move(left);
+  }
+}
 
 Prepared::Prepared(const std::filesystem::path& world, const std::filesystem::path& table,
                    const Library::SearchPath& plugins)
@@ -38,6 +69,7 @@ Prepared::Prepared(const std::filesystem::path& world, const std::filesystem::pa
   fitted = fit(model, data, hold_places_of_causes(model));
   base = base_columns(model, fitted.parameters);
   for (const std::size_t row : fitted.rows_used()) used.push_back(static_cast<Index>(row));
+  leave_out_crossed_links();
   run = std::make_shared<CauseModel>(model, world, table, plugins);
   fill_readings();
   problem.base = base.slopes(used, Eigen::all);

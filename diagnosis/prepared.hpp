@@ -33,6 +33,7 @@ struct Prepared {
   std::unique_ptr<SimulatedReadings> sketched;  // one reading a row of the search; none if each is a row
 
  private:
+  void leave_out_crossed_links();
   void fill_readings();
   void let_sketch(const noise::Rows& rows, const std::filesystem::path& world, const Library::SearchPath& plugins);
   noise::Known known_of(double rssi) const;

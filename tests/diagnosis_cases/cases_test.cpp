@@ -82,6 +82,18 @@ TEST(SealedSaturation, IsNamedThoughTheWallsOfTheFitAreTooWeak) {
   EXPECT_EQ(found.causes[0].id, "effect.multiwall_saturation") << told(found);
 }
 
+// Bursts at times that nobody knows look like a swing or a step of the link's radio, in these readings or in others.
+TEST(SealedPeople, AreNotTakenForWhatChangesInTime) {
+  const Scratch scratch;
+  const auto world = sealed_case(scratch, "--mix one --lambda 200 --effects people", 5);
+  const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
+  ASSERT_EQ(found.causes.size(), 1u) << told(found);
+  EXPECT_EQ(found.causes[0].id, "effect.people");
+  const auto extended = scratch / "extended";
+  EXPECT_EQ(closed_loop(found, world, world / "measured.csv", extended, plugins).rediagnosis, "silent");
+  EXPECT_EQ(second_look(world, extended, world / "second.csv", plugins).rediagnosis, "silent");
+}
+
 class CleanCase : public testing::TestWithParam<int> {};
 
 TEST_P(CleanCase, IsSilent) {
