@@ -71,6 +71,7 @@ Peak as_stated(Judge& judge, const ReadingLaw& law, const noise::StatedField& st
     return in_field(judge, law, family, {stated.shadowing, distance * stated.decorrelation});
   };
   std::vector<Peak> middle;
+  middle.reserve(noise::families.size());
   for (const noise::Family family : noise::families) middle.push_back(at(family, 1));
   std::sort(middle.begin(), middle.end(), [](const Peak& a, const Peak& b) { return a.value > b.value; });
   Peak best = middle[0];

@@ -1,5 +1,7 @@
 #include "diagnosis/prepared.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -55,8 +57,9 @@ void Prepared::leave_out_crossed_links() {
       left.push_back(row);
     }
     if (std::min(of_one, of_other) < (used.size() - left.size()) / 2) continue;
-    data.notes.push_back("people cross the link " + one + " " + other + " of the world: its " +
-                         std::to_string(used.size() - left.size()) + " readings are left out of the search");
+    data.notes.push_back(
+        fmt::format("people cross the link {} {} of the world: its {} readings are left out of the search", one, other,
+                    used.size() - left.size()));
     used = std::move(left);
   }
 }

@@ -189,6 +189,7 @@ void StepperOf<N>::rebound() {
   // As much of it as can be between the plastic impact, which gains nothing, and this one: a share of the difference,
   // kept in `previous`.
   std::vector<VelocityOf<N>> elastic;
+  elastic.reserve(bodies.size());
   for (const BodyN& body : bodies) elastic.push_back(body.velocity);
   for (auto& c : problem_.contacts) c.target = 0;
   solve_problem();
