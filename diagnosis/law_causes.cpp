@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "diagnosis/field_law.hpp"
 #include "diagnosis/passages.hpp"
@@ -265,9 +266,7 @@ VectorXd without_link(const LawSources& s, const FoundCause& people, VectorXd re
   const noise::Readings& r = s.bench.problem().readings;
   for (Index i = 0; i < residual.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
-    const std::string tx = s.model.radio_name(r.tx[k]), rx = s.model.radio_name(r.rx[k]);
-    const std::string& other = people.words.at("other");
-    if ((tx == people.row && rx == other) || (tx == other && rx == people.row)) residual[i] = std::nan("");
+    if (s.model.link_of(r.tx[k], r.rx[k]) == std::set{people.row, people.words.at("other")}) residual[i] = std::nan("");
   }
   return residual;
 }

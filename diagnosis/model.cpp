@@ -97,6 +97,8 @@ const std::vector<std::string>& LinkModel::radio_names() const { return run_->bo
 
 std::string LinkModel::radio_name(int radio) const { return radio_names().at(static_cast<std::size_t>(radio)); }
 
+std::set<std::string> LinkModel::link_of(int one, int other) const { return {radio_name(one), radio_name(other)}; }
+
 const Eigen::VectorXd& LinkModel::expected() {
   evaluate(true);
   return values_;

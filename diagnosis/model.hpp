@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <memory>
+#include <set>
 
 #include "kernel/simulation.hpp"
 
@@ -30,6 +31,7 @@ class LinkModel {
   const std::vector<std::array<End, 2>>& ends() const { return ends_; }
   const std::vector<std::string>& radio_names() const;  // by row of the set `radio`
   std::string radio_name(int radio) const;
+  std::set<std::string> link_of(int one, int other) const;  // names of both, whichever sends
 
   // E[rssi in dBm] of every row.
   const Eigen::VectorXd& expected();

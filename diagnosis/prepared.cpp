@@ -50,7 +50,7 @@ void Prepared::leave_out_crossed_links() {
     std::size_t of_one = 0, of_other = 0;  // of what is left
     for (const Index row : used) {
       const auto& [tx, rx] = model.ends()[static_cast<std::size_t>(row)];
-      const std::set<std::string> ends{model.radio_name(tx.radio), model.radio_name(rx.radio)};
+      const std::set<std::string> ends = model.link_of(tx.radio, rx.radio);
       if (ends == std::set{one, other}) continue;
       of_one += ends.count(one);
       of_other += ends.count(other);

@@ -17,6 +17,12 @@ inline const description::Robot& scarab() {
   return robot;
 }
 
+inline const description::Robot& hummingbird() {
+  static const description::Robot robot =
+      description::read_robot(MUSTER_SOURCE_DIR "/plugins/robots/models/hummingbird.urdf");
+  return robot;
+}
+
 inline double yaw(const RobotState& s) { return 2 * std::atan2(s.pose[6], s.pose[3]); }
 
 // Rates of forward speed v and turn rate w, and of their slopes.

@@ -10,12 +10,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-const description::Robot& hummingbird() {
-  static const description::Robot robot =
-      description::read_robot(MUSTER_SOURCE_DIR "/plugins/robots/models/hummingbird.urdf");
-  return robot;
-}
-
 // Three different moments of inertia, a centre of mass off the origin, and no drag: what is kept in free flight.
 description::Robot uneven(double drag_factor) {
   description::Robot robot = hummingbird();

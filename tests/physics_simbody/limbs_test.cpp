@@ -1,39 +1,12 @@
-// Limbs on hinges, sliders and balls: their dynamics are Simbody's, what hangs swings as it must.
+// Limbs on hinges, sliders and balls: what hangs swings, stops and is carried as it must.
 #include "limbs.hpp"
 
-#include <random>
-
-#include "crew.hpp"
-#include "scarabs.hpp"
+#include "limbed.hpp"
 
 namespace muster::simbody {
 namespace {
 
-using description::JointKind;
-using description::Robot;
-using Eigen::Matrix3d;
-using Eigen::Vector3d;
-
 constexpr double pi = 3.14159265358979323846;
-
-const Robot& hummingbird() {
-  static const Robot robot = description::read_robot(MUSTER_SOURCE_DIR "/plugins/robots/models/hummingbird.urdf");
-  return robot;
-}
-
-description::Joint& hang(Robot& robot, JointKind kind, const Vector3d& at, const description::Mass& mass,
-                         std::size_t parent = 0) {
-  const std::string name = "limb" + std::to_string(robot.links.size());
-  robot.links.push_back({name, mass, {}});
-  description::Joint joint;
-  joint.name = name + "_joint";
-  joint.kind = kind;
-  joint.parent = parent;
-  joint.child = robot.links.size() - 1;
-  joint.origin = Eigen::Translation3d(at);
-  robot.joints.push_back(joint);
-  return robot.joints.back();
-}
 
 // A body of a thousand tons on four smooth feet, 2 cm under its frame; what hangs on it shakes it by next to nothing.
 Robot stand() {
@@ -70,10 +43,6 @@ const description::Mass bob{mass, {0, 0, -arm}, Vector3d(across, across, along).
 
 Eigen::Quaterniond turn_of(const Limb& limb) { return {limb.qw, limb.qx, limb.qy, limb.qz}; }
 Vector3d hangs_to(const Limb& limb) { return turn_of(limb) * Vector3d(0, 0, -1); }
-void turn(Limb& limb, const Eigen::Quaterniond& q) {
-  limb.qw = q.w(), limb.qx = q.x(), limb.qy = q.y(), limb.qz = q.z();
-}
-
 class OnABall {
  public:
   OnABall(double deflection, const Vector3d& spin, double step, double damping = 0) : robot_(stand()) {
@@ -93,168 +62,6 @@ class OnABall {
   std::unique_ptr<Fleet> fleet_;
   double step_;
 };
-
-// Of the parts and the axes of a robot with every kind of limb: on the body, on each other, none of them straight.
-Robot tree(const Robot& root, bool with_slider) {
-  Robot robot = root;
-  const auto body = [](double m, const Vector3d& centre) {
-    return description::Mass{m, centre, (1e-3 * Vector3d(1, 1.5, 2)).asDiagonal()};
-  };
-  const Vector3d tilted = Vector3d(1, 2, -0.5).normalized();
-  hang(robot, JointKind::continuous, {0.1, 0, 0.2}, body(0.3, {0.1, 0.02, -0.1})).axis = tilted;
-  robot.joints.back().origin.rotate(Eigen::AngleAxisd(0.4, tilted));
-  robot.joints.back().damping = 0.01;
-  hang(robot, JointKind::ball, {0, 0.1, -0.2}, body(0.2, {0.05, 0.03, -0.2}), robot.links.size() - 1).damping = 0.02;
-  robot.joints.back().origin.rotate(Eigen::AngleAxisd(-0.7, Vector3d::UnitX()));
-  if (!with_slider) return robot;
-  hang(robot, JointKind::prismatic, {0, 0, -0.1}, body(0.1, {0.01, 0.02, 0.03}), robot.links.size() - 1).axis = tilted;
-  hang(robot, JointKind::revolute, {-0.1, 0, 0}, body(0.25, {0, 0.1, 0.1})).axis = Vector3d::UnitX();
-  return robot;
-}
-
-// Its system in Simbody, and how a state of ours is one of that.
-struct AsSimbody {
-  explicit AsSimbody(const Robot& robot) : model(robot) {
-    bodies = system.add(model);
-    for (std::size_t i = 0; i < model.limbs.size(); ++i) {
-      const LimbModel& limb = model.limbs[i];
-      if (limb.kind != JointKind::ball && limb.damping > 0)
-        SimTK::Force::MobilityLinearDamper(system.forces, bodies.limbs[i], SimTK::MobilizerUIndex(0), limb.damping);
-    }
-    system.finish();
-  }
-
-  SimTK::State state_of(const RobotState& s) const {
-    SimTK::State state = system.state;
-    for (int k = 0; k < 4; ++k) state.updQ()[k] = s.pose[3 + k];
-    for (int k = 0; k < 3; ++k) {
-      state.updQ()[4 + k] = s.pose[k];
-      state.updU()[k] = s.twist[3 + k];
-      state.updU()[3 + k] = s.twist[k];
-    }
-    for (int w = 0; model.has_wheels && w < 2; ++w) {
-      state.updQ()[7 + w] = s.angle[w];
-      state.updU()[6 + w] = s.rate[w];
-    }
-    for (std::size_t i = 0; i < model.limbs.size(); ++i)
-      set_limb(bodies.limbs[i], model.limbs[i], s.limbs.limb[i], state);
-    return state;
-  }
-
-  RobotModel model;
-  System system;
-  RobotBodies bodies;
-};
-
-class LimbsAtRandom : public testing::TestWithParam<bool> {
- protected:
-  double draw() { return static_cast<double>(random_()) / 2147483648.0 - 1; }
-  Robot robot() const { return GetParam() ? tree(hummingbird(), true) : tree(scarab(), false); }
-
-  RobotState draw_state(const RobotModel& model) {
-    RobotState s = at_rest(draw(), draw(), 0);
-    const auto q = Eigen::Quaterniond(draw(), draw(), draw(), draw()).normalized();
-    s.pose = {draw(), draw(), 100 + draw(), q.w(), q.x(), q.y(), q.z()};
-    for (double& v : s.twist) v = 3 * draw();
-    for (int w = 0; model.has_wheels && w < 2; ++w) s.angle[w] = draw(), s.rate[w] = 5 * draw();
-    for (std::size_t i = 0; i < model.limbs.size(); ++i) {
-      Limb& limb = s.limbs.limb[i];
-      if (model.limbs[i].kind == JointKind::ball) {
-        turn(limb, Eigen::Quaterniond(draw(), draw(), draw(), draw()).normalized());
-        limb.wx = 3 * draw(), limb.wy = 3 * draw(), limb.wz = 3 * draw();
-      } else if (model.limbs[i].kind == JointKind::prismatic) {
-        limb.way = draw(), limb.speed = 3 * draw();
-      } else {
-        limb.angle = 3 * draw(), limb.rate = 3 * draw();
-      }
-    }
-    return s;
-  }
-
-  std::mt19937 random_{7};
-};
-
-TEST_P(LimbsAtRandom, DynamicsAreSimbodys) {
-  Robot free = robot();
-  for (auto& joint : free.joints) joint.damping = 0;
-  const AsSimbody simbody(free);
-  const RobotModel& model = simbody.model;
-  for (int trial = 0; trial < 20; ++trial) {
-    const RobotState s = draw_state(model);
-    const SimTK::State state = simbody.state_of(s);
-    simbody.system.system.realize(state, SimTK::Stage::Acceleration);
-    const Matrix3d r = Eigen::Quaterniond(s.pose[3], s.pose[4], s.pose[5], s.pose[6]).toRotationMatrix();
-    const Posture posture = posture_of(model, s.limbs, r);
-    VelocityOf<12> u = VelocityOf<12>::Zero(), expected = u;
-    for (int k = 0; k < 3; ++k) u[k] = s.twist[3 + k], u[3 + k] = s.twist[k];
-    for (int k = 0; k < (model.has_wheels ? 8 : 6); ++k) expected[k] = state.getUDot()[k];
-    for (int w = 0; model.has_wheels && w < 2; ++w) u[6 + w] = s.rate[w];
-    take_rates(model, posture, s.limbs, u);
-    for (std::size_t i = 0; i < model.limbs.size(); ++i) {
-      const SimTK::MobilizedBody& body = simbody.bodies.limbs[i];
-      const SimTK::Vec3 spin = body.getBodyAngularVelocity(state), change = body.getBodyAngularAcceleration(state);
-      const bool is_ball = model.limbs[i].kind == JointKind::ball;
-      for (int k = 0; k < 3 && is_ball; ++k) {
-        expected[model.limbs[i].first + k] = change[k];
-        EXPECT_NEAR(u[model.limbs[i].first + k], spin[k], 1e-12);
-      }
-      if (!is_ball) expected[model.limbs[i].first] = body.getOneUDot(state, 0);
-    }
-    const LimbedMass mine = weigh(model, posture, u, {0, 0, -gravity});
-    const double energy = simbody.system.matter.calcKineticEnergy(state);
-    EXPECT_NEAR(0.5 * u.dot(mine.mass * u), energy, 1e-10 * energy);
-    const VelocityOf<12> found = mine.mass.llt().solve(mine.force);
-    EXPECT_LT((found - expected).norm(), 1e-9 * expected.norm()) << found.transpose() << "\n" << expected.transpose();
-    Limbs back = s.limbs;
-    for (Limb& limb : back.limb) limb.rate = limb.speed = limb.wx = limb.wy = limb.wz = 99;
-    leave_rates(model, posture, u, back);
-    for (std::size_t i = 0; i < model.limbs.size(); ++i) {
-      const Limb &is = back.limb[i], &was = s.limbs.limb[i];
-      const JointKind kind = model.limbs[i].kind;
-      if (kind == JointKind::ball) {
-        EXPECT_NEAR(std::hypot(is.wx - was.wx, is.wy - was.wy, is.wz - was.wz), 0, 1e-12);
-      } else {
-        EXPECT_EQ(kind == JointKind::prismatic ? is.speed : is.rate,
-                  kind == JointKind::prismatic ? was.speed : was.rate);
-      }
-    }
-  }
-}
-
-// Through the air with all limbs swinging and one damped, against Simbody's Runge-Kutta method to ten digits.
-TEST_P(LimbsAtRandom, FlightConvergesToSimbodysInSecondOrder) {
-  Robot flying = robot();
-  for (auto& joint : flying.joints) joint.damping *= joint.kind != JointKind::ball;
-  if (flying.drive) flying.drive->max_torque = 1e-12;
-  const AsSimbody simbody(flying);
-  const RobotState start = draw_state(simbody.model);
-  constexpr double until = 0.4;
-  SimTK::RungeKuttaMersonIntegrator integrator(simbody.system.system);
-  integrator.setAccuracy(1e-11);
-  integrator.setAllowInterpolation(false);
-  integrator.initialize(simbody.state_of(start));
-  while (integrator.getTime() < until) integrator.stepTo(until);
-  const SimTK::State& truth = integrator.getState();
-  const auto error = [&](double h) {
-    Fleet run({start}, flying, Integrator::midpoint, h);
-    const int ticks = static_cast<int>(std::lround(until / h));
-    for (int k = 0; k < ticks; ++k) run.tick(h, {Command{}});
-    const SimTK::State end = simbody.state_of(run.states[0]);
-    SimTK::Vector off = end.getQ() - truth.getQ();
-    for (const auto& limb : simbody.bodies.limbs) {
-      if (limb.getNumQ(end) == 4 && ~limb.getQAsVector(end) * limb.getQAsVector(truth) < 0)
-        for (int k = 0; k < 4; ++k) off[limb.getFirstQIndex(end) + k] += 2 * truth.getQ()[limb.getFirstQIndex(end) + k];
-    }
-    return off.norm();
-  };
-  const double coarse = error(0.002), middle = error(0.001), fine = error(0.0005);
-  EXPECT_NEAR(std::log2(coarse / middle), 2, 0.15) << coarse << ' ' << middle;
-  EXPECT_NEAR(std::log2(middle / fine), 2, 0.15) << middle << ' ' << fine;
-  EXPECT_LT(fine, 2e-6);
-}
-
-INSTANTIATE_TEST_SUITE_P(Robots, LimbsAtRandom, testing::Bool(),
-                         [](const auto& one) { return one.param ? "Hummingbird" : "Scarab"; });
 
 // In a circle at a constant deflection gravity's moment turns the angular momentum.
 TEST(Limbs, ConicalPendulumTakesItsPeriod) {
