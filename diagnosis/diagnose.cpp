@@ -33,7 +33,7 @@ class Diagnoser {
     const search::Result result = search.run();
     at_.run->clear();
     Diagnosis out = summed_up(result, at_.sought, search.bench());
-    out.advice = advice_for(search, out, at_.sought, {world_, plugins_, at_.model, at_.data}, at_.base);
+    add_advice(search, out, at_.sought, {world_, plugins_, at_.model, at_.data}, at_.base);
     for (const auto* more : {&at_.sought.not_tested, &at_.untested})
       out.not_tested.insert(out.not_tested.end(), more->begin(), more->end());
     return out;

@@ -57,7 +57,8 @@ struct SeenRows {
   std::vector<std::string> radios;  // names, by the numbers in tx and rx
   std::vector<int> tx, rx;
   Eigen::Matrix3Xd tx_at, rx_at;              // m
-  Eigen::VectorXd count, t, yaw;              // readings; s, rad: empty where the data have none
+  Eigen::VectorXd count, t;                   // readings; s: empty where the data have none, as all that follow
+  Eigen::VectorXd tx_yaw, rx_yaw;             // rad
   Eigen::VectorXd heading, bearing;           // rad, of and from the end that moves: empty where no heading is known
   Eigen::VectorXd before, after;              // dB, measured less the world fitted alone, less the extended one
   Eigen::VectorXd white_before, white_after;  // the same, in its sd, without what its neighbours share with it
@@ -72,6 +73,12 @@ struct Advice {
   std::string say, cause, rival;
   double separability = 0;            // D of the data
   std::optional<double> predicted{};  // D with the advised readings; none where no plan could be made
+};
+
+// A measurement that could be made, reading by reading.
+struct PlannedReadings {
+  std::string say;
+  noise::Readings readings;
 };
 
 // A parameter of the world, refitted beside the causes.
@@ -112,6 +119,7 @@ struct Diagnosis {
   std::vector<search::Stair> stairs;         // held-out error of the world, then with each accepted finding in turn
   std::vector<search::Check> checks;         // all that was looked at beside what was found, the likeliest first
   std::vector<Advice> advice;
+  std::optional<PlannedReadings> advised;  // of the plans, the one that decides most about the strongest open cause
   SeenRows seen;
   Eigen::VectorXd mean;  // of the extended model at every row of the table, dBm
   std::size_t readings = 0;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace muster::diagnosis {
 namespace {
@@ -13,63 +14,35 @@ namespace {
 using Eigen::Index;
 using Eigen::Vector3d;
 
-constexpr Index most_rows = 200;
+constexpr Index most_rows = 400;
 constexpr int most_readings = 6;  // of one row
+constexpr double apart = 1e-3;    // s, readings of one link
 
-// A place on a link, taken so many times that the noise counts it as a row of the data counts.
-struct Maker {
-  const SeenRows& seen;
-  std::vector<Index> rows;  // of the data, spread over all
-  int repeats;
-  bool timed, headed;
-  double begin = 0, end = 0;  // s
-
-  explicit Maker(const SeenRows& s) : seen(s), timed(s.t.size() > 0), headed(s.yaw.size() > 0) {
-    const auto n = static_cast<Index>(s.tx.size());
-    const Index every = std::max<Index>(1, (n + most_rows - 1) / most_rows);
-    for (Index i = 0; i < n; i += every) rows.push_back(i);
-    repeats = std::clamp(static_cast<int>(std::lround(s.count.mean())), 1, most_readings);
-    if (timed) begin = s.t.minCoeff(), end = s.t.maxCoeff();
-  }
-
-  double span() const { return end - begin; }
-
-  void add(noise::Readings& out, int tx, int rx, const Vector3d& tx_at, const Vector3d& rx_at, double t,
-           double yaw) const {
-    const Index first = out.size();
-    out.tx_at.conservativeResize(3, first + repeats);
-    out.rx_at.conservativeResize(3, first + repeats);
-    for (int k = 0; k < repeats; ++k) {
-      out.tx.push_back(tx);
-      out.rx.push_back(rx);
-      out.tx_at.col(first + k) = tx_at;
-      out.rx_at.col(first + k) = rx_at;
-      if (timed) out.t.push_back(t + 1e-3 * k);
-      if (headed) out.rx_yaw.push_back(yaw);
-    }
-  }
-
-  void add_row(noise::Readings& out, Index i, double t, double turned) const {
-    const auto k = static_cast<std::size_t>(i);
-    add(out, seen.tx[k], seen.rx[k], seen.tx_at.col(i), seen.rx_at.col(i), t, headed ? seen.yaw[i] + turned : 0);
-  }
-};
-
-struct Standing {
+struct End {
   int radio;
-  bool sends;
   Vector3d at;
+  double yaw;
 };
 
-// Radios that do not move, as they send or hear.
+// A radio that does not move, as it sends or hears.
+struct Standing {
+  End end;
+  bool sends;
+};
+
+End end_of(const SeenRows& seen, Index i, bool sends) {
+  const auto k = static_cast<std::size_t>(i);
+  const Eigen::VectorXd& yaw = sends ? seen.tx_yaw : seen.rx_yaw;
+  return {sends ? seen.tx[k] : seen.rx[k], (sends ? seen.tx_at : seen.rx_at).col(i), yaw.size() > 0 ? yaw[i] : 0};
+}
+
 std::vector<Standing> standing_radios(const SeenRows& seen) {
   std::map<std::pair<int, bool>, std::pair<Standing, bool>> known;
-  for (std::size_t k = 0; k < seen.tx.size(); ++k) {
+  for (Index i = 0; i < seen.tx_at.cols(); ++i) {
     for (const bool sends : {true, false}) {
-      const Vector3d at = (sends ? seen.tx_at : seen.rx_at).col(static_cast<Index>(k));
-      const int radio = sends ? seen.tx[k] : seen.rx[k];
-      auto& [first, stays] = known.try_emplace({radio, sends}, Standing{radio, sends, at}, true).first->second;
-      stays = stays && (first.at - at).norm() < 0.2;
+      const End end = end_of(seen, i, sends);
+      auto& [first, stays] = known.try_emplace({end.radio, sends}, Standing{end, sends}, true).first->second;
+      stays = stays && (first.end.at - end.at).norm() < 0.2;
     }
   }
   std::vector<Standing> out;
@@ -79,22 +52,61 @@ std::vector<Standing> standing_radios(const SeenRows& seen) {
   return out;
 }
 
-// The end of row i that is not a standing radio's.
-struct Roaming {
-  int radio;
-  Vector3d at;
-};
-Roaming roaming_end(const SeenRows& seen, Index i, const Standing& other) {
-  const auto k = static_cast<std::size_t>(i);
-  return other.sends ? Roaming{seen.rx[k], seen.rx_at.col(i)} : Roaming{seen.tx[k], seen.tx_at.col(i)};
-}
+// A place on a link, taken so many times that the noise counts it as a row of the data counts.
+struct Maker {
+  const SeenRows& seen;
+  std::vector<Index> rows;       // of the data, spread over all
+  std::vector<Standing> radios;  // that stand
+  int repeats;
+  bool timed;
+  double begin = 0, end = 0;  // s
 
-void add_link(const Maker& make, noise::Readings& out, const Standing& s, const Roaming& r, double t, double yaw) {
-  if (s.sends)
-    make.add(out, s.radio, r.radio, s.at, r.at, t, yaw);
-  else
-    make.add(out, r.radio, s.radio, r.at, s.at, t, yaw);
-}
+  explicit Maker(const SeenRows& s) : seen(s), radios(standing_radios(s)), timed(s.t.size() > 0) {
+    const auto n = static_cast<Index>(s.tx.size());
+    const Index every = std::max<Index>(1, (n + most_rows - 1) / most_rows);
+    for (Index i = 0; i < n; i += every) rows.push_back(i);
+    repeats = std::clamp(static_cast<int>(std::lround(s.count.mean())), 1, most_readings);
+    if (timed) begin = s.t.minCoeff(), end = s.t.maxCoeff();
+  }
+
+  double span() const { return end - begin; }
+
+  void add(noise::Readings& out, const End& tx, const End& rx, double t) const {
+    const Index first = out.size();
+    out.tx_at.conservativeResize(3, first + repeats);
+    out.rx_at.conservativeResize(3, first + repeats);
+    for (int k = 0; k < repeats; ++k) {
+      out.tx.push_back(tx.radio);
+      out.rx.push_back(rx.radio);
+      out.tx_at.col(first + k) = tx.at;
+      out.rx_at.col(first + k) = rx.at;
+      if (timed) out.t.push_back(t + apart * k);
+      if (seen.tx_yaw.size() > 0) out.tx_yaw.push_back(tx.yaw);
+      if (seen.rx_yaw.size() > 0) out.rx_yaw.push_back(rx.yaw);
+    }
+  }
+
+  // `turned`: by how much the ends that move head elsewhere.
+  void add_row(noise::Readings& out, Index i, double t, double turned) const {
+    End tx = end_of(seen, i, true), rx = end_of(seen, i, false);
+    if (!stands(tx, true)) tx.yaw += turned;
+    if (!stands(rx, false)) rx.yaw += turned;
+    add(out, tx, rx, t);
+  }
+
+  void add_link(noise::Readings& out, const Standing& s, const End& other, double t) const {
+    add(out, s.sends ? s.end : other, s.sends ? other : s.end, t);
+  }
+
+ private:
+  bool stands(const End& e, bool sends) const {
+    return std::any_of(radios.begin(), radios.end(),
+                       [&](const Standing& s) { return s.end.radio == e.radio && s.sends == sends; });
+  }
+};
+
+// The end of row i that is not a standing radio's.
+End roaming_end(const SeenRows& seen, Index i, const Standing& other) { return end_of(seen, i, !other.sends); }
 
 PlannedReadings in_reverse(const Maker& make) {
   PlannedReadings out{"drive the same ways again right away, in reverse order", {}};
@@ -109,47 +121,90 @@ PlannedReadings later(const Maker& make) {
   return out;
 }
 
-PlannedReadings turning(const Maker& make, const std::vector<Standing>& radios) {
-  constexpr int places = 12, headings = 12;
+// Where each link was read one way alone.
+PlannedReadings both_ways(const Maker& make) {
+  std::set<std::pair<int, int>> known;
+  for (std::size_t k = 0; k < make.seen.tx.size(); ++k) known.insert({make.seen.tx[k], make.seen.rx[k]});
+  if (std::any_of(known.begin(), known.end(), [&](const auto& p) { return known.count({p.second, p.first}) > 0; }))
+    return {};
+  PlannedReadings out{"drive the same ways again and let both ends of every link send and hear", {}};
+  for (const Index i : make.rows) {
+    const double t = make.timed ? make.seen.t[i] + make.span() + 60 : 0;
+    const End tx = end_of(make.seen, i, true), rx = end_of(make.seen, i, false);
+    make.add(out.readings, tx, rx, t);
+    make.add(out.readings, rx, tx, t);
+  }
+  return out;
+}
+
+PlannedReadings turning(const Maker& make) {
+  constexpr int places = 24, headings = 12;
   PlannedReadings out{fmt::format("turn once around on the spot, at {} places spread along the way", places), {}};
   double t = make.end + 5;
   for (int p = 0; p < places; ++p) {
     const Index row = make.rows[make.rows.size() * static_cast<std::size_t>(p) / places];
     for (int h = 0; h < headings; ++h, t += 2) {
-      for (const Standing& s : radios) {
-        if (s.sends) add_link(make, out.readings, s, roaming_end(make.seen, row, s), t, 2 * M_PI * h / headings);
+      for (const Standing& s : make.radios) {
+        if (!s.sends) continue;
+        End r = roaming_end(make.seen, row, s);
+        r.yaw = 2 * M_PI * h / headings;
+        make.add_link(out.readings, s, r, t);
       }
     }
   }
   return out;
 }
 
-// To the visited place that lies farthest from all standing radios.
-PlannedReadings moved(const Maker& make, const std::vector<Standing>& radios) {
-  const Standing* mover = nullptr;
-  for (const Standing& s : radios) {
-    if (s.sends && !mover) mover = &s;
+// The standing sender that something was found about, or the first one; none if none stands.
+const Standing* sender(const Maker& make, const std::vector<FoundCause>& about) {
+  const Standing* first = nullptr;
+  for (const Standing& s : make.radios) {
+    if (!s.sends) continue;
+    const std::string& name = make.seen.radios[static_cast<std::size_t>(s.end.radio)];
+    if (std::any_of(about.begin(), about.end(), [&](const FoundCause& c) { return c.row == name; })) return &s;
+    if (!first) first = &s;
   }
+  return first;
+}
+
+PlannedReadings turned_round(const Maker& make, const std::vector<FoundCause>& about) {
+  const Standing* turner = sender(make, about);
+  if (!turner) return {};
+  PlannedReadings out{fmt::format("turn {} by 90 degrees where it stands and drive the same ways again",
+                                  make.seen.radios[static_cast<std::size_t>(turner->end.radio)]),
+                      {}};
+  Standing there = *turner;
+  there.end.yaw += M_PI / 2;
+  for (const Index i : make.rows) {
+    const End r = roaming_end(make.seen, i, *turner);
+    if (r.radio != turner->end.radio)
+      make.add_link(out.readings, there, r, make.timed ? make.seen.t[i] + make.span() + 60 : 0);
+  }
+  return out;
+}
+
+// To the visited place that lies farthest from all standing radios.
+PlannedReadings moved(const Maker& make, const std::vector<FoundCause>& about) {
+  const Standing* mover = sender(make, about);
   if (!mover) return {};
-  Vector3d to = mover->at;
+  Vector3d to = mover->end.at;
   double farthest = 0;
   for (const Index i : make.rows) {
     const Vector3d at = roaming_end(make.seen, i, *mover).at;
     double nearest = 1e300;
-    for (const Standing& s : radios) nearest = std::min(nearest, (s.at - at).head<2>().norm());
+    for (const Standing& s : make.radios) nearest = std::min(nearest, (s.end.at - at).head<2>().norm());
     if (nearest > farthest) farthest = nearest, to.head<2>() = at.head<2>();
   }
   if (farthest < 2) return {};
   PlannedReadings out{fmt::format("move {} to ({:.1f}, {:.1f}) and drive the same ways again",
-                                  make.seen.radios[static_cast<std::size_t>(mover->radio)], to.x(), to.y()),
+                                  make.seen.radios[static_cast<std::size_t>(mover->end.radio)], to.x(), to.y()),
                       {}};
   Standing there = *mover;
-  there.at = to;
+  there.end.at = to;
   for (const Index i : make.rows) {
-    const Roaming r = roaming_end(make.seen, i, *mover);
-    if (r.radio == mover->radio || (r.at - to).norm() < 0.5) continue;
-    add_link(make, out.readings, there, r, make.timed ? make.seen.t[i] + make.span() + 60 : 0,
-             make.headed ? make.seen.yaw[i] : 0);
+    const End r = roaming_end(make.seen, i, *mover);
+    if (r.radio == mover->end.radio || (r.at - to).norm() < 0.5) continue;
+    make.add_link(out.readings, there, r, make.timed ? make.seen.t[i] + make.span() + 60 : 0);
   }
   return out;
 }
@@ -196,8 +251,7 @@ std::vector<Vector3d> not_visited(const SeenRows& seen, const Vector3d& to) {
   return out;
 }
 
-PlannedReadings elsewhere(const Maker& make, const std::vector<Standing>& radios,
-                          const std::vector<FoundCause>& about) {
+PlannedReadings elsewhere(const Maker& make, const std::vector<FoundCause>& about) {
   const auto places = not_visited(make.seen, middle_of(make.seen, about));
   if (places.size() < 8) return {};
   PlannedReadings out{fmt::format("drive where nothing was measured yet, about ({:.1f}, {:.1f}), if it can be reached",
@@ -205,14 +259,26 @@ PlannedReadings elsewhere(const Maker& make, const std::vector<Standing>& radios
                       {}};
   double t = make.end + 5;
   for (std::size_t p = 0; p < places.size(); ++p, t += 2) {
-    for (const Standing& s : radios) {
+    for (const Standing& s : make.radios) {
       if (!s.sends) continue;
-      Roaming r = roaming_end(make.seen, make.rows.front(), s);
+      End r = roaming_end(make.seen, make.rows.front(), s);
       r.at.head<2>() = places[p].head<2>();
-      if (r.radio != s.radio) add_link(make, out.readings, s, r, t, 0.5 * M_PI * static_cast<double>(p));
+      r.yaw = 0.5 * M_PI * static_cast<double>(p);
+      if (r.radio != s.end.radio) make.add_link(out.readings, s, r, t);
     }
   }
   return out;
+}
+
+// No two readings of a link at once: rows of the data may have the same middle.
+void space_out(noise::Readings& r) {
+  std::map<std::pair<int, int>, std::vector<std::size_t>> of_link;
+  for (std::size_t k = 0; k < r.t.size(); ++k) of_link[{r.tx[k], r.rx[k]}].push_back(k);
+  for (auto& [link, readings] : of_link) {
+    std::stable_sort(readings.begin(), readings.end(), [&](std::size_t a, std::size_t b) { return r.t[a] < r.t[b]; });
+    for (std::size_t k = 1; k < readings.size(); ++k)
+      r.t[readings[k]] = std::max(r.t[readings[k]], r.t[readings[k - 1]] + apart);
+  }
 }
 
 }  // namespace
@@ -220,13 +286,15 @@ PlannedReadings elsewhere(const Maker& make, const std::vector<Standing>& radios
 std::vector<PlannedReadings> planned_readings(const SeenRows& seen, const std::vector<FoundCause>& about) {
   if (!seen.places_known) return {};
   const Maker make(seen);
-  const auto radios = standing_radios(seen);
   std::vector<PlannedReadings> out;
   if (make.timed && make.span() > 0) out.insert(out.end(), {in_reverse(make), later(make)});
-  if (make.headed && !radios.empty()) out.push_back(turning(make, radios));
-  out.push_back(moved(make, radios));
-  out.push_back(elsewhere(make, radios, about));
+  out.push_back(both_ways(make));
+  if (seen.rx_yaw.size() > 0 && !make.radios.empty()) out.push_back(turning(make));
+  if (seen.tx_yaw.size() > 0) out.push_back(turned_round(make, about));
+  out.push_back(moved(make, about));
+  out.push_back(elsewhere(make, about));
   std::erase_if(out, [](const PlannedReadings& p) { return p.readings.size() == 0; });
+  for (PlannedReadings& p : out) space_out(p.readings);
   return out;
 }
 

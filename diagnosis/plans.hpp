@@ -6,13 +6,9 @@
 
 namespace muster::diagnosis {
 
-struct PlannedReadings {
-  std::string say;
-  noise::Readings readings;
-};
-
-// The same ways in reverse or later, turns on the spot, a transmitter moved, places not yet visited. `about`: what was
-// found, near which places not yet visited matter most.
+// The same ways in reverse, later or with all radios sending, turns on the spot, a transmitter turned or moved, places
+// not yet visited. `about`: what was found, whose radio it is that moves, and near which places not yet visited matter
+// most.
 std::vector<PlannedReadings> planned_readings(const SeenRows& seen, const std::vector<FoundCause>& about);
 
 struct PlanSources {
@@ -22,8 +18,8 @@ struct PlanSources {
   const Dataset& data;
 };
 
-// What the plans would do for each cause and rival that the data do not decide. Throws Error.
-std::vector<Advice> advice_for(search::Search& search, const Diagnosis& found, const CauseSearch& causes,
-                               const PlanSources& sources, const BaseColumns& base);
+// Adds what the plans would do for each cause and rival that the data do not decide. Throws Error.
+void add_advice(search::Search& search, Diagnosis& found, const CauseSearch& causes, const PlanSources& sources,
+                const BaseColumns& base);
 
 }  // namespace muster::diagnosis

@@ -62,7 +62,9 @@ SeenRows seen_rows(const search::Bench& bench, const LinkModel& model) {
   out.rx_at = rows.mean(readings.rx_at.transpose()).transpose();
   out.count = rows.count();
   out.t = mean_of(rows, readings.t);
-  out.yaw =
+  out.tx_yaw =
+      first_of(rows, Eigen::Map<const VectorXd>(readings.tx_yaw.data(), static_cast<Index>(readings.tx_yaw.size())));
+  out.rx_yaw =
       first_of(rows, Eigen::Map<const VectorXd>(readings.rx_yaw.data(), static_cast<Index>(readings.rx_yaw.size())));
   if (!readings.rx_yaw.empty() || !readings.tx_yaw.empty()) {
     const search::MovingEnds moving = search::moving_ends(readings);

@@ -49,15 +49,6 @@ double reported(const std::vector<Hidden>& hidden, double level) {
   return code == -128 ? -127 : std::min(code, -1.0);
 }
 
-void receive(const Case& made, const Field& field, Data& data, const std::string& run, const std::vector<char>& use) {
-  const Eigen::VectorXd level =
-      data.design * coefficients(*made.site) + mean_shift(made.hidden, data) + draw_noise(made, field, data, run);
-  data.rssi.resize(level.size());
-  for (Eigen::Index i = 0; i < level.size(); ++i)
-    data.rssi[i] =
-        use[static_cast<std::size_t>(i)] ? reported(made.hidden, level[i]) : std::numeric_limits<double>::quiet_NaN();
-}
-
 }  // namespace
 
 std::vector<char> heard(const Data& data) {
@@ -81,6 +72,16 @@ Eigen::VectorXd draw_noise(const Case& made, const Field& field, const Data& dat
   return result;
 }
 
+void hear(const Case& made, const Field& field, Data& data, const std::string& run) {
+  const std::vector<char> use = lost_at_random(made, data, run);
+  const Eigen::VectorXd level =
+      data.design * coefficients(*made.site) + mean_shift(made.hidden, data) + draw_noise(made, field, data, run);
+  data.rssi.resize(level.size());
+  for (Eigen::Index i = 0; i < level.size(); ++i)
+    data.rssi[i] =
+        use[static_cast<std::size_t>(i)] ? reported(made.hidden, level[i]) : std::numeric_limits<double>::quiet_NaN();
+}
+
 Eigen::VectorXd expected_shift(const Site& site, const std::vector<Hidden>& hidden, const Data& data) {
   Eigen::VectorXd sum = mean_shift(hidden, data);
   for (const Hidden& h : hidden)
@@ -99,6 +100,12 @@ Case hidden_in(const std::string& name, std::uint64_t seed, const Order& order) 
   return made;
 }
 
+void hear_both(Case& made) {
+  const Field field(*made.site, made.seed);
+  hear(made, field, made.measured, "measured");
+  hear(made, field, made.second, "second");
+}
+
 double worst_miss(const Case& made) {
   double worst = 1;
   for (const Hidden& h : made.hidden)
@@ -115,10 +122,14 @@ Case make_case(const std::string& name, std::uint64_t seed, const Order& order) 
     Case other = hidden_in(name, Random(seed, "site " + std::to_string(i)).bits(), order);
     if (worst_miss(other) < worst_miss(made)) made = std::move(other);
   }
-  const Field field(*made.site, made.seed);
-  receive(made, field, made.measured, "measured", lost_at_random(made, made.measured, "measured"));
-  receive(made, field, made.second, "second", lost_at_random(made, made.second, "second"));
+  hear_both(made);
   weigh(made);
+  return made;
+}
+
+Case remake_case(const std::string& name, std::uint64_t site_seed, const Order& order) {
+  Case made = hidden_in(name, site_seed, order);
+  hear_both(made);
   return made;
 }
 

@@ -40,6 +40,8 @@ struct Case {
 };
 
 Case make_case(const std::string& name, std::uint64_t seed, const Order& order);
+// The same again from the seed of its site; no oracle.
+Case remake_case(const std::string& name, std::uint64_t site_seed, const Order& order);
 
 // Sum of all effects' mean shifts, the receiver's among them, expected over the noise.
 Eigen::VectorXd expected_shift(const Site& site, const std::vector<Hidden>& hidden, const Data& data);
@@ -48,5 +50,8 @@ std::vector<char> heard(const Data& data);
 
 // Field, fading and all else that is drawn, on top of the mean.
 Eigen::VectorXd draw_noise(const Case& made, const Field& field, const Data& data, const std::string& run);
+
+// Fills in what the receivers of a run report.
+void hear(const Case& made, const Field& field, Data& data, const std::string& run);
 
 }  // namespace muster::exam

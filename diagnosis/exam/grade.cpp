@@ -137,6 +137,21 @@ void add_parameters(Grades& grades, const Truth::Effect& effect, const Verdict::
   }
 }
 
+// Settled: with the advised readings the right name is on top, and no other cause can be mistaken for it.
+void add_followed(Grades& grades, const Truth& truth, const Verdict& verdict) {
+  if (!verdict.advised_decides || !verdict.named_when_followed) return;
+  const auto& after = *verdict.named_when_followed;
+  const auto right = [&](const std::vector<Verdict::Cause>& named) {
+    return !named.empty() &&
+           std::any_of(truth.effects.begin(), truth.effects.end(), [&](const auto& e) { return names(named[0], e); });
+  };
+  const bool settled = right(after) && after[0].rivals.empty();
+  grades.shares["advice / top name right before / all"].count(right(verdict.named));
+  grades.shares["advice / top name right when followed / all"].count(right(after));
+  grades.shares["advice / settles the name / all"].count(settled);
+  if (*verdict.advised_decides) grades.shares["advice / settles the name / predicted to"].count(settled);
+}
+
 void add_inside(Grades& grades, const Truth& truth, const Verdict& verdict) {
   const std::string bin = lambda_bin(weakest(truth));
   const auto count = [&](const std::string& measure, bool hit) {
@@ -175,6 +190,7 @@ void add_inside(Grades& grades, const Truth& truth, const Verdict& verdict) {
           return std::count_if(verdict.named.begin(), verdict.named.end(), [&](const auto& c) { return names(c, e); }) >
                  1;
         }));
+  add_followed(grades, truth, verdict);
   if (truth.oracle_gain > 0 && verdict.gain) {
     grades.gain[bin] += *verdict.gain;
     grades.oracle[bin] += truth.oracle_gain;

@@ -49,6 +49,7 @@ struct Verdict {
     std::string id, label;
     double evidence = 0;
     std::map<std::string, Estimate> parameters;  // by the last part of their names
+    std::vector<std::string> rivals;             // causes that it can be mistaken for
   };
   std::string verdict;
   std::vector<Cause> named;  // the strongest first; suspected ones are not counted
@@ -56,6 +57,9 @@ struct Verdict {
   std::optional<double> gain;  // dB^2
   std::optional<std::string> loop;
   std::optional<bool> second_silent;  // the extended world on other data of the same truth
+  // Of the measurement that is advised: whether it is predicted to decide all that is open of the cause it is about.
+  std::optional<bool> advised_decides;
+  std::optional<std::vector<Cause>> named_when_followed;  // with that measurement
 };
 
 Truth read_truth(const std::string& text);

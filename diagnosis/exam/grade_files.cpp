@@ -9,6 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "files.hpp"
 #include "grade.hpp"
 
 namespace muster::exam {
@@ -17,14 +18,6 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 namespace fs = std::filesystem;
-
-std::string read(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (!in) throw std::runtime_error("cannot read " + file.string());
-  return text.str();
-}
 
 json report_in(const std::string& text) {
   std::istringstream lines(text);
@@ -41,13 +34,29 @@ std::optional<double> number(const json& from, const char* key) {
 std::string last_part(const std::string& path) { return path.substr(path.find_last_of("/.") + 1); }
 
 Verdict::Cause cause_of(const json& from) {
-  Verdict::Cause cause{
-      last_part(from.at("id").get<std::string>()), from.value("label", ""), number(from, "evidence").value_or(0), {}};
+  Verdict::Cause cause{last_part(from.at("id").get<std::string>()),
+                       from.value("label", ""),
+                       number(from, "evidence").value_or(0),
+                       {},
+                       {}};
   for (const json& p : from.value("parameters", json::array()))
     if (const auto value = number(p, "value"))
       cause.parameters[last_part(p.at("name").get<std::string>())] = {*value, number(p, "lower95"),
                                                                       number(p, "upper95")};
+  for (const json& r : from.value("rivals", json::array())) {
+    const std::string id = r.at("id");
+    if (id[0] != '~') cause.rivals.push_back(last_part(id));
+  }
   return cause;
+}
+
+std::optional<bool> advised_decides(const json& report) {
+  constexpr double decided = 25;  // D
+  std::optional<bool> result;
+  for (const json& a : report.value("advice", json::array()))
+    if (a.value("advised", false))
+      result = result.value_or(true) && number(a, "predicted_separability").value_or(0) >= decided;
+  return result;
 }
 
 // The first of the places where a report of this case may lie.
@@ -59,12 +68,11 @@ std::optional<fs::path> report_of(const fs::path& reports, const std::string& na
   return {};
 }
 
-// The extended world against the case's other readings, where the command left that report beside the first one.
-std::optional<bool> silent_on_second(const fs::path& reports, const std::string& name) {
-  const fs::path at = reports / (name + ".second.json");
+// A further report that the command left beside the first one.
+std::optional<Verdict> beside(const fs::path& reports, const std::string& name) {
+  const fs::path at = reports / name;
   if (!fs::is_regular_file(at)) return {};
-  const Verdict verdict = read_verdict(read(at));
-  return verdict.named.empty() && verdict.unexplained.empty();
+  return read_verdict(read_file(at));
 }
 
 // CPU seconds by case from what `run` wrote; a case that was run twice counts by its last time.
@@ -126,6 +134,7 @@ Verdict read_verdict(const std::string& text) {
     const auto before = number(from.value("base", json::object()), "heldout_rmse_db"),
                after = number(from, "heldout_rmse_db");
     if (before && after) verdict.gain = *before * *before - *after * *after;
+    verdict.advised_decides = advised_decides(from);
     if (from.contains("loop") && from["loop"].is_object() && from["loop"].contains("rediagnosis") &&
         from["loop"]["rediagnosis"].is_string())
       verdict.loop = from["loop"]["rediagnosis"].get<std::string>();
@@ -144,13 +153,16 @@ Grades grade(const fs::path& answers, const fs::path& reports) {
   std::sort(files.begin(), files.end());
   Grades grades;
   for (const fs::path& file : files) {
-    const Truth truth = read_truth(read(file));
+    const Truth truth = read_truth(read_file(file));
     Verdict verdict;  // of a case without a report: silent, which is wrong unless the case is clean
     try {
       const auto report = report_of(reports, truth.name);
       if (!report) throw std::runtime_error("none");
-      verdict = read_verdict(read(*report));
-      verdict.second_silent = silent_on_second(reports, truth.name);
+      verdict = read_verdict(read_file(*report));
+      if (const auto second = beside(reports, truth.name + ".second.json"))
+        verdict.second_silent = second->named.empty() && second->unexplained.empty();
+      if (const auto followed = beside(reports, truth.name + ".advised.json"))
+        verdict.named_when_followed = followed->named;
     } catch (const std::runtime_error&) {
       grades.missing.push_back(truth.name);
     }

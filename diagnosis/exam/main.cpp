@@ -6,6 +6,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "files.hpp"
+#include "follow.hpp"
 #include "grade.hpp"
 #include "orders.hpp"
 #include "run.hpp"
@@ -24,10 +26,14 @@ constexpr const char* usage = R"(muster_exam: sealed cases for radio diagnosis
   muster_exam run DIR [--reports DIR] [--command COMMAND] [--jobs N]
       runs a diagnosis over the cases, by default muster diagnose {world} --data {data} --json; what it prints becomes
       DIR/reports/case_0001.txt ..., what it cost DIR/reports/costs.csv. Cases that have a report are left alone.
-      Slots of COMMAND: {world}, {data}, {second} (the other readings), {out} (a folder of its own)
+      Slots of COMMAND: {world}, {data}, {second} (the other readings), {answer} (for follow alone), {out} (a folder of
+      its own)
   muster_exam grade --answers DIR [--reports DIR] [--json | --table]
       holds reports (DIR/reports/case_0001.txt, or .json, or case_0001/diagnosis.json) against the answers; --table
       sets them beside the goals
+  muster_exam follow DIR/answers/case_0001.json --plan FILE --out FILE
+      makes the measurement that a diagnosis advises (advised.csv of muster diagnose --out): the case's readings with
+      those at the plan's places and times behind them
   muster_exam effects
       lists the effects that can be hidden
 
@@ -174,6 +180,16 @@ int run_grade(int argc, char** argv) {
   return grades.missing.empty() ? 0 : 1;
 }
 
+int follow(int argc, char** argv) {
+  const Arguments arguments = parsed(argc, argv, {{"", {}}, {"--plan", {"a file"}}, {"--out", {"a file"}}});
+  const auto given = arguments.find("");
+  if (given == arguments.end() || given->second.size() != 1)
+    throw std::invalid_argument("expected one answer, as make wrote it");
+  const std::vector<Asked> asked = read_plan(read_file(required(arguments, "--plan")));
+  write_file(required(arguments, "--out"), followed_csv(read_case(given->second[0]), asked));
+  return 0;
+}
+
 int list_effects() {
   for (const Recipe& r : recipes()) fmt::print("{}{}\n", r.id, r.in_vocabulary ? "" : "  (outside the vocabulary)");
   return 0;
@@ -187,6 +203,7 @@ int main(int argc, char** argv) {
     if (verb == "make") return make(argc, argv);
     if (verb == "run") return run(argc, argv);
     if (verb == "grade") return run_grade(argc, argv);
+    if (verb == "follow") return follow(argc, argv);
     if (verb == "effects") return list_effects();
     fmt::print("{}", usage);
     return verb == "--help" ? 0 : 2;

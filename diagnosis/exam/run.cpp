@@ -88,6 +88,7 @@ class Runner {
     command = filled(command, "{world}", folder);
     command = filled(command, "{data}", folder / "measured.csv");
     command = filled(command, "{second}", folder / "second.csv");
+    command = filled(command, "{answer}", order_.exam / "answers" / (name + ".json"));
     command = filled(command, "{out}", order_.reports / name);
     posix_spawn_file_actions_t files;
     posix_spawn_file_actions_init(&files);

@@ -7,7 +7,8 @@
 
 namespace muster::exam {
 
-// {world} the case's folder, {data} its readings, {second} its other readings, {out} a folder of the command's own;
+// {world} the case's folder, {data} its readings, {second} its other readings, {answer} its answer, for what follows a
+// diagnosis' advice and no diagnosis itself, {out} a folder of the command's own;
 // each is put in as one word of the shell.
 struct RunOrder {
   std::filesystem::path exam, reports;

@@ -4,11 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
+#include "files.hpp"
 #include "reading_law.hpp"
 
 namespace muster::exam {
@@ -26,12 +25,6 @@ const char* family_name(Family family) {
       return "two_scale";
   }
   return "";
-}
-
-void save(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  if (!out.flush()) throw std::runtime_error("cannot write " + file.string());
 }
 
 ordered_json effect_json(const Hidden& h) {
@@ -162,11 +155,11 @@ std::string answer_json(const Case& made) {
 void write_case(const Case& made, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder / made.name);
   std::filesystem::create_directories(folder / "answers");
-  save(folder / made.name / "world.xml", world_xml(made));
-  save(folder / made.name / "walls.csv", walls_csv(made.site->plan));
-  save(folder / made.name / "measured.csv", readings_csv(*made.site, made.measured));
-  save(folder / made.name / "second.csv", readings_csv(*made.site, made.second));
-  save(folder / "answers" / (made.name + ".json"), answer_json(made));
+  write_file(folder / made.name / "world.xml", world_xml(made));
+  write_file(folder / made.name / "walls.csv", walls_csv(made.site->plan));
+  write_file(folder / made.name / "measured.csv", readings_csv(*made.site, made.measured));
+  write_file(folder / made.name / "second.csv", readings_csv(*made.site, made.second));
+  write_file(folder / "answers" / (made.name + ".json"), answer_json(made));
 }
 
 }  // namespace muster::exam

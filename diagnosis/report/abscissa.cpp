@@ -109,7 +109,7 @@ Abscissa bearing(const SeenRows& rows) {
   Abscissa out{"bearing of the other radio", "deg", none(rows)};
   for (Index i = 0; i < out.values.size(); ++i) {
     const Eigen::Vector3d way = rows.tx_at.col(i) - rows.rx_at.col(i);
-    out.values[i] = in_degrees(std::atan2(way.y(), way.x()) - rows.yaw[i]);
+    out.values[i] = in_degrees(std::atan2(way.y(), way.x()) - rows.rx_yaw[i]);
   }
   return out;
 }
@@ -121,7 +121,7 @@ double in_degrees(double angle) { return std::remainder(angle, 2 * M_PI) * 180 /
 Abscissa abscissa_of(const SeenRows& rows, const FoundCause& c) {
   const std::string own = c.covariates.empty() ? "" : c.covariates.front();
   if (own == "time" && rows.t.size()) return {"time", "s", rows.t};
-  if (own == "bearing" && rows.yaw.size()) return bearing(rows);
+  if (own == "bearing" && rows.rx_yaw.size()) return bearing(rows);
   if (own == "logd")
     return {"distance", "m", (rows.tx_at - rows.rx_at).colwise().norm().transpose().cwiseMax(0.1), true};
   if (!rows.places_known) return {"effect as fitted", "dB", c.effect, false, {}, true};

@@ -12,10 +12,11 @@ std::vector<Question> open_questions(const Diagnosis& d) {
       if (r.separability >= decided) continue;
       Question question{c.id, r.id, r.separability, c.tell_apart, {}};
       for (const diagnosis::Advice& a : d.advice) {
-        if (a.cause == c.id && a.rival == r.id && a.predicted) question.plans.emplace_back(a.say, *a.predicted);
+        if (a.cause != c.id || a.rival != r.id || !a.predicted) continue;
+        question.plans.push_back({a.say, *a.predicted, d.advised && d.advised->say == a.say});
       }
       std::stable_sort(question.plans.begin(), question.plans.end(),
-                       [](const auto& a, const auto& b) { return a.second > b.second; });
+                       [](const auto& a, const auto& b) { return a.predicted > b.predicted; });
       out.push_back(std::move(question));
     }
   }

@@ -2,18 +2,24 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "diagnosis/report/words.hpp"
 
 namespace muster::report {
 
+// A measurement that could be made.
+struct Measurement {
+  std::string say;
+  double predicted = 0;  // D with it
+  bool advised = false;  // the one of which the readings are written down
+};
+
 struct Question {
   std::string cause, rival;
-  double separability = 0;                              // D of the data
-  std::string tell_apart;                               // in the cause's own words
-  std::vector<std::pair<std::string, double>> plans{};  // measurements that could be made, D predicted, best first
+  double separability = 0;           // D of the data
+  std::string tell_apart;            // in the cause's own words
+  std::vector<Measurement> plans{};  // the most telling one first
 };
 
 // Pairs of a cause and a rival that the data do not decide, D < 25.

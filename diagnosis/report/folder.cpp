@@ -1,5 +1,7 @@
 #include "diagnosis/report/folder.hpp"
 
+#include <fmt/format.h>
+
 #include <fstream>
 
 #include "diagnosis/report/json.hpp"
@@ -10,6 +12,29 @@ namespace muster::report {
 namespace {
 
 namespace fs = std::filesystem;
+
+// The readings of a measurement that is yet to be made: what stands where, when, and how it is turned.
+std::string advised_csv(const noise::Readings& r, const std::vector<std::string>& radios) {
+  const bool timed = !r.t.empty();
+  std::string out = timed ? "t[s]," : "";
+  out += "tx,rx,tx_x[m],tx_y[m],tx_z[m],rx_x[m],rx_y[m],rx_z[m]";
+  if (!r.tx_yaw.empty()) out += ",tx_yaw[rad]";
+  if (!r.rx_yaw.empty()) out += ",rx_yaw[rad]";
+  out += '\n';
+  for (Eigen::Index i = 0; i < r.size(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    if (timed) out += fmt::format("{:.3f},", r.t[k]);
+    out += radios[static_cast<std::size_t>(r.tx[k])] + ',' + radios[static_cast<std::size_t>(r.rx[k])];
+    for (const auto& ends : {r.tx_at, r.rx_at}) {
+      for (const double v : ends.col(i)) out += fmt::format(",{:.3f}", v);
+    }
+    for (const auto& yaw : {r.tx_yaw, r.rx_yaw}) {
+      if (!yaw.empty()) out += fmt::format(",{:.3f}", yaw[k]);
+    }
+    out += '\n';
+  }
+  return out;
+}
 
 void write(const fs::path& file, const std::string& text) {
   std::ofstream out(file, std::ios::binary);
@@ -31,6 +56,7 @@ std::vector<std::string> write_report(const Diagnosis& diagnosis, const Setting&
   };
   add(folder / "report.html", page_of(diagnosis, setting, pictures));
   add(folder / "diagnosis.json", json_of(diagnosis).dump(2) + "\n");
+  if (diagnosis.advised) add(folder / "advised.csv", advised_csv(diagnosis.advised->readings, diagnosis.seen.radios));
   for (const Picture& p : pictures) add(folder / "pictures" / (p.name + ".svg"), picture::svg(p.figure));
   return files;
 }

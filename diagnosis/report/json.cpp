@@ -67,15 +67,16 @@ Json instrument_json(const Diagnosis& d) {
 
 Json advice_json(const Diagnosis& d) {
   Json out = Json::array();
-  const auto add = [&](const std::string& say, const Question& q, Json predicted) {
+  const auto add = [&](const std::string& say, const Question& q, Json predicted, bool advised) {
     out.push_back({{"do", say},
                    {"separates", q.cause + ' ' + q.rival},
                    {"predicted_separability", std::move(predicted)},
-                   {"separability", known(q.separability)}});
+                   {"separability", known(q.separability)},
+                   {"advised", advised}});
   };
   for (const Question& q : open_questions(d)) {
-    for (const auto& [say, predicted] : q.plans) add(say, q, known(predicted));
-    add(q.tell_apart, q, nullptr);
+    for (const Measurement& m : q.plans) add(m.say, q, known(m.predicted), m.advised);
+    add(q.tell_apart, q, nullptr, false);
   }
   return out;
 }

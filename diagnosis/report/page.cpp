@@ -150,9 +150,11 @@ std::string undecided(const Diagnosis& d) {
   std::vector<Row> rows;
   for (const Question& q : questions) {
     const std::string pair = short_name(q.cause) + " or " + short_name(q.rival);
-    for (const auto& [say, predicted] : q.plans)
-      rows.push_back(
-          {{pair}, {fmt::format("{:.0f}", q.separability), true}, {say}, {fmt::format("{:.0f}", predicted), true}});
+    for (const Measurement& m : q.plans)
+      rows.push_back({{pair},
+                      {fmt::format("{:.0f}", q.separability), true},
+                      {m.say + (m.advised ? " (advised.csv lists its readings)" : "")},
+                      {fmt::format("{:.0f}", m.predicted), true}});
     rows.push_back({{pair}, {fmt::format("{:.0f}", q.separability), true}, {q.tell_apart}, {"not worked out", true}});
   }
   return out + "<div class=\"card\">" + table({{"pair"}, {"D now", true}, {"measure"}, {"D predicted", true}}, rows) +

@@ -122,11 +122,12 @@ std::string undecided(const Diagnosis& d) {
                                 judged(q.separability)),
                     2, 2);
     text += wrapped("- " + q.tell_apart, 4, 6);
-    for (const auto& [say, predicted] : q.plans)
-      text += wrapped(fmt::format("- {}: predicted D {:.0f}{}", say, predicted,
-                                  predicted >= decided         ? ", decides"
-                                  : predicted < not_told_apart ? ", too little"
-                                                               : ""),
+    for (const Measurement& m : q.plans)
+      text += wrapped(fmt::format("- {}: predicted D {:.0f}{}{}", m.say, m.predicted,
+                                  m.predicted >= decided         ? ", decides"
+                                  : m.predicted < not_told_apart ? ", too little"
+                                                                 : "",
+                                  m.advised ? "; advised.csv lists its readings" : ""),
                       4, 6);
   }
   return text;

@@ -41,6 +41,31 @@ TEST(Grade, FewestHitsThatChanceLeaves) {
   EXPECT_EQ(least_hits(0, 0.5), 0);
 }
 
+TEST(Grade, AnAdvisedRunSettlesANameWithoutRivals) {
+  const auto with = [](double predicted) {
+    return said(R"({"verdict":"extended","causes":[{"id":"effect.drift","evidence":20}],"advice":[)"
+                R"({"separates":"effect.drift effect.step","predicted_separability":)" +
+                std::to_string(predicted) + R"(,"advised":true},)" +
+                R"({"separates":"effect.drift effect.step","predicted_separability":null,"advised":false}]})");
+  };
+  const auto cause = [](const char* id, const char* rivals) {
+    return said(std::string(R"({"verdict":"extended","causes":[{"id":")") + id + R"(","rivals":[)" + rivals + "]}]}")
+        .named;
+  };
+  for (const auto& [predicted, after, settled] :
+       {std::tuple(30.0, cause("effect.tx_offset", R"({"id":"~link"})"), 1),
+        std::tuple(30.0, cause("effect.tx_offset", R"({"id":"effect.drift"})"), 0),
+        std::tuple(20.0, cause("effect.tx_offset", ""), 1), std::tuple(30.0, cause("effect.drift", ""), 0)}) {
+    Verdict verdict = with(predicted);
+    verdict.named_when_followed = after;
+    Grades g;
+    add(g, one("tx_offset", 60), verdict);
+    EXPECT_EQ(share(g, "advice / top name right before / all").hits, 0);
+    EXPECT_EQ(share(g, "advice / settles the name / all").hits, settled);
+    EXPECT_EQ(share(g, "advice / settles the name / predicted to").of, predicted >= 25);
+  }
+}
+
 TEST(Grade, ADeafRadioHasAWeakTransmittersClass) {
   for (const auto& [radio, right] : {std::pair("beacon2", 1), std::pair("beacon3", 0)}) {
     Grades g;

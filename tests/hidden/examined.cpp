@@ -20,11 +20,12 @@ void muster(const std::string& arguments) {
 
 }  // namespace
 
-Grades examined(const std::string& wanted) {
+Grades examined(const std::string& wanted, const std::string& command) {
   const TemporaryFolder folder;
   const std::string out = (folder.path() / "exam").string();
   muster("make " + wanted + " --out " + out);
-  muster("run " + out);
+  const std::string program = std::string("muster() { ") + MUSTER_PROGRAM + " \"$@\"; }; ";
+  muster("run " + out + (command.empty() ? "" : " --command '" + program + command + "'"));
   return grade(out, folder.path() / "exam/reports");
 }
 

@@ -5,7 +5,8 @@
 
 namespace muster::exam {
 
-// `wanted`: arguments of `muster exam make` but its folder.
-Grades examined(const std::string& wanted);
+// `wanted`: arguments of `muster exam make` but its folder. `command`: as `muster exam run` takes it, `muster` being
+// the program; empty: one diagnosis.
+Grades examined(const std::string& wanted, const std::string& command = "");
 
 }  // namespace muster::exam

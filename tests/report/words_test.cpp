@@ -80,9 +80,11 @@ TEST(Text, RivalsThatAreNotDecidedAreQuestions) {
   Diagnosis d = with(c);
   d.advice.push_back({"turn on the spot", c.id, "effect.obstacle", 6, 15.0});
   d.advice.push_back({"move base", c.id, "effect.obstacle", 6, 74.0});
+  d.advised = diagnosis::PlannedReadings{"move base", {}};
   const std::string text = text_of(d, {"hall", "a.csv"});
   EXPECT_TRUE(says(text, "unmapped wall or obstacle: D 6, cannot be told apart")) << text;
-  EXPECT_LT(text.find("move base: predicted D 74, decides"), text.find("turn on the spot: predicted D 15")) << text;
+  const auto best = text.find("move base: predicted D 74, decides; advised.csv lists its readings");
+  EXPECT_LT(best, text.find("turn on the spot: predicted D 15\n")) << text;
 }
 
 // Of all that was accepted, named or not; clips and laws of what scatters are no step.

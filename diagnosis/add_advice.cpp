@@ -1,5 +1,6 @@
 // Plans as tables that the world is simulated at, so that what they would tell apart can be worked out.
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "diagnosis/plans.hpp"
@@ -36,15 +37,30 @@ std::set<std::string> wanted(const Diagnosis& found, const CauseSearch& causes) 
   return open ? out : std::set<std::string>();
 }
 
+// The one that decides most about the strongest open cause: the sum of D over its rivals, none counted beyond decided.
+std::optional<PlannedReadings> most_telling(const Diagnosis& found, std::vector<PlannedReadings> plans) {
+  const auto open = std::find_if(found.causes.begin(), found.causes.end(), [&](const FoundCause& c) {
+    return std::any_of(found.advice.begin(), found.advice.end(), [&](const Advice& a) { return a.cause == c.id; });
+  });
+  if (open == found.causes.end()) return {};
+  std::map<std::string, double> sum;
+  for (const Advice& a : found.advice) {
+    if (a.cause == open->id && a.predicted) sum[a.say] += std::min(*a.predicted, decided);
+  }
+  const auto tells_less = [&](const PlannedReadings& a, const PlannedReadings& b) { return sum[a.say] < sum[b.say]; };
+  return std::move(*std::max_element(plans.begin(), plans.end(), tells_less));
+}
+
 }  // namespace
 
-std::vector<Advice> advice_for(search::Search& search, const Diagnosis& found, const CauseSearch& causes,
-                               const PlanSources& sources, const BaseColumns& base) {
+void add_advice(search::Search& search, Diagnosis& found, const CauseSearch& causes, const PlanSources& sources,
+                const BaseColumns& base) {
   const std::set<std::string> ids = wanted(found, causes);
-  if (ids.empty() || holds_a_table_reader(sources.model)) return {};
+  if (ids.empty() || holds_a_table_reader(sources.model)) return;
   std::vector<std::unique_ptr<SimulatedReadings>> simulated;
+  std::vector<PlannedReadings> planned = planned_readings(found.seen, found.causes);
   std::vector<search::Plan> plans;
-  for (const PlannedReadings& p : planned_readings(found.seen, found.causes)) {
+  for (const PlannedReadings& p : planned) {
     simulated.push_back(
         std::make_unique<SimulatedReadings>(p.readings, found.seen.radios, sources.world, sources.plugins, base));
     plans.push_back({p.say, p.readings, slopes_at(simulated.back()->model(), base), {}});
@@ -52,13 +68,12 @@ std::vector<Advice> advice_for(search::Search& search, const Diagnosis& found, c
       if (ids.count(c.candidate.id)) plans.back().candidates.push_back(simulated.back()->at(c, sources.data));
     }
   }
-  std::vector<Advice> out;
   for (const search::Advice& a : search.advise(plans)) {
     const auto cause = std::find_if(found.causes.begin(), found.causes.end(),
                                     [&](const FoundCause& c) { return c.sought_as == a.finding; });
-    if (cause != found.causes.end()) out.push_back({a.say, cause->id, a.rival, a.separability, a.predicted});
+    if (cause != found.causes.end()) found.advice.push_back({a.say, cause->id, a.rival, a.separability, a.predicted});
   }
-  return out;
+  found.advised = most_telling(found, std::move(planned));
 }
 
 }  // namespace muster::diagnosis

@@ -1,0 +1,30 @@
+// An advised measurement, made: the truth of a case read at the places and times that a diagnosis asks for.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "case.hpp"
+
+namespace muster::exam {
+
+struct Asked {
+  double t = 0;  // s
+  std::string tx, rx;
+  Vec3 tx_at, rx_at;
+  double tx_yaw = 0, rx_yaw = 0;  // rad
+};
+
+// Columns t[s], tx and rx, and _x[m], _y[m], _z[m] and _yaw[rad] of both, in any order. Throws std::runtime_error with
+// the line.
+std::vector<Asked> read_plan(const std::string& csv);
+
+// The case of an answer file, the same to the bit. Throws std::runtime_error.
+Case read_case(const std::filesystem::path& answer);
+
+// measured.csv of the case with what is asked behind it, of the same truth and field. A station that a plan moves is
+// known to stand there, and its shadowing is another one. Throws std::runtime_error for a radio that the case has not.
+std::string followed_csv(Case made, const std::vector<Asked>& asked);
+
+}  // namespace muster::exam
