@@ -9,6 +9,11 @@
 namespace muster::noise {
 namespace {
 
+// Between rows that follow one another on a line, means over them differ as points would that are nearer by the mean
+// distance of two readings of a row. sqrt(h^2 + soft^2) - soft falls short of that; with this much more of it, it is
+// right for the next row, within 2 % for all beyond, and a correlation in any number of dimensions.
+constexpr double straight_on = 1.2;
+
 std::vector<Index> by_link_and_time(const Readings& readings) {
   std::vector<Index> order(readings.tx.size());
   std::iota(order.begin(), order.end(), 0);
@@ -109,11 +114,12 @@ Sites Rows::sites(const Readings& readings) const {
   const Eigen::Matrix3Xd tx = mean(readings.tx_at.transpose()).transpose();
   const Eigen::Matrix3Xd rx = mean(readings.rx_at.transpose()).transpose();
   Ways ways;
-  std::vector<double> lengths;
+  std::vector<double> apart;  // mean distance of two readings of a row
   for (Index i = 0; i < size(); ++i) {
     const Index a = example(i), b = order_[static_cast<std::size_t>(first_[static_cast<std::size_t>(i) + 1] - 1)];
-    lengths.push_back((readings.rx_at.col(b) - readings.rx_at.col(a)).norm() +
-                      (readings.tx_at.col(b) - readings.tx_at.col(a)).norm());
+    const double length =
+        (readings.rx_at.col(b) - readings.rx_at.col(a)).norm() + (readings.tx_at.col(b) - readings.tx_at.col(a)).norm();
+    apart.push_back(length * (count_[i] + 1) / (3 * count_[i]));  // evenly along a line
     const std::size_t link = static_cast<std::size_t>(a);
     const bool goes_on = i > 0 && readings.tx[link] == readings.tx[static_cast<std::size_t>(example(i - 1))] &&
                          readings.rx[link] == readings.rx[static_cast<std::size_t>(example(i - 1))];
@@ -121,7 +127,7 @@ Sites Rows::sites(const Readings& readings) const {
       ways.add(readings.tx[link], readings.rx[link], (tx.col(i) - tx.col(i - 1)).norm(),
                (rx.col(i) - rx.col(i - 1)).norm());
   }
-  Sites sites{rx, tx, {}, count_, median(std::move(lengths)) / 3};
+  Sites sites{rx, tx, {}, count_, straight_on * median(std::move(apart))};
   for (Index i = 0; i < size(); ++i) {
     const auto link = static_cast<std::size_t>(example(i));
     const bool anchored_at_tx = ways.anchor_of(readings.tx[link], readings.rx[link]) == readings.tx[link];

@@ -34,7 +34,7 @@ struct Sites {
   Eigen::Matrix3Xd place, anchor;  // m
   std::vector<int> radio;          // the anchor's
   Eigen::VectorXd count;           // readings
-  double soft = 0;                 // m: a third of a row's length, by which distances are softened
+  double soft = 0;                 // m: by which distances between means over rows are softened
 
   Index size() const { return count.size(); }
   Sites of(const std::vector<Index>& rows) const;

@@ -232,6 +232,39 @@ TEST(Families, ArePositiveDefiniteOverRows) {
   }
 }
 
+// Of an exponential field on a line, half the variance of a difference is the mean distance between two rows' readings
+// less the mean distance within one, in decorrelation distances, as long as that is short against one.
+TEST(Rows, AreAsFarApartAsMeansOverThemDiffer) {
+  constexpr double pace = 0.1;  // m between readings
+  for (const int each : {1, 2, 3, 4, 6, 9}) {
+    Readings r;
+    const int size = 12 * each;
+    r.tx_at = r.rx_at = Eigen::Matrix3Xd::Zero(3, size);
+    r.tx_at.row(1).setConstant(5);
+    for (int k = 0; k < size; ++k) {
+      r.tx.push_back(0);
+      r.rx.push_back(1);
+      r.t.push_back(k);
+      r.rx_at(0, k) = pace * k;
+    }
+    const Rows rows(r, {.time = each - 0.5, .way = 100});
+    ASSERT_EQ(rows.size(), 12) << each;
+    const Sites sites = rows.sites(r);
+    const auto mean_distance = [&](int from) {
+      double sum = 0;
+      for (int a = 0; a < each; ++a) {
+        for (int b = 0; b < each; ++b) sum += std::abs(pace * (from + b - a)) / (each * each);
+      }
+      return sum;
+    };
+    for (const int away : {1, 2, 3, 6}) {
+      const double truth = mean_distance(away * each) - mean_distance(0), h = pace * away * each;
+      EXPECT_NEAR(softened(Family::exponential, h, sites.soft) / truth, 1, 0.025) << each << ' ' << away;
+      EXPECT_EQ(softened(Family::gaussian, h, sites.soft), h);
+    }
+  }
+}
+
 TEST(Rows, EndWhereAWallChangesTheLevel) {
   Readings r;  // ten readings within a second and a quarter of a metre
   for (int k = 0; k < 10; ++k) {
