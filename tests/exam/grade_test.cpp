@@ -1,6 +1,7 @@
 // The grader's arithmetic, on reports made by hand.
 #include "grade.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -45,7 +46,7 @@ TEST(Grade, AnAdvisedRunSettlesANameWithoutRivals) {
   const auto with = [](double predicted) {
     return said(R"({"verdict":"extended","causes":[{"id":"effect.drift","evidence":20}],"advice":[)"
                 R"({"separates":"effect.drift effect.step","predicted_separability":)" +
-                std::to_string(predicted) + R"(,"advised":true},)" +
+                fmt::format("{}", predicted) + R"(,"advised":true},)" +
                 R"({"separates":"effect.drift effect.step","predicted_separability":null,"advised":false}]})");
   };
   const auto cause = [](const char* id, const char* rivals) {
