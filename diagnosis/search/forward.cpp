@@ -11,6 +11,7 @@
 #include "diagnosis/search/second_look.hpp"
 #include "diagnosis/search/settle.hpp"
 #include "diagnosis/search/stated_look.hpp"
+#include "diagnosis/search/tail.hpp"
 
 namespace muster::search {
 namespace {
@@ -79,10 +80,6 @@ noise::Fit fit_with(const Bench& bench, const Lead& lead, const Eigen::MatrixXd&
 double sure_log_p(const Bench& bench, const Lead& lead, const noise::Fit& fit, const Stand& stand) {
   const Candidate& c = lead.candidate();
   constexpr double enough = 0.6;
-  // What is no place and has no name is a sum over many rows all over the plan, and no family is quite the field's own:
-  // on 366 clean worlds of 2,000 to 20,000 readings six gains that just passed as a chi-square were false, three of
-  // them as one 1.1 times as wide.
-  constexpr double wider = 1.2;
   double gain = stand.exact_gain(bench.field(), lead.columns);
   const FarRows::Question question{bench.y(), stand.design, lead.columns, fit.covariance};
   if (c.pieces.empty() && bench.far().kept(question, bench.field()) > enough) {
@@ -92,7 +89,8 @@ double sure_log_p(const Bench& bench, const Lead& lead, const noise::Fit& fit, c
       gain = std::min(gain, bench.far().profile_gain(question, bench.fit.covariance, families));
     }
   }
-  if (c.kind == Kind::smooth) gain /= wider;
+  const bool over_the_plan = c.kind == Kind::smooth || (c.pieces.empty() && bench.problem().places_known);
+  if (over_the_plan) gain /= overdispersion;
   return bench.log_p(c, gain, lead.columns.cols(), true);
 }
 

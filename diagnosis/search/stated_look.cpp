@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "diagnosis/search/integrated.hpp"
+#include "diagnosis/search/tail.hpp"
 
 namespace muster::search {
 namespace {
@@ -57,7 +58,7 @@ void weigh_beside(const Bench& bench, const Eigen::MatrixXd& design, const std::
     if (unlikely > hopeless_nats) continue;
     const Stand stand = bench.stand(design, fit.covariance);
     const double far = bench.far().exact_gain({bench.y(), design, lead.columns, fit.covariance});
-    const double gain = std::min(gain_of(c, stand, lead.columns), far) + 2 * unlikely;
+    const double gain = std::min(gain_of(c, stand, lead.columns), far) / overdispersion + 2 * unlikely;
     lead.gain = std::min(lead.gain, gain);
     lead.log_p = std::max(lead.log_p, bench.log_p(c, gain, c.width, false) + stand.skew_charge(lead.columns));
   }
