@@ -221,7 +221,7 @@ Vector3d middle_of(const SeenRows& seen, const std::vector<FoundCause>& about) {
   for (const FoundCause& c : about) {
     const double x = value_of(c, "x"), y = value_of(c, "y");
     if (!std::isnan(x + y)) return {x, y, 0};
-    const Vector3d middle((value_of(c, "x0") + value_of(c, "x1")) / 2, (value_of(c, "y0") + value_of(c, "y1")) / 2, 0);
+    Vector3d middle((value_of(c, "x0") + value_of(c, "x1")) / 2, (value_of(c, "y0") + value_of(c, "y1")) / 2, 0);
     if (!middle.hasNaN()) return middle;
   }
   return (seen.tx_at.rowwise().mean() + seen.rx_at.rowwise().mean()) / 2;
@@ -236,9 +236,10 @@ std::vector<Vector3d> not_visited(const SeenRows& seen, const Vector3d& to) {
   }
   std::vector<Vector3d> out;
   if (box.isEmpty() || box.volume() > 1e4) return out;
-  for (double x = box.min().x() + 0.5; x < box.max().x(); x += 1) {
-    for (double y = box.min().y() + 0.5; y < box.max().y(); y += 1) {
-      const Vector3d at(x, y, 0);
+  const Eigen::Vector2d size = box.sizes();
+  for (int i = 0; i + 0.5 < size.x(); ++i) {
+    for (int j = 0; j + 0.5 < size.y(); ++j) {
+      const Vector3d at(box.min().x() + 0.5 + i, box.min().y() + 0.5 + j, 0);
       const auto near = [&](const Eigen::Matrix3Xd& ends) {
         return (ends.topRows<2>().colwise() - at.head<2>()).colwise().squaredNorm().minCoeff() < 1.5 * 1.5;
       };

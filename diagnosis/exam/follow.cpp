@@ -106,8 +106,9 @@ bool move_stations(Case& made, const std::vector<Asked>& asked) {
   }
   for (const auto& [station, to] : moved) {
     made.site->plan.stations[static_cast<std::size_t>(station)].at = to;
+    const std::string row = radio_row(*made.site, station);
     std::erase_if(made.hidden, [&](const Hidden& h) {  // whoever moves a station knows where it stands
-      return h.effect.id == "tx_misplaced" && h.effect.rows[0] == radio_row(*made.site, station);
+      return h.effect.id == "tx_misplaced" && h.effect.rows[0] == row;
     });
   }
   return !moved.empty();
