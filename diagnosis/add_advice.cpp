@@ -9,7 +9,6 @@
 namespace muster::diagnosis {
 namespace {
 
-constexpr double decided = 25;          // D
 constexpr std::size_t most_rivals = 3;  // of one cause: each costs a search over its grid at every plan
 
 // A plan has no columns beyond places and times.
@@ -28,7 +27,7 @@ std::set<std::string> wanted(const Diagnosis& found, const CauseSearch& causes) 
     if (!c.sought_as.empty()) out.insert(c.sought_as);  // a law of readings is none of the search's
     std::size_t rivals = 0;
     for (const search::Rival& r : c.rivals) {
-      if (r.separability >= decided || r.id[0] == '~' || reads_a_table(causes, r.id) || rivals++ >= most_rivals)
+      if (r.separability >= search::decided || r.id[0] == '~' || reads_a_table(causes, r.id) || rivals++ >= most_rivals)
         continue;
       out.insert(r.id);
       open = true;
@@ -45,7 +44,7 @@ std::optional<PlannedReadings> most_telling(const Diagnosis& found, std::vector<
   if (open == found.causes.end()) return {};
   std::map<std::string, double> sum;
   for (const Advice& a : found.advice) {
-    if (a.cause == open->id && a.predicted) sum[a.say] += std::min(*a.predicted, decided);
+    if (a.cause == open->id && a.predicted) sum[a.say] += std::min(*a.predicted, search::decided);
   }
   const auto tells_less = [&](const PlannedReadings& a, const PlannedReadings& b) { return sum[a.say] < sum[b.say]; };
   return std::move(*std::max_element(plans.begin(), plans.end(), tells_less));

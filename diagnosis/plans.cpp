@@ -70,6 +70,8 @@ struct Maker {
   }
 
   double span() const { return end - begin; }
+  // When row i is read if its way is driven once more, a minute later.
+  double once_more(Index i) const { return timed ? seen.t[i] + span() + 60 : 0; }
 
   void add(noise::Readings& out, const End& tx, const End& rx, double t) const {
     const Index first = out.size();
@@ -86,6 +88,11 @@ struct Maker {
     }
   }
 
+  bool stands(const End& e, bool sends) const {
+    return std::any_of(radios.begin(), radios.end(),
+                       [&](const Standing& s) { return s.end.radio == e.radio && s.sends == sends; });
+  }
+
   // `turned`: by how much the ends that move head elsewhere.
   void add_row(noise::Readings& out, Index i, double t, double turned) const {
     End tx = end_of(seen, i, true), rx = end_of(seen, i, false);
@@ -96,12 +103,6 @@ struct Maker {
 
   void add_link(noise::Readings& out, const Standing& s, const End& other, double t) const {
     add(out, s.sends ? s.end : other, s.sends ? other : s.end, t);
-  }
-
- private:
-  bool stands(const End& e, bool sends) const {
-    return std::any_of(radios.begin(), radios.end(),
-                       [&](const Standing& s) { return s.end.radio == e.radio && s.sends == sends; });
   }
 };
 
@@ -129,7 +130,7 @@ PlannedReadings both_ways(const Maker& make) {
     return {};
   PlannedReadings out{"drive the same ways again and let both ends of every link send and hear", {}};
   for (const Index i : make.rows) {
-    const double t = make.timed ? make.seen.t[i] + make.span() + 60 : 0;
+    const double t = make.once_more(i);
     const End tx = end_of(make.seen, i, true), rx = end_of(make.seen, i, false);
     make.add(out.readings, tx, rx, t);
     make.add(out.readings, rx, tx, t);
@@ -167,7 +168,7 @@ const Standing* sender(const Maker& make, const std::vector<FoundCause>& about) 
   return first;
 }
 
-PlannedReadings turned_round(const Maker& make, const std::vector<FoundCause>& about) {
+PlannedReadings turned_sender(const Maker& make, const std::vector<FoundCause>& about) {
   const Standing* turner = sender(make, about);
   if (!turner) return {};
   PlannedReadings out{fmt::format("turn {} by 90 degrees where it stands and drive the same ways again",
@@ -177,8 +178,7 @@ PlannedReadings turned_round(const Maker& make, const std::vector<FoundCause>& a
   there.end.yaw += M_PI / 2;
   for (const Index i : make.rows) {
     const End r = roaming_end(make.seen, i, *turner);
-    if (r.radio != turner->end.radio)
-      make.add_link(out.readings, there, r, make.timed ? make.seen.t[i] + make.span() + 60 : 0);
+    if (r.radio != turner->end.radio) make.add_link(out.readings, there, r, make.once_more(i));
   }
   return out;
 }
@@ -204,7 +204,7 @@ PlannedReadings moved(const Maker& make, const std::vector<FoundCause>& about) {
   for (const Index i : make.rows) {
     const End r = roaming_end(make.seen, i, *mover);
     if (r.radio == mover->end.radio || (r.at - to).norm() < 0.5) continue;
-    make.add_link(out.readings, there, r, make.timed ? make.seen.t[i] + make.span() + 60 : 0);
+    make.add_link(out.readings, there, r, make.once_more(i));
   }
   return out;
 }
@@ -291,7 +291,7 @@ std::vector<PlannedReadings> planned_readings(const SeenRows& seen, const std::v
   if (make.timed && make.span() > 0) out.insert(out.end(), {in_reverse(make), later(make)});
   out.push_back(both_ways(make));
   if (seen.rx_yaw.size() > 0 && !make.radios.empty()) out.push_back(turning(make));
-  if (seen.tx_yaw.size() > 0) out.push_back(turned_round(make, about));
+  if (seen.tx_yaw.size() > 0) out.push_back(turned_sender(make, about));
   out.push_back(moved(make, about));
   out.push_back(elsewhere(make, about));
   std::erase_if(out, [](const PlannedReadings& p) { return p.readings.size() == 0; });

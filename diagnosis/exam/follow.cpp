@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <stdexcept>
 
 #include "files.hpp"
@@ -15,45 +13,6 @@
 
 namespace muster::exam {
 namespace {
-
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> result;
-  std::istringstream cells(line);
-  for (std::string cell; std::getline(cells, cell, ',');) result.push_back(cell);
-  return result;
-}
-
-// The cells of one line by the names of their columns.
-class Line {
- public:
-  Line(const std::vector<std::string>& names, const std::string& text, int number) : number_(number) {
-    const std::vector<std::string> cells = cells_of(text);
-    if (cells.size() != names.size())
-      throw std::runtime_error(fmt::format("plan, line {}: {} cells, expected {}", number, cells.size(), names.size()));
-    for (std::size_t k = 0; k < cells.size(); ++k) cells_[names[k]] = cells[k];
-  }
-
-  const std::string& text(const std::string& name) const {
-    const auto at = cells_.find(name);
-    if (at == cells_.end()) throw std::runtime_error(fmt::format("plan, line {}: no column {}", number_, name));
-    return at->second;
-  }
-  double number(const std::string& name) const {
-    const std::string& cell = text(name);
-    double value = 0;
-    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-    if (error != std::errc{} || end != cell.data() + cell.size() || !std::isfinite(value))
-      throw std::runtime_error(fmt::format("plan, line {}: {} is no number: \"{}\"", number_, name, cell));
-    return value;
-  }
-  Vec3 place(const std::string& end) const {
-    return {number(end + "_x[m]"), number(end + "_y[m]"), number(end + "_z[m]")};
-  }
-
- private:
-  std::map<std::string, std::string> cells_;
-  int number_;
-};
 
 int station_called(const Site& site, const std::string& name) {
   for (std::size_t k = 0; k < site.plan.stations.size(); ++k)
@@ -75,34 +34,45 @@ Reading surroundings(const Site& site, const Data& run, double t, int robot) {
   return run.readings[(i * static_cast<std::size_t>(site.robots) + static_cast<std::size_t>(robot)) * per_robot];
 }
 
-Reading reading_of(const Site& site, const Data& run, const Asked& a) {
-  const bool up = station_called(site, a.tx) < 0;
-  const std::string &station = up ? a.rx : a.tx, &robot = up ? a.tx : a.rx;
-  if (station_called(site, station) < 0 || robot_called(site, robot) < 0)
+// Of a reading that is asked for, which end is the case's station and which its robot.
+struct Ends {
+  int station, robot;
+  bool up;  // the robot sends
+  Vec3 station_at, robot_at;
+  double station_yaw, robot_yaw;
+};
+
+Ends ends_of(const Site& site, const Asked& a) {
+  const int sends = station_called(site, a.tx), hears = station_called(site, a.rx);
+  const bool up = sends < 0;
+  const Ends down{sends, robot_called(site, a.rx), false, a.tx_at, a.rx_at, a.tx_yaw, a.rx_yaw};
+  const Ends ends = up ? Ends{hears, robot_called(site, a.tx), true, a.rx_at, a.tx_at, a.rx_yaw, a.tx_yaw} : down;
+  if (ends.station < 0 || ends.robot < 0)
     throw std::runtime_error(fmt::format("plan: {} and {} are not a station and a robot of the case", a.tx, a.rx));
-  Reading r = surroundings(site, run, a.t, robot_called(site, robot));
-  r.t = a.t;
-  r.station = station_called(site, station);
-  r.robot = robot_called(site, robot);
-  r.up = up;
-  r.at = up ? a.tx_at : a.rx_at;
-  r.yaw = up ? a.tx_yaw : a.rx_yaw;
+  return ends;
+}
+
+Reading reading_of(const Site& site, const Data& run, const Ends& ends, double t) {
+  Reading r = surroundings(site, run, t, ends.robot);
+  r.t = t;
+  r.station = ends.station;
+  r.robot = ends.robot;
+  r.up = ends.up;
+  r.at = ends.robot_at;
+  r.yaw = ends.robot_yaw;
   return r;
 }
 
 // Lets stations stand and face where the plan has them; whether one was moved.
-bool move_stations(Case& made, const std::vector<Asked>& asked) {
+bool move_stations(Case& made, const std::vector<Ends>& asked) {
   std::map<int, Vec3> moved;
-  for (const Asked& a : asked) {
-    const bool up = station_called(*made.site, a.tx) < 0;
-    const int station = station_called(*made.site, up ? a.rx : a.tx);
-    if (station < 0) continue;
-    Station& s = made.site->plan.stations[static_cast<std::size_t>(station)];
-    s.yaw = up ? a.rx_yaw : a.tx_yaw;
-    const Vec3 to = up ? a.rx_at : a.tx_at;
+  for (const Ends& e : asked) {
+    Station& s = made.site->plan.stations[static_cast<std::size_t>(e.station)];
+    s.yaw = e.station_yaw;
+    const Vec3 to = e.station_at;
     if (distance_of(to, s.at) < 0.02) continue;
-    if (distance_of(to, moved.try_emplace(station, to).first->second) > 0.02)
-      throw std::runtime_error("plan: " + (up ? a.rx : a.tx) + " is moved to more than one place");
+    if (distance_of(to, moved.try_emplace(e.station, to).first->second) > 0.02)
+      throw std::runtime_error("plan: " + s.name + " is moved to more than one place");
   }
   for (const auto& [station, to] : moved) {
     made.site->plan.stations[static_cast<std::size_t>(station)].at = to;
@@ -115,22 +85,6 @@ bool move_stations(Case& made, const std::vector<Asked>& asked) {
 }
 
 }  // namespace
-
-std::vector<Asked> read_plan(const std::string& csv) {
-  std::istringstream lines(csv);
-  std::string line;
-  std::getline(lines, line);
-  const std::vector<std::string> names = cells_of(line);
-  std::vector<Asked> result;
-  for (int number = 2; std::getline(lines, line); ++number) {
-    const Line cells(names, line, number);
-    result.push_back({cells.number("t[s]"), cells.text("tx"), cells.text("rx"), cells.place("tx"), cells.place("rx"),
-                      cells.number("tx_yaw[rad]"), cells.number("rx_yaw[rad]")});
-  }
-  if (result.empty()) throw std::runtime_error("plan: no readings are asked for");
-  std::stable_sort(result.begin(), result.end(), [](const Asked& a, const Asked& b) { return a.t < b.t; });
-  return result;
-}
 
 Case read_case(const std::filesystem::path& answer) {
   const std::string text = read_file(answer);
@@ -150,12 +104,12 @@ Case read_case(const std::filesystem::path& answer) {
 std::string followed_csv(Case made, const std::vector<Asked>& asked) {
   std::string out = readings_csv(*made.site, made.measured);
   const Data run = draw_data(*made.site, made.seed, "asked");
-  const bool moved = move_stations(made, asked);
-  Data data;
-  for (const Asked& a : asked) data.readings.push_back(reading_of(*made.site, run, a));
-  for (const Reading& r : data.readings)
-    data.crossings.push_back(crossings(made.site->plan, place_of(*made.site, r), r.at));
-  data.design = design_of(*made.site, data);
+  std::vector<Ends> ends;
+  for (const Asked& a : asked) ends.push_back(ends_of(*made.site, a));
+  const bool moved = move_stations(made, ends);
+  std::vector<Reading> readings;
+  for (std::size_t k = 0; k < asked.size(); ++k) readings.push_back(reading_of(*made.site, run, ends[k], asked[k].t));
+  Data data = data_of(*made.site, std::move(readings));
   hear(made, Field(*made.site, moved ? Random(made.seed, "moved").bits() : made.seed), data, "asked");
   const std::string more = readings_csv(*made.site, data);
   return out + more.substr(more.find('\n') + 1);

@@ -5,20 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "asked.hpp"
 #include "case.hpp"
 
 namespace muster::exam {
-
-struct Asked {
-  double t = 0;  // s
-  std::string tx, rx;
-  Vec3 tx_at, rx_at;
-  double tx_yaw = 0, rx_yaw = 0;  // rad
-};
-
-// Columns t[s], tx and rx, and _x[m], _y[m], _z[m] and _yaw[rad] of both, in any order. Throws std::runtime_error with
-// the line.
-std::vector<Asked> read_plan(const std::string& csv);
 
 // The case of an answer file, the same to the bit. Throws std::runtime_error.
 Case read_case(const std::filesystem::path& answer);

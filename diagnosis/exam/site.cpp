@@ -86,14 +86,17 @@ Eigen::RowVectorXd design_row(const Site& site, const std::vector<Crossing>& cro
   return row;
 }
 
-Eigen::MatrixXd design_of(const Site& site, const Data& data) {
-  Eigen::MatrixXd result(static_cast<Eigen::Index>(data.size()),
-                         2 + static_cast<Eigen::Index>(site.plan.materials.size()));
+Data data_of(const Site& site, std::vector<Reading> readings) {
+  Data data;
+  data.readings = std::move(readings);
+  data.design.resize(static_cast<Eigen::Index>(data.size()), 2 + static_cast<Eigen::Index>(site.plan.materials.size()));
   for (std::size_t i = 0; i < data.size(); ++i) {
     const Reading& r = data.readings[i];
-    result.row(static_cast<Eigen::Index>(i)) = design_row(site, data.crossings[i], place_of(site, r), r.at);
+    const Vec3 station = place_of(site, r);
+    data.crossings.push_back(crossings(site.plan, station, r.at));
+    data.design.row(static_cast<Eigen::Index>(i)) = design_row(site, data.crossings[i], station, r.at);
   }
-  return result;
+  return data;
 }
 
 Eigen::VectorXd coefficients(const Site& site) {
@@ -148,7 +151,7 @@ Data draw_data(const Site& site, std::uint64_t seed, const std::string& name) {
     charge.push_back(random.uniform(12.1, 12.6));
     fall.push_back(random.uniform(0.8, 1.6) / site.duration());
   }
-  Data data;
+  std::vector<Reading> readings;
   double power_until = 0, firmware_until = 0;
   int power = 0, firmware = 0;
   for (int i = 0; i < site.ticks; ++i) {
@@ -176,13 +179,11 @@ Data draw_data(const Site& site, std::uint64_t seed, const std::string& name) {
       for (reading.station = 0; reading.station < static_cast<int>(site.plan.stations.size()); ++reading.station)
         for (const bool up : {false, true}) {
           reading.up = up;
-          if (!up || site.two_way) data.readings.push_back(reading);
+          if (!up || site.two_way) readings.push_back(reading);
         }
     }
   }
-  for (const Reading& r : data.readings) data.crossings.push_back(crossings(site.plan, place_of(site, r), r.at));
-  data.design = design_of(site, data);
-  return data;
+  return data_of(site, std::move(readings));
 }
 
 }  // namespace muster::exam

@@ -86,7 +86,8 @@ double distance_of(Vec3 a, Vec3 b);
 double robot_bearing(const Site& site, const Reading& r);
 double station_bearing(const Site& site, const Reading& r);
 
-Eigen::MatrixXd design_of(const Site& site, const Data& data);
+// Readings with what their links cross and their design.
+Data data_of(const Site& site, std::vector<Reading> readings);
 // One row of the design: for readings whose radios stand elsewhere than the map says.
 Eigen::RowVectorXd design_row(const Site& site, const std::vector<Crossing>& crossed, Vec3 a, Vec3 b);
 Eigen::VectorXd coefficients(const Site& site);

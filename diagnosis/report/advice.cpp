@@ -9,7 +9,7 @@ std::vector<Question> open_questions(const Diagnosis& d) {
   for (const FoundCause& c : d.causes) {
     if (standing_of(c) == Standing::set_aside) continue;
     for (const search::Rival& r : c.rivals) {
-      if (r.separability >= decided) continue;
+      if (r.separability >= search::decided) continue;
       Question question{c.id, r.id, r.separability, c.tell_apart, {}};
       for (const diagnosis::Advice& a : d.advice) {
         if (a.cause != c.id || a.rival != r.id || !a.predicted) continue;

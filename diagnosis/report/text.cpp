@@ -124,9 +124,9 @@ std::string undecided(const Diagnosis& d) {
     text += wrapped("- " + q.tell_apart, 4, 6);
     for (const Measurement& m : q.plans)
       text += wrapped(fmt::format("- {}: predicted D {:.0f}{}{}", m.say, m.predicted,
-                                  m.predicted >= decided         ? ", decides"
-                                  : m.predicted < not_told_apart ? ", too little"
-                                                                 : "",
+                                  m.predicted >= search::decided      ? ", decides"
+                                  : m.predicted < search::inseparable ? ", too little"
+                                                                      : "",
                                   m.advised ? "; advised.csv lists its readings" : ""),
                       4, 6);
   }

@@ -63,9 +63,9 @@ int count_of(const Diagnosis& d, Standing standing) {
 }
 
 std::string judged(double separability) {
-  return separability < not_told_apart ? "cannot be told apart"
-         : separability < decided      ? "weakly told apart"
-                                       : "told apart";
+  return separability < search::inseparable ? "cannot be told apart"
+         : separability < search::decided   ? "weakly told apart"
+                                            : "told apart";
 }
 
 std::string rounded(double value, double half) {

@@ -19,8 +19,7 @@ enum class Standing {
 };
 Standing standing_of(const FoundCause& cause);
 
-inline constexpr double not_told_apart = 12, decided = 25;  // D
-std::string judged(double separability);                    // "cannot be told apart", "weakly told apart", "told apart"
+std::string judged(double separability);  // "cannot be told apart", "weakly told apart", "told apart"
 
 // With as many digits as its half interval gives a meaning to; without one, four.
 std::string rounded(double value, double half_interval);

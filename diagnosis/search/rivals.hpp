@@ -5,7 +5,7 @@
 
 namespace muster::search {
 
-constexpr double inseparable = 12;  // D below which two causes are not told apart
+constexpr double inseparable = 12, decided = 25;  // D below which two causes are not told apart, from which they are
 
 struct Rival {
   std::string id, label;

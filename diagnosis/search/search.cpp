@@ -145,7 +145,6 @@ void Search::hold_out(Result& result) const {
 }
 
 std::vector<Advice> Search::advise(const std::vector<Plan>& plans) {
-  constexpr double decided = 25;
   std::vector<Advice> result;
   for (std::size_t k = 0; k < bench_.terms.size(); ++k) {
     for (const Rival& rival : result_.findings[k].rivals) {

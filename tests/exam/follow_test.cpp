@@ -72,10 +72,7 @@ TEST(FollowedMean, IsTheTruthsAtThatPlace) {
   const Case c = made(23, "tx_offset");
   const Reading& r = c.measured.readings[0];
   const Field field(*c.site, c.seed);
-  Data one;
-  one.readings = {r};
-  one.crossings = {c.measured.crossings[0]};
-  one.design = design_of(*c.site, one);
+  const Data one = data_of(*c.site, {r});
   const double truth =
       level_by_base(c, one)[0] + expected_shift(*c.site, c.hidden, one)[0] + field(r.station, {r.at.x, r.at.y});
   Standing s = standing(c, r.station, r);
