@@ -1,4 +1,6 @@
 // How readings are gathered into rows: where a row ends, how far two of them are apart, in what order they come.
+#include "diagnosis/noise/rows.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,7 +8,6 @@
 #include <numeric>
 
 #include "diagnosis/noise/family.hpp"
-#include "diagnosis/noise/rows.hpp"
 #include "muster/random.hpp"
 #include "tests/search/synthetic.hpp"
 
