@@ -36,21 +36,22 @@ std::set<std::string> wanted(const Diagnosis& found, const CauseSearch& causes) 
   return open ? out : std::set<std::string>();
 }
 
-// The one that decides most about the strongest open cause: the sum of D over its rivals, none counted beyond decided.
+}  // namespace
+
 std::optional<PlannedReadings> most_telling(const Diagnosis& found, std::vector<PlannedReadings> plans) {
   const auto open = std::find_if(found.causes.begin(), found.causes.end(), [&](const FoundCause& c) {
     return std::any_of(found.advice.begin(), found.advice.end(), [&](const Advice& a) { return a.cause == c.id; });
   });
   if (open == found.causes.end()) return {};
-  std::map<std::string, double> sum;
+  std::map<std::string, double> more;
   for (const Advice& a : found.advice) {
-    if (a.cause == open->id && a.predicted) sum[a.say] += std::min(*a.predicted, search::decided);
+    if (a.cause == open->id && a.predicted) more[a.say] += std::min(*a.predicted, search::decided) - a.separability;
   }
-  const auto tells_less = [&](const PlannedReadings& a, const PlannedReadings& b) { return sum[a.say] < sum[b.say]; };
-  return std::move(*std::max_element(plans.begin(), plans.end(), tells_less));
+  const auto tells_less = [&](const PlannedReadings& a, const PlannedReadings& b) { return more[a.say] < more[b.say]; };
+  const auto most = std::max_element(plans.begin(), plans.end(), tells_less);
+  if (more[most->say] < 1) return {};
+  return std::move(*most);
 }
-
-}  // namespace
 
 void add_advice(search::Search& search, Diagnosis& found, const CauseSearch& causes, const PlanSources& sources,
                 const BaseColumns& base) {

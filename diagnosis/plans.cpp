@@ -5,7 +5,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
+#include <optional>
 #include <set>
 
 namespace muster::diagnosis {
@@ -21,6 +23,7 @@ constexpr double apart = 1e-3;    // s, readings of one link
 struct End {
   int radio;
   Vector3d at;
+  bool faces;  // its heading is known
   double yaw;
 };
 
@@ -33,7 +36,8 @@ struct Standing {
 End end_of(const SeenRows& seen, Index i, bool sends) {
   const auto k = static_cast<std::size_t>(i);
   const Eigen::VectorXd& yaw = sends ? seen.tx_yaw : seen.rx_yaw;
-  return {sends ? seen.tx[k] : seen.rx[k], (sends ? seen.tx_at : seen.rx_at).col(i), yaw.size() > 0 ? yaw[i] : 0};
+  return {sends ? seen.tx[k] : seen.rx[k], (sends ? seen.tx_at : seen.rx_at).col(i), yaw.size() > 0,
+          yaw.size() > 0 ? yaw[i] : 0};
 }
 
 std::vector<Standing> standing_radios(const SeenRows& seen) {
@@ -93,6 +97,15 @@ struct Maker {
                        [&](const Standing& s) { return s.end.radio == e.radio && s.sends == sends; });
   }
 
+  // The end of row i that moves, the receiver if both do.
+  std::optional<End> roaming_end(Index i) const {
+    for (const bool sends : {false, true}) {
+      const End e = end_of(seen, i, sends);
+      if (!stands(e, sends)) return e;
+    }
+    return {};
+  }
+
   // `turned`: by how much the ends that move head elsewhere.
   void add_row(noise::Readings& out, Index i, double t, double turned) const {
     End tx = end_of(seen, i, true), rx = end_of(seen, i, false);
@@ -105,9 +118,6 @@ struct Maker {
     add(out, s.sends ? s.end : other, s.sends ? other : s.end, t);
   }
 };
-
-// The end of row i that is not a standing radio's.
-End roaming_end(const SeenRows& seen, Index i, const Standing& other) { return end_of(seen, i, !other.sends); }
 
 PlannedReadings in_reverse(const Maker& make) {
   PlannedReadings out{"drive the same ways again right away, in reverse order", {}};
@@ -143,69 +153,67 @@ PlannedReadings turning(const Maker& make) {
   PlannedReadings out{fmt::format("turn once around on the spot, at {} places spread along the way", places), {}};
   double t = make.end + 5;
   for (int p = 0; p < places; ++p) {
-    const Index row = make.rows[make.rows.size() * static_cast<std::size_t>(p) / places];
-    for (int h = 0; h < headings; ++h, t += 2) {
-      for (const Standing& s : make.radios) {
-        if (!s.sends) continue;
-        End r = roaming_end(make.seen, row, s);
-        r.yaw = 2 * M_PI * h / headings;
-        make.add_link(out.readings, s, r, t);
-      }
+    std::optional<End> r = make.roaming_end(make.rows[make.rows.size() * static_cast<std::size_t>(p) / places]);
+    for (int h = 0; r && r->faces && h < headings; ++h, t += 2) {
+      r->yaw = 2 * M_PI * h / headings;
+      for (const Standing& s : make.radios) make.add_link(out.readings, s, *r, t);
     }
   }
   return out;
 }
 
-// The standing sender that something was found about, or the first one; none if none stands.
-const Standing* sender(const Maker& make, const std::vector<FoundCause>& about) {
-  const Standing* first = nullptr;
+// The standing radio that something was found about, or the first one; none if none stands.
+const Standing* station(const Maker& make, const std::vector<FoundCause>& about) {
   for (const Standing& s : make.radios) {
-    if (!s.sends) continue;
     const std::string& name = make.seen.radios[static_cast<std::size_t>(s.end.radio)];
     if (std::any_of(about.begin(), about.end(), [&](const FoundCause& c) { return c.row == name; })) return &s;
-    if (!first) first = &s;
   }
-  return first;
+  return make.radios.empty() ? nullptr : &make.radios.front();
 }
 
-PlannedReadings turned_sender(const Maker& make, const std::vector<FoundCause>& about) {
-  const Standing* turner = sender(make, about);
-  if (!turner) return {};
-  PlannedReadings out{fmt::format("turn {} by 90 degrees where it stands and drive the same ways again",
-                                  make.seen.radios[static_cast<std::size_t>(turner->end.radio)]),
-                      {}};
-  Standing there = *turner;
-  there.end.yaw += M_PI / 2;
+// All ways once more with one radio standing otherwise, as it sends and as it hears.
+void add_ways(noise::Readings& out, const Maker& make, int radio, const std::function<End(End)>& otherwise) {
   for (const Index i : make.rows) {
-    const End r = roaming_end(make.seen, i, *turner);
-    if (r.radio != turner->end.radio) make.add_link(out.readings, there, r, make.once_more(i));
+    const std::optional<End> r = make.roaming_end(i);
+    if (!r) continue;
+    for (const Standing& s : make.radios) {
+      if (s.end.radio != radio) continue;
+      const End there = otherwise(s.end);
+      if ((r->at - there.at).norm() >= 0.5) make.add_link(out, {there, s.sends}, *r, make.once_more(i));
+    }
   }
+}
+
+PlannedReadings turned_station(const Maker& make, int radio) {
+  PlannedReadings out{fmt::format("turn {} by 90 degrees where it stands and drive the same ways again",
+                                  make.seen.radios[static_cast<std::size_t>(radio)]),
+                      {}};
+  add_ways(out.readings, make, radio, [](End e) {
+    e.yaw += M_PI / 2;
+    return e;
+  });
   return out;
 }
 
 // To the visited place that lies farthest from all standing radios.
-PlannedReadings moved(const Maker& make, const std::vector<FoundCause>& about) {
-  const Standing* mover = sender(make, about);
-  if (!mover) return {};
-  Vector3d to = mover->end.at;
+PlannedReadings moved_station(const Maker& make, int radio) {
+  Eigen::Vector2d to(0, 0);
   double farthest = 0;
   for (const Index i : make.rows) {
-    const Vector3d at = roaming_end(make.seen, i, *mover).at;
+    const std::optional<End> r = make.roaming_end(i);
+    if (!r) continue;
     double nearest = 1e300;
-    for (const Standing& s : make.radios) nearest = std::min(nearest, (s.end.at - at).head<2>().norm());
-    if (nearest > farthest) farthest = nearest, to.head<2>() = at.head<2>();
+    for (const Standing& s : make.radios) nearest = std::min(nearest, (s.end.at - r->at).head<2>().norm());
+    if (nearest > farthest) farthest = nearest, to = r->at.head<2>();
   }
   if (farthest < 2) return {};
   PlannedReadings out{fmt::format("move {} to ({:.1f}, {:.1f}) and drive the same ways again",
-                                  make.seen.radios[static_cast<std::size_t>(mover->end.radio)], to.x(), to.y()),
+                                  make.seen.radios[static_cast<std::size_t>(radio)], to.x(), to.y()),
                       {}};
-  Standing there = *mover;
-  there.end.at = to;
-  for (const Index i : make.rows) {
-    const End r = roaming_end(make.seen, i, *mover);
-    if (r.radio == mover->end.radio || (r.at - to).norm() < 0.5) continue;
-    make.add_link(out.readings, there, r, make.once_more(i));
-  }
+  add_ways(out.readings, make, radio, [&](End e) {
+    e.at.head<2>() = to;
+    return e;
+  });
   return out;
 }
 
@@ -254,19 +262,16 @@ std::vector<Vector3d> not_visited(const SeenRows& seen, const Vector3d& to) {
 
 PlannedReadings elsewhere(const Maker& make, const std::vector<FoundCause>& about) {
   const auto places = not_visited(make.seen, middle_of(make.seen, about));
-  if (places.size() < 8) return {};
+  std::optional<End> r = make.roaming_end(make.rows.front());
+  if (places.size() < 8 || !r) return {};
   PlannedReadings out{fmt::format("drive where nothing was measured yet, about ({:.1f}, {:.1f}), if it can be reached",
                                   places.front().x(), places.front().y()),
                       {}};
   double t = make.end + 5;
   for (std::size_t p = 0; p < places.size(); ++p, t += 2) {
-    for (const Standing& s : make.radios) {
-      if (!s.sends) continue;
-      End r = roaming_end(make.seen, make.rows.front(), s);
-      r.at.head<2>() = places[p].head<2>();
-      r.yaw = 0.5 * M_PI * static_cast<double>(p);
-      if (r.radio != s.end.radio) make.add_link(out.readings, s, r, t);
-    }
+    r->at.head<2>() = places[p].head<2>();
+    r->yaw = 0.5 * M_PI * static_cast<double>(p);
+    for (const Standing& s : make.radios) make.add_link(out.readings, s, *r, t);
   }
   return out;
 }
@@ -290,9 +295,11 @@ std::vector<PlannedReadings> planned_readings(const SeenRows& seen, const std::v
   std::vector<PlannedReadings> out;
   if (make.timed && make.span() > 0) out.insert(out.end(), {in_reverse(make), later(make)});
   out.push_back(both_ways(make));
-  if (seen.rx_yaw.size() > 0 && !make.radios.empty()) out.push_back(turning(make));
-  if (seen.tx_yaw.size() > 0) out.push_back(turned_sender(make, about));
-  out.push_back(moved(make, about));
+  out.push_back(turning(make));
+  if (const Standing* const s = station(make, about)) {
+    if (s->end.faces) out.push_back(turned_station(make, s->end.radio));
+    out.push_back(moved_station(make, s->end.radio));
+  }
   out.push_back(elsewhere(make, about));
   std::erase_if(out, [](const PlannedReadings& p) { return p.readings.size() == 0; });
   for (PlannedReadings& p : out) space_out(p.readings);

@@ -11,6 +11,10 @@ namespace muster::diagnosis {
 // most.
 std::vector<PlannedReadings> planned_readings(const SeenRows& seen, const std::vector<FoundCause>& about);
 
+// The one that decides most about the strongest open cause: by how much D grows over its rivals, none counted beyond
+// decided. None if that is less than 1, which one reading adds that differs by its own sd.
+std::optional<PlannedReadings> most_telling(const Diagnosis& found, std::vector<PlannedReadings> plans);
+
 struct PlanSources {
   std::filesystem::path world;
   Library::SearchPath plugins;
