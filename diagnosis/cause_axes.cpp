@@ -24,16 +24,20 @@ Axis logarithmic(const muster_param& p, double lower, double upper, const std::v
   return axis;
 }
 
-// Swings: evenly in cycles over the data, from two of them up.
+constexpr double most_cycles = 128;  // of a swing, over the data
+
+// Swings: evenly in cycles over the data, from two of them up to those that last some rows.
 std::vector<double> periods(double span) {
+  constexpr double shortest = 4;  // s
+  const double most = std::clamp(span / shortest, 24.0, most_cycles);
   std::vector<double> result;
-  for (double cycles = 2; cycles < 24; cycles += 0.4) result.push_back(span / cycles);
+  for (double cycles = 2; cycles < most; cycles += cycles < 24 ? 0.4 : 0.7) result.push_back(span / cycles);
   return result;
 }
 
 Axis duration(const muster_param& p, const Survey& s, const CauseShape& shape) {
   const double span = s.time.length();
-  if (!shape.wave.empty()) return logarithmic(p, span / 40, span, periods(span), 0.02);
+  if (!shape.wave.empty()) return logarithmic(p, span / most_cycles, span, periods(span), 0.02);
   // What settles faster than a tenth of the data is a jump.
   return logarithmic(p, 0.1 * span, 100 * span, {0.15 * span, 0.4 * span, span, 30 * span}, 0.3);
 }

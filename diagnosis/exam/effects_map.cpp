@@ -7,7 +7,15 @@
 namespace muster::exam {
 namespace {
 
+constexpr double top = 2.7;  // m, of what stands about and is not on the map
+
 Vec2 in_plan(Vec3 p) { return {p.x, p.y}; }
+
+// Where a link from p comes below the top of things; p itself if that is below.
+Vec2 below_top(Vec3 p, Vec3 q) {
+  const double share = p.z > top ? (p.z - top) / (p.z - q.z) : 0;
+  return {p.x + share * (q.x - p.x), p.y + share * (q.y - p.y)};
+}
 
 // Share of readings whose link crosses a wall, by wall.
 std::vector<double> shares_crossed(const Scene& s) {
@@ -92,7 +100,7 @@ double share_of_links(const Scene& s, Meets meets) {
 }
 
 Effect unmapped_wall(const Scene& s, Random& random) {
-  Wall wall{"unmapped", {}, {}, 2.7, 0.1, 0};
+  Wall wall{"unmapped", {}, {}, top, 0.1, 0};
   for (int attempt = 0; attempt < 400; ++attempt) {
     const Room& room = random.pick(s.site.plan.rooms);
     const Vec2 middle{random.uniform(room.low.x, room.high.x), random.uniform(room.low.y, room.high.y)};
@@ -117,7 +125,8 @@ Effect unmapped_wall(const Scene& s, Random& random) {
   return e;
 }
 
-// A machine or a full cabinet: most of its loss lies near the surface.
+// A machine or a full cabinet: most of its loss lies near the surface. Links from stations that hang high pass above
+// it.
 Effect obstacle(const Scene& s, Random& random) {
   Vec2 at;
   double radius = 0.4;
@@ -132,7 +141,7 @@ Effect obstacle(const Scene& s, Random& random) {
   }
   Effect e{"obstacle"};
   e.shift = scaled([&site = s.site, at, radius](const Reading& r) {
-    const double way = chord(in_plan(place_of(site, r)), in_plan(r.at), at, radius);
+    const double way = chord(below_top(place_of(site, r), r.at), in_plan(r.at), at, radius);
     return -(1 - std::exp(-way / radius)) / (1 - std::exp(-2.0));
   });
   e.parameters = [=](double x) {

@@ -26,6 +26,29 @@ TEST(CauseShape, AParameterSoughtByItsLogarithmStaysInsideItsBounds) {
   }
 }
 
+// Between two that are tried a swing loses little: half a cycle off over the data, a wave keeps 40 % of its energy.
+TEST(CauseShape, SwingsOfManyCyclesAreSought) {
+  muster_param period{};
+  period.name = "period";
+  period.unit = "s";
+  period.min = 0.1;
+  period.max = 1e6;
+  period.flags = MUSTER_LOG;
+  CauseShape shape;
+  shape.wave = "phase";
+  Survey survey;
+  survey.time.low = 100;
+  survey.time.high = 1300;
+  const auto axis = axis_of(period, survey, shape, true);
+  ASSERT_TRUE(axis);
+  for (double cycles = 2; cycles < 120; cycles += 0.37) {
+    double nearest = 1e9;
+    for (const double value : axis->values) nearest = std::min(nearest, std::abs(1200 / std::exp(value) - cycles));
+    EXPECT_LE(nearest, 0.4) << cycles;
+    EXPECT_LT(axis->lower, std::log(1200 / cycles));
+  }
+}
+
 // A factor of e either way: 1.96 of those, and not 216 dB about 100.
 TEST(FoundCause, IntervalOfAParameterSoughtByItsLogarithmIsAFactor) {
   muster_param knee{};
