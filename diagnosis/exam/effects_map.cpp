@@ -11,10 +11,11 @@ constexpr double top = 2.7;  // m, of what stands about and is not on the map
 
 Vec2 in_plan(Vec3 p) { return {p.x, p.y}; }
 
-// Where a link from p comes below the top of things; p itself if that is below.
-Vec2 below_top(Vec3 p, Vec3 q) {
-  const double share = p.z > top ? (p.z - top) / (p.z - q.z) : 0;
-  return {p.x + share * (q.x - p.x), p.y + share * (q.y - p.y)};
+// Height of a link where it is nearest to a place.
+double height_at(Vec3 p, Vec3 q, Vec2 place) {
+  const double x = q.x - p.x, y = q.y - p.y;
+  const double share = std::clamp(((place.x - p.x) * x + (place.y - p.y) * y) / (x * x + y * y), 0.0, 1.0);
+  return p.z + share * (q.z - p.z);
 }
 
 // Share of readings whose link crosses a wall, by wall.
@@ -141,8 +142,9 @@ Effect obstacle(const Scene& s, Random& random) {
   }
   Effect e{"obstacle"};
   e.shift = scaled([&site = s.site, at, radius](const Reading& r) {
-    const double way = chord(below_top(place_of(site, r), r.at), in_plan(r.at), at, radius);
-    return -(1 - std::exp(-way / radius)) / (1 - std::exp(-2.0));
+    const Vec3 from = place_of(site, r);
+    const double way = chord(in_plan(from), in_plan(r.at), at, radius);
+    return height_at(from, r.at, at) > top ? 0.0 : -(1 - std::exp(-way / radius)) / (1 - std::exp(-2.0));
   });
   e.parameters = [=](double x) {
     return std::vector<Parameter>{{"x", at.x, "m"}, {"y", at.y, "m"}, {"radius", radius, "m"}, {"loss", x, "dB"}};
