@@ -45,7 +45,7 @@ FoundCause named(const LawSources& s, const Cause& cause, const LawTest& test) {
 
 // Three questions are asked, each of which may err on so large a share of clean worlds: how readings scatter, whether
 // people pass, and how the field does, of which two tests have to speak (field_law.hpp).
-constexpr double alpha = 0.001, alpha_of_field = 0.002;
+constexpr double alpha = 0.0005, alpha_of_field = 0.002;
 
 bool beyond_chance(const LawTest& test, double share) { return test.evidence > 0 && test.log_p < std::log(share); }
 

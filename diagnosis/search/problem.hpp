@@ -38,12 +38,12 @@ struct Problem {
 
 // The method's constants; docs and design/notes/diagnosis_method.md say where each comes from.
 struct Options {
-  double first_alpha = 0.006, further_alpha = 0.003;  // over all candidates
-  int nulls = 200;                                    // draws for the effective number of atoms
-  int draws = 32;                                     // of the covariance, for the integrated p
-  double one_radio_charge = 6;                        // nats, for a place that rests on one transmitter
-  double share = 0.9;                                 // of a smooth that a name must explain to replace it
-  double merge_share = 0.93;                          // of several pieces that one object must explain
+  double first_alpha = 0.003, further_alpha = 0.0015;  // over all candidates
+  int nulls = 200;                                     // draws for the effective number of atoms
+  int draws = 32;                                      // of the covariance, for the integrated p
+  double one_radio_charge = 6;                         // nats, for a place that rests on one transmitter
+  double share = 0.9;                                  // of a smooth that a name must explain to replace it
+  double merge_share = 0.93;                           // of several pieces that one object must explain
   int most_terms = 6;
   uint64_t seed = 1;
   noise::RowLimits rows;
