@@ -4,7 +4,6 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <tuple>
 
 #include "reading_law.hpp"
@@ -14,8 +13,38 @@ namespace {
 
 constexpr double row_length = 0.4;       // m
 constexpr double row_duration = 3;       // s, for robots that stand
-constexpr std::size_t places_a_row = 4;  // at most, for averages over a row
-constexpr std::size_t same_station = 25, other_stations = 10;
+constexpr std::size_t places_a_row = 8;  // at most, for averages over a row
+
+// Those nearest so far, the farthest of them first.
+class Nearest {
+ public:
+  explicit Nearest(std::size_t most) : most_(most) {}
+
+  void offer(double square, int mean) {
+    if (heap_.size() == most_) {
+      if (square >= heap_.front().first) return;
+      std::pop_heap(heap_.begin(), heap_.end());
+      heap_.pop_back();
+    }
+    heap_.push_back({square, mean});
+    std::push_heap(heap_.begin(), heap_.end());
+  }
+  void move_to(std::vector<int>& list) {
+    for (const auto& [square, mean] : heap_) list.push_back(mean);
+    heap_.clear();
+  }
+
+ private:
+  std::size_t most_;
+  std::vector<std::pair<double, int>> heap_;
+};
+
+template <class T>
+void shuffle(std::vector<T>& list, std::size_t from, const char* name) {
+  Random random(7, name);
+  for (std::size_t i = list.size() - from; i > 1; --i)
+    std::swap(list[from + i - 1], list[from + static_cast<std::size_t>(random.below(static_cast<int>(i)))]);
+}
 
 }  // namespace
 
@@ -28,98 +57,110 @@ double reading_variance(const ReadingLaw& law) {
 
 Whitener::Whitener(const Data& data, const Noise& noise, const std::vector<char>& use)
     : noise_(noise), reading_variance_(reading_variance(noise.reading)) {
-  gather(data, use);
+  gather_rows(data, use);
+  add_single_readings(data);
   find_neighbours();
   const Kernel kernel(noise_.field);
-  for (std::size_t i = 0; i < rows_.size(); ++i) weights_.push_back(weights(kernel, i));
+  for (int i = 0; i < static_cast<int>(means_.size()); ++i) weights_.push_back(weights(kernel, i));
 }
 
-void Whitener::settle(const Data& data, Row& row) const {
-  const std::size_t count = row.readings.size();
-  for (const int i : row.readings) {
-    const Vec3 at = data.readings[static_cast<std::size_t>(i)].at;
-    row.at.x += at.x / static_cast<double>(count);
-    row.at.y += at.y / static_cast<double>(count);
+Whitener::Mean Whitener::mean_of(const Data& data, std::vector<int> readings) {
+  Mean result;
+  const std::size_t count = readings.size(), places = std::min(count, places_a_row);
+  const auto at = [&](int i) { return data.readings[static_cast<std::size_t>(i)].at; };
+  for (const int i : readings) {
+    result.at.x += at(i).x / static_cast<double>(count);
+    result.at.y += at(i).y / static_cast<double>(count);
   }
-  const std::size_t places = std::min(count, places_a_row);
   for (std::size_t k = 0; k < places; ++k) {
-    const Vec3 at = data.readings[static_cast<std::size_t>(row.readings[k * count / places])].at;
-    row.places.push_back({at.x, at.y});
+    const int i = readings[k * count / places];
+    result.places.push_back({at(i).x, at(i).y});
   }
-  double apart = 0;  // mean loss of correlation between two readings of the row
-  for (std::size_t a = 0; a < places; ++a)
-    for (std::size_t b = 0; b < a; ++b)
-      apart += 1 - correlation(noise_.field,
-                               std::hypot(row.places[a].x - row.places[b].x, row.places[a].y - row.places[b].y));
-  const double pairs = std::max(1.0, static_cast<double>(places * (places - 1)) / 2);
-  row.within = reading_variance_ + noise_.field.sigma * noise_.field.sigma * apart / pairs;
+  result.station = data.readings[static_cast<std::size_t>(readings[0])].station;
+  result.readings = std::move(readings);
+  return result;
 }
 
-void Whitener::gather(const Data& data, const std::vector<char>& use) {
+void Whitener::gather_rows(const Data& data, const std::vector<char>& use) {
+  std::vector<std::vector<int>> rows;
   std::map<std::tuple<int, int, bool>, std::size_t> open;
   for (std::size_t i = 0; i < data.size(); ++i) {
     if (!use[i]) continue;
     const Reading& r = data.readings[i];
     const auto [entry, is_new] = open.try_emplace({r.station, r.robot, r.up}, 0);
     if (!is_new) {
-      const Reading& first = data.readings[static_cast<std::size_t>(rows_[entry->second].readings[0])];
+      const Reading& first = data.readings[static_cast<std::size_t>(rows[entry->second][0])];
       if (std::hypot(first.at.x - r.at.x, first.at.y - r.at.y) < row_length && r.t - first.t < row_duration) {
-        rows_[entry->second].readings.push_back(static_cast<int>(i));
+        rows[entry->second].push_back(static_cast<int>(i));
         continue;
       }
     }
-    entry->second = rows_.size();
-    rows_.push_back({{}, r.station, {static_cast<int>(i)}, {}, 0});
+    entry->second = rows.size();
+    rows.push_back({static_cast<int>(i)});
   }
-  for (Row& row : rows_) settle(data, row);
-  Random random(7, "order of conditioning");
-  for (std::size_t i = rows_.size(); i > 1; --i)
-    std::swap(rows_[i - 1], rows_[static_cast<std::size_t>(random.below(static_cast<int>(i)))]);
+  for (std::vector<int>& row : rows) means_.push_back(mean_of(data, std::move(row)));
+  shuffle(means_, 0, "order of rows");
+  rows_ = means_.size();
+  for (std::size_t i = 0; i < rows_; ++i) means_[i].row = static_cast<int>(i);
+}
+
+// All but one of a row, which its mean and the others tell.
+void Whitener::add_single_readings(const Data& data) {
+  for (std::size_t i = 0; i < rows_; ++i) {
+    for (std::size_t k = 1; k < means_[i].readings.size(); ++k) {
+      Mean alone = mean_of(data, {means_[i].readings[k]});
+      alone.row = static_cast<int>(i);
+      means_.push_back(std::move(alone));
+    }
+  }
+  shuffle(means_, rows_, "order of readings");
 }
 
 void Whitener::find_neighbours() {
-  std::vector<std::pair<double, int>> same, other;
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    same.clear();
-    other.clear();
+  Nearest row(50), row_of_others(20), row_of_one(12), row_of_others_of_one(4), one(16), one_of_others(4);
+  for (std::size_t i = 0; i < means_.size(); ++i) {
+    const bool is_row = i < rows_;
     for (std::size_t j = 0; j < i; ++j) {
-      const double x = rows_[i].at.x - rows_[j].at.x, y = rows_[i].at.y - rows_[j].at.y;
-      (rows_[i].station == rows_[j].station ? same : other).push_back({x * x + y * y, static_cast<int>(j)});
+      const double x = means_[i].at.x - means_[j].at.x, y = means_[i].at.y - means_[j].at.y;
+      const bool alike = means_[i].station == means_[j].station;
+      Nearest& list = is_row      ? alike ? row : row_of_others
+                      : j < rows_ ? alike ? row_of_one : row_of_others_of_one
+                      : alike     ? one
+                                  : one_of_others;
+      const bool own = !is_row && static_cast<int>(j) == means_[i].row;
+      list.offer(own ? -1 : x * x + y * y, static_cast<int>(j));
     }
     std::vector<int>& nearest = neighbours_.emplace_back();
-    const auto take = [&](auto& from, std::size_t count) {
-      count = std::min(count, from.size());
-      std::nth_element(from.begin(), from.begin() + static_cast<std::ptrdiff_t>(count), from.end());
-      for (std::size_t k = 0; k < count; ++k) nearest.push_back(from[k].second);
-    };
-    take(same, same_station);
-    take(other, other_stations);
+    for (Nearest* list : {&row, &row_of_others, &row_of_one, &row_of_others_of_one, &one, &one_of_others})
+      list->move_to(nearest);
   }
 }
 
-double Whitener::covariance(const Kernel& kernel, const Row& a, const Row& b) {
+double Whitener::covariance(const Kernel& kernel, int one, int other) const {
+  const Mean &a = mean(one), &b = mean(other);
   double sum = 0;
   for (const Vec2 p : a.places)
     for (const Vec2 q : b.places) sum += kernel.table(std::sqrt((p.x - q.x) * (p.x - q.x) + (p.y - q.y) * (p.y - q.y)));
   const FieldLaw& law = kernel.law;
-  return law.sigma * law.sigma * (a.station == b.station ? 1 : law.shared) * sum /
-         static_cast<double>(a.places.size() * b.places.size());
+  const double field = law.sigma * law.sigma * (a.station == b.station ? 1 : law.shared) * sum /
+                       static_cast<double>(a.places.size() * b.places.size());
+  const auto most = static_cast<double>(std::max(a.readings.size(), b.readings.size()));
+  const bool shares_readings = one == other || one == b.row || other == a.row;
+  return field + (shares_readings ? reading_variance_ / most : 0);
 }
 
-Whitener::Weights Whitener::weights(const Kernel& kernel, std::size_t row) const {
-  const std::vector<int>& near = neighbours_[row];
+Whitener::Weights Whitener::weights(const Kernel& kernel, int mean) const {
+  const std::vector<int>& near = neighbours_[static_cast<std::size_t>(mean)];
   const auto count = static_cast<Eigen::Index>(near.size());
+  const auto neighbour = [&](Eigen::Index k) { return near[static_cast<std::size_t>(k)]; };
   Eigen::MatrixXd among(count, count);
   Eigen::VectorXd with(count);
   for (Eigen::Index a = 0; a < count; ++a) {
-    const Row& one = rows_[static_cast<std::size_t>(near[static_cast<std::size_t>(a)])];
-    for (Eigen::Index b = 0; b <= a; ++b)
-      among(a, b) = covariance(kernel, one, rows_[static_cast<std::size_t>(near[static_cast<std::size_t>(b)])]);
-    among(a, a) += nugget(one);
-    with[a] = covariance(kernel, one, rows_[row]);
+    for (Eigen::Index b = 0; b <= a; ++b) among(a, b) = covariance(kernel, neighbour(a), neighbour(b));
+    with[a] = covariance(kernel, neighbour(a), mean);
   }
   Weights result;
-  double left = covariance(kernel, rows_[row], rows_[row]) + nugget(rows_[row]);
+  double left = covariance(kernel, mean, mean);
   if (count > 0) {
     const Eigen::VectorXd w = among.selfadjointView<Eigen::Lower>().llt().solve(with);
     left -= w.dot(with);
@@ -130,33 +171,33 @@ Whitener::Weights Whitener::weights(const Kernel& kernel, std::size_t row) const
 }
 
 Eigen::MatrixXd Whitener::operator()(const Eigen::MatrixXd& columns) const {
-  const auto rows = static_cast<Eigen::Index>(rows_.size());
-  Eigen::Index used = 0;
-  for (const Row& row : rows_) used += static_cast<Eigen::Index>(row.readings.size());
-  Eigen::MatrixXd means(rows, columns.cols()), result(rows + used, columns.cols());
-  Eigen::Index next = rows;
-  for (Eigen::Index i = 0; i < rows; ++i) {
-    const Row& row = rows_[static_cast<std::size_t>(i)];
-    means.row(i).setZero();
-    for (const int r : row.readings) means.row(i) += columns.row(r) / static_cast<double>(row.readings.size());
-    for (const int r : row.readings) result.row(next++) = (columns.row(r) - means.row(i)) / std::sqrt(row.within);
+  const auto count = static_cast<Eigen::Index>(means_.size());
+  Eigen::MatrixXd means = Eigen::MatrixXd::Zero(count, columns.cols());
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const std::vector<int>& readings = mean(static_cast<int>(i)).readings;
+    for (const int r : readings) means.row(i) += columns.row(r) / static_cast<double>(readings.size());
   }
-  for (Eigen::Index i = 0; i < rows; ++i) {
-    const Weights& w = weights_[static_cast<std::size_t>(i)];
-    result.row(i) = means.row(i);
-    for (std::size_t k = 0; k < w.of.size(); ++k)
-      result.row(i) -= w.of[k] * means.row(neighbours_[static_cast<std::size_t>(i)][k]);
-    result.row(i) /= w.deviation;
+  Eigen::MatrixXd result = means;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    for (std::size_t n = 0; n < neighbours_[k].size(); ++n)
+      result.row(i) -= weights_[k].of[n] * means.row(neighbours_[k][n]);
+    result.row(i) /= weights_[k].deviation;
   }
   return result;
 }
 
 std::vector<double> Whitener::level_deviations() const {
   std::vector<double> result;
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const double of_level = std::max(1e-9, weights_[i].deviation * weights_[i].deviation - nugget(rows_[i]));
-    for (std::size_t k = 0; k < rows_[i].readings.size(); ++k)  // those of the row before it say of it what they can
-      result.push_back(std::sqrt(1 / (1 / of_level + static_cast<double>(k) / rows_[i].within)));
+  const Kernel kernel(noise_.field);
+  for (std::size_t i = 0; i < rows_; ++i) {
+    const Mean& row = means_[i];
+    const auto count = static_cast<double>(row.readings.size());
+    const double of_level = std::max(1e-9, weights_[i].deviation * weights_[i].deviation - reading_variance_ / count);
+    const double field = covariance(kernel, static_cast<int>(i), static_cast<int>(i)) - reading_variance_ / count;
+    const double apart = std::max(0.0, noise_.field.sigma * noise_.field.sigma - field);  // of levels within the row
+    for (double k = 0; k < count; ++k)  // those of the row before it say of it what they can
+      result.push_back(std::sqrt(1 / (1 / of_level + k / (reading_variance_ + apart))));
   }
   return result;
 }
@@ -164,20 +205,18 @@ std::vector<double> Whitener::level_deviations() const {
 double Whitener::field_lambda(const FieldLaw& truth, const FieldLaw& stated) const {
   const Kernel true_kernel(truth), stated_kernel(stated);
   double sum = 0;
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
+  for (int i = 0; i < static_cast<int>(means_.size()); ++i) {
     const Weights of_truth = weights(true_kernel, i), of_stated = weights(stated_kernel, i);
-    // Variance, under the truth, of what the stated law leaves of this row.
-    std::vector<int> set = neighbours_[i];
+    // Variance, under the truth, of what the stated law leaves of this mean.
+    std::vector<int> set = neighbours_[static_cast<std::size_t>(i)];
     std::vector<double> w = of_stated.of;
     for (double& v : w) v = -v;
-    set.push_back(static_cast<int>(i));
+    set.push_back(i);
     w.push_back(1);
     double variance = 0;
     for (std::size_t a = 0; a < set.size(); ++a) {
-      const Row& one = rows_[static_cast<std::size_t>(set[a])];
-      variance += w[a] * w[a] * (covariance(true_kernel, one, one) + nugget(one));
-      for (std::size_t b = 0; b < a; ++b)
-        variance += 2 * w[a] * w[b] * covariance(true_kernel, one, rows_[static_cast<std::size_t>(set[b])]);
+      variance += w[a] * w[a] * covariance(true_kernel, set[a], set[a]);
+      for (std::size_t b = 0; b < a; ++b) variance += 2 * w[a] * w[b] * covariance(true_kernel, set[a], set[b]);
     }
     const double ratio = of_stated.deviation / of_truth.deviation;
     sum += variance / (of_stated.deviation * of_stated.deviation) - 1 + 2 * std::log(ratio);

@@ -1,8 +1,9 @@
 // The true covariance of readings, inverted: what an effect weighs against shadowing and fading.
 //
-// Readings of one link within 0.4 m of way form a row. Deviations from the row's mean are taken as independent; the
-// rows' means, whose covariances are averages over pairs of readings, are whitened by conditioning each on 35 nearby
-// earlier ones in random order (Vecchia 1988; Stein, Chi, Welty 2004). tests/exam compares with the dense covariance.
+// Readings of one link within 0.4 m of way form a row. First the rows' means are conditioned each on 35 nearby earlier
+// ones in random order (Vecchia 1988; Stein, Chi, Welty 2004), then each reading but one of a row on its own row's
+// mean, on those of rows nearby and on single readings nearby: means tell what is the same over a station, single
+// readings what is narrow. tests/exam compares with the dense covariance.
 #pragma once
 
 #include "field.hpp"
@@ -17,7 +18,7 @@ class Whitener {
   // For the readings with `use`.
   Whitener(const Data& data, const Noise& noise, const std::vector<char>& use);
 
-  // Columns over all readings; those in use become independent, of variance 1.
+  // Columns over all readings; what is told of those in use becomes independent, of variance 1.
   Eigen::MatrixXd operator()(const Eigen::MatrixXd& columns) const;
 
   // dB, of each reading in use: how well its level is known from the readings before it, in the order of conditioning.
@@ -26,36 +27,38 @@ class Whitener {
   // 2 x the Kullback-Leibler divergence between two laws of the field, truth against stated.
   double field_lambda(const FieldLaw& truth, const FieldLaw& stated) const;
 
-  std::size_t rows() const { return rows_.size(); }
-
  private:
-  struct Row {
-    Vec2 at;
-    int station = 0;
+  // A mean of readings: of a row, or of one reading alone.
+  struct Mean {
     std::vector<int> readings;
+    int station = 0;
+    int row = 0;  // whose readings they are: its place among means_
+    Vec2 at;
     std::vector<Vec2> places;  // of some of its readings
-    double within = 0;         // dB^2, of a reading's deviation from the row's mean
   };
   struct Weights {
     std::vector<double> of;  // one a neighbour, as in neighbours_
     double deviation = 1;    // dB, of what the neighbours leave
   };
-
-  void settle(const Data& data, Row& row) const;
-  void gather(const Data& data, const std::vector<char>& use);
-  void find_neighbours();
   struct Kernel {
     explicit Kernel(const FieldLaw& of) : law(of), table(of) {}
     FieldLaw law;
     CorrelationTable table;
   };
-  static double covariance(const Kernel& kernel, const Row& a, const Row& b);
-  double nugget(const Row& row) const { return reading_variance_ / static_cast<double>(row.readings.size()); }
-  Weights weights(const Kernel& kernel, std::size_t row) const;
+
+  static Mean mean_of(const Data& data, std::vector<int> readings);
+  void gather_rows(const Data& data, const std::vector<char>& use);
+  void add_single_readings(const Data& data);
+  void find_neighbours();
+  // Of two means.
+  double covariance(const Kernel& kernel, int one, int other) const;
+  Weights weights(const Kernel& kernel, int mean) const;
+  const Mean& mean(int k) const { return means_[static_cast<std::size_t>(k)]; }
 
   Noise noise_;
   double reading_variance_;
-  std::vector<Row> rows_;  // in the order of conditioning
+  std::size_t rows_ = 0;     // the first of the means
+  std::vector<Mean> means_;  // in the order of conditioning
   std::vector<std::vector<int>> neighbours_;
   std::vector<Weights> weights_;
 };
