@@ -183,7 +183,7 @@ Oracle held_out(const Case& made, const Eigen::VectorXd& effect) {
     std::vector<char> train = all;
     for (std::size_t i = 0; i < train.size(); ++i) train[i] = static_cast<char>(train[i] && fold[i] != k);
     if (heard_count(train) == heard_count(all) || heard_count(train) < 20) continue;
-    const Whitener whiten(made.measured, made.site->noise, train);
+    const Whitener whiten(made.measured, made.site->noise, train, Detail::rows);
     const Eigen::VectorXd base = y - made.measured.design * generalised_least_squares(whiten, made.measured.design, y);
     const Eigen::VectorXd rest = y - effect;
     const Eigen::VectorXd full =

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double row_length = 0.4;       // m
 constexpr double row_duration = 3;       // s, for robots that stand
-constexpr std::size_t places_a_row = 8;  // at most, for averages over a row
+constexpr std::size_t places_a_row = 4;  // at most, for averages over a row
 
 // Those nearest so far, the farthest of them first.
 class Nearest {
@@ -55,11 +55,11 @@ double reading_variance(const ReadingLaw& law) {
   return fading_moments(law).variance + channels + law.outliers * 400 / 3 + 1.0 / 12;
 }
 
-Whitener::Whitener(const Data& data, const Noise& noise, const std::vector<char>& use)
+Whitener::Whitener(const Data& data, const Noise& noise, const std::vector<char>& use, Detail detail)
     : noise_(noise), reading_variance_(reading_variance(noise.reading)) {
   gather_rows(data, use);
-  add_single_readings(data);
-  find_neighbours();
+  if (detail == Detail::readings) add_single_readings(data);
+  find_neighbours(detail);
   const Kernel kernel(noise_.field);
   for (int i = 0; i < static_cast<int>(means_.size()); ++i) weights_.push_back(weights(kernel, i));
 }
@@ -116,8 +116,10 @@ void Whitener::add_single_readings(const Data& data) {
   shuffle(means_, rows_, "order of readings");
 }
 
-void Whitener::find_neighbours() {
-  Nearest row(50), row_of_others(20), row_of_one(12), row_of_others_of_one(4), one(16), one_of_others(4);
+void Whitener::find_neighbours(Detail detail) {
+  const bool few = detail == Detail::rows;
+  Nearest row(few ? 25 : 50), row_of_others(few ? 10 : 20), row_of_one(12), row_of_others_of_one(4), one(16),
+      one_of_others(4);
   for (std::size_t i = 0; i < means_.size(); ++i) {
     const bool is_row = i < rows_;
     for (std::size_t j = 0; j < i; ++j) {
@@ -205,9 +207,9 @@ std::vector<double> Whitener::level_deviations() const {
 double Whitener::field_lambda(const FieldLaw& truth, const FieldLaw& stated) const {
   const Kernel true_kernel(truth), stated_kernel(stated);
   double sum = 0;
-  for (int i = 0; i < static_cast<int>(means_.size()); ++i) {
+  for (int i = 0; i < static_cast<int>(rows_); ++i) {
     const Weights of_truth = weights(true_kernel, i), of_stated = weights(stated_kernel, i);
-    // Variance, under the truth, of what the stated law leaves of this mean.
+    // Variance, under the truth, of what the stated law leaves of this row.
     std::vector<int> set = neighbours_[static_cast<std::size_t>(i)];
     std::vector<double> w = of_stated.of;
     for (double& v : w) v = -v;

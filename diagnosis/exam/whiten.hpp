@@ -1,6 +1,6 @@
 // The true covariance of readings, inverted: what an effect weighs against shadowing and fading.
 //
-// Readings of one link within 0.4 m of way form a row. First the rows' means are conditioned each on 35 nearby earlier
+// Readings of one link within 0.4 m of way form a row. First the rows' means are conditioned each on 70 nearby earlier
 // ones in random order (Vecchia 1988; Stein, Chi, Welty 2004), then each reading but one of a row on its own row's
 // mean, on those of rows nearby and on single readings nearby: means tell what is the same over a station, single
 // readings what is narrow. tests/exam compares with the dense covariance.
@@ -13,10 +13,13 @@ namespace muster::exam {
 // Of readings without shadowing: fading, channels, outliers, and 1/12 dB^2 of quantisation.
 double reading_variance(const ReadingLaw& law);
 
+// Rows alone, by fewer neighbours, do for a fit of few parameters that touch all readings.
+enum class Detail { rows, readings };
+
 class Whitener {
  public:
   // For the readings with `use`.
-  Whitener(const Data& data, const Noise& noise, const std::vector<char>& use);
+  Whitener(const Data& data, const Noise& noise, const std::vector<char>& use, Detail detail = Detail::readings);
 
   // Columns over all readings; what is told of those in use becomes independent, of variance 1.
   Eigen::MatrixXd operator()(const Eigen::MatrixXd& columns) const;
@@ -24,7 +27,8 @@ class Whitener {
   // dB, of each reading in use: how well its level is known from the readings before it, in the order of conditioning.
   std::vector<double> level_deviations() const;
 
-  // 2 x the Kullback-Leibler divergence between two laws of the field, truth against stated.
+  // 2 x the Kullback-Leibler divergence between two laws of the field, truth against stated, in the means of rows: what
+  // closer readings tell of it hangs on the law of readings, which nobody states exactly.
   double field_lambda(const FieldLaw& truth, const FieldLaw& stated) const;
 
  private:
@@ -49,7 +53,7 @@ class Whitener {
   static Mean mean_of(const Data& data, std::vector<int> readings);
   void gather_rows(const Data& data, const std::vector<char>& use);
   void add_single_readings(const Data& data);
-  void find_neighbours();
+  void find_neighbours(Detail detail);
   // Of two means.
   double covariance(const Kernel& kernel, int one, int other) const;
   Weights weights(const Kernel& kernel, int mean) const;
