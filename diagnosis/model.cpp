@@ -104,6 +104,16 @@ const Eigen::VectorXd& LinkModel::expected() {
   return values_;
 }
 
+Eigen::VectorXd LinkModel::changes_aside(double metres) {
+  const Eigen::VectorXd here = expected();
+  Eigen::VectorXd most = Eigen::VectorXd::Zero(here.size());
+  for (const double by : {-metres, metres, 0.0}) {
+    set("data/aside", by);
+    most = most.cwiseMax((expected() - here).cwiseAbs());
+  }
+  return most;
+}
+
 Eigen::VectorXd LinkModel::drawn() {
   evaluate(false);
   return values_;

@@ -35,6 +35,9 @@ class LinkModel {
 
   // E[rssi in dBm] of every row.
   const Eigen::VectorXd& expected();
+  // By how much it changes, dB, if every link is moved so far to either side: what hangs on how exactly the ends of
+  // walls and the places of radios are known. Lengths and bearings stay.
+  Eigen::VectorXd changes_aside(double metres);
   // One draw of the channel, NaN where nothing is received.
   Eigen::VectorXd drawn();
   // How often the channel was evaluated.

@@ -42,6 +42,21 @@ TEST(Data, WithoutHeightReadingsAreAtTheHeightOfTheMount) {
   EXPECT_NEAR(world.table("link/*/level@radio.multiwall.distance").at(0, 0), -40 - 20 * std::log10(13.0), 1e-12);
 }
 
+TEST(Data, LinksMovedAsideKeepTheirLengthsAndBearings) {
+  const Folder folder;
+  folder.put("measured.csv", "tx,rx,tx_x[m],tx_y[m],tx_yaw[rad],rx_x[m],rx_y[m]\na,b,1,1,0.5,4,5\nb,a,2,2,0,2,2\n");
+  Simulation world = world_of(folder, "<data.links file=\"measured.csv\" aside=\"0.5\"/>" + channel);
+  world.step();
+  const TableView pose = world.table("endpoint/*/pose");
+  const double from[] = {1 - 0.4, 1 + 0.3}, to[] = {4 - 0.4, 5 + 0.3};  // to the left of (3, 4)
+  for (std::size_t axis : {0, 1}) {
+    EXPECT_NEAR(pose.at(0, axis), from[axis], 1e-12);
+    EXPECT_NEAR(pose.at(1, axis), to[axis], 1e-12);
+    EXPECT_EQ(pose.at(2, axis), 2);  // ends in one place have no left
+  }
+  EXPECT_EQ(pose.at(0, 3), std::cos(0.25));
+}
+
 TEST(Data, ReadingsOfOnePairHaveFadingOfTheirOwn) {
   const Folder folder;
   folder.put("measured.csv",
