@@ -76,7 +76,7 @@ TEST(SealedWall, IsFoundInItsPlace) {
 // Walls that saturate look weak in the base fit: how much the cause gives back is known only beside other losses.
 TEST(SealedSaturation, IsNamedThoughTheWallsOfTheFitAreTooWeak) {
   const Scratch scratch;
-  const auto world = sealed_case(scratch, "--mix one --lambda 60 --effects multiwall_saturation", 3);
+  const auto world = sealed_case(scratch, "--mix one --lambda 60 --effects multiwall_saturation", 4);
   const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
   ASSERT_TRUE(found.named()) << told(found);
   EXPECT_EQ(found.causes[0].id, "effect.multiwall_saturation") << told(found);

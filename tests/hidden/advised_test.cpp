@@ -8,7 +8,7 @@ namespace muster::exam {
 namespace {
 
 TEST(Advised, AStepThatMayBeADriftIsSettledByWhatIsMeasuredNext) {
-  const Grades g = examined("--seed 72 --first 39 --cases 1 --mix one --lambda 60 --rows 2000 5000 --effects step",
+  const Grades g = examined("--seed 72 --first 43 --cases 1 --mix one --lambda 60 --rows 2000 5000 --effects step",
                             "muster diagnose {world} --data {data} --out {out} --json && "
                             "muster exam follow {answer} --plan {out}/advised.csv --out {out}.advised.csv && "
                             "muster diagnose {world} --data {out}.advised.csv --json >{out}.advised.json");

@@ -47,7 +47,7 @@ TEST(FarRows, ANameIsWorthNoMoreThanTheCovarianceItselfSays) {
                                .fading = 3.7,
                                .shape = synthetic::Shape::gaussian});
   Eigen::VectorXd effect(world.readings.size());
-  for (Index i = 0; i < effect.size(); ++i) effect[i] = world.readings.tx[static_cast<std::size_t>(i)] == 0 ? 2.6 : 0;
+  for (Index i = 0; i < effect.size(); ++i) effect[i] = world.readings.tx[static_cast<std::size_t>(i)] == 0 ? 3.1 : 0;
   const Problem problem = problem_of(world, effect, causes_of(world));
   Search search(problem, {});
   const Result result = search.run();

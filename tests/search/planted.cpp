@@ -80,7 +80,8 @@ Tally planted(const std::string& cause, double lambda, uint64_t first, int world
       effect = effect_of(world, c, lambda);
       pieces = c.pieces;
     }
-    const search::Problem problem = problem_of(world, effect, causes);
+    search::Problem problem = problem_of(world, effect, causes);
+    problem.stated = {recipe.sigma, recipe.decorrelation};  // as worlds state theirs
     count(search::Search(problem).run(), seed, cause, pieces, causes, tally);
   }
   return tally;
