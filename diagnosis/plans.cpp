@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -17,8 +18,8 @@ using Eigen::Index;
 using Eigen::Vector3d;
 
 constexpr Index most_rows = 400;
-constexpr int most_readings = 6;  // of one row
-constexpr double apart = 1e-3;    // s, readings of one link
+constexpr int most_readings = 6;      // of one row
+constexpr double millisecond = 1e-3;  // s, between readings of one link at least
 
 struct End {
   int radio;
@@ -86,7 +87,7 @@ struct Maker {
       out.rx.push_back(rx.radio);
       out.tx_at.col(first + k) = tx.at;
       out.rx_at.col(first + k) = rx.at;
-      if (timed) out.t.push_back(t + apart * k);
+      if (timed) out.t.push_back(t + millisecond * k);
       if (seen.tx_yaw.size() > 0) out.tx_yaw.push_back(tx.yaw);
       if (seen.rx_yaw.size() > 0) out.rx_yaw.push_back(rx.yaw);
     }
@@ -276,14 +277,17 @@ PlannedReadings elsewhere(const Maker& make, const std::vector<FoundCause>& abou
   return out;
 }
 
-// No two readings of a link at once: rows of the data may have the same middle.
+// No two readings of a link at once, as they are written, in whole milliseconds: rows may have the same middle.
 void space_out(noise::Readings& r) {
   std::map<std::pair<int, int>, std::vector<std::size_t>> of_link;
   for (std::size_t k = 0; k < r.t.size(); ++k) of_link[{r.tx[k], r.rx[k]}].push_back(k);
   for (auto& [link, readings] : of_link) {
     std::stable_sort(readings.begin(), readings.end(), [&](std::size_t a, std::size_t b) { return r.t[a] < r.t[b]; });
-    for (std::size_t k = 1; k < readings.size(); ++k)
-      r.t[readings[k]] = std::max(r.t[readings[k]], r.t[readings[k - 1]] + apart);
+    long long last = std::numeric_limits<long long>::min();
+    for (const std::size_t k : readings) {
+      last = std::max(std::llround(r.t[k] / millisecond), last + 1);
+      r.t[k] = static_cast<double>(last) * millisecond;
+    }
   }
 }
 

@@ -1,6 +1,7 @@
 // What plans leave as it is and what they change, over the ways of one robot that hears two stations.
 #include "diagnosis/plans.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -40,7 +41,7 @@ SeenRows driven(bool robot_sends = false) {
     (robot_sends ? seen.tx_at : seen.rx_at).col(i) = at;
     (robot_sends ? seen.rx_yaw : seen.tx_yaw)[i] = faces[station];
     (robot_sends ? seen.tx_yaw : seen.rx_yaw)[i] = 0;
-    seen.t[i] = moment;
+    seen.t[i] = moment + 0.0005;  // between two milliseconds, of which files have whole ones
   }
   seen.walls = {{"w1", "brick", -2, -8, 14, -8, 0.1}, {"w2", "brick", 14, -8, 14, 8, 0.1}};
   return seen;
@@ -78,9 +79,10 @@ TEST(Plans, MakeNoTwoReadingsOfALinkAtOnceAndNoneBeforeTheData) {
     const auto plans = planned_readings(seen, {});
     EXPECT_EQ(plans.size(), 7u);
     for (const PlannedReadings& p : plans) {
-      std::set<std::tuple<int, int, double>> known;
+      std::set<std::tuple<int, int, std::string>> known;  // with times as they are written
       for (std::size_t k = 0; k < p.readings.tx.size(); ++k) {
-        EXPECT_TRUE(known.insert({p.readings.tx[k], p.readings.rx[k], p.readings.t[k]}).second) << p.say;
+        EXPECT_TRUE(known.insert({p.readings.tx[k], p.readings.rx[k], fmt::format("{:.3f}", p.readings.t[k])}).second)
+            << p.say;
         EXPECT_GT(p.readings.t[k], seen.t.maxCoeff()) << p.say;
       }
       EXPECT_EQ(p.readings.tx_at.cols(), p.readings.size()) << p.say;
