@@ -41,7 +41,7 @@ SeenRows driven(bool robot_sends = false) {
     (robot_sends ? seen.tx_at : seen.rx_at).col(i) = at;
     (robot_sends ? seen.rx_yaw : seen.tx_yaw)[i] = faces[station];
     (robot_sends ? seen.tx_yaw : seen.rx_yaw)[i] = 0;
-    seen.t[i] = moment + 0.0005;  // between two milliseconds, of which files have whole ones
+    seen.t[i] = 1000.0905 + moment;  // which is written as 1000.091, as is a millisecond later
   }
   seen.walls = {{"w1", "brick", -2, -8, 14, -8, 0.1}, {"w2", "brick", 14, -8, 14, 8, 0.1}};
   return seen;
