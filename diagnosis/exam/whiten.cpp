@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
+#include <array>
 #include <map>
 #include <tuple>
 
@@ -118,23 +119,20 @@ void Whitener::add_single_readings(const Data& data) {
 
 void Whitener::find_neighbours(Detail detail) {
   const bool few = detail == Detail::rows;
-  Nearest row(few ? 25 : 50), row_of_others(few ? 10 : 20), row_of_one(12), row_of_others_of_one(4), one(16),
-      one_of_others(4);
+  // Of the same station and of others: rows near a row, rows near a reading, readings near a reading.
+  std::array<std::array<Nearest, 2>, 3> lists{{{Nearest(few ? 25 : 50), Nearest(few ? 10 : 20)},  //
+                                               {Nearest(12), Nearest(4)},
+                                               {Nearest(16), Nearest(4)}}};
   for (std::size_t i = 0; i < means_.size(); ++i) {
-    const bool is_row = i < rows_;
     for (std::size_t j = 0; j < i; ++j) {
       const double x = means_[i].at.x - means_[j].at.x, y = means_[i].at.y - means_[j].at.y;
-      const bool alike = means_[i].station == means_[j].station;
-      Nearest& list = is_row      ? alike ? row : row_of_others
-                      : j < rows_ ? alike ? row_of_one : row_of_others_of_one
-                      : alike     ? one
-                                  : one_of_others;
-      const bool own = !is_row && static_cast<int>(j) == means_[i].row;
-      list.offer(own ? -1 : x * x + y * y, static_cast<int>(j));
+      const std::size_t kind = i < rows_ ? 0 : j < rows_ ? 1 : 2;
+      const bool own_row = kind == 1 && static_cast<int>(j) == means_[i].row;
+      lists[kind][means_[i].station != means_[j].station].offer(own_row ? -1 : x * x + y * y, static_cast<int>(j));
     }
     std::vector<int>& nearest = neighbours_.emplace_back();
-    for (Nearest* list : {&row, &row_of_others, &row_of_one, &row_of_others_of_one, &one, &one_of_others})
-      list->move_to(nearest);
+    for (auto& kind : lists)
+      for (Nearest& list : kind) list.move_to(nearest);
   }
 }
 
