@@ -112,8 +112,7 @@ CauseModel::CauseModel(LinkModel& whole, const std::filesystem::path& world, con
   const Place place{bare.file.string()};
   Options options;
   options.search_path = plugins;
-  const std::string file = std::filesystem::absolute(data).string();
-  options.more.push_back({"data.links", "data", 1, {}, {}, {{"file", file, place, place}}, place});
+  options.more.push_back(measured_links(data, place));
   bare_ = std::make_unique<Simulation>(std::move(bare), standard(), std::move(options));
   before_ = whole.expected();
 }

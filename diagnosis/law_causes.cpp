@@ -1,5 +1,7 @@
 #include "diagnosis/law_causes.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -87,9 +89,7 @@ void add_silence(const LawSources& s, double step, Diagnosis& found) {
   found.causes.back().words["silent"] = "true";
 }
 
-// Measured less expected of each reading of the search; NaN where only a bound is known or the clip is near, and where
-// the link passes the end of a wall so closely that it may as well pass on its other side: one that does is off by the
-// wall, and ten of those among 20,000 readings look like outliers.
+// Measured less expected of each reading of the search; NaN where only a bound is known or the clip is near.
 VectorXd residual_of(const LawSources& s, const Diagnosis& found) {
   const noise::Rows& rows = s.bench.rows();
   VectorXd left(static_cast<Index>(s.used.size()));
@@ -100,9 +100,6 @@ VectorXd residual_of(const LawSources& s, const Diagnosis& found) {
   const VectorXd filled = left.array().isNaN().select(0, left);
   const VectorXd shift = found.seen.after - rows.mean(filled);
   VectorXd result = left + rows.at_readings(shift);
-  constexpr double as_exact_as_places = 0.005, much = 0.5;  // m: surveys write centimetres; dB
-  const VectorXd unsure = s.model.changes_aside(as_exact_as_places)(s.used);
-  result = (unsure.array() > much).select(std::nan(""), result);
   if (!s.bench.problem().bounds.any()) return result;
   const double sd = std::sqrt(s.bench.fit.covariance.field_variance() + s.bench.fit.covariance.reading_variance());
   const auto near = [&](const std::optional<Clip>& clip, double side, double mean) {
@@ -213,9 +210,23 @@ void leave_the_stronger(Diagnosis& found) {
   if (weaker->lambda < doubt) found.causes.erase(weaker);
 }
 
+// A link that passes the end of a wall closely may as well pass on its other side; one that does is off by the wall,
+// and three of those among 20,000 readings look like outliers.
+VectorXd without_grazing(const LawSources& s, VectorXd residual, Diagnosis& found) {
+  constexpr double as_exact_as_places = 0.005, much = 0.5;  // m: surveys write centimetres; dB: half a unit of RSSI
+  const VectorXd unsure = s.model.changes_aside(as_exact_as_places)(s.used);
+  const auto grazes = unsure.array() > much;
+  if (const Index count = grazes.count())
+    found.notes.push_back(fmt::format(
+        "{} of {} readings pass within {:.0f} mm of where a wall ends: how single readings scatter is asked without "
+        "them",
+        count, residual.size(), 1000 * as_exact_as_places));
+  return grazes.select(std::nan(""), residual);
+}
+
 // What asks single readings, one after the other.
-void add_laws_of_readings(const LawSources& s, const VectorXd& residual, Diagnosis& found) {
-  const std::string why = why_not(s, residual);
+void add_laws_of_readings(const LawSources& s, const VectorXd& all, Diagnosis& found) {
+  const std::string why = why_not(s, all);
   for (const char* id : {"effect.fading_law", "effect.outliers", "effect.channel_mixture"}) {
     if (!cause_called(s, id)) continue;
     why.empty() ? found.searched.push_back(id) : found.not_tested.push_back(std::string(id) + ": " + why);
@@ -225,7 +236,7 @@ void add_laws_of_readings(const LawSources& s, const VectorXd& residual, Diagnos
       found.not_tested.push_back("effect.shadowing_correlation: " + why);
     return;
   }
-  ReadingField field(s.bench.problem().readings, residual);
+  ReadingField field(s.bench.problem().readings, without_grazing(s, all, found));
   const std::size_t before = found.causes.size();
   const ReadingLaw law = add_scatter(s, field, found);
   add_field(s, field, law, found);

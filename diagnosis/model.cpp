@@ -9,6 +9,8 @@
 namespace muster::diagnosis {
 namespace {
 
+constexpr const char* stand_in = "data";  // name of the instance of data.links
+
 // What lists links by the clock gives way to what lists the measured ones.
 bool lists_links(const InstanceDeclaration& instance) {
   return instance.plugin == "radio.links" || instance.plugin == "data.links";
@@ -49,10 +51,9 @@ World world_for(const std::filesystem::path& file, const std::filesystem::path& 
 
 Options options_for(const World& world, const std::filesystem::path& data, const Library::SearchPath& plugins) {
   const Place place{world.file.string()};
-  const std::string file = std::filesystem::absolute(data).string();
   Options options;
   options.search_path = plugins;
-  options.more.push_back({"data.links", "data", 1, {}, {}, {{"file", file, place, place}}, place});
+  options.more.push_back(measured_links(data, place));
   const auto is_receiver = [](const InstanceDeclaration& i) { return i.plugin == "radio.receiver"; };
   if (std::none_of(world.instances.begin(), world.instances.end(), is_receiver))
     options.more.push_back({"radio.receiver", "receiver", 1, {}, {}, {}, place});
@@ -60,6 +61,10 @@ Options options_for(const World& world, const std::filesystem::path& data, const
 }
 
 }  // namespace
+
+InstanceDeclaration measured_links(const std::filesystem::path& file, const Place& place) {
+  return {"data.links", stand_in, 1, {}, {}, {{"file", std::filesystem::absolute(file).string(), place, place}}, place};
+}
 
 FirstColumn first_column(const TableView& table) {
   const auto rows = static_cast<Eigen::Index>(table.rows()), columns = static_cast<Eigen::Index>(table.cols());
@@ -105,12 +110,14 @@ const Eigen::VectorXd& LinkModel::expected() {
 }
 
 Eigen::VectorXd LinkModel::changes_aside(double metres) {
+  const std::string aside = std::string(stand_in) + "/aside";
   const Eigen::VectorXd here = expected();
   Eigen::VectorXd most = Eigen::VectorXd::Zero(here.size());
-  for (const double by : {-metres, metres, 0.0}) {
-    set("data/aside", by);
+  for (const double by : {-metres, metres}) {
+    set(aside, by);
     most = most.cwiseMax((expected() - here).cwiseAbs());
   }
+  set(aside, 0);
   return most;
 }
 

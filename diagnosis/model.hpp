@@ -21,6 +21,9 @@ struct End {
 using FirstColumn = Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<>>;
 FirstColumn first_column(const TableView& table);
 
+// The instance that stands in for a world's links: data.links with the readings of `file`.
+InstanceDeclaration measured_links(const std::filesystem::path& file, const Place& place);
+
 class LinkModel {
  public:
   // The world with the readings of `data` in the place of its links. Throws Error.

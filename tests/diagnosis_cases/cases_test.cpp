@@ -1,6 +1,7 @@
 // One sealed case a cause, at lambda 150: made by muster_exam, whose formulas are not those of the plugins.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "diagnosis/diagnose.hpp"
@@ -12,12 +13,16 @@ namespace {
 
 const Library::SearchPath plugins = {MUSTER_PLUGINS_DIR};
 
-std::filesystem::path sealed_case(const Scratch& scratch, const std::string& wanted, int number) {
+std::filesystem::path made_case(const Scratch& scratch, const std::string& wanted, int number) {
   const std::string name = std::to_string(number);
-  const std::string command = std::string(EXAM) + " make --seed 31 --cases 1 --first " + name + ' ' + wanted +
-                              " --rows 3000 4000 --out " + (scratch / "").string() + " > /dev/null";
+  const std::string command = std::string(EXAM) + " make --cases 1 --first " + name + ' ' + wanted + " --out " +
+                              (scratch / "").string() + " > /dev/null";
   if (std::system(command.c_str()) != 0) throw std::runtime_error(command);
   return scratch / ("case_" + std::string(4 - name.size(), '0') + name);
+}
+
+std::filesystem::path sealed_case(const Scratch& scratch, const std::string& wanted, int number) {
+  return made_case(scratch, "--seed 31 --rows 3000 4000 " + wanted, number);
 }
 
 std::string told(const Diagnosis& d) {
@@ -104,6 +109,16 @@ TEST_P(CleanCase, IsSilent) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, CleanCase, testing::Values(7, 8));
+
+// Three of its 12,720 readings pass a wall's end within 0.1 mm, and by the lattice of a simulation on its other side.
+TEST(GrazingLinks, AreNoOutliers) {
+  const Scratch scratch;
+  const auto world = made_case(scratch, "--seed 74 --rows 2000 20000 --mix clean", 841);
+  const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
+  EXPECT_STREQ(found.verdict(), "adequate") << told(found);
+  const auto says = [&](const std::string& note) { return note.find("of where a wall ends") != note.npos; };
+  EXPECT_TRUE(std::any_of(found.notes.begin(), found.notes.end(), says));
+}
 
 // A race asks one reading a row, by a world of those readings alone: the same that the whole table says of them.
 TEST(Sketch, IsTheColumnsAtTheReadingsInTheMiddleOfRows) {
