@@ -195,7 +195,10 @@ std::vector<double> Whitener::level_deviations() const {
     const auto count = static_cast<double>(row.readings.size());
     const double of_level = std::max(1e-9, weights_[i].deviation * weights_[i].deviation - reading_variance_ / count);
     const double field = covariance(kernel, static_cast<int>(i), static_cast<int>(i)) - reading_variance_ / count;
-    const double apart = std::max(0.0, noise_.field.sigma * noise_.field.sigma - field);  // of levels within the row
+    // Of levels within the row, about their mean, and without bias.
+    const auto places = static_cast<double>(row.places.size());
+    const double about = std::max(0.0, noise_.field.sigma * noise_.field.sigma - field);
+    const double apart = about * places / std::max(1.0, places - 1);
     for (std::size_t k = 0; k < row.readings.size(); ++k)  // those of the row before it say of it what they can
       result.push_back(std::sqrt(1 / (1 / of_level + static_cast<double>(k) / (reading_variance_ + apart))));
   }

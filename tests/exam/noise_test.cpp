@@ -59,19 +59,26 @@ TEST(Noise, FieldHasTheStatedCovariance) {
   }
 }
 
-// If the covariance by which effects are weighed is the one that the data have, whitened noise has variance 1.
+// If the covariance by which effects are weighed is the one that the data have, whitened noise has variance 1: in the
+// means of rows, and in the single readings beside them.
 TEST(Noise, IsWhiteOnceWhitened) {
-  double sum = 0, count = 0;
+  double rows = 0, row_count = 0, all = 0, count = 0;
   for (std::uint64_t seed = 1; seed <= 24; ++seed) {
     const Case c = made(seed, "", 0, 2000);
     const Eigen::VectorXd noise = c.measured.rssi - level_by_base(c, c.measured);
-    const Whitener whiten(c.measured, c.site->noise, heard(c.measured));
     const Eigen::VectorXd safe = noise.unaryExpr([](double v) { return std::isnan(v) ? 0 : v; });
-    const Eigen::VectorXd white = whiten(safe);
-    sum += white.squaredNorm();
-    count += static_cast<double>(white.size());
+    const auto white = [&](Detail detail) -> Eigen::VectorXd {
+      return Whitener(c.measured, c.site->noise, heard(c.measured), detail)(safe);
+    };
+    const Eigen::VectorXd of_rows = white(Detail::rows), of_readings = white(Detail::readings);
+    rows += of_rows.squaredNorm();
+    row_count += static_cast<double>(of_rows.size());
+    all += of_readings.squaredNorm();
+    count += static_cast<double>(of_readings.size());
   }
-  EXPECT_NEAR(sum / count, 1, 0.03);
+  ASSERT_GT(count, 2 * row_count);
+  EXPECT_NEAR(rows / row_count, 1, 0.03);
+  EXPECT_NEAR(all / count, 1, 0.03);
 }
 
 TEST(Noise, FadingHasTheMomentsOfItsDensity) {
