@@ -65,7 +65,8 @@ void count(const search::Result& result, uint64_t seed, const std::string& cause
 
 }  // namespace
 
-Tally planted(const std::string& cause, double lambda, uint64_t first, int worlds, Index readings, Shape shape) {
+Tally planted(const std::string& cause, double lambda, uint64_t first, int worlds, Index readings, Shape shape,
+              Field field) {
   Tally tally;
   tally.worlds = worlds;
   for (uint64_t seed = first; seed < first + static_cast<uint64_t>(worlds); ++seed) {
@@ -81,7 +82,7 @@ Tally planted(const std::string& cause, double lambda, uint64_t first, int world
       pieces = c.pieces;
     }
     search::Problem problem = problem_of(world, effect, causes);
-    problem.stated = {recipe.sigma, recipe.decorrelation};  // as worlds state theirs
+    if (field == Field::stated) problem.stated = {recipe.sigma, recipe.decorrelation};
     count(search::Search(problem).run(), seed, cause, pieces, causes, tally);
   }
   return tally;
