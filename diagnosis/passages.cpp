@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include "diagnosis/noise/reach.hpp"
 #include "muster/random.hpp"
@@ -18,6 +19,7 @@ constexpr std::array widths{0.8, 1.4, 2.5};              // s, at which a dip ha
 constexpr std::array losses{2.5, 4.0, 6.5, 10.0, 15.0};  // dB
 constexpr double between = 25;                           // s, from one passage to the next, on average
 constexpr double spacing = 0.6;                          // s, of the times that are tried
+const double log_rate = std::log(spacing / between), log_none = std::log1p(-spacing / between);
 constexpr int shuffles = 60;
 constexpr std::size_t fewest_rows = 40;  // of a link
 constexpr double impossible = -1e300;
@@ -70,24 +72,20 @@ class Scan {
   // What each row says of a shift of its own: dips' scores are sums of these.
   VectorXd pulls(const VectorXd& whitened) const { return reach_.transposed(whitened); }
 
-  // Passages come at random, no two of them nearer than three widths.
+  // Passages come at random, no two of them nearer than so many times that are tried.
+  static std::size_t gap(const Train& train) { return static_cast<std::size_t>(std::ceil(3 * train.width / spacing)); }
+
   Ratios ratios(const Link& link, const VectorXd& pulls) const {
     Ratios result{};
-    const double log_rate = std::log(spacing / between), log_none = std::log1p(-spacing / between);
     for (std::size_t w = 0; w < link.trains.size(); ++w) {
       const Train& train = link.trains[w];
-      std::vector<double> scores;
-      for (const Dip& dip : train.dips) {
-        double score = 0;
-        for (const auto& [row, share] : dip.rows) score -= share * pulls[row];
-        scores.push_back(score);
-      }
-      const auto gap = static_cast<std::size_t>(std::ceil(3 * train.width / spacing));
+      const std::vector<double> scores = scores_of(train, pulls);
+      const std::size_t apart = gap(train);
       for (std::size_t l = 0; l < losses.size(); ++l) {
         std::vector<double> sum(scores.size() + 1, 0);  // of the ratios of all passages so far
         for (std::size_t k = 0; k < scores.size(); ++k) {
           const double gain = losses[l] * scores[k] - losses[l] * losses[l] * train.dips[k].energy / 2;
-          const double before = k + 1 > gap ? sum[k + 1 - gap] : 0;
+          const double before = k + 1 > apart ? sum[k + 1 - apart] : 0;
           sum[k + 1] = log_sum(log_none + sum[k], log_rate + before + gain);
         }
         result[w][l] = sum.back();
@@ -96,7 +94,39 @@ class Scan {
     return result;
   }
 
+  // What the likeliest passages of one width and loss leave of the residual, each with the loss that fits it best.
+  VectorXd without_passages(const Train& train, double loss, const VectorXd& pulls) const {
+    const std::vector<double> scores = scores_of(train, pulls);
+    const std::size_t apart = gap(train);
+    std::vector<double> highest(scores.size() + 1, 0);  // of all passages so far
+    std::vector<bool> passes(scores.size(), false);
+    for (std::size_t k = 0; k < scores.size(); ++k) {
+      const double gain = loss * scores[k] - loss * loss * train.dips[k].energy / 2;
+      const double with = log_rate - log_none + (k + 1 > apart ? highest[k + 1 - apart] : 0) + gain;
+      passes[k] = with > highest[k];
+      highest[k + 1] = std::max(with, highest[k]);
+    }
+    VectorXd dips = VectorXd::Zero(bench_.rows().size());
+    for (std::size_t k = scores.size(); k > 0; k -= passes[k - 1] ? std::min(k, apart) : 1) {
+      const Dip& dip = train.dips[k - 1];
+      if (!passes[k - 1]) continue;
+      for (const auto& [row, share] : dip.rows) dips[row] -= share * scores[k - 1] / dip.energy;
+    }
+    return residual_ - stand_.at.basis.rest(stand_.whitener(dips));
+  }
+
  private:
+  // What each dip of a train gains by a loss of 1 dB, but for its energy.
+  static std::vector<double> scores_of(const Train& train, const VectorXd& pulls) {
+    std::vector<double> result;
+    for (const Dip& dip : train.dips) {
+      double score = 0;
+      for (const auto& [row, share] : dip.rows) score -= share * pulls[row];
+      result.push_back(score);
+    }
+    return result;
+  }
+
   // By time, both ways of a link together; of links with few rows none.
   std::map<std::pair<int, int>, std::vector<Index>> readings_of_links() const {
     const noise::Readings& r = bench_.problem().readings;
@@ -224,9 +254,10 @@ double beyond_after_a_step(double x, double draw, double mean) {
 
 // log p of the highest ratio, by a Gumbel law through the moments of the shuffled ones; a ratio's tail is never shorter
 // than exponential. What errs alike for seconds without people, a way over which the field changes as no family says,
-// raises levels as often as it lowers them: the mirrored residuals are one draw of what it does to the ratios. How much
-// those of a large misfit scatter is not known, so dips have to win twice what the mirror does.
-double log_p(const Scan& scan, double ratio) {
+// raises levels as often as it lowers them: the mirrored residuals are one draw of what it does to the ratios. `left`:
+// of them without the likeliest passages, since whitened dips have rims, and mirrored rims are dips. How much those of
+// a large misfit scatter is not known, so dips have to win twice what the mirror does.
+double log_p(const Scan& scan, double ratio, const VectorXd& left) {
   constexpr double usual_misfit = 2;  // scales: several times what the mirror is ahead of the shuffled in clean worlds
   double first = 0, second = 0;
   for (uint64_t k = 0; k < shuffles; ++k) {
@@ -236,7 +267,7 @@ double log_p(const Scan& scan, double ratio) {
   }
   const double sd = std::sqrt(std::max(second - first * first, 0.0));
   const double scale = std::max(1.0, sd * std::sqrt(6.0) / M_PI), location = first - 0.5772 * scale;
-  const double mirrored = (highest(scan, -scan.residual()) - location) / scale;
+  const double mirrored = (highest(scan, -left) - location) / scale;
   const double ahead = (ratio - location) / scale;
   return ahead < 2 * mirrored ? 0 : std::log(std::max(beyond_after_a_step(ahead, mirrored, usual_misfit), 1e-300));
 }
@@ -250,17 +281,18 @@ Passages passages_of(const search::Bench& bench) {
   const VectorXd pulls = scan.pulls(scan.residual());
   double best = impossible;
   Ratios at{};
+  const Link* where = nullptr;
   for (const Link& link : scan.links()) {
     const Ratios ratios = scan.ratios(link, pulls);
     const double mean = log_mean(ratios);
     if (mean <= best) continue;
     best = mean;
     at = ratios;
-    result.radio = link.radios.first;
-    result.other = link.radios.second;
+    where = &link;
   }
   constexpr double promising = 3;  // nats; below that shuffles could only say no
   if (best < promising) return result;
+  std::tie(result.radio, result.other) = where->radios;
   std::size_t width = 0, loss = 0;
   for (std::size_t w = 0; w < widths.size(); ++w) {
     for (std::size_t l = 0; l < losses.size(); ++l) {
@@ -274,7 +306,7 @@ Passages passages_of(const search::Bench& bench) {
                         {"duration", duration, duration / 1.8, duration * 1.8}};
   result.test.gain = 2 * at[width][loss];
   result.test.evidence = best - std::log(static_cast<double>(scan.links().size()));
-  result.test.log_p = log_p(scan, best);
+  result.test.log_p = log_p(scan, best, scan.without_passages(where->trains[width], losses[loss], pulls));
   return result;
 }
 

@@ -15,7 +15,8 @@ struct Passages {
 // The likeliest link, loss, share and duration. Each link is scanned with dips of some widths and losses: the
 // likelihood ratio of passages at unknown times, averaged over both, against nobody. Its p-value comes from the same
 // scan of what the model leaves, shuffled in whitened space: that keeps how skewed errors are, and breaks bursts up;
-// and from the scan of its mirror image: people lower levels, a misfit of the field raises them as often.
+// and from the scan of the mirror image of what the passages leave: people lower levels, a misfit of the field raises
+// them as often.
 Passages passages_of(const search::Bench& bench);
 
 }  // namespace muster::diagnosis

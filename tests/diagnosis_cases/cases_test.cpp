@@ -99,6 +99,15 @@ TEST(SealedPeople, AreNotTakenForWhatChangesInTime) {
   EXPECT_EQ(second_look(world, extended, world / "second.csv", plugins).rediagnosis, "silent");
 }
 
+// Whitened dips have rims: mirrored they look like dips again, and must not count as what a misfit of the field does.
+TEST(SealedPeople, AreSeenThoughTheirDipsHaveRims) {
+  const Scratch scratch;
+  const auto world = sealed_case(scratch, "--mix one --lambda 60 --effects people", 6);
+  const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
+  ASSERT_EQ(found.causes.size(), 1u) << told(found);
+  EXPECT_EQ(found.causes[0].id, "effect.people");
+}
+
 class CleanCase : public testing::TestWithParam<int> {};
 
 TEST_P(CleanCase, IsSilent) {
