@@ -86,26 +86,41 @@ Peak as_stated(Judge& judge, const ReadingLaw& law, const noise::StatedField& st
   return best;
 }
 
+// Of the field that rows say, of any family: over the ways between readings another one may be the likeliest.
+double as_fitted(Judge& judge, const ReadingLaw& law, const noise::StatedField& fitted) {
+  double best = -1e300;
+  for (const noise::Family family : noise::families) {
+    for (const double distance : {0.9, 1.0, 1.1}) {
+      const noise::StatedField field{fitted.shadowing, distance * fitted.decorrelation};
+      best = std::max(best, in_field(judge, law, family, field).value);
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 // The field that rows say is held against the stated one by rows and by readings, and the weaker word counts. Readings
 // by themselves know little more than its variance over its distance where they lie dense.
 LawTest field_test(ReadingField& field, double step, const ReadingLaw& law, const noise::StatedField& stated,
                    const search::Bench& bench) {
-  Judge judge(field, step);
   const noise::Fit free = unbelieving(bench);
   const noise::StatedField fitted = said_by(free.covariance);
-  const double of_readings =
-      2 * (in_field(judge, law, free.covariance.family, fitted).value - as_stated(judge, law, stated).value);
   const Eigen::Matrix4d spread = free.curvature.inverse();
   LawTest test{"effect.shadowing_correlation",
                {value_of("shadowing", fitted.shadowing, spread(0, 0) / 4),
                 value_of("decorrelation", fitted.decorrelation, spread(1, 1))},
-               std::max(0.0, std::min(of_readings, gain_of_rows(bench, stated, free))),
+               gain_of_rows(bench, stated, free),
                0,
                0};
+  const auto evidence = [&] { return test.gain / 2 - std::log(static_cast<double>(field.size())); };
+  if (evidence() > 0) {
+    Judge judge(field, step);
+    const double of_readings = 2 * (as_fitted(judge, law, fitted) - as_stated(judge, law, stated).value);
+    test.gain = std::max(0.0, std::min(test.gain, of_readings));
+  }
+  test.evidence = evidence();
   test.log_p = search::log_tail(test.gain / wider, 2);
-  test.evidence = test.gain / 2 - std::log(static_cast<double>(field.size()));
   return test;
 }
 
