@@ -112,7 +112,7 @@ class Hider {
       case Acts::field_law: {
         FieldLaw changed = made_.site->noise.field;
         e.change_field(changed, x);
-        return whitener().field_lambda(changed, made_.site->stated_field);
+        return of_field(changed);
       }
       case Acts::receiver: {
         const ReceivedShift s = received_shift(*made_.site, e, x, made_.measured, sum());
@@ -125,11 +125,28 @@ class Hider {
     return energy(whitener(), e.shift(made_.measured, x), beside(made_.measured.design, shifts_));
   }
 
+  // Worlds state how large shadowing is and how far it reaches, and no family: the one nearest to the truth is to be
+  // beaten.
+  double of_field(const FieldLaw& truth) {
+    if (!divergence_) {
+      std::vector<FieldLaw> stated;
+      for (const Family family : {Family::exponential, Family::gaussian, Family::two_scale}) {
+        stated.push_back(made_.site->stated_field);
+        stated.back().family = family;
+      }
+      divergence_.emplace(whitener(), stated);
+    }
+    return (*divergence_)(truth);
+  }
+
   void adopt(const Hidden& h) {
     if (h.effect.acts == Acts::reading_law) h.effect.change_reading(made_.site->noise.reading, h.strength);
     if (h.effect.acts == Acts::field_law) h.effect.change_field(made_.site->noise.field, h.strength);
     if (h.effect.acts == Acts::mean) shifts_.push_back(h.effect.shift(made_.measured, h.strength));
-    if (h.effect.acts == Acts::reading_law || h.effect.acts == Acts::field_law) whitener_.reset();
+    if (h.effect.acts == Acts::reading_law || h.effect.acts == Acts::field_law) {
+      divergence_.reset();
+      whitener_.reset();
+    }
     if (h.effect.id == "noise_floor_rssi") made_.site->noise_swing = h.strength;
   }
 
@@ -149,6 +166,7 @@ class Hider {
   Random random_;
   std::vector<Eigen::VectorXd> shifts_;  // of the effects adopted so far
   std::optional<Whitener> whitener_;
+  std::optional<FieldDivergence> divergence_;
 };
 
 // Folds of spatial blocks, so that shadowing of held-out places was not seen.

@@ -62,7 +62,7 @@ Whitener::Whitener(const Data& data, const Noise& noise, const std::vector<char>
   if (detail == Detail::readings) add_single_readings(data);
   find_neighbours(detail);
   const Kernel kernel(noise_.field);
-  for (int i = 0; i < static_cast<int>(means_.size()); ++i) weights_.push_back(weights(kernel, i));
+  for (int i = 0; i < static_cast<int>(means_.size()); ++i) weights_.push_back(weights(joint(kernel, i)));
 }
 
 Whitener::Mean Whitener::mean_of(const Data& data, std::vector<int> readings) {
@@ -149,25 +149,22 @@ double Whitener::covariance(const Kernel& kernel, int one, int other) const {
   return field + (shares_readings ? reading_variance_ / most : 0);
 }
 
-Whitener::Weights Whitener::weights(const Kernel& kernel, int mean) const {
-  const std::vector<int>& near = neighbours_[static_cast<std::size_t>(mean)];
-  const auto count = static_cast<Eigen::Index>(near.size());
-  const auto neighbour = [&](Eigen::Index k) { return near[static_cast<std::size_t>(k)]; };
-  Eigen::MatrixXd among(count, count);
-  Eigen::VectorXd with(count);
-  for (Eigen::Index a = 0; a < count; ++a) {
-    for (Eigen::Index b = 0; b <= a; ++b) among(a, b) = covariance(kernel, neighbour(a), neighbour(b));
-    with[a] = covariance(kernel, neighbour(a), mean);
-  }
-  Weights result;
-  double left = covariance(kernel, mean, mean);
-  if (count > 0) {
-    const Eigen::VectorXd w = among.selfadjointView<Eigen::Lower>().llt().solve(with);
-    left -= w.dot(with);
-    result.of.assign(w.begin(), w.end());
-  }
-  result.deviation = std::sqrt(left);
+Eigen::MatrixXd Whitener::joint(const Kernel& kernel, int mean) const {
+  std::vector<int> all = neighbours_[static_cast<std::size_t>(mean)];
+  all.push_back(mean);
+  const auto count = static_cast<Eigen::Index>(all.size());
+  const auto one = [&](Eigen::Index k) { return all[static_cast<std::size_t>(k)]; };
+  Eigen::MatrixXd result(count, count);
+  for (Eigen::Index a = 0; a < count; ++a)
+    for (Eigen::Index b = 0; b <= a; ++b) result(a, b) = result(b, a) = covariance(kernel, one(a), one(b));
   return result;
+}
+
+Whitener::Weights Whitener::weights(const Eigen::MatrixXd& joint) {
+  const Eigen::Index count = joint.rows() - 1;
+  const Eigen::VectorXd with = joint.col(count).head(count);
+  const Eigen::VectorXd w = joint.topLeftCorner(count, count).llt().solve(with);
+  return {{w.begin(), w.end()}, std::sqrt(joint(count, count) - w.dot(with))};
 }
 
 Eigen::MatrixXd Whitener::operator()(const Eigen::MatrixXd& columns) const {
@@ -205,26 +202,32 @@ std::vector<double> Whitener::level_deviations() const {
   return result;
 }
 
-double Whitener::field_lambda(const FieldLaw& truth, const FieldLaw& stated) const {
-  const Kernel true_kernel(truth), stated_kernel(stated);
-  double sum = 0;
-  for (int i = 0; i < static_cast<int>(rows_); ++i) {
-    const Weights of_truth = weights(true_kernel, i), of_stated = weights(stated_kernel, i);
-    // Variance, under the truth, of what the stated law leaves of this row.
-    std::vector<int> set = neighbours_[static_cast<std::size_t>(i)];
-    std::vector<double> w = of_stated.of;
-    for (double& v : w) v = -v;
-    set.push_back(i);
-    w.push_back(1);
-    double variance = 0;
-    for (std::size_t a = 0; a < set.size(); ++a) {
-      variance += w[a] * w[a] * covariance(true_kernel, set[a], set[a]);
-      for (std::size_t b = 0; b < a; ++b) variance += 2 * w[a] * w[b] * covariance(true_kernel, set[a], set[b]);
-    }
-    const double ratio = of_stated.deviation / of_truth.deviation;
-    sum += variance / (of_stated.deviation * of_stated.deviation) - 1 + 2 * std::log(ratio);
+FieldDivergence::FieldDivergence(const Whitener& whitener, const std::vector<FieldLaw>& stated) : whitener_(whitener) {
+  for (const FieldLaw& law : stated) {
+    const Whitener::Kernel kernel(law);
+    std::vector<Whitener::Weights>& of_law = stated_.emplace_back();
+    for (std::size_t i = 0; i < whitener.rows_; ++i)
+      of_law.push_back(Whitener::weights(whitener.joint(kernel, static_cast<int>(i))));
   }
-  return std::max(0.0, sum);
+}
+
+double FieldDivergence::operator()(const FieldLaw& truth) const {
+  const Whitener::Kernel kernel(truth);
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(stated_.size()));
+  for (std::size_t i = 0; i < whitener_.rows_; ++i) {
+    const Eigen::MatrixXd joint = whitener_.joint(kernel, static_cast<int>(i));
+    const double of_truth = Whitener::weights(joint).deviation;
+    for (std::size_t k = 0; k < stated_.size(); ++k) {
+      const Whitener::Weights& of_stated = stated_[k][i];
+      // Variance, under the truth, of what the stated law leaves of this row.
+      Eigen::VectorXd left = Eigen::VectorXd::Ones(joint.rows());
+      left.head(joint.rows() - 1) = -Eigen::Map<const Eigen::VectorXd>(of_stated.of.data(), joint.rows() - 1);
+      const double variance = left.dot(joint * left), ratio = of_stated.deviation / of_truth;
+      sum[static_cast<Eigen::Index>(k)] +=
+          variance / (of_stated.deviation * of_stated.deviation) - 1 + 2 * std::log(ratio);
+    }
+  }
+  return std::max(0.0, sum.minCoeff());
 }
 
 double energy(const Whitener& whiten, const Eigen::VectorXd& effect, const Eigen::MatrixXd& others) {

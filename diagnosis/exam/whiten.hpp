@@ -27,11 +27,9 @@ class Whitener {
   // dB, of each reading in use: how well its level is known from the readings before it, in the order of conditioning.
   std::vector<double> level_deviations() const;
 
-  // 2 x the Kullback-Leibler divergence between two laws of the field, truth against stated, in the means of rows: what
-  // closer readings tell of it hangs on the law of readings, which nobody states exactly.
-  double field_lambda(const FieldLaw& truth, const FieldLaw& stated) const;
-
  private:
+  friend class FieldDivergence;
+
   // A mean of readings: of a row, or of one reading alone.
   struct Mean {
     std::vector<int> readings;
@@ -56,7 +54,9 @@ class Whitener {
   void find_neighbours(Detail detail);
   // Of two means.
   double covariance(const Kernel& kernel, int one, int other) const;
-  Weights weights(const Kernel& kernel, int mean) const;
+  // Of a mean's neighbours and, last, of itself.
+  Eigen::MatrixXd joint(const Kernel& kernel, int mean) const;
+  static Weights weights(const Eigen::MatrixXd& joint);
   const Mean& mean(int k) const { return means_[static_cast<std::size_t>(k)]; }
 
   Noise noise_;
@@ -65,6 +65,19 @@ class Whitener {
   std::vector<Mean> means_;  // in the order of conditioning
   std::vector<std::vector<int>> neighbours_;
   std::vector<Weights> weights_;
+};
+
+// 2 x the Kullback-Leibler divergence of a law of the field from the nearest of those stated, in the means of rows:
+// what closer readings tell of it hangs on the law of readings, which nobody states exactly.
+class FieldDivergence {
+ public:
+  // `whitener` has to outlive it.
+  FieldDivergence(const Whitener& whitener, const std::vector<FieldLaw>& stated);
+  double operator()(const FieldLaw& truth) const;
+
+ private:
+  const Whitener& whitener_;
+  std::vector<std::vector<Whitener::Weights>> stated_;  // by law and row
 };
 
 // Energy of `effect` after the best fit of `others`, all over readings.

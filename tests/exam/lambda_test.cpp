@@ -146,10 +146,15 @@ TEST(Lambda, OfALawIsZeroForTheStatedOneAndGrowsAwayFromIt) {
   }
   const Case c = made(3, "", 0, 900);
   const Whitener whiten(c.measured, c.site->noise, heard(c.measured));
-  FieldLaw field = c.site->noise.field;
-  EXPECT_NEAR(whiten.field_lambda(field, c.site->noise.field), 0, 1e-6);
+  FieldLaw field = c.site->noise.field, other = field;
+  other.family = field.family == Family::gaussian ? Family::exponential : Family::gaussian;
+  const FieldDivergence divergence(whiten, {field}), of_either(whiten, {field, other});
+  EXPECT_NEAR(divergence(field), 0, 1e-6);
+  EXPECT_GT(divergence(other), 1);
+  EXPECT_NEAR(of_either(other), 0, 1e-6);
   field.decorrelation *= 2;
-  EXPECT_GT(whiten.field_lambda(field, c.site->noise.field), 1);
+  EXPECT_GT(divergence(field), 1);
+  EXPECT_LE(of_either(field), divergence(field));
 }
 
 }  // namespace
