@@ -2,7 +2,6 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "diagnosis/judge.hpp"
@@ -55,45 +54,20 @@ LawValue value_of(const char* name, double value, double variance_of_log) {
 
 int thousandths(double log) { return static_cast<int>(std::lround(1e3 * log)); }
 
-// The likelihood of single readings in a field of this size and decorrelation distance.
-Peak in_field(Judge& judge, const ReadingLaw& law, noise::Family family, const noise::StatedField& field) {
-  Peak there{0,
-             {family, thousandths(std::log(field.decorrelation / noise::efold(family)))},
-             thousandths(std::log(variance_of(law, judge.step())) - 2 * std::log(field.shadowing))};
-  there.value = judge.value(law, there);
-  return there;
+double in_field(Judge& judge, const ReadingLaw& law, noise::Family family, const noise::StatedField& field) {
+  const Peak there{0,
+                   {family, thousandths(std::log(field.decorrelation / noise::efold(family)))},
+                   thousandths(std::log(variance_of(law, judge.step())) - 2 * std::log(field.shadowing))};
+  return judge.value(law, there);
 }
 
-// The likeliest field that is as stated. Families differ in what they call a distance by more than data can
-// tell, so that all within a tolerance count as stated; a smoother field than Matern's has a longer one by his law.
-Peak as_stated(Judge& judge, const ReadingLaw& law, const noise::StatedField& stated) {
-  const auto at = [&](noise::Family family, double distance) {
-    return in_field(judge, law, family, {stated.shadowing, distance * stated.decorrelation});
-  };
-  std::vector<Peak> middle;
-  middle.reserve(noise::families.size());
-  for (const noise::Family family : noise::families) middle.push_back(at(family, 1));
-  std::sort(middle.begin(), middle.end(), [](const Peak& a, const Peak& b) { return a.value > b.value; });
-  Peak best = middle[0];
-  for (std::size_t k = 0; k < 2; ++k) {
-    const bool smooth =
-        middle[k].shape.family == noise::Family::matern32 || middle[k].shape.family == noise::Family::matern52;
-    for (const double distance : smooth ? std::array{1.12, 1.25, 1.4} : std::array{0.9, 1.0, 1.1}) {
-      const Peak there = at(middle[k].shape.family, distance);
-      if (there.value > best.value) best = there;
-    }
-  }
-  return best;
-}
-
-// Of the field that rows say, of any family: over the ways between readings another one may be the likeliest.
-double as_fitted(Judge& judge, const ReadingLaw& law, const noise::StatedField& fitted) {
+// The log-likelihood of single readings in the likeliest field of that size and distance. Families differ in what they
+// call a distance by more than data can tell, so that all within a tolerance count.
+double of_any_family(Judge& judge, const ReadingLaw& law, const noise::StatedField& field) {
   double best = -1e300;
   for (const noise::Family family : noise::families) {
-    for (const double distance : {0.9, 1.0, 1.1}) {
-      const noise::StatedField field{fitted.shadowing, distance * fitted.decorrelation};
-      best = std::max(best, in_field(judge, law, family, field).value);
-    }
+    for (const double tolerance : {0.9, 1.0, 1.1})
+      best = std::max(best, in_field(judge, law, family, {field.shadowing, tolerance * field.decorrelation}));
   }
   return best;
 }
@@ -116,7 +90,7 @@ LawTest field_test(ReadingField& field, double step, const ReadingLaw& law, cons
   const auto evidence = [&] { return test.gain / 2 - std::log(static_cast<double>(field.size())); };
   if (evidence() > 0) {
     Judge judge(field, step);
-    const double of_readings = 2 * (as_fitted(judge, law, fitted) - as_stated(judge, law, stated).value);
+    const double of_readings = 2 * (of_any_family(judge, law, fitted) - of_any_family(judge, law, stated));
     test.gain = std::max(0.0, std::min(test.gain, of_readings));
   }
   test.evidence = evidence();
