@@ -28,9 +28,9 @@ constexpr Hidden table[] = {
     {"body_shadow", 905, 2, 2, 2},
     {"tx_misplaced", 906, 2, 2, 2},
     {"label_swap", 907, 2, 2, 2},
-    {"asymmetry", 908, 2, 0, 2},
+    {"asymmetry", 908, 2, 1, 2},
     {"wall_material", 909, 2, 2, 2},
-    {"wall_absent", 910, 2, 1, 1},
+    {"wall_absent", 910, 2, 2, 2},
     {"unmapped_wall", 911, 3, 1, 1},
     {"obstacle", 912, 2, 2, 2},
     {"room_clutter", 913, 2, 2, 2},
@@ -50,8 +50,8 @@ constexpr Hidden table[] = {
     {"rssi_floor", 927, 2, 2, 2},
     {"fading_law", 928, 2, 2, 2},
     {"outliers", 929, 2, 2, 2},
-    {"channel_mixture", 930, 2, 1, 1},
-    {"shadowing_correlation", 931, 2, 1, 1},
+    {"channel_mixture", 930, 2, 2, 2},
+    {"shadowing_correlation", 931, 2, 2, 2},
 };
 
 void PrintTo(const Hidden& hidden, std::ostream* out) { *out << hidden.effect; }
