@@ -212,7 +212,7 @@ void leave_the_stronger(Diagnosis& found) {
 
 // A link that passes the end of a wall closely may as well pass on its other side; one that does is off by the wall,
 // and three of those among 20,000 readings look like outliers.
-VectorXd without_grazing(const LawSources& s, VectorXd residual, Diagnosis& found) {
+VectorXd without_grazing(const LawSources& s, const VectorXd& residual, Diagnosis& found) {
   constexpr double as_exact_as_places = 0.005, much = 0.5;  // m: surveys write centimetres; dB: half a unit of RSSI
   const VectorXd unsure = s.model.changes_aside(as_exact_as_places)(s.used);
   const auto grazes = unsure.array() > much;
