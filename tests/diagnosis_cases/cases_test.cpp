@@ -108,6 +108,16 @@ TEST(SealedPeople, AreSeenThoughTheirDipsHaveRims) {
   EXPECT_EQ(found.causes[0].id, "effect.people");
 }
 
+// A Gaussian correlation over 3.27 m where 2.38 m are stated: no family of the stated distance does as well.
+TEST(SealedField, OfASmoothFamilyIsNotTakenForTheStatedOne) {
+  const Scratch scratch;
+  const auto world =
+      made_case(scratch, "--seed 92 --rows 2000 20000 --mix one --lambda 60 --effects shadowing_correlation", 14);
+  const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
+  ASSERT_EQ(found.causes.size(), 1u) << told(found);
+  EXPECT_EQ(found.causes[0].id, "effect.shadowing_correlation");
+}
+
 class CleanCase : public testing::TestWithParam<int> {};
 
 TEST_P(CleanCase, IsSilent) {

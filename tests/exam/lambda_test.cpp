@@ -3,6 +3,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
+#include <limits>
 
 #include "field.hpp"
 #include "made.hpp"
@@ -155,6 +156,21 @@ TEST(Lambda, OfALawIsZeroForTheStatedOneAndGrowsAwayFromIt) {
   field.decorrelation *= 2;
   EXPECT_GT(divergence(field), 1);
   EXPECT_LE(of_either(field), divergence(field));
+}
+
+// A world states how far shadowing reaches, and no family: none of those it may mean is nearer to what is hidden.
+TEST(Lambda, OfAnotherFieldIsAgainstTheNearestFamily) {
+  for (const std::uint64_t seed : {3, 5, 6}) {  // from the truth's own family: 79, 62 and 70
+    const Case c = made(seed, "shadowing_correlation", 60, 900);
+    const Whitener whiten(c.measured, c.site->noise, heard(c.measured));
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Family family : {Family::exponential, Family::gaussian, Family::two_scale}) {
+      FieldLaw stated = c.site->stated_field;
+      stated.family = family;
+      nearest = std::min(nearest, FieldDivergence(whiten, {stated})(c.site->noise.field));
+    }
+    EXPECT_NEAR(nearest / c.hidden[0].lambda, 1, 1e-3) << "seed " << seed;
+  }
 }
 
 }  // namespace
