@@ -96,8 +96,7 @@ class RawOde {
     };
     Made made;
     made.body = body(model_.body, model_.body.centre);
-    for (const ode::Slider& slider : model_.sliders)
-      shape(dCreateSphere(own, slider.radius), made.body, slider.centre, 0);
+    for (const ode::Ball& slider : model_.balls) shape(dCreateSphere(own, slider.radius), made.body, slider.centre, 0);
     const ode::Block& box = model_.blocks.front();
     shape(dCreateBox(own, box.size.x(), box.size.y(), box.size.z()), made.body, box.pose.translation(), 0.3);
     for (std::size_t w = 0; w < 2; ++w) {

@@ -33,11 +33,8 @@ std::string lacking(const Robot& robot, Ability have) {
     const Joint& joint = robot.joints[limb.joint];
     need(true, ability_of(joint.kind), "joint '" + joint.name + "' (" + law_of(joint.kind).name + ") without a motor");
   }
-  if (!robot.drive && !robot.quadrotor && !robot.legs) {
-    list +=
-        std::string(list.empty() ? "" : ", ") +
-        "motion without a drive (its model has no <muster><differential .../></muster>, <quadrotor .../> or <legs>)";
-  }
+  need(!robot.is_driven(), Ability::pushed,
+       "motion without a drive (its model has no <muster><differential .../></muster>, <quadrotor .../> or <legs>)");
   return list;
 }
 

@@ -15,6 +15,7 @@ enum class Ability : unsigned {
   tilting = 8,  // roll and pitch change
   legs = 16,    // six half circles on motors, with springs
   bouncing = 512,
+  pushed = 1024,  // moved by others alone
   // Limbs: what hangs on joints that no motor turns.
   hinges = 32,   // revolute, continuous
   sliders = 64,  // prismatic
@@ -26,8 +27,7 @@ constexpr Ability operator|(Ability a, Ability b) {
   return static_cast<Ability>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
 }
 
-// What the robot needs and `have` lacks, in words and with commas between; "" if nothing. A robot without any drive
-// needs what nobody has.
+// What the robot needs and `have` lacks, in words and with commas between; "" if nothing.
 std::string lacking(const Robot& robot, Ability have);
 
 }  // namespace muster::description

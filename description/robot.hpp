@@ -122,6 +122,9 @@ struct Robot {
   // one. The ground and walls are as elastic as what meets them, legs not at all.
   double restitution = 0;
   std::vector<std::string> warnings;  // one line each, for the user
+
+  // Else others push it, and all of it that touches holds on to what it touches.
+  bool is_driven() const { return drive || legs || quadrotor; }
 };
 
 // The link and all that is fixed to it, in the link's frame.

@@ -18,8 +18,7 @@ constexpr double thinnest = 1e-3;  // [m] of a block: ODE takes no flat ones
 bool has_inertia(const description::Mass& mass) { return mass.mass > 0 && mass.inertia.llt().info() == Eigen::Success; }
 
 std::vector<std::string> lacks(const Robot& robot) {
-  if (!robot.drive && !robot.quadrotor)
-    return {"it has neither a <muster><differential .../></muster> drive nor a <quadrotor .../>"};
+  if (robot.legs) return {"it walks"};
   std::vector<std::string> result;
   std::vector<std::size_t> wheels;
   if (robot.drive) wheels = {robot.drive->left, robot.drive->right};
@@ -75,13 +74,14 @@ RobotModel::RobotModel(const Robot& robot) {
     throw std::runtime_error("robot model '" + robot.name + "' (" + robot.file +
                              ") cannot be simulated by physics.ode: " + list);
   }
+  is_driven = robot.is_driven();
   has_wheels = robot.drive.has_value();
   rotors = robot.quadrotor;
   restitution = robot.restitution;
   body = rigid_mass(robot, 0);
   for (const Shape& shape : rigid_shapes(robot, 0)) {
     if (const auto* sphere = std::get_if<description::Sphere>(&shape.geometry)) {
-      sliders.push_back({shape.pose.translation(), sphere->radius});
+      balls.push_back({shape.pose.translation(), sphere->radius});
     } else {
       blocks.push_back(block_of(shape, Isometry3d::Identity(), false));
     }

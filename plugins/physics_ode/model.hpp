@@ -1,5 +1,5 @@
-// What of a robot ODE is given: a rigid body, two wheels that hinge on it or rotors that lift it, and shapes that
-// touch.
+// What of a robot ODE is given: a rigid body, two wheels that hinge on it or rotors that lift it or nothing that drives
+// it, and shapes that touch.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace muster::ode {
 
-// A smooth sphere fixed to the body, on which it slides.
-struct Slider {
+// A sphere fixed to the body: smooth, where the robot is driven and slides on it.
+struct Ball {
   Eigen::Vector3d centre;  // in the body's frame [m]
   double radius;           // [m]
 };
@@ -32,13 +32,14 @@ struct RobotModel {
   // Throws std::runtime_error that lists all that this backend lacks for the robot.
   explicit RobotModel(const description::Robot& robot);
 
+  bool is_driven = true;
   bool has_wheels = true;  // else what is said of them below is nothing
   description::DifferentialDrive drive;
   std::optional<description::Quadrotor> rotors;
   double restitution = 0;
   description::Mass body;  // all that is rigid with the root, in its frame
   std::array<Wheel, 2> wheel;
-  std::vector<Slider> sliders;
+  std::vector<Ball> balls;
   std::vector<Block> blocks;
 };
 

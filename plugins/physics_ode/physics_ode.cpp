@@ -47,7 +47,7 @@ struct PhysicsOde {
   static constexpr auto phase = MUSTER_PHYSICS;
   static constexpr auto abilities = description::Ability::wheels | description::Ability::rotors |
                                     description::Ability::height | description::Ability::tilting |
-                                    description::Ability::bouncing;
+                                    description::Ability::bouncing | description::Ability::pushed;
   static constexpr Param params[] = {
       real("step", 0.001, 1e-6, 0.1, "s", "longest step inside a tick"),
       choice("solver", "exact|quick", "dWorldStep or dWorldQuickStep"),

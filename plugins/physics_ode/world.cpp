@@ -113,9 +113,10 @@ void World::add_shapes(const Robot& robot) {
     fix(add_geom(sphere, tyre, ground, robot.model.drive.friction, robot.model.restitution), robot.wheel[w],
         robot.model.wheel[w].frame);
   }
-  for (const Slider& slider : robot.model.sliders) {
-    fix(add_geom(dCreateSphere(nullptr, slider.radius), part, ground | others, smooth, robot.model.restitution),
-        robot.body, Isometry3d(Eigen::Translation3d(slider.centre)));
+  for (const Ball& ball : robot.model.balls) {
+    const double friction = robot.model.is_driven ? smooth : settings_.friction;
+    fix(add_geom(dCreateSphere(nullptr, ball.radius), part, ground | others, friction, robot.model.restitution),
+        robot.body, Isometry3d(Eigen::Translation3d(ball.centre)));
   }
   for (const Block& block : robot.model.blocks) {
     dGeomID box = dCreateBox(nullptr, block.size.x(), block.size.y(), block.size.z());

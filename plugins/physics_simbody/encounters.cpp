@@ -187,12 +187,12 @@ template <int N>
 void EncountersOf<N>::with_ground(int body, const Placed& robot, const Memory& memory) {
   stand(body, robot, memory);
   if (!robot.model->legs.empty()) stand_on_legs(body, robot, memory);
-  // Boxes and cylinders of the body reach the ground only where it has tipped.
+  // Boxes and cylinders of what is driven reach the ground only where it has tipped.
   const double near = margin(robot.speed);
   if (robot.position.z() + robot.model->lowest_corner(robot.to_world.row(2)) > near) return;
   for (std::size_t k = 0; k < robot.model->parts.size(); ++k) {
     const Part& part = robot.model->parts[k];
-    if (part.wheel >= 0 || part.solid.kind == Solid::Kind::sphere) continue;
+    if (!robot.model->stands_on(part)) continue;
     const Touch t = touch_ground(placed(part.solid, robot), near);
     for (int n = 0; n < t.count; ++n) {
       const Trace trace{robot.index, -1, id_of(0, k, 0, t.points[n].mark), frame_about(t.normal)};

@@ -88,8 +88,7 @@ void check_limb(const description::Robot& robot, const description::Joint& joint
 }  // namespace
 
 RobotModel::RobotModel(const description::Robot& robot) : name(robot.name) {
-  if (!robot.drive && !robot.quadrotor && !robot.legs)
-    refuse(robot, "it has no <muster><differential .../></muster> drive, no <quadrotor .../> and no <legs>");
+  is_driven = robot.is_driven();
   has_wheels = robot.drive.has_value();
   rotors = robot.quadrotor;
   restitution = robot.restitution;
@@ -100,7 +99,7 @@ RobotModel::RobotModel(const description::Robot& robot) : name(robot.name) {
   if (has_wheels) take_wheels(robot);
   take_limbs(robot);
   for (const description::Shape& shape : rigid_shapes(robot, 0)) {
-    if (const auto* sphere = std::get_if<description::Sphere>(&shape.geometry)) {
+    if (const auto* sphere = std::get_if<description::Sphere>(&shape.geometry); sphere && is_driven) {
       sliders.push_back({shape.pose.translation(), sphere->radius});
     }
     parts.push_back({solid_of(Eigen::Isometry3d::Identity(), shape)});
@@ -176,11 +175,12 @@ double RobotModel::lowest_corner(const Eigen::Vector3d& up) const {
   double lowest = std::numeric_limits<double>::infinity();
   for (const Part& part : parts) {
     const Solid& solid = part.solid;
-    if (part.wheel >= 0 || solid.kind == Solid::Kind::sphere) continue;
+    if (!stands_on(part)) continue;
     const Eigen::Vector3d along = solid.axes.transpose() * up;
-    const double half_width = solid.kind == Solid::Kind::box
-                                  ? solid.half.dot(along.cwiseAbs())
-                                  : 1.02 * solid.half[0] * along.head<2>().norm() + solid.half[2] * std::abs(along[2]);
+    double half_width = solid.half[0];  // of a sphere
+    if (solid.kind == Solid::Kind::box) half_width = solid.half.dot(along.cwiseAbs());
+    if (solid.kind == Solid::Kind::cylinder)
+      half_width = 1.02 * solid.half[0] * along.head<2>().norm() + solid.half[2] * std::abs(along[2]);
     lowest = std::min(lowest, up.dot(solid.centre) - half_width);
   }
   return lowest;

@@ -9,13 +9,13 @@
 
 namespace muster::simbody {
 
-// A smooth sphere fixed to the body, on which it slides.
+// A smooth sphere fixed to a body that is driven, on which it slides.
 struct Slider {
   Eigen::Vector3d centre;  // in the body's frame [m]
   double radius;           // [m]
 };
 
-// What of a robot others can touch: a box, sphere or cylinder in the body's frame. A mesh is the box around it, along
+// What of a robot can be touched: a box, sphere or cylinder in the body's frame. A mesh is the box around it, along
 // the axes of its own frame; what belongs to a wheel moves with its tread but keeps its place.
 struct Part {
   Solid solid;
@@ -47,12 +47,18 @@ struct RobotModel {
   // Whether its mass is another in each step.
   bool is_articulated() const { return !legs.empty() || !limbs.empty(); }
 
-  // Height of the lowest corner of the body's boxes and cylinders above its origin, and of the lowest point of its
-  // spheres too; `up` in the body's frame [m].
+  // Whether it is the part itself that the ground feels: a wheel has its sphere, a slider no friction.
+  bool stands_on(const Part& part) const {
+    return part.wheel < 0 && (part.solid.kind != Solid::Kind::sphere || !is_driven);
+  }
+
+  // Height of the lowest corner of what it stands on above its origin, and of the lowest point of its sliders too;
+  // `up` in the body's frame [m].
   double lowest_corner(const Eigen::Vector3d& up) const;
   double lowest_point(const Eigen::Vector3d& up) const;
 
   std::string name;
+  bool is_driven = true;
   bool has_wheels = true;  // else what is said of them below is nothing
   description::DifferentialDrive drive;
   std::optional<description::Quadrotor> rotors;

@@ -48,13 +48,15 @@ struct PhysicsSimbody {
       "rotors as they turn.\n"
       "Limbs hang on hinges, sliders and balls without a motor, with limits, damping and friction, and touch nothing;\n"
       "robot/*/limbs are these as they hang.\n"
+      "A robot without a drive is pushed by others; all its shapes have body_friction on the ground.\n"
       "Not modelled: wheels as discs on the ground (they stand on it as spheres would), rolling resistance,\n"
       "downwash and ground effect of rotors.";
   static constexpr auto phase = MUSTER_PHYSICS;
-  static constexpr auto abilities =
-      description::Ability::wheels | description::Ability::rotors | description::Ability::legs |
-      description::Ability::height | description::Ability::tilting | description::Ability::hinges |
-      description::Ability::sliders | description::Ability::balls | description::Ability::bouncing;
+  static constexpr auto abilities = description::Ability::wheels | description::Ability::rotors |
+                                    description::Ability::legs | description::Ability::height |
+                                    description::Ability::tilting | description::Ability::hinges |
+                                    description::Ability::sliders | description::Ability::balls |
+                                    description::Ability::bouncing | description::Ability::pushed;
   static constexpr Param params[] = {
       real("step", 0.001, 1e-6, 0.1, "s", "longest step inside a tick"),
       real("leg_step", 0.1, 1e-6, 0.1, "s", "as step, of robots that walk and who may meet them"),

@@ -65,7 +65,7 @@ struct Stock::Robot {
     if (!model.legs.empty())
       throw std::runtime_error("robot '" + name + "' walks; Simbody's own integrators roll on wheels: use midpoint");
     if (!model.has_wheels)
-      throw std::runtime_error("robot '" + name + "' has no wheels: integrator=\"midpoint\" flies it");
+      throw std::runtime_error("robot '" + name + "' has no wheels: integrator=\"midpoint\" moves it");
     if (model.restitution > 0)
       throw std::runtime_error("robot '" + name +
                                "' bounces; Simbody's own integrators keep wheels on the ground: use midpoint");

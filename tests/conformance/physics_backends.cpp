@@ -5,7 +5,7 @@ namespace muster::test {
 std::vector<Backend> table() {
   Backend simbody{"simbody", "physics.simbody", {}, true};
   simbody.height = simbody.slip = simbody.torque = simbody.round_friction = simbody.load_transfer = true;
-  simbody.rotors = simbody.limbs = simbody.bouncing = simbody.bounces_on_wheels = true;
+  simbody.rotors = simbody.limbs = simbody.pushed = simbody.bouncing = simbody.bounces_on_wheels = true;
   simbody.order = 2, simbody.coarsest_of_order = 0.08, simbody.flight_order = 4;
   simbody.fall = 1e-6, simbody.rest = 1e-6, simbody.arc = 1e-3, simbody.course = 1e-4, simbody.ramp = 1e-3;
   simbody.climb = 1e-7, simbody.spin = 1e-11, simbody.collision = 1e-12, simbody.bounce = 0.02, simbody.force = 0.01;
@@ -13,11 +13,11 @@ std::vector<Backend> table() {
   simbody.pendulum = "hip", simbody.swing = 2e-4;
 
   Backend ode{"ode_exact", "physics.ode", {}, true};
-  ode.height = ode.slip = ode.torque = ode.rotors = ode.bouncing = true;
+  ode.height = ode.slip = ode.torque = ode.rotors = ode.bouncing = ode.pushed = true;
   ode.order = 2, ode.coarsest_of_order = 0.04, ode.flight_order = 1;
   ode.fall = 5e-3, ode.rest = 1e-6, ode.arc = 1e-3, ode.course = 1e-4, ode.ramp = 1e-3, ode.force = 0.01;
   ode.climb = 5e-3, ode.spin = 3e-3, ode.collision = 1e-12, ode.bounce = 0.8;
-  ode.apex = 0.04, ode.slide = 4e-3;
+  ode.apex = 0.04, ode.slide = 5e-3;
   ode.pendulum = "axle", ode.swing = 3e-3;
 
   Backend quick = ode;

@@ -30,6 +30,7 @@ struct Backend {
   bool bounces_on_wheels = false;  // too
   std::string pendulum{};          // the joint that may carry one: "hip" or "axle" (of a wheel without balance)
   bool limbs = false;              // on hinges and balls that no motor turns
+  bool pushed = false;             // robots that nothing drives
   int order = 0;                   // of convergence; 0: the solver's own error hides it
   double coarsest_of_order = 0;    // the step from which it shows [s]
   int flight_order = 0;            // of convergence in the air
@@ -44,7 +45,7 @@ struct Backend {
   double collision = 0;  // of the momentum of two that meet in the air, relative
   double bounce = 0;     // after a fall of 0.3 m [m/s]
   double apex = 0;       // of what a body that bounces rises to, relative
-  double slide = 0;      // of how far a box slides, relative
+  double slide = 0;      // of how far a box slides and what a ball has after it, relative
   double force = 0;      // of a robot's sliding distance, and of an acceleration at the limit of torque, relative
   double swing = 0;      // of a pendulum's period, relative
 };

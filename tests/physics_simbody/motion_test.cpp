@@ -212,19 +212,5 @@ TEST(Motion, BlowingUpNamesTheRobot) {
   }
 }
 
-TEST(Motion, OtherDrivesAreRefusedByName) {
-  description::Robot none = scarab();
-  none.drive.reset();
-  try {
-    Fleet run({at_rest(0, 0, 0)}, none);
-    FAIL() << "nothing was thrown";
-  } catch (const std::runtime_error& error) {
-    EXPECT_EQ(std::string(error.what()),
-              "robot model 'scarab' (" + none.file +
-                  ") cannot be simulated by physics.simbody: it has no <muster><differential .../></muster> drive, no "
-                  "<quadrotor .../> and no <legs>");
-  }
-}
-
 }  // namespace
 }  // namespace muster::simbody
