@@ -58,15 +58,24 @@ VelocityOf<N> point_row(const Vector3d& arm, const Vector3d& direction) {
   return row;
 }
 
-// What a robot's velocity adds to a contact at `place` on its body, wheel or leg, with the sign of its side. A wheel's
-// tread moves along the contact only.
-template <int N>
-ContactRowsOf<N> rows_at(const PlacedOf<N>& robot, int wheel, int leg, const Vector3d& place, const Matrix3d& frame,
-                         double sign) {
+// What a robot's velocity adds to a contact at `place` on its body, wheel, leg or limb, with the sign of its side. A
+// wheel's tread moves along the contact only.
+template <int N, class Side>
+ContactRowsOf<N> rows_at(const Side& side, const Vector3d& place, const Matrix3d& frame, double sign) {
+  const PlacedOf<N>& robot = *side.robot;
+  const int wheel = side.wheel, leg = side.leg;
   const Matrix3d to_body = robot.to_world.transpose();
   const Vector3d arm = to_body * (place - robot.position);
   const Matrix3d ways = sign * (to_body * frame);
   ContactRowsOf<N> rows;
+  if constexpr (N == unknowns_with_legs) {
+    if (side.limb >= 0) {
+      const auto columns = columns_at(*robot.model, robot.posture_ahead, side.limb, arm);
+      rows.normal = columns.going.transpose() * ways.col(0);
+      for (int k = 0; k < 2; ++k) rows.tangent[k] = columns.going.transpose() * ways.col(1 + k);
+      return rows;
+    }
+  }
   rows.normal = point_row<N>(arm, ways.col(0));
   for (int k = 0; k < 2; ++k) {
     rows.tangent[k] = point_row<N>(arm, ways.col(1 + k));
@@ -82,18 +91,28 @@ ContactRowsOf<N> rows_at(const PlacedOf<N>& robot, int wheel, int leg, const Vec
   return rows;
 }
 
-// No place of the first robot near `place` moves faster past the second, or past what stands still [m/s].
-template <int N>
-double closing_speed(const PlacedOf<N>& a, const PlacedOf<N>* b, const Vector3d& place) {
+// No place of the first side near `place` moves faster past the second, or past what stands still [m/s].
+template <int N, class Side>
+double closing_speed(const Side& a, const Side& b, const Vector3d& place) {
   Vector3d velocity = Vector3d::Zero(), spin = Vector3d::Zero();
-  const auto add = [&](const PlacedOf<N>& robot, double sign) {
+  const auto add = [&](const Side& side, double sign) {
+    const PlacedOf<N>& robot = *side.robot;
+    if constexpr (N == unknowns_with_legs) {
+      if (side.limb >= 0) {
+        const Vector3d arm = robot.to_world.transpose() * (place - robot.position);
+        const auto columns = columns_at(*robot.model, robot.posture_ahead, side.limb, arm);
+        spin += sign * (robot.to_world * (columns.turning * robot.body.previous));
+        velocity += sign * (robot.to_world * (columns.going * robot.body.previous));
+        return;
+      }
+    }
     const Vector3d w = sign * (robot.to_world * robot.body.previous.template head<3>());
     spin += w;
     velocity += sign * (robot.to_world * robot.body.previous.template segment<3>(3)) + w.cross(place - robot.position);
   };
   add(a, 1);
-  if (b) add(*b, -1);
-  return velocity.norm() + a.model->reach * spin.norm();
+  if (b.robot) add(b, -1);
+  return velocity.norm() + a.robot->model->reach * spin.norm();
 }
 
 Matrix3d frame_about(const Vector3d& normal) {
@@ -114,7 +133,13 @@ double id_of(int partner, std::size_t part, std::size_t other_part, int mark) {
 }
 
 template <int N>
-Solid placed(const Solid& solid, const PlacedOf<N>& robot) {
+Solid placed(const Part& part, const PlacedOf<N>& robot) {
+  const Solid& solid = part.solid;
+  if (part.limb >= 0) {
+    const Posture::Place& limb = robot.posture_ahead.limb[part.limb];
+    return {solid.kind, robot.position + robot.to_world * (limb.at + limb.turned * solid.centre),
+            robot.to_world * limb.turned * solid.axes, solid.half};
+  }
   return {solid.kind, robot.position + robot.to_world * solid.centre, robot.to_world * solid.axes, solid.half};
 }
 
@@ -189,14 +214,15 @@ void EncountersOf<N>::with_ground(int body, const Placed& robot, const Memory& m
   if (!robot.model->legs.empty()) stand_on_legs(body, robot, memory);
   // Boxes and cylinders of what is driven reach the ground only where it has tipped.
   const double near = margin(robot.speed);
-  if (robot.position.z() + robot.model->lowest_corner(robot.to_world.row(2)) > near) return;
+  const bool is_low = robot.position.z() + robot.model->lowest_corner(robot.to_world.row(2)) <= near;
+  if (!is_low && !robot.model->feels_limbs()) return;
   for (std::size_t k = 0; k < robot.model->parts.size(); ++k) {
     const Part& part = robot.model->parts[k];
-    if (!robot.model->stands_on(part)) continue;
-    const Touch t = touch_ground(placed(part.solid, robot), near);
+    if (!robot.model->stands_on(part) || (!is_low && part.limb < 0)) continue;
+    const Touch t = touch_ground(placed(part, robot), near);
     for (int n = 0; n < t.count; ++n) {
       const Trace trace{robot.index, -1, id_of(0, k, 0, t.points[n].mark), frame_about(t.normal)};
-      add({&robot, body, part.wheel}, {}, trace, memory, t.points[n]);
+      add(side(body, robot, part), {}, trace, memory, t.points[n]);
     }
   }
 }
@@ -210,7 +236,7 @@ void EncountersOf<N>::with_wall(int body, const Placed& robot, const Memory& mem
     const Touch t = touch(robot.solids[k], wall, near);
     for (int n = 0; n < t.count; ++n) {
       const Trace trace{robot.index, -1, id_of(1 + 2 * wall_index, k, 0, t.points[n].mark), frame_about(t.normal)};
-      add({&robot, body, robot.model->parts[k].wheel}, {}, trace, memory, t.points[n]);
+      add(side(body, robot, robot.model->parts[k]), {}, trace, memory, t.points[n]);
     }
   }
   each_leg_at(robot, wall, near, [&](int leg, const LegTouch& t) {
@@ -232,20 +258,20 @@ void EncountersOf<N>::between(int body_a, const Placed& a, const Memory& memory_
       const Touch t = touch(a.solids[i], b.solids[j], near);
       for (int n = 0; n < t.count; ++n) {
         const Trace trace{a.index, -1, id_of(2 + 2 * b.index, i, j, t.points[n].mark), frame_about(t.normal)};
-        add({&a, body_a, a.model->parts[i].wheel}, {&b, body_b, b.model->parts[j].wheel}, trace, memory_a, t.points[n]);
+        add(side(body_a, a, a.model->parts[i]), side(body_b, b, b.model->parts[j]), trace, memory_a, t.points[n]);
       }
     }
   }
   for (std::size_t j = 0; j < b.solids.size(); ++j) {
     each_leg_at(a, b.solids[j], near, [&](int leg, const LegTouch& t) {
       const Trace trace{a.index, -1, id_of(2 + 2 * b.index, leg_part(leg), j, t.point.mark), frame_about(t.normal)};
-      add({&a, body_a, -1, leg}, {&b, body_b, b.model->parts[j].wheel}, trace, memory_a, t.point);
+      add({&a, body_a, -1, leg}, side(body_b, b, b.model->parts[j]), trace, memory_a, t.point);
     });
   }
   for (std::size_t i = 0; i < a.solids.size(); ++i) {
     each_leg_at(b, a.solids[i], near, [&](int leg, const LegTouch& t) {
       const Trace trace{a.index, -1, id_of(2 + 2 * b.index, i, leg_part(leg), t.point.mark), frame_about(-t.normal)};
-      add({&a, body_a, a.model->parts[i].wheel}, {&b, body_b, -1, leg}, trace, memory_a, t.point);
+      add(side(body_a, a, a.model->parts[i]), {&b, body_b, -1, leg}, trace, memory_a, t.point);
     });
   }
 }
@@ -289,10 +315,10 @@ void EncountersOf<N>::stand_on_legs(int body, const Placed& robot, const Memory&
 template <int N>
 void EncountersOf<N>::add(const Side& a, const Side& b, Trace trace, const Memory& memory, const TouchPoint& point) {
   Contact c;
-  static_cast<ContactRowsOf<N>&>(c) = rows_at<N>(*a.robot, a.wheel, a.leg, point.place, trace.frame, 1);
+  static_cast<ContactRowsOf<N>&>(c) = rows_at<N>(a, point.place, trace.frame, 1);
   double speed = c.normal.dot(a.robot->body.previous), free = c.normal.dot(a.robot->body.free), mass = a.robot->mass;
   if (b.robot) {
-    c.of_other = rows_at<N>(*b.robot, b.wheel, b.leg, point.place, trace.frame, -1);
+    c.of_other = rows_at<N>(b, point.place, trace.frame, -1);
     speed += c.of_other.normal.dot(b.robot->body.previous);
     free += c.of_other.normal.dot(b.robot->body.free);
     mass = 2 * a.robot->mass * b.robot->mass / (a.robot->mass + b.robot->mass);
@@ -303,7 +329,7 @@ void EncountersOf<N>::add(const Side& a, const Side& b, Trace trace, const Memor
   if (a.leg < 0 && b.leg < 0) {
     const auto is_too_far = [&](double way) { return way > std::max(gap, longest_way_of_corners); };
     trace.step_is_too_long =
-        gap < -never_so_deep || (point.of_corners && is_too_far(h_ * closing_speed(*a.robot, b.robot, point.place)));
+        gap < -never_so_deep || (point.of_corners && is_too_far(h_ * closing_speed<N>(a, b, point.place)));
   }
   if (least_gap > slack && !trace.step_is_too_long) return;
   c.body = a.body;
@@ -345,7 +371,7 @@ Solid solid_of(const scene::Slab& slab) {
 template <int N>
 void place_parts(PlacedOf<N>& robot) {
   robot.solids.clear();
-  for (const Part& part : robot.model->parts) robot.solids.push_back(placed(part.solid, robot));
+  for (const Part& part : robot.model->parts) robot.solids.push_back(placed(part, robot));
 }
 
 template <int N>

@@ -23,6 +23,7 @@ struct PlacedOf {
   BodyOf<N> body;             // its velocities as the step finds them
   LegAngles leg_angle;        // of a robot that walks
   Posture posture;            // of one with limbs, at the step's start
+  Posture posture_ahead;      // the same, half a step ahead; where limbs can be touched
   double speed = 0;           // no part of it is faster [m/s]
   std::vector<Solid> solids;  // its parts in the world; filled where something is near
 };
@@ -71,8 +72,12 @@ class EncountersOf {
   struct Side {
     const Placed* robot = nullptr;
     int body = -1;
-    int wheel = -1, leg = -1;  // that touches; neither: the body
+    int wheel = -1, leg = -1, limb = -1;  // that touches; none of them: the body
   };
+
+  static Side side(int body, const Placed& robot, const Part& part) {
+    return {&robot, body, part.wheel, -1, part.limb};
+  }
 
   double margin(double speed) const;
   void add(const Side& a, const Side& b, Trace trace, const Memory& memory, const TouchPoint& point);

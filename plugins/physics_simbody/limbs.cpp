@@ -12,9 +12,9 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr int n = unknowns_with_legs;
-constexpr double hold = 1e-6, none = 1e30;    // softness of what holds a joint [rad/s per N m s], and of nothing
-constexpr double without_end = 1e9;           // [N m s]
-using Columns = Eigen::Matrix<double, 3, n>;  // what unknowns do to a vector
+constexpr double hold = 1e-6, none = 1e30;  // softness of what holds a joint [rad/s per N m s], and of nothing
+constexpr double without_end = 1e9;         // [N m s]
+using Columns = ColumnsOfUnknowns;
 
 Matrix3d cross_matrix(const Vector3d& v) {
   Matrix3d m;
@@ -122,6 +122,20 @@ Posture posture_of(const RobotModel& robot, const Limbs& limbs, const Matrix3d& 
     }
   }
   return posture;
+}
+
+LimbColumns columns_at(const RobotModel& robot, const Posture& posture, int limb, const Vector3d& place) {
+  std::array<int, Limbs::most> chain;  // outwards
+  int count = 0;
+  for (int i = limb; i >= 0; i = robot.limbs[i].carrier) chain[count++] = i;
+  const VelocityOf<n> still = VelocityOf<n>::Zero();
+  Moving moving = root(still);
+  while (count > 0) {
+    const int i = chain[--count];
+    moving = carried(robot.limbs[i], posture.limb[i], moving, still);
+  }
+  moving.go_to(place);
+  return {moving.going, moving.turning};
 }
 
 LimbedMass weigh(const RobotModel& robot, const Posture& posture, const VelocityOf<n>& u, const Vector3d& fall) {

@@ -1,6 +1,6 @@
-// Limbs of a robot: links on hinges, sliders and balls that no motor turns, and that touch nothing. How they weigh on
-// the rest of it, and how they move on. A ball's unknowns are the turn rate of the limb itself, not relative to what
-// carries it; then its directions need no derivatives.
+// Limbs of a robot: links on hinges, sliders and balls that no motor turns. How they weigh on the rest of it, how they
+// move on, and how what touches them moves it all. A ball's unknowns are the turn rate of the limb itself, not relative
+// to what carries it; then its directions need no derivatives.
 #pragma once
 
 #include "block_cholesky.hpp"
@@ -20,6 +20,14 @@ struct Posture {
   std::array<Place, Limbs::most> limb;
 };
 Posture posture_of(const RobotModel& robot, const Limbs& limbs, const Eigen::Matrix3d& body);
+
+// How the unknowns move and turn what is fixed to a limb at `place`, from the body's origin, all in the posture's
+// frame.
+using ColumnsOfUnknowns = Eigen::Matrix<double, 3, unknowns_with_legs>;
+struct LimbColumns {
+  ColumnsOfUnknowns going, turning;
+};
+LimbColumns columns_at(const RobotModel& robot, const Posture& posture, int limb, const Eigen::Vector3d& place);
 
 // M udot = force - damping u without contacts and motors, in the posture's frame, which stands still; `fall` is the
 // acceleration of free fall in it [m/s2].

@@ -78,8 +78,6 @@ void check_limb(const description::Robot& robot, const description::Joint& joint
   const std::string what = "joint '" + joint.name + "' (" + law_of(joint.kind).name + ") without a motor ";
   if (joint.kind == JointKind::planar || joint.kind == JointKind::floating)
     refuse(robot, what + "is no hinge, slider or ball");
-  if (!rigid_shapes(robot, joint.child).empty())
-    refuse(robot, what + "has a link with a <collision>; limbs touch nothing here");
   if (joint.kind == JointKind::ball && joint.friction > 0)
     refuse(robot, what + "has a friction; a damping is modelled");
   if (joint.lower > 0 || joint.upper < 0) refuse(robot, what + "does not have 0 within its limits");
@@ -104,6 +102,7 @@ RobotModel::RobotModel(const description::Robot& robot) : name(robot.name) {
     }
     parts.push_back({solid_of(Eigen::Isometry3d::Identity(), shape)});
   }
+  measure_limbs();
   measure();
 }
 
@@ -142,6 +141,8 @@ void RobotModel::take_limbs(const description::Robot& robot) {
     if (robot.legs) refuse(robot, "joint '" + joint.name + "' has no motor; what walks may not have limbs");
     if (limb.carrier == description::LimbJoint::driven) refuse(robot, "joint '" + joint.name + "' hangs on a wheel");
     check_limb(robot, joint);
+    for (const description::Shape& shape : rigid_shapes(robot, joint.child))
+      parts.push_back({solid_of(Eigen::Isometry3d::Identity(), shape), -1, static_cast<int>(limbs.size())});
     limbs.push_back({joint.kind, limb.carrier, limb.frame, joint.axis, rigid_mass(robot, joint.child), next,
                      joint.lower, joint.upper, joint.damping, joint.friction});
     next += law_of(joint.kind).rates;
@@ -152,11 +153,39 @@ void RobotModel::take_limbs(const description::Robot& robot) {
   }
 }
 
-// How far it all reaches; a leg by a circle of its length about its hip.
+double LimbModel::travel() const {
+  return kind == description::JointKind::prismatic ? std::max(std::abs(lower), std::abs(upper)) : 0;
+}
+
+bool RobotModel::feels_limbs() const {
+  return std::any_of(limbs.begin(), limbs.end(), [](const LimbModel& limb) { return limb.reach > 0; });
+}
+
+// Limbs stand behind what carries them.
+void RobotModel::measure_limbs() {
+  for (const Part& part : parts) {
+    if (part.limb < 0) continue;
+    double& reach_of_it = limbs[part.limb].reach;
+    reach_of_it = std::max(reach_of_it, part.solid.centre.norm() + part.solid.reach());
+  }
+  for (auto limb = limbs.rbegin(); limb != limbs.rend(); ++limb) {
+    if (limb->carrier < 0 || limb->reach <= 0) continue;
+    double& reach_of_carrier = limbs[limb->carrier].reach;
+    reach_of_carrier = std::max(reach_of_carrier, limb->frame.translation().norm() + limb->travel() + limb->reach);
+  }
+}
+
+// How far it all reaches; a leg by a circle of its length about its hip, a limb by a sphere about its joint.
 void RobotModel::measure() {
   const double leg = 2 * leg_drive.radius;
   Eigen::AlignedBox3d around(Eigen::Vector3d::Zero().eval());
+  const auto each_limb_on_body = [this](const auto& see) {
+    for (const LimbModel& limb : limbs) {
+      if (limb.carrier < 0 && limb.reach > 0) see(limb.frame.translation(), limb.travel() + limb.reach);
+    }
+  };
   for (const Part& part : parts) {
+    if (part.limb >= 0) continue;
     const Eigen::Vector3d half = part.solid.axes.cwiseAbs() * part.solid.half;
     around.extend(part.solid.centre - half).extend(part.solid.centre + half);
   }
@@ -164,18 +193,25 @@ void RobotModel::measure() {
     const Eigen::Vector3d half(leg, 0, leg);
     around.extend(l.hip - half).extend(l.hip + half);
   }
+  each_limb_on_body([&](const Eigen::Vector3d& joint, double span) {
+    around.extend(joint - Eigen::Vector3d::Constant(span)).extend(joint + Eigen::Vector3d::Constant(span));
+  });
   middle = around.center();
   const Eigen::Vector3d far = around.min().cwiseAbs().cwiseMax(around.max().cwiseAbs());
   arm = {std::hypot(far.y(), far.z()), std::hypot(far.x(), far.z()), std::hypot(far.x(), far.y())};
-  for (const Part& part : parts) reach = std::max(reach, (part.solid.centre - middle).norm() + part.solid.reach());
+  for (const Part& part : parts) {
+    if (part.limb < 0) reach = std::max(reach, (part.solid.centre - middle).norm() + part.solid.reach());
+  }
   for (const Leg& l : legs) reach = std::max(reach, (l.hip - middle).norm() + leg);
+  each_limb_on_body(
+      [&](const Eigen::Vector3d& joint, double span) { reach = std::max(reach, (joint - middle).norm() + span); });
 }
 
 double RobotModel::lowest_corner(const Eigen::Vector3d& up) const {
   double lowest = std::numeric_limits<double>::infinity();
   for (const Part& part : parts) {
     const Solid& solid = part.solid;
-    if (!stands_on(part)) continue;
+    if (part.limb >= 0 || !stands_on(part)) continue;
     const Eigen::Vector3d along = solid.axes.transpose() * up;
     double half_width = solid.half[0];  // of a sphere
     if (solid.kind == Solid::Kind::box) half_width = solid.half.dot(along.cwiseAbs());

@@ -15,11 +15,13 @@ struct Slider {
   double radius;           // [m]
 };
 
-// What of a robot can be touched: a box, sphere or cylinder in the body's frame. A mesh is the box around it, along
-// the axes of its own frame; what belongs to a wheel moves with its tread but keeps its place.
+// What of a robot can be touched: a box, sphere or cylinder in the frame of the body, or of the limb that it belongs
+// to. A mesh is the box around it, along the axes of its own frame; what belongs to a wheel moves with its tread but
+// keeps its place.
 struct Part {
   Solid solid;
   int wheel = -1;  // 0 left, 1 right
+  int limb = -1;
 };
 
 // A leg on its hip; see description::LegDrive.
@@ -38,6 +40,10 @@ struct LimbModel {
   int first;                // of its unknowns
   double lower, upper;      // [rad] or [m]
   double damping, friction;
+  double reach = 0;  // from its joint, of what of it and of what it carries can be touched; 0: nothing can [m]
+
+  // How far its joint lets it go from where it stands at 0 [m].
+  double travel() const;
 };
 
 // What of a robot this backend can hold; throws std::runtime_error for any other.
@@ -49,11 +55,14 @@ struct RobotModel {
 
   // Whether it is the part itself that the ground feels: a wheel has its sphere, a slider no friction.
   bool stands_on(const Part& part) const {
-    return part.wheel < 0 && (part.solid.kind != Solid::Kind::sphere || !is_driven);
+    return part.wheel < 0 && (part.solid.kind != Solid::Kind::sphere || !is_driven || part.limb >= 0);
   }
 
-  // Height of the lowest corner of what it stands on above its origin, and of the lowest point of its sliders too;
-  // `up` in the body's frame [m].
+  // Whether a limb can be touched.
+  bool feels_limbs() const;
+
+  // Height of the body's lowest corner of what it stands on above its origin, and of the lowest point of its sliders
+  // too; `up` in the body's frame [m].
   double lowest_corner(const Eigen::Vector3d& up) const;
   double lowest_point(const Eigen::Vector3d& up) const;
 
@@ -80,6 +89,7 @@ struct RobotModel {
   void take_wheels(const description::Robot& robot);
   void take_legs(const description::Robot& robot);
   void take_limbs(const description::Robot& robot);
+  void measure_limbs();
   void measure();
 };
 

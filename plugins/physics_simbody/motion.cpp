@@ -18,9 +18,16 @@ constexpr double nearby = 0.003;  // [m]
 double speed_of(const RobotModel& model, const RobotState& state) {
   double legs = 0;
   for (const double rate : state.leg_rate) legs = std::max(legs, 2 * model.leg_drive.radius * std::abs(rate));
+  double limbs = 0;
+  for (std::size_t i = 0; i < model.limbs.size(); ++i) {
+    const double reach = model.limbs[i].reach;
+    const Limb& limb = state.limbs.limb[i];
+    if (reach > 0)
+      limbs += std::abs(limb.speed) + reach * (std::abs(limb.rate) + std::hypot(limb.wx, limb.wy, limb.wz));
+  }
   const Eigen::Quaterniond q(state.pose[3], state.pose[4], state.pose[5], state.pose[6]);
   const Vector3d rates = q.conjugate() * rates_of(state);
-  return velocity_of(state).norm() + rates.cwiseAbs().dot(model.arm) + legs;
+  return velocity_of(state).norm() + rates.cwiseAbs().dot(model.arm) + legs + limbs;
 }
 
 // Twice the way, since a contact may make a robot faster, and the fall.

@@ -206,6 +206,11 @@ void StepperOf<N>::place_limbs(const CrewMember& robot, double h, double at, con
     }
     now.posture = posture_of(robot.model, state.limbs, now.to_world.transpose() * matrix_of(state));
     take_rates(robot.model, now.posture, state.limbs, body.previous);
+    if (robot.model.feels_limbs()) {
+      Limbs ahead = state.limbs;
+      now.posture_ahead = now.posture;
+      move_limbs(robot.model, 0.5 * h, Matrix3d::Identity(), body.previous, now.posture_ahead, ahead);
+    }
     for (const LimbModel& limb : robot.model.limbs) {
       for (int k = limb.first; k < limb.first + law_of(limb.kind).rates; ++k)
         body.motors[k - 6] = joint_motor(limb, 0.5 * (state.memory.previous_step + h));

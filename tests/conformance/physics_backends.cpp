@@ -4,6 +4,7 @@ namespace muster::test {
 
 std::vector<Backend> table() {
   Backend simbody{"simbody", "physics.simbody", {}, true};
+  simbody.smooth = {{"body_friction", "0"}};
   simbody.height = simbody.slip = simbody.torque = simbody.round_friction = simbody.load_transfer = true;
   simbody.rotors = simbody.limbs = simbody.pushed = simbody.bouncing = simbody.bounces_on_wheels = true;
   simbody.order = 2, simbody.coarsest_of_order = 0.08, simbody.flight_order = 4;
@@ -13,6 +14,7 @@ std::vector<Backend> table() {
   simbody.pendulum = "hip", simbody.swing = 2e-4;
 
   Backend ode{"ode_exact", "physics.ode", {}, true};
+  ode.smooth = {{"friction", "0"}};
   ode.height = ode.slip = ode.torque = ode.rotors = ode.bouncing = ode.pushed = true;
   ode.order = 2, ode.coarsest_of_order = 0.04, ode.flight_order = 1;
   ode.fall = 5e-3, ode.rest = 1e-6, ode.arc = 1e-3, ode.course = 1e-4, ode.ramp = 1e-3, ode.force = 0.01;

@@ -19,6 +19,7 @@ struct Backend {
   std::string name, plugin;
   Attributes attributes;
   bool has_step = false;  // shorter than the tick
+  Attributes smooth{};    // bodies without friction
   // Abilities.
   bool height = false;             // falls and lands
   bool slip = false;               // friction is bounded

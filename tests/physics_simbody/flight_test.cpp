@@ -242,7 +242,7 @@ TEST(Flight, SimbodysOwnIntegratorsRefuseIt) {
     Fleet run({in_the_air()}, hummingbird(), Integrator::rk3);
     FAIL() << "nothing was thrown";
   } catch (const std::runtime_error& error) {
-    EXPECT_STREQ(error.what(), "robot 'r0' has no wheels: integrator=\"midpoint\" flies it");
+    EXPECT_STREQ(error.what(), "robot 'r0' has no wheels: integrator=\"midpoint\" moves it");
   }
 }
 
