@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <muster/limbs.hpp>
 #include <stdexcept>
 
 namespace muster::ode {
@@ -17,17 +18,32 @@ constexpr double thinnest = 1e-3;  // [m] of a block: ODE takes no flat ones
 
 bool has_inertia(const description::Mass& mass) { return mass.mass > 0 && mass.inertia.llt().info() == Eigen::Success; }
 
+// Why ODE cannot hold a limb; "" if it can.
+std::string why_not(const Robot& robot, const description::LimbJoint& limb) {
+  using description::JointKind;
+  constexpr double half_turn = 3.14159265358979323846;
+  const description::Joint& joint = robot.joints[limb.joint];
+  if (limb.carrier == description::LimbJoint::driven) return "hangs on a wheel";
+  if (joint.kind == JointKind::planar || joint.kind == JointKind::floating) return "is no hinge, slider or ball";
+  if (joint.kind == JointKind::ball && joint.friction > 0) return "has a friction; a damping is modelled";
+  if (joint.lower > 0 || joint.upper < 0) return "does not have 0 within its limits";
+  if (joint.kind == JointKind::revolute && (joint.lower <= -half_turn || joint.upper >= half_turn))
+    return "has limits beyond half a turn, which ODE does not see";
+  if (!has_inertia(rigid_mass(robot, joint.child))) return "carries a link without mass or inertia";
+  return "";
+}
+
 std::vector<std::string> lacks(const Robot& robot) {
   if (robot.legs) return {"it walks"};
   std::vector<std::string> result;
   std::vector<std::size_t> wheels;
   if (robot.drive) wheels = {robot.drive->left, robot.drive->right};
-  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
-    const bool is_wheel = std::find(wheels.begin(), wheels.end(), i) != wheels.end();
-    if (!is_wheel && robot.joints[i].kind != description::JointKind::fixed) {
-      result.push_back("joint '" + robot.joints[i].name + "' moves and is no wheel of its drive");
-    }
+  const std::vector<description::LimbJoint> limbs = limbs_of(robot);
+  for (const description::LimbJoint& limb : limbs) {
+    if (const std::string why = why_not(robot, limb); !why.empty())
+      result.push_back("joint '" + robot.joints[limb.joint].name + "' " + why);
   }
+  if (limbs.size() > Limbs::most) result.push_back("it has more than four joints without motors");
   if (robot.restitution > 0 && robot.drive) result.push_back("it bounces on wheels, where ODE's impacts gain energy");
   if (!has_inertia(rigid_mass(robot, 0))) result.push_back("its body has no mass or inertia");
   for (const std::size_t joint : wheels) {
@@ -79,12 +95,12 @@ RobotModel::RobotModel(const Robot& robot) {
   rotors = robot.quadrotor;
   restitution = robot.restitution;
   body = rigid_mass(robot, 0);
-  for (const Shape& shape : rigid_shapes(robot, 0)) {
-    if (const auto* sphere = std::get_if<description::Sphere>(&shape.geometry)) {
-      balls.push_back({shape.pose.translation(), sphere->radius});
-    } else {
-      blocks.push_back(block_of(shape, Isometry3d::Identity(), false));
-    }
+  take_shapes(robot, 0, -1);
+  for (const description::LimbJoint& limb : limbs_of(robot)) {
+    const description::Joint& joint = robot.joints[limb.joint];
+    take_shapes(robot, joint.child, static_cast<int>(limbs.size()));
+    limbs.push_back({joint.kind, limb.carrier, limb.frame, joint.axis, rigid_mass(robot, joint.child), joint.lower,
+                     joint.upper, joint.damping, joint.friction});
   }
   if (!has_wheels) return;
   drive = *robot.drive;
@@ -93,6 +109,17 @@ RobotModel::RobotModel(const Robot& robot) {
     wheel[w] = wheel_of(robot, joints[w]);
     for (const Shape& shape : rigid_shapes(robot, robot.joints[joints[w]].child)) {
       blocks.push_back(block_of(shape, wheel[w].frame, true));
+    }
+  }
+}
+
+void RobotModel::take_shapes(const Robot& robot, std::size_t link, int limb) {
+  for (const Shape& shape : rigid_shapes(robot, link)) {
+    if (const auto* sphere = std::get_if<description::Sphere>(&shape.geometry)) {
+      balls.push_back({shape.pose.translation(), sphere->radius, limb});
+    } else {
+      blocks.push_back(block_of(shape, Isometry3d::Identity(), false));
+      blocks.back().limb = limb;
     }
   }
 }

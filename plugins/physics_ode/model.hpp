@@ -9,23 +9,36 @@
 
 namespace muster::ode {
 
-// A sphere fixed to the body: smooth, where the robot is driven and slides on it.
+// A sphere fixed to the body, on which it slides smoothly where it is driven, or to a limb.
 struct Ball {
-  Eigen::Vector3d centre;  // in the body's frame [m]
+  Eigen::Vector3d centre;  // in the frame of what it is fixed to [m]
   double radius;           // [m]
+  int limb = -1;           // -1: the body
 };
 
-// A box fixed to the body.
+// A box fixed to the body or a limb.
 struct Block {
-  Eigen::Isometry3d pose;  // in the body's frame
+  Eigen::Isometry3d pose;  // in the frame of what it is fixed to
   Eigen::Vector3d size;    // full edges [m]
   bool is_wheel;           // it stands for a wheel among obstacles, where it does not turn; the ground feels its sphere
+  int limb = -1;           // -1: the body
 };
 
 struct Wheel {
   description::Mass mass;   // in the joint's frame
   Eigen::Isometry3d frame;  // of the joint in the body's
   Eigen::Vector3d axis;     // unit, in the joint's frame
+};
+
+// What hangs on a joint that no motor turns.
+struct LimbModel {
+  description::JointKind kind;
+  int carrier;              // a limb before it, or -1: the body
+  Eigen::Isometry3d frame;  // of the joint, in what carries it
+  Eigen::Vector3d axis;     // unit, in the joint's frame
+  description::Mass mass;   // in the joint's frame, where it stands at 0
+  double lower, upper;      // [rad] or [m]
+  double damping, friction;
 };
 
 struct RobotModel {
@@ -39,8 +52,12 @@ struct RobotModel {
   double restitution = 0;
   description::Mass body;  // all that is rigid with the root, in its frame
   std::array<Wheel, 2> wheel;
+  std::vector<LimbModel> limbs;
   std::vector<Ball> balls;
   std::vector<Block> blocks;
+
+ private:
+  void take_shapes(const description::Robot& robot, std::size_t link, int limb);
 };
 
 }  // namespace muster::ode

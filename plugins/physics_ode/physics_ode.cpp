@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstring>
 #include <muster/plugin.hpp>
+#include <optional>
 
 #include "description/world_robots.hpp"
 #include "plugins/scene_rows.hpp"
@@ -13,14 +14,24 @@ using namespace muster;
 using description::Model;
 using description::WorldRobots;
 
-// Wheels as ODE has them, see ode::HingedWheel: the left one, then the right one.
+// Wheels as ODE has them, see ode::HungBody: the left one, then the right one.
 struct Hinged {
   static constexpr const char* columns =
       "left_x[m] left_y[m] left_z[m] left_qw left_qx left_qy left_qz left_vx[m/s] left_vy[m/s] left_vz[m/s] "
       "left_wx[rad/s] left_wy[rad/s] left_wz[rad/s] right_x[m] right_y[m] right_z[m] right_qw right_qx right_qy "
       "right_qz "
       "right_vx[m/s] right_vy[m/s] right_vz[m/s] right_wx[rad/s] right_wy[rad/s] right_wz[rad/s]";
-  std::array<ode::HingedWheel, 2> wheel;
+  std::array<ode::HungBody, 2> wheel;
+};
+
+// Limbs as ODE has them, in the order of the robot's model.
+struct Hung {
+  static constexpr const char* columns =
+      "x1[m] y1[m] z1[m] qw1 qx1 qy1 qz1 vx1[m/s] vy1[m/s] vz1[m/s] wx1[rad/s] wy1[rad/s] wz1[rad/s] "
+      "x2[m] y2[m] z2[m] qw2 qx2 qy2 qz2 vx2[m/s] vy2[m/s] vz2[m/s] wx2[rad/s] wy2[rad/s] wz2[rad/s] "
+      "x3[m] y3[m] z3[m] qw3 qx3 qy3 qz3 vx3[m/s] vy3[m/s] vz3[m/s] wx3[rad/s] wy3[rad/s] wz3[rad/s] "
+      "x4[m] y4[m] z4[m] qw4 qx4 qy4 qz4 vx4[m/s] vy4[m/s] vz4[m/s] wx4[rad/s] wy4[rad/s] wz4[rad/s]";
+  std::array<ode::HungBody, Limbs::most> limb;
 };
 
 struct Complained {
@@ -29,7 +40,7 @@ struct Complained {
 };
 
 struct PhysicsOde {
-  static constexpr auto id = "physics.ode/1";
+  static constexpr auto id = "physics.ode/2";
   static constexpr auto summary = "the ODE engine: rigid robots on flat ground, walls and robots as obstacles";
   static constexpr auto manual =
       "Bodies and wheels from the robot's URDF, hinged; the ground is flat, at z = 0. Wheels touch it as spheres, "
@@ -45,9 +56,10 @@ struct PhysicsOde {
       "self/complaints counts ODE's messages, such as a contact that its exact solver could not settle.\n"
       "Not modelled: wheels as discs on the ground, rolling resistance, shapes other than boxes and spheres.";
   static constexpr auto phase = MUSTER_PHYSICS;
-  static constexpr auto abilities = description::Ability::wheels | description::Ability::rotors |
-                                    description::Ability::height | description::Ability::tilting |
-                                    description::Ability::bouncing | description::Ability::pushed;
+  static constexpr auto abilities =
+      description::Ability::wheels | description::Ability::rotors | description::Ability::height |
+      description::Ability::tilting | description::Ability::hinges | description::Ability::sliders |
+      description::Ability::balls | description::Ability::bouncing | description::Ability::pushed;
   static constexpr Param params[] = {
       real("step", 0.001, 1e-6, 0.1, "s", "longest step inside a tick"),
       choice("solver", "exact|quick", "dWorldStep or dWorldQuickStep"),
@@ -81,6 +93,10 @@ struct PhysicsOde {
         hinged(s.write<Hinged>("robot/*/hinged")),
         complained(s.write<Complained>("self/complaints")) {
     robots.require(abilities, s);
+    if (robots.any_has_limbs()) {
+      limbs = s.write<Limbs>("robot/*/limbs");
+      hung = s.write<Hung>("robot/*/hung");
+    }
     if (flies) {
       rotor_drive = s.read<RotorDrive>("robot/*/rotor_drive");
       rotors = s.write<Rotors>("robot/*/rotors");
@@ -130,6 +146,7 @@ struct PhysicsOde {
       k[wheels][i] = k.last(wheels)[i];
       k[hinged][i] = k.last(hinged)[i];
       if (flies) k[rotors][i] = k.last(rotors)[i];
+      if (limbs) k[*limbs][i] = k.last(*limbs)[i], k[*hung][i] = k.last(*hung)[i];
       k[model][i].model = WorldRobots::model_of(k.last(model)[i].model, i);
       if (!k.alive("robot", i)) continue;
       now.rows.push_back(i);
@@ -194,6 +211,7 @@ struct PhysicsOde {
                       {w.left, w.right},
                       {w.left_rate, w.right_rate},
                       k.last(hinged)[row].wheel};
+    if (limbs) s.limbs = k.last(*limbs)[row], s.hung = k.last(*hung)[row].limb;
     if (flies) {
       const Rotors& r = k.last(rotors)[row];
       s.rotors = {r.front, r.left, r.back, r.right};
@@ -208,6 +226,7 @@ struct PhysicsOde {
     k[twist][row] = {t[0], t[1], t[2], t[3], t[4], t[5]};
     k[wheels][row] = {s.angle[0], s.angle[1], s.rate[0], s.rate[1]};
     k[hinged][row].wheel = s.hinged;
+    if (limbs) k[*limbs][row] = s.limbs, k[*hung][row].limb = s.hung;
     if (flies) k[rotors][row] = {s.rotors[0], s.rotors[1], s.rotors[2], s.rotors[3]};
   }
 
@@ -226,6 +245,8 @@ struct PhysicsOde {
   Out<Rotors> rotors{};
   Out<Model> model;
   Out<Hinged> hinged;
+  std::optional<Out<Limbs>> limbs;  // where a robot has any
+  std::optional<Out<Hung>> hung;
   Out<Complained> complained;
   Made made;
   std::unique_ptr<ode::World> world;

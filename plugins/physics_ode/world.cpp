@@ -45,14 +45,40 @@ Vector3d centre(const Wheel& wheel, double angle) {
 }
 
 // Where its hinge wants it, on a body that turns with `spin` (in its own frame).
-HingedWheel as_hinged(const Wheel& wheel, const Vector3d& body_centre, const Vector3d& spin, double angle,
-                      double rate) {
+HungBody as_hinged(const Wheel& wheel, const Vector3d& body_centre, const Vector3d& spin, double angle, double rate) {
   const Vector3d hub = wheel.frame.translation(), middle = centre(wheel, angle);
   const Vector3d own = rate * (wheel.frame.linear() * wheel.axis);
   const Vector3d place = middle - body_centre;
   const Vector3d velocity = spin.cross(hub - body_centre) + (spin + own).cross(middle - hub);
   const Quaterniond q = Quaterniond(wheel.frame.linear()) * Eigen::AngleAxisd(angle, wheel.axis);
   return {array(place), {q.w(), q.x(), q.y(), q.z()}, array(velocity), array(own)};
+}
+
+// The frame of what it belongs to from its centre of mass, and back.
+Moving frame_of(dBodyID body, const description::Mass& mass) {
+  const Quaterniond q = quaternion(dBodyGetQuaternion(body));
+  const Vector3d place = vector(dBodyGetPosition(body)), spin = vector(dBodyGetAngularVel(body));
+  const Moving centre{place, q.toRotationMatrix(), vector(dBodyGetLinearVel(body)), spin};
+  const Vector3d at = place - q * mass.centre;
+  return {at, centre.turned, centre.velocity_at(at), spin};
+}
+
+// Limbs where their joints want them, on a body that turns with `spin` (in its own frame).
+std::vector<HungBody> as_hung(const RobotModel& robot, const Limbs& limbs, const Vector3d& spin) {
+  const Vector3d centre = robot.body.centre;
+  const Moving body{Vector3d::Zero(), Eigen::Matrix3d::Identity(), spin.cross(-centre), spin};
+  std::vector<Moving> moving;
+  std::vector<HungBody> result;
+  for (std::size_t i = 0; i < robot.limbs.size(); ++i) {
+    const LimbModel& limb = robot.limbs[i];
+    moving.push_back(carried(limb, limbs.limb[i], limb.carrier < 0 ? body : moving[limb.carrier]));
+    const Moving& now = moving.back();
+    const Vector3d place = now.at + now.turned * limb.mass.centre;
+    const Quaterniond q(now.turned);
+    result.push_back(
+        {array(place - centre), {q.w(), q.x(), q.y(), q.z()}, array(now.velocity_at(place)), array(now.spin - spin)});
+  }
+  return result;
 }
 
 }  // namespace
@@ -72,32 +98,48 @@ World::World(const std::vector<NamedRobot>& robots, const Settings& settings)
   surfaces_of_robots_ = surfaces_.size();
 }
 
+// Of a mass in its own frame, which stands there in the world.
+dBodyID World::add_body(const description::Mass& mass, const Isometry3d& frame) const {
+  dBodyID made = dBodyCreate(world_.get());
+  const dMass m = mass_of(mass);
+  const Vector3d at = frame * mass.centre;
+  dBodySetMass(made, &m);
+  dBodySetPosition(made, at.x(), at.y(), at.z());
+  set_quaternion(made, Quaterniond(frame.linear()));
+  dBodySetFiniteRotationMode(made, 1);
+  return made;
+}
+
 // Bodies stand where the robot's frame is the world's; their joints and shapes keep the places that they have then.
 void World::add(Robot& robot) {
-  const auto body = [&](const description::Mass& mass, const Vector3d& at, const Quaterniond& turned) {
-    dBodyID made = dBodyCreate(world_.get());
-    const dMass m = mass_of(mass);
-    dBodySetMass(made, &m);
-    dBodySetPosition(made, at.x(), at.y(), at.z());
-    set_quaternion(made, turned);
-    dBodySetFiniteRotationMode(made, 1);
-    return made;
-  };
-  robot.body = body(robot.model.body, robot.model.body.centre, Quaterniond::Identity());
+  robot.body = add_body(robot.model.body, Isometry3d::Identity());
   for (std::size_t w = 0; robot.model.has_wheels && w < 2; ++w) {
     const Wheel& wheel = robot.model.wheel[w];
     const Vector3d anchor = wheel.frame.translation(), axis = wheel.frame.linear() * wheel.axis;
-    robot.wheel[w] = body(wheel.mass, centre(wheel, 0), Quaterniond(wheel.frame.linear()));
+    robot.wheel[w] = add_body(wheel.mass, wheel.frame);
     robot.hinge[w] = dJointCreateHinge(world_.get(), nullptr);
     dJointAttach(robot.hinge[w], robot.wheel[w], robot.body);
     dJointSetHingeAnchor(robot.hinge[w], anchor.x(), anchor.y(), anchor.z());
     dJointSetHingeAxis(robot.hinge[w], axis.x(), axis.y(), axis.z());
-    dJointSetHingeParam(robot.hinge[w], dParamFMax, robot.model.drive.max_torque);
+    robot.motor[w] = dJointCreateAMotor(world_.get(), nullptr);
+    dJointAttach(robot.motor[w], robot.wheel[w], robot.body);
+    dJointSetAMotorNumAxes(robot.motor[w], 1);
+    dJointSetAMotorAxis(robot.motor[w], 0, 2, axis.x(), axis.y(), axis.z());
+    dJointSetAMotorParam(robot.motor[w], dParamFMax, robot.model.drive.max_torque);
   }
-  add_shapes(robot);
+  std::vector<Isometry3d> limbs;
+  for (std::size_t i = 0; i < robot.model.limbs.size(); ++i) {
+    const LimbModel& limb = robot.model.limbs[i];
+    const Isometry3d carrier = limb.carrier < 0 ? Isometry3d::Identity() : limbs[limb.carrier];
+    limbs.push_back(carrier * limb.frame);
+    robot.limb[i] = add_body(limb.mass, limbs.back());
+    join(world_.get(), limb, robot.limb[i], limb.carrier < 0 ? robot.body : robot.limb[limb.carrier], carrier);
+  }
+  add_shapes(robot, limbs);
 }
 
-void World::add_shapes(const Robot& robot) {
+// `limbs`: where they stand now.
+void World::add_shapes(const Robot& robot, const std::vector<Isometry3d>& limbs) {
   dSpaceID own = dSimpleSpaceCreate(space_.get());
   const auto fix = [&](dGeomID geom, dBodyID body, const Isometry3d& pose) {  // in the world, where bodies stand now
     const Quaterniond q(pose.linear());
@@ -113,15 +155,19 @@ void World::add_shapes(const Robot& robot) {
     fix(add_geom(sphere, tyre, ground, robot.model.drive.friction, robot.model.restitution), robot.wheel[w],
         robot.model.wheel[w].frame);
   }
+  const auto fix_part = [&](dGeomID geom, int limb, const Isometry3d& pose) {
+    limb < 0 ? fix(geom, robot.body, pose) : fix(geom, robot.limb[limb], limbs[limb] * pose);
+  };
   for (const Ball& ball : robot.model.balls) {
-    const double friction = robot.model.is_driven ? smooth : settings_.friction;
-    fix(add_geom(dCreateSphere(nullptr, ball.radius), part, ground | others, friction, robot.model.restitution),
-        robot.body, Isometry3d(Eigen::Translation3d(ball.centre)));
+    const double friction = robot.model.is_driven && ball.limb < 0 ? smooth : settings_.friction;
+    fix_part(add_geom(dCreateSphere(nullptr, ball.radius), part, ground | others, friction, robot.model.restitution),
+             ball.limb, Isometry3d(Eigen::Translation3d(ball.centre)));
   }
   for (const Block& block : robot.model.blocks) {
     dGeomID box = dCreateBox(nullptr, block.size.x(), block.size.y(), block.size.z());
-    fix(add_geom(box, part, block.is_wheel ? others : ground | others, settings_.friction, robot.model.restitution),
-        robot.body, block.pose);
+    fix_part(
+        add_geom(box, part, block.is_wheel ? others : ground | others, settings_.friction, robot.model.restitution),
+        block.limb, block.pose);
   }
 }
 
@@ -172,7 +218,7 @@ int World::step(double dt, const std::vector<Command>& commands, std::vector<Rob
   return complaints.count();
 }
 
-void World::place(const Robot& robot, const RobotState& s) const {
+void World::place(const Robot& robot, const RobotState& s) {
   const Quaterniond turned = Quaterniond(s.pose[3], s.pose[4], s.pose[5], s.pose[6]).normalized();
   const Vector3d origin = vector(s.pose.data()), v = vector(s.twist.data()), w = vector(s.twist.data() + 3);
   const auto put = [](dBodyID body, const Vector3d& at, const Quaterniond& q, const Vector3d& speed,
@@ -182,24 +228,28 @@ void World::place(const Robot& robot, const RobotState& s) const {
     dBodySetLinearVel(body, speed.x(), speed.y(), speed.z());
     dBodySetAngularVel(body, spin.x(), spin.y(), spin.z());
   };
-  const Vector3d arm = turned * robot.model.body.centre, speed = v + w.cross(arm);
+  const Vector3d arm = turned * robot.model.body.centre, speed = v + w.cross(arm), own_spin = turned.conjugate() * w;
   put(robot.body, origin + arm, turned, speed, w);
+  const auto put_hung = [&](dBodyID body, const HungBody& hung) {
+    const auto& q = hung.quaternion;
+    put(body, origin + arm + turned * vector(hung.place.data()), turned * Quaterniond(q[0], q[1], q[2], q[3]),
+        speed + turned * vector(hung.velocity.data()), w + turned * vector(hung.spin.data()));
+  };
+  const auto is_known = [](const HungBody& hung) { return hung.quaternion != std::array<double, 4>{}; };
   for (std::size_t k = 0; robot.model.has_wheels && k < 2; ++k) {
-    HingedWheel wheel = s.hinged[k];
-    if (wheel.quaternion == std::array<double, 4>{}) {
-      wheel = as_hinged(robot.model.wheel[k], robot.model.body.centre, turned.conjugate() * w, s.angle[k], s.rate[k]);
-    }
-    const auto& q = wheel.quaternion;
-    put(robot.wheel[k], origin + arm + turned * vector(wheel.place.data()),
-        turned * Quaterniond(q[0], q[1], q[2], q[3]), speed + turned * vector(wheel.velocity.data()),
-        w + turned * vector(wheel.spin.data()));
+    put_hung(robot.wheel[k], is_known(s.hinged[k]) ? s.hinged[k]
+                                                   : as_hinged(robot.model.wheel[k], robot.model.body.centre, own_spin,
+                                                               s.angle[k], s.rate[k]));
   }
+  if (robot.model.limbs.empty()) return;
+  const std::vector<HungBody> wanted = as_hung(robot.model, s.limbs, own_spin);
+  for (std::size_t k = 0; k < wanted.size(); ++k) put_hung(robot.limb[k], is_known(s.hung[k]) ? s.hung[k] : wanted[k]);
 }
 
 void World::ask(const Robot& robot, const Command& command, double at) const {
   const double rates[] = {command.left + at * command.left_rate, command.right + at * command.right_rate};
   for (int w = 0; w < 2; ++w) {
-    dJointSetHingeParam(robot.hinge[w], dParamVel, robot.model.drive.limited_rate(rates[w]));
+    dJointSetAMotorParam(robot.motor[w], dParamVel, robot.model.drive.limited_rate(rates[w]));
   }
 }
 
@@ -256,7 +306,7 @@ void World::advance(double h, unsigned long seed) {
   if (!done) throw std::runtime_error("ODE has no memory left for a step");
 }
 
-void World::read(const Robot& robot, RobotState& s) const {
+void World::read(const Robot& robot, RobotState& s) {
   const Quaterniond q = quaternion(dBodyGetQuaternion(robot.body)), to_body = q.conjugate();
   const Vector3d place = vector(dBodyGetPosition(robot.body)), arm = q * robot.model.body.centre;
   const Vector3d v = vector(dBodyGetLinearVel(robot.body)), w = vector(dBodyGetAngularVel(robot.body));
@@ -266,14 +316,30 @@ void World::read(const Robot& robot, RobotState& s) const {
   }
   s.pose = {origin.x(), origin.y(), origin.z(), q.w(), q.x(), q.y(), q.z()};
   s.twist = {speed.x(), speed.y(), speed.z(), w.x(), w.y(), w.z()};
+  const auto hung = [&](dBodyID body) -> HungBody {
+    const Quaterniond turned = to_body * quaternion(dBodyGetQuaternion(body));
+    return {array(to_body * (vector(dBodyGetPosition(body)) - place)),
+            {turned.w(), turned.x(), turned.y(), turned.z()},
+            array(to_body * (vector(dBodyGetLinearVel(body)) - v)),
+            array(to_body * (vector(dBodyGetAngularVel(body)) - w))};
+  };
   for (int k = 0; robot.model.has_wheels && k < 2; ++k) {
-    dBodyID wheel = robot.wheel[k];
-    const Quaterniond turned = to_body * quaternion(dBodyGetQuaternion(wheel));
     s.rate[k] = dJointGetHingeAngleRate(robot.hinge[k]);
-    s.hinged[k] = {array(to_body * (vector(dBodyGetPosition(wheel)) - place)),
-                   {turned.w(), turned.x(), turned.y(), turned.z()},
-                   array(to_body * (vector(dBodyGetLinearVel(wheel)) - v)),
-                   array(to_body * (vector(dBodyGetAngularVel(wheel)) - w))};
+    s.hinged[k] = hung(robot.wheel[k]);
+  }
+  for (std::size_t k = 0; k < robot.model.limbs.size(); ++k) s.hung[k] = hung(robot.limb[k]);
+  read_limbs(robot, s);
+}
+
+void World::read_limbs(const Robot& robot, RobotState& s) {
+  const Moving body = frame_of(robot.body, robot.model.body);
+  std::vector<Moving> moving;
+  for (std::size_t i = 0; i < robot.model.limbs.size(); ++i) {
+    const LimbModel& limb = robot.model.limbs[i];
+    moving.push_back(frame_of(robot.limb[i], limb.mass));
+    if (!(moving.back().spin.cwiseAbs().maxCoeff() < fastest))
+      throw std::runtime_error("robot '" + robot.name + "': its motion blew up");
+    s.limbs.limb[i] = hanging(limb, s.limbs.limb[i], limb.carrier < 0 ? body : moving[limb.carrier], moving.back());
   }
 }
 

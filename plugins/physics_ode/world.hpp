@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "library.hpp"
+#include "limbs.hpp"
 #include "model.hpp"
 #include "scene/slabs.hpp"
 
@@ -38,22 +39,15 @@ struct Command {
   std::array<double, 4> rotors{};  // front, left, back, right [rad/s]
 };
 
-// A wheel as ODE has it: a body of its own, which a hinge holds only nearly. What it is off by matters: the drift of an
-// axle that turns is what makes ODE's step of second order. In the body's frame, relative to its centre of mass.
-struct HingedWheel {
-  std::array<double, 3> place;       // [m]
-  std::array<double, 4> quaternion;  // all 0: not known yet, as its hinge wants it
-  std::array<double, 3> velocity;    // [m/s]
-  std::array<double, 3> spin;        // [rad/s]
-};
-
 struct RobotState {
   std::array<double, 7> pose;   // x y z [m], qw qx qy qz, body to world
   std::array<double, 6> twist;  // v [m/s] of the body's origin, w [rad/s]; both in the world's frame
   std::array<double, 2> angle;  // of the wheels, left and right [rad]
   std::array<double, 2> rate;   // [rad/s]
-  std::array<HingedWheel, 2> hinged;
+  std::array<HungBody, 2> hinged;
   std::array<double, 4> rotors{};  // as they turn [rad/s]
+  Limbs limbs{};                   // as they hang
+  std::array<HungBody, Limbs::most> hung{};
 };
 
 struct NamedRobot {
@@ -78,7 +72,8 @@ class World {
     RobotModel model;
     dBodyID body = nullptr;
     std::array<dBodyID, 2> wheel{};
-    std::array<dJointID, 2> hinge{};
+    std::array<dJointID, 2> hinge{}, motor{};
+    std::array<dBodyID, Limbs::most> limb{};
   };
   struct Surface {
     std::size_t number;  // in the order in which shapes were added
@@ -93,15 +88,17 @@ class World {
   };
 
   void add(Robot& robot);
-  void add_shapes(const Robot& robot);
+  dBodyID add_body(const description::Mass& mass, const Eigen::Isometry3d& frame) const;
+  void add_shapes(const Robot& robot, const std::vector<Eigen::Isometry3d>& limbs);
   dGeomID add_geom(dGeomID geom, unsigned long category, unsigned long meets, double friction, double restitution);
-  void place(const Robot& robot, const RobotState& state) const;
+  static void place(const Robot& robot, const RobotState& state);
   void ask(const Robot& robot, const Command& command, double at) const;
   static void lift(const Robot& robot, const Command& command, double h, RobotState& state);
   void touch();
   void touch(const Pair& pair);
   void advance(double h, unsigned long seed);
-  void read(const Robot& robot, RobotState& state) const;
+  static void read(const Robot& robot, RobotState& state);
+  static void read_limbs(const Robot& robot, RobotState& state);
   static void near(void* world, dGeomID a, dGeomID b);
 
   Library library_;

@@ -167,6 +167,62 @@ TEST_P(OnJoints, ALimbOnABallGoesInACircle) {
   }
 }
 
+// Carriages of 2 kg on rails that stand upright, with stops 0.1 m from where they begin: one without friction, one that
+// it brakes, one that it holds; and a rail with a damper, whose carriage comes to a steady speed.
+TEST_P(OnJoints, LimbsStopAtLimitsStickByFrictionAndAreDamped) {
+  if (!GetParam().limbs) return;
+  constexpr double kilograms = 2, weight = kilograms * gravity, damper = 80;
+  std::string links = body();
+  const auto carriage = [&](const std::string& name, const std::string& dynamics, const std::string& stop) {
+    links += "<link name='" + name + "'><inertial><mass value='2'/><inertia ixx='0.01' ixy='0' ixz='0' iyy='0.01' " +
+             "iyz='0' izz='0.01'/></inertial></link><joint name='" + name +
+             "_joint' type='prismatic'><parent link='body'/><child link='" + name +
+             "'/><origin xyz='0 0 1'/><axis xyz='0 0 1'/><limit lower='-" + stop + "' upper='" + stop +
+             "' effort='1e9' velocity='1e9'/><dynamics " + dynamics + "/></joint>";
+  };
+  carriage("free", "friction='0'", "0.1"), carriage("braked", "friction='15'", "0.1"),
+      carriage("held", "friction='25'", "0.1");
+  carriage("damped", "damping='" + print_real(damper) + "'", "9");
+  folder.write("rails.urdf", "<robot name='rails'>" + links + "</robot>");
+  Started sim = run("<robot name='a' model='rails.urdf' at='0 0 0.02'/>", {}, {});
+  const auto limb = [&](int i) { return row<Limbs>(sim, "robot/a/limbs").limb[i]; };
+  run_for(sim, 10);
+  EXPECT_NEAR(limb(0).way, -gravity / 2 * 0.01, 1e-3 * 0.05 + GetParam().fall);
+  EXPECT_NEAR(limb(1).way, -(gravity - 15 / kilograms) / 2 * 0.01, 1e-3 * 0.05 + GetParam().fall);
+  run_for(sim, 90);
+  EXPECT_NEAR(limb(0).way, -0.1, 1e-3);
+  EXPECT_NEAR(limb(1).way, -0.1, 1e-3);
+  EXPECT_NEAR(limb(2).way, 0, 1e-5);
+  EXPECT_NEAR(limb(3).speed, -weight / damper, 1e-4);
+}
+
+// A pendulum that swings by 0.05 rad loses its amplitude to a damper.
+TEST_P(OnJoints, DampedLimbsLoseWhatTheyShould) {
+  if (!GetParam().limbs) return;
+  const double about = inertia + mass * arm * arm, damper = 1e-3, amplitude = 0.05, dt = 0.002;
+  for (const std::string type : {"continuous", "floating"}) {
+    std::string link = pendulum("bob", "0.5 0 1", amplitude, type);
+    link.insert(link.find("</joint>"), "<dynamics damping='" + print_real(damper) + "'/>");
+    const std::string ball = type == "floating" ? "<muster><ball joint='bob_joint'/></muster>" : "";
+    folder.write("damped.urdf", "<robot name='damped'>" + body() + link + ball + "</robot>");
+    Started sim = started(GetParam(), "<robot name='a' model='damped.urdf' at='0 0 0.02'/>", {}, {}, dt);
+    const double start = sim.time(), decay = damper / (2 * about);
+    const double rate = std::sqrt(mass * gravity * arm / about - decay * decay);
+    double off = 0;
+    for (int k = 0; k < 1000; ++k) {
+      sim.step();
+      const double t = sim.time() - start;
+      const double expected =
+          -amplitude * std::exp(-decay * t) * (std::cos(rate * t) + decay / rate * std::sin(rate * t));
+      const Limb limb = row<Limbs>(sim, "robot/a/limbs").limb[0];
+      const double angle = type == "floating" ? 2 * std::atan2(limb.qy, limb.qw) : limb.angle;
+      off = std::max(off, std::abs(angle - amplitude - expected));
+    }
+    EXPECT_LT(off, 10 * GetParam().swing * amplitude) << type;
+    EXPECT_GT(decay, 0.5);
+  }
+}
+
 TEST_P(OnJoints, LimbsGiveTheSameBitsForAnyWorkersRemadeAndRestored) {
   if (!GetParam().limbs) return;
   folder.write("limbs.urdf", on_limbs({{"continuous", 0.6}, {"floating", 1.2}}));

@@ -15,10 +15,10 @@ std::vector<Backend> table() {
 
   Backend ode{"ode_exact", "physics.ode", {}, true};
   ode.smooth = {{"friction", "0"}};
-  ode.height = ode.slip = ode.torque = ode.rotors = ode.bouncing = ode.pushed = true;
+  ode.height = ode.slip = ode.torque = ode.rotors = ode.limbs = ode.bouncing = ode.pushed = true;
   ode.order = 2, ode.coarsest_of_order = 0.04, ode.flight_order = 1;
   ode.fall = 5e-3, ode.rest = 1e-6, ode.arc = 1e-3, ode.course = 1e-4, ode.ramp = 1e-3, ode.force = 0.01;
-  ode.climb = 5e-3, ode.spin = 3e-3, ode.collision = 1e-12, ode.bounce = 0.8;
+  ode.climb = 5e-3, ode.spin = 3e-3, ode.collision = 1e-12, ode.bounce = 0.8, ode.parting = 0.2;
   ode.apex = 0.04, ode.slide = 5e-3;
   ode.pendulum = "axle", ode.swing = 3e-3;
 

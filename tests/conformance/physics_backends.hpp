@@ -45,6 +45,7 @@ struct Backend {
   double spin = 0;       // of the momentum of tumbling for 2 s, relative
   double collision = 0;  // of the momentum of two that meet in the air, relative
   double bounce = 0;     // after a fall of 0.3 m [m/s]
+  double parting = 0;    // at most, of two that meet without bouncing [m/s]
   double apex = 0;       // of what a body that bounces rises to, relative
   double slide = 0;      // of how far a box slides and what a ball has after it, relative
   double force = 0;      // of a robot's sliding distance, and of an acceleration at the limit of torque, relative

@@ -1,4 +1,6 @@
 // From each backend to each: what moves goes on without a jump.
+#include <muster/limbs.hpp>
+
 #include "tests/conformance/physics_backends.hpp"
 
 namespace muster::test {
@@ -54,6 +56,34 @@ TEST_P(EachSwap, NothingJumpsInTheAir) {
                        after.pose.z - before.pose.z - before.twist.vz * dt),
             fastest_change * dt * dt);
   EXPECT_NEAR(row<Rotors>(sim, "robot/b/rotors").front, rotors.front, 20);
+}
+
+// A pendulum on the back of a robot that drives.
+TEST_P(EachSwap, LimbsGoOnWithoutAJump) {
+  const auto& [from, to] = GetParam();
+  if (!from.limbs || !to.limbs) return;
+  std::filesystem::copy_file(models + "hokuyo.stl", folder / "hokuyo.stl");
+  std::string urdf = contents(models + "scarab.urdf");
+  urdf.insert(urdf.find("<muster>"),
+              "<link name='bob'><inertial><origin xyz='0.05 0 0.1'/><mass value='0.2'/><inertia ixx='1e-4' ixy='0' "
+              "ixz='0' iyy='1e-4' iyz='0' izz='1e-4'/></inertial></link><joint name='neck' type='continuous'><parent "
+              "link='base'/><child link='bob'/><origin xyz='0 0 0.4'/><axis xyz='0 1 0'/></joint>");
+  folder.write("carries.urdf", urdf);
+  Started sim = started(from, "<robot name='a' model='carries.urdf' at='0 0 0'/>", {}, bends);
+  run_for(sim, 60);
+  const State before = state(sim);
+  const auto limbs = row<Limbs>(sim, "robot/a/limbs");
+  sim.swap("physics", instance(to));
+  EXPECT_TRUE(same_bits(before.pose, state(sim).pose));
+  EXPECT_TRUE(same_bits(before.twist, state(sim).twist));
+  EXPECT_TRUE(same_bits(limbs, row<Limbs>(sim, "robot/a/limbs")));
+  sim.step();
+  expect_no_jump(before, state(sim), 0.01);
+  const Limb then = limbs.limb[0], now = row<Limbs>(sim, "robot/a/limbs").limb[0];
+  const double bound = 0.2 * 0.12 * 2 * gravity / 1e-3;  // weight and a push at the bob, over more than its inertia
+  EXPECT_GT(std::abs(then.rate), 1);
+  EXPECT_LT(std::abs(now.rate - then.rate), bound * 0.01);
+  EXPECT_LT(std::abs(now.angle - then.angle - then.rate * 0.01), bound * 0.01 * 0.01);
 }
 
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(EachSwap);

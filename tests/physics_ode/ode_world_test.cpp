@@ -127,28 +127,30 @@ TEST(OdeWorld, IsUnloadedWithItsLastInstance) {
 TEST(OdeWorld, WhatItLacksForARobotIsListed) {
   const std::string inertial =
       "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial>";
-  const auto hung = [&](const std::string& name, const std::string& kind, const std::string& y) {
+  const auto hung = [&](const std::string& name, const std::string& kind, const std::string& on = "base") {
     return "<link name='" + name + "'>" + inertial + "</link><joint name='" + name + "_joint' type='" + kind +
-           "'><parent link='base'/><child link='" + name + "'/><origin xyz='0 " + y +
-           " 0.05'/><axis xyz='0 1 0'/><limit lower='0' upper='1' effort='1' velocity='1'/></joint>";
+           "'><parent link='" + on + "'/><child link='" + name +
+           "'/><axis xyz='0 1 0'/><limit lower='0' upper='4' effort='1' velocity='1'/></joint>";
   };
-  const Folder folder;
-  folder.write("arm.urdf", "<robot name='arm'><link name='base'>" + inertial + "</link>" +
-                               hung("left", "continuous", "0.1") + hung("right", "continuous", "-0.1") +
-                               hung("lift", "prismatic", "0") + hung("elbow", "revolute", "0") +
-                               "<muster><differential left='left_joint' right='right_joint' wheel_radius='0.05' "
-                               "wheel_base='0.2' max_torque='1' max_speed='20' max_acceleration='40' "
-                               "friction='0.8'/></muster></robot>");
-  try {
-    const Forwards run(folder, "<robot name='a' model='arm.urdf' at='0 0 0'/>");
-    FAIL() << "nothing was thrown";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.exit(), Exit::invalid_input);
-    EXPECT_THAT(error.what(),
-                testing::HasSubstr(
-                    "it lacks what the world's robots need: robot 'a' (model 'arm') needs "
-                    "joint 'lift_joint' (prismatic) without a motor, joint 'elbow_joint' (revolute) without a motor"));
-  }
+  const auto message = [&](const std::string& links) -> std::string {
+    const Folder folder;
+    folder.write("arm.urdf", "<robot name='arm'><link name='base'>" + inertial + "</link>" + links + "</robot>");
+    try {
+      const Forwards run(folder, "<robot name='a' model='arm.urdf' at='0 0 0'/>");
+    } catch (const Error& error) {
+      EXPECT_EQ(error.exit(), Exit::invalid_input);
+      return error.what();
+    }
+    return "nothing was thrown";
+  };
+  EXPECT_THAT(message(hung("lift", "planar") + hung("loose", "floating")),
+              testing::HasSubstr("it lacks what the world's robots need: robot 'a' (model 'arm') needs "
+                                 "joint 'lift_joint' (planar) without a motor, joint 'loose_joint' (floating) without "
+                                 "a motor"));
+  EXPECT_THAT(message(hung("elbow", "revolute") + hung("one", "prismatic") + hung("two", "prismatic") +
+                      hung("three", "prismatic") + hung("four", "prismatic", "three")),
+              testing::HasSubstr("cannot be simulated by physics.ode: joint 'elbow_joint' has limits beyond half a "
+                                 "turn, which ODE does not see; it has more than four joints without motors"));
 }
 
 // With nothing soft about them, contacts of four points are one too many for ODE's exact solver: it gives one up and
