@@ -192,20 +192,20 @@ struct PhysicsSimbody {
 
   void move(const Step& k) {
     const auto asked = k[drive];
-    states.resize(made.rows.size());
-    commands.assign(made.rows.size(), {});
+    states.resize(made.rows.size());  // what no robot of the world has stays 0 in them, and in commands
+    commands.resize(made.rows.size());
     for (std::size_t i = 0; i < made.rows.size(); ++i) {
       const std::size_t row = made.rows[i];
-      states[i] = gather(k, row);
-      if (row < asked.size()) {
-        commands[i] = {asked[row].left, asked[row].right, asked[row].left_rate, asked[row].right_rate};
-      }
+      gather(k, row, states[i]);
+      const Drive wheel_rates = row < asked.size() ? asked[row] : Drive{};
+      commands[i].left = wheel_rates.left, commands[i].left_rate = wheel_rates.left_rate;
+      commands[i].right = wheel_rates.right, commands[i].right_rate = wheel_rates.right_rate;
       if (gait) {
         std::copy_n(k[*gait][row].angle, 6, commands[i].leg_angle.begin());
         std::copy_n(k[*gait][row].rate, 6, commands[i].leg_rate.begin());
       }
-      if (flies && row < k[rotor_drive].size()) {
-        const RotorDrive& r = k[rotor_drive][row];
+      if (flies) {
+        const RotorDrive r = row < k[rotor_drive].size() ? k[rotor_drive][row] : RotorDrive{};
         commands[i].rotors = {r.front, r.left, r.back, r.right};
       }
     }
@@ -213,11 +213,10 @@ struct PhysicsSimbody {
     for (std::size_t i = 0; i < made.rows.size(); ++i) spread(k, made.rows[i], states[i]);
   }
 
-  simbody::RobotState gather(const Step& k, std::size_t row) const {
+  void gather(const Step& k, std::size_t row, simbody::RobotState& s) const {
     const Pose& p = k.last(pose)[row];
     const Twist& t = k.last(twist)[row];
     const Wheels& w = k.last(wheels)[row];
-    simbody::RobotState s;
     s.pose = {p.x, p.y, p.z, p.qw, p.qx, p.qy, p.qz};
     s.twist = {t.vx, t.vy, t.vz, t.wx, t.wy, t.wz};
     s.angle = {w.left, w.right};
@@ -228,12 +227,11 @@ struct PhysicsSimbody {
       s.rotors = {r.front, r.left, r.back, r.right};
     }
     if (limbs) s.limbs = k.last(*limbs)[row];
-    if (!legs) return s;
+    if (!legs) return;
     const Legs& l = k.last(*legs)[row];
     std::copy_n(l.angle, 6, s.leg_angle.begin());
     std::copy_n(l.rate, 6, s.leg_rate.begin());
     std::copy_n(l.torque, 6, s.leg_torque.begin());
-    return s;
   }
 
   void spread(const Step& k, std::size_t row, const simbody::RobotState& s) const {
