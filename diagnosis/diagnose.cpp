@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <tuple>
 
 #include "diagnosis/cause_rows.hpp"
@@ -28,11 +29,13 @@ class Diagnoser {
   Diagnoser(const std::filesystem::path& world, const std::filesystem::path& file, const Library::SearchPath& plugins)
       : at_(world, file, plugins), world_(world), plugins_(plugins) {}
 
-  Diagnosis run() {
+  // `given`: what was found in the world as given, where this one has its first cause put right.
+  Diagnosis run(const Diagnosis* given = nullptr) {
     search::Search search(at_.problem, at_.options);
     const search::Result result = search.run();
     at_.run->clear();
     Diagnosis out = summed_up(result, at_.sought, search.bench());
+    if (given) begin_as_given(*given, search.bench(), out);
     add_advice(search, out, at_.sought, {world_, plugins_, at_.model, at_.data}, at_.base);
     for (const auto* more : {&at_.sought.not_tested, &at_.untested})
       out.not_tested.insert(out.not_tested.end(), more->begin(), more->end());
@@ -53,6 +56,8 @@ class Diagnoser {
     out.residual_sd = at_.fitted.residual_sd;
     out.noise = result.noise.covariance;
     out.held_out = result.held_out;
+    out.unseen = result.unseen;
+    out.used = at_.used;
     out.readings = at_.used.size();
     out.rows = bench.rows().size();
     out.row_limits = at_.options.rows;
@@ -77,12 +82,52 @@ class Diagnoser {
     for (const CauseCandidate& c : causes.found) out.searched.push_back(c.candidate.id);
     out.instrument = at_.instrument;
     out.seen = seen_rows(bench, at_.model);
+    const search::Stand alone = bench.stand(bench.base());
+    out.fitted = at_.base.mean + at_.base.slopes * (alone.coefficients(bench.base().cols()) - at_.base.values);
     add_what_scatters(bench, out);
     out.stairs = result.stairs;
     out.checks = result.checks;
     out.world_values = world_values(bench, at_.base.paths, coefficients, at_.model);
     for (WorldValue& v : out.world_values) v.value = out.parameters.at(v.path);
     return out;
+  }
+
+  // What the world as given leaves, before what the one that was judged does; its first cause's gain is that step.
+  void begin_as_given(const Diagnosis& given, const search::Bench& bench, Diagnosis& out) const {
+    FoundCause& first = *out.causes.insert(out.causes.begin(), given.causes.front());
+    const VectorXd left = measured(bench) - bench.rows().mean(given.fitted(at_.used));
+    first.effect = left - out.seen.before;
+    const search::Stand alone = bench.stand(bench.base());
+    out.seen.before = left;
+    out.seen.white_before = alone.at.basis.rest(alone.whitener(left));
+    out.residual_sd = given.residual_sd;
+    first.held_out.reset();
+    out.held_out.reset();
+    if (!given.unseen || !out.unseen) return out.stairs.clear();
+    const search::Unseen judged = *out.unseen;
+    first.held_out = search::compared(errors_beside(given, judged.before, out));
+    out.unseen = errors_beside(given, judged.after, out);
+    out.held_out = search::compared(*out.unseen);
+    out.stairs.insert(out.stairs.begin(), search::stair_of(*out.unseen));
+  }
+
+  // Errors of the world as given, and `after`, of the readings that both have.
+  static search::Unseen errors_beside(const Diagnosis& given, const VectorXd& after, const Diagnosis& out) {
+    std::map<Index, Index> place;
+    for (std::size_t k = 0; k < given.used.size(); ++k) place[given.used[k]] = static_cast<Index>(k);
+    std::vector<Index> theirs, ours;
+    search::Unseen both;
+    both.seed = out.unseen->seed;
+    for (std::size_t k = 0; k < out.used.size(); ++k) {
+      const auto at = place.find(out.used[k]);
+      if (at == place.end()) continue;
+      theirs.push_back(at->second);
+      ours.push_back(static_cast<Index>(k));
+      both.block.push_back(out.unseen->block[k]);
+    }
+    both.before = given.unseen->before(theirs);
+    both.after = after(ours);
+    return both;
   }
 
   // A strength that may as well be the one at which the row has no effect at all is that: a wall that loses nothing is
@@ -172,12 +217,15 @@ class Diagnoser {
     return text + '\n';
   }
 
+  VectorXd measured(const search::Bench& bench) const {
+    const VectorXd offset = (at_.base.mean - at_.base.slopes * at_.base.values)(at_.used);
+    return bench.y() + bench.rows().mean(offset);
+  }
+
   void extend(const search::Bench& bench, Diagnosis& out) {
     out.mean = VectorXd::Constant(at_.base.mean.size(), std::nan(""));
-    const VectorXd offset = (at_.base.mean - at_.base.slopes * at_.base.values)(at_.used);
-    const VectorXd measured = bench.y() + bench.rows().mean(offset);
-    const VectorXd mean = fit_jointly({at_.model, at_.causes, at_.file, bench, at_.used, measured}, at_.base.lower,
-                                      at_.base.upper, at_.base.paths, out);
+    const VectorXd mean = fit_jointly({at_.model, at_.causes, at_.file, bench, at_.used, measured(bench)},
+                                      at_.base.lower, at_.base.upper, at_.base.paths, out);
     out.mean(at_.used) = mean(at_.used);
   }
 
@@ -253,19 +301,23 @@ Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::pa
   Diagnosis found = Diagnoser(world, data, plugins).run();
   const FoundCause* const spoiler = first_in_company(found, causes_on(plugins));
   if (!spoiler) return found;
-  Diagnosis first;
+  Diagnosis first = found;
   first.causes = {*spoiler};
-  first.parameters = found.parameters;
+  first.causes[0].sought_as.clear();
   const TemporaryFolder folder;
-  Diagnosis again = Diagnoser(write_extended_world(first, world, folder.path()), data, plugins).run();
-  if (first.causes[0].id == people && first.causes[0].log_p > people_in_company && something_changes_in_time(again)) {
+  Diagnoser with_it(write_extended_world(first, world, folder.path()), data, plugins);
+  if (first.causes[0].id != people) {
+    first.causes[0].put_right_first = true;
+    return with_it.run(&first);
+  }
+  Diagnosis again = with_it.run();
+  if (first.causes[0].log_p > people_in_company && something_changes_in_time(again)) {
     const auto named =
         std::remove_if(found.causes.begin(), found.causes.end(), [](const FoundCause& c) { return c.id == people; });
     found.causes.erase(named, found.causes.end());
     return found;
   }
   first.causes[0].effect = VectorXd::Zero(again.rows);
-  first.causes[0].sought_as.clear();
   again.causes.insert(again.causes.begin(), first.causes[0]);
   return again;
 }

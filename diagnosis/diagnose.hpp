@@ -22,6 +22,7 @@ struct FoundCause {
   // By which id the search had it: a wall that costs nothing may be told as one that is absent. Empty: none of the
   // search's, but a law of readings or an edit that came before it.
   std::string sought_as;
+  bool put_right_first = false;  // and all else was judged in a world that has it
   search::Status status = search::Status::named;
   std::vector<std::string> covariates;  // what it is a function of, its own one first: "map", "time", "bearing"
   std::string row_parameter, row;       // empty where it is about no row
@@ -114,6 +115,9 @@ struct Diagnosis {
   double residual_sd = 0;  // dB, of the fitted world
   noise::Covariance noise;
   std::optional<search::HeldOut> held_out;
+  std::optional<search::Unseen> unseen;      // what held_out is of, in the order of `used`
+  std::vector<Eigen::Index> used;            // rows of the table that were searched
+  Eigen::VectorXd fitted;                    // mean of the world as given, fitted, at every row of the table, dBm
   std::map<std::string, double> parameters;  // of the world, beside the causes
   std::vector<WorldValue> world_values;      // the same with their spread
   std::vector<search::Stair> stairs;         // held-out error of the world, then with each accepted finding in turn

@@ -39,6 +39,9 @@ std::string name_of_step(const Diagnosis& d, std::size_t k) {
   }
   for (const auto& u : d.unexplained) steps.emplace_back(-u.lambda, covariate_in_words(u.covariate) + " (unexplained)");
   std::stable_sort(steps.begin(), steps.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (const FoundCause& c : d.causes) {
+    if (c.put_right_first) steps.insert(steps.begin(), {0, short_name(c.id)});
+  }
   return k <= steps.size() ? "+ " + steps[k - 1].second : "";
 }
 

@@ -83,14 +83,16 @@ Eigen::VectorXd Folds::squared_errors(const Sample& rows, const Sample& readings
   return result;
 }
 
-HeldOut Folds::compared(const Eigen::VectorXd& before, const Eigen::VectorXd& after) const {
-  std::vector<double> won(static_cast<std::size_t>(blocks_)), readings(won.size()), means;
+HeldOut compared(const Unseen& unseen) {
+  const auto& [before, after, block_of, seed] = unseen;
+  const int blocks = *std::max_element(block_of.begin(), block_of.end()) + 1;
+  std::vector<double> won(static_cast<std::size_t>(blocks)), readings(won.size()), means;
   for (Index i = 0; i < before.size(); ++i) {
-    const auto block = static_cast<std::size_t>(block_of_[static_cast<std::size_t>(i)]);
+    const auto block = static_cast<std::size_t>(block_of[static_cast<std::size_t>(i)]);
     won[block] += before[i] - after[i];
     readings[block] += 1;
   }
-  const Stream stream(combined(key_of("block bootstrap"), seed_));
+  const Stream stream(combined(key_of("block bootstrap"), seed));
   for (uint64_t k = 0; k < resamples; ++k) {
     double sum = 0, count = 0;
     for (uint64_t j = 0; j < won.size(); ++j) {
@@ -106,7 +108,7 @@ HeldOut Folds::compared(const Eigen::VectorXd& before, const Eigen::VectorXd& af
           (before - after).mean(),
           means[resamples / 40],
           means[resamples - 1 - resamples / 40],
-          blocks_};
+          blocks};
 }
 
 }  // namespace muster::search

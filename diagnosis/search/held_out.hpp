@@ -17,6 +17,16 @@ struct HeldOut {
   int blocks = 0;
 };
 
+// Squared errors of readings whose block was left out, dB^2, and that block.
+struct Unseen {
+  Eigen::VectorXd before, after;  // of the base model and the extended one
+  std::vector<int> block;
+  uint64_t seed = 0;
+};
+
+// By resampling whole blocks.
+HeldOut compared(const Unseen& unseen);
+
 // What was measured and the columns that are to explain it.
 struct Sample {
   Eigen::VectorXd y;
@@ -34,7 +44,12 @@ class Folds {
   bool possible() const { return blocks_ >= 2; }
   // Squared error of every reading when its fold was left out.
   Eigen::VectorXd squared_errors(const Sample& rows, const Sample& readings) const;
-  HeldOut compared(const Eigen::VectorXd& before, const Eigen::VectorXd& after) const;
+  HeldOut compared(const Eigen::VectorXd& before, const Eigen::VectorXd& after) const {
+    return search::compared(unseen(before, after));
+  }
+  Unseen unseen(const Eigen::VectorXd& before, const Eigen::VectorXd& after) const {
+    return {before, after, block_of_, seed_};
+  }
 
  private:
   struct Fold {

@@ -32,6 +32,12 @@ const Problem& checked(const Problem& problem) {
 
 }  // namespace
 
+Stair stair_of(Unseen unseen) {
+  unseen.after.setZero();
+  const HeldOut all = compared(unseen);
+  return {all.rmse_before, std::sqrt(all.lower95), std::sqrt(all.upper95)};
+}
+
 Search::Search(const Problem& problem, const Options& options) : bench_(checked(problem), options) {}
 
 Result Search::run() {
@@ -131,12 +137,12 @@ void Search::hold_out(Result& result) const {
     return folds.squared_errors(rows, readings);
   };
   const auto step = [&](const Eigen::VectorXd& errors) {
-    const HeldOut all = folds.compared(errors, Eigen::VectorXd::Zero(errors.size()));
-    result.stairs.push_back({all.rmse_before, std::sqrt(all.lower95), std::sqrt(all.upper95)});
+    result.stairs.push_back(stair_of(folds.unseen(errors, errors)));
   };
   const Eigen::VectorXd base = errors_with([](std::size_t) { return false; });
   const Eigen::VectorXd full = errors_with([](std::size_t) { return true; });
-  result.held_out = folds.compared(base, full);
+  result.unseen = folds.unseen(base, full);
+  result.held_out = compared(*result.unseen);
   step(base);
   for (std::size_t many = 1; many <= at_readings.size(); ++many)
     step(errors_with([&](std::size_t k) { return k < many; }));

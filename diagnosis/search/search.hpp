@@ -43,6 +43,8 @@ struct Check {
 struct Stair {
   double rmse = 0, lower95 = 0, upper95 = 0;
 };
+// Of the model before.
+Stair stair_of(Unseen unseen);
 
 struct Result {
   std::vector<Finding> findings;  // the strongest first, suspected ones last
@@ -51,7 +53,8 @@ struct Result {
   std::vector<noise::Fit> families;  // of the base model
   Eigen::VectorXd base_coefficients;
   Eigen::VectorXd mean;             // of the extended model, one a row
-  std::optional<HeldOut> held_out;  // the base model and the extended one
+  std::optional<Unseen> unseen;     // the base model and the extended one
+  std::optional<HeldOut> held_out;  // the same in short
   std::vector<Stair> stairs;        // the base model, then with each accepted finding in turn; empty: too few blocks
   std::vector<Check> checks;
 };
