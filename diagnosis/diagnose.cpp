@@ -92,7 +92,8 @@ class Diagnoser {
     return out;
   }
 
-  // What the world as given leaves, before what the one that was judged does; its first cause's gain is that step.
+  // What the world as given leaves, before what the one that was judged does. The cause that was put right wins what
+  // that world, with all else that was found in it, errs more than the extended one.
   void begin_as_given(const Diagnosis& given, const search::Bench& bench, Diagnosis& out) const {
     FoundCause& first = *out.causes.insert(out.causes.begin(), given.causes.front());
     const VectorXd left = measured(bench) - bench.rows().mean(given.fitted(at_.used));
@@ -104,15 +105,14 @@ class Diagnoser {
     first.held_out.reset();
     out.held_out.reset();
     if (!given.unseen || !out.unseen) return out.stairs.clear();
-    const search::Unseen judged = *out.unseen;
-    first.held_out = search::compared(errors_beside(given, judged.before, out));
-    out.unseen = errors_beside(given, judged.after, out);
+    first.held_out = search::compared(errors_beside(given, first.unseen_without, out));
+    out.unseen = errors_beside(given, given.unseen->before, out);
     out.held_out = search::compared(*out.unseen);
     out.stairs.insert(out.stairs.begin(), search::stair_of(*out.unseen));
   }
 
-  // Errors of the world as given, and `after`, of the readings that both have.
-  static search::Unseen errors_beside(const Diagnosis& given, const VectorXd& after, const Diagnosis& out) {
+  // Errors `before`, of the world as given, and those of the extended one, at the readings that both have.
+  static search::Unseen errors_beside(const Diagnosis& given, const VectorXd& before, const Diagnosis& out) {
     std::map<Index, Index> place;
     for (std::size_t k = 0; k < given.used.size(); ++k) place[given.used[k]] = static_cast<Index>(k);
     std::vector<Index> theirs, ours;
@@ -125,8 +125,8 @@ class Diagnoser {
       ours.push_back(static_cast<Index>(k));
       both.block.push_back(out.unseen->block[k]);
     }
-    both.before = given.unseen->before(theirs);
-    both.after = after(ours);
+    both.before = before(theirs);
+    both.after = out.unseen->after(ours);
     return both;
   }
 

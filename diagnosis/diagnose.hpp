@@ -34,6 +34,7 @@ struct FoundCause {
   double lambda = 0;       // fall of the deviance by it, beside all others
   Eigen::VectorXd effect;  // dB it adds to each of the rows seen
   std::optional<search::HeldOut> held_out;
+  Eigen::VectorXd unseen_without;  // squared errors at places not seen without it, in the order of Diagnosis::used
   std::vector<search::Rival> rivals;
 
   bool changes_in_time() const;

@@ -104,6 +104,7 @@ FoundCause found_cause(const search::Finding& f, const CauseCandidate& cause) {
   out.log_p = f.log_p;
   out.lambda = f.gain;
   out.held_out = f.held_out;
+  out.unseen_without = f.unseen_without;
   out.rivals = f.rivals;
   add_linear(out, shape, f);
   auto sure = reaches(shape, f);

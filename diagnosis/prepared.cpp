@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "diagnosis/field_law.hpp"
@@ -84,9 +85,41 @@ Prepared::Prepared(const std::filesystem::path& world, const std::filesystem::pa
   if (!problem.places_known) options.rows.way = -1;  // readings at like distances are not at one place: each is a row
   const noise::Rows rows(problem.readings, options.rows);
   sought = cause_candidates(causes, survey_of(model, data), {run, model, data, used}, problem.base, rows);
+  take_swaps_by_the_map(rows, world, plugins);
   add_columns();
   let_sketch(rows, world, plugins);
   for (const CauseCandidate& c : sought.found) problem.candidates.push_back(c.candidate);
+}
+
+// Parameters that were fitted while two radios bear each other's name are bent by that, and what a swap would change is
+// wrong with them: where the fit leaves much more than the world's own draws, it is told by the declared ones.
+void Prepared::take_swaps_by_the_map(const noise::Rows& rows, const std::filesystem::path& world,
+                                     const Library::SearchPath& plugins) {
+  constexpr double much_more = 1.5;
+  if (fitted.simulated_sd <= 0 || fitted.residual_sd < much_more * fitted.simulated_sd) return;
+  const auto set_all = [&](double FitParameter::*value) {
+    for (const FitParameter& p : fitted.parameters) {
+      if (std::isfinite(p.*value)) model.set(p.path, p.*value);
+    }
+  };
+  run->clear();
+  set_all(&FitParameter::start);
+  const auto declared = std::make_shared<CauseModel>(model, world, file, plugins);
+  for (CauseCandidate& cause : sought.found) {
+    search::Candidate& c = cause.candidate;
+    if (cause.shape->cause.meaning().kind != MUSTER_INSTRUMENT || c.width != 1) continue;
+    const auto columns = at_readings_of(cause, {declared, model, data, used}).columns;
+    const auto kept = std::make_shared<std::map<double, VectorXd>>();  // by the row that it is about
+    noise::Sheet atoms(rows.size(), static_cast<Index>(c.grid.size()));
+    for (std::size_t k = 0; k < c.grid.size(); ++k) {
+      const VectorXd& column = (*kept)[c.grid[k][0]] = columns(c.grid[k]);
+      atoms.col(static_cast<Index>(k)) = rows.mean(column).cast<float>();
+    }
+    c.columns = [kept](const VectorXd& theta) { return kept->at(theta[0]); };
+    c.atoms = std::make_shared<const noise::Sheet>(std::move(atoms));
+  }
+  declared->clear();
+  set_all(&FitParameter::value);
 }
 
 // Where rows have many readings, a search over many places, times or shapes asks one of each.

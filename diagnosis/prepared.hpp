@@ -35,6 +35,8 @@ struct Prepared {
  private:
   void leave_out_crossed_links();
   void fill_readings();
+  void take_swaps_by_the_map(const noise::Rows& rows, const std::filesystem::path& world,
+                             const Library::SearchPath& plugins);
   void let_sketch(const noise::Rows& rows, const std::filesystem::path& world, const Library::SearchPath& plugins);
   noise::Known known_of(double rssi) const;
   void add_columns();

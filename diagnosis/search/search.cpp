@@ -118,6 +118,7 @@ Finding Search::finding_of(const Term& term, Status status) const {
                   term.evidence,
                   term.log_p,
                   {},
+                  {},
                   {}};
   return finding;
 }
@@ -146,8 +147,10 @@ void Search::hold_out(Result& result) const {
   step(base);
   for (std::size_t many = 1; many <= at_readings.size(); ++many)
     step(errors_with([&](std::size_t k) { return k < many; }));
-  for (std::size_t one = 0; one < at_readings.size(); ++one)
-    result.findings[one].held_out = folds.compared(errors_with([&](std::size_t k) { return k != one; }), full);
+  for (std::size_t one = 0; one < at_readings.size(); ++one) {
+    result.findings[one].unseen_without = errors_with([&](std::size_t k) { return k != one; });
+    result.findings[one].held_out = folds.compared(result.findings[one].unseen_without, full);
+  }
 }
 
 std::vector<Advice> Search::advise(const std::vector<Plan>& plans) {

@@ -24,6 +24,7 @@ struct Finding {
   double evidence = 0;                  // nats
   double log_p = 0;                     // integrated over the covariance
   std::optional<HeldOut> held_out;      // without and with it; none for what is only suspected
+  Eigen::VectorXd unseen_without;       // squared errors of readings at places not seen without it, dB^2; none likewise
   std::vector<Rival> rivals;
 };
 

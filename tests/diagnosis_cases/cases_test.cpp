@@ -63,27 +63,38 @@ INSTANTIATE_TEST_SUITE_P(Effects, SealedCase,
                                          Hidden{"outliers", 14}, Hidden{"wall_absent", 16}),
                          [](const auto& hidden) { return std::string(hidden.param.effect); });
 
-// So large that other things seem wrong beside it: all is judged again with the names put right, and yet the error told
-// is that of the world as given, 10.0 dB at places not seen as the generator has it, and what the names win is all of
-// it.
-TEST(SealedSwap, IsMeasuredFromTheWorldAsGiven) {
+// A radio elsewhere beside another cause: all is judged again with the radio in its place, and yet the error told is
+// that of the world as given, which by the generator is 8.98 dB at places not seen, 43.0 dB^2 more than with both.
+TEST(SealedPair, IsMeasuredFromTheWorldAsGiven) {
   const Scratch scratch;
-  const auto world = sealed_case(scratch, "--mix one --lambda 800 --effects label_swap", 2);
+  const auto world = made_case(
+      scratch, "--seed 31 --rows 3000 4000 --mix two --lambda 300 --effects tx_misplaced,antenna_tx,drift,dual_slope",
+      3);
+  const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
+  ASSERT_EQ(found.causes.size(), 2u) << told(found);
+  const FoundCause& moved = found.causes[0];
+  EXPECT_EQ(moved.id, "effect.tx_misplaced");
+  EXPECT_EQ(found.causes[1].id, "effect.dual_slope");
+  ASSERT_TRUE(moved.put_right_first);
+  EXPECT_NEAR(found.held_out->rmse_before, 8.98, 0.5);
+  EXPECT_NEAR(found.held_out->gain, 43.0, 5);
+  EXPECT_GT(moved.held_out->lower95, 0);
+  ASSERT_EQ(found.stairs.size(), 3u);
+  EXPECT_EQ(found.stairs[0].rmse, found.held_out->rmse_before);
+  EXPECT_EQ(report::name_of_step(found, 1), "+ tx misplaced");
+  const auto rms = [](const Eigen::VectorXd& v) { return std::sqrt(v.array().square().mean()); };
+  EXPECT_GT(rms(found.seen.before), 1.4 * rms(found.seen.after));
+  EXPECT_GT(rms(moved.effect), 1);
+}
+
+// The parameters that fit readings of swapped radios say nothing of what the swap changes.
+TEST(SealedSwap, IsNamedThoughItBendsAllParameters) {
+  const Scratch scratch;
+  const auto world = sealed_case(scratch, "--mix one --lambda 800 --effects label_swap", 3);
   const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
   ASSERT_EQ(found.causes.size(), 1u) << told(found);
-  const FoundCause& swap = found.causes[0];
-  EXPECT_EQ(swap.id, "effect.label_swap");
-  ASSERT_TRUE(swap.put_right_first);
-  EXPECT_NEAR(found.held_out->rmse_before, 10.0, 0.5);
-  EXPECT_LT(found.held_out->rmse_after, 5);
-  EXPECT_EQ(swap.held_out->gain, found.held_out->gain);
-  ASSERT_EQ(found.stairs.size(), 2u);
-  EXPECT_EQ(found.stairs[0].rmse, found.held_out->rmse_before);
-  EXPECT_EQ(report::name_of_step(found, 1), "+ label swap");
-  const auto rms = [](const Eigen::VectorXd& v) { return std::sqrt(v.array().square().mean()); };
-  EXPECT_GT(rms(found.seen.before), 1.5 * rms(found.seen.after));
-  EXPECT_LT(rms(found.seen.before - found.seen.after - swap.effect), 0.1 * rms(swap.effect));
-  EXPECT_GT(rms(found.seen.white_before), rms(found.seen.white_after));
+  EXPECT_EQ(found.causes[0].id, "effect.label_swap");
+  EXPECT_NEAR(found.held_out->gain, 186, 15);  // as the generator has it
 }
 
 // At this strength a short wall and a thing in its place are often not told apart; the place is what counts here.
