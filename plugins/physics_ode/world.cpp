@@ -54,7 +54,7 @@ HungBody as_hinged(const Wheel& wheel, const Vector3d& body_centre, const Vector
   return {array(place), {q.w(), q.x(), q.y(), q.z()}, array(velocity), array(own)};
 }
 
-// The frame of what it belongs to from its centre of mass, and back.
+// The frame in which its mass is given, of a body that ODE has by its centre of mass.
 Moving frame_of(dBodyID body, const description::Mass& mass) {
   const Quaterniond q = quaternion(dBodyGetQuaternion(body));
   const Vector3d place = vector(dBodyGetPosition(body)), spin = vector(dBodyGetAngularVel(body));
@@ -121,6 +121,7 @@ void World::add(Robot& robot) {
     dJointAttach(robot.hinge[w], robot.wheel[w], robot.body);
     dJointSetHingeAnchor(robot.hinge[w], anchor.x(), anchor.y(), anchor.z());
     dJointSetHingeAxis(robot.hinge[w], axis.x(), axis.y(), axis.z());
+    // Beside the hinge, not its own: see README.md.
     robot.motor[w] = dJointCreateAMotor(world_.get(), nullptr);
     dJointAttach(robot.motor[w], robot.wheel[w], robot.body);
     dJointSetAMotorNumAxes(robot.motor[w], 1);
