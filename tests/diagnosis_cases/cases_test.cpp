@@ -143,6 +143,18 @@ TEST(SealedPeople, AreSeenThoughTheirDipsHaveRims) {
   EXPECT_EQ(found.causes[0].id, "effect.people");
 }
 
+// Fading of a Rician K of 7.7 dB where 3.74 dB are stated, in a field that looks smoother beside the stated law than it
+// is: field and law are found by turns.
+TEST(SealedFading, IsAsStrongAsItIs) {
+  const Scratch scratch;
+  const auto world = made_case(scratch, "--seed 77 --rows 2000 20000", 8);
+  const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
+  ASSERT_EQ(found.causes.size(), 2u) << told(found);
+  EXPECT_EQ(found.causes[0].id, "effect.fading_law");
+  EXPECT_NEAR(found.causes[0].values.at(0).value, 7.66, 0.4);
+  EXPECT_EQ(closed_loop(found, world, world / "measured.csv", scratch / "extended", plugins).rediagnosis, "silent");
+}
+
 // A Gaussian correlation over 3.27 m where 2.38 m are stated: no family of the stated distance does as well.
 TEST(SealedField, OfASmoothFamilyIsNotTakenForTheStatedOne) {
   const Scratch scratch;
