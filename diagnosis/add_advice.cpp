@@ -24,7 +24,8 @@ std::set<std::string> wanted(const Diagnosis& found, const CauseSearch& causes) 
   for (const FoundCause& c : found.causes) {
     if (c.status != search::Status::named) continue;
     if (reads_a_table(causes, c.id)) return {};
-    if (!c.sought_as.empty()) out.insert(c.sought_as);  // a law of readings is none of the search's
+    if (c.sought_as.empty()) continue;  // a law of readings is none of the search's, nor what was put right first
+    out.insert(c.sought_as);
     std::size_t rivals = 0;
     for (const search::Rival& r : c.rivals) {
       if (r.separability >= search::decided || r.id[0] == '~' || reads_a_table(causes, r.id) || rivals++ >= most_rivals)

@@ -139,8 +139,11 @@ TEST(Simbody, JamIsTheSameForAnyWorkersAfterRestoreAndAfterRemaking) {
 
 TEST(Simbody, ModelsItCannotHoldAreRefused) {
   Folder folder;
-  folder.write("box.urdf", R"(<robot name="box"><link name="l"><inertial><mass value="1"/>
-    <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link></robot>)");
+  const std::string mass =
+      "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial>";
+  folder.write("box.urdf", "<robot name='box'><link name='l'>" + mass + "</link><link name='loose'>" + mass +
+                               "</link><joint name='j' type='floating'><parent link='l'/><child link='loose'/></joint>"
+                               "</robot>");
   for (const std::string backend : {"simbody", "planar"}) {
     try {
       world_of(folder, "<robot name=\"a\" at=\"0 0 0\" model=\"" + (folder / "box.urdf").string() + "\"/><physics." +
@@ -148,10 +151,9 @@ TEST(Simbody, ModelsItCannotHoldAreRefused) {
       FAIL() << "nothing was thrown";
     } catch (const Error& error) {
       EXPECT_EQ(error.exit(), Exit::invalid_input);
-      EXPECT_THAT(
-          std::string(error.what()),
-          testing::HasSubstr("it lacks what the world's robots need: robot 'a' (model 'box') needs motion without "
-                             "a drive"));
+      EXPECT_THAT(std::string(error.what()),
+                  testing::HasSubstr("it lacks what the world's robots need: robot 'a' (model 'box') needs joint 'j' "
+                                     "(floating) without a motor"));
       EXPECT_THAT(std::string(error.what()), testing::HasSubstr("physics." + backend));
     }
   }
