@@ -27,6 +27,7 @@ std::vector<int> blocks_of(const noise::Sites& sites, double side) {
   int next = 0;
   for (auto& [cell, k] : number) k = next++;
   std::vector<int> result;
+  result.reserve(cells.size());
   for (const auto& cell : cells) result.push_back(number.at(cell));
   return result;
 }
