@@ -31,4 +31,17 @@ std::vector<LimbJoint> limbs_of(const Robot& robot) {
   return result;
 }
 
+LimbModel limb_model(const Robot& robot, const LimbJoint& limb) {
+  const Joint& joint = robot.joints[limb.joint];
+  return {joint.kind,  limb.carrier, limb.frame,    joint.axis,    rigid_mass(robot, joint.child),
+          joint.lower, joint.upper,  joint.damping, joint.friction};
+}
+
+std::string unmodelled(const Joint& joint) {
+  if (joint.kind == JointKind::planar || joint.kind == JointKind::floating) return "is no hinge, slider or ball";
+  if (joint.kind == JointKind::ball && joint.friction > 0) return "has a friction; a damping is modelled";
+  if (joint.lower > 0 || joint.upper < 0) return "does not have 0 within its limits";
+  return "";
+}
+
 }  // namespace muster::description

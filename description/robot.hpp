@@ -141,6 +141,20 @@ struct LimbJoint {
 };
 std::vector<LimbJoint> limbs_of(const Robot& robot);
 
+// The same as an engine needs it.
+struct LimbModel {
+  JointKind kind;
+  int carrier;              // a limb before it, or -1: the body
+  Eigen::Isometry3d frame;  // of the joint, in what carries it
+  Eigen::Vector3d axis;     // unit, in the joint's frame
+  Mass mass;                // in the joint's frame, where it stands at 0
+  double lower, upper;      // [rad] or [m]
+  double damping, friction;
+};
+LimbModel limb_model(const Robot& robot, const LimbJoint& limb);
+// What of a joint no engine here models; "" if all of it can be.
+std::string unmodelled(const Joint& joint);
+
 // Everything, every joint at zero, in the root's frame.
 Mass whole_mass(const Robot& robot);
 

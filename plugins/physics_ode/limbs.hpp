@@ -9,6 +9,8 @@
 
 namespace muster::ode {
 
+using description::LimbModel;
+
 // A wheel or limb as ODE has it: a body of its own, which a joint holds only nearly. What it is off by matters: the
 // drift of an axle that turns is what makes ODE's step of second order. In the body's frame, relative to its centre of
 // mass.

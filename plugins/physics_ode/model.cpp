@@ -24,9 +24,7 @@ std::string why_not(const Robot& robot, const description::LimbJoint& limb) {
   constexpr double half_turn = 3.14159265358979323846;
   const description::Joint& joint = robot.joints[limb.joint];
   if (limb.carrier == description::LimbJoint::driven) return "hangs on a wheel";
-  if (joint.kind == JointKind::planar || joint.kind == JointKind::floating) return "is no hinge, slider or ball";
-  if (joint.kind == JointKind::ball && joint.friction > 0) return "has a friction; a damping is modelled";
-  if (joint.lower > 0 || joint.upper < 0) return "does not have 0 within its limits";
+  if (std::string what = unmodelled(joint); !what.empty()) return what;
   if (joint.kind == JointKind::revolute && (joint.lower <= -half_turn || joint.upper >= half_turn))
     return "has limits beyond half a turn, which ODE does not see";
   if (!has_inertia(rigid_mass(robot, joint.child))) return "carries a link without mass or inertia";
@@ -97,10 +95,8 @@ RobotModel::RobotModel(const Robot& robot) {
   body = rigid_mass(robot, 0);
   take_shapes(robot, 0, -1);
   for (const description::LimbJoint& limb : limbs_of(robot)) {
-    const description::Joint& joint = robot.joints[limb.joint];
-    take_shapes(robot, joint.child, static_cast<int>(limbs.size()));
-    limbs.push_back({joint.kind, limb.carrier, limb.frame, joint.axis, rigid_mass(robot, joint.child), joint.lower,
-                     joint.upper, joint.damping, joint.friction});
+    take_shapes(robot, robot.joints[limb.joint].child, static_cast<int>(limbs.size()));
+    limbs.push_back(limb_model(robot, limb));
   }
   if (!has_wheels) return;
   drive = *robot.drive;

@@ -30,17 +30,6 @@ struct Wheel {
   Eigen::Vector3d axis;     // unit, in the joint's frame
 };
 
-// What hangs on a joint that no motor turns.
-struct LimbModel {
-  description::JointKind kind;
-  int carrier;              // a limb before it, or -1: the body
-  Eigen::Isometry3d frame;  // of the joint, in what carries it
-  Eigen::Vector3d axis;     // unit, in the joint's frame
-  description::Mass mass;   // in the joint's frame, where it stands at 0
-  double lower, upper;      // [rad] or [m]
-  double damping, friction;
-};
-
 struct RobotModel {
   // Throws std::runtime_error that lists all that this backend lacks for the robot.
   explicit RobotModel(const description::Robot& robot);
@@ -52,7 +41,7 @@ struct RobotModel {
   double restitution = 0;
   description::Mass body;  // all that is rigid with the root, in its frame
   std::array<Wheel, 2> wheel;
-  std::vector<LimbModel> limbs;
+  std::vector<description::LimbModel> limbs;
   std::vector<Ball> balls;
   std::vector<Block> blocks;
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compliance.hpp"
+
 namespace muster::simbody {
 
 using Eigen::Matrix3d;
@@ -10,10 +12,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-// Stiffness and damping of a normal contact, by the robot's weight: a Scarab of 8 kg sinks by 0.03 mm in all.
-constexpr double stiffness_per_mass = 125000;  // [1/s2]
-constexpr double damping_per_mass = 2500;      // [1/s]
-constexpr double push_out = 0.2;               // fastest way out of the ground and of each other [m/s]
 // What sticks to another robot creeps by this share of what its grip takes from a speed: 0.06 mm/s at most between two
 // Scarabs that push each other with all their wheels.
 constexpr double creep_of_pairs = 2.4e-3;
@@ -21,33 +19,6 @@ constexpr double slack = 0.003;   // [m] what others may push a contact by that 
 constexpr double nearby = 0.003;  // [m] at least so far off touching is looked for
 
 constexpr double longest_way_of_corners = 0.005;  // [m] past each other in one step
-
-struct Compliance {
-  Compliance(double mass, double h) {
-    const double stiffness = stiffness_per_mass * mass, damping = damping_per_mass * mass;
-    share = h * stiffness / (h * stiffness + damping);
-    softness = 1 / (h * (h * stiffness + damping));
-  }
-  // Normal speed below which a contact pushes, with the gap at the step's start: what is apart may close, not more.
-  double target(double gap, double h) const { return gap > 0 ? -gap / h : std::min(-share * gap / h, push_out); }
-
-  double share;  // of a penetration that one step takes back
-  double softness;
-};
-
-// A leg as a spring and a damper. Its force is that at the step's start, between the velocities that stand half a step
-// before and after it: of second order, and stable for any step.
-struct Spring {
-  Spring(const description::LegDrive& drive, double h)
-      : stiffness(drive.stiffness),
-        ahead(0.25 * h * drive.stiffness + 0.5 * drive.damping),
-        behind(0.25 * h * drive.stiffness - 0.5 * drive.damping),
-        softness(1 / (h * ahead)) {}
-  // `previous`: the normal speed half a step before.
-  double target(double gap, double previous) const { return (behind * previous - stiffness * gap) / ahead; }
-
-  double stiffness, ahead, behind, softness;
-};
 
 // The row that gives the speed along `direction` of the body's point `arm`, all in the body's frame.
 template <int N>

@@ -73,16 +73,6 @@ Eigen::Isometry3d frame_on_body(const description::Robot& robot, const descripti
   return frame;
 }
 
-void check_limb(const description::Robot& robot, const description::Joint& joint) {
-  using description::JointKind;
-  const std::string what = "joint '" + joint.name + "' (" + law_of(joint.kind).name + ") without a motor ";
-  if (joint.kind == JointKind::planar || joint.kind == JointKind::floating)
-    refuse(robot, what + "is no hinge, slider or ball");
-  if (joint.kind == JointKind::ball && joint.friction > 0)
-    refuse(robot, what + "has a friction; a damping is modelled");
-  if (joint.lower > 0 || joint.upper < 0) refuse(robot, what + "does not have 0 within its limits");
-}
-
 }  // namespace
 
 RobotModel::RobotModel(const description::Robot& robot) : name(robot.name) {
@@ -140,11 +130,11 @@ void RobotModel::take_limbs(const description::Robot& robot) {
     const description::Joint& joint = robot.joints[limb.joint];
     if (robot.legs) refuse(robot, "joint '" + joint.name + "' has no motor; what walks may not have limbs");
     if (limb.carrier == description::LimbJoint::driven) refuse(robot, "joint '" + joint.name + "' hangs on a wheel");
-    check_limb(robot, joint);
+    if (const std::string what = unmodelled(joint); !what.empty())
+      refuse(robot, "joint '" + joint.name + "' (" + law_of(joint.kind).name + ") without a motor " + what);
     for (const description::Shape& shape : rigid_shapes(robot, joint.child))
       parts.push_back({solid_of(Eigen::Isometry3d::Identity(), shape), -1, static_cast<int>(limbs.size())});
-    limbs.push_back({joint.kind, limb.carrier, limb.frame, joint.axis, rigid_mass(robot, joint.child), next,
-                     joint.lower, joint.upper, joint.damping, joint.friction});
+    limbs.push_back({limb_model(robot, limb), next});
     next += law_of(joint.kind).rates;
   }
   if (limbs.size() > Limbs::most || next > unknowns_with_legs) {

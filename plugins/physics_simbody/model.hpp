@@ -31,15 +31,8 @@ struct Leg {
 };
 
 // What hangs on a joint that no motor turns.
-struct LimbModel {
-  description::JointKind kind;
-  int carrier;              // a limb before it, or -1: the body
-  Eigen::Isometry3d frame;  // of the joint, in what carries it
-  Eigen::Vector3d axis;     // unit, in the joint's frame
-  description::Mass mass;   // in the joint's frame, where it stands at 0
-  int first;                // of its unknowns
-  double lower, upper;      // [rad] or [m]
-  double damping, friction;
+struct LimbModel : description::LimbModel {
+  int first;         // of its unknowns
   double reach = 0;  // from its joint, of what of it and of what it carries can be touched; 0: nothing can [m]
 
   // How far its joint lets it go from where it stands at 0 [m].

@@ -57,20 +57,22 @@ class StepperOf {
                     PlacedOf<N>& now);
   void place_legs(const CrewMember& robot, double h, double at, const Command& command, const RobotState& state,
                   PlacedOf<N>& now);
-  void place_limbs(const CrewMember& robot, double h, double at, const Command& command, const RobotState& state,
-                   PlacedOf<N>& now);
-  void push(const CrewMember& robot, double h, const RobotState& state, const VelocityOf<N>& after, PlacedOf<N>& now);
-  static void stop_limbs(const CrewMember& robot, double h, const RobotState& state, const VelocityOf<N>& rates,
-                         PlacedOf<N>& now);
   void meet(const Group& group, double h, const std::vector<RobotState>& states);
   void find_islands(const Group& group);
   bool needs_halves(const Island& island) const;
   static Group part_of(const Group& group, const Island& island);
   void take_contacts(const Island& island);
-  bool push_again(const Island& island, double h, const std::vector<RobotState>& states);
   void solve(const Island& island, double h, std::vector<RobotState>& states);
   void solve_problem();
   void finish(int index, double h, const Command& command, RobotState& state) const;
+
+  // stepper_limbs.cpp
+  void place_limbs(const CrewMember& robot, double h, double at, const Command& command, const RobotState& state,
+                   PlacedOf<N>& now);
+  void push(const CrewMember& robot, double h, const RobotState& state, const VelocityOf<N>& after, PlacedOf<N>& now);
+  static void stop_limbs(const CrewMember& robot, double h, const RobotState& state, const VelocityOf<N>& rates,
+                         PlacedOf<N>& now);
+  bool push_again(const Island& island, double h, const std::vector<RobotState>& states);
   void finish_limbs(const CrewMember& robot, double h, const PlacedOf<N>& now, RobotState& state) const;
 
   // impacts.cpp

@@ -106,23 +106,7 @@ TEST_P(InTheAir, ConvergesInItsOrderInTheAir) {
 
 TEST_P(InTheAir, GivesTheSameBitsInTheAirForAnyWorkersRemadeAndRestored) {
   if (!GetParam().rotors) return;
-  Started straight = run(air, {}, wild);
-  run_for(straight, 40);
-  straight.snapshot().save(folder / "then");
-  run_for(straight, 40);
-  Started three = run(air, {}, wild, 3);
-  run_for(three, 80);
-  EXPECT_EQ(straight.digest(), three.digest());
-  Started restored = run(air, {}, wild);
-  restored.restore(Snapshot::load(folder / "then"));
-  run_for(restored, 40);
-  EXPECT_EQ(straight.digest(), restored.digest());
-  Started remade = run(air, {}, wild);
-  while (remade.tick() < straight.tick()) {
-    if (remade.tick() % 17 == 5) remade.remake("physics");
-    remade.step();
-  }
-  EXPECT_EQ(straight.digest(), remade.digest());
+  expect_same_bits([&](int workers) { return run(air, {}, wild, workers); }, 40);
 }
 
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(InTheAir);

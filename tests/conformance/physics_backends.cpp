@@ -95,4 +95,24 @@ void Physics::run_for(Simulation& run, int ticks) {
   for (int i = 0; i < ticks; ++i) run.step();
 }
 
+void Physics::expect_same_bits(const std::function<Started(int)>& begun, int half) const {
+  Started straight = begun(1);
+  run_for(straight, half);
+  straight.snapshot().save(folder / "then");
+  run_for(straight, half);
+  Started three = begun(3);
+  run_for(three, 2 * half);
+  EXPECT_EQ(straight.digest(), three.digest());
+  Started restored = begun(1);
+  restored.restore(Snapshot::load(folder / "then"));
+  run_for(restored, half);
+  EXPECT_EQ(straight.digest(), restored.digest());
+  Started remade = begun(1);
+  while (remade.tick() < straight.tick()) {
+    if (remade.tick() % 17 == 5) remade.remake("physics");
+    remade.step();
+  }
+  EXPECT_EQ(straight.digest(), remade.digest());
+}
+
 }  // namespace muster::test

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <map>
 
 #include "description/robot.hpp"
@@ -105,6 +106,8 @@ class Physics {
   Started started(const Backend& backend, const std::string& robots, const Attributes& start, const Attributes& course,
                   double dt = 0.01, int workers = 1, const Attributes& more = {}) const;
   static void run_for(Simulation& run, int ticks);
+  // `begun`: a run on so many workers. Straight on, on three, restored half way and remade in between.
+  void expect_same_bits(const std::function<Started(int)>& begun, int half) const;
 
   const Folder folder;
 };
