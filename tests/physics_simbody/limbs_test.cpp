@@ -2,6 +2,7 @@
 #include "limbs.hpp"
 
 #include "limbed.hpp"
+#include "motion.hpp"
 
 namespace muster::simbody {
 namespace {
@@ -212,6 +213,54 @@ TEST(Limbs, ColumnsAreWhatUnknownsMove) {
       EXPECT_LT((turned.angle() / h * turned.axis() - columns.turning * u).norm(), 1e-5) << i << ' ' << k;
     }
   }
+}
+
+// However limbs hang and turn, the sphere in which neighbours are looked for holds what of them can be touched, and
+// none of it is faster than the speed by which steps are divided.
+TEST(Limbs, NoPartIsFartherOrFasterThanTheModelSays) {
+  Robot robot = tree(hummingbird(), true);
+  robot.links.back().shapes.push_back({Eigen::Isometry3d(Eigen::Translation3d(0, 0.2, 0)), description::Sphere{0.05}});
+  robot.links[robot.links.size() - 2].shapes.push_back({Eigen::Isometry3d::Identity(), description::Sphere{0.02}});
+  robot.joints[robot.joints.size() - 2].lower = -0.4, robot.joints[robot.joints.size() - 2].upper = 0.6;
+  const RobotModel model(robot);
+  ASSERT_TRUE(model.feels_limbs());
+  double farthest = 0, fastest = 0;  // as shares of what the model says
+  for (int k = 0; k < 2000; ++k) {
+    const auto any = [k](int what, double low, double high) {
+      return low + (high - low) * (0.5 + 0.5 * std::sin(1.7 * k * (what + 1) + what));
+    };
+    RobotState s = at_rest(0, 0, 0);
+    Limb* const limb = s.limbs.limb;
+    limb[0].angle = any(0, -pi, pi), limb[2].way = any(1, -0.4, 0.6), limb[3].angle = any(2, -pi, pi);
+    turn(limb[1], Eigen::Quaterniond(any(3, -1, 1), any(4, -1, 1), any(5, -1, 1), any(6, -1, 1)).normalized());
+    limb[0].rate = any(7, -3, 3), limb[2].speed = any(8, -2, 2), limb[3].rate = any(9, -3, 3);
+    limb[1].wx = any(10, -3, 3), limb[1].wy = any(11, -3, 3), limb[1].wz = any(12, -3, 3);
+    const Posture posture = posture_of(model, s.limbs, Matrix3d::Identity());
+    VelocityOf<unknowns_with_legs> u = VelocityOf<unknowns_with_legs>::Zero();
+    take_rates(model, posture, s.limbs, u);
+    for (const Part& part : model.parts) {
+      if (part.limb < 0) continue;
+      const Posture::Place& at = posture.limb[part.limb];
+      const Vector3d centre = at.at + at.turned * part.solid.centre;
+      const LimbColumns columns = columns_at(model, posture, part.limb, centre);
+      farthest = std::max(farthest, ((centre - model.middle).norm() + part.solid.reach()) / model.reach);
+      fastest = std::max(fastest, ((columns.going * u).norm() + part.solid.reach() * (columns.turning * u).norm()) /
+                                      speed_of(model, s));
+    }
+  }
+  EXPECT_LE(farthest, 1);
+  EXPECT_GT(farthest, 0.5);
+  EXPECT_LE(fastest, 1);
+  EXPECT_GT(fastest, 0.2);
+}
+
+TEST(Limbs, ASliderReachesAsFarAsItGoes) {
+  Robot robot = hummingbird();
+  hang(robot, JointKind::prismatic, {0, 0, 0.1}, bob).axis = Vector3d::UnitX();
+  robot.joints.back().lower = -2, robot.joints.back().upper = 3;
+  robot.links.back().shapes.push_back({Eigen::Isometry3d::Identity(), description::Sphere{0.05}});
+  const RobotModel model(robot);
+  EXPECT_GE(model.reach, (Vector3d(3, 0, 0.1) - model.middle).norm() + 0.05);
 }
 
 TEST(Limbs, RemadeEngineAndNeighboursChangeNoBit) {
