@@ -33,10 +33,11 @@ struct Arena {
       now.model = &crew[i].model;
       now.index = static_cast<int>(i);
       now.mass = crew[i].whole.mass;
-      now.body.mass.setIdentity();
-      now.body.inverse_mass.setIdentity();
-      now.body.mass.template topLeftCorner<unknowns, unknowns>() = crew[i].mass;
-      now.body.inverse_mass.template topLeftCorner<unknowns, unknowns>() = crew[i].inverse_mass;
+      now.inertia.mass.setIdentity();
+      now.inertia.inverse.setIdentity();
+      now.inertia.mass.template topLeftCorner<unknowns, unknowns>() = crew[i].mass;
+      now.inertia.inverse.template topLeftCorner<unknowns, unknowns>() = crew[i].inverse_mass;
+      now.body.inertia = &now.inertia;
       now.body.previous.setZero();
     }
   }

@@ -38,6 +38,11 @@ struct Column {
     for (int i = 0; i < fours; ++i) __builtin_memcpy(p + 8 * eights + 4 * i, &four[i], sizeof(Four));
     if (has_two) __builtin_memcpy(p + N - 2, &two, sizeof(Two));
   }
+  MUSTER_INLINE double at(int i) const {
+    if (i < 8 * eights) return eight[i / 8][i % 8];
+    i -= 8 * eights;
+    return i < 4 * fours ? four[i / 4][i % 4] : two[i % 2];
+  }
   MUSTER_INLINE void scale(double k) {
     for (int i = 0; i < eights; ++i) eight[i] *= k;
     for (int i = 0; i < fours; ++i) four[i] *= k;
@@ -179,23 +184,27 @@ struct Arithmetic {
   // Column by column; the row operations that make D L^T of the block, L of ones on its diagonal, make L^-1 of the unit
   // matrix, kept by its rows, whose lengths the square roots of D give at last: so no step waits for a square root.
   static void invert_factor(double* block, double* inverse) {
-    for (int k = 0; k < N * N; ++k) inverse[k] = k % (N + 1) == 0;
+    C rest[N], rows[N];
+#pragma GCC unroll 8
+    for (int j = 0; j < N; ++j) {
+      double unit[N] = {};
+      unit[j] = 1;
+      rest[j] = C::of(block + N * j);
+      rows[j] = C::of(unit);
+    }
+#pragma GCC unroll 8
     for (int k = 0; k < N; ++k) {
-      const C column = C::of(block + N * k);
-      C row = C::of(inverse + N * k), factors = column;
-      const double pivot = block[(N + 1) * k];
+      const double pivot = rest[k].at(k);
+      C factors = rest[k];
       factors.scale(1 / pivot);
-      double by_row[N];
-      factors.store(by_row);
+#pragma GCC unroll 8
       for (int j = k + 1; j < N; ++j) {
-        C rest = C::of(block + N * j), to = C::of(inverse + N * j);
-        rest.subtract(column, by_row[j]);
-        to.subtract(row, by_row[j]);
-        rest.store(block + N * j);
-        to.store(inverse + N * j);
+        const double by = factors.at(j);
+        rest[j].subtract(rest[k], by);
+        rows[j].subtract(rows[k], by);
       }
-      row.scale(1 / __builtin_sqrt(pivot));
-      row.store(inverse + N * k);
+      rows[k].scale(1 / __builtin_sqrt(pivot));
+      rows[k].store(inverse + N * k);
     }
   }
 

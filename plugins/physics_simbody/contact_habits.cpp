@@ -76,7 +76,7 @@ Vector2d ContactSolverOf<N>::pull(std::size_t contact) const {
 }
 template <int N>
 double ContactSolverOf<N>::weight(std::size_t contact) const {
-  return share_of_mass * p_->bodies[p_->contacts[contact].body].mass(3, 3);
+  return share_of_mass * p_->bodies[p_->contacts[contact].body].inertia->mass(3, 3);
 }
 
 template <int N>
@@ -150,7 +150,7 @@ void ContactSolverOf<N>::step_by_habits() {
   for (std::size_t b = 0; b < u_.size(); ++b) {
     const auto& body = p_->bodies[b];
     d_[b] = u_[b] - body.free;
-    blocks_.apply(d_[b].data(), body.mass.data());
+    blocks_.apply(d_[b].data(), body.inertia->mass.data());
     for (int m = 0; m < joints; ++m) {
       const Motor& motor = body.motors[m];
       d_[b][6 + m] -= motor_habits_[b][m] == MotorHabit::holds ? (motor.asked - u_[b][6 + m]) / motor.softness

@@ -165,7 +165,7 @@ void ContactSolverOf<N>::look_ahead() {
   slope_of_motion_ = curve_of_motion_ = 0;
   for (std::size_t b = 0; b < u_.size(); ++b) {
     Velocity momentum = d_[b];
-    blocks_.apply(momentum.data(), p_->bodies[b].mass.data());
+    blocks_.apply(momentum.data(), p_->bodies[b].inertia->mass.data());
     slope_of_motion_ += momentum.dot(u_[b] - p_->bodies[b].free);
     curve_of_motion_ += momentum.dot(d_[b]);
   }

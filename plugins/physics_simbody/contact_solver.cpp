@@ -30,7 +30,7 @@ Outcome ContactSolverOf<N>::solve(Problem& problem) {
 // the impulses make of them, so that what bodies give each other adds up to nothing.
 template <int N>
 void ContactSolverOf<N>::obey_impulses() {
-  for (std::size_t b = 0; b < u_.size(); ++b) u_[b] -= p_->bodies[b].inverse_mass * gradient_[b];
+  for (std::size_t b = 0; b < u_.size(); ++b) u_[b] -= p_->bodies[b].inertia->inverse * gradient_[b];
 }
 
 template <int N>
@@ -93,7 +93,7 @@ template <int N>
 void ContactSolverOf<N>::begin_gradient() {
   for (std::size_t b = 0; b < u_.size(); ++b) {
     gradient_[b] = u_[b] - p_->bodies[b].free;
-    blocks_.apply(gradient_[b].data(), p_->bodies[b].mass.data());
+    blocks_.apply(gradient_[b].data(), p_->bodies[b].inertia->mass.data());
   }
 }
 template <int N>
@@ -109,7 +109,7 @@ double ContactSolverOf<N>::residual() const {
   double most = 0;
   for (std::size_t b = 0; b < u_.size(); ++b) {
     Velocity v = gradient_[b];
-    blocks_.apply(v.data(), p_->bodies[b].inverse_mass.data());
+    blocks_.apply(v.data(), p_->bodies[b].inertia->inverse.data());
     most = std::max({most, v.template segment<3>(3).norm(), turn_arm * v.template head<3>().norm(),
                      rim * v.template tail<joints>().norm()});
     if (std::isnan(v.sum())) return v.sum();
@@ -120,7 +120,7 @@ double ContactSolverOf<N>::residual() const {
 template <int N>
 void ContactSolverOf<N>::begin_hessian() {
   for (std::size_t b = 0; b < u_.size(); ++b)
-    blocks_.copy(hessian_.diagonal(static_cast<int>(b)).data(), p_->bodies[b].mass.data());
+    blocks_.copy(hessian_.diagonal(static_cast<int>(b)).data(), p_->bodies[b].inertia->mass.data());
   hessian_.clear_pairs();
 }
 

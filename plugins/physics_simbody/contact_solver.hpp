@@ -32,6 +32,8 @@ static_assert(offsetof(ContactRowsOf<unknowns_with_legs>, tangent) == sizeof(Vel
 
 template <int N>
 struct ContactOf : ContactRowsOf<N> {
+  ContactOf() {}  // not = default, with which emplace_back() clears it all twice
+
   ContactRowsOf<N> of_other;  // its sign included
   int body = 0, other = -1;   // among the problem's bodies; -1: what it touches stands still
   double friction = 0;
@@ -55,12 +57,17 @@ struct Motor {
 };
 
 template <int N>
+struct alignas(cache_line) InertiaOf {
+  MassMatrixOf<N> mass, inverse;
+};
+
+template <int N>
 struct alignas(cache_line) BodyOf {
   static constexpr int joints = N - 6;
 
-  MassMatrixOf<N> mass, inverse_mass;
-  VelocityOf<N> free;      // without contacts and motors
-  VelocityOf<N> previous;  // where the search for a slipping step begins
+  const InertiaOf<N>* inertia = nullptr;  // somebody else's: it is many times as large as all the rest
+  VelocityOf<N> free;                     // without contacts and motors
+  VelocityOf<N> previous;                 // where the search for a slipping step begins
   std::array<Motor, joints> motors;
 
   VelocityOf<N> velocity;  // the result
@@ -186,6 +193,7 @@ class ContactSolverOf {
 
 using ContactRows = ContactRowsOf<unknowns>;
 using Contact = ContactOf<unknowns>;
+using Inertia = InertiaOf<unknowns>;
 using Body = BodyOf<unknowns>;
 using Problem = ProblemOf<unknowns>;
 using ContactSolver = ContactSolverOf<unknowns>;

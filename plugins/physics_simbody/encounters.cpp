@@ -147,35 +147,35 @@ void EncountersOf<N>::stand(int body, const Placed& robot, const Memory& memory)
   const Compliance compliance(robot.mass, h_);
   const Matrix3d to_body = robot.to_world.transpose();
   const Vector3d up = to_body.col(2);
-  const auto add_contact = [&](const Vector3d& centre, double radius) -> Contact& {
-    const Vector3d arm = centre - radius * up;
+  const Vector3d rates = robot.body.previous.template head<3>(), velocity = robot.body.previous.template segment<3>(3);
+  const auto add_contact = [&](const Vector3d& arm) -> Contact& {
     Contact& c = contacts.emplace_back();
     c.body = body;
     c.normal = point_row<N>(arm, up);
     c.softness = compliance.softness;
-    const double gap = robot.position.z() + up.dot(arm) - 0.5 * h_ * c.normal.dot(robot.body.previous);
+    const double gap = robot.position.z() + up.dot(arm) - 0.5 * h_ * up.dot(velocity + rates.cross(arm));
     c.target = compliance.target(gap, h_);
     if (somebody_bounces_) meetings.push_back({gap, robot.model->restitution});
     return c;
   };
   for (int w = 0; robot.model->has_wheels && w < 2; ++w) {
     const double radius = robot.model->drive.wheel_radius;
-    const Vector3d centre = robot.model->wheel_frame[w].translation();
-    Contact& c = add_contact(centre, radius);
+    const Vector3d arm = robot.model->wheel_frame[w].translation() - radius * up;
+    Contact& c = add_contact(arm);
     const Vector3d surface = Vector3d::UnitY().cross(-radius * up);  // of the tread, per rate
     for (int k = 0; k < 2; ++k) {
-      c.tangent[k] = point_row<N>(centre - radius * up, to_body.col(k));
+      c.tangent[k] = point_row<N>(arm, to_body.col(k));
       c.tangent[k][6 + w] = surface.dot(to_body.col(k));
     }
     c.friction = robot.model->drive.friction;
     const auto& impulse = memory.impulse[w];
     c.push = impulse[0];
     c.grip = {impulse[1], impulse[2]};
-    traces.push_back({robot.index, w});
+    traces.emplace_back(robot.index, w);
   }
   for (const Slider& slider : robot.model->sliders) {
-    add_contact(slider.centre, slider.radius);
-    traces.push_back({robot.index});
+    add_contact(slider.centre - slider.radius * up);
+    traces.emplace_back(robot.index);
   }
 }
 
@@ -192,7 +192,7 @@ void EncountersOf<N>::with_ground(int body, const Placed& robot, const Memory& m
     if (!robot.model->stands_on(part) || (!is_low && part.limb < 0)) continue;
     const Touch t = touch_ground(placed(part, robot), near);
     for (int n = 0; n < t.count; ++n) {
-      const Trace trace{robot.index, -1, id_of(0, k, 0, t.points[n].mark), frame_about(t.normal)};
+      const Trace trace{robot.index, id_of(0, k, 0, t.points[n].mark), frame_about(t.normal)};
       add(side(body, robot, part), {}, trace, memory, t.points[n]);
     }
   }
@@ -206,13 +206,12 @@ void EncountersOf<N>::with_wall(int body, const Placed& robot, const Memory& mem
     if (!may_touch_wall(robot.solids[k], wall, near)) continue;
     const Touch t = touch(robot.solids[k], wall, near);
     for (int n = 0; n < t.count; ++n) {
-      const Trace trace{robot.index, -1, id_of(1 + 2 * wall_index, k, 0, t.points[n].mark), frame_about(t.normal)};
+      const Trace trace{robot.index, id_of(1 + 2 * wall_index, k, 0, t.points[n].mark), frame_about(t.normal)};
       add(side(body, robot, robot.model->parts[k]), {}, trace, memory, t.points[n]);
     }
   }
   each_leg_at(robot, wall, near, [&](int leg, const LegTouch& t) {
-    const Trace trace{robot.index, -1, id_of(1 + 2 * wall_index, leg_part(leg), 0, t.point.mark),
-                      frame_about(t.normal)};
+    const Trace trace{robot.index, id_of(1 + 2 * wall_index, leg_part(leg), 0, t.point.mark), frame_about(t.normal)};
     add({&robot, body, -1, leg}, {}, trace, memory, t.point);
   });
 }
@@ -228,20 +227,20 @@ void EncountersOf<N>::between(int body_a, const Placed& a, const Memory& memory_
       if (!may_touch(a.solids[i], b.solids[j], near)) continue;
       const Touch t = touch(a.solids[i], b.solids[j], near);
       for (int n = 0; n < t.count; ++n) {
-        const Trace trace{a.index, -1, id_of(2 + 2 * b.index, i, j, t.points[n].mark), frame_about(t.normal)};
+        const Trace trace{a.index, id_of(2 + 2 * b.index, i, j, t.points[n].mark), frame_about(t.normal)};
         add(side(body_a, a, a.model->parts[i]), side(body_b, b, b.model->parts[j]), trace, memory_a, t.points[n]);
       }
     }
   }
   for (std::size_t j = 0; j < b.solids.size(); ++j) {
     each_leg_at(a, b.solids[j], near, [&](int leg, const LegTouch& t) {
-      const Trace trace{a.index, -1, id_of(2 + 2 * b.index, leg_part(leg), j, t.point.mark), frame_about(t.normal)};
+      const Trace trace{a.index, id_of(2 + 2 * b.index, leg_part(leg), j, t.point.mark), frame_about(t.normal)};
       add({&a, body_a, -1, leg}, side(body_b, b, b.model->parts[j]), trace, memory_a, t.point);
     });
   }
   for (std::size_t i = 0; i < a.solids.size(); ++i) {
     each_leg_at(b, a.solids[i], near, [&](int leg, const LegTouch& t) {
-      const Trace trace{a.index, -1, id_of(2 + 2 * b.index, i, leg_part(leg), t.point.mark), frame_about(-t.normal)};
+      const Trace trace{a.index, id_of(2 + 2 * b.index, i, leg_part(leg), t.point.mark), frame_about(-t.normal)};
       add(side(body_a, a, a.model->parts[i]), {&b, body_b, -1, leg}, trace, memory_a, t.point);
     });
   }
@@ -277,7 +276,7 @@ void EncountersOf<N>::stand_on_legs(int body, const Placed& robot, const Memory&
     const Vector3d place =
         robot.position + robot.to_world * (leg.hip + drive.place(angle, drive.lowest_way(angle, up)));
     if (place.z() > near) continue;
-    const Trace trace{robot.index, -1, id_of(0, leg_part(static_cast<int>(i)), 0, 0), frame_about(Vector3d::UnitZ())};
+    const Trace trace{robot.index, id_of(0, leg_part(static_cast<int>(i)), 0, 0), frame_about(Vector3d::UnitZ())};
     add({&robot, body, -1, static_cast<int>(i)}, {}, trace, memory, {place, place.z(), 0});
   }
 }

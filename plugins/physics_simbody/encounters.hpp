@@ -20,6 +20,7 @@ struct PlacedOf {
   std::array<double, 4> turned;  // quaternion, body to world; not quite of unit length
   Eigen::Matrix3d to_world;
   Eigen::Vector3d position;
+  InertiaOf<N> inertia;
   BodyOf<N> body;             // its velocities as the step finds them
   LegAngles leg_angle;        // of a robot that walks
   Posture posture;            // of one with limbs, at the step's start
@@ -36,11 +37,15 @@ constexpr double never_so_deep = 5e-4;
 
 // Where the impulse of a contact is kept from step to step.
 struct Trace {
-  int robot = 0;
-  int wheel = -1;                                       // on the ground: 0 left, 1 right
-  double id = 0;                                        // of others; 0: not kept
-  Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();  // normal and tangents as columns, in the world
-  bool step_is_too_long = false;                        // for what meets here
+  // Of what stands on the ground: its frame is not asked for.
+  explicit Trace(int of, int on_wheel = -1) : robot(of), wheel(on_wheel) {}
+  Trace(int of, double kept_as, const Eigen::Matrix3d& about) : robot(of), id(kept_as), frame(about) {}
+
+  int robot;
+  int wheel = -1;                 // on the ground: 0 left, 1 right
+  double id = 0;                  // of others; 0: not kept
+  bool step_is_too_long = false;  // for what meets here
+  Eigen::Matrix3d frame;          // normal and tangents as columns, in the world
 };
 
 // What of a contact matters to who bounces.

@@ -62,7 +62,7 @@ double normal_speed(const ContactOf<N>& c, const std::vector<BodyOf<N>>& bodies,
 template <int N>
 double twice_energy(const std::vector<BodyOf<N>>& bodies, VelocityOf<N> BodyOf<N>::*velocity) {
   double sum = 0;
-  for (const BodyOf<N>& body : bodies) sum += (body.*velocity).dot(body.mass * (body.*velocity));
+  for (const BodyOf<N>& body : bodies) sum += (body.*velocity).dot(body.inertia->mass * (body.*velocity));
   return sum;
 }
 
@@ -196,7 +196,7 @@ void StepperOf<N>::rebound() {
   double slope = 0;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     bodies[i].previous = elastic[i] - bodies[i].velocity;
-    slope += bodies[i].previous.dot(bodies[i].mass * bodies[i].velocity);
+    slope += bodies[i].previous.dot(bodies[i].inertia->mass * bodies[i].velocity);
   }
   const double curve = twice_energy(bodies, &BodyN::previous);
   const double room = std::max(0.0, before - twice_energy(bodies, &BodyN::velocity));

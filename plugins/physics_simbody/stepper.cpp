@@ -186,10 +186,9 @@ void StepperOf<N>::place_legs(const CrewMember& robot, double h, double at, cons
     const Vector3d fall = now.to_world.transpose() * Vector3d(0, 0, -gravity);
     // Weighed as they stand at the step's start, between the two velocities: half a step later, legs would be damped.
     const LeggedMass legged = weigh(robot.model, state.leg_angle, body.previous, fall);
-    body.mass = legged.mass;
-    body.inverse_mass = inverse(legged.mass);
+    now.inertia = {legged.mass, inverse(legged.mass)};
     const double kick = 0.5 * (state.memory.previous_step + h);
-    body.free = body.previous + kick * (body.inverse_mass * legged.force);
+    body.free = body.previous + kick * (now.inertia.inverse * legged.force);
   }
 }
 

@@ -55,9 +55,9 @@ void StepperOf<N>::push(const CrewMember& robot, double h, const RobotState& sta
       limbed.force.template head<3>() += turn * wrench.torque;
       limbed.force.template segment<3>(3) += turn * wrench.force;
     }
-    body.mass = limbed.mass + kick * share * limbed.damping;
-    body.inverse_mass = body.mass.llt().solve(MassMatrixOf<N>::Identity());
-    body.free = body.previous + kick * (body.inverse_mass * (limbed.force - limbed.damping * body.previous));
+    now.inertia.mass = limbed.mass + kick * share * limbed.damping;
+    now.inertia.inverse = now.inertia.mass.llt().solve(MassMatrixOf<N>::Identity());
+    body.free = body.previous + kick * (now.inertia.inverse * (limbed.force - limbed.damping * body.previous));
   }
 }
 

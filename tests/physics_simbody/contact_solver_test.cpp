@@ -4,19 +4,27 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <deque>
 #include <random>
 
 namespace muster::simbody {
 namespace {
+
+// For as long as the tests run.
+const Inertia* kept(const MassMatrix& mass) {
+  static std::deque<Inertia> all;
+  all.push_back({mass, mass.inverse()});
+  return &all.back();
+}
 
 // A point mass of 2 kg as the linear part; what turns weighs 1 and feels nothing.
 Problem point(const Eigen::Vector3d& velocity, double friction) {
   Problem p;
   p.bodies.resize(1);
   Body& body = p.bodies[0];
-  body.mass = MassMatrix::Identity();
-  body.mass.diagonal().segment<3>(3).setConstant(2);
-  body.inverse_mass = body.mass.inverse();
+  MassMatrix mass = MassMatrix::Identity();
+  mass.diagonal().segment<3>(3).setConstant(2);
+  body.inertia = kept(mass);
   body.free.setZero();
   body.free.segment<3>(3) = velocity;
   body.previous = body.free;
@@ -74,8 +82,7 @@ Problem random_problem(std::mt19937& random) {
   const auto draw = [&] { return static_cast<double>(random()) / 2147483648.0 - 1; };
   Problem p = point({draw(), draw(), -std::abs(draw())}, 0.1 + 0.4 * std::abs(draw()));
   MassMatrix a = MassMatrix::NullaryExpr([&](Eigen::Index, Eigen::Index) { return draw(); });
-  p.bodies[0].mass = a * a.transpose() + MassMatrix::Identity();
-  p.bodies[0].inverse_mass = p.bodies[0].mass.inverse();
+  p.bodies[0].inertia = kept(a * a.transpose() + MassMatrix::Identity());
   const Contact base = p.contacts[0];
   for (int c = 0; c < 2; ++c) {
     Contact more = base;
@@ -111,7 +118,7 @@ TEST(ContactSolver, ObeysCoulombOnRandomProblems) {
       }
       impulse += c.push * c.normal + c.grip[0] * c.tangent[0] + c.grip[1] * c.tangent[1];
     }
-    const Velocity rest = p.bodies[0].mass * (p.bodies[0].velocity - p.bodies[0].free) - impulse;
+    const Velocity rest = p.bodies[0].inertia->mass * (p.bodies[0].velocity - p.bodies[0].free) - impulse;
     EXPECT_LT(rest.head<6>().norm(), 1e-5);  // momentum
     for (int m = 0; m < 2; ++m) EXPECT_LE(std::abs(rest[6 + m]), p.bodies[0].motors[m].limit + 1e-6);
   }
