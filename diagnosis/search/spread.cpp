@@ -7,7 +7,7 @@
 #include <map>
 #include <tuple>
 
-#include "diagnosis/noise/exact.hpp"
+#include "diagnosis/search/certainty.hpp"
 #include "diagnosis/search/integrated.hpp"
 #include "diagnosis/search/refine.hpp"
 #include "diagnosis/search/scores.hpp"
@@ -16,7 +16,6 @@
 namespace muster::search {
 namespace {
 
-constexpr int noise_draws = 12;
 // Steps of the walk: along the moves, then along what those showed to be its own long axes, twice; the last ones count.
 constexpr std::array laps{300, 600, 1500};
 // The walk is over exp(gain / 2 / heat), which lets it over to other tops; what it meets is weighed back.
@@ -146,38 +145,8 @@ class Walk {
   double weight_ = 0, length_ = 0.2;
 };
 
-// By how much the variance grows when the noise is not taken as known.
-double by_noise(const Bench& bench, const Term& term, const Beside& fitted) {
-  const Eigen::MatrixXd without = bench.design_without(term), all = beside(without, term.columns);
-  const noise::Prior& prior = bench.options().prior;
-  const Index width = term.columns.cols();
-  std::vector<double> logs;
-  std::vector<Eigen::VectorXd> means;
-  std::vector<double> traces;
-  for (const noise::Draw& draw : noise::draws(bench.fit, noise_draws, bench.options().seed)) {
-    if (draw.theta != prior.inside(draw.theta)) continue;
-    const Stand stand = bench.stand(all, {bench.fit.covariance.family, draw.theta});
-    logs.push_back(bench.fit.value - stand.at.value - draw.log_density);
-    means.push_back(stand.coefficients(all.cols()).tail(width));
-    traces.push_back(stand.at.basis.uncertainty(all.cols()).bottomRightCorner(width, width).trace());
-  }
-  if (logs.empty()) return 1;
-  const double top = *std::max_element(logs.begin(), logs.end());
-  double sum = 0, trace = 0;
-  Eigen::VectorXd mean = Eigen::VectorXd::Zero(width);
-  for (std::size_t k = 0; k < logs.size(); ++k) sum += logs[k] = std::exp(logs[k] - top);
-  for (std::size_t k = 0; k < logs.size(); ++k) mean += logs[k] / sum * means[k];
-  for (std::size_t k = 0; k < logs.size(); ++k) trace += logs[k] / sum * (traces[k] + (means[k] - mean).squaredNorm());
-  return trace / fitted.covariance.trace();
-}
-
-// By how much it is larger under the covariance itself than by Vecchia's approximation.
-double by_approximation(const Bench& bench, const Stand& rest, const Beside& fitted) {
-  const noise::Basis basis = noise::basis_of(fitted.columns);
-  return noise::scatter_of(bench.field(), rest.whitener, basis.q).trace() / static_cast<double>(basis.q.cols());
-}
-
-// The same from the scatter of the residuals: scores added up over cells of places (Liang and Zeger 1986).
+// By how much the variance is larger by the scatter of the residuals: scores added up over cells of places (Liang and
+// Zeger 1986).
 double by_scatter(const Bench& bench, const Stand& rest, const Beside& fitted) {
   const double side = std::max(1.0, bench.fit.covariance.decorrelation());
   const noise::Sites& sites = bench.field().sites();
@@ -205,9 +174,11 @@ double by_scatter(const Bench& bench, const Stand& rest, const Beside& fitted) {
 Spread spread_of(const Bench& bench, const Term& term) {
   const Stand rest = bench.stand(bench.design_without(term));
   const Beside fitted(rest, term.columns, term.candidate->whole);
-  const double overstated = std::max(1.0, by_approximation(bench, rest, fitted));
-  const double grown =
-      std::max(overstated * std::max(1.0, by_noise(bench, term, fitted)), by_scatter(bench, rest, fitted));
+  const Index width = term.columns.cols();
+  const Eigen::MatrixXd known =
+      certainty_of(bench, beside(bench.design_without(term), term.columns)).bottomRightCorner(width, width);
+  const double overstated = std::max(1.0, known.trace() / fitted.covariance.trace());
+  const double grown = std::max(overstated, by_scatter(bench, rest, fitted));
   Spread result{{term.theta}, grown * fitted.covariance};
   if (!term.candidate->refinable() || term.smooth()) return result;
   Walk walk(bench, rest, term, overstated);

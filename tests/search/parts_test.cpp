@@ -6,6 +6,8 @@
 #include <cmath>
 #include <functional>
 
+#include "diagnosis/noise/exact.hpp"
+#include "diagnosis/search/certainty.hpp"
 #include "diagnosis/search/charge.hpp"
 #include "diagnosis/search/choose.hpp"
 #include "diagnosis/search/clean_up.hpp"
@@ -152,6 +154,27 @@ TEST(Thin, GainsWhatTheWholeColumnGains) {
     EXPECT_NEAR(thin.along(), left.dot(stand.at.residual), 1e-9 * left.norm() * stand.at.residual.norm());
     EXPECT_NEAR(thin.gain(), thin.along() > 0 ? stand.gain(column) : 0, 1e-6);
   }
+}
+
+// Of what is fitted by Vecchia's approximation, whatever that believes to know.
+TEST(Certainty, IsTheScatterOfTheCoefficientsUnderTheCovarianceItself) {
+  const auto world = world_of(varied(5, 1500));
+  const Problem problem = problem_of(world, Eigen::VectorXd::Zero(1500), {});
+  Bench bench(problem, {});
+  const Eigen::MatrixXd design = bench.design();
+  const Stand stand = bench.stand(design);
+  const Index rows = bench.rows().size();
+  const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(rows, rows),
+                        covariance = noise::covariance_of_sums(bench.field().sites(), bench.fit.covariance, unit),
+                        told = stand.at.basis.q.transpose() * stand.whitener(unit);
+  Eigen::MatrixXd fitted(design.cols(), rows);
+  for (Index i = 0; i < rows; ++i) fitted.col(i) = stand.at.basis.coefficients(told.col(i), design.cols());
+  const Eigen::MatrixXd scatter = fitted * covariance * fitted.transpose();
+  const Eigen::MatrixXd with_noise = certainty_of(bench, design);
+  bench.fit.curvature *= 1e12;  // nothing else that the noise may be
+  const Eigen::MatrixXd known = certainty_of(bench, design);
+  EXPECT_LT((known - scatter).norm(), 1e-4 * scatter.norm());
+  EXPECT_GT(with_noise(0, 0), 1.002 * known(0, 0));
 }
 
 TEST(RefinementCharge, OfAWallIsAFewNatsAndOfAStepLess) {

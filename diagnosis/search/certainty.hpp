@@ -1,0 +1,12 @@
+// How well the coefficients of a model are known.
+#pragma once
+
+#include "diagnosis/search/bench.hpp"
+
+namespace muster::search {
+
+// Covariance of the coefficients of a design: under the covariance itself (noise/exact.hpp), and over what else the
+// noise may be.
+Eigen::MatrixXd certainty_of(const Bench& bench, const Eigen::MatrixXd& design);
+
+}  // namespace muster::search
