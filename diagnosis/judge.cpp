@@ -9,6 +9,7 @@ namespace {
 using Eigen::Index;
 
 constexpr Index enough_readings = 3000;  // for a first look at a law
+constexpr int farthest = 9000;           // one part in 8,000 of what readings vary by, or all but that
 
 }  // namespace
 
@@ -34,11 +35,14 @@ double Judge::at(const ReadingDensities& densities, double log_variance, const F
 
 Peak Judge::best(const ReadingLaw& law, Peak from) {
   const double log_variance = std::log(variance_of(law, step_));
+  from.place = std::clamp(from.place, -farthest, farthest);
   const ReadingDensities densities = densities_of(law, log_variance, from, 0.5);
   const auto value = [&](int place) { return at(densities, log_variance, from.shape, place); };
   double here = value(from.place), below = value(from.place - places), above = value(from.place + places);
   for (int round = 0; round < 12 && std::max(below, above) > here; ++round) {
-    if (above > below) {
+    const bool up = above > below;
+    if (up ? from.place >= farthest : from.place <= -farthest) break;
+    if (up) {
       from.place += places;
       below = here, here = above, above = value(from.place + places);
     } else {
