@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 
 #include "text/names.hpp"
 
@@ -10,7 +11,7 @@ namespace muster {
 namespace {
 
 bool any_dead(const Set& set) {
-  return set.kind == SetKind::live && std::find(set.alive.begin(), set.alive.end(), uint8_t{0}) != set.alive.end();
+  return set.kind == SetKind::live && std::memchr(set.alive.data(), 0, set.alive.size());
 }
 
 void poison_row(std::vector<double>& data, std::size_t row, std::size_t width) {

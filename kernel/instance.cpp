@@ -250,6 +250,7 @@ bool Instance::step(const muster_tick& now) noexcept {
   refused_ = false;
   static thread_local const FloatGuard guard;  // as this thread was before any plugin ran on it
   in_step_ = true;
+  asked_ = nullptr;
   const bool fine =
       guarded(MUSTER_FAILED, [&] { return plugin_->step(self_, &tick, in_.data(), out_.data()); }) == MUSTER_OK;
   in_step_ = false;

@@ -156,6 +156,7 @@ class Instance {
   Exit fault_ = Exit::plugin_fault;
   bool refused_ = false;  // what was said is the kernel's own refusal
   bool in_create_ = false, in_step_ = false, direct_ = false;
+  const Set* asked_ = nullptr;  // what it last asked the rows of, in this step
 };
 
 }  // namespace muster

@@ -137,10 +137,12 @@ struct PhysicsSimbody {
   struct Surroundings {
     std::vector<double> cells;
     bool told = false;
+    std::vector<double> seen;  // in this step
   };
 
   void tell_surroundings(const Step& k) {
-    std::vector<double> cells = {k[body_friction]};
+    std::vector<double>& cells = surroundings.seen;
+    cells.assign(1, k[body_friction]);
     const auto append = [&](const auto& rows) {
       const auto* data = reinterpret_cast<const double*>(rows.begin());
       cells.insert(cells.end(), data, data + rows.size() * sizeof(*rows.begin()) / sizeof(double));
@@ -153,11 +155,12 @@ struct PhysicsSimbody {
     if (same && surroundings.told) return;
     engine->set_surroundings(scene::slabs(scene_walls(k[wall]), scene_doors(k[door], k[door_state], k[wall])),
                              k[body_friction]);
-    surroundings = {std::move(cells), true};
+    surroundings.cells = cells;
+    surroundings.told = true;
   }
 
   void step(const Step& k) {
-    Made now;
+    now.rows.clear(), now.models.clear();
     now.step = k[step_size];
     now.leg_step = k[leg_step];
     now.integrator = k[integrator];
@@ -267,7 +270,7 @@ struct PhysicsSimbody {
   std::optional<In<Gait>> gait;  // where a robot walks
   std::optional<Out<Legs>> legs;
   std::optional<Out<Limbs>> limbs;  // where a robot has any
-  Made made;
+  Made made, now;                   // what the engine was made of; what it would be made of in this step
   std::unique_ptr<simbody::Engine> engine;
   Surroundings surroundings;
   std::vector<simbody::RobotState> states;  // room, kept from step to step
