@@ -16,8 +16,10 @@
 namespace muster::search {
 namespace {
 
-// Steps of the walk: along the moves, then along what those showed to be its own long axes, twice; the last ones count.
-constexpr std::array laps{300, 600, 1500};
+// Steps of the walk: along the moves, then along what those showed to be its own long axes, time and again; the last
+// ones count, until both halves of them tell the same.
+constexpr std::array first_laps{300, 600};
+constexpr int lap = 800, most_laps = 15;
 // The walk is over exp(gain / 2 / heat), which lets it over to other tops; what it meets is weighed back.
 constexpr double heat = 3;
 constexpr int kept = 400;  // thetas
@@ -52,6 +54,34 @@ void weigh(std::vector<Met>& met) {
   for (Met& m : met) m.weight /= sum;
 }
 
+// Mean and standard deviation of each number of the thetas from the one to the other, by their weights.
+struct Told {
+  Eigen::ArrayXd mean, sd;
+
+  Told(const std::vector<Met>& met, std::size_t from, std::size_t to) {
+    const Index n = met[from].theta.size();
+    Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(n), squares = sum;
+    double weights = 0, top = met[from].weight;
+    for (std::size_t k = from; k < to; ++k) top = std::max(top, met[k].weight);
+    for (std::size_t k = from; k < to; ++k) {
+      const double w = std::exp(met[k].weight - top);
+      const Eigen::ArrayXd off = (met[k].theta - met[from].theta).array();
+      weights += w, sum += w * off, squares += w * off.square();
+    }
+    const Eigen::ArrayXd way = sum / weights;
+    mean = met[from].theta.array() + way;
+    sd = (squares / weights - way.square()).max(0).sqrt();
+  }
+};
+
+// Whether the walk's halves agree.
+bool is_settled(const std::vector<Met>& met) {
+  constexpr double apart = 0.3, ratio = 1.3;
+  const Told first(met, 0, met.size() / 2), second(met, met.size() / 2, met.size());
+  const Eigen::ArrayXd larger = first.sd.max(second.sd), smaller = first.sd.min(second.sd);
+  return ((first.mean - second.mean).abs() <= apart * larger).all() && (larger <= ratio * smaller).all();
+}
+
 // As many of each as its weight asks for.
 std::vector<Eigen::VectorXd> drawn(const std::vector<Met>& met) {
   std::vector<Eigen::VectorXd> result;
@@ -76,6 +106,28 @@ class Walk {
     weight_ = weight(theta_, at_);
   }
 
+  // What it met in so many steps.
+  std::vector<Met> lap(int steps, bool tune) {
+    std::vector<Met> met;
+    for (int k = 0; k < steps; ++k) {
+      step(tune);
+      met.push_back({theta_, at_.coefficients, at_.covariance, weight_ * (1 - 1 / heat)});
+    }
+    return met;
+  }
+
+  // Strides along the axes of what was met (Haario, Saksman and Tamminen 2001), now and then along a move, or a leap.
+  void learn(const std::vector<Met>& met) {
+    const Index n = theta_.size(), count = static_cast<Index>(met.size());
+    Eigen::MatrixXd all(n, count);
+    for (Index k = 0; k < count; ++k) all.col(k) = met[static_cast<std::size_t>(k)].theta;
+    all.colwise() -= all.rowwise().mean().eval();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(all * all.transpose() / static_cast<double>(count));
+    axes_ = axes.eigenvectors() * axes.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+    length_ = 1;
+  }
+
+ private:
   // One in three accepted suits few dimensions (Gelman, Roberts and Gilks 1996).
   void step(bool tune) {
     const bool leaps = stream_.uniform(k_, 101) > 0.8;
@@ -96,22 +148,6 @@ class Walk {
     ++k_;
   }
 
-  // Strides along the axes of what was met (Haario, Saksman and Tamminen 2001), now and then along a move, or a leap.
-  void learn(const std::vector<Met>& met) {
-    const Index n = theta_.size(), count = static_cast<Index>(met.size());
-    Eigen::MatrixXd all(n, count);
-    for (Index k = 0; k < count; ++k) all.col(k) = met[static_cast<std::size_t>(k)].theta;
-    all.colwise() -= all.rowwise().mean().eval();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(all * all.transpose() / static_cast<double>(count));
-    axes_ = axes.eigenvectors() * axes.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
-    length_ = 1;
-  }
-
-  const Eigen::VectorXd& theta() const { return theta_; }
-  const Beside& at() const { return at_; }
-  double log_weight() const { return weight_ * (1 - 1 / heat); }
-
- private:
   double weight(const Eigen::VectorXd& theta, const Beside& at) const {
     if (c_.sign && at.coefficients[0] * c_.sign < 0) return 0;
     return (c_.admitted ? c_.admitted(theta) : 1) * at.gain / (2 * overstated_) + (c_.belief ? c_.belief(theta) : 0);
@@ -182,14 +218,16 @@ Spread spread_of(const Bench& bench, const Term& term) {
   Spread result{{term.theta}, grown * fitted.covariance};
   if (!term.candidate->refinable() || term.smooth()) return result;
   Walk walk(bench, rest, term, overstated);
-  std::vector<Met> met;
-  for (const int lap : laps) {
-    met.clear();
-    for (int k = 0; k < lap; ++k) {
-      walk.step(lap != laps.back());
-      met.push_back({walk.theta(), walk.at().coefficients, walk.at().covariance, walk.log_weight()});
-    }
-    if (lap != laps.back()) walk.learn({met.begin() + lap / 4, met.end()});
+  for (const int steps : first_laps) {
+    std::vector<Met> learnt = walk.lap(steps, true);
+    learnt.erase(learnt.begin(), learnt.begin() + steps / 4);
+    walk.learn(learnt);
+  }
+  std::vector<Met> met = walk.lap(lap, false);
+  for (int laps = 1; laps < most_laps && !is_settled(met); ++laps) {
+    walk.learn(met);
+    const std::vector<Met> more = walk.lap(lap, false);
+    met.insert(met.end(), more.begin(), more.end());
   }
   weigh(met);
   Eigen::MatrixXd within = 0 * fitted.covariance, between = within;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/search/certainty.hpp"
 #include "diagnosis/search/choose.hpp"
 #include "diagnosis/search/merge.hpp"
 #include "diagnosis/search/spread.hpp"
@@ -86,6 +87,46 @@ TEST(Spread, ItsMiddleIsAPlaceThatExplainsAsMuch) {
   };
   EXPECT_NEAR(middle(place + east, {-1, -0.8, -0.6, -0.4, -0.2, 0, 0.2, 0.4, 0.6, 0.8, 1}), 0, 0.7);
   EXPECT_NEAR(middle(place, {0, -0.001, -4, -7.999, -8}), 0, 0.1);  // what is between two places explains nothing
+}
+
+// Against the sum over a grid of places and sizes. At this size of the effect a walk of one lap stays where it leapt.
+TEST(Spread, OfAThingIsThatOfTheWholeLikelihood) {
+  const auto world = world_of(varied(12, 4000));
+  const auto causes = causes_of(world);
+  const Candidate& thing = causes.back();
+  const Eigen::Vector3d truth(11, 7, 0.7);
+  const Problem problem = problem_of(world, -scaled_to(world, thing.columns(truth), 60), causes);
+  Bench bench(problem, {});
+  bench.terms = {term_at(bench, "obstacle", truth)};
+  bench.refit();
+  const Term& term = bench.terms[0];
+  const Spread spread = spread_of(bench, term);
+  const Stand rest = bench.stand(bench.design_without(term)), whole = bench.stand(bench.design());
+  const Index last = whole.design.cols() - 1;
+  const double overstated =
+      std::max(1.0, certainty_of(bench, bench.design())(last, last) / whole.at.basis.uncertainty(last + 1)(last, last));
+  Eigen::Array3d sum = Eigen::Array3d::Zero(), squares = sum;
+  double weights = 0;
+  const double top = rest.gain(term.columns);
+  for (double x = -0.24; x <= 0.24; x += 0.02) {
+    for (double y = -0.1; y <= 0.38; y += 0.02) {
+      for (double radius = -0.2; radius <= 0.12; radius += 0.016) {
+        const Eigen::Vector3d theta = truth + Eigen::Vector3d(x, y, radius);
+        const double w = std::exp((rest.gain(bench.columns_of(*term.candidate, theta)) - top) / (2 * overstated));
+        const Eigen::Array3d off = theta - truth;
+        weights += w, sum += w * off, squares += w * off.square();
+      }
+    }
+  }
+  const Eigen::Array3d mean = sum / weights, sd = (squares / weights - mean.square()).sqrt();
+  Eigen::Array3d walked = Eigen::Array3d::Zero(), scattered = walked;
+  const auto count = static_cast<double>(spread.thetas.size());
+  for (const auto& theta : spread.thetas) walked += (theta - truth).array() / count;
+  for (const auto& theta : spread.thetas) scattered += ((theta - truth).array() - walked).square() / count;
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_NEAR(walked[k], mean[k], 0.4 * sd[k]) << k;
+    EXPECT_NEAR(std::sqrt(scattered[k]) / sd[k], 1, 0.3) << k;
+  }
 }
 
 struct Guess {
