@@ -270,7 +270,7 @@ std::string check_cells(const Instance& instance, const Blackboard& board) {
     if (!claim.out) continue;
     const auto& next = claim.out->next().data;
     if (claim.direct && !claim.columns.any_references() && all_finite(next.data(), next.size())) continue;
-    const std::string wrong = check(instance, board, claim);
+    std::string wrong = check(instance, board, claim);
     if (!wrong.empty()) return wrong;
   }
   return "";
