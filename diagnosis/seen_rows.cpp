@@ -4,7 +4,7 @@
 #include <cmath>
 #include <muster/tables.hpp>
 
-#include "diagnosis/search/certainty.hpp"
+#include "diagnosis/search/uncertainty.hpp"
 #include "diagnosis/search/moving_ends.hpp"
 
 namespace muster::diagnosis {
@@ -98,7 +98,7 @@ VectorXd effect_of(const search::Bench& bench, const search::Candidate& candidat
 
 std::vector<WorldValue> world_values(const search::Bench& bench, const std::vector<std::string>& paths,
                                      const VectorXd& values, const LinkModel& model) {
-  const Eigen::MatrixXd spread = search::certainty_of(bench, bench.design());
+  const Eigen::MatrixXd spread = search::uncertainty_of(bench, bench.design());
   std::vector<WorldValue> out;
   for (std::size_t k = 0; k < paths.size(); ++k) {
     const auto at = static_cast<Index>(k);

@@ -7,10 +7,10 @@
 #include <map>
 #include <tuple>
 
-#include "diagnosis/search/certainty.hpp"
 #include "diagnosis/search/integrated.hpp"
 #include "diagnosis/search/refine.hpp"
 #include "diagnosis/search/scores.hpp"
+#include "diagnosis/search/uncertainty.hpp"
 #include "muster/random.hpp"
 
 namespace muster::search {
@@ -54,30 +54,28 @@ void weigh(std::vector<Met>& met) {
   for (Met& m : met) m.weight /= sum;
 }
 
-// Mean and standard deviation of each number of the thetas from the one to the other, by their weights.
+// Mean and standard deviation of each number of the thetas, by their weights.
 struct Told {
   Eigen::ArrayXd mean, sd;
 
-  Told(const std::vector<Met>& met, std::size_t from, std::size_t to) {
-    const Index n = met[from].theta.size();
-    Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(n), squares = sum;
-    double weights = 0, top = met[from].weight;
-    for (std::size_t k = from; k < to; ++k) top = std::max(top, met[k].weight);
-    for (std::size_t k = from; k < to; ++k) {
-      const double w = std::exp(met[k].weight - top);
-      const Eigen::ArrayXd off = (met[k].theta - met[from].theta).array();
-      weights += w, sum += w * off, squares += w * off.square();
+  explicit Told(std::vector<Met> met) {
+    weigh(met);
+    const Eigen::ArrayXd first = met[0].theta;
+    Eigen::ArrayXd sum = 0 * first, squares = sum;
+    for (const Met& m : met) {
+      const Eigen::ArrayXd off = m.theta.array() - first;
+      sum += m.weight * off, squares += m.weight * off.square();
     }
-    const Eigen::ArrayXd way = sum / weights;
-    mean = met[from].theta.array() + way;
-    sd = (squares / weights - way.square()).max(0).sqrt();
+    mean = first + sum;
+    sd = (squares - sum.square()).max(0).sqrt();
   }
 };
 
 // Whether the walk's halves agree.
 bool is_settled(const std::vector<Met>& met) {
   constexpr double apart = 0.3, ratio = 1.3;
-  const Told first(met, 0, met.size() / 2), second(met, met.size() / 2, met.size());
+  const auto half = met.begin() + static_cast<std::ptrdiff_t>(met.size() / 2);
+  const Told first({met.begin(), half}), second({half, met.end()});
   const Eigen::ArrayXd larger = first.sd.max(second.sd), smaller = first.sd.min(second.sd);
   return ((first.mean - second.mean).abs() <= apart * larger).all() && (larger <= ratio * smaller).all();
 }
@@ -212,7 +210,7 @@ Spread spread_of(const Bench& bench, const Term& term) {
   const Beside fitted(rest, term.columns, term.candidate->whole);
   const Index width = term.columns.cols();
   const Eigen::MatrixXd known =
-      certainty_of(bench, beside(bench.design_without(term), term.columns)).bottomRightCorner(width, width);
+      uncertainty_of(bench, beside(bench.design_without(term), term.columns)).bottomRightCorner(width, width);
   const double overstated = std::max(1.0, known.trace() / fitted.covariance.trace());
   const double grown = std::max(overstated, by_scatter(bench, rest, fitted));
   Spread result{{term.theta}, grown * fitted.covariance};

@@ -183,7 +183,7 @@ struct Arithmetic {
 
   // Column by column; the row operations that make D L^T of the block, L of ones on its diagonal, make L^-1 of the unit
   // matrix, kept by its rows, whose lengths the square roots of D give at last: so no step waits for a square root.
-  static void invert_factor(double* block, double* inverse) {
+  static void invert_factor(const double* block, double* inverse) {
     C rest[N], rows[N];
 #pragma GCC unroll 8
     for (int j = 0; j < N; ++j) {

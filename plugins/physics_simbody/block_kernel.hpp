@@ -34,8 +34,8 @@ struct BlockArithmetic {
   void (*look_ahead)(const ContactTable& table, const double* velocities, ContactLanes* contacts);
   void (*take_impulses)(const ContactTable& table, const ContactLanes* contacts, double* momenta);
   // Of a symmetric positive definite block, of which only what is on and below the diagonal counts: the inverse of the
-  // transposed Cholesky factor, L^-T. Destroys the block. No numbers where it is not positive definite.
-  void (*invert_factor)(double* block, double* inverse);
+  // transposed Cholesky factor, L^-T. No numbers where it is not positive definite.
+  void (*invert_factor)(const double* block, double* inverse);
   // a := a u, where u is an upper triangle.
   void (*multiply)(double* a, const double* u);
   // to -= a b^T.

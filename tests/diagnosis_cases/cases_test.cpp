@@ -34,6 +34,11 @@ std::string told(const Diagnosis& d) {
   return text;
 }
 
+void expect_only(const char* id, const Diagnosis& found) {
+  ASSERT_EQ(found.causes.size(), 1u) << told(found);
+  EXPECT_EQ(found.causes[0].id, id);
+}
+
 struct Hidden {
   const char* effect;
   int number;
@@ -92,9 +97,21 @@ TEST(SealedSwap, IsNamedThoughItBendsAllParameters) {
   const Scratch scratch;
   const auto world = sealed_case(scratch, "--mix one --lambda 800 --effects label_swap", 3);
   const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
-  ASSERT_EQ(found.causes.size(), 1u) << told(found);
-  EXPECT_EQ(found.causes[0].id, "effect.label_swap");
+  expect_only("effect.label_swap", found);
   EXPECT_NEAR(found.held_out->gain, 186, 15);  // as the generator has it
+}
+
+// Vecchia's approximation says 1.25 dB and 0.148 here. Of 255 such worlds 94.5 % of either's intervals hold the truth;
+// by that approximation 90 % would.
+TEST(SealedClean, LevelAndExponentAreKnownNoBetterThanTheFieldAllows) {
+  const Scratch scratch;
+  const auto world = made_case(scratch, "--seed 76 --rows 2000 20000 --mix clean", 79);
+  const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
+  EXPECT_TRUE(found.causes.empty()) << told(found);
+  std::map<std::string, double> known;
+  for (const WorldValue& v : found.world_values) known[v.path] = v.stderror;
+  EXPECT_NEAR(known["radio.multiwall/l0"], 1.84, 0.2);
+  EXPECT_NEAR(known["radio.multiwall/n"], 0.199, 0.02);
 }
 
 // At this strength a short wall and a thing in its place are often not told apart; the place is what counts here.
@@ -127,8 +144,7 @@ TEST(SealedPeople, AreNotTakenForWhatChangesInTime) {
   const Scratch scratch;
   const auto world = sealed_case(scratch, "--mix one --lambda 200 --effects people", 5);
   const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
-  ASSERT_EQ(found.causes.size(), 1u) << told(found);
-  EXPECT_EQ(found.causes[0].id, "effect.people");
+  expect_only("effect.people", found);
   const auto extended = scratch / "extended";
   EXPECT_EQ(closed_loop(found, world, world / "measured.csv", extended, plugins).rediagnosis, "silent");
   EXPECT_EQ(second_look(world, extended, world / "second.csv", plugins).rediagnosis, "silent");
@@ -139,8 +155,7 @@ TEST(SealedPeople, AreSeenThoughTheirDipsHaveRims) {
   const Scratch scratch;
   const auto world = sealed_case(scratch, "--mix one --lambda 60 --effects people", 6);
   const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
-  ASSERT_EQ(found.causes.size(), 1u) << told(found);
-  EXPECT_EQ(found.causes[0].id, "effect.people");
+  expect_only("effect.people", found);
 }
 
 // Fading of a Rician K of 7.7 dB where 3.74 dB are stated, in a field that looks smoother beside the stated law than it
@@ -161,8 +176,7 @@ TEST(SealedField, OfASmoothFamilyIsNotTakenForTheStatedOne) {
   const auto world =
       made_case(scratch, "--seed 92 --rows 2000 20000 --mix one --lambda 60 --effects shadowing_correlation", 14);
   const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
-  ASSERT_EQ(found.causes.size(), 1u) << told(found);
-  EXPECT_EQ(found.causes[0].id, "effect.shadowing_correlation");
+  expect_only("effect.shadowing_correlation", found);
 }
 
 class CleanCase : public testing::TestWithParam<int> {};

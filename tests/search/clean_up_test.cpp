@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/search/certainty.hpp"
+#include "diagnosis/search/uncertainty.hpp"
 #include "diagnosis/search/choose.hpp"
 #include "diagnosis/search/merge.hpp"
 #include "diagnosis/search/spread.hpp"
@@ -104,7 +104,7 @@ TEST(Spread, OfAThingIsThatOfTheWholeLikelihood) {
   const Stand rest = bench.stand(bench.design_without(term)), whole = bench.stand(bench.design());
   const Index last = whole.design.cols() - 1;
   const double overstated =
-      std::max(1.0, certainty_of(bench, bench.design())(last, last) / whole.at.basis.uncertainty(last + 1)(last, last));
+      std::max(1.0, uncertainty_of(bench, bench.design())(last, last) / whole.at.basis.uncertainty(last + 1)(last, last));
   Eigen::Array3d sum = Eigen::Array3d::Zero(), squares = sum;
   double weights = 0;
   const double top = rest.gain(term.columns);

@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "diagnosis/noise/exact.hpp"
-#include "diagnosis/search/certainty.hpp"
+#include "diagnosis/search/uncertainty.hpp"
 #include "diagnosis/search/charge.hpp"
 #include "diagnosis/search/choose.hpp"
 #include "diagnosis/search/clean_up.hpp"
@@ -157,7 +157,7 @@ TEST(Thin, GainsWhatTheWholeColumnGains) {
 }
 
 // Of what is fitted by Vecchia's approximation, whatever that believes to know.
-TEST(Certainty, IsTheScatterOfTheCoefficientsUnderTheCovarianceItself) {
+TEST(Uncertainty, IsTheScatterOfTheCoefficientsUnderTheCovarianceItself) {
   const auto world = world_of(varied(5, 1500));
   const Problem problem = problem_of(world, Eigen::VectorXd::Zero(1500), {});
   Bench bench(problem, {});
@@ -170,9 +170,9 @@ TEST(Certainty, IsTheScatterOfTheCoefficientsUnderTheCovarianceItself) {
   Eigen::MatrixXd fitted(design.cols(), rows);
   for (Index i = 0; i < rows; ++i) fitted.col(i) = stand.at.basis.coefficients(told.col(i), design.cols());
   const Eigen::MatrixXd scatter = fitted * covariance * fitted.transpose();
-  const Eigen::MatrixXd with_noise = certainty_of(bench, design);
+  const Eigen::MatrixXd with_noise = uncertainty_of(bench, design);
   bench.fit.curvature *= 1e12;  // nothing else that the noise may be
-  const Eigen::MatrixXd known = certainty_of(bench, design);
+  const Eigen::MatrixXd known = uncertainty_of(bench, design);
   EXPECT_LT((known - scatter).norm(), 1e-4 * scatter.norm());
   EXPECT_GT(with_noise(0, 0), 1.002 * known(0, 0));
 }

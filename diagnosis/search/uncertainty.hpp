@@ -7,6 +7,6 @@ namespace muster::search {
 
 // Covariance of the coefficients of a design: under the covariance itself (noise/exact.hpp), and over what else the
 // noise may be.
-Eigen::MatrixXd certainty_of(const Bench& bench, const Eigen::MatrixXd& design);
+Eigen::MatrixXd uncertainty_of(const Bench& bench, const Eigen::MatrixXd& design);
 
 }  // namespace muster::search

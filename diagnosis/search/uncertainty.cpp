@@ -1,4 +1,4 @@
-#include "diagnosis/search/certainty.hpp"
+#include "diagnosis/search/uncertainty.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -52,7 +52,7 @@ Eigen::MatrixXd by_noise(const Bench& bench, const Eigen::MatrixXd& design, cons
 
 }  // namespace
 
-Eigen::MatrixXd certainty_of(const Bench& bench, const Eigen::MatrixXd& design) {
+Eigen::MatrixXd uncertainty_of(const Bench& bench, const Eigen::MatrixXd& design) {
   const Stand stand = bench.stand(design);
   const Eigen::MatrixXd known = exact(bench, stand, design.cols()), more = by_noise(bench, design, stand);
   // No noise that might be makes anything known better than it is by the one that is likeliest.
