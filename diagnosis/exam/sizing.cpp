@@ -218,6 +218,18 @@ Oracle held_out(const Case& made, const Eigen::VectorXd& effect) {
 
 }  // namespace
 
+std::vector<char> telling(const Case& made, const Data& data) {
+  std::vector<char> result = heard(data);
+  for (const Hidden& h : made.hidden) {
+    if (h.effect.acts != Acts::receiver) continue;
+    for (std::size_t i = 0; i < result.size(); ++i) {
+      const double code = data.rssi[static_cast<Eigen::Index>(i)];
+      for (const double other : {code - 1, code + 1}) result[i] &= h.effect.receive(other, h.strength) != code;
+    }
+  }
+  return result;
+}
+
 ReceivedShift received_shift(const Site& site, const Effect& effect, double strength, const Data& data,
                              const Eigen::VectorXd& before) {
   const double deviation =
@@ -251,7 +263,7 @@ void weigh(Case& made) {
   const Eigen::VectorXd effect = expected_shift(*made.site, made.hidden, made.measured);
   made.oracle = held_out(made, effect);
   if (made.hidden.size() < 2) return;
-  const Whitener whiten(made.measured, made.site->noise, heard(made.measured));
+  const Whitener whiten(made.measured, made.site->noise, telling(made, made.measured));
   for (std::size_t i = 0; i < made.hidden.size(); ++i) {
     Hidden& h = made.hidden[i];
     if (h.effect.acts != Acts::mean || h.effect.passages) continue;

@@ -14,6 +14,9 @@ struct ReceivedShift {
 ReceivedShift received_shift(const Site& site, const Effect& effect, double strength, const Data& data,
                              const Eigen::VectorXd& before);
 
+// The readings that say their level: heard, and not at a code that the receiver reports for other levels too.
+std::vector<char> telling(const Case& made, const Data& data);
+
 // Draws the effects of the case's order, each as strong as it must be; sets the noise's true laws.
 void hide(Case& made, const std::vector<char>& use);
 

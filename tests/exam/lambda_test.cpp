@@ -95,6 +95,25 @@ TEST(Lambda, AgreesWithTheDenseCovariance) {
   EXPECT_LT(std::sqrt(square / count), 0.04);
 }
 
+// A wall that is met by readings at the floor alone would not be seen by anyone.
+TEST(Lambda, OfAShiftBesideAClipIsThatOfReadingsThatSayTheirLevel) {
+  const Order order{"two", {"tx_offset", "rssi_saturation"}, {100, 300}, 1500};
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const Case c = make_case("case_0001", seed, order);
+    const Hidden &offset = c.hidden.at(0), &top = c.hidden.at(1);
+    ASSERT_EQ(top.effect.id, "rssi_saturation");
+    const double level = top.effect.parameters(top.strength)[0].value;
+    const Eigen::VectorXd shift = offset.effect.shift(c.measured, offset.strength);
+    const auto weight = [&](const std::vector<char>& use) {
+      return energy(Whitener(c.measured, c.site->noise, use), shift, c.measured.design);
+    };
+    std::vector<char> below(c.measured.size());
+    for (std::size_t i = 0; i < below.size(); ++i) below[i] = c.measured.rssi[static_cast<Eigen::Index>(i)] < level;
+    EXPECT_NEAR(offset.lambda, weight(below), 1e-6 * offset.lambda) << seed;
+    EXPECT_LT(offset.lambda, 0.97 * weight(heard(c.measured))) << seed;
+  }
+}
+
 struct Scatter {
   double sum = 0, square = 0, count = 0;
 };
