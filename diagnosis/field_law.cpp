@@ -32,14 +32,14 @@ double best_value(const search::Bench& bench, const noise::Covariance& at) {
 // Twice the log-likelihood ratio of rows: of the fitted field against the best one near the stated one.
 double gain_of_rows(const search::Bench& bench, const noise::StatedField& stated, const noise::Fit& free) {
   constexpr double tolerance = 1.08;
-  const noise::StatedField fitted = said_by(free.covariance);
+  const noise::StatedField fitted = said_by(free.covariance, bench.within());
   const auto near = [&](double value, double said) { return std::clamp(value, said / tolerance, said * tolerance); };
   const double size = near(fitted.shadowing, stated.shadowing);
   const double distance = near(fitted.decorrelation, stated.decorrelation);
   double held = 1e300;
   for (const noise::Family family : noise::families) {
     for (const double start : {-0.7, 0.0, 0.7}) {  // of the log variance of one reading, beside the fitted one
-      noise::Covariance at = as_stated({size, distance}, family, free.covariance.theta);
+      noise::Covariance at = as_stated({size, distance}, family, free.covariance.theta, bench.within());
       at.theta[2] += start;
       held = std::min(held, best_value(bench, at));
     }
@@ -79,7 +79,7 @@ double of_any_family(Judge& judge, const ReadingLaw& law, const noise::StatedFie
 LawTest field_test(ReadingField& field, double step, const ReadingLaw& law, const noise::StatedField& stated,
                    const search::Bench& bench) {
   const noise::Fit free = unbelieving(bench);
-  const noise::StatedField fitted = said_by(free.covariance);
+  const noise::StatedField fitted = said_by(free.covariance, bench.within());
   const Eigen::Matrix4d spread = free.curvature.inverse();
   LawTest test{"effect.shadowing_correlation",
                {value_of("shadowing", fitted.shadowing, spread(0, 0) / 4),

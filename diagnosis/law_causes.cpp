@@ -171,8 +171,8 @@ bool world_draws_alike(const LawSources& s) {
   const VectorXd drawn = s.model.drawn(), expected = s.model.expected();
   const VectorXd apart = (drawn - expected)(s.used);
   if (!apart.allFinite()) return false;
-  const noise::StatedField own = said_by(fitted_to(s.bench, s.bench.rows().mean(apart)));
-  const noise::StatedField fitted = said_by(s.bench.fit.covariance);
+  const noise::StatedField own = said_by(fitted_to(s.bench, s.bench.rows().mean(apart)), s.bench.within());
+  const noise::StatedField fitted = said_by(s.bench.fit.covariance, s.bench.within());
   return std::abs(std::log(own.shadowing / fitted.shadowing)) < std::log(1.25) &&
          std::abs(std::log(own.decorrelation / fitted.decorrelation)) < std::log(1.6);
 }

@@ -52,10 +52,7 @@ double correlation_slope(Family family, double u) {
   return 0;
 }
 
-double softened(Family family, double distance, double soft) {
-  const bool rough = family == Family::exponential || family == Family::two_scale;
-  return rough ? std::sqrt(distance * distance + soft * soft) - soft : distance;
-}
+bool is_rough(Family family) { return family == Family::exponential || family == Family::two_scale; }
 
 double log_scale_of(Family family) {
   switch (family) {
@@ -77,14 +74,16 @@ double efold(Family family) {
   return (low + high) / 2;
 }
 
-StatedField said_by(const Covariance& c) {
-  return {std::sqrt(c.field_variance()), c.decorrelation() * efold(c.family)};
+StatedField said_by(const Covariance& c, double within) {
+  const double of_reading = c.field_variance() / correlation(c.family, within / c.decorrelation());
+  return {std::sqrt(of_reading), c.decorrelation() * efold(c.family)};
 }
 
-Covariance as_stated(const StatedField& field, Family family, const Theta& beside) {
+Covariance as_stated(const StatedField& field, Family family, const Theta& beside, double within) {
   Covariance result{family, beside};
-  result.theta[0] = 2 * std::log(std::max(field.shadowing, 0.05));
   result.theta[1] = std::log(field.decorrelation / efold(family));
+  const double of_mean = correlation(family, within / result.decorrelation());
+  result.theta[0] = 2 * std::log(std::max(field.shadowing, 0.05)) + std::log(of_mean);
   return result;
 }
 

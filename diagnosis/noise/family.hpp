@@ -22,9 +22,8 @@ double correlation_slope(Family family, double u);
 // The families differ in what they call a decorrelation distance: what to add to its logarithm beside the
 // exponential's.
 double log_scale_of(Family family);
-// The distance that counts between means over rows: softened, sqrt(h^2 + soft^2) - soft, where the field is rough. One
-// that is smooth hardly changes along a row, and 1 - O(h^4) would be no correlation of anything.
-double softened(Family family, double distance, double soft);
+// Whether it falls at once with distance. A field that does not hardly changes along a row.
+bool is_rough(Family family);
 
 // Distance in decorrelation distances at which the correlation falls to 1/e.
 double efold(Family family);
@@ -47,8 +46,9 @@ struct Covariance {
 struct StatedField {
   double shadowing = 0, decorrelation = 0;  // dB, 0 where nothing is stated; m, at which correlation falls to 1/e
 };
-StatedField said_by(const Covariance& covariance);
+// `within` [m]: the mean distance of two readings of a row. A mean over them varies less than one reading does.
+StatedField said_by(const Covariance& covariance, double within);
 // The rest of theta from `beside`.
-Covariance as_stated(const StatedField& field, Family family, const Theta& beside);
+Covariance as_stated(const StatedField& field, Family family, const Theta& beside, double within);
 
 }  // namespace muster::noise

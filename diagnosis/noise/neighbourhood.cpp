@@ -14,6 +14,7 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 Neighbourhood::Neighbourhood(const Field& field, const Covariance& covariance, const RowKernel& kernel)
     : field_(field),
       kernel_(kernel),
+      family_(covariance.family),
       slots_(field.slots()),
       correlation_(distances + 1),
       by_distance_(distances + 1),
@@ -27,8 +28,7 @@ Neighbourhood::Neighbourhood(const Field& field, const Covariance& covariance, c
       slope_(at(parameters * (slots_ + 1))),
       information_(parameters * parameters) {
   for (std::size_t k = 0; k < distances; ++k) {
-    const double distance = static_cast<double>(k) * field.spacing();
-    const double u = softened(covariance.family, distance, field.sites().soft) / covariance.decorrelation();
+    const double u = static_cast<double>(k) * field.spacing() / covariance.decorrelation();
     correlation_[k] = correlation(covariance.family, u);
     by_distance_[k] = correlation_slope(covariance.family, u);
   }
@@ -74,9 +74,10 @@ void Neighbourhood::own_variances(Index group) {
 
 void Neighbourhood::factorise(Index group) {
   own_variances(group);
-  arrays_.near = field_.near(group);
-  arrays_.joint = field_.joint(group);
-  arrays_.kinds = field_.kinds(group);
+  const Field::Entries entries = field_.entries(group, family_);
+  arrays_.near = entries.near;
+  arrays_.joint = entries.joint;
+  arrays_.kinds = entries.kinds;
   kernel_.factorise(arrays_);
 }
 

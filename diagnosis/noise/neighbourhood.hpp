@@ -38,6 +38,7 @@ class Neighbourhood {
 
   const Field& field_;
   const RowKernel& kernel_;
+  Family family_;
   Index slots_;
   std::vector<double> correlation_, by_distance_;
   Eigen::VectorXd reading_variance_;  // of the rows' means

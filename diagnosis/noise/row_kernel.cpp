@@ -257,29 +257,78 @@ using Ints = int __attribute__((vector_size(many * sizeof(int)), aligned(alignof
 using ManyDoubles = double __attribute__((vector_size(many * sizeof(double)), aligned(alignof(double)), may_alias));
 static_assert(sizeof(Floats) == many * sizeof(float));
 
-// Squared distances of a row from those that start at `first`.
-MUSTER_INLINE Floats squares(const float* const* at, long row, long first) {
+MUSTER_INLINE Floats many_of(const float* values, long first) {
+  return *reinterpret_cast<const Floats*>(values + first);
+}
+
+// Squared distances of a row from those that start at `first`, between readings a stretch away from their middles or
+// none.
+MUSTER_INLINE Floats squares(const Ends& ends, long row, long first, float own_stretches, float stretches) {
   Floats sum{};
   for (int axis = 0; axis < 3; ++axis) {
-    const Floats along = *reinterpret_cast<const Floats*>(at[axis] + first) - at[axis][row];
+    const float own = ends.middle[axis][row] + own_stretches * ends.stretch[axis][row];
+    const Floats along = many_of(ends.middle[axis], first) + stretches * many_of(ends.stretch[axis], first) - own;
     sum += along * along;
   }
   return sum;
 }
 
-MUSTER_INLINE Floats correlations(const Pairs& p, Floats squares) {
-  Floats result;
-  for (int k = 0; k < many; ++k) result[k] = __builtin_sqrtf(squares[k]);
-  const Ints entries = __builtin_convertvector(result * p.entries_per_metre + 0.5f, Ints);
-  for (int k = 0; k < many; ++k) result[k] = p.correlation[entries[k]];
+MUSTER_INLINE Floats root(Floats squares) {
+  for (int k = 0; k < many; ++k) squares[k] = __builtin_sqrtf(squares[k]);
+  return squares;
+}
+
+struct Distances {
+  Floats place, both;
+};
+
+MUSTER_INLINE Distances between_middles(const Pairs& p, long row, long first) {
+  const Floats place = squares(p.place, row, first, 0, 0);
+  const Floats apart = root(place);
+  return {apart, p.anchors_move ? root(place + squares(p.anchor, row, first, 0, 0)) : apart};
+}
+
+// As readings_apart() in apart.hpp.
+MUSTER_INLINE Distances between_readings(const Pairs& p, long row, long first) {
+  Distances mean{};
+  for (int own = -1; own <= 1; ++own) {
+    for (int other = -1; other <= 1; ++other) {
+      const auto a = static_cast<float>(own), b = static_cast<float>(other);
+      const Floats place = squares(p.place, row, first, a, b);
+      mean.place += root(place) / 9;
+      if (p.anchors_move) mean.both += root(place + squares(p.anchor, row, first, a, b)) / 9;
+    }
+  }
+  return p.anchors_move ? mean : Distances{mean.place, mean.place};
+}
+
+MUSTER_INLINE Distances distances_of(const Pairs& p, long row, long first) {
+  const Distances middles = between_middles(p, row, first);
+  if (!p.within_place) return middles;
+  bool near = false;
+  for (int k = 0; k < many; ++k) near |= middles.place[k] < p.far;
+  Distances result = near ? between_readings(p, row, first) : middles;
+  result.place -= many_of(p.within_place, first) + p.within_place[row];
+  result.both -= many_of(p.within_both, first) + p.within_both[row];
+  for (int k = 0; k < many; ++k) {
+    result.place[k] = result.place[k] > 0 ? result.place[k] : 0;
+    result.both[k] = result.both[k] > 0 ? result.both[k] : 0;
+  }
   return result;
+}
+
+MUSTER_INLINE Floats correlations(const Pairs& p, Floats apart) {
+  const Ints entries = __builtin_convertvector(apart * p.entries_per_metre + 0.5f, Ints);
+  for (int k = 0; k < many; ++k) apart[k] = p.correlation[entries[k]];
+  return apart;
 }
 
 void covariances(const Pairs& p, long row, double* out) {
   for (long first = 0; first < row; first += many) {
-    const Floats apart = squares(p.place, row, first), near = correlations(p, apart);
+    const Distances apart = distances_of(p, row, first);
+    const Floats near = correlations(p, apart.place);
     const Ints same = *reinterpret_cast<const Ints*>(p.radio + first) == p.radio[row];
-    const Floats joint = p.anchors_move ? correlations(p, apart + squares(p.anchor, row, first)) : near;
+    const Floats joint = p.anchors_move ? correlations(p, apart.both) : near;
     const Floats sum = p.everywhere * near + (same ? p.joint * joint : Floats{});
     *reinterpret_cast<ManyDoubles*>(out + first) = __builtin_convertvector(sum, ManyDoubles);
   }

@@ -47,10 +47,15 @@ struct Combinations {
 
 // Rows whose covariances are asked for two by two. Arrays have a value a row, filled up to a multiple of `many`.
 constexpr int many = 16;
+struct Ends {
+  const float *middle[3], *stretch[3];  // m, along each axis
+};
 struct Pairs {
-  const float *place[3], *anchor[3];  // m
-  const int* radio;                   // the anchor's
-  const float* correlation;           // by the nearest entry
+  Ends place, anchor;
+  const float *within_place, *within_both;  // m: half the mean distance of a row's readings; null: rows are points
+  float far;                                // m: rows this far apart are so by their middles
+  const int* radio;                         // the anchor's
+  const float* correlation;                 // by the nearest entry
   float entries_per_metre;
   float everywhere, joint;  // variances: between places, and in addition between both ends of the same anchor
   bool anchors_move;        // or stand where all others of their radio do

@@ -9,10 +9,8 @@
 namespace muster::noise {
 namespace {
 
-// Between rows that follow one another on a line, means over them differ as points would that are nearer by the mean
-// distance of two readings of a row. sqrt(h^2 + soft^2) - soft falls short of that; with this much more of it, it is
-// right for the next row, within 2 % for all beyond, and a correlation in any number of dimensions.
-constexpr double straight_on = 1.2;
+// Of three readings, each a stretch from the next: the mean distance of two, of a stretch.
+constexpr double mean_of_three = 8.0 / 9;
 
 std::vector<Index> by_link_and_time(const Readings& readings) {
   std::vector<Index> order(readings.tx.size());
@@ -35,13 +33,6 @@ bool ends_row(const Readings& r, const RowLimits& limits, Index first, Index nex
   if (!r.level.empty() && std::abs(r.level[b] - r.level[a]) > limits.level) return true;
   return (r.rx_at.col(next) - r.rx_at.col(first)).norm() > limits.way ||
          (r.tx_at.col(next) - r.tx_at.col(first)).norm() > limits.way;
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // How far the radios of each pair went. What shadows a link shadows its return, so both directions have one anchor: the
@@ -114,12 +105,12 @@ Sites Rows::sites(const Readings& readings) const {
   const Eigen::Matrix3Xd tx = mean(readings.tx_at.transpose()).transpose();
   const Eigen::Matrix3Xd rx = mean(readings.rx_at.transpose()).transpose();
   Ways ways;
-  std::vector<double> apart;  // mean distance of two readings of a row
+  Eigen::Matrix3Xd tx_stretch(3, size()), rx_stretch(3, size());
   for (Index i = 0; i < size(); ++i) {
     const Index a = example(i), b = order_[static_cast<std::size_t>(first_[static_cast<std::size_t>(i) + 1] - 1)];
-    const double length =
-        (readings.rx_at.col(b) - readings.rx_at.col(a)).norm() + (readings.tx_at.col(b) - readings.tx_at.col(a)).norm();
-    apart.push_back(length * (count_[i] + 1) / (3 * count_[i]));  // evenly along a line
+    const double share = (count_[i] + 1) / (3 * count_[i]) / mean_of_three;  // of its way, if evenly along a line
+    tx_stretch.col(i) = share * (readings.tx_at.col(b) - readings.tx_at.col(a));
+    rx_stretch.col(i) = share * (readings.rx_at.col(b) - readings.rx_at.col(a));
     const std::size_t link = static_cast<std::size_t>(a);
     const bool goes_on = i > 0 && readings.tx[link] == readings.tx[static_cast<std::size_t>(example(i - 1))] &&
                          readings.rx[link] == readings.rx[static_cast<std::size_t>(example(i - 1))];
@@ -127,13 +118,15 @@ Sites Rows::sites(const Readings& readings) const {
       ways.add(readings.tx[link], readings.rx[link], (tx.col(i) - tx.col(i - 1)).norm(),
                (rx.col(i) - rx.col(i - 1)).norm());
   }
-  Sites sites{rx, tx, {}, count_, straight_on * median(std::move(apart))};
+  Sites sites{rx, tx, rx_stretch, tx_stretch, {}, count_};
   for (Index i = 0; i < size(); ++i) {
     const auto link = static_cast<std::size_t>(example(i));
     const bool anchored_at_tx = ways.anchor_of(readings.tx[link], readings.rx[link]) == readings.tx[link];
     if (!anchored_at_tx) {
       sites.place.col(i) = tx.col(i);
       sites.anchor.col(i) = rx.col(i);
+      sites.place_stretch.col(i) = tx_stretch.col(i);
+      sites.anchor_stretch.col(i) = rx_stretch.col(i);
     }
     sites.radio.push_back(anchored_at_tx ? readings.tx[link] : readings.rx[link]);
   }
@@ -158,19 +151,31 @@ Readings Rows::middles(const Readings& readings) const {
   return result;
 }
 
+double Sites::within() const {
+  if (size() == 0) return 0;
+  return mean_of_three *
+         (place_stretch.colwise().squaredNorm() + anchor_stretch.colwise().squaredNorm()).cwiseSqrt().mean();
+}
+
 Sites Sites::of(const std::vector<Index>& rows) const {
-  Sites result{place(Eigen::all, rows), anchor(Eigen::all, rows), {}, count(rows), soft};
+  Sites result{place(Eigen::all, rows),
+               anchor(Eigen::all, rows),
+               place_stretch(Eigen::all, rows),
+               anchor_stretch(Eigen::all, rows),
+               {},
+               count(rows)};
   for (const Index i : rows) result.radio.push_back(radio[static_cast<std::size_t>(i)]);
   return result;
 }
 
 Sites Sites::with(const Sites& more) const {
   Sites result = *this;
-  result.place.conservativeResize(3, size() + more.size());
-  result.anchor.conservativeResize(3, size() + more.size());
+  for (Eigen::Matrix3Xd Sites::*columns :
+       {&Sites::place, &Sites::anchor, &Sites::place_stretch, &Sites::anchor_stretch}) {
+    (result.*columns).conservativeResize(3, size() + more.size());
+    (result.*columns).rightCols(more.size()) = more.*columns;
+  }
   result.count.conservativeResize(size() + more.size());
-  result.place.rightCols(more.size()) = more.place;
-  result.anchor.rightCols(more.size()) = more.anchor;
   result.count.tail(more.size()) = more.count;
   result.radio.insert(result.radio.end(), more.radio.begin(), more.radio.end());
   return result;

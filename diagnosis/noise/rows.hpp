@@ -29,14 +29,16 @@ struct RowLimits {
 };
 
 // Where the rows' field lives: `place` is the end that moves more, `anchor` the other one, the same for both directions
-// of a pair.
+// of a pair. A row is seen as three readings of the same weight, in its middle and a stretch to either side of that,
+// which lie as far apart in the mean as its own do.
 struct Sites {
-  Eigen::Matrix3Xd place, anchor;  // m
-  std::vector<int> radio;          // the anchor's
-  Eigen::VectorXd count;           // readings
-  double soft = 0;                 // m: by which distances between means over rows are softened
+  Eigen::Matrix3Xd place, anchor;                  // m, in the mean
+  Eigen::Matrix3Xd place_stretch, anchor_stretch;  // m
+  std::vector<int> radio;                          // the anchor's
+  Eigen::VectorXd count;                           // readings
 
   Index size() const { return count.size(); }
+  double within() const;  // m: the mean distance of two readings of a row
   Sites of(const std::vector<Index>& rows) const;
   // These rows, then those of `more`.
   Sites with(const Sites& more) const;

@@ -69,28 +69,40 @@ Field::Field(Sites sites, const Conditioning& conditioning) : sites_(std::move(s
                                     (sites_.anchor.col(i) - sites_.anchor.col(j)).norm());
   });
   spacing_ = std::max(spacing_, longest / (distances - 1));
-  near_.assign(at(groups() * pairs() * lanes), distances);
-  joint_.assign(near_.size(), distances);
-  each_pair([&](std::size_t slot, Index i, Index j) {
-    const double place = (sites_.place.col(i) - sites_.place.col(j)).squaredNorm();
-    near_[slot] = entry(std::sqrt(place));
-    if (sites_.radio[at(i)] != sites_.radio[at(j)]) return;
-    joint_[slot] = entry(std::sqrt(place + (sites_.anchor.col(i) - sites_.anchor.col(j)).squaredNorm()));
-  });
-  compare_ends();
+  smooth_ = table(middles_apart);
+  if (sites_.within() > 0) rough_ = table(readings_apart);
 }
 
-void Field::compare_ends() {
-  kinds_.assign(near_.size() / lanes, Joint::other);
-  for (std::size_t pair = 0; pair < kinds_.size(); ++pair) {
-    const auto near = near_.begin() + static_cast<std::ptrdiff_t>(pair * lanes);
-    const auto joint = joint_.begin() + static_cast<std::ptrdiff_t>(pair * lanes);
+Field::Table Field::table(Apart (*apart)(const Sites&, Index, Index)) const {
+  Table result;
+  result.near.assign(at(groups() * pairs() * lanes), distances);
+  result.joint.assign(result.near.size(), distances);
+  each_pair([&](std::size_t slot, Index i, Index j) {
+    const Apart of = apart(sites_, i, j);
+    result.near[slot] = entry(of.place);
+    if (sites_.radio[at(i)] == sites_.radio[at(j)]) result.joint[slot] = entry(of.both);
+  });
+  compare_ends(result);
+  return result;
+}
+
+void Field::compare_ends(Table& table) const {
+  table.kinds.assign(table.near.size() / lanes, Joint::other);
+  for (std::size_t pair = 0; pair < table.kinds.size(); ++pair) {
+    const auto near = table.near.begin() + static_cast<std::ptrdiff_t>(pair * lanes);
+    const auto joint = table.joint.begin() + static_cast<std::ptrdiff_t>(pair * lanes);
     if (std::equal(near, near + lanes, joint)) {
-      kinds_[pair] = Joint::same;
+      table.kinds[pair] = Joint::same;
     } else if (std::all_of(joint, joint + lanes, [](uint16_t entry) { return entry == distances; })) {
-      kinds_[pair] = Joint::uncorrelated;
+      table.kinds[pair] = Joint::uncorrelated;
     }
   }
+}
+
+Field::Entries Field::entries(Index group, Family family) const {
+  const Table& from = is_rough(family) && !rough_.near.empty() ? rough_ : smooth_;
+  const Index first = group * pairs();
+  return {from.near.data() + first * lanes, from.joint.data() + first * lanes, from.kinds.data() + first};
 }
 
 Combinations Field::combinations(const Stencil& stencil) const {

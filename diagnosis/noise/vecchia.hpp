@@ -1,11 +1,12 @@
-// Whitening of rows under C = s2 [rho + (1 - rho) same anchor] k(h') + t2 / count, h' = sqrt(h^2 + a^2) - a, by
-// Vecchia's approximation (Vecchia 1988; Katzfuss and Guinness, Statistical Science 36, 2021): each row given its
-// neighbours.
+// Whitening of rows under C = s2 [rho + (1 - rho) same anchor] k(h) + t2 / count by Vecchia's approximation (Vecchia
+// 1988; Katzfuss and Guinness, Statistical Science 36, 2021): each row given its neighbours. h is the distance between
+// readings for a rough field, between middles for a smooth one (apart.hpp).
 #pragma once
 
 #include <array>
 #include <cstdint>
 
+#include "diagnosis/noise/apart.hpp"
 #include "diagnosis/noise/basis.hpp"
 #include "diagnosis/noise/family.hpp"
 #include "diagnosis/noise/neighbours.hpp"
@@ -32,27 +33,31 @@ class Field {
   Index neighbour(Index row, int slot) const { return neighbours_[static_cast<std::size_t>(row * slots_ + slot)]; }
   // Entries of the pairs of group g: pair a (a + 1) / 2 + b is slots a and b < a; with b = a, slot a and the row
   // itself.
-  const uint16_t* near(Index group) const { return near_.data() + group * pairs() * lanes; }  // between places
-  const uint16_t* joint(Index group) const {
-    return joint_.data() + group * pairs() * lanes;
-  }  // both ends, same anchor
-  const Joint* kinds(Index group) const { return kinds_.data() + group * pairs(); }
+  struct Entries {
+    const uint16_t *near, *joint;  // between places; both ends, same anchor
+    const Joint* kinds;
+  };
+  Entries entries(Index group, Family family) const;
   Index pairs() const { return Index{slots_} * (slots_ + 1) / 2; }
   // These weights for each row's neighbours, then its own.
   Combinations combinations(const Stencil& stencil) const;
 
  private:
+  struct Table {
+    std::vector<uint16_t> near, joint;
+    std::vector<Joint> kinds;
+  };
   template <class Each>
   void each_pair(Each each) const;
   uint16_t entry(double distance) const;
-  void compare_ends();
+  Table table(Apart (*apart)(const Sites&, Index, Index)) const;
+  void compare_ends(Table& table) const;
 
   Sites sites_;
   int slots_;
   std::vector<Index> neighbours_;
   double spacing_ = 0.01;
-  std::vector<uint16_t> near_, joint_;
-  std::vector<Joint> kinds_;
+  Table smooth_, rough_;  // the second one is empty where every row is a point: both are the same there
 };
 
 class Whitener {

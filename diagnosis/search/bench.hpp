@@ -59,6 +59,7 @@ class Bench {
   const Options& options() const { return options_; }
   const noise::Rows& rows() const { return rows_; }
   const noise::Field& field() const { return field_; }
+  double within() const { return field_.sites().within(); }  // m: the mean distance of two readings of a row
   // Made when it is first asked for: most searches do without.
   const FarRows& far() const;
   double log_rows() const { return std::log(static_cast<double>(rows_.size())); }

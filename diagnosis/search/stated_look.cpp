@@ -14,7 +14,7 @@ namespace {
 std::vector<noise::Fit> fitted_as_stated(const Bench& bench, const Eigen::MatrixXd& design) {
   std::vector<noise::Fit> fits;
   for (const noise::Family family : noise::families) {
-    const auto start = as_stated(bench.problem().stated, family, bench.fit.covariance.theta);
+    const auto start = as_stated(bench.problem().stated, family, bench.fit.covariance.theta, bench.within());
     fits.push_back(noise::fit(bench.field(), bench.y(), design, bench.options().prior, start, 6, noise::unstated));
   }
   std::sort(fits.begin(), fits.end(), [](const auto& a, const auto& b) { return a.value < b.value; });

@@ -19,7 +19,12 @@ namespace {
 
 Sites scattered(Index n, int radios, uint64_t seed) {
   const Stream s(seed);
-  Sites sites{Eigen::Matrix3Xd::Zero(3, n), Eigen::Matrix3Xd::Zero(3, n), {}, Eigen::VectorXd(n), 0.17};
+  Sites sites{Eigen::Matrix3Xd::Zero(3, n),
+              Eigen::Matrix3Xd::Zero(3, n),
+              Eigen::Matrix3Xd::Zero(3, n),
+              Eigen::Matrix3Xd::Zero(3, n),
+              {},
+              Eigen::VectorXd(n)};
   for (Index i = 0; i < n; ++i) {
     const auto k = static_cast<uint64_t>(i);
     sites.place.col(i) << 6 * s.uniform(k, 0), 5 * s.uniform(k, 1), s.uniform(k, 2);
@@ -27,6 +32,7 @@ Sites scattered(Index n, int radios, uint64_t seed) {
     sites.radio.push_back(radio);
     sites.anchor.col(i) << 3.0 * radio, 1, 0;
     sites.count[i] = 1 + std::floor(3 * s.uniform(k, 3));
+    if (sites.count[i] > 1) sites.place_stretch.col(i) << 0.3 * s.uniform(k, 4), 0.3 * s.uniform(k, 5), 0;
   }
   return sites;
 }
@@ -36,12 +42,12 @@ Eigen::MatrixXd dense(const Sites& sites, const Covariance& c) {
   Eigen::MatrixXd result(n, n);
   for (Index i = 0; i < n; ++i) {
     for (Index j = 0; j < n; ++j) {
-      const auto soft = [&](double h) { return softened(c.family, h, sites.soft); };
-      const double near = (sites.place.col(i) - sites.place.col(j)).norm();
-      const double both = std::hypot(near, (sites.anchor.col(i) - sites.anchor.col(j)).norm());
+      const Apart apart = i == j               ? Apart{0, 0}
+                          : is_rough(c.family) ? readings_apart(sites, i, j)
+                                               : middles_apart(sites, i, j);
       const bool same = sites.radio[static_cast<std::size_t>(i)] == sites.radio[static_cast<std::size_t>(j)];
-      const auto k = [&](double h) { return correlation(c.family, soft(h) / c.decorrelation()); };
-      result(i, j) = c.field_variance() * (c.shared() * k(near) + (same ? (1 - c.shared()) * k(both) : 0));
+      const auto k = [&](double h) { return correlation(c.family, h / c.decorrelation()); };
+      result(i, j) = c.field_variance() * (c.shared() * k(apart.place) + (same ? (1 - c.shared()) * k(apart.both) : 0));
     }
     result(i, i) += c.reading_variance() / sites.count[i] + 1e-3;
   }
@@ -54,7 +60,10 @@ TEST(Exact, CovarianceOfSumsIsTheDenseOne) {
   const Eigen::MatrixXd weights = Eigen::MatrixXd::Random(83, 3);
   for (const bool anchors_move : {false, true}) {
     Sites sites = scattered(83, 3, 6);
-    if (anchors_move) sites.anchor.row(1).setRandom();
+    if (anchors_move) {
+      sites.anchor.row(1).setRandom();
+      sites.anchor_stretch.row(0).setConstant(0.1);
+    }
     for (const Family family : families) {
       const Covariance c{family, some.theta};
       const Eigen::MatrixXd expected = weights.transpose() * dense(sites, c) * weights;
@@ -222,7 +231,6 @@ TEST(Fit, ASmoothFieldIsNotTakenForAnExponentialOne) {
 TEST(Families, ArePositiveDefiniteOverRows) {
   Sites sites = scattered(60, 1, 21);
   sites.place *= 0.15;
-  sites.soft = 0.3;
   for (const Family family : families) {
     Covariance c{family, some.theta};
     c.theta[2] = std::log(1e-3);

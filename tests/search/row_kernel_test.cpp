@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstring>
 
+#include "diagnosis/noise/apart.hpp"
 #include "diagnosis/noise/basis.hpp"
 #include "diagnosis/noise/neighbourhood.hpp"
 #include "muster/random.hpp"
@@ -16,7 +18,12 @@ namespace {
 // Half of the anchors move, so that distances of both ends are those of places, none, and others.
 Sites places(Index n) {
   const Stream s(31);
-  Sites sites{Eigen::Matrix3Xd::Zero(3, n), Eigen::Matrix3Xd::Zero(3, n), {}, Eigen::VectorXd(n), 0.17};
+  Sites sites{Eigen::Matrix3Xd::Zero(3, n),
+              Eigen::Matrix3Xd::Zero(3, n),
+              Eigen::Matrix3Xd::Zero(3, n),
+              Eigen::Matrix3Xd::Zero(3, n),
+              {},
+              Eigen::VectorXd(n)};
   for (Index i = 0; i < n; ++i) {
     const auto k = static_cast<uint64_t>(i);
     sites.place.col(i) << 6 * s.uniform(k, 0), 5 * s.uniform(k, 1), s.uniform(k, 2);
@@ -68,7 +75,8 @@ TEST(RowKernels, FactoriseToTheSameBits) {
         for (int q = 0; q <= p; ++q)
           EXPECT_TRUE(same_bits(&plain.information(p, q), &other.information(p, q), 1)) << g << ' ' << p << ' ' << q;
       }
-      for (Index pair = 0; pair < field.pairs(); ++pair) seen[static_cast<std::size_t>(field.kinds(g)[pair])] = true;
+      for (Index pair = 0; pair < field.pairs(); ++pair)
+        seen[static_cast<std::size_t>(field.entries(g, covariance.family).kinds[pair])] = true;
     }
   }
   EXPECT_TRUE(row_kernels().number == 1 || (seen[1] && seen[2] && seen[3]));
@@ -130,34 +138,62 @@ TEST(RowKernels, ContractFourCombinationsAtOnce) {
   }
 }
 
+// Rows on a line that fall into blocks of near and of far ones; of every second pair of blocks the readings count.
 TEST(RowKernels, TellCovariancesOfPairsToTheSameBits) {
   const Index rows = 4 * many;
-  const Eigen::MatrixXf at = normals<Eigen::MatrixXf>(rows, 6, 10);
+  Eigen::MatrixXf at = normals<Eigen::MatrixXf>(rows, 12, 10);
+  at.rightCols(6) *= 0.2f;
+  at.col(0) += Eigen::VectorXf::LinSpaced(rows, 0, 40);
+  const Eigen::VectorXf within_place = own_share * at.middleCols(6, 3).rowwise().norm();
+  const Eigen::VectorXf within_both = own_share * at.rightCols(6).rowwise().norm();
+  const auto ends = [&](Index from) {
+    const auto axis = [&](Index k) { return at.col(from + k).data(); };
+    return Ends{{axis(0), axis(1), axis(2)}, {axis(6), axis(7), axis(8)}};
+  };
   std::vector<int> radio;
   for (Index i = 0; i < rows; ++i) radio.push_back(static_cast<int>(i % 3));
-  const Eigen::VectorXf falling = Eigen::VectorXf::LinSpaced(401, 1, 0);
-  for (const bool anchors_move : {false, true}) {
-    const Pairs pairs{{at.col(0).data(), at.col(1).data(), at.col(2).data()},
-                      {at.col(3).data(), at.col(4).data(), at.col(5).data()},
-                      radio.data(),
-                      falling.data(),
-                      20,
-                      2,
-                      5,
-                      anchors_move};
-    const Index row = rows - 3;
-    Eigen::VectorXd first(rows);
-    for (int k = 0; k < row_kernels().number; ++k) {
-      Eigen::VectorXd told(rows);
-      row_kernels().all[k]->covariances(pairs, row, told.data());
-      if (k == 0) first = told;
-      EXPECT_EQ(told.head(row), first.head(row)) << row_kernels().all[k]->name;
+  const Eigen::VectorXf falling = Eigen::VectorXf::LinSpaced(1201, 1, 0);
+  const Index row = rows - 3;
+  const auto readings_apart = [&](Index i, Index columns) {
+    double sum = 0;
+    for (const float a : {-1.0f, 0.0f, 1.0f}) {
+      for (const float b : {-1.0f, 0.0f, 1.0f})
+        sum += (at.row(row) + a * at.row(row).rightCols(6).replicate(1, 2) - at.row(i) -
+                b * at.row(i).rightCols(6).replicate(1, 2))
+                   .head(columns)
+                   .norm();
     }
-    for (Index i = 0; i < row; ++i) {
-      const Eigen::RowVectorXf apart = at.row(row) - at.row(i);
-      const double near = apart.head(3).norm(), both = anchors_move ? apart.norm() : near;
-      const double expected = 2 * (1 - near / 20) + (i % 3 == row % 3 ? 5 * (1 - both / 20) : 0);
-      EXPECT_NEAR(first[i], expected, 0.01) << i;  // half an entry is 0.00125
+    return sum / 9;
+  };
+  for (const bool stretched : {false, true}) {
+    for (const bool anchors_move : {false, true}) {
+      const Pairs pairs{ends(0),
+                        ends(3),
+                        stretched ? within_place.data() : nullptr,
+                        stretched ? within_both.data() : nullptr,
+                        15,
+                        radio.data(),
+                        falling.data(),
+                        20,
+                        2,
+                        5,
+                        anchors_move};
+      Eigen::VectorXd first(rows);
+      for (int k = 0; k < row_kernels().number; ++k) {
+        Eigen::VectorXd told(rows);
+        row_kernels().all[k]->covariances(pairs, row, told.data());
+        if (k == 0) first = told;
+        EXPECT_EQ(told.head(row), first.head(row)) << row_kernels().all[k]->name;
+      }
+      for (Index i = 0; i < row; ++i) {
+        const auto apart = [&](Index columns, const Eigen::VectorXf& within) {
+          if (!stretched) return static_cast<double>((at.row(row) - at.row(i)).head(columns).norm());
+          return std::max(0.0, readings_apart(i, columns) - within[row] - within[i]);
+        };
+        const double near = apart(3, within_place), both = anchors_move ? apart(6, within_both) : near;
+        const double expected = 2 * (1 - near / 60) + (i % 3 == row % 3 ? 5 * (1 - both / 60) : 0);
+        EXPECT_NEAR(first[i], expected, 0.01) << i;  // half an entry is 0.003
+      }
     }
   }
 }

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "diagnosis/noise/family.hpp"
+#include "diagnosis/noise/apart.hpp"
 #include "muster/random.hpp"
 #include "tests/search/synthetic.hpp"
 
@@ -41,8 +41,47 @@ TEST(Rows, AreAsFarApartAsMeansOverThemDiffer) {
     };
     for (const int away : {1, 2, 3, 6}) {
       const double truth = mean_distance(away * each) - mean_distance(0), h = pace * away * each;
-      EXPECT_NEAR(softened(Family::exponential, h, sites.soft) / truth, 1, 0.025) << each << ' ' << away;
-      EXPECT_EQ(softened(Family::gaussian, h, sites.soft), h);
+      for (const int from : {0, 2, 5})
+        EXPECT_NEAR(readings_apart(sites, from, from + away).place / truth, 1, 0.01) << each << ' ' << away;
+      EXPECT_NEAR(middles_apart(sites, 0, away).place, h, 1e-9);
+    }
+    EXPECT_NEAR(sites.within(), mean_distance(0), 1e-9) << each;
+  }
+}
+
+// Rows that cross, pass side by side or share a place are as far apart as all their readings say.
+TEST(Rows, AreAsFarApartWhateverWayTheyRun) {
+  constexpr int each = 5;
+  const std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> ways = {{{0, 0, 1}, {0.12, 0, 0}},
+                                                                         {{0.24, -0.24, 1}, {0, 0.12, 0}},
+                                                                         {{0, 0.1, 1}, {0.12, 0, 0}},
+                                                                         {{1, 0.5, 1}, {-0.08, 0.09, 0}},
+                                                                         {{0.3, 0, 1}, {0, 0, 0}}};
+  Readings r;
+  r.tx_at = r.rx_at = Eigen::Matrix3Xd::Zero(3, each * 5);
+  for (std::size_t way = 0; way < ways.size(); ++way) {
+    for (int k = 0; k < each; ++k) {
+      r.tx.push_back(0);
+      r.rx.push_back(1);
+      r.t.push_back(static_cast<double>(way) * 100 + k);
+      r.rx_at.col(static_cast<Index>(r.t.size()) - 1) = ways[way].first + k * ways[way].second;
+    }
+  }
+  const Rows rows(r, {.time = 50, .way = 100});
+  ASSERT_EQ(rows.size(), 5);
+  const Sites sites = rows.sites(r);
+  const auto mean_distance = [&](Index one, Index other) {
+    double sum = 0;
+    for (Index a = 0; a < each; ++a) {
+      for (Index b = 0; b < each; ++b) sum += (r.rx_at.col(one * each + a) - r.rx_at.col(other * each + b)).norm();
+    }
+    return sum / (each * each);
+  };
+  for (Index one = 0; one < 5; ++one) {
+    for (Index other = 0; other < one; ++other) {
+      const double truth = mean_distance(one, other) - (mean_distance(one, one) + mean_distance(other, other)) / 2;
+      EXPECT_NEAR(readings_apart(sites, one, other).place, truth, 0.015) << one << ' ' << other;
+      EXPECT_EQ(readings_apart(sites, one, other).place, readings_apart(sites, one, other).both);
     }
   }
 }
