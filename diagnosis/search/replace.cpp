@@ -30,7 +30,7 @@ struct Replacement {
     std::optional<Term> result;
     for (const Lead& lead : leads(bench, stand)) {
       const Candidate& c = lead.candidate();
-      if (c.kind != Kind::named || !fits(c, found)) continue;
+      if (c.kind != Kind::named || !fits(lead, found)) continue;
       const bool worth = lead.gain > 0.15 * group_gain && c.pieces.empty();
       const Lead at = worth ? refined(bench, stand, lead, true) : lead;
       const double evidence = bench.evidence(c, at.gain, c.width, false);
@@ -40,9 +40,12 @@ struct Replacement {
     return result;
   }
 
-  bool fits(const Candidate& c, const std::vector<Term>& found) const {
+  // The same cause may be on another radio too.
+  bool fits(const Lead& lead, const std::vector<Term>& found) const {
     if (found.empty()) return true;
-    return c.id != found[0].candidate->id && (c.own() == covariate || c.own() == found[0].candidate->own());
+    const Candidate &c = lead.candidate(), &first = *found[0].candidate;
+    if (c.id == first.id) return c.label_of(lead.theta) != first.label_of(found[0].theta);
+    return c.own() == covariate || c.own() == first.own();
   }
 
   // Two causes share what there is: each again beside the other.

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/search/uncertainty.hpp"
 #include "diagnosis/search/choose.hpp"
 #include "diagnosis/search/merge.hpp"
 #include "diagnosis/search/spread.hpp"
+#include "diagnosis/search/uncertainty.hpp"
 #include "tests/search/causes.hpp"
 
 namespace muster::search {
@@ -103,8 +103,8 @@ TEST(Spread, OfAThingIsThatOfTheWholeLikelihood) {
   const Spread spread = spread_of(bench, term);
   const Stand rest = bench.stand(bench.design_without(term)), whole = bench.stand(bench.design());
   const Index last = whole.design.cols() - 1;
-  const double overstated =
-      std::max(1.0, uncertainty_of(bench, bench.design())(last, last) / whole.at.basis.uncertainty(last + 1)(last, last));
+  const double overstated = std::max(
+      1.0, uncertainty_of(bench, bench.design())(last, last) / whole.at.basis.uncertainty(last + 1)(last, last));
   Eigen::Array3d sum = Eigen::Array3d::Zero(), squares = sum;
   double weights = 0;
   const double top = rest.gain(term.columns);
@@ -274,6 +274,31 @@ TEST(CleanUp, ASmoothGivesWayToTheCauseThatExplainsIt) {
   const std::vector<Term> terms = cleaned_up(problem, {{"~bearing", {}}});
   ASSERT_EQ(terms.size(), 1u);
   EXPECT_EQ(terms[0].candidate->id, "antenna_rx");
+}
+
+// Of two robots each carries what shadows it: neither alone explains what both do along the bearing.
+TEST(CleanUp, ASmoothGivesWayToTheSameCauseOnTwoRadios) {
+  const auto world = world_of(varied(14, 4000));
+  auto causes = causes_of(world);
+  Candidate& one_robots = causes[2];
+  const auto of_all = one_robots.columns;
+  const auto heard_by = [&](double robot) -> Eigen::VectorXd {
+    return Eigen::Map<const Eigen::VectorXi>(world.readings.rx.data(), world.readings.size()).unaryExpr([=](int rx) {
+      return rx == static_cast<int>(robot) ? 1.0 : 0.0;
+    });
+  };
+  one_robots.grid = {Eigen::VectorXd::Constant(1, 100), Eigen::VectorXd::Constant(1, 101)};
+  one_robots.columns = [&](const Eigen::VectorXd& t) -> Eigen::MatrixXd {
+    return heard_by(t[0]).asDiagonal() * of_all({});
+  };
+  one_robots.label = [](const Eigen::VectorXd& t) { return t[0] == 100 ? "first" : "second"; };
+  ASSERT_GT(heard_by(100).sum(), 500);
+  ASSERT_GT(heard_by(101).sum(), 500);
+  const Eigen::VectorXd effect = scaled_to(world, of_all({}).col(1), 400);
+  const std::vector<Term> terms = cleaned_up(problem_of(world, effect, causes), {{"~bearing", {}}});
+  ASSERT_EQ(terms.size(), 2u);
+  for (const Term& term : terms) EXPECT_EQ(term.candidate->id, "antenna_rx");
+  EXPECT_NE(terms[0].theta, terms[1].theta);
 }
 
 }  // namespace
