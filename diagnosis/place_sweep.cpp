@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 #include "diagnosis/cause_axes.hpp"
@@ -16,14 +17,13 @@ constexpr double quarter_turn = 1.5707963267948966;
 constexpr double between_lines = 0.25, between_starts = 0.4, shortest = 0.8, longest = 6, aside = 0.05;  // m
 constexpr std::size_t most = 400;                                                                        // thetas
 
-struct Swept {
-  double gain;
-  VectorXd theta;
-};
-
-std::vector<VectorXd> best_of(std::vector<Swept> all) {
+std::vector<Swept> the_best(std::vector<Swept> all) {
   std::stable_sort(all.begin(), all.end(), [](const Swept& a, const Swept& b) { return a.gain > b.gain; });
-  if (all.size() > most) all.resize(most);
+  if (all.size() > most) all.erase(all.begin() + most, all.end());
+  return all;
+}
+
+std::vector<VectorXd> thetas_of(std::vector<Swept> all) {
   std::vector<VectorXd> result;
   for (Swept& one : all) result.push_back(std::move(one.theta));
   return result;
@@ -127,16 +127,17 @@ std::vector<VectorXd> SegmentSweep::operator()(search::Tally& tally) const {
     }
     if (best > 0) found.push_back({best, segment(gap.angle, gap.across, best_from, best_to)});
   }
-  return best_of(std::move(found));
+  return thetas_of(the_best(std::move(found)));
 }
 
-DiskSweep::DiskSweep(const Survey& survey, Links links) : links_(std::move(links)) {
-  constexpr double between_places = 0.4;
+DiskSweep::DiskSweep(const Survey& survey, Links links)
+    : survey_(survey), links_(std::move(links)), all_(links_.size()) {
+  std::iota(all_.begin(), all_.end(), 0);
   for (double x = survey.east.low; x < survey.east.high; x += between_places) {
     for (double y = survey.north.low; y < survey.north.high; y += between_places) {
       std::size_t fit = 0;
       while (fit < radii.size() && !driven_through(survey, x, y, radii[fit])) ++fit;
-      if (fit > 0) places_.push_back({x, y, fit});
+      if (fit > 0) places_.push_back({x, y, radii[fit - 1]});
     }
   }
 }
@@ -146,27 +147,65 @@ std::vector<VectorXd> DiskSweep::operator()(search::Tally& tally) const {
   std::vector<Swept> found;
   std::vector<Passing> passing;
   for (const Place& place : places_) {
-    find_passing(place, passing);
-    for (std::size_t k = 0; k < place.fit; ++k) {
+    find_passing(place, all_, passing);
+    for (const double radius : radii) {
+      if (radius > place.widest) break;
       VectorXd theta(4);
-      theta << 0, place.x, place.y, std::log(radii[k]);
-      found.push_back({gain(radii[k], passing, tally), std::move(theta)});
+      theta << 0, place.x, place.y, std::log(radius);
+      found.push_back({gain(radius, passing, tally), std::move(theta)});
     }
   }
-  return best_of(std::move(found));
+  found = the_best(std::move(found));
+  std::vector<Swept> tops;
+  for (std::size_t k = 0; k < found.size() && tops.size() < climbed; ++k) {
+    const bool apart = std::all_of(
+        found.begin(), found.begin() + static_cast<std::ptrdiff_t>(k),
+        [&](const Swept& one) { return (one.theta - found[k].theta).segment<2>(1).norm() > 1.5 * between_places; });
+    if (apart) tops.push_back(climb(found[k], tally));
+  }
+  found.insert(found.end(), tops.begin(), tops.end());
+  return thetas_of(the_best(std::move(found)));
 }
 
-// Links that may go through the widest disk about the place.
-void DiskSweep::find_passing(const Place& place, std::vector<Passing>& passing) const {
+// By steps that halve.
+Swept DiskSweep::climb(Swept from, search::Tally& tally) const {
+  const VectorXd start = from.theta;
+  std::vector<Passing> passing;
+  find_passing({start[1], start[2], widest + between_places}, all_, passing);
+  std::vector<Index> near;
+  for (const Passing& one : passing) near.push_back(one.row);
+  for (const double step : {0.2, 0.1, 0.05}) {  // m, and of the logarithm of the radius
+    for (bool better = true; better;) {
+      better = false;
+      for (Index k = 1; k < 4; ++k) {
+        for (const double by : {-step, step}) {
+          VectorXd theta = from.theta;
+          theta[k] += by;
+          const double radius = std::exp(theta[3]);
+          if (radius < narrowest || radius > widest) continue;
+          if ((theta - start).segment<2>(1).norm() > between_places) continue;
+          find_passing({theta[1], theta[2], radius}, near, passing);
+          const double reached = gain(radius, passing, tally);
+          if (reached <= from.gain || driven_through(survey_, theta[1], theta[2], radius)) continue;
+          from = {reached, std::move(theta)};
+          better = true;
+        }
+      }
+    }
+  }
+  return from;
+}
+
+// Those of the links that go through the widest disk about the place.
+void DiskSweep::find_passing(const Place& place, const std::vector<Index>& among, std::vector<Passing>& passing) const {
   passing.clear();
-  const double widest = radii[place.fit - 1];
-  for (std::size_t k = 0; k < links_.size(); ++k) {
-    const auto& [ax, ay, bx, by] = links_[k];
+  for (const Index k : among) {
+    const auto& [ax, ay, bx, by] = links_[static_cast<std::size_t>(k)];
     const double ex = bx - ax, ey = by - ay, squared = ex * ex + ey * ey;
     if (squared <= 0) continue;
     const double along = ((place.x - ax) * ex + (place.y - ay) * ey),
                  side = ((place.x - ax) * ey - (place.y - ay) * ex);
-    if (side * side < widest * widest * squared) passing.push_back({static_cast<Index>(k), along, side, squared});
+    if (side * side < place.widest * place.widest * squared) passing.push_back({k, along, side, squared});
   }
 }
 

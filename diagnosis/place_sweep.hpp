@@ -12,6 +12,11 @@ namespace muster::diagnosis {
 // Of each row of a search, x y of either end of its link, m.
 using Links = std::vector<std::array<double, 4>>;
 
+struct Swept {
+  double gain;
+  Eigen::VectorXd theta;
+};
+
 // On lines along the plan and a little aslant, a quarter of a metre apart, all pieces that no radio was driven across.
 class SegmentSweep {
  public:
@@ -39,7 +44,8 @@ class SegmentSweep {
   std::vector<Gap> gaps_;
 };
 
-// A few radii about places 0.4 m apart, clear of all ways.
+// A few radii about places 0.4 m apart, clear of all ways; from the best of these up to the nearest top, since where
+// readings lie dense a thing shows little a tenth of a metre aside.
 class DiskSweep {
  public:
   DiskSweep(const Survey& survey, Links links);
@@ -48,11 +54,13 @@ class DiskSweep {
   std::vector<Eigen::VectorXd> operator()(search::Tally& tally) const;
 
  private:
-  static constexpr std::array radii{0.3, 0.5, 0.8};  // m
+  static constexpr std::array radii{0.3, 0.5, 0.8};                             // m
+  static constexpr double narrowest = 0.2, widest = 1.2, between_places = 0.4;  // m
+  static constexpr std::size_t climbed = 16;                                    // places, apart from each other
 
   struct Place {
     double x, y;
-    std::size_t fit;  // radii that are clear
+    double widest;  // m: a disk that is clear
   };
   // A link that passes by a place: how far along it, times its length; how far aside, the same; its length squared.
   struct Passing {
@@ -60,10 +68,13 @@ class DiskSweep {
     double along, side, squared;
   };
 
-  void find_passing(const Place& place, std::vector<Passing>& passing) const;
+  Swept climb(Swept from, search::Tally& tally) const;
+  void find_passing(const Place& place, const std::vector<Eigen::Index>& among, std::vector<Passing>& passing) const;
   static double gain(double radius, const std::vector<Passing>& passing, search::Tally& tally);
 
+  Survey survey_;
   Links links_;
+  std::vector<Eigen::Index> all_;  // of the links
   std::vector<Place> places_;
 };
 

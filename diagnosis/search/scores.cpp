@@ -157,13 +157,15 @@ Top raced_to(const Bench& bench, const Stand& stand, const Lead& lead) {
   const Candidate& c = lead.candidate();
   Height height(bench, stand, c, Columns::sketched);
   const auto value = [&](const Eigen::VectorXd& theta) { return height(theta); };
-  std::vector<Eigen::VectorXd> starts{lead.theta};
+  std::vector<Eigen::VectorXd> starts;
   if (c.proposed) {
     for (Eigen::VectorXd& theta : c.proposed(height.thin())) {
       if (static_cast<int>(starts.size()) < c.starts && far_from(c, theta, starts)) starts.push_back(std::move(theta));
     }
+    starts.push_back(lead.theta);  // as well, however near: the grid may have met a narrow top
     return raced(c, starts, {value, value, value});
   }
+  starts.push_back(lead.theta);
   if (c.pieces.empty()) {  // no shadow: what is off by a little still gains
     const Eigen::VectorXd all = lead.all.size() > 0 ? lead.all : gains_of(*lead.entry, stand);
     add_starts(c, all, c.starts - 1, starts);

@@ -138,9 +138,23 @@ TEST(PlaceSweep, FindsADisk) {
   });
   const auto swept = DiskSweep(plan.survey, plan.links)(tally);
   ASSERT_FALSE(swept.empty());
-  EXPECT_NEAR(swept[0][1], 7.3, 0.4);
-  EXPECT_NEAR(swept[0][2], 5.1, 0.4);
-  EXPECT_NEAR(std::exp(swept[0][3]), 0.5, 0.31);
+  EXPECT_NEAR(swept[0][1], 7.3, 0.08);
+  EXPECT_NEAR(swept[0][2], 5.1, 0.08);
+  EXPECT_NEAR(std::exp(swept[0][3]), 0.5, 0.08);
+}
+
+TEST(PlaceSweep, ADiskClimbsToNoPlaceThatWasDrivenThrough) {
+  Plan plan;
+  for (double x = 6.8; x < 7.8; x += 0.05) plan.survey.ways.push_back({x, 5.2, x + 0.05, 5.2});
+  Scored tally = plan.scored([&](const Point& a, const Point& b) {
+    const Point way = b - a, to(7.3, 5.1);
+    const double share = std::clamp((to - a).dot(way) / way.squaredNorm(), 0.0, 1.0);
+    return (a + share * way - to).norm() < 0.5;
+  });
+  const auto swept = DiskSweep(plan.survey, plan.links)(tally);
+  ASSERT_FALSE(swept.empty());
+  for (const Eigen::VectorXd& theta : swept)
+    EXPECT_FALSE(driven_through(plan.survey, theta[1], theta[2], std::exp(theta[3]))) << theta.transpose();
 }
 
 TEST(PlaceSweep, RefusesATallyOfOtherRows) {
