@@ -19,7 +19,7 @@ namespace {
 // Steps of the walk: along the moves, then along what those showed to be its own long axes, time and again; the last
 // ones count, until both halves of them tell the same.
 constexpr std::array first_laps{300, 600};
-constexpr int lap = 800, most_laps = 15;
+constexpr int lap = 800, most_laps = 5;
 // The walk is over exp(gain / 2 / heat), which lets it over to other tops; what it meets is weighed back.
 constexpr double heat = 3;
 constexpr int kept = 400;  // thetas
