@@ -32,6 +32,20 @@ TEST_F(Rows, ListedSetsHaveOtherRowsEachTickAndAllTheirTablesFollow) {
   }
 }
 
+TEST_F(Rows, OfEverySetAreToldByItsNameHoweverAskedFor) {
+  Simulation sim = run(two_robots +
+                       "<material name='x' loss='3'/>\n<material name='y' loss='4'/>\n<material name='z' loss='5'/>\n"
+                       "<toy.ask name='p'/>\n");
+  for (int tick = 0; tick < 3; ++tick) {
+    step(sim);
+    EXPECT_THAT(column(sim, "robot/*/asked", 0), ElementsAre(2, 2));
+    EXPECT_THAT(column(sim, "robot/*/asked", 1), ElementsAre(3, 3));
+    EXPECT_THAT(column(sim, "robot/*/asked", 2), ElementsAre(0, 0));
+    EXPECT_THAT(column(sim, "robot/*/asked", 3), ElementsAre('a', 'b'));
+    EXPECT_THAT(column(sim, "robot/*/asked", 4), ElementsAre('x', 'y'));
+  }
+}
+
 TEST_F(Rows, ListedTablesHaveAsManyRowsEach) {
   Simulation sim = run(two_robots + "<toy.list name='l' uneven='true'/>\n");
   EXPECT_EQ(error_of([&] { sim.step(); }),
