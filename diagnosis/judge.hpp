@@ -24,8 +24,8 @@ class Judge {
 
   Judge(ReadingField& field, double step) : field_(field), step_(step) {}
 
-  // Over the field's size, from a start; between its tries by a parabola. A field that hardly is there, or little beside
-  // it, is not sought further.
+  // Over the field's size, from a start; between its tries by a parabola. A field that hardly is there, or little
+  // beside it, is not sought further.
   Peak best(const ReadingLaw& law, Peak from);
   // Over size and decorrelation distance.
   Peak best_distance(const ReadingLaw& law, const Peak& from);

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <muster/tables.hpp>
 
-#include "diagnosis/search/uncertainty.hpp"
 #include "diagnosis/search/moving_ends.hpp"
+#include "diagnosis/search/uncertainty.hpp"
 
 namespace muster::diagnosis {
 namespace {

@@ -86,26 +86,9 @@ class Height {
 
   // Product with the residual and squared length of what the design leaves of a column.
   std::pair<double, double> measured(const Eigen::VectorXd& column) {
-    constexpr Index few = 5;  // a row reaches some fifteen; a whole column is whitened and projected in one go
-    const Index count = find_concerned(column);
-    if (count * few > column.size()) {
-      const Eigen::VectorXd left = stand_.at.basis.rest(stand_.whitener(column));
-      return {left.dot(stand_.at.residual), left.squaredNorm()};
-    }
-    thin_.clear();
-    for (Index k = 0; k < count; ++k) thin_.add(concerned_[k], column[concerned_[k]]);
-    return {thin_.along(), thin_.length()};
-  }
-
-  // The rows where it is not zero; without a branch, which nothing foretells.
-  Index find_concerned(const Eigen::VectorXd& column) {
-    concerned_.resize(column.size());
-    Index count = 0;
-    for (Index i = 0; i < column.size(); ++i) {
-      concerned_[count] = i;
-      count += column[i] != 0;
-    }
-    return count;
+    if (thin_.take(column)) return {thin_.along(), thin_.length()};
+    const Eigen::VectorXd left = stand_.at.basis.rest(stand_.whitener(column));
+    return {left.dot(stand_.at.residual), left.squaredNorm()};
   }
 
   const Bench& bench_;
@@ -113,7 +96,6 @@ class Height {
   const Candidate& candidate_;
   bool sketched_;
   Thin thin_;
-  Eigen::Matrix<Index, Eigen::Dynamic, 1> concerned_;
 };
 
 bool far_from(const Candidate& candidate, const Eigen::VectorXd& theta, const std::vector<Eigen::VectorXd>& others) {

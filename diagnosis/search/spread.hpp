@@ -6,8 +6,7 @@
 namespace muster::search {
 
 struct Spread {
-  // As likely as one another given the data, the coefficients integrated out: a Metropolis walk over exp(gain / 2).
-  // One where nothing is sought.
+  // As likely as one another given the data, the coefficients integrated out. One where nothing is sought.
   std::vector<Eigen::VectorXd> thetas;
   // Covariance of the coefficients over those, over what the noise may be, under the covariance itself
   // (noise/exact.hpp), and not below what the scatter of the residuals from place to place says (Huber 1967): a shape

@@ -35,6 +35,20 @@ void Thin::add(Index row, double value) {
   }
 }
 
+bool Thin::take(const Eigen::VectorXd& column) {
+  constexpr Index few = 5;  // a row reaches some fifteen
+  concerned_.resize(column.size());
+  Index count = 0;
+  for (Index i = 0; i < column.size(); ++i) {
+    concerned_[count] = i;
+    count += column[i] != 0;  // without a branch, which nothing foretells
+  }
+  if (count * few > column.size()) return false;
+  clear();
+  for (Index k = 0; k < count; ++k) add(concerned_[k], column[concerned_[k]]);
+  return true;
+}
+
 double Thin::gain() const {
   const double left = length();
   return along_ > 0 && left > 1e-6 ? along_ * along_ / left : 0;

@@ -16,6 +16,9 @@ class Thin : public Tally {
   void add(Index row, double value) override;
   double gain() const override;
 
+  // A whole column instead, unless it is not zero at so many rows that it is whitened sooner in one go.
+  bool take(const Eigen::VectorXd& column);
+
   double along() const { return along_; }                               // product with the residual
   double length() const { return length_ - explained_.squaredNorm(); }  // squared, of what the design leaves
 
@@ -25,8 +28,9 @@ class Thin : public Tally {
   Eigen::VectorXd scores_;  // products of each row's unit column with the residual
   Eigen::MatrixXd design_;  // and with the design, whose columns are its rows
 
-  Eigen::VectorXd column_;      // whitened
-  std::vector<Index> touched_;  // places that are not zero: the first reached_ ones
+  Eigen::Matrix<Index, Eigen::Dynamic, 1> concerned_;  // the first so many: rows of a column that it takes
+  Eigen::VectorXd column_;                             // whitened
+  std::vector<Index> touched_;                         // places that are not zero: the first reached_ ones
   std::size_t reached_ = 0;
   double along_ = 0, length_ = 0;
   Eigen::VectorXd explained_;

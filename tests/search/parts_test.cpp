@@ -7,7 +7,6 @@
 #include <functional>
 
 #include "diagnosis/noise/exact.hpp"
-#include "diagnosis/search/uncertainty.hpp"
 #include "diagnosis/search/charge.hpp"
 #include "diagnosis/search/choose.hpp"
 #include "diagnosis/search/clean_up.hpp"
@@ -15,8 +14,10 @@
 #include "diagnosis/search/merge.hpp"
 #include "diagnosis/search/refine.hpp"
 #include "diagnosis/search/spread.hpp"
+#include "diagnosis/search/student_mixture.hpp"
 #include "diagnosis/search/tail.hpp"
 #include "diagnosis/search/thin.hpp"
+#include "diagnosis/search/uncertainty.hpp"
 #include "muster/random.hpp"
 #include "tests/search/causes.hpp"
 
@@ -133,6 +134,27 @@ TEST(Raced, TwoThatMeetGoOnAsOne) {
 }
 
 // Row by row the same as the whole column at once.
+// What is drawn from one, weighed by the other over it, has the other's mass and the other's mean.
+TEST(StudentMixture, DrawsWhatItsDensitySays) {
+  Eigen::Matrix3d scale = Eigen::Matrix3d::Zero();
+  scale(0, 0) = 1, scale(2, 2) = 0.5, scale(0, 2) = scale(2, 0) = 0.4;
+  const StudentMixture one({Eigen::Vector3d(0, 7, 0)}, 3 * scale);
+  const StudentMixture other({Eigen::Vector3d(-1, 7, 0.5), Eigen::Vector3d(1.4, 7, 0.5)}, scale);
+  constexpr int count = 20000;
+  const Stream stream(key_of("mixture"));
+  double mass = 0;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (int k = 0; k < count; ++k) {
+    const Eigen::VectorXd drawn = one.draw(stream, static_cast<uint64_t>(k));
+    ASSERT_EQ(drawn[1], 7);
+    const double weight = other.density(drawn) / one.density(drawn) / count;
+    mass += weight, mean += weight * drawn;
+  }
+  EXPECT_NEAR(mass, 1, 0.03);
+  EXPECT_NEAR(mean[0] / mass, 0.2, 0.04);
+  EXPECT_NEAR(mean[2] / mass, 0.5, 0.03);
+}
+
 TEST(Thin, GainsWhatTheWholeColumnGains) {
   const auto world = world_of(varied(5, 900));
   const Problem problem = problem_of(world, Eigen::VectorXd::Zero(900), causes_of(world));

@@ -1,0 +1,23 @@
+// Which thetas of a term are likely, given the rest of a model.
+#pragma once
+
+#include "diagnosis/search/beside.hpp"
+
+namespace muster::search {
+
+struct LikelyThetas {
+  std::vector<Eigen::VectorXd> thetas;
+  std::vector<Explained> explained;
+  Eigen::VectorXd weights;  // sum 1
+};
+
+// A Metropolis walk finds where they lie. From there on they are drawn from Student t distributions that fit what was
+// found so far, and each weighs by its likelihood over how often it is drawn (adaptive multiple importance sampling:
+// Cornuet, Marin, Mira and Robert 2012), until they tell as much as `enough` independent ones. `overstated`: by how
+// much gains are. The term's candidate is refinable.
+LikelyThetas likely_thetas(const Bench& bench, const Stand& rest, const Term& term, double overstated);
+
+// So many indices, each as often as its weight asks for; weights have sum 1.
+std::vector<std::size_t> resampled(const Eigen::VectorXd& weights, int count);
+
+}  // namespace muster::search
