@@ -4,10 +4,15 @@
 // speed of a general engine's fourth-order method. Counters: us_* of a robot-step, mm_* the worst robot's error in the
 // end, speed ratios (above 1: ours is better), real_time: simulated over CPU time.
 #include <benchmark/benchmark.h>
+#ifdef MUSTER_HAS_MUJOCO
+#include <mujoco/mujoco.h>
+#endif
 
 #include <ctime>
 #include <fstream>
 #include <limits>
+#include <memory>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -151,6 +156,96 @@ Flown ode(int parts) {
   return result;
 }
 
+#ifdef MUSTER_HAS_MUJOCO
+// Its Runge-Kutta method of fourth order, without contacts and constraints, all birds in one model: a hundred models of
+// one bird take 1.2 times as long.
+class Mujoco {
+ public:
+  Mujoco() : model_(loaded()), data_(mj_makeData(model_.get())) { mjcb_passive = push; }
+  ~Mujoco() { mjcb_passive = nullptr; }
+
+  Flown fly(int parts) {
+    model_->opt.timestep = tick / parts;
+    mj_resetData(model_.get(), data_.get());
+    for (int i = 0; i < birds; ++i) Eigen::Map<Place>(data_->qpos + 7 * i) = start(i);
+    const auto& drive = *hummingbird().quadrotor;
+    now_.rates.fill({453.3, 453.3, 453.3, 453.3});
+    const double before = cpu_seconds();
+    for (int k = 0; k < ticks; ++k) {
+      now_.since = data_->time;
+      for (int i = 0; i < birds; ++i) now_.asked[i] = asked(i, k);
+      for (int n = 0; n < parts; ++n) mj_step(model_.get(), data_.get());
+      for (int i = 0; i < birds; ++i) now_.rates[i] = drive.later(now_.rates[i], now_.asked[i], drive.decay(tick));
+    }
+    Flown result{cpu_seconds() - before, {}};
+    for (int i = 0; i < birds; ++i) {
+      const double* at = data_->qpos + 7 * i;
+      const Eigen::Quaterniond q(at[3], at[4], at[5], at[6]);
+      result.centres.push_back(Place(at[0], at[1], at[2]) + q * whole_mass(hummingbird()).centre);
+    }
+    return result;
+  }
+
+ private:
+  struct Remove {
+    void operator()(mjModel* m) const { mj_deleteModel(m); }
+    void operator()(mjData* d) const { mj_deleteData(d); }
+  };
+  using Model = std::unique_ptr<mjModel, Remove>;
+  struct Now {
+    double since;  // s: when these rates were there, and asked for
+    std::array<description::RotorRates, birds> rates, asked;
+  };
+
+  static Model loaded() {
+    const description::Mass whole = whole_mass(hummingbird());
+    const auto& m = whole.inertia;
+    std::ostringstream xml;
+    xml.precision(17);
+    xml << "<mujoco><option gravity='0 0 -9.81' integrator='RK4'><flag contact='disable' "
+           "constraint='disable'/></option>"
+        << "<worldbody>";
+    for (int i = 0; i < birds; ++i) {
+      xml << "<body><freejoint/><inertial mass='" << whole.mass << "' pos='" << whole.centre.transpose()
+          << "' fullinertia='" << m(0, 0) << ' ' << m(1, 1) << ' ' << m(2, 2) << ' ' << m(0, 1) << ' ' << m(0, 2) << ' '
+          << m(1, 2) << "'/></body>";
+    }
+    xml << "</worldbody></mujoco>";
+    const TemporaryFolder folder;
+    const std::string file = (folder.path() / "birds.xml").string();
+    std::ofstream(file) << xml.str();
+    std::array<char, 500> error{};
+    Model model(mj_loadXML(file.c_str(), nullptr, error.data(), error.size()));
+    if (!model) throw std::logic_error(error.data());
+    return model;
+  }
+
+  // Its free joints move in the world's axes and turn in the body's.
+  static void push(const mjModel*, mjData* d) {
+    const auto& drive = *hummingbird().quadrotor;
+    const auto decay = drive.decay(d->time - now_.since);
+    for (int i = 0; i < birds; ++i) {
+      const double* turn = d->qpos + 7 * i + 3;
+      const Eigen::Quaterniond q(turn[0], turn[1], turn[2], turn[3]);
+      const Eigen::Map<const Place> speed(d->qvel + 6 * i), spin(d->qvel + 6 * i + 3);
+      const auto [force, torque] =
+          drive.wrench(drive.later(now_.rates[i], now_.asked[i], decay), q.conjugate() * speed, spin);
+      Eigen::Map<Place>(d->qfrc_passive + 6 * i) += q * force;
+      Eigen::Map<Place>(d->qfrc_passive + 6 * i + 3) += torque;
+    }
+  }
+
+  static inline Now now_;
+  Model model_;
+  std::unique_ptr<mjData, Remove> data_;
+};
+
+Flown mujoco(int parts) {
+  static Mujoco engine;
+  return engine.fly(parts);
+}
+#endif
+
 const std::vector<Place>& truth() {
   static const std::vector<Place> centres = bare(200).centres;
   return centres;
@@ -224,6 +319,30 @@ void within_a_fifth_of_a_millimetre(benchmark::State& state) {
   state.counters["real_time_ode"] = ticks * tick / they.seconds;
 }
 BENCHMARK(within_a_fifth_of_a_millimetre)->Unit(benchmark::kMillisecond)->Iterations(1)->MeasureProcessCPUTime();
+
+#ifdef MUSTER_HAS_MUJOCO
+// Against the goal's own peer: at steps as long as an error of 0.2 mm allows either side, and at equal ones (10 ms).
+void beside_mujoco(benchmark::State& state) {
+  constexpr int equal = 10;
+  const int parts = fewest_parts(2e-4, ours), mujoco_parts = fewest_parts(2e-4, mujoco);
+  Flown we, they, we_at_equal, they_at_equal;
+  for (auto _ : state) {
+    for (int i = 0; i < 20; ++i) we.again(ours(parts)), we_at_equal.again(ours(equal));
+    for (int i = 0; i < 3; ++i) they.again(mujoco(mujoco_parts)), they_at_equal.again(mujoco(equal));
+  }
+  require(error(we) <= 2e-4 && error(they) <= 2e-4, "an error changed");
+  state.counters["ms_step_ours"] = 1e3 * tick / parts;
+  state.counters["ms_step_mujoco"] = 1e3 * tick / mujoco_parts;
+  state.counters["mm_ours"] = 1e3 * error(we);
+  state.counters["mm_mujoco"] = 1e3 * error(they);
+  state.counters["us_mujoco"] = us(they, mujoco_parts);
+  state.counters["speed"] = they.seconds / we.seconds;
+  state.counters["mm_ours_equal"] = 1e3 * error(we_at_equal);
+  state.counters["mm_mujoco_equal"] = 1e3 * error(they_at_equal);
+  state.counters["speed_equal"] = they_at_equal.seconds / we_at_equal.seconds;
+}
+BENCHMARK(beside_mujoco)->Unit(benchmark::kMillisecond)->Iterations(1)->MeasureProcessCPUTime();
+#endif
 
 // Whole worlds: 100 Hummingbirds that hover, each with its three controllers and seen by cameras, in ticks of 10 ms.
 void world_with(benchmark::State& state, const std::string& backend) {
