@@ -133,7 +133,6 @@ TEST(Raced, TwoThatMeetGoOnAsOne) {
   EXPECT_EQ(laps[1].looked, (std::array{0, 0, 21, 0}));
 }
 
-// Row by row the same as the whole column at once.
 // What is drawn from one, weighed by the other over it, has the other's mass and the other's mean.
 TEST(StudentMixture, DrawsWhatItsDensitySays) {
   Eigen::Matrix3d scale = Eigen::Matrix3d::Zero();
@@ -155,6 +154,7 @@ TEST(StudentMixture, DrawsWhatItsDensitySays) {
   EXPECT_NEAR(mean[2] / mass, 0.5, 0.03);
 }
 
+// Row by row the same as the whole column at once.
 TEST(Thin, GainsWhatTheWholeColumnGains) {
   const auto world = world_of(varied(5, 900));
   const Problem problem = problem_of(world, Eigen::VectorXd::Zero(900), causes_of(world));
