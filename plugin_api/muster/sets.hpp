@@ -102,6 +102,7 @@ inline const Standard& standard() {
             {"gait", Gait::columns, "", false, "robots.gait"},
             {"legs", Legs::columns, "", false, "physics.simbody"},
             {"odometry", Odometry::columns, "", true, "robots.odometry"},
+            {"stall", Stall::columns, "", true, "robots.odometry"},
             {"attitude_thrust", AttitudeThrust::columns, "", true, ""},
             {"velocity3d", Velocity3d::columns, "", true, ""},
             {"position3d", Position3d::columns, "", true, "robots.mocap"},

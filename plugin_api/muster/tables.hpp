@@ -56,6 +56,12 @@ struct Odometry {
   double x, y, yaw, v, w;
 };
 
+// Whether a robot's motors fail to turn its wheels (Player's position2d).
+struct Stall {
+  static constexpr const char* columns = "stalled";
+  double stalled;  // 0 or 1
+};
+
 // What a controller asks of a robot that flies (attitude_thrust): the sum of its rotors' thrusts, roll and pitch of its
 // body (about x, then y, of axes that have its heading), and its turn rate about its own z axis.
 struct AttitudeThrust {

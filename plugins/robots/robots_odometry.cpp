@@ -1,4 +1,7 @@
-// Where each robot believes to be: dead reckoning from the angles its wheels turned.
+// Where each robot believes to be: dead reckoning from the angles its wheels turned. And whether they turn as asked.
+#include <algorithm>
+#include <cmath>
+
 #include "dead_reckoning.hpp"
 #include "description/world_robots.hpp"
 
@@ -15,7 +18,8 @@ struct RobotsOdometry {
       "is the standard deviation of the error that a wheel's reading gathers while it turns by one radian; the\n"
       "variance grows with the angle turned (after Chong and Kleeman, ICRA 1997), so it does not depend on the\n"
       "tick. A robot starts, also one that joins later, knowing its true pose. Slip is not seen: that is the point\n"
-      "of it.";
+      "of it. `robot/*/stall` is 1 while a wheel turns at less than half of the rate that its motor is asked for\n"
+      "throughout the tick: it pushes against something and is too weak. A wheel that slips turns, and does not stall.";
   static constexpr auto phase = MUSTER_SENSE;
   static constexpr Param params[] = {
       real("noise", 0, 0, 1, "rad", "standard deviation of a wheel's reading after one radian").free()};
@@ -32,10 +36,13 @@ struct RobotsOdometry {
         robots(s, description::Meshes::skip),
         wheels(s.read<Wheels>("robot/*/wheels")),
         pose(s.read<Pose>("robot/*/pose")),
+        drive(s.read_if_any<Drive>("robot/*/drive")),
         odometry(s.write<Odometry>("robot/*/odometry", MUSTER_SENSED)),
+        stall(s.write<Stall>("robot/*/stall", MUSTER_SENSED)),
         seen(s.write<Seen>("robot/*/odometry_seen")) {}
 
   void step(const Step& k) const {
+    const auto asked = k[drive];
     for (std::size_t i = 0; i < k[odometry].size(); ++i) {
       const Wheels& now = k[wheels][i];
       const Seen& before = k.last(seen)[i];
@@ -47,6 +54,8 @@ struct RobotsOdometry {
         k[odometry][i] = moved(k, i, robots.drive_of(next.model), now.left - before.left, now.right - before.right);
       }
       k[seen][i] = next;
+      const bool stands = i < asked.size() && k.alive("robot", i) && stalls(asked[i], now, k.dt());
+      k[stall][i].stalled = stands ? 1 : 0;
     }
   }
 
@@ -64,6 +73,17 @@ struct RobotsOdometry {
     return at;
   }
 
+  static bool stalls(const Drive& asked, const Wheels& now, double dt) {
+    return stalls(asked.left, asked.left + dt * asked.left_rate, now.left_rate) ||
+           stalls(asked.right, asked.right + dt * asked.right_rate, now.right_rate);
+  }
+
+  // A wheel that is asked for `from` at the tick's start and `to` at its end. One that is to turn back may stand.
+  static bool stalls(double from, double to, double rate) {
+    if (from * to <= 0) return false;
+    return std::copysign(1.0, from) * rate < std::min(std::abs(from), std::abs(to)) / 2;
+  }
+
   double error(const Step& k, std::size_t robot, unsigned wheel, double turned) const {
     if (k.expected() || k[noise] == 0 || turned == 0) return 0;
     return k[noise] * std::sqrt(std::abs(turned)) * stream.of(k.key("robot", robot)).normal(k.tick(), wheel);
@@ -74,7 +94,9 @@ struct RobotsOdometry {
   WorldRobots robots;
   In<Wheels> wheels;
   In<Pose> pose;
+  In<Drive> drive;
   Out<Odometry> odometry;
+  Out<Stall> stall;
   Out<Seen> seen;
 };
 

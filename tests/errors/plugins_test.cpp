@@ -160,7 +160,8 @@ TEST(Fault19, ClaimsThatDoNotFitAreRefusedAtTheStart) {
       "link/*/rssi, material/*/loss, mesh/*/shape, radio/*/mount, radio/*/traffic, robot/*/drive, robot/*/gait, "
       "robot/*/legs, "
       "robot/*/odometry, robot/*/pose, "
-      "robot/*/position3d, robot/*/rotor_drive, robot/*/rotors, robot/*/twist, robot/*/wheels, wall/*/shape; did you "
+      "robot/*/position3d, robot/*/rotor_drive, robot/*/rotors, robot/*/stall, robot/*/twist, robot/*/wheels, "
+      "wall/*/shape; did you "
       "mean \"robot/*/pose\"?");
 }
 

@@ -165,7 +165,8 @@ TEST_F(Claims, AReadThatNobodyWritesNamesTheNearest) {
       "endpoint/*/pose, endpoint/*/radio, floor/*/shape, inbox/*/message, instance/r/*/x, link/*/ends, link/*/rssi, "
       "material/*/loss, mesh/*/shape, radio/*/mount, "
       "radio/*/traffic, robot/*/charge, robot/*/drive, robot/*/gait, robot/*/legs, robot/*/odometry, robot/*/pose, "
-      "robot/*/position3d, robot/*/rotor_drive, robot/*/rotors, robot/*/twist, robot/*/wheels, wall/*/shape; "
+      "robot/*/position3d, robot/*/rotor_drive, robot/*/rotors, robot/*/stall, robot/*/twist, robot/*/wheels, "
+      "wall/*/shape; "
       "did you mean \"robot/*/charge\"?");
   EXPECT_THAT(
       error_of_world(two_robots + "<toy.copy_physics name='w' to='robot/*/v' as='add'/>\n<toy.copy_radio name='r' "

@@ -7,7 +7,7 @@ namespace {
 using Truth = ToyWorld;
 
 const std::string sensed =
-    "expected one of robot/command, robot/odometry, robot/attitude_thrust, robot/velocity3d, "
+    "expected one of robot/command, robot/odometry, robot/stall, robot/attitude_thrust, robot/velocity3d, "
     "robot/position3d, outbox/message, inbox/message";
 const std::string odometry = "x[m] y[m] yaw[rad] v[m/s] w[rad/s]";
 const std::string rest = "<toy.copy_sense name='sensor' to='robot/*/odometry' columns='" + odometry + "'/>\n";

@@ -27,7 +27,7 @@ TEST(Blind, AControllerThatClaimsTruthIsRefused) {
   EXPECT_EQ(refusal<Pose>("robot/a/pose"),
             "world.xml:2:1: test.peeker (test.peeker): claims \"robot/a/pose\", which is truth; a controller knows "
             "what its robot senses: "
-            "expected one of robot/command, robot/odometry, robot/attitude_thrust, robot/velocity3d, "
+            "expected one of robot/command, robot/odometry, robot/stall, robot/attitude_thrust, robot/velocity3d, "
             "robot/position3d, outbox/message, inbox/message");
 }
 
