@@ -13,7 +13,7 @@ struct LikelyThetas {
 
 // A Metropolis walk finds where they lie. From there on they are drawn from Student t distributions that fit what was
 // found so far, and each weighs by its likelihood over how often it is drawn (adaptive multiple importance sampling:
-// Cornuet, Marin, Mira and Robert 2012), until they tell as much as `enough` independent ones. `overstated`: by how
+// Cornuet, Marin, Mira and Robert 2012), until they are worth a hundred independent ones. `overstated`: by how
 // much gains are. The term's candidate is refinable.
 LikelyThetas likely_thetas(const Bench& bench, const Stand& rest, const Term& term, double overstated);
 
