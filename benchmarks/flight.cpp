@@ -8,6 +8,7 @@
 #include <mujoco/mujoco.h>
 #endif
 
+#include <array>
 #include <ctime>
 #include <fstream>
 #include <limits>
@@ -169,13 +170,14 @@ class Mujoco {
     mj_resetData(model_.get(), data_.get());
     for (int i = 0; i < birds; ++i) Eigen::Map<Place>(data_->qpos + 7 * i) = start(i);
     const auto& drive = *hummingbird().quadrotor;
+    const auto through = drive.decay(tick);
     now_.rates.fill({453.3, 453.3, 453.3, 453.3});
     const double before = cpu_seconds();
     for (int k = 0; k < ticks; ++k) {
       now_.since = data_->time;
       for (int i = 0; i < birds; ++i) now_.asked[i] = asked(i, k);
       for (int n = 0; n < parts; ++n) mj_step(model_.get(), data_.get());
-      for (int i = 0; i < birds; ++i) now_.rates[i] = drive.later(now_.rates[i], now_.asked[i], drive.decay(tick));
+      for (int i = 0; i < birds; ++i) now_.rates[i] = drive.later(now_.rates[i], now_.asked[i], through);
     }
     Flown result{cpu_seconds() - before, {}};
     for (int i = 0; i < birds; ++i) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 namespace muster::noise {
+
 Apart middles_apart(const Sites& sites, Index one, Index other) {
   const double place = (sites.place.col(one) - sites.place.col(other)).squaredNorm();
   return {std::sqrt(place), std::sqrt(place + (sites.anchor.col(one) - sites.anchor.col(other)).squaredNorm())};

@@ -5,7 +5,7 @@
 
 namespace muster::noise {
 
-constexpr double own_share = 4.0 / 9;  // of its stretch: half the mean distance of a row's three readings
+constexpr double own_share = mean_of_three / 2;  // of its stretch: half the mean distance of a row's three readings
 
 struct Apart {
   double place, both;  // m: between places, and between both ends

@@ -9,9 +9,6 @@
 namespace muster::noise {
 namespace {
 
-// Of three readings, each a stretch from the next: the mean distance of two, of a stretch.
-constexpr double mean_of_three = 8.0 / 9;
-
 std::vector<Index> by_link_and_time(const Readings& readings) {
   std::vector<Index> order(readings.tx.size());
   std::iota(order.begin(), order.end(), 0);

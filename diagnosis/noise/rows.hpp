@@ -28,6 +28,9 @@ struct RowLimits {
   double level = 1.5;    // dB: what a wall does to a link is not averaged with what it is without
 };
 
+// Of three readings, each a stretch from the next: the mean distance of two, of a stretch.
+constexpr double mean_of_three = 8.0 / 9;
+
 // Where the rows' field lives: `place` is the end that moves more, `anchor` the other one, the same for both directions
 // of a pair. A row is seen as three readings of the same weight, in its middle and a stretch to either side of that,
 // which lie as far apart in the mean as its own do.

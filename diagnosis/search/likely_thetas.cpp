@@ -8,6 +8,7 @@
 #include "diagnosis/search/refine.hpp"
 #include "diagnosis/search/student_mixture.hpp"
 #include "diagnosis/search/thin.hpp"
+#include "diagnosis/search/weights.hpp"
 #include "muster/random.hpp"
 
 namespace muster::search {
@@ -128,16 +129,6 @@ class Walk {
   double log_, length_ = 0.2;
 };
 
-// How many independent ones such weights are worth (Kong 1992).
-double worth(const Eigen::VectorXd& weights) { return weights.sum() * weights.sum() / weights.squaredNorm(); }
-
-// Where hardly any have all of the weight they tell too little by far; the roots of the weights err to the wide side.
-Eigen::VectorXd softened(Eigen::VectorXd weights) {
-  constexpr double few = 40;
-  for (int roots = 0; roots < 10 && worth(weights) < few; ++roots) weights = weights.cwiseSqrt();
-  return weights / weights.sum();
-}
-
 class Draws {
  public:
   Draws(Likelihood& likelihood, const Moments& found) : likelihood_(likelihood) {
@@ -205,16 +196,6 @@ class Draws {
 };
 
 }  // namespace
-
-std::vector<std::size_t> resampled(const Eigen::VectorXd& weights, int count) {
-  std::vector<std::size_t> result;
-  double sum = 0;
-  for (Index k = 0; k < weights.size(); ++k) {
-    sum += count * weights[k];
-    while (static_cast<double>(result.size()) + 0.5 < sum) result.push_back(static_cast<std::size_t>(k));
-  }
-  return result;
-}
 
 LikelyThetas likely_thetas(const Bench& bench, const Stand& rest, const Term& term, double overstated) {
   Likelihood likelihood(bench, rest, *term.candidate, overstated);

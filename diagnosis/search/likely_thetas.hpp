@@ -17,7 +17,4 @@ struct LikelyThetas {
 // much gains are. The term's candidate is refinable.
 LikelyThetas likely_thetas(const Bench& bench, const Stand& rest, const Term& term, double overstated);
 
-// So many indices, each as often as its weight asks for; weights have sum 1.
-std::vector<std::size_t> resampled(const Eigen::VectorXd& weights, int count);
-
 }  // namespace muster::search

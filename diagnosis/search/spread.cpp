@@ -8,6 +8,7 @@
 #include "diagnosis/search/integrated.hpp"
 #include "diagnosis/search/likely_thetas.hpp"
 #include "diagnosis/search/uncertainty.hpp"
+#include "diagnosis/search/weights.hpp"
 
 namespace muster::search {
 namespace {

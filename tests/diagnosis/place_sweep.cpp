@@ -128,14 +128,19 @@ TEST(PlaceSweep, CountsEachWayThatIsInTheWay) {
   EXPECT_LT(clear, 270);
 }
 
+// What a disk of this radius at the place stops.
+Scored of_a_disk(const Plan& plan, const Point& at, double radius) {
+  return plan.scored([=](const Point& a, const Point& b) {
+    const Point way = b - a;
+    const double share = std::clamp((at - a).dot(way) / way.squaredNorm(), 0.0, 1.0);
+    return (a + share * way - at).norm() < radius;
+  });
+}
+
 TEST(PlaceSweep, FindsADisk) {
   Plan plan;
   plan.survey.ways.push_back({2, 2, 2.1, 2});
-  Scored tally = plan.scored([&](const Point& a, const Point& b) {
-    const Point way = b - a, to(7.3, 5.1);
-    const double share = std::clamp((to - a).dot(way) / way.squaredNorm(), 0.0, 1.0);
-    return (a + share * way - to).norm() < 0.5;
-  });
+  Scored tally = of_a_disk(plan, Point(7.3, 5.1), 0.5);
   const auto swept = DiskSweep(plan.survey, plan.links)(tally);
   ASSERT_FALSE(swept.empty());
   EXPECT_NEAR(swept[0][1], 7.3, 0.08);
@@ -146,11 +151,7 @@ TEST(PlaceSweep, FindsADisk) {
 TEST(PlaceSweep, ADiskClimbsToNoPlaceThatWasDrivenThrough) {
   Plan plan;
   for (double x = 6.8; x < 7.8; x += 0.05) plan.survey.ways.push_back({x, 5.2, x + 0.05, 5.2});
-  Scored tally = plan.scored([&](const Point& a, const Point& b) {
-    const Point way = b - a, to(7.3, 5.1);
-    const double share = std::clamp((to - a).dot(way) / way.squaredNorm(), 0.0, 1.0);
-    return (a + share * way - to).norm() < 0.5;
-  });
+  Scored tally = of_a_disk(plan, Point(7.3, 5.1), 0.5);
   const auto swept = DiskSweep(plan.survey, plan.links)(tally);
   ASSERT_FALSE(swept.empty());
   for (const Eigen::VectorXd& theta : swept)

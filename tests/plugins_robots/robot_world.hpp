@@ -1,6 +1,8 @@
 // Worlds of robots, from text.
 #pragma once
 
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <string>
 
@@ -18,6 +20,16 @@ inline Simulation world_of(const Folder& folder, const std::string& inside,
                            const std::string& attributes = "dt=\"0.05\" until=\"60\" seed=\"1\"") {
   for (const auto& [name, text] : files) folder.write(name, text);
   return load(folder.write("world.xml", "<world name=\"test\" " + attributes + ">" + inside + "</world>"));
+}
+
+// A model file: the Scarab with an attribute of its drive as `is` instead of as `was`.
+inline std::filesystem::path scarab_with(const Folder& folder, const std::string& was, const std::string& is) {
+  std::ifstream scarab(MUSTER_PLUGINS_DIR "/models/scarab.urdf");
+  std::string urdf{std::istreambuf_iterator<char>(scarab), {}};
+  urdf.replace(urdf.find(was), was.size(), is);
+  const auto model = folder.write("scarab.urdf", urdf);
+  std::filesystem::copy(MUSTER_PLUGINS_DIR "/models/hokuyo.stl", model.parent_path());
+  return model;
 }
 
 }  // namespace muster::test

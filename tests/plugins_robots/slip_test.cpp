@@ -2,8 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include "robot_world.hpp"
 
@@ -15,12 +13,7 @@ using namespace muster::test;
 // The distance between the two after two rounds of a square of 3 m at 0.3 m/s, on wheels with this friction.
 double gap(const std::string& friction) {
   Folder folder;
-  std::ifstream scarab(MUSTER_PLUGINS_DIR "/models/scarab.urdf");
-  std::string urdf{std::istreambuf_iterator<char>(scarab), {}};
-  const std::string old = "friction=\"0.8\"";
-  urdf.replace(urdf.find(old), old.size(), "friction=\"" + friction + "\"");
-  const auto model = folder.write("scarab.urdf", urdf);
-  std::filesystem::copy(MUSTER_PLUGINS_DIR "/models/hokuyo.stl", model.parent_path());
+  const auto model = scarab_with(folder, "friction=\"0.8\"", "friction=\"" + friction + "\"");
   Simulation run = world_of(folder,
                             "<robot name=\"r\" model=\"" + model.string() +
                                 "\" at=\"0 0 0\"/><physics.simbody/><robots.drive/>"

@@ -1,9 +1,8 @@
-// Robots that push against a wall.
+// Robots whose wheels are held.
 #include <gtest/gtest.h>
 
 #include <array>
-#include <fstream>
-#include <iterator>
+#include <string>
 
 #include "robot_world.hpp"
 
@@ -17,12 +16,7 @@ struct EachBackend : testing::TestWithParam<const char*> {
   // and of 150 on its way back.
   std::array<int, 3> stalled(const std::string& torque) const {
     const Folder folder;
-    std::ifstream scarab(MUSTER_PLUGINS_DIR "/models/scarab.urdf");
-    std::string urdf{std::istreambuf_iterator<char>(scarab), {}};
-    const std::string old = "max_torque=\"2.765\"";
-    urdf.replace(urdf.find(old), old.size(), "max_torque=\"" + torque + "\"");
-    const auto model = folder.write("scarab.urdf", urdf);
-    std::filesystem::copy(MUSTER_PLUGINS_DIR "/models/hokuyo.stl", model.parent_path());
+    const auto model = scarab_with(folder, "max_torque=\"2.765\"", "max_torque=\"" + torque + "\"");
     Simulation run =
         world_of(folder,
                  "<material name=\"brick\" loss=\"6\"/><wall name=\"w\" from=\"1 -2\" to=\"1 2\" "
@@ -50,6 +44,27 @@ TEST_P(EachBackend, WeakMotorsStallAtAWallAndNowhereElse) {
   EXPECT_EQ(before, 0);
   EXPECT_GE(at, 145);
   EXPECT_LE(back, 5) << "while the rate that is asked for falls to zero";
+}
+
+// One wheel is enough, on either side, whichever way it is to turn; none does while both do as they are asked, or
+// stand.
+TEST(Stall, IsOfEitherWheel) {
+  const auto stalled = [](const std::string& stuck, const std::string& asked) {
+    const Folder folder;
+    Simulation run =
+        world_of(folder,
+                 "<robot name=\"r\" at=\"0 0 0\"/><test.command robot=\"r\" plan=\"plan.csv\"/><test.turner stuck=\"" +
+                     stuck + "\"/><robots.drive/><robots.odometry/>",
+                 {{"plan.csv", "t[s],v[m/s],w[rad/s]\n0," + asked + "\n"}});
+    for (int k = 0; k < 20; ++k) run.step();
+    return row<Stall>(run, "robot/r/stall").stalled;
+  };
+  for (const std::string asked : {"0.2,0", "-0.2,0", "0,0.5", "0,-0.5"}) {
+    EXPECT_EQ(stalled("none", asked), 0) << asked;
+    EXPECT_EQ(stalled("left", asked), 1) << asked;
+    EXPECT_EQ(stalled("right", asked), 1) << asked;
+  }
+  EXPECT_EQ(stalled("left", "0,0"), 0);
 }
 
 TEST_P(EachBackend, WheelsThatSlipDoNotStall) { EXPECT_EQ(stalled("2.765"), (std::array{0, 0, 0})); }

@@ -18,6 +18,7 @@
 #include "diagnosis/search/tail.hpp"
 #include "diagnosis/search/thin.hpp"
 #include "diagnosis/search/uncertainty.hpp"
+#include "diagnosis/search/weights.hpp"
 #include "muster/random.hpp"
 #include "tests/search/causes.hpp"
 
@@ -152,6 +153,36 @@ TEST(StudentMixture, DrawsWhatItsDensitySays) {
   EXPECT_NEAR(mass, 1, 0.03);
   EXPECT_NEAR(mean[0] / mass, 0.2, 0.04);
   EXPECT_NEAR(mean[2] / mass, 0.5, 0.03);
+}
+
+TEST(Weights, AreWorthAsManyAsHaveThem) {
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(300);
+  weights.segment(20, 80).setConstant(0.25);
+  EXPECT_NEAR(worth(weights), 80, 1e-9);
+  EXPECT_EQ(softened(weights), weights / weights.sum()) << "worth enough";
+}
+
+// A normal law seen by draws that are spread much wider: its variance doubles with each root.
+TEST(Weights, ErrToTheWideSideWhereFewHaveAll) {
+  const Eigen::ArrayXd at = Eigen::ArrayXd::LinSpaced(1001, -50, 50);
+  const Eigen::VectorXd weights = (-at.square() / 2 / 0.25).exp();
+  EXPECT_LT(worth(weights), 20);
+  const Eigen::VectorXd soft = softened(weights);
+  EXPECT_NEAR(soft.sum(), 1, 1e-12);
+  EXPECT_GE(worth(soft), 40);
+  EXPECT_NEAR(soft.dot((at * at).matrix()), 0.25 * 8, 1e-6);
+  const Eigen::VectorXd one = Eigen::VectorXd::Unit(300, 7);
+  EXPECT_EQ(softened(one), one) << "nothing else has any";
+}
+
+TEST(Weights, DrawEachAsOftenAsTheyAsk) {
+  const Eigen::Vector4d weights(0.5, 0, 0.1, 0.4);
+  const std::vector<std::size_t> drawn = resampled(weights, 50);
+  ASSERT_EQ(drawn.size(), 50u);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto count = static_cast<double>(std::count(drawn.begin(), drawn.end(), k));
+    EXPECT_NEAR(count, 50 * weights[static_cast<Index>(k)], 1) << k;
+  }
 }
 
 // Row by row the same as the whole column at once.
