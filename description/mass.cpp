@@ -23,6 +23,19 @@ void walk(const Robot& robot, std::size_t link, Through through, Visit visit) {
 }
 
 bool is_fixed(const Joint& joint) { return joint.kind == JointKind::fixed; }
+bool is_any(const Joint&) { return true; }
+
+template <class Through>
+std::vector<Shape> shapes_through(const Robot& robot, std::size_t link, Through through) {
+  std::vector<Shape> shapes;
+  walk(robot, link, through, [&](std::size_t i, const Eigen::Isometry3d& frame) {
+    for (Shape shape : robot.links[i].shapes) {
+      shape.pose = frame * shape.pose;
+      shapes.push_back(std::move(shape));
+    }
+  });
+  return shapes;
+}
 
 }  // namespace
 
@@ -48,23 +61,23 @@ Mass rigid_mass(const Robot& robot, std::size_t link) {
   return sum;
 }
 
-std::vector<Shape> rigid_shapes(const Robot& robot, std::size_t link) {
-  std::vector<Shape> shapes;
-  walk(robot, link, is_fixed, [&](std::size_t i, const Eigen::Isometry3d& frame) {
-    for (Shape shape : robot.links[i].shapes) {
-      shape.pose = frame * shape.pose;
-      shapes.push_back(std::move(shape));
-    }
-  });
-  return shapes;
-}
+std::vector<Shape> rigid_shapes(const Robot& robot, std::size_t link) { return shapes_through(robot, link, is_fixed); }
+
+std::vector<Shape> whole_shapes(const Robot& robot) { return shapes_through(robot, 0, is_any); }
 
 Mass whole_mass(const Robot& robot) {
   Mass sum;
-  walk(
-      robot, 0, [](const Joint&) { return true; },
-      [&](std::size_t i, const Eigen::Isometry3d& frame) { sum = sum + in_parent(frame, robot.links[i].mass); });
+  walk(robot, 0, is_any,
+       [&](std::size_t i, const Eigen::Isometry3d& frame) { sum = sum + in_parent(frame, robot.links[i].mass); });
   return sum;
+}
+
+std::optional<Eigen::Isometry3d> frame_on_body(const Robot& robot, std::size_t link) {
+  std::optional<Eigen::Isometry3d> result;
+  walk(robot, 0, is_fixed, [&](std::size_t i, const Eigen::Isometry3d& frame) {
+    if (i == link) result = frame;
+  });
+  return result;
 }
 
 }  // namespace muster::description

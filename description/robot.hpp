@@ -110,6 +110,25 @@ struct LegDrive {
   static double lowest_way(double angle, const Eigen::Vector3d& up);
 };
 
+// Rays in the x-y plane of the sensor's frame, counter-clockwise and evenly from one angle to the other, both included.
+struct Laser {
+  int samples = 1;
+  double min_angle = 0, max_angle = 0;  // from the x axis [rad]
+  double min_range = 0, max_range = 0;  // [m]
+  double resolution = 0;                // to which ranges are rounded [m]; 0: they are not
+
+  double step() const { return samples > 1 ? (max_angle - min_angle) / (samples - 1) : 0; }
+};
+
+// What senses on a robot's body.
+struct Sensor {
+  std::string name;
+  std::size_t link = 0;    // index
+  Eigen::Isometry3d pose;  // in the robot's frame
+  double rate = 0;         // [Hz]
+  Laser laser;
+};
+
 struct Robot {
   std::string name;
   std::string file;
@@ -118,6 +137,7 @@ struct Robot {
   std::optional<DifferentialDrive> drive;
   std::optional<LegDrive> legs;
   std::optional<Quadrotor> quadrotor;
+  std::vector<Sensor> sensors;
   // The share of the speed at which things meet that they part with, 0 to 1; of two things that of the less elastic
   // one. The ground and walls are as elastic as what meets them, legs not at all.
   double restitution = 0;
@@ -130,6 +150,16 @@ struct Robot {
 // The link and all that is fixed to it, in the link's frame.
 Mass rigid_mass(const Robot& robot, std::size_t link);
 std::vector<Shape> rigid_shapes(const Robot& robot, std::size_t link);
+// All of the robot's, every joint at zero, in the root's frame.
+std::vector<Shape> whole_shapes(const Robot& robot);
+
+// A link's frame in the root's; nothing where a joint between them moves.
+std::optional<Eigen::Isometry3d> frame_on_body(const Robot& robot, std::size_t link);
+
+// The least box along the axes of the frame in which a shape is placed; of all of a robot, every joint at zero, in the
+// root's frame, which is empty if it has neither shapes nor legs.
+Eigen::AlignedBox3d bounds(const Shape& shape);
+Eigen::AlignedBox3d bounds(const Robot& robot);
 
 // What hangs on a joint that no motor turns.
 struct LimbJoint {

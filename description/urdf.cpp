@@ -235,8 +235,17 @@ Robot read_robot(const std::string& path, Meshes meshes) {
   const auto model = parse(source, text);
   Robot robot = Converter(source, outline, *model, meshes).convert();
   check_moving_masses(source, outline, robot);
+  for (const auto* sensor = root.FirstChildElement("sensor"); sensor; sensor = sensor->NextSiblingElement("sensor")) {
+    read_sensor(source, *sensor, robot);
+  }
   for (const auto* muster = root.FirstChildElement("muster"); muster; muster = muster->NextSiblingElement("muster")) {
     read_muster(source, *muster, robot);
+  }
+  for (const Sensor& sensor : robot.sensors) {
+    if (sensor.laser.max_range > 0) continue;
+    robot.warnings.push_back(path + ": sensor '" + sensor.name +
+                             "' has no range, so that nothing senses with it; expected <muster><laser sensor=\"" +
+                             sensor.name + "\" max_range=\"\"/></muster>");
   }
   return robot;
 }

@@ -32,12 +32,16 @@ void parse_urdf(const Source& source, const std::string& text, tinyxml2::XMLDocu
 // Every number strictly a number, every needed attribute there, links a tree.
 Outline check_urdf(const Source& source, const tinyxml2::XMLElement& robot);
 
-// What <muster> adds to a robot whose links and joints are there already: how elastic it is, balls, and at most one
-// drive.
+// What <muster> adds to a robot whose links, joints and sensors are there already: how elastic it is, balls, how far
+// lasers see, and at most one drive.
 void read_muster(const Source& source, const tinyxml2::XMLElement& element, Robot& robot);
 Quadrotor read_quadrotor(const Source& source, const tinyxml2::XMLElement& element, const Robot& robot);
 LegDrive read_legs(const Source& source, const tinyxml2::XMLElement& element, const Robot& robot);
+void read_laser(const Source& source, const tinyxml2::XMLElement& element, Robot& robot);
 void read_ball(const Source& source, const tinyxml2::XMLElement& element, Robot& robot);
+
+// A <sensor> of a robot whose links and joints are there already. What muster has no sense for is warned of.
+void read_sensor(const Source& source, const tinyxml2::XMLElement& element, Robot& robot);
 
 // The index of a joint; where one that turns without end about the body's +y axis is on the body.
 std::size_t find_joint(const Source& source, const tinyxml2::XMLElement& element, const char* attribute,

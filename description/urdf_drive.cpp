@@ -14,18 +14,6 @@ constexpr double placement_tolerance = 1e-4;  // [m]: a drive that contradicts t
 
 std::string tag(const XMLElement& element) { return std::string("<") + element.Name() + "> "; }
 
-// The joint's frame in the root's, or nothing where a joint between them moves.
-std::optional<Eigen::Isometry3d> frame_on_body(const Robot& robot, const Joint& joint) {
-  Eigen::Isometry3d frame = joint.origin;
-  for (std::size_t link = joint.parent; link != 0;) {
-    const Joint& above = robot.joints[link - 1];
-    if (above.kind != JointKind::fixed) return std::nullopt;
-    frame = above.origin * frame;
-    link = above.parent;
-  }
-  return frame;
-}
-
 // The axle lies along the body's y axis, left wheel on the left, and turns forward for positive rates.
 Eigen::Vector3d check_wheel(const Source& source, const XMLElement& element, const Robot& robot, std::size_t index,
                             double y) {
@@ -107,28 +95,33 @@ Eigen::Vector3d place_of_turning(const Source& source, const XMLElement& element
   const int line = element.GetLineNum();
   const std::string what = tag(element) + "joint '" + joint.name + "' ";
   if (joint.kind != JointKind::continuous) source.fail(line, what + "is not continuous");
-  const auto frame = frame_on_body(robot, joint);
-  if (!frame) source.fail(line, what + "is not on the robot's body: a joint between them moves");
-  if (!(frame->linear() * joint.axis - Eigen::Vector3d::UnitY()).isZero(1e-6)) {
+  const auto carrier = frame_on_body(robot, joint.parent);
+  if (!carrier) source.fail(line, what + "is not on the robot's body: a joint between them moves");
+  const Eigen::Isometry3d frame = *carrier * joint.origin;
+  if (!(frame.linear() * joint.axis - Eigen::Vector3d::UnitY()).isZero(1e-6)) {
     source.fail(line, what + "does not turn about the body's +y axis");
   }
-  return frame->translation();
+  return frame.translation();
 }
 
 void read_muster(const Source& source, const XMLElement& muster, Robot& robot) {
   only_attributes(source, muster, {"restitution"});
   if (muster.Attribute("restitution")) robot.restitution = share(source, muster, "restitution");
-  const std::vector<std::string> known = {"differential", "quadrotor", "legs", "ball"};
+  const std::vector<std::string> known = {"differential", "quadrotor", "legs", "ball", "laser"};
   for (const auto* child = muster.FirstChildElement(); child; child = child->NextSiblingElement()) {
     const std::string name = child->Name();
     if (std::find(known.begin(), known.end(), name) == known.end()) {
       source.fail(child->GetLineNum(), "<" + name +
-                                           "> is not known in <muster>; expected <differential>, <quadrotor>, <legs> "
-                                           "or <ball>" +
+                                           "> is not known in <muster>; expected <differential>, <quadrotor>, <legs>, "
+                                           "<ball> or <laser>" +
                                            nearest(name, known));
     }
     if (name == "ball") {
       read_ball(source, *child, robot);
+      continue;
+    }
+    if (name == "laser") {
+      read_laser(source, *child, robot);
       continue;
     }
     if (robot.drive || robot.quadrotor || robot.legs) source.fail(child->GetLineNum(), "has a second drive");

@@ -21,6 +21,18 @@ struct Command {
   double v, w;
 };
 
+// The same as a car has it: the speed, and the angle by which the front wheels are turned to the left.
+struct CarCommand {
+  static constexpr const char* columns = "v[m/s] steering[rad]";
+  double v, steering;
+};
+
+// Where a ground robot is to go, as its odometry counts, and, if not null, how it is to stand there. x null: nowhere.
+struct Goal2d {
+  static constexpr const char* columns = "x[m]? y[m]? yaw[rad]?";
+  double x, y, yaw;
+};
+
 // Wheel rates asked of the drives, and their slopes: a backend takes the value at the middle of its step.
 struct Drive {
   static constexpr const char* columns = "left[rad/s] right[rad/s] left_rate[rad/s2] right_rate[rad/s2]";
@@ -56,10 +68,35 @@ struct Odometry {
   double x, y, yaw, v, w;
 };
 
+// Where a robot's odometry is to start anew from: once, each time that `count` changes.
+struct OdometryReset {
+  static constexpr const char* columns = "x[m] y[m] yaw[rad] count";
+  double x, y, yaw, count;
+};
+
 // Whether a robot's motors fail to turn its wheels (Player's position2d).
 struct Stall {
   static constexpr const char* columns = "stalled";
   double stalled;  // 0 or 1
+};
+
+// The box that a robot fills, with every joint at zero: its middle in the robot's frame, and its edges along x, y, z.
+struct Geometry {
+  static constexpr const char* columns = "x[m] y[m] z[m] length[m] width[m] height[m]";
+  double x, y, z, length, width, height;
+};
+
+// What a laser saw: ranges are doubles, counter-clockwise from `min_angle` on and `step` apart in the x-y plane of the
+// laser's frame. One that saw nothing within `max_range` is infinite, what is nearer than `min_range` is minus infinity
+// (REP 117). `sensor` counts the lasers of the robot's model from 0, `id` its scans. x, y, yaw: where the robot's
+// odometry had it; null without odometry. The rest is where the laser sits in the robot's frame.
+struct Scan {
+  static constexpr const char* columns =
+      "robot:robot sensor id t[s] x[m]? y[m]? yaw[rad]? at_x[m] at_y[m] at_z[m] qw qx qy qz min_angle[rad] step[rad] "
+      "min_range[m] max_range[m] ranges{}";
+  static constexpr unsigned payload_column = 18;
+  double robot, sensor, id, t, x, y, yaw, at_x, at_y, at_z, qw, qx, qy, qz, min_angle, step, min_range, max_range,
+      ranges;
 };
 
 // What a controller asks of a robot that flies (attitude_thrust): the sum of its rotors' thrusts, roll and pitch of its

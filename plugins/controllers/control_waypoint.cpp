@@ -1,6 +1,7 @@
 // From way point to way point by a robot's own odometry.
 #include <muster/plugin.hpp>
 
+#include "heading.hpp"
 #include "roadmap.hpp"
 
 namespace {
@@ -51,15 +52,10 @@ struct ControlWaypoint {
       if (next() == points.size() && k[loop] != 0) now.next = 0;
     }
     *k[progress] = now;
-    *k[command] = next() < points.size() ? towards(k, points[next()]) : Command{0, 0};
-  }
-
-  Command towards(const Step& k, const Waypoint& point) const {
-    constexpr double quarter_turn = 1.5707963267948966;
-    const double dx = point.x - k[odometry]->x, dy = point.y - k[odometry]->y;
-    const double bearing = std::remainder(std::atan2(dy, dx) - k[odometry]->yaw, 4 * quarter_turn);
-    const double forward = std::abs(bearing) < quarter_turn ? k[speed] * std::cos(bearing) : 0;
-    return {forward, std::clamp(k[turn_gain] * bearing, -k[turn_speed], k[turn_speed])};
+    *k[command] = {0, 0};
+    if (next() == points.size()) return;
+    const Waypoint& point = points[next()];
+    *k[command] = towards(*k[odometry], point.x, point.y, k[speed], {k[turn_gain], k[turn_speed]});
   }
 
   Value speed, turn_gain, turn_speed, tolerance, loop;

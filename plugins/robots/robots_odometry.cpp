@@ -18,7 +18,8 @@ struct RobotsOdometry {
       "is the standard deviation of the error that a wheel's reading gathers while it turns by one radian; the\n"
       "variance grows with the angle turned (after Chong and Kleeman, ICRA 1997), so it does not depend on the\n"
       "tick. A robot starts, also one that joins later, knowing its true pose. Slip is not seen: that is the point\n"
-      "of it. `robot/*/stall` is 1 while a wheel turns at less than half of the rate that its motor is asked for\n"
+      "of it. Whenever `count` of robot/*/odometry_reset changes, it goes on from the place and heading given there.\n"
+      "`robot/*/stall` is 1 while a wheel turns at less than half of the rate that its motor is asked for\n"
       "throughout the tick: it pushes against something and is too weak. A wheel that slips turns, and does not stall.";
   static constexpr auto phase = MUSTER_SENSE;
   static constexpr Param params[] = {
@@ -26,8 +27,9 @@ struct RobotsOdometry {
 
   // The angles of the last reading. A robot that joins as a copy of another brings that one's `of`, and starts anew.
   struct Seen {
-    static constexpr const char* columns = "of model left[rad] right[rad]";
-    double of, model, left, right;  // of: 1 + the robot's row; model: as in description::Model
+    static constexpr const char* columns = "of model left[rad] right[rad] resets";
+    // of: 1 + the robot's row; model: as in description::Model; resets: the last `count`
+    double of, model, left, right, resets;
   };
 
   explicit RobotsOdometry(Setup& s)
@@ -37,26 +39,36 @@ struct RobotsOdometry {
         wheels(s.read<Wheels>("robot/*/wheels")),
         pose(s.read<Pose>("robot/*/pose")),
         drive(s.read_if_any<Drive>("robot/*/drive")),
+        reset(s.read_if_any<OdometryReset>("robot/*/odometry_reset")),
         odometry(s.write<Odometry>("robot/*/odometry", MUSTER_SENSED)),
         stall(s.write<Stall>("robot/*/stall", MUSTER_SENSED)),
         seen(s.write<Seen>("robot/*/odometry_seen")) {}
 
   void step(const Step& k) const {
     const auto asked = k[drive];
+    const auto resets = k[reset];
     for (std::size_t i = 0; i < k[odometry].size(); ++i) {
       const Wheels& now = k[wheels][i];
       const Seen& before = k.last(seen)[i];
-      const Seen next{static_cast<double>(i + 1), WorldRobots::model_of(before.model, i), now.left, now.right};
+      const Seen next{static_cast<double>(i + 1), WorldRobots::model_of(before.model, i), now.left, now.right,
+                      i < resets.size() ? resets[i].count : before.resets};
       if (before.of != next.of) {
         const Pose& at = k[pose][i];
         k[odometry][i] = {at.x, at.y, yaw_of(at), 0, 0};
       } else {
         k[odometry][i] = moved(k, i, robots.drive_of(next.model), now.left - before.left, now.right - before.right);
       }
+      if (next.resets != before.resets && before.of == next.of) start_from(k[odometry][i], resets[i]);
       k[seen][i] = next;
       const bool stands = i < asked.size() && k.alive("robot", i) && stalls(asked[i], now, k.dt());
       k[stall][i].stalled = stands ? 1 : 0;
     }
+  }
+
+  static void start_from(Odometry& at, const OdometryReset& place) {
+    at.x = place.x;
+    at.y = place.y;
+    at.yaw = place.yaw;
   }
 
   Odometry moved(const Step& k, std::size_t i, const description::DifferentialDrive* motors, double left,
@@ -95,6 +107,7 @@ struct RobotsOdometry {
   In<Wheels> wheels;
   In<Pose> pose;
   In<Drive> drive;
+  In<OdometryReset> reset;
   Out<Odometry> odometry;
   Out<Stall> stall;
   Out<Seen> seen;

@@ -63,7 +63,46 @@ std::string legs(const std::string& attributes, const std::string& last = "<leg 
 const std::string good_legs =
     "radius='0.05' position_gain='9' rate_gain='1' max_torque='1' max_speed='9' friction='0.8'";
 
+// A laser on link 'a', from line 5 on: what <sensor> and its <horizontal> say, and <muster>.
+std::string laser(const std::string& horizontal, const std::string& muster = "",
+                  const std::string& attributes = "update_rate='10'", const std::string& parent = "link='a'") {
+  return link("a", mass) + link("b", mass) + joint("j", "a", "b", "continuous", "<axis xyz='0 0 1'/>") +
+         "<sensor name='s' " + attributes + ">\n<parent " + parent + "/>\n<ray>\n<horizontal " + horizontal +
+         "/></ray></sensor>\n<muster>" + muster + "</muster>\n";
+}
+
 const Case cases[] = {
+    {"laser_without_rate", laser("", "", ""), "5: <sensor> has no attribute 'update_rate'"},
+    {"laser_rate_of_zero", laser("", "", "update_rate='0'"),
+     "5: <sensor> update_rate=\"0\" is wrong; expected a number above 0"},
+    {"laser_misspelt", laser("", "", "update_rat='10'"),
+     "5: <sensor> has no attribute 'update_rat'; did you mean 'update_rate'?"},
+    {"laser_on_no_link", laser("", "", "update_rate='10'", "link='c'"),
+     "6: sensor 's': link 'c' is not known; did you mean 'a'?"},
+    {"laser_on_what_moves", laser("", "", "update_rate='10'", "link='b'"),
+     "6: sensor 's' is not on the robot's body: a joint between them moves"},
+    {"laser_samples", laser("samples='2.5'"),
+     "8: sensor 's': <horizontal> samples is wrong; expected a whole number from 1 to 100000"},
+    {"laser_angle_is_no_number", laser("samples='3' min_angle='-1' max_angle='1rad'"),
+     "8: sensor 's': <horizontal> max_angle=\"1rad\" is wrong; expected a number"},
+    {"laser_angles_reversed", laser("samples='3' min_angle='1' max_angle='-1'"),
+     "8: sensor 's': <horizontal> max_angle is not above min_angle; a single ray has one angle"},
+    {"laser_single_ray_of_two_angles", laser("min_angle='-1' max_angle='1'"),
+     "8: sensor 's': <horizontal> max_angle is not above min_angle; a single ray has one angle"},
+    {"laser_beyond_a_turn", laser("samples='3' min_angle='-4' max_angle='4'"),
+     "8: sensor 's': <horizontal> sweeps more than a whole turn"},
+    {"laser_in_degrees", laser("samples='3' min_angle='-120' max_angle='120'"),
+     "8: sensor 's': <horizontal> goes beyond a whole turn"},
+    {"laser_between_samples", laser("samples='3' min_angle='-1' max_angle='1' resolution='2'"),
+     "8: sensor 's': <horizontal> resolution is not 1: a range for each ray"},
+    {"laser_of_many_planes", laser("/><vertical samples='16'"),
+     "8: sensor 's': <vertical> is more than one ray at angle 0; a laser's rays lie in one plane"},
+    {"laser_twice", laser("") + "<sensor name='s' update_rate='1'/>", "10: sensor 's' is there twice"},
+    {"laser_range_of_another", laser("", "<laser sensor='t' max_range='4'/>"),
+     "9: <laser> sensor 't' is not known, or has no <ray>; did you mean 's'?"},
+    {"laser_without_range", laser("", "<laser sensor='s'/>"), "9: <laser> has no attribute 'max_range'"},
+    {"laser_ranges_reversed", laser("", "<laser sensor='s' max_range='4' min_range='5'/>"),
+     "9: <laser> min_range is not below max_range"},
     {"negative_mass", link("a", inertial("-3", "1", "1", "1")), "2: link 'a': mass is not above 0"},
     {"no_mass", link("a", inertial("0", "1", "1", "1")), "2: link 'a': mass is not above 0"},
     {"indefinite_inertia", link("a", inertial("1", "-1", "1", "1")), "2: link 'a': inertia is not positive definite"},
@@ -128,7 +167,7 @@ const Case cases[] = {
     {"wheel_base_contradicts_joints", wheels(good, "0 1 0", "0.11"),
      "7: <differential> joint 'jl' is not half a wheel_base from the body's x axis (left: +y, right: -y)"},
     {"another_drive", link("a", mass) + "<muster><tracks/></muster>",
-     "3: <tracks> is not known in <muster>; expected <differential>, <quadrotor>, <legs> or <ball>"},
+     "3: <tracks> is not known in <muster>; expected <differential>, <quadrotor>, <legs>, <ball> or <laser>"},
     {"ball_as_a_type", link("a", mass) + link("b", mass) + joint("j", "a", "b", "ball"),
      "4: joint 'j': URDF has no type 'ball'; expected type 'floating' and <muster><ball joint=\"j\"/></muster>"},
     {"spherical", link("a", mass) + link("b", mass) + joint("j", "a", "b", "spherical"),
@@ -143,7 +182,8 @@ const Case cases[] = {
     {"ball_on_an_axis", ball("<ball joint='j'/>", "continuous"),
      "6: <ball> joint 'j' is continuous; expected type 'floating'"},
     {"ball_misspelt", ball("<bal joint='j'/>"),
-     "6: <bal> is not known in <muster>; expected <differential>, <quadrotor>, <legs> or <ball>; did you mean 'ball'?"},
+     "6: <bal> is not known in <muster>; expected <differential>, <quadrotor>, <legs>, <ball> or <laser>; did you mean "
+     "'ball'?"},
     {"ball_without_mass",
      link("a", mass) + link("b", "") + joint("j", "a", "b", "floating") + "<muster><ball joint='j'/></muster>",
      "3: link 'b' moves by joint 'j' but has no <inertial>"},

@@ -68,14 +68,7 @@ TEST(Urdf, NoPointOfALegLiesBelowItsLowest) {
 TEST(Urdf, ScarabFillsItsMeasuredBox) {
   const Robot robot = read_robot(scarab);
   Eigen::AlignedBox3d body;
-  for (const Shape& shape : rigid_shapes(robot, 0)) {
-    if (const auto* box = std::get_if<Box>(&shape.geometry)) {
-      body.extend(shape.pose.translation() - box->size / 2);
-      body.extend(shape.pose.translation() + box->size / 2);
-    } else if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) {
-      for (const auto& vertex : mesh->vertices) body.extend(shape.pose * vertex);
-    }
-  }
+  for (const Shape& shape : rigid_shapes(robot, 0)) body.extend(bounds(shape));
   EXPECT_NEAR(body.sizes().x(), 0.2, 1e-9);
   EXPECT_NEAR(body.sizes().y(), 0.135, 1e-9);
   EXPECT_NEAR(body.max().z(), 0.222, 1e-7);  // above the ground; the mesh is in single precision
@@ -215,6 +208,78 @@ TEST(Urdf, LimbsHangOnWhatCarriesThem) {
   EXPECT_TRUE(limbs[1].frame.linear().col(0).isApprox(-Eigen::Vector3d::UnitX()));
   EXPECT_EQ(rigid_mass(robot, robot.joints[limbs[0].joint].child).mass, 2);
   EXPECT_TRUE(limbs_of(read_robot(scarab)).empty());
+}
+
+// Bounds hold what many points of a shape's surface span, and no more.
+TEST(Bounds, AreTheLeast) {
+  const Eigen::Isometry3d pose =
+      Eigen::Translation3d(1, 2, 3) * Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -1).normalized());
+  const auto span = [&](const auto& shape, const auto& surface) {
+    Eigen::AlignedBox3d seen;
+    for (double a = 0; a < 2 * M_PI; a += 0.01) {
+      for (double b = 0; b <= M_PI; b += 0.01) seen.extend(pose * surface(a, b));
+    }
+    const Eigen::AlignedBox3d exact = bounds(Shape{pose, shape});
+    EXPECT_TRUE(exact.min().isApprox(seen.min(), 1e-4)) << exact.min() << "\n" << seen.min();
+    EXPECT_TRUE(exact.max().isApprox(seen.max(), 1e-4)) << exact.max() << "\n" << seen.max();
+  };
+  span(Sphere{0.5}, [](double a, double b) -> Eigen::Vector3d {
+    return 0.5 * Eigen::Vector3d(std::sin(b) * std::cos(a), std::sin(b) * std::sin(a), std::cos(b));
+  });
+  span(Cylinder{0.5, 2}, [](double a, double b) -> Eigen::Vector3d {
+    return {0.5 * std::cos(a), 0.5 * std::sin(a), b < M_PI / 2 ? -1.0 : 1.0};
+  });
+  span(Box{{1, 2, 3}}, [](double a, double b) -> Eigen::Vector3d {
+    return {std::copysign(0.5, std::cos(a)), std::copysign(1, std::sin(a)), std::copysign(1.5, std::cos(b))};
+  });
+}
+
+// Of a link on the body by fixed joints the frames add up; a wheel is not on it.
+TEST(Urdf, ScarabHasItsLaser) {
+  const Robot robot = read_robot(scarab, Meshes::skip);
+  ASSERT_EQ(robot.sensors.size(), 1u);
+  const Sensor& hokuyo = robot.sensors[0];
+  EXPECT_EQ(hokuyo.name, "hokuyo");
+  EXPECT_EQ(robot.links[hokuyo.link].name, "laser");
+  EXPECT_TRUE(hokuyo.pose.translation().isApprox(Eigen::Vector3d(0.05, 0, 0.207)));
+  EXPECT_EQ(hokuyo.rate, 10);
+  EXPECT_EQ(hokuyo.laser.samples, 683);
+  EXPECT_NEAR(hokuyo.laser.step(), 2 * M_PI / 1024, 1e-7);
+  EXPECT_EQ(hokuyo.laser.max_range, 4);
+  EXPECT_FALSE(frame_on_body(robot, robot.joints[robot.drive->left].child));
+}
+
+TEST(Urdf, SensorsStandAsTheirOriginSays) {
+  Files files;
+  const Robot robot = read_robot(files.write("r.urdf", R"(<robot name="r"><link name="a"/><link name="b"/>
+    <joint name="j" type="fixed"><parent link="a"/><child link="b"/><origin xyz="1 0 0" rpy="0 0 1.5707963267948966"/></joint>
+    <sensor name="one" update_rate="5"><parent link="b"/><origin xyz="0.5 0 0" rpy="0 0.3 0"/>
+      <ray><horizontal samples="3" min_angle="-1" max_angle="1"/><vertical samples="1"/></ray></sensor>
+    <sensor name="single" update_rate="5"><parent link="a"/><ray><horizontal/></ray></sensor>
+    <muster><laser sensor="one" max_range="7"/><laser sensor="single" max_range="2" min_range="0.1"/></muster></robot>)"));
+  ASSERT_EQ(robot.sensors.size(), 2u);
+  EXPECT_TRUE(robot.sensors[0].pose.translation().isApprox(Eigen::Vector3d(1, 0.5, 0)));
+  const Eigen::Vector3d x(0, std::cos(0.3), -std::sin(0.3));  // pitched down, and turned to the left
+  EXPECT_TRUE(robot.sensors[0].pose.linear().col(0).isApprox(x, 1e-12));
+  EXPECT_EQ(robot.sensors[0].laser.step(), 1);
+  EXPECT_EQ(robot.sensors[1].laser.samples, 1);
+  EXPECT_EQ(robot.sensors[1].laser.min_range, 0.1);
+  EXPECT_TRUE(robot.warnings.empty());
+}
+
+TEST(Urdf, SensorsThatNothingSensesWithAreWarnedAbout) {
+  Files files;
+  const std::string path = files.write("r.urdf",
+                                       "<robot name='r'><link name='a'/>\n<sensor name='eye' update_rate='5'><parent "
+                                       "link='a'/><camera/></sensor>\n<sensor name='s' update_rate='5'><parent "
+                                       "link='a'/><ray><horizontal/></ray></sensor></robot>");
+  const Robot robot = read_robot(path);
+  EXPECT_EQ(
+      robot.warnings,
+      (std::vector<std::string>{
+          path + ":2: sensor 'eye' has no <ray>; muster has plugins for lasers alone, so that nothing senses with it",
+          path + ": sensor 's' has no range, so that nothing senses with it; expected <muster><laser sensor=\"s\" "
+                 "max_range=\"\"/></muster>"}));
 }
 
 TEST(Urdf, GermanLocaleReadsTheSameNumbers) {

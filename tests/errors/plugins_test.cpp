@@ -158,10 +158,10 @@ TEST(Fault19, ClaimsThatDoNotFitAreRefusedAtTheStart) {
       "instance/test.reads_nobodys/*/cell, "
       "link/*/ends, "
       "link/*/rssi, material/*/loss, mesh/*/shape, radio/*/mount, radio/*/traffic, robot/*/drive, robot/*/gait, "
-      "robot/*/legs, "
+      "robot/*/geometry, robot/*/legs, "
       "robot/*/odometry, robot/*/pose, "
       "robot/*/position3d, robot/*/rotor_drive, robot/*/rotors, robot/*/stall, robot/*/twist, robot/*/wheels, "
-      "wall/*/shape; did you "
+      "scan/*/message, wall/*/shape; did you "
       "mean \"robot/*/pose\"?");
 }
 

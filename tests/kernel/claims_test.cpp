@@ -164,9 +164,10 @@ TEST_F(Claims, AReadThatNobodyWritesNamesTheNearest) {
       "door/*/shape, door/*/state, "
       "endpoint/*/pose, endpoint/*/radio, floor/*/shape, inbox/*/message, instance/r/*/x, link/*/ends, link/*/rssi, "
       "material/*/loss, mesh/*/shape, radio/*/mount, "
-      "radio/*/traffic, robot/*/charge, robot/*/drive, robot/*/gait, robot/*/legs, robot/*/odometry, robot/*/pose, "
+      "radio/*/traffic, robot/*/charge, robot/*/drive, robot/*/gait, robot/*/geometry, robot/*/legs, robot/*/odometry, "
+      "robot/*/pose, "
       "robot/*/position3d, robot/*/rotor_drive, robot/*/rotors, robot/*/stall, robot/*/twist, robot/*/wheels, "
-      "wall/*/shape; "
+      "scan/*/message, wall/*/shape; "
       "did you mean \"robot/*/charge\"?");
   EXPECT_THAT(
       error_of_world(two_robots + "<toy.copy_physics name='w' to='robot/*/v' as='add'/>\n<toy.copy_radio name='r' "
@@ -236,7 +237,7 @@ TEST_F(Claims, ClaimsThatMakeNoSense) {
       claim("to='robots/*/x'"),
       "world.xml:4:1: r (toy.copy_radio): claims a table of the set \"robots\"; expected one of door, endpoint, floor, "
       "inbox, link, "
-      "material, mesh, outbox, radio, robot, wall; did you mean \"robot\"?");
+      "material, mesh, outbox, radio, robot, scan, wall; did you mean \"robot\"?");
   EXPECT_EQ(claim("to='robot/c/x'"),
             "world.xml:4:1: r (toy.copy_radio): claims a row of robot called \"c\"; expected one of a, b");
   EXPECT_EQ(claim("to='robot'"), "world.xml:4:1: r (toy.copy_radio): claims \"robot\"; expected set/row/quantity");
@@ -261,7 +262,7 @@ TEST_F(Claims, ClaimsThatMakeNoSense) {
   EXPECT_EQ(claim("to='robot/*/x' columns='x:robots'"),
             "world.xml:4:1: r (toy.copy_radio): claims \"robot/*/x\": column \"x\" refers to the set \"robots\"; "
             "expected one of door, "
-            "endpoint, floor, inbox, link, material, mesh, outbox, radio, robot, wall; did you mean \"robot\"?");
+            "endpoint, floor, inbox, link, material, mesh, outbox, radio, robot, scan, wall; did you mean \"robot\"?");
   EXPECT_EQ(claim("to='robot/*/twist' columns='v'"),
             "world.xml:4:1: r (toy.copy_radio): claims \"robot/*/twist\" as \"v\"; its columns are \"" + twist + "\"");
   EXPECT_EQ(claim("to='outbox/a/message' as='modify' columns='radio:radio to:radio? payload{}'"),

@@ -7,8 +7,10 @@ namespace {
 using Truth = ToyWorld;
 
 const std::string sensed =
-    "expected one of robot/command, robot/odometry, robot/stall, robot/attitude_thrust, robot/velocity3d, "
-    "robot/position3d, outbox/message, inbox/message";
+    "expected one of robot/command, robot/car_command, robot/goal2d, robot/odometry, robot/odometry_reset, "
+    "robot/stall, "
+    "robot/geometry, robot/attitude_thrust, robot/velocity3d, robot/position3d, scan/message, outbox/message, "
+    "inbox/message";
 const std::string odometry = "x[m] y[m] yaw[rad] v[m/s] w[rad/s]";
 const std::string rest = "<toy.copy_sense name='sensor' to='robot/*/odometry' columns='" + odometry + "'/>\n";
 

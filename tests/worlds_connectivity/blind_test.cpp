@@ -27,8 +27,9 @@ TEST(Blind, AControllerThatClaimsTruthIsRefused) {
   EXPECT_EQ(refusal<Pose>("robot/a/pose"),
             "world.xml:2:1: test.peeker (test.peeker): claims \"robot/a/pose\", which is truth; a controller knows "
             "what its robot senses: "
-            "expected one of robot/command, robot/odometry, robot/stall, robot/attitude_thrust, robot/velocity3d, "
-            "robot/position3d, outbox/message, inbox/message");
+            "expected one of robot/command, robot/car_command, robot/goal2d, robot/odometry, robot/odometry_reset, "
+            "robot/stall, robot/geometry, robot/attitude_thrust, robot/velocity3d, robot/position3d, scan/message, "
+            "outbox/message, inbox/message");
 }
 
 TEST(Blind, AndSoIsOneThatReadsAnotherRobot) {

@@ -1,0 +1,148 @@
+#include <algorithm>
+#include <cmath>
+
+#include "description/file_text.hpp"
+#include "description/urdf_check.hpp"
+
+namespace muster::description {
+
+using tinyxml2::XMLElement;
+
+namespace {
+
+constexpr double turn = 6.283185307179586;
+constexpr int max_samples = 100000;
+
+// Of a <sensor>: what is read of it, and whom to complain about.
+class Reader {
+ public:
+  Reader(const Source& source, const XMLElement& element, const std::string& name)
+      : source_(source), element_(element), what_("sensor '" + name + "': <" + element.Name() + "> ") {}
+
+  double number(const char* attribute) const { return numbers(attribute, 1)[0]; }
+  double number(const char* attribute, double otherwise) const {
+    return element_.Attribute(attribute) ? number(attribute) : otherwise;
+  }
+  Eigen::Vector3d vector(const char* attribute) const {
+    if (!element_.Attribute(attribute)) return Eigen::Vector3d::Zero();
+    const auto values = numbers(attribute, 3);
+    return {values[0], values[1], values[2]};
+  }
+  [[noreturn]] void fail(const std::string& message) const { source_.fail(element_.GetLineNum(), what_ + message); }
+
+ private:
+  std::vector<double> numbers(const char* attribute, std::size_t count) const {
+    const std::string text = required(source_, element_, attribute);
+    const auto values = parse_numbers(text);
+    if (!values || values->size() != count)
+      fail(attribute + ("=\"" + text) + "\" is wrong; expected " + (count == 1 ? "a number" : "3 numbers"));
+    return *values;
+  }
+
+  const Source& source_;
+  const XMLElement& element_;
+  std::string what_;
+};
+
+const XMLElement& child_of(const Source& source, const XMLElement& element, const char* child,
+                           const std::string& what) {
+  const XMLElement* found = element.FirstChildElement(child);
+  if (!found) source.fail(element.GetLineNum(), what + " has no <" + child + ">");
+  return *found;
+}
+
+Eigen::Isometry3d origin_of(const Source& source, const XMLElement& sensor, const std::string& name) {
+  const XMLElement* element = sensor.FirstChildElement("origin");
+  if (!element) return Eigen::Isometry3d::Identity();
+  only_attributes(source, *element, {"xyz", "rpy"});
+  const Reader origin(source, *element, name);
+  const Eigen::Vector3d angles = origin.vector("rpy");
+  return Eigen::Translation3d(origin.vector("xyz")) * Eigen::AngleAxisd(angles[2], Eigen::Vector3d::UnitZ()) *
+         Eigen::AngleAxisd(angles[1], Eigen::Vector3d::UnitY()) *
+         Eigen::AngleAxisd(angles[0], Eigen::Vector3d::UnitX());
+}
+
+// All the rays of a laser lie in one plane: <vertical> may say so, and no more.
+Laser laser_of(const Source& source, const XMLElement& ray, const std::string& name) {
+  const XMLElement& element = child_of(source, ray, "horizontal", "sensor '" + name + "': <ray>");
+  const std::vector<std::string> known = {"samples", "resolution", "min_angle", "max_angle"};
+  only_attributes(source, element, known);
+  const Reader horizontal(source, element, name);
+  const double samples = horizontal.number("samples", 1);
+  if (!(samples >= 1 && samples <= max_samples && samples == std::floor(samples)))
+    horizontal.fail("samples is wrong; expected a whole number from 1 to 100000");
+  if (horizontal.number("resolution", 1) != 1) horizontal.fail("resolution is not 1: a range for each ray");
+  Laser laser;
+  laser.samples = static_cast<int>(samples);
+  laser.min_angle = horizontal.number("min_angle", 0);
+  laser.max_angle = horizontal.number("max_angle", 0);
+  if (std::abs(laser.min_angle) > turn || std::abs(laser.max_angle) > turn) horizontal.fail("goes beyond a whole turn");
+  const double sweep = laser.max_angle - laser.min_angle;
+  if (laser.samples > 1 ? !(sweep > 0) : sweep != 0)
+    horizontal.fail("max_angle is not above min_angle; a single ray has one angle");
+  if (sweep > turn) horizontal.fail("sweeps more than a whole turn");
+  if (const XMLElement* above = ray.FirstChildElement("vertical")) {
+    only_attributes(source, *above, known);
+    const Reader vertical(source, *above, name);
+    const bool is_flat = vertical.number("samples", 1) == 1 && vertical.number("min_angle", 0) == 0 &&
+                         vertical.number("max_angle", 0) == 0;
+    if (!is_flat) vertical.fail("is more than one ray at angle 0; a laser's rays lie in one plane");
+  }
+  return laser;
+}
+
+std::size_t find_link(const Source& source, const XMLElement& parent, const Robot& robot, const std::string& sensor) {
+  const std::string name = required(source, parent, "link");
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < robot.links.size(); ++i) {
+    if (robot.links[i].name == name) return i;
+    names.push_back(robot.links[i].name);
+  }
+  source.fail(parent.GetLineNum(), "sensor '" + sensor + "': link '" + name + "' is not known" + nearest(name, names));
+}
+
+}  // namespace
+
+void read_sensor(const Source& source, const XMLElement& element, Robot& robot) {
+  Sensor sensor;
+  sensor.name = required(source, element, "name");
+  only_attributes(source, element, {"name", "type", "update_rate"});
+  const int line = element.GetLineNum();
+  const std::string what = "sensor '" + sensor.name + "'";
+  for (const Sensor& other : robot.sensors) {
+    if (other.name == sensor.name) source.fail(line, what + " is there twice");
+  }
+  const XMLElement* ray = element.FirstChildElement("ray");
+  if (!ray) {
+    robot.warnings.push_back(source.file + ":" + std::to_string(line) + ": " + what +
+                             " has no <ray>; muster has plugins for lasers alone, so that nothing senses with it");
+    return;
+  }
+  const XMLElement& parent = child_of(source, element, "parent", what);
+  sensor.link = find_link(source, parent, robot, sensor.name);
+  const auto carrier = frame_on_body(robot, sensor.link);
+  if (!carrier) source.fail(parent.GetLineNum(), what + " is not on the robot's body: a joint between them moves");
+  sensor.pose = *carrier * origin_of(source, element, sensor.name);
+  sensor.rate = positive(source, element, "update_rate");
+  sensor.laser = laser_of(source, *ray, sensor.name);
+  robot.sensors.push_back(sensor);
+}
+
+void read_laser(const Source& source, const XMLElement& element, Robot& robot) {
+  only_attributes(source, element, {"sensor", "min_range", "max_range", "resolution"});
+  const std::string name = required(source, element, "sensor");
+  std::vector<std::string> names;
+  for (const Sensor& sensor : robot.sensors) names.push_back(sensor.name);
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) {
+    source.fail(element.GetLineNum(),
+                "<laser> sensor '" + name + "' is not known, or has no <ray>" + nearest(name, names));
+  }
+  Laser& laser = robot.sensors[static_cast<std::size_t>(found - names.begin())].laser;
+  laser.max_range = positive(source, element, "max_range");
+  if (element.Attribute("min_range")) laser.min_range = positive(source, element, "min_range");
+  if (element.Attribute("resolution")) laser.resolution = positive(source, element, "resolution");
+  if (laser.min_range >= laser.max_range) source.fail(element.GetLineNum(), "<laser> min_range is not below max_range");
+}
+
+}  // namespace muster::description

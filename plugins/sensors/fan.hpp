@@ -1,0 +1,172 @@
+// What the rays of a laser meet first. Everything happens in the frames of what they meet, in double precision.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <variant>
+#include <vector>
+
+#include "description/robot.hpp"
+
+namespace muster {
+
+struct Ray {
+  Eigen::Vector3d from, way;  // way: of length 1
+};
+
+// How far along the ray a solid begins, 0 from inside of it, infinity where the ray misses it.
+inline double entry(const Ray& ray, const Eigen::AlignedBox3d& box) {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  double in = 0, out = never;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double at = ray.from[axis], low = box.min()[axis], high = box.max()[axis];
+    if (ray.way[axis] == 0) {
+      if (at < low || at > high) return never;
+      continue;
+    }
+    const double one = (low - at) / ray.way[axis], other = (high - at) / ray.way[axis];
+    in = std::max(in, std::min(one, other));
+    out = std::min(out, std::max(one, other));
+  }
+  return in <= out ? in : never;
+}
+
+inline double entry(const Ray& ray, const description::Box& box) {
+  return entry(ray, Eigen::AlignedBox3d(-box.size / 2, box.size / 2));
+}
+
+namespace detail {
+
+// Where a ray is inside of something round: a t2 + 2 b t + c <= 0; empty where in > out.
+struct Inside {
+  double in, out;
+};
+inline Inside inside(double a, double b, double c) {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  if (a == 0) return c <= 0 ? Inside{-never, never} : Inside{never, -never};
+  const double discriminant = b * b - a * c;
+  if (discriminant < 0) return {never, -never};
+  const double q = -(b + std::copysign(std::sqrt(discriminant), b));  // of the larger size: no cancellation
+  const double one = q / a, other = q == 0 ? 0 : c / q;
+  return {std::min(one, other), std::max(one, other)};
+}
+
+}  // namespace detail
+
+inline double entry(const Ray& ray, const description::Sphere& sphere) {
+  const double r = sphere.radius;
+  const auto [in, out] = detail::inside(1, ray.from.dot(ray.way), ray.from.squaredNorm() - r * r);
+  return in <= out && out >= 0 ? std::max(in, 0.0) : std::numeric_limits<double>::infinity();
+}
+
+inline double entry(const Ray& ray, const description::Cylinder& cylinder) {
+  const auto from = ray.from.head<2>(), way = ray.way.head<2>();
+  const double r = cylinder.radius, half = cylinder.length / 2;
+  const auto round = detail::inside(way.squaredNorm(), from.dot(way), from.squaredNorm() - r * r);
+  constexpr double never = std::numeric_limits<double>::infinity();
+  if (ray.way.z() == 0 && std::abs(ray.from.z()) > half) return never;
+  const double one = ray.way.z() == 0 ? -never : (-half - ray.from.z()) / ray.way.z();
+  const double other = ray.way.z() == 0 ? never : (half - ray.from.z()) / ray.way.z();
+  const double in = std::max({round.in, std::min(one, other), 0.0}), out = std::min(round.out, std::max(one, other));
+  return in <= out ? in : never;
+}
+
+// The nearest of its faces, from whichever side (Moeller and Trumbore 1997).
+inline double entry(const Ray& ray, const description::Mesh& mesh) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const auto& face : mesh.faces) {
+    const Eigen::Vector3d corner = mesh.vertices[face[0]];
+    const Eigen::Vector3d one = mesh.vertices[face[1]] - corner, other = mesh.vertices[face[2]] - corner;
+    const Eigen::Vector3d across = ray.way.cross(other);
+    const double volume = one.dot(across);
+    if (volume == 0) continue;  // along the face
+    const Eigen::Vector3d to = ray.from - corner, up = to.cross(one);
+    const double u = to.dot(across) / volume, v = ray.way.dot(up) / volume, t = other.dot(up) / volume;
+    if (u >= 0 && v >= 0 && u + v <= 1 && t >= 0) nearest = std::min(nearest, t);
+  }
+  return nearest;
+}
+
+// What may stand in a laser's way: a shape, and the box around it in the shape's own frame.
+struct Solid {
+  description::Shape shape;
+  Eigen::AlignedBox3d box;
+
+  explicit Solid(const description::Shape& of)
+      : shape(of), box(description::bounds({Eigen::Isometry3d::Identity(), of.geometry})) {}
+};
+
+// The rays of one laser, and how far each gets.
+class Fan {
+ public:
+  explicit Fan(const description::Laser& laser)
+      : laser_(laser), ranges_(static_cast<std::size_t>(laser.samples), std::numeric_limits<double>::infinity()) {}
+
+  // Infinite where nothing was met.
+  const std::vector<double>& ranges() const { return ranges_; }
+
+  // A level ground, `height` under the laser; `down` in its frame.
+  void meet_ground(double height, const Eigen::Vector3d& down) {
+    for (std::size_t i = 0; i < ranges_.size(); ++i) {
+      const double sinks = way(i).dot(down);
+      if (height <= 0 || sinks > 0) shorten(i, height <= 0 ? 0 : height / sinks);
+    }
+  }
+
+  // A solid on something whose frame, in the laser's, is this.
+  void meet(const Solid& solid, const Eigen::Isometry3d& frame) {
+    const Eigen::Isometry3d pose = frame * solid.shape.pose, seen = pose.inverse();
+    Eigen::Matrix<double, 3, 8> corners;
+    for (int i = 0; i < 8; ++i)
+      corners.col(i) = pose * solid.box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i));
+    if (corners.row(2).minCoeff() > 0 || corners.row(2).maxCoeff() < 0) return;
+    if (solid.box.exteriorDistance(seen.translation()) > laser_.max_range) return;
+    std::visit(
+        [&](const auto& geometry) {
+          between(corners.topRows<2>(), [&](std::size_t i) {
+            const Ray ray{seen.translation(), seen.linear() * way(i)};
+            if (entry(ray, solid.box) < ranges_[i]) shorten(i, entry(ray, geometry));
+          });
+        },
+        solid.shape.geometry);
+  }
+
+ private:
+  Eigen::Vector3d way(std::size_t i) const {
+    const double angle = laser_.min_angle + static_cast<double>(i) * laser_.step();
+    return {std::cos(angle), std::sin(angle), 0};
+  }
+  void shorten(std::size_t i, double range) { ranges_[i] = std::min(ranges_[i], range); }
+
+  // Calls visit(i) for each ray that may meet what lies between the corners.
+  template <class Visit>
+  void between(const Eigen::Matrix<double, 2, 8>& corners, const Visit& visit) const {
+    constexpr double turn = 6.283185307179586, slack = 1e-9;  // [rad], slack: of rounding
+    const Eigen::Vector2d middle = corners.rowwise().mean();
+    const double towards = std::atan2(middle.y(), middle.x());
+    double right = 0, left = 0;  // how far they reach to both sides of that
+    for (int i = 0; i < 8; ++i) {
+      const double off = std::remainder(std::atan2(corners(1, i), corners(0, i)) - towards, turn);
+      right = std::min(right, off);
+      left = std::max(left, off);
+    }
+    const bool is_around = left - right >= turn / 2;
+    if (is_around || laser_.samples == 1) {
+      for (std::size_t i = 0; i < ranges_.size(); ++i) visit(i);
+      return;
+    }
+    for (int turns = -2; turns <= 2; ++turns) {
+      const double from = towards + right - slack + turns * turn, to = towards + left + slack + turns * turn;
+      const double first = std::max(0.0, std::ceil((from - laser_.min_angle) / laser_.step()));
+      const double last = std::min(laser_.samples - 1.0, std::floor((to - laser_.min_angle) / laser_.step()));
+      for (double i = first; i <= last; ++i) visit(static_cast<std::size_t>(i));
+    }
+  }
+
+  const description::Laser& laser_;
+  std::vector<double> ranges_;
+};
+
+}  // namespace muster

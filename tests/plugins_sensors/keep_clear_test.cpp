@@ -1,0 +1,99 @@
+// A robot that drives straight on, and what its laser keeps it from.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/plugins_robots/robot_world.hpp"
+
+namespace {
+
+using namespace muster;
+using namespace muster::test;
+
+const std::string driven =
+    "<material name=\"brick\" loss=\"6\"/><control.steady robot=\"r\" v=\"0.5\"/><physics.planar/><robots.drive/>";
+
+// A Scarab whose laser tells ranges as they are.
+Simulation towards(const Folder& folder, const std::string& more) {
+  const auto model = scarab_with(folder, " resolution=\"0.001\"/>", "/>");
+  return world_of(folder, driven + "<robot name=\"r\" at=\"0 0 0\" model=\"" + model.string() + "\"/>" + more, {},
+                  "dt=\"0.02\" until=\"30\" seed=\"1\"");
+}
+
+std::string wall(const std::string& name, const std::string& from, const std::string& to) {
+  return "<wall name=\"" + name + "\" from=\"" + from + "\" to=\"" + to + "\" material=\"brick\"/>";
+}
+
+TEST(KeepClear, StopsBeforeAWallAsHardAsItIsToldTo) {
+  Folder folder;
+  Simulation run = towards(folder, wall("w", "3 -2", "3 2") + "<control.keep_clear robot=\"r\" clearance=\"0.4\"/>");
+  double fastest = 0, hardest = 0, before = 0;
+  while (!run.done()) {
+    run.step();
+    const double v = row<Twist>(run, "robot/r/twist").vx;
+    fastest = std::max(fastest, v);
+    if (v < before) hardest = std::max(hardest, (before - v) / 0.02);
+    before = v;
+  }
+  EXPECT_NEAR(fastest, 0.5, 1e-9) << "far from it";
+  EXPECT_NEAR(hardest, 0.5, 0.02);
+  EXPECT_NEAR(row<Pose>(run, "robot/r/pose").x, 2.95 - 0.4, 0.01);
+  EXPECT_NEAR(row<Twist>(run, "robot/r/twist").vx, 0, 1e-9);
+}
+
+TEST(KeepClear, WithoutItTheRobotGoesOn) {
+  Folder folder;
+  Simulation run = towards(folder, wall("w", "9 -2", "9 2"));
+  while (!run.done()) run.step();
+  EXPECT_GT(row<Pose>(run, "robot/r/pose").x, 10) << "physics.planar knows no walls";
+}
+
+TEST(KeepClear, GoesThroughWhatIsWideEnough) {
+  for (const bool wide : {true, false}) {
+    Folder folder;
+    const std::string edge = wide ? "0.2" : "0.15";  // a way of 0.35 m must be free
+    Simulation run = towards(
+        folder, wall("a", "3 -3", "3 -" + edge) + wall("b", "3 " + edge, "3 3") + "<control.keep_clear robot=\"r\"/>");
+    while (!run.done()) run.step();
+    EXPECT_EQ(row<Pose>(run, "robot/r/pose").x > 4, wide);
+  }
+}
+
+TEST(KeepClear, LetsARobotTurnAwayAndDriveBack) {
+  Folder folder;
+  Simulation run =
+      world_of(folder,
+               "<material name=\"brick\" loss=\"6\"/><robot name=\"r\" at=\"2.7 0 0\"/>" + wall("w", "3 -2", "3 2") +
+                   "<control.steady robot=\"r\" v=\"-0.2\" w=\"0.3\"/><physics.planar/><robots.drive/>"
+                   "<control.keep_clear robot=\"r\"/>",
+               {}, "dt=\"0.02\" until=\"1\" seed=\"1\"");
+  while (!run.done()) run.step();
+  const auto asked = row<Command>(run, "robot/r/command");
+  EXPECT_EQ(asked.v, -0.2);
+  EXPECT_EQ(asked.w, 0.3);
+}
+
+TEST(KeepClear, StandsUntilItHasSeenAnything) {
+  Folder folder;
+  Simulation run = towards(folder, "<control.keep_clear name=\"k\" robot=\"r\"/>");
+  EXPECT_EQ(row<double>(run, "instance/k/ahead"), 0);
+  run.step();
+  EXPECT_EQ(row<double>(run, "instance/k/ahead"), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(row<Command>(run, "robot/r/command").v, 0.5);
+}
+
+TEST(KeepClear, NeedsALaser) {
+  Folder folder;
+  try {
+    world_of(folder,
+             "<robot name=\"r\" model=\"crate\" at=\"0 0 0\"/><control.steady robot=\"r\"/><physics.simbody/>"
+             "<robots.drive/><control.keep_clear robot=\"r\"/>");
+    FAIL() << "expected a refusal";
+  } catch (const std::exception& refused) {
+    EXPECT_NE(std::string(refused.what()).find("the robot has no laser: its model has no <sensor> with a <ray>"),
+              std::string::npos)
+        << refused.what();
+  }
+}
+
+}  // namespace
