@@ -8,24 +8,12 @@ namespace muster::simbody {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-namespace {
-
-Matrix3d cross_matrix(const Vector3d& v) {
-  Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
-}  // namespace
-
 Crew::Crew(const std::vector<NamedRobot>& robots, LegModel legs) {
   for (const NamedRobot& named : robots) {
-    CrewMember robot{named.name, RobotModel(*named.description), {}, {}, {}, {}, {}, {}, {}};
+    CrewMember robot{named.name, RobotModel(*named.description), {}, {}, {}, {}, {}, {}};
     if (legs == LegModel::rigid) robot.model.leg_drive.stiffness = std::numeric_limits<double>::infinity();
     robot.bodies = system_.add(robot.model);
     robot.whole = whole_mass(*named.description);
-    const Matrix3d c = cross_matrix(robot.whole.centre);
-    robot.inertia_at_origin = robot.whole.inertia - robot.whole.mass * c * c;
     for (std::size_t w = 0; w < 2; ++w) robot.wheel_inertia[w] = robot.model.wheel[w].inertia(2, 2);
     if (robot.model.rotors && robot.model.limbs.empty()) robot.flight.emplace(robot.whole, *robot.model.rotors);
     members_.push_back(std::move(robot));
@@ -67,13 +55,13 @@ void Crew::read_masses() {
 }
 
 Velocity CrewMember::free_acceleration(const Matrix3d& to_world, const Velocity& u) const {
-  const Vector3d w = u.head<3>(), centre = whole.centre;
+  const Vector3d w = u.head<3>();
   const Vector3d axle = Vector3d::UnitY();
   const Vector3d weight = to_world.transpose() * Vector3d(0, 0, -gravity * whole.mass);
   const Vector3d spin = (wheel_inertia[0] * u[6] + wheel_inertia[1] * u[7]) * axle;
   Velocity force = Velocity::Zero();
-  force.head<3>() = centre.cross(weight) - w.cross(inertia_at_origin * w + spin);
-  force.segment<3>(3) = weight - whole.mass * w.cross(w.cross(centre));
+  force.head<3>() = whole.centre.cross(weight) - w.cross(whole.inertia * w + spin);
+  force.segment<3>(3) = weight;
   return inverse_mass.lazyProduct(force);
 }
 

@@ -14,14 +14,16 @@
 namespace muster::simbody {
 
 struct CrewMember {
-  // u of a robot without legs after no time, without contacts and motors, at the given attitude.
+  // One rigid body but for its wheels, if it has any.
+  bool is_rigid() const { return model.legs.empty() && model.limbs.empty(); }
+  // Of u of such a robot, without contacts and motors, at the given attitude; less what its origin's way about the
+  // mass centre adds, which follows from the turn that a step makes.
   Velocity free_acceleration(const Eigen::Matrix3d& to_world, const Velocity& u) const;
 
   std::string name;
   RobotModel model;
   RobotBodies bodies;
   description::Mass whole;              // wheels included
-  Eigen::Matrix3d inertia_at_origin;    // of the whole, in the body's frame
   std::array<double, 2> wheel_inertia;  // about the axle
   std::optional<Flight> flight;         // where it has rotors and no limbs
   MassMatrix mass, inverse_mass;        // of what has neither legs nor limbs, which weigh otherwise in each step

@@ -6,9 +6,8 @@
 
 namespace muster::simbody {
 
-inline Eigen::Matrix3d matrix_of(const RobotState& s) {
-  return Eigen::Quaterniond(s.pose[3], s.pose[4], s.pose[5], s.pose[6]).toRotationMatrix();
-}
+inline Eigen::Quaterniond attitude_of(const RobotState& s) { return {s.pose[3], s.pose[4], s.pose[5], s.pose[6]}; }
+inline Eigen::Matrix3d matrix_of(const RobotState& s) { return attitude_of(s).toRotationMatrix(); }
 inline Eigen::Vector3d velocity_of(const RobotState& s) { return {s.twist[0], s.twist[1], s.twist[2]}; }
 inline Eigen::Vector3d rates_of(const RobotState& s) { return {s.twist[3], s.twist[4], s.twist[5]}; }
 

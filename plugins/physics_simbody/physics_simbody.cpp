@@ -16,7 +16,7 @@ using description::Model;
 using description::WorldRobots;
 
 struct PhysicsSimbody {
-  static constexpr auto id = "physics.simbody/8";
+  static constexpr auto id = "physics.simbody/9";
   static constexpr auto summary =
       "rigid robots on wheels or legs, among walls and each other: friction, slip, torque limits, weight transfer";
   static constexpr auto manual =

@@ -41,10 +41,11 @@ Velocity rotor_force(const description::Quadrotor& rotors, const RobotState& sta
 }
 
 // What the origin is faster by half a step ahead or behind than at the state's attitude, the mass centre being as fast.
-// Robots that meet in the air carry the velocity of their mass centres from step to step, so that what two give each
-// other is kept to the last digits.
+// Robots carry the velocity of their mass centres from step to step, so that what two give each other is kept to the
+// last digits.
 Vector3d origin_lead(const CrewMember& robot, const Matrix3d& to_world, const RobotState& state) {
-  return rates_of(state).cross((matrix_of(state) - to_world) * robot.whole.centre);
+  const Vector3d& centre = robot.whole.centre;
+  return rates_of(state).cross(attitude_of(state) * centre - to_world * centre);
 }
 
 int place_in(const std::vector<int>& robots, int robot) {
@@ -141,7 +142,7 @@ void StepperOf<N>::place(int index, double h, double at, const Command& command,
   now.speed = speed_of(robot.model, state);
   now.body.previous.template head<3>() = now.to_world.transpose() * rates_of(state);
   Vector3d v = velocity_of(state);
-  if (robot.flight) v += origin_lead(robot, now.to_world, state);
+  if (robot.is_rigid()) v += origin_lead(robot, now.to_world, state);
   now.body.previous.template segment<3>(3) = now.to_world.transpose() * v;
   if (!robot.model.legs.empty()) {
     place_legs(robot, h, at, command, state, now);
@@ -161,11 +162,7 @@ void StepperOf<N>::place_wheels(const CrewMember& robot, double h, double at, co
   const Velocity previous = body.previous.template head<unknowns>();
   const double kick = 0.5 * (state.memory.previous_step + h);
   Velocity free = previous + kick * robot.free_acceleration(now.to_world, previous);
-  if (robot.model.rotors) {
-    free += kick * (robot.inverse_mass * rotor_force(*robot.model.rotors, state, previous));
-    const Vector3d w = previous.head<3>();  // in origin_lead() already
-    free.segment<3>(3) += kick * w.cross(w.cross(robot.whole.centre));
-  }
+  if (robot.model.rotors) free += kick * (robot.inverse_mass * rotor_force(*robot.model.rotors, state, previous));
   body.free = body.previous;  // idle joints stand still
   body.free.template head<unknowns>() = free;
   const double asked[] = {command.left + at * command.left_rate, command.right + at * command.right_rate};
@@ -286,7 +283,7 @@ void StepperOf<N>::finish(int index, double h, const Command& command, RobotStat
     state.twist[k] = v[k];
     state.twist[3 + k] = w[k];
   }
-  if (robot.flight) {
+  if (robot.is_rigid()) {
     const Vector3d lead = origin_lead(robot, now.to_world, state);
     for (int k = 0; k < 3; ++k) state.twist[k] -= lead[k];
   }
