@@ -1,9 +1,12 @@
-// Where each robot believes to be: dead reckoning from the angles its wheels turned. And whether they turn as asked.
+// Where each robot believes to be: dead reckoning from the angles its wheels or legs turned. And whether wheels turn as
+// asked.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "dead_reckoning.hpp"
 #include "description/world_robots.hpp"
+#include "walking.hpp"
 
 namespace {
 
@@ -12,10 +15,16 @@ using description::WorldRobots;
 
 struct RobotsOdometry {
   static constexpr auto id = "robots.odometry/1";
-  static constexpr auto summary = "dead reckoning from wheel angles, from the true pose at the start on";
+  static constexpr auto summary =
+      "dead reckoning from the angles of wheels or legs, from the true pose at the start on";
   static constexpr auto manual =
-      "Between two readings the wheels are taken to keep the ratio of their rates: a circular arc, exactly. `noise`\n"
-      "is the standard deviation of the error that a wheel's reading gathers while it turns by one radian; the\n"
+      "Between two readings the wheels are taken to keep the ratio of their rates: a circular arc, exactly. A robot "
+      "that\n"
+      "walks is taken to be carried by the tripod that holds it higher, on legs that do not slip, but that it\n"
+      "turns by `turn_share` of what its strides make: feet slip in turns (effective track: Mandow et al., IROS "
+      "2007).\n"
+      "`noise` is the standard deviation of the error that a wheel's or leg's reading gathers while it turns by one "
+      "radian; the\n"
       "variance grows with the angle turned (after Chong and Kleeman, ICRA 1997), so it does not depend on the\n"
       "tick. A robot starts, also one that joins later, knowing its true pose. Slip is not seen: that is the point\n"
       "of it. Whenever `count` of robot/*/odometry_reset changes, it goes on from the place and heading given there.\n"
@@ -23,7 +32,8 @@ struct RobotsOdometry {
       "throughout the tick: it pushes against something and is too weak. A wheel that slips turns, and does not stall.";
   static constexpr auto phase = MUSTER_SENSE;
   static constexpr Param params[] = {
-      real("noise", 0, 0, 1, "rad", "standard deviation of a wheel's reading after one radian").free()};
+      real("noise", 0, 0, 1, "rad", "standard deviation of a wheel's or leg's reading after one radian").free(),
+      real("turn_share", 1, 0.1, 1, "", "of the turn that strides make, what a robot on legs turns").free()};
 
   // The angles of the last reading. A robot that joins as a copy of another brings that one's `of`, and starts anew.
   struct Seen {
@@ -32,8 +42,14 @@ struct RobotsOdometry {
     double of, model, left, right, resets;
   };
 
+  struct SeenLegs {
+    static constexpr const char* columns = "angle1[rad] angle2[rad] angle3[rad] angle4[rad] angle5[rad] angle6[rad]";
+    double angle[6];
+  };
+
   explicit RobotsOdometry(Setup& s)
       : noise(s.value("noise")),
+        turn_share(s.value("turn_share")),
         stream(s.stream("odometry")),
         robots(s, description::Meshes::skip),
         wheels(s.read<Wheels>("robot/*/wheels")),
@@ -42,7 +58,11 @@ struct RobotsOdometry {
         reset(s.read_if_any<OdometryReset>("robot/*/odometry_reset")),
         odometry(s.write<Odometry>("robot/*/odometry", MUSTER_SENSED)),
         stall(s.write<Stall>("robot/*/stall", MUSTER_SENSED)),
-        seen(s.write<Seen>("robot/*/odometry_seen")) {}
+        seen(s.write<Seen>("robot/*/odometry_seen")) {
+    if (!robots.any_walks()) return;
+    legs = s.read_if_any<Legs>("robot/*/legs");
+    seen_legs = s.write<SeenLegs>("robot/*/odometry_legs");
+  }
 
   void step(const Step& k) const {
     const auto asked = k[drive];
@@ -56,13 +76,20 @@ struct RobotsOdometry {
         const Pose& at = k[pose][i];
         k[odometry][i] = {at.x, at.y, yaw_of(at), 0, 0};
       } else {
-        k[odometry][i] = moved(k, i, robots.drive_of(next.model), now.left - before.left, now.right - before.right);
+        k[odometry][i] = moved(k, i, next.model, now.left - before.left, now.right - before.right);
       }
       if (next.resets != before.resets && before.of == next.of) start_from(k[odometry][i], resets[i]);
       k[seen][i] = next;
+      if (robots.any_walks()) k[seen_legs][i] = i < k[legs].size() ? angles_of(k[legs][i]) : SeenLegs{};
       const bool stands = i < asked.size() && k.alive("robot", i) && stalls(asked[i], now, k.dt());
       k[stall][i].stalled = stands ? 1 : 0;
     }
+  }
+
+  static SeenLegs angles_of(const Legs& turned) {
+    SeenLegs result;
+    std::copy(std::begin(turned.angle), std::end(turned.angle), result.angle);
+    return result;
   }
 
   static void start_from(Odometry& at, const OdometryReset& place) {
@@ -71,18 +98,36 @@ struct RobotsOdometry {
     at.yaw = place.yaw;
   }
 
-  Odometry moved(const Step& k, std::size_t i, const description::DifferentialDrive* motors, double left,
-                 double right) const {
+  // Its wheels having turned so far.
+  Odometry moved(const Step& k, std::size_t i, double model, double left, double right) const {
     Odometry at = k.last(odometry)[i];
     at.v = at.w = 0;
-    if (!motors || !k.alive("robot", i)) return at;
-    left += error(k, i, 0, left);
-    right += error(k, i, 1, right);
-    const double forward = motors->forward(left, right), turned = motors->turn(left, right);
+    if (!k.alive("robot", i)) return at;
+    if (const auto* motors = robots.drive_of(model)) {
+      left += error(k, i, 0, left);
+      right += error(k, i, 1, right);
+      go(k, at, motors->forward(left, right), motors->turn(left, right));
+    } else if (const auto* walks = robots.legs_of(model); walks && i < k[legs].size()) {
+      const Sides sides = strides(k, i, *walks);
+      go(k, at, (sides.left + sides.right) / 2, k[turn_share] * (sides.right - sides.left) / walks->track());
+    }
+    return at;
+  }
+
+  static void go(const Step& k, Odometry& at, double forward, double turned) {
     roll(at, forward, turned);
     at.v = forward / k.dt();
     at.w = turned / k.dt();
-    return at;
+  }
+
+  Sides strides(const Step& k, std::size_t i, const description::LegDrive& walks) const {
+    const auto& from = k.last(seen_legs)[i].angle;
+    std::array<double, 6> to;
+    for (unsigned leg = 0; leg < 6; ++leg) {
+      const double turned = k[legs][i].angle[leg] - from[leg];
+      to[leg] = from[leg] + turned + error(k, i, leg, turned);
+    }
+    return walked(walks, from, to.data());
   }
 
   static bool stalls(const Drive& asked, const Wheels& now, double dt) {
@@ -101,7 +146,7 @@ struct RobotsOdometry {
     return k[noise] * std::sqrt(std::abs(turned)) * stream.of(k.key("robot", robot)).normal(k.tick(), wheel);
   }
 
-  Value noise;
+  Value noise, turn_share;
   Stream stream;
   WorldRobots robots;
   In<Wheels> wheels;
@@ -111,6 +156,8 @@ struct RobotsOdometry {
   Out<Odometry> odometry;
   Out<Stall> stall;
   Out<Seen> seen;
+  In<Legs> legs{};            // where any walks
+  Out<SeenLegs> seen_legs{};  // too
 };
 
 }  // namespace

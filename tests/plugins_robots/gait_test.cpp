@@ -48,6 +48,57 @@ TEST(Gait, WalksAsFastAsAskedAndComesToStand) {
   EXPECT_LT(std::abs(row<Twist>(run, "robot/r/twist").vx), 1e-3);
 }
 
+// Straight on, odometry counts what the body goes, within the little that springs give.
+TEST(Gait, OdometryCountsStrides) {
+  for (const std::string legs : {"true", "false"}) {
+    for (const std::string v : {"0.12", "0.05", "-0.12"}) {
+      Folder folder;
+      Simulation run = world_of(folder,
+                                "<robot name=\"r\" model=\"rdk\" at=\"1 2 0\" heading=\"0.5\"/><physics.simbody "
+                                "step=\"0.002\" rigid_legs=\"" +
+                                    legs + "\"/><control.steady robot=\"r\" v=\"" + v + "\"/><robots.odometry/>",
+                                {}, "dt=\"0.01\" until=\"60\" seed=\"1\"");
+      run_until(run, 20, [] {});
+      const Pose at = row<Pose>(run, "robot/r/pose");
+      const Odometry believed = row<Odometry>(run, "robot/r/odometry");
+      EXPECT_LT(std::hypot(at.x - believed.x, at.y - believed.y), 0.01 * std::hypot(at.x - 1, at.y - 2)) << v;
+      EXPECT_NEAR(believed.yaw, yaw_of(at), 0.005) << v;
+    }
+  }
+}
+
+// In turns feet slip, and a robot turns by about three quarters of what its strides make. With that share a hexapod
+// finds its way by its own odometry.
+TEST(Gait, GoesToAPlaceByItsOwnOdometry) {
+  Folder folder;
+  Simulation run =
+      world_of(folder,
+               "<robot name=\"r\" model=\"rdk\" at=\"0 0 0\"/><physics.simbody step=\"0.002\"/>"
+               "<control.waypoint name=\"c\" robot=\"r\" path=\"path.csv\" speed=\"0.12\" turn_speed=\"0.3\"/>"
+               "<robots.odometry turn_share=\"0.75\"/>",
+               {{"path.csv", "x[m],y[m]\n1.5,0\n1.5,1.5\n0,1.5\n0,0\n"}}, "dt=\"0.01\" until=\"120\" seed=\"1\"");
+  const auto reached = [&run] { return run.table("instance/c/progress").at(0, 1); };
+  while (!run.done() && reached() < 4) run.step();
+  EXPECT_EQ(reached(), 4);
+  const Pose at = row<Pose>(run, "robot/r/pose");
+  const Odometry believed = row<Odometry>(run, "robot/r/odometry");
+  EXPECT_LT(std::hypot(at.x, at.y), 0.15) << "after a square of 1.5 m";
+  EXPECT_LT(std::abs(std::remainder(believed.yaw - yaw_of(at), whole_turn)), 0.1);
+}
+
+TEST(Gait, OdometryOfLegsHasItsNoise) {
+  const auto believed = [](const std::string& noise) {
+    Folder folder;
+    Simulation run = told(folder, "v=\"0.1\"", "<robots.odometry noise=\"" + noise + "\"/>");
+    run_until(run, 5, [] {});
+    return row<Odometry>(run, "robot/r/odometry");
+  };
+  const Odometry plain = believed("0"), noisy = believed("0.05");
+  const double off = std::hypot(noisy.x - plain.x, noisy.y - plain.y);
+  EXPECT_GT(off, 1e-4);
+  EXPECT_LT(off, 0.05);
+}
+
 TEST(Gait, AsksForNoJumps) {
   Folder folder;
   Simulation run = told(folder, "v=\"0.05\" w=\"0.5\" until=\"3\"", "<robots.gait max_frequency=\"0.8\"/>");
