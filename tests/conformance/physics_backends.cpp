@@ -35,7 +35,7 @@ std::vector<Backend> table() {
   return {simbody, ode, quick, planar};
 }
 
-// Of the table, what was built.
+// Of the table, what was built; and the given one.
 std::vector<Backend> backends() {
   std::vector<Backend> result;
   for (const Backend& backend : table()) {
@@ -43,6 +43,7 @@ std::vector<Backend> backends() {
     file[file.find('.')] = '_';
     if (std::filesystem::exists(MUSTER_PLUGINS_DIR "/" + file + ".so")) result.push_back(backend);
   }
+  if (const auto given = given_backend()) result.push_back(*given);
   return result;
 }
 
@@ -77,8 +78,7 @@ std::string lift(double rate, double swing) {
 }
 
 Started::Started(const Folder& folder, int workers, InstanceDeclaration backend)
-    : Simulation(read_world(folder.path(), standard()), standard(),
-                 {{MUSTER_BUILD_DIR "/tests/conformance", MUSTER_PLUGINS_DIR}, workers, {}}) {
+    : Simulation(read_world(folder.path(), standard()), standard(), search(workers)) {
   step();
   swap("physics", std::move(backend));
 }

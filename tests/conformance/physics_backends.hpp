@@ -8,6 +8,7 @@
 #include <cstring>
 #include <functional>
 #include <map>
+#include <optional>
 
 #include "description/robot.hpp"
 #include "tests/run_world.hpp"
@@ -54,7 +55,13 @@ struct Backend {
 };
 inline void PrintTo(const Backend& backend, std::ostream* out) { *out << backend.name; }
 
-// All that there are; and those of them that were built.
+// Where plugins are found.
+Options search(int workers = 1);
+
+// The one that MUSTER_BACKEND names, with what it claims (given_backend.cpp); nothing where it is not set.
+std::optional<Backend> given_backend();
+
+// All that there are; and those of them that were built, with the given one.
 std::vector<Backend> table();
 std::vector<Backend> backends();
 inline std::string test_name(const testing::TestParamInfo<Backend>& info) { return info.param.name; }

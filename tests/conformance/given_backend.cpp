@@ -1,0 +1,117 @@
+// A physics backend that is not of this project, held to the same tests.
+#include <algorithm>
+#include <cstdlib>
+#include <sstream>
+#include <stdexcept>
+
+#include "tests/conformance/physics_backends.hpp"
+
+namespace muster::test {
+
+namespace {
+
+// What a backend may claim, by name.
+const std::map<std::string, bool Backend::*> abilities = {{"height", &Backend::height},
+                                                          {"slip", &Backend::slip},
+                                                          {"torque", &Backend::torque},
+                                                          {"round_friction", &Backend::round_friction},
+                                                          {"load_transfer", &Backend::load_transfer},
+                                                          {"rotors", &Backend::rotors},
+                                                          {"bouncing", &Backend::bouncing},
+                                                          {"bounces_on_wheels", &Backend::bounces_on_wheels},
+                                                          {"limbs", &Backend::limbs},
+                                                          {"pushed", &Backend::pushed},
+                                                          {"has_step", &Backend::has_step}};
+const std::map<std::string, int Backend::*> orders = {{"order", &Backend::order},
+                                                      {"flight_order", &Backend::flight_order}};
+const std::map<std::string, double Backend::*> tolerances = {{"fall", &Backend::fall},
+                                                             {"rest", &Backend::rest},
+                                                             {"arc", &Backend::arc},
+                                                             {"course", &Backend::course},
+                                                             {"ramp", &Backend::ramp},
+                                                             {"climb", &Backend::climb},
+                                                             {"spin", &Backend::spin},
+                                                             {"collision", &Backend::collision},
+                                                             {"bounce", &Backend::bounce},
+                                                             {"parting", &Backend::parting},
+                                                             {"apex", &Backend::apex},
+                                                             {"slide", &Backend::slide},
+                                                             {"force", &Backend::force},
+                                                             {"swing", &Backend::swing},
+                                                             {"coarsest_of_order", &Backend::coarsest_of_order}};
+
+// What MUSTER_BACKEND says; "" where it is not set.
+std::string claims_of_another() {
+  const char* given = std::getenv("MUSTER_BACKEND");
+  return given ? given : "";
+}
+
+// Whether a world with this robot is taken.
+bool takes(const std::string& plugin, const std::string& robot) {
+  const Folder folder;
+  folder.write("world.xml", "<world dt='0.01' until='1' seed='1'>" + robot + "<" + plugin + "/></world>");
+  try {
+    Simulation(read_world(folder.path(), standard()), standard(), search());
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+// Somebody else's, by MUSTER_BACKEND="path/to/physics_mine.so slip torque order=2 fall=1e-4 with.solver=fast
+// smooth.friction=0". Which robots it holds it shows by what it refuses; it is held to the widest of the shipped
+// ones' tolerances where it claims no other. `with` gives it attributes, `smooth` those that leave bodies without
+// friction.
+Backend another(const std::string& claims) {
+  std::istringstream words(claims);
+  std::string word;
+  words >> word;
+  std::string id = std::filesystem::path(word).stem();
+  const auto stroke = id.find('_');
+  if (stroke == id.npos) throw std::runtime_error("MUSTER_BACKEND: expected physics_NAME.so, got " + word);
+  id[stroke] = '.';
+  Backend made{"given_" + id.substr(stroke + 1), id, {}};
+  made.rotors = made.height = takes(id, bird("a", "0 0 1"));
+  made.pushed = takes(id, "<robot name='a' model='crate' at='0 0 0'/>");
+  for (const auto& [name, tolerance] : tolerances) {
+    for (const Backend& backend : table()) made.*tolerance = std::max(made.*tolerance, backend.*tolerance);
+  }
+  while (words >> word) {
+    const auto equals = word.find('=');
+    const std::string name = word.substr(0, equals);
+    if (abilities.count(name) && equals == word.npos) {
+      made.*abilities.at(name) = true;
+    } else if (orders.count(name) && equals != word.npos) {
+      made.*orders.at(name) = std::stoi(word.substr(equals + 1));
+    } else if (tolerances.count(name) && equals != word.npos) {
+      made.*tolerances.at(name) = std::stod(word.substr(equals + 1));
+    } else if (name == "pendulum" && equals != word.npos) {
+      made.pendulum = word.substr(equals + 1);
+    } else if (name.rfind("with.", 0) == 0 && equals != word.npos) {
+      made.attributes[name.substr(5)] = word.substr(equals + 1);
+    } else if (name.rfind("smooth.", 0) == 0 && equals != word.npos) {
+      made.smooth[name.substr(7)] = word.substr(equals + 1);
+    } else {
+      throw std::runtime_error("MUSTER_BACKEND claims \"" + word + "\", which nothing here is held to");
+    }
+  }
+  return made;
+}
+
+}  // namespace
+
+Options search(int workers) {
+  Options options{{MUSTER_BUILD_DIR "/tests/conformance", MUSTER_PLUGINS_DIR}, workers, {}};
+  std::string file;
+  if (std::istringstream(claims_of_another()) >> file)
+    options.search_path.push_back(std::filesystem::absolute(file).parent_path());
+  return options;
+}
+
+std::optional<Backend> given_backend() {
+  const std::string claims = claims_of_another();
+  if (claims.empty()) return std::nullopt;
+  return another(claims);
+}
+
+}  // namespace muster::test
