@@ -161,7 +161,8 @@ class Fan {
       const double from = towards + right - slack + turns * turn, to = towards + left + slack + turns * turn;
       const double first = std::max(0.0, std::ceil((from - laser_.min_angle) / laser_.step()));
       const double last = std::min(laser_.samples - 1.0, std::floor((to - laser_.min_angle) / laser_.step()));
-      for (double i = first; i <= last; ++i) visit(static_cast<std::size_t>(i));
+      if (first > last) continue;
+      for (auto i = static_cast<std::size_t>(first); i <= static_cast<std::size_t>(last); ++i) visit(i);
     }
   }
 
