@@ -123,7 +123,6 @@ struct Laser {
 // What senses on a robot's body.
 struct Sensor {
   std::string name;
-  std::size_t link = 0;    // index
   Eigen::Isometry3d pose;  // in the robot's frame
   double rate = 0;         // [Hz]
   Laser laser;

@@ -3,6 +3,7 @@
 #include <urdf_parser/urdf_parser.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <filesystem>
 #include <mutex>
 #include <stdexcept>
@@ -241,11 +242,14 @@ Robot read_robot(const std::string& path, Meshes meshes) {
   for (const auto* muster = root.FirstChildElement("muster"); muster; muster = muster->NextSiblingElement("muster")) {
     read_muster(source, *muster, robot);
   }
-  for (const Sensor& sensor : robot.sensors) {
-    if (sensor.laser.max_range > 0) continue;
-    robot.warnings.push_back(path + ": sensor '" + sensor.name +
+  for (const auto* element = root.FirstChildElement("sensor"); element;
+       element = element->NextSiblingElement("sensor")) {
+    const auto sensor = std::find_if(robot.sensors.begin(), robot.sensors.end(),
+                                     [&](const Sensor& one) { return one.name == element->Attribute("name"); });
+    if (sensor == robot.sensors.end() || sensor->laser.max_range > 0) continue;
+    robot.warnings.push_back(path + ":" + std::to_string(element->GetLineNum()) + ": sensor '" + sensor->name +
                              "' has no range, so that nothing senses with it; expected <muster><laser sensor=\"" +
-                             sensor.name + "\" max_range=\"\"/></muster>");
+                             sensor->name + "\" max_range=\"\"/></muster>");
   }
   return robot;
 }

@@ -53,5 +53,7 @@ Eigen::Vector3d place_of_turning(const Source& source, const tinyxml2::XMLElemen
 std::string required(const Source& source, const tinyxml2::XMLElement& element, const char* attribute);
 double positive(const Source& source, const tinyxml2::XMLElement& element, const char* attribute);
 void only_attributes(const Source& source, const tinyxml2::XMLElement& element, const std::vector<std::string>& known);
+// The same of elements in it, each there at most once.
+void only_children(const Source& source, const tinyxml2::XMLElement& element, const std::vector<std::string>& known);
 
 }  // namespace muster::description

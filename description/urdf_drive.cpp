@@ -68,6 +68,17 @@ void only_attributes(const Source& source, const XMLElement& element, const std:
   }
 }
 
+void only_children(const Source& source, const XMLElement& element, const std::vector<std::string>& known) {
+  std::set<std::string> seen;
+  for (const auto* child = element.FirstChildElement(); child; child = child->NextSiblingElement()) {
+    const std::string name = child->Name();
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      source.fail(child->GetLineNum(), tag(element) + "has no element <" + name + ">" + nearest(name, known));
+    }
+    if (!seen.insert(name).second) source.fail(child->GetLineNum(), tag(element) + "has a second <" + name + ">");
+  }
+}
+
 double positive(const Source& source, const XMLElement& element, const char* attribute) {
   const std::string text = required(source, element, attribute);
   const auto value = parse_number(text);

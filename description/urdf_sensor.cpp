@@ -12,6 +12,7 @@ namespace {
 
 constexpr double turn = 6.283185307179586;
 constexpr int max_samples = 100000;
+constexpr double max_rate = 1e6;  // [Hz]
 
 // Of a <sensor>: what is read of it, and whom to complain about.
 class Reader {
@@ -22,6 +23,11 @@ class Reader {
   double number(const char* attribute) const { return numbers(attribute, 1)[0]; }
   double number(const char* attribute, double otherwise) const {
     return element_.Attribute(attribute) ? number(attribute) : otherwise;
+  }
+  double from_0(const char* attribute) const {
+    const double value = number(attribute, 0);
+    if (value < 0) fail(attribute + std::string("=\"") + element_.Attribute(attribute) + "\" is below 0");
+    return value;
   }
   Eigen::Vector3d vector(const char* attribute) const {
     if (!element_.Attribute(attribute)) return Eigen::Vector3d::Zero();
@@ -55,6 +61,7 @@ Eigen::Isometry3d origin_of(const Source& source, const XMLElement& sensor, cons
   const XMLElement* element = sensor.FirstChildElement("origin");
   if (!element) return Eigen::Isometry3d::Identity();
   only_attributes(source, *element, {"xyz", "rpy"});
+  only_children(source, *element, {});
   const Reader origin(source, *element, name);
   const Eigen::Vector3d angles = origin.vector("rpy");
   return Eigen::Translation3d(origin.vector("xyz")) * Eigen::AngleAxisd(angles[2], Eigen::Vector3d::UnitZ()) *
@@ -64,13 +71,16 @@ Eigen::Isometry3d origin_of(const Source& source, const XMLElement& sensor, cons
 
 // All the rays of a laser lie in one plane: <vertical> may say so, and no more.
 Laser laser_of(const Source& source, const XMLElement& ray, const std::string& name) {
+  only_attributes(source, ray, {});
+  only_children(source, ray, {"horizontal", "vertical"});
   const XMLElement& element = child_of(source, ray, "horizontal", "sensor '" + name + "': <ray>");
   const std::vector<std::string> known = {"samples", "resolution", "min_angle", "max_angle"};
   only_attributes(source, element, known);
   const Reader horizontal(source, element, name);
   const double samples = horizontal.number("samples", 1);
   if (!(samples >= 1 && samples <= max_samples && samples == std::floor(samples)))
-    horizontal.fail("samples is wrong; expected a whole number from 1 to 100000");
+    horizontal.fail(std::string("samples=\"") + element.Attribute("samples") +
+                    "\" is wrong; expected a whole number from 1 to 100000");
   if (horizontal.number("resolution", 1) != 1) horizontal.fail("resolution is not 1: a range for each ray");
   Laser laser;
   laser.samples = static_cast<int>(samples);
@@ -118,18 +128,21 @@ void read_sensor(const Source& source, const XMLElement& element, Robot& robot) 
                              " has no <ray>; muster has plugins for lasers alone, so that nothing senses with it");
     return;
   }
+  only_children(source, element, {"parent", "origin", "ray"});
   const XMLElement& parent = child_of(source, element, "parent", what);
-  sensor.link = find_link(source, parent, robot, sensor.name);
-  const auto carrier = frame_on_body(robot, sensor.link);
+  only_attributes(source, parent, {"link"});
+  const auto carrier = frame_on_body(robot, find_link(source, parent, robot, sensor.name));
   if (!carrier) source.fail(parent.GetLineNum(), what + " is not on the robot's body: a joint between them moves");
   sensor.pose = *carrier * origin_of(source, element, sensor.name);
   sensor.rate = positive(source, element, "update_rate");
+  if (sensor.rate > max_rate) source.fail(line, what + ": update_rate is above 1000000 Hz");
   sensor.laser = laser_of(source, *ray, sensor.name);
   robot.sensors.push_back(sensor);
 }
 
 void read_laser(const Source& source, const XMLElement& element, Robot& robot) {
   only_attributes(source, element, {"sensor", "min_range", "max_range", "resolution"});
+  only_children(source, element, {});
   const std::string name = required(source, element, "sensor");
   std::vector<std::string> names;
   for (const Sensor& sensor : robot.sensors) names.push_back(sensor.name);
@@ -139,10 +152,14 @@ void read_laser(const Source& source, const XMLElement& element, Robot& robot) {
                 "<laser> sensor '" + name + "' is not known, or has no <ray>" + nearest(name, names));
   }
   Laser& laser = robot.sensors[static_cast<std::size_t>(found - names.begin())].laser;
+  const Reader reader(source, element, name);
+  if (laser.max_range > 0) reader.fail("has its range already");
   laser.max_range = positive(source, element, "max_range");
-  if (element.Attribute("min_range")) laser.min_range = positive(source, element, "min_range");
-  if (element.Attribute("resolution")) laser.resolution = positive(source, element, "resolution");
-  if (laser.min_range >= laser.max_range) source.fail(element.GetLineNum(), "<laser> min_range is not below max_range");
+  laser.min_range = reader.from_0("min_range");
+  laser.resolution = reader.from_0("resolution");
+  if (laser.min_range >= laser.max_range) reader.fail("min_range is not below max_range");
+  if (laser.resolution > 0 && !(laser.resolution < laser.max_range && laser.resolution > 1e-9 * laser.max_range))
+    reader.fail("resolution is not between a billionth of max_range and max_range");
 }
 
 }  // namespace muster::description

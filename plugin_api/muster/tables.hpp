@@ -88,8 +88,8 @@ struct Geometry {
 
 // What a laser saw: ranges are doubles, counter-clockwise from `min_angle` on and `step` apart in the x-y plane of the
 // laser's frame. One that saw nothing within `max_range` is infinite, what is nearer than `min_range` is minus infinity
-// (REP 117). `sensor` counts the lasers of the robot's model from 0, `id` its scans. x, y, yaw: where the robot's
-// odometry had it; null without odometry. The rest is where the laser sits in the robot's frame.
+// (REP 117). `sensor` counts the lasers of the robot's model from 0, `id` how many of its scans were due before. x, y,
+// yaw: where the robot's odometry had it; null without odometry. The rest is where the laser sits in the robot's frame.
 struct Scan {
   static constexpr const char* columns =
       "robot:robot sensor id t[s] x[m]? y[m]? yaw[rad]? at_x[m] at_y[m] at_z[m] qw qx qy qz min_angle[rad] step[rad] "

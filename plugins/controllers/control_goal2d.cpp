@@ -26,8 +26,9 @@ struct ControlGoal2d {
       real("turn_tolerance", 0.01, 1e-6, 3, "rad", "and the heading within this angle")};
 
   struct Arrived {
-    static constexpr const char* columns = "there arrived";
+    static constexpr const char* columns = "there arrived x[m]? y[m]?";
     double there, arrived;  // 0 or 1: at the place; and as it was asked to stand there
+    double x, y;            // of the place that it is at
   };
 
   explicit ControlGoal2d(Setup& s)
@@ -46,18 +47,20 @@ struct ControlGoal2d {
     const Goal2d& to = *k[goal];
     const Odometry& here = *k[odometry];
     *k[command] = {0, 0};
-    *k[arrived] = {0, 0};
+    *k[arrived] = {0, 0, null(), null()};
     if (is_null(to.x) || is_null(to.y)) return;
     const Turning turning{k[turn_gain], k[turn_speed]};
     const double away = std::hypot(to.x - here.x, to.y - here.y);
-    const bool there = away <= k[tolerance] * (k.last(arrived)->there != 0 ? 2 : 1);
+    const Arrived& before = *k.last(arrived);
+    const bool was_there = before.there != 0 && before.x == to.x && before.y == to.y;
+    const bool there = away <= k[tolerance] * (was_there ? 2 : 1);
     if (!there) {
       *k[command] = towards(here, to.x, to.y, std::min(k[speed], k[slow_gain] * away), turning);
       return;
     }
     const double off = is_null(to.yaw) ? 0 : turn_to(to.yaw, here.yaw);
     k[command]->w = turning.rate(off);
-    *k[arrived] = {1, std::abs(off) <= k[turn_tolerance] ? 1.0 : 0.0};
+    *k[arrived] = {1, std::abs(off) <= k[turn_tolerance] ? 1.0 : 0.0, to.x, to.y};
   }
 
   Value speed, slow_gain, turn_gain, turn_speed, tolerance, turn_tolerance;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "description/world_robots.hpp"
 
@@ -40,14 +41,14 @@ struct ControlKeepClear {
         ahead(s.write<Ahead>("self/ahead")) {
     const WorldRobots robots(s, description::Meshes::skip);
     const auto* robot = robots.of(s.param("robot") + 1);
-    if (!robot || robot->sensors.empty())
-      throw BadInput("the robot has no laser: its model has no <sensor> with a <ray>");
+    if (!robot || robot->sensors.empty() || !(robot->sensors[0].laser.max_range > 0))
+      throw BadInput("the robot has no laser: its model has no <sensor> with a <ray> and a range");
   }
 
   void step(const Step& k) const {
     double free = k.last(ahead)->free;
     for (std::size_t i = 0; i < k[scan].size(); ++i) {
-      if (k[scan][i].sensor == 0) free = free_way(k, i);
+      if (k[scan][i].sensor == 0) free = free_way(k, i) - gone_since(k, k[scan][i].t);
     }
     // As fast as it may be so that, a tick later, what is left is enough to stop in: v2 = 2 a (left - v dt).
     const double left = std::max(0.0, free - k[clearance]), a = k[deceleration], change = a * k.dt();
@@ -56,6 +57,12 @@ struct ControlKeepClear {
     k[command]->v = std::min(k[command]->v, most);
     const double v = k[command]->v;
     *k[ahead] = {std::max(0.0, free - (k.last(ahead)->v + v) / 2 * k.dt()), v};
+  }
+
+  // Since a scan, to the tick that is over. The last is a tick ago, older ones were read late.
+  double gone_since(const Step& k, double scanned) const {
+    const double tick = k.time() / static_cast<double>(k.tick());
+    return k.last(ahead)->v * std::max(0.0, k.time() - tick - scanned);
   }
 
   // To the nearest place in the way that a scan has seen.
@@ -68,11 +75,13 @@ struct ControlKeepClear {
     for (std::size_t i = 0; i < ranges.size() / sizeof(double); ++i) {
       double range;
       std::memcpy(&range, ranges.data() + i * sizeof range, sizeof range);
-      range = std::max(range, 0.0);  // minus infinity: nearer than it can tell
-      if (std::isinf(range)) continue;
+      if (range == std::numeric_limits<double>::infinity()) continue;
       const double angle = seen.min_angle + static_cast<double>(i) * seen.step;
-      const Eigen::Vector3d place = at * Eigen::Vector3d(range * std::cos(angle), range * std::sin(angle), 0);
-      if (place.x() > 0 && std::abs(place.y()) < k[width] / 2) free = std::min(free, place.x());
+      const Eigen::Vector3d way = at.linear() * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
+      const bool is_too_near = std::isinf(range);  // to tell how near: at the laser itself, for all that is known
+      const Eigen::Vector3d place = at.translation() + (is_too_near ? 0 : range) * way;
+      const bool is_ahead = is_too_near ? way.x() > 0 : place.x() > 0;
+      if (is_ahead && std::abs(place.y()) < k[width] / 2) free = std::min(free, std::max(0.0, place.x()));
     }
     return free;
   }

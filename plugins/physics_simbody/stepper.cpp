@@ -41,8 +41,8 @@ Velocity rotor_force(const description::Quadrotor& rotors, const RobotState& sta
 }
 
 // What the origin is faster by half a step ahead or behind than at the state's attitude, the mass centre being as fast.
-// Robots carry the velocity of their mass centres from step to step, so that what two give each other is kept to the
-// last digits.
+// Robots without legs and limbs carry the velocity of their mass centres from step to step, so that what two give each
+// other is kept to the last digits.
 Vector3d origin_lead(const CrewMember& robot, const Matrix3d& to_world, const RobotState& state) {
   const Vector3d& centre = robot.whole.centre;
   return rates_of(state).cross(attitude_of(state) * centre - to_world * centre);

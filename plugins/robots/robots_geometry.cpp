@@ -1,4 +1,6 @@
 // The box that each robot fills.
+#include <map>
+
 #include "description/world_robots.hpp"
 
 namespace {
@@ -15,20 +17,23 @@ struct RobotsGeometry {
       : robots(s, description::Meshes::import),
         geometry(s.write<Geometry>("robot/*/geometry", MUSTER_SENSED)),
         model(s.write<description::Model>("robot/*/geometry_model")) {
-    for (std::size_t row = 1; row <= robots.size(); ++row) boxes.push_back(box_of(robots.of(static_cast<double>(row))));
-  }
-
-  void step(const Step& k) const {
-    for (std::size_t i = 0; i < k[geometry].size(); ++i) {
-      k[model][i].model = WorldRobots::model_of(k.last(model)[i].model, i);
-      const auto row = static_cast<std::size_t>(k[model][i].model) - 1;
-      k[geometry][i] = row < boxes.size() ? boxes[row] : Geometry{};
+    for (std::size_t row = 1; row <= robots.size(); ++row) {
+      const auto* robot = robots.of(static_cast<double>(row));
+      if (robot) boxes.emplace(robot, box_of(*robot));
     }
   }
 
-  static Geometry box_of(const description::Robot* robot) {
-    if (!robot) return {};
-    const Eigen::AlignedBox3d box = bounds(*robot);
+  // Of a robot without a model nothing is known: a box of nothing.
+  void step(const Step& k) const {
+    for (std::size_t i = 0; i < k[geometry].size(); ++i) {
+      k[model][i].model = WorldRobots::model_of(k.last(model)[i].model, i);
+      const auto known = boxes.find(robots.of(k[model][i].model));
+      k[geometry][i] = known == boxes.end() ? Geometry{} : known->second;
+    }
+  }
+
+  static Geometry box_of(const description::Robot& robot) {
+    const Eigen::AlignedBox3d box = bounds(robot);
     if (box.isEmpty()) return {};
     const Eigen::Vector3d middle = box.center(), size = box.sizes();
     return {middle.x(), middle.y(), middle.z(), size.x(), size.y(), size.z()};
@@ -37,7 +42,7 @@ struct RobotsGeometry {
   WorldRobots robots;
   Out<Geometry> geometry;
   Out<description::Model> model;
-  std::vector<Geometry> boxes;  // of the robots of the world file
+  std::map<const description::Robot*, Geometry> boxes;
 };
 
 }  // namespace

@@ -14,7 +14,7 @@ using namespace muster;
 using description::WorldRobots;
 
 struct RobotsOdometry {
-  static constexpr auto id = "robots.odometry/1";
+  static constexpr auto id = "robots.odometry/2";
   static constexpr auto summary =
       "dead reckoning from the angles of wheels or legs, from the true pose at the start on";
   static constexpr auto manual =

@@ -101,8 +101,11 @@ struct Solid {
 // The rays of one laser, and how far each gets.
 class Fan {
  public:
-  explicit Fan(const description::Laser& laser)
-      : laser_(laser), ranges_(static_cast<std::size_t>(laser.samples), std::numeric_limits<double>::infinity()) {}
+  // What begins beyond `reach` [m] need not be met.
+  Fan(const description::Laser& laser, double reach)
+      : laser_(laser),
+        reach_(reach),
+        ranges_(static_cast<std::size_t>(laser.samples), std::numeric_limits<double>::infinity()) {}
 
   // Infinite where nothing was met.
   const std::vector<double>& ranges() const { return ranges_; }
@@ -122,7 +125,7 @@ class Fan {
     for (int i = 0; i < 8; ++i)
       corners.col(i) = pose * solid.box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i));
     if (corners.row(2).minCoeff() > 0 || corners.row(2).maxCoeff() < 0) return;
-    if (solid.box.exteriorDistance(seen.translation()) > laser_.max_range) return;
+    if (solid.box.exteriorDistance(seen.translation()) > reach_) return;
     std::visit(
         [&](const auto& geometry) {
           between(corners.topRows<2>(), [&](std::size_t i) {
@@ -167,6 +170,7 @@ class Fan {
   }
 
   const description::Laser& laser_;
+  double reach_;
   std::vector<double> ranges_;
 };
 

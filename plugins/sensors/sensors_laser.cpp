@@ -29,7 +29,7 @@ struct SensorsLaser {
       "white Gaussian noise is added, of standard deviation `noise` and, independently, `share` r; then it is rounded\n"
       "to the laser's resolution. Ranges above its max_range are infinite, below its min_range minus infinity\n"
       "(REP 117). A scan says where the robot's odometry had it, not where it was. Not seen are the robot itself,\n"
-      "legs, limbs, level floors other than the ground, and meshes of the world.";
+      "legs, limbs, level floors other than the ground, and meshes of the world. Wheels are seen as they stand at 0.";
   static constexpr auto phase = MUSTER_SENSE;
   static constexpr Param params[] = {real("noise", 0, 0, 10, "m", "standard deviation of a range").free(),
                                      real("share", 0, 0, 1, "", "standard deviation of a range, of that range").free()};
@@ -81,7 +81,8 @@ struct SensorsLaser {
 
   std::vector<double> seen(const Step& k, std::size_t self, const Isometry3d& laser_pose,
                            const description::Laser& laser, const std::vector<Solid>& walls) const {
-    Fan fan(laser);
+    // What noise may bring within its range is looked at, too.
+    Fan fan(laser, laser.max_range + 6 * deviation(k, laser.max_range));
     const Isometry3d world = laser_pose.inverse();
     for (const Solid& solid : walls) fan.meet(solid, world);
     fan.meet_ground(laser_pose.translation().z(), -world.linear().col(2));
@@ -98,7 +99,7 @@ struct SensorsLaser {
             std::vector<double> ranges) const {
     const description::Laser& laser = sensor.laser;
     for (std::size_t i = 0; i < ranges.size(); ++i) {
-      ranges[i] = told(ranges[i] + error(k, robot, number * ranges.size() + i, ranges[i]), laser);
+      ranges[i] = told(ranges[i] + error(k, robot, number, i, ranges[i]), laser);
     }
     std::string payload(ranges.size() * sizeof(double), '\0');
     std::memcpy(payload.data(), ranges.data(), payload.size());
@@ -129,15 +130,18 @@ struct SensorsLaser {
 
   static double told(double range, const description::Laser& laser) {
     constexpr double infinite = std::numeric_limits<double>::infinity();
+    if (laser.resolution > 0 && std::isfinite(range)) range = laser.resolution * std::round(range / laser.resolution);
     if (range < laser.min_range) return -infinite;
-    if (range > laser.max_range) return infinite;
-    return laser.resolution > 0 ? laser.resolution * std::round(range / laser.resolution) : range;
+    return range > laser.max_range ? infinite : range;
   }
 
-  double error(const Step& k, std::size_t robot, std::size_t ray, double range) const {
-    if (k.expected() || (k[noise] == 0 && k[share] == 0) || !std::isfinite(range)) return 0;
-    const double deviation = std::hypot(k[noise], k[share] * range);
-    return deviation * stream.of(k.key("robot", robot)).normal(k.tick(), static_cast<unsigned>(ray));
+  double deviation(const Step& k, double range) const {
+    return k.expected() ? 0 : std::hypot(k[noise], k[share] * range);
+  }
+
+  double error(const Step& k, std::size_t robot, std::size_t sensor, std::size_t ray, double range) const {
+    if (!std::isfinite(range) || deviation(k, range) == 0) return 0;
+    return deviation(k, range) * stream.of(k.key("robot", robot)).of(sensor).normal(k.tick(), ray);
   }
 
   std::vector<Solid> walls_of(const Step& k) const {
@@ -155,7 +159,7 @@ struct SensorsLaser {
     return result;
   }
 
-  // A robot's body and wheels. A wheel looks the same however far it has turned.
+  // A robot's body and wheels, which are round: however far one has turned.
   static std::vector<Solid> solids_of(const description::Robot& robot) {
     std::vector<Solid> result;
     for (const auto& shape : rigid_shapes(robot, 0)) result.emplace_back(shape);

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "tests/conformance/physics_backends.hpp"
+#include "text/number.hpp"
 
 namespace muster::test {
 
@@ -58,6 +59,12 @@ bool takes(const std::string& plugin, const std::string& robot) {
   }
 }
 
+double number_in(const std::string& word, std::size_t equals) {
+  const auto number = parse_real(word.substr(equals + 1));
+  if (!number) throw std::runtime_error("MUSTER_BACKEND claims " + word + ": " + why_not_real(word.substr(equals + 1)));
+  return *number;
+}
+
 // Somebody else's, by MUSTER_BACKEND="path/to/physics_mine.so slip torque order=2 fall=1e-4 with.solver=fast
 // smooth.friction=0". Which robots it holds it shows by what it refuses; it is held to the widest of the shipped
 // ones' tolerances where it claims no other. `with` gives it attributes, `smooth` those that leave bodies without
@@ -68,7 +75,8 @@ Backend another(const std::string& claims) {
   words >> word;
   std::string id = std::filesystem::path(word).stem();
   const auto stroke = id.find('_');
-  if (stroke == id.npos) throw std::runtime_error("MUSTER_BACKEND: expected physics_NAME.so, got " + word);
+  if (stroke == id.npos || !std::filesystem::exists(word))
+    throw std::runtime_error("MUSTER_BACKEND: expected a file physics_NAME.so that there is, got " + word);
   id[stroke] = '.';
   Backend made{"given_" + id.substr(stroke + 1), id, {}};
   made.rotors = made.height = takes(id, bird("a", "0 0 1"));
@@ -82,9 +90,9 @@ Backend another(const std::string& claims) {
     if (abilities.count(name) && equals == word.npos) {
       made.*abilities.at(name) = true;
     } else if (orders.count(name) && equals != word.npos) {
-      made.*orders.at(name) = std::stoi(word.substr(equals + 1));
+      made.*orders.at(name) = static_cast<int>(number_in(word, equals));
     } else if (tolerances.count(name) && equals != word.npos) {
-      made.*tolerances.at(name) = std::stod(word.substr(equals + 1));
+      made.*tolerances.at(name) = number_in(word, equals);
     } else if (name == "pendulum" && equals != word.npos) {
       made.pendulum = word.substr(equals + 1);
     } else if (name.rfind("with.", 0) == 0 && equals != word.npos) {
@@ -103,8 +111,8 @@ Backend another(const std::string& claims) {
 Options search(int workers) {
   Options options{{MUSTER_BUILD_DIR "/tests/conformance", MUSTER_PLUGINS_DIR}, workers, {}};
   std::string file;
-  if (std::istringstream(claims_of_another()) >> file)
-    options.search_path.push_back(std::filesystem::absolute(file).parent_path());
+  if (std::istringstream(claims_of_another()) >> file)  // before the project's own, which may have its name
+    options.search_path.insert(options.search_path.begin(), std::filesystem::absolute(file).parent_path());
   return options;
 }
 

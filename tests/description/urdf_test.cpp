@@ -240,7 +240,6 @@ TEST(Urdf, ScarabHasItsLaser) {
   ASSERT_EQ(robot.sensors.size(), 1u);
   const Sensor& hokuyo = robot.sensors[0];
   EXPECT_EQ(hokuyo.name, "hokuyo");
-  EXPECT_EQ(robot.links[hokuyo.link].name, "laser");
   EXPECT_TRUE(hokuyo.pose.translation().isApprox(Eigen::Vector3d(0.05, 0, 0.207)));
   EXPECT_EQ(hokuyo.rate, 10);
   EXPECT_EQ(hokuyo.laser.samples, 683);
@@ -256,12 +255,13 @@ TEST(Urdf, SensorsStandAsTheirOriginSays) {
     <sensor name="one" update_rate="5"><parent link="b"/><origin xyz="0.5 0 0" rpy="0 0.3 0"/>
       <ray><horizontal samples="3" min_angle="-1" max_angle="1"/><vertical samples="1"/></ray></sensor>
     <sensor name="single" update_rate="5"><parent link="a"/><ray><horizontal/></ray></sensor>
-    <muster><laser sensor="one" max_range="7"/><laser sensor="single" max_range="2" min_range="0.1"/></muster></robot>)"));
+    <muster><laser sensor="one" min_range="0" max_range="7" resolution="0"/><laser sensor="single" max_range="2" min_range="0.1"/></muster></robot>)"));
   ASSERT_EQ(robot.sensors.size(), 2u);
   EXPECT_TRUE(robot.sensors[0].pose.translation().isApprox(Eigen::Vector3d(1, 0.5, 0)));
   const Eigen::Vector3d x(0, std::cos(0.3), -std::sin(0.3));  // pitched down, and turned to the left
   EXPECT_TRUE(robot.sensors[0].pose.linear().col(0).isApprox(x, 1e-12));
   EXPECT_EQ(robot.sensors[0].laser.step(), 1);
+  EXPECT_EQ(robot.sensors[0].laser.resolution, 0);
   EXPECT_EQ(robot.sensors[1].laser.samples, 1);
   EXPECT_EQ(robot.sensors[1].laser.min_range, 0.1);
   EXPECT_TRUE(robot.warnings.empty());
@@ -278,7 +278,7 @@ TEST(Urdf, SensorsThatNothingSensesWithAreWarnedAbout) {
       robot.warnings,
       (std::vector<std::string>{
           path + ":2: sensor 'eye' has no <ray>; muster has plugins for lasers alone, so that nothing senses with it",
-          path + ": sensor 's' has no range, so that nothing senses with it; expected <muster><laser sensor=\"s\" "
+          path + ":3: sensor 's' has no range, so that nothing senses with it; expected <muster><laser sensor=\"s\" "
                  "max_range=\"\"/></muster>"}));
 }
 

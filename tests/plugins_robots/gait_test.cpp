@@ -61,7 +61,7 @@ TEST(Gait, OdometryCountsStrides) {
       run_until(run, 20, [] {});
       const Pose at = row<Pose>(run, "robot/r/pose");
       const Odometry believed = row<Odometry>(run, "robot/r/odometry");
-      EXPECT_LT(std::hypot(at.x - believed.x, at.y - believed.y), 0.01 * std::hypot(at.x - 1, at.y - 2)) << v;
+      EXPECT_LT(std::hypot(at.x - believed.x, at.y - believed.y), 0.005 * std::hypot(at.x - 1, at.y - 2)) << v;
       EXPECT_NEAR(believed.yaw, yaw_of(at), 0.005) << v;
     }
   }
@@ -82,7 +82,7 @@ TEST(Gait, GoesToAPlaceByItsOwnOdometry) {
   EXPECT_EQ(reached(), 4);
   const Pose at = row<Pose>(run, "robot/r/pose");
   const Odometry believed = row<Odometry>(run, "robot/r/odometry");
-  EXPECT_LT(std::hypot(at.x, at.y), 0.15) << "after a square of 1.5 m";
+  EXPECT_LT(std::hypot(at.x, at.y), 0.1) << "after a square of 1.5 m";
   EXPECT_LT(std::abs(std::remainder(believed.yaw - yaw_of(at), whole_turn)), 0.1);
 }
 

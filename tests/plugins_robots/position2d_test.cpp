@@ -40,6 +40,8 @@ TEST(Goal2d, IsReachedFromAnySideAndStoodAtAsAsked) {
     Simulation run = asked(folder, "goal2d", plan.str(), to_goals);
     while (!run.done() && row<Arrived>(run, "instance/c/arrived").arrived == 0) run.step();
     ASSERT_FALSE(run.done());
+    run.step();  // what was asked for in that tick is done
+    EXPECT_LT(std::abs(std::remainder(row<Odometry>(run, "robot/r/odometry").yaw - yaw, 6.283185307179586)), 0.011);
     run_to(run, time_of(run, 0.05) + 20);
     const auto at = row<Odometry>(run, "robot/r/odometry");
     EXPECT_LT(std::hypot(at.x - x, at.y - y), 0.01);
@@ -60,6 +62,26 @@ TEST(Goal2d, TakesTheTimeThatItsLawSays) {
   while (!run.done() && row<Arrived>(run, "instance/c/arrived").arrived == 0) run.step();
   const double ramp = 0.3 / 2 / 2;  // at 2 m/s2
   EXPECT_NEAR(time_of(run, 0.01), ramp + (4 - 0.3) / 0.3 + std::log(0.3 / 0.01), 0.1);
+}
+
+// Once there, it sets out again where it finds itself beyond twice the tolerance, and not before; a new goal is to be
+// reached as any other.
+TEST(Goal2d, SetsOutAgainFromBeyondTwiceItsTolerance) {
+  const auto moves = [](const std::string& goals, const std::string& resets) {
+    Folder folder;
+    folder.write("resets.csv", "t[s],a,b,c\n" + resets);
+    Simulation run =
+        asked(folder, "goal2d", goals,
+              "<control.goal2d name=\"c\" robot=\"r\" tolerance=\"0.1\"/><test.asks name=\"other\" robot=\"r\" "
+              "what=\"odometry_reset\" plan=\"resets.csv\"/>");
+    run_to(run, 10);
+    EXPECT_EQ(row<Arrived>(run, "instance/c/arrived").there, 1);
+    run_to(run, 10.3);
+    return row<Arrived>(run, "instance/c/arrived").there == 0;
+  };
+  EXPECT_FALSE(moves("0,1,2,\n", "10.01,1.15,2,0\n"));
+  EXPECT_TRUE(moves("0,1,2,\n", "10.01,1.25,2,0\n"));
+  EXPECT_TRUE(moves("0,1,2,\n10.01,1.15,2,\n", ""));
 }
 
 TEST(Goal2d, WithoutAGoalItStands) {
@@ -120,6 +142,41 @@ TEST(OdometryIsSet, WhenAskedTo) {
   EXPECT_EQ(row<Odometry>(run, "robot/r/odometry").x, 0);
   run_to(run, 5);
   EXPECT_GT(row<Odometry>(run, "robot/r/odometry").x, 0.2);
+}
+
+// Restored in the middle, or with every instance made anew again and again, a run has the same bits.
+TEST(Position2d, KeepsItsStateOnTheBlackboard) {
+  Folder folder;
+  folder.write("goals.csv", "t[s],a,b,c\n0,2,2.5,1\n2.5,1,1,\n");
+  folder.write("resets.csv", "t[s],a,b,c\n1,10,20,1\n2.2,0,0,0\n");
+  const auto made = [&] {
+    return world_of(
+        folder,
+        "<robot name=\"r\" at=\"1 2 0\"/><robot name=\"q\" at=\"5 2 0\"/><robot name=\"h\" model=\"rdk\" at=\"9 2 0\"/>"
+        "<test.asks name=\"goals\" robot=\"r\" what=\"goal2d\" plan=\"goals.csv\"/><control.goal2d robot=\"r\"/>"
+        "<test.asks name=\"resets\" robot=\"q\" what=\"odometry_reset\" plan=\"resets.csv\"/>"
+        "<control.steady name=\"a\" robot=\"q\" v=\"0.2\" w=\"0.3\"/><control.steady name=\"b\" robot=\"h\" v=\"0.1\"/>"
+        "<physics.simbody/><robots.odometry noise=\"0.02\"/><robots.geometry/>",
+        {}, "dt=\"0.02\" until=\"4\" seed=\"1\"");
+  };
+  Simulation straight = made();
+  while (straight.tick() < 90) straight.step();
+  straight.snapshot().save(folder / "then");
+  while (!straight.done()) straight.step();
+  Simulation restored = made();
+  restored.restore(Snapshot::load(folder / "then"));
+  while (!restored.done()) restored.step();
+  EXPECT_EQ(restored.digest(), straight.digest());
+  Simulation remade = made();
+  std::vector<std::string> names;
+  for (const auto& instance : remade.instances()) names.push_back(instance->name());
+  while (!remade.done()) {
+    if (remade.tick() % 17 == 5) {
+      for (const std::string& name : names) remade.remake(name);
+    }
+    remade.step();
+  }
+  EXPECT_EQ(remade.digest(), straight.digest());
 }
 
 TEST(RobotGeometry, IsTheBoxThatARobotFills) {

@@ -5,6 +5,8 @@
 #include <iterator>
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/run_world.hpp"
 
@@ -22,11 +24,12 @@ inline Simulation world_of(const Folder& folder, const std::string& inside,
   return load(folder.write("world.xml", "<world name=\"test\" " + attributes + ">" + inside + "</world>"));
 }
 
-// A model file: the Scarab with an attribute of its drive as `is` instead of as `was`.
-inline std::filesystem::path scarab_with(const Folder& folder, const std::string& was, const std::string& is) {
+// A model file: the Scarab's, with each first text of a pair replaced by the second.
+inline std::filesystem::path scarab_with(const Folder& folder,
+                                         const std::vector<std::pair<std::string, std::string>>& changes) {
   std::ifstream scarab(MUSTER_PLUGINS_DIR "/models/scarab.urdf");
   std::string urdf{std::istreambuf_iterator<char>(scarab), {}};
-  urdf.replace(urdf.find(was), was.size(), is);
+  for (const auto& [was, is] : changes) urdf.replace(urdf.find(was), was.size(), is);
   const auto model = folder.write("scarab.urdf", urdf);
   std::filesystem::copy(MUSTER_PLUGINS_DIR "/models/hokuyo.stl", model.parent_path());
   return model;

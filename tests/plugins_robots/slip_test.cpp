@@ -13,7 +13,7 @@ using namespace muster::test;
 // The distance between the two after two rounds of a square of 3 m at 0.3 m/s, on wheels with this friction.
 double gap(const std::string& friction) {
   Folder folder;
-  const auto model = scarab_with(folder, "friction=\"0.8\"", "friction=\"" + friction + "\"");
+  const auto model = scarab_with(folder, {{"friction=\"0.8\"", "friction=\"" + friction + "\""}});
   Simulation run = world_of(folder,
                             "<robot name=\"r\" model=\"" + model.string() +
                                 "\" at=\"0 0 0\"/><physics.simbody/><robots.drive/>"

@@ -16,7 +16,7 @@ struct EachBackend : testing::TestWithParam<const char*> {
   // and of 150 on its way back.
   std::array<int, 3> stalled(const std::string& torque) const {
     const Folder folder;
-    const auto model = scarab_with(folder, "max_torque=\"2.765\"", "max_torque=\"" + torque + "\"");
+    const auto model = scarab_with(folder, {{"max_torque=\"2.765\"", "max_torque=\"" + torque + "\""}});
     Simulation run =
         world_of(folder,
                  "<material name=\"brick\" loss=\"6\"/><wall name=\"w\" from=\"1 -2\" to=\"1 2\" "

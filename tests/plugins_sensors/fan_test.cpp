@@ -126,7 +126,6 @@ TEST(Fan, AsksAllTheRaysThatMatter) {
     laser.samples = trial % 7 == 0 ? 1 : 181;
     laser.min_angle = laser.max_angle = random.uniform(-6, 3);
     if (laser.samples > 1) laser.max_angle += trial % 5 == 0 ? 6.283185307179586 : random.uniform(0.1, 3);
-    laser.max_range = 100;
     std::vector<Solid> solids;
     for (int i = 0; i < 6; ++i) {
       solids.emplace_back(Shape{random.pose(3), Box{{random.uniform(0, 4), 0.1, 2}}});
@@ -135,7 +134,7 @@ TEST(Fan, AsksAllTheRaysThatMatter) {
       solids.emplace_back(Shape{random.pose(3), mesh_of(Box{{1, 0.4, 1.6}})});
     }
     const Isometry3d frame = random.pose(1);
-    Fan fan(laser);
+    Fan fan(laser, 100);
     for (const Solid& solid : solids) fan.meet(solid, frame);
     const auto expected = one_by_one(laser, solids, frame);
     for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -148,8 +147,7 @@ TEST(Fan, AsksAllTheRaysThatMatter) {
 
 TEST(Fan, MeetsNothingBeyondItsRange) {
   Laser laser;
-  laser.max_range = 2;
-  Fan fan(laser);
+  Fan fan(laser, 2);
   fan.meet(Solid({Isometry3d(Eigen::Translation3d(5, 0, 0)), Sphere{1}}), Isometry3d::Identity());
   EXPECT_EQ(fan.ranges()[0], never);
 }
@@ -159,7 +157,7 @@ TEST(Fan, MeetsTheGroundWhereItSinks) {
   laser.samples = 3;
   laser.min_angle = -0.5;
   laser.max_angle = 0.5;
-  Fan fan(laser), level(laser);
+  Fan fan(laser, 4), level(laser, 4);
   level.meet_ground(0.2, -Vector3d::UnitZ());
   EXPECT_EQ(level.ranges(), std::vector<double>(3, never));
   const double pitch = 0.3;

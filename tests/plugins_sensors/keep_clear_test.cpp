@@ -10,13 +10,16 @@ namespace {
 using namespace muster;
 using namespace muster::test;
 
-const std::string driven =
-    "<material name=\"brick\" loss=\"6\"/><control.steady robot=\"r\" v=\"0.5\"/><physics.planar/><robots.drive/>";
+// Straight on; `more` are attributes of who asks for that.
+std::string driven(const std::string& more = "") {
+  return "<material name=\"brick\" loss=\"6\"/><control.steady robot=\"r\" v=\"0.5\"" + more +
+         "/><physics.planar/><robots.drive/>";
+}
 
 // A Scarab whose laser tells ranges as they are.
 Simulation towards(const Folder& folder, const std::string& more) {
-  const auto model = scarab_with(folder, " resolution=\"0.001\"/>", "/>");
-  return world_of(folder, driven + "<robot name=\"r\" at=\"0 0 0\" model=\"" + model.string() + "\"/>" + more, {},
+  const auto model = scarab_with(folder, {{" resolution=\"0.001\"/>", "/>"}});
+  return world_of(folder, driven() + "<robot name=\"r\" at=\"0 0 0\" model=\"" + model.string() + "\"/>" + more, {},
                   "dt=\"0.02\" until=\"30\" seed=\"1\"");
 }
 
@@ -40,6 +43,41 @@ TEST(KeepClear, StopsBeforeAWallAsHardAsItIsToldTo) {
   EXPECT_NEAR(row<Pose>(run, "robot/r/pose").x, 2.95 - 0.4, 0.01);
   EXPECT_NEAR(row<Twist>(run, "robot/r/twist").vx, 0, 1e-9);
 }
+
+// Where a Scarab that is changed so comes to stand before the same wall.
+double stands(const std::vector<std::pair<std::string, std::string>>& changes, const std::string& more = "") {
+  Folder folder;
+  Simulation run =
+      world_of(folder,
+               driven() + "<robot name=\"r\" at=\"0 0 0\" model=\"" + scarab_with(folder, changes).string() + "\"/>" +
+                   wall("w", "3 -2", "3 2") + "<control.keep_clear robot=\"r\" clearance=\"0.4\"" + more + "/>",
+               {}, "dt=\"0.02\" until=\"30\" seed=\"1\"");
+  while (!run.done()) run.step();
+  return row<Pose>(run, "robot/r/pose").x;
+}
+
+TEST(KeepClear, LooksWhereItsFirstLaserIsTurnedTo) {
+  const std::pair<std::string, std::string> turned = {"<origin xyz=\"0 0 0.055\"/>",
+                                                      "<origin xyz=\"0 0 0.055\" rpy=\"0 0 1.5707963267948966\"/>"};
+  EXPECT_NEAR(stands({turned}), 2.95 - 0.4, 0.01);
+  const std::pair<std::string, std::string> second = {
+      "<!-- Steppers",
+      "<sensor name=\"back\" update_rate=\"50\"><parent link=\"base\"/><origin rpy=\"0 0 3.14159\" xyz=\"0 0 "
+      "0.3\"/><ray>"
+      "<horizontal/></ray></sensor><!-- Steppers"};
+  EXPECT_NEAR(stands({second, {"<laser ", "<laser sensor=\"back\" max_range=\"9\"/><laser "}}), 2.95 - 0.4, 0.01);
+}
+
+// A laser at the robot's origin that tells nothing nearer than 0.5 m.
+TEST(KeepClear, StopsForWhatIsTooNearToTell) {
+  const double at = stands({{"<origin xyz=\"0 0 0.055\"/>", "<origin xyz=\"-0.05 0 0.055\"/>"},
+                            {"min_range=\"0.02\"", "min_range=\"0.5\""}});
+  EXPECT_LT(at, 2.95 - 0.4);
+  EXPECT_GT(at, 2.95 - 0.6);
+}
+
+// It moves on between what it is read from and when it is read.
+TEST(KeepClear, TakesOffTheAgeOfAScan) { EXPECT_NEAR(stands({}, " every=\"7\""), 2.95 - 0.4, 0.01); }
 
 TEST(KeepClear, WithoutItTheRobotGoesOn) {
   Folder folder;
@@ -90,8 +128,9 @@ TEST(KeepClear, NeedsALaser) {
              "<robots.drive/><control.keep_clear robot=\"r\"/>");
     FAIL() << "expected a refusal";
   } catch (const std::exception& refused) {
-    EXPECT_NE(std::string(refused.what()).find("the robot has no laser: its model has no <sensor> with a <ray>"),
-              std::string::npos)
+    EXPECT_NE(
+        std::string(refused.what()).find("the robot has no laser: its model has no <sensor> with a <ray> and a range"),
+        std::string::npos)
         << refused.what();
   }
 }

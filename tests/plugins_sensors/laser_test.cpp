@@ -1,8 +1,10 @@
 // Scans of robots in worlds, against what plane geometry says.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <cstring>
+#include <set>
 #include <sstream>
 
 #include "tests/plugins_robots/robot_world.hpp"
@@ -37,7 +39,19 @@ std::vector<Seen> scans(const Simulation& run) {
 
 // The Scarab with a laser that tells ranges as they are.
 std::string exact_scarab(const Folder& folder) {
-  return " model=\"" + scarab_with(folder, " resolution=\"0.001\"/>", "/>").string() + "\"";
+  return " model=\"" + scarab_with(folder, {{" resolution=\"0.001\"/>", "/>"}}).string() + "\"";
+}
+
+// Beside it another, on the left, turned to there and down a little.
+std::string two_lasers(const Folder& folder) {
+  const auto model = scarab_with(
+      folder,
+      {{" resolution=\"0.001\"/>", "/><laser sensor=\"left\" max_range=\"6\"/>"},
+       {"<!-- Steppers",
+        "<sensor name=\"left\" update_rate=\"10\"><parent link=\"base\"/><origin xyz=\"-0.05 0.02 0.3\" rpy=\"0 0.1 "
+        "1.5707963267948966\"/><ray><horizontal samples=\"301\" min_angle=\"-1\" max_angle=\"1\"/></ray></sensor>"
+        "<!-- Steppers"}});
+  return " model=\"" + model.string() + "\"";
 }
 
 const std::string still = "<material name=\"brick\" loss=\"6\"/><physics.planar/><sensors.laser/>";
@@ -160,6 +174,61 @@ TEST(Laser, NoiseHasTheVarianceThatIsStated) {
   EXPECT_NEAR(squares / count, 1, 5 * std::sqrt(2.0) * deviation);
   EXPECT_NEAR(neighbours / count, 0, 5 * deviation);
   EXPECT_NEAR(sum / count, 0, 5 * deviation);
+}
+
+const std::string room =
+    "<wall name=\"e\" from=\"2 -2\" to=\"2 2\" material=\"brick\"/><wall name=\"w\" from=\"-2 -2\" to=\"-2 2\" "
+    "material=\"brick\"/>"
+    "<wall name=\"n\" from=\"-2 2\" to=\"2 2\" material=\"brick\"/><wall name=\"s\" from=\"-2 -2\" to=\"2 -2\" "
+    "material=\"brick\"/>";
+
+// Where each ray of a laser that is turned ends, by where the scan says that it sits.
+TEST(Laser, StandsWhereItsScansSay) {
+  Folder folder;
+  Simulation run = world_of(folder, still + "<robot name=\"r\" at=\"0 0 0\"" + two_lasers(folder) + "/>" + room);
+  const auto both = scans(run);
+  ASSERT_EQ(both.size(), 2u);
+  const Scan& left = both[1].scan;
+  EXPECT_EQ(left.sensor, 1);
+  const Eigen::Isometry3d at =
+      Eigen::Translation3d(left.at_x, left.at_y, left.at_z) * Eigen::Quaterniond(left.qw, left.qx, left.qy, left.qz);
+  for (std::size_t i = 0; i < 301; ++i) {
+    const double a = both[1].angle(i), range = both[1].ranges[i];
+    const Eigen::Vector3d end = at * Eigen::Vector3d(range * std::cos(a), range * std::sin(a), 0);
+    EXPECT_NEAR(std::max(std::abs(end.x()), end.y()), 1.95, 1e-9) << i;
+    EXPECT_GT(end.y(), 0) << "on the left";
+    EXPECT_LT(end.z(), 0.3 - 1e-3) << "and down";
+  }
+}
+
+TEST(Laser, LasersOfARobotHaveNoiseOfTheirOwn) {
+  Folder folder;
+  const auto seen = [&](const std::string& noise) {
+    return scans(world_of(folder, "<material name=\"brick\" loss=\"6\"/><physics.planar/><sensors.laser noise=\"" +
+                                      noise + "\"/><robot name=\"r\" at=\"0 0 0\"" + two_lasers(folder) + "/>" + room));
+  };
+  const auto exact = seen("0");
+  std::filesystem::remove(folder / "hokuyo.stl");
+  const auto noisy = seen("0.01");
+  for (const std::size_t shift : {std::size_t{0}, std::size_t{300}, std::size_t{301}}) {
+    double product = 0;
+    for (std::size_t i = 0; i < 301; ++i) {
+      product += (noisy[0].ranges[shift + i] - exact[0].ranges[shift + i]) * (noisy[1].ranges[i] - exact[1].ranges[i]);
+    }
+    EXPECT_LT(std::abs(product) / 1e-4 / 301, 5 / std::sqrt(301.0)) << shift;
+  }
+}
+
+TEST(Laser, OfAnInstanceThatStepsSeldomScansAsOften) {
+  Folder folder;
+  Simulation run = world_of(folder, "<physics.planar/><sensors.laser every=\"3\"/><robot name=\"r\" at=\"0 0 0\"/>", {},
+                            "dt=\"0.02\" until=\"3\" seed=\"1\"");
+  std::set<double> ids;
+  while (!run.done()) {
+    run.step();
+    for (const Seen& seen : scans(run)) ids.insert(seen.scan.id);
+  }
+  EXPECT_EQ(ids.size(), 31u) << "it steps more often than that";
 }
 
 TEST(Laser, WhatIsTooNearIsMinusInfinity) {

@@ -78,13 +78,13 @@ TEST_P(EveryWorld, IsTheSameInGermany) {
 
 TEST_P(EveryWorld, IsTheSameInTwoProcesses) {
   const auto expected = fmt::format("\"digest\": \"{:016x}\"", plain_digest(GetParam()));
-  const World world = read_world(folder_of(GetParam()), standard());
+  const World world = read_world(place_of(GetParam()), standard());
   const double until = static_cast<double>(std::min(world.ticks, most_ticks)) * world.dt;
   for (int process = 0; process < 2; ++process) {
     Surroundings around;
     around.environment = {"LOCPATH=" MUSTER_LOCALES, process ? "LC_ALL=de_DE.UTF-8" : "LC_ALL=C"};
     const auto outcome =
-        run_muster({"run", folder_of(GetParam()), "--until", fmt::format("{}", until), "--json"}, around);
+        run_muster({"run", place_of(GetParam()), "--until", fmt::format("{}", until), "--json"}, around);
     EXPECT_EQ(outcome.exit, 0) << outcome.err;
     EXPECT_NE(outcome.out.find(expected), outcome.out.npos) << expected << "\n" << outcome.out;
   }

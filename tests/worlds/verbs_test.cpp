@@ -26,7 +26,7 @@ class EveryWorldsVerbs : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Verbs, EveryWorldsVerbs, testing::ValuesIn(worlds()), test_name);
 
 TEST_P(EveryWorldsVerbs, CheckAndGraph) {
-  const std::string folder = folder_of(GetParam());
+  const std::string folder = place_of(GetParam());
   EXPECT_THAT(expect_clean({"check", folder}).out, HasSubstr("nothing is wrong"));
   EXPECT_THAT(expect_clean({"check", folder, "--json"}).out, StartsWith("{"));
   EXPECT_THAT(expect_clean({"graph", folder}).out, HasSubstr("at once:"));
@@ -35,7 +35,7 @@ TEST_P(EveryWorldsVerbs, CheckAndGraph) {
 }
 
 TEST_P(EveryWorldsVerbs, CompareFindsNoDifferenceBetweenAWorldAndItself) {
-  const std::string folder = folder_of(GetParam());
+  const std::string folder = place_of(GetParam());
   const World world = read_world(folder, standard());
   const auto until = fmt::format("{}", static_cast<double>(std::min(world.ticks, most_ticks)) * world.dt);
   EXPECT_THAT(expect_clean({"compare", folder, folder, "--until", until}).out,
@@ -59,7 +59,7 @@ TEST(Plugins, AreAllListedAndDescribed) {
 
 // Row 29 of the requirements.
 TEST(Verbs, RunSaysHowFastItWent) {
-  const std::string out = expect_clean({"run", folder_of("connectivity"), "--until", "1"}).out;
+  const std::string out = expect_clean({"run", place_of("connectivity"), "--until", "1"}).out;
   EXPECT_TRUE(std::regex_search(out, std::regex("\n  [0-9.]+ times real time\n"))) << out;
 }
 

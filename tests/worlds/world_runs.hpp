@@ -12,17 +12,22 @@
 
 namespace muster::test {
 
-// Folders with a world.xml, by name.
+// The files of worlds, by folder and name; of a folder's world.xml, the folder.
 inline std::vector<std::string> worlds() {
   std::vector<std::string> result;
-  for (const auto& entry : std::filesystem::directory_iterator(MUSTER_SOURCE_DIR "/worlds")) {
-    if (std::filesystem::exists(entry.path() / "world.xml")) result.push_back(entry.path().filename());
+  for (const auto& folder : std::filesystem::directory_iterator(MUSTER_SOURCE_DIR "/worlds")) {
+    if (!std::filesystem::exists(folder.path() / "world.xml")) continue;
+    for (const auto& file : std::filesystem::directory_iterator(folder)) {
+      if (file.path().extension() != ".xml") continue;
+      const bool is_main = file.path().filename() == "world.xml";
+      result.push_back(is_main ? folder.path().filename() : folder.path().filename() / file.path().filename());
+    }
   }
   std::sort(result.begin(), result.end());
   return result;
 }
 
-inline std::filesystem::path folder_of(const std::string& world) {
+inline std::filesystem::path place_of(const std::string& world) {
   return std::filesystem::path(MUSTER_SOURCE_DIR "/worlds") / world;
 }
 
@@ -30,7 +35,7 @@ inline std::filesystem::path folder_of(const std::string& world) {
 constexpr uint64_t most_ticks = 500;
 
 inline Simulation start(const std::string& name, int workers = 1) {
-  World world = read_world(folder_of(name), standard());
+  World world = read_world(place_of(name), standard());
   world.ticks = std::min(world.ticks, most_ticks);
   return {std::move(world), standard(), {{MUSTER_PLUGINS_DIR}, workers, {}}};
 }
