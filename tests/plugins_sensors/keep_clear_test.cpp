@@ -49,7 +49,7 @@ double stands(const std::vector<std::pair<std::string, std::string>>& changes, c
   Folder folder;
   Simulation run =
       world_of(folder,
-               driven() + "<robot name=\"r\" at=\"0 0 0\" model=\"" + scarab_with(folder, changes).string() + "\"/>" +
+               driven(more) + "<robot name=\"r\" at=\"0 0 0\" model=\"" + scarab_with(folder, changes).string() + "\"/>" +
                    wall("w", "3 -2", "3 2") + "<control.keep_clear robot=\"r\" clearance=\"0.4\"" + more + "/>",
                {}, "dt=\"0.02\" until=\"30\" seed=\"1\"");
   while (!run.done()) run.step();
