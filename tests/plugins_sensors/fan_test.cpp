@@ -160,6 +160,9 @@ TEST(Fan, MeetsTheGroundWhereItSinks) {
   Fan fan(laser, 4), level(laser, 4);
   level.meet_ground(0.2, -Vector3d::UnitZ());
   EXPECT_EQ(level.ranges(), std::vector<double>(3, never));
+  Fan below(laser, 4);
+  below.meet_ground(-0.1, -Vector3d::UnitZ());
+  EXPECT_EQ(below.ranges(), std::vector<double>(3, 0.0)) << "it is in the ground";
   const double pitch = 0.3;
   fan.meet_ground(0.2, Vector3d(std::sin(pitch), 0, -std::cos(pitch)));
   EXPECT_NEAR(fan.ranges()[1], 0.2 / std::sin(pitch), 1e-12);
