@@ -5,26 +5,21 @@
 // deepest that anything sank, rise_* [m/s], speed (above 1: ours is better).
 #include <benchmark/benchmark.h>
 
-#include <ctime>
 #include <stdexcept>
 
+#include "cpu_seconds.hpp"
 #include "crowds.hpp"  // Simbody first: it does not bear ODE's macros
 #include "raw_ode.hpp"
 
 namespace {
 
 using namespace muster;
+using bench::cpu_seconds;
 using simbody::Command;
 using simbody::RobotState;
 
 constexpr double dt = 0.01, friction = 0.3;
 constexpr int iterations_of_quick = 50;
-
-double cpu_seconds() {
-  timespec now;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 struct Side {
   double seconds = 0;

@@ -9,7 +9,6 @@
 #endif
 
 #include <array>
-#include <ctime>
 #include <fstream>
 #include <limits>
 #include <memory>
@@ -18,6 +17,7 @@
 #include <string>
 
 #include "bare_flight.hpp"
+#include "cpu_seconds.hpp"
 #include "kernel/simulation.hpp"
 #include "plugins/physics_ode/library.hpp"
 #include "plugins/physics_simbody/world.hpp"
@@ -27,6 +27,7 @@ namespace {
 
 using namespace muster;
 using bench::BareFlight;
+using bench::cpu_seconds;
 using Place = Eigen::Vector3d;
 
 constexpr int birds = 100, ticks = 100;
@@ -47,12 +48,6 @@ std::array<double, 4> asked(int bird, int k) {
 }
 
 Place start(int bird) { return {200.0 * (bird % 10), 200.0 * (bird / 10), 1000}; }
-
-double cpu_seconds() {
-  timespec now;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 struct Flown {
   double seconds = std::numeric_limits<double>::infinity();  // of CPU time, the best so far

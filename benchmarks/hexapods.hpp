@@ -4,11 +4,11 @@
 
 #include <benchmark/benchmark.h>
 
-#include <ctime>
 #include <limits>
 #include <stdexcept>
 #include <string>
 
+#include "cpu_seconds.hpp"
 #include "plugins/robots/tripod_gait.hpp"
 #include "raw_ode_legs.hpp"
 
@@ -32,17 +32,17 @@ class Hexapods {
       states.push_back(simbody::at_rest(0, 2.0 * i, 0));
     }
     const auto engine = simbody::make_engine(robots, simbody::Integrator::midpoint, 1);
-    const double h = until / steps, start = cpu();
+    const double h = until / steps, start = cpu_seconds();
     for (int k = 0; k < steps; ++k)
       engine->step(h, std::vector<simbody::Command>(robots.size(), asked(k * h, h)), states);
-    return {cpu() - start, walked(states[0].pose[0], states[0].pose[2] + 0.12)};
+    return {cpu_seconds() - start, walked(states[0].pose[0], states[0].pose[2] + 0.12)};
   }
 
   static Outcome theirs(int count, int steps) {
     RawOdeLegs ode(rdk(), count);
-    const double h = until / steps, start = cpu();
+    const double h = until / steps, start = cpu_seconds();
     for (int k = 0; k < steps; ++k) ode.step(asked(k * h, h), h);
-    return {cpu() - start, walked(ode.x(0), ode.z(0))};
+    return {cpu_seconds() - start, walked(ode.x(0), ode.z(0))};
   }
 
   // The longest step that stays within the limit, as all shorter ones do.
@@ -85,12 +85,6 @@ class Hexapods {
   static double walked(double travel, double height) {
     if (height < 0.1 || height > 0.13 || travel < 1.7 || travel > 1.9) throw std::logic_error("a hexapod fell");
     return travel;
-  }
-
-  static double cpu() {
-    timespec now;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
   }
 };
 

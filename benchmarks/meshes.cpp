@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <functional>
 #include <limits>
 #include <stdexcept>
 #include <string>
 
+#include "cpu_seconds.hpp"
 #include "embree_meshes.hpp"
 #include "muster/random.hpp"
 #include "plugins/radio_meshes/mesh_scene.hpp"
@@ -18,6 +18,7 @@
 namespace {
 
 using namespace muster;
+using bench::cpu_seconds;
 
 constexpr double steps = 4096;  // a metre
 
@@ -56,12 +57,6 @@ std::vector<bench::MeshLink> all_pairs(std::size_t radios) {
     for (std::size_t b = a + 1; b < radios; ++b) result.push_back({places[a], places[b], 0});
   }
   return result;
-}
-
-double cpu_seconds() {
-  timespec now;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 // Arguments: prisms and their sides.

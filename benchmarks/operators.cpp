@@ -3,16 +3,17 @@
 // Counters: us_* of a robot; speed above 1: ours is faster; off: the largest difference of accelerations, relative.
 #include <benchmark/benchmark.h>
 
-#include <ctime>
 #include <random>
 #include <stdexcept>
 
+#include "cpu_seconds.hpp"
 #include "plugins/physics_simbody/crew.hpp"
 #include "plugins/physics_simbody/legs.hpp"
 
 namespace {
 
 using namespace muster;
+using bench::cpu_seconds;
 using namespace muster::simbody;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -20,12 +21,6 @@ using Eigen::Vector3d;
 constexpr int n = unknowns_with_legs;
 using Rates = VelocityOf<n>;
 using Mass = MassMatrixOf<n>;
-
-double cpu_seconds() {
-  timespec now;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 // Robots somewhere, turned somehow, with legs at any angle and everything in motion.
 class Hexapods {

@@ -5,13 +5,13 @@
 // worst robot's error in the end, speed and error ratios (above 1: ours is better), real_time: simulated over CPU time.
 #include <benchmark/benchmark.h>
 
-#include <ctime>
 #include <fstream>
 #include <limits>
 #include <map>
 #include <stdexcept>
 #include <string>
 
+#include "cpu_seconds.hpp"
 #include "hexapods.hpp"
 #include "kernel/simulation.hpp"
 #include "plugins/physics_simbody/world.hpp"
@@ -24,6 +24,7 @@ namespace {
 
 using namespace muster;
 using bench::Arc;
+using bench::cpu_seconds;
 
 const description::Robot& scarab() {
   static const auto robot = description::read_robot(MUSTER_SOURCE_DIR "/plugins/robots/models/scarab.urdf");
@@ -34,12 +35,6 @@ std::vector<Arc> arcs(int count) {
   std::vector<Arc> result;
   for (int i = 0; i < count; ++i) result.push_back(bench::arc(i));
   return result;
-}
-
-double cpu_seconds() {
-  timespec now;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 // Where ideal wheels take a robot, by Simpson's rule on steps that no kink of the course lies in.

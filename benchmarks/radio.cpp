@@ -5,11 +5,11 @@
 // each pair of radios taken once; *_wrong links whose counts are not the exact ones.
 #include <benchmark/benchmark.h>
 
-#include <ctime>
 #include <limits>
 #include <stdexcept>
 #include <string>
 
+#include "cpu_seconds.hpp"
 #include "embree_walls.hpp"
 #include "floor_plan.hpp"
 #ifdef MUSTER_HAS_NS3
@@ -22,13 +22,8 @@
 namespace {
 
 using namespace muster;
+using bench::cpu_seconds;
 using bench::FloorPlan;
-
-double cpu_seconds() {
-  timespec now;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 // The least CPU time of a call so far.
 struct Best {

@@ -3,7 +3,6 @@
 #include <urdf_parser/urdf_parser.h>
 
 #include <Eigen/Eigenvalues>
-#include <algorithm>
 #include <filesystem>
 #include <mutex>
 #include <stdexcept>
@@ -242,15 +241,7 @@ Robot read_robot(const std::string& path, Meshes meshes) {
   for (const auto* muster = root.FirstChildElement("muster"); muster; muster = muster->NextSiblingElement("muster")) {
     read_muster(source, *muster, robot);
   }
-  for (const auto* element = root.FirstChildElement("sensor"); element;
-       element = element->NextSiblingElement("sensor")) {
-    const auto sensor = std::find_if(robot.sensors.begin(), robot.sensors.end(),
-                                     [&](const Sensor& one) { return one.name == element->Attribute("name"); });
-    if (sensor == robot.sensors.end() || sensor->laser.max_range > 0) continue;
-    robot.warnings.push_back(path + ":" + std::to_string(element->GetLineNum()) + ": sensor '" + sensor->name +
-                             "' has no range, so that nothing senses with it; expected <muster><laser sensor=\"" +
-                             sensor->name + "\" max_range=\"\"/></muster>");
-  }
+  warn_of_blind_lasers(source, root, robot);
   return robot;
 }
 

@@ -8,9 +8,7 @@ void read_ball(const Source& source, const tinyxml2::XMLElement& element, Robot&
   only_attributes(source, element, {"joint"});
   Joint& joint = robot.joints[find_joint(source, element, "joint", robot)];
   const int line = element.GetLineNum();
-  if (const auto* child = element.FirstChildElement()) {
-    source.fail(child->GetLineNum(), std::string("<ball> has no element <") + child->Name() + ">");
-  }
+  only_children(source, element, {});
   if (joint.kind == JointKind::ball) source.fail(line, "<ball> joint '" + joint.name + "' is a ball already");
   if (joint.kind != JointKind::floating) {
     source.fail(line, "<ball> joint '" + joint.name + "' is " + law_of(joint.kind).name + "; expected type 'floating'");

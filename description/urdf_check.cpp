@@ -30,6 +30,8 @@ constexpr Numbers numbers[] = {
     {"limit", "velocity", 1, true},  {"dynamics", "damping", 1, false}, {"dynamics", "friction", 1, false},
 };
 
+std::string tag(const XMLElement& element) { return std::string("<") + element.Name() + "> "; }
+
 int line_at(const std::string& text, std::size_t position) {
   return 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(position), '\n'));
 }
@@ -191,6 +193,35 @@ std::string required(const Source& source, const XMLElement& element, const char
     source.fail(element.GetLineNum(), std::string("<") + element.Name() + "> has no attribute '" + attribute + "'");
   }
   return text;
+}
+
+void only_attributes(const Source& source, const XMLElement& element, const std::vector<std::string>& known) {
+  for (const auto* attribute = element.FirstAttribute(); attribute; attribute = attribute->Next()) {
+    if (std::find(known.begin(), known.end(), attribute->Name()) != known.end()) continue;
+    source.fail(element.GetLineNum(),
+                tag(element) + "has no attribute '" + attribute->Name() + "'" + nearest(attribute->Name(), known));
+  }
+}
+
+void only_children(const Source& source, const XMLElement& element, const std::vector<std::string>& known) {
+  std::set<std::string> seen;
+  for (const auto* child = element.FirstChildElement(); child; child = child->NextSiblingElement()) {
+    const std::string name = child->Name();
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      source.fail(child->GetLineNum(), tag(element) + "has no element <" + name + ">" + nearest(name, known));
+    }
+    if (!seen.insert(name).second) source.fail(child->GetLineNum(), tag(element) + "has a second <" + name + ">");
+  }
+}
+
+double positive(const Source& source, const XMLElement& element, const char* attribute) {
+  const std::string text = required(source, element, attribute);
+  const auto value = parse_number(text);
+  if (!value || !(*value > 0)) {
+    source.fail(element.GetLineNum(),
+                tag(element) + attribute + "=\"" + text + "\" is wrong; expected a number above 0");
+  }
+  return *value;
 }
 
 void parse_urdf(const Source& source, const std::string& text, tinyxml2::XMLDocument& document) {

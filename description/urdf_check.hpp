@@ -42,6 +42,8 @@ void read_ball(const Source& source, const tinyxml2::XMLElement& element, Robot&
 
 // A <sensor> of a robot whose links and joints are there already. What muster has no sense for is warned of.
 void read_sensor(const Source& source, const tinyxml2::XMLElement& element, Robot& robot);
+// When all is read: of lasers that no <muster> gave a range.
+void warn_of_blind_lasers(const Source& source, const tinyxml2::XMLElement& root, Robot& robot);
 
 // The index of a joint; where one that turns without end about the body's +y axis is on the body.
 std::size_t find_joint(const Source& source, const tinyxml2::XMLElement& element, const char* attribute,

@@ -60,35 +60,6 @@ DifferentialDrive read_differential(const Source& source, const XMLElement& elem
 
 }  // namespace
 
-void only_attributes(const Source& source, const XMLElement& element, const std::vector<std::string>& known) {
-  for (const auto* attribute = element.FirstAttribute(); attribute; attribute = attribute->Next()) {
-    if (std::find(known.begin(), known.end(), attribute->Name()) != known.end()) continue;
-    source.fail(element.GetLineNum(),
-                tag(element) + "has no attribute '" + attribute->Name() + "'" + nearest(attribute->Name(), known));
-  }
-}
-
-void only_children(const Source& source, const XMLElement& element, const std::vector<std::string>& known) {
-  std::set<std::string> seen;
-  for (const auto* child = element.FirstChildElement(); child; child = child->NextSiblingElement()) {
-    const std::string name = child->Name();
-    if (std::find(known.begin(), known.end(), name) == known.end()) {
-      source.fail(child->GetLineNum(), tag(element) + "has no element <" + name + ">" + nearest(name, known));
-    }
-    if (!seen.insert(name).second) source.fail(child->GetLineNum(), tag(element) + "has a second <" + name + ">");
-  }
-}
-
-double positive(const Source& source, const XMLElement& element, const char* attribute) {
-  const std::string text = required(source, element, attribute);
-  const auto value = parse_number(text);
-  if (!value || !(*value > 0)) {
-    source.fail(element.GetLineNum(),
-                tag(element) + attribute + "=\"" + text + "\" is wrong; expected a number above 0");
-  }
-  return *value;
-}
-
 std::size_t find_joint(const Source& source, const XMLElement& element, const char* attribute, const Robot& robot) {
   const std::string name = required(source, element, attribute);
   std::vector<std::string> names;

@@ -162,4 +162,16 @@ void read_laser(const Source& source, const XMLElement& element, Robot& robot) {
     reader.fail("resolution is not between a billionth of max_range and max_range");
 }
 
+void warn_of_blind_lasers(const Source& source, const XMLElement& root, Robot& robot) {
+  for (const auto* element = root.FirstChildElement("sensor"); element;
+       element = element->NextSiblingElement("sensor")) {
+    const auto sensor = std::find_if(robot.sensors.begin(), robot.sensors.end(),
+                                     [&](const Sensor& one) { return one.name == element->Attribute("name"); });
+    if (sensor == robot.sensors.end() || sensor->laser.max_range > 0) continue;
+    robot.warnings.push_back(source.file + ":" + std::to_string(element->GetLineNum()) + ": sensor '" + sensor->name +
+                             "' has no range, so that nothing senses with it; expected <muster><laser sensor=\"" +
+                             sensor->name + "\" max_range=\"\"/></muster>");
+  }
+}
+
 }  // namespace muster::description

@@ -2,6 +2,7 @@
 #include <muster/plugin.hpp>
 
 #include "own_radio.hpp"
+#include "plugins/periods.hpp"
 
 namespace {
 

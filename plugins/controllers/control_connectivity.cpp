@@ -3,6 +3,7 @@
 #include <string>
 
 #include "own_radio.hpp"
+#include "plugins/periods.hpp"
 #include "roadmap.hpp"
 #include "switching.hpp"
 

@@ -1,7 +1,6 @@
-// A robot's own radio, and when to speak on it.
+// A robot's own radio.
 #pragma once
 
-#include <cmath>
 #include <muster/plugin.hpp>
 #include <string>
 
@@ -15,12 +14,6 @@ inline double own_radio(const Setup& setup) {
     if (std::string(host->row_name(host, "radio", row)) == robot) return row;
   }
   throw BadInput("the robot has no radio of its own name");
-}
-
-// Whether a multiple of `period` lies in (time - dt, time]; sums of ticks are forgiven a part in 1e9.
-inline bool is_due(double time, double dt, double period) {
-  const auto periods = [period](double t) { return std::floor(t / period + 1e-9); };
-  return periods(time) > periods(time - dt);
 }
 
 }  // namespace muster

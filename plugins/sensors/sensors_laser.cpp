@@ -5,6 +5,7 @@
 
 #include "description/world_robots.hpp"
 #include "fan.hpp"
+#include "plugins/periods.hpp"
 #include "plugins/scene_rows.hpp"
 #include "scene/slabs.hpp"
 
@@ -62,7 +63,7 @@ struct SensorsLaser {
       if (!robot || !k.alive("robot", i)) continue;
       for (std::size_t n = 0; n < robot->sensors.size(); ++n) {
         const description::Sensor& sensor = robot->sensors[n];
-        if (!is_due(k, sensor)) continue;
+        if (!is_to_scan(k, sensor)) continue;
         if (!has_walls) walls = walls_of(k);
         has_walls = true;
         send(k, sent++, i, n, sensor, seen(k, i, frame_of(k[pose][i]) * sensor.pose, sensor.laser, walls));
@@ -71,12 +72,8 @@ struct SensorsLaser {
   }
 
  private:
-  // How many scans it has begun.
-  static double begun(double time, const description::Sensor& sensor) {
-    return std::floor(time * sensor.rate * (1 + 1e-12) + 1e-9);
-  }
-  static bool is_due(const Step& k, const description::Sensor& sensor) {
-    return sensor.laser.max_range > 0 && (k.tick() == 0 || begun(k.time(), sensor) > begun(k.time() - k.dt(), sensor));
+  static bool is_to_scan(const Step& k, const description::Sensor& sensor) {
+    return sensor.laser.max_range > 0 && (k.tick() == 0 || is_due(k.time(), k.dt(), 1 / sensor.rate));
   }
 
   std::vector<double> seen(const Step& k, std::size_t self, const Isometry3d& laser_pose,
@@ -109,7 +106,7 @@ struct SensorsLaser {
     const Eigen::Quaterniond turned(sensor.pose.linear());
     k.send(scan, row, payload) = {static_cast<double>(robot),
                                   static_cast<double>(number),
-                                  begun(k.time(), sensor),
+                                  periods_in(k.time(), 1 / sensor.rate),
                                   k.time(),
                                   knows ? believed[robot].x : null(),
                                   knows ? believed[robot].y : null(),

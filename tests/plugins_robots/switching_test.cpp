@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plugins/controllers/own_radio.hpp"
+#include "plugins/periods.hpp"
 
 namespace {
 
