@@ -182,7 +182,10 @@ void add_inside(Grades& grades, const Truth& truth, const Verdict& verdict) {
   if (all > 1) count("at least one found", hits > 0);
   count("top name right", !verdict.named.empty() && is_true(verdict.named[0]));
   count("top name right, by class", !verdict.named.empty() && is_kin(verdict.named[0]));
-  count("wrong extra name", hits > 0 && !std::all_of(verdict.named.begin(), verdict.named.end(), is_true));
+  const bool nothing_else = std::all_of(verdict.named.begin(), verdict.named.end(), is_true);
+  count("wrong extra name", hits > 0 && !nothing_else);
+  if (verdict.second_silent && hits == all && nothing_else)
+    grades.shares["loop / second data silent / where all was told"].count(*verdict.second_silent);
   count("only wrong names", hits == 0 && !verdict.named.empty());
   count("silent", verdict.named.empty() && verdict.unexplained.empty());
   // The same id twice for one effect: one wall in pieces.

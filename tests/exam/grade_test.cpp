@@ -107,6 +107,17 @@ TEST(Grade, CountsWhatIsRight) {
   EXPECT_EQ(share(g, "loop / rediagnosis silent / all").hits, 1);
 }
 
+TEST(Grade, OtherReadingsAreHeldAgainstWhatWasToldWhole) {
+  Verdict verdict = said(right_report);
+  verdict.second_silent = false;
+  Grades g;
+  add(g, one("tx_offset", 60), verdict);
+  add(g, one("step", 60), verdict);  // which was not told
+  EXPECT_EQ(share(g, "loop / second data silent / all").of, 2);
+  EXPECT_EQ(share(g, "loop / second data silent / where all was told").of, 1);
+  EXPECT_EQ(share(g, "loop / second data silent / where all was told").hits, 0);
+}
+
 TEST(Grade, CountsWhatIsWrong) {
   Grades g;
   const char* const wrong =

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
+#include "diagnosis/search/beside.hpp"
 #include "diagnosis/search/choose.hpp"
 #include "diagnosis/search/merge.hpp"
 #include "diagnosis/search/spread.hpp"
@@ -105,16 +107,26 @@ TEST(Spread, OfAThingIsThatOfTheWholeLikelihood) {
   const Index last = whole.design.cols() - 1;
   const double overstated = std::max(
       1.0, uncertainty_of(bench, bench.design())(last, last) / whole.at.basis.uncertainty(last + 1)(last, last));
+  const Beside found(rest, term.columns, false);
+  auto still = std::make_shared<Candidate>(*term.candidate);
+  still->step.setZero();
+  std::shared_ptr<const Candidate> known = still;
+  std::swap(bench.terms[0].candidate, known);
+  const double grown = spread_of(bench, term).coefficients(0, 0) / found.covariance(0, 0);
+  std::swap(bench.terms[0].candidate, known);
   Eigen::Array3d sum = Eigen::Array3d::Zero(), squares = sum;
-  double weights = 0;
+  double weights = 0, within = 0, losses = 0, loss_squares = 0;
   const double top = rest.gain(term.columns);
   for (double x = -0.24; x <= 0.24; x += 0.02) {
     for (double y = -0.1; y <= 0.38; y += 0.02) {
       for (double radius = -0.2; radius <= 0.12; radius += 0.016) {
         const Eigen::Vector3d theta = truth + Eigen::Vector3d(x, y, radius);
-        const double w = std::exp((rest.gain(bench.columns_of(*term.candidate, theta)) - top) / (2 * overstated));
+        const Beside there(rest, bench.columns_of(*term.candidate, theta), false);
+        if (there.gain < top - 40) continue;  // a thing that hides no link has no loss at all
+        const double w = std::exp((there.gain - top) / (2 * overstated)), loss = there.coefficients[0];
         const Eigen::Array3d off = theta - truth;
         weights += w, sum += w * off, squares += w * off.square();
+        within += w * there.covariance(0, 0), losses += w * loss, loss_squares += w * loss * loss;
       }
     }
   }
@@ -127,6 +139,9 @@ TEST(Spread, OfAThingIsThatOfTheWholeLikelihood) {
     EXPECT_NEAR(told[k], mean[k], 0.25 * sd[k]) << k;
     EXPECT_NEAR(std::sqrt(scattered[k]) / sd[k], 1, 0.15) << k;
   }
+  const double loss = found.coefficients[0];  // that is told, whatever the mean is
+  const double between = loss_squares / weights - 2 * loss * losses / weights + loss * loss;
+  EXPECT_NEAR(spread.coefficients(0, 0) / (grown * within / weights + between), 1, 0.15);
 }
 
 struct Guess {
