@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "kernel/record.hpp"
 #include "verbs.hpp"
 
 namespace muster::cli {
@@ -19,6 +20,7 @@ int run_check(const Arguments& arguments) {
   app.add_flag("--json", json, "print the outcome as JSON");
   parse(app, arguments);
   const Simulation run(read_world(path, standard()), standard(), {plugin_path(plugins), 1, {}});
+  check_records(run);
   if (json) {
     nlohmann::ordered_json out = {{"world", run.world().name},
                                   {"instances", nlohmann::ordered_json::array()},
@@ -30,8 +32,11 @@ int run_check(const Arguments& arguments) {
     return 0;
   }
   for (const auto& event : run.events()) fmt::print("{}\n", event.message);
-  fmt::print("{}: {} instances, {} tables; nothing is wrong\n", run.world().name, run.instances().size(),
-             run.board().tables().size());
+  const auto warnings = run.events().size();
+  fmt::print("{}: {} instances, {} tables; {}\n", run.world().name, run.instances().size(), run.board().tables().size(),
+             warnings == 0   ? "nothing is wrong"
+             : warnings == 1 ? "no error, 1 warning"
+                             : fmt::format("no error, {} warnings", warnings));
   return 0;
 }
 

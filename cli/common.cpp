@@ -4,6 +4,7 @@
 #include <csignal>
 #include <cstdlib>
 
+#include "text/names.hpp"
 #include "verbs.hpp"
 
 namespace muster::cli {
@@ -22,12 +23,18 @@ void parse(CLI::App& app, const Arguments& arguments) {
 }
 
 Library::SearchPath plugin_path(const std::vector<std::string>& given) {
-  Library::SearchPath result(given.begin(), given.end());
+  Library::SearchPath result;
+  const auto add = [&](const std::string& folder, const char* from) {
+    if (!std::filesystem::is_directory(folder))
+      throw Error(Exit::invalid_input, std::string(from) + ": " + quote(folder) + " is no folder");
+    result.emplace_back(folder);
+  };
+  for (const auto& folder : given) add(folder, "--plugins");
   if (const char* variable = std::getenv("MUSTER_PLUGIN_PATH")) {
     std::string rest = variable;
     for (std::size_t colon; !rest.empty(); rest = colon == rest.npos ? "" : rest.substr(colon + 1)) {
       colon = rest.find(':');
-      if (colon != 0) result.emplace_back(rest.substr(0, colon));
+      if (colon != 0) add(rest.substr(0, colon), "MUSTER_PLUGIN_PATH");
     }
   }
   result.push_back(std::filesystem::read_symlink("/proc/self/exe").parent_path() / "plugins");

@@ -74,6 +74,8 @@ int check(const Words& words, const Library::SearchPath& path) {
 diagnosis::Diagnosis diagnosed(const Words& words, const Library::SearchPath& path) {
   Progress progress("diagnose");
   progress.at(0);
+  if (!words.second.empty())
+    diagnosis::read_dataset(words.second);  // what is wrong with them is told before the search
   diagnosis::Diagnosis found = diagnosis::diagnose(words.world, words.data, path);
   if (words.out.empty() || !found.named()) return found;
   progress.at(words.second.empty() ? 0.5 : 0.35);
@@ -103,6 +105,8 @@ int run_diagnose(const Arguments& arguments) {
     fmt::print("{}\n", report::json_of(found).dump());
   else
     fmt::print("{}", report::text_of(found, setting));
+  if (!words.second.empty() && !found.named())
+    fmt::print(stderr, "muster: note: nothing is held against --second: no cause is named, so no world is extended\n");
   return static_cast<int>(Exit::done);
 }
 

@@ -127,6 +127,10 @@ int run_world(const RunWords& words) {
   if (!words.swap.instance.empty()) {
     SwapDeclaration swap = words.swap;
     swap.tick = ticks_of(real_of(words.swap_at, "--at"), world.dt, {"--at"});
+    if (swap.tick >= world.ticks)
+      throw Error(Exit::invalid_input, "--at: " + words.swap_at +
+                                           " s is at the end of the run or after it; expected less than " +
+                                           print_real(world.until()) + " s");
     const auto known = std::any_of(world.instances.begin(), world.instances.end(),
                                    [&](const auto& i) { return i.name == swap.instance; });
     if (!known) {
@@ -140,7 +144,11 @@ int run_world(const RunWords& words) {
   const auto records = world.records;
   Simulation run(std::move(world), standard(), {plugin_path(words.plugins), words.workers, {}});
   set_parameters(run, words.set);
+  check_records(run);
   if (!words.restore.empty()) run.restore(Snapshot::load(words.restore));
+  if (run.tick() > run.world().ticks)
+    throw Error(Exit::invalid_input, "--restore: " + words.restore + " stands at " + print_real(run.time()) +
+                                         " s, after the end of the run at " + print_real(run.world().until()) + " s");
   std::optional<Recorder> recorder;
   std::optional<RunPictures> pictures;
   if (!words.out.empty()) {

@@ -33,7 +33,7 @@ class WorldRobots {
     for (uint32_t row = 0; row < host->rows(host, "robot"); ++row) {
       const std::string model = setup.text(std::string("robot/").append(host->row_name(host, "robot", row)) + "/model");
       auto& robot = read[model];
-      if (!robot && !model.empty()) robot = read_one(host, find(model, directories), meshes);
+      if (!robot && !model.empty()) robot = read_one(host, find(host, row, model, directories), meshes);
       robots_.push_back(robot);
     }
   }
@@ -90,11 +90,12 @@ class WorldRobots {
   std::size_t size() const { return robots_.size(); }
 
  private:
-  static std::string find(const std::string& model, const std::vector<std::string>& directories) {
+  static std::string find(const muster_host* host, uint32_t row, const std::string& model,
+                          const std::vector<std::string>& directories) {
     try {
       return find_model(model, directories);
     } catch (const std::runtime_error& wrong) {
-      throw BadInput(wrong.what());
+      throw BadInput(std::string("robot '").append(host->row_name(host, "robot", row)) + "': " + wrong.what());
     }
   }
 

@@ -46,7 +46,8 @@ class Linker {
   // Instances in the order of the world file.
   Linker(const std::vector<Instance*>& instances, const Standard& standard, const World& world, Blackboard& board);
 
-  // Plugins that somebody's reads need and that no instance provides: ids of the sets' declared providers.
+  // Plugins that somebody's reads, or the world's records, need and that no instance provides: ids of the sets'
+  // declared providers.
   std::vector<std::string> missing_providers() const;
 
   // Warnings: who writes commands, messages and the like that nobody takes, and what the world has that nobody minds.

@@ -47,16 +47,25 @@ bool Linker::is_of_the_world(const std::string& logical) const {
 
 std::vector<std::string> Linker::missing_providers() const {
   std::vector<std::string> result;
+  const auto ask_for = [&](const TableName& name) {
+    const Set* set = board_.find_set(name.set);
+    const auto* quantity = standard_quantity(standard_, name);
+    if (!quantity || !*quantity->provider || (set->is_named() && set->names.empty())) return;
+    if (std::find(result.begin(), result.end(), quantity->provider) == result.end())
+      result.push_back(quantity->provider);
+  };
   for (const auto& [logical, c] : claimed_) {
     if (c.is_written() || c.readers.empty()) continue;
     const bool needed = std::any_of(c.readers.begin(), c.readers.end(),
                                     [](const auto& by) { return !(by.get().flags & MUSTER_OPTIONAL); });
-    const auto& name = c.readers[0].get().name;
-    const Set* set = board_.find_set(name.set);
-    const auto* quantity = standard_quantity(standard_, name);
-    if (!needed || !quantity || !*quantity->provider || (set->is_named() && set->names.empty())) continue;
-    if (std::find(result.begin(), result.end(), quantity->provider) == result.end())
-      result.push_back(quantity->provider);
+    if (needed) ask_for(c.readers[0].get().name);
+  }
+  for (const auto& record : world_.records) {
+    const auto first = record.table.find('/'), last = record.table.rfind('/');
+    if (first == last) continue;  // no name of a table: told where it is to be recorded
+    const TableName name{record.table.substr(0, first), "*", record.table.substr(last + 1), ""};
+    const auto claimed = claimed_.find(name.logical());
+    if (claimed == claimed_.end() || !claimed->second.is_written()) ask_for(name);
   }
   return result;
 }

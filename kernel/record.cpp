@@ -51,7 +51,20 @@ void write_cell(TextTableWriter& writer, const Simulation& run, const Cells& cel
     writer.real(value);
 }
 
+TableView recorded(const Simulation& run, const RecordDeclaration& declared) {
+  try {
+    return run.table(declared.table);
+  } catch (const Error& e) {
+    if (e.exit() != Exit::invalid_input || declared.place.file.empty()) throw;
+    throw invalid(declared.place, std::string("record: ") + e.what());
+  }
+}
+
 }  // namespace
+
+void check_records(const Simulation& run) {
+  for (const auto& declared : run.world().records) recorded(run, declared);
+}
 
 Recorder::Recorder(const Simulation& run, const std::vector<RecordDeclaration>& tables,
                    const std::filesystem::path& folder) {
@@ -61,15 +74,9 @@ Recorder::Recorder(const Simulation& run, const std::vector<RecordDeclaration>& 
   std::set<std::string> seen;
   for (const auto& declared : tables) {
     if (!seen.insert(declared.table).second) continue;
-    try {
-      const TableView view = run.table(declared.table);
-      const auto path = folder / file_name(declared.table);
-      files_.push_back(
-          {declared.table, declared.every, path, std::make_unique<TextTableWriter>(path, header(*view.table))});
-    } catch (const Error& e) {
-      if (e.exit() != Exit::invalid_input || declared.place.file.empty()) throw;
-      throw invalid(declared.place, std::string("record: ") + e.what());
-    }
+    const auto path = folder / file_name(declared.table);
+    auto writer = std::make_unique<TextTableWriter>(path, header(*recorded(run, declared).table));
+    files_.push_back({declared.table, declared.every, path, std::move(writer)});
   }
 }
 

@@ -11,6 +11,9 @@
 
 namespace muster {
 
+// Throws Error where the world records a table that is not there.
+void check_records(const Simulation& run);
+
 class Recorder {
  public:
   // One file a declaration, named after its table, in the folder, which is made. Throws Error.

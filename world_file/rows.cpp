@@ -35,6 +35,7 @@ class RowReader {
     }
     for (const auto& [given, element, row] : pending_) read_values(*given, *element, world_.rows[row]);
     for (const auto& load : files_) read_file_values(load);
+    for (std::size_t row = 0; row < world_.rows.size(); ++row) check_whole(row);
   }
 
  private:
@@ -88,8 +89,37 @@ class RowReader {
       }
       numbers_[set + '/' + name] = static_cast<double>(names_[set].size());
       names_[set].push_back(name);
+      rows_[set].push_back(world_.rows.size());
     }
     world_.rows.push_back(std::move(row));
+    elements_.push_back(&element);
+  }
+
+  // What attributes by themselves do not show: a wall without length.
+  void check_whole(std::size_t row) const {
+    const RowDeclaration& declared = world_.rows[row];
+    if (!elements_[row]->fault) return;
+    const std::string fault =
+        elements_[row]->fault(numbers_.at(declared.set + '/' + declared.name),
+                              [this](const std::string& table, double number) { return cells_of(table, number); });
+    if (!fault.empty()) throw invalid(declared.place, declared.set + ' ' + quote(declared.name) + ' ' + fault);
+  }
+
+  std::vector<double> cells_of(const std::string& table, double number) const {
+    const auto slash = table.find('/');
+    const std::string set = table.substr(0, slash), name = table.substr(slash + 1);
+    const auto& quantities = set_of(standard_, set).quantities;
+    const auto quantity =
+        std::find_if(quantities.begin(), quantities.end(), [&](const auto& q) { return name == q.name; });
+    std::vector<double> cells(Columns(quantity->columns).size());
+    for (const auto& values : world_.rows[rows_.at(set)[static_cast<std::size_t>(number)]].values) {
+      if (values.table != table) continue;
+      if (values.store)
+        values.store(values.values.data(), cells.data());
+      else
+        cells = values.values;
+    }
+    return cells;
   }
 
   void declare(const Element& element, const XmlElement& given) {
@@ -228,6 +258,8 @@ class RowReader {
   std::map<std::string, Place> places_;                    // of "set/row"
   std::map<std::string, double> numbers_;                  // of "set/row"
   std::map<std::string, std::vector<std::string>> names_;  // of a set's rows
+  std::map<std::string, std::vector<std::size_t>> rows_;   // of a set, in the world
+  std::vector<const Element*> elements_;                   // of each row of the world
   std::vector<Pending> pending_;
   std::vector<LoadedFile> files_;
 };

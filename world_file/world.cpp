@@ -170,6 +170,7 @@ InstanceDeclaration read_instance(const XmlElement& element, const std::string& 
 }
 
 uint64_t ticks_of(double time, double dt, const Place& place) {
+  if (time < 0) throw invalid(place, print_real(time) + " s is before the start; expected a time from 0");
   const double ticks = std::round(time / dt);
   if (!(ticks < most_ticks))
     throw invalid(place, print_real(time) + " s are " + print_real(ticks) + " ticks of " + print_real(dt) +

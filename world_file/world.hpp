@@ -82,7 +82,8 @@ World read_world(const std::filesystem::path& path, const Standard& standard);
 // The plugin's element as an instance: reserved attributes taken out, the others left for the plugin. Throws Error.
 InstanceDeclaration read_instance(const XmlElement& element, const std::string& plugin);
 
-// The whole number of ticks nearest to a time, or an error where there are none or more than 1e12.
+// The whole number of ticks nearest to a time, or an error where that is before the start, less than a tick, or 1e12
+// ticks or more.
 uint64_t ticks_of(double time, double dt, const Place& place);
 
 // The names that nothing else in a world may be called: attributes of every plugin's element.

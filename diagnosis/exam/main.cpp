@@ -1,6 +1,7 @@
 // muster_exam: makes sealed cases for a diagnosis, and grades what it says of them.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <map>
 #include <set>
@@ -198,7 +199,9 @@ int list_effects() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::string verb = argc > 1 ? argv[1] : "--help";
+  const bool asks =
+      std::any_of(argv + 1, argv + argc, [](const std::string& word) { return word == "--help" || word == "-h"; });
+  const std::string verb = argc > 1 && !asks ? argv[1] : "--help";
   try {
     if (verb == "make") return make(argc, argv);
     if (verb == "run") return run(argc, argv);

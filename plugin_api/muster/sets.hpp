@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 #include <muster/floors.hpp>
 #include <muster/meshes.hpp>
 #include <muster/plugin.hpp>
@@ -42,6 +43,9 @@ struct Attribute {
   void (*store)(const double* values, double* row);
 };
 
+// The cells of a table's row, as the world file gives them.
+using CellsOf = std::function<std::vector<double>(const char* table, double row)>;
+
 struct Element {
   const char* name;
   const char* set;  // an element adds one row to this set and to each that an attribute's table names
@@ -49,6 +53,8 @@ struct Element {
   const char* file_of;  // "walls": its `file` attribute lists rows of this set, by column name; else ""
   std::vector<Attribute> attributes;
   const char* own_row;  // "set/quantity" whose first column is this element's row in `set`; else ""
+  // What is wrong with a row although each of its attributes is within bounds; "" if nothing. Null: nothing can be.
+  const char* (*fault)(double row, const CellsOf& cells) = nullptr;
 };
 
 struct Standard {
@@ -65,6 +71,22 @@ template <int count>
 void store_yaw(const double* yaw, double* row) {
   row[count] = std::cos(*yaw / 2);
   row[count + 3] = std::sin(*yaw / 2);
+}
+inline Wall wall_of(double row, const CellsOf& cells) {
+  const auto c = cells("wall/shape", row);
+  return {c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7]};
+}
+constexpr double lattice = 1.0 / 4096;  // [m] to which places of walls and doors are rounded
+inline const char* fault_of_wall(double row, const CellsOf& cells) {
+  const Wall wall = wall_of(row, cells);
+  if (std::hypot(wall.x1 - wall.x0, wall.y1 - wall.y0) >= lattice) return "";
+  return "has no length; expected ends at least 2^-12 m apart";
+}
+inline const char* fault_of_door(double row, const CellsOf& cells) {
+  const auto door = cells("door/shape", row);
+  const Wall wall = wall_of(door[0], cells);
+  const double ends = door[1] + door[2], length = std::hypot(wall.x1 - wall.x0, wall.y1 - wall.y0);
+  return ends <= length + 3 * lattice ? "" : "ends beyond its wall; expected at + width within the wall's length";
 }
 }  // namespace detail
 
@@ -156,7 +178,8 @@ inline const Standard& standard() {
             {real("height", 2.7, 0.001, far, "m", "height above its foot"), 1, "wall/shape", store_at<5, 1>},
             {real("thickness", 0.1, 0, 100, "m", "thickness, half to each side"), 1, "wall/shape", store_at<6, 1>},
             {reference("material", "material", "what it is made of").required(), 1, "wall/shape", store_at<7, 1>}},
-           ""},
+           "",
+           detail::fault_of_wall},
           {"walls",
            "wall",
            "walls from a table",
@@ -177,7 +200,8 @@ inline const Standard& standard() {
             {reference("material", "material", "what it is made of; by default its wall's"), 1, "door/shape",
              store_at<4, 1>},
             {choice("state", "closed|open", "how it stands at the start"), 1, "door/state", store_at<0, 1>}},
-           ""},
+           "",
+           detail::fault_of_door},
           {"floor",
            "floor",
            "a level floor or ceiling",

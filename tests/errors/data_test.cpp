@@ -163,19 +163,37 @@ TEST(Fault25, WhatIsNotIdentifiableHasNoNumber) {
   EXPECT_THAT(outcome.out, HasSubstr("no reading depends on material/drywall/loss"));
 }
 
-// One place, so that distance and walls are the same in all rows: nothing is named, and what has no value says so.
-TEST(Fault25, ADiagnosisNamesNothingThatItCannotTell) {
+Data at_one_place() {
   Data data = Data().set_all(5, "3").set_all(6, "0");
   std::minstd_rand draw(3);
   for (std::size_t row = 1; row <= 60; ++row)
     data.set(row, 7, fmt::format("{:.1f}", -60 + 0.01 * static_cast<double>(draw() % 500)));
-  const auto outcome = asked("diagnose", data.text());
+  return data;
+}
+
+// Distance and walls are the same in all rows: nothing is named, and what has no value says so.
+TEST(Fault25, ADiagnosisNamesNothingThatItCannotTell) {
+  const auto outcome = asked("diagnose", at_one_place().text());
   EXPECT_EQ(outcome.exit, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("world.xml is adequate"));
   EXPECT_THAT(outcome.out, HasSubstr("note: not identifiable: no reading depends on material/drywall/loss"));
   EXPECT_THAT(outcome.out,
               HasSubstr("note: not identifiable: changing radio.multiwall/l0 by 1 dB together with radio.multiwall/n"));
   EXPECT_THAT(outcome.out, testing::Not(HasSubstr("evidence")));
+}
+
+TEST(Fault25, OtherReadingsOfTheSameAreNotPassedOver) {
+  const ProgramFolder folder;
+  folder.write("world.xml", world);
+  folder.write("data.csv", at_one_place().text());
+  const std::vector<std::string> words = {"diagnose", "world.xml", "--data",   "data.csv",
+                                          "--out",    "out",       "--second", "second.csv"};
+  expect_error(folder.muster(words), 2, "second.csv: no such file");
+  folder.write("second.csv", at_one_place().text());
+  const auto outcome = folder.muster(words);
+  EXPECT_EQ(outcome.exit, 0);
+  EXPECT_EQ(outcome.err,
+            "muster: note: nothing is held against --second: no cause is named, so no world is extended\n");
 }
 
 TEST(Fault25, DistancesAndPathLosses) {

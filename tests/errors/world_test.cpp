@@ -72,7 +72,7 @@ TEST(Fault7, DegreesInAFieldOfRadiansAreWarnedOf) {
   EXPECT_EQ(outcome.exit, 0) << outcome.err;
   EXPECT_EQ(outcome.out,
             "warning: world.xml:1:70: attribute \"yaw\": 90 rad is more than a full turn; are these degrees?\n"
-            "w: 0 instances, 0 tables; nothing is wrong\n");
+            "w: 0 instances, 0 tables; no error, 1 warning\n");
 }
 
 TEST(Fault7, ImpossibleQuantitiesAreRefused) {
@@ -85,6 +85,60 @@ TEST(Fault7, ImpossibleQuantitiesAreRefused) {
   folder.expect_refused(R"(<world dt="2" until="1"/>)", "world.xml:1:22: 1 s are less than a tick of 2 s");
   folder.expect_refused(R"(<world dt="0.001" until="1e12"/>)",
                         "world.xml:1:26: 1e+12 s are 1e+15 ticks of 0.001 s; expected fewer than 1e+12");
+}
+
+TEST(Fault7, WallsWithoutLengthAndDoorsBeyondTheirsAreToldWithTheirLines) {
+  const ProgramFolder folder;
+  const std::string brick = "<material name=\"m\" loss=\"4\"/>\n";
+  folder.expect_refused(world_of(brick + R"(<wall name="w1" from="1 2" to="1 2" material="m"/>)"),
+                        "world.xml:2:1: wall \"w1\" has no length; expected ends at least 2^-12 m apart");
+  const std::string wall = R"(<wall name="w1" from="0 0" to="3 4" material="m"/>)";
+  folder.expect_refused(
+      world_of(brick + "<door name=\"d1\" wall=\"w1\" at=\"4.2\"/>\n" + wall),
+      "world.xml:2:1: door \"d1\" ends beyond its wall; expected at + width within the wall's length");
+  folder.write("world.xml", world_of(brick + "<door wall=\"w1\" at=\"4.1\"/>\n" + wall));
+  EXPECT_EQ(folder.muster({"check", "world.xml"}).exit, 0);
+  folder.write("walls.csv",
+               "name,x0[m],y0[m],x1[m],y1[m],height[m],thickness[m],material\nq,0,0,3,4,2,0.1,m\nr,3,4,3,4,2,0.1,m\n");
+  folder.expect_refused(world_of(brick + R"(<walls file="walls.csv"/>)"),
+                        "walls.csv:3:1: wall \"r\" has no length; expected ends at least 2^-12 m apart");
+}
+
+TEST(Fault7, TimesOutsideOfTheRunAreRefused) {
+  const ProgramFolder folder;
+  folder.write("world.xml", world_of("<test.good/>"));
+  const auto refused = [&](std::vector<std::string> words, const std::string& why) {
+    words.insert(words.end(), {"--plugins", MUSTER_TOYS});
+    expect_error(folder.muster(words), 2, why);
+  };
+  refused({"run", "world.xml", "--until", "-1"}, "--until: -1 s is before the start; expected a time from 0");
+  const auto swap_at = [&](const std::string& at, const std::string& why) {
+    refused({"swap", "world.xml", "--at", at, "--instance", "test.good", "--plugin", "test.good"}, why);
+  };
+  swap_at("-1", "--at: -1 s is before the start; expected a time from 0");
+  swap_at("1", "--at: 1 s is at the end of the run or after it; expected less than 1 s");
+  ASSERT_EQ(folder.muster({"run", "world.xml", "--save", "end.snap", "--plugins", MUSTER_TOYS}).exit, 0);
+  refused({"run", "world.xml", "--until", "0.5", "--restore", "end.snap"},
+          "--restore: end.snap stands at 1 s, after the end of the run at 0.5 s");
+}
+
+TEST(Fault5, ARecordOfNoTableIsToldWhetherItIsWrittenOrNot) {
+  const ProgramFolder folder;
+  folder.write("world.xml", world_of("<test.good/>\n<record table=\"robot/*/psoe\"/>"));
+  for (const std::string verb : {"check", "run"}) {
+    SCOPED_TRACE(verb);
+    expect_error(folder.muster({verb, "world.xml", "--plugins", MUSTER_TOYS}), 2,
+                 "world.xml:2:1: record: there is no table \"robot/*/psoe\"; expected instance/test.good/*/cell");
+  }
+}
+
+TEST(Fault5, FoldersOfPluginsThatAreNotThereAreTold) {
+  const ProgramFolder folder;
+  folder.write("world.xml", world_of("<test.good/>"));
+  expect_error(folder.muster({"check", "world.xml", "--plugins", "toys"}), 2, "--plugins: \"toys\" is no folder");
+  Surroundings around;
+  around.environment = {"MUSTER_PLUGIN_PATH=" MUSTER_TOYS ":toys"};
+  expect_error(folder.muster({"check", "world.xml"}, around), 2, "MUSTER_PLUGIN_PATH: \"toys\" is no folder");
 }
 
 TEST(Fault13, TwoOfOneNameAreRefusedWithBothPlaces) {

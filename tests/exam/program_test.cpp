@@ -83,6 +83,7 @@ TEST_F(Program, RefusesWhatItDoesNotKnow) {
             "muster_exam make: a kind is clean, one, two, outside or each, not \"some\"\n");
   EXPECT_EQ(run("make --seed 3 --cases 1 --out x --effects ghost").code, 2);
   EXPECT_EQ(run("make --seed 3x --cases 1 --out x").code, 2);
+  EXPECT_EQ(run("make --help").text, run("--help").text);
   EXPECT_EQ(run("make --seed 3 --cases 1 --out x --depth 2").text, "muster_exam make: no option is called --depth\n");
   EXPECT_EQ(run("grade --answers /nowhere --reports /nowhere").code, 74);
 }

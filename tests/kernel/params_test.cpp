@@ -97,6 +97,9 @@ TEST_F(Params, ProvidersJoinWhereTheyAreNeeded) {
   EXPECT_EQ(sim.instances()[1]->name(), "toy.list");
   step(sim, 3);
   EXPECT_EQ(sim.table("endpoint/*/radio").rows(), 4u);
+  const std::string record = two_robots + "<record table='endpoint/*/radio'/>\n";
+  EXPECT_EQ(Simulation(world(record), other, options()).instances().at(0)->name(), "toy.list");
+  EXPECT_EQ(Simulation(world(record + "<toy.list name='mine'/>\n"), other, options()).instances().size(), 1u);
   Simulation named(world(reader + "<toy.list name='mine'/>\n"), other, options());
   EXPECT_EQ(named.instances().size(), 2u);
   for (auto& set : other.sets) {
