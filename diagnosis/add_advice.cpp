@@ -28,7 +28,8 @@ std::set<std::string> wanted(const Diagnosis& found, const CauseSearch& causes) 
     out.insert(c.sought_as);
     std::size_t rivals = 0;
     for (const search::Rival& r : c.rivals) {
-      if (r.separability >= search::decided || r.id[0] == '~' || reads_a_table(causes, r.id) || rivals++ >= most_rivals)
+      if (r.separability >= search::decided || r.id[0] == '~' || r.id == c.sought_as || reads_a_table(causes, r.id) ||
+          rivals++ >= most_rivals)
         continue;
       out.insert(r.id);
       open = true;

@@ -10,7 +10,9 @@ std::vector<Question> open_questions(const Diagnosis& d) {
     if (standing_of(c) == Standing::set_aside) continue;
     for (const search::Rival& r : c.rivals) {
       if (r.separability >= search::decided) continue;
-      Question question{c.id, r.id, r.separability, c.tell_apart, {}};
+      std::string pair = short_name(c.id) + " or " + short_name(r.id);
+      if (r.id == c.id) pair = short_name(c.id) + " of " + c.label + " or of " + r.label;
+      Question question{c.id, r.id, std::move(pair), r.separability, c.tell_apart, {}};
       for (const diagnosis::Advice& a : d.advice) {
         if (a.cause != c.id || a.rival != r.id || !a.predicted) continue;
         question.plans.push_back({a.say, *a.predicted, d.advised && d.advised->say == a.say});

@@ -113,7 +113,7 @@ std::string rivals_text(const FoundCause& c) {
   std::string out;
   for (const search::Rival& r : c.rivals)
     out += fmt::format("{}{} {}: {:.1f} nats behind, D {:.0f}, {}", out.empty() ? "" : "; ", short_name(r.id),
-                       r.label == r.id ? "" : r.label, r.evidence_gap, r.separability, judged(r.separability));
+                       r.label == r.id ? "" : r.label, tenths(r.evidence_gap), r.separability, judged(r.separability));
   return out.empty() ? "none within 3 nats, and none with a separability D below 12" : out;
 }
 
@@ -149,13 +149,12 @@ std::string undecided(const Diagnosis& d) {
       "soft");
   std::vector<Row> rows;
   for (const Question& q : questions) {
-    const std::string pair = short_name(q.cause) + " or " + short_name(q.rival);
     for (const Measurement& m : q.plans)
-      rows.push_back({{pair},
+      rows.push_back({{q.pair},
                       {fmt::format("{:.0f}", q.separability), true},
                       {m.say + (m.advised ? " (advised.csv lists its readings)" : "")},
                       {fmt::format("{:.0f}", m.predicted), true}});
-    rows.push_back({{pair}, {fmt::format("{:.0f}", q.separability), true}, {q.tell_apart}, {"not worked out", true}});
+    rows.push_back({{q.pair}, {fmt::format("{:.0f}", q.separability), true}, {q.tell_apart}, {"not worked out", true}});
   }
   return out + "<div class=\"card\">" + table({{"pair"}, {"D now", true}, {"measure"}, {"D predicted", true}}, rows) +
          "</div>\n";

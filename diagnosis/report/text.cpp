@@ -75,8 +75,9 @@ std::string cause_text(const FoundCause& c, int number) {
     text += entry("", "What was held out does not confirm it yet: the interval touches zero.");
   std::string rivals;
   for (const search::Rival& r : c.rivals)
-    rivals += fmt::format("{}{} {}, {:.1f} nats behind, D {:.0f}: {}", rivals.empty() ? "" : "; ", short_name(r.id),
-                          r.label == r.id ? "" : r.label, r.evidence_gap, r.separability, judged(r.separability));
+    rivals +=
+        fmt::format("{}{} {}, {:.1f} nats behind, D {:.0f}: {}", rivals.empty() ? "" : "; ", short_name(r.id),
+                    r.label == r.id ? "" : r.label, tenths(r.evidence_gap), r.separability, judged(r.separability));
   if (standing != Standing::set_aside)
     text += entry("rivals", rivals.empty() ? "none within 3 nats, and none with a separability D below 12" : rivals);
   return text;
@@ -118,9 +119,7 @@ std::string undecided(const Diagnosis& d) {
   if (questions.empty()) return "";
   std::string text = heading("What the data cannot decide, and what to measure next");
   for (const Question& q : questions) {
-    text += wrapped(fmt::format("{} or {}: D {:.0f}, {}.", short_name(q.cause), short_name(q.rival), q.separability,
-                                judged(q.separability)),
-                    2, 2);
+    text += wrapped(fmt::format("{}: D {:.0f}, {}.", q.pair, q.separability, judged(q.separability)), 2, 2);
     text += wrapped("- " + q.tell_apart, 4, 6);
     for (const Measurement& m : q.plans)
       text += wrapped(fmt::format("- {}: predicted D {:.0f}{}{}", m.say, m.predicted,

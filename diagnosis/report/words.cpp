@@ -62,6 +62,8 @@ int count_of(const Diagnosis& d, Standing standing) {
       std::count_if(d.causes.begin(), d.causes.end(), [&](const FoundCause& c) { return standing_of(c) == standing; }));
 }
 
+double tenths(double value) { return std::round(10 * value) / 10 + 0.0; }
+
 std::string judged(double separability) {
   return separability < search::inseparable ? "cannot be told apart"
          : separability < search::decided   ? "weakly told apart"

@@ -19,6 +19,7 @@ enum class Standing {
 };
 Standing standing_of(const FoundCause& cause);
 
+double tenths(double value);              // to one decimal, without a zero's sign
 std::string judged(double separability);  // "cannot be told apart", "weakly told apart", "told apart"
 
 // With as many digits as its half interval gives a meaning to; without one, four.

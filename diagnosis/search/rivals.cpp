@@ -54,6 +54,30 @@ Lead at_its_best(const Bench& bench, const Stand& rest, const Lead& plain, const
   return other.gain > best.gain ? other : best;
 }
 
+// D, which rounding must not make negative.
+double left_of(const Eigen::VectorXd& effect, double explained) {
+  return std::max(0.0, effect.squaredNorm() - explained);
+}
+
+// The same cause of other rows, the likest first: of two receivers one that reads high is the other one that reads low.
+// `by_atom`: how much of the effect each place of its grid explains.
+std::vector<Rival> of_other_rows(const Term& term, const Eigen::VectorXd& by_atom, const Eigen::VectorXd& effect) {
+  constexpr std::size_t most = 3;
+  const Candidate& own = *term.candidate;
+  if (own.kind != Kind::named || own.refinable() || own.whole) return {};
+  const std::string label = own.label_of(term.theta);
+  std::vector<Rival> result;
+  for (std::size_t k = 0; k < own.grid.size(); ++k) {
+    const double separability = left_of(effect, by_atom[static_cast<Index>(k)]);
+    if (separability < inseparable && own.label_of(own.grid[k]) != label)
+      result.push_back({own.id, own.label_of(own.grid[k]), own.grid[k], 0, separability});
+  }
+  std::stable_sort(result.begin(), result.end(),
+                   [](const Rival& a, const Rival& b) { return a.separability < b.separability; });
+  if (result.size() > most) result.resize(most);
+  return result;
+}
+
 const Candidate& planned(const Plan& plan, const std::string& id) {
   for (const Candidate& c : plan.candidates) {
     if (c.id == id) return c;
@@ -84,21 +108,28 @@ std::vector<Rival> rivals_of(Bench& bench, const Term& term) {
   const Candidate& own = *term.candidate;
   const double evidence = bench.evidence(own, rest.gain(term.columns), own.width, own.refinable());
   std::optional<double> stands;
+  const auto behind = [&](const Candidate& c, const Eigen::MatrixXd& columns) {
+    if (!stands) stands = standing(bench, rest.design, own, term.columns);
+    return *stands - standing(bench, rest.design, c, columns);
+  };
   std::vector<Rival> result;
   std::map<std::string, Eigen::VectorXd> by_atom;  // of what each explains of the effect
   const auto also = [&](const Candidate& c, const noise::Sheet& unit) { by_atom[c.id] = gains(c, unit, effect); };
   for (const Lead& plain : leads(bench, rest, also)) {
     const Candidate& c = plain.candidate();
-    if (c.id == own.id) continue;
+    if (c.id == own.id) {
+      for (Rival& other : of_other_rows(term, by_atom.at(c.id), effect)) {
+        other.evidence_gap = behind(own, bench.columns_of(own, other.theta));
+        result.push_back(std::move(other));
+      }
+      continue;
+    }
     const auto [theta, explained] = explained_by(bench, rest, c, by_atom.at(c.id), effect);
-    const double separability = effect.squaredNorm() - explained;
+    const double separability = left_of(effect, explained);
     const bool confused = c.kind == Kind::named && separability < inseparable;
     const Lead lead = at_its_best(bench, rest, plain, confused ? &theta : nullptr, evidence - worth_refining);
     Rival rival{c.id, "", lead.theta, evidence - lead.evidence, separability};
-    if (confused) {
-      if (!stands) stands = standing(bench, rest.design, own, term.columns);
-      rival.evidence_gap = *stands - standing(bench, rest.design, c, lead.columns);
-    }
+    if (confused) rival.evidence_gap = behind(c, lead.columns);
     if (rival.evidence_gap >= near_gap) rival.theta = theta;  // what it can be mistaken for, not what it is best at
     rival.label = c.label_of(rival.theta);
     if (rival.evidence_gap < near_gap || confused) result.push_back(std::move(rival));
@@ -130,7 +161,7 @@ double predicted_separability(const Bench& bench, const Term& term, const std::s
     const Eigen::VectorXd& theta = entry->candidate->grid[static_cast<std::size_t>(k)];
     const Eigen::MatrixXd x = basis.rest(whitener(above(entry->atom(k), rows.mean(other.columns(theta)))));
     const auto of_rival = noise::basis_of(x);
-    least = std::min(least, effect.squaredNorm() - (of_rival.q.transpose() * effect).squaredNorm());
+    least = std::min(least, left_of(effect, (of_rival.q.transpose() * effect).squaredNorm()));
   }
   return least;
 }

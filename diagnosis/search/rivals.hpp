@@ -19,7 +19,7 @@ struct Rival {
 double standing(const Bench& bench, const Eigen::MatrixXd& design, const Candidate& candidate,
                 const Eigen::MatrixXd& columns);
 
-// Candidates within 3 nats of the term, and causes that are not told from it.
+// Candidates within 3 nats of the term, and causes that are not told from it, its own of other rows among them.
 std::vector<Rival> rivals_of(Bench& bench, const Term& term);
 
 // A measurement that could be made: the same base and candidates at its readings.

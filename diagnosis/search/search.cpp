@@ -157,12 +157,13 @@ std::vector<Advice> Search::advise(const std::vector<Plan>& plans) {
   std::vector<Advice> result;
   for (std::size_t k = 0; k < bench_.terms.size(); ++k) {
     for (const Rival& rival : result_.findings[k].rivals) {
-      if (rival.separability >= decided) continue;
+      const std::string& own = bench_.terms[k].candidate->id;
+      if (rival.separability >= decided || rival.id == own) continue;  // of its other rows no plan says anything
       for (const Plan& plan : plans) {
         const bool knows = std::any_of(plan.candidates.begin(), plan.candidates.end(),
                                        [&](const Candidate& c) { return c.id == rival.id; });
         if (!knows) continue;
-        result.push_back({plan.say, bench_.terms[k].candidate->id, rival.id, rival.separability,
+        result.push_back({plan.say, own, rival.id, rival.separability,
                           predicted_separability(bench_, bench_.terms[k], rival.id, plan)});
       }
     }

@@ -87,6 +87,15 @@ TEST(Text, RivalsThatAreNotDecidedAreQuestions) {
   EXPECT_LT(best, text.find("turn on the spot: predicted D 15\n")) << text;
 }
 
+TEST(Text, RivalsOfTheSameNameAreToldByTheirRows) {
+  FoundCause c = wall(search::Status::named, search::HeldOut{3.5, 2.5, 6, 2.4, 11, 21});
+  c.label = "wall/w1";
+  c.rivals.push_back({c.id, "wall/w2", {}, -0.01, 0});
+  const std::string text = text_of(with(c), {"hall", "a.csv"});
+  EXPECT_TRUE(says(text, "unmapped wall of wall/w1 or of wall/w2: D 0, cannot be told apart")) << text;
+  EXPECT_TRUE(says(text, "unmapped wall wall/w2, 0.0 nats behind")) << text;
+}
+
 // Of all that was accepted, named or not; clips and laws of what scatters are no step.
 TEST(Steps, AreInTheOrderOfStrength) {
   Diagnosis d = with(wall(search::Status::named, {}));

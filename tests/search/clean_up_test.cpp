@@ -10,6 +10,7 @@
 #include "diagnosis/search/beside.hpp"
 #include "diagnosis/search/choose.hpp"
 #include "diagnosis/search/merge.hpp"
+#include "diagnosis/search/rivals.hpp"
 #include "diagnosis/search/spread.hpp"
 #include "diagnosis/search/uncertainty.hpp"
 #include "tests/search/causes.hpp"
@@ -19,6 +20,7 @@ namespace {
 
 using synthetic::causes_of;
 using synthetic::problem_of;
+using synthetic::Recipe;
 using synthetic::varied;
 using synthetic::world_of;
 
@@ -142,6 +144,31 @@ TEST(Spread, OfAThingIsThatOfTheWholeLikelihood) {
   const double loss = found.coefficients[0];  // that is told, whatever the mean is
   const double between = loss_squares / weights - 2 * loss * losses / weights + loss * loss;
   EXPECT_NEAR(spread.coefficients(0, 0) / (grown * within / weights + between), 1, 0.15);
+}
+
+// A weak one of two transmitters is the other one's strength, whatever is read; among three it is not.
+TEST(Rivals, OfTwoRadiosEitherMayBeMeant) {
+  for (const int transmitters : {2, 3}) {
+    Recipe recipe = varied(14, 4000);
+    recipe.transmitters = transmitters;
+    const auto world = world_of(recipe);
+    auto causes = causes_of(world);
+    Candidate& offset = causes[0];
+    ASSERT_EQ(offset.id, "tx_offset");
+    offset.label = [](const Eigen::VectorXd& t) { return "tx" + std::to_string(static_cast<int>(t[0])); };
+    const Problem problem = problem_of(world, -scaled_to(world, offset.columns(offset.grid[1]).col(0), 100), causes);
+    Bench bench(problem, {});
+    score(bench);
+    bench.terms = {term_at(bench, "tx_offset", offset.grid[1])};
+    bench.refit();
+    std::vector<Rival> own = rivals_of(bench, bench.terms[0]);
+    std::erase_if(own, [](const Rival& r) { return r.id != "tx_offset"; });
+    ASSERT_EQ(own.size(), transmitters == 2 ? 1u : 0u);
+    if (own.empty()) continue;
+    EXPECT_EQ(own[0].label, "tx0");
+    EXPECT_NEAR(own[0].separability, 0, 0.01);
+    EXPECT_NEAR(own[0].evidence_gap, 0, 0.01);
+  }
 }
 
 struct Guess {
