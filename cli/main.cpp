@@ -28,7 +28,7 @@ constexpr Verb verbs[] = {
     {"graph", run_graph, "who reads and writes what, and the order of steps"},
     {"plugins", run_plugins, "the plugins that can be loaded"},
     {"plugin-check", run_plugin_check, "hide a cause in worlds of known truth, and see whether a diagnosis finds it"},
-    {"describe", run_describe, "a plugin's manual, from its declarations"},
+    {"describe", run_describe, "the manual of a plugin or of an element, from its declarations"},
     {"fit", run_fit, "fit a world's free parameters to measured data, and say where it misfits"},
     {"diagnose", run_diagnose, "find what a world gets wrong about measured data, name the cause and extend the world"},
     {"exam", run_exam, "make sealed cases for a diagnosis, run it on them and grade what it says"},

@@ -1,4 +1,5 @@
-// muster plugins and muster describe: what can be loaded, and a plugin's manual from its declarations alone.
+// muster plugins and muster describe: what can be loaded, and the manual of a plugin or of a world file's element from
+// its declarations alone.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -39,6 +40,14 @@ void print_cause(const muster_cause& cause) {
   if (*cause.tell_apart) fmt::print("  To decide: {}\n", cause.tell_apart);
 }
 
+// An attribute of `count` values.
+void print_param(const muster_param& param, int count) {
+  const bool required = param.flags & MUSTER_REQUIRED;
+  fmt::print("    {:14} {}\n    {:14} {}{}; {}{}{}\n", param.name, param.help, "", expectation(param),
+             count > 1 ? fmt::format(", {} of these", count) : "", required ? "" : "default ", default_text(param),
+             param.flags & MUSTER_FREE ? "; a fit may free it" : "");
+}
+
 void print_manual(const Library& library, const muster_plugin& plugin) {
   fmt::print("{}  ({})\n  {}\n\n  phase {}, from {}\n", plugin.id, phase_name(plugin.phase), plugin.summary,
              phase_name(plugin.phase), library.file().string());
@@ -58,11 +67,28 @@ void print_manual(const Library& library, const muster_plugin& plugin) {
   if (plugin.cause) print_cause(*plugin.cause);
   if (plugin.cannot_hold) fmt::print("\n  A swap to it drops: {}.\n", plugin.cannot_hold);
   if (plugin.param_count) fmt::print("\n  Attributes, beside {}:\n", expected_one_of(reserved_attributes).substr(16));
-  for (uint32_t i = 0; i < plugin.param_count; ++i) {
-    const auto& param = plugin.params[i];
-    fmt::print("    {:14} {}\n    {:14} {}; default {}{}\n", param.name, param.help, "", expectation(param),
-               default_text(param), param.flags & MUSTER_FREE ? "; a fit may free it" : "");
+  for (uint32_t i = 0; i < plugin.param_count; ++i) print_param(plugin.params[i], 1);
+}
+
+// Of a world file's element that is no plugin.
+void describe_element(const std::string& name, bool json) {
+  std::vector<std::string> names;
+  for (const auto& element : standard().elements) {
+    names.emplace_back(element.name);
+    if (name != element.name) continue;
+    ordered_json out = {{"element", element.name}, {"summary", element.help}, {"params", ordered_json::array()}};
+    for (const auto& attribute : element.attributes) {
+      out["params"].push_back(param_json(attribute.param));
+      out["params"].back()["count"] = std::max(1, attribute.count);
+    }
+    if (json) return fmt::print("{}\n", out.dump(2));
+    fmt::print("<{}>  an element of a world file\n  {}\n\n  Attributes{}:\n", element.name, element.help,
+               *element.file_of ? "" : ", beside name");
+    for (const auto& attribute : element.attributes) print_param(attribute.param, attribute.count);
+    return;
   }
+  throw Error(Exit::invalid_input,
+              "there is no element " + quote(name) + ", and a plugin has a dot in its name; " + suggest(name, names));
 }
 
 }  // namespace
@@ -94,14 +120,19 @@ int run_plugins(const Arguments& arguments) {
 }
 
 int run_describe(const Arguments& arguments) {
-  CLI::App app("Prints a plugin's manual from its declarations.\nExample: muster describe radio.multiwall", "describe");
+  CLI::App app(
+      "Prints the manual of a plugin, or of an element of a world file, from its declarations.\n"
+      "Example: muster describe radio.multiwall\n"
+      "         muster describe wall",
+      "describe");
   std::string id;
   std::vector<std::string> folders;
   bool json = false;
-  app.add_option("plugin", id, "its id")->required();
+  app.add_option("plugin", id, "its id, or the name of an element")->required();
   app.add_option("--plugins", folders, "a folder of plugins, looked in first");
   app.add_flag("--json", json, "as JSON");
   parse(app, arguments);
+  if (id.find('.') == std::string::npos) return describe_element(id, json), 0;
   const auto library = Library::load(id.substr(0, id.find('/')), {}, plugin_path(folders), {"muster describe"});
   auto out = ordered_json::array();
   for (const auto& plugin : library->plugins()) {

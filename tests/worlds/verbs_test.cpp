@@ -57,6 +57,17 @@ TEST(Plugins, AreAllListedAndDescribed) {
   EXPECT_EQ(count, files);
 }
 
+TEST(Elements, AreAllDescribed) {
+  for (const auto& element : standard().elements) {
+    const std::string out = expect_clean({"describe", element.name}).out;
+    for (const auto& attribute : element.attributes) {
+      EXPECT_THAT(out, HasSubstr(std::string("    ") + attribute.param.name + ' ')) << element.name;
+      EXPECT_THAT(out, HasSubstr(attribute.param.help)) << element.name;
+    }
+    EXPECT_THAT(expect_clean({"describe", element.name, "--json"}).out, StartsWith("{"));
+  }
+}
+
 // Row 29 of the requirements.
 TEST(Verbs, RunSaysHowFastItWent) {
   const std::string out = expect_clean({"run", place_of("connectivity"), "--until", "1"}).out;
