@@ -62,16 +62,31 @@ std::vector<fs::path> clean_worlds(int count, uint64_t seed, const std::vector<i
   return result;
 }
 
-// What is still not surprising, once in 1,000, where each of `trials` succeeds with probability p.
+// The fewest successes of `trials`, each of probability p, that chance still brings once in 1,000. Rounded up: what
+// boost gives of itself, rounded outwards, is one that chance brings more seldom.
 int least(int trials, double p) {
-  if (trials == 0) return 0;
-  return static_cast<int>(boost::math::quantile(boost::math::binomial(trials, p), 0.001));
+  using namespace boost::math::policies;
+  using Law = boost::math::binomial_distribution<double, policy<discrete_quantile<integer_round_up>>>;
+  return trials == 0 ? 0 : static_cast<int>(boost::math::quantile(Law(trials, p), 0.001));
 }
 
-bool passes(const CauseCheck& check) {
-  const int n = check.tested();
-  return n > 0 && check.found() >= least(n, goal_found) && n - check.false_names() >= least(n, 1 - goal_false) &&
-         check.difference() < largest_difference;
+int least_found(const CauseCheck& check) { return least(check.tested(), goal_found); }
+int most_false(const CauseCheck& check) { return check.tested() - least(check.tested(), 1 - goal_false); }
+
+// What it falls short in, in words; empty: it passes.
+std::string shortfall(const CauseCheck& check) {
+  std::string words;
+  const auto add = [&](bool fails, const std::string& what) {
+    if (fails) words += (words.empty() ? "" : "; ") + what;
+  };
+  if (check.tested() == 0) return "the data of none of these worlds can speak of it";
+  add(check.found() < least_found(check),
+      fmt::format("found in {}, expected at least {} of {}", check.found(), least_found(check), check.tested()));
+  add(check.false_names() > most_false(check), fmt::format("named on {} clean worlds, expected at most {} of {}",
+                                                           check.false_names(), most_false(check), check.tested()));
+  add(!(check.difference() < largest_difference),
+      fmt::format("executed {:.2g} dB off, expected within {:.0e} dB", check.difference(), largest_difference));
+  return words;
 }
 
 void print(const CauseCheck& check, double lambda) {
@@ -85,14 +100,12 @@ void print(const CauseCheck& check, double lambda) {
   }
   const int n = check.tested();
   fmt::print("{}\n", check.id);
-  if (n == 0) {
-    fmt::print("  the data of none of these worlds can speak of it\n");
-    return;
-  }
+  if (n == 0) return;
   const auto alone = std::count_if(check.cases.begin(), check.cases.end(), [](const HiddenCase& c) { return c.alone; });
-  fmt::print("  found            {} of {} at lambda {} (goal {:.0f} %), {} of them with nothing besides\n",
-             check.found(), n, lambda, 100 * goal_found, alone);
-  fmt::print("  named on clean   {} of {} (goal at most {:.0f} %)\n", check.false_names(), n, 100 * goal_false);
+  fmt::print("  found            {} of {} at lambda {} (goal {:.0f} %, at least {}), {} of them with nothing besides\n",
+             check.found(), n, lambda, 100 * goal_found, least_found(check), alone);
+  fmt::print("  named on clean   {} of {} (goal at most {:.0f} %, at most {})\n", check.false_names(), n,
+             100 * goal_false, most_false(check));
   fmt::print("  executed         within {:.2g} dB of what the search adds (at most {:.0e})\n", check.difference(),
              largest_difference);
   fmt::print("  looks like       ");
@@ -118,10 +131,12 @@ nlohmann::ordered_json json_of(const CauseCheck& check) {
                      {"difference_db", c.difference}});
   for (const auto& [other, share] : check.alike()) alike[other] = share;
   return {{"cause", check.id},
-          {"passes", passes(check)},
+          {"passes", shortfall(check).empty()},
           {"tested", check.tested()},
           {"found", check.found()},
+          {"least_found", least_found(check)},
           {"false_names", check.false_names()},
+          {"most_false_names", most_false(check)},
           {"difference_db", check.difference()},
           {"alike", alike},
           {"cases", cases}};
@@ -160,11 +175,14 @@ int run_plugin_check(const Arguments& arguments) {
     check = diagnosis::check_cause(id, made, plugin_path(plugins), {lambda, seed, scratch.path()},
                                    [&](double share) { progress.at(share); });
   }
-  if (json)
+  const std::string why = shortfall(check);
+  if (json) {
     fmt::print("{}\n", json_of(check).dump());
-  else
+  } else {
     print(check, lambda);
-  return passes(check) ? static_cast<int>(Exit::done) : 1;
+    fmt::print("{}\n", why.empty() ? "passed" : "failed: " + why);
+  }
+  return static_cast<int>(why.empty() ? Exit::done : Exit::check_failed);
 }
 
 }  // namespace muster::cli
