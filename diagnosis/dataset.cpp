@@ -39,11 +39,13 @@ bool varies(const std::vector<double>& values) {
 }
 
 void read_covariates(Dataset& data) {
-  std::set<std::string> known = {"t",      "tx",   "rx",   "tx_x", "tx_y",   "tx_z",
-                                 "tx_yaw", "rx_x", "rx_y", "rx_z", "rx_yaw", data.reading};
-  if (!data.has_places()) known.insert("distance");
+  const auto is_known = [&](const std::string& name) {
+    if (name == "distance") return !data.has_places();
+    if (name == "rssi" || name == "path_loss") return name == data.reading;
+    return reading_columns().count(name) > 0;
+  };
   for (std::size_t c = 0; c < data.table.columns().size(); ++c) {
-    if (known.count(data.table.columns()[c].name)) continue;
+    if (is_known(data.table.columns()[c].name)) continue;
     Covariate covariate{data.table.columns()[c].label(), {}, {}};
     const bool number = data.table.is_numeric(c);
     if (number)
@@ -110,6 +112,14 @@ void read_readings(Dataset& data) {
 
 std::size_t Dataset::heard() const {
   return static_cast<std::size_t>(std::count_if(rssi.begin(), rssi.end(), [](double v) { return !std::isnan(v); }));
+}
+
+const std::map<std::string, std::string>& reading_columns() {
+  static const std::map<std::string, std::string> columns = {
+      {"t", "s"},          {"tx", ""},    {"rx", ""},    {"distance", "m"}, {"rssi", "dBm"},
+      {"path_loss", "dB"}, {"tx_x", "m"}, {"tx_y", "m"}, {"tx_z", "m"},     {"tx_yaw", "rad"},
+      {"rx_x", "m"},       {"rx_y", "m"}, {"rx_z", "m"}, {"rx_yaw", "rad"}};
+  return columns;
 }
 
 Dataset read_dataset(const std::filesystem::path& file) {

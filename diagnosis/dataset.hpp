@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,9 @@ struct Dataset {
   // "leader -> base"
   std::string pair(std::size_t row) const { return tx.levels[tx.level[row]] + " -> " + rx.levels[rx.level[row]]; }
 };
+
+// The columns that a table of readings may have, beside covariates: names and units.
+const std::map<std::string, std::string>& reading_columns();
 
 // Reads and checks. Throws Error with file, line and column: a column that is missing, a reading that stands twice,
 // time that runs backwards, values that no receiver gives.

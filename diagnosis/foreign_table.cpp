@@ -94,12 +94,12 @@ std::size_t ForeignTable::require(const std::string& column, const Place& for_wh
   return static_cast<std::size_t>(found - columns_.begin());
 }
 
-std::optional<double> ForeignTable::number(std::size_t row, std::size_t column) const {
+std::optional<double> ForeignTable::number(std::size_t row, std::size_t column, const std::string& advice) const {
   const std::string& cell = text(row, column);
   if (const auto value = parse_real(cell)) return value;
   if (std::find(std::begin(words_for_nothing), std::end(words_for_nothing), cell) != std::end(words_for_nothing))
     return std::nullopt;
-  throw invalid(place(row), "column " + quote(columns_[column]) + ": " + why_not_real(cell));
+  throw invalid(place(row), "column " + quote(columns_[column]) + ": " + why_not_real(cell) + advice);
 }
 
 }  // namespace muster::diagnosis

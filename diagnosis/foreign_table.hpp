@@ -25,8 +25,9 @@ class ForeignTable {
   std::size_t require(const std::string& column, const Place& for_whom) const;
 
   const std::string& text(std::size_t row, std::size_t column) const { return cells_[row * columns_.size() + column]; }
-  // Nothing where the cell is empty, nan, NaN, NA or null.
-  std::optional<double> number(std::size_t row, std::size_t column) const;
+  // Nothing where the cell is empty, nan, NaN, NA or null; `advice` ends the message of the error where it is no
+  // number.
+  std::optional<double> number(std::size_t row, std::size_t column, const std::string& advice = "") const;
   Place place(std::size_t row) const { return {file_, lines_[row], 0}; }
 
  private:

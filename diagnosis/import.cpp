@@ -3,13 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <regex>
 #include <set>
 
 #include "diagnosis/dataset.hpp"
 #include "diagnosis/foreign_table.hpp"
 #include "diagnosis/import_map.hpp"
 #include "text/names.hpp"
+#include "text/number.hpp"
 #include "text/text_table_writer.hpp"
 
 namespace muster::diagnosis {
@@ -19,6 +22,7 @@ class Importer {
  public:
   Importer(const std::filesystem::path& file, const ImportMap& map) : map_(map), main_(ForeignTable::read(file)) {
     for (const auto& [name, side] : map.tables) sides_.emplace(name, ForeignTable::read(side.file));
+    for (const ColumnRule& rule : map_.columns) check_rule(rule);
   }
 
   Imported write(const std::filesystem::path& out) {
@@ -33,12 +37,91 @@ class Importer {
         ++result_.rows;
       }
     }
-    writer.close();
+    check_all_there();
     say_assumptions();
+    writer.close([&](const std::filesystem::path& written) { check(written); });
     return std::move(result_);
   }
 
  private:
+  // The same checks as a fit's.
+  void check(const std::filesystem::path& written) {
+    try {
+      const Dataset data = read_dataset(written);
+      result_.assumed.insert(result_.assumed.end(), data.notes.begin(), data.notes.end());
+    } catch (const Error& error) {
+      throw in_source(error, written);
+    }
+  }
+
+  // An error about the table that was written, told of what it was made from: nobody has seen that table.
+  Error in_source(const Error& error, const std::filesystem::path& written) const {
+    const std::string what = error.what();
+    const std::size_t end = what.find(": ", written.string().size());
+    int line = 0;
+    if (what.compare(0, written.string().size() + 1, written.string() + ':') == 0)
+      std::from_chars(what.data() + written.string().size() + 1, what.data() + end, line);
+    if (line <= 1) return {error.exit(), Place{line == 1 ? map_.file : main_.file()}, what.substr(end + 2)};
+    const auto row = static_cast<std::size_t>(line) - 1;
+    const std::string with = made_with(row), opening = "row " + std::to_string(row) + ": ";
+    std::string words = what.substr(end + 2);
+    if (words.compare(0, opening.size(), opening) == 0) words.erase(0, opening.size());
+    return {error.exit(), source_of(row), (with.empty() ? "" : with + ": ") + rows_as_lines(words)};
+  }
+
+  // Rows of the result count from 1, below its header.
+  Place source_of(std::size_t row) const { return main_.place((row - 1) / rows_a_row()); }
+  std::string made_with(std::size_t row) const {
+    return map_.variable.empty() ? "" : "with " + map_.variable + " = " + map_.values[(row - 1) % rows_a_row()];
+  }
+  std::size_t rows_a_row() const { return map_.variable.empty() ? 1 : map_.values.size(); }
+
+  std::string rows_as_lines(const std::string& words) const {
+    static const std::regex row("row ([0-9]+)");
+    std::string result;
+    std::size_t from = 0;
+    for (std::sregex_iterator at(words.begin(), words.end(), row), end; at != end; ++at) {
+      const auto number = static_cast<std::size_t>(parse_integer(at->str(1)).value());
+      const std::string with = made_with(number);
+      result += words.substr(from, static_cast<std::size_t>(at->position()) - from) + "line " +
+                std::to_string(source_of(number).line) + (with.empty() ? "" : ' ' + with);
+      from = static_cast<std::size_t>(at->position() + at->length());
+    }
+    return result + words.substr(from);
+  }
+
+  // What the format says of a column holds for the rule that makes it.
+  static void check_rule(const ColumnRule& rule) {
+    const auto known = reading_columns().find(rule.column.name);
+    if (known == reading_columns().end()) return;
+    const auto& [name, unit] = *known;
+    if (rule.column.unit != unit)
+      throw invalid(rule.place, "column " + quote(rule.column.label()) + " has the wrong unit; expected " +
+                                    quote(TextColumn{name, unit}.label()) + ", and SCALE*COLUMN where that differs");
+    if (unit.empty() && !rule.is_name)
+      throw invalid(rule.place, quote(name) + " is a column of names; expected " + name + " = " +
+                                    (rule.number->column.empty() ? "\"NAME\"" : "name " + rule.number->column));
+  }
+
+  void check_all_there() const {
+    std::vector<std::string> others;
+    std::set<std::string> made;
+    for (const ColumnRule& rule : map_.columns) {
+      made.insert(rule.column.name);
+      if (!reading_columns().count(rule.column.name)) others.push_back(rule.column.name);
+    }
+    std::vector<std::string> needed = {"tx", "rx", made.count("path_loss") ? "path_loss" : "rssi"};
+    if (!made.count("distance") || made.count("tx_x") || made.count("rx_x"))
+      needed.insert(needed.end(), {"tx_x", "tx_y", "rx_x", "rx_y"});
+    for (const std::string& name : needed) {
+      if (made.count(name)) continue;
+      const std::string label = TextColumn{name, reading_columns().at(name)}.label(), near = nearest(name, others);
+      throw invalid({map_.file}, "no rule makes the column " + quote(label) + "; expected " + label +
+                                     (reading_columns().at(name).empty() ? " = name COLUMN" : " = COLUMN") +
+                                     (near.empty() ? "" : "; is it " + quote(near) + "?"));
+    }
+  }
+
   void write_cell(TextTableWriter& writer, const ColumnRule& rule, std::size_t row, const std::string& value) {
     if (!rule.is_name) {
       const double number = number_of(rule, row, value);
@@ -60,7 +143,10 @@ class Importer {
     const std::string column = filled(number.column, map_.variable, value);
     const ForeignTable& table = number.table.empty() ? main_ : sides_.at(number.table);
     const std::size_t in_row = number.table.empty() ? row : side_row(number.table, row, value, rule.place);
-    const auto cell = table.number(in_row, column_of(table, column, rule.place));
+    const std::string advice = reading_columns().count(rule.column.name)
+                                   ? ""
+                                   : "; where these are names, expected " + rule.column.name + " = name " + column;
+    const auto cell = table.number(in_row, column_of(table, column, rule.place), advice);
     if (!cell || is_none(rule.column.name, *cell)) return std::nan("");
     return number.scale * *cell + number.offset;
   }
@@ -134,9 +220,7 @@ class Importer {
 Imported import_table(const std::filesystem::path& file, const std::filesystem::path& map,
                       const std::filesystem::path& out) {
   const ImportMap rules = read_import_map(map);
-  Imported result = Importer(file, rules).write(out);
-  for (const std::string& note : read_dataset(out).notes) result.assumed.push_back(note);  // the same checks as a fit's
-  return result;
+  return Importer(file, rules).write(out);
 }
 
 }  // namespace muster::diagnosis

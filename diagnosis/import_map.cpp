@@ -66,6 +66,7 @@ class Reader {
       if (!line.empty() && line[0] != '#') read_rule(line);
     }
     place_.line = 0;
+    map_.file = source_.file;
     if (map_.columns.empty()) throw invalid(place_, "no column is mapped; expected lines such as rssi[dBm] = rssi");
     return std::move(map_);
   }

@@ -38,6 +38,7 @@ struct SideTable {
 };
 
 struct ImportMap {
+  std::string file;
   std::string variable;             // "i"; empty: one row a row
   std::vector<std::string> values;  // what it runs over
   std::vector<ColumnRule> columns;  // in the order of the result

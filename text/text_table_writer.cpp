@@ -87,9 +87,10 @@ void TextTableWriter::flush() {
   buffer_.clear();
 }
 
-void TextTableWriter::close() {
+void TextTableWriter::close(const std::function<void(const std::filesystem::path&)>& check) {
   flush();
   if (::fsync(fd_) != 0) fail_system();
+  if (check) check(part_);
   const int fd = std::exchange(fd_, -1);
   if (::close(fd) != 0 || ::rename(part_.c_str(), path_.c_str()) != 0) {
     const int reason = errno;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,8 +26,8 @@ class TextTableWriter {
   void empty();
   void end_row();
 
-  // Makes the table appear under its name, on the disk.
-  void close();
+  // Makes the table appear under its name, on the disk, if `check` does not throw at the file that it is so far.
+  void close(const std::function<void(const std::filesystem::path&)>& check = {});
 
  private:
   void separate();

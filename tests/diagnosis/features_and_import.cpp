@@ -124,5 +124,39 @@ TEST(Import, WhatDoesNotFitIsNamed) {
   EXPECT_EQ(failing("# nothing\n"), "m.map: no column is mapped; expected lines such as rssi[dBm] = rssi");
 }
 
+// Two anchors hear one robot; lines of the source are named, since nobody has seen the rows of the result.
+TEST(Import, WhatIsRefusedIsNamedAsItStandsInTheSource) {
+  const Scratch scratch;
+  scratch.write("anchors.csv", "id,x,y\n1,5,0\n2,0,7.5\n");
+  const auto file = scratch.write("wide.csv",
+                                  "ms,px,py,heading,rssi_1,rssi_2,phone\n5000,1000,2000,90,-50,-50,p\n"
+                                  "6000,1000,2000,90,-51,-50,p\n\n6000,1000,2000,90,-51,-50,p\n");
+  scratch.write("out.csv", "what was there before");
+  const auto failing = [&](const std::string& rules) {
+    const auto map = scratch.write("m.map", rules);
+    const std::string words = complaint([&] { import_table(file, map, scratch / "out.csv"); });
+    EXPECT_EQ(contents(scratch / "out.csv"), "what was there before");
+    EXPECT_FALSE(std::filesystem::exists(scratch / "out.csv.part"));
+    return words;
+  };
+  const auto with = [&](const std::string& rule, const std::string& other) {
+    std::string rules = wide_map;
+    return rules.replace(rules.find(rule), rule.size(), other);
+  };
+  EXPECT_EQ(failing(wide_map),
+            "wide.csv:5: with i = 1: robot -> anchor1 at t = 1 s repeats line 3 with i = 1; expected each (t, tx, rx) "
+            "once");
+  EXPECT_EQ(failing(with("tx_y[m] =", "tx_y[cm] =")),
+            "m.map:9: column \"tx_y[cm]\" has the wrong unit; expected \"tx_y[m]\", and SCALE*COLUMN where that "
+            "differs");
+  EXPECT_EQ(failing(with("tx = \"robot\"", "tx = phone")),
+            "m.map:6: \"tx\" is a column of names; expected tx = name phone");
+  EXPECT_EQ(failing(with("tx = \"robot\"\n", "")), "m.map: no rule makes the column \"tx\"; expected tx = name COLUMN");
+  EXPECT_EQ(failing(with("rssi[dBm] =", "rsi[dBm] =")),
+            "m.map: no rule makes the column \"rssi[dBm]\"; expected rssi[dBm] = COLUMN; is it \"rsi\"?");
+  EXPECT_EQ(failing(with("phone = name phone", "phone = phone")),
+            "wide.csv:2: column \"phone\": \"p\" is not a number; where these are names, expected phone = name phone");
+}
+
 }  // namespace
 }  // namespace muster::diagnosis
