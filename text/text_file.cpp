@@ -123,7 +123,7 @@ TextFile read_text_file(const std::filesystem::path& path, std::uint64_t most_by
   }
   const std::size_t wrong = first_not_utf8(text);
   if (wrong < text.size()) {
-    throw invalid(result.place(wrong), "byte " + std::to_string(wrong + skipped) + " of the file, " +
+    throw invalid(result.place(wrong), "byte " + std::to_string(wrong + skipped + 1) + " of the file, " +
                                            hexadecimal(text[wrong]) + ", is not valid UTF-8");
   }
   return result;

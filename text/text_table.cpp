@@ -110,7 +110,9 @@ void TextTable::fail_ragged(std::size_t found) const {
 void TextTable::read_header() {
   const std::string_view all = raw(0, 0);
   if (width_ == 1 && all.find_first_of(";\t") != all.npos)
-    throw invalid(header_place(0), "no ',' in the header; expected ',' between cells");
+    throw invalid(header_place(0),
+                  "no ',' in the header; expected ',' between cells (muster import FILE --map MAP --out FILE reads "
+                  "readings between ';' or tabs)");
   std::unordered_map<std::string, std::size_t> seen;
   for (std::size_t column = 0; column < width_; ++column) {
     columns_.push_back(read_label(column));

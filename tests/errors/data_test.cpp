@@ -108,7 +108,10 @@ TEST(Fault25, NumbersOfAnotherCountry) {
                  ":7:26: column \"rssi[dBm]\": \"-56,0\" is not a number; a decimal point is written '.'");
   expect_refused(Data().set(6, 7, "-56,0").text(),
                  ":7:1: the row has 9 or more cells; expected 8, with ',' between them and '.' in numbers");
-  expect_refused(Data().text("\n", ";"), ":1:1: no ',' in the header; expected ',' between cells");
+  expect_refused(
+      Data().text("\n", ";"),
+      ":1:1: no ',' in the header; expected ',' between cells (muster import FILE --map MAP --out FILE reads "
+      "readings between ';' or tabs)");
 }
 
 TEST(Fault25, PlacesInAnotherUnitOrOrder) {

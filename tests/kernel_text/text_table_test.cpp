@@ -99,13 +99,16 @@ TEST_F(Table, KnowsNumbersFromNames) {
 TEST_F(Table, RefusesFilesThatAreNoTable) {
   EXPECT_EQ(error_in(""), "d.csv: is empty; expected a header such as t[s],tx,rx,rssi[dBm]");
   EXPECT_EQ(error_in("\x1F\x8B\x08"), "d.csv: is compressed by gzip; expected plain text");
-  EXPECT_EQ(error_in("a,b\n1,\xE9\n"), "d.csv:2:3: byte 6 of the file, 0xe9, is not valid UTF-8");
+  EXPECT_EQ(error_in("a,b\n1,\xE9\n"), "d.csv:2:3: byte 7 of the file, 0xe9, is not valid UTF-8");
   EXPECT_EQ(error([&] { TextTable::read(folder / "no.csv"); }), "no.csv: no such file");
   EXPECT_EQ(error([&] { TextTable::read("/dev/zero"); }), "/dev/zero: is not a regular file");
 }
 
 TEST_F(Table, RefusesBadHeaders) {
-  EXPECT_EQ(error_in("t[s];tx\n"), "d.csv:1:1: no ',' in the header; expected ',' between cells");
+  EXPECT_EQ(
+      error_in("t[s];tx\n"),
+      "d.csv:1:1: no ',' in the header; expected ',' between cells (muster import FILE --map MAP --out FILE reads "
+      "readings between ';' or tabs)");
   EXPECT_EQ(error_in("t[s],tx,t\n"), "d.csv:1:9: column \"t\" stands twice; the first is column 1 of the header");
   const std::string expected = " is not a column; expected name or name[unit], without spaces around it";
   for (const std::string label :

@@ -80,11 +80,11 @@ TEST_F(Xml, RefusesWrongEncodings) {
   EXPECT_EQ(error(std::string_view("<\0w\0", 4)), R"(w.xml:1:2: the control character "\x00" is not allowed)");
   EXPECT_EQ(error("<w a='\x01'/>"), R"(w.xml:1:7: the control character "\x01" is not allowed)");
   EXPECT_EQ(error("\x1F\x8B\x08"), "w.xml: is compressed by gzip; expected plain text");
-  EXPECT_EQ(error("<w>\n  <é a=\"\xE9\"/>\n</w>"), "w.xml:2:9: byte 13 of the file, 0xe9, is not valid UTF-8");
-  EXPECT_EQ(error("\xEF\xBB\xBF<w\xC0\x80/>"), "w.xml:1:3: byte 5 of the file, 0xc0, is not valid UTF-8");
+  EXPECT_EQ(error("<w>\n  <é a=\"\xE9\"/>\n</w>"), "w.xml:2:9: byte 14 of the file, 0xe9, is not valid UTF-8");
+  EXPECT_EQ(error("\xEF\xBB\xBF<w\xC0\x80/>"), "w.xml:1:3: byte 6 of the file, 0xc0, is not valid UTF-8");
   for (const char* bad :
        {"\xED\xA0\x80", "\xF4\x90\x80\x80", "\xF0\x80\x80\x80", "\xE0\x80\x80", "\xC3", "\x80", "\xF8"}) {
-    EXPECT_THAT(error(std::string("<w a='") + bad + "'/>"), ::testing::HasSubstr("w.xml:1:7: byte 6 of the file"))
+    EXPECT_THAT(error(std::string("<w a='") + bad + "'/>"), ::testing::HasSubstr("w.xml:1:7: byte 7 of the file"))
         << bad;
   }
   EXPECT_EQ(error("<?xml version='1.0' encoding='ISO-8859-1'?><w/>"),
