@@ -89,7 +89,30 @@ class Diagnoser {
     out.checks = result.checks;
     out.world_values = world_values(bench, at_.base.paths, coefficients, at_.model);
     for (WorldValue& v : out.world_values) v.value = out.parameters.at(v.path);
+    doubt_at_bounds(out);
     return out;
+  }
+
+  // The channel's own law, at the end of what is physical, does not follow the readings: what stands beside it is what
+  // it leaves. A material that costs nothing, or a cause, may well be at an end.
+  void doubt_at_bounds(Diagnosis& out) const {
+    constexpr double near = 1e-3;  // of the range: 0.01 of an exponent
+    const auto& instances = at_.model.simulation().instances();
+    std::string ends;
+    for (std::size_t j = 0; j < out.world_values.size(); ++j) {
+      WorldValue& v = out.world_values[j];
+      const double lower = at_.base.lower[static_cast<Index>(j)], upper = at_.base.upper[static_cast<Index>(j)];
+      v.at_bound = std::min(v.value - lower, upper - v.value) <= near * (upper - lower);
+      const bool of_law = std::any_of(instances.begin(), instances.end(), [&](const auto& i) {
+        return !i->plugin().cause && v.path.rfind(i->name() + '/', 0) == 0;
+      });
+      if (v.at_bound && of_law) ends += (ends.empty() ? "" : ", ") + v.path;
+    }
+    if (ends.empty()) return;
+    const std::string doubt =
+        "at its bound: " + ends + ", so that the world cannot follow these readings and no name is sure";
+    out.notes.push_back(doubt);
+    for (FoundCause& c : out.causes) c.doubt = doubt;
   }
 
   // What the world as given leaves, before what the one that was judged does. The cause that was put right wins what

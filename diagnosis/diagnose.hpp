@@ -36,6 +36,7 @@ struct FoundCause {
   std::optional<search::HeldOut> held_out;
   Eigen::VectorXd unseen_without;  // squared errors at places not seen without it, in the order of Diagnosis::used
   std::vector<search::Rival> rivals;
+  std::string doubt{};  // why it is not sure, whatever it gains; empty: nothing speaks so
 
   bool changes_in_time() const;
 };
@@ -87,6 +88,7 @@ struct PlannedReadings {
 struct WorldValue {
   std::string path, unit;
   double value = 0, stderror = 0;
+  bool at_bound = false;
 };
 
 // The extended world held against readings that it was not made from.

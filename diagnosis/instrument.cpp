@@ -7,8 +7,6 @@
 #include <map>
 #include <numeric>
 
-#include "text/number.hpp"
-
 namespace muster::diagnosis {
 namespace {
 
@@ -70,10 +68,30 @@ std::size_t at(const Codes& codes, double level) {
 
 InstrumentCheck pile_check(const std::string& end, const std::optional<Clip>& clip, double level, std::size_t count) {
   InstrumentCheck check{"readings that pile up at the " + end + " level", "", !clip, {}};
-  check.found = std::to_string(count) + " at " + print_real(level) + " dBm";
+  check.found = fmt::format("{} at {:.6g} dBm", count, level);
   if (!clip) return check;
   check.found += ", " + std::to_string(clip->beside) + " beside it: clipped";
   check.row = clip->row + 1;
+  return check;
+}
+
+std::string step_in_words(double step, std::size_t levels, std::size_t readings) {
+  if (step > 0) return fmt::format("{:.6g} dB", step);
+  if (levels >= 3 && levels <= readings / 4) return "none: no common step";
+  return fmt::format(
+      "not known: {} readings of {} levels are too few to tell; three levels and four readings a level would do",
+      readings, levels);
+}
+
+// No receiver is fed a milliwatt most of the time.
+InstrumentCheck unit_check(const Dataset& data, const std::string& none) {
+  const auto above = [](double v) { return v > 0; };
+  const auto count = static_cast<std::size_t>(std::count_if(data.rssi.begin(), data.rssi.end(), above));
+  InstrumentCheck check{"levels above 0 dBm, a milliwatt at the receiver", none, 2 * count <= data.heard(), {}};
+  if (count == 0) return check;
+  check.found = fmt::format("{} of {} readings", count, data.heard());
+  if (!check.fine) check.found += ": are they in mW (dBm = 10 log10 of mW), or is a sign lost?";
+  check.row = static_cast<std::size_t>(std::find_if(data.rssi.begin(), data.rssi.end(), above) - data.rssi.begin()) + 1;
   return check;
 }
 
@@ -94,10 +112,8 @@ Instrument instrument_of(const Dataset& data) {
     result.top = pile(data, high->first, high->second, before(high->first, -1, std::prev(high)->first));
     result.bottom = pile(data, low->first, low->second, before(low->first, 1, std::next(low)->first));
   }
-  result.checks.push_back({"the step between readings",
-                           result.step > 0 ? fmt::format("{:.6g} dB", result.step) : "none: no common step",
-                           true,
-                           {}});
+  result.checks.push_back(
+      {"the step between readings", step_in_words(result.step, codes.size(), data.heard()), true, {}});
   result.checks.push_back(pile_check("highest", result.top, high->first, high->second));
   result.checks.push_back(pile_check("lowest", result.bottom, low->first, low->second));
   const std::string rows = "none in " + std::to_string(data.rows()) + " rows";
@@ -109,6 +125,7 @@ Instrument instrument_of(const Dataset& data) {
   }
   result.checks.push_back(
       {"marks for none (0, -128) and levels that cannot be (over 30, under -174 dBm)", rows, true, {}});
+  result.checks.push_back(unit_check(data, rows));
   result.checks.push_back({"rows in another unit than their column", rows, true, {}});
   const std::size_t missing = data.rows() - data.heard();
   result.checks.push_back({"readings that are missing", missing ? std::to_string(missing) : rows, true, {}});

@@ -49,6 +49,7 @@ Json cause_json(const FoundCause& c) {
   out.update(held_out_json(c.held_out));
   out["rivals"] = rivals;
   out["tell_apart"] = c.tell_apart;
+  out["doubt"] = c.doubt.empty() ? Json() : Json(c.doubt);
   return out;
 }
 
@@ -119,7 +120,11 @@ Json loop_json(const Diagnosis& d) {
 Json world_json(const Diagnosis& d) {
   Json out = Json::array();
   for (const auto& v : d.world_values)
-    out.push_back({{"name", v.path}, {"value", v.value}, {"stderr", known(v.stderror)}, {"unit", v.unit}});
+    out.push_back({{"name", v.path},
+                   {"value", v.value},
+                   {"stderr", known(v.stderror)},
+                   {"unit", v.unit},
+                   {"at_bound", v.at_bound}});
   return out;
 }
 

@@ -51,6 +51,9 @@ std::string capital(std::string text) {
   return text;
 }
 
+// A name keeps its letters.
+std::string title_of(const FoundCause& c) { return c.title.rfind('{', 0) == 0 ? sentence(c) : capital(sentence(c)); }
+
 struct Cell {
   std::string text;
   bool number = false;
@@ -65,14 +68,16 @@ std::string table(const Row& head, const std::vector<Row>& rows, const char* kin
     return out + "</tr>\n";
   };
   std::string out = fmt::format("<div class=\"scroll\"><table{}>\n", *kind ? fmt::format(" class=\"{}\"", kind) : "") +
-                    line(head, "th");
+                    (head.empty() ? "" : line(head, "th"));
   for (const Row& row : rows) out += line(row, "td");
   return out + "</table></div>\n";
 }
 
 std::string figure_named(const std::vector<Picture>& pictures, const std::string& name) {
   for (const Picture& p : pictures) {
-    if (p.name == name) return "<figure>\n" + picture::svg(p.figure) + "</figure>\n";
+    if (p.name != name) continue;
+    const std::string svg = picture::svg(p.figure);
+    return "<figure>\n" + svg.substr(svg.find("<svg")) + "</figure>\n";  // without the declaration of a document
   }
   return "";
 }
@@ -120,16 +125,17 @@ std::string rivals_text(const FoundCause& c) {
 std::string cause_card(const FoundCause& c, std::size_t number, const std::vector<Picture>& pictures) {
   const Standing standing = standing_of(c);
   const bool sure = standing == Standing::confirmed;
-  std::string out =
-      fmt::format("<article class=\"card\">\n<h3><span class=\"mark {}\">{}</span>{}</h3>\n",
-                  sure ? "named" : "suspected", sure ? "named" : "suspected", escaped(capital(sentence(c))));
-  if (standing == Standing::unconfirmed)
+  std::string out = fmt::format("<article class=\"card\">\n<h3><span class=\"mark {}\">{}</span>{}</h3>\n",
+                                sure ? "named" : "suspected", sure ? "named" : "suspected", escaped(title_of(c)));
+  if (!c.doubt.empty())
+    out += paragraph("Doubt: " + c.doubt + ".");
+  else if (standing == Standing::unconfirmed)
     out += paragraph(
         "Named by the data, but what was held out does not confirm it yet: the interval of its gain touches zero.");
   std::vector<Row> values;
   for (const CauseValue& v : c.values) values.push_back({{v.name}, {quantity(v), true}, {interval(v), true}});
   out += table({{"parameter"}, {"value", true}, {"95 % interval", true}}, values, "values");
-  out += table({{""}, {""}},
+  out += table({},
                {{{"cause"}, {c.id}},
                 {{"where"}, {c.label == "all" ? "everywhere" : c.label}},
                 {{"evidence"},
@@ -202,9 +208,10 @@ std::string record(const Diagnosis& d) {
 std::string world(const Diagnosis& d) {
   std::vector<Row> rows;
   for (const auto& v : d.world_values)
-    rows.push_back({{v.path},
-                    {quantity(v.value, 1.96 * v.stderror, v.unit), true},
-                    {"± " + rounded(1.96 * v.stderror, 1.96 * v.stderror), true}});
+    rows.push_back(
+        {{v.path},
+         {quantity(v.value, 1.96 * v.stderror, v.unit), true},
+         {"± " + rounded(1.96 * v.stderror, 1.96 * v.stderror) + (v.at_bound ? " (at its bound)" : ""), true}});
   std::string out = heading("The world's own parameters, beside the causes") + "<div class=\"card\">";
   out += table({{"parameter"}, {"value", true}, {"95 %", true}}, rows, "values");
   const auto& n = d.noise;
@@ -259,7 +266,7 @@ std::string page_of(const Diagnosis& d, const Setting& setting, const std::vecto
   if (d.stairs.size() > 1)
     body += heading("Gain") + figure_named(pictures, "steps") + figure_named(pictures, "before_after");
   body += undecided(d) + checked(d) + figure_named(pictures, "covariates") + checked_table(d) + record(d) +
-          not_tested(d) + world(d) + loop(d);
+          not_tested(d) + world(d) + loop(d) + heading("Words") + paragraph(words_explained(), "soft");
   return fmt::format(
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
       "content=\"width=device-width, initial-scale=1\">\n<title>Diagnosis of {}</title>\n<style>{}</style>\n"

@@ -71,7 +71,9 @@ std::string cause_text(const FoundCause& c, int number) {
   else
     text += entry("gain", standing == Standing::set_aside ? "not measured: not beyond chance beside the others"
                                                           : "not measured: too few blocks of space");
-  if (standing == Standing::unconfirmed && c.held_out)
+  if (!c.doubt.empty())
+    text += entry("doubt", c.doubt);
+  else if (standing == Standing::unconfirmed && c.held_out)
     text += entry("", "What was held out does not confirm it yet: the interval touches zero.");
   std::string rivals;
   for (const search::Rival& r : c.rivals)
@@ -165,12 +167,13 @@ std::string not_tested(const Diagnosis& d) {
 }
 
 std::string world(const Diagnosis& d) {
-  std::string text = heading("Parameters of the world, beside the causes");
+  std::string text = heading("Parameters of the world, beside the causes (+-: 95 %)");
   for (const auto& v : d.world_values)
-    text += wrapped(fmt::format("{:<28} {}", v.path,
-                                quantity(v.value, 1.96 * v.stderror, v.unit) + " +- " +
-                                    rounded(1.96 * v.stderror, 1.96 * v.stderror)),
-                    2, 4);
+    text +=
+        wrapped(fmt::format("{:<28} {}", v.path,
+                            quantity(v.value, 1.96 * v.stderror, v.unit) + " +- " +
+                                rounded(1.96 * v.stderror, 1.96 * v.stderror) + (v.at_bound ? "  (at its bound)" : "")),
+                2, 4);
   const auto& n = d.noise;
   text += wrapped(
       fmt::format("Noise: {} field of {} that decorrelates over {:.2f} m, and {} a reading.", noise::name_of(n.family),
@@ -245,6 +248,7 @@ std::string text_of(const Diagnosis& d, const Setting& setting) {
   text += heading("How far the world is off") + errors(d);
   text += causes(d) + unexplained(d) + stairs(d) + undecided(d) + checked(d) + record(d) + not_tested(d) + world(d) +
           loop(d);
+  text += heading("Words") + wrapped(words_explained(), 2, 2);
   if (!setting.files.empty()) {
     text += heading("Written");
     for (const std::string& file : setting.files) text += "  " + file + "\n";

@@ -52,6 +52,7 @@ std::string causes_in_words(int count) {
 
 Standing standing_of(const FoundCause& cause) {
   if (cause.status != search::Status::named) return Standing::set_aside;
+  if (!cause.doubt.empty()) return Standing::unconfirmed;
   // What shifts no level has no error at places to confirm it by: its evidence is the readings' own law.
   if (cause.covariates == std::vector<std::string>{"reading"}) return Standing::confirmed;
   return cause.held_out && cause.held_out->lower95 > 0 ? Standing::confirmed : Standing::unconfirmed;
@@ -150,7 +151,11 @@ std::string verdict_in_words(const Diagnosis& d) {
     return count_of(d, Standing::set_aside) ? "is adequate: what stands out is not beyond chance, a suspicion remains"
                                             : "is adequate: nothing was found beyond chance";
   const std::string named = confirmed + unconfirmed == 1 ? causes + " is named" : causes + " are named";
-  if (confirmed == 0) return "seems wrong: " + named + ", but what was held out does not confirm it yet";
+  const bool doubted =
+      std::any_of(d.causes.begin(), d.causes.end(), [](const FoundCause& c) { return !c.doubt.empty(); });
+  if (confirmed == 0)
+    return "seems wrong: " + named + ", but " +
+           (doubted ? "the fit ends at a bound, and no name is sure" : "what was held out does not confirm it yet");
   return "is wrong: " + named + (unconfirmed ? ", not all confirmed by what was held out" : "");
 }
 
@@ -166,6 +171,13 @@ std::string rows_in_words(const Diagnosis& d) {
   return fmt::format(
       "averaged to {} rows (neighbours on one link: at most {:.3g} s, {:.3g} m, {:.0f} degrees and {:.3g} dB apart)",
       d.rows, d.row_limits.time, std::max(d.row_limits.way, 0.0), d.row_limits.turn * 180 / M_PI, d.row_limits.level);
+}
+
+std::string words_explained() {
+  return "95 % and +-: an interval that holds the truth in 95 of 100 such reports. Nats: the natural logarithm of "
+         "a likelihood ratio; 3 nats are 20 to 1. Lambda: what the likelihood loses, twice its logarithm, "
+         "without the cause; below 20 a cause is often missed, above 50 hardly ever. D: the part of a cause that "
+         "another cannot imitate; below 12 the two cannot be told apart, above 25 they are. More: docs/diagnosis.md.";
 }
 
 std::string why_no_blocks(const Diagnosis& d) {

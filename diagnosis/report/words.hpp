@@ -48,6 +48,8 @@ double noise_floor(const Diagnosis& diagnosis);
 std::string what_is_held_out(const Diagnosis& diagnosis);
 // How readings were gathered to rows.
 std::string rows_in_words(const Diagnosis& diagnosis);
+// What the report counts in, for who has not read docs/diagnosis.md.
+std::string words_explained();
 // Without held-out blocks: why there are none.
 std::string why_no_blocks(const Diagnosis& diagnosis);
 

@@ -26,7 +26,7 @@ const Problem& checked(const Problem& problem) {
   for (const Factor& f : problem.factors) fits(static_cast<Index>(f.level.size()), f.name);
   if (!problem.measured.allFinite() || !problem.base.allFinite())
     throw std::invalid_argument("a value that is not a number");
-  if (n < 50) throw std::invalid_argument("fewer than 50 readings: " + std::to_string(n));
+  if (n < fewest_readings) throw std::invalid_argument("too few readings: " + std::to_string(n));
   return problem;
 }
 

@@ -60,6 +60,8 @@ struct Result {
   std::vector<Check> checks;
 };
 
+constexpr Eigen::Index fewest_readings = 50;
+
 class Search {
  public:
   // Keeps a reference to the problem. Throws std::invalid_argument where its columns do not fit its readings.

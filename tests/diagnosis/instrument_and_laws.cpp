@@ -52,6 +52,47 @@ TEST(InstrumentChecks, ASmallPileShowsBesideAllThatIsNear) {
   EXPECT_TRUE(instrument_of(readings(scratch, 27, 3)).top);
 }
 
+InstrumentCheck check_called(const Instrument& instrument, const std::string& what) {
+  for (const InstrumentCheck& c : instrument.checks)
+    if (c.what.rfind(what, 0) == 0) return c;
+  return {};
+}
+
+// 40 readings with two decimals, each another one: their step is not known, and not none.
+std::string two_decimals(const std::string& sign) {
+  std::string text = "t[s],tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],rssi[dBm]\n";
+  for (int row = 0; row < 40; ++row)
+    text += std::to_string(row) + ",a,b,0,0,1,2," + sign + "0." + std::to_string(11 + row) + "\n";
+  return text;
+}
+
+TEST(InstrumentChecks, TooFewReadingsTellNoStep) {
+  const Scratch scratch;
+  EXPECT_EQ(check_called(instrument_of(readings(scratch, 40)), "the step").found, "1 dB");
+  EXPECT_EQ(check_called(instrument_of(read_dataset(scratch.write("data.csv", two_decimals("-")))), "the step").found,
+            "not known: 40 readings of 40 levels are too few to tell; three levels and four readings a level would do");
+}
+
+TEST(InstrumentChecks, MilliwattsAreNoLevels) {
+  const Scratch scratch;
+  const auto check = [&](const std::string& sign) {
+    const auto file = scratch.write("data.csv", two_decimals(sign));
+    return check_called(instrument_of(read_dataset(file)), "levels above 0 dBm");
+  };
+  EXPECT_TRUE(check("-").fine);
+  EXPECT_EQ(check("-").found, "none in 40 rows");
+  EXPECT_FALSE(check("").fine);
+  EXPECT_EQ(check("").found, "40 of 40 readings: are they in mW (dBm = 10 log10 of mW), or is a sign lost?");
+  EXPECT_EQ(check("").row, 1u);
+}
+
+TEST(InstrumentChecks, LevelsAreToldWithoutDigitsThatNobodyMeasured) {
+  const Scratch scratch;
+  std::string text = two_decimals("-") + "41,a,b,0,0,1,2,-0.1000000000000003\n";
+  const Instrument found = instrument_of(read_dataset(scratch.write("data.csv", text)));
+  EXPECT_EQ(check_called(found, "readings that pile up at the highest").found, "1 at -0.1 dBm");
+}
+
 TEST(LawOfAReading, VariancesAreThoseOfRayleighAndGamma) {
   const double decibel = 10 / std::log(10.0);
   EXPECT_NEAR(fading_variance(-40, 1), decibel * decibel * M_PI * M_PI / 6, 0.1);

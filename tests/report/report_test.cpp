@@ -157,6 +157,18 @@ TEST_F(Report, RecordOfASeparateRunAgrees) {
   EXPECT_LT(largest, 0.1);
 }
 
+// What the world's page says of it.
+TEST(Hall, IsAsItsPageSays) {
+  const Diagnosis whole = diagnosis::diagnose(hall, hall / "measured.csv", plugins);
+  ASSERT_EQ(whole.causes.size(), 1u);
+  const auto& values = whole.causes[0].values;
+  const auto loss = std::find_if(values.begin(), values.end(), [](const auto& v) { return v.name == "loss"; });
+  ASSERT_NE(loss, values.end());
+  const std::string within = interval(*loss), page = contents(hall / "README.md");
+  const std::string said = "costs " + quantity(*loss) + " (95 %: " + within.substr(0, within.rfind(' ')) + ")";
+  EXPECT_NE(page.find(said), page.npos) << said;
+}
+
 bool passes(const fs::path& folder) {
   bool all = true;
   for (const Checked& c : check_regression(folder, plugins)) all = all && c.passed;

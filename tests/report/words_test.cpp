@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "diagnosis/report/advice.hpp"
+#include "diagnosis/report/json.hpp"
+#include "diagnosis/report/page.hpp"
 #include "diagnosis/report/text.hpp"
 
 namespace muster::report {
@@ -121,6 +123,53 @@ TEST(Text, NothingFoundIsAdequate) {
   const std::string text = text_of(d, {"hall", "a.csv"});
   EXPECT_TRUE(says(text, "hall is adequate: nothing was found beyond chance")) << text;
   EXPECT_FALSE(says(text, "Cause"));
+}
+
+// The channel's law at the end of what is physical: no name beside it is sure, whatever it gains.
+TEST(Gate, NothingIsSureBesideALawAtItsBound) {
+  FoundCause c = wall(search::Status::named, search::HeldOut{3.5, 2.5, 6, 2.4, 11, 21});
+  c.doubt = "at its bound: radio.multiwall/n";
+  Diagnosis d = with(c);
+  d.world_values = {{"radio.multiwall/n", "", 0, 0.05, true}, {"radio.multiwall/l0", "dB", 12, 1, false}};
+  EXPECT_EQ(standing_of(c), Standing::unconfirmed);
+  const std::string text = text_of(d, {"hall", "a.csv"});
+  EXPECT_TRUE(says(text, "seems wrong: one cause is named, but the fit ends at a bound")) << text;
+  EXPECT_TRUE(says(text, "suspected: effect.unmapped_wall")) << text;
+  EXPECT_TRUE(says(text, "doubt       at its bound: radio.multiwall/n")) << text;
+  EXPECT_TRUE(says(text, "0.00 +- 0.10  (at its bound)")) << text;
+  EXPECT_FALSE(says(text, "touches zero")) << text;
+  const auto json = json_of(d);
+  EXPECT_EQ(json["causes"][0]["confirmed"], false);
+  EXPECT_EQ(json["causes"][0]["doubt"], c.doubt);
+  EXPECT_EQ(json["world_parameters"][0]["at_bound"], true);
+  EXPECT_EQ(json["world_parameters"][1]["at_bound"], false);
+  EXPECT_TRUE(says(page_of(d, {"hall", "a.csv", {}}, {}), "Doubt: at its bound: radio.multiwall/n."));
+}
+
+TEST(Text, SaysWhatItCountsIn) {
+  const Diagnosis d = with(wall(search::Status::named, search::HeldOut{3.5, 2.5, 6, 2.4, 11, 21}));
+  for (const std::string& text : {text_of(d, {"hall", "a.csv"}), page_of(d, {"hall", "a.csv", {}}, {})})
+    for (const char* word : {"95 % and +-:", "Nats:", "Lambda:", "D:", "docs/diagnosis.md"})
+      EXPECT_TRUE(says(text, word)) << word << "\n" << text;
+}
+
+TEST(Page, IsValidWhereTablesHaveNoHeadAndPicturesAreInside) {
+  Diagnosis d = with(wall(search::Status::named, search::HeldOut{3.5, 2.5, 6, 2.4, 11, 21}));
+  const Picture picture{"residual_map", {}};
+  const std::string page = page_of(d, {"hall", "a.csv", {}}, {picture});
+  EXPECT_TRUE(says(page, "<figure>\n<svg")) << page;
+  EXPECT_FALSE(says(page, "<?xml")) << page;
+  EXPECT_FALSE(says(page, "<th></th>")) << page;
+}
+
+// A name keeps its letters, a sentence gets its capital.
+TEST(Page, DoesNotRenameARadio) {
+  FoundCause c = wall(search::Status::named, {});
+  const auto title = [&] { return page_of(with(c), {"hall", "a.csv", {}}, {}); };
+  EXPECT_TRUE(says(title(), "</span>A wall that is not on the map"));
+  c.title = "{radio} has a notch";
+  c.row = "rover";
+  EXPECT_TRUE(says(title(), "</span>rover has a notch"));
 }
 
 TEST(Text, WrapsAtAHundredLetters) {
