@@ -55,6 +55,7 @@ int run_fit(const Arguments& arguments) {
   diagnosis::Dataset data = diagnosis::read_dataset(words.data);
   progress.at(0.1);
   diagnosis::LinkModel model(words.world, words.data, plugin_path(words.plugins));
+  note_radios(model, data);
   check_places(model, data);
   progress.at(0.2);
   const diagnosis::Fit fit = diagnosis::fit(model, data, {words.free, words.fix});

@@ -132,6 +132,13 @@ void print_misfit(const Misfit& misfit) {
 }
 
 void print_cells(const CellErrors& errors, const CellOptions& options) {
+  if (errors.errors.empty()) {
+    fmt::print(
+        "\nMeans over cells of {:g} m: none. Each of the {} cells has fewer than {} readings; larger cells (--cell) or "
+        "fewer readings (--least) would give some.\n",
+        options.size, errors.few, options.least);
+    return;
+  }
   fmt::print("\nMeans over cells of {:g} m, measured - simulated: {} cells, mean {:+.2f} dB, sd {:.2f} dB;",
              options.size, errors.errors.size(), errors.mean, errors.sd);
   for (const auto& [share, value] : errors.quantiles) fmt::print(" {:g} %: {:+.1f}", 100 * share, value);

@@ -263,7 +263,7 @@ std::string make(const Cause& cause, const Maker& maker, CauseSearch& out) {
   auto shape = std::make_shared<CauseShape>();
   shape->cause = cause;
   shape->rows = rows_for(cause, s.model, maker.survey);
-  if (shape->rows.empty()) return "not testable: the world has no row that it could be about";
+  if (shape->rows.empty()) return why_no_rows(cause, s.model, maker.survey);
   find_place(*shape);
   if (!find_axes(*shape, s, maker.survey)) return "not testable: what it depends on does not vary";
   choose_strengths(*shape, s, maker.base);

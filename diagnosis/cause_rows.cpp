@@ -5,6 +5,9 @@
 #include <set>
 #include <sstream>
 
+#include "diagnosis/place_checks.hpp"
+#include "text/names.hpp"
+
 namespace muster::diagnosis {
 
 bool needs(const Cause& cause, const std::string& column) {
@@ -64,6 +67,26 @@ std::vector<std::string> names_for(const Cause& cause, const muster_param& row, 
 }
 
 }  // namespace
+
+std::string why_no_rows(const Cause& cause, const LinkModel& model, const Survey& survey) {
+  const auto references = cause.rows();
+  std::string none = "not testable: the world has no row that it could be about";
+  if (std::string_view(references[0]->text) != "radio") return none;
+  none += references.size() == 2 ? " (two are needed" : " (one is needed";
+  none += needs(cause, "rx_yaw") ? ", of the radios that turn)"
+          : needs(cause, "tx_x") ? ", of the radios that stand)"
+                                 : ", of the radios with readings)";
+  const auto& names = model.radio_names();
+  std::vector<std::string> added = model.added_radios();
+  std::erase_if(added, [&](const std::string& name) {
+    const auto number = std::find(names.begin(), names.end(), name) - names.begin();
+    return !may_be_about(cause, survey, static_cast<std::size_t>(number));
+  });
+  if (added.empty() || names_for(cause, *references[0], model, survey).size() + added.size() < references.size())
+    return none;
+  return none + "; of the data's radios it could be about " + list_of(added) +
+         ", which the world does not have: add <station name=" + quote(added[0]) + " at=\"x y z\"/>";
+}
 
 std::vector<CauseRow> rows_for(const Cause& cause, const LinkModel& model, const Survey& survey) {
   const auto references = cause.rows();

@@ -15,4 +15,7 @@ std::string why_not(const Cause& cause, const Survey& survey, const Dataset& dat
 // Rows of the world that a cause may be about; of two references all pairs; one without names where it is about none.
 std::vector<CauseRow> rows_for(const Cause& cause, const LinkModel& model, const Survey& survey);
 
+// Why there are none of these.
+std::string why_no_rows(const Cause& cause, const LinkModel& model, const Survey& survey);
+
 }  // namespace muster::diagnosis

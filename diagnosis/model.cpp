@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "text/number.hpp"
 #include "text/text_table.hpp"
 
 namespace muster::diagnosis {
@@ -41,6 +42,29 @@ void take_settings_from(const std::filesystem::path& data, World& world) {
   }
 }
 
+// What lies beyond the scene is told by the term that asks the scene, which knows the world's file and not the data's.
+void refuse_far_places(const std::filesystem::path& data) {
+  constexpr double farthest = 1000;  // m, as of the scene
+  const TextTable table = TextTable::read(data);
+  std::optional<std::pair<std::size_t, std::size_t>> first;  // row, column
+  double far = 0;
+  for (const char* name : {"tx_x", "tx_y", "tx_z", "rx_x", "rx_y", "rx_z", "distance"}) {
+    const auto column = table.find(name);
+    if (!column) continue;
+    const std::vector<double> places = table.reals(*column, {.empty = true});
+    const auto at = std::find_if(places.begin(), places.end(), [](double v) { return std::abs(v) > farthest; });
+    const std::pair here(static_cast<std::size_t>(at - places.begin()), *column);
+    if (at == places.end() || (first && *first < here)) continue;
+    first = here;
+    far = *at;
+  }
+  if (first)
+    throw invalid(table.place(first->first, first->second),
+                  "row " + std::to_string(first->first + 1) + ": " + print_real(far) +
+                      " m lies beyond the world's scene; expected metres within " + print_real(farthest) +
+                      " m (is it another unit, such as millimetres?)");
+}
+
 World world_for(const std::filesystem::path& file, const std::filesystem::path& data) {
   World world = read_world(file, standard());
   std::erase_if(world.instances, lists_links);
@@ -76,7 +100,12 @@ LinkModel::LinkModel(const std::filesystem::path& world, const std::filesystem::
   World declared = world_for(world, data);
   Options options = options_for(declared, data, plugins);
   run_ = std::make_unique<Simulation>(std::move(declared), standard(), std::move(options));
-  evaluate(true);
+  try {
+    evaluate(true);
+  } catch (const Error& error) {
+    if (std::string_view(error.what()).find("beyond the scene") != std::string_view::npos) refuse_far_places(data);
+    throw;
+  }
   read_ends();
 }
 
@@ -101,6 +130,14 @@ void LinkModel::read_ends() {
 const std::vector<std::string>& LinkModel::radio_names() const { return run_->board().find_set("radio")->names; }
 
 std::string LinkModel::radio_name(int radio) const { return radio_names().at(static_cast<std::size_t>(radio)); }
+
+std::vector<std::string> LinkModel::added_radios() const {
+  std::vector<std::string> result = radio_names();
+  for (const RowDeclaration& row : run_->world().rows) {
+    if (std::find(row.sets.begin(), row.sets.end(), "radio") != row.sets.end()) std::erase(result, row.name);
+  }
+  return result;
+}
 
 std::set<std::string> LinkModel::link_of(int one, int other) const { return {radio_name(one), radio_name(other)}; }
 

@@ -34,6 +34,8 @@ class LinkModel {
   const std::vector<std::array<End, 2>>& ends() const { return ends_; }
   const std::vector<std::string>& radio_names() const;  // by row of the set `radio`
   std::string radio_name(int radio) const;
+  // Radios of the readings that the world does not have, and that were added to it; no cause is about them.
+  std::vector<std::string> added_radios() const;
   std::set<std::string> link_of(int one, int other) const;  // names of both, whichever sends
 
   // E[rssi in dBm] of every row.

@@ -52,6 +52,19 @@ void check_plan(const LinkModel& model, const Dataset& data) {
                     "places; expected x to the east and y to the north, as in the world");
 }
 
+// Whether a radio is at places that lie this far apart.
+bool moves(const LinkModel& model, int radio, double least) {
+  const End* first = nullptr;
+  for (const auto& ends : model.ends()) {
+    for (const End& end : ends) {
+      if (end.radio != radio) continue;
+      if (!first) first = &end;
+      if (std::hypot(end.x - first->x, end.y - first->y) > least) return true;
+    }
+  }
+  return false;
+}
+
 void check_stations(const LinkModel& model, Dataset& data) {
   const Table* mounts = model.simulation().board().find("radio/*/mount");
   std::set<int> seen;
@@ -66,16 +79,44 @@ void check_stations(const LinkModel& model, Dataset& data) {
       if (std::none_of(declared.begin(), declared.end(), [&](const RowDeclaration& r) { return r.name == name; }))
         continue;
       if (off <= 1) continue;
-      const std::string what = quote(name) + " stands at x = " + print_real(end.x) + ", y = " + print_real(end.y) +
-                               " m in the data and at x = " + print_real(mount.x) + ", y = " + print_real(mount.y) +
-                               " m in the world";
+      const auto place = [](double x, double y) { return "x = " + print_real(x) + ", y = " + print_real(y) + " m"; };
+      const std::string there = place(mount.x, mount.y) + " in the world",
+                        what = quote(name) + " stands at " + place(end.x, end.y) + " in the data and at " + there;
       if (turned < 0.01) throw invalid(data.table.place(row, 0), what + ": x and y are exchanged");
-      data.notes.push_back(what + "; the data's place is used");
+      if (moves(model, end.radio, 0.5))
+        data.notes.push_back(quote(name) + " moves in the data and stands at " + there +
+                             "; the data's places are used");
+      else
+        data.notes.push_back(what + "; the data's place is used");
     }
   }
 }
 
 }  // namespace
+
+std::string list_of(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 5;
+  std::string result;
+  for (std::size_t k = 0; k < std::min(most, names.size()); ++k) result += (k ? ", " : "") + quote(names[k]);
+  return names.size() <= most ? result : result + " and " + std::to_string(names.size() - most) + " more";
+}
+
+void note_radios(const LinkModel& model, Dataset& data) {
+  const std::vector<std::string> added = model.added_radios();
+  if (added.empty()) return;
+  std::vector<std::string> silent = model.radio_names();
+  for (const Factor* heard : {&data.tx, &data.rx})
+    for (const std::string& name : heard->levels) std::erase(silent, name);
+  std::string words = "radios of the data that the world does not have: " + list_of(added) +
+                      "; no cause of a diagnosis can be about them alone (<station name=" + quote(added[0]) +
+                      " at=\"x y z\"/> in the world would add the first)";
+  if (!silent.empty()) words += "; radios of the world without a reading: " + list_of(silent);
+  for (const std::string& name : added) {
+    if (const std::string near = nearest(name, silent); !near.empty())
+      words += "; by " + quote(name) + ", did you mean " + quote(near) + "?";
+  }
+  data.notes.push_back(words);
+}
 
 void check_places(const LinkModel& model, Dataset& data) {
   check_plan(model, data);

@@ -9,6 +9,7 @@
 
 #include "diagnosis/field_law.hpp"
 #include "diagnosis/place_checks.hpp"
+#include "diagnosis/search/search.hpp"
 
 namespace muster::diagnosis {
 namespace {
@@ -69,11 +70,15 @@ Prepared::Prepared(const std::filesystem::path& world, const std::filesystem::pa
                    const Library::SearchPath& plugins)
     : file(table), data(read_dataset(table)), model(world, table, plugins), causes(causes_on(plugins)) {
   instrument = instrument_of(data);
+  note_radios(model, data);
   if (data.has_places()) check_places(model, data);
   fitted = fit(model, data, hold_places_of_causes(model));
   base = base_columns(model, fitted.parameters);
   for (const std::size_t row : fitted.rows_used()) used.push_back(static_cast<Index>(row));
   leave_out_crossed_links();
+  if (static_cast<Index>(used.size()) < search::fewest_readings)
+    throw invalid({data.table.file()}, fmt::format("the table has {} readings to search; expected at least {}",
+                                                   used.size(), search::fewest_readings));
   run = std::make_shared<CauseModel>(model, world, table, plugins);
   fill_readings();
   problem.base = base.slopes(used, Eigen::all);

@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "diagnosis/cause_axes.hpp"
+#include "diagnosis/cause_rows.hpp"
 #include "diagnosis/found_cause.hpp"
+#include "tests/diagnosis/scratch.hpp"
+#include "tests/diagnosis/worlds.hpp"
 
 namespace muster::diagnosis {
 namespace {
@@ -47,6 +50,42 @@ TEST(CauseShape, SwingsOfManyCyclesAreSought) {
     EXPECT_LE(nearest, 0.4) << cycles;
     EXPECT_LT(axis->lower, std::log(1200 / cycles));
   }
+}
+
+// Of the data's radios one turns, and is none of the world's.
+TEST(CauseRows, ARadioThatOnlyTheDataKnowIsTold) {
+  const Scratch scratch;
+  const std::string rows =
+      "t[s],tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],rx_yaw[rad],rssi[dBm]\n"
+      "0,s,rover,0,0,1,0,0,-50\n1,s,rover,0,0,2,0,1,-51\n2,s,rover,0,0,3,0,2,-52\n";
+  muster_param radio{};
+  radio.name = radio.text = "radio";
+  radio.kind = MUSTER_REFERENCE;
+  radio.flags = MUSTER_REQUIRED;
+  muster_cause meaning{};
+  meaning.title = meaning.tell_apart = "";
+  meaning.ranges_over = "radio";
+  meaning.covariates = "rx_yaw";
+  muster_plugin plugin{};
+  plugin.params = &radio;
+  plugin.param_count = 1;
+  plugin.cause = &meaning;
+  const Cause cause{"effect.notch", {}, &plugin};
+  const auto told = [&](const std::string& station) {
+    const auto world =
+        scratch.write("world.xml", "<world name=\"w\" dt=\"1\" until=\"1\"><station name=\"s\" at=\"0 0 1\"/>" +
+                                       station + "<radio.multiwall/></world>");
+    const auto file = scratch.write("d.csv", rows);
+    const LinkModel model(world, file, plugins);
+    const Survey survey = survey_of(model, read_dataset(file));
+    const auto found = rows_for(cause, model, survey);
+    return found.empty() ? why_no_rows(cause, model, survey) : "about " + found.at(0).at(0);
+  };
+  EXPECT_EQ(told(""),
+            "not testable: the world has no row that it could be about (one is needed, of the radios that turn); of "
+            "the data's radios it could be about "
+            "\"rover\", which the world does not have: add <station name=\"rover\" at=\"x y z\"/>");
+  EXPECT_EQ(told("<station name=\"rover\" at=\"1 0 1\"/>"), "about rover");
 }
 
 // A factor of e either way: 1.96 of those, and not 216 dB about 100.

@@ -124,6 +124,51 @@ TEST(Fault25, PlacesInAnotherUnitOrOrder) {
                  "north, as in the world");
 }
 
+// Told of the data, not of the world.
+TEST(Fault25, PlacesBeyondTheScene) {
+  Data data;
+  for (std::size_t row = 1; row <= 60; ++row) data.set(row, 5, std::to_string(1000 + 300 * row));
+  expect_refused(data.text(),
+                 ":2:18: row 1: 1300 m lies beyond the world's scene; expected metres within 1000 m (is it another "
+                 "unit, such as millimetres?)");
+}
+
+TEST(Fault25, ARadioThatTheWorldDoesNotHave) {
+  const std::string note =
+      "note: radios of the data that the world does not have: \"bse\"; no cause of a diagnosis can be about them "
+      "alone (<station name=\"bse\" at=\"x y z\"/> in the world would add the first); radios of the world without a "
+      "reading: \"base\"; by \"bse\", did you mean \"base\"?";
+  EXPECT_THAT(fit(Data().set_all(1, "bse").text()).out, HasSubstr(note));
+  EXPECT_THAT(fit(Data().text()).out, testing::Not(HasSubstr("does not have")));
+}
+
+TEST(Fault25, AStationThatMovesIsSaidToMove) {
+  EXPECT_THAT(
+      fit(Data().text()).out,
+      HasSubstr("note: \"rover\" moves in the data and stands at x = 5, y = 0 m in the world; the data's places "
+                "are used"));
+}
+
+// Milliwatts in the place of dBm: the fit ends at its bounds, and no name beside it is sure.
+TEST(Fault25, MilliwattsAreNotDiagnosedWithConfidence) {
+  Data data;
+  for (std::size_t row = 1; row <= 60; ++row) data.set(row, 7, fmt::format("{:.9f}", 1e-4 / static_cast<double>(row)));
+  const auto outcome = asked("diagnose", data.text());
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_THAT(outcome.out,
+              HasSubstr("! levels above 0 dBm, a milliwatt at the receiver: 60 of 60 readings: are they in mW"));
+  EXPECT_THAT(outcome.out, HasSubstr("(at its bound)"));
+  EXPECT_THAT(outcome.out, HasSubstr("note: at its bound: radio.multiwall/"));
+  EXPECT_THAT(outcome.out, testing::Not(HasSubstr("it is effect.")));
+}
+
+TEST(Fault25, CellsThatAreAllTooSmallAreNoStatistic) {
+  const std::string out = fit(Data().text()).out;
+  EXPECT_THAT(out, HasSubstr("Means over cells of 0.25 m: none. Each of the 60 cells has fewer than 5 readings; larger "
+                             "cells (--cell) or fewer readings (--least) would give some."));
+  EXPECT_THAT(out, testing::Not(HasSubstr("cannot show")));
+}
+
 TEST(Fault25, PlacesOnTheGlobe) {
   const std::string globe =
       " is a place on the globe; expected metres in the world's plan: x = 111320 m * cos(lat0) * (lon - lon0) and y = "
@@ -139,6 +184,8 @@ TEST(Fault25, TooLittleToTellAnything) {
   expect_refused(Data().keep(0).text(), ": the table has no rows; expected readings");
   expect_refused(Data().keep(1).text(), ": the table has 1 row; one reading shows no law, expected many");
   expect_refused(Data().set_all(7, "-60").text(), ":2:27: every rssi is -60 dBm; expected readings that vary");
+  expect_error(asked("diagnose", Data().keep(19).text()), 2,
+               "data.csv: the table has 19 readings to search; expected at least 50");
   expect_refused(Data().set_all(7, "").text(), ": every rssi is empty; expected some readings that were received");
 }
 
