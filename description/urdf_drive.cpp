@@ -25,6 +25,39 @@ Eigen::Vector3d check_wheel(const Source& source, const XMLElement& element, con
   return middle;
 }
 
+// The radius of what is round about the axle among a wheel's collision shapes, the largest of it; 0 where nothing is.
+double round_about_axle(const Robot& robot, const Joint& joint) {
+  double result = 0;
+  for (const Shape& shape : rigid_shapes(robot, joint.child)) {
+    if (shape.pose.translation().cross(joint.axis).norm() > placement_tolerance) continue;
+    if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) result = std::max(result, sphere->radius);
+    const auto* cylinder = std::get_if<Cylinder>(&shape.geometry);
+    constexpr double rounded = 1e-3;  // [rad]: a right angle in few digits
+    if (cylinder && shape.pose.linear().col(2).cross(joint.axis).norm() < rounded)
+      result = std::max(result, cylinder->radius);
+  }
+  return result;
+}
+
+void check_radius(const Source& source, const XMLElement& element, const Robot& robot, std::size_t index,
+                  double wheel_radius) {
+  const Joint& joint = robot.joints[index];
+  const double radius = round_about_axle(robot, joint);
+  if (radius == 0 || std::abs(radius - wheel_radius) <= placement_tolerance) return;
+  source.fail(element.GetLineNum(), tag(element) + "wheel_radius=\"" + element.Attribute("wheel_radius") +
+                                        "\" contradicts the wheel of joint '" + joint.name +
+                                        "', whose collision shape has a radius of " + print_number(radius));
+}
+
+// Not an error: the world file may put the robot's frame above the ground.
+void warn_of_height(const Source& source, const XMLElement& element, double height, double wheel_radius, Robot& robot) {
+  if (std::abs(height - wheel_radius) <= placement_tolerance) return;
+  robot.warnings.push_back(source.file + ":" + std::to_string(element.GetLineNum()) + ": " + tag(element) +
+                           "the axle is at z = " + print_number(height) +
+                           " of the robot's frame, which is to be on the ground; wheels of radius " +
+                           print_number(wheel_radius) + " do not stand there");
+}
+
 // 0 where it is not said.
 double share(const Source& source, const XMLElement& element, const char* attribute) {
   const char* text = element.Attribute(attribute);
@@ -37,7 +70,7 @@ double share(const Source& source, const XMLElement& element, const char* attrib
   return *value;
 }
 
-DifferentialDrive read_differential(const Source& source, const XMLElement& element, const Robot& robot) {
+DifferentialDrive read_differential(const Source& source, const XMLElement& element, Robot& robot) {
   only_attributes(
       source, element,
       {"left", "right", "wheel_radius", "wheel_base", "max_torque", "max_speed", "max_acceleration", "friction"});
@@ -55,6 +88,9 @@ DifferentialDrive read_differential(const Source& source, const XMLElement& elem
   if (std::hypot(left.x() - right.x(), left.z() - right.z()) > placement_tolerance) {
     source.fail(element.GetLineNum(), tag(element) + "the wheels are not on one axle");
   }
+  for (const std::size_t wheel : {drive.left, drive.right})
+    check_radius(source, element, robot, wheel, drive.wheel_radius);
+  warn_of_height(source, element, left.z(), drive.wheel_radius, robot);
   return drive;
 }
 

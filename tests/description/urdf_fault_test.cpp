@@ -29,14 +29,19 @@ std::string inertial(const std::string& value, const std::string& x, const std::
   return "<inertial><mass value='" + value + "'/><inertia ixx='" + x + "' ixy='0' ixz='0' iyy='" + y +
          "' iyz='0' izz='" + z + "'/></inertial>";
 }
-std::string wheels(const std::string& attributes, const std::string& axis = "0 1 0", const std::string& y = "0.1") {
-  return link("b", mass) + link("l", mass) + link("r", mass) +
+std::string wheels(const std::string& attributes, const std::string& axis = "0 1 0", const std::string& y = "0.1",
+                   const std::string& right = "") {
+  return link("b", mass) + link("l", mass) + link("r", mass + right) +
          joint("jl", "b", "l", "continuous", "<origin xyz='0 " + y + " 0'/><axis xyz='" + axis + "'/>") +
          joint("jr", "b", "r", "continuous", "<origin xyz='0 -0.1 0'/><axis xyz='0 1 0'/>") + "<muster><differential " +
          attributes + "/></muster>\n";
 }
 const std::string good =
     "left='jl' right='jr' wheel_radius='0.05' wheel_base='0.2' max_torque='1' max_speed='9' friction='0.8'";
+
+std::string round(const std::string& geometry, const std::string& angles) {
+  return "<collision><origin rpy='" + angles + "'/><geometry>" + geometry + "</geometry></collision>";
+}
 
 // A joint and its <muster>, from line 6 on.
 std::string ball(const std::string& inside, const std::string& type = "floating") {
@@ -178,6 +183,15 @@ const Case cases[] = {
      "7: <differential> joint 'jl' does not turn about the body's +y axis"},
     {"wheel_base_contradicts_joints", wheels(good, "0 1 0", "0.11"),
      "7: <differential> joint 'jl' is not half a wheel_base from the body's x axis (left: +y, right: -y)"},
+    {"wheel_radius_contradicts_cylinder",
+     wheels(good, "0 1 0", "0.1", round("<cylinder radius='0.09' length='0.02'/>", "1.5708 0 0")),
+     "7: <differential> wheel_radius=\"0.05\" contradicts the wheel of joint 'jr', whose collision shape has a radius "
+     "of "
+     "0.09"},
+    {"wheel_radius_contradicts_sphere", wheels(good, "0 1 0", "0.1", round("<sphere radius='0.04'/>", "0 0 0")),
+     "7: <differential> wheel_radius=\"0.05\" contradicts the wheel of joint 'jr', whose collision shape has a radius "
+     "of "
+     "0.04"},
     {"another_drive", link("a", mass) + "<muster><tracks/></muster>",
      "3: <tracks> is not known in <muster>; expected <differential>, <quadrotor>, <legs>, <ball> or <laser>"},
     {"ball_as_a_type", link("a", mass) + link("b", mass) + joint("j", "a", "b", "ball"),

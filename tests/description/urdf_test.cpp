@@ -305,6 +305,18 @@ TEST(Urdf, MeshInMillimetresIsWarnedAbout) {
   EXPECT_TRUE(read_robot(path, Meshes::skip).links[0].shapes.empty());
 }
 
+TEST(Urdf, WheelsThatDoNotStandOnTheGroundAreWarnedAbout) {
+  Files files;
+  std::string text = test::contents(scarab);
+  for (const std::string hub : {"0.105 0.05", "-0.105 0.05"}) text.replace(text.find(hub), hub.size(), hub + '6');
+  const std::string path = files.write("r.urdf", text);
+  const Robot robot = read_robot(path, Meshes::skip);
+  ASSERT_EQ(robot.warnings.size(), 1u);
+  EXPECT_EQ(robot.warnings[0], path +
+                                   ":89: <differential> the axle is at z = 0.056 of the robot's frame, which is to be "
+                                   "on the ground; wheels of radius 0.05 do not stand there");
+}
+
 TEST(Model, IsFoundByNameOrPath) {
   Files files;
   files.write("one/a.urdf", "");
