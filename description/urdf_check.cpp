@@ -11,7 +11,6 @@ using tinyxml2::XMLElement;
 
 namespace {
 
-constexpr std::size_t max_tag = 64u << 10;  // bytes; tinyxml2 takes quadratic time in the attributes of a tag
 constexpr std::size_t max_links = 10000;
 
 // Numbers in attributes: how many, and whether urdfdom would drop the whole element without them.
@@ -31,34 +30,6 @@ constexpr Numbers numbers[] = {
 };
 
 std::string tag(const XMLElement& element) { return std::string("<") + element.Name() + "> "; }
-
-int line_at(const std::string& text, std::size_t position) {
-  return 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(position), '\n'));
-}
-
-bool starts(const std::string& text, std::size_t at, const char* what) {
-  return text.compare(at, std::char_traits<char>::length(what), what) == 0;
-}
-
-// Past a comment or character data, whose size is nobody's concern.
-std::size_t skip_to(const std::string& text, std::size_t from, const char* end) {
-  return std::min(text.find(end, from), text.size());
-}
-
-void scan_tags(const Source& source, const std::string& text) {
-  if (text.find('\0') != std::string::npos) source.fail(1, "is not text; expected UTF-8 XML");
-  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at + 1)) {
-    if (starts(text, at, "<!--")) {
-      at = skip_to(text, at, "-->");
-    } else if (starts(text, at, "<![CDATA[")) {
-      at = skip_to(text, at, "]]>");
-    } else if (starts(text, at, "<!")) {
-      source.fail(line_at(text, at), "has a document type declaration; entities are not supported");
-    } else if (skip_to(text, at, ">") - at > max_tag) {
-      source.fail(line_at(text, at), "a tag is longer than 65536 bytes");
-    }
-  }
-}
 
 void check_numbers(const Source& source, const XMLElement& element, const std::string& owner) {
   for (const Numbers& rule : numbers) {
@@ -130,10 +101,12 @@ void check_joint(const Source& source, const XMLElement& joint, const std::strin
 // Links have one parent, and all are there.
 std::map<std::string, Edge> parents(const Source& source, const std::vector<Edge>& edges, const Outline& outline) {
   std::map<std::string, Edge> parent_of;
+  std::vector<std::string> links;
+  for (const auto& [link, line] : outline.link_lines) links.push_back(link);
   for (const Edge& edge : edges) {
     for (const std::string& link : {edge.child, edge.parent}) {
       if (!outline.link_lines.count(link))
-        source.fail(edge.line, "joint '" + edge.joint + "': link '" + link + "' is not known");
+        source.fail(edge.line, "joint '" + edge.joint + "': link '" + link + "' is not known" + nearest(link, links));
     }
     const auto [other, added] = parent_of.emplace(edge.child, edge);
     if (!added) {
@@ -195,25 +168,6 @@ std::string required(const Source& source, const XMLElement& element, const char
   return text;
 }
 
-void only_attributes(const Source& source, const XMLElement& element, const std::vector<std::string>& known) {
-  for (const auto* attribute = element.FirstAttribute(); attribute; attribute = attribute->Next()) {
-    if (std::find(known.begin(), known.end(), attribute->Name()) != known.end()) continue;
-    source.fail(element.GetLineNum(),
-                tag(element) + "has no attribute '" + attribute->Name() + "'" + nearest(attribute->Name(), known));
-  }
-}
-
-void only_children(const Source& source, const XMLElement& element, const std::vector<std::string>& known) {
-  std::set<std::string> seen;
-  for (const auto* child = element.FirstChildElement(); child; child = child->NextSiblingElement()) {
-    const std::string name = child->Name();
-    if (std::find(known.begin(), known.end(), name) == known.end()) {
-      source.fail(child->GetLineNum(), tag(element) + "has no element <" + name + ">" + nearest(name, known));
-    }
-    if (!seen.insert(name).second) source.fail(child->GetLineNum(), tag(element) + "has a second <" + name + ">");
-  }
-}
-
 double positive(const Source& source, const XMLElement& element, const char* attribute) {
   const std::string text = required(source, element, attribute);
   const auto value = parse_number(text);
@@ -224,21 +178,9 @@ double positive(const Source& source, const XMLElement& element, const char* att
   return *value;
 }
 
-void parse_urdf(const Source& source, const std::string& text, tinyxml2::XMLDocument& document) {
-  scan_tags(source, text);
-  const tinyxml2::XMLError error = document.Parse(text.data(), text.size());
-  const int line = std::max(1, document.ErrorLineNum());
-  if (error == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED) source.fail(line, "elements are nested deeper than 100");
-  if (error == tinyxml2::XML_ERROR_EMPTY_DOCUMENT) source.fail(1, "is empty; expected <robot>");
-  if (error != tinyxml2::XML_SUCCESS) source.fail(line, std::string("is not XML: ") + document.ErrorName());
-  const XMLElement* root = document.RootElement();
-  if (!root || root->Name() != std::string("robot"))
-    source.fail(root ? root->GetLineNum() : 1, "is not URDF; expected <robot>");
-  if (const auto* second = root->NextSiblingElement()) source.fail(second->GetLineNum(), "has a second root element");
-}
-
 Outline check_urdf(const Source& source, const XMLElement& robot) {
   const std::vector<std::string> known = {"link", "joint", "material", "muster", "gazebo", "transmission", "sensor"};
+  only_attributes(source, robot, {"name", "version", "verbose"});
   Outline outline;
   std::vector<Edge> edges;
   for (const auto* element = robot.FirstChildElement(); element; element = element->NextSiblingElement()) {
@@ -249,6 +191,7 @@ Outline check_urdf(const Source& source, const XMLElement& robot) {
     if (kind != "link" && kind != "joint") continue;
     const std::string name = required(source, *element, "name");
     add_name(source, kind == "link" ? outline.link_lines : outline.joint_lines, *element, name);
+    check_names(source, *element);
     check_numbers(source, *element, kind + " '" + name + "'");
     if (kind == "link") {
       if (has_inertial(source, *element, name)) outline.with_inertial.insert(name);

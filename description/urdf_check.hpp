@@ -29,6 +29,9 @@ struct Outline {
 // Parses the text under limits on depth and tag size; no DTD, no entities, one <robot>.
 void parse_urdf(const Source& source, const std::string& text, tinyxml2::XMLDocument& document);
 
+// Of a <link> or <joint>, and all in it: only elements and attributes that URDF has. What is drawn, <visual>, counts
+// not.
+void check_names(const Source& source, const tinyxml2::XMLElement& element);
 // Every number strictly a number, every needed attribute there, links a tree.
 Outline check_urdf(const Source& source, const tinyxml2::XMLElement& robot);
 
@@ -51,11 +54,13 @@ std::size_t find_joint(const Source& source, const tinyxml2::XMLElement& element
 Eigen::Vector3d place_of_turning(const Source& source, const tinyxml2::XMLElement& element, const Robot& robot,
                                  std::size_t joint);
 
-// An attribute that must be there and not empty; one that must be a number above 0; those that may be there.
+// An attribute that must be there and not empty; one that must be a number above 0; those that may be there, beside
+// those of other namespaces.
 std::string required(const Source& source, const tinyxml2::XMLElement& element, const char* attribute);
 double positive(const Source& source, const tinyxml2::XMLElement& element, const char* attribute);
 void only_attributes(const Source& source, const tinyxml2::XMLElement& element, const std::vector<std::string>& known);
-// The same of elements in it, each there at most once.
-void only_children(const Source& source, const tinyxml2::XMLElement& element, const std::vector<std::string>& known);
+// The same of elements in it, each there at most once but for `many`.
+void only_children(const Source& source, const tinyxml2::XMLElement& element, const std::vector<std::string>& known,
+                   const std::vector<std::string>& many = {});
 
 }  // namespace muster::description

@@ -115,9 +115,10 @@ const Case cases[] = {
     {"laser_too_coarse", laser("", "<laser sensor='s' max_range='4' resolution='5'/>"),
      "9: sensor 's': <laser> resolution is not between a billionth of max_range and max_range"},
     {"laser_too_often", laser("", "", "update_rate='1e7'"), "5: sensor 's': update_rate is above 1000000 Hz"},
-    {"laser_range_as_in_sdf", laser("/><range min='0'"), "8: <ray> has no element <range>"},
+    {"laser_range_as_in_sdf", laser("/><range min='0'"),
+     "8: <ray> has no element <range>; expected <horizontal> or <vertical>"},
     {"laser_origin_misspelt", laser("", "", "update_rate='10'", "link='a'/><orign xyz='1 0 0'"),
-     "6: <sensor> has no element <orign>; did you mean 'origin'?"},
+     "6: <sensor> has no element <orign>; expected <parent>, <origin> or <ray>; did you mean 'origin'?"},
     {"laser_two_origins", laser("", "", "update_rate='10'", "link='a'/><origin/><origin"),
      "6: <sensor> has a second <origin>"},
     {"negative_mass", link("a", inertial("-3", "1", "1", "1")), "2: link 'a': mass is not above 0"},
@@ -159,13 +160,43 @@ const Case cases[] = {
     {"mimic_of_itself",
      link("a", mass) + link("b", mass) + joint("j", "a", "b", "continuous", "<axis xyz='0 0 1'/><mimic joint='j'/>"),
      "4: joint 'j': mimics itself"},
-    {"unknown_link", link("a", mass) + joint("j", "a", "bb"), "3: joint 'j': link 'bb' is not known"},
+    {"unknown_link", link("a", mass) + joint("j", "a", "bb"),
+     "3: joint 'j': link 'bb' is not known; did you mean 'a'?"},
     {"unknown_joint_type", link("a", mass) + link("b", mass) + joint("j", "a", "b", "revolut"),
      "4: joint 'j': type 'revolut' is not known; expected fixed, revolute, continuous, prismatic, floating or planar; "
      "did you mean "
      "'revolute'?"},
     {"same_link_twice", link("a", mass) + link("a", mass), "3: link 'a' is there twice; first in line 2"},
     {"unknown_element", "<lnk name='a'/>", "2: <lnk> is not known in <robot>; did you mean 'link'?"},
+    {"unit_beside_mass", link("a", "<inertial>\n<mass value='0.4' unit='kg'/></inertial>"),
+     "3: <mass> has no attribute 'unit'; expected 'value'"},
+    {"inertia_misspelt", link("a", "<inertial><mass value='1'/><inertia ixx='1' ixz='0' ixyy='0'/></inertial>"),
+     "2: <inertia> has no attribute 'ixyy'; did you mean 'ixy'?"},
+    {"friction_misspelt",
+     link("a", mass) + link("b", mass) + joint("j", "a", "b", "fixed", "\n<dynamics damping='0.005' frction='0.3'/>"),
+     "5: <dynamics> has no attribute 'frction'; did you mean 'friction'?"},
+    {"limit_misspelt",
+     link("a", mass) + link("b", mass) +
+         joint("j", "a", "b", "revolute", "\n<limit loewr='1' effort='1' velocity='1'/>"),
+     "5: <limit> has no attribute 'loewr'; did you mean 'lower'?"},
+    {"colour_of_a_box", link("a", "<collision>\n<geometry>\n<box size='1 1 1' colour='red'/></geometry></collision>"),
+     "4: <box> has no attribute 'colour'; expected 'size'"},
+    {"origin_misspelt", link("a", "<collision>\n<origin xzy='1 1 1'/></collision>"),
+     "3: <origin> has no attribute 'xzy'; did you mean 'xyz'?"},
+    {"link_misspelt_in_parent",
+     link("a", mass) + "<joint name='j' type='fixed'>\n<parent lnk='a'/><child link='a'/></joint>",
+     "4: <parent> has no attribute 'lnk'; did you mean 'link'?"},
+    {"attribute_of_inertial", link("a", "<inertial mass='1'/>"), "2: <inertial> has no attribute 'mass'"},
+    {"collision_misspelt", link("a", "\n<colision/>"),
+     "3: <link> has no element <colision>; expected <inertial>, <visual> or <collision>; did you mean 'collision'?"},
+    {"two_masses", link("a", "<inertial><mass value='1'/>\n<mass value='2'/></inertial>"),
+     "3: <inertial> has a second <mass>"},
+    {"shape_misspelt", link("a", "<collision><geometry>\n<bx size='1 1 1'/></geometry></collision>"),
+     "3: <geometry> has no element <bx>; expected <box>, <cylinder>, <sphere> or <mesh>; did you mean 'box'?"},
+    {"shape_misspelt_where_it_is_drawn", link("a", "<visual><geometry>\n<cone/></geometry></visual>"),
+     "3: <geometry> has no element <cone>; expected <box>, <cylinder>, <sphere> or <mesh>"},
+    {"no_shape", link("a", "<collision>\n<geometry/></collision>"),
+     "3: <geometry> is empty; expected <box>, <cylinder>, <sphere> or <mesh>"},
     {"moving_without_mass", link("a", mass) + link("b", "") + joint("j", "a", "b", "continuous", "<axis xyz='0 0 1'/>"),
      "3: link 'b' moves by joint 'j' but has no <inertial>"},
     {"drive_of_unknown_joint",
@@ -200,7 +231,8 @@ const Case cases[] = {
      "4: joint 'j': URDF has no type 'spherical'; expected type 'floating' and <muster><ball joint=\"j\"/></muster>"},
     {"ball_of_unknown_joint", ball("<ball joint='k'/>"), "6: <ball> joint: joint 'k' is not known; did you mean 'j'?"},
     {"ball_of_no_joint", ball("<ball/>"), "6: <ball> has no attribute 'joint'"},
-    {"ball_attribute_misspelt", ball("<ball joint='j' limit='1'/>"), "6: <ball> has no attribute 'limit'"},
+    {"ball_attribute_misspelt", ball("<ball joint='j' limit='1'/>"),
+     "6: <ball> has no attribute 'limit'; expected 'joint'"},
     {"ball_with_limits", ball("<ball joint='j'><limit/></ball>"), "6: <ball> has no element <limit>"},
     {"ball_twice", ball("<ball joint='j'/>\n<ball joint='j'/>"), "7: <ball> joint 'j' is a ball already"},
     {"ball_in_a_second_extension", ball("<ball joint='j'/></muster>\n<muster><ball joint='j'/>"),
@@ -295,9 +327,28 @@ TEST(UrdfFile, EntitiesAreRefused) {
 TEST(UrdfFile, TruncatedAndSecondRootAreRefused) {
   Files files;
   const std::string cut = files.write("cut.urdf", "<robot name='r'>\n<link name='a'>");
-  EXPECT_EQ(message_of([&] { read_robot(cut); }), cut + ":2: is not XML: XML_ERROR_MISMATCHED_ELEMENT");
+  EXPECT_EQ(message_of([&] { read_robot(cut); }),
+            cut + ":2: is not XML: <link> is not closed; expected </link> before the end of the file");
   const std::string two = files.write("two.urdf", "<robot name='r'><link name='a'/></robot>\n<robot name='s'/>");
   EXPECT_EQ(message_of([&] { read_robot(two); }), two + ":2: has a second root element");
+}
+
+TEST(UrdfFile, WhatIsNotXmlIsSaidInWords) {
+  Files files;
+  const std::pair<const char*, const char*> texts[] = {
+      {"<link name='a>b'>\n</lnk></robot>", "3: is not XML: </lnk> does not match <link> of line 2; expected </link>"},
+      {"<link name='a'/>", "1: is not XML: <robot> is not closed; expected </robot> before the end of the file"},
+      {"</robot>\n</robot>", "3: is not XML: </robot> closes nothing"},
+      {"<link name=a/></robot>", "2: is not XML: an attribute is wrong; expected NAME=\"VALUE\", each once in a tag"},
+      {"<link name='a'",
+       "2: is not XML: a tag is wrong or cut off; expected <NAME ATTRIBUTE=\"VALUE\"> or <NAME "
+       "ATTRIBUTE=\"VALUE\"/>"},
+      {"<!-- </robot>", "2: is not XML: a comment is not closed; expected -->"},
+  };
+  for (const auto& [text, message] : texts) {
+    const std::string path = files.write("r.urdf", std::string("<robot name='r'>\n") + text);
+    EXPECT_EQ(message_of([&] { read_robot(path); }), path + ":" + message);
+  }
 }
 
 TEST(UrdfFile, ManyAttributesInOneTagAreRefusedAtOnce) {

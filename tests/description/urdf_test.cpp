@@ -148,6 +148,24 @@ TEST(Urdf, EveryKindOfJointIsRead) {
 }
 
 // A coordinate for each rate, but where a quaternion stands for three of them.
+// What the standard has and muster has no use for, and what is of other programs.
+TEST(Urdf, WhatIsOfOthersMayStand) {
+  Files files;
+  const Robot robot =
+      read_robot(files.write("r.urdf", R"(<robot name="r" version="1.0" xmlns:xacro="http://ros.org/xacro">
+    <material name="blue"><color rgba="0 0 1 1"/></material>
+    <link name="a" type="laser"><visual name="v"><geometry><box size="1 1 1" xacro:x="1"/></geometry>
+      <material name="blue"/></visual>
+      <collision name="one"><geometry><box size="1 1 1"/></geometry></collision>
+      <collision><geometry><sphere radius="1"/></geometry></collision></link>
+    <link name="b"/>
+    <joint name="j" type="fixed" xacro:x="1"><parent link="a"/><child link="b"/><calibration rising="0"/>
+      <safety_controller soft_lower_limit="-1" soft_upper_limit="1" k_position="1" k_velocity="1"/></joint>
+    <transmission name="t"><type>x</type></transmission><gazebo reference="a"><mu1>0.2</mu1></gazebo></robot>)"));
+  EXPECT_EQ(robot.links[0].shapes.size(), 2u);
+  EXPECT_TRUE(robot.warnings.empty());
+}
+
 TEST(Urdf, JointsHaveAsManyRatesAsTheyLetMove) {
   for (const JointLaw& law : joint_laws) {
     const bool turns_about_all = law.kind == JointKind::ball || law.kind == JointKind::floating;

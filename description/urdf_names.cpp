@@ -1,0 +1,108 @@
+// Names of elements and attributes: a name that is misspelt is not left out, as urdfdom does.
+#include <algorithm>
+
+#include "description/file_text.hpp"
+#include "description/urdf_check.hpp"
+
+namespace muster::description {
+
+using tinyxml2::XMLElement;
+
+namespace {
+
+using Names = std::vector<std::string>;
+
+struct Kind {
+  Names attributes, elements;
+};
+
+// What http://wiki.ros.org/urdf/XML has in <link> and <joint>, but for what <visual> has, which is not looked at here.
+const std::map<std::string, Kind>& kinds() {
+  static const std::map<std::string, Kind> all = {
+      {"link", {{"name", "type"}, {"inertial", "visual", "collision"}}},
+      {"inertial", {{}, {"origin", "mass", "inertia"}}},
+      {"mass", {{"value"}, {}}},
+      {"inertia", {{"ixx", "ixy", "ixz", "iyy", "iyz", "izz"}, {}}},
+      {"collision", {{"name"}, {"origin", "geometry"}}},
+      {"geometry", {{}, {"box", "cylinder", "sphere", "mesh"}}},
+      {"box", {{"size"}, {}}},
+      {"cylinder", {{"radius", "length"}, {}}},
+      {"sphere", {{"radius"}, {}}},
+      {"mesh", {{"filename", "scale"}, {}}},
+      {"joint",
+       {{"name", "type"},
+        {"origin", "parent", "child", "axis", "calibration", "dynamics", "limit", "mimic", "safety_controller"}}},
+      {"origin", {{"xyz", "rpy"}, {}}},
+      {"parent", {{"link"}, {}}},
+      {"child", {{"link"}, {}}},
+      {"axis", {{"xyz"}, {}}},
+      {"calibration", {{"rising", "falling", "reference_position"}, {}}},
+      {"dynamics", {{"damping", "friction"}, {}}},
+      {"limit", {{"lower", "upper", "effort", "velocity"}, {}}},
+      {"mimic", {{"joint", "multiplier", "offset"}, {}}},
+      {"safety_controller", {{"soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity"}, {}}},
+  };
+  return all;
+}
+
+// "'a', 'b' or 'c'"
+std::string listed(const Names& names, const char* before, const char* after) {
+  std::string result;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) result += i + 1 < names.size() ? ", " : " or ";
+    result += before + names[i] + after;
+  }
+  return result;
+}
+
+// A name of another namespace, "xmlns:xacro" or "xacro:once", is for other programs.
+bool is_foreign(const std::string& name) { return name == "xmlns" || name.find(':') != std::string::npos; }
+
+void check_geometry(const Source& source, const XMLElement& geometry) {
+  const Names& known = kinds().at("geometry").elements;
+  only_children(source, geometry, known);
+  if (!geometry.FirstChildElement())
+    source.fail(geometry.GetLineNum(), "<geometry> is empty; expected " + listed(known, "<", ">"));
+}
+
+}  // namespace
+
+void only_attributes(const Source& source, const XMLElement& element, const Names& known) {
+  for (const auto* attribute = element.FirstAttribute(); attribute; attribute = attribute->Next()) {
+    const std::string name = attribute->Name();
+    if (is_foreign(name) || std::find(known.begin(), known.end(), name) != known.end()) continue;
+    std::string expected = nearest(name, known);
+    if (expected.empty() && !known.empty()) expected = "; expected " + listed(known, "'", "'");
+    source.fail(element.GetLineNum(),
+                std::string("<") + element.Name() + "> has no attribute '" + name + "'" + expected);
+  }
+}
+
+void only_children(const Source& source, const XMLElement& element, const Names& known, const Names& many) {
+  std::set<std::string> seen;
+  for (const auto* child = element.FirstChildElement(); child; child = child->NextSiblingElement()) {
+    const std::string name = child->Name(), tag = std::string("<") + element.Name() + "> ";
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      const std::string expected = known.empty() ? "" : "; expected " + listed(known, "<", ">");
+      source.fail(child->GetLineNum(), tag + "has no element <" + name + ">" + expected + nearest(name, known));
+    }
+    const bool may_repeat = std::find(many.begin(), many.end(), name) != many.end();
+    if (!seen.insert(name).second && !may_repeat) source.fail(child->GetLineNum(), tag + "has a second <" + name + ">");
+  }
+}
+
+void check_names(const Source& source, const XMLElement& element) {
+  const std::string name = element.Name();
+  if (name == "visual") {  // urdfdom refuses a shape that it does not know, and says no line
+    if (const XMLElement* geometry = element.FirstChildElement("geometry")) check_geometry(source, *geometry);
+    return;
+  }
+  const Kind& kind = kinds().at(name);
+  only_attributes(source, element, kind.attributes);
+  only_children(source, element, kind.elements, {"visual", "collision"});
+  if (name == "geometry") check_geometry(source, element);
+  for (const auto* child = element.FirstChildElement(); child; child = child->NextSiblingElement())
+    check_names(source, *child);
+}
+
+}  // namespace muster::description

@@ -1,0 +1,129 @@
+// A URDF's text as XML, or where and why it is none.
+#include <algorithm>
+
+#include "description/urdf_check.hpp"
+
+namespace muster::description {
+
+using tinyxml2::XMLElement;
+
+namespace {
+
+constexpr std::size_t max_tag = 64u << 10;  // bytes; tinyxml2 takes quadratic time in the attributes of a tag
+
+int line_at(const std::string& text, std::size_t position) {
+  return 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(position), '\n'));
+}
+
+bool starts(const std::string& text, std::size_t at, const char* what) {
+  return text.compare(at, std::char_traits<char>::length(what), what) == 0;
+}
+
+// Past a comment or character data, whose size is nobody's concern.
+std::size_t skip_to(const std::string& text, std::size_t from, const char* end) {
+  return std::min(text.find(end, from), text.size());
+}
+
+void scan_tags(const Source& source, const std::string& text) {
+  if (text.find('\0') != std::string::npos) source.fail(1, "is not text; expected UTF-8 XML");
+  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at + 1)) {
+    if (starts(text, at, "<!--")) {
+      at = skip_to(text, at, "-->");
+    } else if (starts(text, at, "<![CDATA[")) {
+      at = skip_to(text, at, "]]>");
+    } else if (starts(text, at, "<!")) {
+      source.fail(line_at(text, at), "has a document type declaration; entities are not supported");
+    } else if (skip_to(text, at, ">") - at > max_tag) {
+      source.fail(line_at(text, at), "a tag is longer than 65536 bytes");
+    }
+  }
+}
+
+// The '>' that ends the tag at `at`, or the text's end; a value in quotes may have one, too.
+std::size_t end_of_tag(const std::string& text, std::size_t at) {
+  char quote = 0;
+  for (; at < text.size(); ++at) {
+    const char c = text[at];
+    if (quote ? c == quote : c == '"' || c == '\'') quote = quote ? '\0' : c;
+    if (!quote && c == '>') break;
+  }
+  return at;
+}
+
+// Each closing tag closes the element that was opened last. The parser tells no more of one that does not than where
+// some element begins, and takes those behind the root without a word.
+void check_pairs(const Source& source, const std::string& text) {
+  struct Open {
+    std::string name;
+    std::size_t at;
+  };
+  std::vector<Open> open;
+  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at + 1)) {
+    if (starts(text, at, "<!--")) {
+      at = skip_to(text, at, "-->");
+    } else if (starts(text, at, "<![CDATA[")) {
+      at = skip_to(text, at, "]]>");
+    } else if (starts(text, at, "<?")) {
+      at = skip_to(text, at, "?>");
+    } else {
+      const bool closes = starts(text, at, "</");
+      const std::size_t from = at + (closes ? 2 : 1), end = end_of_tag(text, at);
+      const std::string name = text.substr(from, text.find_first_of(" \t\r\n/>", from) - from);
+      if (closes && open.empty()) source.fail(line_at(text, at), "is not XML: </" + name + "> closes nothing");
+      if (closes && open.back().name != name) {
+        const auto& [last, start] = open.back();
+        source.fail(line_at(text, at), "is not XML: </" + name + "> does not match <" + last + "> of line " +
+                                           std::to_string(line_at(text, start)) + "; expected </" + last + ">");
+      }
+      if (closes) {
+        open.pop_back();
+      } else if (text[end - 1] != '/') {
+        open.push_back({name, at});
+      }
+      at = end;
+    }
+  }
+  if (open.empty()) return;
+  const auto& [last, start] = open.back();
+  source.fail(line_at(text, start),
+              "is not XML: <" + last + "> is not closed; expected </" + last + "> before the end of the file");
+}
+
+std::string words(const tinyxml2::XMLDocument& document) {
+  switch (document.ErrorID()) {
+    case tinyxml2::XML_ERROR_PARSING_ELEMENT:
+      return "a tag is wrong or cut off; expected <NAME ATTRIBUTE=\"VALUE\"> or <NAME ATTRIBUTE=\"VALUE\"/>";
+    case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
+      return "an attribute is wrong; expected NAME=\"VALUE\", each once in a tag";
+    case tinyxml2::XML_ERROR_PARSING_TEXT:
+      return "a text is not closed; expected a tag after it";
+    case tinyxml2::XML_ERROR_PARSING_CDATA:
+      return "<![CDATA[ is not closed; expected ]]>";
+    case tinyxml2::XML_ERROR_PARSING_COMMENT:
+      return "a comment is not closed; expected -->";
+    case tinyxml2::XML_ERROR_PARSING_DECLARATION:
+      return "a declaration <? ?> is not closed, or not at the start of the file";
+    default:
+      return document.ErrorName();
+  }
+}
+
+}  // namespace
+
+void parse_urdf(const Source& source, const std::string& text, tinyxml2::XMLDocument& document) {
+  scan_tags(source, text);
+  const tinyxml2::XMLError error = document.Parse(text.data(), text.size());
+  const int line = std::max(1, document.ErrorLineNum());
+  if (error == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED) source.fail(line, "elements are nested deeper than 100");
+  if (error == tinyxml2::XML_ERROR_EMPTY_DOCUMENT) source.fail(1, "is empty; expected <robot>");
+  const bool has_all_tags = error == tinyxml2::XML_SUCCESS || error == tinyxml2::XML_ERROR_PARSING ||
+                            error == tinyxml2::XML_ERROR_MISMATCHED_ELEMENT;
+  if (has_all_tags) check_pairs(source, text);
+  if (error != tinyxml2::XML_SUCCESS) source.fail(line, "is not XML: " + words(document));
+  const XMLElement* root = document.RootElement();
+  if (!root || root->Name() != std::string("robot"))
+    source.fail(root ? root->GetLineNum() : 1, "is not URDF; expected <robot>");
+  if (const auto* second = root->NextSiblingElement()) source.fail(second->GetLineNum(), "has a second root element");
+}
+
+}  // namespace muster::description
