@@ -156,10 +156,23 @@ std::vector<double> row_numbers(const TextTable& table, std::size_t at, const Co
   return result;
 }
 
+// Somebody would wait for what a column does that nobody reads.
+void refuse_others(const TextTable& table, const Columns& columns) {
+  std::vector<std::string> known;
+  for (const auto& column : columns) known.push_back(column.name);
+  for (std::size_t c = 0; c < table.columns().size(); ++c) {
+    const auto& name = table.columns()[c].name;
+    if (columns.find(name) < 0)
+      throw invalid(table.header_place(c), "column " + quote(name) + " means nothing here; " + suggest(name, known));
+  }
+}
+
 }  // namespace
 
-std::unique_ptr<Cells> read_file_table(const std::filesystem::path& path, const Columns& columns, Blackboard& board) {
+std::unique_ptr<Cells> read_file_table(const std::filesystem::path& path, const Columns& columns, bool closed,
+                                       Blackboard& board) {
   const auto table = TextTable::read(path);
+  if (closed) refuse_others(table, columns);
   auto cells = std::make_unique<Cells>();
   cells->rows = table.rows();
   cells->data.resize(cells->rows * columns.size());

@@ -22,7 +22,9 @@ const SetDeclaration* standard_set(const Standard& standard, const std::string& 
 // What a robot's controller may read: its own sensed rows, inbox and outbox. Throws Error for anything else.
 void check_blindness(const Claim& claim, const Instance& instance, const Surroundings& around);
 
-// A file's cells, names turned into row numbers. Throws Error with line and column of the file.
-std::unique_ptr<Cells> read_file_table(const std::filesystem::path& path, const Columns& columns, Blackboard& board);
+// A file's cells, names turned into row numbers; where `closed`, it must have no other columns. Throws Error with line
+// and column of the file.
+std::unique_ptr<Cells> read_file_table(const std::filesystem::path& path, const Columns& columns, bool closed,
+                                       Blackboard& board);
 
 }  // namespace muster

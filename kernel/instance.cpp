@@ -169,10 +169,13 @@ int Instance::file(const std::string& param, const std::string& columns) {
                   "attribute " + quote(param) + ": there is no file " + quote(path.string()));
   Claim made;
   made.kind = MUSTER_READ;
-  made.columns = Columns(columns);
+  const bool filled = columns.ends_with(" +"), closed = filled || columns.ends_with(" .");
+  made.columns = Columns(std::string_view(columns).substr(0, columns.size() - (closed ? 2 : 0)));
   made.name = {"file", param, given, ""};
   check_references(made, *this, *around_.board);
-  made.file = read_file_table(path, made.columns, *around_.board);
+  made.file = read_file_table(path, made.columns, closed, *around_.board);
+  if (filled && made.file->rows == 0)
+    throw invalid({path.string(), 1, 1}, "has no rows below its header; expected one at least");
   claims_.push_back(std::move(made));
   return static_cast<int>(claims_.size()) - 1;
 }

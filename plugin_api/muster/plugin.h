@@ -114,8 +114,8 @@ typedef struct muster_host {
    * "range[m]~" where it may be infinite, "payload{}" for bytes, "tx:endpoint" for a row number of another set. A
    * reader's must equal its writer's. */
   int (*claim)(const struct muster_host*, uint32_t kind, uint32_t flags, const char* table, const char* columns);
-  /* [setup] The table in the CSV file that parameter `param` names, with these columns in this order; a nullable column
-   * may be absent, names in a reference column must be rows of the set ("tx:radio+": or join it). Read as any claim. */
+  /* [setup] The table in the CSV file that parameter `param` names, with these columns in this order; " ." at the end:
+   * no others; " +": and a row. A nullable one may be absent; references are names of rows ("tx:radio+": or join). */
   int (*file)(const struct muster_host*, const char* param, const char* columns);
   /* [setup] A text parameter by its name, or a text attribute by its path ("robot/leader/model"); NULL if absent. */
   const char* (*text)(const struct muster_host*, const char* path);

@@ -35,14 +35,16 @@ struct ControlAttitude {
     const double now = k.time() - tick / 2;  // commands hold over the tick: of two, the one for most of it
     *k[command] = {0, 0, 0, 0};
     double last = -std::numeric_limits<double>::infinity();
-    std::size_t number = 0;
+    std::size_t number = 0, own = 0;
     for (const Row& row : k[commands]) {
       ++number;
       if (!is_null(row.robot) && row.robot != k[robot]) continue;
       if (!(row.t > last)) throw BadInput("commands, row " + std::to_string(number) + ": t does not rise");
       last = row.t;
+      ++own;
       if (row.t <= now) *k[command] = row.asked;
     }
+    if (own == 0) throw BadInput("the file has no commands for it");
   }
 
   Value robot;

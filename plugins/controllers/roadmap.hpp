@@ -9,7 +9,7 @@
 namespace muster {
 
 struct Waypoint {
-  static constexpr const char* columns = "x[m] y[m]";
+  static constexpr const char* columns = "x[m] y[m] +";
   double x, y;
 };
 

@@ -12,7 +12,7 @@ namespace muster {
 using Vector = std::array<double, 3>;
 
 struct WayPoint3d {
-  static constexpr const char* columns = "x[m] y[m] z[m]";
+  static constexpr const char* columns = "x[m] y[m] z[m] +";
   double x, y, z;
 };
 

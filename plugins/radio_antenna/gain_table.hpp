@@ -14,7 +14,7 @@ namespace muster {
 
 // A row of the file; azimuth to the left and elevation upward in the antenna's own frame.
 struct MeasuredGain {
-  static constexpr const char* columns = "azimuth[rad] elevation[rad] gain[dBi]";
+  static constexpr const char* columns = "azimuth[rad] elevation[rad] gain[dBi] .";
   double azimuth, elevation, gain;
 };
 

@@ -8,7 +8,7 @@ using namespace muster::routing;
 
 // `to` is null for all targets that have no row of their own.
 struct Way {
-  static constexpr const char* columns = "at:radio to:radio? next:radio";
+  static constexpr const char* columns = "at:radio to:radio? next:radio .";
   double at, to, next;
 };
 

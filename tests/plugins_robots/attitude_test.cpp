@@ -227,6 +227,24 @@ TEST(Attitude, CommandsMustRiseInTime) {
   }
 }
 
+TEST(Attitude, AFileWithoutCommandsForTheRobotIsRefused) {
+  const Folder folder;
+  commanded(folder, {}, "0,0,0", "0.01");
+  for (const std::string other : {"", "1,b,0,0,0,0\n"}) {
+    folder.write("steps.csv", "t[s],robot,cmd_thrust[N],cmd_roll[rad],cmd_pitch[rad],cmd_yaw_rate[rad/s]\n" + other);
+    try {
+      std::string world = folder.read("world.xml");
+      if (!other.empty())
+        world.insert(world.find("<physics"), "<robot name=\"b\" model=\"hummingbird\" at=\"5 5 9\"/>");
+      Simulation run = load(folder.write("two.xml", world));
+      run.step();
+      FAIL() << "nothing was thrown";
+    } catch (const Error& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("the file has no commands for it"));
+    }
+  }
+}
+
 TEST(Mocap, SeesThePoseAndAddsTheNoiseDeclared) {
   const Folder folder;
   const std::string still =

@@ -35,6 +35,25 @@ TEST(Waypoint, ReachesEachInTurnAndStops) {
   EXPECT_EQ(row<Odometry>(run, "robot/r/odometry").v, 0);
 }
 
+TEST(Waypoint, ColumnsThatNobodyReadsAreRefused) {
+  Folder folder;
+  const auto error = [&](const std::string& controller, const std::string& path) {
+    try {
+      world_of(folder, "<robot name=\"r\" at=\"0 0 0\"/><" + controller + " robot=\"r\" path=\"path.csv\"/>",
+               {{"path.csv", path}});
+    } catch (const Error& e) {
+      return folder.inside(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(error("control.waypoint", "x[m],y[m],tme\n3,0,1\n"),
+            "path.csv:1:11: column \"tme\" means nothing here; expected one of x, y");
+  EXPECT_EQ(error("control.path3d", "t[s],x[m],y[m],z[m]\n1,3,0,1\n"),
+            "path.csv:1:1: column \"t\" means nothing here; expected one of x, y, z");
+  EXPECT_EQ(error("control.waypoint", "x[m],y[m]\n"),
+            "path.csv:1:1: has no rows below its header; expected one at least");
+}
+
 TEST(Waypoint, LoopsWhereAsked) {
   Folder folder;
   Simulation run = world_of(folder,

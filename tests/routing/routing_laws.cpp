@@ -87,8 +87,8 @@ TEST_F(Static, ATableThatGoesRoundEndsWithTheTimeToLive) {
 }
 
 TEST_F(Static, RefusesATableThatCannotBe) {
-  const auto error = [&](const std::string& rows) {
-    folder.put("routes.csv", "at,to,next\n" + rows);
+  const auto error = [&](const std::string& rows, const std::string& header = "at,to,next\n") {
+    folder.put("routes.csv", header + rows);
     try {
       Simulation sim = world("network.ideal", "routing.static routes=\"routes.csv\"", chain(3) + send("s", "r0"));
       sim.step();
@@ -105,6 +105,9 @@ TEST_F(Static, RefusesATableThatCannotBe) {
   EXPECT_THAT(error("r0,r2,r1\nr0,r2,r2\n"), HasSubstr("routes, row 2: r0 has a row for r2 already; expected one"));
   EXPECT_THAT(error("r0,,r1\nr0,,r2\n"), HasSubstr("routes, row 2: r0 has a row for all others already; expected one"));
   EXPECT_THAT(error("r0,r9,r1\n"), HasSubstr("routes.csv:2"));
+  EXPECT_THAT(error("r0,r2,r1\n", "at,too,next\n"),
+              HasSubstr("routes.csv:1:4: column \"too\" means nothing here; expected one of at, to, next; did you mean "
+                        "\"to\"?"));
 }
 
 using AodvWorlds = Routings;
