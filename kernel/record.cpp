@@ -22,10 +22,15 @@ std::string file_name(const std::string& table) {
   return result + ".csv";
 }
 
+// A table's own column that is called as one before it has the set's name too, "scan_t": readers take each name once.
 std::vector<TextColumn> header(const Table& table) {
-  const std::string& set = table.set().name;
-  std::vector<TextColumn> result = {{"t", "s"}, {set.substr(0, set.find('/')), ""}};
-  for (const auto& column : table.columns()) result.push_back({column.name, column.unit});
+  const std::string& whole = table.set().name;
+  const std::string set = whole.substr(0, whole.find('/'));
+  std::vector<TextColumn> result = {{"t", "s"}, {set, ""}};
+  for (const auto& column : table.columns()) {
+    const bool is_taken = column.name == "t" || column.name == set;
+    result.push_back({is_taken ? set + '_' + column.name : column.name, column.unit});
+  }
   return result;
 }
 

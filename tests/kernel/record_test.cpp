@@ -50,6 +50,13 @@ TEST_F(Records, EveryKindOfColumn) {
             "1.5,b,1,inf,-inf,-60,,\"4120332e31\"\n");
 }
 
+TEST_F(Records, NoNameStandsTwiceInAHeader) {
+  Simulation sim =
+      run(two_robots + "<toy.copy_physics name='n' to='robot/*/place' columns='t[s] robot x[m]' own='true'/>\n");
+  Recorder(sim, {{"robot/*/place", 1, {}}}, folder).close();
+  EXPECT_EQ(bytes_of(folder / "robot_place.csv"), "t[s],robot,robot_t[s],robot_robot,x[m]\n");
+}
+
 TEST_F(Records, EachMessageOnceWhateverThePeriod) {
   Simulation sim = run(two_robots +
                        "<toy.send_control name='s' robot='b' to='outbox/{robot}/message' "
