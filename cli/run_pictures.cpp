@@ -157,11 +157,12 @@ picture::Panel RunPictures::plan_at(const Moment& moment) const {
 }
 
 picture::Figure RunPictures::plan_figure() const {
-  picture::Figure figure{.title = world_,
-                         .caption = "Ways so far, and the smoothed RSSI of each link.",
-                         .width = 900,
-                         .share_x = true,
-                         .share_y = true};
+  picture::Figure figure{
+      .title = world_,
+      .caption = links_.empty() ? "Ways so far." : "Ways so far, and the smoothed RSSI of each link.",
+      .width = 900,
+      .share_x = true,
+      .share_y = true};
   for (const Moment* m : snapshots()) figure.panels.push_back(plan_at(*m));
   return figure;
 }

@@ -112,9 +112,8 @@ double draw_title(const Figure& figure, Svg& svg) {
 }
 
 double draw_caption(const Figure& figure, double y, Svg& svg) {
-  constexpr double wider = 1.17;  // where there is no Helvetica: DejaVu Sans beside it
   if (!figure.caption.empty()) y += 6;
-  for (const std::string& line : wrapped(figure.caption, (figure.width - 2 * edge) / wider, caption_size)) {
+  for (const std::string& line : wrapped(figure.caption, figure.width - 2 * edge, caption_size)) {
     y += caption_size + 4;
     svg.text({edge, y}, line, {.size = caption_size, .colour = Colour{80, 80, 80}});
   }

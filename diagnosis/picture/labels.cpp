@@ -10,13 +10,14 @@ namespace {
 
 constexpr double label_size = 10.5;  // px
 
-// Advance widths of ' ' to '~' in Helvetica, thousandths of the size.
+// Advance widths of ' ' to '~', thousandths of the size: of Helvetica or, which stands in for it on many machines, of
+// DejaVu Sans, whichever is wider.
 constexpr std::array<std::uint16_t, 95> advances{
-    278, 278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333,  278, 278, 556, 556, 556,
-    556, 556, 556, 556, 556, 556, 556, 278, 278, 584, 584, 584, 556, 1015, 667, 667, 722, 722, 667,
-    611, 778, 722, 278, 500, 667, 556, 833, 722, 778, 667, 778, 722, 667,  611, 722, 667, 944, 667,
-    667, 611, 278, 278, 278, 469, 556, 333, 556, 556, 500, 556, 556, 278,  556, 556, 222, 222, 500,
-    222, 833, 556, 556, 556, 556, 333, 500, 278, 556, 500, 722, 500, 500,  500, 334, 260, 334, 584};
+    318, 401, 460, 838, 636, 950, 780, 275, 390, 390, 500, 838, 318, 361,  318, 337, 636, 636, 636,
+    636, 636, 636, 636, 636, 636, 636, 337, 337, 838, 838, 838, 556, 1015, 684, 686, 722, 770, 667,
+    611, 778, 752, 295, 500, 667, 557, 863, 748, 787, 667, 787, 722, 667,  611, 732, 684, 989, 685,
+    667, 685, 390, 337, 390, 838, 556, 500, 613, 635, 550, 635, 615, 352,  635, 634, 278, 278, 579,
+    278, 974, 634, 612, 635, 635, 411, 521, 392, 634, 592, 818, 592, 592,  525, 636, 337, 636, 838};
 
 double overlap(const Box& a, const Box& b) {
   const double width = std::min(a.right(), b.right()) - std::max(a.x, b.x);
@@ -33,7 +34,7 @@ double text_width(std::string_view text, double size) {
     if (byte >= ' ' && byte <= '~')
       thousandths += advances[byte - ' '];
     else if (byte >= 0xC0)
-      thousandths += 560;  // the first byte of any other letter
+      thousandths += byte < 0xE0 ? 620 : 840;  // the first byte of another letter, or of a sign such as a minus
   }
   return thousandths * size / 1000;
 }
@@ -155,8 +156,8 @@ void Labels::write(Svg& svg, const Box& area) {
       }
     }
     occupy({best.x - 2, best.y - 2, best.width + 4, best.height + 4}, 6);
-    svg.text({best.x, best.bottom() - 0.15 * label_size}, request.text,
-             {.size = label_size, .colour = request.colour, .halo = true});
+    svg.text({best.x + width / 2, best.bottom() - 0.15 * label_size}, request.text,
+             {.size = label_size, .colour = request.colour, .anchor = Anchor::middle, .halo = true});
   }
 }
 

@@ -8,7 +8,7 @@
 
 namespace muster::picture {
 
-// Width in px of `text` in Helvetica or Arial (Liberation Sans has the same metrics).
+// The most px that `text` takes in Helvetica or Arial (Liberation Sans has the same metrics) or in DejaVu Sans.
 double text_width(std::string_view text, double size);
 
 // Words of `text` in lines no wider than `width` px.

@@ -162,6 +162,7 @@ TEST(Compare, WritesATableAPictureAndBothRecords) {
   const std::string distance = course(one, "robot/*/pose", "r", "distance")["end"].dump();
   EXPECT_THAT(table, HasSubstr("\n4,B,robot/*/pose,r,distance,m," + distance + '\n'));
   EXPECT_THAT(folder.read("out/divergence.svg"), HasSubstr("robot/*/pose distance"));
+  EXPECT_THAT(folder.read("out/A/plan.svg"), HasSubstr(">Ways so far.<"));  // no radio, no RSSI
   EXPECT_THAT(folder.read("out/A/robot_pose.csv"), HasSubstr("\n4,r,1.17"));
   EXPECT_THAT(folder.read("out/B/robot_pose.csv"), HasSubstr("\n4,r,1.5"));
 }

@@ -47,10 +47,13 @@ TEST(Pen, WritesHundredthsWithoutTrailingZeros) {
   EXPECT_EQ(pen.data(), "M1 0L100 2.5");
 }
 
-TEST(TextWidth, IsThatOfHelvetica) {
+// "Cap" is 19.12 px wide in Helvetica and 19.46 in DejaVu Sans, whose C is the narrower.
+TEST(TextWidth, HoldsHelveticaAndDejaVuSans) {
   EXPECT_DOUBLE_EQ(text_width("", 10), 0);
-  EXPECT_DOUBLE_EQ(text_width("Hi", 10), 7.22 + 2.22);
-  EXPECT_DOUBLE_EQ(text_width("é", 10), 5.6);  // one letter, two bytes
+  EXPECT_DOUBLE_EQ(text_width("Cap", 10), 7.22 + 6.13 + 6.35);
+  EXPECT_GE(text_width("é", 10), 6.16);  // one letter, two bytes
+  EXPECT_LT(text_width("é", 10), 7);
+  EXPECT_GE(text_width("\u22125", 10), 8.38 + 6.36);  // minus 5
 }
 
 TEST(Wrapped, KeepsAllWordsInLinesOfTheGivenWidth) {
@@ -94,7 +97,8 @@ TEST(Labels, DoNotCoverMarksOrEachOther) {
   std::vector<Box> boxes{{40, 40, 20, 20}};
   for (auto* text = document.RootElement()->FirstChildElement("text"); text; text = text->NextSiblingElement("text")) {
     const double x = numbers_in(text->Attribute("x")).at(0), y = numbers_in(text->Attribute("y")).at(0);
-    boxes.push_back({x, y - 9, text_width(text->GetText(), 10.5), 10.5});
+    const double width = text_width(text->GetText(), 10.5);
+    boxes.push_back({x - width / 2, y - 9, width, 10.5});
   }
   ASSERT_EQ(boxes.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
