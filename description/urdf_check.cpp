@@ -29,8 +29,6 @@ constexpr Numbers numbers[] = {
     {"limit", "velocity", 1, true},  {"dynamics", "damping", 1, false}, {"dynamics", "friction", 1, false},
 };
 
-std::string tag(const XMLElement& element) { return std::string("<") + element.Name() + "> "; }
-
 void check_numbers(const Source& source, const XMLElement& element, const std::string& owner) {
   for (const Numbers& rule : numbers) {
     if (element.Name() != std::string(rule.element)) continue;
@@ -159,6 +157,8 @@ void add_name(const Source& source, std::map<std::string, int>& lines, const XML
 void Source::fail(int line, const std::string& message) const {
   throw std::runtime_error(file + ":" + std::to_string(line) + ": " + message);
 }
+
+std::string tag(const XMLElement& element) { return std::string("<") + element.Name() + "> "; }
 
 std::string required(const Source& source, const XMLElement& element, const char* attribute) {
   const char* text = element.Attribute(attribute);

@@ -54,6 +54,8 @@ std::size_t find_joint(const Source& source, const tinyxml2::XMLElement& element
 Eigen::Vector3d place_of_turning(const Source& source, const tinyxml2::XMLElement& element, const Robot& robot,
                                  std::size_t joint);
 
+// "<wheel> ", as messages begin.
+std::string tag(const tinyxml2::XMLElement& element);
 // An attribute that must be there and not empty; one that must be a number above 0; those that may be there, beside
 // those of other namespaces.
 std::string required(const Source& source, const tinyxml2::XMLElement& element, const char* attribute);

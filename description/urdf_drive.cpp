@@ -12,8 +12,6 @@ namespace {
 
 constexpr double placement_tolerance = 1e-4;  // [m]: a drive that contradicts the joints by more is a mistake
 
-std::string tag(const XMLElement& element) { return std::string("<") + element.Name() + "> "; }
-
 // The axle lies along the body's y axis, left wheel on the left, and turns forward for positive rates.
 Eigen::Vector3d check_wheel(const Source& source, const XMLElement& element, const Robot& robot, std::size_t index,
                             double y) {

@@ -73,21 +73,22 @@ void only_attributes(const Source& source, const XMLElement& element, const Name
     if (is_foreign(name) || std::find(known.begin(), known.end(), name) != known.end()) continue;
     std::string expected = nearest(name, known);
     if (expected.empty() && !known.empty()) expected = "; expected " + listed(known, "'", "'");
-    source.fail(element.GetLineNum(),
-                std::string("<") + element.Name() + "> has no attribute '" + name + "'" + expected);
+    source.fail(element.GetLineNum(), tag(element) + "has no attribute '" + name + "'" + expected);
   }
 }
 
 void only_children(const Source& source, const XMLElement& element, const Names& known, const Names& many) {
   std::set<std::string> seen;
   for (const auto* child = element.FirstChildElement(); child; child = child->NextSiblingElement()) {
-    const std::string name = child->Name(), tag = std::string("<") + element.Name() + "> ";
+    const std::string name = child->Name();
     if (std::find(known.begin(), known.end(), name) == known.end()) {
       const std::string expected = known.empty() ? "" : "; expected " + listed(known, "<", ">");
-      source.fail(child->GetLineNum(), tag + "has no element <" + name + ">" + expected + nearest(name, known));
+      source.fail(child->GetLineNum(),
+                  tag(element) + "has no element <" + name + ">" + expected + nearest(name, known));
     }
     const bool may_repeat = std::find(many.begin(), many.end(), name) != many.end();
-    if (!seen.insert(name).second && !may_repeat) source.fail(child->GetLineNum(), tag + "has a second <" + name + ">");
+    if (!seen.insert(name).second && !may_repeat)
+      source.fail(child->GetLineNum(), tag(element) + "has a second <" + name + ">");
   }
 }
 
