@@ -31,10 +31,7 @@ const std::vector<Goal> goals{
     {"outside the vocabulary: false name", {"outside / false name / all"}, 0.02, false},
     {"the extended world diagnosed again is silent", {"loop / rediagnosis silent / all"}, 0.98, true},
     {"and is silent on other data of the same truth", {"loop / second data silent / all"}, 0.98, true},
-    {"of those where all that was hidden was told",
-     {"loop / second data silent / where all was told"},
-     0.98,
-     true},
+    {"of those where all that was hidden was told", {"loop / second data silent / where all was told"}, 0.98, true},
     {"the advised run settles the name, of ambiguous worlds", {"advice / settles the name / all"}, 0.9, true},
     {"of those where it is predicted to", {"advice / settles the name / predicted to"}, 0.9, true},
 };
