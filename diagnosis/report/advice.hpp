@@ -17,7 +17,7 @@ struct Measurement {
 
 struct Question {
   std::string cause, rival;
-  std::string pair;  // "unmapped wall or obstacle"
+  std::string pair;                  // "unmapped wall or obstacle"
   double separability = 0;           // D of the data
   std::string tell_apart;            // in the cause's own words
   std::vector<Measurement> plans{};  // the most telling one first
