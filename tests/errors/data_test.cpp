@@ -232,6 +232,27 @@ TEST(Fault25, ADiagnosisNamesNothingThatItCannotTell) {
   EXPECT_THAT(outcome.out, testing::Not(HasSubstr("evidence")));
 }
 
+// Levels that rise with distance are no path loss: the exponent ends at 0. A wall that would win level ends at 0 dB as
+// well, and may: it is what the map has, not the channel's law.
+TEST(Fault25, ALawThatEndsAtItsBoundLeavesNoNameSure) {
+  const auto with = [](double slope, double wall) {
+    Data data;
+    for (int i = 0; i < 60; ++i) {
+      const double x = 1 + i * 0.3, y = i % 7 - 3;
+      const bool behind = x > 10 && std::abs(y) * 10 / x < 2;
+      data.set(static_cast<std::size_t>(i) + 1, 7,
+               fmt::format("{:.1f}",
+                           -50 + slope * std::log10(std::hypot(x, y)) + (behind ? wall : 0) + (i * 7 % 5 - 2) * 0.4));
+    }
+    return asked("diagnose", data.text());
+  };
+  const std::string note = "no name is sure";
+  EXPECT_THAT(with(10, -4).out, testing::AllOf(HasSubstr("note: at its bound: radio.multiwall/n"), HasSubstr(note)));
+  const auto fine = with(-20, 4);
+  EXPECT_THAT(fine.out, testing::ContainsRegex("material/drywall/loss .*at its bound"));
+  EXPECT_THAT(fine.out, testing::Not(HasSubstr(note)));
+}
+
 TEST(Fault25, OtherReadingsOfTheSameAreNotPassedOver) {
   const ProgramFolder folder;
   folder.write("world.xml", world);

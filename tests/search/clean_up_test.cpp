@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <tuple>
 
 #include "diagnosis/search/beside.hpp"
 #include "diagnosis/search/choose.hpp"
@@ -146,15 +147,17 @@ TEST(Spread, OfAThingIsThatOfTheWholeLikelihood) {
   EXPECT_NEAR(spread.coefficients(0, 0) / (grown * within / weights + between), 1, 0.15);
 }
 
-// A weak one of two transmitters is the other one's strength, whatever is read; among three it is not.
+// A weak one of two transmitters is the other one's strength, whatever is read; among three it is not, nor where the
+// strength of each is given.
 TEST(Rivals, OfTwoRadiosEitherMayBeMeant) {
-  for (const int transmitters : {2, 3}) {
+  for (const auto& [transmitters, whole, others] : {std::tuple(2, false, 1u), {3, false, 0u}, {2, true, 0u}}) {
     Recipe recipe = varied(14, 4000);
     recipe.transmitters = transmitters;
     const auto world = world_of(recipe);
     auto causes = causes_of(world);
     Candidate& offset = causes[0];
     ASSERT_EQ(offset.id, "tx_offset");
+    offset.whole = whole;
     offset.label = [](const Eigen::VectorXd& t) { return "tx" + std::to_string(static_cast<int>(t[0])); };
     const Problem problem = problem_of(world, -scaled_to(world, offset.columns(offset.grid[1]).col(0), 100), causes);
     Bench bench(problem, {});
@@ -163,7 +166,7 @@ TEST(Rivals, OfTwoRadiosEitherMayBeMeant) {
     bench.refit();
     std::vector<Rival> own = rivals_of(bench, bench.terms[0]);
     std::erase_if(own, [](const Rival& r) { return r.id != "tx_offset"; });
-    ASSERT_EQ(own.size(), transmitters == 2 ? 1u : 0u);
+    ASSERT_EQ(own.size(), others) << transmitters << ' ' << whole;
     if (own.empty()) continue;
     EXPECT_EQ(own[0].label, "tx0");
     EXPECT_NEAR(own[0].separability, 0, 0.01);
