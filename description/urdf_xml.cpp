@@ -19,24 +19,33 @@ bool starts(const std::string& text, std::size_t at, const char* what) {
   return text.compare(at, std::char_traits<char>::length(what), what) == 0;
 }
 
-// Past a comment or character data, whose size is nobody's concern.
 std::size_t skip_to(const std::string& text, std::size_t from, const char* end) {
   return std::min(text.find(end, from), text.size());
 }
 
-void scan_tags(const Source& source, const std::string& text) {
-  if (text.find('\0') != std::string::npos) source.fail(1, "is not text; expected UTF-8 XML");
+// Calls `visit` with the place of each '<' but those of comments and character data, whose size is nobody's concern; it
+// says from where to go on.
+template <class Visit>
+void for_each_tag(const std::string& text, const Visit& visit) {
   for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at + 1)) {
     if (starts(text, at, "<!--")) {
       at = skip_to(text, at, "-->");
     } else if (starts(text, at, "<![CDATA[")) {
       at = skip_to(text, at, "]]>");
-    } else if (starts(text, at, "<!")) {
-      source.fail(line_at(text, at), "has a document type declaration; entities are not supported");
-    } else if (skip_to(text, at, ">") - at > max_tag) {
-      source.fail(line_at(text, at), "a tag is longer than 65536 bytes");
+    } else {
+      at = visit(at);
     }
   }
+}
+
+void scan_tags(const Source& source, const std::string& text) {
+  if (text.find('\0') != std::string::npos) source.fail(1, "is not text; expected UTF-8 XML");
+  for_each_tag(text, [&](std::size_t at) {
+    if (starts(text, at, "<!"))
+      source.fail(line_at(text, at), "has a document type declaration; entities are not supported");
+    if (skip_to(text, at, ">") - at > max_tag) source.fail(line_at(text, at), "a tag is longer than 65536 bytes");
+    return at;
+  });
 }
 
 // The '>' that ends the tag at `at`, or the text's end; a value in quotes may have one, too.
@@ -58,31 +67,24 @@ void check_pairs(const Source& source, const std::string& text) {
     std::size_t at;
   };
   std::vector<Open> open;
-  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at + 1)) {
-    if (starts(text, at, "<!--")) {
-      at = skip_to(text, at, "-->");
-    } else if (starts(text, at, "<![CDATA[")) {
-      at = skip_to(text, at, "]]>");
-    } else if (starts(text, at, "<?")) {
-      at = skip_to(text, at, "?>");
-    } else {
-      const bool closes = starts(text, at, "</");
-      const std::size_t from = at + (closes ? 2 : 1), end = end_of_tag(text, at);
-      const std::string name = text.substr(from, text.find_first_of(" \t\r\n/>", from) - from);
-      if (closes && open.empty()) source.fail(line_at(text, at), "is not XML: </" + name + "> closes nothing");
-      if (closes && open.back().name != name) {
-        const auto& [last, start] = open.back();
-        source.fail(line_at(text, at), "is not XML: </" + name + "> does not match <" + last + "> of line " +
-                                           std::to_string(line_at(text, start)) + "; expected </" + last + ">");
-      }
-      if (closes) {
-        open.pop_back();
-      } else if (text[end - 1] != '/') {
-        open.push_back({name, at});
-      }
-      at = end;
+  for_each_tag(text, [&](std::size_t at) {
+    if (starts(text, at, "<?")) return skip_to(text, at, "?>");
+    const bool closes = starts(text, at, "</");
+    const std::size_t from = at + (closes ? 2 : 1), end = end_of_tag(text, at);
+    const std::string name = text.substr(from, text.find_first_of(" \t\r\n/>", from) - from);
+    if (closes && open.empty()) source.fail(line_at(text, at), "is not XML: </" + name + "> closes nothing");
+    if (closes && open.back().name != name) {
+      const auto& [last, start] = open.back();
+      source.fail(line_at(text, at), "is not XML: </" + name + "> does not match <" + last + "> of line " +
+                                         std::to_string(line_at(text, start)) + "; expected </" + last + ">");
     }
-  }
+    if (closes) {
+      open.pop_back();
+    } else if (text[end - 1] != '/') {
+      open.push_back({name, at});
+    }
+    return end;
+  });
   if (open.empty()) return;
   const auto& [last, start] = open.back();
   source.fail(line_at(text, start),
