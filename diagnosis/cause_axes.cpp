@@ -171,6 +171,29 @@ Eigen::MatrixXd moves_of_segment(const Survey& s, const Eigen::VectorXd& t) {
   return moves;
 }
 
+Eigen::MatrixXd moves_of_disk(const Survey& s, const Eigen::VectorXd& t) {
+  constexpr double way = 0.3, away = 0.25;  // m; share of the distance, and of the radius
+  constexpr std::size_t most = 2;           // radios
+  std::vector<Eigen::Vector2d> from;
+  for (const auto& p : s.standing) from.emplace_back(t[1] - p[0], t[2] - p[1]);
+  std::stable_sort(from.begin(), from.end(),
+                   [](const auto& a, const auto& b) { return a.squaredNorm() < b.squaredNorm(); });
+  if (from.size() > most) from.resize(most);
+  Eigen::MatrixXd moves = Eigen::MatrixXd::Zero(4, 3 + 3 * static_cast<Eigen::Index>(from.size()));
+  moves.bottomLeftCorner<3, 3>() = way * Eigen::Matrix3d::Identity();
+  Eigen::Index k = 3;
+  for (const Eigen::Vector2d& radio : from) {
+    const Eigen::Vector2d across = Eigen::Vector2d(-radio.y(), radio.x()).normalized();
+    for (const double side : {1.0, -1.0}) {
+      moves.col(k).segment<2>(1) = side * way / 2 * across;
+      moves(3, k++) = way / 2 / std::exp(t[3]);
+    }
+    moves.col(k).segment<2>(1) = away * radio;
+    moves(3, k++) = away;
+  }
+  return moves;
+}
+
 std::vector<Eigen::VectorXd> spans(const std::vector<search::Piece>& pieces, const std::string& id) {
   std::vector<Eigen::VectorXd> result;
   std::vector<std::array<Eigen::Vector2d, 2>> ends;

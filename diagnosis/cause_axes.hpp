@@ -18,6 +18,9 @@ bool driven_through(const Survey& survey, double x, double y, double radius);
 // Moves of a segment: along and across, either end further out, about either end, each axis, and away from the nearest
 // radio that stands, in whose shadow it then stays the same.
 Eigen::MatrixXd moves_of_segment(const Survey& survey, const Eigen::VectorXd& theta);
+// Moves of a disk: east, north, wider; and for each of the two nearest radios that stand either edge of its shadow
+// alone, and away from the radio, which leaves its shadow as it is.
+Eigen::MatrixXd moves_of_disk(const Survey& survey, const Eigen::VectorXd& theta);
 // What is believed of a segment before the data, in nats: walls run along those of the plan, or across, but for a fifth
 // of a radian.
 double belief_in_segment(const Survey& survey, const Eigen::VectorXd& theta);

@@ -29,6 +29,30 @@ std::vector<VectorXd> thetas_of(std::vector<Swept> all) {
   return result;
 }
 
+// What a way through a disk costs, of what ways without end would, negative; to a thousandth.
+double lost(double radii) {
+  constexpr std::size_t parts = 512;
+  static const auto table = [] {
+    std::array<double, parts + 2> result{};
+    for (std::size_t k = 0; k < result.size(); ++k) result[k] = std::expm1(-2.0 * static_cast<double>(k) / parts);
+    return result;
+  }();
+  return table[static_cast<std::size_t>(std::min(radii, 2.0) * (parts / 2) + 0.5)];
+}
+
+// The best of them that lie apart in the plan.
+std::vector<Swept> apart(const std::vector<Swept>& best_first, double least, std::size_t count) {
+  std::vector<Swept> result;
+  for (const Swept& one : best_first) {
+    if (result.size() == count) break;
+    const bool far = std::all_of(result.begin(), result.end(), [&](const Swept& better) {
+      return (better.theta - one.theta).segment<2>(1).norm() > least;
+    });
+    if (far) result.push_back(one);
+  }
+  return result;
+}
+
 void check(const search::Tally& tally, std::size_t rows) {
   if (tally.rows() != static_cast<Index>(rows)) throw std::logic_error("a sweep over other rows");
 }
@@ -101,33 +125,45 @@ void SegmentSweep::lay_out(const Survey& survey, const std::vector<Way>& links, 
   }
 }
 
-// From every start in a gap on to its end; the best piece of each gap.
+// The best piece of each gap: from every other start in it on to its end, and from those between where these gain much.
 std::vector<VectorXd> SegmentSweep::operator()(search::Tally& tally) const {
+  constexpr double much = 0.5;  // of what the best one gains
   check(tally, rows_);
+  std::vector<Piece> best;
+  for (const Gap& gap : gaps_) best.push_back(best_piece(gap, gap.from, tally));
+  double most = 0;
+  for (const Piece& piece : best) most = std::max(most, piece.gain);
   std::vector<Swept> found;
-  for (const Gap& gap : gaps_) {
-    double best = 0, best_from = 0, best_to = 0;
-    for (double start = gap.from; start < gap.to - shortest; start += between_starts) {
-      const double end = std::min(gap.to, start + longest);
-      tally.clear();
-      auto next = std::lower_bound(gap.crossings.begin(), gap.crossings.end(), start,
-                                   [](const Crossing& c, double at) { return c.at < at; });
-      for (; next != gap.crossings.end() && next->at < end; ++next) {
-        tally.add(next->row, -1);
-        const auto after = next + 1;
-        const double until = after == gap.crossings.end() ? end : std::min(end, after->at);
-        if (until - start < shortest) continue;
-        const double gain = tally.gain() + gap.belief;
-        if (gain <= best) continue;
-        best = gain;
-        best_from = start;
-        // It ends between this link, which it stops, and the next, which passes.
-        best_to = std::max((next->at + until) / 2, start + shortest);
-      }
+  for (std::size_t k = 0; k < gaps_.size(); ++k) {
+    if (best[k].gain <= 0) continue;
+    if (best[k].gain >= much * most) {
+      const Piece between = best_piece(gaps_[k], gaps_[k].from + between_starts, tally);
+      if (between.gain > best[k].gain) best[k] = between;
     }
-    if (best > 0) found.push_back({best, segment(gap.angle, gap.across, best_from, best_to)});
+    found.push_back({best[k].gain, segment(gaps_[k].angle, gaps_[k].across, best[k].from, best[k].to)});
   }
   return thetas_of(the_best(std::move(found)));
+}
+
+// From every other start on to the gap's end.
+SegmentSweep::Piece SegmentSweep::best_piece(const Gap& gap, double first, search::Tally& tally) {
+  Piece best{0, 0, 0};
+  for (double start = first; start < gap.to - shortest; start += 2 * between_starts) {
+    const double end = std::min(gap.to, start + longest);
+    tally.clear();
+    auto next = std::lower_bound(gap.crossings.begin(), gap.crossings.end(), start,
+                                 [](const Crossing& c, double at) { return c.at < at; });
+    for (; next != gap.crossings.end() && next->at < end; ++next) {
+      tally.add(next->row, -1);
+      const auto after = next + 1;
+      const double until = after == gap.crossings.end() ? end : std::min(end, after->at);
+      if (until - start < shortest) continue;
+      const double gain = tally.gain() + gap.belief;
+      // It ends between this link, which it stops, and the next, which passes.
+      if (gain > best.gain) best = {gain, start, std::max((next->at + until) / 2, start + shortest)};
+    }
+  }
+  return best;
 }
 
 DiskSweep::DiskSweep(const Survey& survey, Links links)
@@ -137,7 +173,9 @@ DiskSweep::DiskSweep(const Survey& survey, Links links)
     for (double y = survey.north.low; y < survey.north.high; y += between_places) {
       std::size_t fit = 0;
       while (fit < radii.size() && !driven_through(survey, x, y, radii[fit])) ++fit;
-      if (fit > 0) places_.push_back({x, y, radii[fit - 1]});
+      if (fit == 0) continue;
+      places_.push_back({x, y, radii[fit - 1], {}});
+      find_passing(x, y, radii[fit - 1], all_, places_.back().passing);
     }
   }
 }
@@ -145,67 +183,96 @@ DiskSweep::DiskSweep(const Survey& survey, Links links)
 std::vector<VectorXd> DiskSweep::operator()(search::Tally& tally) const {
   check(tally, links_.size());
   std::vector<Swept> found;
-  std::vector<Passing> passing;
   for (const Place& place : places_) {
-    find_passing(place, all_, passing);
     for (const double radius : radii) {
       if (radius > place.widest) break;
       VectorXd theta(4);
       theta << 0, place.x, place.y, std::log(radius);
-      found.push_back({gain(radius, passing, tally), std::move(theta)});
+      found.push_back({gain(radius, place.passing, tally), std::move(theta)});
     }
   }
   found = the_best(std::move(found));
+  constexpr std::size_t looked_about = 3;  // places
+  constexpr double worth = 0.5;            // of the best one's gain
   std::vector<Swept> tops;
-  for (std::size_t k = 0; k < found.size() && tops.size() < climbed; ++k) {
-    const bool apart = std::all_of(
-        found.begin(), found.begin() + static_cast<std::ptrdiff_t>(k),
-        [&](const Swept& one) { return (one.theta - found[k].theta).segment<2>(1).norm() > 1.5 * between_places; });
-    if (apart) tops.push_back(climb(found[k], tally));
+  for (const Swept& place : apart(found, 1.5 * between_places, looked_about)) {
+    if (place.gain < worth * found[0].gain) break;
+    for (Swept& top : closely_about(place, tally)) tops.push_back(std::move(top));
   }
   found.insert(found.end(), tops.begin(), tops.end());
   return thetas_of(the_best(std::move(found)));
 }
 
-// By steps that halve.
-Swept DiskSweep::climb(Swept from, search::Tally& tally) const {
+// The tops that climbs from the best of a close grid reach.
+std::vector<Swept> DiskSweep::closely_about(const Swept& place, search::Tally& tally) const {
+  constexpr double between = 0.125, at_most = 0.5;  // m
+  constexpr std::array close_radii{0.22, 0.28, 0.36, 0.46, 0.58, 0.74, 0.94};
+  constexpr std::size_t climbs = 4;
+  const double x = place.theta[1], y = place.theta[2];
+  Near near{{}, tally, {}};
+  find_passing(x, y, widest + 1, all_, near.passing);
+  for (const Passing& one : near.passing) near.links.push_back(one.row);
+  std::vector<Swept> grid;
+  for (double east = -at_most; east <= at_most; east += between) {
+    for (double north = -at_most; north <= at_most; north += between) {
+      find_passing(x + east, y + north, close_radii.back(), near.links, near.passing);
+      for (const double radius : close_radii) {
+        if (driven_through(survey_, x + east, y + north, radius)) break;
+        VectorXd theta(4);
+        theta << 0, x + east, y + north, std::log(radius);
+        grid.push_back({gain(radius, near.passing, tally), std::move(theta)});
+      }
+    }
+  }
+  std::vector<Swept> result;
+  for (Swept& start : apart(the_best(std::move(grid)), 1.5 * between, climbs)) result.push_back(climb(start, near));
+  return result;
+}
+
+double DiskSweep::gain_at(double x, double y, double radius, Near& near) const {
+  find_passing(x, y, radius, near.links, near.passing);
+  return gain(radius, near.passing, near.tally);
+}
+
+// By steps that halve: aside, wider, and to either side so that the other edge of its shadow stays where it is.
+Swept DiskSweep::climb(Swept from, Near& near) const {
+  constexpr double sixteenth = 0.39269908169872414;  // of a turn, rad
   const VectorXd start = from.theta;
-  std::vector<Passing> passing;
-  find_passing({start[1], start[2], widest + between_places}, all_, passing);
-  std::vector<Index> near;
-  for (const Passing& one : passing) near.push_back(one.row);
-  for (const double step : {0.2, 0.1, 0.05}) {  // m, and of the logarithm of the radius
+  std::vector<Eigen::Vector3d> ways;  // x, y, radius
+  for (int k = 0; k < 16; k += 2) {
+    const double c = std::cos(k * sixteenth), s = std::sin(k * sixteenth);
+    if (k % 4 == 0) ways.emplace_back(c, s, 0);
+    for (const double wider : {0.5, -0.5}) ways.emplace_back(c / 2, s / 2, wider);
+  }
+  for (const double wider : {1.0, -1.0}) ways.emplace_back(0, 0, wider);
+  for (const double step : {0.2, 0.1, 0.05, 0.025}) {  // m
     for (bool better = true; better;) {
       better = false;
-      for (Index k = 1; k < 4; ++k) {
-        for (const double by : {-step, step}) {
-          VectorXd theta = from.theta;
-          theta[k] += by;
-          const double radius = std::exp(theta[3]);
-          if (radius < narrowest || radius > widest) continue;
-          if ((theta - start).segment<2>(1).norm() > between_places) continue;
-          find_passing({theta[1], theta[2], radius}, near, passing);
-          const double reached = gain(radius, passing, tally);
-          if (reached <= from.gain || driven_through(survey_, theta[1], theta[2], radius)) continue;
-          from = {reached, std::move(theta)};
-          better = true;
-        }
+      for (const Eigen::Vector3d& way : ways) {
+        const double x = from.theta[1] + step * way.x(), y = from.theta[2] + step * way.y(),
+                     radius = std::exp(from.theta[3]) + step * way.z();
+        if (radius < narrowest || radius > widest || std::hypot(x - start[1], y - start[2]) > between_places) continue;
+        const double reached = gain_at(x, y, radius, near);
+        if (reached <= from.gain || driven_through(survey_, x, y, radius)) continue;
+        from.gain = reached;
+        from.theta << 0, x, y, std::log(radius);
+        better = true;
       }
     }
   }
   return from;
 }
 
-// Those of the links that go through the widest disk about the place.
-void DiskSweep::find_passing(const Place& place, const std::vector<Index>& among, std::vector<Passing>& passing) const {
+// Those of the links that go through the disk.
+void DiskSweep::find_passing(double x, double y, double radius, const std::vector<Index>& among,
+                             std::vector<Passing>& passing) const {
   passing.clear();
   for (const Index k : among) {
     const auto& [ax, ay, bx, by] = links_[static_cast<std::size_t>(k)];
     const double ex = bx - ax, ey = by - ay, squared = ex * ex + ey * ey;
     if (squared <= 0) continue;
-    const double along = ((place.x - ax) * ex + (place.y - ay) * ey),
-                 side = ((place.x - ax) * ey - (place.y - ay) * ex);
-    if (side * side < place.widest * place.widest * squared) passing.push_back({k, along, side, squared});
+    const double along = (x - ax) * ex + (y - ay) * ey, side = (x - ax) * ey - (y - ay) * ex;
+    if (side * side < radius * radius * squared) passing.push_back({k, along, side, squared});
   }
 }
 
@@ -215,7 +282,7 @@ double DiskSweep::gain(double radius, const std::vector<Passing>& passing, searc
     if (side * side >= radius * radius * squared) continue;
     const double length = std::sqrt(squared), half = std::sqrt(radius * radius - side * side / squared);
     const double way = std::min(along / length + half, length) - std::max(along / length - half, 0.0);
-    if (way > 0) tally.add(row, std::expm1(-way / radius));
+    if (way > 0) tally.add(row, lost(way / radius));
   }
   return tally.gain();
 }

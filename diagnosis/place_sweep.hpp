@@ -36,16 +36,21 @@ class SegmentSweep {
     std::vector<Crossing> crossings;  // in their order along the line
   };
 
+  struct Piece {
+    double gain, from, to;  // m along the line
+  };
+
   struct Way;
   void lay_out(const Survey& survey, const std::vector<Way>& links, const std::vector<Way>& driven, double angle,
                double across);
+  static Piece best_piece(const Gap& gap, double first, search::Tally& tally);
 
   std::size_t rows_;
   std::vector<Gap> gaps_;
 };
 
-// A few radii about places 0.4 m apart, clear of all ways; from the best of these up to the nearest top, since where
-// readings lie dense a thing shows little a tenth of a metre aside.
+// A few radii about places 0.4 m apart, clear of all ways; then closely about the best of these, since where readings
+// lie dense a thing shows little a tenth of a metre aside, and has many tops.
 class DiskSweep {
  public:
   DiskSweep(const Survey& survey, Links links);
@@ -56,20 +61,29 @@ class DiskSweep {
  private:
   static constexpr std::array radii{0.3, 0.5, 0.8};                             // m
   static constexpr double narrowest = 0.2, widest = 1.2, between_places = 0.4;  // m
-  static constexpr std::size_t climbed = 16;                                    // places, apart from each other
 
-  struct Place {
-    double x, y;
-    double widest;  // m: a disk that is clear
-  };
   // A link that passes by a place: how far along it, times its length; how far aside, the same; its length squared.
   struct Passing {
     Eigen::Index row;
     double along, side, squared;
   };
+  struct Place {
+    double x, y;
+    double widest;  // m: a disk that is clear
+    std::vector<Passing> passing;
+  };
+  // The links about one place.
+  struct Near {
+    std::vector<Eigen::Index> links;
+    search::Tally& tally;
+    std::vector<Passing> passing;  // by what was asked for last
+  };
 
-  Swept climb(Swept from, search::Tally& tally) const;
-  void find_passing(const Place& place, const std::vector<Eigen::Index>& among, std::vector<Passing>& passing) const;
+  std::vector<Swept> closely_about(const Swept& place, search::Tally& tally) const;
+  Swept climb(Swept from, Near& near) const;
+  double gain_at(double x, double y, double radius, Near& near) const;
+  void find_passing(double x, double y, double radius, const std::vector<Eigen::Index>& among,
+                    std::vector<Passing>& passing) const;
   static double gain(double radius, const std::vector<Passing>& passing, search::Tally& tally);
 
   Survey survey_;

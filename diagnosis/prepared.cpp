@@ -8,6 +8,7 @@
 #include <set>
 
 #include "diagnosis/field_law.hpp"
+#include "diagnosis/near_readings.hpp"
 #include "diagnosis/place_checks.hpp"
 #include "diagnosis/search/search.hpp"
 
@@ -93,6 +94,7 @@ Prepared::Prepared(const std::filesystem::path& world, const std::filesystem::pa
   take_swaps_by_the_map(rows, world, plugins);
   add_columns();
   let_sketch(rows, world, plugins);
+  let_ask_near(world, plugins);
   for (const CauseCandidate& c : sought.found) problem.candidates.push_back(c.candidate);
 }
 
@@ -136,6 +138,21 @@ void Prepared::let_sketch(const noise::Rows& rows, const std::filesystem::path& 
       std::make_unique<SimulatedReadings>(rows.middles(problem.readings), model.radio_names(), world, plugins, base);
   for (CauseCandidate& c : sought.found) {
     if (c.candidate.refinable() && !c.shape->cause.file()) c.candidate.sketch = sketched->at(c, data).columns;
+  }
+}
+
+// Where a wall or a thing stands is drawn some thousand times about one place, which few of many readings concern.
+void Prepared::let_ask_near(const std::filesystem::path& world, const Library::SearchPath& plugins) {
+  constexpr Index worth = 4000;  // readings
+  if (problem.readings.size() < worth || holds_a_table_reader(model)) return;
+  const Simulate simulate = [this, world, plugins](const noise::Readings& readings) {
+    return std::make_shared<SimulatedReadings>(readings, model.radio_names(), world, plugins, base);
+  };
+  for (CauseCandidate& c : sought.found) {
+    if (!c.candidate.proposed || c.shape->cause.file()) continue;
+    c.candidate.near = [this, cause = c, simulate](const VectorXd& theta) {
+      return columns_near(theta, cause, data, problem.readings, simulate);
+    };
   }
 }
 

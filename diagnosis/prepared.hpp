@@ -38,6 +38,7 @@ struct Prepared {
   void take_swaps_by_the_map(const noise::Rows& rows, const std::filesystem::path& world,
                              const Library::SearchPath& plugins);
   void let_sketch(const noise::Rows& rows, const std::filesystem::path& world, const Library::SearchPath& plugins);
+  void let_ask_near(const std::filesystem::path& world, const Library::SearchPath& plugins);
   noise::Known known_of(double rssi) const;
   void add_columns();
 };

@@ -161,7 +161,7 @@ Eigen::MatrixXd Bench::columns_of(const Candidate& candidate, const Eigen::Vecto
   return rows_.mean(candidate.columns(theta));
 }
 
-double Bench::log_atoms(const Entry& entry, const noise::Sheet& unit) {
+double Bench::log_atoms(const Entry& entry, const UnitAtoms& unit) {
   const auto [place, missing] = log_atoms_.try_emplace(entry.candidate->id, 0.0);
   if (missing) place->second = log_effective(*entry.candidate, unit, normals_);
   return place->second;

@@ -10,6 +10,8 @@
 namespace muster::search {
 
 // A candidate with the row means of its grid's columns, `width` an atom.
+class UnitAtoms;
+
 struct Entry {
   std::shared_ptr<const Candidate> candidate;
   std::shared_ptr<const noise::Sheet> atoms;
@@ -93,7 +95,7 @@ class Bench {
   Eigen::MatrixXd columns_of(const Candidate& candidate, const Eigen::VectorXd& theta) const;
 
   // Effective number of atoms, from nulls; worked out once a candidate.
-  double log_atoms(const Entry& entry, const noise::Sheet& unit);
+  double log_atoms(const Entry& entry, const UnitAtoms& unit);
   double log_atoms(const Candidate& candidate) const { return log_atoms_.at(candidate.id); }
   double log_p(const Candidate& candidate, double gain, Index width, bool refined) const;
   double evidence(const Candidate& candidate, double gain, Index width, bool refined) const;

@@ -48,6 +48,8 @@ struct Candidate {
   // The same with one row a row of the search, as the reading in its middle has it: what a search over many thetas may
   // do with. Empty: the columns' row means.
   std::function<Eigen::MatrixXd(const Eigen::VectorXd& theta)> sketch;
+  // The columns again, where many thetas near this one are asked for. Empty: no cheaper there than anywhere.
+  std::function<std::function<Eigen::MatrixXd(const Eigen::VectorXd&)>(const Eigen::VectorXd& theta)> near;
   // A smooth with that many times the functions; may be empty.
   std::function<Eigen::MatrixXd(int times)> wider;
   std::function<std::string(const Eigen::VectorXd& theta)> label;  // empty: the id

@@ -22,7 +22,7 @@ double refinement_charge(Bench& bench, const std::string& candidate, int draws) 
   const Entry& entry = entry_named(bench, candidate);
   const Candidate& c = *entry.candidate;
   Stand stand = bench.stand(bench.design());
-  const noise::Sheet unit = unit_atoms(entry, stand);
+  const UnitAtoms unit = unit_atoms(entry, stand);
   bench.log_atoms(entry, unit);
   const Stream stream(combined(key_of("refined nulls"), bench.options().seed));
   std::vector<double> log_p;

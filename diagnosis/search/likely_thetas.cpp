@@ -24,15 +24,20 @@ constexpr double enough = 100;           // independent ones that the draws are 
 // What a theta explains beside the rest of the model, and its likelihood.
 class Likelihood {
  public:
-  Likelihood(const Bench& bench, const Stand& rest, const Candidate& candidate, double overstated)
-      : bench_(bench), rest_(rest), c_(candidate), overstated_(overstated), thin_(bench, rest) {}
+  Likelihood(const Bench& bench, const Stand& rest, const Term& term, double overstated)
+      : bench_(bench),
+        rest_(rest),
+        c_(*term.candidate),
+        columns_(c_.near ? c_.near(term.theta) : c_.columns),
+        overstated_(overstated),
+        thin_(bench, rest) {}
 
   const Candidate& candidate() const { return c_; }
   bool allows(const Eigen::VectorXd& theta) const { return theta == theta.cwiseMax(c_.lower).cwiseMin(c_.upper); }
 
   // No sketch: of a strong effect it is off by many nats.
   Explained explained(const Eigen::VectorXd& theta) {
-    const Eigen::MatrixXd columns = bench_.columns_of(c_, theta);
+    const Eigen::MatrixXd columns = bench_.rows().mean(columns_(theta));
     if (columns.cols() > 1 || c_.whole || !thin_.take(columns)) return Beside(rest_, columns, c_.whole);
     const double along = thin_.along(), length = thin_.length();
     if (length < 1e-6) return {Eigen::VectorXd::Zero(1), Eigen::MatrixXd::Zero(1, 1), 0};
@@ -49,6 +54,7 @@ class Likelihood {
   const Bench& bench_;
   const Stand& rest_;
   const Candidate& c_;
+  const std::function<Eigen::MatrixXd(const Eigen::VectorXd&)> columns_;
   const double overstated_;
   Thin thin_;
 };
@@ -198,7 +204,7 @@ class Draws {
 }  // namespace
 
 LikelyThetas likely_thetas(const Bench& bench, const Stand& rest, const Term& term, double overstated) {
-  Likelihood likelihood(bench, rest, *term.candidate, overstated);
+  Likelihood likelihood(bench, rest, term, overstated);
   Walk walk(likelihood, term.theta);
   const auto found = [&](int steps) {
     const std::vector<Eigen::VectorXd> met = walk.lap(steps);

@@ -114,7 +114,7 @@ std::vector<Rival> rivals_of(Bench& bench, const Term& term) {
   };
   std::vector<Rival> result;
   std::map<std::string, Eigen::VectorXd> by_atom;  // of what each explains of the effect
-  const auto also = [&](const Candidate& c, const noise::Sheet& unit) { by_atom[c.id] = gains(c, unit, effect); };
+  const auto also = [&](const Candidate& c, const UnitAtoms& unit) { by_atom[c.id] = gains(c, unit, effect); };
   for (const Lead& plain : leads(bench, rest, also)) {
     const Candidate& c = plain.candidate();
     if (c.id == own.id) {

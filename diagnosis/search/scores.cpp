@@ -13,31 +13,19 @@ namespace {
 
 constexpr float least_left = 1e-3f;  // squared length that must be left of an atom, of the longest one of its candidate
 
-// Gram and Schmidt inside each atom; what is too short becomes zero.
-void orthonormalise(noise::Sheet& sheet, Index width) {
-  const Eigen::VectorXf before = sheet.colwise().squaredNorm();
-  const float least = least_left * std::max(before.maxCoeff(), 1e-9f);
-  if (width == 1) {
-    const Eigen::VectorXf scale =
-        (before.array() > least).select(before.array().max(1e-30f).rsqrt(), Eigen::ArrayXf::Zero(before.size()));
-    sheet.array().rowwise() *= scale.transpose().array();
-    return;
-  }
-  for (Index first = 0; first < sheet.cols(); first += width) {
-    Eigen::MatrixXf atom = sheet.middleCols(first, width);  // here a column's values lie together
-    for (Index j = 0; j < width; ++j) {
-      for (int pass = 0; pass < 2 && j > 0; ++pass) {
-        const Eigen::VectorXf along = atom.leftCols(j).transpose() * atom.col(j);
-        atom.col(j) -= atom.leftCols(j) * along;
-      }
-      const float left = atom.col(j).squaredNorm();
-      if (left > least) {
-        atom.col(j) /= std::sqrt(left);
-      } else {
-        atom.col(j).setZero();
-      }
-    }
-    sheet.middleCols(first, width) = atom;
+// The inverse of the lower Cholesky factor; a column of which less than `least` is left by those before it has none.
+void turn(const Eigen::MatrixXf& products, float least, Eigen::Ref<Eigen::MatrixXf> inverse) {
+  const Index width = products.rows();
+  Eigen::MatrixXf root = Eigen::MatrixXf::Zero(width, width);
+  inverse.setZero();
+  for (Index j = 0; j < width; ++j) {
+    for (Index k = 0; k < j; ++k) root(j, k) = inverse.row(k).head(k + 1).dot(products.row(j).head(k + 1));
+    const float left = products(j, j) - root.row(j).head(j).squaredNorm();
+    if (left <= least) continue;
+    root(j, j) = std::sqrt(left);
+    inverse.row(j) = -root.row(j) * inverse;
+    inverse(j, j) = 1;
+    inverse.row(j) /= root(j, j);
   }
 }
 
@@ -162,23 +150,52 @@ Top raced_to(const Bench& bench, const Stand& stand, const Lead& lead) {
 
 }  // namespace
 
-noise::Sheet unit_atoms(const Entry& entry, const Stand& stand) {
-  noise::Sheet unit = stand.whitener.sheet(*entry.atoms);
-  stand.at.basis.take_out_of(unit);
-  orthonormalise(unit, entry.candidate->width);
-  return unit;
+UnitAtoms::UnitAtoms(noise::Sheet columns, Index width)
+    : columns_(std::move(columns)), width_(width), turns_(width, columns_.cols()) {
+  const Index count = columns_.cols();
+  // Of each column with itself and with those next to it, all in one pass over the rows as they lie.
+  std::vector<Eigen::ArrayXf> apart;
+  for (Index by = 0; by < std::min(width, count); ++by) apart.emplace_back(Eigen::ArrayXf::Zero(count - by));
+  for (Index i = 0; i < columns_.rows(); ++i) {
+    const auto row = columns_.row(i).transpose().array();
+    for (Index by = 0; by < static_cast<Index>(apart.size()); ++by)
+      apart[static_cast<std::size_t>(by)] += row.head(count - by) * row.tail(count - by);
+  }
+  if (count == 0) return;
+  const float least = least_left * std::max(apart[0].maxCoeff(), 1e-9f);
+  Eigen::MatrixXf products(width, width);
+  for (Index first = 0; first < count; first += width) {
+    for (Index j = 0; j < width; ++j) {
+      for (Index k = 0; k <= j; ++k)
+        products(j, k) = products(k, j) = apart[static_cast<std::size_t>(j - k)][first + k];
+    }
+    turn(products, least, turns_.middleCols(first, width));
+  }
 }
 
-Eigen::VectorXd gains(const Candidate& candidate, const noise::Sheet& unit, const Eigen::VectorXd& residual) {
-  return statistics(candidate, unit.transpose() * residual.cast<float>()).col(0).cast<double>();
+Eigen::MatrixXf UnitAtoms::along(const Eigen::Ref<const noise::Sheet>& x) const {
+  Eigen::MatrixXf result = columns_.transpose() * x;
+  for (Index first = 0; first < result.rows(); first += width_)
+    result.middleRows(first, width_) = (turns_.middleCols(first, width_) * result.middleRows(first, width_)).eval();
+  return result;
+}
+
+UnitAtoms unit_atoms(const Entry& entry, const Stand& stand) {
+  noise::Sheet atoms = stand.whitener.sheet(*entry.atoms);
+  stand.at.basis.take_out_of(atoms);
+  return {std::move(atoms), entry.candidate->width};
+}
+
+Eigen::VectorXd gains(const Candidate& candidate, const UnitAtoms& unit, const Eigen::VectorXd& residual) {
+  return statistics(candidate, unit.along(residual.cast<float>())).col(0).cast<double>();
 }
 
 double gain_of(const Candidate& candidate, const Stand& stand, const Eigen::MatrixXd& columns) {
   return candidate.whole ? std::max(0.0, stand.gain_as_it_is(columns)) : stand.gain(columns);
 }
 
-double log_effective(const Candidate& candidate, const noise::Sheet& unit, const noise::Sheet& normals) {
-  const Eigen::MatrixXf all = statistics(candidate, unit.transpose() * normals);
+double log_effective(const Candidate& candidate, const UnitAtoms& unit, const noise::Sheet& normals) {
+  const Eigen::MatrixXf all = statistics(candidate, unit.along(normals));
   Eigen::VectorXf most = all.colwise().maxCoeff();
   std::sort(most.begin(), most.end());
   std::array<double, 3> estimates;
@@ -198,11 +215,11 @@ void by_evidence(std::vector<Lead>& leads) {
 }
 
 std::vector<Lead> leads(Bench& bench, const Stand& stand,
-                        const std::function<void(const Candidate&, const noise::Sheet&)>& also) {
+                        const std::function<void(const Candidate&, const UnitAtoms&)>& also) {
   std::vector<Lead> result;
   for (const Entry& entry : bench.entries()) {
     const Candidate& c = *entry.candidate;
-    const noise::Sheet unit = unit_atoms(entry, stand);
+    const UnitAtoms unit = unit_atoms(entry, stand);
     bench.log_atoms(entry, unit);
     if (also) also(c, unit);
     Lead lead{&entry, {}, {}, 0, 0, 0, false, gains(c, unit, stand.at.residual)};

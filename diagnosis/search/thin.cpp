@@ -13,8 +13,15 @@ Thin::Thin(const Bench& bench, const Stand& stand)
 }
 
 void Thin::clear() {
-  for (std::size_t k = 0; k < reached_; ++k) column_[touched_[k]] = 0;
-  reached_ = 0;
+  constexpr Index few = 30;  // a row reaches some fifteen, and whole vectors are cleared sooner than entries one by one
+  if (static_cast<Index>(added_.size()) * few > column_.size()) {
+    column_.setZero();
+  } else {
+    for (const Index row : added_) {
+      for (const auto& [at, weight] : reach_.of(row)) column_[at] = 0;
+    }
+  }
+  added_.clear();
   along_ = length_ = 0;
   explained_.setZero();
 }
@@ -22,17 +29,16 @@ void Thin::clear() {
 void Thin::add(Index row, double value) {
   along_ += value * scores_[row];
   explained_ += value * design_.col(row);
-  const noise::Reach::Entries entries = reach_.of(row);
-  const auto most = reached_ + static_cast<std::size_t>(entries.last - entries.first);
-  if (touched_.size() < most) touched_.resize(2 * most);
-  for (const auto& [reached, weight] : entries) {
-    double& to = column_[reached];
+  added_.push_back(row);
+  // In locals: the column's doubles could be members, which each would have to be stored for.
+  double *const column = column_.data(), length = 0;
+  for (const auto& [at, weight] : reach_.of(row)) {
+    double& to = column[at];
     const double by = value * weight;
-    touched_[reached_] = reached;
-    reached_ += to == 0;  // without a branch, which nothing foretells
-    length_ += by * (2 * to + by);
+    length += by * (2 * to + by);
     to += by;
   }
+  length_ += length;
 }
 
 bool Thin::take(const Eigen::VectorXd& column) {

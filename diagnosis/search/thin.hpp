@@ -30,8 +30,7 @@ class Thin : public Tally {
 
   Eigen::Matrix<Index, Eigen::Dynamic, 1> concerned_;  // the first so many: rows of a column that it takes
   Eigen::VectorXd column_;                             // whitened
-  std::vector<Index> touched_;                         // places that are not zero: the first reached_ ones
-  std::size_t reached_ = 0;
+  std::vector<Index> added_;                           // rows
   double along_ = 0, length_ = 0;
   Eigen::VectorXd explained_;
 };

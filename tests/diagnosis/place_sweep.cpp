@@ -158,6 +158,35 @@ TEST(PlaceSweep, ADiskClimbsToNoPlaceThatWasDrivenThrough) {
     EXPECT_FALSE(driven_through(plan.survey, theta[1], theta[2], std::exp(theta[3]))) << theta.transpose();
 }
 
+// Where an edge of the disk's shadow stands, seen from a radio, rad.
+double edge(const Eigen::VectorXd& theta, const Point& radio, double side) {
+  const Point to = theta.segment<2>(1) - radio;
+  return std::atan2(to.y(), to.x()) + side * std::asin(std::exp(theta[3]) / to.norm());
+}
+
+TEST(MovesOfDisk, TurnOneEdgeOfItsShadowAlone) {
+  Survey survey;
+  survey.standing = {{0, 0}, {9, 1}, {40, 40}};
+  Eigen::VectorXd theta(4);
+  theta << 0, 4, 3, std::log(0.5);
+  const Eigen::MatrixXd moves = moves_of_disk(survey, theta);
+  ASSERT_EQ(moves.cols(), 3 + 2 * 3);  // the two radios that are near
+  constexpr double little = 1e-5;
+  for (int k = 0; k < 2; ++k) {
+    const Point radio = k == 0 ? Point(0, 0) : Point(9, 1);
+    const auto turned = [&](Index move, double side) {
+      return std::abs(edge(theta + little * moves.col(move), radio, side) - edge(theta, radio, side)) / little;
+    };
+    const Index first = 3 + 3 * k;
+    EXPECT_GT(turned(first, 1), 0.03);
+    EXPECT_LT(turned(first, -1), 0.02 * turned(first, 1));
+    EXPECT_GT(turned(first + 1, -1), 0.03);
+    EXPECT_LT(turned(first + 1, 1), 0.02 * turned(first + 1, -1));
+    for (const double side : {1.0, -1.0}) EXPECT_LT(turned(first + 2, side), 1e-4) << "away";
+    EXPECT_GT(moves.col(first + 2).segment<2>(1).norm(), 0.5);
+  }
+}
+
 TEST(PlaceSweep, RefusesATallyOfOtherRows) {
   const Plan plan;
   Scored fewer(std::vector<double>(10, 1));

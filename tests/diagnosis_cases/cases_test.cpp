@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "diagnosis/diagnose.hpp"
+#include "diagnosis/near_readings.hpp"
 #include "diagnosis/prepared.hpp"
 #include "diagnosis/report/advice.hpp"
 #include "tests/diagnosis/scratch.hpp"
@@ -221,6 +222,62 @@ TEST(Sketch, IsTheColumnsAtTheReadingsInTheMiddleOfRows) {
   }
   EXPECT_GT(sketched, 3);
 }
+
+struct Hall {
+  const std::filesystem::path world = std::filesystem::path(MUSTER_SOURCE_DIR) / "worlds" / "hall";
+  const Prepared at{world, world / "measured_plain.csv", plugins};
+};
+
+TEST(Near, AsksFewReadingsForTheColumnsOfAll) {
+  const Hall hall;
+  int near = 0;
+  for (const search::Candidate& c : hall.at.problem.candidates) {
+    if (!c.near) continue;
+    ++near;
+    const Eigen::VectorXd& theta = c.grid[c.grid.size() / 2];
+    const auto columns = c.near(theta);
+    for (const double moved : {0.0, 0.3, 0.7, 2.0, 5.0}) {
+      Eigen::VectorXd t = theta;
+      t[1] += moved, t[2] -= moved;
+      EXPECT_EQ(columns(t), c.columns(t)) << c.id << ' ' << moved;
+    }
+    EXPECT_GT(c.columns(theta).cwiseAbs().maxCoeff(), 0.5) << c.id;
+  }
+  EXPECT_EQ(near, 2);  // walls and things
+}
+
+TEST(Near, AsksAllOfWhatConcernsAReadingElsewhere) {
+  const Hall hall;
+  const auto& found = hall.at.sought.found;
+  const auto thing = std::find_if(found.begin(), found.end(),
+                                  [](const CauseCandidate& c) { return c.candidate.id == "effect.obstacle"; });
+  ASSERT_NE(thing, found.end());
+  CauseCandidate far = *thing;
+  far.candidate.columns = [columns = thing->candidate.columns](const Eigen::VectorXd& t) -> Eigen::MatrixXd {
+    return columns(t).array() + 1;
+  };
+  const Simulate simulate = [&](const noise::Readings& readings) {
+    return std::make_shared<SimulatedReadings>(readings, hall.at.model.radio_names(), hall.world, plugins,
+                                               hall.at.base);
+  };
+  const Eigen::VectorXd& theta = far.candidate.grid[0];
+  const auto columns = columns_near(theta, far, hall.at.data, hall.at.problem.readings, simulate);
+  EXPECT_EQ(columns(theta), far.candidate.columns(theta));
+}
+
+// Seen from two or three sides, and narrow: its edges lie within centimetres, between which a search has many tops. Two
+// that it took for walls.
+class Thing : public testing::TestWithParam<int> {};
+
+TEST_P(Thing, IsNoWall) {
+  const Scratch scratch;
+  const auto world =
+      made_case(scratch, "--seed 501 --rows 2000 20000 --mix one --effects obstacle --lambda 150", GetParam());
+  const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
+  expect_only("effect.obstacle", found);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, Thing, testing::Values(11, 19));
 
 // A radio at the edge of what is known may stand beyond it.
 TEST(Candidates, StartWithinTheBoundsThatTheyAreSoughtIn) {

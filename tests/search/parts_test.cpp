@@ -1,6 +1,8 @@
 // Parts of the search against closed forms: tails, effective numbers, races, refinement, folds.
 #include <gtest/gtest.h>
 
+#include <Eigen/QR>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -52,15 +54,34 @@ TEST(LogEffective, IsTheNumberOfAtomsThatAreIndependentAndOneOfEqualAtoms) {
   Candidate c;
   for (const int width : {1, 2}) {
     c.width = width;
-    const noise::Sheet apart = noise::Sheet::Identity(400, 60 * width);
+    const UnitAtoms apart(noise::Sheet::Identity(400, 60 * width), width);
     EXPECT_NEAR(log_effective(c, apart, nulls), std::log(60), 0.15) << width;
   }
   c.width = 1;
-  noise::Sheet equal = noise::Sheet::Zero(400, 60);
-  equal.row(0).setOnes();
+  noise::Sheet same = noise::Sheet::Zero(400, 60);
+  same.row(0).setOnes();
+  const UnitAtoms equal(same, 1);
   EXPECT_NEAR(log_effective(c, equal, nulls), 0, 0.1);
   c.sign = -1;
   EXPECT_NEAR(log_effective(c, equal, nulls), 0, 0.1);
+}
+
+// As a decomposition of each atom tells it, one with a column too many among them.
+TEST(UnitAtoms, HaveTheProjectionsOfTheirAtoms) {
+  constexpr Index width = 3, atoms = 5;
+  noise::Sheet columns = normals(200, width * atoms, 11);
+  columns.col(5) = columns.col(4) - 0.5f * columns.col(3);
+  columns.col(7) += 20 * columns.col(6);
+  const noise::Sheet x = normals(200, 4, 12);
+  const Eigen::MatrixXf along = UnitAtoms(columns, width).along(x);
+  for (Index k = 0; k < atoms; ++k) {
+    const Eigen::MatrixXd atom = columns.middleCols(k * width, k == 1 ? 2 : width).cast<double>();
+    const Eigen::MatrixXd explained = atom * atom.colPivHouseholderQr().solve(x.cast<double>());
+    for (Index j = 0; j < x.cols(); ++j) {
+      const double energy = explained.col(j).squaredNorm();
+      EXPECT_NEAR(along.col(j).segment(k * width, width).squaredNorm(), energy, 1e-3 * energy) << k;
+    }
+  }
 }
 
 TEST(Climbed, FindsTheTopInsideItsBoundsAndLeavesFixedEntriesAlone) {
