@@ -68,15 +68,43 @@ Rows::Rows(const Readings& readings, const RowLimits& limits)
   for (std::size_t k = 0; k < order_.size(); ++k) {
     if (k == 0 || ends_row(readings, limits, order_[static_cast<std::size_t>(first_.back())], order_[k]))
       first_.push_back(static_cast<Index>(k));
-    row_of_[static_cast<std::size_t>(order_[k])] = static_cast<Index>(first_.size()) - 1;
   }
   first_.push_back(static_cast<Index>(order_.size()));
+  count_readings();
+}
+
+void Rows::count_readings() {
   count_.resize(size());
   for (Index i = 0; i < size(); ++i)
     count_[i] = static_cast<double>(first_[static_cast<std::size_t>(i) + 1] - first_[static_cast<std::size_t>(i)]);
+  for (Index i = 0; i < size(); ++i) {
+    for (Index k = first_[static_cast<std::size_t>(i)]; k < first_[static_cast<std::size_t>(i) + 1]; ++k)
+      row_of_[static_cast<std::size_t>(order_[static_cast<std::size_t>(k)])] = i;
+  }
   by_count_.resize(static_cast<std::size_t>(size()));
   std::iota(by_count_.begin(), by_count_.end(), 0);
   std::stable_sort(by_count_.begin(), by_count_.end(), [this](Index a, Index b) { return count_[a] < count_[b]; });
+}
+
+Rows Rows::ended_where(const Eigen::VectorXd& effect, double step, std::vector<Index>& parent) const {
+  Rows result = *this;
+  result.first_.clear();
+  parent.clear();
+  const auto at = [&](Index k) { return effect[order_[static_cast<std::size_t>(k)]]; };
+  for (Index i = 0; i < size(); ++i) {
+    Index first = first_[static_cast<std::size_t>(i)];
+    result.first_.push_back(first);
+    parent.push_back(i);
+    for (Index k = first + 1; k < first_[static_cast<std::size_t>(i) + 1]; ++k) {
+      if (std::abs(at(k) - at(first)) <= step) continue;
+      first = k;
+      result.first_.push_back(k);
+      parent.push_back(i);
+    }
+  }
+  result.first_.push_back(first_.back());
+  result.count_readings();
+  return result;
 }
 
 Eigen::MatrixXd Rows::mean(const Eigen::Ref<const Eigen::MatrixXd>& columns) const {

@@ -62,6 +62,10 @@ class Rows {
   }
   const Eigen::VectorXd& count() const { return count_; }
 
+  // The same rows, but for those within which an effect, one value a reading, changes by more than `step` from the
+  // first reading on: they end there. `parent`: of each new row, the one that it was in.
+  Rows ended_where(const Eigen::VectorXd& effect, double step, std::vector<Index>& parent) const;
+
   // Means of columns that have one row a reading.
   Eigen::MatrixXd mean(const Eigen::Ref<const Eigen::MatrixXd>& columns) const;
   // A value a row, at each of its readings.
@@ -72,6 +76,8 @@ class Rows {
   Readings middles(const Readings& readings) const;
 
  private:
+  void count_readings();
+
   std::vector<Index> order_;  // readings by link, then time
   std::vector<Index> first_;  // in order_; one past the last row too
   std::vector<Index> row_of_;

@@ -23,6 +23,29 @@ noise::Sheet normals_of(Index rows, int count, uint64_t seed) {
   return result;
 }
 
+// A tally of rows of which several are of one, asked by these.
+class OfOrigin : public Tally {
+ public:
+  OfOrigin(const std::vector<Index>& origin, Tally& tally) : tally_(tally) {
+    for (std::size_t row = 0; row < origin.size(); ++row) {
+      while (static_cast<std::size_t>(origin[row]) >= first_.size()) first_.push_back(static_cast<Index>(row));
+    }
+    first_.push_back(static_cast<Index>(origin.size()));
+  }
+
+  Index rows() const override { return static_cast<Index>(first_.size()) - 1; }
+  void clear() override { tally_.clear(); }
+  void add(Index row, double value) override {
+    const auto k = static_cast<std::size_t>(row);
+    for (Index of = first_[k]; of < first_[k + 1]; ++of) tally_.add(of, value);
+  }
+  double gain() const override { return tally_.gain(); }
+
+ private:
+  Tally& tally_;
+  std::vector<Index> first_;
+};
+
 }  // namespace
 
 Eigen::MatrixXd Entry::atom(Index k) const {
@@ -61,7 +84,7 @@ Bench::Bench(const Problem& problem, const Options& options)
     : problem_(problem),
       options_(options),
       rows_(problem.readings, options.rows),
-      field_(rows_.sites(problem.readings), {.seed = options.seed}),
+      field_(field_of(rows_)),
       base_(rows_.mean(problem.base)),
       normals_(normals_of(rows_.size(), options.nulls, options.seed)) {
   impute(6);
@@ -70,6 +93,48 @@ Bench::Bench(const Problem& problem, const Options& options)
   for (const Candidate& candidate : problem.candidates) entries_.push_back(entry(candidate));
   for (Candidate& candidate : smooths_of(problem)) entries_.push_back(entry(std::move(candidate)));
   fixed_ = entries_.size();
+}
+
+noise::Field Bench::field_of(const noise::Rows& rows) const {
+  return noise::Field(rows.sites(problem_.readings), {.seed = options_.seed});
+}
+
+Index Bench::end_rows_at(const Candidate& candidate, const Eigen::VectorXd& theta) {
+  constexpr double share = 1.0 / 3;  // of the most that the effect comes to
+  const Eigen::MatrixXd at_readings = candidate.columns(theta);
+  const Eigen::VectorXd effect = at_readings.rowwise().sum();
+  const double most = effect.cwiseAbs().maxCoeff();
+  std::vector<Index> parent;
+  noise::Rows rows = rows_.ended_where(effect, share * most, parent);
+  const Index more = rows.size() - rows_.size();
+  if (more == 0) return 0;
+  rows_ = std::move(rows);
+  field_ = field_of(rows_);
+  far_.reset();
+  base_ = rows_.mean(problem_.base);
+  y_ = rows_.mean(measured_);
+  for (Term& term : terms) term.columns = columns_of(*term.candidate, term.theta);
+  // Grids are coarse, and so may their atoms be.
+  for (Entry& entry : entries_) {
+    noise::Sheet atoms = (*entry.atoms)(parent, Eigen::all);
+    entry.atoms = std::make_shared<const noise::Sheet>(std::move(atoms));
+  }
+  normals_ = normals_(parent, Eigen::all).eval();
+  for (Index& row : parent) row = origin_.empty() ? row : origin_[static_cast<std::size_t>(row)];
+  origin_ = std::move(parent);
+  return more;
+}
+
+Eigen::MatrixXd Bench::sketch_of(const Candidate& candidate, const Eigen::VectorXd& theta) const {
+  Eigen::MatrixXd sketch = candidate.sketch(theta);
+  if (origin_.empty()) return sketch;
+  return sketch(origin_, Eigen::all);
+}
+
+std::vector<Eigen::VectorXd> Bench::proposals(const Candidate& candidate, Tally& tally) const {
+  if (origin_.empty()) return candidate.proposed(tally);
+  OfOrigin of_origin(origin_, tally);
+  return candidate.proposed(of_origin);
 }
 
 void Bench::impute(int rounds) {

@@ -9,9 +9,9 @@
 
 namespace muster::search {
 
-// A candidate with the row means of its grid's columns, `width` an atom.
 class UnitAtoms;
 
+// A candidate with the row means of its grid's columns, `width` an atom.
 struct Entry {
   std::shared_ptr<const Candidate> candidate;
   std::shared_ptr<const noise::Sheet> atoms;
@@ -62,6 +62,10 @@ class Bench {
   const noise::Rows& rows() const { return rows_; }
   const noise::Field& field() const { return field_; }
   double within() const { return field_.sites().within(); }  // m: the mean distance of two readings of a row
+  // Rows end where the effect of a candidate there, fitted beside the model, sets in or stops: averaged over its edges
+  // it would lose up to half of what it gains. Returns how many rows that makes more. Stands and columns of before are
+  // void.
+  Index end_rows_at(const Candidate& candidate, const Eigen::VectorXd& theta);
   // Made when it is first asked for: most searches do without.
   const FarRows& far() const;
   double log_rows() const { return std::log(static_cast<double>(rows_.size())); }
@@ -93,6 +97,9 @@ class Bench {
   void renew_depending(const Eigen::VectorXd& coefficients);
   const Entry& entry_of(const Candidate& candidate) const;
   Eigen::MatrixXd columns_of(const Candidate& candidate, const Eigen::VectorXd& theta) const;
+  Eigen::MatrixXd sketch_of(const Candidate& candidate, const Eigen::VectorXd& theta) const;
+  // What a candidate proposes, by a tally of these rows.
+  std::vector<Eigen::VectorXd> proposals(const Candidate& candidate, Tally& tally) const;
 
   // Effective number of atoms, from nulls; worked out once a candidate.
   double log_atoms(const Entry& entry, const UnitAtoms& unit);
@@ -104,10 +111,12 @@ class Bench {
 
  private:
   Entry entry(Candidate candidate) const;
+  noise::Field field_of(const noise::Rows& rows) const;
 
   const Problem& problem_;
   Options options_;
   noise::Rows rows_;
+  std::vector<Index> origin_;  // of each row, the one of the problem's rows that it is of; empty: they are those
   noise::Field field_;
   mutable std::unique_ptr<const FarRows> far_;
   Eigen::MatrixXd base_;

@@ -158,8 +158,23 @@ void take(Bench& bench, const noise::Fit& fit, const Term& term) {
   if (term.gain > 30) choose_family_again(bench);
 }
 
+// Rows of several readings end at the edges of each place, and it settles there.
+void settle_at_their_edges(Bench& bench) {
+  for (std::size_t k = 0; k < bench.terms.size(); ++k) {
+    const Term term = bench.terms[k];
+    if (term.smooth() || term.candidate->pieces.empty() || bench.end_rows_at(*term.candidate, term.theta) == 0)
+      continue;
+    bench.refit(4);
+    settle(bench, k, false);
+  }
+}
+
 // False if the lead fails.
-bool enter(Bench& bench, const Lead& lead, Blocked& blocked, std::vector<Trial>& trials) {
+bool enter(Bench& bench, Lead lead, Blocked& blocked, std::vector<Trial>& trials) {
+  constexpr double beyond_doubt = -40;  // rows may end once it has settled
+  const bool place = !lead.candidate().pieces.empty();
+  if (place && lead.log_p > beyond_doubt && bench.end_rows_at(lead.candidate(), lead.theta) > 0)
+    lead.columns = bench.columns_of(lead.candidate(), lead.theta);
   const Eigen::MatrixXd design = bench.design();
   const noise::Fit fit = fit_with(bench, lead, beside(design, lead.columns));
   trials.push_back(tried(bench, lead, fit, design));
@@ -182,7 +197,29 @@ bool enter(Bench& bench, const Lead& lead, Blocked& blocked, std::vector<Trial>&
     bench.refit();
     settle_places(bench);
   }
+  settle_at_their_edges(bench);
   return true;
+}
+
+// Places that nearly pass, once rows end at their edges: that may be all they lack.
+std::vector<Lead> closer_look(Bench& bench, const std::vector<Lead>& looked) {
+  constexpr double lacks = 7;  // nats
+  std::vector<Lead> places;
+  for (const Lead& lead : looked) {
+    if (lead.candidate().proposed && lead.log_p < bench.threshold() + lacks) places.push_back(lead);
+  }
+  Index more = 0;
+  for (const Lead& lead : places) more += bench.end_rows_at(lead.candidate(), lead.theta);
+  if (more == 0) return {};
+  const Eigen::MatrixXd design = bench.design();
+  bench.refit(4);
+  for (Lead& lead : places) {
+    lead.columns = bench.columns_of(lead.candidate(), lead.theta);
+    const noise::Fit fit = fit_with(bench, lead, beside(design, lead.columns));
+    lead = refined(bench, bench.stand(design, fit.covariance), lead, true);
+  }
+  by_evidence(places);
+  return places;
 }
 
 void enter_as_stated(Bench& bench, const Lead& lead) {
@@ -213,6 +250,7 @@ bool usable(const Bench& bench, const Blocked& blocked, const Candidate& c) {
 
 void forward(Bench& bench, std::vector<Trial>& trials) {
   Blocked blocked;
+  std::size_t looked_closely = 0;  // with so many terms, and one
   const auto may_enter = [&](const Candidate& c) { return usable(bench, blocked, c); };
   for (int round = 0; round < 40; ++round) {
     if (!bench.terms.empty() && bench.problem().bounds.any()) bench.impute(4);
@@ -227,6 +265,15 @@ void forward(Bench& bench, std::vector<Trial>& trials) {
     if (passing.empty()) {
       const std::vector<Lead> looked = second_look(bench, stand, all, may_enter);
       std::copy_if(looked.begin(), looked.end(), std::back_inserter(passing), passes);
+      if (passing.empty() && looked_closely <= bench.terms.size()) {
+        looked_closely = bench.terms.size() + 1;
+        const std::vector<Lead> close = closer_look(bench, looked);
+        const auto found = std::find_if(close.begin(), close.end(), passes);
+        if (found != close.end()) {
+          enter(bench, *found, blocked, trials);
+          continue;
+        }
+      }
     }
     if (passing.empty()) {
       const Blocked only{blocked.for_good, blocked.for_good};

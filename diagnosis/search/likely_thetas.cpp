@@ -17,7 +17,7 @@ namespace {
 // Steps of the walk: along the moves, then along what those showed to be its own long axes.
 constexpr std::array walked{300, 600};
 // The walk is over exp(gain / 2 / heat), which lets it over to other tops, and what fits it has tails to spare.
-constexpr double heat = 3;
+constexpr double hottest = 3;
 constexpr int lap = 400, most_laps = 8;  // of draws
 constexpr double enough = 100;           // independent ones that the draws are worth
 
@@ -76,8 +76,10 @@ struct Moments {
 
 class Walk {
  public:
-  Walk(Likelihood& likelihood, const Eigen::VectorXd& theta)
-      : likelihood_(likelihood), theta_(theta), log_(likelihood.log(theta, likelihood.explained(theta))) {}
+  Walk(Likelihood& likelihood, const Eigen::VectorXd& theta, double searched)
+      : likelihood_(likelihood), theta_(theta), log_(likelihood.log(theta, likelihood.explained(theta))) {
+    heat_ = std::clamp(log_ / searched, 1.0, hottest);
+  }
 
   // All but the first quarter of where it was.
   std::vector<Eigen::VectorXd> lap(int steps) {
@@ -104,7 +106,7 @@ class Walk {
     bool accepted = false;
     if (likelihood_.allows(theta)) {
       const double there = likelihood_.log(theta, likelihood_.explained(theta));
-      accepted = std::log(stream_.uniform(k_, 100)) < (there - log_) / heat;
+      accepted = std::log(stream_.uniform(k_, 100)) < (there - log_) / heat_;
       if (accepted) theta_ = theta, log_ = there;
     }
     if (!leaps) length_ = std::min(3.0, length_ * (accepted ? 1.2 : 0.91));
@@ -132,7 +134,7 @@ class Walk {
   uint64_t k_ = 0;
   Eigen::MatrixXd axes_;  // empty: the candidate's moves alone
   Eigen::VectorXd theta_;
-  double log_, length_ = 0.2;
+  double log_, heat_, length_ = 0.2;
 };
 
 class Draws {
@@ -205,7 +207,10 @@ class Draws {
 
 LikelyThetas likely_thetas(const Bench& bench, const Stand& rest, const Term& term, double overstated) {
   Likelihood likelihood(bench, rest, term, overstated);
-  Walk walk(likelihood, term.theta);
+  // Hotter, it would leave a narrow top for all the places where chance explains a little.
+  constexpr double spare = 4;  // nats
+  const Candidate& c = *term.candidate;
+  Walk walk(likelihood, term.theta, std::max(0.0, bench.log_atoms(c) + c.charge) + spare);
   const auto found = [&](int steps) {
     const std::vector<Eigen::VectorXd> met = walk.lap(steps);
     return Moments(met, Eigen::VectorXd::Ones(static_cast<Index>(met.size())));

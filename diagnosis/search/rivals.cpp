@@ -35,7 +35,8 @@ std::pair<Eigen::VectorXd, double> explained_by(const Bench& bench, const Stand&
   const auto exact = [&](const Eigen::VectorXd& theta) { return share(theta, bench.columns_of(c, theta)); };
   const int evaluations = std::min(60, c.evaluations);
   if (!c.sketch) return climbed(c, start, evaluations, exact);
-  Top top = climbed(c, start, evaluations, [&](const Eigen::VectorXd& theta) { return share(theta, c.sketch(theta)); });
+  Top top = climbed(c, start, evaluations,
+                    [&](const Eigen::VectorXd& theta) { return share(theta, bench.sketch_of(c, theta)); });
   top.second = exact(top.first);
   return top;
 }

@@ -65,7 +65,8 @@ class Height {
   double explained(const Eigen::VectorXd& theta) {
     const double admitted = candidate_.admitted ? candidate_.admitted(theta) : 1;
     if (admitted <= 0) return 0;
-    const Eigen::MatrixXd columns = sketched_ ? candidate_.sketch(theta) : bench_.columns_of(candidate_, theta);
+    const Eigen::MatrixXd columns =
+        sketched_ ? bench_.sketch_of(candidate_, theta) : bench_.columns_of(candidate_, theta);
     if (candidate_.width > 1 || candidate_.sign == 0) return admitted * stand_.gain(columns);
     const auto [along, length] = measured(columns);
     if (length < 1e-6 || along * candidate_.sign <= 0) return 0;
@@ -129,7 +130,7 @@ Top raced_to(const Bench& bench, const Stand& stand, const Lead& lead) {
   const auto value = [&](const Eigen::VectorXd& theta) { return height(theta); };
   std::vector<Eigen::VectorXd> starts;
   if (c.proposed) {
-    for (Eigen::VectorXd& theta : c.proposed(height.thin())) {
+    for (Eigen::VectorXd& theta : bench.proposals(c, height.thin())) {
       if (static_cast<int>(starts.size()) < c.starts && far_from(c, theta, starts)) starts.push_back(std::move(theta));
     }
     starts.push_back(lead.theta);  // as well, however near: the grid may have met a narrow top

@@ -8,6 +8,7 @@
 #include "diagnosis/near_readings.hpp"
 #include "diagnosis/prepared.hpp"
 #include "diagnosis/report/advice.hpp"
+#include "diagnosis/search/thin.hpp"
 #include "tests/diagnosis/scratch.hpp"
 
 namespace muster::diagnosis {
@@ -264,6 +265,48 @@ TEST(Near, AsksAllOfWhatConcernsAReadingElsewhere) {
   const auto columns = columns_near(theta, far, hall.at.data, hall.at.problem.readings, simulate);
   EXPECT_EQ(columns(theta), far.candidate.columns(theta));
 }
+
+TEST(EndedRows, AreSketchedAsTheRowsThatTheyAreOf) {
+  const Hall hall;
+  search::Bench bench(hall.at.problem, hall.at.options);
+  const Eigen::Index rows = bench.rows().size();
+  for (const search::Candidate& c : hall.at.problem.candidates) {
+    if (c.id != "effect.unmapped_wall") continue;
+    const Eigen::VectorXd& theta = c.grid[c.grid.size() / 2];
+    const Eigen::MatrixXd before = bench.sketch_of(c, theta);
+    ASSERT_GT(bench.end_rows_at(c, theta), 3);
+    const Eigen::MatrixXd after = bench.sketch_of(c, theta), exact = bench.columns_of(c, theta);
+    ASSERT_EQ(after.rows(), bench.rows().size());
+    EXPECT_EQ(after.col(0).maxCoeff(), before.col(0).maxCoeff());
+    // Whole rows are where their middles are; of an ended one each part is told what the whole was.
+    const Eigen::ArrayXd off = (after - exact).col(0).cwiseAbs();
+    EXPECT_LE((off > 0.01).count(), 2 * (bench.rows().size() - rows));
+    const search::Stand stand = bench.stand(bench.design());
+    search::Thin tally(bench, stand);
+    EXPECT_GT(bench.proposals(c, tally).size(), 10u);
+    return;
+  }
+  FAIL() << "no wall is sought";
+}
+
+// Long rows hide half of what these walls change: the reports of before named the first two nowhere, and of the third
+// knew the loss from 0 to 28 dB and the place from one end of the plan to the other.
+class Wall : public testing::TestWithParam<int> {};
+
+TEST_P(Wall, IsFoundAtItsEdges) {
+  const Scratch scratch;
+  const auto world =
+      made_case(scratch, "--seed 503 --rows 2000 20000 --mix one --effects unmapped_wall --lambda 100", GetParam());
+  const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
+  expect_only("effect.unmapped_wall", found);
+  for (const CauseValue& value : found.causes[0].values) {
+    if (value.unit == "m") {
+      EXPECT_LT(value.upper95 - value.lower95, 10) << value.name;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, Wall, testing::Values(15, 16, 8));
 
 // Seen from two or three sides, and narrow: its edges lie within centimetres, between which a search has many tops. Two
 // that it took for walls.

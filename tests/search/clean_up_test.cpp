@@ -104,6 +104,7 @@ TEST(Spread, OfAThingIsThatOfTheWholeLikelihood) {
   Bench bench(problem, {});
   bench.terms = {term_at(bench, "obstacle", truth)};
   bench.refit();
+  score(bench);
   const Term& term = bench.terms[0];
   const Spread spread = spread_of(bench, term);
   const Stand rest = bench.stand(bench.design_without(term)), whole = bench.stand(bench.design());

@@ -229,6 +229,32 @@ TEST(Thin, GainsWhatTheWholeColumnGains) {
   }
 }
 
+// What long rows tell of a thing, of what single readings do: most of it once rows end at its edges.
+TEST(Bench, RowsThatEndAtTheEdgesOfAThingTellOfIt) {
+  const auto world = world_of(varied(12, 4000));
+  const auto causes = causes_of(world);
+  const Candidate& thing = causes.back();
+  const Eigen::Vector3d at(11, 7, 0.7);
+  const Problem problem = problem_of(world, -scaled_to(world, thing.columns(at), 60), causes);
+  Options long_rows, single;
+  long_rows.rows.time = 5, long_rows.rows.way = 2.5;
+  single.rows.way = -1;
+  Bench bench(problem, long_rows), readings(problem, single);
+  const auto told = [&](const Bench& b) {
+    const Stand stand = b.stand(b.design(), readings.fit.covariance);
+    return stand.at.basis.rest(stand.whitener(b.columns_of(thing, at))).squaredNorm();
+  };
+  ASSERT_LT(3 * bench.rows().size(), readings.rows().size());
+  const double all = told(readings), before = told(bench);
+  const Index rows = bench.rows().size(), more = bench.end_rows_at(thing, at);
+  EXPECT_GT(more, 5);
+  EXPECT_EQ(bench.rows().size(), rows + more);
+  EXPECT_LT(before, 0.75 * all);
+  EXPECT_GT(told(bench), 0.8 * all);
+  EXPECT_EQ(bench.end_rows_at(thing, at), 0);
+  for (const Entry& entry : bench.entries()) EXPECT_EQ(entry.atoms->rows(), rows + more);
+}
+
 // Of what is fitted by Vecchia's approximation, whatever that believes to know.
 TEST(Uncertainty, IsTheScatterOfTheCoefficientsUnderTheCovarianceItself) {
   const auto world = world_of(varied(5, 1500));

@@ -49,6 +49,35 @@ TEST(Rows, AreAsFarApartAsMeansOverThemDiffer) {
   }
 }
 
+TEST(Rows, EndWhereAnEffectSetsInOrStops) {
+  constexpr int size = 60;
+  Readings r;
+  r.tx_at = r.rx_at = Eigen::Matrix3Xd::Zero(3, size);
+  Eigen::VectorXd effect = Eigen::VectorXd::Zero(size), value(size);
+  for (int k = 0; k < size; ++k) {
+    r.tx.push_back(0);
+    r.rx.push_back(1);
+    r.t.push_back(size - k);  // the last one is the first
+    r.rx_at(0, k) = 0.1 * k;
+    if (k > 12 && k < 31) effect[k] = -4;
+    value[k] = std::sin(k);
+  }
+  const Rows whole(r, {.time = 6, .way = 100});
+  ASSERT_EQ(whole.size(), 10);
+  std::vector<Index> parent;
+  const Rows ended = whole.ended_where(effect, 1, parent);
+  EXPECT_EQ(ended.size(), 12);
+  ASSERT_EQ(parent.size(), 12u);
+  const Eigen::VectorXd means = ended.mean(effect), of_values = ended.mean(value), of_whole = whole.mean(value);
+  for (Index i = 0; i < ended.size(); ++i) EXPECT_TRUE(means[i] == 0 || means[i] == -4) << i;
+  EXPECT_EQ(ended.count().sum(), size);
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(whole.size());
+  for (Index i = 0; i < ended.size(); ++i) sums[parent[static_cast<std::size_t>(i)]] += of_values[i] * ended.count()[i];
+  EXPECT_LT((sums.cwiseQuotient(whole.count()) - of_whole).norm(), 1e-12);
+  EXPECT_LT((ended.at_readings(means) - effect).norm(), 1e-12);
+  EXPECT_EQ(whole.ended_where(effect, 5, parent).size(), 10);
+}
+
 // Rows that cross, pass side by side or share a place are as far apart as all their readings say.
 TEST(Rows, AreAsFarApartWhateverWayTheyRun) {
   constexpr int each = 5;
