@@ -37,7 +37,7 @@ void settle(Bench& bench, std::size_t at, bool anew) {
     const Lead before = at_term(bench, stand, term);
     Lead best = refined(bench, stand, before, true);
     for (const Entry& entry : bench.entries()) {
-      if (!anew || entry.candidate->pieces != term.candidate->pieces) continue;
+      if (!anew || round > 0 || entry.candidate->pieces != term.candidate->pieces) continue;
       Lead other = from_grid(bench, stand, entry);
       if (other.evidence > best.evidence) best = std::move(other);
     }
