@@ -36,23 +36,21 @@ double Judge::at(const ReadingDensities& densities, double log_variance, const F
 Peak Judge::best(const ReadingLaw& law, Peak from) {
   const double log_variance = std::log(variance_of(law, step_));
   from.place = std::clamp(from.place, -farthest, farthest);
-  const ReadingDensities densities = densities_of(law, log_variance, from, 0.5);
-  const auto value = [&](int place) { return at(densities, log_variance, from.shape, place); };
-  double here = value(from.place), below = value(from.place - places), above = value(from.place + places);
-  for (int round = 0; round < 12 && std::max(below, above) > here; ++round) {
-    const bool up = above > below;
-    if (up ? from.place >= farthest : from.place <= -farthest) break;
-    if (up) {
-      from.place += places;
-      below = here, here = above, above = value(from.place + places);
-    } else {
-      from.place -= places;
-      above = here, here = below, below = value(from.place - places);
+  for (int way = 0;;) {
+    // For two tries either way.
+    const ReadingDensities densities = densities_of(law, log_variance, from, 0.5);
+    const auto value = [&](int by) { return at(densities, log_variance, from.shape, from.place + by * places); };
+    const double here = value(0), below = value(-1), above = value(1);
+    const int better = std::max(below, above) <= here ? 0 : above > below ? 1 : -1;
+    if (better == 0 || better == -way || std::abs(from.place + better * places) > farthest) {
+      const double bend = 2 * here - below - above, slope = (above - below) / 2;
+      const bool top = bend > 0 && std::abs(slope) <= bend;  // within a try; on a slope it may lie anywhere
+      from.value = top ? here + slope * slope / (2 * bend) : here;
+      return from;
     }
+    way = better;
+    from.place += way * places;
   }
-  const double bend = below - 2 * here + above, slope = (above - below) / 2;
-  from.value = bend < 0 ? here - slope * slope / (2 * bend) : here;
-  return from;
 }
 
 Peak Judge::best_distance(const ReadingLaw& law, const Peak& from) {

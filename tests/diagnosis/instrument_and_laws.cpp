@@ -131,6 +131,20 @@ TEST(LawsOfReadings, TheStatedLawIsNotLeftWithoutReason) {
     EXPECT_GT(test.log_p, std::log(0.01)) << test.cause;
 }
 
+TEST(LawsOfReadings, TheFieldsSizeIsTheSameFromWhereverItIsSought) {
+  const ReadingLaw law{.rician_k = 6};
+  const Walk walk = drawn({.rician_k = 6}, 2000);
+  ReadingField field(walk.readings, walk.residual);
+  Judge judge(field, 1);
+  const FieldShape shape{noise::Family::exponential, 400};
+  const Peak near = judge.best(law, {0, shape, 0});
+  for (const int from : {-6000, -3000, 3000, 6000}) {
+    const Peak far = judge.best(law, {0, shape, from});
+    EXPECT_NEAR(far.place, near.place, Judge::places) << from;
+    EXPECT_NEAR(far.value, near.value, 1) << from;
+  }
+}
+
 // Some of the readings say where to look; what is likely is the best by all.
 TEST(LawsOfReadings, ShapesOfManyReadingsAreTheBestByAllOfThem) {
   constexpr double likely = 6;  // nats
