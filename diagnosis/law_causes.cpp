@@ -72,13 +72,19 @@ void add_pile(const LawSources& s, const std::string& id, const Clip& clip, doub
   if (id == "effect.rssi_floor") found.causes.back().words["silent"] = "false";
 }
 
+// Fisher's, of two independent tests.
+double of_both(double log_p, double other) { return log_p + other + std::log1p(-log_p - other); }
+
 // Readings that are missing where levels are low, and not elsewhere.
 void add_silence(const LawSources& s, double step, Diagnosis& found) {
   const Missing& missing = s.fit.missing;
   const Cause* const cause = cause_called(s, "effect.rssi_floor");
   const double least = std::log(s.bench.options().further_alpha / static_cast<double>(s.bench.entries().size()));
-  const double gain = missing.censored ? missing.evidence : missing.evidence / 2;  // neighbours are lost together
+  const double independent = missing.censored ? 1 : 0.5;  // neighbours are lost together
+  const double gain = independent * missing.evidence;
   LawTest test{"effect.rssi_floor", {}, gain, gain / 2, search::log_tail(gain, 1)};
+  if (missing.cut_off && !missing.censored)
+    test.log_p = of_both(test.log_p, independent * std::log(missing.none_below));
   if (!cause || !(missing.censored || missing.cut_off) || test.log_p > least) return;
   if (clips_at(s, test.cause, "level", missing.floor, step) ||
       clips_at(s, "radio.receiver", "sensitivity", missing.floor, step))

@@ -91,34 +91,38 @@ bool Missing::rises() const {
 }
 
 Missing why_missing(const Eigen::VectorXd& rssi, const Eigen::VectorXd& mean, double sigma) {
-  std::vector<double> lost_at, heard_at;
-  std::vector<double> heard_levels;
+  std::vector<double> lost_at, heard_at, heard;
   for (Eigen::Index i = 0; i < rssi.size(); ++i) {
     (std::isnan(rssi[i]) ? lost_at : heard_at).push_back(mean[i]);
-    if (!std::isnan(rssi[i])) heard_levels.push_back(rssi[i]);
+    if (!std::isnan(rssi[i])) heard.push_back(rssi[i]);
   }
-  // The floor is where nothing weaker was ever heard, but for strays.
-  const std::size_t strays = heard_levels.size() / 1000;
-  const auto weakest = heard_levels.begin() + static_cast<std::ptrdiff_t>(strays);
-  std::nth_element(heard_levels.begin(), weakest, heard_levels.end());
-  Missing result{.count = lost_at.size(), .floor = *weakest};
+  std::sort(heard.begin(), heard.end());
+  Missing result{.count = lost_at.size(), .floor = heard.front()};
   if (result.count == 0) return result;
   result.bins = binned(rssi, mean);
-  const double lost = static_cast<double>(lost_at.size()), heard = static_cast<double>(heard_at.size());
-  const double share = lost / (lost + heard);
-  const double chance = lost * std::log(share) + heard * std::log1p(-share);
-  const Mixture best = with_floor(lost_at, heard_at, result.floor, std::max(sigma, 0.1));
+  const double lost = static_cast<double>(lost_at.size()), all = static_cast<double>(rssi.size());
+  const double chance = lost * std::log(lost / all) + (all - lost) * std::log1p(-lost / all);
+  // The floor is where nothing weaker was ever heard, but for strays: the likeliest.
+  Mixture best{.log_likelihood = -1e300};
+  for (std::size_t rank = 0; rank <= heard.size() / 1000; rank = std::max<std::size_t>(2 * rank, 1)) {
+    const Mixture mixture = with_floor(lost_at, heard_at, heard[rank], std::max(sigma, 0.1));
+    if (mixture.log_likelihood <= best.log_likelihood) continue;
+    best = mixture;
+    result.floor = heard[rank];
+  }
   result.share_at_random = best.random;
   result.by_floor = best.by_floor;
   result.evidence = 2 * (best.log_likelihood - chance);
   // Censored needs both: a rise that chance does not make (10 is p < 0.002 for one parameter, and neighbouring readings
   // are lost together), and that the floor took most of what is missing.
-  result.censored = result.evidence > 10 && result.by_floor > 0.5;
+  const bool risen = result.evidence > 10;
+  result.censored = risen && result.by_floor > 0.5;
   // Where chance took most of them, levels that end at the floor must say so too, and end there at once.
   constexpr double by_chance = 2e-5;
-  const auto heard_above = std::count_if(
-      rssi.begin(), rssi.end(), [&](double level) { return level >= result.floor && level < result.floor + closely; });
-  result.cut_off = at_most(strays, best.below)<by_chance&& static_cast<double>(heard_above)> best.above / 2;
+  const auto from = [&](double level) { return std::lower_bound(heard.begin(), heard.end(), level); };
+  result.none_below = at_most(static_cast<std::size_t>(from(result.floor) - heard.begin()), best.below);
+  const auto closely_above = static_cast<double>(from(result.floor + closely) - from(result.floor));
+  result.cut_off = risen && by_chance > result.none_below && closely_above > best.above / 2;
   return result;
 }
 

@@ -13,6 +13,7 @@ struct Missing {
   double share_at_random = 0;  // of all readings, at every level
   double by_floor = 0;         // share of the missing ones that the floor explains
   double evidence = 0;         // twice the log-likelihood ratio of the mixture against chance alone
+  double none_below = 1;       // the chance that so few were heard below the floor, were there none
   struct Bin {
     double level;  // mean predicted level, dBm
     double rows, missing;

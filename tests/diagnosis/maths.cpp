@@ -150,6 +150,17 @@ TEST(Missing, AFloorBesideMuchRandomLossCutsLevelsOff) {
   EXPECT_FALSE(missing_where([](double, double chance) { return chance < 0.1; }).cut_off);
 }
 
+// Where few are lost, their floor is the weakest that was heard, and not what one in a thousand lies below.
+TEST(Missing, AFloorInTheTailTakesFew) {
+  const Missing alone = missing_where([](double level, double) { return level < -101; });
+  EXPECT_LT(alone.count, 50u);
+  EXPECT_TRUE(alone.censored);
+  EXPECT_NEAR(alone.floor, -101, 0.5);
+  const Missing beside = missing_where([](double level, double chance) { return level < -98 || chance < 0.1; });
+  EXPECT_TRUE(beside.cut_off);
+  EXPECT_NEAR(beside.floor, -98, 0.5);
+}
+
 // A receiver that hears half of all, and of weak ones fewer and fewer.
 TEST(Missing, ALossThatRisesGentlyIsNoFloorAndNotChance) {
   const auto gentle = [](double level, double chance) { return chance > 0.5 / (1 + std::exp((-78 - level) / 5)); };
