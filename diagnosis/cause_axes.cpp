@@ -149,7 +149,7 @@ double belief_in_segment(const Survey& s, const Eigen::VectorXd& t) {
 }
 
 Eigen::MatrixXd moves_of_segment(const Survey& s, const Eigen::VectorXd& t) {
-  constexpr double way = 0.4, turn = 0.15, away = 0.25;  // m, rad, share of the distance
+  constexpr double way = move_of_segment, turn = 0.15, away = 0.25;  // m, rad, share of the distance
   const Eigen::Vector2d along(std::cos(t[4]), std::sin(t[4])), across(-along.y(), along.x());
   const Eigen::Index shapes = t.size() - 5, others = shapes + (s.standing.empty() ? 0 : 1);
   Eigen::MatrixXd moves = Eigen::MatrixXd::Zero(t.size(), 6 + others);

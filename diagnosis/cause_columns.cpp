@@ -224,14 +224,22 @@ struct Maker {
   void let_sweep(const CauseShape& shape, search::Candidate& c) const {
     const bool wall = shape.place == PlaceShape::segment && !shape.is_strip();
     if (!wall && !(shape.place == PlaceShape::point && shape.axes.size() == 1)) return;
+    const auto link = [&](Index reading) -> std::array<double, 4> {
+      const auto& [a, b] =
+          sources.model.ends()[static_cast<std::size_t>(sources.used[static_cast<std::size_t>(reading)])];
+      return {a.x, a.y, b.x, b.y};
+    };
     Links links;
-    for (Index row = 0; row < rows.size(); ++row) {
-      const Index reading = sources.used[static_cast<std::size_t>(rows.middle(row))];
-      const auto& [a, b] = sources.model.ends()[static_cast<std::size_t>(reading)];
-      links.push_back({a.x, a.y, b.x, b.y});
-    }
+    for (Index row = 0; row < rows.size(); ++row) links.push_back(link(rows.middle(row)));
     if (wall) {
-      c.proposed = [sweep = std::make_shared<const SegmentSweep>(survey, links),
+      ReadingLinks readings;
+      for (const Index reading : rows.in_order()) {
+        const Index row = rows.row_of()[static_cast<std::size_t>(reading)];
+        readings.links.push_back(link(reading));
+        readings.row.push_back(row);
+        readings.share.push_back(1 / rows.count()[row]);
+      }
+      c.proposed = [sweep = std::make_shared<const SegmentSweep>(survey, links, std::move(readings)),
                     first = c.grid[0]](search::Tally& tally) { return shaped_as(first, (*sweep)(tally)); };
     } else {
       c.step.tail<3>().setConstant(0.1);  // m: its tops are narrow and lie close

@@ -12,15 +12,23 @@ namespace muster::diagnosis {
 // Of each row of a search, x y of either end of its link, m.
 using Links = std::vector<std::array<double, 4>>;
 
+// Of each reading the same, row by row.
+struct ReadingLinks {
+  Links links;
+  std::vector<Eigen::Index> row;
+  std::vector<double> share;  // of its row
+};
+
 struct Swept {
   double gain;
   Eigen::VectorXd theta;
 };
 
-// On lines along the plan and a little aslant, a quarter of a metre apart, all pieces that no radio was driven across.
+// On lines along the plan and a little aslant, a quarter of a metre apart, all pieces that no radio was driven across,
+// by one link a row; then by all readings from the best of these to wherever more is gained.
 class SegmentSweep {
  public:
-  SegmentSweep(const Survey& survey, const Links& links);
+  SegmentSweep(const Survey& survey, const Links& links, ReadingLinks readings);
 
   // Thetas (no row, x, y, length, angle), the best first.
   std::vector<Eigen::VectorXd> operator()(search::Tally& tally) const;
@@ -41,11 +49,13 @@ class SegmentSweep {
   };
 
   struct Way;
-  void lay_out(const Survey& survey, const std::vector<Way>& links, const std::vector<Way>& driven, double angle,
-               double across);
+  void lay_out(const std::vector<Way>& links, const std::vector<Way>& driven, double angle, double across);
   static Piece best_piece(const Gap& gap, double first, search::Tally& tally);
+  Swept climb(const Swept& from, search::Tally& tally) const;
 
+  Survey survey_;
   std::size_t rows_;
+  ReadingLinks readings_;
   std::vector<Gap> gaps_;
 };
 

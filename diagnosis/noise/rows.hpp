@@ -61,6 +61,7 @@ class Rows {
     return order_[static_cast<std::size_t>((first_[k] + first_[k + 1] - 1) / 2)];
   }
   const Eigen::VectorXd& count() const { return count_; }
+  const std::vector<Index>& in_order() const { return order_; }  // readings, row by row
 
   // The same rows, but for those within which an effect, one value a reading, changes by more than `step` from the
   // first reading on: they end there. `parent`: of each new row, the one that it was in.

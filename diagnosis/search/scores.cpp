@@ -123,6 +123,16 @@ Eigen::VectorXd gains_of(const Entry& entry, const Stand& stand) {
   return gains(*entry.candidate, unit_atoms(entry, stand), stand.at.residual);
 }
 
+// One reading a row may have led away from a narrow top.
+Top best_of(const std::vector<Eigen::VectorXd>& starts, Top reached, Height exact) {
+  reached.second = exact(reached.first);
+  for (const Eigen::VectorXd& start : starts) {
+    const double there = exact(start);
+    if (there > reached.second) reached = {start, there};
+  }
+  return reached;
+}
+
 // From many starts.
 Top raced_to(const Bench& bench, const Stand& stand, const Lead& lead) {
   const Candidate& c = lead.candidate();
@@ -134,7 +144,7 @@ Top raced_to(const Bench& bench, const Stand& stand, const Lead& lead) {
       if (static_cast<int>(starts.size()) < c.starts && far_from(c, theta, starts)) starts.push_back(std::move(theta));
     }
     starts.push_back(lead.theta);  // as well, however near: the grid may have met a narrow top
-    return raced(c, starts, {value, value, value});
+    return best_of(starts, raced(c, starts, {value, value, value}), Height(bench, stand, c, Columns::exact));
   }
   starts.push_back(lead.theta);
   if (c.pieces.empty()) {  // no shadow: what is off by a little still gains

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "diagnosis/cause_axes.hpp"
 #include "muster/random.hpp"
@@ -48,6 +49,13 @@ struct Plan {
     }
   }
 
+  // One a row.
+  ReadingLinks readings() const {
+    std::vector<Index> rows(links.size());
+    std::iota(rows.begin(), rows.end(), 0);
+    return {links, std::move(rows), std::vector<double>(links.size(), 1)};
+  }
+
   template <class Meets>
   Scored scored(const Meets& meets) const {
     std::vector<double> scores;
@@ -78,7 +86,7 @@ TEST(PlaceSweep, FindsASegment) {
   const Point middle(6, 4), half = 1.1 * Point(std::cos(0.4), std::sin(0.4));
   Scored tally =
       plan.scored([&](const Point& a, const Point& b) { return meets_segment(a, b, middle - half, middle + half); });
-  const auto swept = SegmentSweep(plan.survey, plan.links)(tally);
+  const auto swept = SegmentSweep(plan.survey, plan.links, plan.readings())(tally);
   ASSERT_FALSE(swept.empty());
   const Ends found = ends_of(swept[0]);
   EXPECT_LT(std::min((found.from - middle + half).norm(), (found.from - middle - half).norm()), 0.5);
@@ -88,10 +96,10 @@ TEST(PlaceSweep, FindsASegment) {
 TEST(PlaceSweep, LeavesOutWhatWasDrivenAcross) {
   Plan plan;
   const Point middle(6, 4), half = 1.1 * Point(std::cos(0.4), std::sin(0.4));
-  plan.survey.ways.push_back({6, 2, 6, 7});
+  for (int y = 2; y < 7; ++y) plan.survey.ways.push_back({6.0, 1.0 * y, 6.0, y + 1.0});
   Scored tally =
       plan.scored([&](const Point& a, const Point& b) { return meets_segment(a, b, middle - half, middle + half); });
-  for (const Eigen::VectorXd& theta : SegmentSweep(plan.survey, plan.links)(tally)) {
+  for (const Eigen::VectorXd& theta : SegmentSweep(plan.survey, plan.links, plan.readings())(tally)) {
     const Ends e = ends_of(theta);
     EXPECT_FALSE(meets_segment({6, 2}, {6, 7}, e.from, e.to)) << theta.transpose();
   }
@@ -190,7 +198,7 @@ TEST(MovesOfDisk, TurnOneEdgeOfItsShadowAlone) {
 TEST(PlaceSweep, RefusesATallyOfOtherRows) {
   const Plan plan;
   Scored fewer(std::vector<double>(10, 1));
-  EXPECT_THROW(SegmentSweep(plan.survey, plan.links)(fewer), std::logic_error);
+  EXPECT_THROW(SegmentSweep(plan.survey, plan.links, plan.readings())(fewer), std::logic_error);
   EXPECT_THROW(DiskSweep(plan.survey, plan.links)(fewer), std::logic_error);
 }
 

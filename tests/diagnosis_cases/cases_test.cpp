@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <map>
+#include <utility>
 
 #include "diagnosis/diagnose.hpp"
 #include "diagnosis/near_readings.hpp"
@@ -307,6 +309,36 @@ TEST_P(Wall, IsFoundAtItsEdges) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, Wall, testing::Values(15, 16, 8));
+
+// The tops about it are narrow: the best line of a sweep, 5 cm aside, gained half of what it does, and the race from
+// there ended elsewhere.
+TEST(WallAmongNarrowTops, IsFoundToTheDecimetre) {
+  const Scratch scratch;
+  const auto world = made_case(scratch, "--seed 84 --rows 2000 20000", 549);
+  const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
+  expect_only("effect.unmapped_wall", found);
+  const std::map<std::string, double> there{{"x0", -28.43}, {"y0", -15.44}, {"x1", -26.56}, {"y1", -12.72}};
+  int ends = 0;
+  for (const CauseValue& value : found.causes[0].values) {
+    const auto truth = there.find(value.name);
+    if (truth == there.end()) continue;
+    EXPECT_NEAR(value.value, truth->second, 0.1) << value.name;
+    ++ends;
+  }
+  EXPECT_EQ(ends, 4);
+}
+
+// A floor that keeps a handful of readings back, alone and beside random loss.
+class Silence : public testing::TestWithParam<std::pair<int, int>> {};  // seed, case
+
+TEST_P(Silence, OfAHandfulIsTold) {
+  const auto [seed, number] = GetParam();
+  const Scratch scratch;
+  const auto world = made_case(scratch, "--seed " + std::to_string(seed) + " --rows 2000 20000", number);
+  expect_only("effect.rssi_floor", diagnose(world, world / "measured.csv", plugins));
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, Silence, testing::Values(std::pair(84, 784), std::pair(86, 145)));
 
 // Seen from two or three sides, and narrow: its edges lie within centimetres, between which a search has many tops. Two
 // that it took for walls.
