@@ -56,15 +56,18 @@ class Height {
 
   Thin& thin() { return thin_; }
 
-  // The fall of the deviance, and twice what is believed of the place.
+  // The fall of the deviance, and twice what is believed of the place. Where nothing can stand it is below all else:
+  // what counts as it is loses wherever it does not win.
   double operator()(const Eigen::VectorXd& theta) {
-    return explained(theta) + (candidate_.belief ? 2 * candidate_.belief(theta) : 0);
+    const double admitted = candidate_.admitted ? candidate_.admitted(theta) : 1;
+    if (admitted <= 0) return lowest;
+    return explained(theta, admitted) + (candidate_.belief ? 2 * candidate_.belief(theta) : 0);
   }
 
  private:
-  double explained(const Eigen::VectorXd& theta) {
-    const double admitted = candidate_.admitted ? candidate_.admitted(theta) : 1;
-    if (admitted <= 0) return 0;
+  static constexpr double lowest = -1e9;
+
+  double explained(const Eigen::VectorXd& theta, double admitted) {
     const Eigen::MatrixXd columns =
         sketched_ ? bench_.sketch_of(candidate_, theta) : bench_.columns_of(candidate_, theta);
     if (candidate_.width > 1 || candidate_.sign == 0) return admitted * stand_.gain(columns);
