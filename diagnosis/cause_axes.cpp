@@ -74,7 +74,9 @@ std::optional<Axis> axis_of(const muster_param& p, const Survey& s, const CauseS
   if (p.flags & MUSTER_CYCLIC) {
     std::vector<double> turn = evenly(-pi, pi, 17);
     turn.pop_back();
-    return Axis{p.name, false, -pi, pi, 0.2, turn};
+    Axis all_around{p.name, false, -2 * pi, 2 * pi, 0.2, turn};  // so that nothing ends where the count begins anew
+    all_around.cyclic = true;
+    return all_around;
   }
   if (p.flags & MUSTER_LOG) {
     if (unit == "s") return duration(p, s, shape);

@@ -334,7 +334,9 @@ std::map<std::string, double> CauseShape::parameters(const VectorXd& theta) cons
   }
   for (std::size_t k = 0; k < axes.size(); ++k) {
     const double value = theta[1 + place_entries(place) + static_cast<Index>(k)];
-    result[axes[k].parameter] = axes[k].logarithmic ? std::clamp(std::exp(value), axes[k].least, axes[k].most) : value;
+    result[axes[k].parameter] = axes[k].logarithmic ? std::clamp(std::exp(value), axes[k].least, axes[k].most)
+                                : axes[k].cyclic    ? std::remainder(value, 4 * quarter_turn)
+                                                    : value;
   }
   return result;
 }

@@ -16,6 +16,7 @@ struct Axis {
   double lower = 0, upper = 0, step = 0;
   std::vector<double> values;  // to start from, as in theta: logarithms where it is logarithmic
   double least = 0, most = 0;  // where it is logarithmic: exp(log(x)) may lie above x
+  bool cyclic = false;         // an angle
 };
 
 // How the coordinates of a cause make a place.

@@ -15,6 +15,7 @@ struct CauseValue {
   std::string name, unit;  // of the plugin's parameter
   double value = 0, stderror = 0, lower95 = 0, upper95 = 0;
   double minimum = 0, maximum = 0;  // as declared
+  bool cyclic = false;              // an angle: its interval may go on beyond these
 };
 
 struct FoundCause {

@@ -12,9 +12,10 @@ using Eigen::VectorXd;
 constexpr double normal95 = 1.96;
 
 CauseValue value_of(const muster_param& p, double value, double below, double above) {
-  const double at = std::clamp(value, p.min, p.max);
-  const double low = std::max(at - below, p.min), high = std::min(at + above, p.max);
-  return {p.name, p.unit, at, (below + above) / (2 * normal95), low, high, p.min, p.max};
+  const double at = std::clamp(value, p.min, p.max), sd = (below + above) / (2 * normal95);
+  if (p.flags & MUSTER_CYCLIC)
+    return {p.name, p.unit, at, sd, at - std::min(below, M_PI), at + std::min(above, M_PI), p.min, p.max, true};
+  return {p.name, p.unit, at, sd, std::max(at - below, p.min), std::min(at + above, p.max), p.min, p.max};
 }
 
 struct Reach {

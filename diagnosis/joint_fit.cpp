@@ -134,7 +134,7 @@ class Joint {
     }
     return result;
   }
-  // Intervals keep their widths inside the parameters' bounds.
+  // Intervals keep their widths inside the parameters' bounds, if these are ends.
   void store(const VectorXd& x) {
     for (std::size_t j = 0; j < unknown_.size(); ++j) {
       const double value = x[static_cast<Index>(j)];
@@ -145,7 +145,7 @@ class Joint {
       }
       for (double* end : {&v->lower95, &v->upper95}) {
         const double moved = unknown_[j].log ? *end * value / v->value : *end + value - v->value;
-        *end = std::clamp(moved, v->minimum, v->maximum);
+        *end = v->cyclic ? moved : std::clamp(moved, v->minimum, v->maximum);
       }
       v->value = value;
     }

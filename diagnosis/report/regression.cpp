@@ -104,6 +104,7 @@ Checked at_most(const std::string& what, double found, double most) {
 }
 
 Checked inside(const std::string& what, double found, double low, double high, const std::string& unit) {
+  if (unit == "rad") found += 2 * M_PI * std::round(((low + high) / 2 - found) / (2 * M_PI));  // the same direction
   const std::string u = unit.empty() ? "" : " " + unit;
   return {what, fmt::format("{:.4g}{}", found, u), fmt::format("{:.4g} to {:.4g}{}", low, high, u),
           found >= low && found <= high};

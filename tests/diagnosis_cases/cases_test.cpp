@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <map>
 #include <utility>
@@ -387,6 +388,28 @@ TEST(Candidates, ARadioMovedByLessThanATenthOfAMetreIsWhereTheMapHasIt) {
     return;
   }
   FAIL() << "no radio is sought elsewhere";
+}
+
+// A shadow that falls straight behind: nothing ends where the count of angles begins anew. It was told at -180 degrees,
+// give or take 1.4, where the search had run against that bound.
+TEST(Directions, GoOnBeyondHalfATurn) {
+  const Scratch scratch;
+  const auto world = made_case(scratch, "--seed 84 --rows 2000 20000", 104);
+  const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
+  for (const FoundCause& cause : found.causes) {
+    if (cause.id != "effect.body_shadow") continue;
+    const auto direction = std::find_if(cause.values.begin(), cause.values.end(),
+                                        [](const CauseValue& v) { return v.name == "direction"; });
+    ASSERT_NE(direction, cause.values.end());
+    constexpr double hidden = 3.041;  // rad
+    const double off = std::remainder(hidden - direction->value, 2 * M_PI);
+    EXPECT_GT(off, direction->lower95 - direction->value);
+    EXPECT_LT(off, direction->upper95 - direction->value);
+    EXPECT_LT(direction->upper95 - direction->lower95, 0.3);
+    EXPECT_LE(std::abs(direction->value), 3.15);
+    return;
+  }
+  FAIL() << "no shadow is told";
 }
 
 // Where no other place explains anything the map's explains most, and by a millimetre aside a link may pass a wall: a
