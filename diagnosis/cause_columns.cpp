@@ -234,12 +234,12 @@ struct Maker {
     if (wall) {
       ReadingLinks readings;
       for (const Index reading : rows.in_order()) {
-        const Index row = rows.row_of()[static_cast<std::size_t>(reading)];
+        const auto row = static_cast<std::size_t>(rows.row_of()[static_cast<std::size_t>(reading)]);
+        if (readings.first.size() == row) readings.first.push_back(readings.links.size());
         readings.links.push_back(link(reading));
-        readings.row.push_back(row);
-        readings.share.push_back(1 / rows.count()[row]);
       }
-      c.proposed = [sweep = std::make_shared<const SegmentSweep>(survey, links, std::move(readings)),
+      readings.first.push_back(readings.links.size());
+      c.proposed = [sweep = std::make_shared<const SegmentSweep>(survey, std::move(links), std::move(readings)),
                     first = c.grid[0]](search::Tally& tally) { return shaped_as(first, (*sweep)(tally)); };
     } else {
       c.step.tail<3>().setConstant(0.1);  // m: its tops are narrow and lie close

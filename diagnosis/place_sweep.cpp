@@ -64,16 +64,16 @@ std::vector<Swept> apart(const std::vector<Swept>& best_first, double least, std
   return result;
 }
 
-// By steps that halve, along each way, until none gains more.
+// By steps that halve, along each way, until none gains so much more.
 template <class Ways, class Gain, class May>
-Swept climbed(Swept from, const Ways& ways, const Gain& gain, const May& may) {
+Swept climbed(Swept from, double worth, const Ways& ways, const Gain& gain, const May& may) {
   for (const double step : {0.2, 0.1, 0.05, 0.025}) {  // m
     for (bool better = true; better;) {
       better = false;
       for (const VectorXd& way : ways(from.theta)) {
         Swept next{0, from.theta + step * way};
         next.gain = gain(next.theta);
-        if (next.gain <= from.gain || !may(next.theta)) continue;
+        if (next.gain <= from.gain + worth || !may(next.theta)) continue;
         from = std::move(next);
         better = true;
       }
@@ -109,13 +109,13 @@ struct SegmentSweep::Way {
   double at(double q) const { return p0 + (p1 - p0) * (q - q0) / (q1 - q0); }
 };
 
-SegmentSweep::SegmentSweep(const Survey& survey, const Links& links, ReadingLinks readings)
-    : survey_(survey), rows_(links.size()), readings_(std::move(readings)) {
+SegmentSweep::SegmentSweep(const Survey& survey, Links links, ReadingLinks readings)
+    : survey_(survey), links_(std::move(links)), readings_(std::move(readings)) {
   for (const double turn : {0.0, quarter_turn}) {
     for (const double slant : {-0.3, -0.15, 0.0, 0.15, 0.3}) {
       const double angle = survey.plan_angle + turn + slant;
       std::vector<Way> turned, driven;
-      for (const auto& link : links) turned.emplace_back(link, angle);
+      for (const auto& link : links_) turned.emplace_back(link, angle);
       for (const auto& way : survey.ways) driven.emplace_back(way, angle);
       double low = 1e300, high = -1e300;
       for (const Way& w : turned) {
@@ -158,7 +158,7 @@ void SegmentSweep::lay_out(const std::vector<Way>& links, const std::vector<Way>
 std::vector<VectorXd> SegmentSweep::operator()(search::Tally& tally) const {
   constexpr double much = 0.5;  // of what the best one gains
   constexpr std::size_t climbs = 8;
-  check(tally, rows_);
+  check(tally, links_.size());
   std::vector<Piece> best;
   for (const Gap& gap : gaps_) best.push_back(best_piece(gap, gap.from, tally));
   double most = 0;
@@ -204,7 +204,7 @@ SegmentSweep::Piece SegmentSweep::best_piece(const Gap& gap, double first, searc
 Swept SegmentSweep::climb(const Swept& from, search::Tally& tally) const {
   constexpr double reach = 1;  // m, beyond where it starts
   const double x = from.theta[1], y = from.theta[2], farthest = from.theta[3] / 2 + reach;
-  const std::vector<Index> near = links_near(readings_.links, x, y, farthest);
+  const std::vector<Index> near = links_near(links_, x, y, farthest);
   const auto ways = [&](const VectorXd& theta) {
     const Eigen::MatrixXd moves = moves_of_segment(survey_, theta) / move_of_segment;
     std::vector<VectorXd> both;
@@ -214,24 +214,35 @@ Swept SegmentSweep::climb(const Swept& from, search::Tally& tally) const {
   const auto gain = [&](const VectorXd& t) {
     if (t[3] < shortest || t[3] > longest || std::hypot(t[1] - x, t[2] - y) + t[3] / 2 > farthest) return 0.0;
     const double c = std::cos(t[4]), s = std::sin(t[4]), across = c * t[2] - s * t[1], along = c * t[1] + s * t[2];
-    Index row = -1;
-    double share = 0;  // of the row
+    const auto stopped = [&](const std::array<double, 4>& ends) {
+      const auto [x0, y0, x1, y1] = ends;
+      const double q0 = c * y0 - s * x0 - across, q1 = c * y1 - s * x1 - across;
+      if ((q0 < 0) == (q1 < 0)) return false;
+      const double p0 = c * x0 + s * y0, p1 = c * x1 + s * y1;
+      return std::abs(p0 + (p1 - p0) * q0 / (q0 - q1) - along) < t[3] / 2;
+    };
     tally.clear();
-    for (const Index reading : near) {
-      const auto k = static_cast<std::size_t>(reading);
-      const Way link(readings_.links[k], t[4]);
-      if (!link.crosses(across) || std::abs(link.at(across) - along) >= t[3] / 2) continue;
-      if (readings_.row[k] != row) {
-        if (share > 0) tally.add(row, -share);
-        row = readings_.row[k], share = 0;
-      }
-      share += readings_.share[k];
+    for (const Index row : near) {
+      const double stops = share(static_cast<std::size_t>(row), stopped);
+      if (stops > 0) tally.add(row, -stops);
     }
-    if (share > 0) tally.add(row, -share);
     return tally.gain() + 2 * belief_in_segment(survey_, t);
   };
   const auto may = [&](const VectorXd& t) { return driven_across(survey_, t[1], t[2], t[3], t[4]) == 0; };
-  return climbed(from, ways, gain, may);
+  // Shares of rows change with every centimetre: what wins next to nothing is left to those that go on from here.
+  const double here = gain(from.theta), worth = std::max(0.3, here / 300);
+  return climbed({here, from.theta}, worth, ways, gain, may);
+}
+
+// Of the readings of a row those that are stopped; if its first is as its last, all are.
+template <class Stopped>
+double SegmentSweep::share(std::size_t row, const Stopped& stopped) const {
+  const std::size_t first = readings_.first[row], past = readings_.first[row + 1];
+  const bool begins = stopped(readings_.links[first]), ends = stopped(readings_.links[past - 1]);
+  if (begins == ends) return begins ? 1 : 0;
+  int count = 1;
+  for (std::size_t k = first + 1; k + 1 < past; ++k) count += stopped(readings_.links[k]) ? 1 : 0;
+  return count / static_cast<double>(past - first);
 }
 
 DiskSweep::DiskSweep(const Survey& survey, Links links)
@@ -321,7 +332,7 @@ Swept DiskSweep::climb(Swept from, Near& near) const {
   const auto may = [&](const VectorXd& t) { return !driven_through(survey_, t[1], t[2], t[3]); };
   from.theta[3] = std::exp(from.theta[3]);  // the radius itself
   from = climbed(
-      std::move(from), [&](const VectorXd&) -> const auto& { return ways; }, gain, may);
+      std::move(from), 0, [&](const VectorXd&) -> const auto& { return ways; }, gain, may);
   from.theta[3] = std::log(from.theta[3]);
   return from;
 }

@@ -12,11 +12,10 @@ namespace muster::diagnosis {
 // Of each row of a search, x y of either end of its link, m.
 using Links = std::vector<std::array<double, 4>>;
 
-// Of each reading the same, row by row.
+// Of each reading the same, row by row, in the order of their ways.
 struct ReadingLinks {
   Links links;
-  std::vector<Eigen::Index> row;
-  std::vector<double> share;  // of its row
+  std::vector<std::size_t> first;  // of each row; one past the last row too
 };
 
 struct Swept {
@@ -28,7 +27,7 @@ struct Swept {
 // by one link a row; then by all readings from the best of these to wherever more is gained.
 class SegmentSweep {
  public:
-  SegmentSweep(const Survey& survey, const Links& links, ReadingLinks readings);
+  SegmentSweep(const Survey& survey, Links links, ReadingLinks readings);
 
   // Thetas (no row, x, y, length, angle), the best first.
   std::vector<Eigen::VectorXd> operator()(search::Tally& tally) const;
@@ -52,9 +51,11 @@ class SegmentSweep {
   void lay_out(const std::vector<Way>& links, const std::vector<Way>& driven, double angle, double across);
   static Piece best_piece(const Gap& gap, double first, search::Tally& tally);
   Swept climb(const Swept& from, search::Tally& tally) const;
+  template <class Stopped>
+  double share(std::size_t row, const Stopped& stopped) const;
 
   Survey survey_;
-  std::size_t rows_;
+  Links links_;
   ReadingLinks readings_;
   std::vector<Gap> gaps_;
 };

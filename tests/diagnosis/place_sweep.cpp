@@ -51,9 +51,9 @@ struct Plan {
 
   // One a row.
   ReadingLinks readings() const {
-    std::vector<Index> rows(links.size());
-    std::iota(rows.begin(), rows.end(), 0);
-    return {links, std::move(rows), std::vector<double>(links.size(), 1)};
+    std::vector<std::size_t> first(links.size() + 1);
+    std::iota(first.begin(), first.end(), 0);
+    return {links, std::move(first)};
   }
 
   template <class Meets>
