@@ -126,7 +126,7 @@ Eigen::VectorXd gains_of(const Entry& entry, const Stand& stand) {
   return gains(*entry.candidate, unit_atoms(entry, stand), stand.at.residual);
 }
 
-// One reading a row may have led away from a narrow top.
+// One reading a row may have led away from a narrow top that was proposed.
 Top best_of(const std::vector<Eigen::VectorXd>& starts, Top reached, Height exact) {
   reached.second = exact(reached.first);
   for (const Eigen::VectorXd& start : starts) {
@@ -143,11 +143,14 @@ Top raced_to(const Bench& bench, const Stand& stand, const Lead& lead) {
   const auto value = [&](const Eigen::VectorXd& theta) { return height(theta); };
   std::vector<Eigen::VectorXd> starts;
   if (c.proposed) {
+    constexpr std::size_t likely = 5;  // the first ones proposed
     for (Eigen::VectorXd& theta : bench.proposals(c, height.thin())) {
       if (static_cast<int>(starts.size()) < c.starts && far_from(c, theta, starts)) starts.push_back(std::move(theta));
     }
     starts.push_back(lead.theta);  // as well, however near: the grid may have met a narrow top
-    return best_of(starts, raced(c, starts, {value, value, value}), Height(bench, stand, c, Columns::exact));
+    const Top top = raced(c, starts, {value, value, value});
+    starts.resize(std::min(starts.size(), likely));
+    return best_of(starts, top, Height(bench, stand, c, Columns::exact));
   }
   starts.push_back(lead.theta);
   if (c.pieces.empty()) {  // no shadow: what is off by a little still gains
