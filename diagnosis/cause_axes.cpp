@@ -10,8 +10,8 @@ namespace {
 constexpr double pi = 3.141592653589793;
 
 std::vector<double> evenly(double from, double to, int count) {
-  std::vector<double> result;
-  for (int k = 0; k < count; ++k) result.push_back(from + (to - from) * k / std::max(count - 1, 1));
+  std::vector<double> result(static_cast<std::size_t>(count));
+  for (int k = 0; k < count; ++k) result[static_cast<std::size_t>(k)] = from + (to - from) * k / std::max(count - 1, 1);
   return result;
 }
 

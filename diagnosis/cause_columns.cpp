@@ -194,7 +194,7 @@ struct Maker {
 
   void label(const std::shared_ptr<const CauseShape>& shape, search::Candidate& c) const {
     c.label = [shape](const VectorXd& t) {
-      if (const std::string row = shape->row_label(t); !row.empty()) return row;
+      if (std::string row = shape->row_label(t); !row.empty()) return row;
       std::ostringstream at;
       at.precision(2);
       at << std::fixed;
@@ -268,7 +268,7 @@ struct Maker {
 
 std::string make(const Cause& cause, const Maker& maker, CauseSearch& out) {
   const CauseSources& s = maker.sources;
-  if (const std::string why = why_not(cause, maker.survey, s.data); !why.empty()) return why;
+  if (std::string why = why_not(cause, maker.survey, s.data); !why.empty()) return why;
   auto shape = std::make_shared<CauseShape>();
   shape->cause = cause;
   shape->rows = rows_for(cause, s.model, maker.survey);

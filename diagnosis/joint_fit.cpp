@@ -82,7 +82,7 @@ class Joint {
 
   // What the world with the causes expects; takes them away again.
   VectorXd mean() {
-    const VectorXd result = fit_.model.expected();
+    VectorXd result = fit_.model.expected();
     for (const std::string& name : inserted_) fit_.model.simulation().remove(name);
     return result;
   }

@@ -23,10 +23,11 @@ Mixture with_floor(const std::vector<double>& lost_at, const std::vector<double>
   Mixture result;
   const double lost = static_cast<double>(lost_at.size()), all = lost + static_cast<double>(heard_at.size());
   result.random = 0.5 * lost / all;
-  std::vector<double> chance;  // of falling below the floor
-  for (const double m : lost_at) chance.push_back(below((floor - m) / sigma));
-  std::vector<double> heard_chance;
-  for (const double m : heard_at) heard_chance.push_back(below((floor - m) / sigma));
+  const auto chances = [&](std::vector<double> levels) {  // of falling below the floor
+    for (double& level : levels) level = below((floor - level) / sigma);
+    return levels;
+  };
+  const std::vector<double> chance = chances(lost_at), heard_chance = chances(heard_at);
   for (int i = 0; i < 60; ++i) {
     double by_chance = 0;  // missing ones that random loss explains, whatever the floor did
     for (const double f : chance) by_chance += result.random / (result.random + (1 - result.random) * f + 1e-300);

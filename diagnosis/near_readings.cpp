@@ -85,7 +85,7 @@ Columns columns_near(const VectorXd& theta, const CauseCandidate& cause, const D
   if (near.empty() || 2 * static_cast<Index>(near.size()) > readings.size()) return all;
   const std::shared_ptr<SimulatedReadings> simulated = simulate(those(readings, near));
   const Columns columns = simulated->at(cause, data).columns;
-  const Columns result = [=, shape = cause.shape, many = readings.size()](const VectorXd& t) -> Eigen::MatrixXd {
+  Columns result = [=, shape = cause.shape, many = readings.size()](const VectorXd& t) -> Eigen::MatrixXd {
     (void)simulated;  // which the columns ask
     if (!area.holds(about(*shape, t, beyond))) return all(t);
     const Eigen::MatrixXd here = columns(t);

@@ -24,20 +24,20 @@ std::vector<Swept> the_best(std::vector<Swept> all) {
 }
 
 std::vector<VectorXd> thetas_of(std::vector<Swept> all) {
-  std::vector<VectorXd> result;
-  for (Swept& one : all) result.push_back(std::move(one.theta));
+  std::vector<VectorXd> result(all.size());
+  for (std::size_t k = 0; k < all.size(); ++k) result[k] = std::move(all[k].theta);
   return result;
 }
 
 // What a way through a disk costs, of what ways without end would, negative; to a thousandth.
 double lost(double radii) {
-  constexpr std::size_t parts = 512;
+  constexpr double parts = 512;
   static const auto table = [] {
-    std::array<double, parts + 2> result{};
+    std::array<double, static_cast<std::size_t>(parts) + 1> result{};
     for (std::size_t k = 0; k < result.size(); ++k) result[k] = std::expm1(-2.0 * static_cast<double>(k) / parts);
     return result;
   }();
-  return table[static_cast<std::size_t>(std::min(radii, 2.0) * (parts / 2) + 0.5)];
+  return table[static_cast<std::size_t>(std::min(radii * parts / 2 + 0.5, parts + 0.5))];
 }
 
 // Those that pass by a place within so many metres.

@@ -184,8 +184,9 @@ TEST(ErrorModels, OutliveShapesThatAreNoCovariance) {
   std::mt19937 random(3);
   std::normal_distribution<double> error(0, 1);
   for (int i = 0; i < residual.size(); ++i) {
-    clusters.of_row.push_back(i / rows_each);
-    residual[i] = 10 * (i / rows_each - 1) + error(random);
+    const int cluster = i / rows_each;
+    clusters.of_row.push_back(cluster);
+    residual[i] = 10 * (cluster - 1) + error(random);
   }
   const Eigen::Matrix3d shape{{1, 5, 5}, {5, 1, 5}, {5, 5, 1}};
   const Eigen::Vector3d apart(1, -1, 0);

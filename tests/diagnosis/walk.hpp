@@ -23,7 +23,7 @@ inline Walk drawn(const Truth& truth, int count, double decorrelation = 1.5, int
   result.readings.tx_at = Eigen::Matrix3Xd::Zero(3, count);
   result.readings.rx_at.resize(3, count);
   result.residual.resize(count);
-  const Stream random(combined(key_of("law test"), static_cast<uint64_t>(3 + station)));
+  const Stream random(combined(key_of("law test"), uint64_t{3} + static_cast<uint64_t>(station)));
   const double k = std::pow(10, truth.rician_k / 10), steady = std::sqrt(k / (1 + k)),
                diffuse = std::sqrt(0.5 / (1 + k));
   constexpr double apart = 0.15, shadowing = 3;  // m, dB

@@ -132,6 +132,7 @@ Candidate along_a_line() {
 
 std::vector<Eigen::VectorXd> starting_at(const std::vector<double>& places) {
   std::vector<Eigen::VectorXd> result;
+  result.reserve(places.size());
   for (const double place : places) result.push_back(Eigen::VectorXd::Constant(1, place));
   return result;
 }
