@@ -163,11 +163,23 @@ PlannedReadings turning(const Maker& make) {
   return out;
 }
 
-// The standing radio that something was found about, or the first one; none if none stands.
+bool is_about(const FoundCause& c, const std::string& radio) { return c.row == radio; }
+
+bool may_be_about(const FoundCause& c, const std::string& radio) {
+  return std::any_of(c.rivals.begin(), c.rivals.end(), [&](const search::Rival& r) {
+    const std::string rows = ' ' + r.label + ' ';
+    return r.separability < search::decided && rows.find(" radio/" + radio + ' ') != std::string::npos;
+  });
+}
+
+// The standing radio that something was found about, or that it may be about as well, or the first one; none if none
+// stands.
 const Standing* station(const Maker& make, const std::vector<FoundCause>& about) {
-  for (const Standing& s : make.radios) {
-    const std::string& name = make.seen.radios[static_cast<std::size_t>(s.end.radio)];
-    if (std::any_of(about.begin(), about.end(), [&](const FoundCause& c) { return c.row == name; })) return &s;
+  for (const auto& is : {is_about, may_be_about}) {
+    for (const Standing& s : make.radios) {
+      const std::string& name = make.seen.radios[static_cast<std::size_t>(s.end.radio)];
+      if (std::any_of(about.begin(), about.end(), [&](const FoundCause& c) { return is(c, name); })) return &s;
+    }
   }
   return make.radios.empty() ? nullptr : &make.radios.front();
 }

@@ -120,22 +120,30 @@ double height_above_moving(const LinkModel& model, const Survey& survey) {
 
 struct Trail {
   Span east, north, yaw;
-  double x = 0, y = 0;
-  bool begun = false;
+  std::vector<std::array<double, 2>> places;  // at least 0.2 m from one to the next
+  std::vector<double> headings;               // at least 0.2 rad
+
+  // A radio that was set up a few times stands still nevertheless.
+  static constexpr std::size_t set_ups = 4;
+  bool moves() const { return east.length() + north.length() > 0.5 && places.size() > set_ups; }
+  bool turns() const { return yaw.length() > 0.2 && (moves() || headings.size() > set_ups); }
 };
 
-// A piece of way ends 0.2 m further on; a leap of more than 2 m is no way that was driven.
+// A leap of more than 2 m is no way that was driven.
 void follow(Trail& trail, const End& end, Survey& survey) {
-  const bool first = !trail.begun;
+  const bool first = trail.places.empty();
   widen(trail.east, end.x, first);
   widen(trail.north, end.y, first);
   widen(trail.yaw, end.yaw, first);
-  trail.begun = true;
-  const double moved = first ? 0 : std::hypot(end.x - trail.x, end.y - trail.y);
-  if (!first && moved < 0.2) return;
-  if (!first && moved < 2) survey.ways.push_back({trail.x, trail.y, end.x, end.y});
-  trail.x = end.x;
-  trail.y = end.y;
+  if (first || std::abs(std::remainder(end.yaw - trail.headings.back(), 2 * M_PI)) > 0.2)
+    trail.headings.push_back(end.yaw);
+  if (!first) {
+    const auto [x, y] = trail.places.back();
+    const double moved = std::hypot(end.x - x, end.y - y);
+    if (moved < 0.2) return;
+    if (moved < 2) survey.ways.push_back({x, y, end.x, end.y});
+  }
+  trail.places.push_back({end.x, end.y});
 }
 
 std::vector<std::size_t> by_time(const Dataset& data) {
@@ -185,9 +193,9 @@ Survey survey_of(const LinkModel& model, const Dataset& data) {
   for (const auto& [radio, trail] : trails) {
     survey.turns.resize(static_cast<std::size_t>(radio) + 1, false);
     survey.moves.resize(static_cast<std::size_t>(radio) + 1, false);
-    survey.turns[static_cast<std::size_t>(radio)] = trail.yaw.length() > 0.2;
-    survey.moves[static_cast<std::size_t>(radio)] = trail.east.length() + trail.north.length() > 0.5;
-    if (!survey.moves[static_cast<std::size_t>(radio)]) survey.standing.push_back({trail.x, trail.y});
+    survey.turns[static_cast<std::size_t>(radio)] = trail.turns();
+    survey.moves[static_cast<std::size_t>(radio)] = trail.moves();
+    if (!trail.moves()) survey.standing.insert(survey.standing.end(), trail.places.begin(), trail.places.end());
   }
   survey.rooms = rooms_visited(model, survey);
   survey.above_moving = height_above_moving(model, survey);

@@ -1,4 +1,5 @@
 // What is sought of a cause, as attributes of its plugin.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "diagnosis/cause_axes.hpp"
@@ -57,7 +58,8 @@ TEST(CauseRows, ARadioThatOnlyTheDataKnowIsTold) {
   const Scratch scratch;
   const std::string rows =
       "t[s],tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],rx_yaw[rad],rssi[dBm]\n"
-      "0,s,rover,0,0,1,0,0,-50\n1,s,rover,0,0,2,0,1,-51\n2,s,rover,0,0,3,0,2,-52\n";
+      "0,s,rover,0,0,1,0,0,-50\n1,s,rover,0,0,2,0,1,-51\n2,s,rover,0,0,3,0,2,-52\n"
+      "3,s,rover,0,0,4,0,3,-50\n4,s,rover,0,0,5,0,4,-51\n";
   muster_param radio{};
   radio.name = radio.text = "radio";
   radio.kind = MUSTER_REFERENCE;
@@ -86,6 +88,36 @@ TEST(CauseRows, ARadioThatOnlyTheDataKnowIsTold) {
             "the data's radios it could be about "
             "\"rover\", which the world does not have: add <station name=\"rover\" at=\"x y z\"/>");
   EXPECT_EQ(told("<station name=\"rover\" at=\"1 0 1\"/>"), "about rover");
+}
+
+// Which radios move and turn, of some that hear a station.
+Survey heard_at(const std::vector<std::array<double, 3>>& places_and_headings) {
+  const Scratch scratch;
+  std::string rows = "t[s],tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],rx_yaw[rad],rssi[dBm]\n";
+  for (std::size_t k = 0; k < 60; ++k) {
+    const auto [x, y, yaw] = places_and_headings[k * places_and_headings.size() / 60];
+    rows += fmt::format("{},a,b,0,0,{},{},{},{}\n", k, x, y, yaw, k % 2 == 0 ? -50 : -51);
+  }
+  const auto world = scratch.write("world.xml",
+                                   "<world name=\"w\" dt=\"1\" until=\"1\"><station name=\"a\" at=\"0 0 1\"/>"
+                                   "<station name=\"b\" at=\"1 0 1\"/><radio.multiwall/></world>");
+  const auto file = scratch.write("d.csv", rows);
+  return survey_of(LinkModel(world, file, plugins), read_dataset(file));
+}
+
+TEST(Survey, TakesARadioThatIsSetUpAFewTimesForOneThatStands) {
+  const Survey turned = heard_at({{3, 1, 0}, {3, 1, M_PI / 2}}), moved = heard_at({{3, 1, 0}, {8, 5, 0}});
+  for (const Survey& s : {turned, moved}) {
+    EXPECT_FALSE(s.turns.at(1));
+    EXPECT_FALSE(s.moves.at(1));
+  }
+  EXPECT_EQ(moved.standing.size(), 3u);  // the station's and both
+  const Survey on_the_spot = heard_at({{3, 1, 0}, {3, 1, 1}, {3, 1, 2}, {3, 1, 3}, {3, 1, 4}, {3, 1, 5}});
+  EXPECT_TRUE(on_the_spot.turns.at(1));
+  EXPECT_FALSE(on_the_spot.moves.at(1));
+  const Survey drives = heard_at({{3, 1, 0}, {4, 1, 0}, {5, 1, 1.5}, {5, 2, 1.5}, {5, 3, 1.5}, {5, 4, 1.5}});
+  EXPECT_TRUE(drives.turns.at(1));
+  EXPECT_TRUE(drives.moves.at(1));
 }
 
 // A factor of e either way: 1.96 of those, and not 216 dB about 100.

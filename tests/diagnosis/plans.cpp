@@ -170,6 +170,15 @@ TEST(Plans, KeepStationsWhereTheyAreOnLinksThatGoBothWays) {
   }
 }
 
+TEST(Plans, TurnTheStationOfARivalWhereWhatWasFoundIsAboutNone) {
+  FoundCause wall = about("w1");
+  wall.rivals = {{"effect.tx_offset", "radio/west", {}, 1, 2 * search::decided},
+                 {"effect.antenna_tx", "radio/east", {}, 2, 0}};
+  EXPECT_GT(plan(driven(), "turn east", {wall}).size(), 0);
+  EXPECT_EQ(plan(driven(), "turn west", {wall}).size(), 0);
+  EXPECT_GT(plan(driven(), "turn west", {wall, about("west")}).size(), 0);
+}
+
 TEST(Plans, TurnTheRobotOnceAroundAtEveryPlace) {
   const noise::Readings turning = plan(driven(), "once around");
   EXPECT_TRUE(stations_stay(turning));
