@@ -54,9 +54,12 @@ void prefer_names(std::vector<Lead>& pool, double share) {
   if (chosen != pool.end()) to_front(pool, chosen);
 }
 
-// What a lead won, less what chance wins by as many functions and searched parameters, twice over (Akaike 1974).
+// What a lead won, less what chance wins by as many functions and searched parameters, twice over (Akaike 1974). A grid
+// that is not refined is sought along one.
 double won(const Lead& lead) {
-  return lead.gain - 2 * static_cast<double>(lead.columns.cols() + (lead.candidate().step.array() != 0).count());
+  const Candidate& c = lead.candidate();
+  const Index refined = (c.step.array() != 0).count(), searched = c.grid.size() > 1 ? std::max<Index>(refined, 1) : 0;
+  return lead.gain - 2 * static_cast<double>(lead.columns.cols() + searched);
 }
 
 // A function of time gives way to an observed column that does as well for its number of functions.
