@@ -118,12 +118,13 @@ Missing why_missing(const Eigen::VectorXd& rssi, const Eigen::VectorXd& mean, do
   // are lost together), and that the floor took most of what is missing.
   const bool risen = result.evidence > 10;
   result.censored = risen && result.by_floor > 0.5;
-  // Where chance took most of them, levels that end at the floor must say so too, and end there at once.
-  constexpr double by_chance = 2e-5;
+  // Where chance took most of them, levels that end at the floor must say so too, and end there at once; a smaller rise
+  // (p < 0.05) is enough beside these.
+  constexpr double some = 4, by_chance = 2e-5;
   const auto from = [&](double level) { return std::lower_bound(heard.begin(), heard.end(), level); };
   result.none_below = at_most(static_cast<std::size_t>(from(result.floor) - heard.begin()), best.below);
   const auto closely_above = static_cast<double>(from(result.floor + closely) - from(result.floor));
-  result.cut_off = risen && by_chance > result.none_below && closely_above > best.above / 2;
+  result.cut_off = result.evidence > some && by_chance > result.none_below && closely_above > best.above / 2;
   return result;
 }
 

@@ -54,6 +54,25 @@ std::vector<Index> cells_of(const noise::Sites& sites, double side) {
   return result;
 }
 
+// y = value + slope x by least squares; not known if x hardly varies.
+struct Intercept {
+  bool known = false;
+  double value = 0, standard_error = 0, left = 0;  // left: squares that are not explained
+};
+
+Intercept intercept_of(const VectorXd& y, const Eigen::ArrayXd& x) {
+  Eigen::MatrixX2d line(y.size(), 2);
+  line << VectorXd::Ones(y.size()), x.matrix();
+  const Eigen::Matrix2d normal = line.transpose() * line;
+  if (normal.determinant() < 1e-6 * static_cast<double>(y.size() * y.size())) return {};
+  const Eigen::Matrix2d inverse = normal.inverse();
+  const Eigen::Vector2d fitted = inverse * (line.transpose() * y);
+  // Farther differences scatter more (White 1980).
+  const Eigen::VectorXd left = (y - line * fitted).array().square();
+  const Eigen::Matrix2d uncertainty = inverse * (line.transpose() * left.asDiagonal() * line) * inverse;
+  return {true, fitted[0], std::sqrt(uncertainty(0, 0)), left.sum()};
+}
+
 }  // namespace
 
 ReadingField::ReadingField(const noise::Readings& readings, const VectorXd& residual)
@@ -99,7 +118,8 @@ VectorXd ReadingField::error_by(const noise::Whitener& whitener) const {
 }
 
 CloseReadings ReadingField::close_readings() const {
-  constexpr double close = 0.3;  // m, of both ends together: over so little the variogram of shadowing is a line
+  // m, of both ends together: over so little the variogram of shadowing is a line, or of a smooth field a parabola.
+  constexpr double close = 0.3;
   constexpr Index fewest = 100;
   const noise::Sites& sites = field_.sites();
   std::vector<bool> paired(static_cast<std::size_t>(size()), false);
@@ -119,17 +139,14 @@ CloseReadings ReadingField::close_readings() const {
   const auto pairs = static_cast<Index>(half.size());
   const CloseReadings nothing{pairs, 0, std::numeric_limits<double>::infinity()};
   if (pairs < fewest) return nothing;
-  Eigen::MatrixX2d line(pairs, 2);
-  line << VectorXd::Ones(pairs), Eigen::Map<const VectorXd>(apart.data(), pairs);
+  const Eigen::Map<const Eigen::ArrayXd> at(apart.data(), pairs);
   const Eigen::Map<const VectorXd> y(half.data(), pairs);
-  const Eigen::Matrix2d normal = line.transpose() * line;
-  if (normal.determinant() < 1e-6 * static_cast<double>(pairs * pairs)) return nothing;
-  const Eigen::Matrix2d inverse = normal.inverse();
-  const Eigen::Vector2d fitted = inverse * (line.transpose() * y);
-  // Farther differences scatter more (White 1980).
-  const Eigen::VectorXd left = (y - line * fitted).array().square();
-  const Eigen::Matrix2d uncertainty = inverse * (line.transpose() * left.asDiagonal() * line) * inverse;
-  return {pairs, fitted[0], std::sqrt(uncertainty(0, 0))};
+  const Intercept rough = intercept_of(y, at), smooth = intercept_of(y, at.square());
+  if (!rough.known) return nothing;
+  constexpr double clearly = 2;  // nats, of normal scatter
+  const bool parabola = smooth.known && std::log(rough.left / smooth.left) * static_cast<double>(pairs) / 2 > clearly;
+  const Intercept& likelier = parabola ? smooth : rough;
+  return {pairs, likelier.value, likelier.standard_error};
 }
 
 }  // namespace muster::diagnosis

@@ -184,6 +184,25 @@ TEST(LawsOfReadings, ReadingsSideBySideTellTheVarianceOfOne) {
   EXPECT_TRUE(std::isinf(ReadingField(far.readings, far.residual).close_readings().standard_error));
 }
 
+// The variogram of a smooth field begins as a parabola: a line through it would tell less than there is.
+TEST(LawsOfReadings, ReadingsSideBySideTellTheVarianceInASmoothFieldToo) {
+  constexpr int count = 6000;
+  constexpr double sd = 1.4;  // dB
+  const Stream random(key_of("smooth field"));
+  Walk walk = drawn({.rician_k = 4}, count);
+  double x = 0;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto k = static_cast<uint64_t>(i);
+    x += 0.3 * random.uniform(k, 0);  // m
+    walk.readings.rx_at.col(i) = Eigen::Vector3d(x, 0, 1);
+    walk.residual[i] = 8 * std::sin(2 * x) + sd * random.normal(k, 1);
+  }
+  const CloseReadings close = ReadingField(walk.readings, walk.residual).close_readings();
+  EXPECT_GT(close.pairs, 2000);
+  EXPECT_NEAR(close.variance, sd * sd, 3 * close.standard_error);
+  EXPECT_LT(close.standard_error, 0.1 * sd * sd);
+}
+
 // A field that changes faster than any that is tried looks like a wider law; readings of one place know better.
 // (Of tails they know too little to speak against outliers.)
 TEST(LawsOfReadings, ReadingsSideBySideSpeakAgainstAnotherLaw) {

@@ -159,6 +159,10 @@ TEST(Missing, AFloorInTheTailTakesFew) {
   const Missing beside = missing_where([](double level, double chance) { return level < -98 || chance < 0.1; });
   EXPECT_TRUE(beside.cut_off);
   EXPECT_NEAR(beside.floor, -98, 0.5);
+  const Missing few = missing_where([](double level, double chance) { return level < -100 || chance < 0.05; });
+  EXPECT_LT(few.evidence, 10);  // of the rise alone
+  EXPECT_TRUE(few.cut_off);
+  EXPECT_NEAR(few.floor, -100, 0.5);
 }
 
 // A receiver that hears half of all, and of weak ones fewer and fewer.
