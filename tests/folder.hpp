@@ -24,7 +24,7 @@ class Folder {
   std::string at(const std::string& name) const { return (path() / name).string(); }
 
   std::filesystem::path write(const std::string& name, const std::string& bytes) const {
-    const auto file = path() / name;
+    auto file = path() / name;
     std::filesystem::create_directories(file.parent_path());
     std::ofstream out(file, std::ios::binary);
     out << bytes;

@@ -33,7 +33,8 @@ SeenRows driven(bool robot_sends = false) {
   seen.count = Eigen::VectorXd::Constant(rows, 2);
   for (Index i = 0; i < rows; ++i) {
     const int station = i % 2 == 0 ? west : east;
-    const auto moment = static_cast<double>(i / 2);
+    const Index second = i / 2;
+    const auto moment = static_cast<double>(second);
     const Vector3d at(0.4 * moment, 4, 0.4);
     seen.tx.push_back(robot_sends ? static_cast<int>(robot) : station);
     seen.rx.push_back(robot_sends ? station : static_cast<int>(robot));
