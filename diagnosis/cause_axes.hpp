@@ -15,9 +15,9 @@ int driven_across(const Survey& survey, double x, double y, double length, doubl
 // Whether a way leads through the disk.
 bool driven_through(const Survey& survey, double x, double y, double radius);
 
+inline constexpr double move_of_segment = 0.4;  // m, of its ends
 // Moves of a segment: along and across, either end further out, about either end, each axis, and away from the nearest
 // radio that stands, in whose shadow it then stays the same.
-inline constexpr double move_of_segment = 0.4;  // m, of its ends
 Eigen::MatrixXd moves_of_segment(const Survey& survey, const Eigen::VectorXd& theta);
 // Moves of a disk: east, north, wider; and for each of the two nearest radios that stand either edge of its shadow
 // alone, and away from the radio, which leaves its shadow as it is.

@@ -3,34 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <map>
 #include <utility>
 
 #include "diagnosis/diagnose.hpp"
-#include "diagnosis/near_readings.hpp"
-#include "diagnosis/prepared.hpp"
 #include "diagnosis/report/advice.hpp"
-#include "diagnosis/search/scores.hpp"
-#include "diagnosis/search/thin.hpp"
-#include "tests/diagnosis/scratch.hpp"
+#include "tests/diagnosis_cases/sealed_case.hpp"
 
 namespace muster::diagnosis {
 namespace {
-
-const Library::SearchPath plugins = {MUSTER_PLUGINS_DIR};
-
-std::filesystem::path made_case(const Scratch& scratch, const std::string& wanted, int number) {
-  const std::string name = std::to_string(number);
-  const std::string command = std::string(EXAM) + " make --cases 1 --first " + name + ' ' + wanted + " --out " +
-                              (scratch / "").string() + " > /dev/null";
-  if (std::system(command.c_str()) != 0) throw std::runtime_error(command);
-  return scratch / ("case_" + std::string(4 - name.size(), '0') + name);
-}
-
-std::filesystem::path sealed_case(const Scratch& scratch, const std::string& wanted, int number) {
-  return made_case(scratch, "--seed 31 --rows 3000 4000 " + wanted, number);
-}
 
 std::string told(const Diagnosis& d) {
   std::string text;
@@ -206,93 +187,6 @@ TEST(GrazingLinks, AreNoOutliers) {
   EXPECT_TRUE(std::any_of(found.notes.begin(), found.notes.end(), says));
 }
 
-// A race asks one reading a row, by a world of those readings alone: the same that the whole table says of them.
-TEST(Sketch, IsTheColumnsAtTheReadingsInTheMiddleOfRows) {
-  const std::filesystem::path hall = std::filesystem::path(MUSTER_SOURCE_DIR) / "worlds" / "hall";
-  const Prepared at(hall, hall / "measured_plain.csv", plugins);
-  const noise::Rows rows(at.problem.readings, at.options.rows);
-  ASSERT_LT(2 * rows.size(), at.problem.readings.size());
-  std::vector<Eigen::Index> middles;
-  for (Eigen::Index row = 0; row < rows.size(); ++row) middles.push_back(rows.middle(row));
-  int sketched = 0;
-  for (const search::Candidate& c : at.problem.candidates) {
-    EXPECT_EQ(static_cast<bool>(c.sketch), c.refinable()) << c.id;
-    if (!c.sketch) continue;
-    ++sketched;
-    for (const std::size_t k : {std::size_t(0), c.grid.size() / 2}) {
-      const Eigen::MatrixXd exact = c.columns(c.grid[k])(middles, Eigen::all);
-      EXPECT_GT(exact.cwiseAbs().maxCoeff(), 0.01) << c.id;
-      EXPECT_LT((c.sketch(c.grid[k]) - exact).cwiseAbs().maxCoeff(), 1e-9) << c.id;
-    }
-  }
-  EXPECT_GT(sketched, 3);
-}
-
-struct Hall {
-  const std::filesystem::path world = std::filesystem::path(MUSTER_SOURCE_DIR) / "worlds" / "hall";
-  const Prepared at{world, world / "measured_plain.csv", plugins};
-};
-
-TEST(Near, AsksFewReadingsForTheColumnsOfAll) {
-  const Hall hall;
-  int near = 0;
-  for (const search::Candidate& c : hall.at.problem.candidates) {
-    if (!c.near) continue;
-    ++near;
-    const Eigen::VectorXd& theta = c.grid[c.grid.size() / 2];
-    const auto columns = c.near(theta);
-    for (const double moved : {0.0, 0.3, 0.7, 2.0, 5.0}) {
-      Eigen::VectorXd t = theta;
-      t[1] += moved, t[2] -= moved;
-      EXPECT_EQ(columns(t), c.columns(t)) << c.id << ' ' << moved;
-    }
-    EXPECT_GT(c.columns(theta).cwiseAbs().maxCoeff(), 0.5) << c.id;
-  }
-  EXPECT_EQ(near, 2);  // walls and things
-}
-
-TEST(Near, AsksAllOfWhatConcernsAReadingElsewhere) {
-  const Hall hall;
-  const auto& found = hall.at.sought.found;
-  const auto thing = std::find_if(found.begin(), found.end(),
-                                  [](const CauseCandidate& c) { return c.candidate.id == "effect.obstacle"; });
-  ASSERT_NE(thing, found.end());
-  CauseCandidate far = *thing;
-  far.candidate.columns = [columns = thing->candidate.columns](const Eigen::VectorXd& t) -> Eigen::MatrixXd {
-    return columns(t).array() + 1;
-  };
-  const Simulate simulate = [&](const noise::Readings& readings) {
-    return std::make_shared<SimulatedReadings>(readings, hall.at.model.radio_names(), hall.world, plugins,
-                                               hall.at.base);
-  };
-  const Eigen::VectorXd& theta = far.candidate.grid[0];
-  const auto columns = columns_near(theta, far, hall.at.data, hall.at.problem.readings, simulate);
-  EXPECT_EQ(columns(theta), far.candidate.columns(theta));
-}
-
-TEST(EndedRows, AreSketchedAsTheRowsThatTheyAreOf) {
-  const Hall hall;
-  search::Bench bench(hall.at.problem, hall.at.options);
-  const Eigen::Index rows = bench.rows().size();
-  for (const search::Candidate& c : hall.at.problem.candidates) {
-    if (c.id != "effect.unmapped_wall") continue;
-    const Eigen::VectorXd& theta = c.grid[c.grid.size() / 2];
-    const Eigen::MatrixXd before = bench.sketch_of(c, theta);
-    ASSERT_GT(bench.end_rows_at(c, theta), 3);
-    const Eigen::MatrixXd after = bench.sketch_of(c, theta), exact = bench.columns_of(c, theta);
-    ASSERT_EQ(after.rows(), bench.rows().size());
-    EXPECT_EQ(after.col(0).maxCoeff(), before.col(0).maxCoeff());
-    // Whole rows are where their middles are; of an ended one each part is told what the whole was.
-    const Eigen::ArrayXd off = (after - exact).col(0).cwiseAbs();
-    EXPECT_LE((off > 0.01).count(), 2 * (bench.rows().size() - rows));
-    const search::Stand stand = bench.stand(bench.design());
-    search::Thin tally(bench, stand);
-    EXPECT_GT(bench.proposals(c, tally).size(), 10u);
-    return;
-  }
-  FAIL() << "no wall is sought";
-}
-
 // Long rows hide half of what these walls change: the reports of before named the first two nowhere, and of the third
 // knew the loss from 0 to 28 dB and the place from one end of the plan to the other.
 class Wall : public testing::TestWithParam<int> {};
@@ -356,40 +250,6 @@ TEST_P(Thing, IsNoWall) {
 
 INSTANTIATE_TEST_SUITE_P(Cases, Thing, testing::Values(11, 19));
 
-// A radio at the edge of what is known may stand beyond it.
-TEST(Candidates, StartWithinTheBoundsThatTheyAreSoughtIn) {
-  const Scratch scratch;
-  const auto world = sealed_case(scratch, "--mix clean", 1);
-  const Prepared at(world, world / "measured.csv", plugins);
-  int refinable = 0;
-  for (const search::Candidate& c : at.problem.candidates) {
-    if (!c.refinable()) continue;
-    ++refinable;
-    const auto outside = [&](const Eigen::VectorXd& theta) {
-      return (c.step.array() != 0 && (theta.array() < c.lower.array() || theta.array() > c.upper.array())).any();
-    };
-    EXPECT_TRUE(std::none_of(c.grid.begin(), c.grid.end(), outside)) << c.id;
-  }
-  EXPECT_GE(refinable, 8);
-}
-
-// A few millimetres turn links past the end of a wall; a map does not tell them.
-TEST(Candidates, ARadioMovedByLessThanATenthOfAMetreIsWhereTheMapHasIt) {
-  const Scratch scratch;
-  const auto world = sealed_case(scratch, "--mix clean", 1);
-  const Prepared at(world, world / "measured.csv", plugins);
-  for (const search::Candidate& c : at.problem.candidates) {
-    if (c.id != "effect.tx_misplaced") continue;
-    const Eigen::VectorXd &start = c.grid[0], &opposite = c.grid[4], mapped = (start + opposite) / 2;
-    EXPECT_NEAR((start - mapped).norm(), 0.25, 1e-9);
-    EXPECT_EQ(c.admitted(start), 1);
-    EXPECT_EQ(c.admitted(mapped + 0.5 * (start - mapped)), 1);
-    EXPECT_EQ(c.admitted(mapped + 0.3 * (start - mapped)), 0);
-    return;
-  }
-  FAIL() << "no radio is sought elsewhere";
-}
-
 // A shadow that falls straight behind: nothing ends where the count of angles begins anew. It was told at -180 degrees,
 // give or take 1.4, where the search had run against that bound.
 TEST(Directions, GoOnBeyondHalfATurn) {
@@ -410,28 +270,6 @@ TEST(Directions, GoOnBeyondHalfATurn) {
     return;
   }
   FAIL() << "no shadow is told";
-}
-
-// Where no other place explains anything the map's explains most, and by a millimetre aside a link may pass a wall: a
-// case that was told so, by 37 of deviance and an error of 37 dB at places held out.
-TEST(Candidates, ARadioIsSoughtElsewhereAlone) {
-  const Scratch scratch;
-  const auto world = made_case(scratch, "--seed 86 --rows 2000 20000", 36);
-  const Prepared at(world, world / "measured.csv", plugins);
-  search::Bench bench(at.problem, at.options);
-  const search::Stand stand = bench.stand(bench.design());
-  for (const search::Entry& entry : bench.entries()) {
-    const search::Candidate& c = *entry.candidate;
-    if (c.id != "effect.tx_misplaced") continue;
-    search::UnitAtoms unit = search::unit_atoms(entry, stand);
-    bench.log_atoms(entry, unit);
-    for (const std::size_t k : {std::size_t{0}, c.grid.size() / 2}) {
-      const search::Lead from{&entry, c.grid[k], entry.atom(static_cast<Eigen::Index>(k)), 0, 0, 0, false, {}};
-      EXPECT_EQ(c.admitted(search::refined(bench, stand, from, false).theta), 1);
-    }
-    return;
-  }
-  FAIL() << "no radio is sought elsewhere";
 }
 
 }  // namespace
