@@ -4,7 +4,8 @@
 // it at once, and four derivatives are carried side by side.
 #include "diagnosis/noise/row_kernel.hpp"
 
-#define MUSTER_INLINE [[gnu::always_inline]] inline
+#include "diagnosis/noise/packs.hpp"
+
 #define MUSTER_ALWAYS __attribute__((always_inline))
 #define MUSTER_TEXT_OF(name) #name
 #define MUSTER_TEXT(name) MUSTER_TEXT_OF(name)
@@ -12,10 +13,9 @@
 namespace muster::noise {
 namespace {
 
-using Lanes = double __attribute__((vector_size(lanes * sizeof(double)), may_alias));
+using Lanes = Pack<double, lanes>;
+using Floats = Pack<float, many>;
 static_assert(sizeof(Lanes) == alignment);
-using Floats = float __attribute__((vector_size(16 * sizeof(float)), aligned(alignof(float)), may_alias));
-using Doubles = double __attribute__((vector_size(8 * sizeof(double)), aligned(alignof(double)), may_alias));
 
 using FourFloats = float __attribute__((vector_size(4 * sizeof(float)), aligned(alignof(float)), may_alias));
 using TwoDoubles = double __attribute__((vector_size(2 * sizeof(double)), aligned(alignof(double)), may_alias));
@@ -23,18 +23,19 @@ using TwoDoubles = double __attribute__((vector_size(2 * sizeof(double)), aligne
 MUSTER_INLINE Lanes* lanes_of(double* values) { return reinterpret_cast<Lanes*>(values); }
 MUSTER_INLINE const Lanes* lanes_of(const double* values) { return reinterpret_cast<const Lanes*>(values); }
 
-MUSTER_INLINE Lanes inverse_root(Lanes variance, double least) {
+MUSTER_INLINE Lanes inverse_root(const Lanes& variance, double least) {
   Lanes result;
   for (int lane = 0; lane < lanes; ++lane) {
     const double v = variance[lane] > least ? variance[lane] : least;
-    result[lane] = 1 / __builtin_sqrt(v);
+    result.set(lane, 1 / __builtin_sqrt(v));
   }
   return result;
 }
 
 MUSTER_INLINE Lanes looked_up(const double* table, const std::uint16_t* entries) {
-  return Lanes{table[entries[0]], table[entries[1]], table[entries[2]], table[entries[3]],
-               table[entries[4]], table[entries[5]], table[entries[6]], table[entries[7]]};
+  Lanes result;
+  for (int lane = 0; lane < lanes; ++lane) result.set(lane, table[entries[lane]]);
+  return result;
 }
 
 // What a table holds for a pair of slots: between places, and between both ends.
@@ -67,12 +68,12 @@ void factorise(const Neighbourhoods& n) {
       const Lanes x = row[k] * root[k * slots + k];
       row[k] = x;
       own -= x * x;
-      for (long b = k + 1; b < a; ++b) row[b] -= x * root[b * slots + k];
+      for (long b = a - 1; b > k; --b) row[b] -= x * root[b * slots + k];
     }
     row[a] = inverse_root(own, n.least_variance);
     cross[a] = covariance(n, pairs + a);
   }
-  Lanes variance = n.field_variance + n.floor_variance + nugget[slots];
+  Lanes variance = nugget[slots] + (n.field_variance + n.floor_variance);
   for (long k = 0; k < slots; ++k) {
     const Lanes x = cross[k] * root[k * slots + k];
     cross[k] = x;
@@ -220,7 +221,7 @@ MUSTER_INLINE void combine_all(const Combinations& c, const Scalar* x, long colu
 }
 
 void combine(const Combinations& c, const double* x, long columns, double* out) {
-  combine_all<Doubles, TwoDoubles>(c, x, columns, out);
+  combine_all<Lanes, TwoDoubles>(c, x, columns, out);
 }
 
 void combine_floats(const Combinations& c, const float* x, long columns, float* out) {
@@ -229,7 +230,7 @@ void combine_floats(const Combinations& c, const float* x, long columns, float* 
 
 // Vectors of the products x_j with_i, summed up over the columns.
 MUSTER_INLINE Lanes products(const double* x, const double* with, long columns) {
-  const auto *const one = reinterpret_cast<const Doubles*>(x), *const other = reinterpret_cast<const Doubles*>(with);
+  const auto *const one = reinterpret_cast<const Lanes*>(x), *const other = reinterpret_cast<const Lanes*>(with);
   Lanes sum = one[0] * other[0];
   for (long k = 1; k < columns / lanes; ++k) sum += one[k] * other[k];
   return sum;
@@ -253,10 +254,6 @@ void contract(const Combinations* four, const double* x, const double* with, lon
   }
 }
 
-using Ints = int __attribute__((vector_size(many * sizeof(int)), aligned(alignof(int)), may_alias));
-using ManyDoubles = double __attribute__((vector_size(many * sizeof(double)), aligned(alignof(double)), may_alias));
-static_assert(sizeof(Floats) == many * sizeof(float));
-
 MUSTER_INLINE Floats many_of(const float* values, long first) {
   return *reinterpret_cast<const Floats*>(values + first);
 }
@@ -274,8 +271,14 @@ MUSTER_INLINE Floats squares(const Ends& ends, long row, long first, float own_s
 }
 
 MUSTER_INLINE Floats root(Floats squares) {
-  for (int k = 0; k < many; ++k) squares[k] = __builtin_sqrtf(squares[k]);
+  for (Floats::Part& part : squares.part) {
+    for (int k = 0; k < Floats::each; ++k) part[k] = __builtin_sqrtf(part[k]);
+  }
   return squares;
+}
+
+MUSTER_INLINE void cut_at_zero(Floats& values) {
+  for (Floats::Part& part : values.part) part = part > 0 ? part : Floats::Part{};
 }
 
 struct Distances {
@@ -310,16 +313,19 @@ MUSTER_INLINE Distances distances_of(const Pairs& p, long row, long first) {
   Distances result = near ? between_readings(p, row, first) : middles;
   result.place -= many_of(p.within_place, first) + p.within_place[row];
   result.both -= many_of(p.within_both, first) + p.within_both[row];
-  for (int k = 0; k < many; ++k) {
-    result.place[k] = result.place[k] > 0 ? result.place[k] : 0;
-    result.both[k] = result.both[k] > 0 ? result.both[k] : 0;
-  }
+  cut_at_zero(result.place);
+  cut_at_zero(result.both);
   return result;
 }
 
+using TwiceAsWide = double __attribute__((vector_size(2 * register_bytes), aligned(alignof(double)), may_alias));
+using Ints = int __attribute__((vector_size(register_bytes), aligned(alignof(int)), may_alias));
+
 MUSTER_INLINE Floats correlations(const Pairs& p, Floats apart) {
-  const Ints entries = __builtin_convertvector(apart * p.entries_per_metre + 0.5f, Ints);
-  for (int k = 0; k < many; ++k) apart[k] = p.correlation[entries[k]];
+  for (Floats::Part& part : apart.part) {
+    const Ints entries = __builtin_convertvector(part * p.entries_per_metre + 0.5f, Ints);
+    for (int k = 0; k < Floats::each; ++k) part[k] = p.correlation[entries[k]];
+  }
   return apart;
 }
 
@@ -327,10 +333,14 @@ void covariances(const Pairs& p, long row, double* out) {
   for (long first = 0; first < row; first += many) {
     const Distances apart = distances_of(p, row, first);
     const Floats near = correlations(p, apart.place);
-    const Ints same = *reinterpret_cast<const Ints*>(p.radio + first) == p.radio[row];
     const Floats joint = p.anchors_move ? correlations(p, apart.both) : near;
-    const Floats sum = p.everywhere * near + (same ? p.joint * joint : Floats{});
-    *reinterpret_cast<ManyDoubles*>(out + first) = __builtin_convertvector(sum, ManyDoubles);
+    for (int k = 0; k < Floats::parts; ++k) {
+      const long from = first + k * Floats::each;
+      const Ints same = *reinterpret_cast<const Ints*>(p.radio + from) == p.radio[row];
+      const Floats::Part of_radio = same ? p.joint * joint.part[k] : Floats::Part{};
+      const Floats::Part sum = p.everywhere * near.part[k] + of_radio;
+      *reinterpret_cast<TwiceAsWide*>(out + from) = __builtin_convertvector(sum, TwiceAsWide);
+    }
   }
 }
 
