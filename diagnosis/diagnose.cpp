@@ -69,7 +69,8 @@ class Diagnoser {
       const auto cause = std::find_if(causes.found.begin(), causes.found.end(),
                                       [&](const CauseCandidate& c) { return c.candidate.id == f.id; });
       if (f.status == search::Status::unexplained || cause == causes.found.end()) {
-        out.unexplained.push_back({f.id.substr(f.id.rfind('~') + 1), f.evidence, f.gain, f.held_out});
+        out.unexplained.push_back({f.id.substr(f.id.rfind('~') + 1), f.evidence, f.gain, f.held_out, f.rivals});
+        std::erase_if(out.unexplained.back().rivals, [](const search::Rival& r) { return r.id[0] == '~'; });
         continue;
       }
       const auto [finding, candidate] = simplest(f, *cause, causes, bench, coefficients);

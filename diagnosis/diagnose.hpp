@@ -47,6 +47,7 @@ struct Unexplained {
   double evidence = 0;
   double lambda = 0;
   std::optional<search::HeldOut> held_out;
+  std::vector<search::Rival> rivals{};  // causes that explain it nearly as well
 
   bool changes_in_time() const;
 };

@@ -22,6 +22,18 @@ std::vector<Question> open_questions(const Diagnosis& d) {
       out.push_back(std::move(question));
     }
   }
+  for (const auto& u : d.unexplained) {
+    const std::string what = covariate_in_words(u.covariate);
+    for (const search::Rival& r : u.rivals) {
+      if (r.separability >= search::decided) continue;
+      out.push_back({"~" + u.covariate,
+                     r.id,
+                     what + " or " + short_name(r.id),
+                     r.separability,
+                     "measure with " + what + " changed and all else as it was",
+                     {}});
+    }
+  }
   return out;
 }
 

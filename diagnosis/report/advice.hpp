@@ -17,13 +17,13 @@ struct Measurement {
 
 struct Question {
   std::string cause, rival;
-  std::string pair;                  // "unmapped wall or obstacle"
+  std::string pair;                  // "unmapped wall or obstacle", "the column battery or drift"
   double separability = 0;           // D of the data
   std::string tell_apart;            // in the cause's own words
   std::vector<Measurement> plans{};  // the most telling one first
 };
 
-// Pairs of a cause and a rival that the data do not decide, D < 25.
+// Pairs of a cause, or of what is unexplained, and a rival that the data do not decide, D < 25.
 std::vector<Question> open_questions(const Diagnosis& diagnosis);
 
 // Whether a candidate is among what was found.

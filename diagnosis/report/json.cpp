@@ -22,8 +22,18 @@ Json held_out_json(const std::optional<search::HeldOut>& h) {
           {"blocks", h ? Json(h->blocks) : Json(nullptr)}};
 }
 
+Json rivals_json(const std::vector<search::Rival>& rivals) {
+  Json out = Json::array();
+  for (const search::Rival& r : rivals)
+    out.push_back({{"id", r.id},
+                   {"label", r.label},
+                   {"evidence_gap", known(r.evidence_gap)},
+                   {"separability", known(r.separability)}});
+  return out;
+}
+
 Json cause_json(const FoundCause& c) {
-  Json parameters = Json::array(), rivals = Json::array();
+  Json parameters = Json::array();
   for (const CauseValue& v : c.values) {
     const bool sure = v.upper95 > v.lower95;
     parameters.push_back({{"name", c.id + '/' + v.name},
@@ -33,11 +43,6 @@ Json cause_json(const FoundCause& c) {
                           {"upper95", sure ? known(v.upper95) : Json(nullptr)},
                           {"unit", v.unit}});
   }
-  for (const search::Rival& r : c.rivals)
-    rivals.push_back({{"id", r.id},
-                      {"label", r.label},
-                      {"evidence_gap", known(r.evidence_gap)},
-                      {"separability", known(r.separability)}});
   Json out = {{"id", c.id},
               {"label", c.label},
               {"status", c.status == search::Status::named ? "named" : "suspected"},
@@ -47,7 +52,7 @@ Json cause_json(const FoundCause& c) {
               {"evidence", known(c.evidence)},
               {"lambda", known(c.lambda)}};
   out.update(held_out_json(c.held_out));
-  out["rivals"] = rivals;
+  out["rivals"] = rivals_json(c.rivals);
   out["tell_apart"] = c.tell_apart;
   out["doubt"] = c.doubt.empty() ? Json() : Json(c.doubt);
   return out;
@@ -56,6 +61,7 @@ Json cause_json(const FoundCause& c) {
 Json unexplained_json(const diagnosis::Unexplained& u) {
   Json out = {{"covariate", u.covariate}, {"evidence", known(u.evidence)}, {"lambda", known(u.lambda)}};
   out.update(held_out_json(u.held_out));
+  out["rivals"] = rivals_json(u.rivals);
   return out;
 }
 

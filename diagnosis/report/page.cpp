@@ -114,14 +114,6 @@ std::string gain_text(const std::optional<search::HeldOut>& h, Standing standing
                      h->rmse_before, db(h->rmse_after), h->gain, h->lower95, h->upper95, h->blocks);
 }
 
-std::string rivals_text(const FoundCause& c) {
-  std::string out;
-  for (const search::Rival& r : c.rivals)
-    out += fmt::format("{}{} {}: {:.1f} nats behind, D {:.0f}, {}", out.empty() ? "" : "; ", short_name(r.id),
-                       r.label == r.id ? "" : r.label, tenths(r.evidence_gap), r.separability, judged(r.separability));
-  return out.empty() ? "none within 3 nats, and none with a separability D below 12" : out;
-}
-
 std::string cause_card(const FoundCause& c, std::size_t number, const std::vector<Picture>& pictures) {
   const Standing standing = standing_of(c);
   const bool sure = standing == Standing::confirmed;
@@ -141,7 +133,7 @@ std::string cause_card(const FoundCause& c, std::size_t number, const std::vecto
                 {{"evidence"},
                  {fmt::format("{:.1f} nats; λ = {:.0f} (fall of the deviance beside all else)", c.evidence, c.lambda)}},
                 {{"gain"}, {gain_text(c.held_out, standing)}},
-                {{"rivals"}, {rivals_text(c)}}});
+                {{"rivals"}, {c.rivals.empty() ? no_rivals : rivals_in_words(c.rivals)}}});
   return out + "</article>\n" + figure_named(pictures, fmt::format("cause_{}", number));
 }
 
@@ -255,13 +247,9 @@ std::string page_of(const Diagnosis& d, const Setting& setting, const std::vecto
   if (!d.unexplained.empty()) {
     body += heading("Not explained");
     for (const auto& u : d.unexplained)
-      body +=
-          "<div class=\"card\">" +
-          paragraph(
-              "Something depends on " + covariate_in_words(u.covariate) +
-              fmt::format(", and no cause on the plugin path explains it: evidence {:.1f} nats, λ = {:.0f}. Gain: {}.",
-                          u.evidence, u.lambda, gain_text(u.held_out, Standing::unconfirmed))) +
-          "</div>\n";
+      body += "<div class=\"card\">" +
+              paragraph(what_is_unexplained(u) + " Gain: " + gain_text(u.held_out, Standing::unconfirmed) + ".") +
+              "</div>\n";
   }
   if (d.stairs.size() > 1)
     body += heading("Gain") + figure_named(pictures, "steps") + figure_named(pictures, "before_after");

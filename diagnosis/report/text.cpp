@@ -75,13 +75,8 @@ std::string cause_text(const FoundCause& c, int number) {
     text += entry("doubt", c.doubt);
   else if (standing == Standing::unconfirmed && c.held_out)
     text += entry("", "What was held out does not confirm it yet: the interval touches zero.");
-  std::string rivals;
-  for (const search::Rival& r : c.rivals)
-    rivals +=
-        fmt::format("{}{} {}, {:.1f} nats behind, D {:.0f}: {}", rivals.empty() ? "" : "; ", short_name(r.id),
-                    r.label == r.id ? "" : r.label, tenths(r.evidence_gap), r.separability, judged(r.separability));
   if (standing != Standing::set_aside)
-    text += entry("rivals", rivals.empty() ? "none within 3 nats, and none with a separability D below 12" : rivals);
+    text += entry("rivals", c.rivals.empty() ? no_rivals : rivals_in_words(c.rivals));
   return text;
 }
 
@@ -97,11 +92,7 @@ std::string unexplained(const Diagnosis& d) {
   if (d.unexplained.empty()) return "";
   std::string text = heading("Not explained");
   for (const auto& u : d.unexplained) {
-    text +=
-        wrapped("Something depends on " + covariate_in_words(u.covariate) +
-                    fmt::format(", and no cause on the plugin path explains it: evidence {:.1f} nats, lambda {:.0f}.",
-                                u.evidence, u.lambda),
-                2, 2);
+    text += wrapped(what_is_unexplained(u), 2, 2);
     if (u.held_out) text += entry("gain", gain_of(*u.held_out));
   }
   return text;

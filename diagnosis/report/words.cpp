@@ -135,6 +135,22 @@ std::string covariate_in_words(const std::string& name) {
          (words.count(second) ? words.at(second) : second);
 }
 
+std::string rivals_in_words(const std::vector<search::Rival>& rivals) {
+  std::string out;
+  for (const search::Rival& r : rivals)
+    out += fmt::format("{}{}{}, {:.1f} nats behind, D {:.0f}: {}", out.empty() ? "" : "; ", short_name(r.id),
+                       r.label == r.id || r.label == "all" ? "" : " " + r.label, tenths(r.evidence_gap), r.separability,
+                       judged(r.separability));
+  return out;
+}
+
+std::string what_is_unexplained(const diagnosis::Unexplained& what) {
+  const std::string won = fmt::format("evidence {:.1f} nats, lambda {:.0f}.", what.evidence, what.lambda);
+  const std::string on = "Something depends on " + covariate_in_words(what.covariate);
+  if (what.rivals.empty()) return on + ", and no cause on the plugin path explains it: " + won;
+  return on + ": " + won + " Causes that explain it nearly as well: " + rivals_in_words(what.rivals) + ".";
+}
+
 std::string chance(double log_p) {
   const double p = std::exp(std::min(log_p, 0.0));
   if (p < 1e-9) return "p < 1e-9";
@@ -145,7 +161,8 @@ std::string verdict_in_words(const Diagnosis& d) {
   const int confirmed = count_of(d, Standing::confirmed), unconfirmed = count_of(d, Standing::unconfirmed);
   const std::string causes = causes_in_words(confirmed + unconfirmed);
   if (!d.unexplained.empty())
-    return "is wrong in a way that no known cause explains: something depends on " + covariates_of(d) +
+    return std::string("is wrong in a way that no known cause explains") +
+           (d.unexplained[0].rivals.empty() ? "" : " as well") + ": something depends on " + covariates_of(d) +
            (confirmed + unconfirmed ? "; " + causes + " beside it is named" : "");
   if (confirmed + unconfirmed == 0)
     return count_of(d, Standing::set_aside) ? "is adequate: what stands out is not beyond chance, a suspicion remains"

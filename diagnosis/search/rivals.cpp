@@ -79,6 +79,15 @@ std::vector<Rival> of_other_rows(const Term& term, const Eigen::VectorXd& by_ato
   return result;
 }
 
+// Of several ways to look along one covariate the likest stays.
+void keep_likest(std::vector<Rival>& rivals, Rival rival) {
+  const auto known = std::find_if(rivals.begin(), rivals.end(), [&](const Rival& r) { return r.id == rival.id; });
+  if (known == rivals.end())
+    rivals.push_back(std::move(rival));
+  else if (rival.evidence_gap < known->evidence_gap)
+    *known = std::move(rival);
+}
+
 const Candidate& planned(const Plan& plan, const std::string& id) {
   for (const Candidate& c : plan.candidates) {
     if (c.id == id) return c;
@@ -100,14 +109,14 @@ double standing(const Bench& bench, const Eigen::MatrixXd& design, const Candida
   const Stand rest = bench.stand(design, fit.covariance);
   const double by_a_multiple = rest.gain(columns) - gain_of(c, rest, columns);
   return bench.stand(both, fit.covariance).at.basis.log_determinant() - fit.value - by_a_multiple / 2 +
-         bench.evidence(c, 0, c.width, c.refinable());
+         bench.evidence(c, 0, columns.cols(), c.refinable());
 }
 
 std::vector<Rival> rivals_of(Bench& bench, const Term& term) {
   const Stand rest = bench.stand(bench.design_without(term));
   const Eigen::VectorXd effect = rest.at.basis.rest(rest.whitener(effect_of(bench, term)));
   const Candidate& own = *term.candidate;
-  const double evidence = bench.evidence(own, rest.gain(term.columns), own.width, own.refinable());
+  const double evidence = bench.evidence(own, rest.gain(term.columns), term.columns.cols(), own.refinable());
   std::optional<double> stands;
   const auto behind = [&](const Candidate& c, const Eigen::MatrixXd& columns) {
     if (!stands) stands = standing(bench, rest.design, own, term.columns);
@@ -125,15 +134,18 @@ std::vector<Rival> rivals_of(Bench& bench, const Term& term) {
       }
       continue;
     }
+    const bool smooth = c.kind == Kind::smooth;
+    if (smooth && c.own() == own.own() && (c.observed || own.kind == Kind::smooth)) continue;
     const auto [theta, explained] = explained_by(bench, rest, c, by_atom.at(c.id), effect);
     const double separability = left_of(effect, explained);
     const bool confused = c.kind == Kind::named && separability < inseparable;
     const Lead lead = at_its_best(bench, rest, plain, confused ? &theta : nullptr, evidence - worth_refining);
-    Rival rival{c.id, "", lead.theta, evidence - lead.evidence, separability};
+    Rival rival{smooth ? "~" + c.own() : c.id, "", lead.theta, evidence - lead.evidence, separability};
     if (confused) rival.evidence_gap = behind(c, lead.columns);
     if (rival.evidence_gap >= near_gap) rival.theta = theta;  // what it can be mistaken for, not what it is best at
     rival.label = c.label_of(rival.theta);
-    if (rival.evidence_gap < near_gap || confused) result.push_back(std::move(rival));
+    if (rival.evidence_gap >= near_gap && !confused) continue;
+    smooth ? keep_likest(result, std::move(rival)) : result.push_back(std::move(rival));
   }
   return result;
 }

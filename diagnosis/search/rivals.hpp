@@ -8,7 +8,7 @@ namespace muster::search {
 constexpr double inseparable = 12, decided = 25;  // D below which two causes are not told apart, from which they are
 
 struct Rival {
-  std::string id, label;
+  std::string id, label;  // of a smooth: ~ and what it is along
   Eigen::VectorXd theta;
   double evidence_gap = 0;  // nats that the finding is ahead
   double separability = 0;  // D: whitened energy of the finding left after the rival's best fit
@@ -19,7 +19,8 @@ struct Rival {
 double standing(const Bench& bench, const Eigen::MatrixXd& design, const Candidate& candidate,
                 const Eigen::MatrixXd& columns);
 
-// Candidates within 3 nats of the term, and causes that are not told from it, its own of other rows among them.
+// Candidates within 3 nats of the term, and causes that are not told from it, its own of other rows among them. A smooth
+// along the very column that the term is about is none.
 std::vector<Rival> rivals_of(Bench& bench, const Term& term);
 
 // A measurement that could be made: the same base and candidates at its readings.

@@ -48,9 +48,9 @@ Result Search::run() {
   for (std::size_t k = 0; k < bench_.terms.size(); ++k) {
     const Term& term = bench_.terms[k];
     result_.findings.push_back(finding_of(term, term.smooth() ? Status::unexplained : Status::named));
-    if (term.smooth()) continue;
     Finding& finding = result_.findings.back();
     finding.rivals = rivals_of(bench_, term);
+    if (term.smooth()) continue;
     finding.uncertainty = spreads[k].coefficients;
     finding.thetas = spreads[k].thetas;
   }
@@ -156,6 +156,7 @@ void Search::hold_out(Result& result) const {
 std::vector<Advice> Search::advise(const std::vector<Plan>& plans) {
   std::vector<Advice> result;
   for (std::size_t k = 0; k < bench_.terms.size(); ++k) {
+    if (bench_.terms[k].smooth()) continue;  // which says nothing of readings elsewhere
     for (const Rival& rival : result_.findings[k].rivals) {
       const std::string& own = bench_.terms[k].candidate->id;
       if (rival.separability >= decided || rival.id == own) continue;  // of its other rows no plan says anything

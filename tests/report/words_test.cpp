@@ -98,6 +98,26 @@ TEST(Text, RivalsOfTheSameNameAreToldByTheirRows) {
   EXPECT_TRUE(says(text, "unmapped wall wall/w2, 0.0 nats behind")) << text;
 }
 
+TEST(Text, WhatIsUnexplainedNamesTheCausesThatExplainItNearlyAsWell) {
+  Diagnosis d = with(wall(search::Status::named, {}));
+  d.causes.clear();
+  d.unexplained = {{"battery", 20.3, 52, {}, {}}};
+  EXPECT_TRUE(says(text_of(d, {"hall", "a.csv"}), "no known cause explains: something depends on the column battery"));
+  EXPECT_TRUE(says(page_of(d, {"hall", "a.csv"}, {}), "no cause on the plugin path explains it: evidence 20.3 nats"));
+  d.unexplained[0].rivals = {{"effect.drift", "radio/base", {}, 1.2, 3}, {"effect.step", "all", {}, 2.6, 15}};
+  const std::string text = text_of(d, {"hall", "a.csv"}), page = page_of(d, {"hall", "a.csv"}, {});
+  EXPECT_TRUE(says(text, "no known cause explains as well: something")) << text;
+  EXPECT_FALSE(says(text, "on the plugin path")) << text;
+  EXPECT_TRUE(says(text, "column battery or drift: D 3, cannot be told apart")) << text;
+  EXPECT_TRUE(says(text, "measure with the column battery changed and all else as it was")) << text;
+  const char* const rivals =
+      "drift radio/base, 1.2 nats behind, D 3: cannot be told apart; step, 2.6 nats behind, D 15";
+  EXPECT_TRUE(says(page, rivals)) << page;
+  const auto json = json_of(d);
+  EXPECT_EQ(json["unexplained"][0]["rivals"][0]["id"], "effect.drift");
+  EXPECT_EQ(json["advice"][0]["separates"], "~battery effect.drift");
+}
+
 // Of all that was accepted, named or not; clips and laws of what scatters are no step.
 TEST(Steps, AreInTheOrderOfStrength) {
   Diagnosis d = with(wall(search::Status::named, {}));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <random>
 #include <tuple>
 
 #include "diagnosis/search/beside.hpp"
@@ -172,6 +173,29 @@ TEST(Rivals, OfTwoRadiosEitherMayBeMeant) {
     EXPECT_EQ(own[0].label, "tx0");
     EXPECT_NEAR(own[0].separability, 0, 0.01);
     EXPECT_NEAR(own[0].evidence_gap, 0, 0.01);
+  }
+}
+
+// A battery that falls all the while may stand for what acts in time, one that comes and goes for nothing else.
+TEST(Rivals, OfWhatIsUnexplainedAreTheCausesThatExplainItNearlyAsWell) {
+  auto world = world_of(varied(254, 3000));
+  for (const bool falls : {true, false}) {
+    if (!falls) std::shuffle(world.battery.begin(), world.battery.end(), std::mt19937(1));
+    const Eigen::VectorXd effect = falls ? world.time : world.battery;
+    const Problem problem = problem_of(world, scaled_to(world, effect, 120), causes_of(world));
+    Bench bench(problem, {});
+    score(bench);
+    bench.terms = {term_at(bench, "~battery", {})};
+    bench.refit();
+    std::vector<std::string> causes;
+    for (const Rival& r : rivals_of(bench, bench.terms[0])) {
+      if (r.id[0] != '~') causes.push_back(r.id);
+      EXPECT_TRUE(r.id != "drift" || r.separability < inseparable) << r.separability;
+    }
+    if (falls)
+      EXPECT_EQ(std::count(causes.begin(), causes.end(), "drift"), 1);
+    else
+      EXPECT_EQ(causes, std::vector<std::string>());
   }
 }
 
