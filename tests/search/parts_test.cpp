@@ -155,6 +155,57 @@ TEST(Raced, TwoThatMeetGoOnAsOne) {
   EXPECT_EQ(laps[1].looked, (std::array{0, 0, 21, 0}));
 }
 
+// One reading a row may see a thing where there is none: what was proposed is weighed by all readings in the end.
+TEST(Refined, KeepsAPlaceThatOneReadingARowLedAwayFrom) {
+  const auto world = world_of(varied(12, 4000));
+  std::vector<Candidate> causes = causes_of(world);
+  Candidate& thing = causes.back();
+  const Eigen::Vector3d at(11, 7, 0.7), elsewhere(20, 12, 0.7);
+  const Problem plain = problem_of(world, -scaled_to(world, thing.columns(at), 100), causes);
+  const noise::Rows rows(plain.readings, Options().rows);
+  const auto columns = thing.columns;
+  thing.proposed = [&](Tally&) { return std::vector<Eigen::VectorXd>{at, elsewhere}; };
+  thing.sketch = [&, columns](const Eigen::VectorXd& theta) { return rows.mean(columns(theta + at - elsewhere)); };
+  Problem problem = plain;
+  problem.candidates = causes;
+  Bench bench(problem, {});
+  const Stand stand = bench.stand(bench.design());
+  for (const Lead& lead : leads(bench, stand)) {
+    if (lead.candidate().id != "obstacle") continue;
+    const Lead best = refined(bench, stand, lead, false);
+    EXPECT_GE(best.gain, stand.gain(bench.columns_of(lead.candidate(), at)) - 1e-9);
+    EXPECT_LT((best.theta - at).head<2>().norm(), 0.5) << best.theta.transpose();
+  }
+}
+
+// A swing of changing pace has two functions and was sought along a grid, a bend one and a grid: each counts as twice
+// what chance wins by it.
+TEST(Compared, AColumnThatWasObservedComesBeforeTimeWhereItDoesAsWellForItsNumberOfFunctions) {
+  const auto world = world_of(varied(5, 900));
+  const Problem problem = problem_of(world, Eigen::VectorXd::Zero(900), {});
+  Bench bench(problem, {});
+  const Stand stand = bench.stand(bench.design());
+  std::vector<Lead> all = leads(bench, stand);
+  const auto lead_of = [&](const std::string& id) -> Lead& {
+    return *std::find_if(all.begin(), all.end(), [&](const Lead& lead) { return lead.candidate().id == id; });
+  };
+  Lead swing = lead_of("chirp~time"), bend = lead_of("bend~battery");
+  swing.gain = 60, swing.evidence = 20, bend.evidence = 19;
+  for (const double more : {-0.1, 0.1}) {
+    bend.gain = 60 - 2 * (2 + 1) + 2 * (1 + 1) + more;
+    const auto pool = compared(bench, stand, {swing, bend}, {}, [](const Candidate&) { return true; });
+    EXPECT_EQ(pool[0].candidate().id, more > 0 ? "bend~battery" : "chirp~time");
+  }
+  // A column's own smooth was sought along no grid.
+  Lead smooth = lead_of("~temperature");
+  smooth.evidence = 19;
+  for (const double more : {-0.1, 0.1}) {
+    smooth.gain = 60 - 2 * (2 + 1) + 2 * static_cast<double>(smooth.columns.cols()) + more;
+    const auto pool = compared(bench, stand, {swing, smooth}, {}, [](const Candidate&) { return true; });
+    EXPECT_EQ(pool[0].candidate().id, more > 0 ? "~temperature" : "chirp~time");
+  }
+}
+
 // What is drawn from one, weighed by the other over it, has the other's mass and the other's mean.
 TEST(StudentMixture, DrawsWhatItsDensitySays) {
   Eigen::Matrix3d scale = Eigen::Matrix3d::Zero();
