@@ -47,22 +47,26 @@ bool from_few(const Bench& bench, const Eigen::VectorXd& won) {
   return readings < few;
 }
 
-// The gain of columns where it is won, and whether it is an outlier's, for which a place was found: a gain of few
-// readings, most of which is gone with all beyond four standard errors.
+// The gain of columns where it is won, and the share of it that stays with all beyond four standard errors cut off.
 struct Winnings {
   Eigen::VectorXd won;
-  bool of_outlier;
+  double tame_share;
 };
 
-Winnings winnings_of(const Bench& bench, const Stand& stand, const Eigen::MatrixXd& columns) {
+Winnings winnings_of(const Stand& stand, const Eigen::MatrixXd& columns) {
   constexpr double usual = 4;
   const auto added = noise::basis_of(stand.at.basis.rest(stand.whitener(columns)));
   const Eigen::VectorXd &r = stand.at.residual, tame = r.cwiseMax(-usual).cwiseMin(usual);
   const Eigen::VectorXd along = added.q.transpose() * r, left = r - added.q * along;
-  Winnings result{r.array().square() - left.array().square(), false};
-  const bool tamed = (added.q.transpose() * tame).squaredNorm() < along.squaredNorm() / 2;
-  result.of_outlier = tamed && from_few(bench, result.won);
-  return result;
+  return {r.array().square() - left.array().square(), (added.q.transpose() * tame).squaredNorm() / along.squaredNorm()};
+}
+
+// Whether it is an outlier for which a place was found: a gain of few readings, of which most is gone once they are
+// tame, or so much that the rest is within chance.
+bool of_outlier(const Bench& bench, const Candidate& c, const Winnings& winnings) {
+  if (!from_few(bench, winnings.won)) return false;
+  const double left = winnings.tame_share * winnings.won.sum();
+  return winnings.tame_share < 0.5 || bench.log_p(c, left, c.width, true) > bench.threshold();
 }
 
 // The noise with the lead's columns inside; after a large effect also from scratch, since the old fit may be stuck.
@@ -108,7 +112,7 @@ Trial tried(const Bench& bench, const Lead& lead, const noise::Fit& fit, const E
   if (trial.integrated_log_p <= bench.threshold() && trial.log_p > beyond_doubt)
     trial.integrated_log_p = std::max(trial.integrated_log_p, sure_log_p(bench, lead, fit, stand));
   trial.integrated_log_p += stand.skew_charge(lead.columns);
-  const Winnings winnings = winnings_of(bench, stand, lead.columns);
+  const Winnings winnings = winnings_of(stand, lead.columns);
   if (!c.pieces.empty() && share_of_others(bench, winnings.won) < 0.08)
     trial.integrated_log_p += bench.options().one_radio_charge;
   if (c.level_like && bench.problem().bounds.any() &&
@@ -116,7 +120,7 @@ Trial tried(const Bench& bench, const Lead& lead, const noise::Fit& fit, const E
     trial.reason = like_clipping;
   else if (trial.integrated_log_p > bench.threshold())
     trial.reason = "not beyond chance";
-  else if (winnings.of_outlier)
+  else if (of_outlier(bench, c, winnings))
     trial.reason = "rests on fewer than five readings";
   trial.accepted = trial.reason.empty();
   return trial;
