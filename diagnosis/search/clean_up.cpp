@@ -87,7 +87,6 @@ std::optional<Term> best_in_time(Bench& bench, const Eigen::MatrixXd& rest) {
 
 // A column that falls with time came first, beside a field that held much of either: now each has one of its own.
 void give_way_to_time(Bench& bench) {
-  constexpr double clearly = 3;  // nats
   for (std::size_t k = 0; k < bench.terms.size(); ++k) {
     if (!bench.terms[k].smooth() || !bench.terms[k].candidate->observed) continue;
     const Term before = bench.terms[k];
@@ -100,7 +99,7 @@ void give_way_to_time(Bench& bench) {
     bench.refit();
     settle(bench, k, false);
     const double then = standing(bench, rest, *other->candidate, bench.terms[k].columns);
-    if (then > now + clearly) continue;
+    if (then > now) continue;
     bench.terms[k] = before;
     bench.fit = fit;
   }
