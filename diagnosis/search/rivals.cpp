@@ -61,16 +61,20 @@ double left_of(const Eigen::VectorXd& effect, double explained) {
 }
 
 // The same cause of other rows, the likest first: of two receivers one that reads high is the other one that reads low.
-// `by_atom`: how much of the effect each place of its grid explains.
-std::vector<Rival> of_other_rows(const Term& term, const Eigen::VectorXd& by_atom, const Eigen::VectorXd& effect) {
+// Where one radio hears all that is heard, it and all radios are one. `by_atom`: how much of the effect each place
+// of its grid explains.
+std::vector<Rival> of_other_rows(const Bench& bench, const Term& term, const Eigen::VectorXd& by_atom,
+                                 const Eigen::VectorXd& effect) {
   constexpr std::size_t most = 3;
   const Candidate& own = *term.candidate;
   if (own.kind != Kind::named || own.refinable() || own.whole) return {};
   const std::string label = own.label_of(term.theta);
+  const Eigen::MatrixXd columns = bench.columns_of(own, term.theta);
   std::vector<Rival> result;
   for (std::size_t k = 0; k < own.grid.size(); ++k) {
     const double separability = left_of(effect, by_atom[static_cast<Index>(k)]);
-    if (separability < inseparable && own.label_of(own.grid[k]) != label)
+    if (separability < inseparable && own.label_of(own.grid[k]) != label &&
+        !bench.columns_of(own, own.grid[k]).isApprox(columns, 1e-9))
       result.push_back({own.id, own.label_of(own.grid[k]), own.grid[k], 0, separability});
   }
   std::stable_sort(result.begin(), result.end(),
@@ -128,7 +132,7 @@ std::vector<Rival> rivals_of(Bench& bench, const Term& term) {
   for (const Lead& plain : leads(bench, rest, also)) {
     const Candidate& c = plain.candidate();
     if (c.id == own.id) {
-      for (Rival& other : of_other_rows(term, by_atom.at(c.id), effect)) {
+      for (Rival& other : of_other_rows(bench, term, by_atom.at(c.id), effect)) {
         other.evidence_gap = behind(own, bench.columns_of(own, other.theta));
         result.push_back(std::move(other));
       }

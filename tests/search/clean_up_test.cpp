@@ -150,7 +150,7 @@ TEST(Spread, OfAThingIsThatOfTheWholeLikelihood) {
 }
 
 // A weak one of two transmitters is the other one's strength, whatever is read; among three it is not, nor where the
-// strength of each is given.
+// strength of each is given. The same transmitter by another number is no rival.
 TEST(Rivals, OfTwoRadiosEitherMayBeMeant) {
   for (const auto& [transmitters, whole, others] : {std::tuple(2, false, 1u), {3, false, 0u}, {2, true, 0u}}) {
     Recipe recipe = varied(14, 4000);
@@ -160,6 +160,10 @@ TEST(Rivals, OfTwoRadiosEitherMayBeMeant) {
     Candidate& offset = causes[0];
     ASSERT_EQ(offset.id, "tx_offset");
     offset.whole = whole;
+    offset.grid.push_back(Eigen::VectorXd::Constant(1, 9));
+    offset.columns = [columns = offset.columns, one = offset.grid[1]](const Eigen::VectorXd& t) {
+      return columns(t[0] == 9 ? one : t);
+    };
     offset.label = [](const Eigen::VectorXd& t) { return "tx" + std::to_string(static_cast<int>(t[0])); };
     const Problem problem = problem_of(world, -scaled_to(world, offset.columns(offset.grid[1]).col(0), 100), causes);
     Bench bench(problem, {});
