@@ -38,7 +38,7 @@ std::string short_name(const std::string& id);
 // What a covariate's name stands for: "logd" is "distance".
 std::string covariate_in_words(const std::string& name);
 // "obstacle (2.0, 1.5), 1.5 nats behind, D 6: cannot be told apart", one after the other; empty: there are none.
-constexpr const char* no_rivals = "none within 3 nats, and none with a separability D below 12";
+constexpr const char* no_rivals = "none that the readings leave open";
 std::string rivals_in_words(const std::vector<search::Rival>& rivals);
 // "Something depends on the column battery ...", with what it wins and the causes that explain it nearly as well.
 std::string what_is_unexplained(const diagnosis::Unexplained& what);

@@ -107,6 +107,10 @@ Eigen::MatrixXd above(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
 
 }  // namespace
 
+bool left_open(const Rival& rival) {
+  return rival.evidence_gap < near_gap || (rival.separability < inseparable && rival.by_readings < near_gap);
+}
+
 double standing(const Bench& bench, const Eigen::MatrixXd& design, const Candidate& c, const Eigen::MatrixXd& columns) {
   const Eigen::MatrixXd both = beside(design, columns);
   const noise::Fit fit = bench.fitted(both, bench.fit.covariance, 4);
@@ -122,9 +126,11 @@ std::vector<Rival> rivals_of(Bench& bench, const Term& term) {
   const Candidate& own = *term.candidate;
   const double evidence = bench.evidence(own, rest.gain(term.columns), term.columns.cols(), own.refinable());
   std::optional<double> stands;
-  const auto behind = [&](const Candidate& c, const Eigen::MatrixXd& columns) {
+  const auto hold = [&](Rival& rival, const Candidate& c, const Eigen::MatrixXd& columns) {
     if (!stands) stands = standing(bench, rest.design, own, term.columns);
-    return *stands - standing(bench, rest.design, c, columns);
+    rival.evidence_gap = *stands - standing(bench, rest.design, c, columns);
+    rival.by_readings = rival.evidence_gap - bench.evidence(own, 0, term.columns.cols(), own.refinable()) +
+                        bench.evidence(c, 0, columns.cols(), c.refinable());
   };
   std::vector<Rival> result;
   std::map<std::string, Eigen::VectorXd> by_atom;  // of what each explains of the effect
@@ -133,7 +139,7 @@ std::vector<Rival> rivals_of(Bench& bench, const Term& term) {
     const Candidate& c = plain.candidate();
     if (c.id == own.id) {
       for (Rival& other : of_other_rows(bench, term, by_atom.at(c.id), effect)) {
-        other.evidence_gap = behind(own, bench.columns_of(own, other.theta));
+        hold(other, own, bench.columns_of(own, other.theta));
         result.push_back(std::move(other));
       }
       continue;
@@ -145,7 +151,7 @@ std::vector<Rival> rivals_of(Bench& bench, const Term& term) {
     const bool confused = c.kind == Kind::named && separability < inseparable;
     const Lead lead = at_its_best(bench, rest, plain, confused ? &theta : nullptr, evidence - worth_refining);
     Rival rival{smooth ? "~" + c.own() : c.id, "", lead.theta, evidence - lead.evidence, separability};
-    if (confused) rival.evidence_gap = behind(c, lead.columns);
+    if (confused) hold(rival, c, lead.columns);
     if (rival.evidence_gap >= near_gap) rival.theta = theta;  // what it can be mistaken for, not what it is best at
     rival.label = c.label_of(rival.theta);
     if (rival.evidence_gap >= near_gap && !confused) continue;

@@ -12,15 +12,21 @@ struct Rival {
   Eigen::VectorXd theta;
   double evidence_gap = 0;  // nats that the finding is ahead
   double separability = 0;  // D: whitened energy of the finding left after the rival's best fit
+  double by_readings = 0;   // nats of the gap that are the readings' own, not the price of places and strengths
 };
+
+// Whether the readings leave open that it is the rival: it is within 3 nats, or not told apart, and they do not speak
+// for the finding by 3 nats themselves. Beside a true rival they would in at most 0.7 %: their logarithm is normal
+// about -D / 2 with variance D then, which is furthest from 3 by the square root of 6, at D = 6.
+bool left_open(const Rival& rival);
 
 // What speaks for a cause with these columns beside a design, the noise being fitted beside both: nats, to be compared
 // with another in its place. Noise that was fitted beside one of them takes up what the other misses.
 double standing(const Bench& bench, const Eigen::MatrixXd& design, const Candidate& candidate,
                 const Eigen::MatrixXd& columns);
 
-// Candidates within 3 nats of the term, and causes that are not told from it, its own of other rows among them. A smooth
-// along the very column that the term is about is none.
+// Candidates within 3 nats of the term, and causes that are not told from it, its own of other rows among them. A
+// smooth along the very column that the term is about is none.
 std::vector<Rival> rivals_of(Bench& bench, const Term& term);
 
 // A measurement that could be made: the same base and candidates at its readings.

@@ -50,6 +50,7 @@ Result Search::run() {
     result_.findings.push_back(finding_of(term, term.smooth() ? Status::unexplained : Status::named));
     Finding& finding = result_.findings.back();
     finding.rivals = rivals_of(bench_, term);
+    std::erase_if(finding.rivals, [](const Rival& r) { return !left_open(r); });
     if (term.smooth()) continue;
     finding.uncertainty = spreads[k].coefficients;
     finding.thetas = spreads[k].thetas;

@@ -177,6 +177,7 @@ TEST(Rivals, OfTwoRadiosEitherMayBeMeant) {
     EXPECT_EQ(own[0].label, "tx0");
     EXPECT_NEAR(own[0].separability, 0, 0.01);
     EXPECT_NEAR(own[0].evidence_gap, 0, 0.01);
+    EXPECT_NEAR(own[0].by_readings, 0, 0.01);
   }
 }
 
@@ -194,13 +195,26 @@ TEST(Rivals, OfWhatIsUnexplainedAreTheCausesThatExplainItNearlyAsWell) {
     std::vector<std::string> causes;
     for (const Rival& r : rivals_of(bench, bench.terms[0])) {
       if (r.id[0] != '~') causes.push_back(r.id);
-      EXPECT_TRUE(r.id != "drift" || r.separability < inseparable) << r.separability;
+      if (r.id != "drift") continue;
+      EXPECT_LT(r.separability, inseparable);
+      EXPECT_NEAR(r.by_readings, r.separability / 2, 3 * std::sqrt(r.separability));
+      EXPECT_GT(r.by_readings, r.evidence_gap + 5);  // five functions cost more than a drift's one
     }
     if (falls)
       EXPECT_EQ(std::count(causes.begin(), causes.end(), "drift"), 1);
     else
       EXPECT_EQ(causes, std::vector<std::string>());
   }
+}
+
+TEST(Rivals, AreLeftOpenUnlessTheReadingsThemselvesSpeakForTheFinding) {
+  const auto open = [](double gap, double separability, double by_readings) {
+    return left_open({"step", "all", {}, gap, separability, by_readings});
+  };
+  EXPECT_TRUE(open(2.9, 40, 20));
+  EXPECT_TRUE(open(5, 11, 2.9));
+  EXPECT_FALSE(open(5, 11, 3.1));
+  EXPECT_FALSE(open(5, 13, 0));
 }
 
 struct Guess {
