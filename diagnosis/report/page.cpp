@@ -133,7 +133,7 @@ std::string cause_card(const FoundCause& c, std::size_t number, const std::vecto
                 {{"evidence"},
                  {fmt::format("{:.1f} nats; λ = {:.0f} (fall of the deviance beside all else)", c.evidence, c.lambda)}},
                 {{"gain"}, {gain_text(c.held_out, standing)}},
-                {{"rivals"}, {c.rivals.empty() ? no_rivals : rivals_in_words(c.rivals)}}});
+                {{"rivals"}, {rivals_in_words(c.rivals)}}});
   return out + "</article>\n" + figure_named(pictures, fmt::format("cause_{}", number));
 }
 

@@ -75,8 +75,7 @@ std::string cause_text(const FoundCause& c, int number) {
     text += entry("doubt", c.doubt);
   else if (standing == Standing::unconfirmed && c.held_out)
     text += entry("", "What was held out does not confirm it yet: the interval touches zero.");
-  if (standing != Standing::set_aside)
-    text += entry("rivals", c.rivals.empty() ? no_rivals : rivals_in_words(c.rivals));
+  if (standing != Standing::set_aside) text += entry("rivals", rivals_in_words(c.rivals));
   return text;
 }
 

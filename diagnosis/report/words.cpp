@@ -136,6 +136,7 @@ std::string covariate_in_words(const std::string& name) {
 }
 
 std::string rivals_in_words(const std::vector<search::Rival>& rivals) {
+  if (rivals.empty()) return "none that the readings leave open";
   std::string out;
   for (const search::Rival& r : rivals)
     out += fmt::format("{}{}{}, {:.1f} nats behind, D {:.0f}: {}", out.empty() ? "" : "; ", short_name(r.id),

@@ -37,8 +37,7 @@ std::string sentence(const FoundCause& cause);
 std::string short_name(const std::string& id);
 // What a covariate's name stands for: "logd" is "distance".
 std::string covariate_in_words(const std::string& name);
-// "obstacle (2.0, 1.5), 1.5 nats behind, D 6: cannot be told apart", one after the other; empty: there are none.
-constexpr const char* no_rivals = "none that the readings leave open";
+// "obstacle (2.0, 1.5), 1.5 nats behind, D 6: cannot be told apart", one after the other; or that there are none.
 std::string rivals_in_words(const std::vector<search::Rival>& rivals);
 // "Something depends on the column battery ...", with what it wins and the causes that explain it nearly as well.
 std::string what_is_unexplained(const diagnosis::Unexplained& what);
