@@ -12,7 +12,9 @@ struct Rival {
   Eigen::VectorXd theta;
   double evidence_gap = 0;  // nats that the finding is ahead
   double separability = 0;  // D: whitened energy of the finding left after the rival's best fit
-  double by_readings = 0;   // nats of the gap that are the readings' own, not the price of places and strengths
+  // Nats of the gap that are the readings' own, not the price of places and strengths; of causes that are not told
+  // apart.
+  double by_readings = 0;
 };
 
 // Whether the readings leave open that it is the rival: it is within 3 nats, or not told apart, and they do not speak

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 
 #include "diagnosis/near_readings.hpp"
 #include "diagnosis/prepared.hpp"
@@ -32,6 +34,13 @@ TEST(Sketch, IsTheColumnsAtTheReadingsInTheMiddleOfRows) {
     }
   }
   EXPECT_GT(sketched, 3);
+}
+
+const search::Entry& sought(const search::Bench& bench, const std::string& id) {
+  for (const search::Entry& entry : bench.entries()) {
+    if (entry.candidate->id == id) return entry;
+  }
+  throw std::invalid_argument(id + " is not sought");
 }
 
 struct Hall {
@@ -80,23 +89,19 @@ TEST(EndedRows, AreSketchedAsTheRowsThatTheyAreOf) {
   const Hall hall;
   search::Bench bench(hall.at.problem, hall.at.options);
   const Eigen::Index rows = bench.rows().size();
-  for (const search::Candidate& c : hall.at.problem.candidates) {
-    if (c.id != "effect.unmapped_wall") continue;
-    const Eigen::VectorXd& theta = c.grid[c.grid.size() / 2];
-    const Eigen::MatrixXd before = bench.sketch_of(c, theta);
-    ASSERT_GT(bench.end_rows_at(c, theta), 3);
-    const Eigen::MatrixXd after = bench.sketch_of(c, theta), exact = bench.columns_of(c, theta);
-    ASSERT_EQ(after.rows(), bench.rows().size());
-    EXPECT_EQ(after.col(0).maxCoeff(), before.col(0).maxCoeff());
-    // Whole rows are where their middles are; of an ended one each part is told what the whole was.
-    const Eigen::ArrayXd off = (after - exact).col(0).cwiseAbs();
-    EXPECT_LE((off > 0.01).count(), 2 * (bench.rows().size() - rows));
-    const search::Stand stand = bench.stand(bench.design());
-    search::Thin tally(bench, stand);
-    EXPECT_GT(bench.proposals(c, tally).size(), 10u);
-    return;
-  }
-  FAIL() << "no wall is sought";
+  const search::Candidate& c = *sought(bench, "effect.unmapped_wall").candidate;
+  const Eigen::VectorXd& theta = c.grid[c.grid.size() / 2];
+  const Eigen::MatrixXd before = bench.sketch_of(c, theta);
+  ASSERT_GT(bench.end_rows_at(c, theta), 3);
+  const Eigen::MatrixXd after = bench.sketch_of(c, theta), exact = bench.columns_of(c, theta);
+  ASSERT_EQ(after.rows(), bench.rows().size());
+  EXPECT_EQ(after.col(0).maxCoeff(), before.col(0).maxCoeff());
+  // Whole rows are where their middles are; of an ended one each part is told what the whole was.
+  const Eigen::ArrayXd off = (after - exact).col(0).cwiseAbs();
+  EXPECT_LE((off > 0.01).count(), 2 * (bench.rows().size() - rows));
+  const search::Stand stand = bench.stand(bench.design());
+  search::Thin tally(bench, stand);
+  EXPECT_GT(bench.proposals(c, tally).size(), 10u);
 }
 
 // A radio at the edge of what is known may stand beyond it.
@@ -121,16 +126,13 @@ TEST(Candidates, ARadioMovedByLessThanATenthOfAMetreIsWhereTheMapHasIt) {
   const Scratch scratch;
   const auto world = sealed_case(scratch, "--mix clean", 1);
   const Prepared at(world, world / "measured.csv", plugins);
-  for (const search::Candidate& c : at.problem.candidates) {
-    if (c.id != "effect.tx_misplaced") continue;
-    const Eigen::VectorXd &start = c.grid[0], &opposite = c.grid[4], mapped = (start + opposite) / 2;
-    EXPECT_NEAR((start - mapped).norm(), 0.25, 1e-9);
-    EXPECT_EQ(c.admitted(start), 1);
-    EXPECT_EQ(c.admitted(mapped + 0.5 * (start - mapped)), 1);
-    EXPECT_EQ(c.admitted(mapped + 0.3 * (start - mapped)), 0);
-    return;
-  }
-  FAIL() << "no radio is sought elsewhere";
+  const search::Bench bench(at.problem, at.options);
+  const search::Candidate& c = *sought(bench, "effect.tx_misplaced").candidate;
+  const Eigen::VectorXd &start = c.grid[0], &opposite = c.grid[4], mapped = (start + opposite) / 2;
+  EXPECT_NEAR((start - mapped).norm(), 0.25, 1e-9);
+  EXPECT_EQ(c.admitted(start), 1);
+  EXPECT_EQ(c.admitted(mapped + 0.5 * (start - mapped)), 1);
+  EXPECT_EQ(c.admitted(mapped + 0.3 * (start - mapped)), 0);
 }
 
 // Where no other place explains anything the map's explains most, and by a millimetre aside a link may pass a wall: a
@@ -141,18 +143,14 @@ TEST(Candidates, ARadioIsSoughtElsewhereAlone) {
   const Prepared at(world, world / "measured.csv", plugins);
   search::Bench bench(at.problem, at.options);
   const search::Stand stand = bench.stand(bench.design());
-  for (const search::Entry& entry : bench.entries()) {
-    const search::Candidate& c = *entry.candidate;
-    if (c.id != "effect.tx_misplaced") continue;
-    search::UnitAtoms unit = search::unit_atoms(entry, stand);
-    bench.log_atoms(entry, unit);
-    for (const std::size_t k : {std::size_t{0}, c.grid.size() / 2}) {
-      const search::Lead from{&entry, c.grid[k], entry.atom(static_cast<Eigen::Index>(k)), 0, 0, 0, false, {}};
-      EXPECT_EQ(c.admitted(search::refined(bench, stand, from, false).theta), 1);
-    }
-    return;
+  const search::Entry& entry = sought(bench, "effect.tx_misplaced");
+  const search::Candidate& c = *entry.candidate;
+  search::UnitAtoms unit = search::unit_atoms(entry, stand);
+  bench.log_atoms(entry, unit);
+  for (const std::size_t k : {std::size_t{0}, c.grid.size() / 2}) {
+    const search::Lead from{&entry, c.grid[k], entry.atom(static_cast<Eigen::Index>(k)), 0, 0, 0, false, {}};
+    EXPECT_EQ(c.admitted(search::refined(bench, stand, from, false).theta), 1);
   }
-  FAIL() << "no radio is sought elsewhere";
 }
 
 }  // namespace

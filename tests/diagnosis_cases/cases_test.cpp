@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "diagnosis/diagnose.hpp"
@@ -63,6 +64,18 @@ TEST(SealedPair, OutliersAreNoWallBesideAWallOfAnotherMaterial) {
   ASSERT_EQ(found.causes.size(), 2u) << told(found);
   EXPECT_EQ(found.causes[0].id, "effect.wall_material");
   EXPECT_EQ(found.causes[1].id, "effect.outliers");
+}
+
+// Against the antenna the readings themselves speak (D 10, and 11 nats): against a thing only what its place costs.
+TEST(SealedOffset, HasTheRivalsThatTheReadingsLeaveOpen) {
+  const Scratch scratch;
+  const auto world = made_case(scratch, "--seed 91 --rows 2000 20000", 13);
+  const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
+  expect_only("effect.tx_offset", found);
+  std::set<std::string> rivals;
+  for (const search::Rival& r : found.causes.at(0).rivals) rivals.insert(r.id);
+  EXPECT_EQ(rivals.count("effect.antenna_tx"), 0u);
+  EXPECT_EQ(rivals.count("effect.obstacle"), 1u);
 }
 
 // A radio elsewhere beside another cause: all is judged again with the radio in its place, and yet the error told is

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 #include <random>
+#include <set>
 #include <tuple>
 
 #include "diagnosis/search/beside.hpp"
@@ -193,7 +194,10 @@ TEST(Rivals, OfWhatIsUnexplainedAreTheCausesThatExplainItNearlyAsWell) {
     bench.terms = {term_at(bench, "~battery", {})};
     bench.refit();
     std::vector<std::string> causes;
+    std::set<std::string> seen;
     for (const Rival& r : rivals_of(bench, bench.terms[0])) {
+      EXPECT_TRUE(seen.insert(r.id).second) << r.id << " twice";
+      EXPECT_NE(r.id, "~battery");
       if (r.id[0] != '~') causes.push_back(r.id);
       if (r.id != "drift") continue;
       EXPECT_LT(r.separability, inseparable);
@@ -205,6 +209,29 @@ TEST(Rivals, OfWhatIsUnexplainedAreTheCausesThatExplainItNearlyAsWell) {
     else
       EXPECT_EQ(causes, std::vector<std::string>());
   }
+}
+
+TEST(Rivals, OfSeveralWaysAlongOneCovariateTheLikestIsTold) {
+  const auto world = world_of(varied(271, 3000));
+  const Eigen::VectorXd knee = -(11.2 - world.battery.array()).max(0.0);
+  const Problem problem = problem_of(world, scaled_to(world, knee, 120), causes_of(world));
+  Bench bench(problem, {});
+  score(bench);
+  bench.terms = {term_at(bench, "drift", Eigen::VectorXd::Constant(1, -1))};
+  bench.refit();
+  const Stand rest = bench.stand(bench.design_without(bench.terms[0]));
+  const double of_drift = bench.evidence(*bench.terms[0].candidate, rest.gain(bench.terms[0].columns), 1, false);
+  std::vector<double> gaps;  // before the refinement of those that have a place to refine
+  for (const Lead& lead : leads(bench, rest)) {
+    if (lead.candidate().own() == "battery") gaps.push_back(of_drift - lead.evidence);
+  }
+  ASSERT_GE(gaps.size(), 2u);
+  const auto [least, most] = std::minmax_element(gaps.begin(), gaps.end());
+  EXPECT_GT(*most - *least, 5);
+  const std::vector<Rival> rivals = rivals_of(bench, bench.terms[0]);
+  const auto told = std::find_if(rivals.begin(), rivals.end(), [](const Rival& r) { return r.id == "~battery"; });
+  ASSERT_NE(told, rivals.end());
+  EXPECT_LE(told->evidence_gap, *least + 1e-9);
 }
 
 TEST(Rivals, AreLeftOpenUnlessTheReadingsThemselvesSpeakForTheFinding) {
@@ -241,6 +268,20 @@ TEST(CleanUp, WhatActsInTimeIsNotTheBatteryThatFallsMeanwhile) {
   for (const auto& [effect, name] : {std::pair(step, "step"), std::pair(knee, "~battery")}) {
     const Problem problem = problem_of(world, scaled_to(world, effect, 120), causes_of(world));
     const std::vector<Term> terms = cleaned_up(problem, {{"~battery", {}}});
+    ASSERT_EQ(terms.size(), 1u);
+    EXPECT_EQ(terms[0].id(), name);
+  }
+}
+
+// Less than 3 nats likelier is likelier; and a true bend keeps its place.
+TEST(CleanUp, WhatActsInTimeStandsWhereItIsLikelierThanABendAlongTheBattery) {
+  const auto world = world_of(varied(270, 3000));
+  const Eigen::ArrayXd t = world.time.array() / world.time.maxCoeff();
+  const Eigen::VectorXd soft = 1 / (1 + (-12 * (t - 0.5)).exp()),
+                        knee = -(11.7 - world.battery.array()).max(0.0).pow(1.4);
+  for (const auto& [effect, name] : {std::pair(soft, "drift"), std::pair(knee, "~battery")}) {
+    const Problem problem = problem_of(world, scaled_to(world, effect, 60), causes_of(world));
+    const std::vector<Term> terms = cleaned_up(problem, {{"bend~battery", Eigen::Vector2d(11.7, -1)}});
     ASSERT_EQ(terms.size(), 1u);
     EXPECT_EQ(terms[0].id(), name);
   }
