@@ -265,12 +265,18 @@ bool Diagnosis::named() const {
                      [](const FoundCause& c) { return c.status == search::Status::named; });
 }
 
-std::string in_short(const Diagnosis& d) {
-  std::string result;
+std::vector<Told> told_by(const Diagnosis& d) {
+  std::vector<Told> result;
   for (const FoundCause& c : d.causes) {
-    if (c.status == search::Status::named) result += (result.empty() ? "" : ", ") + c.id + " " + c.label;
+    if (c.status == search::Status::named) result.push_back({c.id, c.label});
   }
-  for (const Unexplained& u : d.unexplained) result += (result.empty() ? "~" : ", ~") + u.covariate;
+  for (const Unexplained& u : d.unexplained) result.push_back({"~" + u.covariate, ""});
+  return result;
+}
+
+std::string in_short(const std::vector<Told>& told) {
+  std::string result;
+  for (const Told& t : told) result += (result.empty() ? "" : ", ") + t.id + (t.label.empty() ? "" : " ") + t.label;
   return result.empty() ? "silent" : result;
 }
 
@@ -367,12 +373,12 @@ SecondLook second_look(const std::filesystem::path& world, const std::filesystem
   const Dataset data = read_dataset(file);
   LinkModel given(world, file, plugins), model(extended, file, plugins);
   return {file, data.heard(), fit(given, data, {}).residual_sd, rmse_of(model, data),
-          in_short(diagnose(extended, file, plugins))};
+          told_by(diagnose(extended, file, plugins))};
 }
 
 Loop closed_loop(const Diagnosis& found, const std::filesystem::path& world, const std::filesystem::path& data,
                  const std::filesystem::path& out, const Library::SearchPath& plugins) {
-  Loop loop{out, 0, 0, "", {}};
+  Loop loop{out, 0, 0, {}, {}};
   const std::filesystem::path file = write_extended_world(found, world, out);
   LinkModel model(file, data, plugins);
   loop.rmse_extended = rmse_of(model, read_dataset(data));
@@ -381,7 +387,7 @@ Loop closed_loop(const Diagnosis& found, const std::filesystem::path& world, con
     if (!std::isnan(found.mean[i]))
       loop.mean_difference = std::max(loop.mean_difference, std::abs(simulated[i] - found.mean[i]));
   }
-  loop.rediagnosis = in_short(diagnose(file, data, plugins));
+  loop.rediagnosis = told_by(diagnose(file, data, plugins));
   return loop;
 }
 

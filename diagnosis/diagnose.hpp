@@ -93,21 +93,26 @@ struct WorldValue {
   bool at_bound = false;
 };
 
+// What was named, or, as "~COVARIATE", is unexplained.
+struct Told {
+  std::string id, label;
+};
+
 // The extended world held against readings that it was not made from.
 struct SecondLook {
   std::filesystem::path data;
   std::size_t readings = 0;
   double rmse_given = 0;     // dB a reading: of the world as given, fitted to these very readings
   double rmse_extended = 0;  // of the extended world as it is written
-  std::string rediagnosis;
+  std::vector<Told> rediagnosis;
 };
 
 // The extended world simulated, and diagnosed again.
 struct Loop {
-  std::filesystem::path world;  // its folder
-  double mean_difference = 0;   // dB, largest of all readings
-  double rmse_extended = 0;     // dB a reading: measured less the extended world as it is written
-  std::string rediagnosis;      // "silent", or what was found
+  std::filesystem::path world;    // its folder
+  double mean_difference = 0;     // dB, largest of all readings
+  double rmse_extended = 0;       // dB a reading: measured less the extended world as it is written
+  std::vector<Told> rediagnosis;  // what was found again
   std::optional<SecondLook> second{};
 };
 
@@ -149,8 +154,9 @@ Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::pa
 SecondLook second_look(const std::filesystem::path& world, const std::filesystem::path& extended,
                        const std::filesystem::path& data, const Library::SearchPath& plugins);
 
-// What was named and what is unexplained, in one line; "silent" if nothing was.
-std::string in_short(const Diagnosis& diagnosis);
+std::vector<Told> told_by(const Diagnosis& diagnosis);
+// In one line; "silent" if there is nothing.
+std::string in_short(const std::vector<Told>& told);
 
 // Writes the extended world to `out`, simulates it at the readings and diagnoses it. Throws Error.
 Loop closed_loop(const Diagnosis& found, const std::filesystem::path& world, const std::filesystem::path& data,

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <regex>
 #include <set>
@@ -56,15 +55,11 @@ class Importer {
 
   // An error about the table that was written, told of what it was made from: nobody has seen that table.
   Error in_source(const Error& error, const std::filesystem::path& written) const {
-    const std::string what = error.what();
-    const std::size_t end = what.find(": ", written.string().size());
-    int line = 0;
-    if (what.compare(0, written.string().size() + 1, written.string() + ':') == 0)
-      std::from_chars(what.data() + written.string().size() + 1, what.data() + end, line);
-    if (line <= 1) return {error.exit(), Place{line == 1 ? map_.file : main_.file()}, what.substr(end + 2)};
+    const int line = error.place().file == written.string() ? error.place().line : 0;
+    std::string words = error.message();
+    if (line <= 1) return {error.exit(), Place{line == 1 ? map_.file : main_.file()}, words};
     const auto row = static_cast<std::size_t>(line) - 1;
     const std::string with = made_with(row), opening = "row " + std::to_string(row) + ": ";
-    std::string words = what.substr(end + 2);
     if (words.compare(0, opening.size(), opening) == 0) words.erase(0, opening.size());
     return {error.exit(), source_of(row), (with.empty() ? "" : with + ": ") + rows_as_lines(words)};
   }

@@ -34,14 +34,18 @@ struct Place {
 
 class Error : public std::runtime_error {
  public:
-  Error(Exit code, const std::string& message) : std::runtime_error(message), exit_(code) {}
+  Error(Exit code, const std::string& message) : std::runtime_error(message), exit_(code), message_(message) {}
   Error(Exit code, const Place& place, const std::string& message)
-      : std::runtime_error(place.text() + ": " + message), exit_(code) {}
+      : std::runtime_error(place.text() + ": " + message), exit_(code), place_(place), message_(message) {}
 
   Exit exit() const { return exit_; }
+  const Place& place() const { return place_; }
+  const std::string& message() const { return message_; }  // without the place
 
  private:
   Exit exit_;
+  Place place_;
+  std::string message_;
 };
 
 // Bad input, the commonest error by far.

@@ -112,14 +112,15 @@ Json stairs_json(const Diagnosis& d) {
 
 Json loop_json(const Diagnosis& d) {
   if (!d.loop) return nullptr;
-  Json out = {{"mean_difference_db", known(d.loop->mean_difference)}, {"rediagnosis", d.loop->rediagnosis}};
+  Json out = {{"mean_difference_db", known(d.loop->mean_difference)},
+              {"rediagnosis", diagnosis::in_short(d.loop->rediagnosis)}};
   out["second"] = nullptr;
   if (const auto& s = d.loop->second)
     out["second"] = {{"data", s->data.string()},
                      {"readings", s->readings},
                      {"rmse_given_db", known(s->rmse_given)},
                      {"rmse_extended_db", known(s->rmse_extended)},
-                     {"rediagnosis", s->rediagnosis}};
+                     {"rediagnosis", diagnosis::in_short(s->rediagnosis)}};
   return out;
 }
 

@@ -214,21 +214,17 @@ std::string world(const Diagnosis& d) {
   return out + "</div>\n";
 }
 
-std::string again(const std::string& rediagnosis) {
-  return rediagnosis == "silent" ? "finds nothing more" : "still finds " + rediagnosis;
-}
-
 std::string loop(const Diagnosis& d) {
   if (!d.loop) return "";
   std::string out = heading("The extended world") + "<div class=\"card\">";
   out += paragraph(
       fmt::format("Simulated at the readings, its mean lies within {:.2g} dB of the diagnosis. A diagnosis of it {}.",
-                  d.loop->mean_difference, again(d.loop->rediagnosis)));
+                  d.loop->mean_difference, what_is_found_again(d.loop->rediagnosis)));
   if (const auto& s = d.loop->second)
-    out += paragraph(
-        fmt::format("On {} ({} readings that it was not made from) it errs by {} a reading, as it is written; "
-                    "the world as given, fitted to those very readings, by {}. A diagnosis of it on them {}.",
-                    s->data.string(), s->readings, db(s->rmse_extended), db(s->rmse_given), again(s->rediagnosis)));
+    out += paragraph(fmt::format(
+        "On {} ({} readings that it was not made from) it errs by {} a reading, as it is written; "
+        "the world as given, fitted to those very readings, by {}. A diagnosis of it on them {}.",
+        s->data.string(), s->readings, db(s->rmse_extended), db(s->rmse_given), what_is_found_again(s->rediagnosis)));
   return out + "</div>\n";
 }
 

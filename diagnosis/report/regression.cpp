@@ -103,11 +103,18 @@ Checked at_most(const std::string& what, double found, double most) {
   return {what, fmt::format("{:.3f} dB", found), fmt::format("at most {:.3f} dB", most), found <= most};
 }
 
-Checked inside(const std::string& what, double found, double low, double high, const std::string& unit) {
-  if (unit == "rad") found += 2 * M_PI * std::round(((low + high) / 2 - found) / (2 * M_PI));  // the same direction
-  const std::string u = unit.empty() ? "" : " " + unit;
-  return {what, fmt::format("{:.4g}{}", found, u), fmt::format("{:.4g} to {:.4g}{}", low, high, u),
-          found >= low && found <= high};
+struct Limits {
+  double low = 0, high = 0;
+  std::string unit;
+  bool cyclic = false;  // a turn more is the same
+};
+
+Checked inside(const std::string& what, double found, const Limits& limits) {
+  const double middle = (limits.low + limits.high) / 2;
+  if (limits.cyclic) found = middle + std::remainder(found - middle, 2 * M_PI);
+  const std::string unit = limits.unit.empty() ? "" : " " + limits.unit;
+  return {what, fmt::format("{:.4g}{}", found, unit), fmt::format("{:.4g} to {:.4g}{}", limits.low, limits.high, unit),
+          found >= limits.low && found <= limits.high};
 }
 
 void check_parameter(const Json& p, const diagnosis::LinkModel& model, const Diagnosis& again,
@@ -122,11 +129,12 @@ void check_parameter(const Json& p, const diagnosis::LinkModel& model, const Dia
     }
     path = instance + '/' + name;
   }
-  const double low = p.at("lower95"), high = p.at("upper95");
-  const std::string unit = p.value("unit", "");
-  out.push_back(inside(path + ", as written", model.parameter(path).value, low, high, unit));
+  const ParameterInfo written = model.parameter(path);
+  const Limits limits = {p.at("lower95"), p.at("upper95"), p.value("unit", ""),
+                         (written.declared->flags & MUSTER_CYCLIC) != 0};
+  out.push_back(inside(path + ", as written", written.value, limits));
   for (const auto& v : again.world_values) {
-    if (v.path == path) out.push_back(inside(path + ", fitted again", v.value, low, high, unit));
+    if (v.path == path) out.push_back(inside(path + ", fitted again", v.value, limits));
   }
 }
 
@@ -141,12 +149,12 @@ std::vector<std::string> write_regression(const Diagnosis& d, const fs::path& wo
                {"world", name},
                {"data", Json::array({{{"file", measured},
                                       {"rmse_db", limit(d.loop->rmse_extended, d.residual_sd)},
-                                      {"rediagnosis", d.loop->rediagnosis}}})},
+                                      {"rediagnosis", diagnosis::in_short(d.loop->rediagnosis)}}})},
                {"parameters", parameters_of(d)}};
   if (const auto& s = d.loop->second)
     json["data"].push_back({{"file", copied(s->data, folder)},
                             {"rmse_db", limit(s->rmse_extended, s->rmse_given)},
-                            {"rediagnosis", s->rediagnosis}});
+                            {"rediagnosis", diagnosis::in_short(s->rediagnosis)}});
   if (d.held_out) json["heldout_rmse_db"] = limit(d.held_out->rmse_after, d.held_out->rmse_before);
   const fs::path file = folder / "regression.json";
   std::ofstream out(file, std::ios::binary);
@@ -174,7 +182,7 @@ std::vector<Checked> check_regression(const fs::path& from, const Library::Searc
       const diagnosis::LinkModel model(world, data, plugins);
       if (first)
         for (const Json& p : json.at("parameters")) check_parameter(p, model, again, out);
-      const std::string expected = one.at("rediagnosis"), found = diagnosis::in_short(again);
+      const std::string expected = one.at("rediagnosis"), found = diagnosis::in_short(diagnosis::told_by(again));
       out.push_back({"diagnosed again" + on, found, expected, found == expected || found == "silent"});
       first = false;
     }

@@ -173,24 +173,20 @@ std::string world(const Diagnosis& d) {
   return text;
 }
 
-std::string again(const std::string& rediagnosis) {
-  return rediagnosis == "silent" ? "finds nothing more" : "still finds " + rediagnosis;
-}
-
 std::string loop(const Diagnosis& d) {
   if (!d.loop) return "";
   std::string text = heading("The extended world: " + d.loop->world.string());
   text += wrapped(fmt::format("Simulated at the readings, its mean lies within {:.2g} dB of the diagnosis. A diagnosis "
                               "of it {}.",
-                              d.loop->mean_difference, again(d.loop->rediagnosis)),
+                              d.loop->mean_difference, what_is_found_again(d.loop->rediagnosis)),
                   2, 2);
   if (const auto& s = d.loop->second)
-    text += wrapped(
-        fmt::format("On {} ({} readings that it was not made from) it errs by {} a reading, as it is "
-                    "written; the world as given, fitted to those very readings, by {}. A diagnosis of it "
-                    "on them {}.",
-                    s->data.string(), s->readings, db(s->rmse_extended), db(s->rmse_given), again(s->rediagnosis)),
-        2, 2);
+    text += wrapped(fmt::format("On {} ({} readings that it was not made from) it errs by {} a reading, as it is "
+                                "written; the world as given, fitted to those very readings, by {}. A diagnosis of it "
+                                "on them {}.",
+                                s->data.string(), s->readings, db(s->rmse_extended), db(s->rmse_given),
+                                what_is_found_again(s->rediagnosis)),
+                    2, 2);
   return text;
 }
 

@@ -43,6 +43,10 @@ std::string covariates_of(const Diagnosis& d) {
   return list;
 }
 
+std::string with_label(const std::string& id, const std::string& label) {
+  return short_name(id) + (label.empty() || label == id || label == "all" ? "" : " " + label);
+}
+
 std::string causes_in_words(int count) {
   static const char* words[] = {"no cause", "one cause", "two causes", "three causes", "four causes", "five causes"};
   return count < 6 ? words[count] : std::to_string(count) + " causes";
@@ -139,9 +143,8 @@ std::string rivals_in_words(const std::vector<search::Rival>& rivals) {
   if (rivals.empty()) return "none that the readings leave open";
   std::string out;
   for (const search::Rival& r : rivals)
-    out += fmt::format("{}{}{}, {:.1f} nats behind, D {:.0f}: {}", out.empty() ? "" : "; ", short_name(r.id),
-                       r.label == r.id || r.label == "all" ? "" : " " + r.label, tenths(r.evidence_gap), r.separability,
-                       judged(r.separability));
+    out += fmt::format("{}{}, {:.1f} nats behind, D {:.0f}: {}", out.empty() ? "" : "; ", with_label(r.id, r.label),
+                       tenths(r.evidence_gap), r.separability, judged(r.separability));
   return out;
 }
 
@@ -150,6 +153,13 @@ std::string what_is_unexplained(const diagnosis::Unexplained& what) {
   const std::string on = "Something depends on " + covariate_in_words(what.covariate);
   if (what.rivals.empty()) return on + ", and no cause on the plugin path explains it: " + won;
   return on + ": " + won + " Causes that explain it nearly as well: " + rivals_in_words(what.rivals) + ".";
+}
+
+std::string what_is_found_again(const std::vector<diagnosis::Told>& told) {
+  if (told.empty()) return "finds nothing more";
+  std::string list;
+  for (const diagnosis::Told& t : told) list += (list.empty() ? "" : ", ") + with_label(t.id, t.label);
+  return "still finds " + list;
 }
 
 std::string chance(double log_p) {

@@ -41,6 +41,8 @@ std::string covariate_in_words(const std::string& name);
 std::string rivals_in_words(const std::vector<search::Rival>& rivals);
 // "Something depends on the column battery ...", with what it wins and the causes that explain it nearly as well.
 std::string what_is_unexplained(const diagnosis::Unexplained& what);
+// "finds nothing more"; "still finds drift tx1, something along the column battery".
+std::string what_is_found_again(const std::vector<diagnosis::Told>& told);
 // "p < 1e-9", "p = 0.03", from a logarithm.
 std::string chance(double log_p);
 

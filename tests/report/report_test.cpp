@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <map>
 #include <set>
 
 #include "diagnosis/dataset.hpp"
@@ -11,6 +12,7 @@
 #include "diagnosis/report/folder.hpp"
 #include "diagnosis/report/json.hpp"
 #include "diagnosis/report/regression.hpp"
+#include "diagnosis/report/words.hpp"
 #include "tests/diagnosis/scratch.hpp"
 
 namespace muster::report {
@@ -187,6 +189,30 @@ TEST_F(Report, RegressionTestPassesAndNoticesThatTheWallIsGone) {
   world.SaveFile(file.c_str());
   EXPECT_FALSE(passes(out));
   std::ofstream(file, std::ios::binary) << before;
+}
+
+// Directions a turn apart are one; no width can be met by a turn more.
+TEST_F(Report, RegressionTestTakesATurnMoreForTheSameOfDirectionsAlone) {
+  const fs::path folder = *scratch / "turned";
+  fs::copy(out, folder);
+  std::string world = contents(folder / "world.xml");
+  world.insert(world.rfind("</world>"), R"(<effect.body_shadow name="b" direction="3.1" width="1" loss="0"/>)");
+  std::ofstream(folder / "world.xml", std::ios::binary) << world;
+  Json json = Json::parse(contents(folder / "regression.json"));
+  json["data"].erase(1);
+  json["parameters"] = {{{"path", "b/direction"}, {"lower95", -3.3}, {"upper95", -3.1}, {"unit", "rad"}},
+                        {{"path", "b/width"}, {"lower95", 7.2}, {"upper95", 7.4}, {"unit", "rad"}}};
+  std::ofstream(folder / "regression.json", std::ios::binary) << json;
+  std::map<std::string, bool> passed;
+  for (const Checked& c : check_regression(folder, plugins)) passed[c.what] = c.passed;
+  EXPECT_TRUE(passed.at("b/direction, as written"));
+  EXPECT_FALSE(passed.at("b/width, as written"));
+}
+
+TEST(Words, SayWhatIsFoundAgain) {
+  EXPECT_EQ(what_is_found_again({}), "finds nothing more");
+  EXPECT_EQ(what_is_found_again({{"effect.tx_offset", "beacon_1"}, {"effect.corridor", "all"}, {"~battery", ""}}),
+            "still finds tx offset beacon_1, corridor, something along the column battery");
 }
 
 }  // namespace
