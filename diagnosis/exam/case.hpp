@@ -23,7 +23,7 @@ struct Oracle {
 };
 
 struct Order {
-  std::string kind;                  // clean, one, two, outside
+  std::string kind;                  // clean, one, two, three, outside
   std::vector<std::string> effects;  // their ids
   std::vector<double> lambdas;       // one an effect
   int rows = 6000;

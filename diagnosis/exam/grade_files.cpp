@@ -173,7 +173,7 @@ Grades grade(const fs::path& answers, const fs::path& reports) {
 }
 
 std::string as_text(const Grades& g) {
-  std::string out = "95 % binomial intervals in brackets; cases with two effects stand in the bin of the weaker one\n";
+  std::string out = "95 % binomial intervals in brackets; cases with several effects stand in the bin of the weakest\n";
   for (const auto& [name, share] : g.shares) out += share_line(name, share);
   out += "found, by effect (outside the vocabulary: right covariate)\n";
   for (const auto& [name, share] : g.by_effect) out += share_line(name, share);

@@ -20,9 +20,9 @@ using namespace muster::exam;
 
 constexpr const char* usage = R"(muster_exam: sealed cases for radio diagnosis
 
-  muster_exam make --seed S --cases N --out DIR [--mix clean,one,two,outside | each] [--rows MIN MAX]
-                   [--lambda L | --size weak|medium|strong] [--effects ID,ID...] [--first N]
-      "each": every effect in turn, those outside the vocabulary among them.
+  muster_exam make --seed S --cases N --out DIR [--mix clean,one,two,three,outside | each] [--rows MIN MAX]
+                   [--lambda L[,M] | --size weak|medium|strong] [--effects ID,ID...] [--first N]
+      "each": every effect in turn, those outside the vocabulary among them; without --mix "three" is left out.
       writes DIR/case_0001/{world.xml, walls.csv, measured.csv, second.csv} ... and DIR/answers/case_0001.json ...
   muster_exam run DIR [--reports DIR] [--command COMMAND] [--jobs N]
       runs a diagnosis over the cases, by default muster diagnose {world} --data {data} --json; what it prints becomes
@@ -95,8 +95,13 @@ const std::string& required(const Arguments& arguments, const std::string& optio
 void set_sizes(Syllabus& syllabus, const Arguments& arguments) {
   if (arguments.contains("--lambda") && arguments.contains("--size"))
     throw std::invalid_argument("--lambda and --size exclude one another");
-  if (const auto at = arguments.find("--lambda"); at != arguments.end())
-    syllabus.least_lambda = syllabus.most_lambda = number(at->second[0], 0.1, 1e6);
+  if (const auto at = arguments.find("--lambda"); at != arguments.end()) {
+    const std::vector<std::string> limits = listed(at->second[0]);
+    if (limits.empty() || limits.size() > 2)
+      throw std::invalid_argument("--lambda needs a number, or the least and the most as L,M");
+    syllabus.least_lambda = number(limits.front(), 0.1, 1e6);
+    syllabus.most_lambda = number(limits.back(), syllabus.least_lambda, 1e6);
+  }
   if (const auto at = arguments.find("--size"); at != arguments.end()) {
     const std::map<std::string, std::pair<double, double>> sizes{
         {"weak", {12, 30}}, {"medium", {30, 100}}, {"strong", {100, 400}}};
@@ -111,10 +116,10 @@ Syllabus syllabus_of(const Arguments& arguments) {
   Syllabus syllabus;
   syllabus.seed = number<std::uint64_t>(required(arguments, "--seed"), 0, ~std::uint64_t{0});
   if (const auto at = arguments.find("--mix"); at != arguments.end()) syllabus.kinds = listed(at->second[0]);
-  const std::set<std::string> kinds{"clean", "one", "two", "outside", "each"};
+  const std::set<std::string> kinds{"clean", "one", "two", "three", "outside", "each"};
   for (const std::string& kind : syllabus.kinds)
     if (!kinds.contains(kind))
-      throw std::invalid_argument("a kind is clean, one, two, outside or each, not \"" + kind + "\"");
+      throw std::invalid_argument("a kind is clean, one, two, three, outside or each, not \"" + kind + "\"");
   if (const auto at = arguments.find("--rows"); at != arguments.end()) {
     syllabus.least_rows = number(at->second[0], 200.0, 200000.0);
     syllabus.most_rows = number(at->second[1], syllabus.least_rows, 200000.0);

@@ -23,12 +23,14 @@ const Recipe& in_turn(const Syllabus& syllabus, int number) {
   return *all[static_cast<std::size_t>(number - 1) % all.size()];
 }
 
+std::size_t how_many(const std::string& kind) { return kind == "three" ? 3 : kind == "two" ? 2 : 1; }
+
 std::vector<std::string> candidates(const Syllabus& syllabus, const std::string& kind) {
   std::vector<std::string> result;
   for (const Recipe& r : recipes()) {
-    // Exchanged names move every level of two stations; beside that no second effect would have its own meaning.
+    // Exchanged names move every level of two stations; beside that no other effect would have its own meaning.
     const bool alone = std::string_view(r.id) == "label_swap";
-    if (wanted(syllabus, r) && r.in_vocabulary == (kind != "outside") && !(kind == "two" && alone))
+    if (wanted(syllabus, r) && r.in_vocabulary == (kind != "outside") && !(how_many(kind) > 1 && alone))
       result.push_back(r.id);
   }
   if (result.empty()) throw std::invalid_argument("no effect is left for cases of kind \"" + kind + "\"");
@@ -68,12 +70,14 @@ Order draw_order(const Syllabus& syllabus, int number) {
   } else {
     order.effects.push_back(random.pick(candidates(syllabus, order.kind)));
   }
-  if (order.kind == "two") {
+  while (order.effects.size() < how_many(order.kind)) {
     const std::vector<std::string> from = candidates(syllabus, order.kind);
     std::vector<std::string> others;
-    std::copy_if(from.begin(), from.end(), std::back_inserter(others),
-                 [&](const auto& id) { return go_together(order.effects[0], id); });
-    if (others.empty()) throw std::invalid_argument("no second effect is left beside \"" + order.effects[0] + "\"");
+    std::copy_if(from.begin(), from.end(), std::back_inserter(others), [&](const auto& id) {
+      return std::all_of(order.effects.begin(), order.effects.end(),
+                         [&](const auto& one) { return go_together(one, id); });
+    });
+    if (others.empty()) throw std::invalid_argument("no other effect is left beside \"" + order.effects[0] + "\"");
     order.effects.push_back(random.pick(others));
   }
   for (std::size_t i = 0; i < order.effects.size(); ++i)

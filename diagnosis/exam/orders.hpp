@@ -7,8 +7,9 @@ namespace muster::exam {
 
 struct Syllabus {
   std::uint64_t seed = 1;
-  std::vector<std::string> kinds{"clean", "one", "two", "outside"};  // also "each": one or outside, by turns
-  std::vector<std::string> effects;                                  // to draw from; empty: all
+  // Also "three", and "each": one or outside, by turns.
+  std::vector<std::string> kinds{"clean", "one", "two", "outside"};
+  std::vector<std::string> effects;  // to draw from; empty: all
   double least_rows = 2000, most_rows = 20000;
   double least_lambda = 12, most_lambda = 400;
 };

@@ -136,7 +136,7 @@ TEST(Grade, CountsWhatIsWrong) {
   EXPECT_EQ(share(g, "one / right row, where found / all").hits, 0);
 }
 
-TEST(Grade, TwoEffectsStandInTheBinOfTheWeaker) {
+TEST(Grade, SeveralEffectsStandInTheBinOfTheWeakest) {
   Truth truth = one("tx_offset", 820);
   truth.kind = "two";
   truth.effects.push_back({"drift", {}, {}, {}, {}, 12});
@@ -147,6 +147,14 @@ TEST(Grade, TwoEffectsStandInTheBinOfTheWeaker) {
   EXPECT_EQ(share(g, "two / found / lambda >= 50").of, 0);
   EXPECT_EQ(g.by_effect.at("tx_offset / lambda >= 50").hits, 1);
   EXPECT_EQ(g.by_effect.at("drift / lambda 10-20").hits, 0);
+
+  truth.kind = "three";
+  truth.effects[1].lambda = 70;
+  truth.effects.push_back({"step", {}, {}, {}, {}, 60});
+  add(g, truth, said(right_report));
+  EXPECT_EQ(share(g, "three / found / lambda >= 50").hits, 0);
+  EXPECT_EQ(share(g, "three / found / lambda >= 50").of, 1);
+  EXPECT_NE(as_table(g).find("| three effects all, each lambda >= 50 | 0/1 = 0 %"), std::string::npos) << as_table(g);
 }
 
 TEST(Grade, CleanWorldsAndTheOutside) {

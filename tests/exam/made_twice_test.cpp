@@ -1,7 +1,9 @@
 // The same seed gives the same bytes, whatever else is made.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <ctime>
+#include <set>
 
 #include "made.hpp"
 
@@ -39,6 +41,21 @@ TEST(Exam, KindsAndRowsAreTheOnesAskedFor) {
     EXPECT_GE(order.rows, 3000);
     EXPECT_LE(order.rows, 4000);
     for (const auto& id : order.effects) EXPECT_TRUE(recipe(id).in_vocabulary) << id;
+  }
+  syllabus.kinds = {"three"};
+  const std::set<std::string> scatter = {"fading_law", "channel_mixture", "outliers"},
+                              clips = {"rssi_floor", "rssi_saturation"};
+  for (int i = 1; i <= 200; ++i) {
+    const Order order = draw_order(syllabus, i);
+    const std::set<std::string> ids(order.effects.begin(), order.effects.end());
+    ASSERT_EQ(ids.size(), 3u);
+    ASSERT_EQ(order.lambdas.size(), 3u);
+    EXPECT_EQ(ids.count("label_swap"), 0u);
+    const auto of = [&](const std::set<std::string>& group) {
+      return std::count_if(ids.begin(), ids.end(), [&](const auto& id) { return group.count(id) > 0; });
+    };
+    EXPECT_LE(of(scatter), 1);
+    EXPECT_LE(of(clips), 1);
   }
   syllabus.kinds = {"outside"};
   for (int i = 1; i <= 30; ++i) EXPECT_FALSE(recipe(draw_order(syllabus, i).effects.at(0)).in_vocabulary);

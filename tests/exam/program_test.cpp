@@ -80,9 +80,12 @@ TEST_F(Program, RunsACommandOverTheCasesAndGoesOnWhereItWasStopped) {
 TEST_F(Program, RefusesWhatItDoesNotKnow) {
   EXPECT_EQ(run("make --seed 3 --cases 1").code, 2);
   EXPECT_EQ(run("make --seed 3 --cases 1 --out x --mix some").text,
-            "muster_exam make: a kind is clean, one, two, outside or each, not \"some\"\n");
+            "muster_exam make: a kind is clean, one, two, three, outside or each, not \"some\"\n");
   EXPECT_EQ(run("make --seed 3 --cases 1 --out x --effects ghost").code, 2);
   EXPECT_EQ(run("make --seed 3x --cases 1 --out x").code, 2);
+  EXPECT_EQ(run("make --seed 3 --cases 1 --out x --lambda 1,2,3").text,
+            "muster_exam make: --lambda needs a number, or the least and the most as L,M\n");
+  EXPECT_EQ(run("make --seed 3 --cases 1 --out x --lambda 60,50").code, 2);
   EXPECT_EQ(run("make --help").text, run("--help").text);
   EXPECT_EQ(run("make --seed 3 --cases 1 --out x --depth 2").text, "muster_exam make: no option is called --depth\n");
   EXPECT_EQ(run("grade --answers /nowhere --reports /nowhere").code, 74);
