@@ -183,24 +183,12 @@ bool world_draws_alike(const LawSources& s) {
          std::abs(std::log(own.decorrelation / fitted.decorrelation)) < std::log(1.6);
 }
 
-// Of readings that only a bound is known of.
-double bounds_share(const LawSources& s) {
-  const auto& known = s.bench.problem().bounds.known;
-  const auto bounds =
-      std::count_if(known.begin(), known.end(), [](noise::Known k) { return k != noise::Known::value; });
-  return static_cast<double>(bounds) / static_cast<double>(s.used.size());
-}
-
 void add_field(const LawSources& s, ReadingField& field, const ReadingLaw& law, Diagnosis& found) {
   const Cause* const cause = cause_called(s, "effect.shadowing_correlation");
   if (!cause) return;
   const noise::StatedField said = stated_field(s.model);
   if (said.shadowing <= 0) {
     found.not_tested.push_back(cause->id + ": not testable: the world states no shadowing");
-    return;
-  }
-  if (bounds_share(s) > 0.05) {
-    found.not_tested.push_back(cause->id + ": not testable: of more than 5 % of the readings only a bound is known");
     return;
   }
   found.searched.push_back(cause->id);
@@ -257,20 +245,16 @@ bool all_changes_in_time(const Diagnosis& found) {
 }
 
 // Whether they are named.
-bool add_people(const LawSources& s, Diagnosis& found) {
+bool add_people(const LawSources& s, const VectorXd& residual, Diagnosis& found) {
   const Cause* const cause = cause_called(s, "effect.people");
   if (!cause) return false;
   if (s.data.t.empty()) {
     found.not_tested.push_back(cause->id + ": not testable: the data have no t");
     return false;
   }
-  if (bounds_share(s) > 0.01) {  // what is clipped looks like bursts
-    found.not_tested.push_back(cause->id + ": not testable: of more than 1 % of the readings only a bound is known");
-    return false;
-  }
   found.searched.push_back(cause->id);
   if (s.model.has_plugin(cause->id)) return false;
-  const Passages passages = passages_of(s.bench);
+  const Passages passages = passages_of(s.bench, residual.array().isFinite());
   if (passages.radio < 0 || !beyond_chance(passages.test, alpha) ||
       (passages.test.log_p > people_in_company && !all_changes_in_time(found)))
     return false;
@@ -306,7 +290,8 @@ void add_clips(const LawSources& s, Diagnosis& found) {
 
 void add_laws(const LawSources& s, Diagnosis& found) {
   const VectorXd residual = residual_of(s, found);
-  add_laws_of_readings(s, add_people(s, found) ? without_link(s, found.causes.back(), residual) : residual, found);
+  add_laws_of_readings(s, add_people(s, residual, found) ? without_link(s, found.causes.back(), residual) : residual,
+                       found);
 }
 
 }  // namespace muster::diagnosis

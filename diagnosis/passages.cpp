@@ -58,12 +58,12 @@ double log_mean(const Ratios& ratios) {
 
 class Scan {
  public:
-  explicit Scan(const search::Bench& bench)
+  Scan(const search::Bench& bench, const Asked& asked)
       : bench_(bench),
         stand_(bench.stand(bench.design())),
         reach_(bench.field(), stand_.whitener),
         residual_(without_spikes(stand_.at.residual)) {
-    for (const auto& [radios, readings] : readings_of_links()) links_.push_back(link(radios, readings));
+    for (const auto& [radios, readings] : readings_of_links(asked)) links_.push_back(link(radios, readings));
   }
 
   const std::vector<Link>& links() const { return links_; }
@@ -127,14 +127,28 @@ class Scan {
     return result;
   }
 
+  std::vector<char> rows_in_full(const Asked& asked) const {
+    std::vector<char> result(static_cast<std::size_t>(bench_.rows().size()), 1);
+    const std::vector<Index>& row_of = bench_.rows().row_of();
+    for (std::size_t i = 0; i < row_of.size(); ++i) {
+      if (!asked[static_cast<Index>(i)]) result[static_cast<std::size_t>(row_of[i])] = 0;
+    }
+    return result;
+  }
+
   // By time, both ways of a link together; of links with few rows none.
-  std::map<std::pair<int, int>, std::vector<Index>> readings_of_links() const {
+  std::map<std::pair<int, int>, std::vector<Index>> readings_of_links(const Asked& asked) const {
     const noise::Readings& r = bench_.problem().readings;
+    const std::vector<char> in_full = rows_in_full(asked);
     std::map<std::pair<int, int>, std::vector<Index>> result;
     std::map<std::pair<int, int>, std::size_t> rows;
-    for (Index i = 0; i < r.size(); ++i)
-      result[std::minmax(r.tx[static_cast<std::size_t>(i)], r.rx[static_cast<std::size_t>(i)])].push_back(i);
+    for (Index i = 0; i < r.size(); ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      if (in_full[static_cast<std::size_t>(bench_.rows().row_of()[k])])
+        result[std::minmax(r.tx[k], r.rx[k])].push_back(i);
+    }
     for (Index row = 0; row < bench_.rows().size(); ++row) {
+      if (!in_full[static_cast<std::size_t>(row)]) continue;
       const auto i = static_cast<std::size_t>(bench_.rows().example(row));
       ++rows[std::minmax(r.tx[i], r.rx[i])];
     }
@@ -274,8 +288,8 @@ double log_p(const Scan& scan, double ratio, const VectorXd& left) {
 
 }  // namespace
 
-Passages passages_of(const search::Bench& bench) {
-  const Scan scan(bench);
+Passages passages_of(const search::Bench& bench, const Asked& asked) {
+  const Scan scan(bench, asked);
   Passages result;
   result.test.cause = "effect.people";
   const VectorXd pulls = scan.pulls(scan.residual());

@@ -7,6 +7,9 @@
 
 namespace muster::diagnosis {
 
+// One a reading: whether it says anything of passages.
+using Asked = Eigen::Array<bool, Eigen::Dynamic, 1>;
+
 struct Passages {
   int radio = -1, other = -1;  // numbers of the set `radio`
   LawTest test;
@@ -16,7 +19,8 @@ struct Passages {
 // likelihood ratio of passages at unknown times, averaged over both, against nobody. Its p-value comes from the same
 // scan of what the model leaves, shuffled in whitened space: that keeps how skewed errors are, and breaks bursts up;
 // and from the scan of the mirror image of what the passages leave: people lower levels, a misfit of the field raises
-// them as often.
-Passages passages_of(const search::Bench& bench);
+// them as often. Rows with a reading that is not asked take no part: near a clip levels are cut off on one side, which
+// looks like bursts.
+Passages passages_of(const search::Bench& bench, const Asked& asked);
 
 }  // namespace muster::diagnosis

@@ -160,6 +160,19 @@ TEST(SealedPeople, AreNotTakenForWhatChangesInTime) {
   EXPECT_EQ(in_short(second_look(world, extended, world / "second.csv", plugins).rediagnosis), "silent");
 }
 
+// Near the level at which a receiver saturates readings are cut off above, which looks like bursts.
+TEST(SealedPeople, AreSoughtApartFromWhatIsClipped) {
+  const Scratch scratch;
+  const auto clipped = made_case(scratch, "--seed 84 --rows 2000 20000", 479);
+  expect_only("effect.rssi_saturation", diagnose(clipped, clipped / "measured.csv", plugins));
+  const auto both = made_case(scratch, "--seed 95 --rows 2000 20000 --mix three --lambda 50,400", 1);
+  const Diagnosis found = diagnose(both, both / "measured.csv", plugins);
+  ASSERT_GE(found.causes.size(), 2u) << told(found);
+  EXPECT_EQ(found.causes[0].id, "effect.rssi_saturation");
+  EXPECT_EQ(found.causes[1].id, "effect.people");
+  EXPECT_EQ(found.causes[1].label, "radio/beacon2 radio/robot1");
+}
+
 // Whitened dips have rims: mirrored they look like dips again, and must not count as what a misfit of the field does.
 TEST(SealedPeople, AreSeenThoughTheirDipsHaveRims) {
   const Scratch scratch;
