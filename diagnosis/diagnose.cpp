@@ -198,7 +198,7 @@ class Diagnoser {
   void add_what_scatters(const search::Bench& bench, Diagnosis& out) {
     const LawSources sources{at_.model, at_.data, at_.causes, bench, at_.used, at_.fitted};
     add_clips(sources, out);
-    extend(bench, out);
+    if (add_silence_beside(sources, extend(bench, out), out)) extend(bench, out);
     const std::size_t before = out.causes.size();
     add_laws(sources, out);
     if (out.causes.size() > before) extend(bench, out);  // a law of fading has a mean of its own
@@ -246,11 +246,13 @@ class Diagnoser {
     return bench.y() + bench.rows().mean(offset);
   }
 
-  void extend(const search::Bench& bench, Diagnosis& out) {
+  // What the extended world expects of every reading, dBm.
+  VectorXd extend(const search::Bench& bench, Diagnosis& out) {
     out.mean = VectorXd::Constant(at_.base.mean.size(), std::nan(""));
     const VectorXd mean = fit_jointly({at_.model, at_.causes, at_.file, bench, at_.used, measured(bench)},
                                       at_.base.lower, at_.base.upper, at_.base.paths, out);
     out.mean(at_.used) = mean(at_.used);
+    return mean;
   }
 
   Prepared at_;

@@ -75,9 +75,9 @@ void add_pile(const LawSources& s, const std::string& id, const Clip& clip, doub
 // Fisher's, of two independent tests.
 double of_both(double log_p, double other) { return log_p + other + std::log1p(-log_p - other); }
 
-// Readings that are missing where levels are low, and not elsewhere.
-void add_silence(const LawSources& s, double step, Diagnosis& found) {
-  const Missing& missing = s.fit.missing;
+// Readings that are missing where levels are low, and not elsewhere. Whether it is named.
+bool add_silence(const LawSources& s, const Missing& missing, Diagnosis& found) {
+  const double step = found.instrument.step;
   const Cause* const cause = cause_called(s, "effect.rssi_floor");
   const double least = std::log(s.bench.options().further_alpha / static_cast<double>(s.bench.entries().size()));
   const double independent = missing.censored ? 1 : 0.5;  // neighbours are lost together
@@ -85,14 +85,15 @@ void add_silence(const LawSources& s, double step, Diagnosis& found) {
   LawTest test{"effect.rssi_floor", {}, gain, gain / 2, search::log_tail(gain, 1)};
   if (missing.cut_off && !missing.censored)
     test.log_p = of_both(test.log_p, independent * std::log(missing.none_below));
-  if (!cause || !(missing.censored || missing.cut_off) || test.log_p > least) return;
+  if (!cause || !(missing.censored || missing.cut_off) || test.log_p > least) return false;
   if (clips_at(s, test.cause, "level", missing.floor, step) ||
       clips_at(s, "radio.receiver", "sensitivity", missing.floor, step))
-    return;
+    return false;
   const double half = std::max(step, 0.02);
   test.values = {{"level", missing.floor, missing.floor - half, missing.floor + half}};
   found.causes.push_back(named(s, *cause, test));
   found.causes.back().words["silent"] = "true";
+  return true;
 }
 
 // Measured less expected of each reading of the search; NaN where only a bound is known or the clip is near.
@@ -285,7 +286,18 @@ void add_clips(const LawSources& s, Diagnosis& found) {
   if (cause_called(s, "effect.rssi_floor")) found.searched.push_back("effect.rssi_floor");
   if (found.instrument.top) add_pile(s, "effect.rssi_saturation", *found.instrument.top, step, found);
   if (found.instrument.bottom) add_pile(s, "effect.rssi_floor", *found.instrument.bottom, step, found);
-  if (!found.instrument.bottom) add_silence(s, step, found);
+  if (!found.instrument.bottom) add_silence(s, s.fit.missing, found);
+}
+
+bool add_silence_beside(const LawSources& s, const VectorXd& mean, Diagnosis& found) {
+  const auto floor = [](const FoundCause& c) { return c.id == "effect.rssi_floor"; };
+  if (s.fit.missing.count == 0 || found.instrument.bottom || !found.named() ||
+      std::any_of(found.causes.begin(), found.causes.end(), floor))
+    return false;
+  const VectorXd& rssi = s.fit.readings.rssi;
+  const Eigen::Array<bool, Eigen::Dynamic, 1> heard = !rssi.array().isNaN();
+  const double squares = heard.select((rssi - mean).array().square(), 0).sum();
+  return add_silence(s, why_missing(rssi, mean, std::sqrt(squares / static_cast<double>(heard.count()))), found);
 }
 
 void add_laws(const LawSources& s, Diagnosis& found) {

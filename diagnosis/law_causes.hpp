@@ -20,5 +20,8 @@ constexpr double people_in_company = -9;
 // Each adds to the causes of `found`, to what was searched and what could not be.
 void add_clips(const LawSources& sources, Diagnosis& found);
 void add_laws(const LawSources& sources, Diagnosis& found);
+// Whether there is a silent floor beside what was found: `mean`, dBm, is what the extended world expects of every
+// reading. The world as given may err by so much that it hides one.
+bool add_silence_beside(const LawSources& sources, const Eigen::VectorXd& mean, Diagnosis& found);
 
 }  // namespace muster::diagnosis

@@ -160,6 +160,16 @@ TEST(SealedPeople, AreNotTakenForWhatChangesInTime) {
   EXPECT_EQ(in_short(second_look(world, extended, world / "second.csv", plugins).rediagnosis), "silent");
 }
 
+// A drift of 4 dB and powers that are 1.7 dB off hide why 530 of 4,720 readings are missing.
+TEST(SealedFloor, IsFoundBesideWhatHidIt) {
+  const Scratch scratch;
+  const auto world = made_case(scratch, "--seed 95 --rows 2000 20000 --mix three --lambda 50,400", 5);
+  const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
+  std::set<std::string> ids;
+  for (const FoundCause& c : found.causes) ids.insert(c.id);
+  EXPECT_EQ(ids, (std::set<std::string>{"effect.drift", "effect.power_steps", "effect.rssi_floor"})) << told(found);
+}
+
 // Near the level at which a receiver saturates readings are cut off above, which looks like bursts.
 TEST(SealedPeople, AreSoughtApartFromWhatIsClipped) {
   const Scratch scratch;
