@@ -161,7 +161,6 @@ struct Maker {
     c.sign = shape.linear.empty() || (c.width == 1 && shape.linear[0]->min == 0) ? 1 : 0;
     c.time_like = time && column.empty();
     c.parameters = static_cast<int>(cause.plugin->param_count + shape.axes.size());
-    c.offset = shape.set() == "radio" && !time && !heading && !needs(cause, "tx_x");
     c.slow = !time && !heading && !(placed && c.sign && decibels);
     c.level_like = shape.set().empty() && !placed && !time;
     if (placed && !c.slow) c.pieces = "place";

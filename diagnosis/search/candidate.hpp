@@ -76,7 +76,6 @@ struct Candidate {
   bool time_like = false;   // a function of time: an observed column that does as well comes first
   bool observed = false;    // smooth of a column or factor of the data
   bool level_like = false;  // a function of the level: clipping imitates it
-  bool offset = false;      // one constant a device: seen beside clipping too
   int parameters = 1;       // of the cause: of two that the readings cannot tell apart, the one with fewer is meant
 
   bool refinable() const { return step.size() > 0 && step.any(); }

@@ -113,14 +113,12 @@ struct Company {
 
 // Leftovers of strong terms are not named.
 bool is_halo(const Term& term, const Company& company, bool clipped) {
-  const bool named = !term.smooth();
+  const bool named = !term.smooth(), place = !term.candidate->pieces.empty() || term.candidate->own() == "map";
   if (term.gain < 0.05 * company.stronger_kin) return true;
-  if (!term.candidate->pieces.empty() || term.candidate->own() == "map") {
-    if (term.gain < std::min(30.0, 0.25 * company.stronger_kin)) return true;
-  }
+  if (place && term.gain < std::min(30.0, 0.25 * company.stronger_kin)) return true;
   if (named && term.gain < 0.08 * company.smooths) return true;
   if (named && term.gain < std::min(50.0, 0.01 * company.strongest)) return true;
-  return clipped && term.gain < 60 && !term.candidate->offset;
+  return clipped && (term.candidate->proposed || !named) && term.gain < 60;  // what clips leave finds a place somewhere
 }
 
 void set_halos_aside(Bench& bench, std::vector<Term>& aside) {

@@ -42,10 +42,15 @@ TEST(FieldOfShadowing, AnUnusualDistanceIsMeasured) {
   EXPECT_GT(test.values[1].upper95, 8);
 }
 
+Passages passages_in(const Walk& walk, const Asked& asked) {
+  const search::Problem problem = problem_of(walk);
+  return passages_of(search::Bench(problem, {}), asked);
+}
+Passages passages_in(const Walk& walk) { return passages_in(walk, Asked::Constant(walk.residual.size(), true)); }
+
 TEST(PeopleOnALink, NobodyIsSeenWhereNobodyIs) {
   const Walk walk = drawn_of_four({.rician_k = 3}, 600, 1.5);  // deep fades
-  const search::Problem problem = problem_of(walk);
-  EXPECT_GT(passages_of(search::Bench(problem, {})).test.log_p, std::log(0.01));
+  EXPECT_GT(passages_in(walk).test.log_p, std::log(0.01));
 }
 
 // Of the first station, 1.2 s to 1/e each.
@@ -60,22 +65,27 @@ TEST(PeopleOnALink, LevelsThatRiseAsOftenAsTheyFallAreNobody) {
   Walk walk = drawn_of_four({.rician_k = 8}, 600, 1.5);
   add_bursts(walk, 11, 74, -35);
   add_bursts(walk, 48, 74, 35);
-  const search::Problem problem = problem_of(walk);
-  EXPECT_GT(passages_of(search::Bench(problem, {})).test.log_p, std::log(0.01));
+  EXPECT_GT(passages_in(walk).test.log_p, std::log(0.01));
 }
 
 TEST(PeopleOnALink, DeepFadesOfSingleReadingsAreNobody) {
   Walk walk = drawn_of_four({.rician_k = 8}, 600, 1.5);
   for (Eigen::Index i = 20; i < 600; i += 60) walk.residual[i] -= 25;
-  const search::Problem problem = problem_of(walk);
-  EXPECT_GT(passages_of(search::Bench(problem, {})).test.log_p, std::log(0.01));
+  EXPECT_GT(passages_in(walk).test.log_p, std::log(0.01));
+}
+
+TEST(PeopleOnALink, BurstsOfReadingsThatAreNotAskedAreNobody) {
+  Walk walk = drawn_of_four({.rician_k = 8}, 600, 1.5);
+  const Eigen::VectorXd before = walk.residual;
+  add_bursts(walk, 11, 37, -20);
+  EXPECT_LT(passages_in(walk).test.log_p, std::log(1e-6));
+  EXPECT_GT(passages_in(walk, walk.residual.array() == before.array()).test.log_p, std::log(0.01));
 }
 
 TEST(PeopleOnALink, BurstsAreSeenAndMeasured) {
   Walk walk = drawn_of_four({.rician_k = 8}, 600, 1.5);
   add_bursts(walk, 11, 37, -20);
-  const search::Problem problem = problem_of(walk);
-  const Passages found = passages_of(search::Bench(problem, {}));
+  const Passages found = passages_in(walk);
   EXPECT_EQ(found.radio, 0);
   EXPECT_EQ(found.other, 9);
   EXPECT_LT(found.test.log_p, std::log(1e-6));

@@ -35,7 +35,6 @@ Candidate offset(const World& w, bool of_tx) {
   Candidate c;
   c.id = of_tx ? "tx_offset" : "rx_offset";
   c.covariates = {of_tx ? "tx" : "rx"};
-  c.offset = true;
   c.time_like = !of_tx;
   c.slow = of_tx;
   if (of_tx) c.stands_for = {"txbearing"};

@@ -287,6 +287,33 @@ TEST(CleanUp, WhatActsInTimeStandsWhereItIsLikelierThanABendAlongTheBattery) {
   }
 }
 
+// The strongest reading and all that come near it are known to be as strong at least.
+Problem clipped(Problem problem) {
+  const double top = problem.measured.maxCoeff() - 8;
+  problem.bounds.known.assign(static_cast<std::size_t>(problem.measured.size()), noise::Known::value);
+  for (Eigen::Index i = 0; i < problem.measured.size(); ++i) {
+    if (problem.measured[i] < top) continue;
+    problem.measured[i] = top;
+    problem.bounds.known[static_cast<std::size_t>(i)] = noise::Known::above;
+  }
+  return problem;
+}
+
+// What a clip leaves over finds a place somewhere.
+TEST(CleanUp, BesideAClipAWallMustWinMoreThanADrift) {
+  const auto world = world_of(varied(13, 4000));
+  auto causes = causes_of(world);
+  Candidate& wall = causes[causes.size() - 2];
+  ASSERT_EQ(wall.id, "unmapped_wall");
+  wall.proposed = [](Tally&) { return std::vector<Eigen::VectorXd>(); };  // as one that is sought over a plan
+  const Eigen::VectorXd place = Eigen::Vector4d(12, 8, 5, 0.35), all = Eigen::VectorXd::Constant(1, -1);
+  const Problem hidden = problem_of(world, -scaled_to(world, wall.columns(place), 50), causes),
+                drifts = problem_of(world, scaled_to(world, world.time, 50), causes);
+  EXPECT_EQ(cleaned_up(hidden, {{"unmapped_wall", place}}).size(), 1u);
+  EXPECT_EQ(cleaned_up(clipped(hidden), {{"unmapped_wall", place}}).size(), 0u);
+  EXPECT_EQ(cleaned_up(clipped(drifts), {{"drift", all}}).size(), 1u);
+}
+
 TEST(CleanUp, DropsWhatCarriesNothingAndSetsLeftoversAside) {
   const auto world = world_of(varied(13, 4000));
   const auto causes = causes_of(world);
