@@ -253,9 +253,16 @@ bool add_people(const LawSources& s, const VectorXd& residual, Diagnosis& found)
     found.not_tested.push_back(cause->id + ": not testable: the data have no t");
     return false;
   }
-  found.searched.push_back(cause->id);
-  if (s.model.has_plugin(cause->id)) return false;
+  if (s.model.has_plugin(cause->id)) {
+    found.searched.push_back(cause->id);
+    return false;
+  }
   const Passages passages = passages_of(s.bench, residual.array().isFinite());
+  if (passages.links == 0) {
+    found.not_tested.push_back(cause->id + ": not testable: no link has 40 rows of readings that are no bounds");
+    return false;
+  }
+  found.searched.push_back(cause->id);
   if (passages.radio < 0 || !beyond_chance(passages.test, alpha) ||
       (passages.test.log_p > people_in_company && !all_changes_in_time(found)))
     return false;

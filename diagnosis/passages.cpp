@@ -291,6 +291,7 @@ double log_p(const Scan& scan, double ratio, const VectorXd& left) {
 Passages passages_of(const search::Bench& bench, const Asked& asked) {
   const Scan scan(bench, asked);
   Passages result;
+  result.links = scan.links().size();
   result.test.cause = "effect.people";
   const VectorXd pulls = scan.pulls(scan.residual());
   double best = impossible;

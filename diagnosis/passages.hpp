@@ -12,6 +12,7 @@ using Asked = Eigen::Array<bool, Eigen::Dynamic, 1>;
 
 struct Passages {
   int radio = -1, other = -1;  // numbers of the set `radio`
+  std::size_t links = 0;       // that were scanned: those with 40 rows that are asked
   LawTest test;
 };
 

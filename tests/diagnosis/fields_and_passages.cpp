@@ -80,6 +80,8 @@ TEST(PeopleOnALink, BurstsOfReadingsThatAreNotAskedAreNobody) {
   add_bursts(walk, 11, 37, -20);
   EXPECT_LT(passages_in(walk).test.log_p, std::log(1e-6));
   EXPECT_GT(passages_in(walk, walk.residual.array() == before.array()).test.log_p, std::log(0.01));
+  EXPECT_EQ(passages_in(walk).links, 4u);
+  EXPECT_EQ(passages_in(walk, Asked::Constant(walk.residual.size(), false)).links, 0u);
 }
 
 TEST(PeopleOnALink, BurstsAreSeenAndMeasured) {
