@@ -249,8 +249,8 @@ class Diagnoser {
   // What the extended world expects of every reading, dBm.
   VectorXd extend(const search::Bench& bench, Diagnosis& out) {
     out.mean = VectorXd::Constant(at_.base.mean.size(), std::nan(""));
-    const VectorXd mean = fit_jointly({at_.model, at_.causes, at_.file, bench, at_.used, measured(bench)},
-                                      at_.base.lower, at_.base.upper, at_.base.paths, out);
+    VectorXd mean = fit_jointly({at_.model, at_.causes, at_.file, bench, at_.used, measured(bench)}, at_.base.lower,
+                                at_.base.upper, at_.base.paths, out);
     out.mean(at_.used) = mean(at_.used);
     return mean;
   }

@@ -88,6 +88,7 @@ std::vector<double> costs_in(const fs::path& reports) {
     if (error == std::errc{} && *end == ',') seconds[line.substr(0, comma)] = value;
   }
   std::vector<double> result;
+  result.reserve(seconds.size());
   for (const auto& [name, value] : seconds) result.push_back(value);
   return result;
 }

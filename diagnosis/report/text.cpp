@@ -224,7 +224,7 @@ std::vector<std::string> reasons_not_tested(const Diagnosis& d) {
     if (colon != line.npos) who[reason] += (who[reason].empty() ? "" : ", ") + short_name(line.substr(0, colon));
   }
   for (std::string& reason : order) {
-    if (!who[reason].empty()) reason = who[reason] + ": " + reason;
+    if (!who[reason].empty()) reason.insert(0, who[reason] + ": ");
   }
   return order;
 }

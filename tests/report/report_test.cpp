@@ -1,4 +1,5 @@
 // One diagnosis of a fifth of the hall's readings, held against another fifth, and all that is said of it.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
 
@@ -69,7 +70,7 @@ Setting Report::setting;
 void paths_of(const Json& json, const std::string& at, std::set<std::string>& result) {
   if (json.is_object() && at != "parameters") {
     for (const auto& [key, value] : json.items()) {
-      const std::string path = at.empty() ? key : at + '.' + key;
+      const std::string path = fmt::format("{}{}{}", at, at.empty() ? "" : ".", key);
       result.insert(path);
       paths_of(value, path, result);
     }

@@ -27,6 +27,7 @@ Eigen::ArrayXd is_tx(const World& w, double tx) {
 
 std::vector<VectorXd> one_a_transmitter(const World& w) {
   std::vector<VectorXd> grid;
+  grid.reserve(static_cast<std::size_t>(w.recipe.transmitters));
   for (int k = 0; k < w.recipe.transmitters; ++k) grid.push_back(theta({static_cast<double>(k)}));
   return grid;
 }
@@ -170,6 +171,7 @@ VectorXd wall_of(const Segment& s) {
 std::vector<VectorXd> spans(const std::vector<Piece>& pieces) {
   std::vector<VectorXd> result;
   std::vector<Segment> walls;
+  walls.reserve(pieces.size());
   for (const Piece& piece : pieces) {
     walls.push_back(piece.id == "unmapped_wall"
                         ? segment_of(piece.theta)
