@@ -183,6 +183,16 @@ TEST(SealedPeople, AreSoughtApartFromWhatIsClipped) {
   EXPECT_EQ(found.causes[1].label, "radio/beacon2 radio/robot1");
 }
 
+// What lies well off the level at which the receiver saturates tells of the field.
+TEST(SealedField, IsSeenBesideAReceiverThatSaturates) {
+  const Scratch scratch;
+  const auto world = made_case(scratch, "--seed 88 --rows 2000 20000", 178);
+  const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
+  ASSERT_EQ(found.causes.size(), 2u) << told(found);
+  EXPECT_EQ(found.causes[0].id, "effect.rssi_saturation");
+  EXPECT_EQ(found.causes[1].id, "effect.shadowing_correlation");
+}
+
 // Whitened dips have rims: mirrored they look like dips again, and must not count as what a misfit of the field does.
 TEST(SealedPeople, AreSeenThoughTheirDipsHaveRims) {
   const Scratch scratch;
