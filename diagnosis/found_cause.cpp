@@ -88,6 +88,19 @@ void add_row(FoundCause& out, const CauseShape& shape, const VectorXd& theta) {
   }
 }
 
+// Of numbers that a title lists those stay that were found: which powers are right, the readings say.
+std::string with_values(std::string title, const Cause& cause, const std::vector<CauseValue>& values) {
+  for (uint32_t i = 0; i < cause.plugin->param_count; ++i) {
+    if (cause.plugin->params[i].kind != MUSTER_REAL) continue;
+    const std::string name = cause.plugin->params[i].name, slot = '{' + name + '}';
+    if (std::any_of(values.begin(), values.end(), [&](const CauseValue& v) { return v.name == name; })) continue;
+    for (const std::string& listed : {slot + ", ", ", " + slot}) {
+      if (const auto at = title.find(listed); at != title.npos) title.erase(at, listed.size());
+    }
+  }
+  return title;
+}
+
 }  // namespace
 
 FoundCause found_cause(const search::Finding& f, const CauseCandidate& cause) {
@@ -95,7 +108,6 @@ FoundCause found_cause(const search::Finding& f, const CauseCandidate& cause) {
   FoundCause out;
   out.id = out.sought_as = f.id;
   out.label = f.label;
-  out.title = shape.cause.meaning().title;
   out.tell_apart = shape.cause.meaning().tell_apart;
   out.status = f.status;
   out.covariates = f.covariates;
@@ -113,6 +125,7 @@ FoundCause found_cause(const search::Finding& f, const CauseCandidate& cause) {
     if (!shape.held.count(name))
       out.values.push_back(value_of(shape.cause.parameter(name), value, sure[name].below, sure[name].above));
   }
+  out.title = with_values(shape.cause.meaning().title, shape.cause, out.values);
   return out;
 }
 

@@ -37,7 +37,7 @@ struct PowerSteps {
   static constexpr muster_cause cause = {
       sizeof(muster_cause),
       MUSTER_TERM,
-      "powers are not as set: each is off by an error of its own, error1 at the lowest",
+      "powers are not as set: by {error1}, {error2}, {error3}, {error4}, {error5}, {error6} from the lowest up",
       "",
       "t power",
       "effect.tx_offset effect.step effect.rssi_saturation",
