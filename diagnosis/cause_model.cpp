@@ -139,7 +139,7 @@ void CauseModel::put(Simulation& run, Present& present, const Cause& cause, cons
     declarations.push_back(instance_of(cause, name_of(k), rows[k], cause.file() ? data_ : "", 1, place));
   run.share(cause.library);
   run.insert_all(std::move(declarations));
-  present = {cause.id, first, count, {}, false};
+  present = {cause.id, first, count, {}, {}};
   // Tables that nothing has read so far are at the declared values.
   if (&run == &whole_) return;
   std::map<std::string, double> fitted;
@@ -150,13 +150,29 @@ void CauseModel::put(Simulation& run, Present& present, const Cause& cause, cons
 }
 
 void CauseModel::evaluate(Simulation& run, Present& present, const std::map<std::string, double>& parameters) {
-  if (present.evaluated && parameters == present.parameters) return;
+  if (parameters == present.at) return;
   for (std::size_t k = present.first; k < present.first + present.count; ++k) {
     for (const auto& [name, value] : parameters) run.set_parameter(name_of(k) + '/' + name, value);
   }
   run.evaluate(MUSTER_RADIO, true);
-  present.parameters = parameters;
-  present.evaluated = true;
+  present.at = parameters;
+}
+
+const std::vector<Eigen::VectorXd>& CauseModel::added_at(const std::map<std::string, double>& parameters) {
+  constexpr std::size_t most = 2;  // a row is asked for both columns of a wave before the next row is
+  auto& recent = in_bare_.recent;
+  for (Evaluated& e : recent) {
+    if (e.parameters == parameters) return e.added;
+  }
+  evaluate(*bare_, in_bare_, parameters);
+  Evaluated now{parameters, {}};
+  for (std::size_t row = 0; row < in_bare_.count; ++row) {
+    const FirstColumn level = first_column(bare_->table("link/*/level@" + name_of(row)));
+    now.added.emplace_back(before_.size());
+    for (Eigen::Index i = 0; i < before_.size(); ++i) now.added.back()[i] = level[i];
+  }
+  if (recent.size() == most) recent.pop_back();
+  return recent.insert(recent.begin(), std::move(now))->added;
 }
 
 void CauseModel::fill(const Cause& cause, const std::vector<CauseRow>& rows, std::size_t row,
@@ -172,9 +188,14 @@ void CauseModel::fill(const Cause& cause, const std::vector<CauseRow>& rows, std
     fill_by([&](Eigen::Index reading) { return with[reading] - before_[reading]; });
   } else {
     put(*bare_, in_bare_, cause, rows, 0, rows.size());
-    evaluate(*bare_, in_bare_, parameters);
-    const FirstColumn added = first_column(bare_->table("link/*/level@" + name_of(row)));
-    fill_by([&](Eigen::Index reading) { return added[reading]; });
+    if (rows.size() > 1) {
+      const Eigen::VectorXd& added = added_at(parameters)[row];
+      fill_by([&](Eigen::Index reading) { return added[reading]; });
+    } else {
+      evaluate(*bare_, in_bare_, parameters);
+      const FirstColumn added = first_column(bare_->table("link/*/level@" + name_of(row)));
+      fill_by([&](Eigen::Index reading) { return added[reading]; });
+    }
   }
 }
 

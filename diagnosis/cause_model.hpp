@@ -4,6 +4,9 @@
 #include <Eigen/Core>
 #include <map>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "diagnosis/model.hpp"
 
@@ -55,16 +58,22 @@ class CauseModel {
   void clear();
 
  private:
+  struct Evaluated {  // all rows of a cause at the same parameters
+    std::map<std::string, double> parameters;
+    std::vector<Eigen::VectorXd> added;  // dB at every reading, one a row
+  };
   struct Present {  // what stands in a world beside its own instances
     std::string cause;
-    std::size_t first = 0, count = 0;  // rows
-    std::map<std::string, double> parameters;
-    bool evaluated = false;
+    std::size_t first = 0, count = 0;                 // rows
+    std::optional<std::map<std::string, double>> at;  // parameters at which it was evaluated last
+    std::vector<Evaluated> recent;                    // newest first
   };
 
   void put(Simulation& run, Present& present, const Cause& cause, const std::vector<CauseRow>& rows, std::size_t first,
            std::size_t count);
   void evaluate(Simulation& run, Present& present, const std::map<std::string, double>& parameters);
+  // What stands in the bare world, at these parameters.
+  const std::vector<Eigen::VectorXd>& added_at(const std::map<std::string, double>& parameters);
   static void remove(Simulation& run, Present& present);
 
   Simulation& whole_;
