@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <ctime>
 #include <set>
 
 #include "made.hpp"
@@ -60,14 +59,6 @@ TEST(Exam, KindsAndRowsAreTheOnesAskedFor) {
   syllabus.kinds = {"outside"};
   for (int i = 1; i <= 30; ++i) EXPECT_FALSE(recipe(draw_order(syllabus, i).effects.at(0)).in_vocabulary);
 }
-
-#ifdef NDEBUG
-TEST(Exam, ACaseOfSixThousandReadingsTakesLessThanTwoSeconds) {
-  const std::clock_t start = std::clock();
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) made(seed, "unmapped_wall", 60, 6000);
-  EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC / 3, 2.0);
-}
-#endif
 
 }  // namespace
 }  // namespace muster::exam
