@@ -29,6 +29,10 @@ class Diagnoser {
   Diagnoser(const std::filesystem::path& world, const std::filesystem::path& file, const Library::SearchPath& plugins)
       : at_(world, file, plugins), world_(world), plugins_(plugins) {}
 
+  void leave_out_law(const std::string& id) {
+    std::erase_if(at_.causes, [&](const Cause& cause) { return cause.id == id; });
+  }
+
   // `given`: what was found in the world as given, where this one has its first cause put right.
   Diagnosis run(const Diagnosis* given = nullptr) {
     search::Search search(at_.problem, at_.options);
@@ -89,7 +93,11 @@ class Diagnoser {
     out.stairs = result.stairs;
     out.checks = result.checks;
     out.world_values = world_values(bench, at_.base.paths, coefficients, at_.model);
-    for (WorldValue& v : out.world_values) v.value = out.parameters.at(v.path);
+    for (WorldValue& v : out.world_values) {
+      v.value = out.parameters.at(v.path);
+      v.identifiable = std::none_of(at_.fitted.parameters.begin(), at_.fitted.parameters.end(),
+                                    [&](const FitParameter& p) { return p.path == v.path && !p.identifiable; });
+    }
     doubt_at_bounds(out);
     return out;
   }
@@ -344,10 +352,11 @@ Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::pa
   }
   Diagnosis again = with_it.run();
   if (first.causes[0].log_p > people_in_company && something_changes_in_time(again)) {
-    const auto named =
-        std::remove_if(found.causes.begin(), found.causes.end(), [](const FoundCause& c) { return c.id == people; });
-    found.causes.erase(named, found.causes.end());
-    return found;
+    Diagnoser without(world, data, plugins);
+    without.leave_out_law(people);
+    Diagnosis result = without.run();
+    result.searched = found.searched;
+    return result;
   }
   first.causes[0].effect = VectorXd::Zero(again.rows);
   again.causes.insert(again.causes.begin(), first.causes[0]);

@@ -91,6 +91,7 @@ struct WorldValue {
   std::string path, unit;
   double value = 0, stderror = 0;
   bool at_bound = false;
+  bool identifiable = true;  // without it the readings give one that others of the world may trade against it
 };
 
 // What was named, or, as "~COVARIATE", is unexplained.

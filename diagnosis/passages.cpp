@@ -258,8 +258,11 @@ double beyond(double x) { return -std::expm1(-std::exp(-x)); }
 // In scales.
 double beyond_after_a_step(double x, double draw, double mean) {
   double sum = 0, weights = 0;
+  const auto log_weight = [&](double step) { return -step / mean - (draw - step) - std::exp(step - draw); };
+  // Steps are likeliest about the one that the draw needs: below every draw of the law that is none.
+  const double most = log_weight(std::max(draw, 0.0));
   for (double step = 0; step < 40; step += 0.05) {
-    const double away = draw - step, weight = std::exp(-step / mean - away - std::exp(-away));
+    const double weight = std::exp(log_weight(step) - most);
     sum += weight * beyond(x - step);
     weights += weight;
   }
@@ -270,7 +273,9 @@ double beyond_after_a_step(double x, double draw, double mean) {
 // than exponential. What errs alike for seconds without people, a way over which the field changes as no family says,
 // raises levels as often as it lowers them: the mirrored residuals are one draw of what it does to the ratios. `left`:
 // of them without the likeliest passages, since whitened dips have rims, and mirrored rims are dips. How much those of
-// a large misfit scatter is not known, so dips have to win twice what the mirror does.
+// a large misfit scatter is not known, so dips have to win three times what the mirror does: in 33 sealed cases with
+// people it is at most 2.7 scales ahead, where they are 6 to 65, and in a measured flat, where levels rise as they
+// fall, 37 of 87.
 double log_p(const Scan& scan, double ratio, const VectorXd& left) {
   constexpr double usual_misfit = 2;  // scales: several times what the mirror is ahead of the shuffled in clean worlds
   double first = 0, second = 0;
@@ -281,9 +286,9 @@ double log_p(const Scan& scan, double ratio, const VectorXd& left) {
   }
   const double sd = std::sqrt(std::max(second - first * first, 0.0));
   const double scale = std::max(1.0, sd * std::sqrt(6.0) / M_PI), location = first - 0.5772 * scale;
-  const double mirrored = (highest(scan, -left) - location) / scale;
-  const double ahead = (ratio - location) / scale;
-  return ahead < 2 * mirrored ? 0 : std::log(std::max(beyond_after_a_step(ahead, mirrored, usual_misfit), 1e-300));
+  const auto scales = [&](double value) { return (value - location) / scale; };
+  const double mirrored = scales(highest(scan, -left)), ahead = scales(ratio);
+  return ahead < 3 * mirrored ? 0 : std::log(std::max(beyond_after_a_step(ahead, mirrored, usual_misfit), 1e-300));
 }
 
 }  // namespace

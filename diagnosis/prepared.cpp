@@ -18,15 +18,17 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-// Causes that the world holds already keep their places and times; how strong they are is fitted.
-FitOptions hold_places_of_causes(const LinkModel& model) {
+// Causes that the world holds already keep their places and times; how strong they are is fitted, but for laws of what
+// is random, which means say nothing of.
+FitOptions hold_causes(const LinkModel& model) {
   FitOptions options;
   for (const auto& instance : model.simulation().instances()) {
     const muster_plugin& plugin = instance->plugin();
     if (!plugin.cause) continue;
     for (uint32_t k = 0; k < plugin.param_count; ++k) {
       const muster_param& p = plugin.params[k];
-      if (p.kind == MUSTER_REAL && (p.flags & MUSTER_FREE) && !(p.flags & MUSTER_LINEAR))
+      if (p.kind == MUSTER_REAL && (p.flags & MUSTER_FREE) &&
+          (!(p.flags & MUSTER_LINEAR) || plugin.cause->kind == MUSTER_LAW))
         options.fix.push_back(instance->name() + '/' + p.name);
     }
   }
@@ -73,7 +75,7 @@ Prepared::Prepared(const std::filesystem::path& world, const std::filesystem::pa
   instrument = instrument_of(data);
   note_radios(model, data);
   if (data.has_places()) check_places(model, data);
-  fitted = fit(model, data, hold_places_of_causes(model));
+  fitted = fit(model, data, hold_causes(model));
   base = base_columns(model, fitted.parameters);
   for (const std::size_t row : fitted.rows_used()) used.push_back(static_cast<Index>(row));
   leave_out_crossed_links();

@@ -129,8 +129,9 @@ Json world_json(const Diagnosis& d) {
   for (const auto& v : d.world_values)
     out.push_back({{"name", v.path},
                    {"value", v.value},
-                   {"stderr", known(v.stderror)},
+                   {"stderr", v.identifiable ? known(v.stderror) : Json()},
                    {"unit", v.unit},
+                   {"identifiable", v.identifiable},
                    {"at_bound", v.at_bound}});
   return out;
 }

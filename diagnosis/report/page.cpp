@@ -106,10 +106,8 @@ std::string key_figures(const Diagnosis& d) {
   return out + "</section>\n";
 }
 
-std::string gain_text(const std::optional<search::HeldOut>& h, Standing standing) {
-  if (!h)
-    return standing == Standing::set_aside ? "not measured: not beyond chance beside the others"
-                                           : "not measured: too few blocks of space";
+std::string gain_text(const std::optional<search::HeldOut>& h, const std::string& why_none) {
+  if (!h) return why_none;
   return fmt::format("{:.2f} → {}; squared error falls by {:.2f} dB² (95 %: {:.2f} to {:.2f}, over {} blocks)",
                      h->rmse_before, db(h->rmse_after), h->gain, h->lower95, h->upper95, h->blocks);
 }
@@ -132,7 +130,7 @@ std::string cause_card(const FoundCause& c, std::size_t number, const std::vecto
                 {{"where"}, {c.label == "all" ? "everywhere" : c.label}},
                 {{"evidence"},
                  {fmt::format("{:.1f} nats; λ = {:.0f} (fall of the deviance beside all else)", c.evidence, c.lambda)}},
-                {{"gain"}, {gain_text(c.held_out, standing)}},
+                {{"gain"}, {gain_text(c.held_out, why_no_gain(c))}},
                 {{"rivals"}, {rivals_in_words(c.rivals)}}});
   return out + "</article>\n" + figure_named(pictures, fmt::format("cause_{}", number));
 }
@@ -199,11 +197,15 @@ std::string record(const Diagnosis& d) {
 
 std::string world(const Diagnosis& d) {
   std::vector<Row> rows;
-  for (const auto& v : d.world_values)
-    rows.push_back(
-        {{v.path},
-         {quantity(v.value, 1.96 * v.stderror, v.unit), true},
-         {"± " + rounded(1.96 * v.stderror, 1.96 * v.stderror) + (v.at_bound ? " (at its bound)" : ""), true}});
+  for (const auto& v : d.world_values) {
+    if (v.identifiable)
+      rows.push_back(
+          {{v.path},
+           {quantity(v.value, 1.96 * v.stderror, v.unit), true},
+           {"± " + rounded(1.96 * v.stderror, 1.96 * v.stderror) + (v.at_bound ? " (at its bound)" : ""), true}});
+    else
+      rows.push_back({{v.path}, {"not identifiable", true}, {"", true}});
+  }
   std::string out = heading("The world's own parameters, beside the causes") + "<div class=\"card\">";
   out += table({{"parameter"}, {"value", true}, {"95 %", true}}, rows, "values");
   const auto& n = d.noise;
@@ -244,8 +246,7 @@ std::string page_of(const Diagnosis& d, const Setting& setting, const std::vecto
     body += heading("Not explained");
     for (const auto& u : d.unexplained)
       body += "<div class=\"card\">" +
-              paragraph(what_is_unexplained(u) + " Gain: " + gain_text(u.held_out, Standing::unconfirmed) + ".") +
-              "</div>\n";
+              paragraph(what_is_unexplained(u) + " Gain: " + gain_text(u.held_out, too_few_blocks) + ".") + "</div>\n";
   }
   if (d.stairs.size() > 1)
     body += heading("Gain") + figure_named(pictures, "steps") + figure_named(pictures, "before_after");

@@ -69,6 +69,7 @@ Json parameters_of(const Diagnosis& d) {
     }
   }
   for (const auto& v : d.world_values) {
+    if (!v.identifiable) continue;
     const double half = 1.96 * v.stderror;
     out.push_back({{"path", v.path},
                    {"value", v.value},

@@ -69,8 +69,7 @@ std::string cause_text(const FoundCause& c, int number) {
   if (c.held_out)
     text += entry("gain", gain_of(*c.held_out));
   else
-    text += entry("gain", standing == Standing::set_aside ? "not measured: not beyond chance beside the others"
-                                                          : "not measured: too few blocks of space");
+    text += entry("gain", why_no_gain(c));
   if (!c.doubt.empty())
     text += entry("doubt", c.doubt);
   else if (standing == Standing::unconfirmed && c.held_out)
@@ -158,12 +157,12 @@ std::string not_tested(const Diagnosis& d) {
 
 std::string world(const Diagnosis& d) {
   std::string text = heading("Parameters of the world, beside the causes (+-: 95 %)");
-  for (const auto& v : d.world_values)
-    text +=
-        wrapped(fmt::format("{:<28} {}", v.path,
-                            quantity(v.value, 1.96 * v.stderror, v.unit) + " +- " +
-                                rounded(1.96 * v.stderror, 1.96 * v.stderror) + (v.at_bound ? "  (at its bound)" : "")),
-                2, 4);
+  for (const auto& v : d.world_values) {
+    const double half = 1.96 * v.stderror;
+    const std::string value =
+        quantity(v.value, half, v.unit) + " +- " + rounded(half, half) + (v.at_bound ? "  (at its bound)" : "");
+    text += wrapped(fmt::format("{:<28} {}", v.path, v.identifiable ? value : "not identifiable"), 2, 4);
+  }
   const auto& n = d.noise;
   text += wrapped(
       fmt::format("Noise: {} field of {} that decorrelates over {:.2f} m, and {} a reading.", noise::name_of(n.family),

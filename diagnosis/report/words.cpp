@@ -52,14 +52,22 @@ std::string causes_in_words(int count) {
   return count < 6 ? words[count] : std::to_string(count) + " causes";
 }
 
+// It shifts no level.
+bool is_law(const FoundCause& cause) { return cause.covariates == std::vector<std::string>{"reading"}; }
+
 }  // namespace
 
 Standing standing_of(const FoundCause& cause) {
   if (cause.status != search::Status::named) return Standing::set_aside;
   if (!cause.doubt.empty()) return Standing::unconfirmed;
   // What shifts no level has no error at places to confirm it by: its evidence is the readings' own law.
-  if (cause.covariates == std::vector<std::string>{"reading"}) return Standing::confirmed;
+  if (is_law(cause)) return Standing::confirmed;
   return cause.held_out && cause.held_out->lower95 > 0 ? Standing::confirmed : Standing::unconfirmed;
+}
+
+std::string why_no_gain(const FoundCause& cause) {
+  if (cause.status != search::Status::named) return "not measured: not beyond chance beside the others";
+  return is_law(cause) ? "none to measure: it is told by how readings scatter, and shifts no level" : too_few_blocks;
 }
 
 int count_of(const Diagnosis& d, Standing standing) {
@@ -171,14 +179,14 @@ std::string chance(double log_p) {
 std::string verdict_in_words(const Diagnosis& d) {
   const int confirmed = count_of(d, Standing::confirmed), unconfirmed = count_of(d, Standing::unconfirmed);
   const std::string causes = causes_in_words(confirmed + unconfirmed);
+  const std::string named = causes + (confirmed + unconfirmed == 1 ? " is named" : " are named");
   if (!d.unexplained.empty())
     return std::string("is wrong in a way that no known cause explains") +
            (d.unexplained[0].rivals.empty() ? "" : " as well") + ": something depends on " + covariates_of(d) +
-           (confirmed + unconfirmed ? "; " + causes + " beside it is named" : "");
+           (confirmed + unconfirmed ? "; " + named + " beside it" : "");
   if (confirmed + unconfirmed == 0)
     return count_of(d, Standing::set_aside) ? "is adequate: what stands out is not beyond chance, a suspicion remains"
                                             : "is adequate: nothing was found beyond chance";
-  const std::string named = confirmed + unconfirmed == 1 ? causes + " is named" : causes + " are named";
   const bool doubted =
       std::any_of(d.causes.begin(), d.causes.end(), [](const FoundCause& c) { return !c.doubt.empty(); });
   if (confirmed == 0)

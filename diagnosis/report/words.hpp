@@ -18,6 +18,9 @@ enum class Standing {
   set_aside       // found, and not beyond chance beside the others
 };
 Standing standing_of(const FoundCause& cause);
+// Why no gain stands beside a cause that has none.
+std::string why_no_gain(const FoundCause& cause);
+constexpr const char* too_few_blocks = "not measured: too few blocks of space";
 
 double tenths(double value);              // to one decimal, without a zero's sign
 std::string judged(double separability);  // "cannot be told apart", "weakly told apart", "told apart"
