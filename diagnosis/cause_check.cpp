@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 #include <numeric>
+#include <stdexcept>
 
 #include "diagnosis/extended_world.hpp"
 #include "diagnosis/found_cause.hpp"
@@ -161,7 +162,7 @@ class Checker {
     for (const std::string& why : clean.sought.not_tested) {
       if (why.rfind(id_ + ": ", 0) == 0) return why.substr(id_.size() + 2);
     }
-    return "it shifts no level";
+    throw std::logic_error(id_);
   }
 
   // The world with an instance of the cause, as the diagnosis would write it, against the world without.
@@ -234,10 +235,16 @@ std::vector<std::pair<std::string, double>> CauseCheck::alike() const {
 
 CauseCheck check_cause(const std::string& id, const std::vector<fs::path>& worlds, const Library::SearchPath& plugins,
                        const CauseCheckOptions& options, const std::function<void(double)>& progress) {
+  const std::vector<Cause> causes = causes_on(plugins);
   std::vector<std::string> known;
-  for (const Cause& cause : causes_on(plugins)) known.push_back(cause.id);
-  if (std::find(known.begin(), known.end(), id) == known.end())
+  for (const Cause& cause : causes) known.push_back(cause.id);
+  const auto own = std::find(known.begin(), known.end(), id);
+  if (own == known.end())
     throw Error(Exit::invalid_input, "there is no cause " + quote(id) + "; " + suggest(id, known));
+  if (!shifts_levels(causes[static_cast<std::size_t>(own - known.begin())]))
+    throw Error(Exit::invalid_input,
+                id + " shifts no level: it is a law of what is random, or a receiver's clip, which " +
+                    "a diagnosis asks by tests of its own; expected a cause that adds to levels");
   CauseCheck result{id, {}};
   const Checker checker(id, plugins, options);
   for (std::size_t k = 0; k < worlds.size(); ++k) {
