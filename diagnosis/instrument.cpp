@@ -83,6 +83,34 @@ std::string step_in_words(double step, std::size_t levels, std::size_t readings)
       readings, levels);
 }
 
+// The levels of the few readings, from one end on, that a gap parts from all others; 30 dB, since in Rayleigh fading
+// the lowest of many readings lies 20 dB below the next in one record of a hundred, 30 in one of a thousand.
+template <class It>
+std::vector<double> parted(It from, const It& end) {
+  constexpr double gap = 30;  // dB
+  constexpr std::size_t few = 3;
+  std::vector<double> levels;
+  std::size_t count = 0;
+  for (; from != end && std::next(from) != end && count + from->second <= few; ++from) {
+    count += from->second;
+    levels.push_back(from->first);
+    if (std::abs(std::next(from)->first - from->first) >= gap) return levels;
+  }
+  return {};
+}
+
+InstrumentCheck outliers_check(const Dataset& data, const Codes& codes, const std::string& none) {
+  InstrumentCheck check{"one to three readings 30 dB or more from all others", none, true, {}};
+  std::vector<double> levels = parted(codes.begin(), codes.end());
+  if (levels.empty()) levels = parted(codes.rbegin(), codes.rend());
+  if (levels.empty()) return check;
+  check.fine = false;
+  check.found = fmt::format("{:.6g} dBm", levels[0]);
+  check.row =
+      static_cast<std::size_t>(std::find(data.rssi.begin(), data.rssi.end(), levels[0]) - data.rssi.begin()) + 1;
+  return check;
+}
+
 // No receiver is fed a milliwatt most of the time.
 InstrumentCheck unit_check(const Dataset& data, const std::string& none) {
   const auto above = [](double v) { return v > 0; };
@@ -125,6 +153,7 @@ Instrument instrument_of(const Dataset& data) {
   }
   result.checks.push_back(
       {"marks for none (0, -128) and levels that cannot be (over 30, under -174 dBm)", rows, true, {}});
+  result.checks.push_back(outliers_check(data, codes, rows));
   result.checks.push_back(unit_check(data, rows));
   result.checks.push_back({"rows in another unit than their column", rows, true, {}});
   const std::size_t missing = data.rows() - data.heard();

@@ -165,17 +165,22 @@ std::string checked(const Diagnosis& d) {
 }
 
 std::string checked_table(const Diagnosis& d) {
-  std::vector<Row> along, causes;
+  std::vector<Row> along, causes, doubtful;
   for (const search::Check& c : d.checks) {
     if (found(d, c.id)) continue;
     const bool smooth = c.kind == search::Kind::smooth;
-    (smooth ? along : causes)
+    (is_doubtful(c) ? doubtful
+     : smooth       ? along
+                    : causes)
         .push_back({{smooth ? covariate_in_words(c.id.substr(1)) : short_name(c.id)}, {chance(c.log_p), true}});
   }
   std::string out = "<div class=\"card\">";
   if (!along.empty()) out += table({{"dependence on"}, {"chance", true}}, along);
   if (!causes.empty()) out += table({{"further cause"}, {"chance", true}}, causes);
-  return along.empty() && causes.empty() ? "" : out + "</div>\n";
+  if (const std::string alone = asked_alone(d); !alone.empty())
+    out += paragraph("Nor, each by a test of its own: " + alone + ".", "soft");
+  if (!doubtful.empty()) out += table({{"doubtful"}, {"chance", true}}, doubtful) + paragraph(why_doubtful, "soft");
+  return along.empty() && causes.empty() && doubtful.empty() ? "" : out + "</div>\n";
 }
 
 std::string not_tested(const Diagnosis& d) {

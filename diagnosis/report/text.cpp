@@ -124,18 +124,21 @@ std::string undecided(const Diagnosis& d) {
 }
 
 std::string checked(const Diagnosis& d) {
-  std::string along, causes;
+  std::string along, causes, doubtful;
   for (const search::Check& c : d.checks) {
     if (found(d, c.id)) continue;
     const bool smooth = c.kind == search::Kind::smooth;
-    std::string& list = smooth ? along : causes;
+    std::string& list = is_doubtful(c) ? doubtful : smooth ? along : causes;
     list += (list.empty() ? "" : ", ") + (smooth ? covariate_in_words(c.id.substr(1)) : short_name(c.id)) + " (" +
             chance(c.log_p) + ")";
   }
-  if (along.empty() && causes.empty()) return "";
+  if (along.empty() && causes.empty() && doubtful.empty()) return "";
   std::string text = heading("Checked and found fine");
   if (!along.empty()) text += wrapped("Nothing more depends on: " + along + ".", 2, 4);
   if (!causes.empty()) text += wrapped("No further cause: " + causes + ".", 2, 4);
+  if (const std::string alone = asked_alone(d); !alone.empty())
+    text += wrapped("Nor, each by a test of its own: " + alone + ".", 2, 4);
+  if (!doubtful.empty()) text += wrapped("Doubtful: " + doubtful + ". " + why_doubtful, 2, 4);
   return text + wrapped("p: that chance alone does as well anywhere along it, neighbours' likeness taken out.", 2, 4);
 }
 

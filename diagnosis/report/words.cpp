@@ -65,6 +65,8 @@ Standing standing_of(const FoundCause& cause) {
   return cause.held_out && cause.held_out->lower95 > 0 ? Standing::confirmed : Standing::unconfirmed;
 }
 
+bool is_doubtful(const search::Check& check) { return check.log_p < std::log(1e-3); }
+
 std::string why_no_gain(const FoundCause& cause) {
   if (cause.status != search::Status::named) return "not measured: not beyond chance beside the others";
   return is_law(cause) ? "none to measure: it is told by how readings scatter, and shifts no level" : too_few_blocks;

@@ -18,6 +18,10 @@ enum class Standing {
   set_aside       // found, and not beyond chance beside the others
 };
 Standing standing_of(const FoundCause& cause);
+// Whether what was checked cannot be called fine, though it is not told.
+bool is_doubtful(const search::Check& check);
+constexpr const char* why_doubtful =
+    "Small by themselves, and not told: each is one of the many that were asked, or goes with what stands above.";
 // Why no gain stands beside a cause that has none.
 std::string why_no_gain(const FoundCause& cause);
 constexpr const char* too_few_blocks = "not measured: too few blocks of space";

@@ -86,6 +86,23 @@ TEST(InstrumentChecks, MilliwattsAreNoLevels) {
   EXPECT_EQ(check("").row, 1u);
 }
 
+TEST(InstrumentChecks, AReadingFarFromAllOthersIsToldWithItsRow) {
+  const Scratch scratch;
+  const auto check = [&](const std::string& more) {
+    const auto file = scratch.write("data.csv", two_decimals("-") + more);
+    return check_called(instrument_of(read_dataset(file)), "one to three readings 30 dB");
+  };
+  EXPECT_TRUE(check("41,a,b,0,0,1,2,-30\n").fine);  // 29.5 dB below the next
+  const InstrumentCheck low = check("41,a,b,0,0,1,2,-90\n42,a,b,0,0,1,2,-95\n");
+  EXPECT_FALSE(low.fine);
+  EXPECT_EQ(low.found, "-95 dBm");
+  EXPECT_EQ(low.row, 42u);
+  EXPECT_EQ(check("41,a,b,0,0,1,2,29.9\n").row, 41u);
+  std::string many;
+  for (int row = 41; row < 45; ++row) many += std::to_string(row) + ",a,b,0,0,1,2,-90\n";
+  EXPECT_TRUE(check(many).fine);  // four are a level of their own
+}
+
 TEST(InstrumentChecks, LevelsAreToldWithoutDigitsThatNobodyMeasured) {
   const Scratch scratch;
   std::string text = two_decimals("-") + "41,a,b,0,0,1,2,-0.1000000000000003\n";

@@ -28,14 +28,16 @@ struct Measure {
   bool at_least;
 };
 
+// Rates at lambda 60, of clean worlds as they come: docs/exam_table.md. Pairs, both of them: what two single ones would
+// make at the least.
 constexpr Measure measures[] = {
-    {"clean / false name / all", 0.007, 0.02, false},
-    {"clean / false unexplained / all", 0.007, 0.02, false},
-    {"one / top name right / lambda >= 50", 0.99, 0.78, true},
-    {"one / wrong extra name / all", 0.01, 0.03, false},
-    {"two / at least one found / lambda >= 50", 0.97, 0.5, true},
-    {"outside / right covariate / lambda >= 50", 0.97, 0.61, true},
-    {"outside / false name / all", 0.02, 0.25, false},
+    {"clean / false name / all", 0.007, 0.007, false},
+    {"clean / false unexplained / all", 0.007, 0.007, false},
+    {"one / top name right / lambda >= 50", 0.99, 0.762, true},
+    {"one / wrong extra name / all", 0.01, 0.029, false},
+    {"two / found / lambda >= 50", 0.97, 0.5, true},
+    {"outside / right covariate / lambda >= 50", 0.97, 0.792, true},
+    {"outside / false name / all", 0.02, 0.109, false},
 };
 
 TEST(Blind, Exam) {

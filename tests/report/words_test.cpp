@@ -118,6 +118,43 @@ TEST(Text, WhatIsUnexplainedNamesTheCausesThatExplainItNearlyAsWell) {
   EXPECT_EQ(json["advice"][0]["separates"], "~battery effect.drift");
 }
 
+TEST(Text, WhatWasCheckedIsFineDoubtfulOrAskedByATestOfItsOwn) {
+  Diagnosis d = with(wall(search::Status::named, {}));
+  const auto check = [](const char* id, search::Kind kind, double p) {
+    search::Check c;
+    c.id = id;
+    c.kind = kind;
+    c.log_p = std::log(p);
+    return c;
+  };
+  d.checks = {check("~logd", search::Kind::smooth, 0.4), check("effect.drift", search::Kind::named, 0.002),
+              check("effect.step", search::Kind::named, 1e-8)};
+  d.searched = {"effect.drift", "effect.outliers", "effect.people", "effect.step", d.causes[0].id};
+  for (const std::string& report : {text_of(d, {"hall", "a.csv"}), page_of(d, {"hall", "a.csv"}, {})}) {
+    const auto doubtful = report.find("oubtful");
+    EXPECT_LT(report.find("drift"), doubtful) << report;
+    EXPECT_GT(report.rfind("step"), doubtful) << report;
+    EXPECT_TRUE(says(report, "Nor, each by a test of its own: outliers, people.")) << report;
+  }
+}
+
+TEST(Text, ALawHasNoGainToMeasure) {
+  Diagnosis d = with(wall(search::Status::named, {}));
+  d.causes[0].covariates = {"reading"};
+  EXPECT_TRUE(says(text_of(d, {"hall", "a.csv"}), "told by how readings scatter"));
+  EXPECT_TRUE(says(page_of(d, {"hall", "a.csv"}, {}), "told by how readings scatter"));
+}
+
+TEST(Text, WhatTheReadingsDoNotIdentifyHasNoInterval) {
+  Diagnosis d = with(wall(search::Status::named, {}));
+  d.world_values = {{.path = "radio.multiwall/l0", .unit = "dB", .value = 2, .stderror = 0.3, .identifiable = false}};
+  for (const std::string& report : {text_of(d, {"hall", "a.csv"}), page_of(d, {"hall", "a.csv"}, {})})
+    EXPECT_TRUE(says(report, "not identifiable")) << report;
+  const auto json = json_of(d);
+  EXPECT_TRUE(json["world_parameters"][0]["stderr"].is_null());
+  EXPECT_EQ(json["world_parameters"][0]["identifiable"], false);
+}
+
 // Of all that was accepted, named or not; clips and laws of what scatters are no step.
 TEST(Steps, AreInTheOrderOfStrength) {
   Diagnosis d = with(wall(search::Status::named, {}));
