@@ -228,6 +228,7 @@ std::vector<std::pair<std::string, double>> CauseCheck::alike() const {
     for (const auto& [other, share] : c.alike) sums[other].first += share, ++sums[other].second;
   }
   std::vector<std::pair<std::string, double>> result;
+  result.reserve(sums.size());
   for (const auto& [other, sum] : sums) result.emplace_back(other, sum.first / sum.second);
   std::stable_sort(result.begin(), result.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
   return result;
@@ -237,6 +238,7 @@ CauseCheck check_cause(const std::string& id, const std::vector<fs::path>& world
                        const CauseCheckOptions& options, const std::function<void(double)>& progress) {
   const std::vector<Cause> causes = causes_on(plugins);
   std::vector<std::string> known;
+  known.reserve(causes.size());
   for (const Cause& cause : causes) known.push_back(cause.id);
   const auto own = std::find(known.begin(), known.end(), id);
   if (own == known.end())
