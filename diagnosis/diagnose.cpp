@@ -61,6 +61,7 @@ class Diagnoser {
     out.noise = result.noise.covariance;
     out.held_out = result.held_out;
     out.unseen = result.unseen;
+    out.elsewhere = result.elsewhere;
     out.used = at_.used;
     out.readings = at_.used.size();
     out.rows = bench.rows().size();
@@ -73,7 +74,8 @@ class Diagnoser {
       const auto cause = std::find_if(causes.found.begin(), causes.found.end(),
                                       [&](const CauseCandidate& c) { return c.candidate.id == f.id; });
       if (f.status == search::Status::unexplained || cause == causes.found.end()) {
-        out.unexplained.push_back({f.id.substr(f.id.rfind('~') + 1), f.evidence, f.gain, f.held_out, f.rivals});
+        out.unexplained.push_back(
+            {f.id.substr(f.id.rfind('~') + 1), f.evidence, f.gain, f.held_out, f.elsewhere, f.rivals});
         std::erase_if(out.unexplained.back().rivals, [](const search::Rival& r) { return r.id[0] == '~'; });
         continue;
       }
@@ -136,6 +138,8 @@ class Diagnoser {
     out.residual_sd = given.residual_sd;
     first.held_out.reset();
     out.held_out.reset();
+    first.elsewhere.clear();
+    out.elsewhere.clear();  // of a radio that is not seen nobody would know that it stands elsewhere
     if (!given.unseen || !out.unseen) return out.stairs.clear();
     first.held_out = search::compared(errors_beside(given, first.unseen_without, out));
     out.unseen = errors_beside(given, given.unseen->before, out);
@@ -361,45 +365,6 @@ Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::pa
   first.causes[0].effect = VectorXd::Zero(again.rows);
   again.causes.insert(again.causes.begin(), first.causes[0]);
   return again;
-}
-
-namespace {
-
-// Root mean square of what a model's mean leaves of the readings that were heard.
-double rmse_of(LinkModel& model, const Dataset& data) {
-  const VectorXd& mean = model.expected();
-  double sum = 0;
-  for (std::size_t row = 0; row < data.rows(); ++row) {
-    if (std::isnan(data.rssi[row])) continue;
-    const double error = data.rssi[row] - mean[static_cast<Index>(row)];
-    sum += error * error;
-  }
-  return std::sqrt(sum / static_cast<double>(data.heard()));
-}
-
-}  // namespace
-
-SecondLook second_look(const std::filesystem::path& world, const std::filesystem::path& extended,
-                       const std::filesystem::path& file, const Library::SearchPath& plugins) {
-  const Dataset data = read_dataset(file);
-  LinkModel given(world, file, plugins), model(extended, file, plugins);
-  return {file, data.heard(), fit(given, data, {}).residual_sd, rmse_of(model, data),
-          told_by(diagnose(extended, file, plugins))};
-}
-
-Loop closed_loop(const Diagnosis& found, const std::filesystem::path& world, const std::filesystem::path& data,
-                 const std::filesystem::path& out, const Library::SearchPath& plugins) {
-  Loop loop{out, 0, 0, {}, {}};
-  const std::filesystem::path file = write_extended_world(found, world, out);
-  LinkModel model(file, data, plugins);
-  loop.rmse_extended = rmse_of(model, read_dataset(data));
-  const VectorXd& simulated = model.expected();
-  for (Index i = 0; i < simulated.size(); ++i) {
-    if (!std::isnan(found.mean[i]))
-      loop.mean_difference = std::max(loop.mean_difference, std::abs(simulated[i] - found.mean[i]));
-  }
-  loop.rediagnosis = told_by(diagnose(file, data, plugins));
-  return loop;
 }
 
 }  // namespace muster::diagnosis

@@ -36,6 +36,7 @@ struct FoundCause {
   Eigen::VectorXd effect;  // dB it adds to each of the rows seen
   std::optional<search::HeldOut> held_out;
   Eigen::VectorXd unseen_without;  // squared errors at places not seen without it, in the order of Diagnosis::used
+  std::vector<search::Elsewhere> elsewhere;  // what it gains with radios and runs not seen, where it concerns several
   std::vector<search::Rival> rivals;
   std::string doubt{};  // why it is not sure, whatever it gains; empty: nothing speaks so
 
@@ -47,6 +48,7 @@ struct Unexplained {
   double evidence = 0;
   double lambda = 0;
   std::optional<search::HeldOut> held_out;
+  std::vector<search::Elsewhere> elsewhere{};
   std::vector<search::Rival> rivals{};  // causes that explain it nearly as well
 
   bool changes_in_time() const;
@@ -127,6 +129,7 @@ struct Diagnosis {
   noise::Covariance noise;
   std::optional<search::HeldOut> held_out;
   std::optional<search::Unseen> unseen;      // what held_out is of, in the order of `used`
+  std::vector<search::Elsewhere> elsewhere;  // the same with radios and runs not seen, where there are several
   std::vector<Eigen::Index> used;            // rows of the table that were searched
   Eigen::VectorXd fitted;                    // mean of the world as given, fitted, at every row of the table, dBm
   std::map<std::string, double> parameters;  // of the world, beside the causes
@@ -151,16 +154,8 @@ struct Diagnosis {
 Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::path& data,
                    const Library::SearchPath& plugins);
 
-// The world in `extended` on `data`, beside the world as given. Throws Error.
-SecondLook second_look(const std::filesystem::path& world, const std::filesystem::path& extended,
-                       const std::filesystem::path& data, const Library::SearchPath& plugins);
-
 std::vector<Told> told_by(const Diagnosis& diagnosis);
 // In one line; "silent" if there is nothing.
 std::string in_short(const std::vector<Told>& told);
-
-// Writes the extended world to `out`, simulates it at the readings and diagnoses it. Throws Error.
-Loop closed_loop(const Diagnosis& found, const std::filesystem::path& world, const std::filesystem::path& data,
-                 const std::filesystem::path& out, const Library::SearchPath& plugins);
 
 }  // namespace muster::diagnosis

@@ -118,6 +118,7 @@ FoundCause found_cause(const search::Finding& f, const CauseCandidate& cause) {
   out.lambda = f.gain;
   out.held_out = f.held_out;
   out.unseen_without = f.unseen_without;
+  out.elsewhere = f.elsewhere;
   out.rivals = f.rivals;
   add_linear(out, shape, f);
   auto sure = reaches(shape, f);

@@ -190,33 +190,35 @@ noise::Known Prepared::known_of(double rssi) const {
   return lies_in(instrument.top) ? noise::Known::above : noise::Known::value;
 }
 
-// A number of few values is a setting: each value stands for itself.
+// A number of few values is a setting, that of a run a name: each value stands for itself.
 void Prepared::add_columns() {
   for (const Covariate& column : data.covariates) {
     const std::string name = column.name.substr(0, column.name.find('['));
+    const bool is_run = name == "run";
+    const std::size_t settings = is_run ? used.size() : 8;
+    search::Factor factor{name, {}};
     if (column.values.empty()) {
-      search::Factor factor{name, {}};
       for (const Index row : used)
         factor.level.push_back(static_cast<int>(column.factor.level[static_cast<std::size_t>(row)]));
-      problem.factors.push_back(std::move(factor));
-      continue;
-    }
-    VectorXd values(static_cast<Index>(used.size()));
-    std::set<double> different;
-    for (Index i = 0; i < values.size(); ++i) {
-      values[i] = column.values[static_cast<std::size_t>(used[static_cast<std::size_t>(i)])];
-      if (different.size() <= 8) different.insert(values[i]);
-    }
-    if (!values.allFinite()) {
-      untested.push_back(column.name + ": it has empty cells");
-    } else if (different.size() > 8) {
-      problem.covariates.push_back({name, values});
-    } else if (different.size() > 1) {
-      search::Factor factor{name, {}};
+    } else {
+      const VectorXd values =
+          Eigen::Map<const VectorXd>(column.values.data(), static_cast<Index>(column.values.size()))(used);
+      if (!values.allFinite()) {
+        untested.push_back(column.name + ": it has empty cells");
+        continue;
+      }
+      std::set<double> different;
+      for (Index i = 0; i < values.size() && different.size() <= settings; ++i) different.insert(values[i]);
+      if (different.size() > settings) {
+        problem.covariates.push_back({name, values});
+        continue;
+      }
+      if (different.size() < 2) continue;
       for (const double v : values)
         factor.level.push_back(static_cast<int>(std::distance(different.begin(), different.find(v))));
-      problem.factors.push_back(std::move(factor));
     }
+    if (is_run) problem.run = factor.level;
+    problem.factors.push_back(std::move(factor));
   }
 }
 

@@ -93,7 +93,8 @@ namespace {
 
 // A site with its effects, not yet heard; with another attempt, another site.
 Case hidden_in(const std::string& name, std::uint64_t seed, const Order& order) {
-  Case made{name, seed, order, std::make_shared<Site>(draw_site(seed, needs_of(order), order.rows)), {}, {}, {}, {}};
+  Case made{name, seed, order, std::make_shared<Site>(draw_site(seed, needs_of(order), order.rows, order.walls)),
+            {},   {},   {},    {}};
   made.measured = draw_data(*made.site, seed, "measured");
   made.second = draw_data(*made.site, seed, "second");
   hide(made, lost_at_random(made, made.measured, "measured"));

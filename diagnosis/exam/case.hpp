@@ -27,6 +27,7 @@ struct Order {
   std::vector<std::string> effects;  // their ids
   std::vector<double> lambdas;       // one an effect
   int rows = 6000;
+  std::string walls{};  // of the plan, as a table; empty: it is drawn
 };
 
 struct Case {

@@ -7,8 +7,6 @@
 namespace muster::exam {
 namespace {
 
-constexpr double top = 2.7;  // m, of what stands about and is not on the map
-
 Vec2 in_plan(Vec3 p) { return {p.x, p.y}; }
 
 // Height of a link where it is nearest to a place.
@@ -50,8 +48,7 @@ auto by_wall(int wall) {
 Effect wall_material(const Scene& s, Random& random) {
   const int wall = crossed_wall(s, random);
   const Wall& w = s.site.plan.walls[static_cast<std::size_t>(wall)];
-  const double mapped = s.site.plan.materials[static_cast<std::size_t>(w.material)].loss,
-               sign = w.material == 0 ? 1 : -1;
+  const double mapped = s.site.plan.materials[static_cast<std::size_t>(w.material)].loss, sign = mapped < 5.5 ? 1 : -1;
   Effect e{"wall_material"};
   e.rows = {"wall/" + w.name};
   e.least = 0.5;
@@ -101,7 +98,7 @@ double share_of_links(const Scene& s, Meets meets) {
 }
 
 Effect unmapped_wall(const Scene& s, Random& random) {
-  Wall wall{"unmapped", {}, {}, top, 0.1, 0};
+  Wall wall{"unmapped", {}, {}, s.site.plan.top(), 0.1, 0};
   for (int attempt = 0; attempt < 400; ++attempt) {
     const Room& room = random.pick(s.site.plan.rooms);
     const Vec2 middle{random.uniform(room.low.x, room.high.x), random.uniform(room.low.y, room.high.y)};
@@ -144,7 +141,7 @@ Effect obstacle(const Scene& s, Random& random) {
   e.shift = scaled([&site = s.site, at, radius](const Reading& r) {
     const Vec3 from = place_of(site, r);
     const double way = chord(in_plan(from), in_plan(r.at), at, radius);
-    return height_at(from, r.at, at) > top ? 0.0 : -(1 - std::exp(-way / radius)) / (1 - std::exp(-2.0));
+    return height_at(from, r.at, at) > site.plan.top() ? 0.0 : -(1 - std::exp(-way / radius)) / (1 - std::exp(-2.0));
   });
   e.parameters = [=](double x) {
     return std::vector<Parameter>{{"x", at.x, "m"}, {"y", at.y, "m"}, {"radius", radius, "m"}, {"loss", x, "dB"}};
@@ -220,10 +217,10 @@ Effect incidence(const Scene&, Random& random) {
 Effect height(const Scene& s, Random&) {
   Effect e{"height"};
   for (std::size_t i = 0; i < s.site.plan.stations.size(); ++i)
-    if (s.site.plan.stations[i].at.z > 2.7) e.rows.push_back(radio_row(s.site, static_cast<int>(i)));
+    if (s.site.plan.stations[i].at.z > s.site.plan.top()) e.rows.push_back(radio_row(s.site, static_cast<int>(i)));
   const auto loss = [&site = s.site](const Reading& r) {
     const Vec3 from = place_of(site, r);
-    if (from.z < 2.7) return 0.0;
+    if (from.z < site.plan.top()) return 0.0;
     const double sine = (from.z - r.at.z) / distance_of(from, r.at);
     return 1 + 0.15 * (std::min(1 / sine, 4.0) - 1);
   };

@@ -90,7 +90,7 @@ Case read_case(const std::filesystem::path& answer) {
   const std::string text = read_file(answer);
   try {
     const auto from = nlohmann::json::parse(text);
-    Order order{from.at("kind"), {}, {}, from.at("measured").at("readings")};
+    Order order{from.at("kind"), {}, {}, from.at("measured").at("readings"), from.value("walls", "")};
     for (const auto& e : from.at("effects")) {
       order.effects.push_back(e.at("id"));
       order.lambdas.push_back(e.at("wanted_lambda"));

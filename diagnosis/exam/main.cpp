@@ -12,6 +12,7 @@
 #include "grade.hpp"
 #include "orders.hpp"
 #include "run.hpp"
+#include "walls.hpp"
 #include "write.hpp"
 
 namespace {
@@ -21,8 +22,9 @@ using namespace muster::exam;
 constexpr const char* usage = R"(muster_exam: sealed cases for radio diagnosis
 
   muster_exam make --seed S --cases N --out DIR [--mix clean,one,two,three,outside | each] [--rows MIN MAX]
-                   [--lambda L[,M] | --size weak|medium|strong] [--effects ID,ID...] [--first N]
+                   [--lambda L[,M] | --size weak|medium|strong] [--effects ID,ID...] [--first N] [--walls FILE]
       "each": every effect in turn, those outside the vocabulary among them; without --mix "three" is left out.
+      --walls: the floor plan of all cases, a table as worlds refer to (walls.csv); without it each case draws its own.
       writes DIR/case_0001/{world.xml, walls.csv, measured.csv, second.csv} ... and DIR/answers/case_0001.json ...
   muster_exam run DIR [--reports DIR] [--command COMMAND] [--jobs N]
       runs a diagnosis over the cases, by default muster diagnose {world} --data {data} --json; what it prints becomes
@@ -126,6 +128,10 @@ Syllabus syllabus_of(const Arguments& arguments) {
   }
   if (const auto at = arguments.find("--effects"); at != arguments.end()) syllabus.effects = listed(at->second[0]);
   for (const std::string& id : syllabus.effects) recipe(id);
+  if (const auto at = arguments.find("--walls"); at != arguments.end()) {
+    syllabus.walls = read_file(at->second[0]);
+    syllabus.corridor = plan_of_walls(syllabus.walls).has_corridor;
+  }
   set_sizes(syllabus, arguments);
   return syllabus;
 }
@@ -140,7 +146,8 @@ int make(int argc, char** argv) {
                                       {"--lambda", {"a number"}},
                                       {"--size", {"a size"}},
                                       {"--effects", {"ids"}},
-                                      {"--first", {"a number"}}});
+                                      {"--first", {"a number"}},
+                                      {"--walls", {"a file"}}});
   const Syllabus syllabus = syllabus_of(arguments);
   const int cases = number(required(arguments, "--cases"), 1, 1000000);
   const int first = arguments.contains("--first") ? number(arguments.at("--first")[0], 1, 1000000) : 1;

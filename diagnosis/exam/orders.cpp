@@ -10,6 +10,7 @@ namespace {
 
 bool wanted(const Syllabus& syllabus, const Recipe& r) {
   const auto& ids = syllabus.effects;
+  if (r.needs.plan.corridor_station && !syllabus.corridor) return false;
   return ids.empty() || std::find(ids.begin(), ids.end(), r.id) != ids.end();
 }
 
@@ -61,7 +62,8 @@ Order draw_order(const Syllabus& syllabus, int number) {
   Order order{random.pick(syllabus.kinds),
               {},
               {},
-              static_cast<int>(log_uniform(random, syllabus.least_rows, syllabus.most_rows))};
+              static_cast<int>(log_uniform(random, syllabus.least_rows, syllabus.most_rows)),
+              syllabus.walls};
   if (order.kind == "clean") return order;
   if (order.kind == "each") {
     const Recipe& r = in_turn(syllabus, number);

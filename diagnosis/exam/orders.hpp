@@ -10,6 +10,8 @@ struct Syllabus {
   // Also "three", and "each": one or outside, by turns.
   std::vector<std::string> kinds{"clean", "one", "two", "outside"};
   std::vector<std::string> effects;  // to draw from; empty: all
+  std::string walls{};               // of a plan of one's own, as a table; empty: plans are drawn
+  bool corridor = true;              // whether plans have one
   double least_rows = 2000, most_rows = 20000;
   double least_lambda = 12, most_lambda = 400;
 };

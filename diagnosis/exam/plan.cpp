@@ -98,7 +98,7 @@ void place_stations(Random& random, Plan& plan, const PlanNeeds& needs) {
   const int count = needs.high_stations ? 4 + random.below(2) : 3 + random.below(3);
   std::vector<Vec2> taken;
   for (int i = 0; i < count; ++i) {
-    const bool in_corridor = i == 0 && needs.corridor_station;
+    const bool in_corridor = i == 0 && needs.corridor_station && plan.has_corridor;
     Vec2 own;
     for (int attempt = 0; attempt < 50; ++attempt) {  // apart from one another where there is room for it
       own = place_in(random, in_corridor ? plan.corridor : random.pick(plan.rooms));
@@ -108,10 +108,16 @@ void place_stations(Random& random, Plan& plan, const PlanNeeds& needs) {
     taken.push_back(own);
     const Vec2 at = plan.to_world(own);
     const bool high = needs.high_stations && i >= count - 2;
-    plan.stations.push_back({"beacon" + std::to_string(i + 1),
-                             {at.x, at.y, to_millimetres(high ? random.uniform(3.2, 4.0) : random.uniform(0.8, 1.9))},
-                             to_millimetres(random.uniform(-std::numbers::pi, std::numbers::pi))});
+    plan.stations.push_back(
+        {"beacon" + std::to_string(i + 1),
+         {at.x, at.y, to_millimetres(high ? plan.top() + random.uniform(0.5, 1.3) : random.uniform(0.8, 1.9))},
+         to_millimetres(random.uniform(-std::numbers::pi, std::numbers::pi))});
   }
+}
+
+// Where a fit starts.
+void state_losses(Random& random, Plan& plan) {
+  for (Material& m : plan.materials) m.stated = std::round(10 * m.loss * random.uniform(0.7, 1.4)) / 10;
 }
 
 }  // namespace
@@ -126,6 +132,11 @@ Vec2 Plan::to_own(Vec2 world) const {
   return {c * x + s * y, -s * x + c * y};
 }
 
+double Plan::top() const {
+  const auto lower = [](const Wall& a, const Wall& b) { return a.height < b.height; };
+  return std::max_element(walls.begin(), walls.end(), lower)->height;
+}
+
 int Plan::room_at(Vec2 world) const {
   const Vec2 own = to_own(world);
   for (std::size_t i = 0; i < rooms.size(); ++i)
@@ -138,7 +149,7 @@ Plan draw_plan(Random& random, const PlanNeeds& needs) {
   plan.angle = random.uniform(0, std::numbers::pi);
   plan.shift = {random.uniform(-15, 15), random.uniform(-15, 15)};
   plan.materials = {{"drywall", random.uniform(2.5, 5)}, {"brick", random.uniform(6, 11)}};
-  for (Material& m : plan.materials) m.stated = std::round(10 * m.loss * random.uniform(0.7, 1.4)) / 10;
+  state_losses(random, plan);
   Architect(random, plan).draw();
   for (Wall& w : plan.walls) {
     w.a = plan.to_world(w.a);
@@ -146,6 +157,13 @@ Plan draw_plan(Random& random, const PlanNeeds& needs) {
   }
   place_stations(random, plan, needs);
   return plan;
+}
+
+Plan furnished(Plan given, Random& random, const PlanNeeds& needs) {
+  for (Material& m : given.materials) m.loss = random.uniform(2.5, 11);
+  state_losses(random, given);
+  place_stations(random, given, needs);
+  return given;
 }
 
 }  // namespace muster::exam

@@ -1,5 +1,5 @@
-// Random floor plans: a corridor with rooms on both sides, at any angle. All coordinates are whole millimetres, so that
-// the files hold exactly what the truth was computed from.
+// Floor plans: random ones, a corridor with rooms on both sides, at any angle; or one's own (walls.hpp). All
+// coordinates are whole millimetres, so that the files hold exactly what the truth was computed from.
 #pragma once
 
 #include <array>
@@ -57,7 +57,8 @@ struct Plan {
   std::vector<Wall> walls;
   std::vector<Door> doors;
   std::vector<Room> rooms;
-  Room corridor;
+  Room corridor;  // or the room that comes nearest to one
+  bool has_corridor = true;
   std::vector<Station> stations;
   Room whole;
   double angle = 0;  // rad, of the plan in the world
@@ -65,6 +66,7 @@ struct Plan {
 
   Vec2 to_world(Vec2 own) const;
   Vec2 to_own(Vec2 world) const;
+  double top() const;  // m, of the highest wall
   // The room at a place in the world, or -1: the corridor, or outside.
   int room_at(Vec2 world) const;
 };
@@ -75,5 +77,7 @@ struct PlanNeeds {
 };
 
 Plan draw_plan(Random& random, const PlanNeeds& needs);
+// A plan of one's own with what its walls cost and with stations.
+Plan furnished(Plan given, Random& random, const PlanNeeds& needs);
 
 }  // namespace muster::exam

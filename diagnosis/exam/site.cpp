@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "walls.hpp"
+
 namespace muster::exam {
 namespace {
 
@@ -108,7 +110,7 @@ Eigen::VectorXd coefficients(const Site& site) {
   return result;
 }
 
-Site draw_site(std::uint64_t seed, const SiteNeeds& needs, int rows) {
+Site draw_site(std::uint64_t seed, const SiteNeeds& needs, int rows, const std::string& walls) {
   Random random(seed, "site");
   Site site;
   PlanNeeds plan = needs.plan;
@@ -118,7 +120,7 @@ Site draw_site(std::uint64_t seed, const SiteNeeds& needs, int rows) {
   site.two_way = needs.two_way || random.chance(0.15);
   site.has_power = needs.power || random.chance(0.15);
   site.has_firmware = needs.firmware || random.chance(0.15);
-  site.plan = draw_plan(random, plan);
+  site.plan = walls.empty() ? draw_plan(random, plan) : furnished(plan_of_walls(walls), random, plan);
   site.noise = draw_noise(random);
   if (needs.single_fades) site.noise.reading.averaged = 1;
   site.has_noise = needs.noise || random.chance(0.15);

@@ -98,7 +98,8 @@ struct SiteNeeds {
   bool single_fades = false;  // readings that are not averages
 };
 
-Site draw_site(std::uint64_t seed, const SiteNeeds& needs, int rows);
+// `walls`: the plan, as a table; empty: one is drawn.
+Site draw_site(std::uint64_t seed, const SiteNeeds& needs, int rows, const std::string& walls = {});
 // Another run over the same site for each `name`.
 Data draw_data(const Site& site, std::uint64_t seed, const std::string& name);
 

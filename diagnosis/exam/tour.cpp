@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <stdexcept>
 
@@ -11,13 +12,16 @@ namespace {
 constexpr double pitch = 0.15;      // m, of the grid on which ways are found
 constexpr double clearance = 0.28;  // m, to walls: a door of 0.9 m leaves two cells
 
-double distance(Vec2 p, Vec2 a, Vec2 b) {
+double wrapped(double a) { return std::remainder(a, 2 * std::numbers::pi); }
+
+}  // namespace
+
+double distance_to(Vec2 p, Vec2 a, Vec2 b) {
   const double dx = b.x - a.x, dy = b.y - a.y;
   const double u = std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / (dx * dx + dy * dy), 0.0, 1.0);
   return std::hypot(p.x - a.x - u * dx, p.y - a.y - u * dy);
 }
 
-// Walls without their open doors, in the plan's own frame.
 std::vector<std::pair<Vec2, Vec2>> solid_pieces(const Plan& plan) {
   std::vector<std::pair<Vec2, Vec2>> pieces;
   for (std::size_t i = 0; i < plan.walls.size(); ++i) {
@@ -35,10 +39,6 @@ std::vector<std::pair<Vec2, Vec2>> solid_pieces(const Plan& plan) {
   return pieces;
 }
 
-double wrapped(double a) { return std::remainder(a, 2 * std::numbers::pi); }
-
-}  // namespace
-
 Floor::Floor(const Plan& plan)
     : plan_(plan),
       columns_(static_cast<int>(plan.whole.high.x / pitch) + 1),
@@ -52,7 +52,7 @@ Floor::Floor(const Plan& plan)
   };
   for (const auto& [a, b] : solid_pieces(plan)) {
     block({std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)},
-          [&](Vec2 p) { return distance(p, a, b) < clearance; });
+          [&](Vec2 p) { return distance_to(p, a, b) < clearance; });
   }
   for (const Station& s : plan.stations) {
     const Vec2 at = plan.to_own({s.at.x, s.at.y});
@@ -88,6 +88,48 @@ Vec2 Floor::place_in(Random& random, const Room& room) const {
   throw std::runtime_error("a room of the plan has no free place");
 }
 
+std::vector<int> Floor::parts() const {
+  std::vector<int> part(blocked_.size(), -1);
+  int next = 0;
+  std::vector<Cell> queue;
+  for (int y = 0; y < rows_; ++y) {
+    for (int x = 0; x < columns_; ++x) {
+      if (!is_free(Cell{x, y}) || part[index({x, y})] >= 0) continue;
+      queue.assign(1, {x, y});
+      part[index({x, y})] = next;
+      while (!queue.empty()) {
+        const Cell c = queue.back();
+        queue.pop_back();
+        for (const Cell n : neighbours(c)) {
+          if (!is_free(n) || part[index(n)] >= 0) continue;
+          part[index(n)] = next;
+          queue.push_back(n);
+        }
+      }
+      ++next;
+    }
+  }
+  return part;
+}
+
+std::vector<Room> Floor::connected(const std::vector<Room>& rooms) const {
+  const std::vector<int> part = parts();
+  std::map<int, std::vector<Room>> by_part;
+  for (const Room& room : rooms) {
+    const Cell middle = cell({(room.low.x + room.high.x) / 2, (room.low.y + room.high.y) / 2});
+    if (is_free(middle)) by_part[part[index(middle)]].push_back(room);
+  }
+  const auto area = [](const std::vector<Room>& some) {
+    double sum = 0;
+    for (const Room& r : some) sum += (r.high.x - r.low.x) * (r.high.y - r.low.y);
+    return sum;
+  };
+  std::vector<Room> most;
+  for (const auto& [number, some] : by_part)
+    if (area(some) > area(most)) most = some;
+  return most;
+}
+
 // Breadth first from the goal, then the furthest places in sight, so that ways run at any angle.
 std::vector<Vec2> Floor::way(Vec2 from, Vec2 to) const {
   std::vector<int> steps(blocked_.size(), -1);
@@ -96,7 +138,7 @@ std::vector<Vec2> Floor::way(Vec2 from, Vec2 to) const {
   const Cell start = cell(from);
   for (std::size_t head = 0; head < queue.size() && steps[index(start)] < 0; ++head) {
     const Cell c = queue[head];
-    for (const Cell n : {Cell{c.x + 1, c.y}, Cell{c.x - 1, c.y}, Cell{c.x, c.y + 1}, Cell{c.x, c.y - 1}}) {
+    for (const Cell n : neighbours(c)) {
       if (!is_free(n) || steps[index(n)] >= 0) continue;
       steps[index(n)] = steps[index(c)] + 1;
       queue.push_back(n);

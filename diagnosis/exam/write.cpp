@@ -53,8 +53,8 @@ ordered_json data_json(const Data& data) {
 std::string walls_csv(const Plan& plan) {
   std::string out = "name,x0[m],y0[m],x1[m],y1[m],height[m],thickness[m],material\n";
   for (const Wall& w : plan.walls)
-    fmt::format_to(std::back_inserter(out), "{},{:.3f},{:.3f},{:.3f},{:.3f},{:.1f},{:.1f},{}\n", w.name, w.a.x, w.a.y,
-                   w.b.x, w.b.y, w.height, w.thickness, plan.materials[static_cast<std::size_t>(w.material)].name);
+    fmt::format_to(std::back_inserter(out), "{},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{}\n", w.name, w.a.x, w.a.y, w.b.x,
+                   w.b.y, w.height, w.thickness, plan.materials[static_cast<std::size_t>(w.material)].name);
   return out;
 }
 
@@ -148,7 +148,8 @@ std::string answer_json(const Case& made) {
                               {"losses_db", losses}}},
                             {"measured", data_json(made.measured)},
                             {"second", data_json(made.second)},
-                            {"plan_angle_rad", made.site->plan.angle}};
+                            {"plan_angle_rad", made.site->plan.angle},
+                            {"walls", made.order.walls}};
   return answer.dump(1) + "\n";
 }
 

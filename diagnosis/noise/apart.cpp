@@ -1,35 +1,40 @@
 #include "diagnosis/noise/apart.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include <map>
 
 namespace muster::noise {
 
-Apart middles_apart(const Sites& sites, Index one, Index other) {
-  const double place = (sites.place.col(one) - sites.place.col(other)).squaredNorm();
-  return {std::sqrt(place), std::sqrt(place + (sites.anchor.col(one) - sites.anchor.col(other)).squaredNorm())};
+bool anchors_move(const Sites& sites) {
+  std::map<int, Index> first;  // of each radio
+  for (Index i = 0; i < sites.size(); ++i) {
+    const Index other = first.try_emplace(sites.radio[static_cast<std::size_t>(i)], i).first->second;
+    if (sites.anchor.col(i) != sites.anchor.col(other) || !sites.anchor_stretch.col(i).isZero(0)) return true;
+  }
+  return false;
 }
 
-Apart readings_apart(const Sites& sites, Index one, Index other) {
-  const Eigen::Vector3d place = sites.place.col(one) - sites.place.col(other);
-  const Eigen::Vector3d anchor = sites.anchor.col(one) - sites.anchor.col(other);
-  const auto place_one = sites.place_stretch.col(one), place_other = sites.place_stretch.col(other);
-  const auto anchor_one = sites.anchor_stretch.col(one), anchor_other = sites.anchor_stretch.col(other);
-  const bool anchors_stand = anchor.isZero(0) && anchor_one.isZero(0) && anchor_other.isZero(0);
-  double near = 0, joint = 0;
-  for (int a = -1; a <= 1; ++a) {
-    for (int b = -1; b <= 1; ++b) {
-      const double square = (place + a * place_one - b * place_other).squaredNorm();
-      near += std::sqrt(square) / 9;
-      if (!anchors_stand) joint += std::sqrt(square + (anchor + a * anchor_one - b * anchor_other).squaredNorm()) / 9;
-    }
-  }
-  const double one_place = place_one.norm(), other_place = place_other.norm();
-  const double places = std::max(0.0, near - own_share * (one_place + other_place));
-  if (anchors_stand) return {places, places};
-  const double one_both = std::hypot(one_place, anchor_one.norm()),
-               other_both = std::hypot(other_place, anchor_other.norm());
-  return {places, std::max(0.0, joint - own_share * (one_both + other_both))};
+SiteFloats floats_of(const Sites& sites) {
+  SiteFloats result(sites.size(), 14);
+  if (sites.size() == 0) return result;
+  const auto about_first = [](const Eigen::Matrix3Xd& at) {
+    return (at.colwise() - at.col(0)).transpose().cast<float>().eval();
+  };
+  result << about_first(sites.place), about_first(sites.anchor), sites.place_stretch.transpose().cast<float>(),
+      sites.anchor_stretch.transpose().cast<float>(), Eigen::MatrixX2f::Zero(sites.size(), 2);
+  const auto own = static_cast<float>(own_share);
+  result.col(12) = own * result.middleCols<3>(6).rowwise().norm();
+  result.col(13) = own * result.middleCols<6>(6).rowwise().norm();
+  return result;
+}
+
+Places PlacedSites::places(bool by_readings, bool anchors_move, float far) const {
+  const auto axis = [&](Index k) { return values_.col(k).data(); };
+  const auto ends = [&](Index middle, Index stretch) {
+    return Ends{{axis(middle), axis(middle + 1), axis(middle + 2)},
+                {axis(stretch), axis(stretch + 1), axis(stretch + 2)}};
+  };
+  return {ends(0, 6), ends(3, 9),  by_readings ? axis(12) : nullptr, by_readings ? axis(13) : nullptr,
+          far,        anchors_move};
 }
 
 }  // namespace muster::noise

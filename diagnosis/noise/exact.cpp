@@ -2,7 +2,6 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
-#include <map>
 
 #include "diagnosis/noise/apart.hpp"
 #include "diagnosis/noise/neighbourhood.hpp"
@@ -22,48 +21,28 @@ double longest_in(const Sites& sites) {
   return size(sites.place) + size(sites.anchor) + stretches;
 }
 
-bool anchors_move(const Sites& sites) {
-  std::map<int, Index> first;  // of each radio
-  for (Index i = 0; i < sites.size(); ++i) {
-    const Index other = first.try_emplace(sites.radio[static_cast<std::size_t>(i)], i).first->second;
-    if (sites.anchor.col(i) != sites.anchor.col(other) || !sites.anchor_stretch.col(i).isZero(0)) return true;
-  }
-  return false;
-}
-
 // Sites and a table of correlations, as the kernel asks for them.
 class PlacedRows {
  public:
   PlacedRows(const Sites& sites, const Covariance& covariance)
-      : place_(sites.place, sites.place_stretch),
-        anchor_(sites.anchor, sites.anchor_stretch),
-        radio_(sites.radio),
-        table_(entries + 1) {
+      : sites_(sites.size()), radio_(sites.radio), table_(entries + 1) {
     radio_.resize(static_cast<std::size_t>(filled()));
+    const SiteFloats floats = floats_of(sites);
+    for (Index i = 0; i < sites.size(); ++i) sites_.set(i, floats.row(i));
     const double per_metre = entries / std::max(longest_in(sites), 1.0);
     for (int i = 0; i <= entries; ++i)
       table_[i] = static_cast<float>(correlation(covariance.family, i / per_metre / covariance.decorrelation()));
     const bool by_readings = is_rough(covariance.family) && sites.within() > 0;
-    if (by_readings) {
-      within_place_ = own_share * place_.stretch.rowwise().norm();
-      const Eigen::VectorXf of_anchors = own_share * anchor_.stretch.rowwise().norm();
-      within_both_ = (within_place_.cwiseAbs2() + of_anchors.cwiseAbs2()).cwiseSqrt();
-    }
     const double variance = covariance.field_variance(), everywhere = variance * covariance.shared();
-    pairs_ = {place_.columns(),
-              anchor_.columns(),
-              by_readings ? within_place_.data() : nullptr,
-              by_readings ? within_both_.data() : nullptr,
-              by_readings ? far_within * within_both_.maxCoeff() : 0,
+    pairs_ = {sites_.places(by_readings, anchors_move(sites), far_within * sites_.longest_within()),
               radio_.data(),
               table_.data(),
               static_cast<float>(per_metre),
               static_cast<float>(everywhere),
-              static_cast<float>(variance - everywhere),
-              anchors_move(sites)};
+              static_cast<float>(variance - everywhere)};
   }
 
-  Index filled() const { return place_.middle.rows(); }
+  Index filled() const { return sites_.filled(); }
   // dB^2, of a row and those before it.
   void covariances(Index row, double* out) const { row_kernels().best().covariances(pairs_, row, out); }
 
@@ -71,30 +50,7 @@ class PlacedRows {
   static constexpr int entries = 16384;
   static constexpr float far_within = 13;  // six stretches: a row across another is 2 % farther than its middle
 
-  struct End {
-    Eigen::MatrixX3f middle, stretch;
-
-    // About the first middle, so that floats tell them well.
-    End(const Eigen::Matrix3Xd& at, const Eigen::Matrix3Xd& stretches)
-        : middle(filled_up(at.colwise() - at.col(0))), stretch(filled_up(stretches)) {}
-
-    static Eigen::MatrixX3f filled_up(const Eigen::Matrix3Xd& columns) {
-      Eigen::MatrixX3f result = Eigen::MatrixX3f::Zero((columns.cols() + many - 1) / many * many, 3);
-      result.topRows(columns.cols()) = columns.transpose().cast<float>();
-      return result;
-    }
-    Ends columns() const {
-      Ends result{};
-      for (int axis = 0; axis < 3; ++axis) {
-        result.middle[axis] = middle.col(axis).data();
-        result.stretch[axis] = stretch.col(axis).data();
-      }
-      return result;
-    }
-  };
-
-  End place_, anchor_;
-  Eigen::VectorXf within_place_, within_both_;
+  PlacedSites sites_;
   std::vector<int> radio_;
   Eigen::VectorXf table_;
   Pairs pairs_;

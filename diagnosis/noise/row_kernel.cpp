@@ -285,14 +285,13 @@ struct Distances {
   Floats place, both;
 };
 
-MUSTER_INLINE Distances between_middles(const Pairs& p, long row, long first) {
+MUSTER_INLINE Distances between_middles(const Places& p, long row, long first) {
   const Floats place = squares(p.place, row, first, 0, 0);
   const Floats apart = root(place);
   return {apart, p.anchors_move ? root(place + squares(p.anchor, row, first, 0, 0)) : apart};
 }
 
-// As readings_apart() in apart.hpp.
-MUSTER_INLINE Distances between_readings(const Pairs& p, long row, long first) {
+MUSTER_INLINE Distances between_readings(const Places& p, long row, long first) {
   Distances mean{};
   for (int own = -1; own <= 1; ++own) {
     for (int other = -1; other <= 1; ++other) {
@@ -305,7 +304,7 @@ MUSTER_INLINE Distances between_readings(const Pairs& p, long row, long first) {
   return p.anchors_move ? mean : Distances{mean.place, mean.place};
 }
 
-MUSTER_INLINE Distances distances_of(const Pairs& p, long row, long first) {
+MUSTER_INLINE Distances distances_of(const Places& p, long row, long first) {
   const Distances middles = between_middles(p, row, first);
   if (!p.within_place) return middles;
   bool near = false;
@@ -316,6 +315,16 @@ MUSTER_INLINE Distances distances_of(const Pairs& p, long row, long first) {
   cut_at_zero(result.place);
   cut_at_zero(result.both);
   return result;
+}
+
+MUSTER_INLINE void write(const Floats& values, float* out) { *reinterpret_cast<Floats*>(out) = values; }
+
+void apart(const Places& p, long row, float* place, float* both) {
+  for (long first = 0; first < row; first += many) {
+    const Distances of = distances_of(p, row, first);
+    write(of.place, place + first);
+    write(of.both, both + first);
+  }
 }
 
 using TwiceAsWide = double __attribute__((vector_size(2 * register_bytes), aligned(alignof(double)), may_alias));
@@ -331,9 +340,9 @@ MUSTER_INLINE Floats correlations(const Pairs& p, Floats apart) {
 
 void covariances(const Pairs& p, long row, double* out) {
   for (long first = 0; first < row; first += many) {
-    const Distances apart = distances_of(p, row, first);
+    const Distances apart = distances_of(p.at, row, first);
     const Floats near = correlations(p, apart.place);
-    const Floats joint = p.anchors_move ? correlations(p, apart.both) : near;
+    const Floats joint = p.at.anchors_move ? correlations(p, apart.both) : near;
     for (int k = 0; k < Floats::parts; ++k) {
       const long from = first + k * Floats::each;
       const Ints same = *reinterpret_cast<const Ints*>(p.radio + from) == p.radio[row];
@@ -374,7 +383,14 @@ void take_out(const float* q, long rows, long width, float* x, long columns, flo
 }  // namespace
 
 extern const RowKernel MUSTER_KERNEL;
-const RowKernel MUSTER_KERNEL{
-    MUSTER_TEXT(MUSTER_KERNEL), factorise, differentiate, combine, combine_floats, contract, covariances, take_out};
+const RowKernel MUSTER_KERNEL{MUSTER_TEXT(MUSTER_KERNEL),
+                              factorise,
+                              differentiate,
+                              combine,
+                              combine_floats,
+                              contract,
+                              apart,
+                              covariances,
+                              take_out};
 
 }  // namespace muster::noise

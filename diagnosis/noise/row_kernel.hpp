@@ -45,20 +45,25 @@ struct Combinations {
   const double *own, *beside;
 };
 
-// Rows whose covariances are asked for two by two. Arrays have a value a row, filled up to a multiple of `many`.
+// Where rows lie (apart.hpp). Arrays have a value a row, filled up to a multiple of `many`.
 constexpr int many = 16;
 struct Ends {
   const float *middle[3], *stretch[3];  // m, along each axis
 };
-struct Pairs {
+struct Places {
   Ends place, anchor;
   const float *within_place, *within_both;  // m: half the mean distance of a row's readings; null: rows are points
   float far;                                // m: rows this far apart are so by their middles
-  const int* radio;                         // the anchor's
-  const float* correlation;                 // by the nearest entry
+  bool anchors_move;                        // or stand where all others of their radio do
+};
+
+// Rows whose covariances are asked for two by two.
+struct Pairs {
+  Places at;
+  const int* radio;          // the anchor's
+  const float* correlation;  // by the nearest entry
   float entries_per_metre;
   float everywhere, joint;  // variances: between places, and in addition between both ends of the same anchor
-  bool anchors_move;        // or stand where all others of their radio do
 };
 
 struct RowKernel {
@@ -73,7 +78,9 @@ struct RowKernel {
   // Of four combinations c, the sum over rows i of (c x)_i . with_i, both row by row and `columns` a multiple of
   // `lanes`.
   void (*contract)(const Combinations* four, const double* x, const double* with, long columns, double* sums);
-  // Of a row and those before it; some values beyond are written too, up to a multiple of `many`.
+  // Of a row and those before it; some values beyond are written too, up to a multiple of `many`. Distances, m, are
+  // those of places and of both ends.
+  void (*apart)(const Places&, long row, float* place, float* both);
   void (*covariances)(const Pairs&, long row, double* out);
   // x less what the orthonormal columns of q explain, both row by row. `scratch`: width x 32 floats.
   void (*take_out)(const float* q, long rows, long width, float* x, long columns, float* scratch);

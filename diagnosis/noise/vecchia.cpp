@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "diagnosis/noise/apart.hpp"
 #include "diagnosis/noise/neighbourhood.hpp"
 
 namespace muster::noise {
@@ -63,24 +65,43 @@ Field::Field(Sites sites, const Conditioning& conditioning) : sites_(std::move(s
   const Conditioning with = fillable(conditioning, sites_.radio);
   slots_ = with.slots();
   neighbours_ = neighbours_of(sites_, with);
-  double longest = 0;
-  each_pair([&](std::size_t, Index i, Index j) {
-    longest = std::max(longest, (sites_.place.col(i) - sites_.place.col(j)).norm() +
-                                    (sites_.anchor.col(i) - sites_.anchor.col(j)).norm());
-  });
-  spacing_ = std::max(spacing_, longest / (distances - 1));
-  smooth_ = table(middles_apart);
-  if (sites_.within() > 0) rough_ = table(readings_apart);
+  float longest = 0;
+  each_pair(false, [&](std::size_t, bool, float, float both) { longest = std::max(longest, both); });
+  spacing_ = std::max(spacing_, longest / (distances - 1.0));
+  smooth_ = table(false);
+  if (sites_.within() > 0) rough_ = table(true);
 }
 
-Field::Table Field::table(Apart (*apart)(const Sites&, Index, Index)) const {
+template <class Use>
+void Field::each_pair(bool by_readings, const Use& use) const {
+  const SiteFloats floats = floats_of(sites_);
+  PlacedSites near(slots_ + 1);  // a row, then its neighbours
+  const Places places = near.places(by_readings, anchors_move(sites_), std::numeric_limits<float>::max());
+  std::vector<float> place(at(near.filled())), both(place.size());
+  for (Index i = 0; i < size(); ++i) {
+    near.set(0, floats.row(i));
+    for (int a = 0; a < slots_; ++a) {
+      const Index j = neighbour(i, a);
+      if (j < 0) continue;
+      near.set(a + 1, floats.row(j));
+      row_kernels().best().apart(places, a + 1, place.data(), both.data());
+      for (int b = 0; b <= a; ++b) {
+        const Index other = b < a ? neighbour(i, b) : i;
+        if (other < 0) continue;
+        const std::size_t pair = at((i / lanes) * pairs() + Index{a} * (a + 1) / 2 + b), from = b < a ? at(b + 1) : 0;
+        use(pair * lanes + at(i % lanes), sites_.radio[at(j)] == sites_.radio[at(other)], place[from], both[from]);
+      }
+    }
+  }
+}
+
+Field::Table Field::table(bool by_readings) const {
   Table result;
   result.near.assign(at(groups() * pairs() * lanes), distances);
   result.joint.assign(result.near.size(), distances);
-  each_pair([&](std::size_t slot, Index i, Index j) {
-    const Apart of = apart(sites_, i, j);
-    result.near[slot] = entry(of.place);
-    if (sites_.radio[at(i)] == sites_.radio[at(j)]) result.joint[slot] = entry(of.both);
+  each_pair(by_readings, [&](std::size_t slot, bool of_one_anchor, float place, float both) {
+    result.near[slot] = entry(place);
+    if (of_one_anchor) result.joint[slot] = entry(both);
   });
   compare_ends(result);
   return result;
@@ -107,21 +128,6 @@ Field::Entries Field::entries(Index group, Family family) const {
 
 Combinations Field::combinations(const Stencil& stencil) const {
   return {size(), slots_, neighbours_.data(), stencil.own.data(), stencil.beside.data()};
-}
-
-template <class Each>
-void Field::each_pair(Each each) const {
-  for (Index i = 0; i < size(); ++i) {
-    for (int a = 0; a < slots_; ++a) {
-      if (neighbour(i, a) < 0) continue;
-      for (int b = 0; b <= a; ++b) {
-        const Index other = b < a ? neighbour(i, b) : i;
-        if (other < 0) continue;
-        const Index pair = Index{a} * (a + 1) / 2 + b;
-        each(at(((i / lanes) * pairs() + pair) * lanes + i % lanes), neighbour(i, a), other);
-      }
-    }
-  }
 }
 
 uint16_t Field::entry(double distance) const {

@@ -6,7 +6,6 @@
 #include <array>
 #include <cstdint>
 
-#include "diagnosis/noise/apart.hpp"
 #include "diagnosis/noise/basis.hpp"
 #include "diagnosis/noise/family.hpp"
 #include "diagnosis/noise/neighbours.hpp"
@@ -47,10 +46,11 @@ class Field {
     std::vector<uint16_t> near, joint;
     std::vector<Joint> kinds;
   };
-  template <class Each>
-  void each_pair(Each each) const;
+  // use(slot, whether of one anchor, m between places, m between both ends)
+  template <class Use>
+  void each_pair(bool by_readings, const Use& use) const;
   uint16_t entry(double distance) const;
-  Table table(Apart (*apart)(const Sites&, Index, Index)) const;
+  Table table(bool by_readings) const;
   void compare_ends(Table& table) const;
 
   Sites sites_;

@@ -37,23 +37,6 @@ std::vector<Question> open_questions(const Diagnosis& d) {
   return out;
 }
 
-bool found(const Diagnosis& d, const std::string& id) {
-  const auto is_cause = [&](const FoundCause& c) { return c.id == id; };
-  const auto is_left = [&](const diagnosis::Unexplained& u) { return "~" + u.covariate == id; };
-  return std::any_of(d.causes.begin(), d.causes.end(), is_cause) ||
-         std::any_of(d.unexplained.begin(), d.unexplained.end(), is_left);
-}
-
-std::string asked_alone(const Diagnosis& d) {
-  std::string result;
-  for (const std::string& id : d.searched) {
-    const auto is_it = [&](const search::Check& c) { return c.id == id; };
-    if (!found(d, id) && std::none_of(d.checks.begin(), d.checks.end(), is_it))
-      result += (result.empty() ? "" : ", ") + short_name(id);
-  }
-  return result;
-}
-
 std::string name_of_step(const Diagnosis& d, std::size_t k) {
   if (k == 0) return "the world, fitted";
   // Of what the search accepted, causes and what is unexplained in one order of strength.

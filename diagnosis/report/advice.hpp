@@ -26,12 +26,6 @@ struct Question {
 // Pairs of a cause, or of what is unexplained, and a rival that the data do not decide, D < 25.
 std::vector<Question> open_questions(const Diagnosis& diagnosis);
 
-// Whether a candidate is among what was found.
-bool found(const Diagnosis& diagnosis, const std::string& id);
-
-// "outliers, people": causes that were searched, each by a test of its own that has no p, and not found.
-std::string asked_alone(const Diagnosis& diagnosis);
-
 // "the world, fitted", "+ unmapped wall", of the k-th step of the held-out error.
 std::string name_of_step(const Diagnosis& diagnosis, std::size_t k);
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "diagnosis/report/advice.hpp"
+#include "diagnosis/report/checked.hpp"
 
 namespace muster::report {
 namespace {
@@ -20,6 +21,16 @@ Json held_out_json(const std::optional<search::HeldOut>& h) {
           {"gain_upper95", of(&search::HeldOut::upper95)},
           {"gain_db2", of(&search::HeldOut::gain)},
           {"blocks", h ? Json(h->blocks) : Json(nullptr)}};
+}
+
+Json elsewhere_json(const std::vector<search::Elsewhere>& elsewhere) {
+  Json out = Json::array();
+  for (const search::Elsewhere& e : elsewhere) {
+    Json one = {{"left_out", parts_in_words(e.part)}};
+    one.update(held_out_json(e.held_out));
+    out.push_back(one);
+  }
+  return out;
 }
 
 Json rivals_json(const std::vector<search::Rival>& rivals) {
@@ -52,6 +63,7 @@ Json cause_json(const FoundCause& c) {
               {"evidence", known(c.evidence)},
               {"lambda", known(c.lambda)}};
   out.update(held_out_json(c.held_out));
+  out["elsewhere"] = elsewhere_json(c.elsewhere);
   out["rivals"] = rivals_json(c.rivals);
   out["tell_apart"] = c.tell_apart;
   out["doubt"] = c.doubt.empty() ? Json() : Json(c.doubt);
@@ -61,6 +73,7 @@ Json cause_json(const FoundCause& c) {
 Json unexplained_json(const diagnosis::Unexplained& u) {
   Json out = {{"covariate", u.covariate}, {"evidence", known(u.evidence)}, {"lambda", known(u.lambda)}};
   out.update(held_out_json(u.held_out));
+  out["elsewhere"] = elsewhere_json(u.elsewhere);
   out["rivals"] = rivals_json(u.rivals);
   return out;
 }
@@ -162,6 +175,7 @@ Json json_of(const Diagnosis& d) {
       {"readings", d.readings},
       {"rows", d.rows},
       {"blocks", d.held_out ? Json(d.held_out->blocks) : Json()},
+      {"elsewhere", elsewhere_json(d.elsewhere)},
       {"steps", stairs_json(d)},
       {"parameters", d.parameters},
       {"world_parameters", world_json(d)},

@@ -7,6 +7,7 @@
 
 #include "diagnosis/picture/svg.hpp"
 #include "diagnosis/report/advice.hpp"
+#include "diagnosis/report/checked.hpp"
 
 namespace muster::report {
 namespace {
@@ -40,7 +41,6 @@ tr:last-child td { border-bottom: 0; } td.n, th.n { text-align: right; white-spa
 .named { color: var(--good); } .suspected { color: var(--warn); } code { font-size: 14px; overflow-wrap: anywhere; }
 )";
 
-std::string db(double value) { return fmt::format("{:.2f} dB", value); }
 std::string paragraph(const std::string& text, const char* kind = "") {
   return fmt::format("<p{}>{}</p>\n", *kind ? fmt::format(" class=\"{}\"", kind) : "", escaped(text));
 }
@@ -106,10 +106,13 @@ std::string key_figures(const Diagnosis& d) {
   return out + "</section>\n";
 }
 
+std::string gain_text(const search::HeldOut& h, search::Part part) {
+  return fmt::format("{:.2f} → {}; squared error falls by {:.2f} dB² (95 %: {:.2f} to {:.2f}, over {} {})",
+                     h.rmse_before, db(h.rmse_after), h.gain, h.lower95, h.upper95, h.blocks, parts_in_words(part));
+}
+
 std::string gain_text(const std::optional<search::HeldOut>& h, const std::string& why_none) {
-  if (!h) return why_none;
-  return fmt::format("{:.2f} → {}; squared error falls by {:.2f} dB² (95 %: {:.2f} to {:.2f}, over {} blocks)",
-                     h->rmse_before, db(h->rmse_after), h->gain, h->lower95, h->upper95, h->blocks);
+  return h ? gain_text(*h, search::Part::block) : why_none;
 }
 
 std::string cause_card(const FoundCause& c, std::size_t number, const std::vector<Picture>& pictures) {
@@ -125,13 +128,16 @@ std::string cause_card(const FoundCause& c, std::size_t number, const std::vecto
   std::vector<Row> values;
   for (const CauseValue& v : c.values) values.push_back({{v.name}, {quantity(v), true}, {interval(v), true}});
   out += table({{"parameter"}, {"value", true}, {"95 % interval", true}}, values, "values");
-  out += table({},
-               {{{"cause"}, {c.id}},
-                {{"where"}, {c.label == "all" ? "everywhere" : c.label}},
-                {{"evidence"},
-                 {fmt::format("{:.1f} nats; λ = {:.0f} (fall of the deviance beside all else)", c.evidence, c.lambda)}},
-                {{"gain"}, {gain_text(c.held_out, why_no_gain(c))}},
-                {{"rivals"}, {rivals_in_words(c.rivals)}}});
+  std::vector<Row> facts{
+      {{"cause"}, {c.id}},
+      {{"where"}, {c.label == "all" ? "everywhere" : c.label}},
+      {{"evidence"},
+       {fmt::format("{:.1f} nats; λ = {:.0f} (fall of the deviance beside all else)", c.evidence, c.lambda)}},
+      {{"gain"}, {gain_text(c.held_out, why_no_gain(c))}}};
+  for (const search::Elsewhere& e : c.elsewhere)
+    facts.push_back({{parts_in_words(e.part) + " not seen"}, {gain_text(e.held_out, e.part)}});
+  facts.push_back({{"rivals"}, {rivals_in_words(c.rivals)}});
+  out += table({}, facts);
   return out + "</article>\n" + figure_named(pictures, fmt::format("cause_{}", number));
 }
 
@@ -158,29 +164,23 @@ std::string undecided(const Diagnosis& d) {
 
 std::string checked(const Diagnosis& d) {
   if (d.checks.empty()) return "";
-  return heading("Checked and found fine") + paragraph(
-                                                 "Beside what was found, nothing more is beyond chance. p: that chance "
-                                                 "alone does as well anywhere along it.",
-                                                 "soft");
+  return heading("Checked and found fine") +
+         paragraph("p: that chance alone does as well anywhere along it, beside what was found.", "soft");
 }
 
 std::string checked_table(const Diagnosis& d) {
-  std::vector<Row> along, causes, doubtful;
-  for (const search::Check& c : d.checks) {
-    if (found(d, c.id)) continue;
-    const bool smooth = c.kind == search::Kind::smooth;
-    (is_doubtful(c) ? doubtful
-     : smooth       ? along
-                    : causes)
-        .push_back({{smooth ? covariate_in_words(c.id.substr(1)) : short_name(c.id)}, {chance(c.log_p), true}});
-  }
-  std::string out = "<div class=\"card\">";
-  if (!along.empty()) out += table({{"dependence on"}, {"chance", true}}, along);
-  if (!causes.empty()) out += table({{"further cause"}, {"chance", true}}, causes);
+  const auto [along, causes, doubtful] = sorted_checks(d);
+  if (along.empty() && causes.empty() && doubtful.empty()) return "";
+  const auto of = [](const char* what, const std::vector<const search::Check*>& checks) {
+    std::vector<Row> rows;
+    for (const search::Check* c : checks) rows.push_back({{name_of(*c)}, {chance(c->log_p), true}});
+    return rows.empty() ? "" : table({{what}, {"chance", true}}, rows);
+  };
+  std::string out = "<div class=\"card\">" + of("dependence on", along) + of("further cause", causes);
   if (const std::string alone = asked_alone(d); !alone.empty())
     out += paragraph("Nor, each by a test of its own: " + alone + ".", "soft");
-  if (!doubtful.empty()) out += table({{"doubtful"}, {"chance", true}}, doubtful) + paragraph(why_doubtful, "soft");
-  return along.empty() && causes.empty() && doubtful.empty() ? "" : out + "</div>\n";
+  if (!doubtful.empty()) out += of("doubtful", doubtful) + paragraph(why_doubtful, "soft");
+  return out + "</div>\n";
 }
 
 std::string not_tested(const Diagnosis& d) {
@@ -203,13 +203,11 @@ std::string record(const Diagnosis& d) {
 std::string world(const Diagnosis& d) {
   std::vector<Row> rows;
   for (const auto& v : d.world_values) {
-    if (v.identifiable)
-      rows.push_back(
-          {{v.path},
-           {quantity(v.value, 1.96 * v.stderror, v.unit), true},
-           {"± " + rounded(1.96 * v.stderror, 1.96 * v.stderror) + (v.at_bound ? " (at its bound)" : ""), true}});
-    else
-      rows.push_back({{v.path}, {"not identifiable", true}, {"", true}});
+    const double half = 1.96 * v.stderror;
+    const std::string within = "± " + rounded(half, half) + (v.at_bound ? " (at its bound)" : "");
+    rows.push_back({{v.path},
+                    {v.identifiable ? quantity(v.value, half, v.unit) : "not identifiable", true},
+                    {v.identifiable ? within : "", true}});
   }
   std::string out = heading("The world's own parameters, beside the causes") + "<div class=\"card\">";
   out += table({{"parameter"}, {"value", true}, {"95 %", true}}, rows, "values");
@@ -244,14 +242,18 @@ std::string page_of(const Diagnosis& d, const Setting& setting, const std::vecto
       "soft");
   body += key_figures(d);
   if (!d.held_out) body += paragraph(why_no_blocks(d));
+  if (const std::string elsewhere = errors_elsewhere(d); !elsewhere.empty()) body += paragraph(elsewhere);
   body += figure_named(pictures, "residual_map");
   if (!d.causes.empty()) body += heading(d.causes.size() == 1 ? "The cause" : "The causes");
   for (std::size_t k = 0; k < d.causes.size(); ++k) body += cause_card(d.causes[k], k + 1, pictures);
   if (!d.unexplained.empty()) {
     body += heading("Not explained");
-    for (const auto& u : d.unexplained)
-      body += "<div class=\"card\">" +
-              paragraph(what_is_unexplained(u) + " Gain: " + gain_text(u.held_out, too_few_blocks) + ".") + "</div>\n";
+    for (const auto& u : d.unexplained) {
+      std::string text = what_is_unexplained(u) + " Gain: " + gain_text(u.held_out, too_few_blocks) + ".";
+      for (const search::Elsewhere& e : u.elsewhere)
+        text += " Of " + parts_in_words(e.part) + " not seen: " + gain_text(e.held_out, e.part) + ".";
+      body += "<div class=\"card\">" + paragraph(text) + "</div>\n";
+    }
   }
   if (d.stairs.size() > 1)
     body += heading("Gain") + figure_named(pictures, "steps") + figure_named(pictures, "before_after");

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "diagnosis/report/advice.hpp"
+#include "diagnosis/report/checked.hpp"
 
 namespace muster::report {
 namespace {
@@ -20,8 +21,6 @@ std::size_t width_of(const std::string& text) {
 
 std::string heading(const std::string& text) { return "\n" + text + "\n"; }
 
-std::string db(double value) { return fmt::format("{:.2f} dB", value); }
-
 std::string introduction(const Diagnosis& d, const Setting& setting) {
   std::string text = wrapped(setting.world + " " + verdict_in_words(d) + ".");
   text += wrapped(fmt::format("{} readings of {}, {}. The world's own parameters are fitted.", d.readings, setting.data,
@@ -30,25 +29,26 @@ std::string introduction(const Diagnosis& d, const Setting& setting) {
 }
 
 std::string errors(const Diagnosis& d) {
+  const bool improved = d.named() || !d.unexplained.empty();
   if (!d.held_out)
-    return wrapped(fmt::format("The fitted world leaves {} a reading. ", db(d.residual_sd)) + why_no_blocks(d), 2, 2);
+    return wrapped(fmt::format("The fitted world leaves {} a reading. ", db(d.residual_sd)) + why_no_blocks(d) + ' ' +
+                       errors_elsewhere(d),
+                   2, 2);
   const auto& h = *d.held_out;
   std::string text =
       fmt::format("At {} that a fit has not seen, the world errs by {}", what_is_held_out(d), db(h.rmse_before));
   if (!d.stairs.empty()) text += fmt::format(" (95 %: {:.2f} to {:.2f})", d.stairs[0].lower95, d.stairs[0].upper95);
-  const bool improved = d.named() || !d.unexplained.empty();
   if (improved) text += fmt::format("; with what follows, by {}", db(h.rmse_after));
   text += std::isfinite(noise_floor(d)) ? ". Noise alone would leave " + db(noise_floor(d)) + "." : ".";
   if (improved)
     text += fmt::format(" The squared error falls by {:.2f} dB2 (95 %: {:.2f} to {:.2f}, over {} blocks).", h.gain,
                         h.lower95, h.upper95, h.blocks);
-  return wrapped(text, 2, 2);
+  return wrapped(text + ' ' + errors_elsewhere(d), 2, 2);
 }
 
-std::string gain_of(const search::HeldOut& h) {
-  return fmt::format(
-      "{:.2f} -> {} where not seen; squared error falls by {:.2f} dB2 (95 %: {:.2f} to {:.2f}, {} blocks)",
-      h.rmse_before, db(h.rmse_after), h.gain, h.lower95, h.upper95, h.blocks);
+std::string gain_of(const search::HeldOut& h, search::Part part) {
+  return fmt::format("{:.2f} -> {} where not seen; squared error falls by {:.2f} dB2 (95 %: {:.2f} to {:.2f}, {} {})",
+                     h.rmse_before, db(h.rmse_after), h.gain, h.lower95, h.upper95, h.blocks, parts_in_words(part));
 }
 
 // "    word        text", wrapped beside the word.
@@ -56,6 +56,12 @@ std::string entry(const std::string& word, const std::string& text) {
   std::string padded = "      " + word;
   padded.resize(std::max<std::size_t>(18, padded.size() + 1), ' ');
   return padded + wrapped(text, 18, 18).substr(18);
+}
+
+std::string gains_elsewhere(const std::vector<search::Elsewhere>& elsewhere) {
+  std::string text;
+  for (const search::Elsewhere& e : elsewhere) text += entry("", gain_of(e.held_out, e.part));
+  return text;
 }
 
 std::string cause_text(const FoundCause& c, int number) {
@@ -67,9 +73,10 @@ std::string cause_text(const FoundCause& c, int number) {
   text += entry("evidence",
                 fmt::format("{:.1f} nats; lambda {:.0f} (fall of the deviance beside all else)", c.evidence, c.lambda));
   if (c.held_out)
-    text += entry("gain", gain_of(*c.held_out));
+    text += entry("gain", gain_of(*c.held_out, search::Part::block));
   else
     text += entry("gain", why_no_gain(c));
+  text += gains_elsewhere(c.elsewhere);
   if (!c.doubt.empty())
     text += entry("doubt", c.doubt);
   else if (standing == Standing::unconfirmed && c.held_out)
@@ -91,7 +98,8 @@ std::string unexplained(const Diagnosis& d) {
   std::string text = heading("Not explained");
   for (const auto& u : d.unexplained) {
     text += wrapped(what_is_unexplained(u), 2, 2);
-    if (u.held_out) text += entry("gain", gain_of(*u.held_out));
+    text += entry("gain", u.held_out ? gain_of(*u.held_out, search::Part::block) : too_few_blocks);
+    text += gains_elsewhere(u.elsewhere);
   }
   return text;
 }
@@ -123,22 +131,23 @@ std::string undecided(const Diagnosis& d) {
   return text;
 }
 
+// "distance (p = 0.4), the link (p = 0.8)"
+std::string with_chances(const std::vector<const search::Check*>& checks) {
+  std::string result;
+  for (const search::Check* c : checks)
+    result += (result.empty() ? "" : ", ") + name_of(*c) + " (" + chance(c->log_p) + ")";
+  return result;
+}
+
 std::string checked(const Diagnosis& d) {
-  std::string along, causes, doubtful;
-  for (const search::Check& c : d.checks) {
-    if (found(d, c.id)) continue;
-    const bool smooth = c.kind == search::Kind::smooth;
-    std::string& list = is_doubtful(c) ? doubtful : smooth ? along : causes;
-    list += (list.empty() ? "" : ", ") + (smooth ? covariate_in_words(c.id.substr(1)) : short_name(c.id)) + " (" +
-            chance(c.log_p) + ")";
-  }
+  const auto [along, causes, doubtful] = sorted_checks(d);
   if (along.empty() && causes.empty() && doubtful.empty()) return "";
   std::string text = heading("Checked and found fine");
-  if (!along.empty()) text += wrapped("Nothing more depends on: " + along + ".", 2, 4);
-  if (!causes.empty()) text += wrapped("No further cause: " + causes + ".", 2, 4);
+  if (!along.empty()) text += wrapped("Nothing more depends on: " + with_chances(along) + ".", 2, 4);
+  if (!causes.empty()) text += wrapped("No further cause: " + with_chances(causes) + ".", 2, 4);
   if (const std::string alone = asked_alone(d); !alone.empty())
     text += wrapped("Nor, each by a test of its own: " + alone + ".", 2, 4);
-  if (!doubtful.empty()) text += wrapped("Doubtful: " + doubtful + ". " + why_doubtful, 2, 4);
+  if (!doubtful.empty()) text += wrapped("Doubtful: " + with_chances(doubtful) + ". " + why_doubtful, 2, 4);
   return text + wrapped("p: that chance alone does as well anywhere along it, neighbours' likeness taken out.", 2, 4);
 }
 

@@ -65,8 +65,6 @@ Standing standing_of(const FoundCause& cause) {
   return cause.held_out && cause.held_out->lower95 > 0 ? Standing::confirmed : Standing::unconfirmed;
 }
 
-bool is_doubtful(const search::Check& check) { return check.log_p < std::log(1e-3); }
-
 std::string why_no_gain(const FoundCause& cause) {
   if (cause.status != search::Status::named) return "not measured: not beyond chance beside the others";
   return is_law(cause) ? "none to measure: it is told by how readings scatter, and shifts no level" : too_few_blocks;
@@ -203,6 +201,32 @@ double noise_floor(const Diagnosis& d) {
 }
 
 std::string what_is_held_out(const Diagnosis& d) { return d.seen.places_known ? "places" : "distances"; }
+
+std::string parts_in_words(search::Part part) {
+  switch (part) {
+    case search::Part::block:
+      return "blocks";
+    case search::Part::radio:
+      return "radios";
+    case search::Part::run:
+      return "runs";
+  }
+  return "";
+}
+
+std::string db(double value) { return fmt::format("{:.2f} dB", value); }
+
+std::string errors_elsewhere(const Diagnosis& d) {
+  std::string text;
+  for (const search::Elsewhere& e : d.elsewhere) {
+    const search::HeldOut& h = e.held_out;
+    text += fmt::format("{}With {} left out in turn ({}) it errs by {} at these", text.empty() ? "" : " ",
+                        parts_in_words(e.part), h.blocks, db(h.rmse_before));
+    const bool improved = d.named() || !d.unexplained.empty();
+    text += improved ? fmt::format(", with what was found by {}.", db(h.rmse_after)) : ".";
+  }
+  return text;
+}
 
 std::string rows_in_words(const Diagnosis& d) {
   if (static_cast<std::size_t>(d.rows) == d.readings) return "each a row of its own";

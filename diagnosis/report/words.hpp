@@ -18,10 +18,6 @@ enum class Standing {
   set_aside       // found, and not beyond chance beside the others
 };
 Standing standing_of(const FoundCause& cause);
-// Whether what was checked cannot be called fine, though it is not told.
-bool is_doubtful(const search::Check& check);
-constexpr const char* why_doubtful =
-    "Small by themselves, and not told: each is one of the many that were asked, or goes with what stands above.";
 // Why no gain stands beside a cause that has none.
 std::string why_no_gain(const FoundCause& cause);
 constexpr const char* too_few_blocks = "not measured: too few blocks of space";
@@ -58,7 +54,13 @@ std::string verdict_in_words(const Diagnosis& diagnosis);
 // dB that noise alone leaves of one row's mean, wherever it lies.
 double noise_floor(const Diagnosis& diagnosis);
 // "places", or "distances" where the data have no places.
+// "6.28 dB"
+std::string db(double value);
 std::string what_is_held_out(const Diagnosis& diagnosis);
+// "blocks", "radios", "runs"
+std::string parts_in_words(search::Part part);
+// What the world errs by with radios and runs not seen; empty where there are not several.
+std::string errors_elsewhere(const Diagnosis& diagnosis);
 // How readings were gathered to rows.
 std::string rows_in_words(const Diagnosis& diagnosis);
 // What the report counts in, for who has not read docs/diagnosis.md.

@@ -14,21 +14,16 @@ namespace {
 constexpr int most_folds = 5, resamples = 1000;
 constexpr double decorrelations = 3;  // a block's side
 
-std::vector<int> blocks_of(const noise::Sites& sites, double side) {
-  const Eigen::Vector3d corner = sites.place.rowwise().minCoeff();
-  std::map<std::array<long, 3>, int> number;
-  std::vector<std::array<long, 3>> cells;
-  for (Index i = 0; i < sites.size(); ++i) {
-    const Eigen::Vector3d at = (sites.place.col(i) - corner) / side;
-    cells.push_back(
-        {std::lround(std::floor(at.x())), std::lround(std::floor(at.y())), std::lround(std::floor(at.z()))});
-    number[cells.back()] = 0;
-  }
+// Numbers from 0 on, in the order of what they stand for.
+template <class Key>
+std::vector<int> numbered(const std::vector<Key>& keys) {
+  std::map<Key, int> number;
+  for (const Key& key : keys) number[key] = 0;
   int next = 0;
-  for (auto& [cell, k] : number) k = next++;
+  for (auto& [key, k] : number) k = next++;
   std::vector<int> result;
-  result.reserve(cells.size());
-  for (const auto& cell : cells) result.push_back(number.at(cell));
+  result.reserve(keys.size());
+  for (const Key& key : keys) result.push_back(number.at(key));
   return result;
 }
 
@@ -47,14 +42,36 @@ std::vector<int> fold_of_block(int blocks, uint64_t seed) {
 
 }  // namespace
 
+std::vector<int> blocks_of(const noise::Sites& sites, const noise::Covariance& covariance) {
+  const double side = decorrelations * covariance.decorrelation();
+  const Eigen::Vector3d corner = sites.place.rowwise().minCoeff();
+  std::vector<std::array<long, 3>> cells;
+  for (Index i = 0; i < sites.size(); ++i) {
+    const Eigen::Vector3d at = (sites.place.col(i) - corner) / side;
+    cells.push_back(
+        {std::lround(std::floor(at.x())), std::lround(std::floor(at.y())), std::lround(std::floor(at.z()))});
+  }
+  return numbered(cells);
+}
+
+std::vector<int> radios_of(const noise::Rows& rows, const noise::Sites& sites, const noise::Readings& readings) {
+  const bool one = std::all_of(sites.radio.begin(), sites.radio.end(), [&](int r) { return r == sites.radio.front(); });
+  if (!one) return numbered(sites.radio);
+  std::vector<int> others;
+  for (Index i = 0; i < rows.size(); ++i) {
+    const auto reading = static_cast<std::size_t>(rows.example(i));
+    others.push_back(readings.tx[reading] == sites.radio.front() ? readings.rx[reading] : readings.tx[reading]);
+  }
+  return numbered(others);
+}
+
 Folds::Fold::Fold(const noise::Sites& sites, const noise::Covariance& covariance, std::vector<Index> in,
                   std::vector<Index> out)
     : fitted(std::move(in)), left_out(std::move(out)), field(sites.of(fitted)), whitener(field, covariance) {}
 
-Folds::Folds(const noise::Sites& sites, const std::vector<Index>& row_of, const noise::Covariance& covariance,
-             uint64_t seed)
+Folds::Folds(const noise::Sites& sites, const std::vector<int>& block_of_row, const std::vector<Index>& row_of,
+             const noise::Covariance& covariance, uint64_t seed)
     : seed_(seed) {
-  const std::vector<int> block_of_row = blocks_of(sites, decorrelations * covariance.decorrelation());
   for (const Index row : row_of) block_of_.push_back(block_of_row[static_cast<std::size_t>(row)]);
   blocks_ = *std::max_element(block_of_row.begin(), block_of_row.end()) + 1;
   if (!possible()) return;
@@ -110,6 +127,12 @@ HeldOut compared(const Unseen& unseen) {
           means[resamples / 40],
           means[resamples - 1 - resamples / 40],
           blocks};
+}
+
+Stair stair_of(Unseen unseen) {
+  unseen.after.setZero();
+  const HeldOut all = compared(unseen);
+  return {all.rmse_before, std::sqrt(all.lower95), std::sqrt(all.upper95)};
 }
 
 }  // namespace muster::search

@@ -30,6 +30,7 @@ struct Problem {
   std::vector<Candidate> candidates;
   std::vector<Covariate> covariates;
   std::vector<Factor> factors;
+  std::vector<int> run;       // of each reading, from 0; empty: nobody says
   noise::StatedField stated;  // shadowing, as the model states it
   bool places_known = true;   // false: only distances are, and places stand for them
   // Candidates that need the base coefficients of the model as it stands. May be empty.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <map>
 #include <optional>
-#include <stdexcept>
 
 #include "diagnosis/search/integrated.hpp"
 #include "diagnosis/search/refine.hpp"
@@ -55,11 +54,6 @@ Lead at_its_best(const Bench& bench, const Stand& rest, const Lead& plain, const
   return other.gain > best.gain ? other : best;
 }
 
-// D, which rounding must not make negative.
-double left_of(const Eigen::VectorXd& effect, double explained) {
-  return std::max(0.0, effect.squaredNorm() - explained);
-}
-
 // The same cause of other rows, the likest first: of two receivers one that reads high is the other one that reads low.
 // Where one radio hears all that is heard, it and all radios are one. `by_atom`: how much of the effect each place
 // of its grid explains.
@@ -92,20 +86,11 @@ void keep_likest(std::vector<Rival>& rivals, Rival rival) {
     *known = std::move(rival);
 }
 
-const Candidate& planned(const Plan& plan, const std::string& id) {
-  for (const Candidate& c : plan.candidates) {
-    if (c.id == id) return c;
-  }
-  throw std::invalid_argument(plan.say + ": the plan has no candidate " + id);
-}
-
-Eigen::MatrixXd above(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  Eigen::MatrixXd result(a.rows() + b.rows(), a.cols());
-  result << a, b;
-  return result;
-}
-
 }  // namespace
+
+double left_of(const Eigen::VectorXd& effect, double explained) {
+  return std::max(0.0, effect.squaredNorm() - explained);
+}
 
 bool left_open(const Rival& rival) {
   return rival.evidence_gap < near_gap || (rival.separability < inseparable && rival.by_readings < near_gap);
@@ -158,35 +143,6 @@ std::vector<Rival> rivals_of(Bench& bench, const Term& term) {
     smooth ? keep_likest(result, std::move(rival)) : result.push_back(std::move(rival));
   }
   return result;
-}
-
-double predicted_separability(const Bench& bench, const Term& term, const std::string& rival, const Plan& plan) {
-  const noise::Rows rows(plan.readings, bench.options().rows);
-  const noise::Field field(bench.field().sites().with(rows.sites(plan.readings)), {.seed = bench.options().seed});
-  const noise::Whitener whitener(field, bench.fit.covariance);
-  Eigen::MatrixXd old = bench.base(), added = rows.mean(plan.base);
-  for (const Term& other : bench.terms) {
-    if (&other == &term || other.smooth()) continue;  // a smooth says nothing of readings elsewhere
-    old = beside(old, other.columns);
-    added = beside(added, rows.mean(planned(plan, other.candidate->id).columns(other.theta)));
-  }
-  const auto basis = noise::basis_of(whitener(above(old, added)));
-  const Eigen::MatrixXd design = beside(bench.design_without(term), term.columns);
-  const Eigen::VectorXd coefficients = bench.stand(design).coefficients(design.cols()).tail(term.columns.cols());
-  const Eigen::MatrixXd columns = above(term.columns, rows.mean(planned(plan, term.candidate->id).columns(term.theta)));
-  const Eigen::VectorXd effect = basis.rest(whitener(columns * coefficients));
-  const Candidate& other = planned(plan, rival);
-  const Entry* entry = nullptr;
-  for (const Entry& e : bench.entries()) entry = e.candidate->id == rival ? &e : entry;
-  if (!entry) throw std::invalid_argument(plan.say + ": the problem has no candidate " + rival);
-  double least = effect.squaredNorm();
-  for (Index k = 0; k < entry->count(); ++k) {
-    const Eigen::VectorXd& theta = entry->candidate->grid[static_cast<std::size_t>(k)];
-    const Eigen::MatrixXd x = basis.rest(whitener(above(entry->atom(k), rows.mean(other.columns(theta)))));
-    const auto of_rival = noise::basis_of(x);
-    least = std::min(least, left_of(effect, (of_rival.q.transpose() * effect).squaredNorm()));
-  }
-  return least;
 }
 
 }  // namespace muster::search

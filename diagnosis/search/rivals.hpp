@@ -17,6 +17,9 @@ struct Rival {
   double by_readings = 0;
 };
 
+// D of a whitened effect of which a rival explains so much; rounding must not make it negative.
+double left_of(const Eigen::VectorXd& effect, double explained);
+
 // Whether the readings leave open that it is the rival: it is within 3 nats, or not told apart, and they do not speak
 // for the finding by 3 nats themselves. Beside a true rival they would in at most 0.7 %: their logarithm is normal
 // about -D / 2 with variance D then, which is furthest from 3 by the square root of 6, at D = 6.
@@ -30,16 +33,5 @@ double standing(const Bench& bench, const Eigen::MatrixXd& design, const Candida
 // Candidates within 3 nats of the term, and causes that are not told from it, its own of other rows among them. A
 // smooth along the very column that the term is about is none.
 std::vector<Rival> rivals_of(Bench& bench, const Term& term);
-
-// A measurement that could be made: the same base and candidates at its readings.
-struct Plan {
-  std::string say;
-  noise::Readings readings;
-  Eigen::MatrixXd base;
-  std::vector<Candidate> candidates;  // by the ids of the problem's, whose grids are used
-};
-
-// D of the term against a rival when the plan's readings are added, at the noise as it is fitted.
-double predicted_separability(const Bench& bench, const Term& term, const std::string& rival, const Plan& plan);
 
 }  // namespace muster::search

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "diagnosis/search/clean_up.hpp"
+#include "diagnosis/search/hold_out.hpp"
 #include "diagnosis/search/integrated.hpp"
 
 namespace muster::search {
@@ -31,12 +32,6 @@ const Problem& checked(const Problem& problem) {
 }
 
 }  // namespace
-
-Stair stair_of(Unseen unseen) {
-  unseen.after.setZero();
-  const HeldOut all = compared(unseen);
-  return {all.rmse_before, std::sqrt(all.lower95), std::sqrt(all.upper95)};
-}
 
 Search::Search(const Problem& problem, const Options& options) : bench_(checked(problem), options) {}
 
@@ -64,7 +59,7 @@ Result Search::run() {
   const Eigen::VectorXd coefficients = stand.coefficients(design.cols());
   result_.base_coefficients = coefficients.head(bench_.base_columns());
   result_.mean = design * coefficients;
-  hold_out(result_);
+  hold_out(bench_, result_);
   check_what_is_left(result_, stand);
   return result_;
 }
@@ -120,54 +115,39 @@ Finding Search::finding_of(const Term& term, Status status) const {
                   term.log_p,
                   {},
                   {},
+                  {},
                   {}};
   return finding;
 }
 
-void Search::hold_out(Result& result) const {
-  const Folds folds(bench_.field().sites(), bench_.rows().row_of(), result.noise.covariance, bench_.options().seed);
-  if (!folds.possible()) return;
-  std::vector<Eigen::MatrixXd> at_readings;
-  for (const Term& term : bench_.terms) at_readings.push_back(term.candidate->columns(term.theta));
-  const auto errors_with = [&](const std::function<bool(std::size_t)>& has) {
-    Sample rows{bench_.y(), bench_.base()}, readings{bench_.measured(), bench_.problem().base};
-    for (std::size_t k = 0; k < at_readings.size(); ++k) {
-      if (!has(k)) continue;
-      rows.design = beside(rows.design, bench_.terms[k].columns);
-      readings.design = beside(readings.design, at_readings[k]);
-    }
-    return folds.squared_errors(rows, readings);
-  };
-  const auto step = [&](const Eigen::VectorXd& errors) {
-    result.stairs.push_back(stair_of(folds.unseen(errors, errors)));
-  };
-  const Eigen::VectorXd base = errors_with([](std::size_t) { return false; });
-  const Eigen::VectorXd full = errors_with([](std::size_t) { return true; });
-  result.unseen = folds.unseen(base, full);
-  result.held_out = compared(*result.unseen);
-  step(base);
-  for (std::size_t many = 1; many <= at_readings.size(); ++many)
-    step(errors_with([&](std::size_t k) { return k < many; }));
-  for (std::size_t one = 0; one < at_readings.size(); ++one) {
-    result.findings[one].unseen_without = errors_with([&](std::size_t k) { return k != one; });
-    result.findings[one].held_out = folds.compared(result.findings[one].unseen_without, full);
-  }
+namespace {
+
+// Rivals of a finding that the data do not decide; of its own other rows no plan says anything.
+std::vector<const Rival*> open_rivals(const Finding& finding) {
+  std::vector<const Rival*> result;
+  for (const Rival& rival : finding.rivals)
+    if (rival.separability < decided && rival.id != finding.id) result.push_back(&rival);
+  return result;
 }
+
+}  // namespace
 
 std::vector<Advice> Search::advise(const std::vector<Plan>& plans) {
   std::vector<Advice> result;
-  for (std::size_t k = 0; k < bench_.terms.size(); ++k) {
-    if (bench_.terms[k].smooth()) continue;  // which says nothing of readings elsewhere
-    for (const Rival& rival : result_.findings[k].rivals) {
-      const std::string& own = bench_.terms[k].candidate->id;
-      if (rival.separability >= decided || rival.id == own) continue;  // of its other rows no plan says anything
-      for (const Plan& plan : plans) {
-        const bool knows = std::any_of(plan.candidates.begin(), plan.candidates.end(),
-                                       [&](const Candidate& c) { return c.id == rival.id; });
-        if (!knows) continue;
-        result.push_back({plan.say, own, rival.id, rival.separability,
-                          predicted_separability(bench_, bench_.terms[k], rival.id, plan)});
-      }
+  for (const Plan& plan : plans) {
+    std::optional<Planned> planned;  // made once it is asked for
+    for (std::size_t k = 0; k < bench_.terms.size(); ++k) {
+      if (bench_.terms[k].smooth()) continue;  // which says nothing of readings elsewhere
+      const Finding& finding = result_.findings[k];
+      std::vector<const Rival*> open = open_rivals(finding);
+      std::erase_if(open, [&](const Rival* rival) { return !plan.knows(rival->id); });
+      if (open.empty()) continue;
+      std::vector<std::string> ids;
+      for (const Rival* rival : open) ids.push_back(rival->id);
+      if (!planned) planned.emplace(bench_, plan);
+      const std::vector<double> predicted = planned->separability(bench_.terms[k], ids);
+      for (std::size_t r = 0; r < open.size(); ++r)
+        result.push_back({plan.say, finding.id, ids[r], open[r]->separability, predicted[r]});
     }
   }
   std::stable_sort(result.begin(), result.end(),

@@ -5,7 +5,7 @@
 
 #include "diagnosis/search/forward.hpp"
 #include "diagnosis/search/held_out.hpp"
-#include "diagnosis/search/rivals.hpp"
+#include "diagnosis/search/planned.hpp"
 #include "diagnosis/search/spread.hpp"
 
 namespace muster::search {
@@ -25,6 +25,7 @@ struct Finding {
   double log_p = 0;                     // integrated over the covariance
   std::optional<HeldOut> held_out;      // without and with it; none for what is only suspected
   Eigen::VectorXd unseen_without;       // squared errors of readings at places not seen without it, dB^2; none likewise
+  std::vector<Elsewhere> elsewhere;     // the same of radios and runs, where it concerns several
   std::vector<Rival> rivals;
 };
 
@@ -40,23 +41,17 @@ struct Check {
   double gain = 0, log_p = 0;  // of chance doing as well anywhere on its grid
 };
 
-// The error at places not seen, dB, with its interval over blocks.
-struct Stair {
-  double rmse = 0, lower95 = 0, upper95 = 0;
-};
-// Of the model before.
-Stair stair_of(Unseen unseen);
-
 struct Result {
   std::vector<Finding> findings;  // the strongest first, suspected ones last
   std::vector<Trial> trials;
   noise::Fit noise;
   std::vector<noise::Fit> families;  // of the base model
   Eigen::VectorXd base_coefficients;
-  Eigen::VectorXd mean;             // of the extended model, one a row
-  std::optional<Unseen> unseen;     // the base model and the extended one
-  std::optional<HeldOut> held_out;  // the same in short
-  std::vector<Stair> stairs;        // the base model, then with each accepted finding in turn; empty: too few blocks
+  Eigen::VectorXd mean;              // of the extended model, one a row
+  std::optional<Unseen> unseen;      // the base model and the extended one
+  std::optional<HeldOut> held_out;   // the same in short
+  std::vector<Elsewhere> elsewhere;  // of radios and runs, where there are several
+  std::vector<Stair> stairs;         // the base model, then with each accepted finding in turn; empty: too few blocks
   std::vector<Check> checks;
 };
 
@@ -75,7 +70,6 @@ class Search {
 
  private:
   Finding finding_of(const Term& term, Status status) const;
-  void hold_out(Result& result) const;
   // How well each term is known; a place goes to the middle of those that are as likely.
   std::vector<Spread> settle_in_the_middle();
   void check_what_is_left(Result& result, const Stand& stand);

@@ -68,6 +68,14 @@ TEST(PeopleOnALink, LevelsThatRiseAsOftenAsTheyFallAreNobody) {
   EXPECT_GT(passages_in(walk).test.log_p, std::log(0.01));
 }
 
+// As in a measured flat: dips win more than twice what rises do, and are still a misfit of the field.
+TEST(PeopleOnALink, LevelsThatRiseNearlyAsMuchAreNobody) {
+  Walk walk = drawn_of_four({.rician_k = 8}, 600, 1.5);
+  add_bursts(walk, 11, 74, -35);
+  add_bursts(walk, 48, 74, 20);
+  EXPECT_GT(passages_in(walk).test.log_p, std::log(0.01));
+}
+
 TEST(PeopleOnALink, DeepFadesOfSingleReadingsAreNobody) {
   Walk walk = drawn_of_four({.rician_k = 8}, 600, 1.5);
   for (Eigen::Index i = 20; i < 600; i += 60) walk.residual[i] -= 25;

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "diagnosis/closed_loop.hpp"
 #include "diagnosis/diagnose.hpp"
 #include "diagnosis/report/advice.hpp"
 #include "tests/diagnosis_cases/sealed_case.hpp"
@@ -94,6 +95,10 @@ TEST(SealedPair, IsMeasuredFromTheWorldAsGiven) {
   EXPECT_NEAR(found.held_out->rmse_before, 8.98, 0.5);
   EXPECT_NEAR(found.held_out->gain, 43.0, 5);
   EXPECT_GT(moved.held_out->lower95, 0);
+  EXPECT_TRUE(found.elsewhere.empty());
+  EXPECT_TRUE(moved.elsewhere.empty());
+  ASSERT_EQ(found.causes[1].elsewhere.size(), 1u);
+  EXPECT_EQ(found.causes[1].elsewhere[0].part, search::Part::radio);
   ASSERT_EQ(found.stairs.size(), 3u);
   EXPECT_EQ(found.stairs[0].rmse, found.held_out->rmse_before);
   EXPECT_EQ(report::name_of_step(found, 1), "+ tx misplaced");

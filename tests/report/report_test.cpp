@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "diagnosis/closed_loop.hpp"
 #include "diagnosis/dataset.hpp"
 #include "diagnosis/report/figures.hpp"
 #include "diagnosis/report/folder.hpp"
@@ -98,7 +99,9 @@ TEST_F(Report, JsonIsAsItsPageSays) {
   for (const std::string& path : page) {
     const auto list = path.find("[]");
     if (list != path.npos && json.contains(path.substr(0, list)) && json.at(path.substr(0, list)).empty()) continue;
-    if (path.find("rivals[]") != path.npos || path.find("checked[]") != path.npos) continue;
+    if (path.find("rivals[]") != path.npos || path.find("elsewhere[]") != path.npos ||
+        path.find("checked[]") != path.npos)
+      continue;
     EXPECT_TRUE(there.count(path)) << path << " is on the page only";
   }
 }
@@ -190,6 +193,23 @@ TEST_F(Report, RegressionTestPassesAndNoticesThatTheWallIsGone) {
   world.SaveFile(file.c_str());
   EXPECT_FALSE(passes(out));
   std::ofstream(file, std::ios::binary) << before;
+}
+
+// What the readings do not identify may come out as anything in another's fit.
+TEST_F(Report, RegressionTestHoldsNothingAgainstWhatIsNotIdentifiable) {
+  Diagnosis blind = *found;
+  diagnosis::WorldValue& open = blind.world_values.at(0);
+  open.identifiable = false;
+  const fs::path folder = *scratch / "blind";
+  fs::copy(out, folder);
+  write_regression(blind, hall, *scratch / "first.csv", folder);
+  const Json json = Json::parse(contents(folder / "regression.json"));
+  std::size_t paths = 0;
+  for (const Json& p : json.at("parameters")) {
+    paths += p.contains("path");
+    EXPECT_NE(p.value("path", ""), open.path);
+  }
+  EXPECT_EQ(paths + 1, blind.world_values.size());
 }
 
 // Directions a turn apart are one; no width can be met by a turn more.

@@ -155,6 +155,24 @@ TEST(Text, WhatTheReadingsDoNotIdentifyHasNoInterval) {
   EXPECT_EQ(json["world_parameters"][0]["identifiable"], false);
 }
 
+TEST(Text, GainsWithRadiosAndRunsNotSeenStandBesideThoseOfPlaces) {
+  const search::HeldOut places{3.5, 2.5, 6, 2.4, 11, 21}, radios{4.5, 3.25, 9.69, 5, 12, 4},
+      runs{3.75, 3, 5.06, 1, 7, 2};
+  Diagnosis d = with(wall(search::Status::named, places));
+  d.elsewhere = {{search::Part::radio, radios}, {search::Part::run, runs}};
+  d.causes[0].elsewhere = d.elsewhere;
+  d.unexplained = {{"battery", 30, 60, {}, d.elsewhere}};
+  const std::string text = text_of(d, {"hall", "a.csv"}), page = page_of(d, {"hall", "a.csv"}, {});
+  for (const std::string& report : {text, page}) {
+    for (const char* words : {"it errs by 4.50 dB at these, with what was found by 3.25 dB", "4 radios)", "2 runs)"})
+      EXPECT_TRUE(says(report, words)) << words << '\n' << report;
+  }
+  const auto json = json_of(d);
+  EXPECT_EQ(json["causes"][0]["elsewhere"][1]["left_out"], "runs");
+  EXPECT_EQ(json["elsewhere"][0]["gain_upper95"], 12);
+  EXPECT_EQ(json["unexplained"][0]["elsewhere"][0]["blocks"], 4);
+}
+
 // Of all that was accepted, named or not; clips and laws of what scatters are no step.
 TEST(Steps, AreInTheOrderOfStrength) {
   Diagnosis d = with(wall(search::Status::named, {}));

@@ -12,11 +12,6 @@
 namespace muster::search {
 namespace {
 
-using synthetic::causes_of;
-using synthetic::problem_of;
-using synthetic::varied;
-using synthetic::world_of;
-
 TEST(Compared, TheSimplerOfTwoWithTheSameEffectComesFirst) {
   const auto world = world_of(varied(34, 4000));
   const auto twins = twins_of(world);

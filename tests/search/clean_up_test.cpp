@@ -13,11 +13,6 @@
 namespace muster::search {
 namespace {
 
-using synthetic::causes_of;
-using synthetic::problem_of;
-using synthetic::varied;
-using synthetic::world_of;
-
 struct Guess {
   std::string id;
   Eigen::VectorXd theta;

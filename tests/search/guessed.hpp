@@ -11,6 +11,12 @@
 
 namespace muster::search {
 
+using synthetic::causes_of;
+using synthetic::problem_of;
+using synthetic::Recipe;
+using synthetic::varied;
+using synthetic::world_of;
+
 inline Term term_at(const Bench& bench, const std::string& id, const Eigen::VectorXd& theta) {
   for (const Entry& entry : bench.entries()) {
     if (entry.candidate->id == id) return {entry.candidate, theta, bench.columns_of(*entry.candidate, theta)};
@@ -27,7 +33,7 @@ inline void score(Bench& bench) {
 
 // An offset, and the same with one parameter more.
 inline std::vector<Candidate> twins_of(const synthetic::World& world) {
-  std::vector<Candidate> twins = synthetic::causes_of(world);
+  std::vector<Candidate> twins = causes_of(world);
   twins.insert(twins.begin(), twins[1]);
   twins[0].id = "twin";
   ++twins[0].parameters;

@@ -12,6 +12,7 @@
 #include "diagnosis/noise/fit.hpp"
 #include "diagnosis/noise/reach.hpp"
 #include "muster/random.hpp"
+#include "tests/search/apart.hpp"
 #include "tests/search/synthetic.hpp"
 
 namespace muster::noise {

@@ -16,12 +16,6 @@
 namespace muster::search {
 namespace {
 
-using synthetic::causes_of;
-using synthetic::problem_of;
-using synthetic::Recipe;
-using synthetic::varied;
-using synthetic::world_of;
-
 // A weak one of two transmitters is the other one's strength, whatever is read; among three it is not, nor where the
 // strength of each is given. The same transmitter by another number is no rival.
 TEST(Rivals, OfTwoRadiosEitherMayBeMeant) {

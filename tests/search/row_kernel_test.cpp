@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <cstring>
 
-#include "diagnosis/noise/apart.hpp"
 #include "diagnosis/noise/basis.hpp"
 #include "diagnosis/noise/neighbourhood.hpp"
 #include "muster/random.hpp"
+#include "tests/search/apart.hpp"
 
 namespace muster::noise {
 namespace {
@@ -138,6 +138,36 @@ TEST(RowKernels, ContractFourCombinationsAtOnce) {
   }
 }
 
+TEST(RowKernels, TellDistancesAsPairByPair) {
+  Sites sites = places(3 * many + 5);
+  sites.place_stretch = 0.3 * normals<Eigen::MatrixXd>(3, sites.size(), 11);
+  for (const bool anchors_move : {false, true}) {
+    sites.anchor_stretch = 0.2 * anchors_move * normals<Eigen::MatrixXd>(3, sites.size(), 12);
+    sites.anchor =
+        anchors_move ? normals<Eigen::MatrixXd>(3, sites.size(), 13) : Eigen::Matrix3Xd::Ones(3, sites.size());
+    const SiteFloats floats = floats_of(sites);
+    PlacedSites placed(sites.size());
+    for (Index i = 0; i < sites.size(); ++i) placed.set(i, floats.row(i));
+    for (const bool by_readings : {false, true}) {
+      const Places all = placed.places(by_readings, anchors_move, 1e9f);
+      const Index row = sites.size() - 1;
+      Eigen::VectorXf first;
+      for (int k = 0; k < row_kernels().number; ++k) {
+        Eigen::VectorXf place(placed.filled()), both(placed.filled()), told(2 * row);
+        row_kernels().all[k]->apart(all, row, place.data(), both.data());
+        told << place.head(row), both.head(row);
+        if (k == 0) first = told;
+        EXPECT_EQ(told, first) << row_kernels().all[k]->name;
+      }
+      for (Index i = 0; i < row; ++i) {
+        const Apart apart = by_readings ? readings_apart(sites, row, i) : middles_apart(sites, row, i);
+        EXPECT_NEAR(first[i], apart.place, 1e-4) << i;
+        EXPECT_NEAR(first[row + i], apart.both, 1e-4) << i;
+      }
+    }
+  }
+}
+
 // Rows on a line that fall into blocks of near and of far ones; of every second pair of blocks the readings count.
 TEST(RowKernels, TellCovariancesOfPairsToTheSameBits) {
   const Index rows = 4 * many;
@@ -167,17 +197,13 @@ TEST(RowKernels, TellCovariancesOfPairsToTheSameBits) {
   };
   for (const bool stretched : {false, true}) {
     for (const bool anchors_move : {false, true}) {
-      const Pairs pairs{ends(0),
-                        ends(3),
-                        stretched ? within_place.data() : nullptr,
-                        stretched ? within_both.data() : nullptr,
-                        15,
+      const Pairs pairs{{ends(0), ends(3), stretched ? within_place.data() : nullptr,
+                         stretched ? within_both.data() : nullptr, 15, anchors_move},
                         radio.data(),
                         falling.data(),
                         20,
                         2,
-                        5,
-                        anchors_move};
+                        5};
       Eigen::VectorXd first(rows);
       for (int k = 0; k < row_kernels().number; ++k) {
         Eigen::VectorXd told(rows);

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "diagnosis/noise/apart.hpp"
 #include "muster/random.hpp"
+#include "tests/search/apart.hpp"
 #include "tests/search/synthetic.hpp"
 
 namespace muster::noise {

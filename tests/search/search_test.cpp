@@ -87,6 +87,35 @@ TEST(Search, TwoCausesAreBothNamed) {
   EXPECT_EQ(found, (std::vector<std::string>{"rx_offset", "unmapped_wall"}));
 }
 
+// A steeper slope beyond some distance is true of every radio and in every run, an offset of one radio alone.
+TEST(Search, WhatConcernsAllRadiosAndRunsGainsWithTheseNotSeen) {
+  const World world = world_of(varied(34, 5000));
+  const auto causes = causes_of(world);
+  const Candidate& slope =
+      *std::find_if(causes.begin(), causes.end(), [](const Candidate& c) { return c.id == "dual_slope"; });
+  const Eigen::VectorXd effect = scaled_to(world, causes[0].columns(causes[0].grid[0]), 200) -
+                                 scaled_to(world, slope.columns(slope.grid[slope.grid.size() / 2]), 300);
+  Problem problem = problem_of(world, effect, causes);
+  const double half = world.time.maxCoeff() / 2;
+  for (const double t : world.time) problem.run.push_back(t > half);
+  const Result result = Search(problem).run();
+  std::vector<Part> parts;
+  for (const Elsewhere& e : result.elsewhere) parts.push_back(e.part);
+  ASSERT_EQ(parts, (std::vector{Part::radio, Part::run}));
+  EXPECT_EQ(result.elsewhere[0].held_out.blocks, world.recipe.transmitters);
+  EXPECT_EQ(result.elsewhere[1].held_out.blocks, 2);
+  std::set<std::string> seen;
+  for (const Finding& f : result.findings) {
+    seen.insert(f.id);
+    for (const Elsewhere& e : f.elsewhere) {
+      EXPECT_GT(e.held_out.gain, 0) << f.id << " of part " << static_cast<int>(e.part);
+      EXPECT_FALSE(f.id == "tx_offset" && e.part == Part::radio);
+    }
+    EXPECT_EQ(f.elsewhere.size(), f.id == "dual_slope" ? 2u : 1u) << f.id;
+  }
+  EXPECT_EQ(seen, (std::set<std::string>{"dual_slope", "tx_offset"}));
+}
+
 TEST(Search, OfCausesThatTheReadingsCannotTellApartTheSimplestIsNamed) {
   const World world = world_of(varied(34, 4000));
   auto causes = causes_of(world);
@@ -281,7 +310,7 @@ TEST(Search, TheAdvisedReadingsRaiseSeparabilityAsPredicted) {
   const Search whole(whole_problem);
   const auto& term = search.bench().terms[0];
   const Plan plan{"drive on", next.readings, next.base, causes_of(next)};
-  const double predicted = predicted_separability(search.bench(), term, "antenna_tx", plan);
+  const double predicted = Planned(search.bench(), plan).separability(term, {"antenna_tx"})[0];
   // D with the readings at hand, and once those of the plan are there too: the same effect and noise in both.
   const auto separability = [&](const Bench& bench, const World& of) {
     const Stand rest = bench.stand(bench.base(), search.bench().fit.covariance);

@@ -16,11 +16,6 @@
 namespace muster::search {
 namespace {
 
-using synthetic::causes_of;
-using synthetic::problem_of;
-using synthetic::varied;
-using synthetic::world_of;
-
 TEST(Spread, ItsMiddleIsAPlaceThatExplainsAsMuch) {
   const auto world = world_of(varied(12, 4000));
   const auto causes = causes_of(world);

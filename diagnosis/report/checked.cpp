@@ -1,0 +1,40 @@
+#include "diagnosis/report/checked.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace muster::report {
+
+bool found(const Diagnosis& d, const std::string& id) {
+  const auto is_cause = [&](const FoundCause& c) { return c.id == id; };
+  const auto is_left = [&](const diagnosis::Unexplained& u) { return "~" + u.covariate == id; };
+  return std::any_of(d.causes.begin(), d.causes.end(), is_cause) ||
+         std::any_of(d.unexplained.begin(), d.unexplained.end(), is_left);
+}
+
+SortedChecks sorted_checks(const Diagnosis& d) {
+  const double small = std::log(1e-3);
+  SortedChecks result;
+  for (const search::Check& c : d.checks) {
+    if (found(d, c.id)) continue;
+    auto& list = c.log_p < small ? result.doubtful : c.kind == search::Kind::smooth ? result.along : result.causes;
+    list.push_back(&c);
+  }
+  return result;
+}
+
+std::string name_of(const search::Check& check) {
+  return check.kind == search::Kind::smooth ? covariate_in_words(check.id.substr(1)) : short_name(check.id);
+}
+
+std::string asked_alone(const Diagnosis& d) {
+  std::string result;
+  for (const std::string& id : d.searched) {
+    const auto is_it = [&](const search::Check& c) { return c.id == id; };
+    if (!found(d, id) && std::none_of(d.checks.begin(), d.checks.end(), is_it))
+      result += (result.empty() ? "" : ", ") + short_name(id);
+  }
+  return result;
+}
+
+}  // namespace muster::report

@@ -1,0 +1,12 @@
+// What the findings gain where no fit has seen: the base model, each finding in turn and each one left out, fitted
+// without some places and held against these; and so for radios and runs where there are several.
+#pragma once
+
+#include "diagnosis/search/search.hpp"
+
+namespace muster::search {
+
+// Fills in what is measured of the result and of each finding that was accepted.
+void hold_out(const Bench& bench, Result& result);
+
+}  // namespace muster::search
