@@ -108,6 +108,7 @@ std::string followed_csv(Case made, const std::vector<Asked>& asked) {
   for (const Asked& a : asked) ends.push_back(ends_of(*made.site, a));
   const bool moved = move_stations(made, ends);
   std::vector<Reading> readings;
+  readings.reserve(asked.size());
   for (std::size_t k = 0; k < asked.size(); ++k) readings.push_back(reading_of(*made.site, run, ends[k], asked[k].t));
   Data data = data_of(*made.site, std::move(readings));
   hear(made, Field(*made.site, moved ? Random(made.seed, "moved").bits() : made.seed), data, "asked");

@@ -50,7 +50,8 @@ Floor::Floor(const Plan& plan)
       for (int x = std::max(0, first.x); x <= std::min(columns_ - 1, last.x); ++x)
         if (near(centre({x, y}))) blocked_[index({x, y})] = 1;
   };
-  for (const auto& [a, b] : solid_pieces(plan)) {
+  for (const auto& piece : solid_pieces(plan)) {
+    const Vec2 a = piece.first, b = piece.second;
     block({std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)},
           [&](Vec2 p) { return distance_to(p, a, b) < clearance; });
   }

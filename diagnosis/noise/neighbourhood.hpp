@@ -28,7 +28,9 @@ class Neighbourhood {
   const Lanes* slope(int parameter) const { return slope_.data() + parameter * (slots_ + 1); }
   // Of the logarithm of the row's own weight.
   double log_slope(int parameter, int lane) const {
-    return -0.5 * turned_[static_cast<std::size_t>(parameter * (slots_ + 1) + slots_)].of[lane];
+    return -0.5 * turned_[static_cast<std::size_t>(parameter) * static_cast<std::size_t>(slots_ + 1) +
+                          static_cast<std::size_t>(slots_)]
+                      .of[lane];
   }
   // Fisher's, q <= p.
   const Lanes& information(int p, int q) const { return information_[static_cast<std::size_t>(p * parameters + q)]; }

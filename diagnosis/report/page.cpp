@@ -173,6 +173,7 @@ std::string checked_table(const Diagnosis& d) {
   if (along.empty() && causes.empty() && doubtful.empty()) return "";
   const auto of = [](const char* what, const std::vector<const search::Check*>& checks) {
     std::vector<Row> rows;
+    rows.reserve(checks.size());
     for (const search::Check* c : checks) rows.push_back({{name_of(*c)}, {chance(c->log_p), true}});
     return rows.empty() ? "" : table({{what}, {"chance", true}}, rows);
   };

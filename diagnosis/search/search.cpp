@@ -142,8 +142,8 @@ std::vector<Advice> Search::advise(const std::vector<Plan>& plans) {
       std::vector<const Rival*> open = open_rivals(finding);
       std::erase_if(open, [&](const Rival* rival) { return !plan.knows(rival->id); });
       if (open.empty()) continue;
-      std::vector<std::string> ids;
-      for (const Rival* rival : open) ids.push_back(rival->id);
+      std::vector<std::string> ids(open.size());
+      std::transform(open.begin(), open.end(), ids.begin(), [](const Rival* rival) { return rival->id; });
       if (!planned) planned.emplace(bench_, plan);
       const std::vector<double> predicted = planned->separability(bench_.terms[k], ids);
       for (std::size_t r = 0; r < open.size(); ++r)
