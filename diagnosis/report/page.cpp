@@ -123,8 +123,7 @@ std::string cause_card(const FoundCause& c, std::size_t number, const std::vecto
   if (!c.doubt.empty())
     out += paragraph("Doubt: " + c.doubt + ".");
   else if (standing == Standing::unconfirmed)
-    out += paragraph(
-        "Named by the data, but what was held out does not confirm it yet: the interval of its gain touches zero.");
+    out += paragraph("Named by the data, but what was held out does not confirm it yet: " + why_unconfirmed(c) + ".");
   std::vector<Row> values;
   for (const CauseValue& v : c.values) values.push_back({{v.name}, {quantity(v), true}, {interval(v), true}});
   out += table({{"parameter"}, {"value", true}, {"95 % interval", true}}, values, "values");

@@ -80,7 +80,7 @@ std::string cause_text(const FoundCause& c, int number) {
   if (!c.doubt.empty())
     text += entry("doubt", c.doubt);
   else if (standing == Standing::unconfirmed && c.held_out)
-    text += entry("", "What was held out does not confirm it yet: the interval touches zero.");
+    text += entry("", "What was held out does not confirm it yet: " + why_unconfirmed(c) + ".");
   if (standing != Standing::set_aside) text += entry("rivals", rivals_in_words(c.rivals));
   return text;
 }

@@ -62,7 +62,14 @@ Standing standing_of(const FoundCause& cause) {
   if (!cause.doubt.empty()) return Standing::unconfirmed;
   // What shifts no level has no error at places to confirm it by: its evidence is the readings' own law.
   if (is_law(cause)) return Standing::confirmed;
-  return cause.held_out && cause.held_out->lower95 > 0 ? Standing::confirmed : Standing::unconfirmed;
+  const bool gains = cause.held_out && cause.held_out->lower95 > 0 && cause.held_out->blocks >= fewest_blocks;
+  return gains ? Standing::confirmed : Standing::unconfirmed;
+}
+
+std::string why_unconfirmed(const FoundCause& cause) {
+  if (!cause.held_out) return "nothing could be held out";
+  if (!(cause.held_out->lower95 > 0)) return "the interval touches zero";
+  return fmt::format("in {} blocks of space it may gain by chance alone", cause.held_out->blocks);
 }
 
 std::string why_no_gain(const FoundCause& cause) {

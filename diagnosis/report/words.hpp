@@ -18,6 +18,10 @@ enum class Standing {
   set_aside       // found, and not beyond chance beside the others
 };
 Standing standing_of(const FoundCause& cause);
+// Blocks that all gain by chance alone in one of 32 cases: an interval over fewer is none of 95 %.
+constexpr int fewest_blocks = 5;
+// Of a cause that what was held out does not confirm.
+std::string why_unconfirmed(const FoundCause& cause);
 // Why no gain stands beside a cause that has none.
 std::string why_no_gain(const FoundCause& cause);
 constexpr const char* too_few_blocks = "not measured: too few blocks of space";

@@ -50,11 +50,14 @@ TEST(Gate, IsIsSaidOnlyWhereHeldOutDataShowIt) {
   EXPECT_TRUE(says(text_of(with(sure), {"hall", "a.csv"}), "(1) it is effect.unmapped_wall"));
   const FoundCause touching = wall(search::Status::named, search::HeldOut{3.5, 3.4, 0.7, -0.1, 1.5, 21});
   EXPECT_EQ(standing_of(touching), Standing::unconfirmed);
+  const FoundCause of_few = wall(search::Status::named, search::HeldOut{3.5, 2.5, 6, 5.1, 7, 4});
+  EXPECT_EQ(standing_of(of_few), Standing::unconfirmed);
+  EXPECT_EQ(why_unconfirmed(of_few), "in 4 blocks of space it may gain by chance alone");
   const FoundCause aside = wall(search::Status::suspected, {});
   EXPECT_EQ(standing_of(aside), Standing::set_aside);
   const FoundCause unmeasured = wall(search::Status::named, {});
   EXPECT_EQ(standing_of(unmeasured), Standing::unconfirmed);
-  for (const FoundCause& c : {touching, aside, unmeasured}) {
+  for (const FoundCause& c : {touching, of_few, aside, unmeasured}) {
     const std::string text = text_of(with(c), {"hall", "a.csv"});
     EXPECT_TRUE(says(text, "suspected: effect.unmapped_wall")) << text;
     EXPECT_FALSE(says(text, "it is")) << text;
