@@ -130,7 +130,11 @@ Syllabus syllabus_of(const Arguments& arguments) {
   for (const std::string& id : syllabus.effects) recipe(id);
   if (const auto at = arguments.find("--walls"); at != arguments.end()) {
     syllabus.walls = read_file(at->second[0]);
-    syllabus.corridor = plan_of_walls(syllabus.walls).has_corridor;
+    try {
+      syllabus.corridor = plan_of_walls(syllabus.walls).has_corridor;
+    } catch (const std::runtime_error& e) {
+      throw std::invalid_argument(at->second[0] + ": " + e.what());
+    }
   }
   set_sizes(syllabus, arguments);
   return syllabus;

@@ -57,9 +57,9 @@ std::string chance(double log_p);
 std::string verdict_in_words(const Diagnosis& diagnosis);
 // dB that noise alone leaves of one row's mean, wherever it lies.
 double noise_floor(const Diagnosis& diagnosis);
-// "places", or "distances" where the data have no places.
 // "6.28 dB"
 std::string db(double value);
+// "places", or "distances" where the data have no places.
 std::string what_is_held_out(const Diagnosis& diagnosis);
 // "blocks", "radios", "runs"
 std::string parts_in_words(search::Part part);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <set>
 #include <utility>
@@ -105,6 +106,21 @@ TEST(SealedPair, IsMeasuredFromTheWorldAsGiven) {
   const auto rms = [](const Eigen::VectorXd& v) { return std::sqrt(v.array().square().mean()); };
   EXPECT_GT(rms(found.seen.before), 1.4 * rms(found.seen.after));
   EXPECT_GT(rms(moved.effect), 1);
+}
+
+// Two runs, which only the column tells apart.
+TEST(ColumnRun, IsWhatIsLeftOut) {
+  const Scratch scratch;
+  std::ifstream in(std::filesystem::path(MUSTER_SOURCE_DIR) / "worlds" / "hall" / "measured_plain.csv");
+  std::string table, line;
+  std::getline(in, line);
+  table = line + ",run\n";
+  for (int k = 0; k < 2000 && std::getline(in, line); ++k) table += line + (k < 1200 ? ",7\n" : ",9\n");
+  const Diagnosis found =
+      diagnose(std::filesystem::path(MUSTER_SOURCE_DIR) / "worlds" / "hall", scratch.write("runs.csv", table), plugins);
+  ASSERT_EQ(found.elsewhere.size(), 1u);
+  EXPECT_EQ(found.elsewhere[0].part, search::Part::run);
+  EXPECT_EQ(found.elsewhere[0].held_out.blocks, 2);
 }
 
 // The parameters that fit readings of swapped radios say nothing of what the swap changes.

@@ -104,6 +104,15 @@ TEST(PlanOfWalls, EveryEffectCanBeHiddenInTheHall) {
   }
 }
 
+TEST(PlanOfWalls, WithoutACorridorNoneIsHidden) {
+  Syllabus syllabus;
+  syllabus.kinds = {"each"};
+  syllabus.walls = two_rooms();
+  syllabus.corridor = false;
+  for (int number = 1; number <= static_cast<int>(recipes().size()); ++number)
+    EXPECT_NE(draw_order(syllabus, number).effects.at(0), "corridor");
+}
+
 void expect_refused(const std::string& csv, const std::string& why) {
   try {
     plan_of_walls(csv);
