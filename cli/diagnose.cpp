@@ -5,6 +5,7 @@
 #endif
 
 #include "diagnosis/closed_loop.hpp"
+#include "diagnosis/diagnose.hpp"
 #include "diagnosis/report/folder.hpp"
 #include "diagnosis/report/json.hpp"
 #include "diagnosis/report/regression.hpp"

@@ -3,7 +3,8 @@
 
 #include <optional>
 
-#include "diagnosis/cause_columns.hpp"
+#include "diagnosis/cause_shape.hpp"
+#include "diagnosis/survey.hpp"
 
 namespace muster::diagnosis {
 

@@ -3,7 +3,7 @@
 
 #include <Eigen/QR>
 
-#include "diagnosis/cause_columns.hpp"
+#include "diagnosis/cause_shape.hpp"
 
 namespace muster::diagnosis {
 

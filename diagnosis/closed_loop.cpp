@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/diagnose.hpp"
 #include "diagnosis/extended_world.hpp"
 #include "diagnosis/fit.hpp"
 

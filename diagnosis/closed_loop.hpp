@@ -1,7 +1,8 @@
 // What was found held against its own consequences: the extended world, simulated and diagnosed again.
 #pragma once
 
-#include "diagnosis/diagnose.hpp"
+#include "diagnosis/result.hpp"
+#include "kernel/simulation.hpp"
 
 namespace muster::diagnosis {
 

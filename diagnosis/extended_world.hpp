@@ -1,7 +1,7 @@
 // A world's folder copied, with found causes as elements and fitted values as attributes.
 #pragma once
 
-#include "diagnosis/diagnose.hpp"
+#include "diagnosis/result.hpp"
 
 namespace muster::diagnosis {
 

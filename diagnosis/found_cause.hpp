@@ -1,7 +1,8 @@
 // A finding of the search as attributes of its plugin, with intervals.
 #pragma once
 
-#include "diagnosis/diagnose.hpp"
+#include "diagnosis/cause_shape.hpp"
+#include "diagnosis/result.hpp"
 
 namespace muster::diagnosis {
 

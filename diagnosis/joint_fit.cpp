@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/cause_columns.hpp"
 #include "diagnosis/noise/basis.hpp"
 #include "text/number.hpp"
 

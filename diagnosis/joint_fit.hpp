@@ -2,7 +2,9 @@
 // mean as linear about the first fit, which losses of walls and places of radios are not.
 #pragma once
 
-#include "diagnosis/diagnose.hpp"
+#include "diagnosis/cause_model.hpp"
+#include "diagnosis/result.hpp"
+#include "diagnosis/search/bench.hpp"
 
 namespace muster::diagnosis {
 

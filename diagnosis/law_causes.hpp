@@ -1,7 +1,10 @@
 // Causes that shift no level: receivers that clip, and laws of what is random that are not the world's.
 #pragma once
 
-#include "diagnosis/diagnose.hpp"
+#include "diagnosis/cause_model.hpp"
+#include "diagnosis/fit.hpp"
+#include "diagnosis/result.hpp"
+#include "diagnosis/search/bench.hpp"
 
 namespace muster::diagnosis {
 

@@ -11,6 +11,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "diagnosis/noise/columns.hpp"
+
 namespace muster::diagnosis {
 namespace {
 
@@ -32,12 +34,6 @@ Eigen::MatrixXd beyond(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& sl
   Eigen::Index first = 0;
   while (first < parts.eigenvalues().size() && parts.eigenvalues()[first] < 1e-4) ++first;
   return even * parts.eigenvectors().rightCols(parts.eigenvalues().size() - first);
-}
-
-Eigen::MatrixXd beside(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  Eigen::MatrixXd both(a.rows(), a.cols() + b.cols());
-  both << a, b;
-  return both;
 }
 
 // Wald's statistic over its number of shapes as F; its second degrees of freedom after Fai and Cornelius (1996).
@@ -107,7 +103,7 @@ std::vector<Bin> names_of(const Fit& fit, const ErrorModel& errors, const Subjec
 
 // What each shape adds by itself, beside the others.
 std::vector<Bin> coefficients_of(const Fit& fit, const ErrorModel& errors, const Subject& subject) {
-  const Eigen::MatrixXd all = beside(subject.shapes, fit.slopes);
+  const Eigen::MatrixXd all = noise::hstack(subject.shapes, fit.slopes);
   const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver(all.transpose() * all);
   const Eigen::MatrixXd gain = solver.solve(all.transpose());
   std::vector<Bin> bins;
@@ -148,7 +144,7 @@ Eigen::VectorXd without(const Eigen::VectorXd& residual, const Eigen::MatrixXd& 
 ErrorModel errors_beside(const Fit& fit, const Eigen::MatrixXd& columns, bool shared) {
   ErrorModel errors(fit.clusters, fit.kernels);
   const Eigen::VectorXd left = without(fit.residual, columns);
-  const Eigen::MatrixXd all = beside(fit.slopes, columns);
+  const Eigen::MatrixXd all = noise::hstack(fit.slopes, columns);
   if (shared)
     errors.fit(left, all);
   else

@@ -1,7 +1,8 @@
 // What a look along one covariate needs: its values on the fit's rows and the shapes to try.
 #pragma once
 
-#include "diagnosis/misfit.hpp"
+#include "diagnosis/fit.hpp"
+#include "diagnosis/residual_structure.hpp"
 
 namespace muster::diagnosis {
 

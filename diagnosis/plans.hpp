@@ -2,7 +2,9 @@
 #pragma once
 
 #include "diagnosis/base_columns.hpp"
-#include "diagnosis/diagnose.hpp"
+#include "diagnosis/cause_shape.hpp"
+#include "diagnosis/result.hpp"
+#include "diagnosis/search/search.hpp"
 
 namespace muster::diagnosis {
 

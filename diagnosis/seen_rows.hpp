@@ -1,7 +1,9 @@
 // What a search looked at, for reports: rows with their places, and what the models leave of them.
 #pragma once
 
-#include "diagnosis/diagnose.hpp"
+#include "diagnosis/model.hpp"
+#include "diagnosis/result.hpp"
+#include "diagnosis/search/bench.hpp"
 
 namespace muster::diagnosis {
 

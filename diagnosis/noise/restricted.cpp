@@ -1,5 +1,7 @@
 #include "diagnosis/noise/restricted.hpp"
 
+#include "diagnosis/noise/columns.hpp"
+
 namespace muster::noise {
 namespace {
 
@@ -14,17 +16,11 @@ PriorTerm on_share(const Covariance& c, const Prior& p) {
   return {c.theta[3] - p.logit_shared, 1 / (p.shared_spread * p.shared_spread)};
 }
 
-Eigen::MatrixXd beside(const Eigen::MatrixXd& design, const Eigen::VectorXd& y) {
-  Eigen::MatrixXd both(design.rows(), design.cols() + 1);
-  both << design, y;
-  return both;
-}
-
 }  // namespace
 
 Whitened whitened(const Whitener& whitener, const Eigen::VectorXd& y, const Eigen::MatrixXd& design,
                   const Prior& prior) {
-  const Eigen::MatrixXd both = whitener(beside(design, y));
+  const Eigen::MatrixXd both = whitener(hstack(design, y));
   Whitened result{basis_of(both.leftCols(design.cols())), both.rightCols(1), {}, 0};
   result.residual = result.basis.rest(result.y);
   const PriorTerm distance = on_distance(whitener.covariance(), prior), share = on_share(whitener.covariance(), prior);
@@ -43,7 +39,7 @@ Objective objective(const Field& field, const Covariance& covariance, const Eige
   // Of the residual sum of squares, and of the design's determinant: the trace of R^-1 Q^T dW X.
   const Eigen::MatrixXd turned = basis.r.triangularView<Eigen::Upper>().solve(basis.q.transpose()).transpose();
   const Theta of_design =
-      slopes.contracted(beside(design(Eigen::all, basis.kept), y - design * beta), beside(turned, at.residual));
+      slopes.contracted(hstack(design(Eigen::all, basis.kept), y - design * beta), hstack(turned, at.residual));
   Objective result{at.value, of_design - slopes.of_log_scale(), slopes.information()};
   const PriorTerm distance = on_distance(covariance, prior), share = on_share(covariance, prior);
   result.gradient[1] += distance.precision * distance.offset;

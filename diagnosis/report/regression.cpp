@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "diagnosis/model.hpp"
 #include "diagnosis/report/replay.hpp"
 #include "text/names.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "diagnosis/diagnose.hpp"
+#include "diagnosis/result.hpp"
 
 namespace muster::report {
 

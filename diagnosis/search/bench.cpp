@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "diagnosis/noise/exact.hpp"
-#include "diagnosis/search/scores.hpp"
+#include "diagnosis/search/null_calibration.hpp"
 #include "diagnosis/search/smooths.hpp"
 #include "diagnosis/search/tail.hpp"
 #include "muster/random.hpp"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "diagnosis/noise/columns.hpp"
 #include "diagnosis/search/integrated.hpp"
 #include "diagnosis/search/replace.hpp"
 #include "diagnosis/search/rivals.hpp"
@@ -129,7 +130,7 @@ void set_halos_aside(Bench& bench, std::vector<Term>& aside) {
   Eigen::MatrixXd smooths(bench.rows().size(), 0);
   for (const Term& term : bench.terms) {
     all.strongest = std::max(all.strongest, term.gain);
-    if (term.smooth()) smooths = beside(smooths, term.columns);
+    if (term.smooth()) smooths = noise::hstack(smooths, term.columns);
   }
   if (smooths.cols()) all.smooths = bench.stand(bench.design([](const Term& t) { return t.smooth(); })).gain(smooths);
   std::vector<Term> kept;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "diagnosis/noise/columns.hpp"
 #include "diagnosis/search/integrated.hpp"
 #include "diagnosis/search/tail.hpp"
 
@@ -24,7 +25,7 @@ std::pair<double, double> range_of(const Problem& problem) {
 
 bool stands_clear_of_clip(const Bench& bench, const noise::Covariance& covariance, const Eigen::MatrixXd& design,
                           const Eigen::MatrixXd& columns) {
-  const Eigen::MatrixXd both = beside(design, columns);
+  const Eigen::MatrixXd both = noise::hstack(design, columns);
   const Eigen::VectorXd predicted = both * bench.stand(both, covariance).coefficients(both.cols());
   // What is filled in spreads less than readings do: by about 15 %.
   const double sd = 1.15 * std::sqrt((bench.y() - predicted).squaredNorm() / static_cast<double>(predicted.size()));

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "diagnosis/noise/columns.hpp"
 #include "diagnosis/noise/exact.hpp"
-#include "diagnosis/search/integrated.hpp"
 
 namespace muster::search {
 namespace {
@@ -78,14 +78,14 @@ double FarRows::profile_gain(const Question& q, const noise::Covariance& without
     return highest;
   };
   const Eigen::MatrixXd design = lengthened(q.design);
-  return 2 * (log_likelihood(beside(design, lengthened(q.columns)), q.with) - log_likelihood(design, without));
+  return 2 * (log_likelihood(noise::hstack(design, lengthened(q.columns)), q.with) - log_likelihood(design, without));
 }
 
 double FarRows::sure_gain(const Question& q) const {
   const Long question = lengthened(q);
   std::vector<noise::Fit> fits;
   for (const noise::Family family : noise::families)
-    fits.push_back(fitted(question.y, beside(question.design, question.columns), q.with, family));
+    fits.push_back(fitted(question.y, noise::hstack(question.design, question.columns), q.with, family));
   const auto likelier = [](const noise::Fit& a, const noise::Fit& b) { return a.value < b.value; };
   const double best = std::min_element(fits.begin(), fits.end(), likelier)->value;
   double least = std::numeric_limits<double>::infinity();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "diagnosis/noise/columns.hpp"
 #include "diagnosis/search/choose.hpp"
 #include "diagnosis/search/clipping.hpp"
 #include "diagnosis/search/integrated.hpp"
@@ -180,7 +181,7 @@ bool enter(Bench& bench, Lead lead, Blocked& blocked, std::vector<Trial>& trials
   if (place && lead.log_p > beyond_doubt && bench.end_rows_at(lead.candidate(), lead.theta) > 0)
     lead.columns = bench.columns_of(lead.candidate(), lead.theta);
   const Eigen::MatrixXd design = bench.design();
-  const noise::Fit fit = fit_with(bench, lead, beside(design, lead.columns));
+  const noise::Fit fit = fit_with(bench, lead, noise::hstack(design, lead.columns));
   trials.push_back(tried(bench, lead, fit, design));
   const Trial& trial = trials.back();
   if (!trial.accepted) {
@@ -219,7 +220,7 @@ std::vector<Lead> closer_look(Bench& bench, const std::vector<Lead>& looked) {
   bench.refit(4);
   for (Lead& lead : places) {
     lead.columns = bench.columns_of(lead.candidate(), lead.theta);
-    const noise::Fit fit = fit_with(bench, lead, beside(design, lead.columns));
+    const noise::Fit fit = fit_with(bench, lead, noise::hstack(design, lead.columns));
     lead = refined(bench, bench.stand(design, fit.covariance), lead, true);
   }
   by_evidence(places);
@@ -229,7 +230,7 @@ std::vector<Lead> closer_look(Bench& bench, const std::vector<Lead>& looked) {
 void enter_as_stated(Bench& bench, const Lead& lead) {
   const Candidate& c = lead.candidate();
   const Eigen::MatrixXd design = bench.design();
-  const noise::Fit fit = fit_with(bench, lead, beside(design, lead.columns));
+  const noise::Fit fit = fit_with(bench, lead, noise::hstack(design, lead.columns));
   const double gain = gain_of(c, bench.stand(design, fit.covariance), lead.columns);
   Term term{lead.entry->candidate,
             lead.theta,

@@ -1,5 +1,6 @@
 #include "diagnosis/search/hold_out.hpp"
 
+#include "diagnosis/noise/columns.hpp"
 #include "diagnosis/search/integrated.hpp"
 
 namespace muster::search {
@@ -17,8 +18,8 @@ class Errors {
     Sample rows{bench_.y(), bench_.base()}, readings{bench_.measured(), bench_.problem().base};
     for (std::size_t k = 0; k < at_readings_.size(); ++k) {
       if (!has(k)) continue;
-      rows.design = beside(rows.design, bench_.terms[k].columns);
-      readings.design = beside(readings.design, at_readings_[k]);
+      rows.design = noise::hstack(rows.design, bench_.terms[k].columns);
+      readings.design = noise::hstack(readings.design, at_readings_[k]);
     }
     return folds_.squared_errors(rows, readings);
   }

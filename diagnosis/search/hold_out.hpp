@@ -2,7 +2,8 @@
 // without some places and held against these; and so for radios and runs where there are several.
 #pragma once
 
-#include "diagnosis/search/search.hpp"
+#include "diagnosis/search/bench.hpp"
+#include "diagnosis/search/finding.hpp"
 
 namespace muster::search {
 

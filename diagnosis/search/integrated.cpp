@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/noise/columns.hpp"
 #include "diagnosis/search/tail.hpp"
 
 namespace muster::search {
@@ -24,7 +25,7 @@ double log_average(const std::vector<double>& log_weights, const std::vector<dou
 // Over draws of theta in one family, weighed by the restricted posterior with the columns inside.
 double over_draws(const Bench& bench, const noise::Fit& fit, const Eigen::MatrixXd& design,
                   const Eigen::MatrixXd& columns, double log_tests) {
-  const Eigen::MatrixXd both = beside(design, columns);
+  const Eigen::MatrixXd both = noise::hstack(design, columns);
   const noise::Prior& prior = bench.options().prior;
   std::vector<double> log_weights, log_p;
   for (const noise::Draw& draw : noise::draws(fit, bench.options().draws, bench.options().seed)) {
@@ -45,12 +46,6 @@ double over_draws(const Bench& bench, const noise::Fit& fit, const Eigen::Matrix
 
 }  // namespace
 
-Eigen::MatrixXd beside(const Eigen::MatrixXd& design, const Eigen::MatrixXd& columns) {
-  Eigen::MatrixXd both(design.rows(), design.cols() + columns.cols());
-  both << design, columns;
-  return both;
-}
-
 double log_tests(const Bench& bench, const Candidate& candidate) {
   return bench.log_atoms(candidate) + candidate.charge - (candidate.sign ? std::log(2.0) : 0);
 }
@@ -63,7 +58,7 @@ double integrated_log_p(const Bench& bench, const noise::Fit& fit, const Eigen::
     if (log_p > std::log(1e-3)) break;
     if (other.covariance.family == fit.covariance.family) continue;
     if (other.value > bench.families[0].value + hopeless) continue;
-    const noise::Fit refit = bench.fitted(beside(design, columns), other.covariance, 6);
+    const noise::Fit refit = bench.fitted(noise::hstack(design, columns), other.covariance, 6);
     if (refit.value > fit.value + excluded) continue;
     log_p = std::max(log_p, over_draws(bench, refit, design, columns, log_tests));
   }

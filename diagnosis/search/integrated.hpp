@@ -13,6 +13,4 @@ double log_tests(const Bench& bench, const Candidate& candidate);
 double integrated_log_p(const Bench& bench, const noise::Fit& fit, const Eigen::MatrixXd& design,
                         const Eigen::MatrixXd& columns, double log_tests);
 
-Eigen::MatrixXd beside(const Eigen::MatrixXd& design, const Eigen::MatrixXd& columns);
-
 }  // namespace muster::search

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "diagnosis/noise/columns.hpp"
 #include "diagnosis/search/integrated.hpp"
 
 namespace muster::search {
@@ -45,11 +46,11 @@ std::vector<double> Planned::separability(const Term& term, const std::vector<st
   Eigen::MatrixXd here = bench_.base(), there = plan_.base;
   for (const Term& other : bench_.terms) {
     if (&other == &term || other.smooth()) continue;  // a smooth says nothing of readings elsewhere
-    here = beside(here, other.columns);
-    there = beside(there, planned(plan_, other.candidate->id).columns(other.theta));
+    here = noise::hstack(here, other.columns);
+    there = noise::hstack(there, planned(plan_, other.candidate->id).columns(other.theta));
   }
   const auto basis = noise::basis_of(whitened(here, there));
-  const Eigen::MatrixXd design = beside(bench_.design_without(term), term.columns);
+  const Eigen::MatrixXd design = noise::hstack(bench_.design_without(term), term.columns);
   const Eigen::VectorXd coefficients = bench_.stand(design).coefficients(design.cols()).tail(term.columns.cols());
   const Eigen::VectorXd effect = basis.rest(
       whitened(term.columns * coefficients, planned(plan_, term.candidate->id).columns(term.theta) * coefficients));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "diagnosis/noise/columns.hpp"
 #include "diagnosis/search/integrated.hpp"
 #include "diagnosis/search/scores.hpp"
 
@@ -19,7 +20,7 @@ struct Replacement {
   Eigen::MatrixXd with(const std::vector<Term>& found, const Term* without = nullptr) const {
     Eigen::MatrixXd result = rest;
     for (const Term& term : found) {
-      if (&term != without) result = beside(result, term.columns);
+      if (&term != without) result = noise::hstack(result, term.columns);
     }
     return result;
   }
@@ -97,7 +98,7 @@ void replace_smooths(Bench& bench) {
     if (!has_names) continue;
     Eigen::MatrixXd group(bench.rows().size(), 0);
     for (const Term& term : bench.terms) {
-      if (in_group(term)) group = beside(group, term.columns);
+      if (in_group(term)) group = noise::hstack(group, term.columns);
     }
     const Eigen::MatrixXd rest = bench.design(in_group);
     const Replacement replacement{bench, covariate, rest, bench.stand(rest).gain(group), group.cols()};

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 
+#include "diagnosis/noise/columns.hpp"
 #include "diagnosis/search/integrated.hpp"
 #include "diagnosis/search/refine.hpp"
 
@@ -15,7 +16,7 @@ constexpr double worth_refining = 15;  // nats
 
 // The term's fitted effect at rows, dB.
 Eigen::VectorXd effect_of(const Bench& bench, const Term& term) {
-  const Eigen::MatrixXd design = beside(bench.design_without(term), term.columns);
+  const Eigen::MatrixXd design = noise::hstack(bench.design_without(term), term.columns);
   return term.columns * bench.stand(design).coefficients(design.cols()).tail(term.columns.cols());
 }
 
@@ -97,7 +98,7 @@ bool left_open(const Rival& rival) {
 }
 
 double standing(const Bench& bench, const Eigen::MatrixXd& design, const Candidate& c, const Eigen::MatrixXd& columns) {
-  const Eigen::MatrixXd both = beside(design, columns);
+  const Eigen::MatrixXd both = noise::hstack(design, columns);
   const noise::Fit fit = bench.fitted(both, bench.fit.covariance, 4);
   const Stand rest = bench.stand(design, fit.covariance);
   const double by_a_multiple = rest.gain(columns) - gain_of(c, rest, columns);

@@ -2,24 +2,9 @@
 #pragma once
 
 #include "diagnosis/search/bench.hpp"
+#include "diagnosis/search/null_calibration.hpp"
 
 namespace muster::search {
-
-// Atoms made orthonormal, each within itself, without a second copy of them: the columns as they are, and for each atom
-// what turns products with its columns into products with orthonormal ones; zero where nothing is left.
-class UnitAtoms {
- public:
-  // `width` columns an atom.
-  UnitAtoms(noise::Sheet columns, Index width);
-
-  // Products with orthonormal columns, a row each, with every column of x.
-  Eigen::MatrixXf along(const Eigen::Ref<const noise::Sheet>& x) const;
-
- private:
-  noise::Sheet columns_;
-  Index width_;
-  Eigen::MatrixXf turns_;  // of each atom, beside one another
-};
 
 // Atoms whitened, without what the design explains.
 UnitAtoms unit_atoms(const Entry& entry, const Stand& stand);
@@ -29,9 +14,6 @@ Eigen::VectorXd gains(const Candidate& candidate, const UnitAtoms& unit, const E
 
 // The fall of the deviance by one atom; of a whole candidate as it is, since a multiple of it means nothing.
 double gain_of(const Candidate& candidate, const Stand& stand, const Eigen::MatrixXd& columns);
-
-// log of the number of independent tests whose largest statistic is distributed as that of these atoms over `normals`.
-double log_effective(const Candidate& candidate, const UnitAtoms& unit, const noise::Sheet& normals);
 
 // A candidate at its best atom, or further.
 struct Lead {

@@ -5,6 +5,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "diagnosis/noise/columns.hpp"
 #include "diagnosis/search/clean_up.hpp"
 #include "diagnosis/search/hold_out.hpp"
 #include "diagnosis/search/integrated.hpp"
@@ -99,7 +100,7 @@ void Search::check_what_is_left(Result& result, const Stand& stand) {
 }
 
 Finding Search::finding_of(const Term& term, Status status) const {
-  const Eigen::MatrixXd design = beside(bench_.design_without(term), term.columns);
+  const Eigen::MatrixXd design = noise::hstack(bench_.design_without(term), term.columns);
   const Stand stand = bench_.stand(design);
   const Index width = term.columns.cols();
   Finding finding{term.id(),

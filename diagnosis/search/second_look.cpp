@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/noise/columns.hpp"
 #include "diagnosis/search/integrated.hpp"
 
 namespace muster::search {
@@ -67,11 +68,11 @@ std::vector<Lead> second_look(Bench& bench, const Stand& stand, const std::vecto
     if (c.starts > 1) lead = refined(bench, stand, lead, false);
     lead.log_p = bench.log_p(c, lead.gain, c.width, true);
     if (bench.log_p(c, most_once_fitted(lead.gain), c.width, true) > bench.threshold()) continue;
-    noise::Fit fit = fit_with(bench, c, beside(design, lead.columns));
+    noise::Fit fit = fit_with(bench, c, noise::hstack(design, lead.columns));
     const double gain = gain_of(c, bench.stand(design, fit.covariance), lead.columns);
     if (c.starts > 1 && bench.log_p(c, most_to_come(lead.gain, gain), c.width, true) < bench.threshold()) {
       lead = refined(bench, bench.stand(design, fit.covariance), lead, false);
-      fit = bench.fitted(beside(design, lead.columns), fit.covariance, 6);
+      fit = bench.fitted(noise::hstack(design, lead.columns), fit.covariance, 6);
     }
     lead.gain = gain_of(c, bench.stand(design, fit.covariance), lead.columns);
     lead.evidence = bench.evidence(c, lead.gain, c.width, false);

@@ -5,6 +5,7 @@
 #include <map>
 #include <tuple>
 
+#include "diagnosis/noise/columns.hpp"
 #include "diagnosis/search/integrated.hpp"
 #include "diagnosis/search/likely_thetas.hpp"
 #include "diagnosis/search/uncertainty.hpp"
@@ -46,7 +47,7 @@ Spread spread_of(const Bench& bench, const Term& term) {
   const Beside fitted(rest, term.columns, term.candidate->whole);
   const Index width = term.columns.cols();
   const Eigen::MatrixXd known =
-      uncertainty_of(bench, beside(bench.design_without(term), term.columns)).bottomRightCorner(width, width);
+      uncertainty_of(bench, noise::hstack(bench.design_without(term), term.columns)).bottomRightCorner(width, width);
   const double overstated = std::max(1.0, known.trace() / fitted.covariance.trace());
   const double grown = std::max(overstated, by_scatter(bench, rest, fitted));
   Spread result{{term.theta}, grown * fitted.covariance};

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "diagnosis/noise/columns.hpp"
 #include "diagnosis/search/integrated.hpp"
 #include "diagnosis/search/tail.hpp"
 
@@ -74,7 +75,7 @@ std::optional<Lead> stated_look(Bench& bench, const std::function<bool(const Can
   const Stand alone = bench.stand(design, fitted_as_stated(bench, design)[0].covariance);
   std::vector<Lead> leads = beyond_chance(bench, alone, threshold, usable);
   for (std::size_t k = 0; k < std::min(leads.size(), looked_at); ++k) {
-    const Eigen::MatrixXd both = beside(design, leads[k].columns);
+    const Eigen::MatrixXd both = noise::hstack(design, leads[k].columns);
     const std::vector<noise::Fit> fits = fitted_as_stated(bench, both);
     weigh_beside(bench, design, fits, leads[k]);
     if (leads[k].log_p < threshold && stands_as_stated(bench, both, fits[0])) return leads[k];

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "block_cholesky.hpp"
+#include "engine.hpp"
 #include "flight.hpp"
 #include "model.hpp"
-#include "world.hpp"
 
 namespace muster::simbody {
 

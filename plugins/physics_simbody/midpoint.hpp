@@ -2,8 +2,8 @@
 // that may not meet within a tick go through it apart from each other, on as many threads as there are.
 #pragma once
 
+#include "engine.hpp"
 #include "mover.hpp"
-#include "world.hpp"
 
 namespace muster::simbody {
 

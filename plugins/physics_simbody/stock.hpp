@@ -3,8 +3,8 @@
 // to no bits.
 #pragma once
 
+#include "engine.hpp"
 #include "model.hpp"
-#include "world.hpp"
 
 namespace muster::simbody {
 

@@ -1,9 +1,8 @@
 // Lays panels out in a grid so that the plots of a column and of a row line up.
-#include "figure.hpp"
-
 #include <set>
 
 #include "draw.hpp"
+#include "figure.hpp"
 
 namespace muster::picture {
 namespace {
