@@ -6,13 +6,13 @@ namespace muster::diagnosis {
 
 bool Diagnosis::named() const {
   return std::any_of(causes.begin(), causes.end(),
-                     [](const FoundCause& c) { return c.status == search::Status::named; });
+                     [](const FoundCause& c) { return c.status == inference::Status::named; });
 }
 
 std::vector<Told> told_by(const Diagnosis& d) {
   std::vector<Told> result;
   for (const FoundCause& c : d.causes) {
-    if (c.status == search::Status::named) result.push_back({c.id, c.label});
+    if (c.status == inference::Status::named) result.push_back({c.id, c.label});
   }
   for (const Unexplained& u : d.unexplained) result.push_back({"~" + u.covariate, ""});
   return result;

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/instrument.hpp"
-#include "diagnosis/search/finding.hpp"
-#include "diagnosis/search/problem.hpp"
+#include "diagnosis/inference/assess/finding.hpp"
+#include "diagnosis/inference/state/problem.hpp"
+#include "diagnosis/radio/links/receiver_checks.hpp"
 
 namespace muster::diagnosis {
 
@@ -26,7 +26,7 @@ struct FoundCause {
   // search's, but a law of readings or an edit that came before it.
   std::string sought_as;
   bool put_right_first = false;  // and all else was judged in a world that has it
-  search::Status status = search::Status::named;
+  inference::Status status = inference::Status::named;
   std::vector<std::string> covariates;  // what it is a function of, its own one first: "map", "time", "bearing"
   std::string row_parameter, row;       // empty where it is about no row
   std::vector<CauseValue> values;
@@ -36,10 +36,11 @@ struct FoundCause {
   double evidence = 0, log_p = 0;
   double lambda = 0;       // fall of the deviance by it, beside all others
   Eigen::VectorXd effect;  // dB it adds to each of the rows seen
-  std::optional<search::HeldOut> held_out;
+  std::optional<inference::HeldOut> held_out;
   Eigen::VectorXd unseen_without;  // squared errors at places not seen without it, in the order of Diagnosis::used
-  std::vector<search::Elsewhere> elsewhere;  // what it gains with radios and runs not seen, where it concerns several
-  std::vector<search::Rival> rivals;
+  std::vector<inference::Elsewhere>
+      elsewhere;  // what it gains with radios and runs not seen, where it concerns several
+  std::vector<inference::Rival> rivals;
   std::string doubt{};  // why it is not sure, whatever it gains; empty: nothing speaks so
 
   bool changes_in_time() const;
@@ -49,9 +50,9 @@ struct Unexplained {
   std::string covariate;
   double evidence = 0;
   double lambda = 0;
-  std::optional<search::HeldOut> held_out;
-  std::vector<search::Elsewhere> elsewhere{};
-  std::vector<search::Rival> rivals{};  // causes that explain it nearly as well
+  std::optional<inference::HeldOut> held_out;
+  std::vector<inference::Elsewhere> elsewhere{};
+  std::vector<inference::Rival> rivals{};  // causes that explain it nearly as well
 
   bool changes_in_time() const;
 };
@@ -71,8 +72,8 @@ struct SeenRows {
   Eigen::VectorXd heading, bearing;           // rad, of and from the end that moves: empty where no heading is known
   Eigen::VectorXd before, after;              // dB, measured less the world fitted alone, less the extended one
   Eigen::VectorXd white_before, white_after;  // the same, in its sd, without what its neighbours share with it
-  std::vector<search::Covariate> columns;     // further columns of the data, means
-  std::vector<search::Factor> factors;
+  std::vector<inference::Covariate> columns;  // further columns of the data, means
+  std::vector<inference::Factor> factors;
   std::vector<MappedWall> walls;
   bool places_known = true;  // false: only distances are, and places stand for them
 };
@@ -129,15 +130,15 @@ struct Diagnosis {
   Instrument instrument;   // what the readings show of the receiver, and that the record is sound
   double residual_sd = 0;  // dB, of the fitted world
   noise::Covariance noise;
-  std::optional<search::HeldOut> held_out;
-  std::optional<search::Unseen> unseen;      // what held_out is of, in the order of `used`
-  std::vector<search::Elsewhere> elsewhere;  // the same with radios and runs not seen, where there are several
-  std::vector<Eigen::Index> used;            // rows of the table that were searched
-  Eigen::VectorXd fitted;                    // mean of the world as given, fitted, at every row of the table, dBm
-  std::map<std::string, double> parameters;  // of the world, beside the causes
-  std::vector<WorldValue> world_values;      // the same with their spread
-  std::vector<search::Stair> stairs;         // held-out error of the world, then with each accepted finding in turn
-  std::vector<search::Check> checks;         // all that was looked at beside what was found, the likeliest first
+  std::optional<inference::HeldOut> held_out;
+  std::optional<inference::Unseen> unseen;      // what held_out is of, in the order of `used`
+  std::vector<inference::Elsewhere> elsewhere;  // the same with radios and runs not seen, where there are several
+  std::vector<Eigen::Index> used;               // rows of the table that were searched
+  Eigen::VectorXd fitted;                       // mean of the world as given, fitted, at every row of the table, dBm
+  std::map<std::string, double> parameters;     // of the world, beside the causes
+  std::vector<WorldValue> world_values;         // the same with their spread
+  std::vector<inference::Stair> stairs;         // held-out error of the world, then with each accepted finding in turn
+  std::vector<inference::Check> checks;         // all that was looked at beside what was found, the likeliest first
   std::vector<Advice> advice;
   std::optional<PlannedReadings> advised;  // of the plans, the one that decides most about the strongest open cause
   SeenRows seen;

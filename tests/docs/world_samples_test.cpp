@@ -5,7 +5,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "tests/errors/program.hpp"
+#include "tests/cli/errors/program.hpp"
 
 namespace muster::test {
 namespace {
