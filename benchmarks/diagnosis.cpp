@@ -1,5 +1,5 @@
 // Measures the cost of a diagnosis. Limits: 2 s of search and 10 s in all at 20,000 readings, a minute and 4 GB at
-// 100,000 (docs/diagnosis.md). The counter of_limit is the share used.
+// 100,000. The counter of_limit is the share used.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
