@@ -144,9 +144,19 @@ bool is_path(std::string_view word, const std::vector<std::string>& top_folders)
                      [&](const std::string& folder) { return lies_in(word, folder); });
 }
 
-bool is_there(const fs::path& root, const std::string& file, const std::string& path) {
-  std::vector<std::string> folders{"docs", "plugins", "plugin_api", ""};
+// Folders from which a comment in `file` may count a path.
+std::vector<std::string> places_of(const fs::path& root, const std::string& file) {
+  std::vector<std::string> folders{"plugins", "plugin_api", "docs", ""};
   for (std::string folder = folder_of(file); !folder.empty(); folder = folder_of(folder)) folders.push_back(folder);
+  if (!fs::is_directory(root / "docs")) return folders;
+  for (const auto& entry : fs::directory_iterator(root / "docs")) {
+    if (entry.is_directory()) folders.push_back("docs/" + entry.path().filename().string());
+  }
+  return folders;
+}
+
+bool is_there(const fs::path& root, const std::string& file, const std::string& path) {
+  const auto folders = places_of(root, file);
   return std::any_of(folders.begin(), folders.end(), [&](const std::string& folder) {
     std::error_code none;
     return fs::exists(root / folder / path, none);

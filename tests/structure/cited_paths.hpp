@@ -24,7 +24,7 @@ std::vector<Comment> comments_of(const TextFile& file);
 std::vector<std::string> paths_in(std::string_view comment, const std::vector<std::string>& top_folders);
 
 // Comments below `root` that cite a path which is not there: "file:line: path". A path counts from the root, from
-// docs/, plugins/ or plugin_api/, or from any folder that holds the file.
+// plugins/ or plugin_api/, from docs/ or a folder in it, or from any folder that holds the file.
 std::vector<std::string> lost_citations(const std::filesystem::path& root);
 
 }  // namespace muster::test

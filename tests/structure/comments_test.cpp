@@ -4,6 +4,7 @@
 
 #include "../folder.hpp"
 #include "cited_paths.hpp"
+#include "lines.hpp"
 
 namespace muster::test {
 namespace {
@@ -20,9 +21,7 @@ std::vector<std::string> texts(const std::string& path, const std::string& text)
 
 TEST(Comments, CitePathsThatAreThere) {
   const auto lost = lost_citations(MUSTER_SOURCE_DIR);
-  std::string lines;
-  for (const std::string& line : lost) lines += "\n" + line;
-  EXPECT_TRUE(lost.empty()) << lost.size() << " comments cite what is not in the tree:" << lines;
+  EXPECT_TRUE(lost.empty()) << "comments that cite what is not in the tree, " << lines(lost);
 }
 
 TEST(Comments, OfSourcesAreRead) {
@@ -58,9 +57,9 @@ TEST(Comments, ALostCitationIsNamed) {
       "room/low/a.hpp",
       "// See low/b.hpp, c.hpp, page.md, GONE.md and\n// docs/lost.md; \"docs/x.md\"\nauto s = \"docs/none.md\";\n");
   tree.write("room/low/b.hpp", "");
-  tree.write("docs/page.md", "");
+  tree.write("docs/reference/page.md", "");
   tree.write("build/a.hpp", "// docs/lost.md\n");
-  tree.write("room/world.xml", "<w/>\n<!-- docs/page.md room/gone.csv -->\n");
+  tree.write("room/world.xml", "<w/>\n<!-- docs/reference/page.md room/gone.csv -->\n");
   EXPECT_THAT(lost_citations(tree.path()),
               ElementsAre("room/low/a.hpp:1: GONE.md", "room/low/a.hpp:2: docs/lost.md", "room/low/a.hpp:2: docs/x.md",
                           "room/world.xml:2: room/gone.csv"));

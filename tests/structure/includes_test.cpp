@@ -4,6 +4,7 @@
 
 #include "../folder.hpp"
 #include "include_graph.hpp"
+#include "lines.hpp"
 #include "storeys.hpp"
 
 namespace muster::test {
@@ -20,16 +21,11 @@ const IncludeGraph& graph_of_the_tree() {
   return graph;
 }
 
-std::string lines(const std::vector<std::string>& messages) {
-  std::string result;
-  for (const std::string& message : messages) result += "\n" + message;
-  return result;
-}
-
 const Storeys two_storeys{{"low", {}}, {"high", {"low"}}, {"high/*", {"low", "high"}}, {"high/top", {"high/room"}}};
 
 TEST(Storeys, TheTableNamesFoldersAndOnlyLowerOnes) {
-  EXPECT_THAT(table_faults(root, storeys()), IsEmpty()) << lines(table_faults(root, storeys()));
+  const auto faults = table_faults(root, storeys());
+  EXPECT_TRUE(faults.empty()) << lines(faults);
 }
 
 TEST(Storeys, IncludesRunDown) {
@@ -38,7 +34,10 @@ TEST(Storeys, IncludesRunDown) {
   EXPECT_TRUE(faults.empty()) << lines(faults) << "\nThe table is tests/structure/storey_table.cpp.";
 }
 
-TEST(Storeys, EverySourceHasOne) { EXPECT_THAT(homeless_folders(graph_of_the_tree(), storeys()), IsEmpty()); }
+TEST(Storeys, EverySourceHasOne) {
+  const auto folders = homeless_folders(graph_of_the_tree(), storeys());
+  EXPECT_TRUE(folders.empty()) << lines(folders);
+}
 
 TEST(Storeys, EveryQuotedIncludeIsAFileOfTheTree) {
   EXPECT_TRUE(graph_of_the_tree().unresolved.empty()) << lines(graph_of_the_tree().unresolved);
@@ -70,6 +69,20 @@ TEST(Storeys, AStarMakesARoomOfEachFolder) {
                   "high/top/c.hpp:2: high/top includes high/other (high/other/b.hpp); it may include high/room"));
 }
 
+TEST(Storeys, AUnitCanBeARoom) {
+  Folder tree;
+  tree.write("high/result.hpp", "");
+  tree.write("high/result.cpp", "#include \"result.hpp\"\n#include \"room/a.hpp\"\n");
+  tree.write("high/room/a.hpp", "#include \"high/result.hpp\"\n");
+  const Storeys table{{"high/result", {}}, {"high/room", {"high/result"}}};
+  const IncludeGraph graph = read_includes(tree.path(), top_folders(table));
+  EXPECT_THAT(table_faults(tree.path(), table), IsEmpty());
+  EXPECT_THAT(homeless_folders(graph, table), IsEmpty());
+  EXPECT_THAT(
+      upward_includes(graph, table),
+      ElementsAre("high/result.cpp:2: high/result includes high/room (high/room/a.hpp); it may include nothing"));
+}
+
 TEST(Storeys, ASourceOutsideTheTableIsNamed) {
   Folder tree;
   tree.write("low/new/a.hpp", "#include \"low/b.hpp\"\n");
@@ -88,7 +101,7 @@ TEST(Storeys, FaultsOfATableAreNamed) {
   EXPECT_THAT(
       table_faults(tree.path(), {{"low", {"attic", "middle"}}, {"middle", {"low"}}}),
       ElementsAre("low: may include attic, which is no room of the table",
-                  "low: may include middle, which does not lie below it", "middle: there is no such folder or file"));
+                  "low: may include middle, which does not lie below it", "middle: there is no such folder or unit"));
 }
 
 TEST(Storeys, AnIncludeThatIsNowhereIsNamed) {

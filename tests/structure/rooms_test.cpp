@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "../folder.hpp"
+#include "lines.hpp"
 
 namespace muster::test {
 namespace {
@@ -19,18 +20,20 @@ constexpr std::size_t most_loose_files = 6;  // at the top of diagnosis/, whose 
 TEST(Rooms, NoFolderIsCrowded) {
   for (const char* folder : {"diagnosis", "exam", "plotting"}) {
     EXPECT_TRUE(std::filesystem::is_directory(root / folder)) << folder;
-    EXPECT_THAT(crowded_folders(root, folder, most_units), IsEmpty());
+    const auto crowded = crowded_folders(root, folder, most_units);
+    EXPECT_TRUE(crowded.empty()) << lines(crowded);
   }
 }
 
 TEST(Rooms, FilesOfTheDiagnosisLieInItsRooms) {
-  EXPECT_LE(files_in(root, "diagnosis").size(), most_loose_files)
-      << testing::PrintToString(files_in(root, "diagnosis"));
+  const auto files = files_in(root, "diagnosis");
+  EXPECT_LE(files.size(), most_loose_files) << lines(files);
 }
 
 TEST(Rooms, TheInferenceCoreKnowsNoDomain) {
   EXPECT_TRUE(std::filesystem::is_directory(root / "diagnosis/inference"));
-  EXPECT_THAT(domain_words(root, "diagnosis/inference"), IsEmpty());
+  const auto words = domain_words(root, "diagnosis/inference");
+  EXPECT_TRUE(words.empty()) << lines(words);
 }
 
 TEST(Rooms, UnitsAreCountedByFolder) {

@@ -30,7 +30,11 @@ Room room_of(const std::string& path, const Storeys& storeys) {
   Room found;
   for (const Storey& storey : storeys) {
     const bool star = ends_in_star(storey.room);
-    std::string name = star ? starred_room(storey.room, path) : lies_in(path, storey.room) ? storey.room : "";
+    std::string name;
+    if (star)
+      name = starred_room(storey.room, path);
+    else if (lies_in(path, storey.room) || unit_of(path) == storey.room)
+      name = storey.room;
     if (name.empty() || name.size() < found.name.size() || (star && name == found.name)) continue;
     found = {std::move(name), &storey};
   }
@@ -73,8 +77,8 @@ std::vector<std::string> table_faults(const std::filesystem::path& root, const S
   for (const Storey& storey : storeys) {
     const std::string folder(ends_in_star(storey.room) ? without_star(storey.room) : storey.room);
     // The tree must build without any one folder of plugins.
-    if (!folder.starts_with("plugins/") && !std::filesystem::exists(root / folder))
-      faults.push_back(storey.room + ": there is no such folder or file");
+    if (!folder.starts_with("plugins/") && !is_directory(root / folder) && !exists(root / (folder + ".hpp")))
+      faults.push_back(storey.room + ": there is no such folder or unit");
     for (const std::string& allowed : storey.may_include) {
       bool is_known = false;
       bool is_below = true;

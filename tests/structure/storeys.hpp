@@ -9,7 +9,8 @@
 
 namespace muster::test {
 
-// A room is a folder with all below it that is no room itself, or one file. "X/*" makes a room of each folder in X.
+// A room is a folder with all below it that is no room itself, or one unit: a header and its source, named without
+// extension. "X/*" makes a room of each folder in X.
 struct Storey {
   std::string room{};
   std::vector<std::string> may_include{};  // rooms, by the same names; "X/*" is every room below X
