@@ -15,7 +15,7 @@ struct Comment {
   std::string text{};  // one line of it
 };
 
-// The comments of a file, by the language that its name tells: // and /* */, #, or <!-- -->.
+// The comments of a file, by the language of its name: // and /* */, #, or <!-- -->.
 std::vector<Comment> comments_of(const TextFile& file);
 
 // Words of a comment that cite a file of the tree: a path with an extension of ours or a top-level folder in front, or

@@ -39,7 +39,7 @@ TEST(Comments, OfScriptsCMakeFilesAndWorldsAreRead) {
   EXPECT_THAT(texts("a.xml", "<a b=\"# no\"/> <!-- one\ntwo -->\n// no\n"), ElementsAre("1: one", "2:two "));
 }
 
-TEST(Comments, PathsAreTold) {
+TEST(Comments, PathsAreFound) {
   const std::vector<std::string> tops{"kernel", "docs"};
   EXPECT_THAT(paths_in(" as in kernel/step.cpp, (see docs/a.md#part) and `search/b.hpp`.", tops),
               ElementsAre("kernel/step.cpp", "docs/a.md", "search/b.hpp"));
