@@ -1,5 +1,5 @@
-// What a diagnosis costs. Limits: DIAGNOSIS.md section 11 asks for 2 s of search and 10 s in all at 20,000 readings,
-// and for a minute and 4 GB at 100,000; the counter of_limit is the share that is used.
+// Measures the cost of a diagnosis. Limits: 2 s of search and 10 s in all at 20,000 readings, a minute and 4 GB at
+// 100,000. The counter of_limit is the share used.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

@@ -25,7 +25,7 @@ struct RunOutcome {
 std::string default_command();
 
 // Cases that have a report are left alone, so that a run goes on where it was stopped. A command that fails leaves no
-// report. Appends what each case cost to reports/costs.csv. Throws std::runtime_error.
+// report. Appends the cost of each case to costs.csv beside the reports. Throws std::runtime_error.
 RunOutcome run_cases(const RunOrder& order);
 
 }  // namespace muster::exam

@@ -37,7 +37,7 @@ struct Problem {
   std::function<std::vector<Candidate>(const Eigen::VectorXd& base_coefficients)> depending;
 };
 
-// The method's constants; docs and design/notes/diagnosis_method.md say where each comes from.
+// Constants of the method, with their units.
 struct Options {
   double first_alpha = 0.003, further_alpha = 0.0015;  // over all candidates
   int nulls = 200;                                     // draws for the effective number of atoms

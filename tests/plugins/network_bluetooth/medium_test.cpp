@@ -1,5 +1,5 @@
-// The piconet against the specification's times and rates, closed forms, and its own books. Numbers are rows of the
-// requirements (../shared/design/REQUIREMENTS.md).
+// The piconet against the specification's times and rates, closed forms, and its own books. tests/README.md lists the
+// rows.
 #include "medium.hpp"
 
 #include <gtest/gtest.h>

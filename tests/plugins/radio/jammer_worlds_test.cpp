@@ -1,5 +1,5 @@
-// A jammer in the world: the channel carries what it radiates, and networks that share a channel feel it. Numbers are
-// rows of the requirements (../shared/design/REQUIREMENTS.md).
+// A jammer in the world: the channel carries what it radiates, and networks that share a channel feel it.
+// tests/README.md lists the rows.
 #include <gmock/gmock.h>
 
 #include "world_of.hpp"

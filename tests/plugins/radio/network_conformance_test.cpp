@@ -1,5 +1,5 @@
-// What every network must keep of messages and of the world that they pass; of outcomes: outcome_conformance.cpp.
-// Numbers are rows of the requirements (../shared/design/REQUIREMENTS.md).
+// Conformance of every network: messages, and the world that they pass. outcome_conformance.cpp tests outcomes;
+// tests/README.md lists the rows.
 #include <gmock/gmock.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// What every network must keep of requests: each is evaluated, and its copies have one outcome each. Row 21 of the
-// requirements (../shared/design/REQUIREMENTS.md).
+// Conformance of every network: each request is evaluated, and each of its copies has one outcome (row 21 of
+// tests/README.md).
 #include "each_network.hpp"
 
 namespace muster {

@@ -1,4 +1,4 @@
-// A piconet in the world: who is in it. Numbers are rows of the requirements (../shared/design/REQUIREMENTS.md).
+// Membership of a piconet in a world. tests/README.md lists the rows.
 #include <gmock/gmock.h>
 
 #include "world_of.hpp"

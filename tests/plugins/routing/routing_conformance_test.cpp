@@ -1,5 +1,4 @@
-// What every routing keeps on every network, known by nothing but their files. Numbers are rows of the requirements
-// (../shared/design/REQUIREMENTS.md).
+// Conformance of every routing on every network, each known by its file alone. tests/README.md lists the rows.
 #include <map>
 
 #include "routing_worlds.hpp"
