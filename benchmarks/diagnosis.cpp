@@ -70,7 +70,7 @@ void finish(benchmark::State& state, double limit) {
 
 void search_of_all_causes(benchmark::State& state) {
   const Tours tours(static_cast<int>(state.range(0)));
-  const diagnosis::Prepared at(hall, tours.file(), plugins);
+  const diagnosis::DiagnosisSetup at(hall, tours.file(), plugins);
   for (auto _ : state) {
     inference::Search search(at.problem, at.options);
     require_the_wall(search.run().findings.at(0).id);

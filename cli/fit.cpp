@@ -60,7 +60,7 @@ int run_fit(const Arguments& arguments) {
   progress.at(0.2);
   const diagnosis::Fit fit = diagnosis::fit(model, data, {words.free, words.fix});
   progress.at(0.5);
-  const diagnosis::Misfit misfit = misfit_of(model, data, fit, features_of(model));
+  const diagnosis::ResidualScan misfit = residual_scan(model, data, fit, features_of(model));
   progress.at(0.9);
   const diagnosis::CellOptions cells{words.cell, words.least,
                                      words.average == "dB" ? diagnosis::Average::dB : diagnosis::Average::power};

@@ -32,7 +32,7 @@ Json search_json(const Fit& fit) {
           {"evaluations", fit.search.evaluations},   {"least_squares_evaluations", fit.least_squares.evaluations}};
 }
 
-Json missing_json(const Missing& missing) {
+Json missing_json(const MissingData& missing) {
   Json bins = Json::array();
   for (const auto& bin : missing.bins)
     bins.push_back({{"level_dbm", bin.level}, {"rows", bin.rows}, {"not_received", bin.missing}});
@@ -43,7 +43,7 @@ Json missing_json(const Missing& missing) {
           {"by_predicted_level", bins}};
 }
 
-Json look_json(const Look& look) {
+Json look_json(const StructureTest& look) {
   Json bins = Json::array();
   for (const Bin& bin : look.bins) {
     Json one = bin.name.empty() ? Json{{"from", bin.from}, {"to", bin.to}} : Json{{"name", bin.name}};
@@ -100,10 +100,10 @@ void print_spread(const Fit& fit) {
 }
 
 void print_missing(const Fit& fit, std::size_t rows) {
-  const Missing& m = fit.missing;
+  const MissingData& m = fit.missing;
   if (m.count == 0) return;
   fmt::print("\n{} of {} readings were not received: ", m.count, rows);
-  const auto share = [](const Missing::Bin& b) { return 100 * b.missing / b.rows; };
+  const auto share = [](const MissingData::Bin& b) { return 100 * b.missing / b.rows; };
   if (m.censored) {
     fmt::print("censored by a floor at {:.1f} dBm, which explains {:.0f} % of them", m.floor, 100 * m.by_floor);
   } else {
@@ -115,10 +115,10 @@ void print_missing(const Fit& fit, std::size_t rows) {
 
 std::string chance(double p) { return p < 1e-9 ? "p < 1e-9" : fmt::format("p = {:.1g}", p); }
 
-void print_misfit(const Misfit& misfit) {
+void print_misfit(const ResidualScan& misfit) {
   fmt::print("\n{}\n", misfit.misfits ? "The model misfits:" : "No structure is left in the residual along:");
   std::string fine;
-  for (const Look& look : misfit.looks) {
+  for (const StructureTest& look : misfit.looks) {
     if (look.alarm)
       fmt::print("  by {:<12} {:<10} {:>4.1f} % of the variance; {}\n", look.by, chance(look.p), 100 * look.explains,
                  look.where);
@@ -151,7 +151,7 @@ void print_cells(const CellErrors& errors, const CellOptions& options) {
 Json FitReport::json() const {
   Json parameters = Json::array(), looks = Json::array(), files = Json::array();
   for (const FitParameter& p : fit.parameters) parameters.push_back(parameter_json(p));
-  for (const Look& look : misfit.looks) looks.push_back(look_json(look));
+  for (const StructureTest& look : misfit.looks) looks.push_back(look_json(look));
   for (const auto& file : pictures) files.push_back(file.string());
   return {
       {"world", model.simulation().world().name},

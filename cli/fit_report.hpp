@@ -12,7 +12,7 @@ struct FitReport {
   const diagnosis::LinkModel& model;
   const diagnosis::Dataset& data;
   const diagnosis::Fit& fit;
-  const diagnosis::Misfit& misfit;
+  const diagnosis::ResidualScan& misfit;
   const std::vector<diagnosis::CellMap>& maps;
   const diagnosis::CellErrors& errors;
   const diagnosis::CellOptions& options;

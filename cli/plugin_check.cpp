@@ -18,7 +18,7 @@ namespace muster::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using diagnosis::CauseCheck;
+using diagnosis::CauseSelfTest;
 using diagnosis::HiddenCase;
 
 constexpr double goal_found = 0.95,
@@ -70,11 +70,11 @@ int least(int trials, double p) {
   return trials == 0 ? 0 : static_cast<int>(boost::math::quantile(Law(trials, p), 0.001));
 }
 
-int least_found(const CauseCheck& check) { return least(check.tested(), goal_found); }
-int most_false(const CauseCheck& check) { return check.tested() - least(check.tested(), 1 - goal_false); }
+int least_found(const CauseSelfTest& check) { return least(check.tested(), goal_found); }
+int most_false(const CauseSelfTest& check) { return check.tested() - least(check.tested(), 1 - goal_false); }
 
 // What it falls short in, in words; empty: it passes.
-std::string shortfall(const CauseCheck& check) {
+std::string shortfall(const CauseSelfTest& check) {
   std::string words;
   const auto add = [&](bool fails, const std::string& what) {
     if (fails) words += (words.empty() ? "" : "; ") + what;
@@ -89,7 +89,7 @@ std::string shortfall(const CauseCheck& check) {
   return words;
 }
 
-void print(const CauseCheck& check, double lambda) {
+void print(const CauseSelfTest& check, double lambda) {
   for (const HiddenCase& c : check.cases) {
     const std::string world = c.world.filename().string();
     if (!c.why_not.empty())
@@ -117,7 +117,7 @@ void print(const CauseCheck& check, double lambda) {
   fmt::print("{}\n", shown ? " of its energy explained" : "no other cause: none explains a quarter of it");
 }
 
-nlohmann::ordered_json json_of(const CauseCheck& check) {
+nlohmann::ordered_json json_of(const CauseSelfTest& check) {
   nlohmann::ordered_json cases = nlohmann::ordered_json::array(), alike = nlohmann::ordered_json::object();
   for (const HiddenCase& c : check.cases)
     cases.push_back({{"world", c.world.filename().string()},
@@ -169,11 +169,11 @@ int run_plugin_check(const Arguments& arguments) {
   parse(app, arguments);
   const TemporaryFolder scratch;
   const auto made = clean_worlds(worlds, seed, rows, scratch.path());
-  CauseCheck check;
+  CauseSelfTest check;
   {
     Progress progress("plugin-check");
-    check = diagnosis::check_cause(id, made, plugin_path(plugins), {lambda, seed, scratch.path()},
-                                   [&](double share) { progress.at(share); });
+    check = diagnosis::self_test_cause(id, made, plugin_path(plugins), {lambda, seed, scratch.path()},
+                                       [&](double share) { progress.at(share); });
   }
   const std::string why = shortfall(check);
   if (json) {

@@ -6,12 +6,12 @@ namespace muster::diagnosis {
 
 bool Diagnosis::named() const {
   return std::any_of(causes.begin(), causes.end(),
-                     [](const FoundCause& c) { return c.status == inference::Status::named; });
+                     [](const CauseEstimate& c) { return c.status == inference::Status::named; });
 }
 
 std::vector<Told> told_by(const Diagnosis& d) {
   std::vector<Told> result;
-  for (const FoundCause& c : d.causes) {
+  for (const CauseEstimate& c : d.causes) {
     if (c.status == inference::Status::named) result.push_back({c.id, c.label});
   }
   for (const Unexplained& u : d.unexplained) result.push_back({"~" + u.covariate, ""});
@@ -24,7 +24,7 @@ std::string in_short(const std::vector<Told>& told) {
   return result.empty() ? "silent" : result;
 }
 
-bool FoundCause::changes_in_time() const {
+bool CauseEstimate::changes_in_time() const {
   return std::find(covariates.begin(), covariates.end(), "time") != covariates.end();
 }
 

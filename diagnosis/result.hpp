@@ -20,7 +20,7 @@ struct CauseValue {
   bool cyclic = false;              // an angle: its interval may go on beyond these
 };
 
-struct FoundCause {
+struct CauseEstimate {
   std::string id, label, title, tell_apart;
   // By which id the search had it: a wall that costs nothing may be told as one that is absent. Empty: none of the
   // search's, but a law of readings or an edit that came before it.
@@ -36,11 +36,11 @@ struct FoundCause {
   double evidence = 0, log_p = 0;
   double lambda = 0;       // fall of the deviance by it, beside all others
   Eigen::VectorXd effect;  // dB it adds to each of the rows seen
-  std::optional<inference::HeldOut> held_out;
+  std::optional<inference::HeldOutGain> held_out;
   Eigen::VectorXd unseen_without;  // squared errors at places not seen without it, in the order of Diagnosis::used
   std::vector<inference::Elsewhere>
       elsewhere;  // what it gains with radios and runs not seen, where it concerns several
-  std::vector<inference::Rival> rivals;
+  std::vector<inference::Alternative> alternatives;
   std::string doubt{};  // why it is not sure, whatever it gains; empty: nothing speaks so
 
   bool changes_in_time() const;
@@ -50,9 +50,9 @@ struct Unexplained {
   std::string covariate;
   double evidence = 0;
   double lambda = 0;
-  std::optional<inference::HeldOut> held_out;
+  std::optional<inference::HeldOutGain> held_out;
   std::vector<inference::Elsewhere> elsewhere{};
-  std::vector<inference::Rival> rivals{};  // causes that explain it nearly as well
+  std::vector<inference::Alternative> alternatives{};  // causes that explain it nearly as well
 
   bool changes_in_time() const;
 };
@@ -63,7 +63,7 @@ struct MappedWall {
 };
 
 // What the search looked at, one entry a row: means of neighbouring readings of one link.
-struct SeenRows {
+struct RowSummary {
   std::vector<std::string> radios;  // names, by the numbers in tx and rx
   std::vector<int> tx, rx;
   Eigen::Matrix3Xd tx_at, rx_at;              // m
@@ -80,7 +80,7 @@ struct SeenRows {
 
 // What to measure to tell a cause from a rival.
 struct Advice {
-  std::string say, cause, rival;
+  std::string say, cause, alternative;
   double separability = 0;            // D of the data
   std::optional<double> predicted{};  // D with the advised readings; none where no plan could be made
 };
@@ -123,14 +123,14 @@ struct Loop {
 };
 
 struct Diagnosis {
-  std::vector<FoundCause> causes;  // the strongest first, suspected ones last
+  std::vector<CauseEstimate> causes;  // the strongest first, suspected ones last
   std::vector<Unexplained> unexplained;
   std::vector<std::string> searched, not_tested;  // causes; the latter with the reason
   std::vector<std::string> notes;
-  Instrument instrument;   // what the readings show of the receiver, and that the record is sound
-  double residual_sd = 0;  // dB, of the fitted world
+  ReceiverChecks instrument;  // what the readings show of the receiver, and that the record is sound
+  double residual_sd = 0;     // dB, of the fitted world
   noise::Covariance noise;
-  std::optional<inference::HeldOut> held_out;
+  std::optional<inference::HeldOutGain> held_out;
   std::optional<inference::Unseen> unseen;      // what held_out is of, in the order of `used`
   std::vector<inference::Elsewhere> elsewhere;  // the same with radios and runs not seen, where there are several
   std::vector<Eigen::Index> used;               // rows of the table that were searched
@@ -141,7 +141,7 @@ struct Diagnosis {
   std::vector<inference::Check> checks;         // all that was looked at beside what was found, the likeliest first
   std::vector<Advice> advice;
   std::optional<PlannedReadings> advised;  // of the plans, the one that decides most about the strongest open cause
-  SeenRows seen;
+  RowSummary seen;
   Eigen::VectorXd mean;  // of the extended model at every row of the table, dBm
   std::size_t readings = 0;
   Eigen::Index rows = 0;

@@ -63,7 +63,7 @@ double search(Task& task, double reach) {
 
 }  // namespace
 
-Minimum gradient_free(const Readings& readings, const Mean& mean, const Eigen::VectorXd& start, const Box& box) {
+Minimum derivative_free_fit(const Readings& readings, const Mean& mean, const Eigen::VectorXd& start, const Box& box) {
   constexpr int most = 12;
   Task task{.readings = readings,
             .mean = mean,

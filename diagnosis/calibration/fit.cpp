@@ -87,7 +87,7 @@ void solve(Fit& fit, const Search& search) {
   const Box box = search.box();
   fit.least_squares = least_squares(fit.readings, mean, search.start(), box);
   search.set(fit.least_squares.parameters);
-  fit.missing = why_missing(fit.readings.rssi, search.model.expected(), fit.least_squares.sigma);
+  fit.missing = missing_data(fit.readings.rssi, search.model.expected(), fit.least_squares.sigma);
   if (fit.missing.censored) {
     for (Eigen::Index i = 0; i < fit.readings.rssi.size(); ++i) {
       if (std::isnan(fit.readings.rssi[i])) fit.readings.censored.push_back(i);
@@ -95,7 +95,7 @@ void solve(Fit& fit, const Search& search) {
     fit.readings.floor = fit.missing.floor;
     fit.least_squares = least_squares(fit.readings, mean, fit.least_squares.parameters, box);
   }
-  fit.search = gradient_free(fit.readings, mean, search.start(), box);
+  fit.search = derivative_free_fit(fit.readings, mean, search.start(), box);
   if (fit.search.deviance < fit.least_squares.deviance - 1e-6)  // another valley: go down there too
     fit.least_squares = least_squares(fit.readings, mean, fit.search.parameters, box);
   const Eigen::VectorXd &a = fit.least_squares.parameters, &b = fit.search.parameters;

@@ -30,7 +30,7 @@ struct Fit {
   double residual_sd = 0;                     // dB
   double simulated_sd = 0;                    // dB: of the world's own draws about its expectation
   double fading_mean = 0;                     // dB: what the expectation includes for fading, -2.507 under Rayleigh
-  Missing missing;
+  MissingData missing;
   Minimum least_squares, search;
   double disagreement = 0;  // largest difference between both, in units of 1 + |value|
 

@@ -18,7 +18,7 @@ constexpr std::size_t most_maps = 6;
 
 class Artist {
  public:
-  Artist(const LinkModel& model, const Fit& fit, const Misfit& misfit, const std::vector<CellMap>& maps,
+  Artist(const LinkModel& model, const Fit& fit, const ResidualScan& misfit, const std::vector<CellMap>& maps,
          const CellErrors& errors, const CellOptions& options)
       : model_(model),
         fit_(fit),
@@ -120,7 +120,7 @@ class Artist {
         .columns = 2,
         .width = 1000,
         .panels = {}};
-    for (const Look& look : misfit_.looks) {
+    for (const StructureTest& look : misfit_.looks) {
       if (!look.bins.empty()) figure.panels.push_back(panel_of(look));
     }
     return figure;
@@ -157,7 +157,7 @@ class Artist {
     return {-half, half};
   }
 
-  static pic::Panel panel_of(const Look& look) {
+  static pic::Panel panel_of(const StructureTest& look) {
     pic::Panel panel{
         .title = fmt::format("{}{}", look.by,
                              look.alarm ? (look.p < 1e-9 ? ": p < 1e-9" : fmt::format(": p = {:.1g}", look.p)) : ""),
@@ -180,7 +180,7 @@ class Artist {
 
   const LinkModel& model_;
   const Fit& fit_;
-  const Misfit& misfit_;
+  const ResidualScan& misfit_;
   const std::vector<CellMap>& maps_;
   const CellErrors& errors_;
   const CellOptions& options_;
@@ -191,7 +191,7 @@ class Artist {
 }  // namespace
 
 std::vector<std::filesystem::path> write_fit_pictures(const std::filesystem::path& folder, const LinkModel& model,
-                                                      const Fit& fit, const Misfit& misfit,
+                                                      const Fit& fit, const ResidualScan& misfit,
                                                       const std::vector<CellMap>& maps, const CellErrors& errors,
                                                       const CellOptions& options) {
   std::filesystem::create_directories(folder);

@@ -11,7 +11,7 @@ namespace muster::diagnosis {
 // Writes fig3a.svg (samples from above and from the side), fig3b.svg and fig3c.svg (cell means measured and simulated),
 // fig3d.svg (histogram of their errors), residual_map.svg and residual.svg (along each covariate); the files written.
 std::vector<std::filesystem::path> write_fit_pictures(const std::filesystem::path& folder, const LinkModel& model,
-                                                      const Fit& fit, const Misfit& misfit,
+                                                      const Fit& fit, const ResidualScan& misfit,
                                                       const std::vector<CellMap>& maps, const CellErrors& errors,
                                                       const CellOptions& options);
 

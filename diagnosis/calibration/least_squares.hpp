@@ -17,6 +17,6 @@ struct Minimum {
 
 // Inside the box, from `start`.
 Minimum least_squares(const Readings& readings, const Mean& mean, const Eigen::VectorXd& start, const Box& box);
-Minimum gradient_free(const Readings& readings, const Mean& mean, const Eigen::VectorXd& start, const Box& box);
+Minimum derivative_free_fit(const Readings& readings, const Mean& mean, const Eigen::VectorXd& start, const Box& box);
 
 }  // namespace muster::diagnosis

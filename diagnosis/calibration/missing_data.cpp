@@ -59,14 +59,14 @@ double at_most(std::size_t events, double expected) {
   return sum;
 }
 
-std::vector<Missing::Bin> binned(const Eigen::VectorXd& rssi, const Eigen::VectorXd& mean) {
+std::vector<MissingData::Bin> binned(const Eigen::VectorXd& rssi, const Eigen::VectorXd& mean) {
   constexpr Eigen::Index bins = 10;
   std::vector<Eigen::Index> order(static_cast<std::size_t>(rssi.size()));
   std::iota(order.begin(), order.end(), Eigen::Index{0});
   std::sort(order.begin(), order.end(), [&](auto a, auto b) { return mean[a] < mean[b]; });
-  std::vector<Missing::Bin> result;
+  std::vector<MissingData::Bin> result;
   for (Eigen::Index b = 0; b < bins; ++b) {
-    Missing::Bin bin{};
+    MissingData::Bin bin{};
     for (Eigen::Index k = rssi.size() * b / bins; k < rssi.size() * (b + 1) / bins; ++k) {
       const auto i = order[static_cast<std::size_t>(k)];
       bin.level += mean[i];
@@ -82,7 +82,7 @@ std::vector<Missing::Bin> binned(const Eigen::VectorXd& rssi, const Eigen::Vecto
 
 }  // namespace
 
-bool Missing::rises() const {
+bool MissingData::rises() const {
   if (bins.size() < 2) return false;
   const auto share = [](const Bin& b) { return b.missing / b.rows; };
   const auto variance = [&](const Bin& b) { return std::max(share(b) * (1 - share(b)), 1 / b.rows) / b.rows; };
@@ -91,14 +91,14 @@ bool Missing::rises() const {
   return more > 0.15 && more > 5 * std::sqrt(variance(bins.front()) + variance(bins.back()));
 }
 
-Missing why_missing(const Eigen::VectorXd& rssi, const Eigen::VectorXd& mean, double sigma) {
+MissingData missing_data(const Eigen::VectorXd& rssi, const Eigen::VectorXd& mean, double sigma) {
   std::vector<double> lost_at, heard_at, heard;
   for (Eigen::Index i = 0; i < rssi.size(); ++i) {
     (std::isnan(rssi[i]) ? lost_at : heard_at).push_back(mean[i]);
     if (!std::isnan(rssi[i])) heard.push_back(rssi[i]);
   }
   std::sort(heard.begin(), heard.end());
-  Missing result{.count = lost_at.size(), .floor = heard.front()};
+  MissingData result{.count = lost_at.size(), .floor = heard.front()};
   if (result.count == 0) return result;
   result.bins = binned(rssi, mean);
   const double lost = static_cast<double>(lost_at.size()), all = static_cast<double>(rssi.size());

@@ -5,7 +5,7 @@
 
 namespace muster::diagnosis {
 
-struct Missing {
+struct MissingData {
   std::size_t count = 0;
   bool censored = false;       // most of them, by the floor
   bool cut_off = false;        // levels end at the floor at once, where many would be weaker
@@ -25,6 +25,6 @@ struct Missing {
 };
 
 // `mean` and `sigma` are a fit's to what was heard.
-Missing why_missing(const Eigen::VectorXd& rssi, const Eigen::VectorXd& mean, double sigma);
+MissingData missing_data(const Eigen::VectorXd& rssi, const Eigen::VectorXd& mean, double sigma);
 
 }  // namespace muster::diagnosis

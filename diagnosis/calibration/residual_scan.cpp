@@ -19,7 +19,7 @@ class Looker {
   Looker(const LinkModel& model, const Dataset& data, const Fit& fit, const Features& features)
       : model_(model), data_(data), fit_(fit), features_(features), rows_(fit.rows_used()) {}
 
-  Misfit look() {
+  ResidualScan look() {
     // A world that declares fading and no shadowing says that readings share nothing; others are silent on it.
     result_.shared_allowed = !model_.has_plugin("radio.fading") || model_.value_of("radio.fading", "shadowing", 0) > 0;
     look_at_geometry();
@@ -27,12 +27,12 @@ class Looker {
     look_at_radios();
     look_at_columns();
     look_at_neighbours();
-    for (Look& look : result_.looks) {
+    for (StructureTest& look : result_.looks) {
       look.alarm = look.p * static_cast<double>(result_.looks.size()) < false_alarms;
       result_.misfits = result_.misfits || look.alarm;
     }
     std::stable_sort(result_.looks.begin(), result_.looks.end(),
-                     [](const Look& a, const Look& b) { return a.explains > b.explains; });
+                     [](const StructureTest& a, const StructureTest& b) { return a.explains > b.explains; });
     return std::move(result_);
   }
 
@@ -48,7 +48,7 @@ class Looker {
     return *high - *low > least;
   }
 
-  void add(const Subject& subject) { result_.looks.push_back(look_along(fit_, subject, result_.shared_allowed)); }
+  void add(const Subject& subject) { result_.looks.push_back(structure_along(fit_, subject, result_.shared_allowed)); }
 
   void add_number(const std::string& by, const std::string& unit, const std::vector<double>& values, int count) {
     add({.by = by, .unit = unit, .values = values, .level = {}, .names = {}, .shapes = waves(values, count)});
@@ -87,7 +87,7 @@ class Looker {
   }
 
   // The words were made before the bins' ends were turned back from logarithms.
-  static std::string in_metres(const Look& look) {
+  static std::string in_metres(const StructureTest& look) {
     const Bin* worst = nullptr;
     for (const Bin& bin : look.bins) {
       if (bin.stderror > 0 && (!worst || std::abs(bin.mean) / bin.stderror > std::abs(worst->mean) / worst->stderror))
@@ -163,7 +163,7 @@ class Looker {
     if (declared > 0)
       return result_.not_tested.push_back(fmt::format(
           "neighbours: the world declares shadowing of {:.1f} dB; found {:.1f} dB", declared, fit_.shared_sd));
-    Look look;
+    StructureTest look;
     look.by = "neighbours";
     look.columns = 2;
     look.p = chance_of_sharing(fit_.shared_evidence);
@@ -179,12 +179,12 @@ class Looker {
   const Fit& fit_;
   const Features& features_;
   std::vector<std::size_t> rows_;
-  Misfit result_;
+  ResidualScan result_;
 };
 
 }  // namespace
 
-Misfit misfit_of(const LinkModel& model, const Dataset& data, const Fit& fit, const Features& features) {
+ResidualScan residual_scan(const LinkModel& model, const Dataset& data, const Fit& fit, const Features& features) {
   return Looker(model, data, fit, features).look();
 }
 

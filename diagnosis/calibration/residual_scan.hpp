@@ -9,6 +9,6 @@ namespace muster::diagnosis {
 
 // All covariates of the channel and all further columns of the data; false alarms in 5 % of sound worlds at most, over
 // all looks together.
-Misfit misfit_of(const LinkModel& model, const Dataset& data, const Fit& fit, const Features& features);
+ResidualScan residual_scan(const LinkModel& model, const Dataset& data, const Fit& fit, const Features& features);
 
 }  // namespace muster::diagnosis

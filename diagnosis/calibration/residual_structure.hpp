@@ -15,7 +15,7 @@ struct Bin {
 };
 
 // One covariate, looked along.
-struct Look {
+struct StructureTest {
   std::string by, unit;
   double p = 1;         // that chance does it, errors of neighbouring readings being alike
   int columns = 0;      // shapes tried
@@ -25,8 +25,8 @@ struct Look {
   std::string where{};  // of the largest of them, in words
 };
 
-struct Misfit {
-  std::vector<Look> looks;              // by what they explain, most first
+struct ResidualScan {
+  std::vector<StructureTest> looks;     // by what they explain, most first
   bool shared_allowed = true;           // whether looks allow for errors that neighbours share
   std::vector<std::string> not_tested;  // and why
   bool misfits = false;

@@ -19,8 +19,8 @@ Eigen::VectorXd slope(LinkModel& model, const std::string& path, double lower, d
 
 }  // namespace
 
-BaseColumns base_columns(LinkModel& model, const std::vector<FitParameter>& free) {
-  BaseColumns result;
+Sensitivities sensitivities(LinkModel& model, const std::vector<FitParameter>& free) {
+  Sensitivities result;
   const auto n = static_cast<Eigen::Index>(model.rows());
   Eigen::MatrixXd basis(n, 0);
   result.slopes.resize(n, 0);
@@ -54,7 +54,7 @@ BaseColumns base_columns(LinkModel& model, const std::vector<FitParameter>& free
   return result;
 }
 
-Eigen::MatrixXd slopes_at(LinkModel& model, const BaseColumns& base) {
+Eigen::MatrixXd slopes_at(LinkModel& model, const Sensitivities& base) {
   const auto count = static_cast<Eigen::Index>(base.paths.size());
   for (Eigen::Index j = 0; j < count; ++j) model.set(base.paths[static_cast<std::size_t>(j)], base.values[j]);
   Eigen::MatrixXd result(static_cast<Eigen::Index>(model.rows()), count);

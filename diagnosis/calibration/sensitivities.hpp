@@ -5,7 +5,7 @@
 
 namespace muster::diagnosis {
 
-struct BaseColumns {
+struct Sensitivities {
   std::vector<std::string> paths;  // of the parameters that the readings tell apart
   Eigen::VectorXd values;          // of them, where the slopes were taken
   Eigen::VectorXd lower, upper;
@@ -14,9 +14,9 @@ struct BaseColumns {
 };
 
 // At the model's present parameters.
-BaseColumns base_columns(LinkModel& model, const std::vector<FitParameter>& free);
+Sensitivities sensitivities(LinkModel& model, const std::vector<FitParameter>& free);
 
 // The same columns at the readings of another model of the same world.
-Eigen::MatrixXd slopes_at(LinkModel& model, const BaseColumns& base);
+Eigen::MatrixXd slopes_at(LinkModel& model, const Sensitivities& base);
 
 }  // namespace muster::diagnosis

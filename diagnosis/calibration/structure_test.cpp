@@ -118,7 +118,7 @@ std::vector<Bin> coefficients_of(const Fit& fit, const ErrorModel& errors, const
   return bins;
 }
 
-std::string words_of(const Look& look) {
+std::string words_of(const StructureTest& look) {
   std::vector<const Bin*> order;
   for (const Bin& bin : look.bins) {
     if (bin.stderror > 0) order.push_back(&bin);
@@ -167,8 +167,8 @@ double chance_of_sharing(double evidence) {
   return std::min(1.0, 2 * boost::math::cdf(boost::math::complement(boost::math::chi_squared(2), evidence)));
 }
 
-Look look_along(const Fit& fit, const Subject& subject, bool shared) {
-  Look look{.by = subject.by, .unit = subject.unit};
+StructureTest structure_along(const Fit& fit, const Subject& subject, bool shared) {
+  StructureTest look{.by = subject.by, .unit = subject.unit};
   const Eigen::MatrixXd columns = beyond(subject.shapes, fit.slopes);
   look.columns = static_cast<int>(columns.cols());
   if (look.columns == 0) return look;

@@ -17,7 +17,7 @@ struct Subject {
 
 // Structure in the residual along these shapes, tested with errors refitted beside them, so that they do not swallow
 // it. Where `shared` is false, readings share nothing by the world's own word, and whatever they do share is structure.
-Look look_along(const Fit& fit, const Subject& subject, bool shared);
+StructureTest structure_along(const Fit& fit, const Subject& subject, bool shared);
 // Its p-value alone.
 double chance_of_structure(const Fit& fit, const Eigen::MatrixXd& shapes, bool shared);
 // That readings which share nothing seem to, by twice the log-likelihood that shared variances gain.

@@ -28,7 +28,7 @@ std::string own_column(const Cause& cause) {
   return "";
 }
 
-std::string why_not(const Cause& cause, const Survey& survey, const Dataset& data) {
+std::string why_not(const Cause& cause, const MeasurementGeometry& survey, const Dataset& data) {
   if (needs(cause, "t") && !(survey.has_time && survey.time.length() > 0)) return "not testable: the data have no t";
   if (needs(cause, "rx_yaw") && !survey.has_yaw) return "not testable: the data have no rx_yaw";
   if (needs(cause, "tx_z") && !survey.has_height) return "not testable: all radios are at one height";
@@ -48,13 +48,13 @@ std::string why_not(const Cause& cause, const Survey& survey, const Dataset& dat
 namespace {
 
 // What needs a heading is sought in radios that turn; what needs places alone, in those that stand.
-bool may_be_about(const Cause& cause, const Survey& survey, std::size_t radio) {
+bool may_be_about(const Cause& cause, const MeasurementGeometry& survey, std::size_t radio) {
   if (radio >= survey.turns.size()) return false;  // it took part in no reading
   return needs(cause, "rx_yaw") ? survey.turns[radio] : !(needs(cause, "tx_x") && survey.moves[radio]);
 }
 
 std::vector<std::string> names_for(const Cause& cause, const muster_param& row, const LinkModel& model,
-                                   const Survey& survey) {
+                                   const MeasurementGeometry& survey) {
   std::vector<std::string> result;
   if (!(row.flags & MUSTER_REQUIRED)) result.push_back("");
   for (const RowDeclaration& declared : model.simulation().world().rows) {
@@ -68,7 +68,7 @@ std::vector<std::string> names_for(const Cause& cause, const muster_param& row, 
 
 }  // namespace
 
-std::string why_no_rows(const Cause& cause, const LinkModel& model, const Survey& survey) {
+std::string why_no_rows(const Cause& cause, const LinkModel& model, const MeasurementGeometry& survey) {
   const auto references = cause.rows();
   std::string none = "not testable: the world has no row that it could be about";
   if (std::string_view(references[0]->text) != "radio") return none;
@@ -88,7 +88,7 @@ std::string why_no_rows(const Cause& cause, const LinkModel& model, const Survey
          ", which the world does not have: add <station name=" + quote(added[0]) + " at=\"x y z\"/>";
 }
 
-std::vector<CauseRow> rows_for(const Cause& cause, const LinkModel& model, const Survey& survey) {
+std::vector<CauseRow> rows_for(const Cause& cause, const LinkModel& model, const MeasurementGeometry& survey) {
   const auto references = cause.rows();
   if (references.empty()) return {{}};
   std::vector<CauseRow> result;

@@ -11,11 +11,11 @@ bool needs(const Cause& cause, const std::string& column);
 // A column of the data beyond times and places that it needs, or "".
 std::string own_column(const Cause& cause);
 // Why the data cannot speak of a cause; empty if they can.
-std::string why_not(const Cause& cause, const Survey& survey, const Dataset& data);
+std::string why_not(const Cause& cause, const MeasurementGeometry& survey, const Dataset& data);
 // Rows of the world that a cause may be about; of two references all pairs; one without names where it is about none.
-std::vector<CauseRow> rows_for(const Cause& cause, const LinkModel& model, const Survey& survey);
+std::vector<CauseRow> rows_for(const Cause& cause, const LinkModel& model, const MeasurementGeometry& survey);
 
 // Why there are none of these.
-std::string why_no_rows(const Cause& cause, const LinkModel& model, const Survey& survey);
+std::string why_no_rows(const Cause& cause, const LinkModel& model, const MeasurementGeometry& survey);
 
 }  // namespace muster::diagnosis

@@ -55,7 +55,7 @@ std::vector<const muster_param*> sought(const Cause& cause) {
 }
 
 // False if the data cannot tell one of its parameters.
-bool find_axes(CauseShape& shape, const CauseSources& sources, const Survey& survey) {
+bool find_axes(CauseShape& shape, const CauseSources& sources, const MeasurementGeometry& survey) {
   for (uint32_t k = 0; k < shape.cause.plugin->param_count; ++k) {
     const muster_param& p = shape.cause.plugin->params[k];
     if ((p.flags & MUSTER_CYCLIC) && !(p.flags & MUSTER_FREE)) shape.held[p.name] = survey.plan_angle;
@@ -76,7 +76,7 @@ bool find_axes(CauseShape& shape, const CauseSources& sources, const Survey& sur
 // A place that takes level from links through it cannot stand where a radio was driven.
 bool stands(const inference::Candidate& c) { return !c.pieces.empty(); }
 
-bool clear_of_ways(const CauseShape& shape, const Survey& survey, const VectorXd& t) {
+bool clear_of_ways(const CauseShape& shape, const MeasurementGeometry& survey, const VectorXd& t) {
   if (shape.place == PlaceShape::segment) return driven_across(survey, t[1], t[2], t[3], t[4]) == 0;
   return !driven_through(survey, t[1], t[2], shape.axes.empty() ? 0.5 : std::exp(t[3]));
 }
@@ -110,7 +110,7 @@ std::vector<VectorXd> shaped_as(const VectorXd& theta, std::vector<VectorXd> pla
 }
 
 struct Maker {
-  const Survey& survey;
+  const MeasurementGeometry& survey;
   const CauseSources& sources;
   const BaseSpace base;
   const noise::Rows& rows;
@@ -238,11 +238,11 @@ struct Maker {
         readings.links.push_back(link(reading));
       }
       readings.first.push_back(readings.links.size());
-      c.proposed = [sweep = std::make_shared<const SegmentSweep>(survey, std::move(links), std::move(readings)),
+      c.proposed = [sweep = std::make_shared<const SegmentScan>(survey, std::move(links), std::move(readings)),
                     first = c.grid[0]](inference::Tally& tally) { return shaped_as(first, (*sweep)(tally)); };
     } else {
       c.step.tail<3>().setConstant(0.1);  // m: its tops are narrow and lie close
-      c.proposed = [sweep = std::make_shared<const DiskSweep>(survey, std::move(links))](inference::Tally& tally) {
+      c.proposed = [sweep = std::make_shared<const DiskScan>(survey, std::move(links))](inference::Tally& tally) {
         return (*sweep)(tally);
       };
     }
@@ -333,8 +333,8 @@ bool shifts_levels(const Cause& cause) {
   return kind != MUSTER_LAW && !(kind == MUSTER_STAGE && cause.linear().empty());
 }
 
-CauseSearch cause_candidates(const std::vector<Cause>& causes, const Survey& survey, const CauseSources& sources,
-                             const Eigen::MatrixXd& base, const noise::Rows& rows) {
+CauseSearch cause_candidates(const std::vector<Cause>& causes, const MeasurementGeometry& survey,
+                             const CauseSources& sources, const Eigen::MatrixXd& base, const noise::Rows& rows) {
   CauseSearch result;
   const Maker maker{survey, sources, BaseSpace(base), rows};
   for (const Cause& cause : causes) {

@@ -14,8 +14,8 @@ inference::Candidate at_readings_of(const CauseCandidate& cause, const CauseSour
 
 // Of those causes that shift the expected level. Columns that no reading depends on, or that the base model can take
 // up, are left out. `rows`: of the search.
-CauseSearch cause_candidates(const std::vector<Cause>& causes, const Survey& survey, const CauseSources& sources,
-                             const Eigen::MatrixXd& base, const noise::Rows& rows);
+CauseSearch cause_candidates(const std::vector<Cause>& causes, const MeasurementGeometry& survey,
+                             const CauseSources& sources, const Eigen::MatrixXd& base, const noise::Rows& rows);
 // Whether it shifts the expected level; what does not clips readings or changes how they scatter.
 bool shifts_levels(const Cause& cause);
 

@@ -35,14 +35,14 @@ std::vector<double> periods(double span) {
   return result;
 }
 
-Axis duration(const muster_param& p, const Survey& s, const CauseShape& shape) {
+Axis duration(const muster_param& p, const MeasurementGeometry& s, const CauseShape& shape) {
   const double span = s.time.length();
   if (!shape.wave.empty()) return logarithmic(p, span / most_cycles, span, periods(span), 0.02);
   // What settles faster than a tenth of the data is a jump.
   return logarithmic(p, 0.1 * span, 100 * span, {0.15 * span, 0.4 * span, span, 30 * span}, 0.3);
 }
 
-Axis length(const muster_param& p, const Survey& s, const CauseShape& shape) {
+Axis length(const muster_param& p, const MeasurementGeometry& s, const CauseShape& shape) {
   if (shape.place == PlaceShape::segment) return logarithmic(p, 0.8, 6, {1.5, 3}, 0.2);
   if (shape.place == PlaceShape::point && !shape.held.empty()) {
     return p.max > 10 ? logarithmic(p, 1, 60, {3, 6}, 0.05) : logarithmic(p, 0.2, 5, {0.5, 1.5}, 0.4);
@@ -55,7 +55,7 @@ Axis length(const muster_param& p, const Survey& s, const CauseShape& shape) {
   return logarithmic(p, s.distance.low, s.distance.high, values, 0.12);
 }
 
-Axis moment(const muster_param& p, const Survey& s, bool alone) {
+Axis moment(const muster_param& p, const MeasurementGeometry& s, bool alone) {
   // Earlier or later than that a jump is an offset; what only begins may begin at once.
   const double from = alone ? s.time.at(0.08) : s.time.low, to = s.time.at(0.92);
   return {p.name,
@@ -68,7 +68,7 @@ Axis moment(const muster_param& p, const Survey& s, bool alone) {
 
 }  // namespace
 
-std::optional<Axis> axis_of(const muster_param& p, const Survey& s, const CauseShape& shape, bool alone) {
+std::optional<Axis> axis_of(const muster_param& p, const MeasurementGeometry& s, const CauseShape& shape, bool alone) {
   const std::string_view unit = p.unit;
   if (unit == "s" && s.time.length() <= 0) return {};
   if (p.flags & MUSTER_CYCLIC) {
@@ -120,7 +120,7 @@ Ways::const_iterator from_west_of(const Ways& ways, double x, double reach) {
 
 }  // namespace
 
-int driven_across(const Survey& s, double x, double y, double length, double angle) {
+int driven_across(const MeasurementGeometry& s, double x, double y, double length, double angle) {
   const double reach = length / 2 + 2;  // a way is shorter than 2 m
   const double ex = length / 2 * std::cos(angle), ey = length / 2 * std::sin(angle);
   const auto side = [](double ax, double ay, double bx, double by, double px, double py) {
@@ -136,7 +136,7 @@ int driven_across(const Survey& s, double x, double y, double length, double ang
   return count;
 }
 
-bool driven_through(const Survey& s, double x, double y, double radius) {
+bool driven_through(const MeasurementGeometry& s, double x, double y, double radius) {
   for (auto at = from_west_of(s.ways, x, radius); at != s.ways.end() && at->front() - x <= radius; ++at) {
     const double across = at->front() - x, along = (*at)[1] - y;
     if (across * across + along * along < 0.49 * radius * radius) return true;
@@ -144,13 +144,13 @@ bool driven_through(const Survey& s, double x, double y, double radius) {
   return false;
 }
 
-double belief_in_segment(const Survey& s, const Eigen::VectorXd& t) {
+double belief_in_segment(const MeasurementGeometry& s, const Eigen::VectorXd& t) {
   constexpr double slant = 0.2;  // rad
   const double off = std::remainder(t[4] - s.plan_angle, pi / 2) / slant;
   return -off * off / 2;
 }
 
-Eigen::MatrixXd moves_of_segment(const Survey& s, const Eigen::VectorXd& t) {
+Eigen::MatrixXd moves_of_segment(const MeasurementGeometry& s, const Eigen::VectorXd& t) {
   constexpr double way = move_of_segment, turn = 0.15, away = 0.25;  // m, rad, share of the distance
   const Eigen::Vector2d along(std::cos(t[4]), std::sin(t[4])), across(-along.y(), along.x());
   const Eigen::Index shapes = t.size() - 5, others = shapes + (s.standing.empty() ? 0 : 1);
@@ -173,7 +173,7 @@ Eigen::MatrixXd moves_of_segment(const Survey& s, const Eigen::VectorXd& t) {
   return moves;
 }
 
-Eigen::MatrixXd moves_of_disk(const Survey& s, const Eigen::VectorXd& t) {
+Eigen::MatrixXd moves_of_disk(const MeasurementGeometry& s, const Eigen::VectorXd& t) {
   constexpr double way = 0.3, away = 0.25;  // m; share of the distance, and of the radius
   constexpr std::size_t most = 2;           // radios
   std::vector<Eigen::Vector2d> from;

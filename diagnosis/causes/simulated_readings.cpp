@@ -34,7 +34,8 @@ void write(const noise::Readings& r, const std::vector<std::string>& radios, con
 }  // namespace
 
 SimulatedReadings::SimulatedReadings(const noise::Readings& readings, const std::vector<std::string>& radios,
-                                     const fs::path& world, const Library::SearchPath& plugins, const BaseColumns& base)
+                                     const fs::path& world, const Library::SearchPath& plugins,
+                                     const Sensitivities& base)
     : all_(static_cast<std::size_t>(readings.size())) {
   std::iota(all_.begin(), all_.end(), 0);
   const fs::path table = folder_.path() / "readings.csv";

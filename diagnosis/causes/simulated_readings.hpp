@@ -13,7 +13,7 @@ class SimulatedReadings {
   // `radios`: names, by the numbers in tx and rx. The world's parameters are those at which `base` was taken. Throws
   // Error.
   SimulatedReadings(const noise::Readings& readings, const std::vector<std::string>& radios,
-                    const std::filesystem::path& world, const Library::SearchPath& plugins, const BaseColumns& base);
+                    const std::filesystem::path& world, const Library::SearchPath& plugins, const Sensitivities& base);
   SimulatedReadings(const SimulatedReadings&) = delete;
   SimulatedReadings& operator=(const SimulatedReadings&) = delete;
 

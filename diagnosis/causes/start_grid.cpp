@@ -18,7 +18,7 @@ VectorXd theta_of(std::size_t row, const VectorXd& place, const std::vector<doub
   return Eigen::Map<const VectorXd>(theta.data(), static_cast<Index>(theta.size()));
 }
 
-std::vector<VectorXd> places_over(PlaceShape shape, const Survey& s, bool large) {
+std::vector<VectorXd> places_over(PlaceShape shape, const MeasurementGeometry& s, bool large) {
   const double area = s.east.length() * s.north.length();
   const double spacing = large ? std::max(2.0, std::sqrt(area / 100)) : std::max(0.8, std::sqrt(area / 500));
   const std::vector<double> lengths = large ? std::vector<double>{5, 10} : std::vector<double>{1.3, 2.2, 3.6, 5.2};
@@ -73,18 +73,18 @@ std::vector<VectorXd> around_radios(const CauseShape& shape, const LinkModel& mo
 
 double inside(double value, const Axis& axis) { return std::clamp(value, axis.lower, axis.upper); }
 
-std::vector<VectorXd> between_walls(const CauseShape& shape, const Survey& survey) {
+std::vector<VectorXd> between_walls(const CauseShape& shape, const MeasurementGeometry& survey) {
   std::vector<VectorXd> result;
-  for (const Strip& s : survey.strips)
+  for (const OrientedRectangle& s : survey.strips)
     result.push_back(
         theta_of(0, Eigen::Vector4d(s.x, s.y, s.length, s.angle), {inside(std::log(s.width), shape.axes[0])}));
   return result;
 }
 
-std::vector<VectorXd> rooms_of_plan(const CauseShape& shape, const Survey& survey) {
+std::vector<VectorXd> rooms_of_plan(const CauseShape& shape, const MeasurementGeometry& survey) {
   std::vector<VectorXd> result;
   const auto others = products({shape.axes.begin() + 2, shape.axes.end()});
-  for (const Strip& s : survey.rooms) {
+  for (const OrientedRectangle& s : survey.rooms) {
     for (const auto& more : others) {
       std::vector<double> axes{inside(std::log(s.length), shape.axes[0]), inside(std::log(s.width), shape.axes[1])};
       axes.insert(axes.end(), more.begin(), more.end());
@@ -104,7 +104,8 @@ std::optional<Eigen::Vector2d> place_of_radio(const LinkModel& model, const std:
   return {};
 }
 
-std::vector<VectorXd> starts_of(const CauseShape& shape, const Survey& survey, const LinkModel& model, bool stands) {
+std::vector<VectorXd> starts_of(const CauseShape& shape, const MeasurementGeometry& survey, const LinkModel& model,
+                                bool stands) {
   if (shape.cause.meaning().kind == MUSTER_WORLD_EDIT && shape.place == PlaceShape::point)
     return around_radios(shape, model);
   if (shape.is_room() && !survey.rooms.empty()) return rooms_of_plan(shape, survey);

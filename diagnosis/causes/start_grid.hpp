@@ -10,8 +10,8 @@ namespace muster::diagnosis {
 
 // Thetas to begin with: all rows, with all places and values of axes that suit the cause's shape. Walls and things
 // (`stands`) lie closer together than what fills a part of the plan.
-std::vector<Eigen::VectorXd> starts_of(const CauseShape& shape, const Survey& survey, const LinkModel& model,
-                                       bool stands);
+std::vector<Eigen::VectorXd> starts_of(const CauseShape& shape, const MeasurementGeometry& survey,
+                                       const LinkModel& model, bool stands);
 
 // Where the map has a radio, by its first reading.
 std::optional<Eigen::Vector2d> place_of_radio(const LinkModel& model, const std::string& name);

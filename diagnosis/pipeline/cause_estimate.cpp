@@ -49,7 +49,7 @@ std::map<std::string, Reach> reaches(const CauseShape& shape, const inference::F
   return result;
 }
 
-void add_linear(FoundCause& out, const CauseShape& shape, const inference::Finding& f) {
+void add_linear(CauseEstimate& out, const CauseShape& shape, const inference::Finding& f) {
   if (shape.linear.empty()) {  // sought whole: a strength that it has was 1
     for (const muster_param* p : shape.cause.linear()) {
       const double half = normal95 * std::sqrt(f.uncertainty(0, 0));
@@ -74,7 +74,7 @@ void add_linear(FoundCause& out, const CauseShape& shape, const inference::Findi
 }
 
 // The first reference is the row that it is about, further ones are attributes beside it.
-void add_row(FoundCause& out, const CauseShape& shape, const VectorXd& theta) {
+void add_row(CauseEstimate& out, const CauseShape& shape, const VectorXd& theta) {
   const auto references = shape.cause.rows();
   for (std::size_t k = 0; k < references.size(); ++k) {
     const std::string& name = shape.row(theta)[k];
@@ -103,9 +103,9 @@ std::string with_values(std::string title, const Cause& cause, const std::vector
 
 }  // namespace
 
-FoundCause found_cause(const inference::Finding& f, const CauseCandidate& cause) {
+CauseEstimate cause_estimate(const inference::Finding& f, const CauseCandidate& cause) {
   const CauseShape& shape = *cause.shape;
-  FoundCause out;
+  CauseEstimate out;
   out.id = out.sought_as = f.id;
   out.label = f.label;
   out.tell_apart = shape.cause.meaning().tell_apart;
@@ -119,7 +119,7 @@ FoundCause found_cause(const inference::Finding& f, const CauseCandidate& cause)
   out.held_out = f.held_out;
   out.unseen_without = f.unseen_without;
   out.elsewhere = f.elsewhere;
-  out.rivals = f.rivals;
+  out.alternatives = f.alternatives;
   add_linear(out, shape, f);
   auto sure = reaches(shape, f);
   for (const auto& [name, value] : shape.parameters(f.theta)) {

@@ -7,6 +7,6 @@
 namespace muster::diagnosis {
 
 // Where nothing is known of how sure it is, as of what was set aside, places and times have no width.
-FoundCause found_cause(const inference::Finding& finding, const CauseCandidate& cause);
+CauseEstimate cause_estimate(const inference::Finding& finding, const CauseCandidate& cause);
 
 }  // namespace muster::diagnosis

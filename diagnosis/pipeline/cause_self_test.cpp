@@ -46,10 +46,11 @@ bool within_bounds(const CauseShape& shape, const Hidden& hidden) {
 }
 
 // A place of the candidate's grid, moved by up to half a step, and the strength that gives the energy asked for.
-std::optional<Hidden> hide(const CauseCandidate& cause, const inference::Bench& bench, double lambda, uint64_t seed) {
+std::optional<Hidden> hide(const CauseCandidate& cause, const inference::ModelState& state, double lambda,
+                           uint64_t seed) {
   const inference::Candidate& c = cause.candidate;
   const Stream stream(combined(key_of("hidden cause"), seed));
-  const inference::Stand stand = bench.stand(bench.design());
+  const inference::WhitenedModel model = state.whitened_model(state.design());
   for (uint64_t k = 0; k < tries; ++k) {
     Hidden hidden;
     hidden.theta = c.grid[static_cast<std::size_t>(stream.uniform(k, 0) * static_cast<double>(c.grid.size()))];
@@ -57,13 +58,13 @@ std::optional<Hidden> hide(const CauseCandidate& cause, const inference::Bench& 
       hidden.theta[j] += c.step[j] * (stream.uniform(k, 1 + static_cast<uint64_t>(j)) - 0.5);
     if (c.lower.size() > 0) hidden.theta = hidden.theta.cwiseMax(c.lower).cwiseMin(c.upper);
     if (c.admitted && c.admitted(hidden.theta) < 1) continue;
-    const MatrixXd columns = bench.columns_of(c, hidden.theta);
+    const MatrixXd columns = state.columns_of(c, hidden.theta);
     VectorXd weights(columns.cols());
     for (Index j = 0; j < weights.size(); ++j) weights[j] = stream.normal(k, 100 + static_cast<uint64_t>(j));
     if (c.width == 1) weights[0] = c.sign || weights[0] > 0 ? 1 : -1;
     const VectorXd effect = columns * weights;
     if ((effect.array() != 0).cast<double>().mean() < least_concerned) continue;
-    const double energy = stand.at.basis.rest(stand.whitener(effect)).squaredNorm();
+    const double energy = model.at.basis.rest(model.whitener(effect)).squaredNorm();
     const bool has_strength = !cause.shape->linear.empty();
     hidden.coefficients = weights * (has_strength ? std::sqrt(lambda / energy) : 1);
     hidden.lambda = has_strength ? lambda : energy;
@@ -73,7 +74,7 @@ std::optional<Hidden> hide(const CauseCandidate& cause, const inference::Bench& 
 }
 
 // The table with other values in its column rssi; whole dB stay whole.
-void write_measured(const Prepared& clean, const VectorXd& shift, const fs::path& file) {
+void write_measured(const DiagnosisSetup& clean, const VectorXd& shift, const fs::path& file) {
   std::vector<std::string> lines;
   std::ifstream in(clean.file);
   for (std::string line; std::getline(in, line);) lines.push_back(line);
@@ -104,21 +105,21 @@ void write_measured(const Prepared& clean, const VectorXd& shift, const fs::path
 }
 
 // The share of what was hidden that each other cause explains at its best place.
-std::map<std::string, double> likenesses(inference::Bench& bench, const VectorXd& effect, const std::string& own) {
+std::map<std::string, double> likenesses(inference::ModelState& state, const VectorXd& effect, const std::string& own) {
   std::map<std::string, double> result;
-  const inference::Stand stand = bench.stand(bench.design());
-  const VectorXd left = stand.at.basis.rest(stand.whitener(effect));
-  for (const inference::Entry& entry : bench.entries()) {
+  const inference::WhitenedModel model = state.whitened_model(state.design());
+  const VectorXd left = model.at.basis.rest(model.whitener(effect));
+  for (const inference::Entry& entry : state.entries()) {
     const inference::Candidate& c = *entry.candidate;
     if (c.kind != inference::Kind::named || c.id == own) continue;
-    result[c.id] = inference::gains(c, inference::unit_atoms(entry, stand), left).maxCoeff() / left.squaredNorm();
+    result[c.id] = inference::gains(c, inference::unit_atoms(entry, model), left).maxCoeff() / left.squaredNorm();
   }
   return result;
 }
 
 std::string named_in(const Diagnosis& d) {
   std::string result;
-  for (const FoundCause& c : d.causes) {
+  for (const CauseEstimate& c : d.causes) {
     if (c.status == inference::Status::named) result += (result.empty() ? "" : ", ") + c.id + ' ' + c.label;
   }
   for (const Unexplained& u : d.unexplained) result += (result.empty() ? "~" : ", ~") + u.covariate;
@@ -127,28 +128,28 @@ std::string named_in(const Diagnosis& d) {
 
 bool names(const Diagnosis& d, const std::string& id) {
   return std::any_of(d.causes.begin(), d.causes.end(),
-                     [&](const FoundCause& c) { return c.id == id && c.status == inference::Status::named; });
+                     [&](const CauseEstimate& c) { return c.id == id && c.status == inference::Status::named; });
 }
 
 class Checker {
  public:
-  Checker(std::string id, const Library::SearchPath& plugins, const CauseCheckOptions& options)
+  Checker(std::string id, const Library::SearchPath& plugins, const SelfTestOptions& options)
       : id_(std::move(id)), plugins_(plugins), options_(options) {}
 
   HiddenCase one(const fs::path& world, uint64_t number) const {
     HiddenCase result;
     result.world = world;
-    Prepared clean(world, world / "measured.csv", plugins_);
+    DiagnosisSetup clean(world, world / "measured.csv", plugins_);
     const auto cause = std::find_if(clean.sought.found.begin(), clean.sought.found.end(),
                                     [&](const CauseCandidate& c) { return c.candidate.id == id_; });
     if (cause == clean.sought.found.end()) return result.why_not = reason(clean), result;
-    inference::Bench bench(clean.problem, clean.options);
-    const auto hidden = hide(*cause, bench, options_.lambda, combined(options_.seed, number));
+    inference::ModelState state(clean.problem, clean.options);
+    const auto hidden = hide(*cause, state, options_.lambda, combined(options_.seed, number));
     if (!hidden) return result.why_not = "nothing within its bounds has that strength here", result;
-    const MatrixXd rows = bench.columns_of(cause->candidate, hidden->theta);
+    const MatrixXd rows = state.columns_of(cause->candidate, hidden->theta);
     result.where = cause->candidate.label_of(hidden->theta);
     result.lambda = hidden->lambda;
-    result.alike = likenesses(bench, rows * hidden->coefficients, id_);
+    result.alike = likenesses(state, rows * hidden->coefficients, id_);
     VectorXd shift = VectorXd::Zero(static_cast<Index>(clean.data.rows()));
     shift(clean.used) = cause->candidate.columns(hidden->theta) * hidden->coefficients;
     clean.run->clear();
@@ -158,7 +159,7 @@ class Checker {
   }
 
  private:
-  std::string reason(const Prepared& clean) const {
+  std::string reason(const DiagnosisSetup& clean) const {
     for (const std::string& why : clean.sought.not_tested) {
       if (why.rfind(id_ + ": ", 0) == 0) return why.substr(id_.size() + 2);
     }
@@ -166,7 +167,7 @@ class Checker {
   }
 
   // The world with an instance of the cause, as the diagnosis would write it, against the world without.
-  double against_simulator(Prepared& clean, const CauseCandidate& cause, const Hidden& hidden,
+  double against_simulator(DiagnosisSetup& clean, const CauseCandidate& cause, const Hidden& hidden,
                            const VectorXd& shift) const {
     inference::Finding finding{};
     finding.id = id_;
@@ -174,7 +175,7 @@ class Checker {
     finding.coefficients = hidden.coefficients;
     finding.uncertainty = MatrixXd::Zero(hidden.coefficients.size(), hidden.coefficients.size());
     Diagnosis extended;
-    extended.causes.push_back(found_cause(finding, cause));
+    extended.causes.push_back(cause_estimate(finding, cause));
     const VectorXd before = clean.model.expected();
     for (std::size_t k = 0; k < clean.base.paths.size(); ++k)
       extended.parameters[clean.base.paths[k]] = clean.base.values[static_cast<Index>(k)];
@@ -184,7 +185,7 @@ class Checker {
     return (executed - shift)(clean.used).cwiseAbs().maxCoeff();
   }
 
-  void look(const Prepared& clean, const VectorXd& shift, uint64_t number, HiddenCase& result) const {
+  void look(const DiagnosisSetup& clean, const VectorXd& shift, uint64_t number, HiddenCase& result) const {
     const fs::path world = clean.file.parent_path(),
                    file = options_.scratch / ("hidden_" + std::to_string(number) + ".csv");
     write_measured(clean, shift, file);
@@ -197,7 +198,7 @@ class Checker {
 
   std::string id_;
   const Library::SearchPath& plugins_;
-  const CauseCheckOptions& options_;
+  const SelfTestOptions& options_;
 };
 
 template <class Counts>
@@ -207,22 +208,22 @@ int count(const std::vector<HiddenCase>& cases, Counts counts) {
 
 }  // namespace
 
-int CauseCheck::tested() const {
+int CauseSelfTest::tested() const {
   return count(cases, [](const HiddenCase& c) { return c.why_not.empty(); });
 }
-int CauseCheck::found() const {
+int CauseSelfTest::found() const {
   return count(cases, [](const HiddenCase& c) { return c.found; });
 }
-int CauseCheck::false_names() const {
+int CauseSelfTest::false_names() const {
   return count(cases, [](const HiddenCase& c) { return c.named_on_clean; });
 }
-double CauseCheck::difference() const {
+double CauseSelfTest::difference() const {
   double result = 0;
   for (const HiddenCase& c : cases) result = std::max(result, c.difference);
   return result;
 }
 
-std::vector<std::pair<std::string, double>> CauseCheck::alike() const {
+std::vector<std::pair<std::string, double>> CauseSelfTest::alike() const {
   std::map<std::string, std::pair<double, int>> sums;
   for (const HiddenCase& c : cases) {
     for (const auto& [other, share] : c.alike) sums[other].first += share, ++sums[other].second;
@@ -234,8 +235,9 @@ std::vector<std::pair<std::string, double>> CauseCheck::alike() const {
   return result;
 }
 
-CauseCheck check_cause(const std::string& id, const std::vector<fs::path>& worlds, const Library::SearchPath& plugins,
-                       const CauseCheckOptions& options, const std::function<void(double)>& progress) {
+CauseSelfTest self_test_cause(const std::string& id, const std::vector<fs::path>& worlds,
+                              const Library::SearchPath& plugins, const SelfTestOptions& options,
+                              const std::function<void(double)>& progress) {
   const std::vector<Cause> causes = causes_on(plugins);
   std::vector<std::string> known;
   known.reserve(causes.size());
@@ -247,7 +249,7 @@ CauseCheck check_cause(const std::string& id, const std::vector<fs::path>& world
     throw Error(Exit::invalid_input,
                 id + " shifts no level: it is a law of what is random, or a receiver's clip, which " +
                     "a diagnosis asks by tests of its own; expected a cause that adds to levels");
-  CauseCheck result{id, {}};
+  CauseSelfTest result{id, {}};
   const Checker checker(id, plugins, options);
   for (std::size_t k = 0; k < worlds.size(); ++k) {
     progress(static_cast<double>(k) / static_cast<double>(worlds.size()));

@@ -8,7 +8,7 @@
 
 namespace muster::diagnosis {
 
-struct CauseCheckOptions {
+struct SelfTestOptions {
   double lambda = 60;  // whitened energy of what is hidden: twice the expected log-likelihood ratio
   uint64_t seed = 1;
   std::filesystem::path scratch;  // a folder for worlds with something hidden
@@ -27,7 +27,7 @@ struct HiddenCase {
   std::map<std::string, double> alike{};  // share of what was hidden that another cause explains at its best
 };
 
-struct CauseCheck {
+struct CauseSelfTest {
   std::string id;
   std::vector<HiddenCase> cases;
 
@@ -40,8 +40,8 @@ struct CauseCheck {
 };
 
 // `worlds`: folders with world.xml and measured.csv, in which nothing is hidden. Throws Error.
-CauseCheck check_cause(const std::string& id, const std::vector<std::filesystem::path>& worlds,
-                       const Library::SearchPath& plugins, const CauseCheckOptions& options,
-                       const std::function<void(double share)>& progress);
+CauseSelfTest self_test_cause(const std::string& id, const std::vector<std::filesystem::path>& worlds,
+                              const Library::SearchPath& plugins, const SelfTestOptions& options,
+                              const std::function<void(double share)>& progress);
 
 }  // namespace muster::diagnosis

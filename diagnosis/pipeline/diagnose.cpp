@@ -38,8 +38,8 @@ class Diagnoser {
     inference::Search search(at_.problem, at_.options);
     const inference::Result result = search.run();
     at_.run->clear();
-    Diagnosis out = summed_up(result, at_.sought, search.bench());
-    if (given) begin_as_given(*given, search.bench(), out);
+    Diagnosis out = summed_up(result, at_.sought, search.state());
+    if (given) begin_as_given(*given, search.state(), out);
     add_advice(search, out, at_.sought, {world_, plugins_, at_.model, at_.data}, at_.base);
     for (const auto* more : {&at_.sought.not_tested, &at_.untested})
       out.not_tested.insert(out.not_tested.end(), more->begin(), more->end());
@@ -47,10 +47,10 @@ class Diagnoser {
   }
 
  private:
-  Diagnosis summed_up(const inference::Result& result, const CauseSearch& causes, const inference::Bench& bench) {
+  Diagnosis summed_up(const inference::Result& result, const CauseSearch& causes, const inference::ModelState& state) {
     Diagnosis out;
     out.notes = at_.data.notes;
-    if (const Missing& m = at_.fitted.missing; !m.censored && m.rises())
+    if (const MissingData& m = at_.fitted.missing; !m.censored && m.rises())
       out.notes.push_back(fmt::format(
           "more readings are missing where less is expected ({:.0f} % at {:.0f} dBm, {:.0f} % at {:.0f} dBm): what was "
           "heard are the stronger ones, so weak levels look too high and the exponent too low",
@@ -64,7 +64,7 @@ class Diagnoser {
     out.elsewhere = result.elsewhere;
     out.used = at_.used;
     out.readings = at_.used.size();
-    out.rows = bench.rows().size();
+    out.rows = state.rows().size();
     out.row_limits = at_.options.rows;
     const VectorXd coefficients = result.base_coefficients.cwiseMax(at_.base.lower).cwiseMin(at_.base.upper);
     for (std::size_t j = 0; j < at_.base.paths.size(); ++j)
@@ -75,26 +75,27 @@ class Diagnoser {
                                       [&](const CauseCandidate& c) { return c.candidate.id == f.id; });
       if (f.status == inference::Status::unexplained || cause == causes.found.end()) {
         out.unexplained.push_back(
-            {f.id.substr(f.id.rfind('~') + 1), f.evidence, f.gain, f.held_out, f.elsewhere, f.rivals});
-        std::erase_if(out.unexplained.back().rivals, [](const inference::Rival& r) { return r.id[0] == '~'; });
+            {f.id.substr(f.id.rfind('~') + 1), f.evidence, f.gain, f.held_out, f.elsewhere, f.alternatives});
+        std::erase_if(out.unexplained.back().alternatives,
+                      [](const inference::Alternative& r) { return r.id[0] == '~'; });
         continue;
       }
-      const auto [finding, candidate] = simplest(f, *cause, causes, bench, coefficients);
-      out.causes.push_back(found_cause(finding, *candidate));
+      const auto [finding, candidate] = simplest(f, *cause, causes, state, coefficients);
+      out.causes.push_back(cause_estimate(finding, *candidate));
       out.causes.back().sought_as = f.id;
-      out.causes.back().effect = effect_of(bench, candidate->candidate, finding);
+      out.causes.back().effect = effect_of(state, candidate->candidate, finding);
       give_tables(*candidate->shape, out.causes.back());
     }
     at_.run->clear();
     for (const CauseCandidate& c : causes.found) out.searched.push_back(c.candidate.id);
     out.instrument = at_.instrument;
-    out.seen = seen_rows(bench, at_.model);
-    const inference::Stand alone = bench.stand(bench.base());
-    out.fitted = at_.base.mean + at_.base.slopes * (alone.coefficients(bench.base().cols()) - at_.base.values);
-    add_what_scatters(bench, out);
+    out.seen = row_summary(state, at_.model);
+    const inference::WhitenedModel alone = state.whitened_model(state.base());
+    out.fitted = at_.base.mean + at_.base.slopes * (alone.coefficients(state.base().cols()) - at_.base.values);
+    add_what_scatters(state, out);
     out.stairs = result.stairs;
     out.checks = result.checks;
-    out.world_values = world_values(bench, at_.base.paths, coefficients, at_.model);
+    out.world_values = world_values(state, at_.base.paths, coefficients, at_.model);
     for (WorldValue& v : out.world_values) {
       v.value = out.parameters.at(v.path);
       v.identifiable = std::none_of(at_.fitted.parameters.begin(), at_.fitted.parameters.end(),
@@ -123,16 +124,16 @@ class Diagnoser {
     const std::string doubt =
         "at its bound: " + ends + ", so that the world cannot follow these readings and no name is sure";
     out.notes.push_back(doubt);
-    for (FoundCause& c : out.causes) c.doubt = doubt;
+    for (CauseEstimate& c : out.causes) c.doubt = doubt;
   }
 
   // What the world as given leaves, before what the one that was judged does. The cause that was put right wins what
   // that world, with all else that was found in it, errs more than the extended one.
-  void begin_as_given(const Diagnosis& given, const inference::Bench& bench, Diagnosis& out) const {
-    FoundCause& first = *out.causes.insert(out.causes.begin(), given.causes.front());
-    const VectorXd left = measured(bench) - bench.rows().mean(given.fitted(at_.used));
+  void begin_as_given(const Diagnosis& given, const inference::ModelState& state, Diagnosis& out) const {
+    CauseEstimate& first = *out.causes.insert(out.causes.begin(), given.causes.front());
+    const VectorXd left = measured(state) - state.rows().mean(given.fitted(at_.used));
     first.effect = left - out.seen.before;
-    const inference::Stand alone = bench.stand(bench.base());
+    const inference::WhitenedModel alone = state.whitened_model(state.base());
     out.seen.before = left;
     out.seen.white_before = alone.at.basis.rest(alone.whitener(left));
     out.residual_sd = given.residual_sd;
@@ -170,10 +171,11 @@ class Diagnoser {
   // a wall that is not there. Asked with the base model's parameters as they are beside what was found.
   std::pair<inference::Finding, const CauseCandidate*> simplest(const inference::Finding& f,
                                                                 const CauseCandidate& cause, const CauseSearch& causes,
-                                                                const inference::Bench& bench, const VectorXd& base) {
+                                                                const inference::ModelState& state,
+                                                                const VectorXd& base) {
     constexpr double alike = 0.9, normal95 = 1.96;
     if (cause.shape->columns() != 1 || cause.shape->linear.empty() || cause.candidate.refinable()) return {f, &cause};
-    const VectorXd own = bench.columns_of(cause.candidate, f.theta);
+    const VectorXd own = state.columns_of(cause.candidate, f.theta);
     set_base(base);
     for (const CauseCandidate& other : causes.found) {
       if (!other.candidate.whole || other.candidate.refinable()) continue;
@@ -181,7 +183,7 @@ class Diagnoser {
       for (std::size_t row = 0; row < other.shape->rows.size(); ++row) {  // also those that cost nothing before
         theta[0] = static_cast<double>(row);
         if (f.label.empty() || other.shape->row_label(theta) != f.label) continue;
-        const VectorXd none = bench.columns_of(other.candidate, theta);
+        const VectorXd none = state.columns_of(other.candidate, theta);
         const double product = own.dot(none), strength = product / own.squaredNorm();
         if (product * product < alike * own.squaredNorm() * none.squaredNorm() ||
             std::abs(f.coefficients[0] - strength) > normal95 * std::sqrt(f.uncertainty(0, 0)))
@@ -192,7 +194,7 @@ class Diagnoser {
         simple.thetas = {theta};
         simple.coefficients = f.coefficients / strength;
         simple.uncertainty = f.uncertainty / (strength * strength);
-        std::erase_if(simple.rivals, [&](const inference::Rival& r) { return r.id == simple.id; });
+        std::erase_if(simple.alternatives, [&](const inference::Alternative& r) { return r.id == simple.id; });
         set_base(at_.base.values);
         return {simple, &other};
       }
@@ -207,21 +209,21 @@ class Diagnoser {
       at_.model.set(at_.base.paths[j], values[static_cast<Index>(j)]);
   }
 
-  void add_what_scatters(const inference::Bench& bench, Diagnosis& out) {
-    const LawSources sources{at_.model, at_.data, at_.causes, bench, at_.used, at_.fitted};
+  void add_what_scatters(const inference::ModelState& state, Diagnosis& out) {
+    const LawSources sources{at_.model, at_.data, at_.causes, state, at_.used, at_.fitted};
     add_clips(sources, out);
-    if (add_silence_beside(sources, extend(bench, out), out)) extend(bench, out);
+    if (add_silence_beside(sources, extend(state, out), out)) extend(state, out);
     const std::size_t before = out.causes.size();
     add_laws(sources, out);
-    if (out.causes.size() > before) extend(bench, out);  // a law of fading has a mean of its own
-    std::stable_sort(out.causes.begin(), out.causes.end(), [](const FoundCause& a, const FoundCause& b) {
+    if (out.causes.size() > before) extend(state, out);  // a law of fading has a mean of its own
+    std::stable_sort(out.causes.begin(), out.causes.end(), [](const CauseEstimate& a, const CauseEstimate& b) {
       return std::tuple(a.status, -a.lambda) < std::tuple(b.status, -b.lambda);
     });
     std::sort(out.searched.begin(), out.searched.end());
   }
 
   // A cause that reads a table gets the measured columns that it needs.
-  void give_tables(const CauseShape& shape, FoundCause& found) const {
+  void give_tables(const CauseShape& shape, CauseEstimate& found) const {
     const muster_param* file = shape.cause.file();
     if (!file) return;
     const std::string column = own_column(shape.cause);
@@ -253,21 +255,21 @@ class Diagnoser {
     return text + '\n';
   }
 
-  VectorXd measured(const inference::Bench& bench) const {
+  VectorXd measured(const inference::ModelState& state) const {
     const VectorXd offset = (at_.base.mean - at_.base.slopes * at_.base.values)(at_.used);
-    return bench.y() + bench.rows().mean(offset);
+    return state.y() + state.rows().mean(offset);
   }
 
   // What the extended world expects of every reading, dBm.
-  VectorXd extend(const inference::Bench& bench, Diagnosis& out) {
+  VectorXd extend(const inference::ModelState& state, Diagnosis& out) {
     out.mean = VectorXd::Constant(at_.base.mean.size(), std::nan(""));
-    VectorXd mean = fit_jointly({at_.model, at_.causes, at_.file, bench, at_.used, measured(bench)}, at_.base.lower,
-                                at_.base.upper, at_.base.paths, out);
+    VectorXd mean = refit_jointly({at_.model, at_.causes, at_.file, state, at_.used, measured(state)}, at_.base.lower,
+                                  at_.base.upper, at_.base.paths, out);
     out.mean(at_.used) = mean(at_.used);
     return mean;
   }
 
-  Prepared at_;
+  DiagnosisSetup at_;
   std::filesystem::path world_;
   Library::SearchPath plugins_;
 };
@@ -284,18 +286,19 @@ bool edits_world(const Cause& cause) {
 
 // People are a law of what is random, about no covariate.
 bool something_changes_in_time(const Diagnosis& found) {
-  return std::any_of(found.causes.begin(), found.causes.end(),
-                     [](const FoundCause& c) { return c.status == inference::Status::named && c.changes_in_time(); }) ||
+  return std::any_of(
+             found.causes.begin(), found.causes.end(),
+             [](const CauseEstimate& c) { return c.status == inference::Status::named && c.changes_in_time(); }) ||
          std::any_of(found.unexplained.begin(), found.unexplained.end(),
                      [](const Unexplained& u) { return u.changes_in_time(); });
 }
 
 // The strongest named cause by which radios stand elsewhere, if anything was found beside it; or people, beside what
 // changes in time.
-const FoundCause* first_in_company(const Diagnosis& found, const std::vector<Cause>& causes) {
-  const FoundCause* first = nullptr;
+const CauseEstimate* first_in_company(const Diagnosis& found, const std::vector<Cause>& causes) {
+  const CauseEstimate* first = nullptr;
   std::size_t named = found.unexplained.size();
-  for (const FoundCause& c : found.causes) {
+  for (const CauseEstimate& c : found.causes) {
     if (c.status != inference::Status::named) continue;
     ++named;
     const auto cause = std::find_if(causes.begin(), causes.end(), [&](const Cause& k) { return k.id == c.id; });
@@ -313,7 +316,7 @@ const FoundCause* first_in_company(const Diagnosis& found, const std::vector<Cau
 Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::path& data,
                    const Library::SearchPath& plugins) {
   Diagnosis found = Diagnoser(world, data, plugins).run();
-  const FoundCause* const spoiler = first_in_company(found, causes_on(plugins));
+  const CauseEstimate* const spoiler = first_in_company(found, causes_on(plugins));
   if (!spoiler) return found;
   Diagnosis first = found;
   first.causes = {*spoiler};

@@ -45,7 +45,7 @@ void write_file(const fs::path& file, const std::string& text) {
   if (!out.flush()) throw Error(Exit::io, file.string() + ": cannot be written");
 }
 
-void add_cause(XMLElement& root, const FoundCause& cause, const fs::path& folder) {
+void add_cause(XMLElement& root, const CauseEstimate& cause, const fs::path& folder) {
   XMLElement* e = root.InsertNewChildElement(cause.id.c_str());
   const std::string own = unused_name(root, cause.id);
   e->SetAttribute("name", own.c_str());
@@ -88,7 +88,7 @@ fs::path write_extended_world(const Diagnosis& found, const fs::path& world, con
     if (XMLElement* e = element_of(root, path.substr(0, slash)))
       e->SetAttribute(path.substr(slash + 1).c_str(), print_real(value).c_str());
   }
-  for (const FoundCause& cause : found.causes) {
+  for (const CauseEstimate& cause : found.causes) {
     if (cause.status == inference::Status::named) add_cause(root, cause, out);
   }
   const fs::path written = out / file.filename();

@@ -24,10 +24,10 @@ struct Unknown {
 
 class Joint {
  public:
-  Joint(const JointFit& fit, Diagnosis& found)
-      : fit_(fit), found_(found), whitener_(fit.bench.field(), fit.bench.fit.covariance) {
-    MatrixXd smooths(fit.bench.rows().size(), 0);
-    for (const inference::Term& term : fit.bench.terms) {
+  Joint(const JointRefit& fit, Diagnosis& found)
+      : fit_(fit), found_(found), whitener_(fit.state.field(), fit.state.fit.covariance) {
+    MatrixXd smooths(fit.state.rows().size(), 0);
+    for (const inference::Term& term : fit.state.terms) {
       if (!term.smooth()) continue;
       smooths.conservativeResize(Eigen::NoChange, smooths.cols() + term.columns.cols());
       smooths.rightCols(term.columns.cols()) = term.columns;
@@ -42,7 +42,7 @@ class Joint {
 
   void add_causes() {
     int number = 0;
-    for (FoundCause& found : found_.causes) {
+    for (CauseEstimate& found : found_.causes) {
       const auto cause =
           std::find_if(fit_.causes.begin(), fit_.causes.end(), [&](const Cause& c) { return c.id == found.id; });
       if (found.status != inference::Status::named || cause == fit_.causes.end()) continue;
@@ -89,7 +89,7 @@ class Joint {
   }
 
  private:
-  InstanceDeclaration declared(const FoundCause& found, const Cause& cause, const std::string& name) const {
+  InstanceDeclaration declared(const CauseEstimate& found, const Cause& cause, const std::string& name) const {
     const Place place{fit_.model.simulation().world().file.string()};
     InstanceDeclaration result{cause.id, name, 1, {}, {}, {}, place};
     const auto give = [&](const std::string& attribute, const std::string& value) {
@@ -121,7 +121,7 @@ class Joint {
   VectorXd residual(const VectorXd& x) const {
     set(x);
     const VectorXd mean = fit_.model.expected()(fit_.used);
-    return smooths_.rest(whitener_(fit_.bench.rows().mean(mean) - fit_.measured));
+    return smooths_.rest(whitener_(fit_.state.rows().mean(mean) - fit_.measured));
   }
   MatrixXd slopes(const VectorXd& x, const VectorXd& here) const {
     MatrixXd result(here.size(), x.size());
@@ -152,7 +152,7 @@ class Joint {
     }
   }
 
-  const JointFit& fit_;
+  const JointRefit& fit_;
   Diagnosis& found_;
   noise::Whitener whitener_;
   noise::Basis smooths_;
@@ -162,8 +162,8 @@ class Joint {
 
 }  // namespace
 
-VectorXd fit_jointly(const JointFit& fit, const VectorXd& lower, const VectorXd& upper,
-                     const std::vector<std::string>& paths, Diagnosis& found) {
+VectorXd refit_jointly(const JointRefit& fit, const VectorXd& lower, const VectorXd& upper,
+                       const std::vector<std::string>& paths, Diagnosis& found) {
   Joint joint(fit, found);
   joint.add_parameters(paths, lower, upper);
   joint.add_causes();

@@ -8,17 +8,17 @@
 
 namespace muster::diagnosis {
 
-struct JointFit {
-  LinkModel& model;                  // has an instance of each named cause meanwhile
-  const std::vector<Cause>& causes;  // of the plugin path
-  std::filesystem::path data;        // what a cause that reads a table reads
-  const inference::Bench& bench;     // after the search: its noise, rows and smooths
+struct JointRefit {
+  LinkModel& model;                    // has an instance of each named cause meanwhile
+  const std::vector<Cause>& causes;    // of the plugin path
+  std::filesystem::path data;          // what a cause that reads a table reads
+  const inference::ModelState& state;  // after the search: its noise, rows and smooths
   const std::vector<Eigen::Index>& used;
   Eigen::VectorXd measured;  // dBm, row means
 };
 
 // Moves the values of `found` and returns what the extended world expects of every reading, dBm.
-Eigen::VectorXd fit_jointly(const JointFit& fit, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
-                            const std::vector<std::string>& paths, Diagnosis& found);
+Eigen::VectorXd refit_jointly(const JointRefit& fit, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
+                              const std::vector<std::string>& paths, Diagnosis& found);
 
 }  // namespace muster::diagnosis

@@ -26,8 +26,9 @@ VectorXd first_of(const noise::Rows& rows, const Eigen::Ref<const VectorXd>& val
   return result;
 }
 
-VectorXd left_by(const inference::Bench& bench, const Eigen::MatrixXd& design, const inference::Stand& stand) {
-  return bench.y() - design * stand.coefficients(design.cols());
+VectorXd left_by(const inference::ModelState& state, const Eigen::MatrixXd& design,
+                 const inference::WhitenedModel& model) {
+  return state.y() - design * model.coefficients(design.cols());
 }
 
 std::vector<MappedWall> mapped_walls(const Simulation& run) {
@@ -46,11 +47,11 @@ std::vector<MappedWall> mapped_walls(const Simulation& run) {
 
 }  // namespace
 
-SeenRows seen_rows(const inference::Bench& bench, const LinkModel& model) {
-  const inference::Problem& problem = bench.problem();
+RowSummary row_summary(const inference::ModelState& state, const LinkModel& model) {
+  const inference::Problem& problem = state.problem();
   const noise::Readings& readings = problem.readings;
-  const noise::Rows& rows = bench.rows();
-  SeenRows out;
+  const noise::Rows& rows = state.rows();
+  RowSummary out;
   int radios = 0;
   for (Index i = 0; i < rows.size(); ++i) {
     const auto reading = static_cast<std::size_t>(rows.example(i));
@@ -72,10 +73,10 @@ SeenRows seen_rows(const inference::Bench& bench, const LinkModel& model) {
     out.heading = first_of(rows, moving.heading);
     out.bearing = first_of(rows, moving.bearing);
   }
-  const Eigen::MatrixXd full = bench.design();
-  const inference::Stand before = bench.stand(bench.base()), after = bench.stand(full);
-  out.before = left_by(bench, bench.base(), before);
-  out.after = left_by(bench, full, after);
+  const Eigen::MatrixXd full = state.design();
+  const inference::WhitenedModel before = state.whitened_model(state.base()), after = state.whitened_model(full);
+  out.before = left_by(state, state.base(), before);
+  out.after = left_by(state, full, after);
   out.white_before = before.at.residual;
   out.white_after = after.at.residual;
   for (const inference::Covariate& c : problem.covariates) {
@@ -92,14 +93,14 @@ SeenRows seen_rows(const inference::Bench& bench, const LinkModel& model) {
   return out;
 }
 
-VectorXd effect_of(const inference::Bench& bench, const inference::Candidate& candidate,
+VectorXd effect_of(const inference::ModelState& state, const inference::Candidate& candidate,
                    const inference::Finding& finding) {
-  return bench.columns_of(candidate, finding.theta) * finding.coefficients;
+  return state.columns_of(candidate, finding.theta) * finding.coefficients;
 }
 
-std::vector<WorldValue> world_values(const inference::Bench& bench, const std::vector<std::string>& paths,
+std::vector<WorldValue> world_values(const inference::ModelState& state, const std::vector<std::string>& paths,
                                      const VectorXd& values, const LinkModel& model) {
-  const Eigen::MatrixXd spread = inference::uncertainty_of(bench, bench.design());
+  const Eigen::MatrixXd spread = inference::coefficient_covariance(state, state.design());
   std::vector<WorldValue> out;
   for (std::size_t k = 0; k < paths.size(); ++k) {
     const auto at = static_cast<Index>(k);

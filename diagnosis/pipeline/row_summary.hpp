@@ -7,14 +7,14 @@
 
 namespace muster::diagnosis {
 
-SeenRows seen_rows(const inference::Bench& bench, const LinkModel& model);
+RowSummary row_summary(const inference::ModelState& state, const LinkModel& model);
 
 // dB that a finding adds to each row.
-Eigen::VectorXd effect_of(const inference::Bench& bench, const inference::Candidate& candidate,
+Eigen::VectorXd effect_of(const inference::ModelState& state, const inference::Candidate& candidate,
                           const inference::Finding& finding);
 
 // The world's parameters with their spread beside the findings.
-std::vector<WorldValue> world_values(const inference::Bench& bench, const std::vector<std::string>& paths,
+std::vector<WorldValue> world_values(const inference::ModelState& state, const std::vector<std::string>& paths,
                                      const Eigen::VectorXd& values, const LinkModel& model);
 
 }  // namespace muster::diagnosis

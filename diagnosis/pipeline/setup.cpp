@@ -46,7 +46,7 @@ std::string attribute_of(const InstanceDeclaration& instance, const std::string&
 
 // Nobody knows when people came, so that their bursts would look like whatever changes in time. A radio that is heard
 // on its crossed link alone keeps it.
-void Prepared::leave_out_crossed_links() {
+void DiagnosisSetup::leave_out_crossed_links() {
   for (const auto& instance : model.simulation().instances()) {
     const InstanceDeclaration& declared = instance->declared();
     const std::string one = attribute_of(declared, "radio"), other = attribute_of(declared, "other");
@@ -69,14 +69,14 @@ void Prepared::leave_out_crossed_links() {
   }
 }
 
-Prepared::Prepared(const std::filesystem::path& world, const std::filesystem::path& table,
-                   const Library::SearchPath& plugins)
+DiagnosisSetup::DiagnosisSetup(const std::filesystem::path& world, const std::filesystem::path& table,
+                               const Library::SearchPath& plugins)
     : file(table), data(read_dataset(table)), model(world, table, plugins), causes(causes_on(plugins)) {
-  instrument = instrument_of(data);
+  instrument = receiver_checks(data);
   note_radios(model, data);
   if (data.has_places()) check_places(model, data);
   fitted = fit(model, data, hold_causes(model));
-  base = base_columns(model, fitted.parameters);
+  base = sensitivities(model, fitted.parameters);
   for (const std::size_t row : fitted.rows_used()) used.push_back(static_cast<Index>(row));
   leave_out_crossed_links();
   if (static_cast<Index>(used.size()) < inference::fewest_readings)
@@ -92,7 +92,7 @@ Prepared::Prepared(const std::filesystem::path& world, const std::filesystem::pa
   options.rows = noise::limits_for(problem.readings);
   if (!problem.places_known) options.rows.way = -1;  // readings at like distances are not at one place: each is a row
   const noise::Rows rows(problem.readings, options.rows);
-  sought = cause_candidates(causes, survey_of(model, data), {run, model, data, used}, problem.base, rows);
+  sought = cause_candidates(causes, measurement_geometry(model, data), {run, model, data, used}, problem.base, rows);
   take_swaps_by_the_map(rows, world, plugins);
   add_columns();
   let_sketch(rows, world, plugins);
@@ -102,8 +102,8 @@ Prepared::Prepared(const std::filesystem::path& world, const std::filesystem::pa
 
 // Parameters that were fitted while two radios bear each other's name are bent by that, and what a swap would change is
 // wrong with them: where the fit leaves much more than the world's own draws, it is told by the declared ones.
-void Prepared::take_swaps_by_the_map(const noise::Rows& rows, const std::filesystem::path& world,
-                                     const Library::SearchPath& plugins) {
+void DiagnosisSetup::take_swaps_by_the_map(const noise::Rows& rows, const std::filesystem::path& world,
+                                           const Library::SearchPath& plugins) {
   constexpr double much_more = 1.5;
   if (fitted.simulated_sd <= 0 || fitted.residual_sd < much_more * fitted.simulated_sd) return;
   const auto set_all = [&](double FitParameter::*value) {
@@ -132,8 +132,8 @@ void Prepared::take_swaps_by_the_map(const noise::Rows& rows, const std::filesys
 }
 
 // Where rows have many readings, a search over many places, times or shapes asks one of each.
-void Prepared::let_sketch(const noise::Rows& rows, const std::filesystem::path& world,
-                          const Library::SearchPath& plugins) {
+void DiagnosisSetup::let_sketch(const noise::Rows& rows, const std::filesystem::path& world,
+                                const Library::SearchPath& plugins) {
   constexpr Index worth = 2;  // readings a row
   if (problem.readings.size() < worth * rows.size() || holds_a_table_reader(model)) return;
   sketched =
@@ -144,7 +144,7 @@ void Prepared::let_sketch(const noise::Rows& rows, const std::filesystem::path& 
 }
 
 // Where a wall or a thing stands is drawn some thousand times about one place, which few of many readings concern.
-void Prepared::let_ask_near(const std::filesystem::path& world, const Library::SearchPath& plugins) {
+void DiagnosisSetup::let_ask_near(const std::filesystem::path& world, const Library::SearchPath& plugins) {
   constexpr Index worth = 4000;  // readings
   if (problem.readings.size() < worth || holds_a_table_reader(model)) return;
   const Simulate simulate = [this, world, plugins](const noise::Readings& readings) {
@@ -158,7 +158,7 @@ void Prepared::let_ask_near(const std::filesystem::path& world, const Library::S
   }
 }
 
-void Prepared::fill_readings() {
+void DiagnosisSetup::fill_readings() {
   noise::Readings& r = problem.readings;
   const auto n = static_cast<Index>(used.size());
   r.tx_at.resize(3, n);
@@ -184,14 +184,14 @@ void Prepared::fill_readings() {
 }
 
 // What a reading says of the level, by the pile that it lies in.
-noise::Known Prepared::known_of(double rssi) const {
+noise::Known DiagnosisSetup::known_of(double rssi) const {
   const auto lies_in = [&](const std::optional<Clip>& clip) { return clip && rssi == clip->level; };
   if (std::isnan(rssi) || lies_in(instrument.bottom)) return noise::Known::below;
   return lies_in(instrument.top) ? noise::Known::above : noise::Known::value;
 }
 
 // A number of few values is a setting, that of a run a name: each value stands for itself.
-void Prepared::add_columns() {
+void DiagnosisSetup::add_columns() {
   for (const Covariate& column : data.covariates) {
     const std::string name = column.name.substr(0, column.name.find('['));
     const bool is_run = name == "run";

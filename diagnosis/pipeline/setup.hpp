@@ -11,19 +11,20 @@
 
 namespace muster::diagnosis {
 
-struct Prepared {
+struct DiagnosisSetup {
   // Throws Error.
-  Prepared(const std::filesystem::path& world, const std::filesystem::path& file, const Library::SearchPath& plugins);
-  Prepared(const Prepared&) = delete;
-  Prepared& operator=(const Prepared&) = delete;
+  DiagnosisSetup(const std::filesystem::path& world, const std::filesystem::path& file,
+                 const Library::SearchPath& plugins);
+  DiagnosisSetup(const DiagnosisSetup&) = delete;
+  DiagnosisSetup& operator=(const DiagnosisSetup&) = delete;
 
   std::filesystem::path file;  // of the readings
   Dataset data;
-  Instrument instrument;  // what the readings show of the receiver
+  ReceiverChecks instrument;  // what the readings show of the receiver
   LinkModel model;
   std::vector<Cause> causes;  // of the plugin path
   Fit fitted;
-  BaseColumns base;
+  Sensitivities base;
   std::vector<Eigen::Index> used;   // rows of the table behind the readings of the search
   std::shared_ptr<CauseModel> run;  // what the candidates evaluate
   inference::Problem problem;

@@ -21,15 +21,15 @@ bool reads_a_table(const CauseSearch& causes, const std::string& id) {
 std::set<std::string> wanted(const Diagnosis& found, const CauseSearch& causes) {
   std::set<std::string> out;
   bool open = false;
-  for (const FoundCause& c : found.causes) {
+  for (const CauseEstimate& c : found.causes) {
     if (c.status != inference::Status::named) continue;
     if (reads_a_table(causes, c.id)) return {};
     if (c.sought_as.empty()) continue;  // a law of readings is none of the search's, nor what was put right first
     out.insert(c.sought_as);
-    std::size_t rivals = 0;
-    for (const inference::Rival& r : c.rivals) {
+    std::size_t alternatives = 0;
+    for (const inference::Alternative& r : c.alternatives) {
       if (r.separability >= inference::decided || r.id[0] == '~' || r.id == c.sought_as ||
-          reads_a_table(causes, r.id) || rivals++ >= most_rivals)
+          reads_a_table(causes, r.id) || alternatives++ >= most_rivals)
         continue;
       out.insert(r.id);
       open = true;
@@ -41,7 +41,7 @@ std::set<std::string> wanted(const Diagnosis& found, const CauseSearch& causes) 
 }  // namespace
 
 std::optional<PlannedReadings> most_telling(const Diagnosis& found, std::vector<PlannedReadings> plans) {
-  const auto open = std::find_if(found.causes.begin(), found.causes.end(), [&](const FoundCause& c) {
+  const auto open = std::find_if(found.causes.begin(), found.causes.end(), [&](const CauseEstimate& c) {
     return std::any_of(found.advice.begin(), found.advice.end(), [&](const Advice& a) { return a.cause == c.id; });
   });
   if (open == found.causes.end()) return {};
@@ -56,7 +56,7 @@ std::optional<PlannedReadings> most_telling(const Diagnosis& found, std::vector<
 }
 
 void add_advice(inference::Search& search, Diagnosis& found, const CauseSearch& causes, const PlanSources& sources,
-                const BaseColumns& base) {
+                const Sensitivities& base) {
   const std::set<std::string> ids = wanted(found, causes);
   if (ids.empty() || holds_a_table_reader(sources.model)) return;
   std::vector<std::unique_ptr<SimulatedReadings>> simulated;
@@ -72,8 +72,9 @@ void add_advice(inference::Search& search, Diagnosis& found, const CauseSearch& 
   }
   for (const inference::Advice& a : search.advise(plans)) {
     const auto cause = std::find_if(found.causes.begin(), found.causes.end(),
-                                    [&](const FoundCause& c) { return c.sought_as == a.finding; });
-    if (cause != found.causes.end()) found.advice.push_back({a.say, cause->id, a.rival, a.separability, a.predicted});
+                                    [&](const CauseEstimate& c) { return c.sought_as == a.finding; });
+    if (cause != found.causes.end())
+      found.advice.push_back({a.say, cause->id, a.alternative, a.separability, a.predicted});
   }
   found.advised = most_telling(found, std::move(planned));
 }

@@ -34,14 +34,14 @@ struct Standing {
   bool sends;
 };
 
-End end_of(const SeenRows& seen, Index i, bool sends) {
+End end_of(const RowSummary& seen, Index i, bool sends) {
   const auto k = static_cast<std::size_t>(i);
   const Eigen::VectorXd& yaw = sends ? seen.tx_yaw : seen.rx_yaw;
   return {sends ? seen.tx[k] : seen.rx[k], (sends ? seen.tx_at : seen.rx_at).col(i), yaw.size() > 0,
           yaw.size() > 0 ? yaw[i] : 0};
 }
 
-std::vector<Standing> standing_radios(const SeenRows& seen) {
+std::vector<Standing> standing_radios(const RowSummary& seen) {
   std::map<std::pair<int, bool>, std::pair<Standing, bool>> known;
   for (Index i = 0; i < seen.tx_at.cols(); ++i) {
     for (const bool sends : {true, false}) {
@@ -59,14 +59,14 @@ std::vector<Standing> standing_radios(const SeenRows& seen) {
 
 // A place on a link, taken so many times that the noise counts it as a row of the data counts.
 struct Maker {
-  const SeenRows& seen;
+  const RowSummary& seen;
   std::vector<Index> rows;       // of the data, spread over all
   std::vector<Standing> radios;  // that stand
   int repeats;
   bool timed;
   double begin = 0, end = 0;  // s
 
-  explicit Maker(const SeenRows& s) : seen(s), radios(standing_radios(s)), timed(s.t.size() > 0) {
+  explicit Maker(const RowSummary& s) : seen(s), radios(standing_radios(s)), timed(s.t.size() > 0) {
     const auto n = static_cast<Index>(s.tx.size());
     const Index every = std::max<Index>(1, (n + most_rows - 1) / most_rows);
     for (Index i = 0; i < n; i += every) rows.push_back(i);
@@ -163,10 +163,10 @@ PlannedReadings turning(const Maker& make) {
   return out;
 }
 
-bool is_about(const FoundCause& c, const std::string& radio) { return c.row == radio; }
+bool is_about(const CauseEstimate& c, const std::string& radio) { return c.row == radio; }
 
-bool may_be_about(const FoundCause& c, const std::string& radio) {
-  return std::any_of(c.rivals.begin(), c.rivals.end(), [&](const inference::Rival& r) {
+bool may_be_about(const CauseEstimate& c, const std::string& radio) {
+  return std::any_of(c.alternatives.begin(), c.alternatives.end(), [&](const inference::Alternative& r) {
     const std::string rows = ' ' + r.label + ' ';
     return r.separability < inference::decided && rows.find(" radio/" + radio + ' ') != std::string::npos;
   });
@@ -174,11 +174,11 @@ bool may_be_about(const FoundCause& c, const std::string& radio) {
 
 // The standing radio that something was found about, or that it may be about as well, or the first one; none if none
 // stands.
-const Standing* station(const Maker& make, const std::vector<FoundCause>& about) {
+const Standing* station(const Maker& make, const std::vector<CauseEstimate>& about) {
   for (const auto& is : {is_about, may_be_about}) {
     for (const Standing& s : make.radios) {
       const std::string& name = make.seen.radios[static_cast<std::size_t>(s.end.radio)];
-      if (std::any_of(about.begin(), about.end(), [&](const FoundCause& c) { return is(c, name); })) return &s;
+      if (std::any_of(about.begin(), about.end(), [&](const CauseEstimate& c) { return is(c, name); })) return &s;
     }
   }
   return make.radios.empty() ? nullptr : &make.radios.front();
@@ -230,7 +230,7 @@ PlannedReadings moved_station(const Maker& make, int radio) {
   return out;
 }
 
-double value_of(const FoundCause& c, const std::string& name) {
+double value_of(const CauseEstimate& c, const std::string& name) {
   for (const CauseValue& v : c.values) {
     if (v.name == name) return v.value;
   }
@@ -238,8 +238,8 @@ double value_of(const FoundCause& c, const std::string& name) {
 }
 
 // Where something was found, or the middle of what was driven.
-Vector3d middle_of(const SeenRows& seen, const std::vector<FoundCause>& about) {
-  for (const FoundCause& c : about) {
+Vector3d middle_of(const RowSummary& seen, const std::vector<CauseEstimate>& about) {
+  for (const CauseEstimate& c : about) {
     const double x = value_of(c, "x"), y = value_of(c, "y");
     if (!std::isnan(x + y)) return {x, y, 0};
     Vector3d middle((value_of(c, "x0") + value_of(c, "x1")) / 2, (value_of(c, "y0") + value_of(c, "y1")) / 2, 0);
@@ -249,7 +249,7 @@ Vector3d middle_of(const SeenRows& seen, const std::vector<FoundCause>& about) {
 }
 
 // Points of a grid inside the walls' box that are 1.5 m and more from all visited places, those near `to` first.
-std::vector<Vector3d> not_visited(const SeenRows& seen, const Vector3d& to) {
+std::vector<Vector3d> not_visited(const RowSummary& seen, const Vector3d& to) {
   Eigen::AlignedBox2d box;
   for (const MappedWall& w : seen.walls) {
     box.extend(Eigen::Vector2d(w.x0, w.y0));
@@ -273,7 +273,7 @@ std::vector<Vector3d> not_visited(const SeenRows& seen, const Vector3d& to) {
   return out;
 }
 
-PlannedReadings elsewhere(const Maker& make, const std::vector<FoundCause>& about) {
+PlannedReadings elsewhere(const Maker& make, const std::vector<CauseEstimate>& about) {
   const auto places = not_visited(make.seen, middle_of(make.seen, about));
   std::optional<End> r = make.roaming_end(make.rows.front());
   if (places.size() < 8 || !r) return {};
@@ -305,7 +305,7 @@ void space_out(noise::Readings& r) {
 
 }  // namespace
 
-std::vector<PlannedReadings> planned_readings(const SeenRows& seen, const std::vector<FoundCause>& about) {
+std::vector<PlannedReadings> planned_readings(const RowSummary& seen, const std::vector<CauseEstimate>& about) {
   if (!seen.places_known) return {};
   const Maker make(seen);
   std::vector<PlannedReadings> out;

@@ -11,7 +11,7 @@ namespace muster::diagnosis {
 // The same ways in reverse, later or with all radios sending, turns on the spot, a transmitter turned or moved, places
 // not yet visited. `about`: what was found, whose radio it is that moves, and near which places not yet visited matter
 // most.
-std::vector<PlannedReadings> planned_readings(const SeenRows& seen, const std::vector<FoundCause>& about);
+std::vector<PlannedReadings> planned_readings(const RowSummary& seen, const std::vector<CauseEstimate>& about);
 
 // The one that decides most about the strongest open cause: by how much D grows over its rivals, none counted beyond
 // decided. None if that is less than 1, which one reading adds that differs by its own sd.
@@ -26,6 +26,6 @@ struct PlanSources {
 
 // Adds what the plans would do for each cause and rival that the data do not decide. Throws Error.
 void add_advice(inference::Search& search, Diagnosis& found, const CauseSearch& causes, const PlanSources& sources,
-                const BaseColumns& base);
+                const Sensitivities& base);
 
 }  // namespace muster::diagnosis

@@ -8,26 +8,26 @@
 namespace muster::report {
 namespace {
 
-using diagnosis::SeenRows;
+using diagnosis::RowSummary;
 using Eigen::Index;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-VectorXd none(const SeenRows& rows) { return VectorXd::Constant(static_cast<Index>(rows.tx.size()), std::nan("")); }
+VectorXd none(const RowSummary& rows) { return VectorXd::Constant(static_cast<Index>(rows.tx.size()), std::nan("")); }
 
-std::optional<double> value_of(const FoundCause& c, const std::string& name) {
+std::optional<double> value_of(const CauseEstimate& c, const std::string& name) {
   for (const CauseValue& v : c.values) {
     if (v.name == name) return v.value;
   }
   return {};
 }
 
-std::string row_name(const FoundCause& c, const std::string& set) {
+std::string row_name(const CauseEstimate& c, const std::string& set) {
   return c.label.rfind(set + '/', 0) == 0 ? c.label.substr(set.size() + 1) : "";
 }
 
 // Where along the wall's line, from its first end, the straight way between the radios crosses it.
-std::optional<Abscissa> along_wall(const SeenRows& rows, const FoundCause& c) {
+std::optional<Abscissa> along_wall(const RowSummary& rows, const CauseEstimate& c) {
   const auto x0 = value_of(c, "x0"), y0 = value_of(c, "y0"), x1 = value_of(c, "x1"), y1 = value_of(c, "y1");
   if (!x0 || !y0 || !x1 || !y1) return {};
   const Vector2d from(*x0, *y0), way = Vector2d(*x1, *y1) - from;
@@ -58,7 +58,7 @@ double distance_to_way(const Vector2d& p, const Vector2d& a, const Vector2d& b) 
   return (a + at * way - p).norm();
 }
 
-std::optional<Abscissa> beside_point(const SeenRows& rows, const FoundCause& c) {
+std::optional<Abscissa> beside_point(const RowSummary& rows, const CauseEstimate& c) {
   const auto x = value_of(c, "x"), y = value_of(c, "y");
   if (!x || !y) return {};
   Abscissa out{"straight way of the link passes at", "m", none(rows)};
@@ -73,7 +73,7 @@ std::optional<Abscissa> beside_point(const SeenRows& rows, const FoundCause& c) 
   return out;
 }
 
-std::optional<Abscissa> through_wall(const SeenRows& rows, const FoundCause& c) {
+std::optional<Abscissa> through_wall(const RowSummary& rows, const CauseEstimate& c) {
   const std::string wall = row_name(c, "wall");
   if (wall.empty()) return {};
   Abscissa out{"", "", none(rows), false, {"not through " + wall, "through " + wall}};
@@ -82,7 +82,7 @@ std::optional<Abscissa> through_wall(const SeenRows& rows, const FoundCause& c) 
 }
 
 // From the radio that it is about to the other one; a category where the effect is one constant.
-std::optional<Abscissa> about_radio(const SeenRows& rows, const FoundCause& c) {
+std::optional<Abscissa> about_radio(const RowSummary& rows, const CauseEstimate& c) {
   const std::string name = row_name(c, "radio");
   const auto at = std::find(rows.radios.begin(), rows.radios.end(), name);
   if (name.empty() || at == rows.radios.end()) return {};
@@ -105,7 +105,7 @@ std::optional<Abscissa> about_radio(const SeenRows& rows, const FoundCause& c) {
   return out;
 }
 
-Abscissa bearing(const SeenRows& rows) {
+Abscissa bearing(const RowSummary& rows) {
   Abscissa out{"bearing of the other radio", "deg", none(rows)};
   for (Index i = 0; i < out.values.size(); ++i) {
     const Eigen::Vector3d way = rows.tx_at.col(i) - rows.rx_at.col(i);
@@ -118,7 +118,7 @@ Abscissa bearing(const SeenRows& rows) {
 
 double in_degrees(double angle) { return std::remainder(angle, 2 * M_PI) * 180 / M_PI; }
 
-Abscissa abscissa_of(const SeenRows& rows, const FoundCause& c) {
+Abscissa abscissa_of(const RowSummary& rows, const CauseEstimate& c) {
   const std::string own = c.covariates.empty() ? "" : c.covariates.front();
   if (own == "time" && rows.t.size()) return {"time", "s", rows.t};
   if (own == "bearing" && rows.rx_yaw.size()) return bearing(rows);

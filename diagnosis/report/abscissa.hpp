@@ -16,7 +16,7 @@ struct Abscissa {
   bool is_effect = false;            // nothing better was known: the effect as fitted
 };
 
-Abscissa abscissa_of(const diagnosis::SeenRows& rows, const FoundCause& cause);
+Abscissa abscissa_of(const diagnosis::RowSummary& rows, const CauseEstimate& cause);
 
 // An angle in degrees, from -180 to 180.
 double in_degrees(double angle);

@@ -6,15 +6,15 @@ namespace muster::report {
 
 std::vector<Question> open_questions(const Diagnosis& d) {
   std::vector<Question> out;
-  for (const FoundCause& c : d.causes) {
+  for (const CauseEstimate& c : d.causes) {
     if (standing_of(c) == Standing::set_aside) continue;
-    for (const inference::Rival& r : c.rivals) {
+    for (const inference::Alternative& r : c.alternatives) {
       if (r.separability >= inference::decided) continue;
       std::string pair = short_name(c.id) + " or " + short_name(r.id);
       if (r.id == c.id) pair = short_name(c.id) + " of " + c.label + " or of " + r.label;
       Question question{c.id, r.id, std::move(pair), r.separability, c.tell_apart, {}};
       for (const diagnosis::Advice& a : d.advice) {
-        if (a.cause != c.id || a.rival != r.id || !a.predicted) continue;
+        if (a.cause != c.id || a.alternative != r.id || !a.predicted) continue;
         question.plans.push_back({a.say, *a.predicted, d.advised && d.advised->say == a.say});
       }
       std::stable_sort(question.plans.begin(), question.plans.end(),
@@ -24,7 +24,7 @@ std::vector<Question> open_questions(const Diagnosis& d) {
   }
   for (const auto& u : d.unexplained) {
     const std::string what = covariate_in_words(u.covariate);
-    for (const inference::Rival& r : u.rivals) {
+    for (const inference::Alternative& r : u.alternatives) {
       if (r.separability >= inference::decided) continue;
       out.push_back({"~" + u.covariate,
                      r.id,
@@ -41,12 +41,12 @@ std::string name_of_step(const Diagnosis& d, std::size_t k) {
   if (k == 0) return "the world, fitted";
   // Of what the search accepted, causes and what is unexplained in one order of strength.
   std::vector<std::pair<double, std::string>> steps;
-  for (const FoundCause& c : d.causes) {
+  for (const CauseEstimate& c : d.causes) {
     if (standing_of(c) != Standing::set_aside && !c.sought_as.empty()) steps.emplace_back(-c.lambda, short_name(c.id));
   }
   for (const auto& u : d.unexplained) steps.emplace_back(-u.lambda, covariate_in_words(u.covariate) + " (unexplained)");
   std::stable_sort(steps.begin(), steps.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  for (const FoundCause& c : d.causes) {
+  for (const CauseEstimate& c : d.causes) {
     if (c.put_right_first) steps.insert(steps.begin(), {0, short_name(c.id)});
   }
   return k <= steps.size() ? "+ " + steps[k - 1].second : "";

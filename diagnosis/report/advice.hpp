@@ -16,7 +16,7 @@ struct Measurement {
 };
 
 struct Question {
-  std::string cause, rival;
+  std::string cause, alternative;
   std::string pair;                  // "unmapped wall or obstacle", "the column battery or drift"
   double separability = 0;           // D of the data
   std::string tell_apart;            // in the cause's own words

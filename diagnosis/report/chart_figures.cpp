@@ -73,7 +73,7 @@ struct Along {
   std::vector<std::string> names{};
 };
 
-void add_geometry(const diagnosis::SeenRows& rows, std::vector<Along>& out) {
+void add_geometry(const diagnosis::RowSummary& rows, std::vector<Along>& out) {
   const Eigen::Matrix3Xd way = rows.tx_at - rows.rx_at;
   out.push_back({"distance", "m", "~logd", way.colwise().norm().transpose().cwiseMax(0.1), true});
   if (rows.t.size()) out.push_back({"time", "s", "~time", rows.t});
@@ -91,7 +91,7 @@ void add_geometry(const diagnosis::SeenRows& rows, std::vector<Along>& out) {
   out.push_back({"y", "m", "~position", places.place.row(1).transpose()});
 }
 
-std::vector<Along> everything(const diagnosis::SeenRows& rows) {
+std::vector<Along> everything(const diagnosis::RowSummary& rows) {
   std::vector<Along> out;
   add_geometry(rows, out);
   for (const auto& c : rows.columns) out.push_back({c.name, "", "~" + c.name, c.values});
@@ -145,7 +145,7 @@ pic::Figure staircase(const Diagnosis& d) {
       .panels = {panel}};
 }
 
-pic::Figure partial_residual(const Diagnosis& d, const FoundCause& c) {
+pic::Figure partial_residual(const Diagnosis& d, const CauseEstimate& c) {
   const Abscissa along = abscissa_of(d.seen, c);
   // What is set aside is not in the model, so its effect is in what is left already.
   const VectorXd partial = standing_of(c) == Standing::set_aside ? d.seen.after : VectorXd(d.seen.after + c.effect);

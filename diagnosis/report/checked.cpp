@@ -6,7 +6,7 @@
 namespace muster::report {
 
 bool found(const Diagnosis& d, const std::string& id) {
-  const auto is_cause = [&](const FoundCause& c) { return c.id == id; };
+  const auto is_cause = [&](const CauseEstimate& c) { return c.id == id; };
   const auto is_left = [&](const diagnosis::Unexplained& u) { return "~" + u.covariate == id; };
   return std::any_of(d.causes.begin(), d.causes.end(), is_cause) ||
          std::any_of(d.unexplained.begin(), d.unexplained.end(), is_left);

@@ -22,7 +22,7 @@ std::vector<Picture> pictures_of(const Diagnosis& diagnosis);
 plotting::Figure residual_map(const Diagnosis& diagnosis);
 plotting::Figure before_and_after(const Diagnosis& diagnosis);
 plotting::Figure staircase(const Diagnosis& diagnosis);
-plotting::Figure partial_residual(const Diagnosis& diagnosis, const FoundCause& cause);
+plotting::Figure partial_residual(const Diagnosis& diagnosis, const CauseEstimate& cause);
 plotting::Figure residual_by_covariate(const Diagnosis& diagnosis);
 
 }  // namespace muster::report

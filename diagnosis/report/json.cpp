@@ -13,13 +13,13 @@ using Json = nlohmann::ordered_json;
 // JSON has no NaN: what is not known is null.
 Json known(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-Json held_out_json(const std::optional<inference::HeldOut>& h) {
-  const auto of = [&](double inference::HeldOut::*which) { return h ? known(*h.*which) : Json(nullptr); };
-  return {{"heldout_rmse_before_db", of(&inference::HeldOut::rmse_before)},
-          {"heldout_rmse_after_db", of(&inference::HeldOut::rmse_after)},
-          {"gain_lower95", of(&inference::HeldOut::lower95)},
-          {"gain_upper95", of(&inference::HeldOut::upper95)},
-          {"gain_db2", of(&inference::HeldOut::gain)},
+Json held_out_json(const std::optional<inference::HeldOutGain>& h) {
+  const auto of = [&](double inference::HeldOutGain::*which) { return h ? known(*h.*which) : Json(nullptr); };
+  return {{"heldout_rmse_before_db", of(&inference::HeldOutGain::rmse_before)},
+          {"heldout_rmse_after_db", of(&inference::HeldOutGain::rmse_after)},
+          {"gain_lower95", of(&inference::HeldOutGain::lower95)},
+          {"gain_upper95", of(&inference::HeldOutGain::upper95)},
+          {"gain_db2", of(&inference::HeldOutGain::gain)},
           {"blocks", h ? Json(h->blocks) : Json(nullptr)}};
 }
 
@@ -33,9 +33,9 @@ Json elsewhere_json(const std::vector<inference::Elsewhere>& elsewhere) {
   return out;
 }
 
-Json rivals_json(const std::vector<inference::Rival>& rivals) {
+Json rivals_json(const std::vector<inference::Alternative>& alternatives) {
   Json out = Json::array();
-  for (const inference::Rival& r : rivals)
+  for (const inference::Alternative& r : alternatives)
     out.push_back({{"id", r.id},
                    {"label", r.label},
                    {"evidence_gap", known(r.evidence_gap)},
@@ -43,7 +43,7 @@ Json rivals_json(const std::vector<inference::Rival>& rivals) {
   return out;
 }
 
-Json cause_json(const FoundCause& c) {
+Json cause_json(const CauseEstimate& c) {
   Json parameters = Json::array();
   for (const CauseValue& v : c.values) {
     const bool sure = v.upper95 > v.lower95;
@@ -64,7 +64,7 @@ Json cause_json(const FoundCause& c) {
               {"lambda", known(c.lambda)}};
   out.update(held_out_json(c.held_out));
   out["elsewhere"] = elsewhere_json(c.elsewhere);
-  out["rivals"] = rivals_json(c.rivals);
+  out["rivals"] = rivals_json(c.alternatives);
   out["tell_apart"] = c.tell_apart;
   out["doubt"] = c.doubt.empty() ? Json() : Json(c.doubt);
   return out;
@@ -74,13 +74,13 @@ Json unexplained_json(const diagnosis::Unexplained& u) {
   Json out = {{"covariate", u.covariate}, {"evidence", known(u.evidence)}, {"lambda", known(u.lambda)}};
   out.update(held_out_json(u.held_out));
   out["elsewhere"] = elsewhere_json(u.elsewhere);
-  out["rivals"] = rivals_json(u.rivals);
+  out["rivals"] = rivals_json(u.alternatives);
   return out;
 }
 
 Json instrument_json(const Diagnosis& d) {
   Json out = Json::array();
-  for (const diagnosis::InstrumentCheck& c : d.instrument.checks)
+  for (const diagnosis::ReceiverCheck& c : d.instrument.checks)
     out.push_back({{"check", c.what}, {"found", c.found}, {"fine", c.fine}, {"row", c.row ? Json(*c.row) : Json()}});
   return out;
 }
@@ -89,7 +89,7 @@ Json advice_json(const Diagnosis& d) {
   Json out = Json::array();
   const auto add = [&](const std::string& say, const Question& q, Json predicted, bool advised) {
     out.push_back({{"do", say},
-                   {"separates", q.cause + ' ' + q.rival},
+                   {"separates", q.cause + ' ' + q.alternative},
                    {"predicted_separability", std::move(predicted)},
                    {"separability", known(q.separability)},
                    {"advised", advised}});
@@ -153,37 +153,40 @@ Json world_json(const Diagnosis& d) {
 
 Json json_of(const Diagnosis& d) {
   Json causes = Json::array(), unexplained = Json::array();
-  for (const FoundCause& c : d.causes) causes.push_back(cause_json(c));
+  for (const CauseEstimate& c : d.causes) causes.push_back(cause_json(c));
   for (const auto& u : d.unexplained) unexplained.push_back(unexplained_json(u));
-  const auto error = [&](double inference::HeldOut::*which) { return d.held_out ? known(*d.held_out.*which) : Json(); };
-  return {{"verdict", d.verdict()},
-          {"noise",
-           {{"family", std::string(noise::name_of(d.noise.family))},
-            {"sigma_db", known(std::sqrt(d.noise.field_variance()))},
-            {"decorrelation_m", known(d.noise.decorrelation())},
-            {"fading", known(std::sqrt(d.noise.reading_variance()))},
-            {"floor_db", known(noise_floor(d))}}},
-          {"base",
-           {{"residual_sd_db", known(d.residual_sd)}, {"heldout_rmse_db", error(&inference::HeldOut::rmse_before)}}},
-          {"causes", causes},
-          {"unexplained", unexplained},
-          {"advice", advice_json(d)},
-          {"extended_world", d.loop ? Json(d.loop->world.string()) : Json()},
-          {"heldout_rmse_db", error(&inference::HeldOut::rmse_after)},
-          {"loop", loop_json(d)},
-          {"summary", verdict_in_words(d)},
-          {"readings", d.readings},
-          {"rows", d.rows},
-          {"blocks", d.held_out ? Json(d.held_out->blocks) : Json()},
-          {"elsewhere", elsewhere_json(d.elsewhere)},
-          {"steps", stairs_json(d)},
-          {"parameters", d.parameters},
-          {"world_parameters", world_json(d)},
-          {"checked", checks_json(d)},
-          {"instrument", instrument_json(d)},
-          {"searched", d.searched},
-          {"not_searched", d.not_tested},
-          {"notes", d.notes}};
+  const auto error = [&](double inference::HeldOutGain::*which) {
+    return d.held_out ? known(*d.held_out.*which) : Json();
+  };
+  return {
+      {"verdict", d.verdict()},
+      {"noise",
+       {{"family", std::string(noise::name_of(d.noise.family))},
+        {"sigma_db", known(std::sqrt(d.noise.field_variance()))},
+        {"decorrelation_m", known(d.noise.decorrelation())},
+        {"fading", known(std::sqrt(d.noise.reading_variance()))},
+        {"floor_db", known(noise_floor(d))}}},
+      {"base",
+       {{"residual_sd_db", known(d.residual_sd)}, {"heldout_rmse_db", error(&inference::HeldOutGain::rmse_before)}}},
+      {"causes", causes},
+      {"unexplained", unexplained},
+      {"advice", advice_json(d)},
+      {"extended_world", d.loop ? Json(d.loop->world.string()) : Json()},
+      {"heldout_rmse_db", error(&inference::HeldOutGain::rmse_after)},
+      {"loop", loop_json(d)},
+      {"summary", verdict_in_words(d)},
+      {"readings", d.readings},
+      {"rows", d.rows},
+      {"blocks", d.held_out ? Json(d.held_out->blocks) : Json()},
+      {"elsewhere", elsewhere_json(d.elsewhere)},
+      {"steps", stairs_json(d)},
+      {"parameters", d.parameters},
+      {"world_parameters", world_json(d)},
+      {"checked", checks_json(d)},
+      {"instrument", instrument_json(d)},
+      {"searched", d.searched},
+      {"not_searched", d.not_tested},
+      {"notes", d.notes}};
 }
 
 }  // namespace muster::report

@@ -74,7 +74,7 @@ std::map<int, pic::Station> stations_of(const Diagnosis& d, const Places& places
   return out;
 }
 
-std::optional<double> value_of(const FoundCause& c, const std::string& name) {
+std::optional<double> value_of(const CauseEstimate& c, const std::string& name) {
   for (const CauseValue& v : c.values) {
     if (v.name == name) return v.value;
   }
@@ -89,7 +89,7 @@ void add_outline(const std::vector<double>& x, const std::vector<double>& y, std
 
 // The places of what was found, as lines; none for what has no place.
 void add_found(const Diagnosis& d, std::vector<pic::Layer>& out) {
-  for (const FoundCause& c : d.causes) {
+  for (const CauseEstimate& c : d.causes) {
     if (standing_of(c) == Standing::set_aside) continue;
     const auto x0 = value_of(c, "x0"), y0 = value_of(c, "y0"), x1 = value_of(c, "x1"), y1 = value_of(c, "y1");
     const auto x = value_of(c, "x"), y = value_of(c, "y");

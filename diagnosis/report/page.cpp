@@ -52,7 +52,7 @@ std::string capital(std::string text) {
 }
 
 // A name keeps its letters.
-std::string title_of(const FoundCause& c) { return c.title.rfind('{', 0) == 0 ? sentence(c) : capital(sentence(c)); }
+std::string title_of(const CauseEstimate& c) { return c.title.rfind('{', 0) == 0 ? sentence(c) : capital(sentence(c)); }
 
 struct Cell {
   std::string text;
@@ -106,16 +106,16 @@ std::string key_figures(const Diagnosis& d) {
   return out + "</section>\n";
 }
 
-std::string gain_text(const inference::HeldOut& h, inference::Part part) {
+std::string gain_text(const inference::HeldOutGain& h, inference::Part part) {
   return fmt::format("{:.2f} → {}; squared error falls by {:.2f} dB² (95 %: {:.2f} to {:.2f}, over {} {})",
                      h.rmse_before, db(h.rmse_after), h.gain, h.lower95, h.upper95, h.blocks, parts_in_words(part));
 }
 
-std::string gain_text(const std::optional<inference::HeldOut>& h, const std::string& why_none) {
+std::string gain_text(const std::optional<inference::HeldOutGain>& h, const std::string& why_none) {
   return h ? gain_text(*h, inference::Part::block) : why_none;
 }
 
-std::string cause_card(const FoundCause& c, std::size_t number, const std::vector<Picture>& pictures) {
+std::string cause_card(const CauseEstimate& c, std::size_t number, const std::vector<Picture>& pictures) {
   const Standing standing = standing_of(c);
   const bool sure = standing == Standing::confirmed;
   std::string out = fmt::format("<article class=\"card\">\n<h3><span class=\"mark {}\">{}</span>{}</h3>\n",
@@ -135,7 +135,7 @@ std::string cause_card(const FoundCause& c, std::size_t number, const std::vecto
       {{"gain"}, {gain_text(c.held_out, why_no_gain(c))}}};
   for (const inference::Elsewhere& e : c.elsewhere)
     facts.push_back({{parts_in_words(e.part) + " not seen"}, {gain_text(e.held_out, e.part)}});
-  facts.push_back({{"rivals"}, {rivals_in_words(c.rivals)}});
+  facts.push_back({{"rivals"}, {rivals_in_words(c.alternatives)}});
   out += table({}, facts);
   return out + "</article>\n" + figure_named(pictures, fmt::format("cause_{}", number));
 }
@@ -194,7 +194,7 @@ std::string not_tested(const Diagnosis& d) {
 std::string record(const Diagnosis& d) {
   if (d.instrument.checks.empty()) return "";
   std::vector<Row> rows;
-  for (const diagnosis::InstrumentCheck& c : d.instrument.checks)
+  for (const diagnosis::ReceiverCheck& c : d.instrument.checks)
     rows.push_back(
         {{(c.fine ? "" : "! ") + c.what}, {c.found + (c.row ? fmt::format(", first in row {}", *c.row) : "")}});
   return heading("The record itself") + "<div class=\"card\">" + table({{"check"}, {"found"}}, rows) + "</div>\n";

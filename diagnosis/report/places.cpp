@@ -8,7 +8,7 @@ namespace muster::report {
 namespace {
 
 // Radios that were at places more than half a metre apart.
-std::vector<bool> moving(const diagnosis::SeenRows& rows) {
+std::vector<bool> moving(const diagnosis::RowSummary& rows) {
   std::vector<bool> moves(rows.radios.size(), false);
   std::map<int, Eigen::Vector3d> first;
   for (std::size_t k = 0; k < rows.tx.size(); ++k) {
@@ -22,7 +22,7 @@ std::vector<bool> moving(const diagnosis::SeenRows& rows) {
 
 }  // namespace
 
-Places places_of(const diagnosis::SeenRows& rows) {
+Places places_of(const diagnosis::RowSummary& rows) {
   Places out;
   const auto n = static_cast<Eigen::Index>(rows.tx.size());
   if (n == 0) return out;

@@ -15,7 +15,7 @@ struct Places {
   bool vary() const { return width + depth > 1; }
 };
 
-Places places_of(const diagnosis::SeenRows& rows);
+Places places_of(const diagnosis::RowSummary& rows);
 
 // Numbers from 0 of square blocks with this side in m.
 std::vector<int> blocks_of(const Places& places, double side);

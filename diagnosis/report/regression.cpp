@@ -56,7 +56,7 @@ std::string copied(const fs::path& data, const fs::path& folder) {
 Json parameters_of(const Diagnosis& d) {
   Json out = Json::array();
   std::map<std::string, int> count;
-  for (const FoundCause& c : d.causes) {
+  for (const CauseEstimate& c : d.causes) {
     if (c.status != inference::Status::named) continue;
     const int number = ++count[c.id];
     for (const CauseValue& v : c.values) {

@@ -46,7 +46,7 @@ std::string errors(const Diagnosis& d) {
   return wrapped(text + ' ' + errors_elsewhere(d), 2, 2);
 }
 
-std::string gain_of(const inference::HeldOut& h, inference::Part part) {
+std::string gain_of(const inference::HeldOutGain& h, inference::Part part) {
   return fmt::format("{:.2f} -> {} where not seen; squared error falls by {:.2f} dB2 (95 %: {:.2f} to {:.2f}, {} {})",
                      h.rmse_before, db(h.rmse_after), h.gain, h.lower95, h.upper95, h.blocks, parts_in_words(part));
 }
@@ -64,7 +64,7 @@ std::string gains_elsewhere(const std::vector<inference::Elsewhere>& elsewhere) 
   return text;
 }
 
-std::string cause_text(const FoundCause& c, int number) {
+std::string cause_text(const CauseEstimate& c, int number) {
   const Standing standing = standing_of(c);
   const std::string opening = standing == Standing::confirmed ? "it is " : "suspected: ";
   std::string text = wrapped(fmt::format("({}) {}{}: {}", number, opening, c.id, sentence(c)), 2, 6);
@@ -81,7 +81,7 @@ std::string cause_text(const FoundCause& c, int number) {
     text += entry("doubt", c.doubt);
   else if (standing == Standing::unconfirmed && c.held_out)
     text += entry("", "What was held out does not confirm it yet: " + why_unconfirmed(c) + ".");
-  if (standing != Standing::set_aside) text += entry("rivals", rivals_in_words(c.rivals));
+  if (standing != Standing::set_aside) text += entry("rivals", rivals_in_words(c.alternatives));
   return text;
 }
 
@@ -89,7 +89,7 @@ std::string causes(const Diagnosis& d) {
   if (d.causes.empty()) return "";
   std::string text = heading(d.causes.size() == 1 ? "Cause" : "Causes");
   int number = 0;
-  for (const FoundCause& c : d.causes) text += (number ? "\n" : "") + cause_text(c, number + 1), ++number;
+  for (const CauseEstimate& c : d.causes) text += (number ? "\n" : "") + cause_text(c, number + 1), ++number;
   return text;
 }
 
@@ -153,7 +153,7 @@ std::string checked(const Diagnosis& d) {
 
 std::string record(const Diagnosis& d) {
   std::string text = heading("The readings themselves");
-  for (const diagnosis::InstrumentCheck& c : d.instrument.checks)
+  for (const diagnosis::ReceiverCheck& c : d.instrument.checks)
     text += wrapped(
         (c.fine ? "" : "! ") + c.what + ": " + c.found + (c.row ? fmt::format(", first in row {}", *c.row) : ""), 2, 4);
   return text;

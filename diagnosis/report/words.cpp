@@ -26,7 +26,7 @@ std::string plain(double value, int decimals) {
   return zero && text[0] == '-' ? text.substr(1) : text;
 }
 
-std::string slot_value(const FoundCause& cause, const std::string& slot) {
+std::string slot_value(const CauseEstimate& cause, const std::string& slot) {
   for (const CauseValue& v : cause.values) {
     if (v.name == slot) return quantity(v);
   }
@@ -53,11 +53,11 @@ std::string causes_in_words(int count) {
 }
 
 // It shifts no level.
-bool is_law(const FoundCause& cause) { return cause.covariates == std::vector<std::string>{"reading"}; }
+bool is_law(const CauseEstimate& cause) { return cause.covariates == std::vector<std::string>{"reading"}; }
 
 }  // namespace
 
-Standing standing_of(const FoundCause& cause) {
+Standing standing_of(const CauseEstimate& cause) {
   if (cause.status != inference::Status::named) return Standing::set_aside;
   if (!cause.doubt.empty()) return Standing::unconfirmed;
   // What shifts no level has no error at places to confirm it by: its evidence is the readings' own law.
@@ -66,20 +66,20 @@ Standing standing_of(const FoundCause& cause) {
   return gains ? Standing::confirmed : Standing::unconfirmed;
 }
 
-std::string why_unconfirmed(const FoundCause& cause) {
+std::string why_unconfirmed(const CauseEstimate& cause) {
   if (!cause.held_out) return "nothing could be held out";
   if (!(cause.held_out->lower95 > 0)) return "the interval touches zero";
   return fmt::format("in {} blocks of space it may gain by chance alone", cause.held_out->blocks);
 }
 
-std::string why_no_gain(const FoundCause& cause) {
+std::string why_no_gain(const CauseEstimate& cause) {
   if (cause.status != inference::Status::named) return "not measured: not beyond chance beside the others";
   return is_law(cause) ? "none to measure: it is told by how readings scatter, and shifts no level" : too_few_blocks;
 }
 
 int count_of(const Diagnosis& d, Standing standing) {
-  return static_cast<int>(
-      std::count_if(d.causes.begin(), d.causes.end(), [&](const FoundCause& c) { return standing_of(c) == standing; }));
+  return static_cast<int>(std::count_if(d.causes.begin(), d.causes.end(),
+                                        [&](const CauseEstimate& c) { return standing_of(c) == standing; }));
 }
 
 double tenths(double value) { return std::round(10 * value) / 10 + 0.0; }
@@ -113,7 +113,7 @@ std::string interval(const CauseValue& v) {
 
 std::string with_sign(double value, int decimals) { return (value < 0 ? "" : "+") + plain(value, decimals); }
 
-std::string sentence(const FoundCause& cause) {
+std::string sentence(const CauseEstimate& cause) {
   std::string text;
   for (std::size_t k = 0; k < cause.title.size(); ++k) {
     const auto end = cause.title[k] == '{' ? cause.title.find('}', k) : std::string::npos;
@@ -154,10 +154,10 @@ std::string covariate_in_words(const std::string& name) {
          (words.count(second) ? words.at(second) : second);
 }
 
-std::string rivals_in_words(const std::vector<inference::Rival>& rivals) {
-  if (rivals.empty()) return "none that the readings leave open";
+std::string rivals_in_words(const std::vector<inference::Alternative>& alternatives) {
+  if (alternatives.empty()) return "none that the readings leave open";
   std::string out;
-  for (const inference::Rival& r : rivals)
+  for (const inference::Alternative& r : alternatives)
     out += fmt::format("{}{}, {:.1f} nats behind, D {:.0f}: {}", out.empty() ? "" : "; ", with_label(r.id, r.label),
                        tenths(r.evidence_gap), r.separability, judged(r.separability));
   return out;
@@ -166,8 +166,8 @@ std::string rivals_in_words(const std::vector<inference::Rival>& rivals) {
 std::string what_is_unexplained(const diagnosis::Unexplained& what) {
   const std::string won = fmt::format("evidence {:.1f} nats, lambda {:.0f}.", what.evidence, what.lambda);
   const std::string on = "Something depends on " + covariate_in_words(what.covariate);
-  if (what.rivals.empty()) return on + ", and no cause on the plugin path explains it: " + won;
-  return on + ": " + won + " Causes that explain it nearly as well: " + rivals_in_words(what.rivals) + ".";
+  if (what.alternatives.empty()) return on + ", and no cause on the plugin path explains it: " + won;
+  return on + ": " + won + " Causes that explain it nearly as well: " + rivals_in_words(what.alternatives) + ".";
 }
 
 std::string what_is_found_again(const std::vector<diagnosis::Told>& told) {
@@ -189,13 +189,13 @@ std::string verdict_in_words(const Diagnosis& d) {
   const std::string named = causes + (confirmed + unconfirmed == 1 ? " is named" : " are named");
   if (!d.unexplained.empty())
     return std::string("is wrong in a way that no known cause explains") +
-           (d.unexplained[0].rivals.empty() ? "" : " as well") + ": something depends on " + covariates_of(d) +
+           (d.unexplained[0].alternatives.empty() ? "" : " as well") + ": something depends on " + covariates_of(d) +
            (confirmed + unconfirmed ? "; " + named + " beside it" : "");
   if (confirmed + unconfirmed == 0)
     return count_of(d, Standing::set_aside) ? "is adequate: what stands out is not beyond chance, a suspicion remains"
                                             : "is adequate: nothing was found beyond chance";
   const bool doubted =
-      std::any_of(d.causes.begin(), d.causes.end(), [](const FoundCause& c) { return !c.doubt.empty(); });
+      std::any_of(d.causes.begin(), d.causes.end(), [](const CauseEstimate& c) { return !c.doubt.empty(); });
   if (confirmed == 0)
     return "seems wrong: " + named + ", but " +
            (doubted ? "the fit ends at a bound, and no name is sure" : "what was held out does not confirm it yet");
@@ -226,7 +226,7 @@ std::string db(double value) { return fmt::format("{:.2f} dB", value); }
 std::string errors_elsewhere(const Diagnosis& d) {
   std::string text;
   for (const inference::Elsewhere& e : d.elsewhere) {
-    const inference::HeldOut& h = e.held_out;
+    const inference::HeldOutGain& h = e.held_out;
     text += fmt::format("{}With {} left out in turn ({}) it errs by {} at these", text.empty() ? "" : " ",
                         parts_in_words(e.part), h.blocks, db(h.rmse_before));
     const bool improved = d.named() || !d.unexplained.empty();

@@ -7,9 +7,9 @@
 
 namespace muster::report {
 
+using diagnosis::CauseEstimate;
 using diagnosis::CauseValue;
 using diagnosis::Diagnosis;
-using diagnosis::FoundCause;
 
 // How sure a cause is. "Is" is said of a confirmed one only.
 enum class Standing {
@@ -17,13 +17,13 @@ enum class Standing {
   unconfirmed,    // named, but places not seen do not show it, or there are too few
   set_aside       // found, and not beyond chance beside the others
 };
-Standing standing_of(const FoundCause& cause);
+Standing standing_of(const CauseEstimate& cause);
 // Blocks that all gain by chance alone in one of 32 cases: an interval over fewer is none of 95 %.
 constexpr int fewest_blocks = 5;
 // Of a cause that what was held out does not confirm.
-std::string why_unconfirmed(const FoundCause& cause);
+std::string why_unconfirmed(const CauseEstimate& cause);
 // Why no gain stands beside a cause that has none.
-std::string why_no_gain(const FoundCause& cause);
+std::string why_no_gain(const CauseEstimate& cause);
 constexpr const char* too_few_blocks = "not measured: too few blocks of space";
 
 double tenths(double value);              // to one decimal, without a zero's sign
@@ -39,13 +39,13 @@ std::string interval(const CauseValue& value);
 std::string with_sign(double value, int decimals);
 
 // The cause's title with its slots filled.
-std::string sentence(const FoundCause& cause);
+std::string sentence(const CauseEstimate& cause);
 // "effect.drift" as people say it: "drift"; "unmapped wall".
 std::string short_name(const std::string& id);
 // What a covariate's name stands for: "logd" is "distance".
 std::string covariate_in_words(const std::string& name);
 // "obstacle (2.0, 1.5), 1.5 nats behind, D 6: cannot be told apart", one after the other; or that there are none.
-std::string rivals_in_words(const std::vector<inference::Rival>& rivals);
+std::string rivals_in_words(const std::vector<inference::Alternative>& alternatives);
 // "Something depends on the column battery ...", with what it wins and the causes that explain it nearly as well.
 std::string what_is_unexplained(const diagnosis::Unexplained& what);
 // "finds nothing more"; "still finds drift tx1, something along the column battery".

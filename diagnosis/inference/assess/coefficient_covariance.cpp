@@ -12,9 +12,9 @@ namespace {
 constexpr int noise_draws = 12;
 
 // Under the covariance itself.
-Eigen::MatrixXd exact(const Bench& bench, const Stand& stand, Index columns) {
-  const noise::Basis& basis = stand.at.basis;
-  const Eigen::MatrixXd scatter = noise::scatter_of(bench.field(), stand.whitener, basis.q);
+Eigen::MatrixXd exact(const ModelState& state, const WhitenedModel& model, Index columns) {
+  const noise::Basis& basis = model.at.basis;
+  const Eigen::MatrixXd scatter = noise::scatter_of(state.field(), model.whitener, basis.q);
   const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(basis.r.rows(), basis.r.rows()),
                         inverse = basis.r.triangularView<Eigen::Upper>().solve(unit);
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(columns, columns);
@@ -23,18 +23,18 @@ Eigen::MatrixXd exact(const Bench& bench, const Stand& stand, Index columns) {
 }
 
 // What it is more, by Vecchia's approximation, where the noise is not taken as known.
-Eigen::MatrixXd by_noise(const Bench& bench, const Eigen::MatrixXd& design, const Stand& fitted) {
+Eigen::MatrixXd by_noise(const ModelState& state, const Eigen::MatrixXd& design, const WhitenedModel& fitted) {
   const Index columns = design.cols();
-  const noise::Prior& prior = bench.options().prior;
+  const noise::Prior& prior = state.options().prior;
   std::vector<double> weights;
   std::vector<Eigen::VectorXd> means;
   std::vector<Eigen::MatrixXd> covariances;
-  for (const noise::Draw& draw : noise::draws(bench.fit, noise_draws, bench.options().seed)) {
+  for (const noise::Draw& draw : noise::draws(state.fit, noise_draws, state.options().seed)) {
     if (draw.theta != prior.inside(draw.theta)) continue;
-    const Stand stand = bench.stand(design, {bench.fit.covariance.family, draw.theta});
-    weights.push_back(bench.fit.value - stand.at.value - draw.log_density);
-    means.push_back(stand.coefficients(columns));
-    covariances.push_back(stand.at.basis.uncertainty(columns));
+    const WhitenedModel model = state.whitened_model(design, {state.fit.covariance.family, draw.theta});
+    weights.push_back(state.fit.value - model.at.value - draw.log_density);
+    means.push_back(model.coefficients(columns));
+    covariances.push_back(model.at.basis.uncertainty(columns));
   }
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(columns, columns);
   if (weights.empty()) return result;
@@ -52,9 +52,9 @@ Eigen::MatrixXd by_noise(const Bench& bench, const Eigen::MatrixXd& design, cons
 
 }  // namespace
 
-Eigen::MatrixXd uncertainty_of(const Bench& bench, const Eigen::MatrixXd& design) {
-  const Stand stand = bench.stand(design);
-  const Eigen::MatrixXd known = exact(bench, stand, design.cols()), more = by_noise(bench, design, stand);
+Eigen::MatrixXd coefficient_covariance(const ModelState& state, const Eigen::MatrixXd& design) {
+  const WhitenedModel model = state.whitened_model(design);
+  const Eigen::MatrixXd known = exact(state, model, design.cols()), more = by_noise(state, design, model);
   // No noise that might be makes anything known better than it is by the one that is likeliest.
   const Eigen::ArrayXd own = known.diagonal(), ratio = (own > 0).select(more.diagonal().array() / own, 0);
   const Eigen::VectorXd grown = (1 + ratio.max(0)).sqrt();

@@ -5,8 +5,8 @@
 
 namespace muster::inference {
 
-// Covariance of the coefficients of a design: under the covariance itself (noise/exact.hpp), and over what else the
-// noise may be.
-Eigen::MatrixXd uncertainty_of(const Bench& bench, const Eigen::MatrixXd& design);
+// Covariance of the coefficients of a design: under the covariance itself (inference/noise/exact_covariance.hpp), and
+// over what else the noise may be.
+Eigen::MatrixXd coefficient_covariance(const ModelState& state, const Eigen::MatrixXd& design);
 
 }  // namespace muster::inference

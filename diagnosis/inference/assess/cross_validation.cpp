@@ -101,7 +101,7 @@ Eigen::VectorXd Folds::squared_errors(const Sample& rows, const Sample& readings
   return result;
 }
 
-HeldOut compared(const Unseen& unseen) {
+HeldOutGain compared(const Unseen& unseen) {
   const auto& [before, after, block_of, seed] = unseen;
   const int blocks = *std::max_element(block_of.begin(), block_of.end()) + 1;
   std::vector<double> won(static_cast<std::size_t>(blocks)), readings(won.size()), means;
@@ -131,7 +131,7 @@ HeldOut compared(const Unseen& unseen) {
 
 Stair stair_of(Unseen unseen) {
   unseen.after.setZero();
-  const HeldOut all = compared(unseen);
+  const HeldOutGain all = compared(unseen);
   return {all.rmse_before, std::sqrt(all.lower95), std::sqrt(all.upper95)};
 }
 

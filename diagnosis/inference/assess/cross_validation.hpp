@@ -15,7 +15,7 @@ using Eigen::Index;
 // What is left out together.
 enum class Part { block = 1, radio, run };
 
-struct HeldOut {
+struct HeldOutGain {
   double rmse_before = 0, rmse_after = 0;     // dB, of one reading
   double gain = 0, lower95 = 0, upper95 = 0;  // fall of the mean squared error, dB^2
   int blocks = 0;                             // or radios, or runs
@@ -29,12 +29,12 @@ struct Unseen {
 };
 
 // By resampling whole blocks.
-HeldOut compared(const Unseen& unseen);
+HeldOutGain compared(const Unseen& unseen);
 
 // The same of radios or runs, where there are several.
 struct Elsewhere {
   Part part;
-  HeldOut held_out;
+  HeldOutGain held_out;
 };
 
 // Blocks at least three decorrelation distances wide, one a row.
@@ -66,7 +66,7 @@ class Folds {
   bool possible() const { return blocks_ >= 2; }
   // Squared error of every reading when its fold was left out.
   Eigen::VectorXd squared_errors(const Sample& rows, const Sample& readings) const;
-  HeldOut compared(const Eigen::VectorXd& before, const Eigen::VectorXd& after) const {
+  HeldOutGain compared(const Eigen::VectorXd& before, const Eigen::VectorXd& after) const {
     return inference::compared(unseen(before, after));
   }
   Unseen unseen(const Eigen::VectorXd& before, const Eigen::VectorXd& after) const {

@@ -16,18 +16,18 @@ struct Plan {
 };
 
 // The readings at hand with those of a plan, at the noise as it is fitted. Keeps references to both.
-class Planned {
+class ExpectedSeparability {
  public:
-  Planned(const Bench& bench, const Plan& plan);
+  ExpectedSeparability(const ModelState& state, const Plan& plan);
 
   // D of a term against each of these rivals, by their ids.
-  std::vector<double> separability(const Term& term, const std::vector<std::string>& rivals) const;
+  std::vector<double> separability(const Term& term, const std::vector<std::string>& alternatives) const;
 
  private:
   // What is at hand above what the plan adds, in rows and whitened.
   Eigen::MatrixXd whitened(const Eigen::MatrixXd& here, const Eigen::MatrixXd& at_readings) const;
 
-  const Bench& bench_;
+  const ModelState& state_;
   const Plan& plan_;
   noise::Rows rows_;
   noise::Field field_;

@@ -22,10 +22,10 @@ struct Finding {
   double gain = 0;                      // deviance beside all other findings
   double evidence = 0;                  // nats
   double log_p = 0;                     // integrated over the covariance
-  std::optional<HeldOut> held_out;      // without and with it; none for what is only suspected
+  std::optional<HeldOutGain> held_out;  // without and with it; none for what is only suspected
   Eigen::VectorXd unseen_without;       // squared errors of readings at places not seen without it, dB^2; none likewise
   std::vector<Elsewhere> elsewhere;     // the same of radios and runs, where it concerns several
-  std::vector<Rival> rivals;
+  std::vector<Alternative> alternatives;
 };
 
 // A candidate at its best beside the model as it stands at the end.
@@ -41,11 +41,11 @@ struct Result {
   noise::Fit noise;
   std::vector<noise::Fit> families;  // of the base model
   Eigen::VectorXd base_coefficients;
-  Eigen::VectorXd mean;              // of the extended model, one a row
-  std::optional<Unseen> unseen;      // the base model and the extended one
-  std::optional<HeldOut> held_out;   // the same in short
-  std::vector<Elsewhere> elsewhere;  // of radios and runs, where there are several
-  std::vector<Stair> stairs;         // the base model, then with each accepted finding in turn; empty: too few blocks
+  Eigen::VectorXd mean;                 // of the extended model, one a row
+  std::optional<Unseen> unseen;         // the base model and the extended one
+  std::optional<HeldOutGain> held_out;  // the same in short
+  std::vector<Elsewhere> elsewhere;     // of radios and runs, where there are several
+  std::vector<Stair> stairs;  // the base model, then with each accepted finding in turn; empty: too few blocks
   std::vector<Check> checks;
 };
 

@@ -9,16 +9,16 @@ namespace {
 // Errors of the base model and some of the terms beside it.
 class Errors {
  public:
-  Errors(const Bench& bench, const Folds& folds) : bench_(bench), folds_(folds) {
-    for (const Term& term : bench.terms) at_readings_.push_back(term.candidate->columns(term.theta));
+  Errors(const ModelState& state, const Folds& folds) : state_(state), folds_(folds) {
+    for (const Term& term : state.terms) at_readings_.push_back(term.candidate->columns(term.theta));
   }
 
   template <class Has>
   Eigen::VectorXd with(const Has& has) const {
-    Sample rows{bench_.y(), bench_.base()}, readings{bench_.measured(), bench_.problem().base};
+    Sample rows{state_.y(), state_.base()}, readings{state_.measured(), state_.problem().base};
     for (std::size_t k = 0; k < at_readings_.size(); ++k) {
       if (!has(k)) continue;
-      rows.design = noise::hstack(rows.design, bench_.terms[k].columns);
+      rows.design = noise::hstack(rows.design, state_.terms[k].columns);
       readings.design = noise::hstack(readings.design, at_readings_[k]);
     }
     return folds_.squared_errors(rows, readings);
@@ -31,29 +31,29 @@ class Errors {
   }
 
  private:
-  const Bench& bench_;
+  const ModelState& state_;
   const Folds& folds_;
   std::vector<Eigen::MatrixXd> at_readings_;
 };
 
-Folds folds_of(const Bench& bench, const Result& result, const std::vector<int>& parts) {
-  return {bench.field().sites(), parts, bench.rows().row_of(), result.noise.covariance, bench.options().seed};
+Folds folds_of(const ModelState& state, const Result& result, const std::vector<int>& parts) {
+  return {state.field().sites(), parts, state.rows().row_of(), result.noise.covariance, state.options().seed};
 }
 
-void hold_out_blocks(const Bench& bench, Result& result) {
-  const Folds folds = folds_of(bench, result, blocks_of(bench.field().sites(), result.noise.covariance));
+void add_gains_of_blocks(const ModelState& state, Result& result) {
+  const Folds folds = folds_of(state, result, blocks_of(state.field().sites(), result.noise.covariance));
   if (!folds.possible()) return;
-  const Errors errors(bench, folds);
+  const Errors errors(state, folds);
   const Eigen::VectorXd base = errors.first(0);
   Eigen::VectorXd full = base;
   result.stairs.push_back(stair_of(folds.unseen(base, base)));
-  for (std::size_t many = 1; many <= bench.terms.size(); ++many) {
+  for (std::size_t many = 1; many <= state.terms.size(); ++many) {
     full = errors.first(many);
     result.stairs.push_back(stair_of(folds.unseen(full, full)));
   }
   result.unseen = folds.unseen(base, full);
   result.held_out = compared(*result.unseen);
-  for (std::size_t one = 0; one < bench.terms.size(); ++one) {
+  for (std::size_t one = 0; one < state.terms.size(); ++one) {
     result.findings[one].unseen_without = errors.without(one);
     result.findings[one].held_out = folds.compared(result.findings[one].unseen_without, full);
   }
@@ -73,35 +73,36 @@ bool concerns_several(const Term& term, const std::vector<int>& parts) {
   return false;
 }
 
-void hold_out_parts(const Bench& bench, Part part, const std::vector<int>& parts, Result& result) {
-  const Folds folds = folds_of(bench, result, parts);
+void add_gains_of_groups(const ModelState& state, Part part, const std::vector<int>& parts, Result& result) {
+  const Folds folds = folds_of(state, result, parts);
   if (!folds.possible()) return;
-  const Errors errors(bench, folds);
+  const Errors errors(state, folds);
   const auto elsewhere = [&](const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
     return Elsewhere{part, folds.compared(before, after)};
   };
-  const Eigen::VectorXd full = errors.first(bench.terms.size());
+  const Eigen::VectorXd full = errors.first(state.terms.size());
   result.elsewhere.push_back(elsewhere(errors.first(0), full));
-  for (std::size_t one = 0; one < bench.terms.size(); ++one) {
-    if (concerns_several(bench.terms[one], parts))
+  for (std::size_t one = 0; one < state.terms.size(); ++one) {
+    if (concerns_several(state.terms[one], parts))
       result.findings[one].elsewhere.push_back(elsewhere(errors.without(one), full));
   }
 }
 
 // The run of each row.
-std::vector<int> runs_of(const Bench& bench) {
+std::vector<int> runs_of(const ModelState& state) {
   std::vector<int> result;
-  for (Index i = 0; i < bench.rows().size(); ++i)
-    result.push_back(bench.problem().run[static_cast<std::size_t>(bench.rows().example(i))]);
+  for (Index i = 0; i < state.rows().size(); ++i)
+    result.push_back(state.problem().run[static_cast<std::size_t>(state.rows().example(i))]);
   return result;
 }
 
 }  // namespace
 
-void hold_out(const Bench& bench, Result& result) {
-  hold_out_blocks(bench, result);
-  hold_out_parts(bench, Part::radio, radios_of(bench.rows(), bench.field().sites(), bench.problem().readings), result);
-  if (!bench.problem().run.empty()) hold_out_parts(bench, Part::run, runs_of(bench), result);
+void add_held_out_gains(const ModelState& state, Result& result) {
+  add_gains_of_blocks(state, result);
+  add_gains_of_groups(state, Part::radio, radios_of(state.rows(), state.field().sites(), state.problem().readings),
+                      result);
+  if (!state.problem().run.empty()) add_gains_of_groups(state, Part::run, runs_of(state), result);
 }
 
 }  // namespace muster::inference

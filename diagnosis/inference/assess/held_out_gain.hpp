@@ -8,6 +8,6 @@
 namespace muster::inference {
 
 // Fills in what is measured of the result and of each finding that was accepted.
-void hold_out(const Bench& bench, Result& result);
+void add_held_out_gains(const ModelState& state, Result& result);
 
 }  // namespace muster::inference

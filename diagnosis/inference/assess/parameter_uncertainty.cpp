@@ -18,9 +18,9 @@ constexpr int kept = 400;  // thetas
 
 // By how much the variance is larger by the scatter of the residuals: scores added up over cells of places (Liang and
 // Zeger 1986).
-double by_scatter(const Bench& bench, const Stand& rest, const Beside& fitted) {
-  const double side = std::max(1.0, bench.fit.covariance.decorrelation());
-  const noise::Sites& sites = bench.field().sites();
+double by_scatter(const ModelState& state, const WhitenedModel& rest, const ConditionalFit& fitted) {
+  const double side = std::max(1.0, state.fit.covariance.decorrelation());
+  const noise::Sites& sites = state.field().sites();
   const Eigen::VectorXd residual = rest.at.residual - fitted.columns * fitted.coefficients;
   std::map<std::tuple<int, long, long>, Eigen::VectorXd> scores;
   for (Index i = 0; i < residual.size(); ++i) {
@@ -42,17 +42,17 @@ double by_scatter(const Bench& bench, const Stand& rest, const Beside& fitted) {
 
 }  // namespace
 
-Spread spread_of(const Bench& bench, const Term& term) {
-  const Stand rest = bench.stand(bench.design_without(term));
-  const Beside fitted(rest, term.columns, term.candidate->whole);
+ParameterUncertainty parameter_uncertainty(const ModelState& state, const Term& term) {
+  const WhitenedModel rest = state.whitened_model(state.design_without(term));
+  const ConditionalFit fitted(rest, term.columns, term.candidate->whole);
   const Index width = term.columns.cols();
-  const Eigen::MatrixXd known =
-      uncertainty_of(bench, noise::hstack(bench.design_without(term), term.columns)).bottomRightCorner(width, width);
+  const Eigen::MatrixXd known = coefficient_covariance(state, noise::hstack(state.design_without(term), term.columns))
+                                    .bottomRightCorner(width, width);
   const double overstated = std::max(1.0, known.trace() / fitted.covariance.trace());
-  const double grown = std::max(overstated, by_scatter(bench, rest, fitted));
-  Spread result{{term.theta}, grown * fitted.covariance};
+  const double grown = std::max(overstated, by_scatter(state, rest, fitted));
+  ParameterUncertainty result{{term.theta}, grown * fitted.covariance};
   if (!term.candidate->refinable() || term.smooth()) return result;
-  const LikelyThetas likely = likely_thetas(bench, rest, term, overstated);
+  const LikelyThetas likely = sample_posterior(state, rest, term, overstated);
   Eigen::MatrixXd within = 0 * fitted.covariance, between = within;
   for (std::size_t k = 0; k < likely.thetas.size(); ++k) {
     const double weight = likely.weights[static_cast<Index>(k)];
@@ -66,19 +66,19 @@ Spread spread_of(const Bench& bench, const Term& term) {
   return result;
 }
 
-Eigen::VectorXd middle_of(const Bench& bench, const Term& term, const Spread& spread) {
+Eigen::VectorXd middle_of(const ModelState& state, const Term& term, const ParameterUncertainty& spread) {
   constexpr double nearly = 4;  // of deviance, a 95 % region of one parameter
   constexpr std::size_t tries = 40;
   const Candidate& c = *term.candidate;
-  const Stand rest = bench.stand(bench.design_without(term));
-  const double best = Beside(rest, term.columns, c.whole).gain;
+  const WhitenedModel rest = state.whitened_model(state.design_without(term));
+  const double best = ConditionalFit(rest, term.columns, c.whole).gain;
   std::vector<Eigen::VectorXd> thetas{term.theta};
   const std::size_t every = spread.thetas.size() / tries + 1;
   for (std::size_t k = 0; k < spread.thetas.size(); k += every) thetas.push_back(spread.thetas[k]);
   Eigen::MatrixXd effects(rest.at.residual.size(), static_cast<Index>(thetas.size()));
   std::vector<bool> explains(thetas.size());
   for (std::size_t k = 0; k < thetas.size(); ++k) {
-    const Beside there(rest, bench.columns_of(c, thetas[k]), c.whole);
+    const ConditionalFit there(rest, state.columns_of(c, thetas[k]), c.whole);
     effects.col(static_cast<Index>(k)) = there.columns * there.coefficients;
     explains[k] = there.gain > best - nearly;
   }

@@ -5,19 +5,19 @@
 
 namespace muster::inference {
 
-struct Spread {
+struct ParameterUncertainty {
   // As likely as one another given the data, the coefficients integrated out. One where nothing is sought.
   std::vector<Eigen::VectorXd> thetas;
   // Covariance of the coefficients over those, over what the noise may be, under the covariance itself
-  // (noise/exact.hpp), and not below what the scatter of the residuals from place to place says (Huber 1967): a shape
-  // that fits only roughly shows there.
+  // (inference/noise/exact_covariance.hpp), and not below what the scatter of the residuals from place to place says
+  // (Huber 1967): a shape that fits only roughly shows there.
   Eigen::MatrixXd coefficients;
 };
 
-Spread spread_of(const Bench& bench, const Term& term);
+ParameterUncertainty parameter_uncertainty(const ModelState& state, const Term& term);
 
 // Of the thetas that are as likely as one another and explain nearly as much as the term's, the one whose effect on the
 // readings is nearest to the mean of all their effects: it errs least on readings that nobody has seen.
-Eigen::VectorXd middle_of(const Bench& bench, const Term& term, const Spread& spread);
+Eigen::VectorXd middle_of(const ModelState& state, const Term& term, const ParameterUncertainty& spread);
 
 }  // namespace muster::inference

@@ -17,46 +17,46 @@ namespace {
 // Steps of the walk: along the moves, then along what those showed to be its own long axes.
 constexpr std::array walked{300, 600};
 // The walk is over exp(gain / 2 / heat), which lets it over to other tops, and what fits it has tails to spare.
-constexpr double hottest = 3;
+constexpr double max_temperature = 3;
 constexpr int lap = 400, most_laps = 8;  // of draws
 constexpr double enough = 100;           // independent ones that the draws are worth
 
 // What a theta explains beside the rest of the model, and its likelihood.
 class Likelihood {
  public:
-  Likelihood(const Bench& bench, const Stand& rest, const Term& term, double overstated)
-      : bench_(bench),
+  Likelihood(const ModelState& state, const WhitenedModel& rest, const Term& term, double overstated)
+      : state_(state),
         rest_(rest),
         c_(*term.candidate),
         columns_(c_.near ? c_.near(term.theta) : c_.columns),
         overstated_(overstated),
-        thin_(bench, rest) {}
+        thin_(state, rest) {}
 
   const Candidate& candidate() const { return c_; }
   bool allows(const Eigen::VectorXd& theta) const { return theta == theta.cwiseMax(c_.lower).cwiseMin(c_.upper); }
 
   // No sketch: of a strong effect it is off by many nats.
-  Explained explained(const Eigen::VectorXd& theta) {
-    const Eigen::MatrixXd columns = bench_.rows().mean(columns_(theta));
-    if (columns.cols() > 1 || c_.whole || !thin_.take(columns)) return Beside(rest_, columns, c_.whole);
+  ConditionalGain explained(const Eigen::VectorXd& theta) {
+    const Eigen::MatrixXd columns = state_.rows().mean(columns_(theta));
+    if (columns.cols() > 1 || c_.whole || !thin_.take(columns)) return ConditionalFit(rest_, columns, c_.whole);
     const double along = thin_.along(), length = thin_.length();
     if (length < 1e-6) return {Eigen::VectorXd::Zero(1), Eigen::MatrixXd::Zero(1, 1), 0};
     return {Eigen::VectorXd::Constant(1, along / length), Eigen::MatrixXd::Constant(1, 1, 1 / length),
             along * along / length};
   }
 
-  double log(const Eigen::VectorXd& theta, const Explained& at) const {
+  double log(const Eigen::VectorXd& theta, const ConditionalGain& at) const {
     if (c_.sign && at.coefficients[0] * c_.sign < 0) return 0;
     return (c_.admitted ? c_.admitted(theta) : 1) * at.gain / (2 * overstated_) + (c_.belief ? c_.belief(theta) : 0);
   }
 
  private:
-  const Bench& bench_;
-  const Stand& rest_;
+  const ModelState& state_;
+  const WhitenedModel& rest_;
   const Candidate& c_;
   const std::function<Eigen::MatrixXd(const Eigen::VectorXd&)> columns_;
   const double overstated_;
-  Thin thin_;
+  SparseColumns thin_;
 };
 
 struct Moments {
@@ -74,11 +74,11 @@ struct Moments {
   }
 };
 
-class Walk {
+class MetropolisChain {
  public:
-  Walk(Likelihood& likelihood, const Eigen::VectorXd& theta, double searched)
+  MetropolisChain(Likelihood& likelihood, const Eigen::VectorXd& theta, double searched)
       : likelihood_(likelihood), theta_(theta), log_(likelihood.log(theta, likelihood.explained(theta))) {
-    heat_ = std::clamp(log_ / searched, 1.0, hottest);
+    heat_ = std::clamp(log_ / searched, 1.0, max_temperature);
   }
 
   // All but the first quarter of where it was.
@@ -199,18 +199,18 @@ class Draws {
   uint64_t drawn_ = 0;
   std::vector<From> from_;
   std::vector<Eigen::VectorXd> thetas_;
-  std::vector<Explained> explained_;
+  std::vector<ConditionalGain> explained_;
   std::vector<double> log_likelihood_, density_;
 };
 
 }  // namespace
 
-LikelyThetas likely_thetas(const Bench& bench, const Stand& rest, const Term& term, double overstated) {
-  Likelihood likelihood(bench, rest, term, overstated);
+LikelyThetas sample_posterior(const ModelState& state, const WhitenedModel& rest, const Term& term, double overstated) {
+  Likelihood likelihood(state, rest, term, overstated);
   // Hotter, it would leave a narrow top for all the places where chance explains a little.
   constexpr double spare = 4;  // nats
   const Candidate& c = *term.candidate;
-  Walk walk(likelihood, term.theta, std::max(0.0, bench.log_atoms(c) + c.charge) + spare);
+  MetropolisChain walk(likelihood, term.theta, std::max(0.0, state.log_effective_tests(c) + c.charge) + spare);
   const auto found = [&](int steps) {
     const std::vector<Eigen::VectorXd> met = walk.lap(steps);
     return Moments(met, Eigen::VectorXd::Ones(static_cast<Index>(met.size())));
@@ -219,11 +219,11 @@ LikelyThetas likely_thetas(const Bench& bench, const Stand& rest, const Term& te
   Draws draws(likelihood, found(walked[1]));
   if (!draws.any()) return {{term.theta}, {likelihood.explained(term.theta)}, Eigen::VectorXd::Ones(1)};
   Eigen::VectorXd weights = draws.weights();
-  for (int laps = 1; laps < most_laps && worth(weights) < enough; ++laps) {
-    draws.lap_about(softened(weights));
+  for (int laps = 1; laps < most_laps && effective_sample_size(weights) < enough; ++laps) {
+    draws.lap_about(tempered(weights));
     weights = draws.weights();
   }
-  return draws.take(softened(weights));
+  return draws.take(tempered(weights));
 }
 
 }  // namespace muster::inference

@@ -7,7 +7,7 @@ namespace muster::inference {
 
 struct LikelyThetas {
   std::vector<Eigen::VectorXd> thetas;
-  std::vector<Explained> explained;
+  std::vector<ConditionalGain> explained;
   Eigen::VectorXd weights;  // sum 1
 };
 
@@ -15,6 +15,6 @@ struct LikelyThetas {
 // found so far, and each weighs by its likelihood over how often it is drawn (adaptive multiple importance sampling:
 // Cornuet, Marin, Mira and Robert 2012), until they are worth a hundred independent ones. `overstated`: by how
 // much gains are. The term's candidate is refinable.
-LikelyThetas likely_thetas(const Bench& bench, const Stand& rest, const Term& term, double overstated);
+LikelyThetas sample_posterior(const ModelState& state, const WhitenedModel& rest, const Term& term, double overstated);
 
 }  // namespace muster::inference

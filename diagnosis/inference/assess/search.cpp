@@ -34,55 +34,55 @@ const Problem& checked(const Problem& problem) {
 
 }  // namespace
 
-Search::Search(const Problem& problem, const Options& options) : bench_(checked(problem), options) {}
+Search::Search(const Problem& problem, const Options& options) : state_(checked(problem), options) {}
 
 Result Search::run() {
   result_ = {};
-  forward(bench_, result_.trials);
-  const std::vector<Term> aside = clean_up(bench_, result_.trials);
-  const std::vector<Spread> spreads = settle_in_the_middle();
-  for (std::size_t k = 0; k < bench_.terms.size(); ++k) {
-    const Term& term = bench_.terms[k];
+  forward_selection(state_, result_.trials);
+  const std::vector<Term> aside = backward_elimination(state_, result_.trials);
+  const std::vector<ParameterUncertainty> spreads = settle_in_the_middle();
+  for (std::size_t k = 0; k < state_.terms.size(); ++k) {
+    const Term& term = state_.terms[k];
     result_.findings.push_back(finding_of(term, term.smooth() ? Status::unexplained : Status::named));
     Finding& finding = result_.findings.back();
-    finding.rivals = rivals_of(bench_, term);
-    std::erase_if(finding.rivals, [](const Rival& r) { return !left_open(r); });
+    finding.alternatives = alternatives_of(state_, term);
+    std::erase_if(finding.alternatives, [](const Alternative& r) { return !left_open(r); });
     if (term.smooth()) continue;
     finding.uncertainty = spreads[k].coefficients;
     finding.thetas = spreads[k].thetas;
   }
   for (const Term& term : aside)
     result_.findings.push_back(finding_of(term, term.smooth() ? Status::unexplained : Status::suspected));
-  result_.noise = bench_.fit;
-  result_.families = bench_.families;
-  const Eigen::MatrixXd design = bench_.design();
-  const Stand stand = bench_.stand(design);
-  const Eigen::VectorXd coefficients = stand.coefficients(design.cols());
-  result_.base_coefficients = coefficients.head(bench_.base_columns());
+  result_.noise = state_.fit;
+  result_.families = state_.families;
+  const Eigen::MatrixXd design = state_.design();
+  const WhitenedModel model = state_.whitened_model(design);
+  const Eigen::VectorXd coefficients = model.coefficients(design.cols());
+  result_.base_coefficients = coefficients.head(state_.sensitivities());
   result_.mean = design * coefficients;
-  hold_out(bench_, result_);
-  check_what_is_left(result_, stand);
+  add_held_out_gains(state_, result_);
+  check_what_is_left(result_, model);
   return result_;
 }
 
-std::vector<Spread> Search::settle_in_the_middle() {
-  std::vector<Spread> result;
-  for (Term& term : bench_.terms) {
-    result.push_back(term.smooth() ? Spread() : spread_of(bench_, term));
+std::vector<ParameterUncertainty> Search::settle_in_the_middle() {
+  std::vector<ParameterUncertainty> result;
+  for (Term& term : state_.terms) {
+    result.push_back(term.smooth() ? ParameterUncertainty() : parameter_uncertainty(state_, term));
     if (result.back().thetas.size() < 2) continue;
-    term.theta = middle_of(bench_, term, result.back());
-    term.columns = bench_.columns_of(*term.candidate, term.theta);
-    bench_.refit(4);
+    term.theta = middle_of(state_, term, result.back());
+    term.columns = state_.columns_of(*term.candidate, term.theta);
+    state_.refit(4);
   }
-  measure_gains(bench_);
+  measure_gains(state_);
   return result;
 }
 
 // One check a cause and a covariate. Of several ways to look along a covariate it is what chance does least, times
 // their number.
-void Search::check_what_is_left(Result& result, const Stand& stand) {
+void Search::check_what_is_left(Result& result, const WhitenedModel& model) {
   std::map<std::string, std::pair<std::size_t, double>> along;  // where it stands, ways to look
-  for (const Lead& lead : leads(bench_, stand)) {
+  for (const ScoredCandidate& lead : scored_candidates(state_, model)) {
     const Candidate& c = lead.candidate();
     const Check check{c.kind == Kind::smooth ? "~" + c.own() : c.id, c.label_of(lead.theta), c.kind, lead.gain,
                       lead.log_p};
@@ -100,16 +100,16 @@ void Search::check_what_is_left(Result& result, const Stand& stand) {
 }
 
 Finding Search::finding_of(const Term& term, Status status) const {
-  const Eigen::MatrixXd design = noise::hstack(bench_.design_without(term), term.columns);
-  const Stand stand = bench_.stand(design);
+  const Eigen::MatrixXd design = noise::hstack(state_.design_without(term), term.columns);
+  const WhitenedModel model = state_.whitened_model(design);
   const Index width = term.columns.cols();
   Finding finding{term.id(),
                   term.candidate->label_of(term.theta),
                   status,
                   term.candidate->covariates,
                   term.theta,
-                  stand.coefficients(design.cols()).tail(width),
-                  stand.at.basis.uncertainty(design.cols()).bottomRightCorner(width, width),
+                  model.coefficients(design.cols()).tail(width),
+                  model.at.basis.uncertainty(design.cols()).bottomRightCorner(width, width),
                   {},
                   term.gain,
                   term.evidence,
@@ -124,10 +124,10 @@ Finding Search::finding_of(const Term& term, Status status) const {
 namespace {
 
 // Rivals of a finding that the data do not decide; of its own other rows no plan says anything.
-std::vector<const Rival*> open_rivals(const Finding& finding) {
-  std::vector<const Rival*> result;
-  for (const Rival& rival : finding.rivals)
-    if (rival.separability < decided && rival.id != finding.id) result.push_back(&rival);
+std::vector<const Alternative*> open_rivals(const Finding& finding) {
+  std::vector<const Alternative*> result;
+  for (const Alternative& alternative : finding.alternatives)
+    if (alternative.separability < decided && alternative.id != finding.id) result.push_back(&alternative);
   return result;
 }
 
@@ -136,17 +136,18 @@ std::vector<const Rival*> open_rivals(const Finding& finding) {
 std::vector<Advice> Search::advise(const std::vector<Plan>& plans) {
   std::vector<Advice> result;
   for (const Plan& plan : plans) {
-    std::optional<Planned> planned;  // made once it is asked for
-    for (std::size_t k = 0; k < bench_.terms.size(); ++k) {
-      if (bench_.terms[k].smooth()) continue;  // which says nothing of readings elsewhere
+    std::optional<ExpectedSeparability> planned;  // made once it is asked for
+    for (std::size_t k = 0; k < state_.terms.size(); ++k) {
+      if (state_.terms[k].smooth()) continue;  // which says nothing of readings elsewhere
       const Finding& finding = result_.findings[k];
-      std::vector<const Rival*> open = open_rivals(finding);
-      std::erase_if(open, [&](const Rival* rival) { return !plan.knows(rival->id); });
+      std::vector<const Alternative*> open = open_rivals(finding);
+      std::erase_if(open, [&](const Alternative* alternative) { return !plan.knows(alternative->id); });
       if (open.empty()) continue;
       std::vector<std::string> ids(open.size());
-      std::transform(open.begin(), open.end(), ids.begin(), [](const Rival* rival) { return rival->id; });
-      if (!planned) planned.emplace(bench_, plan);
-      const std::vector<double> predicted = planned->separability(bench_.terms[k], ids);
+      std::transform(open.begin(), open.end(), ids.begin(),
+                     [](const Alternative* alternative) { return alternative->id; });
+      if (!planned) planned.emplace(state_, plan);
+      const std::vector<double> predicted = planned->separability(state_.terms[k], ids);
       for (std::size_t r = 0; r < open.size(); ++r)
         result.push_back({plan.say, finding.id, ids[r], open[r]->separability, predicted[r]});
     }

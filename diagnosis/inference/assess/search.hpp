@@ -8,7 +8,7 @@
 namespace muster::inference {
 
 struct Advice {
-  std::string say, finding, rival;
+  std::string say, finding, alternative;
   double separability = 0, predicted = 0;  // D now, and with the plan's readings
 };
 
@@ -23,15 +23,15 @@ class Search {
   // After run(): what each plan would do for every named finding and rival that the data do not decide (D < 25).
   std::vector<Advice> advise(const std::vector<Plan>& plans);
 
-  const Bench& bench() const { return bench_; }
+  const ModelState& state() const { return state_; }
 
  private:
   Finding finding_of(const Term& term, Status status) const;
   // How well each term is known; a place goes to the middle of those that are as likely.
-  std::vector<Spread> settle_in_the_middle();
-  void check_what_is_left(Result& result, const Stand& stand);
+  std::vector<ParameterUncertainty> settle_in_the_middle();
+  void check_what_is_left(Result& result, const WhitenedModel& model);
 
-  Bench bench_;
+  ModelState state_;
   Result result_;
 };
 

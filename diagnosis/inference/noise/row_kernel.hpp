@@ -45,7 +45,7 @@ struct Combinations {
   const double *own, *beside;
 };
 
-// Where rows lie (apart.hpp). Arrays have a value a row, filled up to a multiple of `many`.
+// Where rows lie (row_distance.hpp). Arrays have a value a row, filled up to a multiple of `many`.
 constexpr int many = 16;
 struct Ends {
   const float *middle[3], *stretch[3];  // m, along each axis

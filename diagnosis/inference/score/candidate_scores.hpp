@@ -7,16 +7,16 @@
 namespace muster::inference {
 
 // Atoms whitened, without what the design explains.
-UnitAtoms unit_atoms(const Entry& entry, const Stand& stand);
+OrthonormalAtoms unit_atoms(const Entry& entry, const WhitenedModel& model);
 
 // The fall of the deviance by each atom; zero where the sign is wrong.
-Eigen::VectorXd gains(const Candidate& candidate, const UnitAtoms& unit, const Eigen::VectorXd& residual);
+Eigen::VectorXd gains(const Candidate& candidate, const OrthonormalAtoms& unit, const Eigen::VectorXd& residual);
 
 // The fall of the deviance by one atom; of a whole candidate as it is, since a multiple of it means nothing.
-double gain_of(const Candidate& candidate, const Stand& stand, const Eigen::MatrixXd& columns);
+double gain_of(const Candidate& candidate, const WhitenedModel& model, const Eigen::MatrixXd& columns);
 
 // A candidate at its best atom, or further.
-struct Lead {
+struct ScoredCandidate {
   const Entry* entry;
   Eigen::VectorXd theta;
   Eigen::MatrixXd columns;
@@ -28,12 +28,14 @@ struct Lead {
 };
 
 // By falling evidence. `also` is shown the unit atoms of each candidate.
-std::vector<Lead> leads(Bench& bench, const Stand& stand,
-                        const std::function<void(const Candidate&, const UnitAtoms& unit)>& also = {});
-void by_evidence(std::vector<Lead>& leads);
+std::vector<ScoredCandidate> scored_candidates(
+    ModelState& state, const WhitenedModel& model,
+    const std::function<void(const Candidate&, const OrthonormalAtoms& unit)>& also = {});
+void by_evidence(std::vector<ScoredCandidate>& leads);
 
 // The best theta by continuous refinement, from as many starts as the candidate asks for, or from `lead` alone. Keeps
 // the lead where nothing better is found.
-Lead refined(const Bench& bench, const Stand& stand, const Lead& lead, bool from_lead_alone);
+ScoredCandidate refined(const ModelState& state, const WhitenedModel& model, const ScoredCandidate& lead,
+                        bool from_lead_alone);
 
 }  // namespace muster::inference

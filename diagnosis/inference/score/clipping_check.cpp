@@ -23,22 +23,22 @@ std::pair<double, double> range_of(const Problem& problem) {
 
 }  // namespace
 
-bool stands_clear_of_clip(const Bench& bench, const noise::Covariance& covariance, const Eigen::MatrixXd& design,
+bool stands_clear_of_clip(const ModelState& state, const noise::Covariance& covariance, const Eigen::MatrixXd& design,
                           const Eigen::MatrixXd& columns) {
   const Eigen::MatrixXd both = noise::hstack(design, columns);
-  const Eigen::VectorXd predicted = both * bench.stand(both, covariance).coefficients(both.cols());
+  const Eigen::VectorXd predicted = both * state.whitened_model(both, covariance).coefficients(both.cols());
   // What is filled in spreads less than readings do: by about 15 %.
-  const double sd = 1.15 * std::sqrt((bench.y() - predicted).squaredNorm() / static_cast<double>(predicted.size()));
-  const auto [low, high] = range_of(bench.problem());
+  const double sd = 1.15 * std::sqrt((state.y() - predicted).squaredNorm() / static_cast<double>(predicted.size()));
+  const auto [low, high] = range_of(state.problem());
   std::vector<Index> clear;
   for (Index i = 0; i < predicted.size(); ++i) {
     if (predicted[i] > low + 1.5 * sd && predicted[i] < high - 1.5 * sd) clear.push_back(i);
   }
   if (clear.size() < 60) return false;
-  const noise::Field field(bench.field().sites().of(clear), {.seed = bench.options().seed});
+  const noise::Field field(state.field().sites().of(clear), {.seed = state.options().seed});
   noise::Whitener whitener(field, covariance);
-  noise::Whitened at = noise::whitened(whitener, bench.y()(clear), design(clear, Eigen::all), bench.options().prior);
-  const double gain = Stand{std::move(whitener), std::move(at), {}}.gain(columns(clear, Eigen::all));
+  noise::Whitened at = noise::whitened(whitener, state.y()(clear), design(clear, Eigen::all), state.options().prior);
+  const double gain = WhitenedModel{std::move(whitener), std::move(at), {}}.gain(columns(clear, Eigen::all));
   return log_tail(gain, static_cast<double>(columns.cols())) < std::log(1e-3);
 }
 

@@ -6,7 +6,7 @@
 namespace muster::inference {
 
 // Rows are taken by their predicted level, not by the reading: a choice by outcome would bend the means.
-bool stands_clear_of_clip(const Bench& bench, const noise::Covariance& covariance, const Eigen::MatrixXd& design,
+bool stands_clear_of_clip(const ModelState& state, const noise::Covariance& covariance, const Eigen::MatrixXd& design,
                           const Eigen::MatrixXd& columns);
 
 }  // namespace muster::inference

@@ -2,7 +2,7 @@
 
 namespace muster::inference {
 
-Beside::Beside(const Stand& rest, const Eigen::MatrixXd& plain, bool whole)
+ConditionalFit::ConditionalFit(const WhitenedModel& rest, const Eigen::MatrixXd& plain, bool whole)
     : columns(rest.at.basis.rest(rest.whitener(plain))) {
   const noise::Basis basis = noise::basis_of(columns);
   const Eigen::VectorXd along = basis.q.transpose() * rest.at.residual;

@@ -5,17 +5,17 @@
 
 namespace muster::inference {
 
-struct Explained {
+struct ConditionalGain {
   Eigen::VectorXd coefficients;
   Eigen::MatrixXd covariance;
   double gain = 0;  // fall of the deviance
 };
 
-struct Beside : Explained {
+struct ConditionalFit : ConditionalGain {
   Eigen::MatrixXd columns;  // whitened, without what the rest explains
 
   // `whole`: the columns count as they are (Candidate::whole).
-  Beside(const Stand& rest, const Eigen::MatrixXd& plain, bool whole);
+  ConditionalFit(const WhitenedModel& rest, const Eigen::MatrixXd& plain, bool whole);
 };
 
 }  // namespace muster::inference

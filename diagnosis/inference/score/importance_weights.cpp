@@ -2,11 +2,13 @@
 
 namespace muster::inference {
 
-double worth(const Eigen::VectorXd& weights) { return weights.sum() * weights.sum() / weights.squaredNorm(); }
+double effective_sample_size(const Eigen::VectorXd& weights) {
+  return weights.sum() * weights.sum() / weights.squaredNorm();
+}
 
-Eigen::VectorXd softened(Eigen::VectorXd weights) {
+Eigen::VectorXd tempered(Eigen::VectorXd weights) {
   constexpr double few = 40;
-  for (int roots = 0; roots < 10 && worth(weights) < few; ++roots) weights = weights.cwiseSqrt();
+  for (int roots = 0; roots < 10 && effective_sample_size(weights) < few; ++roots) weights = weights.cwiseSqrt();
   return weights / weights.sum();
 }
 

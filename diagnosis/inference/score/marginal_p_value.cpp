@@ -23,22 +23,22 @@ double log_average(const std::vector<double>& log_weights, const std::vector<dou
 }
 
 // Over draws of theta in one family, weighed by the restricted posterior with the columns inside.
-double over_draws(const Bench& bench, const noise::Fit& fit, const Eigen::MatrixXd& design,
+double over_draws(const ModelState& state, const noise::Fit& fit, const Eigen::MatrixXd& design,
                   const Eigen::MatrixXd& columns, double log_tests) {
   const Eigen::MatrixXd both = noise::hstack(design, columns);
-  const noise::Prior& prior = bench.options().prior;
+  const noise::Prior& prior = state.options().prior;
   std::vector<double> log_weights, log_p;
-  for (const noise::Draw& draw : noise::draws(fit, bench.options().draws, bench.options().seed)) {
+  for (const noise::Draw& draw : noise::draws(fit, state.options().draws, state.options().seed)) {
     if (draw.theta != prior.inside(draw.theta)) continue;
-    const Stand stand = bench.stand(both, {fit.covariance.family, draw.theta});
+    const WhitenedModel model = state.whitened_model(both, {fit.covariance.family, draw.theta});
     double gain = 0;
     Index width = 0;
-    for (std::size_t k = 0; k < stand.at.basis.kept.size(); ++k) {
-      if (stand.at.basis.kept[k] < design.cols()) continue;
-      gain += std::pow(stand.at.basis.q.col(static_cast<Index>(k)).dot(stand.at.y), 2);
+    for (std::size_t k = 0; k < model.at.basis.kept.size(); ++k) {
+      if (model.at.basis.kept[k] < design.cols()) continue;
+      gain += std::pow(model.at.basis.q.col(static_cast<Index>(k)).dot(model.at.y), 2);
       ++width;
     }
-    log_weights.push_back(fit.value - stand.at.value - draw.log_density);
+    log_weights.push_back(fit.value - model.at.value - draw.log_density);
     log_p.push_back(width ? std::min(0.0, log_tests + log_tail(gain, static_cast<double>(width))) : 0.0);
   }
   return log_p.empty() ? 0 : log_average(log_weights, log_p);
@@ -46,21 +46,21 @@ double over_draws(const Bench& bench, const noise::Fit& fit, const Eigen::Matrix
 
 }  // namespace
 
-double log_tests(const Bench& bench, const Candidate& candidate) {
-  return bench.log_atoms(candidate) + candidate.charge - (candidate.sign ? std::log(2.0) : 0);
+double log_tests(const ModelState& state, const Candidate& candidate) {
+  return state.log_effective_tests(candidate) + candidate.charge - (candidate.sign ? std::log(2.0) : 0);
 }
 
-double integrated_log_p(const Bench& bench, const noise::Fit& fit, const Eigen::MatrixXd& design,
-                        const Eigen::MatrixXd& columns, double log_tests) {
+double marginal_log_p(const ModelState& state, const noise::Fit& fit, const Eigen::MatrixXd& design,
+                      const Eigen::MatrixXd& columns, double log_tests) {
   constexpr double excluded = 3, hopeless = 6;  // nats by which a family is worse, with the columns or without any
-  double log_p = over_draws(bench, fit, design, columns, log_tests);
-  for (const noise::Fit& other : bench.families) {
+  double log_p = over_draws(state, fit, design, columns, log_tests);
+  for (const noise::Fit& other : state.families) {
     if (log_p > std::log(1e-3)) break;
     if (other.covariance.family == fit.covariance.family) continue;
-    if (other.value > bench.families[0].value + hopeless) continue;
-    const noise::Fit refit = bench.fitted(noise::hstack(design, columns), other.covariance, 6);
+    if (other.value > state.families[0].value + hopeless) continue;
+    const noise::Fit refit = state.fitted(noise::hstack(design, columns), other.covariance, 6);
     if (refit.value > fit.value + excluded) continue;
-    log_p = std::max(log_p, over_draws(bench, refit, design, columns, log_tests));
+    log_p = std::max(log_p, over_draws(state, refit, design, columns, log_tests));
   }
   return log_p;
 }

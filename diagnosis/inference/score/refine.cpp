@@ -40,7 +40,7 @@ struct Climb {
   }
 };
 
-Top by_simplex(const Candidate& candidate, const Eigen::VectorXd& start, int evaluations, const Value& value) {
+Optimum by_simplex(const Candidate& candidate, const Eigen::VectorXd& start, int evaluations, const Value& value) {
   Climb climb{value, {}, start, value(start)};
   for (Index k = 0; k < candidate.step.size(); ++k) {
     if (candidate.step[k] != 0) climb.free.push_back(k);
@@ -82,8 +82,8 @@ Eigen::VectorXd stride(const Eigen::MatrixXd& moves, const Stream& stream, uint6
   return moves * mix * (length / std::sqrt(among));
 }
 
-Top by_strides(const Candidate& candidate, Top top, uint64_t salt, int evaluations, double longest,
-               const Value& value) {
+Optimum by_strides(const Candidate& candidate, Optimum top, uint64_t salt, int evaluations, double longest,
+                   const Value& value) {
   constexpr double shortest = 0.04, longer = 1.5, shorter = 0.9;
   const Stream stream(combined(key_of("strides"), salt));
   double length = longest;
@@ -100,12 +100,12 @@ Top by_strides(const Candidate& candidate, Top top, uint64_t salt, int evaluatio
 }
 
 // The better half, in which two within a step of each other go on as one.
-std::vector<Top> better_half(std::vector<Top> tops, const Candidate& candidate) {
-  std::stable_sort(tops.begin(), tops.end(), [](const Top& a, const Top& b) { return a.second > b.second; });
+std::vector<Optimum> better_half(std::vector<Optimum> tops, const Candidate& candidate) {
+  std::stable_sort(tops.begin(), tops.end(), [](const Optimum& a, const Optimum& b) { return a.second > b.second; });
   tops.resize((tops.size() + 1) / 2);
-  std::vector<Top> result;
-  for (Top& top : tops) {
-    const bool known = std::any_of(result.begin(), result.end(), [&](const Top& better) {
+  std::vector<Optimum> result;
+  for (Optimum& top : tops) {
+    const bool known = std::any_of(result.begin(), result.end(), [&](const Optimum& better) {
       return ((better.first - top.first).array().abs() <= candidate.step.array().abs()).all();
     });
     if (!known) result.push_back(std::move(top));
@@ -124,18 +124,19 @@ Eigen::MatrixXd moves_at(const Candidate& candidate, const Eigen::VectorXd& thet
   return result;
 }
 
-Top climbed(const Candidate& candidate, const Eigen::VectorXd& start, int evaluations, const Value& value) {
+Optimum local_search(const Candidate& candidate, const Eigen::VectorXd& start, int evaluations, const Value& value) {
   if (candidate.starts < 2) return by_simplex(candidate, start, evaluations, value);
   return by_strides(candidate, {start, value(start)}, 0, evaluations, 1, value);
 }
 
-Top raced(const Candidate& candidate, const std::vector<Eigen::VectorXd>& starts, const std::vector<Value>& laps) {
-  std::vector<Top> tops;
+Optimum successive_halving(const Candidate& candidate, const std::vector<Eigen::VectorXd>& starts,
+                           const std::vector<Value>& laps) {
+  std::vector<Optimum> tops;
   for (const Eigen::VectorXd& start : starts) tops.emplace_back(start, 0.0);
   int evaluations = candidate.evaluations / 3;
   for (std::size_t lap = 0; lap < laps.size(); ++lap) {
     const double longest = lap == 0 ? 2 : 1;
-    for (Top& top : tops) {
+    for (Optimum& top : tops) {
       top.second = laps[lap](top.first);
       top = by_strides(candidate, std::move(top), 1 + lap, evaluations, longest, laps[lap]);
     }

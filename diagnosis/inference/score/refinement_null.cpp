@@ -9,8 +9,8 @@
 namespace muster::inference {
 namespace {
 
-const Entry& entry_named(const Bench& bench, const std::string& id) {
-  for (const Entry& entry : bench.entries()) {
+const Entry& entry_named(const ModelState& state, const std::string& id) {
+  for (const Entry& entry : state.entries()) {
     if (entry.candidate->id == id) return entry;
   }
   throw std::invalid_argument(id + ": no such candidate");
@@ -18,24 +18,24 @@ const Entry& entry_named(const Bench& bench, const std::string& id) {
 
 }  // namespace
 
-double refinement_charge(Bench& bench, const std::string& candidate, int draws) {
-  const Entry& entry = entry_named(bench, candidate);
+double refinement_null(ModelState& state, const std::string& candidate, int draws) {
+  const Entry& entry = entry_named(state, candidate);
   const Candidate& c = *entry.candidate;
-  Stand stand = bench.stand(bench.design());
-  const UnitAtoms unit = unit_atoms(entry, stand);
-  bench.log_atoms(entry, unit);
-  const Stream stream(combined(key_of("refined nulls"), bench.options().seed));
+  WhitenedModel model = state.whitened_model(state.design());
+  const OrthonormalAtoms unit = unit_atoms(entry, model);
+  state.log_effective_tests(entry, unit);
+  const Stream stream(combined(key_of("refined nulls"), state.options().seed));
   std::vector<double> log_p;
   for (int k = 0; k < draws; ++k) {
-    Eigen::VectorXd z(bench.rows().size());
+    Eigen::VectorXd z(state.rows().size());
     for (Index i = 0; i < z.size(); ++i) z[i] = stream.normal(static_cast<uint64_t>(i), static_cast<uint64_t>(k));
-    stand.at.residual = stand.at.basis.rest(z);
-    Lead lead{&entry, {}, {}, 0, 0, 0, false, gains(c, unit, stand.at.residual)};
+    model.at.residual = model.at.basis.rest(z);
+    ScoredCandidate lead{&entry, {}, {}, 0, 0, 0, false, gains(c, unit, model.at.residual)};
     Index best = 0;
     lead.gain = lead.all.maxCoeff(&best);
     lead.theta = c.grid[static_cast<std::size_t>(best)];
     lead.columns = entry.atom(best);
-    log_p.push_back(refined(bench, stand, lead, false).log_p - c.charge);
+    log_p.push_back(refined(state, model, lead, false).log_p - c.charge);
   }
   std::sort(log_p.begin(), log_p.end());
   // Where p is uniform the k-th smallest of n is near k / (n + 1); the lower half is where decisions fall.

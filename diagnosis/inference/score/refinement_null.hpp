@@ -6,6 +6,6 @@
 namespace muster::inference {
 
 // Nats by which the p-value of the refined candidate is too small when nothing is there. Slow: `draws` refinements.
-double refinement_charge(Bench& bench, const std::string& candidate, int draws);
+double refinement_null(ModelState& state, const std::string& candidate, int draws);
 
 }  // namespace muster::inference

@@ -2,17 +2,17 @@
 
 namespace muster::inference {
 
-Thin::Thin(const Bench& bench, const Stand& stand)
-    : bench_(bench),
-      reach_(bench.field(), stand.whitener),
-      scores_(reach_.transposed(stand.at.residual)),
-      design_(stand.at.basis.q.cols(), bench.rows().size()),
-      column_(Eigen::VectorXd::Zero(bench.rows().size())),
-      explained_(Eigen::VectorXd::Zero(stand.at.basis.q.cols())) {
-  for (Index k = 0; k < design_.rows(); ++k) design_.row(k) = reach_.transposed(stand.at.basis.q.col(k)).transpose();
+SparseColumns::SparseColumns(const ModelState& state, const WhitenedModel& model)
+    : state_(state),
+      reach_(state.field(), model.whitener),
+      scores_(reach_.transposed(model.at.residual)),
+      design_(model.at.basis.q.cols(), state.rows().size()),
+      column_(Eigen::VectorXd::Zero(state.rows().size())),
+      explained_(Eigen::VectorXd::Zero(model.at.basis.q.cols())) {
+  for (Index k = 0; k < design_.rows(); ++k) design_.row(k) = reach_.transposed(model.at.basis.q.col(k)).transpose();
 }
 
-void Thin::clear() {
+void SparseColumns::clear() {
   constexpr Index few = 30;  // a row reaches some fifteen, and whole vectors are cleared sooner than entries one by one
   if (static_cast<Index>(added_.size()) * few > column_.size()) {
     column_.setZero();
@@ -26,7 +26,7 @@ void Thin::clear() {
   explained_.setZero();
 }
 
-void Thin::add(Index row, double value) {
+void SparseColumns::add(Index row, double value) {
   along_ += value * scores_[row];
   explained_ += value * design_.col(row);
   added_.push_back(row);
@@ -41,7 +41,7 @@ void Thin::add(Index row, double value) {
   length_ += length;
 }
 
-bool Thin::take(const Eigen::VectorXd& column) {
+bool SparseColumns::take(const Eigen::VectorXd& column) {
   constexpr Index few = 5;  // a row reaches some fifteen
   concerned_.resize(column.size());
   Index count = 0;
@@ -55,7 +55,7 @@ bool Thin::take(const Eigen::VectorXd& column) {
   return true;
 }
 
-double Thin::gain() const {
+double SparseColumns::gain() const {
   const double left = length();
   return along_ > 0 && left > 1e-6 ? along_ * along_ / left : 0;
 }

@@ -6,12 +6,12 @@
 
 namespace muster::inference {
 
-class Thin : public Tally {
+class SparseColumns : public Tally {
  public:
   // Keeps references to both.
-  Thin(const Bench& bench, const Stand& stand);
+  SparseColumns(const ModelState& state, const WhitenedModel& model);
 
-  Index rows() const override { return bench_.rows().size(); }
+  Index rows() const override { return state_.rows().size(); }
   void clear() override;
   void add(Index row, double value) override;
   double gain() const override;
@@ -23,7 +23,7 @@ class Thin : public Tally {
   double length() const { return length_ - explained_.squaredNorm(); }  // squared, of what the design leaves
 
  private:
-  const Bench& bench_;
+  const ModelState& state_;
   noise::Reach reach_;
   Eigen::VectorXd scores_;  // products of each row's unit column with the residual
   Eigen::MatrixXd design_;  // and with the design, whose columns are its rows

@@ -7,9 +7,9 @@
 namespace muster::inference {
 
 // Terms set aside, to be shown as suspected.
-std::vector<Term> clean_up(Bench& bench, std::vector<Trial>& trials);
+std::vector<Term> backward_elimination(ModelState& state, std::vector<Trial>& trials);
 
 // Gain of every term beside all others, into the terms.
-void measure_gains(Bench& bench);
+void measure_gains(ModelState& state);
 
 }  // namespace muster::inference

@@ -7,7 +7,9 @@ namespace muster::inference {
 
 // The candidates to compare, at their best: smooths grown, causes refined; the one to take first. `passing` are
 // significant, `all` are all leads of this round.
-std::vector<Lead> compared(const Bench& bench, const Stand& stand, const std::vector<Lead>& passing,
-                           const std::vector<Lead>& all, const std::function<bool(const Candidate&)>& usable);
+std::vector<ScoredCandidate> compared(const ModelState& state, const WhitenedModel& model,
+                                      const std::vector<ScoredCandidate>& passing,
+                                      const std::vector<ScoredCandidate>& all,
+                                      const std::function<bool(const Candidate&)>& usable);
 
 }  // namespace muster::inference

@@ -25,16 +25,16 @@ struct Blocked {
 };
 
 // The share of the gain that comes from anchors other than the strongest one. `won`: the gain of each row.
-double share_of_others(const Bench& bench, const Eigen::VectorXd& won) {
+double share_of_others(const ModelState& state, const Eigen::VectorXd& won) {
   std::map<int, double> by_anchor;
-  for (Index i = 0; i < won.size(); ++i) by_anchor[bench.field().sites().radio[static_cast<std::size_t>(i)]] += won[i];
+  for (Index i = 0; i < won.size(); ++i) by_anchor[state.field().sites().radio[static_cast<std::size_t>(i)]] += won[i];
   double most = 0;
   for (const auto& [anchor, sum] : by_anchor) most = std::max(most, sum);
   return 1 - most / won.sum();
 }
 
 // Whether half of the gain comes from fewer than five readings.
-bool from_few(const Bench& bench, const Eigen::VectorXd& won) {
+bool from_few(const ModelState& state, const Eigen::VectorXd& won) {
   constexpr double few = 5;
   std::vector<Index> rows(static_cast<std::size_t>(won.size()));
   std::iota(rows.begin(), rows.end(), 0);
@@ -43,209 +43,210 @@ bool from_few(const Bench& bench, const Eigen::VectorXd& won) {
   for (const Index row : rows) {
     if (sum >= won.sum() / 2) break;
     sum += won[row];
-    readings += bench.rows().count()[row];
+    readings += state.rows().count()[row];
   }
   return readings < few;
 }
 
 // The gain of columns where it is won, and the share of it that stays with all beyond four standard errors cut off.
-struct Winnings {
+struct GainByRow {
   Eigen::VectorXd won;
   double tame_share;
 };
 
-Winnings winnings_of(const Stand& stand, const Eigen::MatrixXd& columns) {
+GainByRow gain_by_row(const WhitenedModel& model, const Eigen::MatrixXd& columns) {
   constexpr double usual = 4;
-  const auto added = noise::basis_of(stand.at.basis.rest(stand.whitener(columns)));
-  const Eigen::VectorXd &r = stand.at.residual, tame = r.cwiseMax(-usual).cwiseMin(usual);
+  const auto added = noise::basis_of(model.at.basis.rest(model.whitener(columns)));
+  const Eigen::VectorXd &r = model.at.residual, tame = r.cwiseMax(-usual).cwiseMin(usual);
   const Eigen::VectorXd along = added.q.transpose() * r, left = r - added.q * along;
   return {r.array().square() - left.array().square(), (added.q.transpose() * tame).squaredNorm() / along.squaredNorm()};
 }
 
 // Whether it is an outlier for which a place was found: a gain of few readings, of which most is gone once they are
 // tame, or so much that the rest is within chance.
-bool of_outlier(const Bench& bench, const Candidate& c, const Winnings& winnings) {
-  if (!from_few(bench, winnings.won)) return false;
-  const double left = winnings.tame_share * winnings.won.sum();
-  return winnings.tame_share < 0.5 || bench.log_p(c, left, c.width, true) > bench.threshold();
+bool of_outlier(const ModelState& state, const Candidate& c, const GainByRow& gains_by_row) {
+  if (!from_few(state, gains_by_row.won)) return false;
+  const double left = gains_by_row.tame_share * gains_by_row.won.sum();
+  return gains_by_row.tame_share < 0.5 || state.log_p(c, left, c.width, true) > state.threshold();
 }
 
 // The noise with the lead's columns inside; after a large effect also from scratch, since the old fit may be stuck.
-noise::Fit fit_with(const Bench& bench, const Lead& lead, const Eigen::MatrixXd& both) {
+noise::Fit fit_with(const ModelState& state, const ScoredCandidate& lead, const Eigen::MatrixXd& both) {
   const bool large = lead.columns.cols() > 2 || lead.gain > 60;
-  noise::Fit fit = bench.fitted(both, bench.fit.covariance, large ? 14 : 6);
+  noise::Fit fit = state.fitted(both, state.fit.covariance, large ? 14 : 6);
   if (lead.gain <= 200) return fit;
-  const auto start = noise::default_start(bench.y(), both, fit.covariance.family);
-  const noise::Fit fresh = bench.fitted(both, start, 20);
+  const auto start = noise::default_start(state.y(), both, fit.covariance.family);
+  const noise::Fit fresh = state.fitted(both, start, 20);
   return fresh.value < fit.value ? fresh : fit;
 }
 
 // What the covariance itself says by these rows; of what is no place and changes little within longer ones, by those on
 // more neighbours too.
-double sure_log_p(const Bench& bench, const Lead& lead, const noise::Fit& fit, const Stand& stand) {
+double sure_log_p(const ModelState& state, const ScoredCandidate& lead, const noise::Fit& fit,
+                  const WhitenedModel& model) {
   const Candidate& c = lead.candidate();
   constexpr double enough = 0.6;
-  double gain = stand.exact_gain(bench.field(), lead.columns);
-  const FarRows::Question question{bench.y(), stand.design, lead.columns, fit.covariance};
-  if (c.pieces.empty() && bench.far().kept(question, bench.field()) > enough) {
-    gain = std::min(gain, bench.far().sure_gain(question));
+  double gain = model.exact_gain(state.field(), lead.columns);
+  const LongRangeRows::Question question{state.y(), model.design, lead.columns, fit.covariance};
+  if (c.pieces.empty() && state.far().kept(question, state.field()) > enough) {
+    gain = std::min(gain, state.far().sure_gain(question));
     if (c.slow || c.kind == Kind::smooth) {
-      const std::vector<noise::Family> families = bench.likely_families(fit.covariance.family);
-      gain = std::min(gain, bench.far().profile_gain(question, bench.fit.covariance, families));
+      const std::vector<noise::Family> families = state.likely_families(fit.covariance.family);
+      gain = std::min(gain, state.far().profile_gain(question, state.fit.covariance, families));
     }
   }
-  const bool over_the_plan = c.kind == Kind::smooth || (c.pieces.empty() && bench.problem().places_known);
+  const bool over_the_plan = c.kind == Kind::smooth || (c.pieces.empty() && state.problem().places_known);
   if (over_the_plan) gain /= overdispersion;
-  return bench.log_p(c, gain, lead.columns.cols(), true);
+  return state.log_p(c, gain, lead.columns.cols(), true);
 }
 
 // The name must survive what is not known of the covariance, the lone transmitter and the clip.
-Trial tried(const Bench& bench, const Lead& lead, const noise::Fit& fit, const Eigen::MatrixXd& design) {
+Trial tried(const ModelState& state, const ScoredCandidate& lead, const noise::Fit& fit,
+            const Eigen::MatrixXd& design) {
   const Candidate& c = lead.candidate();
-  const Stand stand = bench.stand(design, fit.covariance);
-  Trial trial{c.id, c.label_of(lead.theta), gain_of(c, stand, lead.columns), 0, 0, false, ""};
-  trial.log_p = bench.log_p(c, trial.gain, lead.columns.cols(), true);
-  trial.integrated_log_p = trial.log_p;
-  if (trial.log_p > -40)
-    trial.integrated_log_p = integrated_log_p(bench, fit, design, lead.columns, log_tests(bench, c));
-  if (c.whole) trial.integrated_log_p = std::max(trial.integrated_log_p, trial.log_p);  // not by a multiple of itself
+  const WhitenedModel model = state.whitened_model(design, fit.covariance);
+  Trial trial{c.id, c.label_of(lead.theta), gain_of(c, model, lead.columns), 0, 0, false, ""};
+  trial.log_p = state.log_p(c, trial.gain, lead.columns.cols(), true);
+  trial.marginal_log_p = trial.log_p;
+  if (trial.log_p > -40) trial.marginal_log_p = marginal_log_p(state, fit, design, lead.columns, log_tests(state, c));
+  if (c.whole) trial.marginal_log_p = std::max(trial.marginal_log_p, trial.log_p);  // not by a multiple of itself
   constexpr double beyond_doubt = -100;  // no approximation overstates so much
-  if (trial.integrated_log_p <= bench.threshold() && trial.log_p > beyond_doubt)
-    trial.integrated_log_p = std::max(trial.integrated_log_p, sure_log_p(bench, lead, fit, stand));
-  trial.integrated_log_p += stand.skew_charge(lead.columns);
-  const Winnings winnings = winnings_of(stand, lead.columns);
-  if (!c.pieces.empty() && share_of_others(bench, winnings.won) < 0.08)
-    trial.integrated_log_p += bench.options().one_radio_charge;
-  if (c.level_like && bench.problem().bounds.any() &&
-      !stands_clear_of_clip(bench, fit.covariance, design, lead.columns))
+  if (trial.marginal_log_p <= state.threshold() && trial.log_p > beyond_doubt)
+    trial.marginal_log_p = std::max(trial.marginal_log_p, sure_log_p(state, lead, fit, model));
+  trial.marginal_log_p += model.skew_charge(lead.columns);
+  const GainByRow gains_by_row = gain_by_row(model, lead.columns);
+  if (!c.pieces.empty() && share_of_others(state, gains_by_row.won) < 0.08)
+    trial.marginal_log_p += state.options().one_radio_charge;
+  if (c.level_like && state.problem().bounds.any() &&
+      !stands_clear_of_clip(state, fit.covariance, design, lead.columns))
     trial.reason = like_clipping;
-  else if (trial.integrated_log_p > bench.threshold())
+  else if (trial.marginal_log_p > state.threshold())
     trial.reason = "not beyond chance";
-  else if (of_outlier(bench, c, winnings))
+  else if (of_outlier(state, c, gains_by_row))
     trial.reason = "rests on fewer than five readings";
   trial.accepted = trial.reason.empty();
   return trial;
 }
 
 // Places and times again, now that the noise is fitted beside them.
-void refine_again(Bench& bench, std::size_t at) {
-  if (bench.terms[at].smooth() || !bench.terms[at].candidate->refinable()) return;
+void refine_again(ModelState& state, std::size_t at) {
+  if (state.terms[at].smooth() || !state.terms[at].candidate->refinable()) return;
   for (int round = 0; round < 3; ++round) {
-    Term& term = bench.terms[at];
-    const Stand stand = bench.stand(bench.design_without(term));
-    Lead lead{&bench.entry_of(*term.candidate), term.theta, term.columns, stand.gain(term.columns), 0, 0, false, {}};
-    const Lead better = refined(bench, stand, lead, true);
+    Term& term = state.terms[at];
+    const WhitenedModel model = state.whitened_model(state.design_without(term));
+    ScoredCandidate lead{
+        &state.entry_of(*term.candidate), term.theta, term.columns, model.gain(term.columns), 0, 0, false, {}};
+    const ScoredCandidate better = refined(state, model, lead, true);
     if (better.gain < lead.gain + 2) return;
     term.theta = better.theta;
     term.columns = better.columns;
-    bench.refit(4);
+    state.refit(4);
   }
 }
 
 // What an effect hides of the field shows once the effect is in the model: the family is chosen again.
-void choose_family_again(Bench& bench) {
+void choose_family_again(ModelState& state) {
   constexpr double advantage = 2;  // nats to leave a family
-  const Eigen::MatrixXd design = bench.design();
-  noise::Fit best = bench.fit;
-  for (const noise::Fit& other : bench.families) {
-    if (other.covariance.family == bench.fit.covariance.family) continue;
-    noise::Covariance start{other.covariance.family, bench.fit.covariance.theta};
-    start.theta[1] += noise::log_scale_of(other.covariance.family) - noise::log_scale_of(bench.fit.covariance.family);
-    const noise::Fit fit = bench.fitted(design, start, 12);
-    if (fit.value < best.value - (best.covariance.family == bench.fit.covariance.family ? advantage : 0)) best = fit;
+  const Eigen::MatrixXd design = state.design();
+  noise::Fit best = state.fit;
+  for (const noise::Fit& other : state.families) {
+    if (other.covariance.family == state.fit.covariance.family) continue;
+    noise::Covariance start{other.covariance.family, state.fit.covariance.theta};
+    start.theta[1] += noise::log_scale_of(other.covariance.family) - noise::log_scale_of(state.fit.covariance.family);
+    const noise::Fit fit = state.fitted(design, start, 12);
+    if (fit.value < best.value - (best.covariance.family == state.fit.covariance.family ? advantage : 0)) best = fit;
   }
-  bench.fit = best;
+  state.fit = best;
 }
 
-void take(Bench& bench, const noise::Fit& fit, const Term& term) {
-  bench.fit = fit;
-  bench.terms.push_back(term);
-  if (term.gain > 30) choose_family_again(bench);
+void take(ModelState& state, const noise::Fit& fit, const Term& term) {
+  state.fit = fit;
+  state.terms.push_back(term);
+  if (term.gain > 30) choose_family_again(state);
 }
 
 // Rows of several readings end at the edges of each place, and it settles there.
-void settle_at_their_edges(Bench& bench) {
-  for (std::size_t k = 0; k < bench.terms.size(); ++k) {
-    const Term term = bench.terms[k];
-    if (term.smooth() || term.candidate->pieces.empty() || bench.end_rows_at(*term.candidate, term.theta) == 0)
+void settle_at_their_edges(ModelState& state) {
+  for (std::size_t k = 0; k < state.terms.size(); ++k) {
+    const Term term = state.terms[k];
+    if (term.smooth() || term.candidate->pieces.empty() || state.end_rows_at(*term.candidate, term.theta) == 0)
       continue;
-    bench.refit(4);
-    settle(bench, k, false);
+    state.refit(4);
+    relocate(state, k, false);
   }
 }
 
 // False if the lead fails.
-bool enter(Bench& bench, Lead lead, Blocked& blocked, std::vector<Trial>& trials) {
+bool enter(ModelState& state, ScoredCandidate lead, Blocked& blocked, std::vector<Trial>& trials) {
   constexpr double beyond_doubt = -40;  // rows may end once it has settled
   const bool place = !lead.candidate().pieces.empty();
-  if (place && lead.log_p > beyond_doubt && bench.end_rows_at(lead.candidate(), lead.theta) > 0)
-    lead.columns = bench.columns_of(lead.candidate(), lead.theta);
-  const Eigen::MatrixXd design = bench.design();
-  const noise::Fit fit = fit_with(bench, lead, noise::hstack(design, lead.columns));
-  trials.push_back(tried(bench, lead, fit, design));
+  if (place && lead.log_p > beyond_doubt && state.end_rows_at(lead.candidate(), lead.theta) > 0)
+    lead.columns = state.columns_of(lead.candidate(), lead.theta);
+  const Eigen::MatrixXd design = state.design();
+  const noise::Fit fit = fit_with(state, lead, noise::hstack(design, lead.columns));
+  trials.push_back(tried(state, lead, fit, design));
   const Trial& trial = trials.back();
   if (!trial.accepted) {
     blocked.now.insert(trial.id);
     if (trial.reason == like_clipping) blocked.for_good.insert(trial.id);
     return false;
   }
-  take(bench, fit,
-       {lead.entry->candidate, lead.theta, lead.columns, trial.gain, lead.evidence, trial.integrated_log_p});
+  take(state, fit, {lead.entry->candidate, lead.theta, lead.columns, trial.gain, lead.evidence, trial.marginal_log_p});
   blocked.now = blocked.for_good;
-  const std::string pieces = bench.terms.back().candidate->pieces;
+  const std::string pieces = state.terms.back().candidate->pieces;
   if (pieces.empty()) {
-    refine_again(bench, bench.terms.size() - 1);
+    refine_again(state, state.terms.size() - 1);
     return true;
   }
-  settle_places(bench);
-  if (merge_pieces(bench, pieces)) {
-    bench.refit();
-    settle_places(bench);
+  relocate_places(state);
+  if (merge_pieces(state, pieces)) {
+    state.refit();
+    relocate_places(state);
   }
-  settle_at_their_edges(bench);
+  settle_at_their_edges(state);
   return true;
 }
 
 // Places that nearly pass, once rows end at their edges: that may be all they lack.
-std::vector<Lead> closer_look(Bench& bench, const std::vector<Lead>& looked) {
+std::vector<ScoredCandidate> closer_look(ModelState& state, const std::vector<ScoredCandidate>& looked) {
   constexpr double lacks = 7;  // nats
-  std::vector<Lead> places;
-  for (const Lead& lead : looked) {
-    if (lead.candidate().proposed && lead.log_p < bench.threshold() + lacks) places.push_back(lead);
+  std::vector<ScoredCandidate> places;
+  for (const ScoredCandidate& lead : looked) {
+    if (lead.candidate().proposed && lead.log_p < state.threshold() + lacks) places.push_back(lead);
   }
   Index more = 0;
-  for (const Lead& lead : places) more += bench.end_rows_at(lead.candidate(), lead.theta);
+  for (const ScoredCandidate& lead : places) more += state.end_rows_at(lead.candidate(), lead.theta);
   if (more == 0) return {};
-  const Eigen::MatrixXd design = bench.design();
-  bench.refit(4);
-  for (Lead& lead : places) {
-    lead.columns = bench.columns_of(lead.candidate(), lead.theta);
-    const noise::Fit fit = fit_with(bench, lead, noise::hstack(design, lead.columns));
-    lead = refined(bench, bench.stand(design, fit.covariance), lead, true);
+  const Eigen::MatrixXd design = state.design();
+  state.refit(4);
+  for (ScoredCandidate& lead : places) {
+    lead.columns = state.columns_of(lead.candidate(), lead.theta);
+    const noise::Fit fit = fit_with(state, lead, noise::hstack(design, lead.columns));
+    lead = refined(state, state.whitened_model(design, fit.covariance), lead, true);
   }
   by_evidence(places);
   return places;
 }
 
-void enter_as_stated(Bench& bench, const Lead& lead) {
+void enter_as_stated(ModelState& state, const ScoredCandidate& lead) {
   const Candidate& c = lead.candidate();
-  const Eigen::MatrixXd design = bench.design();
-  const noise::Fit fit = fit_with(bench, lead, noise::hstack(design, lead.columns));
-  const double gain = gain_of(c, bench.stand(design, fit.covariance), lead.columns);
+  const Eigen::MatrixXd design = state.design();
+  const noise::Fit fit = fit_with(state, lead, noise::hstack(design, lead.columns));
+  const double gain = gain_of(c, state.whitened_model(design, fit.covariance), lead.columns);
   Term term{lead.entry->candidate,
             lead.theta,
             lead.columns,
             gain,
-            bench.evidence(c, gain, lead.columns.cols(), false),
+            state.evidence(c, gain, lead.columns.cols(), false),
             lead.log_p};
   term.as_stated = true;
-  take(bench, fit, term);
-  refine_again(bench, bench.terms.size() - 1);
+  take(state, fit, term);
+  refine_again(state, state.terms.size() - 1);
 }
 
-bool usable(const Bench& bench, const Blocked& blocked, const Candidate& c) {
+bool usable(const ModelState& state, const Blocked& blocked, const Candidate& c) {
   if (blocked.now.count(c.id)) return false;
-  return std::none_of(bench.terms.begin(), bench.terms.end(), [&](const Term& term) {
+  return std::none_of(state.terms.begin(), state.terms.end(), [&](const Term& term) {
     const bool again = term.candidate->id == c.id && c.grid.size() == 1;
     return again || (term.smooth() && term.candidate->own() == c.own());
   });
@@ -253,42 +254,44 @@ bool usable(const Bench& bench, const Blocked& blocked, const Candidate& c) {
 
 }  // namespace
 
-void forward(Bench& bench, std::vector<Trial>& trials) {
+void forward_selection(ModelState& state, std::vector<Trial>& trials) {
   Blocked blocked;
   std::size_t looked_closely = 0;  // with so many terms, and one
-  const auto may_enter = [&](const Candidate& c) { return usable(bench, blocked, c); };
+  const auto may_enter = [&](const Candidate& c) { return usable(state, blocked, c); };
   for (int round = 0; round < 40; ++round) {
-    if (!bench.terms.empty() && bench.problem().bounds.any()) bench.impute(4);
-    const Eigen::MatrixXd design = bench.design();
-    const Stand stand = bench.stand(design);
-    bench.renew_depending(stand.coefficients(design.cols()));
-    const std::vector<Lead> all = leads(bench, stand);
-    if (static_cast<int>(bench.terms.size()) >= bench.options().most_terms) return;
-    const auto passes = [&](const Lead& lead) { return lead.log_p < bench.threshold() && may_enter(lead.candidate()); };
-    std::vector<Lead> passing;
+    if (!state.terms.empty() && state.problem().bounds.any()) state.impute(4);
+    const Eigen::MatrixXd design = state.design();
+    const WhitenedModel model = state.whitened_model(design);
+    state.renew_depending(model.coefficients(design.cols()));
+    const std::vector<ScoredCandidate> all = scored_candidates(state, model);
+    if (static_cast<int>(state.terms.size()) >= state.options().most_terms) return;
+    const auto passes = [&](const ScoredCandidate& lead) {
+      return lead.log_p < state.threshold() && may_enter(lead.candidate());
+    };
+    std::vector<ScoredCandidate> passing;
     std::copy_if(all.begin(), all.end(), std::back_inserter(passing), passes);
     if (passing.empty()) {
-      const std::vector<Lead> looked = second_look(bench, stand, all, may_enter);
+      const std::vector<ScoredCandidate> looked = refit_noise_pass(state, model, all, may_enter);
       std::copy_if(looked.begin(), looked.end(), std::back_inserter(passing), passes);
-      if (passing.empty() && looked_closely <= bench.terms.size()) {
-        looked_closely = bench.terms.size() + 1;
-        const std::vector<Lead> close = closer_look(bench, looked);
+      if (passing.empty() && looked_closely <= state.terms.size()) {
+        looked_closely = state.terms.size() + 1;
+        const std::vector<ScoredCandidate> close = closer_look(state, looked);
         const auto found = std::find_if(close.begin(), close.end(), passes);
         if (found != close.end()) {
-          enter(bench, *found, blocked, trials);
+          enter(state, *found, blocked, trials);
           continue;
         }
       }
     }
     if (passing.empty()) {
       const Blocked only{blocked.for_good, blocked.for_good};
-      const auto lead = stated_look(bench, [&](const Candidate& c) { return usable(bench, only, c); });
+      const auto lead = stated_noise_pass(state, [&](const Candidate& c) { return usable(state, only, c); });
       if (!lead) return;
-      enter_as_stated(bench, *lead);
+      enter_as_stated(state, *lead);
       blocked.now = blocked.for_good;
       continue;
     }
-    enter(bench, compared(bench, stand, passing, all, may_enter).front(), blocked, trials);
+    enter(state, compared(state, model, passing, all, may_enter).front(), blocked, trials);
   }
 }
 

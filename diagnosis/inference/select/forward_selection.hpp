@@ -10,12 +10,12 @@ namespace muster::inference {
 // What was tried and how it fared, for the report.
 struct Trial {
   std::string id, label;
-  double gain = 0, log_p = 0, integrated_log_p = 0;  // with the noise fitted beside it
+  double gain = 0, log_p = 0, marginal_log_p = 0;  // with the noise fitted beside it
   bool accepted = false;
   std::string reason;  // why not
 };
 
 // Adds terms to the bench until nothing passes.
-void forward(Bench& bench, std::vector<Trial>& trials);
+void forward_selection(ModelState& state, std::vector<Trial>& trials);
 
 }  // namespace muster::inference

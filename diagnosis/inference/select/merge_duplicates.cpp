@@ -9,7 +9,8 @@ namespace muster::inference {
 namespace {
 
 // The best single object of one candidate: from the pieces that it found, from thetas that span several, from its grid.
-Lead single(const Bench& bench, const Stand& stand, const Entry& entry, const std::vector<Piece>& found) {
+ScoredCandidate single(const ModelState& state, const WhitenedModel& model, const Entry& entry,
+                       const std::vector<Piece>& found) {
   const Candidate& c = *entry.candidate;
   std::vector<Eigen::VectorXd> starts;
   for (const Piece& piece : found) {
@@ -18,16 +19,16 @@ Lead single(const Bench& bench, const Stand& stand, const Entry& entry, const st
   if (c.spanning) {
     for (Eigen::VectorXd& theta : c.spanning(found)) starts.push_back(std::move(theta));
   }
-  Lead lead{&entry, {}, {}, 0, 0, 0, false, gains(c, unit_atoms(entry, stand), stand.at.residual)};
+  ScoredCandidate lead{&entry, {}, {}, 0, 0, 0, false, gains(c, unit_atoms(entry, model), model.at.residual)};
   Index at = 0;
   lead.gain = lead.all.maxCoeff(&at);
   lead.theta = c.grid[static_cast<std::size_t>(at)];
   lead.columns = entry.atom(at);
-  Lead best = refined(bench, stand, lead, false);
+  ScoredCandidate best = refined(state, model, lead, false);
   for (const Eigen::VectorXd& theta : starts) {
     lead.theta = theta;
-    lead.columns = bench.columns_of(c, theta);
-    const Lead other = refined(bench, stand, lead, true);
+    lead.columns = state.columns_of(c, theta);
+    const ScoredCandidate other = refined(state, model, lead, true);
     if (other.gain > best.gain) best = other;
   }
   return best;
@@ -35,31 +36,31 @@ Lead single(const Bench& bench, const Stand& stand, const Entry& entry, const st
 
 }  // namespace
 
-bool merge_pieces(Bench& bench, const std::string& pieces) {
+bool merge_pieces(ModelState& state, const std::string& pieces) {
   const auto of_class = [&](const Term& term) { return term.candidate->pieces == pieces; };
   std::vector<Piece> found;
-  Eigen::MatrixXd columns(bench.rows().size(), 0);
-  for (const Term& term : bench.terms) {
+  Eigen::MatrixXd columns(state.rows().size(), 0);
+  for (const Term& term : state.terms) {
     if (!of_class(term)) continue;
     found.push_back({term.candidate->id, term.theta});
     columns.conservativeResize(Eigen::NoChange, columns.cols() + term.columns.cols());
     columns.rightCols(term.columns.cols()) = term.columns;
   }
   if (found.size() < 2) return false;
-  const Stand stand = bench.stand(bench.design(of_class));
-  const double all = stand.gain(columns);
+  const WhitenedModel model = state.whitened_model(state.design(of_class));
+  const double all = model.gain(columns);
   const Entry* chosen = nullptr;
-  Lead best{};
-  for (const Entry& entry : bench.entries()) {
+  ScoredCandidate best{};
+  for (const Entry& entry : state.entries()) {
     if (entry.candidate->pieces != pieces) continue;
-    Lead lead = single(bench, stand, entry, found);
+    ScoredCandidate lead = single(state, model, entry, found);
     if (chosen && lead.gain <= best.gain) continue;
     chosen = &entry;
     best = std::move(lead);
   }
-  if (!chosen || best.gain < bench.options().merge_share * all) return false;
-  std::erase_if(bench.terms, of_class);
-  bench.terms.push_back({chosen->candidate, best.theta, best.columns, best.gain, best.evidence, best.log_p});
+  if (!chosen || best.gain < state.options().merge_share * all) return false;
+  std::erase_if(state.terms, of_class);
+  state.terms.push_back({chosen->candidate, best.theta, best.columns, best.gain, best.evidence, best.log_p});
   return true;
 }
 

@@ -6,6 +6,6 @@
 namespace muster::inference {
 
 // True if the terms have changed.
-bool merge_pieces(Bench& bench, const std::string& pieces);
+bool merge_pieces(ModelState& state, const std::string& pieces);
 
 }  // namespace muster::inference

@@ -9,40 +9,41 @@
 namespace muster::inference {
 namespace {
 
-bool has(const std::vector<Lead>& leads, const Lead& lead) {
-  return std::any_of(leads.begin(), leads.end(),
-                     [&](const Lead& other) { return other.entry == lead.entry && other.theta == lead.theta; });
+bool has(const std::vector<ScoredCandidate>& leads, const ScoredCandidate& lead) {
+  return std::any_of(leads.begin(), leads.end(), [&](const ScoredCandidate& other) {
+    return other.entry == lead.entry && other.theta == lead.theta;
+  });
 }
 
 bool looked_at_again(const Candidate& c) { return c.kind == Kind::named || c.slow; }
 
 // Three that nearly pass, everything whose gain has many tops, of which the grid may miss the highest, and what the
 // ladder brings up.
-std::vector<Lead> worth_a_look(Bench& bench, const std::vector<Lead>& first,
-                               const std::function<bool(const Candidate&)>& usable) {
-  std::vector<Lead> result;
-  for (const Lead& lead : first) {
+std::vector<ScoredCandidate> worth_a_look(ModelState& state, const std::vector<ScoredCandidate>& first,
+                                          const std::function<bool(const Candidate&)>& usable) {
+  std::vector<ScoredCandidate> result;
+  for (const ScoredCandidate& lead : first) {
     if (looked_at_again(lead.candidate()) && lead.log_p < std::log(0.5) && usable(lead.candidate()) &&
         result.size() < 3)
       result.push_back(lead);
   }
-  for (const Lead& lead : first) {
+  for (const ScoredCandidate& lead : first) {
     if (lead.candidate().starts > 1 && usable(lead.candidate()) && !has(result, lead)) result.push_back(lead);
   }
-  std::vector<Lead> slow = ladder(bench, usable);
-  slow.resize(std::min<std::size_t>(slow.size(), 4), slow.empty() ? Lead{} : slow[0]);
-  for (const Lead& lead : slow) {
+  std::vector<ScoredCandidate> slow = ladder(state, usable);
+  slow.resize(std::min<std::size_t>(slow.size(), 4), slow.empty() ? ScoredCandidate{} : slow[0]);
+  for (const ScoredCandidate& lead : slow) {
     if (!has(result, lead)) result.push_back(lead);
   }
   return result;
 }
 
-noise::Fit fit_with(const Bench& bench, const Candidate& candidate, const Eigen::MatrixXd& both) {
-  noise::Fit fit = bench.fitted(both, bench.fit.covariance, 6);
+noise::Fit fit_with(const ModelState& state, const Candidate& candidate, const Eigen::MatrixXd& both) {
+  noise::Fit fit = state.fitted(both, state.fit.covariance, 6);
   if (!candidate.slow) return fit;
-  noise::Covariance weaker = bench.fit.covariance;  // a second start: shorter and weaker field
+  noise::Covariance weaker = state.fit.covariance;  // a second start: shorter and weaker field
   weaker.theta += noise::Theta(std::log(0.35), std::log(0.5), 0, 0);
-  const noise::Fit other = bench.fitted(both, weaker, 12);
+  const noise::Fit other = state.fitted(both, weaker, 12);
   return other.value < fit.value - 0.3 ? other : fit;
 }
 
@@ -59,54 +60,55 @@ double most_once_fitted(double gain) { return 4 + 3 * gain; }
 
 }  // namespace
 
-std::vector<Lead> second_look(Bench& bench, const Stand& stand, const std::vector<Lead>& first,
-                              const std::function<bool(const Candidate&)>& usable) {
-  std::vector<Lead> looked = worth_a_look(bench, first, usable);
-  const Eigen::MatrixXd design = bench.design();
-  for (Lead& lead : looked) {
+std::vector<ScoredCandidate> refit_noise_pass(ModelState& state, const WhitenedModel& model,
+                                              const std::vector<ScoredCandidate>& first,
+                                              const std::function<bool(const Candidate&)>& usable) {
+  std::vector<ScoredCandidate> looked = worth_a_look(state, first, usable);
+  const Eigen::MatrixXd design = state.design();
+  for (ScoredCandidate& lead : looked) {
     const Candidate& c = lead.candidate();
-    if (c.starts > 1) lead = refined(bench, stand, lead, false);
-    lead.log_p = bench.log_p(c, lead.gain, c.width, true);
-    if (bench.log_p(c, most_once_fitted(lead.gain), c.width, true) > bench.threshold()) continue;
-    noise::Fit fit = fit_with(bench, c, noise::hstack(design, lead.columns));
-    const double gain = gain_of(c, bench.stand(design, fit.covariance), lead.columns);
-    if (c.starts > 1 && bench.log_p(c, most_to_come(lead.gain, gain), c.width, true) < bench.threshold()) {
-      lead = refined(bench, bench.stand(design, fit.covariance), lead, false);
-      fit = bench.fitted(noise::hstack(design, lead.columns), fit.covariance, 6);
+    if (c.starts > 1) lead = refined(state, model, lead, false);
+    lead.log_p = state.log_p(c, lead.gain, c.width, true);
+    if (state.log_p(c, most_once_fitted(lead.gain), c.width, true) > state.threshold()) continue;
+    noise::Fit fit = fit_with(state, c, noise::hstack(design, lead.columns));
+    const double gain = gain_of(c, state.whitened_model(design, fit.covariance), lead.columns);
+    if (c.starts > 1 && state.log_p(c, most_to_come(lead.gain, gain), c.width, true) < state.threshold()) {
+      lead = refined(state, state.whitened_model(design, fit.covariance), lead, false);
+      fit = state.fitted(noise::hstack(design, lead.columns), fit.covariance, 6);
     }
-    lead.gain = gain_of(c, bench.stand(design, fit.covariance), lead.columns);
-    lead.evidence = bench.evidence(c, lead.gain, c.width, false);
-    lead.log_p = bench.log_p(c, lead.gain, c.width, true);
+    lead.gain = gain_of(c, state.whitened_model(design, fit.covariance), lead.columns);
+    lead.evidence = state.evidence(c, lead.gain, c.width, false);
+    lead.log_p = state.log_p(c, lead.gain, c.width, true);
   }
   by_evidence(looked);
   return looked;
 }
 
-std::vector<Lead> ladder(Bench& bench, const std::function<bool(const Candidate&)>& usable) {
-  const Eigen::MatrixXd design = bench.design();
-  const noise::Covariance fitted = bench.fit.covariance;
-  const double value = bench.stand(design).at.value;
-  std::map<std::string, Lead> best;
+std::vector<ScoredCandidate> ladder(ModelState& state, const std::function<bool(const Candidate&)>& usable) {
+  const Eigen::MatrixXd design = state.design();
+  const noise::Covariance fitted = state.fit.covariance;
+  const double value = state.whitened_model(design).at.value;
+  std::map<std::string, ScoredCandidate> best;
   for (const double shorter : {1.0, 0.75, 0.55, 0.4, 0.28}) {
     for (const double weaker : {shorter, std::sqrt(shorter), 1.0}) {
       if (shorter == 1 && weaker != shorter) continue;
       noise::Covariance covariance = fitted;
       covariance.theta += noise::Theta(std::log(weaker), std::log(shorter), 0, 0);
-      const Stand stand = bench.stand(design, covariance);
-      const double lost = 2 * (stand.at.value - value);
+      const WhitenedModel model = state.whitened_model(design, covariance);
+      const double lost = 2 * (model.at.value - value);
       if (lost > 60) continue;
-      for (const Entry& entry : bench.entries()) {
+      for (const Entry& entry : state.entries()) {
         const Candidate& c = *entry.candidate;
         if (!c.slow || !usable(c)) continue;
         Index at = 0;
-        const double gain = gains(c, unit_atoms(entry, stand), stand.at.residual).maxCoeff(&at) - lost;
+        const double gain = gains(c, unit_atoms(entry, model), model.at.residual).maxCoeff(&at) - lost;
         const auto found = best.find(c.id);
         if (found != best.end() && found->second.gain >= gain) continue;
         best[c.id] = {&entry,
                       c.grid[static_cast<std::size_t>(at)],
                       entry.atom(at),
                       gain,
-                      bench.evidence(c, gain, c.width, false),
+                      state.evidence(c, gain, c.width, false),
                       0,
                       false,
                       {}};
@@ -114,7 +116,7 @@ std::vector<Lead> ladder(Bench& bench, const std::function<bool(const Candidate&
       if (shorter == 1) break;
     }
   }
-  std::vector<Lead> result;
+  std::vector<ScoredCandidate> result;
   for (auto& [id, lead] : best) {
     if (lead.gain > 4) result.push_back(std::move(lead));
   }

@@ -5,53 +5,53 @@
 namespace muster::inference {
 namespace {
 
-Lead at_term(const Bench& bench, const Stand& stand, const Term& term) {
-  const double gain = stand.gain(term.columns);
-  return {&bench.entry_of(*term.candidate),
+ScoredCandidate at_term(const ModelState& state, const WhitenedModel& model, const Term& term) {
+  const double gain = model.gain(term.columns);
+  return {&state.entry_of(*term.candidate),
           term.theta,
           term.columns,
           gain,
-          bench.evidence(*term.candidate, gain, term.columns.cols(), true),
+          state.evidence(*term.candidate, gain, term.columns.cols(), true),
           0,
           true,
           {}};
 }
 
-Lead from_grid(const Bench& bench, const Stand& stand, const Entry& entry) {
+ScoredCandidate from_grid(const ModelState& state, const WhitenedModel& model, const Entry& entry) {
   const Candidate& c = *entry.candidate;
-  Lead lead{&entry, {}, {}, 0, 0, 0, false, gains(c, unit_atoms(entry, stand), stand.at.residual)};
+  ScoredCandidate lead{&entry, {}, {}, 0, 0, 0, false, gains(c, unit_atoms(entry, model), model.at.residual)};
   Index best = 0;
   lead.gain = lead.all.maxCoeff(&best);
   lead.theta = c.grid[static_cast<std::size_t>(best)];
   lead.columns = entry.atom(best);
-  return refined(bench, stand, lead, false);
+  return refined(state, model, lead, false);
 }
 
 }  // namespace
 
-void settle(Bench& bench, std::size_t at, bool anew) {
-  constexpr double worth = 1;  // nats
+void relocate(ModelState& state, std::size_t at, bool anew) {
+  constexpr double effective_sample_size = 1;  // nats
   for (int round = 0; round < 3; ++round) {
-    Term& term = bench.terms[at];
-    const Stand stand = bench.stand(bench.design_without(term));
-    const Lead before = at_term(bench, stand, term);
-    Lead best = refined(bench, stand, before, true);
-    for (const Entry& entry : bench.entries()) {
+    Term& term = state.terms[at];
+    const WhitenedModel model = state.whitened_model(state.design_without(term));
+    const ScoredCandidate before = at_term(state, model, term);
+    ScoredCandidate best = refined(state, model, before, true);
+    for (const Entry& entry : state.entries()) {
       if (!anew || round > 0 || entry.candidate->pieces != term.candidate->pieces) continue;
-      Lead other = from_grid(bench, stand, entry);
+      ScoredCandidate other = from_grid(state, model, entry);
       if (other.evidence > best.evidence) best = std::move(other);
     }
-    if (best.evidence < before.evidence + worth) return;
+    if (best.evidence < before.evidence + effective_sample_size) return;
     term.candidate = best.entry->candidate;
     term.theta = best.theta;
     term.columns = best.columns;
-    bench.refit(4);
+    state.refit(4);
   }
 }
 
-void settle_places(Bench& bench) {
-  for (std::size_t k = 0; k < bench.terms.size(); ++k) {
-    if (!bench.terms[k].smooth() && !bench.terms[k].candidate->pieces.empty()) settle(bench, k, true);
+void relocate_places(ModelState& state) {
+  for (std::size_t k = 0; k < state.terms.size(); ++k) {
+    if (!state.terms[k].smooth() && !state.terms[k].candidate->pieces.empty()) relocate(state, k, true);
   }
 }
 

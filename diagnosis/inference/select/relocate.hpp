@@ -7,9 +7,9 @@ namespace muster::inference {
 
 // Term `at`, which is a place, as each shape of its class in turn: the one with most evidence stays. With `anew` from
 // all starts, else from where it is.
-void settle(Bench& bench, std::size_t at, bool anew);
+void relocate(ModelState& state, std::size_t at, bool anew);
 
 // All places, each beside the others.
-void settle_places(Bench& bench);
+void relocate_places(ModelState& state);
 
 }  // namespace muster::inference

@@ -11,7 +11,7 @@ namespace muster::inference {
 namespace {
 
 struct Replacement {
-  Bench& bench;
+  ModelState& state;
   std::string covariate;
   Eigen::MatrixXd rest;  // design without the terms of this covariate
   double group_gain;     // of all of those
@@ -27,14 +27,14 @@ struct Replacement {
 
   // The cause with most evidence beside what was found; the second one must share a covariate.
   std::optional<Term> best(const std::vector<Term>& found) const {
-    const Stand stand = bench.stand(with(found));
+    const WhitenedModel model = state.whitened_model(with(found));
     std::optional<Term> result;
-    for (const Lead& lead : leads(bench, stand)) {
+    for (const ScoredCandidate& lead : scored_candidates(state, model)) {
       const Candidate& c = lead.candidate();
       if (c.kind != Kind::named || !fits(lead, found)) continue;
-      const bool worth = lead.gain > 0.15 * group_gain && c.pieces.empty();
-      const Lead at = worth ? refined(bench, stand, lead, true) : lead;
-      const double evidence = bench.evidence(c, at.gain, c.width, false);
+      const bool effective_sample_size = lead.gain > 0.15 * group_gain && c.pieces.empty();
+      const ScoredCandidate at = effective_sample_size ? refined(state, model, lead, true) : lead;
+      const double evidence = state.evidence(c, at.gain, c.width, false);
       if (!result || evidence > result->evidence)
         result = Term{lead.entry->candidate, at.theta, at.columns, at.gain, evidence, 0};
     }
@@ -42,7 +42,7 @@ struct Replacement {
   }
 
   // The same cause may be on another radio too.
-  bool fits(const Lead& lead, const std::vector<Term>& found) const {
+  bool fits(const ScoredCandidate& lead, const std::vector<Term>& found) const {
     if (found.empty()) return true;
     const Candidate &c = lead.candidate(), &first = *found[0].candidate;
     if (c.id == first.id) return c.label_of(lead.theta) != first.label_of(found[0].theta);
@@ -54,10 +54,10 @@ struct Replacement {
     for (int round = 0; round < 2; ++round) {
       for (Term& term : found) {
         if (!term.candidate->pieces.empty() || !term.candidate->refinable()) continue;
-        const Stand stand = bench.stand(with(found, &term));
-        Lead lead{
-            &bench.entry_of(*term.candidate), term.theta, term.columns, stand.gain(term.columns), 0, 0, false, {}};
-        lead = refined(bench, stand, lead, true);
+        const WhitenedModel model = state.whitened_model(with(found, &term));
+        ScoredCandidate lead{
+            &state.entry_of(*term.candidate), term.theta, term.columns, model.gain(term.columns), 0, 0, false, {}};
+        lead = refined(state, model, lead, true);
         term.theta = lead.theta;
         term.columns = lead.columns;
       }
@@ -76,7 +76,7 @@ struct Replacement {
       const Eigen::MatrixXd all = with(result).rightCols(with(result).cols() - rest.cols());
       // Each function that the smooths have more wins one by chance.
       const auto by_chance = static_cast<double>(std::max<Index>(0, group_width - all.cols()));
-      if (bench.stand(rest).gain(all) >= bench.options().share * (group_gain - by_chance)) return result;
+      if (state.whitened_model(rest).gain(all) >= state.options().share * (group_gain - by_chance)) return result;
     }
     return {};
   }
@@ -84,29 +84,29 @@ struct Replacement {
 
 }  // namespace
 
-void replace_smooths(Bench& bench) {
+void replace_smooths(ModelState& state) {
   std::vector<std::string> covariates;
-  for (const Term& term : bench.terms) {
+  for (const Term& term : state.terms) {
     if (term.smooth() && std::find(covariates.begin(), covariates.end(), term.candidate->own()) == covariates.end())
       covariates.push_back(term.candidate->own());
   }
   for (const std::string& covariate : covariates) {
     const auto in_group = [&](const Term& term) { return term.candidate->own() == covariate; };
-    const bool has_names = std::any_of(bench.entries().begin(), bench.entries().end(), [&](const Entry& entry) {
+    const bool has_names = std::any_of(state.entries().begin(), state.entries().end(), [&](const Entry& entry) {
       return entry.candidate->stands_for.count(covariate) > 0;
     });
     if (!has_names) continue;
-    Eigen::MatrixXd group(bench.rows().size(), 0);
-    for (const Term& term : bench.terms) {
+    Eigen::MatrixXd group(state.rows().size(), 0);
+    for (const Term& term : state.terms) {
       if (in_group(term)) group = noise::hstack(group, term.columns);
     }
-    const Eigen::MatrixXd rest = bench.design(in_group);
-    const Replacement replacement{bench, covariate, rest, bench.stand(rest).gain(group), group.cols()};
+    const Eigen::MatrixXd rest = state.design(in_group);
+    const Replacement replacement{state, covariate, rest, state.whitened_model(rest).gain(group), group.cols()};
     const std::vector<Term> found = replacement.found();
     // Names beside the smooth on the same covariate go in either case: they were guesses at the same structure.
-    std::erase_if(bench.terms, [&](const Term& term) { return in_group(term) && (!term.smooth() || !found.empty()); });
-    bench.terms.insert(bench.terms.end(), found.begin(), found.end());
-    bench.refit();
+    std::erase_if(state.terms, [&](const Term& term) { return in_group(term) && (!term.smooth() || !found.empty()); });
+    state.terms.insert(state.terms.end(), found.begin(), found.end());
+    state.refit();
   }
 }
 

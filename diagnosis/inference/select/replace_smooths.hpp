@@ -5,6 +5,6 @@
 
 namespace muster::inference {
 
-void replace_smooths(Bench& bench);
+void replace_smooths(ModelState& state);
 
 }  // namespace muster::inference

@@ -10,6 +10,7 @@ namespace muster::inference {
 // The best slow cause or smooth that is beyond chance beside the stated field, if that field, with the cause in the
 // model, is as likely as any other. So a sender's offset is not taken for a larger and wider field than is stated; a
 // wrong statement explains nothing, since no single cause makes up for it. `usable` says which candidates may enter.
-std::optional<Lead> stated_look(Bench& bench, const std::function<bool(const Candidate&)>& usable);
+std::optional<ScoredCandidate> stated_noise_pass(ModelState& state,
+                                                 const std::function<bool(const Candidate&)>& usable);
 
 }  // namespace muster::inference

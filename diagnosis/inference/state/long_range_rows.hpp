@@ -10,9 +10,9 @@ constexpr double likely_nats = 3;     // that a family may lie behind the best o
 constexpr double hopeless_nats = 12;  // beyond those: no gain is so large that it would be the least of all families
 
 // Everything that is given has a value a row of the search.
-class FarRows {
+class LongRangeRows {
  public:
-  FarRows(const noise::Readings& readings, const Options& options, const noise::Rows& rows);
+  LongRangeRows(const noise::Readings& readings, const Options& options, const noise::Rows& rows);
 
   // Columns that a design is extended by, and the noise beside both.
   struct Question {
@@ -24,7 +24,7 @@ class FarRows {
   // The share that longer rows keep of what the search's own tell about the columns: little where those change within a
   // row's way.
   double kept(const Question& question, const noise::Field& own) const;
-  // The fall of the deviance, as a chi-square under the covariance itself (noise/exact.hpp).
+  // The fall of the deviance, as a chi-square under the covariance itself (inference/noise/exact_covariance.hpp).
   double exact_gain(const Question& question) const;
   // The fall of the deviance with the noise fitted beside the columns, and without them from `without`, in each of the
   // families: what they win though the noise could have taken their place.

@@ -52,22 +52,22 @@ Eigen::MatrixXd Entry::atom(Index k) const {
   return atoms->middleCols(k * candidate->width, candidate->width).cast<double>();
 }
 
-double Stand::gain(const Eigen::MatrixXd& columns) const {
+double WhitenedModel::gain(const Eigen::MatrixXd& columns) const {
   const auto added = noise::basis_of(at.basis.rest(whitener(columns)));
   return (added.q.transpose() * at.residual).squaredNorm();
 }
 
-double Stand::exact_gain(const noise::Field& field, const Eigen::MatrixXd& columns) const {
+double WhitenedModel::exact_gain(const noise::Field& field, const Eigen::MatrixXd& columns) const {
   const auto added = noise::basis_of(at.basis.rest(whitener(columns)));
   return noise::exact_gain(field, whitener, added.q, at.residual);
 }
 
-double Stand::gain_as_it_is(const Eigen::MatrixXd& columns) const {
+double WhitenedModel::gain_as_it_is(const Eigen::MatrixXd& columns) const {
   const Eigen::VectorXd left = at.basis.rest(whitener(columns)).rowwise().sum();
   return 2 * left.dot(at.residual) - left.squaredNorm();
 }
 
-double Stand::skew_charge(const Eigen::MatrixXd& columns) const {
+double WhitenedModel::skew_charge(const Eigen::MatrixXd& columns) const {
   const auto added = noise::basis_of(at.basis.rest(whitener(columns)));
   const Eigen::ArrayXd effect = (added.q * (added.q.transpose() * at.residual)).array();
   const Eigen::ArrayXd scatter = at.residual.array() - effect;
@@ -76,11 +76,11 @@ double Stand::skew_charge(const Eigen::MatrixXd& columns) const {
   return inference::skew_charge(std::sqrt(energy), skewness * effect.cube().sum() / std::pow(energy, 1.5));
 }
 
-Eigen::VectorXd Stand::coefficients(Index columns) const {
+Eigen::VectorXd WhitenedModel::coefficients(Index columns) const {
   return at.basis.coefficients(at.basis.q.transpose() * at.y, columns);
 }
 
-Bench::Bench(const Problem& problem, const Options& options)
+ModelState::ModelState(const Problem& problem, const Options& options)
     : problem_(problem),
       options_(options),
       rows_(problem.readings, options.rows),
@@ -95,11 +95,11 @@ Bench::Bench(const Problem& problem, const Options& options)
   fixed_ = entries_.size();
 }
 
-noise::Field Bench::field_of(const noise::Rows& rows) const {
+noise::Field ModelState::field_of(const noise::Rows& rows) const {
   return noise::Field(rows.sites(problem_.readings), {.seed = options_.seed});
 }
 
-Index Bench::end_rows_at(const Candidate& candidate, const Eigen::VectorXd& theta) {
+Index ModelState::end_rows_at(const Candidate& candidate, const Eigen::VectorXd& theta) {
   constexpr double share = 1.0 / 3;  // of the most that the effect comes to
   const Eigen::MatrixXd at_readings = candidate.columns(theta);
   const Eigen::VectorXd effect = at_readings.rowwise().sum();
@@ -125,19 +125,19 @@ Index Bench::end_rows_at(const Candidate& candidate, const Eigen::VectorXd& thet
   return more;
 }
 
-Eigen::MatrixXd Bench::sketch_of(const Candidate& candidate, const Eigen::VectorXd& theta) const {
+Eigen::MatrixXd ModelState::sketch_of(const Candidate& candidate, const Eigen::VectorXd& theta) const {
   Eigen::MatrixXd sketch = candidate.sketch(theta);
   if (origin_.empty()) return sketch;
   return sketch(origin_, Eigen::all);
 }
 
-std::vector<Eigen::VectorXd> Bench::proposals(const Candidate& candidate, Tally& tally) const {
+std::vector<Eigen::VectorXd> ModelState::proposals(const Candidate& candidate, Tally& tally) const {
   if (origin_.empty()) return candidate.proposed(tally);
   OfOrigin of_origin(origin_, tally);
   return candidate.proposed(of_origin);
 }
 
-void Bench::impute(int rounds) {
+void ModelState::impute(int rounds) {
   Eigen::MatrixXd design = problem_.base;
   if (problem_.bounds.any()) {
     for (const Term& term : terms) {
@@ -150,7 +150,7 @@ void Bench::impute(int rounds) {
   y_ = rows_.mean(measured_);
 }
 
-Eigen::MatrixXd Bench::design(const std::function<bool(const Term&)>& left_out) const {
+Eigen::MatrixXd ModelState::design(const std::function<bool(const Term&)>& left_out) const {
   Eigen::MatrixXd result = base_;
   for (const Term& term : terms) {
     if (left_out && left_out(term)) continue;
@@ -160,21 +160,21 @@ Eigen::MatrixXd Bench::design(const std::function<bool(const Term&)>& left_out) 
   return result;
 }
 
-Eigen::MatrixXd Bench::design_without(const Term& term) const {
+Eigen::MatrixXd ModelState::design_without(const Term& term) const {
   return design([&](const Term& other) { return &other == &term; });
 }
 
-Stand Bench::stand(const Eigen::MatrixXd& design, const noise::Covariance& covariance) const {
+WhitenedModel ModelState::whitened_model(const Eigen::MatrixXd& design, const noise::Covariance& covariance) const {
   noise::Whitener whitener(field_, covariance);
   noise::Whitened at = noise::whitened(whitener, y_, design, options_.prior);
   return {std::move(whitener), std::move(at), design};
 }
 
-noise::Fit Bench::fitted(const Eigen::MatrixXd& design, const noise::Covariance& start, int steps) const {
+noise::Fit ModelState::fitted(const Eigen::MatrixXd& design, const noise::Covariance& start, int steps) const {
   return noise::fit(field_, y_, design, options_.prior, start, steps);
 }
 
-std::vector<noise::Family> Bench::likely_families(noise::Family first) const {
+std::vector<noise::Family> ModelState::likely_families(noise::Family first) const {
   std::vector<noise::Family> result{first};
   for (const noise::Fit& other : families) {
     if (other.covariance.family != first && other.value < families[0].value + likely_nats)
@@ -183,12 +183,12 @@ std::vector<noise::Family> Bench::likely_families(noise::Family first) const {
   return result;
 }
 
-const FarRows& Bench::far() const {
-  if (!far_) far_ = std::make_unique<const FarRows>(problem_.readings, options_, rows_);
+const LongRangeRows& ModelState::far() const {
+  if (!far_) far_ = std::make_unique<const LongRangeRows>(problem_.readings, options_, rows_);
   return *far_;
 }
 
-Entry Bench::entry(Candidate candidate) const {
+Entry ModelState::entry(Candidate candidate) const {
   if (candidate.grid.empty() || candidate.covariates.empty())
     throw std::invalid_argument(candidate.id + ": a candidate has at least one start and one covariate");
   std::shared_ptr<const noise::Sheet> known = std::move(candidate.atoms);
@@ -204,7 +204,7 @@ Entry Bench::entry(Candidate candidate) const {
   return result;
 }
 
-void Bench::renew_depending(const Eigen::VectorXd& coefficients) {
+void ModelState::renew_depending(const Eigen::VectorXd& coefficients) {
   entries_.resize(fixed_);
   const Eigen::VectorXd of_base = coefficients.head(base_.cols());
   if (problem_.depending) {
@@ -215,35 +215,35 @@ void Bench::renew_depending(const Eigen::VectorXd& coefficients) {
   entries_.push_back(entry(std::move(level)));
 }
 
-const Entry& Bench::entry_of(const Candidate& candidate) const {
+const Entry& ModelState::entry_of(const Candidate& candidate) const {
   for (const Entry& entry : entries_) {
     if (entry.candidate->id == candidate.id) return entry;
   }
   throw std::logic_error(candidate.id + ": no such candidate");
 }
 
-Eigen::MatrixXd Bench::columns_of(const Candidate& candidate, const Eigen::VectorXd& theta) const {
+Eigen::MatrixXd ModelState::columns_of(const Candidate& candidate, const Eigen::VectorXd& theta) const {
   return rows_.mean(candidate.columns(theta));
 }
 
-double Bench::log_atoms(const Entry& entry, const UnitAtoms& unit) {
-  const auto [place, missing] = log_atoms_.try_emplace(entry.candidate->id, 0.0);
-  if (missing) place->second = log_effective(*entry.candidate, unit, normals_);
+double ModelState::log_effective_tests(const Entry& entry, const OrthonormalAtoms& unit) {
+  const auto [place, missing] = log_effective_tests_.try_emplace(entry.candidate->id, 0.0);
+  if (missing) place->second = inference::log_effective_tests(*entry.candidate, unit, normals_);
   return place->second;
 }
 
-double Bench::log_p(const Candidate& candidate, double gain, Index width, bool refined) const {
-  return log_atoms(candidate) + (refined ? candidate.charge : 0) + log_tail(gain, static_cast<double>(width)) +
-         (candidate.sign ? -std::log(2.0) : 0);
+double ModelState::log_p(const Candidate& candidate, double gain, Index width, bool refined) const {
+  return log_effective_tests(candidate) + (refined ? candidate.charge : 0) +
+         log_tail(gain, static_cast<double>(width)) + (candidate.sign ? -std::log(2.0) : 0);
 }
 
-double Bench::evidence(const Candidate& candidate, double gain, Index width, bool refined) const {
+double ModelState::evidence(const Candidate& candidate, double gain, Index width, bool refined) const {
   // What is there or not has no strength to be paid for.
   const double strengths = candidate.whole && !candidate.refinable() ? 0 : static_cast<double>(width);
-  return gain / 2 - strengths / 2 * log_rows() - log_atoms(candidate) - (refined ? candidate.charge : 0);
+  return gain / 2 - strengths / 2 * log_rows() - log_effective_tests(candidate) - (refined ? candidate.charge : 0);
 }
 
-double Bench::threshold() const {
+double ModelState::threshold() const {
   const double alpha = terms.empty() ? options_.first_alpha : options_.further_alpha;
   return std::log(alpha / static_cast<double>(entries_.size()));
 }

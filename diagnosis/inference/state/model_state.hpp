@@ -9,7 +9,7 @@
 
 namespace muster::inference {
 
-class UnitAtoms;
+class OrthonormalAtoms;
 
 // A candidate with the row means of its grid's columns, `width` an atom.
 struct Entry {
@@ -36,14 +36,14 @@ struct Term {
 };
 
 // A design whitened at one covariance.
-struct Stand {
+struct WhitenedModel {
   noise::Whitener whitener;
   noise::Whitened at;
   Eigen::MatrixXd design;
 
   // The fall of the deviance if these columns (row means) are added.
   double gain(const Eigen::MatrixXd& columns) const;
-  // The same as a chi-square under the covariance itself (noise/exact.hpp). Slow.
+  // The same as a chi-square under the covariance itself (inference/noise/exact_covariance.hpp). Slow.
   double exact_gain(const noise::Field& field, const Eigen::MatrixXd& columns) const;
   // The same with all coefficients at 1.
   double gain_as_it_is(const Eigen::MatrixXd& columns) const;
@@ -53,9 +53,9 @@ struct Stand {
   Eigen::VectorXd coefficients(Index columns) const;
 };
 
-class Bench {
+class ModelState {
  public:
-  Bench(const Problem& problem, const Options& options);
+  ModelState(const Problem& problem, const Options& options);
 
   const Problem& problem() const { return problem_; }
   const Options& options() const { return options_; }
@@ -67,7 +67,7 @@ class Bench {
   // void.
   Index end_rows_at(const Candidate& candidate, const Eigen::VectorXd& theta);
   // Made when it is first asked for: most searches do without.
-  const FarRows& far() const;
+  const LongRangeRows& far() const;
   double log_rows() const { return std::log(static_cast<double>(rows_.size())); }
 
   noise::Fit fit;                    // of the noise beside the design
@@ -84,11 +84,11 @@ class Bench {
   // Base columns and terms, without the terms that `left_out` says.
   Eigen::MatrixXd design(const std::function<bool(const Term&)>& left_out = {}) const;
   Eigen::MatrixXd design_without(const Term& term) const;
-  Index base_columns() const { return base_.cols(); }
+  Index sensitivities() const { return base_.cols(); }
   const Eigen::MatrixXd& base() const { return base_; }
 
-  Stand stand(const Eigen::MatrixXd& design) const { return stand(design, fit.covariance); }
-  Stand stand(const Eigen::MatrixXd& design, const noise::Covariance& covariance) const;
+  WhitenedModel whitened_model(const Eigen::MatrixXd& design) const { return whitened_model(design, fit.covariance); }
+  WhitenedModel whitened_model(const Eigen::MatrixXd& design, const noise::Covariance& covariance) const;
   noise::Fit fitted(const Eigen::MatrixXd& design, const noise::Covariance& start, int steps) const;
   void refit(int steps = 6) { fit = fitted(design(), fit.covariance, steps); }
 
@@ -102,8 +102,8 @@ class Bench {
   std::vector<Eigen::VectorXd> proposals(const Candidate& candidate, Tally& tally) const;
 
   // Effective number of atoms, from nulls; worked out once a candidate.
-  double log_atoms(const Entry& entry, const UnitAtoms& unit);
-  double log_atoms(const Candidate& candidate) const { return log_atoms_.at(candidate.id); }
+  double log_effective_tests(const Entry& entry, const OrthonormalAtoms& unit);
+  double log_effective_tests(const Candidate& candidate) const { return log_effective_tests_.at(candidate.id); }
   double log_p(const Candidate& candidate, double gain, Index width, bool refined) const;
   double evidence(const Candidate& candidate, double gain, Index width, bool refined) const;
   // log p below which a term is accepted.
@@ -118,13 +118,13 @@ class Bench {
   noise::Rows rows_;
   std::vector<Index> origin_;  // of each row, the one of the problem's rows that it is of; empty: they are those
   noise::Field field_;
-  mutable std::unique_ptr<const FarRows> far_;
+  mutable std::unique_ptr<const LongRangeRows> far_;
   Eigen::MatrixXd base_;
   Eigen::VectorXd measured_, y_;
   std::vector<Entry> entries_;
   std::size_t fixed_ = 0;  // entries before those that depend on the model
   noise::Sheet normals_;
-  std::map<std::string, double> log_atoms_;
+  std::map<std::string, double> log_effective_tests_;
 };
 
 }  // namespace muster::inference

@@ -42,7 +42,7 @@ Eigen::MatrixXf statistics(const Candidate& candidate, Eigen::MatrixXf along) {
   return result;
 }
 
-UnitAtoms::UnitAtoms(noise::Sheet columns, Index width)
+OrthonormalAtoms::OrthonormalAtoms(noise::Sheet columns, Index width)
     : columns_(std::move(columns)), width_(width), turns_(width, columns_.cols()) {
   const Index count = columns_.cols();
   // Of each column with itself and with those next to it, all in one pass over the rows as they lie.
@@ -65,14 +65,14 @@ UnitAtoms::UnitAtoms(noise::Sheet columns, Index width)
   }
 }
 
-Eigen::MatrixXf UnitAtoms::along(const Eigen::Ref<const noise::Sheet>& x) const {
+Eigen::MatrixXf OrthonormalAtoms::along(const Eigen::Ref<const noise::Sheet>& x) const {
   Eigen::MatrixXf result = columns_.transpose() * x;
   for (Index first = 0; first < result.rows(); first += width_)
     result.middleRows(first, width_) = (turns_.middleCols(first, width_) * result.middleRows(first, width_)).eval();
   return result;
 }
 
-double log_effective(const Candidate& candidate, const UnitAtoms& unit, const noise::Sheet& normals) {
+double log_effective_tests(const Candidate& candidate, const OrthonormalAtoms& unit, const noise::Sheet& normals) {
   const Eigen::MatrixXf all = statistics(candidate, unit.along(normals));
   Eigen::VectorXf most = all.colwise().maxCoeff();
   std::sort(most.begin(), most.end());

@@ -9,10 +9,10 @@ namespace muster::inference {
 
 // Atoms made orthonormal, each within itself, without a second copy of them: the columns as they are, and for each atom
 // what turns products with its columns into products with orthonormal ones; zero where nothing is left.
-class UnitAtoms {
+class OrthonormalAtoms {
  public:
   // `width` columns an atom.
-  UnitAtoms(noise::Sheet columns, Index width);
+  OrthonormalAtoms(noise::Sheet columns, Index width);
 
   // Products with orthonormal columns, a row each, with every column of x.
   Eigen::MatrixXf along(const Eigen::Ref<const noise::Sheet>& x) const;
@@ -27,6 +27,6 @@ class UnitAtoms {
 Eigen::MatrixXf statistics(const Candidate& candidate, Eigen::MatrixXf along);
 
 // log of the number of independent tests whose largest statistic is distributed as that of these atoms over `normals`.
-double log_effective(const Candidate& candidate, const UnitAtoms& unit, const noise::Sheet& normals);
+double log_effective_tests(const Candidate& candidate, const OrthonormalAtoms& unit, const noise::Sheet& normals);
 
 }  // namespace muster::inference

@@ -58,11 +58,11 @@ double log_mean(const Ratios& ratios) {
 
 class Scan {
  public:
-  Scan(const inference::Bench& bench, const Asked& asked)
-      : bench_(bench),
-        stand_(bench.stand(bench.design())),
-        reach_(bench.field(), stand_.whitener),
-        residual_(without_spikes(stand_.at.residual)) {
+  Scan(const inference::ModelState& state, const Asked& asked)
+      : state_(state),
+        model_(state.whitened_model(state.design())),
+        reach_(state.field(), model_.whitener),
+        residual_(without_spikes(model_.at.residual)) {
     for (const auto& [radios, readings] : readings_of_links(asked)) links_.push_back(link(radios, readings));
   }
 
@@ -106,13 +106,13 @@ class Scan {
       passes[k] = with > highest[k];
       highest[k + 1] = std::max(with, highest[k]);
     }
-    VectorXd dips = VectorXd::Zero(bench_.rows().size());
+    VectorXd dips = VectorXd::Zero(state_.rows().size());
     for (std::size_t k = scores.size(); k > 0; k -= passes[k - 1] ? std::min(k, apart) : 1) {
       const Dip& dip = train.dips[k - 1];
       if (!passes[k - 1]) continue;
       for (const auto& [row, share] : dip.rows) dips[row] -= share * scores[k - 1] / dip.energy;
     }
-    return residual_ - stand_.at.basis.rest(stand_.whitener(dips));
+    return residual_ - model_.at.basis.rest(model_.whitener(dips));
   }
 
  private:
@@ -128,8 +128,8 @@ class Scan {
   }
 
   std::vector<char> rows_in_full(const Asked& asked) const {
-    std::vector<char> result(static_cast<std::size_t>(bench_.rows().size()), 1);
-    const std::vector<Index>& row_of = bench_.rows().row_of();
+    std::vector<char> result(static_cast<std::size_t>(state_.rows().size()), 1);
+    const std::vector<Index>& row_of = state_.rows().row_of();
     for (std::size_t i = 0; i < row_of.size(); ++i) {
       if (!asked[static_cast<Index>(i)]) result[static_cast<std::size_t>(row_of[i])] = 0;
     }
@@ -138,18 +138,18 @@ class Scan {
 
   // By time, both ways of a link together; of links with few rows none.
   std::map<std::pair<int, int>, std::vector<Index>> readings_of_links(const Asked& asked) const {
-    const noise::Readings& r = bench_.problem().readings;
+    const noise::Readings& r = state_.problem().readings;
     const std::vector<char> in_full = rows_in_full(asked);
     std::map<std::pair<int, int>, std::vector<Index>> result;
     std::map<std::pair<int, int>, std::size_t> rows;
     for (Index i = 0; i < r.size(); ++i) {
       const auto k = static_cast<std::size_t>(i);
-      if (in_full[static_cast<std::size_t>(bench_.rows().row_of()[k])])
+      if (in_full[static_cast<std::size_t>(state_.rows().row_of()[k])])
         result[std::minmax(r.tx[k], r.rx[k])].push_back(i);
     }
-    for (Index row = 0; row < bench_.rows().size(); ++row) {
+    for (Index row = 0; row < state_.rows().size(); ++row) {
       if (!in_full[static_cast<std::size_t>(row)]) continue;
-      const auto i = static_cast<std::size_t>(bench_.rows().example(row));
+      const auto i = static_cast<std::size_t>(state_.rows().example(row));
       ++rows[std::minmax(r.tx[i], r.rx[i])];
     }
     for (auto link = result.begin(); link != result.end();)
@@ -160,11 +160,11 @@ class Scan {
     return result;
   }
 
-  double time(Index reading) const { return bench_.problem().readings.t[static_cast<std::size_t>(reading)]; }
+  double time(Index reading) const { return state_.problem().readings.t[static_cast<std::size_t>(reading)]; }
 
   Link link(const std::pair<int, int>& radios, const std::vector<Index>& readings) const {
     Link result{radios, {}};
-    VectorXd sheet = VectorXd::Zero(bench_.rows().size());
+    VectorXd sheet = VectorXd::Zero(state_.rows().size());
     const double first = time(readings.front()), last = time(readings.back());
     for (const double width : widths) {
       Train train{width, {}};
@@ -174,8 +174,8 @@ class Scan {
         std::map<Index, double> shares;
         for (std::size_t k = from; k < readings.size() && time(readings[k]) <= at + 2.5 * width; ++k) {
           const double u = (time(readings[k]) - at) / width;
-          const Index row = bench_.rows().row_of()[static_cast<std::size_t>(readings[k])];
-          shares[row] += std::exp(-u * u) / bench_.rows().count()[row];
+          const Index row = state_.rows().row_of()[static_cast<std::size_t>(readings[k])];
+          shares[row] += std::exp(-u * u) / state_.rows().count()[row];
         }
         train.dips.push_back({{shares.begin(), shares.end()}, 0});
         train.dips.back().energy = energy(train.dips.back(), sheet);
@@ -226,8 +226,8 @@ class Scan {
     return sum;
   }
 
-  const inference::Bench& bench_;
-  inference::Stand stand_;
+  const inference::ModelState& state_;
+  inference::WhitenedModel model_;
   noise::Reach reach_;
   VectorXd residual_;
   std::vector<Link> links_;
@@ -293,9 +293,9 @@ double log_p(const Scan& scan, double ratio, const VectorXd& left) {
 
 }  // namespace
 
-Passages passages_of(const inference::Bench& bench, const Asked& asked) {
-  const Scan scan(bench, asked);
-  Passages result;
+Blockage blockage_test(const inference::ModelState& state, const Asked& asked) {
+  const Scan scan(state, asked);
+  Blockage result;
   result.links = scan.links().size();
   result.test.cause = "effect.people";
   const VectorXd pulls = scan.pulls(scan.residual());

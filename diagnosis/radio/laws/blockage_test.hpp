@@ -10,7 +10,7 @@ namespace muster::diagnosis {
 // One a reading: whether it says anything of passages.
 using Asked = Eigen::Array<bool, Eigen::Dynamic, 1>;
 
-struct Passages {
+struct Blockage {
   int radio = -1, other = -1;  // numbers of the set `radio`
   std::size_t links = 0;       // that were scanned: those with 40 rows that are asked
   LawTest test;
@@ -22,6 +22,6 @@ struct Passages {
 // and from the scan of the mirror image of what the passages leave: people lower levels, a misfit of the field raises
 // them as often. Rows with a reading that is not asked take no part: near a clip levels are cut off on one side, which
 // looks like bursts.
-Passages passages_of(const inference::Bench& bench, const Asked& asked);
+Blockage blockage_test(const inference::ModelState& state, const Asked& asked);
 
 }  // namespace muster::diagnosis

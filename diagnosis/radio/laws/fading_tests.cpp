@@ -26,29 +26,29 @@ const double may_be_named = std::log(0.01);  // log p; untamed readings, which t
 const double worth_a_closer_look = 3;        // gain: far from what may be named
 const double averaged_cost = std::log(5.0);  // nats: the stated law is that of single fades
 
-ReadingLaw averaged_over(ReadingLaw law, int n) {
+ReadingDistribution averaged_over(ReadingDistribution law, int n) {
   const double variance = fading_variance(law.rician_k, law.averaged);
   law.averaged = n;
   if (n > 1) law.rician_k = rician_k_of(variance, n);
   return law;
 }
 
-bool possible(const ReadingLaw& law) { return !std::isnan(law.rician_k); }
+bool possible(const ReadingDistribution& law) { return !std::isnan(law.rician_k); }
 
-double cost_of(const ReadingLaw& law) { return law.averaged > 1 ? averaged_cost : 0; }
+double cost_of(const ReadingDistribution& law) { return law.averaged > 1 ? averaged_cost : 0; }
 
 // A law along one strength.
 struct Family {
   std::string cause, name;
   std::vector<double> strengths;
-  std::function<ReadingLaw(ReadingLaw, double)> with;
+  std::function<ReadingDistribution(ReadingDistribution, double)> with;
   std::function<double(double)> reported;  // of a strength
   std::vector<LawValue> beside;
 };
 
 struct Fitted {
   Peak peak;
-  ReadingLaw base, law;  // without and with the strength
+  ReadingDistribution base, law;  // without and with the strength
   double strength = 0;
 };
 
@@ -62,10 +62,10 @@ double crossing(const std::function<double(double)>& value, double from, double 
 
 class Tests {
  public:
-  Tests(ReadingField& field, double step, const ReadingLaw& stated, const noise::Covariance& fit)
+  Tests(KrigedReadings& field, double step, const ReadingDistribution& stated, const noise::Covariance& fit)
       : judge_(field, step), stated_(stated), fit_(fit) {
     for (const int n : averages) {
-      const ReadingLaw law = averaged_over(stated, n);
+      const ReadingDistribution law = averaged_over(stated, n);
       if (possible(law)) bases_.push_back(law);
     }
     starts_ = judge_.shapes(stated, fit);
@@ -74,20 +74,20 @@ class Tests {
         std::remove_if(starts_.begin(), starts_.end(), [&](const Peak& p) { return p.value < most - unlikely; }),
         starts_.end());
     for (Peak& start : starts_) start = judge_.closer_distance(stated, start);
-    for (const ReadingLaw& law : bases_) {
+    for (const ReadingDistribution& law : bases_) {
       for (const Peak& start : starts_) take_for_null(law, judge_.best(law, start));
     }
   }
 
   Fitted fitted(const Family& family) {
     Fitted best;
-    for (const ReadingLaw& base : bases_) {  // roughly, at the field of the null
+    for (const ReadingDistribution& base : bases_) {  // roughly, at the field of the null
       for (const double strength : family.strengths) {
-        const ReadingLaw law = family.with(base, strength);
+        const ReadingDistribution law = family.with(base, strength);
         if (!possible(law)) continue;
         const double ratio = std::log(variance_of(law, judge_.step()) / variance_of(base, judge_.step()));
         Peak there = null_;
-        there.place += Judge::places * static_cast<int>(std::lround(1e3 * ratio / Judge::places));
+        there.place += LawLikelihood::places * static_cast<int>(std::lround(1e3 * ratio / LawLikelihood::places));
         there.value = judge_.about(law, there) - cost_of(law);
         if (there.value > best.peak.value) best = {there, base, law, strength};
       }
@@ -112,11 +112,11 @@ class Tests {
       best = narrowed(family, best, 0.3);
       if (best.peak.value < before + no_more) break;
     }
-    for (const ReadingLaw& law : bases_) take_for_null(law, judge_.best_distance(law, best.peak));
+    for (const ReadingDistribution& law : bases_) take_for_null(law, judge_.best_distance(law, best.peak));
     return best;
   }
 
-  const ReadingLaw& stated() const { return null_law_; }
+  const ReadingDistribution& stated() const { return null_law_; }
   double gain(const Fitted& fitted) const { return std::max(0.0, 2 * (fitted.peak.value - null_.value)); }
 
   // A field that is not quite of its family leaves a part of itself in the readings' law, or takes a part away.
@@ -124,7 +124,7 @@ class Tests {
   bool borne_out(const Fitted& fitted) {
     constexpr double against = 2;  // nats
     const CloseReadings close = judge_.field().close_readings();
-    const auto off = [&](const ReadingLaw& law) {
+    const auto off = [&](const ReadingDistribution& law) {
       return std::pow((close.variance - variance_of(law, judge_.step())) / close.standard_error, 2) / 2;
     };
     return off(fitted.law) - off(null_law_) < against;
@@ -134,7 +134,7 @@ class Tests {
   LawValue value(const Family& family, const Fitted& best) {
     const double fall = 1.92 * wider(family.cause);
     const auto value = [&](double x) {
-      const ReadingLaw law = family.with(best.base, x);
+      const ReadingDistribution law = family.with(best.base, x);
       return possible(law) ? judge_.best(law, best.peak).value - cost_of(law) : -1e300;
     };
     const double least = best.peak.value - fall;
@@ -146,14 +146,14 @@ class Tests {
  private:
   static bool lower(const Peak& a, const Peak& b) { return a.value < b.value; }
 
-  void take_for_null(const ReadingLaw& law, Peak peak) {
+  void take_for_null(const ReadingDistribution& law, Peak peak) {
     peak.value -= cost_of(law);
     if (peak.value > null_.value) null_ = peak, null_law_ = law;
   }
 
   // Takes the law and the field if both together are likelier.
-  void try_one(const Family& family, Fitted& best, double strength, const ReadingLaw& base, const Peak& from) {
-    const ReadingLaw law = family.with(base, strength);
+  void try_one(const Family& family, Fitted& best, double strength, const ReadingDistribution& base, const Peak& from) {
+    const ReadingDistribution law = family.with(base, strength);
     if (!possible(law)) return;
     Peak peak = judge_.best(law, from);
     peak.value -= cost_of(law);
@@ -184,16 +184,16 @@ class Tests {
     return narrowed(family, best, step);
   }
 
-  Judge judge_;
-  ReadingLaw stated_;
+  LawLikelihood judge_;
+  ReadingDistribution stated_;
   noise::Covariance fit_;
-  std::vector<ReadingLaw> bases_;
+  std::vector<ReadingDistribution> bases_;
   std::vector<Peak> starts_;
   Peak null_;
-  ReadingLaw null_law_;
+  ReadingDistribution null_law_;
 };
 
-std::vector<Family> families_of(const ReadingLaw& stated) {
+std::vector<Family> families_of(const ReadingDistribution& stated) {
   const double variance = std::max(fading_variance(stated.rician_k, stated.averaged), 0.05);
   std::vector<double> variances;
   for (const double f : {0.2, 0.35, 0.5, 0.65, 0.78, 0.88, 1.13, 1.28, 1.5, 1.8, 2.3, 3.2, 5.0})
@@ -202,7 +202,7 @@ std::vector<Family> families_of(const ReadingLaw& stated) {
   result.push_back({"effect.fading_law",
                     "rician_k",
                     variances,
-                    [](ReadingLaw law, double v) {
+                    [](ReadingDistribution law, double v) {
                       law.rician_k = rician_k_of(v, law.averaged);
                       return law;
                     },
@@ -215,7 +215,7 @@ std::vector<Family> families_of(const ReadingLaw& stated) {
     result.push_back({"effect.outliers",
                       "share",
                       {0.001, 0.003, 0.006, 0.012, 0.025, 0.05, 0.1},
-                      [width](ReadingLaw law, double share) {
+                      [width](ReadingDistribution law, double share) {
                         law.outliers = std::min(share, 0.9);
                         law.half_width = width;
                         return law;
@@ -228,7 +228,7 @@ std::vector<Family> families_of(const ReadingLaw& stated) {
     result.push_back({"effect.channel_mixture",
                       "sd",
                       {0.35, 0.5, 0.7, 1, 1.4, 2, 2.8, 4, 5.6},
-                      [channels](ReadingLaw law, double sd) {
+                      [channels](ReadingDistribution law, double sd) {
                         law.channel_sd = sd;
                         law.channels = channels;
                         return law;
@@ -242,16 +242,17 @@ std::vector<Family> families_of(const ReadingLaw& stated) {
 // What single readings are predicted from is tamed, so that an outlier spoils no other reading; where deep fades are
 // rare but there, errors of prediction then vary less than the law says, and a weaker law in a rougher field looks
 // likelier (6 to 8 % of the variance at K of 3 to 7 dB, where readings lie dense). A law that only says so is none.
-double gain_untamed(const ReadingField& field, double step, const ReadingLaw& stated, const noise::Covariance& fit,
-                    const Family& family) {
-  ReadingField untamed = field.untamed();
+double gain_untamed(const KrigedReadings& field, double step, const ReadingDistribution& stated,
+                    const noise::Covariance& fit, const Family& family) {
+  KrigedReadings untamed = field.untamed();
   Tests tests(untamed, step, stated, fit);
   return tests.gain(tests.fitted(family));
 }
 
 }  // namespace
 
-LawTests law_tests(ReadingField& field, double step, const ReadingLaw& stated, const noise::Covariance& fit) {
+LawTests law_tests(KrigedReadings& field, double step, const ReadingDistribution& stated,
+                   const noise::Covariance& fit) {
   Tests tests(field, step, stated, fit);
   const std::vector<Family> families = families_of(stated);
   std::map<std::string, std::pair<const Family*, Fitted>> best;  // of each cause

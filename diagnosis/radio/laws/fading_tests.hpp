@@ -21,17 +21,17 @@ struct LawTest {
   double gain = 0;      // twice the log-likelihood ratio
   double evidence = 0;  // nats
   double log_p = 0;
-  ReadingLaw law{};  // as fitted
+  ReadingDistribution law{};  // as fitted
 };
 
 struct LawTests {
   std::vector<LawTest> tests;  // by falling evidence; values of the first alone
-  ReadingLaw stated;           // of as many fades in one reading as is likeliest
+  ReadingDistribution stated;  // of as many fades in one reading as is likeliest
 };
 
 // `step` in dB between codes. That a reading may be the mean of several fades of the same spread
 // as stated is part of the null: receivers average, and the mean of a few fades has another shape. So is the field's
 // own variance, which is fitted anew under every law. `fit`: of the field to rows, where its shape is sought from.
-LawTests law_tests(ReadingField& field, double step, const ReadingLaw& stated, const noise::Covariance& fit);
+LawTests law_tests(KrigedReadings& field, double step, const ReadingDistribution& stated, const noise::Covariance& fit);
 
 }  // namespace muster::diagnosis

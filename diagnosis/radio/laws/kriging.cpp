@@ -75,15 +75,15 @@ Intercept intercept_of(const VectorXd& y, const Eigen::ArrayXd& x) {
 
 }  // namespace
 
-ReadingField::ReadingField(const noise::Readings& readings, const VectorXd& residual)
+KrigedReadings::KrigedReadings(const noise::Readings& readings, const VectorXd& residual)
     : residual_(residual(finite(residual))), field_(sites_of(those(readings, finite(residual))), conditioning) {}
 
-ReadingField::ReadingField(VectorXd residual, noise::Field field, double far_off)
+KrigedReadings::KrigedReadings(VectorXd residual, noise::Field field, double far_off)
     : residual_(std::move(residual)), field_(std::move(field)), far_off_(far_off) {}
 
-ReadingField ReadingField::untamed() const { return {residual_, field_, std::numeric_limits<double>::infinity()}; }
+KrigedReadings KrigedReadings::untamed() const { return {residual_, field_, std::numeric_limits<double>::infinity()}; }
 
-ReadingField ReadingField::some(Index about) const {
+KrigedReadings KrigedReadings::some(Index about) const {
   constexpr Index whole = 100;  // readings that a cell has on average: more than a neighbourhood
   std::vector<Index> cells;
   for (double side = 0.5; side < 1000; side *= 2) {  // m
@@ -98,7 +98,7 @@ ReadingField ReadingField::some(Index about) const {
   return {residual_(chosen), noise::Field(field_.sites().of(chosen), conditioning), far_off_};
 }
 
-const ReadingView& ReadingField::view(const FieldShape& shape, int place) {
+const ReadingView& KrigedReadings::view(const FieldShape& shape, int place) {
   const auto found = known_.find({shape, place});
   if (found != known_.end()) return found->second;
   constexpr double log_variance = 3;  // the field's, dB^2; what is worked out does not depend on it
@@ -110,14 +110,14 @@ const ReadingView& ReadingField::view(const FieldShape& shape, int place) {
   return known_.emplace(std::pair(shape, place), std::move(view)).first->second;
 }
 
-VectorXd ReadingField::error_by(const noise::Whitener& whitener) const {
+VectorXd KrigedReadings::error_by(const noise::Whitener& whitener) const {
   const VectorXd own = Eigen::Map<const VectorXd>(whitener.stencil().own.data(), size());
   const VectorXd white = whitener(residual_);
   const VectorXd off = (white - white.cwiseMax(-far_off_).cwiseMin(far_off_)).cwiseQuotient(own);
   return whitener(residual_ - off).cwiseQuotient(own) + off;
 }
 
-CloseReadings ReadingField::close_readings() const {
+CloseReadings KrigedReadings::close_readings() const {
   // m, of both ends together: over so little the variogram of shadowing is a line, or of a smooth field a parabola.
   constexpr double close = 0.3;
   constexpr Index fewest = 100;

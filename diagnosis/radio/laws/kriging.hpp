@@ -32,17 +32,17 @@ struct CloseReadings {
   double variance = 0, standard_error = 0;  // dB^2; without enough distances or pairs 0 and infinite
 };
 
-class ReadingField {
+class KrigedReadings {
  public:
   // A residual a reading; those that are not finite are left out.
-  ReadingField(const noise::Readings& readings, const Eigen::VectorXd& residual);
+  KrigedReadings(const noise::Readings& readings, const Eigen::VectorXd& residual);
   // With every reading telling its neighbours all that it is off by. An outlier then spoils them; but where there are
   // none, this is the sum of errors whose variance is known, while tamed ones vary less than a law with rare deep fades
   // says.
-  ReadingField untamed() const;
+  KrigedReadings untamed() const;
   // The readings of evenly chosen places, about so many: whole neighbourhoods, so that they tell each other what they
   // tell each other among all.
-  ReadingField some(Eigen::Index about) const;
+  KrigedReadings some(Eigen::Index about) const;
 
   Eigen::Index size() const { return residual_.size(); }
   // `place`: a thousand times log_ratio. Worked out once.
@@ -52,7 +52,7 @@ class ReadingField {
   CloseReadings close_readings() const;
 
  private:
-  ReadingField(Eigen::VectorXd residual, noise::Field field, double far_off);
+  KrigedReadings(Eigen::VectorXd residual, noise::Field field, double far_off);
   Eigen::VectorXd error_by(const noise::Whitener& whitener) const;
 
   Eigen::VectorXd residual_;

@@ -23,8 +23,8 @@ const Cause* cause_called(const LawSources& s, const std::string& id) {
   return found == s.causes.end() ? nullptr : &*found;
 }
 
-FoundCause named(const LawSources& s, const Cause& cause, const LawTest& test) {
-  FoundCause out;
+CauseEstimate named(const LawSources& s, const Cause& cause, const LawTest& test) {
+  CauseEstimate out;
   out.id = cause.id;
   out.label = "all";
   out.title = cause.meaning().title;
@@ -41,12 +41,12 @@ FoundCause named(const LawSources& s, const Cause& cause, const LawTest& test) {
   out.evidence = test.evidence;
   out.log_p = test.log_p;
   out.lambda = test.gain;
-  out.effect = VectorXd::Zero(s.bench.rows().size());
+  out.effect = VectorXd::Zero(s.state.rows().size());
   return out;
 }
 
 // Three questions are asked, each of which may err on so large a share of clean worlds: how readings scatter, whether
-// people pass, and how the field does, of which two tests have to speak (field_law.hpp).
+// people pass, and how the field does, of which two tests have to speak (shadowing_test.hpp).
 constexpr double alpha = 0.0005, alpha_of_field = 0.002;
 
 bool beyond_chance(const LawTest& test, double share) { return test.evidence > 0 && test.log_p < std::log(share); }
@@ -76,10 +76,10 @@ void add_pile(const LawSources& s, const std::string& id, const Clip& clip, doub
 double of_both(double log_p, double other) { return log_p + other + std::log1p(-log_p - other); }
 
 // Readings that are missing where levels are low, and not elsewhere. Whether it is named.
-bool add_silence(const LawSources& s, const Missing& missing, Diagnosis& found) {
+bool add_silence(const LawSources& s, const MissingData& missing, Diagnosis& found) {
   const double step = found.instrument.step;
   const Cause* const cause = cause_called(s, "effect.rssi_floor");
-  const double least = std::log(s.bench.options().further_alpha / static_cast<double>(s.bench.entries().size()));
+  const double least = std::log(s.state.options().further_alpha / static_cast<double>(s.state.entries().size()));
   const double independent = missing.censored ? 1 : 0.5;  // neighbours are lost together
   const double gain = independent * missing.evidence;
   LawTest test{"effect.rssi_floor", {}, gain, gain / 2, inference::log_tail(gain, 1)};
@@ -98,7 +98,7 @@ bool add_silence(const LawSources& s, const Missing& missing, Diagnosis& found) 
 
 // Measured less expected of each reading of the search; NaN where only a bound is known or the clip is near.
 VectorXd residual_of(const LawSources& s, const Diagnosis& found) {
-  const noise::Rows& rows = s.bench.rows();
+  const noise::Rows& rows = s.state.rows();
   VectorXd left(static_cast<Index>(s.used.size()));
   for (Index i = 0; i < left.size(); ++i) {
     const Index row = s.used[static_cast<std::size_t>(i)];
@@ -107,8 +107,8 @@ VectorXd residual_of(const LawSources& s, const Diagnosis& found) {
   const VectorXd filled = left.array().isNaN().select(0, left);
   const VectorXd shift = found.seen.after - rows.mean(filled);
   VectorXd result = left + rows.at_readings(shift);
-  if (!s.bench.problem().bounds.any()) return result;
-  const double sd = std::sqrt(s.bench.fit.covariance.field_variance() + s.bench.fit.covariance.reading_variance());
+  if (!s.state.problem().bounds.any()) return result;
+  const double sd = std::sqrt(s.state.fit.covariance.field_variance() + s.state.fit.covariance.reading_variance());
   const auto near = [&](const std::optional<Clip>& clip, double side, double mean) {
     return clip && side * (clip->level - mean) < 2 * sd;
   };
@@ -121,8 +121,8 @@ VectorXd residual_of(const LawSources& s, const Diagnosis& found) {
   return result;
 }
 
-ReadingLaw stated_law(const LinkModel& model) {
-  ReadingLaw law;
+ReadingDistribution stated_law(const LinkModel& model) {
+  ReadingDistribution law;
   law.rician_k = model.value_of("radio.fading", "fading", 1) != 0 ? model.value_of("radio.fading", "rician_k", 60) : 60;
   law.rician_k = model.value_of("effect.fading_law", "rician_k", law.rician_k);
   law.outliers = model.value_of("effect.outliers", "share", 0);
@@ -136,11 +136,11 @@ ReadingLaw stated_law(const LinkModel& model) {
 bool fades_apart(const LawSources& s) {
   if (s.model.value_of("radio.fading", "per_reading", 0) != 0 || s.model.has_plugin("effect.fading_law")) return true;
   const double half = 299792458 / s.model.value_of("radio.fading", "frequency", 2.44e9) / 2;
-  const noise::Readings& r = s.bench.problem().readings;
+  const noise::Readings& r = s.state.problem().readings;
   std::vector<double> ways;
   for (Index i = 1; i < r.size(); ++i) {
-    const auto row = s.bench.rows().row_of()[static_cast<std::size_t>(i)];
-    const Index first = s.bench.rows().example(row);
+    const auto row = s.state.rows().row_of()[static_cast<std::size_t>(i)];
+    const Index first = s.state.rows().example(row);
     if (first != i)
       ways.push_back((r.rx_at.col(i) - r.rx_at.col(first)).norm() + (r.tx_at.col(i) - r.tx_at.col(first)).norm());
   }
@@ -160,15 +160,15 @@ std::string why_not(const LawSources& s, const VectorXd& residual) {
 }
 
 // The law that readings follow: the stated one, or the one that is named here.
-ReadingLaw add_scatter(const LawSources& s, ReadingField& field, Diagnosis& found) {
-  const auto [tests, likeliest] = law_tests(field, found.instrument.step, stated_law(s.model), s.bench.fit.covariance);
+ReadingDistribution add_scatter(const LawSources& s, KrigedReadings& field, Diagnosis& found) {
+  const auto [tests, likeliest] = law_tests(field, found.instrument.step, stated_law(s.model), s.state.fit.covariance);
   const auto best =
       std::find_if(tests.begin(), tests.end(), [&](const LawTest& t) { return cause_called(s, t.cause); });
   if (best == tests.end() || !beyond_chance(*best, alpha)) return likeliest;
   found.causes.push_back(named(s, *cause_called(s, best->cause), *best));
   for (const LawTest& other : tests) {
     const double gap = best->evidence - other.evidence;
-    if (&other != &*best && gap < 3) found.causes.back().rivals.push_back({other.cause, "all", {}, gap, 2 * gap});
+    if (&other != &*best && gap < 3) found.causes.back().alternatives.push_back({other.cause, "all", {}, gap, 2 * gap});
   }
   return best->law;
 }
@@ -178,13 +178,13 @@ bool world_draws_alike(const LawSources& s) {
   const VectorXd drawn = s.model.drawn(), expected = s.model.expected();
   const VectorXd apart = (drawn - expected)(s.used);
   if (!apart.allFinite()) return false;
-  const noise::StatedField own = said_by(fitted_to(s.bench, s.bench.rows().mean(apart)), s.bench.within());
-  const noise::StatedField fitted = said_by(s.bench.fit.covariance, s.bench.within());
+  const noise::StatedField own = said_by(fitted_to(s.state, s.state.rows().mean(apart)), s.state.within());
+  const noise::StatedField fitted = said_by(s.state.fit.covariance, s.state.within());
   return std::abs(std::log(own.shadowing / fitted.shadowing)) < std::log(1.25) &&
          std::abs(std::log(own.decorrelation / fitted.decorrelation)) < std::log(1.6);
 }
 
-void add_field(const LawSources& s, ReadingField& field, const ReadingLaw& law, Diagnosis& found) {
+void add_field(const LawSources& s, KrigedReadings& field, const ReadingDistribution& law, Diagnosis& found) {
   const Cause* const cause = cause_called(s, "effect.shadowing_correlation");
   if (!cause) return;
   const noise::StatedField said = stated_field(s.model);
@@ -193,15 +193,16 @@ void add_field(const LawSources& s, ReadingField& field, const ReadingLaw& law, 
     return;
   }
   found.searched.push_back(cause->id);
-  const LawTest test = field_test(field, found.instrument.step, law, said, s.bench);
+  const LawTest test = field_test(field, found.instrument.step, law, said, s.state);
   if (beyond_chance(test, alpha_of_field) && !world_draws_alike(s)) found.causes.push_back(named(s, *cause, test));
 }
 
 // Either law can be taken for a part of the other: the weaker one of both stands only if it is beyond doubt.
 void leave_the_stronger(Diagnosis& found) {
   constexpr double doubt = 30;  // of lambda
-  const auto weaker = std::min_element(found.causes.end() - 2, found.causes.end(),
-                                       [](const FoundCause& a, const FoundCause& b) { return a.lambda < b.lambda; });
+  const auto weaker =
+      std::min_element(found.causes.end() - 2, found.causes.end(),
+                       [](const CauseEstimate& a, const CauseEstimate& b) { return a.lambda < b.lambda; });
   if (weaker->lambda < doubt) found.causes.erase(weaker);
 }
 
@@ -231,9 +232,9 @@ void add_laws_of_readings(const LawSources& s, const VectorXd& all, Diagnosis& f
       found.not_tested.push_back("effect.shadowing_correlation: " + why);
     return;
   }
-  ReadingField field(s.bench.problem().readings, without_grazing(s, all, found));
+  KrigedReadings field(s.state.problem().readings, without_grazing(s, all, found));
   const std::size_t before = found.causes.size();
-  const ReadingLaw law = add_scatter(s, field, found);
+  const ReadingDistribution law = add_scatter(s, field, found);
   add_field(s, field, law, found);
   if (found.causes.size() == before + 2) leave_the_stronger(found);
 }
@@ -257,7 +258,7 @@ bool add_people(const LawSources& s, const VectorXd& residual, Diagnosis& found)
     found.searched.push_back(cause->id);
     return false;
   }
-  const Passages passages = passages_of(s.bench, residual.array().isFinite());
+  const Blockage passages = blockage_test(s.state, residual.array().isFinite());
   if (passages.links == 0) {
     found.not_tested.push_back(cause->id + ": not testable: no link has 40 rows of readings that are no bounds");
     return false;
@@ -266,7 +267,7 @@ bool add_people(const LawSources& s, const VectorXd& residual, Diagnosis& found)
   if (passages.radio < 0 || !beyond_chance(passages.test, alpha) ||
       (passages.test.log_p > people_in_company && !all_changes_in_time(found)))
     return false;
-  FoundCause out = named(s, *cause, passages.test);
+  CauseEstimate out = named(s, *cause, passages.test);
   out.row_parameter = "radio";
   out.row = s.model.radio_name(passages.radio);
   out.words["other"] = s.model.radio_name(passages.other);
@@ -276,8 +277,8 @@ bool add_people(const LawSources& s, const VectorXd& residual, Diagnosis& found)
 }
 
 // What people do to a link is no law of single readings.
-VectorXd without_link(const LawSources& s, const FoundCause& people, VectorXd residual) {
-  const noise::Readings& r = s.bench.problem().readings;
+VectorXd without_link(const LawSources& s, const CauseEstimate& people, VectorXd residual) {
+  const noise::Readings& r = s.state.problem().readings;
   for (Index i = 0; i < residual.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
     if (s.model.link_of(r.tx[k], r.rx[k]) == std::set{people.row, people.words.at("other")}) residual[i] = std::nan("");
@@ -297,14 +298,14 @@ void add_clips(const LawSources& s, Diagnosis& found) {
 }
 
 bool add_silence_beside(const LawSources& s, const VectorXd& mean, Diagnosis& found) {
-  const auto floor = [](const FoundCause& c) { return c.id == "effect.rssi_floor"; };
+  const auto floor = [](const CauseEstimate& c) { return c.id == "effect.rssi_floor"; };
   if (s.fit.missing.count == 0 || found.instrument.bottom || !found.named() ||
       std::any_of(found.causes.begin(), found.causes.end(), floor))
     return false;
   const VectorXd& rssi = s.fit.readings.rssi;
   const Eigen::Array<bool, Eigen::Dynamic, 1> heard = !rssi.array().isNaN();
   const double squares = heard.select((rssi - mean).array().square(), 0).sum();
-  return add_silence(s, why_missing(rssi, mean, std::sqrt(squares / static_cast<double>(heard.count()))), found);
+  return add_silence(s, missing_data(rssi, mean, std::sqrt(squares / static_cast<double>(heard.count()))), found);
 }
 
 void add_laws(const LawSources& s, Diagnosis& found) {

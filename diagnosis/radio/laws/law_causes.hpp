@@ -11,8 +11,8 @@ namespace muster::diagnosis {
 struct LawSources {
   LinkModel& model;
   const Dataset& data;
-  const std::vector<Cause>& causes;  // of the plugin path
-  const inference::Bench& bench;     // after the search
+  const std::vector<Cause>& causes;    // of the plugin path
+  const inference::ModelState& state;  // after the search
   const std::vector<Eigen::Index>& used;
   const Fit& fit;
 };

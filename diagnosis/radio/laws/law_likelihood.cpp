@@ -13,19 +13,20 @@ constexpr int farthest = 9000;           // one part in 8,000 of what readings v
 
 }  // namespace
 
-double variance_of(const ReadingLaw& law, double step) {
+double variance_of(const ReadingDistribution& law, double step) {
   return fading_variance(law.rician_k, law.averaged) + law.channel_sd * law.channel_sd +
          law.outliers * law.half_width * law.half_width / 3 + step * step / 12;
 }
 
-ReadingDensities Judge::densities_of(const ReadingLaw& law, double log_variance, const Peak& there, double margin) {
+ReadingDensities LawLikelihood::densities_of(const ReadingDistribution& law, double log_variance, const Peak& there,
+                                             double margin) {
   const ReadingView& view = field_.view(there.shape, there.place);
   const double size = log_variance - view.log_ratio;
   return {law, step_, size + view.log_spread.minCoeff() - margin, size + view.log_spread.maxCoeff() + margin};
 }
 
-double Judge::at(const ReadingDensities& densities, double log_variance, const FieldShape& shape, int place,
-                 Index every) {
+double LawLikelihood::at(const ReadingDensities& densities, double log_variance, const FieldShape& shape, int place,
+                         Index every) {
   const ReadingView& view = field_.view(shape, place);
   const double size = log_variance - view.log_ratio;
   double sum = 0;
@@ -33,7 +34,7 @@ double Judge::at(const ReadingDensities& densities, double log_variance, const F
   return sum * static_cast<double>(every);
 }
 
-Peak Judge::best(const ReadingLaw& law, Peak from) {
+Peak LawLikelihood::best(const ReadingDistribution& law, Peak from) {
   const double log_variance = std::log(variance_of(law, step_));
   from.place = std::clamp(from.place, -farthest, farthest);
   for (int way = 0;;) {
@@ -53,7 +54,7 @@ Peak Judge::best(const ReadingLaw& law, Peak from) {
   }
 }
 
-Peak Judge::best_distance(const ReadingLaw& law, const Peak& from) {
+Peak LawLikelihood::best_distance(const ReadingDistribution& law, const Peak& from) {
   Peak best = this->best(law, from);
   for (const int way : {-distances, distances}) {
     for (int step = 0; step < 4; ++step) {
@@ -67,7 +68,7 @@ Peak Judge::best_distance(const ReadingLaw& law, const Peak& from) {
   return best;
 }
 
-Peak Judge::closer_distance(const ReadingLaw& law, Peak best) {
+Peak LawLikelihood::closer_distance(const ReadingDistribution& law, Peak best) {
   for (int by = distances / 2; by >= distances / 16; by /= 2) {
     for (const int way : {-by, by}) {
       Peak next = best;
@@ -81,12 +82,12 @@ Peak Judge::closer_distance(const ReadingLaw& law, Peak best) {
   return best;
 }
 
-std::vector<Peak> Judge::shapes(const ReadingLaw& law, const noise::Covariance& from) {
+std::vector<Peak> LawLikelihood::shapes(const ReadingDistribution& law, const noise::Covariance& from) {
   constexpr Index many = 30000, some = 10000;
   constexpr double hopeless = 60;  // nats behind the best: a step of the distance wins less
   if (field_.size() < many) return shapes_by_all(law, from);
-  ReadingField sample = field_.some(some);
-  std::vector<Peak> result = Judge(sample, step_).shapes_by_all(law, from);
+  KrigedReadings sample = field_.some(some);
+  std::vector<Peak> result = LawLikelihood(sample, step_).shapes_by_all(law, from);
   double most = -1e300;
   for (Peak& peak : result) most = std::max(most, peak.value = value(law, peak));
   for (Peak& peak : result) {
@@ -95,7 +96,7 @@ std::vector<Peak> Judge::shapes(const ReadingLaw& law, const noise::Covariance& 
   return result;
 }
 
-std::vector<Peak> Judge::shapes_by_all(const ReadingLaw& law, const noise::Covariance& from) {
+std::vector<Peak> LawLikelihood::shapes_by_all(const ReadingDistribution& law, const noise::Covariance& from) {
   std::vector<Peak> result;
   const auto place = static_cast<int>(std::lround(1e3 * (from.theta[2] - from.theta[0])));
   for (const noise::Family family : noise::families) {
@@ -105,12 +106,12 @@ std::vector<Peak> Judge::shapes_by_all(const ReadingLaw& law, const noise::Covar
   return result;
 }
 
-double Judge::value(const ReadingLaw& law, const Peak& there) {
+double LawLikelihood::value(const ReadingDistribution& law, const Peak& there) {
   const double log_variance = std::log(variance_of(law, step_));
   return at(densities_of(law, log_variance, there, 0), log_variance, there.shape, there.place);
 }
 
-double Judge::about(const ReadingLaw& law, const Peak& there) {
+double LawLikelihood::about(const ReadingDistribution& law, const Peak& there) {
   const double log_variance = std::log(variance_of(law, step_));
   const Index every = field_.size() / enough_readings + 1;
   return at(densities_of(law, log_variance, there, 0), log_variance, there.shape, there.place, every);

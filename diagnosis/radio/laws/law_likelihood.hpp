@@ -16,39 +16,39 @@ struct Peak {
 };
 
 // Of one reading, with its rounding; dB^2.
-double variance_of(const ReadingLaw& law, double step);
+double variance_of(const ReadingDistribution& law, double step);
 
-class Judge {
+class LawLikelihood {
  public:
   static constexpr int places = 200, distances = 300;  // from one try to the next
 
-  Judge(ReadingField& field, double step) : field_(field), step_(step) {}
+  LawLikelihood(KrigedReadings& field, double step) : field_(field), step_(step) {}
 
   // Over the field's size, from a start; between its tries by a parabola. A field that hardly is there, or little
   // beside it, is not sought further.
-  Peak best(const ReadingLaw& law, Peak from);
+  Peak best(const ReadingDistribution& law, Peak from);
   // Over size and decorrelation distance.
-  Peak best_distance(const ReadingLaw& law, const Peak& from);
+  Peak best_distance(const ReadingDistribution& law, const Peak& from);
   // From there, the distance to a fiftieth.
-  Peak closer_distance(const ReadingLaw& law, Peak from);
+  Peak closer_distance(const ReadingDistribution& law, Peak from);
   // The best of each family, sought from a covariance; among many readings first by some of them, and further by all
   // only where these do not speak clearly against a family.
-  std::vector<Peak> shapes(const ReadingLaw& law, const noise::Covariance& from);
+  std::vector<Peak> shapes(const ReadingDistribution& law, const noise::Covariance& from);
   // At one place alone.
-  double value(const ReadingLaw& law, const Peak& there);
+  double value(const ReadingDistribution& law, const Peak& there);
   // The same, of readings evenly chosen where there are many; scaled to all.
-  double about(const ReadingLaw& law, const Peak& there);
+  double about(const ReadingDistribution& law, const Peak& there);
 
-  ReadingField& field() { return field_; }
+  KrigedReadings& field() { return field_; }
   double step() const { return step_; }
 
  private:
-  std::vector<Peak> shapes_by_all(const ReadingLaw& law, const noise::Covariance& from);
+  std::vector<Peak> shapes_by_all(const ReadingDistribution& law, const noise::Covariance& from);
   double at(const ReadingDensities& densities, double log_variance, const FieldShape& shape, int place,
             Eigen::Index every = 1);
-  ReadingDensities densities_of(const ReadingLaw& law, double log_variance, const Peak& there, double margin);
+  ReadingDensities densities_of(const ReadingDistribution& law, double log_variance, const Peak& there, double margin);
 
-  ReadingField& field_;
+  KrigedReadings& field_;
   double step_;
 };
 

@@ -63,7 +63,7 @@ std::vector<double> mixed(const std::vector<double>& table, const std::vector<do
   return result;
 }
 
-std::vector<double> with_channels(const std::vector<double>& table, const ReadingLaw& law, double bin) {
+std::vector<double> with_channels(const std::vector<double>& table, const ReadingDistribution& law, double bin) {
   if (law.channel_sd <= 0) return table;
   const double count = law.channels, spacing = law.channel_sd * std::sqrt(12 / (count * count - 1));
   std::vector<double> places, weights(static_cast<std::size_t>(law.channels), 1 / count);
@@ -71,7 +71,7 @@ std::vector<double> with_channels(const std::vector<double>& table, const Readin
   return mixed(table, places, weights);
 }
 
-std::vector<double> with_outliers(const std::vector<double>& table, const ReadingLaw& law, double bin) {
+std::vector<double> with_outliers(const std::vector<double>& table, const ReadingDistribution& law, double bin) {
   if (law.outliers <= 0) return table;
   constexpr int parts = 41;
   std::vector<double> places{0}, weights{1 - law.outliers};
@@ -150,7 +150,7 @@ double rician_k_of(double variance, int averaged) {
   return (low + high) / 2;
 }
 
-ReadingDensities::ReadingDensities(const ReadingLaw& law, double step, double lowest, double highest)
+ReadingDensities::ReadingDensities(const ReadingDistribution& law, double step, double lowest, double highest)
     : lowest_(lowest), top_(std::max(1.0, std::ceil((highest - lowest) / log_factor))) {
   constexpr int finer = 2;  // bins of the law itself, before anything is smooth
   constexpr double fine = bin / finer;

@@ -7,7 +7,7 @@
 
 namespace muster::diagnosis {
 
-struct ReadingLaw {
+struct ReadingDistribution {
   double rician_k = 60;                  // dB; -40: Rayleigh
   int averaged = 1;                      // independent fades whose power is averaged in one reading
   double outliers = 0, half_width = 20;  // share; dB
@@ -24,7 +24,7 @@ double rician_k_of(double variance, int averaged);
 class ReadingDensities {
  public:
   // For spreads whose log variance lies between these.
-  ReadingDensities(const ReadingLaw& law, double step, double lowest, double highest);
+  ReadingDensities(const ReadingDistribution& law, double step, double lowest, double highest);
 
   double log_at(double db, double log_variance) const {
     const double place = (db - first_db) / bin;

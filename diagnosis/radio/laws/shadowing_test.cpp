@@ -20,31 +20,31 @@ noise::Prior flat() {
 }
 
 // What rows say by themselves: a belief about distances would hold a long one near the usual.
-noise::Fit unbelieving(const inference::Bench& bench) {
-  return noise::fit(bench.field(), bench.y(), bench.design(), flat(), bench.fit.covariance, 20);
+noise::Fit unbelieving(const inference::ModelState& state) {
+  return noise::fit(state.field(), state.y(), state.design(), flat(), state.fit.covariance, 20);
 }
 
 // The variance of one reading and the share between anchors being fitted, the field's size and distance held.
-double best_value(const inference::Bench& bench, const noise::Covariance& at) {
-  return noise::fit(bench.field(), bench.y(), bench.design(), flat(), at, 6, noise::unstated).value;
+double best_value(const inference::ModelState& state, const noise::Covariance& at) {
+  return noise::fit(state.field(), state.y(), state.design(), flat(), at, 6, noise::unstated).value;
 }
 
 // Twice the log-likelihood ratio of rows: of the fitted field against the best one near the stated one.
-double gain_of_rows(const inference::Bench& bench, const noise::StatedField& stated, const noise::Fit& free) {
+double gain_of_rows(const inference::ModelState& state, const noise::StatedField& stated, const noise::Fit& free) {
   constexpr double tolerance = 1.08;
-  const noise::StatedField fitted = said_by(free.covariance, bench.within());
+  const noise::StatedField fitted = said_by(free.covariance, state.within());
   const auto near = [&](double value, double said) { return std::clamp(value, said / tolerance, said * tolerance); };
   const double size = near(fitted.shadowing, stated.shadowing);
   const double distance = near(fitted.decorrelation, stated.decorrelation);
   double held = 1e300;
   for (const noise::Family family : noise::families) {
     for (const double start : {-0.7, 0.0, 0.7}) {  // of the log variance of one reading, beside the fitted one
-      noise::Covariance at = as_stated({size, distance}, family, free.covariance.theta, bench.within());
+      noise::Covariance at = as_stated({size, distance}, family, free.covariance.theta, state.within());
       at.theta[2] += start;
-      held = std::min(held, best_value(bench, at));
+      held = std::min(held, best_value(state, at));
     }
   }
-  return std::max(0.0, 2 * (held - best_value(bench, free.covariance)));
+  return std::max(0.0, 2 * (held - best_value(state, free.covariance)));
 }
 
 LawValue value_of(const char* name, double value, double variance_of_log) {
@@ -54,7 +54,8 @@ LawValue value_of(const char* name, double value, double variance_of_log) {
 
 int thousandths(double log) { return static_cast<int>(std::lround(1e3 * log)); }
 
-double in_field(Judge& judge, const ReadingLaw& law, noise::Family family, const noise::StatedField& field) {
+double in_field(LawLikelihood& judge, const ReadingDistribution& law, noise::Family family,
+                const noise::StatedField& field) {
   const Peak there{0,
                    {family, thousandths(std::log(field.decorrelation / noise::efold(family)))},
                    thousandths(std::log(variance_of(law, judge.step())) - 2 * std::log(field.shadowing))};
@@ -63,7 +64,7 @@ double in_field(Judge& judge, const ReadingLaw& law, noise::Family family, const
 
 // The log-likelihood of single readings in the likeliest field of that size and distance. Families differ in what they
 // call a distance by more than data can tell, so that all within a tolerance count.
-double of_any_family(Judge& judge, const ReadingLaw& law, const noise::StatedField& field) {
+double of_any_family(LawLikelihood& judge, const ReadingDistribution& law, const noise::StatedField& field) {
   double best = -1e300;
   for (const noise::Family family : noise::families) {
     for (const double tolerance : {0.9, 1.0, 1.1})
@@ -76,20 +77,20 @@ double of_any_family(Judge& judge, const ReadingLaw& law, const noise::StatedFie
 
 // The field that rows say is held against the stated one by rows and by readings, and the weaker word counts. Readings
 // by themselves know little more than its variance over its distance where they lie dense.
-LawTest field_test(ReadingField& field, double step, const ReadingLaw& law, const noise::StatedField& stated,
-                   const inference::Bench& bench) {
-  const noise::Fit free = unbelieving(bench);
-  const noise::StatedField fitted = said_by(free.covariance, bench.within());
+LawTest field_test(KrigedReadings& field, double step, const ReadingDistribution& law, const noise::StatedField& stated,
+                   const inference::ModelState& state) {
+  const noise::Fit free = unbelieving(state);
+  const noise::StatedField fitted = said_by(free.covariance, state.within());
   const Eigen::Matrix4d spread = free.curvature.inverse();
   LawTest test{"effect.shadowing_correlation",
                {value_of("shadowing", fitted.shadowing, spread(0, 0) / 4),
                 value_of("decorrelation", fitted.decorrelation, spread(1, 1))},
-               gain_of_rows(bench, stated, free),
+               gain_of_rows(state, stated, free),
                0,
                0};
   const auto evidence = [&] { return test.gain / 2 - std::log(static_cast<double>(field.size())); };
   if (evidence() > 0) {
-    Judge judge(field, step);
+    LawLikelihood judge(field, step);
     const double of_readings = 2 * (of_any_family(judge, law, fitted) - of_any_family(judge, law, stated));
     test.gain = std::max(0.0, std::min(test.gain, of_readings));
   }
@@ -105,9 +106,9 @@ noise::StatedField stated_field(const LinkModel& model) {
   return {stated("shadowing"), stated("decorrelation")};
 }
 
-noise::Covariance fitted_to(const inference::Bench& bench, const Eigen::VectorXd& row_means) {
+noise::Covariance fitted_to(const inference::ModelState& state, const Eigen::VectorXd& row_means) {
   const noise::Fit fit =
-      noise::fit(bench.field(), row_means, bench.base(), bench.options().prior, bench.fit.covariance, 14);
+      noise::fit(state.field(), row_means, state.base(), state.options().prior, state.fit.covariance, 14);
   return fit.covariance;
 }
 

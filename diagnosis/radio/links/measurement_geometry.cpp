@@ -64,10 +64,10 @@ std::vector<Line> lines_of(const LinkModel& model) {
   return lines;
 }
 
-std::vector<Strip> strips_of(const LinkModel& model) {
+std::vector<OrientedRectangle> strips_of(const LinkModel& model) {
   constexpr double narrowest = 1, widest = 5, shortest = 5;  // m
   constexpr std::size_t most = 12;
-  std::vector<Strip> strips;
+  std::vector<OrientedRectangle> strips;
   const std::vector<Line> lines = lines_of(model);
   for (const Line& a : lines) {
     for (const Line& b : lines) {
@@ -78,13 +78,14 @@ std::vector<Strip> strips_of(const LinkModel& model) {
       strips.push_back({c * along - s * across, s * along + c * across, to - from, a.angle, width});
     }
   }
-  std::stable_sort(strips.begin(), strips.end(), [](const Strip& a, const Strip& b) { return a.length > b.length; });
+  std::stable_sort(strips.begin(), strips.end(),
+                   [](const OrientedRectangle& a, const OrientedRectangle& b) { return a.length > b.length; });
   if (strips.size() > most) strips.resize(most);
   return strips;
 }
 
 // Rooms in which moving radios took one reading in fifty, or more.
-std::vector<Strip> rooms_visited(const LinkModel& model, const Survey& survey) {
+std::vector<OrientedRectangle> rooms_visited(const LinkModel& model, const MeasurementGeometry& survey) {
   constexpr std::size_t least = 50;
   const Table* table = model.simulation().board().find("wall/*/shape");
   if (!table) return {};
@@ -98,14 +99,14 @@ std::vector<Strip> rooms_visited(const LinkModel& model, const Survey& survey) {
       if (survey.moves[static_cast<std::size_t>(end.radio)]) places.push_back({end.x, end.y});
     }
   }
-  std::vector<Strip> result;
+  std::vector<OrientedRectangle> result;
   for (const Room& room : rooms_of(lines, survey.plan_angle, places)) {
     if (static_cast<std::size_t>(room.visits) * least >= places.size()) result.push_back(room.bounds);
   }
   return result;
 }
 
-double height_above_moving(const LinkModel& model, const Survey& survey) {
+double height_above_moving(const LinkModel& model, const MeasurementGeometry& survey) {
   double top = -1e300, next = 1e300;
   const auto each = [&](const auto& use) {
     for (const auto& ends : model.ends())
@@ -130,7 +131,7 @@ struct Trail {
 };
 
 // A leap of more than 2 m is no way that was driven.
-void follow(Trail& trail, const End& end, Survey& survey) {
+void follow(Trail& trail, const End& end, MeasurementGeometry& survey) {
   const bool first = trail.places.empty();
   widen(trail.east, end.x, first);
   widen(trail.north, end.y, first);
@@ -156,8 +157,8 @@ std::vector<std::size_t> by_time(const Dataset& data) {
 
 }  // namespace
 
-Survey survey_of(const LinkModel& model, const Dataset& data) {
-  Survey survey;
+MeasurementGeometry measurement_geometry(const LinkModel& model, const Dataset& data) {
+  MeasurementGeometry survey;
   survey.has_time = !data.t.empty();
   survey.has_yaw = !data.rx_yaw.empty();
   survey.has_places = data.has_places();

@@ -18,7 +18,7 @@ struct Span {
   double at(double share) const { return low + share * length(); }
 };
 
-struct Survey {
+struct MeasurementGeometry {
   bool has_time = false, has_yaw = false, has_height = false;
   bool has_places = true;                       // false: the data have distances alone
   std::set<std::string> counted = {};           // materials whose walls the data count, in columns walls_NAME
@@ -30,10 +30,11 @@ struct Survey {
   std::vector<std::array<double, 2>> standing;  // m, places of radios that do not move
   // Ways of radios that move, x0 y0 x1 y1 of each piece, in m; by their x0.
   std::vector<std::array<double, 4>> ways;
-  std::vector<Strip> strips;  // between walls that run side by side and could be corridors, the longest first
-  std::vector<Strip> rooms;   // in which moving radios took some of the readings
+  std::vector<OrientedRectangle>
+      strips;  // between walls that run side by side and could be corridors, the longest first
+  std::vector<OrientedRectangle> rooms;  // in which moving radios took some of the readings
 };
 
-Survey survey_of(const LinkModel& model, const Dataset& data);
+MeasurementGeometry measurement_geometry(const LinkModel& model, const Dataset& data);
 
 }  // namespace muster::diagnosis

@@ -66,8 +66,8 @@ std::size_t at(const Codes& codes, double level) {
   return found != codes.end() && found->first < level + 1e-6 ? found->second : 0;
 }
 
-InstrumentCheck pile_check(const std::string& end, const std::optional<Clip>& clip, double level, std::size_t count) {
-  InstrumentCheck check{"readings that pile up at the " + end + " level", "", !clip, {}};
+ReceiverCheck pile_check(const std::string& end, const std::optional<Clip>& clip, double level, std::size_t count) {
+  ReceiverCheck check{"readings that pile up at the " + end + " level", "", !clip, {}};
   check.found = fmt::format("{} at {:.6g} dBm", count, level);
   if (!clip) return check;
   check.found += ", " + std::to_string(clip->beside) + " beside it: clipped";
@@ -99,8 +99,8 @@ std::vector<double> parted(It from, const It& end) {
   return {};
 }
 
-InstrumentCheck outliers_check(const Dataset& data, const Codes& codes, const std::string& none) {
-  InstrumentCheck check{"one to three readings 30 dB or more from all others", none, true, {}};
+ReceiverCheck outliers_check(const Dataset& data, const Codes& codes, const std::string& none) {
+  ReceiverCheck check{"one to three readings 30 dB or more from all others", none, true, {}};
   std::vector<double> levels = parted(codes.begin(), codes.end());
   if (levels.empty()) levels = parted(codes.rbegin(), codes.rend());
   if (levels.empty()) return check;
@@ -112,10 +112,10 @@ InstrumentCheck outliers_check(const Dataset& data, const Codes& codes, const st
 }
 
 // No receiver is fed a milliwatt most of the time.
-InstrumentCheck unit_check(const Dataset& data, const std::string& none) {
+ReceiverCheck unit_check(const Dataset& data, const std::string& none) {
   const auto above = [](double v) { return v > 0; };
   const auto count = static_cast<std::size_t>(std::count_if(data.rssi.begin(), data.rssi.end(), above));
-  InstrumentCheck check{"levels above 0 dBm, a milliwatt at the receiver", none, 2 * count <= data.heard(), {}};
+  ReceiverCheck check{"levels above 0 dBm, a milliwatt at the receiver", none, 2 * count <= data.heard(), {}};
   if (count == 0) return check;
   check.found = fmt::format("{} of {} readings", count, data.heard());
   if (!check.fine) check.found += ": are they in mW (dBm = 10 log10 of mW), or is a sign lost?";
@@ -125,8 +125,8 @@ InstrumentCheck unit_check(const Dataset& data, const std::string& none) {
 
 }  // namespace
 
-Instrument instrument_of(const Dataset& data) {
-  Instrument result;
+ReceiverChecks receiver_checks(const Dataset& data) {
+  ReceiverChecks result;
   const Codes codes = codes_of(data);
   result.step = step_of(codes, data.heard());
   const auto low = codes.begin(), high = std::prev(codes.end());

@@ -18,19 +18,19 @@ struct Clip {
   std::size_t row = 0;                // of the table, from 0: the first one there
 };
 
-struct InstrumentCheck {
+struct ReceiverCheck {
   std::string what, found;  // "readings at the highest code", "12 at -40 dBm"
   bool fine = true;
   std::optional<std::size_t> row{};  // of the table, from 1
 };
 
-struct Instrument {
+struct ReceiverChecks {
   double step = 0;  // dB between codes; 0 where readings have none
   std::optional<Clip> top{}, bottom{};
-  std::vector<InstrumentCheck> checks{};
+  std::vector<ReceiverCheck> checks{};
 };
 
 // Of data that check_readings() has let pass: what it refuses is listed as looked for and not found.
-Instrument instrument_of(const Dataset& data);
+ReceiverChecks receiver_checks(const Dataset& data);
 
 }  // namespace muster::diagnosis

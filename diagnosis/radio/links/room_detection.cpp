@@ -45,7 +45,7 @@ class Raster {
   }
 
   // Up to the middle of its walls.
-  Strip bounds(int room, double angle) const {
+  OrientedRectangle bounds(int room, double angle) const {
     Eigen::Array2d low(1e300, 1e300), high = -low;
     for (Index j = 0; j < cells_.cols(); ++j) {
       for (Index i = 0; i < cells_.rows(); ++i) {

@@ -7,12 +7,12 @@
 namespace muster::diagnosis {
 
 // A rectangle of the plan by its middle, in m and rad; its length runs along the angle.
-struct Strip {
+struct OrientedRectangle {
   double x, y, length, angle, width;
 };
 
 struct Room {
-  Strip bounds;
+  OrientedRectangle bounds;
   int visits = 0;  // of the places given
 };
 

@@ -66,7 +66,7 @@ std::vector<Swept> apart(const std::vector<Swept>& best_first, double least, std
 
 // By steps that halve, along each way, until none gains so much more.
 template <class Ways, class Gain, class May>
-Swept climbed(Swept from, double worth, const Ways& ways, const Gain& gain, const May& may) {
+Swept local_search(Swept from, double worth, const Ways& ways, const Gain& gain, const May& may) {
   for (const double step : {0.2, 0.1, 0.05, 0.025}) {  // m
     for (bool better = true; better;) {
       better = false;
@@ -96,7 +96,7 @@ VectorXd segment(double angle, double across, double from, double to) {
 }  // namespace
 
 // In the frame of lines in one direction.
-struct SegmentSweep::Way {
+struct SegmentScan::Way {
   double p0, q0, p1, q1;  // m, along and across
 
   Way(const std::array<double, 4>& plan, double angle) {
@@ -109,8 +109,8 @@ struct SegmentSweep::Way {
   double at(double q) const { return p0 + (p1 - p0) * (q - q0) / (q1 - q0); }
 };
 
-SegmentSweep::SegmentSweep(const Survey& survey, Links links, ReadingLinks readings)
-    : survey_(survey), links_(std::move(links)), readings_(std::move(readings)) {
+SegmentScan::SegmentScan(const MeasurementGeometry& survey, Links links, ReadingLinks readings)
+    : geometry_(survey), links_(std::move(links)), readings_(std::move(readings)) {
   for (const double turn : {0.0, quarter_turn}) {
     for (const double slant : {-0.3, -0.15, 0.0, 0.15, 0.3}) {
       const double angle = survey.plan_angle + turn + slant;
@@ -128,7 +128,7 @@ SegmentSweep::SegmentSweep(const Survey& survey, Links links, ReadingLinks readi
 }
 
 // One line.
-void SegmentSweep::lay_out(const std::vector<Way>& links, const std::vector<Way>& driven, double angle, double across) {
+void SegmentScan::lay_out(const std::vector<Way>& links, const std::vector<Way>& driven, double angle, double across) {
   std::vector<Crossing> crossings;
   for (std::size_t k = 0; k < links.size(); ++k) {
     if (links[k].crosses(across)) crossings.push_back({links[k].at(across), static_cast<Index>(k)});
@@ -149,13 +149,13 @@ void SegmentSweep::lay_out(const std::vector<Way>& links, const std::vector<Way>
     const auto first = std::lower_bound(crossings.begin(), crossings.end(), from, before);
     const auto last = std::lower_bound(first, crossings.end(), to, before);
     if (first == last) continue;
-    const double belief = 2 * belief_in_segment(survey_, segment(angle, across, from, to));
+    const double belief = 2 * belief_in_segment(geometry_, segment(angle, across, from, to));
     gaps_.push_back({angle, across, from, to, belief, {first, last}});
   }
 }
 
 // The best piece of each gap: from every other start in it on to its end, and from those between where these gain much.
-std::vector<VectorXd> SegmentSweep::operator()(inference::Tally& tally) const {
+std::vector<VectorXd> SegmentScan::operator()(inference::Tally& tally) const {
   constexpr double much = 0.5;  // of what the best one gains
   constexpr std::size_t climbs = 8;
   check(tally, links_.size());
@@ -180,7 +180,7 @@ std::vector<VectorXd> SegmentSweep::operator()(inference::Tally& tally) const {
 }
 
 // From every other start on to the gap's end.
-SegmentSweep::Piece SegmentSweep::best_piece(const Gap& gap, double first, inference::Tally& tally) {
+SegmentScan::Piece SegmentScan::best_piece(const Gap& gap, double first, inference::Tally& tally) {
   Piece best{0, 0, 0};
   for (double start = first; start < gap.to - shortest; start += 2 * between_starts) {
     const double end = std::min(gap.to, start + longest);
@@ -201,12 +201,12 @@ SegmentSweep::Piece SegmentSweep::best_piece(const Gap& gap, double first, infer
 }
 
 // Its tops are narrow where readings lie dense: of a wall that won 65 on rows the line 5 cm aside showed 34.
-Swept SegmentSweep::climb(const Swept& from, inference::Tally& tally) const {
+Swept SegmentScan::climb(const Swept& from, inference::Tally& tally) const {
   constexpr double reach = 1;  // m, beyond where it starts
   const double x = from.theta[1], y = from.theta[2], farthest = from.theta[3] / 2 + reach;
   const std::vector<Index> near = links_near(links_, x, y, farthest);
   const auto ways = [&](const VectorXd& theta) {
-    const Eigen::MatrixXd moves = moves_of_segment(survey_, theta) / move_of_segment;
+    const Eigen::MatrixXd moves = moves_of_segment(geometry_, theta) / move_of_segment;
     std::vector<VectorXd> both;
     for (const auto& move : moves.colwise()) both.insert(both.end(), {move, -move});
     return both;
@@ -226,17 +226,17 @@ Swept SegmentSweep::climb(const Swept& from, inference::Tally& tally) const {
       const double stops = share(static_cast<std::size_t>(row), stopped);
       if (stops > 0) tally.add(row, -stops);
     }
-    return tally.gain() + 2 * belief_in_segment(survey_, t);
+    return tally.gain() + 2 * belief_in_segment(geometry_, t);
   };
-  const auto may = [&](const VectorXd& t) { return driven_across(survey_, t[1], t[2], t[3], t[4]) == 0; };
+  const auto may = [&](const VectorXd& t) { return driven_across(geometry_, t[1], t[2], t[3], t[4]) == 0; };
   // Shares of rows change with every centimetre: what wins next to nothing is left to those that go on from here.
   const double here = gain(from.theta), worth = std::max(0.3, here / 300);
-  return climbed({here, from.theta}, worth, ways, gain, may);
+  return local_search({here, from.theta}, worth, ways, gain, may);
 }
 
 // Of the readings of a row those that are stopped; if its first is as its last, all are.
 template <class Stopped>
-double SegmentSweep::share(std::size_t row, const Stopped& stopped) const {
+double SegmentScan::share(std::size_t row, const Stopped& stopped) const {
   const std::size_t first = readings_.first[row], past = readings_.first[row + 1];
   const bool begins = stopped(readings_.links[first]), ends = stopped(readings_.links[past - 1]);
   if (begins == ends) return begins ? 1 : 0;
@@ -245,8 +245,8 @@ double SegmentSweep::share(std::size_t row, const Stopped& stopped) const {
   return count / static_cast<double>(past - first);
 }
 
-DiskSweep::DiskSweep(const Survey& survey, Links links)
-    : survey_(survey), links_(std::move(links)), all_(links_.size()) {
+DiskScan::DiskScan(const MeasurementGeometry& survey, Links links)
+    : geometry_(survey), links_(std::move(links)), all_(links_.size()) {
   std::iota(all_.begin(), all_.end(), 0);
   for (double x = survey.east.low; x < survey.east.high; x += between_places) {
     for (double y = survey.north.low; y < survey.north.high; y += between_places) {
@@ -259,7 +259,7 @@ DiskSweep::DiskSweep(const Survey& survey, Links links)
   }
 }
 
-std::vector<VectorXd> DiskSweep::operator()(inference::Tally& tally) const {
+std::vector<VectorXd> DiskScan::operator()(inference::Tally& tally) const {
   check(tally, links_.size());
   std::vector<Swept> found;
   for (const Place& place : places_) {
@@ -283,7 +283,7 @@ std::vector<VectorXd> DiskSweep::operator()(inference::Tally& tally) const {
 }
 
 // The tops that climbs from the best of a close grid reach.
-std::vector<Swept> DiskSweep::closely_about(const Swept& place, inference::Tally& tally) const {
+std::vector<Swept> DiskScan::closely_about(const Swept& place, inference::Tally& tally) const {
   constexpr double between = 0.125, at_most = 0.5;  // m
   constexpr std::array close_radii{0.22, 0.28, 0.36, 0.46, 0.58, 0.74, 0.94};
   constexpr std::size_t climbs = 4;
@@ -294,7 +294,7 @@ std::vector<Swept> DiskSweep::closely_about(const Swept& place, inference::Tally
     for (double north = -at_most; north <= at_most; north += between) {
       find_passing(x + east, y + north, close_radii.back(), near.links, near.passing);
       for (const double radius : close_radii) {
-        if (driven_through(survey_, x + east, y + north, radius)) break;
+        if (driven_through(geometry_, x + east, y + north, radius)) break;
         VectorXd theta(4);
         theta << 0, x + east, y + north, std::log(radius);
         grid.push_back({gain(radius, near.passing, tally), std::move(theta)});
@@ -306,13 +306,13 @@ std::vector<Swept> DiskSweep::closely_about(const Swept& place, inference::Tally
   return result;
 }
 
-double DiskSweep::gain_at(double x, double y, double radius, Near& near) const {
+double DiskScan::gain_at(double x, double y, double radius, Near& near) const {
   find_passing(x, y, radius, near.links, near.passing);
   return gain(radius, near.passing, near.tally);
 }
 
 // Aside, wider, and to either side so that the other edge of its shadow stays where it is.
-Swept DiskSweep::climb(Swept from, Near& near) const {
+Swept DiskScan::climb(Swept from, Near& near) const {
   constexpr double sixteenth = 0.39269908169872414;  // of a turn, rad
   const double x = from.theta[1], y = from.theta[2];
   std::vector<VectorXd> ways;
@@ -329,17 +329,17 @@ Swept DiskSweep::climb(Swept from, Near& near) const {
     if (t[3] < narrowest || t[3] > widest || std::hypot(t[1] - x, t[2] - y) > between_places) return 0.0;
     return gain_at(t[1], t[2], t[3], near);
   };
-  const auto may = [&](const VectorXd& t) { return !driven_through(survey_, t[1], t[2], t[3]); };
+  const auto may = [&](const VectorXd& t) { return !driven_through(geometry_, t[1], t[2], t[3]); };
   from.theta[3] = std::exp(from.theta[3]);  // the radius itself
-  from = climbed(
+  from = local_search(
       std::move(from), 0, [&](const VectorXd&) -> const auto& { return ways; }, gain, may);
   from.theta[3] = std::log(from.theta[3]);
   return from;
 }
 
 // Those of the links that go through the disk.
-void DiskSweep::find_passing(double x, double y, double radius, const std::vector<Index>& among,
-                             std::vector<Passing>& passing) const {
+void DiskScan::find_passing(double x, double y, double radius, const std::vector<Index>& among,
+                            std::vector<Passing>& passing) const {
   passing.clear();
   for (const Index k : among) {
     const auto& [ax, ay, bx, by] = links_[static_cast<std::size_t>(k)];
@@ -350,7 +350,7 @@ void DiskSweep::find_passing(double x, double y, double radius, const std::vecto
   }
 }
 
-double DiskSweep::gain(double radius, const std::vector<Passing>& passing, inference::Tally& tally) {
+double DiskScan::gain(double radius, const std::vector<Passing>& passing, inference::Tally& tally) {
   tally.clear();
   for (const auto& [row, along, side, squared] : passing) {
     if (side * side >= radius * radius * squared) continue;

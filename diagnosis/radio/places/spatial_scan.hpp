@@ -25,9 +25,9 @@ struct Swept {
 
 // On lines along the plan and a little aslant, a quarter of a metre apart, all pieces that no radio was driven across,
 // by one link a row; then by all readings from the best of these to wherever more is gained.
-class SegmentSweep {
+class SegmentScan {
  public:
-  SegmentSweep(const Survey& survey, Links links, ReadingLinks readings);
+  SegmentScan(const MeasurementGeometry& survey, Links links, ReadingLinks readings);
 
   // Thetas (no row, x, y, length, angle), the best first.
   std::vector<Eigen::VectorXd> operator()(inference::Tally& tally) const;
@@ -54,7 +54,7 @@ class SegmentSweep {
   template <class Stopped>
   double share(std::size_t row, const Stopped& stopped) const;
 
-  Survey survey_;
+  MeasurementGeometry geometry_;
   Links links_;
   ReadingLinks readings_;
   std::vector<Gap> gaps_;
@@ -62,9 +62,9 @@ class SegmentSweep {
 
 // A few radii about places 0.4 m apart, clear of all ways; then closely about the best of these, since where readings
 // lie dense a thing shows little a tenth of a metre aside, and has many tops.
-class DiskSweep {
+class DiskScan {
  public:
-  DiskSweep(const Survey& survey, Links links);
+  DiskScan(const MeasurementGeometry& survey, Links links);
 
   // Thetas (no row, x, y, log radius), the best first.
   std::vector<Eigen::VectorXd> operator()(inference::Tally& tally) const;
@@ -97,7 +97,7 @@ class DiskSweep {
                     std::vector<Passing>& passing) const;
   static double gain(double radius, const std::vector<Passing>& passing, inference::Tally& tally);
 
-  Survey survey_;
+  MeasurementGeometry geometry_;
   Links links_;
   std::vector<Eigen::Index> all_;  // of the links
   std::vector<Place> places_;

@@ -22,7 +22,7 @@ struct Fitted {
 
   Fitted(const std::filesystem::path& world, const std::filesystem::path& file, const FitOptions& options = {})
       : data(read_dataset(file)), model(world, file, plugins), result(fit(model, data, options)) {}
-  Misfit misfit() const { return misfit_of(model, data, result, features_of(model)); }
+  ResidualScan misfit() const { return residual_scan(model, data, result, features_of(model)); }
 };
 
 const Fitted& plain() {
@@ -58,17 +58,17 @@ TEST(Hall, RayleighMeanIsStated) {
 }
 
 TEST(Hall, PlainDataShowNoMisfit) {
-  const Misfit misfit = plain().misfit();
+  const ResidualScan misfit = plain().misfit();
   EXPECT_FALSE(misfit.misfits);
   EXPECT_GE(misfit.looks.size(), 6u);
 }
 
 TEST(Hall, HiddenCabinetsAreNoticedWhereTheyAre) {
   const Fitted fitted(hall, hall / "measured.csv");
-  const Misfit misfit = fitted.misfit();
+  const ResidualScan misfit = fitted.misfit();
   EXPECT_TRUE(misfit.misfits);
   const auto bearing =
-      std::find_if(misfit.looks.begin(), misfit.looks.end(), [](const Look& l) { return l.by == "bearing"; });
+      std::find_if(misfit.looks.begin(), misfit.looks.end(), [](const StructureTest& l) { return l.by == "bearing"; });
   ASSERT_NE(bearing, misfit.looks.end());
   EXPECT_TRUE(bearing->alarm);
   const auto worst = std::min_element(bearing->bins.begin(), bearing->bins.end(),

@@ -42,7 +42,7 @@ TEST(Minimisers, AgreeWithTheClosedForm) {
   const Eigen::VectorXd exact = channel.columns.colPivHouseholderQr().solve(channel.readings.rssi);
   const Eigen::Vector3d start(30, 2.5, 2);
   const Minimum a = least_squares(channel.readings, channel.mean(), start, channel.box);
-  const Minimum b = gradient_free(channel.readings, channel.mean(), start, channel.box);
+  const Minimum b = derivative_free_fit(channel.readings, channel.mean(), start, channel.box);
   EXPECT_TRUE(a.converged);
   EXPECT_LT((a.parameters - exact).cwiseAbs().maxCoeff(), 1e-9);
   EXPECT_LT((b.parameters - exact).cwiseAbs().maxCoeff(), 1e-6);
@@ -52,8 +52,9 @@ TEST(Minimisers, AgreeWithTheClosedForm) {
 TEST(Minimisers, StayInsideTheBounds) {
   Channel channel(2000, 1, 2);
   channel.box.upper[1] = 1.5;  // below the truth
-  for (const auto& found : {least_squares(channel.readings, channel.mean(), Eigen::Vector3d(30, 1, 2), channel.box),
-                            gradient_free(channel.readings, channel.mean(), Eigen::Vector3d(30, 1, 2), channel.box)}) {
+  for (const auto& found :
+       {least_squares(channel.readings, channel.mean(), Eigen::Vector3d(30, 1, 2), channel.box),
+        derivative_free_fit(channel.readings, channel.mean(), Eigen::Vector3d(30, 1, 2), channel.box)}) {
     EXPECT_NEAR(found.parameters[1], 1.5, 1e-9);
     EXPECT_TRUE(found.at_bound[1]);
     EXPECT_FALSE(found.at_bound[0]);
@@ -84,7 +85,7 @@ TEST(Minimisers, CensoredReadingsDoNotBend) {
   const Eigen::Vector3d start(30, 2.5, 2);
   const Minimum naive = least_squares(heard_only, channel.mean(), start, channel.box);
   const Minimum a = least_squares(cut, channel.mean(), start, channel.box);
-  const Minimum b = gradient_free(cut, channel.mean(), start, channel.box);
+  const Minimum b = derivative_free_fit(cut, channel.mean(), start, channel.box);
   EXPECT_GT(std::abs(naive.parameters[1] - 1.7), 0.1);
   EXPECT_NEAR(a.parameters[1], 1.7, 0.05);
   EXPECT_NEAR(a.sigma, 6, 0.15);
@@ -113,7 +114,7 @@ TEST(Identifiable, SaysNothingOfASoundFit) {
   EXPECT_TRUE(blindnesses(Channel(100, 1, 5).columns, Eigen::Vector3d(150, 10, 100)).empty());
 }
 
-Missing missing_where(const std::function<bool(double level, double chance)>& lost) {
+MissingData missing_where(const std::function<bool(double level, double chance)>& lost) {
   std::mt19937 random(6);
   std::uniform_real_distribution<double> any(0, 1);
   std::normal_distribution<double> error(0, 6);
@@ -123,17 +124,17 @@ Missing missing_where(const std::function<bool(double level, double chance)>& lo
     const double level = mean[i] + error(random);
     rssi[i] = lost(level, any(random)) ? std::nan("") : level;
   }
-  return why_missing(rssi, mean, 6);
+  return missing_data(rssi, mean, 6);
 }
 
-TEST(Missing, RandomLossIsCalledRandom) {
-  const Missing found = missing_where([](double, double chance) { return chance < 0.1; });
+TEST(MissingData, RandomLossIsCalledRandom) {
+  const MissingData found = missing_where([](double, double chance) { return chance < 0.1; });
   EXPECT_FALSE(found.censored);
   EXPECT_NEAR(static_cast<double>(found.count), 2000, 200);
 }
 
-TEST(Missing, AFloorIsCalledAFloor) {
-  const Missing found = missing_where([](double level, double) { return level < -80; });
+TEST(MissingData, AFloorIsCalledAFloor) {
+  const MissingData found = missing_where([](double level, double) { return level < -80; });
   EXPECT_TRUE(found.censored);
   EXPECT_NEAR(found.floor, -80, 1.1);
   EXPECT_GT(found.by_floor, 0.9);
@@ -141,8 +142,8 @@ TEST(Missing, AFloorIsCalledAFloor) {
   EXPECT_EQ(found.bins.back().missing, 0);
 }
 
-TEST(Missing, AFloorBesideMuchRandomLossCutsLevelsOff) {
-  const Missing found = missing_where([](double level, double chance) { return level < -93 || chance < 0.1; });
+TEST(MissingData, AFloorBesideMuchRandomLossCutsLevelsOff) {
+  const MissingData found = missing_where([](double level, double chance) { return level < -93 || chance < 0.1; });
   EXPECT_FALSE(found.censored);
   EXPECT_LT(found.by_floor, 0.3);
   EXPECT_TRUE(found.cut_off);
@@ -151,31 +152,31 @@ TEST(Missing, AFloorBesideMuchRandomLossCutsLevelsOff) {
 }
 
 // Where few are lost, their floor is the weakest that was heard, and not what one in a thousand lies below.
-TEST(Missing, AFloorInTheTailTakesFew) {
-  const Missing alone = missing_where([](double level, double) { return level < -101; });
+TEST(MissingData, AFloorInTheTailTakesFew) {
+  const MissingData alone = missing_where([](double level, double) { return level < -101; });
   EXPECT_LT(alone.count, 50u);
   EXPECT_TRUE(alone.censored);
   EXPECT_NEAR(alone.floor, -101, 0.5);
-  const Missing beside = missing_where([](double level, double chance) { return level < -98 || chance < 0.1; });
+  const MissingData beside = missing_where([](double level, double chance) { return level < -98 || chance < 0.1; });
   EXPECT_TRUE(beside.cut_off);
   EXPECT_NEAR(beside.floor, -98, 0.5);
-  const Missing few = missing_where([](double level, double chance) { return level < -100 || chance < 0.05; });
+  const MissingData few = missing_where([](double level, double chance) { return level < -100 || chance < 0.05; });
   EXPECT_LT(few.evidence, 10);  // of the rise alone
   EXPECT_TRUE(few.cut_off);
   EXPECT_NEAR(few.floor, -100, 0.5);
 }
 
 // A receiver that hears half of all, and of weak ones fewer and fewer.
-TEST(Missing, ALossThatRisesGentlyIsNoFloorAndNotChance) {
+TEST(MissingData, ALossThatRisesGentlyIsNoFloorAndNotChance) {
   const auto gentle = [](double level, double chance) { return chance > 0.5 / (1 + std::exp((-78 - level) / 5)); };
-  const Missing found = missing_where(gentle);
+  const MissingData found = missing_where(gentle);
   EXPECT_FALSE(found.censored);
   EXPECT_FALSE(found.cut_off);
   EXPECT_TRUE(found.rises());
   EXPECT_FALSE(missing_where([](double, double chance) { return chance < 0.5; }).rises());
 }
 
-TEST(Missing, NothingMissing) {
+TEST(MissingData, NothingMissing) {
   EXPECT_FALSE(missing_where([](double, double) { return false; }).rises());
   EXPECT_EQ(missing_where([](double, double) { return false; }).count, 0u);
 }

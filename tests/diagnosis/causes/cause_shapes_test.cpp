@@ -20,7 +20,7 @@ TEST(CauseShape, AParameterSoughtByItsLogarithmStaysInsideItsBounds) {
   permittivity.max = 100;
   permittivity.flags = MUSTER_LOG;
   CauseShape shape;
-  const auto axis = axis_of(permittivity, Survey{}, shape, true);
+  const auto axis = axis_of(permittivity, MeasurementGeometry{}, shape, true);
   ASSERT_TRUE(axis);
   shape.axes = {*axis};
   for (const double end : {axis->lower, axis->upper}) {
@@ -40,7 +40,7 @@ TEST(CauseShape, SwingsOfManyCyclesAreSought) {
   period.flags = MUSTER_LOG;
   CauseShape shape;
   shape.wave = "phase";
-  Survey survey;
+  MeasurementGeometry survey;
   survey.time.low = 100;
   survey.time.high = 1300;
   const auto axis = axis_of(period, survey, shape, true);
@@ -79,7 +79,7 @@ TEST(CauseRows, ARadioThatOnlyTheDataKnowIsTold) {
                                        station + "<radio.multiwall/></world>");
     const auto file = scratch.write("d.csv", rows);
     const LinkModel model(world, file, plugins);
-    const Survey survey = survey_of(model, read_dataset(file));
+    const MeasurementGeometry survey = measurement_geometry(model, read_dataset(file));
     const auto found = rows_for(cause, model, survey);
     return found.empty() ? why_no_rows(cause, model, survey) : "about " + found.at(0).at(0);
   };
@@ -91,7 +91,7 @@ TEST(CauseRows, ARadioThatOnlyTheDataKnowIsTold) {
 }
 
 // Which radios move and turn, of some that hear a station.
-Survey heard_at(const std::vector<std::array<double, 3>>& places_and_headings) {
+MeasurementGeometry heard_at(const std::vector<std::array<double, 3>>& places_and_headings) {
   const Scratch scratch;
   std::string rows = "t[s],tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],rx_yaw[rad],rssi[dBm]\n";
   for (std::size_t k = 0; k < 60; ++k) {
@@ -102,26 +102,27 @@ Survey heard_at(const std::vector<std::array<double, 3>>& places_and_headings) {
                                    "<world name=\"w\" dt=\"1\" until=\"1\"><station name=\"a\" at=\"0 0 1\"/>"
                                    "<station name=\"b\" at=\"1 0 1\"/><radio.multiwall/></world>");
   const auto file = scratch.write("d.csv", rows);
-  return survey_of(LinkModel(world, file, plugins), read_dataset(file));
+  return measurement_geometry(LinkModel(world, file, plugins), read_dataset(file));
 }
 
-TEST(Survey, TakesARadioThatIsSetUpAFewTimesForOneThatStands) {
-  const Survey turned = heard_at({{3, 1, 0}, {3, 1, M_PI / 2}}), moved = heard_at({{3, 1, 0}, {8, 5, 0}});
-  for (const Survey& s : {turned, moved}) {
+TEST(MeasurementGeometry, TakesARadioThatIsSetUpAFewTimesForOneThatStands) {
+  const MeasurementGeometry turned = heard_at({{3, 1, 0}, {3, 1, M_PI / 2}}), moved = heard_at({{3, 1, 0}, {8, 5, 0}});
+  for (const MeasurementGeometry& s : {turned, moved}) {
     EXPECT_FALSE(s.turns.at(1));
     EXPECT_FALSE(s.moves.at(1));
   }
   EXPECT_EQ(moved.standing.size(), 3u);  // the station's and both
-  const Survey on_the_spot = heard_at({{3, 1, 0}, {3, 1, 1}, {3, 1, 2}, {3, 1, 3}, {3, 1, 4}, {3, 1, 5}});
+  const MeasurementGeometry on_the_spot = heard_at({{3, 1, 0}, {3, 1, 1}, {3, 1, 2}, {3, 1, 3}, {3, 1, 4}, {3, 1, 5}});
   EXPECT_TRUE(on_the_spot.turns.at(1));
   EXPECT_FALSE(on_the_spot.moves.at(1));
-  const Survey drives = heard_at({{3, 1, 0}, {4, 1, 0}, {5, 1, 1.5}, {5, 2, 1.5}, {5, 3, 1.5}, {5, 4, 1.5}});
+  const MeasurementGeometry drives =
+      heard_at({{3, 1, 0}, {4, 1, 0}, {5, 1, 1.5}, {5, 2, 1.5}, {5, 3, 1.5}, {5, 4, 1.5}});
   EXPECT_TRUE(drives.turns.at(1));
   EXPECT_TRUE(drives.moves.at(1));
 }
 
 // A factor of e either way: 1.96 of those, and not 216 dB about 100.
-TEST(FoundCause, IntervalOfAParameterSoughtByItsLogarithmIsAFactor) {
+TEST(CauseEstimate, IntervalOfAParameterSoughtByItsLogarithmIsAFactor) {
   muster_param knee{};
   knee.name = "knee";
   knee.unit = "dB";
@@ -136,11 +137,11 @@ TEST(FoundCause, IntervalOfAParameterSoughtByItsLogarithmIsAFactor) {
   plugin.cause = &meaning;
   auto shape = std::make_shared<CauseShape>();
   shape->cause.plugin = &plugin;
-  shape->axes = {*axis_of(knee, Survey{}, *shape, true)};
+  shape->axes = {*axis_of(knee, MeasurementGeometry{}, *shape, true)};
   inference::Finding found;
   found.theta = Eigen::Vector2d(0, std::log(100));
   for (const double way : {-1, 1}) found.thetas.push_back(Eigen::Vector2d(0, std::log(100) + way));
-  const FoundCause cause = found_cause(found, {shape, {}});
+  const CauseEstimate cause = cause_estimate(found, {shape, {}});
   ASSERT_EQ(cause.values.size(), 1u);
   EXPECT_NEAR(cause.values[0].lower95, 100 * std::exp(-1.96), 1e-9);
   EXPECT_NEAR(cause.values[0].upper95, 100 * std::exp(1.96), 1e-9);

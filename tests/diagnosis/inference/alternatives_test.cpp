@@ -33,12 +33,12 @@ TEST(Rivals, OfTwoRadiosEitherMayBeMeant) {
     };
     offset.label = [](const Eigen::VectorXd& t) { return "tx" + std::to_string(static_cast<int>(t[0])); };
     const Problem problem = problem_of(world, -scaled_to(world, offset.columns(offset.grid[1]).col(0), 100), causes);
-    Bench bench(problem, {});
-    score(bench);
-    bench.terms = {term_at(bench, "tx_offset", offset.grid[1])};
-    bench.refit();
-    std::vector<Rival> own = rivals_of(bench, bench.terms[0]);
-    std::erase_if(own, [](const Rival& r) { return r.id != "tx_offset"; });
+    ModelState state(problem, {});
+    score(state);
+    state.terms = {term_at(state, "tx_offset", offset.grid[1])};
+    state.refit();
+    std::vector<Alternative> own = alternatives_of(state, state.terms[0]);
+    std::erase_if(own, [](const Alternative& r) { return r.id != "tx_offset"; });
     ASSERT_EQ(own.size(), others) << transmitters << ' ' << whole;
     if (own.empty()) continue;
     EXPECT_EQ(own[0].label, "tx0");
@@ -55,13 +55,13 @@ TEST(Rivals, OfWhatIsUnexplainedAreTheCausesThatExplainItNearlyAsWell) {
     if (!falls) std::shuffle(world.battery.begin(), world.battery.end(), std::mt19937(1));
     const Eigen::VectorXd effect = falls ? world.time : world.battery;
     const Problem problem = problem_of(world, scaled_to(world, effect, 120), causes_of(world));
-    Bench bench(problem, {});
-    score(bench);
-    bench.terms = {term_at(bench, "~battery", {})};
-    bench.refit();
+    ModelState state(problem, {});
+    score(state);
+    state.terms = {term_at(state, "~battery", {})};
+    state.refit();
     std::vector<std::string> causes;
     std::set<std::string> seen;
-    for (const Rival& r : rivals_of(bench, bench.terms[0])) {
+    for (const Alternative& r : alternatives_of(state, state.terms[0])) {
       EXPECT_TRUE(seen.insert(r.id).second) << r.id << " twice";
       EXPECT_NE(r.id, "~battery");
       if (r.id[0] != '~') causes.push_back(r.id);
@@ -81,22 +81,23 @@ TEST(Rivals, OfSeveralWaysAlongOneCovariateTheLikestIsTold) {
   const auto world = world_of(varied(271, 3000));
   const Eigen::VectorXd knee = -(11.2 - world.battery.array()).max(0.0);
   const Problem problem = problem_of(world, scaled_to(world, knee, 120), causes_of(world));
-  Bench bench(problem, {});
-  score(bench);
-  bench.terms = {term_at(bench, "drift", Eigen::VectorXd::Constant(1, -1))};
-  bench.refit();
-  const Stand rest = bench.stand(bench.design_without(bench.terms[0]));
-  const double of_drift = bench.evidence(*bench.terms[0].candidate, rest.gain(bench.terms[0].columns), 1, false);
+  ModelState state(problem, {});
+  score(state);
+  state.terms = {term_at(state, "drift", Eigen::VectorXd::Constant(1, -1))};
+  state.refit();
+  const WhitenedModel rest = state.whitened_model(state.design_without(state.terms[0]));
+  const double of_drift = state.evidence(*state.terms[0].candidate, rest.gain(state.terms[0].columns), 1, false);
   std::vector<double> gaps;  // before the refinement of those that have a place to refine
-  for (const Lead& lead : leads(bench, rest)) {
+  for (const ScoredCandidate& lead : scored_candidates(state, rest)) {
     if (lead.candidate().own() == "battery") gaps.push_back(of_drift - lead.evidence);
   }
   ASSERT_GE(gaps.size(), 2u);
   const auto [least, most] = std::minmax_element(gaps.begin(), gaps.end());
   EXPECT_GT(*most - *least, 5);
-  const std::vector<Rival> rivals = rivals_of(bench, bench.terms[0]);
-  const auto told = std::find_if(rivals.begin(), rivals.end(), [](const Rival& r) { return r.id == "~battery"; });
-  ASSERT_NE(told, rivals.end());
+  const std::vector<Alternative> alternatives = alternatives_of(state, state.terms[0]);
+  const auto told =
+      std::find_if(alternatives.begin(), alternatives.end(), [](const Alternative& r) { return r.id == "~battery"; });
+  ASSERT_NE(told, alternatives.end());
   EXPECT_LE(told->evidence_gap, *least + 1e-9);
 }
 

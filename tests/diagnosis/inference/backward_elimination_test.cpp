@@ -20,13 +20,13 @@ struct Guess {
 
 // What cleaning up leaves of a model that was guessed so.
 std::vector<Term> cleaned_up(const Problem& problem, const std::vector<Guess>& guesses) {
-  Bench bench(problem, {});
-  score(bench);
-  for (const auto& [id, theta] : guesses) bench.terms.push_back(term_at(bench, id, theta));
-  bench.refit();
+  ModelState state(problem, {});
+  score(state);
+  for (const auto& [id, theta] : guesses) state.terms.push_back(term_at(state, id, theta));
+  state.refit();
   std::vector<Trial> trials;
-  clean_up(bench, trials);
-  return bench.terms;
+  backward_elimination(state, trials);
+  return state.terms;
 }
 
 // A function of the battery may enter first, while the field holds a part of what acts in time.

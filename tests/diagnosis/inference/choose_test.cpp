@@ -16,15 +16,15 @@ TEST(Compared, TheSimplerOfTwoWithTheSameEffectComesFirst) {
   const auto world = world_of(varied(34, 4000));
   const auto twins = twins_of(world);
   const Problem problem = problem_of(world, scaled_to(world, twins[0].columns(twins[0].grid[0]), 200), twins);
-  Bench bench(problem, {});
-  const Stand stand = bench.stand(bench.base());
-  bench.renew_depending(stand.coefficients(bench.base_columns()));
-  std::vector<Lead> pair;
-  for (const Lead& lead : leads(bench, stand))
+  ModelState state(problem, {});
+  const WhitenedModel model = state.whitened_model(state.base());
+  state.renew_depending(model.coefficients(state.sensitivities()));
+  std::vector<ScoredCandidate> pair;
+  for (const ScoredCandidate& lead : scored_candidates(state, model))
     if (lead.candidate().id == "twin" || lead.candidate().id == "rx_offset") pair.push_back(lead);
   ASSERT_EQ(pair.size(), 2u);
   for (int order = 0; order < 2; ++order, std::swap(pair[0], pair[1]))
-    EXPECT_EQ(compared(bench, stand, pair, pair, [](const Candidate&) { return true; }).front().candidate().id,
+    EXPECT_EQ(compared(state, model, pair, pair, [](const Candidate&) { return true; }).front().candidate().id,
               "rx_offset");
 }
 
@@ -41,20 +41,20 @@ TEST(Compared, ALeadIsRefinedAndKeepsWhatItWonUnlessItCountsAsItIs) {
   for (const bool whole : {false, true}) {
     step->whole = whole;
     const Problem problem = problem_of(world, effect, causes);
-    Bench bench(problem, {});
-    score(bench);
-    const Stand stand = bench.stand(bench.base());
-    Lead lead{&bench.entry_of(*step), Eigen::Vector2d(0.405 * last, -1), {}, 0, 0, 0, false, {}};
-    lead.columns = bench.columns_of(*step, lead.theta);
-    const double plain = gain_of(*step, stand, lead.columns);
+    ModelState state(problem, {});
+    score(state);
+    const WhitenedModel model = state.whitened_model(state.base());
+    ScoredCandidate lead{&state.entry_of(*step), Eigen::Vector2d(0.405 * last, -1), {}, 0, 0, 0, false, {}};
+    lead.columns = state.columns_of(*step, lead.theta);
+    const double plain = gain_of(*step, model, lead.columns);
     lead.gain = plain + won;
-    const Lead best = compared(bench, stand, {lead}, {lead}, [](const Candidate&) { return true; }).front();
-    const double refined = gain_of(*step, stand, best.columns);
+    const ScoredCandidate best = compared(state, model, {lead}, {lead}, [](const Candidate&) { return true; }).front();
+    const double refined = gain_of(*step, model, best.columns);
     EXPECT_NEAR(best.theta[0], 0.43 * last, 0.01 * last);
     EXPECT_GT(refined, plain + 5);
     EXPECT_NEAR(best.gain, whole ? refined : refined + won, 1e-6) << whole;
-    EXPECT_NEAR(best.log_p, bench.log_p(*step, best.gain, 1, true), 1e-6);
-    EXPECT_NEAR(best.evidence, bench.evidence(*step, best.gain, 1, true), 1e-6);
+    EXPECT_NEAR(best.log_p, state.log_p(*step, best.gain, 1, true), 1e-6);
+    EXPECT_NEAR(best.evidence, state.evidence(*step, best.gain, 1, true), 1e-6);
   }
 }
 

@@ -55,7 +55,7 @@ TEST(Cost, TwentyThousandReadingsAndAThousandAtomsAreSearchedInTwoSeconds) {
   Search search(problem);
   std::printf("bench, with all that  %7.3f s\n", clock.lap());
   Index atoms = 0;
-  for (const Entry& entry : search.bench().entries()) atoms += entry.atoms->cols();
+  for (const Entry& entry : search.state().entries()) atoms += entry.atoms->cols();
   noise::Sheet sheet(rows.size(), 1000);
   for (Index j = 0; j < 1000; ++j) sheet.col(j).setConstant(static_cast<float>(j));
   clock.lap();

@@ -32,7 +32,7 @@ TEST(Folds, BlocksAreThreeDecorrelationDistancesWideAndEveryReadingIsLeftOutOnce
   EXPECT_LT(errors(world.base).maxCoeff(), 1e-12);
   const Eigen::VectorXd missing = errors(world.base.leftCols(2));
   EXPECT_EQ(missing.size(), world.readings.size());
-  const HeldOut gain = folds.compared(missing, Eigen::VectorXd::Zero(missing.size()));
+  const HeldOutGain gain = folds.compared(missing, Eigen::VectorXd::Zero(missing.size()));
   EXPECT_NEAR(gain.gain, missing.mean(), 1e-9);
   EXPECT_LT(gain.lower95, gain.gain);
   EXPECT_GT(gain.upper95, gain.gain);

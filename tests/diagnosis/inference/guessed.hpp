@@ -17,18 +17,18 @@ using synthetic::Recipe;
 using synthetic::varied;
 using synthetic::world_of;
 
-inline Term term_at(const Bench& bench, const std::string& id, const Eigen::VectorXd& theta) {
-  for (const Entry& entry : bench.entries()) {
-    if (entry.candidate->id == id) return {entry.candidate, theta, bench.columns_of(*entry.candidate, theta)};
+inline Term term_at(const ModelState& state, const std::string& id, const Eigen::VectorXd& theta) {
+  for (const Entry& entry : state.entries()) {
+    if (entry.candidate->id == id) return {entry.candidate, theta, state.columns_of(*entry.candidate, theta)};
   }
   throw std::logic_error(id);
 }
 
 // Nulls for every candidate, as the forward search would have worked out.
-inline void score(Bench& bench) {
-  const Stand stand = bench.stand(bench.base());
-  bench.renew_depending(stand.coefficients(bench.base_columns()));
-  leads(bench, stand);
+inline void score(ModelState& state) {
+  const WhitenedModel model = state.whitened_model(state.base());
+  state.renew_depending(model.coefficients(state.sensitivities()));
+  scored_candidates(state, model);
 }
 
 // An offset, and the same with one parameter more.

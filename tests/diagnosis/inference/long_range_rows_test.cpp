@@ -16,7 +16,7 @@ using synthetic::varied;
 using synthetic::world_of;
 
 // What winnings are with the noise fitted anew: the same few rows again, each several times, would win twice as much.
-TEST(Bench, LongerRowsTellNoMore) {
+TEST(ModelState, LongerRowsTellNoMore) {
   for (const uint64_t seed : {17u, 18u, 19u}) {
     const auto world = world_of(varied(seed, 4000));
     const auto causes = causes_of(world);
@@ -24,22 +24,22 @@ TEST(Bench, LongerRowsTellNoMore) {
         std::find_if(causes.begin(), causes.end(), [](const Candidate& cause) { return cause.id == "drift"; });
     const Eigen::VectorXd& settling = drift->grid[0];
     const Problem problem = problem_of(world, scaled_to(world, drift->columns(settling), 100), causes);
-    const auto winnings = [&](double share) {
+    const auto gains_by_row = [&](double share) {
       Options options;
       options.rows.time *= share;
       options.rows.way *= share;
-      const Bench bench(problem, options);
-      const noise::Covariance& noise = bench.fit.covariance;
-      return bench.far().profile_gain({bench.y(), bench.design(), bench.columns_of(*drift, settling), noise}, noise,
-                                      bench.likely_families(noise.family));
+      const ModelState state(problem, options);
+      const noise::Covariance& noise = state.fit.covariance;
+      return state.far().profile_gain({state.y(), state.design(), state.columns_of(*drift, settling), noise}, noise,
+                                      state.likely_families(noise.family));
     };
-    EXPECT_LT(winnings(4), 1.2 * winnings(1));
+    EXPECT_LT(gains_by_row(4), 1.2 * gains_by_row(1));
   }
 }
 
 // In a smooth field under much noise a sender's offset: what few neighbours, and the family that needs the offset most,
 // say too much is not believed.
-TEST(FarRows, ANameIsWorthNoMoreThanTheCovarianceItselfSays) {
+TEST(LongRangeRows, ANameIsWorthNoMoreThanTheCovarianceItselfSays) {
   const auto world = world_of({.seed = 3,
                                .readings = 2600,
                                .sigma = 2.25,
@@ -52,17 +52,17 @@ TEST(FarRows, ANameIsWorthNoMoreThanTheCovarianceItselfSays) {
   Search search(problem, {});
   const Result result = search.run();
   ASSERT_EQ(result.findings.size(), 1u);
-  const Bench& bench = search.bench();
-  const Term& offset = bench.terms[0];
+  const ModelState& state = search.state();
+  const Term& offset = state.terms[0];
   EXPECT_EQ(offset.id(), "tx_offset");
-  const double near = bench.stand(bench.base()).gain(offset.columns);
-  const double sure = bench.far().sure_gain({bench.y(), bench.base(), offset.columns, bench.fit.covariance});
+  const double near = state.whitened_model(state.base()).gain(offset.columns);
+  const double sure = state.far().sure_gain({state.y(), state.base(), offset.columns, state.fit.covariance});
   EXPECT_LT(sure, 0.9 * near);
-  EXPECT_NEAR(result.trials[0].integrated_log_p, bench.log_p(*offset.candidate, sure / overdispersion, 1, true), 0.2);
+  EXPECT_NEAR(result.trials[0].marginal_log_p, state.log_p(*offset.candidate, sure / overdispersion, 1, true), 0.2);
 }
 
 // What has no name must win more than a chi-square says.
-TEST(FarRows, WhatHasNoNameMustWinMore) {
+TEST(LongRangeRows, WhatHasNoNameMustWinMore) {
   const auto world = world_of(varied(32, 3000));
   const Eigen::VectorXd effect = scaled_to(world, (3 * world.bearing().array() + 1).cos(), 80);
   const Problem problem = problem_of(world, effect, causes_of(world));
@@ -71,27 +71,27 @@ TEST(FarRows, WhatHasNoNameMustWinMore) {
   const auto lobes = std::find_if(result.trials.begin(), result.trials.end(),
                                   [](const Trial& t) { return t.id == "~bearing" && t.accepted; });
   ASSERT_NE(lobes, result.trials.end());
-  const Bench& bench = search.bench();
-  ASSERT_EQ(bench.terms.size(), 1u);
-  const Term& term = bench.terms[0];
-  EXPECT_GE(lobes->integrated_log_p, bench.log_p(*term.candidate, lobes->gain / 1.1, term.columns.cols(), true) - 0.1);
+  const ModelState& state = search.state();
+  ASSERT_EQ(state.terms.size(), 1u);
+  const Term& term = state.terms[0];
+  EXPECT_GE(lobes->marginal_log_p, state.log_p(*term.candidate, lobes->gain / 1.1, term.columns.cols(), true) - 0.1);
 }
 
 // A swing of the level from row to row is gone from longer rows, an offset is not.
-TEST(FarRows, KeepWhatChangesLittleWithinThem) {
+TEST(LongRangeRows, KeepWhatChangesLittleWithinThem) {
   const auto world = world_of(varied(21, 3000));
   const Problem problem = problem_of(world, Eigen::VectorXd::Zero(3000), causes_of(world));
   Options options;
   options.rows.way = 0.2;
-  const Bench bench(problem, options);
-  Eigen::MatrixXd offset(bench.rows().size(), 1), swing = offset;
-  const noise::Sites& sites = bench.field().sites();
+  const ModelState state(problem, options);
+  Eigen::MatrixXd offset(state.rows().size(), 1), swing = offset;
+  const noise::Sites& sites = state.field().sites();
   for (Index i = 0; i < offset.rows(); ++i) {
     offset(i, 0) = sites.radio[static_cast<std::size_t>(i)] == 0;
     swing(i, 0) = i % 2 ? 1 : -1;
   }
   const auto kept = [&](const Eigen::MatrixXd& columns) {
-    return bench.far().kept({bench.y(), bench.base(), columns, bench.fit.covariance}, bench.field());
+    return state.far().kept({state.y(), state.base(), columns, state.fit.covariance}, state.field());
   };
   EXPECT_GT(kept(offset), 0.6);
   EXPECT_LT(kept(swing), 0.3);

@@ -18,16 +18,16 @@ TEST(Merge, TwoHalvesOfOneWallBecomeTheWall) {
   const Eigen::VectorXd whole = Eigen::Vector4d(12, 8, 5, 0.35);
   const Eigen::VectorXd effect = -scaled_to(world, wall.columns(whole), 400);
   const Problem problem = problem_of(world, effect, causes);
-  Bench bench(problem, {});
-  score(bench);
+  ModelState state(problem, {});
+  score(state);
   const double x = 1.25 * std::cos(0.35), y = 1.25 * std::sin(0.35);
-  bench.terms.push_back(term_at(bench, "unmapped_wall", Eigen::Vector4d(12 - x, 8 - y, 2.5, 0.35)));
-  bench.terms.push_back(term_at(bench, "unmapped_wall", Eigen::Vector4d(12 + x, 8 + y, 2.5, 0.35)));
-  bench.refit();
-  ASSERT_TRUE(merge_pieces(bench, "place"));
-  ASSERT_EQ(bench.terms.size(), 1u);
-  const Eigen::VectorXd& found = bench.terms[0].theta;
-  EXPECT_EQ(bench.terms[0].candidate->id, "unmapped_wall");
+  state.terms.push_back(term_at(state, "unmapped_wall", Eigen::Vector4d(12 - x, 8 - y, 2.5, 0.35)));
+  state.terms.push_back(term_at(state, "unmapped_wall", Eigen::Vector4d(12 + x, 8 + y, 2.5, 0.35)));
+  state.refit();
+  ASSERT_TRUE(merge_pieces(state, "place"));
+  ASSERT_EQ(state.terms.size(), 1u);
+  const Eigen::VectorXd& found = state.terms[0].theta;
+  EXPECT_EQ(state.terms[0].candidate->id, "unmapped_wall");
   EXPECT_LT(std::hypot(found[0] - 12, found[1] - 8), 0.5);
   EXPECT_NEAR(found[2], 5, 1);
 }
@@ -39,12 +39,12 @@ TEST(Merge, TwoWallsStayTwo) {
   const Eigen::VectorXd one = Eigen::Vector4d(6, 5, 4, 0), other = Eigen::Vector4d(18, 10, 4, M_PI / 2);
   const Eigen::VectorXd effect = -scaled_to(world, wall.columns(one), 150) - scaled_to(world, wall.columns(other), 150);
   const Problem problem = problem_of(world, effect, causes);
-  Bench bench(problem, {});
-  score(bench);
-  bench.terms = {term_at(bench, "unmapped_wall", one), term_at(bench, "unmapped_wall", other)};
-  bench.refit();
-  EXPECT_FALSE(merge_pieces(bench, "place"));
-  EXPECT_EQ(bench.terms.size(), 2u);
+  ModelState state(problem, {});
+  score(state);
+  state.terms = {term_at(state, "unmapped_wall", one), term_at(state, "unmapped_wall", other)};
+  state.refit();
+  EXPECT_FALSE(merge_pieces(state, "place"));
+  EXPECT_EQ(state.terms.size(), 2u);
 }
 
 }  // namespace

@@ -52,26 +52,26 @@ TEST(LogEffective, IsTheNumberOfAtomsThatAreIndependentAndOneOfEqualAtoms) {
   Candidate c;
   for (const int width : {1, 2}) {
     c.width = width;
-    const UnitAtoms apart(noise::Sheet::Identity(400, 60 * width), width);
-    EXPECT_NEAR(log_effective(c, apart, nulls), std::log(60), 0.15) << width;
+    const OrthonormalAtoms apart(noise::Sheet::Identity(400, 60 * width), width);
+    EXPECT_NEAR(log_effective_tests(c, apart, nulls), std::log(60), 0.15) << width;
   }
   c.width = 1;
   noise::Sheet same = noise::Sheet::Zero(400, 60);
   same.row(0).setOnes();
-  const UnitAtoms equal(same, 1);
-  EXPECT_NEAR(log_effective(c, equal, nulls), 0, 0.1);
+  const OrthonormalAtoms equal(same, 1);
+  EXPECT_NEAR(log_effective_tests(c, equal, nulls), 0, 0.1);
   c.sign = -1;
-  EXPECT_NEAR(log_effective(c, equal, nulls), 0, 0.1);
+  EXPECT_NEAR(log_effective_tests(c, equal, nulls), 0, 0.1);
 }
 
 // As a decomposition of each atom tells it, one with a column too many among them.
-TEST(UnitAtoms, HaveTheProjectionsOfTheirAtoms) {
+TEST(OrthonormalAtoms, HaveTheProjectionsOfTheirAtoms) {
   constexpr Index width = 3, atoms = 5;
   noise::Sheet columns = normals(200, width * atoms, 11);
   columns.col(5) = columns.col(4) - 0.5f * columns.col(3);
   columns.col(7) += 20 * columns.col(6);
   const noise::Sheet x = normals(200, 4, 12);
-  const Eigen::MatrixXf along = UnitAtoms(columns, width).along(x);
+  const Eigen::MatrixXf along = OrthonormalAtoms(columns, width).along(x);
   for (Index k = 0; k < atoms; ++k) {
     const Eigen::MatrixXd atom = columns.middleCols(k * width, k == 1 ? 2 : width).cast<double>();
     const Eigen::MatrixXd explained = atom * atom.colPivHouseholderQr().solve(x.cast<double>());
@@ -87,7 +87,7 @@ TEST(Climbed, FindsTheTopInsideItsBoundsAndLeavesFixedEntriesAlone) {
   c.lower = Eigen::Vector3d(-5, 0, -5);
   c.upper = Eigen::Vector3d(5, 9, 2);
   c.step = Eigen::Vector3d(0.5, 0, 0.5);
-  const auto [theta, value] = climbed(c, Eigen::Vector3d(3, 7, -3), 400, [](const Eigen::VectorXd& t) {
+  const auto [theta, value] = local_search(c, Eigen::Vector3d(3, 7, -3), 400, [](const Eigen::VectorXd& t) {
     return 10 - std::pow(t[0] - 1, 2) - std::pow(t[2] - 4, 2) - std::pow(t[1] - 2, 2);
   });
   EXPECT_NEAR(theta[0], 1, 0.05);
@@ -105,7 +105,7 @@ TEST(Climbed, HandsOnWhatACandidateThrows) {
     if (++calls > 3) throw std::runtime_error("no such place");
     return calls;
   };
-  EXPECT_THROW(climbed(c, Eigen::VectorXd::Constant(1, 2), 50, value), std::runtime_error);
+  EXPECT_THROW(local_search(c, Eigen::VectorXd::Constant(1, 2), 50, value), std::runtime_error);
 }
 
 // Tops of heights 1, 2, 4 and 3 at 1, 3, 5 and 7, and how often each was looked at.
@@ -138,8 +138,8 @@ std::vector<Eigen::VectorXd> starting_at(const std::vector<double>& places) {
 
 TEST(Raced, TheBetterHalfGoesOnWithTwiceAsManyEvaluations) {
   std::array<Tops, 3> laps;
-  const Top top = raced(along_a_line(), starting_at({1.1, 3.1, 5.1, 7.1}),
-                        {std::ref(laps[0]), std::ref(laps[1]), std::ref(laps[2])});
+  const Optimum top = successive_halving(along_a_line(), starting_at({1.1, 3.1, 5.1, 7.1}),
+                                         {std::ref(laps[0]), std::ref(laps[1]), std::ref(laps[2])});
   EXPECT_EQ(laps[0].looked, (std::array{11, 11, 11, 11}));
   EXPECT_EQ(laps[1].looked, (std::array{0, 0, 21, 21}));
   EXPECT_EQ(laps[2].looked, (std::array{0, 0, 41, 0}));
@@ -149,7 +149,7 @@ TEST(Raced, TheBetterHalfGoesOnWithTwiceAsManyEvaluations) {
 
 TEST(Raced, TwoThatMeetGoOnAsOne) {
   std::array<Tops, 2> laps;
-  raced(along_a_line(), starting_at({4.99, 5.01, 1, 3}), {std::ref(laps[0]), std::ref(laps[1])});
+  successive_halving(along_a_line(), starting_at({4.99, 5.01, 1, 3}), {std::ref(laps[0]), std::ref(laps[1])});
   EXPECT_EQ(laps[0].looked, (std::array{11, 11, 22, 0}));
   EXPECT_EQ(laps[1].looked, (std::array{0, 0, 21, 0}));
 }
@@ -167,12 +167,12 @@ TEST(Refined, KeepsAPlaceThatOneReadingARowLedAwayFrom) {
   thing.sketch = [&, columns](const Eigen::VectorXd& theta) { return rows.mean(columns(theta + at - elsewhere)); };
   Problem problem = plain;
   problem.candidates = causes;
-  Bench bench(problem, {});
-  const Stand stand = bench.stand(bench.design());
-  for (const Lead& lead : leads(bench, stand)) {
+  ModelState state(problem, {});
+  const WhitenedModel model = state.whitened_model(state.design());
+  for (const ScoredCandidate& lead : scored_candidates(state, model)) {
     if (lead.candidate().id != "obstacle") continue;
-    const Lead best = refined(bench, stand, lead, false);
-    EXPECT_GE(best.gain, stand.gain(bench.columns_of(lead.candidate(), at)) - 1e-9);
+    const ScoredCandidate best = refined(state, model, lead, false);
+    EXPECT_GE(best.gain, model.gain(state.columns_of(lead.candidate(), at)) - 1e-9);
     EXPECT_LT((best.theta - at).head<2>().norm(), 0.5) << best.theta.transpose();
   }
 }
@@ -182,25 +182,26 @@ TEST(Refined, KeepsAPlaceThatOneReadingARowLedAwayFrom) {
 TEST(Compared, AColumnThatWasObservedComesBeforeTimeWhereItDoesAsWellForItsNumberOfFunctions) {
   const auto world = world_of(varied(5, 900));
   const Problem problem = problem_of(world, Eigen::VectorXd::Zero(900), {});
-  Bench bench(problem, {});
-  const Stand stand = bench.stand(bench.design());
-  std::vector<Lead> all = leads(bench, stand);
-  const auto lead_of = [&](const std::string& id) -> Lead& {
-    return *std::find_if(all.begin(), all.end(), [&](const Lead& lead) { return lead.candidate().id == id; });
+  ModelState state(problem, {});
+  const WhitenedModel model = state.whitened_model(state.design());
+  std::vector<ScoredCandidate> all = scored_candidates(state, model);
+  const auto lead_of = [&](const std::string& id) -> ScoredCandidate& {
+    return *std::find_if(all.begin(), all.end(),
+                         [&](const ScoredCandidate& lead) { return lead.candidate().id == id; });
   };
-  Lead swing = lead_of("chirp~time"), bend = lead_of("bend~battery");
+  ScoredCandidate swing = lead_of("chirp~time"), bend = lead_of("bend~battery");
   swing.gain = 60, swing.evidence = 20, bend.evidence = 19;
   for (const double more : {-0.1, 0.1}) {
     bend.gain = 60 - 2 * (2 + 1) + 2 * (1 + 1) + more;
-    const auto pool = compared(bench, stand, {swing, bend}, {}, [](const Candidate&) { return true; });
+    const auto pool = compared(state, model, {swing, bend}, {}, [](const Candidate&) { return true; });
     EXPECT_EQ(pool[0].candidate().id, more > 0 ? "bend~battery" : "chirp~time");
   }
   // A column's own smooth was sought along no grid.
-  Lead smooth = lead_of("~temperature");
+  ScoredCandidate smooth = lead_of("~temperature");
   smooth.evidence = 19;
   for (const double more : {-0.1, 0.1}) {
     smooth.gain = 60 - 2 * (2 + 1) + 2 * static_cast<double>(smooth.columns.cols()) + more;
-    const auto pool = compared(bench, stand, {swing, smooth}, {}, [](const Candidate&) { return true; });
+    const auto pool = compared(state, model, {swing, smooth}, {}, [](const Candidate&) { return true; });
     EXPECT_EQ(pool[0].candidate().id, more > 0 ? "~temperature" : "chirp~time");
   }
 }
@@ -229,21 +230,21 @@ TEST(StudentMixture, DrawsWhatItsDensitySays) {
 TEST(Weights, AreWorthAsManyAsHaveThem) {
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(300);
   weights.segment(20, 80).setConstant(0.25);
-  EXPECT_NEAR(worth(weights), 80, 1e-9);
-  EXPECT_EQ(softened(weights), weights / weights.sum()) << "worth enough";
+  EXPECT_NEAR(effective_sample_size(weights), 80, 1e-9);
+  EXPECT_EQ(tempered(weights), weights / weights.sum()) << "worth enough";
 }
 
 // A normal law seen by draws that are spread much wider: its variance doubles with each root.
 TEST(Weights, ErrToTheWideSideWhereFewHaveAll) {
   const Eigen::ArrayXd at = Eigen::ArrayXd::LinSpaced(1001, -50, 50);
   const Eigen::VectorXd weights = (-at.square() / 2 / 0.25).exp();
-  EXPECT_LT(worth(weights), 20);
-  const Eigen::VectorXd soft = softened(weights);
+  EXPECT_LT(effective_sample_size(weights), 20);
+  const Eigen::VectorXd soft = tempered(weights);
   EXPECT_NEAR(soft.sum(), 1, 1e-12);
-  EXPECT_GE(worth(soft), 40);
+  EXPECT_GE(effective_sample_size(soft), 40);
   EXPECT_NEAR(soft.dot((at * at).matrix()), 0.25 * 8, 1e-6);
   const Eigen::VectorXd one = Eigen::VectorXd::Unit(300, 7);
-  EXPECT_EQ(softened(one), one) << "nothing else has any";
+  EXPECT_EQ(tempered(one), one) << "nothing else has any";
 }
 
 TEST(Weights, DrawEachAsOftenAsTheyAsk) {
@@ -257,15 +258,15 @@ TEST(Weights, DrawEachAsOftenAsTheyAsk) {
 }
 
 // Row by row the same as the whole column at once.
-TEST(Thin, GainsWhatTheWholeColumnGains) {
+TEST(SparseColumns, GainsWhatTheWholeColumnGains) {
   const auto world = world_of(varied(5, 900));
   const Problem problem = problem_of(world, Eigen::VectorXd::Zero(900), causes_of(world));
-  Bench bench(problem, {});
-  const Stand stand = bench.stand(bench.design());
-  Thin thin(bench, stand);
+  ModelState state(problem, {});
+  const WhitenedModel model = state.whitened_model(state.design());
+  SparseColumns thin(state, model);
   const Stream stream(8);
   for (uint64_t k = 0; k < 20; ++k) {
-    Eigen::MatrixXd column = Eigen::MatrixXd::Zero(bench.rows().size(), 1);
+    Eigen::MatrixXd column = Eigen::MatrixXd::Zero(state.rows().size(), 1);
     thin.clear();
     for (uint64_t j = 0; j < 12; ++j) {
       const auto row = static_cast<Index>(stream.uniform(k, 2 * j) * static_cast<double>(column.rows()));
@@ -273,15 +274,15 @@ TEST(Thin, GainsWhatTheWholeColumnGains) {
       column(row, 0) += value;
       thin.add(row, value);
     }
-    const Eigen::VectorXd left = stand.at.basis.rest(stand.whitener(column));
+    const Eigen::VectorXd left = model.at.basis.rest(model.whitener(column));
     EXPECT_NEAR(thin.length(), left.squaredNorm(), 1e-9 * left.squaredNorm());
-    EXPECT_NEAR(thin.along(), left.dot(stand.at.residual), 1e-9 * left.norm() * stand.at.residual.norm());
-    EXPECT_NEAR(thin.gain(), thin.along() > 0 ? stand.gain(column) : 0, 1e-6);
+    EXPECT_NEAR(thin.along(), left.dot(model.at.residual), 1e-9 * left.norm() * model.at.residual.norm());
+    EXPECT_NEAR(thin.gain(), thin.along() > 0 ? model.gain(column) : 0, 1e-6);
   }
 }
 
 // What rows of 2.5 m tell of a thing, of what single readings do: half, and seven tenths once they end at its edges.
-TEST(Bench, RowsThatEndAtTheEdgesOfAThingTellOfIt) {
+TEST(ModelState, RowsThatEndAtTheEdgesOfAThingTellOfIt) {
   const auto world = world_of(varied(12, 4000));
   const auto causes = causes_of(world);
   const Candidate& thing = causes.back();
@@ -290,39 +291,39 @@ TEST(Bench, RowsThatEndAtTheEdgesOfAThingTellOfIt) {
   Options long_rows, single;
   long_rows.rows.time = 5, long_rows.rows.way = 2.5;
   single.rows.way = -1;
-  Bench bench(problem, long_rows), readings(problem, single);
-  const auto told = [&](const Bench& b) {
-    const Stand stand = b.stand(b.design(), readings.fit.covariance);
-    return stand.at.basis.rest(stand.whitener(b.columns_of(thing, at))).squaredNorm();
+  ModelState state(problem, long_rows), readings(problem, single);
+  const auto told = [&](const ModelState& b) {
+    const WhitenedModel model = b.whitened_model(b.design(), readings.fit.covariance);
+    return model.at.basis.rest(model.whitener(b.columns_of(thing, at))).squaredNorm();
   };
-  ASSERT_LT(3 * bench.rows().size(), readings.rows().size());
-  const double all = told(readings), before = told(bench);
-  const Index rows = bench.rows().size(), more = bench.end_rows_at(thing, at);
+  ASSERT_LT(3 * state.rows().size(), readings.rows().size());
+  const double all = told(readings), before = told(state);
+  const Index rows = state.rows().size(), more = state.end_rows_at(thing, at);
   EXPECT_GT(more, 5);
-  EXPECT_EQ(bench.rows().size(), rows + more);
+  EXPECT_EQ(state.rows().size(), rows + more);
   EXPECT_LT(before, 0.55 * all);
-  EXPECT_GT(told(bench), 0.68 * all);
-  EXPECT_EQ(bench.end_rows_at(thing, at), 0);
-  for (const Entry& entry : bench.entries()) EXPECT_EQ(entry.atoms->rows(), rows + more);
+  EXPECT_GT(told(state), 0.68 * all);
+  EXPECT_EQ(state.end_rows_at(thing, at), 0);
+  for (const Entry& entry : state.entries()) EXPECT_EQ(entry.atoms->rows(), rows + more);
 }
 
 // Of what is fitted by Vecchia's approximation, whatever that believes to know.
 TEST(Uncertainty, IsTheScatterOfTheCoefficientsUnderTheCovarianceItself) {
   const auto world = world_of(varied(5, 1500));
   const Problem problem = problem_of(world, Eigen::VectorXd::Zero(1500), {});
-  Bench bench(problem, {});
-  const Eigen::MatrixXd design = bench.design();
-  const Stand stand = bench.stand(design);
-  const Index rows = bench.rows().size();
+  ModelState state(problem, {});
+  const Eigen::MatrixXd design = state.design();
+  const WhitenedModel model = state.whitened_model(design);
+  const Index rows = state.rows().size();
   const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(rows, rows),
-                        covariance = noise::covariance_of_sums(bench.field().sites(), bench.fit.covariance, unit),
-                        told = stand.at.basis.q.transpose() * stand.whitener(unit);
+                        covariance = noise::covariance_of_sums(state.field().sites(), state.fit.covariance, unit),
+                        told = model.at.basis.q.transpose() * model.whitener(unit);
   Eigen::MatrixXd fitted(design.cols(), rows);
-  for (Index i = 0; i < rows; ++i) fitted.col(i) = stand.at.basis.coefficients(told.col(i), design.cols());
+  for (Index i = 0; i < rows; ++i) fitted.col(i) = model.at.basis.coefficients(told.col(i), design.cols());
   const Eigen::MatrixXd scatter = fitted * covariance * fitted.transpose();
-  const Eigen::MatrixXd with_noise = uncertainty_of(bench, design);
-  bench.fit.curvature *= 1e12;  // nothing else that the noise may be
-  const Eigen::MatrixXd known = uncertainty_of(bench, design);
+  const Eigen::MatrixXd with_noise = coefficient_covariance(state, design);
+  state.fit.curvature *= 1e12;  // nothing else that the noise may be
+  const Eigen::MatrixXd known = coefficient_covariance(state, design);
   EXPECT_LT((known - scatter).norm(), 1e-4 * scatter.norm());
   EXPECT_GT(with_noise(0, 0), 1.002 * known(0, 0));
 }
@@ -330,8 +331,8 @@ TEST(Uncertainty, IsTheScatterOfTheCoefficientsUnderTheCovarianceItself) {
 TEST(RefinementCharge, OfAWallIsAFewNatsAndOfAStepLess) {
   const auto world = world_of(varied(16, 3000));
   const Problem problem = problem_of(world, Eigen::VectorXd::Zero(3000), causes_of(world));
-  Bench bench(problem, {});
-  const double wall = refinement_charge(bench, "unmapped_wall", 16), step = refinement_charge(bench, "step", 16);
+  ModelState state(problem, {});
+  const double wall = refinement_null(state, "unmapped_wall", 16), step = refinement_null(state, "step", 16);
   RecordProperty("wall", std::to_string(wall));
   RecordProperty("step", std::to_string(step));
   // Of 16 draws: the standard error near the lower quartile is sqrt(0.75 / (16 x 0.25)) = 0.43 nats.

@@ -58,8 +58,8 @@ void count(const inference::Result& result, uint64_t seed, const std::string& ca
       "\n  " + std::to_string(seed) + ": " + strongest + (alike > 1 ? " in pieces |" : " |") + other + smooth;
   for (const inference::Trial& trial : result.trials) {
     if (!trial.accepted)
-      tally.misses += fmt::format("; {} gain {:.0f} log p {:.1f}, {:.1f}", trial.id, trial.gain, trial.log_p,
-                                  trial.integrated_log_p);
+      tally.misses +=
+          fmt::format("; {} gain {:.0f} log p {:.1f}, {:.1f}", trial.id, trial.gain, trial.log_p, trial.marginal_log_p);
   }
 }
 

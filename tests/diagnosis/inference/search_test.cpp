@@ -308,22 +308,22 @@ TEST(Search, TheAdvisedReadingsRaiseSeparabilityAsPredicted) {
   ASSERT_EQ(ids(result), std::vector<std::string>{"tx_offset"});
   const Problem whole_problem = problem_of(world, effect, causes_of(world));
   const Search whole(whole_problem);
-  const auto& term = search.bench().terms[0];
+  const auto& term = search.state().terms[0];
   const Plan plan{"drive on", next.readings, next.base, causes_of(next)};
-  const double predicted = Planned(search.bench(), plan).separability(term, {"antenna_tx"})[0];
+  const double predicted = ExpectedSeparability(search.state(), plan).separability(term, {"antenna_tx"})[0];
   // D with the readings at hand, and once those of the plan are there too: the same effect and noise in both.
-  const auto separability = [&](const Bench& bench, const World& of) {
-    const Stand rest = bench.stand(bench.base(), search.bench().fit.covariance);
+  const auto separability = [&](const ModelState& state, const World& of) {
+    const WhitenedModel rest = state.whitened_model(state.base(), search.state().fit.covariance);
     const Eigen::VectorXd planted = causes_of(of)[0].columns(term.theta) * result.findings[0].coefficients;
-    const Eigen::VectorXd e = rest.at.basis.rest(rest.whitener(bench.rows().mean(planted)));
+    const Eigen::VectorXd e = rest.at.basis.rest(rest.whitener(state.rows().mean(planted)));
     double least = e.squaredNorm();
-    for (const Entry& entry : bench.entries()) {
+    for (const Entry& entry : state.entries()) {
       if (entry.candidate->id == "antenna_tx") least -= gains(*entry.candidate, unit_atoms(entry, rest), e).maxCoeff();
     }
     return least;
   };
-  EXPECT_GT(predicted, 1.3 * separability(search.bench(), start));
-  EXPECT_NEAR(predicted / separability(whole.bench(), world), 1, 0.25);
+  EXPECT_GT(predicted, 1.3 * separability(search.state(), start));
+  EXPECT_NEAR(predicted / separability(whole.state(), world), 1, 0.25);
 }
 
 TEST(Search, RefusesColumnsThatDoNotFit) {

@@ -17,7 +17,7 @@ namespace {
 // A race asks one reading a row, by a world of those readings alone: the same that the whole table says of them.
 TEST(Sketch, IsTheColumnsAtTheReadingsInTheMiddleOfRows) {
   const std::filesystem::path hall = std::filesystem::path(MUSTER_SOURCE_DIR) / "worlds" / "hall";
-  const Prepared at(hall, hall / "measured_plain.csv", plugins);
+  const DiagnosisSetup at(hall, hall / "measured_plain.csv", plugins);
   const noise::Rows rows(at.problem.readings, at.options.rows);
   ASSERT_LT(2 * rows.size(), at.problem.readings.size());
   std::vector<Eigen::Index> middles;
@@ -36,8 +36,8 @@ TEST(Sketch, IsTheColumnsAtTheReadingsInTheMiddleOfRows) {
   EXPECT_GT(sketched, 3);
 }
 
-const inference::Entry& sought(const inference::Bench& bench, const std::string& id) {
-  for (const inference::Entry& entry : bench.entries()) {
+const inference::Entry& sought(const inference::ModelState& state, const std::string& id) {
+  for (const inference::Entry& entry : state.entries()) {
     if (entry.candidate->id == id) return entry;
   }
   throw std::invalid_argument(id + " is not sought");
@@ -45,7 +45,7 @@ const inference::Entry& sought(const inference::Bench& bench, const std::string&
 
 struct Hall {
   const std::filesystem::path world = std::filesystem::path(MUSTER_SOURCE_DIR) / "worlds" / "hall";
-  const Prepared at{world, world / "measured_plain.csv", plugins};
+  const DiagnosisSetup at{world, world / "measured_plain.csv", plugins};
 };
 
 TEST(Near, AsksFewReadingsForTheColumnsOfAll) {
@@ -87,28 +87,28 @@ TEST(Near, AsksAllOfWhatConcernsAReadingElsewhere) {
 
 TEST(EndedRows, AreSketchedAsTheRowsThatTheyAreOf) {
   const Hall hall;
-  inference::Bench bench(hall.at.problem, hall.at.options);
-  const Eigen::Index rows = bench.rows().size();
-  const inference::Candidate& c = *sought(bench, "effect.unmapped_wall").candidate;
+  inference::ModelState state(hall.at.problem, hall.at.options);
+  const Eigen::Index rows = state.rows().size();
+  const inference::Candidate& c = *sought(state, "effect.unmapped_wall").candidate;
   const Eigen::VectorXd& theta = c.grid[c.grid.size() / 2];
-  const Eigen::MatrixXd before = bench.sketch_of(c, theta);
-  ASSERT_GT(bench.end_rows_at(c, theta), 3);
-  const Eigen::MatrixXd after = bench.sketch_of(c, theta), exact = bench.columns_of(c, theta);
-  ASSERT_EQ(after.rows(), bench.rows().size());
+  const Eigen::MatrixXd before = state.sketch_of(c, theta);
+  ASSERT_GT(state.end_rows_at(c, theta), 3);
+  const Eigen::MatrixXd after = state.sketch_of(c, theta), exact = state.columns_of(c, theta);
+  ASSERT_EQ(after.rows(), state.rows().size());
   EXPECT_EQ(after.col(0).maxCoeff(), before.col(0).maxCoeff());
   // Whole rows are where their middles are; of an ended one each part is told what the whole was.
   const Eigen::ArrayXd off = (after - exact).col(0).cwiseAbs();
-  EXPECT_LE((off > 0.01).count(), 2 * (bench.rows().size() - rows));
-  const inference::Stand stand = bench.stand(bench.design());
-  inference::Thin tally(bench, stand);
-  EXPECT_GT(bench.proposals(c, tally).size(), 10u);
+  EXPECT_LE((off > 0.01).count(), 2 * (state.rows().size() - rows));
+  const inference::WhitenedModel stand = state.whitened_model(state.design());
+  inference::SparseColumns tally(state, stand);
+  EXPECT_GT(state.proposals(c, tally).size(), 10u);
 }
 
 // A radio at the edge of what is known may stand beyond it.
 TEST(Candidates, StartWithinTheBoundsThatTheyAreSoughtIn) {
   const Scratch scratch;
   const auto world = sealed_case(scratch, "--mix clean", 1);
-  const Prepared at(world, world / "measured.csv", plugins);
+  const DiagnosisSetup at(world, world / "measured.csv", plugins);
   int refinable = 0;
   for (const inference::Candidate& c : at.problem.candidates) {
     if (!c.refinable()) continue;
@@ -125,9 +125,9 @@ TEST(Candidates, StartWithinTheBoundsThatTheyAreSoughtIn) {
 TEST(Candidates, ARadioMovedByLessThanATenthOfAMetreIsWhereTheMapHasIt) {
   const Scratch scratch;
   const auto world = sealed_case(scratch, "--mix clean", 1);
-  const Prepared at(world, world / "measured.csv", plugins);
-  const inference::Bench bench(at.problem, at.options);
-  const inference::Candidate& c = *sought(bench, "effect.tx_misplaced").candidate;
+  const DiagnosisSetup at(world, world / "measured.csv", plugins);
+  const inference::ModelState state(at.problem, at.options);
+  const inference::Candidate& c = *sought(state, "effect.tx_misplaced").candidate;
   const Eigen::VectorXd &start = c.grid[0], &opposite = c.grid[4], mapped = (start + opposite) / 2;
   EXPECT_NEAR((start - mapped).norm(), 0.25, 1e-9);
   EXPECT_EQ(c.admitted(start), 1);
@@ -140,16 +140,17 @@ TEST(Candidates, ARadioMovedByLessThanATenthOfAMetreIsWhereTheMapHasIt) {
 TEST(Candidates, ARadioIsSoughtElsewhereAlone) {
   const Scratch scratch;
   const auto world = made_case(scratch, "--seed 86 --rows 2000 20000", 36);
-  const Prepared at(world, world / "measured.csv", plugins);
-  inference::Bench bench(at.problem, at.options);
-  const inference::Stand stand = bench.stand(bench.design());
-  const inference::Entry& entry = sought(bench, "effect.tx_misplaced");
+  const DiagnosisSetup at(world, world / "measured.csv", plugins);
+  inference::ModelState state(at.problem, at.options);
+  const inference::WhitenedModel stand = state.whitened_model(state.design());
+  const inference::Entry& entry = sought(state, "effect.tx_misplaced");
   const inference::Candidate& c = *entry.candidate;
-  inference::UnitAtoms unit = inference::unit_atoms(entry, stand);
-  bench.log_atoms(entry, unit);
+  inference::OrthonormalAtoms unit = inference::unit_atoms(entry, stand);
+  state.log_effective_tests(entry, unit);
   for (const std::size_t k : {std::size_t{0}, c.grid.size() / 2}) {
-    const inference::Lead from{&entry, c.grid[k], entry.atom(static_cast<Eigen::Index>(k)), 0, 0, 0, false, {}};
-    EXPECT_EQ(c.admitted(inference::refined(bench, stand, from, false).theta), 1);
+    const inference::ScoredCandidate from{&entry, c.grid[k], entry.atom(static_cast<Eigen::Index>(k)), 0, 0, 0,
+                                          false,  {}};
+    EXPECT_EQ(c.admitted(inference::refined(state, stand, from, false).theta), 1);
   }
 }
 

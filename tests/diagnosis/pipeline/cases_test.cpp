@@ -18,7 +18,7 @@ namespace {
 
 std::string told(const Diagnosis& d) {
   std::string text;
-  for (const FoundCause& c : d.causes)
+  for (const CauseEstimate& c : d.causes)
     text += c.id + ' ' + c.label + (c.status == inference::Status::named ? "\n" : " (suspected)\n");
   for (const Unexplained& u : d.unexplained) text += '~' + u.covariate + '\n';
   return text;
@@ -45,7 +45,7 @@ TEST_P(SealedCase, IsNamedAndTheExtendedWorldIsSilent) {
   EXPECT_EQ(found.causes[0].id, std::string("effect.") + effect);
   EXPECT_STREQ(found.verdict(), "extended") << told(found);
   int named = 0;
-  for (const FoundCause& c : found.causes) named += c.status == inference::Status::named;
+  for (const CauseEstimate& c : found.causes) named += c.status == inference::Status::named;
   EXPECT_EQ(named, 1) << told(found);
   const Loop loop = closed_loop(found, world, world / "measured.csv", scratch / "extended", plugins);
   EXPECT_LT(loop.mean_difference, 0.1);
@@ -74,10 +74,10 @@ TEST(SealedOffset, HasTheRivalsThatTheReadingsLeaveOpen) {
   const auto world = made_case(scratch, "--seed 91 --rows 2000 20000", 13);
   const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
   expect_only("effect.tx_offset", found);
-  std::set<std::string> rivals;
-  for (const inference::Rival& r : found.causes.at(0).rivals) rivals.insert(r.id);
-  EXPECT_EQ(rivals.count("effect.antenna_tx"), 0u);
-  EXPECT_EQ(rivals.count("effect.obstacle"), 1u);
+  std::set<std::string> alternatives;
+  for (const inference::Alternative& r : found.causes.at(0).alternatives) alternatives.insert(r.id);
+  EXPECT_EQ(alternatives.count("effect.antenna_tx"), 0u);
+  EXPECT_EQ(alternatives.count("effect.obstacle"), 1u);
 }
 
 // A radio elsewhere beside another cause: all is judged again with the radio in its place, and yet the error told is
@@ -89,7 +89,7 @@ TEST(SealedPair, IsMeasuredFromTheWorldAsGiven) {
       3);
   const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
   ASSERT_EQ(found.causes.size(), 2u) << told(found);
-  const FoundCause& moved = found.causes[0];
+  const CauseEstimate& moved = found.causes[0];
   EXPECT_EQ(moved.id, "effect.tx_misplaced");
   EXPECT_EQ(found.causes[1].id, "effect.dual_slope");
   ASSERT_TRUE(moved.put_right_first);
@@ -151,7 +151,7 @@ TEST(SealedWall, IsFoundInItsPlace) {
   const auto world = sealed_case(scratch, "--mix one --lambda 150 --effects unmapped_wall", 9);
   const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
   ASSERT_TRUE(found.named()) << told(found);
-  const FoundCause& first = found.causes[0];
+  const CauseEstimate& first = found.causes[0];
   ASSERT_TRUE(first.id == "effect.unmapped_wall" || first.id == "effect.obstacle") << told(found);
   std::map<std::string, double> at;
   for (const CauseValue& v : first.values) at[v.name] = v.value;
@@ -187,7 +187,7 @@ TEST(SealedFloor, IsFoundBesideWhatHidIt) {
   const auto world = made_case(scratch, "--seed 95 --rows 2000 20000 --mix three --lambda 50,400", 5);
   const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
   std::set<std::string> ids;
-  for (const FoundCause& c : found.causes) {
+  for (const CauseEstimate& c : found.causes) {
     ids.insert(c.id);
     if (c.id != "effect.power_steps") continue;  // of which the third of four is right
     EXPECT_EQ(c.title, "powers are not as set: by {error1}, {error2}, {error4} from the lowest up");
@@ -338,7 +338,7 @@ TEST(Directions, GoOnBeyondHalfATurn) {
   const Scratch scratch;
   const auto world = made_case(scratch, "--seed 84 --rows 2000 20000", 104);
   const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
-  for (const FoundCause& cause : found.causes) {
+  for (const CauseEstimate& cause : found.causes) {
     if (cause.id != "effect.body_shadow") continue;
     const auto direction = std::find_if(cause.values.begin(), cause.values.end(),
                                         [](const CauseValue& v) { return v.name == "direction"; });

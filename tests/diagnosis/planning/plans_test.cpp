@@ -21,8 +21,8 @@ constexpr double faces[] = {0.3, -0.5};  // rad
 constexpr int moments = 30;
 
 // By turns from west and east, a row a second; the robot drives along y = 4 and looks where it drives.
-SeenRows driven(bool robot_sends = false) {
-  SeenRows seen;
+RowSummary driven(bool robot_sends = false) {
+  RowSummary seen;
   seen.radios = {"west", "east", "robot"};
   constexpr Index rows = 2 * moments;
   seen.tx_at.resize(3, rows);
@@ -48,13 +48,13 @@ SeenRows driven(bool robot_sends = false) {
   return seen;
 }
 
-FoundCause about(const std::string& radio) {
-  FoundCause c;
+CauseEstimate about(const std::string& radio) {
+  CauseEstimate c;
   c.row = radio;
   return c;
 }
 
-noise::Readings plan(const SeenRows& seen, const std::string& says, const std::vector<FoundCause>& found = {}) {
+noise::Readings plan(const RowSummary& seen, const std::string& says, const std::vector<CauseEstimate>& found = {}) {
   for (const PlannedReadings& p : planned_readings(seen, found)) {
     if (p.say.find(says) != std::string::npos) return p.readings;
   }
@@ -76,7 +76,7 @@ bool stations_stay(const noise::Readings& r) {
 
 TEST(Plans, MakeNoTwoReadingsOfALinkAtOnceAndNoneBeforeTheData) {
   for (const bool robot_sends : {false, true}) {
-    const SeenRows seen = driven(robot_sends);
+    const RowSummary seen = driven(robot_sends);
     const auto plans = planned_readings(seen, {});
     EXPECT_EQ(plans.size(), 7u);
     for (const PlannedReadings& p : plans) {
@@ -117,7 +117,7 @@ TEST(Plans, LetBothEndsSendWhereOneDid) {
     EXPECT_EQ(down, 2 * moments);
     EXPECT_EQ(up, down);
   }
-  SeenRows already = driven();
+  RowSummary already = driven();
   std::swap(already.tx[0], already.rx[0]);
   EXPECT_EQ(plan(already, "both ends").size(), 0);
 }
@@ -125,7 +125,7 @@ TEST(Plans, LetBothEndsSendWhereOneDid) {
 TEST(Plans, TurnOrMoveTheStationThatSomethingWasFoundAbout) {
   for (const bool robot_sends : {false, true}) {
     for (const int concerned : {west, east}) {
-      const SeenRows seen = driven(robot_sends);
+      const RowSummary seen = driven(robot_sends);
       const std::string name = seen.radios[static_cast<std::size_t>(concerned)];
       const noise::Readings turned = plan(seen, "turn " + name + " by 90 degrees", {about("robot"), about(name)});
       const noise::Readings moved = plan(seen, "move " + name, {about(name)});
@@ -152,7 +152,7 @@ TEST(Plans, TurnOrMoveTheStationThatSomethingWasFoundAbout) {
 
 // Where both ends send, a row that a station hears is no place of the station.
 TEST(Plans, KeepStationsWhereTheyAreOnLinksThatGoBothWays) {
-  SeenRows seen = driven();
+  RowSummary seen = driven();
   for (const std::size_t k : {2u, 3u, 40u, 41u}) {
     std::swap(seen.tx[k], seen.rx[k]);
     seen.tx_at.col(static_cast<Index>(k)).swap(seen.rx_at.col(static_cast<Index>(k)));
@@ -172,9 +172,9 @@ TEST(Plans, KeepStationsWhereTheyAreOnLinksThatGoBothWays) {
 }
 
 TEST(Plans, TurnTheStationOfARivalWhereWhatWasFoundIsAboutNone) {
-  FoundCause wall = about("w1");
-  wall.rivals = {{"effect.tx_offset", "radio/west", {}, 1, 2 * inference::decided},
-                 {"effect.antenna_tx", "radio/east", {}, 2, 0}};
+  CauseEstimate wall = about("w1");
+  wall.alternatives = {{"effect.tx_offset", "radio/west", {}, 1, 2 * inference::decided},
+                       {"effect.antenna_tx", "radio/east", {}, 2, 0}};
   EXPECT_GT(plan(driven(), "turn east", {wall}).size(), 0);
   EXPECT_EQ(plan(driven(), "turn west", {wall}).size(), 0);
   EXPECT_GT(plan(driven(), "turn west", {wall, about("west")}).size(), 0);
@@ -191,12 +191,12 @@ TEST(Plans, TurnTheRobotOnceAroundAtEveryPlace) {
 }
 
 TEST(Plans, GoWhereNothingWasMeasuredAndNotFarFromWhatWasFound) {
-  FoundCause found;
+  CauseEstimate found;
   found.values = {{"x", "m", 10, 1, 8, 12, -100, 100}, {"y", "m", -4, 1, -6, -2, -100, 100}};
   const noise::Readings there = plan(driven(), "nothing was measured", {found});
   ASSERT_GT(there.size(), 0);
   EXPECT_TRUE(stations_stay(there));
-  const SeenRows seen = driven();
+  const RowSummary seen = driven();
   for (Index i = 0; i < there.size(); ++i) {
     const auto at = there.rx_at.col(i).head<2>();
     EXPECT_GT((seen.rx_at.topRows<2>().colwise() - at).colwise().norm().minCoeff(), 1.5);
@@ -205,7 +205,7 @@ TEST(Plans, GoWhereNothingWasMeasuredAndNotFarFromWhatWasFound) {
 }
 
 TEST(Plans, AreNoneWherePlacesAreUnknown) {
-  SeenRows seen = driven();
+  RowSummary seen = driven();
   seen.places_known = false;
   EXPECT_TRUE(planned_readings(seen, {}).empty());
 }

@@ -19,9 +19,9 @@ inference::Problem problem_of(const Walk& walk) {
 LawTest field_tested(double decorrelation, double stated) {
   const Walk walk = drawn_of_four({.rician_k = 10}, 700, decorrelation);
   const inference::Problem problem = problem_of(walk);
-  const inference::Bench bench(problem, {});
-  ReadingField field(walk.readings, walk.residual);
-  return field_test(field, 1, {.rician_k = 10}, {3, stated}, bench);
+  const inference::ModelState state(problem, {});
+  KrigedReadings field(walk.readings, walk.residual);
+  return field_test(field, 1, {.rician_k = 10}, {3, stated}, state);
 }
 
 TEST(FieldOfShadowing, AsStatedIsLeftInPeace) {
@@ -42,11 +42,11 @@ TEST(FieldOfShadowing, AnUnusualDistanceIsMeasured) {
   EXPECT_GT(test.values[1].upper95, 8);
 }
 
-Passages passages_in(const Walk& walk, const Asked& asked) {
+Blockage passages_in(const Walk& walk, const Asked& asked) {
   const inference::Problem problem = problem_of(walk);
-  return passages_of(inference::Bench(problem, {}), asked);
+  return blockage_test(inference::ModelState(problem, {}), asked);
 }
-Passages passages_in(const Walk& walk) { return passages_in(walk, Asked::Constant(walk.residual.size(), true)); }
+Blockage passages_in(const Walk& walk) { return passages_in(walk, Asked::Constant(walk.residual.size(), true)); }
 
 TEST(PeopleOnALink, NobodyIsSeenWhereNobodyIs) {
   const Walk walk = drawn_of_four({.rician_k = 3}, 600, 1.5);  // deep fades
@@ -95,7 +95,7 @@ TEST(PeopleOnALink, BurstsOfReadingsThatAreNotAskedAreNobody) {
 TEST(PeopleOnALink, BurstsAreSeenAndMeasured) {
   Walk walk = drawn_of_four({.rician_k = 8}, 600, 1.5);
   add_bursts(walk, 11, 37, -20);
-  const Passages found = passages_in(walk);
+  const Blockage found = passages_in(walk);
   EXPECT_EQ(found.radio, 0);
   EXPECT_EQ(found.other, 9);
   EXPECT_LT(found.test.log_p, std::log(1e-6));

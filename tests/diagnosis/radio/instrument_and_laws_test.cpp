@@ -29,7 +29,7 @@ Dataset readings(const Scratch& scratch, int at_top, int before = 10) {
 
 TEST(InstrumentChecks, ReadingsThatPileUpAreAClip) {
   const Scratch scratch;
-  const Instrument found = instrument_of(readings(scratch, 40));
+  const ReceiverChecks found = receiver_checks(readings(scratch, 40));
   EXPECT_DOUBLE_EQ(found.step, 1);
   ASSERT_TRUE(found.top);
   EXPECT_DOUBLE_EQ(found.top->level, -40);
@@ -42,18 +42,18 @@ TEST(InstrumentChecks, ReadingsThatPileUpAreAClip) {
 
 TEST(InstrumentChecks, ALevelThatIsReadOftenIsNoClip) {
   const Scratch scratch;
-  EXPECT_FALSE(instrument_of(readings(scratch, 10)).top);  // no more than neighbours have
-  EXPECT_FALSE(instrument_of(readings(scratch, 14)).top);  // too few to say
+  EXPECT_FALSE(receiver_checks(readings(scratch, 10)).top);  // no more than neighbours have
+  EXPECT_FALSE(receiver_checks(readings(scratch, 14)).top);  // too few to say
 }
 
 TEST(InstrumentChecks, ASmallPileShowsBesideAllThatIsNear) {
   const Scratch scratch;
-  EXPECT_FALSE(instrument_of(readings(scratch, 27)).top);
-  EXPECT_TRUE(instrument_of(readings(scratch, 27, 3)).top);
+  EXPECT_FALSE(receiver_checks(readings(scratch, 27)).top);
+  EXPECT_TRUE(receiver_checks(readings(scratch, 27, 3)).top);
 }
 
-InstrumentCheck check_called(const Instrument& instrument, const std::string& what) {
-  for (const InstrumentCheck& c : instrument.checks)
+ReceiverCheck check_called(const ReceiverChecks& instrument, const std::string& what) {
+  for (const ReceiverCheck& c : instrument.checks)
     if (c.what.rfind(what, 0) == 0) return c;
   return {};
 }
@@ -68,8 +68,8 @@ std::string two_decimals(const std::string& sign) {
 
 TEST(InstrumentChecks, TooFewReadingsTellNoStep) {
   const Scratch scratch;
-  EXPECT_EQ(check_called(instrument_of(readings(scratch, 40)), "the step").found, "1 dB");
-  EXPECT_EQ(check_called(instrument_of(read_dataset(scratch.write("data.csv", two_decimals("-")))), "the step").found,
+  EXPECT_EQ(check_called(receiver_checks(readings(scratch, 40)), "the step").found, "1 dB");
+  EXPECT_EQ(check_called(receiver_checks(read_dataset(scratch.write("data.csv", two_decimals("-")))), "the step").found,
             "not known: 40 readings of 40 levels are too few to tell; three levels and four readings a level would do");
 }
 
@@ -77,7 +77,7 @@ TEST(InstrumentChecks, MilliwattsAreNoLevels) {
   const Scratch scratch;
   const auto check = [&](const std::string& sign) {
     const auto file = scratch.write("data.csv", two_decimals(sign));
-    return check_called(instrument_of(read_dataset(file)), "levels above 0 dBm");
+    return check_called(receiver_checks(read_dataset(file)), "levels above 0 dBm");
   };
   EXPECT_TRUE(check("-").fine);
   EXPECT_EQ(check("-").found, "none in 40 rows");
@@ -90,10 +90,10 @@ TEST(InstrumentChecks, AReadingFarFromAllOthersIsToldWithItsRow) {
   const Scratch scratch;
   const auto check = [&](const std::string& more) {
     const auto file = scratch.write("data.csv", two_decimals("-") + more);
-    return check_called(instrument_of(read_dataset(file)), "one to three readings 30 dB");
+    return check_called(receiver_checks(read_dataset(file)), "one to three readings 30 dB");
   };
   EXPECT_TRUE(check("41,a,b,0,0,1,2,-30\n").fine);  // 29.5 dB below the next
-  const InstrumentCheck low = check("41,a,b,0,0,1,2,-90\n42,a,b,0,0,1,2,-95\n");
+  const ReceiverCheck low = check("41,a,b,0,0,1,2,-90\n42,a,b,0,0,1,2,-95\n");
   EXPECT_FALSE(low.fine);
   EXPECT_EQ(low.found, "-95 dBm");
   EXPECT_EQ(low.row, 42u);
@@ -106,7 +106,7 @@ TEST(InstrumentChecks, AReadingFarFromAllOthersIsToldWithItsRow) {
 TEST(InstrumentChecks, LevelsAreToldWithoutDigitsThatNobodyMeasured) {
   const Scratch scratch;
   std::string text = two_decimals("-") + "41,a,b,0,0,1,2,-0.1000000000000003\n";
-  const Instrument found = instrument_of(read_dataset(scratch.write("data.csv", text)));
+  const ReceiverChecks found = receiver_checks(read_dataset(scratch.write("data.csv", text)));
   EXPECT_EQ(check_called(found, "readings that pile up at the highest").found, "1 at -0.1 dBm");
 }
 
@@ -119,7 +119,7 @@ TEST(LawOfAReading, VariancesAreThoseOfRayleighAndGamma) {
 }
 
 TEST(LawOfAReading, DensitiesHaveTheirMassAboutTheirMean) {
-  const ReadingLaw law{.rician_k = 5, .outliers = 0.02, .channel_sd = 3, .channels = 2};
+  const ReadingDistribution law{.rician_k = 5, .outliers = 0.02, .channel_sd = 3, .channels = 2};
   const ReadingDensities densities(law, 1, std::log(0.3), std::log(20.0));
   for (const double spread : {0.3, 1.1, 7.0, 20.0}) {
     double mass = 0, mean = 0, square = 0;
@@ -137,9 +137,9 @@ TEST(LawOfAReading, DensitiesHaveTheirMassAboutTheirMean) {
 
 const noise::Covariance near_the_truth{noise::Family::exponential, {2.2, 0.4, 1.5, 0}};
 
-std::vector<LawTest> tested(const Truth& truth, const ReadingLaw& stated) {
+std::vector<LawTest> tested(const Truth& truth, const ReadingDistribution& stated) {
   const Walk walk = drawn(truth, 2000);
-  ReadingField field(walk.readings, walk.residual);
+  KrigedReadings field(walk.readings, walk.residual);
   return law_tests(field, 1, stated, near_the_truth).tests;
 }
 
@@ -149,15 +149,15 @@ TEST(LawsOfReadings, TheStatedLawIsNotLeftWithoutReason) {
 }
 
 TEST(LawsOfReadings, TheFieldsSizeIsTheSameFromWhereverItIsSought) {
-  const ReadingLaw law{.rician_k = 6};
+  const ReadingDistribution law{.rician_k = 6};
   const Walk walk = drawn({.rician_k = 6}, 2000);
-  ReadingField field(walk.readings, walk.residual);
-  Judge judge(field, 1);
+  KrigedReadings field(walk.readings, walk.residual);
+  LawLikelihood judge(field, 1);
   const FieldShape shape{noise::Family::exponential, 400};
   const Peak near = judge.best(law, {0, shape, 0});
   for (const int from : {-6000, -3000, 3000, 6000}) {
     const Peak far = judge.best(law, {0, shape, from});
-    EXPECT_NEAR(far.place, near.place, Judge::places) << from;
+    EXPECT_NEAR(far.place, near.place, LawLikelihood::places) << from;
     EXPECT_NEAR(far.value, near.value, 1) << from;
   }
 }
@@ -165,11 +165,11 @@ TEST(LawsOfReadings, TheFieldsSizeIsTheSameFromWhereverItIsSought) {
 // Some of the readings say where to look; what is likely is the best by all.
 TEST(LawsOfReadings, ShapesOfManyReadingsAreTheBestByAllOfThem) {
   constexpr double likely = 6;  // nats
-  const ReadingLaw law{.rician_k = 6};
+  const ReadingDistribution law{.rician_k = 6};
   Walk walk = drawn_of_four({.rician_k = 6}, 7750, 7.5);
   walk.readings.rx_at *= 0.2;
-  ReadingField field(walk.readings, walk.residual);
-  Judge judge(field, 1);
+  KrigedReadings field(walk.readings, walk.residual);
+  LawLikelihood judge(field, 1);
   const std::vector<Peak> peaks = judge.shapes(law, near_the_truth);
   const auto lower = [](const Peak& a, const Peak& b) { return a.value < b.value; };
   const Peak best = *std::max_element(peaks.begin(), peaks.end(), lower);
@@ -177,11 +177,11 @@ TEST(LawsOfReadings, ShapesOfManyReadingsAreTheBestByAllOfThem) {
     const double further = judge.best_distance(law, peak).value;
     EXPECT_LT(further, peak.value > best.value - likely ? peak.value + 1 : best.value - likely);
   }
-  ReadingField some = field.some(10000);
+  KrigedReadings some = field.some(10000);
   EXPECT_GT(some.size(), 5000);
   EXPECT_LT(some.size(), 11000);
   // Whole neighbourhoods: every fourth reading would be told less by its neighbours.
-  const auto told = [&](ReadingField& of) { return of.view(best.shape, best.place).log_spread.mean(); };
+  const auto told = [&](KrigedReadings& of) { return of.view(best.shape, best.place).log_spread.mean(); };
   EXPECT_NEAR(told(some), told(field), 0.06);
 }
 
@@ -190,7 +190,7 @@ TEST(LawsOfReadings, ReadingsSideBySideTellTheVarianceOfOne) {
     const Walk walk = drawn({.rician_k = 4}, 6000, distance);
     noise::Readings near = walk.readings;
     near.rx_at *= 0.1;  // 1.5 cm apart, in a field that changes ten times as fast as this says
-    const CloseReadings close = ReadingField(near, walk.residual).close_readings();
+    const CloseReadings close = KrigedReadings(near, walk.residual).close_readings();
     EXPECT_GT(close.pairs, 2500);
     EXPECT_LE(close.pairs, 3000);
     const double one = variance_of({.rician_k = 4}, 1);
@@ -198,7 +198,7 @@ TEST(LawsOfReadings, ReadingsSideBySideTellTheVarianceOfOne) {
     EXPECT_LT(close.standard_error, 0.12 * one);
   }
   const Walk far = drawn({.rician_k = 4}, 150);  // all as far apart
-  EXPECT_TRUE(std::isinf(ReadingField(far.readings, far.residual).close_readings().standard_error));
+  EXPECT_TRUE(std::isinf(KrigedReadings(far.readings, far.residual).close_readings().standard_error));
 }
 
 // The variogram of a smooth field begins as a parabola: a line through it would tell less than there is.
@@ -214,7 +214,7 @@ TEST(LawsOfReadings, ReadingsSideBySideTellTheVarianceInASmoothFieldToo) {
     walk.readings.rx_at.col(i) = Eigen::Vector3d(x, 0, 1);
     walk.residual[i] = 8 * std::sin(2 * x) + sd * random.normal(k, 1);
   }
-  const CloseReadings close = ReadingField(walk.readings, walk.residual).close_readings();
+  const CloseReadings close = KrigedReadings(walk.readings, walk.residual).close_readings();
   EXPECT_GT(close.pairs, 2000);
   EXPECT_NEAR(close.variance, sd * sd, 3 * close.standard_error);
   EXPECT_LT(close.standard_error, 0.1 * sd * sd);
@@ -230,7 +230,7 @@ TEST(LawsOfReadings, ReadingsSideBySideSpeakAgainstAnotherLaw) {
         walk.readings.rx_at(0, first) + (i % 2 ? 0.005 * static_cast<double>(first / 2 % 5) : 0);
     walk.residual[i] += std::round(3 * Stream(key_of("places")).normal(static_cast<uint64_t>(first)));
   }
-  ReadingField field(walk.readings, walk.residual);
+  KrigedReadings field(walk.readings, walk.residual);
   for (const LawTest& test : law_tests(field, 1, {.rician_k = 6}, near_the_truth).tests) {
     if (test.cause == "effect.outliers") continue;
     EXPECT_EQ(test.gain, 0) << test.cause;
@@ -241,7 +241,7 @@ TEST(LawsOfReadings, ReadingsSideBySideSpeakAgainstAnotherLaw) {
 // alone, a law of weaker fading would win 24.
 TEST(LawsOfReadings, TamedDeepFadesAreNoOtherFading) {
   const Walk walk = drawn_of_four({.rician_k = 5}, 1500, 30, 30);
-  ReadingField field(walk.readings, walk.residual);
+  KrigedReadings field(walk.readings, walk.residual);
   const noise::Covariance dense{noise::Family::exponential, {2.2, std::log(30), std::log(fading_variance(5, 1)), 0}};
   for (const LawTest& test : law_tests(field, 1, {.rician_k = 5}, dense).tests) EXPECT_LT(test.gain, 9) << test.cause;
 }

@@ -34,7 +34,7 @@ class Scored : public inference::Tally {
 using Point = Eigen::Vector2d;
 
 struct Plan {
-  Survey survey;
+  MeasurementGeometry survey;
   Links links;
 
   Plan() {
@@ -85,7 +85,7 @@ TEST(PlaceSweep, FindsASegment) {
   const Point middle(6, 4), half = 1.1 * Point(std::cos(0.4), std::sin(0.4));
   Scored tally =
       plan.scored([&](const Point& a, const Point& b) { return meets_segment(a, b, middle - half, middle + half); });
-  const auto swept = SegmentSweep(plan.survey, plan.links, plan.readings())(tally);
+  const auto swept = SegmentScan(plan.survey, plan.links, plan.readings())(tally);
   ASSERT_FALSE(swept.empty());
   const Ends found = ends_of(swept[0]);
   EXPECT_LT(std::min((found.from - middle + half).norm(), (found.from - middle - half).norm()), 0.5);
@@ -98,14 +98,14 @@ TEST(PlaceSweep, LeavesOutWhatWasDrivenAcross) {
   for (int y = 2; y < 7; ++y) plan.survey.ways.push_back({6.0, 1.0 * y, 6.0, y + 1.0});
   Scored tally =
       plan.scored([&](const Point& a, const Point& b) { return meets_segment(a, b, middle - half, middle + half); });
-  for (const Eigen::VectorXd& theta : SegmentSweep(plan.survey, plan.links, plan.readings())(tally)) {
+  for (const Eigen::VectorXd& theta : SegmentScan(plan.survey, plan.links, plan.readings())(tally)) {
     const Ends e = ends_of(theta);
     EXPECT_FALSE(meets_segment({6, 2}, {6, 7}, e.from, e.to)) << theta.transpose();
   }
 }
 
 TEST(PlaceSweep, CountsEachWayThatIsInTheWay) {
-  Survey survey;
+  MeasurementGeometry survey;
   const Stream stream(7);
   for (uint64_t k = 0; k < 2000; ++k) {
     const double x = 12 * stream.uniform(k, 0), y = 9 * stream.uniform(k, 1), to = 7 * stream.uniform(k, 2);
@@ -148,7 +148,7 @@ TEST(PlaceSweep, FindsADisk) {
   Plan plan;
   plan.survey.ways.push_back({2, 2, 2.1, 2});
   Scored tally = of_a_disk(plan, Point(7.3, 5.1), 0.5);
-  const auto swept = DiskSweep(plan.survey, plan.links)(tally);
+  const auto swept = DiskScan(plan.survey, plan.links)(tally);
   ASSERT_FALSE(swept.empty());
   EXPECT_NEAR(swept[0][1], 7.3, 0.08);
   EXPECT_NEAR(swept[0][2], 5.1, 0.08);
@@ -159,7 +159,7 @@ TEST(PlaceSweep, ADiskClimbsToNoPlaceThatWasDrivenThrough) {
   Plan plan;
   for (double x = 6.8; x < 7.8; x += 0.05) plan.survey.ways.push_back({x, 5.2, x + 0.05, 5.2});
   Scored tally = of_a_disk(plan, Point(7.3, 5.1), 0.5);
-  const auto swept = DiskSweep(plan.survey, plan.links)(tally);
+  const auto swept = DiskScan(plan.survey, plan.links)(tally);
   ASSERT_FALSE(swept.empty());
   for (const Eigen::VectorXd& theta : swept)
     EXPECT_FALSE(driven_through(plan.survey, theta[1], theta[2], std::exp(theta[3]))) << theta.transpose();
@@ -172,7 +172,7 @@ double edge(const Eigen::VectorXd& theta, const Point& radio, double side) {
 }
 
 TEST(MovesOfDisk, TurnOneEdgeOfItsShadowAlone) {
-  Survey survey;
+  MeasurementGeometry survey;
   survey.standing = {{0, 0}, {9, 1}, {40, 40}};
   Eigen::VectorXd theta(4);
   theta << 0, 4, 3, std::log(0.5);
@@ -197,8 +197,8 @@ TEST(MovesOfDisk, TurnOneEdgeOfItsShadowAlone) {
 TEST(PlaceSweep, RefusesATallyOfOtherRows) {
   const Plan plan;
   Scored fewer(std::vector<double>(10, 1));
-  EXPECT_THROW(SegmentSweep(plan.survey, plan.links, plan.readings())(fewer), std::logic_error);
-  EXPECT_THROW(DiskSweep(plan.survey, plan.links)(fewer), std::logic_error);
+  EXPECT_THROW(SegmentScan(plan.survey, plan.links, plan.readings())(fewer), std::logic_error);
+  EXPECT_THROW(DiskScan(plan.survey, plan.links)(fewer), std::logic_error);
 }
 
 }  // namespace

@@ -9,8 +9,8 @@
 namespace muster::report {
 namespace {
 
-FoundCause wall(inference::Status status, std::optional<inference::HeldOut> held_out) {
-  FoundCause c;
+CauseEstimate wall(inference::Status status, std::optional<inference::HeldOutGain> held_out) {
+  CauseEstimate c;
   c.id = "effect.unmapped_wall";
   c.label = "(1.00, 2.00) to (3.00, 2.00)";
   c.title = "a wall that is not on the map costs {loss}";
@@ -23,7 +23,7 @@ FoundCause wall(inference::Status status, std::optional<inference::HeldOut> held
   return c;
 }
 
-Diagnosis with(const FoundCause& cause) {
+Diagnosis with(const CauseEstimate& cause) {
   Diagnosis d;
   d.readings = 1000;
   d.rows = 200;
@@ -45,19 +45,19 @@ TEST(Digits, FollowTheInterval) {
 }
 
 TEST(Gate, IsIsSaidOnlyWhereHeldOutDataShowIt) {
-  const FoundCause sure = wall(inference::Status::named, inference::HeldOut{3.5, 2.5, 6, 2.4, 11, 21});
+  const CauseEstimate sure = wall(inference::Status::named, inference::HeldOutGain{3.5, 2.5, 6, 2.4, 11, 21});
   EXPECT_EQ(standing_of(sure), Standing::confirmed);
   EXPECT_TRUE(says(text_of(with(sure), {"hall", "a.csv"}), "(1) it is effect.unmapped_wall"));
-  const FoundCause touching = wall(inference::Status::named, inference::HeldOut{3.5, 3.4, 0.7, -0.1, 1.5, 21});
+  const CauseEstimate touching = wall(inference::Status::named, inference::HeldOutGain{3.5, 3.4, 0.7, -0.1, 1.5, 21});
   EXPECT_EQ(standing_of(touching), Standing::unconfirmed);
-  const FoundCause of_few = wall(inference::Status::named, inference::HeldOut{3.5, 2.5, 6, 5.1, 7, 4});
+  const CauseEstimate of_few = wall(inference::Status::named, inference::HeldOutGain{3.5, 2.5, 6, 5.1, 7, 4});
   EXPECT_EQ(standing_of(of_few), Standing::unconfirmed);
   EXPECT_EQ(why_unconfirmed(of_few), "in 4 blocks of space it may gain by chance alone");
-  const FoundCause aside = wall(inference::Status::suspected, {});
+  const CauseEstimate aside = wall(inference::Status::suspected, {});
   EXPECT_EQ(standing_of(aside), Standing::set_aside);
-  const FoundCause unmeasured = wall(inference::Status::named, {});
+  const CauseEstimate unmeasured = wall(inference::Status::named, {});
   EXPECT_EQ(standing_of(unmeasured), Standing::unconfirmed);
-  for (const FoundCause& c : {touching, of_few, aside, unmeasured}) {
+  for (const CauseEstimate& c : {touching, of_few, aside, unmeasured}) {
     const std::string text = text_of(with(c), {"hall", "a.csv"});
     EXPECT_TRUE(says(text, "suspected: effect.unmapped_wall")) << text;
     EXPECT_FALSE(says(text, "it is")) << text;
@@ -66,7 +66,7 @@ TEST(Gate, IsIsSaidOnlyWhereHeldOutDataShowIt) {
 }
 
 TEST(Text, SaysLambdaGainAndBlocks) {
-  const auto cause = wall(inference::Status::named, inference::HeldOut{3.5, 2.5, 6, 2.4, 11, 21});
+  const auto cause = wall(inference::Status::named, inference::HeldOutGain{3.5, 2.5, 6, 2.4, 11, 21});
   const std::string text = text_of(with(cause), {"hall", "a.csv"});
   for (const char* what :
        {"lambda 51", "evidence    20.0 nats", "95 %: 2.40 to", "11.00, 21 blocks", "8.6 dB", "95 %: 8.3 to 8.9 dB"})
@@ -80,8 +80,8 @@ TEST(Text, OneBlockIsSaidNotHidden) {
 }
 
 TEST(Text, RivalsThatAreNotDecidedAreQuestions) {
-  FoundCause c = wall(inference::Status::named, inference::HeldOut{3.5, 2.5, 6, 2.4, 11, 21});
-  c.rivals.push_back({"effect.obstacle", "(2.00, 2.00)", {}, 1.5, 6});
+  CauseEstimate c = wall(inference::Status::named, inference::HeldOutGain{3.5, 2.5, 6, 2.4, 11, 21});
+  c.alternatives.push_back({"effect.obstacle", "(2.00, 2.00)", {}, 1.5, 6});
   Diagnosis d = with(c);
   d.advice.push_back({"turn on the spot", c.id, "effect.obstacle", 6, 15.0});
   d.advice.push_back({"move base", c.id, "effect.obstacle", 6, 74.0});
@@ -93,9 +93,9 @@ TEST(Text, RivalsThatAreNotDecidedAreQuestions) {
 }
 
 TEST(Text, RivalsOfTheSameNameAreToldByTheirRows) {
-  FoundCause c = wall(inference::Status::named, inference::HeldOut{3.5, 2.5, 6, 2.4, 11, 21});
+  CauseEstimate c = wall(inference::Status::named, inference::HeldOutGain{3.5, 2.5, 6, 2.4, 11, 21});
   c.label = "wall/w1";
-  c.rivals.push_back({c.id, "wall/w2", {}, -0.01, 0});
+  c.alternatives.push_back({c.id, "wall/w2", {}, -0.01, 0});
   const std::string text = text_of(with(c), {"hall", "a.csv"});
   EXPECT_TRUE(says(text, "unmapped wall of wall/w1 or of wall/w2: D 0, cannot be told apart")) << text;
   EXPECT_TRUE(says(text, "unmapped wall wall/w2, 0.0 nats behind")) << text;
@@ -107,15 +107,15 @@ TEST(Text, WhatIsUnexplainedNamesTheCausesThatExplainItNearlyAsWell) {
   d.unexplained = {{"battery", 20.3, 52, {}, {}}};
   EXPECT_TRUE(says(text_of(d, {"hall", "a.csv"}), "no known cause explains: something depends on the column battery"));
   EXPECT_TRUE(says(page_of(d, {"hall", "a.csv"}, {}), "no cause on the plugin path explains it: evidence 20.3 nats"));
-  d.unexplained[0].rivals = {{"effect.drift", "radio/base", {}, 1.2, 3}, {"effect.step", "all", {}, 2.6, 15}};
+  d.unexplained[0].alternatives = {{"effect.drift", "radio/base", {}, 1.2, 3}, {"effect.step", "all", {}, 2.6, 15}};
   const std::string text = text_of(d, {"hall", "a.csv"}), page = page_of(d, {"hall", "a.csv"}, {});
   EXPECT_TRUE(says(text, "no known cause explains as well: something")) << text;
   EXPECT_FALSE(says(text, "on the plugin path")) << text;
   EXPECT_TRUE(says(text, "column battery or drift: D 3, cannot be told apart")) << text;
   EXPECT_TRUE(says(text, "measure with the column battery changed and all else as it was")) << text;
-  const char* const rivals =
+  const char* const alternatives =
       "drift radio/base, 1.2 nats behind, D 3: cannot be told apart; step, 2.6 nats behind, D 15";
-  EXPECT_TRUE(says(page, rivals)) << page;
+  EXPECT_TRUE(says(page, alternatives)) << page;
   const auto json = json_of(d);
   EXPECT_EQ(json["unexplained"][0]["rivals"][0]["id"], "effect.drift");
   EXPECT_EQ(json["advice"][0]["separates"], "~battery effect.drift");
@@ -159,7 +159,7 @@ TEST(Text, WhatTheReadingsDoNotIdentifyHasNoInterval) {
 }
 
 TEST(Text, GainsWithRadiosAndRunsNotSeenStandBesideThoseOfPlaces) {
-  const inference::HeldOut places{3.5, 2.5, 6, 2.4, 11, 21}, radios{4.5, 3.25, 9.69, 5, 12, 4},
+  const inference::HeldOutGain places{3.5, 2.5, 6, 2.4, 11, 21}, radios{4.5, 3.25, 9.69, 5, 12, 4},
       runs{3.75, 3, 5.06, 1, 7, 2};
   Diagnosis d = with(wall(inference::Status::named, places));
   d.elsewhere = {{inference::Part::radio, radios}, {inference::Part::run, runs}};
@@ -180,10 +180,10 @@ TEST(Text, GainsWithRadiosAndRunsNotSeenStandBesideThoseOfPlaces) {
 TEST(Steps, AreInTheOrderOfStrength) {
   Diagnosis d = with(wall(inference::Status::named, {}));
   d.causes[0].sought_as = d.causes[0].id;
-  FoundCause drift = d.causes[0];
+  CauseEstimate drift = d.causes[0];
   drift.id = drift.sought_as = "effect.drift";
   drift.lambda = 80;
-  FoundCause fading = d.causes[0];
+  CauseEstimate fading = d.causes[0];
   fading.id = "effect.fading_law";
   fading.sought_as = "";
   fading.lambda = 200;
@@ -196,7 +196,7 @@ TEST(Steps, AreInTheOrderOfStrength) {
 
 TEST(Text, NothingFoundIsAdequate) {
   Diagnosis d;
-  d.held_out = inference::HeldOut{2.5, 2.5, 0, 0, 0, 12};
+  d.held_out = inference::HeldOutGain{2.5, 2.5, 0, 0, 0, 12};
   d.stairs = {{2.5, 2.2, 2.8}};
   const std::string text = text_of(d, {"hall", "a.csv"});
   EXPECT_TRUE(says(text, "hall is adequate: nothing was found beyond chance")) << text;
@@ -205,7 +205,7 @@ TEST(Text, NothingFoundIsAdequate) {
 
 // The channel's law at the end of what is physical: no name beside it is sure, whatever it gains.
 TEST(Gate, NothingIsSureBesideALawAtItsBound) {
-  FoundCause c = wall(inference::Status::named, inference::HeldOut{3.5, 2.5, 6, 2.4, 11, 21});
+  CauseEstimate c = wall(inference::Status::named, inference::HeldOutGain{3.5, 2.5, 6, 2.4, 11, 21});
   c.doubt = "at its bound: radio.multiwall/n";
   Diagnosis d = with(c);
   d.world_values = {{"radio.multiwall/n", "", 0, 0.05, true}, {"radio.multiwall/l0", "dB", 12, 1, false}};
@@ -225,14 +225,14 @@ TEST(Gate, NothingIsSureBesideALawAtItsBound) {
 }
 
 TEST(Text, SaysWhatItCountsIn) {
-  const Diagnosis d = with(wall(inference::Status::named, inference::HeldOut{3.5, 2.5, 6, 2.4, 11, 21}));
+  const Diagnosis d = with(wall(inference::Status::named, inference::HeldOutGain{3.5, 2.5, 6, 2.4, 11, 21}));
   for (const std::string& text : {text_of(d, {"hall", "a.csv"}), page_of(d, {"hall", "a.csv", {}}, {})})
     for (const char* word : {"95 % and +-:", "Nats:", "Lambda:", "D:", "docs/diagnosis.md"})
       EXPECT_TRUE(says(text, word)) << word << "\n" << text;
 }
 
 TEST(Page, IsValidWhereTablesHaveNoHeadAndPicturesAreInside) {
-  Diagnosis d = with(wall(inference::Status::named, inference::HeldOut{3.5, 2.5, 6, 2.4, 11, 21}));
+  Diagnosis d = with(wall(inference::Status::named, inference::HeldOutGain{3.5, 2.5, 6, 2.4, 11, 21}));
   const Picture picture{"residual_map", {}};
   const std::string page = page_of(d, {"hall", "a.csv", {}}, {picture});
   EXPECT_TRUE(says(page, "<figure>\n<svg")) << page;
@@ -242,7 +242,7 @@ TEST(Page, IsValidWhereTablesHaveNoHeadAndPicturesAreInside) {
 
 // A name keeps its letters, a sentence gets its capital.
 TEST(Page, DoesNotRenameARadio) {
-  FoundCause c = wall(inference::Status::named, {});
+  CauseEstimate c = wall(inference::Status::named, {});
   const auto title = [&] { return page_of(with(c), {"hall", "a.csv", {}}, {}); };
   EXPECT_TRUE(says(title(), "</span>A wall that is not on the map"));
   c.title = "{radio} has a notch";
