@@ -66,7 +66,7 @@ TEST(Pages, WorldsThatTheyShowAreFine) {
       ++count;
     }
   }
-  EXPECT_GE(count, 2) << "README.md and docs/world_file.md show one each";
+  EXPECT_GE(count, 2) << "README.md and docs/reference/world_file.md show one each";
 }
 
 // A link to a file of the tree leads somewhere.
