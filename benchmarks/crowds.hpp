@@ -5,7 +5,7 @@
 #include <muster/random.hpp>
 
 #include "encounters.hpp"
-#include "tests/physics_simbody/fleet.hpp"
+#include "tests/plugins/physics_simbody/fleet.hpp"
 
 namespace muster::simbody {
 

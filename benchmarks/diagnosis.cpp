@@ -1,5 +1,5 @@
-// What a diagnosis costs. Limits: DIAGNOSIS.md section 11 asks for 2 s of search and 10 s in all at 20,000 readings,
-// and for a minute and 4 GB at 100,000; the counter of_limit is the share that is used.
+// Measures the cost of a diagnosis. Limits: 2 s of search and 10 s in all at 20,000 readings, a minute and 4 GB at
+// 100,000. The counter of_limit is the share used.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -8,9 +8,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "diagnosis/diagnose.hpp"
-#include "diagnosis/prepared.hpp"
-#include "diagnosis/search/search.hpp"
+#include "diagnosis/inference/assess/search.hpp"
+#include "diagnosis/pipeline/diagnose.hpp"
+#include "diagnosis/pipeline/setup.hpp"
 #include "text/number.hpp"
 #include "text/temporary_folder.hpp"
 
@@ -72,7 +72,7 @@ void search_of_all_causes(benchmark::State& state) {
   const Tours tours(static_cast<int>(state.range(0)));
   const diagnosis::Prepared at(hall, tours.file(), plugins);
   for (auto _ : state) {
-    search::Search search(at.problem, at.options);
+    inference::Search search(at.problem, at.options);
     require_the_wall(search.run().findings.at(0).id);
   }
   finish(state, state.range(0) == 1 ? 2 : 60);

@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "cpu_seconds.hpp"
-#include "plugins/physics_simbody/crew.hpp"
 #include "plugins/physics_simbody/legs.hpp"
+#include "plugins/physics_simbody/robot_models.hpp"
 
 namespace {
 

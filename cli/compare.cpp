@@ -8,9 +8,9 @@
 #include "compare_report.hpp"
 #include "divergence_file.hpp"
 #include "ladder_run.hpp"
+#include "run_options.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
-#include "world_words.hpp"
 
 namespace muster::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "compare_report.hpp"
-#include "diagnosis/plan.hpp"
+#include "diagnosis/radio/links/floor_plan.hpp"
 
 namespace muster::cli {
 namespace {
@@ -16,8 +16,8 @@ const std::vector<std::string> first_of_all = {"robot/*/pose distance [m]", "rob
                                                "link/*/level [dB]",         "link/*/rssi [dB]",
                                                "inbox/*/message count",     "robot/*/twist [m/s]"};
 
-picture::Line line_of(const std::vector<double>& trace, const Divergence& divergence, double dt, std::string label) {
-  picture::Line line{.label = std::move(label)};
+plotting::Line line_of(const std::vector<double>& trace, const Divergence& divergence, double dt, std::string label) {
+  plotting::Line line{.label = std::move(label)};
   const double span = static_cast<double>(divergence.span()) * dt;
   for (std::size_t i = 0; i <= divergence.tick() / divergence.span(); ++i) {
     line.x.push_back(static_cast<double>(i) * span);
@@ -27,18 +27,18 @@ picture::Line line_of(const std::vector<double>& trace, const Divergence& diverg
 }
 
 // The first run's ways wide and grey, the others' thin and coloured on top of them.
-std::optional<picture::Panel> ways_panel(const std::vector<ComparedRun>& runs) {
+std::optional<plotting::Panel> ways_panel(const std::vector<ComparedRun>& runs) {
   if (runs[0].ways.empty() || runs[0].ways.size() > most_robots) return {};
-  picture::Panel panel{.title = "ways of the robots",
-                       .x = {.label = "x", .unit = "m"},
-                       .y = {.label = "y", .unit = "m"},
-                       .equal = true,
-                       .legend = true};
+  plotting::Panel panel{.title = "ways of the robots",
+                        .x = {.label = "x", .unit = "m"},
+                        .y = {.label = "y", .unit = "m"},
+                        .equal = true,
+                        .legend = true};
   panel.layers.push_back(plan_of(*runs[0].run));
   for (std::size_t i = 0; i < runs.size(); ++i) {
     for (const auto& [robot, way] : runs[i].ways) {
-      picture::Line line{.colour = i == 0 ? picture::light_grey : picture::series_colour(i - 1),
-                         .width = i == 0 ? 5 : 1.2};
+      plotting::Line line{.colour = i == 0 ? plotting::light_grey : plotting::series_colour(i - 1),
+                          .width = i == 0 ? 5 : 1.2};
       for (const auto& at : way) line.x.push_back(at.x), line.y.push_back(at.y);
       if (&way == &runs[i].ways.begin()->second) line.label = runs[i].label + ": " + runs[i].what;
       panel.layers.push_back(line);
@@ -47,10 +47,10 @@ std::optional<picture::Panel> ways_panel(const std::vector<ComparedRun>& runs) {
   return panel;
 }
 
-picture::Panel quantity_panel(const std::vector<ComparedRun>& runs, const Quantity& shown) {
-  picture::Panel panel{.title = shown.table + (shown.name.empty() ? "" : ' ' + shown.name),
-                       .x = {.label = "time", .unit = "s"},
-                       .y = {.label = "difference", .unit = shown.unit, .from = 0.0}};
+plotting::Panel quantity_panel(const std::vector<ComparedRun>& runs, const Quantity& shown) {
+  plotting::Panel panel{.title = shown.table + (shown.name.empty() ? "" : ' ' + shown.name),
+                        .x = {.label = "time", .unit = "s"},
+                        .y = {.label = "difference", .unit = shown.unit, .from = 0.0}};
   const double dt = runs[0].run->world().dt;
   for (std::size_t i = 1; i < runs.size(); ++i) {
     if (!runs[i].divergence) continue;
@@ -69,10 +69,10 @@ picture::Panel quantity_panel(const std::vector<ComparedRun>& runs, const Quanti
     for (const Quantity& q : quantities(*runs[0].run, divergence, others)) {
       if (q.title() == shown.title()) line = line_of(q.trace, divergence, dt, runs[i].label);
     }
-    line.colour = picture::series_colour(i - 1);
+    line.colour = plotting::series_colour(i - 1);
     panel.layers.push_back(line);
   }
-  if (!std::isnan(shown.tolerance)) panel.layers.push_back(picture::Rule{.at = shown.tolerance, .label = "tolerance"});
+  if (!std::isnan(shown.tolerance)) panel.layers.push_back(plotting::Rule{.at = shown.tolerance, .label = "tolerance"});
   return panel;
 }
 
@@ -97,12 +97,12 @@ std::vector<Quantity> chosen(const std::vector<ComparedRun>& runs) {
 
 }  // namespace
 
-picture::Figure comparison_figure(const std::vector<ComparedRun>& runs) {
-  picture::Figure figure{.title = runs[0].run->world().name,
-                         .caption = "Against " + runs[0].label + " (" + runs[0].what +
-                                    "): the largest difference of all rows and columns in each span of time.",
-                         .columns = 2,
-                         .width = 1000};
+plotting::Figure comparison_figure(const std::vector<ComparedRun>& runs) {
+  plotting::Figure figure{.title = runs[0].run->world().name,
+                          .caption = "Against " + runs[0].label + " (" + runs[0].what +
+                                     "): the largest difference of all rows and columns in each span of time.",
+                          .columns = 2,
+                          .width = 1000};
   const auto all = chosen(runs);
   if (all.empty()) return figure;
   if (auto ways = ways_panel(runs)) figure.panels.push_back(*ways);

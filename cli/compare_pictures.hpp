@@ -6,6 +6,6 @@
 namespace muster::cli {
 
 // No panels where nothing differs.
-picture::Figure comparison_figure(const std::vector<ComparedRun>& runs);
+plotting::Figure comparison_figure(const std::vector<ComparedRun>& runs);
 
 }  // namespace muster::cli

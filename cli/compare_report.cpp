@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "run_options.hpp"
 #include "text/number.hpp"
-#include "world_words.hpp"
 
 namespace muster::cli {
 namespace {

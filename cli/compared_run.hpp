@@ -18,7 +18,7 @@ struct ComparedRun {
   std::optional<Divergence> divergence{};  // from the first run; that one has none
   std::optional<Error> fault{};            // what ended it early
   std::vector<std::filesystem::path> files{};
-  std::map<std::string, std::vector<picture::Point>> ways{};  // of robots, for pictures
+  std::map<std::string, std::vector<plotting::Point>> ways{};  // of robots, for pictures
   std::filesystem::path folder{};
   std::unique_ptr<Recorder> recorder{};
   std::unique_ptr<RunPictures> pictures{};

@@ -4,7 +4,8 @@
 #include <malloc.h>
 #endif
 
-#include "diagnosis/closed_loop.hpp"
+#include "diagnosis/pipeline/closed_loop.hpp"
+#include "diagnosis/pipeline/diagnose.hpp"
 #include "diagnosis/report/folder.hpp"
 #include "diagnosis/report/json.hpp"
 #include "diagnosis/report/regression.hpp"

@@ -1,12 +1,11 @@
 // muster features WORLD --data FILE: what each reading's link looks like on the plan.
-#include "diagnosis/features.hpp"
-
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "diagnosis/dataset.hpp"
+#include "diagnosis/data/dataset.hpp"
+#include "diagnosis/radio/links/link_features.hpp"
 #include "text/text_table_writer.hpp"
 #include "verbs.hpp"
 

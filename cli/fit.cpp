@@ -1,8 +1,8 @@
 // muster fit WORLD --data FILE: the world's free parameters from measurements, and where the world misfits.
 #include <fmt/core.h>
 
-#include "diagnosis/fit_pictures.hpp"
-#include "diagnosis/place_checks.hpp"
+#include "diagnosis/calibration/fit_figures.hpp"
+#include "diagnosis/radio/links/geometry_checks.hpp"
 #include "fit_report.hpp"
 #include "verbs.hpp"
 

@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "diagnosis/cell_map.hpp"
-#include "diagnosis/misfit.hpp"
+#include "diagnosis/calibration/cell_means.hpp"
+#include "diagnosis/calibration/residual_scan.hpp"
 
 namespace muster::cli {
 

@@ -1,10 +1,9 @@
 // muster import FILE --map MAP --out FILE: a foreign table in the project's format, and what was assumed on the way.
-#include "diagnosis/import.hpp"
-
 #include <fmt/core.h>
 
 #include <nlohmann/json.hpp>
 
+#include "diagnosis/data/table_import.hpp"
 #include "verbs.hpp"
 
 namespace muster::cli {

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
+#include "run_options.hpp"
 #include "text/error.hpp"
-#include "world_words.hpp"
 
 namespace muster::cli {
 namespace {

@@ -7,8 +7,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "diagnosis/picture/figure.hpp"
 #include "ladder.hpp"
+#include "plotting/figure.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
 #include "text/text_table_writer.hpp"
@@ -151,13 +151,13 @@ void write(const std::filesystem::path& folder, const std::string& world, const 
            const std::vector<Metric>& metrics) {
   std::filesystem::create_directories(folder);
   TextTableWriter table(folder / "ladder.csv", {{"rung", ""}, {"metric", ""}, {"unit", ""}, {"value", ""}});
-  picture::Figure figure{.title = world,
-                         .caption = "In the end of the run, with the same random numbers on each rung.",
-                         .columns = metrics.size() > 1 ? 2 : 1,
-                         .width = metrics.size() > 1 ? 1200.0 : 700.0};
+  plotting::Figure figure{.title = world,
+                          .caption = "In the end of the run, with the same random numbers on each rung.",
+                          .columns = metrics.size() > 1 ? 2 : 1,
+                          .width = metrics.size() > 1 ? 1200.0 : 700.0};
   for (std::size_t i = 0; i < metrics.size(); ++i) {
-    picture::Panel panel{.title = metrics[i].name, .y = {.label = metrics[i].name, .unit = metrics[i].unit}};
-    picture::Line line{.colour = picture::light_grey};
+    plotting::Panel panel{.title = metrics[i].name, .y = {.label = metrics[i].name, .unit = metrics[i].unit}};
+    plotting::Line line{.colour = plotting::light_grey};
     for (const Outcome& outcome : outcomes) {
       table.text(outcome.rung.name);
       table.text(metrics[i].name);
@@ -168,7 +168,7 @@ void write(const std::filesystem::path& folder, const std::string& world, const 
       line.x.push_back(static_cast<double>(line.x.size()));
       line.y.push_back(outcome.values[i]);
     }
-    panel.layers = {line, picture::Points{.x = line.x, .y = line.y, .radius = 4}};
+    panel.layers = {line, plotting::Points{.x = line.x, .y = line.y, .radius = 4}};
     figure.panels.push_back(std::move(panel));
   }
   table.close();

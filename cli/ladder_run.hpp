@@ -1,7 +1,7 @@
 // A world run on each rung of the fidelity ladder, and what came of its mission there.
 #pragma once
 
-#include "world_words.hpp"
+#include "run_options.hpp"
 
 namespace muster::cli {
 

@@ -8,22 +8,22 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/pose_angles.hpp"
-#include "diagnosis/model.hpp"
-#include "diagnosis/picture/figure.hpp"
-#include "diagnosis/picture/raster.hpp"
-#include "diagnosis/plan.hpp"
-#include "diagnosis/run_tables.hpp"
+#include "diagnosis/radio/links/floor_plan.hpp"
+#include "diagnosis/radio/links/link_model.hpp"
+#include "diagnosis/radio/links/run_tables.hpp"
+#include "plotting/figure.hpp"
+#include "plotting/raster.hpp"
+#include "run_options.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
 #include "text/temporary_folder.hpp"
 #include "text/text_table_writer.hpp"
-#include "world_words.hpp"
 
 namespace muster::cli {
 namespace {
 
 namespace fs = std::filesystem;
-namespace pic = picture;
+namespace pic = plotting;
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 

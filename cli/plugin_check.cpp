@@ -10,7 +10,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "diagnosis/cause_check.hpp"
+#include "diagnosis/pipeline/cause_self_test.hpp"
 #include "text/temporary_folder.hpp"
 #include "verbs.hpp"
 

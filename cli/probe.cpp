@@ -6,11 +6,11 @@
 #include <muster/tables.hpp>
 #include <nlohmann/json.hpp>
 
-#include "diagnosis/plan.hpp"
-#include "diagnosis/run_tables.hpp"
+#include "diagnosis/radio/links/floor_plan.hpp"
+#include "diagnosis/radio/links/run_tables.hpp"
+#include "run_options.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
-#include "world_words.hpp"
 
 namespace muster::cli {
 namespace {

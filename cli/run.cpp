@@ -9,10 +9,10 @@
 #include <optional>
 
 #include "kernel/record.hpp"
+#include "run_options.hpp"
 #include "run_pictures.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
-#include "world_words.hpp"
 
 namespace muster::cli {
 namespace {

@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "cli/pose_angles.hpp"
-#include "diagnosis/plan.hpp"
-#include "diagnosis/run_tables.hpp"
+#include "diagnosis/radio/links/floor_plan.hpp"
+#include "diagnosis/radio/links/run_tables.hpp"
 #include "text/error.hpp"
 #include "text/number.hpp"
 
@@ -38,7 +38,7 @@ std::size_t next_column(const Columns& columns, const std::string& prefix, std::
 }
 
 // The colour as a background to itself.
-picture::Colour pale(picture::Colour c) {
+plotting::Colour pale(plotting::Colour c) {
   const auto lighter = [](uint8_t v) { return static_cast<uint8_t>(v + (255 - v) * 7 / 10); };
   return {lighter(c.r), lighter(c.g), lighter(c.b)};
 }
@@ -96,7 +96,7 @@ RunPictures::Moment RunPictures::moment(const Simulation& run) const {
     result.robots.push_back({{here ? poses[i].x : nothing, here ? poses[i].y : nothing},
                              yaw_of(poses[i]),
                              names[i],
-                             picture::series_colour(i)});
+                             plotting::series_colour(i)});
   }
   result.radios.resize(names_of(run, "radio").size(), {nothing, nothing});
   const auto ends = rows_of<Endpoint>(run, "endpoint/*/radio");
@@ -110,7 +110,7 @@ RunPictures::Moment RunPictures::moment(const Simulation& run) const {
   }
   if (moments_.empty()) return result;
   for (std::size_t i = 0; i < std::min(result.robots.size(), moments_.front().robots.size()); ++i) {
-    const picture::Point a = result.robots[i].at, b = moments_.front().robots[i].at;
+    const plotting::Point a = result.robots[i].at, b = moments_.front().robots[i].at;
     if (const double away = std::hypot(a.x - b.x, a.y - b.y); away > 0) result.away += away;  // NaN is not
   }
   return result;
@@ -131,20 +131,20 @@ std::vector<const RunPictures::Moment*> RunPictures::snapshots() const {
   return result;
 }
 
-picture::Panel RunPictures::plan_at(const Moment& moment) const {
-  picture::Links links;
+plotting::Panel RunPictures::plan_at(const Moment& moment) const {
+  plotting::Links links;
   for (std::size_t i = 0; i < links_.size(); ++i) {
     links.links.push_back({moment.radios.at(links_[i].near), moment.radios.at(links_[i].far), moment.smooth[i]});
     if (!std::isnan(links_[i].threshold)) links.threshold = links_[i].threshold - 1;  // within 1 dB it holds
   }
-  picture::Panel panel{.title = time_text(moment.time), .frame = picture::Frame::scale_bar};
+  plotting::Panel panel{.title = time_text(moment.time), .frame = plotting::Frame::scale_bar};
   panel.layers.push_back(plan_);
   for (std::size_t i = 0; i < moment.robots.size(); ++i) {
-    picture::Path path{.colour = moment.robots[i].colour};
+    plotting::Path path{.colour = moment.robots[i].colour};
     for (const Moment& m : moments_) {
       if (&m > &moment) break;
       if (i >= m.robots.size()) continue;
-      const picture::Point at = m.robots[i].at;
+      const plotting::Point at = m.robots[i].at;
       const bool moved =
           path.points.empty() || !(std::hypot(at.x - path.points.back().x, at.y - path.points.back().y) < 0.1);
       if (moved || &m == &moment) path.points.push_back(at);  // each tenth of a metre is enough to see
@@ -152,12 +152,12 @@ picture::Panel RunPictures::plan_at(const Moment& moment) const {
     panel.layers.push_back(path);
   }
   panel.layers.push_back(links);
-  panel.layers.push_back(picture::Robots{moment.robots});
+  panel.layers.push_back(plotting::Robots{moment.robots});
   return panel;
 }
 
-picture::Figure RunPictures::plan_figure() const {
-  picture::Figure figure{
+plotting::Figure RunPictures::plan_figure() const {
+  plotting::Figure figure{
       .title = world_,
       .caption = links_.empty() ? "Ways so far." : "Ways so far, and the smoothed RSSI of each link.",
       .width = 900,
@@ -167,11 +167,11 @@ picture::Figure RunPictures::plan_figure() const {
   return figure;
 }
 
-picture::Figure RunPictures::rssi_figure() const {
-  picture::Panel panel{.x = {.label = "time", .unit = "s"},
-                       .y = {.label = "RSSI", .unit = "dBm", .from = -80, .to = -40}};
+plotting::Figure RunPictures::rssi_figure() const {
+  plotting::Panel panel{.x = {.label = "time", .unit = "s"},
+                        .y = {.label = "RSSI", .unit = "dBm", .from = -80, .to = -40}};
   const auto trace = [this](std::size_t i, std::vector<double> Moment::*what) {
-    picture::Line line{.colour = picture::series_colour(i)};
+    plotting::Line line{.colour = plotting::series_colour(i)};
     for (const Moment& m : moments_) {
       line.x.push_back(m.time);
       line.y.push_back((m.*what)[i]);
@@ -180,16 +180,16 @@ picture::Figure RunPictures::rssi_figure() const {
   };
   for (std::size_t i = 0; i < links_.size(); ++i) {
     panel.layers.push_back(trace(i, &Moment::rssi));
-    auto& line = std::get<picture::Line>(panel.layers.back());
+    auto& line = std::get<plotting::Line>(panel.layers.back());
     line.colour = pale(*line.colour);
     line.width = 0.8;
   }
   for (std::size_t i = 0; i < links_.size(); ++i) {
     panel.layers.push_back(trace(i, &Moment::smooth));
-    std::get<picture::Line>(panel.layers.back()).label = links_[i].name;
+    std::get<plotting::Line>(panel.layers.back()).label = links_[i].name;
   }
   if (!std::isnan(links_[0].threshold))
-    panel.layers.push_back(picture::Rule{.at = links_[0].threshold, .label = "threshold"});
+    panel.layers.push_back(plotting::Rule{.at = links_[0].threshold, .label = "threshold"});
   return {.title = world_,
           .caption = "RSSI of each robot's link towards the base: as measured (pale) and smoothed.",
           .width = 900,
@@ -198,9 +198,9 @@ picture::Figure RunPictures::rssi_figure() const {
 
 std::vector<std::filesystem::path> RunPictures::write(const std::filesystem::path& folder) const {
   std::vector<std::filesystem::path> files;
-  const auto save = [](const picture::Figure& figure, const std::filesystem::path& file) {
+  const auto save = [](const plotting::Figure& figure, const std::filesystem::path& file) {
     try {
-      picture::save(figure, file);
+      plotting::save(figure, file);
     } catch (const std::runtime_error& e) {
       throw Error(Exit::io, e.what());
     }

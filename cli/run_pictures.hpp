@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/picture/figure.hpp"
 #include "kernel/simulation.hpp"
+#include "plotting/figure.hpp"
 
 namespace muster {
 
@@ -32,20 +32,20 @@ class RunPictures {
   struct Moment {
     double time = 0;  // s
     double away = 0;  // sum of the robots' distances from where they started, m
-    std::vector<picture::Robot> robots{};
-    std::vector<picture::Point> radios{};
+    std::vector<plotting::Robot> robots{};
+    std::vector<plotting::Point> radios{};
     std::vector<double> rssi{}, smooth{};  // a link; NaN before the first
   };
 
   void find_links(const Simulation& run);
   Moment moment(const Simulation& run) const;
   std::vector<const Moment*> snapshots() const;
-  picture::Panel plan_at(const Moment& moment) const;
-  picture::Figure plan_figure() const;
-  picture::Figure rssi_figure() const;
+  plotting::Panel plan_at(const Moment& moment) const;
+  plotting::Figure plan_figure() const;
+  plotting::Figure rssi_figure() const;
 
   std::string world_;
-  picture::FloorPlan plan_;
+  plotting::FloorPlan plan_;
   std::vector<Link> links_;
   std::vector<Moment> moments_;
   std::size_t most_ = 0;              // moments kept

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <mutex>
 
-#include "claim.hpp"
 #include "instance.hpp"
 #include "loader/float_guard.hpp"
 #include "text/names.hpp"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "claim.hpp"
 #include "host.hpp"
 #include "loader/float_guard.hpp"
 #include "text/names.hpp"
@@ -118,66 +117,6 @@ void Instance::check_attributes() {
       throw invalid(declared_.place, "<" + declared_.plugin + "> has no attribute " + quote(param.name) +
                                          ", which it needs; expected " + expectation(param));
   }
-}
-
-int Instance::claim(uint32_t kind, uint32_t flags, const std::string& table, const std::string& columns) {
-  Claim made;
-  made.kind = kind;
-  made.flags = flags;
-  made.name = parse_table_name(table, *this, around_);
-  if (kind < MUSTER_READ || kind > MUSTER_MODIFY)
-    throw refused("claims " + quote(table) + " in a way that does not exist");
-  try {
-    made.columns = Columns(columns);
-  } catch (const std::invalid_argument& e) {
-    throw refused("claims " + quote(table) + ": " + e.what());
-  }
-  if (made.columns.size() == 0) throw refused("claims " + quote(table) + " without columns");
-  check_references(made, *this, *around_.board);
-  Set& set = resolve_set(made.name, *this, *around_.board);
-  // A queue's rows are numbered; who owns them has the names.
-  made.row = resolve_row(made.name, set.kind == SetKind::queue ? *around_.board->find_set(set.owner) : set, *this);
-  if (kind == MUSTER_MODIFY && set.kind == SetKind::queue && made.row >= 0)
-    throw refused("modifies " + quote(table) + "; expected a whole queue");
-  const bool numbers = std::all_of(made.columns.begin(), made.columns.end(), [](const Column& c) {
-    return !c.nullable && !c.infinite && !c.bytes && c.reference.empty();
-  });
-  if (kind == MUSTER_ADD && (set.kind == SetKind::queue || made.row >= 0 || !numbers))
-    throw refused("adds to " + quote(table) + "; expected a whole table of numbers");
-  const auto* quantity = standard_quantity(*around_.standard, made.name);
-  if (quantity && Columns(quantity->columns) != made.columns)
-    throw refused("claims " + quote(table) + " as \"" + columns + "\"; its columns are \"" + quantity->columns + '"');
-  if (kind == MUSTER_WRITE && (flags & MUSTER_JOINS) && set.kind != SetKind::live)
-    throw refused("claims " + quote(table) + " to let rows join, but the rows of " + quote(set.name) + " do not join");
-  check_blindness(made, *this, around_);
-  claims_.push_back(std::move(made));
-  return static_cast<int>(claims_.size()) - 1;
-}
-
-int Instance::file(const std::string& param, const std::string& columns) {
-  const int found = find_param(param);
-  if (found < 0 || plugin_->params[found].kind != MUSTER_FILE)
-    throw Error(Exit::plugin_fault,
-                title() + ": asks for the file " + quote(param) + ", which is no file among its parameters");
-  const std::string& given = texts_[param];
-  if (given.empty())
-    throw refused("has no attribute " + quote(param) + ", which it needs; expected a path relative to the world file");
-  auto path = std::filesystem::path(given);
-  if (path.is_relative()) path = around_.world->file.parent_path() / path;
-  if (!std::filesystem::exists(path))
-    throw invalid(places_.count(param) ? places_[param] : declared_.place,
-                  "attribute " + quote(param) + ": there is no file " + quote(path.string()));
-  Claim made;
-  made.kind = MUSTER_READ;
-  const bool filled = columns.ends_with(" +"), closed = filled || columns.ends_with(" .");
-  made.columns = Columns(std::string_view(columns).substr(0, columns.size() - (closed ? 2 : 0)));
-  made.name = {"file", param, given, ""};
-  check_references(made, *this, *around_.board);
-  made.file = read_file_table(path, made.columns, closed, *around_.board);
-  if (filled && made.file->rows == 0)
-    throw invalid({path.string(), 1, 1}, "has no rows below its header; expected one at least");
-  claims_.push_back(std::move(made));
-  return static_cast<int>(claims_.size()) - 1;
 }
 
 Error Instance::failure(const std::string& callback, const muster_tick* tick, const std::string& said) {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "cells.hpp"
+#include "cell_checks.hpp"
 #include "simulation.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"

@@ -11,7 +11,7 @@ namespace muster::peers {
 inline Counts our_lr_wpan(const Task& task) {
   lrwpan::Settings s;
   s.noise = 1.380649e-23 * 290 * 5e6 * 1e3;
-  s.busy = packets::milliwatts(-96.58);
+  s.busy = medium::milliwatts(-96.58);
   s.cca = lrwpan::Cca::ns3;
   s.queue = 1'000'000;
   return run_ours<lrwpan::Medium>(task, channel_of(task.places), s);
@@ -21,7 +21,7 @@ inline Counts our_lr_wpan(const Task& task) {
 inline Counts our_wifi(const Task& task) {
   wifi::Settings s;
   s.noise = 1.380649e-23 * 290 * 20e6 * 1e3 * std::pow(10, 0.7);
-  s.busy = packets::milliwatts(-62);
+  s.busy = medium::milliwatts(-62);
   s.queue = 1'000'000;
   return run_ours<wifi::Medium>(task, channel_of(task.places, 16.0206, -82), s);
 }

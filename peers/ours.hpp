@@ -6,7 +6,7 @@
 #include <ctime>
 #include <string>
 
-#include "packets/post.hpp"
+#include "medium/transmit_queue.hpp"
 #include "peers/task.hpp"
 
 namespace muster::peers {
@@ -36,9 +36,9 @@ inline Task pair_at(double distance, double rate, double seconds) {
   return task;
 }
 
-inline packets::Channel channel_of(const std::vector<std::array<double, 2>>& places, double tx_power = 0,
-                                   double sensitivity = -250) {
-  packets::Channel c;
+inline medium::Channel channel_of(const std::vector<std::array<double, 2>>& places, double tx_power = 0,
+                                  double sensitivity = -250) {
+  medium::Channel c;
   const std::size_t n = c.radios = places.size();
   c.power.assign(n * n, 0);
   c.rssi.assign(n * n, std::nan(""));
@@ -49,42 +49,42 @@ inline packets::Channel channel_of(const std::vector<std::array<double, 2>>& pla
       if (i == j) continue;
       const double d = std::max(1.0, std::hypot(places[i][0] - places[j][0], places[i][1] - places[j][1]));
       const double rssi = tx_power - 40 - 30 * std::log10(d);
-      c.power[i * n + j] = packets::milliwatts(rssi);
+      c.power[i * n + j] = medium::milliwatts(rssi);
       if (rssi >= sensitivity) c.rssi[i * n + j] = rssi;
     }
   }
   return c;
 }
 
-using Books = std::array<double, static_cast<std::size_t>(packets::Fate::count)>;
-inline double of(const Books& books, packets::Fate fate) { return books[static_cast<std::size_t>(fate)]; }
-inline void add(Books& books, const packets::Report& report) {
+using Books = std::array<double, static_cast<std::size_t>(medium::Fate::count)>;
+inline double of(const Books& books, medium::Fate fate) { return books[static_cast<std::size_t>(fate)]; }
+inline void add(Books& books, const medium::Report& report) {
   for (const auto& radio : report.fates)
     for (std::size_t k = 0; k < books.size(); ++k) books[k] += static_cast<double>(radio[k]);
 }
 
 // In ticks of 0.1 s, as in a world.
 template <class Medium, class Settings>
-Counts run_ours(const Task& task, const packets::Channel& channel, const Settings& settings) {
-  constexpr packets::Time tick = 100'000'000;
+Counts run_ours(const Task& task, const medium::Channel& channel, const Settings& settings) {
+  constexpr medium::Time tick = 100'000'000;
   Medium medium(Stream(combined(key_of("peers"), task.run)));
   Counts result;
   Books books{};
   std::size_t next = 0;
-  const auto nanoseconds = [](double seconds) -> packets::Time { return std::llround(1e9 * seconds); };
+  const auto nanoseconds = [](double seconds) -> medium::Time { return std::llround(1e9 * seconds); };
   const std::string payload(task.payload, 'x');
-  const packets::Time until = nanoseconds(task.seconds);
+  const medium::Time until = nanoseconds(task.seconds);
   const std::clock_t before = std::clock();
-  for (packets::Time since = 0; since < until; since += tick) {
-    const packets::Time end = std::min<packets::Time>(since + tick, until);
+  for (medium::Time since = 0; since < until; since += tick) {
+    const medium::Time end = std::min<medium::Time>(since + tick, until);
     for (; next < task.requests.size() && nanoseconds(task.requests[next].at) < end; ++next)
       medium.ask(nanoseconds(task.requests[next].at), task.requests[next].from, Medium::everyone, payload);
     add(books, medium.run(since, end, channel, settings));
   }
   result.cpu = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
   const auto others = static_cast<double>(task.places.size() - 1);
-  result.arrived = static_cast<std::uint64_t>(of(books, packets::Fate::delivered));
-  result.no_access = static_cast<std::uint64_t>(std::llround(of(books, packets::Fate::no_access) / others));
+  result.arrived = static_cast<std::uint64_t>(of(books, medium::Fate::delivered));
+  result.no_access = static_cast<std::uint64_t>(std::llround(of(books, medium::Fate::no_access) / others));
   return result;
 }
 

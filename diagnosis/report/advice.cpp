@@ -8,8 +8,8 @@ std::vector<Question> open_questions(const Diagnosis& d) {
   std::vector<Question> out;
   for (const FoundCause& c : d.causes) {
     if (standing_of(c) == Standing::set_aside) continue;
-    for (const search::Rival& r : c.rivals) {
-      if (r.separability >= search::decided) continue;
+    for (const inference::Rival& r : c.rivals) {
+      if (r.separability >= inference::decided) continue;
       std::string pair = short_name(c.id) + " or " + short_name(r.id);
       if (r.id == c.id) pair = short_name(c.id) + " of " + c.label + " or of " + r.label;
       Question question{c.id, r.id, std::move(pair), r.separability, c.tell_apart, {}};
@@ -24,8 +24,8 @@ std::vector<Question> open_questions(const Diagnosis& d) {
   }
   for (const auto& u : d.unexplained) {
     const std::string what = covariate_in_words(u.covariate);
-    for (const search::Rival& r : u.rivals) {
-      if (r.separability >= search::decided) continue;
+    for (const inference::Rival& r : u.rivals) {
+      if (r.separability >= inference::decided) continue;
       out.push_back({"~" + u.covariate,
                      r.id,
                      what + " or " + short_name(r.id),

@@ -13,7 +13,7 @@
 namespace muster::report {
 namespace {
 
-namespace pic = picture;
+namespace pic = plotting;
 using Eigen::Index;
 using Eigen::VectorXd;
 
@@ -106,7 +106,7 @@ std::vector<Along> everything(const diagnosis::SeenRows& rows) {
 }
 
 std::string chance_of(const Diagnosis& d, const std::string& id) {
-  for (const search::Check& c : d.checks) {
+  for (const inference::Check& c : d.checks) {
     if (c.id == id) return chance(c.log_p);
   }
   return "";

@@ -15,22 +15,22 @@ bool found(const Diagnosis& d, const std::string& id) {
 SortedChecks sorted_checks(const Diagnosis& d) {
   const double small = std::log(1e-3);
   SortedChecks result;
-  for (const search::Check& c : d.checks) {
+  for (const inference::Check& c : d.checks) {
     if (found(d, c.id)) continue;
-    auto& list = c.log_p < small ? result.doubtful : c.kind == search::Kind::smooth ? result.along : result.causes;
+    auto& list = c.log_p < small ? result.doubtful : c.kind == inference::Kind::smooth ? result.along : result.causes;
     list.push_back(&c);
   }
   return result;
 }
 
-std::string name_of(const search::Check& check) {
-  return check.kind == search::Kind::smooth ? covariate_in_words(check.id.substr(1)) : short_name(check.id);
+std::string name_of(const inference::Check& check) {
+  return check.kind == inference::Kind::smooth ? covariate_in_words(check.id.substr(1)) : short_name(check.id);
 }
 
 std::string asked_alone(const Diagnosis& d) {
   std::string result;
   for (const std::string& id : d.searched) {
-    const auto is_it = [&](const search::Check& c) { return c.id == id; };
+    const auto is_it = [&](const inference::Check& c) { return c.id == id; };
     if (!found(d, id) && std::none_of(d.checks.begin(), d.checks.end(), is_it))
       result += (result.empty() ? "" : ", ") + short_name(id);
   }

@@ -13,11 +13,11 @@ bool found(const Diagnosis& diagnosis, const std::string& id);
 
 // What was checked and is not among what was found. Doubtful: small p that were not told, of either kind.
 struct SortedChecks {
-  std::vector<const search::Check*> along, causes, doubtful;
+  std::vector<const inference::Check*> along, causes, doubtful;
 };
 SortedChecks sorted_checks(const Diagnosis& diagnosis);
 // "distance", "dual slope"
-std::string name_of(const search::Check& check);
+std::string name_of(const inference::Check& check);
 constexpr const char* why_doubtful =
     "Small by themselves, and not told: each is one of the many that were asked, or goes with what stands above.";
 

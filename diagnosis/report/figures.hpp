@@ -4,14 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/picture/figure.hpp"
 #include "diagnosis/report/words.hpp"
+#include "plotting/figure.hpp"
 
 namespace muster::report {
 
 struct Picture {
   std::string name;  // of its file, without ending
-  picture::Figure figure;
+  plotting::Figure figure;
 };
 
 // Only those that the data allow: no map without places that vary, no steps without held-out blocks.
@@ -19,10 +19,10 @@ std::vector<Picture> pictures_of(const Diagnosis& diagnosis);
 
 // ---- Its parts ----
 
-picture::Figure residual_map(const Diagnosis& diagnosis);
-picture::Figure before_and_after(const Diagnosis& diagnosis);
-picture::Figure staircase(const Diagnosis& diagnosis);
-picture::Figure partial_residual(const Diagnosis& diagnosis, const FoundCause& cause);
-picture::Figure residual_by_covariate(const Diagnosis& diagnosis);
+plotting::Figure residual_map(const Diagnosis& diagnosis);
+plotting::Figure before_and_after(const Diagnosis& diagnosis);
+plotting::Figure staircase(const Diagnosis& diagnosis);
+plotting::Figure partial_residual(const Diagnosis& diagnosis, const FoundCause& cause);
+plotting::Figure residual_by_covariate(const Diagnosis& diagnosis);
 
 }  // namespace muster::report

@@ -57,7 +57,7 @@ std::vector<std::string> write_report(const Diagnosis& diagnosis, const Setting&
   add(folder / "report.html", page_of(diagnosis, setting, pictures));
   add(folder / "diagnosis.json", json_of(diagnosis).dump(2) + "\n");
   if (diagnosis.advised) add(folder / "advised.csv", advised_csv(diagnosis.advised->readings, diagnosis.seen.radios));
-  for (const Picture& p : pictures) add(folder / "pictures" / (p.name + ".svg"), picture::svg(p.figure));
+  for (const Picture& p : pictures) add(folder / "pictures" / (p.name + ".svg"), plotting::svg(p.figure));
   return files;
 }
 

@@ -13,19 +13,19 @@ using Json = nlohmann::ordered_json;
 // JSON has no NaN: what is not known is null.
 Json known(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-Json held_out_json(const std::optional<search::HeldOut>& h) {
-  const auto of = [&](double search::HeldOut::*which) { return h ? known(*h.*which) : Json(nullptr); };
-  return {{"heldout_rmse_before_db", of(&search::HeldOut::rmse_before)},
-          {"heldout_rmse_after_db", of(&search::HeldOut::rmse_after)},
-          {"gain_lower95", of(&search::HeldOut::lower95)},
-          {"gain_upper95", of(&search::HeldOut::upper95)},
-          {"gain_db2", of(&search::HeldOut::gain)},
+Json held_out_json(const std::optional<inference::HeldOut>& h) {
+  const auto of = [&](double inference::HeldOut::*which) { return h ? known(*h.*which) : Json(nullptr); };
+  return {{"heldout_rmse_before_db", of(&inference::HeldOut::rmse_before)},
+          {"heldout_rmse_after_db", of(&inference::HeldOut::rmse_after)},
+          {"gain_lower95", of(&inference::HeldOut::lower95)},
+          {"gain_upper95", of(&inference::HeldOut::upper95)},
+          {"gain_db2", of(&inference::HeldOut::gain)},
           {"blocks", h ? Json(h->blocks) : Json(nullptr)}};
 }
 
-Json elsewhere_json(const std::vector<search::Elsewhere>& elsewhere) {
+Json elsewhere_json(const std::vector<inference::Elsewhere>& elsewhere) {
   Json out = Json::array();
-  for (const search::Elsewhere& e : elsewhere) {
+  for (const inference::Elsewhere& e : elsewhere) {
     Json one = {{"left_out", parts_in_words(e.part)}};
     one.update(held_out_json(e.held_out));
     out.push_back(one);
@@ -33,9 +33,9 @@ Json elsewhere_json(const std::vector<search::Elsewhere>& elsewhere) {
   return out;
 }
 
-Json rivals_json(const std::vector<search::Rival>& rivals) {
+Json rivals_json(const std::vector<inference::Rival>& rivals) {
   Json out = Json::array();
-  for (const search::Rival& r : rivals)
+  for (const inference::Rival& r : rivals)
     out.push_back({{"id", r.id},
                    {"label", r.label},
                    {"evidence_gap", known(r.evidence_gap)},
@@ -56,7 +56,7 @@ Json cause_json(const FoundCause& c) {
   }
   Json out = {{"id", c.id},
               {"label", c.label},
-              {"status", c.status == search::Status::named ? "named" : "suspected"},
+              {"status", c.status == inference::Status::named ? "named" : "suspected"},
               {"confirmed", standing_of(c) == Standing::confirmed},
               {"sentence", sentence(c)},
               {"parameters", parameters},
@@ -103,9 +103,9 @@ Json advice_json(const Diagnosis& d) {
 
 Json checks_json(const Diagnosis& d) {
   Json out = Json::array();
-  for (const search::Check& c : d.checks) {
+  for (const inference::Check& c : d.checks) {
     if (found(d, c.id)) continue;
-    const bool smooth = c.kind == search::Kind::smooth;
+    const bool smooth = c.kind == inference::Kind::smooth;
     out.push_back({{smooth ? "covariate" : "cause", smooth ? c.id.substr(1) : c.id},
                    {"p", std::exp(std::min(c.log_p, 0.0))},
                    {"lambda", known(c.gain)}});
@@ -155,35 +155,35 @@ Json json_of(const Diagnosis& d) {
   Json causes = Json::array(), unexplained = Json::array();
   for (const FoundCause& c : d.causes) causes.push_back(cause_json(c));
   for (const auto& u : d.unexplained) unexplained.push_back(unexplained_json(u));
-  const auto error = [&](double search::HeldOut::*which) { return d.held_out ? known(*d.held_out.*which) : Json(); };
-  return {
-      {"verdict", d.verdict()},
-      {"noise",
-       {{"family", std::string(noise::name_of(d.noise.family))},
-        {"sigma_db", known(std::sqrt(d.noise.field_variance()))},
-        {"decorrelation_m", known(d.noise.decorrelation())},
-        {"fading", known(std::sqrt(d.noise.reading_variance()))},
-        {"floor_db", known(noise_floor(d))}}},
-      {"base", {{"residual_sd_db", known(d.residual_sd)}, {"heldout_rmse_db", error(&search::HeldOut::rmse_before)}}},
-      {"causes", causes},
-      {"unexplained", unexplained},
-      {"advice", advice_json(d)},
-      {"extended_world", d.loop ? Json(d.loop->world.string()) : Json()},
-      {"heldout_rmse_db", error(&search::HeldOut::rmse_after)},
-      {"loop", loop_json(d)},
-      {"summary", verdict_in_words(d)},
-      {"readings", d.readings},
-      {"rows", d.rows},
-      {"blocks", d.held_out ? Json(d.held_out->blocks) : Json()},
-      {"elsewhere", elsewhere_json(d.elsewhere)},
-      {"steps", stairs_json(d)},
-      {"parameters", d.parameters},
-      {"world_parameters", world_json(d)},
-      {"checked", checks_json(d)},
-      {"instrument", instrument_json(d)},
-      {"searched", d.searched},
-      {"not_searched", d.not_tested},
-      {"notes", d.notes}};
+  const auto error = [&](double inference::HeldOut::*which) { return d.held_out ? known(*d.held_out.*which) : Json(); };
+  return {{"verdict", d.verdict()},
+          {"noise",
+           {{"family", std::string(noise::name_of(d.noise.family))},
+            {"sigma_db", known(std::sqrt(d.noise.field_variance()))},
+            {"decorrelation_m", known(d.noise.decorrelation())},
+            {"fading", known(std::sqrt(d.noise.reading_variance()))},
+            {"floor_db", known(noise_floor(d))}}},
+          {"base",
+           {{"residual_sd_db", known(d.residual_sd)}, {"heldout_rmse_db", error(&inference::HeldOut::rmse_before)}}},
+          {"causes", causes},
+          {"unexplained", unexplained},
+          {"advice", advice_json(d)},
+          {"extended_world", d.loop ? Json(d.loop->world.string()) : Json()},
+          {"heldout_rmse_db", error(&inference::HeldOut::rmse_after)},
+          {"loop", loop_json(d)},
+          {"summary", verdict_in_words(d)},
+          {"readings", d.readings},
+          {"rows", d.rows},
+          {"blocks", d.held_out ? Json(d.held_out->blocks) : Json()},
+          {"elsewhere", elsewhere_json(d.elsewhere)},
+          {"steps", stairs_json(d)},
+          {"parameters", d.parameters},
+          {"world_parameters", world_json(d)},
+          {"checked", checks_json(d)},
+          {"instrument", instrument_json(d)},
+          {"searched", d.searched},
+          {"not_searched", d.not_tested},
+          {"notes", d.notes}};
 }
 
 }  // namespace muster::report

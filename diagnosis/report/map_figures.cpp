@@ -13,7 +13,7 @@
 namespace muster::report {
 namespace {
 
-namespace pic = picture;
+namespace pic = plotting;
 using Eigen::Index;
 using Eigen::VectorXd;
 

@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/picture/svg.hpp"
 #include "diagnosis/report/advice.hpp"
 #include "diagnosis/report/checked.hpp"
+#include "plotting/svg.hpp"
 
 namespace muster::report {
 namespace {
 
-using picture::escaped;
+using plotting::escaped;
 
 // Figures are drawn for white paper; in the dark they keep it, a shade softer.
 constexpr const char* style = R"(
@@ -76,7 +76,7 @@ std::string table(const Row& head, const std::vector<Row>& rows, const char* kin
 std::string figure_named(const std::vector<Picture>& pictures, const std::string& name) {
   for (const Picture& p : pictures) {
     if (p.name != name) continue;
-    const std::string svg = picture::svg(p.figure);
+    const std::string svg = plotting::svg(p.figure);
     return "<figure>\n" + svg.substr(svg.find("<svg")) + "</figure>\n";  // without the declaration of a document
   }
   return "";
@@ -106,13 +106,13 @@ std::string key_figures(const Diagnosis& d) {
   return out + "</section>\n";
 }
 
-std::string gain_text(const search::HeldOut& h, search::Part part) {
+std::string gain_text(const inference::HeldOut& h, inference::Part part) {
   return fmt::format("{:.2f} → {}; squared error falls by {:.2f} dB² (95 %: {:.2f} to {:.2f}, over {} {})",
                      h.rmse_before, db(h.rmse_after), h.gain, h.lower95, h.upper95, h.blocks, parts_in_words(part));
 }
 
-std::string gain_text(const std::optional<search::HeldOut>& h, const std::string& why_none) {
-  return h ? gain_text(*h, search::Part::block) : why_none;
+std::string gain_text(const std::optional<inference::HeldOut>& h, const std::string& why_none) {
+  return h ? gain_text(*h, inference::Part::block) : why_none;
 }
 
 std::string cause_card(const FoundCause& c, std::size_t number, const std::vector<Picture>& pictures) {
@@ -133,7 +133,7 @@ std::string cause_card(const FoundCause& c, std::size_t number, const std::vecto
       {{"evidence"},
        {fmt::format("{:.1f} nats; λ = {:.0f} (fall of the deviance beside all else)", c.evidence, c.lambda)}},
       {{"gain"}, {gain_text(c.held_out, why_no_gain(c))}}};
-  for (const search::Elsewhere& e : c.elsewhere)
+  for (const inference::Elsewhere& e : c.elsewhere)
     facts.push_back({{parts_in_words(e.part) + " not seen"}, {gain_text(e.held_out, e.part)}});
   facts.push_back({{"rivals"}, {rivals_in_words(c.rivals)}});
   out += table({}, facts);
@@ -170,10 +170,10 @@ std::string checked(const Diagnosis& d) {
 std::string checked_table(const Diagnosis& d) {
   const auto [along, causes, doubtful] = sorted_checks(d);
   if (along.empty() && causes.empty() && doubtful.empty()) return "";
-  const auto of = [](const char* what, const std::vector<const search::Check*>& checks) {
+  const auto of = [](const char* what, const std::vector<const inference::Check*>& checks) {
     std::vector<Row> rows;
     rows.reserve(checks.size());
-    for (const search::Check* c : checks) rows.push_back({{name_of(*c)}, {chance(c->log_p), true}});
+    for (const inference::Check* c : checks) rows.push_back({{name_of(*c)}, {chance(c->log_p), true}});
     return rows.empty() ? "" : table({{what}, {"chance", true}}, rows);
   };
   std::string out = "<div class=\"card\">" + of("dependence on", along) + of("further cause", causes);
@@ -250,7 +250,7 @@ std::string page_of(const Diagnosis& d, const Setting& setting, const std::vecto
     body += heading("Not explained");
     for (const auto& u : d.unexplained) {
       std::string text = what_is_unexplained(u) + " Gain: " + gain_text(u.held_out, too_few_blocks) + ".";
-      for (const search::Elsewhere& e : u.elsewhere)
+      for (const inference::Elsewhere& e : u.elsewhere)
         text += " Of " + parts_in_words(e.part) + " not seen: " + gain_text(e.held_out, e.part) + ".";
       body += "<div class=\"card\">" + paragraph(text) + "</div>\n";
     }

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "diagnosis/pipeline/diagnose.hpp"
+#include "diagnosis/radio/links/link_model.hpp"
 #include "diagnosis/report/replay.hpp"
 #include "text/names.hpp"
 
@@ -55,7 +57,7 @@ Json parameters_of(const Diagnosis& d) {
   Json out = Json::array();
   std::map<std::string, int> count;
   for (const FoundCause& c : d.causes) {
-    if (c.status != search::Status::named) continue;
+    if (c.status != inference::Status::named) continue;
     const int number = ++count[c.id];
     for (const CauseValue& v : c.values) {
       if (!(v.upper95 > v.lower95)) continue;

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "diagnosis/report/words.hpp"
+#include "kernel/simulation.hpp"
 
 namespace muster::report {
 

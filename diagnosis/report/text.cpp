@@ -46,7 +46,7 @@ std::string errors(const Diagnosis& d) {
   return wrapped(text + ' ' + errors_elsewhere(d), 2, 2);
 }
 
-std::string gain_of(const search::HeldOut& h, search::Part part) {
+std::string gain_of(const inference::HeldOut& h, inference::Part part) {
   return fmt::format("{:.2f} -> {} where not seen; squared error falls by {:.2f} dB2 (95 %: {:.2f} to {:.2f}, {} {})",
                      h.rmse_before, db(h.rmse_after), h.gain, h.lower95, h.upper95, h.blocks, parts_in_words(part));
 }
@@ -58,9 +58,9 @@ std::string entry(const std::string& word, const std::string& text) {
   return padded + wrapped(text, 18, 18).substr(18);
 }
 
-std::string gains_elsewhere(const std::vector<search::Elsewhere>& elsewhere) {
+std::string gains_elsewhere(const std::vector<inference::Elsewhere>& elsewhere) {
   std::string text;
-  for (const search::Elsewhere& e : elsewhere) text += entry("", gain_of(e.held_out, e.part));
+  for (const inference::Elsewhere& e : elsewhere) text += entry("", gain_of(e.held_out, e.part));
   return text;
 }
 
@@ -73,7 +73,7 @@ std::string cause_text(const FoundCause& c, int number) {
   text += entry("evidence",
                 fmt::format("{:.1f} nats; lambda {:.0f} (fall of the deviance beside all else)", c.evidence, c.lambda));
   if (c.held_out)
-    text += entry("gain", gain_of(*c.held_out, search::Part::block));
+    text += entry("gain", gain_of(*c.held_out, inference::Part::block));
   else
     text += entry("gain", why_no_gain(c));
   text += gains_elsewhere(c.elsewhere);
@@ -98,7 +98,7 @@ std::string unexplained(const Diagnosis& d) {
   std::string text = heading("Not explained");
   for (const auto& u : d.unexplained) {
     text += wrapped(what_is_unexplained(u), 2, 2);
-    text += entry("gain", u.held_out ? gain_of(*u.held_out, search::Part::block) : too_few_blocks);
+    text += entry("gain", u.held_out ? gain_of(*u.held_out, inference::Part::block) : too_few_blocks);
     text += gains_elsewhere(u.elsewhere);
   }
   return text;
@@ -122,9 +122,9 @@ std::string undecided(const Diagnosis& d) {
     text += wrapped("- " + q.tell_apart, 4, 6);
     for (const Measurement& m : q.plans)
       text += wrapped(fmt::format("- {}: predicted D {:.0f}{}{}", m.say, m.predicted,
-                                  m.predicted >= search::decided      ? ", decides"
-                                  : m.predicted < search::inseparable ? ", too little"
-                                                                      : "",
+                                  m.predicted >= inference::decided      ? ", decides"
+                                  : m.predicted < inference::inseparable ? ", too little"
+                                                                         : "",
                                   m.advised ? "; advised.csv lists its readings" : ""),
                       4, 6);
   }
@@ -132,9 +132,9 @@ std::string undecided(const Diagnosis& d) {
 }
 
 // "distance (p = 0.4), the link (p = 0.8)"
-std::string with_chances(const std::vector<const search::Check*>& checks) {
+std::string with_chances(const std::vector<const inference::Check*>& checks) {
   std::string result;
-  for (const search::Check* c : checks)
+  for (const inference::Check* c : checks)
     result += (result.empty() ? "" : ", ") + name_of(*c) + " (" + chance(c->log_p) + ")";
   return result;
 }

@@ -58,7 +58,7 @@ bool is_law(const FoundCause& cause) { return cause.covariates == std::vector<st
 }  // namespace
 
 Standing standing_of(const FoundCause& cause) {
-  if (cause.status != search::Status::named) return Standing::set_aside;
+  if (cause.status != inference::Status::named) return Standing::set_aside;
   if (!cause.doubt.empty()) return Standing::unconfirmed;
   // What shifts no level has no error at places to confirm it by: its evidence is the readings' own law.
   if (is_law(cause)) return Standing::confirmed;
@@ -73,7 +73,7 @@ std::string why_unconfirmed(const FoundCause& cause) {
 }
 
 std::string why_no_gain(const FoundCause& cause) {
-  if (cause.status != search::Status::named) return "not measured: not beyond chance beside the others";
+  if (cause.status != inference::Status::named) return "not measured: not beyond chance beside the others";
   return is_law(cause) ? "none to measure: it is told by how readings scatter, and shifts no level" : too_few_blocks;
 }
 
@@ -85,9 +85,9 @@ int count_of(const Diagnosis& d, Standing standing) {
 double tenths(double value) { return std::round(10 * value) / 10 + 0.0; }
 
 std::string judged(double separability) {
-  return separability < search::inseparable ? "cannot be told apart"
-         : separability < search::decided   ? "weakly told apart"
-                                            : "told apart";
+  return separability < inference::inseparable ? "cannot be told apart"
+         : separability < inference::decided   ? "weakly told apart"
+                                               : "told apart";
 }
 
 std::string rounded(double value, double half) {
@@ -154,10 +154,10 @@ std::string covariate_in_words(const std::string& name) {
          (words.count(second) ? words.at(second) : second);
 }
 
-std::string rivals_in_words(const std::vector<search::Rival>& rivals) {
+std::string rivals_in_words(const std::vector<inference::Rival>& rivals) {
   if (rivals.empty()) return "none that the readings leave open";
   std::string out;
-  for (const search::Rival& r : rivals)
+  for (const inference::Rival& r : rivals)
     out += fmt::format("{}{}, {:.1f} nats behind, D {:.0f}: {}", out.empty() ? "" : "; ", with_label(r.id, r.label),
                        tenths(r.evidence_gap), r.separability, judged(r.separability));
   return out;
@@ -209,13 +209,13 @@ double noise_floor(const Diagnosis& d) {
 
 std::string what_is_held_out(const Diagnosis& d) { return d.seen.places_known ? "places" : "distances"; }
 
-std::string parts_in_words(search::Part part) {
+std::string parts_in_words(inference::Part part) {
   switch (part) {
-    case search::Part::block:
+    case inference::Part::block:
       return "blocks";
-    case search::Part::radio:
+    case inference::Part::radio:
       return "radios";
-    case search::Part::run:
+    case inference::Part::run:
       return "runs";
   }
   return "";
@@ -225,8 +225,8 @@ std::string db(double value) { return fmt::format("{:.2f} dB", value); }
 
 std::string errors_elsewhere(const Diagnosis& d) {
   std::string text;
-  for (const search::Elsewhere& e : d.elsewhere) {
-    const search::HeldOut& h = e.held_out;
+  for (const inference::Elsewhere& e : d.elsewhere) {
+    const inference::HeldOut& h = e.held_out;
     text += fmt::format("{}With {} left out in turn ({}) it errs by {} at these", text.empty() ? "" : " ",
                         parts_in_words(e.part), h.blocks, db(h.rmse_before));
     const bool improved = d.named() || !d.unexplained.empty();

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "diagnosis/diagnose.hpp"
+#include "diagnosis/result.hpp"
 
 namespace muster::report {
 
@@ -45,7 +45,7 @@ std::string short_name(const std::string& id);
 // What a covariate's name stands for: "logd" is "distance".
 std::string covariate_in_words(const std::string& name);
 // "obstacle (2.0, 1.5), 1.5 nats behind, D 6: cannot be told apart", one after the other; or that there are none.
-std::string rivals_in_words(const std::vector<search::Rival>& rivals);
+std::string rivals_in_words(const std::vector<inference::Rival>& rivals);
 // "Something depends on the column battery ...", with what it wins and the causes that explain it nearly as well.
 std::string what_is_unexplained(const diagnosis::Unexplained& what);
 // "finds nothing more"; "still finds drift tx1, something along the column battery".
@@ -62,7 +62,7 @@ std::string db(double value);
 // "places", or "distances" where the data have no places.
 std::string what_is_held_out(const Diagnosis& diagnosis);
 // "blocks", "radios", "runs"
-std::string parts_in_words(search::Part part);
+std::string parts_in_words(inference::Part part);
 // What the world errs by with radios and runs not seen; empty where there are not several.
 std::string errors_elsewhere(const Diagnosis& diagnosis);
 // How readings were gathered to rows.

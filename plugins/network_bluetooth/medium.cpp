@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
-#include "packets/state.hpp"
+#include "medium/state.hpp"
 
 namespace muster::bluetooth {
 namespace {
 
-using packets::Frame;
-using packets::never;
-using packets::nothing;
+using medium::Frame;
+using medium::never;
+using medium::nothing;
 
 // At the same time frames end, then requests come, packets are given up, slaves answer, the master sends.
 enum Kind { frame_ends, request_comes, packet_expires, slave_answers, master_turns };
@@ -18,9 +18,9 @@ enum Kind { frame_ends, request_comes, packet_expires, slave_answers, master_tur
 constexpr double found_above = 1;
 
 // One for each type, whose number it is; a packet without payload is as long as the first.
-std::vector<packets::Format> formats() {
-  static const packets::BitLaw body(bit_error_rate), head(header_error_rate);
-  packets::Format format;
+std::vector<medium::Format> formats() {
+  static const medium::BitLaw body(bit_error_rate), head(header_error_rate);
+  medium::Format format;
   format.head_law = &head;
   format.head_from = access_code;
   format.head_until = bare;
@@ -44,7 +44,7 @@ const Report& Medium::run(Time since, Time until, const Channel& channel, const 
   channel_ = &channel;
   radios_.resize(channel.radios);
   const auto& frames = air_.frames();
-  const packets::Band band = frames.empty() ? packets::Band{} : band_of(channel_at(frames.back().begin));
+  const medium::Band band = frames.empty() ? medium::Band{} : band_of(channel_at(frames.back().begin));
   air_.enter(channel, {settings.noise, found_above, 0, found_above, band});
   look_who_is_there();
   post_.open(channel);
@@ -65,7 +65,7 @@ const Report& Medium::run(Time since, Time until, const Channel& channel, const 
 
 void Medium::look_who_is_there() {
   is_there_ = channel_->alive;
-  for (const packets::Jammer& jammer : channel_->jammers) is_there_[jammer.radio] = false;
+  for (const medium::Jammer& jammer : channel_->jammers) is_there_[jammer.radio] = false;
   const auto there = std::count(is_there_.begin(), is_there_.end(), true);
   if (there > 1 + most_slaves)
     throw TooManyRadios(std::to_string(there) + " radios; a piconet has one master and at most " +
@@ -77,7 +77,7 @@ void Medium::look_who_is_there() {
   }
 }
 
-void Medium::handle(const packets::Event& event) {
+void Medium::handle(const medium::Event& event) {
   switch (event.kind()) {
     case frame_ends:
       return end_frame(event.number(), event.at);
@@ -193,7 +193,7 @@ void Medium::end_down(const Frame& frame, Heard heard, Time at) {
   Radio& slave = radios_[frame.to];
   const bool bears_data = radios_[frame.sender].sent == frame.id;
   if (heard != Heard::whole) {
-    slave.last_loss = packets::fate_of(heard);  // it would have been allowed to talk
+    slave.last_loss = medium::fate_of(heard);  // it would have been allowed to talk
     if (bears_data) radios_[frame.sender].last_loss = slave.last_loss;
     return;
   }
@@ -208,7 +208,7 @@ void Medium::end_up(const Frame& frame, Heard heard, Time at) {
   Radio& slave = radios_[frame.sender];
   const bool bears_data = slave.sent == frame.id;
   if (heard != Heard::whole) {
-    if (bears_data) slave.last_loss = packets::fate_of(heard);
+    if (bears_data) slave.last_loss = medium::fate_of(heard);
     return;
   }
   slave.has_more_until = bears_data ? at + settings_.poll_interval : 0;
@@ -308,18 +308,18 @@ constexpr auto fields = [](auto&& field, auto& r) {
 }  // namespace
 
 std::string Medium::save() const {
-  packets::Writer out;
+  medium::Writer out;
   out.put(free_);
-  packets::save(out, air_, post_, radios_, fields);
+  medium::save(out, air_, post_, radios_, fields);
   return out.take();
 }
 
 void Medium::load(std::string_view bytes) {
   *this = Medium(random_);
   if (bytes.empty()) return;
-  packets::Reader in(bytes);
+  medium::Reader in(bytes);
   in.get(free_);
-  packets::load(in, air_, post_, radios_, fields);
+  medium::load(in, air_, post_, radios_, fields);
 }
 
 }  // namespace muster::bluetooth

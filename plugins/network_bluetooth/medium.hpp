@@ -8,17 +8,17 @@
 #include <string_view>
 #include <vector>
 
-#include "packets/agenda.hpp"
-#include "packets/air.hpp"
-#include "packets/post.hpp"
+#include "medium/air.hpp"
+#include "medium/event_queue.hpp"
+#include "medium/transmit_queue.hpp"
 #include "standard.hpp"
 
 namespace muster::bluetooth {
 
-using packets::Channel;
-using packets::Fate;
-using packets::Heard;
-using packets::Report;
+using medium::Channel;
+using medium::Fate;
+using medium::Heard;
+using medium::Report;
 
 struct Settings {
   std::size_t master = 0;
@@ -42,7 +42,7 @@ class Medium {
   void load(std::string_view bytes);
 
   // A message that `from` wants to send at `at`, a time of the next run(). `to`: a radio, or `everyone`.
-  static constexpr std::size_t everyone = packets::everyone;
+  static constexpr std::size_t everyone = medium::everyone;
   void ask(Time at, std::size_t from, std::size_t to, std::string payload) {
     post_.ask(at, from, to, std::move(payload));
   }
@@ -58,24 +58,24 @@ class Medium {
   struct Radio {
     // Of its first message: octets that were acknowledged, and those in the packet that is to be sent.
     std::size_t done = 0, carried = 0;
-    std::uint64_t sent = packets::nothing;  // the frame that carried the packet last
+    std::uint64_t sent = medium::nothing;  // the frame that carried the packet last
     Time sent_until = 0;
     bool arrived = false;
     Fate last_loss = Fate::too_weak;
-    Time expires = packets::never;
+    Time expires = medium::never;
 
     // As a slave: when it was last addressed, how long it is believed to have more to say, the last data that the
     // master heard from it, and when it answers to which frame.
     Time addressed = -(Time{1} << 40);
     Time has_more_until = 0;
-    std::uint64_t heard = packets::nothing;
-    Time answers = packets::never;
-    std::uint64_t answers_to = packets::nothing;
+    std::uint64_t heard = medium::nothing;
+    Time answers = medium::never;
+    std::uint64_t answers_to = medium::nothing;
   };
 
   void look_who_is_there();
   bool is_linked(std::size_t one, std::size_t other) const;
-  void handle(const packets::Event& event);
+  void handle(const medium::Event& event);
 
   void take_turn(Time at);
   Time wants_turn(std::size_t radio, Time at) const;
@@ -86,8 +86,8 @@ class Medium {
 
   void end_frame(std::uint64_t id, Time at);
   void end_broadcast(std::size_t sender, const std::vector<Heard>& heard, Time at);
-  void end_down(const packets::Frame& frame, Heard heard, Time at);
-  void end_up(const packets::Frame& frame, Heard heard, Time at);
+  void end_down(const medium::Frame& frame, Heard heard, Time at);
+  void end_up(const medium::Frame& frame, Heard heard, Time at);
   void arrive(std::size_t from, std::size_t to, Time at);
   void acknowledge(std::size_t from, std::uint64_t frame, Time at);
   void expire(std::size_t radio, Time at);
@@ -102,9 +102,9 @@ class Medium {
 
   Settings settings_;
   Stream random_;
-  packets::Air air_;
-  packets::Post post_;
-  packets::Agenda agenda_;
+  medium::Air air_;
+  medium::Post post_;
+  medium::Agenda agenda_;
   std::vector<Radio> radios_;
   Time free_ = 0;                       // until then somebody may be sending
   Time turn_ = 0;                       // when the master looks next whom to address

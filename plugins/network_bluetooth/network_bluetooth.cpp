@@ -1,11 +1,11 @@
 // network.bluetooth: a piconet on the blackboard.
 #include "medium.hpp"
-#include "packets/board.hpp"
+#include "medium/board.hpp"
 
 namespace {
 
 using namespace muster;
-using packets::milliwatts;
+using medium::milliwatts;
 
 struct NetworkBluetooth {
   static constexpr auto id = "network.bluetooth/1";
@@ -32,7 +32,7 @@ gone + those still under way.)";
       real("flush_timeout", 0.05, 0, 41, "s", "a packet not acknowledged by then ends its message; 0: never"),
       real("noise", -106.976, -250, 50, "dBm", "of a receiver"),
       integer("queue", 64, 0, 1e6, "messages that may wait at a radio beside the one that it sends"),
-      packets::Board::spread_param,
+      medium::Board::spread_param,
   };
 
   explicit NetworkBluetooth(Setup& s)
@@ -61,7 +61,7 @@ gone + those still under way.)";
   }
 
   Value master, largest, poll_interval, flush_timeout, noise, queue;
-  packets::Board board;
+  medium::Board board;
   bluetooth::Medium medium;
 };
 

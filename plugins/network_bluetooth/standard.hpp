@@ -7,11 +7,11 @@
 #include <cmath>
 #include <cstddef>
 
-#include "packets/channel.hpp"
+#include "medium/channel.hpp"
 
 namespace muster::bluetooth {
 
-using packets::Time;
+using medium::Time;
 
 constexpr Time bit = 1000;        // 1 Mbit/s
 constexpr Time slot = 625 * bit;  // the master begins in even ones, a slave in odd ones
@@ -44,7 +44,7 @@ constexpr Time air_time(std::size_t type, std::size_t payload) {
 // A message goes as one frame of L2CAP (volume 3, part A, 3.1), cut into packets; its limit of 64 kB is not kept.
 constexpr std::size_t l2cap_header = 4;
 
-constexpr packets::Band band_of(int channel) {
+constexpr medium::Band band_of(int channel) {
   const double middle = 2402e6 + 1e6 * channel;
   return {middle - 0.5e6, middle + 0.5e6};
 }

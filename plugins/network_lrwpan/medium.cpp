@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
-#include "packets/state.hpp"
+#include "medium/state.hpp"
 
 namespace muster::lrwpan {
 namespace {
 
-using packets::Frame;
-using packets::never;
-using packets::nothing;
+using medium::Frame;
+using medium::never;
+using medium::nothing;
 
 // At the same time frames end, then requests come, phases end, acknowledgements go out.
 enum Kind { frame_ends, request_comes, phase_ends, ack_is_due };
@@ -17,9 +17,9 @@ enum Kind { frame_ends, request_comes, phase_ends, ack_is_due };
 // A receiver finds a preamble that is up to 5 dB below noise and interference (as ns-3 3.37 has it).
 const double found_above = std::pow(10, -0.5);
 
-packets::Format format() {
-  static const packets::BitLaw law(bit_error_rate);
-  packets::Format result;
+medium::Format format() {
+  static const medium::BitLaw law(bit_error_rate);
+  medium::Format result;
   result.body_law = &law;
   result.body_bits = 1.0 / static_cast<double>(bit);
   return result;
@@ -59,7 +59,7 @@ const Report& Medium::run(Time since, Time until, const Channel& channel, const 
   return post_.close();
 }
 
-void Medium::handle(const packets::Event& event) {
+void Medium::handle(const medium::Event& event) {
   switch (event.kind()) {
     case frame_ends:
       return end_frame(event.number(), event.at);
@@ -127,7 +127,7 @@ bool Medium::is_busy(std::size_t radio, Time at) const {
     return energy >= settings_.busy * static_cast<double>(cca_window);
   }
   if (air_.power_at(radio, at - 1) >= settings_.busy) return true;
-  if (settings_.cca == Cca::ns3 && air_.listens_to(radio) != packets::nothing) return true;
+  if (settings_.cca == Cca::ns3 && air_.listens_to(radio) != medium::nothing) return true;
   const auto& frames = air_.frames();
   return settings_.cca == Cca::ns3 && std::any_of(frames.begin(), frames.end(), [&](const Frame& frame) {
            return frame.begin > since && frame.begin < at && air_.power_at(radio, frame.begin) >= settings_.busy;
@@ -157,12 +157,12 @@ std::size_t Medium::head(std::size_t sender) const {
 }
 
 bool Medium::is_last_frame(std::size_t sender) const {
-  const packets::Message& message = post_.first(sender);
+  const medium::Message& message = post_.first(sender);
   return message.frame + 1 >= frames_of(message.size, head(sender));
 }
 
 void Medium::send(std::size_t number, Time at) {
-  const packets::Message& message = post_.first(number);
+  const medium::Message& message = post_.first(number);
   const Time length = air_time(frame_size(message.size, message.frame, head(number)));
   wait(number, Phase::sending, never);
   const Frame& frame = air_.begin(number, at, length, 0, nothing, message.to, cca_window);
@@ -223,7 +223,7 @@ void Medium::end_broadcast(std::size_t sender, const std::vector<Heard>& heard, 
 void Medium::end_unicast(const Frame& frame, Heard heard, Time at) {
   Radio& sender = radios_[frame.sender];
   if (heard != Heard::whole) {
-    sender.last_loss = packets::fate_of(heard);
+    sender.last_loss = medium::fate_of(heard);
     if (!settings_.acknowledged) post_.settle(frame.sender, sender.last_loss);
   } else {
     if (is_last_frame(frame.sender)) post_.deliver(frame.sender, frame.to, air_, at);
@@ -279,16 +279,16 @@ constexpr auto fields = [](auto&& field, auto& r) {
 }  // namespace
 
 std::string Medium::save() const {
-  packets::Writer out;
-  packets::save(out, air_, post_, radios_, fields);
+  medium::Writer out;
+  medium::save(out, air_, post_, radios_, fields);
   return out.take();
 }
 
 void Medium::load(std::string_view bytes) {
   *this = Medium(random_);
   if (bytes.empty()) return;
-  packets::Reader in(bytes);
-  packets::load(in, air_, post_, radios_, fields);
+  medium::Reader in(bytes);
+  medium::load(in, air_, post_, radios_, fields);
 }
 
 }  // namespace muster::lrwpan

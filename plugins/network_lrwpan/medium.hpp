@@ -6,17 +6,17 @@
 #include <string_view>
 #include <vector>
 
-#include "packets/agenda.hpp"
-#include "packets/air.hpp"
-#include "packets/post.hpp"
+#include "medium/air.hpp"
+#include "medium/event_queue.hpp"
+#include "medium/transmit_queue.hpp"
 #include "standard.hpp"
 
 namespace muster::lrwpan {
 
-using packets::Channel;
-using packets::Fate;
-using packets::Heard;
-using packets::Report;
+using medium::Channel;
+using medium::Fate;
+using medium::Heard;
+using medium::Report;
 
 // How a radio listens before it talks. All ask for the power of others against a threshold: its mean over the 8 symbols
 // that the standard says; as ns-3 3.37 does it, at their end and whenever a frame begins among them, so that one that
@@ -47,7 +47,7 @@ class Medium {
   void load(std::string_view bytes);
 
   // A message that `from` wants to send at `at`, a time of the next run(). `to`: a radio, or `everyone`.
-  static constexpr std::size_t everyone = packets::everyone;
+  static constexpr std::size_t everyone = medium::everyone;
   void ask(Time at, std::size_t from, std::size_t to, std::string payload) {
     post_.ask(at, from, to, std::move(payload));
   }
@@ -61,16 +61,16 @@ class Medium {
   // What a radio does about the first message of its queue, and about an acknowledgement that it owes.
   struct Radio {
     Phase phase = Phase::idle;
-    Time due = packets::never;  // when the phase ends by itself
-    Time spaced = 0;            // before it nothing is sent
+    Time due = medium::never;  // when the phase ends by itself
+    Time spaced = 0;           // before it nothing is sent
     int backoffs = 0, exponent = 0, tries = 0;
-    std::uint64_t sent = packets::nothing;  // its last frame
-    bool arrived = false;                   // the frame, at its one receiver
-    Fate last_loss = Fate::too_weak;        // of the frame, there
+    std::uint64_t sent = medium::nothing;  // its last frame
+    bool arrived = false;                  // the frame, at its one receiver
+    Fate last_loss = Fate::too_weak;       // of the frame, there
 
     Phase ack_phase = Phase::idle;
-    Time ack_due = packets::never;
-    std::uint64_t ack_of = packets::nothing;
+    Time ack_due = medium::never;
+    std::uint64_t ack_of = medium::nothing;
     std::size_t ack_to = everyone;
 
     std::uint64_t draws = 0;  // random numbers used up
@@ -83,7 +83,7 @@ class Medium {
   bool is_last_frame(std::size_t sender) const;
   void wait(std::size_t radio, Phase phase, Time until);
   void wait_with_ack(std::size_t radio, Phase phase, Time until);
-  void handle(const packets::Event& event);
+  void handle(const medium::Event& event);
 
   void compete(std::size_t radio, Time at);
   void back_off(std::size_t radio, Time from);
@@ -94,10 +94,10 @@ class Medium {
   void send_ack(std::size_t radio, Time at);
 
   void end_frame(std::uint64_t id, Time at);
-  void end_ack(const packets::Frame& frame, const std::vector<Heard>& heard, Time at);
+  void end_ack(const medium::Frame& frame, const std::vector<Heard>& heard, Time at);
   const std::vector<Heard>& filtered(std::size_t sender, const std::vector<Heard>& heard);
   void end_broadcast(std::size_t sender, const std::vector<Heard>& heard, Time at);
-  void end_unicast(const packets::Frame& frame, Heard heard, Time at);
+  void end_unicast(const medium::Frame& frame, Heard heard, Time at);
 
   void go_on_with_message(std::size_t sender, Time at);
   void give_up(std::size_t sender, Fate why, Time at);
@@ -105,9 +105,9 @@ class Medium {
 
   Settings settings_;
   Stream random_;
-  packets::Air air_;
-  packets::Post post_;
-  packets::Agenda agenda_;
+  medium::Air air_;
+  medium::Post post_;
+  medium::Agenda agenda_;
   std::vector<Radio> radios_;
   const Channel* channel_ = nullptr;  // of the run
   std::vector<Heard> filtered_;       // room, kept from frame to frame

@@ -2,12 +2,12 @@
 #include <muster/pan.hpp>
 
 #include "medium.hpp"
-#include "packets/board.hpp"
+#include "medium/board.hpp"
 
 namespace {
 
 using namespace muster;
-using packets::milliwatts;
+using medium::milliwatts;
 
 struct NetworkLrwpan {
   static constexpr auto id = "network.lrwpan/2";
@@ -36,7 +36,7 @@ queue_full + no_ack + gone + those still under way.)";
       choice("addresses", "short|extended", "of 16 or of 64 bits, which every frame bears"),
       integer("queue", 16, 0, 1e6, "messages that may wait at a radio beside the one that it sends"),
       real("capture", 0, 0, 60, "dB", "a later frame so far above all others takes a receiver over; 0: none does"),
-      packets::Board::spread_param,
+      medium::Board::spread_param,
   };
 
   explicit NetworkLrwpan(Setup& s)
@@ -70,7 +70,7 @@ queue_full + no_ack + gone + those still under way.)";
 
   Value channel, cca, cca_threshold, noise, acknowledge, retries, addresses, queue, capture;
   In<Pan> pan;
-  packets::Board board;
+  medium::Board board;
   lrwpan::Medium medium;
 };
 

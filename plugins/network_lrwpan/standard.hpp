@@ -6,11 +6,11 @@
 #include <cmath>
 #include <cstddef>
 
-#include "packets/channel.hpp"
+#include "medium/channel.hpp"
 
 namespace muster::lrwpan {
 
-using packets::Time;
+using medium::Time;
 
 constexpr Time symbol = 16000;
 constexpr Time octet = 2 * symbol;
@@ -23,7 +23,7 @@ constexpr int least_exponent = 3, most_exponent = 5, most_backoffs = 4;  // macM
 constexpr Time bit = symbol / 4;
 
 // Of channels 11 to 26. What a receiver lets in: all that lies between its neighbours, as its noise is counted.
-constexpr packets::Band band_of(int channel) {
+constexpr medium::Band band_of(int channel) {
   const double middle = 2405e6 + 5e6 * (channel - 11);
   return {middle - 2.5e6, middle + 2.5e6};
 }

@@ -7,7 +7,7 @@
 
 namespace muster::external {
 
-using packets::Fate;
+using medium::Fate;
 
 Adaptor::Adaptor(Setup& s)
     : spread_(s.value("spread")),
@@ -98,11 +98,11 @@ void Adaptor::ask(const Step& k) {
     const auto from = static_cast<std::size_t>(requests[i].radio);
     const std::size_t to = is_null(requests[i].to) ? everyone : static_cast<std::size_t>(requests[i].to);
     const double share = k[spread_] != 0 ? moments_.of(k.key("radio", from)).uniform(k.tick(), i) : 0;
-    Message message{from, k.time() - (1 - share) * k.dt(), packets::Receivers(to), to != everyone};
+    Message message{from, k.time() - (1 - share) * k.dt(), medium::Receivers(to), to != everyone};
     if (to == everyone) {
       std::vector<std::uint8_t> others = world_.alive;
       others[from] = false;
-      message.receivers = packets::Receivers(std::move(others));
+      message.receivers = medium::Receivers(std::move(others));
     }
     fates_[from][static_cast<std::size_t>(Fate::under_way)] += static_cast<double>(message.receivers.count());
     if (!world_.alive[from] || to == from) {

@@ -8,7 +8,7 @@
 #include <muster/plugin.hpp>
 
 #include "backend.hpp"
-#include "packets/post.hpp"
+#include "medium/transmit_queue.hpp"
 
 namespace muster::external {
 
@@ -31,7 +31,7 @@ class Adaptor {
   struct Message {
     std::size_t from;
     double asked;  // s
-    packets::Receivers receivers;
+    medium::Receivers receivers;
     bool is_unicast;
   };
 
@@ -41,9 +41,9 @@ class Adaptor {
   void ask(const Step& k);
   void deliver(Arrival arrival);
   void end(std::uint64_t number, End why);
-  packets::Fate fate_of(const Message& message, std::size_t to, End why) const;
+  medium::Fate fate_of(const Message& message, std::size_t to, End why) const;
   bool hears_anybody(std::size_t radio) const;
-  void settle(Message& message, packets::Fate fate);
+  void settle(Message& message, medium::Fate fate);
   void hand_over(const Step& k);
   void count(const Step& k);
   void note(std::uint64_t what) { history_ = combined(history_, what); }
@@ -72,7 +72,7 @@ class Adaptor {
   World world_;
   double noise_ = 0;
   std::vector<std::pair<Message, Arrival>> arrivals_;
-  std::vector<std::array<double, static_cast<std::size_t>(packets::Fate::count)>> fates_;
+  std::vector<std::array<double, static_cast<std::size_t>(medium::Fate::count)>> fates_;
 };
 
 }  // namespace muster::external

@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
-#include "packets/state.hpp"
+#include "medium/state.hpp"
 
 namespace muster::wifi {
 namespace {
 
-using packets::Frame;
-using packets::never;
-using packets::nothing;
+using medium::Frame;
+using medium::never;
+using medium::nothing;
 
 // At the same time frames end, then requests come, stations send, and what began before is noticed.
 enum Kind {
@@ -30,15 +30,15 @@ const double found_above = std::pow(10, 0.4);
 // aRxPHYStartDelay: a sender waits so long, a SIFS and a slot for an acknowledgement to begin.
 constexpr Time found_after = 20 * microsecond;
 
-std::vector<packets::Format> formats() {
-  static const std::vector<packets::BitLaw> laws = [] {
-    std::vector<packets::BitLaw> made;
+std::vector<medium::Format> formats() {
+  static const std::vector<medium::BitLaw> laws = [] {
+    std::vector<medium::BitLaw> made;
     for (const Rate& rate : rates) made.emplace_back([&](double ratio) { return bit_error_rate(rate, ratio); });
     return made;
   }();
-  std::vector<packets::Format> result;
+  std::vector<medium::Format> result;
   for (std::size_t i = 0; i < rates.size(); ++i) {
-    packets::Format format;
+    medium::Format format;
     format.head_law = &laws[0];
     format.head_from = preamble;
     format.head_until = preamble + signal_field;
@@ -106,7 +106,7 @@ void Medium::look_for_jammers(Time since) {
   agenda_.put(air_.next_switch(since), jammer_switches, 0);
 }
 
-void Medium::handle(const packets::Event& event) {
+void Medium::handle(const medium::Event& event) {
   const Time at = event.at;
   switch (event.kind()) {
     case frame_ends:
@@ -192,7 +192,7 @@ void Medium::send_due(Time at) {
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     Station& station = stations_[i];
     if (station.due != at) continue;
-    const packets::Message& message = post_.first(i);
+    const medium::Message& message = post_.first(i);
     station.due = never;
     station.slots = 0;
     station.phase = Phase::sending;
@@ -260,7 +260,7 @@ void Medium::end_unicast(const Frame& frame, const std::vector<Heard>& heard, Ti
   Station& sender = stations_[frame.sender];
   const bool arrived = heard[frame.to] == Heard::whole;
   if (!arrived)
-    sender.last_loss = packets::fate_of(heard[frame.to]);
+    sender.last_loss = medium::fate_of(heard[frame.to]);
   else if (post_.is_last_frame(frame.sender))
     post_.deliver(frame.sender, frame.to, air_, at);
   sender.arrived |= arrived;
@@ -344,16 +344,16 @@ constexpr auto fields = [](auto&& field, auto& s) {
 }  // namespace
 
 std::string Medium::save() const {
-  packets::Writer out;
-  packets::save(out, air_, post_, stations_, fields);
+  medium::Writer out;
+  medium::save(out, air_, post_, stations_, fields);
   return out.take();
 }
 
 void Medium::load(std::string_view bytes) {
   *this = Medium(random_);
   if (bytes.empty()) return;
-  packets::Reader in(bytes);
-  packets::load(in, air_, post_, stations_, fields);
+  medium::Reader in(bytes);
+  medium::load(in, air_, post_, stations_, fields);
 }
 
 }  // namespace muster::wifi

@@ -7,17 +7,17 @@
 #include <string_view>
 #include <vector>
 
-#include "packets/agenda.hpp"
-#include "packets/air.hpp"
-#include "packets/post.hpp"
+#include "medium/air.hpp"
+#include "medium/event_queue.hpp"
+#include "medium/transmit_queue.hpp"
 #include "standard.hpp"
 
 namespace muster::wifi {
 
-using packets::Channel;
-using packets::Fate;
-using packets::Heard;
-using packets::Report;
+using medium::Channel;
+using medium::Fate;
+using medium::Heard;
+using medium::Report;
 
 struct Settings {
   double noise = 0;  // mW
@@ -39,7 +39,7 @@ class Medium {
   void load(std::string_view bytes);
 
   // A message that `from` wants to send at `at`, a time of the next run(). `to`: a radio, or `everyone`.
-  static constexpr std::size_t everyone = packets::everyone;
+  static constexpr std::size_t everyone = medium::everyone;
   void ask(Time at, std::size_t from, std::size_t to, std::string payload) {
     post_.ask(at, from, to, std::move(payload));
   }
@@ -58,15 +58,15 @@ class Medium {
     int slots = 0;             // left to count down, at counts_from
     int window = least_window;
     int tries = 0;
-    Time counts_from = 0;           // while the channel is idle: since when slots count
-    Time due = packets::never;      // when it sends
-    Time timeout = packets::never;  // when it stops to wait for an acknowledgement
-    Time reserved = 0;              // until then others told it to keep silent
-    std::uint64_t sent = packets::nothing;
+    Time counts_from = 0;          // while the channel is idle: since when slots count
+    Time due = medium::never;      // when it sends
+    Time timeout = medium::never;  // when it stops to wait for an acknowledgement
+    Time reserved = 0;             // until then others told it to keep silent
+    std::uint64_t sent = medium::nothing;
     bool arrived = false;             // the frame, at its one receiver
     Fate last_loss = Fate::too_weak;  // of the frame, there
-    Time ack_due = packets::never;
-    std::uint64_t ack_of = packets::nothing;
+    Time ack_due = medium::never;
+    std::uint64_t ack_of = medium::nothing;
     std::size_t ack_to = everyone;
     std::uint64_t draws = 0;  // random numbers used up
   };
@@ -77,7 +77,7 @@ class Medium {
 
   void fill_agenda(Time since);
   void look_for_jammers(Time since);
-  void handle(const packets::Event& event);
+  void handle(const medium::Event& event);
 
   int draw_slots(std::size_t station);
   void start(std::size_t station, Time at);
@@ -90,8 +90,8 @@ class Medium {
   void put_on_air(std::size_t station, Time at, Time length, std::size_t format, std::uint64_t ack_of, std::size_t to);
 
   void end_frame(std::uint64_t id, Time at);
-  void end_data(const packets::Frame& frame, const std::vector<Heard>& heard, Time at);
-  void end_unicast(const packets::Frame& frame, const std::vector<Heard>& heard, Time at);
+  void end_data(const medium::Frame& frame, const std::vector<Heard>& heard, Time at);
+  void end_unicast(const medium::Frame& frame, const std::vector<Heard>& heard, Time at);
   void end_wait(std::size_t station, Time at);
 
   void go_on_with_message(std::size_t station);
@@ -100,9 +100,9 @@ class Medium {
 
   Settings settings_;
   Stream random_;
-  packets::Air air_;
-  packets::Post post_{frames_of};
-  packets::Agenda agenda_;
+  medium::Air air_;
+  medium::Post post_{frames_of};
+  medium::Agenda agenda_;
   std::vector<Station> stations_;
   const Channel* channel_ = nullptr;  // of the run
 };

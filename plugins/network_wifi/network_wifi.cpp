@@ -1,11 +1,11 @@
 // network.wifi: 802.11's medium access on the blackboard.
 #include "medium.hpp"
-#include "packets/board.hpp"
+#include "medium/board.hpp"
 
 namespace {
 
 using namespace muster;
-using packets::milliwatts;
+using medium::milliwatts;
 
 struct NetworkWifi {
   static constexpr auto id = "network.wifi/1";
@@ -31,7 +31,7 @@ gone + those still under way.)";
       flag("acknowledge", true, "messages to one receiver are acknowledged"),
       integer("retries", 6, 0, 255, "of a frame that was not acknowledged"),
       integer("queue", 64, 0, 1e6, "messages that may wait at a station beside the one that it sends"),
-      packets::Board::spread_param,
+      medium::Board::spread_param,
   };
 
   explicit NetworkWifi(Setup& s)
@@ -60,7 +60,7 @@ gone + those still under way.)";
   }
 
   Value channel, rate, slot, busy_threshold, noise, acknowledge, retries, queue;
-  packets::Board board;
+  medium::Board board;
   wifi::Medium medium;
 };
 

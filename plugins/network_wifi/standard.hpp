@@ -7,11 +7,11 @@
 #include <cmath>
 #include <cstddef>
 
-#include "packets/channel.hpp"
+#include "medium/channel.hpp"
 
 namespace muster::wifi {
 
-using packets::Time;
+using medium::Time;
 
 constexpr Time microsecond = 1000;
 constexpr Time sifs = 10 * microsecond;
@@ -23,7 +23,7 @@ constexpr Time detection = 4 * microsecond;  // aCCATime: by then a frame that b
 constexpr int least_window = 15, most_window = 1023;
 
 // Of channels 1 to 13 at 2.4 GHz.
-constexpr packets::Band band_of(int channel) {
+constexpr medium::Band band_of(int channel) {
   const double middle = 2407e6 + 5e6 * channel;
   return {middle - 10e6, middle + 10e6};
 }

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "broad_phase.hpp"
-#include "crew.hpp"
-#include "encounters.hpp"
+#include "contact_detection.hpp"
+#include "robot_models.hpp"
 
 namespace muster::simbody {
 

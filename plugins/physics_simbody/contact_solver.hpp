@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "block_cholesky.hpp"
-#include "grip.hpp"
+#include "friction.hpp"
 #include "mixing.hpp"
 
 namespace muster::simbody {

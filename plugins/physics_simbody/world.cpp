@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "midpoint.hpp"
-#include "stock.hpp"
+#include "midpoint_engine.hpp"
+#include "simbody_integrators.hpp"
 
 namespace muster::simbody {
 

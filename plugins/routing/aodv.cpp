@@ -69,7 +69,7 @@ void Aodv::forward(Fabric& fabric, Radio at, Radio from, Packet packet) {
 void Aodv::receive(Fabric& fabric, Radio at, Radio from, Packet packet) {
   if (packet.kind == Packet::Kind::data) return forward(fabric, at, from, std::move(packet));
   hear(fabric, at, from);
-  packets::Reader in(packet.payload);
+  medium::Reader in(packet.payload);
   switch (in.get<Message>()) {
     case Message::request:
       return receive_request(fabric, at, from, Request(in), packet.ttl);
@@ -256,7 +256,7 @@ void Aodv::lost_neighbour(Fabric& fabric, Radio at, Radio neighbour) {
 void Aodv::report(Fabric& fabric, Radio at, const std::vector<Unreachable>& lost) {
   for (std::size_t first = 0; first < lost.size(); first += 255) {
     const std::size_t count = std::min<std::size_t>(255, lost.size() - first);
-    packets::Writer out;
+    medium::Writer out;
     out.put(Message::error), out.put(static_cast<std::uint8_t>(count));
     for (std::size_t i = first; i < first + count; ++i) out.put(lost[i].to), out.put(lost[i].sequence);
     fabric.send(at, everyone, control(out, 1));
@@ -303,7 +303,7 @@ void Aodv::pass_time(Fabric& fabric) {
 // ---- State --------------------------------------------------------------------------------------------------------
 
 std::string Aodv::save() const {
-  packets::Writer out;
+  medium::Writer out;
   out.put(nodes_.size());
   for (const auto& [radio, node] : nodes_) {
     out.put(radio), out.put(node.sequence), out.put(node.last_request);
@@ -325,7 +325,7 @@ std::string Aodv::save() const {
 void Aodv::load(std::string_view bytes) {
   nodes_.clear();
   if (bytes.empty()) return;
-  packets::Reader in(bytes);
+  medium::Reader in(bytes);
   for (auto left = in.get<std::size_t>(); left > 0; --left) {
     Node& node = nodes_[in.get<Radio>()];
     in.get(node.sequence), in.get(node.last_request);

@@ -7,7 +7,7 @@ namespace muster::routing {
 
 enum class Message : std::uint8_t { request = 1, reply, error };
 
-inline Packet control(packets::Writer& message, int ttl) {
+inline Packet control(medium::Writer& message, int ttl) {
   Packet packet;
   packet.kind = Packet::Kind::control;
   packet.ttl = static_cast<std::uint8_t>(ttl);
@@ -25,12 +25,12 @@ struct Aodv::Request {
   std::uint32_t from_sequence = 0;
 
   Packet packet(int ttl) const {
-    packets::Writer out;
+    medium::Writer out;
     out.put(Message::request), out.put(is_sequence_unknown), out.put(std::uint8_t{0}), out.put(hops), out.put(number);
     out.put(to), out.put(to_sequence), out.put(from), out.put(from_sequence);
     return control(out, ttl);
   }
-  explicit Request(packets::Reader& in) {
+  explicit Request(medium::Reader& in) {
     in.get(is_sequence_unknown), in.get<std::uint8_t>(), in.get(hops), in.get(number);
     in.get(to), in.get(to_sequence), in.get(from), in.get(from_sequence);
   }
@@ -46,12 +46,12 @@ struct Aodv::Reply {
   std::uint32_t lifetime = 0;  // ms
 
   Packet packet(int ttl) const {
-    packets::Writer out;
+    medium::Writer out;
     out.put(Message::reply), out.put(std::uint16_t{0}), out.put(hops);
     out.put(to), out.put(to_sequence), out.put(from), out.put(lifetime);
     return control(out, ttl);
   }
-  explicit Reply(packets::Reader& in) {
+  explicit Reply(medium::Reader& in) {
     in.get<std::uint16_t>(), in.get(hops), in.get(to), in.get(to_sequence), in.get(from), in.get(lifetime);
   }
   Reply() = default;

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "packets/bytes.hpp"
+#include "medium/bytes.hpp"
 
 namespace muster::routing {
 
@@ -27,7 +27,7 @@ struct Packet {
 constexpr std::size_t data_head = 22;  // bytes
 
 inline std::string encoded(const Packet& packet) {
-  packets::Writer out;
+  medium::Writer out;
   out.put(packet.kind), out.put(packet.ttl);
   if (packet.kind == Packet::Kind::data)
     out.put(packet.origin), out.put(packet.target), out.put(packet.journey), out.put(packet.t_sent);
@@ -36,7 +36,7 @@ inline std::string encoded(const Packet& packet) {
 
 // Throws std::runtime_error where the bytes end too early.
 inline Packet decoded(std::string_view bytes) {
-  packets::Reader in(bytes);
+  medium::Reader in(bytes);
   Packet packet;
   in.get(packet.kind), in.get(packet.ttl);
   const bool is_data = packet.kind == Packet::Kind::data;

@@ -126,9 +126,9 @@ void Router::take_requests(const Step& k, Protocol& protocol) {
     if (packet.target == everyone) {
       std::vector<std::uint8_t> others = alive_;
       others[packet.origin] = false;
-      journey.receivers = packets::Receivers(std::move(others));
+      journey.receivers = medium::Receivers(std::move(others));
     } else {
-      journey.receivers = packets::Receivers(std::size_t{packet.target});
+      journey.receivers = medium::Receivers(std::size_t{packet.target});
     }
     asked_[packet.origin] += static_cast<double>(journey.receivers.count());
     if (!alive_[packet.origin])
@@ -269,7 +269,7 @@ void Router::count(const Step& k) {
 }
 
 std::string Router::save() const {
-  packets::Writer out;
+  medium::Writer out;
   out.put(last_journey_);
   out.put(journeys_.size());
   for (const auto& [number, journey] : journeys_) {
@@ -295,7 +295,7 @@ void Router::load(std::string_view bytes) {
   journeys_.clear(), nodes_.clear();
   last_journey_ = 0;
   if (bytes.empty()) return;
-  packets::Reader in(bytes);
+  medium::Reader in(bytes);
   in.get(last_journey_);
   for (auto left = in.get<std::size_t>(); left > 0; --left) {
     Journey& journey = journeys_[in.get<std::uint32_t>()];

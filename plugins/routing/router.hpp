@@ -8,7 +8,7 @@
 #include <muster/plugin.hpp>
 #include <muster/routing.hpp>
 
-#include "packets/post.hpp"
+#include "medium/transmit_queue.hpp"
 #include "protocol.hpp"
 
 namespace muster::routing {
@@ -31,8 +31,8 @@ class Router final : private Fabric {
 
   struct Journey {
     Radio origin = 0;
-    packets::Receivers receivers;  // those whom it has not reached
-    std::uint32_t copies = 0;      // queued, given to the network, or parked
+    medium::Receivers receivers;  // those whom it has not reached
+    std::uint32_t copies = 0;     // queued, given to the network, or parked
     Outcome worst = Outcome::lost;
     std::vector<std::uint8_t> seen;  // by radio
   };

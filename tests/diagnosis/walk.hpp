@@ -4,7 +4,7 @@
 #include <cmath>
 #include <muster/random.hpp>
 
-#include "diagnosis/noise/rows.hpp"
+#include "diagnosis/inference/noise/rows.hpp"
 
 namespace muster::diagnosis {
 

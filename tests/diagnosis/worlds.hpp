@@ -1,8 +1,8 @@
 // Worlds of the tests, with the plugins of this build.
 #pragma once
 
-#include "diagnosis/fit.hpp"
-#include "diagnosis/misfit.hpp"
+#include "diagnosis/calibration/fit.hpp"
+#include "diagnosis/calibration/residual_scan.hpp"
 
 namespace muster::diagnosis {
 

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <utility>
 
-#include "tests/errors/program.hpp"
+#include "tests/cli/errors/program.hpp"
 
 namespace muster::test {
 namespace {

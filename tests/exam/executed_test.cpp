@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "diagnosis/model.hpp"
-#include "files.hpp"
+#include "diagnosis/radio/links/link_model.hpp"
+#include "exam/files.hpp"
 #include "made.hpp"
 #include "tests/folder.hpp"
 

@@ -1,12 +1,11 @@
 // What a diagnosis advises to measure is read off the same truth.
-#include "follow.hpp"
-
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <sstream>
 
-#include "files.hpp"
+#include "exam/files.hpp"
+#include "exam/follow_up.hpp"
 #include "made.hpp"
 
 namespace muster::exam {

@@ -1,5 +1,5 @@
 // The grader's arithmetic, on reports made by hand.
-#include "grade.hpp"
+#include "exam/grading/grade.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

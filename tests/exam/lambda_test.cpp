@@ -5,9 +5,9 @@
 #include <Eigen/QR>
 #include <limits>
 
-#include "field.hpp"
+#include "exam/field.hpp"
+#include "exam/reading_law.hpp"
 #include "made.hpp"
-#include "reading_law.hpp"
 
 namespace muster::exam {
 namespace {

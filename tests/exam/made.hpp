@@ -1,9 +1,9 @@
 #pragma once
 
-#include "case.hpp"
-#include "orders.hpp"
-#include "whiten.hpp"
-#include "write.hpp"
+#include "exam/case.hpp"
+#include "exam/case_spec.hpp"
+#include "exam/true_whitener.hpp"
+#include "exam/write.hpp"
 
 namespace muster::exam {
 

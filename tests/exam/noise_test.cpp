@@ -1,9 +1,9 @@
 // Clean cases hold the stated model and nothing else.
 #include <gtest/gtest.h>
 
-#include "field.hpp"
+#include "exam/field.hpp"
+#include "exam/reading_law.hpp"
 #include "made.hpp"
-#include "reading_law.hpp"
 
 namespace muster::exam {
 namespace {

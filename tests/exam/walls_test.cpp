@@ -1,5 +1,5 @@
 // An exam over a floor plan of one's own.
-#include "walls.hpp"
+#include "exam/walls.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <numbers>
 
-#include "files.hpp"
-#include "follow.hpp"
-#include "rooms.hpp"
+#include "exam/files.hpp"
+#include "exam/follow_up.hpp"
+#include "exam/rooms.hpp"
 #include "tests/exam/made.hpp"
 
 namespace muster::exam {

@@ -23,7 +23,7 @@ std::uint64_t seed_of_commit() {
 
 struct Measure {
   const char* share;
-  double goal;   // of DIAGNOSIS.md, section 11
+  double goal;   // as in docs/exam_table.md
   double holds;  // what the tool is held to today: the goal, or the worse end of the measured rate's 95 % interval
   bool at_least;
 };

@@ -1,7 +1,7 @@
 // An exam made, sat and graded through the program.
 #pragma once
 
-#include "grade.hpp"
+#include "exam/grading/grade.hpp"
 
 namespace muster::exam {
 

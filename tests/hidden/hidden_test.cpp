@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "effect.hpp"
+#include "exam/effects/effect.hpp"
 #include "tests/hidden/examined.hpp"
 
 namespace muster::exam {

@@ -1,0 +1,78 @@
+#include "run_options.hpp"
+
+#include <fmt/core.h>
+
+#include "text/names.hpp"
+#include "text/number.hpp"
+#include "world_file/params.hpp"
+
+namespace muster::cli {
+
+// What may be given several times takes one word each time: the words of a verb may follow it.
+void declare(CLI::App& app, WorldWords& words) {
+  app.add_option("--workers", words.workers, "threads; the results do not depend on it")->check(CLI::Range(1, 256));
+  app.add_option("--until", words.until, "end of the run in seconds, instead of the world's");
+  app.add_option("--seed", words.seed, "seed of all random numbers, instead of the world's");
+  app.add_option("--set", words.set, "PATH=VALUE: a parameter of the world or of a plugin")->allow_extra_args(false);
+  app.add_option("--out", words.out, "folder for tables and pictures");
+  app.add_option("--record", words.record, "a table to write to --out as CSV, such as 'robot/*/pose'")
+      ->allow_extra_args(false);
+  app.add_option("--plugins", words.plugins, "a folder of plugins, looked in first")->allow_extra_args(false);
+  app.add_flag("--json", words.json, "print the outcome as JSON");
+}
+
+double real_of(const std::string& text, const char* option) {
+  const auto value = parse_real(text);
+  if (!value) throw Error(Exit::invalid_input, std::string(option) + ": " + why_not_real(text));
+  return *value;
+}
+
+World world_of(const std::string& path, const WorldWords& words) {
+  World world = read_world(path, standard());
+  if (words.until) world.ticks = ticks_of(real_of(*words.until, "--until"), world.dt, {"--until"});
+  if (words.seed) {
+    const auto seed = parse_integer(*words.seed);
+    if (!seed || *seed < 0)
+      throw Error(Exit::invalid_input, "--seed: " + quote(*words.seed) + " is no seed; expected an integer from 0");
+    world.seed = static_cast<uint64_t>(*seed);
+  }
+  for (const auto& table : words.record) world.records.push_back({table, 1, {}});
+  if (!words.record.empty() && words.out.empty())
+    throw Error(Exit::invalid_input, "--record needs --out, the folder to write to");
+  return world;
+}
+
+void set_parameters(Simulation& run, const std::vector<std::string>& given) {
+  for (const auto& one : given) {
+    const auto equals = one.find('=');
+    if (equals == std::string::npos) throw Error(Exit::invalid_input, "--set " + quote(one) + ": expected PATH=VALUE");
+    const std::string path = one.substr(0, equals);
+    const auto info = run.parameter(path);
+    const XmlAttribute attribute{path, one.substr(equals + 1), {"--set"}, {"--set"}};
+    const FindRow no_rows = [](const std::string&, const std::string&, const Place& place) -> double {
+      throw invalid(place, "a reference cannot be set on the command line");
+    };
+    run.set_parameter(
+        path, attribute_values(*info.declared, 1, attribute, no_rows, [](const Place&, const std::string&) {}).at(0));
+  }
+}
+
+InstanceDeclaration instance_of(const std::string& name, const std::string& plugin,
+                                const std::vector<std::string>& attributes, const std::string& who) {
+  const Place place{who};
+  XmlElement element{plugin, place, {}, {}};
+  for (const auto& one : attributes) {
+    const auto equals = one.find('=');
+    if (equals == std::string::npos) throw invalid(place, quote(one) + " is no attribute; expected NAME=VALUE");
+    if (equals == 4 && one.starts_with("name"))
+      throw invalid(place, "the attribute \"name\" cannot be given; the new plugin keeps the name " + quote(name));
+    element.attributes.push_back({one.substr(0, equals), one.substr(equals + 1), place, place});
+  }
+  InstanceDeclaration result = read_instance(element, plugin);
+  result.name = name;
+  return result;
+}
+
+std::string hexadecimal(uint64_t digest) { return fmt::format("{:016x}", digest); }
+
+}  // namespace muster::cli

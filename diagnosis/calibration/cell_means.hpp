@@ -1,0 +1,48 @@
+// Readings averaged over square cells of the floor, measured and simulated alike, and the errors of those means: the
+// comparison of Fink et al., Fig. 3b to 3d.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/calibration/fit.hpp"
+
+namespace muster::diagnosis {
+
+enum class Average { dB = 1, power };  // of the dBm themselves, or of the power
+
+struct CellOptions {
+  double size = 0.25;  // m
+  int least = 5;       // readings; cells with fewer count in no statistic
+  Average average = Average::dB;
+};
+
+struct Cell {
+  double x = 0, y = 0;                 // m, its centre
+  double measured = 0, simulated = 0;  // dBm
+  int count = 0;
+};
+
+// The cells of one radio that stays (or moves less), by where its partner was.
+struct CellMap {
+  std::string radio;
+  double x = 0, y = 0;  // m, where it was at first
+  std::vector<Cell> cells;
+};
+
+struct CellErrors {
+  std::vector<double> errors;  // dB, measured - simulated, of the cells with enough readings
+  std::size_t few = 0;         // cells with fewer
+  double mean = 0, sd = 0;
+  std::vector<std::pair<double, double>> quantiles;  // 5, 25, 50, 75, 95 %
+  double expected_sd = 0;                            // of cell means if readings erred independently, dB
+  std::vector<std::string> cannot_show;
+};
+
+// Of the heard readings; `simulated` is one value a row of the data set.
+std::vector<CellMap> cell_maps(const LinkModel& model, const Fit& fit, const Eigen::VectorXd& simulated,
+                               const CellOptions& options);
+
+CellErrors cell_errors(const std::vector<CellMap>& maps, const Fit& fit, const CellOptions& options);
+
+}  // namespace muster::diagnosis

@@ -1,0 +1,18 @@
+// Pictures of a fit: the samples, the cell means measured and simulated, their errors, and what is left where.
+#pragma once
+
+#include <filesystem>
+
+#include "diagnosis/calibration/cell_means.hpp"
+#include "diagnosis/calibration/residual_scan.hpp"
+
+namespace muster::diagnosis {
+
+// Writes fig3a.svg (samples from above and from the side), fig3b.svg and fig3c.svg (cell means measured and simulated),
+// fig3d.svg (histogram of their errors), residual_map.svg and residual.svg (along each covariate); the files written.
+std::vector<std::filesystem::path> write_fit_pictures(const std::filesystem::path& folder, const LinkModel& model,
+                                                      const Fit& fit, const Misfit& misfit,
+                                                      const std::vector<CellMap>& maps, const CellErrors& errors,
+                                                      const CellOptions& options);
+
+}  // namespace muster::diagnosis

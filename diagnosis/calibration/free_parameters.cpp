@@ -1,0 +1,61 @@
+#include <algorithm>
+
+#include "diagnosis/calibration/fit.hpp"
+#include "text/names.hpp"
+#include "text/number.hpp"
+
+namespace muster::diagnosis {
+namespace {
+
+bool contains(const std::vector<std::string>& list, const std::string& path) {
+  return std::find(list.begin(), list.end(), path) != list.end();
+}
+
+// The paths to hold, after setting those that came with a value.
+std::vector<std::string> held_paths(LinkModel& model, const std::vector<std::string>& fix) {
+  std::vector<std::string> paths;
+  for (const std::string& word : fix) {
+    const std::size_t equals = word.find('=');
+    const std::string path = word.substr(0, equals);
+    model.parameter(path);  // throws with the nearest path
+    if (equals != word.npos) {
+      const std::string text = word.substr(equals + 1);
+      const auto value = parse_real(text);
+      if (!value) throw Error(Exit::invalid_input, "--fix " + path + ": " + why_not_real(text));
+      model.set(path, *value);
+    }
+    paths.push_back(path);
+  }
+  return paths;
+}
+
+void refuse_unfit(const ParameterInfo& info) {
+  if (info.declared->kind == MUSTER_REAL && info.declared->max > info.declared->min) return;
+  throw Error(Exit::invalid_input,
+              "--free " + info.path + ": it is not a real number with bounds; expected one that is");
+}
+
+}  // namespace
+
+std::vector<FitParameter> free_parameters(LinkModel& model, const FitOptions& options) {
+  const std::vector<std::string> held = held_paths(model, options.fix);
+  for (const std::string& path : options.free) {
+    refuse_unfit(model.parameter(path));
+    if (contains(held, path))
+      throw Error(Exit::invalid_input, quote(path) + " is both free and fixed; expected one of them");
+  }
+  std::vector<FitParameter> result;
+  for (const ParameterInfo& info : model.parameters()) {
+    const bool declared = (info.declared->flags & MUSTER_FREE) && info.declared->kind == MUSTER_REAL;
+    if ((!declared && !contains(options.free, info.path)) || contains(held, info.path)) continue;
+    FitParameter p{.path = info.path, .unit = info.declared->unit};
+    p.start = info.value;
+    p.lower = info.declared->min;
+    p.upper = info.declared->max;
+    result.push_back(p);
+  }
+  if (result.empty()) throw Error(Exit::invalid_input, "no parameter is free; expected one, such as by --free PATH");
+  return result;
+}
+
+}  // namespace muster::diagnosis

@@ -1,0 +1,131 @@
+#include "diagnosis/calibration/missing_data.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace muster::diagnosis {
+namespace {
+
+double below(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
+
+struct Mixture {
+  double log_likelihood = 0, random = 0, by_floor = 0;
+  double below = 0, above = 0;  // how many would be heard below the floor, were there none, and closely above it
+};
+
+constexpr double closely = 3;  // dB
+
+// A reading is lost by chance with probability `random`, or because its level, normal about the mean, lies below the
+// floor. The likeliest `random` by EM; the floor's share of the missing ones is their mean posterior.
+Mixture with_floor(const std::vector<double>& lost_at, const std::vector<double>& heard_at, double floor,
+                   double sigma) {
+  Mixture result;
+  const double lost = static_cast<double>(lost_at.size()), all = lost + static_cast<double>(heard_at.size());
+  result.random = 0.5 * lost / all;
+  const auto chances = [&](std::vector<double> levels) {  // of falling below the floor
+    for (double& level : levels) level = below((floor - level) / sigma);
+    return levels;
+  };
+  const std::vector<double> chance = chances(lost_at), heard_chance = chances(heard_at);
+  for (int i = 0; i < 60; ++i) {
+    double by_chance = 0;  // missing ones that random loss explains, whatever the floor did
+    for (const double f : chance) by_chance += result.random / (result.random + (1 - result.random) * f + 1e-300);
+    result.random = std::max(by_chance / all, 1e-9);
+  }
+  double by_floor = 0;
+  for (const double f : chance) {
+    const double p = result.random + (1 - result.random) * f;
+    result.log_likelihood += std::log(p);
+    by_floor += f * (1 - result.random) / p;
+  }
+  for (const double f : heard_chance)
+    result.log_likelihood += std::log1p(-std::min(result.random + (1 - result.random) * f, 1 - 1e-12));
+  result.by_floor = by_floor / lost;
+  for (const std::vector<double>* levels : {&lost_at, &heard_at}) {
+    for (const double m : *levels) {
+      const double lower = below((floor - m) / sigma);
+      result.below += (1 - result.random) * lower;
+      result.above += (1 - result.random) * (below((floor + closely - m) / sigma) - lower);
+    }
+  }
+  return result;
+}
+
+// The chance of so few events where `expected` come (Poisson's law).
+double at_most(std::size_t events, double expected) {
+  double term = std::exp(-expected), sum = term;
+  for (std::size_t k = 1; k <= events; ++k) sum += term *= expected / static_cast<double>(k);
+  return sum;
+}
+
+std::vector<Missing::Bin> binned(const Eigen::VectorXd& rssi, const Eigen::VectorXd& mean) {
+  constexpr Eigen::Index bins = 10;
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(rssi.size()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return mean[a] < mean[b]; });
+  std::vector<Missing::Bin> result;
+  for (Eigen::Index b = 0; b < bins; ++b) {
+    Missing::Bin bin{};
+    for (Eigen::Index k = rssi.size() * b / bins; k < rssi.size() * (b + 1) / bins; ++k) {
+      const auto i = order[static_cast<std::size_t>(k)];
+      bin.level += mean[i];
+      bin.rows += 1;
+      bin.missing += std::isnan(rssi[i]);
+    }
+    if (bin.rows == 0) continue;
+    bin.level /= bin.rows;
+    result.push_back(bin);
+  }
+  return result;
+}
+
+}  // namespace
+
+bool Missing::rises() const {
+  if (bins.size() < 2) return false;
+  const auto share = [](const Bin& b) { return b.missing / b.rows; };
+  const auto variance = [&](const Bin& b) { return std::max(share(b) * (1 - share(b)), 1 / b.rows) / b.rows; };
+  const double more = share(bins.front()) - share(bins.back());
+  // Neighbouring readings are lost together: five standard errors of independent ones, and a seventh of all readings.
+  return more > 0.15 && more > 5 * std::sqrt(variance(bins.front()) + variance(bins.back()));
+}
+
+Missing why_missing(const Eigen::VectorXd& rssi, const Eigen::VectorXd& mean, double sigma) {
+  std::vector<double> lost_at, heard_at, heard;
+  for (Eigen::Index i = 0; i < rssi.size(); ++i) {
+    (std::isnan(rssi[i]) ? lost_at : heard_at).push_back(mean[i]);
+    if (!std::isnan(rssi[i])) heard.push_back(rssi[i]);
+  }
+  std::sort(heard.begin(), heard.end());
+  Missing result{.count = lost_at.size(), .floor = heard.front()};
+  if (result.count == 0) return result;
+  result.bins = binned(rssi, mean);
+  const double lost = static_cast<double>(lost_at.size()), all = static_cast<double>(rssi.size());
+  const double chance = lost * std::log(lost / all) + (all - lost) * std::log1p(-lost / all);
+  // The floor is where nothing weaker was ever heard, but for strays: the likeliest.
+  Mixture best{.log_likelihood = -1e300};
+  for (std::size_t rank = 0; rank <= heard.size() / 1000; rank = std::max<std::size_t>(2 * rank, 1)) {
+    const Mixture mixture = with_floor(lost_at, heard_at, heard[rank], std::max(sigma, 0.1));
+    if (mixture.log_likelihood <= best.log_likelihood) continue;
+    best = mixture;
+    result.floor = heard[rank];
+  }
+  result.share_at_random = best.random;
+  result.by_floor = best.by_floor;
+  result.evidence = 2 * (best.log_likelihood - chance);
+  // Censored needs both: a rise that chance does not make (10 is p < 0.002 for one parameter, and neighbouring readings
+  // are lost together), and that the floor took most of what is missing.
+  const bool risen = result.evidence > 10;
+  result.censored = risen && result.by_floor > 0.5;
+  // Where chance took most of them, levels that end at the floor must say so too, and end there at once; a smaller rise
+  // (p < 0.05) is enough beside these.
+  constexpr double some = 4, by_chance = 2e-5;
+  const auto from = [&](double level) { return std::lower_bound(heard.begin(), heard.end(), level); };
+  result.none_below = at_most(static_cast<std::size_t>(from(result.floor) - heard.begin()), best.below);
+  const auto closely_above = static_cast<double>(from(result.floor + closely) - from(result.floor));
+  result.cut_off = result.evidence > some && by_chance > result.none_below && closely_above > best.above / 2;
+  return result;
+}
+
+}  // namespace muster::diagnosis

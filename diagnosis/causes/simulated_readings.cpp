@@ -1,0 +1,61 @@
+#include "diagnosis/causes/simulated_readings.hpp"
+
+#include <numeric>
+
+#include "text/text_table_writer.hpp"
+
+namespace muster::diagnosis {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Index;
+
+void write(const noise::Readings& r, const std::vector<std::string>& radios, const fs::path& file) {
+  std::vector<TextColumn> columns{{"tx", ""},    {"rx", ""},    {"tx_x", "m"}, {"tx_y", "m"},
+                                  {"tx_z", "m"}, {"rx_x", "m"}, {"rx_y", "m"}, {"rx_z", "m"}};
+  if (!r.t.empty()) columns.push_back({"t", "s"});
+  if (!r.rx_yaw.empty()) columns.push_back({"rx_yaw", "rad"});
+  if (!r.tx_yaw.empty()) columns.push_back({"tx_yaw", "rad"});
+  TextTableWriter table(file, columns);
+  for (Index i = 0; i < r.size(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    table.text(radios[static_cast<std::size_t>(r.tx[k])]);
+    table.text(radios[static_cast<std::size_t>(r.rx[k])]);
+    for (const auto& at : {r.tx_at.col(i), r.rx_at.col(i)})
+      for (Index c = 0; c < 3; ++c) table.real(at[c]);
+    if (!r.t.empty()) table.real(r.t[k]);
+    if (!r.rx_yaw.empty()) table.real(r.rx_yaw[k]);
+    if (!r.tx_yaw.empty()) table.real(r.tx_yaw[k]);
+    table.end_row();
+  }
+  table.close();
+}
+
+}  // namespace
+
+SimulatedReadings::SimulatedReadings(const noise::Readings& readings, const std::vector<std::string>& radios,
+                                     const fs::path& world, const Library::SearchPath& plugins, const BaseColumns& base)
+    : all_(static_cast<std::size_t>(readings.size())) {
+  std::iota(all_.begin(), all_.end(), 0);
+  const fs::path table = folder_.path() / "readings.csv";
+  write(readings, radios, table);
+  model_ = std::make_unique<LinkModel>(world, table, plugins);
+  for (std::size_t j = 0; j < base.paths.size(); ++j) model_->set(base.paths[j], base.values[static_cast<Index>(j)]);
+  run_ = std::make_shared<CauseModel>(*model_, world, table, plugins);
+}
+
+inference::Candidate SimulatedReadings::at(const CauseCandidate& cause, const Dataset& data) const {
+  return at_readings_of(cause, {run_, *model_, data, all_});
+}
+
+bool holds_a_table_reader(const LinkModel& model) {
+  for (const auto& instance : model.simulation().instances()) {
+    const muster_plugin& plugin = instance->plugin();
+    for (uint32_t k = 0; plugin.cause && k < plugin.param_count; ++k) {
+      if (plugin.params[k].kind == MUSTER_FILE) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace muster::diagnosis

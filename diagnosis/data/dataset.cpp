@@ -1,0 +1,145 @@
+#include "diagnosis/data/dataset.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <set>
+
+#include "diagnosis/data/dataset_checks.hpp"
+#include "text/names.hpp"
+#include "text/number.hpp"
+
+namespace muster::diagnosis {
+namespace {
+
+constexpr std::size_t most_rows = 2'000'000;  // a fit holds about 1.6 kB a row
+
+std::vector<double> reals_if_any(const TextTable& table, const std::string& name, const std::string& unit) {
+  if (!table.find(name)) return {};
+  return table.reals(table.require(name, unit));
+}
+
+std::vector<Point> places(const TextTable& table, const std::string& end) {
+  const auto x = table.reals(table.require(end + "_x", "m")), y = table.reals(table.require(end + "_y", "m"));
+  const auto z = reals_if_any(table, end + "_z", "m");
+  std::vector<Point> result(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) result[i] = {x[i], y[i], z.empty() ? std::nan("") : z[i]};
+  return result;
+}
+
+// The first two rows of a table without empty cells decide nothing: a column is constant if all of it is.
+bool varies(const std::vector<double>& values) {
+  double first = std::nan("");
+  for (const double v : values) {
+    if (std::isnan(v)) continue;
+    if (std::isnan(first)) first = v;
+    if (v != first) return true;
+  }
+  return false;
+}
+
+void read_covariates(Dataset& data) {
+  const auto is_known = [&](const std::string& name) {
+    if (name == "distance") return !data.has_places();
+    if (name == "rssi" || name == "path_loss") return name == data.reading;
+    return reading_columns().count(name) > 0;
+  };
+  for (std::size_t c = 0; c < data.table.columns().size(); ++c) {
+    if (is_known(data.table.columns()[c].name)) continue;
+    Covariate covariate{data.table.columns()[c].label(), {}, {}};
+    const bool number = data.table.is_numeric(c);
+    if (number)
+      covariate.values = data.table.reals(c, {.empty = true});
+    else
+      covariate.factor = data.table.texts(c, {.empty = true});
+    if (number ? varies(covariate.values) : covariate.factor.levels.size() > 1) {
+      data.covariates.push_back(std::move(covariate));
+    } else {
+      data.notes.push_back("column " + quote(covariate.name) + " is the same in all rows, so nothing can depend on it");
+    }
+  }
+}
+
+// Degrees on the globe are no metres in a plan, and which is which is easily exchanged: who has them converts them.
+void refuse_degrees(const TextTable& table) {
+  static const std::set<std::string> words = {"lat", "lon", "lng", "long", "latitude", "longitude"};
+  if (table.find("tx_x") && table.find("rx_x")) return;
+  for (std::size_t c = 0; c < table.columns().size(); ++c) {
+    std::string word = table.columns()[c].name;
+    word.erase(0, word.rfind('_') + 1);
+    std::transform(word.begin(), word.end(), word.begin(), [](unsigned char l) { return std::tolower(l); });
+    if (!words.count(word)) continue;
+    throw invalid(
+        table.header_place(c),
+        "column " + quote(table.columns()[c].label()) +
+            " is a place on the globe; expected metres in the world's plan: x = 111320 m * cos(lat0) * (lon - "
+            "lon0) and y = 111320 m * (lat - lat0), in degrees, where (lat0, lon0) is the world's origin, as "
+            "tx_x[m], tx_y[m], rx_x[m], rx_y[m]");
+  }
+}
+
+// Places, or where there are none, distances, which are then all that is known of geometry.
+void read_places(Dataset& data) {
+  const TextTable& table = data.table;
+  if (table.find("distance") && !table.find("tx_x") && !table.find("rx_x")) {
+    const std::size_t column = table.require("distance", "m");
+    const auto distance = table.reals(column);
+    for (std::size_t row = 0; row < distance.size(); ++row) {
+      if (!(distance[row] > 0))
+        throw invalid(table.place(row, column), "row " + std::to_string(row + 1) + ": a distance of " +
+                                                    print_real(distance[row]) + " m; expected more than 0 m");
+    }
+    data.notes.push_back("no places, only distances: nothing can be said of places, bearings and rooms");
+    return;
+  }
+  refuse_degrees(table);
+  data.tx_at = places(table, "tx");
+  data.rx_at = places(table, "rx");
+}
+
+// A path loss is the level of what was sent with 0 dBm.
+void read_readings(Dataset& data) {
+  const TextTable& table = data.table;
+  const bool loss = table.find("path_loss") && !table.find("rssi");
+  data.reading = loss ? "path_loss" : "rssi";
+  data.rssi = table.reals(table.require(data.reading, loss ? "dB" : "dBm"), {.empty = true});
+  if (!loss) return;
+  for (double& v : data.rssi) v = -v;
+  data.notes.push_back("path_loss[dB] is read as the level of what was sent with 0 dBm");
+}
+
+}  // namespace
+
+std::size_t Dataset::heard() const {
+  return static_cast<std::size_t>(std::count_if(rssi.begin(), rssi.end(), [](double v) { return !std::isnan(v); }));
+}
+
+const std::map<std::string, std::string>& reading_columns() {
+  static const std::map<std::string, std::string> columns = {
+      {"t", "s"},          {"tx", ""},    {"rx", ""},    {"distance", "m"}, {"rssi", "dBm"},
+      {"path_loss", "dB"}, {"tx_x", "m"}, {"tx_y", "m"}, {"tx_z", "m"},     {"tx_yaw", "rad"},
+      {"rx_x", "m"},       {"rx_y", "m"}, {"rx_z", "m"}, {"rx_yaw", "rad"}};
+  return columns;
+}
+
+Dataset read_dataset(const std::filesystem::path& file) {
+  Dataset data{.table = TextTable::read(file)};
+  const TextTable& table = data.table;
+  if (table.rows() > most_rows)
+    throw invalid({table.file()}, "the table has " + std::to_string(table.rows()) + " rows; expected at most " +
+                                      std::to_string(most_rows) + ": keep one row in " +
+                                      std::to_string((table.rows() + most_rows - 1) / most_rows) +
+                                      ", or a part of the time");
+  data.tx = table.texts(table.require("tx", ""));
+  data.rx = table.texts(table.require("rx", ""));
+  read_places(data);
+  read_readings(data);
+  data.t = reals_if_any(table, "t", "s");
+  data.tx_yaw = reals_if_any(table, "tx_yaw", "rad");
+  data.rx_yaw = reals_if_any(table, "rx_yaw", "rad");
+  check_readings(data);
+  read_covariates(data);
+  return data;
+}
+
+}  // namespace muster::diagnosis

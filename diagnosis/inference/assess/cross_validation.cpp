@@ -1,0 +1,138 @@
+#include "diagnosis/inference/assess/cross_validation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "diagnosis/inference/noise/basis.hpp"
+#include "muster/random.hpp"
+
+namespace muster::inference {
+namespace {
+
+constexpr int most_folds = 5, resamples = 1000;
+constexpr double decorrelations = 3;  // a block's side
+
+// Numbers from 0 on, in the order of what they stand for.
+template <class Key>
+std::vector<int> numbered(const std::vector<Key>& keys) {
+  std::map<Key, int> number;
+  for (const Key& key : keys) number[key] = 0;
+  int next = 0;
+  for (auto& [key, k] : number) k = next++;
+  std::vector<int> result;
+  result.reserve(keys.size());
+  for (const Key& key : keys) result.push_back(number.at(key));
+  return result;
+}
+
+// Blocks in a random order, dealt in turn.
+std::vector<int> fold_of_block(int blocks, uint64_t seed) {
+  const Stream stream(combined(key_of("held-out folds"), seed));
+  std::vector<int> order(static_cast<std::size_t>(blocks)), result(order.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    return stream.uniform(static_cast<uint64_t>(a)) < stream.uniform(static_cast<uint64_t>(b));
+  });
+  for (std::size_t k = 0; k < order.size(); ++k)
+    result[static_cast<std::size_t>(order[k])] = static_cast<int>(k) % std::min(blocks, most_folds);
+  return result;
+}
+
+}  // namespace
+
+std::vector<int> blocks_of(const noise::Sites& sites, const noise::Covariance& covariance) {
+  const double side = decorrelations * covariance.decorrelation();
+  const Eigen::Vector3d corner = sites.place.rowwise().minCoeff();
+  std::vector<std::array<long, 3>> cells;
+  for (Index i = 0; i < sites.size(); ++i) {
+    const Eigen::Vector3d at = (sites.place.col(i) - corner) / side;
+    cells.push_back(
+        {std::lround(std::floor(at.x())), std::lround(std::floor(at.y())), std::lround(std::floor(at.z()))});
+  }
+  return numbered(cells);
+}
+
+std::vector<int> radios_of(const noise::Rows& rows, const noise::Sites& sites, const noise::Readings& readings) {
+  const bool one = std::all_of(sites.radio.begin(), sites.radio.end(), [&](int r) { return r == sites.radio.front(); });
+  if (!one) return numbered(sites.radio);
+  std::vector<int> others;
+  for (Index i = 0; i < rows.size(); ++i) {
+    const auto reading = static_cast<std::size_t>(rows.example(i));
+    others.push_back(readings.tx[reading] == sites.radio.front() ? readings.rx[reading] : readings.tx[reading]);
+  }
+  return numbered(others);
+}
+
+Folds::Fold::Fold(const noise::Sites& sites, const noise::Covariance& covariance, std::vector<Index> in,
+                  std::vector<Index> out)
+    : fitted(std::move(in)), left_out(std::move(out)), field(sites.of(fitted)), whitener(field, covariance) {}
+
+Folds::Folds(const noise::Sites& sites, const std::vector<int>& block_of_row, const std::vector<Index>& row_of,
+             const noise::Covariance& covariance, uint64_t seed)
+    : seed_(seed) {
+  for (const Index row : row_of) block_of_.push_back(block_of_row[static_cast<std::size_t>(row)]);
+  blocks_ = *std::max_element(block_of_row.begin(), block_of_row.end()) + 1;
+  if (!possible()) return;
+  const std::vector<int> fold = fold_of_block(blocks_, seed);
+  const auto is_in = [&](int block, int k) { return fold[static_cast<std::size_t>(block)] == k; };
+  for (int k = 0; k < std::min(blocks_, most_folds); ++k) {
+    std::vector<Index> rows, readings;
+    for (std::size_t i = 0; i < block_of_row.size(); ++i) {
+      if (!is_in(block_of_row[i], k)) rows.push_back(static_cast<Index>(i));
+    }
+    for (std::size_t i = 0; i < block_of_.size(); ++i) {
+      if (is_in(block_of_[i], k)) readings.push_back(static_cast<Index>(i));
+    }
+    folds_.push_back(std::make_unique<Fold>(sites, covariance, std::move(rows), std::move(readings)));
+  }
+}
+
+Eigen::VectorXd Folds::squared_errors(const Sample& rows, const Sample& readings) const {
+  Eigen::VectorXd result(readings.y.size());
+  for (const auto& fold : folds_) {
+    const Eigen::MatrixXd x = fold->whitener(rows.design(fold->fitted, Eigen::all));
+    const auto basis = noise::basis_of(x);
+    const Eigen::VectorXd explained = basis.q.transpose() * fold->whitener(rows.y(fold->fitted)).col(0);
+    const Eigen::VectorXd mean = readings.design(fold->left_out, Eigen::all) * basis.coefficients(explained, x.cols());
+    result(fold->left_out) = (readings.y(fold->left_out) - mean).cwiseAbs2();
+  }
+  return result;
+}
+
+HeldOut compared(const Unseen& unseen) {
+  const auto& [before, after, block_of, seed] = unseen;
+  const int blocks = *std::max_element(block_of.begin(), block_of.end()) + 1;
+  std::vector<double> won(static_cast<std::size_t>(blocks)), readings(won.size()), means;
+  for (Index i = 0; i < before.size(); ++i) {
+    const auto block = static_cast<std::size_t>(block_of[static_cast<std::size_t>(i)]);
+    won[block] += before[i] - after[i];
+    readings[block] += 1;
+  }
+  const Stream stream(combined(key_of("block bootstrap"), seed));
+  for (uint64_t k = 0; k < resamples; ++k) {
+    double sum = 0, count = 0;
+    for (uint64_t j = 0; j < won.size(); ++j) {
+      const auto block = static_cast<std::size_t>(stream.uniform(k, j) * static_cast<double>(won.size()));
+      sum += won[block];
+      count += readings[block];
+    }
+    means.push_back(sum / count);
+  }
+  std::sort(means.begin(), means.end());
+  return {std::sqrt(before.mean()),
+          std::sqrt(after.mean()),
+          (before - after).mean(),
+          means[resamples / 40],
+          means[resamples - 1 - resamples / 40],
+          blocks};
+}
+
+Stair stair_of(Unseen unseen) {
+  unseen.after.setZero();
+  const HeldOut all = compared(unseen);
+  return {all.rmse_before, std::sqrt(all.lower95), std::sqrt(all.upper95)};
+}
+
+}  // namespace muster::inference

@@ -1,0 +1,71 @@
+#include "diagnosis/inference/assess/expected_separability.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "diagnosis/inference/noise/columns.hpp"
+#include "diagnosis/inference/score/marginal_p_value.hpp"
+
+namespace muster::inference {
+namespace {
+
+const Candidate& planned(const Plan& plan, const std::string& id) {
+  for (const Candidate& c : plan.candidates) {
+    if (c.id == id) return c;
+  }
+  throw std::invalid_argument(plan.say + ": the plan has no candidate " + id);
+}
+
+const Entry& entry_of(const Bench& bench, const Plan& plan, const std::string& id) {
+  for (const Entry& e : bench.entries()) {
+    if (e.candidate->id == id) return e;
+  }
+  throw std::invalid_argument(plan.say + ": the problem has no candidate " + id);
+}
+
+}  // namespace
+
+bool Plan::knows(const std::string& id) const {
+  return std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& c) { return c.id == id; });
+}
+
+Planned::Planned(const Bench& bench, const Plan& plan)
+    : bench_(bench),
+      plan_(plan),
+      rows_(plan.readings, bench.options().rows),
+      field_(bench.field().sites().with(rows_.sites(plan.readings)), {.seed = bench.options().seed}),
+      whitener_(field_, bench.fit.covariance) {}
+
+Eigen::MatrixXd Planned::whitened(const Eigen::MatrixXd& here, const Eigen::MatrixXd& at_readings) const {
+  Eigen::MatrixXd both(field_.size(), here.cols());
+  both << here, rows_.mean(at_readings);
+  return whitener_(both);
+}
+
+std::vector<double> Planned::separability(const Term& term, const std::vector<std::string>& rivals) const {
+  Eigen::MatrixXd here = bench_.base(), there = plan_.base;
+  for (const Term& other : bench_.terms) {
+    if (&other == &term || other.smooth()) continue;  // a smooth says nothing of readings elsewhere
+    here = noise::hstack(here, other.columns);
+    there = noise::hstack(there, planned(plan_, other.candidate->id).columns(other.theta));
+  }
+  const auto basis = noise::basis_of(whitened(here, there));
+  const Eigen::MatrixXd design = noise::hstack(bench_.design_without(term), term.columns);
+  const Eigen::VectorXd coefficients = bench_.stand(design).coefficients(design.cols()).tail(term.columns.cols());
+  const Eigen::VectorXd effect = basis.rest(
+      whitened(term.columns * coefficients, planned(plan_, term.candidate->id).columns(term.theta) * coefficients));
+  std::vector<double> result;
+  for (const std::string& rival : rivals) {
+    const Candidate& other = planned(plan_, rival);
+    const Entry& entry = entry_of(bench_, plan_, rival);
+    double& least = result.emplace_back(effect.squaredNorm());
+    for (Index k = 0; k < entry.count(); ++k) {
+      const Eigen::VectorXd& theta = entry.candidate->grid[static_cast<std::size_t>(k)];
+      const auto of_rival = noise::basis_of(basis.rest(whitened(entry.atom(k), other.columns(theta))));
+      least = std::min(least, left_of(effect, (of_rival.q.transpose() * effect).squaredNorm()));
+    }
+  }
+  return result;
+}
+
+}  // namespace muster::inference

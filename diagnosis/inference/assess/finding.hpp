@@ -1,0 +1,52 @@
+// Findings of a search, as plain data.
+#pragma once
+
+#include <optional>
+
+#include "diagnosis/inference/assess/cross_validation.hpp"
+#include "diagnosis/inference/select/alternatives.hpp"
+#include "diagnosis/inference/select/forward_selection.hpp"
+
+namespace muster::inference {
+
+enum class Status { named = 1, suspected, unexplained };
+
+struct Finding {
+  std::string id, label;
+  Status status = Status::named;
+  std::vector<std::string> covariates;
+  Eigen::VectorXd theta;                // where, when or of what shape
+  Eigen::VectorXd coefficients;         // one a column
+  Eigen::MatrixXd uncertainty;          // covariance of the coefficients
+  std::vector<Eigen::VectorXd> thetas;  // where else it may be, as likely as one another; none for a suspected one
+  double gain = 0;                      // deviance beside all other findings
+  double evidence = 0;                  // nats
+  double log_p = 0;                     // integrated over the covariance
+  std::optional<HeldOut> held_out;      // without and with it; none for what is only suspected
+  Eigen::VectorXd unseen_without;       // squared errors of readings at places not seen without it, dB^2; none likewise
+  std::vector<Elsewhere> elsewhere;     // the same of radios and runs, where it concerns several
+  std::vector<Rival> rivals;
+};
+
+// A candidate at its best beside the model as it stands at the end.
+struct Check {
+  std::string id, label;
+  Kind kind = Kind::named;
+  double gain = 0, log_p = 0;  // of chance doing as well anywhere on its grid
+};
+
+struct Result {
+  std::vector<Finding> findings;  // the strongest first, suspected ones last
+  std::vector<Trial> trials;
+  noise::Fit noise;
+  std::vector<noise::Fit> families;  // of the base model
+  Eigen::VectorXd base_coefficients;
+  Eigen::VectorXd mean;              // of the extended model, one a row
+  std::optional<Unseen> unseen;      // the base model and the extended one
+  std::optional<HeldOut> held_out;   // the same in short
+  std::vector<Elsewhere> elsewhere;  // of radios and runs, where there are several
+  std::vector<Stair> stairs;         // the base model, then with each accepted finding in turn; empty: too few blocks
+  std::vector<Check> checks;
+};
+
+}  // namespace muster::inference

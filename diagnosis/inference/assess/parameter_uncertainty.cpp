@@ -1,0 +1,93 @@
+#include "diagnosis/inference/assess/parameter_uncertainty.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "diagnosis/inference/assess/coefficient_covariance.hpp"
+#include "diagnosis/inference/assess/posterior_sampler.hpp"
+#include "diagnosis/inference/noise/columns.hpp"
+#include "diagnosis/inference/score/importance_weights.hpp"
+#include "diagnosis/inference/score/marginal_p_value.hpp"
+
+namespace muster::inference {
+namespace {
+
+constexpr int kept = 400;  // thetas
+
+// By how much the variance is larger by the scatter of the residuals: scores added up over cells of places (Liang and
+// Zeger 1986).
+double by_scatter(const Bench& bench, const Stand& rest, const Beside& fitted) {
+  const double side = std::max(1.0, bench.fit.covariance.decorrelation());
+  const noise::Sites& sites = bench.field().sites();
+  const Eigen::VectorXd residual = rest.at.residual - fitted.columns * fitted.coefficients;
+  std::map<std::tuple<int, long, long>, Eigen::VectorXd> scores;
+  for (Index i = 0; i < residual.size(); ++i) {
+    const std::tuple cell(sites.radio[static_cast<std::size_t>(i)], std::lround(std::floor(sites.place(0, i) / side)),
+                          std::lround(std::floor(sites.place(1, i) / side)));
+    Eigen::VectorXd& score = scores.try_emplace(cell, Eigen::VectorXd::Zero(fitted.columns.cols())).first->second;
+    score += residual[i] * fitted.columns.row(i).transpose();
+  }
+  Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(fitted.columns.cols(), fitted.columns.cols());
+  double squares = 0, fourths = 0;
+  for (const auto& [cell, score] : scores) {
+    meat += score * score.transpose();
+    squares += score.squaredNorm();
+    fourths += score.squaredNorm() * score.squaredNorm();
+  }
+  if (squares * squares < 10 * fourths) return 1;  // a few cells have most of it: too few to tell a scatter
+  return (fitted.covariance * meat * fitted.covariance).trace() / fitted.covariance.trace();
+}
+
+}  // namespace
+
+Spread spread_of(const Bench& bench, const Term& term) {
+  const Stand rest = bench.stand(bench.design_without(term));
+  const Beside fitted(rest, term.columns, term.candidate->whole);
+  const Index width = term.columns.cols();
+  const Eigen::MatrixXd known =
+      uncertainty_of(bench, noise::hstack(bench.design_without(term), term.columns)).bottomRightCorner(width, width);
+  const double overstated = std::max(1.0, known.trace() / fitted.covariance.trace());
+  const double grown = std::max(overstated, by_scatter(bench, rest, fitted));
+  Spread result{{term.theta}, grown * fitted.covariance};
+  if (!term.candidate->refinable() || term.smooth()) return result;
+  const LikelyThetas likely = likely_thetas(bench, rest, term, overstated);
+  Eigen::MatrixXd within = 0 * fitted.covariance, between = within;
+  for (std::size_t k = 0; k < likely.thetas.size(); ++k) {
+    const double weight = likely.weights[static_cast<Index>(k)];
+    const Eigen::VectorXd off = likely.explained[k].coefficients - fitted.coefficients;
+    within += weight * likely.explained[k].covariance;
+    between += weight * off * off.transpose();
+  }
+  result.thetas.clear();
+  for (const std::size_t k : resampled(likely.weights, kept)) result.thetas.push_back(likely.thetas[k]);
+  result.coefficients = grown * within + between;
+  return result;
+}
+
+Eigen::VectorXd middle_of(const Bench& bench, const Term& term, const Spread& spread) {
+  constexpr double nearly = 4;  // of deviance, a 95 % region of one parameter
+  constexpr std::size_t tries = 40;
+  const Candidate& c = *term.candidate;
+  const Stand rest = bench.stand(bench.design_without(term));
+  const double best = Beside(rest, term.columns, c.whole).gain;
+  std::vector<Eigen::VectorXd> thetas{term.theta};
+  const std::size_t every = spread.thetas.size() / tries + 1;
+  for (std::size_t k = 0; k < spread.thetas.size(); k += every) thetas.push_back(spread.thetas[k]);
+  Eigen::MatrixXd effects(rest.at.residual.size(), static_cast<Index>(thetas.size()));
+  std::vector<bool> explains(thetas.size());
+  for (std::size_t k = 0; k < thetas.size(); ++k) {
+    const Beside there(rest, bench.columns_of(c, thetas[k]), c.whole);
+    effects.col(static_cast<Index>(k)) = there.columns * there.coefficients;
+    explains[k] = there.gain > best - nearly;
+  }
+  const Eigen::VectorXd mean = effects.rightCols(effects.cols() - 1).rowwise().mean();
+  const Eigen::VectorXd off = (effects.colwise() - mean).colwise().squaredNorm();
+  std::size_t middle = 0;
+  for (std::size_t k = 1; k < thetas.size(); ++k)
+    if (explains[k] && off[static_cast<Index>(k)] < off[static_cast<Index>(middle)]) middle = k;
+  return thetas[middle];
+}
+
+}  // namespace muster::inference

@@ -1,0 +1,159 @@
+#include "diagnosis/inference/assess/search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+#include "diagnosis/inference/assess/held_out_gain.hpp"
+#include "diagnosis/inference/noise/columns.hpp"
+#include "diagnosis/inference/score/marginal_p_value.hpp"
+#include "diagnosis/inference/select/backward_elimination.hpp"
+
+namespace muster::inference {
+namespace {
+
+const Problem& checked(const Problem& problem) {
+  const Index n = problem.readings.size();
+  const auto fits = [&](Index rows, const std::string& what) {
+    if (rows != n)
+      throw std::invalid_argument(what + ": " + std::to_string(rows) + " rows for " + std::to_string(n) + " readings");
+  };
+  fits(problem.measured.size(), "measured values");
+  fits(problem.base.rows(), "base columns");
+  fits(static_cast<Index>(problem.readings.rx.size()), "receivers");
+  fits(problem.readings.tx_at.cols(), "places of transmitters");
+  fits(problem.readings.rx_at.cols(), "places of receivers");
+  for (const Covariate& c : problem.covariates) fits(c.values.size(), c.name);
+  for (const Factor& f : problem.factors) fits(static_cast<Index>(f.level.size()), f.name);
+  if (!problem.measured.allFinite() || !problem.base.allFinite())
+    throw std::invalid_argument("a value that is not a number");
+  if (n < fewest_readings) throw std::invalid_argument("too few readings: " + std::to_string(n));
+  return problem;
+}
+
+}  // namespace
+
+Search::Search(const Problem& problem, const Options& options) : bench_(checked(problem), options) {}
+
+Result Search::run() {
+  result_ = {};
+  forward(bench_, result_.trials);
+  const std::vector<Term> aside = clean_up(bench_, result_.trials);
+  const std::vector<Spread> spreads = settle_in_the_middle();
+  for (std::size_t k = 0; k < bench_.terms.size(); ++k) {
+    const Term& term = bench_.terms[k];
+    result_.findings.push_back(finding_of(term, term.smooth() ? Status::unexplained : Status::named));
+    Finding& finding = result_.findings.back();
+    finding.rivals = rivals_of(bench_, term);
+    std::erase_if(finding.rivals, [](const Rival& r) { return !left_open(r); });
+    if (term.smooth()) continue;
+    finding.uncertainty = spreads[k].coefficients;
+    finding.thetas = spreads[k].thetas;
+  }
+  for (const Term& term : aside)
+    result_.findings.push_back(finding_of(term, term.smooth() ? Status::unexplained : Status::suspected));
+  result_.noise = bench_.fit;
+  result_.families = bench_.families;
+  const Eigen::MatrixXd design = bench_.design();
+  const Stand stand = bench_.stand(design);
+  const Eigen::VectorXd coefficients = stand.coefficients(design.cols());
+  result_.base_coefficients = coefficients.head(bench_.base_columns());
+  result_.mean = design * coefficients;
+  hold_out(bench_, result_);
+  check_what_is_left(result_, stand);
+  return result_;
+}
+
+std::vector<Spread> Search::settle_in_the_middle() {
+  std::vector<Spread> result;
+  for (Term& term : bench_.terms) {
+    result.push_back(term.smooth() ? Spread() : spread_of(bench_, term));
+    if (result.back().thetas.size() < 2) continue;
+    term.theta = middle_of(bench_, term, result.back());
+    term.columns = bench_.columns_of(*term.candidate, term.theta);
+    bench_.refit(4);
+  }
+  measure_gains(bench_);
+  return result;
+}
+
+// One check a cause and a covariate. Of several ways to look along a covariate it is what chance does least, times
+// their number.
+void Search::check_what_is_left(Result& result, const Stand& stand) {
+  std::map<std::string, std::pair<std::size_t, double>> along;  // where it stands, ways to look
+  for (const Lead& lead : leads(bench_, stand)) {
+    const Candidate& c = lead.candidate();
+    const Check check{c.kind == Kind::smooth ? "~" + c.own() : c.id, c.label_of(lead.theta), c.kind, lead.gain,
+                      lead.log_p};
+    const auto [at, first] = along.try_emplace(check.id, result.checks.size(), 1.0);
+    if (first) {
+      result.checks.push_back(check);
+      continue;
+    }
+    auto& [place, ways] = at->second;
+    Check& known = result.checks[place];
+    const double one = std::min(known.log_p - std::log(ways), check.log_p);
+    if (check.gain > known.gain) known.gain = check.gain;
+    known.log_p = one + std::log(++ways);
+  }
+}
+
+Finding Search::finding_of(const Term& term, Status status) const {
+  const Eigen::MatrixXd design = noise::hstack(bench_.design_without(term), term.columns);
+  const Stand stand = bench_.stand(design);
+  const Index width = term.columns.cols();
+  Finding finding{term.id(),
+                  term.candidate->label_of(term.theta),
+                  status,
+                  term.candidate->covariates,
+                  term.theta,
+                  stand.coefficients(design.cols()).tail(width),
+                  stand.at.basis.uncertainty(design.cols()).bottomRightCorner(width, width),
+                  {},
+                  term.gain,
+                  term.evidence,
+                  term.log_p,
+                  {},
+                  {},
+                  {},
+                  {}};
+  return finding;
+}
+
+namespace {
+
+// Rivals of a finding that the data do not decide; of its own other rows no plan says anything.
+std::vector<const Rival*> open_rivals(const Finding& finding) {
+  std::vector<const Rival*> result;
+  for (const Rival& rival : finding.rivals)
+    if (rival.separability < decided && rival.id != finding.id) result.push_back(&rival);
+  return result;
+}
+
+}  // namespace
+
+std::vector<Advice> Search::advise(const std::vector<Plan>& plans) {
+  std::vector<Advice> result;
+  for (const Plan& plan : plans) {
+    std::optional<Planned> planned;  // made once it is asked for
+    for (std::size_t k = 0; k < bench_.terms.size(); ++k) {
+      if (bench_.terms[k].smooth()) continue;  // which says nothing of readings elsewhere
+      const Finding& finding = result_.findings[k];
+      std::vector<const Rival*> open = open_rivals(finding);
+      std::erase_if(open, [&](const Rival* rival) { return !plan.knows(rival->id); });
+      if (open.empty()) continue;
+      std::vector<std::string> ids(open.size());
+      std::transform(open.begin(), open.end(), ids.begin(), [](const Rival* rival) { return rival->id; });
+      if (!planned) planned.emplace(bench_, plan);
+      const std::vector<double> predicted = planned->separability(bench_.terms[k], ids);
+      for (std::size_t r = 0; r < open.size(); ++r)
+        result.push_back({plan.say, finding.id, ids[r], open[r]->separability, predicted[r]});
+    }
+  }
+  std::stable_sort(result.begin(), result.end(),
+                   [](const Advice& a, const Advice& b) { return a.predicted > b.predicted; });
+  return result;
+}
+
+}  // namespace muster::inference

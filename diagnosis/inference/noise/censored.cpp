@@ -1,0 +1,48 @@
+#include "diagnosis/inference/noise/censored.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/inference/noise/basis.hpp"
+
+namespace muster::noise {
+namespace {
+
+// phi(z) / (1 - Phi(z)): by its asymptote where the tail would vanish.
+double hazard(double z) {
+  if (z > 30) return z + 1 / z;
+  return std::exp(-z * z / 2) / std::sqrt(2 * M_PI) / (0.5 * std::erfc(z / std::sqrt(2.0)));
+}
+
+}  // namespace
+
+bool Bounds::any() const {
+  return std::any_of(known.begin(), known.end(), [](Known k) { return k != Known::value; });
+}
+
+Eigen::VectorXd imputed(const Eigen::VectorXd& readings, const Bounds& bounds, const Eigen::MatrixXd& design,
+                        int rounds) {
+  Eigen::VectorXd filled = readings;
+  if (!bounds.any()) return filled;
+  const Basis basis = basis_of(design);
+  double unknown = 0;  // sum of variances of what was filled in
+  for (int round = 0; round < rounds; ++round) {
+    const Eigen::VectorXd rest = basis.rest(filled);
+    const Eigen::VectorXd mean = filled - rest;
+    const double variance = (rest.squaredNorm() + unknown) / static_cast<double>(filled.size());
+    const double sd = std::sqrt(std::max(variance, 1e-6));
+    unknown = 0;
+    for (Eigen::Index i = 0; i < filled.size(); ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      if (!bounds.is_bound(k)) continue;
+      const double side = bounds.known[k] == Known::above ? 1 : -1;
+      const double z = side * (readings[i] - side * bounds.half_code - mean[i]) / sd;
+      const double h = hazard(z);
+      filled[i] = mean[i] + side * sd * h;
+      unknown += variance * std::max(0.0, 1 - h * (h - z));
+    }
+  }
+  return filled;
+}
+
+}  // namespace muster::noise

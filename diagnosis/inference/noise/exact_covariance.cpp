@@ -1,0 +1,88 @@
+#include "diagnosis/inference/noise/exact_covariance.hpp"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "diagnosis/inference/noise/neighbourhood.hpp"
+#include "diagnosis/inference/noise/row_distance.hpp"
+#include "diagnosis/inference/noise/row_kernel.hpp"
+#include "diagnosis/inference/noise/whitener_columns.hpp"
+
+namespace muster::noise {
+namespace {
+
+// No two rows lie farther apart, both ends together.
+double longest_in(const Sites& sites) {
+  const auto size = [](const Eigen::Matrix3Xd& at) {
+    return (at.rowwise().maxCoeff() - at.rowwise().minCoeff()).norm();
+  };
+  const double stretches =
+      sites.place_stretch.colwise().norm().maxCoeff() + sites.anchor_stretch.colwise().norm().maxCoeff();
+  return size(sites.place) + size(sites.anchor) + stretches;
+}
+
+// Sites and a table of correlations, as the kernel asks for them.
+class PlacedRows {
+ public:
+  PlacedRows(const Sites& sites, const Covariance& covariance)
+      : sites_(sites.size()), radio_(sites.radio), table_(entries + 1) {
+    radio_.resize(static_cast<std::size_t>(filled()));
+    const SiteFloats floats = floats_of(sites);
+    for (Index i = 0; i < sites.size(); ++i) sites_.set(i, floats.row(i));
+    const double per_metre = entries / std::max(longest_in(sites), 1.0);
+    for (int i = 0; i <= entries; ++i)
+      table_[i] = static_cast<float>(correlation(covariance.family, i / per_metre / covariance.decorrelation()));
+    const bool by_readings = is_rough(covariance.family) && sites.within() > 0;
+    const double variance = covariance.field_variance(), everywhere = variance * covariance.shared();
+    pairs_ = {sites_.places(by_readings, anchors_move(sites), far_within * sites_.longest_within()),
+              radio_.data(),
+              table_.data(),
+              static_cast<float>(per_metre),
+              static_cast<float>(everywhere),
+              static_cast<float>(variance - everywhere)};
+  }
+
+  Index filled() const { return sites_.filled(); }
+  // dB^2, of a row and those before it.
+  void covariances(Index row, double* out) const { row_kernels().best().covariances(pairs_, row, out); }
+
+ private:
+  static constexpr int entries = 16384;
+  static constexpr float far_within = 13;  // six stretches: a row across another is 2 % farther than its middle
+
+  PlacedSites sites_;
+  std::vector<int> radio_;
+  Eigen::VectorXf table_;
+  Pairs pairs_;
+};
+
+}  // namespace
+
+Eigen::MatrixXd covariance_of_sums(const Sites& sites, const Covariance& covariance, const Eigen::MatrixXd& weights) {
+  const PlacedRows rows(sites, covariance);
+  Eigen::VectorXd before(rows.filled());
+  Eigen::MatrixXd below(weights.rows(), weights.cols());  // the covariance's lower triangle times the weights
+  for (Index i = 0; i < sites.size(); ++i) {
+    rows.covariances(i, before.data());
+    below.row(i).noalias() = before.head(i).transpose() * weights.topRows(i);
+  }
+  const Eigen::VectorXd alone =
+      covariance.field_variance() + floor_variance + covariance.reading_variance() / sites.count.array();
+  const Eigen::MatrixXd half = weights.transpose() * below;
+  return half + half.transpose() + weights.transpose() * alone.asDiagonal() * weights;
+}
+
+Eigen::MatrixXd scatter_of(const Field& field, const Whitener& whitener, const Eigen::MatrixXd& added) {
+  const Reach reach(field, whitener);
+  Eigen::MatrixXd weights(added.rows(), added.cols());
+  for (Index j = 0; j < added.cols(); ++j) weights.col(j) = reach.transposed(added.col(j));
+  return covariance_of_sums(field.sites(), whitener.covariance(), weights);
+}
+
+double exact_gain(const Field& field, const Whitener& whitener, const Eigen::MatrixXd& added,
+                  const Eigen::VectorXd& residual) {
+  const Eigen::VectorXd sums = added.transpose() * residual;
+  return sums.dot(scatter_of(field, whitener, added).llt().solve(sums));
+}
+
+}  // namespace muster::noise

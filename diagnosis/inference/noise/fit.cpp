@@ -1,0 +1,91 @@
+#include "diagnosis/inference/noise/fit.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "muster/random.hpp"
+
+namespace muster::noise {
+namespace {
+
+constexpr double least_curvature = 0.3;  // of any direction: theta is never known worse than to about two units
+
+// Eigenvalues from below, so that steps and draws stay finite where the data say nothing.
+Eigen::Matrix4d bounded(const Eigen::Matrix4d& information) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(information);
+  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(least_curvature).asDiagonal() *
+         solver.eigenvectors().transpose();
+}
+
+}  // namespace
+
+Covariance default_start(const Eigen::VectorXd& y, const Eigen::MatrixXd& design, Family family) {
+  const double variance = std::max(basis_of(design).rest(y).squaredNorm() / static_cast<double>(y.size()), 0.1);
+  return {family, {std::log(0.7 * variance), std::log(1.5) + log_scale_of(family), std::log(0.3 * variance), -1.5}};
+}
+
+Fit fit(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& design, const Prior& prior,
+        const Covariance& start, int steps, const Theta& moves) {
+  Covariance at{start.family, prior.inside(start.theta)};
+  Objective here = objective(field, at, y, design, prior);
+  for (int step = 0; step < steps; ++step) {
+    const Eigen::Matrix4d curvature = bounded(moves.asDiagonal() * here.information * moves.asDiagonal());
+    const Theta gradient = moves.cwiseProduct(here.gradient), whole = -curvature.ldlt().solve(gradient);
+    if (-whole.dot(gradient) < 0.02) break;  // nats to win, doubled
+    Theta move = whole / std::max(1.0, whole.cwiseAbs().maxCoeff());
+    bool better = false;
+    for (int shorter = 0; shorter < 5 && !better; ++shorter, move *= 0.35) {
+      const Covariance next{at.family, prior.inside(at.theta + move)};
+      const Objective there = objective(field, next, y, design, prior);
+      if (!(there.value < here.value - 1e-4)) continue;
+      at = next;
+      here = there;
+      better = true;
+    }
+    if (!better) break;
+  }
+  return {at, here.value, bounded(here.information)};
+}
+
+std::vector<Fit> fit_families(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& design,
+                              const Prior& prior, double advantage) {
+  std::vector<Fit> fits{fit(field, y, design, prior, default_start(y, design, Family::exponential), 20)};
+  for (const Family family : families) {
+    if (family == Family::exponential) continue;
+    // The smoothest family's fit lies far from that of the roughest: it starts from its neighbour's.
+    const auto like = std::find_if(fits.begin(), fits.end(), [&](const Fit& f) {
+      return f.covariance.family == (family == Family::gaussian ? Family::matern52 : Family::exponential);
+    });
+    Covariance start{family, like->covariance.theta};
+    start.theta[1] += log_scale_of(family) - log_scale_of(like->covariance.family);
+    fits.push_back(fit(field, y, design, prior, start));
+  }
+  std::erase_if(fits, [](const Fit& f) { return !std::isfinite(f.value); });
+  const auto cost = [&](const Fit& f) {
+    return f.value + (f.covariance.family == Family::exponential ? 0 : advantage);
+  };
+  std::stable_sort(fits.begin(), fits.end(), [&](const Fit& a, const Fit& b) { return cost(a) < cost(b); });
+  return fits;
+}
+
+std::vector<Draw> draws(const Fit& fit, int count, uint64_t seed) {
+  constexpr double freedom = 6;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(fit.curvature);
+  const Eigen::Matrix4d scale = solver.eigenvectors() * solver.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal();
+  const Stream stream(combined(key_of("covariance draws"), seed));
+  std::vector<Draw> result;
+  for (int k = 0; k < count / 2; ++k) {
+    const auto row = static_cast<uint64_t>(k);
+    double chi_square = 0;
+    for (uint64_t j = 0; j < 6; ++j) chi_square += std::pow(stream.normal(row, 4 + j), 2);
+    Theta z;
+    for (Eigen::Index j = 0; j < 4; ++j) z[j] = stream.normal(row, static_cast<uint64_t>(j));
+    z *= std::sqrt(freedom / chi_square);
+    const double log_density = -(freedom + 4) / 2 * std::log1p(z.squaredNorm() / freedom);
+    for (const double sign : {1.0, -1.0}) result.push_back({fit.covariance.theta + sign * (scale * z), log_density});
+  }
+  return result;
+}
+
+}  // namespace muster::noise

@@ -1,0 +1,51 @@
+// The covariance of rows and their neighbours, factorised for eight rows side by side.
+#pragma once
+
+#include "diagnosis/inference/noise/row_kernel.hpp"
+#include "diagnosis/inference/noise/vecchia.hpp"
+
+namespace muster::noise {
+
+constexpr double floor_variance = 1e-3;  // dB^2, of every row: readings are at best quantised to 0.1 dB
+
+// A value of each of the eight rows.
+struct alignas(alignment) Lanes {
+  double of[lanes];
+};
+
+class Neighbourhood {
+ public:
+  Neighbourhood(const Field& field, const Covariance& covariance, const RowKernel& kernel = row_kernels().best());
+
+  // The rows of one group. Slots without a neighbour hold an independent value of variance one and get weight zero.
+  void factorise(Index group);
+  // One value a slot, then the row's own: minus the weights of the best prediction and one, over its standard
+  // deviation.
+  const Lanes* combination() const { return combination_.data(); }
+
+  // After factorise(): derivatives by the four parameters of theta.
+  void differentiate() { kernel_.differentiate(arrays_); }
+  const Lanes* slope(int parameter) const { return slope_.data() + parameter * (slots_ + 1); }
+  // Of the logarithm of the row's own weight.
+  double log_slope(int parameter, int lane) const {
+    return -0.5 * turned_[static_cast<std::size_t>(parameter) * static_cast<std::size_t>(slots_ + 1) +
+                          static_cast<std::size_t>(slots_)]
+                      .of[lane];
+  }
+  // Fisher's, q <= p.
+  const Lanes& information(int p, int q) const { return information_[static_cast<std::size_t>(p * parameters + q)]; }
+
+ private:
+  void own_variances(Index group);
+
+  const Field& field_;
+  const RowKernel& kernel_;
+  Family family_;
+  Index slots_;
+  std::vector<double> correlation_, by_distance_;
+  Eigen::VectorXd reading_variance_;  // of the rows' means
+  std::vector<Lanes> nugget_, present_, root_, cross_, combination_, turned_, slope_, information_;
+  Neighbourhoods arrays_;
+};
+
+}  // namespace muster::noise

@@ -1,0 +1,114 @@
+#include "diagnosis/inference/noise/neighbours.hpp"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <nanoflann.hpp>
+#include <numeric>
+
+#include "muster/random.hpp"
+
+namespace muster::noise {
+namespace {
+
+// Points of some rows in d dimensions, as nanoflann asks for them.
+struct Cloud {
+  Eigen::MatrixXd at;       // d x points
+  std::vector<Index> rows;  // of the points
+
+  std::size_t kdtree_get_point_count() const { return rows.size(); }
+  double kdtree_get_pt(std::size_t point, std::size_t d) const {
+    return at(static_cast<Index>(d), static_cast<Index>(point));
+  }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+};
+
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Adaptor<double, Cloud>, Cloud, -1>;
+
+struct Grove {
+  Cloud cloud;
+  std::unique_ptr<Tree> tree;
+
+  Grove(const Eigen::MatrixXd& all, std::vector<Index> rows) : cloud{all(Eigen::all, rows), std::move(rows)} {
+    tree = std::make_unique<Tree>(static_cast<int>(all.rows()), cloud, nanoflann::KDTreeSingleIndexAdaptorParams(12));
+    tree->buildIndex();
+  }
+};
+
+// The nearest points that `admits` lets in, ties by their number; nanoflann's own result set takes all.
+template <class Admits>
+class Nearest {
+ public:
+  Nearest(std::size_t most, Admits admits) : most_(most), admits_(admits) {}
+
+  std::size_t size() const { return found_.size(); }
+  bool full() const { return found_.size() == most_; }
+  double worstDist() const { return full() ? found_.back().first : std::numeric_limits<double>::max(); }
+  bool addPoint(double distance, std::size_t point) {
+    if (!admits_(point)) return true;
+    const std::pair entry(distance, point);
+    found_.insert(std::lower_bound(found_.begin(), found_.end(), entry), entry);
+    if (found_.size() > most_) found_.pop_back();
+    return true;
+  }
+  const std::vector<std::pair<double, std::size_t>>& found() const { return found_; }
+
+ private:
+  std::size_t most_;
+  Admits admits_;
+  std::vector<std::pair<double, std::size_t>> found_;
+};
+
+template <class Admits>
+void search(const Grove& grove, const Eigen::VectorXd& from, int most, Admits admits, Index* slots) {
+  if (most == 0) return;
+  Nearest nearest(static_cast<std::size_t>(most), admits);
+  grove.tree->findNeighbors(nearest, from.data(), nanoflann::SearchParams());
+  for (const auto& [distance, point] : nearest.found()) *slots++ = grove.cloud.rows[point];
+}
+
+std::vector<Index> random_ranks(Index n, uint64_t seed) {
+  const Stream stream(combined(key_of("vecchia order"), seed));
+  std::vector<std::pair<double, Index>> order;
+  for (Index i = 0; i < n; ++i) order.emplace_back(stream.uniform(static_cast<uint64_t>(i)), i);
+  std::sort(order.begin(), order.end());
+  std::vector<Index> rank(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k)
+    rank[static_cast<std::size_t>(order[k].second)] = static_cast<Index>(k);
+  return rank;
+}
+
+}  // namespace
+
+std::vector<Index> neighbours_of(const Sites& sites, const Conditioning& conditioning) {
+  const Index n = sites.size();
+  const auto rank = random_ranks(n, conditioning.seed);
+  Eigen::MatrixXd both(6, n);
+  both << sites.place, sites.anchor;
+  std::map<int, std::vector<Index>> of_radio;
+  for (Index i = 0; i < n; ++i) of_radio[sites.radio[static_cast<std::size_t>(i)]].push_back(i);
+  std::map<int, Grove> groves;
+  for (const auto& [radio, rows] : of_radio) groves.try_emplace(radio, both, rows);
+  std::vector<Index> all(static_cast<std::size_t>(n));
+  std::iota(all.begin(), all.end(), 0);
+  const Grove everywhere(sites.place, all);
+
+  std::vector<Index> result(static_cast<std::size_t>(n * conditioning.slots()), -1);
+  for (Index i = 0; i < n; ++i) {
+    const int radio = sites.radio[static_cast<std::size_t>(i)];
+    const auto earlier = [&](Index j) { return rank[static_cast<std::size_t>(j)] < rank[static_cast<std::size_t>(i)]; };
+    Index* const slots = result.data() + i * conditioning.slots();
+    const Grove& own = groves.at(radio);
+    search(
+        own, both.col(i), conditioning.same, [&](std::size_t p) { return earlier(own.cloud.rows[p]); }, slots);
+    if (of_radio.size() < 2) continue;
+    const auto other = [&](std::size_t p) { return sites.radio[p] != radio && earlier(static_cast<Index>(p)); };
+    search(everywhere, sites.place.col(i), conditioning.others, other, slots + conditioning.same);
+  }
+  return result;
+}
+
+}  // namespace muster::noise

@@ -1,0 +1,39 @@
+// Minus the log restricted posterior of theta: Vecchia's likelihood of what the design leaves of y (Patterson and
+// Thompson 1971), and what is known of theta before the data.
+#pragma once
+
+#include "diagnosis/inference/noise/basis.hpp"
+#include "diagnosis/inference/noise/vecchia.hpp"
+
+namespace muster::noise {
+
+struct Prior {
+  double log_decorrelation = 0.5878, decorrelation_spread = 0.7;  // 1.8 m within a factor of two: indoor shadowing
+  double logit_shared = -1.5, shared_spread = 1.5;
+
+  Theta lower() const { return {-3, log_decorrelation - 3, -3, logit_shared - 4}; }
+  Theta upper() const { return {9, log_decorrelation + 2.4, 9, logit_shared + 4}; }
+  Theta inside(const Theta& theta) const { return theta.cwiseMax(lower()).cwiseMin(upper()); }
+};
+
+struct Objective {
+  double value = 0;
+  Theta gradient = Theta::Zero();
+  Eigen::Matrix4d information = Eigen::Matrix4d::Zero();  // Fisher's, with the prior's curvature
+};
+
+// y and the design in whitened space.
+struct Whitened {
+  Basis basis;
+  Eigen::VectorXd y, residual;
+  double value = 0;  // of the objective
+};
+
+Whitened whitened(const Whitener& whitener, const Eigen::VectorXd& y, const Eigen::MatrixXd& design,
+                  const Prior& prior);
+
+// With the derivatives that scoring needs.
+Objective objective(const Field& field, const Covariance& covariance, const Eigen::VectorXd& y,
+                    const Eigen::MatrixXd& design, const Prior& prior);
+
+}  // namespace muster::noise

@@ -1,0 +1,396 @@
+// Built once for each instruction set, as MUSTER_KERNEL. Everything here but the kernel itself is internal.
+//
+// Sums that depend on each other would wait for one another: each value that is worked out is taken from all that need
+// it at once, and four derivatives are carried side by side.
+#include "diagnosis/inference/noise/row_kernel.hpp"
+
+#include "diagnosis/inference/noise/packs.hpp"
+
+#define MUSTER_ALWAYS __attribute__((always_inline))
+#define MUSTER_TEXT_OF(name) #name
+#define MUSTER_TEXT(name) MUSTER_TEXT_OF(name)
+
+namespace muster::noise {
+namespace {
+
+using Lanes = Pack<double, lanes>;
+using Floats = Pack<float, many>;
+static_assert(sizeof(Lanes) == alignment);
+
+using FourFloats = float __attribute__((vector_size(4 * sizeof(float)), aligned(alignof(float)), may_alias));
+using TwoDoubles = double __attribute__((vector_size(2 * sizeof(double)), aligned(alignof(double)), may_alias));
+
+MUSTER_INLINE Lanes* lanes_of(double* values) { return reinterpret_cast<Lanes*>(values); }
+MUSTER_INLINE const Lanes* lanes_of(const double* values) { return reinterpret_cast<const Lanes*>(values); }
+
+MUSTER_INLINE Lanes inverse_root(const Lanes& variance, double least) {
+  Lanes result;
+  for (int lane = 0; lane < lanes; ++lane) {
+    const double v = variance[lane] > least ? variance[lane] : least;
+    result.set(lane, 1 / __builtin_sqrt(v));
+  }
+  return result;
+}
+
+MUSTER_INLINE Lanes looked_up(const double* table, const std::uint16_t* entries) {
+  Lanes result;
+  for (int lane = 0; lane < lanes; ++lane) result.set(lane, table[entries[lane]]);
+  return result;
+}
+
+// What a table holds for a pair of slots: between places, and between both ends.
+struct Looked {
+  Lanes near, joint;
+};
+
+MUSTER_INLINE Looked looked_up(const Neighbourhoods& n, const double* table, long pair) {
+  const Lanes near = looked_up(table, n.near + pair * lanes);
+  if (n.kinds[pair] == Joint::same) return {near, near};
+  if (n.kinds[pair] == Joint::uncorrelated) return {near, Lanes{}};
+  return {near, looked_up(table, n.joint + pair * lanes)};
+}
+
+MUSTER_INLINE Lanes covariance(const Neighbourhoods& n, long pair) {
+  const Looked c = looked_up(n, n.correlation, pair);
+  return n.near_variance * c.near + n.joint_variance * c.joint;
+}
+
+void factorise(const Neighbourhoods& n) {
+  const long slots = n.slots;
+  Lanes *const root = lanes_of(n.root), *const cross = lanes_of(n.cross), *const combination = lanes_of(n.combination);
+  const Lanes *const nugget = lanes_of(n.nugget), *const present = lanes_of(n.present);
+  for (long a = 0; a < slots; ++a) {
+    const long pairs = a * (a + 1) / 2;
+    Lanes* const row = root + a * slots;
+    for (long b = 0; b < a; ++b) row[b] = covariance(n, pairs + b);
+    Lanes own = present[a] * (n.field_variance + n.floor_variance - 1) + 1 + nugget[a];
+    for (long k = 0; k < a; ++k) {
+      const Lanes x = row[k] * root[k * slots + k];
+      row[k] = x;
+      own -= x * x;
+      for (long b = a - 1; b > k; --b) row[b] -= x * root[b * slots + k];
+    }
+    row[a] = inverse_root(own, n.least_variance);
+    cross[a] = covariance(n, pairs + a);
+  }
+  Lanes variance = nugget[slots] + (n.field_variance + n.floor_variance);
+  for (long k = 0; k < slots; ++k) {
+    const Lanes x = cross[k] * root[k * slots + k];
+    cross[k] = x;
+    variance -= x * x;
+    for (long a = k + 1; a < slots; ++a) cross[a] -= x * root[a * slots + k];
+  }
+  const Lanes inverse_sd = inverse_root(variance, n.least_variance);
+  combination[slots] = inverse_sd;
+  for (long a = 0; a < slots; ++a) combination[a] = -cross[a] * inverse_sd;
+  for (long a = slots - 1; a >= 0; --a) {
+    const Lanes* const row = root + a * slots;
+    const Lanes x = combination[a] * row[a];
+    combination[a] = x;
+    for (long b = 0; b < a; ++b) combination[b] -= row[b] * x;
+  }
+}
+
+struct Four {
+  Lanes of[parameters];
+};
+
+MUSTER_INLINE Four loaded(double* const* from, long a) {
+  return {{lanes_of(from[0])[a], lanes_of(from[1])[a], lanes_of(from[2])[a], lanes_of(from[3])[a]}};
+}
+MUSTER_INLINE void store(const Four& values, double* const* to, long a) {
+  for (int p = 0; p < parameters; ++p) lanes_of(to[p])[a] = values.of[p];
+}
+MUSTER_INLINE void take(Four& from, Lanes weight, double* const* values, long a) {
+  for (int p = 0; p < parameters; ++p) from.of[p] -= weight * lanes_of(values[p])[a];
+}
+
+// dC combination, for the derivatives by distance (1) and share (3), which are zero on the diagonal.
+void turn(const Neighbourhoods& n) {
+  const long slots = n.slots;
+  const Lanes* const combination = lanes_of(n.combination);
+  Lanes *const by_distance = lanes_of(n.turned[1]), *const by_share = lanes_of(n.turned[3]);
+  for (long a = 0; a <= slots; ++a) by_distance[a] = by_share[a] = Lanes{};
+  for (long a = 0; a < slots; ++a) {
+    Lanes distance = by_distance[a], share = by_share[a];
+    const Lanes own = combination[a];
+    for (long b = 0; b <= a; ++b) {
+      const long other = b < a ? b : slots, pair = a * (a + 1) / 2 + b;
+      const Looked slope = looked_up(n, n.by_distance, pair), value = looked_up(n, n.correlation, pair);
+      const Lanes d = n.near_variance * slope.near + n.joint_variance * slope.joint;
+      const Lanes s = n.share_slope * (value.near - value.joint);
+      distance += d * combination[other];
+      share += s * combination[other];
+      by_distance[other] += d * own;
+      by_share[other] += s * own;
+    }
+    by_distance[a] = distance;
+    by_share[a] = share;
+  }
+}
+
+void differentiate(const Neighbourhoods& n) {
+  const long slots = n.slots;
+  const Lanes *const root = lanes_of(n.root), *const cross = lanes_of(n.cross), *const nugget = lanes_of(n.nugget);
+  const Lanes* const combination = lanes_of(n.combination);
+  const Lanes inverse_sd = combination[slots];
+  turn(n);
+  // C = field + nugget + floor, and L^-1 C L^-T e = e: the field's part (0) is what the others leave.
+  for (long a = 0; a <= slots; ++a) {
+    lanes_of(n.turned[0])[a] = -n.floor_variance * combination[a];
+    lanes_of(n.turned[2])[a] = nugget[a] * combination[a];
+  }
+  Four last = loaded(n.turned, slots);
+  for (long a = 0; a < slots; ++a) {
+    Four x = loaded(n.turned, a);
+    for (long k = 0; k < a; ++k) take(x, root[a * slots + k], n.turned, k);
+    for (int p = 0; p < parameters; ++p) {
+      x.of[p] *= root[a * slots + a];
+      last.of[p] -= cross[a] * x.of[p];
+    }
+    store(x, n.turned, a);
+  }
+  for (Lanes& x : last.of) x *= inverse_sd;
+  last.of[0] += 1;
+  store(last, n.turned, slots);
+  for (long a = 0; a <= slots; ++a) lanes_of(n.turned[0])[a] -= lanes_of(n.turned[2])[a];
+  // The combination's derivative: minus L^-T times that, with its last entry halved.
+  last = loaded(n.turned, slots);
+  for (Lanes& x : last.of) x = -0.5 * x * inverse_sd;
+  store(last, n.slope, slots);
+  for (long a = slots - 1; a >= 0; --a) {
+    Four x = loaded(n.turned, a);
+    for (int p = 0; p < parameters; ++p) x.of[p] = -x.of[p] - cross[a] * last.of[p];
+    for (long k = a + 1; k < slots; ++k) take(x, root[k * slots + a], n.slope, k);
+    for (Lanes& of_one : x.of) of_one *= root[a * slots + a];
+    store(x, n.slope, a);
+  }
+  for (int p = 0; p < parameters; ++p) {
+    for (int q = 0; q <= p; ++q) {
+      const Lanes *const one = lanes_of(n.turned[p]), *const other = lanes_of(n.turned[q]);
+      Lanes sum = 0.5 * one[slots] * other[slots];
+      for (long a = 0; a < slots; ++a) sum += one[a] * other[a];
+      lanes_of(n.information)[p * parameters + q] = sum;
+    }
+  }
+}
+
+template <class Vector, int parts>
+struct Tile {};
+
+// One row, at columns that fill `parts` vectors.
+template <class Vector, int parts, class Scalar>
+MUSTER_INLINE void combine_tile(Tile<Vector, parts>, const Combinations& c, long i, const Scalar* x, long columns,
+                                Scalar* out) {
+  constexpr long width = sizeof(Vector) / sizeof(Scalar);
+  Vector sum[parts];
+  const auto own = static_cast<Scalar>(c.own[i]);
+  for (int k = 0; k < parts; ++k) sum[k] = own * *reinterpret_cast<const Vector*>(x + i * columns + k * width);
+  for (long a = i * c.slots; a < (i + 1) * c.slots; ++a) {
+    if (c.neighbours[a] < 0) continue;
+    const auto weight = static_cast<Scalar>(c.beside[a]);
+    const Scalar* const other = x + c.neighbours[a] * columns;
+    for (int k = 0; k < parts; ++k) sum[k] += weight * *reinterpret_cast<const Vector*>(other + k * width);
+  }
+  for (int k = 0; k < parts; ++k) *reinterpret_cast<Vector*>(out + i * columns + k * width) = sum[k];
+}
+
+// Calls use(vector's type, their number, column) for vectors that fill `columns`, wide ones first.
+template <class Wide, class Narrow, class Scalar, class Use>
+MUSTER_INLINE void in_tiles(long columns, const Use& use) {
+  constexpr long wide = sizeof(Wide) / sizeof(Scalar), narrow = sizeof(Narrow) / sizeof(Scalar);
+  long k = 0;
+  for (; k + 2 * wide <= columns; k += 2 * wide) use(Tile<Wide, 2>{}, k);
+  for (; k + wide <= columns; k += wide) use(Tile<Wide, 1>{}, k);
+  for (; k + narrow <= columns; k += narrow) use(Tile<Narrow, 1>{}, k);
+  for (; k < columns; ++k) use(Tile<Scalar, 1>{}, k);
+}
+
+// In blocks of columns whose rows stay in the cache together.
+template <class Wide, class Narrow, class Scalar>
+MUSTER_INLINE void combine_all(const Combinations& c, const Scalar* x, long columns, Scalar* out) {
+  constexpr long block = 512 / sizeof(Scalar);
+  for (long first = 0; first < columns; first += block) {
+    const long width = columns - first < block ? columns - first : block;
+    for (long i = 0; i < c.rows; ++i) {
+      in_tiles<Wide, Narrow, Scalar>(width, [&](auto tile, long k) MUSTER_ALWAYS {
+        combine_tile(tile, c, i, x + first + k, columns, out + first + k);
+      });
+    }
+  }
+}
+
+void combine(const Combinations& c, const double* x, long columns, double* out) {
+  combine_all<Lanes, TwoDoubles>(c, x, columns, out);
+}
+
+void combine_floats(const Combinations& c, const float* x, long columns, float* out) {
+  combine_all<Floats, FourFloats>(c, x, columns, out);
+}
+
+// Vectors of the products x_j with_i, summed up over the columns.
+MUSTER_INLINE Lanes products(const double* x, const double* with, long columns) {
+  const auto *const one = reinterpret_cast<const Lanes*>(x), *const other = reinterpret_cast<const Lanes*>(with);
+  Lanes sum = one[0] * other[0];
+  for (long k = 1; k < columns / lanes; ++k) sum += one[k] * other[k];
+  return sum;
+}
+
+void contract(const Combinations* four, const double* x, const double* with, long columns, double* sums) {
+  const Combinations& c = four[0];
+  Lanes sum[parameters] = {};
+  for (long i = 0; i < c.rows; ++i) {
+    const Lanes own = products(x + i * columns, with + i * columns, columns);
+    for (int p = 0; p < parameters; ++p) sum[p] += four[p].own[i] * own;
+    for (long a = i * c.slots; a < (i + 1) * c.slots; ++a) {
+      if (c.neighbours[a] < 0) continue;
+      const Lanes beside = products(x + c.neighbours[a] * columns, with + i * columns, columns);
+      for (int p = 0; p < parameters; ++p) sum[p] += four[p].beside[a] * beside;
+    }
+  }
+  for (int p = 0; p < parameters; ++p) {
+    sums[p] = 0;
+    for (int lane = 0; lane < lanes; ++lane) sums[p] += sum[p][lane];
+  }
+}
+
+MUSTER_INLINE Floats many_of(const float* values, long first) {
+  return *reinterpret_cast<const Floats*>(values + first);
+}
+
+// Squared distances of a row from those that start at `first`, between readings a stretch away from their middles or
+// none.
+MUSTER_INLINE Floats squares(const Ends& ends, long row, long first, float own_stretches, float stretches) {
+  Floats sum{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const float own = ends.middle[axis][row] + own_stretches * ends.stretch[axis][row];
+    const Floats along = many_of(ends.middle[axis], first) + stretches * many_of(ends.stretch[axis], first) - own;
+    sum += along * along;
+  }
+  return sum;
+}
+
+MUSTER_INLINE Floats root(Floats squares) {
+  for (Floats::Part& part : squares.part) {
+    for (int k = 0; k < Floats::each; ++k) part[k] = __builtin_sqrtf(part[k]);
+  }
+  return squares;
+}
+
+MUSTER_INLINE void cut_at_zero(Floats& values) {
+  for (Floats::Part& part : values.part) part = part > 0 ? part : Floats::Part{};
+}
+
+struct Distances {
+  Floats place, both;
+};
+
+MUSTER_INLINE Distances between_middles(const Places& p, long row, long first) {
+  const Floats place = squares(p.place, row, first, 0, 0);
+  const Floats apart = root(place);
+  return {apart, p.anchors_move ? root(place + squares(p.anchor, row, first, 0, 0)) : apart};
+}
+
+MUSTER_INLINE Distances between_readings(const Places& p, long row, long first) {
+  Distances mean{};
+  for (int own = -1; own <= 1; ++own) {
+    for (int other = -1; other <= 1; ++other) {
+      const auto a = static_cast<float>(own), b = static_cast<float>(other);
+      const Floats place = squares(p.place, row, first, a, b);
+      mean.place += root(place) / 9;
+      if (p.anchors_move) mean.both += root(place + squares(p.anchor, row, first, a, b)) / 9;
+    }
+  }
+  return p.anchors_move ? mean : Distances{mean.place, mean.place};
+}
+
+MUSTER_INLINE Distances distances_of(const Places& p, long row, long first) {
+  const Distances middles = between_middles(p, row, first);
+  if (!p.within_place) return middles;
+  bool near = false;
+  for (int k = 0; k < many; ++k) near |= middles.place[k] < p.far;
+  Distances result = near ? between_readings(p, row, first) : middles;
+  result.place -= many_of(p.within_place, first) + p.within_place[row];
+  result.both -= many_of(p.within_both, first) + p.within_both[row];
+  cut_at_zero(result.place);
+  cut_at_zero(result.both);
+  return result;
+}
+
+MUSTER_INLINE void write(const Floats& values, float* out) { *reinterpret_cast<Floats*>(out) = values; }
+
+void apart(const Places& p, long row, float* place, float* both) {
+  for (long first = 0; first < row; first += many) {
+    const Distances of = distances_of(p, row, first);
+    write(of.place, place + first);
+    write(of.both, both + first);
+  }
+}
+
+using TwiceAsWide = double __attribute__((vector_size(2 * register_bytes), aligned(alignof(double)), may_alias));
+using Ints = int __attribute__((vector_size(register_bytes), aligned(alignof(int)), may_alias));
+
+MUSTER_INLINE Floats correlations(const Pairs& p, Floats apart) {
+  for (Floats::Part& part : apart.part) {
+    const Ints entries = __builtin_convertvector(part * p.entries_per_metre + 0.5f, Ints);
+    for (int k = 0; k < Floats::each; ++k) part[k] = p.correlation[entries[k]];
+  }
+  return apart;
+}
+
+void covariances(const Pairs& p, long row, double* out) {
+  for (long first = 0; first < row; first += many) {
+    const Distances apart = distances_of(p.at, row, first);
+    const Floats near = correlations(p, apart.place);
+    const Floats joint = p.at.anchors_move ? correlations(p, apart.both) : near;
+    for (int k = 0; k < Floats::parts; ++k) {
+      const long from = first + k * Floats::each;
+      const Ints same = *reinterpret_cast<const Ints*>(p.radio + from) == p.radio[row];
+      const Floats::Part of_radio = same ? p.joint * joint.part[k] : Floats::Part{};
+      const Floats::Part sum = p.everywhere * near.part[k] + of_radio;
+      *reinterpret_cast<TwiceAsWide*>(out + from) = __builtin_convertvector(sum, TwiceAsWide);
+    }
+  }
+}
+
+template <class Vector, int parts>
+MUSTER_INLINE void take_out_of(Tile<Vector, parts>, const float* q, long rows, long width, float* x, long columns,
+                               float* scratch) {
+  auto* const explained = reinterpret_cast<Vector*>(scratch);
+  for (long k = 0; k < width * parts; ++k) explained[k] = Vector{};
+  for (long i = 0; i < rows; ++i) {
+    const auto* const from = reinterpret_cast<const Vector*>(x + i * columns);
+    for (long d = 0; d < width; ++d) {
+      for (int k = 0; k < parts; ++k) explained[d * parts + k] += q[i * width + d] * from[k];
+    }
+  }
+  for (long i = 0; i < rows; ++i) {
+    auto* const to = reinterpret_cast<Vector*>(x + i * columns);
+    Vector left[parts];
+    for (int k = 0; k < parts; ++k) left[k] = to[k];
+    for (long d = 0; d < width; ++d) {
+      for (int k = 0; k < parts; ++k) left[k] -= q[i * width + d] * explained[d * parts + k];
+    }
+    for (int k = 0; k < parts; ++k) to[k] = left[k];
+  }
+}
+
+void take_out(const float* q, long rows, long width, float* x, long columns, float* scratch) {
+  in_tiles<Floats, FourFloats, float>(
+      columns, [&](auto tile, long k) MUSTER_ALWAYS { take_out_of(tile, q, rows, width, x + k, columns, scratch); });
+}
+
+}  // namespace
+
+extern const RowKernel MUSTER_KERNEL;
+const RowKernel MUSTER_KERNEL{MUSTER_TEXT(MUSTER_KERNEL),
+                              factorise,
+                              differentiate,
+                              combine,
+                              combine_floats,
+                              contract,
+                              apart,
+                              covariances,
+                              take_out};
+
+}  // namespace muster::noise

@@ -1,0 +1,199 @@
+#include "diagnosis/inference/noise/vecchia.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "diagnosis/inference/noise/neighbourhood.hpp"
+#include "diagnosis/inference/noise/row_distance.hpp"
+
+namespace muster::noise {
+namespace {
+
+using ByRow = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+// As refinement asks for it thousands of times.
+Eigen::VectorXd applied_to_one(const Field& field, const Stencil& stencil, const double* x) {
+  Eigen::VectorXd out(field.size());
+  const auto slots = static_cast<Index>(field.slots());
+  for (Index i = 0; i < field.size(); ++i) {
+    const double* const weights = stencil.beside.data() + i * slots;
+    double sum = stencil.own[at(i)] * x[i];
+    for (Index a = 0; a < slots; ++a) {
+      const Index j = field.neighbour(i, static_cast<int>(a));
+      sum += weights[a] * x[std::max<Index>(j, 0)];  // the weight of none is 0
+    }
+    out[i] = sum;
+  }
+  return out;
+}
+
+Eigen::MatrixXd applied(const Field& field, const Stencil& stencil, const Eigen::Ref<const Eigen::MatrixXd>& columns) {
+  if (columns.cols() == 1) return applied_to_one(field, stencil, columns.data());
+  const ByRow x = columns;
+  ByRow out(x.rows(), x.cols());
+  row_kernels().best().combine(field.combinations(stencil), x.data(), x.cols(), out.data());
+  return out;
+}
+
+Stencil empty_stencil(const Field& field) {
+  return {std::vector<double>(at(field.size())), std::vector<double>(at(field.size() * field.slots()))};
+}
+
+// Writes lane by lane what was worked out for a group of rows; `combination` has a value a slot, then the row's own.
+void store(const Field& field, Index group, const Lanes* combination, Stencil& stencil) {
+  for (Index lane = 0; lane < lanes; ++lane) {
+    const Index i = group * lanes + lane;
+    if (i >= field.size()) return;
+    for (int a = 0; a < field.slots(); ++a) stencil.beside[at(i * field.slots() + a)] = combination[a].of[lane];
+    stencil.own[at(i)] = combination[field.slots()].of[lane];
+  }
+}
+
+// Without slots that would stay empty: where all rows have one anchor none is another's.
+Conditioning fillable(Conditioning conditioning, const std::vector<int>& radio) {
+  const bool one = std::all_of(radio.begin(), radio.end(), [&](int other) { return other == radio.front(); });
+  if (one) conditioning.others = 0;
+  return conditioning;
+}
+
+}  // namespace
+
+Field::Field(Sites sites, const Conditioning& conditioning) : sites_(std::move(sites)) {
+  const Conditioning with = fillable(conditioning, sites_.radio);
+  slots_ = with.slots();
+  neighbours_ = neighbours_of(sites_, with);
+  float longest = 0;
+  each_pair(false, [&](std::size_t, bool, float, float both) { longest = std::max(longest, both); });
+  spacing_ = std::max(spacing_, longest / (distances - 1.0));
+  smooth_ = table(false);
+  if (sites_.within() > 0) rough_ = table(true);
+}
+
+template <class Use>
+void Field::each_pair(bool by_readings, const Use& use) const {
+  const SiteFloats floats = floats_of(sites_);
+  PlacedSites near(slots_ + 1);  // a row, then its neighbours
+  const Places places = near.places(by_readings, anchors_move(sites_), std::numeric_limits<float>::max());
+  std::vector<float> place(at(near.filled())), both(place.size());
+  for (Index i = 0; i < size(); ++i) {
+    near.set(0, floats.row(i));
+    for (int a = 0; a < slots_; ++a) {
+      const Index j = neighbour(i, a);
+      if (j < 0) continue;
+      near.set(a + 1, floats.row(j));
+      row_kernels().best().apart(places, a + 1, place.data(), both.data());
+      for (int b = 0; b <= a; ++b) {
+        const Index other = b < a ? neighbour(i, b) : i;
+        if (other < 0) continue;
+        const std::size_t pair = at((i / lanes) * pairs() + Index{a} * (a + 1) / 2 + b), from = b < a ? at(b + 1) : 0;
+        use(pair * lanes + at(i % lanes), sites_.radio[at(j)] == sites_.radio[at(other)], place[from], both[from]);
+      }
+    }
+  }
+}
+
+Field::Table Field::table(bool by_readings) const {
+  Table result;
+  result.near.assign(at(groups() * pairs() * lanes), distances);
+  result.joint.assign(result.near.size(), distances);
+  each_pair(by_readings, [&](std::size_t slot, bool of_one_anchor, float place, float both) {
+    result.near[slot] = entry(place);
+    if (of_one_anchor) result.joint[slot] = entry(both);
+  });
+  compare_ends(result);
+  return result;
+}
+
+void Field::compare_ends(Table& table) const {
+  table.kinds.assign(table.near.size() / lanes, Joint::other);
+  for (std::size_t pair = 0; pair < table.kinds.size(); ++pair) {
+    const auto near = table.near.begin() + static_cast<std::ptrdiff_t>(pair * lanes);
+    const auto joint = table.joint.begin() + static_cast<std::ptrdiff_t>(pair * lanes);
+    if (std::equal(near, near + lanes, joint)) {
+      table.kinds[pair] = Joint::same;
+    } else if (std::all_of(joint, joint + lanes, [](uint16_t entry) { return entry == distances; })) {
+      table.kinds[pair] = Joint::uncorrelated;
+    }
+  }
+}
+
+Field::Entries Field::entries(Index group, Family family) const {
+  const Table& from = is_rough(family) && !rough_.near.empty() ? rough_ : smooth_;
+  const Index first = group * pairs();
+  return {from.near.data() + first * lanes, from.joint.data() + first * lanes, from.kinds.data() + first};
+}
+
+Combinations Field::combinations(const Stencil& stencil) const {
+  return {size(), slots_, neighbours_.data(), stencil.own.data(), stencil.beside.data()};
+}
+
+uint16_t Field::entry(double distance) const {
+  return static_cast<uint16_t>(std::min(distance / spacing_ + 0.5, distances - 1.0));
+}
+
+Whitener::Whitener(const Field& field, const Covariance& covariance, Stencil stencil)
+    : field_(&field), covariance_(covariance), stencil_(std::move(stencil)) {}
+
+Whitener::Whitener(const Field& field, const Covariance& covariance)
+    : Whitener(field, covariance, empty_stencil(field)) {
+  Neighbourhood neighbourhood(field, covariance);
+  for (Index g = 0; g < field.groups(); ++g) {
+    neighbourhood.factorise(g);
+    store(field, g, neighbourhood.combination(), stencil_);
+  }
+  sum_up();
+}
+
+void Whitener::sum_up() {
+  for (const double own : stencil_.own) log_scale_ += std::log(own);
+}
+
+Eigen::MatrixXd Whitener::operator()(const Eigen::Ref<const Eigen::MatrixXd>& columns) const {
+  return applied(*field_, stencil_, columns);
+}
+
+Sheet Whitener::sheet(const Sheet& columns) const {
+  Sheet out(columns.rows(), columns.cols());
+  row_kernels().best().combine_floats(field_->combinations(stencil_), columns.data(), columns.cols(), out.data());
+  return out;
+}
+
+WhitenerSlopes::WhitenerSlopes(const Field& field, const Covariance& covariance)
+    : field_(&field), whitener_(field, covariance, empty_stencil(field)) {
+  for (Stencil& stencil : stencils_) stencil = empty_stencil(field);
+  Neighbourhood neighbourhood(field, covariance);
+  for (Index g = 0; g < field.groups(); ++g) {
+    neighbourhood.factorise(g);
+    store(field, g, neighbourhood.combination(), whitener_.stencil_);
+    neighbourhood.differentiate();
+    const int used = static_cast<int>(std::min<Index>(lanes, field.size() - g * lanes));
+    for (int p = 0; p < parameters; ++p) {
+      store(field, g, neighbourhood.slope(p), stencils_[static_cast<std::size_t>(p)]);
+      for (int lane = 0; lane < used; ++lane) of_log_scale_[p] += neighbourhood.log_slope(p, lane);
+      for (int q = 0; q <= p; ++q) {
+        for (int lane = 0; lane < used; ++lane) information_(p, q) += neighbourhood.information(p, q).of[lane];
+        information_(q, p) = information_(p, q);
+      }
+    }
+  }
+  whitener_.sum_up();
+}
+
+Theta WhitenerSlopes::contracted(const Eigen::MatrixXd& x, const Eigen::MatrixXd& with) const {
+  const auto filled = [](const Eigen::MatrixXd& columns) {
+    ByRow result = ByRow::Zero(columns.rows(), (columns.cols() + lanes - 1) / lanes * lanes);
+    result.leftCols(columns.cols()) = columns;
+    return result;
+  };
+  const ByRow one = filled(x), other = filled(with);
+  std::array<Combinations, parameters> four;
+  for (std::size_t p = 0; p < parameters; ++p) four[p] = field_->combinations(stencils_[p]);
+  Theta sums;
+  row_kernels().best().contract(four.data(), one.data(), other.data(), one.cols(), sums.data());
+  return sums;
+}
+
+}  // namespace muster::noise

@@ -1,0 +1,104 @@
+// Whitening of rows under C = s2 [rho + (1 - rho) same anchor] k(h) + t2 / count by Vecchia's approximation (Vecchia
+// 1988; Katzfuss and Guinness, Statistical Science 36, 2021): each row given its neighbours. h is the distance between
+// readings for a rough field, between middles for a smooth one (apart.hpp).
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "diagnosis/inference/noise/basis.hpp"
+#include "diagnosis/inference/noise/family.hpp"
+#include "diagnosis/inference/noise/neighbours.hpp"
+#include "diagnosis/inference/noise/row_kernel.hpp"
+
+namespace muster::noise {
+
+// A row's combination with its neighbours: whitened_i = own_i x_i + sum over slots of beside_ia x_neighbour.
+struct Stencil {
+  std::vector<double> own, beside;
+};
+
+// What does not depend on the covariance's parameters: neighbours, and the distances inside each row's neighbourhood as
+// places in a table of correlations.
+class Field {
+ public:
+  explicit Field(Sites sites, const Conditioning& conditioning = {});
+
+  Index size() const { return sites_.size(); }
+  const Sites& sites() const { return sites_; }
+  int slots() const { return slots_; }
+  Index groups() const { return (size() + lanes - 1) / lanes; }
+  double spacing() const { return spacing_; }  // m between entries
+  Index neighbour(Index row, int slot) const { return neighbours_[static_cast<std::size_t>(row * slots_ + slot)]; }
+  // Entries of the pairs of group g: pair a (a + 1) / 2 + b is slots a and b < a; with b = a, slot a and the row
+  // itself.
+  struct Entries {
+    const uint16_t *near, *joint;  // between places; both ends, same anchor
+    const Joint* kinds;
+  };
+  Entries entries(Index group, Family family) const;
+  Index pairs() const { return Index{slots_} * (slots_ + 1) / 2; }
+  // These weights for each row's neighbours, then its own.
+  Combinations combinations(const Stencil& stencil) const;
+
+ private:
+  struct Table {
+    std::vector<uint16_t> near, joint;
+    std::vector<Joint> kinds;
+  };
+  // use(slot, whether of one anchor, m between places, m between both ends)
+  template <class Use>
+  void each_pair(bool by_readings, const Use& use) const;
+  uint16_t entry(double distance) const;
+  Table table(bool by_readings) const;
+  void compare_ends(Table& table) const;
+
+  Sites sites_;
+  int slots_;
+  std::vector<Index> neighbours_;
+  double spacing_ = 0.01;
+  Table smooth_, rough_;  // the second one is empty where every row is a point: both are the same there
+};
+
+class Whitener {
+ public:
+  Whitener(const Field& field, const Covariance& covariance);
+
+  const Covariance& covariance() const { return covariance_; }
+  const Stencil& stencil() const { return stencil_; }
+  double log_scale() const { return log_scale_; }  // sum of log own: minus half the log determinant
+  Eigen::MatrixXd operator()(const Eigen::Ref<const Eigen::MatrixXd>& columns) const;
+  Sheet sheet(const Sheet& columns) const;
+
+ private:
+  friend class WhitenerSlopes;
+  Whitener(const Field& field, const Covariance& covariance, Stencil stencil);  // not yet worked out
+  void sum_up();
+
+  const Field* field_;
+  Covariance covariance_;
+  Stencil stencil_;
+  double log_scale_ = 0;
+};
+
+// A whitener with its derivatives by theta.
+class WhitenerSlopes {
+ public:
+  WhitenerSlopes(const Field& field, const Covariance& covariance);
+
+  const Whitener& whitener() const { return whitener_; }
+  const Theta& of_log_scale() const { return of_log_scale_; }
+  // Fisher's information of theta in the rows (Guinness, Statistics and Computing 31, 2021).
+  const Eigen::Matrix4d& information() const { return information_; }
+  // For each parameter the sum over rows of products: of `x` combined by the whitener's derivative, and of `with`.
+  Theta contracted(const Eigen::MatrixXd& x, const Eigen::MatrixXd& with) const;
+
+ private:
+  const Field* field_;
+  Whitener whitener_;
+  std::array<Stencil, 4> stencils_;
+  Theta of_log_scale_ = Theta::Zero();
+  Eigen::Matrix4d information_ = Eigen::Matrix4d::Zero();
+};
+
+}  // namespace muster::noise

@@ -1,0 +1,45 @@
+#include "diagnosis/inference/score/clipping_check.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "diagnosis/inference/noise/columns.hpp"
+#include "diagnosis/inference/score/marginal_p_value.hpp"
+#include "diagnosis/inference/state/null_tail.hpp"
+
+namespace muster::inference {
+namespace {
+
+// The range of levels of which readings tell more than a bound.
+std::pair<double, double> range_of(const Problem& problem) {
+  double low = -std::numeric_limits<double>::infinity(), high = -low;
+  for (std::size_t i = 0; i < problem.bounds.known.size(); ++i) {
+    const double reading = problem.measured[static_cast<Index>(i)];
+    if (problem.bounds.known[i] == noise::Known::below) low = std::max(low, reading);
+    if (problem.bounds.known[i] == noise::Known::above) high = std::min(high, reading);
+  }
+  return {low, high};
+}
+
+}  // namespace
+
+bool stands_clear_of_clip(const Bench& bench, const noise::Covariance& covariance, const Eigen::MatrixXd& design,
+                          const Eigen::MatrixXd& columns) {
+  const Eigen::MatrixXd both = noise::hstack(design, columns);
+  const Eigen::VectorXd predicted = both * bench.stand(both, covariance).coefficients(both.cols());
+  // What is filled in spreads less than readings do: by about 15 %.
+  const double sd = 1.15 * std::sqrt((bench.y() - predicted).squaredNorm() / static_cast<double>(predicted.size()));
+  const auto [low, high] = range_of(bench.problem());
+  std::vector<Index> clear;
+  for (Index i = 0; i < predicted.size(); ++i) {
+    if (predicted[i] > low + 1.5 * sd && predicted[i] < high - 1.5 * sd) clear.push_back(i);
+  }
+  if (clear.size() < 60) return false;
+  const noise::Field field(bench.field().sites().of(clear), {.seed = bench.options().seed});
+  noise::Whitener whitener(field, covariance);
+  noise::Whitened at = noise::whitened(whitener, bench.y()(clear), design(clear, Eigen::all), bench.options().prior);
+  const double gain = Stand{std::move(whitener), std::move(at), {}}.gain(columns(clear, Eigen::all));
+  return log_tail(gain, static_cast<double>(columns.cols())) < std::log(1e-3);
+}
+
+}  // namespace muster::inference

@@ -1,0 +1,68 @@
+#include "diagnosis/inference/score/marginal_p_value.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/inference/noise/columns.hpp"
+#include "diagnosis/inference/state/null_tail.hpp"
+
+namespace muster::inference {
+namespace {
+
+// log of sum of weights times exp(values), over the sum of weights; weights by their logarithms.
+double log_average(const std::vector<double>& log_weights, const std::vector<double>& values) {
+  const double top_weight = *std::max_element(log_weights.begin(), log_weights.end());
+  const double top = *std::max_element(values.begin(), values.end());
+  double sum = 0, weights = 0;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const double weight = std::exp(log_weights[k] - top_weight);
+    weights += weight;
+    sum += weight * std::exp(values[k] - top);
+  }
+  return top + std::log(std::max(sum / weights, 1e-300));
+}
+
+// Over draws of theta in one family, weighed by the restricted posterior with the columns inside.
+double over_draws(const Bench& bench, const noise::Fit& fit, const Eigen::MatrixXd& design,
+                  const Eigen::MatrixXd& columns, double log_tests) {
+  const Eigen::MatrixXd both = noise::hstack(design, columns);
+  const noise::Prior& prior = bench.options().prior;
+  std::vector<double> log_weights, log_p;
+  for (const noise::Draw& draw : noise::draws(fit, bench.options().draws, bench.options().seed)) {
+    if (draw.theta != prior.inside(draw.theta)) continue;
+    const Stand stand = bench.stand(both, {fit.covariance.family, draw.theta});
+    double gain = 0;
+    Index width = 0;
+    for (std::size_t k = 0; k < stand.at.basis.kept.size(); ++k) {
+      if (stand.at.basis.kept[k] < design.cols()) continue;
+      gain += std::pow(stand.at.basis.q.col(static_cast<Index>(k)).dot(stand.at.y), 2);
+      ++width;
+    }
+    log_weights.push_back(fit.value - stand.at.value - draw.log_density);
+    log_p.push_back(width ? std::min(0.0, log_tests + log_tail(gain, static_cast<double>(width))) : 0.0);
+  }
+  return log_p.empty() ? 0 : log_average(log_weights, log_p);
+}
+
+}  // namespace
+
+double log_tests(const Bench& bench, const Candidate& candidate) {
+  return bench.log_atoms(candidate) + candidate.charge - (candidate.sign ? std::log(2.0) : 0);
+}
+
+double integrated_log_p(const Bench& bench, const noise::Fit& fit, const Eigen::MatrixXd& design,
+                        const Eigen::MatrixXd& columns, double log_tests) {
+  constexpr double excluded = 3, hopeless = 6;  // nats by which a family is worse, with the columns or without any
+  double log_p = over_draws(bench, fit, design, columns, log_tests);
+  for (const noise::Fit& other : bench.families) {
+    if (log_p > std::log(1e-3)) break;
+    if (other.covariance.family == fit.covariance.family) continue;
+    if (other.value > bench.families[0].value + hopeless) continue;
+    const noise::Fit refit = bench.fitted(noise::hstack(design, columns), other.covariance, 6);
+    if (refit.value > fit.value + excluded) continue;
+    log_p = std::max(log_p, over_draws(bench, refit, design, columns, log_tests));
+  }
+  return log_p;
+}
+
+}  // namespace muster::inference

@@ -1,0 +1,49 @@
+#include "diagnosis/inference/score/refinement_null.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "muster/random.hpp"
+
+namespace muster::inference {
+namespace {
+
+const Entry& entry_named(const Bench& bench, const std::string& id) {
+  for (const Entry& entry : bench.entries()) {
+    if (entry.candidate->id == id) return entry;
+  }
+  throw std::invalid_argument(id + ": no such candidate");
+}
+
+}  // namespace
+
+double refinement_charge(Bench& bench, const std::string& candidate, int draws) {
+  const Entry& entry = entry_named(bench, candidate);
+  const Candidate& c = *entry.candidate;
+  Stand stand = bench.stand(bench.design());
+  const UnitAtoms unit = unit_atoms(entry, stand);
+  bench.log_atoms(entry, unit);
+  const Stream stream(combined(key_of("refined nulls"), bench.options().seed));
+  std::vector<double> log_p;
+  for (int k = 0; k < draws; ++k) {
+    Eigen::VectorXd z(bench.rows().size());
+    for (Index i = 0; i < z.size(); ++i) z[i] = stream.normal(static_cast<uint64_t>(i), static_cast<uint64_t>(k));
+    stand.at.residual = stand.at.basis.rest(z);
+    Lead lead{&entry, {}, {}, 0, 0, 0, false, gains(c, unit, stand.at.residual)};
+    Index best = 0;
+    lead.gain = lead.all.maxCoeff(&best);
+    lead.theta = c.grid[static_cast<std::size_t>(best)];
+    lead.columns = entry.atom(best);
+    log_p.push_back(refined(bench, stand, lead, false).log_p - c.charge);
+  }
+  std::sort(log_p.begin(), log_p.end());
+  // Where p is uniform the k-th smallest of n is near k / (n + 1); the lower half is where decisions fall.
+  std::vector<double> short_by;
+  for (std::size_t k = 0; k < (log_p.size() + 1) / 2; ++k)
+    short_by.push_back(std::log(static_cast<double>(k + 1) / static_cast<double>(log_p.size() + 1)) - log_p[k]);
+  std::sort(short_by.begin(), short_by.end());
+  return short_by[short_by.size() / 2];
+}
+
+}  // namespace muster::inference

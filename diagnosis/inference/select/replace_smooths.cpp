@@ -1,0 +1,113 @@
+#include "diagnosis/inference/select/replace_smooths.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "diagnosis/inference/noise/columns.hpp"
+#include "diagnosis/inference/score/candidate_scores.hpp"
+#include "diagnosis/inference/score/marginal_p_value.hpp"
+
+namespace muster::inference {
+namespace {
+
+struct Replacement {
+  Bench& bench;
+  std::string covariate;
+  Eigen::MatrixXd rest;  // design without the terms of this covariate
+  double group_gain;     // of all of those
+  Index group_width;     // their functions
+
+  Eigen::MatrixXd with(const std::vector<Term>& found, const Term* without = nullptr) const {
+    Eigen::MatrixXd result = rest;
+    for (const Term& term : found) {
+      if (&term != without) result = noise::hstack(result, term.columns);
+    }
+    return result;
+  }
+
+  // The cause with most evidence beside what was found; the second one must share a covariate.
+  std::optional<Term> best(const std::vector<Term>& found) const {
+    const Stand stand = bench.stand(with(found));
+    std::optional<Term> result;
+    for (const Lead& lead : leads(bench, stand)) {
+      const Candidate& c = lead.candidate();
+      if (c.kind != Kind::named || !fits(lead, found)) continue;
+      const bool worth = lead.gain > 0.15 * group_gain && c.pieces.empty();
+      const Lead at = worth ? refined(bench, stand, lead, true) : lead;
+      const double evidence = bench.evidence(c, at.gain, c.width, false);
+      if (!result || evidence > result->evidence)
+        result = Term{lead.entry->candidate, at.theta, at.columns, at.gain, evidence, 0};
+    }
+    return result;
+  }
+
+  // The same cause may be on another radio too.
+  bool fits(const Lead& lead, const std::vector<Term>& found) const {
+    if (found.empty()) return true;
+    const Candidate &c = lead.candidate(), &first = *found[0].candidate;
+    if (c.id == first.id) return c.label_of(lead.theta) != first.label_of(found[0].theta);
+    return c.own() == covariate || c.own() == first.own();
+  }
+
+  // Two causes share what there is: each again beside the other.
+  void refine_in_turn(std::vector<Term>& found) const {
+    for (int round = 0; round < 2; ++round) {
+      for (Term& term : found) {
+        if (!term.candidate->pieces.empty() || !term.candidate->refinable()) continue;
+        const Stand stand = bench.stand(with(found, &term));
+        Lead lead{
+            &bench.entry_of(*term.candidate), term.theta, term.columns, stand.gain(term.columns), 0, 0, false, {}};
+        lead = refined(bench, stand, lead, true);
+        term.theta = lead.theta;
+        term.columns = lead.columns;
+      }
+    }
+  }
+
+  // Empty where the smooth has to stay.
+  std::vector<Term> found() const {
+    std::vector<Term> result;
+    for (int number = 1; number <= 2; ++number) {
+      std::optional<Term> next = best(result);
+      if (!next || next->evidence < 3) return {};
+      if (number == 1 && next->candidate->stands_for.count(covariate) == 0) return {};
+      result.push_back(std::move(*next));
+      if (number == 2) refine_in_turn(result);
+      const Eigen::MatrixXd all = with(result).rightCols(with(result).cols() - rest.cols());
+      // Each function that the smooths have more wins one by chance.
+      const auto by_chance = static_cast<double>(std::max<Index>(0, group_width - all.cols()));
+      if (bench.stand(rest).gain(all) >= bench.options().share * (group_gain - by_chance)) return result;
+    }
+    return {};
+  }
+};
+
+}  // namespace
+
+void replace_smooths(Bench& bench) {
+  std::vector<std::string> covariates;
+  for (const Term& term : bench.terms) {
+    if (term.smooth() && std::find(covariates.begin(), covariates.end(), term.candidate->own()) == covariates.end())
+      covariates.push_back(term.candidate->own());
+  }
+  for (const std::string& covariate : covariates) {
+    const auto in_group = [&](const Term& term) { return term.candidate->own() == covariate; };
+    const bool has_names = std::any_of(bench.entries().begin(), bench.entries().end(), [&](const Entry& entry) {
+      return entry.candidate->stands_for.count(covariate) > 0;
+    });
+    if (!has_names) continue;
+    Eigen::MatrixXd group(bench.rows().size(), 0);
+    for (const Term& term : bench.terms) {
+      if (in_group(term)) group = noise::hstack(group, term.columns);
+    }
+    const Eigen::MatrixXd rest = bench.design(in_group);
+    const Replacement replacement{bench, covariate, rest, bench.stand(rest).gain(group), group.cols()};
+    const std::vector<Term> found = replacement.found();
+    // Names beside the smooth on the same covariate go in either case: they were guesses at the same structure.
+    std::erase_if(bench.terms, [&](const Term& term) { return in_group(term) && (!term.smooth() || !found.empty()); });
+    bench.terms.insert(bench.terms.end(), found.begin(), found.end());
+    bench.refit();
+  }
+}
+
+}  // namespace muster::inference

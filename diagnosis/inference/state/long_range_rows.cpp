@@ -1,0 +1,99 @@
+#include "diagnosis/inference/state/long_range_rows.hpp"
+
+#include <algorithm>
+
+#include "diagnosis/inference/noise/columns.hpp"
+#include "diagnosis/inference/noise/exact_covariance.hpp"
+
+namespace muster::inference {
+namespace {
+
+// Of the usual length, unless each reading is a row or the rows are longer already.
+noise::RowLimits never_shorter(const noise::RowLimits& rows) {
+  const noise::RowLimits usual;
+  return rows.way < 0 || rows.way > usual.way ? rows : usual;
+}
+
+// The information on columns beside a design: their squared lengths, whitened, as far as the design leaves them.
+double told(const noise::Field& field, const noise::Covariance& covariance, const Eigen::MatrixXd& design,
+            const Eigen::MatrixXd& columns) {
+  const noise::Whitener whitener(field, covariance);
+  return noise::basis_of(whitener(design)).rest(whitener(columns)).squaredNorm();
+}
+
+}  // namespace
+
+FarRows::FarRows(const noise::Readings& readings, const Options& options, const noise::Rows& rows)
+    : rows_(rows),
+      prior_(options.prior),
+      long_rows_(readings, never_shorter(options.rows)),
+      field_(long_rows_.sites(readings), {.same = 16, .others = 20, .seed = options.seed}) {}
+
+Eigen::MatrixXd FarRows::lengthened(const Eigen::MatrixXd& of_rows) const {
+  Eigen::MatrixXd result(long_rows_.size(), of_rows.cols());
+  for (Index j = 0; j < of_rows.cols(); ++j) result.col(j) = long_rows_.mean(rows_.at_readings(of_rows.col(j)));
+  return result;
+}
+
+struct FarRows::Long {
+  Eigen::VectorXd y;
+  Eigen::MatrixXd design, columns;
+};
+
+FarRows::Long FarRows::lengthened(const Question& q) const {
+  return {lengthened(q.y), lengthened(q.design), lengthened(q.columns)};
+}
+
+double FarRows::kept(const Question& q, const noise::Field& own) const {
+  const Long by_long = lengthened(q);
+  return told(field_, q.with, by_long.design, by_long.columns) / told(own, q.with, q.design, q.columns);
+}
+
+double FarRows::exact_gain(const Long& q, const noise::Covariance& covariance) const {
+  const noise::Whitener whitener(field_, covariance);
+  const auto at = noise::whitened(whitener, q.y, q.design, prior_);
+  const auto added = noise::basis_of(at.basis.rest(whitener(q.columns)));
+  return noise::exact_gain(field_, whitener, added.q, at.residual);
+}
+
+double FarRows::exact_gain(const Question& q) const { return exact_gain(lengthened(q), q.with); }
+
+noise::Fit FarRows::fitted(const Eigen::VectorXd& y, const Eigen::MatrixXd& design, const noise::Covariance& near,
+                           noise::Family family) const {
+  noise::Covariance from{family, near.theta};
+  from.theta[1] += noise::log_scale_of(family) - noise::log_scale_of(near.family);
+  return noise::fit(field_, y, design, prior_, from, 4);
+}
+
+double FarRows::profile_gain(const Question& q, const noise::Covariance& without,
+                             const std::vector<noise::Family>& families) const {
+  const Eigen::VectorXd y = lengthened(q.y);
+  const auto log_likelihood = [&](const Eigen::MatrixXd& design, const noise::Covariance& start) {
+    double highest = -1e300;
+    for (const noise::Family family : families) {
+      const noise::Fit best = fitted(y, design, start, family);
+      const noise::Whitener whitener(field_, best.covariance);
+      highest = std::max(highest, noise::whitened(whitener, y, design, prior_).basis.log_determinant() - best.value);
+    }
+    return highest;
+  };
+  const Eigen::MatrixXd design = lengthened(q.design);
+  return 2 * (log_likelihood(noise::hstack(design, lengthened(q.columns)), q.with) - log_likelihood(design, without));
+}
+
+double FarRows::sure_gain(const Question& q) const {
+  const Long question = lengthened(q);
+  std::vector<noise::Fit> fits;
+  for (const noise::Family family : noise::families)
+    fits.push_back(fitted(question.y, noise::hstack(question.design, question.columns), q.with, family));
+  const auto likelier = [](const noise::Fit& a, const noise::Fit& b) { return a.value < b.value; };
+  const double best = std::min_element(fits.begin(), fits.end(), likelier)->value;
+  double least = std::numeric_limits<double>::infinity();
+  for (const noise::Fit& fit : fits) {
+    const double unlikely = std::max(0.0, fit.value - best - likely_nats);
+    if (unlikely < hopeless_nats) least = std::min(least, exact_gain(question, fit.covariance) + 2 * unlikely);
+  }
+  return least;
+}
+
+}  // namespace muster::inference

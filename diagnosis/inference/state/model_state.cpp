@@ -1,0 +1,251 @@
+#include "diagnosis/inference/state/model_state.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "diagnosis/inference/noise/exact_covariance.hpp"
+#include "diagnosis/inference/state/null_calibration.hpp"
+#include "diagnosis/inference/state/null_tail.hpp"
+#include "diagnosis/inference/state/smooths.hpp"
+#include "muster/random.hpp"
+
+namespace muster::inference {
+namespace {
+
+noise::Sheet normals_of(Index rows, int count, uint64_t seed) {
+  const Stream stream(combined(key_of("whitened nulls"), seed));
+  noise::Sheet result(rows, count);
+  for (Index i = 0; i < rows; ++i) {
+    for (Index j = 0; j < count; ++j)
+      result(i, j) = static_cast<float>(stream.normal(static_cast<uint64_t>(i), static_cast<uint64_t>(j)));
+  }
+  return result;
+}
+
+// A tally of rows of which several are of one, asked by these.
+class OfOrigin : public Tally {
+ public:
+  OfOrigin(const std::vector<Index>& origin, Tally& tally) : tally_(tally) {
+    for (std::size_t row = 0; row < origin.size(); ++row) {
+      while (static_cast<std::size_t>(origin[row]) >= first_.size()) first_.push_back(static_cast<Index>(row));
+    }
+    first_.push_back(static_cast<Index>(origin.size()));
+  }
+
+  Index rows() const override { return static_cast<Index>(first_.size()) - 1; }
+  void clear() override { tally_.clear(); }
+  void add(Index row, double value) override {
+    const auto k = static_cast<std::size_t>(row);
+    for (Index of = first_[k]; of < first_[k + 1]; ++of) tally_.add(of, value);
+  }
+  double gain() const override { return tally_.gain(); }
+
+ private:
+  Tally& tally_;
+  std::vector<Index> first_;
+};
+
+}  // namespace
+
+Eigen::MatrixXd Entry::atom(Index k) const {
+  return atoms->middleCols(k * candidate->width, candidate->width).cast<double>();
+}
+
+double Stand::gain(const Eigen::MatrixXd& columns) const {
+  const auto added = noise::basis_of(at.basis.rest(whitener(columns)));
+  return (added.q.transpose() * at.residual).squaredNorm();
+}
+
+double Stand::exact_gain(const noise::Field& field, const Eigen::MatrixXd& columns) const {
+  const auto added = noise::basis_of(at.basis.rest(whitener(columns)));
+  return noise::exact_gain(field, whitener, added.q, at.residual);
+}
+
+double Stand::gain_as_it_is(const Eigen::MatrixXd& columns) const {
+  const Eigen::VectorXd left = at.basis.rest(whitener(columns)).rowwise().sum();
+  return 2 * left.dot(at.residual) - left.squaredNorm();
+}
+
+double Stand::skew_charge(const Eigen::MatrixXd& columns) const {
+  const auto added = noise::basis_of(at.basis.rest(whitener(columns)));
+  const Eigen::ArrayXd effect = (added.q * (added.q.transpose() * at.residual)).array();
+  const Eigen::ArrayXd scatter = at.residual.array() - effect;
+  const double energy = effect.square().sum();
+  const double skewness = scatter.cube().mean() / std::pow(scatter.square().mean(), 1.5);
+  return inference::skew_charge(std::sqrt(energy), skewness * effect.cube().sum() / std::pow(energy, 1.5));
+}
+
+Eigen::VectorXd Stand::coefficients(Index columns) const {
+  return at.basis.coefficients(at.basis.q.transpose() * at.y, columns);
+}
+
+Bench::Bench(const Problem& problem, const Options& options)
+    : problem_(problem),
+      options_(options),
+      rows_(problem.readings, options.rows),
+      field_(field_of(rows_)),
+      base_(rows_.mean(problem.base)),
+      normals_(normals_of(rows_.size(), options.nulls, options.seed)) {
+  impute(6);
+  families = noise::fit_families(field_, y_, base_, options_.prior);
+  fit = families[0];
+  for (const Candidate& candidate : problem.candidates) entries_.push_back(entry(candidate));
+  for (Candidate& candidate : smooths_of(problem)) entries_.push_back(entry(std::move(candidate)));
+  fixed_ = entries_.size();
+}
+
+noise::Field Bench::field_of(const noise::Rows& rows) const {
+  return noise::Field(rows.sites(problem_.readings), {.seed = options_.seed});
+}
+
+Index Bench::end_rows_at(const Candidate& candidate, const Eigen::VectorXd& theta) {
+  constexpr double share = 1.0 / 3;  // of the most that the effect comes to
+  const Eigen::MatrixXd at_readings = candidate.columns(theta);
+  const Eigen::VectorXd effect = at_readings.rowwise().sum();
+  const double most = effect.cwiseAbs().maxCoeff();
+  std::vector<Index> parent;
+  noise::Rows rows = rows_.ended_where(effect, share * most, parent);
+  const Index more = rows.size() - rows_.size();
+  if (more == 0) return 0;
+  rows_ = std::move(rows);
+  field_ = field_of(rows_);
+  far_.reset();
+  base_ = rows_.mean(problem_.base);
+  y_ = rows_.mean(measured_);
+  for (Term& term : terms) term.columns = columns_of(*term.candidate, term.theta);
+  // Grids are coarse, and so may their atoms be.
+  for (Entry& entry : entries_) {
+    noise::Sheet atoms = (*entry.atoms)(parent, Eigen::all);
+    entry.atoms = std::make_shared<const noise::Sheet>(std::move(atoms));
+  }
+  normals_ = normals_(parent, Eigen::all).eval();
+  for (Index& row : parent) row = origin_.empty() ? row : origin_[static_cast<std::size_t>(row)];
+  origin_ = std::move(parent);
+  return more;
+}
+
+Eigen::MatrixXd Bench::sketch_of(const Candidate& candidate, const Eigen::VectorXd& theta) const {
+  Eigen::MatrixXd sketch = candidate.sketch(theta);
+  if (origin_.empty()) return sketch;
+  return sketch(origin_, Eigen::all);
+}
+
+std::vector<Eigen::VectorXd> Bench::proposals(const Candidate& candidate, Tally& tally) const {
+  if (origin_.empty()) return candidate.proposed(tally);
+  OfOrigin of_origin(origin_, tally);
+  return candidate.proposed(of_origin);
+}
+
+void Bench::impute(int rounds) {
+  Eigen::MatrixXd design = problem_.base;
+  if (problem_.bounds.any()) {
+    for (const Term& term : terms) {
+      const Index from = design.cols();
+      design.conservativeResize(Eigen::NoChange, from + term.columns.cols());
+      for (Index j = 0; j < term.columns.cols(); ++j) design.col(from + j) = rows_.at_readings(term.columns.col(j));
+    }
+  }
+  measured_ = noise::imputed(problem_.measured, problem_.bounds, design, rounds);
+  y_ = rows_.mean(measured_);
+}
+
+Eigen::MatrixXd Bench::design(const std::function<bool(const Term&)>& left_out) const {
+  Eigen::MatrixXd result = base_;
+  for (const Term& term : terms) {
+    if (left_out && left_out(term)) continue;
+    result.conservativeResize(Eigen::NoChange, result.cols() + term.columns.cols());
+    result.rightCols(term.columns.cols()) = term.columns;
+  }
+  return result;
+}
+
+Eigen::MatrixXd Bench::design_without(const Term& term) const {
+  return design([&](const Term& other) { return &other == &term; });
+}
+
+Stand Bench::stand(const Eigen::MatrixXd& design, const noise::Covariance& covariance) const {
+  noise::Whitener whitener(field_, covariance);
+  noise::Whitened at = noise::whitened(whitener, y_, design, options_.prior);
+  return {std::move(whitener), std::move(at), design};
+}
+
+noise::Fit Bench::fitted(const Eigen::MatrixXd& design, const noise::Covariance& start, int steps) const {
+  return noise::fit(field_, y_, design, options_.prior, start, steps);
+}
+
+std::vector<noise::Family> Bench::likely_families(noise::Family first) const {
+  std::vector<noise::Family> result{first};
+  for (const noise::Fit& other : families) {
+    if (other.covariance.family != first && other.value < families[0].value + likely_nats)
+      result.push_back(other.covariance.family);
+  }
+  return result;
+}
+
+const FarRows& Bench::far() const {
+  if (!far_) far_ = std::make_unique<const FarRows>(problem_.readings, options_, rows_);
+  return *far_;
+}
+
+Entry Bench::entry(Candidate candidate) const {
+  if (candidate.grid.empty() || candidate.covariates.empty())
+    throw std::invalid_argument(candidate.id + ": a candidate has at least one start and one covariate");
+  std::shared_ptr<const noise::Sheet> known = std::move(candidate.atoms);
+  Entry result{std::make_shared<const Candidate>(std::move(candidate)), std::move(known)};
+  if (result.atoms && result.atoms->rows() == rows_.size()) return result;
+  const Candidate& c = *result.candidate;
+  noise::Sheet atoms(rows_.size(), result.count() * c.width);
+  for (Index k = 0; k < result.count(); ++k) {
+    const Eigen::VectorXd& theta = c.grid[static_cast<std::size_t>(k)];
+    atoms.middleCols(k * c.width, c.width) = columns_of(c, theta).cast<float>();
+  }
+  result.atoms = std::make_shared<const noise::Sheet>(std::move(atoms));
+  return result;
+}
+
+void Bench::renew_depending(const Eigen::VectorXd& coefficients) {
+  entries_.resize(fixed_);
+  const Eigen::VectorXd of_base = coefficients.head(base_.cols());
+  if (problem_.depending) {
+    for (Candidate& candidate : problem_.depending(of_base)) entries_.push_back(entry(std::move(candidate)));
+  }
+  Candidate level = smooth_of("level", problem_.base * of_base, 5);
+  level.level_like = true;
+  entries_.push_back(entry(std::move(level)));
+}
+
+const Entry& Bench::entry_of(const Candidate& candidate) const {
+  for (const Entry& entry : entries_) {
+    if (entry.candidate->id == candidate.id) return entry;
+  }
+  throw std::logic_error(candidate.id + ": no such candidate");
+}
+
+Eigen::MatrixXd Bench::columns_of(const Candidate& candidate, const Eigen::VectorXd& theta) const {
+  return rows_.mean(candidate.columns(theta));
+}
+
+double Bench::log_atoms(const Entry& entry, const UnitAtoms& unit) {
+  const auto [place, missing] = log_atoms_.try_emplace(entry.candidate->id, 0.0);
+  if (missing) place->second = log_effective(*entry.candidate, unit, normals_);
+  return place->second;
+}
+
+double Bench::log_p(const Candidate& candidate, double gain, Index width, bool refined) const {
+  return log_atoms(candidate) + (refined ? candidate.charge : 0) + log_tail(gain, static_cast<double>(width)) +
+         (candidate.sign ? -std::log(2.0) : 0);
+}
+
+double Bench::evidence(const Candidate& candidate, double gain, Index width, bool refined) const {
+  // What is there or not has no strength to be paid for.
+  const double strengths = candidate.whole && !candidate.refinable() ? 0 : static_cast<double>(width);
+  return gain / 2 - strengths / 2 * log_rows() - log_atoms(candidate) - (refined ? candidate.charge : 0);
+}
+
+double Bench::threshold() const {
+  const double alpha = terms.empty() ? options_.first_alpha : options_.further_alpha;
+  return std::log(alpha / static_cast<double>(entries_.size()));
+}
+
+}  // namespace muster::inference

@@ -1,0 +1,130 @@
+// What the search works at: rows, their field, the model as it stands (base and terms so far) and its noise.
+#pragma once
+
+#include <map>
+#include <memory>
+
+#include "diagnosis/inference/noise/vecchia.hpp"
+#include "diagnosis/inference/state/long_range_rows.hpp"
+
+namespace muster::inference {
+
+class UnitAtoms;
+
+// A candidate with the row means of its grid's columns, `width` an atom.
+struct Entry {
+  std::shared_ptr<const Candidate> candidate;
+  std::shared_ptr<const noise::Sheet> atoms;
+
+  Index count() const { return static_cast<Index>(candidate->grid.size()); }
+  Eigen::MatrixXd atom(Index k) const;
+};
+
+// A cause or smooth that the model has been extended by.
+struct Term {
+  std::shared_ptr<const Candidate> candidate;
+  Eigen::VectorXd theta;
+  Eigen::MatrixXd columns;  // row means
+  double gain = 0;          // fall of the deviance beside all other terms
+  double evidence = 0;      // nats
+  double log_p = 0;
+  bool as_smooth = false;  // a name withdrawn: what stands is its covariate
+  bool as_stated = false;  // beyond chance beside the field that the model states, and not beside a fitted one
+
+  bool smooth() const { return as_smooth || candidate->kind == Kind::smooth; }
+  std::string id() const { return smooth() ? "~" + candidate->own() : candidate->id; }
+};
+
+// A design whitened at one covariance.
+struct Stand {
+  noise::Whitener whitener;
+  noise::Whitened at;
+  Eigen::MatrixXd design;
+
+  // The fall of the deviance if these columns (row means) are added.
+  double gain(const Eigen::MatrixXd& columns) const;
+  // The same as a chi-square under the covariance itself (noise/exact.hpp). Slow.
+  double exact_gain(const noise::Field& field, const Eigen::MatrixXd& columns) const;
+  // The same with all coefficients at 1.
+  double gain_as_it_is(const Eigen::MatrixXd& columns) const;
+  // Nats by which that fall is likelier than under normal noise, if residuals are as skewed as these: deep fades that
+  // lie together look like a loss.
+  double skew_charge(const Eigen::MatrixXd& columns) const;
+  Eigen::VectorXd coefficients(Index columns) const;
+};
+
+class Bench {
+ public:
+  Bench(const Problem& problem, const Options& options);
+
+  const Problem& problem() const { return problem_; }
+  const Options& options() const { return options_; }
+  const noise::Rows& rows() const { return rows_; }
+  const noise::Field& field() const { return field_; }
+  double within() const { return field_.sites().within(); }  // m: the mean distance of two readings of a row
+  // Rows end where the effect of a candidate there, fitted beside the model, sets in or stops: averaged over its edges
+  // it would lose up to half of what it gains. Returns how many rows that makes more. Stands and columns of before are
+  // void.
+  Index end_rows_at(const Candidate& candidate, const Eigen::VectorXd& theta);
+  // Made when it is first asked for: most searches do without.
+  const FarRows& far() const;
+  double log_rows() const { return std::log(static_cast<double>(rows_.size())); }
+
+  noise::Fit fit;                    // of the noise beside the design
+  std::vector<noise::Fit> families;  // of the first fit, the best one first
+  // This family, and those that lay near the best one at first.
+  std::vector<noise::Family> likely_families(noise::Family first) const;
+  std::vector<Term> terms;
+
+  const Eigen::VectorXd& y() const { return y_; }
+  const Eigen::VectorXd& measured() const { return measured_; }  // the readings that y is the row means of
+  // Readings with bounds filled in anew from the model as it stands.
+  void impute(int rounds);
+
+  // Base columns and terms, without the terms that `left_out` says.
+  Eigen::MatrixXd design(const std::function<bool(const Term&)>& left_out = {}) const;
+  Eigen::MatrixXd design_without(const Term& term) const;
+  Index base_columns() const { return base_.cols(); }
+  const Eigen::MatrixXd& base() const { return base_; }
+
+  Stand stand(const Eigen::MatrixXd& design) const { return stand(design, fit.covariance); }
+  Stand stand(const Eigen::MatrixXd& design, const noise::Covariance& covariance) const;
+  noise::Fit fitted(const Eigen::MatrixXd& design, const noise::Covariance& start, int steps) const;
+  void refit(int steps = 6) { fit = fitted(design(), fit.covariance, steps); }
+
+  // All candidates: the given ones, smooths, and those that depend on the model as it stands.
+  const std::vector<Entry>& entries() const { return entries_; }
+  void renew_depending(const Eigen::VectorXd& coefficients);
+  const Entry& entry_of(const Candidate& candidate) const;
+  Eigen::MatrixXd columns_of(const Candidate& candidate, const Eigen::VectorXd& theta) const;
+  Eigen::MatrixXd sketch_of(const Candidate& candidate, const Eigen::VectorXd& theta) const;
+  // What a candidate proposes, by a tally of these rows.
+  std::vector<Eigen::VectorXd> proposals(const Candidate& candidate, Tally& tally) const;
+
+  // Effective number of atoms, from nulls; worked out once a candidate.
+  double log_atoms(const Entry& entry, const UnitAtoms& unit);
+  double log_atoms(const Candidate& candidate) const { return log_atoms_.at(candidate.id); }
+  double log_p(const Candidate& candidate, double gain, Index width, bool refined) const;
+  double evidence(const Candidate& candidate, double gain, Index width, bool refined) const;
+  // log p below which a term is accepted.
+  double threshold() const;
+
+ private:
+  Entry entry(Candidate candidate) const;
+  noise::Field field_of(const noise::Rows& rows) const;
+
+  const Problem& problem_;
+  Options options_;
+  noise::Rows rows_;
+  std::vector<Index> origin_;  // of each row, the one of the problem's rows that it is of; empty: they are those
+  noise::Field field_;
+  mutable std::unique_ptr<const FarRows> far_;
+  Eigen::MatrixXd base_;
+  Eigen::VectorXd measured_, y_;
+  std::vector<Entry> entries_;
+  std::size_t fixed_ = 0;  // entries before those that depend on the model
+  noise::Sheet normals_;
+  std::map<std::string, double> log_atoms_;
+};
+
+}  // namespace muster::inference

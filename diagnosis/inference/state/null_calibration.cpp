@@ -1,0 +1,91 @@
+#include "diagnosis/inference/state/null_calibration.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "diagnosis/inference/state/null_tail.hpp"
+
+namespace muster::inference {
+namespace {
+
+constexpr float least_left = 1e-3f;  // squared length that must be left of an atom, of the longest one of its candidate
+
+// The inverse of the lower Cholesky factor; a column of which less than `least` is left by those before it has none.
+void turn(const Eigen::MatrixXf& products, float least, Eigen::Ref<Eigen::MatrixXf> inverse) {
+  const Index width = products.rows();
+  Eigen::MatrixXf root = Eigen::MatrixXf::Zero(width, width);
+  inverse.setZero();
+  for (Index j = 0; j < width; ++j) {
+    for (Index k = 0; k < j; ++k) root(j, k) = inverse.row(k).head(k + 1).dot(products.row(j).head(k + 1));
+    const float left = products(j, j) - root.row(j).head(j).squaredNorm();
+    if (left <= least) continue;
+    root(j, j) = std::sqrt(left);
+    inverse.row(j) = -root.row(j) * inverse;
+    inverse(j, j) = 1;
+    inverse.row(j) /= root(j, j);
+  }
+}
+
+}  // namespace
+
+// Squared lengths of projections on atoms: rows of `along` are the atoms' columns.
+Eigen::MatrixXf statistics(const Candidate& candidate, Eigen::MatrixXf along) {
+  if (candidate.width == 1) {
+    if (candidate.sign) along = (along * static_cast<float>(candidate.sign)).cwiseMax(0.f);
+    return along.cwiseAbs2();
+  }
+  const Index atoms = along.rows() / candidate.width;
+  Eigen::MatrixXf result(atoms, along.cols());
+  for (Index k = 0; k < atoms; ++k)
+    result.row(k) = along.middleRows(k * candidate.width, candidate.width).colwise().squaredNorm();
+  return result;
+}
+
+UnitAtoms::UnitAtoms(noise::Sheet columns, Index width)
+    : columns_(std::move(columns)), width_(width), turns_(width, columns_.cols()) {
+  const Index count = columns_.cols();
+  // Of each column with itself and with those next to it, all in one pass over the rows as they lie.
+  std::vector<Eigen::ArrayXf> apart;
+  for (Index by = 0; by < std::min(width, count); ++by) apart.emplace_back(Eigen::ArrayXf::Zero(count - by));
+  for (Index i = 0; i < columns_.rows(); ++i) {
+    const auto row = columns_.row(i).transpose().array();
+    for (Index by = 0; by < static_cast<Index>(apart.size()); ++by)
+      apart[static_cast<std::size_t>(by)] += row.head(count - by) * row.tail(count - by);
+  }
+  if (count == 0) return;
+  const float least = least_left * std::max(apart[0].maxCoeff(), 1e-9f);
+  Eigen::MatrixXf products(width, width);
+  for (Index first = 0; first < count; first += width) {
+    for (Index j = 0; j < width; ++j) {
+      for (Index k = 0; k <= j; ++k)
+        products(j, k) = products(k, j) = apart[static_cast<std::size_t>(j - k)][first + k];
+    }
+    turn(products, least, turns_.middleCols(first, width));
+  }
+}
+
+Eigen::MatrixXf UnitAtoms::along(const Eigen::Ref<const noise::Sheet>& x) const {
+  Eigen::MatrixXf result = columns_.transpose() * x;
+  for (Index first = 0; first < result.rows(); first += width_)
+    result.middleRows(first, width_) = (turns_.middleCols(first, width_) * result.middleRows(first, width_)).eval();
+  return result;
+}
+
+double log_effective(const Candidate& candidate, const UnitAtoms& unit, const noise::Sheet& normals) {
+  const Eigen::MatrixXf all = statistics(candidate, unit.along(normals));
+  Eigen::VectorXf most = all.colwise().maxCoeff();
+  std::sort(most.begin(), most.end());
+  std::array<double, 3> estimates;
+  constexpr std::array quantiles{0.5, 0.75, 0.9};
+  for (std::size_t k = 0; k < 3; ++k) {
+    // P(largest < m) = (1 - tail(m))^number
+    const double m = most[static_cast<Index>(quantiles[k] * static_cast<double>(most.size() - 1))];
+    const double tail = std::exp(log_tail(m, candidate.width)) * (candidate.sign ? 0.5 : 1);
+    estimates[k] = std::log(quantiles[k]) / std::log1p(-std::min(tail, 0.999));
+  }
+  std::sort(estimates.begin(), estimates.end());
+  return std::log(std::max(estimates[1], 0.5));
+}
+
+}  // namespace muster::inference

@@ -1,0 +1,133 @@
+#include "diagnosis/pipeline/cause_estimate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace muster::diagnosis {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr double normal95 = 1.96;
+
+CauseValue value_of(const muster_param& p, double value, double below, double above) {
+  const double at = std::clamp(value, p.min, p.max), sd = (below + above) / (2 * normal95);
+  if (p.flags & MUSTER_CYCLIC)
+    return {p.name, p.unit, at, sd, at - std::min(below, M_PI), at + std::min(above, M_PI), p.min, p.max, true};
+  return {p.name, p.unit, at, sd, std::max(at - below, p.min), std::min(at + above, p.max), p.min, p.max};
+}
+
+struct Reach {
+  double below = 0, above = 0;  // of a 95 % interval
+};
+
+// Of the sought parameters, about their values at the found theta; on the scale of each.
+std::map<std::string, Reach> reaches(const CauseShape& shape, const inference::Finding& f) {
+  std::map<std::string, double> sum, squares;
+  const auto middle = shape.parameters(f.theta);
+  for (const VectorXd& theta : f.thetas) {
+    for (const auto& [name, value] : shape.parameters(theta)) {
+      const unsigned scale = shape.cause.parameter(name).flags;
+      double by = scale & MUSTER_LOG ? std::log(value / middle.at(name)) : value - middle.at(name);
+      if (scale & MUSTER_CYCLIC) by = std::remainder(by, 2 * M_PI);
+      sum[name] += by;
+      squares[name] += by * by;
+    }
+  }
+  std::map<std::string, Reach> result;
+  const auto count = static_cast<double>(f.thetas.size());
+  for (const auto& [name, total] : sum) {
+    constexpr double same = 1e-6;  // a room's place: every theta has it, but for rounding
+    const double mean = total / count, sd = std::sqrt(std::max(0.0, squares[name] / count - mean * mean));
+    if (sd + std::abs(mean) < same) continue;
+    Reach reach{std::max(0.0, normal95 * sd - mean), std::max(0.0, normal95 * sd + mean)};
+    if (shape.cause.parameter(name).flags & MUSTER_LOG)
+      reach = {middle.at(name) * -std::expm1(-reach.below), middle.at(name) * std::expm1(reach.above)};
+    result[name] = reach;
+  }
+  return result;
+}
+
+void add_linear(FoundCause& out, const CauseShape& shape, const inference::Finding& f) {
+  if (shape.linear.empty()) {  // sought whole: a strength that it has was 1
+    for (const muster_param* p : shape.cause.linear()) {
+      const double half = normal95 * std::sqrt(f.uncertainty(0, 0));
+      out.values.push_back(value_of(*p, f.coefficients[0], half, half));
+    }
+    return;
+  }
+  if (shape.wave.empty()) {
+    for (std::size_t k = 0; k < shape.linear.size(); ++k) {
+      const auto at = static_cast<Eigen::Index>(k);
+      const double half = normal95 * std::sqrt(f.uncertainty(at, at));
+      out.values.push_back(value_of(*shape.linear[k], f.coefficients[at], half, half));
+    }
+    return;
+  }
+  const double size = f.coefficients.norm();
+  const Eigen::Vector2d along = f.coefficients / size, across(-along.y(), along.x());
+  const double half = normal95 * std::sqrt(along.dot(f.uncertainty * along));
+  const double turn = normal95 * std::sqrt(across.dot(f.uncertainty * across)) / size;
+  out.values.push_back(value_of(*shape.linear[0], size, half, half));
+  out.values.push_back(value_of(shape.cause.parameter(shape.wave), std::atan2(along.y(), along.x()), turn, turn));
+}
+
+// The first reference is the row that it is about, further ones are attributes beside it.
+void add_row(FoundCause& out, const CauseShape& shape, const VectorXd& theta) {
+  const auto references = shape.cause.rows();
+  for (std::size_t k = 0; k < references.size(); ++k) {
+    const std::string& name = shape.row(theta)[k];
+    if (name.empty()) continue;
+    if (k > 0) {
+      out.words[references[k]->name] = name;
+      continue;
+    }
+    out.row_parameter = references[k]->name;
+    out.row = name;
+  }
+}
+
+// Of numbers that a title lists those stay that were found: which powers are right, the readings say.
+std::string with_values(std::string title, const Cause& cause, const std::vector<CauseValue>& values) {
+  for (uint32_t i = 0; i < cause.plugin->param_count; ++i) {
+    if (cause.plugin->params[i].kind != MUSTER_REAL) continue;
+    const std::string name = cause.plugin->params[i].name, slot = '{' + name + '}';
+    if (std::any_of(values.begin(), values.end(), [&](const CauseValue& v) { return v.name == name; })) continue;
+    for (const std::string& listed : {slot + ", ", ", " + slot}) {
+      if (const auto at = title.find(listed); at != title.npos) title.erase(at, listed.size());
+    }
+  }
+  return title;
+}
+
+}  // namespace
+
+FoundCause found_cause(const inference::Finding& f, const CauseCandidate& cause) {
+  const CauseShape& shape = *cause.shape;
+  FoundCause out;
+  out.id = out.sought_as = f.id;
+  out.label = f.label;
+  out.tell_apart = shape.cause.meaning().tell_apart;
+  out.status = f.status;
+  out.covariates = f.covariates;
+  add_row(out, shape, f.theta);
+  out.held = shape.held;
+  out.evidence = f.evidence;
+  out.log_p = f.log_p;
+  out.lambda = f.gain;
+  out.held_out = f.held_out;
+  out.unseen_without = f.unseen_without;
+  out.elsewhere = f.elsewhere;
+  out.rivals = f.rivals;
+  add_linear(out, shape, f);
+  auto sure = reaches(shape, f);
+  for (const auto& [name, value] : shape.parameters(f.theta)) {
+    if (!shape.held.count(name))
+      out.values.push_back(value_of(shape.cause.parameter(name), value, sure[name].below, sure[name].above));
+  }
+  out.title = with_values(shape.cause.meaning().title, shape.cause, out.values);
+  return out;
+}
+
+}  // namespace muster::diagnosis

@@ -1,0 +1,50 @@
+#include "diagnosis/pipeline/closed_loop.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/calibration/fit.hpp"
+#include "diagnosis/pipeline/diagnose.hpp"
+#include "diagnosis/pipeline/extended_world.hpp"
+
+namespace muster::diagnosis {
+namespace {
+
+// Root mean square of what a model's mean leaves of the readings that were heard.
+double rmse_of(LinkModel& model, const Dataset& data) {
+  const Eigen::VectorXd& mean = model.expected();
+  double sum = 0;
+  for (std::size_t row = 0; row < data.rows(); ++row) {
+    if (std::isnan(data.rssi[row])) continue;
+    const double error = data.rssi[row] - mean[static_cast<Eigen::Index>(row)];
+    sum += error * error;
+  }
+  return std::sqrt(sum / static_cast<double>(data.heard()));
+}
+
+}  // namespace
+
+SecondLook second_look(const std::filesystem::path& world, const std::filesystem::path& extended,
+                       const std::filesystem::path& file, const Library::SearchPath& plugins) {
+  const Dataset data = read_dataset(file);
+  LinkModel given(world, file, plugins), model(extended, file, plugins);
+  return {file, data.heard(), fit(given, data, {}).residual_sd, rmse_of(model, data),
+          told_by(diagnose(extended, file, plugins))};
+}
+
+Loop closed_loop(const Diagnosis& found, const std::filesystem::path& world, const std::filesystem::path& data,
+                 const std::filesystem::path& out, const Library::SearchPath& plugins) {
+  Loop loop{out, 0, 0, {}, {}};
+  const std::filesystem::path file = write_extended_world(found, world, out);
+  LinkModel model(file, data, plugins);
+  loop.rmse_extended = rmse_of(model, read_dataset(data));
+  const Eigen::VectorXd& simulated = model.expected();
+  for (Eigen::Index i = 0; i < simulated.size(); ++i) {
+    if (!std::isnan(found.mean[i]))
+      loop.mean_difference = std::max(loop.mean_difference, std::abs(simulated[i] - found.mean[i]));
+  }
+  loop.rediagnosis = told_by(diagnose(file, data, plugins));
+  return loop;
+}
+
+}  // namespace muster::diagnosis

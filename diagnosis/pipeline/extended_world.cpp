@@ -1,0 +1,100 @@
+#include "diagnosis/pipeline/extended_world.hpp"
+
+#include <tinyxml2.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "text/names.hpp"
+#include "text/number.hpp"
+
+namespace muster::diagnosis {
+namespace {
+
+namespace fs = std::filesystem;
+using tinyxml2::XMLElement;
+
+std::string attribute(const XMLElement& element, const char* name) {
+  const char* value = element.Attribute(name);
+  return value ? value : "";
+}
+
+// The element that declares an instance ("radio.multiwall") or a row ("material/drywall"), or null.
+XMLElement* element_of(XMLElement& root, const std::string& owner) {
+  const auto slash = owner.find('/');
+  for (XMLElement* e = root.FirstChildElement(); e; e = e->NextSiblingElement()) {
+    const std::string name = attribute(*e, "name");
+    if (slash != owner.npos ? name == owner.substr(slash + 1) && e->Name() == owner.substr(0, slash)
+                            : name == owner || (name.empty() && e->Name() == owner))
+      return e;
+  }
+  return nullptr;
+}
+
+std::string unused_name(XMLElement& root, const std::string& id) {
+  const std::string stem = id.substr(id.find('.') + 1);
+  for (int k = 1;; ++k) {
+    const std::string name = stem + "_" + std::to_string(k);
+    if (!element_of(root, name)) return name;
+  }
+}
+
+void write_file(const fs::path& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  if (!out.flush()) throw Error(Exit::io, file.string() + ": cannot be written");
+}
+
+void add_cause(XMLElement& root, const FoundCause& cause, const fs::path& folder) {
+  XMLElement* e = root.InsertNewChildElement(cause.id.c_str());
+  const std::string own = unused_name(root, cause.id);
+  e->SetAttribute("name", own.c_str());
+  if (!cause.row.empty()) e->SetAttribute(cause.row_parameter.c_str(), cause.row.c_str());
+  for (const auto& [name, word] : cause.words) e->SetAttribute(name.c_str(), word.c_str());
+  for (const auto& [name, text] : cause.files) {
+    e->SetAttribute(name.c_str(), (own + ".csv").c_str());
+    write_file(folder / (own + ".csv"), text);
+  }
+  for (const auto& [name, value] : cause.held) e->SetAttribute(name.c_str(), print_real(value).c_str());
+  for (const CauseValue& v : cause.values) e->SetAttribute(v.name.c_str(), print_real(v.value).c_str());
+}
+
+void copy_folder(const fs::path& from, const fs::path& to) {
+  std::error_code failed;
+  fs::create_directories(to, failed);
+  for (const auto& entry : fs::directory_iterator(from)) {
+    if (failed) break;
+    if (entry.is_regular_file())
+      fs::copy_file(entry.path(), to / entry.path().filename(), fs::copy_options::overwrite_existing, failed);
+  }
+  if (failed) throw Error(Exit::io, quote(to.string()) + " cannot be written: " + failed.message());
+}
+
+}  // namespace
+
+fs::path write_extended_world(const Diagnosis& found, const fs::path& world, const fs::path& out) {
+  const fs::path file = fs::is_directory(world) ? world / "world.xml" : world;
+  const fs::path folder = fs::absolute(file).parent_path();
+  std::error_code none;
+  if (fs::equivalent(folder, out, none))
+    throw Error(Exit::invalid_input, quote(out.string()) + " holds the world itself; expected another folder");
+  copy_folder(folder, out);
+  tinyxml2::XMLDocument document;
+  if (document.LoadFile(file.string().c_str()) != tinyxml2::XML_SUCCESS)
+    throw Error(Exit::io, file.string() + ": cannot be read again");
+  XMLElement& root = *document.RootElement();
+  for (const auto& [path, value] : found.parameters) {
+    const auto slash = path.rfind('/');
+    if (XMLElement* e = element_of(root, path.substr(0, slash)))
+      e->SetAttribute(path.substr(slash + 1).c_str(), print_real(value).c_str());
+  }
+  for (const FoundCause& cause : found.causes) {
+    if (cause.status == inference::Status::named) add_cause(root, cause, out);
+  }
+  const fs::path written = out / file.filename();
+  if (document.SaveFile(written.string().c_str()) != tinyxml2::XML_SUCCESS)
+    throw Error(Exit::io, written.string() + ": cannot be written");
+  return written;
+}
+
+}  // namespace muster::diagnosis

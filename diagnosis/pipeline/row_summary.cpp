@@ -1,0 +1,112 @@
+#include "diagnosis/pipeline/row_summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <muster/tables.hpp>
+
+#include "diagnosis/inference/assess/coefficient_covariance.hpp"
+#include "diagnosis/radio/links/moving_end.hpp"
+
+namespace muster::diagnosis {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+VectorXd mean_of(const noise::Rows& rows, const std::vector<double>& values) {
+  if (values.empty()) return {};
+  return rows.mean(Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size())));
+}
+
+// A row ends before its readings turn far, but the mean of angles must not cross their cut.
+VectorXd first_of(const noise::Rows& rows, const Eigen::Ref<const VectorXd>& values) {
+  if (values.size() == 0) return {};
+  VectorXd result(rows.size());
+  for (Index i = 0; i < rows.size(); ++i) result[i] = values[rows.example(i)];
+  return result;
+}
+
+VectorXd left_by(const inference::Bench& bench, const Eigen::MatrixXd& design, const inference::Stand& stand) {
+  return bench.y() - design * stand.coefficients(design.cols());
+}
+
+std::vector<MappedWall> mapped_walls(const Simulation& run) {
+  std::vector<MappedWall> out;
+  const Table* table = run.board().find("wall/*/shape");
+  if (!table) return out;
+  const auto& walls = run.board().find_set("wall")->names;
+  const Set* materials = run.board().find_set("material");
+  for (std::size_t i = 0; i < table->now().rows; ++i) {
+    const Wall& w = reinterpret_cast<const Wall*>(table->now().data.data())[i];
+    out.push_back(
+        {walls.at(i), materials->names.at(static_cast<std::size_t>(w.material)), w.x0, w.y0, w.x1, w.y1, w.thickness});
+  }
+  return out;
+}
+
+}  // namespace
+
+SeenRows seen_rows(const inference::Bench& bench, const LinkModel& model) {
+  const inference::Problem& problem = bench.problem();
+  const noise::Readings& readings = problem.readings;
+  const noise::Rows& rows = bench.rows();
+  SeenRows out;
+  int radios = 0;
+  for (Index i = 0; i < rows.size(); ++i) {
+    const auto reading = static_cast<std::size_t>(rows.example(i));
+    out.tx.push_back(readings.tx[reading]);
+    out.rx.push_back(readings.rx[reading]);
+    radios = std::max({radios, out.tx.back() + 1, out.rx.back() + 1});
+  }
+  for (int k = 0; k < radios; ++k) out.radios.push_back(model.radio_name(k));
+  out.tx_at = rows.mean(readings.tx_at.transpose()).transpose();
+  out.rx_at = rows.mean(readings.rx_at.transpose()).transpose();
+  out.count = rows.count();
+  out.t = mean_of(rows, readings.t);
+  out.tx_yaw =
+      first_of(rows, Eigen::Map<const VectorXd>(readings.tx_yaw.data(), static_cast<Index>(readings.tx_yaw.size())));
+  out.rx_yaw =
+      first_of(rows, Eigen::Map<const VectorXd>(readings.rx_yaw.data(), static_cast<Index>(readings.rx_yaw.size())));
+  if (!readings.rx_yaw.empty() || !readings.tx_yaw.empty()) {
+    const inference::MovingEnds moving = inference::moving_ends(readings);
+    out.heading = first_of(rows, moving.heading);
+    out.bearing = first_of(rows, moving.bearing);
+  }
+  const Eigen::MatrixXd full = bench.design();
+  const inference::Stand before = bench.stand(bench.base()), after = bench.stand(full);
+  out.before = left_by(bench, bench.base(), before);
+  out.after = left_by(bench, full, after);
+  out.white_before = before.at.residual;
+  out.white_after = after.at.residual;
+  for (const inference::Covariate& c : problem.covariates) {
+    out.columns.push_back(c);
+    out.columns.back().values = rows.mean(c.values);
+  }
+  for (const inference::Factor& f : problem.factors) {
+    out.factors.push_back({f.name, {}});
+    for (Index i = 0; i < rows.size(); ++i)
+      out.factors.back().level.push_back(f.level[static_cast<std::size_t>(rows.example(i))]);
+  }
+  out.walls = mapped_walls(model.simulation());
+  out.places_known = problem.places_known;
+  return out;
+}
+
+VectorXd effect_of(const inference::Bench& bench, const inference::Candidate& candidate,
+                   const inference::Finding& finding) {
+  return bench.columns_of(candidate, finding.theta) * finding.coefficients;
+}
+
+std::vector<WorldValue> world_values(const inference::Bench& bench, const std::vector<std::string>& paths,
+                                     const VectorXd& values, const LinkModel& model) {
+  const Eigen::MatrixXd spread = inference::uncertainty_of(bench, bench.design());
+  std::vector<WorldValue> out;
+  for (std::size_t k = 0; k < paths.size(); ++k) {
+    const auto at = static_cast<Index>(k);
+    const muster_param* declared = model.parameter(paths[k]).declared;
+    out.push_back({paths[k], declared ? declared->unit : "", values[at], std::sqrt(spread(at, at))});
+  }
+  return out;
+}
+
+}  // namespace muster::diagnosis

@@ -1,0 +1,20 @@
+// What a search looked at, for reports: rows with their places, and what the models leave of them.
+#pragma once
+
+#include "diagnosis/inference/state/model_state.hpp"
+#include "diagnosis/radio/links/link_model.hpp"
+#include "diagnosis/result.hpp"
+
+namespace muster::diagnosis {
+
+SeenRows seen_rows(const inference::Bench& bench, const LinkModel& model);
+
+// dB that a finding adds to each row.
+Eigen::VectorXd effect_of(const inference::Bench& bench, const inference::Candidate& candidate,
+                          const inference::Finding& finding);
+
+// The world's parameters with their spread beside the findings.
+std::vector<WorldValue> world_values(const inference::Bench& bench, const std::vector<std::string>& paths,
+                                     const Eigen::VectorXd& values, const LinkModel& model);
+
+}  // namespace muster::diagnosis

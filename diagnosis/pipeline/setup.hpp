@@ -1,0 +1,46 @@
+// A world and its measured readings made ready for a search: the world fitted, its own columns, and every cause that
+// the data can speak of as a candidate.
+#pragma once
+
+#include "diagnosis/calibration/fit.hpp"
+#include "diagnosis/calibration/sensitivities.hpp"
+#include "diagnosis/causes/cause_candidates.hpp"
+#include "diagnosis/causes/simulated_readings.hpp"
+#include "diagnosis/inference/state/problem.hpp"
+#include "diagnosis/radio/links/receiver_checks.hpp"
+
+namespace muster::diagnosis {
+
+struct Prepared {
+  // Throws Error.
+  Prepared(const std::filesystem::path& world, const std::filesystem::path& file, const Library::SearchPath& plugins);
+  Prepared(const Prepared&) = delete;
+  Prepared& operator=(const Prepared&) = delete;
+
+  std::filesystem::path file;  // of the readings
+  Dataset data;
+  Instrument instrument;  // what the readings show of the receiver
+  LinkModel model;
+  std::vector<Cause> causes;  // of the plugin path
+  Fit fitted;
+  BaseColumns base;
+  std::vector<Eigen::Index> used;   // rows of the table behind the readings of the search
+  std::shared_ptr<CauseModel> run;  // what the candidates evaluate
+  inference::Problem problem;
+  inference::Options options;
+  CauseSearch sought;                           // behind the problem's candidates
+  std::vector<std::string> untested;            // columns, with the reason
+  std::unique_ptr<SimulatedReadings> sketched;  // one reading a row of the search; none if each is a row
+
+ private:
+  void leave_out_crossed_links();
+  void fill_readings();
+  void take_swaps_by_the_map(const noise::Rows& rows, const std::filesystem::path& world,
+                             const Library::SearchPath& plugins);
+  void let_sketch(const noise::Rows& rows, const std::filesystem::path& world, const Library::SearchPath& plugins);
+  void let_ask_near(const std::filesystem::path& world, const Library::SearchPath& plugins);
+  noise::Known known_of(double rssi) const;
+  void add_columns();
+};
+
+}  // namespace muster::diagnosis

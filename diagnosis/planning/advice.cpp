@@ -1,0 +1,81 @@
+// Plans as tables that the world is simulated at, so that what they would tell apart can be worked out.
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "diagnosis/causes/simulated_readings.hpp"
+#include "diagnosis/planning/measurement_plans.hpp"
+
+namespace muster::diagnosis {
+namespace {
+
+constexpr std::size_t most_rivals = 3;  // of one cause: each costs a search over its grid at every plan
+
+// A plan has no columns beyond places and times.
+bool reads_a_table(const CauseSearch& causes, const std::string& id) {
+  return std::any_of(causes.found.begin(), causes.found.end(),
+                     [&](const CauseCandidate& c) { return c.candidate.id == id && c.shape->cause.file(); });
+}
+
+// What was found, and the rivals that are worth the work; empty if there are none.
+std::set<std::string> wanted(const Diagnosis& found, const CauseSearch& causes) {
+  std::set<std::string> out;
+  bool open = false;
+  for (const FoundCause& c : found.causes) {
+    if (c.status != inference::Status::named) continue;
+    if (reads_a_table(causes, c.id)) return {};
+    if (c.sought_as.empty()) continue;  // a law of readings is none of the search's, nor what was put right first
+    out.insert(c.sought_as);
+    std::size_t rivals = 0;
+    for (const inference::Rival& r : c.rivals) {
+      if (r.separability >= inference::decided || r.id[0] == '~' || r.id == c.sought_as ||
+          reads_a_table(causes, r.id) || rivals++ >= most_rivals)
+        continue;
+      out.insert(r.id);
+      open = true;
+    }
+  }
+  return open ? out : std::set<std::string>();
+}
+
+}  // namespace
+
+std::optional<PlannedReadings> most_telling(const Diagnosis& found, std::vector<PlannedReadings> plans) {
+  const auto open = std::find_if(found.causes.begin(), found.causes.end(), [&](const FoundCause& c) {
+    return std::any_of(found.advice.begin(), found.advice.end(), [&](const Advice& a) { return a.cause == c.id; });
+  });
+  if (open == found.causes.end()) return {};
+  std::map<std::string, double> more;
+  for (const Advice& a : found.advice) {
+    if (a.cause == open->id && a.predicted) more[a.say] += std::min(*a.predicted, inference::decided) - a.separability;
+  }
+  const auto tells_less = [&](const PlannedReadings& a, const PlannedReadings& b) { return more[a.say] < more[b.say]; };
+  const auto most = std::max_element(plans.begin(), plans.end(), tells_less);
+  if (more[most->say] < 1) return {};
+  return std::move(*most);
+}
+
+void add_advice(inference::Search& search, Diagnosis& found, const CauseSearch& causes, const PlanSources& sources,
+                const BaseColumns& base) {
+  const std::set<std::string> ids = wanted(found, causes);
+  if (ids.empty() || holds_a_table_reader(sources.model)) return;
+  std::vector<std::unique_ptr<SimulatedReadings>> simulated;
+  std::vector<PlannedReadings> planned = planned_readings(found.seen, found.causes);
+  std::vector<inference::Plan> plans;
+  for (const PlannedReadings& p : planned) {
+    simulated.push_back(
+        std::make_unique<SimulatedReadings>(p.readings, found.seen.radios, sources.world, sources.plugins, base));
+    plans.push_back({p.say, p.readings, slopes_at(simulated.back()->model(), base), {}});
+    for (const CauseCandidate& c : causes.found) {
+      if (ids.count(c.candidate.id)) plans.back().candidates.push_back(simulated.back()->at(c, sources.data));
+    }
+  }
+  for (const inference::Advice& a : search.advise(plans)) {
+    const auto cause = std::find_if(found.causes.begin(), found.causes.end(),
+                                    [&](const FoundCause& c) { return c.sought_as == a.finding; });
+    if (cause != found.causes.end()) found.advice.push_back({a.say, cause->id, a.rival, a.separability, a.predicted});
+  }
+  found.advised = most_telling(found, std::move(planned));
+}
+
+}  // namespace muster::diagnosis

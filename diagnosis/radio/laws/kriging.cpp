@@ -1,0 +1,152 @@
+#include "diagnosis/radio/laws/kriging.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+namespace muster::diagnosis {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr noise::Conditioning conditioning{12, 0, 1};
+
+std::vector<Index> finite(const VectorXd& residual) {
+  std::vector<Index> result;
+  for (Index i = 0; i < residual.size(); ++i) {
+    if (std::isfinite(residual[i])) result.push_back(i);
+  }
+  return result;
+}
+
+noise::Readings those(const noise::Readings& all, const std::vector<Index>& which) {
+  noise::Readings result;
+  result.tx_at = all.tx_at(Eigen::all, which);
+  result.rx_at = all.rx_at(Eigen::all, which);
+  for (const Index i : which) {
+    if (!all.t.empty()) result.t.push_back(all.t[static_cast<std::size_t>(i)]);
+    result.tx.push_back(all.tx[static_cast<std::size_t>(i)]);
+    result.rx.push_back(all.rx[static_cast<std::size_t>(i)]);
+  }
+  return result;
+}
+
+// Every reading a row of its own, in the given order.
+noise::Sites sites_of(const noise::Readings& readings) {
+  noise::RowLimits single;
+  single.way = -1;
+  const noise::Rows rows(readings, single);
+  return rows.sites(readings).of(rows.row_of());
+}
+
+// Cells of this side in the order in which they are met, of each anchor's radio on its own.
+std::vector<Index> cells_of(const noise::Sites& sites, double side) {
+  std::map<std::tuple<int, long, long, long>, Index> numbers;
+  std::vector<Index> result;
+  for (Index i = 0; i < sites.size(); ++i) {
+    const auto along = [&](int axis) { return std::lround(sites.place(axis, i) / side); };
+    const std::tuple cell(sites.radio[static_cast<std::size_t>(i)], along(0), along(1), along(2));
+    result.push_back(numbers.try_emplace(cell, static_cast<Index>(numbers.size())).first->second);
+  }
+  return result;
+}
+
+// y = value + slope x by least squares; not known if x hardly varies.
+struct Intercept {
+  bool known = false;
+  double value = 0, standard_error = 0, left = 0;  // left: squares that are not explained
+};
+
+Intercept intercept_of(const VectorXd& y, const Eigen::ArrayXd& x) {
+  Eigen::MatrixX2d line(y.size(), 2);
+  line << VectorXd::Ones(y.size()), x.matrix();
+  const Eigen::Matrix2d normal = line.transpose() * line;
+  if (normal.determinant() < 1e-6 * static_cast<double>(y.size() * y.size())) return {};
+  const Eigen::Matrix2d inverse = normal.inverse();
+  const Eigen::Vector2d fitted = inverse * (line.transpose() * y);
+  // Farther differences scatter more (White 1980).
+  const Eigen::VectorXd left = (y - line * fitted).array().square();
+  const Eigen::Matrix2d uncertainty = inverse * (line.transpose() * left.asDiagonal() * line) * inverse;
+  return {true, fitted[0], std::sqrt(uncertainty(0, 0)), left.sum()};
+}
+
+}  // namespace
+
+ReadingField::ReadingField(const noise::Readings& readings, const VectorXd& residual)
+    : residual_(residual(finite(residual))), field_(sites_of(those(readings, finite(residual))), conditioning) {}
+
+ReadingField::ReadingField(VectorXd residual, noise::Field field, double far_off)
+    : residual_(std::move(residual)), field_(std::move(field)), far_off_(far_off) {}
+
+ReadingField ReadingField::untamed() const { return {residual_, field_, std::numeric_limits<double>::infinity()}; }
+
+ReadingField ReadingField::some(Index about) const {
+  constexpr Index whole = 100;  // readings that a cell has on average: more than a neighbourhood
+  std::vector<Index> cells;
+  for (double side = 0.5; side < 1000; side *= 2) {  // m
+    cells = cells_of(field_.sites(), side);
+    if (size() >= whole * (*std::max_element(cells.begin(), cells.end()) + 1)) break;
+  }
+  const Index every = (size() + about - 1) / about;
+  std::vector<Index> chosen;
+  for (Index i = 0; i < size(); ++i) {
+    if (cells[static_cast<std::size_t>(i)] % every == 0) chosen.push_back(i);
+  }
+  return {residual_(chosen), noise::Field(field_.sites().of(chosen), conditioning), far_off_};
+}
+
+const ReadingView& ReadingField::view(const FieldShape& shape, int place) {
+  const auto found = known_.find({shape, place});
+  if (found != known_.end()) return found->second;
+  constexpr double log_variance = 3;  // the field's, dB^2; what is worked out does not depend on it
+  const noise::Covariance at{shape.family, {log_variance, 1e-3 * shape.distance, log_variance + 1e-3 * place, 0}};
+  const noise::Whitener whitener(field_, at);
+  const VectorXd own = Eigen::Map<const VectorXd>(whitener.stencil().own.data(), size());
+  const auto spread = (own.array().inverse().square() - at.reading_variance()) / at.field_variance();
+  ReadingView view{1e-3 * place, error_by(whitener), spread.max(1e-3).log()};
+  return known_.emplace(std::pair(shape, place), std::move(view)).first->second;
+}
+
+VectorXd ReadingField::error_by(const noise::Whitener& whitener) const {
+  const VectorXd own = Eigen::Map<const VectorXd>(whitener.stencil().own.data(), size());
+  const VectorXd white = whitener(residual_);
+  const VectorXd off = (white - white.cwiseMax(-far_off_).cwiseMin(far_off_)).cwiseQuotient(own);
+  return whitener(residual_ - off).cwiseQuotient(own) + off;
+}
+
+CloseReadings ReadingField::close_readings() const {
+  // m, of both ends together: over so little the variogram of shadowing is a line, or of a smooth field a parabola.
+  constexpr double close = 0.3;
+  constexpr Index fewest = 100;
+  const noise::Sites& sites = field_.sites();
+  std::vector<bool> paired(static_cast<std::size_t>(size()), false);
+  std::vector<double> apart, half;
+  for (Index i = 0; i < size(); ++i) {
+    for (int a = 0; a < field_.slots() && !paired[static_cast<std::size_t>(i)]; ++a) {
+      const Index j = field_.neighbour(i, a);
+      if (j < 0 || paired[static_cast<std::size_t>(j)]) continue;
+      const double distance = std::hypot((sites.place.col(i) - sites.place.col(j)).norm(),
+                                         (sites.anchor.col(i) - sites.anchor.col(j)).norm());
+      if (distance > close) break;  // the nearest come first
+      apart.push_back(distance);
+      half.push_back(std::pow(residual_[i] - residual_[j], 2) / 2);
+      paired[static_cast<std::size_t>(i)] = paired[static_cast<std::size_t>(j)] = true;
+    }
+  }
+  const auto pairs = static_cast<Index>(half.size());
+  const CloseReadings nothing{pairs, 0, std::numeric_limits<double>::infinity()};
+  if (pairs < fewest) return nothing;
+  const Eigen::Map<const Eigen::ArrayXd> at(apart.data(), pairs);
+  const Eigen::Map<const VectorXd> y(half.data(), pairs);
+  const Intercept rough = intercept_of(y, at), smooth = intercept_of(y, at.square());
+  if (!rough.known) return nothing;
+  constexpr double clearly = 2;  // nats, of normal scatter
+  const bool parabola = smooth.known && std::log(rough.left / smooth.left) * static_cast<double>(pairs) / 2 > clearly;
+  const Intercept& likelier = parabola ? smooth : rough;
+  return {pairs, likelier.value, likelier.standard_error};
+}
+
+}  // namespace muster::diagnosis

@@ -1,0 +1,316 @@
+#include "diagnosis/radio/laws/law_causes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "diagnosis/inference/state/null_tail.hpp"
+#include "diagnosis/radio/laws/blockage_test.hpp"
+#include "diagnosis/radio/laws/fading_tests.hpp"
+#include "diagnosis/radio/laws/shadowing_test.hpp"
+#include "text/number.hpp"
+
+namespace muster::diagnosis {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+const Cause* cause_called(const LawSources& s, const std::string& id) {
+  const auto found = std::find_if(s.causes.begin(), s.causes.end(), [&](const Cause& c) { return c.id == id; });
+  return found == s.causes.end() ? nullptr : &*found;
+}
+
+FoundCause named(const LawSources& s, const Cause& cause, const LawTest& test) {
+  FoundCause out;
+  out.id = cause.id;
+  out.label = "all";
+  out.title = cause.meaning().title;
+  out.tell_apart = cause.meaning().tell_apart;
+  out.covariates = {"reading"};
+  for (const LawValue& v : test.values) {
+    const auto* const end = cause.plugin->params + cause.plugin->param_count;
+    const auto* const p =
+        std::find_if(cause.plugin->params, end, [&](const muster_param& q) { return q.name == v.name; });
+    if (p == end) continue;
+    out.values.push_back({v.name, p->unit, std::clamp(v.value, p->min, p->max), (v.upper95 - v.lower95) / (2 * 1.96),
+                          v.lower95, v.upper95, p->min, p->max});
+  }
+  out.evidence = test.evidence;
+  out.log_p = test.log_p;
+  out.lambda = test.gain;
+  out.effect = VectorXd::Zero(s.bench.rows().size());
+  return out;
+}
+
+// Three questions are asked, each of which may err on so large a share of clean worlds: how readings scatter, whether
+// people pass, and how the field does, of which two tests have to speak (field_law.hpp).
+constexpr double alpha = 0.0005, alpha_of_field = 0.002;
+
+bool beyond_chance(const LawTest& test, double share) { return test.evidence > 0 && test.log_p < std::log(share); }
+
+// A stage of the world that clips there already.
+bool clips_at(const LawSources& s, const std::string& plugin, const std::string& parameter, double level, double step) {
+  for (const auto& instance : s.model.simulation().instances()) {
+    if (instance->declared().plugin != plugin) continue;
+    const int at = instance->find_param(parameter);
+    if (at >= 0 && std::abs(instance->params()[static_cast<std::size_t>(at)] - level) <= std::max(step, 0.5))
+      return true;
+  }
+  return false;
+}
+
+void add_pile(const LawSources& s, const std::string& id, const Clip& clip, double step, Diagnosis& found) {
+  const Cause* const cause = cause_called(s, id);
+  if (!cause || clips_at(s, id, "level", clip.level, step)) return;
+  const double half = std::max(step, 0.02) / 2;
+  const LawTest test{
+      id, {{"level", clip.level, clip.level - half, clip.level + half}}, -2 * clip.log_p, -clip.log_p, clip.log_p};
+  found.causes.push_back(named(s, *cause, test));
+  if (id == "effect.rssi_floor") found.causes.back().words["silent"] = "false";
+}
+
+// Fisher's, of two independent tests.
+double of_both(double log_p, double other) { return log_p + other + std::log1p(-log_p - other); }
+
+// Readings that are missing where levels are low, and not elsewhere. Whether it is named.
+bool add_silence(const LawSources& s, const Missing& missing, Diagnosis& found) {
+  const double step = found.instrument.step;
+  const Cause* const cause = cause_called(s, "effect.rssi_floor");
+  const double least = std::log(s.bench.options().further_alpha / static_cast<double>(s.bench.entries().size()));
+  const double independent = missing.censored ? 1 : 0.5;  // neighbours are lost together
+  const double gain = independent * missing.evidence;
+  LawTest test{"effect.rssi_floor", {}, gain, gain / 2, inference::log_tail(gain, 1)};
+  if (missing.cut_off && !missing.censored)
+    test.log_p = of_both(test.log_p, independent * std::log(missing.none_below));
+  if (!cause || !(missing.censored || missing.cut_off) || test.log_p > least) return false;
+  if (clips_at(s, test.cause, "level", missing.floor, step) ||
+      clips_at(s, "radio.receiver", "sensitivity", missing.floor, step))
+    return false;
+  const double half = std::max(step, 0.02);
+  test.values = {{"level", missing.floor, missing.floor - half, missing.floor + half}};
+  found.causes.push_back(named(s, *cause, test));
+  found.causes.back().words["silent"] = "true";
+  return true;
+}
+
+// Measured less expected of each reading of the search; NaN where only a bound is known or the clip is near.
+VectorXd residual_of(const LawSources& s, const Diagnosis& found) {
+  const noise::Rows& rows = s.bench.rows();
+  VectorXd left(static_cast<Index>(s.used.size()));
+  for (Index i = 0; i < left.size(); ++i) {
+    const Index row = s.used[static_cast<std::size_t>(i)];
+    left[i] = s.data.rssi[static_cast<std::size_t>(row)] - found.mean[row];
+  }
+  const VectorXd filled = left.array().isNaN().select(0, left);
+  const VectorXd shift = found.seen.after - rows.mean(filled);
+  VectorXd result = left + rows.at_readings(shift);
+  if (!s.bench.problem().bounds.any()) return result;
+  const double sd = std::sqrt(s.bench.fit.covariance.field_variance() + s.bench.fit.covariance.reading_variance());
+  const auto near = [&](const std::optional<Clip>& clip, double side, double mean) {
+    return clip && side * (clip->level - mean) < 2 * sd;
+  };
+  for (Index i = 0; i < result.size(); ++i) {
+    const double mean = found.mean[s.used[static_cast<std::size_t>(i)]];
+    const bool lost = s.fit.missing.censored && mean - s.fit.missing.floor < 2 * sd;
+    if (lost || near(found.instrument.top, 1, mean) || near(found.instrument.bottom, -1, mean))
+      result[i] = std::nan("");
+  }
+  return result;
+}
+
+ReadingLaw stated_law(const LinkModel& model) {
+  ReadingLaw law;
+  law.rician_k = model.value_of("radio.fading", "fading", 1) != 0 ? model.value_of("radio.fading", "rician_k", 60) : 60;
+  law.rician_k = model.value_of("effect.fading_law", "rician_k", law.rician_k);
+  law.outliers = model.value_of("effect.outliers", "share", 0);
+  law.half_width = model.value_of("effect.outliers", "half_width", law.half_width);
+  law.channel_sd = model.value_of("effect.channel_mixture", "sd", 0);
+  law.channels = static_cast<int>(model.value_of("effect.channel_mixture", "channels", 3));
+  return law;
+}
+
+// Half a wavelength at which fading is another one; per_reading fading always is.
+bool fades_apart(const LawSources& s) {
+  if (s.model.value_of("radio.fading", "per_reading", 0) != 0 || s.model.has_plugin("effect.fading_law")) return true;
+  const double half = 299792458 / s.model.value_of("radio.fading", "frequency", 2.44e9) / 2;
+  const noise::Readings& r = s.bench.problem().readings;
+  std::vector<double> ways;
+  for (Index i = 1; i < r.size(); ++i) {
+    const auto row = s.bench.rows().row_of()[static_cast<std::size_t>(i)];
+    const Index first = s.bench.rows().example(row);
+    if (first != i)
+      ways.push_back((r.rx_at.col(i) - r.rx_at.col(first)).norm() + (r.tx_at.col(i) - r.tx_at.col(first)).norm());
+  }
+  if (ways.empty()) return false;
+  std::nth_element(ways.begin(), ways.begin() + static_cast<std::ptrdiff_t>(ways.size() / 2), ways.end());
+  return ways[ways.size() / 2] > half;
+}
+
+// Why single readings cannot be asked; empty if they can.
+std::string why_not(const LawSources& s, const VectorXd& residual) {
+  if (!s.data.has_places()) return "not testable: the data have no places";
+  if (!s.model.has_plugin("radio.fading")) return "not testable: the world has no radio.fading that states a law";
+  if (!fades_apart(s)) return "not testable: readings lie closer than the half wavelength over which fading changes";
+  constexpr Index fewest = 300;
+  if (residual.array().isFinite().count() < fewest) return "not testable: fewer than 300 readings that are no bounds";
+  return "";
+}
+
+// The law that readings follow: the stated one, or the one that is named here.
+ReadingLaw add_scatter(const LawSources& s, ReadingField& field, Diagnosis& found) {
+  const auto [tests, likeliest] = law_tests(field, found.instrument.step, stated_law(s.model), s.bench.fit.covariance);
+  const auto best =
+      std::find_if(tests.begin(), tests.end(), [&](const LawTest& t) { return cause_called(s, t.cause); });
+  if (best == tests.end() || !beyond_chance(*best, alpha)) return likeliest;
+  found.causes.push_back(named(s, *cause_called(s, best->cause), *best));
+  for (const LawTest& other : tests) {
+    const double gap = best->evidence - other.evidence;
+    if (&other != &*best && gap < 3) found.causes.back().rivals.push_back({other.cause, "all", {}, gap, 2 * gap});
+  }
+  return best->law;
+}
+
+// What the fit of rows says of a draw of the world's own shadowing, if that is the same as of the data.
+bool world_draws_alike(const LawSources& s) {
+  const VectorXd drawn = s.model.drawn(), expected = s.model.expected();
+  const VectorXd apart = (drawn - expected)(s.used);
+  if (!apart.allFinite()) return false;
+  const noise::StatedField own = said_by(fitted_to(s.bench, s.bench.rows().mean(apart)), s.bench.within());
+  const noise::StatedField fitted = said_by(s.bench.fit.covariance, s.bench.within());
+  return std::abs(std::log(own.shadowing / fitted.shadowing)) < std::log(1.25) &&
+         std::abs(std::log(own.decorrelation / fitted.decorrelation)) < std::log(1.6);
+}
+
+void add_field(const LawSources& s, ReadingField& field, const ReadingLaw& law, Diagnosis& found) {
+  const Cause* const cause = cause_called(s, "effect.shadowing_correlation");
+  if (!cause) return;
+  const noise::StatedField said = stated_field(s.model);
+  if (said.shadowing <= 0) {
+    found.not_tested.push_back(cause->id + ": not testable: the world states no shadowing");
+    return;
+  }
+  found.searched.push_back(cause->id);
+  const LawTest test = field_test(field, found.instrument.step, law, said, s.bench);
+  if (beyond_chance(test, alpha_of_field) && !world_draws_alike(s)) found.causes.push_back(named(s, *cause, test));
+}
+
+// Either law can be taken for a part of the other: the weaker one of both stands only if it is beyond doubt.
+void leave_the_stronger(Diagnosis& found) {
+  constexpr double doubt = 30;  // of lambda
+  const auto weaker = std::min_element(found.causes.end() - 2, found.causes.end(),
+                                       [](const FoundCause& a, const FoundCause& b) { return a.lambda < b.lambda; });
+  if (weaker->lambda < doubt) found.causes.erase(weaker);
+}
+
+// A link that passes the end of a wall closely may as well pass on its other side; one that does is off by the wall,
+// and three of those among 20,000 readings look like outliers.
+VectorXd without_grazing(const LawSources& s, const VectorXd& residual, Diagnosis& found) {
+  constexpr double as_exact_as_places = 0.005, much = 0.5;  // m: surveys write centimetres; dB: half a unit of RSSI
+  const VectorXd unsure = s.model.changes_aside(as_exact_as_places)(s.used);
+  const auto grazes = unsure.array() > much;
+  if (const Index count = grazes.count())
+    found.notes.push_back(fmt::format(
+        "{} of {} readings pass within {:.0f} mm of where a wall ends: how single readings scatter is asked without "
+        "them",
+        count, residual.size(), 1000 * as_exact_as_places));
+  return grazes.select(std::nan(""), residual);
+}
+
+// What asks single readings, one after the other.
+void add_laws_of_readings(const LawSources& s, const VectorXd& all, Diagnosis& found) {
+  const std::string why = why_not(s, all);
+  for (const char* id : {"effect.fading_law", "effect.outliers", "effect.channel_mixture"}) {
+    if (!cause_called(s, id)) continue;
+    why.empty() ? found.searched.push_back(id) : found.not_tested.push_back(std::string(id) + ": " + why);
+  }
+  if (!why.empty()) {
+    if (cause_called(s, "effect.shadowing_correlation"))
+      found.not_tested.push_back("effect.shadowing_correlation: " + why);
+    return;
+  }
+  ReadingField field(s.bench.problem().readings, without_grazing(s, all, found));
+  const std::size_t before = found.causes.size();
+  const ReadingLaw law = add_scatter(s, field, found);
+  add_field(s, field, law, found);
+  if (found.causes.size() == before + 2) leave_the_stronger(found);
+}
+
+// What changes in time may be the very bursts.
+bool all_changes_in_time(const Diagnosis& found) {
+  const auto in_time = [](const auto& one) { return one.changes_in_time(); };
+  return std::all_of(found.causes.begin(), found.causes.end(), in_time) &&
+         std::all_of(found.unexplained.begin(), found.unexplained.end(), in_time);
+}
+
+// Whether they are named.
+bool add_people(const LawSources& s, const VectorXd& residual, Diagnosis& found) {
+  const Cause* const cause = cause_called(s, "effect.people");
+  if (!cause) return false;
+  if (s.data.t.empty()) {
+    found.not_tested.push_back(cause->id + ": not testable: the data have no t");
+    return false;
+  }
+  if (s.model.has_plugin(cause->id)) {
+    found.searched.push_back(cause->id);
+    return false;
+  }
+  const Passages passages = passages_of(s.bench, residual.array().isFinite());
+  if (passages.links == 0) {
+    found.not_tested.push_back(cause->id + ": not testable: no link has 40 rows of readings that are no bounds");
+    return false;
+  }
+  found.searched.push_back(cause->id);
+  if (passages.radio < 0 || !beyond_chance(passages.test, alpha) ||
+      (passages.test.log_p > people_in_company && !all_changes_in_time(found)))
+    return false;
+  FoundCause out = named(s, *cause, passages.test);
+  out.row_parameter = "radio";
+  out.row = s.model.radio_name(passages.radio);
+  out.words["other"] = s.model.radio_name(passages.other);
+  out.label = "radio/" + out.row + " radio/" + out.words["other"];
+  found.causes.push_back(std::move(out));
+  return true;
+}
+
+// What people do to a link is no law of single readings.
+VectorXd without_link(const LawSources& s, const FoundCause& people, VectorXd residual) {
+  const noise::Readings& r = s.bench.problem().readings;
+  for (Index i = 0; i < residual.size(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    if (s.model.link_of(r.tx[k], r.rx[k]) == std::set{people.row, people.words.at("other")}) residual[i] = std::nan("");
+  }
+  return residual;
+}
+
+}  // namespace
+
+void add_clips(const LawSources& s, Diagnosis& found) {
+  const double step = found.instrument.step;
+  if (cause_called(s, "effect.rssi_saturation")) found.searched.push_back("effect.rssi_saturation");
+  if (cause_called(s, "effect.rssi_floor")) found.searched.push_back("effect.rssi_floor");
+  if (found.instrument.top) add_pile(s, "effect.rssi_saturation", *found.instrument.top, step, found);
+  if (found.instrument.bottom) add_pile(s, "effect.rssi_floor", *found.instrument.bottom, step, found);
+  if (!found.instrument.bottom) add_silence(s, s.fit.missing, found);
+}
+
+bool add_silence_beside(const LawSources& s, const VectorXd& mean, Diagnosis& found) {
+  const auto floor = [](const FoundCause& c) { return c.id == "effect.rssi_floor"; };
+  if (s.fit.missing.count == 0 || found.instrument.bottom || !found.named() ||
+      std::any_of(found.causes.begin(), found.causes.end(), floor))
+    return false;
+  const VectorXd& rssi = s.fit.readings.rssi;
+  const Eigen::Array<bool, Eigen::Dynamic, 1> heard = !rssi.array().isNaN();
+  const double squares = heard.select((rssi - mean).array().square(), 0).sum();
+  return add_silence(s, why_missing(rssi, mean, std::sqrt(squares / static_cast<double>(heard.count()))), found);
+}
+
+void add_laws(const LawSources& s, Diagnosis& found) {
+  const VectorXd residual = residual_of(s, found);
+  add_laws_of_readings(s, add_people(s, residual, found) ? without_link(s, found.causes.back(), residual) : residual,
+                       found);
+}
+
+}  // namespace muster::diagnosis

@@ -1,0 +1,119 @@
+#include "diagnosis/radio/laws/law_likelihood.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace muster::diagnosis {
+namespace {
+
+using Eigen::Index;
+
+constexpr Index enough_readings = 3000;  // for a first look at a law
+constexpr int farthest = 9000;           // one part in 8,000 of what readings vary by, or all but that
+
+}  // namespace
+
+double variance_of(const ReadingLaw& law, double step) {
+  return fading_variance(law.rician_k, law.averaged) + law.channel_sd * law.channel_sd +
+         law.outliers * law.half_width * law.half_width / 3 + step * step / 12;
+}
+
+ReadingDensities Judge::densities_of(const ReadingLaw& law, double log_variance, const Peak& there, double margin) {
+  const ReadingView& view = field_.view(there.shape, there.place);
+  const double size = log_variance - view.log_ratio;
+  return {law, step_, size + view.log_spread.minCoeff() - margin, size + view.log_spread.maxCoeff() + margin};
+}
+
+double Judge::at(const ReadingDensities& densities, double log_variance, const FieldShape& shape, int place,
+                 Index every) {
+  const ReadingView& view = field_.view(shape, place);
+  const double size = log_variance - view.log_ratio;
+  double sum = 0;
+  for (Index i = 0; i < field_.size(); i += every) sum += densities.log_at(view.error[i], size + view.log_spread[i]);
+  return sum * static_cast<double>(every);
+}
+
+Peak Judge::best(const ReadingLaw& law, Peak from) {
+  const double log_variance = std::log(variance_of(law, step_));
+  from.place = std::clamp(from.place, -farthest, farthest);
+  for (int way = 0;;) {
+    // For two tries either way.
+    const ReadingDensities densities = densities_of(law, log_variance, from, 0.5);
+    const auto value = [&](int by) { return at(densities, log_variance, from.shape, from.place + by * places); };
+    const double here = value(0), below = value(-1), above = value(1);
+    const int better = std::max(below, above) <= here ? 0 : above > below ? 1 : -1;
+    if (better == 0 || better == -way || std::abs(from.place + better * places) > farthest) {
+      const double bend = 2 * here - below - above, slope = (above - below) / 2;
+      const bool top = bend > 0 && std::abs(slope) <= bend;  // within a try; on a slope it may lie anywhere
+      from.value = top ? here + slope * slope / (2 * bend) : here;
+      return from;
+    }
+    way = better;
+    from.place += way * places;
+  }
+}
+
+Peak Judge::best_distance(const ReadingLaw& law, const Peak& from) {
+  Peak best = this->best(law, from);
+  for (const int way : {-distances, distances}) {
+    for (int step = 0; step < 4; ++step) {
+      Peak next = best;
+      next.shape.distance += way;
+      next = this->best(law, next);
+      if (next.value <= best.value) break;
+      best = next;
+    }
+  }
+  return best;
+}
+
+Peak Judge::closer_distance(const ReadingLaw& law, Peak best) {
+  for (int by = distances / 2; by >= distances / 16; by /= 2) {
+    for (const int way : {-by, by}) {
+      Peak next = best;
+      next.shape.distance += way;
+      next = this->best(law, next);
+      if (next.value <= best.value) continue;
+      best = next;
+      break;
+    }
+  }
+  return best;
+}
+
+std::vector<Peak> Judge::shapes(const ReadingLaw& law, const noise::Covariance& from) {
+  constexpr Index many = 30000, some = 10000;
+  constexpr double hopeless = 60;  // nats behind the best: a step of the distance wins less
+  if (field_.size() < many) return shapes_by_all(law, from);
+  ReadingField sample = field_.some(some);
+  std::vector<Peak> result = Judge(sample, step_).shapes_by_all(law, from);
+  double most = -1e300;
+  for (Peak& peak : result) most = std::max(most, peak.value = value(law, peak));
+  for (Peak& peak : result) {
+    if (peak.value > most - hopeless) peak = best_distance(law, peak);
+  }
+  return result;
+}
+
+std::vector<Peak> Judge::shapes_by_all(const ReadingLaw& law, const noise::Covariance& from) {
+  std::vector<Peak> result;
+  const auto place = static_cast<int>(std::lround(1e3 * (from.theta[2] - from.theta[0])));
+  for (const noise::Family family : noise::families) {
+    const double distance = from.theta[1] + noise::log_scale_of(family) - noise::log_scale_of(from.family);
+    result.push_back(best_distance(law, {0, {family, static_cast<int>(std::lround(1e3 * distance))}, place}));
+  }
+  return result;
+}
+
+double Judge::value(const ReadingLaw& law, const Peak& there) {
+  const double log_variance = std::log(variance_of(law, step_));
+  return at(densities_of(law, log_variance, there, 0), log_variance, there.shape, there.place);
+}
+
+double Judge::about(const ReadingLaw& law, const Peak& there) {
+  const double log_variance = std::log(variance_of(law, step_));
+  const Index every = field_.size() / enough_readings + 1;
+  return at(densities_of(law, log_variance, there, 0), log_variance, there.shape, there.place, every);
+}
+
+}  // namespace muster::diagnosis

@@ -1,0 +1,126 @@
+#include "diagnosis/radio/links/geometry_checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <muster/tables.hpp>
+#include <set>
+
+#include "text/names.hpp"
+#include "text/number.hpp"
+
+namespace muster::diagnosis {
+namespace {
+
+struct Plan {
+  double x0 = 1e300, y0 = 1e300, x1 = -1e300, y1 = -1e300;
+  bool holds(double x, double y, double margin) const {
+    return x >= x0 - margin && x <= x1 + margin && y >= y0 - margin && y <= y1 + margin;
+  }
+};
+
+Plan plan_of(const LinkModel& model) {
+  Plan plan;
+  const Table* table = model.simulation().board().find("wall/*/shape");
+  for (std::size_t i = 0; table && i < table->now().rows; ++i) {
+    const Wall& w = reinterpret_cast<const Wall*>(table->now().data.data())[i];
+    plan.x0 = std::min({plan.x0, w.x0, w.x1}), plan.x1 = std::max({plan.x1, w.x0, w.x1});
+    plan.y0 = std::min({plan.y0, w.y0, w.y1}), plan.y1 = std::max({plan.y1, w.y0, w.y1});
+  }
+  return plan;
+}
+
+// Half of the readings outside of the walls' box, nearly none if x and y change places: no chance does that.
+void check_plan(const LinkModel& model, const Dataset& data) {
+  const Plan plan = plan_of(model);
+  if (plan.x1 <= plan.x0 || plan.y1 <= plan.y0) return;
+  const double margin = 1;  // m
+  double outside = 0, turned_outside = 0;
+  std::size_t first = data.rows();
+  for (std::size_t row = 0; row < model.rows(); ++row) {
+    for (const End& end : model.ends()[row]) {
+      const bool out = !plan.holds(end.x, end.y, margin);
+      outside += out;
+      turned_outside += !plan.holds(end.y, end.x, margin);
+      if (out) first = std::min(first, row);
+    }
+  }
+  const double ends = 2 * static_cast<double>(model.rows());
+  if (outside < 0.1 * ends || turned_outside > 0.01 * ends) return;
+  throw invalid(data.table.place(first, 0),
+                "row " + std::to_string(first + 1) +
+                    " and others lie outside of the world's walls, and inside if x and y change "
+                    "places; expected x to the east and y to the north, as in the world");
+}
+
+// Whether a radio is at places that lie this far apart.
+bool moves(const LinkModel& model, int radio, double least) {
+  const End* first = nullptr;
+  for (const auto& ends : model.ends()) {
+    for (const End& end : ends) {
+      if (end.radio != radio) continue;
+      if (!first) first = &end;
+      if (std::hypot(end.x - first->x, end.y - first->y) > least) return true;
+    }
+  }
+  return false;
+}
+
+void check_stations(const LinkModel& model, Dataset& data) {
+  const Table* mounts = model.simulation().board().find("radio/*/mount");
+  std::set<int> seen;
+  for (std::size_t row = 0; row < model.rows(); ++row) {
+    for (const End& end : model.ends()[row]) {
+      const Mount& mount = reinterpret_cast<const Mount*>(mounts->now().data.data())[end.radio];
+      if (!seen.insert(end.radio).second || !std::isnan(mount.robot)) continue;
+      const double off = std::hypot(end.x - mount.x, end.y - mount.y),
+                   turned = std::hypot(end.y - mount.x, end.x - mount.y);
+      const std::string name = model.radio_name(end.radio);
+      const auto& declared = model.simulation().world().rows;
+      if (std::none_of(declared.begin(), declared.end(), [&](const RowDeclaration& r) { return r.name == name; }))
+        continue;
+      if (off <= 1) continue;
+      const auto place = [](double x, double y) { return "x = " + print_real(x) + ", y = " + print_real(y) + " m"; };
+      const std::string there = place(mount.x, mount.y) + " in the world",
+                        what = quote(name) + " stands at " + place(end.x, end.y) + " in the data and at " + there;
+      if (turned < 0.01) throw invalid(data.table.place(row, 0), what + ": x and y are exchanged");
+      if (moves(model, end.radio, 0.5))
+        data.notes.push_back(quote(name) + " moves in the data and stands at " + there +
+                             "; the data's places are used");
+      else
+        data.notes.push_back(what + "; the data's place is used");
+    }
+  }
+}
+
+}  // namespace
+
+std::string list_of(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 5;
+  std::string result;
+  for (std::size_t k = 0; k < std::min(most, names.size()); ++k) result += (k ? ", " : "") + quote(names[k]);
+  return names.size() <= most ? result : result + " and " + std::to_string(names.size() - most) + " more";
+}
+
+void note_radios(const LinkModel& model, Dataset& data) {
+  const std::vector<std::string> added = model.added_radios();
+  if (added.empty()) return;
+  std::vector<std::string> silent = model.radio_names();
+  for (const Factor* heard : {&data.tx, &data.rx})
+    for (const std::string& name : heard->levels) std::erase(silent, name);
+  std::string words = "radios of the data that the world does not have: " + list_of(added) +
+                      "; no cause of a diagnosis can be about them alone (<station name=" + quote(added[0]) +
+                      " at=\"x y z\"/> in the world would add the first)";
+  if (!silent.empty()) words += "; radios of the world without a reading: " + list_of(silent);
+  for (const std::string& name : added) {
+    if (const std::string near = nearest(name, silent); !near.empty())
+      words += "; by " + quote(name) + ", did you mean " + quote(near) + "?";
+  }
+  data.notes.push_back(words);
+}
+
+void check_places(const LinkModel& model, Dataset& data) {
+  check_plan(model, data);
+  check_stations(model, data);
+}
+
+}  // namespace muster::diagnosis

@@ -1,0 +1,180 @@
+#include "diagnosis/radio/links/link_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "text/number.hpp"
+#include "text/text_table.hpp"
+
+namespace muster::diagnosis {
+namespace {
+
+constexpr const char* stand_in = "data";  // name of the instance of data.links
+
+// What lists links by the clock gives way to what lists the measured ones.
+bool lists_links(const InstanceDeclaration& instance) {
+  return instance.plugin == "radio.links" || instance.plugin == "data.links";
+}
+
+// False also where the file is no table: whoever reads it will say so.
+bool has_columns_of(const TextTable& data, const std::filesystem::path& file) try {
+  const TextTable table = TextTable::read(file);
+  return std::all_of(table.columns().begin(), table.columns().end(), [&](const TextColumn& column) {
+    const auto found = data.find(column.name);
+    return found && data.columns()[*found].unit == column.unit;
+  });
+} catch (const Error&) {
+  return false;
+}
+
+// What a world's file tells of the times of one measurement, such as to which power each radio was set, readings of
+// other times tell of theirs: where they have all columns of an instance's `file`, they stand in for it.
+void take_settings_from(const std::filesystem::path& data, World& world) {
+  std::optional<TextTable> readings;
+  for (InstanceDeclaration& instance : world.instances) {
+    for (XmlAttribute& attribute : instance.attributes) {
+      if (attribute.name != "file") continue;
+      if (!readings) readings = TextTable::read(data);
+      if (has_columns_of(*readings, world.file.parent_path() / attribute.value))
+        attribute.value = std::filesystem::absolute(data).string();
+    }
+  }
+}
+
+// What lies beyond the scene is told by the term that asks the scene, which knows the world's file and not the data's.
+void refuse_far_places(const std::filesystem::path& data) {
+  constexpr double farthest = 1000;  // m, as of the scene
+  const TextTable table = TextTable::read(data);
+  std::optional<std::pair<std::size_t, std::size_t>> first;  // row, column
+  double far = 0;
+  for (const char* name : {"tx_x", "tx_y", "tx_z", "rx_x", "rx_y", "rx_z", "distance"}) {
+    const auto column = table.find(name);
+    if (!column) continue;
+    const std::vector<double> places = table.reals(*column, {.empty = true});
+    const auto at = std::find_if(places.begin(), places.end(), [](double v) { return std::abs(v) > farthest; });
+    const std::pair here(static_cast<std::size_t>(at - places.begin()), *column);
+    if (at == places.end() || (first && *first < here)) continue;
+    first = here;
+    far = *at;
+  }
+  if (first)
+    throw invalid(table.place(first->first, first->second),
+                  "row " + std::to_string(first->first + 1) + ": " + print_real(far) +
+                      " m lies beyond the world's scene; expected metres within " + print_real(farthest) +
+                      " m (is it another unit, such as millimetres?)");
+}
+
+World world_for(const std::filesystem::path& file, const std::filesystem::path& data) {
+  World world = read_world(file, standard());
+  std::erase_if(world.instances, lists_links);
+  std::erase_if(world.swaps, [](const SwapDeclaration& s) { return lists_links(s.replacement); });
+  take_settings_from(data, world);
+  return world;
+}
+
+Options options_for(const World& world, const std::filesystem::path& data, const Library::SearchPath& plugins) {
+  const Place place{world.file.string()};
+  Options options;
+  options.search_path = plugins;
+  options.more.push_back(measured_links(data, place));
+  const auto is_receiver = [](const InstanceDeclaration& i) { return i.plugin == "radio.receiver"; };
+  if (std::none_of(world.instances.begin(), world.instances.end(), is_receiver))
+    options.more.push_back({"radio.receiver", "receiver", 1, {}, {}, {}, place});
+  return options;
+}
+
+}  // namespace
+
+InstanceDeclaration measured_links(const std::filesystem::path& file, const Place& place) {
+  return {"data.links", stand_in, 1, {}, {}, {{"file", std::filesystem::absolute(file).string(), place, place}}, place};
+}
+
+FirstColumn first_column(const TableView& table) {
+  const auto rows = static_cast<Eigen::Index>(table.rows()), columns = static_cast<Eigen::Index>(table.cols());
+  return {table.table->now().data.data(), rows, Eigen::InnerStride<>(columns)};
+}
+
+LinkModel::LinkModel(const std::filesystem::path& world, const std::filesystem::path& data,
+                     const Library::SearchPath& plugins) {
+  World declared = world_for(world, data);
+  Options options = options_for(declared, data, plugins);
+  run_ = std::make_unique<Simulation>(std::move(declared), standard(), std::move(options));
+  try {
+    evaluate(true);
+  } catch (const Error& error) {
+    if (std::string_view(error.what()).find("beyond the scene") != std::string_view::npos) refuse_far_places(data);
+    throw;
+  }
+  read_ends();
+}
+
+void LinkModel::evaluate(bool expected) {
+  run_->evaluate(MUSTER_RADIO, expected);
+  ++evaluations_;
+  values_ = first_column(run_->table("link/*/rssi"));
+}
+
+void LinkModel::read_ends() {
+  const TableView pose = run_->table("endpoint/*/pose"), radio = run_->table("endpoint/*/radio");
+  const auto end = [&](std::size_t i) {
+    const double qw = pose.at(i, 3), qx = pose.at(i, 4), qy = pose.at(i, 5), qz = pose.at(i, 6);
+    return End{pose.at(i, 0), pose.at(i, 1), pose.at(i, 2),
+               std::atan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz)), static_cast<int>(radio.at(i, 0))};
+  };
+  const TableView link = run_->table("link/*/ends");
+  for (std::size_t i = 0; i < link.rows(); ++i)
+    ends_.push_back({end(static_cast<std::size_t>(link.at(i, 0))), end(static_cast<std::size_t>(link.at(i, 1)))});
+}
+
+const std::vector<std::string>& LinkModel::radio_names() const { return run_->board().find_set("radio")->names; }
+
+std::string LinkModel::radio_name(int radio) const { return radio_names().at(static_cast<std::size_t>(radio)); }
+
+std::vector<std::string> LinkModel::added_radios() const {
+  std::vector<std::string> result = radio_names();
+  for (const RowDeclaration& row : run_->world().rows) {
+    if (std::find(row.sets.begin(), row.sets.end(), "radio") != row.sets.end()) std::erase(result, row.name);
+  }
+  return result;
+}
+
+std::set<std::string> LinkModel::link_of(int one, int other) const { return {radio_name(one), radio_name(other)}; }
+
+const Eigen::VectorXd& LinkModel::expected() {
+  evaluate(true);
+  return values_;
+}
+
+Eigen::VectorXd LinkModel::changes_aside(double metres) {
+  const std::string aside = std::string(stand_in) + "/aside";
+  const Eigen::VectorXd here = expected();
+  Eigen::VectorXd most = Eigen::VectorXd::Zero(here.size());
+  for (const double by : {-metres, metres}) {
+    set(aside, by);
+    most = most.cwiseMax((expected() - here).cwiseAbs());
+  }
+  set(aside, 0);
+  return most;
+}
+
+Eigen::VectorXd LinkModel::drawn() {
+  evaluate(false);
+  return values_;
+}
+
+bool LinkModel::has_plugin(const std::string& plugin) const {
+  const auto& all = run_->instances();
+  return std::any_of(all.begin(), all.end(), [&](const auto& i) { return i->declared().plugin == plugin; });
+}
+
+double LinkModel::value_of(const std::string& plugin, const std::string& param, double otherwise) const {
+  for (const auto& instance : run_->instances()) {
+    if (instance->declared().plugin != plugin) continue;
+    const int at = instance->find_param(param);
+    if (at >= 0) return instance->params()[static_cast<std::size_t>(at)];
+  }
+  return otherwise;
+}
+
+}  // namespace muster::diagnosis

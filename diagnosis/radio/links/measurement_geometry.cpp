@@ -1,0 +1,205 @@
+#include "diagnosis/radio/links/measurement_geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <muster/tables.hpp>
+
+#include "diagnosis/radio/links/link_features.hpp"
+
+namespace muster::diagnosis {
+namespace {
+
+constexpr double quarter_turn = 1.5707963267948966;
+
+void widen(Span& span, double value, bool first) {
+  span.low = first ? value : std::min(span.low, value);
+  span.high = first ? value : std::max(span.high, value);
+}
+
+// The direction that walls have in common but for quarter turns, by the mean of fourfold angles, long walls first.
+double direction_of_walls(const LinkModel& model) {
+  const Table* table = model.simulation().board().find("wall/*/shape");
+  if (!table) return 0;
+  const auto* walls = reinterpret_cast<const Wall*>(table->now().data.data());
+  double c = 0, s = 0;
+  for (std::size_t k = 0; k < table->now().rows; ++k) {
+    const double x = walls[k].x1 - walls[k].x0, y = walls[k].y1 - walls[k].y0, length = std::hypot(x, y);
+    c += length * std::cos(4 * std::atan2(y, x));
+    s += length * std::sin(4 * std::atan2(y, x));
+  }
+  const double angle = std::atan2(s, c) / 4;
+  return angle < 0 ? angle + quarter_turn : angle;
+}
+
+// Walls in one line, as one.
+struct Line {
+  double angle, offset, from, to;  // rad in [0, pi); m across and along that direction
+};
+
+std::vector<Line> lines_of(const LinkModel& model) {
+  std::vector<Line> lines;
+  const Table* table = model.simulation().board().find("wall/*/shape");
+  if (!table) return lines;
+  const auto* walls = reinterpret_cast<const Wall*>(table->now().data.data());
+  for (std::size_t k = 0; k < table->now().rows; ++k) {
+    const Wall& w = walls[k];
+    if (std::hypot(w.x1 - w.x0, w.y1 - w.y0) < 1) continue;
+    double angle = std::atan2(w.y1 - w.y0, w.x1 - w.x0);
+    if (angle < 0) angle += 2 * quarter_turn;
+    if (angle > 2 * quarter_turn - 0.03) angle -= 2 * quarter_turn;
+    const auto same = std::find_if(lines.begin(), lines.end(), [&](const Line& l) {
+      const double across = -std::sin(l.angle) * w.x0 + std::cos(l.angle) * w.y0;
+      return std::abs(l.angle - angle) < 0.05 && std::abs(across - l.offset) < 0.3;
+    });
+    const double a = same != lines.end() ? same->angle : angle;
+    const double at0 = std::cos(a) * w.x0 + std::sin(a) * w.y0, at1 = std::cos(a) * w.x1 + std::sin(a) * w.y1;
+    if (same == lines.end()) {
+      lines.push_back({a, -std::sin(a) * w.x0 + std::cos(a) * w.y0, std::min(at0, at1), std::max(at0, at1)});
+    } else {
+      same->from = std::min({same->from, at0, at1});
+      same->to = std::max({same->to, at0, at1});
+    }
+  }
+  return lines;
+}
+
+std::vector<Strip> strips_of(const LinkModel& model) {
+  constexpr double narrowest = 1, widest = 5, shortest = 5;  // m
+  constexpr std::size_t most = 12;
+  std::vector<Strip> strips;
+  const std::vector<Line> lines = lines_of(model);
+  for (const Line& a : lines) {
+    for (const Line& b : lines) {
+      const double width = b.offset - a.offset, from = std::max(a.from, b.from), to = std::min(a.to, b.to);
+      if (std::abs(a.angle - b.angle) > 0.05 || width < narrowest || width > widest || to - from < shortest) continue;
+      const double along = (from + to) / 2, across = (a.offset + b.offset) / 2, c = std::cos(a.angle),
+                   s = std::sin(a.angle);
+      strips.push_back({c * along - s * across, s * along + c * across, to - from, a.angle, width});
+    }
+  }
+  std::stable_sort(strips.begin(), strips.end(), [](const Strip& a, const Strip& b) { return a.length > b.length; });
+  if (strips.size() > most) strips.resize(most);
+  return strips;
+}
+
+// Rooms in which moving radios took one reading in fifty, or more.
+std::vector<Strip> rooms_visited(const LinkModel& model, const Survey& survey) {
+  constexpr std::size_t least = 50;
+  const Table* table = model.simulation().board().find("wall/*/shape");
+  if (!table) return {};
+  const auto* walls = reinterpret_cast<const Wall*>(table->now().data.data());
+  std::vector<std::array<double, 4>> lines;
+  for (std::size_t k = 0; k < table->now().rows; ++k)
+    lines.push_back({walls[k].x0, walls[k].y0, walls[k].x1, walls[k].y1});
+  std::vector<std::array<double, 2>> places;
+  for (const auto& ends : model.ends()) {
+    for (const End& end : ends) {
+      if (survey.moves[static_cast<std::size_t>(end.radio)]) places.push_back({end.x, end.y});
+    }
+  }
+  std::vector<Strip> result;
+  for (const Room& room : rooms_of(lines, survey.plan_angle, places)) {
+    if (static_cast<std::size_t>(room.visits) * least >= places.size()) result.push_back(room.bounds);
+  }
+  return result;
+}
+
+double height_above_moving(const LinkModel& model, const Survey& survey) {
+  double top = -1e300, next = 1e300;
+  const auto each = [&](const auto& use) {
+    for (const auto& ends : model.ends())
+      for (const End& end : ends) use(end);
+  };
+  each([&](const End& end) {
+    if (survey.moves[static_cast<std::size_t>(end.radio)]) top = std::max(top, end.z);
+  });
+  each([&](const End& end) { next = end.z > top ? std::min(next, end.z) : next; });
+  return top < -1e299 || next > 1e299 ? survey.height.high : (top + next) / 2;
+}
+
+struct Trail {
+  Span east, north, yaw;
+  std::vector<std::array<double, 2>> places;  // at least 0.2 m from one to the next
+  std::vector<double> headings;               // at least 0.2 rad
+
+  // A radio that was set up a few times stands still nevertheless.
+  static constexpr std::size_t set_ups = 4;
+  bool moves() const { return east.length() + north.length() > 0.5 && places.size() > set_ups; }
+  bool turns() const { return yaw.length() > 0.2 && (moves() || headings.size() > set_ups); }
+};
+
+// A leap of more than 2 m is no way that was driven.
+void follow(Trail& trail, const End& end, Survey& survey) {
+  const bool first = trail.places.empty();
+  widen(trail.east, end.x, first);
+  widen(trail.north, end.y, first);
+  widen(trail.yaw, end.yaw, first);
+  if (first || std::abs(std::remainder(end.yaw - trail.headings.back(), 2 * M_PI)) > 0.2)
+    trail.headings.push_back(end.yaw);
+  if (!first) {
+    const auto [x, y] = trail.places.back();
+    const double moved = std::hypot(end.x - x, end.y - y);
+    if (moved < 0.2) return;
+    if (moved < 2) survey.ways.push_back({x, y, end.x, end.y});
+  }
+  trail.places.push_back({end.x, end.y});
+}
+
+std::vector<std::size_t> by_time(const Dataset& data) {
+  std::vector<std::size_t> order(data.rows());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  if (!data.t.empty())
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return data.t[a] < data.t[b]; });
+  return order;
+}
+
+}  // namespace
+
+Survey survey_of(const LinkModel& model, const Dataset& data) {
+  Survey survey;
+  survey.has_time = !data.t.empty();
+  survey.has_yaw = !data.rx_yaw.empty();
+  survey.has_places = data.has_places();
+  for (const Covariate& c : data.covariates) {
+    const bool whole = std::none_of(c.values.begin(), c.values.end(), [](double v) { return std::isnan(v); });
+    if (c.name.rfind("walls_", 0) == 0 && whole && !c.values.empty())
+      survey.counted.insert(c.name.substr(6, c.name.find('[') - 6));
+  }
+  survey.plan_angle = direction_of_walls(model);
+  survey.strips = strips_of(model);
+  std::map<int, Trail> trails;
+  std::vector<double> distances;
+  bool first = true;
+  for (const std::size_t row : by_time(data)) {
+    const auto& ends = model.ends()[row];
+    for (const End& end : ends) {
+      follow(trails[end.radio], end, survey);
+      widen(survey.east, end.x, first);
+      widen(survey.north, end.y, first);
+      widen(survey.height, end.z, first);
+      first = false;
+    }
+    if (survey.has_time) widen(survey.time, data.t[row], distances.empty());
+    distances.push_back(std::hypot(std::hypot(ends[0].x - ends[1].x, ends[0].y - ends[1].y), ends[0].z - ends[1].z));
+  }
+  std::sort(survey.ways.begin(), survey.ways.end());
+  survey.has_height = survey.height.length() > 0.3;
+  std::sort(distances.begin(), distances.end());
+  const auto quantile = [&](double share) {
+    return distances.at(static_cast<std::size_t>(share * static_cast<double>(distances.size() - 1)));
+  };
+  survey.distance = {std::max(quantile(0.1), 0.5), quantile(0.85)};
+  for (const auto& [radio, trail] : trails) {
+    survey.turns.resize(static_cast<std::size_t>(radio) + 1, false);
+    survey.moves.resize(static_cast<std::size_t>(radio) + 1, false);
+    survey.turns[static_cast<std::size_t>(radio)] = trail.turns();
+    survey.moves[static_cast<std::size_t>(radio)] = trail.moves();
+    if (!trail.moves()) survey.standing.insert(survey.standing.end(), trail.places.begin(), trail.places.end());
+  }
+  survey.rooms = rooms_visited(model, survey);
+  survey.above_moving = height_above_moving(model, survey);
+  return survey;
+}
+
+}  // namespace muster::diagnosis

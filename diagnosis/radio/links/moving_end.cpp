@@ -1,0 +1,57 @@
+#include "diagnosis/radio/links/moving_end.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace muster::inference {
+namespace {
+
+using noise::Index;
+
+// How far a radio got from where it was first.
+class Ways {
+ public:
+  explicit Ways(const noise::Readings& r) {
+    for (Index i = 0; i < r.size(); ++i) {
+      add(r.tx[static_cast<std::size_t>(i)], r.tx_at.col(i));
+      add(r.rx[static_cast<std::size_t>(i)], r.rx_at.col(i));
+    }
+  }
+
+  double of(int radio) const { return seen_.at(radio).farthest; }
+
+ private:
+  struct Way {
+    Eigen::Vector3d first;
+    double farthest;
+  };
+
+  void add(int radio, const Eigen::Vector3d& at) {
+    Way& way = seen_.try_emplace(radio, Way{at, 0}).first->second;
+    way.farthest = std::max(way.farthest, (at - way.first).norm());
+  }
+
+  std::map<int, Way> seen_;
+};
+
+}  // namespace
+
+MovingEnds moving_ends(const noise::Readings& readings) {
+  const Index n = readings.size();
+  const Ways ways(readings);
+  MovingEnds result{Eigen::MatrixXd(n, 2), Eigen::VectorXd::Zero(n), Eigen::VectorXd(n)};
+  for (Index i = 0; i < n; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const Eigen::Vector3d to_tx = readings.tx_at.col(i) - readings.rx_at.col(i);
+    const bool sends = ways.of(readings.tx[k]) > ways.of(readings.rx[k]);
+    result.place.row(i) = (sends ? readings.tx_at : readings.rx_at).col(i).head<2>().transpose();
+    const bool from_tx = sends && !readings.tx_yaw.empty();
+    if (from_tx || !readings.rx_yaw.empty()) result.heading[i] = from_tx ? readings.tx_yaw[k] : readings.rx_yaw[k];
+    const double sign = from_tx ? -1 : 1;
+    result.bearing[i] = std::atan2(sign * to_tx.y(), sign * to_tx.x()) - result.heading[i];
+  }
+  return result;
+}
+
+}  // namespace muster::inference

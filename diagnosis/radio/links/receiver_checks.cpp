@@ -1,0 +1,164 @@
+#include "diagnosis/radio/links/receiver_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace muster::diagnosis {
+namespace {
+
+using Codes = std::map<double, std::size_t>;  // readings at each level
+
+Codes codes_of(const Dataset& data) {
+  Codes codes;
+  for (const double v : data.rssi) {
+    if (!std::isnan(v)) ++codes[v];
+  }
+  return codes;
+}
+
+// All levels lie on one grid, whose step is the least distance between two of them.
+double step_of(const Codes& codes, std::size_t readings) {
+  if (codes.size() < 3 || codes.size() > readings / 4) return 0;
+  double least = 1e300;
+  for (auto it = std::next(codes.begin()); it != codes.end(); ++it)
+    least = std::min(least, it->first - std::prev(it)->first);
+  const double first = codes.begin()->first;
+  const bool all = std::all_of(codes.begin(), codes.end(), [&](const auto& code) {
+    return std::abs(std::remainder(code.first - first, least)) < 1e-6 * least + 1e-9;
+  });
+  return all ? least : 0;
+}
+
+// log P(X >= k) of n throws that each hit with this chance.
+double log_binomial_tail(std::size_t k, std::size_t n, double chance) {
+  double most = -1e300;
+  std::vector<double> terms;
+  const auto count = static_cast<double>(n);
+  for (std::size_t i = k; i <= n; ++i) {
+    const auto x = static_cast<double>(i);
+    terms.push_back(std::lgamma(count + 1) - std::lgamma(x + 1) - std::lgamma(count - x + 1) + x * std::log(chance) +
+                    (count - x) * std::log1p(-chance));
+    most = std::max(most, terms.back());
+  }
+  double sum = 0;
+  for (const double t : terms) sum += std::exp(t - most);
+  return std::min(most + std::log(sum), 0.0);
+}
+
+// A law that falls off towards its end has no more readings at the last code than at any of the codes before it, the
+// nearest first.
+std::optional<Clip> pile(const Dataset& data, double level, std::size_t count, const std::vector<std::size_t>& before) {
+  constexpr std::size_t least = 15;
+  if (count < least || count <= 2 * before[0]) return {};
+  const std::size_t all = std::accumulate(before.begin(), before.end(), count);
+  Clip clip{level, count, before[0], log_binomial_tail(count, all, 1 / (1.0 + static_cast<double>(before.size()))), 0};
+  if (clip.log_p > std::log(1e-6)) return {};
+  clip.row = static_cast<std::size_t>(std::find(data.rssi.begin(), data.rssi.end(), level) - data.rssi.begin());
+  return clip;
+}
+
+std::size_t at(const Codes& codes, double level) {
+  const auto found = codes.lower_bound(level - 1e-6);
+  return found != codes.end() && found->first < level + 1e-6 ? found->second : 0;
+}
+
+InstrumentCheck pile_check(const std::string& end, const std::optional<Clip>& clip, double level, std::size_t count) {
+  InstrumentCheck check{"readings that pile up at the " + end + " level", "", !clip, {}};
+  check.found = fmt::format("{} at {:.6g} dBm", count, level);
+  if (!clip) return check;
+  check.found += ", " + std::to_string(clip->beside) + " beside it: clipped";
+  check.row = clip->row + 1;
+  return check;
+}
+
+std::string step_in_words(double step, std::size_t levels, std::size_t readings) {
+  if (step > 0) return fmt::format("{:.6g} dB", step);
+  if (levels >= 3 && levels <= readings / 4) return "none: no common step";
+  return fmt::format(
+      "not known: {} readings of {} levels are too few to tell; three levels and four readings a level would do",
+      readings, levels);
+}
+
+// The levels of the few readings, from one end on, that a gap parts from all others; 30 dB, since in Rayleigh fading
+// the lowest of many readings lies 20 dB below the next in one record of a hundred, 30 in one of a thousand.
+template <class It>
+std::vector<double> parted(It from, const It& end) {
+  constexpr double gap = 30;  // dB
+  constexpr std::size_t few = 3;
+  std::vector<double> levels;
+  std::size_t count = 0;
+  for (; from != end && std::next(from) != end && count + from->second <= few; ++from) {
+    count += from->second;
+    levels.push_back(from->first);
+    if (std::abs(std::next(from)->first - from->first) >= gap) return levels;
+  }
+  return {};
+}
+
+InstrumentCheck outliers_check(const Dataset& data, const Codes& codes, const std::string& none) {
+  InstrumentCheck check{"one to three readings 30 dB or more from all others", none, true, {}};
+  std::vector<double> levels = parted(codes.begin(), codes.end());
+  if (levels.empty()) levels = parted(codes.rbegin(), codes.rend());
+  if (levels.empty()) return check;
+  check.fine = false;
+  check.found = fmt::format("{:.6g} dBm", levels[0]);
+  check.row =
+      static_cast<std::size_t>(std::find(data.rssi.begin(), data.rssi.end(), levels[0]) - data.rssi.begin()) + 1;
+  return check;
+}
+
+// No receiver is fed a milliwatt most of the time.
+InstrumentCheck unit_check(const Dataset& data, const std::string& none) {
+  const auto above = [](double v) { return v > 0; };
+  const auto count = static_cast<std::size_t>(std::count_if(data.rssi.begin(), data.rssi.end(), above));
+  InstrumentCheck check{"levels above 0 dBm, a milliwatt at the receiver", none, 2 * count <= data.heard(), {}};
+  if (count == 0) return check;
+  check.found = fmt::format("{} of {} readings", count, data.heard());
+  if (!check.fine) check.found += ": are they in mW (dBm = 10 log10 of mW), or is a sign lost?";
+  check.row = static_cast<std::size_t>(std::find_if(data.rssi.begin(), data.rssi.end(), above) - data.rssi.begin()) + 1;
+  return check;
+}
+
+}  // namespace
+
+Instrument instrument_of(const Dataset& data) {
+  Instrument result;
+  const Codes codes = codes_of(data);
+  result.step = step_of(codes, data.heard());
+  const auto low = codes.begin(), high = std::prev(codes.end());
+  const auto before = [&](double level, double inward, double next) -> std::vector<std::size_t> {
+    if (result.step <= 0) return {at(codes, next)};
+    std::vector<std::size_t> counts;
+    for (const int steps : {1, 2, 3}) counts.push_back(at(codes, level + inward * steps * result.step));
+    return counts;
+  };
+  if (codes.size() > 2) {
+    result.top = pile(data, high->first, high->second, before(high->first, -1, std::prev(high)->first));
+    result.bottom = pile(data, low->first, low->second, before(low->first, 1, std::next(low)->first));
+  }
+  result.checks.push_back(
+      {"the step between readings", step_in_words(result.step, codes.size(), data.heard()), true, {}});
+  result.checks.push_back(pile_check("highest", result.top, high->first, high->second));
+  result.checks.push_back(pile_check("lowest", result.bottom, low->first, low->second));
+  const std::string rows = "none in " + std::to_string(data.rows()) + " rows";
+  if (data.t.empty()) {
+    result.checks.push_back({"readings that stand twice, time that runs backwards", "not testable: no t", true, {}});
+  } else {
+    result.checks.push_back({"readings that stand twice (t, tx, rx)", rows, true, {}});
+    result.checks.push_back({"time that runs backwards within a pair", rows, true, {}});
+  }
+  result.checks.push_back(
+      {"marks for none (0, -128) and levels that cannot be (over 30, under -174 dBm)", rows, true, {}});
+  result.checks.push_back(outliers_check(data, codes, rows));
+  result.checks.push_back(unit_check(data, rows));
+  result.checks.push_back({"rows in another unit than their column", rows, true, {}});
+  const std::size_t missing = data.rows() - data.heard();
+  result.checks.push_back({"readings that are missing", missing ? std::to_string(missing) : rows, true, {}});
+  return result;
+}
+
+}  // namespace muster::diagnosis

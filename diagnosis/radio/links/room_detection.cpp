@@ -1,0 +1,113 @@
+#include "diagnosis/radio/links/room_detection.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace muster::diagnosis {
+namespace {
+
+using Eigen::Index;
+
+constexpr double finest = 0.1;   // m: side of a cell
+constexpr double most = 4e5;     // cells
+constexpr double overlap = 0.2;  // m by which walls are drawn longer, so that their corners close
+constexpr int wall = -1, outside = 0;
+
+// Cells of the plan in its own frame, each with the number of its room.
+class Raster {
+ public:
+  Raster(const std::vector<std::array<double, 4>>& walls, double angle) : c_(std::cos(angle)), s_(std::sin(angle)) {
+    for (const auto& w : walls) {
+      for (const auto& end : {own(w[0], w[1]), own(w[2], w[3])}) {
+        low_ = low_.min(end.array());
+        high_ = high_.max(end.array());
+      }
+    }
+    const Eigen::Array2d size = high_ - low_;
+    side_ = std::max(finest, std::sqrt(size.prod() / most));
+    low_ -= overlap + 2 * side_;
+    cells_.setConstant(static_cast<Index>((size.x() + 2 * overlap) / side_) + 5,
+                       static_cast<Index>((size.y() + 2 * overlap) / side_) + 5, unknown);
+    for (const auto& w : walls) draw(own(w[0], w[1]), own(w[2], w[3]));
+    flood(0, 0, outside);
+  }
+
+  // The number of the room about a place, a new one where nobody was; wall or outside otherwise.
+  int room_at(double x, double y) {
+    const Eigen::Array2d at = (own(x, y).array() - low_) / side_;
+    if ((at < 0).any() || at.x() >= static_cast<double>(cells_.rows()) || at.y() >= static_cast<double>(cells_.cols()))
+      return outside;
+    const auto i = static_cast<Index>(at.x()), j = static_cast<Index>(at.y());
+    if (cells_(i, j) == unknown) flood(i, j, ++last_);
+    return cells_(i, j);
+  }
+
+  // Up to the middle of its walls.
+  Strip bounds(int room, double angle) const {
+    Eigen::Array2d low(1e300, 1e300), high = -low;
+    for (Index j = 0; j < cells_.cols(); ++j) {
+      for (Index i = 0; i < cells_.rows(); ++i) {
+        if (cells_(i, j) != room) continue;
+        const Eigen::Array2d at(static_cast<double>(i), static_cast<double>(j));
+        low = low.min(at - 0.5);
+        high = high.max(at + 1.5);
+      }
+    }
+    const Eigen::Array2d middle = low_ + side_ * (low + high) / 2, size = side_ * (high - low);
+    return {c_ * middle.x() - s_ * middle.y(), s_ * middle.x() + c_ * middle.y(), size.x(), angle, size.y()};
+  }
+
+ private:
+  static constexpr int unknown = -2;
+
+  Eigen::Vector2d own(double x, double y) const { return {c_ * x + s_ * y, c_ * y - s_ * x}; }
+
+  void draw(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+    const double length = (to - from).norm();
+    if (length <= 0) return;
+    const Eigen::Vector2d along = (to - from) / length;
+    for (double way = -overlap; way < length + overlap; way += side_ / 4) {
+      const Eigen::Array2d at = ((from + way * along).array() - low_) / side_;
+      cells_(static_cast<Index>(at.x()), static_cast<Index>(at.y())) = wall;
+    }
+  }
+
+  void flood(Index i, Index j, int number) {
+    std::vector<std::array<Index, 2>> open{{i, j}};
+    cells_(i, j) = number;
+    while (!open.empty()) {
+      const auto [a, b] = open.back();
+      open.pop_back();
+      for (const auto& [x, y] : {std::array{a - 1, b}, {a + 1, b}, {a, b - 1}, {a, b + 1}}) {
+        if (x < 0 || y < 0 || x >= cells_.rows() || y >= cells_.cols() || cells_(x, y) != unknown) continue;
+        cells_(x, y) = number;
+        open.push_back({x, y});
+      }
+    }
+  }
+
+  double c_, s_, side_ = finest;
+  Eigen::Array2d low_{1e300, 1e300}, high_{-1e300, -1e300};
+  Eigen::ArrayXXi cells_;
+  int last_ = outside;
+};
+
+}  // namespace
+
+std::vector<Room> rooms_of(const std::vector<std::array<double, 4>>& walls, double angle,
+                           const std::vector<std::array<double, 2>>& places) {
+  if (walls.size() < 3) return {};
+  Raster raster(walls, angle);
+  std::map<int, int> visits;
+  for (const auto& p : places) {
+    if (const int room = raster.room_at(p[0], p[1]); room > outside) ++visits[room];
+  }
+  std::vector<Room> rooms;
+  for (const auto& [room, count] : visits) rooms.push_back({raster.bounds(room, angle), count});
+  std::stable_sort(rooms.begin(), rooms.end(), [](const Room& a, const Room& b) { return a.visits > b.visits; });
+  return rooms;
+}
+
+}  // namespace muster::diagnosis

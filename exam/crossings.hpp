@@ -1,0 +1,37 @@
+// Which walls a straight link goes through, by signed areas. Places drawn at random meet no corner, so ties need no
+// rule.
+#pragma once
+
+#include <optional>
+
+#include "exam/plan.hpp"
+
+namespace muster::exam {
+
+struct Crossing {
+  int wall = 0;
+  int material = 0;
+  double cosine = 1;  // of the angle between link and the wall's normal, in plan
+};
+
+struct Meeting {
+  double along_link = 0, along_wall = 0;  // shares of their lengths
+  double cosine = 1;
+};
+
+// Where segment p q meets segment a b.
+std::optional<Meeting> meeting(Vec2 p, Vec2 q, Vec2 a, Vec2 b);
+
+// What links cross: an open door is a gap, a closed one is of its wall's material, over it the wall goes on.
+std::vector<Crossing> crossings(const Plan& plan, Vec3 from, Vec3 to);
+
+// Whether a step of a robot, on the ground, would run through a wall or a closed door.
+bool runs_into_wall(const Plan& plan, Vec2 from, Vec2 to);
+
+// Length of p q within a disk.
+double chord(Vec2 p, Vec2 q, Vec2 centre, double radius);
+
+// Length of p q within a room; ends in the world's frame.
+double length_within(const Plan& plan, const Room& room, Vec2 p, Vec2 q);
+
+}  // namespace muster::exam

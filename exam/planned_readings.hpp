@@ -1,0 +1,22 @@
+// A table of readings to be made: who is to hear whom, when, and where both stand.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "exam/plan.hpp"
+
+namespace muster::exam {
+
+struct Asked {
+  double t = 0;  // s
+  std::string tx, rx;
+  Vec3 tx_at, rx_at;
+  double tx_yaw = 0, rx_yaw = 0;  // rad
+};
+
+// Columns t[s], tx and rx, and _x[m], _y[m], _z[m] and _yaw[rad] of both, in any order. By time. Throws
+// std::runtime_error with the line.
+std::vector<Asked> read_plan(const std::string& csv);
+
+}  // namespace muster::exam

@@ -1,0 +1,18 @@
+// A case as files: what the examinee gets, and the answer.
+#pragma once
+
+#include <filesystem>
+
+#include "exam/case.hpp"
+
+namespace muster::exam {
+
+std::string world_xml(const Case& made);
+std::string walls_csv(const Plan& plan);
+std::string readings_csv(const Site& site, const Data& data);
+std::string answer_json(const Case& made);
+
+// folder/NAME/{world.xml, walls.csv, measured.csv, second.csv} and folder/answers/NAME.json
+void write_case(const Case& made, const std::filesystem::path& folder);
+
+}  // namespace muster::exam

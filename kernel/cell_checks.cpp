@@ -1,0 +1,293 @@
+#include "cell_checks.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "text/names.hpp"
+
+namespace muster {
+namespace {
+
+bool any_dead(const Set& set) {
+  return set.kind == SetKind::live && std::memchr(set.alive.data(), 0, set.alive.size());
+}
+
+void poison_row(std::vector<double>& data, std::size_t row, std::size_t width) {
+  std::fill_n(data.begin() + static_cast<std::ptrdiff_t>(row * width), width, poison());
+}
+
+// Rows that have left keep their last values, and are nobody's to fill.
+void poison_alive(std::vector<double>& data, const Table& table) {
+  const Set& set = table.set();
+  if (!any_dead(set)) return std::fill(data.begin(), data.end(), poison());
+  for (std::size_t r = 0; r < table.now().rows; ++r) {
+    if (set.alive[r]) poison_row(data, r, table.width());
+  }
+}
+
+void prepare(Claim& claim, uint64_t tick) {
+  Table& table = *claim.out;
+  if (claim.direct) {
+    if (!table.begun()) table.begin(false, tick);
+    return std::fill(table.next().data.begin(), table.next().data.end(), poison());
+  }
+  claim.appended = 0;
+  claim.puts.clear();
+  if (claim.lists || table.set().kind == SetKind::queue)
+    claim.aside.clear();  // or rows of the step before would look filled
+  const bool queue = table.set().kind == SetKind::queue;
+  if (claim.lists) return;  // begun when its rows are known
+  const bool whole = claim.row < 0 && !claim.staged;
+  if (!table.begun()) {
+    table.begin(!whole || any_dead(table.set()), tick);
+    if (claim.kind == MUSTER_MODIFY && !queue && (!whole || any_dead(table.set()))) {
+      table.next().data = claim.in->now().data;  // rows that this stage does not touch pass through
+      table.next().blobs = claim.in->now().blobs;
+    }
+  }
+  if (queue) return;
+  if (claim.staged) {
+    claim.aside.assign(table.now().data.begin(), table.now().data.end());
+    poison_alive(claim.aside, table);
+  } else if (claim.row >= 0) {
+    poison_row(table.next().data, static_cast<std::size_t>(claim.row), table.width());
+  } else {
+    poison_alive(table.next().data, table);
+  }
+}
+
+// The rows that a claim has written in this step.
+struct Written {
+  const double* data;
+  std::size_t rows;
+};
+
+Written written(const Claim& claim) {
+  const auto width = claim.columns.size();
+  if (claim.lists || claim.out->set().kind == SetKind::queue) return {claim.aside.data(), claim.appended};
+  const auto& next = claim.out->next();
+  if (claim.staged) return {claim.aside.data(), next.rows};
+  if (claim.row >= 0) return {next.data.data() + static_cast<std::size_t>(claim.row) * width, 1};
+  return {next.data.data(), next.rows};
+}
+
+std::string wrong_value(const Column& column, double value) {
+  if (std::bit_cast<uint64_t>(value) == poison_bits) return "is not filled";
+  if (std::isnan(value)) {
+    if (!column.nullable) return "is NaN";
+    return std::bit_cast<uint64_t>(value) == MUSTER_NULL_BITS ? "" : "is NaN; an empty cell is muster::null()";
+  }
+  if (std::isinf(value) && !column.infinite) return "is infinite";
+  return "";
+}
+
+std::size_t rows_of(const Instance& instance, const Set& set) {
+  for (const auto& claim : instance.claims()) {
+    if (claim.out && claim.lists && &claim.out->set() == &set) return claim.appended;
+  }
+  return set.rows();
+}
+
+// Of each column, how many rows its numbers may name; 0 where it names none.
+std::vector<double> referred_rows(const Instance& instance, const Blackboard& board, const Columns& columns) {
+  std::vector<double> rows(columns.size());
+  for (std::size_t c = 0; c < rows.size(); ++c) {
+    const Set* set = columns[c].reference.empty() ? nullptr : board.find_set(columns[c].reference);
+    if (set) rows[c] = static_cast<double>(rows_of(instance, *set));
+  }
+  return rows;
+}
+
+bool names_row(double value, double rows) {
+  return value >= 0 && value < rows && value == static_cast<double>(static_cast<std::int64_t>(value));
+}
+
+std::string wrong_reference(const Column& column, double value, double rows) {
+  if (column.reference.empty() || (column.nullable && std::isnan(value)) || names_row(value, rows)) return "";
+  return "is no row of " + column.reference;
+}
+
+std::string cell_name(const Claim& claim, std::size_t row, std::size_t column) {
+  const Set& set = claim.out->set();
+  const std::size_t number = claim.row >= 0 && set.kind != SetKind::queue ? static_cast<std::size_t>(claim.row) : row;
+  const std::string name = set.is_named() && number < set.names.size() ? set.names[number] : std::to_string(number);
+  return claim.name.set + '/' + name + '/' + claim.name.quantity + ": " + claim.columns[column].title();
+}
+
+// Rows that are not the claim's to fill: other instances', and those that have left.
+bool is_others(const Claim& claim, std::size_t row) {
+  const Set& set = claim.out->set();
+  if (claim.row < 0 && set.is_named() && !set.alive[row]) return true;
+  return claim.staged &&
+         std::find(claim.others.begin(), claim.others.end(), static_cast<int>(row)) != claim.others.end();
+}
+
+bool is_queue_of_one(const Claim& claim) { return claim.row >= 0 && claim.out->set().kind == SetKind::queue; }
+
+// Who claims one owner's queue cannot append in the name of others.
+bool speaks_for_another(const Claim& claim, double owner) { return is_queue_of_one(claim) && owner != claim.row; }
+
+// Whether all that was written is finite numbers, and rows where it stands for rows: most of what is asked of a cell,
+// without a word about any.
+bool is_plain(const Columns& columns, const Written& cells, const std::vector<double>& referred) {
+  const std::size_t width = columns.size();
+  if (columns.any_bytes() || !all_finite(cells.data, cells.rows * width)) return false;
+  for (std::size_t c = 0; c < width; ++c) {
+    for (std::size_t r = 0; !columns[c].reference.empty() && r < cells.rows; ++r) {
+      if (!names_row(cells.data[r * width + c], referred[c])) return false;
+    }
+  }
+  return true;
+}
+
+std::string check(const Instance& instance, const Blackboard& board, const Claim& claim) {
+  const auto [data, rows] = written(claim);
+  const auto width = claim.columns.size();
+  const std::vector<double> referred = referred_rows(instance, board, claim.columns);
+  if (!is_queue_of_one(claim) && is_plain(claim.columns, {data, rows}, referred)) return "";
+  for (std::size_t r = 0; r < rows; ++r) {
+    if (is_others(claim, r)) continue;
+    for (std::size_t c = 0; c < width; ++c) {
+      const auto& column = claim.columns[c];
+      if (column.bytes) continue;  // filled by put_bytes(), or empty
+      std::string wrong = wrong_value(column, data[r * width + c]);
+      if (wrong.empty()) wrong = wrong_reference(column, data[r * width + c], referred[c]);
+      if (wrong.empty() && c == 0 && speaks_for_another(claim, data[r * width]))
+        wrong = "is not " + claim.name.row + ", for which alone it may speak";
+      if (!wrong.empty()) return cell_name(claim, r, c) + ' ' + wrong;
+    }
+  }
+  return "";
+}
+
+// Bytes go to the table; a bytes cell that got none is empty, and others' rows keep theirs.
+void commit_bytes(Claim& claim, Cells& next, std::size_t first) {
+  if (!claim.out->columns().any_bytes()) return;
+  const auto width = claim.columns.size();
+  const auto rows = written(claim).rows;
+  const std::size_t start =
+      claim.row >= 0 && claim.out->set().kind != SetKind::queue ? static_cast<std::size_t>(claim.row) : first;
+  for (std::size_t c = 0; c < width; ++c) {
+    if (!claim.columns[c].bytes) continue;
+    for (std::size_t r = 0; r < rows; ++r) {
+      if (!is_others(claim, r)) next.data[(start + r) * width + c] = 0;
+    }
+  }
+  for (const auto& put : claim.puts) {
+    if (is_others(claim, put.row)) continue;
+    next.blobs.push_back(put.blob);
+    next.data[(start + put.row) * width + put.column] = static_cast<double>(next.blobs.size());
+  }
+}
+
+void commit_rows(Claim& claim, Cells& next, uint64_t tick) {
+  const auto width = claim.columns.size();
+  const auto first = next.rows;
+  next.data.insert(next.data.end(), claim.aside.begin(),
+                   claim.aside.begin() + static_cast<std::ptrdiff_t>(claim.appended * width));
+  next.rows += claim.appended;
+  next.appended.insert(next.appended.end(), claim.appended, tick);
+  commit_bytes(claim, next, first);
+}
+
+void commit_listed(Claim& claim, uint64_t tick) {
+  claim.out->begin(false, tick);
+  std::copy_n(claim.aside.begin(), claim.appended * claim.columns.size(), claim.out->next().data.begin());
+  commit_bytes(claim, claim.out->next(), 0);
+}
+
+// Where others write rows of the same table, or wrote them last: bytes of theirs are not this step's.
+void commit_rest(Claim& claim) {
+  const auto width = claim.columns.size();
+  auto& next = claim.out->next();
+  for (std::size_t r = 0; r < next.rows; ++r) {
+    if (is_others(claim, r)) continue;
+    for (std::size_t c = 0; c < width; ++c) {
+      if (!claim.columns[c].bytes) next.data[r * width + c] = claim.aside[r * width + c];
+    }
+  }
+  commit_bytes(claim, next, 0);
+}
+
+// Rows that have left keep their values, whoever still writes them.
+void keep_left(Claim& claim) {
+  Table& table = *claim.out;
+  if (!any_dead(table.set())) return;
+  const auto width = table.width();
+  for (std::size_t r = 0; r < table.now().rows; ++r) {
+    if (table.set().alive[r]) continue;
+    for (std::size_t c = 0; c < width; ++c) {
+      double value = table.now().data[r * width + c];
+      if (table.columns()[c].bytes && value != 0) {
+        table.next().blobs.push_back(table.now().blobs[static_cast<std::size_t>(value) - 1]);
+        value = static_cast<double>(table.next().blobs.size());
+      }
+      table.next().data[r * width + c] = value;
+    }
+  }
+}
+
+// All tables of a listed set that one instance lists must have the same rows.
+std::string commit_lists(Instance& instance, uint64_t tick) {
+  for (auto& claim : instance.claims()) {
+    if (!claim.out || !claim.lists) continue;
+    for (const auto& other : instance.claims()) {
+      if (&other == &claim) break;
+      if (!other.out || !other.lists || &other.out->set() != &claim.out->set() || other.appended == claim.appended)
+        continue;
+      return "lists " + std::to_string(other.appended) + " rows of " + other.name.logical() + ", but " +
+             std::to_string(claim.appended) + " of " + claim.name.logical();
+    }
+    claim.out->set().listed = claim.appended;
+    commit_listed(claim, tick);
+  }
+  return "";
+}
+
+}  // namespace
+
+bool all_finite(const double* data, std::size_t count) {
+  constexpr std::size_t lanes = 8;  // sums that need not wait for one another
+  double sums[lanes] = {};
+  std::size_t i = 0;
+  for (; i + lanes <= count; i += lanes) {
+    for (std::size_t lane = 0; lane < lanes; ++lane) sums[lane] += data[i + lane] * 0;
+  }
+  for (; i < count; ++i) sums[0] += data[i] * 0;
+  return std::all_of(sums, sums + lanes, [](double sum) { return sum == 0; });
+}
+
+void prepare_cells(Instance& instance, uint64_t tick) {
+  for (auto& claim : instance.claims()) {
+    if (claim.out) prepare(claim, tick);
+  }
+}
+
+std::string check_cells(const Instance& instance, const Blackboard& board) {
+  for (const auto& claim : instance.claims()) {
+    if (!claim.out) continue;
+    const auto& next = claim.out->next().data;
+    if (claim.direct && !claim.columns.any_references() && all_finite(next.data(), next.size())) continue;
+    std::string wrong = check(instance, board, claim);
+    if (!wrong.empty()) return wrong;
+  }
+  return "";
+}
+
+std::string commit_cells(Instance& instance, uint64_t tick) {
+  for (auto& claim : instance.claims()) {
+    if (!claim.out || claim.lists || claim.direct) continue;
+    if (claim.out->set().kind == SetKind::queue)
+      commit_rows(claim, claim.out->next(), tick);
+    else if (claim.staged)
+      commit_rest(claim);
+    else
+      commit_bytes(claim, claim.out->next(), 0);
+    if (claim.out->set().is_named()) keep_left(claim);
+  }
+  return commit_lists(instance, tick);
+}
+
+}  // namespace muster

@@ -1,0 +1,69 @@
+// Numbers in a row of bytes, for state that has no fixed number of columns.
+#pragma once
+
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace muster::medium {
+
+class Writer {
+ public:
+  template <class T>
+  void put(const T& value) {
+    static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>);  // no padding
+    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+  template <class T>
+  void put_all(const std::vector<T>& values) {
+    static_assert(std::is_arithmetic_v<T>);
+    put(values.size());
+    bytes_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+  }
+  void put_text(std::string_view text) {
+    put(text.size());
+    bytes_ += text;
+  }
+  std::string take() { return std::move(bytes_); }
+
+ private:
+  std::string bytes_;
+};
+
+// Throws std::runtime_error where the bytes end too early.
+class Reader {
+ public:
+  explicit Reader(std::string_view bytes) : bytes_(bytes) {}
+  template <class T>
+  void get(T& value) {
+    static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>);
+    std::memcpy(&value, next(sizeof value).data(), sizeof value);
+  }
+  template <class T>
+  T get() {
+    T value;
+    get(value);
+    return value;
+  }
+  template <class T>
+  void get_all(std::vector<T>& values) {
+    static_assert(std::is_arithmetic_v<T>);
+    values.resize(get<std::size_t>());
+    if (!values.empty()) std::memcpy(values.data(), next(values.size() * sizeof(T)).data(), values.size() * sizeof(T));
+  }
+  std::string_view text() { return next(get<std::size_t>()); }
+
+ private:
+  std::string_view next(std::size_t count) {
+    if (count > bytes_.size()) throw std::runtime_error("the network's state ends too early");
+    const std::string_view result = bytes_.substr(0, count);
+    bytes_.remove_prefix(count);
+    return result;
+  }
+  std::string_view bytes_;
+};
+
+}  // namespace muster::medium

@@ -1,0 +1,25 @@
+// A medium's state as bytes: frames in the air, messages, and a record for each radio. `fields(field, record)` calls
+// `field` on all that a record holds.
+#pragma once
+
+#include "medium/transmit_queue.hpp"
+
+namespace muster::medium {
+
+template <class Record, class Fields>
+void save(Writer& out, const Air& air, const Post& post, const std::vector<Record>& records, const Fields& fields) {
+  air.save(out);
+  post.save(out);
+  out.put(records.size());
+  for (const Record& record : records) fields([&](const auto& value) { out.put(value); }, record);
+}
+
+template <class Record, class Fields>
+void load(Reader& in, Air& air, Post& post, std::vector<Record>& records, const Fields& fields) {
+  air.load(in);
+  post.load(in);
+  records.resize(in.get<std::size_t>());
+  for (Record& record : records) fields([&](auto& value) { in.get(value); }, record);
+}
+
+}  // namespace muster::medium

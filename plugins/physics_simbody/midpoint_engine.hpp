@@ -1,0 +1,40 @@
+// The stepper of this backend: second order, on velocities, one small problem a robot or for robots that touch. Robots
+// that may not meet within a tick go through it apart from each other, on as many threads as there are.
+#pragma once
+
+#include "cluster_stepper.hpp"
+#include "engine.hpp"
+
+namespace muster::simbody {
+
+class Midpoint : public Engine {
+ public:
+  Midpoint(const std::vector<NamedRobot>& robots, Steps longest, LegModel legs = LegModel::as_described);
+  void step(double dt, const std::vector<Command>& commands, std::vector<RobotState>& states,
+            const Each& each = one_by_one) override;
+  void set_surroundings(const std::vector<scene::Slab>& walls, double friction) override;
+
+  Count count() const;
+
+ private:
+  void find_clusters(double dt, double room, const std::vector<RobotState>& states);
+  int steps_of(const Cluster& cluster, double dt) const;
+  void share_out(double dt);
+  bool move(double dt, const std::vector<Command>& commands, std::vector<RobotState>& states, const Each& each);
+
+  Arena arena_;
+  Steps longest_;
+
+  // Room that is kept from step to step; nothing of it outlives one.
+  BroadPhase broad_phase_;
+  Connected connected_;
+  std::vector<Extent> reach_;
+  std::vector<int> place_;           // of each robot in its cluster
+  std::vector<Cluster> clusters_;    // by their first robots; others are empty
+  std::vector<std::size_t> shares_;  // where each mover's clusters end
+  std::vector<char> kept_;           // whether each mover's robots stayed within their reach
+  std::vector<RobotState> start_;
+  std::vector<std::unique_ptr<Mover>> movers_;
+};
+
+}  // namespace muster::simbody

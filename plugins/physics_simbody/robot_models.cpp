@@ -1,0 +1,68 @@
+#include "robot_models.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace muster::simbody {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+Crew::Crew(const std::vector<NamedRobot>& robots, LegModel legs) {
+  for (const NamedRobot& named : robots) {
+    CrewMember robot{named.name, RobotModel(*named.description), {}, {}, {}, {}, {}, {}};
+    if (legs == LegModel::rigid) robot.model.leg_drive.stiffness = std::numeric_limits<double>::infinity();
+    robot.bodies = system_.add(robot.model);
+    robot.whole = whole_mass(*named.description);
+    for (std::size_t w = 0; w < 2; ++w) robot.wheel_inertia[w] = robot.model.wheel[w].inertia(2, 2);
+    if (robot.model.rotors && robot.model.limbs.empty()) robot.flight.emplace(robot.whole, *robot.model.rotors);
+    members_.push_back(std::move(robot));
+  }
+  system_.finish();
+  system_.system.realize(system_.state, SimTK::Stage::Position);
+  read_masses();
+}
+
+bool Crew::any_is_articulated() const {
+  return std::any_of(members_.begin(), members_.end(), [](const CrewMember& m) { return m.model.is_articulated(); });
+}
+
+bool Crew::any_bounces() const {
+  return std::any_of(members_.begin(), members_.end(), [](const CrewMember& m) { return m.model.restitution > 0; });
+}
+
+// Simbody's own mass matrix at the reference pose; in the body's frame it is the same in every other, as wheels are
+// balanced. Robots are not joined, so that one product has a column of each. Wheels that are not there have an inertia
+// of one, which nothing turns.
+void Crew::read_masses() {
+  const SimTK::State& state = system_.state;
+  SimTK::Vector columns;
+  for (int c = 0; c < unknowns; ++c) {
+    SimTK::Vector units(state.getNU(), 0.0);
+    const auto has = [c](const CrewMember& robot) { return c < 6 || robot.model.has_wheels; };
+    for (const CrewMember& robot : members_) {
+      if (has(robot)) units[robot.bodies.body.getFirstUIndex(state) + c] = 1;
+    }
+    system_.matter.multiplyByM(state, units, columns);
+    for (CrewMember& robot : members_) {
+      const int first = robot.bodies.body.getFirstUIndex(state), own = robot.model.has_wheels ? unknowns : 6;
+      robot.mass.col(c).setZero();
+      robot.mass(c, c) = 1;
+      for (int r = 0; has(robot) && r < own; ++r) robot.mass(r, c) = columns[first + r];
+    }
+  }
+  for (CrewMember& robot : members_) robot.inverse_mass = robot.mass.inverse();
+}
+
+Velocity CrewMember::free_acceleration(const Matrix3d& to_world, const Velocity& u) const {
+  const Vector3d w = u.head<3>();
+  const Vector3d axle = Vector3d::UnitY();
+  const Vector3d weight = to_world.transpose() * Vector3d(0, 0, -gravity * whole.mass);
+  const Vector3d spin = (wheel_inertia[0] * u[6] + wheel_inertia[1] * u[7]) * axle;
+  Velocity force = Velocity::Zero();
+  force.head<3>() = whole.centre.cross(weight) - w.cross(whole.inertia * w + spin);
+  force.segment<3>(3) = weight;
+  return inverse_mass.lazyProduct(force);
+}
+
+}  // namespace muster::simbody

@@ -1,0 +1,50 @@
+// The robots of an engine: what of them never changes, with Simbody's own word for their masses.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "block_cholesky.hpp"
+#include "engine.hpp"
+#include "flight.hpp"
+#include "model.hpp"
+
+namespace muster::simbody {
+
+struct CrewMember {
+  // One rigid body but for its wheels, if it has any.
+  bool is_rigid() const { return model.legs.empty() && model.limbs.empty(); }
+  // Of u of such a robot, without contacts and motors, at the given attitude; less what its origin's way about the
+  // mass centre adds, which follows from the turn that a step makes.
+  Velocity free_acceleration(const Eigen::Matrix3d& to_world, const Velocity& u) const;
+
+  std::string name;
+  RobotModel model;
+  RobotBodies bodies;
+  description::Mass whole;              // wheels included
+  std::array<double, 2> wheel_inertia;  // about the axle
+  std::optional<Flight> flight;         // where it has rotors and no limbs
+  MassMatrix mass, inverse_mass;        // of what has neither legs nor limbs, which weigh otherwise in each step
+};
+
+class Crew {
+ public:
+  explicit Crew(const std::vector<NamedRobot>& robots, LegModel legs = LegModel::as_described);
+
+  std::size_t size() const { return members_.size(); }
+  CrewMember& operator[](std::size_t i) { return members_[i]; }
+  const CrewMember& operator[](std::size_t i) const { return members_[i]; }
+  bool any_is_articulated() const;
+  bool any_bounces() const;
+  const System& system() const { return system_; }
+
+ private:
+  void read_masses();
+
+  System system_;
+  std::vector<CrewMember> members_;
+};
+
+}  // namespace muster::simbody

@@ -1,0 +1,25 @@
+// Simbody's own integrators as reference: rolling constraints, wheels that turn as commanded. Each robot is a system of
+// its own (dense algebra), and each tick begins anew from the state handed in, since an integrator's history restores
+// to no bits.
+#pragma once
+
+#include "engine.hpp"
+#include "model.hpp"
+
+namespace muster::simbody {
+
+class Stock : public Engine {
+ public:
+  Stock(const std::vector<NamedRobot>& robots, Integrator integrator, double step);
+  ~Stock() override;
+  void step(double dt, const std::vector<Command>& commands, std::vector<RobotState>& states,
+            const Each& each = one_by_one) override;
+
+ private:
+  struct Robot;
+  std::vector<std::unique_ptr<Robot>> robots_;
+  Integrator integrator_;
+  double step_;
+};
+
+}  // namespace muster::simbody

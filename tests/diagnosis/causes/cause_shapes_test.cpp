@@ -1,0 +1,150 @@
+// What is sought of a cause, as attributes of its plugin.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "diagnosis/causes/applicability.hpp"
+#include "diagnosis/causes/parameter_axes.hpp"
+#include "diagnosis/pipeline/cause_estimate.hpp"
+#include "tests/diagnosis/scratch.hpp"
+#include "tests/diagnosis/worlds.hpp"
+
+namespace muster::diagnosis {
+namespace {
+
+// exp(log(100)) lies above 100, which a plugin would refuse.
+TEST(CauseShape, AParameterSoughtByItsLogarithmStaysInsideItsBounds) {
+  muster_param permittivity{};
+  permittivity.name = "permittivity";
+  permittivity.unit = "";
+  permittivity.min = 1.5;
+  permittivity.max = 100;
+  permittivity.flags = MUSTER_LOG;
+  CauseShape shape;
+  const auto axis = axis_of(permittivity, Survey{}, shape, true);
+  ASSERT_TRUE(axis);
+  shape.axes = {*axis};
+  for (const double end : {axis->lower, axis->upper}) {
+    const double value = shape.parameters(Eigen::Vector2d(0, end)).at("permittivity");
+    EXPECT_GE(value, permittivity.min);
+    EXPECT_LE(value, permittivity.max);
+  }
+}
+
+// Between two that are tried a swing loses little: half a cycle off over the data, a wave keeps 40 % of its energy.
+TEST(CauseShape, SwingsOfManyCyclesAreSought) {
+  muster_param period{};
+  period.name = "period";
+  period.unit = "s";
+  period.min = 0.1;
+  period.max = 1e6;
+  period.flags = MUSTER_LOG;
+  CauseShape shape;
+  shape.wave = "phase";
+  Survey survey;
+  survey.time.low = 100;
+  survey.time.high = 1300;
+  const auto axis = axis_of(period, survey, shape, true);
+  ASSERT_TRUE(axis);
+  for (double cycles = 2; cycles < 120; cycles += 0.37) {
+    double nearest = 1e9;
+    for (const double value : axis->values) nearest = std::min(nearest, std::abs(1200 / std::exp(value) - cycles));
+    EXPECT_LE(nearest, 0.4) << cycles;
+    EXPECT_LT(axis->lower, std::log(1200 / cycles));
+  }
+}
+
+// Of the data's radios one turns, and is none of the world's.
+TEST(CauseRows, ARadioThatOnlyTheDataKnowIsTold) {
+  const Scratch scratch;
+  const std::string rows =
+      "t[s],tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],rx_yaw[rad],rssi[dBm]\n"
+      "0,s,rover,0,0,1,0,0,-50\n1,s,rover,0,0,2,0,1,-51\n2,s,rover,0,0,3,0,2,-52\n"
+      "3,s,rover,0,0,4,0,3,-50\n4,s,rover,0,0,5,0,4,-51\n";
+  muster_param radio{};
+  radio.name = radio.text = "radio";
+  radio.kind = MUSTER_REFERENCE;
+  radio.flags = MUSTER_REQUIRED;
+  muster_cause meaning{};
+  meaning.title = meaning.tell_apart = "";
+  meaning.ranges_over = "radio";
+  meaning.covariates = "rx_yaw";
+  muster_plugin plugin{};
+  plugin.params = &radio;
+  plugin.param_count = 1;
+  plugin.cause = &meaning;
+  const Cause cause{"effect.notch", {}, &plugin};
+  const auto told = [&](const std::string& station) {
+    const auto world =
+        scratch.write("world.xml", "<world name=\"w\" dt=\"1\" until=\"1\"><station name=\"s\" at=\"0 0 1\"/>" +
+                                       station + "<radio.multiwall/></world>");
+    const auto file = scratch.write("d.csv", rows);
+    const LinkModel model(world, file, plugins);
+    const Survey survey = survey_of(model, read_dataset(file));
+    const auto found = rows_for(cause, model, survey);
+    return found.empty() ? why_no_rows(cause, model, survey) : "about " + found.at(0).at(0);
+  };
+  EXPECT_EQ(told(""),
+            "not testable: the world has no row that it could be about (one is needed, of the radios that turn); of "
+            "the data's radios it could be about "
+            "\"rover\", which the world does not have: add <station name=\"rover\" at=\"x y z\"/>");
+  EXPECT_EQ(told("<station name=\"rover\" at=\"1 0 1\"/>"), "about rover");
+}
+
+// Which radios move and turn, of some that hear a station.
+Survey heard_at(const std::vector<std::array<double, 3>>& places_and_headings) {
+  const Scratch scratch;
+  std::string rows = "t[s],tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],rx_yaw[rad],rssi[dBm]\n";
+  for (std::size_t k = 0; k < 60; ++k) {
+    const auto [x, y, yaw] = places_and_headings[k * places_and_headings.size() / 60];
+    rows += fmt::format("{},a,b,0,0,{},{},{},{}\n", k, x, y, yaw, k % 2 == 0 ? -50 : -51);
+  }
+  const auto world = scratch.write("world.xml",
+                                   "<world name=\"w\" dt=\"1\" until=\"1\"><station name=\"a\" at=\"0 0 1\"/>"
+                                   "<station name=\"b\" at=\"1 0 1\"/><radio.multiwall/></world>");
+  const auto file = scratch.write("d.csv", rows);
+  return survey_of(LinkModel(world, file, plugins), read_dataset(file));
+}
+
+TEST(Survey, TakesARadioThatIsSetUpAFewTimesForOneThatStands) {
+  const Survey turned = heard_at({{3, 1, 0}, {3, 1, M_PI / 2}}), moved = heard_at({{3, 1, 0}, {8, 5, 0}});
+  for (const Survey& s : {turned, moved}) {
+    EXPECT_FALSE(s.turns.at(1));
+    EXPECT_FALSE(s.moves.at(1));
+  }
+  EXPECT_EQ(moved.standing.size(), 3u);  // the station's and both
+  const Survey on_the_spot = heard_at({{3, 1, 0}, {3, 1, 1}, {3, 1, 2}, {3, 1, 3}, {3, 1, 4}, {3, 1, 5}});
+  EXPECT_TRUE(on_the_spot.turns.at(1));
+  EXPECT_FALSE(on_the_spot.moves.at(1));
+  const Survey drives = heard_at({{3, 1, 0}, {4, 1, 0}, {5, 1, 1.5}, {5, 2, 1.5}, {5, 3, 1.5}, {5, 4, 1.5}});
+  EXPECT_TRUE(drives.turns.at(1));
+  EXPECT_TRUE(drives.moves.at(1));
+}
+
+// A factor of e either way: 1.96 of those, and not 216 dB about 100.
+TEST(FoundCause, IntervalOfAParameterSoughtByItsLogarithmIsAFactor) {
+  muster_param knee{};
+  knee.name = "knee";
+  knee.unit = "dB";
+  knee.min = 1;
+  knee.max = 1e4;
+  knee.flags = MUSTER_LOG;
+  muster_cause meaning{};
+  meaning.title = meaning.ranges_over = meaning.tell_apart = "";
+  muster_plugin plugin{};
+  plugin.params = &knee;
+  plugin.param_count = 1;
+  plugin.cause = &meaning;
+  auto shape = std::make_shared<CauseShape>();
+  shape->cause.plugin = &plugin;
+  shape->axes = {*axis_of(knee, Survey{}, *shape, true)};
+  inference::Finding found;
+  found.theta = Eigen::Vector2d(0, std::log(100));
+  for (const double way : {-1, 1}) found.thetas.push_back(Eigen::Vector2d(0, std::log(100) + way));
+  const FoundCause cause = found_cause(found, {shape, {}});
+  ASSERT_EQ(cause.values.size(), 1u);
+  EXPECT_NEAR(cause.values[0].lower95, 100 * std::exp(-1.96), 1e-9);
+  EXPECT_NEAR(cause.values[0].upper95, 100 * std::exp(1.96), 1e-9);
+}
+
+}  // namespace
+}  // namespace muster::diagnosis

@@ -1,0 +1,114 @@
+// What a finding may be mistaken for.
+#include "diagnosis/inference/select/alternatives.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <set>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "tests/diagnosis/inference/guessed.hpp"
+
+namespace muster::inference {
+namespace {
+
+// A weak one of two transmitters is the other one's strength, whatever is read; among three it is not, nor where the
+// strength of each is given. The same transmitter by another number is no rival.
+TEST(Rivals, OfTwoRadiosEitherMayBeMeant) {
+  for (const auto& [transmitters, whole, others] : {std::tuple(2, false, 1u), {3, false, 0u}, {2, true, 0u}}) {
+    Recipe recipe = varied(14, 4000);
+    recipe.transmitters = transmitters;
+    const auto world = world_of(recipe);
+    auto causes = causes_of(world);
+    Candidate& offset = causes[0];
+    ASSERT_EQ(offset.id, "tx_offset");
+    offset.whole = whole;
+    offset.grid.push_back(Eigen::VectorXd::Constant(1, 9));
+    offset.columns = [columns = offset.columns, one = offset.grid[1]](const Eigen::VectorXd& t) {
+      return columns(t[0] == 9 ? one : t);
+    };
+    offset.label = [](const Eigen::VectorXd& t) { return "tx" + std::to_string(static_cast<int>(t[0])); };
+    const Problem problem = problem_of(world, -scaled_to(world, offset.columns(offset.grid[1]).col(0), 100), causes);
+    Bench bench(problem, {});
+    score(bench);
+    bench.terms = {term_at(bench, "tx_offset", offset.grid[1])};
+    bench.refit();
+    std::vector<Rival> own = rivals_of(bench, bench.terms[0]);
+    std::erase_if(own, [](const Rival& r) { return r.id != "tx_offset"; });
+    ASSERT_EQ(own.size(), others) << transmitters << ' ' << whole;
+    if (own.empty()) continue;
+    EXPECT_EQ(own[0].label, "tx0");
+    EXPECT_NEAR(own[0].separability, 0, 0.01);
+    EXPECT_NEAR(own[0].evidence_gap, 0, 0.01);
+    EXPECT_NEAR(own[0].by_readings, 0, 0.01);
+  }
+}
+
+// A battery that falls all the while may stand for what acts in time, one that comes and goes for nothing else.
+TEST(Rivals, OfWhatIsUnexplainedAreTheCausesThatExplainItNearlyAsWell) {
+  auto world = world_of(varied(254, 3000));
+  for (const bool falls : {true, false}) {
+    if (!falls) std::shuffle(world.battery.begin(), world.battery.end(), std::mt19937(1));
+    const Eigen::VectorXd effect = falls ? world.time : world.battery;
+    const Problem problem = problem_of(world, scaled_to(world, effect, 120), causes_of(world));
+    Bench bench(problem, {});
+    score(bench);
+    bench.terms = {term_at(bench, "~battery", {})};
+    bench.refit();
+    std::vector<std::string> causes;
+    std::set<std::string> seen;
+    for (const Rival& r : rivals_of(bench, bench.terms[0])) {
+      EXPECT_TRUE(seen.insert(r.id).second) << r.id << " twice";
+      EXPECT_NE(r.id, "~battery");
+      if (r.id[0] != '~') causes.push_back(r.id);
+      if (r.id != "drift") continue;
+      EXPECT_LT(r.separability, inseparable);
+      EXPECT_NEAR(r.by_readings, r.separability / 2, 3 * std::sqrt(r.separability));
+      EXPECT_GT(r.by_readings, r.evidence_gap + 5);  // five functions cost more than a drift's one
+    }
+    if (falls)
+      EXPECT_EQ(std::count(causes.begin(), causes.end(), "drift"), 1);
+    else
+      EXPECT_EQ(causes, std::vector<std::string>());
+  }
+}
+
+TEST(Rivals, OfSeveralWaysAlongOneCovariateTheLikestIsTold) {
+  const auto world = world_of(varied(271, 3000));
+  const Eigen::VectorXd knee = -(11.2 - world.battery.array()).max(0.0);
+  const Problem problem = problem_of(world, scaled_to(world, knee, 120), causes_of(world));
+  Bench bench(problem, {});
+  score(bench);
+  bench.terms = {term_at(bench, "drift", Eigen::VectorXd::Constant(1, -1))};
+  bench.refit();
+  const Stand rest = bench.stand(bench.design_without(bench.terms[0]));
+  const double of_drift = bench.evidence(*bench.terms[0].candidate, rest.gain(bench.terms[0].columns), 1, false);
+  std::vector<double> gaps;  // before the refinement of those that have a place to refine
+  for (const Lead& lead : leads(bench, rest)) {
+    if (lead.candidate().own() == "battery") gaps.push_back(of_drift - lead.evidence);
+  }
+  ASSERT_GE(gaps.size(), 2u);
+  const auto [least, most] = std::minmax_element(gaps.begin(), gaps.end());
+  EXPECT_GT(*most - *least, 5);
+  const std::vector<Rival> rivals = rivals_of(bench, bench.terms[0]);
+  const auto told = std::find_if(rivals.begin(), rivals.end(), [](const Rival& r) { return r.id == "~battery"; });
+  ASSERT_NE(told, rivals.end());
+  EXPECT_LE(told->evidence_gap, *least + 1e-9);
+}
+
+TEST(Rivals, AreLeftOpenUnlessTheReadingsThemselvesSpeakForTheFinding) {
+  const auto open = [](double gap, double separability, double by_readings) {
+    return left_open({"step", "all", {}, gap, separability, by_readings});
+  };
+  EXPECT_TRUE(open(2.9, 40, 20));
+  EXPECT_TRUE(open(5, 11, 2.9));
+  EXPECT_FALSE(open(5, 11, 3.1));
+  EXPECT_FALSE(open(5, 13, 0));
+}
+
+}  // namespace
+}  // namespace muster::inference

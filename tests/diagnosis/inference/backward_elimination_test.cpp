@@ -1,0 +1,175 @@
+// What becomes of a guessed model: causes that give way, are set aside or are dropped.
+#include "diagnosis/inference/select/backward_elimination.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/diagnosis/inference/guessed.hpp"
+
+namespace muster::inference {
+namespace {
+
+struct Guess {
+  std::string id;
+  Eigen::VectorXd theta;
+};
+
+// What cleaning up leaves of a model that was guessed so.
+std::vector<Term> cleaned_up(const Problem& problem, const std::vector<Guess>& guesses) {
+  Bench bench(problem, {});
+  score(bench);
+  for (const auto& [id, theta] : guesses) bench.terms.push_back(term_at(bench, id, theta));
+  bench.refit();
+  std::vector<Trial> trials;
+  clean_up(bench, trials);
+  return bench.terms;
+}
+
+// A function of the battery may enter first, while the field holds a part of what acts in time.
+TEST(CleanUp, WhatActsInTimeIsNotTheBatteryThatFallsMeanwhile) {
+  const auto world = world_of(varied(254, 3000));
+  const Eigen::VectorXd step = (world.time.array() > 0.4 * world.time.maxCoeff()).cast<double>(),
+                        knee = -(11.7 - world.battery.array()).max(0.0).pow(1.4);
+  for (const auto& [effect, name] : {std::pair(step, "step"), std::pair(knee, "~battery")}) {
+    const Problem problem = problem_of(world, scaled_to(world, effect, 120), causes_of(world));
+    const std::vector<Term> terms = cleaned_up(problem, {{"~battery", {}}});
+    ASSERT_EQ(terms.size(), 1u);
+    EXPECT_EQ(terms[0].id(), name);
+  }
+}
+
+// Less than 3 nats likelier is likelier; and a true bend keeps its place.
+TEST(CleanUp, WhatActsInTimeStandsWhereItIsLikelierThanABendAlongTheBattery) {
+  const auto world = world_of(varied(270, 3000));
+  const Eigen::ArrayXd t = world.time.array() / world.time.maxCoeff();
+  const Eigen::VectorXd soft = 1 / (1 + (-12 * (t - 0.5)).exp()),
+                        knee = -(11.7 - world.battery.array()).max(0.0).pow(1.4);
+  for (const auto& [effect, name] : {std::pair(soft, "drift"), std::pair(knee, "~battery")}) {
+    const Problem problem = problem_of(world, scaled_to(world, effect, 60), causes_of(world));
+    const std::vector<Term> terms = cleaned_up(problem, {{"bend~battery", Eigen::Vector2d(11.7, -1)}});
+    ASSERT_EQ(terms.size(), 1u);
+    EXPECT_EQ(terms[0].id(), name);
+  }
+}
+
+// The strongest reading and all that come near it are known to be as strong at least.
+Problem clipped(Problem problem) {
+  const double top = problem.measured.maxCoeff() - 8;
+  problem.bounds.known.assign(static_cast<std::size_t>(problem.measured.size()), noise::Known::value);
+  for (Eigen::Index i = 0; i < problem.measured.size(); ++i) {
+    if (problem.measured[i] < top) continue;
+    problem.measured[i] = top;
+    problem.bounds.known[static_cast<std::size_t>(i)] = noise::Known::above;
+  }
+  return problem;
+}
+
+// What a clip leaves over finds a place somewhere.
+TEST(CleanUp, BesideAClipAWallMustWinMoreThanADrift) {
+  const auto world = world_of(varied(13, 4000));
+  auto causes = causes_of(world);
+  Candidate& wall = causes[causes.size() - 2];
+  ASSERT_EQ(wall.id, "unmapped_wall");
+  wall.proposed = [](Tally&) { return std::vector<Eigen::VectorXd>(); };  // as one that is sought over a plan
+  const Eigen::VectorXd place = Eigen::Vector4d(12, 8, 5, 0.35), all = Eigen::VectorXd::Constant(1, -1);
+  const Problem hidden = problem_of(world, -scaled_to(world, wall.columns(place), 50), causes),
+                drifts = problem_of(world, scaled_to(world, world.time, 50), causes);
+  EXPECT_EQ(cleaned_up(hidden, {{"unmapped_wall", place}}).size(), 1u);
+  EXPECT_EQ(cleaned_up(clipped(hidden), {{"unmapped_wall", place}}).size(), 0u);
+  EXPECT_EQ(cleaned_up(clipped(drifts), {{"drift", all}}).size(), 1u);
+}
+
+TEST(CleanUp, DropsWhatCarriesNothingAndSetsLeftoversAside) {
+  const auto world = world_of(varied(13, 4000));
+  const auto causes = causes_of(world);
+  const Eigen::VectorXd effect = scaled_to(world, causes[2].columns({}).col(0), 900);  // antenna_rx
+  const Problem problem = problem_of(world, effect, causes);
+  const std::vector<Term> terms = cleaned_up(
+      problem, {{"antenna_rx", {}}, {"step", Eigen::Vector2d(100, -1)}, {"drift", Eigen::VectorXd::Constant(1, 2)}});
+  ASSERT_EQ(terms.size(), 1u);
+  EXPECT_EQ(terms[0].candidate->id, "antenna_rx");
+  EXPECT_NEAR(terms[0].gain, 900, 300);
+}
+
+TEST(CleanUp, ACauseGivesWayToARivalThatDoesBetter) {
+  const auto world = world_of(varied(13, 4000));
+  const auto causes = causes_of(world);
+  const Eigen::VectorXd effect = scaled_to(world, causes[2].columns({}).col(0), 400);  // antenna_rx
+  const Problem problem = problem_of(world, effect, causes);
+  const std::vector<Term> terms = cleaned_up(problem, {{"drift", Eigen::VectorXd::Constant(1, 2)}});
+  ASSERT_EQ(terms.size(), 1u);
+  EXPECT_EQ(terms[0].candidate->id, "antenna_rx");
+}
+
+TEST(CleanUp, ACauseGivesWayToASimplerOneThatTheReadingsCannotTellFromIt) {
+  const auto world = world_of(varied(34, 4000));
+  const auto twins = twins_of(world);
+  const Problem problem = problem_of(world, scaled_to(world, twins[0].columns(twins[0].grid[0]), 200), twins);
+  const std::vector<Term> terms = cleaned_up(problem, {{"twin", twins[0].grid[0]}});
+  ASSERT_EQ(terms.size(), 1u);
+  EXPECT_EQ(terms[0].candidate->id, "rx_offset");
+}
+
+// A twin that is sought at one transmitter alone costs less to find, and is no more likely for that.
+TEST(CleanUp, ASimpleCauseGivesNoWayToATwinThatIsSoughtAtFewerPlaces) {
+  const auto world = world_of(varied(34, 4000));
+  std::vector<Candidate> causes = causes_of(world);
+  const auto simple =
+      std::find_if(causes.begin(), causes.end(), [](const Candidate& c) { return c.id == "tx_offset"; });
+  ASSERT_NE(simple, causes.end());
+  Candidate twin = *simple;
+  const Eigen::VectorXd theta = simple->grid[0];
+  twin.id = "twin";
+  twin.grid = {theta};
+  ++twin.parameters;
+  const Eigen::VectorXd effect = scaled_to(world, simple->columns(theta), 200);
+  causes.push_back(twin);
+  const Problem problem = problem_of(world, effect, causes);
+  for (const char* first : {"tx_offset", "twin"}) {
+    const std::vector<Term> terms = cleaned_up(problem, {{first, theta}});
+    ASSERT_EQ(terms.size(), 1u);
+    EXPECT_EQ(terms[0].candidate->id, "tx_offset") << "from " << first;
+  }
+}
+
+TEST(CleanUp, ASmoothGivesWayToTheCauseThatExplainsIt) {
+  const auto world = world_of(varied(14, 4000));
+  const auto causes = causes_of(world);
+  const Eigen::VectorXd effect = scaled_to(world, causes[2].columns({}).col(1), 400);
+  const Problem problem = problem_of(world, effect, causes);
+  const std::vector<Term> terms = cleaned_up(problem, {{"~bearing", {}}});
+  ASSERT_EQ(terms.size(), 1u);
+  EXPECT_EQ(terms[0].candidate->id, "antenna_rx");
+}
+
+// Of two robots each carries what shadows it: neither alone explains what both do along the bearing.
+TEST(CleanUp, ASmoothGivesWayToTheSameCauseOnTwoRadios) {
+  const auto world = world_of(varied(14, 4000));
+  auto causes = causes_of(world);
+  Candidate& one_robots = causes[2];
+  const auto of_all = one_robots.columns;
+  const auto heard_by = [&](double robot) -> Eigen::VectorXd {
+    return Eigen::Map<const Eigen::VectorXi>(world.readings.rx.data(), world.readings.size()).unaryExpr([=](int rx) {
+      return rx == static_cast<int>(robot) ? 1.0 : 0.0;
+    });
+  };
+  one_robots.grid = {Eigen::VectorXd::Constant(1, 100), Eigen::VectorXd::Constant(1, 101)};
+  one_robots.columns = [&](const Eigen::VectorXd& t) -> Eigen::MatrixXd {
+    return heard_by(t[0]).asDiagonal() * of_all({});
+  };
+  one_robots.label = [](const Eigen::VectorXd& t) { return t[0] == 100 ? "first" : "second"; };
+  ASSERT_GT(heard_by(100).sum(), 500);
+  ASSERT_GT(heard_by(101).sum(), 500);
+  const Eigen::VectorXd effect = scaled_to(world, of_all({}).col(1), 400);
+  const std::vector<Term> terms = cleaned_up(problem_of(world, effect, causes), {{"~bearing", {}}});
+  ASSERT_EQ(terms.size(), 2u);
+  for (const Term& term : terms) EXPECT_EQ(term.candidate->id, "antenna_rx");
+  EXPECT_NE(terms[0].theta, terms[1].theta);
+}
+
+}  // namespace
+}  // namespace muster::inference

@@ -1,0 +1,18 @@
+// Simple causes over a synthetic world, as an author outside the engine would write them.
+#pragma once
+
+#include "diagnosis/inference/state/problem.hpp"
+#include "tests/diagnosis/inference/synthetic.hpp"
+
+namespace muster::synthetic {
+
+// tx_offset, rx_offset, antenna_rx, antenna_tx, step, drift, periodic, dual_slope, room_clutter, unmapped_wall,
+// obstacle.
+std::vector<inference::Candidate> causes_of(const World& world);
+
+// A problem with these candidates and the world's columns; `effect` (dB, one a reading) is added to what was measured,
+// which is then quantised to 1 dB.
+inference::Problem problem_of(const World& world, const Eigen::VectorXd& effect,
+                              std::vector<inference::Candidate> causes);
+
+}  // namespace muster::synthetic

@@ -1,0 +1,62 @@
+// Which of those that pass is taken.
+#include "diagnosis/inference/select/choose.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "tests/diagnosis/inference/guessed.hpp"
+
+namespace muster::inference {
+namespace {
+
+TEST(Compared, TheSimplerOfTwoWithTheSameEffectComesFirst) {
+  const auto world = world_of(varied(34, 4000));
+  const auto twins = twins_of(world);
+  const Problem problem = problem_of(world, scaled_to(world, twins[0].columns(twins[0].grid[0]), 200), twins);
+  Bench bench(problem, {});
+  const Stand stand = bench.stand(bench.base());
+  bench.renew_depending(stand.coefficients(bench.base_columns()));
+  std::vector<Lead> pair;
+  for (const Lead& lead : leads(bench, stand))
+    if (lead.candidate().id == "twin" || lead.candidate().id == "rx_offset") pair.push_back(lead);
+  ASSERT_EQ(pair.size(), 2u);
+  for (int order = 0; order < 2; ++order, std::swap(pair[0], pair[1]))
+    EXPECT_EQ(compared(bench, stand, pair, pair, [](const Candidate&) { return true; }).front().candidate().id,
+              "rx_offset");
+}
+
+// A step of 2 dB, as it is or by any multiple, where a lead of it lies off. What a second look won is its own
+// beside what refinement wins, unless a multiple of it means nothing.
+TEST(Compared, ALeadIsRefinedAndKeepsWhatItWonUnlessItCountsAsItIs) {
+  const auto world = world_of(varied(254, 3000));
+  std::vector<Candidate> causes = causes_of(world);
+  const auto step = std::find_if(causes.begin(), causes.end(), [](const Candidate& c) { return c.id == "step"; });
+  ASSERT_NE(step, causes.end());
+  step->columns = [plain = step->columns](const Eigen::VectorXd& theta) { return Eigen::MatrixXd(2 * plain(theta)); };
+  const double last = world.time.maxCoeff(), won = 500;
+  const Eigen::VectorXd effect = step->columns(Eigen::Vector2d(0.43 * last, -1));
+  for (const bool whole : {false, true}) {
+    step->whole = whole;
+    const Problem problem = problem_of(world, effect, causes);
+    Bench bench(problem, {});
+    score(bench);
+    const Stand stand = bench.stand(bench.base());
+    Lead lead{&bench.entry_of(*step), Eigen::Vector2d(0.405 * last, -1), {}, 0, 0, 0, false, {}};
+    lead.columns = bench.columns_of(*step, lead.theta);
+    const double plain = gain_of(*step, stand, lead.columns);
+    lead.gain = plain + won;
+    const Lead best = compared(bench, stand, {lead}, {lead}, [](const Candidate&) { return true; }).front();
+    const double refined = gain_of(*step, stand, best.columns);
+    EXPECT_NEAR(best.theta[0], 0.43 * last, 0.01 * last);
+    EXPECT_GT(refined, plain + 5);
+    EXPECT_NEAR(best.gain, whole ? refined : refined + won, 1e-6) << whole;
+    EXPECT_NEAR(best.log_p, bench.log_p(*step, best.gain, 1, true), 1e-6);
+    EXPECT_NEAR(best.evidence, bench.evidence(*step, best.gain, 1, true), 1e-6);
+  }
+}
+
+}  // namespace
+}  // namespace muster::inference

@@ -1,0 +1,43 @@
+// What tests of the parts of a search start from: a model that was guessed.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "diagnosis/inference/score/candidate_scores.hpp"
+#include "diagnosis/inference/state/model_state.hpp"
+#include "tests/diagnosis/inference/causes.hpp"
+
+namespace muster::inference {
+
+using synthetic::causes_of;
+using synthetic::problem_of;
+using synthetic::Recipe;
+using synthetic::varied;
+using synthetic::world_of;
+
+inline Term term_at(const Bench& bench, const std::string& id, const Eigen::VectorXd& theta) {
+  for (const Entry& entry : bench.entries()) {
+    if (entry.candidate->id == id) return {entry.candidate, theta, bench.columns_of(*entry.candidate, theta)};
+  }
+  throw std::logic_error(id);
+}
+
+// Nulls for every candidate, as the forward search would have worked out.
+inline void score(Bench& bench) {
+  const Stand stand = bench.stand(bench.base());
+  bench.renew_depending(stand.coefficients(bench.base_columns()));
+  leads(bench, stand);
+}
+
+// An offset, and the same with one parameter more.
+inline std::vector<Candidate> twins_of(const synthetic::World& world) {
+  std::vector<Candidate> twins = causes_of(world);
+  twins.insert(twins.begin(), twins[1]);
+  twins[0].id = "twin";
+  ++twins[0].parameters;
+  return twins;
+}
+
+}  // namespace muster::inference

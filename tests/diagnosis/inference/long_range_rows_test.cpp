@@ -1,0 +1,101 @@
+// What longer rows say of what would enter: no more than there is, and only of what they see.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "diagnosis/inference/assess/search.hpp"
+#include "diagnosis/inference/state/null_tail.hpp"
+#include "tests/diagnosis/inference/causes.hpp"
+
+namespace muster::inference {
+namespace {
+
+using synthetic::causes_of;
+using synthetic::problem_of;
+using synthetic::varied;
+using synthetic::world_of;
+
+// What winnings are with the noise fitted anew: the same few rows again, each several times, would win twice as much.
+TEST(Bench, LongerRowsTellNoMore) {
+  for (const uint64_t seed : {17u, 18u, 19u}) {
+    const auto world = world_of(varied(seed, 4000));
+    const auto causes = causes_of(world);
+    const auto drift =
+        std::find_if(causes.begin(), causes.end(), [](const Candidate& cause) { return cause.id == "drift"; });
+    const Eigen::VectorXd& settling = drift->grid[0];
+    const Problem problem = problem_of(world, scaled_to(world, drift->columns(settling), 100), causes);
+    const auto winnings = [&](double share) {
+      Options options;
+      options.rows.time *= share;
+      options.rows.way *= share;
+      const Bench bench(problem, options);
+      const noise::Covariance& noise = bench.fit.covariance;
+      return bench.far().profile_gain({bench.y(), bench.design(), bench.columns_of(*drift, settling), noise}, noise,
+                                      bench.likely_families(noise.family));
+    };
+    EXPECT_LT(winnings(4), 1.2 * winnings(1));
+  }
+}
+
+// In a smooth field under much noise a sender's offset: what few neighbours, and the family that needs the offset most,
+// say too much is not believed.
+TEST(FarRows, ANameIsWorthNoMoreThanTheCovarianceItselfSays) {
+  const auto world = world_of({.seed = 3,
+                               .readings = 2600,
+                               .sigma = 2.25,
+                               .decorrelation = 2.3,
+                               .fading = 3.7,
+                               .shape = synthetic::Shape::gaussian});
+  Eigen::VectorXd effect(world.readings.size());
+  for (Index i = 0; i < effect.size(); ++i) effect[i] = world.readings.tx[static_cast<std::size_t>(i)] == 0 ? 3.1 : 0;
+  const Problem problem = problem_of(world, effect, causes_of(world));
+  Search search(problem, {});
+  const Result result = search.run();
+  ASSERT_EQ(result.findings.size(), 1u);
+  const Bench& bench = search.bench();
+  const Term& offset = bench.terms[0];
+  EXPECT_EQ(offset.id(), "tx_offset");
+  const double near = bench.stand(bench.base()).gain(offset.columns);
+  const double sure = bench.far().sure_gain({bench.y(), bench.base(), offset.columns, bench.fit.covariance});
+  EXPECT_LT(sure, 0.9 * near);
+  EXPECT_NEAR(result.trials[0].integrated_log_p, bench.log_p(*offset.candidate, sure / overdispersion, 1, true), 0.2);
+}
+
+// What has no name must win more than a chi-square says.
+TEST(FarRows, WhatHasNoNameMustWinMore) {
+  const auto world = world_of(varied(32, 3000));
+  const Eigen::VectorXd effect = scaled_to(world, (3 * world.bearing().array() + 1).cos(), 80);
+  const Problem problem = problem_of(world, effect, causes_of(world));
+  Search search(problem, {});
+  const Result result = search.run();
+  const auto lobes = std::find_if(result.trials.begin(), result.trials.end(),
+                                  [](const Trial& t) { return t.id == "~bearing" && t.accepted; });
+  ASSERT_NE(lobes, result.trials.end());
+  const Bench& bench = search.bench();
+  ASSERT_EQ(bench.terms.size(), 1u);
+  const Term& term = bench.terms[0];
+  EXPECT_GE(lobes->integrated_log_p, bench.log_p(*term.candidate, lobes->gain / 1.1, term.columns.cols(), true) - 0.1);
+}
+
+// A swing of the level from row to row is gone from longer rows, an offset is not.
+TEST(FarRows, KeepWhatChangesLittleWithinThem) {
+  const auto world = world_of(varied(21, 3000));
+  const Problem problem = problem_of(world, Eigen::VectorXd::Zero(3000), causes_of(world));
+  Options options;
+  options.rows.way = 0.2;
+  const Bench bench(problem, options);
+  Eigen::MatrixXd offset(bench.rows().size(), 1), swing = offset;
+  const noise::Sites& sites = bench.field().sites();
+  for (Index i = 0; i < offset.rows(); ++i) {
+    offset(i, 0) = sites.radio[static_cast<std::size_t>(i)] == 0;
+    swing(i, 0) = i % 2 ? 1 : -1;
+  }
+  const auto kept = [&](const Eigen::MatrixXd& columns) {
+    return bench.far().kept({bench.y(), bench.base(), columns, bench.fit.covariance}, bench.field());
+  };
+  EXPECT_GT(kept(offset), 0.6);
+  EXPECT_LT(kept(swing), 0.3);
+}
+
+}  // namespace
+}  // namespace muster::inference

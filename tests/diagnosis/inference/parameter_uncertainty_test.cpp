@@ -1,0 +1,92 @@
+// How well a place is known, and what lies in the middle.
+#include "diagnosis/inference/assess/parameter_uncertainty.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "diagnosis/inference/assess/coefficient_covariance.hpp"
+#include "diagnosis/inference/score/conditional_fit.hpp"
+#include "tests/diagnosis/inference/guessed.hpp"
+
+namespace muster::inference {
+namespace {
+
+TEST(Spread, ItsMiddleIsAPlaceThatExplainsAsMuch) {
+  const auto world = world_of(varied(12, 4000));
+  const auto causes = causes_of(world);
+  const Candidate& wall = causes[causes.size() - 2];
+  const Eigen::Vector4d place(12, 8, 4, 0), east(1, 0, 0, 0);
+  const Problem problem = problem_of(world, -scaled_to(world, wall.columns(place), 300), causes);
+  Bench bench(problem, {});
+  const auto middle = [&](const Eigen::Vector4d& found, const std::vector<double>& alike) {
+    bench.terms = {term_at(bench, "unmapped_wall", found)};
+    bench.refit();
+    Spread spread;
+    for (const double off : alike) spread.thetas.push_back(place + off * east);
+    return middle_of(bench, bench.terms[0], spread)[0] - place[0];
+  };
+  EXPECT_NEAR(middle(place + east, {-1, -0.8, -0.6, -0.4, -0.2, 0, 0.2, 0.4, 0.6, 0.8, 1}), 0, 0.7);
+  EXPECT_NEAR(middle(place, {0, -0.001, -4, -7.999, -8}), 0, 0.1);  // what is between two places explains nothing
+}
+
+// Against the sum over a grid of places and sizes.
+TEST(Spread, OfAThingIsThatOfTheWholeLikelihood) {
+  const auto world = world_of(varied(12, 4000));
+  const auto causes = causes_of(world);
+  const Candidate& thing = causes.back();
+  const Eigen::Vector3d truth(11, 7, 0.7);
+  const Problem problem = problem_of(world, -scaled_to(world, thing.columns(truth), 60), causes);
+  Bench bench(problem, {});
+  bench.terms = {term_at(bench, "obstacle", truth)};
+  bench.refit();
+  score(bench);
+  const Term& term = bench.terms[0];
+  const Spread spread = spread_of(bench, term);
+  const Stand rest = bench.stand(bench.design_without(term)), whole = bench.stand(bench.design());
+  const Index last = whole.design.cols() - 1;
+  const double overstated = std::max(
+      1.0, uncertainty_of(bench, bench.design())(last, last) / whole.at.basis.uncertainty(last + 1)(last, last));
+  const Beside found(rest, term.columns, false);
+  auto still = std::make_shared<Candidate>(*term.candidate);
+  still->step.setZero();
+  std::shared_ptr<const Candidate> known = still;
+  std::swap(bench.terms[0].candidate, known);
+  const double grown = spread_of(bench, term).coefficients(0, 0) / found.covariance(0, 0);
+  std::swap(bench.terms[0].candidate, known);
+  Eigen::Array3d sum = Eigen::Array3d::Zero(), squares = sum;
+  double weights = 0, within = 0, losses = 0, loss_squares = 0;
+  const double top = rest.gain(term.columns);
+  for (double x = -0.24; x <= 0.24; x += 0.02) {
+    for (double y = -0.1; y <= 0.38; y += 0.02) {
+      for (double radius = -0.2; radius <= 0.12; radius += 0.016) {
+        const Eigen::Vector3d theta = truth + Eigen::Vector3d(x, y, radius);
+        const Beside there(rest, bench.columns_of(*term.candidate, theta), false);
+        if (there.gain < top - 40) continue;  // a thing that hides no link has no loss at all
+        const double w = std::exp((there.gain - top) / (2 * overstated)), loss = there.coefficients[0];
+        const Eigen::Array3d off = theta - truth;
+        weights += w, sum += w * off, squares += w * off.square();
+        within += w * there.covariance(0, 0), losses += w * loss, loss_squares += w * loss * loss;
+      }
+    }
+  }
+  const Eigen::Array3d mean = sum / weights, sd = (squares / weights - mean.square()).sqrt();
+  Eigen::Array3d told = Eigen::Array3d::Zero(), scattered = told;
+  const auto count = static_cast<double>(spread.thetas.size());
+  for (const auto& theta : spread.thetas) told += (theta - truth).array() / count;
+  for (const auto& theta : spread.thetas) scattered += ((theta - truth).array() - told).square() / count;
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_NEAR(told[k], mean[k], 0.25 * sd[k]) << k;
+    EXPECT_NEAR(std::sqrt(scattered[k]) / sd[k], 1, 0.15) << k;
+  }
+  const double loss = found.coefficients[0];  // that is told, whatever the mean is
+  const double between = loss_squares / weights - 2 * loss * losses / weights + loss * loss;
+  EXPECT_NEAR(spread.coefficients(0, 0) / (grown * within / weights + between), 1, 0.15);
+}
+
+}  // namespace
+}  // namespace muster::inference

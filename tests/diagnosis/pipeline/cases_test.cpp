@@ -1,0 +1,358 @@
+// One sealed case a cause, at lambda 150: made by muster_exam, whose formulas are not those of the plugins.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "diagnosis/pipeline/closed_loop.hpp"
+#include "diagnosis/pipeline/diagnose.hpp"
+#include "diagnosis/report/advice.hpp"
+#include "tests/diagnosis/pipeline/sealed_case.hpp"
+
+namespace muster::diagnosis {
+namespace {
+
+std::string told(const Diagnosis& d) {
+  std::string text;
+  for (const FoundCause& c : d.causes)
+    text += c.id + ' ' + c.label + (c.status == inference::Status::named ? "\n" : " (suspected)\n");
+  for (const Unexplained& u : d.unexplained) text += '~' + u.covariate + '\n';
+  return text;
+}
+
+void expect_only(const char* id, const Diagnosis& found) {
+  ASSERT_EQ(found.causes.size(), 1u) << told(found);
+  EXPECT_EQ(found.causes[0].id, id);
+}
+
+struct Hidden {
+  const char* effect;
+  int number;
+};
+
+class SealedCase : public testing::TestWithParam<Hidden> {};
+
+TEST_P(SealedCase, IsNamedAndTheExtendedWorldIsSilent) {
+  const Scratch scratch;
+  const auto& [effect, number] = GetParam();
+  const auto world = sealed_case(scratch, std::string("--mix one --lambda 150 --effects ") + effect, number);
+  const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
+  ASSERT_TRUE(found.named()) << told(found);
+  EXPECT_EQ(found.causes[0].id, std::string("effect.") + effect);
+  EXPECT_STREQ(found.verdict(), "extended") << told(found);
+  int named = 0;
+  for (const FoundCause& c : found.causes) named += c.status == inference::Status::named;
+  EXPECT_EQ(named, 1) << told(found);
+  const Loop loop = closed_loop(found, world, world / "measured.csv", scratch / "extended", plugins);
+  EXPECT_LT(loop.mean_difference, 0.1);
+  EXPECT_EQ(in_short(loop.rediagnosis), "silent");
+}
+
+INSTANTIATE_TEST_SUITE_P(Effects, SealedCase,
+                         testing::Values(Hidden{"antenna_rx", 1}, Hidden{"step", 2}, Hidden{"dual_slope", 3},
+                                         Hidden{"drift", 6}, Hidden{"label_swap", 15}, Hidden{"rssi_saturation", 13},
+                                         Hidden{"outliers", 14}, Hidden{"wall_absent", 16}),
+                         [](const auto& hidden) { return std::string(hidden.param.effect); });
+
+// Two of 14 outliers won 98 % of what a wall of 17 dB did, half of it within four standard errors.
+TEST(SealedPair, OutliersAreNoWallBesideAWallOfAnotherMaterial) {
+  const Scratch scratch;
+  const auto world = made_case(scratch, "--seed 91 --rows 2000 20000", 183);
+  const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
+  ASSERT_EQ(found.causes.size(), 2u) << told(found);
+  EXPECT_EQ(found.causes[0].id, "effect.wall_material");
+  EXPECT_EQ(found.causes[1].id, "effect.outliers");
+}
+
+// Against the antenna the readings themselves speak (D 10, and 11 nats): against a thing only what its place costs.
+TEST(SealedOffset, HasTheRivalsThatTheReadingsLeaveOpen) {
+  const Scratch scratch;
+  const auto world = made_case(scratch, "--seed 91 --rows 2000 20000", 13);
+  const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
+  expect_only("effect.tx_offset", found);
+  std::set<std::string> rivals;
+  for (const inference::Rival& r : found.causes.at(0).rivals) rivals.insert(r.id);
+  EXPECT_EQ(rivals.count("effect.antenna_tx"), 0u);
+  EXPECT_EQ(rivals.count("effect.obstacle"), 1u);
+}
+
+// A radio elsewhere beside another cause: all is judged again with the radio in its place, and yet the error told is
+// that of the world as given, which by the generator is 8.98 dB at places not seen, 43.0 dB^2 more than with both.
+TEST(SealedPair, IsMeasuredFromTheWorldAsGiven) {
+  const Scratch scratch;
+  const auto world = made_case(
+      scratch, "--seed 31 --rows 3000 4000 --mix two --lambda 300 --effects tx_misplaced,antenna_tx,drift,dual_slope",
+      3);
+  const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
+  ASSERT_EQ(found.causes.size(), 2u) << told(found);
+  const FoundCause& moved = found.causes[0];
+  EXPECT_EQ(moved.id, "effect.tx_misplaced");
+  EXPECT_EQ(found.causes[1].id, "effect.dual_slope");
+  ASSERT_TRUE(moved.put_right_first);
+  EXPECT_NEAR(found.held_out->rmse_before, 8.98, 0.5);
+  EXPECT_NEAR(found.held_out->gain, 43.0, 5);
+  EXPECT_GT(moved.held_out->lower95, 0);
+  EXPECT_TRUE(found.elsewhere.empty());
+  EXPECT_TRUE(moved.elsewhere.empty());
+  ASSERT_EQ(found.causes[1].elsewhere.size(), 1u);
+  EXPECT_EQ(found.causes[1].elsewhere[0].part, inference::Part::radio);
+  ASSERT_EQ(found.stairs.size(), 3u);
+  EXPECT_EQ(found.stairs[0].rmse, found.held_out->rmse_before);
+  EXPECT_EQ(report::name_of_step(found, 1), "+ tx misplaced");
+  const auto rms = [](const Eigen::VectorXd& v) { return std::sqrt(v.array().square().mean()); };
+  EXPECT_GT(rms(found.seen.before), 1.4 * rms(found.seen.after));
+  EXPECT_GT(rms(moved.effect), 1);
+}
+
+// Two runs, which only the column tells apart.
+TEST(ColumnRun, IsWhatIsLeftOut) {
+  const Scratch scratch;
+  std::ifstream in(std::filesystem::path(MUSTER_SOURCE_DIR) / "worlds" / "hall" / "measured_plain.csv");
+  std::string table, line;
+  std::getline(in, line);
+  table = line + ",run\n";
+  for (int k = 0; k < 2000 && std::getline(in, line); ++k) table += line + (k < 1200 ? ",7\n" : ",9\n");
+  const Diagnosis found =
+      diagnose(std::filesystem::path(MUSTER_SOURCE_DIR) / "worlds" / "hall", scratch.write("runs.csv", table), plugins);
+  ASSERT_EQ(found.elsewhere.size(), 1u);
+  EXPECT_EQ(found.elsewhere[0].part, inference::Part::run);
+  EXPECT_EQ(found.elsewhere[0].held_out.blocks, 2);
+}
+
+// The parameters that fit readings of swapped radios say nothing of what the swap changes.
+TEST(SealedSwap, IsNamedThoughItBendsAllParameters) {
+  const Scratch scratch;
+  const auto world = sealed_case(scratch, "--mix one --lambda 800 --effects label_swap", 3);
+  const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
+  expect_only("effect.label_swap", found);
+  EXPECT_NEAR(found.held_out->gain, 186, 15);  // as the generator has it
+}
+
+// Vecchia's approximation says 1.25 dB and 0.148 here. Of 255 such worlds 94.5 % of either's intervals hold the truth;
+// by that approximation 90 % would.
+TEST(SealedClean, LevelAndExponentAreKnownNoBetterThanTheFieldAllows) {
+  const Scratch scratch;
+  const auto world = made_case(scratch, "--seed 76 --rows 2000 20000 --mix clean", 79);
+  const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
+  EXPECT_TRUE(found.causes.empty()) << told(found);
+  std::map<std::string, double> known;
+  for (const WorldValue& v : found.world_values) known[v.path] = v.stderror;
+  EXPECT_NEAR(known["radio.multiwall/l0"], 1.84, 0.2);
+  EXPECT_NEAR(known["radio.multiwall/n"], 0.199, 0.02);
+}
+
+// At this strength a short wall and a thing in its place are often not told apart; the place is what counts here.
+TEST(SealedWall, IsFoundInItsPlace) {
+  const Scratch scratch;
+  const auto world = sealed_case(scratch, "--mix one --lambda 150 --effects unmapped_wall", 9);
+  const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
+  ASSERT_TRUE(found.named()) << told(found);
+  const FoundCause& first = found.causes[0];
+  ASSERT_TRUE(first.id == "effect.unmapped_wall" || first.id == "effect.obstacle") << told(found);
+  std::map<std::string, double> at;
+  for (const CauseValue& v : first.values) at[v.name] = v.value;
+  const bool wall = first.id == "effect.unmapped_wall";
+  // The hidden wall runs from (0.51, 21.13) to (-1.63, 20.48).
+  EXPECT_NEAR(wall ? (at["x0"] + at["x1"]) / 2 : at["x"], -0.56, 0.8);
+  EXPECT_NEAR(wall ? (at["y0"] + at["y1"]) / 2 : at["y"], 20.80, 0.8);
+}
+
+// Walls that saturate look weak in the base fit: how much the cause gives back is known only beside other losses.
+TEST(SealedSaturation, IsNamedThoughTheWallsOfTheFitAreTooWeak) {
+  const Scratch scratch;
+  const auto world = sealed_case(scratch, "--mix one --lambda 60 --effects multiwall_saturation", 4);
+  const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
+  ASSERT_TRUE(found.named()) << told(found);
+  EXPECT_EQ(found.causes[0].id, "effect.multiwall_saturation") << told(found);
+}
+
+// Bursts at times that nobody knows look like a swing or a step of the link's radio, in these readings or in others.
+TEST(SealedPeople, AreNotTakenForWhatChangesInTime) {
+  const Scratch scratch;
+  const auto world = sealed_case(scratch, "--mix one --lambda 200 --effects people", 5);
+  const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
+  expect_only("effect.people", found);
+  const auto extended = scratch / "extended";
+  EXPECT_EQ(in_short(closed_loop(found, world, world / "measured.csv", extended, plugins).rediagnosis), "silent");
+  EXPECT_EQ(in_short(second_look(world, extended, world / "second.csv", plugins).rediagnosis), "silent");
+}
+
+// A drift of 4 dB and powers that are 1.7 dB off hide why 530 of 4,720 readings are missing.
+TEST(SealedFloor, IsFoundBesideWhatHidIt) {
+  const Scratch scratch;
+  const auto world = made_case(scratch, "--seed 95 --rows 2000 20000 --mix three --lambda 50,400", 5);
+  const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
+  std::set<std::string> ids;
+  for (const FoundCause& c : found.causes) {
+    ids.insert(c.id);
+    if (c.id != "effect.power_steps") continue;  // of which the third of four is right
+    EXPECT_EQ(c.title, "powers are not as set: by {error1}, {error2}, {error4} from the lowest up");
+  }
+  EXPECT_EQ(ids, (std::set<std::string>{"effect.drift", "effect.power_steps", "effect.rssi_floor"})) << told(found);
+}
+
+// Near the level at which a receiver saturates readings are cut off above, which looks like bursts.
+TEST(SealedPeople, AreSoughtApartFromWhatIsClipped) {
+  const Scratch scratch;
+  const auto clipped = made_case(scratch, "--seed 84 --rows 2000 20000", 479);
+  expect_only("effect.rssi_saturation", diagnose(clipped, clipped / "measured.csv", plugins));
+  const auto both = made_case(scratch, "--seed 95 --rows 2000 20000 --mix three --lambda 50,400", 1);
+  const Diagnosis found = diagnose(both, both / "measured.csv", plugins);
+  ASSERT_GE(found.causes.size(), 2u) << told(found);
+  EXPECT_EQ(found.causes[0].id, "effect.rssi_saturation");
+  EXPECT_EQ(found.causes[1].id, "effect.people");
+  EXPECT_EQ(found.causes[1].label, "radio/beacon2 radio/robot1");
+}
+
+// What lies well off the level at which the receiver saturates tells of the field.
+TEST(SealedField, IsSeenBesideAReceiverThatSaturates) {
+  const Scratch scratch;
+  const auto world = made_case(scratch, "--seed 88 --rows 2000 20000", 178);
+  const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
+  ASSERT_EQ(found.causes.size(), 2u) << told(found);
+  EXPECT_EQ(found.causes[0].id, "effect.rssi_saturation");
+  EXPECT_EQ(found.causes[1].id, "effect.shadowing_correlation");
+}
+
+// Whitened dips have rims: mirrored they look like dips again, and must not count as what a misfit of the field does.
+TEST(SealedPeople, AreSeenThoughTheirDipsHaveRims) {
+  const Scratch scratch;
+  const auto world = sealed_case(scratch, "--mix one --lambda 60 --effects people", 6);
+  const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
+  expect_only("effect.people", found);
+}
+
+// Fading of a Rician K of 7.7 dB where 3.74 dB are stated, in a field that looks smoother beside the stated law than it
+// is: field and law are found by turns.
+TEST(SealedFading, IsAsStrongAsItIs) {
+  const Scratch scratch;
+  const auto world = made_case(scratch, "--seed 77 --rows 2000 20000", 8);
+  const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
+  ASSERT_EQ(found.causes.size(), 2u) << told(found);
+  EXPECT_EQ(found.causes[0].id, "effect.fading_law");
+  EXPECT_NEAR(found.causes[0].values.at(0).value, 7.66, 0.4);
+  EXPECT_EQ(in_short(closed_loop(found, world, world / "measured.csv", scratch / "extended", plugins).rediagnosis),
+            "silent");
+}
+
+// A Gaussian correlation over 3.27 m where 2.38 m are stated: no family of the stated distance does as well.
+TEST(SealedField, OfASmoothFamilyIsNotTakenForTheStatedOne) {
+  const Scratch scratch;
+  const auto world =
+      made_case(scratch, "--seed 92 --rows 2000 20000 --mix one --lambda 60 --effects shadowing_correlation", 14);
+  const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
+  expect_only("effect.shadowing_correlation", found);
+}
+
+class CleanCase : public testing::TestWithParam<int> {};
+
+TEST_P(CleanCase, IsSilent) {
+  const Scratch scratch;
+  const auto world = sealed_case(scratch, "--mix clean", GetParam());
+  const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
+  EXPECT_STREQ(found.verdict(), "adequate") << told(found);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, CleanCase, testing::Values(7, 8));
+
+// Three of its 12,720 readings pass a wall's end within 0.1 mm, and by the lattice of a simulation on its other side.
+TEST(GrazingLinks, AreNoOutliers) {
+  const Scratch scratch;
+  const auto world = made_case(scratch, "--seed 74 --rows 2000 20000 --mix clean", 841);
+  const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
+  EXPECT_STREQ(found.verdict(), "adequate") << told(found);
+  const auto says = [&](const std::string& note) { return note.find("of where a wall ends") != note.npos; };
+  EXPECT_TRUE(std::any_of(found.notes.begin(), found.notes.end(), says));
+}
+
+// Long rows hide half of what these walls change: the reports of before named the first two nowhere, and of the third
+// knew the loss from 0 to 28 dB and the place from one end of the plan to the other.
+class Wall : public testing::TestWithParam<int> {};
+
+TEST_P(Wall, IsFoundAtItsEdges) {
+  const Scratch scratch;
+  const auto world =
+      made_case(scratch, "--seed 503 --rows 2000 20000 --mix one --effects unmapped_wall --lambda 100", GetParam());
+  const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
+  expect_only("effect.unmapped_wall", found);
+  for (const CauseValue& value : found.causes[0].values) {
+    if (value.unit == "m") {
+      EXPECT_LT(value.upper95 - value.lower95, 10) << value.name;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, Wall, testing::Values(15, 16, 8));
+
+// The tops about it are narrow: the best line of a sweep, 5 cm aside, gained half of what it does, and the race from
+// there ended elsewhere.
+TEST(WallAmongNarrowTops, IsFoundToTheDecimetre) {
+  const Scratch scratch;
+  const auto world = made_case(scratch, "--seed 84 --rows 2000 20000", 549);
+  const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
+  expect_only("effect.unmapped_wall", found);
+  const std::map<std::string, double> there{{"x0", -28.43}, {"y0", -15.44}, {"x1", -26.56}, {"y1", -12.72}};
+  int ends = 0;
+  for (const CauseValue& value : found.causes[0].values) {
+    const auto truth = there.find(value.name);
+    if (truth == there.end()) continue;
+    EXPECT_NEAR(value.value, truth->second, 0.1) << value.name;
+    ++ends;
+  }
+  EXPECT_EQ(ends, 4);
+}
+
+// A floor that keeps a handful of readings back, alone and beside random loss.
+class Silence : public testing::TestWithParam<std::pair<int, int>> {};  // seed, case
+
+TEST_P(Silence, OfAHandfulIsTold) {
+  const auto [seed, number] = GetParam();
+  const Scratch scratch;
+  const auto world = made_case(scratch, "--seed " + std::to_string(seed) + " --rows 2000 20000", number);
+  expect_only("effect.rssi_floor", diagnose(world, world / "measured.csv", plugins));
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, Silence, testing::Values(std::pair(84, 784), std::pair(86, 145)));
+
+// Seen from two or three sides, and narrow: its edges lie within centimetres, between which a search has many tops. Two
+// that it took for walls.
+class Thing : public testing::TestWithParam<int> {};
+
+TEST_P(Thing, IsNoWall) {
+  const Scratch scratch;
+  const auto world =
+      made_case(scratch, "--seed 501 --rows 2000 20000 --mix one --effects obstacle --lambda 150", GetParam());
+  const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
+  expect_only("effect.obstacle", found);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, Thing, testing::Values(11, 19));
+
+// A shadow that falls straight behind: nothing ends where the count of angles begins anew. It was told at -180 degrees,
+// give or take 1.4, where the search had run against that bound.
+TEST(Directions, GoOnBeyondHalfATurn) {
+  const Scratch scratch;
+  const auto world = made_case(scratch, "--seed 84 --rows 2000 20000", 104);
+  const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
+  for (const FoundCause& cause : found.causes) {
+    if (cause.id != "effect.body_shadow") continue;
+    const auto direction = std::find_if(cause.values.begin(), cause.values.end(),
+                                        [](const CauseValue& v) { return v.name == "direction"; });
+    ASSERT_NE(direction, cause.values.end());
+    constexpr double hidden = 3.041;  // rad
+    const double off = std::remainder(hidden - direction->value, 2 * M_PI);
+    EXPECT_GT(off, direction->lower95 - direction->value);
+    EXPECT_LT(off, direction->upper95 - direction->value);
+    EXPECT_LT(direction->upper95 - direction->lower95, 0.3);
+    EXPECT_LE(std::abs(direction->value), 3.15);
+    return;
+  }
+  FAIL() << "no shadow is told";
+}
+
+}  // namespace
+}  // namespace muster::diagnosis

@@ -1,0 +1,112 @@
+// Whether shadowing is as stated, and whether somebody crosses a link: walks whose field and bursts are known.
+#include <gtest/gtest.h>
+
+#include "diagnosis/radio/laws/blockage_test.hpp"
+#include "diagnosis/radio/laws/shadowing_test.hpp"
+#include "tests/diagnosis/walk.hpp"
+
+namespace muster::diagnosis {
+namespace {
+
+inference::Problem problem_of(const Walk& walk) {
+  inference::Problem problem;
+  problem.readings = walk.readings;
+  problem.measured = walk.residual;
+  problem.base = Eigen::MatrixXd::Ones(walk.residual.size(), 1);
+  return problem;
+}
+
+LawTest field_tested(double decorrelation, double stated) {
+  const Walk walk = drawn_of_four({.rician_k = 10}, 700, decorrelation);
+  const inference::Problem problem = problem_of(walk);
+  const inference::Bench bench(problem, {});
+  ReadingField field(walk.readings, walk.residual);
+  return field_test(field, 1, {.rician_k = 10}, {3, stated}, bench);
+}
+
+TEST(FieldOfShadowing, AsStatedIsLeftInPeace) {
+  for (const double decorrelation : {0.8, 1.5, 2.5})
+    EXPECT_GT(field_tested(decorrelation, decorrelation).log_p, std::log(0.01)) << decorrelation;
+}
+
+TEST(FieldOfShadowing, AnotherDistanceIsMeasured) {
+  const LawTest test = field_tested(3, 0.7);
+  EXPECT_LT(test.log_p, std::log(1e-4));
+  EXPECT_NEAR(std::log(test.values[1].value), std::log(3), std::log(1.8));
+}
+
+// A belief about how far shadowing reaches indoors told a decorrelation of 9 m as 5.
+TEST(FieldOfShadowing, AnUnusualDistanceIsMeasured) {
+  const LawTest test = field_tested(8, 2);
+  EXPECT_LT(test.values[1].lower95, 8);
+  EXPECT_GT(test.values[1].upper95, 8);
+}
+
+Passages passages_in(const Walk& walk, const Asked& asked) {
+  const inference::Problem problem = problem_of(walk);
+  return passages_of(inference::Bench(problem, {}), asked);
+}
+Passages passages_in(const Walk& walk) { return passages_in(walk, Asked::Constant(walk.residual.size(), true)); }
+
+TEST(PeopleOnALink, NobodyIsSeenWhereNobodyIs) {
+  const Walk walk = drawn_of_four({.rician_k = 3}, 600, 1.5);  // deep fades
+  EXPECT_GT(passages_in(walk).test.log_p, std::log(0.01));
+}
+
+// Of the first station, 1.2 s to 1/e each.
+void add_bursts(Walk& walk, double first, double every, double dB) {
+  for (std::size_t i = 0; i < 600; ++i) {
+    const double apart = std::remainder(walk.readings.t[i] - first, every) / 1.2;
+    walk.residual[static_cast<Eigen::Index>(i)] += std::round(dB * std::exp(-apart * apart));
+  }
+}
+
+TEST(PeopleOnALink, LevelsThatRiseAsOftenAsTheyFallAreNobody) {
+  Walk walk = drawn_of_four({.rician_k = 8}, 600, 1.5);
+  add_bursts(walk, 11, 74, -35);
+  add_bursts(walk, 48, 74, 35);
+  EXPECT_GT(passages_in(walk).test.log_p, std::log(0.01));
+}
+
+// As in a measured flat: dips win more than twice what rises do, and are still a misfit of the field.
+TEST(PeopleOnALink, LevelsThatRiseNearlyAsMuchAreNobody) {
+  Walk walk = drawn_of_four({.rician_k = 8}, 600, 1.5);
+  add_bursts(walk, 11, 74, -35);
+  add_bursts(walk, 48, 74, 20);
+  EXPECT_GT(passages_in(walk).test.log_p, std::log(0.01));
+}
+
+TEST(PeopleOnALink, DeepFadesOfSingleReadingsAreNobody) {
+  Walk walk = drawn_of_four({.rician_k = 8}, 600, 1.5);
+  for (Eigen::Index i = 20; i < 600; i += 60) walk.residual[i] -= 25;
+  EXPECT_GT(passages_in(walk).test.log_p, std::log(0.01));
+}
+
+TEST(PeopleOnALink, BurstsOfReadingsThatAreNotAskedAreNobody) {
+  Walk walk = drawn_of_four({.rician_k = 8}, 600, 1.5);
+  const Eigen::VectorXd before = walk.residual;
+  add_bursts(walk, 11, 37, -20);
+  EXPECT_LT(passages_in(walk).test.log_p, std::log(1e-6));
+  EXPECT_GT(passages_in(walk, walk.residual.array() == before.array()).test.log_p, std::log(0.01));
+  EXPECT_EQ(passages_in(walk).links, 4u);
+  EXPECT_EQ(passages_in(walk, Asked::Constant(walk.residual.size(), false)).links, 0u);
+}
+
+TEST(PeopleOnALink, BurstsAreSeenAndMeasured) {
+  Walk walk = drawn_of_four({.rician_k = 8}, 600, 1.5);
+  add_bursts(walk, 11, 37, -20);
+  const Passages found = passages_in(walk);
+  EXPECT_EQ(found.radio, 0);
+  EXPECT_EQ(found.other, 9);
+  EXPECT_LT(found.test.log_p, std::log(1e-6));
+  for (const LawValue& v : found.test.values) {
+    const double truth = v.name == "loss"       ? 12
+                         : v.name == "duration" ? 1.2 * std::sqrt(M_PI)
+                                                : 1.2 * std::sqrt(M_PI) / 37;
+    EXPECT_LT(v.lower95, truth) << v.name;
+    EXPECT_GT(v.upper95, truth) << v.name;
+  }
+}
+
+}  // namespace
+}  // namespace muster::diagnosis

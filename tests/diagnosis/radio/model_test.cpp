@@ -1,0 +1,31 @@
+// What a world expects of links that pass closely by the end of a wall.
+#include <gtest/gtest.h>
+
+#include "diagnosis/radio/links/link_model.hpp"
+#include "tests/diagnosis/scratch.hpp"
+#include "tests/diagnosis/worlds.hpp"
+
+namespace muster::diagnosis {
+namespace {
+
+TEST(LinkModel, TellsWhichLinksMayAsWellPassOnTheOtherSideOfAnEnd) {
+  const Scratch scratch;
+  const auto world =
+      scratch.write("world.xml",
+                    "<world name=\"w\" dt=\"1\" until=\"1\" seed=\"1\">\n  <material name=\"brick\" loss=\"7.5\"/>\n"
+                    "  <wall name=\"w\" from=\"5 0\" to=\"5 10\" height=\"3\" material=\"brick\"/>\n"
+                    "  <station name=\"a\" at=\"0 0 0.5\"/>\n  <radio.multiwall/>\n</world>\n");
+  std::string table = "tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],rssi[dBm]\n";
+  for (const char* y : {"5", "0.003", "0.03", "-0.003", "-0.03"})
+    table += std::string("a,b,0,") + y + ",10," + y + ",-60\nb,a,10," + y + ",0," + y + ",-60\n";
+  LinkModel model(world, scratch.write("readings.csv", table), plugins);
+  const Eigen::VectorXd before = model.expected();
+  EXPECT_NEAR(before[8] - before[0], 7.5, 1e-12);
+  Eigen::VectorXd wanted(10);
+  wanted << 0, 0, 7.5, 7.5, 0, 0, 7.5, 7.5, 0, 0;
+  EXPECT_TRUE(model.changes_aside(0.005).isApprox(wanted, 1e-9)) << model.changes_aside(0.005).transpose();
+  EXPECT_EQ(model.expected(), before);  // links stand where they stood
+}
+
+}  // namespace
+}  // namespace muster::diagnosis

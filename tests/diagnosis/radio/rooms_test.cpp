@@ -1,0 +1,61 @@
+// The rooms of a plan, from its walls alone.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "diagnosis/radio/links/room_detection.hpp"
+
+namespace muster::diagnosis {
+namespace {
+
+constexpr double angle = 0.4;
+
+std::array<double, 2> turned(double x, double y) {
+  return {std::cos(angle) * x - std::sin(angle) * y, std::sin(angle) * x + std::cos(angle) * y};
+}
+
+std::array<double, 4> wall(double x0, double y0, double x1, double y1) {
+  const auto a = turned(x0, y0), b = turned(x1, y1);
+  return {a[0], a[1], b[0], b[1]};
+}
+
+// Two rooms of 4 x 3 and 6 x 3 m beside one another, their corners open by 5 cm, as of thick walls.
+std::vector<std::array<double, 4>> two_rooms() {
+  return {wall(0, 0, 9.95, 0), wall(0, 3, 10, 3), wall(0, 0.05, 0, 3), wall(4, 0, 4, 2.95), wall(10, 0, 10, 3)};
+}
+
+TEST(Rooms, AreWhatWallsCloseInThoseWithMostVisitsFirst) {
+  const auto rooms = rooms_of(two_rooms(), angle, {turned(1, 1), turned(7, 2), turned(9, 0.5), turned(12, 1)});
+  ASSERT_EQ(rooms.size(), 2u);
+  EXPECT_EQ(rooms[0].visits, 2);
+  EXPECT_EQ(rooms[1].visits, 1);
+  const auto at = turned(7, 1.5);
+  EXPECT_NEAR(rooms[0].bounds.x, at[0], 0.1);
+  EXPECT_NEAR(rooms[0].bounds.y, at[1], 0.1);
+  EXPECT_NEAR(rooms[0].bounds.length, 6, 0.2);
+  EXPECT_NEAR(rooms[0].bounds.width, 3, 0.2);
+  EXPECT_EQ(rooms[0].bounds.angle, angle);
+  EXPECT_NEAR(rooms[1].bounds.length, 4, 0.2);
+}
+
+TEST(Rooms, WhatIsOpenToTheOutsideIsNone) {
+  auto walls = two_rooms();
+  walls.pop_back();
+  const auto rooms = rooms_of(walls, angle, {turned(1, 1), turned(7, 2)});
+  ASSERT_EQ(rooms.size(), 1u);
+  EXPECT_NEAR(rooms[0].bounds.length, 4, 0.2);
+}
+
+TEST(Rooms, APlanWithoutWallsHasNone) { EXPECT_TRUE(rooms_of({}, 0, {{1, 1}}).empty()); }
+
+// Cells grow with the plan, and are at most as many as they may be.
+TEST(Rooms, OfALargePlan) {
+  const auto rooms =
+      rooms_of({wall(0, 0, 2000, 0), wall(0, 900, 2000, 900), wall(0, 0, 0, 900), wall(2000, 0, 2000, 900)}, angle,
+               {turned(1000, 400)});
+  ASSERT_EQ(rooms.size(), 1u);
+  EXPECT_NEAR(rooms[0].bounds.length, 2000, 5);
+}
+
+}  // namespace
+}  // namespace muster::diagnosis

@@ -1,0 +1,265 @@
+// Words, digits and gates, on results that are made up.
+#include <gtest/gtest.h>
+
+#include "diagnosis/report/advice.hpp"
+#include "diagnosis/report/json.hpp"
+#include "diagnosis/report/page.hpp"
+#include "diagnosis/report/text.hpp"
+
+namespace muster::report {
+namespace {
+
+FoundCause wall(inference::Status status, std::optional<inference::HeldOut> held_out) {
+  FoundCause c;
+  c.id = "effect.unmapped_wall";
+  c.label = "(1.00, 2.00) to (3.00, 2.00)";
+  c.title = "a wall that is not on the map costs {loss}";
+  c.tell_apart = "cross the place from both sides";
+  c.status = status;
+  c.values = {{"loss", "dB", 8.5632, 0.16, 8.254, 8.871, 0, 40}};
+  c.evidence = 20;
+  c.lambda = 51;
+  c.held_out = held_out;
+  return c;
+}
+
+Diagnosis with(const FoundCause& cause) {
+  Diagnosis d;
+  d.readings = 1000;
+  d.rows = 200;
+  d.causes = {cause};
+  d.held_out = cause.held_out;
+  return d;
+}
+
+bool says(const std::string& text, const std::string& what) { return text.find(what) != std::string::npos; }
+
+TEST(Digits, FollowTheInterval) {
+  EXPECT_EQ(rounded(8.5632, 0.31), "8.6");
+  EXPECT_EQ(rounded(8.5632, 0.13), "8.56");
+  EXPECT_EQ(rounded(1234.5, 60), "1234");
+  EXPECT_EQ(rounded(-0.001, 0.3), "0.0");
+  EXPECT_EQ(quantity(M_PI / 2, 0.1, "rad"), "90 deg");
+  EXPECT_EQ(interval({"loss", "dB", 8.5, 0.1, 8.254, 8.871, 0, 40}), "8.3 to 8.9 dB");
+  EXPECT_EQ(interval({"x", "m", 1, 0, 1, 1, -9, 9}), "no interval");
+}
+
+TEST(Gate, IsIsSaidOnlyWhereHeldOutDataShowIt) {
+  const FoundCause sure = wall(inference::Status::named, inference::HeldOut{3.5, 2.5, 6, 2.4, 11, 21});
+  EXPECT_EQ(standing_of(sure), Standing::confirmed);
+  EXPECT_TRUE(says(text_of(with(sure), {"hall", "a.csv"}), "(1) it is effect.unmapped_wall"));
+  const FoundCause touching = wall(inference::Status::named, inference::HeldOut{3.5, 3.4, 0.7, -0.1, 1.5, 21});
+  EXPECT_EQ(standing_of(touching), Standing::unconfirmed);
+  const FoundCause of_few = wall(inference::Status::named, inference::HeldOut{3.5, 2.5, 6, 5.1, 7, 4});
+  EXPECT_EQ(standing_of(of_few), Standing::unconfirmed);
+  EXPECT_EQ(why_unconfirmed(of_few), "in 4 blocks of space it may gain by chance alone");
+  const FoundCause aside = wall(inference::Status::suspected, {});
+  EXPECT_EQ(standing_of(aside), Standing::set_aside);
+  const FoundCause unmeasured = wall(inference::Status::named, {});
+  EXPECT_EQ(standing_of(unmeasured), Standing::unconfirmed);
+  for (const FoundCause& c : {touching, of_few, aside, unmeasured}) {
+    const std::string text = text_of(with(c), {"hall", "a.csv"});
+    EXPECT_TRUE(says(text, "suspected: effect.unmapped_wall")) << text;
+    EXPECT_FALSE(says(text, "it is")) << text;
+    EXPECT_FALSE(says(text, "is wrong")) << text;
+  }
+}
+
+TEST(Text, SaysLambdaGainAndBlocks) {
+  const auto cause = wall(inference::Status::named, inference::HeldOut{3.5, 2.5, 6, 2.4, 11, 21});
+  const std::string text = text_of(with(cause), {"hall", "a.csv"});
+  for (const char* what :
+       {"lambda 51", "evidence    20.0 nats", "95 %: 2.40 to", "11.00, 21 blocks", "8.6 dB", "95 %: 8.3 to 8.9 dB"})
+    EXPECT_TRUE(says(text, what)) << what << "\n" << text;
+}
+
+TEST(Text, OneBlockIsSaidNotHidden) {
+  const std::string text = text_of(with(wall(inference::Status::named, {})), {"hall", "a.csv"});
+  EXPECT_TRUE(says(text, "lie in one block")) << text;
+  EXPECT_TRUE(says(text, "not measured: too few blocks")) << text;
+}
+
+TEST(Text, RivalsThatAreNotDecidedAreQuestions) {
+  FoundCause c = wall(inference::Status::named, inference::HeldOut{3.5, 2.5, 6, 2.4, 11, 21});
+  c.rivals.push_back({"effect.obstacle", "(2.00, 2.00)", {}, 1.5, 6});
+  Diagnosis d = with(c);
+  d.advice.push_back({"turn on the spot", c.id, "effect.obstacle", 6, 15.0});
+  d.advice.push_back({"move base", c.id, "effect.obstacle", 6, 74.0});
+  d.advised = diagnosis::PlannedReadings{"move base", {}};
+  const std::string text = text_of(d, {"hall", "a.csv"});
+  EXPECT_TRUE(says(text, "unmapped wall or obstacle: D 6, cannot be told apart")) << text;
+  const auto best = text.find("move base: predicted D 74, decides; advised.csv lists its readings");
+  EXPECT_LT(best, text.find("turn on the spot: predicted D 15\n")) << text;
+}
+
+TEST(Text, RivalsOfTheSameNameAreToldByTheirRows) {
+  FoundCause c = wall(inference::Status::named, inference::HeldOut{3.5, 2.5, 6, 2.4, 11, 21});
+  c.label = "wall/w1";
+  c.rivals.push_back({c.id, "wall/w2", {}, -0.01, 0});
+  const std::string text = text_of(with(c), {"hall", "a.csv"});
+  EXPECT_TRUE(says(text, "unmapped wall of wall/w1 or of wall/w2: D 0, cannot be told apart")) << text;
+  EXPECT_TRUE(says(text, "unmapped wall wall/w2, 0.0 nats behind")) << text;
+}
+
+TEST(Text, WhatIsUnexplainedNamesTheCausesThatExplainItNearlyAsWell) {
+  Diagnosis d = with(wall(inference::Status::named, {}));
+  d.causes.clear();
+  d.unexplained = {{"battery", 20.3, 52, {}, {}}};
+  EXPECT_TRUE(says(text_of(d, {"hall", "a.csv"}), "no known cause explains: something depends on the column battery"));
+  EXPECT_TRUE(says(page_of(d, {"hall", "a.csv"}, {}), "no cause on the plugin path explains it: evidence 20.3 nats"));
+  d.unexplained[0].rivals = {{"effect.drift", "radio/base", {}, 1.2, 3}, {"effect.step", "all", {}, 2.6, 15}};
+  const std::string text = text_of(d, {"hall", "a.csv"}), page = page_of(d, {"hall", "a.csv"}, {});
+  EXPECT_TRUE(says(text, "no known cause explains as well: something")) << text;
+  EXPECT_FALSE(says(text, "on the plugin path")) << text;
+  EXPECT_TRUE(says(text, "column battery or drift: D 3, cannot be told apart")) << text;
+  EXPECT_TRUE(says(text, "measure with the column battery changed and all else as it was")) << text;
+  const char* const rivals =
+      "drift radio/base, 1.2 nats behind, D 3: cannot be told apart; step, 2.6 nats behind, D 15";
+  EXPECT_TRUE(says(page, rivals)) << page;
+  const auto json = json_of(d);
+  EXPECT_EQ(json["unexplained"][0]["rivals"][0]["id"], "effect.drift");
+  EXPECT_EQ(json["advice"][0]["separates"], "~battery effect.drift");
+}
+
+TEST(Text, WhatWasCheckedIsFineDoubtfulOrAskedByATestOfItsOwn) {
+  Diagnosis d = with(wall(inference::Status::named, {}));
+  const auto check = [](const char* id, inference::Kind kind, double p) {
+    inference::Check c;
+    c.id = id;
+    c.kind = kind;
+    c.log_p = std::log(p);
+    return c;
+  };
+  d.checks = {check("~logd", inference::Kind::smooth, 0.4), check("effect.drift", inference::Kind::named, 0.002),
+              check("effect.step", inference::Kind::named, 1e-8)};
+  d.searched = {"effect.drift", "effect.outliers", "effect.people", "effect.step", d.causes[0].id};
+  for (const std::string& report : {text_of(d, {"hall", "a.csv"}), page_of(d, {"hall", "a.csv"}, {})}) {
+    const auto doubtful = report.find("oubtful");
+    EXPECT_LT(report.find("drift"), doubtful) << report;
+    EXPECT_GT(report.rfind("step"), doubtful) << report;
+    EXPECT_TRUE(says(report, "Nor, each by a test of its own: outliers, people.")) << report;
+  }
+}
+
+TEST(Text, ALawHasNoGainToMeasure) {
+  Diagnosis d = with(wall(inference::Status::named, {}));
+  d.causes[0].covariates = {"reading"};
+  EXPECT_TRUE(says(text_of(d, {"hall", "a.csv"}), "told by how readings scatter"));
+  EXPECT_TRUE(says(page_of(d, {"hall", "a.csv"}, {}), "told by how readings scatter"));
+}
+
+TEST(Text, WhatTheReadingsDoNotIdentifyHasNoInterval) {
+  Diagnosis d = with(wall(inference::Status::named, {}));
+  d.world_values = {{.path = "radio.multiwall/l0", .unit = "dB", .value = 2, .stderror = 0.3, .identifiable = false}};
+  for (const std::string& report : {text_of(d, {"hall", "a.csv"}), page_of(d, {"hall", "a.csv"}, {})})
+    EXPECT_TRUE(says(report, "not identifiable")) << report;
+  const auto json = json_of(d);
+  EXPECT_TRUE(json["world_parameters"][0]["stderr"].is_null());
+  EXPECT_EQ(json["world_parameters"][0]["identifiable"], false);
+}
+
+TEST(Text, GainsWithRadiosAndRunsNotSeenStandBesideThoseOfPlaces) {
+  const inference::HeldOut places{3.5, 2.5, 6, 2.4, 11, 21}, radios{4.5, 3.25, 9.69, 5, 12, 4},
+      runs{3.75, 3, 5.06, 1, 7, 2};
+  Diagnosis d = with(wall(inference::Status::named, places));
+  d.elsewhere = {{inference::Part::radio, radios}, {inference::Part::run, runs}};
+  d.causes[0].elsewhere = d.elsewhere;
+  d.unexplained = {{"battery", 30, 60, {}, d.elsewhere}};
+  const std::string text = text_of(d, {"hall", "a.csv"}), page = page_of(d, {"hall", "a.csv"}, {});
+  for (const std::string& report : {text, page}) {
+    for (const char* words : {"it errs by 4.50 dB at these, with what was found by 3.25 dB", "4 radios)", "2 runs)"})
+      EXPECT_TRUE(says(report, words)) << words << '\n' << report;
+  }
+  const auto json = json_of(d);
+  EXPECT_EQ(json["causes"][0]["elsewhere"][1]["left_out"], "runs");
+  EXPECT_EQ(json["elsewhere"][0]["gain_upper95"], 12);
+  EXPECT_EQ(json["unexplained"][0]["elsewhere"][0]["blocks"], 4);
+}
+
+// Of all that was accepted, named or not; clips and laws of what scatters are no step.
+TEST(Steps, AreInTheOrderOfStrength) {
+  Diagnosis d = with(wall(inference::Status::named, {}));
+  d.causes[0].sought_as = d.causes[0].id;
+  FoundCause drift = d.causes[0];
+  drift.id = drift.sought_as = "effect.drift";
+  drift.lambda = 80;
+  FoundCause fading = d.causes[0];
+  fading.id = "effect.fading_law";
+  fading.sought_as = "";
+  fading.lambda = 200;
+  d.causes.insert(d.causes.begin(), {fading, drift});
+  d.unexplained = {{"battery", 30, 60, {}}};
+  const char* expected[] = {"the world, fitted", "+ drift", "+ the column battery (unexplained)", "+ unmapped wall",
+                            ""};
+  for (std::size_t k = 0; k < 5; ++k) EXPECT_EQ(name_of_step(d, k), expected[k]) << k;
+}
+
+TEST(Text, NothingFoundIsAdequate) {
+  Diagnosis d;
+  d.held_out = inference::HeldOut{2.5, 2.5, 0, 0, 0, 12};
+  d.stairs = {{2.5, 2.2, 2.8}};
+  const std::string text = text_of(d, {"hall", "a.csv"});
+  EXPECT_TRUE(says(text, "hall is adequate: nothing was found beyond chance")) << text;
+  EXPECT_FALSE(says(text, "Cause"));
+}
+
+// The channel's law at the end of what is physical: no name beside it is sure, whatever it gains.
+TEST(Gate, NothingIsSureBesideALawAtItsBound) {
+  FoundCause c = wall(inference::Status::named, inference::HeldOut{3.5, 2.5, 6, 2.4, 11, 21});
+  c.doubt = "at its bound: radio.multiwall/n";
+  Diagnosis d = with(c);
+  d.world_values = {{"radio.multiwall/n", "", 0, 0.05, true}, {"radio.multiwall/l0", "dB", 12, 1, false}};
+  EXPECT_EQ(standing_of(c), Standing::unconfirmed);
+  const std::string text = text_of(d, {"hall", "a.csv"});
+  EXPECT_TRUE(says(text, "seems wrong: one cause is named, but the fit ends at a bound")) << text;
+  EXPECT_TRUE(says(text, "suspected: effect.unmapped_wall")) << text;
+  EXPECT_TRUE(says(text, "doubt       at its bound: radio.multiwall/n")) << text;
+  EXPECT_TRUE(says(text, "0.00 +- 0.10  (at its bound)")) << text;
+  EXPECT_FALSE(says(text, "touches zero")) << text;
+  const auto json = json_of(d);
+  EXPECT_EQ(json["causes"][0]["confirmed"], false);
+  EXPECT_EQ(json["causes"][0]["doubt"], c.doubt);
+  EXPECT_EQ(json["world_parameters"][0]["at_bound"], true);
+  EXPECT_EQ(json["world_parameters"][1]["at_bound"], false);
+  EXPECT_TRUE(says(page_of(d, {"hall", "a.csv", {}}, {}), "Doubt: at its bound: radio.multiwall/n."));
+}
+
+TEST(Text, SaysWhatItCountsIn) {
+  const Diagnosis d = with(wall(inference::Status::named, inference::HeldOut{3.5, 2.5, 6, 2.4, 11, 21}));
+  for (const std::string& text : {text_of(d, {"hall", "a.csv"}), page_of(d, {"hall", "a.csv", {}}, {})})
+    for (const char* word : {"95 % and +-:", "Nats:", "Lambda:", "D:", "docs/how-to/read_a_report.md"})
+      EXPECT_TRUE(says(text, word)) << word << "\n" << text;
+}
+
+TEST(Page, IsValidWhereTablesHaveNoHeadAndPicturesAreInside) {
+  Diagnosis d = with(wall(inference::Status::named, inference::HeldOut{3.5, 2.5, 6, 2.4, 11, 21}));
+  const Picture picture{"residual_map", {}};
+  const std::string page = page_of(d, {"hall", "a.csv", {}}, {picture});
+  EXPECT_TRUE(says(page, "<figure>\n<svg")) << page;
+  EXPECT_FALSE(says(page, "<?xml")) << page;
+  EXPECT_FALSE(says(page, "<th></th>")) << page;
+}
+
+// A name keeps its letters, a sentence gets its capital.
+TEST(Page, DoesNotRenameARadio) {
+  FoundCause c = wall(inference::Status::named, {});
+  const auto title = [&] { return page_of(with(c), {"hall", "a.csv", {}}, {}); };
+  EXPECT_TRUE(says(title(), "</span>A wall that is not on the map"));
+  c.title = "{radio} has a notch";
+  c.row = "rover";
+  EXPECT_TRUE(says(title(), "</span>rover has a notch"));
+}
+
+TEST(Text, WrapsAtAHundredLetters) {
+  const std::string long_one(60, 'a'), text = wrapped(long_one + " " + long_one + " b", 2, 4);
+  EXPECT_EQ(text, "  " + long_one + "\n    " + long_one + " b\n");
+}
+
+TEST(Text, ReasonsAreGathered) {
+  Diagnosis d;
+  d.not_tested = {"effect.step: no t", "effect.height: one height", "effect.drift: no t"};
+  EXPECT_EQ(reasons_not_tested(d), (std::vector<std::string>{"step, drift: no t", "height: one height"}));
+}
+
+}  // namespace
+}  // namespace muster::report

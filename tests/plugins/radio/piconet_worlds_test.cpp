@@ -1,0 +1,58 @@
+// Membership of a piconet in a world. tests/README.md lists the rows.
+#include <gmock/gmock.h>
+
+#include "world_of.hpp"
+
+namespace muster {
+namespace {
+
+const std::string channel = "<radio.multiwall n=\"3\"/><radio.receiver sensitivity=\"-90\"/>\n";
+
+std::string stations(int count) {
+  std::string result;
+  for (int i = 0; i < count; ++i)
+    result += station(std::string(1, static_cast<char>('a' + i)), std::to_string(i) + " 1 1");
+  return result;
+}
+
+const std::string talk = "<test.sender from=\"a\"/>";
+
+TEST(Piconet, Row24AnEighthSlaveIsRefused) {
+  const Folder folder;
+  Simulation seven = world_of(folder, stations(8) + channel + talk + "<network.bluetooth/>");
+  run(seven, 3);
+  Simulation eight = world_of(folder, stations(9) + channel + talk + "<network.bluetooth/>");
+  try {
+    eight.step();
+    FAIL() << "not refused";
+  } catch (const Error& refused) {
+    EXPECT_THAT(
+        refused.what(),
+        testing::EndsWith("network.bluetooth (network.bluetooth): step failed at tick 1 (t = 0.1 s): 9 radios; a "
+                          "piconet has one master and at most 7 slaves"));
+  }
+}
+
+// The run stands where it was before.
+TEST(Piconet, Row24AnEighthSlaveThatJoinsIsRefused) {
+  const Folder folder;
+  Simulation sim = world_of(
+      folder, stations(8) + channel + talk + "<network.bluetooth/><test.joiner radio=\"late\" like=\"a\" at=\"5\"/>");
+  EXPECT_THROW(run(sim, 10), Error);
+  EXPECT_EQ(sim.tick(), 5u);
+}
+
+TEST(Piconet, AJammersRadioIsNotOfIt) {
+  const Folder folder;
+  Simulation sim = world_of(folder, stations(9) + channel +
+                                        "<network.bluetooth master=\"c\"/><radio.jammer radio=\"i\" excess=\"-100\"/>" +
+                                        "<test.sender from=\"c\"/>");
+  run(sim, 20);
+  const TableView traffic = sim.table("radio/c/traffic");
+  EXPECT_EQ(traffic.at(0, 0), 8 * 20);
+  EXPECT_EQ(traffic.at(0, 3), 20);  // no link to it
+  EXPECT_GE(traffic.at(0, 1), 7 * 19);
+}
+
+}  // namespace
+}  // namespace muster

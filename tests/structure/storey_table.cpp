@@ -1,0 +1,62 @@
+// The table of storeys, lowest first. Each row: a room, and the rooms below it that its files may include.
+#include "storeys.hpp"
+
+namespace muster::test {
+
+const Storeys& storeys() {
+  static const Storeys table{
+      {"plugin_api", {}},
+      {"text", {}},
+      {"loader", {"plugin_api", "text"}},
+      {"world_file", {"plugin_api", "text"}},
+      {"kernel", {"plugin_api", "text", "loader", "world_file"}},
+
+      {"scene", {}},
+      {"description", {"plugin_api"}},
+      {"medium", {"plugin_api"}},
+      {"plotting", {"text"}},
+
+      // A plugin includes its own folder and the headers beside all folders of plugins; never kernel/ or loader/.
+      {"plugins", {"plugin_api", "scene"}},
+      {"plugins/*", {"plugin_api", "scene", "description", "medium", "plugins"}},
+      {"plugins/causes", {"plugin_api", "scene", "plugins", "plugins/radio_fading"}},
+
+      // Domain-free: columns, sites, groups and blocks.
+      {"diagnosis/inference/noise", {"plugin_api", "text"}},
+      {"diagnosis/inference/state", {"plugin_api", "text", "diagnosis/inference/noise"}},
+      {"diagnosis/inference/score", {"plugin_api", "text", "diagnosis/inference/noise", "diagnosis/inference/state"}},
+      {"diagnosis/inference/select",
+       {"plugin_api", "text", "diagnosis/inference/noise", "diagnosis/inference/state", "diagnosis/inference/score"}},
+      {"diagnosis/inference/assess",
+       {"plugin_api", "text", "diagnosis/inference/noise", "diagnosis/inference/state", "diagnosis/inference/score",
+        "diagnosis/inference/select"}},
+
+      {"diagnosis/result", {"text", "diagnosis/inference/*"}},
+      {"diagnosis/data", {"plugin_api", "text"}},
+      {"diagnosis/prediction", {"plugin_api", "text", "kernel", "world_file", "diagnosis/data"}},
+      {"diagnosis/calibration",
+       {"plugin_api", "text", "plotting", "diagnosis/inference/*", "diagnosis/data", "diagnosis/prediction"}},
+      {"diagnosis/causes",
+       {"plugin_api", "text", "kernel", "diagnosis/result", "diagnosis/inference/*", "diagnosis/data",
+        "diagnosis/prediction", "diagnosis/calibration"}},
+      {"diagnosis/radio",
+       {"plugin_api", "text", "kernel", "scene", "plotting", "plugins", "diagnosis/result", "diagnosis/inference/*",
+        "diagnosis/data", "diagnosis/prediction", "diagnosis/calibration", "diagnosis/causes"}},
+      {"diagnosis/planning",
+       {"plugin_api", "text", "diagnosis/result", "diagnosis/inference/*", "diagnosis/data", "diagnosis/prediction",
+        "diagnosis/calibration", "diagnosis/causes", "diagnosis/radio"}},
+      {"diagnosis/pipeline",
+       {"plugin_api", "text", "kernel", "diagnosis/result", "diagnosis/inference/*", "diagnosis/data",
+        "diagnosis/prediction", "diagnosis/calibration", "diagnosis/causes", "diagnosis/radio", "diagnosis/planning"}},
+      {"diagnosis/report",
+       {"plugin_api", "text", "kernel", "plotting", "diagnosis/result", "diagnosis/inference/*", "diagnosis/data",
+        "diagnosis/prediction", "diagnosis/calibration", "diagnosis/radio", "diagnosis/pipeline"}},
+
+      // Shares no code with what it grades.
+      {"exam", {}},
+      {"cli", {"plugin_api", "text", "loader", "world_file", "kernel", "plotting", "diagnosis/*"}},
+  };
+  return table;
+}
+
+}  // namespace muster::test

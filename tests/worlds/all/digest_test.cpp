@@ -1,0 +1,97 @@
+// A run is the same bit for bit, however it comes about.
+#include <fmt/core.h>
+
+#include <clocale>
+#include <cstdlib>
+#include <locale>
+
+#include "tests/cli/errors/program.hpp"
+#include "world_runs.hpp"
+
+namespace muster::test {
+namespace {
+
+class EveryWorld : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Digest, EveryWorld, testing::ValuesIn(worlds()), test_name);
+
+TEST_P(EveryWorld, IsNotAtRest) {
+  Simulation run = start(GetParam());
+  const auto first = run.digest();
+  EXPECT_NE(finish(run), first) << "nothing has happened, so that the tests below would show nothing";
+}
+
+TEST_P(EveryWorld, IsTheSameForAnyNumberOfWorkers) {
+  const auto expected = plain_digest(GetParam());
+  for (const int workers : {2, 3, 7}) {
+    Simulation run = start(GetParam(), workers);
+    EXPECT_EQ(finish(run), expected) << workers << " workers";
+  }
+}
+
+TEST_P(EveryWorld, IsTheSameAfterSaveAndRestore) {
+  const auto expected = plain_digest(GetParam());
+  const ProgramFolder folder;
+  const auto file = folder.path() / "state";
+  Simulation before = start(GetParam());
+  run_until(before, before.world().ticks / 2);
+  before.snapshot().save(file);
+  const auto at_half = before.digest();
+  Simulation after = start(GetParam());
+  after.restore(Snapshot::load(file));
+  EXPECT_EQ(after.digest(), at_half);
+  EXPECT_EQ(finish(after), expected);
+  EXPECT_EQ(finish(before), expected) << "to save disturbs";
+}
+
+// To restart a run is to restore what stood before its first tick.
+TEST_P(EveryWorld, RestartsFromTheSnapshotOfItsStart) {
+  Simulation run = start(GetParam());
+  const Snapshot at_start = run.snapshot();
+  const auto first = finish(run);
+  EXPECT_EQ(first, plain_digest(GetParam()));
+  run.restore(at_start);
+  EXPECT_EQ(run.tick(), 0u);
+  EXPECT_EQ(run.digest(), start(GetParam()).digest());
+  EXPECT_EQ(finish(run), first);
+}
+
+TEST_P(EveryWorld, IsTheSameAfterEveryInstanceWasMadeAgain) {
+  Simulation run = start(GetParam());
+  std::vector<std::string> names;
+  for (const auto& instance : run.instances()) names.push_back(instance->name());
+  run_until(run, run.world().ticks / 2);
+  for (const auto& name : names) run.remake(name);
+  EXPECT_EQ(finish(run), plain_digest(GetParam()));
+}
+
+TEST_P(EveryWorld, IsTheSameInGermany) {
+  const auto expected = plain_digest(GetParam());
+  ::setenv("LOCPATH", MUSTER_LOCALES, 1);
+  ASSERT_NE(std::setlocale(LC_ALL, "de_DE.UTF-8"), nullptr);
+  ASSERT_STREQ(std::localeconv()->decimal_point, ",");
+  const auto usual = std::locale::global(std::locale("de_DE.UTF-8"));
+  const auto found = plain_digest(GetParam());
+  std::locale::global(usual);
+  std::setlocale(LC_ALL, "C");
+  EXPECT_EQ(found, expected);
+}
+
+TEST_P(EveryWorld, IsTheSameInTwoProcesses) {
+  const auto expected = fmt::format("\"digest\": \"{:016x}\"", plain_digest(GetParam()));
+  const World world = read_world(place_of(GetParam()), standard());
+  const double until = static_cast<double>(std::min(world.ticks, most_ticks)) * world.dt;
+  for (int process = 0; process < 2; ++process) {
+    Surroundings around;
+    around.environment = {"LOCPATH=" MUSTER_LOCALES, process ? "LC_ALL=de_DE.UTF-8" : "LC_ALL=C"};
+    const auto outcome =
+        run_muster({"run", place_of(GetParam()), "--until", fmt::format("{}", until), "--json"}, around);
+    EXPECT_EQ(outcome.exit, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find(expected), outcome.out.npos) << expected << "\n" << outcome.out;
+  }
+}
+
+}  // namespace
+
+// glibc keeps the path of LOCPATH that setlocale() has split, for good.
+extern "C" const char* __lsan_default_suppressions() { return "leak:argz_add_sep\n"; }
+}  // namespace muster::test
