@@ -37,7 +37,7 @@ Words words_of(const Arguments& arguments) {
       "diagnose");
   Words words;
   app.add_option("world", words.world, "the world's folder or file");
-  app.add_option("--data", words.data, "measured readings, a CSV table (docs/table_format.md)");
+  app.add_option("--data", words.data, "measured readings, a CSV table (docs/reference/table_format.md)");
   app.add_option("--out", words.out, "a folder for report.html, diagnosis.json, the extended world and its test");
   app.add_option(
       "--second", words.second,

@@ -26,7 +26,7 @@ Words words_of(const Arguments& arguments) {
       "fit");
   Words words;
   app.add_option("world", words.world, "the world's folder or file")->required();
-  app.add_option("--data", words.data, "measured readings, a CSV table (docs/table_format.md)")->required();
+  app.add_option("--data", words.data, "measured readings, a CSV table (docs/reference/table_format.md)")->required();
   app.add_option("--free", words.free,
                  "a parameter to fit beyond those declared free, such as radio.multiwall/tx_power");
   app.add_option("--fix", words.fix, "a parameter to hold: PATH, or PATH=VALUE");

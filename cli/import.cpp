@@ -12,7 +12,7 @@ int run_import(const Arguments& arguments) {
   CLI::App app(
       "Brings a foreign table of readings into the format of measured data, as a map file says, checks it, and prints "
       "what was\n"
-      "assumed. docs/import.md describes map files.\n"
+      "assumed. docs/how-to/import_a_table.md describes map files.\n"
       "Example: muster import calibration.csv --map calibration.map --out measured.csv",
       "import");
   std::string file, map, out;

@@ -1,5 +1,5 @@
 // A run's state between two ticks: rows, published tables, parameters. In memory, and as a file
-// (docs/snapshot_format.md).
+// (docs/reference/snapshot_format.md).
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,6 @@
 // A plugin's shared object: found, checked before anything of it runs, tried in a child process, loaded, and unloaded
-// when its last owner lets go. Every refusal is an Error with Exit::plugin_fault and one line. docs/library.md says
-// why.
+// when its last owner lets go. Every refusal is an Error with Exit::plugin_fault and one line.
+// docs/explanation/plugin_loading.md says why.
 #pragma once
 
 #include <muster/plugin.h>

@@ -6,7 +6,7 @@
 
 namespace muster {
 
-// The program's exit codes (docs/errors.md).
+// The program's exit codes (docs/reference/errors.md).
 enum class Exit {
   done = 0,
   check_failed = 1,

@@ -1,5 +1,6 @@
 // What errors of readings have in common: shadowing that belongs to places and to ways, and offsets of radios. Its
-// variances by restricted likelihood on clusters (Patterson and Thompson 1971); docs/fit.md says why it is so.
+// variances by restricted likelihood on clusters (Patterson and Thompson 1971); docs/explanation/fit_method.md says why
+// it is so.
 #pragma once
 
 #include <Eigen/Core>

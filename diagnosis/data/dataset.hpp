@@ -1,4 +1,4 @@
-// Measured readings of a radio channel, as docs/table_format.md has them, checked row by row.
+// Measured readings of a radio channel, as docs/reference/table_format.md has them, checked row by row.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// Brings a foreign table of readings into the format of measured data, as a map file says (docs/import.md), and says
-// what it took for granted.
+// Brings a foreign table of readings into the format of measured data, as a map file says
+// (docs/how-to/import_a_table.md), and says what it took for granted.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// A diagnosis as JSON (docs/diagnosis_format.md).
+// A diagnosis as JSON (docs/reference/diagnosis_format.md).
 #pragma once
 
 #include <nlohmann/json.hpp>

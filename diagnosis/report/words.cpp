@@ -246,7 +246,8 @@ std::string words_explained() {
   return "95 % and +-: an interval that holds the truth in 95 of 100 such reports. Nats: the natural logarithm of "
          "a likelihood ratio; 3 nats are 20 to 1. Lambda: what the likelihood loses, twice its logarithm, "
          "without the cause; below 20 a cause is often missed, above 50 hardly ever. D: the part of a cause that "
-         "another cannot imitate; below 12 the two cannot be told apart, above 25 they are. More: docs/diagnosis.md.";
+         "another cannot imitate; below 12 the two cannot be told apart, above 25 they are. More: "
+         "docs/how-to/read_a_report.md.";
 }
 
 std::string why_no_blocks(const Diagnosis& d) {

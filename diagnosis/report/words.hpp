@@ -67,7 +67,7 @@ std::string parts_in_words(inference::Part part);
 std::string errors_elsewhere(const Diagnosis& diagnosis);
 // How readings were gathered to rows.
 std::string rows_in_words(const Diagnosis& diagnosis);
-// What the report counts in, for who has not read docs/diagnosis.md.
+// What the report counts in, for who has not read docs/how-to/read_a_report.md.
 std::string words_explained();
 // Without held-out blocks: why there are none.
 std::string why_no_blocks(const Diagnosis& diagnosis);

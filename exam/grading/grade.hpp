@@ -1,4 +1,5 @@
-// Grades of a diagnosis against sealed answers: docs/exam_format.md says what is read and what each figure means.
+// Grades of a diagnosis against sealed answers: docs/reference/exam_format.md says what is read and what each figure
+// means.
 #pragma once
 
 #include <filesystem>

@@ -1,11 +1,12 @@
-// The samples of plugin_api/README.md: they are the files that the build compiles, they are as short as is said, and
-// they run.
+// The samples of plugin_api/README.md and of the tutorials: they are the files that the build compiles, they are as
+// short as is said, and they run.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include "kernel/simulation.hpp"
@@ -51,17 +52,31 @@ int lines_with_text(const std::string& text) {
   return result;
 }
 
-TEST(Samples, OfTheReadmeAreTheFilesThatAreBuilt) {
-  const auto quoted = quoted_files(text_of(source / "plugin_api" / "README.md"));
-  std::vector<std::string> expected;
-  for (const auto& entry : std::filesystem::directory_iterator(source / "docs" / "samples")) {
-    const std::string name = entry.path().filename();
-    if (name.front() != '.') expected.push_back("docs/samples/" + name);
+// Pages that show samples whole.
+std::vector<std::filesystem::path> pages() {
+  std::vector<std::filesystem::path> result = {source / "plugin_api" / "README.md"};
+  for (const auto& entry : std::filesystem::directory_iterator(source / "docs" / "tutorials"))
+    result.push_back(entry.path());
+  return result;
+}
+
+TEST(Samples, OfThePagesAreTheFilesThatAreBuilt) {
+  std::set<std::string> shown;
+  std::string all_pages;
+  for (const auto& page : pages()) {
+    const std::string text = text_of(page);
+    all_pages += text;
+    for (const auto& [file, quoted] : quoted_files(text)) {
+      EXPECT_EQ(quoted, text_of(source / file)) << page << " shows " << file;
+      shown.insert(file);
+    }
   }
-  EXPECT_EQ(expected.size(), quoted.size());
-  for (const auto& file : expected) {
-    ASSERT_TRUE(quoted.count(file)) << file;
-    EXPECT_EQ(quoted.at(file), text_of(source / file)) << file;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(source / "docs" / "samples")) {
+    const std::string file = std::filesystem::relative(entry.path(), source);
+    if (!entry.is_regular_file() || entry.path().filename().string().front() == '.') continue;
+    // A table of data may be too long for a page.
+    const bool table = entry.path().extension() == ".csv";
+    EXPECT_TRUE(shown.count(file) || (table && all_pages.find(file) != all_pages.npos)) << "no page shows " << file;
   }
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <utility>
 
 #include "tests/cli/errors/program.hpp"
 
@@ -17,9 +18,10 @@ std::string text_of(const fs::path& file) {
   return (std::ostringstream() << in.rdbuf()).str();
 }
 
-// The fenced blocks of XML that hold a world; `line` is where each begins.
+// The fenced blocks of XML that hold a world; `line` is where each begins, `file` the sample that it shows, if any.
 struct Sample {
   int line = 0;
+  std::string file{};
   std::string text{};
 };
 
@@ -28,10 +30,13 @@ std::vector<Sample> worlds_in(const fs::path& page) {
   std::istringstream lines(text_of(page));
   bool inside = false;
   int number = 0;
+  std::string file;
   for (std::string line; std::getline(lines, line);) {
     ++number;
-    if (line == "```xml")
-      result.push_back({number}), inside = true;
+    if (line.size() > 3 && line.front() == '`' && line.ends_with("`:"))
+      file = line.substr(1, line.size() - 3);
+    else if (line == "```xml")
+      result.push_back({number, std::exchange(file, {})}), inside = true;
     else if (line.rfind("```", 0) == 0)
       inside = false;
     else if (inside)
@@ -43,7 +48,9 @@ std::vector<Sample> worlds_in(const fs::path& page) {
 
 std::vector<fs::path> pages() {
   std::vector<fs::path> result;
-  for (const char* folder : {"docs", "plugin_api", "plugins", "worlds", "scene"}) {
+  for (const char* folder :
+       {"docs", "plugin_api", "plugins", "worlds", "scene", "description", "medium", "diagnosis", "exam", "peers"}) {
+    if (!fs::exists(fs::path(MUSTER_SOURCE_DIR) / folder)) continue;
     for (const auto& entry : fs::recursive_directory_iterator(fs::path(MUSTER_SOURCE_DIR) / folder)) {
       if (entry.path().extension() == ".md") result.push_back(entry.path());
     }
@@ -60,13 +67,16 @@ TEST(Pages, WorldsThatTheyShowAreFine) {
       SCOPED_TRACE(page.string() + ":" + std::to_string(sample.line));
       const ProgramFolder folder;
       folder.write("world.xml", sample.text);
-      const auto outcome = folder.muster({"check", "world.xml", "--plugins", MUSTER_SAMPLES_DIR});
+      // A sample may refer to files beside it.
+      const std::string world =
+          sample.file.empty() ? "world.xml" : (fs::path(MUSTER_SOURCE_DIR) / sample.file).string();
+      const auto outcome = folder.muster({"check", world, "--plugins", MUSTER_SAMPLES_DIR});
       EXPECT_EQ(outcome.exit, 0) << outcome.err;
       EXPECT_EQ(outcome.out.find("warning"), outcome.out.npos) << outcome.out;
       ++count;
     }
   }
-  EXPECT_GE(count, 2) << "README.md and docs/world_file.md show one each";
+  EXPECT_GE(count, 2) << "README.md and docs/reference/world_file.md show one each";
 }
 
 // A link to a file of the tree leads somewhere.

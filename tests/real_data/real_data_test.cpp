@@ -1,4 +1,4 @@
-// The stories of docs/real_data.md, as far as they are to hold whatever the search becomes.
+// The stories of docs/explanation/real_data.md, as far as they are to hold whatever the search becomes.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

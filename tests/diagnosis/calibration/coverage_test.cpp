@@ -110,7 +110,8 @@ Eigen::VectorXd coverage(const Errors& errors) {
   return held / worlds;
 }
 
-// 95 +- 3 % over the parameters together. One alone may be off by more: docs/fit.md has the table and says by how much.
+// 95 +- 3 % over the parameters together. One alone may be off by more: docs/explanation/fit_method.md has the table
+// and says by how much.
 void expect_95(const Eigen::VectorXd& coverage, const std::string& what) {
   std::cout << what << ": " << coverage.transpose() << '\n';
   EXPECT_NEAR(coverage.mean(), 0.95, 0.03) << what;

@@ -84,7 +84,7 @@ void paths_of(const Json& json, const std::string& at, std::set<std::string>& re
 // The first column of the page's tables.
 std::set<std::string> documented() {
   std::set<std::string> result;
-  std::istringstream lines(contents(fs::path(MUSTER_SOURCE_DIR) / "docs" / "diagnosis_format.md"));
+  std::istringstream lines(contents(fs::path(MUSTER_SOURCE_DIR) / "docs" / "reference" / "diagnosis_format.md"));
   for (std::string line; std::getline(lines, line);)
     if (line.rfind("| `", 0) == 0) result.insert(line.substr(3, line.find('`', 3) - 3));
   return result;

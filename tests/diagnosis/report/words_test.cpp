@@ -227,7 +227,7 @@ TEST(Gate, NothingIsSureBesideALawAtItsBound) {
 TEST(Text, SaysWhatItCountsIn) {
   const Diagnosis d = with(wall(inference::Status::named, inference::HeldOutGain{3.5, 2.5, 6, 2.4, 11, 21}));
   for (const std::string& text : {text_of(d, {"hall", "a.csv"}), page_of(d, {"hall", "a.csv", {}}, {})})
-    for (const char* word : {"95 % and +-:", "Nats:", "Lambda:", "D:", "docs/diagnosis.md"})
+    for (const char* word : {"95 % and +-:", "Nats:", "Lambda:", "D:", "docs/how-to/read_a_report.md"})
       EXPECT_TRUE(says(text, word)) << word << "\n" << text;
 }
 

@@ -30,7 +30,7 @@ TEST(Walking, RigidLegsGoAsFarAsTheyRoll) {
   }
 }
 
-// Where the approximation of rigid legs stops: docs/hexapod.md.
+// Where the approximation of rigid legs stops: docs/explanation/hexapod.md.
 TEST(Walking, FasterGaitsAreFasterAndLeaveRigidLegsBehind) {
   double before = 0;
   for (const double frequency : {0.25, 0.5, 1.0, 1.6}) {

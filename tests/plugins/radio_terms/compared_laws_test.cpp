@@ -185,7 +185,7 @@ TEST(Ar1, StandsStillWithItsRadios) {
   EXPECT_EQ(stood[6].moves, 3);
 }
 
-// What was measured goes into the test's report too, in the order of docs/radio.md.
+// What was measured goes into the test's report too, in the order of docs/explanation/radio.md.
 void report(const std::string& what, double value) { testing::Test::RecordProperty(what, std::to_string(value)); }
 
 // Out by a decorrelation distance and back: how much of the shadowing is the same.
