@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "diagnosis/inference/assess/finding.hpp"
-#include "diagnosis/inference/state/problem.hpp"
+#include "diagnosis/inference/state/smooths.hpp"
+#include "diagnosis/radio/links/link_rows.hpp"
 #include "diagnosis/radio/links/receiver_checks.hpp"
 
 namespace muster::diagnosis {
@@ -88,7 +89,7 @@ struct Advice {
 // A measurement that could be made, reading by reading.
 struct PlannedReadings {
   std::string say;
-  noise::Readings readings;
+  LinkReadings readings;
 };
 
 // A parameter of the world, refitted beside the causes.
@@ -145,7 +146,7 @@ struct Diagnosis {
   Eigen::VectorXd mean;  // of the extended model at every row of the table, dBm
   std::size_t readings = 0;
   Eigen::Index rows = 0;
-  noise::RowLimits row_limits;
+  LinkRowLimits row_limits;
   std::optional<Loop> loop;
 
   bool named() const;

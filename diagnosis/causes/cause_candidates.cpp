@@ -165,6 +165,7 @@ struct Maker {
     c.level_like = shape.set().empty() && !placed && !time;
     if (placed && !c.slow) c.pieces = "place";
     std::tie(c.covariates, c.stands_for) = covariates_of(shape);
+    c.over_sites = c.own() == "map";
     if (!c.refinable()) return;
     c.starts = stands(c) ? (shape.place == PlaceShape::segment ? 16 : 10) : edit ? 12 : 1;
     c.evaluations = edit ? 60 : placed ? 110 : 35;

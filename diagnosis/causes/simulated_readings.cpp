@@ -10,7 +10,7 @@ namespace {
 namespace fs = std::filesystem;
 using Eigen::Index;
 
-void write(const noise::Readings& r, const std::vector<std::string>& radios, const fs::path& file) {
+void write(const LinkReadings& r, const std::vector<std::string>& radios, const fs::path& file) {
   std::vector<TextColumn> columns{{"tx", ""},    {"rx", ""},    {"tx_x", "m"}, {"tx_y", "m"},
                                   {"tx_z", "m"}, {"rx_x", "m"}, {"rx_y", "m"}, {"rx_z", "m"}};
   if (!r.t.empty()) columns.push_back({"t", "s"});
@@ -33,7 +33,7 @@ void write(const noise::Readings& r, const std::vector<std::string>& radios, con
 
 }  // namespace
 
-SimulatedReadings::SimulatedReadings(const noise::Readings& readings, const std::vector<std::string>& radios,
+SimulatedReadings::SimulatedReadings(const LinkReadings& readings, const std::vector<std::string>& radios,
                                      const fs::path& world, const Library::SearchPath& plugins,
                                      const Sensitivities& base)
     : all_(static_cast<std::size_t>(readings.size())) {

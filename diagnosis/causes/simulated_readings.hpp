@@ -3,7 +3,7 @@
 
 #include "diagnosis/calibration/sensitivities.hpp"
 #include "diagnosis/causes/cause_candidates.hpp"
-#include "diagnosis/inference/noise/rows.hpp"
+#include "diagnosis/radio/links/link_rows.hpp"
 #include "text/temporary_folder.hpp"
 
 namespace muster::diagnosis {
@@ -12,7 +12,7 @@ class SimulatedReadings {
  public:
   // `radios`: names, by the numbers in tx and rx. The world's parameters are those at which `base` was taken. Throws
   // Error.
-  SimulatedReadings(const noise::Readings& readings, const std::vector<std::string>& radios,
+  SimulatedReadings(const LinkReadings& readings, const std::vector<std::string>& radios,
                     const std::filesystem::path& world, const Library::SearchPath& plugins, const Sensitivities& base);
   SimulatedReadings(const SimulatedReadings&) = delete;
   SimulatedReadings& operator=(const SimulatedReadings&) = delete;

@@ -40,7 +40,7 @@ class Diagnoser {
     at_.run->clear();
     Diagnosis out = summed_up(result, at_.sought, search.state());
     if (given) begin_as_given(*given, search.state(), out);
-    add_advice(search, out, at_.sought, {world_, plugins_, at_.model, at_.data}, at_.base);
+    add_advice(search, out, at_.sought, {world_, plugins_, at_.model, at_.data}, at_.base, at_.layout->limits());
     for (const auto* more : {&at_.sought.not_tested, &at_.untested})
       out.not_tested.insert(out.not_tested.end(), more->begin(), more->end());
     return out;
@@ -65,7 +65,7 @@ class Diagnoser {
     out.used = at_.used;
     out.readings = at_.used.size();
     out.rows = state.rows().size();
-    out.row_limits = at_.options.rows;
+    out.row_limits = at_.layout->limits();
     const VectorXd coefficients = result.base_coefficients.cwiseMax(at_.base.lower).cwiseMin(at_.base.upper);
     for (std::size_t j = 0; j < at_.base.paths.size(); ++j)
       out.parameters[at_.base.paths[j]] = coefficients[static_cast<Index>(j)];
@@ -89,7 +89,7 @@ class Diagnoser {
     at_.run->clear();
     for (const CauseCandidate& c : causes.found) out.searched.push_back(c.candidate.id);
     out.instrument = at_.instrument;
-    out.seen = row_summary(state, at_.model);
+    out.seen = row_summary(state, *at_.layout, at_.columns, at_.model);
     const inference::WhitenedModel alone = state.whitened_model(state.base());
     out.fitted = at_.base.mean + at_.base.slopes * (alone.coefficients(state.base().cols()) - at_.base.values);
     add_what_scatters(state, out);
@@ -210,7 +210,7 @@ class Diagnoser {
   }
 
   void add_what_scatters(const inference::ModelState& state, Diagnosis& out) {
-    const LawSources sources{at_.model, at_.data, at_.causes, state, at_.used, at_.fitted};
+    const LawSources sources{at_.model, at_.data, at_.causes, state, at_.layout->readings(), at_.used, at_.fitted};
     add_clips(sources, out);
     if (add_silence_beside(sources, extend(state, out), out)) extend(state, out);
     const std::size_t before = out.causes.size();

@@ -47,9 +47,9 @@ std::vector<MappedWall> mapped_walls(const Simulation& run) {
 
 }  // namespace
 
-RowSummary row_summary(const inference::ModelState& state, const LinkModel& model) {
-  const inference::Problem& problem = state.problem();
-  const noise::Readings& readings = problem.readings;
+RowSummary row_summary(const inference::ModelState& state, const LinkLayout& layout, const LinkColumns& columns,
+                       const LinkModel& model) {
+  const LinkReadings& readings = layout.readings();
   const noise::Rows& rows = state.rows();
   RowSummary out;
   int radios = 0;
@@ -69,7 +69,7 @@ RowSummary row_summary(const inference::ModelState& state, const LinkModel& mode
   out.rx_yaw =
       first_of(rows, Eigen::Map<const VectorXd>(readings.rx_yaw.data(), static_cast<Index>(readings.rx_yaw.size())));
   if (!readings.rx_yaw.empty() || !readings.tx_yaw.empty()) {
-    const inference::MovingEnds moving = inference::moving_ends(readings);
+    const MovingEnds moving = moving_ends(readings);
     out.heading = first_of(rows, moving.heading);
     out.bearing = first_of(rows, moving.bearing);
   }
@@ -79,17 +79,17 @@ RowSummary row_summary(const inference::ModelState& state, const LinkModel& mode
   out.after = left_by(state, full, after);
   out.white_before = before.at.residual;
   out.white_after = after.at.residual;
-  for (const inference::Covariate& c : problem.covariates) {
+  for (const inference::Covariate& c : columns.covariates) {
     out.columns.push_back(c);
     out.columns.back().values = rows.mean(c.values);
   }
-  for (const inference::Factor& f : problem.factors) {
+  for (const inference::Factor& f : columns.factors) {
     out.factors.push_back({f.name, {}});
     for (Index i = 0; i < rows.size(); ++i)
       out.factors.back().level.push_back(f.level[static_cast<std::size_t>(rows.example(i))]);
   }
   out.walls = mapped_walls(model.simulation());
-  out.places_known = problem.places_known;
+  out.places_known = layout.sites_known();
   return out;
 }
 

@@ -3,11 +3,13 @@
 
 #include "diagnosis/inference/state/model_state.hpp"
 #include "diagnosis/radio/links/link_model.hpp"
+#include "diagnosis/radio/links/link_smooths.hpp"
 #include "diagnosis/result.hpp"
 
 namespace muster::diagnosis {
 
-RowSummary row_summary(const inference::ModelState& state, const LinkModel& model);
+RowSummary row_summary(const inference::ModelState& state, const LinkLayout& layout, const LinkColumns& columns,
+                       const LinkModel& model);
 
 // dB that a finding adds to each row.
 Eigen::VectorXd effect_of(const inference::ModelState& state, const inference::Candidate& candidate,

@@ -83,18 +83,20 @@ DiagnosisSetup::DiagnosisSetup(const std::filesystem::path& world, const std::fi
     throw invalid({data.table.file()}, fmt::format("the table has {} readings to search; expected at least {}",
                                                    used.size(), inference::fewest_readings));
   run = std::make_shared<CauseModel>(model, world, table, plugins);
-  fill_readings();
+  LinkReadings readings = readings_of_search();
   problem.base = base.slopes(used, Eigen::all);
   // Linear in the parameters about the fit, so that coefficients are values of parameters.
   problem.measured -= (base.mean - base.slopes * base.values)(used);
-  problem.places_known = data.has_places();
   problem.stated = stated_field(model);
-  options.rows = noise::limits_for(problem.readings);
-  if (!problem.places_known) options.rows.way = -1;  // readings at like distances are not at one place: each is a row
-  const noise::Rows rows(problem.readings, options.rows);
+  LinkRowLimits limits = limits_for(readings);
+  if (!data.has_places()) limits.way = -1;  // readings at like distances are not at one place: each is a row
+  std::vector<int> runs = add_columns();
+  problem.smooths = link_smooths(readings, columns, data.has_places());
+  layout = std::make_shared<const LinkLayout>(std::move(readings), limits, std::move(runs), data.has_places());
+  problem.layout = layout;
+  const noise::Rows rows = layout->rows();
   sought = cause_candidates(causes, measurement_geometry(model, data), {run, model, data, used}, problem.base, rows);
   take_swaps_by_the_map(rows, world, plugins);
-  add_columns();
   let_sketch(rows, world, plugins);
   let_ask_near(world, plugins);
   for (const CauseCandidate& c : sought.found) problem.candidates.push_back(c.candidate);
@@ -135,9 +137,9 @@ void DiagnosisSetup::take_swaps_by_the_map(const noise::Rows& rows, const std::f
 void DiagnosisSetup::let_sketch(const noise::Rows& rows, const std::filesystem::path& world,
                                 const Library::SearchPath& plugins) {
   constexpr Index worth = 2;  // readings a row
-  if (problem.readings.size() < worth * rows.size() || holds_a_table_reader(model)) return;
+  if (layout->size() < worth * rows.size() || holds_a_table_reader(model)) return;
   sketched =
-      std::make_unique<SimulatedReadings>(rows.middles(problem.readings), model.radio_names(), world, plugins, base);
+      std::make_unique<SimulatedReadings>(middles(rows, layout->readings()), model.radio_names(), world, plugins, base);
   for (CauseCandidate& c : sought.found) {
     if (c.candidate.refinable() && !c.shape->cause.file()) c.candidate.sketch = sketched->at(c, data).columns;
   }
@@ -146,20 +148,20 @@ void DiagnosisSetup::let_sketch(const noise::Rows& rows, const std::filesystem::
 // Where a wall or a thing stands is drawn some thousand times about one place, which few of many readings concern.
 void DiagnosisSetup::let_ask_near(const std::filesystem::path& world, const Library::SearchPath& plugins) {
   constexpr Index worth = 4000;  // readings
-  if (problem.readings.size() < worth || holds_a_table_reader(model)) return;
-  const Simulate simulate = [this, world, plugins](const noise::Readings& readings) {
+  if (layout->size() < worth || holds_a_table_reader(model)) return;
+  const Simulate simulate = [this, world, plugins](const LinkReadings& readings) {
     return std::make_shared<SimulatedReadings>(readings, model.radio_names(), world, plugins, base);
   };
   for (CauseCandidate& c : sought.found) {
     if (!c.candidate.proposed || c.shape->cause.file()) continue;
     c.candidate.near = [this, cause = c, simulate](const VectorXd& theta) {
-      return columns_near(theta, cause, data, problem.readings, simulate);
+      return columns_near(theta, cause, data, layout->readings(), simulate);
     };
   }
 }
 
-void DiagnosisSetup::fill_readings() {
-  noise::Readings& r = problem.readings;
+LinkReadings DiagnosisSetup::readings_of_search() {
+  LinkReadings r;
   const auto n = static_cast<Index>(used.size());
   r.tx_at.resize(3, n);
   r.rx_at.resize(3, n);
@@ -181,6 +183,7 @@ void DiagnosisSetup::fill_readings() {
     problem.measured[i] = std::isnan(rssi) ? fitted.readings.floor + problem.bounds.half_code : rssi;
     if (clips) problem.bounds.known.push_back(known_of(rssi));
   }
+  return r;
 }
 
 // What a reading says of the level, by the pile that it lies in.
@@ -191,7 +194,8 @@ noise::Known DiagnosisSetup::known_of(double rssi) const {
 }
 
 // A number of few values is a setting, that of a run a name: each value stands for itself.
-void DiagnosisSetup::add_columns() {
+std::vector<int> DiagnosisSetup::add_columns() {
+  std::vector<int> runs;
   for (const Covariate& column : data.covariates) {
     const std::string name = column.name.substr(0, column.name.find('['));
     const bool is_run = name == "run";
@@ -210,16 +214,17 @@ void DiagnosisSetup::add_columns() {
       std::set<double> different;
       for (Index i = 0; i < values.size() && different.size() <= settings; ++i) different.insert(values[i]);
       if (different.size() > settings) {
-        problem.covariates.push_back({name, values});
+        columns.covariates.push_back({name, values});
         continue;
       }
       if (different.size() < 2) continue;
       for (const double v : values)
         factor.level.push_back(static_cast<int>(std::distance(different.begin(), different.find(v))));
     }
-    if (is_run) problem.run = factor.level;
-    problem.factors.push_back(std::move(factor));
+    if (is_run) runs = factor.level;
+    columns.factors.push_back(std::move(factor));
   }
+  return runs;
 }
 
 }  // namespace muster::diagnosis

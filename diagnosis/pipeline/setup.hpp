@@ -7,6 +7,7 @@
 #include "diagnosis/causes/cause_candidates.hpp"
 #include "diagnosis/causes/simulated_readings.hpp"
 #include "diagnosis/inference/state/problem.hpp"
+#include "diagnosis/radio/links/link_smooths.hpp"
 #include "diagnosis/radio/links/receiver_checks.hpp"
 
 namespace muster::diagnosis {
@@ -25,8 +26,10 @@ struct DiagnosisSetup {
   std::vector<Cause> causes;  // of the plugin path
   Fit fitted;
   Sensitivities base;
-  std::vector<Eigen::Index> used;   // rows of the table behind the readings of the search
-  std::shared_ptr<CauseModel> run;  // what the candidates evaluate
+  std::vector<Eigen::Index> used;            // rows of the table behind the readings of the search
+  std::shared_ptr<CauseModel> run;           // what the candidates evaluate
+  std::shared_ptr<const LinkLayout> layout;  // of the readings of the search
+  LinkColumns columns;                       // beyond those of a link
   inference::Problem problem;
   inference::Options options;
   CauseSearch sought;                           // behind the problem's candidates
@@ -35,13 +38,14 @@ struct DiagnosisSetup {
 
  private:
   void leave_out_crossed_links();
-  void fill_readings();
+  LinkReadings readings_of_search();
   void take_swaps_by_the_map(const noise::Rows& rows, const std::filesystem::path& world,
                              const Library::SearchPath& plugins);
   void let_sketch(const noise::Rows& rows, const std::filesystem::path& world, const Library::SearchPath& plugins);
   void let_ask_near(const std::filesystem::path& world, const Library::SearchPath& plugins);
   noise::Known known_of(double rssi) const;
-  void add_columns();
+  // The run of each reading; empty where the data name none.
+  std::vector<int> add_columns();
 };
 
 }  // namespace muster::diagnosis

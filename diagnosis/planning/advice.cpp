@@ -56,7 +56,7 @@ std::optional<PlannedReadings> most_telling(const Diagnosis& found, std::vector<
 }
 
 void add_advice(inference::Search& search, Diagnosis& found, const CauseSearch& causes, const PlanSources& sources,
-                const Sensitivities& base) {
+                const Sensitivities& base, const LinkRowLimits& limits) {
   const std::set<std::string> ids = wanted(found, causes);
   if (ids.empty() || holds_a_table_reader(sources.model)) return;
   std::vector<std::unique_ptr<SimulatedReadings>> simulated;
@@ -65,7 +65,10 @@ void add_advice(inference::Search& search, Diagnosis& found, const CauseSearch& 
   for (const PlannedReadings& p : planned) {
     simulated.push_back(
         std::make_unique<SimulatedReadings>(p.readings, found.seen.radios, sources.world, sources.plugins, base));
-    plans.push_back({p.say, p.readings, slopes_at(simulated.back()->model(), base), {}});
+    plans.push_back({p.say,
+                     std::make_shared<const LinkLayout>(p.readings, limits),
+                     slopes_at(simulated.back()->model(), base),
+                     {}});
     for (const CauseCandidate& c : causes.found) {
       if (ids.count(c.candidate.id)) plans.back().candidates.push_back(simulated.back()->at(c, sources.data));
     }

@@ -78,7 +78,7 @@ struct Maker {
   // When row i is read if its way is driven once more, a minute later.
   double once_more(Index i) const { return timed ? seen.t[i] + span() + 60 : 0; }
 
-  void add(noise::Readings& out, const End& tx, const End& rx, double t) const {
+  void add(LinkReadings& out, const End& tx, const End& rx, double t) const {
     const Index first = out.size();
     out.tx_at.conservativeResize(3, first + repeats);
     out.rx_at.conservativeResize(3, first + repeats);
@@ -108,14 +108,14 @@ struct Maker {
   }
 
   // `turned`: by how much the ends that move head elsewhere.
-  void add_row(noise::Readings& out, Index i, double t, double turned) const {
+  void add_row(LinkReadings& out, Index i, double t, double turned) const {
     End tx = end_of(seen, i, true), rx = end_of(seen, i, false);
     if (!stands(tx, true)) tx.yaw += turned;
     if (!stands(rx, false)) rx.yaw += turned;
     add(out, tx, rx, t);
   }
 
-  void add_link(noise::Readings& out, const Standing& s, const End& other, double t) const {
+  void add_link(LinkReadings& out, const Standing& s, const End& other, double t) const {
     add(out, s.sends ? s.end : other, s.sends ? other : s.end, t);
   }
 };
@@ -185,7 +185,7 @@ const Standing* station(const Maker& make, const std::vector<CauseEstimate>& abo
 }
 
 // All ways once more with one radio standing otherwise, as it sends and as it hears.
-void add_ways(noise::Readings& out, const Maker& make, int radio, const std::function<End(End)>& otherwise) {
+void add_ways(LinkReadings& out, const Maker& make, int radio, const std::function<End(End)>& otherwise) {
   for (const Index i : make.rows) {
     const std::optional<End> r = make.roaming_end(i);
     if (!r) continue;
@@ -290,7 +290,7 @@ PlannedReadings elsewhere(const Maker& make, const std::vector<CauseEstimate>& a
 }
 
 // No two readings of a link at once, as they are written, in whole milliseconds: rows may have the same middle.
-void space_out(noise::Readings& r) {
+void space_out(LinkReadings& r) {
   std::map<std::pair<int, int>, std::vector<std::size_t>> of_link;
   for (std::size_t k = 0; k < r.t.size(); ++k) of_link[{r.tx[k], r.rx[k]}].push_back(k);
   for (auto& [link, readings] : of_link) {

@@ -26,6 +26,6 @@ struct PlanSources {
 
 // Adds what the plans would do for each cause and rival that the data do not decide. Throws Error.
 void add_advice(inference::Search& search, Diagnosis& found, const CauseSearch& causes, const PlanSources& sources,
-                const Sensitivities& base);
+                const Sensitivities& base, const LinkRowLimits& limits);
 
 }  // namespace muster::diagnosis

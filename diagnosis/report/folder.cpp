@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // The readings of a measurement that is yet to be made: what stands where, when, and how it is turned.
-std::string advised_csv(const noise::Readings& r, const std::vector<std::string>& radios) {
+std::string advised_csv(const diagnosis::LinkReadings& r, const std::vector<std::string>& radios) {
   const bool timed = !r.t.empty();
   std::string out = timed ? "t[s]," : "";
   out += "tx,rx,tx_x[m],tx_y[m],tx_z[m],rx_x[m],rx_y[m],rx_z[m]";

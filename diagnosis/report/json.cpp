@@ -26,7 +26,7 @@ Json held_out_json(const std::optional<inference::HeldOutGain>& h) {
 Json elsewhere_json(const std::vector<inference::Elsewhere>& elsewhere) {
   Json out = Json::array();
   for (const inference::Elsewhere& e : elsewhere) {
-    Json one = {{"left_out", parts_in_words(e.part)}};
+    Json one = {{"left_out", e.left_out}};
     one.update(held_out_json(e.held_out));
     out.push_back(one);
   }

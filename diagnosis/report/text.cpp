@@ -46,9 +46,9 @@ std::string errors(const Diagnosis& d) {
   return wrapped(text + ' ' + errors_elsewhere(d), 2, 2);
 }
 
-std::string gain_of(const inference::HeldOutGain& h, inference::Part part) {
+std::string gain_of(const inference::HeldOutGain& h, const std::string& left_out) {
   return fmt::format("{:.2f} -> {} where not seen; squared error falls by {:.2f} dB2 (95 %: {:.2f} to {:.2f}, {} {})",
-                     h.rmse_before, db(h.rmse_after), h.gain, h.lower95, h.upper95, h.blocks, parts_in_words(part));
+                     h.rmse_before, db(h.rmse_after), h.gain, h.lower95, h.upper95, h.blocks, left_out);
 }
 
 // "    word        text", wrapped beside the word.
@@ -60,7 +60,7 @@ std::string entry(const std::string& word, const std::string& text) {
 
 std::string gains_elsewhere(const std::vector<inference::Elsewhere>& elsewhere) {
   std::string text;
-  for (const inference::Elsewhere& e : elsewhere) text += entry("", gain_of(e.held_out, e.part));
+  for (const inference::Elsewhere& e : elsewhere) text += entry("", gain_of(e.held_out, e.left_out));
   return text;
 }
 
@@ -73,7 +73,7 @@ std::string cause_text(const CauseEstimate& c, int number) {
   text += entry("evidence",
                 fmt::format("{:.1f} nats; lambda {:.0f} (fall of the deviance beside all else)", c.evidence, c.lambda));
   if (c.held_out)
-    text += entry("gain", gain_of(*c.held_out, inference::Part::block));
+    text += entry("gain", gain_of(*c.held_out, "blocks"));
   else
     text += entry("gain", why_no_gain(c));
   text += gains_elsewhere(c.elsewhere);
@@ -98,7 +98,7 @@ std::string unexplained(const Diagnosis& d) {
   std::string text = heading("Not explained");
   for (const auto& u : d.unexplained) {
     text += wrapped(what_is_unexplained(u), 2, 2);
-    text += entry("gain", u.held_out ? gain_of(*u.held_out, inference::Part::block) : too_few_blocks);
+    text += entry("gain", u.held_out ? gain_of(*u.held_out, "blocks") : too_few_blocks);
     text += gains_elsewhere(u.elsewhere);
   }
   return text;

@@ -209,26 +209,14 @@ double noise_floor(const Diagnosis& d) {
 
 std::string what_is_held_out(const Diagnosis& d) { return d.seen.places_known ? "places" : "distances"; }
 
-std::string parts_in_words(inference::Part part) {
-  switch (part) {
-    case inference::Part::block:
-      return "blocks";
-    case inference::Part::radio:
-      return "radios";
-    case inference::Part::run:
-      return "runs";
-  }
-  return "";
-}
-
 std::string db(double value) { return fmt::format("{:.2f} dB", value); }
 
 std::string errors_elsewhere(const Diagnosis& d) {
   std::string text;
   for (const inference::Elsewhere& e : d.elsewhere) {
     const inference::HeldOutGain& h = e.held_out;
-    text += fmt::format("{}With {} left out in turn ({}) it errs by {} at these", text.empty() ? "" : " ",
-                        parts_in_words(e.part), h.blocks, db(h.rmse_before));
+    text += fmt::format("{}With {} left out in turn ({}) it errs by {} at these", text.empty() ? "" : " ", e.left_out,
+                        h.blocks, db(h.rmse_before));
     const bool improved = d.named() || !d.unexplained.empty();
     text += improved ? fmt::format(", with what was found by {}.", db(h.rmse_after)) : ".";
   }

@@ -61,8 +61,6 @@ double noise_floor(const Diagnosis& diagnosis);
 std::string db(double value);
 // "places", or "distances" where the data have no places.
 std::string what_is_held_out(const Diagnosis& diagnosis);
-// "blocks", "radios", "runs"
-std::string parts_in_words(inference::Part part);
 // What the world errs by with radios and runs not seen; empty where there are not several.
 std::string errors_elsewhere(const Diagnosis& diagnosis);
 // How readings were gathered to rows.

@@ -14,7 +14,7 @@ struct Truth {
 
 // Its shadowing is exponential, of 3 dB.
 struct Walk {
-  noise::Readings readings;
+  LinkReadings readings;
   Eigen::VectorXd residual;  // dB, by whole ones
 };
 
@@ -52,11 +52,11 @@ inline Walk drawn_of_four(const Truth& truth, int count, double decorrelation, i
   for (int station = first + 1; station < first + 4; ++station) {
     const Walk more = drawn(truth, count, decorrelation, station);
     const Eigen::Index from = all.residual.size();
-    for (auto list : {&noise::Readings::tx, &noise::Readings::rx})
+    for (auto list : {&LinkReadings::tx, &LinkReadings::rx})
       (all.readings.*list)
           .insert((all.readings.*list).end(), (more.readings.*list).begin(), (more.readings.*list).end());
     all.readings.t.insert(all.readings.t.end(), more.readings.t.begin(), more.readings.t.end());
-    for (auto at : {&noise::Readings::tx_at, &noise::Readings::rx_at}) {
+    for (auto at : {&LinkReadings::tx_at, &LinkReadings::rx_at}) {
       (all.readings.*at).conservativeResize(3, from + count);
       (all.readings.*at).rightCols(count) = more.readings.*at;
     }

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 
 #include "diagnosis/inference/noise/basis.hpp"
+#include "diagnosis/inference/state/layout.hpp"
 #include "muster/random.hpp"
 
 namespace muster::inference {
@@ -13,19 +13,6 @@ namespace {
 
 constexpr int most_folds = 5, resamples = 1000;
 constexpr double decorrelations = 3;  // a block's side
-
-// Numbers from 0 on, in the order of what they stand for.
-template <class Key>
-std::vector<int> numbered(const std::vector<Key>& keys) {
-  std::map<Key, int> number;
-  for (const Key& key : keys) number[key] = 0;
-  int next = 0;
-  for (auto& [key, k] : number) k = next++;
-  std::vector<int> result;
-  result.reserve(keys.size());
-  for (const Key& key : keys) result.push_back(number.at(key));
-  return result;
-}
 
 // Blocks in a random order, dealt in turn.
 std::vector<int> fold_of_block(int blocks, uint64_t seed) {
@@ -52,17 +39,6 @@ std::vector<int> blocks_of(const noise::Sites& sites, const noise::Covariance& c
         {std::lround(std::floor(at.x())), std::lround(std::floor(at.y())), std::lround(std::floor(at.z()))});
   }
   return numbered(cells);
-}
-
-std::vector<int> radios_of(const noise::Rows& rows, const noise::Sites& sites, const noise::Readings& readings) {
-  const bool one = std::all_of(sites.radio.begin(), sites.radio.end(), [&](int r) { return r == sites.radio.front(); });
-  if (!one) return numbered(sites.radio);
-  std::vector<int> others;
-  for (Index i = 0; i < rows.size(); ++i) {
-    const auto reading = static_cast<std::size_t>(rows.example(i));
-    others.push_back(readings.tx[reading] == sites.radio.front() ? readings.rx[reading] : readings.tx[reading]);
-  }
-  return numbered(others);
 }
 
 Folds::Fold::Fold(const noise::Sites& sites, const noise::Covariance& covariance, std::vector<Index> in,

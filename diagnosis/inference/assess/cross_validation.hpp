@@ -1,10 +1,11 @@
-// Squared errors at what a fit has not seen: blocks of space, radios or runs are left out in turn, generalised least
+// Squared errors at what a fit has not seen: blocks of sites, or other groups, are left out in turn, generalised least
 // squares on the others (Roberts et al., Ecography 40, 2017). An interval by resampling whole blocks. What is fitted
 // are rows, what is foretold are readings: how readings make rows depends on the model, errors of readings can be
 // compared.
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "diagnosis/inference/noise/vecchia.hpp"
 
@@ -12,16 +13,13 @@ namespace muster::inference {
 
 using Eigen::Index;
 
-// What is left out together.
-enum class Part { block = 1, radio, run };
-
 struct HeldOutGain {
   double rmse_before = 0, rmse_after = 0;     // dB, of one reading
   double gain = 0, lower95 = 0, upper95 = 0;  // fall of the mean squared error, dB^2
-  int blocks = 0;                             // or radios, or runs
+  int blocks = 0;                             // or groups
 };
 
-// Squared errors of readings whose block, or radio, or run, was left out, dB^2, and which one that is.
+// Squared errors of readings whose block or group was left out, dB^2, and which one that is.
 struct Unseen {
   Eigen::VectorXd before, after;  // of the base model and the extended one
   std::vector<int> block;
@@ -31,17 +29,14 @@ struct Unseen {
 // By resampling whole blocks.
 HeldOutGain compared(const Unseen& unseen);
 
-// The same of radios or runs, where there are several.
+// The same of a grouping's groups, where there are several.
 struct Elsewhere {
-  Part part;
+  std::string left_out;  // the grouping's name
   HeldOutGain held_out;
 };
 
 // Blocks at least three decorrelation distances wide, one a row.
 std::vector<int> blocks_of(const noise::Sites& sites, const noise::Covariance& covariance);
-// The radio that moves less; where that is one and the same for all rows, the other one.
-std::vector<int> radios_of(const noise::Rows& rows, const noise::Sites& sites, const noise::Readings& readings);
-
 // The error at places not seen, dB, with its interval over blocks.
 struct Stair {
   double rmse = 0, lower95 = 0, upper95 = 0;

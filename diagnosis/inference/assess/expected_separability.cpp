@@ -32,8 +32,8 @@ bool Plan::knows(const std::string& id) const {
 ExpectedSeparability::ExpectedSeparability(const ModelState& state, const Plan& plan)
     : state_(state),
       plan_(plan),
-      rows_(plan.readings, state.options().rows),
-      field_(state.field().sites().with(rows_.sites(plan.readings)), {.seed = state.options().seed}),
+      rows_(plan.layout->rows()),
+      field_(state.field().sites().with(plan.layout->sites(rows_)), {.seed = state.options().seed}),
       whitener_(field_, state.fit.covariance) {}
 
 Eigen::MatrixXd ExpectedSeparability::whitened(const Eigen::MatrixXd& here, const Eigen::MatrixXd& at_readings) const {

@@ -8,7 +8,7 @@ namespace muster::inference {
 // A measurement that could be made: the same base and candidates at its readings.
 struct Plan {
   std::string say;
-  noise::Readings readings;
+  std::shared_ptr<const Layout> layout;
   Eigen::MatrixXd base;
   std::vector<Candidate> candidates;  // by the ids of the problem's, whose grids are used
 

@@ -24,7 +24,7 @@ struct Finding {
   double log_p = 0;                     // integrated over the covariance
   std::optional<HeldOutGain> held_out;  // without and with it; none for what is only suspected
   Eigen::VectorXd unseen_without;       // squared errors of readings at places not seen without it, dB^2; none likewise
-  std::vector<Elsewhere> elsewhere;     // the same of radios and runs, where it concerns several
+  std::vector<Elsewhere> elsewhere;     // the same of each grouping, where it concerns several groups
   std::vector<Alternative> alternatives;
 };
 
@@ -44,7 +44,7 @@ struct Result {
   Eigen::VectorXd mean;                 // of the extended model, one a row
   std::optional<Unseen> unseen;         // the base model and the extended one
   std::optional<HeldOutGain> held_out;  // the same in short
-  std::vector<Elsewhere> elsewhere;     // of radios and runs, where there are several
+  std::vector<Elsewhere> elsewhere;     // of each grouping of several groups
   std::vector<Stair> stairs;  // the base model, then with each accepted finding in turn; empty: too few blocks
   std::vector<Check> checks;
 };

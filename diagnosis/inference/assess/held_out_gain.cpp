@@ -73,12 +73,13 @@ bool concerns_several(const Term& term, const std::vector<int>& parts) {
   return false;
 }
 
-void add_gains_of_groups(const ModelState& state, Part part, const std::vector<int>& parts, Result& result) {
+void add_gains_of_groups(const ModelState& state, const Grouping& grouping, Result& result) {
+  const std::vector<int>& parts = grouping.of_row;
   const Folds folds = folds_of(state, result, parts);
   if (!folds.possible()) return;
   const Errors errors(state, folds);
   const auto elsewhere = [&](const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
-    return Elsewhere{part, folds.compared(before, after)};
+    return Elsewhere{grouping.name, folds.compared(before, after)};
   };
   const Eigen::VectorXd full = errors.first(state.terms.size());
   result.elsewhere.push_back(elsewhere(errors.first(0), full));
@@ -88,21 +89,12 @@ void add_gains_of_groups(const ModelState& state, Part part, const std::vector<i
   }
 }
 
-// The run of each row.
-std::vector<int> runs_of(const ModelState& state) {
-  std::vector<int> result;
-  for (Index i = 0; i < state.rows().size(); ++i)
-    result.push_back(state.problem().run[static_cast<std::size_t>(state.rows().example(i))]);
-  return result;
-}
-
 }  // namespace
 
 void add_held_out_gains(const ModelState& state, Result& result) {
   add_gains_of_blocks(state, result);
-  add_gains_of_groups(state, Part::radio, radios_of(state.rows(), state.field().sites(), state.problem().readings),
-                      result);
-  if (!state.problem().run.empty()) add_gains_of_groups(state, Part::run, runs_of(state), result);
+  for (const Grouping& grouping : state.problem().layout->groupings(state.rows(), state.field().sites()))
+    add_gains_of_groups(state, grouping, result);
 }
 
 }  // namespace muster::inference

@@ -1,5 +1,5 @@
 // What the findings gain where no fit has seen: the base model, each finding in turn and each one left out, fitted
-// without some places and held against these; and so for radios and runs where there are several.
+// without some places and held against these; and so for each grouping of several groups.
 #pragma once
 
 #include "diagnosis/inference/assess/finding.hpp"

@@ -24,7 +24,7 @@ double by_scatter(const ModelState& state, const WhitenedModel& rest, const Cond
   const Eigen::VectorXd residual = rest.at.residual - fitted.columns * fitted.coefficients;
   std::map<std::tuple<int, long, long>, Eigen::VectorXd> scores;
   for (Index i = 0; i < residual.size(); ++i) {
-    const std::tuple cell(sites.radio[static_cast<std::size_t>(i)], std::lround(std::floor(sites.place(0, i) / side)),
+    const std::tuple cell(sites.group[static_cast<std::size_t>(i)], std::lround(std::floor(sites.place(0, i) / side)),
                           std::lround(std::floor(sites.place(1, i) / side)));
     Eigen::VectorXd& score = scores.try_emplace(cell, Eigen::VectorXd::Zero(fitted.columns.cols())).first->second;
     score += residual[i] * fitted.columns.row(i).transpose();

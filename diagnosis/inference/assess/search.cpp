@@ -14,18 +14,13 @@ namespace muster::inference {
 namespace {
 
 const Problem& checked(const Problem& problem) {
-  const Index n = problem.readings.size();
+  const Index n = problem.layout->size();
   const auto fits = [&](Index rows, const std::string& what) {
     if (rows != n)
       throw std::invalid_argument(what + ": " + std::to_string(rows) + " rows for " + std::to_string(n) + " readings");
   };
   fits(problem.measured.size(), "measured values");
   fits(problem.base.rows(), "base columns");
-  fits(static_cast<Index>(problem.readings.rx.size()), "receivers");
-  fits(problem.readings.tx_at.cols(), "places of transmitters");
-  fits(problem.readings.rx_at.cols(), "places of receivers");
-  for (const Covariate& c : problem.covariates) fits(c.values.size(), c.name);
-  for (const Factor& f : problem.factors) fits(static_cast<Index>(f.level.size()), f.name);
   if (!problem.measured.allFinite() || !problem.base.allFinite())
     throw std::invalid_argument("a value that is not a number");
   if (n < fewest_readings) throw std::invalid_argument("too few readings: " + std::to_string(n));

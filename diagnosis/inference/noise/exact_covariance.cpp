@@ -25,8 +25,8 @@ double longest_in(const Sites& sites) {
 class PlacedRows {
  public:
   PlacedRows(const Sites& sites, const Covariance& covariance)
-      : sites_(sites.size()), radio_(sites.radio), table_(entries + 1) {
-    radio_.resize(static_cast<std::size_t>(filled()));
+      : sites_(sites.size()), group_(sites.group), table_(entries + 1) {
+    group_.resize(static_cast<std::size_t>(filled()));
     const SiteFloats floats = floats_of(sites);
     for (Index i = 0; i < sites.size(); ++i) sites_.set(i, floats.row(i));
     const double per_metre = entries / std::max(longest_in(sites), 1.0);
@@ -35,7 +35,7 @@ class PlacedRows {
     const bool by_readings = is_rough(covariance.family) && sites.within() > 0;
     const double variance = covariance.field_variance(), everywhere = variance * covariance.shared();
     pairs_ = {sites_.places(by_readings, anchors_move(sites), far_within * sites_.longest_within()),
-              radio_.data(),
+              group_.data(),
               table_.data(),
               static_cast<float>(per_metre),
               static_cast<float>(everywhere),
@@ -51,7 +51,7 @@ class PlacedRows {
   static constexpr float far_within = 13;  // six stretches: a row across another is 2 % farther than its middle
 
   PlacedSites sites_;
-  std::vector<int> radio_;
+  std::vector<int> group_;
   Eigen::VectorXf table_;
   Pairs pairs_;
 };

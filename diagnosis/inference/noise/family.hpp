@@ -29,7 +29,7 @@ bool is_rough(Family family);
 double efold(Family family);
 
 // log variance of the field [dB^2], log decorrelation distance [m], log variance of one reading [dB^2], logit of the
-// correlation that links of different anchors have at one place.
+// correlation that rows of different groups have at one place.
 using Theta = Eigen::Vector4d;
 
 struct Covariance {

@@ -18,7 +18,7 @@ Covariance default_start(const Eigen::VectorXd& y, const Eigen::MatrixXd& design
 // `moves`: 1 for what is fitted of theta, 0 for what is held at the start.
 Fit fit(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& design, const Prior& prior,
         const Covariance& start, int steps = 12, const Theta& moves = Theta::Ones());
-// What of theta no world states: the variance of one reading and what links of different anchors share.
+// What of theta no world states: the variance of one reading and what rows of different groups share.
 inline const Theta unstated{0, 0, 1, 1};
 
 // Every family's fit, the best one first. Leaving the exponential family takes `advantage` nats.

@@ -88,24 +88,24 @@ std::vector<Index> neighbours_of(const Sites& sites, const Conditioning& conditi
   const auto rank = random_ranks(n, conditioning.seed);
   Eigen::MatrixXd both(6, n);
   both << sites.place, sites.anchor;
-  std::map<int, std::vector<Index>> of_radio;
-  for (Index i = 0; i < n; ++i) of_radio[sites.radio[static_cast<std::size_t>(i)]].push_back(i);
+  std::map<int, std::vector<Index>> of_group;
+  for (Index i = 0; i < n; ++i) of_group[sites.group[static_cast<std::size_t>(i)]].push_back(i);
   std::map<int, Grove> groves;
-  for (const auto& [radio, rows] : of_radio) groves.try_emplace(radio, both, rows);
+  for (const auto& [group, rows] : of_group) groves.try_emplace(group, both, rows);
   std::vector<Index> all(static_cast<std::size_t>(n));
   std::iota(all.begin(), all.end(), 0);
   const Grove everywhere(sites.place, all);
 
   std::vector<Index> result(static_cast<std::size_t>(n * conditioning.slots()), -1);
   for (Index i = 0; i < n; ++i) {
-    const int radio = sites.radio[static_cast<std::size_t>(i)];
+    const int group = sites.group[static_cast<std::size_t>(i)];
     const auto earlier = [&](Index j) { return rank[static_cast<std::size_t>(j)] < rank[static_cast<std::size_t>(i)]; };
     Index* const slots = result.data() + i * conditioning.slots();
-    const Grove& own = groves.at(radio);
+    const Grove& own = groves.at(group);
     search(
         own, both.col(i), conditioning.same, [&](std::size_t p) { return earlier(own.cloud.rows[p]); }, slots);
-    if (of_radio.size() < 2) continue;
-    const auto other = [&](std::size_t p) { return sites.radio[p] != radio && earlier(static_cast<Index>(p)); };
+    if (of_group.size() < 2) continue;
+    const auto other = [&](std::size_t p) { return sites.group[p] != group && earlier(static_cast<Index>(p)); };
     search(everywhere, sites.place.col(i), conditioning.others, other, slots + conditioning.same);
   }
   return result;

@@ -5,9 +5,9 @@
 namespace muster::noise {
 
 bool anchors_move(const Sites& sites) {
-  std::map<int, Index> first;  // of each radio
+  std::map<int, Index> first;  // of each group
   for (Index i = 0; i < sites.size(); ++i) {
-    const Index other = first.try_emplace(sites.radio[static_cast<std::size_t>(i)], i).first->second;
+    const Index other = first.try_emplace(sites.group[static_cast<std::size_t>(i)], i).first->second;
     if (sites.anchor.col(i) != sites.anchor.col(other) || !sites.anchor_stretch.col(i).isZero(0)) return true;
   }
   return false;

@@ -14,7 +14,7 @@ namespace muster::noise {
 
 constexpr double own_share = mean_of_three / 2;  // of its stretch: half the mean distance of a row's three readings
 
-// Whether any anchor is elsewhere than others of its radio.
+// Whether any anchor is elsewhere than others of its group.
 bool anchors_move(const Sites& sites);
 
 // A row a site, m: its place and its anchor, the stretches of both, and half the mean distance of its readings, of

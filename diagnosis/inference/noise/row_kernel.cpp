@@ -345,9 +345,9 @@ void covariances(const Pairs& p, long row, double* out) {
     const Floats joint = p.at.anchors_move ? correlations(p, apart.both) : near;
     for (int k = 0; k < Floats::parts; ++k) {
       const long from = first + k * Floats::each;
-      const Ints same = *reinterpret_cast<const Ints*>(p.radio + from) == p.radio[row];
-      const Floats::Part of_radio = same ? p.joint * joint.part[k] : Floats::Part{};
-      const Floats::Part sum = p.everywhere * near.part[k] + of_radio;
+      const Ints same = *reinterpret_cast<const Ints*>(p.group + from) == p.group[row];
+      const Floats::Part of_group = same ? p.joint * joint.part[k] : Floats::Part{};
+      const Floats::Part sum = p.everywhere * near.part[k] + of_group;
       *reinterpret_cast<TwiceAsWide*>(out + from) = __builtin_convertvector(sum, TwiceAsWide);
     }
   }

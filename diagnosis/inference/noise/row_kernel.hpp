@@ -54,13 +54,13 @@ struct Places {
   Ends place, anchor;
   const float *within_place, *within_both;  // m: half the mean distance of a row's readings; null: rows are points
   float far;                                // m: rows this far apart are so by their middles
-  bool anchors_move;                        // or stand where all others of their radio do
+  bool anchors_move;                        // or stand where all others of their group do
 };
 
 // Rows whose covariances are asked for two by two.
 struct Pairs {
   Places at;
-  const int* radio;          // the anchor's
+  const int* group;          // the anchor's
   const float* correlation;  // by the nearest entry
   float entries_per_metre;
   float everywhere, joint;  // variances: between places, and in addition between both ends of the same anchor

@@ -1,5 +1,5 @@
-// Readings of one link that lie close together, averaged to one row: a row's mean carries the small-scale fading of its
-// readings divided by their count, and costs one place in the covariance instead of many.
+// Neighbouring readings of one group, averaged to one row. A row's mean carries its readings' own scatter divided by
+// their count, and costs one place in the covariance instead of many.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,39 +9,20 @@ namespace muster::noise {
 
 using Eigen::Index;
 
-struct Readings {
-  std::vector<double> t;          // s; empty: readings of a link stand in the order of their time
-  std::vector<int> tx, rx;        // radios, by numbers that do not depend on the order of the readings
-  Eigen::Matrix3Xd tx_at, rx_at;  // m
-  std::vector<double> rx_yaw;     // rad; empty: unknown
-  std::vector<double> tx_yaw;     // the same of the transmitter
-  std::vector<double> level;      // dB that a model expects; empty: unknown
-
-  Index size() const { return static_cast<Index>(tx.size()); }
-};
-
-// A row ends where the next reading lies so far from its first one.
-struct RowLimits {
-  double time = 1.2;     // s
-  double turn = 0.6109;  // rad, 35 degrees
-  double way = 1.0;      // m, of either end
-  double level = 1.5;    // dB: what a wall does to a link is not averaged with what it is without
-};
-
 // Of three readings, each a stretch from the next: the mean distance of two, of a stretch.
 constexpr double mean_of_three = 8.0 / 9;
 
-// Where the rows' field lives: `place` is the end that moves more, `anchor` the other one, the same for both directions
-// of a pair. A row is seen as three readings of the same weight, in its middle and a stretch to either side of that,
-// which lie as far apart in the mean as its own do.
+// Sites of the rows, between which errors are correlated: a place, and an anchor that may move too (zero where a site
+// is one place or one time). Rows of one group share a field; rows of others share a part of it. A row counts as three
+// readings of equal weight, in its middle and a stretch to either side, as far apart in the mean as its own are.
 struct Sites {
-  Eigen::Matrix3Xd place, anchor;                  // m, in the mean
-  Eigen::Matrix3Xd place_stretch, anchor_stretch;  // m
-  std::vector<int> radio;                          // the anchor's
+  Eigen::Matrix3Xd place, anchor;                  // means, in the units of the decorrelation distance
+  Eigen::Matrix3Xd place_stretch, anchor_stretch;  // the same units
+  std::vector<int> group;                          // the anchor's
   Eigen::VectorXd count;                           // readings
 
   Index size() const { return count.size(); }
-  double within() const;  // m: the mean distance of two readings of a row
+  double within() const;  // the mean distance of two readings of a row
   Sites of(const std::vector<Index>& rows) const;
   // These rows, then those of `more`.
   Sites with(const Sites& more) const;
@@ -49,7 +30,8 @@ struct Sites {
 
 class Rows {
  public:
-  explicit Rows(const Readings& readings, const RowLimits& limits = {});
+  // `order`: all readings, row by row; `first`: where each row begins in it, and one past the last.
+  Rows(std::vector<Index> order, std::vector<Index> first);
 
   Index size() const { return static_cast<Index>(first_.size()) - 1; }
   const std::vector<Index>& row_of() const { return row_of_; }  // one a reading
@@ -67,29 +49,24 @@ class Rows {
   // first reading on: they end there. `parent`: of each new row, the one that it was in.
   Rows ended_where(const Eigen::VectorXd& effect, double step, std::vector<Index>& parent) const;
 
+  // The reading that ends each row.
+  Index last(Index row) const {
+    return order_[static_cast<std::size_t>(first_[static_cast<std::size_t>(row) + 1] - 1)];
+  }
+
   // Means of columns that have one row a reading.
   Eigen::MatrixXd mean(const Eigen::Ref<const Eigen::MatrixXd>& columns) const;
   // A value a row, at each of its readings.
   Eigen::VectorXd at_readings(const Eigen::VectorXd& rows) const;
 
-  Sites sites(const Readings& readings) const;
-  // The reading in the middle of each row.
-  Readings middles(const Readings& readings) const;
-
  private:
   void count_readings();
 
-  std::vector<Index> order_;  // readings by link, then time
+  std::vector<Index> order_;  // readings, row by row
   std::vector<Index> first_;  // in order_; one past the last row too
   std::vector<Index> row_of_;
   Eigen::VectorXd count_;
   std::vector<Index> by_count_;  // rows in the order of how many readings they have: one loop is as long as the next
 };
-
-// What suits a search. A wall that no map has shows best in short rows, down to single readings, while each row costs
-// time: they are as short as 4,000 rows allow. Of many readings they are longer than usual, up to four times where
-// there would be more than 10,000, and not for time's sake alone: each row is conditioned on so many near ones, and
-// where these lie dense nothing of them tells how far the field reaches.
-RowLimits limits_for(const Readings& readings);
 
 }  // namespace muster::noise

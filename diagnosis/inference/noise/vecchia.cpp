@@ -53,8 +53,8 @@ void store(const Field& field, Index group, const Lanes* combination, Stencil& s
 }
 
 // Without slots that would stay empty: where all rows have one anchor none is another's.
-Conditioning fillable(Conditioning conditioning, const std::vector<int>& radio) {
-  const bool one = std::all_of(radio.begin(), radio.end(), [&](int other) { return other == radio.front(); });
+Conditioning fillable(Conditioning conditioning, const std::vector<int>& group) {
+  const bool one = std::all_of(group.begin(), group.end(), [&](int other) { return other == group.front(); });
   if (one) conditioning.others = 0;
   return conditioning;
 }
@@ -62,7 +62,7 @@ Conditioning fillable(Conditioning conditioning, const std::vector<int>& radio) 
 }  // namespace
 
 Field::Field(Sites sites, const Conditioning& conditioning) : sites_(std::move(sites)) {
-  const Conditioning with = fillable(conditioning, sites_.radio);
+  const Conditioning with = fillable(conditioning, sites_.group);
   slots_ = with.slots();
   neighbours_ = neighbours_of(sites_, with);
   float longest = 0;
@@ -89,7 +89,7 @@ void Field::each_pair(bool by_readings, const Use& use) const {
         const Index other = b < a ? neighbour(i, b) : i;
         if (other < 0) continue;
         const std::size_t pair = at((i / lanes) * pairs() + Index{a} * (a + 1) / 2 + b), from = b < a ? at(b + 1) : 0;
-        use(pair * lanes + at(i % lanes), sites_.radio[at(j)] == sites_.radio[at(other)], place[from], both[from]);
+        use(pair * lanes + at(i % lanes), sites_.group[at(j)] == sites_.group[at(other)], place[from], both[from]);
       }
     }
   }

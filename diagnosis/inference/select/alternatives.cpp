@@ -56,8 +56,8 @@ ScoredCandidate at_its_best(const ModelState& state, const WhitenedModel& rest, 
 }
 
 // The same cause of other rows, the likest first: of two receivers one that reads high is the other one that reads low.
-// Where one radio hears all that is heard, it and all radios are one. `by_atom`: how much of the effect each place
-// of its grid explains.
+// Where one row of the world concerns all readings, it and all rows are one. `by_atom`: how much of the effect each
+// place of its grid explains.
 std::vector<Alternative> of_other_rows(const ModelState& state, const Term& term, const Eigen::VectorXd& by_atom,
                                        const Eigen::VectorXd& effect) {
   constexpr std::size_t most = 3;

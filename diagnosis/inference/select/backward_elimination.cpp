@@ -115,7 +115,7 @@ struct Company {
 
 // Leftovers of strong terms are not named.
 bool is_residual_artifact(const Term& term, const Company& company, bool clipped) {
-  const bool named = !term.smooth(), place = !term.candidate->pieces.empty() || term.candidate->own() == "map";
+  const bool named = !term.smooth(), place = !term.candidate->pieces.empty() || term.candidate->over_sites;
   if (term.gain < 0.05 * company.stronger_kin) return true;
   if (place && term.gain < std::min(30.0, 0.25 * company.stronger_kin)) return true;
   if (named && term.gain < 0.08 * company.smooths) return true;

@@ -27,7 +27,7 @@ struct Blocked {
 // The share of the gain that comes from anchors other than the strongest one. `won`: the gain of each row.
 double share_of_others(const ModelState& state, const Eigen::VectorXd& won) {
   std::map<int, double> by_anchor;
-  for (Index i = 0; i < won.size(); ++i) by_anchor[state.field().sites().radio[static_cast<std::size_t>(i)]] += won[i];
+  for (Index i = 0; i < won.size(); ++i) by_anchor[state.field().sites().group[static_cast<std::size_t>(i)]] += won[i];
   double most = 0;
   for (const auto& [anchor, sum] : by_anchor) most = std::max(most, sum);
   return 1 - most / won.sum();
@@ -95,7 +95,7 @@ double sure_log_p(const ModelState& state, const ScoredCandidate& lead, const no
       gain = std::min(gain, state.far().profile_gain(question, state.fit.covariance, families));
     }
   }
-  const bool over_the_plan = c.kind == Kind::smooth || (c.pieces.empty() && state.problem().places_known);
+  const bool over_the_plan = c.kind == Kind::smooth || (c.pieces.empty() && state.problem().layout->sites_known());
   if (over_the_plan) gain /= overdispersion;
   return state.log_p(c, gain, lead.columns.cols(), true);
 }
@@ -116,7 +116,7 @@ Trial tried(const ModelState& state, const ScoredCandidate& lead, const noise::F
   trial.marginal_log_p += model.skew_charge(lead.columns);
   const GainByRow gains_by_row = gain_by_row(model, lead.columns);
   if (!c.pieces.empty() && share_of_others(state, gains_by_row.won) < 0.08)
-    trial.marginal_log_p += state.options().one_radio_charge;
+    trial.marginal_log_p += state.options().one_group_charge;
   if (c.level_like && state.problem().bounds.any() &&
       !stands_clear_of_clip(state, fit.covariance, design, lead.columns))
     trial.reason = like_clipping;

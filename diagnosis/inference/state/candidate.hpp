@@ -72,6 +72,7 @@ struct Candidate {
   std::string pieces;  // candidates of one such class may find one object in pieces ("place"); empty: none
   // Thetas to try as the one object that these pieces are. May be empty.
   std::function<std::vector<Eigen::VectorXd>(const std::vector<Piece>&)> spanning;
+  bool over_sites = false;  // a function of where: residuals of others find a place somewhere
   bool slow = false;        // varies so slowly for one transmitter that the field can swallow it
   bool time_like = false;   // a function of time: an observed column that does as well comes first
   bool observed = false;    // smooth of a column or factor of the data

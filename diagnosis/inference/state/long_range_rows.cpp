@@ -8,12 +8,6 @@
 namespace muster::inference {
 namespace {
 
-// Of the usual length, unless each reading is a row or the rows are longer already.
-noise::RowLimits never_shorter(const noise::RowLimits& rows) {
-  const noise::RowLimits usual;
-  return rows.way < 0 || rows.way > usual.way ? rows : usual;
-}
-
 // The information on columns beside a design: their squared lengths, whitened, as far as the design leaves them.
 double told(const noise::Field& field, const noise::Covariance& covariance, const Eigen::MatrixXd& design,
             const Eigen::MatrixXd& columns) {
@@ -23,11 +17,11 @@ double told(const noise::Field& field, const noise::Covariance& covariance, cons
 
 }  // namespace
 
-LongRangeRows::LongRangeRows(const noise::Readings& readings, const Options& options, const noise::Rows& rows)
+LongRangeRows::LongRangeRows(const Layout& layout, const Options& options, const noise::Rows& rows)
     : rows_(rows),
       prior_(options.prior),
-      long_rows_(readings, never_shorter(options.rows)),
-      field_(long_rows_.sites(readings), {.same = 16, .others = 20, .seed = options.seed}) {}
+      long_rows_(layout.long_rows()),
+      field_(layout.sites(long_rows_), {.same = 16, .others = 20, .seed = options.seed}) {}
 
 Eigen::MatrixXd LongRangeRows::lengthened(const Eigen::MatrixXd& of_rows) const {
   Eigen::MatrixXd result(long_rows_.size(), of_rows.cols());

@@ -12,7 +12,7 @@ constexpr double hopeless_nats = 12;  // beyond those: no gain is so large that 
 // Everything that is given has a value a row of the search.
 class LongRangeRows {
  public:
-  LongRangeRows(const noise::Readings& readings, const Options& options, const noise::Rows& rows);
+  LongRangeRows(const Layout& layout, const Options& options, const noise::Rows& rows);
 
   // Columns that a design is extended by, and the noise beside both.
   struct Question {

@@ -83,7 +83,7 @@ Eigen::VectorXd WhitenedModel::coefficients(Index columns) const {
 ModelState::ModelState(const Problem& problem, const Options& options)
     : problem_(problem),
       options_(options),
-      rows_(problem.readings, options.rows),
+      rows_(problem.layout->rows()),
       field_(field_of(rows_)),
       base_(rows_.mean(problem.base)),
       normals_(normals_of(rows_.size(), options.nulls, options.seed)) {
@@ -91,12 +91,12 @@ ModelState::ModelState(const Problem& problem, const Options& options)
   families = noise::fit_families(field_, y_, base_, options_.prior);
   fit = families[0];
   for (const Candidate& candidate : problem.candidates) entries_.push_back(entry(candidate));
-  for (Candidate& candidate : smooths_of(problem)) entries_.push_back(entry(std::move(candidate)));
+  for (const Candidate& candidate : problem.smooths) entries_.push_back(entry(candidate));
   fixed_ = entries_.size();
 }
 
 noise::Field ModelState::field_of(const noise::Rows& rows) const {
-  return noise::Field(rows.sites(problem_.readings), {.seed = options_.seed});
+  return noise::Field(problem_.layout->sites(rows), {.seed = options_.seed});
 }
 
 Index ModelState::end_rows_at(const Candidate& candidate, const Eigen::VectorXd& theta) {
@@ -184,7 +184,7 @@ std::vector<noise::Family> ModelState::likely_families(noise::Family first) cons
 }
 
 const LongRangeRows& ModelState::far() const {
-  if (!far_) far_ = std::make_unique<const LongRangeRows>(problem_.readings, options_, rows_);
+  if (!far_) far_ = std::make_unique<const LongRangeRows>(*problem_.layout, options_, rows_);
   return *far_;
 }
 

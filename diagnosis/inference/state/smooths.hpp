@@ -1,16 +1,54 @@
-// Generic smooths along everything that a reading has: distance, bearings, time, place, each column, each factor, and
-// products. What is left after the named causes shows in one of them, whatever its reason.
+// Generic smooths: functions along a column, an angle, a factor, a plane, and products of them. Structure that no named
+// cause takes up shows in one of them, whatever its reason.
 #pragma once
 
-#include "diagnosis/inference/state/problem.hpp"
+#include "diagnosis/inference/state/candidate.hpp"
 
 namespace muster::inference {
 
-std::vector<Candidate> smooths_of(const Problem& problem);
+// A column of the data that no model knows.
+struct Covariate {
+  std::string name;
+  Eigen::VectorXd values;  // one a reading, none empty
+  bool angle = false;      // rad
+  int functions = 5;       // of the first smooth
+  bool products = true;    // with a domain's own columns too
+};
+
+struct Factor {
+  std::string name;
+  std::vector<int> level;  // one a reading, from 0
+};
+
+// Cosines over the range of x, a half-wave each; one row a value.
+Eigen::MatrixXd cosines(const Eigen::VectorXd& x, int functions);
+// Cosine and sine of each harmonic of an angle [rad].
+Eigen::MatrixXd harmonics_of(const Eigen::VectorXd& angle, int harmonics);
 
 // Cosines of a covariate over its range; may grow.
 Candidate smooth_of(const std::string& name, const Eigen::VectorXd& values, int functions);
 // Harmonics of an angle [rad]; may grow.
 Candidate smooth_of_angle(const std::string& name, const Eigen::VectorXd& angle, int harmonics);
+// The same functions for one level of a factor at a time.
+Candidate smooth_by_level(const std::string& name, const std::vector<int>& level, const Eigen::MatrixXd& functions);
+// A constant for one level of a factor at a time.
+Candidate factor(const std::string& name, const std::vector<int>& level);
+// Flat up to a bend and straight beyond it, to either side (Friedman 1991): one function where a smooth needs five.
+Candidate bend(const std::string& name, const Eigen::VectorXd& values);
+// A swing whose pace changes steadily from one end of the data to the other. Theta: cycles in all, and how many more of
+// them the second half has.
+Candidate chirp(const std::string& name, const Eigen::VectorXd& time);
+
+// Products of low order of two columns, "name*other".
+Candidate product_of(const std::string& name, const Eigen::VectorXd& values, const std::string& other,
+                     const Eigen::VectorXd& along);
+// Products of low order of a column and the two coordinates of a plane (one row a reading), "name*plane".
+Candidate product_over(const std::string& name, const Eigen::VectorXd& values, const std::string& plane,
+                       const Eigen::MatrixXd& place);
+// Products of cosines over a plane.
+Candidate smooth_over(const std::string& plane, const Eigen::MatrixXd& place);
+// The lowest of these: a field can swallow what bends no more than once over the plane, and few functions see it sooner
+// than many.
+Candidate slope_over(const std::string& plane, const Eigen::MatrixXd& place);
 
 }  // namespace muster::inference

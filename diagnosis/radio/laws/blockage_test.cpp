@@ -58,8 +58,9 @@ double log_mean(const Ratios& ratios) {
 
 class Scan {
  public:
-  Scan(const inference::ModelState& state, const Asked& asked)
+  Scan(const inference::ModelState& state, const LinkReadings& readings, const Asked& asked)
       : state_(state),
+        readings_(readings),
         model_(state.whitened_model(state.design())),
         reach_(state.field(), model_.whitener),
         residual_(without_spikes(model_.at.residual)) {
@@ -138,7 +139,7 @@ class Scan {
 
   // By time, both ways of a link together; of links with few rows none.
   std::map<std::pair<int, int>, std::vector<Index>> readings_of_links(const Asked& asked) const {
-    const noise::Readings& r = state_.problem().readings;
+    const LinkReadings& r = readings_;
     const std::vector<char> in_full = rows_in_full(asked);
     std::map<std::pair<int, int>, std::vector<Index>> result;
     std::map<std::pair<int, int>, std::size_t> rows;
@@ -160,7 +161,7 @@ class Scan {
     return result;
   }
 
-  double time(Index reading) const { return state_.problem().readings.t[static_cast<std::size_t>(reading)]; }
+  double time(Index reading) const { return readings_.t[static_cast<std::size_t>(reading)]; }
 
   Link link(const std::pair<int, int>& radios, const std::vector<Index>& readings) const {
     Link result{radios, {}};
@@ -227,6 +228,7 @@ class Scan {
   }
 
   const inference::ModelState& state_;
+  const LinkReadings& readings_;
   inference::WhitenedModel model_;
   noise::Reach reach_;
   VectorXd residual_;
@@ -293,8 +295,8 @@ double log_p(const Scan& scan, double ratio, const VectorXd& left) {
 
 }  // namespace
 
-Blockage blockage_test(const inference::ModelState& state, const Asked& asked) {
-  const Scan scan(state, asked);
+Blockage blockage_test(const inference::ModelState& state, const LinkReadings& readings, const Asked& asked) {
+  const Scan scan(state, readings, asked);
   Blockage result;
   result.links = scan.links().size();
   result.test.cause = "effect.people";

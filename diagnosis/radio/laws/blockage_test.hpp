@@ -22,6 +22,6 @@ struct Blockage {
 // and from the scan of the mirror image of what the passages leave: people lower levels, a misfit of the field raises
 // them as often. Rows with a reading that is not asked take no part: near a clip levels are cut off on one side, which
 // looks like bursts.
-Blockage blockage_test(const inference::ModelState& state, const Asked& asked);
+Blockage blockage_test(const inference::ModelState& state, const LinkReadings& readings, const Asked& asked);
 
 }  // namespace muster::diagnosis

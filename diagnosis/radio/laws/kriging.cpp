@@ -22,8 +22,8 @@ std::vector<Index> finite(const VectorXd& residual) {
   return result;
 }
 
-noise::Readings those(const noise::Readings& all, const std::vector<Index>& which) {
-  noise::Readings result;
+LinkReadings those(const LinkReadings& all, const std::vector<Index>& which) {
+  LinkReadings result;
   result.tx_at = all.tx_at(Eigen::all, which);
   result.rx_at = all.rx_at(Eigen::all, which);
   for (const Index i : which) {
@@ -35,11 +35,11 @@ noise::Readings those(const noise::Readings& all, const std::vector<Index>& whic
 }
 
 // Every reading a row of its own, in the given order.
-noise::Sites sites_of(const noise::Readings& readings) {
-  noise::RowLimits single;
+noise::Sites sites_of(const LinkReadings& readings) {
+  LinkRowLimits single;
   single.way = -1;
-  const noise::Rows rows(readings, single);
-  return rows.sites(readings).of(rows.row_of());
+  const noise::Rows rows = link_rows(readings, single);
+  return link_sites(rows, readings).of(rows.row_of());
 }
 
 // Cells of this side in the order in which they are met, of each anchor's radio on its own.
@@ -48,7 +48,7 @@ std::vector<Index> cells_of(const noise::Sites& sites, double side) {
   std::vector<Index> result;
   for (Index i = 0; i < sites.size(); ++i) {
     const auto along = [&](int axis) { return std::lround(sites.place(axis, i) / side); };
-    const std::tuple cell(sites.radio[static_cast<std::size_t>(i)], along(0), along(1), along(2));
+    const std::tuple cell(sites.group[static_cast<std::size_t>(i)], along(0), along(1), along(2));
     result.push_back(numbers.try_emplace(cell, static_cast<Index>(numbers.size())).first->second);
   }
   return result;
@@ -75,7 +75,7 @@ Intercept intercept_of(const VectorXd& y, const Eigen::ArrayXd& x) {
 
 }  // namespace
 
-KrigedReadings::KrigedReadings(const noise::Readings& readings, const VectorXd& residual)
+KrigedReadings::KrigedReadings(const LinkReadings& readings, const VectorXd& residual)
     : residual_(residual(finite(residual))), field_(sites_of(those(readings, finite(residual))), conditioning) {}
 
 KrigedReadings::KrigedReadings(VectorXd residual, noise::Field field, double far_off)

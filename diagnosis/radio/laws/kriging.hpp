@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "diagnosis/inference/noise/fit.hpp"
+#include "diagnosis/radio/links/link_rows.hpp"
 
 namespace muster::diagnosis {
 
@@ -35,7 +36,7 @@ struct CloseReadings {
 class KrigedReadings {
  public:
   // A residual a reading; those that are not finite are left out.
-  KrigedReadings(const noise::Readings& readings, const Eigen::VectorXd& residual);
+  KrigedReadings(const LinkReadings& readings, const Eigen::VectorXd& residual);
   // With every reading telling its neighbours all that it is off by. An outlier then spoils them; but where there are
   // none, this is the sum of errors whose variance is known, while tamed ones vary less than a law with rare deep fades
   // says.

@@ -136,7 +136,7 @@ ReadingDistribution stated_law(const LinkModel& model) {
 bool fades_apart(const LawSources& s) {
   if (s.model.value_of("radio.fading", "per_reading", 0) != 0 || s.model.has_plugin("effect.fading_law")) return true;
   const double half = 299792458 / s.model.value_of("radio.fading", "frequency", 2.44e9) / 2;
-  const noise::Readings& r = s.state.problem().readings;
+  const LinkReadings& r = s.readings;
   std::vector<double> ways;
   for (Index i = 1; i < r.size(); ++i) {
     const auto row = s.state.rows().row_of()[static_cast<std::size_t>(i)];
@@ -232,7 +232,7 @@ void add_laws_of_readings(const LawSources& s, const VectorXd& all, Diagnosis& f
       found.not_tested.push_back("effect.shadowing_correlation: " + why);
     return;
   }
-  KrigedReadings field(s.state.problem().readings, without_grazing(s, all, found));
+  KrigedReadings field(s.readings, without_grazing(s, all, found));
   const std::size_t before = found.causes.size();
   const ReadingDistribution law = add_scatter(s, field, found);
   add_field(s, field, law, found);
@@ -258,7 +258,7 @@ bool add_people(const LawSources& s, const VectorXd& residual, Diagnosis& found)
     found.searched.push_back(cause->id);
     return false;
   }
-  const Blockage passages = blockage_test(s.state, residual.array().isFinite());
+  const Blockage passages = blockage_test(s.state, s.readings, residual.array().isFinite());
   if (passages.links == 0) {
     found.not_tested.push_back(cause->id + ": not testable: no link has 40 rows of readings that are no bounds");
     return false;
@@ -278,7 +278,7 @@ bool add_people(const LawSources& s, const VectorXd& residual, Diagnosis& found)
 
 // What people do to a link is no law of single readings.
 VectorXd without_link(const LawSources& s, const CauseEstimate& people, VectorXd residual) {
-  const noise::Readings& r = s.state.problem().readings;
+  const LinkReadings& r = s.readings;
   for (Index i = 0; i < residual.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
     if (s.model.link_of(r.tx[k], r.rx[k]) == std::set{people.row, people.words.at("other")}) residual[i] = std::nan("");

@@ -13,6 +13,7 @@ struct LawSources {
   const Dataset& data;
   const std::vector<Cause>& causes;    // of the plugin path
   const inference::ModelState& state;  // after the search
+  const LinkReadings& readings;        // of the search
   const std::vector<Eigen::Index>& used;
   const Fit& fit;
 };

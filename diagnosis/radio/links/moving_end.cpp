@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-namespace muster::inference {
+namespace muster::diagnosis {
 namespace {
 
 using noise::Index;
@@ -12,7 +12,7 @@ using noise::Index;
 // How far a radio got from where it was first.
 class Ways {
  public:
-  explicit Ways(const noise::Readings& r) {
+  explicit Ways(const LinkReadings& r) {
     for (Index i = 0; i < r.size(); ++i) {
       add(r.tx[static_cast<std::size_t>(i)], r.tx_at.col(i));
       add(r.rx[static_cast<std::size_t>(i)], r.rx_at.col(i));
@@ -37,7 +37,7 @@ class Ways {
 
 }  // namespace
 
-MovingEnds moving_ends(const noise::Readings& readings) {
+MovingEnds moving_ends(const LinkReadings& readings) {
   const Index n = readings.size();
   const Ways ways(readings);
   MovingEnds result{Eigen::MatrixXd(n, 2), Eigen::VectorXd::Zero(n), Eigen::VectorXd(n)};
@@ -54,4 +54,4 @@ MovingEnds moving_ends(const noise::Readings& readings) {
   return result;
 }
 
-}  // namespace muster::inference
+}  // namespace muster::diagnosis

@@ -44,8 +44,8 @@ Area about(const CauseShape& shape, const VectorXd& theta, double margin) {
   return area;
 }
 
-noise::Readings those(const noise::Readings& all, const std::vector<Index>& kept) {
-  noise::Readings result;
+LinkReadings those(const LinkReadings& all, const std::vector<Index>& kept) {
+  LinkReadings result;
   result.tx_at = all.tx_at(Eigen::all, kept);
   result.rx_at = all.rx_at(Eigen::all, kept);
   const auto take = [&](const auto& from, auto& to) {
@@ -75,7 +75,7 @@ std::vector<VectorXd> corners(const VectorXd& theta) {
 }  // namespace
 
 Columns columns_near(const VectorXd& theta, const CauseCandidate& cause, const Dataset& data,
-                     const noise::Readings& readings, const Simulate& simulate) {
+                     const LinkReadings& readings, const Simulate& simulate) {
   const Columns& all = cause.candidate.columns;
   const Area area = about(*cause.shape, theta, beyond + moves);
   std::vector<Index> near;

@@ -48,7 +48,7 @@ TEST(Folds, LeaveRadiosOutThatDiffer) {
   ASSERT_GE(different.size(), 2u);
   EXPECT_EQ(*different.rbegin() + 1, static_cast<int>(different.size()));
   // Where one station alone stands, what moves is left out.
-  noise::Readings one = world.readings;
+  diagnosis::LinkReadings one = world.readings;
   const int robot = *std::max_element(one.rx.begin(), one.rx.end()) + 1;
   for (std::size_t i = 0; i < one.tx.size(); ++i) {
     one.rx[i] = robot + one.tx[i];

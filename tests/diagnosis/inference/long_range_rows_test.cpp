@@ -87,7 +87,7 @@ TEST(LongRangeRows, KeepWhatChangesLittleWithinThem) {
   Eigen::MatrixXd offset(state.rows().size(), 1), swing = offset;
   const noise::Sites& sites = state.field().sites();
   for (Index i = 0; i < offset.rows(); ++i) {
-    offset(i, 0) = sites.radio[static_cast<std::size_t>(i)] == 0;
+    offset(i, 0) = sites.group[static_cast<std::size_t>(i)] == 0;
     swing(i, 0) = i % 2 ? 1 : -1;
   }
   const auto kept = [&](const Eigen::MatrixXd& columns) {

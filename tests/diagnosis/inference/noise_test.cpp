@@ -30,7 +30,7 @@ Sites scattered(Index n, int radios, uint64_t seed) {
     const auto k = static_cast<uint64_t>(i);
     sites.place.col(i) << 6 * s.uniform(k, 0), 5 * s.uniform(k, 1), s.uniform(k, 2);
     const int radio = static_cast<int>(k) % radios;
-    sites.radio.push_back(radio);
+    sites.group.push_back(radio);
     sites.anchor.col(i) << 3.0 * radio, 1, 0;
     sites.count[i] = 1 + std::floor(3 * s.uniform(k, 3));
     if (sites.count[i] > 1) sites.place_stretch.col(i) << 0.3 * s.uniform(k, 4), 0.3 * s.uniform(k, 5), 0;
@@ -46,7 +46,7 @@ Eigen::MatrixXd dense(const Sites& sites, const Covariance& c) {
       const Apart apart = i == j               ? Apart{0, 0}
                           : is_rough(c.family) ? readings_apart(sites, i, j)
                                                : middles_apart(sites, i, j);
-      const bool same = sites.radio[static_cast<std::size_t>(i)] == sites.radio[static_cast<std::size_t>(j)];
+      const bool same = sites.group[static_cast<std::size_t>(i)] == sites.group[static_cast<std::size_t>(j)];
       const auto k = [&](double h) { return correlation(c.family, h / c.decorrelation()); };
       result(i, j) = c.field_variance() * (c.shared() * k(apart.place) + (same ? (1 - c.shared()) * k(apart.both) : 0));
     }
@@ -81,7 +81,7 @@ TEST(Exact, GainsOfPureNoiseAreChiSquare) {
   const Field field(sites);
   const Whitener whitener(field, c);
   Eigen::MatrixXd columns(900, 2);
-  for (Index i = 0; i < 900; ++i) columns.row(i) << 1, sites.radio[static_cast<std::size_t>(i)] == 0;
+  for (Index i = 0; i < 900; ++i) columns.row(i) << 1, sites.group[static_cast<std::size_t>(i)] == 0;
   const Basis design = basis_of(whitener(columns.col(0)));
   const Basis added = basis_of(design.rest(whitener(columns.col(1))));
   const Eigen::MatrixXd root = dense(sites, c).llt().matrixL();

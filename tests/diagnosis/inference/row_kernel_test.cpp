@@ -27,7 +27,7 @@ Sites places(Index n) {
   for (Index i = 0; i < n; ++i) {
     const auto k = static_cast<uint64_t>(i);
     sites.place.col(i) << 6 * s.uniform(k, 0), 5 * s.uniform(k, 1), s.uniform(k, 2);
-    sites.radio.push_back(static_cast<int>(k % 4));
+    sites.group.push_back(static_cast<int>(k % 4));
     sites.anchor.col(i) << 3.0 * static_cast<double>(k % 4), k % 4 < 2 ? s.uniform(k, 4) : 1, 0;
     sites.count[i] = 1 + std::floor(3 * s.uniform(k, 3));
   }

@@ -197,8 +197,8 @@ TEST(Rows, BothDirectionsOfAPairHaveOnePlaceAndOneAnchor) {
   ASSERT_EQ(sites.size() % 2, 0);
   const Index half = sites.size() / 2;
   for (Index i = 0; i < half; ++i) {
-    EXPECT_EQ(sites.radio[static_cast<std::size_t>(i)], 1);
-    EXPECT_EQ(sites.radio[static_cast<std::size_t>(half + i)], 1);
+    EXPECT_EQ(sites.group[static_cast<std::size_t>(i)], 1);
+    EXPECT_EQ(sites.group[static_cast<std::size_t>(half + i)], 1);
     EXPECT_TRUE(sites.place.col(i).isApprox(sites.place.col(half + i)));
     EXPECT_GT(sites.place(0, i), 4);
   }

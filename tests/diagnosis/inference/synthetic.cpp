@@ -121,7 +121,7 @@ bool crosses(double px, double py, double qx, double qy, const Segment& s) {
   return t > 0 && t < 1 && u >= 0 && u <= 1;
 }
 
-Eigen::VectorXd crossings(const noise::Readings& readings, const Segment& segment) {
+Eigen::VectorXd crossings(const diagnosis::LinkReadings& readings, const Segment& segment) {
   Eigen::VectorXd result(readings.size());
   for (Index i = 0; i < result.size(); ++i)
     result[i] =

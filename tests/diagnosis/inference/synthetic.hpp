@@ -27,7 +27,7 @@ struct Recipe {
 
 struct World {
   Recipe recipe;
-  noise::Readings readings;
+  diagnosis::LinkReadings readings;
   Eigen::VectorXd rssi;  // dBm, nothing hidden in it
   Eigen::MatrixXd base;  // 1, -10 log10 d, -walls crossed
   Eigen::VectorXd time, speed, battery, temperature;
@@ -44,7 +44,7 @@ World world_of(const Recipe& recipe);
 Recipe varied(uint64_t seed, Index readings);
 
 // 1 where the straight line of a reading crosses the segment.
-Eigen::VectorXd crossings(const noise::Readings& readings, const Segment& segment);
+Eigen::VectorXd crossings(const diagnosis::LinkReadings& readings, const Segment& segment);
 bool crosses(double px, double py, double qx, double qy, const Segment& s);
 
 // The column scaled so that its whitened energy beside the base design is lambda, under the true covariance.

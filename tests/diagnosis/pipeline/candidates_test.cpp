@@ -76,7 +76,7 @@ TEST(Near, AsksAllOfWhatConcernsAReadingElsewhere) {
   far.candidate.columns = [columns = thing->candidate.columns](const Eigen::VectorXd& t) -> Eigen::MatrixXd {
     return columns(t).array() + 1;
   };
-  const Simulate simulate = [&](const noise::Readings& readings) {
+  const Simulate simulate = [&](const LinkReadings& readings) {
     return std::make_shared<SimulatedReadings>(readings, hall.at.model.radio_names(), hall.world, plugins,
                                                hall.at.base);
   };

@@ -54,7 +54,7 @@ CauseEstimate about(const std::string& radio) {
   return c;
 }
 
-noise::Readings plan(const RowSummary& seen, const std::string& says, const std::vector<CauseEstimate>& found = {}) {
+LinkReadings plan(const RowSummary& seen, const std::string& says, const std::vector<CauseEstimate>& found = {}) {
   for (const PlannedReadings& p : planned_readings(seen, found)) {
     if (p.say.find(says) != std::string::npos) return p.readings;
   }
@@ -62,7 +62,7 @@ noise::Readings plan(const RowSummary& seen, const std::string& says, const std:
 }
 
 // Of the stations' ends: where they stand and face. False if a link has no station.
-bool stations_stay(const noise::Readings& r) {
+bool stations_stay(const LinkReadings& r) {
   for (Index i = 0; i < r.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
     const bool down = r.tx[k] != robot;
@@ -95,20 +95,20 @@ TEST(Plans, MakeNoTwoReadingsOfALinkAtOnceAndNoneBeforeTheData) {
 
 TEST(Plans, DriveBackAgainWithTheRobotTurnedRoundAndTheStationsAsTheyWere) {
   for (const bool robot_sends : {false, true}) {
-    const noise::Readings back = plan(driven(robot_sends), "in reverse");
+    const LinkReadings back = plan(driven(robot_sends), "in reverse");
     ASSERT_EQ(back.size(), 4 * moments);  // two readings a row, as in the data
     EXPECT_TRUE(stations_stay(back));
     for (const double yaw : robot_sends ? back.tx_yaw : back.rx_yaw) EXPECT_DOUBLE_EQ(yaw, M_PI);
     const auto first = static_cast<Index>(std::min_element(back.t.begin(), back.t.end()) - back.t.begin());
     EXPECT_NEAR((robot_sends ? back.tx_at : back.rx_at)(0, first), 0.4 * (moments - 1), 1e-12);
-    const noise::Readings later = plan(driven(robot_sends), "in the same order");
+    const LinkReadings later = plan(driven(robot_sends), "in the same order");
     EXPECT_TRUE(stations_stay(later));
     for (const double yaw : robot_sends ? later.tx_yaw : later.rx_yaw) EXPECT_EQ(yaw, 0);
   }
 }
 
 TEST(Plans, LetBothEndsSendWhereOneDid) {
-  const noise::Readings both = plan(driven(), "both ends");
+  const LinkReadings both = plan(driven(), "both ends");
   EXPECT_TRUE(stations_stay(both));
   std::map<std::pair<int, int>, int> many;
   for (std::size_t k = 0; k < both.tx.size(); ++k) ++many[{both.tx[k], both.rx[k]}];
@@ -127,13 +127,13 @@ TEST(Plans, TurnOrMoveTheStationThatSomethingWasFoundAbout) {
     for (const int concerned : {west, east}) {
       const RowSummary seen = driven(robot_sends);
       const std::string name = seen.radios[static_cast<std::size_t>(concerned)];
-      const noise::Readings turned = plan(seen, "turn " + name + " by 90 degrees", {about("robot"), about(name)});
-      const noise::Readings moved = plan(seen, "move " + name, {about(name)});
+      const LinkReadings turned = plan(seen, "turn " + name + " by 90 degrees", {about("robot"), about(name)});
+      const LinkReadings moved = plan(seen, "move " + name, {about(name)});
       ASSERT_GT(turned.size(), 0) << name;
       ASSERT_GT(moved.size(), 0) << name;
-      const auto radio = [&](const noise::Readings& r) { return robot_sends ? r.rx : r.tx; };
-      const auto at = [&](const noise::Readings& r) { return robot_sends ? r.rx_at : r.tx_at; };
-      const auto yaw = [&](const noise::Readings& r) { return robot_sends ? r.rx_yaw : r.tx_yaw; };
+      const auto radio = [&](const LinkReadings& r) { return robot_sends ? r.rx : r.tx; };
+      const auto at = [&](const LinkReadings& r) { return robot_sends ? r.rx_at : r.tx_at; };
+      const auto yaw = [&](const LinkReadings& r) { return robot_sends ? r.rx_yaw : r.tx_yaw; };
       for (Index i = 0; i < turned.size(); ++i) {
         EXPECT_EQ(radio(turned)[static_cast<std::size_t>(i)], concerned);
         EXPECT_EQ(at(turned).col(i), stands[concerned]);
@@ -159,12 +159,12 @@ TEST(Plans, KeepStationsWhereTheyAreOnLinksThatGoBothWays) {
     std::swap(seen.tx_yaw[static_cast<Index>(k)], seen.rx_yaw[static_cast<Index>(k)]);
   }
   for (const char* says : {"in reverse", "in the same order", "once around", "nothing was measured"}) {
-    const noise::Readings r = plan(seen, says);
+    const LinkReadings r = plan(seen, says);
     EXPECT_GT(r.size(), 0) << says;
     EXPECT_TRUE(stations_stay(r)) << says;
   }
   for (const char* says : {"turn east by", "move east"}) {
-    const noise::Readings r = plan(seen, says, {about("east")});
+    const LinkReadings r = plan(seen, says, {about("east")});
     std::set<std::pair<int, int>> links;
     for (std::size_t k = 0; k < r.tx.size(); ++k) links.insert({r.tx[k], r.rx[k]});
     EXPECT_EQ(links, (std::set<std::pair<int, int>>{{east, robot}, {robot, east}})) << says;
@@ -181,7 +181,7 @@ TEST(Plans, TurnTheStationOfARivalWhereWhatWasFoundIsAboutNone) {
 }
 
 TEST(Plans, TurnTheRobotOnceAroundAtEveryPlace) {
-  const noise::Readings turning = plan(driven(), "once around");
+  const LinkReadings turning = plan(driven(), "once around");
   EXPECT_TRUE(stations_stay(turning));
   std::map<double, std::set<double>> headings;  // by place
   for (Index i = 0; i < turning.size(); ++i)
@@ -193,7 +193,7 @@ TEST(Plans, TurnTheRobotOnceAroundAtEveryPlace) {
 TEST(Plans, GoWhereNothingWasMeasuredAndNotFarFromWhatWasFound) {
   CauseEstimate found;
   found.values = {{"x", "m", 10, 1, 8, 12, -100, 100}, {"y", "m", -4, 1, -6, -2, -100, 100}};
-  const noise::Readings there = plan(driven(), "nothing was measured", {found});
+  const LinkReadings there = plan(driven(), "nothing was measured", {found});
   ASSERT_GT(there.size(), 0);
   EXPECT_TRUE(stations_stay(there));
   const RowSummary seen = driven();

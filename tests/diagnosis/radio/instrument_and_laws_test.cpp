@@ -188,7 +188,7 @@ TEST(LawsOfReadings, ShapesOfManyReadingsAreTheBestByAllOfThem) {
 TEST(LawsOfReadings, ReadingsSideBySideTellTheVarianceOfOne) {
   for (const double distance : {0.7, 1.5}) {
     const Walk walk = drawn({.rician_k = 4}, 6000, distance);
-    noise::Readings near = walk.readings;
+    LinkReadings near = walk.readings;
     near.rx_at *= 0.1;  // 1.5 cm apart, in a field that changes ten times as fast as this says
     const CloseReadings close = KrigedReadings(near, walk.residual).close_readings();
     EXPECT_GT(close.pairs, 2500);

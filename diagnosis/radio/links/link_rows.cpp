@@ -1,0 +1,169 @@
+#include "diagnosis/radio/links/link_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <tuple>
+
+namespace muster::diagnosis {
+namespace {
+
+using noise::Index;
+
+std::vector<Index> by_link_and_time(const LinkReadings& readings) {
+  std::vector<Index> order(readings.tx.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto key = [&](Index i) {
+    const auto k = static_cast<std::size_t>(i);
+    return std::tuple(readings.tx[k], readings.rx[k], readings.t.empty() ? 0.0 : readings.t[k]);
+  };
+  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return key(a) < key(b); });
+  return order;
+}
+
+bool ends_row(const LinkReadings& r, const LinkRowLimits& limits, Index first, Index next) {
+  const auto a = static_cast<std::size_t>(first), b = static_cast<std::size_t>(next);
+  if (r.tx[a] != r.tx[b] || r.rx[a] != r.rx[b]) return true;
+  if (!r.t.empty() && r.t[b] - r.t[a] >= limits.time) return true;
+  for (const std::vector<double>* yaw : {&r.rx_yaw, &r.tx_yaw}) {
+    if (!yaw->empty() && std::abs(std::remainder((*yaw)[b] - (*yaw)[a], 2 * M_PI)) > limits.turn) return true;
+  }
+  if (!r.level.empty() && std::abs(r.level[b] - r.level[a]) > limits.level) return true;
+  return (r.rx_at.col(next) - r.rx_at.col(first)).norm() > limits.way ||
+         (r.tx_at.col(next) - r.tx_at.col(first)).norm() > limits.way;
+}
+
+// How far the radios of each pair went. What shadows a link shadows its return, so both directions have one anchor: the
+// radio that moved less. Where neither did, it is that end of a lone direction that moves less in all.
+class Ways {
+ public:
+  void add(int tx, int rx, double tx_way, double rx_way) {
+    Pair& pair = of_[std::minmax(tx, rx)];
+    (tx < rx ? pair.low : pair.high) += tx_way;
+    (tx < rx ? pair.high : pair.low) += rx_way;
+    (tx < rx ? pair.up : pair.down) = true;
+    by_tx_ += tx_way;
+    by_rx_ += rx_way;
+  }
+
+  int anchor_of(int tx, int rx) const {
+    const auto found = of_.find(std::minmax(tx, rx));
+    const Pair pair = found == of_.end() ? Pair{} : found->second;
+    if (pair.low == pair.high && !(pair.up && pair.down)) return by_tx_ <= by_rx_ ? tx : rx;
+    return pair.low <= pair.high ? std::min(tx, rx) : std::max(tx, rx);
+  }
+
+ private:
+  struct Pair {
+    double low = 0, high = 0;       // m, of the radio with the lower number and of the other
+    bool up = false, down = false;  // whether the lower transmits, and the other
+  };
+  std::map<std::pair<int, int>, Pair> of_;
+  double by_tx_ = 0, by_rx_ = 0;  // m, of all
+};
+
+// Of the usual length, unless each reading is a row or the rows are longer already.
+LinkRowLimits never_shorter(const LinkRowLimits& rows) {
+  const LinkRowLimits usual;
+  return rows.way < 0 || rows.way > usual.way ? rows : usual;
+}
+
+}  // namespace
+
+noise::Rows link_rows(const LinkReadings& readings, const LinkRowLimits& limits) {
+  std::vector<Index> order = by_link_and_time(readings), first;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    if (k == 0 || ends_row(readings, limits, order[static_cast<std::size_t>(first.back())], order[k]))
+      first.push_back(static_cast<Index>(k));
+  }
+  first.push_back(static_cast<Index>(order.size()));
+  return {std::move(order), std::move(first)};
+}
+
+noise::Sites link_sites(const noise::Rows& rows, const LinkReadings& readings) {
+  const Eigen::Matrix3Xd tx = rows.mean(readings.tx_at.transpose()).transpose();
+  const Eigen::Matrix3Xd rx = rows.mean(readings.rx_at.transpose()).transpose();
+  Ways ways;
+  Eigen::Matrix3Xd tx_stretch(3, rows.size()), rx_stretch(3, rows.size());
+  for (Index i = 0; i < rows.size(); ++i) {
+    const Index a = rows.example(i), b = rows.last(i);
+    const double share =
+        (rows.count()[i] + 1) / (3 * rows.count()[i]) / noise::mean_of_three;  // of its way, if evenly along a line
+    tx_stretch.col(i) = share * (readings.tx_at.col(b) - readings.tx_at.col(a));
+    rx_stretch.col(i) = share * (readings.rx_at.col(b) - readings.rx_at.col(a));
+    const std::size_t link = static_cast<std::size_t>(a);
+    const bool goes_on = i > 0 && readings.tx[link] == readings.tx[static_cast<std::size_t>(rows.example(i - 1))] &&
+                         readings.rx[link] == readings.rx[static_cast<std::size_t>(rows.example(i - 1))];
+    if (goes_on)
+      ways.add(readings.tx[link], readings.rx[link], (tx.col(i) - tx.col(i - 1)).norm(),
+               (rx.col(i) - rx.col(i - 1)).norm());
+  }
+  noise::Sites sites{rx, tx, rx_stretch, tx_stretch, {}, rows.count()};
+  for (Index i = 0; i < rows.size(); ++i) {
+    const auto link = static_cast<std::size_t>(rows.example(i));
+    const bool anchored_at_tx = ways.anchor_of(readings.tx[link], readings.rx[link]) == readings.tx[link];
+    if (!anchored_at_tx) {
+      sites.place.col(i) = tx.col(i);
+      sites.anchor.col(i) = rx.col(i);
+      sites.place_stretch.col(i) = tx_stretch.col(i);
+      sites.anchor_stretch.col(i) = rx_stretch.col(i);
+    }
+    sites.group.push_back(anchored_at_tx ? readings.tx[link] : readings.rx[link]);
+  }
+  return sites;
+}
+
+LinkReadings middles(const noise::Rows& rows, const LinkReadings& readings) {
+  LinkReadings result;
+  result.tx_at.resize(3, rows.size());
+  result.rx_at.resize(3, rows.size());
+  for (Index i = 0; i < rows.size(); ++i) {
+    const auto k = static_cast<std::size_t>(rows.middle(i));
+    result.tx.push_back(readings.tx[k]);
+    result.rx.push_back(readings.rx[k]);
+    result.tx_at.col(i) = readings.tx_at.col(rows.middle(i));
+    result.rx_at.col(i) = readings.rx_at.col(rows.middle(i));
+    if (!readings.t.empty()) result.t.push_back(readings.t[k]);
+    if (!readings.rx_yaw.empty()) result.rx_yaw.push_back(readings.rx_yaw[k]);
+    if (!readings.tx_yaw.empty()) result.tx_yaw.push_back(readings.tx_yaw[k]);
+    if (!readings.level.empty()) result.level.push_back(readings.level[k]);
+  }
+  return result;
+}
+
+LinkRowLimits limits_for(const LinkReadings& readings) {
+  constexpr Index few = 4000, many = 10000;
+  LinkRowLimits limits;
+  for (const double share : {0.0, 0.25, 0.5, 1.0, 2.0, 4.0}) {
+    limits = {};
+    limits.time *= share;
+    limits.way *= share;
+    if (link_rows(readings, limits).size() <= (share < 1 ? few : many)) break;
+  }
+  return limits;
+}
+
+std::vector<int> radios_of(const noise::Rows& rows, const noise::Sites& sites, const LinkReadings& readings) {
+  const bool one = std::all_of(sites.group.begin(), sites.group.end(), [&](int r) { return r == sites.group.front(); });
+  if (!one) return inference::numbered(sites.group);
+  std::vector<int> others;
+  for (Index i = 0; i < rows.size(); ++i) {
+    const auto reading = static_cast<std::size_t>(rows.example(i));
+    others.push_back(readings.tx[reading] == sites.group.front() ? readings.rx[reading] : readings.tx[reading]);
+  }
+  return inference::numbered(others);
+}
+
+noise::Rows LinkLayout::long_rows() const { return link_rows(readings_, never_shorter(limits_)); }
+
+std::vector<inference::Grouping> LinkLayout::groupings(const noise::Rows& rows, const noise::Sites& sites) const {
+  std::vector<inference::Grouping> result{{"radios", radios_of(rows, sites, readings_)}};
+  if (run_.empty()) return result;
+  result.push_back({"runs", {}});
+  for (Index i = 0; i < rows.size(); ++i)
+    result.back().of_row.push_back(run_[static_cast<std::size_t>(rows.example(i))]);
+  return result;
+}
+
+}  // namespace muster::diagnosis
