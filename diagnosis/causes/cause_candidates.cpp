@@ -74,7 +74,7 @@ bool find_axes(CauseShape& shape, const CauseSources& sources, const Measurement
 }
 
 // A place that takes level from links through it cannot stand where a radio was driven.
-bool stands(const inference::Candidate& c) { return !c.pieces.empty(); }
+bool stands(const inference::Candidate& c) { return !c.role.pieces.empty(); }
 
 bool clear_of_ways(const CauseShape& shape, const MeasurementGeometry& survey, const VectorXd& t) {
   if (shape.place == PlaceShape::segment) return driven_across(survey, t[1], t[2], t[3], t[4]) == 0;
@@ -125,26 +125,26 @@ struct Maker {
     constexpr double beyond_map = 10;  // m: a radio may stand outside of all that was mapped and driven through
     const double around = shape.cause.meaning().kind == MUSTER_WORLD_EDIT ? beyond_map : 0;
     const Index places = place_entries(shape.place), n = 1 + places + static_cast<Index>(shape.axes.size());
-    c.lower = c.upper = c.step = VectorXd::Zero(n);
-    c.upper[0] = static_cast<double>(shape.rows.size());
+    c.refinement.lower = c.refinement.upper = c.refinement.step = VectorXd::Zero(n);
+    c.refinement.upper[0] = static_cast<double>(shape.rows.size());
     if (places >= 2) {
-      c.lower.segment(1, 2) << survey.east.low - around, survey.north.low - around;
-      c.upper.segment(1, 2) << survey.east.high + around, survey.north.high + around;
-      c.step.segment(1, 2).setConstant(places == 4 ? 0.4 : 0.3);
+      c.refinement.lower.segment(1, 2) << survey.east.low - around, survey.north.low - around;
+      c.refinement.upper.segment(1, 2) << survey.east.high + around, survey.north.high + around;
+      c.refinement.step.segment(1, 2).setConstant(places == 4 ? 0.4 : 0.3);
     }
     if (places == 4) {
-      c.lower.segment(3, 2) << 0.8, -4;
-      c.upper.segment(3, 2) << (shape.is_strip() ? 40 : 9), 4;
-      c.step.segment(3, 2) << 0.8, 0.12;
+      c.refinement.lower.segment(3, 2) << 0.8, -4;
+      c.refinement.upper.segment(3, 2) << (shape.is_strip() ? 40 : 9), 4;
+      c.refinement.step.segment(3, 2) << 0.8, 0.12;
     }
     for (std::size_t k = 0; k < shape.axes.size(); ++k) {
       const Index at = 1 + places + static_cast<Index>(k);
-      c.lower[at] = shape.axes[k].lower;
-      c.upper[at] = shape.axes[k].upper;
-      c.step[at] = shape.axes[k].step;
+      c.refinement.lower[at] = shape.axes[k].lower;
+      c.refinement.upper[at] = shape.axes[k].upper;
+      c.refinement.step[at] = shape.axes[k].step;
     }
     if (const auto sizes = static_cast<Index>(given_sizes(shape)); sizes > 0)
-      c.step.segment(1, places + sizes).setZero();
+      c.refinement.step.segment(1, places + sizes).setZero();
   }
 
   // What the search asks of a candidate, from what the plugin declares.
@@ -155,21 +155,21 @@ struct Maker {
     const bool edit = cause.meaning().kind == MUSTER_WORLD_EDIT;
     const bool decibels = shape.linear.size() == 1 && shape.linear[0]->unit == std::string("dB");
     c.id = cause.id;
-    c.width = static_cast<int>(shape.columns());
+    c.design.width = static_cast<int>(shape.columns());
     // A term of sought parameters without a size of its own has that of what is fitted beside it.
-    c.whole = shape.linear.empty() && (edit || shape.axes.empty());
-    c.sign = shape.linear.empty() || (c.width == 1 && shape.linear[0]->min == 0) ? 1 : 0;
-    c.time_like = time && column.empty();
-    c.parameters = static_cast<int>(cause.plugin->param_count + shape.axes.size());
-    c.slow = !time && !heading && !(placed && c.sign && decibels);
-    c.level_like = shape.set().empty() && !placed && !time;
-    if (placed && !c.slow) c.pieces = "place";
-    std::tie(c.covariates, c.stands_for) = covariates_of(shape);
-    c.over_sites = c.own() == "map";
-    if (!c.refinable()) return;
-    c.starts = stands(c) ? (shape.place == PlaceShape::segment ? 16 : 10) : edit ? 12 : 1;
-    c.evaluations = edit ? 60 : placed ? 110 : 35;
-    c.charge = charge_of(shape, c);
+    c.design.whole = shape.linear.empty() && (edit || shape.axes.empty());
+    c.design.sign = shape.linear.empty() || (c.design.width == 1 && shape.linear[0]->min == 0) ? 1 : 0;
+    c.role.time_like = time && column.empty();
+    c.role.parameters = static_cast<int>(cause.plugin->param_count + shape.axes.size());
+    c.role.slow = !time && !heading && !(placed && c.design.sign && decibels);
+    c.role.level_like = shape.set().empty() && !placed && !time;
+    if (placed && !c.role.slow) c.role.pieces = "place";
+    std::tie(c.covariates, c.role.stands_for) = covariates_of(shape);
+    c.role.over_sites = c.own() == "map";
+    if (!c.refinement.any()) return;
+    c.refinement.starts = stands(c) ? (shape.place == PlaceShape::segment ? 16 : 10) : edit ? 12 : 1;
+    c.refinement.evaluations = edit ? 60 : placed ? 110 : 35;
+    c.refinement.charge = charge_of(shape, c);
   }
 
   // refinement_charge() over clean cases of the exam: walls 6.3 and things 5.5 (median of seven), places on a grid 1.7
@@ -216,8 +216,8 @@ struct Maker {
     const auto moved = [mapped = std::move(mapped)](const VectorXd& t) {
       return (t.segment<2>(1) - mapped[static_cast<std::size_t>(t[0])]).norm();
     };
-    c.belief = [moved](const VectorXd& t) { return -std::pow(moved(t) / off, 2) / 2; };
-    c.admitted = [moved](const VectorXd& t) { return moved(t) < no_other_place ? 0.0 : 1.0; };
+    c.refinement.belief = [moved](const VectorXd& t) { return -std::pow(moved(t) / off, 2) / 2; };
+    c.refinement.admitted = [moved](const VectorXd& t) { return moved(t) < no_other_place ? 0.0 : 1.0; };
   }
 
   // Where a wall or a thing could stand is swept over.
@@ -239,13 +239,13 @@ struct Maker {
         readings.links.push_back(link(reading));
       }
       readings.first.push_back(readings.links.size());
-      c.proposed = [sweep = std::make_shared<const SegmentScan>(survey, std::move(links), std::move(readings)),
-                    first = c.grid[0]](inference::Tally& tally) { return shaped_as(first, (*sweep)(tally)); };
+      c.refinement.proposed =
+          [sweep = std::make_shared<const SegmentScan>(survey, std::move(links), std::move(readings)),
+           first = c.design.grid[0]](inference::Tally& tally) { return shaped_as(first, (*sweep)(tally)); };
     } else {
-      c.step.tail<3>().setConstant(0.1);  // m: its tops are narrow and lie close
-      c.proposed = [sweep = std::make_shared<const DiskScan>(survey, std::move(links))](inference::Tally& tally) {
-        return (*sweep)(tally);
-      };
+      c.refinement.step.tail<3>().setConstant(0.1);  // m: its tops are narrow and lie close
+      c.refinement.proposed = [sweep = std::make_shared<const DiskScan>(survey, std::move(links))](
+                                  inference::Tally& tally) { return (*sweep)(tally); };
     }
   }
 
@@ -253,16 +253,16 @@ struct Maker {
     std::vector<Eigen::MatrixXf> atoms;
     for (const VectorXd& theta : starts_of(shape, survey, sources.model, stands(c))) {
       if (stands(c) && !clear_of_ways(shape, survey, theta)) continue;
-      const Eigen::MatrixXd columns = c.columns(theta);
+      const Eigen::MatrixXd columns = c.design.columns(theta);
       const double share = (columns.array() != 0).cast<double>().mean();
       if (share < (shape.place == PlaceShape::none ? 0 : least_share) || !base.leaves(columns.col(0))) continue;
-      c.grid.push_back(theta);
+      c.design.grid.push_back(theta);
       atoms.push_back(rows.mean(columns).cast<float>());
     }
-    noise::Sheet together(rows.size(), c.width * static_cast<Index>(atoms.size()));
+    noise::Sheet together(rows.size(), c.design.width * static_cast<Index>(atoms.size()));
     for (std::size_t k = 0; k < atoms.size(); ++k)
-      together.middleCols(c.width * static_cast<Index>(k), c.width) = atoms[k];
-    c.atoms = std::make_shared<const noise::Sheet>(std::move(together));
+      together.middleCols(c.design.width * static_cast<Index>(k), c.design.width) = atoms[k];
+    c.design.atoms = std::make_shared<const noise::Sheet>(std::move(together));
   }
 };
 
@@ -284,22 +284,22 @@ std::string make(const Cause& cause, const Maker& maker, CauseSearch& out) {
   if (shape->place != PlaceShape::none || !shape->axes.empty()) maker.bounds(*shape, c);
   maker.describe(*shape, c);
   maker.label(shape, c);
-  c.columns = columns_at(shape, s.run, s.used);
+  c.design.columns = columns_at(shape, s.run, s.used);
   maker.grid(*shape, c);
-  if (c.grid.empty()) return "not testable: no reading depends on it, or the base model takes it up";
+  if (c.design.grid.empty()) return "not testable: no reading depends on it, or the base model takes it up";
   if (cause.meaning().kind == MUSTER_WORLD_EDIT && shape->place == PlaceShape::point) maker.believe_in_map(*shape, c);
   if (stands(c)) {
-    c.admitted = [shape, survey = maker.survey](const VectorXd& t) {
+    c.refinement.admitted = [shape, survey = maker.survey](const VectorXd& t) {
       if (shape->place == PlaceShape::point) return clear_of_ways(*shape, survey, t) ? 1.0 : 0.3;
       return std::pow(0.8, std::min(driven_across(survey, t[1], t[2], t[3], t[4]), 10));
     };
-    if (c.refinable()) maker.let_sweep(*shape, c);
+    if (c.refinement.any()) maker.let_sweep(*shape, c);
     if (shape->place == PlaceShape::point && shape->axes.size() == 1)
-      c.moves = [survey = maker.survey](const VectorXd& t) { return moves_of_disk(survey, t); };
+      c.refinement.moves = [survey = maker.survey](const VectorXd& t) { return moves_of_disk(survey, t); };
     if (shape->place == PlaceShape::segment) {
-      c.moves = [survey = maker.survey](const VectorXd& t) { return moves_of_segment(survey, t); };
-      c.belief = [survey = maker.survey](const VectorXd& t) { return belief_in_segment(survey, t); };
-      c.spanning = [id = c.id, first = c.grid[0]](const std::vector<inference::Piece>& pieces) {
+      c.refinement.moves = [survey = maker.survey](const VectorXd& t) { return moves_of_segment(survey, t); };
+      c.refinement.belief = [survey = maker.survey](const VectorXd& t) { return belief_in_segment(survey, t); };
+      c.role.spanning = [id = c.id, first = c.design.grid[0]](const std::vector<inference::Piece>& pieces) {
         return shaped_as(first, spans(pieces, id));
       };
     }
@@ -322,10 +322,10 @@ std::string made(const Cause& cause, const Maker& maker, CauseSearch& out) {
 
 inference::Candidate at_readings_of(const CauseCandidate& cause, const CauseSources& s) {
   inference::Candidate result = cause.candidate;
-  result.columns = columns_at(cause.shape, s.run, s.used);
-  result.atoms = nullptr;
-  result.sketch = nullptr;
-  result.near = nullptr;
+  result.design.columns = columns_at(cause.shape, s.run, s.used);
+  result.design.atoms = nullptr;
+  result.design.sketch = nullptr;
+  result.design.near = nullptr;
   return result;
 }
 

@@ -53,15 +53,17 @@ std::optional<Hidden> hide(const CauseCandidate& cause, const inference::ModelSt
   const inference::WhitenedModel model = state.whitened_model(state.design());
   for (uint64_t k = 0; k < tries; ++k) {
     Hidden hidden;
-    hidden.theta = c.grid[static_cast<std::size_t>(stream.uniform(k, 0) * static_cast<double>(c.grid.size()))];
-    for (Index j = 0; j < c.step.size(); ++j)
-      hidden.theta[j] += c.step[j] * (stream.uniform(k, 1 + static_cast<uint64_t>(j)) - 0.5);
-    if (c.lower.size() > 0) hidden.theta = hidden.theta.cwiseMax(c.lower).cwiseMin(c.upper);
-    if (c.admitted && c.admitted(hidden.theta) < 1) continue;
+    hidden.theta =
+        c.design.grid[static_cast<std::size_t>(stream.uniform(k, 0) * static_cast<double>(c.design.grid.size()))];
+    for (Index j = 0; j < c.refinement.step.size(); ++j)
+      hidden.theta[j] += c.refinement.step[j] * (stream.uniform(k, 1 + static_cast<uint64_t>(j)) - 0.5);
+    if (c.refinement.lower.size() > 0)
+      hidden.theta = hidden.theta.cwiseMax(c.refinement.lower).cwiseMin(c.refinement.upper);
+    if (c.refinement.admitted && c.refinement.admitted(hidden.theta) < 1) continue;
     const MatrixXd columns = state.columns_of(c, hidden.theta);
     VectorXd weights(columns.cols());
     for (Index j = 0; j < weights.size(); ++j) weights[j] = stream.normal(k, 100 + static_cast<uint64_t>(j));
-    if (c.width == 1) weights[0] = c.sign || weights[0] > 0 ? 1 : -1;
+    if (c.design.width == 1) weights[0] = c.design.sign || weights[0] > 0 ? 1 : -1;
     const VectorXd effect = columns * weights;
     if ((effect.array() != 0).cast<double>().mean() < least_concerned) continue;
     const double energy = model.at.basis.rest(model.whitener(effect)).squaredNorm();
@@ -151,7 +153,7 @@ class Checker {
     result.lambda = hidden->lambda;
     result.alike = likenesses(state, rows * hidden->coefficients, id_);
     VectorXd shift = VectorXd::Zero(static_cast<Index>(clean.data.rows()));
-    shift(clean.used) = cause->candidate.columns(hidden->theta) * hidden->coefficients;
+    shift(clean.used) = cause->candidate.design.columns(hidden->theta) * hidden->coefficients;
     clean.run->clear();
     result.difference = against_simulator(clean, *cause, *hidden, shift);
     look(clean, shift, number, result);

@@ -174,12 +174,13 @@ class Diagnoser {
                                                                 const inference::ModelState& state,
                                                                 const VectorXd& base) {
     constexpr double alike = 0.9, normal95 = 1.96;
-    if (cause.shape->columns() != 1 || cause.shape->linear.empty() || cause.candidate.refinable()) return {f, &cause};
+    if (cause.shape->columns() != 1 || cause.shape->linear.empty() || cause.candidate.refinement.any())
+      return {f, &cause};
     const VectorXd own = state.columns_of(cause.candidate, f.theta);
     set_base(base);
     for (const CauseCandidate& other : causes.found) {
-      if (!other.candidate.whole || other.candidate.refinable()) continue;
-      VectorXd theta = other.candidate.grid[0];
+      if (!other.candidate.design.whole || other.candidate.refinement.any()) continue;
+      VectorXd theta = other.candidate.design.grid[0];
       for (std::size_t row = 0; row < other.shape->rows.size(); ++row) {  // also those that cost nothing before
         theta[0] = static_cast<double>(row);
         if (f.label.empty() || other.shape->row_label(theta) != f.label) continue;

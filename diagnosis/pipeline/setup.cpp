@@ -118,16 +118,16 @@ void DiagnosisSetup::take_swaps_by_the_map(const noise::Rows& rows, const std::f
   const auto declared = std::make_shared<CauseModel>(model, world, file, plugins);
   for (CauseCandidate& cause : sought.found) {
     inference::Candidate& c = cause.candidate;
-    if (cause.shape->cause.meaning().kind != MUSTER_INSTRUMENT || c.width != 1) continue;
-    const auto columns = at_readings_of(cause, {declared, model, data, used}).columns;
+    if (cause.shape->cause.meaning().kind != MUSTER_INSTRUMENT || c.design.width != 1) continue;
+    const auto columns = at_readings_of(cause, {declared, model, data, used}).design.columns;
     const auto kept = std::make_shared<std::map<double, VectorXd>>();  // by the row that it is about
-    noise::Sheet atoms(rows.size(), static_cast<Index>(c.grid.size()));
-    for (std::size_t k = 0; k < c.grid.size(); ++k) {
-      const VectorXd& column = (*kept)[c.grid[k][0]] = columns(c.grid[k]);
+    noise::Sheet atoms(rows.size(), static_cast<Index>(c.design.grid.size()));
+    for (std::size_t k = 0; k < c.design.grid.size(); ++k) {
+      const VectorXd& column = (*kept)[c.design.grid[k][0]] = columns(c.design.grid[k]);
       atoms.col(static_cast<Index>(k)) = rows.mean(column).cast<float>();
     }
-    c.columns = [kept](const VectorXd& theta) { return kept->at(theta[0]); };
-    c.atoms = std::make_shared<const noise::Sheet>(std::move(atoms));
+    c.design.columns = [kept](const VectorXd& theta) { return kept->at(theta[0]); };
+    c.design.atoms = std::make_shared<const noise::Sheet>(std::move(atoms));
   }
   declared->clear();
   set_all(&FitParameter::value);
@@ -141,7 +141,8 @@ void DiagnosisSetup::let_sketch(const noise::Rows& rows, const std::filesystem::
   sketched =
       std::make_unique<SimulatedReadings>(middles(rows, layout->readings()), model.radio_names(), world, plugins, base);
   for (CauseCandidate& c : sought.found) {
-    if (c.candidate.refinable() && !c.shape->cause.file()) c.candidate.sketch = sketched->at(c, data).columns;
+    if (c.candidate.refinement.any() && !c.shape->cause.file())
+      c.candidate.design.sketch = sketched->at(c, data).design.columns;
   }
 }
 
@@ -153,8 +154,8 @@ void DiagnosisSetup::let_ask_near(const std::filesystem::path& world, const Libr
     return std::make_shared<SimulatedReadings>(readings, model.radio_names(), world, plugins, base);
   };
   for (CauseCandidate& c : sought.found) {
-    if (!c.candidate.proposed || c.shape->cause.file()) continue;
-    c.candidate.near = [this, cause = c, simulate](const VectorXd& theta) {
+    if (!c.candidate.refinement.proposed || c.shape->cause.file()) continue;
+    c.candidate.design.near = [this, cause = c, simulate](const VectorXd& theta) {
       return columns_near(theta, cause, data, layout->readings(), simulate);
     };
   }

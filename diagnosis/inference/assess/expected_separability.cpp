@@ -48,22 +48,22 @@ std::vector<double> ExpectedSeparability::separability(const Term& term,
   for (const Term& other : state_.terms) {
     if (&other == &term || other.smooth()) continue;  // a smooth says nothing of readings elsewhere
     here = noise::hstack(here, other.columns);
-    there = noise::hstack(there, planned(plan_, other.candidate->id).columns(other.theta));
+    there = noise::hstack(there, planned(plan_, other.candidate->id).design.columns(other.theta));
   }
   const auto basis = noise::basis_of(whitened(here, there));
   const Eigen::MatrixXd design = noise::hstack(state_.design_without(term), term.columns);
   const Eigen::VectorXd coefficients =
       state_.whitened_model(design).coefficients(design.cols()).tail(term.columns.cols());
-  const Eigen::VectorXd effect = basis.rest(
-      whitened(term.columns * coefficients, planned(plan_, term.candidate->id).columns(term.theta) * coefficients));
+  const Eigen::VectorXd effect = basis.rest(whitened(
+      term.columns * coefficients, planned(plan_, term.candidate->id).design.columns(term.theta) * coefficients));
   std::vector<double> result;
   for (const std::string& alternative : alternatives) {
     const Candidate& other = planned(plan_, alternative);
     const Entry& entry = entry_of(state_, plan_, alternative);
     double& least = result.emplace_back(effect.squaredNorm());
     for (Index k = 0; k < entry.count(); ++k) {
-      const Eigen::VectorXd& theta = entry.candidate->grid[static_cast<std::size_t>(k)];
-      const auto of_rival = noise::basis_of(basis.rest(whitened(entry.atom(k), other.columns(theta))));
+      const Eigen::VectorXd& theta = entry.candidate->design.grid[static_cast<std::size_t>(k)];
+      const auto of_rival = noise::basis_of(basis.rest(whitened(entry.atom(k), other.design.columns(theta))));
       least = std::min(least, left_of(effect, (of_rival.q.transpose() * effect).squaredNorm()));
     }
   }

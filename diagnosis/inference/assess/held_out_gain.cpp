@@ -10,7 +10,7 @@ namespace {
 class Errors {
  public:
   Errors(const ModelState& state, const Folds& folds) : state_(state), folds_(folds) {
-    for (const Term& term : state.terms) at_readings_.push_back(term.candidate->columns(term.theta));
+    for (const Term& term : state.terms) at_readings_.push_back(term.candidate->design.columns(term.theta));
   }
 
   template <class Has>

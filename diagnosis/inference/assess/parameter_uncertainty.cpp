@@ -44,14 +44,14 @@ double by_scatter(const ModelState& state, const WhitenedModel& rest, const Cond
 
 ParameterUncertainty parameter_uncertainty(const ModelState& state, const Term& term) {
   const WhitenedModel rest = state.whitened_model(state.design_without(term));
-  const ConditionalFit fitted(rest, term.columns, term.candidate->whole);
+  const ConditionalFit fitted(rest, term.columns, term.candidate->design.whole);
   const Index width = term.columns.cols();
   const Eigen::MatrixXd known = coefficient_covariance(state, noise::hstack(state.design_without(term), term.columns))
                                     .bottomRightCorner(width, width);
   const double overstated = std::max(1.0, known.trace() / fitted.covariance.trace());
   const double grown = std::max(overstated, by_scatter(state, rest, fitted));
   ParameterUncertainty result{{term.theta}, grown * fitted.covariance};
-  if (!term.candidate->refinable() || term.smooth()) return result;
+  if (!term.candidate->refinement.any() || term.smooth()) return result;
   const LikelyThetas likely = sample_posterior(state, rest, term, overstated);
   Eigen::MatrixXd within = 0 * fitted.covariance, between = within;
   for (std::size_t k = 0; k < likely.thetas.size(); ++k) {
@@ -71,14 +71,14 @@ Eigen::VectorXd middle_of(const ModelState& state, const Term& term, const Param
   constexpr std::size_t tries = 40;
   const Candidate& c = *term.candidate;
   const WhitenedModel rest = state.whitened_model(state.design_without(term));
-  const double best = ConditionalFit(rest, term.columns, c.whole).gain;
+  const double best = ConditionalFit(rest, term.columns, c.design.whole).gain;
   std::vector<Eigen::VectorXd> thetas{term.theta};
   const std::size_t every = spread.thetas.size() / tries + 1;
   for (std::size_t k = 0; k < spread.thetas.size(); k += every) thetas.push_back(spread.thetas[k]);
   Eigen::MatrixXd effects(rest.at.residual.size(), static_cast<Index>(thetas.size()));
   std::vector<bool> explains(thetas.size());
   for (std::size_t k = 0; k < thetas.size(); ++k) {
-    const ConditionalFit there(rest, state.columns_of(c, thetas[k]), c.whole);
+    const ConditionalFit there(rest, state.columns_of(c, thetas[k]), c.design.whole);
     effects.col(static_cast<Index>(k)) = there.columns * there.coefficients;
     explains[k] = there.gain > best - nearly;
   }

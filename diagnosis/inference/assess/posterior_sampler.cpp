@@ -28,17 +28,20 @@ class Likelihood {
       : state_(state),
         rest_(rest),
         c_(*term.candidate),
-        columns_(c_.near ? c_.near(term.theta) : c_.columns),
+        columns_(c_.design.near ? c_.design.near(term.theta) : c_.design.columns),
         overstated_(overstated),
         thin_(state, rest) {}
 
   const Candidate& candidate() const { return c_; }
-  bool allows(const Eigen::VectorXd& theta) const { return theta == theta.cwiseMax(c_.lower).cwiseMin(c_.upper); }
+  bool allows(const Eigen::VectorXd& theta) const {
+    return theta == theta.cwiseMax(c_.refinement.lower).cwiseMin(c_.refinement.upper);
+  }
 
   // No sketch: of a strong effect it is off by many nats.
   ConditionalGain explained(const Eigen::VectorXd& theta) {
     const Eigen::MatrixXd columns = state_.rows().mean(columns_(theta));
-    if (columns.cols() > 1 || c_.whole || !thin_.take(columns)) return ConditionalFit(rest_, columns, c_.whole);
+    if (columns.cols() > 1 || c_.design.whole || !thin_.take(columns))
+      return ConditionalFit(rest_, columns, c_.design.whole);
     const double along = thin_.along(), length = thin_.length();
     if (length < 1e-6) return {Eigen::VectorXd::Zero(1), Eigen::MatrixXd::Zero(1, 1), 0};
     return {Eigen::VectorXd::Constant(1, along / length), Eigen::MatrixXd::Constant(1, 1, 1 / length),
@@ -46,8 +49,9 @@ class Likelihood {
   }
 
   double log(const Eigen::VectorXd& theta, const ConditionalGain& at) const {
-    if (c_.sign && at.coefficients[0] * c_.sign < 0) return 0;
-    return (c_.admitted ? c_.admitted(theta) : 1) * at.gain / (2 * overstated_) + (c_.belief ? c_.belief(theta) : 0);
+    if (c_.design.sign && at.coefficients[0] * c_.design.sign < 0) return 0;
+    return (c_.refinement.admitted ? c_.refinement.admitted(theta) : 1) * at.gain / (2 * overstated_) +
+           (c_.refinement.belief ? c_.refinement.belief(theta) : 0);
   }
 
  private:
@@ -171,7 +175,7 @@ class Draws {
   // Where hardly anything was met beside one theta, a hundredth of the steps.
   Eigen::MatrixXd scale_of(const Moments& found, double factor) const {
     Eigen::MatrixXd scale = factor * found.covariance;
-    scale.diagonal().array() += (0.01 * likelihood_.candidate().step).array().square();
+    scale.diagonal().array() += (0.01 * likelihood_.candidate().refinement.step).array().square();
     return scale;
   }
 
@@ -210,7 +214,8 @@ LikelyThetas sample_posterior(const ModelState& state, const WhitenedModel& rest
   // Hotter, it would leave a narrow top for all the places where chance explains a little.
   constexpr double spare = 4;  // nats
   const Candidate& c = *term.candidate;
-  MetropolisChain walk(likelihood, term.theta, std::max(0.0, state.log_effective_tests(c) + c.charge) + spare);
+  MetropolisChain walk(likelihood, term.theta,
+                       std::max(0.0, state.log_effective_tests(c) + c.refinement.charge) + spare);
   const auto found = [&](int steps) {
     const std::vector<Eigen::VectorXd> met = walk.lap(steps);
     return Moments(met, Eigen::VectorXd::Ones(static_cast<Index>(met.size())));

@@ -20,7 +20,7 @@ class Objective {
       : state_(state),
         model_(model),
         candidate_(candidate),
-        sketched_(columns == Columns::sketched && candidate.sketch),
+        sketched_(columns == Columns::sketched && candidate.design.sketch),
         thin_(state, model) {}
 
   SparseColumns& thin() { return thin_; }
@@ -28,9 +28,9 @@ class Objective {
   // The fall of the deviance, and twice what is believed of the place. Where nothing can stand it is below all else:
   // what counts as it is loses wherever it does not win.
   double operator()(const Eigen::VectorXd& theta) {
-    const double admitted = candidate_.admitted ? candidate_.admitted(theta) : 1;
+    const double admitted = candidate_.refinement.admitted ? candidate_.refinement.admitted(theta) : 1;
     if (admitted <= 0) return lowest;
-    return explained(theta, admitted) + (candidate_.belief ? 2 * candidate_.belief(theta) : 0);
+    return explained(theta, admitted) + (candidate_.refinement.belief ? 2 * candidate_.refinement.belief(theta) : 0);
   }
 
  private:
@@ -39,10 +39,10 @@ class Objective {
   double explained(const Eigen::VectorXd& theta, double admitted) {
     const Eigen::MatrixXd columns =
         sketched_ ? state_.sketch_of(candidate_, theta) : state_.columns_of(candidate_, theta);
-    if (candidate_.width > 1 || candidate_.sign == 0) return admitted * model_.gain(columns);
+    if (candidate_.design.width > 1 || candidate_.design.sign == 0) return admitted * model_.gain(columns);
     const auto [along, length] = measured(columns);
-    if (length < 1e-6 || along * candidate_.sign <= 0) return 0;
-    return admitted * (candidate_.whole ? 2 * along - length : along * along / length);
+    if (length < 1e-6 || along * candidate_.design.sign <= 0) return 0;
+    return admitted * (candidate_.design.whole ? 2 * along - length : along * along / length);
   }
 
   // Product with the residual and squared length of what the design leaves of a column.
@@ -62,7 +62,7 @@ class Objective {
 bool far_from(const Candidate& candidate, const Eigen::VectorXd& theta, const std::vector<Eigen::VectorXd>& others) {
   return std::all_of(others.begin(), others.end(), [&](const Eigen::VectorXd& other) {
     for (Index k = 0; k < theta.size(); ++k) {
-      const double step = candidate.step[k];
+      const double step = candidate.refinement.step[k];
       if (step == 0 ? theta[k] != other[k] : std::abs(theta[k] - other[k]) >= 4 * std::abs(step)) return true;
     }
     return false;
@@ -76,7 +76,7 @@ void add_starts(const Candidate& c, const Eigen::VectorXd& gains, int count, std
   std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return gains[a] > gains[b]; });
   const std::size_t enough = starts.size() + static_cast<std::size_t>(count);
   for (std::size_t k = 0; k < std::min<std::size_t>(order.size(), 160) && starts.size() < enough; ++k) {
-    const Eigen::VectorXd& theta = c.grid[static_cast<std::size_t>(order[k])];
+    const Eigen::VectorXd& theta = c.design.grid[static_cast<std::size_t>(order[k])];
     if (far_from(c, theta, starts)) starts.push_back(theta);
   }
 }
@@ -111,10 +111,11 @@ Optimum raced_to(const ModelState& state, const WhitenedModel& model, const Scor
   Objective height(state, model, c, Columns::sketched);
   const auto value = [&](const Eigen::VectorXd& theta) { return height(theta); };
   std::vector<Eigen::VectorXd> starts;
-  if (c.proposed) {
+  if (c.refinement.proposed) {
     constexpr std::size_t likely = 5;  // the first ones proposed
     for (Eigen::VectorXd& theta : state.proposals(c, height.thin())) {
-      if (static_cast<int>(starts.size()) < c.starts && far_from(c, theta, starts)) starts.push_back(std::move(theta));
+      if (static_cast<int>(starts.size()) < c.refinement.starts && far_from(c, theta, starts))
+        starts.push_back(std::move(theta));
     }
     starts.push_back(lead.theta);  // as well, however near: the grid may have met a narrow top
     const Optimum top = successive_halving(c, starts, {value, value, value});
@@ -122,14 +123,14 @@ Optimum raced_to(const ModelState& state, const WhitenedModel& model, const Scor
     return best_of(starts, top, Objective(state, model, c, Columns::exact));
   }
   starts.push_back(lead.theta);
-  if (c.pieces.empty()) {  // no shadow: what is off by a little still gains
+  if (c.role.pieces.empty()) {  // no shadow: what is off by a little still gains
     const Eigen::VectorXd all = lead.all.size() > 0 ? lead.all : gains_of(*lead.entry, model);
-    add_starts(c, all, c.starts - 1, starts);
+    add_starts(c, all, c.refinement.starts - 1, starts);
     return successive_halving(c, starts, {value, value, value});
   }
   const WhitenedModel soft = with_less_field(state, model, 0.05), half = with_less_field(state, model, 0.4);
-  if (lead.all.size() > 0) add_starts(c, lead.all, c.starts / 2, starts);
-  add_starts(c, gains_of(*lead.entry, soft), c.starts, starts);
+  if (lead.all.size() > 0) add_starts(c, lead.all, c.refinement.starts / 2, starts);
+  add_starts(c, gains_of(*lead.entry, soft), c.refinement.starts, starts);
   Objective on_soft(state, soft, c, Columns::sketched), on_half(state, half, c, Columns::sketched);
   return successive_halving(c, starts, {std::ref(on_soft), std::ref(on_half), value, value});
 }
@@ -139,7 +140,7 @@ Optimum raced_to(const ModelState& state, const WhitenedModel& model, const Scor
 OrthonormalAtoms unit_atoms(const Entry& entry, const WhitenedModel& model) {
   noise::Sheet atoms = model.whitener.sheet(*entry.atoms);
   model.at.basis.take_out_of(atoms);
-  return {std::move(atoms), entry.candidate->width};
+  return {std::move(atoms), entry.candidate->design.width};
 }
 
 Eigen::VectorXd gains(const Candidate& candidate, const OrthonormalAtoms& unit, const Eigen::VectorXd& residual) {
@@ -147,7 +148,7 @@ Eigen::VectorXd gains(const Candidate& candidate, const OrthonormalAtoms& unit, 
 }
 
 double gain_of(const Candidate& candidate, const WhitenedModel& model, const Eigen::MatrixXd& columns) {
-  return candidate.whole ? std::max(0.0, model.gain_as_it_is(columns)) : model.gain(columns);
+  return candidate.design.whole ? std::max(0.0, model.gain_as_it_is(columns)) : model.gain(columns);
 }
 
 void by_evidence(std::vector<ScoredCandidate>& leads) {
@@ -165,16 +166,16 @@ std::vector<ScoredCandidate> scored_candidates(
     state.log_effective_tests(entry, unit);
     if (also) also(c, unit);
     ScoredCandidate lead{&entry, {}, {}, 0, 0, 0, false, gains(c, unit, model.at.residual)};
-    if (c.whole && !c.refinable()) {
+    if (c.design.whole && !c.refinement.any()) {
       for (Index k = 0; k < lead.all.size(); ++k)
         lead.all[k] = std::clamp(model.gain_as_it_is(entry.atom(k)), 0.0, lead.all[k]);
     }
     Index best = 0;
     lead.gain = lead.all.maxCoeff(&best);
-    lead.theta = c.grid[static_cast<std::size_t>(best)];
+    lead.theta = c.design.grid[static_cast<std::size_t>(best)];
     lead.columns = entry.atom(best);
-    lead.evidence = state.evidence(c, lead.gain, c.width, false);
-    lead.log_p = state.log_p(c, lead.gain, c.width, false);
+    lead.evidence = state.evidence(c, lead.gain, c.design.width, false);
+    lead.log_p = state.log_p(c, lead.gain, c.design.width, false);
     result.push_back(std::move(lead));
   }
   by_evidence(result);
@@ -185,24 +186,26 @@ ScoredCandidate refined(const ModelState& state, const WhitenedModel& model, con
                         bool from_lead_alone) {
   const Candidate& c = lead.candidate();
   ScoredCandidate best = lead;
-  if (c.refinable()) {
+  if (c.refinement.any()) {
     Objective height(state, model, c, Columns::exact);
     const auto value = [&](const Eigen::VectorXd& theta) { return height(theta); };
-    const bool race = !from_lead_alone && c.starts > 1;
+    const bool race = !from_lead_alone && c.refinement.starts > 1;
     Optimum top{lead.theta, 0};
     if (race) {
       top = raced_to(state, model, lead);
-    } else if (c.sketch) {
-      top = local_search(c, lead.theta, c.evaluations, Objective(state, model, c, Columns::sketched));
+    } else if (c.design.sketch) {
+      top = local_search(c, lead.theta, c.refinement.evaluations, Objective(state, model, c, Columns::sketched));
     }
-    if (!race || c.sketch) top = local_search(c, top.first, c.sketch ? c.evaluations / 2 : c.evaluations, value);
+    if (!race || c.design.sketch)
+      top =
+          local_search(c, top.first, c.design.sketch ? c.refinement.evaluations / 2 : c.refinement.evaluations, value);
     if (top.second > value(lead.theta)) best.theta = std::move(top.first);
     best.columns = state.columns_of(c, best.theta);
   }
   best.refined = true;
   best.gain = gain_of(c, model, best.columns);
-  best.evidence = state.evidence(c, best.gain, c.width, true);
-  best.log_p = state.log_p(c, best.gain, c.width, true);
+  best.evidence = state.evidence(c, best.gain, c.design.width, true);
+  best.log_p = state.log_p(c, best.gain, c.design.width, true);
   return best;
 }
 

@@ -47,7 +47,8 @@ double over_draws(const ModelState& state, const noise::Fit& fit, const Eigen::M
 }  // namespace
 
 double log_tests(const ModelState& state, const Candidate& candidate) {
-  return state.log_effective_tests(candidate) + candidate.charge - (candidate.sign ? std::log(2.0) : 0);
+  return state.log_effective_tests(candidate) + candidate.refinement.charge -
+         (candidate.design.sign ? std::log(2.0) : 0);
 }
 
 double marginal_log_p(const ModelState& state, const noise::Fit& fit, const Eigen::MatrixXd& design,

@@ -42,16 +42,16 @@ struct Climb {
 
 Optimum by_simplex(const Candidate& candidate, const Eigen::VectorXd& start, int evaluations, const Value& value) {
   Climb climb{value, {}, start, value(start)};
-  for (Index k = 0; k < candidate.step.size(); ++k) {
-    if (candidate.step[k] != 0) climb.free.push_back(k);
+  for (Index k = 0; k < candidate.refinement.step.size(); ++k) {
+    if (candidate.refinement.step[k] != 0) climb.free.push_back(k);
   }
   if (climb.free.empty()) return {climb.best, climb.highest};
   std::vector<double> x, low, high, step;
   for (const Index k : climb.free) {
-    low.push_back(candidate.lower[k]);
-    high.push_back(candidate.upper[k]);
-    x.push_back(std::min(std::max(start[k], candidate.lower[k]), candidate.upper[k]));
-    step.push_back(candidate.step[k]);
+    low.push_back(candidate.refinement.lower[k]);
+    high.push_back(candidate.refinement.upper[k]);
+    x.push_back(std::min(std::max(start[k], candidate.refinement.lower[k]), candidate.refinement.upper[k]));
+    step.push_back(candidate.refinement.step[k]);
   }
   const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> optimiser(
       nlopt_create(NLOPT_LN_NELDERMEAD, static_cast<unsigned>(x.size())), nlopt_destroy);
@@ -90,7 +90,7 @@ Optimum by_strides(const Candidate& candidate, Optimum top, uint64_t salt, int e
   for (int k = 0; k < evaluations; ++k) {
     Eigen::VectorXd theta =
         top.first + stride(moves_at(candidate, top.first), stream, static_cast<uint64_t>(k), length);
-    theta = theta.cwiseMax(candidate.lower).cwiseMin(candidate.upper);
+    theta = theta.cwiseMax(candidate.refinement.lower).cwiseMin(candidate.refinement.upper);
     const double reached = value(theta);
     length *= reached > top.second ? longer : shorter;
     length = length < shortest ? longest : std::min(length, longest);
@@ -106,7 +106,7 @@ std::vector<Optimum> better_half(std::vector<Optimum> tops, const Candidate& can
   std::vector<Optimum> result;
   for (Optimum& top : tops) {
     const bool known = std::any_of(result.begin(), result.end(), [&](const Optimum& better) {
-      return ((better.first - top.first).array().abs() <= candidate.step.array().abs()).all();
+      return ((better.first - top.first).array().abs() <= candidate.refinement.step.array().abs()).all();
     });
     if (!known) result.push_back(std::move(top));
   }
@@ -116,16 +116,16 @@ std::vector<Optimum> better_half(std::vector<Optimum> tops, const Candidate& can
 }  // namespace
 
 Eigen::MatrixXd moves_at(const Candidate& candidate, const Eigen::VectorXd& theta) {
-  if (candidate.moves) return candidate.moves(theta);
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(theta.size(), (candidate.step.array() != 0).count());
+  if (candidate.refinement.moves) return candidate.refinement.moves(theta);
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(theta.size(), (candidate.refinement.step.array() != 0).count());
   for (Index k = 0, j = 0; k < theta.size(); ++k) {
-    if (candidate.step[k] != 0) result(k, j++) = candidate.step[k];
+    if (candidate.refinement.step[k] != 0) result(k, j++) = candidate.refinement.step[k];
   }
   return result;
 }
 
 Optimum local_search(const Candidate& candidate, const Eigen::VectorXd& start, int evaluations, const Value& value) {
-  if (candidate.starts < 2) return by_simplex(candidate, start, evaluations, value);
+  if (candidate.refinement.starts < 2) return by_simplex(candidate, start, evaluations, value);
   return by_strides(candidate, {start, value(start)}, 0, evaluations, 1, value);
 }
 
@@ -133,7 +133,7 @@ Optimum successive_halving(const Candidate& candidate, const std::vector<Eigen::
                            const std::vector<Value>& laps) {
   std::vector<Optimum> tops;
   for (const Eigen::VectorXd& start : starts) tops.emplace_back(start, 0.0);
-  int evaluations = candidate.evaluations / 3;
+  int evaluations = candidate.refinement.evaluations / 3;
   for (std::size_t lap = 0; lap < laps.size(); ++lap) {
     const double longest = lap == 0 ? 2 : 1;
     for (Optimum& top : tops) {
@@ -141,7 +141,7 @@ Optimum successive_halving(const Candidate& candidate, const std::vector<Eigen::
       top = by_strides(candidate, std::move(top), 1 + lap, evaluations, longest, laps[lap]);
     }
     tops = better_half(std::move(tops), candidate);
-    evaluations = std::min(2 * evaluations, 2 * candidate.evaluations);
+    evaluations = std::min(2 * evaluations, 2 * candidate.refinement.evaluations);
   }
   return tops[0];
 }

@@ -33,9 +33,9 @@ double refinement_null(ModelState& state, const std::string& candidate, int draw
     ScoredCandidate lead{&entry, {}, {}, 0, 0, 0, false, gains(c, unit, model.at.residual)};
     Index best = 0;
     lead.gain = lead.all.maxCoeff(&best);
-    lead.theta = c.grid[static_cast<std::size_t>(best)];
+    lead.theta = c.design.grid[static_cast<std::size_t>(best)];
     lead.columns = entry.atom(best);
-    log_p.push_back(refined(state, model, lead, false).log_p - c.charge);
+    log_p.push_back(refined(state, model, lead, false).log_p - c.refinement.charge);
   }
   std::sort(log_p.begin(), log_p.end());
   // Where p is uniform the k-th smallest of n is near k / (n + 1); the lower half is where decisions fall.

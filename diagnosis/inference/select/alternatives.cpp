@@ -25,16 +25,16 @@ std::pair<Eigen::VectorXd, double> explained_by(const ModelState& state, const W
                                                 const Eigen::VectorXd& by_atom, const Eigen::VectorXd& effect) {
   Index at = 0;
   const double best = by_atom.maxCoeff(&at);
-  const Eigen::VectorXd& start = c.grid[static_cast<std::size_t>(at)];
-  if (!c.refinable()) return {start, best};
+  const Eigen::VectorXd& start = c.design.grid[static_cast<std::size_t>(at)];
+  if (!c.refinement.any()) return {start, best};
   const auto share = [&](const Eigen::VectorXd& theta, const Eigen::MatrixXd& columns) {
-    const double admitted = c.admitted ? c.admitted(theta) : 1;
+    const double admitted = c.refinement.admitted ? c.refinement.admitted(theta) : 1;
     const auto added = noise::basis_of(rest.at.basis.rest(rest.whitener(columns)));
     return admitted * (added.q.transpose() * effect).squaredNorm();
   };
   const auto exact = [&](const Eigen::VectorXd& theta) { return share(theta, state.columns_of(c, theta)); };
-  const int evaluations = std::min(60, c.evaluations);
-  if (!c.sketch) return local_search(c, start, evaluations, exact);
+  const int evaluations = std::min(60, c.refinement.evaluations);
+  if (!c.design.sketch) return local_search(c, start, evaluations, exact);
   Optimum top = local_search(c, start, evaluations,
                              [&](const Eigen::VectorXd& theta) { return share(theta, state.sketch_of(c, theta)); });
   top.second = exact(top.first);
@@ -46,7 +46,7 @@ std::pair<Eigen::VectorXd, double> explained_by(const ModelState& state, const W
 ScoredCandidate at_its_best(const ModelState& state, const WhitenedModel& rest, const ScoredCandidate& plain,
                             const Eigen::VectorXd* explaining, double effective_sample_size) {
   const Candidate& c = plain.candidate();
-  if (!c.refinable()) return plain;
+  if (!c.refinement.any()) return plain;
   ScoredCandidate best = plain.evidence > effective_sample_size ? refined(state, rest, plain, true) : plain;
   if (!explaining) return best;
   ScoredCandidate other = plain;
@@ -62,15 +62,15 @@ std::vector<Alternative> of_other_rows(const ModelState& state, const Term& term
                                        const Eigen::VectorXd& effect) {
   constexpr std::size_t most = 3;
   const Candidate& own = *term.candidate;
-  if (own.kind != Kind::named || own.refinable() || own.whole) return {};
+  if (own.kind != Kind::named || own.refinement.any() || own.design.whole) return {};
   const std::string label = own.label_of(term.theta);
   const Eigen::MatrixXd columns = state.columns_of(own, term.theta);
   std::vector<Alternative> result;
-  for (std::size_t k = 0; k < own.grid.size(); ++k) {
+  for (std::size_t k = 0; k < own.design.grid.size(); ++k) {
     const double separability = left_of(effect, by_atom[static_cast<Index>(k)]);
-    if (separability < inseparable && own.label_of(own.grid[k]) != label &&
-        !state.columns_of(own, own.grid[k]).isApprox(columns, 1e-9))
-      result.push_back({own.id, own.label_of(own.grid[k]), own.grid[k], 0, separability});
+    if (separability < inseparable && own.label_of(own.design.grid[k]) != label &&
+        !state.columns_of(own, own.design.grid[k]).isApprox(columns, 1e-9))
+      result.push_back({own.id, own.label_of(own.design.grid[k]), own.design.grid[k], 0, separability});
   }
   std::stable_sort(result.begin(), result.end(),
                    [](const Alternative& a, const Alternative& b) { return a.separability < b.separability; });
@@ -106,20 +106,21 @@ double standing(const ModelState& state, const Eigen::MatrixXd& design, const Ca
   const WhitenedModel rest = state.whitened_model(design, fit.covariance);
   const double by_a_multiple = rest.gain(columns) - gain_of(c, rest, columns);
   return state.whitened_model(both, fit.covariance).at.basis.log_determinant() - fit.value - by_a_multiple / 2 +
-         state.evidence(c, 0, columns.cols(), c.refinable());
+         state.evidence(c, 0, columns.cols(), c.refinement.any());
 }
 
 std::vector<Alternative> alternatives_of(ModelState& state, const Term& term) {
   const WhitenedModel rest = state.whitened_model(state.design_without(term));
   const Eigen::VectorXd effect = rest.at.basis.rest(rest.whitener(effect_of(state, term)));
   const Candidate& own = *term.candidate;
-  const double evidence = state.evidence(own, rest.gain(term.columns), term.columns.cols(), own.refinable());
+  const double evidence = state.evidence(own, rest.gain(term.columns), term.columns.cols(), own.refinement.any());
   std::optional<double> stands;
   const auto hold = [&](Alternative& alternative, const Candidate& c, const Eigen::MatrixXd& columns) {
     if (!stands) stands = standing(state, rest.design, own, term.columns);
     alternative.evidence_gap = *stands - standing(state, rest.design, c, columns);
-    alternative.by_readings = alternative.evidence_gap - state.evidence(own, 0, term.columns.cols(), own.refinable()) +
-                              state.evidence(c, 0, columns.cols(), c.refinable());
+    alternative.by_readings = alternative.evidence_gap -
+                              state.evidence(own, 0, term.columns.cols(), own.refinement.any()) +
+                              state.evidence(c, 0, columns.cols(), c.refinement.any());
   };
   std::vector<Alternative> result;
   std::map<std::string, Eigen::VectorXd> by_atom;  // of what each explains of the effect
@@ -134,7 +135,7 @@ std::vector<Alternative> alternatives_of(ModelState& state, const Term& term) {
       continue;
     }
     const bool smooth = c.kind == Kind::smooth;
-    if (smooth && c.own() == own.own() && (c.observed || own.kind == Kind::smooth)) continue;
+    if (smooth && c.own() == own.own() && (c.role.observed || own.kind == Kind::smooth)) continue;
     const auto [theta, explained] = explained_by(state, rest, c, by_atom.at(c.id), effect);
     const double separability = left_of(effect, explained);
     const bool confused = c.kind == Kind::named && separability < inseparable;

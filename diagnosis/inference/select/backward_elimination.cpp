@@ -52,7 +52,7 @@ void give_way_to_alternatives(ModelState& state) {
         continue;
       // Of two that are one to the readings only what the search for them cost differs: that makes no name better.
       const bool one = alternative.separability < the_same && std::abs(alternative.evidence_gap) < near;
-      if (one && entry->candidate->parameters >= state.terms[k].candidate->parameters) continue;
+      if (one && entry->candidate->role.parameters >= state.terms[k].candidate->role.parameters) continue;
       const Term before = state.terms[k];
       const noise::Fit fit = state.fit;
       state.terms[k].candidate = entry->candidate;
@@ -60,8 +60,8 @@ void give_way_to_alternatives(ModelState& state) {
       state.terms[k].columns = state.columns_of(*entry->candidate, alternative.theta);
       state.refit();
       relocate(state, k, false);
-      const bool simpler =
-          alternative.separability < inseparable && entry->candidate->parameters < before.candidate->parameters;
+      const bool simpler = alternative.separability < inseparable &&
+                           entry->candidate->role.parameters < before.candidate->role.parameters;
       const double may_lose = one ? near : clearly;
       if (const double then = stands(state.terms[k]); then > now + (simpler ? -may_lose : clearly)) {
         now = then;
@@ -79,7 +79,7 @@ std::optional<Term> best_in_time(ModelState& state, const Eigen::MatrixXd& rest)
   std::optional<Term> best;
   for (const ScoredCandidate& lead : scored_candidates(state, model)) {
     const Candidate& c = lead.candidate();
-    if (c.kind != Kind::named || !c.time_like) continue;
+    if (c.kind != Kind::named || !c.role.time_like) continue;
     const ScoredCandidate at = refined(state, model, lead, true);
     if (!best || at.evidence > best->evidence)
       best = Term{lead.entry->candidate, at.theta, at.columns, at.gain, at.evidence, 0};
@@ -90,7 +90,7 @@ std::optional<Term> best_in_time(ModelState& state, const Eigen::MatrixXd& rest)
 // A column that falls with time came first, beside a field that held much of either: now each has one of its own.
 void give_way_to_time(ModelState& state) {
   for (std::size_t k = 0; k < state.terms.size(); ++k) {
-    if (!state.terms[k].smooth() || !state.terms[k].candidate->observed) continue;
+    if (!state.terms[k].smooth() || !state.terms[k].candidate->role.observed) continue;
     const Term before = state.terms[k];
     const noise::Fit fit = state.fit;
     const Eigen::MatrixXd rest = state.design_without(state.terms[k]);
@@ -115,12 +115,13 @@ struct Company {
 
 // Leftovers of strong terms are not named.
 bool is_residual_artifact(const Term& term, const Company& company, bool clipped) {
-  const bool named = !term.smooth(), place = !term.candidate->pieces.empty() || term.candidate->over_sites;
+  const bool named = !term.smooth(), place = !term.candidate->role.pieces.empty() || term.candidate->role.over_sites;
   if (term.gain < 0.05 * company.stronger_kin) return true;
   if (place && term.gain < std::min(30.0, 0.25 * company.stronger_kin)) return true;
   if (named && term.gain < 0.08 * company.smooths) return true;
   if (named && term.gain < std::min(50.0, 0.01 * company.strongest)) return true;
-  return clipped && (term.candidate->proposed || !named) && term.gain < 60;  // what clips leave finds a place somewhere
+  return clipped && (term.candidate->refinement.proposed || !named) &&
+         term.gain < 60;  // what clips leave finds a place somewhere
 }
 
 void set_artifacts_aside(ModelState& state, std::vector<Term>& aside) {
@@ -159,7 +160,7 @@ void withdraw_names_beside_smooths(ModelState& state) {
 
 bool named_twice(const ModelState& state, const Term& term) {
   const auto name = [](const Term& t) { return std::pair(t.candidate->id, t.candidate->label_of(t.theta)); };
-  return !term.smooth() && term.candidate->pieces.empty() &&
+  return !term.smooth() && term.candidate->role.pieces.empty() &&
          std::count_if(state.terms.begin(), state.terms.end(),
                        [&](const Term& other) { return name(other) == name(term); }) > 1;
 }
@@ -179,11 +180,11 @@ void withdraw_names_of_parts(ModelState& state) {
   for (const Entry& entry : state.entries()) {
     const Candidate& smooth = *entry.candidate;
     const auto concerns = [&](const Term& term) {
-      return !term.smooth() && !term.candidate->whole && term.candidate->own() == smooth.own();
+      return !term.smooth() && !term.candidate->design.whole && term.candidate->own() == smooth.own();
     };
     if (smooth.kind != Kind::smooth || std::none_of(state.terms.begin(), state.terms.end(), concerns)) continue;
     const double left = gains(smooth, unit_atoms(entry, model), model.at.residual).maxCoeff();
-    if (state.log_p(smooth, left, smooth.width, false) > std::log(doubt)) continue;
+    if (state.log_p(smooth, left, smooth.design.width, false) > std::log(doubt)) continue;
     for (Term& term : state.terms) term.as_smooth = term.as_smooth || (concerns(term) && left > much * term.gain);
   }
 }

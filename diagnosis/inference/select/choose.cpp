@@ -9,9 +9,9 @@ namespace {
 // Twice and four times the functions where Bayes' criterion wins more than 3 nats by it.
 ScoredCandidate grown(const ModelState& state, const WhitenedModel& model, ScoredCandidate lead) {
   const Candidate& c = lead.candidate();
-  if (!c.wider) return lead;
+  if (!c.design.wider) return lead;
   for (const int times : {2, 4}) {
-    Eigen::MatrixXd columns = state.rows().mean(c.wider(times));
+    Eigen::MatrixXd columns = state.rows().mean(c.design.wider(times));
     const double gain = model.gain(columns);
     const double evidence = state.evidence(c, gain, columns.cols(), false);
     if (evidence <= lead.evidence + 3) break;
@@ -34,10 +34,10 @@ ScoredCandidate at_its_best(const ModelState& state, const WhitenedModel& model,
   if (passing && passing->refined) return *passing;
   const ScoredCandidate& from = passing ? *passing : plain;
   ScoredCandidate result = refined(state, model, from, false);
-  if (!from.candidate().whole)
+  if (!from.candidate().design.whole)
     result.gain = from.gain + std::max(0.0, result.gain - gain_of(from.candidate(), model, from.columns));
-  result.log_p = state.log_p(from.candidate(), result.gain, from.candidate().width, true);
-  result.evidence = state.evidence(from.candidate(), result.gain, from.candidate().width, true);
+  result.log_p = state.log_p(from.candidate(), result.gain, from.candidate().design.width, true);
+  result.evidence = state.evidence(from.candidate(), result.gain, from.candidate().design.width, true);
   return result;
 }
 
@@ -51,7 +51,7 @@ void prefer_names(std::vector<ScoredCandidate>& pool, double share) {
   const auto chosen = std::find_if(pool.begin(), pool.end(), [&](const ScoredCandidate& lead) {
     const auto by_chance = static_cast<double>(std::max<Index>(0, pool[0].columns.cols() - lead.columns.cols()));
     return lead.candidate().kind == Kind::named && lead.gain >= share * (pool[0].gain - by_chance) &&
-           lead.candidate().stands_for.count(pool[0].candidate().own()) > 0;
+           lead.candidate().role.stands_for.count(pool[0].candidate().own()) > 0;
   });
   if (chosen != pool.end()) to_front(pool, chosen);
 }
@@ -60,15 +60,16 @@ void prefer_names(std::vector<ScoredCandidate>& pool, double share) {
 // that is not refined is sought along one.
 double won(const ScoredCandidate& lead) {
   const Candidate& c = lead.candidate();
-  const Index refined = (c.step.array() != 0).count(), searched = c.grid.size() > 1 ? std::max<Index>(refined, 1) : 0;
+  const Index refined = (c.refinement.step.array() != 0).count(),
+              searched = c.design.grid.size() > 1 ? std::max<Index>(refined, 1) : 0;
   return lead.gain - 2 * static_cast<double>(lead.columns.cols() + searched);
 }
 
 // A function of time gives way to an observed column that does as well for its number of functions.
 void prefer_observed(std::vector<ScoredCandidate>& pool) {
-  if (!pool[0].candidate().time_like) return;
+  if (!pool[0].candidate().role.time_like) return;
   const auto chosen = std::find_if(pool.begin(), pool.end(), [&](const ScoredCandidate& lead) {
-    return lead.candidate().observed && won(lead) >= won(pool[0]);
+    return lead.candidate().role.observed && won(lead) >= won(pool[0]);
   });
   if (chosen != pool.end()) to_front(pool, chosen);
 }
@@ -86,7 +87,7 @@ void prefer_simple(std::vector<ScoredCandidate>& pool, const WhitenedModel& mode
   if (pool[0].candidate().kind != Kind::named) return;
   for (auto lead = pool.begin() + 1; lead != pool.end(); ++lead) {
     const Candidate& c = lead->candidate();
-    if (c.kind != Kind::named || c.parameters >= pool[0].candidate().parameters) continue;
+    if (c.kind != Kind::named || c.role.parameters >= pool[0].candidate().role.parameters) continue;
     if (same_effect(model, pool[0], *lead)) return to_front(pool, lead);
   }
 }

@@ -67,7 +67,7 @@ GainByRow gain_by_row(const WhitenedModel& model, const Eigen::MatrixXd& columns
 bool of_outlier(const ModelState& state, const Candidate& c, const GainByRow& gains_by_row) {
   if (!from_few(state, gains_by_row.won)) return false;
   const double left = gains_by_row.tame_share * gains_by_row.won.sum();
-  return gains_by_row.tame_share < 0.5 || state.log_p(c, left, c.width, true) > state.threshold();
+  return gains_by_row.tame_share < 0.5 || state.log_p(c, left, c.design.width, true) > state.threshold();
 }
 
 // The noise with the lead's columns inside; after a large effect also from scratch, since the old fit may be stuck.
@@ -88,14 +88,14 @@ double sure_log_p(const ModelState& state, const ScoredCandidate& lead, const no
   constexpr double enough = 0.6;
   double gain = model.exact_gain(state.field(), lead.columns);
   const LongRangeRows::Question question{state.y(), model.design, lead.columns, fit.covariance};
-  if (c.pieces.empty() && state.far().kept(question, state.field()) > enough) {
+  if (c.role.pieces.empty() && state.far().kept(question, state.field()) > enough) {
     gain = std::min(gain, state.far().sure_gain(question));
-    if (c.slow || c.kind == Kind::smooth) {
+    if (c.role.slow || c.kind == Kind::smooth) {
       const std::vector<noise::Family> families = state.likely_families(fit.covariance.family);
       gain = std::min(gain, state.far().profile_gain(question, state.fit.covariance, families));
     }
   }
-  const bool over_the_plan = c.kind == Kind::smooth || (c.pieces.empty() && state.problem().layout->sites_known());
+  const bool over_the_plan = c.kind == Kind::smooth || (c.role.pieces.empty() && state.problem().layout->sites_known());
   if (over_the_plan) gain /= overdispersion;
   return state.log_p(c, gain, lead.columns.cols(), true);
 }
@@ -109,15 +109,16 @@ Trial tried(const ModelState& state, const ScoredCandidate& lead, const noise::F
   trial.log_p = state.log_p(c, trial.gain, lead.columns.cols(), true);
   trial.marginal_log_p = trial.log_p;
   if (trial.log_p > -40) trial.marginal_log_p = marginal_log_p(state, fit, design, lead.columns, log_tests(state, c));
-  if (c.whole) trial.marginal_log_p = std::max(trial.marginal_log_p, trial.log_p);  // not by a multiple of itself
-  constexpr double beyond_doubt = -100;  // no approximation overstates so much
+  if (c.design.whole)
+    trial.marginal_log_p = std::max(trial.marginal_log_p, trial.log_p);  // not by a multiple of itself
+  constexpr double beyond_doubt = -100;                                  // no approximation overstates so much
   if (trial.marginal_log_p <= state.threshold() && trial.log_p > beyond_doubt)
     trial.marginal_log_p = std::max(trial.marginal_log_p, sure_log_p(state, lead, fit, model));
   trial.marginal_log_p += model.skew_charge(lead.columns);
   const GainByRow gains_by_row = gain_by_row(model, lead.columns);
-  if (!c.pieces.empty() && share_of_others(state, gains_by_row.won) < 0.08)
+  if (!c.role.pieces.empty() && share_of_others(state, gains_by_row.won) < 0.08)
     trial.marginal_log_p += state.options().one_group_charge;
-  if (c.level_like && state.problem().bounds.any() &&
+  if (c.role.level_like && state.problem().bounds.any() &&
       !stands_clear_of_clip(state, fit.covariance, design, lead.columns))
     trial.reason = like_clipping;
   else if (trial.marginal_log_p > state.threshold())
@@ -130,7 +131,7 @@ Trial tried(const ModelState& state, const ScoredCandidate& lead, const noise::F
 
 // Places and times again, now that the noise is fitted beside them.
 void refine_again(ModelState& state, std::size_t at) {
-  if (state.terms[at].smooth() || !state.terms[at].candidate->refinable()) return;
+  if (state.terms[at].smooth() || !state.terms[at].candidate->refinement.any()) return;
   for (int round = 0; round < 3; ++round) {
     Term& term = state.terms[at];
     const WhitenedModel model = state.whitened_model(state.design_without(term));
@@ -169,7 +170,7 @@ void take(ModelState& state, const noise::Fit& fit, const Term& term) {
 void settle_at_their_edges(ModelState& state) {
   for (std::size_t k = 0; k < state.terms.size(); ++k) {
     const Term term = state.terms[k];
-    if (term.smooth() || term.candidate->pieces.empty() || state.end_rows_at(*term.candidate, term.theta) == 0)
+    if (term.smooth() || term.candidate->role.pieces.empty() || state.end_rows_at(*term.candidate, term.theta) == 0)
       continue;
     state.refit(4);
     relocate(state, k, false);
@@ -179,7 +180,7 @@ void settle_at_their_edges(ModelState& state) {
 // False if the lead fails.
 bool enter(ModelState& state, ScoredCandidate lead, Blocked& blocked, std::vector<Trial>& trials) {
   constexpr double beyond_doubt = -40;  // rows may end once it has settled
-  const bool place = !lead.candidate().pieces.empty();
+  const bool place = !lead.candidate().role.pieces.empty();
   if (place && lead.log_p > beyond_doubt && state.end_rows_at(lead.candidate(), lead.theta) > 0)
     lead.columns = state.columns_of(lead.candidate(), lead.theta);
   const Eigen::MatrixXd design = state.design();
@@ -193,7 +194,7 @@ bool enter(ModelState& state, ScoredCandidate lead, Blocked& blocked, std::vecto
   }
   take(state, fit, {lead.entry->candidate, lead.theta, lead.columns, trial.gain, lead.evidence, trial.marginal_log_p});
   blocked.now = blocked.for_good;
-  const std::string pieces = state.terms.back().candidate->pieces;
+  const std::string pieces = state.terms.back().candidate->role.pieces;
   if (pieces.empty()) {
     refine_again(state, state.terms.size() - 1);
     return true;
@@ -212,7 +213,7 @@ std::vector<ScoredCandidate> closer_look(ModelState& state, const std::vector<Sc
   constexpr double lacks = 7;  // nats
   std::vector<ScoredCandidate> places;
   for (const ScoredCandidate& lead : looked) {
-    if (lead.candidate().proposed && lead.log_p < state.threshold() + lacks) places.push_back(lead);
+    if (lead.candidate().refinement.proposed && lead.log_p < state.threshold() + lacks) places.push_back(lead);
   }
   Index more = 0;
   for (const ScoredCandidate& lead : places) more += state.end_rows_at(lead.candidate(), lead.theta);
@@ -247,7 +248,7 @@ void enter_as_stated(ModelState& state, const ScoredCandidate& lead) {
 bool usable(const ModelState& state, const Blocked& blocked, const Candidate& c) {
   if (blocked.now.count(c.id)) return false;
   return std::none_of(state.terms.begin(), state.terms.end(), [&](const Term& term) {
-    const bool again = term.candidate->id == c.id && c.grid.size() == 1;
+    const bool again = term.candidate->id == c.id && c.design.grid.size() == 1;
     return again || (term.smooth() && term.candidate->own() == c.own());
   });
 }

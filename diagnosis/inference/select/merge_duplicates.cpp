@@ -16,13 +16,13 @@ ScoredCandidate single(const ModelState& state, const WhitenedModel& model, cons
   for (const Piece& piece : found) {
     if (piece.id == c.id) starts.push_back(piece.theta);
   }
-  if (c.spanning) {
-    for (Eigen::VectorXd& theta : c.spanning(found)) starts.push_back(std::move(theta));
+  if (c.role.spanning) {
+    for (Eigen::VectorXd& theta : c.role.spanning(found)) starts.push_back(std::move(theta));
   }
   ScoredCandidate lead{&entry, {}, {}, 0, 0, 0, false, gains(c, unit_atoms(entry, model), model.at.residual)};
   Index at = 0;
   lead.gain = lead.all.maxCoeff(&at);
-  lead.theta = c.grid[static_cast<std::size_t>(at)];
+  lead.theta = c.design.grid[static_cast<std::size_t>(at)];
   lead.columns = entry.atom(at);
   ScoredCandidate best = refined(state, model, lead, false);
   for (const Eigen::VectorXd& theta : starts) {
@@ -37,7 +37,7 @@ ScoredCandidate single(const ModelState& state, const WhitenedModel& model, cons
 }  // namespace
 
 bool merge_pieces(ModelState& state, const std::string& pieces) {
-  const auto of_class = [&](const Term& term) { return term.candidate->pieces == pieces; };
+  const auto of_class = [&](const Term& term) { return term.candidate->role.pieces == pieces; };
   std::vector<Piece> found;
   Eigen::MatrixXd columns(state.rows().size(), 0);
   for (const Term& term : state.terms) {
@@ -52,7 +52,7 @@ bool merge_pieces(ModelState& state, const std::string& pieces) {
   const Entry* chosen = nullptr;
   ScoredCandidate best{};
   for (const Entry& entry : state.entries()) {
-    if (entry.candidate->pieces != pieces) continue;
+    if (entry.candidate->role.pieces != pieces) continue;
     ScoredCandidate lead = single(state, model, entry, found);
     if (chosen && lead.gain <= best.gain) continue;
     chosen = &entry;

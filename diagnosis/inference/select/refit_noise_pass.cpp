@@ -15,7 +15,7 @@ bool has(const std::vector<ScoredCandidate>& leads, const ScoredCandidate& lead)
   });
 }
 
-bool looked_at_again(const Candidate& c) { return c.kind == Kind::named || c.slow; }
+bool looked_at_again(const Candidate& c) { return c.kind == Kind::named || c.role.slow; }
 
 // Three that nearly pass, everything whose gain has many tops, of which the grid may miss the highest, and what the
 // ladder brings up.
@@ -28,7 +28,8 @@ std::vector<ScoredCandidate> worth_a_look(ModelState& state, const std::vector<S
       result.push_back(lead);
   }
   for (const ScoredCandidate& lead : first) {
-    if (lead.candidate().starts > 1 && usable(lead.candidate()) && !has(result, lead)) result.push_back(lead);
+    if (lead.candidate().refinement.starts > 1 && usable(lead.candidate()) && !has(result, lead))
+      result.push_back(lead);
   }
   std::vector<ScoredCandidate> slow = ladder(state, usable);
   slow.resize(std::min<std::size_t>(slow.size(), 4), slow.empty() ? ScoredCandidate{} : slow[0]);
@@ -40,7 +41,7 @@ std::vector<ScoredCandidate> worth_a_look(ModelState& state, const std::vector<S
 
 noise::Fit fit_with(const ModelState& state, const Candidate& candidate, const Eigen::MatrixXd& both) {
   noise::Fit fit = state.fitted(both, state.fit.covariance, 6);
-  if (!candidate.slow) return fit;
+  if (!candidate.role.slow) return fit;
   noise::Covariance weaker = state.fit.covariance;  // a second start: shorter and weaker field
   weaker.theta += noise::Theta(std::log(0.35), std::log(0.5), 0, 0);
   const noise::Fit other = state.fitted(both, weaker, 12);
@@ -67,18 +68,19 @@ std::vector<ScoredCandidate> refit_noise_pass(ModelState& state, const WhitenedM
   const Eigen::MatrixXd design = state.design();
   for (ScoredCandidate& lead : looked) {
     const Candidate& c = lead.candidate();
-    if (c.starts > 1) lead = refined(state, model, lead, false);
-    lead.log_p = state.log_p(c, lead.gain, c.width, true);
-    if (state.log_p(c, most_once_fitted(lead.gain), c.width, true) > state.threshold()) continue;
+    if (c.refinement.starts > 1) lead = refined(state, model, lead, false);
+    lead.log_p = state.log_p(c, lead.gain, c.design.width, true);
+    if (state.log_p(c, most_once_fitted(lead.gain), c.design.width, true) > state.threshold()) continue;
     noise::Fit fit = fit_with(state, c, noise::hstack(design, lead.columns));
     const double gain = gain_of(c, state.whitened_model(design, fit.covariance), lead.columns);
-    if (c.starts > 1 && state.log_p(c, most_to_come(lead.gain, gain), c.width, true) < state.threshold()) {
+    if (c.refinement.starts > 1 &&
+        state.log_p(c, most_to_come(lead.gain, gain), c.design.width, true) < state.threshold()) {
       lead = refined(state, state.whitened_model(design, fit.covariance), lead, false);
       fit = state.fitted(noise::hstack(design, lead.columns), fit.covariance, 6);
     }
     lead.gain = gain_of(c, state.whitened_model(design, fit.covariance), lead.columns);
-    lead.evidence = state.evidence(c, lead.gain, c.width, false);
-    lead.log_p = state.log_p(c, lead.gain, c.width, true);
+    lead.evidence = state.evidence(c, lead.gain, c.design.width, false);
+    lead.log_p = state.log_p(c, lead.gain, c.design.width, true);
   }
   by_evidence(looked);
   return looked;
@@ -99,16 +101,16 @@ std::vector<ScoredCandidate> ladder(ModelState& state, const std::function<bool(
       if (lost > 60) continue;
       for (const Entry& entry : state.entries()) {
         const Candidate& c = *entry.candidate;
-        if (!c.slow || !usable(c)) continue;
+        if (!c.role.slow || !usable(c)) continue;
         Index at = 0;
         const double gain = gains(c, unit_atoms(entry, model), model.at.residual).maxCoeff(&at) - lost;
         const auto found = best.find(c.id);
         if (found != best.end() && found->second.gain >= gain) continue;
         best[c.id] = {&entry,
-                      c.grid[static_cast<std::size_t>(at)],
+                      c.design.grid[static_cast<std::size_t>(at)],
                       entry.atom(at),
                       gain,
-                      state.evidence(c, gain, c.width, false),
+                      state.evidence(c, gain, c.design.width, false),
                       0,
                       false,
                       {}};

@@ -22,7 +22,7 @@ ScoredCandidate from_grid(const ModelState& state, const WhitenedModel& model, c
   ScoredCandidate lead{&entry, {}, {}, 0, 0, 0, false, gains(c, unit_atoms(entry, model), model.at.residual)};
   Index best = 0;
   lead.gain = lead.all.maxCoeff(&best);
-  lead.theta = c.grid[static_cast<std::size_t>(best)];
+  lead.theta = c.design.grid[static_cast<std::size_t>(best)];
   lead.columns = entry.atom(best);
   return refined(state, model, lead, false);
 }
@@ -37,7 +37,7 @@ void relocate(ModelState& state, std::size_t at, bool anew) {
     const ScoredCandidate before = at_term(state, model, term);
     ScoredCandidate best = refined(state, model, before, true);
     for (const Entry& entry : state.entries()) {
-      if (!anew || round > 0 || entry.candidate->pieces != term.candidate->pieces) continue;
+      if (!anew || round > 0 || entry.candidate->role.pieces != term.candidate->role.pieces) continue;
       ScoredCandidate other = from_grid(state, model, entry);
       if (other.evidence > best.evidence) best = std::move(other);
     }
@@ -51,7 +51,7 @@ void relocate(ModelState& state, std::size_t at, bool anew) {
 
 void relocate_places(ModelState& state) {
   for (std::size_t k = 0; k < state.terms.size(); ++k) {
-    if (!state.terms[k].smooth() && !state.terms[k].candidate->pieces.empty()) relocate(state, k, true);
+    if (!state.terms[k].smooth() && !state.terms[k].candidate->role.pieces.empty()) relocate(state, k, true);
   }
 }
 

@@ -32,9 +32,9 @@ struct Replacement {
     for (const ScoredCandidate& lead : scored_candidates(state, model)) {
       const Candidate& c = lead.candidate();
       if (c.kind != Kind::named || !fits(lead, found)) continue;
-      const bool effective_sample_size = lead.gain > 0.15 * group_gain && c.pieces.empty();
+      const bool effective_sample_size = lead.gain > 0.15 * group_gain && c.role.pieces.empty();
       const ScoredCandidate at = effective_sample_size ? refined(state, model, lead, true) : lead;
-      const double evidence = state.evidence(c, at.gain, c.width, false);
+      const double evidence = state.evidence(c, at.gain, c.design.width, false);
       if (!result || evidence > result->evidence)
         result = Term{lead.entry->candidate, at.theta, at.columns, at.gain, evidence, 0};
     }
@@ -53,7 +53,7 @@ struct Replacement {
   void refine_in_turn(std::vector<Term>& found) const {
     for (int round = 0; round < 2; ++round) {
       for (Term& term : found) {
-        if (!term.candidate->pieces.empty() || !term.candidate->refinable()) continue;
+        if (!term.candidate->role.pieces.empty() || !term.candidate->refinement.any()) continue;
         const WhitenedModel model = state.whitened_model(with(found, &term));
         ScoredCandidate lead{
             &state.entry_of(*term.candidate), term.theta, term.columns, model.gain(term.columns), 0, 0, false, {}};
@@ -70,7 +70,7 @@ struct Replacement {
     for (int number = 1; number <= 2; ++number) {
       std::optional<Term> next = best(result);
       if (!next || next->evidence < 3) return {};
-      if (number == 1 && next->candidate->stands_for.count(covariate) == 0) return {};
+      if (number == 1 && next->candidate->role.stands_for.count(covariate) == 0) return {};
       result.push_back(std::move(*next));
       if (number == 2) refine_in_turn(result);
       const Eigen::MatrixXd all = with(result).rightCols(with(result).cols() - rest.cols());
@@ -93,7 +93,7 @@ void replace_smooths(ModelState& state) {
   for (const std::string& covariate : covariates) {
     const auto in_group = [&](const Term& term) { return term.candidate->own() == covariate; };
     const bool has_names = std::any_of(state.entries().begin(), state.entries().end(), [&](const Entry& entry) {
-      return entry.candidate->stands_for.count(covariate) > 0;
+      return entry.candidate->role.stands_for.count(covariate) > 0;
     });
     if (!has_names) continue;
     Eigen::MatrixXd group(state.rows().size(), 0);

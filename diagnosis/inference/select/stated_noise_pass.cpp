@@ -37,13 +37,14 @@ std::vector<ScoredCandidate> beyond_chance(ModelState& state, const WhitenedMode
   std::vector<ScoredCandidate> result;
   for (const Entry& entry : state.entries()) {
     const Candidate& c = *entry.candidate;
-    if (!(c.slow || c.kind == Kind::smooth) || !usable(c)) continue;
+    if (!(c.role.slow || c.kind == Kind::smooth) || !usable(c)) continue;
     Index at = 0;
     const double gain = gains(c, unit_atoms(entry, model), model.at.residual).maxCoeff(&at);
-    const double log_p = state.log_p(c, gain, c.width, false);
+    const double log_p = state.log_p(c, gain, c.design.width, false);
     if (log_p >= threshold) continue;
-    const Eigen::VectorXd& theta = c.grid[static_cast<std::size_t>(at)];
-    result.push_back({&entry, theta, entry.atom(at), gain, state.evidence(c, gain, c.width, false), log_p, false, {}});
+    const Eigen::VectorXd& theta = c.design.grid[static_cast<std::size_t>(at)];
+    result.push_back(
+        {&entry, theta, entry.atom(at), gain, state.evidence(c, gain, c.design.width, false), log_p, false, {}});
   }
   std::stable_sort(result.begin(), result.end(),
                    [](const ScoredCandidate& a, const ScoredCandidate& b) { return a.log_p < b.log_p; });
@@ -63,7 +64,7 @@ void weigh_beside(const ModelState& state, const Eigen::MatrixXd& design, const 
     const double far = state.far().exact_gain({state.y(), design, lead.columns, fit.covariance});
     const double gain = std::min(gain_of(c, model, lead.columns), far) / overdispersion + 2 * unlikely;
     lead.gain = std::min(lead.gain, gain);
-    lead.log_p = std::max(lead.log_p, state.log_p(c, gain, c.width, false) + model.skew_charge(lead.columns));
+    lead.log_p = std::max(lead.log_p, state.log_p(c, gain, c.design.width, false) + model.skew_charge(lead.columns));
   }
 }
 

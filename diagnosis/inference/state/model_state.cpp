@@ -49,7 +49,7 @@ class OfOrigin : public Tally {
 }  // namespace
 
 Eigen::MatrixXd Entry::atom(Index k) const {
-  return atoms->middleCols(k * candidate->width, candidate->width).cast<double>();
+  return atoms->middleCols(k * candidate->design.width, candidate->design.width).cast<double>();
 }
 
 double WhitenedModel::gain(const Eigen::MatrixXd& columns) const {
@@ -101,7 +101,7 @@ noise::Field ModelState::field_of(const noise::Rows& rows) const {
 
 Index ModelState::end_rows_at(const Candidate& candidate, const Eigen::VectorXd& theta) {
   constexpr double share = 1.0 / 3;  // of the most that the effect comes to
-  const Eigen::MatrixXd at_readings = candidate.columns(theta);
+  const Eigen::MatrixXd at_readings = candidate.design.columns(theta);
   const Eigen::VectorXd effect = at_readings.rowwise().sum();
   const double most = effect.cwiseAbs().maxCoeff();
   std::vector<Index> parent;
@@ -126,15 +126,15 @@ Index ModelState::end_rows_at(const Candidate& candidate, const Eigen::VectorXd&
 }
 
 Eigen::MatrixXd ModelState::sketch_of(const Candidate& candidate, const Eigen::VectorXd& theta) const {
-  Eigen::MatrixXd sketch = candidate.sketch(theta);
+  Eigen::MatrixXd sketch = candidate.design.sketch(theta);
   if (origin_.empty()) return sketch;
   return sketch(origin_, Eigen::all);
 }
 
 std::vector<Eigen::VectorXd> ModelState::proposals(const Candidate& candidate, Tally& tally) const {
-  if (origin_.empty()) return candidate.proposed(tally);
+  if (origin_.empty()) return candidate.refinement.proposed(tally);
   OfOrigin of_origin(origin_, tally);
-  return candidate.proposed(of_origin);
+  return candidate.refinement.proposed(of_origin);
 }
 
 void ModelState::impute(int rounds) {
@@ -189,16 +189,16 @@ const LongRangeRows& ModelState::far() const {
 }
 
 Entry ModelState::entry(Candidate candidate) const {
-  if (candidate.grid.empty() || candidate.covariates.empty())
+  if (candidate.design.grid.empty() || candidate.covariates.empty())
     throw std::invalid_argument(candidate.id + ": a candidate has at least one start and one covariate");
-  std::shared_ptr<const noise::Sheet> known = std::move(candidate.atoms);
+  std::shared_ptr<const noise::Sheet> known = std::move(candidate.design.atoms);
   Entry result{std::make_shared<const Candidate>(std::move(candidate)), std::move(known)};
   if (result.atoms && result.atoms->rows() == rows_.size()) return result;
   const Candidate& c = *result.candidate;
-  noise::Sheet atoms(rows_.size(), result.count() * c.width);
+  noise::Sheet atoms(rows_.size(), result.count() * c.design.width);
   for (Index k = 0; k < result.count(); ++k) {
-    const Eigen::VectorXd& theta = c.grid[static_cast<std::size_t>(k)];
-    atoms.middleCols(k * c.width, c.width) = columns_of(c, theta).cast<float>();
+    const Eigen::VectorXd& theta = c.design.grid[static_cast<std::size_t>(k)];
+    atoms.middleCols(k * c.design.width, c.design.width) = columns_of(c, theta).cast<float>();
   }
   result.atoms = std::make_shared<const noise::Sheet>(std::move(atoms));
   return result;
@@ -211,7 +211,7 @@ void ModelState::renew_depending(const Eigen::VectorXd& coefficients) {
     for (Candidate& candidate : problem_.depending(of_base)) entries_.push_back(entry(std::move(candidate)));
   }
   Candidate level = smooth_of("level", problem_.base * of_base, 5);
-  level.level_like = true;
+  level.role.level_like = true;
   entries_.push_back(entry(std::move(level)));
 }
 
@@ -223,7 +223,7 @@ const Entry& ModelState::entry_of(const Candidate& candidate) const {
 }
 
 Eigen::MatrixXd ModelState::columns_of(const Candidate& candidate, const Eigen::VectorXd& theta) const {
-  return rows_.mean(candidate.columns(theta));
+  return rows_.mean(candidate.design.columns(theta));
 }
 
 double ModelState::log_effective_tests(const Entry& entry, const OrthonormalAtoms& unit) {
@@ -233,14 +233,15 @@ double ModelState::log_effective_tests(const Entry& entry, const OrthonormalAtom
 }
 
 double ModelState::log_p(const Candidate& candidate, double gain, Index width, bool refined) const {
-  return log_effective_tests(candidate) + (refined ? candidate.charge : 0) +
-         log_tail(gain, static_cast<double>(width)) + (candidate.sign ? -std::log(2.0) : 0);
+  return log_effective_tests(candidate) + (refined ? candidate.refinement.charge : 0) +
+         log_tail(gain, static_cast<double>(width)) + (candidate.design.sign ? -std::log(2.0) : 0);
 }
 
 double ModelState::evidence(const Candidate& candidate, double gain, Index width, bool refined) const {
   // What is there or not has no strength to be paid for.
-  const double strengths = candidate.whole && !candidate.refinable() ? 0 : static_cast<double>(width);
-  return gain / 2 - strengths / 2 * log_rows() - log_effective_tests(candidate) - (refined ? candidate.charge : 0);
+  const double strengths = candidate.design.whole && !candidate.refinement.any() ? 0 : static_cast<double>(width);
+  return gain / 2 - strengths / 2 * log_rows() - log_effective_tests(candidate) -
+         (refined ? candidate.refinement.charge : 0);
 }
 
 double ModelState::threshold() const {

@@ -16,7 +16,7 @@ struct Entry {
   std::shared_ptr<const Candidate> candidate;
   std::shared_ptr<const noise::Sheet> atoms;
 
-  Index count() const { return static_cast<Index>(candidate->grid.size()); }
+  Index count() const { return static_cast<Index>(candidate->design.grid.size()); }
   Eigen::MatrixXd atom(Index k) const;
 };
 

@@ -31,14 +31,14 @@ void turn(const Eigen::MatrixXf& products, float least, Eigen::Ref<Eigen::Matrix
 
 // Squared lengths of projections on atoms: rows of `along` are the atoms' columns.
 Eigen::MatrixXf statistics(const Candidate& candidate, Eigen::MatrixXf along) {
-  if (candidate.width == 1) {
-    if (candidate.sign) along = (along * static_cast<float>(candidate.sign)).cwiseMax(0.f);
+  if (candidate.design.width == 1) {
+    if (candidate.design.sign) along = (along * static_cast<float>(candidate.design.sign)).cwiseMax(0.f);
     return along.cwiseAbs2();
   }
-  const Index atoms = along.rows() / candidate.width;
+  const Index atoms = along.rows() / candidate.design.width;
   Eigen::MatrixXf result(atoms, along.cols());
   for (Index k = 0; k < atoms; ++k)
-    result.row(k) = along.middleRows(k * candidate.width, candidate.width).colwise().squaredNorm();
+    result.row(k) = along.middleRows(k * candidate.design.width, candidate.design.width).colwise().squaredNorm();
   return result;
 }
 
@@ -81,7 +81,7 @@ double log_effective_tests(const Candidate& candidate, const OrthonormalAtoms& u
   for (std::size_t k = 0; k < 3; ++k) {
     // P(largest < m) = (1 - tail(m))^number
     const double m = most[static_cast<Index>(quantiles[k] * static_cast<double>(most.size() - 1))];
-    const double tail = std::exp(log_tail(m, candidate.width)) * (candidate.sign ? 0.5 : 1);
+    const double tail = std::exp(log_tail(m, candidate.design.width)) * (candidate.design.sign ? 0.5 : 1);
     estimates[k] = std::log(quantiles[k]) / std::log1p(-std::min(tail, 0.999));
   }
   std::sort(estimates.begin(), estimates.end());

@@ -37,10 +37,10 @@ Candidate smooth(std::vector<std::string> covariates, std::function<Eigen::Matri
   c.id = "~" + covariates.front();
   c.kind = Kind::smooth;
   c.covariates = std::move(covariates);
-  c.width = static_cast<int>(wider(1).cols());
-  c.grid = {Eigen::VectorXd()};
-  c.columns = [wider](const Eigen::VectorXd&) { return wider(1); };
-  if (grows) c.wider = std::move(wider);
+  c.design.width = static_cast<int>(wider(1).cols());
+  c.design.grid = {Eigen::VectorXd()};
+  c.design.columns = [wider](const Eigen::VectorXd&) { return wider(1); };
+  if (grows) c.design.wider = std::move(wider);
   return c;
 }
 
@@ -51,8 +51,8 @@ Candidate shaped(const std::string& id, const std::string& covariate, int width,
   c.id = id;
   c.kind = Kind::smooth;
   c.covariates = {covariate};
-  c.width = width;
-  c.columns = std::move(columns);
+  c.design.width = width;
+  c.design.columns = std::move(columns);
   return c;
 }
 
@@ -94,14 +94,15 @@ Candidate smooth_by_level(const std::string& name, const std::vector<int>& level
     }
     return result;
   });
-  for (const int k : std::set<int>(level.begin(), level.end())) c.grid.push_back(Eigen::VectorXd::Constant(1, k));
+  for (const int k : std::set<int>(level.begin(), level.end()))
+    c.design.grid.push_back(Eigen::VectorXd::Constant(1, k));
   c.label = [name](const Eigen::VectorXd& theta) { return name + "/" + std::to_string(static_cast<int>(theta[0])); };
   return c;
 }
 
 Candidate factor(const std::string& name, const std::vector<int>& level) {
   Candidate c = smooth_by_level(name, level, Eigen::MatrixXd::Ones(static_cast<Index>(level.size()), 1));
-  c.observed = true;
+  c.role.observed = true;
   return c;
 }
 
@@ -110,13 +111,14 @@ Candidate bend(const std::string& name, const Eigen::VectorXd& values) {
   Candidate c = shaped("bend~" + name, name, 1, [values](const Eigen::VectorXd& theta) {
     return Eigen::MatrixXd((theta[1] * (values.array() - theta[0])).max(0.0).matrix());
   });
-  c.observed = true;
+  c.role.observed = true;
   std::vector<double> sorted(values.begin(), values.end());
   std::sort(sorted.begin(), sorted.end());
   const auto quantile = [&](int k) { return sorted[(sorted.size() - 1) * static_cast<std::size_t>(k) / bends]; };
   for (int k = 0; k < bends; ++k) {
-    c.grid.push_back(Eigen::Vector2d(quantile(k), 1));
-    if (k > 0) c.grid.push_back(Eigen::Vector2d(quantile(bends - k), -1));  // from the end on it is the same line
+    c.design.grid.push_back(Eigen::Vector2d(quantile(k), 1));
+    if (k > 0)
+      c.design.grid.push_back(Eigen::Vector2d(quantile(bends - k), -1));  // from the end on it is the same line
   }
   return c;
 }
@@ -157,7 +159,7 @@ Candidate slope_over(const std::string& plane, const Eigen::MatrixXd& place) {
   Candidate c = smooth(
       {plane}, [place](int) { return surface(place, 2, 2); }, false);
   c.id = "slope~" + plane;
-  c.slow = true;
+  c.role.slow = true;
   return c;
 }
 
@@ -173,7 +175,7 @@ Candidate chirp(const std::string& name, const Eigen::VectorXd& time) {
     for (double change = 0.75; change <= 3; change += change_apart) {
       for (const double sign : {-1.0, 1.0}) {
         if (cycles - 2 * change >= slowest && cycles + 2 * change <= fastest)
-          c.grid.push_back(Eigen::Vector2d(cycles, sign * change));
+          c.design.grid.push_back(Eigen::Vector2d(cycles, sign * change));
       }
     }
   }

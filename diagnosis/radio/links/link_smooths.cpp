@@ -37,7 +37,7 @@ void add_time(const LinkReadings& readings, const Geometry& geometry, bool place
   if (t.empty()) return;
   const Eigen::VectorXd time = Eigen::Map<const Eigen::VectorXd>(t.data(), static_cast<Index>(t.size()));
   for (Candidate c : {inference::smooth_of("time", time, 10), inference::chirp("time", time)}) {
-    c.time_like = true;
+    c.role.time_like = true;
     out.push_back(std::move(c));
   }
   out.push_back(inference::smooth_by_level("time_per_tx", readings.tx, inference::cosines(time, 5)));
@@ -48,7 +48,7 @@ void add_covariate(const inference::Covariate& c, const Geometry& geometry, bool
                    std::vector<Candidate>& out) {
   out.push_back(c.angle ? inference::smooth_of_angle(c.name, c.values, (c.functions + 1) / 2)
                         : inference::smooth_of(c.name, c.values, c.functions));
-  out.back().observed = true;
+  out.back().role.observed = true;
   if (c.angle) return;
   out.push_back(inference::bend(c.name, c.values));
   if (!c.products) return;
@@ -62,7 +62,7 @@ std::vector<Candidate> link_smooths(const LinkReadings& readings, const LinkColu
   const Geometry geometry(readings);
   std::vector<Candidate> result;
   result.push_back(inference::smooth_of("logd", geometry.log_distance, 6));
-  result.back().level_like = true;
+  result.back().role.level_like = true;
   if (!(readings.rx_yaw.empty() && readings.tx_yaw.empty())) {
     if (places_known) result.push_back(inference::smooth_of_angle("bearing", geometry.moving.bearing, 4));
     result.push_back(inference::smooth_of_angle("heading", geometry.moving.heading, 3));
