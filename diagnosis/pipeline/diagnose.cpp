@@ -89,7 +89,7 @@ class Diagnoser {
     at_.run->clear();
     for (const CauseCandidate& c : causes.found) out.searched.push_back(c.candidate.id);
     out.instrument = at_.instrument;
-    out.seen = row_summary(state, *at_.layout, at_.columns, at_.model);
+    out.seen = row_summary(state, *at_.layout, at_.link_columns, at_.model);
     const inference::WhitenedModel alone = state.whitened_model(state.base());
     out.fitted = at_.base.mean + at_.base.slopes * (alone.coefficients(state.base().cols()) - at_.base.values);
     add_what_scatters(state, out);

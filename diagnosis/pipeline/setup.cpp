@@ -91,7 +91,7 @@ DiagnosisSetup::DiagnosisSetup(const std::filesystem::path& world, const std::fi
   LinkRowLimits limits = limits_for(readings);
   if (!data.has_places()) limits.way = -1;  // readings at like distances are not at one place: each is a row
   std::vector<int> runs = add_columns();
-  problem.smooths = link_smooths(readings, columns, data.has_places());
+  problem.smooths = link_smooths(readings, link_columns, data.has_places());
   layout = std::make_shared<const LinkLayout>(std::move(readings), limits, std::move(runs), data.has_places());
   problem.layout = layout;
   const noise::Rows rows = layout->rows();
@@ -215,7 +215,7 @@ std::vector<int> DiagnosisSetup::add_columns() {
       std::set<double> different;
       for (Index i = 0; i < values.size() && different.size() <= settings; ++i) different.insert(values[i]);
       if (different.size() > settings) {
-        columns.covariates.push_back({name, values});
+        link_columns.covariates.push_back({name, values});
         continue;
       }
       if (different.size() < 2) continue;
@@ -223,7 +223,7 @@ std::vector<int> DiagnosisSetup::add_columns() {
         factor.level.push_back(static_cast<int>(std::distance(different.begin(), different.find(v))));
     }
     if (is_run) runs = factor.level;
-    columns.factors.push_back(std::move(factor));
+    link_columns.factors.push_back(std::move(factor));
   }
   return runs;
 }

@@ -29,7 +29,7 @@ struct DiagnosisSetup {
   std::vector<Eigen::Index> used;            // rows of the table behind the readings of the search
   std::shared_ptr<CauseModel> run;           // what the candidates evaluate
   std::shared_ptr<const LinkLayout> layout;  // of the readings of the search
-  LinkColumns columns;                       // beyond those of a link
+  LinkColumns link_columns;                  // beyond those of a link
   inference::Problem problem;
   inference::Options options;
   CauseSearch sought;                           // behind the problem's candidates
