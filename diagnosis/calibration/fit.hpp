@@ -6,23 +6,10 @@
 #include "diagnosis/calibration/missing_data.hpp"
 #include "diagnosis/calibration/residual_covariance.hpp"
 #include "diagnosis/data/dataset.hpp"
+#include "diagnosis/prediction/free_parameters.hpp"
 #include "diagnosis/radio/links/link_model.hpp"
 
 namespace muster::diagnosis {
-
-struct FitOptions {
-  std::vector<std::string> free;  // paths to free beyond those declared free
-  std::vector<std::string> fix;   // paths to hold, PATH or PATH=VALUE
-};
-
-struct FitParameter {
-  std::string path, unit;
-  double start = 0, lower = 0, upper = 0;  // as declared
-  double value = 0;                        // by least squares; NaN where it is not identifiable
-  double by_search = 0;                    // by the gradient-free search
-  double stderror = 0, lower95 = 0, upper95 = 0, freedom = 0;
-  bool identifiable = true, at_bound = false;
-};
 
 struct Fit {
   std::vector<FitParameter> parameters;
@@ -48,8 +35,5 @@ struct Fit {
 
 // Leaves the model at the fitted parameters. Throws Error.
 Fit fit(LinkModel& model, const Dataset& data, const FitOptions& options);
-
-// The free parameters of a world, by declaration and options. Throws Error with the nearest path.
-std::vector<FitParameter> free_parameters(LinkModel& model, const FitOptions& options);
 
 }  // namespace muster::diagnosis

@@ -105,14 +105,13 @@ InstanceDeclaration instance_of(const Cause& cause, const std::string& name, con
   return result;
 }
 
-CauseModel::CauseModel(LinkModel& whole, const std::filesystem::path& world, const std::filesystem::path& data,
+CauseModel::CauseModel(MeasuredWorld& whole, const std::filesystem::path& world, const std::filesystem::path& data,
                        const Library::SearchPath& plugins)
-    : whole_(whole.simulation()), data_(data) {
+    : observable_(whole.observable()), whole_(whole.simulation()), data_(data) {
   World bare = bare_world(world, whole_);
-  const Place place{bare.file.string()};
   Options options;
   options.search_path = plugins;
-  options.more.push_back(measured_links(data, place));
+  options.more.push_back(whole.observable().stand_in);
   bare_ = std::make_unique<Simulation>(std::move(bare), standard(), std::move(options));
   before_ = whole.expected();
 }
@@ -154,7 +153,7 @@ void CauseModel::evaluate(Simulation& run, Present& present, const std::map<std:
   for (std::size_t k = present.first; k < present.first + present.count; ++k) {
     for (const auto& [name, value] : parameters) run.set_parameter(name_of(k) + '/' + name, value);
   }
-  run.evaluate(MUSTER_RADIO, true);
+  run.evaluate(observable_.phase, true);
   present.at = parameters;
 }
 
@@ -167,7 +166,7 @@ const std::vector<Eigen::VectorXd>& CauseModel::added_at(const std::map<std::str
   evaluate(*bare_, in_bare_, parameters);
   Evaluated now{parameters, {}};
   for (std::size_t row = 0; row < in_bare_.count; ++row) {
-    const FirstColumn level = first_column(bare_->table("link/*/level@" + name_of(row)));
+    const FirstColumn level = first_column(bare_->table(observable_.terms + '@' + name_of(row)));
     now.added.emplace_back(before_.size());
     for (Eigen::Index i = 0; i < before_.size(); ++i) now.added.back()[i] = level[i];
   }
@@ -184,7 +183,7 @@ void CauseModel::fill(const Cause& cause, const std::vector<CauseRow>& rows, std
   if (cause.needs_world()) {
     put(whole_, in_whole_, cause, rows, row, 1);
     evaluate(whole_, in_whole_, parameters);
-    const FirstColumn with = first_column(whole_.table("link/*/rssi"));
+    const FirstColumn with = first_column(whole_.table(observable_.measured));
     fill_by([&](Eigen::Index reading) { return with[reading] - before_[reading]; });
   } else {
     put(*bare_, in_bare_, cause, rows, 0, rows.size());
@@ -193,7 +192,7 @@ void CauseModel::fill(const Cause& cause, const std::vector<CauseRow>& rows, std
       fill_by([&](Eigen::Index reading) { return added[reading]; });
     } else {
       evaluate(*bare_, in_bare_, parameters);
-      const FirstColumn added = first_column(bare_->table("link/*/level@" + name_of(row)));
+      const FirstColumn added = first_column(bare_->table(observable_.terms + '@' + name_of(row)));
       fill_by([&](Eigen::Index reading) { return added[reading]; });
     }
   }

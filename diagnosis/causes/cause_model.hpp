@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/radio/links/link_model.hpp"
+#include "diagnosis/prediction/measured_world.hpp"
 
 namespace muster::diagnosis {
 
@@ -46,7 +46,7 @@ InstanceDeclaration instance_of(const Cause& cause, const std::string& name, con
 class CauseModel {
  public:
   // `whole` has the measured links of `data` and stays as it is. Throws Error.
-  CauseModel(LinkModel& whole, const std::filesystem::path& world, const std::filesystem::path& data,
+  CauseModel(MeasuredWorld& whole, const std::filesystem::path& world, const std::filesystem::path& data,
              const Library::SearchPath& plugins);
 
   // Fills `column` with the dB that an instance of the cause about rows[row] adds to these readings, the parameters
@@ -76,6 +76,7 @@ class CauseModel {
   const std::vector<Eigen::VectorXd>& added_at(const std::map<std::string, double>& parameters);
   static void remove(Simulation& run, Present& present);
 
+  const Observable& observable_;
   Simulation& whole_;
   std::unique_ptr<Simulation> bare_;
   std::filesystem::path data_;

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "diagnosis/causes/cause_model.hpp"
-#include "diagnosis/data/dataset.hpp"
 #include "diagnosis/inference/state/candidate.hpp"
 
 namespace muster::diagnosis {
@@ -63,11 +62,10 @@ struct CauseSearch {
   std::vector<std::string> not_tested;  // "effect.two_ray: why"
 };
 
+// Columns of causes: the worlds that evaluate them, and the rows of the measured table behind the search's readings.
 struct CauseSources {
   std::shared_ptr<CauseModel> run;
-  const LinkModel& model;
-  const Dataset& data;
-  std::vector<Eigen::Index> used;  // rows of the table behind the readings of the search
+  std::vector<Eigen::Index> used;
 };
 
 }  // namespace muster::diagnosis

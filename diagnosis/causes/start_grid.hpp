@@ -1,19 +1,15 @@
-// Where a search for a cause begins.
+// Start values of a search for a cause: every row with every place and every combination of axis values.
 #pragma once
 
-#include <optional>
-
 #include "diagnosis/causes/cause_shape.hpp"
-#include "diagnosis/radio/links/measurement_geometry.hpp"
 
 namespace muster::diagnosis {
 
-// Thetas to begin with: all rows, with all places and values of axes that suit the cause's shape. Walls and things
-// (`stands`) lie closer together than what fills a part of the plan.
-std::vector<Eigen::VectorXd> starts_of(const CauseShape& shape, const MeasurementGeometry& survey,
-                                       const LinkModel& model, bool stands);
-
-// Where the map has a radio, by its first reading.
-std::optional<Eigen::Vector2d> place_of_radio(const LinkModel& model, const std::string& name);
+// Number of the row, entries of the place, values of the axes.
+Eigen::VectorXd theta_of(std::size_t row, const Eigen::VectorXd& place, const std::vector<double>& axes);
+// Every combination of the axes' values.
+std::vector<std::vector<double>> products(const std::vector<Axis>& axes);
+// All rows at all places and axis values; places of a cause without one: a single empty vector.
+std::vector<Eigen::VectorXd> start_grid(const CauseShape& shape, const std::vector<Eigen::VectorXd>& places);
 
 }  // namespace muster::diagnosis

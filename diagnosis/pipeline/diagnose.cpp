@@ -7,13 +7,13 @@
 #include <map>
 #include <tuple>
 
-#include "diagnosis/causes/applicability.hpp"
 #include "diagnosis/pipeline/cause_estimate.hpp"
 #include "diagnosis/pipeline/extended_world.hpp"
 #include "diagnosis/pipeline/joint_refit.hpp"
 #include "diagnosis/pipeline/row_summary.hpp"
 #include "diagnosis/pipeline/setup.hpp"
 #include "diagnosis/planning/measurement_plans.hpp"
+#include "diagnosis/radio/causes/applicability.hpp"
 #include "diagnosis/radio/laws/law_causes.hpp"
 #include "text/number.hpp"
 #include "text/temporary_folder.hpp"

@@ -9,7 +9,7 @@
 namespace muster::diagnosis {
 
 struct JointRefit {
-  LinkModel& model;                    // has an instance of each named cause meanwhile
+  MeasuredWorld& model;                // has an instance of each named cause meanwhile
   const std::vector<Cause>& causes;    // of the plugin path
   std::filesystem::path data;          // what a cause that reads a table reads
   const inference::ModelState& state;  // after the search: its noise, rows and smooths

@@ -8,9 +8,10 @@
 #include <set>
 
 #include "diagnosis/inference/assess/search.hpp"
+#include "diagnosis/radio/causes/link_cause_domain.hpp"
+#include "diagnosis/radio/causes/local_columns.hpp"
 #include "diagnosis/radio/laws/shadowing_test.hpp"
 #include "diagnosis/radio/links/geometry_checks.hpp"
-#include "diagnosis/radio/places/local_columns.hpp"
 
 namespace muster::diagnosis {
 namespace {
@@ -95,7 +96,7 @@ DiagnosisSetup::DiagnosisSetup(const std::filesystem::path& world, const std::fi
   layout = std::make_shared<const LinkLayout>(std::move(readings), limits, std::move(runs), data.has_places());
   problem.layout = layout;
   const noise::Rows rows = layout->rows();
-  sought = cause_candidates(causes, measurement_geometry(model, data), {run, model, data, used}, problem.base, rows);
+  sought = cause_candidates(causes, LinkCauseDomain(model, data, used, rows), {run, used}, problem.base, rows);
   take_swaps_by_the_map(rows, world, plugins);
   let_sketch(rows, world, plugins);
   let_ask_near(world, plugins);
@@ -119,7 +120,7 @@ void DiagnosisSetup::take_swaps_by_the_map(const noise::Rows& rows, const std::f
   for (CauseCandidate& cause : sought.found) {
     inference::Candidate& c = cause.candidate;
     if (cause.shape->cause.meaning().kind != MUSTER_INSTRUMENT || c.design.width != 1) continue;
-    const auto columns = at_readings_of(cause, {declared, model, data, used}).design.columns;
+    const auto columns = at_readings_of(cause, {declared, used}).design.columns;
     const auto kept = std::make_shared<std::map<double, VectorXd>>();  // by the row that it is about
     noise::Sheet atoms(rows.size(), static_cast<Index>(c.design.grid.size()));
     for (std::size_t k = 0; k < c.design.grid.size(); ++k) {
@@ -142,7 +143,7 @@ void DiagnosisSetup::let_sketch(const noise::Rows& rows, const std::filesystem::
       std::make_unique<SimulatedReadings>(middles(rows, layout->readings()), model.radio_names(), world, plugins, base);
   for (CauseCandidate& c : sought.found) {
     if (c.candidate.refinement.any() && !c.shape->cause.file())
-      c.candidate.design.sketch = sketched->at(c, data).design.columns;
+      c.candidate.design.sketch = sketched->at(c).design.columns;
   }
 }
 
@@ -156,7 +157,7 @@ void DiagnosisSetup::let_ask_near(const std::filesystem::path& world, const Libr
   for (CauseCandidate& c : sought.found) {
     if (!c.candidate.refinement.proposed || c.shape->cause.file()) continue;
     c.candidate.design.near = [this, cause = c, simulate](const VectorXd& theta) {
-      return columns_near(theta, cause, data, layout->readings(), simulate);
+      return columns_near(theta, cause, layout->readings(), simulate);
     };
   }
 }

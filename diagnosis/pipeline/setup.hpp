@@ -3,10 +3,10 @@
 #pragma once
 
 #include "diagnosis/calibration/fit.hpp"
-#include "diagnosis/calibration/sensitivities.hpp"
 #include "diagnosis/causes/cause_candidates.hpp"
-#include "diagnosis/causes/simulated_readings.hpp"
 #include "diagnosis/inference/state/problem.hpp"
+#include "diagnosis/prediction/sensitivities.hpp"
+#include "diagnosis/radio/causes/simulated_readings.hpp"
 #include "diagnosis/radio/links/link_smooths.hpp"
 #include "diagnosis/radio/links/receiver_checks.hpp"
 

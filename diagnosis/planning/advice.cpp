@@ -3,8 +3,8 @@
 #include <map>
 #include <set>
 
-#include "diagnosis/causes/simulated_readings.hpp"
 #include "diagnosis/planning/measurement_plans.hpp"
+#include "diagnosis/radio/causes/simulated_readings.hpp"
 
 namespace muster::diagnosis {
 namespace {
@@ -70,7 +70,7 @@ void add_advice(inference::Search& search, Diagnosis& found, const CauseSearch& 
                      slopes_at(simulated.back()->model(), base),
                      {}});
     for (const CauseCandidate& c : causes.found) {
-      if (ids.count(c.candidate.id)) plans.back().candidates.push_back(simulated.back()->at(c, sources.data));
+      if (ids.count(c.candidate.id)) plans.back().candidates.push_back(simulated.back()->at(c));
     }
   }
   for (const inference::Advice& a : search.advise(plans)) {

@@ -1,9 +1,11 @@
 // Measurements that could be made next, from what the world and the ways that were driven allow.
 #pragma once
 
-#include "diagnosis/calibration/sensitivities.hpp"
 #include "diagnosis/causes/cause_shape.hpp"
+#include "diagnosis/data/dataset.hpp"
 #include "diagnosis/inference/assess/search.hpp"
+#include "diagnosis/prediction/sensitivities.hpp"
+#include "diagnosis/radio/links/link_model.hpp"
 #include "diagnosis/result.hpp"
 
 namespace muster::diagnosis {

@@ -73,11 +73,10 @@ World world_for(const std::filesystem::path& file, const std::filesystem::path& 
   return world;
 }
 
-Options options_for(const World& world, const std::filesystem::path& data, const Library::SearchPath& plugins) {
+Options options_for(const World& world, const Library::SearchPath& plugins) {
   const Place place{world.file.string()};
   Options options;
   options.search_path = plugins;
-  options.more.push_back(measured_links(data, place));
   const auto is_receiver = [](const InstanceDeclaration& i) { return i.plugin == "radio.receiver"; };
   if (std::none_of(world.instances.begin(), world.instances.end(), is_receiver))
     options.more.push_back({"radio.receiver", "receiver", 1, {}, {}, {}, place});
@@ -90,61 +89,47 @@ InstanceDeclaration measured_links(const std::filesystem::path& file, const Plac
   return {"data.links", stand_in, 1, {}, {}, {{"file", std::filesystem::absolute(file).string(), place, place}}, place};
 }
 
-FirstColumn first_column(const TableView& table) {
-  const auto rows = static_cast<Eigen::Index>(table.rows()), columns = static_cast<Eigen::Index>(table.cols());
-  return {table.table->now().data.data(), rows, Eigen::InnerStride<>(columns)};
+static Observable links_of(const std::filesystem::path& data, const Place& place) {
+  return {MUSTER_RADIO, "link/*/level", "link/*/rssi", measured_links(data, place)};
 }
 
 LinkModel::LinkModel(const std::filesystem::path& world, const std::filesystem::path& data,
-                     const Library::SearchPath& plugins) {
-  World declared = world_for(world, data);
-  Options options = options_for(declared, data, plugins);
-  run_ = std::make_unique<Simulation>(std::move(declared), standard(), std::move(options));
-  try {
-    evaluate(true);
-  } catch (const Error& error) {
-    if (std::string_view(error.what()).find("beyond the scene") != std::string_view::npos) refuse_far_places(data);
-    throw;
-  }
-  read_ends();
-}
+                     const Library::SearchPath& plugins)
+    : LinkModel(world_for(world, data), data, plugins) {}
 
-void LinkModel::evaluate(bool expected) {
-  run_->evaluate(MUSTER_RADIO, expected);
-  ++evaluations_;
-  values_ = first_column(run_->table("link/*/rssi"));
+LinkModel::LinkModel(World declared, const std::filesystem::path& data, const Library::SearchPath& plugins) try
+    : MeasuredWorld(declared, options_for(declared, plugins), links_of(data, {declared.file.string()})) {
+  read_ends();
+} catch (const Error& error) {
+  if (std::string_view(error.what()).find("beyond the scene") != std::string_view::npos) refuse_far_places(data);
+  throw;
 }
 
 void LinkModel::read_ends() {
-  const TableView pose = run_->table("endpoint/*/pose"), radio = run_->table("endpoint/*/radio");
+  const TableView pose = simulation().table("endpoint/*/pose"), radio = simulation().table("endpoint/*/radio");
   const auto end = [&](std::size_t i) {
     const double qw = pose.at(i, 3), qx = pose.at(i, 4), qy = pose.at(i, 5), qz = pose.at(i, 6);
     return End{pose.at(i, 0), pose.at(i, 1), pose.at(i, 2),
                std::atan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz)), static_cast<int>(radio.at(i, 0))};
   };
-  const TableView link = run_->table("link/*/ends");
+  const TableView link = simulation().table("link/*/ends");
   for (std::size_t i = 0; i < link.rows(); ++i)
     ends_.push_back({end(static_cast<std::size_t>(link.at(i, 0))), end(static_cast<std::size_t>(link.at(i, 1)))});
 }
 
-const std::vector<std::string>& LinkModel::radio_names() const { return run_->board().find_set("radio")->names; }
+const std::vector<std::string>& LinkModel::radio_names() const { return simulation().board().find_set("radio")->names; }
 
 std::string LinkModel::radio_name(int radio) const { return radio_names().at(static_cast<std::size_t>(radio)); }
 
 std::vector<std::string> LinkModel::added_radios() const {
   std::vector<std::string> result = radio_names();
-  for (const RowDeclaration& row : run_->world().rows) {
+  for (const RowDeclaration& row : simulation().world().rows) {
     if (std::find(row.sets.begin(), row.sets.end(), "radio") != row.sets.end()) std::erase(result, row.name);
   }
   return result;
 }
 
 std::set<std::string> LinkModel::link_of(int one, int other) const { return {radio_name(one), radio_name(other)}; }
-
-const Eigen::VectorXd& LinkModel::expected() {
-  evaluate(true);
-  return values_;
-}
 
 Eigen::VectorXd LinkModel::changes_aside(double metres) {
   const std::string aside = std::string(stand_in) + "/aside";
@@ -156,25 +141,6 @@ Eigen::VectorXd LinkModel::changes_aside(double metres) {
   }
   set(aside, 0);
   return most;
-}
-
-Eigen::VectorXd LinkModel::drawn() {
-  evaluate(false);
-  return values_;
-}
-
-bool LinkModel::has_plugin(const std::string& plugin) const {
-  const auto& all = run_->instances();
-  return std::any_of(all.begin(), all.end(), [&](const auto& i) { return i->declared().plugin == plugin; });
-}
-
-double LinkModel::value_of(const std::string& plugin, const std::string& param, double otherwise) const {
-  for (const auto& instance : run_->instances()) {
-    if (instance->declared().plugin != plugin) continue;
-    const int at = instance->find_param(param);
-    if (at >= 0) return instance->params()[static_cast<std::size_t>(at)];
-  }
-  return otherwise;
 }
 
 }  // namespace muster::diagnosis

@@ -7,16 +7,11 @@
 #include <vector>
 
 #include "diagnosis/data/dataset.hpp"
+#include "diagnosis/data/span.hpp"
 #include "diagnosis/radio/links/link_model.hpp"
 #include "diagnosis/radio/links/room_detection.hpp"
 
 namespace muster::diagnosis {
-
-struct Span {
-  double low = 0, high = 0;
-  double length() const { return high - low; }
-  double at(double share) const { return low + share * length(); }
-};
 
 struct MeasurementGeometry {
   bool has_time = false, has_yaw = false, has_height = false;

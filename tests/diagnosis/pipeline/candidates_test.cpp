@@ -8,7 +8,7 @@
 #include "diagnosis/inference/score/candidate_scores.hpp"
 #include "diagnosis/inference/score/sparse_columns.hpp"
 #include "diagnosis/pipeline/setup.hpp"
-#include "diagnosis/radio/places/local_columns.hpp"
+#include "diagnosis/radio/causes/local_columns.hpp"
 #include "tests/diagnosis/pipeline/sealed_case.hpp"
 
 namespace muster::diagnosis {

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "diagnosis/causes/parameter_axes.hpp"
-#include "diagnosis/radio/places/spatial_scan.hpp"
+#include "diagnosis/radio/causes/spatial_scan.hpp"
 #include "muster/random.hpp"
 
 namespace muster::diagnosis {

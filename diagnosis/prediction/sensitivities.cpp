@@ -1,4 +1,4 @@
-#include "diagnosis/calibration/sensitivities.hpp"
+#include "diagnosis/prediction/sensitivities.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 namespace muster::diagnosis {
 namespace {
 
-Eigen::VectorXd slope(LinkModel& model, const std::string& path, double lower, double upper, double at) {
+Eigen::VectorXd slope(MeasuredWorld& model, const std::string& path, double lower, double upper, double at) {
   const double step = std::min(1e-4 * (1 + std::abs(at)), (upper - lower) / 4);
   const double low = std::max(at - step, lower), high = std::min(at + step, upper);
   model.set(path, high);
@@ -19,7 +19,7 @@ Eigen::VectorXd slope(LinkModel& model, const std::string& path, double lower, d
 
 }  // namespace
 
-Sensitivities sensitivities(LinkModel& model, const std::vector<FitParameter>& free) {
+Sensitivities sensitivities(MeasuredWorld& model, const std::vector<FitParameter>& free) {
   Sensitivities result;
   const auto n = static_cast<Eigen::Index>(model.rows());
   Eigen::MatrixXd basis(n, 0);
@@ -54,7 +54,7 @@ Sensitivities sensitivities(LinkModel& model, const std::vector<FitParameter>& f
   return result;
 }
 
-Eigen::MatrixXd slopes_at(LinkModel& model, const Sensitivities& base) {
+Eigen::MatrixXd slopes_at(MeasuredWorld& model, const Sensitivities& base) {
   const auto count = static_cast<Eigen::Index>(base.paths.size());
   for (Eigen::Index j = 0; j < count; ++j) model.set(base.paths[static_cast<std::size_t>(j)], base.values[j]);
   Eigen::MatrixXd result(static_cast<Eigen::Index>(model.rows()), count);

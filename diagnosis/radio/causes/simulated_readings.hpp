@@ -1,8 +1,9 @@
 // Readings that nobody took: a world asked what it would expect there, and what causes would add.
 #pragma once
 
-#include "diagnosis/calibration/sensitivities.hpp"
 #include "diagnosis/causes/cause_candidates.hpp"
+#include "diagnosis/prediction/sensitivities.hpp"
+#include "diagnosis/radio/links/link_model.hpp"
 #include "diagnosis/radio/links/link_rows.hpp"
 #include "text/temporary_folder.hpp"
 
@@ -19,7 +20,7 @@ class SimulatedReadings {
 
   LinkModel& model() { return *model_; }
   // The same candidate with its columns here, one row a reading.
-  inference::Candidate at(const CauseCandidate& cause, const Dataset& data) const;
+  inference::Candidate at(const CauseCandidate& cause) const;
 
  private:
   TemporaryFolder folder_;  // of the table

@@ -1,6 +1,7 @@
+#include "diagnosis/prediction/free_parameters.hpp"
+
 #include <algorithm>
 
-#include "diagnosis/calibration/fit.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
 
@@ -12,7 +13,7 @@ bool contains(const std::vector<std::string>& list, const std::string& path) {
 }
 
 // The paths to hold, after setting those that came with a value.
-std::vector<std::string> held_paths(LinkModel& model, const std::vector<std::string>& fix) {
+std::vector<std::string> held_paths(MeasuredWorld& model, const std::vector<std::string>& fix) {
   std::vector<std::string> paths;
   for (const std::string& word : fix) {
     const std::size_t equals = word.find('=');
@@ -37,7 +38,7 @@ void refuse_unfit(const ParameterInfo& info) {
 
 }  // namespace
 
-std::vector<FitParameter> free_parameters(LinkModel& model, const FitOptions& options) {
+std::vector<FitParameter> free_parameters(MeasuredWorld& model, const FitOptions& options) {
   const std::vector<std::string> held = held_paths(model, options.fix);
   for (const std::string& path : options.free) {
     refuse_unfit(model.parameter(path));

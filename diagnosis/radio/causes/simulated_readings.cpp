@@ -1,4 +1,4 @@
-#include "diagnosis/causes/simulated_readings.hpp"
+#include "diagnosis/radio/causes/simulated_readings.hpp"
 
 #include <numeric>
 
@@ -45,8 +45,8 @@ SimulatedReadings::SimulatedReadings(const LinkReadings& readings, const std::ve
   run_ = std::make_shared<CauseModel>(*model_, world, table, plugins);
 }
 
-inference::Candidate SimulatedReadings::at(const CauseCandidate& cause, const Dataset& data) const {
-  return at_readings_of(cause, {run_, *model_, data, all_});
+inference::Candidate SimulatedReadings::at(const CauseCandidate& cause) const {
+  return at_readings_of(cause, {run_, all_});
 }
 
 bool holds_a_table_reader(const LinkModel& model) {

@@ -1,4 +1,4 @@
-#include "diagnosis/causes/applicability.hpp"
+#include "diagnosis/radio/causes/applicability.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // The model's own columns: how its mean moves with each of its free parameters.
 #pragma once
 
-#include "diagnosis/calibration/fit.hpp"
+#include "diagnosis/prediction/free_parameters.hpp"
 
 namespace muster::diagnosis {
 
@@ -14,9 +14,9 @@ struct Sensitivities {
 };
 
 // At the model's present parameters.
-Sensitivities sensitivities(LinkModel& model, const std::vector<FitParameter>& free);
+Sensitivities sensitivities(MeasuredWorld& model, const std::vector<FitParameter>& free);
 
 // The same columns at the readings of another model of the same world.
-Eigen::MatrixXd slopes_at(LinkModel& model, const Sensitivities& base);
+Eigen::MatrixXd slopes_at(MeasuredWorld& model, const Sensitivities& base);
 
 }  // namespace muster::diagnosis

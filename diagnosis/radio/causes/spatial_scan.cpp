@@ -1,11 +1,11 @@
-#include "diagnosis/radio/places/spatial_scan.hpp"
+#include "diagnosis/radio/causes/spatial_scan.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
 
-#include "diagnosis/causes/parameter_axes.hpp"
+#include "diagnosis/radio/causes/place_moves.hpp"
 
 namespace muster::diagnosis {
 namespace {

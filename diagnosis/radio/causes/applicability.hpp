@@ -2,6 +2,7 @@
 #pragma once
 
 #include "diagnosis/causes/cause_model.hpp"
+#include "diagnosis/radio/links/link_model.hpp"
 #include "diagnosis/radio/links/measurement_geometry.hpp"
 
 namespace muster::diagnosis {

@@ -1,4 +1,4 @@
-#include "diagnosis/radio/places/local_columns.hpp"
+#include "diagnosis/radio/causes/local_columns.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -74,8 +74,8 @@ std::vector<VectorXd> corners(const VectorXd& theta) {
 
 }  // namespace
 
-Columns columns_near(const VectorXd& theta, const CauseCandidate& cause, const Dataset& data,
-                     const LinkReadings& readings, const Simulate& simulate) {
+Columns columns_near(const VectorXd& theta, const CauseCandidate& cause, const LinkReadings& readings,
+                     const Simulate& simulate) {
   const Columns& all = cause.candidate.design.columns;
   const Area area = about(*cause.shape, theta, beyond + moves);
   std::vector<Index> near;
@@ -84,7 +84,7 @@ Columns columns_near(const VectorXd& theta, const CauseCandidate& cause, const D
   }
   if (near.empty() || 2 * static_cast<Index>(near.size()) > readings.size()) return all;
   const std::shared_ptr<SimulatedReadings> simulated = simulate(those(readings, near));
-  const Columns columns = simulated->at(cause, data).design.columns;
+  const Columns columns = simulated->at(cause).design.columns;
   Columns result = [=, shape = cause.shape, many = readings.size()](const VectorXd& t) -> Eigen::MatrixXd {
     (void)simulated;  // which the columns ask
     if (!area.holds(about(*shape, t, beyond))) return all(t);

@@ -1,0 +1,66 @@
+#include "diagnosis/prediction/measured_world.hpp"
+
+#include <algorithm>
+
+namespace muster::diagnosis {
+namespace {
+
+Options with_stand_in(Options options, const Observable& observable) {
+  options.more.insert(options.more.begin(), observable.stand_in);
+  return options;
+}
+
+}  // namespace
+
+FirstColumn first_column(const TableView& table) {
+  const auto rows = static_cast<Eigen::Index>(table.rows()), columns = static_cast<Eigen::Index>(table.cols());
+  return {table.table->now().data.data(), rows, Eigen::InnerStride<>(columns)};
+}
+
+MeasuredWorld::MeasuredWorld(World world, Options options, Observable observable)
+    : observable_(std::move(observable)),
+      run_(std::make_unique<Simulation>(std::move(world), standard(), with_stand_in(std::move(options), observable_))) {
+  evaluate(true);
+}
+
+void MeasuredWorld::evaluate(bool expected) {
+  run_->evaluate(observable_.phase, expected);
+  ++evaluations_;
+  values_ = first_column(run_->table(observable_.measured));
+}
+
+const Eigen::VectorXd& MeasuredWorld::expected() {
+  evaluate(true);
+  return values_;
+}
+
+Eigen::VectorXd MeasuredWorld::drawn() {
+  evaluate(false);
+  return values_;
+}
+
+bool MeasuredWorld::has_plugin(const std::string& plugin) const {
+  const auto& all = run_->instances();
+  return std::any_of(all.begin(), all.end(), [&](const auto& i) { return i->declared().plugin == plugin; });
+}
+
+double MeasuredWorld::value_of(const std::string& plugin, const std::string& param, double otherwise) const {
+  for (const auto& instance : run_->instances()) {
+    if (instance->declared().plugin != plugin) continue;
+    const int at = instance->find_param(param);
+    if (at >= 0) return instance->params()[static_cast<std::size_t>(at)];
+  }
+  return otherwise;
+}
+
+ParameterGuard::~ParameterGuard() {
+  for (const auto& [path, value] : before_) world_.set(path, value);
+}
+
+void ParameterGuard::set(const std::string& path, double value) {
+  const auto known = std::find_if(before_.begin(), before_.end(), [&](const auto& b) { return b.first == path; });
+  if (known == before_.end()) before_.emplace_back(path, world_.parameter(path).value);
+  world_.set(path, value);
+}
+
+}  // namespace muster::diagnosis

@@ -1,0 +1,76 @@
+// A world with measured rows in it: expected values and draws at the readings, by the code that a simulation runs.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "kernel/simulation.hpp"
+
+namespace muster::diagnosis {
+
+// Of a published table; valid as long as the view is.
+using FirstColumn = Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<>>;
+FirstColumn first_column(const TableView& table);
+
+// Tables and phase by which a kind of measurement is predicted.
+struct Observable {
+  uint32_t phase = 0;            // after which the prediction is there
+  std::string terms;             // the table that causes add to, such as "link/*/level"
+  std::string measured;          // the table that is compared with measurements, such as "link/*/rssi"
+  InstanceDeclaration stand_in;  // the instance whose rows are the readings of the measured table
+};
+
+class MeasuredWorld {
+ public:
+  // `options` without the stand-in, which comes first. Throws Error.
+  MeasuredWorld(World world, Options options, Observable observable);
+  virtual ~MeasuredWorld() = default;
+  MeasuredWorld(const MeasuredWorld&) = delete;
+  MeasuredWorld& operator=(const MeasuredWorld&) = delete;
+
+  const Observable& observable() const { return observable_; }
+  std::size_t rows() const { return static_cast<std::size_t>(values_.size()); }  // readings
+  // Expected value of every reading.
+  const Eigen::VectorXd& expected();
+  // One draw of every reading, NaN where nothing is measured.
+  Eigen::VectorXd drawn();
+  // Number of evaluations so far.
+  int evaluations() const { return evaluations_; }
+
+  std::vector<ParameterInfo> parameters() const { return run_->parameters(); }
+  ParameterInfo parameter(const std::string& path) const { return run_->parameter(path); }
+  void set(const std::string& path, double value) { run_->set_parameter(path, value); }
+
+  const Simulation& simulation() const { return *run_; }
+  Simulation& simulation() { return *run_; }
+  // The named parameter's value of the first instance of a plugin, or `otherwise` where the world has none.
+  double value_of(const std::string& plugin, const std::string& param, double otherwise) const;
+  bool has_plugin(const std::string& plugin) const;
+
+ private:
+  void evaluate(bool expected);
+
+  Observable observable_;
+  std::unique_ptr<Simulation> run_;
+  Eigen::VectorXd values_;
+  int evaluations_ = 0;
+};
+
+// Parameters moved for a while: the destructor puts each back to its value before.
+class ParameterGuard {
+ public:
+  explicit ParameterGuard(MeasuredWorld& world) : world_(world) {}
+  ~ParameterGuard();
+  ParameterGuard(const ParameterGuard&) = delete;
+  ParameterGuard& operator=(const ParameterGuard&) = delete;
+
+  void set(const std::string& path, double value);
+
+ private:
+  MeasuredWorld& world_;
+  std::vector<std::pair<std::string, double>> before_;  // in the order of their first change
+};
+
+}  // namespace muster::diagnosis

@@ -1,0 +1,54 @@
+#include "diagnosis/radio/causes/place_axes.hpp"
+
+#include <cmath>
+#include <string_view>
+
+namespace muster::diagnosis {
+namespace {
+
+Axis length(const muster_param& p, const MeasurementGeometry& s, const CauseShape& shape) {
+  if (shape.place == PlaceShape::segment) return logarithmic(p, 0.8, 6, {1.5, 3}, 0.2);
+  if (shape.place == PlaceShape::point && !shape.held.empty()) {
+    return p.max > 10 ? logarithmic(p, 1, 60, {3, 6}, 0.05) : logarithmic(p, 0.2, 5, {0.5, 1.5}, 0.4);
+  }
+  if (shape.place == PlaceShape::point && p.max <= 10) return logarithmic(p, 0.15, 1.5, {0.45, 0.8}, 0.3);
+  if (shape.place == PlaceShape::point) return logarithmic(p, 1.5, 15, {3, 6}, 0.2);
+  const double low = std::log(s.distance.low * 1.1), high = std::log(s.distance.high * 0.8);
+  std::vector<double> values;
+  for (const double v : evenly(low, high, 12)) values.push_back(std::exp(v));
+  return logarithmic(p, s.distance.low, s.distance.high, values, 0.12);
+}
+
+}  // namespace
+
+std::optional<Axis> axis_of(const muster_param& p, const MeasurementGeometry& s, const CauseShape& shape, bool alone) {
+  const std::string_view unit = p.unit;
+  if (p.flags & MUSTER_CYCLIC) return axis_over(p, s.time, shape, alone);
+  if (p.flags & MUSTER_LOG) {
+    if (unit == "m") return length(p, s, shape);
+    // A loss: from less than one wall costs to more than any link loses.
+    if (unit == "dB") return logarithmic(p, 2, 300, {5, 8, 12, 18, 28, 50, 100}, 0.2);
+    return axis_over(p, s.time, shape, alone);
+  }
+  // What a wall is like at its ends.
+  if (unit == "m" && shape.place == PlaceShape::segment)
+    return Axis{p.name, false, p.min, p.max, (p.max - p.min) / 5, {p.min}};
+  if (unit == "m" && shape.place == PlaceShape::point) {
+    // Up to where things stand: among moving radios alone, or among all.
+    std::vector<double> heights{s.above_moving, s.height.high + 0.5};
+    if (heights[0] >= s.height.high) heights.erase(heights.begin());
+    return Axis{p.name, false, heights.front(), heights.back(), 0, heights};
+  }
+  if (unit == "m") {
+    if (!s.has_height) return {};
+    return Axis{p.name,
+                false,
+                s.height.low,
+                s.height.high,
+                0.1 * s.height.length(),
+                evenly(s.height.at(0.1), s.height.at(0.9), 7)};
+  }
+  return axis_over(p, s.time, shape, alone);
+}
+
+}  // namespace muster::diagnosis

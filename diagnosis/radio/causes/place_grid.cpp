@@ -1,0 +1,94 @@
+#include "diagnosis/radio/causes/place_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace muster::diagnosis {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr double pi = 3.141592653589793;
+
+std::vector<VectorXd> places_over(PlaceShape shape, const MeasurementGeometry& s, bool large) {
+  const double area = s.east.length() * s.north.length();
+  const double spacing = large ? std::max(2.0, std::sqrt(area / 100)) : std::max(0.8, std::sqrt(area / 500));
+  const std::vector<double> lengths = large ? std::vector<double>{5, 10} : std::vector<double>{1.3, 2.2, 3.6, 5.2};
+  const int turns = large ? 2 : 4;
+  std::vector<VectorXd> result;
+  for (double x = s.east.low + spacing / 2; x < s.east.high; x += spacing) {
+    for (double y = s.north.low + spacing / 2; y < s.north.high; y += spacing) {
+      if (shape == PlaceShape::point) {
+        result.push_back(Eigen::Vector2d(x, y));
+        continue;
+      }
+      for (const double length : lengths) {
+        for (int k = 0; k < turns; ++k) result.push_back(Eigen::Vector4d(x, y, length, s.plan_angle + k * pi / turns));
+      }
+    }
+  }
+  return result;
+}
+
+// Places around where the map has each radio.
+std::vector<VectorXd> around_radios(const CauseShape& shape, const LinkModel& model) {
+  std::vector<VectorXd> result;
+  for (std::size_t row = 0; row < shape.rows.size(); ++row) {
+    const auto at = place_of_radio(model, shape.rows[row].at(0));
+    if (!at) continue;
+    for (const double r : {0.25, 0.6, 1.5, 3.0, 5.0}) {
+      for (int k = 0; k < 8; ++k) {
+        const double angle = (k + (r == 1.5 || r == 5.0 ? 0.5 : 0)) * pi / 4;
+        result.push_back(
+            theta_of(row, Eigen::Vector2d(at->x() + r * std::cos(angle), at->y() + r * std::sin(angle)), {}));
+      }
+    }
+  }
+  return result;
+}
+
+double inside(double value, const Axis& axis) { return std::clamp(value, axis.lower, axis.upper); }
+
+std::vector<VectorXd> between_walls(const CauseShape& shape, const MeasurementGeometry& survey) {
+  std::vector<VectorXd> result;
+  for (const OrientedRectangle& s : survey.strips)
+    result.push_back(
+        theta_of(0, Eigen::Vector4d(s.x, s.y, s.length, s.angle), {inside(std::log(s.width), shape.axes[0])}));
+  return result;
+}
+
+std::vector<VectorXd> rooms_of_plan(const CauseShape& shape, const MeasurementGeometry& survey) {
+  std::vector<VectorXd> result;
+  const auto others = products({shape.axes.begin() + 2, shape.axes.end()});
+  for (const OrientedRectangle& s : survey.rooms) {
+    for (const auto& more : others) {
+      std::vector<double> axes{inside(std::log(s.length), shape.axes[0]), inside(std::log(s.width), shape.axes[1])};
+      axes.insert(axes.end(), more.begin(), more.end());
+      result.push_back(theta_of(0, Eigen::Vector2d(s.x, s.y), axes));
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+std::optional<Eigen::Vector2d> place_of_radio(const LinkModel& model, const std::string& name) {
+  for (const auto& ends : model.ends()) {
+    for (const End& end : ends)
+      if (model.radio_name(end.radio) == name) return Eigen::Vector2d(end.x, end.y);
+  }
+  return {};
+}
+
+std::vector<VectorXd> starts_of(const CauseShape& shape, const MeasurementGeometry& survey, const LinkModel& model,
+                                bool stands) {
+  if (shape.cause.meaning().kind == MUSTER_WORLD_EDIT && shape.place == PlaceShape::point)
+    return around_radios(shape, model);
+  if (shape.is_room() && !survey.rooms.empty()) return rooms_of_plan(shape, survey);
+  if (shape.is_strip() && !survey.strips.empty()) return between_walls(shape, survey);
+  if (shape.place == PlaceShape::none) return start_grid(shape, {VectorXd()});
+  return start_grid(shape, places_over(shape.place, survey, !stands));
+}
+
+}  // namespace muster::diagnosis
