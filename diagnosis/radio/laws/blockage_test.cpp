@@ -64,7 +64,7 @@ class Scan {
         model_(state.whitened_model(state.design())),
         reach_(state.field(), model_.whitener),
         residual_(without_spikes(model_.at.residual)) {
-    for (const auto& [radios, readings] : readings_of_links(asked)) links_.push_back(link(radios, readings));
+    for (const auto& [radios, of_link] : readings_of_links(asked)) links_.push_back(link(radios, of_link));
   }
 
   const std::vector<Link>& links() const { return links_; }
