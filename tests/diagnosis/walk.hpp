@@ -4,7 +4,7 @@
 #include <cmath>
 #include <muster/random.hpp>
 
-#include "diagnosis/inference/noise/rows.hpp"
+#include "diagnosis/radio/links/link_rows.hpp"
 
 namespace muster::diagnosis {
 

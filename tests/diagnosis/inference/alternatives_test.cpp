@@ -26,16 +26,17 @@ TEST(Rivals, OfTwoRadiosEitherMayBeMeant) {
     auto causes = causes_of(world);
     Candidate& offset = causes[0];
     ASSERT_EQ(offset.id, "tx_offset");
-    offset.whole = whole;
-    offset.grid.push_back(Eigen::VectorXd::Constant(1, 9));
-    offset.columns = [columns = offset.columns, one = offset.grid[1]](const Eigen::VectorXd& t) {
+    offset.design.whole = whole;
+    offset.design.grid.push_back(Eigen::VectorXd::Constant(1, 9));
+    offset.design.columns = [columns = offset.design.columns, one = offset.design.grid[1]](const Eigen::VectorXd& t) {
       return columns(t[0] == 9 ? one : t);
     };
     offset.label = [](const Eigen::VectorXd& t) { return "tx" + std::to_string(static_cast<int>(t[0])); };
-    const Problem problem = problem_of(world, -scaled_to(world, offset.columns(offset.grid[1]).col(0), 100), causes);
+    const Problem problem =
+        problem_of(world, -scaled_to(world, offset.design.columns(offset.design.grid[1]).col(0), 100), causes);
     ModelState state(problem, {});
     score(state);
-    state.terms = {term_at(state, "tx_offset", offset.grid[1])};
+    state.terms = {term_at(state, "tx_offset", offset.design.grid[1])};
     state.refit();
     std::vector<Alternative> own = alternatives_of(state, state.terms[0]);
     std::erase_if(own, [](const Alternative& r) { return r.id != "tx_offset"; });

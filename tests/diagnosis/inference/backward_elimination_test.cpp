@@ -74,9 +74,11 @@ TEST(CleanUp, BesideAClipAWallMustWinMoreThanADrift) {
   auto causes = causes_of(world);
   Candidate& wall = causes[causes.size() - 2];
   ASSERT_EQ(wall.id, "unmapped_wall");
-  wall.proposed = [](Tally&) { return std::vector<Eigen::VectorXd>(); };  // as one that is sought over a plan
+  wall.refinement.proposed = [](Tally&) {
+    return std::vector<Eigen::VectorXd>();
+  };  // as one that is sought over a plan
   const Eigen::VectorXd place = Eigen::Vector4d(12, 8, 5, 0.35), all = Eigen::VectorXd::Constant(1, -1);
-  const Problem hidden = problem_of(world, -scaled_to(world, wall.columns(place), 50), causes),
+  const Problem hidden = problem_of(world, -scaled_to(world, wall.design.columns(place), 50), causes),
                 drifts = problem_of(world, scaled_to(world, world.time, 50), causes);
   EXPECT_EQ(cleaned_up(hidden, {{"unmapped_wall", place}}).size(), 1u);
   EXPECT_EQ(cleaned_up(clipped(hidden), {{"unmapped_wall", place}}).size(), 0u);
@@ -86,7 +88,7 @@ TEST(CleanUp, BesideAClipAWallMustWinMoreThanADrift) {
 TEST(CleanUp, DropsWhatCarriesNothingAndSetsLeftoversAside) {
   const auto world = world_of(varied(13, 4000));
   const auto causes = causes_of(world);
-  const Eigen::VectorXd effect = scaled_to(world, causes[2].columns({}).col(0), 900);  // antenna_rx
+  const Eigen::VectorXd effect = scaled_to(world, causes[2].design.columns({}).col(0), 900);  // antenna_rx
   const Problem problem = problem_of(world, effect, causes);
   const std::vector<Term> terms = cleaned_up(
       problem, {{"antenna_rx", {}}, {"step", Eigen::Vector2d(100, -1)}, {"drift", Eigen::VectorXd::Constant(1, 2)}});
@@ -98,7 +100,7 @@ TEST(CleanUp, DropsWhatCarriesNothingAndSetsLeftoversAside) {
 TEST(CleanUp, ACauseGivesWayToARivalThatDoesBetter) {
   const auto world = world_of(varied(13, 4000));
   const auto causes = causes_of(world);
-  const Eigen::VectorXd effect = scaled_to(world, causes[2].columns({}).col(0), 400);  // antenna_rx
+  const Eigen::VectorXd effect = scaled_to(world, causes[2].design.columns({}).col(0), 400);  // antenna_rx
   const Problem problem = problem_of(world, effect, causes);
   const std::vector<Term> terms = cleaned_up(problem, {{"drift", Eigen::VectorXd::Constant(1, 2)}});
   ASSERT_EQ(terms.size(), 1u);
@@ -108,8 +110,9 @@ TEST(CleanUp, ACauseGivesWayToARivalThatDoesBetter) {
 TEST(CleanUp, ACauseGivesWayToASimplerOneThatTheReadingsCannotTellFromIt) {
   const auto world = world_of(varied(34, 4000));
   const auto twins = twins_of(world);
-  const Problem problem = problem_of(world, scaled_to(world, twins[0].columns(twins[0].grid[0]), 200), twins);
-  const std::vector<Term> terms = cleaned_up(problem, {{"twin", twins[0].grid[0]}});
+  const Problem problem =
+      problem_of(world, scaled_to(world, twins[0].design.columns(twins[0].design.grid[0]), 200), twins);
+  const std::vector<Term> terms = cleaned_up(problem, {{"twin", twins[0].design.grid[0]}});
   ASSERT_EQ(terms.size(), 1u);
   EXPECT_EQ(terms[0].candidate->id, "rx_offset");
 }
@@ -122,11 +125,11 @@ TEST(CleanUp, ASimpleCauseGivesNoWayToATwinThatIsSoughtAtFewerPlaces) {
       std::find_if(causes.begin(), causes.end(), [](const Candidate& c) { return c.id == "tx_offset"; });
   ASSERT_NE(simple, causes.end());
   Candidate twin = *simple;
-  const Eigen::VectorXd theta = simple->grid[0];
+  const Eigen::VectorXd theta = simple->design.grid[0];
   twin.id = "twin";
-  twin.grid = {theta};
-  ++twin.parameters;
-  const Eigen::VectorXd effect = scaled_to(world, simple->columns(theta), 200);
+  twin.design.grid = {theta};
+  ++twin.role.parameters;
+  const Eigen::VectorXd effect = scaled_to(world, simple->design.columns(theta), 200);
   causes.push_back(twin);
   const Problem problem = problem_of(world, effect, causes);
   for (const char* first : {"tx_offset", "twin"}) {
@@ -139,7 +142,7 @@ TEST(CleanUp, ASimpleCauseGivesNoWayToATwinThatIsSoughtAtFewerPlaces) {
 TEST(CleanUp, ASmoothGivesWayToTheCauseThatExplainsIt) {
   const auto world = world_of(varied(14, 4000));
   const auto causes = causes_of(world);
-  const Eigen::VectorXd effect = scaled_to(world, causes[2].columns({}).col(1), 400);
+  const Eigen::VectorXd effect = scaled_to(world, causes[2].design.columns({}).col(1), 400);
   const Problem problem = problem_of(world, effect, causes);
   const std::vector<Term> terms = cleaned_up(problem, {{"~bearing", {}}});
   ASSERT_EQ(terms.size(), 1u);
@@ -151,14 +154,14 @@ TEST(CleanUp, ASmoothGivesWayToTheSameCauseOnTwoRadios) {
   const auto world = world_of(varied(14, 4000));
   auto causes = causes_of(world);
   Candidate& one_robots = causes[2];
-  const auto of_all = one_robots.columns;
+  const auto of_all = one_robots.design.columns;
   const auto heard_by = [&](double robot) -> Eigen::VectorXd {
     return Eigen::Map<const Eigen::VectorXi>(world.readings.rx.data(), world.readings.size()).unaryExpr([=](int rx) {
       return rx == static_cast<int>(robot) ? 1.0 : 0.0;
     });
   };
-  one_robots.grid = {Eigen::VectorXd::Constant(1, 100), Eigen::VectorXd::Constant(1, 101)};
-  one_robots.columns = [&](const Eigen::VectorXd& t) -> Eigen::MatrixXd {
+  one_robots.design.grid = {Eigen::VectorXd::Constant(1, 100), Eigen::VectorXd::Constant(1, 101)};
+  one_robots.design.columns = [&](const Eigen::VectorXd& t) -> Eigen::MatrixXd {
     return heard_by(t[0]).asDiagonal() * of_all({});
   };
   one_robots.label = [](const Eigen::VectorXd& t) { return t[0] == 100 ? "first" : "second"; };

@@ -36,11 +36,11 @@ Candidate offset(const World& w, bool of_tx) {
   Candidate c;
   c.id = of_tx ? "tx_offset" : "rx_offset";
   c.covariates = {of_tx ? "tx" : "rx"};
-  c.time_like = !of_tx;
-  c.slow = of_tx;
-  if (of_tx) c.stands_for = {"txbearing"};
-  c.grid = of_tx ? one_a_transmitter(w) : std::vector<VectorXd>{theta({101})};
-  c.columns = [&w, of_tx](const VectorXd& t) -> Eigen::MatrixXd {
+  c.role.time_like = !of_tx;
+  c.role.slow = of_tx;
+  if (of_tx) c.role.stands_for = {"txbearing"};
+  c.design.grid = of_tx ? one_a_transmitter(w) : std::vector<VectorXd>{theta({101})};
+  c.design.columns = [&w, of_tx](const VectorXd& t) -> Eigen::MatrixXd {
     if (of_tx) return is_tx(w, t[0]);
     VectorXd result(w.readings.size());
     for (Index i = 0; i < result.size(); ++i)
@@ -54,10 +54,10 @@ Candidate antenna_rx(const World& w) {
   Candidate c;
   c.id = "antenna_rx";
   c.covariates = {"bearing"};
-  c.stands_for = {"bearing", "heading"};
-  c.width = 2;
-  c.grid = {VectorXd()};
-  c.columns = [&w](const VectorXd&) {
+  c.role.stands_for = {"bearing", "heading"};
+  c.design.width = 2;
+  c.design.grid = {VectorXd()};
+  c.design.columns = [&w](const VectorXd&) {
     Eigen::MatrixXd result(w.readings.size(), 2);
     result << w.bearing().array().cos(), w.bearing().array().sin();
     return result;
@@ -69,11 +69,11 @@ Candidate antenna_tx(const World& w) {
   Candidate c;
   c.id = "antenna_tx";
   c.covariates = {"txbearing"};
-  c.stands_for = {"txbearing"};
-  c.width = 2;
-  c.slow = true;
-  c.grid = one_a_transmitter(w);
-  c.columns = [&w](const VectorXd& t) {
+  c.role.stands_for = {"txbearing"};
+  c.design.width = 2;
+  c.role.slow = true;
+  c.design.grid = one_a_transmitter(w);
+  c.design.columns = [&w](const VectorXd& t) {
     const Eigen::Matrix3Xd from = w.readings.rx_at - w.readings.tx_at;
     const Eigen::ArrayXd length = from.colwise().norm().transpose().cwiseMax(1e-3);
     Eigen::MatrixXd result(w.readings.size(), 2);
@@ -89,21 +89,21 @@ Candidate step(const World& w) {
   Candidate c;
   c.id = "step";
   c.covariates = {"time"};
-  c.stands_for = {"time", "time_per_tx"};
-  c.time_like = true;
+  c.role.stands_for = {"time", "time_per_tx"};
+  c.role.time_like = true;
   const double last = w.time.maxCoeff();
   for (int tx = -1; tx < w.recipe.transmitters; ++tx) {
-    for (int k = 0; k < 29; ++k) c.grid.push_back(theta({last * (0.08 + 0.03 * k), static_cast<double>(tx)}));
+    for (int k = 0; k < 29; ++k) c.design.grid.push_back(theta({last * (0.08 + 0.03 * k), static_cast<double>(tx)}));
   }
-  c.columns = [&w](const VectorXd& t) -> Eigen::MatrixXd {
+  c.design.columns = [&w](const VectorXd& t) -> Eigen::MatrixXd {
     const Eigen::ArrayXd on = (w.time.array() > t[0]).cast<double>();
     return t[1] < 0 ? on : Eigen::ArrayXd(on * is_tx(w, t[1]));
   };
-  c.lower = theta({0.08 * last, -1});  // earlier or later it is an offset
-  c.upper = theta({0.92 * last, 1e3});
-  c.step = theta({0.012 * last, 0});
-  c.evaluations = 35;
-  c.charge = 0.7;
+  c.refinement.lower = theta({0.08 * last, -1});  // earlier or later it is an offset
+  c.refinement.upper = theta({0.92 * last, 1e3});
+  c.refinement.step = theta({0.012 * last, 0});
+  c.refinement.evaluations = 35;
+  c.refinement.charge = 0.7;
   return c;
 }
 
@@ -111,10 +111,10 @@ Candidate drift(const World& w) {
   Candidate c;
   c.id = "drift";
   c.covariates = {"time"};
-  c.stands_for = {"time", "time_per_tx"};
-  c.time_like = true;
-  for (int tx = -1; tx < w.recipe.transmitters; ++tx) c.grid.push_back(theta({static_cast<double>(tx)}));
-  c.columns = [&w](const VectorXd& t) -> Eigen::MatrixXd {
+  c.role.stands_for = {"time", "time_per_tx"};
+  c.role.time_like = true;
+  for (int tx = -1; tx < w.recipe.transmitters; ++tx) c.design.grid.push_back(theta({static_cast<double>(tx)}));
+  c.design.columns = [&w](const VectorXd& t) -> Eigen::MatrixXd {
     const Eigen::ArrayXd u = w.time.array() / w.time.maxCoeff();
     return t[0] < 0 ? u : Eigen::ArrayXd(u * is_tx(w, t[0]));
   };
@@ -125,17 +125,17 @@ Candidate dual_slope(const World& w) {
   Candidate c;
   c.id = "dual_slope";
   c.covariates = {"logd"};
-  c.stands_for = {"logd", "level"};
-  c.slow = c.level_like = true;
-  for (int k = 0; k < 12; ++k) c.grid.push_back(theta({std::log(2.5) + k * std::log(4.8) / 11}));
-  c.columns = [&w](const VectorXd& t) -> Eigen::MatrixXd {
+  c.role.stands_for = {"logd", "level"};
+  c.role.slow = c.role.level_like = true;
+  for (int k = 0; k < 12; ++k) c.design.grid.push_back(theta({std::log(2.5) + k * std::log(4.8) / 11}));
+  c.design.columns = [&w](const VectorXd& t) -> Eigen::MatrixXd {
     return (w.distance().array().log10() - t[0] / std::log(10.0)).max(0.0);
   };
-  c.lower = theta({std::log(1.5)});
-  c.upper = theta({std::log(15.0)});
-  c.step = theta({0.12});
-  c.evaluations = 35;
-  c.charge = 0.5;
+  c.refinement.lower = theta({std::log(1.5)});
+  c.refinement.upper = theta({std::log(15.0)});
+  c.refinement.step = theta({0.12});
+  c.refinement.evaluations = 35;
+  c.refinement.charge = 0.5;
   return c;
 }
 
@@ -144,13 +144,13 @@ Candidate room_clutter(const World& w) {
   Candidate c;
   c.id = "room_clutter";
   c.covariates = {"position"};
-  c.stands_for = {"position"};
-  c.sign = -1;
-  c.slow = true;
+  c.role.stands_for = {"position"};
+  c.design.sign = -1;
+  c.role.slow = true;
   for (double x = 0; x + 6 <= w.recipe.width; x += 6) {
-    for (double y = 0; y + 5 <= w.recipe.height; y += 5) c.grid.push_back(theta({x, y}));
+    for (double y = 0; y + 5 <= w.recipe.height; y += 5) c.design.grid.push_back(theta({x, y}));
   }
-  c.columns = [&w](const VectorXd& t) -> Eigen::MatrixXd {
+  c.design.columns = [&w](const VectorXd& t) -> Eigen::MatrixXd {
     const auto x = w.readings.rx_at.row(0).array(), y = w.readings.rx_at.row(1).array();
     return (x >= t[0] && x < t[0] + 6 && y >= t[1] && y < t[1] + 5).cast<double>().transpose();
   };
@@ -221,28 +221,31 @@ Candidate unmapped_wall(const World& w) {
   Candidate c;
   c.id = "unmapped_wall";
   c.covariates = {"map"};
-  c.stands_for = {"position", "txbearing"};
-  c.sign = -1;
-  c.pieces = "place";
-  c.starts = 8;
-  c.charge = 4.5;
-  c.columns = [&w](const VectorXd& t) -> Eigen::MatrixXd { return crossings(w.readings, segment_of(t)); };
-  c.admitted = [&w](const VectorXd& t) { return std::pow(0.8, std::min(driven_across(w, segment_of(t)), 10)); };
-  c.spanning = spans;
+  c.role.over_sites = true;
+  c.role.stands_for = {"position", "txbearing"};
+  c.design.sign = -1;
+  c.role.pieces = "place";
+  c.refinement.starts = 8;
+  c.refinement.charge = 4.5;
+  c.design.columns = [&w](const VectorXd& t) -> Eigen::MatrixXd { return crossings(w.readings, segment_of(t)); };
+  c.refinement.admitted = [&w](const VectorXd& t) {
+    return std::pow(0.8, std::min(driven_across(w, segment_of(t)), 10));
+  };
+  c.role.spanning = spans;
   for (const double length : {2.0, 3.5, 5.0}) {
     for (double x = 0.75; x < w.recipe.width; x += 1) {
       for (double y = 0.75; y < w.recipe.height; y += 1) {
         for (const double angle : {0.0, M_PI / 2}) {
           const VectorXd t = theta({x, y, length, angle});
           if (driven_across(w, segment_of(t)) == 0 && worth_a_place(crossings(w.readings, segment_of(t))))
-            c.grid.push_back(t);
+            c.design.grid.push_back(t);
         }
       }
     }
   }
-  c.lower = theta({0, 0, 0.8, -4});
-  c.upper = theta({w.recipe.width, w.recipe.height, 9, 4});
-  c.step = theta({0.4, 0.4, 0.8, 0.12});
+  c.refinement.lower = theta({0, 0, 0.8, -4});
+  c.refinement.upper = theta({w.recipe.width, w.recipe.height, 9, 4});
+  c.refinement.step = theta({0.4, 0.4, 0.8, 0.12});
   return c;
 }
 
@@ -264,24 +267,25 @@ Candidate obstacle(const World& w) {
   Candidate c;
   c.id = "obstacle";
   c.covariates = {"map"};
-  c.stands_for = {"position", "txbearing"};
-  c.sign = -1;
-  c.pieces = "place";
-  c.starts = 5;
-  c.charge = 4;
-  c.columns = [&w](const VectorXd& t) -> Eigen::MatrixXd { return chords(w, t); };
+  c.role.over_sites = true;
+  c.role.stands_for = {"position", "txbearing"};
+  c.design.sign = -1;
+  c.role.pieces = "place";
+  c.refinement.starts = 5;
+  c.refinement.charge = 4;
+  c.design.columns = [&w](const VectorXd& t) -> Eigen::MatrixXd { return chords(w, t); };
   for (const double radius : {0.45, 0.8}) {
     for (double x = 0.5; x < w.recipe.width; x += 1) {
       for (double y = 0.5; y < w.recipe.height; y += 1) {
         const Eigen::Vector2d at(x, y);
         const bool driven = (w.readings.rx_at.topRows<2>().colwise() - at).colwise().norm().minCoeff() < 0.7 * radius;
-        if (!driven && worth_a_place(chords(w, theta({x, y, radius})))) c.grid.push_back(theta({x, y, radius}));
+        if (!driven && worth_a_place(chords(w, theta({x, y, radius})))) c.design.grid.push_back(theta({x, y, radius}));
       }
     }
   }
-  c.lower = theta({0, 0, 0.15});
-  c.upper = theta({w.recipe.width, w.recipe.height, 1.5});
-  c.step = theta({0.3, 0.3, 0.2});
+  c.refinement.lower = theta({0, 0, 0.15});
+  c.refinement.upper = theta({w.recipe.width, w.recipe.height, 1.5});
+  c.refinement.step = theta({0.3, 0.3, 0.2});
   return c;
 }
 
@@ -289,21 +293,21 @@ Candidate periodic(const World& w) {
   Candidate c;
   c.id = "periodic";
   c.covariates = {"time"};
-  c.stands_for = {"time"};
-  c.time_like = true;
-  c.width = 2;
+  c.role.stands_for = {"time"};
+  c.role.time_like = true;
+  c.design.width = 2;
   const double last = w.time.maxCoeff();
-  for (double cycles = 2; cycles < 16; cycles += 0.4) c.grid.push_back(theta({2 * M_PI * cycles / last}));
-  c.columns = [&w](const VectorXd& t) {
+  for (double cycles = 2; cycles < 16; cycles += 0.4) c.design.grid.push_back(theta({2 * M_PI * cycles / last}));
+  c.design.columns = [&w](const VectorXd& t) {
     Eigen::MatrixXd result(w.readings.size(), 2);
     result << (t[0] * w.time.array()).cos(), (t[0] * w.time.array()).sin();
     return result;
   };
-  c.lower = theta({2 * M_PI / last});
-  c.upper = theta({40 * M_PI / last});
-  c.step = theta({0.2 * 2 * M_PI / last});
-  c.evaluations = 35;
-  c.charge = 0.7;
+  c.refinement.lower = theta({2 * M_PI / last});
+  c.refinement.upper = theta({40 * M_PI / last});
+  c.refinement.step = theta({0.2 * 2 * M_PI / last});
+  c.refinement.evaluations = 35;
+  c.refinement.charge = 0.7;
   return c;
 }
 
@@ -312,17 +316,22 @@ Candidate periodic(const World& w) {
 std::vector<inference::Candidate> causes_of(const World& w) {
   std::vector<Candidate> all{offset(w, true), offset(w, false), antenna_rx(w),   antenna_tx(w),    step(w),    drift(w),
                              periodic(w),     dual_slope(w),    room_clutter(w), unmapped_wall(w), obstacle(w)};
-  std::erase_if(all, [](const Candidate& c) { return c.grid.empty(); });
+  std::erase_if(all, [](const Candidate& c) { return c.design.grid.empty(); });
   return all;
 }
 
-inference::Problem problem_of(const World& w, const VectorXd& effect, std::vector<Candidate> causes) {
+diagnosis::LinkColumns columns_of(const World& w) {
+  return {{{"speed", w.speed, false, 4, true}, {"battery", w.battery}, {"temperature", w.temperature}}, {}};
+}
+
+inference::Problem problem_of(const World& w, const VectorXd& effect, std::vector<Candidate> causes,
+                              const diagnosis::LinkRowLimits& limits, std::vector<int> run) {
   inference::Problem problem;
-  problem.readings = w.readings;
+  problem.layout = std::make_shared<const diagnosis::LinkLayout>(w.readings, limits, std::move(run));
   problem.measured = (w.rssi + effect).array().round();
   problem.base = w.base;
   problem.candidates = std::move(causes);
-  problem.covariates = {{"speed", w.speed, false, 4, true}, {"battery", w.battery}, {"temperature", w.temperature}};
+  problem.smooths = diagnosis::link_smooths(w.readings, columns_of(w), true);
   return problem;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "diagnosis/inference/state/problem.hpp"
+#include "diagnosis/radio/links/link_smooths.hpp"
 #include "tests/diagnosis/inference/synthetic.hpp"
 
 namespace muster::synthetic {
@@ -10,9 +11,13 @@ namespace muster::synthetic {
 // obstacle.
 std::vector<inference::Candidate> causes_of(const World& world);
 
+// The world's speed, battery and temperature.
+diagnosis::LinkColumns columns_of(const World& world);
+
 // A problem with these candidates and the world's columns; `effect` (dB, one a reading) is added to what was measured,
-// which is then quantised to 1 dB.
+// which is then quantised to 1 dB. `run`: of each reading, empty where the data name none.
 inference::Problem problem_of(const World& world, const Eigen::VectorXd& effect,
-                              std::vector<inference::Candidate> causes);
+                              std::vector<inference::Candidate> causes, const diagnosis::LinkRowLimits& limits = {},
+                              std::vector<int> run = {});
 
 }  // namespace muster::synthetic

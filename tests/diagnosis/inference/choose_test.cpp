@@ -15,7 +15,8 @@ namespace {
 TEST(Compared, TheSimplerOfTwoWithTheSameEffectComesFirst) {
   const auto world = world_of(varied(34, 4000));
   const auto twins = twins_of(world);
-  const Problem problem = problem_of(world, scaled_to(world, twins[0].columns(twins[0].grid[0]), 200), twins);
+  const Problem problem =
+      problem_of(world, scaled_to(world, twins[0].design.columns(twins[0].design.grid[0]), 200), twins);
   ModelState state(problem, {});
   const WhitenedModel model = state.whitened_model(state.base());
   state.renew_depending(model.coefficients(state.sensitivities()));
@@ -35,11 +36,13 @@ TEST(Compared, ALeadIsRefinedAndKeepsWhatItWonUnlessItCountsAsItIs) {
   std::vector<Candidate> causes = causes_of(world);
   const auto step = std::find_if(causes.begin(), causes.end(), [](const Candidate& c) { return c.id == "step"; });
   ASSERT_NE(step, causes.end());
-  step->columns = [plain = step->columns](const Eigen::VectorXd& theta) { return Eigen::MatrixXd(2 * plain(theta)); };
+  step->design.columns = [plain = step->design.columns](const Eigen::VectorXd& theta) {
+    return Eigen::MatrixXd(2 * plain(theta));
+  };
   const double last = world.time.maxCoeff(), won = 500;
-  const Eigen::VectorXd effect = step->columns(Eigen::Vector2d(0.43 * last, -1));
+  const Eigen::VectorXd effect = step->design.columns(Eigen::Vector2d(0.43 * last, -1));
   for (const bool whole : {false, true}) {
-    step->whole = whole;
+    step->design.whole = whole;
     const Problem problem = problem_of(world, effect, causes);
     ModelState state(problem, {});
     score(state);

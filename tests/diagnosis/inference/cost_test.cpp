@@ -29,18 +29,19 @@ TEST(Cost, TwentyThousandReadingsAndAThousandAtomsAreSearchedInTwoSeconds) {
   const auto world = synthetic::world_of(synthetic::varied(51, 20000));
   auto causes = synthetic::causes_of(world);
   Candidate& wall = causes[9];  // robots that drive this long leave few places free: here they drive through walls
-  wall.admitted = {};
-  wall.grid.clear();
+  wall.refinement.admitted = {};
+  wall.design.grid.clear();
   for (uint64_t k = 0; k < 1000; ++k) {
     const Stream s(combined(key_of("wall"), k));
-    wall.grid.push_back(Eigen::Vector4d(24 * s.uniform(0), 16 * s.uniform(1), 2 + 3 * s.uniform(2), 3 * s.uniform(3)));
+    wall.design.grid.push_back(
+        Eigen::Vector4d(24 * s.uniform(0), 16 * s.uniform(1), 2 + 3 * s.uniform(2), 3 * s.uniform(3)));
   }
-  const Eigen::VectorXd effect = synthetic::scaled_to(world, causes[0].columns(causes[0].grid[0]), 150) -
-                                 synthetic::scaled_to(world, causes[9].columns(causes[9].grid[90]), 200);
+  const Eigen::VectorXd effect = synthetic::scaled_to(world, causes[0].design.columns(causes[0].design.grid[0]), 150) -
+                                 synthetic::scaled_to(world, causes[9].design.columns(causes[9].design.grid[90]), 200);
   const Problem problem = synthetic::problem_of(world, effect, causes);
   Clock clock;
-  const noise::Rows rows(problem.readings);
-  const noise::Field field(rows.sites(problem.readings));
+  const noise::Rows rows = problem.layout->rows();
+  const noise::Field field(problem.layout->sites(rows));
   std::printf("rows and neighbours   %7.3f s  %ld rows\n", clock.lap(), static_cast<long>(rows.size()));
   const Eigen::VectorXd y = rows.mean(problem.measured);
   const Eigen::MatrixXd base = rows.mean(problem.base);

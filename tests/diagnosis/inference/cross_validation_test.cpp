@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "tests/diagnosis/inference/synthetic.hpp"
 
@@ -17,8 +16,8 @@ using synthetic::world_of;
 
 TEST(Folds, BlocksAreThreeDecorrelationDistancesWideAndEveryReadingIsLeftOutOnce) {
   const auto world = world_of(varied(15, 3000));
-  const noise::Rows rows(world.readings);
-  const noise::Sites sites = rows.sites(world.readings);
+  const noise::Rows rows = diagnosis::link_rows(world.readings);
+  const noise::Sites sites = diagnosis::link_sites(rows, world.readings);
   const noise::Covariance c{noise::Family::exponential, world.true_theta};
   const Folds folds(sites, blocks_of(sites, c), rows.row_of(), c, 1);
   const double side = 3 * c.decorrelation();
@@ -37,31 +36,6 @@ TEST(Folds, BlocksAreThreeDecorrelationDistancesWideAndEveryReadingIsLeftOutOnce
   EXPECT_LT(gain.lower95, gain.gain);
   EXPECT_GT(gain.upper95, gain.gain);
   EXPECT_GT(gain.lower95, 0);
-}
-
-TEST(Folds, LeaveRadiosOutThatDiffer) {
-  const auto world = world_of(varied(15, 3000));
-  const noise::Rows rows(world.readings);
-  const noise::Sites sites = rows.sites(world.readings);
-  const std::vector<int> radios = radios_of(rows, sites, world.readings);
-  const std::set<int> different(radios.begin(), radios.end());
-  ASSERT_GE(different.size(), 2u);
-  EXPECT_EQ(*different.rbegin() + 1, static_cast<int>(different.size()));
-  // Where one station alone stands, what moves is left out.
-  diagnosis::LinkReadings one = world.readings;
-  const int robot = *std::max_element(one.rx.begin(), one.rx.end()) + 1;
-  for (std::size_t i = 0; i < one.tx.size(); ++i) {
-    one.rx[i] = robot + one.tx[i];
-    one.tx[i] = 0;
-    one.tx_at.col(static_cast<Index>(i)) = one.tx_at.col(0);
-  }
-  const noise::Rows of_one(one);
-  const std::vector<int> robots = radios_of(of_one, of_one.sites(one), one);
-  for (Index i = 0; i < of_one.size(); ++i) {
-    const auto example = static_cast<std::size_t>(of_one.example(i));
-    EXPECT_EQ(robots[static_cast<std::size_t>(i)] == robots[0],
-              one.rx[example] == one.rx[static_cast<std::size_t>(of_one.example(0))]);
-  }
 }
 
 }  // namespace

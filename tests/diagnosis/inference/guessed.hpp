@@ -36,7 +36,7 @@ inline std::vector<Candidate> twins_of(const synthetic::World& world) {
   std::vector<Candidate> twins = causes_of(world);
   twins.insert(twins.begin(), twins[1]);
   twins[0].id = "twin";
-  ++twins[0].parameters;
+  ++twins[0].role.parameters;
   return twins;
 }
 

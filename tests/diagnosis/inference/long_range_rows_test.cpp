@@ -22,13 +22,14 @@ TEST(ModelState, LongerRowsTellNoMore) {
     const auto causes = causes_of(world);
     const auto drift =
         std::find_if(causes.begin(), causes.end(), [](const Candidate& cause) { return cause.id == "drift"; });
-    const Eigen::VectorXd& settling = drift->grid[0];
-    const Problem problem = problem_of(world, scaled_to(world, drift->columns(settling), 100), causes);
+    const Eigen::VectorXd& settling = drift->design.grid[0];
+    const Eigen::VectorXd effect = scaled_to(world, drift->design.columns(settling), 100);
     const auto gains_by_row = [&](double share) {
-      Options options;
-      options.rows.time *= share;
-      options.rows.way *= share;
-      const ModelState state(problem, options);
+      diagnosis::LinkRowLimits limits;
+      limits.time *= share;
+      limits.way *= share;
+      const Problem problem = problem_of(world, effect, causes, limits);
+      const ModelState state(problem, {});
       const noise::Covariance& noise = state.fit.covariance;
       return state.far().profile_gain({state.y(), state.design(), state.columns_of(*drift, settling), noise}, noise,
                                       state.likely_families(noise.family));
@@ -80,10 +81,8 @@ TEST(LongRangeRows, WhatHasNoNameMustWinMore) {
 // A swing of the level from row to row is gone from longer rows, an offset is not.
 TEST(LongRangeRows, KeepWhatChangesLittleWithinThem) {
   const auto world = world_of(varied(21, 3000));
-  const Problem problem = problem_of(world, Eigen::VectorXd::Zero(3000), causes_of(world));
-  Options options;
-  options.rows.way = 0.2;
-  const ModelState state(problem, options);
+  const Problem problem = problem_of(world, Eigen::VectorXd::Zero(3000), causes_of(world), {.way = 0.2});
+  const ModelState state(problem, {});
   Eigen::MatrixXd offset(state.rows().size(), 1), swing = offset;
   const noise::Sites& sites = state.field().sites();
   for (Index i = 0; i < offset.rows(); ++i) {

@@ -16,7 +16,7 @@ TEST(Merge, TwoHalvesOfOneWallBecomeTheWall) {
   const Candidate& wall = causes[causes.size() - 2];
   ASSERT_EQ(wall.id, "unmapped_wall");
   const Eigen::VectorXd whole = Eigen::Vector4d(12, 8, 5, 0.35);
-  const Eigen::VectorXd effect = -scaled_to(world, wall.columns(whole), 400);
+  const Eigen::VectorXd effect = -scaled_to(world, wall.design.columns(whole), 400);
   const Problem problem = problem_of(world, effect, causes);
   ModelState state(problem, {});
   score(state);
@@ -37,7 +37,8 @@ TEST(Merge, TwoWallsStayTwo) {
   const auto causes = causes_of(world);
   const Candidate& wall = causes[causes.size() - 2];
   const Eigen::VectorXd one = Eigen::Vector4d(6, 5, 4, 0), other = Eigen::Vector4d(18, 10, 4, M_PI / 2);
-  const Eigen::VectorXd effect = -scaled_to(world, wall.columns(one), 150) - scaled_to(world, wall.columns(other), 150);
+  const Eigen::VectorXd effect =
+      -scaled_to(world, wall.design.columns(one), 150) - scaled_to(world, wall.design.columns(other), 150);
   const Problem problem = problem_of(world, effect, causes);
   ModelState state(problem, {});
   score(state);

@@ -206,8 +206,8 @@ TEST(Fit, FindsTheFieldThatMadeTheReadings) {
   std::vector<double> errors;
   for (uint64_t seed = 1; seed <= 8; ++seed) {
     const auto world = synthetic::world_of(synthetic::varied(seed, 4000));
-    const Rows rows(world.readings);
-    const Field field(rows.sites(world.readings));
+    const Rows rows = diagnosis::link_rows(world.readings);
+    const Field field(diagnosis::link_sites(rows, world.readings));
     const auto fits = fit_families(field, rows.mean(world.rssi), rows.mean(world.base), Prior());
     errors.push_back(
         std::abs(fits[0].covariance.theta[1] - world.true_theta[1] - log_scale_of(fits[0].covariance.family)));
@@ -222,8 +222,8 @@ TEST(Fit, ASmoothFieldIsNotTakenForAnExponentialOne) {
   auto recipe = synthetic::varied(3, 5000);
   recipe.shape = synthetic::Shape::gaussian;
   const auto world = synthetic::world_of(recipe);
-  const Rows rows(world.readings);
-  const Field field(rows.sites(world.readings));
+  const Rows rows = diagnosis::link_rows(world.readings);
+  const Field field(diagnosis::link_sites(rows, world.readings));
   EXPECT_NE(fit_families(field, rows.mean(world.rssi), rows.mean(world.base), Prior())[0].covariance.family,
             Family::exponential);
 }

@@ -21,7 +21,7 @@ TEST(ParameterUncertainty, ItsMiddleIsAPlaceThatExplainsAsMuch) {
   const auto causes = causes_of(world);
   const Candidate& wall = causes[causes.size() - 2];
   const Eigen::Vector4d place(12, 8, 4, 0), east(1, 0, 0, 0);
-  const Problem problem = problem_of(world, -scaled_to(world, wall.columns(place), 300), causes);
+  const Problem problem = problem_of(world, -scaled_to(world, wall.design.columns(place), 300), causes);
   ModelState state(problem, {});
   const auto middle = [&](const Eigen::Vector4d& found, const std::vector<double>& alike) {
     state.terms = {term_at(state, "unmapped_wall", found)};
@@ -40,7 +40,7 @@ TEST(ParameterUncertainty, OfAThingIsThatOfTheWholeLikelihood) {
   const auto causes = causes_of(world);
   const Candidate& thing = causes.back();
   const Eigen::Vector3d truth(11, 7, 0.7);
-  const Problem problem = problem_of(world, -scaled_to(world, thing.columns(truth), 60), causes);
+  const Problem problem = problem_of(world, -scaled_to(world, thing.design.columns(truth), 60), causes);
   ModelState state(problem, {});
   state.terms = {term_at(state, "obstacle", truth)};
   state.refit();
@@ -54,7 +54,7 @@ TEST(ParameterUncertainty, OfAThingIsThatOfTheWholeLikelihood) {
                                               whole.at.basis.uncertainty(last + 1)(last, last));
   const ConditionalFit found(rest, term.columns, false);
   auto still = std::make_shared<Candidate>(*term.candidate);
-  still->step.setZero();
+  still->refinement.step.setZero();
   std::shared_ptr<const Candidate> known = still;
   std::swap(state.terms[0].candidate, known);
   const double grown = parameter_uncertainty(state, term).coefficients(0, 0) / found.covariance(0, 0);

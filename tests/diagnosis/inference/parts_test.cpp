@@ -51,16 +51,16 @@ TEST(LogEffective, IsTheNumberOfAtomsThatAreIndependentAndOneOfEqualAtoms) {
   const noise::Sheet nulls = normals(400, 4000, 3);
   Candidate c;
   for (const int width : {1, 2}) {
-    c.width = width;
+    c.design.width = width;
     const OrthonormalAtoms apart(noise::Sheet::Identity(400, 60 * width), width);
     EXPECT_NEAR(log_effective_tests(c, apart, nulls), std::log(60), 0.15) << width;
   }
-  c.width = 1;
+  c.design.width = 1;
   noise::Sheet same = noise::Sheet::Zero(400, 60);
   same.row(0).setOnes();
   const OrthonormalAtoms equal(same, 1);
   EXPECT_NEAR(log_effective_tests(c, equal, nulls), 0, 0.1);
-  c.sign = -1;
+  c.design.sign = -1;
   EXPECT_NEAR(log_effective_tests(c, equal, nulls), 0, 0.1);
 }
 
@@ -84,9 +84,9 @@ TEST(OrthonormalAtoms, HaveTheProjectionsOfTheirAtoms) {
 
 TEST(Climbed, FindsTheTopInsideItsBoundsAndLeavesFixedEntriesAlone) {
   Candidate c;
-  c.lower = Eigen::Vector3d(-5, 0, -5);
-  c.upper = Eigen::Vector3d(5, 9, 2);
-  c.step = Eigen::Vector3d(0.5, 0, 0.5);
+  c.refinement.lower = Eigen::Vector3d(-5, 0, -5);
+  c.refinement.upper = Eigen::Vector3d(5, 9, 2);
+  c.refinement.step = Eigen::Vector3d(0.5, 0, 0.5);
   const auto [theta, value] = local_search(c, Eigen::Vector3d(3, 7, -3), 400, [](const Eigen::VectorXd& t) {
     return 10 - std::pow(t[0] - 1, 2) - std::pow(t[2] - 4, 2) - std::pow(t[1] - 2, 2);
   });
@@ -98,8 +98,8 @@ TEST(Climbed, FindsTheTopInsideItsBoundsAndLeavesFixedEntriesAlone) {
 
 TEST(Climbed, HandsOnWhatACandidateThrows) {
   Candidate c;
-  c.lower = c.step = Eigen::VectorXd::Ones(1);
-  c.upper = Eigen::VectorXd::Constant(1, 9);
+  c.refinement.lower = c.refinement.step = Eigen::VectorXd::Ones(1);
+  c.refinement.upper = Eigen::VectorXd::Constant(1, 9);
   int calls = 0;
   const auto value = [&](const Eigen::VectorXd&) -> double {
     if (++calls > 3) throw std::runtime_error("no such place");
@@ -122,10 +122,10 @@ struct Tops {
 
 Candidate along_a_line() {
   Candidate c;
-  c.lower = Eigen::VectorXd::Zero(1);
-  c.upper = Eigen::VectorXd::Constant(1, 8);
-  c.step = Eigen::VectorXd::Constant(1, 0.1);
-  c.evaluations = 30;
+  c.refinement.lower = Eigen::VectorXd::Zero(1);
+  c.refinement.upper = Eigen::VectorXd::Constant(1, 8);
+  c.refinement.step = Eigen::VectorXd::Constant(1, 0.1);
+  c.refinement.evaluations = 30;
   return c;
 }
 
@@ -160,11 +160,13 @@ TEST(Refined, KeepsAPlaceThatOneReadingARowLedAwayFrom) {
   std::vector<Candidate> causes = causes_of(world);
   Candidate& thing = causes.back();
   const Eigen::Vector3d at(11, 7, 0.7), elsewhere(20, 12, 0.7);
-  const Problem plain = problem_of(world, -scaled_to(world, thing.columns(at), 100), causes);
-  const noise::Rows rows(plain.readings, Options().rows);
-  const auto columns = thing.columns;
-  thing.proposed = [&](Tally&) { return std::vector<Eigen::VectorXd>{at, elsewhere}; };
-  thing.sketch = [&, columns](const Eigen::VectorXd& theta) { return rows.mean(columns(theta + at - elsewhere)); };
+  const Problem plain = problem_of(world, -scaled_to(world, thing.design.columns(at), 100), causes);
+  const noise::Rows rows = plain.layout->rows();
+  const auto columns = thing.design.columns;
+  thing.refinement.proposed = [&](Tally&) { return std::vector<Eigen::VectorXd>{at, elsewhere}; };
+  thing.design.sketch = [&, columns](const Eigen::VectorXd& theta) {
+    return rows.mean(columns(theta + at - elsewhere));
+  };
   Problem problem = plain;
   problem.candidates = causes;
   ModelState state(problem, {});
@@ -287,11 +289,10 @@ TEST(ModelState, RowsThatEndAtTheEdgesOfAThingTellOfIt) {
   const auto causes = causes_of(world);
   const Candidate& thing = causes.back();
   const Eigen::Vector3d at(11, 7, 0.7);
-  const Problem problem = problem_of(world, -scaled_to(world, thing.columns(at), 60), causes);
-  Options long_rows, single;
-  long_rows.rows.time = 5, long_rows.rows.way = 2.5;
-  single.rows.way = -1;
-  ModelState state(problem, long_rows), readings(problem, single);
+  const Eigen::VectorXd effect = -scaled_to(world, thing.design.columns(at), 60);
+  const Problem long_rows = problem_of(world, effect, causes, {.time = 5, .way = 2.5}),
+                single = problem_of(world, effect, causes, {.way = -1});
+  ModelState state(long_rows, {}), readings(single, {});
   const auto told = [&](const ModelState& b) {
     const WhitenedModel model = b.whitened_model(b.design(), readings.fit.covariance);
     return model.at.basis.rest(model.whitener(b.columns_of(thing, at))).squaredNorm();

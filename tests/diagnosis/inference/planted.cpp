@@ -15,20 +15,21 @@ Eigen::VectorXd effect_of(const World& world, const inference::Candidate& cause,
   const Stream stream(combined(key_of("planted"), world.recipe.seed));
   for (uint64_t k = 0;; ++k) {
     Eigen::VectorXd theta =
-        cause.grid[static_cast<std::size_t>(stream.uniform(k, 0) * static_cast<double>(cause.grid.size()))];
-    for (Index j = 0; j < cause.step.size(); ++j)
-      theta[j] += cause.step[j] * (stream.uniform(k, 1 + static_cast<uint64_t>(j)) - 0.5);
-    if (cause.admitted && cause.admitted(theta) < 1) continue;
-    Eigen::MatrixXd columns = cause.columns(theta);
+        cause.design
+            .grid[static_cast<std::size_t>(stream.uniform(k, 0) * static_cast<double>(cause.design.grid.size()))];
+    for (Index j = 0; j < cause.refinement.step.size(); ++j)
+      theta[j] += cause.refinement.step[j] * (stream.uniform(k, 1 + static_cast<uint64_t>(j)) - 0.5);
+    if (cause.refinement.admitted && cause.refinement.admitted(theta) < 1) continue;
+    Eigen::MatrixXd columns = cause.design.columns(theta);
     const Eigen::VectorXd mixed = columns.rowwise().sum();
     if ((mixed.array() != 0).cast<double>().mean() < 0.01) continue;
-    return scaled_to(world, cause.sign < 0 ? Eigen::VectorXd(-mixed) : mixed, lambda);
+    return scaled_to(world, cause.design.sign < 0 ? Eigen::VectorXd(-mixed) : mixed, lambda);
   }
 }
 
 std::string pieces_of(const std::vector<inference::Candidate>& causes, const std::string& id) {
   for (const auto& c : causes) {
-    if (c.id == id) return c.pieces;
+    if (c.id == id) return c.role.pieces;
   }
   return {};
 }
@@ -79,7 +80,7 @@ Tally planted(const std::string& cause, double lambda, uint64_t first, int world
     for (const auto& c : causes) {
       if (c.id != cause) continue;
       effect = effect_of(world, c, lambda);
-      pieces = c.pieces;
+      pieces = c.role.pieces;
     }
     inference::Problem problem = problem_of(world, effect, causes);
     if (field == Field::stated) problem.stated = {recipe.sigma, recipe.decorrelation};

@@ -1,68 +1,25 @@
-// How readings are gathered into rows: where a row ends, how far two of them are apart, in what order they come.
+// Rows that are divided where an effect changes.
 #include "diagnosis/inference/noise/rows.hpp"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <numeric>
-
-#include "muster/random.hpp"
-#include "tests/diagnosis/inference/apart.hpp"
-#include "tests/diagnosis/inference/synthetic.hpp"
 
 namespace muster::noise {
 namespace {
 
-// Of an exponential field on a line, half the variance of a difference is the mean distance between two rows' readings
-// less the mean distance within one, in decorrelation distances, as long as that is short against one.
-TEST(Rows, AreAsFarApartAsMeansOverThemDiffer) {
-  constexpr double pace = 0.1;  // m between readings
-  for (const int each : {1, 2, 3, 4, 6, 9}) {
-    Readings r;
-    const int size = 12 * each;
-    r.tx_at = r.rx_at = Eigen::Matrix3Xd::Zero(3, size);
-    r.tx_at.row(1).setConstant(5);
-    for (int k = 0; k < size; ++k) {
-      r.tx.push_back(0);
-      r.rx.push_back(1);
-      r.t.push_back(k);
-      r.rx_at(0, k) = pace * k;
-    }
-    const Rows rows(r, {.time = each - 0.5, .way = 100});
-    ASSERT_EQ(rows.size(), 12) << each;
-    const Sites sites = rows.sites(r);
-    const auto mean_distance = [&](int from) {
-      double sum = 0;
-      for (int a = 0; a < each; ++a) {
-        for (int b = 0; b < each; ++b) sum += std::abs(pace * (from + b - a)) / (each * each);
-      }
-      return sum;
-    };
-    for (const int away : {1, 2, 3, 6}) {
-      const double truth = mean_distance(away * each) - mean_distance(0), h = pace * away * each;
-      for (const int from : {0, 2, 5})
-        EXPECT_NEAR(readings_apart(sites, from, from + away).place / truth, 1, 0.01) << each << ' ' << away;
-      EXPECT_NEAR(middles_apart(sites, 0, away).place, h, 1e-9);
-    }
-    EXPECT_NEAR(sites.within(), mean_distance(0), 1e-9) << each;
-  }
-}
-
 TEST(Rows, EndWhereAnEffectSetsInOrStops) {
   constexpr int size = 60;
-  Readings r;
-  r.tx_at = r.rx_at = Eigen::Matrix3Xd::Zero(3, size);
   Eigen::VectorXd effect = Eigen::VectorXd::Zero(size), value(size);
+  std::vector<Index> order, first;
   for (int k = 0; k < size; ++k) {
-    r.tx.push_back(0);
-    r.rx.push_back(1);
-    r.t.push_back(size - k);  // the last one is the first
-    r.rx_at(0, k) = 0.1 * k;
+    order.push_back(size - 1 - k);  // the last one is the first
+    if (k % 6 == 0) first.push_back(k);
     if (k > 12 && k < 31) effect[k] = -4;
     value[k] = std::sin(k);
   }
-  const Rows whole(r, {.time = 6, .way = 100});
+  first.push_back(size);
+  const Rows whole(order, first);
   ASSERT_EQ(whole.size(), 10);
   std::vector<Index> parent;
   const Rows ended = whole.ended_where(effect, 1, parent);
@@ -76,157 +33,6 @@ TEST(Rows, EndWhereAnEffectSetsInOrStops) {
   EXPECT_LT((sums.cwiseQuotient(whole.count()) - of_whole).norm(), 1e-12);
   EXPECT_LT((ended.at_readings(means) - effect).norm(), 1e-12);
   EXPECT_EQ(whole.ended_where(effect, 5, parent).size(), 10);
-}
-
-// Rows that cross, pass side by side or share a place are as far apart as all their readings say.
-TEST(Rows, AreAsFarApartWhateverWayTheyRun) {
-  constexpr int each = 5;
-  const std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> ways = {{{0, 0, 1}, {0.12, 0, 0}},
-                                                                         {{0.24, -0.24, 1}, {0, 0.12, 0}},
-                                                                         {{0, 0.1, 1}, {0.12, 0, 0}},
-                                                                         {{1, 0.5, 1}, {-0.08, 0.09, 0}},
-                                                                         {{0.3, 0, 1}, {0, 0, 0}}};
-  Readings r;
-  r.tx_at = r.rx_at = Eigen::Matrix3Xd::Zero(3, each * 5);
-  for (std::size_t way = 0; way < ways.size(); ++way) {
-    for (int k = 0; k < each; ++k) {
-      r.tx.push_back(0);
-      r.rx.push_back(1);
-      r.t.push_back(static_cast<double>(way) * 100 + k);
-      r.rx_at.col(static_cast<Index>(r.t.size()) - 1) = ways[way].first + k * ways[way].second;
-    }
-  }
-  const Rows rows(r, {.time = 50, .way = 100});
-  ASSERT_EQ(rows.size(), 5);
-  const Sites sites = rows.sites(r);
-  const auto mean_distance = [&](Index one, Index other) {
-    double sum = 0;
-    for (Index a = 0; a < each; ++a) {
-      for (Index b = 0; b < each; ++b) sum += (r.rx_at.col(one * each + a) - r.rx_at.col(other * each + b)).norm();
-    }
-    return sum / (each * each);
-  };
-  for (Index one = 0; one < 5; ++one) {
-    for (Index other = 0; other < one; ++other) {
-      const double truth = mean_distance(one, other) - (mean_distance(one, one) + mean_distance(other, other)) / 2;
-      EXPECT_NEAR(readings_apart(sites, one, other).place, truth, 0.015) << one << ' ' << other;
-      EXPECT_EQ(readings_apart(sites, one, other).place, readings_apart(sites, one, other).both);
-    }
-  }
-}
-
-TEST(Rows, EndWhereAWallChangesTheLevel) {
-  Readings r;  // ten readings within a second and a quarter of a metre
-  for (int k = 0; k < 10; ++k) {
-    r.tx.push_back(0);
-    r.rx.push_back(1);
-    r.t.push_back(0.1 * k);
-    r.level.push_back(k < 4 ? -50 - 0.1 * k : -54.0);
-  }
-  r.tx_at = Eigen::Matrix3Xd::Zero(3, 10);
-  r.rx_at = Eigen::Matrix3Xd::Zero(3, 10);
-  for (Index k = 0; k < 10; ++k) r.rx_at(0, k) = 5 + 0.025 * static_cast<double>(k);
-  const Rows rows(r);
-  ASSERT_EQ(rows.size(), 2);
-  EXPECT_EQ(rows.count()[0], 4);
-  r.level.clear();
-  EXPECT_EQ(Rows(r).size(), 1);
-}
-
-TEST(Rows, EndWhereEitherRadioTurns) {
-  Readings still;  // ten readings within a second at one place
-  for (int k = 0; k < 10; ++k) {
-    still.tx.push_back(0);
-    still.rx.push_back(1);
-    still.t.push_back(0.1 * k);
-  }
-  still.tx_at = Eigen::Matrix3Xd::Zero(3, 10);
-  still.rx_at = Eigen::Matrix3Xd::Ones(3, 10);
-  std::vector<double> turns(10, 3.1);
-  for (std::size_t k = 5; k < 10; ++k) turns[k] = -3.1;  // past half a turn: 0.08 rad
-  EXPECT_EQ(Rows(still).size(), 1);
-  for (std::vector<double> Readings::*yaw : {&Readings::tx_yaw, &Readings::rx_yaw}) {
-    Readings turning = still;
-    turning.*yaw = turns;
-    EXPECT_EQ(Rows(turning).size(), 1);
-    (turning.*yaw)[7] = (turning.*yaw)[8] = (turning.*yaw)[9] = -2.2;
-    const Rows rows(turning);
-    ASSERT_EQ(rows.size(), 2);
-    EXPECT_EQ(rows.count()[0], 7);
-    EXPECT_EQ(rows.middles(turning).*yaw, (std::vector<double>{3.1, -2.2}));
-  }
-}
-
-TEST(Rows, AreAsShortAsTheirNumberAllows) {
-  for (const Index readings : {3000, 12000, 60000, 400000}) {
-    Readings r;  // of one link, 20 a second, at 0.5 m/s
-    r.tx.assign(static_cast<std::size_t>(readings), 0);
-    r.rx.assign(static_cast<std::size_t>(readings), 1);
-    r.tx_at = r.rx_at = Eigen::Matrix3Xd::Zero(3, readings);
-    for (Index k = 0; k < readings; ++k) {
-      r.t.push_back(0.05 * static_cast<double>(k));
-      r.rx_at(0, k) = 5 + 0.025 * static_cast<double>(k);
-    }
-    const RowLimits limits = limits_for(r), usual;
-    const Index rows = Rows(r, limits).size();
-    if (readings == 3000) {
-      EXPECT_EQ(rows, readings);  // each is a row
-    } else if (readings == 12000) {
-      EXPECT_LT(limits.time, usual.time);
-      EXPECT_LE(rows, 4000);
-    } else {
-      EXPECT_LE(rows, 10000);
-      EXPECT_EQ(limits.way > usual.way, readings == 400000);
-    }
-    EXPECT_EQ(limits.way / usual.way, limits.time / usual.time);
-  }
-}
-
-TEST(Rows, BothDirectionsOfAPairHaveOnePlaceAndOneAnchor) {
-  Readings two_ways;  // radio 1 stands, radio 0 moves; each reading is followed by its return
-  for (int k = 0; k < 20; ++k) {
-    two_ways.tx.insert(two_ways.tx.end(), {1, 0});
-    two_ways.rx.insert(two_ways.rx.end(), {0, 1});
-    two_ways.t.insert(two_ways.t.end(), {0.5 * k, 0.5 * k});
-  }
-  two_ways.tx_at = Eigen::Matrix3Xd::Zero(3, 40);
-  two_ways.rx_at = Eigen::Matrix3Xd::Zero(3, 40);
-  for (Index k = 0; k < 20; ++k)
-    two_ways.rx_at(0, 2 * k) = two_ways.tx_at(0, 2 * k + 1) = 5 + 0.2 * static_cast<double>(k);
-  const Sites sites = Rows(two_ways).sites(two_ways);
-  ASSERT_EQ(sites.size() % 2, 0);
-  const Index half = sites.size() / 2;
-  for (Index i = 0; i < half; ++i) {
-    EXPECT_EQ(sites.group[static_cast<std::size_t>(i)], 1);
-    EXPECT_EQ(sites.group[static_cast<std::size_t>(half + i)], 1);
-    EXPECT_TRUE(sites.place.col(i).isApprox(sites.place.col(half + i)));
-    EXPECT_GT(sites.place(0, i), 4);
-  }
-}
-
-TEST(Rows, AreTheSameForEveryOrderOfReadings) {
-  const auto world = synthetic::world_of(synthetic::varied(2, 1500));
-  std::vector<Index> order(1500);
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [](Index a, Index b) {
-    return Stream(1).uniform(static_cast<uint64_t>(a)) < Stream(1).uniform(static_cast<uint64_t>(b));
-  });
-  Readings mixed = world.readings;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const auto from = static_cast<std::size_t>(order[i]);
-    mixed.t[i] = world.readings.t[from];
-    mixed.tx[i] = world.readings.tx[from];
-    mixed.rx[i] = world.readings.rx[from];
-    mixed.rx_yaw[i] = world.readings.rx_yaw[from];
-  }
-  mixed.tx_at = world.readings.tx_at(Eigen::all, order).eval();
-  mixed.rx_at = world.readings.rx_at(Eigen::all, order).eval();
-  const Rows a(world.readings), b(mixed);
-  ASSERT_EQ(a.size(), b.size());
-  EXPECT_EQ(a.mean(world.rssi), b.mean(world.rssi(order)));
-  EXPECT_EQ(a.sites(world.readings).place, b.sites(mixed).place);
-  EXPECT_LT(a.count().maxCoeff(), 5);  // 0.4 s between readings, 1.2 s a row
-  EXPECT_EQ(a.count().sum(), 1500);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ namespace muster::inference {
 namespace {
 
 using synthetic::causes_of;
+using synthetic::columns_of;
 using synthetic::problem_of;
 using synthetic::Recipe;
 using synthetic::scaled_to;
@@ -55,7 +56,7 @@ TEST(Search, EveryCauseAndEveryCovariateIsCheckedOnce) {
     EXPECT_GE(check.gain, 0) << check.id;
   }
   for (const Candidate& c : problem.candidates) EXPECT_EQ(checked.count(c.id), 1u) << c.id;
-  for (const Covariate& c : problem.covariates) EXPECT_EQ(checked.count('~' + c.name), 1u) << c.name;
+  for (const Covariate& c : columns_of(world).covariates) EXPECT_EQ(checked.count('~' + c.name), 1u) << c.name;
   // Of many looks one is low by chance; each is weighed by their number.
   const auto low = std::count_if(result.checks.begin(), result.checks.end(),
                                  [](const Check& check) { return check.log_p < std::log(0.02); });
@@ -80,8 +81,8 @@ TEST(Search, AProductOfAColumnAndDistanceIsFound) {
 TEST(Search, TwoCausesAreBothNamed) {
   const World world = world_of(varied(34, 5000));
   const auto causes = causes_of(world);
-  const Eigen::VectorXd effect = scaled_to(world, causes[1].columns(causes[1].grid[0]), 200) -
-                                 scaled_to(world, causes[9].columns(causes[9].grid[150]), 120);
+  const Eigen::VectorXd effect = scaled_to(world, causes[1].design.columns(causes[1].design.grid[0]), 200) -
+                                 scaled_to(world, causes[9].design.columns(causes[9].design.grid[150]), 120);
   auto found = ids(result_of(world, effect));
   std::sort(found.begin(), found.end());
   EXPECT_EQ(found, (std::vector<std::string>{"rx_offset", "unmapped_wall"}));
@@ -93,23 +94,25 @@ TEST(Search, WhatConcernsAllRadiosAndRunsGainsWithTheseNotSeen) {
   const auto causes = causes_of(world);
   const Candidate& slope =
       *std::find_if(causes.begin(), causes.end(), [](const Candidate& c) { return c.id == "dual_slope"; });
-  const Eigen::VectorXd effect = scaled_to(world, causes[0].columns(causes[0].grid[0]), 200) -
-                                 scaled_to(world, slope.columns(slope.grid[slope.grid.size() / 2]), 300);
-  Problem problem = problem_of(world, effect, causes);
+  const Eigen::VectorXd effect =
+      scaled_to(world, causes[0].design.columns(causes[0].design.grid[0]), 200) -
+      scaled_to(world, slope.design.columns(slope.design.grid[slope.design.grid.size() / 2]), 300);
   const double half = world.time.maxCoeff() / 2;
-  for (const double t : world.time) problem.run.push_back(t > half);
+  std::vector<int> run;
+  for (const double t : world.time) run.push_back(t > half);
+  const Problem problem = problem_of(world, effect, causes, {}, run);
   const Result result = Search(problem).run();
-  std::vector<Part> parts;
-  for (const Elsewhere& e : result.elsewhere) parts.push_back(e.part);
-  ASSERT_EQ(parts, (std::vector{Part::radio, Part::run}));
+  std::vector<std::string> left_out;
+  for (const Elsewhere& e : result.elsewhere) left_out.push_back(e.left_out);
+  ASSERT_EQ(left_out, (std::vector<std::string>{"radios", "runs"}));
   EXPECT_EQ(result.elsewhere[0].held_out.blocks, world.recipe.transmitters);
   EXPECT_EQ(result.elsewhere[1].held_out.blocks, 2);
   std::set<std::string> seen;
   for (const Finding& f : result.findings) {
     seen.insert(f.id);
     for (const Elsewhere& e : f.elsewhere) {
-      EXPECT_GT(e.held_out.gain, 0) << f.id << " of part " << static_cast<int>(e.part);
-      EXPECT_FALSE(f.id == "tx_offset" && e.part == Part::radio);
+      EXPECT_GT(e.held_out.gain, 0) << f.id << " without some " << e.left_out;
+      EXPECT_FALSE(f.id == "tx_offset" && e.left_out == "radios");
     }
     EXPECT_EQ(f.elsewhere.size(), f.id == "dual_slope" ? 2u : 1u) << f.id;
   }
@@ -119,13 +122,13 @@ TEST(Search, WhatConcernsAllRadiosAndRunsGainsWithTheseNotSeen) {
 TEST(Search, OfCausesThatTheReadingsCannotTellApartTheSimplestIsNamed) {
   const World world = world_of(varied(34, 4000));
   auto causes = causes_of(world);
-  const Eigen::VectorXd effect = scaled_to(world, causes[1].columns(causes[1].grid[0]), 200);
+  const Eigen::VectorXd effect = scaled_to(world, causes[1].design.columns(causes[1].design.grid[0]), 200);
   for (const int more : {-1, 1}) {
     auto twins = causes;
     twins.insert(twins.begin() + (more > 0 ? 1 : 2), causes[1]);  // before and behind: the order must not decide
     Candidate& twin = twins[more > 0 ? 1 : 2];
     twin.id = "twin";
-    twin.parameters = causes[1].parameters + more;
+    twin.role.parameters = causes[1].role.parameters + more;
     const Problem problem = problem_of(world, effect, twins);
     EXPECT_EQ(ids(Search(problem).run()), std::vector<std::string>{more > 0 ? "rx_offset" : "twin"});
   }
@@ -186,7 +189,7 @@ TEST(Search, AnOutlierIsNoWall) {
 std::vector<std::string> named_beside_stated_field(uint64_t seed, double lambda, double multiple) {
   const World world = world_of(varied(seed, 2500));
   const auto causes = causes_of(world);
-  const Eigen::VectorXd offset = scaled_to(world, causes[0].columns(causes[0].grid[1]).col(0), 1);
+  const Eigen::VectorXd offset = scaled_to(world, causes[0].design.columns(causes[0].design.grid[1]).col(0), 1);
   Problem problem = problem_of(world, std::sqrt(lambda) * offset, causes);
   if (multiple > 0) problem.stated = {world.recipe.sigma, multiple * world.recipe.decorrelation};
   return ids(Search(problem).run());
@@ -207,7 +210,7 @@ TEST(Search, AnOffsetThatAFittedFieldTakesUpShowsBesideTheStatedOne) {
 TEST(Search, CoefficientsPlacesAndHeldOutGainAreThoseOfTheTruth) {
   const World world = world_of(varied(35, 6000));
   const auto causes = causes_of(world);
-  const Eigen::VectorXd column = causes[1].columns(causes[1].grid[0]);
+  const Eigen::VectorXd column = causes[1].design.columns(causes[1].design.grid[0]);
   const Result result = result_of(world, 5 * column);
   ASSERT_EQ(ids(result), std::vector<std::string>{"rx_offset"});
   const Finding& f = result.findings[0];
@@ -222,7 +225,7 @@ TEST(Search, CoefficientsPlacesAndHeldOutGainAreThoseOfTheTruth) {
 TEST(Search, IsTheSameForEveryOrderOfReadings) {
   const World world = world_of(varied(36, 2500));
   const auto causes = causes_of(world);
-  const Eigen::VectorXd effect = -scaled_to(world, causes[9].columns(causes[9].grid[40]), 100);
+  const Eigen::VectorXd effect = -scaled_to(world, causes[9].design.columns(causes[9].design.grid[40]), 100);
   World mixed = world;
   std::vector<Index> order(2500);
   std::iota(order.begin(), order.end(), 0);
@@ -245,8 +248,8 @@ TEST(Search, IsTheSameForEveryOrderOfReadings) {
   // The causes' grids must not depend on the order either, so the first world's are used with the second one's columns.
   auto again = causes_of(mixed);
   for (std::size_t k = 0; k < again.size(); ++k) {
-    again[k].grid = causes[k].grid;
-    again[k].admitted = causes[k].admitted;
+    again[k].design.grid = causes[k].design.grid;
+    again[k].refinement.admitted = causes[k].refinement.admitted;
   }
   const Problem a = problem_of(world, effect, causes), b = problem_of(mixed, effect(order), again);
   const Result first = Search(a).run(), second = Search(b).run();
@@ -282,7 +285,7 @@ TEST(Search, AFloorIsNeitherAnExponentNorADualSlope) {
 TEST(Search, TheAdvisedReadingsRaiseSeparabilityAsPredicted) {
   const World world = world_of(varied(37, 6000));
   const auto causes = causes_of(world);
-  const Eigen::VectorXd effect = scaled_to(world, causes[0].columns(causes[0].grid[1]), 250);
+  const Eigen::VectorXd effect = scaled_to(world, causes[0].design.columns(causes[0].design.grid[1]), 250);
   const auto part_of = [&](Index from, Index count) {
     World part = world;
     const auto rows = Eigen::seqN(from, count);
@@ -309,12 +312,13 @@ TEST(Search, TheAdvisedReadingsRaiseSeparabilityAsPredicted) {
   const Problem whole_problem = problem_of(world, effect, causes_of(world));
   const Search whole(whole_problem);
   const auto& term = search.state().terms[0];
-  const Plan plan{"drive on", next.readings, next.base, causes_of(next)};
+  const Plan plan{"drive on", std::make_shared<diagnosis::LinkLayout>(next.readings, diagnosis::LinkRowLimits()),
+                  next.base, causes_of(next)};
   const double predicted = ExpectedSeparability(search.state(), plan).separability(term, {"antenna_tx"})[0];
   // D with the readings at hand, and once those of the plan are there too: the same effect and noise in both.
   const auto separability = [&](const ModelState& state, const World& of) {
     const WhitenedModel rest = state.whitened_model(state.base(), search.state().fit.covariance);
-    const Eigen::VectorXd planted = causes_of(of)[0].columns(term.theta) * result.findings[0].coefficients;
+    const Eigen::VectorXd planted = causes_of(of)[0].design.columns(term.theta) * result.findings[0].coefficients;
     const Eigen::VectorXd e = rest.at.basis.rest(rest.whitener(state.rows().mean(planted)));
     double least = e.squaredNorm();
     for (const Entry& entry : state.entries()) {

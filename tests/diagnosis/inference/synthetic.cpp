@@ -183,8 +183,8 @@ Recipe varied(uint64_t seed, Index readings) {
 }
 
 Eigen::VectorXd scaled_to(const World& world, const Eigen::VectorXd& column, double lambda) {
-  const noise::Rows rows(world.readings);
-  const noise::Field field(rows.sites(world.readings));
+  const noise::Rows rows = diagnosis::link_rows(world.readings);
+  const noise::Field field(diagnosis::link_sites(rows, world.readings));
   const noise::Whitener whitener(field, {noise::Family::exponential, world.true_theta});
   const auto base = noise::basis_of(whitener(rows.mean(world.base)));
   const double energy = base.rest(whitener(rows.mean(column))).squaredNorm();

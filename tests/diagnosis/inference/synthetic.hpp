@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-#include "diagnosis/inference/noise/rows.hpp"
+#include "diagnosis/radio/links/link_rows.hpp"
 
 namespace muster::synthetic {
 

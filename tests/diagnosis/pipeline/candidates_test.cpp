@@ -18,19 +18,19 @@ namespace {
 TEST(Sketch, IsTheColumnsAtTheReadingsInTheMiddleOfRows) {
   const std::filesystem::path hall = std::filesystem::path(MUSTER_SOURCE_DIR) / "worlds" / "hall";
   const DiagnosisSetup at(hall, hall / "measured_plain.csv", plugins);
-  const noise::Rows rows(at.problem.readings, at.options.rows);
-  ASSERT_LT(2 * rows.size(), at.problem.readings.size());
+  const noise::Rows rows = at.layout->rows();
+  ASSERT_LT(2 * rows.size(), at.layout->size());
   std::vector<Eigen::Index> middles;
   for (Eigen::Index row = 0; row < rows.size(); ++row) middles.push_back(rows.middle(row));
   int sketched = 0;
   for (const inference::Candidate& c : at.problem.candidates) {
-    EXPECT_EQ(static_cast<bool>(c.sketch), c.refinable()) << c.id;
-    if (!c.sketch) continue;
+    EXPECT_EQ(static_cast<bool>(c.design.sketch), c.refinement.any()) << c.id;
+    if (!c.design.sketch) continue;
     ++sketched;
-    for (const std::size_t k : {std::size_t(0), c.grid.size() / 2}) {
-      const Eigen::MatrixXd exact = c.columns(c.grid[k])(middles, Eigen::all);
+    for (const std::size_t k : {std::size_t(0), c.design.grid.size() / 2}) {
+      const Eigen::MatrixXd exact = c.design.columns(c.design.grid[k])(middles, Eigen::all);
       EXPECT_GT(exact.cwiseAbs().maxCoeff(), 0.01) << c.id;
-      EXPECT_LT((c.sketch(c.grid[k]) - exact).cwiseAbs().maxCoeff(), 1e-9) << c.id;
+      EXPECT_LT((c.design.sketch(c.design.grid[k]) - exact).cwiseAbs().maxCoeff(), 1e-9) << c.id;
     }
   }
   EXPECT_GT(sketched, 3);
@@ -52,16 +52,16 @@ TEST(Near, AsksFewReadingsForTheColumnsOfAll) {
   const Hall hall;
   int near = 0;
   for (const inference::Candidate& c : hall.at.problem.candidates) {
-    if (!c.near) continue;
+    if (!c.design.near) continue;
     ++near;
-    const Eigen::VectorXd& theta = c.grid[c.grid.size() / 2];
-    const auto columns = c.near(theta);
+    const Eigen::VectorXd& theta = c.design.grid[c.design.grid.size() / 2];
+    const auto columns = c.design.near(theta);
     for (const double moved : {0.0, 0.3, 0.7, 2.0, 5.0}) {
       Eigen::VectorXd t = theta;
       t[1] += moved, t[2] -= moved;
-      EXPECT_EQ(columns(t), c.columns(t)) << c.id << ' ' << moved;
+      EXPECT_EQ(columns(t), c.design.columns(t)) << c.id << ' ' << moved;
     }
-    EXPECT_GT(c.columns(theta).cwiseAbs().maxCoeff(), 0.5) << c.id;
+    EXPECT_GT(c.design.columns(theta).cwiseAbs().maxCoeff(), 0.5) << c.id;
   }
   EXPECT_EQ(near, 2);  // walls and things
 }
@@ -73,16 +73,15 @@ TEST(Near, AsksAllOfWhatConcernsAReadingElsewhere) {
                                   [](const CauseCandidate& c) { return c.candidate.id == "effect.obstacle"; });
   ASSERT_NE(thing, found.end());
   CauseCandidate far = *thing;
-  far.candidate.columns = [columns = thing->candidate.columns](const Eigen::VectorXd& t) -> Eigen::MatrixXd {
-    return columns(t).array() + 1;
-  };
+  far.candidate.design.columns = [columns = thing->candidate.design.columns](
+                                     const Eigen::VectorXd& t) -> Eigen::MatrixXd { return columns(t).array() + 1; };
   const Simulate simulate = [&](const LinkReadings& readings) {
     return std::make_shared<SimulatedReadings>(readings, hall.at.model.radio_names(), hall.world, plugins,
                                                hall.at.base);
   };
-  const Eigen::VectorXd& theta = far.candidate.grid[0];
-  const auto columns = columns_near(theta, far, hall.at.data, hall.at.problem.readings, simulate);
-  EXPECT_EQ(columns(theta), far.candidate.columns(theta));
+  const Eigen::VectorXd& theta = far.candidate.design.grid[0];
+  const auto columns = columns_near(theta, far, hall.at.data, hall.at.layout->readings(), simulate);
+  EXPECT_EQ(columns(theta), far.candidate.design.columns(theta));
 }
 
 TEST(EndedRows, AreSketchedAsTheRowsThatTheyAreOf) {
@@ -90,7 +89,7 @@ TEST(EndedRows, AreSketchedAsTheRowsThatTheyAreOf) {
   inference::ModelState state(hall.at.problem, hall.at.options);
   const Eigen::Index rows = state.rows().size();
   const inference::Candidate& c = *sought(state, "effect.unmapped_wall").candidate;
-  const Eigen::VectorXd& theta = c.grid[c.grid.size() / 2];
+  const Eigen::VectorXd& theta = c.design.grid[c.design.grid.size() / 2];
   const Eigen::MatrixXd before = state.sketch_of(c, theta);
   ASSERT_GT(state.end_rows_at(c, theta), 3);
   const Eigen::MatrixXd after = state.sketch_of(c, theta), exact = state.columns_of(c, theta);
@@ -111,12 +110,14 @@ TEST(Candidates, StartWithinTheBoundsThatTheyAreSoughtIn) {
   const DiagnosisSetup at(world, world / "measured.csv", plugins);
   int refinable = 0;
   for (const inference::Candidate& c : at.problem.candidates) {
-    if (!c.refinable()) continue;
+    if (!c.refinement.any()) continue;
     ++refinable;
     const auto outside = [&](const Eigen::VectorXd& theta) {
-      return (c.step.array() != 0 && (theta.array() < c.lower.array() || theta.array() > c.upper.array())).any();
+      return (c.refinement.step.array() != 0 &&
+              (theta.array() < c.refinement.lower.array() || theta.array() > c.refinement.upper.array()))
+          .any();
     };
-    EXPECT_TRUE(std::none_of(c.grid.begin(), c.grid.end(), outside)) << c.id;
+    EXPECT_TRUE(std::none_of(c.design.grid.begin(), c.design.grid.end(), outside)) << c.id;
   }
   EXPECT_GE(refinable, 8);
 }
@@ -128,11 +129,11 @@ TEST(Candidates, ARadioMovedByLessThanATenthOfAMetreIsWhereTheMapHasIt) {
   const DiagnosisSetup at(world, world / "measured.csv", plugins);
   const inference::ModelState state(at.problem, at.options);
   const inference::Candidate& c = *sought(state, "effect.tx_misplaced").candidate;
-  const Eigen::VectorXd &start = c.grid[0], &opposite = c.grid[4], mapped = (start + opposite) / 2;
+  const Eigen::VectorXd &start = c.design.grid[0], &opposite = c.design.grid[4], mapped = (start + opposite) / 2;
   EXPECT_NEAR((start - mapped).norm(), 0.25, 1e-9);
-  EXPECT_EQ(c.admitted(start), 1);
-  EXPECT_EQ(c.admitted(mapped + 0.5 * (start - mapped)), 1);
-  EXPECT_EQ(c.admitted(mapped + 0.3 * (start - mapped)), 0);
+  EXPECT_EQ(c.refinement.admitted(start), 1);
+  EXPECT_EQ(c.refinement.admitted(mapped + 0.5 * (start - mapped)), 1);
+  EXPECT_EQ(c.refinement.admitted(mapped + 0.3 * (start - mapped)), 0);
 }
 
 // Where no other place explains anything the map's explains most, and by a millimetre aside a link may pass a wall: a
@@ -147,10 +148,10 @@ TEST(Candidates, ARadioIsSoughtElsewhereAlone) {
   const inference::Candidate& c = *entry.candidate;
   inference::OrthonormalAtoms unit = inference::unit_atoms(entry, stand);
   state.log_effective_tests(entry, unit);
-  for (const std::size_t k : {std::size_t{0}, c.grid.size() / 2}) {
-    const inference::ScoredCandidate from{&entry, c.grid[k], entry.atom(static_cast<Eigen::Index>(k)), 0, 0, 0,
-                                          false,  {}};
-    EXPECT_EQ(c.admitted(inference::refined(state, stand, from, false).theta), 1);
+  for (const std::size_t k : {std::size_t{0}, c.design.grid.size() / 2}) {
+    const inference::ScoredCandidate from{
+        &entry, c.design.grid[k], entry.atom(static_cast<Eigen::Index>(k)), 0, 0, 0, false, {}};
+    EXPECT_EQ(c.refinement.admitted(inference::refined(state, stand, from, false).theta), 1);
   }
 }
 

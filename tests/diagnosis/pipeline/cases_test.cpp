@@ -99,7 +99,7 @@ TEST(SealedPair, IsMeasuredFromTheWorldAsGiven) {
   EXPECT_TRUE(found.elsewhere.empty());
   EXPECT_TRUE(moved.elsewhere.empty());
   ASSERT_EQ(found.causes[1].elsewhere.size(), 1u);
-  EXPECT_EQ(found.causes[1].elsewhere[0].part, inference::Part::radio);
+  EXPECT_EQ(found.causes[1].elsewhere[0].left_out, "radios");
   ASSERT_EQ(found.stairs.size(), 3u);
   EXPECT_EQ(found.stairs[0].rmse, found.held_out->rmse_before);
   EXPECT_EQ(report::name_of_step(found, 1), "+ tx misplaced");
@@ -119,7 +119,7 @@ TEST(ColumnRun, IsWhatIsLeftOut) {
   const Diagnosis found =
       diagnose(std::filesystem::path(MUSTER_SOURCE_DIR) / "worlds" / "hall", scratch.write("runs.csv", table), plugins);
   ASSERT_EQ(found.elsewhere.size(), 1u);
-  EXPECT_EQ(found.elsewhere[0].part, inference::Part::run);
+  EXPECT_EQ(found.elsewhere[0].left_out, "runs");
   EXPECT_EQ(found.elsewhere[0].held_out.blocks, 2);
 }
 

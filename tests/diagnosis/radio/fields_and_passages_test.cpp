@@ -3,6 +3,7 @@
 
 #include "diagnosis/radio/laws/blockage_test.hpp"
 #include "diagnosis/radio/laws/shadowing_test.hpp"
+#include "diagnosis/radio/links/link_smooths.hpp"
 #include "tests/diagnosis/walk.hpp"
 
 namespace muster::diagnosis {
@@ -10,7 +11,8 @@ namespace {
 
 inference::Problem problem_of(const Walk& walk) {
   inference::Problem problem;
-  problem.readings = walk.readings;
+  problem.layout = std::make_shared<const LinkLayout>(walk.readings, LinkRowLimits());
+  problem.smooths = link_smooths(walk.readings, {}, true);
   problem.measured = walk.residual;
   problem.base = Eigen::MatrixXd::Ones(walk.residual.size(), 1);
   return problem;
@@ -44,7 +46,7 @@ TEST(FieldOfShadowing, AnUnusualDistanceIsMeasured) {
 
 Blockage passages_in(const Walk& walk, const Asked& asked) {
   const inference::Problem problem = problem_of(walk);
-  return blockage_test(inference::ModelState(problem, {}), asked);
+  return blockage_test(inference::ModelState(problem, {}), walk.readings, asked);
 }
 Blockage passages_in(const Walk& walk) { return passages_in(walk, Asked::Constant(walk.residual.size(), true)); }
 

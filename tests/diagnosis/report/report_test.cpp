@@ -10,6 +10,7 @@
 
 #include "diagnosis/data/dataset.hpp"
 #include "diagnosis/pipeline/closed_loop.hpp"
+#include "diagnosis/pipeline/diagnose.hpp"
 #include "diagnosis/report/figures.hpp"
 #include "diagnosis/report/folder.hpp"
 #include "diagnosis/report/json.hpp"

@@ -162,7 +162,7 @@ TEST(Text, GainsWithRadiosAndRunsNotSeenStandBesideThoseOfPlaces) {
   const inference::HeldOutGain places{3.5, 2.5, 6, 2.4, 11, 21}, radios{4.5, 3.25, 9.69, 5, 12, 4},
       runs{3.75, 3, 5.06, 1, 7, 2};
   Diagnosis d = with(wall(inference::Status::named, places));
-  d.elsewhere = {{inference::Part::radio, radios}, {inference::Part::run, runs}};
+  d.elsewhere = {{"radios", radios}, {"runs", runs}};
   d.causes[0].elsewhere = d.elsewhere;
   d.unexplained = {{"battery", 30, 60, {}, d.elsewhere}};
   const std::string text = text_of(d, {"hall", "a.csv"}), page = page_of(d, {"hall", "a.csv"}, {});

@@ -1,0 +1,81 @@
+// Smooths of links: one for each column, factor and product, and none over places that are not known.
+#include "diagnosis/radio/links/link_smooths.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "tests/diagnosis/inference/causes.hpp"
+
+namespace muster::diagnosis {
+namespace {
+
+using inference::Candidate;
+using synthetic::columns_of;
+using synthetic::varied;
+using synthetic::world_of;
+
+TEST(LinkSmooths, CoverEveryColumnFactorAndProduct) {
+  const auto world = world_of(varied(4, 400));
+  LinkColumns given = columns_of(world);
+  given.factors.push_back({"phone", std::vector<int>(400, 0)});
+  for (std::size_t i = 0; i < 400; i += 3) given.factors[0].level[i] = 1;
+  std::set<std::string> ids;
+  for (const Candidate& c : link_smooths(world.readings, given, true)) {
+    ids.insert(c.id);
+    const Eigen::MatrixXd columns = c.design.columns(c.design.grid.front());
+    EXPECT_EQ(columns.rows(), 400) << c.id;
+    EXPECT_EQ(columns.cols(), c.design.width) << c.id;
+    EXPECT_TRUE(columns.allFinite()) << c.id;
+    EXPECT_GT((columns.rowwise() - columns.colwise().mean()).norm(), 1e-3) << c.id;
+    if (c.design.wider) {
+      EXPECT_EQ(c.design.wider(2).cols(), 2 * c.design.width) << c.id;
+    }
+  }
+  for (const char* id : {"~logd", "~bearing", "~heading", "~txbearing", "~position", "~time", "~time_per_tx",
+                         "~time*position", "~link", "~phone", "~speed", "~battery", "~temperature", "~temperature*logd",
+                         "~speed*position", "slope~position", "chirp~time", "bend~battery"})
+    EXPECT_EQ(ids.count(id), 1u) << id;
+}
+
+// Time passes whatever happens: what was observed comes before a function of it that does as well.
+TEST(LinkSmooths, OfTimeGiveWayToColumns) {
+  const auto world = world_of(varied(4, 400));
+  for (const Candidate& c : link_smooths(world.readings, columns_of(world), true))
+    EXPECT_EQ(c.role.time_like, c.id == "~time" || c.id == "chirp~time") << c.id;
+}
+
+// What depends on where a robot is, and on which way it looks, does so when it sends as when it hears.
+TEST(LinkSmooths, AreTheSameForBothDirectionsOfALink) {
+  const auto world = world_of(varied(6, 300));
+  const LinkReadings& heard = world.readings;
+  LinkReadings sent = heard;
+  std::swap(sent.tx, sent.rx);
+  std::swap(sent.tx_at, sent.rx_at);
+  std::swap(sent.tx_yaw, sent.rx_yaw);
+  sent.rx_yaw.assign(300, 0.3);  // stations look somewhere too
+  const auto columns = [&](const LinkReadings& readings, const std::string& id) {
+    const std::vector<Candidate> all = link_smooths(readings, columns_of(world), true);
+    const auto found = std::find_if(all.begin(), all.end(), [&](const Candidate& c) { return c.id == id; });
+    return found == all.end() ? Eigen::MatrixXd() : found->design.columns(found->design.grid.front());
+  };
+  for (const char* id : {"~bearing", "~heading", "~position", "slope~position", "~speed*position", "~logd"}) {
+    const Eigen::MatrixXd one = columns(heard, id), other = columns(sent, id);
+    ASSERT_EQ(one.rows(), other.rows()) << id;
+    ASSERT_GT(one.cols(), 0) << id;
+    EXPECT_LT((one - other).cwiseAbs().maxCoeff(), 1e-12) << id;
+  }
+}
+
+TEST(LinkSmooths, NothingDependsOnPlacesThatAreNotKnown) {
+  const auto world = world_of(varied(4, 400));
+  for (const Candidate& c : link_smooths(world.readings, columns_of(world), false)) {
+    for (const std::string& covariate : c.covariates)
+      EXPECT_TRUE(covariate.find("position") == std::string::npos && covariate.find("bearing") == std::string::npos)
+          << c.id;
+  }
+}
+
+}  // namespace
+}  // namespace muster::diagnosis
