@@ -47,7 +47,7 @@ using Blob = std::shared_ptr<const std::vector<uint8_t>>;
 struct Cells {
   std::vector<double> data;
   std::vector<Blob> blobs;
-  std::vector<uint64_t> appended;  // queue: the tick at which each row came
+  std::vector<uint64_t> appended;  // queue: the tick of each row's arrival
   std::size_t rows = 0;
   uint64_t tick = 0;  // of its publication
 };
