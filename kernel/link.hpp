@@ -104,8 +104,7 @@ class Linker {
   Blackboard& board_;
   std::map<std::string, Claimed> claimed_;
   std::map<std::string, std::vector<Instance*>> listers_;        // of a listed set
-  std::map<Instance*, std::map<Instance*, std::string>> waits_;  // for each instance, those that it must follow inside
-                                                                 // its phase, and the reason
+  std::map<Instance*, std::map<Instance*, std::string>> waits_;  // predecessors inside the phase, with reasons
   std::map<Instance*, std::size_t> depth_;                       // place inside the phase
   std::vector<std::pair<Sum, std::vector<Instance*>>> sums_;
   std::map<Table*, std::vector<Instance*>> writers_of_;
