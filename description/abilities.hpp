@@ -1,5 +1,5 @@
-// What robots need of a physics backend, and what a backend has: one that lacks anything refuses the world with the
-// list.
+// Abilities that robots need of a physics backend, and those that it has: a backend that lacks any refuses the world
+// with the list.
 #pragma once
 
 #include <string>
@@ -11,12 +11,12 @@ namespace muster::description {
 enum class Ability : unsigned {
   wheels = 1,   // two driven wheels on the ground
   rotors = 2,   // thrust of four rotors
-  height = 4,   // it changes
+  height = 4,   // height changes
   tilting = 8,  // roll and pitch change
   legs = 16,    // six half circles on motors, with springs
   bouncing = 512,
-  pushed = 1024,  // moved by others alone
-  // Limbs: what hangs on joints that no motor turns.
+  pushed = 1024,  // moved by other bodies only
+  // Limbs: bodies on joints without a motor.
   hinges = 32,   // revolute, continuous
   sliders = 64,  // prismatic
   balls = 128,
@@ -27,7 +27,7 @@ constexpr Ability operator|(Ability a, Ability b) {
   return static_cast<Ability>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
 }
 
-// What the robot needs and `have` lacks, in words and with commas between; "" if nothing.
+// The abilities that the robot needs and `have` lacks, in words and with commas between; "" if none.
 std::string lacking(const Robot& robot, Ability have);
 
 }  // namespace muster::description

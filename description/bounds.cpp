@@ -10,7 +10,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-// How far it reaches from its middle along each axis of the frame that it is placed in.
+// Half extents of the box along each axis of the frame in which it is placed.
 Vector3d reach(const Isometry3d& pose, const Box& box) { return pose.linear().cwiseAbs() * box.size / 2; }
 Vector3d reach(const Isometry3d&, const Sphere& sphere) { return Vector3d::Constant(sphere.radius); }
 Vector3d reach(const Isometry3d& pose, const Cylinder& cylinder) {

@@ -15,7 +15,7 @@ void limit(int resource, rlim_t value) {
   ::setrlimit(static_cast<__rlimit_resource>(resource), &both);
 }
 
-// Every other call fails with EPERM. Where the system has no such filters, the limits of resources remain.
+// Every other call fails with EPERM. On systems without such filters, the resource limits remain.
 [[maybe_unused]] void allow_memory_and_exit() {
   const scmp_filter_ctx filter = ::seccomp_init(SCMP_ACT_ERRNO(EPERM));
   if (!filter) return;
@@ -37,10 +37,10 @@ void enter_cage(const CageLimits& limits) {
   limit(RLIMIT_CORE, 0);
   for (const int number : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU, SIGALRM, SIGINT, SIGTERM})
     std::signal(number, SIG_DFL);
-  ::alarm(static_cast<unsigned>(2 * limits.cpu));                    // for a child that waits instead of working
+  ::alarm(static_cast<unsigned>(2 * limits.cpu));                    // for a child that sleeps instead of computing
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // these reserve terabytes, and open pipes
   limit(RLIMIT_AS, limits.memory);
-  limit(RLIMIT_NOFILE, 0);  // what is open stays open; nothing more can be opened
+  limit(RLIMIT_NOFILE, 0);  // open files stay open; no more can be opened
   allow_memory_and_exit();
 #endif
 }

@@ -1,4 +1,4 @@
-// What a process keeps that must only compute: its memory, and the way out.
+// Restricts a process to computation: memory, and its exit.
 #pragma once
 
 #include <sys/resource.h>
@@ -10,8 +10,8 @@ struct CageLimits {
   rlim_t cpu = 5;            // [s]
 };
 
-// For the child of a fork: from here on it can open nothing, start nothing, reach no network, and dies when its time or
-// memory is used up.
+// For the child of a fork: from here on it can open nothing, start nothing and reach no network, and it dies when its
+// time or memory is used up.
 void enter_cage(const CageLimits& limits);
 
 }  // namespace muster::description

@@ -40,7 +40,7 @@ std::size_t distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string read_file(const std::string& path, std::size_t limit) {
-  // O_NONBLOCK: a pipe without a writer must not hold us up.
+  // O_NONBLOCK: opening a pipe without a writer must not block.
   const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
   if (file.value < 0) throw std::runtime_error(path + ": " + std::strerror(errno));
   struct stat status {};
@@ -94,7 +94,7 @@ std::string print_number(double value) {
 
 std::string nearest(std::string_view name, const std::vector<std::string>& names) {
   const std::string* best = nullptr;
-  std::size_t least = std::max<std::size_t>(2, name.size() / 3) + 1;  // more edits than that is another word
+  std::size_t least = std::max<std::size_t>(2, name.size() / 3) + 1;  // beyond that number of edits it is another word
   for (const std::string& candidate : names) {
     const std::size_t d = distance(name, candidate);
     if (d < least) least = d, best = &candidate;

@@ -1,4 +1,4 @@
-// Files that are read whole, with limits; numbers that are read strictly.
+// Reads whole files under a size limit, and parses numbers strictly.
 #pragma once
 
 #include <optional>
@@ -14,13 +14,13 @@ std::string read_file(const std::string& path, std::size_t limit);
 // A finite decimal number and nothing else: no locale, no hexadecimal, no sign but '-' or one '+'.
 std::optional<double> parse_number(std::string_view text);
 
-// Numbers separated by blanks; nothing if any of them is none.
+// Numbers separated by blanks; null if any word is no number.
 std::optional<std::vector<double>> parse_numbers(std::string_view text);
 
 // In four digits, the same in every locale.
 std::string print_number(double value);
 
-// The nearest of `names` as "; did you mean 'x'?", or nothing if none is near.
+// The nearest of `names` as "; did you mean 'x'?", or "" if none is near.
 std::string nearest(std::string_view name, const std::vector<std::string>& names);
 
 }  // namespace muster::description

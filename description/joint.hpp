@@ -1,4 +1,4 @@
-// Joints: which kinds there are, and what each lets move.
+// Kinds of joints and their degrees of freedom.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -11,8 +11,8 @@ namespace muster::description {
 
 enum class JointKind { fixed = 1, revolute, continuous, prismatic, floating, planar, ball };
 
-// How a kind of joint moves: by so many coordinates (turns in space are four, a quaternion w first) with so many rates,
-// along or about an axis or not, and between limits or not.
+// Degrees of freedom of a kind of joint: number of coordinates (a rotation in space has four, a quaternion w first),
+// number of rates, whether it has an axis, and whether it has limits.
 struct JointLaw {
   JointKind kind;
   const char* name;
@@ -23,7 +23,7 @@ struct JointLaw {
 constexpr std::array<JointLaw, 7> joint_laws = {{
     {JointKind::fixed, "fixed", 0, 0, false, false},
     {JointKind::revolute, "revolute", 1, 1, true, true},       // about the axis [rad]
-    {JointKind::continuous, "continuous", 1, 1, true, false},  // the same, without end
+    {JointKind::continuous, "continuous", 1, 1, true, false},  // the same, without limits
     {JointKind::prismatic, "prismatic", 1, 1, true, true},     // along the axis [m]
     {JointKind::floating, "floating", 7, 6, false, false},     // in all directions [m], about all axes
     {JointKind::planar, "planar", 3, 3, true, false},  // along both directions across the axis [m], about it [rad]

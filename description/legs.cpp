@@ -18,11 +18,11 @@ Vector3d LegDrive::place(double angle, double way) const {
   return {c * x + s * z, 0, c * z - s * x};
 }
 
-// The direction from the circle's middle to its lowest point, if that is of the half that the leg has.
+// The direction from the circle's middle to its lowest point, if that is in the leg's half.
 double LegDrive::lowest_way(double angle, const Vector3d& up) {
   constexpr double pi = 3.141592653589793;
   const double c = std::cos(angle), s = std::sin(angle);
-  const double ahead = c * up.x() - s * up.z(), above = s * up.x() + c * up.z();  // how far the leg's axes rise
+  const double ahead = c * up.x() - s * up.z(), above = s * up.x() + c * up.z();  // rise of the leg's axes
   return ahead > 0 ? std::atan2(ahead, -above) : above > 0 ? pi : 0;
 }
 

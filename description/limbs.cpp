@@ -13,7 +13,7 @@ static bool is_driven(const Robot& robot, std::size_t joint) {
 std::vector<LimbJoint> limbs_of(const Robot& robot) {
   std::vector<LimbJoint> result;
   std::vector<int> carrier = {LimbJoint::body};                            // of each link
-  std::vector<Eigen::Isometry3d> frame = {Eigen::Isometry3d::Identity()};  // of each link in that
+  std::vector<Eigen::Isometry3d> frame = {Eigen::Isometry3d::Identity()};  // of each link in its carrier
   for (std::size_t i = 0; i < robot.joints.size(); ++i) {                  // parents come first
     const Joint& joint = robot.joints[i];
     const LimbJoint here{i, carrier[joint.parent], frame[joint.parent] * joint.origin};

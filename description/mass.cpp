@@ -4,12 +4,13 @@ namespace muster::description {
 
 namespace {
 
-// Steiner's term: the inertia of a point mass at p about the origin.
+// Steiner's term (parallel-axis theorem): the inertia of a point mass at p about the origin.
 Eigen::Matrix3d point_inertia(double mass, const Eigen::Vector3d& p) {
   return mass * (p.squaredNorm() * Eigen::Matrix3d::Identity() - p * p.transpose());
 }
 
-// Calls visit(index, frame in the link's own) for the link and for what hangs on it by joints that `through` lets pass.
+// Calls visit(index, frame in the link's own) for the link and for all links that joints accepted by `through` attach
+// to it.
 template <class Through, class Visit>
 void walk(const Robot& robot, std::size_t link, Through through, Visit visit) {
   std::vector<std::optional<Eigen::Isometry3d>> frames(robot.links.size());

@@ -32,7 +32,7 @@ constexpr std::uint32_t max_faces = 1u << 21;
 constexpr double max_coordinate = 1e6;  // [m]
 constexpr CageLimits limits;
 
-// What the child hands back, in memory that both see. Pages that nobody touches cost nothing.
+// The child's result, in shared memory. Untouched pages cost nothing.
 struct Shared {
   bool done;
   char error[256];
@@ -59,7 +59,7 @@ class SharedMap {
   Shared* shared_;
 };
 
-// A file system with a single file in it: no material library, no texture, nothing of the host's.
+// A file system with a single file in it: no material library, no texture, no file of the host.
 class OneFile : public Assimp::IOSystem {
  public:
   OneFile(std::string name, const std::string& bytes) : name_(std::move(name)), bytes_(bytes) {}
@@ -101,7 +101,7 @@ void fill(const aiScene& scene, Shared& out) {
   enter_cage(limits);
   try {
     Assimp::Importer importer;
-    importer.SetIOHandler(new OneFile(name, bytes));                       // which the importer owns
+    importer.SetIOHandler(new OneFile(name, bytes));                       // owned by the importer
     importer.SetPropertyBool("IMPORT_COLLADA_IGNORE_UP_DIRECTION", true);  // as ROS does: z is up
     const aiScene* scene = importer.ReadFile(
         name, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_PreTransformVertices);
@@ -128,7 +128,7 @@ void run_child(const std::string& name, const std::string& bytes, Shared& out) {
   if (out.error[0]) throw std::runtime_error(std::string("cannot be imported: ") + out.error);
 }
 
-// The child may have been made to write anything: believe nothing.
+// Validates all of the child's output: a hostile file may have made it write anything.
 Mesh checked(const Shared& shared, const Eigen::Vector3d& scale) {
   Mesh mesh;
   const std::uint32_t vertices = shared.vertex_count, faces = shared.face_count;
@@ -153,7 +153,7 @@ Mesh checked(const Shared& shared, const Eigen::Vector3d& scale) {
   return mesh;
 }
 
-// Where the file really is; throws unless that is inside the folder.
+// The resolved path of the file; throws unless it is inside the folder.
 fs::path confined(const std::string& folder, const std::string& file) {
   if (file.find("://") != std::string::npos || fs::path(file).is_absolute()) {
     throw std::runtime_error("is outside the allowed folder; expected a path relative to " + folder);

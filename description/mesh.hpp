@@ -1,5 +1,5 @@
-// Meshes from files of others. Assimp's importers crash, hang and write out of bounds on hostile input, so the bytes
-// are parsed in a child process with little memory and time, and what it hands back is checked again.
+// Meshes from untrusted files. Assimp's importers crash, hang and write out of bounds on hostile input, so a child
+// process with little memory and time parses the bytes, and its result is checked again.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace muster::description {
 
-// An .stl, .obj or .dae file inside `folder`; throws std::runtime_error with what is wrong (without file and line).
+// An .stl, .obj or .dae file inside `folder`; throws std::runtime_error with the fault (without file and line).
 Mesh read_mesh(const std::string& folder, const std::string& file, const Eigen::Vector3d& scale);
 
 }  // namespace muster::description

@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The models that the directories offer, for the message.
+// Names of the models in the directories, for the message.
 std::vector<std::string> models_in(const std::vector<std::string>& directories) {
   std::vector<std::string> names;
   for (const std::string& directory : directories) {

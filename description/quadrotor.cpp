@@ -31,7 +31,8 @@ RotorRates Quadrotor::rates_for(double thrust, const Vector3d& torque) const {
   const double pitch = std::clamp(torque.y() / (2 * arm), -most / 2, most / 2);
   const double larger = std::max(std::abs(roll), std::abs(pitch));
   const double yaw = std::clamp(torque.z() * thrust_factor / (4 * torque_factor), larger - most / 2, most / 2 - larger);
-  const double above = std::max(std::abs(pitch) - yaw, std::abs(roll) + yaw);  // so that no rotor would turn backwards
+  const double above = std::max(std::abs(pitch) - yaw, std::abs(roll) + yaw);  // so that no rotor would need to turn
+                                                                               // backwards
   const double below = most - std::max(std::abs(pitch) + yaw, std::abs(roll) - yaw);
   const double mean = std::clamp(thrust / 4, above, std::max(above, below));
   const double thrusts[] = {mean - pitch + yaw, mean + roll - yaw, mean + pitch + yaw, mean - roll - yaw};

@@ -1,10 +1,10 @@
-// Four rotors that lift and turn a body, without an engine.
+// Four rotors that lift and turn a body, independent of any engine.
 //
 // The front and the back rotor turn clockwise seen from above, the left and the right one the other way. Thrust and
-// torque grow with the square of a rotor's rate, which follows what is asked as a lag of first order (Powers,
-// Mellinger, Kumar: Quadrotor kinematics and dynamics. Handbook of Unmanned Aerial Vehicles, 2015). Air that comes from
-// the side drags at a rotor in proportion to its rate (Martin, Salaun: The true role of accelerometer feedback in
-// quadrotor control. ICRA 2010). Rotors have no angular momentum of their own and do not flap.
+// torque grow with the square of a rotor's rate, which follows its command as a first-order lag (Powers, Mellinger,
+// Kumar: Quadrotor kinematics and dynamics. Handbook of Unmanned Aerial Vehicles, 2015). Lateral air flow causes a drag
+// at a rotor in proportion to its rate (Martin, Salaun: The true role of accelerometer feedback in quadrotor control.
+// ICRA 2010). Rotors have no angular momentum of their own and do not flap.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,7 +18,7 @@ struct Wrench {
   Eigen::Vector3d force, torque;  // in the body's frame, the torque about the body's origin [N], [N m]
 };
 
-// By which share of the way to what is asked a rotor that speeds up, or slows down, falls short after some time.
+// Remaining fraction of a rotor's rate error after some time, when it speeds up and when it slows down.
 struct RotorDecay {
   double up = 0, down = 0;
 };
@@ -33,11 +33,12 @@ struct Quadrotor {
   double lag_up = 0;         // time constant of a rotor that speeds up [s]
   double lag_down = 0;       // of one that slows down
 
-  // The controller on board: angular acceleration asked for each radian of error, its integral and its rate.
+  // Gains of the attitude controller on board: commanded angular acceleration for each radian of error, its integral
+  // and its rate.
   double attitude_p = 0;  // [1/s2]
   double attitude_i = 0;  // [1/s3]
   double attitude_d = 0;  // [1/s]
-  double yaw_p = 0;       // for each rad/s of error of the turn rate [1/s]
+  double yaw_p = 0;       // for each rad/s of turn-rate error [1/s]
   double yaw_i = 0;       // [1/s2]
 
   double max_thrust() const { return 4 * thrust_factor * max_speed * max_speed; }
@@ -45,17 +46,17 @@ struct Quadrotor {
   RotorDecay decay(double time) const;
   RotorRates later(const RotorRates& now, const RotorRates& asked, const RotorDecay& decay) const;
 
-  // Of rotors on a body whose origin moves at `v` and that turns at `w`, both in its own frame. `squares` of the rates
-  // are apart for who averages both over time.
+  // Wrench of the rotors on a body whose origin moves at `v` and that turns at `w`, both in its own frame. `squares` of
+  // the rates are separate, for callers that average both over time.
   Wrench wrench(const RotorRates& rates, const RotorRates& squares, const Eigen::Vector3d& v,
                 const Eigen::Vector3d& w) const;
   Wrench wrench(const RotorRates& rates, const Eigen::Vector3d& v, const Eigen::Vector3d& w) const;
 
-  // Rates that lift with `thrust` [N] and turn with `torque` [N m]. What is too much gives way in this order: turning
-  // about z, then thrust (raised or lowered), then roll and pitch. Without thrust the rotors stand.
+  // Rates for a lift of `thrust` [N] and a torque [N m]. Under saturation it reduces first the torque about z, then
+  // changes thrust (up or down), then reduces roll and pitch. Without thrust the rotors stop.
   RotorRates rates_for(double thrust, const Eigen::Vector3d& torque) const;
 
-  // Force against a slow sideways motion while the rotors together lift `thrust` [N s/m].
+  // Drag coefficient of slow sideways motion while the rotors together lift `thrust` [N s/m].
   double hover_drag(double thrust) const;
 };
 
@@ -63,7 +64,7 @@ inline Wrench Quadrotor::wrench(const RotorRates& rates, const RotorRates& squar
                                 const Eigen::Vector3d& w) const {
   const auto& [front, left, back, right] = rates;
   const auto& [f2, l2, b2, r2] = squares;
-  // Sums over rotors of their rates, and of these times their places.
+  // Sums over rotors of their rates, and of the rates times their positions.
   const double sum = front + left + back + right, along = arm * (front - back), across = arm * (left - right);
   const double vx = v.x() + height * w.y(), vy = v.y() - height * w.x();  // of the middle of the rotors
   const double drag_x = -drag_factor * (sum * vx - across * w.z());

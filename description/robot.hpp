@@ -1,5 +1,5 @@
-// A robot without an engine: what it weighs, how its parts join, what shape they have and what drives them.
-// Physics backends build themselves from this; nothing here depends on any of them.
+// A robot without an engine: masses, joints, shapes and drives. Physics backends build themselves from this; nothing
+// here depends on any of them.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -25,7 +25,7 @@ struct Mass {
 
 Mass operator+(const Mass& a, const Mass& b);
 
-// The same mass seen from the parent, where `frame` is the pose of its frame in the parent.
+// The same mass in the parent's frame, where `frame` is the pose of its frame in the parent.
 Mass in_parent(const Eigen::Isometry3d& frame, const Mass& mass);
 
 struct Box {
@@ -50,10 +50,10 @@ struct Shape {
 struct Link {
   std::string name;
   Mass mass;                  // mass 0: a frame only
-  std::vector<Shape> shapes;  // what collides
+  std::vector<Shape> shapes;  // for collisions
 };
 
-// Two wheels on one axle, each turned by its own motor; anything else that touches the ground slides.
+// Two wheels on one axle, each turned by its own motor; all other parts slide on the ground.
 struct DifferentialDrive {
   std::size_t left = 0, right = 0;  // indices of joints
   double wheel_radius = 0;          // [m]
@@ -64,7 +64,7 @@ struct DifferentialDrive {
       std::numeric_limits<double>::infinity();  // of a wheel, set by the motor's controller [rad/s2]
   double friction = 0;                          // Coulomb, between wheel and ground
 
-  // Rigid wheels that do not slip.
+  // Kinematics of rigid wheels that do not slip.
   double forward(double left_rate, double right_rate) const { return (left_rate + right_rate) * wheel_radius / 2; }
   double turn(double left_rate, double right_rate) const {
     return (right_rate - left_rate) * wheel_radius / wheel_base;
@@ -72,15 +72,15 @@ struct DifferentialDrive {
   double left_rate(double v, double w) const { return (v - w * wheel_base / 2) / wheel_radius; }
   double right_rate(double v, double w) const { return (v + w * wheel_base / 2) / wheel_radius; }
 
-  // A motor turns no faster, whatever it is asked for.
+  // The commanded rate within the motor's limit.
   double limited_rate(double asked) const {
     return asked < -max_speed ? -max_speed : asked > max_speed ? max_speed : asked;
   }
 };
 
-// Six legs, each a half circle that hangs from its hip and bulges backwards, turned whole turns by its own motor: at
-// angle 0 it stands on its end, two radii under the hip; positive rates carry the robot forward. Three legs are a
-// tripod.
+// Six legs, each a half circle that hangs from its hip and bulges backwards, turned whole turns by its own motor. At
+// angle 0 a leg is upright on its end, two radii under the hip; positive rates carry the robot forward. Three legs are
+// a tripod.
 struct LegDrive {
   static constexpr std::size_t count = 6;
   struct Leg {
@@ -101,10 +101,10 @@ struct LegDrive {
   double damping = 0;                                          // [N s/m]
 
   bool is_rigid() const { return stiffness == std::numeric_limits<double>::infinity(); }
-  // Between the legs' planes, left to right [m].
+  // Distance between the legs' planes, left to right [m].
   double track() const;
-  // Where a point of the half circle is from its hip at an angle of the leg, in the body's frame [m]; `way` goes from
-  // the hip (0) to the end (pi).
+  // Position of a point of the half circle relative to its hip at an angle of the leg, in the body's frame [m]; `way`
+  // goes from the hip (0) to the end (pi).
   Eigen::Vector3d place(double angle, double way) const;
   // The way to its lowest point; `up` in the body's frame.
   static double lowest_way(double angle, const Eigen::Vector3d& up);
@@ -120,7 +120,7 @@ struct Laser {
   double step() const { return samples > 1 ? (max_angle - min_angle) / (samples - 1) : 0; }
 };
 
-// What senses on a robot's body.
+// A sensor on a robot's body.
 struct Sensor {
   std::string name;
   Eigen::Isometry3d pose;  // in the robot's frame
@@ -137,63 +137,63 @@ struct Robot {
   std::optional<LegDrive> legs;
   std::optional<Quadrotor> quadrotor;
   std::vector<Sensor> sensors;
-  // The share of the speed at which things meet that they part with, 0 to 1; of two things that of the less elastic
-  // one. The ground and walls are as elastic as what meets them, legs not at all.
+  // Coefficient of restitution, 0 to 1; a contact of two bodies takes the smaller one. Ground and walls take that of
+  // the other body; legs have 0.
   double restitution = 0;
   std::vector<std::string> warnings;  // one line each, for the user
 
-  // Else others push it, and all of it that touches holds on to what it touches.
+  // False: only other bodies push it, and all its contacts stick.
   bool is_driven() const { return drive || legs || quadrotor; }
 };
 
-// The link and all that is fixed to it, in the link's frame.
+// Mass of the link and all that is fixed to it, in the link's frame.
 Mass rigid_mass(const Robot& robot, std::size_t link);
 std::vector<Shape> rigid_shapes(const Robot& robot, std::size_t link);
-// All of the robot's, every joint at zero, in the root's frame.
+// All shapes of the robot, every joint at zero, in the root's frame.
 std::vector<Shape> whole_shapes(const Robot& robot);
 
-// A link's frame in the root's; nothing where a joint between them moves.
+// A link's frame in the root's; null where a joint between them moves.
 std::optional<Eigen::Isometry3d> frame_on_body(const Robot& robot, std::size_t link);
 
-// The least box along the axes of the frame in which a shape is placed; of all of a robot, every joint at zero, in the
-// root's frame, which is empty if it has neither shapes nor legs.
+// The axis-aligned bounding box of a shape, in the frame in which it is placed; or of a whole robot, every joint at
+// zero, in the root's frame: empty if it has neither shapes nor legs.
 Eigen::AlignedBox3d bounds(const Shape& shape);
 Eigen::AlignedBox3d bounds(const Robot& robot);
 
-// What hangs on a joint that no motor turns.
+// A body on a joint without a motor.
 struct LimbJoint {
   static constexpr int body = -1, driven = -2;  // a wheel or leg
 
   std::size_t joint = 0;    // index
-  int carrier = body;       // a limb before it, by its place among them, or one of the above
-  Eigen::Isometry3d frame;  // of the joint, in the frame of what carries it
+  int carrier = body;       // a preceding limb, by its place among them, or one of the above
+  Eigen::Isometry3d frame;  // of the joint, in the carrier's frame
 };
 std::vector<LimbJoint> limbs_of(const Robot& robot);
 
-// The same as an engine needs it.
+// The same in the form that an engine needs.
 struct LimbModel {
   JointKind kind;
-  int carrier;              // a limb before it, or -1: the body
-  Eigen::Isometry3d frame;  // of the joint, in what carries it
+  int carrier;              // a preceding limb, or -1: the body
+  Eigen::Isometry3d frame;  // of the joint, in the carrier
   Eigen::Vector3d axis;     // unit, in the joint's frame
-  Mass mass;                // in the joint's frame, where it stands at 0
+  Mass mass;                // in the joint's frame, at position 0
   double lower, upper;      // [rad] or [m]
   double damping, friction;
 };
 LimbModel limb_model(const Robot& robot, const LimbJoint& limb);
-// What of a joint no engine here models; "" if all of it can be.
+// Properties of a joint that no engine here models; "" if there are none.
 std::string unmodelled(const Joint& joint);
 
-// Everything, every joint at zero, in the root's frame.
+// Mass of the whole robot, every joint at zero, in the root's frame.
 Mass whole_mass(const Robot& robot);
 
-enum class Meshes { import = 1, skip };  // skip: for who needs no shapes; each mesh costs a child process
+enum class Meshes { import = 1, skip };  // skip: for callers without need of shapes; each mesh costs a child process
 
 // The URDF file, checked; throws std::runtime_error("file:line: what is wrong; what was expected").
 Robot read_robot(const std::string& path, Meshes meshes = Meshes::import);
 
-// The file of model "scarab" (scarab.urdf in the first of the directories that has it) or "path/to/my.urdf"
-// (absolute, or relative to one of the directories); throws, naming what was looked for and the nearest name.
+// The file of model "scarab" (scarab.urdf in the first of the directories that has it) or "path/to/my.urdf" (absolute,
+// or relative to one of the directories); throws with the name and the nearest valid one.
 std::string find_model(const std::string& model, const std::vector<std::string>& directories);
 
 }  // namespace muster::description

@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::size_t max_file = 16u << 20;  // bytes
 
-// urdfdom reports by console_bridge, which is one for the whole process: what it says in here is caught, and put back
-// after.
+// urdfdom reports by console_bridge, which is global to the process: this captures its messages and restores the
+// previous handler.
 class Listener : public console_bridge::OutputHandler {
  public:
   Listener() : lock_(mutex()), before_(console_bridge::getOutputHandler()) { console_bridge::useOutputHandler(this); }
@@ -86,8 +86,8 @@ class Converter {
     inertia << from.ixx, from.ixy, from.ixz, from.ixy, from.iyy, from.iyz, from.ixz, from.iyz, from.izz;
     const Eigen::Vector3d principal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia).eigenvalues();
     if (!(principal[0] > 0)) source_.fail(line, "link '" + name + "': inertia is not positive definite");
-    // No body has a principal moment above the sum of the others; a thin plate reaches it, hence the slack for rounded
-    // figures.
+    // No body has a principal moment above the sum of the others; a thin plate reaches it, so rounded figures get some
+    // slack.
     if (principal[2] > (principal[0] + principal[1]) * (1 + 1e-3)) {
       source_.fail(line, "link '" + name + "': inertia breaks the triangle inequality; no body has such moments");
     }
@@ -205,7 +205,7 @@ class Converter {
   Robot robot_;
 };
 
-// What moves must weigh something, or no engine can move it.
+// Requires a mass of every moving link: without one no engine can move it.
 void check_moving_masses(const Source& source, const Outline& outline, const Robot& robot) {
   for (const Joint& joint : robot.joints) {
     if (joint.kind == JointKind::fixed || rigid_mass(robot, joint.child).mass > 0) continue;

@@ -2,8 +2,8 @@
 
 namespace muster::description {
 
-// URDF knows no such joint. Marked is a floating one, so that whoever does not know the mark sees a joint that lets
-// more move, and no error.
+// URDF has no such joint. A mark on a floating joint makes it a ball: a program that ignores the mark sees a joint with
+// more freedom, and no error.
 void read_ball(const Source& source, const tinyxml2::XMLElement& element, Robot& robot) {
   only_attributes(source, element, {"joint"});
   Joint& joint = robot.joints[find_joint(source, element, "joint", robot)];

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t max_links = 10000;
 
-// Numbers in attributes: how many, and whether urdfdom would drop the whole element without them.
+// Attributes of numbers: how many they hold, and whether urdfdom would drop the whole element without them.
 struct Numbers {
   const char *element, *attribute;
   std::size_t count;
@@ -96,7 +96,7 @@ void check_joint(const Source& source, const XMLElement& joint, const std::strin
   }
 }
 
-// Links have one parent, and all are there.
+// Checks that links have one parent, and that all exist.
 std::map<std::string, Edge> parents(const Source& source, const std::vector<Edge>& edges, const Outline& outline) {
   std::map<std::string, Edge> parent_of;
   std::vector<std::string> links;
@@ -115,7 +115,7 @@ std::map<std::string, Edge> parents(const Source& source, const std::vector<Edge
   return parent_of;
 }
 
-// Orders the joints from the root outwards; whatever that does not reach hangs on a cycle.
+// Orders the joints from the root outwards; links not reached are on a cycle.
 void order_tree(const Source& source, const std::vector<Edge>& edges, Outline& outline) {
   const auto parent_of = parents(source, edges, outline);
   std::map<std::string, std::vector<const Edge*>> children;

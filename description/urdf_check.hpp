@@ -1,4 +1,4 @@
-// What urdfdom takes without a word, checked beforehand on the XML itself, where the lines are known.
+// Checks the XML itself, with line numbers, for faults that urdfdom accepts in silence.
 #pragma once
 
 #include <tinyxml2.h>
@@ -12,7 +12,7 @@
 
 namespace muster::description {
 
-// A place in a URDF file, to complain about.
+// A place in a URDF file, for messages.
 struct Source {
   std::string file;
   [[noreturn]] void fail(int line, const std::string& message) const;
@@ -29,26 +29,25 @@ struct Outline {
 // Parses the text under limits on depth and tag size; no DTD, no entities, one <robot>.
 void parse_urdf(const Source& source, const std::string& text, tinyxml2::XMLDocument& document);
 
-// Of a <link> or <joint>, and all in it: only elements and attributes that URDF has. What is drawn, <visual>, counts
-// not.
+// Checks a <link> or <joint> and all inside it: only elements and attributes of URDF. <visual> is skipped.
 void check_names(const Source& source, const tinyxml2::XMLElement& element);
-// Every number strictly a number, every needed attribute there, links a tree.
+// Checks that every number is one, that every required attribute is present, and that the links form a tree.
 Outline check_urdf(const Source& source, const tinyxml2::XMLElement& robot);
 
-// What <muster> adds to a robot whose links, joints and sensors are there already: how elastic it is, balls, how far
-// lasers see, and at most one drive.
+// Reads <muster> into a robot whose links, joints and sensors are complete: restitution, balls, ranges of lasers, and
+// at most one drive.
 void read_muster(const Source& source, const tinyxml2::XMLElement& element, Robot& robot);
 Quadrotor read_quadrotor(const Source& source, const tinyxml2::XMLElement& element, const Robot& robot);
 LegDrive read_legs(const Source& source, const tinyxml2::XMLElement& element, const Robot& robot);
 void read_laser(const Source& source, const tinyxml2::XMLElement& element, Robot& robot);
 void read_ball(const Source& source, const tinyxml2::XMLElement& element, Robot& robot);
 
-// A <sensor> of a robot whose links and joints are there already. What muster has no sense for is warned of.
+// Reads a <sensor> of a robot whose links and joints are complete. Kinds of sensors that muster lacks give a warning.
 void read_sensor(const Source& source, const tinyxml2::XMLElement& element, Robot& robot);
-// When all is read: of lasers that no <muster> gave a range.
+// After all is read: warns of lasers whose range no <muster> gives.
 void warn_of_blind_lasers(const Source& source, const tinyxml2::XMLElement& root, Robot& robot);
 
-// The index of a joint; where one that turns without end about the body's +y axis is on the body.
+// The index of a joint; the position on the body of one that turns without end about the body's +y axis.
 std::size_t find_joint(const Source& source, const tinyxml2::XMLElement& element, const char* attribute,
                        const Robot& robot);
 Eigen::Vector3d place_of_turning(const Source& source, const tinyxml2::XMLElement& element, const Robot& robot,
@@ -56,12 +55,12 @@ Eigen::Vector3d place_of_turning(const Source& source, const tinyxml2::XMLElemen
 
 // "<wheel> ", as messages begin.
 std::string tag(const tinyxml2::XMLElement& element);
-// An attribute that must be there and not empty; one that must be a number above 0; those that may be there, beside
+// An attribute that must be present and not empty; one that must be a number above 0; those that are allowed, beside
 // those of other namespaces.
 std::string required(const Source& source, const tinyxml2::XMLElement& element, const char* attribute);
 double positive(const Source& source, const tinyxml2::XMLElement& element, const char* attribute);
 void only_attributes(const Source& source, const tinyxml2::XMLElement& element, const std::vector<std::string>& known);
-// The same of elements in it, each there at most once but for `many`.
+// The same for child elements, each present at most once but for `many`.
 void only_children(const Source& source, const tinyxml2::XMLElement& element, const std::vector<std::string>& known,
                    const std::vector<std::string>& many = {});
 

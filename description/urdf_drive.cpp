@@ -12,7 +12,7 @@ namespace {
 
 constexpr double placement_tolerance = 1e-4;  // [m]: a drive that contradicts the joints by more is a mistake
 
-// The axle lies along the body's y axis, left wheel on the left, and turns forward for positive rates.
+// Checks that the axle is along the body's y axis, the left wheel on the left, and that positive rates turn forward.
 Eigen::Vector3d check_wheel(const Source& source, const XMLElement& element, const Robot& robot, std::size_t index,
                             double y) {
   const Eigen::Vector3d middle = place_of_turning(source, element, robot, index);
@@ -23,7 +23,7 @@ Eigen::Vector3d check_wheel(const Source& source, const XMLElement& element, con
   return middle;
 }
 
-// The radius of what is round about the axle among a wheel's collision shapes, the largest of it; 0 where nothing is.
+// The largest radius of a wheel's collision shapes that are round about the axle; 0 if there is none.
 double round_about_axle(const Robot& robot, const Joint& joint) {
   double result = 0;
   for (const Shape& shape : rigid_shapes(robot, joint.child)) {
@@ -56,7 +56,7 @@ void warn_of_height(const Source& source, const XMLElement& element, double heig
                            print_number(wheel_radius) + " do not stand there");
 }
 
-// 0 where it is not said.
+// 0 where it is absent.
 double share(const Source& source, const XMLElement& element, const char* attribute) {
   const char* text = element.Attribute(attribute);
   if (!text) return 0;

@@ -37,7 +37,7 @@ LegDrive::Leg read_leg(const Source& source, const XMLElement& element, const Ro
   return leg;
 }
 
-// Three legs on each side, which turn the robot, and two tripods, each of which carries it.
+// Checks for three legs on each side, which turn the robot, and for two tripods, each of which carries it.
 void check_tripods(const Source& source, int line, const Robot& robot, const LegDrive& drive) {
   const auto is_left = [](const LegDrive::Leg& leg) { return leg.hip.y() > 0; };
   const auto left = std::count_if(drive.legs.begin(), drive.legs.end(), is_left);

@@ -1,4 +1,4 @@
-// Names of elements and attributes: a name that is misspelt is not left out, as urdfdom does.
+// Checks names of elements and attributes: a misspelt name is an error, not dropped as by urdfdom.
 #include <algorithm>
 
 #include "description/file_text.hpp"
@@ -16,7 +16,8 @@ struct Kind {
   Names attributes, elements;
 };
 
-// What http://wiki.ros.org/urdf/XML has in <link> and <joint>, but for what <visual> has, which is not looked at here.
+// Elements and attributes of <link> and <joint> by http://wiki.ros.org/urdf/XML, except those of <visual>, which is not
+// checked here.
 const std::map<std::string, Kind>& kinds() {
   static const std::map<std::string, Kind> all = {
       {"link", {{"name", "type"}, {"inertial", "visual", "collision"}}},
@@ -94,7 +95,7 @@ void only_children(const Source& source, const XMLElement& element, const Names&
 
 void check_names(const Source& source, const XMLElement& element) {
   const std::string name = element.Name();
-  if (name == "visual") {  // urdfdom refuses a shape that it does not know, and says no line
+  if (name == "visual") {  // urdfdom refuses unknown shapes, without a line number
     if (const XMLElement* geometry = element.FirstChildElement("geometry")) check_geometry(source, *geometry);
     return;
   }

@@ -20,7 +20,7 @@ double from_zero(const Source& source, const XMLElement& element, const char* at
   return *value;
 }
 
-// Whether a fourth-order loop lag s^4 + s^3 + d s^2 + p s + i comes to rest (Routh, Hurwitz).
+// True if a loop with characteristic polynomial lag s^4 + s^3 + d s^2 + p s + i is stable (Routh, Hurwitz).
 bool settles(double lag, double d, double p, double i) {
   const double damping = d - lag * p;
   return damping > 0 && p * damping > i;

@@ -14,7 +14,7 @@ constexpr double turn = 6.283185307179586;
 constexpr int max_samples = 100000;
 constexpr double max_rate = 1e6;  // [Hz]
 
-// Of a <sensor>: what is read of it, and whom to complain about.
+// Reads a <sensor>, with the place for messages.
 class Reader {
  public:
   Reader(const Source& source, const XMLElement& element, const std::string& name)
@@ -69,7 +69,7 @@ Eigen::Isometry3d origin_of(const Source& source, const XMLElement& sensor, cons
          Eigen::AngleAxisd(angles[0], Eigen::Vector3d::UnitX());
 }
 
-// All the rays of a laser lie in one plane: <vertical> may say so, and no more.
+// All rays of a laser are in one plane: <vertical> may only confirm that.
 Laser laser_of(const Source& source, const XMLElement& ray, const std::string& name) {
   only_attributes(source, ray, {});
   only_children(source, ray, {"horizontal", "vertical"});

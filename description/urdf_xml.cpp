@@ -1,4 +1,4 @@
-// A URDF's text as XML, or where and why it is none.
+// Parses a URDF's text as XML, or reports place and reason of the fault.
 #include <algorithm>
 
 #include "description/urdf_check.hpp"
@@ -23,8 +23,8 @@ std::size_t skip_to(const std::string& text, std::size_t from, const char* end) 
   return std::min(text.find(end, from), text.size());
 }
 
-// Calls `visit` with the place of each '<' but those of comments and character data, whose size is nobody's concern; it
-// says from where to go on.
+// Calls `visit` with the place of each '<' except those in comments and character data, whose size does not matter; it
+// returns where to continue.
 template <class Visit>
 void for_each_tag(const std::string& text, const Visit& visit) {
   for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at + 1)) {
@@ -48,7 +48,7 @@ void scan_tags(const Source& source, const std::string& text) {
   });
 }
 
-// The '>' that ends the tag at `at`, or the text's end; a value in quotes may have one, too.
+// The '>' that ends the tag at `at`, or the text's end; a quoted value may contain one, too.
 std::size_t end_of_tag(const std::string& text, std::size_t at) {
   char quote = 0;
   for (; at < text.size(); ++at) {
@@ -59,8 +59,8 @@ std::size_t end_of_tag(const std::string& text, std::size_t at) {
   return at;
 }
 
-// Each closing tag closes the element that was opened last. The parser tells no more of one that does not than where
-// some element begins, and takes those behind the root without a word.
+// Checks that each closing tag closes the element opened last. For a mismatch the parser only reports where some
+// element begins, and it accepts those behind the root in silence.
 void check_pairs(const Source& source, const std::string& text) {
   struct Open {
     std::string name;

@@ -1,4 +1,4 @@
-// The descriptions of a world's robots, for plugins: the only header here that knows the plugin contract.
+// The descriptions of a world's robots, for plugins: the only header here that includes the plugin contract.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace muster::description {
 
 // The model of a robot, as a table keeps it: 1 + the row of the robot that the world file gave that model. So a robot
-// that joins as a copy of another has the other's body. 0: not known yet.
+// that joins as a copy of another has the other's body. 0: not set yet.
 struct Model {
   static constexpr const char* columns = "model";
   double model;
@@ -21,7 +21,7 @@ struct Model {
 
 class WorldRobots {
  public:
-  // For constructors: the kernel tells models during setup only. Each model is read once. Throws BadInput naming it.
+  // For constructors: the kernel gives models during setup only. Each model is read once. Throws BadInput naming it.
   WorldRobots(const Setup& setup, Meshes meshes) {
     const muster_host* host = setup.host();
     std::vector<std::string> directories;
@@ -38,7 +38,7 @@ class WorldRobots {
     }
   }
 
-  // The number to keep for a robot: the one it has, or at first its own.
+  // The number to keep for a robot: the present one, or at first its own.
   static double model_of(double kept, std::size_t row) { return kept > 0 ? kept : static_cast<double>(row + 1); }
 
   // Null where there is none.
@@ -70,7 +70,8 @@ class WorldRobots {
     return std::any_of(robots_.begin(), robots_.end(), [](const auto& robot) { return robot && robot->quadrotor; });
   }
 
-  // For backends: throws BadInput with all that robots need and `have` lacks, a robot of each model named.
+  // For backends: throws BadInput with all abilities that robots need and `have` lacks, with a robot of each model
+  // named.
   void require(Ability have, const Setup& setup) const {
     std::string list;
     std::vector<const Robot*> seen;

@@ -83,7 +83,7 @@ void Table::begin_anew(bool carry, uint64_t tick) {
   next.blobs = now.blobs;
 }
 
-// Rows that every reader has seen are gone.
+// Drops rows that every reader has seen.
 void Table::begin_queue(uint64_t tick) {
   const Cells& now = this->now();
   Cells& next = this->next();
@@ -98,7 +98,7 @@ void Table::begin_queue(uint64_t tick) {
   next.rows = next.appended.size();
 }
 
-// Blobs in the order of the cells that hold them, and no others: so equal tables are equal bytes.
+// Keeps the blobs that cells refer to, in the order of the cells: so equal tables are equal bytes.
 void Table::compact_blobs() {
   Cells& next = this->next();
   std::vector<Blob> kept;

@@ -15,29 +15,29 @@
 
 namespace muster {
 
-// What poisons a cell that is to be filled: a NaN of its own, never taken for a value.
+// Value of a cell not yet filled: a NaN of its own bit pattern, distinct from every valid value.
 inline constexpr uint64_t poison_bits = 0x7ffadead0badcafeull;
 inline double poison() { return std::bit_cast<double>(poison_bits); }
 
-// Rows that have names, or, in queues and listed sets, only numbers. Numbers never change.
+// Rows with names, or, in queues and listed sets, with numbers only. Numbers never change.
 struct Set {
   std::string name;
   SetKind kind = SetKind::fixed;
-  std::string owner;  // queue: the set whose row stands in column 0
+  std::string owner;  // queue: the owning set, whose row number is in column 0
   std::vector<std::string> names;
   std::vector<uint64_t> keys;  // random keys, from the names alone
   std::vector<uint8_t> alive;  // 0: the row has left
   std::vector<uint32_t> like;  // the row whose texts it has: its own, or that of which it joined as a copy
-  std::size_t listed = 0;      // how many rows a listed set has now
+  std::size_t listed = 0;      // rows of a listed set now
   std::unordered_map<std::string, uint32_t> numbers;
 
   bool is_named() const { return kind == SetKind::fixed || kind == SetKind::live; }
   std::size_t rows() const { return kind == SetKind::listed ? listed : names.size(); }
   // The row's number, or -1.
   int find(const std::string& row) const;
-  // False if the name is taken. `like`: a row that there is, or negative.
+  // False if the name is taken. `like`: an existing row, or negative.
   bool add(const std::string& row, int like = -1);
-  // Forgets the rows from this number on.
+  // Drops the rows from this number on.
   void cut(std::size_t rows);
 };
 
@@ -47,12 +47,12 @@ using Blob = std::shared_ptr<const std::vector<uint8_t>>;
 struct Cells {
   std::vector<double> data;
   std::vector<Blob> blobs;
-  std::vector<uint64_t> appended;  // queue: the tick at which each row came
+  std::vector<uint64_t> appended;  // queue: the tick of each row's arrival
   std::size_t rows = 0;
-  uint64_t tick = 0;  // at which it was published
+  uint64_t tick = 0;  // of its publication
 };
 
-// A table: what is published, and what is being written. A tick that fails takes back what it published.
+// A table: its published cells and those being written. A failed tick takes back what it published.
 class Table {
  public:
   Table(std::string name, Set& set, Columns columns, std::string initial);
@@ -66,17 +66,18 @@ class Table {
 
   const Cells& now() const { return *now_; }
   Cells& next() { return *next_; }
-  // What was written in this tick, published or not; else what stands.
+  // Cells written in this tick, published or not; else the published ones.
   const Cells& newest() const { return begun_ && !published_ ? *next_ : *now_; }
-  // To put initial or restored values in place; not for steps.
+  // Published cells, for initial or restored values; not for steps.
   Cells& stored() {
     ++version_;
     return *now_;
   }
-  // Grows whenever something new may stand.
+  // Grows with every possible change of the published cells.
   uint64_t version() const { return version_; }
 
-  // Opens `next` for writing, once a tick: with last values carried over, or not where every cell will be written.
+  // Opens `next` for writing, once a tick: with the last values carried over, or without where every cell is to be
+  // written.
   void begin(bool carry, uint64_t tick) {
     begun_ = true;
     const bool is_sized = set_->kind == SetKind::fixed && next().rows == now().rows && next().blobs.empty();
@@ -88,12 +89,12 @@ class Table {
   void take_back();
   void end_tick() { begun_ = published_ = false; }
 
-  // Queue: for how many ticks after its own a row is still to be seen by some reader.
+  // Queue: number of ticks after its own for which a reader may still need a row.
   uint64_t keep = 0;
 
-  // One row of initial values; and such rows for those of the set that it lacks, as all do in a new table.
+  // fill_initial() gives one row of initial values; grow() adds such rows for those of the set that the table lacks.
   void fill_initial(double* row) const;
-  // Puts what another table of the same set and columns holds in place; or takes it, where nobody else will ask.
+  // Copies the cells of another table of the same set and columns, or moves them.
   void take_over(const Table& other);
   void take_over(Table&& other);
   void grow();
@@ -108,7 +109,7 @@ class Table {
   Columns columns_;
   std::vector<double> initial_;
   Cells cells_[2];
-  Cells *now_ = &cells_[0], *next_ = &cells_[1];  // what stands, and what is being written
+  Cells *now_ = &cells_[0], *next_ = &cells_[1];  // published, and being written
   bool begun_ = false, published_ = false;
   uint64_t version_ = 0;
 };
@@ -117,15 +118,15 @@ class Blackboard {
  public:
   Set& add_set(const std::string& name, SetKind kind, const std::string& owner);
   Set* find_set(const std::string& name) const;
-  // Sets and rows come with instances; one that is refused takes its own back.
+  // Row counts of all sets. A refused instance's sets and rows are removed by back_to().
   using Mark = std::map<std::string, std::size_t>;
   Mark mark() const;
   void back_to(const Mark& mark);
-  // Forgets a set that has no tables.
+  // Drops a set that has no tables.
   void drop_set(const std::string& name) { sets_.erase(name); }
   const std::map<std::string, std::unique_ptr<Set>>& sets() const { return sets_; }
 
-  // By its whole name, "robot/*/pose@stage"; null if there is none.
+  // By its whole name, "robot/*/pose@stage"; null if absent.
   Table* find(const std::string& name) const;
   Table& add(std::unique_ptr<Table> table);
   // Another name of a table, such as that of the last stage of a chain.
@@ -139,7 +140,7 @@ class Blackboard {
   std::map<std::string, Table*> aliases_;
 };
 
-// What stands in a cell, for messages and records: the number, the name of a referred row, or "" for null.
+// Text of a cell, for messages and records: the number, the name of a referred row, or "" for null.
 std::string cell_text(const Blackboard& board, const Column& column, double value);
 
 }  // namespace muster

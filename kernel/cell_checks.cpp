@@ -18,7 +18,7 @@ void poison_row(std::vector<double>& data, std::size_t row, std::size_t width) {
   std::fill_n(data.begin() + static_cast<std::ptrdiff_t>(row * width), width, poison());
 }
 
-// Rows that have left keep their last values, and are nobody's to fill.
+// Poisons the rows still in the set; rows that have left keep their last values and have no writer.
 void poison_alive(std::vector<double>& data, const Table& table) {
   const Set& set = table.set();
   if (!any_dead(set)) return std::fill(data.begin(), data.end(), poison());
@@ -36,7 +36,7 @@ void prepare(Claim& claim, uint64_t tick) {
   claim.appended = 0;
   claim.puts.clear();
   if (claim.lists || table.set().kind == SetKind::queue)
-    claim.aside.clear();  // or rows of the step before would look filled
+    claim.aside.clear();  // otherwise rows of the step before would look filled
   const bool queue = table.set().kind == SetKind::queue;
   if (claim.lists) return;  // begun when its rows are known
   const bool whole = claim.row < 0 && !claim.staged;
@@ -90,7 +90,7 @@ std::size_t rows_of(const Instance& instance, const Set& set) {
   return set.rows();
 }
 
-// Of each column, how many rows its numbers may name; 0 where it names none.
+// For each column, the number of rows that its references may name; 0 for a column without references.
 std::vector<double> referred_rows(const Instance& instance, const Blackboard& board, const Columns& columns) {
   std::vector<double> rows(columns.size());
   for (std::size_t c = 0; c < rows.size(); ++c) {
@@ -116,7 +116,7 @@ std::string cell_name(const Claim& claim, std::size_t row, std::size_t column) {
   return claim.name.set + '/' + name + '/' + claim.name.quantity + ": " + claim.columns[column].title();
 }
 
-// Rows that are not the claim's to fill: other instances', and those that have left.
+// True for rows outside the claim: those of other instances, and those that have left.
 bool is_others(const Claim& claim, std::size_t row) {
   const Set& set = claim.out->set();
   if (claim.row < 0 && set.is_named() && !set.alive[row]) return true;
@@ -126,11 +126,10 @@ bool is_others(const Claim& claim, std::size_t row) {
 
 bool is_queue_of_one(const Claim& claim) { return claim.row >= 0 && claim.out->set().kind == SetKind::queue; }
 
-// Who claims one owner's queue cannot append in the name of others.
+// True where the claimant of one owner's queue appends a row of another owner.
 bool speaks_for_another(const Claim& claim, double owner) { return is_queue_of_one(claim) && owner != claim.row; }
 
-// Whether all that was written is finite numbers, and rows where it stands for rows: most of what is asked of a cell,
-// without a word about any.
+// Fast path of the check: true where all written cells are finite, and all references are row numbers. No message.
 bool is_plain(const Columns& columns, const Written& cells, const std::vector<double>& referred) {
   const std::size_t width = columns.size();
   if (columns.any_bytes() || !all_finite(cells.data, cells.rows * width)) return false;
@@ -162,7 +161,7 @@ std::string check(const Instance& instance, const Blackboard& board, const Claim
   return "";
 }
 
-// Bytes go to the table; a bytes cell that got none is empty, and others' rows keep theirs.
+// Moves the bytes written to the table; a bytes cell that got none is empty, and others' rows keep theirs.
 void commit_bytes(Claim& claim, Cells& next, std::size_t first) {
   if (!claim.out->columns().any_bytes()) return;
   const auto width = claim.columns.size();
@@ -198,7 +197,8 @@ void commit_listed(Claim& claim, uint64_t tick) {
   commit_bytes(claim, claim.out->next(), 0);
 }
 
-// Where others write rows of the same table, or wrote them last: bytes of theirs are not this step's.
+// Copies the claim's own rows into a table whose other rows have other writers, or had; bytes of those are not of this
+// step.
 void commit_rest(Claim& claim) {
   const auto width = claim.columns.size();
   auto& next = claim.out->next();
@@ -211,7 +211,7 @@ void commit_rest(Claim& claim) {
   commit_bytes(claim, next, 0);
 }
 
-// Rows that have left keep their values, whoever still writes them.
+// Restores the values of rows that have left, which keep them even if they are written.
 void keep_left(Claim& claim) {
   Table& table = *claim.out;
   if (!any_dead(table.set())) return;
@@ -249,7 +249,7 @@ std::string commit_lists(Instance& instance, uint64_t tick) {
 }  // namespace
 
 bool all_finite(const double* data, std::size_t count) {
-  constexpr std::size_t lanes = 8;  // sums that need not wait for one another
+  constexpr std::size_t lanes = 8;  // independent partial sums
   double sums[lanes] = {};
   std::size_t i = 0;
   for (; i + lanes <= count; i += lanes) {

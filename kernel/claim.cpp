@@ -105,8 +105,8 @@ const Quantity* standard_quantity(const Standard& standard, const TableName& nam
   return nullptr;
 }
 
-// Private tables are the instance's own memory. Quantities that are not standard are judged by their writer's claim,
-// when the world is linked.
+// Private tables are the instance's own memory. Quantities that are not standard are checked when the world is linked,
+// since the writer's claim decides.
 void check_blindness(const Claim& claim, const Instance& instance, const Surroundings& around) {
   if (instance.phase() != MUSTER_CONTROL || claim.file) return;
   if (claim.name.set == "instance/" + instance.name()) return;
@@ -156,7 +156,7 @@ std::vector<double> row_numbers(const TextTable& table, std::size_t at, const Co
   return result;
 }
 
-// Somebody would wait for what a column does that nobody reads.
+// Refuses columns that no plugin reads, so that none is ignored silently.
 void refuse_others(const TextTable& table, const Columns& columns) {
   std::vector<std::string> known;
   for (const auto& column : columns) known.push_back(column.name);
@@ -205,7 +205,7 @@ int Instance::claim(uint32_t kind, uint32_t flags, const std::string& table, con
   if (made.columns.size() == 0) throw refused("claims " + quote(table) + " without columns");
   check_references(made, *this, *around_.board);
   Set& set = resolve_set(made.name, *this, *around_.board);
-  // A queue's rows are numbered; who owns them has the names.
+  // A queue's rows are numbered; their owners are named.
   made.row = resolve_row(made.name, set.kind == SetKind::queue ? *around_.board->find_set(set.owner) : set, *this);
   if (kind == MUSTER_MODIFY && set.kind == SetKind::queue && made.row >= 0)
     throw refused("modifies " + quote(table) + "; expected a whole queue");

@@ -1,25 +1,26 @@
-// What a plugin claims, taken from text and held against the sets and the standard quantities.
+// Claims of plugins: parsed from text and checked against the sets and the standard quantities.
 #pragma once
 
 #include "instance.hpp"
 
 namespace muster {
 
-// "robot/{robot}/pose@stage": braces stand for the row that a parameter of the instance names. Throws Error.
+// Parses "robot/{robot}/pose@stage"; braces are replaced by the row that a parameter of the instance names. Throws
+// Error.
 TableName parse_table_name(const std::string& text, const Instance& instance, const Surroundings& around);
 
-// The set of a claim, made where it is private to an instance; and the number of the claimed row, or -1. Throws Error.
+// The set of a claim, created if it is private to an instance; and the number of the claimed row, or -1. Throws Error.
 Set& resolve_set(const TableName& name, const Instance& instance, Blackboard& board);
 int resolve_row(const TableName& name, const Set& set, const Instance& instance);
 
-// Columns that hold row numbers do so of sets that there are. Throws Error.
+// Checks that columns of row numbers refer to existing sets. Throws Error.
 void check_references(const Claim& claim, const Instance& instance, const Blackboard& board);
 
 // The standard quantity of that name, or null.
 const Quantity* standard_quantity(const Standard& standard, const TableName& name);
 const SetDeclaration* standard_set(const Standard& standard, const std::string& set);
 
-// What a robot's controller may read: its own sensed rows, inbox and outbox. Throws Error for anything else.
+// Restricts a robot's controller to its own sensed rows, inbox and outbox. Throws Error for anything else.
 void check_blindness(const Claim& claim, const Instance& instance, const Surroundings& around);
 
 // A file's cells, names turned into row numbers; where `closed`, it must have no other columns. Throws Error with line

@@ -10,11 +10,11 @@
 
 namespace muster {
 
-// Reaches into Instance on behalf of its plugin. Nothing thrown here may cross into the plugin.
+// Accesses Instance on behalf of its plugin. Nothing thrown here may cross into the plugin.
 struct Host {
   static Instance& of(const muster_host* host) { return *static_cast<Instance*>(host->kernel); }
 
-  // Runs what may be refused: the message stays with the instance, the plugin gets `otherwise`.
+  // Runs a call that may be refused: the message is kept in the instance, and the plugin gets `otherwise`.
   template <class Body>
   static auto guarded(const muster_host* host, decltype(std::declval<Body>()()) otherwise, Body&& body) noexcept {
     Instance& instance = of(host);
@@ -52,7 +52,7 @@ struct Host {
     return guarded(host, nullptr, [&] { return inherited_text(i, path); });
   }
 
-  // Of a row that joined as a copy of another: that one's text.
+  // Text of a row that joined as a copy of another: that one's.
   static const char* inherited_text(const Instance& i, const std::string& path) {
     const auto first = path.find('/'), last = path.rfind('/');
     const Set* set = first < last ? i.around_.board->find_set(path.substr(0, first)) : nullptr;
@@ -80,7 +80,7 @@ struct Host {
     return 0;
   }
 
-  // Most ask for one set, row by row; and no set goes while a step runs.
+  // The set by name, cached: most plugins query one set row by row, and no set is removed while a step runs.
   static const Set* set_of(const muster_host* host, const char* set) {
     Instance& i = of(host);
     if (i.in_step_ && i.asked_ && i.asked_->name == set) return i.asked_;
@@ -120,7 +120,7 @@ struct Host {
       wrong(i,
             "append() on a table whose rows it does not list; expected a queue, or a set of which it writes the first "
             "quantity");
-      static thread_local std::vector<double> nowhere;  // where the plugin may write until its step is refused
+      static thread_local std::vector<double> nowhere;  // scratch memory for the plugin, until its step is refused
       nowhere.resize(count * std::max<std::size_t>(claim ? claim->columns.size() : 0, 64));
       return nowhere.data();
     }
@@ -128,7 +128,7 @@ struct Host {
     claim->aside.resize((claim->appended + count) * width, poison());
     double* first = claim->aside.data() + claim->appended * width;
     if (claim->row >= 0) {
-      for (uint32_t r = 0; r < count; ++r) first[r * width] = claim->row;  // it speaks for its own row alone
+      for (uint32_t r = 0; r < count; ++r) first[r * width] = claim->row;  // it appends for its own row only
     }
     claim->appended += count;
     return first;

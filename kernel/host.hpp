@@ -1,4 +1,4 @@
-// The host that an instance sees: the kernel behind a table of C functions.
+// The host that an instance calls: the kernel behind a table of C functions.
 #pragma once
 
 #include <muster/plugin.h>

@@ -122,7 +122,7 @@ void Instance::check_attributes() {
 Error Instance::failure(const std::string& callback, const muster_tick* tick, const std::string& said) {
   const Exit fault = std::exchange(fault_, Exit::plugin_fault);
   said_.clear();
-  if (std::exchange(refused_, false)) return Error(fault, said);  // which names its place
+  if (std::exchange(refused_, false)) return Error(fault, said);  // it includes its place
   const std::string where =
       tick ? " at tick " + std::to_string(tick->index) + " (t = " + print_real(tick->time) + " s)" : "";
   std::string words = said;  // a plugin's may have several lines; a message is one
@@ -131,10 +131,10 @@ Error Instance::failure(const std::string& callback, const muster_tick* tick, co
   return Error(fault, title() + ": " + callback + " failed" + where + ": " + words);
 }
 
-// Rows of a queue that this claim has not seen, and of its own row's where it claims one.
+// Collects the rows of a queue that this claim has not seen; only those of its own row where it claims one.
 void Instance::gather(Claim& claim, muster_in& view, uint64_t tick) {
   const Cells& cells = claim.in->now();
-  const uint64_t last = tick > claim.window ? tick - claim.window : 0;  // when it stepped last
+  const uint64_t last = tick > claim.window ? tick - claim.window : 0;  // its last step
   const bool is_first = tick == 0 || (last == 0 && claim.from_start);
   const auto is_new = [&](uint64_t came) { return claim.late || is_first ? came >= last : came > last; };
   const auto width = claim.in->width();

@@ -1,4 +1,4 @@
-// An instance of a plugin: its parameters, its claims, and the host through which it asks the kernel.
+// An instance of a plugin: its parameters, its claims, and the host through which it calls the kernel.
 #pragma once
 
 #include <muster/plugin.h>
@@ -34,11 +34,11 @@ struct Claim {
   std::unique_ptr<Cells> file;  // a claim on a file's table: its cells
 
   // Filled by the linker.
-  Table* in = nullptr;      // what is read: the table, the stage before, or what was last published
-  Table* out = nullptr;     // what is written
+  Table* in = nullptr;      // read from: the table, the stage before, or the last publication
+  Table* out = nullptr;     // written to
   bool lists = false;       // write: its instance lists the rows of the set anew, by append()
   bool staged = false;      // written aside and copied afterwards: a rest of rows, beside rows of others
-  bool direct = false;      // written whole, in its place, numbers only: nothing is left to do after a step
+  bool direct = false;      // written whole, in place, numbers only: nothing to do after a step
   std::vector<int> others;  // staged: the rows that other instances write
   uint64_t window = 0;      // queue, read or modified: rows that came at a tick > now - window ...
   bool late = false;        // ... or, where its writers come later in a tick, >= now - window
@@ -55,15 +55,15 @@ struct Claim {
   std::vector<Put> puts;
 };
 
-// What plugins may ask about beyond their own instance.
+// State outside an instance that the host's calls need.
 struct Surroundings {
   const Standard* standard = nullptr;
   const World* world = nullptr;
   Blackboard* board = nullptr;
   Library::SearchPath search_path;
   uint64_t seed = 0;
-  std::vector<std::string> destroy_faults;  // what failed while instances were destroyed; a destructor cannot throw it
-  ThreadPool* workers = nullptr;            // none: one thread
+  std::vector<std::string> destroy_faults;  // failures while instances were destroyed; a destructor cannot throw them
+  ThreadPool* workers = nullptr;            // null: one thread
 };
 
 struct Join {
@@ -100,7 +100,7 @@ class Instance {
   uint64_t every() const { return declared_.every; }
   // "world.xml:8:3: physics (physics.simbody)"
   std::string title() const;
-  // What the instance asks for does not fit the world: "TITLE: what".
+  // A claim or parameter of the instance does not fit the world: "TITLE: what".
   Error refused(const std::string& what) const { return {Exit::invalid_input, title() + ": " + what}; }
 
   std::vector<Claim>& claims() { return claims_; }
@@ -112,16 +112,16 @@ class Instance {
   // The row of the set "robot" that the parameter `robot` names, or -1.
   int bound_row() const;
 
-  // Points the views at the tables. Call before step(), when nothing that it reads changes any more.
+  // Points the views at the tables. Call before step(), after the last change of its inputs.
   void bind(uint64_t tick);
   // One call of step(); its error is kept in failure(). Never throws.
   bool step(const muster_tick& now) noexcept;
-  // What the plugin, or the kernel of it, said of its last failed callback.
+  // Message of the last failed callback, from the plugin or from the kernel on its behalf.
   std::string said() const { return said_.empty() ? "gave no reason" : said_; }
   // The error of a failed callback, whole, and ready for the next call.
   Error failure(const std::string& callback, const muster_tick* tick, const std::string& said);
 
-  // True where all that it writes is direct; told by the linker.
+  // True where all its written claims are direct; set by the linker.
   bool is_direct() const { return direct_; }
   void set_direct(bool direct) { direct_ = direct; }
 
@@ -131,11 +131,11 @@ class Instance {
 
  private:
   friend struct Host;
-  // Calls a plugin that was written without plugin.hpp, whose exceptions nobody else stops.
+  // Calls a plugin written without plugin.hpp, whose exceptions nothing else catches.
   template <class Body>
   auto guarded(decltype(std::declval<Body>()()) otherwise, Body&& body) noexcept;
   void check_attributes();
-  // What claim() and file() do; they throw Error where the host returns -1.
+  // Implementations of the host's claim() and file(); they throw Error where the host returns -1.
   int claim(uint32_t kind, uint32_t flags, const std::string& table, const std::string& columns);
   int file(const std::string& param, const std::string& columns);
   void gather(Claim& claim, muster_in& view, uint64_t tick);
@@ -152,11 +152,11 @@ class Instance {
   std::vector<Claim> claims_;
   std::vector<muster_in> in_;
   std::vector<muster_out> out_;
-  std::string said_;  // what the plugin said of its failure
+  std::string said_;  // the plugin's message for its failure
   Exit fault_ = Exit::plugin_fault;
-  bool refused_ = false;  // what was said is the kernel's own refusal
+  bool refused_ = false;  // the message is the kernel's own refusal
   bool in_create_ = false, in_step_ = false, direct_ = false;
-  const Set* asked_ = nullptr;  // what it last asked the rows of, in this step
+  const Set* asked_ = nullptr;  // the set of its last query in this step
 };
 
 }  // namespace muster

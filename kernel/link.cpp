@@ -33,7 +33,7 @@ void Linker::gather() {
   }
 }
 
-// The last is what readers get.
+// All tables of a quantity; the last is the one that readers get.
 std::vector<Linker::Needed> Linker::tables_of(const std::string& logical, const Claimed& c) const {
   std::vector<Needed> result;
   for (const auto& by : c.adders) {
@@ -54,7 +54,7 @@ std::vector<Linker::Needed> Linker::tables_of(const std::string& logical, const 
   return result;
 }
 
-// Who must have stepped before whom inside a phase, and how deep each instance lies.
+// Orders the instances of each phase by their dependencies (longest path from a source).
 void Linker::order() {
   const auto wait = [this](Instance* who, Instance* whom, const std::string& what) {
     if (who != whom && who->phase() == whom->phase()) waits_[who].emplace(whom, what);
@@ -140,7 +140,7 @@ void Linker::fill_from_world(Table& table, const TableName& name) const {
 
 namespace {
 
-// Cells of columns that are alike; what is new is initial.
+// Copies the cells of columns that both tables have; the others keep their initial values.
 void adopt(const Table& old, Table& table) {
   table.stored().blobs = old.now().blobs;
   for (std::size_t c = 0; c < table.width(); ++c) {
@@ -153,8 +153,8 @@ void adopt(const Table& old, Table& table) {
 
 }  // namespace
 
-// Where stages came or went, values go with those who wrote them: the base of a chain was the table itself, and the
-// last stage bears the table's name.
+// The table whose values a new one inherits. Where stages came or went, values follow their writers: the base of a
+// chain was the table itself, and the last stage bears the table's name.
 Table* Linker::before(const std::string& logical, const Claimed& c, std::size_t place) const {
   Table* whole = board_.find(logical);
   if (place < c.adders.size()) return board_.find(tables_of(logical, c)[place].name);
@@ -181,7 +181,7 @@ Table& Linker::make(const std::string& name, const Claim& claim, Table* before) 
 }
 
 void Linker::make_tables(const std::string& logical, const Claimed& c, const std::vector<Table*>& held) {
-  if (!c.is_written() && !is_of_the_world(logical)) return;  // optional reads that nobody answers
+  if (!c.is_written() && !is_of_the_world(logical)) return;  // optional reads of a table that has no writer
   std::vector<Table*> tables;
   for (const auto& needed : tables_of(logical, c))
     tables.push_back(&make(needed.name, *needed.claim, held[tables.size()]));
@@ -234,7 +234,7 @@ void Linker::point_readers(const std::string& logical, const Claimed& c) {
   for (const auto& by : c.modifiers) see_each_once(by);
 }
 
-// Which rows of a queue the claim has not seen when its instance steps.
+// Determines for a claim on a queue which rows are new to it at its step.
 void Linker::see_each_once(const Claimed::By& by) const {
   Claim& claim = by.get();
   if (claim.in->set().kind != SetKind::queue) return;

@@ -1,5 +1,5 @@
-// From claims to tables, and from tables to an order of steps: who writes what, in which stages, and who must wait for
-// whom inside a phase.
+// Links claims to tables, and orders the steps by the dependencies between tables: writers, stages, and readers that
+// follow their writers inside a phase.
 #pragma once
 
 #include <map>
@@ -16,7 +16,7 @@ struct Sum {
   std::vector<Table*> parts;
 };
 
-// Instances that may step at the same time, and what is complete after them.
+// Instances that may step at the same time, and the sums that are complete after them.
 struct Batch {
   uint32_t phase = 0;
   std::vector<Instance*> instances;
@@ -30,7 +30,7 @@ void add_up(const Sum& sum, uint64_t tick);
 
 const char* phase_name(uint32_t phase);
 
-// One quantity with everybody who claims it. "set/*/quantity".
+// One quantity, "set/*/quantity", with all its claims.
 struct Claimed {
   struct By {
     Instance* instance;
@@ -46,20 +46,20 @@ class Linker {
   // Instances in the order of the world file.
   Linker(const std::vector<Instance*>& instances, const Standard& standard, const World& world, Blackboard& board);
 
-  // Plugins that somebody's reads, or the world's records, need and that no instance provides: ids of the sets'
-  // declared providers.
+  // Plugins that a read, or the world's records, needs and no instance provides: ids of the sets' declared providers.
   std::vector<std::string> missing_providers() const;
 
-  // Warnings: who writes commands, messages and the like that nobody takes, and what the world has that nobody minds.
+  // Warns of commands, messages and similar tables written but never read, and of world elements that no plugin reads.
   std::vector<std::string> unread() const;
 
-  // Refuses what does not fit, with the names of both sides; nothing is changed before it has returned. Throws Error.
+  // Checks all claims against each other, before anything changes. Throws Error with the names of both sides.
   void check();
 
-  // Makes the tables, with what tables of the same names held, points the claims at them, and orders the steps.
+  // Makes the tables, with the contents of old tables of the same names, points the claims at them, and orders the
+  // steps.
   std::vector<Batch> build();
 
-  // After build(): the tables of before that nobody writes any more.
+  // After build(): old tables that no longer have a writer.
   const std::vector<std::string>& dropped() const { return dropped_; }
   const std::map<std::string, Claimed>& claimed() const { return claimed_; }
 
@@ -82,14 +82,14 @@ class Linker {
   void order();
   [[noreturn]] void report_cycle(const std::vector<Instance*>& stuck) const;
 
-  // The tables that one quantity needs, each with the claim that gives its columns, and who fills it or null.
+  // The tables that one quantity needs, each with the claim that defines its columns, and its writer or null.
   struct Needed {
     std::string name;
     const Claim* claim;
     const Instance* owner;
   };
   std::vector<Needed> tables_of(const std::string& logical, const Claimed& c) const;
-  // The table that held the values of the one at a place of tables_of() until now, or null.
+  // The old table whose values a place of tables_of() inherits, or null.
   Table* before(const std::string& logical, const Claimed& c, std::size_t place) const;
   Table& make(const std::string& name, const Claim& claim, Table* before);
   void fill_from_world(Table& table, const TableName& name) const;
@@ -104,11 +104,11 @@ class Linker {
   Blackboard& board_;
   std::map<std::string, Claimed> claimed_;
   std::map<std::string, std::vector<Instance*>> listers_;        // of a listed set
-  std::map<Instance*, std::map<Instance*, std::string>> waits_;  // who waits for whom inside a phase, and for what
+  std::map<Instance*, std::map<Instance*, std::string>> waits_;  // predecessors inside the phase, with reasons
   std::map<Instance*, std::size_t> depth_;                       // place inside the phase
   std::vector<std::pair<Sum, std::vector<Instance*>>> sums_;
   std::map<Table*, std::vector<Instance*>> writers_of_;
-  std::map<const Table*, int> held_by_;  // of the tables until now: how many new ones go on from each
+  std::map<const Table*, int> held_by_;  // of the old tables: the number of new ones that inherit from each
   std::vector<std::string> dropped_;
 };
 

@@ -1,4 +1,4 @@
-// What a world must fulfil before it is linked; each refusal names both sides.
+// Checks of a world before it is linked; each refusal names both sides.
 #include <algorithm>
 #include <set>
 
@@ -39,7 +39,7 @@ bool Linker::is_given(const std::string& logical) const {
   return false;
 }
 
-// A table over a set without rows is empty, whoever might have written it.
+// A table over a set without rows is empty, whichever plugin would write it.
 bool Linker::is_of_the_world(const std::string& logical) const {
   const Set* set = board_.find_set(logical.substr(0, logical.find('/')));
   return is_given(logical) || (set && set->is_named() && set->names.empty());
@@ -62,7 +62,7 @@ std::vector<std::string> Linker::missing_providers() const {
   }
   for (const auto& record : world_.records) {
     const auto first = record.table.find('/'), last = record.table.rfind('/');
-    if (first == last) continue;  // no name of a table: told where it is to be recorded
+    if (first == last) continue;  // not a table's name: reported where it is to be recorded
     const TableName name{record.table.substr(0, first), "*", record.table.substr(last + 1), ""};
     const auto claimed = claimed_.find(name.logical());
     if (claimed == claimed_.end() || !claimed->second.is_written()) ask_for(name);
@@ -70,7 +70,7 @@ std::vector<std::string> Linker::missing_providers() const {
   return result;
 }
 
-// True where somebody reads a table of the set, or one that refers to its rows.
+// True where a plugin reads a table of the set, or one that refers to its rows.
 bool Linker::is_minded(const std::string& set) const {
   return std::any_of(claimed_.begin(), claimed_.end(), [&](const auto& each) {
     const auto& readers = each.second.readers;
@@ -82,8 +82,8 @@ bool Linker::is_minded(const std::string& set) const {
   });
 }
 
-// True where to write it for nobody is to do nothing: a command, a message, what a radio's plugin says of radios or
-// robots to the plugins that know of it.
+// True for a quantity that has no effect without a reader: a command, a message, or a radio plugin's property of radios
+// or robots.
 bool Linker::is_for_others(const Claimed::By& writer) const {
   const Claim& claim = writer.get();
   const bool is_standard = standard_quantity(standard_, claim.name);
@@ -92,7 +92,7 @@ bool Linker::is_for_others(const Claimed::By& writer) const {
   return writer.instance->phase() == MUSTER_RADIO && !is_standard && set && set->kind == SetKind::live;
 }
 
-// What is written for nobody moves nothing and sends nothing; what the world has for nobody stands in nobody's way.
+// Lists tables written but never read, and fixed rows of the world that no plugin reads.
 std::vector<std::string> Linker::unread() const {
   std::vector<std::string> result;
   std::set<std::string> told;
@@ -104,7 +104,7 @@ std::vector<std::string> Linker::unread() const {
   for (const auto& [logical, c] : claimed_) {
     const auto is_record = [&](const auto& record) { return record.table == logical; };
     if (!c.readers.empty() || std::any_of(world_.records.begin(), world_.records.end(), is_record)) continue;
-    std::set<const Instance*> silent;  // of several rows that one writes, the first is named
+    std::set<const Instance*> silent;  // of several rows that one instance writes, the first is named
     for (const auto& by : c.writers) {
       if (is_for_others(by) && silent.insert(by.instance).second)
         result.push_back(by.instance->title() + ": writes " + quote(by.get().name.text()) + ", which nobody reads");
@@ -130,7 +130,7 @@ void Linker::check() {
   order();
 }
 
-// What a read may name: what somebody writes, what the world holds, and what a declared provider would write.
+// Names that a read may use: written tables, tables of the world, and those of a declared provider.
 std::vector<std::string> Linker::readable() const {
   std::set<std::string> result;
   for (const auto& [logical, c] : claimed_) {
@@ -261,7 +261,7 @@ void Linker::check_listed(const std::string& logical, const Claimed& c) const {
   }
 }
 
-// Parts and stages bear the names of instances: no two may come out the same.
+// Parts and stages are named after instances: no two names may coincide.
 void Linker::check_names() const {
   for (const auto& [logical, c] : claimed_) {
     std::map<std::string, const Instance*> owners;
@@ -275,7 +275,7 @@ void Linker::check_names() const {
   }
 }
 
-// A row's number is told when it joins: one instance counts.
+// One instance may join rows to a set: it alone counts them.
 void Linker::check_joins() const {
   std::map<std::string, const Instance*> joiners;
   for (const Instance* instance : instances_) {
@@ -288,7 +288,7 @@ void Linker::check_joins() const {
   }
 }
 
-// Who has seen which of a queue's rows would change with its stages: messages would come twice, or never.
+// The rows seen so far would change with a queue's stages: messages would arrive twice, or never.
 void Linker::check_queue_stages(const std::string& logical, const Claimed& c) const {
   const Table* old = board_.find(logical);
   if (!old || old->set().kind != SetKind::queue || !c.is_written()) return;
@@ -305,7 +305,7 @@ void Linker::check_queue_stages(const std::string& logical, const Claimed& c) co
                                        "swapped for another under its name");
 }
 
-// A table of before whose columns differ is somebody's state: it is not thrown away unasked.
+// An old table whose columns differ holds the state of some plugin: it is not dropped unless the user requests it.
 void Linker::check_carried() const {
   for (const auto& [logical, c] : claimed_) {
     check_queue_stages(logical, c);

@@ -22,7 +22,8 @@ std::string file_name(const std::string& table) {
   return result + ".csv";
 }
 
-// A table's own column that is called as one before it has the set's name too, "scan_t": readers take each name once.
+// A table's own column with the name of an earlier column gets the set's name as a prefix, "scan_t": names must be
+// unique.
 std::vector<TextColumn> header(const Table& table) {
   const std::string& whole = table.set().name;
   const std::string set = whole.substr(0, whole.find('/'));
@@ -91,7 +92,7 @@ void Recorder::write(const Simulation& run) {
     const Table& table = *view.table;
     const Set& set = table.set();
     if (set.kind != SetKind::queue && run.tick() % file.every != 0)
-      continue;  // a message is there once: none is left out
+      continue;  // a message appears once: none is left out
     const Cells& cells = table.now();
     const std::size_t first = view.row >= 0 ? static_cast<std::size_t>(view.row) : 0;
     const std::size_t last = view.row >= 0 ? first + 1 : cells.rows;

@@ -11,17 +11,17 @@
 
 namespace muster {
 
-// Throws Error where the world records a table that is not there.
+// Throws Error where the world records a table that does not exist.
 void check_records(const Simulation& run);
 
 class Recorder {
  public:
-  // One file a declaration, named after its table, in the folder, which is made. Throws Error.
+  // One file per declaration, named after its table, in the folder, which is created. Throws Error.
   Recorder(const Simulation& run, const std::vector<RecordDeclaration>& tables, const std::filesystem::path& folder);
 
   // Call after each tick.
   void write(const Simulation& run);
-  // Makes the files appear under their names; without it nothing remains.
+  // Renames the files to their final names; without it nothing remains.
   std::vector<std::filesystem::path> close();
 
  private:

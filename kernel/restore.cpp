@@ -1,4 +1,4 @@
-// A snapshot put back in place: everything is held against the run before anything changes.
+// Restores a snapshot in place: all of it is checked against the run before anything changes.
 #include <algorithm>
 
 #include "simulation.hpp"
@@ -16,7 +16,7 @@ bool is_at(const InstanceDeclaration& declared, const Snapshot::SavedInstance& s
          static_cast<uint64_t>(declared.place.column) == saved.column;
 }
 
-// Numbers of rows and bytes that fit their columns, so that no cell is looked for where none is.
+// Checks that numbers of rows and of blobs fit their columns, so that no cell is read outside its table.
 bool is_sound(const Table& table, const Snapshot::SavedSet& set, const Cells& cells) {
   const bool queue = table.set().kind == SetKind::queue;
   if (cells.data.size() != cells.rows * table.width() || cells.appended.size() != (queue ? cells.rows : 0))
@@ -44,7 +44,7 @@ void Simulation::check_fits(const Snapshot& snapshot) const {
       refuse("its instance " + quote(instance->name()) + " has other parameters");
   }
   for (const auto& [name, set] : board_.sets()) {
-    const bool is_private = name.starts_with("instance/");  // held against each other as tables
+    const bool is_private = name.starts_with("instance/");  // compared as tables
     if (!is_private && !snapshot.sets.count(name)) refuse("it has no set " + quote(name));
   }
   for (const auto& [name, saved] : snapshot.sets) {
@@ -79,7 +79,7 @@ void Simulation::check_fits(const Snapshot& snapshot) const {
   }
 }
 
-// The world file may plan to swap an instance between the snapshot and now: then what stood there then is made again.
+// The world file may plan to swap an instance between the snapshot and now: then its earlier instance is made again.
 void Simulation::replace_planned(const Snapshot& snapshot, Replaced& replaced) {
   std::vector<std::pair<std::string, const InstanceDeclaration*>> candidates;
   for (const auto& declared : world_.instances) candidates.emplace_back(declared.name, &declared);
@@ -99,7 +99,7 @@ void Simulation::replace_planned(const Snapshot& snapshot, Replaced& replaced) {
   }
 }
 
-// With empty tables, which a snapshot is to fill.
+// Links with empty tables, which a snapshot is to fill.
 void Simulation::relink_anew() {
   batches_.clear();
   board_.take_tables();

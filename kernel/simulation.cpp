@@ -57,7 +57,7 @@ std::unique_ptr<Instance> Simulation::make(InstanceDeclaration declaration) {
   return std::make_unique<Instance>(std::move(declaration), std::move(library), around_);
 }
 
-// Where a standard quantity is read and nobody writes it, its declared provider joins, as if the world file named it.
+// Adds the declared provider of each standard quantity that is read but has no writer, as if the world file named it.
 void Simulation::add_providers() {
   while (true) {
     std::vector<Instance*> all;

@@ -1,4 +1,4 @@
-// A world that runs: instances of plugins around a blackboard, stepped tick by tick, each tick whole or not at all.
+// A running world: instances of plugins around a blackboard, stepped tick by tick, each tick whole or not at all.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@ namespace muster {
 
 struct Options {
   Library::SearchPath search_path;
-  int workers = 1;                        // threads; the results do not depend on it
+  int workers = 1;                        // threads; the results do not depend on their number
   std::vector<InstanceDeclaration> more;  // instances beyond those of the world file, before its own
 };
 
@@ -46,12 +46,12 @@ struct ParameterInfo {
   double value = 0;
 };
 
-// What libraries are shared by.
+// Key by which instances share libraries.
 std::string library_key(const InstanceDeclaration& declaration);
 
 class Simulation {
  public:
-  // Throws Error for whatever does not fit.
+  // Throws Error for the first fault of the world or of a plugin.
   Simulation(World world, const Standard& standard, Options options);
   ~Simulation();
 
@@ -60,13 +60,13 @@ class Simulation {
   double time() const { return static_cast<double>(tick_) * world_.dt; }
   bool done() const { return tick_ >= world_.ticks; }
 
-  // One tick. If a plugin fails it throws Error, and what stands is the tick before. Swaps that the world file plans
-  // for this time come first.
+  // Runs one tick, after the swaps that the world file plans for it. If a plugin fails it throws Error and restores the
+  // state of the tick before.
   void step();
-  // Destroys all instances, of which one may fail. Call it last; throws Error.
+  // Destroys all instances; any of them may fail. Call it last; throws Error.
   void close();
-  // One phase alone at the time that stands, for instance the channel for a fit; time does not pass. Again with nothing
-  // but parameters changed, it steps only the instances that those concern, directly or through what they read.
+  // Evaluates one phase at the present time, for instance the channel for a fit; time does not pass. If only parameters
+  // changed since, it steps only the instances that depend on them, directly or through their inputs.
   void evaluate(uint32_t phase, bool expected);
 
   // By name: "robot/*/pose", "robot/leader/pose", "link/*/level@radio.multiwall.walls". Throws Error.
@@ -78,15 +78,15 @@ class Simulation {
   ParameterInfo parameter(const std::string& path) const;
   void set_parameter(const std::string& path, double value);
 
-  // Exchanges an instance's plugin, state carried over by the names of tables; the attributes are the new plugin's.
-  // What is dropped goes into the events. If it throws, the run stands as it was.
+  // Exchanges an instance's plugin; state carries over by the names of tables, attributes are the new plugin's. Dropped
+  // state is listed in the events. If it throws, the run is as before.
   void swap(const std::string& instance, InstanceDeclaration replacement);
   // Inserts an instance before another, or at the end where `before` is empty.
   void insert(InstanceDeclaration declaration, const std::string& before = "");
   void remove(const std::string& instance);
-  // All of them, at the end, or none; linked once.
+  // Inserts all of them at the end, or none; linked once.
   void insert_all(std::vector<InstanceDeclaration> declarations);
-  // As long as somebody holds it, instances of its plugin that name no library of their own run from this one.
+  // Instances of the plugin that name no library of their own run from this one, as long as a reference to it exists.
   void share(const std::shared_ptr<Library>& library) { libraries_[std::string(library->id())] = library; }
   void remove_all(const std::vector<std::string>& instances);
   // Destroys the instance and makes it again; reload also loads its library again from its file.
@@ -145,8 +145,8 @@ class Simulation {
   uint64_t tick_ = 0;
   uint64_t planned_from_ = 0;  // planned swaps of ticks before this one are done
   bool all_due_ = false;       // while one phase is evaluated
-  // Of each instance in the last evaluation: its parameters, and the versions of its inputs added up. Empty once
-  // anything else has happened.
+  // Of each instance in the last evaluation: its parameters, and the sum of its inputs' versions. Empty after anything
+  // else has happened.
   struct Stood {
     std::vector<double> params;
     uint64_t read = 0;
@@ -155,10 +155,10 @@ class Simulation {
   uint32_t stood_flags_ = 0;
   std::vector<Instance*> due_;                        // of the batch that steps
   std::map<std::size_t, std::string> faults_;         // of those among them that failed; the first ends the tick
-  std::mutex faulty_;                                 // who writes there
+  std::mutex faulty_;                                 // guards faults_
   std::vector<std::pair<Set*, std::size_t>> listed_;  // rows of the listed sets before this tick
   std::vector<std::shared_ptr<Library>> planned_;     // libraries of swaps to come
-  std::vector<std::string> unread_;                   // what was warned of at the last link
+  std::vector<std::string> unread_;                   // warnings of the last link
 };
 
 }  // namespace muster

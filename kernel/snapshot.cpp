@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view magic = "muster.snapshot.2\n";
 
-// A hash over words; each word is spread before the next comes.
+// A hash over words; each word is mixed before the next is added.
 class Hash {
  public:
   void add(uint64_t word) { state_ = mixed(state_ ^ word) + 0x9e3779b97f4a7c15u; }
@@ -59,7 +59,7 @@ class Writer {
   void numbers(const std::vector<Number>& values) {
     text({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Number)});
   }
-  // A hash of all that was written, so that damage is found; and all of it.
+  // Appends a hash of all that was written, to detect damage, and returns the whole.
   const std::string& finish() {
     Hash hash;
     hash.add_bytes(bytes_.data(), bytes_.size());
@@ -71,7 +71,7 @@ class Writer {
   std::string bytes_;
 };
 
-// Every length is held against what is left of the file.
+// Every length is checked against the rest of the file.
 class Reader {
  public:
   Reader(std::string text, std::string file) : text_(std::move(text)), file_(std::move(file)) {}

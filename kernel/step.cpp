@@ -46,7 +46,7 @@ void Simulation::run(uint64_t index, uint32_t first, uint32_t last, uint32_t fla
   finish(index);
 }
 
-// Whether the instance would write what it wrote in the last evaluation; if not, it is due, and what it reads is noted.
+// True if the instance would write the same as in the last evaluation; if not, it is due, and its inputs are noted.
 bool Simulation::stands(Instance& instance) {
   uint64_t read = 0;
   for (const Claim& claim : instance.claims()) {
@@ -59,7 +59,7 @@ bool Simulation::stands(Instance& instance) {
   return false;
 }
 
-// Tables with one writer are opened by it in step_all(); the others here, before any of their writers steps.
+// Opens the tables with several writers, before any of them steps; step_all() opens the others.
 void Simulation::run_batch(Batch& batch, const muster_tick& tick) {
   due_.clear();
   for (Instance* instance : batch.instances) {
@@ -85,7 +85,7 @@ void Simulation::run_batch(Batch& batch, const muster_tick& tick) {
   }
 }
 
-// Finite parts may have a sum that is not, if there are two of them.
+// Checks a sum for overflow: finite parts may have an infinite sum, if there are two of them.
 void Simulation::check_sum(const Sum& sum, const muster_tick& tick) const {
   if (!sum.total->begun() || sum.parts.size() < 2) return;
   const auto& data = sum.total->next().data;
@@ -97,7 +97,7 @@ void Simulation::check_sum(const Sum& sum, const muster_tick& tick) const {
                   std::to_string(static_cast<std::size_t>(wrong - data.begin()) / sum.total->width()));
 }
 
-// Threads take instances as they come; nothing that an instance writes is another's, so the order does not show.
+// Threads take instances in any order; none writes another's data, so the results do not depend on it.
 void Simulation::step_all(const muster_tick& tick) {
   const auto one = [&](std::size_t i) {
     Instance& instance = *due_[i];
@@ -122,7 +122,7 @@ void add_up(const Sum& sum, uint64_t tick) {
   auto& total = sum.total->next().data;
   for (std::size_t k = 0; k < sum.parts.size(); ++k) {
     const auto& data = sum.parts[k]->newest().data;
-    // From 0 on, which a part of -0 does not change.
+    // From +0 on, which a part of -0 does not change.
     if (k == 0) std::transform(data.begin(), data.end(), total.begin(), [](double value) { return 0.0 + value; });
     for (std::size_t i = 0; k > 0 && i < total.size(); ++i) total[i] += data[i];
   }

@@ -19,7 +19,7 @@ std::size_t Simulation::find(const std::string& instance) const {
   throw Error(Exit::invalid_input, "no instance is called " + quote(instance) + "; " + suggest(instance, valid));
 }
 
-// A change that is refused leaves no rows and no sets behind.
+// Runs a change; if it is refused, its rows and sets are removed.
 template <class Change>
 void Simulation::guarded(Change&& change) {
   const auto mark = board_.mark();
@@ -32,7 +32,7 @@ void Simulation::guarded(Change&& change) {
   drop_private_sets();
 }
 
-// The old instance goes only when the new one is linked.
+// Destroys the old instance only after the new one is linked.
 void Simulation::replace(std::size_t at, std::unique_ptr<Instance> instance) {
   std::swap(instances_[at], instance);
   try {
@@ -153,7 +153,7 @@ void Simulation::throw_destroy_fault() {
   throw Error(Exit::plugin_fault, first);
 }
 
-// Once each: what is wrong with one may have been swapped again before the tick is tried again.
+// Applies each planned swap once: after a failed tick the user may have replaced the instance before the retry.
 void Simulation::planned_swaps() {
   if (tick_ < planned_from_) return;
   for (const auto& planned : world_.swaps) {
@@ -162,7 +162,7 @@ void Simulation::planned_swaps() {
   planned_from_ = tick_ + 1;
 }
 
-// What is planned is made once before the first tick, so that what is wrong with it is told at once.
+// Makes each planned instance once before the first tick, so that its faults are reported at once.
 void Simulation::check_planned() {
   for (const auto& planned : world_.swaps) {
     InstanceDeclaration replacement = planned.replacement;
@@ -173,7 +173,7 @@ void Simulation::check_planned() {
   }
 }
 
-// Of instances that are no more.
+// Drops the private sets of instances that no longer exist.
 void Simulation::drop_private_sets() {
   std::vector<std::string> unused;
   for (const auto& [name, set] : board_.sets()) {
@@ -186,7 +186,7 @@ void Simulation::drop_private_sets() {
 
 namespace {
 
-// The one column into which an attribute goes as it is, or -1.
+// The one column that holds an attribute unchanged, or -1.
 int column_of(const Attribute& attribute, std::size_t width) {
   if (!attribute.store || attribute.count != 1 || attribute.param.kind != MUSTER_REAL) return -1;
   const auto columns = plain_columns(attribute, width);

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <memory>
 
-// oneTBB is not compiled with the thread sanitizer, which therefore has to be told what its threads hand over.
+// oneTBB is not compiled with the thread sanitizer, so the hand-over between its threads is annotated here.
 #if defined(__SANITIZE_THREAD__)
 #include <sanitizer/tsan_interface.h>
 #define MUSTER_HANDS_OVER(at) __tsan_release(at)
@@ -21,8 +21,8 @@ class ThreadPool {
   explicit ThreadPool(int threads);
   ~ThreadPool();
 
-  // Calls body(i) for every i < count, in any order; returns when all have been called. What was written before is
-  // seen by every body, and what the bodies wrote by the caller.
+  // Calls body(i) for every i < count, in any order; returns after all calls. Earlier writes are visible to every body,
+  // and those of the bodies to the caller.
   template <class Body>
   void each(std::size_t count, const Body& body) {
     Work<Body> work{body};

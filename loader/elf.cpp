@@ -49,7 +49,7 @@ std::string machine_name(Elf64_Half machine) {
   }
 }
 
-// The first bytes of a file that is something else, fit for one line of a message.
+// The first bytes of a file of another type, as text for a one-line message.
 std::string beginning(std::string_view bytes) {
   std::string result;
   for (const char c : bytes.substr(0, 20)) {
@@ -63,14 +63,14 @@ std::string beginning(std::string_view bytes) {
   return result;
 }
 
-// A part of the file, or the news that the file ends before it.
+// Reads a part of the file; throws Refusal if the file ends before it.
 template <class T>
 T part(std::string_view bytes, Elf64_Off offset, const std::string& what) {
   if (offset > bytes.size() || sizeof(T) > bytes.size() - offset)
     throw Refusal(fmt::format("is truncated: it has {} bytes, and its {} lies at byte {}; copy or build it again",
                               bytes.size(), what, offset));
   T result;
-  std::memcpy(&result, bytes.data() + offset, sizeof(T));  // the file owes us no alignment
+  std::memcpy(&result, bytes.data() + offset, sizeof(T));  // parts of the file need not be aligned
   return result;
 }
 
@@ -128,7 +128,7 @@ void check_segments(std::string_view bytes, const Elf64_Ehdr& header) {
   if (!dynamic) corrupted("it has no dynamic section");
 }
 
-// A name ends before the names' section does.
+// Reads a zero-terminated name, which must end inside the section of names.
 std::string name_at(std::string_view names, Elf64_Word offset, unsigned section) {
   const std::size_t end = names.find('\0', offset);
   if (end == std::string_view::npos) corrupted(fmt::format("section {} has no name", section));

@@ -1,5 +1,6 @@
-// Floating-point arithmetic is set by registers: a callback, or the mere loading of a library built with -ffast-math,
-// that changes them changes every plugin's results. Keep one guard for a run and ask changed() after each callback.
+// Registers control floating-point arithmetic: a callback that changes them changes every plugin's results, and so does
+// the mere loading of a library built with -ffast-math. Keep one guard for a run and call changed() after each
+// callback.
 #pragma once
 
 #include <xmmintrin.h>
@@ -13,8 +14,8 @@
 
 namespace muster {
 
-// Remembers how the thread that makes it rounds, and what it does with denormals and exceptions; restores that in the
-// end. Any thread that ought to compute in the same way may ask.
+// Saves the constructing thread's rounding mode and its treatment of denormals and exceptions; the destructor restores
+// them. Any thread that ought to compute in the same way may call it.
 class FloatGuard {
  public:
   FloatGuard() noexcept : mxcsr_(_mm_getcsr()), x87_(x87_control()) {}
@@ -24,10 +25,10 @@ class FloatGuard {
   FloatGuard(const FloatGuard&) = delete;
   FloatGuard& operator=(const FloatGuard&) = delete;
 
-  // Sticky exception flags do not count: honest arithmetic raises them.
+  // Sticky exception flags do not count: ordinary arithmetic raises them.
   bool changed() const noexcept { return ((_mm_getcsr() ^ mxcsr_) & ~flags) != 0 || x87_control() != x87_; }
 
-  // What was changed since, in words that follow a name ("rounds upward"); empty if nothing was. Call before restore().
+  // The change since, in words that follow a name ("rounds upward"); empty if there is none. Call before restore().
   std::string what() const {
     const unsigned now = _mm_getcsr();
     const unsigned differs = now ^ mxcsr_;

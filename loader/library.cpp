@@ -37,7 +37,7 @@ struct Library::Module {
   ~Module() {
     const ProcessGuard guard;  // restores what static destructors change
     library.unload();
-    // A thread that lives on may have objects of the library to destroy at its end; till then the code must stay.
+    // A surviving thread may have objects of the library to destroy at its end; until then the code must stay mapped.
     if (is_mapped(copy.name())) copy.abandon();
   }
   LibraryCopy copy;
@@ -49,7 +49,7 @@ namespace {
 constexpr std::chrono::seconds patience(10);  // for a library to load, register and unload in the child
 constexpr std::string_view abi_prefix = "muster.abi.";
 
-// Words of a file or of a library's code may hold anything; a message is one line of text.
+// Replaces line breaks and unprintable bytes: a file's words may hold anything, and a message is one line of text.
 std::string one_line(std::string_view words) {
   std::string result;
   for (const char c : words) {
@@ -61,8 +61,8 @@ std::string one_line(std::string_view words) {
 
 // ---- Before anything of it runs ----
 
-// The section outlives strip, which symbols do not. elf_sections() finds it rather than boost::dll::library_info, which
-// lists the table of names instead of the sections: there a name is lost when it ends another one.
+// The section survives strip, unlike symbols. elf_sections() finds it; boost::dll::library_info lists the table of
+// names instead of the sections, and loses a name that is the end of another one.
 void check_abi(const LibraryCopy& copy) {
   const std::string expected = fmt::format("{}{}", abi_prefix, MUSTER_ABI);
   std::string other;
@@ -81,7 +81,7 @@ void check_abi(const LibraryCopy& copy) {
 
 // ---- Loading ----
 
-// The part of a text between two others, the second of which may be its end; nothing if the first is not there.
+// The part of a text between two others, the second of which may be its end; null if the first is absent.
 std::optional<std::string> between(const std::string& text, std::string_view before, std::string_view after) {
   const std::size_t at = text.find(before);
   if (at == text.npos) return {};
@@ -89,7 +89,7 @@ std::optional<std::string> between(const std::string& text, std::string_view bef
   return text.substr(start, after.empty() ? text.npos : text.find(after, start) - start);
 }
 
-// dlerror()'s text in our words. Boost.DLL's own has the last errno behind it, which is about something else.
+// Rephrases dlerror()'s text. Boost.DLL's own message has the last errno appended, which is unrelated.
 std::string why_not_opened(std::string text, const std::string& copy_name) {
   for (std::size_t at; (at = text.find(copy_name)) != text.npos;) text.replace(at, copy_name.size(), "it");
   if (const auto symbol = between(text, "undefined symbol: ", ","))
@@ -131,7 +131,7 @@ std::vector<muster_plugin> open_and_register(boost::dll::shared_library& library
   return result;
 }
 
-// In the child: all that will happen to the library but for its instances.
+// In the child: every operation on the library except making instances.
 void rehearse(const std::string& name, const Progress& progress) {
   boost::dll::shared_library library;
   open_and_register(library, name, progress);
@@ -152,7 +152,7 @@ std::string file_name(std::string id) {
   return id + ".so";
 }
 
-// The id that a file's name stands for, if its role is one word: radio_one_slope.so is radio.one_slope.
+// The id that a file's name encodes, if its role is one word: radio_one_slope.so is radio.one_slope.
 std::string likely_id(const std::filesystem::path& file) {
   std::string result = file.stem().string();
   if (const std::size_t at = result.find('_'); at != result.npos) result[at] = '.';
@@ -187,7 +187,7 @@ std::filesystem::path find(const std::string& id, const Library::SearchPath& sea
     throw Refusal("is no plugin id; expected words of a-z, 0-9 and _ with dots between them");
   for (const std::filesystem::path& folder : search_path) {
     const std::filesystem::path file = folder / file_name(id);
-    std::error_code unknown;  // a link to nowhere is found, so that open() can say so
+    std::error_code unknown;  // a broken link is listed, so that open() can report it
     if (std::filesystem::exists(std::filesystem::symlink_status(file, unknown))) return file;
   }
   throw Refusal(not_found(id, search_path));

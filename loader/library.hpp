@@ -1,6 +1,6 @@
-// A plugin's shared object: found, checked before anything of it runs, tried in a child process, loaded, and unloaded
-// when its last owner lets go. Every refusal is an Error with Exit::plugin_fault and one line.
-// docs/explanation/plugin_loading.md says why.
+// A plugin's shared object: found, checked before any of its code runs, tried in a child process, loaded, and unloaded
+// when its last owner releases it. Every refusal is an Error with Exit::plugin_fault and one line.
+// docs/explanation/plugin_loading.md gives the reasons.
 #pragma once
 
 #include <muster/plugin.h>
@@ -22,7 +22,7 @@ class Library {
  public:
   using SearchPath = std::vector<std::filesystem::path>;
 
-  // One library by a LibraryLoader of its own.
+  // Loads one library by a LibraryLoader of its own.
   static std::shared_ptr<Library> load(const std::string& plugin_id,
                                        const std::optional<std::filesystem::path>& library,
                                        const SearchPath& search_path, const Place& where);
@@ -46,8 +46,8 @@ class Library {
   std::vector<muster_plugin> plugins_;
 };
 
-// Loads the libraries of a world, which share the child process that tries them out. It forks at the first load, so let
-// no other thread hold a lock that a library's initialisers need; keep it no longer than the loading takes.
+// Loads the libraries of a world, which share the child process that tries them out. It forks at the first load: no
+// other thread may then hold a lock that a library's initialisers need. Keep it no longer than the loading takes.
 class LibraryLoader {
  public:
   explicit LibraryLoader(Library::SearchPath search_path);
@@ -55,13 +55,13 @@ class LibraryLoader {
   LibraryLoader& operator=(const LibraryLoader&) = delete;
   ~LibraryLoader();
 
-  // The library of `plugin_id` ("radio.multiwall", without a revision): radio_multiwall.so in the first folder of the
-  // search path that has one, or the file `library`, relative to the folder of `where`'s file. Each call loads anew
-  // what the file holds now; share the result between instances.
+  // Loads the library of `plugin_id` ("radio.multiwall", without a revision): radio_multiwall.so in the first folder of
+  // the search path that has one, or the file `library`, relative to the folder of `where`'s file. Each call loads the
+  // present contents of the file; share the result between instances.
   std::shared_ptr<Library> load(const std::string& plugin_id, const std::optional<std::filesystem::path>& library,
                                 const Place& where);
 
-  // As above for a file whose plugin id is not known. Throws Refusal, whose words follow the file's name.
+  // As above for a file whose plugin id is unknown. Throws Refusal, whose words follow the file's name.
   std::shared_ptr<Library> open(const std::filesystem::path& file);
 
  private:
@@ -69,14 +69,14 @@ class LibraryLoader {
   std::unique_ptr<Probe> probe_;
 };
 
-// A file on the plugin path: its library, or why there is none ("is built for AArch64; expected x86-64").
+// A file on the plugin path: its library, or the reason for having none ("is built for AArch64; expected x86-64").
 struct ListedPlugin {
   std::filesystem::path file;
   std::shared_ptr<Library> library;
   std::string reason;
 };
 
-// Every *.so of the folders, in their order and by name inside each. Folders that are not there have none.
+// Every *.so of the folders, in their order and by name inside each. Missing folders have none.
 std::vector<ListedPlugin> list_plugins(const Library::SearchPath& search_path);
 
 }  // namespace muster

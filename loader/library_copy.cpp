@@ -20,7 +20,7 @@ constexpr std::size_t largest = std::size_t{1} << 30;  // [bytes] more than any 
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
-// A descriptor that closes itself.
+// A file descriptor that closes itself.
 struct Descriptor {
   int number;
   explicit Descriptor(int n) : number(n) {}
@@ -32,7 +32,7 @@ struct Descriptor {
   int release() { return std::exchange(number, -1); }
 };
 
-// The size of a file that can be a library at all.
+// The size of a file, checked to be that of a regular file within the limit.
 std::size_t checked_size(int file) {
   struct stat status {};
   if (::fstat(file, &status) != 0) throw Refusal("cannot be read: " + reason(errno));
@@ -43,7 +43,7 @@ std::size_t checked_size(int file) {
   return size;
 }
 
-// As much as there is: a file that shrinks meanwhile is found to be truncated later.
+// Copies all that there is: a file that shrinks meanwhile is later found to be truncated.
 std::size_t copy(int from, int to, std::size_t size) {
   std::size_t done = 0;
   while (done < size) {
@@ -59,7 +59,7 @@ std::size_t copy(int from, int to, std::size_t size) {
 }  // namespace
 
 LibraryCopy::LibraryCopy(const std::filesystem::path& file) {
-  const Descriptor from(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));  // a pipe must not make us wait
+  const Descriptor from(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));  // opening a pipe must not block
   if (from.number < 0) throw Refusal("cannot be read: " + reason(errno));
   const std::size_t size = checked_size(from.number);
   Descriptor to(::memfd_create(file.filename().c_str(), MFD_CLOEXEC));
@@ -79,7 +79,7 @@ LibraryCopy::~LibraryCopy() {
 }
 
 std::string LibraryCopy::name() const {
-  // What /proc calls this process, which differs from getpid() where /proc shows another namespace.
+  // This process's id in /proc, which differs from getpid() where /proc shows another namespace.
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self");
   return fmt::format("/proc/{}/fd/{}", self.native(), file_);
 }

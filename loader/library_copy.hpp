@@ -1,6 +1,6 @@
-// A private copy of a library's file. The process maps the copy, so that overwriting the file (cp, rsync, a build)
-// cannot pull the code from under a running world, and loading it again always gives what the file now holds: dlopen()
-// by the file's own name would hand out the old library as long as anything keeps it open.
+// A private copy of a library's file. The process maps the copy, so overwriting the file (cp, rsync, a build) cannot
+// pull the code from under a running world, and loading again always gives the file's present contents. dlopen() by the
+// file's own name would return the old library as long as a handle keeps it open.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@ namespace muster {
 
 class LibraryCopy {
  public:
-  // Throws Refusal if the file is not there to be read: a directory, a device, unreadable, over 1 GiB.
+  // Throws Refusal if the file cannot be read as a library: a directory, a device, unreadable, over 1 GiB.
   explicit LibraryCopy(const std::filesystem::path& file);
   ~LibraryCopy();
   LibraryCopy(const LibraryCopy&) = delete;
@@ -20,12 +20,12 @@ class LibraryCopy {
 
   std::string_view bytes() const { return {data_, size_}; }
 
-  // The copy's name for dlopen(), good while this object lives: /proc/PID/fd/N rather than /proc/self/fd/N, so that
+  // The copy's name for dlopen(), valid during this object's life: /proc/PID/fd/N rather than /proc/self/fd/N, so that
   // debuggers and profilers, which look from outside, find the code too.
   std::string name() const;
 
-  // Keeps the name taken for ever: for a library that something holds on to although it was closed. dlopen() knows it
-  // by this name, and would hand it out for another library under the same one.
+  // Reserves the name for ever: for a library that is still mapped although it was closed. dlopen() identifies it by
+  // this name, and would return it for another library under the same one.
   void abandon() { file_ = -1; }
 
  private:

@@ -27,10 +27,10 @@
 namespace muster {
 namespace {
 
-// What the child reports: a packet is one of these and a text. All but the first are the last word on a trial.
+// Reports of the child: a packet is one of these and a text. All but the first end a trial.
 enum Report : char { progress = 'p', refused = 'r', threw = 't', left = 'x', done = 'd' };
 
-constexpr std::size_t longest = 4096;  // [bytes] of a packet: nobody reads more of a message
+constexpr std::size_t longest = 4096;  // [bytes] of a packet: longer messages are cut
 
 // In the child only: handlers of std::terminate and exit() take no arguments.
 int report_to = -1;
@@ -39,7 +39,7 @@ void report(Report kind, std::string_view text) noexcept {
   std::array<char, longest> packet;
   packet[0] = kind;
   const std::size_t size = text.copy(packet.data() + 1, packet.size() - 1);
-  if (::send(report_to, packet.data(), size + 1, MSG_NOSIGNAL) < 0) ::_exit(1);  // the parent is gone
+  if (::send(report_to, packet.data(), size + 1, MSG_NOSIGNAL) < 0) ::_exit(1);  // the parent has ended
 }
 
 [[noreturn]] void leave(Report kind, std::string_view text) noexcept {
@@ -64,7 +64,7 @@ std::string exception_text() {
   leave(threw, exception_text());
 }
 
-// What the child does must not be seen: not its output, its crash, or its handlers of the parent's signals.
+// Hides the child's effects: its output, its crash, and its handlers of the parent's signals.
 void seclude() {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   const rlimit no_core{0, 0};
@@ -98,11 +98,11 @@ void run(const Probe::Body& body, const std::string& what) noexcept {
   ::_exit(0);
 }
 
-using Clock = std::chrono::steady_clock;  // the machine's time, not the simulated one: the child may hang
+using Clock = std::chrono::steady_clock;  // wall-clock time, not the simulated one: the child may hang
 
 enum class Heard { packet, end, silence };
 
-// The child's next packet, unless it ends or says nothing before the deadline.
+// The child's next packet, or its end, or silence until the deadline.
 Heard listen(int line, Clock::time_point deadline, std::string& said) {
   for (;;) {
     const auto rest = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
@@ -153,7 +153,7 @@ void Probe::start() {
   throw std::system_error(error, std::generic_category(), "fork");
 }
 
-// How the child ended, of its own or, if it had not, by us.
+// Ends the child if it is still alive; returns how it ended.
 int Probe::stop() {
   int status = 0;
   if (child_ > 0) {

@@ -1,6 +1,5 @@
-// Tries what may kill the process in a child process first: a library's static initialisers, and dlopen() itself on a
-// corrupted file, can crash, hang, throw past every handler or call exit(), and nothing in this process could stop
-// them.
+// Runs risky operations in a child process first. A library's static initialisers, and dlopen() itself on a corrupted
+// file, can crash, hang, throw past every handler or call exit(), and nothing in this process could stop them.
 #pragma once
 
 #include <sys/types.h>
@@ -11,11 +10,11 @@
 
 namespace muster {
 
-// To be told what goes on, in words that end "crashes while ...": "it is opened".
+// Receives the current operation, in words that end "crashes while ...": "it is opened".
 using Progress = std::function<void(const char*)>;
 
 // A child process that tries one thing after another, since a fork costs more than a load. It is forked at the first
-// trial, has one thread, shows no output, and is replaced when something ended it.
+// trial, has one thread, shows no output, and is replaced after its end.
 class Probe {
  public:
   using Body = std::function<void(const std::string& what, const Progress&)>;
@@ -24,8 +23,8 @@ class Probe {
   Probe(const Probe&) = delete;
   Probe& operator=(const Probe&) = delete;
 
-  // Runs the body on `what` in the child. Returns "" if it returned, the Refusal's words if it threw one, and else what
-  // became of the child. A failure is always that of a fresh child: nothing tried before it can be to blame.
+  // Runs the body on `what` in the child. Returns "" if it returned, the Refusal's words if it threw one, and otherwise
+  // the fate of the child. A failure always occurs in a fresh child, so no earlier trial can be its reason.
   std::string try_out(const std::string& what);
 
  private:

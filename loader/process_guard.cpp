@@ -9,7 +9,7 @@ namespace {
 std::string c_locale() { return std::setlocale(LC_ALL, nullptr); }
 
 std::filesystem::path folder() {
-  std::error_code gone;  // the folder may have been deleted: then there is nothing to compare
+  std::error_code gone;  // the folder may have been deleted: then the check is skipped
   return std::filesystem::current_path(gone);
 }
 

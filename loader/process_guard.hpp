@@ -1,4 +1,4 @@
-// What belongs to the whole process, and what a library's code must therefore leave as it was.
+// Process-wide state that a library's code must leave unchanged.
 #pragma once
 
 #include <csignal>
@@ -10,8 +10,8 @@
 
 namespace muster {
 
-// Remembers it from its making on, and restores it in the end at the latest. Some microseconds: for loading, not for
-// steps.
+// Saves that state when made, and restores it in its destructor at the latest. Takes some microseconds: for loading,
+// not for steps.
 class ProcessGuard {
  public:
   ProcessGuard();
@@ -19,7 +19,7 @@ class ProcessGuard {
   ProcessGuard(const ProcessGuard&) = delete;
   ProcessGuard& operator=(const ProcessGuard&) = delete;
 
-  // What was changed since, in words that follow a name ("changes the locale to de_DE"); empty if nothing was.
+  // The change since, in words that follow a name ("changes the locale to de_DE"); empty if there is none.
   std::string what() const;
   void restore() const noexcept;
 

@@ -15,7 +15,8 @@
 namespace muster {
 namespace {
 
-// The descriptor as MUSTER_ABI 1 began it: a library may know more fields than we do, or fewer of the later ones.
+// The descriptor's size in the first MUSTER_ABI 1: a library may have more fields than this kernel, or fewer of the
+// later ones.
 constexpr std::size_t first_size = offsetof(muster_plugin, step) + sizeof(muster_plugin::step);
 
 constexpr std::string_view reserved[] = {"name", "every", "library", "revision"};

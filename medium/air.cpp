@@ -9,7 +9,7 @@ Time overlap(Time from, Time until, Time since, Time to) {
   return std::max<Time>(0, std::min(until, to) - std::max(from, since));
 }
 
-// Bits of a frame within a time.
+// Bits of a frame within an interval.
 struct Bits {
   double head, body;
 };
@@ -54,7 +54,7 @@ void Air::deafen(std::size_t radio, Time until) {
 
 void Air::forget(std::size_t radio) { deafen(radio, 0); }
 
-// In the order in which they began, so that the sum does not depend on which of them have ended since.
+// Sums in the order of the frames' begins, so the sum does not depend on which other frames have ended since.
 void Air::sum_up(Time at) {
   const std::size_t n = total_.size();
   for (std::size_t i = 0; i < n; ++i) total_[i] = jammed(i, at, at + 1);
@@ -127,7 +127,7 @@ void Air::hear_between_switches(Time until) {
   sum_up(until);
 }
 
-// All of it under the same frames and jammers.
+// An interval with the same frames and jammers throughout.
 void Air::hear_piece(Time until) {
   const Time from = heard_until_;
   heard_until_ = until;
@@ -154,7 +154,7 @@ void Air::hear_piece(Time until) {
   }
 }
 
-// A number is drawn only where the outcome is open.
+// Draws a random number only where the outcome is uncertain.
 bool Air::is_whole(std::size_t radio, std::uint64_t frame) const {
   const double log_right = log_right_[radio];
   if (log_right > -1e-12 || log_right < -40) return log_right > -1;

@@ -1,6 +1,6 @@
-// Frames in the air, and what each radio makes of them. A frame has two events, its begin and its end, and a receiver
-// none: at both all receivers are looked at in one go, and what they heard since is judged by its ratio to noise and to
-// all else that was in the air.
+// Frames in the air, and their reception by each radio. A frame has two events, its begin and its end, and a receiver
+// none. Each event updates all receivers at once: the interval since the last event is evaluated by the ratio of signal
+// to noise and interference.
 #pragma once
 
 #include <vector>
@@ -14,11 +14,11 @@ namespace muster::medium {
 
 constexpr std::uint64_t nothing = 0;  // no frame
 
-// How a frame's bits come: a head sent in one way, a body in another, a tail without any.
+// Bit layout of a frame: a head in one modulation, a body in another, a tail without bits.
 struct Format {
   const BitLaw* head_law = nullptr;
   Time head_from = 0, head_until = 0;  // since the frame's begin
-  double head_bits = 0;                // a ns
+  double head_bits = 0;                // per ns
   const BitLaw* body_law = nullptr;
   double body_bits = 0;
   Time tail = 0;
@@ -30,45 +30,45 @@ struct Frame {
   Time begin = 0, end = 0;
   std::size_t format = 0;
   std::uint64_t ack_of = nothing;  // the frame that it acknowledges
-  std::size_t to = 0;              // whom the medium access means it for
+  std::size_t to = 0;              // the intended receiver of the medium access
 };
 
-// How a receiver finds frames. Ratios are of one frame to noise and to all others together.
+// Parameters of reception. Ratios are of one frame to noise plus all other power.
 struct Hearing {
   double noise = 0;          // mW
   double found_above = 0;    // ratio
-  Time capture_within = 0;   // so long after a frame's begin another one may still take its receiver over,
-  double capture_above = 0;  // above this ratio
-  Band band;                 // what it lets in of jammers
+  Time capture_within = 0;   // a later frame may capture the receiver until so long after a frame's begin,
+  double capture_above = 0;  // if its ratio is above this
+  Band band;                 // filter for jammers' power
 };
 
-// What became of a frame at a receiver.
+// Outcomes of a frame at a receiver.
 enum class Heard : std::uint8_t { whole = 1, too_weak, no_link, collided, gone };
 
 class Air {
  public:
   Air(const Stream& random, std::vector<Format> formats) : random_(random), formats_(std::move(formats)) {}
 
-  // Before anything else in a run: what is in the air goes on under this channel.
+  // Call first in a run: frames already in the air continue under this channel.
   void enter(const Channel& channel, const Hearing& hearing);
 
-  // What was heard since frames last began or ended, or a jammer went on or off. Both begin() and end() call it.
+  // Evaluates the interval since frames last began or ended, or a jammer switched. begin() and end() call it.
   void hear(Time until) { shares_.empty() ? hear_piece(until) : hear_between_switches(until); }
 
-  // From now on all receive in this band.
+  // Sets the band in which all radios receive from now on.
   void tune(Time at, const Band& band);
 
-  // Until then a radio finds no frame, and what it listens to is lost.
+  // Until then the radio detects no frame, and its present frame is lost.
   void deafen(std::size_t radio, Time until);
   bool is_deaf(std::size_t radio, Time at) const { return deaf_until_[radio] > at; }
   void forget(std::size_t radio);
 
-  // Frames that ended more than `remembered` before it are forgotten.
+  // Drops frames that ended more than `remembered` ago.
   const Frame& begin(std::size_t sender, Time at, Time length, std::size_t format, std::uint64_t ack_of, std::size_t to,
                      Time remembered);
-  // Of each radio, what became of the frame there.
+  // Outcome of the frame at each radio.
   const std::vector<Heard>& end(const Frame& frame);
-  // Who listens to the frame though it stands no more than `ratio` above noise and others by now gives it up.
+  // Receivers of the frame abandon it if its ratio to noise and others is by now at most `ratio`.
   void drop_weak(std::uint64_t id, Time at, double ratio);
 
   const Frame& frame(std::uint64_t id) const { return frames_[id - frames_.front().id]; }
@@ -81,9 +81,9 @@ class Air {
   double jammed(std::size_t radio, Time from, Time until) const {
     return shares_.empty() ? 0 : sum_of_jammers(radio, from, until);
   }
-  Time next_switch(Time after) const;  // when one of them goes on or off
+  Time next_switch(Time after) const;  // the next time at which one of them switches
 
-  // Of the frame that a radio heard last: rssi as its preamble was found [dBm]; mean ratio.
+  // Of the last frame that a radio received: rssi at its preamble [dBm]; mean ratio.
   double rssi(std::size_t radio) const { return rssi_[radio]; }
   double ratio(std::size_t radio) const { return ratio_[radio]; }
 
@@ -106,14 +106,14 @@ class Air {
   std::uint64_t begun_ = nothing;
   Time heard_until_ = 0;
 
-  // Of each radio. What it listens to, ln of the probability that all bits came right so far, what others sent
-  // meanwhile [mW ns], and its rssi.
+  // Of each radio: its present frame, ln of the probability that all bits so far are right, energy of others meanwhile
+  // [mW ns], and its rssi.
   std::vector<std::uint64_t> lock_;
   std::vector<double> log_right_, others_, rssi_;
   std::vector<Time> deaf_until_;
 
-  // The same again, as follows from the channel.
-  std::vector<double> shares_;  // of each jammer's power that lies in the band
+  // Derived from the channel at the begin of a run.
+  std::vector<double> shares_;  // fraction of each jammer's power within the band
   std::vector<double> total_, signal_, ratio_;
   std::vector<Heard> heard_;
 };

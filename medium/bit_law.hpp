@@ -1,4 +1,4 @@
-// The share of bits that come wrong, as a table over the ratio of signal to noise and interference.
+// Bit error rate, tabulated over the ratio of signal to noise and interference.
 #pragma once
 
 #include <array>
@@ -8,8 +8,8 @@
 
 namespace muster::medium {
 
-// A closed form costs many exponentials and is asked for at each receiver of each piece of a frame. 128 points an
-// octave, linear between: within 1e-4 of a bit error rate that changes by a factor of e in a dB.
+// A closed form costs many exponentials at each receiver of each interval of a frame. 128 points an octave, linear
+// between: within 1e-4 of a bit error rate that changes by a factor of e in a dB.
 class BitLaw {
  public:
   // `error_rate`: of a bit, 0 to 0.5, falling as the ratio rises.
@@ -19,10 +19,10 @@ class BitLaw {
     while (first_clean_ > 0 && log_right_[first_clean_ - 1] > -1e-18) --first_clean_;
   }
 
-  // The ratio from which on no bit comes wrong, within 1e-18.
+  // The ratio from which the bit error rate is below 1e-18.
   double clean() const { return ratio_at(first_clean_); }
 
-  // ln of the probability that a bit comes right; 0 beyond 36 dB.
+  // ln of the probability that a bit is right; 0 beyond 36 dB.
   double log_right(double ratio) const {
     if (!(ratio > least)) return log_right_.front();
     if (ratio >= most) return 0;

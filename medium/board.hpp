@@ -12,17 +12,17 @@
 
 namespace muster::medium {
 
-// What both ends of a scale of link quality mean: mean ratio of a frame to noise and others [dB].
+// Ends of a scale of link quality: mean ratio of a frame to noise and others [dB].
 struct Quality {
   double worst, best;
 };
 
 class Board {
  public:
-  // For messages asked for at any moment of their tick, a plugin declares this flag.
+  // A plugin declares this flag to spread requests over their tick.
   static constexpr Param spread_param = flag("spread", true, "requests come at any moment of their tick");
 
-  // `state`: its table, another one for each kind of medium, which does not read what others remember.
+  // `state`: name of its table, a different one for each kind of medium, since their formats differ.
   Board(Setup& s, const char* state, Quality quality)
       : quality_(quality),
         spread_(s.value("spread")),
@@ -52,7 +52,7 @@ class Board {
   }
 
  private:
-  // All that the medium remembers, as bytes.
+  // The whole state of the medium, as bytes.
   struct State {
     static constexpr const char* columns = "medium{}";
     double medium;
@@ -162,8 +162,8 @@ class Board {
   Out<Traffic> traffic_;
   Out<State> state_;
   Stream moments_;
-  Channel channel_;    // room, kept from step to step
-  std::string saved_;  // what the medium holds
+  Channel channel_;    // buffer, kept from step to step
+  std::string saved_;  // state that the medium holds now
 };
 
 }  // namespace muster::medium

@@ -1,4 +1,4 @@
-// Numbers in a row of bytes, for state that has no fixed number of columns.
+// Serialises numbers to bytes, for state without a fixed number of columns.
 #pragma once
 
 #include <cstring>
@@ -33,7 +33,7 @@ class Writer {
   std::string bytes_;
 };
 
-// Throws std::runtime_error where the bytes end too early.
+// Throws std::runtime_error if the bytes end early.
 class Reader {
  public:
   explicit Reader(std::string_view bytes) : bytes_(bytes) {}

@@ -1,4 +1,4 @@
-// What the air between radios is like while time passes. Radios by number.
+// The channel between radios, by their numbers, during one run.
 #pragma once
 
 #include <cmath>
@@ -13,10 +13,10 @@ namespace muster::medium {
 struct Channel {
   std::size_t radios = 0;
   std::vector<double> power;  // mW, [from x radios + to]; 0 where there is no link
-  std::vector<double> rssi;   // dBm, the same, as the receiver reports it; NaN where that hears nothing
+  std::vector<double> rssi;   // dBm, the same, as the receiver reports it; NaN: nothing received
   std::vector<Jammer> jammers;
   std::vector<std::uint8_t> alive;
-  std::vector<std::uint64_t> keys;  // of each radio's random numbers
+  std::vector<std::uint64_t> keys;  // random key of each radio
 
   const double* power_from(std::size_t from) const { return &power[from * radios]; }
   const double* rssi_from(std::size_t from) const { return &rssi[from * radios]; }

@@ -1,4 +1,4 @@
-// What happens when, within one run of a medium.
+// Event queue of one run of a medium.
 #pragma once
 
 #include <algorithm>
@@ -9,10 +9,10 @@
 
 namespace muster::medium {
 
-// In two words, which are compared and moved all the time.
+// Packed in two words: compared and moved very often.
 struct Event {
   Time at;
-  std::uint64_t what;  // of those at the same time, the lower kind comes first, then the lower number
+  std::uint64_t what;  // orders simultaneous events by kind, then by number
 
   Event(Time when, int kind, std::uint64_t number)
       : at(when), what(static_cast<std::uint64_t>(kind) << number_bits | number) {}
@@ -23,7 +23,7 @@ struct Event {
   static constexpr int number_bits = 56;
 };
 
-// What is known before the run is sorted once; what comes up in it goes into a heap, which so stays small.
+// Events known before the run are sorted once; those that arise in it go into a heap, which stays small.
 class Agenda {
  public:
   void clear(Time until) {
@@ -32,7 +32,7 @@ class Agenda {
     has_begun_ = false;
     until_ = until;
   }
-  // What lies beyond the run is left out: the medium's state tells it to the next one.
+  // Drops events beyond the run: the medium's state reproduces them for the next one.
   void put(Time at, int kind, std::uint64_t number) {
     if (at >= until_) return;
     auto& events = has_begun_ ? heap_ : known_;

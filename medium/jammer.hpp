@@ -1,4 +1,4 @@
-// Power in the air that is no frame: when it is on, and how much of it a receiver's band lets in.
+// Power in the air other than frames: its schedule, and the part of it in a receiver's band.
 #pragma once
 
 #include <algorithm>
@@ -13,19 +13,19 @@ struct Band {
   double low = 0, high = 0;  // Hz
 };
 
-// What part of a flat spectrum a receiver lets in.
+// Fraction of a flat spectrum within a receiver's band.
 inline double share_of(const Band& spectrum, const Band& receiver) {
   if (spectrum.low == spectrum.high) return receiver.low <= spectrum.low && spectrum.low < receiver.high;
   const double common = std::min(spectrum.high, receiver.high) - std::max(spectrum.low, receiver.low);
   return std::max(0.0, common) / (spectrum.high - spectrum.low);
 }
 
-// On for the first part of each period. A schedule, so that what a frame meets does not depend on how ticks cut it.
+// On for the first part of each period. A fixed schedule, so results do not depend on the division into ticks.
 struct Pulses {
   Time period = 1, on = 1, phase = 0;
 
   Time on_between(Time from, Time until) const { return on_since_phase(until) - on_since_phase(from); }
-  // The first time after this one at which it goes on or off.
+  // The next time after this one at which it switches.
   Time next_switch(Time after) const {
     if (on == period) return never;
     const Time into = after - phase - begun(after) * period;
@@ -41,10 +41,10 @@ struct Pulses {
 };
 
 struct Jammer {
-  std::size_t radio = 0;  // whose it is
+  std::size_t radio = 0;  // that emits it
   Band band;
   Pulses pulses;
-  std::vector<double> power;  // mW at each radio while it is on, over all of its band
+  std::vector<double> power;  // mW at each radio while it is on, over its whole band
 };
 
 }  // namespace muster::medium

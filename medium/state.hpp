@@ -1,5 +1,5 @@
-// A medium's state as bytes: frames in the air, messages, and a record for each radio. `fields(field, record)` calls
-// `field` on all that a record holds.
+// Serialises a medium's state: frames in the air, messages, and a record for each radio. `fields(field, record)` calls
+// `field` on all members of a record.
 #pragma once
 
 #include "medium/transmit_queue.hpp"

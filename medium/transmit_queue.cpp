@@ -106,7 +106,7 @@ void Post::put_arrival(std::size_t sender, Time at) {
   report_.arrivals.push_back({sender, message.asked, at, std::move(message.payload)});
 }
 
-// Before the arrival that it belongs to.
+// Must precede the arrival that it refers to.
 void Post::put_delivery(std::size_t to, const Air& air) {
   const auto arrival = static_cast<std::uint32_t>(report_.arrivals.size());
   report_.deliveries.emplace_back(arrival, static_cast<std::uint32_t>(to), air.rssi(to), air.ratio(to));

@@ -1,5 +1,5 @@
-// Messages on their way: who wants to send what to whom, each radio's queue, and what became of every copy. A medium
-// access takes the first message of a queue, sends its frames, and says here what became of them.
+// Pending messages: each radio's transmit queue, and the delivery outcome of every copy. A medium access takes the
+// first message of a queue, sends its frames, and reports their outcomes here.
 #pragma once
 
 #include <array>
@@ -11,16 +11,16 @@
 
 namespace muster::medium {
 
-// What may become of a copy, one of which goes to each receiver of a message.
+// Outcomes of a copy; one copy goes to each receiver of a message.
 enum class Fate : std::uint8_t {
   under_way = 0,
   delivered,
   too_weak,    // below the receiver's sensitivity, or lost in noise alone
   no_link,     // beyond the range of all links
-  collided,    // lost to what else was in the air, or the receiver was talking or heard another one
-  no_access,   // the channel was busy each time its sender listened
-  queue_full,  // its sender had too many others to send
-  no_ack,      // it arrived in part, and the sender gave up for lack of acknowledgements
+  collided,    // lost to interference, or the receiver was sending or receiving another frame
+  no_access,   // the channel was busy at each carrier sense
+  queue_full,  // its sender's queue was full
+  no_ack,      // it arrived in part, and its sender gave up for lack of acknowledgements
   gone,        // sender or receiver left
   count
 };
@@ -28,7 +28,7 @@ Fate fate_of(Heard heard);
 
 constexpr std::size_t everyone = static_cast<std::size_t>(-1);
 
-// Those to whom a copy of a message is still under way.
+// Set of receivers whose copy of a message is still under way.
 class Receivers {
  public:
   Receivers() = default;
@@ -39,7 +39,7 @@ class Receivers {
 
   std::size_t count() const { return count_; }
   bool has(std::size_t radio) const { return radio == one_ || (radio < all_.size() && all_[radio]); }
-  // In order of their numbers.
+  // In the order of their numbers.
   template <class Do>
   void each(Do&& what) const {
     if (one_ != everyone) what(one_);
@@ -65,21 +65,21 @@ struct Message {
   std::size_t size = 0;  // bytes
   std::string payload;   // until its first copy is delivered
   Receivers receivers;
-  std::size_t frame = 0;  // the one that is sent
+  std::size_t frame = 0;  // the one being sent
 };
 
-// A message that arrived at somebody.
+// A message received by some radio.
 struct Arrival {
   std::size_t from;
-  Time sent, received;  // when it was asked for, and when its last frame ended
+  Time sent, received;  // of the request, and of its last frame's end
   std::string payload;
 };
 
 struct Delivery {
-  std::uint32_t arrival, to;  // its number in the report; a radio
-  double rssi, ratio;         // of its last frame: dBm as its preamble was found; signal to noise and others
+  std::uint32_t arrival, to;  // index of its arrival in the report; a radio
+  double rssi, ratio;         // of its last frame: dBm at its preamble; ratio to noise and others
 
-  // Where it is to stand: a copy of what was just written would wait for that.
+  // Constructed in place: copying what was just written would stall.
   Delivery(std::uint32_t a, std::uint32_t receiver, double dbm, double r)
       : arrival(a), to(receiver), rssi(dbm), ratio(r) {}
 };
@@ -87,16 +87,16 @@ struct Delivery {
 struct Report {
   std::vector<Arrival> arrivals;
   std::vector<Delivery> deliveries;
-  // Of each sender's copies, by what became of them in this time; under_way counts those newly asked for.
+  // Of each sender's copies, counts of outcomes in this run; under_way counts those newly requested.
   std::vector<std::array<std::uint64_t, static_cast<std::size_t>(Fate::count)>> fates;
 };
 
 class Post {
  public:
-  // `frames_of`: how many frames a payload of so many bytes goes in; where a medium counts them itself, none.
+  // `frames_of`: number of frames for a payload of so many bytes; null where a medium counts them itself.
   explicit Post(std::size_t (*frames_of)(std::size_t) = nullptr) : frames_of_(frames_of) {}
 
-  // A message that `from` wants to send at a time of the next run.
+  // Adds a message that `from` is to send at a time of the next run.
   void ask(Time at, std::size_t from, std::size_t to, std::string payload);
 
   struct Request {
@@ -106,10 +106,10 @@ class Post {
   };
   const std::vector<Request>& requests() const { return requests_; }
 
-  // Of a run, which begins by settling all that radios which left had to send.
+  // Starts a run; first settles all messages of radios that left.
   void open(const Channel& channel);
   const Report& close();
-  // Puts a request into its sender's queue, where no more than `limit` may wait. True if it is to be sent at once.
+  // Puts a request into its sender's queue, which holds at most `limit`. True if it is to be sent at once.
   bool take(std::size_t request, std::size_t limit);
 
   bool is_waiting(std::size_t radio) const { return !queues_[radio].empty(); }
@@ -118,12 +118,12 @@ class Post {
   bool is_last_frame(std::size_t radio) const { return first(radio).frame + 1 >= frames_of_(first(radio).size); }
   void drop_first(std::size_t radio) { queues_[radio].pop_front(); }
 
-  // What became of a frame of the first message, at each receiver that it is still under way to. With the last frame
-  // each copy is settled, and delivered where it arrived.
+  // Records the outcome of a frame of the first message at each receiver whose copy is under way. The last frame
+  // settles each copy, and delivers those that arrived.
   void frame_heard(std::size_t sender, const std::vector<Heard>& heard);
   void last_frame_heard(std::size_t sender, const std::vector<Heard>& heard, const Air& air, Time at);
   void deliver(std::size_t sender, std::size_t to, const Air& air, Time at);
-  // All copies of the first message that are under way.
+  // Settles all copies of the first message that are under way.
   void settle(std::size_t sender, Fate fate) { settle(sender, first(sender), fate); }
 
   void save(Writer& out) const;

@@ -1,4 +1,4 @@
-// Refuses what cannot be drawn truthfully.
+// Refuses figures that cannot be drawn truthfully.
 #include <fmt/format.h>
 
 #include <stdexcept>

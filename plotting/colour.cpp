@@ -9,7 +9,7 @@
 namespace muster::plotting {
 namespace {
 
-// Oklab, a space in which straight lines look even: https://bottosson.github.io/posts/oklab (public domain).
+// Oklab, a perceptually uniform space: https://bottosson.github.io/posts/oklab (public domain).
 struct Lab {
   double l, a, b;
 };
@@ -46,7 +46,8 @@ Colour from_lab(Lab lab) {
 constexpr std::array viridis{Colour{68, 1, 84},    Colour{71, 44, 122},  Colour{59, 81, 139},
                              Colour{44, 113, 142}, Colour{33, 144, 141}, Colour{39, 173, 129},
                              Colour{92, 200, 99},  Colour{170, 220, 50}, Colour{253, 231, 37}};
-// Okabe and Ito's blue and vermillion, carried on to light and to dark. The middle is not white: a cell of 0 is no gap.
+// Okabe and Ito's blue and vermillion, extended to light and to dark. The middle is not white: a cell of 0 differs from
+// a gap.
 constexpr std::array diverging{Colour{9, 46, 92},     blue,       Colour{146, 196, 224}, Colour{236, 234, 226},
                                Colour{244, 184, 146}, vermillion, Colour{112, 38, 4}};
 

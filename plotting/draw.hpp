@@ -1,4 +1,4 @@
-// Draws layers, and what stands around them, into SVG.
+// Draws layers, and their frame, into SVG.
 #pragma once
 
 #include "view.hpp"
@@ -11,10 +11,10 @@ struct Canvas {
   Box area;
   Scale x, y;
   Labels labels{};
-  std::size_t outside = 0;  // values that the limits leave out
+  std::size_t outside = 0;  // values beyond the limits
 
   Point operator()(Point p) const { return {x(p.x), y(p.y)}; }
-  // Of `value` on the panel's colour bar, in one of `shades` steps.
+  // Colour of `value` on the panel's colour bar, in one of `shades` steps.
   static constexpr int shades = 128;
   int shade(double value) const;
   Colour shade_colour(int shade) const;
@@ -28,7 +28,7 @@ void draw(const Histogram& histogram, Colour colour, Canvas& canvas);
 void draw(const ErrorBars& errors, Colour colour, Canvas& canvas);
 void draw(const Cells& cells, Colour colour, Canvas& canvas);
 void draw(const FloorPlan& plan, Colour colour, Canvas& canvas);
-// After all layers, so that no link crosses a station's mark.
+// Call after all layers, so that no link crosses a station's mark.
 void draw_stations(const FloorPlan& plan, Canvas& canvas);
 void draw(const Robots& robots, Colour colour, Canvas& canvas);
 void draw(const Path& path, Colour colour, Canvas& canvas);
@@ -37,7 +37,7 @@ void draw(const Links& links, Colour colour, Canvas& canvas);
 // A whole panel, its plot at `area`.
 void draw_panel(const View& view, const Box& area, Svg& svg);
 
-// Axes, grid, title, legend, colour bar and scale bar: what draw_panel sets around the layers.
+// Parts of draw_panel() around the layers: axes, grid, title, legend, colour bar and scale bar.
 void draw_grid(const Canvas& canvas);
 void draw_axes(const Canvas& canvas);
 void draw_scale_bar(const Canvas& canvas);

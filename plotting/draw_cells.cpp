@@ -1,4 +1,4 @@
-// Cells coloured by value, and the colour bar that says what the colours mean.
+// Cells coloured by value, and their colour bar.
 #include <algorithm>
 
 #include "draw.hpp"
@@ -44,7 +44,7 @@ void draw_colour_bar(const Canvas& canvas) {
   const Box& area = canvas.area;
   const bool below = !view.value.empty() && view.value.range().low < view.value_range.low;
   const bool above = !view.value.empty() && view.value.range().high > view.value_range.high;
-  constexpr double tip = 8;  // px, of the points that say that values go on beyond
+  constexpr double tip = 8;  // px, of the arrows that mark values beyond the limits
   Box bar{area.right() + view.margins.right - colour_bar_room(view), area.y, bar_width, area.height};
   if (above) bar.y += tip;
   bar.height -= tip * (above + below);

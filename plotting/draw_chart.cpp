@@ -14,7 +14,7 @@ std::vector<Point> placed(const std::vector<double>& x, const std::vector<double
   return points;
 }
 
-// A long curve looks the same when each half pixel across keeps its first, lowest, highest and last point.
+// Thins a curve: per half pixel across, its first, lowest, highest and last point draw the same curve.
 std::vector<Point> thinned(const std::vector<Point>& points) {
   if (points.size() < 4000) return points;
   constexpr double column = 0.5;  // px
@@ -40,7 +40,7 @@ std::vector<Point> thinned(const std::vector<Point>& points) {
   return result;
 }
 
-// Few points are large; of many, each is faint, and where they lie thick the ink adds up.
+// Few points are large; many are faint, and their ink adds up where they are dense.
 struct DotStyle {
   double radius, opacity;
   std::size_t coats;
@@ -59,7 +59,7 @@ Ink dots(Colour colour, const DotStyle& style) {
   return {.stroke = colour, .width = 2 * style.radius, .opacity = style.opacity};
 }
 
-// The band between low and high where both are there, one closed shape a run.
+// The band between low and high where both are defined, one closed shape a run.
 void fill_runs(Pen& pen, const std::vector<Point>& low, const std::vector<Point>& high) {
   const auto there = [&](std::size_t i) { return drawable(low[i]) && drawable(high[i]); };
   for (std::size_t begin = 0; begin < low.size();) {

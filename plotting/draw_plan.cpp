@@ -11,7 +11,7 @@ double thickness_px(double thickness, const Canvas& canvas) { return std::max(1.
 
 void draw_walls(const FloorPlan& plan, Canvas& canvas) {
   const auto names = materials(plan);
-  // The thick ones last: where walls meet, the thin one ends inside the thick one.
+  // Thick walls last: where walls meet, the thin one ends inside the thick one.
   std::vector<Wall> walls = plan.walls;
   std::stable_sort(walls.begin(), walls.end(), [](const Wall& a, const Wall& b) { return a.thickness < b.thickness; });
   canvas.svg.open("walls");
@@ -28,7 +28,7 @@ void draw_walls(const FloorPlan& plan, Canvas& canvas) {
   canvas.svg.close();
 }
 
-// As architects draw them: a gap in the wall; the open leaf stands square to it, with the arc of its swing.
+// Architects' symbol: a gap in the wall, the open leaf at a right angle to it, and the arc of its swing.
 void draw_door(const Door& door, Canvas& canvas) {
   const Point a = canvas(door.from), b = canvas(door.to);
   if (!drawable(a) || !drawable(b)) return;
@@ -46,7 +46,7 @@ void draw_door(const Door& door, Canvas& canvas) {
   canvas.svg.path(swing, {.stroke = leaf, .width = 0.6, .opacity = 0.6});
 }
 
-// Labels avoid a path; its points closer than a letter to the last one add nothing.
+// Labels avoid a path; points closer than a letter to the last one are skipped.
 void keep_clear(const std::vector<Point>& points, Labels& labels) {
   constexpr double letter = 8;  // px
   Point last{NAN, NAN};
@@ -121,7 +121,7 @@ void draw(const Path& path, Colour colour, Canvas& canvas) {
   if (path.value.empty()) {
     stroke(points, colour);
   } else {
-    // Neighbouring pieces of one shade are one stroke; a point without a value breaks the path.
+    // Neighbouring pieces of one shade form one stroke; a point without a value breaks the path.
     std::vector<Point> piece;
     int shade = -1;
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {

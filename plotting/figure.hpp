@@ -26,7 +26,7 @@ enum class Frame { axes = 1, scale_bar };  // scale_bar: for floor plans, in met
 struct Panel {
   std::string title{};
   Axis x{}, y{};
-  Axis value{};  // of what is coloured by value; shown as a colour bar
+  Axis value{};  // of values shown as colours, with a colour bar
   Map map = Map::viridis;
   bool equal = false;  // one unit is as long in y as in x; Frame::scale_bar implies it
   Frame frame = Frame::axes;
@@ -44,12 +44,12 @@ struct Figure {
   std::vector<Panel> panels{};
 };
 
-// The figure as a self-contained document. Throws std::invalid_argument where the lengths of a layer's columns differ,
-// bin edges do not rise, or a given limit cannot be (not finite, from >= to, <= 0 on a log axis); it names the panel.
+// The figure as a self-contained document. Throws std::invalid_argument naming the panel where the lengths of a layer's
+// columns differ, bin edges do not rise, or a given limit is invalid (not finite, from >= to, <= 0 on a log axis).
 std::string svg(const Figure& figure);
 
 // Writes svg(figure) under a temporary name beside `file` and renames it: readers see the old picture or the new one.
-// Throws std::runtime_error, naming the file and the reason.
+// Throws std::runtime_error with the file and the reason.
 void save(const Figure& figure, const std::filesystem::path& file);
 
 }  // namespace muster::plotting

@@ -1,4 +1,4 @@
-// What stands around a panel's layers: axes, title, legend, labels at the ends of lines, scale bar.
+// Draws the surroundings of a panel's layers: axes, title, legend, labels at the ends of lines, scale bar.
 
 #include "draw.hpp"
 
@@ -8,7 +8,7 @@ namespace {
 constexpr Colour axis_colour{90, 90, 90}, grid_colour{236, 236, 236};
 constexpr double axis_width = 0.8;
 
-// As many ticks as their labels leave room for.
+// As many ticks as fit with their labels.
 std::vector<Tick> x_ticks(const Canvas& canvas) {
   const Axis& axis = canvas.view.panel->x;
   if (!axis.names.empty()) return name_ticks(axis);

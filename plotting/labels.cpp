@@ -10,8 +10,8 @@ namespace {
 
 constexpr double label_size = 10.5;  // px
 
-// Advance widths of ' ' to '~', thousandths of the size: of Helvetica or, which stands in for it on many machines, of
-// DejaVu Sans, whichever is wider.
+// Advance widths of ' ' to '~', thousandths of the size: the wider of Helvetica and of DejaVu Sans, its substitute on
+// many machines.
 constexpr std::array<std::uint16_t, 95> advances{
     318, 401, 460, 838, 636, 950, 780, 275, 390, 390, 500, 838, 318, 361,  318, 337, 636, 636, 636,
     636, 636, 636, 636, 636, 636, 636, 337, 337, 838, 838, 838, 556, 1015, 684, 686, 722, 770, 667,
@@ -34,7 +34,7 @@ double text_width(std::string_view text, double size) {
     if (byte >= ' ' && byte <= '~')
       thousandths += advances[byte - ' '];
     else if (byte >= 0xC0)
-      thousandths += byte < 0xE0 ? 620 : 840;  // the first byte of another letter, or of a sign such as a minus
+      thousandths += byte < 0xE0 ? 620 : 840;  // the first byte of a non-ASCII letter, or of a sign such as a minus
   }
   return thousandths * size / 1000;
 }
@@ -58,7 +58,7 @@ std::vector<double> spread(const std::vector<double>& wanted, double gap, Range 
   std::vector<std::size_t> order(wanted.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return wanted[a] < wanted[b]; });
-  // Neighbours that collide merge into a block around the mean of what its members wanted.
+  // Pool adjacent violators: neighbours that collide merge into a block around the mean of their wanted positions.
   struct Block {
     double start;
     double sum;  // of wanted positions, each less its offset in the block
@@ -127,7 +127,7 @@ void Labels::along(Point a, Point b, std::string text, Colour colour) {
   std::vector<Candidate> candidates;
   for (const double offset : {0.0, 1.0, -1.0, 2.2, -2.2}) {
     for (const double f : {0.5, 0.42, 0.58, 0.35, 0.65, 0.28, 0.72}) {
-      const double away = std::abs(offset) > 1 ? 250 : 0;  // far off, it is hard to see whose label it is
+      const double away = std::abs(offset) > 1 ? 250 : 0;  // far from the line, a label is hard to match to it
       const Point centre{std::lerp(a.x, b.x, f) + nx * aside * offset, std::lerp(a.y, b.y, f) + ny * aside * offset};
       candidates.push_back({centre, away + static_cast<double>(candidates.size())});
     }

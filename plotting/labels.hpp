@@ -1,4 +1,4 @@
-// Where text goes: its width, places that hide nothing, and lines that do not collide.
+// Text layout: width of text, placement of labels with least overlap, and spacing of lines.
 #pragma once
 
 #include <string>
@@ -8,27 +8,27 @@
 
 namespace muster::plotting {
 
-// The most px that `text` takes in Helvetica or Arial (Liberation Sans has the same metrics) or in DejaVu Sans.
+// Upper bound of the width of `text` in px, in Helvetica or Arial (Liberation Sans has the same metrics) or in DejaVu
+// Sans.
 double text_width(std::string_view text, double size);
 
-// Words of `text` in lines no wider than `width` px.
+// Wraps `text` into lines of at most `width` px.
 std::vector<std::string> wrapped(std::string_view text, double width, double size);
 
-// Positions closest to `wanted` that are at least `gap` apart, kept in their order and inside `range` where it has
-// room.
+// Positions closest to `wanted` that are at least `gap` apart, in the same order, and inside `range` where they fit.
 std::vector<double> spread(const std::vector<double>& wanted, double gap, Range range);
 
-// Labels of a floor plan or a chart: each is placed where it covers least of what is there already.
+// Labels of a floor plan or a chart: each is placed where it covers least of the existing drawing.
 class Labels {
  public:
-  // Labels avoid this box; a greater weight is avoided more.
+  // Marks a box as occupied; a greater weight is avoided more.
   void occupy(const Box& box, double weight = 1);
   void occupy_line(Point a, Point b, double weight);
   // Right of, left of, above or below a mark of this radius, whichever is free.
   void beside(Point mark, double radius, std::string text, Colour colour);
   // On a line, near its middle.
   void along(Point a, Point b, std::string text, Colour colour);
-  // Writes all that were asked for, inside `area`.
+  // Writes all labels, inside `area`.
   void write(Svg& svg, const Box& area);
 
  private:
@@ -40,7 +40,7 @@ class Labels {
     std::string text;
     Colour colour;
     std::vector<Candidate> candidates;
-    bool mark;  // the name of a mark is placed before labels of lines, which have more freedom
+    bool mark;  // a mark's name is placed before labels of lines, which have more freedom
   };
   struct Occupied {
     Box box;

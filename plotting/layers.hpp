@@ -1,5 +1,4 @@
-// What a panel can show. Each layer is plain data; a value that is NaN or infinite is left out, never drawn at a wrong
-// place.
+// Layers of a panel. Each is plain data; a value that is NaN or infinite is left out, never drawn at a wrong place.
 #pragma once
 
 #include <optional>
@@ -14,7 +13,7 @@ namespace muster::plotting {
 
 // A layer without a colour takes the next of series_colour(); a Band takes that of the line that follows it.
 
-// A curve, broken where x or y is not drawable. Its label stands at its right end.
+// A curve, broken where x or y is not drawable. Its label is at its right end.
 struct Line {
   std::vector<double> x{}, y{};
   std::string label{};
@@ -46,8 +45,7 @@ struct Band {
   std::optional<Colour> colour{};
 };
 
-// Counts of values in [edge, next edge), the last bin closed; values outside are not counted, and their number is
-// noted.
+// Counts of values in [edge, next edge), the last bin closed; a note gives the number of values outside.
 struct Histogram {
   std::vector<double> values{}, edges{};
   std::string label{};
@@ -86,7 +84,7 @@ struct Station {
   std::string name{};
 };
 
-// The place: walls shaded by material, in the order in which materials first appear.
+// A floor plan: walls shaded by material, in the order of the materials' first walls.
 struct FloorPlan {
   std::vector<Wall> walls{};
   std::vector<Door> doors{};
@@ -98,7 +96,7 @@ struct Robot {
   double heading = 0;  // rad
   std::string name{};
   std::optional<Colour> colour{};
-  double radius = 0.15;  // m; drawn no smaller than can be seen
+  double radius = 0.15;  // m; drawn with a minimum visible size
 };
 
 struct Robots {
@@ -107,7 +105,7 @@ struct Robots {
 
 struct Path {
   std::vector<Point> points{};
-  std::vector<double> value{};  // a time a point: coloured by the panel's map
+  std::vector<double> value{};  // one time for each point: coloured by the panel's map
   std::optional<Colour> colour{};
 };
 

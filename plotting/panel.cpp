@@ -1,11 +1,11 @@
-// One panel: its layers in their order, clipped to the plot, and what stands around them.
+// Draws one panel: its layers in order, clipped to the plot, and its frame.
 
 #include "draw.hpp"
 
 namespace muster::plotting {
 namespace {
 
-// Widens the range of the axis that has pixels to spare, so that a unit is as long in x as in y.
+// Widens the range of the axis with pixels to spare, so that a unit is as long in x as in y.
 void equalise(Range& x, Range& y, const Box& area) {
   const double x_unit = x.span() / area.width, y_unit = y.span() / area.height;
   const double unit = std::max(x_unit, y_unit);

@@ -19,7 +19,7 @@ struct Grid {
 
 std::vector<View> look_at_all(const Figure& figure) {
   std::vector<View> views;
-  std::set<std::string> explained;  // a label that an earlier panel's legend explains is not said again
+  std::set<std::string> explained;  // a label in an earlier panel's legend is not repeated
   for (std::size_t i = 0; i < figure.panels.size(); ++i) {
     const Panel& panel = figure.panels[i];
     check(panel, "panel " + std::to_string(i + 1) + (panel.title.empty() ? "" : " (" + panel.title + ")"));
@@ -53,7 +53,7 @@ void set_y_ticks(View& view) {
   for (Tick& tick : view.y_ticks) tick.label = number_label(tick.value, 0);
 }
 
-// Where limits are shared and the titles agree, only the outer panels name the axis.
+// Hides titles of inner axes where limits are shared and the titles agree.
 void hide_inner_axes(const Figure& figure, std::vector<View>& views, std::size_t columns) {
   for (std::size_t i = 0; i < views.size(); ++i) {
     const Panel& panel = *views[i].panel;
@@ -71,7 +71,7 @@ Grid lay_out(const Figure& figure, std::vector<View>& views) {
   grid.columns = std::min(grid.columns, std::max<std::size_t>(views.size(), 1));
   grid.rows = (views.size() + grid.columns - 1) / grid.columns;
   hide_inner_axes(figure, views, grid.columns);
-  // The legend's height depends on the plot's width, and that on the margins: a second pass settles it.
+  // The legend's height depends on the plot's width, and that on the margins: two passes suffice.
   double width = figure.width / static_cast<double>(grid.columns) - 80;
   for (int pass = 0; pass < 2; ++pass) {
     grid.left.assign(grid.columns, 0);

@@ -15,7 +15,7 @@ namespace {
   throw std::runtime_error(file.string() + ": cannot write the picture: " + std::generic_category().message(reason));
 }
 
-// 0, or the errno of what went wrong.
+// 0, or the errno of the failure.
 int write_all(int descriptor, std::string_view text) {
   while (!text.empty()) {
     const ssize_t written = ::write(descriptor, text.data(), text.size());

@@ -1,4 +1,4 @@
-// From data to pixels.
+// Maps data to pixels.
 #pragma once
 
 #include <algorithm>
@@ -18,11 +18,11 @@ struct Range {
   bool holds(double v) const { return v >= low && v <= high; }
 };
 
-// NaN and the infinities are left out of a picture; so is what would overflow when ranges are subtracted.
+// NaN, infinities, and values that would overflow in the difference of a range are not drawn.
 inline bool drawable(double v) { return std::abs(v) <= 1e300; }
 inline bool drawable(Point p) { return drawable(p.x) && drawable(p.y); }
 
-// The smallest range of all drawable values that were added.
+// The smallest range that contains all drawable values added.
 class Extent {
  public:
   void add(double v) {
@@ -49,7 +49,7 @@ class Scale {
   Scale(Range range, double pixel_low, double pixel_high, bool log = false)
       : range_(range), pixel_low_(pixel_low), pixel_high_(pixel_high), log_(log) {}
 
-  // NaN for what the scale cannot show: no number, or not above 0 on a log scale.
+  // NaN for values outside the scale's domain: NaN, or not above 0 on a log scale.
   double operator()(double v) const {
     if (!drawable(v) || (log_ && v <= 0)) return std::numeric_limits<double>::quiet_NaN();
     const double at =
@@ -58,7 +58,7 @@ class Scale {
   }
   const Range& range() const { return range_; }
   bool log() const { return log_; }
-  // Pixels a unit of data, on a linear scale.
+  // Pixels per unit of data, on a linear scale.
   double pixels() const { return std::abs(pixel_high_ - pixel_low_) / range_.span(); }
 
  private:

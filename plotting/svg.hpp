@@ -21,7 +21,7 @@ std::string escaped(std::string_view text);
 
 enum class Cap { round = 1, butt, square };
 
-// How a shape is painted; an absent colour is not painted.
+// Fill and stroke of a shape; an absent colour is not painted.
 struct Ink {
   std::optional<Colour> fill{};
   std::optional<Colour> stroke{};
@@ -29,7 +29,7 @@ struct Ink {
   double opacity = 1;
   std::string dash{};
   Cap cap = Cap::round;
-  bool crisp = false;  // edges on whole pixels, so that neighbouring cells leave no seam
+  bool crisp = false;  // edges on whole pixels, so that neighbouring cells have no seam
 };
 
 enum class Anchor { start = 1, middle, end };
@@ -48,9 +48,9 @@ class Pen {
  public:
   void move(Point p);
   void line(Point p);
-  void dot(Point p);  // of no length: a round cap makes it a disc
+  void dot(Point p);  // of zero length: a round cap makes it a disc
   void rectangle(const Box& box);
-  void polyline(const std::vector<Point>& points);  // starts anew after each point that is not drawable
+  void polyline(const std::vector<Point>& points);  // starts again after each point that is not drawable
   void arc(double radius, bool clockwise, Point to);
   void close() { data_ += 'z'; }
   bool empty() const { return data_.empty(); }
@@ -62,7 +62,7 @@ class Pen {
 
 class Svg {
  public:
-  // A group of this class, for people and tests that look inside; with `clip`, nothing shows outside of the box.
+  // A group of this class, for readers and tests of the file; with `clip`, nothing shows outside the box.
   void open(std::string_view name, const Box* clip = nullptr);
   void close();
   void path(const Pen& pen, const Ink& ink);
@@ -70,7 +70,7 @@ class Svg {
   void circle(Point centre, double radius, const Ink& ink);
   void rectangle(const Box& box, const Ink& ink);
   void text(Point at, std::string_view text, const Lettering& lettering);
-  // The whole document; `title` and `description` are what a screen reader says.
+  // The whole document; screen readers read `title` and `description`.
   std::string document(double width, double height, std::string_view title, std::string_view description) const;
 
  private:

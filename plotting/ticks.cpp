@@ -20,7 +20,7 @@ struct Step {
   int decimals() const { return std::max(0, -exponent + (mantissa == 2.5 ? 1 : 0)); }
 };
 
-// A tick that misses the range by rounding alone counts as inside.
+// A tick outside the range by rounding alone counts as inside.
 constexpr double slack = 1e-9;
 
 double first_inside(Range range, const Step& step) { return std::ceil(range.low / step.size() - slack); }
@@ -49,7 +49,7 @@ Step choose_step(Range range, int at_most) {
   return best;
 }
 
-// Room around a range that has no extent that doubles can divide.
+// Adds room around a range whose extent is too small to divide in doubles.
 Range widened(Range data) {
   const double size = std::max(std::abs(data.low), std::abs(data.high));
   if (data.span() > size * 1e-10 && data.span() > 1e-290) return data;

@@ -5,7 +5,7 @@
 namespace muster::plotting {
 namespace {
 
-// Adds to a view what one layer needs; called in the order of the layers.
+// Adds a layer's needs to a view; called in the order of the layers.
 struct Look {
   View& view;
   std::size_t next_series = 0;
@@ -16,7 +16,7 @@ struct Look {
   }
   void add(Point p) {
     if (!drawable(p) || (view.panel->x.log && p.x <= 0) || (view.panel->y.log && p.y <= 0)) return;
-    // Limits of x that are given choose what y shows.
+    // Given limits of x restrict the data that determine y.
     if (p.x < view.panel->x.from.value_or(p.x) || p.x > view.panel->x.to.value_or(p.x)) return;
     view.x.add(p.x);
     view.y.add(p.y);
@@ -32,7 +32,7 @@ struct Look {
     if (!label.empty()) view.legend.push_back({label, colour, sign, opacity});
   }
 
-  // Where a line arrives: the mean of its last fiftieth, so that one noisy sample does not place the label.
+  // Height of a line's label: the mean of its last fiftieth, so that one noisy sample does not shift it.
   std::optional<double> end_level(const Line& line) const {
     const std::size_t wanted = line.x.size() / 50 + 1;
     std::size_t count = 0;
@@ -143,7 +143,7 @@ struct Look {
 Range with_limits(Range range, const Axis& axis) {
   if (axis.from) range.low = *axis.from;
   if (axis.to) range.high = *axis.to;
-  // Where all data lie beyond the one limit that was given.
+  // All data are beyond the one given limit.
   if (range.low >= range.high && axis.from)
     range.high = axis.log ? range.low * 10 : range.low + std::max(1.0, std::abs(range.low) * 0.1);
   if (range.low >= range.high)
@@ -151,7 +151,7 @@ Range with_limits(Range range, const Axis& axis) {
   return range;
 }
 
-// `room` [share of the span] replaces round ends.
+// `room` [fraction of the span] replaces round ends.
 Range range_of(const Extent& extent, const Axis& axis, std::optional<double> room) {
   if (!axis.names.empty()) return {-0.5, static_cast<double>(axis.names.size()) - 0.5};
   Range range = axis.log ? Range{1, 10} : Range{0, 1};

@@ -1,4 +1,4 @@
-// A panel as it will be drawn: its ranges, colours, legend and the room that its text needs.
+// Layout of a panel: its ranges, colours, legend and the room for its text.
 #pragma once
 
 #include "figure.hpp"
@@ -38,7 +38,7 @@ struct View {
   Extent x, y, value;  // of the data
   Range x_range, y_range, value_range;
   bool has_value = false;             // some of it is coloured by value
-  bool counts = false;                // y is a number of things
+  bool counts = false;                // y is a count
   bool show_x = true, show_y = true;  // false: a neighbour shows the same axis
   std::vector<Colour> colours;        // one a layer
   std::vector<LegendEntry> legend;
@@ -47,11 +47,11 @@ struct View {
   Margins margins;
 };
 
-// Shades of walls, by the place of their material in this list.
+// Shades of walls, by the index of their material in this list.
 std::vector<std::string> materials(const FloorPlan& plan);
 Colour wall_shade(std::size_t material);
 
-// The heights of a histogram's bars, and how many drawable values lie outside of its bins.
+// The heights of a histogram's bars, and the number of drawable values outside its bins.
 struct Bars {
   std::vector<double> heights;
   std::size_t outside = 0;
@@ -60,28 +60,28 @@ Bars bars(const Histogram& histogram);
 
 // A tick a name.
 std::vector<Tick> name_ticks(const Axis& axis);
-// The names of an x axis of this width would overlap, so they are turned.
+// True if the names on an x axis of this width would overlap, so that they are turned.
 bool names_crowded(const Axis& axis, double width);
 
 inline bool equal_units(const Panel& panel) { return panel.equal || panel.frame == Frame::scale_bar; }
 
-// Of the widest label, px.
+// Width of the widest label, px.
 double widest(const std::vector<Tick>& ticks);
-// What the colour bar takes in the right margin, px.
+// Width of the colour bar in the right margin, px.
 double colour_bar_room(const View& view);
 
 // "label (unit)"
 std::string axis_title(const Axis& axis);
 
-// Throws std::invalid_argument as svg() says; `which` names the panel.
+// Throws std::invalid_argument as svg() does; `which` names the panel.
 void check(const Panel& panel, const std::string& which);
 
-// Data extents, colours and legend. Ranges follow by set_ranges(), after extents have been shared between panels.
+// Data extents, colours and legend. set_ranges() sets the ranges later, after panels have shared their extents.
 View look(const Panel& panel);
 void set_ranges(View& view);
 void set_margins(View& view, double plot_width);
 
-// Rows that the legend fills at this width.
+// Number of rows of the legend at this width.
 int legend_rows(const std::vector<LegendEntry>& legend, double width);
 double legend_entry_width(const LegendEntry& entry);
 

@@ -1,14 +1,14 @@
-// What is done once a period, whatever the tick.
+// Events once a period, for any tick length.
 #pragma once
 
 #include <cmath>
 
 namespace muster {
 
-// How many periods are over at a time; sums of ticks are forgiven a part in 1e9.
+// Number of periods completed at a time; tolerates rounding of summed ticks by a part in 1e9.
 inline double periods_in(double time, double period) { return std::floor(time / period + 1e-9); }
 
-// Whether a multiple of `period` lies in (time - dt, time].
+// True if a multiple of `period` is in (time - dt, time].
 inline bool is_due(double time, double dt, double period) {
   return periods_in(time, period) > periods_in(time - dt, period);
 }

@@ -1,4 +1,4 @@
-// Rows of walls, doors and floors, of a table or a vector, as the scene has them, numbered alike.
+// Converts rows of walls, doors and floors, of a table or a vector, to those of the scene, with the same numbers.
 #pragma once
 
 #include <muster/floors.hpp>

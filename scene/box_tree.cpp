@@ -23,7 +23,8 @@ bool Box::may_meet(const Span& link) const {
   const Spot &p = link.from, &q = link.to;
   if (q.y < low.y || p.y > high.y) return false;  // links run northward
   if (std::max(p.x, q.x) < low.x || std::min(p.x, q.x) > high.x) return false;
-  // A crossed wall has an end on either side of the link, so the box's leftmost and rightmost corners have too.
+  // A crossed wall has an end on either side of the link, so the box's leftmost and rightmost corners are on either
+  // side too.
   const bool runs_east = q.x >= p.x;
   const Spot leftmost{low.x, runs_east ? high.y : low.y};
   const Spot rightmost{high.x, runs_east ? low.y : high.y};

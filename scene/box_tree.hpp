@@ -1,4 +1,4 @@
-// A tree of boxes around walls: which walls may a link cross? It never misses one; each candidate is named once.
+// Tree of bounding boxes around walls, to find the candidates that a link may cross. Misses none; reports each once.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@ namespace muster::scene {
 struct Box {
   Spot low, high;
 
-  // False only if nothing inside can be crossed under the half-open rule.
+  // False only if the link crosses nothing inside under the half-open rule.
   bool may_meet(const Span& link) const;
 };
 

@@ -1,4 +1,4 @@
-// What decides a crossing exactly: a link in whole lattice steps and, where it meets a wall's plane, its height there.
+// Exact data of a crossing: a link in whole lattice steps, and its height in a wall's plane.
 #pragma once
 
 #include "scene/walls.hpp"
@@ -28,7 +28,7 @@ struct Scene::Link {
   }
 };
 
-// A crossing before it is put into metres: `from` and `to` are the orientations of the link's ends about the wall.
+// A crossing before its conversion to metres: `from` and `to` are the orientations of the link's ends about the wall.
 struct Scene::Hit {
   int wall = 0;
   int door = -1;

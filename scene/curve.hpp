@@ -1,4 +1,4 @@
-// The order in which Hilbert's curve passes points of the plan: those that follow one another lie near one another.
+// Order of points of the plan along a Hilbert curve: neighbours on the curve are near each other.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ inline std::uint32_t place_on_curve(const Spot& spot) {
   for (std::uint32_t side = 1u << 15; side != 0; side >>= 1) {
     const bool right = x & side, up = y & side;
     place = place << 2 | (3u * right ^ static_cast<std::uint32_t>(up));
-    if (!up) {  // the curve in this quarter is turned over
+    if (!up) {  // the curve in this quarter is transposed
       if (right) {
         x = ~x;
         y = ~y;

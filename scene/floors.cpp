@@ -5,7 +5,7 @@
 namespace muster::scene {
 namespace {
 
-// Where they do so in a point that is no end of either.
+// True if they cross in a point that is no end of either.
 bool cross(const Spot& a, const Spot& b, const Spot& c, const Spot& d) {
   const auto apart = [](std::int64_t one, std::int64_t other) {
     return (one < 0 && other > 0) || (one > 0 && other < 0);

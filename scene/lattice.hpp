@@ -1,6 +1,6 @@
-// The lattice of 2^-12 m on which radio geometry lies, and the one predicate that decides every crossing.
+// The lattice of 2^-12 m for radio geometry, and the one predicate that decides every crossing.
 //
-// Within 1 km a coordinate is an integer below 2^22, so an orientation is one below 2^48: exact, whatever the compiler.
+// Within 1 km a coordinate is an integer below 2^22, so an orientation is one below 2^48: exact with every compiler.
 #pragma once
 
 #include <cmath>
@@ -10,16 +10,16 @@
 namespace muster::scene {
 
 constexpr double steps_per_metre = 4096;
-constexpr double extent = 1000;  // m; coordinates are smaller in size
+constexpr double extent = 1000;  // m; coordinates are smaller in magnitude
 
 // False for NaN and infinity too.
 inline bool within_extent(double metres) { return std::abs(metres) < extent; }
 
-// Products of three coordinates or more: below 2^73.
+// Holds products of three coordinates or more: below 2^73.
 __extension__ using Wide = __int128;
 
-// The lattice step nearest to a length or coordinate within the extent, of two the one farther from 0: std::llround(),
-// which is a call.
+// The lattice step nearest to a length or coordinate within the extent, of two the one farther from 0. Equals
+// std::llround(), without its function call.
 inline std::int64_t snap(double metres) {
   const double steps = metres * steps_per_metre;
   const auto whole = static_cast<std::int64_t>(steps);
@@ -39,8 +39,8 @@ inline std::int64_t orientation(const Spot& a, const Spot& b, const Spot& c) {
 
 // The half-open rule: an orientation of zero counts as left.
 //
-// Links run northward and walls southward (below). With these orders, and with no others up to symmetry, the rule gives
-// what would be found if every radio stood an infinitesimal step to the east and a far smaller one to the north.
+// Links run northward and walls southward (below). With these orders, unique up to symmetry, the rule equals a symbolic
+// perturbation: every radio moved an infinitesimal step to the east and a far smaller one to the north.
 inline bool is_right(std::int64_t orientation_value) { return orientation_value < 0; }
 
 // The canonical order of a link's ends: from south to north; if level, from east to west.

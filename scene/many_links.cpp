@@ -1,4 +1,4 @@
-// Counts for many links: kernels find what is clear, and what is not is worked out exactly, wall by wall.
+// Counts for many links: kernels count the clear cases, and doubtful ones are decided exactly, wall by wall.
 #include <algorithm>
 #include <cstring>
 #include <memory>
@@ -10,7 +10,7 @@
 namespace muster::scene {
 namespace {
 
-// From so many receivers of one radio on, it pays to look at the walls from there.
+// Least number of receivers of one radio for which the walls are transformed to its view.
 constexpr std::size_t many = 12;
 
 std::vector<std::uint32_t> along_curve(const std::vector<LatticePoint>& points) {
@@ -28,7 +28,7 @@ std::vector<LatticePoint> snapped(const std::vector<Point>& points) {
   return result;
 }
 
-// Sorts by key(item), below `keys`, and keeps the order of equals.
+// Counting sort by key(item), below `keys`; stable.
 template <class Key>
 std::vector<std::uint32_t> sorted(const std::vector<std::uint32_t>& items, std::size_t keys, const Key& key) {
   std::vector<std::uint32_t> next(keys + 1, 0), result(items.size());
@@ -38,7 +38,7 @@ std::vector<std::uint32_t> sorted(const std::vector<std::uint32_t>& items, std::
   return result;
 }
 
-// Most of them within a block of receivers of their place.
+// True if most items are within a block of receivers of their sorted position.
 bool nearly_sorted(const std::vector<std::uint32_t>& order) {
   std::size_t displaced = 0;
   for (std::uint32_t i = 0; i < order.size(); ++i) {
@@ -100,7 +100,7 @@ class Scene::ManyLinks {
       last = end_of_sender(first);
       if (worth_sorting && !sorted_ && !ascend(first, last)) {
         sort_by(curve);
-        last = 0;  // all over again: what is counted twice is counted the same
+        last = 0;  // start again: counting a link twice gives the same counts
         continue;
       }
       count_from(link(first).from, first, last);
@@ -141,8 +141,8 @@ class Scene::ManyLinks {
     return last;
   }
 
-  // Whether a sender's links, and the one after them, ascend in both ends. Those are below 2^31: else a difference of
-  // neighbours has its highest bit set.
+  // True if a sender's links, and the one after them, ascend in both ends. Row numbers are below 2^31, so a descending
+  // pair of neighbours sets the highest bit of the difference.
   bool ascend(std::size_t first, std::size_t last) const {
     std::uint32_t differences = last < links_.size() ? links_[last].from - links_[first].from - 1 : 0;
     for (std::size_t i = first + 1; i < last; ++i) differences |= links_[i].to - links_[i - 1].to - 1;
@@ -153,7 +153,7 @@ class Scene::ManyLinks {
   std::size_t row(std::size_t i) const { return order_.empty() ? i : order_[i]; }
   const Pair& link(std::size_t i) const { return links_[row(i)]; }
 
-  // Sorts the links [first, last) by their direction, as seen from the radio, into 256 parts of a turn.
+  // Sorts the links [first, last) by their direction from the radio, in 256 sectors.
   void sort_by_direction(std::uint32_t from, std::size_t first, std::size_t last) {
     if (order_.empty()) {
       order_.resize(links_.size());
@@ -194,7 +194,7 @@ class Scene::ManyLinks {
     seen.area[i] = std::abs(static_cast<float>(side));
   }
 
-  // The material that the link crosses the wall in, or -1.
+  // Material of the wall, or of its door, that the link crosses; -1 if it does not.
   int crossed(int wall, const Pair& link) const {
     const int of_scene = scene_.columns_.row(wall);
     Hit hit;
@@ -217,7 +217,7 @@ class Scene::ManyLinks {
       by_material_[m * links_.size() + row(i)] = counts_of_one_[m];
   }
 
-  // The links from the first on, as many as are taken at once, as long as they are before the last.
+  // Aims a shaft at the receivers of a block of links from the first on, and before the last.
   void aim(std::size_t first, std::size_t last, Shaft& shaft) {
     const std::uint32_t to = link(first).to;
     if (consecutive(first, last)) {
@@ -247,7 +247,7 @@ class Scene::ManyLinks {
       const int* const counted = counts_[m].of;
       int* const out = by_material_.data() + static_cast<std::size_t>(m) * links_.size();
       if (order_.empty() && number == receivers) {
-        std::memcpy(out + first, counted, receivers * sizeof *counted);  // of a size that the compiler knows
+        std::memcpy(out + first, counted, receivers * sizeof *counted);  // a size known at compile time
       } else if (order_.empty()) {
         std::copy_n(counted, number, out + first);
       } else {
@@ -256,7 +256,7 @@ class Scene::ManyLinks {
     }
   }
 
-  // Where there are many links, their rows lie far apart: they are fetched while they are worked out.
+  // With many links the rows of materials are far apart: prefetches them during the computation.
   void fetch_rows(std::size_t first, std::size_t number) {
     constexpr std::size_t line = 64 / sizeof(int);
     for (int m = 0; m < scene_.materials_ && order_.empty(); ++m) {
@@ -265,7 +265,7 @@ class Scene::ManyLinks {
     }
   }
 
-  // Whether a whole block of receivers follow one another as points do, too.
+  // True for a whole block of consecutive receivers.
   bool consecutive(std::size_t first, std::size_t last) const {
     if (!order_.empty() || last - first < receivers) return false;
     std::uint32_t gaps = 0;
@@ -278,15 +278,15 @@ class Scene::ManyLinks {
   const WallTable table_;
   const std::vector<LatticePoint> points_;
   const std::vector<Pair>& links_;
-  std::vector<std::uint32_t> order_;  // in which links are taken; empty if as they came
-  bool sorted_ = false;               // if not, those whose turn has not come are taken as they came
+  std::vector<std::uint32_t> order_;  // of the links in processing; empty: as given
+  bool sorted_ = false;               // if not, later links are processed as given
   struct Directed {
     std::uint32_t direction, link;
   };
   std::vector<Directed> directed_;
   std::vector<Shaft> shafts_;
   std::vector<int>& by_material_;
-  // Not filled before they are used: a few links must not pay for all walls.
+  // Filled on demand: a few links must not pay for all walls.
   const std::unique_ptr<SeenBlock[]> seen_;
   const std::unique_ptr<std::uint16_t[]> unsure_;
   const std::unique_ptr<int[]> lists_;
@@ -300,7 +300,7 @@ class Scene::ManyLinks {
 void Scene::counts(const std::vector<Point>& points, const std::vector<Pair>& links, std::vector<int>& by_material,
                    const WallKernel& kernel) const {
   if (walls_.empty()) {
-    snapped(points);  // which are refused beyond the scene all the same
+    snapped(points);  // throws for points beyond the scene
     by_material.assign(links.size() * static_cast<std::size_t>(materials_), 0);
   } else {
     ManyLinks(*this, kernel, points, links, by_material).count();

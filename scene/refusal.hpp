@@ -1,4 +1,4 @@
-// How the scene says which row of what it was given is wrong.
+// Error messages of the scene, with the faulty row of its input.
 #pragma once
 
 #include <stdexcept>

@@ -1,4 +1,4 @@
-// Walls and their doors as what stands in the way of bodies: upright slabs.
+// Walls and their doors as obstacles for bodies: upright slabs.
 #pragma once
 
 #include <vector>
@@ -15,8 +15,8 @@ struct Slab {
   int wall = 0;
 };
 
-// Each wall as the slabs that its open doors leave of it: the parts between them, whole, and those over them. A closed
-// door is wall: so that nothing is caught at a seam, it makes none. Doors reach as far as their wall does.
+// Splits each wall into slabs around its open doors: whole parts between them, and parts above them. A closed door is
+// wall and makes no seam, which could catch a body. Doors end where their wall does.
 std::vector<Slab> slabs(const std::vector<Wall>& walls, const std::vector<Door>& doors);
 
 }  // namespace muster::scene

@@ -1,9 +1,9 @@
-// Whether a straight link crosses a triangle: exactly, the same both ways, and with one answer where it grazes.
+// Exact test whether a straight link crosses a triangle: the same both ways, and unambiguous for grazing links.
 //
-// All points lie on the lattice of 2^-12 m within 1 km (README.md), so differences are below 2^23 and each
-// determinant below 2^73. Ties are broken as for walls: as if every radio stood an infinitesimal step to the east, a
-// far smaller one to the north, and a far greater one up. The shift is the same at both ends and for all triangles, so
-// a link through an edge or a vertex crosses a closed surface as often as a link beside it.
+// All points are on the lattice of 2^-12 m within 1 km (README.md), so differences are below 2^23 and each determinant
+// below 2^73. Ties are broken as for walls, by symbolic perturbation: every radio is moved an infinitesimal step to the
+// east, a far smaller one to the north, and a far greater one up. The shift is the same at both ends and for all
+// triangles, so a link through an edge or a vertex crosses a closed surface as often as a link beside it.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ inline Vector cross(const Vector& a, const Vector& b) {
 
 inline Wide dot(const Vector& a, const Vector& b) { return Wide{a.x} * b.x + Wide{a.y} * b.y + Wide{a.z} * b.z; }
 
-// The sign of a value that grows along `growth` when the radios move. Zero if it does not grow in any direction.
+// Sign of a value with gradient `growth` in the radios' shift. Zero if the gradient is zero too.
 inline int sign(Wide value, const Vector& growth) {
   for (const Wide each : {value, Wide{growth.z}, Wide{growth.x}, Wide{growth.y}}) {
     if (each != 0) return each > 0 ? 1 : -1;

@@ -1,4 +1,4 @@
-// Walls as the kernels read them: blocks of neighbours, under a tree of boxes that is 16 wide.
+// Walls in the layout of the kernels: blocks of neighbours, under a bounding-box tree of 16 children a node.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ class WallColumns {
   WallColumns(const std::vector<Source>& walls, int materials);
 
   WallTable table() const;
-  // The wall's row where it came from, or -1 for one that only fills a block.
+  // Row of a wall in the scene, or -1 for padding of a block.
   int row(int wall) const { return row_[static_cast<std::size_t>(wall)]; }
 
  private:

@@ -1,10 +1,10 @@
 // Built once for each instruction set, as MUSTER_KERNEL. Everything here but the kernel itself is internal.
 //
-// Seen from a radio p = 0 that lies left of a wall a -> b, the wall is crossed by the link to q just if q lies in the
-// wall's shadow: q x a < 0, b x q < 0 and q x a + b x q + a x b < 0, the last being q's own side of the wall. So the
-// largest of the three decides, and how far it is from zero says whether to believe it. With coordinates of q below R
-// and of a and b below A, exact in a float, the third is off by at most (16 R A + 6 A^2) 2^-24, the others by less: a
-// margin of 32 A max(A, R) 2^-24 is safe, fused or not.
+// Seen from a radio p = 0 left of a wall a -> b, the link to q crosses the wall exactly if q is in the wall's shadow: q
+// x a < 0, b x q < 0 and q x a + b x q + a x b < 0, the last being q's own side of the wall. So the largest of the
+// three decides, if it is farther from zero than its rounding error. With coordinates of q below R and of a and b below
+// A, exact in a float, the third is off by at most (16 R A + 6 A^2) 2^-24, the others by less: a margin of 32 A max(A,
+// R) 2^-24 is safe, fused or not.
 #include "scene/wall_kernel.hpp"
 
 #include <experimental/simd>
@@ -72,7 +72,7 @@ MUSTER_INLINE int* append(unsigned set, int first, int* to) {
   return to;
 }
 
-// The blocks of walls whose boxes, and all boxes around them, pass a test. The list is left in view.lists[0].
+// Lists the blocks of walls whose boxes, and all boxes around them, pass a test. The result is in view.lists[0].
 template <class Test>
 MUSTER_INLINE int surviving(const WallTable& table, const WallView& view, const Test test) {
   const Floats x = view.x, y = view.y;
@@ -123,7 +123,7 @@ void look(const WallTable& table, WallView& view) {
   }
 }
 
-// Between which the receivers [first, last) lie: opened by far more than rounding, 1e-5 rad.
+// Two directions that enclose the receivers [first, last), opened by far more than rounding, 1e-5 rad.
 MUSTER_INLINE Directions directions(const Shaft& shaft, int first, int last) {
   const float x = (shaft.west + shaft.east) / 2, y = (shaft.south + shaft.north) / 2;
   Floats most = -huge, least = huge, nearest = huge;
@@ -160,7 +160,7 @@ void aim(const WallView& view, const float* x, const float* y, const float* z, S
   shaft.all = directions(shaft, 0, receivers);
 }
 
-// Boxes that some link of a shaft may meet.
+// Test for boxes that some link of a shaft may meet.
 struct BoxesInShaft {
   Floats west, east, south, north, left_x, left_y, right_x, right_y;
 
@@ -185,10 +185,10 @@ struct BoxesInShaft {
   }
 };
 
-// Of a wall in its block: how many floats from the first wall's, in either kind of block.
+// Offset between consecutive blocks, in floats, in either kind of block.
 constexpr int stride = static_cast<int>(sizeof(WallBlock) / sizeof(float));
 
-// Walls that lie between two directions, at least in part.
+// Test for walls that are at least in part between two directions.
 struct Between {
   Floats left_x, left_y, right_x, right_y;
 
@@ -205,8 +205,8 @@ struct Between {
 // The walls that links of a shaft may cross, as offsets.
 template <int parts>
 struct Listed {
-  int* end[parts];  // of view.lists[1] and the following: of those that links of each part may cross
-  int* open_end;    // of view.lists[3]: of those whose doors or heights may decide
+  int* end[parts];  // of view.lists[1] and the following: walls that links of each part may cross
+  int* open_end;    // of view.lists[3]: walls whose doors or heights may decide
 };
 
 template <int parts>
@@ -228,7 +228,7 @@ MUSTER_INLINE Listed<parts> list_walls(const WallTable& table, const WallView& v
       const Floats reach = load(seen.reach + k), margin = rounding * reach * max(reach, far);
       store(margin, seen.margin + k);
       const Floats base = load(wall.base + k);
-      // Somebody is on the wall's far side, and heights meet.
+      // A receiver is on the wall's far side, and heights overlap.
       const Floats over_x = ay - by, over_y = bx - ax;
       const Floats nearest =
           x * over_x + y * over_y + load(seen.area + k) - (half_x * magnitude(over_x) + half_y * magnitude(over_y));
@@ -252,7 +252,7 @@ MUSTER_INLINE void add(const Integers& number, int* to) {
   (Integers(to, stdx::vector_aligned) + number).copy_to(to, stdx::vector_aligned);
 }
 
-// One wall, as a radio sees it.
+// One wall, relative to a radio.
 struct Wall {
   Floats ax, ay, bx, by, area, margin;
 
@@ -263,14 +263,14 @@ struct Wall {
         by(seen[3 * block]),
         area(seen[4 * block]),
         margin(seen[6 * block]) {}
-  // Below zero where the link to a receiver crosses it.
+  // Below zero where the link to a receiver crosses the wall.
   MUSTER_INLINE Floats decides(const Floats& x, const Floats& y) const {
     const Floats from_a = x * ay - y * ax, from_b = y * bx - x * by;
     return max(max(from_a, from_b), from_a + from_b + area);
   }
 };
 
-// Counts a wall for the receivers [first, last) and returns those for whom rounding may decide, who are not counted.
+// Counts a wall for the receivers [first, last). Returns the lanes within the rounding margin, which are not counted.
 template <int first, int last>
 MUSTER_INLINE unsigned count_wall(const Wall& wall, const Shaft& shaft, int* counts) {
   constexpr int number = (last - first) / lanes;
@@ -291,7 +291,7 @@ MUSTER_INLINE unsigned count_wall(const Wall& wall, const Shaft& shaft, int* cou
   return doubtful;
 }
 
-// For whom the wall may be crossed.
+// Lanes for which the wall may be crossed.
 MUSTER_INLINE unsigned may_cross(const Wall& wall, const Shaft& shaft) {
   unsigned result = 0;
   for (int i = 0; i < receivers; i += lanes) {
@@ -300,7 +300,7 @@ MUSTER_INLINE unsigned may_cross(const Wall& wall, const Shaft& shaft) {
   return result;
 }
 
-// What a shaft's walls are counted into.
+// Accumulates the walls of a shaft into counts and doubts.
 struct Counting {
   const WallTable& table;
   const WallView& view;
@@ -346,7 +346,7 @@ int count(const WallTable& table, const WallView& view, const Shaft& shaft, int*
   return static_cast<int>(counting.doubts - doubts);
 }
 
-// Boxes that reach over the line of the one link to (x, y), and within its own box.
+// Test for boxes that meet the line to (x, y) and its bounding box.
 struct Line {
   float x, y;
   Mask meets(const Floats& west, const Floats& east, const Floats& south, const Floats& north) const {

@@ -100,7 +100,7 @@ void Scene::add_door(const Door& door) {
   }
   const std::int64_t from = snap(door.at), to = snap(door.at + door.width), height = snap(door.height);
   if (to <= from || height <= 0) refuse("door", row, "has no width or no height; expected at least 2^-12 m");
-  if (to > wall.length + 2) {  // snapping both ends may shorten a wall by so many steps
+  if (to > wall.length + 2) {  // snapping both ends may shorten a wall by two steps
     refuse("door", row,
            "ends " + text(door.at + door.width) + " m along its wall, which is " +
                text(static_cast<double>(wall.length) / steps_per_metre) + " m long");

@@ -1,5 +1,5 @@
-// Upright walls, the doors in them, level floors, and what a straight radio link crosses: exactly, and the same in both
-// directions. README.md says what counts as a crossing and why.
+// Upright walls with doors, level floors, and exact crossings of them by a straight radio link, the same in both
+// directions. README.md defines a crossing and gives the reasons.
 #pragma once
 
 #include <cstddef>
@@ -17,8 +17,8 @@ struct Point {
   double x = 0, y = 0, z = 0;
 };
 
-// An upright rectangle: its centre plane stands on (x0, y0) -> (x1, y1) and fills the heights [base, base + height).
-// The thickness, in metres and half to each side, does not change what is crossed.
+// An upright rectangle: its centre plane is over (x0, y0) -> (x1, y1) and covers the heights [base, base + height). The
+// thickness, in metres and half to each side, does not affect crossings.
 struct Wall {
   double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
   double base = 0, height = 0, thickness = 0;
@@ -26,7 +26,7 @@ struct Wall {
 };
 
 // A gap in a wall, [at, at + width) metres along it from (x0, y0), from the wall's base up to `height` (or to the
-// wall's own top, if that is lower). Open, nothing is there; closed, it is of its own material.
+// wall's own top, if that is lower). An open door is empty; a closed one is of its own material.
 struct Door {
   int wall = 0;
   double at = 0, width = 0, height = 0;
@@ -36,9 +36,9 @@ struct Door {
 
 struct Crossing {
   int wall = 0;   // or -1, of a floor
-  int door = -1;  // the closed door that is crossed in place of its wall, or -1
+  int door = -1;  // the closed door that is crossed instead of its wall, or -1
   int material = 0;
-  double fraction = 0;       // of the way along the link, from the end that was named first: [0, 1]
+  double fraction = 0;       // of the way along the link, from its first end: [0, 1]
   double z = 0;              // m
   double cos_incidence = 0;  // between the link and the normal of the wall or floor: (0, 1]
   int floor = -1;            // or -1, of a wall
@@ -49,21 +49,19 @@ struct Pair {
   std::uint32_t from = 0, to = 0;
 };
 
-// The points in an order in which neighbours follow one another, as places in the list.
+// The points in spatial order, as places in the list: neighbours in the order are near each other.
 std::vector<std::uint32_t> spatial_order(const std::vector<Point>& points);
 
-// Whether neighbours follow one another already, near enough: most points are where that order would have them, or not
-// far from it.
+// True if the points are already nearly in spatial order: most are at their position in it, or near it.
 bool in_spatial_order(const std::vector<Point>& points);
 
-// The fastest that this machine can run. All give the same counts.
+// The fastest kernel that this machine can run. All give the same counts.
 const WallKernel& best_wall_kernel();
 
-// Walls stay as they are; doors open and close. Reading is safe from several threads while no door moves.
+// Walls are fixed; doors open and close. Reading is safe from several threads while no door moves.
 class Scene {
  public:
-  // Materials are numbered from 0 to materials - 1. Throws std::runtime_error that names the row at fault and its
-  // reason.
+  // Materials are numbered from 0 to materials - 1. Throws std::runtime_error with the faulty row and the reason.
   Scene(const std::vector<Wall>& walls, const std::vector<Door>& doors, int materials,
         const std::vector<Floor>& floors = {});
 
@@ -71,15 +69,15 @@ class Scene {
   bool is_open(int door) const { return doors_.at(door).open; }
   void set_open(int door, bool open) { doors_.at(door).open = open; }
 
-  // Replaces `out` by what the straight line from p to q crosses, walls by their rows, then floors by theirs. All but
-  // `fraction` is the same, bit for bit, from q to p. Throws std::runtime_error where a point lies beyond 1 km.
+  // Replaces `out` by the crossings of the straight line from p to q, walls by their rows, then floors by theirs. All
+  // but `fraction` is the same, bit for bit, from q to p. Throws std::runtime_error for a point beyond 1 km.
   void crossings(const Point& p, const Point& q, std::vector<Crossing>& out) const;
 
   // The same as counts: fills by_material[0 .. materials()).
   void counts(const Point& p, const Point& q, int* by_material) const;
 
-  // The same of many links at once, much faster: fills by_material[material x number of links + link]. Fastest where
-  // points come in spatial order and links in ascending order of both ends.
+  // The same for many links at once, much faster: fills by_material[material x number of links + link]. Fastest where
+  // points are in spatial order and links in ascending order of both ends.
   void counts(const std::vector<Point>& points, const std::vector<Pair>& links, std::vector<int>& by_material,
               const WallKernel& kernel = best_wall_kernel()) const;
 

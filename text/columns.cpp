@@ -22,7 +22,7 @@ bool is_word(std::string_view text) {
   throw std::invalid_argument("column \"" + std::string(word) + "\" " + why);
 }
 
-// One word of the text, and how many columns alike it stands for.
+// Parses one word of the text; returns the number of columns that it describes.
 std::size_t parse_word(std::string_view word, Column& column) {
   const auto marks = word.find_first_of(":[{*?~+");
   column.name = word.substr(0, marks);

@@ -14,7 +14,7 @@ struct Column {
   bool nullable = false;  // ?  a cell may be empty
   bool infinite = false;  // ~  a cell may be infinite
   bool bytes = false;     // {} a cell holds bytes
-  bool joins = false;     // +  names in a file that are no rows of `reference` join it
+  bool joins = false;     // +  names in a file that are not rows of `reference` join it
 
   // "x[m]", as in the header of a CSV table.
   std::string title() const { return unit.empty() ? name : name + '[' + unit + ']'; }
@@ -35,7 +35,7 @@ class Columns {
   int find(std::string_view name) const;
   bool any_bytes() const { return any_bytes_; }
   bool any_references() const { return any_references_; }
-  // True where a plain finite number is all that any cell may hold.
+  // True where every cell holds a plain finite number.
   bool plain() const { return plain_; }
   const std::string& text() const { return text_; }
   bool operator==(const Columns& other) const { return list_ == other.list_; }

@@ -1,4 +1,4 @@
-// What the user sees when something is wrong: one line that says where, what, what was expected and the nearest name.
+// Errors shown to the user: one line with the place, the fault, the expectation and the nearest valid name.
 #pragma once
 
 #include <stdexcept>
@@ -17,7 +17,7 @@ enum class Exit {
   interrupted = 130
 };
 
-// A place in a file; lines and columns count from 1, and 0 means "not known" and is not printed.
+// A place in a file; lines and columns count from 1; 0 means unknown and is not printed.
 struct Place {
   std::string file;
   int line = 0;
@@ -48,7 +48,7 @@ class Error : public std::runtime_error {
   std::string message_;
 };
 
-// Bad input, the commonest error by far.
+// Bad input, the most frequent error by far.
 inline Error invalid(const Place& place, const std::string& message) { return {Exit::invalid_input, place, message}; }
 
 }  // namespace muster

@@ -10,7 +10,7 @@ namespace muster {
 // The text in double quotes, cut after about 60 bytes, with control characters written as \xNN.
 std::string quote(std::string_view text);
 
-// Names stand in paths: letters, digits, and _ - . but no more.
+// True for names that fit paths: letters, digits, and _ - . only.
 bool is_name(std::string_view text);
 
 // The valid name that is fewest typing errors away (a letter lost, added, changed or exchanged with its neighbour; case

@@ -39,7 +39,7 @@ std::vector<std::string_view> split(std::string_view text) {
   return items;
 }
 
-// What from_chars takes for a number without digits: nan, nan(...), inf and infinity in any case.
+// True for texts that from_chars reads without digits: nan, nan(...), inf and infinity in any case.
 bool is_not_finite(std::string_view text) {
   const Parsed<double> parsed = parse<double>(text);
   return parsed.error == std::errc{} && parsed.rest.empty() && !std::isfinite(parsed.value);

@@ -1,4 +1,4 @@
-// Numbers to and from text, the same in every locale: the only way in which the project reads or prints a number.
+// Numbers to and from text, the same in every locale: the only conversions in the project.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,8 @@
 
 namespace muster {
 
-// The finite decimal number that the whole text is; nothing for spaces, '+', hexadecimal, nan, inf and what a double
-// cannot hold.
+// The whole text as a finite decimal number; null for spaces, '+', hexadecimal, nan, inf and numbers out of a double's
+// range.
 std::optional<double> parse_real(std::string_view text);
 
 // The whole text as a decimal integer of 64 bits, under the same rules.
@@ -23,8 +23,8 @@ std::optional<std::vector<double>> parse_reals(std::string_view text, std::size_
 // The shortest text that parse_real reads back as the same bits (and "nan", "inf", "-inf", which it refuses).
 std::string print_real(double value);
 
-// For an error: why the text is refused, as in `"1,5" is not a number; a decimal point is written '.'`; empty if it is
-// not.
+// For an error: the reason for refusing the text, as in `"1,5" is not a number; a decimal point is written '.'`; empty
+// if it is valid.
 std::string why_not_real(std::string_view text);
 std::string why_not_integer(std::string_view text);
 std::string why_not_reals(std::string_view text, std::size_t n);

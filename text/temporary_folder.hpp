@@ -1,4 +1,4 @@
-// A folder of one's own among the system's temporary ones, removed in the end.
+// A private folder among the system's temporary ones, removed at the end.
 #pragma once
 
 #include <stdlib.h>

@@ -46,7 +46,7 @@ void TextTable::split() {
     at = split_row(at);
     if (row_starts_.size() > 1) continue;
     width_ = cell_starts_.size();
-    cell_starts_.reserve(std::min(lines * width_, text.size() + 1));  // a cell takes a byte at least
+    cell_starts_.reserve(std::min(lines * width_, text.size() + 1));  // a cell takes at least one byte
   }
   row_starts_.push_back(text.ends_with('\n') ? at : at + 1);  // as if the last line ended too
 }
@@ -219,7 +219,7 @@ std::string_view TextTable::raw(std::size_t line, std::size_t column) const {
   return std::string_view(file_.text).substr(begin, end - begin);
 }
 
-// Every row is one line, so this costs the same everywhere in the file.
+// Every row is one line, so the cost is the same everywhere in the file.
 Place TextTable::raw_place(std::size_t line, std::size_t column) const {
   const std::size_t begin = row_starts_[line];
   const std::string_view before = std::string_view(file_.text).substr(begin, cell_starts_[line * width_ + column]);

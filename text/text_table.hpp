@@ -1,7 +1,6 @@
 // Tables of text (CSV), measured or logged: a header with units such as `t[s],tx,rx,rssi[dBm]`, then rows of numbers
-// and names. UTF-8; ',' between cells; a line a row; an empty cell means "nothing was there"; quotes around a cell make
-// it a name, and a quote inside is doubled. The file is read once and split once; a column is turned into numbers when
-// it is asked for.
+// and names. UTF-8; ',' between cells; a line a row; an empty cell is a missing value; quotes around a cell make it a
+// name, and a quote inside is doubled. The file is read once and split once; a column is parsed on request.
 #pragma once
 
 #include <cstddef>
@@ -24,22 +23,21 @@ struct TextColumn {
   std::string label() const { return unit.empty() ? name : name + '[' + unit + ']'; }
 };
 
-// A column of names: row r holds levels[level[r]]; levels stand in the order of their first row.
+// A column of names: row r holds levels[level[r]]; levels are in the order of their first rows.
 struct Factor {
   std::vector<std::uint32_t> level;
   std::vector<std::string> levels;
 };
 
-// What a column may hold beyond finite numbers or names.
+// Values that a column may hold beyond finite numbers or names.
 struct Allow {
-  bool empty = false;     // an empty cell, NaN among numbers: nothing was there
+  bool empty = false;     // an empty cell, NaN among numbers: a missing value
   bool infinite = false;  // inf and -inf: a laser's "no return"
 };
 
 class TextTable {
  public:
-  // Throws Error naming line and column of what is wrong: a header that does not fit, a row with another number of
-  // cells.
+  // Throws Error with line and column of the fault: an invalid header, or a row with another number of cells.
   static TextTable read(const std::filesystem::path& path);
 
   const std::string& file() const { return file_.file; }
@@ -47,15 +45,15 @@ class TextTable {
   std::size_t rows() const { return row_starts_.size() - 2; }
 
   std::optional<std::size_t> find(std::string_view name) const;
-  // The column of that name and unit; an error that names the nearest column otherwise.
+  // The column of that name and unit; otherwise an error that names the nearest column.
   std::size_t require(std::string_view name, std::string_view unit) const;
-  // Whether the column has a unit, or starts with a number (a quoted cell is a name).
+  // True if the column has a unit, or starts with a number (a quoted cell is a name).
   bool is_numeric(std::size_t column) const;
 
   std::vector<double> reals(std::size_t column, Allow allow = {}) const;
   Factor texts(std::size_t column, Allow allow = {}) const;
 
-  // A cell without its quotes, and where it stands.
+  // A cell without its quotes, and its place.
   std::string text(std::size_t row, std::size_t column) const { return cell_text(raw(row + 1, column)); }
   Place place(std::size_t row, std::size_t column) const { return raw_place(row + 1, column); }
   Place header_place(std::size_t column) const { return raw_place(0, column); }
@@ -78,7 +76,7 @@ class TextTable {
   TextFile file_;
   std::vector<TextColumn> columns_;
   std::size_t width_ = 0;                   // cells a line
-  std::vector<std::uint64_t> row_starts_;   // byte offset of each line, and of the one that would follow the last
+  std::vector<std::uint64_t> row_starts_;   // byte offset of each line, and of the one after the last
   std::vector<std::uint16_t> cell_starts_;  // width_ a line, relative to its start
 };
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t buffer_bytes = 1 << 20;
 
-// Also a name that is a number: TextTable takes what is quoted for a name.
+// Also true for a name that reads as a number: TextTable reads quoted cells as names.
 bool needs_quotes(std::string_view text) {
   return text.find_first_of(",\"") != text.npos || text.starts_with(' ') || text.ends_with(' ') ||
          text.starts_with('\t') || text.ends_with('\t') || parse_real(text).has_value();

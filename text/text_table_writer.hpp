@@ -1,4 +1,4 @@
-// Writes a table that TextTable reads back, row by row, under a temporary name until it is whole.
+// Writes a table that TextTable reads back, row by row, under a temporary name until it is complete.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace muster {
 
-// Whatever cannot be written is an Error with Exit::io.
+// Every failure to write is an Error with Exit::io.
 class TextTableWriter {
  public:
   TextTableWriter(const std::filesystem::path& path, const std::vector<TextColumn>& columns);
@@ -26,7 +26,7 @@ class TextTableWriter {
   void empty();
   void end_row();
 
-  // Makes the table appear under its name, on the disk, if `check` does not throw at the file that it is so far.
+  // Flushes the file to disk and renames it to its final name, unless `check` throws on the temporary file.
   void close(const std::function<void(const std::filesystem::path&)>& check = {});
 
  private:

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint64_t most_bytes = 16 << 20;
 
-// Gives the parsed tree the places that the scan has found; both are in document order.
+// Joins the parsed tree with the places from the scan; both are in document order.
 class Join {
  public:
   Join(const std::string& file, const std::vector<XmlSpot>& spots) : file_(file), spots_(spots) {}

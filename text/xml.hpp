@@ -1,4 +1,4 @@
-// An XML file as a plain tree in which every name and value knows its place. Nothing in the file is silently ignored.
+// An XML file as a plain tree in which every name and value has its place. Nothing in the file is silently ignored.
 #pragma once
 
 #include <filesystem>
@@ -23,12 +23,11 @@ struct XmlElement {
   std::vector<XmlAttribute> attributes;
   std::vector<XmlElement> children;
 
-  // Null if there is none of that name.
+  // Null if there is no attribute of that name.
   const XmlAttribute* attribute(std::string_view wanted) const;
 };
 
-// The root element of a file of UTF-8 text, at most 16 MB large. Throws Error with file, line and column of what is
-// wrong.
+// The root element of a file of UTF-8 text, of at most 16 MB. Throws Error with file, line and column of the fault.
 XmlElement read_xml(const std::filesystem::path& path);
 
 }  // namespace muster

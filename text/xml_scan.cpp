@@ -17,12 +17,12 @@ namespace {
 constexpr std::size_t most_depth = 64;  // tinyxml2 stops at 98; a world needs five
 constexpr std::size_t most_name_bytes = 256;
 constexpr std::size_t most_tag_bytes = 64 << 10;
-constexpr std::size_t most_attributes = 256;   // of one tag: tinyxml2 takes time with their square
+constexpr std::size_t most_attributes = 256;   // of one tag: tinyxml2 takes quadratic time in their number
 constexpr std::size_t most_parts = 1'000'000;  // elements and attributes in all
 
 constexpr std::string_view white_space = " \t\r\n";
 
-// The names that tinyxml2 takes.
+// Characters that tinyxml2 accepts in names.
 bool starts_name(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == ':' || (c & 0x80);
 }
@@ -157,7 +157,7 @@ class Scan {
     }
   }
 
-  // Stops at the tag's '>' or '/>'.
+  // Ends at the tag's '>' or '/>'.
   void scan_attributes(std::string_view tag) {
     attributes_.clear();
     for (;;) {
@@ -205,8 +205,8 @@ class Scan {
     add_spot(value);
   }
 
-  // The five named characters and numbers of allowed characters; sought in the value only, or the scan would take
-  // quadratic time.
+  // Accepts the five named characters and numbers of allowed characters. Searches the value only: otherwise the scan
+  // would take quadratic time.
   void check_references(std::size_t place, std::string_view value) const {
     for (std::size_t from = value.find('&'); from != value.npos; from = value.find('&', from + 1)) {
       const std::size_t end = value.find(';', from);
@@ -263,11 +263,11 @@ class Scan {
   const std::string_view text_;
   std::size_t at_ = 0;
   std::size_t parts_ = 0;
-  std::size_t tag_ = 0;  // start of the tag that is being read
+  std::size_t tag_ = 0;  // start of the present tag
   bool only_declarations_ = true;
   bool has_root_ = false;
   std::vector<Name> open_;
-  std::vector<Name> attributes_;  // of the tag that is being read
+  std::vector<Name> attributes_;  // of the present tag
   std::vector<XmlSpot> spots_;
   XmlSpot spot_{1, 1};
   std::size_t spot_at_ = 0;

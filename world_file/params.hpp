@@ -1,4 +1,4 @@
-// Attributes of the world file held against the declarations of parameters: kind, bounds, unit, choices.
+// Checks attributes of the world file against the declarations of parameters: kind, bounds, unit, choices.
 #pragma once
 
 #include <muster/plugin.h>
@@ -34,7 +34,7 @@ std::vector<std::string> choices(const muster_param& declared);
 // "number from 0 to 120 dB", "one of a, b", "name of a robot": what a declaration expects.
 std::string expectation(const muster_param& declared, int count = 1);
 
-// A value as the world file would have it.
+// Text of a value as the world file writes it.
 std::string value_text(const muster_param& declared, double value);
 
 }  // namespace muster

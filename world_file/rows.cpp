@@ -63,7 +63,7 @@ class RowReader {
     for (const auto& attribute : element.attributes) {
       valid.push_back(attribute.param.name);
     }
-    for (const auto& a : given.attributes) {  // before what is missing: it may be there, misspelt
+    for (const auto& a : given.attributes) {  // before missing ones: a missing attribute may be a misspelt one
       if (std::find(valid.begin(), valid.end(), a.name) == valid.end()) refuse_unknown(a, given.name, valid);
     }
     for (const auto& attribute : element.attributes) {
@@ -95,7 +95,7 @@ class RowReader {
     elements_.push_back(&element);
   }
 
-  // What attributes by themselves do not show: a wall without length.
+  // Checks that attributes fit each other, such as a wall's length above 0.
   void check_whole(std::size_t row) const {
     const RowDeclaration& declared = world_.rows[row];
     if (!elements_[row]->fault) return;
@@ -267,7 +267,7 @@ class RowReader {
 }  // namespace
 
 std::vector<std::size_t> plain_columns(const Attribute& attribute, std::size_t width) {
-  constexpr double mark = 0.8125;  // nothing that a sine or a sum makes of it is the same
+  constexpr double mark = 0.8125;  // a value that no sine and no sum of it reproduces
   const std::vector<double> values(static_cast<std::size_t>(attribute.count), mark);
   std::vector<double> row(width, 0);
   attribute.store(values.data(), row.data());

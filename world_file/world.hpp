@@ -1,5 +1,5 @@
 // A world as its file declares it: rows of the standard sets, instances of plugins, swaps and records. Plain data: no
-// plugin is loaded, and nothing refers to a plugin's declarations yet.
+// plugin is loaded, and no reference to a plugin's declarations is resolved yet.
 #pragma once
 
 #include <filesystem>
@@ -40,7 +40,7 @@ struct InstanceDeclaration {
   std::optional<uint64_t> revision;
   std::vector<XmlAttribute> attributes;  // without the reserved ones
   Place place;
-  bool shares_element = false;  // its attributes stand beside those of <swap>
+  bool shares_element = false;  // its attributes are those of the <swap> element
 };
 
 struct SwapDeclaration {
@@ -64,7 +64,7 @@ struct World {
   std::filesystem::path file;
   std::string name;
   double dt = 0.01;
-  uint64_t ticks = 0;  // how many a run has
+  uint64_t ticks = 0;  // number of a run's ticks
   uint64_t seed = 1;
   std::vector<RowDeclaration> rows;
   std::map<std::string, std::string> texts;  // "robot/leader/model"
@@ -86,9 +86,9 @@ InstanceDeclaration read_instance(const XmlElement& element, const std::string& 
 // ticks or more.
 uint64_t ticks_of(double time, double dt, const Place& place);
 
-// The names that nothing else in a world may be called: attributes of every plugin's element.
+// The reserved names in a world: attributes of every plugin's element.
 inline const std::vector<std::string> reserved_attributes = {"name", "every", "library", "revision"};
-// What <swap> takes for itself where the new plugin's attributes stand in the same element.
+// Attributes that <swap> keeps for itself where the new plugin's attributes are in the same element.
 inline const std::vector<std::string> swap_attributes = {"at", "instance", "plugin"};
 
 }  // namespace muster

@@ -1,13 +1,13 @@
-// Limbs of robots: what hangs on joints that no motor turns.
+// Limbs of robots: bodies on joints without a motor.
 #pragma once
 
 #include <cstddef>
 
 namespace muster {
 
-// A limb on its joint: about the axis of a hinge, along that of a slider; or, on a ball, turned from where it stands at
-// 0, body to joint, and its turn rate relative to what carries it, both in the axes of the joint at 0. What its kind of
-// joint does not have is 0; a quaternion of zeros is not turned yet.
+// State of a limb's joint: angle about a hinge's axis, or way along a slider's. A ball joint has its orientation, body
+// to joint, from that at 0, and its turn rate relative to its parent body, both in the joint's axes at 0. Fields that
+// the kind of joint lacks are 0; a quaternion of zeros is the identity.
 struct Limb {
   double angle = 0, rate = 0;  // [rad], [rad/s]
   double way = 0, speed = 0;   // [m], [m/s]

@@ -38,8 +38,7 @@ struct Log10 {
   }
 };
 
-// Replaces positive normal numbers by their log10: within 4e-16 of it, or of 1 where it is smaller. Of zero it makes
-// -308.
+// Replaces positive normal numbers by their log10: within 4e-16 of it, or of 1 where it is smaller. Zero gives -308.
 inline void log10_of_all(double* x, std::size_t number) { Widest<Log10, double*, std::size_t>::run(x, number); }
 
 }  // namespace muster

@@ -1,10 +1,10 @@
-// Bodies and surfaces of the world that are no walls: a mesh from a file, where it stands.
+// Bodies and surfaces of the world other than walls: a mesh from a file, and its pose.
 #pragma once
 
 namespace muster {
 
-// How a mesh is placed: scaled, turned by yaw, then moved. Solid: its surface is closed, and what it encloses counts
-// once; else it is a sheet, each crossing of which counts.
+// Placement of a mesh: scaled, turned by yaw, then moved. Solid: its surface is closed, and its inside counts once;
+// otherwise it is a sheet, and each crossing counts.
 struct MeshShape {
   static constexpr const char* columns = "x[m] y[m] z[m] yaw[rad] scale material:material sheet";
   double x, y, z, yaw, scale, material, sheet;

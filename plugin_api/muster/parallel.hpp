@@ -8,9 +8,9 @@
 
 namespace muster {
 
-// Calls body(i) for each i below `count`, on the run's threads and in any order; returns when all are done. Bodies ask
-// nothing of the step, and none writes what another reads or writes. What one throws is thrown here, of several that of
-// the lowest i.
+// Calls body(i) for each i below `count`, on the run's threads and in any order; returns when all are done. Bodies call
+// nothing of the step, and none writes data that another reads or writes. Of several exceptions, that of the lowest i
+// is rethrown here.
 template <class Body>
 void each(const Step& k, std::size_t count, const Body& body) {
   struct Work {
@@ -29,7 +29,7 @@ void each(const Step& k, std::size_t count, const Body& body) {
   const muster_host* host = k.host();
   if (host->size >= offsetof(muster_host, each) + sizeof host->each) {
     host->each(host, static_cast<uint32_t>(count), Work::one, &work);
-  } else {  // a kernel from before it knew of this
+  } else {  // an older kernel without `each`
     for (std::size_t i = 0; i < count; ++i) Work::one(&work, static_cast<uint32_t>(i));
   }
   for (const std::exception_ptr& thrown : work.thrown) {

@@ -1,8 +1,8 @@
 /* The whole contract between the kernel and a plugin: plain C, no allocation crosses it.
  *
- * A plugin registers descriptors; the kernel makes instances of them, as the world file asks. Instances never call
+ * A plugin registers descriptors; the kernel makes instances of them as the world file declares. Instances never call
  * each other: each reads and writes tables on the shared blackboard. All state that outlives a step is in tables;
- * what an instance keeps besides must be computable again from them. So a snapshot is a copy of the tables, and a
+ * anything else that an instance keeps must be computable from them. So a snapshot is a copy of the tables, and a
  * backend can be swapped between any two ticks.
  *
  * Structs that the kernel fills or reads begin with their `size` and grow only at the end.
@@ -17,23 +17,23 @@
 extern "C" {
 #endif
 
-/* Changes when a struct below changes meaning. Fields added at an end do not change it: `size` tells. */
+/* Changes when a struct below changes meaning. Fields added at an end do not change it: see `size`. */
 #define MUSTER_ABI 1u
 
 /* Every tick runs the phases in this order; zero is never a valid phase. */
 enum {
-  MUSTER_CONTROL = 1, /* what a robot decides, from what it senses */
+  MUSTER_CONTROL = 1, /* decisions of robots, from what they sense */
   MUSTER_ACTUATE,     /* commands on their way to the drives */
   MUSTER_PHYSICS,     /* bodies move from t - dt to t */
   MUSTER_RADIO,       /* the channel at t */
   MUSTER_NETWORK,     /* packets and messages */
-  MUSTER_SENSE,       /* what robots read of the world at t */
-  MUSTER_OBSERVE      /* metrics and records; nobody inside the tick waits for them */
+  MUSTER_SENSE,       /* sensor readings of the world at t */
+  MUSTER_OBSERVE      /* metrics and records; nothing inside the tick waits for them */
 };
 
 enum { MUSTER_OK = 0, MUSTER_FAILED = 1 };
 
-/* What an instance may do with a table; see muster_host.claim. */
+/* Kinds of access to a table; see muster_host.claim. */
 enum {
   MUSTER_READ = 1, /* in[i]: the table */
   MUSTER_WRITE,    /* out[i]: to be filled, every cell; in[i]: what this claim last published, so an own state needs no
@@ -43,7 +43,7 @@ enum {
                       in[i]: rows that it has not seen; what goes on is appended */
 };
 enum {
-  MUSTER_OPTIONAL = 1u, /* read: where nobody writes the table, in[i] has no rows instead of an error */
+  MUSTER_OPTIONAL = 1u, /* read: if the table has no writer, in[i] has no rows instead of an error */
   MUSTER_REST = 2u,     /* write: every row that no other instance claims by its name, instead of all rows */
   MUSTER_SENSED = 4u,   /* write: a quantity that is not standard may be read by the controllers of its row */
   MUSTER_ADOPTS =
@@ -51,14 +51,14 @@ enum {
   MUSTER_JOINS = 16u /* write: this instance may call join() and leave() for the set */
 };
 
-/* What stands in a nullable cell where nothing was there. Any other NaN is a fault of its writer. */
+/* Value of an empty nullable cell. Any other NaN is a fault of its writer. */
 #define MUSTER_NULL_BITS 0x7ff8000000000000ull
 
 /* A view of one table, row-major, [rows x cols]. Valid only until step() returns: never keep the pointer. */
 typedef struct muster_in {
   const double* data;
   uint32_t rows, cols;
-  uint64_t tick; /* that last published it; 0: the initial values of the world file */
+  uint64_t tick; /* of its last publication; 0: the initial values of the world file */
 } muster_in;
 
 typedef struct muster_out {
@@ -72,7 +72,7 @@ enum { MUSTER_EXPECTED = 1u };
 typedef struct muster_tick {
   uint32_t size, flags;
   uint64_t index;       /* 0 in the SENSE pass before the first tick */
-  double time;          /* [s] index times the world's dt: the time that what is written holds for */
+  double time;          /* [s] index times the world's dt: the time of the values that are written */
   double dt;            /* [s] this instance's own period, every times the world's dt */
   const double* params; /* one value a declared parameter, in the order of declaration; a text or file counts as 0 */
 } muster_tick;
@@ -82,8 +82,8 @@ enum { MUSTER_REAL = 1, MUSTER_INTEGER, MUSTER_FLAG, MUSTER_CHOICE, MUSTER_REFER
 enum {
   MUSTER_FREE = 1u,     /* a fit may move it, inside its bounds */
   MUSTER_REQUIRED = 2u, /* the world file must give it */
-  /* What a diagnosis knows of a cause's parameter when it searches. */
-  MUSTER_LINEAR = 4u,  /* what the cause adds is proportional to it */
+  /* Hints for a diagnosis that searches over a cause's parameter. */
+  MUSTER_LINEAR = 4u,  /* the cause's contribution is proportional to it */
   MUSTER_LOG = 8u,     /* its scale is logarithmic: 1, 2, 4, ... */
   MUSTER_CYCLIC = 16u, /* max is min again: an angle */
   MUSTER_EAST = 32u,   /* a coordinate in the world, to be sought over the plan's extent: x */
@@ -100,7 +100,7 @@ typedef struct muster_param {
   const char* text; /* choice: "a|b|c"; reference: the set; text or file: the default; else NULL */
 } muster_param;
 
-/* What an instance may ask of the kernel. */
+/* Calls that the kernel offers an instance. */
 typedef struct muster_host {
   uint32_t size, abi;
   void* kernel;
@@ -108,8 +108,9 @@ typedef struct muster_host {
   /* [setup] Claim a table as `kind` says; the result indexes step()'s `in` and `out`, or is -1 with the error already
    * reported. `table` is set/row/quantity: "robot/leader/pose" is one row, "robot/ * /pose" (without the blanks) every
    * row, "robot/{robot}/pose" the row that the parameter `robot` names, "self/quantity" a row of the instance's own.
-   * After @ stands an instance's part of a sum or stage of a chain; an adder may name its parts ("link/ * /level@walls"
-   * is read as level@INSTANCE.walls).
+   * After @ follows an instance's part of a sum or stage of a chain; an adder may name its parts
+   * ("link/ * /level@walls" is read as level@INSTANCE.walls).
+   *
    * `columns` are "x[m] y[m] theta[rad]", "range[m]*682" for many alike, "rssi[dBm]?" where a cell may be empty,
    * "range[m]~" where it may be infinite, "payload{}" for bytes, "tx:endpoint" for a row number of another set. A
    * reader's must equal its writer's. */
@@ -126,8 +127,8 @@ typedef struct muster_host {
   uint64_t (*stream)(const struct muster_host*, const char* name);
   /* [any] A parameter's value now, by its name. */
   double (*param)(const struct muster_host*, const char* name);
-  /* [any] Rows of a set: how many there ever were, a row's name, its key for random numbers (from the name alone), and
-   * whether it has not left. NULL or 0 past the end. */
+  /* [any] Rows of a set: their number ever, a row's name, its key for random numbers (from the name alone), and whether
+   * it is still in the set. NULL or 0 past the end. */
   uint32_t (*rows)(const struct muster_host*, const char* set);
   const char* (*row_name)(const struct muster_host*, const char* set, uint32_t row);
   uint64_t (*row_key)(const struct muster_host*, const char* set, uint32_t row);
@@ -144,38 +145,36 @@ typedef struct muster_host {
   int (*leave)(const struct muster_host*, int claim, uint32_t row);
   /* [step] One initial value of a row that joined in this very step: quantity, column by number. */
   int (*place)(const struct muster_host*, int claim, uint32_t row, const char* quantity, uint32_t column, double value);
-  /* [any] Say why a callback is about to fail; the kernel adds file, line, instance, callback and tick. */
+  /* [any] Reports the reason before a callback fails; the kernel adds file, line, instance, callback and tick. */
   void (*error)(const struct muster_host*, const char* message);
-  /* [any] As error(), where not the plugin is wrong but what the user gave it: a parameter, a file. */
+  /* [any] As error(), for a fault of the user's input rather than of the plugin: a parameter, a file. */
   void (*refuse)(const struct muster_host*, const char* message);
   /* [any] A line for the run's list of events. */
   void (*event)(const struct muster_host*, const char* message);
   /* [step] Calls one(work, i) for each i below `count`, on the run's threads and in any order, and returns when all are
-   * done. `one` asks nothing of the host and writes nothing that another call reads or writes, so that the result does
-   * not depend on how many threads there are. */
+   * done. `one` does not call the host and writes nothing that another call reads or writes, so the result does not
+   * depend on the number of threads. */
   void (*each)(const struct muster_host*, uint32_t count, void (*one)(void* work, uint32_t i), void* work);
 } muster_host;
 
-/* What kind of difference a cause makes to the simulation. */
+/* Kinds of causes, by the part of the simulation that they change. */
 enum {
   MUSTER_TERM = 1,   /* adds to the level of links, in dB */
   MUSTER_STAGE,      /* a stage of a chain: the receiver's, a command's */
   MUSTER_WORLD_EDIT, /* changes rows of the world's sets: a wall, a place */
-  MUSTER_LAW,        /* changes the law of what is random: fading, outliers */
+  MUSTER_LAW,        /* changes a probability law: fading, outliers */
   MUSTER_INSTRUMENT  /* a fault of the record itself: identities exchanged, a unit */
 };
 
-/* A named cause: an ordinary plugin that a diagnosis may accept as the explanation of a misfit, and what it says of
- * itself. */
+/* Declares a plugin as a cause: a diagnosis may accept it as the explanation of a misfit. */
 typedef struct muster_cause {
   uint32_t size, kind;
-  const char* title; /* one sentence with {parameter} slots: "the radio {radio} sends {offset} more than given" */
-  const char*
-      ranges_over; /* the reference parameter that says which row it is about: "radio", "wall"; "" for the world */
-  const char* covariates; /* columns that measured data must have for it: "t", "rx_yaw"; "" for none */
-  const char* imitators;  /* ids of what it can be mistaken for, with blanks between */
-  const char* tell_apart; /* what to measure to decide */
-  const char* replaces;   /* the plugin's part of a sum that it stands in for; NULL: it comes on top */
+  const char* title;       /* one sentence with {parameter} slots: "the radio {radio} sends {offset} more than given" */
+  const char* ranges_over; /* the reference parameter that names the affected row: "radio", "wall"; "" for the world */
+  const char* covariates;  /* columns that it needs in measured data: "t", "rx_yaw"; "" for none */
+  const char* imitators;   /* ids of causes that it can be mistaken for, with blanks between */
+  const char* tell_apart;  /* measurements that separate it from its imitators */
+  const char* replaces;    /* the plugin's part of a sum that it replaces; NULL: it is added */
 } muster_cause;
 
 typedef struct muster_plugin {
@@ -186,19 +185,20 @@ typedef struct muster_plugin {
   const char* manual;  /* some lines for `muster describe`: model, limits, source; or NULL */
   const muster_param* params;
   uint32_t param_count;
-  const char* cannot_hold; /* what of another backend's state a swap to this one drops, in words; NULL: nothing */
+  const char* cannot_hold; /* state of another backend that a swap to this one drops, in words; NULL: nothing */
   void* (*create)(const muster_host*);
   void (*destroy)(void* self);
   /* `in` and `out` have one entry a claim, in the order of the claims. */
   int (*step)(void* self, const muster_tick*, const muster_in* in, const muster_out* out);
-  const muster_cause* cause; /* NULL: it is no cause */
+  const muster_cause* cause; /* NULL: not a cause */
 } muster_plugin;
 
 /* The one symbol a plugin exports. Calls `add` once for each descriptor, which must outlive the library. */
 typedef int (*muster_add)(void* registry, const muster_plugin*);
 __attribute__((visibility("default"))) int muster_register(uint32_t abi, void* registry, muster_add add);
 
-/* Once in each plugin: the section from which the kernel reads the ABI before it runs any of the plugin's code. */
+/* Once in each plugin: the section from which the kernel reads the ABI revision before any of the plugin's code runs.
+ */
 #define MUSTER_DECLARE_ABI \
   __attribute__((section("muster.abi.1"), used)) static const uint32_t muster_abi_revision = MUSTER_ABI;
 

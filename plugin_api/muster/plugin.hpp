@@ -1,4 +1,4 @@
-// C++ comfort over plugin.h: header-only and C++17, so nothing here is part of the ABI.
+// C++ wrapper of plugin.h: header-only and C++17, so nothing here is part of the ABI.
 #pragma once
 
 #include <muster/plugin.h>
@@ -60,7 +60,7 @@ inline double null() {
 }
 inline bool is_null(double value) { return value != value; }
 
-// Rows of a table as structs of doubles.
+// View of a table's rows as structs of doubles.
 template <class Row>
 class Rows {
  public:
@@ -100,14 +100,14 @@ struct Value {
   int index;
 };
 
-// Throw it where not the plugin is wrong but what the user gave it: a parameter, a file.
+// Thrown where the user's input is wrong rather than the plugin: a parameter, a file.
 struct BadInput : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
 // ---- Callbacks ----------------------------------------------------------------------------------------------------
 
-// What a constructor may ask. Every call throws when the kernel refuses it; the kernel has the message already.
+// Calls available to a constructor. Each throws when the kernel refuses it; the kernel already has the message.
 class Setup {
  public:
   Setup(const muster_host* host, const muster_param* params, uint32_t count)
@@ -164,7 +164,7 @@ class Setup {
   uint32_t count_;
 };
 
-// What step() may ask.
+// Calls available to step().
 class Step {
  public:
   Step(const muster_host* host, const muster_tick* tick, const muster_in* in, const muster_out* out)
@@ -182,7 +182,7 @@ class Step {
   Rows<Row> operator[](Stage<Row> t) const {
     return {out_[t.index].data, out_[t.index].rows};
   }
-  // What an Out claim last published, and what stands before a Stage.
+  // Rows that an Out claim last published, or that precede a Stage.
   template <class Row>
   Rows<const Row> last(Out<Row> t) const {
     return {in_[t.index].data, in_[t.index].rows};
@@ -198,7 +198,7 @@ class Step {
   uint64_t tick() const { return tick_->index; }
   bool expected() const { return tick_->flags & MUSTER_EXPECTED; }
 
-  // Queues and listed sets: room for `rows` more, to be filled.
+  // Queues and listed sets: appends `rows` more rows, to be filled.
   template <class Row>
   Rows<Row> append(Out<Row> t, std::size_t rows) const {
     return {host_->append(host_, t.index, static_cast<uint32_t>(rows)), rows};
@@ -207,7 +207,7 @@ class Step {
   std::string_view bytes(In<Row> t, std::size_t row, unsigned column) const {
     return bytes_at(t.index, row, column);
   }
-  // Of what an Out claim last published.
+  // Bytes of a cell that an Out claim last published.
   template <class Row>
   std::string_view last_bytes(Out<Row> t, std::size_t row, unsigned column) const {
     return bytes_at(t.index, row, column);
@@ -217,14 +217,15 @@ class Step {
     host_->put_bytes(host_, t.index, static_cast<uint32_t>(row), column, reinterpret_cast<const uint8_t*>(data.data()),
                      data.size());
   }
-  // One more message in a queue whose row type names its payload_column: the row, to be filled but for the payload.
+  // Appends a message to a queue whose row type names its payload_column, with the payload; the other cells are to be
+  // filled.
   template <class Row>
   Row& send(Out<Row> t, std::size_t row, std::string_view payload) const {
     Row* made = append(t, 1).begin();
     put_bytes(t, row, Row::payload_column, payload);
     return *made;
   }
-  // A stage of a queue: bytes that stand before it, and what goes on.
+  // A stage of a queue: reads the bytes of the stage before, writes those that go on.
   template <class Row>
   std::string_view bytes(Stage<Row> t, std::size_t row, unsigned column) const {
     return bytes_at(t.index, row, column);
@@ -265,7 +266,7 @@ class Step {
 
 namespace detail {
 
-// The one place where an exception stops being one: none crosses the border.
+// Turns every exception into an error code: none crosses the ABI.
 template <class Body>
 bool guarded(const muster_host* host, Body&& body) noexcept {
   try {

@@ -1,5 +1,5 @@
-// Random numbers as a pure function of (world seed, declared stream, row names, tick or place): no order, thread count,
-// instance name or neighbour can change them, so two backends that are compared meet the same numbers.
+// Counter-based random numbers: a pure function of (world seed, declared stream, row names, tick or place). No order,
+// thread count, instance name or neighbour changes them, so two backends under comparison draw the same numbers.
 #pragma once
 
 #include <array>
@@ -48,7 +48,7 @@ class Stream {
   // The stream of one row, link or place within this one.
   Stream of(uint64_t key) const { return Stream(combined(key_, key)); }
 
-  // [0, 1) is never 0: 53 bits, centred.
+  // Uniform on (0, 1), never 0: 53 bits, centred.
   double uniform(uint64_t i, uint64_t j = 0) const { return unit(bits(i, j), 0); }
 
   // Standard normal, by Box and Muller (1958).
@@ -57,7 +57,7 @@ class Stream {
     return std::sqrt(-2.0 * std::log(unit(word, 0))) * std::cos(6.283185307179586 * unit(word, 2));
   }
 
-  // Mean one.
+  // Exponential, of mean 1.
   double exponential(uint64_t i, uint64_t j = 0) const { return -std::log(uniform(i, j)); }
 
  private:

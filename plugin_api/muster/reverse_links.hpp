@@ -9,8 +9,8 @@ namespace muster {
 
 constexpr std::uint32_t no_link = 0xffffffffu;
 
-// For each link, an earlier one that runs the other way, or no_link. It finds them all where links are grouped by
-// sender and receivers ascend, as radio.links lists them; in any other order it may miss some, and is never wrong.
+// For each link, an earlier one that runs the other way, or no_link. Finds all of them where links are grouped by
+// sender and receivers ascend, as radio.links lists them; in any other order some may be missed, and none is wrong.
 inline std::vector<std::uint32_t> earlier_reverse(Rows<const Ends> links, std::size_t endpoints) {
   std::vector<std::uint32_t> result(links.size(), no_link);
   std::vector<std::uint32_t> next(endpoints, no_link);  // of each sender, the first link whose reverse may still come
@@ -26,8 +26,8 @@ inline std::vector<std::uint32_t> earlier_reverse(Rows<const Ends> links, std::s
   return result;
 }
 
-// Whether links all run from `tx`, to receivers that follow one another from `rx` on. Where all hear all most do, so
-// that it is asked without a branch.
+// True where all links run from `tx` to consecutive receivers from `rx` on. Branch-free, since it holds for most
+// senders of a fully connected network.
 inline bool run_on(const Ends* links, std::size_t number, double tx, double rx) {
   using Two = double __attribute__((vector_size(2 * sizeof(double)), aligned(alignof(double)), may_alias));
   using Bits = std::int64_t __attribute__((vector_size(2 * sizeof(double))));
@@ -36,7 +36,7 @@ inline bool run_on(const Ends* links, std::size_t number, double tx, double rx) 
   Two expected = {tx, rx};
   Bits other = {};
   std::size_t i = 0;
-  for (; i + 4 <= number; i += 4, expected += Two{0, 4}) {  // one addition in the way of the next four comparisons
+  for (; i + 4 <= number; i += 4, expected += Two{0, 4}) {  // one addition on the critical path of four comparisons
     other |= (ends[i] != expected) | (ends[i + 1] != expected + Two{0, 1});
     other |= (ends[i + 2] != expected + Two{0, 2}) | (ends[i + 3] != expected + Two{0, 3});
   }

@@ -1,5 +1,5 @@
-// The standard sets: what the elements of a world file mean that are not plugins. To the kernel this is data; it knows
-// no robot, no radio and no wall.
+// The standard sets: the meaning of a world file's elements that are not plugins. To the kernel this is data; its code
+// has no robot, radio or wall.
 #pragma once
 
 #include <cmath>
@@ -23,18 +23,18 @@ struct Quantity {
   const char* columns;
   const char* initial;   // numbers, one a column; "" means zeros, or null where nullable
   bool sensed;           // a robot's own controller may read it
-  const char* provider;  // the plugin that writes it where a world names none; "" for nobody
+  const char* provider;  // the plugin that writes it where a world names none; "" for none
 };
 
 struct SetDeclaration {
   const char* name;
   SetKind kind;
-  const char* owner;  // queue: the set whose row stands in column 0 and to which a row belongs; else ""
+  const char* owner;  // queue: the owning set, whose row number is in column 0; else ""
   const char* help;
   std::vector<Quantity> quantities;
 };
 
-// One attribute of an element: `count` numbers that go into a table, or a text that plugins ask for by its path.
+// One attribute of an element: `count` numbers that go into a table, or a text that plugins read by its path.
 struct Attribute {
   Param param;
   int count;
@@ -53,7 +53,7 @@ struct Element {
   const char* file_of;  // "walls": its `file` attribute lists rows of this set, by column name; else ""
   std::vector<Attribute> attributes;
   const char* own_row;  // "set/quantity" whose first column is this element's row in `set`; else ""
-  // What is wrong with a row although each of its attributes is within bounds; "" if nothing. Null: nothing can be.
+  // Fault of a row whose attributes are each within bounds; "" if there is none. Null: no such check.
   const char* (*fault)(double row, const CellsOf& cells) = nullptr;
 };
 
@@ -76,7 +76,7 @@ inline Wall wall_of(double row, const CellsOf& cells) {
   const auto c = cells("wall/shape", row);
   return {c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7]};
 }
-constexpr double lattice = 1.0 / 4096;  // [m] to which places of walls and doors are rounded
+constexpr double lattice = 1.0 / 4096;  // [m] grid to which places of walls and doors are rounded
 inline const char* fault_of_wall(double row, const CellsOf& cells) {
   const Wall wall = wall_of(row, cells);
   if (std::hypot(wall.x1 - wall.x0, wall.y1 - wall.y0) >= lattice) return "";
@@ -92,7 +92,7 @@ inline const char* fault_of_door(double row, const CellsOf& cells) {
 
 inline const Standard& standard() {
   using detail::store_at;
-  constexpr double far = 1e6;  // [m] larger coordinates are a mistake of units
+  constexpr double far = 1e6;  // [m] larger coordinates are taken for a mistake of units
   static const Standard result{
       {
           {"material",

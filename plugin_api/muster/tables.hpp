@@ -15,37 +15,37 @@ struct Twist {
   double vx, vy, vz, wx, wy, wz;
 };
 
-// What a controller asks of a ground robot (Player's position2d): forward speed and turn rate in its own frame.
+// Command to a ground robot (Player's position2d): forward speed and turn rate in its own frame.
 struct Command {
   static constexpr const char* columns = "v[m/s] w[rad/s]";
   double v, w;
 };
 
-// The same as a car has it: the speed, and the angle by which the front wheels are turned to the left.
+// Command to a car: speed, and steering angle of the front wheels, positive to the left.
 struct CarCommand {
   static constexpr const char* columns = "v[m/s] steering[rad]";
   double v, steering;
 };
 
-// Where a ground robot is to go, as its odometry counts, and, if not null, how it is to stand there. x null: nowhere.
+// Goal pose of a ground robot in its odometry frame, heading optional (null). x null: no goal.
 struct Goal2d {
   static constexpr const char* columns = "x[m]? y[m]? yaw[rad]?";
   double x, y, yaw;
 };
 
-// Wheel rates asked of the drives, and their slopes: a backend takes the value at the middle of its step.
+// Commanded wheel rates and their slopes: a backend takes the value at the middle of its step.
 struct Drive {
   static constexpr const char* columns = "left[rad/s] right[rad/s] left_rate[rad/s2] right_rate[rad/s2]";
   double left, right, left_rate, right_rate;
 };
 
-// Wheels as they turn: angle since the start and rate.
+// Wheel state: angle since the start, and rate.
 struct Wheels {
   static constexpr const char* columns = "left[rad] right[rad] left_rate[rad/s] right_rate[rad/s]";
   double left, right, left_rate, right_rate;
 };
 
-// What six legs are asked for, in the order of the robot's model: angles at the tick's start and their slopes over it.
+// Commanded leg angles at the tick's start and their slopes over it, six legs in the order of the robot's model.
 struct Gait {
   static constexpr const char* columns =
       "angle1[rad] angle2[rad] angle3[rad] angle4[rad] angle5[rad] angle6[rad] "
@@ -53,7 +53,7 @@ struct Gait {
   double angle[6], rate[6];
 };
 
-// Legs as they turn: angle since the start, rate, and what their motors gave, as a mean over the last step.
+// Leg state: angle since the start, rate, and motor torque as a mean over the last step.
 struct Legs {
   static constexpr const char* columns =
       "angle1[rad] angle2[rad] angle3[rad] angle4[rad] angle5[rad] angle6[rad] "
@@ -62,34 +62,34 @@ struct Legs {
   double angle[6], rate[6], torque[6];
 };
 
-// Where a robot believes to be, from its wheels, and how fast it believes to go.
+// Pose and speed of a robot, estimated from its wheels.
 struct Odometry {
   static constexpr const char* columns = "x[m] y[m] yaw[rad] v[m/s] w[rad/s]";
   double x, y, yaw, v, w;
 };
 
-// Where a robot's odometry is to start anew from: once, each time that `count` changes.
+// New start of a robot's odometry: applied once, each time that `count` changes.
 struct OdometryReset {
   static constexpr const char* columns = "x[m] y[m] yaw[rad] count";
   double x, y, yaw, count;
 };
 
-// Whether a robot's motors fail to turn its wheels (Player's position2d).
+// Stall of a robot's motors, which fail to turn its wheels (Player's position2d).
 struct Stall {
   static constexpr const char* columns = "stalled";
   double stalled;  // 0 or 1
 };
 
-// The box that a robot fills, with every joint at zero: its middle in the robot's frame, and its edges along x, y, z.
+// Bounding box of a robot with every joint at zero: its middle in the robot's frame, and its edges along x, y, z.
 struct Geometry {
   static constexpr const char* columns = "x[m] y[m] z[m] length[m] width[m] height[m]";
   double x, y, z, length, width, height;
 };
 
-// What a laser saw: ranges are doubles, counter-clockwise from `min_angle` on and `step` apart in the x-y plane of the
-// laser's frame. One that saw nothing within `max_range` is infinite, what is nearer than `min_range` is minus infinity
-// (REP 117). `sensor` counts the lasers of the robot's model from 0, `id` how many of its scans were due before. x, y,
-// yaw: where the robot's odometry had it; null without odometry. The rest is where the laser sits in the robot's frame.
+// One laser scan: ranges as doubles, counter-clockwise from `min_angle` on and `step` apart in the x-y plane of the
+// laser's frame. No echo within `max_range` is infinite, anything nearer than `min_range` is minus infinity (REP 117).
+// `sensor` counts the lasers of the robot's model from 0, `id` the scans of that laser that were due before. x, y, yaw:
+// the robot's odometry pose; null without odometry. The rest is the laser's pose in the robot's frame.
 struct Scan {
   static constexpr const char* columns =
       "robot:robot sensor id t[s] x[m]? y[m]? yaw[rad]? at_x[m] at_y[m] at_z[m] qw qx qy qz min_angle[rad] step[rad] "
@@ -99,33 +99,33 @@ struct Scan {
       ranges;
 };
 
-// What a controller asks of a robot that flies (attitude_thrust): the sum of its rotors' thrusts, roll and pitch of its
-// body (about x, then y, of axes that have its heading), and its turn rate about its own z axis.
+// Command to a flying robot (attitude_thrust): sum of its rotors' thrusts, roll and pitch of its body (about x, then y,
+// of axes that have its heading), and turn rate about its own z axis.
 struct AttitudeThrust {
   static constexpr const char* columns = "thrust[N] roll[rad] pitch[rad] yaw_rate[rad/s]";
   double thrust, roll, pitch, yaw_rate;
 };
 
-// A velocity asked for in the world's frame, how it is about to change anyway, and a turn rate.
+// Commanded velocity in the world's frame, its feed-forward acceleration, and a turn rate.
 struct Velocity3d {
   static constexpr const char* columns = "vx[m/s] vy[m/s] vz[m/s] yaw_rate[rad/s] ax[m/s2] ay[m/s2] az[m/s2]";
   double vx, vy, vz, yaw_rate, ax, ay, az;
 };
 
-// Where a robot is seen to be and how fast it goes (Player's position3d): roll, pitch, yaw turn it about x, y and z, in
-// this order; the velocity is in the world's frame.
+// Measured pose and velocity of a robot (Player's position3d): roll, pitch, yaw turn it about x, y and z, in this
+// order; the velocity is in the world's frame.
 struct Position3d {
   static constexpr const char* columns = "x[m] y[m] z[m] roll[rad] pitch[rad] yaw[rad] vx[m/s] vy[m/s] vz[m/s]";
   double x, y, z, roll, pitch, yaw, vx, vy, vz;
 };
 
-// Rates asked of four rotors, held over the tick.
+// Commanded rates of four rotors, held over the tick.
 struct RotorDrive {
   static constexpr const char* columns = "front[rad/s] left[rad/s] back[rad/s] right[rad/s]";
   double front, left, back, right;
 };
 
-// Rotors as they turn.
+// Rotor state.
 struct Rotors {
   static constexpr const char* columns = "front[rad/s] left[rad/s] back[rad/s] right[rad/s]";
   double front, left, back, right;
@@ -152,7 +152,7 @@ struct DoorState {
   double open;  // 0 or 1
 };
 
-// Where a radio sits: on a robot (a place in its body frame), or, with no robot, in the world.
+// Mounting of a radio: on a robot (a place in its body frame), or, with no robot, in the world.
 struct Mount {
   static constexpr const char* columns = "robot:robot? x[m] y[m] z[m] yaw[rad]";
   double robot, x, y, z, yaw;
@@ -182,7 +182,7 @@ struct Fading {
   double gain;
 };
 
-// What the receiver's hardware reports; null: nothing was received.
+// RSSI as the receiver's hardware reports it; null: nothing was received.
 struct Rssi {
   static constexpr const char* columns = "rssi[dBm]?";
   double rssi;
@@ -195,16 +195,16 @@ struct Outgoing {
   double radio, to, payload;
 };
 
-// A message as it arrived; all but the payload is filled by the receiving side. lqi is link quality from 0 to 255; null
-// where a network has no notion of it.
+// A received message; the receiving side fills all but the payload. lqi is link quality from 0 to 255; null where a
+// network has none.
 struct Incoming {
   static constexpr const char* columns = "radio:radio from:radio rssi[dBm] t_sent[s] t_received[s] lqi? payload{}";
   static constexpr unsigned payload_column = 6;
   double radio, from, rssi, t_sent, t_received, lqi, payload;
 };
 
-// What became of a radio's requests: copies asked for (one a receiver of a broadcast) and their outcomes; those that
-// are still under way are the rest. Which outcomes there are is the network's affair.
+// Outcomes of a radio's requests: copies asked for (one a receiver of a broadcast) and how they ended; the rest are
+// still under way. Each network defines which outcomes occur.
 struct Traffic {
   static constexpr const char* columns = "asked delivered too_weak no_link collided no_access queue_full no_ack gone";
   double asked, delivered, too_weak, no_link, collided, no_access, queue_full, no_ack, gone;

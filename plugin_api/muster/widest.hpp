@@ -1,10 +1,10 @@
-// One function, compiled for several widths of vectors, of which the machine it runs on chooses the widest. Nothing is
+// One function compiled for several vector widths; the widest that the machine runs is chosen at run time. Nothing is
 // fused or reordered (-ffp-contract=off), so each gives the same bits.
 #pragma once
 
 namespace muster {
 
-// Body::run is always inlined: loops without a branch, which the compiler makes vectors of.
+// Body::run is always inlined: branch-free loops, which the compiler vectorises.
 template <class Body, class... Arguments>
 class Widest {
  public:
@@ -15,7 +15,7 @@ class Widest {
     widest(arguments...);
   }
 
-  // Those that this machine can run, the widest last.
+  // The versions that this machine can run, the widest last.
   struct Functions {
     Function of[3];
     int number;

@@ -1,4 +1,4 @@
-// The antenna of a radio that moves favours one side of it.
+// Directional gain of a moving radio's antenna.
 #include <cmath>
 #include <muster/plugin.hpp>
 

@@ -1,4 +1,4 @@
-// The antenna of a radio that stands still favours one side.
+// Directional gain of a stationary radio's antenna.
 #include <cmath>
 #include <muster/plugin.hpp>
 

@@ -1,4 +1,4 @@
-// What carries a radio stands in its way on one side.
+// Shadow of a radio's own carrier on one side of it.
 #include <cmath>
 #include <muster/plugin.hpp>
 

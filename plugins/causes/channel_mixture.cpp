@@ -1,4 +1,4 @@
-// Radios that hop: each channel has a level of its own, and nobody writes down which it was.
+// Frequency hopping: each channel has a level of its own, and the record lacks the channel.
 #include <cmath>
 #include <muster/plugin.hpp>
 

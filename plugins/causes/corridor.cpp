@@ -1,4 +1,4 @@
-// A corridor guides waves.
+// A corridor as a waveguide.
 #include <cmath>
 #include <muster/plugin.hpp>
 

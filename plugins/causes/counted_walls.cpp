@@ -1,4 +1,4 @@
-// Walls that are known by their number alone, from a table of readings without a plan.
+// Walls known only by their number, from a table of readings without a plan.
 #include <muster/plugin.hpp>
 
 #include "link_term.hpp"
@@ -38,7 +38,7 @@ struct CountedWalls {
       : loss(s.value("loss")),
         level(s.add<Level>("link/*/level")),
         counts{s.host()->file(s.host(), "file", column(s).c_str())} {
-    if (counts.index < 0) throw std::runtime_error("");  // the kernel has said why
+    if (counts.index < 0) throw std::runtime_error("");  // the kernel has reported the reason
   }
 
   static std::string column(Setup& s) {

@@ -1,4 +1,4 @@
-// Beyond some distance the path loss grows faster.
+// Dual-slope path loss: another exponent beyond a breakpoint.
 #include <algorithm>
 #include <cmath>
 #include <muster/plugin.hpp>

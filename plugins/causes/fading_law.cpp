@@ -1,4 +1,4 @@
-// Small-scale fading of another law than the world says.
+// Small-scale fading of another law than the world has.
 #include <muster/plugin.hpp>
 
 #include "radio_fading/reading_key.hpp"

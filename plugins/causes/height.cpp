@@ -1,4 +1,4 @@
-// A floor or ceiling that the map does not have.
+// A floor or ceiling missing from the map.
 #include <muster/plugin.hpp>
 
 #include "link_term.hpp"

@@ -1,4 +1,4 @@
-// Walls that are crossed at a slant cost more.
+// Greater loss of walls crossed at a slant.
 #include <algorithm>
 #include <muster/plugin.hpp>
 

@@ -1,4 +1,4 @@
-// What a cause adds to the level of links, as a function of a link's two ends.
+// Contribution of a cause to the level of links, as a function of a link's two ends.
 #pragma once
 
 #include <algorithm>
@@ -10,10 +10,10 @@
 namespace muster {
 
 constexpr double full_turn = 6.283185307179586;
-// The columns of measured data that say where both ends of a link were.
+// The columns of measured data with the positions of both ends of a link.
 constexpr const char* places_in_plan = "tx_x tx_y rx_x rx_y";
 
-// One end of a link: which radio, when and where.
+// One end of a link: radio, time and pose.
 struct End {
   double radio, t;
   const Pose& at;
@@ -24,7 +24,7 @@ inline double yaw(const Pose& p) {
   return std::atan2(2 * (p.qw * p.qz + p.qx * p.qy), 1 - 2 * (p.qy * p.qy + p.qz * p.qz));
 }
 
-// Under which angle the antenna of `end` sees the other end, from its own heading to its left; not wrapped.
+// Bearing of the other end from the antenna of `end`, relative to its heading and counter-clockwise; not wrapped.
 inline double bearing(const End& end, const End& other) {
   return std::atan2(other.at.y - end.at.y, other.at.x - end.at.x) - yaw(end.at);
 }
@@ -35,14 +35,14 @@ inline double distance(const End& a, const End& b) {
   return std::max(std::sqrt(x * x + y * y + z * z), 0.01);
 }
 
-// The links with a radio at one end: `term` of that end and the other. Where no radio is named, of the receiving end.
+// Sum of `term` over the link's ends with that radio, each with its other end. Without a radio: of the receiving end.
 template <class Term>
 double at_radio(double radio, const End& from, const End& to, const Term& term) {
   if (radio < 0) return term(to, from);
   return (from.radio == radio ? term(from, to) : 0.0) + (to.radio == radio ? term(to, from) : 0.0);
 }
 
-// Whether a link is one of the radio's; all are where no radio is named.
+// True if the link has the radio at an end; always true without a radio.
 inline bool concerns(double radio, const End& from, const End& to) {
   return radio < 0 || from.radio == radio || to.radio == radio;
 }
@@ -63,19 +63,19 @@ class LinkTerm {
     const auto poses = k[pose];
     const auto out = k[level];
     const auto end = [&](double row) {
-      const auto i = static_cast<std::size_t>(static_cast<std::int64_t>(row));  // as machines convert
+      const auto i = static_cast<std::size_t>(static_cast<std::int64_t>(row));  // the conversion that machines have
       return End{radios[i].radio, radios[i].t, poses[i]};
     };
     for (std::size_t i = 0; i < links.size(); ++i) out[i].level = term(end(links[i].tx), end(links[i].rx));
   }
 
-  // A term that is the same both ways: the ends come in an order of their places, so it is so to the last bit.
+  // A reciprocal term: the ends are ordered by their places, so both directions agree to the last bit.
   template <class Term>
   void add_both_ways(const Step& k, const Term& term) const {
     add(k, [&](const End& a, const End& b) { return is_before(b.at, a.at) ? term(b, a) : term(a, b); });
   }
 
-  // Where most links have nothing to do with it: `concerns` says so, whichever end comes first, and they have `none`.
+  // For terms of few links: `concerns` selects them, whichever end comes first; all others get `none`.
   template <class Concerns, class Term>
   void add_both_ways(const Step& k, double none, const Concerns& concerns, const Term& term) const {
     add(k, [&](const End& a, const End& b) {

@@ -1,4 +1,4 @@
-// Walls behind walls cost less and less: waves find a way around.
+// Walls behind walls cost less and less: waves find paths around them.
 #include <cmath>
 #include <muster/plugin.hpp>
 

@@ -1,4 +1,4 @@
-// What the chip calls RSSI is a ratio to its own noise.
+// RSSI that a chip reports relative to its own noise.
 #include <muster/plugin.hpp>
 #include <utility>
 

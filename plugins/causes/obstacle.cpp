@@ -1,4 +1,4 @@
-// A thing that stands about: a machine, a cabinet, a pillar.
+// A single obstacle: a machine, a cabinet, a pillar.
 #include <cmath>
 #include <muster/plugin.hpp>
 

@@ -1,4 +1,4 @@
-// Some readings are anything: a wrong packet, a glitch of the register.
+// Outliers: a wrong packet, a glitch of the register.
 #include <muster/plugin.hpp>
 
 #include "reading_stream.hpp"

@@ -1,4 +1,4 @@
-// Things in the plan that the world's map does not have, and what a straight link has to do with them.
+// Shapes in the plan that the world's map lacks, and their intersection with a straight link.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace muster {
 
-// Twice the signed area of a triangle: on which side of a -> b the point lies.
+// Twice the signed area of a triangle: positive where the point is to the left of a -> b.
 inline double side(double ax, double ay, double bx, double by, double x, double y) {
   return (bx - ax) * (y - ay) - (by - ay) * (x - ax);
 }
@@ -17,19 +17,20 @@ struct Segment {
   double x0, y0, x1, y1;
   double length = std::hypot(x1 - x0, y1 - y0);
 
-  // Whether the places lie on different sides of the line that it is a part of; never if it has no length.
+  // True if the points are on different sides of the segment's line; never if its length is 0.
   bool parts(const Pose& a, const Pose& b) const {
     return (side(x0, y0, x1, y1, a.x, a.y) > 0) != (side(x0, y0, x1, y1, b.x, b.y) > 0);
   }
 
-  // How much of it the link from a to b meets, 0 to 1: half where it passes an end, all of it from edge / 2 further in.
+  // Share of it that the link from a to b meets, 0 to 1: half where it passes an end, all from edge / 2 further in.
   double share(const Pose& a, const Pose& b, double height, double edge) const {
     if (!parts(a, b)) return 0;
     const double sa = side(x0, y0, x1, y1, a.x, a.y), sb = side(x0, y0, x1, y1, b.x, b.y);
     const double over = std::max(edge, 1e-9), at = sa / (sa - sb);
     const double x = a.x + at * (b.x - a.x), y = a.y + at * (b.y - a.y);
     const double lengthwise = (x - x0) * (x1 - x0) + (y - y0) * (y1 - y0);
-    if (lengthwise < -over * length || lengthwise > (length + over) * length) return 0;  // most of them, clearly
+    if (lengthwise < -over * length || lengthwise > (length + over) * length)
+      return 0;  // a clear miss, as for most links
     const double z = a.z + at * (b.z - a.z);
     if (z < 0 || z >= height) return 0;
     const double along = lengthwise / length;
@@ -42,13 +43,13 @@ struct Segment {
 struct Disk {
   double x, y, radius;
 
-  // Whether the link may go through it, which few do; the same from b to a but for what lies within rounding.
+  // Fast test whether the link may pass through, as few do; the same from b to a except within rounding.
   bool may_stop(const Pose& a, const Pose& b) const {
     const double ex = b.x - a.x, ey = b.y - a.y, passes = side(a.x, a.y, b.x, b.y, x, y);
     return passes * passes <= 1.001 * radius * radius * (ex * ex + ey * ey);
   }
 
-  // The way that the link goes through it in plan, in m.
+  // Length of the link's path through it in plan, in m.
   double way(const Pose& a, const Pose& b, double height) const {
     const double ex = b.x - a.x, ey = b.y - a.y, passes = side(a.x, a.y, b.x, b.y, x, y);
     const double length = std::hypot(ex, ey);
@@ -72,12 +73,12 @@ struct Rectangle {
     return std::abs(c * east + s * north) <= length / 2 && std::abs(c * north - s * east) <= width / 2;
   }
 
-  // The way that the link from a to b goes inside in plan, in m.
+  // Length of the link's path from a to b inside, in plan, in m.
   double way(const Pose& a, const Pose& b) const {
     const double c = std::cos(heading), s = std::sin(heading), ex = b.x - a.x, ey = b.y - a.y;
     double from = 0, to = 1;
     const auto cut = [&](double at, double by, double half) {
-      if (by == 0) return;  // the ends, one of them inside, say enough
+      if (by == 0) return;  // parallel: the other cut decides, as one end is inside
       const double one = (-half - at) / by, other = (half - at) / by;
       from = std::max(from, std::min(one, other));
       to = std::min(to, std::max(one, other));

@@ -1,4 +1,4 @@
-// The steps of an amplifier are not what their names say.
+// Real steps of an amplifier differ from their nominal values.
 #include <algorithm>
 #include <muster/plugin.hpp>
 #include <vector>

@@ -1,4 +1,4 @@
-// A room full of things: whoever is in it is heard less.
+// A cluttered room: links into it lose more.
 #include <cmath>
 #include <muster/plugin.hpp>
 

@@ -1,4 +1,4 @@
-// A receiver that hears nothing below a level, or shows its lowest code instead.
+// A receiver that reports nothing below a level, or its lowest code instead.
 #include <muster/plugin.hpp>
 
 #include "rssi_stage.hpp"

@@ -1,4 +1,4 @@
-// A receiver that reads no more than its highest code.
+// A receiver that saturates at its highest code.
 #include <algorithm>
 #include <muster/plugin.hpp>
 

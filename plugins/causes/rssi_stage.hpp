@@ -1,4 +1,4 @@
-// A stage of the receiver's chain as a function of one reading; what was not received stays so.
+// A stage of the receiver's chain as a function of one reading; missing readings stay missing.
 #pragma once
 
 #include <muster/plugin.hpp>
@@ -9,7 +9,7 @@ class RssiStage {
  public:
   explicit RssiStage(Setup& s) : rssi(s.modify<Rssi>("link/*/rssi")) {}
 
-  // change(reading in dBm, link) is what the receiver reports instead.
+  // change(reading in dBm, link) is the reading after the stage.
   template <class Change>
   void each(const Step& k, const Change& change) const {
     const auto before = k.before(rssi);

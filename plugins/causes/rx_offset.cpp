@@ -1,4 +1,4 @@
-// A receiver that reads high or low.
+// A constant offset of a receiver's readings.
 #include <muster/plugin.hpp>
 
 #include "link_term.hpp"

@@ -1,4 +1,4 @@
-// A column of measured data that belongs to a radio, or a pair of them, and changes in time.
+// A column of measured data that belongs to a radio, or a pair of radios, and changes in time.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace muster {
 
-// A row of the table: when, of whom, and the value from then on.
+// A row of the table: time, owner, and the value from then on.
 template <class Owner>
 struct Setting {
   double t;
@@ -19,7 +19,7 @@ struct Setting {
 template <class Owner>
 class Settings {
  public:
-  // The file does not change: it is put in order once. `setting_of` makes a Setting of a row.
+  // The file does not change, so it is sorted once. `setting_of` makes a Setting of a row.
   template <class Row, class Of>
   void read(Rows<const Row> rows, Of setting_of) {
     if (!settings_.empty()) return;
@@ -29,7 +29,8 @@ class Settings {
     });
   }
 
-  // What was last set for the owner at the time, or first where it is earlier; null for one that is not in the file.
+  // The last value set for the owner at the time, or its first if the time is earlier; null for an owner not in the
+  // file.
   double at(const Owner& owner, double t) const {
     const auto after =
         std::upper_bound(settings_.begin(), settings_.end(), std::tie(owner, t),

@@ -1,4 +1,4 @@
-// Shadowing that is wider or finer than the world says, or stronger.
+// Shadowing of another strength or decorrelation distance than the world has.
 #include <array>
 #include <muster/plugin.hpp>
 

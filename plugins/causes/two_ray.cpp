@@ -1,4 +1,4 @@
-// The ground, or a floor, reflects.
+// Two-ray model: reflection from the ground, or a floor.
 #include <algorithm>
 #include <cmath>
 #include <muster/plugin.hpp>
@@ -57,7 +57,7 @@ struct TwoRay {
     });
   }
 
-  // Of a field in the plane of incidence, `sine` of the angle to the ground.
+  // Fresnel coefficient of a field in the plane of incidence; `sine` is that of the angle to the ground.
   static double fresnel(double sine, double permittivity) {
     const double inside = std::sqrt(permittivity - 1 + std::min(sine * sine, 1.0));
     return (permittivity * sine - inside) / (permittivity * sine + inside);

@@ -1,4 +1,4 @@
-// A radio that is not where the map says.
+// A radio at another position than on the map.
 #include <muster/plugin.hpp>
 
 #include "link_term.hpp"

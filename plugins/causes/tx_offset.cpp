@@ -1,4 +1,4 @@
-// A radio that sends stronger or weaker than it was set to.
+// A constant offset of a radio's transmit power.
 #include <muster/plugin.hpp>
 
 #include "link_term.hpp"

@@ -1,4 +1,4 @@
-// A wall that the map does not have.
+// A wall missing from the map.
 #include <muster/plugin.hpp>
 
 #include "link_term.hpp"

@@ -1,4 +1,4 @@
-// A wall of the map is not there.
+// A wall of the map that is absent.
 #include <muster/plugin.hpp>
 
 #include "link_term.hpp"

@@ -1,4 +1,4 @@
-// A wall is of something else than the map says.
+// A wall of another material than on the map.
 #include <muster/plugin.hpp>
 
 #include "link_term.hpp"

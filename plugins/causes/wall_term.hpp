@@ -1,4 +1,4 @@
-// What a cause adds to the level of links for each wall or closed door that they cross.
+// Contribution of a cause to the level of links for each wall or closed door that they cross.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ namespace muster {
 
 class WallTerm {
  public:
-  // Of all walls, or of the row of one alone.
+  // For all walls, or for one row only.
   explicit WallTerm(Setup& s, std::optional<Value> only = std::nullopt)
       : only_(only),
         pose(s.read<Pose>("endpoint/*/pose")),
@@ -33,7 +33,7 @@ class WallTerm {
     try {
       update_scene(k);
       update_links(k);
-    } catch (const std::runtime_error& e) {  // the scene refuses walls, doors and places, which are the user's
+    } catch (const std::runtime_error& e) {  // throws for walls, doors and places, which are the user's input
       throw BadInput(e.what());
     }
     const auto losses = k[loss];
@@ -47,8 +47,8 @@ class WallTerm {
   }
 
  private:
-  // Crossings are kept while ends, walls and doors stay where they are, bit for bit: asking again under other
-  // parameters costs a comparison.
+  // Crossings are cached while ends, walls and doors stay the same, bit for bit: an evaluation with other parameters
+  // costs a comparison.
   struct Link {
     std::array<scene::Point, 2> ends;
     std::vector<scene::Crossing> crossings;
@@ -69,13 +69,13 @@ class WallTerm {
     changed = keep(k[state], states_) || changed;
     if (!changed && scene_) return;
     links_.clear();
-    scene_.reset();  // so that none is left if the new one is refused
+    scene_.reset();  // so that none is left if the new one throws
     const auto walls = scene_walls(walls_);
     const auto doors = scene_doors(doors_, states_, walls_);
     const int materials = static_cast<int>(k[loss].size());
     scene_ = std::make_unique<scene::Scene>(walls, doors, materials);
     if (!only_) return;
-    // What is crossed of one wall does not depend on others.
+    // Crossings of one wall do not depend on others.
     const int row = static_cast<int>(k[*only_]);
     std::vector<scene::Door> own;
     for (const scene::Door& d : doors) {

@@ -1,4 +1,4 @@
-// Attitude and thrust from a table, as a pilot's record has them.
+// Attitude and thrust from a table, such as a pilot's record.
 #include <limits>
 #include <muster/plugin.hpp>
 
@@ -21,7 +21,7 @@ struct ControlAttitude {
   struct Row {
     static constexpr const char* columns =
         "t[s] robot:robot? cmd_thrust[N] cmd_roll[rad] cmd_pitch[rad] cmd_yaw_rate[rad/s]";
-    double t, robot;  // null: the one that is flown
+    double t, robot;  // null: the robot that is flown
     AttitudeThrust asked;
   };
 
@@ -32,7 +32,7 @@ struct ControlAttitude {
 
   void step(const Step& k) const {
     const double tick = k.time() / static_cast<double>(k.tick());
-    const double now = k.time() - tick / 2;  // commands hold over the tick: of two, the one for most of it
+    const double now = k.time() - tick / 2;  // commands hold over the tick: of two, that for most of it
     *k[command] = {0, 0, 0, 0};
     double last = -std::numeric_limits<double>::infinity();
     std::size_t number = 0, own = 0;

@@ -1,4 +1,4 @@
-// A radio that says, every so often, that it is there.
+// A radio that sends a beacon periodically.
 #include <muster/plugin.hpp>
 
 #include "own_radio.hpp"

@@ -76,7 +76,8 @@ struct ControlConnectivity {
     State now = *k.last(state);
     listen(k, now);
     const Waypoint here{k[odometry]->x, k[odometry]->y};
-    constexpr double reach = 1;  // [m] a robot is looked for no further along than this, so that a bend is not cut
+    constexpr double reach = 1;  // [m] the robot is localised at most this far along from its last arclength, so that
+                                 // it cuts no bend
     now.arclength = is_null(now.arclength) ? roadmap.nearest(here, 0, roadmap.length())
                                            : roadmap.nearest(here, now.arclength - reach, now.arclength + reach);
     now.speed = within_roadmap(now.arclength, k[speed] * urge(k, now));
@@ -98,7 +99,7 @@ struct ControlConnectivity {
     heard = message.t_received;
   }
 
-  // From -1 to 1. Before a first message nothing is known of a link, and nothing is done.
+  // Command from -1 to 1. Before the first message of a link its quality is unknown, and the robot waits.
   double urge(const Step& k, const State& now) const {
     if (is_null(now.parent)) return 0;
     const double on =
@@ -108,7 +109,7 @@ struct ControlConnectivity {
     return on * (k.time() - now.child_heard > k[lost] ? 1 : wanted(now.child - k[threshold], k[margin]));
   }
 
-  // Slows down at both ends of the roadmap, within about a second.
+  // Slows down at both ends of the roadmap, with a time constant of a second.
   double within_roadmap(double s, double v) const {
     constexpr double rate = 1;  // [1/s]
     return std::clamp(v, std::min(0.0, -rate * s), std::max(0.0, rate * (roadmap.length() - s)));
@@ -124,7 +125,7 @@ struct ControlConnectivity {
   Out<Command> command;
   Out<Outgoing> outbox;
   Out<State> state;
-  Roadmap roadmap;  // made again from the file
+  Roadmap roadmap;  // rebuilt from the file
 };
 
 }  // namespace

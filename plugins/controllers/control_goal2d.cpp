@@ -1,4 +1,4 @@
-// To a place that another controller asks for, and how to stand there: Player's position commands.
+// Drives to a goal pose from another controller: Player's position commands.
 #include <muster/plugin.hpp>
 
 #include "heading.hpp"
@@ -27,7 +27,7 @@ struct ControlGoal2d {
 
   struct Arrived {
     static constexpr const char* columns = "there arrived x[m]? y[m]?";
-    double there, arrived;  // 0 or 1: at the place; and as it was asked to stand there
+    double there, arrived;  // 0 or 1: at the place; at the place with the wanted heading
     double x, y;            // of the place that it is at
   };
 

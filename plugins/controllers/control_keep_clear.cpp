@@ -1,4 +1,4 @@
-// Stops a robot before what its laser sees.
+// Stops a robot before obstacles that its laser detects.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -29,7 +29,7 @@ struct ControlKeepClear {
 
   struct Ahead {
     static constexpr const char* columns = "free[m]~ v[m/s]";
-    double free, v;  // from the robot's origin to what is in its way; the speed that it was let go at
+    double free, v;  // free distance ahead of the robot's origin; commanded speed
   };
 
   explicit ControlKeepClear(Setup& s)
@@ -50,7 +50,7 @@ struct ControlKeepClear {
     for (std::size_t i = 0; i < k[scan].size(); ++i) {
       if (k[scan][i].sensor == 0) free = free_way(k, i) - gone_since(k, k[scan][i].t);
     }
-    // As fast as it may be so that, a tick later, what is left is enough to stop in: v2 = 2 a (left - v dt).
+    // The highest speed v that, a tick later, leaves enough distance to stop: v2 = 2 a (left - v dt).
     const double left = std::max(0.0, free - k[clearance]), a = k[deceleration], change = a * k.dt();
     const double most = std::sqrt(change * change + 2 * a * left) - change;
     *k[command] = *k.before(command);
@@ -59,13 +59,13 @@ struct ControlKeepClear {
     *k[ahead] = {std::max(0.0, free - (k.last(ahead)->v + v) / 2 * k.dt()), v};
   }
 
-  // Since a scan, to the tick that is over. The last is a tick ago, older ones were read late.
+  // Distance covered from a scan to the last tick. The last scan is a tick old; older ones were read late.
   double gone_since(const Step& k, double scanned) const {
     const double tick = k.time() / static_cast<double>(k.tick());
     return k.last(ahead)->v * std::max(0.0, k.time() - tick - scanned);
   }
 
-  // To the nearest place in the way that a scan has seen.
+  // Distance to the nearest point of a scan in the robot's path.
   double free_way(const Step& k, std::size_t row) const {
     const Scan& seen = k[scan][row];
     const Eigen::Isometry3d at =
@@ -78,7 +78,7 @@ struct ControlKeepClear {
       if (range == std::numeric_limits<double>::infinity()) continue;
       const double angle = seen.min_angle + static_cast<double>(i) * seen.step;
       const Eigen::Vector3d way = at.linear() * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
-      const bool is_too_near = std::isinf(range);  // to tell how near: at the laser itself, for all that is known
+      const bool is_too_near = std::isinf(range);  // the distance is unknown: taken as 0, at the laser itself
       const Eigen::Vector3d place = at.translation() + (is_too_near ? 0 : range) * way;
       const bool is_ahead = is_too_near ? way.x() > 0 : place.x() > 0;
       if (is_ahead && std::abs(place.y()) < k[width] / 2) free = std::min(free, std::max(0.0, place.x()));

@@ -1,4 +1,4 @@
-// Along way points in space, on time.
+// Follows way points in space, on schedule.
 #include <muster/plugin.hpp>
 
 #include "timed_path.hpp"
@@ -55,7 +55,7 @@ struct ControlPath3d {
     const auto way = [&](double t) {
       return timed_path(k[path], t - k[start], k[speed], k[acceleration], k[wait], k[loop] != 0);
     };
-    const double now = k.time() * (1 - 1 / static_cast<double>(k.tick()));  // of what is seen: the tick before
+    const double now = k.time() * (1 - 1 / static_cast<double>(k.tick()));  // of the observation: the tick before
     const Reference here = way(now), ahead = way(now + k[lead]);
     const Vector off = {here.place[0] - k[seen]->x, here.place[1] - k[seen]->y, here.place[2] - k[seen]->z};
     const double distance = std::hypot(off[0], off[1], off[2]);

@@ -1,4 +1,4 @@
-// One robot on the same arc for ever.
+// A constant command for one robot: the same arc for ever.
 #include <muster/plugin.hpp>
 
 namespace {

@@ -1,4 +1,4 @@
-// The velocity of a flying robot: by thrust, roll and pitch.
+// Velocity controller of a flying robot: commands thrust, roll and pitch.
 #include <algorithm>
 #include <cmath>
 
@@ -30,7 +30,7 @@ struct ControlVelocity3d {
 
   struct Integral {
     static constexpr const char* columns = "x[m] y[m] z[m]";
-    double x, y, z;  // of the error of velocity
+    double x, y, z;  // integrals of the velocity error
   };
 
   explicit ControlVelocity3d(Setup& s)
@@ -57,7 +57,7 @@ struct ControlVelocity3d {
     double fx = mass * (k[p] * error[0] + k[i] * sum.x + goal.ax) + drag * goal.vx;
     double fy = mass * (k[p] * error[1] + k[i] * sum.y + goal.ay) + drag * goal.vy;
     const double lift = mass * (k[p] * error[2] + k[i] * sum.z + goal.az + gravity);
-    const double fz = std::max(lift, least_lift * mass * gravity);  // it comes down, but not upside down
+    const double fz = std::max(lift, least_lift * mass * gravity);  // it descends without turning upside down
 
     const double sideways = std::hypot(fx, fy), most = fz * std::tan(k[max_tilt]);
     const bool limited = sideways > most;
@@ -68,7 +68,7 @@ struct ControlVelocity3d {
                    goal.yaw_rate};
   }
 
-  // Of the force, along the rotors' axes.
+  // Component of the force along the rotors' axes.
   static double along_axes(const Position3d& at, double fx, double fy, double fz) {
     const double cr = std::cos(at.roll), sr = std::sin(at.roll), sp = std::sin(at.pitch), cp = std::cos(at.pitch);
     const double cy = std::cos(at.yaw), sy = std::sin(at.yaw);

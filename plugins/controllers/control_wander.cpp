@@ -1,4 +1,4 @@
-// Every robot on random arcs, heedless of all.
+// Every robot on random arcs, ignoring all others.
 #include <algorithm>
 #include <cmath>
 #include <muster/plugin.hpp>

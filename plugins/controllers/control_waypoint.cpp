@@ -1,4 +1,4 @@
-// From way point to way point by a robot's own odometry.
+// Drives from way point to way point by a robot's own odometry.
 #include <muster/plugin.hpp>
 
 #include "heading.hpp"
@@ -27,7 +27,7 @@ struct ControlWaypoint {
 
   struct Progress {
     static constexpr const char* columns = "next reached";
-    double next, reached;  // the way point it heads for, from 0; how many it has reached
+    double next, reached;  // index of the next way point, from 0; number of those reached
   };
 
   explicit ControlWaypoint(Setup& s)

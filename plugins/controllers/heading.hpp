@@ -1,4 +1,4 @@
-// Towards a place, for a robot on two wheels.
+// Commands towards a place, for a robot on two wheels.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ struct Turning {
 // The shortest turn from one heading to another [rad].
 inline double turn_to(double yaw, double from) { return std::remainder(yaw - from, 2 * 3.141592653589793); }
 
-// Turns in proportion to the bearing and drives with its cosine; turns on the spot while the place lies behind.
+// Turns in proportion to the bearing and drives with its cosine; turns on the spot while the place is behind.
 inline Command towards(const Odometry& here, double x, double y, double speed, const Turning& turning) {
   const double bearing = turn_to(std::atan2(y - here.y, x - here.x), here.yaw);
   return {std::max(0.0, speed * std::cos(bearing)), turning.rate(bearing)};

@@ -6,7 +6,7 @@
 
 namespace muster {
 
-// The row of the radio that bears the name of the robot that the parameter `robot` refers to.
+// The row of the radio with the name of the robot that the parameter `robot` refers to.
 inline double own_radio(const Setup& setup) {
   const muster_host* host = setup.host();
   const char* robot = host->row_name(host, "robot", static_cast<uint32_t>(setup.param("robot")));

@@ -1,4 +1,4 @@
-// A polyline as a one-dimensional manifold: places by arclength, arclength by places, and how to stay on it.
+// A polyline as a one-dimensional manifold: places by arclength, arclength by places, and path following.
 #pragma once
 
 #include <algorithm>
@@ -30,7 +30,7 @@ class Roadmap {
   bool empty() const { return points_.empty(); }
   double length() const { return from_start_.back(); }
 
-  // The place at arclength s [m]; before the start and past the end, along the first and last piece prolonged.
+  // The place at arclength s [m]; before the start and past the end, on the extension of the first or last piece.
   Waypoint at(double s) const {
     const auto above = std::upper_bound(from_start_.begin() + 1, from_start_.end() - 1, s);
     const std::size_t i = static_cast<std::size_t>(above - from_start_.begin());
@@ -64,8 +64,8 @@ class Roadmap {
   std::vector<double> from_start_;  // [m]
 };
 
-// The command that leads at speed v [m/s], backwards if negative, to a place: along the circle that touches the heading
-// there (pure pursuit, Coulter 1992), or turning on the spot where the place lies aside.
+// Pure pursuit (Coulter 1992): the command at speed v [m/s], backwards if negative, along the circle through the target
+// that is tangent to the heading. Turns on the spot if the target is far off the heading.
 inline Command pursuit(const Odometry& at, const Waypoint& target, double v, double turn_speed) {
   constexpr double aside = 1.0;  // [rad]
   const double dx = target.x - at.x, dy = target.y - at.y;

@@ -1,5 +1,5 @@
-// Where something is to be at a time that goes from way point to way point at rest: it speeds up evenly, goes on at its
-// speed, and slows down evenly.
+// Reference motion along way points with a stop at each: trapezoidal speed profile of constant acceleration, constant
+// speed and constant deceleration.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ struct WayPoint3d {
   double x, y, z;
 };
 
-// One coordinate along the way, its rate and the rate of that.
+// One coordinate along the path, its rate and its acceleration.
 struct Along {
   double s, v, a;
 };

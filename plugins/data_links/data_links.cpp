@@ -1,4 +1,4 @@
-// Measured readings as links, so that every term of a channel is evaluated where and when something was measured.
+// Measured readings as links, so that every term of a channel is evaluated at the places and times of measurement.
 #include <cmath>
 #include <muster/plugin.hpp>
 #include <string>
@@ -7,7 +7,7 @@ namespace {
 
 using namespace muster;
 
-// A row of the measured table; other columns of the file are not needed to place its radios.
+// Required columns of a row of the measured table, which place its radios.
 struct Reading {
   static constexpr const char* columns =
       "t[s]? tx:radio+ rx:radio+ tx_x[m]? tx_y[m]? tx_z[m]? tx_yaw[rad]? rx_x[m]? rx_y[m]? rx_z[m]? rx_yaw[rad]? "

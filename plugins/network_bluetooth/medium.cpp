@@ -11,13 +11,13 @@ using medium::Frame;
 using medium::never;
 using medium::nothing;
 
-// At the same time frames end, then requests come, packets are given up, slaves answer, the master sends.
+// Order of simultaneous events: frames end, requests come, packets expire, slaves answer, the master sends.
 enum Kind { frame_ends, request_comes, packet_expires, slave_answers, master_turns };
 
-// A packet is looked for wherever its header has a chance.
+// A packet is detected if its header has a chance.
 constexpr double found_above = 1;
 
-// One for each type, whose number it is; a packet without payload is as long as the first.
+// One for each packet type, by its number; a packet without payload is as long as the first.
 std::vector<medium::Format> formats() {
   static const medium::BitLaw body(bit_error_rate), head(header_error_rate);
   medium::Format format;
@@ -30,7 +30,7 @@ std::vector<medium::Format> formats() {
   return {types.size(), format};
 }
 
-// When the master may next send, from this time on.
+// The master's next possible start, from this time on.
 Time turn_from(Time at) { return (at + turn - 1) / turn * turn; }
 
 }  // namespace
@@ -54,7 +54,7 @@ const Report& Medium::run(Time since, Time until, const Channel& channel, const 
   for (std::size_t i = 0; i < post_.requests().size(); ++i) agenda_.put(post_.requests()[i].at, request_comes, i);
   wake(since);
   for (std::size_t i = 0; i < radios_.size(); ++i) {
-    if (post_.is_waiting(i) && settle_unreachable(i)) begin_message(i, since);  // somebody left
+    if (post_.is_waiting(i) && settle_unreachable(i)) begin_message(i, since);  // a radio left
     agenda_.put(radios_[i].expires, packet_expires, i);
     agenda_.put(radios_[i].answers, slave_answers, i);
   }
@@ -97,13 +97,13 @@ void Medium::handle(const medium::Event& event) {
 
 // ---- Access -------------------------------------------------------------------------------------------------------
 
-// Each channel as often, in an order that is the master's own.
+// Pseudo-random hop sequence of the master, uniform over the channels.
 int Medium::channel_at(Time at) const {
   const Stream hops = random_.of(key_of("hops")).of(channel_->keys[settings_.master]);
   return static_cast<int>(channels * hops.uniform(static_cast<std::uint64_t>(at / slot)));
 }
 
-// Of those who want it, the one whose turn is longest ago.
+// Sends to the slave that wants its turn and has waited longest.
 void Medium::take_turn(Time at) {
   const std::size_t master = settings_.master;
   std::size_t next = everyone;
@@ -120,7 +120,7 @@ void Medium::take_turn(Time at) {
   wait_for_turn(free_);
 }
 
-// The master's own turn is a broadcast.
+// Time from which the radio wants a turn; the master's own turn is a broadcast.
 Time Medium::wants_turn(std::size_t radio, Time at) const {
   const std::size_t master = settings_.master;
   if (!is_there_[radio] || !is_there_[master]) return never;
@@ -134,7 +134,7 @@ void Medium::wait_for_turn(Time at) {
   agenda_.put(at, master_turns, 0);
 }
 
-// The master looks around as soon as it may.
+// Schedules the master's next decision as early as allowed.
 void Medium::wake(Time at) { wait_for_turn(std::max(free_, turn_from(at))); }
 
 void Medium::answer(std::size_t slave, Time at) {
@@ -145,7 +145,7 @@ void Medium::answer(std::size_t slave, Time at) {
   wait_for_turn(free_);
 }
 
-// Data if there are some for the receiver, else a POLL or a NULL. The type of the packet.
+// Sends data if there are any for the receiver, else a POLL or a NULL. Returns the packet's type.
 std::size_t Medium::put_on_air(std::size_t from, std::size_t to, Time at, std::uint64_t ack_of) {
   const bool has_data = has_for(from, to);
   std::size_t type = dh1;
@@ -180,7 +180,7 @@ void Medium::end_frame(std::uint64_t id, Time at) {
   }
 }
 
-// Sent once, and not acknowledged.
+// Broadcasts are sent once and not acknowledged.
 void Medium::end_broadcast(std::size_t sender, const std::vector<Heard>& heard, Time at) {
   if (is_last_packet(sender))
     post_.last_frame_heard(sender, heard, air_, at);
@@ -193,7 +193,7 @@ void Medium::end_down(const Frame& frame, Heard heard, Time at) {
   Radio& slave = radios_[frame.to];
   const bool bears_data = radios_[frame.sender].sent == frame.id;
   if (heard != Heard::whole) {
-    slave.last_loss = medium::fate_of(heard);  // it would have been allowed to talk
+    slave.last_loss = medium::fate_of(heard);  // it would have been allowed to answer
     if (bears_data) radios_[frame.sender].last_loss = slave.last_loss;
     return;
   }
@@ -219,7 +219,7 @@ void Medium::end_up(const Frame& frame, Heard heard, Time at) {
   acknowledge(frame.to, frame.ack_of, at);
 }
 
-// At its one receiver, perhaps again.
+// Arrival at the one receiver, possibly a repetition.
 void Medium::arrive(std::size_t from, std::size_t to, Time at) {
   if (is_last_packet(from)) post_.deliver(from, to, air_, at);
   radios_[from].arrived = true;
@@ -231,7 +231,7 @@ void Medium::acknowledge(std::size_t from, std::uint64_t frame, Time at) {
 
 void Medium::expire(std::size_t number, Time at) {
   Radio& radio = radios_[number];
-  if (at < radio.sent_until) {  // what is in the air may still arrive
+  if (at < radio.sent_until) {  // a packet in the air may still arrive
     radio.expires = radio.sent_until;
     return agenda_.put(radio.expires, packet_expires, number);
   }
@@ -247,17 +247,17 @@ bool Medium::has_for(std::size_t from, std::size_t to) const {
   return from != settings_.master || post_.first(from).to == to;
 }
 
-// Octets of its first message that were not acknowledged.
+// Octets of its first message not yet acknowledged.
 std::size_t Medium::rest(std::size_t sender) const {
   return l2cap_header + post_.first(sender).size - radios_[sender].done;
 }
 
-// Slaves have no link to one another.
+// Slaves have no links to each other.
 bool Medium::is_linked(std::size_t one, std::size_t other) const {
   return is_there_[one] && is_there_[other] && (one == settings_.master || other == settings_.master);
 }
 
-// Copies of the first message for whom no packet can be sent. True if there is nobody to send packets to.
+// Settles copies of the first message that no packet can reach. True if no receiver is left.
 bool Medium::settle_unreachable(std::size_t sender) {
   std::vector<Heard> heard(radios_.size(), Heard::whole);
   for (std::size_t i = 0; i < heard.size(); ++i)
@@ -299,7 +299,7 @@ void Medium::go_on_with_message(std::size_t sender, Time at) {
 
 namespace {
 
-// One list of what a record holds, for both directions.
+// Lists a record's members, for both directions.
 constexpr auto fields = [](auto&& field, auto& r) {
   field(r.done), field(r.carried), field(r.sent), field(r.sent_until), field(r.arrived), field(r.last_loss);
   field(r.expires), field(r.addressed), field(r.has_more_until), field(r.heard), field(r.answers), field(r.answers_to);

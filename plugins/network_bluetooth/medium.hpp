@@ -1,6 +1,5 @@
-// A piconet: one master, at most seven slaves, slots of 625 us. The master addresses its slaves in turn; a slave talks
-// only in the slot after a packet that the master sent to it. What did not arrive is sent again. A discrete-event
-// simulation of every packet.
+// A piconet: one master, at most seven slaves, slots of 625 us. The master polls its slaves in turn; a slave sends only
+// in the slot after a packet addressed to it. Lost packets are repeated. A discrete-event simulation of every packet.
 #pragma once
 
 #include <stdexcept>
@@ -23,10 +22,10 @@ using medium::Report;
 struct Settings {
   std::size_t master = 0;
   std::size_t largest = dh5;       // packets
-  Time poll_interval = 40 * slot;  // T_poll: each slave is addressed at least so often
-  Time flush = 80 * slot;  // a packet that was not acknowledged so long after it could first be sent is given up
+  Time poll_interval = 40 * slot;  // T_poll: longest interval between packets to a slave
+  Time flush = 80 * slot;  // time after its first chance to be sent at which an unacknowledged packet is dropped
   double noise = 0;        // mW
-  std::size_t queue = 64;  // messages that wait at a radio
+  std::size_t queue = 64;  // limit of messages in a radio's queue
 };
 
 struct TooManyRadios : std::runtime_error {
@@ -37,7 +36,7 @@ class Medium {
  public:
   explicit Medium(const Stream& random);
 
-  // Everything that outlives a call of run(): the same bytes make the same future.
+  // All state that outlives a call of run(): the same bytes make the same future.
   std::string save() const;
   void load(std::string_view bytes);
 
@@ -47,16 +46,16 @@ class Medium {
     post_.ask(at, from, to, std::move(payload));
   }
 
-  // From `since` to `until`. The report stands until the next run. All radios are of the piconet but those that jam;
-  // throws TooManyRadios where these are more than a master and seven slaves.
+  // Runs from `since` to `until`. The report is valid until the next run. All radios except jammers belong to the
+  // piconet; throws TooManyRadios if these are more than a master and seven slaves.
   const Report& run(Time since, Time until, const Channel& channel, const Settings& settings);
 
-  // Of the slot that begins at this time, 0 to 78.
+  // Channel of the slot that begins at this time, 0 to 78.
   int channel_at(Time at) const;
 
  private:
   struct Radio {
-    // Of its first message: octets that were acknowledged, and those in the packet that is to be sent.
+    // Of its first message: octets acknowledged, and octets in the next packet.
     std::size_t done = 0, carried = 0;
     std::uint64_t sent = medium::nothing;  // the frame that carried the packet last
     Time sent_until = 0;
@@ -64,8 +63,8 @@ class Medium {
     Fate last_loss = Fate::too_weak;
     Time expires = medium::never;
 
-    // As a slave: when it was last addressed, how long it is believed to have more to say, the last data that the
-    // master heard from it, and when it answers to which frame.
+    // As a slave: when it was last addressed, until when the master expects more data from it, its last data that the
+    // master received, and when it answers to which frame.
     Time addressed = -(Time{1} << 40);
     Time has_more_until = 0;
     std::uint64_t heard = medium::nothing;
@@ -106,10 +105,10 @@ class Medium {
   medium::Post post_;
   medium::Agenda agenda_;
   std::vector<Radio> radios_;
-  Time free_ = 0;                       // until then somebody may be sending
-  Time turn_ = 0;                       // when the master looks next whom to address
+  Time free_ = 0;                       // until then the channel may be in use
+  Time turn_ = 0;                       // time of the master's next decision
   const Channel* channel_ = nullptr;    // of the run
-  std::vector<std::uint8_t> is_there_;  // of each radio, in the piconet
+  std::vector<std::uint8_t> is_there_;  // of each radio: member of the piconet
 };
 
 }  // namespace muster::bluetooth

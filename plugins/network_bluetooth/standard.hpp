@@ -1,4 +1,4 @@
-// What the Bluetooth Core Specification 2.0 fixes for the basic rate: its volume 2, part A (radio) and part B
+// Constants of the Bluetooth Core Specification 2.0 for the basic rate: its volume 2, part A (radio) and part B
 // (baseband).
 #pragma once
 
@@ -20,7 +20,7 @@ constexpr int most_slaves = 7;    // an active slave's address has 3 bits, and 0
 constexpr int channels = 79;      // 1 MHz each, from 2402 MHz up
 constexpr Time access_code = 72 * bit;
 constexpr Time header = 54 * bit;            // 18 bits, each sent three times
-constexpr Time bare = access_code + header;  // all of a POLL and of a NULL
+constexpr Time bare = access_code + header;  // the whole of a POLL and of a NULL
 
 // Packets without error correction of their payload (part B, ACL packets).
 struct Type {
@@ -31,7 +31,7 @@ constexpr std::array<Type, 3> types{{{1, 1, 27}, {3, 2, 183}, {5, 2, 339}}};  //
 enum { dh1 = 0, dh3, dh5 };
 constexpr std::size_t check = 2;  // octets at a payload's end
 
-// The shortest one that holds so much, as far as it may be used.
+// The shortest allowed packet type for this payload, or the largest allowed one.
 constexpr std::size_t type_for(std::size_t payload, std::size_t largest) {
   std::size_t type = dh1;
   while (type < largest && types[type].payload < payload) ++type;
@@ -41,7 +41,7 @@ constexpr Time air_time(std::size_t type, std::size_t payload) {
   return bare + static_cast<Time>(8 * (types[type].header + payload + check)) * bit;
 }
 
-// A message goes as one frame of L2CAP (volume 3, part A, 3.1), cut into packets; its limit of 64 kB is not kept.
+// A message is one frame of L2CAP (volume 3, part A, 3.1), cut into packets; its limit of 64 kB is not enforced.
 constexpr std::size_t l2cap_header = 4;
 
 constexpr medium::Band band_of(int channel) {
@@ -49,9 +49,9 @@ constexpr medium::Band band_of(int channel) {
   return {middle - 0.5e6, middle + 0.5e6};
 }
 
-// Share of bits that come wrong at a ratio of signal to noise and interference: binary FSK of modulation index 0.315,
-// the middle of what is allowed, detected without its phase (Proakis, Digital communications, 4th edition, 5.4.4;
-// Marcum's function as a series of Bessel functions).
+// Bit error rate at a ratio of signal to noise and interference: binary FSK of modulation index 0.315, the middle of
+// the allowed range, detected noncoherently (Proakis, Digital communications, 4th edition, 5.4.4; Marcum's function as
+// a series of Bessel functions).
 inline double bit_error_rate(double ratio) {
   if (ratio > 200) return 0;  // below 1e-24
   constexpr double turned = 2 * 3.14159265358979323846 * 0.315;
@@ -63,7 +63,7 @@ inline double bit_error_rate(double ratio) {
   return std::min(0.5, std::exp(-ratio / 2) * sum);
 }
 
-// Of a bit that is sent three times.
+// Error rate of a bit that is sent three times.
 inline double header_error_rate(double ratio) {
   const double wrong = bit_error_rate(ratio);
   return wrong * wrong * (3 - 2 * wrong);

@@ -20,11 +20,11 @@ class LinkIndex {
     };
     for (std::size_t i = 0; i < links.size(); ++i)
       entries_.emplace_back(key(radio(links[i].tx), radio(links[i].rx)), i);
-    // As living links are listed, they are in order already.
+    // Links of living radios are listed in order already.
     if (!std::is_sorted(entries_.begin(), entries_.end())) std::sort(entries_.begin(), entries_.end());
   }
 
-  // The link from the first radio to the second, or none. Where several readings name the pair, the last.
+  // The link from the first radio to the second, or none. If several readings name the pair, the last.
   std::size_t find(std::size_t from, std::size_t to) const {
     const std::pair<std::uint64_t, std::size_t> last{key(from, to), none};
     const auto after = std::upper_bound(entries_.begin(), entries_.end(), last);

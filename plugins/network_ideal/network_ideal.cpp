@@ -1,4 +1,4 @@
-// Messages without contention: what is heard well enough arrives, in the tick in which it was sent.
+// Messages without contention: each copy above the sensitivity arrives, in the tick in which it was sent.
 #include <algorithm>
 #include <muster/plugin.hpp>
 #include <vector>

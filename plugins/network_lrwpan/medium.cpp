@@ -11,10 +11,10 @@ using medium::Frame;
 using medium::never;
 using medium::nothing;
 
-// At the same time frames end, then requests come, phases end, acknowledgements go out.
+// Order of simultaneous events: frames end, requests come, phases end, acknowledgements are sent.
 enum Kind { frame_ends, request_comes, phase_ends, ack_is_due };
 
-// A receiver finds a preamble that is up to 5 dB below noise and interference (as ns-3 3.37 has it).
+// A receiver detects a preamble down to 5 dB below noise and interference (as ns-3 3.37 has it).
 const double found_above = std::pow(10, -0.5);
 
 medium::Format format() {
@@ -67,7 +67,7 @@ void Medium::handle(const medium::Event& event) {
       if (post_.take(event.number(), settings_.queue)) compete(post_.requests()[event.number()].from, event.at);
       return;
     case phase_ends:
-      if (radios_[event.number()].due == event.at) end_phase(event.number(), event.at);  // else it ended early
+      if (radios_[event.number()].due == event.at) end_phase(event.number(), event.at);  // otherwise it ended early
       return;
     default:
       if (radios_[event.number()].ack_due == event.at) send_ack(event.number(), event.at);
@@ -101,7 +101,7 @@ void Medium::back_off(std::size_t number, Time from) {
   wait(number, Phase::backing_off, from + periods * unit_backoff + cca_window);
 }
 
-// A radio that owes an acknowledgement, or just sent one, takes the channel for busy.
+// A radio that owes an acknowledgement, or has just sent one, senses a busy channel.
 void Medium::assess(std::size_t number, Time at) {
   Radio& radio = radios_[number];
   if (radio.ack_phase == Phase::idle && !air_.is_deaf(number, at) && !is_busy(number, at)) {
@@ -149,7 +149,7 @@ void Medium::end_phase(std::size_t number, Time at) {
   }
 }
 
-// Octets about what a radio's frames carry of its first message.
+// Header octets of a radio's frames for its first message.
 std::size_t Medium::head(std::size_t sender) const {
   const std::size_t to = post_.first(sender).to;
   const std::size_t more = to == everyone || are_in_one_pan(sender, to) ? 0 : sender_pan;
@@ -183,7 +183,7 @@ void Medium::end_frame(std::uint64_t id, Time at) {
   const std::vector<Heard>& heard = air_.end(frame);
   if (frame.ack_of != nothing) return end_ack(frame, heard, at);
   Radio& sender = radios_[frame.sender];
-  if (sender.phase != Phase::sending) return;  // it has left meanwhile
+  if (sender.phase != Phase::sending) return;  // it has left since
   air_.deafen(frame.sender, at + turnaround);
   sender.sent = id;
   sender.spaced = at + (frame.end - frame.begin > air_time(18) ? long_spacing : short_spacing);
@@ -203,7 +203,7 @@ void Medium::end_ack(const Frame& frame, const std::vector<Heard>& heard, Time a
   if (is_its_own && heard[frame.to] == Heard::whole) go_on_with_message(frame.to, at);
 }
 
-// Whose PAN is not the frame's heard it, and does not take it (7.5.6.2, third level).
+// Receivers in another PAN receive the frame and discard it (7.5.6.2, third level).
 const std::vector<Heard>& Medium::filtered(std::size_t sender, const std::vector<Heard>& heard) {
   if (settings_.pans.empty()) return heard;
   filtered_ = heard;
@@ -249,7 +249,7 @@ void Medium::go_on_with_message(std::size_t sender, Time at) {
   compete(sender, at);
 }
 
-// For lack of acknowledgements, though the frame may have arrived; or of a free channel.
+// Drops the message, for lack of acknowledgements, though the frame may have arrived, or of a free channel.
 void Medium::give_up(std::size_t sender, Fate why, Time at) {
   const Radio& radio = radios_[sender];
   if (why == Fate::no_ack && !radio.arrived) why = radio.last_loss;
@@ -269,7 +269,7 @@ void Medium::end_message(std::size_t sender, Time at) {
 
 namespace {
 
-// One list of what a record holds, for both directions.
+// Lists a record's members, for both directions.
 constexpr auto fields = [](auto&& field, auto& r) {
   field(r.phase), field(r.due), field(r.spaced), field(r.backoffs), field(r.exponent), field(r.tries), field(r.sent);
   field(r.arrived), field(r.last_loss), field(r.ack_phase), field(r.ack_due), field(r.ack_of), field(r.ack_to);

@@ -1,5 +1,5 @@
-// Radios that share one channel by unslotted CSMA/CA (IEEE 802.15.4-2006, 7.5.1.4): who waits, who talks over whom, who
-// acknowledges. A discrete-event simulation with events a transmission, never a receiver.
+// Radios that share one channel by unslotted CSMA/CA (IEEE 802.15.4-2006, 7.5.1.4), with collisions and
+// acknowledgements. A discrete-event simulation with events per transmission, not per receiver.
 #pragma once
 
 #include <string>
@@ -18,31 +18,30 @@ using medium::Fate;
 using medium::Heard;
 using medium::Report;
 
-// How a radio listens before it talks. All ask for the power of others against a threshold: its mean over the 8 symbols
-// that the standard says; as ns-3 3.37 does it, at their end and whenever a frame begins among them, so that one that
-// ends among them goes unnoticed, while a radio that listens to a frame, however weak, finds the channel busy; or at
-// their end alone.
+// Modes of clear channel assessment. All compare the power of others with a threshold. `standard`: its mean over the 8
+// symbols. `ns3`, as in ns-3 3.37: at their end and whenever a frame begins among them. A frame that ends among them is
+// missed, while a radio that receives a frame, however weak, finds the channel busy. `instant`: at their end alone.
 enum class Cca { standard = 1, ns3, instant };
 
 struct Settings {
   double noise = 0;  // mW
-  double busy = 0;   // power above which the channel is, mW
+  double busy = 0;   // power above which the channel is busy, mW
   int channel = 11;
   Cca cca = Cca::standard;
-  std::size_t queue = 16;    // messages that wait at a radio
+  std::size_t queue = 16;    // limit of messages in a radio's queue
   bool acknowledged = true;  // frames to one receiver
   int retries = 3;           // macMaxFrameRetries
   bool extended = false;     // addresses of 64 bits, not 16
-  double capture = 0;        // ratio above which a later frame takes a receiver over; 0: never
+  double capture = 0;        // ratio above which a later frame captures a receiver; 0: never
 
-  std::vector<std::uint16_t> pans;  // of each radio; none: all are in one
+  std::vector<std::uint16_t> pans;  // of each radio; empty: all are in one
 };
 
 class Medium {
  public:
   explicit Medium(const Stream& random);
 
-  // Everything that outlives a call of run(): the same bytes make the same future.
+  // All state that outlives a call of run(): the same bytes make the same future.
   std::string save() const;
   void load(std::string_view bytes);
 
@@ -52,17 +51,17 @@ class Medium {
     post_.ask(at, from, to, std::move(payload));
   }
 
-  // From `since` to `until`. The report stands until the next run.
+  // Runs from `since` to `until`. The report is valid until the next run.
   const Report& run(Time since, Time until, const Channel& channel, const Settings& settings);
 
  private:
   enum class Phase : std::uint8_t { idle, backing_off, turning, sending, awaiting_ack };
 
-  // What a radio does about the first message of its queue, and about an acknowledgement that it owes.
+  // State of a radio's first message, and of an acknowledgement that it owes.
   struct Radio {
     Phase phase = Phase::idle;
     Time due = medium::never;  // when the phase ends by itself
-    Time spaced = 0;           // before it nothing is sent
+    Time spaced = 0;           // earliest time of its next frame
     int backoffs = 0, exponent = 0, tries = 0;
     std::uint64_t sent = medium::nothing;  // its last frame
     bool arrived = false;                  // the frame, at its one receiver
@@ -73,7 +72,7 @@ class Medium {
     std::uint64_t ack_of = medium::nothing;
     std::size_t ack_to = everyone;
 
-    std::uint64_t draws = 0;  // random numbers used up
+    std::uint64_t draws = 0;  // number of random numbers drawn
   };
 
   bool are_in_one_pan(std::size_t a, std::size_t b) const {
@@ -110,7 +109,7 @@ class Medium {
   medium::Agenda agenda_;
   std::vector<Radio> radios_;
   const Channel* channel_ = nullptr;  // of the run
-  std::vector<Heard> filtered_;       // room, kept from frame to frame
+  std::vector<Heard> filtered_;       // buffer, kept from frame to frame
 };
 
 }  // namespace muster::lrwpan

@@ -1,5 +1,5 @@
-// What IEEE 802.15.4-2006 fixes for its 2.4 GHz band, where a symbol is 4 bits and takes 16 us. MAC constants with the
-// standard's default values.
+// Constants of IEEE 802.15.4-2006 for its 2.4 GHz band, where a symbol is 4 bits and takes 16 us. MAC constants have
+// the standard's default values.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ constexpr Time short_spacing = 12 * symbol, long_spacing = 40 * symbol;  // of f
 constexpr int least_exponent = 3, most_exponent = 5, most_backoffs = 4;  // macMinBE, macMaxBE, macMaxCSMABackoffs
 constexpr Time bit = symbol / 4;
 
-// Of channels 11 to 26. What a receiver lets in: all that lies between its neighbours, as its noise is counted.
+// Band of channels 11 to 26. A receiver's filter passes all between its neighbours, consistent with its noise.
 constexpr medium::Band band_of(int channel) {
   const double middle = 2405e6 + 5e6 * (channel - 11);
   return {middle - 2.5e6, middle + 2.5e6};
@@ -32,10 +32,10 @@ constexpr std::size_t largest_frame = 127;  // aMaxPHYPacketSize
 constexpr std::size_t preamble = 6;         // preamble, start of frame, length
 constexpr std::size_t header = 11;  // control, sequence, PAN, two short addresses in one PAN; check sequence at the end
 constexpr std::size_t extended_header = header + 2 * (8 - 2);  // the same with two extended addresses
-constexpr std::size_t sender_pan = 2;  // more, to a receiver in another PAN: then the sender's stands there, too
+constexpr std::size_t sender_pan = 2;  // more, to a receiver in another PAN: the header then has the sender's PAN too
 constexpr std::size_t ack_frame = 5;
 
-// Fragments as RFC 4944 cuts them: all but the last carry a multiple of 8 octets behind a header of 4, then of 5.
+// Fragments of RFC 4944: all but the last carry a multiple of 8 octets after a header of 4, then of 5.
 constexpr std::size_t in_one_frame(std::size_t head) { return largest_frame - head; }
 constexpr std::size_t in_a_fragment(std::size_t head) { return (in_one_frame(head) - 5) / 8 * 8; }
 
@@ -52,7 +52,7 @@ constexpr std::size_t frame_size(std::size_t payload, std::size_t n, std::size_t
 
 constexpr Time air_time(std::size_t size) { return static_cast<Time>(preamble + size) * octet; }
 
-// Share of bits that come wrong at a ratio of signal to noise and interference (IEEE 802.15.4-2006, annex E.4.1.8).
+// Bit error rate at a ratio of signal to noise and interference (IEEE 802.15.4-2006, annex E.4.1.8).
 inline double bit_error_rate(double ratio) {
   constexpr double binomial[] = {120,  -560,  1820, -4368, 8008, -11440, 12870, -11440,
                                  8008, -4368, 1820, -560,  120,  -16,    1};

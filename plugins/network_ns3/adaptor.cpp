@@ -39,7 +39,8 @@ void Adaptor::step(const Step& k, const std::function<std::unique_ptr<Backend>()
   *k[progress_] = {static_cast<double>(ticks_), history()};
 }
 
-// A run that was put back, or an instance that was made anew in the midst of one, finds another state than it left.
+// Throws if the state differs from the one that this instance left: after a restored snapshot, or for an instance made
+// in the midst of a run.
 void Adaptor::check_history(const Step& k) const {
   const Progress& last = *k.last(progress_);
   if (last.ticks == static_cast<double>(ticks_) && last.history == history()) return;
@@ -136,13 +137,12 @@ void Adaptor::end(std::uint64_t number, End why) {
   messages_.erase(found);
 }
 
-// The simulator does not say what a receiver missed a frame for. What stands 3 dB above noise is not lost in noise
-// alone.
+// The simulator does not report why a receiver missed a frame. At 3 dB or more above noise, it counts as a collision.
 Fate Adaptor::fate_of(const Message& message, std::size_t to, End why) const {
   if (!world_.alive[to]) return Fate::gone;
   if (why == End::queue_full) return Fate::queue_full;
   if (why == End::no_access) return Fate::no_access;
-  const bool is_for_its_pan = !message.is_unicast || why == End::lost;  // no mesh goes beyond
+  const bool is_for_its_pan = !message.is_unicast || why == End::lost;  // no mesh crosses PANs
   if (is_for_its_pan && world_.pans[message.from] != world_.pans[to]) return Fate::no_link;
   if (why == End::lost) return hears_anybody(to) ? Fate::collided : Fate::no_link;
   const std::size_t link = world_.link(message.from, to);

@@ -1,4 +1,4 @@
-// A network simulator from elsewhere on the blackboard: levels, places and requests go in, messages and counts come
+// Connects an external network simulator to the blackboard: levels, places and requests go in, messages and counts come
 // out.
 #pragma once
 
@@ -22,8 +22,8 @@ class Adaptor {
   void step(const Step& k, const std::function<std::unique_ptr<Backend>()>& make, double noise);
 
  private:
-  // What a simulator from elsewhere remembers cannot be put on the blackboard. This much can: how far it is, and a hash
-  // of all that it was asked.
+  // State of an external simulator cannot be put on the blackboard. This much can: its progress, and a hash of all its
+  // inputs.
   struct Progress {
     static constexpr const char* columns = "ticks history";
     double ticks, history;

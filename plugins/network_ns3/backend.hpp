@@ -1,5 +1,4 @@
-// What a network simulator from elsewhere is asked, and what it says: the six callbacks that put one behind our
-// messages.
+// Interface of an external network simulator: the six callbacks that carry our messages through it.
 #pragma once
 
 #include <array>
@@ -12,14 +11,14 @@ namespace muster::external {
 
 using Place = std::array<double, 3>;  // m, ENU
 
-// The world as it stands in a tick. Radios by number; rows that joined come last, and numbers stay.
+// The world at a tick. Radios by number; rows that joined come last, and numbers are permanent.
 struct World {
-  double time = 0;            // s, since when it stands so
+  double time = 0;            // s, from which on it is valid
   std::vector<Place> places;  // of the radios
   std::vector<std::uint8_t> alive;
   std::vector<std::uint16_t> pans;  // of IEEE 802.15.4
   std::vector<double> level;        // dBm, [from x radios + to], as it is received; -infinity where there is no link
-  std::vector<double> rssi;         // dBm, the same, as the receiver reports it; NaN where that hears nothing
+  std::vector<double> rssi;         // dBm, the same, as the receiver reports it; NaN: nothing received
   std::size_t radios() const { return places.size(); }
   std::size_t link(std::size_t from, std::size_t to) const { return from * radios() + to; }
 };
@@ -33,16 +32,16 @@ struct Request {
   std::string payload;
 };
 
-// A message that came to a radio.
+// A message received by a radio.
 struct Arrival {
   std::uint64_t message;
-  std::size_t to, hop;  // at whom, and from whom it came there
+  std::size_t to, hop;  // its receiver, and the sender of its last hop
   double at;            // s
   double rssi;          // dBm, of its last frame
   std::string payload;
 };
 
-// Why nothing more comes of a message. `lost`: somewhere on a way over several radios.
+// Ends of a message, after which no copy arrives. `lost`: on a route over several radios.
 enum class End { sent = 1, no_access, no_ack, queue_full, lost };
 
 class Backend {

@@ -1,4 +1,4 @@
-// network.ns3: ns-3 under our channel.
+// network.ns3: ns-3 on our channel.
 #include "adaptor.hpp"
 #include "ns3_lr_wpan.hpp"
 #include "ns3_mesh.hpp"

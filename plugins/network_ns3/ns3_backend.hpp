@@ -1,4 +1,4 @@
-// What backends on ns-3's radios have in common: those who join, requests at their time, and a queue at each.
+// Common parts of backends on ns-3's radios: radios that join, requests at their time, and a queue at each.
 #pragma once
 
 #include <ns3/core-module.h>
@@ -12,11 +12,11 @@
 
 namespace muster::external {
 
-// `Radio`: what the backend keeps of each; its `queue` of requests, the first of which is being sent.
+// `Radio`: the backend's state of each; its `queue` of requests, the first of which is being sent.
 template <class Radio>
 class Ns3Backend : public Backend {
  public:
-  // `noise`: dBm; `queue`: messages that may wait at a radio beside the one that it sends.
+  // `noise`: dBm; `queue`: limit of messages at a radio beside the one that it sends.
   Ns3Backend(double noise, std::size_t queue) : air_(noise), queue_(queue) {}
   ~Ns3Backend() override {
     for (const Ns3Radio& radio : air_.all()) {
@@ -45,7 +45,7 @@ class Ns3Backend : public Backend {
 
  protected:
   virtual std::unique_ptr<Radio> join(std::size_t number, const Ns3Radio& air) = 0;
-  // To send the first message of its queue, which was empty.
+  // Starts to send the first message of its queue, which was empty.
   virtual void start(Radio& radio) = 0;
 
   Ns3Radios air_;

@@ -8,8 +8,8 @@
 namespace muster::external {
 namespace {
 
-// Fragments as RFC 4944 cuts them: all but the last carry a multiple of 8 octets behind a header of 4, then of 5.
-// A header has 11 octets, and 13 to another PAN.
+// Fragments of RFC 4944: all but the last carry a multiple of 8 octets after a header of 4, then of 5. A header has 11
+// octets, and 13 to another PAN.
 constexpr std::size_t in_one_frame = 127 - 11, in_one_frame_across = 127 - 13, in_a_fragment = 104;
 
 std::size_t fragments_of(std::size_t size, bool across) {
@@ -18,18 +18,18 @@ std::size_t fragments_of(std::size_t size, bool across) {
 
 class Ns3LrWpan;
 
-// What one radio still has to send, and ns-3's radio.
+// Pending messages of one radio, and ns-3's radio.
 struct Sender {
   Ns3LrWpan* owner;
   std::size_t number;
   ns3::Ptr<ns3::LrWpanMac> mac;
   std::deque<Request> queue{};
   std::size_t next = 0, fragments = 0;  // of the first message
-  std::uint64_t sending = 0, uid = 0;   // the message whose frame ns-3 has, and its number there; 0: none
-  bool has_arrived = false;             // some of it, at somebody
+  std::uint64_t sending = 0, uid = 0;   // the message whose frame ns-3 holds, and its number there; 0: none
+  bool has_arrived = false;             // some of it, at some receiver
   std::map<std::size_t, std::pair<std::size_t, std::string>> parts{};  // by receiver: fragments that came, and bytes
 
-  // Not any more, once it left.
+  // False after it left.
   bool has(std::uint64_t message) const { return !queue.empty() && queue.front().message == message; }
   void confirm(ns3::McpsDataConfirmParams result);
   void indicate(ns3::McpsDataIndicationParams, ns3::Ptr<ns3::Packet> frame);
@@ -40,7 +40,7 @@ class Ns3LrWpan final : public Ns3Backend<Sender> {
   explicit Ns3LrWpan(const LrWpanSettings& settings)
       : Ns3Backend(settings.noise, settings.queue), acknowledge_(settings.acknowledge) {}
 
-  // A frame that was sent again, since its acknowledgement was lost, comes twice.
+  // A repeated frame, whose acknowledgement was lost, arrives twice.
   void hear(Sender& at, const ns3::Ptr<ns3::Packet>& frame) {
     const auto found = sent_.find(frame->GetUid());
     if (found == sent_.end()) return;
@@ -82,7 +82,7 @@ class Ns3LrWpan final : public Ns3Backend<Sender> {
     return radio;
   }
 
-  // Else when ns-3 has done with the frame that it still has.
+  // Otherwise it starts when ns-3 has finished the frame that it holds.
   void start(Sender& radio) override {
     if (radio.sending == 0) send(radio);
   }
@@ -132,7 +132,7 @@ class Ns3LrWpan final : public Ns3Backend<Sender> {
   std::unordered_map<std::uint64_t, Sent> sent_;  // by ns-3's number of the packet
 };
 
-// Receivers hear the end of a frame later than its sender, by the time that it travels.
+// Receivers see a frame's end later than its sender, by the propagation delay.
 void Sender::confirm(ns3::McpsDataConfirmParams result) {
   ns3::Simulator::Schedule(ns3::MicroSeconds(10), [this, result] { owner->confirm(*this, result); });
 }

@@ -10,10 +10,10 @@ namespace muster::external {
 struct LrWpanSettings {
   double noise = -106.987;  // dBm
   bool acknowledge = true;  // of messages to one receiver
-  std::size_t queue = 16;   // messages that may wait at a radio beside the one that it sends
+  std::size_t queue = 16;   // limit of messages at a radio beside the one that it sends
 };
 
-// Whether another simulation of ns-3 runs in this process, which holds one at a time.
+// True if another simulation of ns-3 runs in this process, which holds one at a time.
 bool is_ns3_taken();
 
 std::unique_ptr<Backend> make_ns3_lr_wpan(const LrWpanSettings& settings);

@@ -12,7 +12,7 @@
 namespace muster::external {
 namespace {
 
-// Before each piece of a message, in an IPv6 packet of its own.
+// Precedes each piece of a message, in an IPv6 packet of its own.
 struct Head {
   std::uint64_t message;
   std::uint32_t piece, pieces;
@@ -20,19 +20,19 @@ struct Head {
 
 constexpr std::size_t ipv6_head = 40, in_a_piece = 1280 - ipv6_head - sizeof(Head);  // the least MTU of IPv6
 constexpr std::uint8_t experimental = 253;                                           // next header, RFC 3692
-constexpr double patience = 10;  // s; what has not come so long after it was sent is lost
+constexpr double patience = 10;  // s; pieces that have not arrived by then are lost
 
 std::size_t pieces_of(std::size_t size) { return size == 0 ? 1 : (size + in_a_piece - 1) / in_a_piece; }
 
 class Ns3Mesh;
 
-// What one radio has of a message whose pieces have not all come.
+// The received pieces of a message that is still incomplete.
 struct Part {
   std::vector<std::string> pieces;
   std::size_t missing = 0;
 };
 
-// What one radio still has to send, what came to it in part, and ns-3's radio under its mesh.
+// Pending messages of one radio, its incomplete receptions, and ns-3's radio under its mesh.
 struct Member {
   Ns3Mesh* owner;
   std::size_t number;
@@ -40,11 +40,11 @@ struct Member {
   ns3::Ptr<ns3::SixLowPanNetDevice> mesh;
   std::deque<Request> queue{};
   std::size_t next = 0;       // piece of the first message
-  std::uint64_t sending = 0;  // the message of which pieces were given to the medium access
-  std::size_t frames = 0;     // that the medium access has, of others too
-  std::size_t own = 0;        // of them, which it sends first
+  std::uint64_t sending = 0;  // the message whose pieces are in the medium access
+  std::size_t frames = 0;     // in the medium access, those of others included
+  std::size_t own = 0;        // of them its own, which are sent first
   bool no_access = false;     // for one of its own
-  std::size_t hop = 0;        // from whom its last frame came
+  std::size_t hop = 0;        // sender of its last frame
   std::map<std::uint64_t, Part> parts{};
 
   void enqueued(ns3::Ptr<const ns3::Packet>) { ++frames; }
@@ -57,10 +57,10 @@ class Ns3Mesh final : public Ns3Backend<Member> {
  public:
   explicit Ns3Mesh(const MeshSettings& settings) : Ns3Backend(settings.noise, settings.queue), hops_(settings.hops) {}
 
-  // What the receiver's chain makes null does not get to who would pass it on.
+  // A reading that the receiver's chain makes null is not passed on.
   bool hears(std::size_t radio, std::size_t hop) const { return !std::isnan(air_.rssi(hop, radio)); }
 
-  // A radio's next piece, or next message, as soon as its medium access has nothing left to do.
+  // Sends a radio's next piece, or next message, as soon as its medium access is empty.
   void go_on(Member& radio) {
     if (radio.frames > 0) return;
     const bool is_sent = !radio.queue.empty() && radio.sending == radio.queue.front().message;
@@ -90,7 +90,7 @@ class Ns3Mesh final : public Ns3Backend<Member> {
       part.missing = head.pieces;
     }
     std::string& piece = part.pieces[head.piece];
-    if (part.missing == 0 || !piece.empty()) return;  // it came before
+    if (part.missing == 0 || !piece.empty()) return;  // received before
     piece = std::move(bytes);
     if (--part.missing > 0) return;
     std::string payload;

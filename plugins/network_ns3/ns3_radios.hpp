@@ -1,4 +1,4 @@
-// ns-3's radios for IEEE 802.15.4 at 2.4 GHz under our channel: what each of its networks here stands on.
+// ns-3's radios for IEEE 802.15.4 at 2.4 GHz on our channel: the basis of each of its networks here.
 #pragma once
 
 #include <ns3/lr-wpan-module.h>
@@ -14,8 +14,8 @@
 
 namespace muster::external {
 
-// Our channel as ns-3's: what a radio receives of another that sends at 0 dBm. A frame is received at the level of the
-// moment when it begins.
+// Our channel as ns-3's loss model: a radio's received power from another that sends at 0 dBm. A frame has the level at
+// its begin.
 class OurLoss final : public ns3::PropagationLossModel {
  public:
   void join(const ns3::MobilityModel* place) { numbers_.emplace(place, numbers_.size()); }
@@ -47,7 +47,7 @@ class Ns3Radios {
   Ns3Radios& operator=(const Ns3Radios&) = delete;
 
   void init(const World& world, std::uint64_t seed);
-  // Makes those who joined; the caller gives them what to do with frames.
+  // Creates the radios that joined; the caller sets their frame callbacks.
   void moved(const World& world);
   const std::vector<Ns3Radio>& all() const { return radios_; }
   void advance(double until);

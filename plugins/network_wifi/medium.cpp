@@ -11,7 +11,7 @@ using medium::Frame;
 using medium::never;
 using medium::nothing;
 
-// At the same time frames end, then requests come, stations send, and what began before is noticed.
+// Order of simultaneous events: frames end, requests come, stations send, earlier begins are detected.
 enum Kind {
   frame_ends,
   request_comes,
@@ -23,11 +23,11 @@ enum Kind {
   jammer_switches
 };
 
-// A preamble is found in noise and interference 4 dB below it, at the end of the detection; the strongest of those that
-// begin within it (as ns-3 3.37 has it).
+// Detects a preamble down to 4 dB below noise and interference, at the end of the detection time: the strongest of
+// those that begin within it (as ns-3 3.37 has it).
 const double found_above = std::pow(10, 0.4);
 
-// aRxPHYStartDelay: a sender waits so long, a SIFS and a slot for an acknowledgement to begin.
+// aRxPHYStartDelay: a sender waits this long, a SIFS and a slot for an acknowledgement to begin.
 constexpr Time found_after = 20 * microsecond;
 
 std::vector<medium::Format> formats() {
@@ -95,8 +95,8 @@ void Medium::fill_agenda(Time since) {
   }
 }
 
-// One may have come, moved or gone since the last run. While frames are in the air only it is looked at, since they
-// take their time to be noticed.
+// Jammers may have come, moved or gone since the last run. While frames are in the air, only the jammers' own power
+// counts, since frames take time to be detected.
 void Medium::look_for_jammers(Time since) {
   const auto& frames = air_.frames();
   const bool is_idle = std::none_of(frames.begin(), frames.end(), [&](const Frame& f) { return f.end > since; });
@@ -141,7 +141,7 @@ int Medium::draw_slots(std::size_t number) {
   return static_cast<int>(random_.of(channel_->keys[number]).uniform(station.draws++) * (station.window + 1));
 }
 
-// With a first message, perhaps while the slots after its last one are still counted.
+// Starts with a first message, perhaps while backoff after the last one is still running.
 void Medium::start(std::size_t number, Time at) {
   Station& station = stations_[number];
   station.phase = Phase::contending;
@@ -157,7 +157,7 @@ void Medium::start(std::size_t number, Time at) {
   agenda_.put(station.due, station_is_due, 0);
 }
 
-// What the channel is to a station from now on.
+// Updates a station's view of the channel.
 void Medium::look(std::size_t number, Time at) {
   Station& station = stations_[number];
   const bool is_busy = station.phase == Phase::sending || station.sends_ack || station.reserved > at ||
@@ -187,7 +187,7 @@ void Medium::resume(std::size_t number, Time at) {
   agenda_.put(station.due, station_is_due, 0);
 }
 
-// All whose slots end now: none of them could notice the others.
+// Sends from all stations whose slots end now: none of them could detect the others.
 void Medium::send_due(Time at) {
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     Station& station = stations_[i];
@@ -231,7 +231,7 @@ void Medium::end_frame(std::uint64_t id, Time at) {
     if (heard[i] == Heard::whole) stations_[i].heard_wrong = false;
   Station& sender = stations_[frame.sender];
   const bool is_ack = frame.ack_of != nothing;
-  if (is_ack ? sender.sends_ack : sender.phase == Phase::sending && sender.sent == id) {  // else it has left meanwhile
+  if (is_ack ? sender.sends_ack : sender.phase == Phase::sending && sender.sent == id) {  // otherwise it has left since
     air_.deafen(frame.sender, at);
     sender.heard_wrong = false;
     if (is_ack)
@@ -285,7 +285,7 @@ void Medium::end_unicast(const Frame& frame, const std::vector<Heard>& heard, Ti
   agenda_.put(receiver.ack_due, ack_is_due, frame.to);
 }
 
-// An acknowledgement that is being heard by now may still come.
+// An acknowledgement being received by now may still arrive.
 void Medium::end_wait(std::size_t number, Time at) {
   Station& station = stations_[number];
   station.timeout = never;
@@ -334,7 +334,7 @@ void Medium::compete(std::size_t number, int window) {
 
 namespace {
 
-// One list of what a record holds, for both directions.
+// Lists a record's members, for both directions.
 constexpr auto fields = [](auto&& field, auto& s) {
   field(s.phase), field(s.sends_ack), field(s.is_busy), field(s.heard_wrong), field(s.slots), field(s.window);
   field(s.tries), field(s.counts_from), field(s.due), field(s.timeout), field(s.reserved), field(s.sent);

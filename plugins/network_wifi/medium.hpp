@@ -1,6 +1,5 @@
-// Stations that share one channel by the distributed coordination function (IEEE 802.11-2016, 10.3): who counts down,
-// who talks over whom, who acknowledges. A discrete-event simulation with events a transmission, never a receiver and
-// never a slot.
+// Stations that share one channel by the distributed coordination function (IEEE 802.11-2016, 10.3), with backoff,
+// collisions and acknowledgements. A discrete-event simulation with events per transmission, not per receiver or slot.
 #pragma once
 
 #include <string>
@@ -21,11 +20,11 @@ using medium::Report;
 
 struct Settings {
   double noise = 0;  // mW
-  double busy = 0;   // power above which the channel is, whatever it is made of, mW
+  double busy = 0;   // power above which the channel is busy, from any source, mW
   std::size_t rate = 0;
   int channel = 1;
   Time slot = long_slot;
-  std::size_t queue = 64;    // messages that wait at a station
+  std::size_t queue = 64;    // limit of messages in a station's queue
   bool acknowledged = true;  // frames to one receiver
   int retries = 6;           // of a frame; dot11ShortRetryLimit counts the first try, too
 };
@@ -34,7 +33,7 @@ class Medium {
  public:
   explicit Medium(const Stream& random);
 
-  // Everything that outlives a call of run(): the same bytes make the same future.
+  // All state that outlives a call of run(): the same bytes make the same future.
   std::string save() const;
   void load(std::string_view bytes);
 
@@ -44,7 +43,7 @@ class Medium {
     post_.ask(at, from, to, std::move(payload));
   }
 
-  // From `since` to `until`. The report stands until the next run.
+  // Runs from `since` to `until`. The report is valid until the next run.
   const Report& run(Time since, Time until, const Channel& channel, const Settings& settings);
 
  private:
@@ -53,26 +52,26 @@ class Medium {
   struct Station {
     Phase phase = Phase::idle;
     bool sends_ack = false;
-    bool is_busy = false;      // the channel, to it
-    bool heard_wrong = false;  // the last frame that it listened to
+    bool is_busy = false;      // its channel state
+    bool heard_wrong = false;  // the last frame that it received was faulty
     int slots = 0;             // left to count down, at counts_from
     int window = least_window;
     int tries = 0;
     Time counts_from = 0;          // while the channel is idle: since when slots count
-    Time due = medium::never;      // when it sends
-    Time timeout = medium::never;  // when it stops to wait for an acknowledgement
-    Time reserved = 0;             // until then others told it to keep silent
+    Time due = medium::never;      // time of its transmission
+    Time timeout = medium::never;  // end of its wait for an acknowledgement
+    Time reserved = 0;             // NAV: silence until then, set by frames of others
     std::uint64_t sent = medium::nothing;
     bool arrived = false;             // the frame, at its one receiver
     Fate last_loss = Fate::too_weak;  // of the frame, there
     Time ack_due = medium::never;
     std::uint64_t ack_of = medium::nothing;
     std::size_t ack_to = everyone;
-    std::uint64_t draws = 0;  // random numbers used up
+    std::uint64_t draws = 0;  // number of random numbers drawn
   };
 
   Time difs() const { return sifs + 2 * settings_.slot; }
-  Time eifs() const { return sifs + air_time(ack_frame, rates[0]) + difs(); }  // after a frame that came wrong
+  Time eifs() const { return sifs + air_time(ack_frame, rates[0]) + difs(); }  // after a faulty frame
   Time slots_end(const Station& station) const { return station.counts_from + station.slots * settings_.slot; }
 
   void fill_agenda(Time since);

@@ -1,4 +1,4 @@
-// What IEEE 802.11-2016 fixes for ERP-OFDM (802.11g): its clause 18 over clause 17, in a network of such stations
+// Constants of IEEE 802.11-2016 for ERP-OFDM (802.11g): its clause 18 over clause 17, in a network of such stations
 // alone, so with the short slot.
 #pragma once
 
@@ -19,7 +19,7 @@ constexpr Time long_slot = 20 * microsecond;  // of a network without access poi
 constexpr Time short_slot = 9 * microsecond;
 constexpr Time preamble = 16 * microsecond, signal_field = 4 * microsecond, symbol = 4 * microsecond;
 constexpr Time extension = 6 * microsecond;  // of every frame, without signal
-constexpr Time detection = 4 * microsecond;  // aCCATime: by then a frame that began is noticed
+constexpr Time detection = 4 * microsecond;  // aCCATime: a frame is detected this long after its begin
 constexpr int least_window = 15, most_window = 1023;
 
 // Of channels 1 to 13 at 2.4 GHz.
@@ -28,7 +28,7 @@ constexpr medium::Band band_of(int channel) {
   return {middle - 10e6, middle + 10e6};
 }
 
-// Octets. A larger payload goes in pieces, each behind a header of 8 octets as fragments of IPv6 are (RFC 8200).
+// Octets. A larger payload is sent in pieces, each with a header of 8 octets, like fragments of IPv6 (RFC 8200).
 constexpr std::size_t header = 24 + 8 + 4;  // of the frame, of LLC and SNAP, and its check sequence
 constexpr std::size_t ack_frame = 14;
 constexpr std::size_t in_one_frame = 2304 - 8;  // aMSDUMaxSize less LLC and SNAP
@@ -71,9 +71,9 @@ constexpr Time air_time(std::size_t size, const Rate& rate) {
 }
 constexpr Time ack_time(const Rate& rate) { return air_time(ack_frame, rates[rate_of(rate.ack_mbit)]); }
 
-// Share of decoded bits that come wrong at a ratio of signal to noise and interference: the carriers' error rate in
-// white noise, and the union bound of a hard decision Viterbi decoder (Pei and Henderson, Validation of OFDM error rate
-// model in ns-3, 2010; weights of the code: Haccoun and Begin, 1989).
+// Bit error rate after decoding at a ratio of signal to noise and interference: the carriers' error rate in white
+// noise, and the union bound of a hard decision Viterbi decoder (Pei and Henderson, Validation of OFDM error rate model
+// in ns-3, 2010; weights of the code: Haccoun and Begin, 1989).
 inline double bit_error_rate(const Rate& rate, double ratio) {
   const auto tail = [](double x) { return std::erfc(std::sqrt(x)); };
   const double raw = rate.carrier_bits == 1   ? tail(ratio) / 2

@@ -1,4 +1,4 @@
-// What a chain of radios looks like from above: level, rssi, distance and walls of each of its links, tick by tick.
+// Records a chain of radios: level, rssi, distance and walls of each of its links, tick by tick.
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -105,10 +105,10 @@ struct ObserveChain {
     const double weight = k[smoothing] > 0 ? 1 - std::exp(-k.dt() / k[smoothing]) : 1;
     now.smooth = is_null(now.smooth) ? now.rssi : now.smooth + weight * (now.rssi - now.smooth);
     if (now.smooth < k[threshold]) now.below += k.dt();
-    if (!(now.worst <= now.smooth)) now.worst = now.smooth;  // also where there was none
+    if (!(now.worst <= now.smooth)) now.worst = now.smooth;  // also without an earlier one
   }
 
-  // The row of the link on which radio `rx` hears radio `tx`, or -1.
+  // The row of the link from radio `tx` to radio `rx`, or -1.
   int link_of(const Step& k, std::size_t tx, std::size_t rx) const {
     const auto radio = [&](double row) {
       return static_cast<std::size_t>(k[endpoint][static_cast<std::size_t>(row)].radio);
@@ -119,7 +119,7 @@ struct ObserveChain {
     return -1;
   }
 
-  // The row of self/chain is as wide as the chain is long.
+  // The row of self/chain has as many columns as the chain needs.
   struct Row {
     double first;
   };

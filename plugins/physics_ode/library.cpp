@@ -4,7 +4,7 @@
 #include <mutex>
 #include <new>
 
-// What ODE's archive calls stdout and stderr: see CMakeLists.txt.
+// Replacements of stdout and stderr for ODE's archive: see CMakeLists.txt.
 extern "C" {
 FILE* muster_ode_stdout;
 FILE* muster_ode_stderr;
@@ -14,7 +14,7 @@ namespace muster::ode {
 
 namespace {
 
-std::mutex global;  // held for whatever ODE keeps once
+std::mutex global;  // guards ODE's global state
 int users = 0;
 thread_local int* counted = nullptr;
 

@@ -1,4 +1,4 @@
-// ODE itself: the only way in which this plugin includes it, and what of it is global.
+// ODE and its global state: the only header of this plugin that includes it.
 #pragma once
 
 #include <ode/ode.h>
@@ -19,7 +19,7 @@ class Library {
 };
 
 // Counts the messages that ODE prints about steps of the calling thread, from construction on. ("LCP internal error":
-// its exact solver could not settle a contact and left it as it was.)
+// its exact solver could not settle a contact and left it unchanged.)
 class Complaints {
  public:
   Complaints();
@@ -33,11 +33,11 @@ class Complaints {
 };
 
 // dWorldQuickStep shuffles constraints by a generator that all worlds share: it begins at `seed`, and no other quick
-// step runs meanwhile. False where ODE has no memory left.
+// step runs meanwhile. False where ODE is out of memory.
 bool quick_step(dWorldID world, double h, unsigned long seed);
 
-// A way to step on the calling thread, to be outlived by no world that uses it. The one that ODE shares among worlds
-// fails where two of them step at once.
+// Threading of ODE for steps on the calling thread; must outlive the worlds that use it. ODE's default, shared among
+// worlds, fails where two of them step at once.
 class OwnThread {
  public:
   OwnThread();
@@ -52,7 +52,7 @@ class OwnThread {
 
 struct Destroy {
   void operator()(dxWorld* world) const { dWorldDestroy(world); }
-  void operator()(dxSpace* space) const { dSpaceDestroy(space); }  // and what is in it
+  void operator()(dxSpace* space) const { dSpaceDestroy(space); }  // and its contents
   void operator()(dxJointGroup* group) const { dJointGroupDestroy(group); }
 };
 

@@ -16,8 +16,8 @@ Quaterniond turn_of(const Limb& limb) {
   return q.squaredNorm() > 0 ? q.normalized() : Quaterniond::Identity();
 }
 
-// What a joint's damping and friction do: motors that want it to stand, the one as soft as the damping, the other of
-// the friction's strength. `set(parameter, value)` of the motor that `make` makes.
+// Damping and friction of a joint as motors with target rate 0: one as soft as the damping, the other of the friction's
+// strength. `set(parameter, value)` of the motor that `make` makes.
 template <class Make, class Set>
 void brake(const LimbModel& limb, Make make, Set set) {
   const auto motor = [&](double strength, double softness) {
@@ -99,7 +99,7 @@ void join(dWorldID world, const LimbModel& limb, dBodyID body, dBodyID carrier,
           const Eigen::Isometry3d& frame_of_carrier) {
   const Eigen::Isometry3d frame = frame_of_carrier * limb.frame;
   const Vector3d at = frame.translation(), axis = frame.linear() * limb.axis;
-  // ODE takes a lower stop that is above the upper one for none.
+  // ODE ignores a lower stop above the upper one.
   const auto stop = [&](dJointID joint, auto set) {
     if (std::isfinite(limb.lower)) set(joint, dParamLoStop, limb.lower);
     if (std::isfinite(limb.upper)) set(joint, dParamHiStop, limb.upper);

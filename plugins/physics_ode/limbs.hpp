@@ -1,4 +1,4 @@
-// Limbs in ODE: bodies of their own on hinges, sliders and balls that no motor turns.
+// Limbs in ODE: bodies of their own on hinges, sliders and balls without motors.
 #pragma once
 
 #include <array>
@@ -11,12 +11,11 @@ namespace muster::ode {
 
 using description::LimbModel;
 
-// A wheel or limb as ODE has it: a body of its own, which a joint holds only nearly. What it is off by matters: the
-// drift of an axle that turns is what makes ODE's step of second order. In the body's frame, relative to its centre of
-// mass.
+// State of a wheel or limb in ODE: a body of its own, which its joint holds only approximately. The error matters: the
+// drift of a turning axle makes ODE's step second order. In the body's frame, relative to its centre of mass.
 struct HungBody {
   std::array<double, 3> place;       // [m]
-  std::array<double, 4> quaternion;  // all 0: not known yet, as its joint wants it
+  std::array<double, 4> quaternion;  // all 0: not set yet, taken from its joint
   std::array<double, 3> velocity;    // [m/s]
   std::array<double, 3> spin;        // [rad/s]
 };
@@ -31,14 +30,14 @@ struct Moving {
   Eigen::Vector3d velocity_at(const Eigen::Vector3d& place) const { return velocity + spin.cross(place - at); }
 };
 
-// Where its joint wants a limb that hangs as it says.
+// Pose and velocity of a limb by its joint's state.
 Moving carried(const LimbModel& limb, const Limb& now, const Moving& carrier);
 
-// How a limb hangs, by what carries it; `before` says how many turns it has made.
+// The joint's state of a limb from its carrier; `before` gives the number of whole turns.
 Limb hanging(const LimbModel& limb, const Limb& before, const Moving& carrier, const Moving& now);
 
-// Joins two bodies that stand where the limb's joint is at 0, with its limits, damping and friction; `carrier` is where
-// that stands in the world.
+// Joins two bodies placed as with the limb's joint at 0, with its limits, damping and friction; `carrier` is the
+// carrier's pose in the world.
 void join(dWorldID world, const LimbModel& limb, dBodyID body, dBodyID carrier,
           const Eigen::Isometry3d& frame_of_carrier);
 

@@ -14,11 +14,11 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double thinnest = 1e-3;  // [m] of a block: ODE takes no flat ones
+constexpr double thinnest = 1e-3;  // [m] of a block: ODE accepts no flat ones
 
 bool has_inertia(const description::Mass& mass) { return mass.mass > 0 && mass.inertia.llt().info() == Eigen::Success; }
 
-// Why ODE cannot hold a limb; "" if it can.
+// Reason why ODE cannot model a limb; "" if it can.
 std::string why_not(const Robot& robot, const description::LimbJoint& limb) {
   using description::JointKind;
   constexpr double half_turn = 3.14159265358979323846;

@@ -1,5 +1,5 @@
-// What of a robot ODE is given: a rigid body, two wheels that hinge on it or rotors that lift it or nothing that drives
-// it, and shapes that touch.
+// ODE's model of a robot: a rigid body; two wheels hinged to it, rotors that lift it, or no drive; and its collision
+// shapes.
 #pragma once
 
 #include <string>
@@ -9,18 +9,18 @@
 
 namespace muster::ode {
 
-// A sphere fixed to the body, on which it slides smoothly where it is driven, or to a limb.
+// A sphere fixed to the body, which slides on it without friction if driven, or to a limb.
 struct Ball {
-  Eigen::Vector3d centre;  // in the frame of what it is fixed to [m]
+  Eigen::Vector3d centre;  // in the frame of its carrier [m]
   double radius;           // [m]
   int limb = -1;           // -1: the body
 };
 
 // A box fixed to the body or a limb.
 struct Block {
-  Eigen::Isometry3d pose;  // in the frame of what it is fixed to
+  Eigen::Isometry3d pose;  // in the frame of its carrier
   Eigen::Vector3d size;    // full edges [m]
-  bool is_wheel;           // it stands for a wheel among obstacles, where it does not turn; the ground feels its sphere
+  bool is_wheel;           // it represents a wheel among obstacles and does not turn; the ground touches its sphere
   int limb = -1;           // -1: the body
 };
 
@@ -31,15 +31,15 @@ struct Wheel {
 };
 
 struct RobotModel {
-  // Throws std::runtime_error that lists all that this backend lacks for the robot.
+  // Throws std::runtime_error with everything that this backend lacks for the robot.
   explicit RobotModel(const description::Robot& robot);
 
   bool is_driven = true;
-  bool has_wheels = true;  // else what is said of them below is nothing
+  bool has_wheels = true;  // false: the wheels' fields below are unused
   description::DifferentialDrive drive;
   std::optional<description::Quadrotor> rotors;
   double restitution = 0;
-  description::Mass body;  // all that is rigid with the root, in its frame
+  description::Mass body;  // mass of the root and all that is fixed to it, in its frame
   std::array<Wheel, 2> wheel;
   std::vector<description::LimbModel> limbs;
   std::vector<Ball> balls;

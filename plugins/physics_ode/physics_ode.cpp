@@ -14,7 +14,7 @@ using namespace muster;
 using description::Model;
 using description::WorldRobots;
 
-// Wheels as ODE has them, see ode::HungBody: the left one, then the right one.
+// State of the wheels in ODE, see ode::HungBody: the left one, then the right one.
 struct Hinged {
   static constexpr const char* columns =
       "left_x[m] left_y[m] left_z[m] left_qw left_qx left_qy left_qz left_vx[m/s] left_vy[m/s] left_vz[m/s] "
@@ -24,7 +24,7 @@ struct Hinged {
   std::array<ode::HungBody, 2> wheel;
 };
 
-// Limbs as ODE has them, in the order of the robot's model.
+// State of the limbs in ODE, in the order of the robot's model.
 struct Hung {
   static constexpr const char* columns =
       "x1[m] y1[m] z1[m] qw1 qx1 qy1 qz1 vx1[m/s] vy1[m/s] vz1[m/s] wx1[rad/s] wy1[rad/s] wz1[rad/s] "
@@ -108,7 +108,7 @@ struct PhysicsOde {
     make([&](std::size_t row) { return s.host()->row_name(s.host(), "robot", static_cast<uint32_t>(row)); });
   }
 
-  // What the engine is made of. Parameters come with the first step.
+  // Inputs from which the engine is built. Parameters come with the first step.
   struct Made {
     ode::Settings settings;
     std::vector<std::size_t> rows;
@@ -141,7 +141,7 @@ struct PhysicsOde {
   void step(const Step& k) {
     Made now{settings(k), {}, {}};
     for (std::size_t i = 0; i < k[pose].size(); ++i) {
-      k[pose][i] = k.last(pose)[i];  // what has left stays as it was
+      k[pose][i] = k.last(pose)[i];  // robots that left keep their state
       k[twist][i] = k.last(twist)[i];
       k[wheels][i] = k.last(wheels)[i];
       k[hinged][i] = k.last(hinged)[i];
@@ -160,7 +160,7 @@ struct PhysicsOde {
     move(k);
   }
 
-  // As they stand in this tick: doors may have moved.
+  // Walls with the doors' states of this tick.
   void stand_walls(const Step& k) {
     std::vector<double> now{1};  // never empty: none are known yet
     const auto append = [&](const auto rows) {
@@ -233,7 +233,7 @@ struct PhysicsOde {
   Value step_size, solver, iterations, over_relaxation, erp, cfm, friction, obstacles;
   Stream shuffle;
   WorldRobots robots;
-  bool flies;  // some robots have rotors; else nothing is claimed about them
+  bool flies;  // some robots have rotors; otherwise their tables are not claimed
   In<Drive> drive;
   In<RotorDrive> rotor_drive{};
   In<Wall> walls;
@@ -251,7 +251,7 @@ struct PhysicsOde {
   Made made;
   std::unique_ptr<ode::World> world;
   std::vector<double> known_walls;      // and doors, that stand in `world`
-  std::vector<ode::RobotState> states;  // room, kept from step to step
+  std::vector<ode::RobotState> states;  // buffer, kept from step to step
   std::vector<ode::Command> commands;
 };
 

@@ -13,14 +13,14 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double push_out = 0.2;        // fastest way out of what was entered [m/s]
+constexpr double push_out = 0.2;        // highest speed out of penetrations [m/s]
 constexpr double fastest = 1e3;         // [m/s], [rad/s]: beyond, the motion has blown up
-constexpr double thinnest_wall = 0.02;  // [m]: through less, a robot may step without having touched it
-constexpr int most_contacts = 8;        // of two shapes: as many as two boxes make
+constexpr double thinnest_wall = 0.02;  // [m]: a robot may step through less without a contact
+constexpr int most_contacts = 8;        // of two shapes: the most that two boxes make
 constexpr double smooth = 0, as_the_other = std::numeric_limits<double>::infinity();  // of a surface
 constexpr double slowest_bounce = 0.02;                                               // [m/s]
 
-// What meets what. Robots are spaces of their own, whose parts do not meet.
+// Collision categories. Robots are spaces of their own, whose parts do not collide.
 constexpr unsigned long ground = 1, part = 2, wall = 4, tyre = 8;
 
 dMass mass_of(const description::Mass& m) {
@@ -39,12 +39,12 @@ Vector3d vector(const dReal* values) { return {values[0], values[1], values[2]};
 std::array<double, 3> array(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 Quaterniond quaternion(const dReal* values) { return {values[0], values[1], values[2], values[3]}; }
 
-// Of a wheel's centre of mass, in the body's frame, at an angle of the wheel.
+// Position of a wheel's centre of mass in the body's frame, at an angle of the wheel.
 Vector3d centre(const Wheel& wheel, double angle) {
   return wheel.frame * (Eigen::AngleAxisd(angle, wheel.axis) * wheel.mass.centre);
 }
 
-// Where its hinge wants it, on a body that turns with `spin` (in its own frame).
+// State given by its hinge, on a body that turns with `spin` (in its own frame).
 HungBody as_hinged(const Wheel& wheel, const Vector3d& body_centre, const Vector3d& spin, double angle, double rate) {
   const Vector3d hub = wheel.frame.translation(), middle = centre(wheel, angle);
   const Vector3d own = rate * (wheel.frame.linear() * wheel.axis);
@@ -54,7 +54,7 @@ HungBody as_hinged(const Wheel& wheel, const Vector3d& body_centre, const Vector
   return {array(place), {q.w(), q.x(), q.y(), q.z()}, array(velocity), array(own)};
 }
 
-// The frame in which its mass is given, of a body that ODE has by its centre of mass.
+// The frame of a body's mass data, from ODE's body, which is placed by its centre of mass.
 Moving frame_of(dBodyID body, const description::Mass& mass) {
   const Quaterniond q = quaternion(dBodyGetQuaternion(body));
   const Vector3d place = vector(dBodyGetPosition(body)), spin = vector(dBodyGetAngularVel(body));
@@ -63,7 +63,7 @@ Moving frame_of(dBodyID body, const description::Mass& mass) {
   return {at, centre.turned, centre.velocity_at(at), spin};
 }
 
-// Limbs where their joints want them, on a body that turns with `spin` (in its own frame).
+// States of limbs given by their joints, on a body that turns with `spin` (in its own frame).
 std::vector<HungBody> as_hung(const RobotModel& robot, const Limbs& limbs, const Vector3d& spin) {
   const Vector3d centre = robot.body.centre;
   const Moving body{Vector3d::Zero(), Eigen::Matrix3d::Identity(), spin.cross(-centre), spin};
@@ -98,7 +98,7 @@ World::World(const std::vector<NamedRobot>& robots, const Settings& settings)
   surfaces_of_robots_ = surfaces_.size();
 }
 
-// Of a mass in its own frame, which stands there in the world.
+// Makes a body of this mass, whose own frame is at `frame` in the world.
 dBodyID World::add_body(const description::Mass& mass, const Isometry3d& frame) const {
   dBodyID made = dBodyCreate(world_.get());
   const dMass m = mass_of(mass);
@@ -110,7 +110,7 @@ dBodyID World::add_body(const description::Mass& mass, const Isometry3d& frame) 
   return made;
 }
 
-// Bodies stand where the robot's frame is the world's; their joints and shapes keep the places that they have then.
+// Bodies are placed with the robot's frame at the world's; joints and shapes keep those relative places.
 void World::add(Robot& robot) {
   robot.body = add_body(robot.model.body, Isometry3d::Identity());
   for (std::size_t w = 0; robot.model.has_wheels && w < 2; ++w) {
@@ -121,7 +121,7 @@ void World::add(Robot& robot) {
     dJointAttach(robot.hinge[w], robot.wheel[w], robot.body);
     dJointSetHingeAnchor(robot.hinge[w], anchor.x(), anchor.y(), anchor.z());
     dJointSetHingeAxis(robot.hinge[w], axis.x(), axis.y(), axis.z());
-    // Beside the hinge, not its own: see README.md.
+    // Separate from the hinge's own motor: see README.md.
     robot.motor[w] = dJointCreateAMotor(world_.get(), nullptr);
     dJointAttach(robot.motor[w], robot.wheel[w], robot.body);
     dJointSetAMotorNumAxes(robot.motor[w], 1);
@@ -139,10 +139,10 @@ void World::add(Robot& robot) {
   add_shapes(robot, limbs);
 }
 
-// `limbs`: where they stand now.
+// `limbs`: their present frames.
 void World::add_shapes(const Robot& robot, const std::vector<Isometry3d>& limbs) {
   dSpaceID own = dSimpleSpaceCreate(space_.get());
-  const auto fix = [&](dGeomID geom, dBodyID body, const Isometry3d& pose) {  // in the world, where bodies stand now
+  const auto fix = [&](dGeomID geom, dBodyID body, const Isometry3d& pose) {  // in the world, where bodies are now
     const Quaterniond q(pose.linear());
     const dQuaternion turned = {q.w(), q.x(), q.y(), q.z()};
     dSpaceAdd(own, geom);
@@ -172,7 +172,7 @@ void World::add_shapes(const Robot& robot, const std::vector<Isometry3d>& limbs)
   }
 }
 
-// Surfaces are numbered as they come: contacts are made in the order of these numbers, whatever order ODE finds.
+// Surfaces are numbered in the order of creation: contacts are made in that order, not in ODE's.
 dGeomID World::add_geom(dGeomID geom, unsigned long category, unsigned long meets, double friction,
                         double restitution) {
   dGeomSetCategoryBits(geom, category);
@@ -254,7 +254,7 @@ void World::ask(const Robot& robot, const Command& command, double at) const {
   }
 }
 
-// Rotors as they turn in the middle of the step, on the body as it moves at its start.
+// Rotors' rates are those in the middle of the step, the body's motion that at its start.
 void World::lift(const Robot& robot, const Command& command, double h, RobotState& state) {
   const description::Quadrotor& rotors = *robot.model.rotors;
   const auto middle = rotors.later(state.rotors, command.rotors, rotors.decay(h / 2));
@@ -277,7 +277,7 @@ void World::near(void* world, dGeomID a, dGeomID b) {
   pairs.push_back(ordered ? Pair{a, b, first, second} : Pair{b, a, second, first});
 }
 
-// Contacts of the step to come. ODE finds pairs in an order that depends on what moved last: they are sorted.
+// Contacts of the next step. ODE finds pairs in an order that depends on recent motion: they are sorted.
 void World::touch() {
   dJointGroupEmpty(contacts_.get());
   pairs_.clear();

@@ -1,5 +1,5 @@
-// Robots in an ODE world, as a function of what is handed in: pose, twist, wheels, what hinges are off by, and
-// commands. Bodies are set from it before each step, so a remade world does the same arithmetic, bit for bit.
+// Robots in an ODE world, as a function of inputs: pose, twist, wheels, hinge errors and commands. Bodies are set from
+// them before each step, so a remade world does the same arithmetic, bit for bit.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ struct Settings {
   bool quick = false;            // dWorldQuickStep instead of dWorldStep
   int iterations = 50;           // of it
   double over_relaxation = 1.3;  // of it
-  double erp = 0.2;              // share of a joint's or contact's error that a step takes back
+  double erp = 0.2;              // share of a joint's or contact's error corrected per step
   double cfm = 1e-10;            // softness of joints and contacts
   double friction = 0.3;         // of bodies, with walls, robots and ground
   bool obstacles = true;         // walls and other robots stop a robot
@@ -32,7 +32,7 @@ struct Settings {
   }
 };
 
-// Wheel rates asked for at the tick's start, and their slopes over the tick; rotors' rates held over it.
+// Commanded wheel rates at the tick's start, and their slopes over the tick; rotors' rates held over it.
 struct Command {
   double left, right;              // [rad/s]
   double left_rate, right_rate;    // [rad/s2]
@@ -45,8 +45,8 @@ struct RobotState {
   std::array<double, 2> angle;  // of the wheels, left and right [rad]
   std::array<double, 2> rate;   // [rad/s]
   std::array<HungBody, 2> hinged;
-  std::array<double, 4> rotors{};  // as they turn [rad/s]
-  Limbs limbs{};                   // as they hang
+  std::array<double, 4> rotors{};  // present rates [rad/s]
+  Limbs limbs{};                   // present states
   std::array<HungBody, Limbs::most> hung{};
 };
 
@@ -57,13 +57,14 @@ struct NamedRobot {
 
 class World {
  public:
-  // Throws std::runtime_error for a robot that it cannot hold.
+  // Throws std::runtime_error for a robot that it cannot model.
   World(const std::vector<NamedRobot>& robots, const Settings& settings);
 
   void set_walls(const std::vector<scene::Slab>& walls);
 
-  // From t to t + dt [s]; one command and one state a robot, in the order of the robots. `seed`: of quick steps.
-  // Returns how often ODE complained. Throws std::runtime_error naming the robot whose motion is no longer finite.
+  // Steps from t to t + dt [s]; one command and one state a robot, in the order of the robots. `seed`: of quick steps.
+  // Returns the number of ODE's complaints. Throws std::runtime_error naming the robot whose motion is no longer
+  // finite.
   int step(double dt, const std::vector<Command>& commands, std::vector<RobotState>& states, unsigned long seed);
 
  private:
@@ -108,7 +109,7 @@ class World {
   std::unique_ptr<dxSpace, Destroy> space_;
   std::unique_ptr<dxJointGroup, Destroy> contacts_;
   std::vector<Robot> robots_;
-  std::deque<Surface> surfaces_;  // what shapes point at
+  std::deque<Surface> surfaces_;  // targets of the shapes' user pointers
   std::vector<dGeomID> walls_;
   std::size_t surfaces_of_robots_ = 0;
   std::vector<Pair> pairs_;

@@ -1,4 +1,4 @@
-// A robot on two wheels as a point with a heading: exact arcs, and a bound on how fast its velocity changes.
+// A robot on two wheels as a point with a heading: exact arcs, and a bound on its acceleration.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ inline double heading(const Pose& p) {
   return std::atan2(2 * (p.qw * p.qz + p.qx * p.qy), 1 - 2 * (p.qy * p.qy + p.qz * p.qz));
 }
 
-// The pose turned about the world's vertical; its tilt stays.
+// Turns the pose about the world's vertical; its tilt stays.
 inline void turn(Pose& p, double angle) {
   const double c = std::cos(angle / 2), s = std::sin(angle / 2);
   const double q[] = {c * p.qw - s * p.qz, c * p.qx - s * p.qy, c * p.qy + s * p.qx, c * p.qz + s * p.qw};
@@ -28,9 +28,8 @@ inline void turn(Pose& p, double angle) {
   p.qw = q[0] / size, p.qx = q[1] / size, p.qy = q[2] / size, p.qz = q[3] / size;
 }
 
-// One step of dt [s] with the wheel rates asked for at its middle. The velocity becomes theirs, as far as a change of
-// at most acceleration [m/s2] times dt allows; for the turn rate the bound is that of a wheel on its circle about the
-// body's middle.
+// One step of dt [s] with the commanded wheel rates at its middle. The velocity approaches theirs, changing by at most
+// acceleration [m/s2] times dt. The bound on the turn rate is that of a wheel on its circle about the body's middle.
 inline Body stepped(Body b, const Drive& asked, const description::DifferentialDrive& drive, double acceleration,
                     double dt) {
   const double left = drive.limited_rate(asked.left + 0.5 * dt * asked.left_rate);
@@ -54,7 +53,7 @@ inline Body stepped(Body b, const Drive& asked, const description::DifferentialD
   turn(b.pose, dt * w);
   b.twist = {vx, vy, 0, 0, 0, w};
 
-  const double v = vx * ex + vy * ey;  // the wheels roll: what the body does along its heading
+  const double v = vx * ex + vy * ey;  // the wheels roll: speed of the body along its heading
   b.wheels.left_rate = drive.left_rate(v, w);
   b.wheels.right_rate = drive.right_rate(v, w);
   b.wheels.left += dt * b.wheels.left_rate;

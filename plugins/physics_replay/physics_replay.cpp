@@ -32,7 +32,7 @@ struct PhysicsReplay {
 
   struct Course {
     replay::Track track;
-    bool has_height = false;  // else the height stays as it is
+    bool has_height = false;  // false: the height stays
   };
 
   explicit PhysicsReplay(Setup& s)
@@ -106,7 +106,7 @@ struct PhysicsReplay {
   Out<Twist> twist;
   Out<Wheels> wheels;
   Out<Model> model;
-  std::vector<Course> courses;  // of the file alone, a robot each
+  std::vector<Course> courses;  // from the file alone, one for each robot
   bool is_read = false;
 };
 

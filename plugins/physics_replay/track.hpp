@@ -1,4 +1,4 @@
-// A measured course: poses at times, between which a body is carried evenly.
+// A measured course: poses at times, with interpolation between them.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -18,7 +18,7 @@ struct Placed {
   Eigen::Quaterniond turn;
 };
 
-// Samples by rising time. Before the first and after the last the body stands.
+// Samples by rising time. Before the first and after the last the body is at rest.
 class Track {
  public:
   bool empty() const { return samples_.empty(); }
@@ -37,7 +37,7 @@ class Track {
     const Sample& a = *(after - 1);
     if (after == samples_.end()) return {a.place, a.turn};
     const double share = (t - a.t) / (after->t - a.t);
-    // slerp takes the shorter way round, so headings that wrap in the data need no care.
+    // slerp takes the shorter arc, so headings that wrap in the data need no care.
     return {a.place + share * (after->place - a.place), a.turn.slerp(share, after->turn)};
   }
 

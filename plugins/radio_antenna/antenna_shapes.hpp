@@ -1,4 +1,4 @@
-// Antennas with a formula: what they radiate in a direction, over what they radiate along their lobe, in dB.
+// Antennas with a formula: gain in a direction relative to that along the lobe, in dB.
 #pragma once
 
 #include <limits>
@@ -17,14 +17,15 @@ inline double dipole_shape(const Direction& d) {
   return 10 * std::log10(field * field / across);
 }
 
-// Power goes as a cosine's power off the lobe, and nothing to the back; half of it is left at half the beamwidth [rad].
+// Power is a power of the cosine of the angle off the lobe, with none to the back; at half the beamwidth [rad] it is
+// halved.
 inline double cosine_shape(const Direction& d, double beamwidth) {
   const double order = std::log(0.5) / std::log(std::cos(beamwidth / 2));
   return d.x > 0 ? 10 * order * std::log10(d.x) : nothing;
 }
 
-// The sector of 3GPP TR 36.814, table A.2.1.1-2: parabolas in dB over azimuth and elevation, no further down than
-// `depth`. Beamwidths at half power [rad].
+// The sector of 3GPP TR 36.814, table A.2.1.1-2: parabolas in dB over azimuth and elevation, down to `depth` at most.
+// Beamwidths at half power [rad].
 inline double sector_shape(const Direction& d, double beamwidth, double beamwidth_up, double depth) {
   const double aside = azimuth(d) / beamwidth, up = elevation(d) / beamwidth_up;
   return -std::min(12 * aside * aside, depth) - std::min(12 * up * up, depth);

@@ -1,4 +1,4 @@
-// Directions as an antenna sees them: its own x axis runs along the lobe, y to its left, z up.
+// Directions in an antenna's frame: x along the lobe, y to its left, z up.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace muster {
 
 constexpr double half_turn = 3.141592653589793;
 
-// Of length one; all zero where there is no direction.
+// A unit vector; all zero for no direction.
 struct Direction {
   double x, y, z;
 };
@@ -17,14 +17,14 @@ struct Direction {
 inline double azimuth(const Direction& d) { return std::atan2(d.y, d.x); }
 inline double elevation(const Direction& d) { return std::asin(std::clamp(d.z, -1.0, 1.0)); }
 
-// From one antenna to the other, in the world. None where both are in one place.
+// From one antenna to the other, in the world. No direction if both are in one place.
 inline Direction from_to(const Pose& from, const Pose& to) {
   const double x = to.x - from.x, y = to.y - from.y, z = to.z - from.z, length = std::sqrt(x * x + y * y + z * z);
   if (length == 0) return {0, 0, 0};
   return {x / length, y / length, z / length};
 }
 
-// A direction in the world, as it is in the frame of a body: v + 2 u x (u x v - w v) for its quaternion (w, u).
+// A direction in the world, transformed to the frame of a body: v + 2 u x (u x v - w v) for its quaternion (w, u).
 inline Direction in_frame(const Pose& body, const Direction& v) {
   const double cx = body.qy * v.z - body.qz * v.y - body.qw * v.x;
   const double cy = body.qz * v.x - body.qx * v.z - body.qw * v.y;
@@ -33,8 +33,8 @@ inline Direction in_frame(const Pose& body, const Direction& v) {
           v.z + 2 * (body.qx * cy - body.qy * cx)};
 }
 
-// How an antenna is turned on its radio: by `azimuth` to the left, then by `elevation` upward, then by `roll` about its
-// own x axis. The place is left at zero.
+// Orientation of an antenna on its radio: by `azimuth` to the left, then by `elevation` upward, then by `roll` about
+// its own x axis. The place is left at zero.
 inline Pose turn(double azimuth, double elevation, double roll) {
   const double ca = std::cos(azimuth / 2), sa = std::sin(azimuth / 2);
   const double ce = std::cos(elevation / 2), se = -std::sin(elevation / 2);  // about y, downward is positive
@@ -48,8 +48,8 @@ inline Pose turn(double azimuth, double elevation, double roll) {
           sa * ce * cr - ca * se * sr};
 }
 
-// The mean over all directions of value(direction), by the midpoint rule over the sphere's height and turn: fine enough
-// for lobes from 0.1 rad.
+// The mean over all directions of value(direction), by the midpoint rule over the sphere's height and azimuth: fine
+// enough for lobes from 0.1 rad.
 template <class Value>
 double mean_over_sphere(const Value& value) {
   constexpr int heights = 256, turns = 256;

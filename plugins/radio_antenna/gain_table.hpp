@@ -22,7 +22,7 @@ class GainTable {
  public:
   GainTable() = default;
 
-  // Rows in any order. Throws BadInput where they are no grid over the sphere, or radiate more than they are fed.
+  // Rows in any order. Throws BadInput where they are no grid over the sphere, or radiate more power than they receive.
   explicit GainTable(Rows<const MeasuredGain> rows) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (std::abs(rows[i].azimuth) > half_turn + slack || std::abs(rows[i].elevation) > half_turn / 2 + slack)
@@ -60,7 +60,7 @@ class GainTable {
   static constexpr double slack = 1e-3;       // rad, of pi written with three digits or more
   static constexpr double calibration = 0.5;  // dB
 
-  // Two neighbours and the share of the second.
+  // Two neighbours and the weight of the second.
   struct Between {
     std::size_t first, second;
     double share;
@@ -91,7 +91,7 @@ class GainTable {
 
   double at(std::size_t azimuth, std::size_t elevation) const { return gains_[elevation * azimuths_.size() + azimuth]; }
 
-  // Past the last azimuth comes the first.
+  // Wraps from the last azimuth to the first.
   Between around(double azimuth) const {
     const auto next = std::upper_bound(azimuths_.begin(), azimuths_.end(), azimuth);
     const bool inside = next != azimuths_.begin() && next != azimuths_.end();

@@ -1,4 +1,4 @@
-// What the antennas at both ends of a link make of its direction.
+// Gains of the antennas at both ends of a link, by its direction.
 #include <array>
 #include <muster/plugin.hpp>
 #include <optional>
@@ -11,7 +11,7 @@ namespace {
 
 using namespace muster;
 
-// The highest gain of the antenna that a radio has from an instance; null where it has none from it.
+// The highest gain of the antenna that an instance gives a radio; null where it gives none.
 struct HighestGain {
   static constexpr const char* columns = "gain[dBi]?";
   double gain;
@@ -61,7 +61,7 @@ mean gain is at most 0 dBi. Polarisation does not count, nor a coupling to the b
         ends(s.read<Ends>("link/*/ends")),
         level(s.add<Level>("link/*/level")),
         is_of_one(s.param("radio") >= 0) {
-    // A radio's second antenna is its second writer, and the second that is common to all others is theirs.
+    // Claims detect a second antenna of a radio as its second writer, and a second common antenna likewise.
     if (is_of_one) {
       highest = s.write<HighestGain>("radio/{radio}/antenna");
     } else {
@@ -89,7 +89,7 @@ mean gain is at most 0 dBi. Polarisation does not count, nor a coupling to the b
       k[level][i].level = gain(links[i].tx, links[i].rx) + gain(links[i].rx, links[i].tx);
   }
 
-  // Which radios have this antenna, and that they have.
+  // Radios that have this antenna; publishes their highest gain.
   std::vector<char> own_radios(const Step& k) const {
     std::vector<char> own(k.rows("radio"), is_of_one ? 0 : 1);
     const double gain = (k[pattern] == table ? measured.highest() : directivity) - k[loss];
@@ -106,7 +106,7 @@ mean gain is at most 0 dBi. Polarisation does not count, nor a coupling to the b
     return own;
   }
 
-  // What depends on parameters alone is made again when they change.
+  // Recomputes values of the parameters alone, when these change.
   void prepare(const Step& k) {
     mounted = turn(k[azimuth], k[elevation], k[roll]);
     const std::array<double, 4> now{k[pattern], k[beamwidth], k[beamwidth_up], k[depth]};
@@ -120,13 +120,13 @@ mean gain is at most 0 dBi. Polarisation does not count, nor a coupling to the b
     prepared = now;
   }
 
-  // In dBi. Where there is no direction it is that of the mean over all.
+  // In dBi. Without a direction: the mean over all directions.
   double gain_toward(const Step& k, const Direction& d) const {
     if (d.x == 0 && d.y == 0 && d.z == 0) return -k[loss];
     return (k[pattern] == table ? measured.gain(d) : directivity + shape(k, d)) - k[loss];
   }
 
-  // In dB, to the highest gain.
+  // In dB, relative to the highest gain.
   double shape(const Step& k, const Direction& d) const {
     double result = 0;
     if (k[pattern] == dipole) result = dipole_shape(d);
@@ -149,7 +149,7 @@ mean gain is at most 0 dBi. Polarisation does not count, nor a coupling to the b
   GainTable measured;
   std::optional<std::array<double, 4>> prepared;
   double directivity = 0;  // dBi, of a shape
-  Pose mounted{};          // how the antenna is turned on its radio
+  Pose mounted{};          // the antenna's orientation on its radio
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Robots in the way of radio links.
+// Robots that block radio links.
 #include <algorithm>
 #include <cmath>
 #include <muster/plugin.hpp>
@@ -50,13 +50,13 @@ radio.)";
     return k[mount][static_cast<std::size_t>(k[endpoint][end].radio)].robot;
   }
 
-  // Both ways alike to the last bit: the ends come in an order of their places.
+  // Reciprocal to the last bit: the ends are ordered by their places.
   bool is_between(const Step& k, const Pose& one, const Pose& two, const Pose& body) const {
     const bool in_order = std::tie(one.x, one.y, one.z) < std::tie(two.x, two.y, two.z);
     const Pose &a = in_order ? one : two, &b = in_order ? two : one;
     const double x = b.x - a.x, y = b.y - a.y, square = x * x + y * y;
     if (square <= 0) return false;
-    // Where the link passes nearest in plan.
+    // The link's nearest point in plan.
     const double at = std::clamp(((body.x - a.x) * x + (body.y - a.y) * y) / square, 0.0, 1.0);
     const double z = a.z + at * (b.z - a.z) - body.z;
     return std::hypot(a.x + at * x - body.x, a.y + at * y - body.y) < k[radius] && z >= 0 && z < k[height];

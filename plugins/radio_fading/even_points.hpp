@@ -1,5 +1,5 @@
-// Points that fill a cube evenly, by the additive recurrence of the generalised golden ratios (Roberts 2018). Under a
-// random shift each point alone is uniform, so whatever is averaged over them keeps its expectation and varies less.
+// Low-discrepancy points in a cube, by the additive recurrence of the generalised golden ratios (Roberts 2018). Under a
+// random shift each point alone is uniform, so an average over them keeps its expectation and has less variance.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace muster {
 
-// Point i of those that start at `shift`; both in [0, 1).
+// Point i of the sequence that starts at `shift`; both in [0, 1).
 template <std::size_t dimensions>
 std::array<double, dimensions> even_point(std::size_t i, std::array<double, dimensions> shift) {
   static const double ratio = [] {  // the root of x^(d + 1) = x + 1: 1.3247 in the plane, 1.2207 in space

@@ -1,9 +1,9 @@
-// Small-scale fading by plane waves that all radios share, so that it belongs to the place: symmetric, without state,
-// the same on return, still while nobody moves, with the Doppler spectrum of the motion otherwise.
+// Small-scale fading by plane waves that all radios share, so that it is a function of place: symmetric, without state,
+// repeatable, constant while nothing moves, with the Doppler spectrum of the motion otherwise.
 //
 // Each end's waves come from all around, as in Clarke, A statistical theory of mobile-radio reception, Bell Syst. Tech.
 // J. 47 (1968): the complex gain of a link decorrelates as J0(2 pi s / wavelength) when one end moves by s over the
-// ground. A small spread in elevation (Aulin 1979) lets it change with height too.
+// ground. A small spread in elevation (Aulin 1979) makes it change with height too.
 #pragma once
 
 #include <cmath>
@@ -20,12 +20,12 @@ class Multipath {
 
   explicit Multipath(const Stream& random);
 
-  // What links need of their ends; places in wavelengths.
+  // Precomputed values of the ends; places in wavelengths.
   std::vector<Tile> at(const std::vector<FieldPoint>& places,
                        const waves::WaveKernel& kernel = waves::best_wave_kernel()) const;
 
-  // Power gains from a place of one tile to the wanted ones of another, with a steady part K times as strong as the
-  // diffuse one; of mean 1. Bit for bit the same both ways.
+  // Power gains from a place of one tile to the wanted ones of another, of mean 1, with a steady part K times as strong
+  // as the diffuse one. Bit for bit the same both ways.
   void gains(const Tile& from, int place, const Tile& to, unsigned wanted, double k, double* out,
              const waves::WaveKernel& kernel = waves::best_wave_kernel()) const {
     double re[waves::tile], im[waves::tile];

@@ -1,5 +1,5 @@
-// Shadowing and fading of a pair of radios as processes along their ways, autoregressive of first order, as network
-// simulators have them: each value from the last one and something new.
+// Shadowing and fading of a pair of radios as first-order autoregressive processes along their paths, as in network
+// simulators.
 #pragma once
 
 #include <algorithm>
@@ -10,17 +10,17 @@
 
 namespace muster {
 
-// What is left of a value when the ends have moved by a and b.
+// Correlation that remains after the ends have moved by a and b.
 inline double shadowing_left(double a, double b, double decorrelation) { return std::exp(-(a + b) / decorrelation); }
 inline double fading_left(double a, double b, double wavelength) {  // Akki and Haber 1986
   const double turn = 6.283185307179586 / wavelength;
   return std::cyl_bessel_j(0, turn * a) * std::cyl_bessel_j(0, turn * b);
 }
 
-// How much of a new draw keeps the variance. A share may be rounded beyond one.
+// Factor of a new draw that keeps the variance. A correlation may be rounded beyond one.
 inline double rest(double left) { return std::sqrt(std::max(0.0, 1 - left * left)); }
 
-// The state of a pair, kept from tick to tick: doubles and no more.
+// The state of a pair, kept from tick to tick: doubles only.
 struct PairProcess {
   struct Place {
     double x, y, z;
@@ -31,11 +31,11 @@ struct PairProcess {
 
   double low, high;  // the radios' rows, low < high
   Place at_low, at_high;
-  double moves;   // so far: the number of the next draw
+  double moves;   // so far: index of the next draw
   double shadow;  // normal, of variance 1
   double re, im;  // complex normal, of mean power 1
 
-  // To where its radios are now. `random` is the pair's own. Where neither has moved, nothing changes.
+  // Advances to the radios' present places. `random` is the pair's own. Where neither has moved, nothing changes.
   void follow(const Pose& now_low, const Pose& now_high, double decorrelation, double wavelength,
               const Stream& random) {
     const double a = moves > 0 ? at_low.to(now_low) : 0, b = moves > 0 ? at_high.to(now_high) : 0;

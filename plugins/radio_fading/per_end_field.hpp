@@ -1,6 +1,6 @@
-// Shadowing as a field over the places of both ends, whatever lies between them: correlated as exp(-moved / D) for each
-// end. Gudmundson, Correlation model for shadow fading in mobile radio systems, Electronics Letters 27(23), 1991, for a
-// link whose ends both move.
+// Shadowing as a field over the places of both ends, independent of the space between them: correlated as exp(-moved /
+// D) for each end. Gudmundson, Correlation model for shadow fading in mobile radio systems, Electronics Letters 27(23),
+// 1991, for a link whose ends both move.
 #pragma once
 
 #include <array>
@@ -47,7 +47,7 @@ class PerEndField {
     return sum / std::sqrt(waves * (1 + std::exp(-2 * distance(p, q))));
   }
 
-  // Between two links: over both ways in which the ends of one go with those of the other.
+  // Correlation of two links: over both pairings of their ends.
   static double correlation(const End& p, const End& q, const End& u, const End& v) {
     const double together = std::exp(-distance(p, u) - distance(q, v)) + std::exp(-distance(p, v) - distance(q, u));
     return together / std::sqrt((1 + std::exp(-2 * distance(p, q))) * (1 + std::exp(-2 * distance(u, v))));
@@ -59,7 +59,7 @@ class PerEndField {
     double at(double px, double py, double pz) const { return x * px + y * py + z * pz + phase; }
   };
 
-  // The spectrum of exp(-r) in space is Cauchy's: a normal vector over the size of another normal.
+  // The spectrum of exp(-r) in space is Cauchy's: a normal vector divided by the magnitude of another normal.
   static Wave wave(const Stream& random, double phase) {
     const double size = std::abs(random.normal(3));
     return {random.normal(0) / size, random.normal(1) / size, random.normal(2) / size, phase};

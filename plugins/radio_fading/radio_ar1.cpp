@@ -1,4 +1,4 @@
-// Shadowing and fading as processes of each pair of radios: for comparison with what belongs to places.
+// Shadowing and fading as processes of each pair of radios, for comparison with fields over places.
 #include <algorithm>
 #include <cstring>
 #include <map>
@@ -85,7 +85,7 @@ tick begins anew. Expectations are those of radio.fading.)";
     return result;
   }
 
-  // Links of one pair go on where the one before left it: the way back stands where the way out does.
+  // Links of one pair advance one process in turn: the reverse link has the values of the forward one.
   const PairProcess& followed(const Step& k, const Ends& link, const Pairs& before, Pairs& now) const {
     auto tx = static_cast<std::size_t>(link.tx), rx = static_cast<std::size_t>(link.rx);
     if (k[endpoint][rx].radio < k[endpoint][tx].radio) std::swap(tx, rx);

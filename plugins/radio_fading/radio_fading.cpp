@@ -1,4 +1,5 @@
-// What the floor plan does not tell: shadowing as a field over the environment, and fading by interference of waves.
+// Channel effects beyond the floor plan: shadowing as a field over the environment, and fading by interference of
+// waves.
 #include <array>
 #include <muster/plugin.hpp>
 #include <muster/reverse_links.hpp>
@@ -67,7 +68,7 @@ the gain whose dB is the mean of its dB: -2.507 dB under Rayleigh fading.)";
     if (shadows || interferes) evaluate(k, shadows, interferes, ratio);
   }
 
-  // Of both fields those that are asked for.
+  // Evaluates the requested ones of the two fields.
   void evaluate(const Step& k, bool shadows, bool interferes, double ratio) const {
     const auto shadow_at = shadows ? field.at(places(k[pose], k[decorrelation])) : std::vector<ShadowField::Tile>();
     const auto waves_at =

@@ -1,4 +1,4 @@
-// Shadowing by the places of the two ends alone: for comparison with a field that fills what lies between.
+// Shadowing by the places of the two ends alone, for comparison with a field over the space between them.
 #include <muster/plugin.hpp>
 #include <muster/reverse_links.hpp>
 #include <vector>

@@ -1,4 +1,4 @@
-// Random draws that belong to one reading: the two radios, where they stood and when, in either order.
+// Random draws of one reading, keyed by its two radios, their places and its time, in either order.
 #pragma once
 
 #include <algorithm>

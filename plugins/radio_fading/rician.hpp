@@ -1,4 +1,5 @@
-// The law of small-scale fading: a steady part and a diffuse one, K times weaker, with mean power one (Rice 1948).
+// The Rician law of small-scale fading: a steady part and a diffuse one, K times weaker, with mean power one (Rice
+// 1948).
 #pragma once
 
 #include <cmath>
@@ -6,7 +7,7 @@
 
 namespace muster {
 
-// K as a ratio of powers. From -40 dB down there is no steady part at all: Rayleigh fading exactly.
+// K as a ratio of powers. From -40 dB down it is 0: Rayleigh fading exactly.
 inline double rician_ratio(double k_db) { return k_db > -40 ? std::pow(10, k_db / 10) : 0; }
 
 // Power gain from the diffuse part (complex normal of mean power 1) and the steady part's phase in radians.

@@ -1,5 +1,5 @@
-// Shadowing as what a link picks up of one loss field that fills the environment: symmetric, without state, the same on
-// return, and correlated between links that run close to one another.
+// Shadowing as the integral along a link of one loss field that fills the environment: symmetric, without state,
+// repeatable, and correlated between links that run close to one another.
 //
 // Agrawal and Patwari, Correlated link shadow fading in multi-hop wireless networks, IEEE Trans. Wireless Comm. 8(8),
 // 2009: a link's shadowing is the field's line integral over the square root of the link's length. Here the field is a
@@ -20,7 +20,7 @@ class ShadowField {
 
   explicit ShadowField(const Stream& random);
 
-  // What links need of their ends; places in decorrelation distances.
+  // Precomputed values of the ends; places in decorrelation distances.
   std::vector<Tile> at(const std::vector<FieldPoint>& places,
                        const waves::WaveKernel& kernel = waves::best_wave_kernel()) const;
 
@@ -31,10 +31,10 @@ class ShadowField {
     kernel.shadow(from, place, to, wanted, sd, out);
   }
 
-  // Of one link.
+  // The same for one link.
   double between(const FieldPoint& p, const FieldPoint& q) const;
 
-  // Of a link of this length: grows to 1 for links much longer than a decorrelation distance.
+  // Variance for a link of this length: grows to 1 for links much longer than a decorrelation distance.
   static double variance(double length) { return length > 0 ? 1 + std::expm1(-length) / length : 0; }
 
  private:

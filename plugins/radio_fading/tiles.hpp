@@ -1,4 +1,4 @@
-// Places in tiles, and links between them taken tile by tile: both ways of a pair share one evaluation.
+// Places in tiles, and links processed tile by tile: both directions of a pair share one evaluation.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ struct FieldPoint {
   double x, y, z;
 };
 
-// In another unit of length.
+// Converts places to another unit of length.
 inline std::vector<FieldPoint> places(Rows<const Pose> poses, double unit) {
   std::vector<FieldPoint> result;
   result.reserve(poses.size());
@@ -30,7 +30,7 @@ double* column_of(Rows<Row> rows) {
   return reinterpret_cast<double*>(rows.begin());
 }
 
-// Tiles of a field, each filled by fill(tile) from its places; what is left of the last repeats its last place.
+// Tiles of a field, each filled by fill(tile) from its places; the last is padded with its last place.
 template <class Tile, class Fill>
 std::vector<Tile> tiles(const std::vector<FieldPoint>& places, const Fill& fill) {
   std::vector<Tile> result((places.size() + waves::tile - 1) / waves::tile);
@@ -43,7 +43,7 @@ std::vector<Tile> tiles(const std::vector<FieldPoint>& places, const Fill& fill)
   return result;
 }
 
-// Links of one sender to one tile: their numbers follow one another, and their places ascend.
+// Links of one sender to one tile: their numbers are consecutive, and their places ascend.
 struct LinksToTile {
   static constexpr unsigned everywhere = (1u << waves::tile) - 1;
 
@@ -60,7 +60,7 @@ struct LinksToTile {
       for (unsigned left = places; left != 0; left &= left - 1) use(link++, __builtin_ctz(left));
     }
   }
-  // Where there are many links, their values lie far apart: they are fetched while they are worked out.
+  // With many links, their values are far apart in memory: prefetched during the computation.
   void prefetch(double* column) const {
     for (std::size_t i = 0; column != nullptr && i < number + 7; i += 8) __builtin_prefetch(column + first + i, 1);
   }
@@ -71,7 +71,7 @@ struct LinksBetweenTiles {
   LinksToTile from[waves::tile];
   unsigned senders = 0, receivers = 0;  // a bit for each
 
-  // Of each sender, the places to which a link of its runs, or from which one of `back` does.
+  // For each sender, the places linked with it: by its own links, or by those of `back`.
   std::array<unsigned, waves::tile> pairs(const LinksBetweenTiles& back) const {
     std::array<unsigned, waves::tile> result;
     unsigned to_everywhere = 0;
@@ -87,7 +87,7 @@ struct LinksBetweenTiles {
   }
 };
 
-// The links of each sender, taken in order. Finds them where they are grouped by ascending sender.
+// The links of each sender, taken in order. Requires links grouped by ascending sender; in other orders it finds fewer.
 class SendersLinks {
  public:
   static constexpr std::uint32_t none = ~std::uint32_t{0};
@@ -107,13 +107,13 @@ class SendersLinks {
     for (std::size_t sender = 0; sender < endpoints; ++sender) look_ahead(sender);
   }
 
-  // The least tile that a tile's next links go to, or none.
+  // The least tile of the next links of a tile's places, or none.
   std::uint32_t next(std::size_t tile) const {
     const std::uint32_t* const of_tile = next_tile_.data() + tile * waves::tile;
     return *std::min_element(of_tile, of_tile + waves::tile);
   }
 
-  // Takes the links of a tile's places as long as they go to the other one.
+  // Takes the next links of a tile's places, as far as they go to the other one.
   LinksBetweenTiles take(std::size_t tile, std::size_t other) {
     LinksBetweenTiles result;
     for (std::size_t i = tile * waves::tile; i < std::min(of_.size(), (tile + 1) * waves::tile); ++i) {
@@ -131,7 +131,7 @@ class SendersLinks {
   bool all_taken() const { return taken_ == links_.size(); }
 
  private:
-  // Links of one sender to receivers that follow one another.
+  // Links of one sender to consecutive receivers.
   struct Run {
     std::size_t first, to, number;
   };
@@ -176,14 +176,14 @@ class SendersLinks {
   const Rows<const Ends> links_;
   std::vector<Run> runs_;
   std::vector<Runs> of_;                  // each sender
-  std::vector<std::uint32_t> next_tile_;  // that each one's next links go to; padded by none to whole tiles
+  std::vector<std::uint32_t> next_tile_;  // of each sender's next links; padded by none to whole tiles
   std::size_t taken_ = 0;
 };
 
 // Fills columns of one value a link, those that are not null: evaluate(tile, place, other tile, wanted, values) gives
 // each column's values[column][0 .. tile), from a place of the one tile to the wanted ones of the other. Where links
 // are grouped by sender and receivers ascend, as radio.links lists them, each pair is evaluated once; in any other
-// order, perhaps once for each of its links.
+// order, at most once for each of its links.
 template <std::size_t columns, class Evaluate>
 void by_tiles(Rows<const Ends> links, std::size_t endpoints, const std::array<double*, columns>& out,
               const Evaluate& evaluate) {

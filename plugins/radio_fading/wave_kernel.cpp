@@ -1,8 +1,7 @@
 // Built once for each instruction set, as MUSTER_KERNEL. Everything here but the kernel itself is internal.
 //
-// Phases are reduced in double, where a kilometre of short waves leaves them exact to 1e-9. What is summed is float:
-// gains within 1e-5, shadowing within 1e-5 of a standard deviation for each decorrelation distance that places lie from
-// the origin.
+// Phases are reduced in double, exact to 1e-9 for a kilometre of short waves. Sums are float: gains within 1e-5,
+// shadowing within 1e-5 of a standard deviation for each decorrelation distance of places from the origin.
 #include "plugins/radio_fading/wave_kernel.hpp"
 
 #include <experimental/simd>
@@ -26,7 +25,8 @@ struct Turned {
   double cosine, sine;
 };
 
-// Of a number of turns, within 2e-10: by Taylor's series of half the angle, which lies within a quarter turn.
+// Sine and cosine of a number of turns, within 2e-10: by Taylor's series of half the angle, which is within a quarter
+// turn.
 MUSTER_INLINE Turned turned(double turns) {
   constexpr double to_nearest = 0x1.8p52;
   const double a = 3.141592653589793 * (turns - ((turns + to_nearest) - to_nearest)), b = a * a;
@@ -86,7 +86,7 @@ MUSTER_INLINE double length(const PlaceTile& from, int place, const PlaceTile& t
   return __builtin_sqrt(x * x + y * y + z * z);
 }
 
-// Quotients are added before they are divided: one division serves four waves.
+// Sums quotients over a common denominator: one division serves four waves.
 struct Quotient {
   Floats over, under;
 };
@@ -95,15 +95,14 @@ MUSTER_INLINE Quotient operator+(const Quotient& a, const Quotient& b) {
   return {a.over * b.under + b.over * a.under, a.under * b.under};
 }
 
-// A wave's mean along the way: the difference of its sines over that of its phases. The other way round, both change
-// their sign alone.
+// A wave's mean along the link: difference of its sines over that of its phases. In reverse both only change sign.
 MUSTER_INLINE Quotient mean_along(const ShadowTile& from, int place, const ShadowTile& to, int first, int m) {
   return {load(to.sine[m] + first) - from.sine[m][place], load(to.along[m] + first) - from.along[m][place]};
 }
 
 constexpr float slow = 0.015625f;  // below, a difference of phases is small
 
-// The same where that is small: by the wave's middle and a series.
+// The same for a small difference: by the wave's middle and a series.
 MUSTER_INLINE void mend_slow(const ShadowTile& from, int place, const ShadowTile& to, int first, int m,
                              Quotient& mean) {
   const Mask is_slow = stdx::abs(mean.under) < slow;
@@ -138,7 +137,7 @@ void shadow(const ShadowTile& from, int place, const ShadowTile& to, unsigned wa
   }
 }
 
-// By way of memory, lest each number be taken out of its vector by itself.
+// Through memory, to avoid extracting each number from its vector.
 MUSTER_INLINE void put(const Floats& sums, double factor, double* out) {
   alignas(64) float each[lanes];
   sums.copy_to(each, stdx::vector_aligned);

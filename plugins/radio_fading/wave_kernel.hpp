@@ -1,12 +1,12 @@
-// Sums of plane waves between many radios, several lanes at a time: the part that is built for each instruction set.
-// All kernels give the same bits: a lane is a link, whose waves are summed in one order, and no product is fused.
+// Sums of plane waves between many radios, several lanes at a time: the part built for each instruction set. All
+// kernels give the same bits: a lane is a link, whose waves are summed in one order, and no product is fused.
 //
-// Only plain data cross this border: a function that both sides compile could be linked in its newest form everywhere.
+// Only plain data cross this border: the linker could replace a function that both sides compile by its newest form.
 #pragma once
 
 namespace muster::waves {
 
-constexpr int tile = 16;  // places that are taken side by side
+constexpr int tile = 16;  // places processed side by side
 constexpr int shadow_waves = 64, fading_waves = 32;
 
 struct alignas(64) PlaceTile {
@@ -19,8 +19,8 @@ struct PlaneWaves {
   double x[number], y[number], z[number], phase[number];
 };
 
-// Each wave at each place: its phase in radians, but for that at the origin; the sine of its phase, and of half the
-// phase both.
+// Each wave at each place: its phase in radians, without that at the origin; the sine of its phase; and the sine and
+// cosine of half the phase.
 struct alignas(64) ShadowTile {
   PlaceTile at;
   float along[shadow_waves][tile], sine[shadow_waves][tile], half_cosine[shadow_waves][tile],
@@ -38,7 +38,7 @@ struct alignas(64) FadingTile {
   float arriving_re[fading_waves][tile], arriving_im[fading_waves][tile];
 };
 
-// `wanted` has a bit for each place of the tile `to`: of the others, results are anything.
+// `wanted` has a bit for each place of the tile `to`: the results of the others are undefined.
 struct WaveKernel {
   const char* name;
   // Fill a tile from its places.
@@ -54,7 +54,7 @@ struct WaveKernel {
                 const double* im, double* out);
 };
 
-// Those that this machine can run, the widest last. There is always one.
+// The kernels that this machine can run, the widest last. There is at least one.
 struct WaveKernels {
   const WaveKernel* all[3];
   int number = 0;

@@ -1,6 +1,6 @@
-// The ways from one radio to another by mirrors: walls that reflect once or twice. Each wall is a mirror at its centre
-// plane; the way by it is the straight line to the radio's image behind it (McKown and Hamilton, Ray tracing as a
-// design tool for radio networks, IEEE Network 5(6), 1991).
+// Reflected paths between two radios by the image method: walls reflect once or twice. Each wall is a mirror at its
+// centre plane; the path by it is the straight line to the radio's image behind it (McKown and Hamilton, Ray tracing as
+// a design tool for radio networks, IEEE Network 5(6), 1991).
 #pragma once
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 
 namespace muster {
 
-// Fresnel's reflection of an upright field by an upright dielectric wall: the field lies in the wall's plane. `cosine`
-// of the angle to the wall's normal. From (1 - sqrt(e)) / (1 + sqrt(e)) head on to -1 along the wall.
+// Fresnel's reflection of an upright field by an upright dielectric wall: the field is in the wall's plane. `cosine` of
+// the angle to the wall's normal. From (1 - sqrt(e)) / (1 + sqrt(e)) head on to -1 along the wall.
 inline double fresnel_upright(double cosine, double permittivity) {
   const double inside = std::sqrt(permittivity - 1 + cosine * cosine);
   return (cosine - inside) / (cosine + inside);
@@ -20,13 +20,13 @@ inline double fresnel_upright(double cosine, double permittivity) {
 struct ImagePath {
   int mirrors = 0;
   double length = 0;      // m
-  double reflection = 1;  // share of the amplitude that the mirrors leave, negative where they turn it over
-  double walls = 0;       // dB, lost in the walls and floors in the way, mirrors not among them
+  double reflection = 1;  // product of the mirrors' reflection coefficients, negative where they invert the wave
+  double walls = 0;       // dB, lost in the walls and floors crossed, without the mirrors
 };
 
 class ImagePaths {
  public:
-  // `losses` in dB, by material. Throws std::runtime_error where the scene refuses a wall, a door or a floor.
+  // `losses` in dB, by material. Throws std::runtime_error for a wall, a door or a floor that the scene refuses.
   ImagePaths(std::vector<scene::Wall> walls, std::vector<scene::Door> doors, const std::vector<scene::Floor>& floors,
              std::vector<double> losses)
       : walls_(std::move(walls)),
@@ -34,7 +34,7 @@ class ImagePaths {
         losses_(std::move(losses)),
         scene_(walls_, doors_, static_cast<int>(losses_.size()), floors) {}
 
-  // What the walls and floors on the straight line between two points take, in dB, but for the walls `but` and
+  // Loss of the walls and floors on the straight line between two points, in dB, without the walls `but` and
   // `also_but`.
   double loss(const scene::Point& p, const scene::Point& q, int but = -1, int also_but = -1) {
     scene_.crossings(p, q, crossings_);
@@ -46,7 +46,7 @@ class ImagePaths {
     return sum;
   }
 
-  // Calls report(ImagePath) for each way from p to q by one mirror or, if `bounces` is 2, by two.
+  // Calls report(ImagePath) for each path from p to q by one mirror or, if `bounces` is 2, by two.
   template <class Report>
   void visit(const scene::Point& p, const scene::Point& q, int bounces, double permittivity, const Report& report) {
     for (int first = 0; first < static_cast<int>(walls_.size()); ++first) {
@@ -95,7 +95,7 @@ class ImagePaths {
         loss(p, at_first.at, first) + loss(at_first.at, at_second.at, first, second) + loss(at_second.at, q, second)});
   }
 
-  // Whether the line from an image to a point goes through the mirror, where there is wall; strictly between both.
+  // True if the line from an image to a point passes the mirror at a solid place; strictly between both.
   bool meets(const scene::Point& image, const scene::Point& to, int mirror, Hit& hit) const {
     const scene::Wall& wall = walls_[static_cast<std::size_t>(mirror)];
     const double x = wall.x1 - wall.x0, y = wall.y1 - wall.y0, size = std::hypot(x, y);
@@ -108,7 +108,7 @@ class ImagePaths {
     return stands(mirror, ((hit.at.x - wall.x0) * x + (hit.at.y - wall.y0) * y) / size, size, hit.at.z);
   }
 
-  // Whether there is wall, or a closed door, at a place along a wall and a height.
+  // True for wall, or a closed door, at a place along a wall and a height.
   bool stands(int mirror, double along, double size, double z) const {
     const scene::Wall& wall = walls_[static_cast<std::size_t>(mirror)];
     if (along < 0 || along >= size || z < wall.base || z >= wall.base + wall.height) return false;

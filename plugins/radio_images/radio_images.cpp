@@ -1,4 +1,4 @@
-// Waves that walls reflect: what they add to the direct one.
+// Reflections from walls: their change of the direct wave's level.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -58,17 +58,17 @@ Open doors reflect nothing. McKown and Hamilton, Ray tracing as a design tool fo
       ImagePaths paths(scene_walls(k[wall]), scene_doors(k[door], k[state], k[wall]), scene_floors(k[floor]), losses);
       for (std::size_t i = 0; i < links.size(); ++i) {
         const Pose &a = at[static_cast<std::size_t>(links[i].tx)], &b = at[static_cast<std::size_t>(links[i].rx)];
-        // In an order of their places, so that both ways are the same to the last bit.
+        // Ordered by their places, so that both directions agree to the last bit.
         const bool turned = std::tie(b.x, b.y, b.z) < std::tie(a.x, a.y, a.z);
         const Pose &p = turned ? b : a, &q = turned ? a : b;
         out[i].level = back[i] != no_link ? out[back[i]].level : added(k, paths, {p.x, p.y, p.z}, {q.x, q.y, q.z});
       }
-    } catch (const std::runtime_error& e) {  // the scene refuses walls, doors, floors and places, which are the user's
+    } catch (const std::runtime_error& e) {  // throws for walls, doors, floors and places, which are the user's input
       throw BadInput(e.what());
     }
   }
 
-  // In dB, to the direct wave's level.
+  // In dB, relative to the direct wave's level.
   double added(const Step& k, ImagePaths& paths, const scene::Point& p, const scene::Point& q) const {
     const double x = p.x - q.x, y = p.y - q.y, z = p.z - q.z, direct = std::max(std::sqrt(x * x + y * y + z * z), 0.01);
     const double turns = k[frequency] / 299792458, walls = paths.loss(p, q);

@@ -1,4 +1,4 @@
-// A radio that radiates noise.
+// A radio that emits noise.
 #include <muster/emission.hpp>
 #include <muster/plugin.hpp>
 

@@ -1,4 +1,4 @@
-// Where a radio's antenna is and which way it faces, from the body that carries it.
+// The pose of a radio's antenna, from the body that carries it.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Who may hear whom: an endpoint for every living radio, a link for every ordered pair within range.
+// Endpoints and links of live radios: an endpoint for every radio, a link for every ordered pair within range.
 #include <algorithm>
 #include <muster/plugin.hpp>
 #include <vector>

@@ -1,4 +1,4 @@
-// A receiver whose rssi comes in whole steps.
+// A receiver whose rssi is quantised in whole steps.
 #include <algorithm>
 #include <cmath>
 #include <muster/plugin.hpp>

@@ -1,4 +1,4 @@
-// Triangles of our own as one Embree scene.
+// User-defined triangles as one Embree scene.
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -7,8 +7,8 @@
 
 namespace muster {
 
-// `owner` is what both functions are handed. Robust boxes, and not the highest quality: that splits triangles in space,
-// and a link would meet some twice.
+// Both functions receive `owner`. Robust boxes, and not the highest quality, which splits triangles in space: a link
+// would meet some twice.
 inline RTCScene scene_of_triangles(RTCDevice device, std::size_t count, void* owner, RTCBoundsFunction bounds,
                                    RTCOccludedFunctionN crossed) {
   const RTCScene scene = rtcNewScene(device);

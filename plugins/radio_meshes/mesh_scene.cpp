@@ -8,9 +8,9 @@
 namespace muster {
 namespace {
 
-// What a ray carries to the triangles that it may meet.
+// Context of a ray for the triangles that it may meet.
 struct Link {
-  RTCIntersectContext embree;  // first: Embree hands its address on
+  RTCIntersectContext embree;  // first: Embree passes its address on
   const Vector *p, *q;
   int* crossings;
 };
@@ -25,7 +25,7 @@ MeshScene::MeshScene(const std::vector<PlacedMesh>& meshes) {
     mesh_.resize(triangles_.size(), static_cast<int>(i));
   }
   bool failed = false;
-  device_ = rtcNewDevice(nullptr);  // a number of threads would be the limit of the whole process, see TBB
+  device_ = rtcNewDevice(nullptr);  // a number of threads would limit the whole process, see TBB
   if (!device_) throw std::runtime_error("Embree does not start on this machine");
   rtcSetDeviceErrorFunction(device_, count_error, &failed);
   scene_ = scene_of_triangles(device_, triangles_.size(), this, bounds, cross_one);
@@ -53,7 +53,7 @@ void MeshScene::count(const Vector& p, const Vector& q, int* crossings) const {
   rtcOccluded1(scene_, &link.embree, &ray);
 }
 
-// Wider than the triangle by more than a ray's place in a box is rounded: 2^-22 of 2^23 steps.
+// Wider than the triangle by more than the rounding of a ray's position in a box: 2^-22 of 2^23 steps.
 void MeshScene::bounds(const RTCBoundsFunctionArguments* asked) {
   constexpr float margin = 8;
   const Triangle& t = static_cast<const MeshScene*>(asked->geometryUserPtr)->triangles_[asked->primID];
@@ -69,7 +69,7 @@ void MeshScene::bounds(const RTCBoundsFunctionArguments* asked) {
   box.lower_z = low(t.a.z, t.b.z, t.c.z), box.upper_z = high(t.a.z, t.b.z, t.c.z);
 }
 
-// Never says that the ray is stopped, so it goes on to all that it meets.
+// Never reports an occlusion, so the ray continues to all triangles.
 void MeshScene::cross_one(const RTCOccludedFunctionNArguments* met) {
   if (met->valid[0] == 0) return;
   const auto& scene = *static_cast<const MeshScene*>(met->geometryUserPtr);

@@ -1,6 +1,6 @@
-// Meshes in the world, and how often a straight link crosses the surface of each. Embree finds the triangles that a
-// link may meet; whether it crosses one is decided exactly (scene/triangle.hpp), so its answers do not depend on how
-// Embree rounds, nor on the instructions that the machine has.
+// Meshes in the world, and the number of crossings of a straight link with the surface of each. Embree finds candidate
+// triangles; scene/triangle.hpp decides each exactly, so the results depend neither on Embree's rounding nor on the
+// machine's instructions.
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -13,7 +13,7 @@ namespace muster {
 using scene::Triangle;
 using scene::Vector;
 
-// A mesh where it stands, in lattice steps.
+// A mesh in its place, in lattice steps.
 struct PlacedMesh {
   std::vector<Triangle> triangles;
 };

@@ -1,4 +1,4 @@
-// Meshes in the way of radio links.
+// Meshes that block radio links.
 #include <cstring>
 #include <muster/plugin.hpp>
 #include <muster/reverse_links.hpp>
@@ -45,7 +45,7 @@ included, and the same both ways.)";
     }
   }
 
-  // The scene is kept while no mesh is another.
+  // Rebuilds the scene only when a mesh has changed.
   void place(const Step& k) {
     if (scene && same(k[shape], shapes_kept)) return;
     scene.reset();
@@ -54,7 +54,7 @@ included, and the same both ways.)";
     shapes_kept.assign(k[shape].begin(), k[shape].end());
   }
 
-  // Counts are kept for links whose ends are where they were, to the bit.
+  // Counts are cached for links whose ends are unchanged, to the bit.
   void count(const Step& k) {
     const auto links = k[ends];
     const auto at = k[pose];
@@ -66,7 +66,7 @@ included, and the same both ways.)";
       if (known) moved[i] = std::memcmp(&at[i], &at_kept[i], sizeof(Pose)) != 0;
       places[i] = on_lattice(at[i]);
     }
-    ends_kept.clear();  // so that nothing old is left if this fails
+    ends_kept.clear();  // so that nothing old is left if this throws
     counted.resize(links.size() * width);
     const auto back = earlier_reverse(links, at.size());
     for (std::size_t i = 0; i < links.size(); ++i) {

@@ -1,4 +1,4 @@
-// The meshes that a world file declares: read, placed on the lattice, and found closed where they are said to be solid.
+// The meshes of a world file: read, placed on the lattice, and checked to be closed if declared solid.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace muster {
 
 class WorldMeshes {
  public:
-  // For constructors: the kernel tells files during setup only. Throws BadInput that names the mesh at fault.
+  // For constructors: the kernel gives files during setup only. Throws BadInput with the faulty mesh.
   explicit WorldMeshes(const Setup& setup) {
     const muster_host* host = setup.host();
     std::string folder;  // the world's own is the last
@@ -36,7 +36,7 @@ class WorldMeshes {
     }
   }
 
-  // Throws BadInput where one does not lie within 1 km, or is no solid and no sheet.
+  // Throws BadInput for a mesh beyond 1 km, or one that is neither solid nor sheet.
   std::vector<PlacedMesh> placed(Rows<const MeshShape> shapes) const {
     std::vector<PlacedMesh> result;
     for (std::size_t i = 0; i < meshes_.size(); ++i) {
@@ -60,7 +60,7 @@ class WorldMeshes {
     return {scene::snap(x), scene::snap(y), scene::snap(z)};
   }
 
-  // Then every link between places outside crosses it an even number of times.
+  // Closed: every link between places outside then crosses it an even number of times.
   void check_closed(std::size_t mesh, const PlacedMesh& placed) const {
     using Corner = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
     std::map<std::pair<Corner, Corner>, int> edges;

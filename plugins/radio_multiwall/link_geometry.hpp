@@ -1,6 +1,6 @@
-// What the terms of a multi-wall channel need of each link: its length and how many walls and floors of each material
-// it crosses. Kept from step to step for links, walls, doors and floors that stayed where they were, bit for bit; so
-// asking again under other parameters costs a comparison, and a kept answer cannot differ from a new one.
+// Inputs of a multi-wall channel for each link: its length, and the numbers of walls and floors of each material that
+// it crosses. Cached from step to step while links, walls, doors and floors are unchanged, bit for bit: an evaluation
+// with other parameters costs a comparison, and a cached result equals a new one.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace muster {
 
 class LinkGeometry {
  public:
-  // True if walls, doors or floors are not what they were.
+  // True if walls, doors or floors have changed.
   bool set_scene(Rows<const Wall> walls, Rows<const Door> doors, Rows<const DoorState> states,
                  Rows<const FloorShape> floors, std::size_t materials) {
     bool changed = keep(walls, walls_);
@@ -30,13 +30,13 @@ class LinkGeometry {
     if (!changed) return false;
     at_.clear();
     materials_ = materials;
-    scene_.reset();  // so that none is left if the new one is refused
+    scene_.reset();  // so that none is left if the new one throws
     scene_ = std::make_unique<scene::Scene>(scene_walls(walls), scene_doors(doors, states, walls),
                                             static_cast<int>(materials), scene_floors(floors));
     return true;
   }
 
-  // How many pairs were computed anew: links that run both ways are one pair.
+  // Returns the number of pairs computed anew: links that run both ways are one pair.
   std::size_t set_links(Rows<const Ends> links, Rows<const Pose> at) {
     if (!are_listed(links) || at.size() != endpoints_ || !are_together(at)) order_.clear();
     endpoints_ = at.size();
@@ -48,23 +48,23 @@ class LinkGeometry {
       number(links, at);
       now = in_order(at);
     }
-    at_.clear();  // so that no old answer is left if a point is refused
+    at_.clear();  // so that no old result is left if a point is refused
     const std::size_t measured = all ? measure_all(now) : measure_moved(now, moved);
     if (measured > 0 || links.empty()) measure_lengths(at);
     at_ = std::move(now);
     return measured;
   }
 
-  // Of each link, log10 of the length in metres, which is taken as at least 1 cm: nearer, no far field has formed.
+  // For each link, log10 of the length in metres, taken as at least 1 cm: nearer, no far field has formed.
   const std::vector<double>& log_distances() const { return log_distances_; }
-  // The pair that it belongs to.
+  // The pair of a link.
   std::size_t pair(std::size_t link) const { return pair_[link]; }
-  // Of each pair, how many walls and floors of a material it crosses.
+  // For each pair, the number of walls and floors of a material that it crosses.
   const int* counts(std::size_t material) const { return counts_.data() + material * pairs_.size(); }
 
-  // Of each pair, the sum over materials of its crossings times the loss of one.
+  // For each pair, the sum over materials of its crossings times the loss of one.
   void wall_losses(const std::vector<double>& losses, std::vector<double>& out) const {
-    constexpr std::size_t block = 1024;  // pairs whose sums stay near while materials are gone through
+    constexpr std::size_t block = 1024;  // pairs whose sums stay in cache during the loop over materials
     out.assign(pairs_.size(), 0);
     for (std::size_t first = 0; first < out.size(); first += block) {
       const std::size_t number = std::min(block, out.size() - first);
@@ -76,7 +76,7 @@ class LinkGeometry {
   }
 
  private:
-  // From one end to ends that follow one another.
+  // From one end to consecutive ends.
   struct Run {
     std::uint32_t from, to, number;
   };
@@ -93,7 +93,7 @@ class LinkGeometry {
     return result;
   }
 
-  // Whether links are those that are numbered.
+  // True if links are those that are numbered.
   bool are_listed(Rows<const Ends> links) const {
     if (links.size() != pair_.size()) return false;
     const Ends* first = links.begin();
@@ -104,7 +104,7 @@ class LinkGeometry {
     return true;
   }
 
-  // Whether endpoints that share a place still do.
+  // True if endpoints that shared a place still do.
   bool are_together(Rows<const Pose> at) const {
     return std::all_of(together_.begin(), together_.end(),
                        [&](const auto& two) { return same(point_of(at[two.first]), point_of(at[two.second])); });
@@ -113,9 +113,9 @@ class LinkGeometry {
   static scene::Point point_of(const Pose& p) { return {p.x, p.y, p.z}; }
   static bool same(const scene::Point& a, const scene::Point& b) { return !std::memcmp(&a, &b, sizeof a); }
 
-  // Gives those endpoints that have links their places in spatial order, and numbers pairs by them: what is computed
-  // for neighbours then lies side by side. Endpoints at one point share a place, as those of a radio that stands do
-  // where each measured link has endpoints of its own; a pair runs from the place that has more links.
+  // Sorts the endpoints that have links in spatial order, and numbers pairs by it, so that results of neighbours are
+  // adjacent. Endpoints at one point share a place, as for a stationary radio with one endpoint per measured link. A
+  // pair runs from the place that has more links.
   void number(Rows<const Ends> links, Rows<const Pose> at) {
     at_.clear();
     order_.clear();
@@ -177,7 +177,7 @@ class LinkGeometry {
     return result;
   }
 
-  // Of each place, whether somebody is there who was not.
+  // For each place, whether its endpoint has moved.
   std::vector<char> which_moved(const std::vector<scene::Point>& now) const {
     std::vector<char> moved(now.size(), 1);
     for (std::size_t i = 0; i < now.size() && at_.size() == now.size(); ++i) {
@@ -214,7 +214,7 @@ class LinkGeometry {
     std::array<std::vector<double>, 3> place;
     for (auto& axis : place) axis.reserve(at.size());
     for (const Pose& p : at) place[0].push_back(p.x), place[1].push_back(p.y), place[2].push_back(p.z);
-    constexpr std::size_t worth_a_call = 8;  // links
+    constexpr std::size_t worth_a_call = 8;  // least number of links for a batch call
     if (listed_.size() * worth_a_call > pair_.size()) return measure_lengths_one_by_one(place);
     double* out = log_distances_.data();
     for (const auto& [from, to, number] : listed_) {
@@ -247,7 +247,7 @@ class LinkGeometry {
     }
   };
 
-  // The same bits both ways: differences change their sign alone.
+  // The same bits both ways: differences only change sign.
   struct LogLengths {
     [[gnu::always_inline]] static double of(double x, double y, double z) {
       const double squared = x * x + y * y + z * z;
@@ -261,7 +261,7 @@ class LinkGeometry {
     }
   };
 
-  // True if the rows are not those that are kept, which they then are.
+  // True if the rows differ from the kept ones, which they then replace.
   template <class Row>
   static bool keep(Rows<const Row> now, std::vector<Row>& kept) {
     if (now.size() == kept.size() && (now.empty() || !std::memcmp(now.begin(), kept.data(), now.size() * sizeof(Row))))
@@ -277,9 +277,9 @@ class LinkGeometry {
   std::size_t materials_ = 0;
   std::unique_ptr<scene::Scene> scene_;
   std::size_t endpoints_ = 0;
-  std::vector<std::uint32_t> order_;  // an endpoint that has links, of each place; empty if they are not numbered
+  std::vector<std::uint32_t> order_;  // an endpoint with links, for each place; empty if not numbered
   std::vector<std::pair<std::uint32_t, std::uint32_t>> together_;  // endpoints: that of a place, another one there
-  std::vector<scene::Point> at_;                                   // where they were; empty if nothing is known
+  std::vector<scene::Point> at_;                                   // last positions; empty if unknown
   std::vector<scene::Pair> pairs_;                                 // of places
   std::vector<Run> listed_;                                        // links, by endpoints
   std::vector<std::uint32_t> pair_;                                // of each link

@@ -48,7 +48,7 @@ struct RadioMultiwall {
     try {
       geometry.set_scene(k[wall], k[door], k[state], k[floor], losses.size());
       geometry.set_links(k[ends], k[pose]);
-    } catch (const std::runtime_error& e) {  // the scene refuses walls, doors, floors and places, which are the user's
+    } catch (const std::runtime_error& e) {  // throws for walls, doors, floors and places, which are the user's input
       throw BadInput(e.what());
     }
     const auto& far = geometry.log_distances();
@@ -78,7 +78,7 @@ struct RadioMultiwall {
   In<Loss> loss;
   Out<Level> distance, walls;
   LinkGeometry geometry;
-  std::vector<double> lost;  // through walls, of each pair
+  std::vector<double> lost;  // loss through walls, of each pair
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Radios that are in one personal area network.
+// Membership of radios in a personal area network.
 #include <algorithm>
 #include <muster/pan.hpp>
 #include <muster/plugin.hpp>
