@@ -8,7 +8,7 @@
 namespace muster::inference {
 namespace {
 
-// The information on columns beside a design: their squared lengths, whitened, as far as the design leaves them.
+// Fisher information on columns beside a design: the squared lengths of their whitened residuals.
 double told(const noise::Field& field, const noise::Covariance& covariance, const Eigen::MatrixXd& design,
             const Eigen::MatrixXd& columns) {
   const noise::Whitener whitener(field, covariance);
