@@ -44,10 +44,10 @@ std::pair<Eigen::VectorXd, double> explained_by(const ModelState& state, const W
 // From its best atom, if that is worth it, and from where it explains the effect, if it does: of a strong effect even
 // the nearest atom may miss much.
 ScoredCandidate at_its_best(const ModelState& state, const WhitenedModel& rest, const ScoredCandidate& plain,
-                            const Eigen::VectorXd* explaining, double effective_sample_size) {
+                            const Eigen::VectorXd* explaining, double least_evidence) {
   const Candidate& c = plain.candidate();
   if (!c.refinement.any()) return plain;
-  ScoredCandidate best = plain.evidence > effective_sample_size ? refined(state, rest, plain, true) : plain;
+  ScoredCandidate best = plain.evidence > least_evidence ? refined(state, rest, plain, true) : plain;
   if (!explaining) return best;
   ScoredCandidate other = plain;
   other.theta = *explaining;

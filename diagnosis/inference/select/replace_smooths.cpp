@@ -32,8 +32,8 @@ struct Replacement {
     for (const ScoredCandidate& lead : scored_candidates(state, model)) {
       const Candidate& c = lead.candidate();
       if (c.kind != Kind::named || !fits(lead, found)) continue;
-      const bool effective_sample_size = lead.gain > 0.15 * group_gain && c.role.pieces.empty();
-      const ScoredCandidate at = effective_sample_size ? refined(state, model, lead, true) : lead;
+      const bool promising = lead.gain > 0.15 * group_gain && c.role.pieces.empty();
+      const ScoredCandidate at = promising ? refined(state, model, lead, true) : lead;
       const double evidence = state.evidence(c, at.gain, c.design.width, false);
       if (!result || evidence > result->evidence)
         result = Term{lead.entry->candidate, at.theta, at.columns, at.gain, evidence, 0};
