@@ -5,7 +5,7 @@
 
 namespace muster::inference {
 
-// Charge in nats: the refined candidate's excess of log p under the null. Slow: `draws` refinements.
+// Nats by which refinement understates the p-value under the null. Slow: `draws` refinements.
 double refinement_null(ModelState& state, const std::string& candidate, int draws);
 
 }  // namespace muster::inference
