@@ -22,8 +22,7 @@ constexpr double unlikely = 6;                 // nats behind the best shape of 
 // strength most, and outliers least (346 clean worlds of 2,000 to 20,000 readings). A factor of 1.5 was too small:
 // with readings of six averaged fades, gains of 22 and 23 were false in 55 further clean worlds.
 double wider(const std::string& cause) { return cause == "effect.fading_law" ? 3 : 2; }
-const double may_be_named =
-    std::log(0.01);  // log p; the winsorised gain is an upper bound, and the other one takes as long again
+const double may_be_named = std::log(0.01);  // log p; the second test, without winsorising, only raises it
 const double worth_a_closer_look = 3;        // gain: far below any that is named
 const double averaged_cost = std::log(5.0);  // nats: the stated law is of single fades
 
