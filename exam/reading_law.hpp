@@ -16,8 +16,8 @@ Moments fading_moments(const ReadingLaw& law);
 // Rician factor in dB of single fades with the variance of the law's averaged ones, for the world file.
 double equivalent_rician_k(const ReadingLaw& law);
 
-// 2 x the Kullback-Leibler divergence of readings, true against stated, quantised to 1 dB, with equal means, as after
-// a fit of the loss at 1 m. Each reading's level has a Gaussian error of `level_deviations` dB. The stated law may
+// 2 x the Kullback-Leibler divergence of readings quantised to 1 dB, true against stated. Means are equal, as after a
+// fit of the loss at 1 m. Each reading's level has a Gaussian error of `level_deviations` dB. The stated law may
 // scale all of these by one factor, since the size of shadowing is unknown.
 double reading_lambda(const ReadingLaw& truth, const ReadingLaw& stated, const std::vector<double>& level_deviations);
 

@@ -1,5 +1,5 @@
-// Tobit likelihood of readings given a model's mean: squared residuals of received readings, and for censored ones
-// the probability of a level below the floor (Tobin 1958).
+// Tobit likelihood of readings given a model's mean (Tobin 1958): squared residuals of received ones, the probability
+// of a level below the floor for censored ones.
 #pragma once
 
 #include <Eigen/Core>

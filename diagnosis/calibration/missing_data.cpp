@@ -115,8 +115,8 @@ MissingData missing_data(const Eigen::VectorXd& rssi, const Eigen::VectorXd& mea
   result.share_at_random = best.random;
   result.by_floor = best.by_floor;
   result.evidence = 2 * (best.log_likelihood - chance);
-  // Censored needs both: a significant rise (10 is p < 0.002 for one parameter, and neighbouring readings are lost
-  // jointly), and most of the losses explained by the floor.
+  // Censored needs both a significant rise and most of the losses explained by the floor. 10 is p < 0.002 for one
+  // parameter; neighbouring readings are lost jointly.
   const bool risen = result.evidence > 10;
   result.censored = risen && result.by_floor > 0.5;
   // With mostly random losses, levels must also end abruptly at the floor; a smaller rise (p < 0.05) then suffices.

@@ -57,7 +57,7 @@ namespace {
 template <class Likelihood>
 void maximise(Likelihood& likelihood, Components& c, double scale) {
   Eigen::VectorXd& at = c.variances;
-  // Shrinks the start until the covariance is positive: shapes are means over examples, not exact covariances, and
+  // Shrinks the start until the covariance is positive. Shapes are means over examples, not exact covariances: they
   // are safe only if weak beside the white part.
   for (int tries = 0; !likelihood.evaluate(at, true); ++tries) {
     if (tries > 10) throw std::runtime_error("residuals that are not numbers");

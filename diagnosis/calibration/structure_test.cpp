@@ -161,7 +161,7 @@ double chance_of_structure(const Fit& fit, const Eigen::MatrixXd& shapes, bool s
   return chance_of(columns.transpose() * fit.residual, columns, errors_beside(fit, columns, shared));
 }
 
-// Three variances, each 0 in half of all sound worlds, and the best of several distances: in simulated worlds the
+// Three variances, each 0 in half of all sound worlds, and the best of several distances. In simulated worlds the
 // true p-value stays below this (tests/diagnosis/calibration/coverage_test.cpp).
 double chance_of_sharing(double evidence) {
   if (evidence <= 0) return 1;

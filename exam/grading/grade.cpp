@@ -70,8 +70,8 @@ bool at_right_row(const Truth::Effect& effect, const Verdict::Cause& cause) {
 }
 
 // Equivalence classes of causes that readings may not separate. A wall and an obstacle both block links. A missing
-// wall has no loss, like one of another material. For a radio that sends and receives, a transmitter's offset, a
-// receiver's offset and an asymmetry differ only in the mean level of its pairs, which shadowing absorbs.
+// wall has no loss, like one of another material. For a radio that sends and receives, offsets of transmitter and
+// receiver and an asymmetry differ only in the mean level of its pairs. Shadowing absorbs that.
 bool same_class(const Truth::Effect& effect, const Verdict::Cause& cause) {
   static const std::vector<std::set<std::string>> classes{
       {"unmapped_wall", "obstacle"}, {"wall_material", "wall_absent"}, {"asymmetry", "rx_offset", "tx_offset"}};

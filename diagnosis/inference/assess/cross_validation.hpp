@@ -1,6 +1,6 @@
-// Block cross-validation: blocks of sites, or other groups, are left out in turn, with generalised least squares
-// (GLS) on the others (Roberts et al., Ecography 40, 2017). Intervals by a block bootstrap. Rows are fitted, readings
-// are predicted: rows depend on the model, while errors of readings are comparable.
+// Block cross-validation (Roberts et al., Ecography 40, 2017): blocks of sites, or other groups, are left out in
+// turn. The others are fitted by generalised least squares (GLS). Intervals by a block bootstrap. Rows are fitted,
+// readings are predicted: rows depend on the model, while errors of readings are comparable.
 #pragma once
 
 #include <memory>

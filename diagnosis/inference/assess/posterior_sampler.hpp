@@ -12,7 +12,7 @@ struct LikelyThetas {
 };
 
 // A Metropolis walk locates the posterior. Then adaptive multiple importance sampling (Cornuet, Marin, Mira and
-// Robert 2012): draws from Student t distributions fitted to earlier draws, until the effective sample size is a
+// Robert 2012): draws from Student t distributions fitted to earlier draws. It ends at an effective sample size of a
 // hundred. `overstated`: factor by which gains are too large. The term's candidate must be refinable.
 LikelyThetas sample_posterior(const ModelState& state, const WhitenedModel& rest, const Term& term, double overstated);
 

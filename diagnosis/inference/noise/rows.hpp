@@ -12,10 +12,10 @@ using Eigen::Index;
 // Mean distance of two of three readings a stretch apart, in stretches.
 constexpr double mean_of_three = 8.0 / 9;
 
-// Sites of the rows, between which errors are correlated: a place, and an anchor that may move too (zero where a site
-// is one place or one time). Rows of one group share a field; rows of different groups share a part of it. A row
-// counts as three readings of equal weight: its middle, and a stretch to either side. The stretch keeps the mean
-// distance of its own readings.
+// Sites of the rows, between which errors are correlated: a place, and an anchor that may move too. The anchor is
+// zero where a site is one place or one time. Rows of one group share a field; rows of different groups share a part
+// of it. A row counts as three readings of equal weight: its middle, and a stretch to either side. The stretch keeps
+// the mean distance of its own readings.
 struct Sites {
   Eigen::Matrix3Xd place, anchor;                  // means, in the units of the decorrelation distance
   Eigen::Matrix3Xd place_stretch, anchor_stretch;  // the same units

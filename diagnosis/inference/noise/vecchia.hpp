@@ -1,5 +1,5 @@
-// Whitening of rows under C = s2 [rho + (1 - rho) same anchor] k(h) + t2 / count by Vecchia's approximation (Vecchia
-// 1988; Katzfuss and Guinness, Statistical Science 36, 2021): each row given its neighbours. h is the distance between
+// Whitening of rows under C = s2 [rho + (1 - rho) same anchor] k(h) + t2 / count by Vecchia's approximation: each row
+// given its neighbours (Vecchia 1988; Katzfuss and Guinness, Statistical Science 36, 2021). h is the distance between
 // readings for a rough field, between middles for a smooth one (row_distance.hpp).
 #pragma once
 

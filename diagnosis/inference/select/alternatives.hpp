@@ -22,7 +22,7 @@ double left_of(const Eigen::VectorXd& effect, double explained);
 
 // True if the alternative remains possible: within 3 nats, or inseparable with a likelihood ratio below 3 nats.
 // Beside a true alternative the error rate is at most 0.7 %. The log ratio is then normal about -D / 2 with variance
-// D: at D = 6, the worst case, 3 is the square root of 6 standard deviations away.
+// D. In the worst case, D = 6, 3 is the square root of 6 standard deviations away.
 bool left_open(const Alternative& alternative);
 
 // Evidence, nats, for a cause with these columns beside a design, the noise refitted with both. Comparable between

@@ -33,7 +33,7 @@ const Entry* named(const ModelState& state, const std::string& id) {
   return nullptr;
 }
 
-// Replaces a cause by an alternative that has become better, or by one of fewer parameters that is as good: a drift
+// Replaces a cause by an alternative that has become better, or by one of fewer parameters that is as good. A drift
 // that settles within seconds is a step.
 void give_way_to_alternatives(ModelState& state) {
   constexpr double clearly = 1, near = 5;  // nats

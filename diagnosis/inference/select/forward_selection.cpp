@@ -62,8 +62,8 @@ GainByRow gain_by_row(const WhitenedModel& model, const Eigen::MatrixXd& columns
   return {r.array().square() - left.array().square(), (added.q.transpose() * tame).squaredNorm() / along.squaredNorm()};
 }
 
-// True for an outlier fitted by a place: few readings carry the gain, and with residuals clipped most of it is gone,
-// or the rest is within chance.
+// True for an outlier fitted by a place. Few readings carry the gain, and clipped residuals leave less than half of
+// it, or no more than chance.
 bool of_outlier(const ModelState& state, const Candidate& c, const GainByRow& gains_by_row) {
   if (!from_few(state, gains_by_row.won)) return false;
   const double left = gains_by_row.tame_share * gains_by_row.won.sum();

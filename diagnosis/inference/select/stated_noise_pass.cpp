@@ -22,8 +22,8 @@ std::vector<noise::Fit> fitted_as_stated(const ModelState& state, const Eigen::M
   return fits;
 }
 
-// True if the stated field, with the lead in the model, fits as well as the best one: within the joint 99 % region of
-// its two parameters.
+// True if the stated field, with the lead in the model, fits as well as the best one. It must lie in the joint 99 %
+// region of its two parameters.
 bool stands_as_stated(const ModelState& state, const Eigen::MatrixXd& both, const noise::Fit& stated) {
   constexpr double within = 4.6;  // nats
   const double near_fit = state.fitted(both, state.fit.covariance, 6).value;

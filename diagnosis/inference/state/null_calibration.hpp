@@ -7,8 +7,8 @@
 
 namespace muster::inference {
 
-// Atoms orthonormalised in place of a second copy: the original columns, and for each atom the transform of products
-// with its columns to products with orthonormal ones. Zero for columns without a remainder.
+// Orthonormalised atoms without a second copy. For each atom a transform turns products with its columns into
+// products with orthonormal ones. Zero for columns without a remainder.
 class OrthonormalAtoms {
  public:
   // `width` columns an atom.

@@ -19,9 +19,9 @@ struct Blockage {
 // likelihood ratio of blockages at unknown times, averaged over both, against none.
 //
 // The null is the same scan of shuffled whitened residuals: shuffles keep the skewness of errors and break up bursts.
-// It is also compared with the scan of the sign-flipped residual without the blockages: people only lower levels,
-// while a misfit of the field raises them as often. Rows with an excluded reading take no part: near a clip levels
-// are truncated on one side, which resembles bursts.
+// It is also compared with the scan of the sign-flipped residual without the blockages. People only lower levels; a
+// misfit of the field raises them as often. Rows with an excluded reading take no part: near a clip levels are
+// truncated on one side, which resembles bursts.
 Blockage blockage_test(const inference::ModelState& state, const LinkReadings& readings, const Asked& asked);
 
 }  // namespace muster::diagnosis

@@ -17,7 +17,7 @@ using Eigen::Index;
 constexpr std::array averages{1, 2, 3, 4, 6};  // fades in one reading
 constexpr double unlikely = 6;                 // nats behind the best shape of the field
 // Factor by which gains of clean worlds are wider than chi-square. Neighbouring readings share the error of their
-// level, which a skewed law absorbs: in simulated fields of known shape a fading law's gain is 1.7 to 3.3 times as
+// level, which a skewed law absorbs. In simulated fields of known shape a fading law's gain is 1.7 to 3.3 times as
 // wide. Besides, no family of correlations matches the true field exactly. The misfit resembles fading of another
 // strength most, and outliers least (346 clean worlds of 2,000 to 20,000 readings). A factor of 1.5 was too small:
 // with readings of six averaged fades, gains of 22 and 23 were false in 55 further clean worlds.
@@ -96,7 +96,7 @@ class Tests {
   }
 
   // Maximises over all fields. The first fields were fitted under the stated law, which holds the strength near the
-  // stated one; field and strength are now alternated until they converge. A gain for the stated law as well counts
+  // stated one. Field and strength are now alternated until they converge. A gain for the stated law as well counts
   // for the null.
   Fitted settled(const Family& family, Fitted best) {
     constexpr int rounds = 8;
@@ -240,9 +240,8 @@ std::vector<Family> families_of(const ReadingDistribution& stated) {
 }
 
 // The gain without winsorising. Predictions use winsorised readings, so that an outlier affects no other reading.
-// With rare deep fades their errors then vary less than under the law, and a weaker law in a rougher field fits
-// better (6 to 8 % of the variance at K of 3 to 7 dB, where readings lie dense). A gain from this alone does not
-// count.
+// With rare deep fades their errors then vary less than under the law: by 6 to 8 % at K of 3 to 7 dB, where readings
+// lie dense. A weaker law in a rougher field then fits better. A gain from this alone does not count.
 double gain_untamed(const KrigedReadings& field, double step, const ReadingDistribution& stated,
                     const noise::Covariance& fit, const Family& family) {
   KrigedReadings untamed = field.untamed();

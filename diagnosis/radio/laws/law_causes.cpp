@@ -206,7 +206,7 @@ void leave_the_stronger(Diagnosis& found) {
   if (weaker->lambda < doubt) found.causes.erase(weaker);
 }
 
-// Readings whose link passes within 5 mm of a wall's end are excluded from these tests: the link may pass on the
+// Readings whose link passes within 5 mm of a wall's end are excluded from these tests. The link may pass on the
 // other side, an error of a whole wall. Three of those among 20,000 readings resemble outliers.
 VectorXd without_grazing(const LawSources& s, const VectorXd& residual, Diagnosis& found) {
   constexpr double as_exact_as_places = 0.005, much = 0.5;  // m: surveys write centimetres; dB: half a unit of RSSI
