@@ -28,8 +28,7 @@ Eigen::MatrixXd beyond(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& sl
   }
   if (kept.empty()) return {columns.rows(), 0};
   Eigen::MatrixXd even = left(Eigen::all, kept);
-  const Eigen::VectorXd lengths =
-      even.colwise().norm();  // precomputed: the expression below would evaluate it for each element
+  const Eigen::VectorXd lengths = even.colwise().norm();  // precomputed: else evaluated for each element below
   even = even * lengths.cwiseInverse().asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(even.transpose() * even);
   Eigen::Index first = 0;

@@ -23,8 +23,7 @@ struct Finding {
   double evidence = 0;                  // nats
   double log_p = 0;                     // marginal over the covariance
   std::optional<HeldOutGain> held_out;  // without and with it; none for a suspected finding
-  Eigen::VectorXd unseen_without;       // squared errors of readings at left-out places without it, squared units of a
-                                        // reading; none likewise
+  Eigen::VectorXd unseen_without;       // squared errors of readings at left-out places without it; none likewise
   std::vector<Elsewhere> elsewhere;     // the same for each grouping, if it concerns several groups
   std::vector<Alternative> alternatives;
 };

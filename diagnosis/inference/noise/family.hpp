@@ -44,8 +44,7 @@ struct Covariance {
 
 // A field as a model states it, without a family of correlations.
 struct StatedField {
-  double shadowing = 0,
-         decorrelation = 0;  // units of a reading, 0 where nothing is stated; m, at which correlation falls to 1/e
+  double shadowing = 0, decorrelation = 0;  // units of a reading, 0: not stated; m, to a correlation of 1/e
 };
 // The stated field equivalent to a fitted one. `within` [m]: mean distance of two readings of a row, whose mean
 // varies less than one reading does.

@@ -6,10 +6,7 @@
 
 namespace muster::noise {
 
-constexpr double floor_variance =
-    1e-3;  // squared units of a reading, added to every row: readings are quantised to 0.1 at best
-
-// One value for each of the eight rows.
+constexpr double floor_variance = 1e-3;  // squared units, of every row: readings have steps of 0.1 at best
 struct alignas(alignment) Lanes {
   double of[lanes];
 };

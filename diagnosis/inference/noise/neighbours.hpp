@@ -8,9 +8,8 @@
 namespace muster::noise {
 
 struct Conditioning {
-  int same = 10,
-      others = 12;    // rows of the same anchor, and of others, which separate its own field from the shared one
-  uint64_t seed = 1;  // of the order
+  int same = 10, others = 12;  // rows of the same anchor; of others, for the shared part of the field
+  uint64_t seed = 1;           // of the order
 
   int slots() const { return same + others; }
 };

@@ -105,7 +105,8 @@ MUSTER_INLINE void take(Four& from, Lanes weight, double* const* values, long a)
   for (int p = 0; p < parameters; ++p) from.of[p] -= weight * lanes_of(values[p])[a];
 }
 
-// Products of dC with the combination, for the derivatives by distance (1) and share (3), which are zero on the diagonal.
+// Products of dC with the combination, for the derivatives by distance (1) and share (3), which are zero on the
+// diagonal.
 void turn(const Neighbourhoods& n) {
   const long slots = n.slots;
   const Lanes* const combination = lanes_of(n.combination);

@@ -13,7 +13,7 @@ SparseColumns::SparseColumns(const ModelState& state, const WhitenedModel& model
 }
 
 void SparseColumns::clear() {
-  constexpr Index few = 30;  // a row reaches some fifteen, and clearing whole vectors is faster an entry
+  constexpr Index few = 30;  // a row reaches some fifteen; a whole vector clears faster than entries one by one
   if (static_cast<Index>(added_.size()) * few > column_.size()) {
     column_.setZero();
   } else {

@@ -5,8 +5,7 @@
 
 namespace muster::inference {
 
-constexpr double inseparable = 12,
-                 decided = 25;  // D below which two causes are inseparable; D from which they are decided
+constexpr double inseparable = 12, decided = 25;  // D below which causes are inseparable; from which decided
 
 struct Alternative {
   std::string id, label;  // of a smooth: ~ and its covariate

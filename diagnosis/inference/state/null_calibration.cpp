@@ -9,8 +9,7 @@
 namespace muster::inference {
 namespace {
 
-constexpr float least_left =
-    1e-3f;  // least squared length left of an atom's column, relative to the longest one of its candidate
+constexpr float least_left = 1e-3f;  // squared length left of a column, relative to its candidate's longest
 
 // Inverse of the lower Cholesky factor, zero for a column of which less than `least` is left by those before it.
 void turn(const Eigen::MatrixXf& products, float least, Eigen::Ref<Eigen::MatrixXf> inverse) {
