@@ -7,6 +7,8 @@
 namespace muster::noise {
 
 constexpr double floor_variance = 1e-3;  // squared units, of every row: readings have steps of 0.1 at best
+
+// One value for each of the eight rows.
 struct alignas(alignment) Lanes {
   double of[lanes];
 };

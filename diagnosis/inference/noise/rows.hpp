@@ -57,7 +57,7 @@ class Rows {
 
   // Means of columns that have one row a reading.
   Eigen::MatrixXd mean(const Eigen::Ref<const Eigen::MatrixXd>& columns) const;
-  // Values a row, repeated at each of its readings.
+  // One value a row, repeated at each of its readings.
   Eigen::VectorXd at_readings(const Eigen::VectorXd& rows) const;
 
  private:

@@ -60,7 +60,7 @@ struct Refinement {
   // Thetas worth refining, the best first, from a search over a tally's gain. Empty: from the grid.
   std::function<std::vector<Eigen::VectorXd>(Tally& tally)> proposed;
   int starts = 1;         // start thetas; more than one where the gain has many local optima
-  int evaluations = 110;  // evaluations of the columns a start
+  int evaluations = 110;  // evaluations of the columns for each start
   double charge = 0;      // nats: cost of refinement beyond the grid (from nulls refined alike)
   // Share of its gain that a theta keeps: below 1 where the object is physically impossible. May be empty.
   std::function<double(const Eigen::VectorXd& theta)> admitted;
