@@ -40,8 +40,8 @@ Eigen::VectorXd mean_shift(const std::vector<Hidden>& hidden, const Data& data) 
   return sum;
 }
 
-// What the receivers report. 0 and -128 are marks for nothing in real ones, so neither is written for a level; hide()
-// keeps levels so far from 0 that this meets one reading in many cases.
+// Reported code of a level. Real receivers use 0 and -128 as marks for a missing reading, so neither is written for a
+// level. hide() keeps levels so far below 0 that this concerns one reading in many cases.
 double reported(const std::vector<Hidden>& hidden, double level) {
   for (const Hidden& h : hidden)
     if (h.effect.acts == Acts::receiver && !std::isnan(level)) level = h.effect.receive(level, h.strength);
@@ -91,7 +91,7 @@ Eigen::VectorXd expected_shift(const Site& site, const std::vector<Hidden>& hidd
 
 namespace {
 
-// A site with its effects, not yet heard; with another attempt, another site.
+// A site with its effects, without readings; another attempt draws another site.
 Case hidden_in(const std::string& name, std::uint64_t seed, const Order& order) {
   Case made{name, seed, order, std::make_shared<Site>(draw_site(seed, needs_of(order), order.rows, order.walls)),
             {},   {},   {},    {}};
@@ -117,7 +117,7 @@ double worst_miss(const Case& made) {
 }  // namespace
 
 Case make_case(const std::string& name, std::uint64_t seed, const Order& order) {
-  constexpr int attempts = 6;  // sites, until one lets the effects weigh what is wanted
+  constexpr int attempts = 6;  // number of sites tried for the requested lambdas
   Case made = hidden_in(name, seed, order);
   for (int i = 1; i < attempts && worst_miss(made) > 1.25; ++i) {
     Case other = hidden_in(name, Random(seed, "site " + std::to_string(i)).bits(), order);

@@ -1,4 +1,4 @@
-// One sealed case: a site, two runs over it, and what was hidden there.
+// A sealed case: a site, two runs over it, and its hidden effects.
 #pragma once
 
 #include <cstdint>
@@ -13,11 +13,11 @@ struct Hidden {
   Effect effect;
   bool in_vocabulary = true;
   double strength = 0;
-  double wanted = 0;  // lambda that was asked for
+  double wanted = 0;  // requested lambda
   double lambda = 0;  // of this effect beside the base model and the other effects
 };
 
-// Held-out mean squared errors on spatial blocks, in dB^2, of fits that know the true covariance.
+// Held-out mean squared errors on spatial blocks, in dB^2, of GLS fits with the true covariance.
 struct Oracle {
   double without = 0, with = 0;  // the base model alone; the base model beside the true effects
 };
@@ -27,12 +27,12 @@ struct Order {
   std::vector<std::string> effects;  // their ids
   std::vector<double> lambdas;       // one an effect
   int rows = 6000;
-  std::string walls{};  // of the plan, as a table; empty: it is drawn
+  std::string walls{};  // of the plan, as a table; empty: drawn at random
 };
 
 struct Case {
   std::string name;
-  std::uint64_t seed = 0;  // of its site; the case's own unless that let no effect weigh what is wanted
+  std::uint64_t seed = 0;  // of its site; a fresh one if the case's own could not give the requested lambdas
   Order order;
   std::shared_ptr<Site> site;  // the effects refer to it
   Data measured, second;
@@ -41,18 +41,18 @@ struct Case {
 };
 
 Case make_case(const std::string& name, std::uint64_t seed, const Order& order);
-// The same again from the seed of its site; no oracle.
+// Remakes a case from the seed of its site; no oracle.
 Case remake_case(const std::string& name, std::uint64_t site_seed, const Order& order);
 
-// Sum of all effects' mean shifts, the receiver's among them, expected over the noise.
+// Sum of all effects' mean shifts, the receiver's included, expected over the noise.
 Eigen::VectorXd expected_shift(const Site& site, const std::vector<Hidden>& hidden, const Data& data);
 
 std::vector<char> heard(const Data& data);
 
-// Field, fading and all else that is drawn, on top of the mean.
+// Draws field, fading and all other noise, to be added to the mean.
 Eigen::VectorXd draw_noise(const Case& made, const Field& field, const Data& data, const std::string& run);
 
-// Fills in what the receivers of a run report.
+// Fills in the readings that the receivers of a run report.
 void hear(const Case& made, const Field& field, Data& data, const std::string& run);
 
 }  // namespace muster::exam

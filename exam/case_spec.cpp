@@ -14,7 +14,7 @@ bool wanted(const Syllabus& syllabus, const Recipe& r) {
   return ids.empty() || std::find(ids.begin(), ids.end(), r.id) != ids.end();
 }
 
-// Each effect in turn, those outside the vocabulary among them.
+// Each effect in turn, including those outside the vocabulary.
 const Recipe& in_turn(const Syllabus& syllabus, int number) {
   std::vector<const Recipe*> all;
   for (const Recipe& r : recipes()) {
@@ -29,7 +29,7 @@ std::size_t how_many(const std::string& kind) { return kind == "three" ? 3 : kin
 std::vector<std::string> candidates(const Syllabus& syllabus, const std::string& kind) {
   std::vector<std::string> result;
   for (const Recipe& r : recipes()) {
-    // Exchanged names move every level of two stations; beside that no other effect would have its own meaning.
+    // Exchanged names move every level of two stations: another effect would lose its meaning.
     const bool alone = std::string_view(r.id) == "label_swap";
     if (wanted(syllabus, r) && r.in_vocabulary == (kind != "outside") && !(how_many(kind) > 1 && alone))
       result.push_back(r.id);
@@ -38,7 +38,7 @@ std::vector<std::string> candidates(const Syllabus& syllabus, const std::string&
   return result;
 }
 
-// Two laws of one reading cannot both be read off its scatter.
+// False for two laws of single readings: their joint scatter identifies neither.
 bool go_together(const std::string& a, const std::string& b) {
   const auto scatters = [](const std::string& id) {
     return id == "fading_law" || id == "channel_mixture" || id == "outliers";

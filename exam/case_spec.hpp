@@ -1,4 +1,4 @@
-// What each case of an exam is about: drawn from the exam's seed and the case's number alone.
+// Specification of each case of an exam, drawn from the exam's seed and the case's number alone.
 #pragma once
 
 #include "exam/case.hpp"
@@ -7,11 +7,11 @@ namespace muster::exam {
 
 struct Syllabus {
   std::uint64_t seed = 1;
-  // Also "three", and "each": one or outside, by turns.
+  // Also "three", and "each": one or outside, in turn.
   std::vector<std::string> kinds{"clean", "one", "two", "outside"};
   std::vector<std::string> effects;  // to draw from; empty: all
-  std::string walls{};               // of a plan of one's own, as a table; empty: plans are drawn
-  bool corridor = true;              // whether plans have one
+  std::string walls{};               // a user's own plan, as a table; empty: plans are drawn
+  bool corridor = true;              // true if plans have one
   double least_rows = 2000, most_rows = 20000;
   double least_lambda = 12, most_lambda = 400;
 };

@@ -53,7 +53,7 @@ double chord(Vec2 p, Vec2 q, Vec2 centre, double radius) {
 
 double length_within(const Plan& plan, const Room& room, Vec2 p, Vec2 q) {
   const Vec2 a = plan.to_own(p), b = plan.to_own(q);
-  double from = 0, to = 1;  // the part of the link within both of the room's strips
+  double from = 0, to = 1;  // part of the link within both of the room's strips
   const auto strip = [&](double start, double end, double low, double high) {
     const double way = end - start;
     if (std::abs(way) < 1e-9) {

@@ -1,5 +1,4 @@
-// Which walls a straight link goes through, by signed areas. Places drawn at random meet no corner, so ties need no
-// rule.
+// Walls crossed by a straight link, by signed areas. Places drawn at random meet no corner, so ties need no rule.
 #pragma once
 
 #include <optional>
@@ -19,13 +18,13 @@ struct Meeting {
   double cosine = 1;
 };
 
-// Where segment p q meets segment a b.
+// Intersection of segments p q and a b.
 std::optional<Meeting> meeting(Vec2 p, Vec2 q, Vec2 a, Vec2 b);
 
-// What links cross: an open door is a gap, a closed one is of its wall's material, over it the wall goes on.
+// Crossings of a link: an open door is a gap, a closed one has its wall's material, and the wall continues above it.
 std::vector<Crossing> crossings(const Plan& plan, Vec3 from, Vec3 to);
 
-// Whether a step of a robot, on the ground, would run through a wall or a closed door.
+// True if a robot's step, on the ground, would cross a wall or a closed door.
 bool runs_into_wall(const Plan& plan, Vec2 from, Vec2 to);
 
 // Length of p q within a disk.

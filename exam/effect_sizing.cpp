@@ -11,11 +11,11 @@
 namespace muster::exam {
 namespace {
 
-constexpr double loudest = -22, weakest = -118;  // dBm, mean; the first comes first
-constexpr int redraws = 8;                       // of an effect's shape, if this one cannot be made as heavy as wanted
-constexpr double near_enough = 1.1;              // of the wanted lambda
+constexpr double loudest = -22, weakest = -118;  // dBm, mean; the first one has priority
+constexpr int redraws = 8;                       // of an effect's shape that cannot reach the requested lambda
+constexpr double near_enough = 1.1;              // factor of the requested lambda
 
-// A strength within the effect's limits whose lambda, which grows with it, is the wanted one.
+// The strength within the effect's limits with the requested lambda, which grows with strength.
 template <class Lambda>
 double strength_for(const Effect& e, double wanted, Lambda lambda) {
   if (e.linear) return std::clamp(std::sqrt(wanted / std::max(lambda(1.0), 1e-9)), e.least, e.most);
@@ -38,9 +38,9 @@ Eigen::MatrixXd beside(const Eigen::MatrixXd& base, const std::vector<Eigen::Vec
 
 double heard_count(const std::vector<char>& use) { return static_cast<double>(std::count(use.begin(), use.end(), 1)); }
 
-// Twice the expected log-likelihood ratio of passages, columns in whitened space, to one who knows their shapes and how
-// often they come, and not when: each second one begins with the same chance. Along a passage of energy e its log ratio
-// is normal with mean e/2 and variance e, and with mean -e/2 where none begins.
+// Twice the expected log-likelihood ratio of passages with known shape and rate at unknown times; columns are
+// whitened. Passages begin at each second with the same probability. The log ratio for a passage of energy e is
+// normal with variance e and mean e/2, or -e/2 where none begins.
 double lambda_of_passages(const Eigen::MatrixXd& whitened, double duration) {
   const auto count = static_cast<double>(whitened.cols());
   const double chance = count / duration;
@@ -63,7 +63,7 @@ class Hider {
  public:
   Hider(Case& made, const std::vector<char>& use) : made_(made), use_(use), random_(made.seed, "effects") {}
 
-  // Laws first, since they are the noise against which means are weighed; receivers last, since they see it all.
+  // Laws first, since lambdas of mean effects depend on the noise; receivers last, since all else precedes them.
   void run() {
     for (const Acts acts : {Acts::reading_law, Acts::field_law, Acts::mean, Acts::receiver}) {
       if (acts == Acts::receiver) keep_audible();
@@ -79,7 +79,7 @@ class Hider {
   }
 
  private:
-  // Sets the transmitters' power so that the true model and the effects meet no receiver's limits.
+  // Sets the transmit power so that levels, with all effects, stay within the receivers' limits.
   void keep_audible() {
     const Eigen::VectorXd mean = made_.measured.design * coefficients(*made_.site) + sum();
     double more = std::max(0.0, std::ceil(weakest - mean.minCoeff()));
@@ -125,8 +125,7 @@ class Hider {
     return energy(whitener(), e.shift(made_.measured, x), beside(made_.measured.design, shifts_));
   }
 
-  // Worlds state how large shadowing is and how far it reaches, and no family: the one nearest to the truth is to be
-  // beaten.
+  // Least divergence over families: worlds state the size and decorrelation distance of shadowing, and no family.
   double of_field(const FieldLaw& truth) {
     if (!divergence_) {
       std::vector<FieldLaw> stated;
@@ -164,12 +163,12 @@ class Hider {
   Case& made_;
   const std::vector<char>& use_;
   Random random_;
-  std::vector<Eigen::VectorXd> shifts_;  // of the effects adopted so far
+  std::vector<Eigen::VectorXd> shifts_;  // of all effects so far
   std::optional<Whitener> whitener_;
   std::optional<FieldDivergence> divergence_;
 };
 
-// Folds of spatial blocks, so that shadowing of held-out places was not seen.
+// Folds of spatial blocks, so that held-out places do not share the training places' shadowing.
 std::vector<int> folds_of(const Case& made, int folds) {
   const double side = std::max(3.0, 3 * made.site->noise.field.decorrelation);
   std::vector<int> result;
@@ -194,7 +193,7 @@ Oracle held_out(const Case& made, const Eigen::VectorXd& effect) {
   constexpr int folds = 5;
   const std::vector<int> fold = folds_of(made, folds);
   const std::vector<char> all = heard(made.measured);
-  // Unheard readings are in no fold; zeros keep them out of sums as not-a-number.
+  // Missing readings are in no fold; zeros keep NaN out of sums.
   const Eigen::VectorXd y = made.measured.rssi.unaryExpr([](double v) { return std::isnan(v) ? 0 : v; });
   Oracle sum;
   for (int k = 0; k < folds; ++k) {
@@ -239,7 +238,7 @@ ReceivedShift received_shift(const Site& site, const Effect& effect, double stre
   std::vector<double> chance(data.size());
   for (Eigen::Index i = 0; i < mean.size(); ++i) {
     double weights = 0, seen = 0, sum = 0;
-    for (double z = -3.2; z < 3.3; z += 0.2) {  // a normal law, by the trapezoidal rule
+    for (double z = -3.2; z < 3.3; z += 0.2) {  // normal density, by the trapezoidal rule
       const double w = std::exp(-z * z / 2), level = effect.receive(mean[i] + z * deviation, strength);
       weights += w;
       if (std::isnan(level)) continue;

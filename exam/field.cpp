@@ -8,7 +8,7 @@ namespace {
 
 constexpr double pitch = 0.08;  // m
 
-// Complex numbers as two arrays, so that sums of products become vector instructions.
+// Complex numbers as two arrays, for vectorised sums of products.
 struct Spectrum {
   std::size_t columns, rows;  // powers of two
   std::vector<double> re, im;
@@ -16,8 +16,8 @@ struct Spectrum {
   Spectrum(std::size_t c, std::size_t r) : columns(c), rows(r), re(c * r), im(c * r) {}
 };
 
-// Cooley and Tukey 1965, in place, elements `stride` apart; the other lines of the array are transformed along.
-// The order of the results is natural.
+// Fast Fourier transform (Cooley and Tukey 1965) in place and in natural order, elements `stride` apart. Other lines
+// of the array are transformed alongside.
 class Transform {
  public:
   explicit Transform(std::size_t size) : size_(size), cosine_(size / 2), sine_(size / 2), order_(size) {
@@ -28,7 +28,7 @@ class Transform {
     for (std::size_t i = 1; i < size; ++i) order_[i] = (order_[i / 2] | (i & 1 ? size : 0)) / 2;
   }
 
-  // Lines of `width` elements that lie side by side: element i of line k at data[i * stride + k].
+  // Transforms `width` adjacent lines: element i of line k is at data[i * stride + k].
   void operator()(double* re, double* im, std::size_t stride, std::size_t width) const {
     for (std::size_t i = 0; i < size_; ++i) {
       if (order_[i] <= i) continue;
@@ -61,7 +61,7 @@ class Transform {
 void transform(Spectrum& s) {
   const Transform along(s.columns), across(s.rows);
   for (std::size_t r = 0; r < s.rows; ++r) along(s.re.data() + r * s.columns, s.im.data() + r * s.columns, 1, 1);
-  constexpr std::size_t strip = 32;  // columns at a time, to stay in the cache
+  constexpr std::size_t strip = 32;  // columns at a time, for the cache
   for (std::size_t c = 0; c < s.columns; c += strip) across(s.re.data() + c, s.im.data() + c, s.columns, strip);
 }
 
@@ -71,8 +71,8 @@ std::size_t power_of_two_over(double n) {
   return result;
 }
 
-// Roots of the eigenvalues of the periodic covariance; the few negative ones that a torus too small gives are cut, and
-// the variance is set right again.
+// Roots of the eigenvalues of the periodic covariance. A torus that is too small gives a few negative ones; these are
+// cut and the variance is restored.
 std::vector<double> amplitudes(const FieldLaw& law, std::size_t columns, std::size_t rows) {
   Spectrum s(columns, rows);
   for (std::size_t y = 0; y < rows; ++y)
@@ -114,7 +114,7 @@ Field::Field(const Site& site, std::uint64_t seed) : plan_(site.plan), law_(site
              power_of_two_over(static_cast<double>(rows_) + tail));
   const std::vector<double> amplitude = amplitudes(law_, s.columns, s.rows);
   Random random(seed, "shadowing");
-  while (values_.size() < plan_.stations.size() + 1) {  // real and imaginary part are two independent fields
+  while (values_.size() < plan_.stations.size() + 1) {  // real and imaginary part are independent fields
     for (std::size_t i = 0; i < amplitude.size(); ++i) {
       s.re[i] = amplitude[i] * random.normal();
       s.im[i] = amplitude[i] * random.normal();

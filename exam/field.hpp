@@ -1,15 +1,15 @@
-// Shadowing by circulant embedding (Dietrich and Newsam 1997): exact on the nodes of a grid. A place takes its node's
-// value.
+// Shadowing by circulant embedding (Dietrich and Newsam 1997): exact on the nodes of a grid. Each place has its
+// node's value.
 #pragma once
 
 #include "exam/ground_truth.hpp"
 
 namespace muster::exam {
 
-// Correlation at a distance.
+// Correlation of the law at a distance in m.
 double correlation(const FieldLaw& law, double distance);
 
-// The same from a table, for the many pairs of a covariance: linear between steps of 2 cm, exact to 1e-4 from 1 cm on.
+// Tabled correlation, for the many pairs of a covariance: linear between steps of 2 cm, exact to 1e-4 from 1 cm on.
 class CorrelationTable {
  public:
   explicit CorrelationTable(const FieldLaw& law);
@@ -27,7 +27,7 @@ class CorrelationTable {
 
 class Field {
  public:
-  // One field a station and a shared one, over the plan.
+  // Draws one field for each station and a shared one, over the plan.
   Field(const Site& site, std::uint64_t seed);
 
   // dB at a robot's place.
@@ -37,7 +37,7 @@ class Field {
   const Plan& plan_;
   FieldLaw law_;
   std::size_t columns_ = 0, rows_ = 0;
-  std::vector<std::vector<float>> values_;  // variance 1; one a station, the shared one last
+  std::vector<std::vector<float>> values_;  // variance 1; one for each station, the shared one last
 };
 
 }  // namespace muster::exam

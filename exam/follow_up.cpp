@@ -26,7 +26,7 @@ int robot_called(const Site& site, const std::string& name) {
   return -1;
 }
 
-// Surroundings as another run has them at that moment, a run after another.
+// Surroundings of another run at that time; runs follow each other.
 Reading surroundings(const Site& site, const Data& run, double t, int robot) {
   const std::size_t per_robot = site.plan.stations.size() * (site.two_way ? 2 : 1);
   const double tick = std::fmod(t, site.duration()) / site.period;
@@ -34,7 +34,7 @@ Reading surroundings(const Site& site, const Data& run, double t, int robot) {
   return run.readings[(i * static_cast<std::size_t>(site.robots) + static_cast<std::size_t>(robot)) * per_robot];
 }
 
-// Of a reading that is asked for, which end is the case's station and which its robot.
+// A planned reading, by station and robot.
 struct Ends {
   int station, robot;
   bool up;  // the robot sends
@@ -63,7 +63,7 @@ Reading reading_of(const Site& site, const Data& run, const Ends& ends, double t
   return r;
 }
 
-// Lets stations stand and face where the plan has them; whether one was moved.
+// Moves and turns stations as planned. True if one was moved.
 bool move_stations(Case& made, const std::vector<Ends>& asked) {
   std::map<int, Vec3> moved;
   for (const Ends& e : asked) {
@@ -77,7 +77,7 @@ bool move_stations(Case& made, const std::vector<Ends>& asked) {
   for (const auto& [station, to] : moved) {
     made.site->plan.stations[static_cast<std::size_t>(station)].at = to;
     const std::string row = radio_row(*made.site, station);
-    std::erase_if(made.hidden, [&](const Hidden& h) {  // whoever moves a station knows where it stands
+    std::erase_if(made.hidden, [&](const Hidden& h) {  // a moved station has a known place
       return h.effect.id == "tx_misplaced" && h.effect.rows[0] == row;
     });
   }

@@ -1,4 +1,4 @@
-// An advised measurement, made: the truth of a case read at the places and times that a diagnosis asks for.
+// Carries out an advised measurement: reads a case's truth at the planned places and times.
 #pragma once
 
 #include <filesystem>
@@ -10,11 +10,11 @@
 
 namespace muster::exam {
 
-// The case of an answer file, the same to the bit. Throws std::runtime_error.
+// Remakes the case of an answer file, bit for bit. Throws std::runtime_error.
 Case read_case(const std::filesystem::path& answer);
 
-// measured.csv of the case with what is asked behind it, of the same truth and field. A station that a plan moves is
-// known to stand there, and its shadowing is another one. Throws std::runtime_error for a radio that the case has not.
+// measured.csv of the case with the planned readings appended, from the same truth and field. A station moved by the
+// plan has a known place and new shadowing. Throws std::runtime_error for a radio that is not in the case.
 std::string followed_csv(Case made, const std::vector<Asked>& asked);
 
 }  // namespace muster::exam

@@ -10,7 +10,7 @@ namespace {
 
 double wrapped(double a) { return std::remainder(a, 2 * std::numbers::pi); }
 
-// Smooth, slow and without a period: a sum of waves of uneven lengths.
+// A smooth, slow, aperiodic curve: a sum of waves of incommensurate lengths.
 class SlowCurve {
  public:
   SlowCurve(Random& random, double duration) {
@@ -27,7 +27,7 @@ class SlowCurve {
   std::array<double, 4> pace_{}, phase_{};
 };
 
-// Bursts of other people's traffic, from 0 to about 1.
+// Bursts of foreign traffic, from 0 to about 1.
 class Traffic {
  public:
   Traffic(Random& random, double duration) {
@@ -57,7 +57,7 @@ Noise draw_noise(Random& random) {
   return noise;
 }
 
-// Epochs of a setting, so that it varies and is not a function of place.
+// A setting constant over epochs: it varies, but is no function of place.
 int setting_at(Random& random, double t, double duration, double& until, int now, int levels) {
   if (t < until) return now;
   until = t + duration * random.uniform(0.03, 0.09);
@@ -134,7 +134,7 @@ Site draw_site(std::uint64_t seed, const SiteNeeds& needs, int rows, const std::
   site.base.stated_n = std::round(100 * (site.base.n + random.uniform(-0.4, 0.4))) / 100;
   const int links = static_cast<int>(site.plan.stations.size()) * site.robots * (site.two_way ? 2 : 1);
   site.ticks = (rows + links - 1) / links;
-  // Short runs read less often, or they would see two rooms only.
+  // Short runs have a longer period, so that they cover more than two rooms.
   const double shortest = std::min(1.0, 150.0 / site.ticks);
   site.period = to_millimetres(std::max(shortest, random.uniform(0.25, 0.4) * (site.robots == 2 ? 1.5 : 1)));
   return site;

@@ -1,4 +1,4 @@
-// What is true of one case: plan, base model, noise; and the readings that were taken there.
+// Ground truth of a case: plan, base model, noise; and the readings taken there.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,20 +10,20 @@ namespace muster::exam {
 
 enum class Family { exponential = 1, gaussian, two_scale };
 
-// Shadowing: one field over the robots' places a station, and one that all stations share.
+// Shadowing over the robots' places: one field for each station, and one shared by all.
 struct FieldLaw {
   Family family = Family::exponential;
   double sigma = 4;          // dB
   double decorrelation = 2;  // m
-  double shared = 0.2;       // share of the variance that all stations have in common
+  double shared = 0.2;       // share of the variance common to all stations
 };
 
-// What varies from reading to reading.
+// Law of single readings.
 struct ReadingLaw {
   double rician_k = 6;           // dB
-  int averaged = 1;              // readings of this many independent fades each
+  int averaged = 1;              // number of independent fades averaged in a reading
   double outliers = 0;           // share, uniform within +-20 dB
-  std::vector<double> channels;  // dB, levels of hopping channels; empty: one channel
+  std::vector<double> channels;  // dB, levels of hopping channels; empty: a single channel
 };
 
 struct Noise {
@@ -36,17 +36,17 @@ struct Base {
   double level_at_1m = -30;  // dBm, true
   double n = 2;
   double tx_power = 10;                 // dBm, in the world file
-  double stated_l0 = 40, stated_n = 2;  // in the world file: where a fit starts
+  double stated_l0 = 40, stated_n = 2;  // in the world file: start of a fit
 };
 
 struct Site {
   Plan plan;
   Base base;
   Noise noise;
-  FieldLaw stated_field;  // what the world file says; the truth unless the case's effect is about it
+  FieldLaw stated_field;  // in the world file; the truth unless the case's effect changes it
   ReadingLaw stated_reading;
   int robots = 1;
-  bool two_way = false;       // stations hear the robots, too
+  bool two_way = false;       // stations receive from robots too
   bool has_power = false;     // a column power[dBm]
   bool has_firmware = false;  // a column firmware
   bool has_noise = false;     // a column noise[dBm]
@@ -62,15 +62,16 @@ struct Reading {
   bool up = false;  // the robot sends
   Vec3 at;          // of the robot's antenna
   double yaw = 0, speed = 0, battery = 0, temperature = 0;
-  int power = 0;     // which of `power_levels`
-  int firmware = 0;  // which of `firmware_names`
-  double noise = 0;  // of the receiver's surroundings, in swings over the quiet floor
+  int power = 0;     // index into `power_levels`
+  int firmware = 0;  // index into `firmware_names`
+  double noise = 0;  // at the receiver, in swings above the quiet floor
 };
 
 inline constexpr std::array<double, 4> power_levels{-12, -6, 0, 4};  // dBm, nominal
 inline constexpr std::array<const char*, 3> firmware_names{"v1.2", "v1.4", "v2.0"};
 
-// Readings of one run with what links cross, and the base model's columns: 1, -10 log10 d, -walls by material.
+// Readings of one run with the crossings of their links, and the base model's columns: 1, -10 log10 d, -walls by
+// material.
 struct Data {
   std::vector<Reading> readings;
   std::vector<std::vector<Crossing>> crossings;
@@ -82,25 +83,26 @@ struct Data {
 
 Vec3 place_of(const Site& site, const Reading& r);
 double distance_of(Vec3 a, Vec3 b);
-// Bearing of the station from the robot, against its heading; and of the robot from the station, against the station's.
+// Bearing of the station from the robot, relative to its heading; and of the robot from the station, relative to the
+// station's.
 double robot_bearing(const Site& site, const Reading& r);
 double station_bearing(const Site& site, const Reading& r);
 
-// Readings with what their links cross and their design.
+// Readings with their links' crossings and their design matrix.
 Data data_of(const Site& site, std::vector<Reading> readings);
-// One row of the design: for readings whose radios stand elsewhere than the map says.
+// One row of the design matrix, for radios at other places than on the map.
 Eigen::RowVectorXd design_row(const Site& site, const std::vector<Crossing>& crossed, Vec3 a, Vec3 b);
 Eigen::VectorXd coefficients(const Site& site);
 
 struct SiteNeeds {
   PlanNeeds plan;
   bool two_robots = false, two_way = false, power = false, firmware = false, noise = false;
-  bool single_fades = false;  // readings that are not averages
+  bool single_fades = false;  // readings of a single fade
 };
 
 // `walls`: the plan, as a table; empty: one is drawn.
 Site draw_site(std::uint64_t seed, const SiteNeeds& needs, int rows, const std::string& walls = {});
-// Another run over the same site for each `name`.
+// Draws a run over the site, a different one for each `name`.
 Data draw_data(const Site& site, std::uint64_t seed, const std::string& name);
 
 }  // namespace muster::exam

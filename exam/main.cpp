@@ -1,4 +1,4 @@
-// muster_exam: makes sealed cases for a diagnosis, and grades what it says of them.
+// muster_exam: makes sealed cases for a diagnosis, and grades its reports.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -48,7 +48,7 @@ Example: muster exam make --seed 7 --cases 40 --out exam
 
 using Arguments = std::map<std::string, std::vector<std::string>>;
 
-// Options that are known, each with its values in words; under "" the words that belong to no option.
+// Parses options among the known ones, each with its values; "" holds the words outside any option.
 Arguments parsed(int argc, char** argv, const Arguments& known) {
   Arguments result;
   for (int i = 2; i < argc; ++i) {
@@ -164,7 +164,7 @@ int make(int argc, char** argv) {
   return 0;
 }
 
-// Given, or the folder "reports" of the exam.
+// The given folder, or "reports" in the exam's.
 std::filesystem::path reports_of(const Arguments& arguments, const std::filesystem::path& exam) {
   const auto at = arguments.find("--reports");
   return at == arguments.end() ? exam / "reports" : std::filesystem::path(at->second[0]);

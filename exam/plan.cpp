@@ -8,7 +8,7 @@ namespace {
 
 constexpr int drywall = 0, brick = 1;
 
-// Draws in the plan's own frame; walls are turned into the world's at the end.
+// Draws a plan in its own frame; walls are turned into the world's at the end.
 class Architect {
  public:
   Architect(Random& random, Plan& plan) : random_(random), plan_(plan) {}
@@ -45,7 +45,7 @@ class Architect {
     }
   }
 
-  // A deep room may have another one behind it.
+  // A deep room may be split into two.
   void room(const Room& all, bool above) {
     const double depth = all.high.y - all.low.y;
     if (depth < 5.5 || random_.chance(0.6)) {
@@ -72,7 +72,7 @@ class Architect {
     plan_.doors.push_back({"d" + std::to_string(plan_.doors.size() + 1), wall, at, 0.9, 2.0, open});
   }
 
-  // Links within the house must cross both materials often, or the losses could not be told from data.
+  // Sets enough inner walls to brick: losses are identifiable only if links cross both materials often.
   void some_brick() {
     std::vector<std::size_t> inner;
     for (std::size_t i = 0; i + 4 < plan_.walls.size(); ++i) inner.push_back(i);
@@ -100,7 +100,7 @@ void place_stations(Random& random, Plan& plan, const PlanNeeds& needs) {
   for (int i = 0; i < count; ++i) {
     const bool in_corridor = i == 0 && needs.corridor_station && plan.has_corridor;
     Vec2 own;
-    for (int attempt = 0; attempt < 50; ++attempt) {  // apart from one another where there is room for it
+    for (int attempt = 0; attempt < 50; ++attempt) {  // apart from each other if there is space
       own = place_in(random, in_corridor ? plan.corridor : random.pick(plan.rooms));
       if (std::all_of(taken.begin(), taken.end(), [&](Vec2 t) { return std::hypot(t.x - own.x, t.y - own.y) > 4; }))
         break;
@@ -115,7 +115,7 @@ void place_stations(Random& random, Plan& plan, const PlanNeeds& needs) {
   }
 }
 
-// Where a fit starts.
+// Draws the stated losses, the start of a fit.
 void state_losses(Random& random, Plan& plan) {
   for (Material& m : plan.materials) m.stated = std::round(10 * m.loss * random.uniform(0.7, 1.4)) / 10;
 }

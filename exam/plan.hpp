@@ -1,5 +1,5 @@
-// Floor plans: random ones, a corridor with rooms on both sides, at any angle; or one's own (walls.hpp). All
-// coordinates are whole millimetres, so that the files hold exactly what the truth was computed from.
+// Floor plans: random ones, a corridor with rooms on both sides, at any angle; or a user's own (walls.hpp). All
+// coordinates are whole millimetres, so that files hold exactly the truth.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ inline double to_millimetres(double v) { return std::round(v * 1000) / 1000; }
 struct Material {
   std::string name;
   double loss = 0;    // dB a wall, true
-  double stated = 0;  // dB a wall, in the world file: where a fit starts
+  double stated = 0;  // dB a wall, in the world file: start of a fit
 };
 
 struct Wall {
@@ -40,7 +40,7 @@ struct Door {
   bool open = true;
 };
 
-// A rectangle in the plan's own frame, before it was turned.
+// A rectangle in the plan's own frame.
 struct Room {
   Vec2 low, high;
   bool holds(Vec2 p) const { return p.x > low.x && p.x < high.x && p.y > low.y && p.y < high.y; }
@@ -57,7 +57,7 @@ struct Plan {
   std::vector<Wall> walls;
   std::vector<Door> doors;
   std::vector<Room> rooms;
-  Room corridor;  // or the room that comes nearest to one
+  Room corridor;  // or the room most like one
   bool has_corridor = true;
   std::vector<Station> stations;
   Room whole;
@@ -67,17 +67,17 @@ struct Plan {
   Vec2 to_world(Vec2 own) const;
   Vec2 to_own(Vec2 world) const;
   double top() const;  // m, of the highest wall
-  // The room at a place in the world, or -1: the corridor, or outside.
+  // Index of the room at a place in the world, or -1: the corridor, or outside.
   int room_at(Vec2 world) const;
 };
 
 struct PlanNeeds {
-  bool corridor_station = false;  // one station stands in the corridor
-  bool high_stations = false;     // two hang above the walls
+  bool corridor_station = false;  // one station in the corridor
+  bool high_stations = false;     // two stations above the walls
 };
 
 Plan draw_plan(Random& random, const PlanNeeds& needs);
-// A plan of one's own with what its walls cost and with stations.
+// A given plan with wall losses and stations.
 Plan furnished(Plan given, Random& random, const PlanNeeds& needs);
 
 }  // namespace muster::exam

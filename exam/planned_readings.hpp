@@ -1,4 +1,4 @@
-// A table of readings to be made: who is to hear whom, when, and where both stand.
+// A table of planned readings: transmitter, receiver, time, and the poses of both.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ struct Asked {
   double tx_yaw = 0, rx_yaw = 0;  // rad
 };
 
-// Columns t[s], tx and rx, and _x[m], _y[m], _z[m] and _yaw[rad] of both, in any order. By time. Throws
+// Reads columns t[s], tx and rx, and _x[m], _y[m], _z[m] and _yaw[rad] of both, in any order. Sorted by time. Throws
 // std::runtime_error with the line.
 std::vector<Asked> read_plan(const std::string& csv);
 

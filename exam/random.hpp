@@ -1,4 +1,4 @@
-// Random numbers that are the same with every compiler and library: the distributions of <random> are not.
+// Random numbers that are equal with every compiler and library: the distributions of <random> are not.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace muster::exam {
 
-// SplitMix64 (Steele, Lea, Flood 2014) from a seed and the name of a stream; streams do not disturb one another.
+// SplitMix64 (Steele, Lea, Flood 2014) from a seed and the name of a stream; streams are independent.
 class Random {
  public:
   Random(std::uint64_t seed, std::string_view stream) : state_(seed * 0x9E3779B97F4A7C15u) {
@@ -17,7 +17,7 @@ class Random {
   }
 
   std::uint64_t bits() { return mixed(state_ += 0x9E3779B97F4A7C15u); }
-  // In [0, 1).
+  // Uniform in [0, 1).
   double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
   bool chance(double p) { return uniform() < p; }

@@ -13,7 +13,7 @@ using Density = std::vector<double>;
 
 double from_db(double db) { return std::pow(10, db / 10); }
 
-// Rice 1945: density of 10 log10 of the power, its mean being 1.
+// Density of 10 log10 of Rician power with mean 1 (Rice 1945).
 double rician_density(double k, double db) {
   const double g = from_db(db), x = 2 * std::sqrt(k * (1 + k) * g);
   const double exponent = -k - (1 + k) * g;
@@ -39,7 +39,7 @@ Moments moments(const Density& d) {
   return {first / sum, second / sum - first * first / (sum * sum)};
 }
 
-// A density moved by some dB, between its bins.
+// Adds a density shifted by some dB, interpolated between bins.
 void add_moved(const Density& from, double by, double weight, Density& to) {
   const double steps = by / bin, whole = std::floor(steps), part = steps - whole;
   for (std::size_t i = 0; i < bins; ++i) {
@@ -51,7 +51,7 @@ void add_moved(const Density& from, double by, double weight, Density& to) {
   }
 }
 
-// The whole law, its mean moved to 0, quantised.
+// Density of the whole law, shifted to mean 0, quantised.
 Density density(const ReadingLaw& law) {
   Density d = rician(equivalent_rician_k(law));
   if (!law.channels.empty()) {
@@ -80,7 +80,7 @@ Density smeared(const Density& d, double deviation) {
 }
 
 double divergence(const Density& p, const Density& q) {
-  // No one trusts a law of fading to the last tail: a millionth of all readings may be anything.
+  // Floor of densities, a millionth of all readings: no fading law is exact in its far tails.
   constexpr double anything = 1e-6 / static_cast<double>(bins);
   double sum = 0;
   for (std::size_t i = 0; i < bins; ++i) sum += p[i] * (std::log(p[i] + anything) - std::log(q[i] + anything));
@@ -104,7 +104,7 @@ double draw_reading(const ReadingLaw& law, Random& random) {
 
 Moments fading_moments(const ReadingLaw& law) {
   if (law.averaged == 1) return moments(rician(law.rician_k));
-  Random random(1, "moments of averaged fades");  // no closed form; the same numbers every time
+  Random random(1, "moments of averaged fades");  // no closed form; a fixed seed
   constexpr int draws = 20000;
   const ReadingLaw fades{law.rician_k, law.averaged, 0, {}};
   double first = 0, second = 0;
@@ -129,7 +129,7 @@ double equivalent_rician_k(const ReadingLaw& law) {
 
 double reading_lambda(const ReadingLaw& truth, const ReadingLaw& stated, const std::vector<double>& level_deviations) {
   constexpr double step = 0.5;  // dB, of deviations
-  std::vector<double> counts;   // of readings by their levels' deviation
+  std::vector<double> counts;   // number of readings by the deviation of their level
   for (const double deviation : level_deviations) {
     const auto place = static_cast<std::size_t>(std::lround(deviation / step));
     counts.resize(std::max(counts.size(), place + 1));

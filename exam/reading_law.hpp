@@ -1,11 +1,11 @@
-// What a single reading adds: fading, hopping channels, outliers; as draws and as densities in dB.
+// Law of a single reading about its level: fading, hopping channels, outliers. Draws, and densities in dB.
 #pragma once
 
 #include "exam/ground_truth.hpp"
 
 namespace muster::exam {
 
-// dB of one reading's fading, channel and outlier.
+// Draws fading, channel and outlier of one reading, dB.
 double draw_reading(const ReadingLaw& law, Random& random);
 
 struct Moments {
@@ -13,12 +13,12 @@ struct Moments {
 };
 Moments fading_moments(const ReadingLaw& law);
 
-// Rician factor in dB of single fades with the same variance as the law's averaged ones: what a world file can say.
+// Rician factor in dB of single fades with the variance of the law's averaged ones, for the world file.
 double equivalent_rician_k(const ReadingLaw& law);
 
-// 2 x the Kullback-Leibler divergence of readings, true against stated, quantised to 1 dB, means set equal: a fit of
-// the loss at 1 m sees to that. Each reading's level is known but for a Gaussian error of `level_deviations` dB, which
-// the stated law may take to be larger or smaller, all by one factor: nobody states how much shadowing varies.
+// 2 x the Kullback-Leibler divergence of readings quantised to 1 dB, true against stated. Means are equal, as after a
+// fit of the loss at 1 m. Each reading's level has a Gaussian error of `level_deviations` dB. The stated law may
+// scale all of these by one factor, since the size of shadowing is unknown.
 double reading_lambda(const ReadingLaw& truth, const ReadingLaw& stated, const std::vector<double>& level_deviations);
 
 }  // namespace muster::exam

@@ -13,7 +13,7 @@ constexpr double smallest = 4;     // m^2
 constexpr std::size_t most = 100;
 
 struct Box {
-  int left = 0, right = 0, low = 0, high = 0;  // cells, the last ones not included
+  int left = 0, right = 0, low = 0, high = 0;  // cells, half-open
   int area() const { return (right - left) * (high - low); }
   int shorter() const { return std::min(right - left, high - low); }
 };
@@ -27,11 +27,11 @@ class Cells {
     for (const auto& [a, b] : solid_pieces(plan)) wall(a, b);
   }
 
-  // The largest one that is free and wide enough; of no area if there is none.
+  // The largest free rectangle that is wide enough; of zero area if there is none.
   Box largest() const {
     Box best;
-    std::vector<int> free(static_cast<std::size_t>(columns_) + 1);  // cells upwards to this row; the last one stays 0
-    std::vector<Box> open;                                          // rectangles that go on to the right, lowest first
+    std::vector<int> free(static_cast<std::size_t>(columns_) + 1);  // free cells up to this row; the last one stays 0
+    std::vector<Box> open;  // rectangles that may extend to the right, lowest first
     for (int y = 0; y < rows_; ++y) {
       open.clear();
       for (int x = 0; x <= columns_; ++x) {

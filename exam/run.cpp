@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// One word of the shell, whatever stands in it.
+// Quotes any text as one shell word.
 std::string quoted(const std::string& text) {
   std::string result = "'";
   for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);

@@ -1,4 +1,4 @@
-// A diagnosis command over all cases of an exam: what it prints becomes the case's report.
+// Runs a diagnosis command over all cases of an exam; its output becomes the case's report.
 #pragma once
 
 #include <filesystem>
@@ -7,9 +7,9 @@
 
 namespace muster::exam {
 
-// {world} the case's folder, {data} its readings, {second} its other readings, {answer} its answer, for what follows a
-// diagnosis' advice and no diagnosis itself, {out} a folder of the command's own;
-// each is put in as one word of the shell.
+// Placeholders of the command, each substituted as one shell word: {world} the case's folder, {data} its readings,
+// {second} its other readings, {out} an output folder. {answer} its answer, for commands that follow a diagnosis'
+// advice, not for a diagnosis itself.
 struct RunOrder {
   std::filesystem::path exam, reports;
   std::string command;
@@ -17,15 +17,15 @@ struct RunOrder {
 };
 
 struct RunOutcome {
-  int ran = 0, kept = 0;            // cases of this run, and those that had a report before
+  int ran = 0, kept = 0;            // cases run now, and those that already had a report
   std::vector<std::string> failed;  // "case_0001: exit code 65: its first line of error"
 };
 
-// muster diagnose, of the program beside this one.
+// `muster diagnose` of the program beside this one.
 std::string default_command();
 
-// Cases that have a report are left alone, so that a run goes on where it was stopped. A command that fails leaves no
-// report. Appends the cost of each case to costs.csv beside the reports. Throws std::runtime_error.
+// Cases with a report are skipped, so a stopped run continues. A failing command leaves no report. Appends the cost
+// of each case to costs.csv beside the reports. Throws std::runtime_error.
 RunOutcome run_cases(const RunOrder& order);
 
 }  // namespace muster::exam

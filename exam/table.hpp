@@ -1,4 +1,4 @@
-// Tables that the exam is given: cells by the names of their columns, no quotes.
+// Input tables of the exam: cells by column name, no quotes.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ class Line {
   Line(const std::string& table, const std::vector<std::string>& names, std::vector<std::string> cells, int number)
       : table_(table), names_(names), cells_(std::move(cells)), number_(number) {}
 
-  // Throw std::runtime_error with table and line where the column is missing, or its cell is no number.
+  // Throw std::runtime_error with table and line for a missing column, or a cell that is no number.
   const std::string& text(const std::string& name) const;
   double number(const std::string& name) const;
   [[noreturn]] void refuse(const std::string& why) const;
@@ -26,7 +26,7 @@ class Line {
 
 class Table {
  public:
-  // `name` is for messages. Throws std::runtime_error where a line has more cells or fewer than the header.
+  // `name` is for messages. Throws std::runtime_error for a line of another length than the header.
   Table(std::string name, const std::string& csv);
 
   std::vector<Line> lines() const;

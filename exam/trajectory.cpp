@@ -9,7 +9,7 @@
 namespace muster::exam {
 namespace {
 
-constexpr double pitch = 0.15;      // m, of the grid on which ways are found
+constexpr double pitch = 0.15;      // m, of the grid of the path search
 constexpr double clearance = 0.28;  // m, to walls: a door of 0.9 m leaves two cells
 
 double wrapped(double a) { return std::remainder(a, 2 * std::numbers::pi); }
@@ -29,7 +29,7 @@ std::vector<std::pair<Vec2, Vec2>> solid_pieces(const Plan& plan) {
     const double length = std::hypot(b.x - a.x, b.y - a.y);
     const auto at = [&](double s) { return Vec2{a.x + (b.x - a.x) * s / length, a.y + (b.y - a.y) * s / length}; };
     double from = 0;
-    for (const Door& d : plan.doors) {  // at most one in a wall
+    for (const Door& d : plan.doors) {  // at most one in each wall
       if (d.wall != static_cast<int>(i) || !d.open) continue;
       pieces.push_back({at(from), at(d.at)});
       from = d.at + d.width;
@@ -131,7 +131,7 @@ std::vector<Room> Floor::connected(const std::vector<Room>& rooms) const {
   return most;
 }
 
-// Breadth first from the goal, then the furthest places in sight, so that ways run at any angle.
+// Breadth-first search from the goal, then shortcuts by line of sight, so that paths run at any angle.
 std::vector<Vec2> Floor::way(Vec2 from, Vec2 to) const {
   std::vector<int> steps(blocked_.size(), -1);
   std::vector<Cell> queue{cell(to)};
@@ -169,11 +169,11 @@ std::vector<Vec2> Floor::way(Vec2 from, Vec2 to) const {
 
 std::vector<Stop> Floor::wander(Random& random, int ticks, double period) const {
   std::vector<Stop> result;
-  std::vector<Vec2> ahead;  // corners of the way still to go, the next one last
+  std::vector<Vec2> ahead;  // corners left on the path, the next one last
   const Room* room = &random.pick(plan_.rooms);
   Vec2 at = place_in(random, *room);
   double pace = random.uniform(0.3, 0.6), yaw = random.uniform(-3, 3), weave = random.uniform(0, 6);
-  int visits = 0;  // places still to visit in this room
+  int visits = 0;  // places left to visit in this room
   for (int i = 0; i < ticks; ++i) {
     while (ahead.empty()) {
       if (visits-- <= 0) {

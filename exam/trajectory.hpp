@@ -1,4 +1,4 @@
-// Robots that wander over a plan: from room to room through open doors, never closer to a wall than a clearance.
+// Trajectories of robots that wander over a plan: from room to room through open doors, with a clearance to walls.
 #pragma once
 
 #include <array>
@@ -23,10 +23,10 @@ class Floor {
  public:
   explicit Floor(const Plan& plan);
 
-  // Of rooms, those between which robots can go: the most of them by area.
+  // The largest set of mutually reachable rooms, by area.
   std::vector<Room> connected(const std::vector<Room>& rooms) const;
 
-  // `ticks` places `period` seconds apart.
+  // `ticks` poses `period` seconds apart.
   std::vector<Stop> wander(Random& random, int ticks, double period) const;
 
  private:
@@ -36,7 +36,7 @@ class Floor {
   static std::array<Cell, 4> neighbours(Cell c) {
     return {{Cell{c.x + 1, c.y}, Cell{c.x - 1, c.y}, Cell{c.x, c.y + 1}, Cell{c.x, c.y - 1}}};
   }
-  // Numbers of the parts of the floor that hang together; -1 where it is not free.
+  // Connected components of the free floor, by index; -1 where it is not free.
   std::vector<int> parts() const;
   bool is_free(Cell c) const;
   bool is_free(Vec2 own) const;

@@ -13,10 +13,10 @@ namespace muster::exam {
 namespace {
 
 constexpr double row_length = 0.4;       // m
-constexpr double row_duration = 3;       // s, for robots that stand
+constexpr double row_duration = 3;       // s, for stationary robots
 constexpr std::size_t places_a_row = 4;  // at most, for averages over a row
 
-// Those nearest so far, the farthest of them first.
+// The nearest so far, as a heap with the farthest one first.
 class Nearest {
  public:
   explicit Nearest(std::size_t most) : most_(most) {}
@@ -105,7 +105,7 @@ void Whitener::gather_rows(const Data& data, const std::vector<char>& use) {
   for (std::size_t i = 0; i < rows_; ++i) means_[i].row = static_cast<int>(i);
 }
 
-// All but one of a row, which its mean and the others tell.
+// All but one of a row, which the mean and the others determine.
 void Whitener::add_single_readings(const Data& data) {
   for (std::size_t i = 0; i < rows_; ++i) {
     for (std::size_t k = 1; k < means_[i].readings.size(); ++k) {
@@ -119,7 +119,7 @@ void Whitener::add_single_readings(const Data& data) {
 
 void Whitener::find_neighbours(Detail detail) {
   const bool few = detail == Detail::rows;
-  // Of the same station and of others: rows near a row, rows near a reading, readings near a reading.
+  // For the same station and for others: rows near a row, rows near a reading, readings near a reading.
   std::array<std::array<Nearest, 2>, 3> lists{{{Nearest(few ? 25 : 50), Nearest(few ? 10 : 20)},  //
                                                {Nearest(12), Nearest(4)},
                                                {Nearest(16), Nearest(4)}}};
@@ -192,11 +192,11 @@ std::vector<double> Whitener::level_deviations() const {
     const auto count = static_cast<double>(row.readings.size());
     const double of_level = std::max(1e-9, weights_[i].deviation * weights_[i].deviation - reading_variance_ / count);
     const double field = covariance(kernel, static_cast<int>(i), static_cast<int>(i)) - reading_variance_ / count;
-    // Of levels within the row, about their mean, and without bias.
+    // Unbiased variance of levels about the row's mean.
     const auto places = static_cast<double>(row.places.size());
     const double about = std::max(0.0, noise_.field.sigma * noise_.field.sigma - field);
     const double apart = about * places / std::max(1.0, places - 1);
-    for (std::size_t k = 0; k < row.readings.size(); ++k)  // those of the row before it say of it what they can
+    for (std::size_t k = 0; k < row.readings.size(); ++k)  // earlier readings of the row add precision
       result.push_back(std::sqrt(1 / (1 / of_level + static_cast<double>(k) / (reading_variance_ + apart))));
   }
   return result;
@@ -219,7 +219,7 @@ double FieldDivergence::operator()(const FieldLaw& truth) const {
     const double of_truth = Whitener::weights(joint).deviation;
     for (std::size_t k = 0; k < stated_.size(); ++k) {
       const Whitener::Weights& of_stated = stated_[k][i];
-      // Variance, under the truth, of what the stated law leaves of this row.
+      // Variance, under the truth, of the stated law's prediction error for this row.
       Eigen::VectorXd left = Eigen::VectorXd::Ones(joint.rows());
       left.head(joint.rows() - 1) = -Eigen::Map<const Eigen::VectorXd>(of_stated.of.data(), joint.rows() - 1);
       const double variance = left.dot(joint * left), ratio = of_stated.deviation / of_truth;

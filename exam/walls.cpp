@@ -15,7 +15,7 @@
 namespace muster::exam {
 namespace {
 
-constexpr double largest = 150;  // m, a side of the plan: a field over it is drawn every 8 cm
+constexpr double largest = 150;  // m, a side of the plan: the field has a value every 8 cm
 
 int material_called(Plan& plan, const std::string& name) {
   const auto at =
@@ -44,7 +44,7 @@ void read_walls(Plan& plan, const std::string& csv) {
   if (plan.walls.empty()) throw std::runtime_error("walls: the table has no wall");
 }
 
-// Along which most of the walls run, or across.
+// Main direction of the walls, modulo a quarter turn.
 double angle_along(const std::vector<Wall>& walls) {
   std::complex<double> sum;
   for (const Wall& w : walls) {
@@ -54,7 +54,7 @@ double angle_along(const std::vector<Wall>& walls) {
   return std::arg(sum) / 4;
 }
 
-// The plan's own frame at this angle: it begins at the least corner.
+// Sets the plan's own frame at this angle, with its origin at the least corner.
 void turn(Plan& plan, double angle) {
   plan.angle = angle;
   plan.shift = {};
@@ -86,7 +86,7 @@ void find_rooms(Plan& plan) {
 }  // namespace
 
 Plan plan_of_walls(const std::string& csv) {
-  constexpr double slender = 3;  // of a corridor
+  constexpr double slender = 3;  // least aspect ratio of a corridor
   Plan plan;
   read_walls(plan, csv);
   turn(plan, angle_along(plan.walls));

@@ -1,4 +1,4 @@
-// A floor plan of one's own, from the table of walls that a world refers to.
+// A user's own floor plan, from the table of walls of a world.
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace muster::exam {
 
-// name,x0[m],y0[m],x1[m],y1[m],height[m],thickness[m],material, in any order. Its own frame lies along the walls, its
-// corridor along x; rooms are the largest rectangles between walls, of those that robots reach from one another. Nobody
-// stands in it yet, and what walls cost is not drawn. Throws std::runtime_error, with the line where there is one.
+// Reads name,x0[m],y0[m],x1[m],y1[m],height[m],thickness[m],material, in any order. The plan's frame lies along the
+// walls, with the corridor along x. Rooms are the largest rectangles between walls that robots can reach from one
+// another. The plan has no stations, and no wall losses. Throws std::runtime_error, with the line if there is one.
 Plan plan_of_walls(const std::string& csv);
 
 }  // namespace muster::exam

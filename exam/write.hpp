@@ -1,4 +1,4 @@
-// A case as files: what the examinee gets, and the answer.
+// Writes a case as files: the examinee's inputs, and the answer.
 #pragma once
 
 #include <filesystem>

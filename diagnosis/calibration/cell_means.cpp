@@ -9,7 +9,7 @@
 namespace muster::diagnosis {
 namespace {
 
-// Mean of dBm, or dBm of the mean power: the same for what was measured and what was simulated.
+// Mean of dBm, or dBm of the mean power, alike for measured and simulated readings.
 class Averaged {
  public:
   void add(double dbm, Average average) { sum_ += average == Average::dB ? dbm : std::pow(10, dbm / 10); }
@@ -27,7 +27,7 @@ struct Sums {
   int count = 0;
 };
 
-// How far each radio gets around.
+// Extent of each radio's places, m.
 std::map<int, double> reach(const LinkModel& model, const Fit& fit) {
   struct Span {
     double x0 = 1e300, x1 = -1e300, y0 = 1e300, y1 = -1e300;
@@ -52,7 +52,7 @@ double quantile(const std::vector<double>& sorted, double share) {
   return sorted[low] + (at - static_cast<double>(low)) * (sorted[high] - sorted[low]);
 }
 
-// What a histogram of cell means leaves out, with this data's own figures.
+// Limits of a histogram of cell means, with figures of these data.
 std::vector<std::string> limits(const CellErrors& e, const Fit& fit, double per_cell) {
   std::vector<std::string> words;
   words.push_back(

@@ -9,7 +9,7 @@ constexpr double pi = 3.141592653589793;
 
 double below(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
 
-// phi(z) / Phi(z), by its continued fraction where Phi would vanish.
+// phi(z) / Phi(z), by its continued fraction where Phi would underflow.
 double hazard(double z) {
   if (z < -30) return -z - 1 / z;
   return std::exp(-z * z / 2) / std::sqrt(2 * pi) / below(z);

@@ -1,5 +1,5 @@
-// What readings say of the mean that a model expects: squared residuals where something was heard, and where a reading
-// is censored, the chance that it fell below the floor (Tobin 1958).
+// Tobit likelihood of readings given a model's mean (Tobin 1958): squared residuals of received ones, the probability
+// of a level below the floor for censored ones.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,7 +12,7 @@ namespace muster::diagnosis {
 struct Readings {
   Eigen::VectorXd rssi;                  // dBm, one a row; NaN: not received
   std::vector<Eigen::Index> heard{};     // rows
-  std::vector<Eigen::Index> censored{};  // rows whose level lay below `floor`; none where losses are random
+  std::vector<Eigen::Index> censored{};  // rows with a level below `floor`; none where losses are random
   double floor = 0;                      // dBm
 
   Eigen::Index used() const { return static_cast<Eigen::Index>(heard.size() + censored.size()); }
@@ -27,13 +27,13 @@ struct Box {
   Eigen::VectorXd inside(const Eigen::VectorXd& x) const { return x.cwiseMax(lower).cwiseMin(upper); }
 };
 
-// Residuals, heard rows first, then censored ones with the expectation of what lay below the floor.
+// Residuals, received rows first, then censored ones with their expectation below the floor.
 Eigen::VectorXd residuals(const Readings& readings, const Eigen::VectorXd& mean, double sigma);
 
-// Minus twice the log-likelihood but for constants; with nothing censored the sum of squares over sigma^2.
+// Minus twice the log-likelihood, up to constants; without censored rows the sum of squares over sigma^2.
 double deviance(const Readings& readings, const Eigen::VectorXd& mean, double sigma);
 
-// The likeliest standard deviation of residuals, one step of its EM iteration from `sigma`.
+// One EM step from `sigma` towards the maximum-likelihood standard deviation of residuals.
 double next_sigma(const Readings& readings, const Eigen::VectorXd& mean, double sigma);
 
 // Rows as in residuals(): derivatives of the mean by central differences inside the box.

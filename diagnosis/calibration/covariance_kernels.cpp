@@ -1,5 +1,5 @@
-// Correlation of the errors of two links, of three kinds, for all decorrelation distances at once: each is half the
-// next, so that one exponential gives all by squaring.
+// Kernels of three kinds for the errors of two links. All decorrelation distances are computed at once: each is half
+// the one before, so one exponential yields all by squaring.
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -13,9 +13,8 @@ namespace muster::diagnosis {
 namespace {
 
 constexpr std::size_t count = 5;
-constexpr std::array<double, count> distances = {5.6, 2.8, 1.4, 0.7,
-                                                 0.35};  // m; from the room's scale to the furniture's
-constexpr int pieces = 12;                               // of a way
+constexpr std::array<double, count> distances = {5.6, 2.8, 1.4, 0.7, 0.35};  // m: room to furniture
+constexpr int pieces = 12;                                                   // of a path
 
 using ByDistance = std::array<double, count>;
 
@@ -28,20 +27,20 @@ void add_decay(ByDistance& sums, double r, double weight) {
   }
 }
 
-// Links that begin and end at nearly the same places are shadowed alike, in either direction. The sum over both
-// directions keeps the matrix positive.
+// By place: links with nearby ends share shadowing, in either direction. The sum over both directions keeps the
+// matrix positive.
 void by_place(const LinkPlace& p, const LinkPlace& q, ByDistance& sums) {
   add_decay(sums, (p.a - q.a).norm() + (p.b - q.b).norm(), 1);
   add_decay(sums, (p.a - q.b).norm() + (p.b - q.a).norm(), 1);
 }
 
-// Links that run side by side are shadowed alike: the double line integral of a field with correlation exp(-r/d), over
+// By path: links side by side share shadowing. The double line integral of a field with correlation exp(-r/d), over
 // the roots of both lengths (Agrawal and Patwari, IEEE Trans. Wireless Comm. 8(8), 2009).
 void by_way(const LinkPlace& p, const LinkPlace& q, ByDistance& sums) {
   const Eigen::Vector3d u = (p.b - p.a) / pieces, v = (q.b - q.a) / pieces;
   const double du = u.norm(), dv = v.norm();
   if (du == 0 || dv == 0) return;
-  const double soft = std::pow((du + dv) / 6, 2);  // a piece is no point
+  const double soft = std::pow((du + dv) / 6, 2);  // squared size of a piece
   ByDistance own{};
   for (int i = 0; i < pieces; ++i) {
     const Eigen::Vector3d from = p.a + u * (i + 0.5) - q.a;
@@ -50,15 +49,15 @@ void by_way(const LinkPlace& p, const LinkPlace& q, ByDistance& sums) {
   for (std::size_t d = 0; d < count; ++d) sums[d] += own[d] * std::sqrt(du * dv) / (2 * distances[d] * pieces);
 }
 
-// Offsets that readings with the same radio share.
+// By radio: offsets shared by readings with the same radio.
 void by_radio(const LinkPlace& p, const LinkPlace& q, ByDistance& sums) {
   for (double& sum : sums) sum += (p.radio_a == q.radio_a) + (p.radio_b == q.radio_b);
 }
 
 using Correlation = void (*)(const LinkPlace&, const LinkPlace&, ByDistance&);
 
-// Mean over pairs of readings of two clusters; in one cluster over pairs of different readings, so that what a reading
-// shares with itself alone counts as white.
+// Mean over pairs of readings from two clusters. Within one cluster over distinct readings only: an error of a single
+// reading counts as white.
 ByDistance between(const std::vector<LinkPlace>& p, const std::vector<LinkPlace>& q, Correlation correlation) {
   const bool same = &p == &q;
   const std::size_t most = same ? 4 : 3;
@@ -75,7 +74,7 @@ ByDistance between(const std::vector<LinkPlace>& p, const std::vector<LinkPlace>
   return sums;
 }
 
-// Means over a few examples need not be a covariance to the last digit; as much white as makes them one is added.
+// Adds the least white part that makes the matrix positive: means over a few examples need not be a covariance.
 void make_positive(Eigen::MatrixXd& shape) {
   const double unit = shape.diagonal().mean();
   for (double white = 1e-6; Eigen::LLT<Eigen::MatrixXd>(shape).info() != Eigen::Success && white < 1; white *= 2)

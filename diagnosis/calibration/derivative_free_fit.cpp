@@ -8,7 +8,7 @@
 namespace muster::diagnosis {
 namespace {
 
-// The search's variables: parameters from `centre` in steps of a share of the box; with censored rows also log sigma.
+// Variables of the search: parameters relative to `centre`, scaled by the box; with censored rows also log sigma.
 struct Task {
   const Readings& readings;
   const Mean& mean;
@@ -25,7 +25,7 @@ struct Task {
   }
   double sigma(const double* u) const { return std::exp(log_sigma + (fits_sigma() ? 0.1 * u[centre.size()] : 0)); }
 
-  // A sum of squares less that at the centre, taken row by row: near the minimum the sums agree to 12 digits and more.
+  // Sum of squares relative to the centre's, row by row: near the minimum the sums agree to 12 digits and more.
   double operator()(const double* u) {
     ++evaluations;
     const Eigen::VectorXd at = mean(parameters(u));
@@ -37,7 +37,8 @@ struct Task {
 
 double evaluate(unsigned, const double* u, double*, void* task) { return (*static_cast<Task*>(task))(u); }
 
-// One search from the centre with steps of `reach`; the best point becomes the centre. How far it moved, in steps.
+// Searches once from the centre with steps of `reach` and moves the centre to the best point. Returns the distance
+// moved, in steps.
 double search(Task& task, double reach) {
   const Eigen::VectorXd at = task.mean(task.centre);
   task.reference = residuals(task.readings, at, std::exp(task.log_sigma));
@@ -54,7 +55,7 @@ double search(Task& task, double reach) {
   nlopt_set_xtol_abs1(search.get(), 1e-10);
   nlopt_set_maxeval(search.get(), 400 * static_cast<int>(n));
   double least = 0;
-  nlopt_optimize(search.get(), u.data(), &least);  // it may stop at rounding errors, which is as far as it can see
+  nlopt_optimize(search.get(), u.data(), &least);  // rounding errors may stop it, at its best attainable precision
   const Eigen::VectorXd found = task.parameters(u.data());
   task.log_sigma = std::log(task.sigma(u.data()));
   task.centre = found;

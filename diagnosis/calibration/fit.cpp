@@ -7,9 +7,9 @@
 namespace muster::diagnosis {
 namespace {
 
-constexpr std::size_t most_clusters = 140;  // their covariance is inverted some hundred times: 1 ms each
+constexpr std::size_t most_clusters = 140;  // their covariance is inverted some hundred times, at 1 ms each
 
-// The free parameters that are identifiable, as one vector.
+// Identifiable free parameters as one vector.
 struct Search {
   LinkModel& model;
   std::vector<FitParameter*> parameters;
@@ -48,7 +48,7 @@ Readings heard_readings(const Dataset& data) {
   return readings;
 }
 
-// Holds as many parameters as there are blind directions, so that the others can be fitted.
+// Holds one parameter for each null direction, so that the others can be fitted.
 void hold_blind(Fit& fit, Search& search) {
   const Box box = search.box();
   const Eigen::MatrixXd slopes = jacobian(fit.readings, search.mean(), box.inside(search.start()), box);
@@ -81,7 +81,7 @@ void check_count(const Fit& fit, const Search& search, const Dataset& data) {
                                            std::to_string(search.parameters.size()) + " parameters");
 }
 
-// What is missing because it was too weak enters the likelihood as such.
+// Fits by both methods; readings missing below a floor enter the likelihood as censored.
 void solve(Fit& fit, const Search& search) {
   const Mean mean = search.mean();
   const Box box = search.box();
@@ -96,7 +96,7 @@ void solve(Fit& fit, const Search& search) {
     fit.least_squares = least_squares(fit.readings, mean, fit.least_squares.parameters, box);
   }
   fit.search = derivative_free_fit(fit.readings, mean, search.start(), box);
-  if (fit.search.deviance < fit.least_squares.deviance - 1e-6)  // another valley: go down there too
+  if (fit.search.deviance < fit.least_squares.deviance - 1e-6)  // another local minimum: descend there as well
     fit.least_squares = least_squares(fit.readings, mean, fit.search.parameters, box);
   const Eigen::VectorXd &a = fit.least_squares.parameters, &b = fit.search.parameters;
   for (Eigen::Index j = 0; j < a.size(); ++j)

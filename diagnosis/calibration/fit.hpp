@@ -1,4 +1,4 @@
-// A world's free parameters from measured readings: their values, how sure they are, and what the data cannot tell.
+// Fits a world's free parameters to measured readings: values, their uncertainty, and identifiability.
 #pragma once
 
 #include "diagnosis/calibration/identifiability.hpp"
@@ -13,27 +13,27 @@ namespace muster::diagnosis {
 
 struct Fit {
   std::vector<FitParameter> parameters;
-  std::vector<std::string> not_identifiable;  // each in words
+  std::vector<std::string> not_identifiable;  // one sentence each
   double residual_sd = 0;                     // dB
-  double simulated_sd = 0;                    // dB: of the world's own draws about its expectation
-  double fading_mean = 0;                     // dB: what the expectation includes for fading, -2.507 under Rayleigh
+  double simulated_sd = 0;                    // dB: of the world's own draws about their expectation
+  double fading_mean = 0;                     // dB: contribution of fading to the expectation, -2.507 under Rayleigh
   MissingData missing;
   Minimum least_squares, search;
-  double disagreement = 0;  // largest difference between both, in units of 1 + |value|
+  double disagreement = 0;  // largest difference of the two fits, in units of 1 + |value|
 
-  Readings readings;         // with the rows that were used
-  Eigen::VectorXd mean;      // of every row at the fit, dBm
+  Readings readings;         // with the rows used
+  Eigen::VectorXd mean;      // fitted, of every row, dBm
   Eigen::VectorXd residual;  // rows as in diagnosis::residuals()
   Eigen::MatrixXd slopes;    // of the identifiable parameters
   Clusters clusters;
   std::vector<Kernels> kernels;
   double shared_sd = 0, decorrelation = 0, shared_evidence = 0, white_sd = 0;
 
-  // Rows of the data set behind the rows of `residual`.
+  // Rows of the data set, for each row of `residual`.
   std::vector<std::size_t> rows_used() const;
 };
 
-// Leaves the model at the fitted parameters. Throws Error.
+// Fits, and leaves the model at the fitted parameters. Throws Error.
 Fit fit(LinkModel& model, const Dataset& data, const FitOptions& options);
 
 }  // namespace muster::diagnosis

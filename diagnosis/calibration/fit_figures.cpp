@@ -28,7 +28,7 @@ class Artist {
         options_(options),
         name_(model.simulation().world().name),
         plan_(plan_of(model.simulation())) {
-    plan_.stations.clear();  // they stand where the readings say
+    plan_.stations.clear();  // drawn where the readings have them
   }
 
   pic::Figure samples() const {
@@ -127,7 +127,7 @@ class Artist {
   }
 
  private:
-  // The end that is not its map's radio.
+  // The end of the link other than its map's radio.
   const End& roaming(std::size_t row) const {
     const auto& ends = model_.ends()[row];
     const std::string tx = model_.radio_name(ends[0].radio);

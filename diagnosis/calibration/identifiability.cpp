@@ -7,8 +7,7 @@
 namespace muster::diagnosis {
 namespace {
 
-constexpr double blind =
-    1e-7;  // of a change over the whole box, or of the strongest direction: rounding of differences
+constexpr double blind = 1e-7;  // rounding errors, relative to the whole box or to the strongest direction
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// Which parameters the data determine, from the singular values of the mean's derivatives.
+// Identifiability of parameters, from the singular values of the design matrix (derivatives of the mean).
 #pragma once
 
 #include <Eigen/Core>
@@ -7,13 +7,13 @@
 
 namespace muster::diagnosis {
 
-// A way in which parameters can move together without any reading changing.
+// A null direction: parameters that can move together without changing any reading.
 struct Blindness {
-  std::vector<int> parameters;  // numbers of those that move
+  std::vector<int> parameters;  // indices of those that move
   Eigen::VectorXd direction;    // one a parameter, in its own unit, the largest 1
 };
 
-// Where nothing is blind, none. Rows of `slopes` are readings.
+// All null directions. Rows of `slopes` are readings.
 std::vector<Blindness> blindnesses(const Eigen::MatrixXd& slopes, const Eigen::VectorXd& box_width);
 
 // "radio.multiwall/l0 by 1 dB together with radio.multiwall/tx_power by 1 dBm changes no reading"

@@ -6,9 +6,9 @@
 namespace muster::diagnosis {
 namespace {
 
-constexpr double least_sigma = 1e-9;  // dB; data that fit exactly
+constexpr double least_sigma = 1e-9;  // dB, for data with an exact fit
 
-// The step of a damped Gauss-Newton iteration that keeps parameters at a bound which the fit pushes against.
+// One damped Gauss-Newton step (active set): parameters at a bound that blocks descent are held.
 Eigen::VectorXd damped_step(const Eigen::MatrixXd& normal, const Eigen::VectorXd& gradient, double damping,
                             const Eigen::VectorXd& at, const Box& box) {
   const auto held = [&](Eigen::Index j) {

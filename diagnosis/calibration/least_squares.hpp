@@ -1,5 +1,4 @@
-// Two ways to the same minimum, so that each checks the other: Levenberg and Marquardt's on derivatives, and Powell's
-// BOBYQA (2009), which needs none.
+// Two minimisers that check each other: Levenberg-Marquardt with derivatives, and Powell's BOBYQA (2009) without any.
 #pragma once
 
 #include "diagnosis/calibration/censored_likelihood.hpp"
@@ -15,7 +14,7 @@ struct Minimum {
   std::vector<bool> at_bound{};
 };
 
-// Inside the box, from `start`.
+// Minimise within the box, from `start`.
 Minimum least_squares(const Readings& readings, const Mean& mean, const Eigen::VectorXd& start, const Box& box);
 Minimum derivative_free_fit(const Readings& readings, const Mean& mean, const Eigen::VectorXd& start, const Box& box);
 

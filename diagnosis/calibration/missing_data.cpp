@@ -11,25 +11,25 @@ double below(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
 
 struct Mixture {
   double log_likelihood = 0, random = 0, by_floor = 0;
-  double below = 0, above = 0;  // how many would be heard below the floor, were there none, and closely above it
+  double below = 0, above = 0;  // readings expected below the floor without one, and closely above it
 };
 
 constexpr double closely = 3;  // dB
 
-// A reading is lost by chance with probability `random`, or because its level, normal about the mean, lies below the
-// floor. The likeliest `random` by EM; the floor's share of the missing ones is their mean posterior.
+// Mixture model: a reading is lost at random with probability `random`, or because its level, normal about the mean,
+// lies below the floor. Fits `random` by EM; the floor's share of the missing ones is their mean posterior.
 Mixture with_floor(const std::vector<double>& lost_at, const std::vector<double>& heard_at, double floor,
                    double sigma) {
   Mixture result;
   const double lost = static_cast<double>(lost_at.size()), all = lost + static_cast<double>(heard_at.size());
   result.random = 0.5 * lost / all;
-  const auto chances = [&](std::vector<double> levels) {  // of falling below the floor
+  const auto chances = [&](std::vector<double> levels) {  // probabilities of a level below the floor
     for (double& level : levels) level = below((floor - level) / sigma);
     return levels;
   };
   const std::vector<double> chance = chances(lost_at), heard_chance = chances(heard_at);
   for (int i = 0; i < 60; ++i) {
-    double by_chance = 0;  // missing ones that random loss explains, whatever the floor did
+    double by_chance = 0;  // expected number of random losses
     for (const double f : chance) by_chance += result.random / (result.random + (1 - result.random) * f + 1e-300);
     result.random = std::max(by_chance / all, 1e-9);
   }
@@ -52,7 +52,7 @@ Mixture with_floor(const std::vector<double>& lost_at, const std::vector<double>
   return result;
 }
 
-// The chance of so few events where `expected` come (Poisson's law).
+// Poisson probability of at most so many events.
 double at_most(std::size_t events, double expected) {
   double term = std::exp(-expected), sum = term;
   for (std::size_t k = 1; k <= events; ++k) sum += term *= expected / static_cast<double>(k);
@@ -87,7 +87,8 @@ bool MissingData::rises() const {
   const auto share = [](const Bin& b) { return b.missing / b.rows; };
   const auto variance = [&](const Bin& b) { return std::max(share(b) * (1 - share(b)), 1 / b.rows) / b.rows; };
   const double more = share(bins.front()) - share(bins.back());
-  // Neighbouring readings are lost together: five standard errors of independent ones, and a seventh of all readings.
+  // Five standard errors of independent losses, and a seventh of all readings: neighbouring readings are lost
+  // jointly.
   return more > 0.15 && more > 5 * std::sqrt(variance(bins.front()) + variance(bins.back()));
 }
 
@@ -103,7 +104,7 @@ MissingData missing_data(const Eigen::VectorXd& rssi, const Eigen::VectorXd& mea
   result.bins = binned(rssi, mean);
   const double lost = static_cast<double>(lost_at.size()), all = static_cast<double>(rssi.size());
   const double chance = lost * std::log(lost / all) + (all - lost) * std::log1p(-lost / all);
-  // The floor is where nothing weaker was ever heard, but for strays: the likeliest.
+  // The floor is near the weakest received readings, except for outliers: the likeliest of these.
   Mixture best{.log_likelihood = -1e300};
   for (std::size_t rank = 0; rank <= heard.size() / 1000; rank = std::max<std::size_t>(2 * rank, 1)) {
     const Mixture mixture = with_floor(lost_at, heard_at, heard[rank], std::max(sigma, 0.1));
@@ -114,12 +115,11 @@ MissingData missing_data(const Eigen::VectorXd& rssi, const Eigen::VectorXd& mea
   result.share_at_random = best.random;
   result.by_floor = best.by_floor;
   result.evidence = 2 * (best.log_likelihood - chance);
-  // Censored needs both: a rise that chance does not make (10 is p < 0.002 for one parameter, and neighbouring readings
-  // are lost together), and that the floor took most of what is missing.
+  // Censored needs both a significant rise and most of the losses explained by the floor. 10 is p < 0.002 for one
+  // parameter; neighbouring readings are lost jointly.
   const bool risen = result.evidence > 10;
   result.censored = risen && result.by_floor > 0.5;
-  // Where chance took most of them, levels that end at the floor must say so too, and end there at once; a smaller rise
-  // (p < 0.05) is enough beside these.
+  // With mostly random losses, levels must also end abruptly at the floor; a smaller rise (p < 0.05) then suffices.
   constexpr double some = 4, by_chance = 2e-5;
   const auto from = [&](double level) { return std::lower_bound(heard.begin(), heard.end(), level); };
   result.none_below = at_most(static_cast<std::size_t>(from(result.floor) - heard.begin()), best.below);

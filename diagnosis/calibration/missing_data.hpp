@@ -1,4 +1,4 @@
-// Why readings are missing: because the level fell below a floor (they are censored), or at random?
+// Tests if readings are missing below a floor (censored) or at random.
 #pragma once
 
 #include "diagnosis/calibration/censored_likelihood.hpp"
@@ -7,24 +7,24 @@ namespace muster::diagnosis {
 
 struct MissingData {
   std::size_t count = 0;
-  bool censored = false;       // most of them, by the floor
-  bool cut_off = false;        // levels end at the floor at once, where many would be weaker
+  bool censored = false;       // most are lost below the floor
+  bool cut_off = false;        // levels end abruptly at the floor, where many weaker ones are expected
   double floor = 0;            // dBm; of the fitted mixture
-  double share_at_random = 0;  // of all readings, at every level
-  double by_floor = 0;         // share of the missing ones that the floor explains
-  double evidence = 0;         // twice the log-likelihood ratio of the mixture against chance alone
-  double none_below = 1;       // the chance that so few were heard below the floor, were there none
+  double share_at_random = 0;  // of all readings, independent of level
+  double by_floor = 0;         // share of the missing ones explained by the floor
+  double evidence = 0;         // twice the log-likelihood ratio of the mixture against random loss
+  double none_below = 1;       // probability of so few received readings below the floor without one
   struct Bin {
     double level;  // mean predicted level, dBm
     double rows, missing;
   };
-  std::vector<Bin> bins{};  // ten, of equal numbers of readings, by predicted level, the weakest first
+  std::vector<Bin> bins{};  // ten bins of equal count by predicted level, the weakest first
 
-  // Neither chance nor a floor, but more is missing where less is expected: what was heard are the stronger ones.
+  // True if losses rise towards low levels without a floor: received readings are then a biased sample.
   bool rises() const;
 };
 
-// `mean` and `sigma` are a fit's to what was heard.
+// `mean` and `sigma`: of a fit to the received readings.
 MissingData missing_data(const Eigen::VectorXd& rssi, const Eigen::VectorXd& mean, double sigma);
 
 }  // namespace muster::diagnosis

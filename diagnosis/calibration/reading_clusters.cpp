@@ -19,7 +19,7 @@ Key key_of(const LinkPlace& link, double side) {
   return key;
 }
 
-// Numbers in the order of the keys, not of the rows: the order of rows in a file must not matter.
+// Numbers clusters in order of their keys, independent of the order of rows in a file.
 std::map<Key, int> numbered(const std::vector<LinkPlace>& links, double side) {
   std::map<Key, int> result;
   for (const LinkPlace& link : links) result.emplace(key_of(link, side), 0);

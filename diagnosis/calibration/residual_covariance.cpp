@@ -8,7 +8,7 @@
 
 namespace muster::diagnosis {
 
-// The restricted likelihood of cluster means with covariance white / size + sum of variances times shapes.
+// Restricted likelihood of cluster means with covariance white / size + sum of variances times shapes.
 struct ErrorModel::Likelihood {
   const Kernels& kernels;
   const Eigen::VectorXd& means;    // of residuals
@@ -19,7 +19,7 @@ struct ErrorModel::Likelihood {
   Eigen::VectorXd score{};
   Eigen::MatrixXd information{};  // average of observed and expected (Gilmour, Thompson and Cullis 1995)
 
-  // False where the covariance is not positive.
+  // False if the covariance is not positive.
   bool evaluate(const Eigen::VectorXd& variances, bool derivatives) {
     Eigen::MatrixXd v = white.asDiagonal();
     for (Eigen::Index k = 0; k < variances.size(); ++k) v += variances[k] * kernels.shapes[static_cast<std::size_t>(k)];
@@ -53,12 +53,12 @@ struct ErrorModel::Likelihood {
 
 namespace {
 
-// Newton steps for variances that may not be negative.
+// Newton steps with an active set: variances are non-negative.
 template <class Likelihood>
 void maximise(Likelihood& likelihood, Components& c, double scale) {
   Eigen::VectorXd& at = c.variances;
-  // Shapes are means over examples of clusters, which need not be covariances of anything: weak ones are, beside the
-  // white part.
+  // Shrinks the start until the covariance is positive. Shapes are means over examples, not exact covariances: they
+  // are safe only if weak beside the white part.
   for (int tries = 0; !likelihood.evaluate(at, true); ++tries) {
     if (tries > 10) throw std::runtime_error("residuals that are not numbers");
     at *= tries < 10 ? 0.25 : 0;
@@ -88,7 +88,7 @@ void maximise(Likelihood& likelihood, Components& c, double scale) {
   }
 }
 
-// The variances of these kinds, and how sure they are; one that came out as 0 is not there.
+// Estimates the variances of these kinds and their covariance; a variance at 0 is absent.
 template <class Likelihood>
 void estimate(Likelihood& likelihood, Components& c, double scale) {
   const auto count = static_cast<Eigen::Index>(c.kinds.size());
@@ -105,8 +105,8 @@ void estimate(Likelihood& likelihood, Components& c, double scale) {
   c.uncertainty = information.ldlt().solve(Eigen::MatrixXd::Identity(count, count));
 }
 
-// Nothing shared, or shared by place, by way, or both, at each decorrelation distance; by radio besides, where that is
-// known.
+// Candidate models: nothing shared, or shared by place, by path, or both, at each decorrelation distance. By radio as
+// well, if available.
 std::vector<Components> possible(const std::vector<Kernels>& kernels) {
   const bool by_radio = kernels.at(0).shapes.size() > 2;
   std::vector<Components> result;
@@ -121,10 +121,10 @@ std::vector<Components> possible(const std::vector<Kernels>& kernels) {
   return result;
 }
 
-// A decorrelation distance before data: within a factor of two of 1.8 m (notes on indoor shadowing, 1 to 3 m).
+// Prior of the decorrelation distance: 1.8 m within a factor of two (notes on indoor shadowing, 1 to 3 m).
 double log_prior(double decorrelation) { return -0.5 * std::pow(std::log(decorrelation / 1.8) / 0.7, 2); }
 
-// Each choice of kinds has the same share, whatever the number of distances.
+// Each choice of kinds has the same prior weight, for any number of distances.
 double prior_of(const Components& c, const std::vector<Kernels>& kernels) {
   if (!c.kinds[0] && !c.kinds[1]) return 0;
   double sum = 0;
@@ -187,7 +187,7 @@ void ErrorModel::fit_white(const Eigen::VectorXd& residual, const Eigen::MatrixX
   evidence_ = 0;
 }
 
-// Each cluster's own variance, drawn towards the mean of all as by twenty readings of it: fading and tails differ by
+// Variance of each cluster, shrunk to the mean of all by the weight of twenty readings: fading and tails vary by
 // place.
 void ErrorModel::measure_white(const Eigen::VectorXd& residual, const Eigen::VectorXd& means, Eigen::Index columns) {
   constexpr double prior = 20;

@@ -1,6 +1,5 @@
-// What errors of readings have in common: shadowing that belongs to places and to ways, and offsets of radios. Its
-// variances by restricted likelihood on clusters (Patterson and Thompson 1971); docs/explanation/fit_method.md says why
-// it is so.
+// Shared errors of readings: shadowing by place and by path, and offsets of radios. Variance components by restricted
+// likelihood (REML) on clusters (Patterson and Thompson 1971); docs/explanation/fit_method.md gives the reasons.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,17 +12,16 @@ namespace muster::diagnosis {
 // Covariances between clusters for one decorrelation distance and unit variance.
 struct Kernels {
   double decorrelation = 0;             // m
-  std::vector<Eigen::MatrixXd> shapes;  // by place, by way, and by radio where there are many pairs
+  std::vector<Eigen::MatrixXd> shapes;  // by place, by path, and by radio if there are many pairs
 };
 
-// For a range of decorrelation distances.
+// Kernels for a range of decorrelation distances.
 std::vector<Kernels> kernels_of(const Clusters& clusters);
 
-// What a fit's errors may be made of: one choice of kinds and of a decorrelation distance, and its share of belief
-// among the others.
+// One model of the errors: a choice of kinds and of a decorrelation distance, and its posterior weight.
 struct Components {
-  std::size_t kernels = 0;      // whose decorrelation distance
-  std::vector<bool> kinds;      // of shapes that may have a variance
+  std::size_t kernels = 0;      // index of the kernels, one for each decorrelation distance
+  std::vector<bool> kinds;      // true for shapes with a variance
   Eigen::VectorXd variances;    // dB^2, one a shape
   Eigen::MatrixXd uncertainty;  // covariance of the variances
   double belief = 0;
@@ -33,32 +31,33 @@ class ErrorModel {
  public:
   ErrorModel(const Clusters& clusters, const std::vector<Kernels>& kernels) : clusters_(clusters), kernels_(kernels) {}
 
-  // From residuals of ordinary least squares on these columns, one row a reading.
+  // Fits to residuals of ordinary least squares on these columns, one row a reading.
   void fit(const Eigen::VectorXd& residual, const Eigen::MatrixXd& columns);
 
-  // The same where readings share nothing, by the world's own word.
+  // The same for independent errors, if the world declares none to be shared.
   void fit_white(const Eigen::VectorXd& residual, const Eigen::MatrixXd& columns);
 
   // Covariance of columns^T error.
   Eigen::MatrixXd of_sums(const Eigen::MatrixXd& columns) const;
 
-  // How a sum of errors is spread: by Student's t for each belief, its degrees of freedom after Satterthwaite (1946).
+  // Distribution of a sum of errors: a mixture of Student's t over the models, degrees of freedom after Satterthwaite
+  // (1946).
   struct Spread {
     struct Part {
       double belief, sd, freedom;
     };
     std::vector<Part> parts;
-    double variance = 0, freedom = 0;  // of all together
-    // Half the length of the interval that holds this share.
+    double variance = 0, freedom = 0;  // of the whole mixture
+    // Half-width of the interval with this probability.
     double reach(double share) const;
   };
-  // Of a weighted sum of the errors: weights^T error.
+  // Distribution of a weighted sum of the errors, weights^T error.
   Spread of_sum(const Eigen::VectorXd& weights) const;
 
   const std::vector<Components>& components() const { return components_; }
-  // sd in dB of what a reading shares with no other.
+  // sd in dB of the independent part of a reading's error.
   double white_sd() const { return std::sqrt(white_.mean()); }
-  // sd in dB of what readings share, its decorrelation distance in m, and twice the log-likelihood that it gains.
+  // sd in dB of the shared part, its decorrelation distance in m, and twice the log-likelihood that it gains.
   double shared_sd() const;
   double decorrelation() const;
   double shared_evidence() const { return evidence_; }

@@ -11,7 +11,7 @@
 namespace muster::diagnosis {
 namespace {
 
-constexpr double false_alarms = 0.05;  // over all looks together
+constexpr double false_alarms = 0.05;  // over all tests together
 constexpr std::size_t most_names = 24;
 
 class Looker {
@@ -20,7 +20,7 @@ class Looker {
       : model_(model), data_(data), fit_(fit), features_(features), rows_(fit.rows_used()) {}
 
   ResidualScan look() {
-    // A world that declares fading and no shadowing says that readings share nothing; others are silent on it.
+    // A world that declares fading and no shadowing declares independent errors; others leave it open.
     result_.shared_allowed = !model_.has_plugin("radio.fading") || model_.value_of("radio.fading", "shadowing", 0) > 0;
     look_at_geometry();
     look_at_walls();
@@ -86,7 +86,7 @@ class Looker {
       result_.not_tested.push_back("time: all readings were taken at once");
   }
 
-  // The words were made before the bins' ends were turned back from logarithms.
+  // Replaces the text made from logarithms of distance.
   static std::string in_metres(const StructureTest& look) {
     const Bin* worst = nullptr;
     for (const Bin& bin : look.bins) {
@@ -98,7 +98,7 @@ class Looker {
                        worst->stderror);
   }
 
-  // Of the walls that enough links cross and enough others do not, those with most evidence to give.
+  // Tests walls that enough links cross and enough others do not: the most crossed ones.
   void look_at_walls() {
     std::vector<std::pair<double, int>> weight;
     for (std::size_t w = 0; w < features_.walls.size(); ++w) weight.emplace_back(0, static_cast<int>(w));
@@ -106,7 +106,7 @@ class Looker {
       for (std::size_t k = features_.first[row]; k < features_.first[row + 1]; ++k)
         --weight[static_cast<std::size_t>(features_.crossed[k])].first;
     }
-    std::sort(weight.begin(), weight.end());  // most crossed first, then in the world's order
+    std::sort(weight.begin(), weight.end());  // most crossed first, ties in the world's order
     Subject subject{.by = "wall", .unit = "", .values = {}, .level = {}, .names = {}, .shapes = {}, .by_shape = true};
     std::map<int, Eigen::Index> column;
     for (const auto& [crossings, wall] : weight) {
@@ -157,7 +157,7 @@ class Looker {
     }
   }
 
-  // Are neighbouring readings alike? Where the world declares shadowing they should be.
+  // Tests neighbouring readings for shared errors; skipped where the world declares shadowing.
   void look_at_neighbours() {
     const double declared = model_.value_of("radio.fading", "shadowing", 0);
     if (declared > 0)

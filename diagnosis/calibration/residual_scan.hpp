@@ -1,4 +1,4 @@
-// Where a fitted world misfits: structure that is left in the residual, tested along everything that could matter.
+// Scans the residual of a fitted world for structure along all covariates.
 #pragma once
 
 #include "diagnosis/calibration/fit.hpp"
@@ -7,8 +7,8 @@
 
 namespace muster::diagnosis {
 
-// All covariates of the channel and all further columns of the data; false alarms in 5 % of sound worlds at most, over
-// all looks together.
+// Tests all covariates of the channel and all further columns of the data. Family-wise false-alarm rate: at most 5 %
+// of sound worlds.
 ResidualScan residual_scan(const LinkModel& model, const Dataset& data, const Fit& fit, const Features& features);
 
 }  // namespace muster::diagnosis

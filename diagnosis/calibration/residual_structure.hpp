@@ -1,4 +1,4 @@
-// Structure left in a residual along one covariate, and along all of them.
+// Structure found in a residual along one covariate, and along all.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace muster::diagnosis {
 
-// A part of a covariate's range, or one of its names.
+// A range of a covariate, or one of its names.
 struct Bin {
   std::string name;         // "wall/w7", "anchor2"; empty for a range
   double from = 0, to = 0;  // of the covariate
@@ -14,21 +14,21 @@ struct Bin {
   double mean = 0, stderror = 0;  // dB: measured - simulated
 };
 
-// One covariate, looked along.
+// Test along one covariate.
 struct StructureTest {
   std::string by, unit;
-  double p = 1;         // that chance does it, errors of neighbouring readings being alike
-  int columns = 0;      // shapes tried
-  double explains = 0;  // share of the residual's variance that these shapes take up
+  double p = 1;         // p-value, with shared errors of neighbouring readings
+  int columns = 0;      // number of shapes
+  double explains = 0;  // share of the residual's variance explained by these shapes
   bool alarm = false;
   std::vector<Bin> bins{};
-  std::string where{};  // of the largest of them, in words
+  std::string where{};  // the largest of them, as text
 };
 
 struct ResidualScan {
-  std::vector<StructureTest> looks;     // by what they explain, most first
-  bool shared_allowed = true;           // whether looks allow for errors that neighbours share
-  std::vector<std::string> not_tested;  // and why
+  std::vector<StructureTest> looks;     // by share of variance explained, the largest first
+  bool shared_allowed = true;           // true if the tests allow for shared errors of neighbours
+  std::vector<std::string> not_tested;  // each with its reason
   bool misfits = false;
 };
 

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t ranges = 12;
 
-// The part of the columns that the fit could not take up itself, well apart from one another.
+// Orthogonal basis of the columns with the fit's slopes projected out.
 Eigen::MatrixXd beyond(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& slopes) {
   const Eigen::MatrixXd left =
       columns - slopes * (slopes.transpose() * slopes).ldlt().solve(slopes.transpose() * columns);
@@ -28,7 +28,7 @@ Eigen::MatrixXd beyond(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& sl
   }
   if (kept.empty()) return {columns.rows(), 0};
   Eigen::MatrixXd even = left(Eigen::all, kept);
-  const Eigen::VectorXd lengths = even.colwise().norm();  // before, else it is computed again for each element
+  const Eigen::VectorXd lengths = even.colwise().norm();  // precomputed: else evaluated for each element below
   even = even * lengths.cwiseInverse().asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(even.transpose() * even);
   Eigen::Index first = 0;
@@ -36,7 +36,7 @@ Eigen::MatrixXd beyond(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& sl
   return even * parts.eigenvectors().rightCols(parts.eigenvalues().size() - first);
 }
 
-// Wald's statistic over its number of shapes as F; its second degrees of freedom after Fai and Cornelius (1996).
+// Wald F test; denominator degrees of freedom after Fai and Cornelius (1996).
 double chance_of(const Eigen::VectorXd& sums, const Eigen::MatrixXd& columns, const ErrorModel& errors) {
   const auto q = static_cast<double>(columns.cols());
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(errors.of_sums(columns));
@@ -51,7 +51,7 @@ double chance_of(const Eigen::VectorXd& sums, const Eigen::MatrixXd& columns, co
   return boost::math::cdf(boost::math::complement(boost::math::fisher_f(q, std::min(freedom, 1e6)), statistic));
 }
 
-// The mean of these rows' residuals. The fit has absorbed some of any structure, so that its error is of what is left.
+// Mean residual of these rows. Its error is that of the remainder, since the fit has absorbed a part.
 Bin bin_of(const Fit& fit, const ErrorModel& errors, const std::vector<Eigen::Index>& rows) {
   Bin bin;
   bin.rows = static_cast<double>(rows.size());
@@ -101,7 +101,7 @@ std::vector<Bin> names_of(const Fit& fit, const ErrorModel& errors, const Subjec
   return bins;
 }
 
-// What each shape adds by itself, beside the others.
+// Coefficient of each shape beside the others.
 std::vector<Bin> coefficients_of(const Fit& fit, const ErrorModel& errors, const Subject& subject) {
   const Eigen::MatrixXd all = noise::hstack(subject.shapes, fit.slopes);
   const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver(all.transpose() * all);
@@ -140,7 +140,7 @@ Eigen::VectorXd without(const Eigen::VectorXd& residual, const Eigen::MatrixXd& 
   return residual - columns * (columns.transpose() * columns).ldlt().solve(columns.transpose() * residual);
 }
 
-// The errors' model beside the columns.
+// Error model refitted beside the columns.
 ErrorModel errors_beside(const Fit& fit, const Eigen::MatrixXd& columns, bool shared) {
   ErrorModel errors(fit.clusters, fit.kernels);
   const Eigen::VectorXd left = without(fit.residual, columns);
@@ -160,8 +160,8 @@ double chance_of_structure(const Fit& fit, const Eigen::MatrixXd& shapes, bool s
   return chance_of(columns.transpose() * fit.residual, columns, errors_beside(fit, columns, shared));
 }
 
-// Three variances, each 0 in half of all sound worlds, and the best of several distances: in simulated worlds the
-// chance stays below this (tests/diagnosis/calibration/coverage_test.cpp).
+// Three variances, each 0 in half of all sound worlds, and the best of several distances. In simulated worlds the
+// true p-value stays below this (tests/diagnosis/calibration/coverage_test.cpp).
 double chance_of_sharing(double evidence) {
   if (evidence <= 0) return 1;
   return std::min(1.0, 2 * boost::math::cdf(boost::math::complement(boost::math::chi_squared(2), evidence)));
@@ -197,8 +197,7 @@ Eigen::MatrixXd waves(const std::vector<double>& values, int count) {
     for (int k = 0; k <= count; ++k)
       shapes(i, k) = std::cos(3.141592653589793 * k * (v - low) / std::max(high - low, 1e-300));
   }
-  return shapes;  // the first is constant: it tells empty cells from others, and is taken up by the fit if there are
-                  // none
+  return shapes;  // the first is constant: it separates empty cells from others; without any the fit absorbs it
 }
 
 Eigen::MatrixXd lobes(const std::vector<double>& angles, int count) {

@@ -1,4 +1,4 @@
-// What a look along one covariate needs: its values on the fit's rows and the shapes to try.
+// Tests the residual for structure along one covariate: its values on the fit's rows and the shapes to try.
 #pragma once
 
 #include "diagnosis/calibration/fit.hpp"
@@ -8,22 +8,22 @@ namespace muster::diagnosis {
 
 struct Subject {
   std::string by, unit;
-  std::vector<double> values;  // one a used row; NaN: none. Empty for names
-  std::vector<int> level;      // names: one a used row, -1: none
+  std::vector<double> values;  // one a used row; NaN: missing. Empty for names
+  std::vector<int> level;      // names: one a used row, -1: missing
   std::vector<std::string> names;
   Eigen::MatrixXd shapes;  // one a row of the fit
   bool by_shape = false;   // bins are the shapes' own coefficients (walls), not ranges
 };
 
-// Structure in the residual along these shapes, tested with errors refitted beside them, so that they do not swallow
-// it. Where `shared` is false, readings share nothing by the world's own word, and whatever they do share is structure.
+// Tests for structure along these shapes, with the errors refitted beside them, so that they do not absorb it. With
+// `shared` false the world declares independent errors, and any shared part counts as structure.
 StructureTest structure_along(const Fit& fit, const Subject& subject, bool shared);
-// Its p-value alone.
+// The same test's p-value alone.
 double chance_of_structure(const Fit& fit, const Eigen::MatrixXd& shapes, bool shared);
-// That readings which share nothing seem to, by twice the log-likelihood that shared variances gain.
+// P-value of apparent sharing between independent readings, from twice the log-likelihood gained by shared variances.
 double chance_of_sharing(double evidence);
 
-// Shapes for a number over its range, for an angle, and for names.
+// Shapes for a number over its range, for an angle, and for names, in turn.
 Eigen::MatrixXd waves(const std::vector<double>& values, int count);
 Eigen::MatrixXd lobes(const std::vector<double>& angles, int count);
 Eigen::MatrixXd indicators(const std::vector<int>& level, std::size_t levels);

@@ -27,7 +27,7 @@ std::vector<Point> places(const TextTable& table, const std::string& end) {
   return result;
 }
 
-// The first two rows of a table without empty cells decide nothing: a column is constant if all of it is.
+// True if any two values differ, over all rows.
 bool varies(const std::vector<double>& values) {
   double first = std::nan("");
   for (const double v : values) {
@@ -60,7 +60,7 @@ void read_covariates(Dataset& data) {
   }
 }
 
-// Degrees on the globe are no metres in a plan, and which is which is easily exchanged: who has them converts them.
+// Refuses degrees: a plan needs metres. The user converts, since latitude and longitude are easily swapped.
 void refuse_degrees(const TextTable& table) {
   static const std::set<std::string> words = {"lat", "lon", "lng", "long", "latitude", "longitude"};
   if (table.find("tx_x") && table.find("rx_x")) return;
@@ -78,7 +78,7 @@ void refuse_degrees(const TextTable& table) {
   }
 }
 
-// Places, or where there are none, distances, which are then all that is known of geometry.
+// Reads places, or distances if there are none.
 void read_places(Dataset& data) {
   const TextTable& table = data.table;
   if (table.find("distance") && !table.find("tx_x") && !table.find("rx_x")) {
@@ -97,7 +97,7 @@ void read_places(Dataset& data) {
   data.rx_at = places(table, "rx");
 }
 
-// A path loss is the level of what was sent with 0 dBm.
+// A path loss is read as the level received at a transmit power of 0 dBm.
 void read_readings(Dataset& data) {
   const TextTable& table = data.table;
   const bool loss = table.find("path_loss") && !table.find("rssi");

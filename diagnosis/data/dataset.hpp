@@ -1,4 +1,4 @@
-// Measured readings of a radio channel, as docs/reference/table_format.md has them, checked row by row.
+// Measured readings of a radio channel in the format of docs/reference/table_format.md, checked row by row.
 #pragma once
 
 #include <array>
@@ -19,15 +19,15 @@ struct Covariate {
 };
 
 struct Dataset {
-  TextTable table;          // for places in messages
+  TextTable table;          // for file positions in messages
   std::vector<double> t{};  // s; empty if the file has none
   Factor tx{}, rx{};
-  std::vector<Point> tx_at{}, rx_at{};     // z is NaN where the file has none; both empty: only distances are known
+  std::vector<Point> tx_at{}, rx_at{};  // z is NaN where the file has none; both empty: the file has distances instead
   std::vector<double> tx_yaw{}, rx_yaw{};  // rad; empty if the file has none
   std::vector<double> rssi{};              // dBm; NaN: not received
-  std::string reading{};                   // its column: rssi, or path_loss
+  std::string reading{};                   // name of its column: rssi, or path_loss
   std::vector<Covariate> covariates{};     // all further columns that vary
-  std::vector<std::string> notes{};        // what was noticed and is no fault
+  std::vector<std::string> notes{};        // oddities that are no errors
 
   std::size_t rows() const { return rssi.size(); }
   bool has_places() const { return !tx_at.empty(); }
@@ -39,8 +39,8 @@ struct Dataset {
 // The columns that a table of readings may have, beside covariates: names and units.
 const std::map<std::string, std::string>& reading_columns();
 
-// Reads and checks. Throws Error with file, line and column: a column that is missing, a reading that stands twice,
-// time that runs backwards, values that no receiver gives.
+// Reads and checks. Throws Error with file, line and column: a missing column, a duplicate reading, time that runs
+// backwards, values that no receiver reports.
 Dataset read_dataset(const std::filesystem::path& file);
 
 }  // namespace muster::diagnosis

@@ -13,12 +13,12 @@ namespace muster::diagnosis {
 namespace {
 
 constexpr double strongest = 30;   // dBm: a watt at the receiver
-constexpr double sentinel = -128;  // what an 8-bit register holds where nothing was measured
+constexpr double sentinel = -128;  // value of an 8-bit register without a measurement
 constexpr double weakest = -174;   // dBm: thermal noise in 1 Hz
 
 std::string row_text(std::size_t row) { return "row " + std::to_string(row + 1); }
 
-// Rows count from 1, below the header; so row r stands in line r + 1.
+// Rows count from 1, below the header: row r is on line r + 1.
 Place at(const Dataset& data, std::size_t row, const std::string& column) {
   return data.table.place(row, data.table.find(column).value());
 }
@@ -47,7 +47,7 @@ void check_ends(const Dataset& data) {
   }
 }
 
-// Time of a pair may stand still only if (t, tx, rx) does not repeat, so one pass in file order finds both faults.
+// One pass in file order finds both faults: time of a pair may repeat only if (t, tx, rx) does not.
 void check_times(const Dataset& data) {
   if (data.t.empty()) return;
   std::unordered_map<std::uint64_t, std::size_t> last;
@@ -69,7 +69,7 @@ void check_times(const Dataset& data) {
   }
 }
 
-// Some rows in millimetres or degrees among others in metres: their values lie far outside of what the most have.
+// Finds rows in millimetres or degrees among others in metres, by values far outside the usual range.
 void check_units(const Dataset& data, const std::vector<Point>& places, int axis, const std::string& column) {
   std::vector<double> sizes;
   for (const Point& p : places) sizes.push_back(std::abs(p[static_cast<std::size_t>(axis)]));

@@ -1,11 +1,11 @@
-// What is wrong with measured readings by themselves, before any model is asked.
+// Checks of measured readings that need no model.
 #pragma once
 
 #include "diagnosis/data/dataset.hpp"
 
 namespace muster::diagnosis {
 
-// Throws Error at the first reading that cannot be; adds to data.notes what is only odd.
+// Throws Error at the first impossible reading; adds oddities to data.notes.
 void check_readings(Dataset& data);
 
 }  // namespace muster::diagnosis

@@ -27,8 +27,8 @@ double number_of(const std::string& text, const Place& place) {
   return *value;
 }
 
-// "SCALE*COLUMN + OFFSET", each part but the column may be missing. Signs that belong to the offset have spaces around
-// them, so that a column may be called rssi-1.
+// Parses "SCALE*COLUMN + OFFSET"; each part but the column is optional. Signs of the offset are set off by spaces, so
+// that a column may be called rssi-1.
 NumberRule number_rule(std::string text, const Place& place) {
   NumberRule rule;
   for (const char* sign : {" + ", " - "}) {

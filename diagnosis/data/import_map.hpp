@@ -1,11 +1,11 @@
-// A map file, read: one rule a line.
+// A parsed map file: one rule a line.
 //
 //   # comment
 //   t[s]       = 1e-9*ts - 1.627997452227e9     a number: SCALE*COLUMN + OFFSET; scale and offset may be left out
 //   rssi[dBm]  = rssi_{i}                       {i} runs over `for`: a row of the result for each
 //   tx         = "robot"                        a name for all rows; {i} may be part of it
 //   rx         = "anchor{i}"
-//   rx_x[m]    = anchors.x                      a column of a second table, in the row whose key fits
+//   rx_x[m]    = anchors.x                      a column of a second table, in the row with the matching key
 //   for i      = 1 2 3
 //   table anchors = anchors.csv id {i}          its file, beside the map; its key column; the key's value
 //   none rssi  = 0 -128                         values that mean: nothing was received
@@ -34,22 +34,22 @@ struct ColumnRule {
 
 struct SideTable {
   std::filesystem::path file;
-  std::string key, value;  // a column, and what it must hold
+  std::string key, value;  // a column, and its required value
 };
 
 struct ImportMap {
   std::string file;
-  std::string variable;             // "i"; empty: one row a row
-  std::vector<std::string> values;  // what it runs over
+  std::string variable;             // "i"; empty: one row of the result for each row
+  std::vector<std::string> values;  // its values
   std::vector<ColumnRule> columns;  // in the order of the result
   std::map<std::string, SideTable> tables;
   std::map<std::string, std::vector<double>> none;
 };
 
-// Throws Error naming the line that does not fit.
+// Throws Error with the line of a malformed rule.
 ImportMap read_import_map(const std::filesystem::path& file);
 
-// The text with {variable} replaced.
+// The text with {variable} substituted.
 std::string filled(std::string text, const std::string& variable, const std::string& value);
 
 }  // namespace muster::diagnosis

@@ -43,7 +43,7 @@ class Importer {
   }
 
  private:
-  // The same checks as a fit's.
+  // Runs the checks of a fit.
   void check(const std::filesystem::path& written) {
     try {
       const Dataset data = read_dataset(written);
@@ -53,7 +53,7 @@ class Importer {
     }
   }
 
-  // An error about the table that was written, told of what it was made from: nobody has seen that table.
+  // Rewrites an error about the written table in terms of its sources, which the user has.
   Error in_source(const Error& error, const std::filesystem::path& written) const {
     const int line = error.place().file == written.string() ? error.place().line : 0;
     std::string words = error.message();
@@ -64,7 +64,7 @@ class Importer {
     return {error.exit(), source_of(row), (with.empty() ? "" : with + ": ") + rows_as_lines(words)};
   }
 
-  // Rows of the result count from 1, below its header.
+  // Source of a row. Rows of the result count from 1, below its header.
   Place source_of(std::size_t row) const { return main_.place((row - 1) / rows_a_row()); }
   std::string made_with(std::size_t row) const {
     return map_.variable.empty() ? "" : "with " + map_.variable + " = " + map_.values[(row - 1) % rows_a_row()];
@@ -85,7 +85,7 @@ class Importer {
     return result + words.substr(from);
   }
 
-  // What the format says of a column holds for the rule that makes it.
+  // Checks a rule against the format's definition of its column.
   static void check_rule(const ColumnRule& rule) {
     const auto known = reading_columns().find(rule.column.name);
     if (known == reading_columns().end()) return;
@@ -152,7 +152,7 @@ class Importer {
            std::find(found->second.begin(), found->second.end(), value) != found->second.end();
   }
 
-  // The key is a text with {i}, or a column of the imported table in braces: {beacon}.
+  // Row of the second table. The key is a text with {i}, or a column of the imported table in braces: {beacon}.
   std::size_t side_row(const std::string& name, std::size_t row, const std::string& value, const Place& place) {
     const SideTable& side = map_.tables.at(name);
     std::string key = filled(side.value, map_.variable, value);

@@ -1,5 +1,5 @@
-// Brings a foreign table of readings into the format of measured data, as a map file says
-// (docs/how-to/import_a_table.md), and says what it took for granted.
+// Converts a foreign table of readings to the format of measured data, as specified by a map file
+// (docs/how-to/import_a_table.md), and reports its assumptions.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 namespace muster::diagnosis {
 
 struct Imported {
-  std::size_t rows = 0, empty = 0;   // written, and of these without a reading
+  std::size_t rows = 0, empty = 0;   // rows written, and those of them without a reading
   std::vector<std::string> assumed;  // columns, units and frames, one a line
 };
 

@@ -12,7 +12,7 @@ bool contains(const std::vector<std::string>& list, const std::string& path) {
   return std::find(list.begin(), list.end(), path) != list.end();
 }
 
-// The paths to hold, after setting those that came with a value.
+// Sets the parameters that came with a value; returns the paths to hold.
 std::vector<std::string> held_paths(MeasuredWorld& model, const std::vector<std::string>& fix) {
   std::vector<std::string> paths;
   for (const std::string& word : fix) {

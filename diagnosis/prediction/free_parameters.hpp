@@ -6,15 +6,15 @@
 namespace muster::diagnosis {
 
 struct FitOptions {
-  std::vector<std::string> free;  // paths to free beyond those declared free
+  std::vector<std::string> free;  // paths of parameters to free beyond the declared ones
   std::vector<std::string> fix;   // paths to hold, PATH or PATH=VALUE
 };
 
 struct FitParameter {
   std::string path, unit;
   double start = 0, lower = 0, upper = 0;  // as declared
-  double value = 0;                        // by least squares; NaN where it is not identifiable
-  double by_search = 0;                    // by the gradient-free search
+  double value = 0;                        // by least squares; NaN if not identifiable
+  double by_search = 0;                    // by the derivative-free search
   double stderror = 0, lower95 = 0, upper95 = 0, freedom = 0;
   bool identifiable = true, at_bound = false;
 };

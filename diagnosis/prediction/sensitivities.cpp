@@ -24,7 +24,7 @@ Sensitivities sensitivities(MeasuredWorld& model, const std::vector<FitParameter
   const auto n = static_cast<Eigen::Index>(model.rows());
   Eigen::MatrixXd basis(n, 0);
   result.slopes.resize(n, 0);
-  // What is identifiable comes first; of the others those that add something to it.
+  // Identifiable parameters first; of the others those that add a direction.
   std::vector<const FitParameter*> order;
   for (const FitParameter& p : free) order.push_back(&p);
   std::stable_partition(order.begin(), order.end(), [](const FitParameter* p) { return p->identifiable; });

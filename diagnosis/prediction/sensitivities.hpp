@@ -1,4 +1,4 @@
-// The model's own columns: how its mean moves with each of its free parameters.
+// Sensitivities: the model's design matrix, derivatives of its mean by each free parameter.
 #pragma once
 
 #include "diagnosis/prediction/free_parameters.hpp"
@@ -6,14 +6,14 @@
 namespace muster::diagnosis {
 
 struct Sensitivities {
-  std::vector<std::string> paths;  // of the parameters that the readings tell apart
-  Eigen::VectorXd values;          // of them, where the slopes were taken
+  std::vector<std::string> paths;  // of the identifiable parameters
+  Eigen::VectorXd values;          // of those, at the derivatives
   Eigen::VectorXd lower, upper;
   Eigen::MatrixXd slopes;  // one row a reading of the table
-  Eigen::VectorXd mean;    // there
+  Eigen::VectorXd mean;    // at the same values
 };
 
-// At the model's present parameters.
+// At the model's current parameters.
 Sensitivities sensitivities(MeasuredWorld& model, const std::vector<FitParameter>& free);
 
 // The same columns at the readings of another model of the same world.

@@ -26,7 +26,7 @@ std::string row_name(const CauseEstimate& c, const std::string& set) {
   return c.label.rfind(set + '/', 0) == 0 ? c.label.substr(set.size() + 1) : "";
 }
 
-// Where along the wall's line, from its first end, the straight way between the radios crosses it.
+// Distance along the wall's line, from its first end, of the crossing with the straight line between the radios.
 std::optional<Abscissa> along_wall(const RowSummary& rows, const CauseEstimate& c) {
   const auto x0 = value_of(c, "x0"), y0 = value_of(c, "y0"), x1 = value_of(c, "x1"), y1 = value_of(c, "y1");
   if (!x0 || !y0 || !x1 || !y1) return {};
@@ -41,7 +41,7 @@ std::optional<Abscissa> along_wall(const RowSummary& rows, const CauseEstimate& 
     const double ha = a.dot(across), hb = b.dot(across);
     if (ha * hb < 0) out.values[i] = (a + ha / (ha - hb) * (b - a)).dot(along);
     const bool inside = out.values[i] >= -0.5 && out.values[i] <= length + 0.5;
-    // What lies farther off than the wall is long tells nothing of it.
+    // Rows farther off than the wall's length are left out.
     if (!(out.values[i] > -std::max(length, 2.0) && out.values[i] < length + std::max(length, 2.0)))
       out.values[i] = std::nan("");
     concerned += c.effect[i] != 0;
@@ -67,7 +67,7 @@ std::optional<Abscissa> beside_point(const RowSummary& rows, const CauseEstimate
     out.values[i] = distance_to_way({*x, *y}, rows.tx_at.col(i).head<2>(), rows.rx_at.col(i).head<2>());
     if (c.effect[i] != 0) far = std::max(far, out.values[i]);
   }
-  // Beyond a few radii there is nothing to see.
+  // Shows a few radii.
   const double most = std::max(3 * far, 2.0);
   out.values = (out.values.array() <= most).select(out.values, none(rows));
   return out;
@@ -81,7 +81,7 @@ std::optional<Abscissa> through_wall(const RowSummary& rows, const CauseEstimate
   return out;
 }
 
-// From the radio that it is about to the other one; a category where the effect is one constant.
+// Bearing from the cause's radio to the other one; a category if the effect is one constant.
 std::optional<Abscissa> about_radio(const RowSummary& rows, const CauseEstimate& c) {
   const std::string name = row_name(c, "radio");
   const auto at = std::find(rows.radios.begin(), rows.radios.end(), name);

@@ -1,4 +1,5 @@
-// Along what a cause shows: the place on its wall that a link crosses, time, a bearing, distance, or the effect itself.
+// Abscissa of a cause's figure: the place on its wall that a link crosses, time, a bearing, distance, or the effect
+// itself.
 #pragma once
 
 #include <string>
@@ -10,10 +11,10 @@ namespace muster::report {
 
 struct Abscissa {
   std::string label, unit;
-  Eigen::VectorXd values;  // one a row; NaN: the cause does not concern it
+  Eigen::VectorXd values;  // one a row; NaN: outside the cause
   bool log = false;
-  std::vector<std::string> names{};  // values are numbers of these instead
-  bool is_effect = false;            // nothing better was known: the effect as fitted
+  std::vector<std::string> names{};  // values are indices of these instead
+  bool is_effect = false;            // fallback: the fitted effect
 };
 
 Abscissa abscissa_of(const diagnosis::RowSummary& rows, const CauseEstimate& cause);

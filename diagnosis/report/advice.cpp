@@ -39,7 +39,7 @@ std::vector<Question> open_questions(const Diagnosis& d) {
 
 std::string name_of_step(const Diagnosis& d, std::size_t k) {
   if (k == 0) return "the world, fitted";
-  // Of what the search accepted, causes and what is unexplained in one order of strength.
+  // Accepted causes and unexplained effects, in one order of strength.
   std::vector<std::pair<double, std::string>> steps;
   for (const CauseEstimate& c : d.causes) {
     if (standing_of(c) != Standing::set_aside && !c.sought_as.empty()) steps.emplace_back(-c.lambda, short_name(c.id));

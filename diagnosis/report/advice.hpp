@@ -1,4 +1,4 @@
-// What a diagnosis leaves open, and what was looked at and found fine: lists that text, JSON and page share.
+// Open questions of a diagnosis, for text, JSON and page.
 #pragma once
 
 #include <string>
@@ -8,25 +8,25 @@
 
 namespace muster::report {
 
-// A measurement that could be made.
+// A possible measurement.
 struct Measurement {
   std::string say;
-  double predicted = 0;  // D with it
-  bool advised = false;  // the one of which the readings are written down
+  double predicted = 0;  // expected D with it
+  bool advised = false;  // the one whose planned readings are written
 };
 
 struct Question {
   std::string cause, alternative;
   std::string pair;                  // "unmapped wall or obstacle", "the column battery or drift"
-  double separability = 0;           // D of the data
-  std::string tell_apart;            // in the cause's own words
-  std::vector<Measurement> plans{};  // the most telling one first
+  double separability = 0;           // D with the present data
+  std::string tell_apart;            // from the cause's manual
+  std::vector<Measurement> plans{};  // the largest D first
 };
 
-// Pairs of a cause, or of what is unexplained, and a rival that the data do not decide, D < 25.
+// Undecided pairs (D < 25) of a cause, or of an unexplained effect, and an alternative.
 std::vector<Question> open_questions(const Diagnosis& diagnosis);
 
-// "the world, fitted", "+ unmapped wall", of the k-th step of the held-out error.
+// Name of the k-th step of the held-out error: "the world, fitted", "+ unmapped wall".
 std::string name_of_step(const Diagnosis& diagnosis, std::size_t k);
 
 }  // namespace muster::report

@@ -13,7 +13,7 @@ using Eigen::VectorXd;
 
 constexpr int resamples = 400;
 
-// The part that a value lies in, or -1.
+// Bin of each value, or -1.
 std::vector<int> parts_of(const std::vector<double>& edges, const VectorXd& x) {
   std::vector<int> out;
   for (const double v : x) {
@@ -26,13 +26,13 @@ std::vector<int> parts_of(const std::vector<double>& edges, const VectorXd& x) {
 }
 
 struct Sums {
-  VectorXd sum, rows;  // a block
+  VectorXd sum, rows;  // of each block
 };
 
 void interval_of(Bin& bin, const Sums& sums, uint64_t part) {
   const Stream stream(combined(key_of("means by block"), part));
   std::vector<double> means;
-  std::vector<Index> held;  // blocks that have rows here
+  std::vector<Index> held;  // blocks with rows in this bin
   for (Index b = 0; b < sums.rows.size(); ++b) {
     if (sums.rows[b] > 0) held.push_back(b);
   }

@@ -1,4 +1,4 @@
-// Means over parts of a covariate's range, with intervals by resampling whole blocks of space.
+// Means over bins of a covariate, with intervals from a block bootstrap.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,21 +7,21 @@
 namespace muster::report {
 
 struct Bin {
-  double at = 0, mean = 0, low = 0, high = 0;  // middle of the part; mean and its 95 % interval
+  double at = 0, mean = 0, low = 0, high = 0;  // middle of the bin; mean and its 95 % interval
   double rows = 0;
 };
 
-// `edges` rise; parts with fewer than `least` rows are left out. Values outside or NaN are in no part.
+// `edges` rise; bins with fewer than `least` rows are left out. Values outside or NaN are in no bin.
 std::vector<Bin> means_over(const std::vector<double>& edges, const Eigen::VectorXd& x, const Eigen::VectorXd& y,
                             const std::vector<int>& block, int least = 5);
 
-// Intervals of rows that are independent and have unit variance.
+// For independent rows of unit variance.
 std::vector<Bin> whitened_means_over(const std::vector<double>& edges, const Eigen::VectorXd& x,
                                      const Eigen::VectorXd& y, int least = 5);
 
-// `count` parts between the smallest and the largest value, equal in length or, where `log`, in ratio.
+// `count` bins between the smallest and the largest value, equal in length or, with `log`, in ratio.
 std::vector<double> edges_of(const Eigen::VectorXd& x, int count, bool log = false);
-// One part a number 0 ... names - 1.
+// One bin for each index 0 ... names - 1.
 std::vector<double> edges_of_names(std::size_t names);
 
 }  // namespace muster::report

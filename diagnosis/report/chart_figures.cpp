@@ -1,4 +1,4 @@
-// Errors step by step, each cause's partial residual, and what is left along every covariate.
+// Charts: held-out errors step by step, partial residuals of causes, and residuals along covariates.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -39,7 +39,7 @@ Curve curve_of(const std::vector<Bin>& bins) {
   return out;
 }
 
-// Dots spread sideways where x is a name, so that they do not hide each other.
+// Dots, spread sideways over names to avoid overlap.
 pic::Points dots(const VectorXd& x, const VectorXd& y, bool names) {
   pic::Points out{.colour = pic::light_grey, .radius = 1.5};
   const Index every = std::max<Index>(1, (x.size() + most_dots - 1) / most_dots);
@@ -52,7 +52,7 @@ pic::Points dots(const VectorXd& x, const VectorXd& y, bool names) {
   return out;
 }
 
-// The middle nine hundred and ninety of a thousand, and a little room.
+// Limits of the central 99 %, with a margin.
 std::pair<double, double> limits_of(const VectorXd& x, const VectorXd& y) {
   std::vector<double> shown;
   for (Index i = 0; i < y.size(); ++i) {
@@ -67,7 +67,7 @@ std::pair<double, double> limits_of(const VectorXd& x, const VectorXd& y) {
 }
 
 struct Along {
-  std::string name, unit, check;  // check: the candidate whose p stands in the title
+  std::string name, unit, check;  // check: the candidate whose p is in the title
   VectorXd values;
   bool log = false;
   std::vector<std::string> names{};
@@ -147,7 +147,7 @@ pic::Figure staircase(const Diagnosis& d) {
 
 pic::Figure partial_residual(const Diagnosis& d, const CauseEstimate& c) {
   const Abscissa along = abscissa_of(d.seen, c);
-  // What is set aside is not in the model, so its effect is in what is left already.
+  // An effect set aside is not in the model, so the residual still contains it.
   const VectorXd partial = standing_of(c) == Standing::set_aside ? d.seen.after : VectorXd(d.seen.after + c.effect);
   const auto [low, high] = limits_of(along.values, partial);
   pic::Panel panel{.x = {.label = along.label, .unit = along.unit, .log = along.log, .names = along.names},

@@ -1,4 +1,4 @@
-// What was looked at beside what was found, in words.
+// Candidates checked and not found, as text.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace muster::report {
 
-// Whether a candidate is among what was found.
+// True if a candidate is among the findings.
 bool found(const Diagnosis& diagnosis, const std::string& id);
 
-// What was checked and is not among what was found. Doubtful: small p that were not told, of either kind.
+// Checks of candidates that were not found. Doubtful: small p without a finding, of either kind.
 struct SortedChecks {
   std::vector<const inference::Check*> along, causes, doubtful;
 };
@@ -21,7 +21,7 @@ std::string name_of(const inference::Check& check);
 constexpr const char* why_doubtful =
     "Small by themselves, and not told: each is one of the many that were asked, or goes with what stands above.";
 
-// "outliers, people": causes that were searched, each by a test of its own that has no p, and not found.
+// "outliers, people": causes tested separately, without a p-value here, and not found.
 std::string asked_alone(const Diagnosis& diagnosis);
 
 }  // namespace muster::report

@@ -1,4 +1,4 @@
-// The pictures of a diagnosis.
+// Figures of a diagnosis.
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@
 namespace muster::report {
 
 struct Picture {
-  std::string name;  // of its file, without ending
+  std::string name;  // of its file, without extension
   plotting::Figure figure;
 };
 
-// Only those that the data allow: no map without places that vary, no steps without held-out blocks.
+// All figures that the data allow: no map without varying places, no steps without held-out blocks.
 std::vector<Picture> pictures_of(const Diagnosis& diagnosis);
 
 // ---- Its parts ----

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The readings of a measurement that is yet to be made: what stands where, when, and how it is turned.
+// Planned readings of an advised measurement: radios, places, times and yaws.
 std::string advised_csv(const diagnosis::LinkReadings& r, const std::vector<std::string>& radios) {
   const bool timed = !r.t.empty();
   std::string out = timed ? "t[s]," : "";

@@ -1,4 +1,4 @@
-// What a diagnosis leaves in its --out folder beside the extended world.
+// Files of a diagnosis in its --out folder, beside the extended world.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,7 @@
 
 namespace muster::report {
 
-// Writes report.html, diagnosis.json and the pictures; the files written, the page first. Throws Error.
+// Writes report.html, diagnosis.json and the figures. Returns the files, the page first. Throws Error.
 std::vector<std::string> write_report(const Diagnosis& diagnosis, const Setting& setting,
                                       const std::filesystem::path& folder);
 

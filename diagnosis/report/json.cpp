@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// JSON has no NaN: what is not known is null.
+// JSON has no NaN: unknown values are null.
 Json known(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json held_out_json(const std::optional<inference::HeldOutGain>& h) {

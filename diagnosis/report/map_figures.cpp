@@ -1,4 +1,4 @@
-// Residuals over the floor, and what was found there.
+// Maps: residuals over the floor, with the findings.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ struct Cell {
   double sum = 0, count = 0;
 };
 
-// Means of `values` over cells, of the rows that `shown` says.
+// Means of `values` over cells, of the rows selected by `shown`.
 template <class Shown>
 pic::Cells cells_of(const Diagnosis& d, const Places& places, const VectorXd& values, Shown shown) {
   pic::Cells out{.size = cell_size(places)};
@@ -59,7 +59,7 @@ pic::FloorPlan plan_of(const Diagnosis& d) {
   return plan;
 }
 
-// Radios that stay where they are, one mark each.
+// Stationary radios, one mark each.
 std::map<int, pic::Station> stations_of(const Diagnosis& d, const Places& places) {
   std::map<int, pic::Station> out;
   std::set<int> moves;
@@ -81,13 +81,13 @@ std::optional<double> value_of(const CauseEstimate& c, const std::string& name) 
   return {};
 }
 
-// A line in the colour of what was found, light around it so that it shows on any cell.
+// An outline in the colour of findings, with a light rim for contrast on any cell.
 void add_outline(const std::vector<double>& x, const std::vector<double>& y, std::vector<pic::Layer>& out) {
   out.emplace_back(pic::Line{.x = x, .y = y, .colour = pic::white, .width = 7});
   out.emplace_back(pic::Line{.x = x, .y = y, .colour = found_colour, .width = 3.5});
 }
 
-// The places of what was found, as lines; none for what has no place.
+// Outlines of the findings; none for a finding without a place.
 void add_found(const Diagnosis& d, std::vector<pic::Layer>& out) {
   for (const CauseEstimate& c : d.causes) {
     if (standing_of(c) == Standing::set_aside) continue;
@@ -115,7 +115,7 @@ std::string found_in_words(const Diagnosis& d) {
   return layers.empty() ? "" : " Green: what was found.";
 }
 
-// A round limit that nine cells in ten stay within.
+// A round limit above nine cells in ten.
 double limit_of(const VectorXd& values) {
   VectorXd sizes = values.cwiseAbs();
   if (sizes.size() == 0) return 3;

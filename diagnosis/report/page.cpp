@@ -14,7 +14,7 @@ namespace {
 
 using plotting::escaped;
 
-// Figures are drawn for white paper; in the dark they keep it, a shade softer.
+// Figures are drawn for white paper, and keep it in dark mode, slightly softer.
 constexpr const char* style = R"(
 :root { color-scheme: light dark; --paper: #fff; --ground: #f6f7f9; --ink: #1a1c1f; --soft: #5c6370; --line: #dfe3e8;
   --good: #00795a; --warn: #a34700; }
@@ -51,7 +51,7 @@ std::string capital(std::string text) {
   return text;
 }
 
-// A name keeps its letters.
+// A title that begins with a name is not capitalised.
 std::string title_of(const CauseEstimate& c) { return c.title.rfind('{', 0) == 0 ? sentence(c) : capital(sentence(c)); }
 
 struct Cell {
@@ -77,7 +77,7 @@ std::string figure_named(const std::vector<Picture>& pictures, const std::string
   for (const Picture& p : pictures) {
     if (p.name != name) continue;
     const std::string svg = plotting::svg(p.figure);
-    return "<figure>\n" + svg.substr(svg.find("<svg")) + "</figure>\n";  // without the declaration of a document
+    return "<figure>\n" + svg.substr(svg.find("<svg")) + "</figure>\n";  // without the XML declaration
   }
   return "";
 }

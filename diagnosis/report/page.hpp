@@ -1,4 +1,4 @@
-// A diagnosis as one HTML page: text, tables and pictures in it, nothing beside it, no scripts.
+// A diagnosis as one self-contained HTML page: text, tables and figures, no scripts.
 #pragma once
 
 #include <string>

@@ -7,7 +7,7 @@ namespace muster::report {
 
 namespace {
 
-// Radios that were at places more than half a metre apart.
+// True for radios with places more than half a metre apart.
 std::vector<bool> moving(const diagnosis::RowSummary& rows) {
   std::vector<bool> moves(rows.radios.size(), false);
   std::map<int, Eigen::Vector3d> first;
@@ -37,7 +37,7 @@ Places places_of(const diagnosis::RowSummary& rows) {
   out.place = tx_stays ? rows.rx_at : rows.tx_at;
   out.anchor = tx_stays ? rows.tx_at : rows.rx_at;
   out.radio = tx_stays ? rows.tx : rows.rx;
-  // A link the other way round lies at the end that moves too.
+  // The reversed link has the same moving end.
   const std::vector<bool> moves = moving(rows);
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto k = static_cast<std::size_t>(i);

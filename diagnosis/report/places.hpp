@@ -1,4 +1,4 @@
-// Where rows lie: which end moves, and to which block of space each row belongs.
+// Places of rows: the moving end, and blocks of space.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 namespace muster::report {
 
 struct Places {
-  Eigen::Matrix3Xd place, anchor;  // m: the end that moves more, and the other one
+  Eigen::Matrix3Xd place, anchor;  // m: the end that moves more, and the other end
   std::vector<int> radio;          // the anchor's
   double width = 0, depth = 0;     // m, of the places' box
   bool vary() const { return width + depth > 1; }

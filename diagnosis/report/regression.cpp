@@ -36,7 +36,7 @@ double rmse_of(const fs::path& world, const fs::path& data, const Library::Searc
   return std::sqrt(sum / std::max(count, 1.0));
 }
 
-// The limit between what the extended world reaches and what the world as given did.
+// Limit between the error of the extended world and that of the world as given.
 Json limit(double extended, double given) {
   const double lost = std::max(0.0, given * given - extended * extended);
   return {{"value", extended}, {"at_most", std::sqrt(extended * extended + loss_allowed * lost) + 1e-6}};
@@ -94,7 +94,7 @@ Json read_json(const fs::path& file) {
   return json;
 }
 
-// The name of the k-th instance of a plugin in the world, "" if there is none.
+// Name of the k-th instance of a plugin in the world, "" if there is none.
 std::string instance_of(const Simulation& run, const std::string& plugin, int number) {
   for (const auto& instance : run.instances()) {
     if (instance->declared().plugin == plugin && --number == 0) return instance->name();
@@ -109,7 +109,7 @@ Checked at_most(const std::string& what, double found, double most) {
 struct Limits {
   double low = 0, high = 0;
   std::string unit;
-  bool cyclic = false;  // a turn more is the same
+  bool cyclic = false;  // equal modulo a turn
 };
 
 Checked inside(const std::string& what, double found, const Limits& limits) {

@@ -1,4 +1,4 @@
-// A finding as a test that can be run later: the extended world still explains the data it was made from.
+// A finding as a regression test: the extended world still explains the data it was made from.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,8 @@
 
 namespace muster::report {
 
-// Copies the data beside the extended world in `folder` where they are not there yet, and writes regression.json and
-// replay.xml; the files written. Throws Error.
+// Copies the data beside the extended world in `folder`, unless they are there, and writes regression.json and
+// replay.xml. Returns the files. Throws Error.
 std::vector<std::string> write_regression(const Diagnosis& diagnosis, const std::filesystem::path& world,
                                           const std::filesystem::path& data, const std::filesystem::path& folder);
 
@@ -18,7 +18,7 @@ struct Checked {
   bool passed = false;
 };
 
-// `from`: a regression.json, or its folder. Throws Error where it cannot be read or its world does not run.
+// `from`: a regression.json, or its folder. Throws Error if it cannot be read or its world does not run.
 std::vector<Checked> check_regression(const std::filesystem::path& from, const Library::SearchPath& plugins);
 
 }  // namespace muster::report

@@ -1,4 +1,4 @@
-// A world that simulates measured readings: each of them is a link.
+// A world that simulates the measured readings, each as a link.
 #pragma once
 
 #include <filesystem>

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t columns = 100;
 
-// Letters, not bytes: names of radios may be UTF-8.
+// Counts letters, not bytes: names of radios may be UTF-8.
 std::size_t width_of(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
@@ -51,7 +51,7 @@ std::string gain_of(const inference::HeldOutGain& h, const std::string& left_out
                      h.rmse_before, db(h.rmse_after), h.gain, h.lower95, h.upper95, h.blocks, left_out);
 }
 
-// "    word        text", wrapped beside the word.
+// " word text", wrapped in the text's column.
 std::string entry(const std::string& word, const std::string& text) {
   std::string padded = "      " + word;
   padded.resize(std::max<std::size_t>(18, padded.size() + 1), ' ');
@@ -105,7 +105,7 @@ std::string unexplained(const Diagnosis& d) {
 }
 
 std::string stairs(const Diagnosis& d) {
-  if (d.stairs.size() < 3) return "";  // with one step, the cause has said it
+  if (d.stairs.size() < 3) return "";  // a single step repeats the cause's own line
   std::string text = heading("Error at " + what_is_held_out(d) + " not seen, step by step");
   for (std::size_t k = 0; k < d.stairs.size(); ++k)
     text += fmt::format("  {:<40} {:6.2f} dB   95 %: {:.2f} to {:.2f}\n", name_of_step(d, k), d.stairs[k].rmse,
@@ -208,7 +208,7 @@ std::string wrapped(const std::string& text, std::size_t first_indent, std::size
   bool empty = true;
   std::size_t from = 0;
   while (from < text.size()) {
-    // Blanks inside a line stay, so that columns line up.
+    // Blanks inside a line are kept, so that columns line up.
     std::size_t word = from;
     while (word < text.size() && text[word] == ' ') ++word;
     const std::size_t end = std::min(text.find(' ', word), text.size());

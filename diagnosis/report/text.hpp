@@ -8,18 +8,18 @@
 
 namespace muster::report {
 
-// What was diagnosed, and what was written beside the result.
+// Inputs and written files of a diagnosis.
 struct Setting {
-  std::string world, data;           // as the user named them
+  std::string world, data;           // as given by the user
   std::vector<std::string> files{};  // written, the report first
 };
 
 std::string text_of(const Diagnosis& diagnosis, const Setting& setting);
 
-// Lines no wider than 100 columns; those after the first are indented.
+// Wraps text to 100 columns; lines after the first are indented.
 std::string wrapped(const std::string& text, std::size_t first_indent = 0, std::size_t indent = 0);
 
-// What could not be searched, by reason: "not searched yet (...): a, b".
+// Causes that were not tested, by reason: "not searched yet (...): a, b".
 std::vector<std::string> reasons_not_tested(const Diagnosis& diagnosis);
 
 }  // namespace muster::report

@@ -13,7 +13,7 @@ constexpr double degrees = 180 / M_PI;
 
 double half_of(const CauseValue& v) { return (v.upper95 - v.lower95) / 2; }
 
-// Decimals that show the first digit of the half interval, and the second where the first is 1 or 2.
+// Decimals that show the first digit of the half interval, and the second if the first is 1 or 2.
 int decimals_for(double half) {
   if (!(half > 0) || !std::isfinite(half)) return -1;
   const int first = -static_cast<int>(std::floor(std::log10(half)));
@@ -52,7 +52,7 @@ std::string causes_in_words(int count) {
   return count < 6 ? words[count] : std::to_string(count) + " causes";
 }
 
-// It shifts no level.
+// True for a cause without a level shift.
 bool is_law(const CauseEstimate& cause) { return cause.covariates == std::vector<std::string>{"reading"}; }
 
 }  // namespace
@@ -60,7 +60,7 @@ bool is_law(const CauseEstimate& cause) { return cause.covariates == std::vector
 Standing standing_of(const CauseEstimate& cause) {
   if (cause.status != inference::Status::named) return Standing::set_aside;
   if (!cause.doubt.empty()) return Standing::unconfirmed;
-  // What shifts no level has no error at places to confirm it by: its evidence is the readings' own law.
+  // A law has no level error at places to confirm it: its evidence is the distribution of readings itself.
   if (is_law(cause)) return Standing::confirmed;
   const bool gains = cause.held_out && cause.held_out->lower95 > 0 && cause.held_out->blocks >= fewest_blocks;
   return gains ? Standing::confirmed : Standing::unconfirmed;

@@ -1,4 +1,4 @@
-// A diagnosis in words: what each figure is called, how many digits it bears, and what may be said of a cause.
+// Wording of a diagnosis: names of figures, significant digits, and statements on a cause.
 #pragma once
 
 #include <string>
@@ -11,25 +11,25 @@ using diagnosis::CauseEstimate;
 using diagnosis::CauseValue;
 using diagnosis::Diagnosis;
 
-// How sure a cause is. "Is" is said of a confirmed one only.
+// Certainty of a cause. The report uses "is" only for a confirmed one.
 enum class Standing {
-  confirmed = 1,  // named, and its gain at places not seen is above zero with 95 %
-  unconfirmed,    // named, but places not seen do not show it, or there are too few
-  set_aside       // found, and not beyond chance beside the others
+  confirmed = 1,  // named, and its held-out gain is above zero with 95 %
+  unconfirmed,    // named, but held-out places do not confirm it, or are too few
+  set_aside       // found, but not significant beside the others
 };
 Standing standing_of(const CauseEstimate& cause);
-// Blocks that all gain by chance alone in one of 32 cases: an interval over fewer is none of 95 %.
+// All of five blocks gain by chance in one of 32 cases: fewer give no 95 % interval.
 constexpr int fewest_blocks = 5;
-// Of a cause that what was held out does not confirm.
+// Reason why a cause is not confirmed by held-out data.
 std::string why_unconfirmed(const CauseEstimate& cause);
-// Why no gain stands beside a cause that has none.
+// Reason why a cause has no gain.
 std::string why_no_gain(const CauseEstimate& cause);
 constexpr const char* too_few_blocks = "not measured: too few blocks of space";
 
-double tenths(double value);              // to one decimal, without a zero's sign
+double tenths(double value);              // to one decimal, never -0.0
 std::string judged(double separability);  // "cannot be told apart", "weakly told apart", "told apart"
 
-// With as many digits as its half interval gives a meaning to; without one, four.
+// With the digits justified by its half interval; without one, four.
 std::string rounded(double value, double half_interval);
 // "8.56 dB"; radians as degrees.
 std::string quantity(double value, double half_interval, const std::string& unit);
@@ -40,13 +40,13 @@ std::string with_sign(double value, int decimals);
 
 // The cause's title with its slots filled.
 std::string sentence(const CauseEstimate& cause);
-// "effect.drift" as people say it: "drift"; "unmapped wall".
+// Short name for readers, "drift" for "effect.drift"; "unmapped wall".
 std::string short_name(const std::string& id);
-// What a covariate's name stands for: "logd" is "distance".
+// Name of a covariate for readers: "distance" for "logd".
 std::string covariate_in_words(const std::string& name);
-// "obstacle (2.0, 1.5), 1.5 nats behind, D 6: cannot be told apart", one after the other; or that there are none.
+// "obstacle (2.0, 1.5), 1.5 nats behind, D 6: cannot be told apart", for each alternative; or that there are none.
 std::string rivals_in_words(const std::vector<inference::Alternative>& alternatives);
-// "Something depends on the column battery ...", with what it wins and the causes that explain it nearly as well.
+// "Something depends on the column battery ...", with its gain and the causes that explain it nearly as well.
 std::string what_is_unexplained(const diagnosis::Unexplained& what);
 // "finds nothing more"; "still finds drift tx1, something along the column battery".
 std::string what_is_found_again(const std::vector<diagnosis::Told>& told);
@@ -55,19 +55,19 @@ std::string chance(double log_p);
 
 // One line, without the world's name: "is adequate: ...".
 std::string verdict_in_words(const Diagnosis& diagnosis);
-// dB that noise alone leaves of one row's mean, wherever it lies.
+// dB: standard deviation of one row's mean from noise alone, at any place.
 double noise_floor(const Diagnosis& diagnosis);
 // "6.28 dB"
 std::string db(double value);
-// "places", or "distances" where the data have no places.
+// "places", or "distances" for data without places.
 std::string what_is_held_out(const Diagnosis& diagnosis);
-// What the world errs by with radios and runs not seen; empty where there are not several.
+// Errors of the world on held-out radios and runs; empty unless there are several.
 std::string errors_elsewhere(const Diagnosis& diagnosis);
-// How readings were gathered to rows.
+// The averaging of readings to rows, as text.
 std::string rows_in_words(const Diagnosis& diagnosis);
-// What the report counts in, for who has not read docs/how-to/read_a_report.md.
+// The report's units, for readers without docs/how-to/read_a_report.md.
 std::string words_explained();
-// Without held-out blocks: why there are none.
+// Reason why there are no held-out blocks.
 std::string why_no_blocks(const Diagnosis& diagnosis);
 
 int count_of(const Diagnosis& diagnosis, Standing standing);

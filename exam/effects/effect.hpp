@@ -1,6 +1,5 @@
-// Hidden effects: what a case's truth has and its world file has not. Each is an ordinary function of readings and of
-// one strength, by which it is made as heavy as the exam wants. Nothing here is shared with the plugins that diagnose
-// them.
+// Hidden effects: parts of a case's truth that its world file lacks. Each is an ordinary function of readings and of
+// one strength, which sets its lambda. They share no code with the plugins that diagnose them.
 #pragma once
 
 #include <functional>
@@ -20,26 +19,25 @@ enum class Acts { mean = 1, receiver, reading_law, field_law };
 struct Effect {
   std::string id;
   Acts acts = Acts::mean;
-  bool linear = true;               // in its strength
-  double least = 0.1, most = 25;    // of its strength
-  std::vector<std::string> rows{};  // of the world that it is about: "radio/beacon2", "wall/w7"
-  std::vector<std::string>
-      covariates{};                 // outside the vocabulary: names under which it may be reported; "a*b" a product
-  std::vector<std::string> also{};  // other names in the vocabulary of the very same shift of readings
+  bool linear = true;                     // in the strength
+  double least = 0.1, most = 25;          // of the strength
+  std::vector<std::string> rows{};        // the world's rows concerned: "radio/beacon2", "wall/w7"
+  std::vector<std::string> covariates{};  // outside the vocabulary: accepted names for it; "a*b" a product
+  std::vector<std::string> also{};        // other names in the vocabulary for the same shift of readings
 
-  // dB on every reading; of what comes at times that nobody knows, a column for each time that it comes.
+  // dB on every reading. For events at unknown times (passages), one column for each event.
   std::function<Eigen::VectorXd(const Data&, double strength)> shift{};
   std::function<Eigen::MatrixXd(const Data&, double strength)> passages{};
-  // What the receiver reports for a level in dBm; NaN: nothing.
+  // Reported reading of a level in dBm; NaN: none.
   std::function<double(double level, double strength)> receive{};
   std::function<void(ReadingLaw&, double strength)> change_reading{};
   std::function<void(FieldLaw&, double strength)> change_field{};
   std::function<std::vector<Parameter>(double strength)> parameters{};
-  // Whose shadowing a reading has; by default its station's.
+  // Index of a reading's shadowing field; by default its station.
   std::function<int(const Reading&)> field_of{};
 };
 
-// What an effect may look at while it is drawn.
+// Inputs to the draw of an effect.
 struct Scene {
   const Site& site;
   const Data& measured;
@@ -53,7 +51,7 @@ struct Recipe {
   Effect (*draw)(const Scene&, Random&);
 };
 
-// All of them; the files effects_*.cpp hold them by what they are about.
+// All recipes, from the files effects_*.cpp, one for each kind.
 const std::vector<Recipe>& recipes();
 const Recipe& recipe(const std::string& id);
 
@@ -64,7 +62,7 @@ std::vector<Recipe> time_recipes();
 std::vector<Recipe> receiver_recipes();
 std::vector<Recipe> outside_recipes();
 
-// strength x shape(reading), the shape being a function of one reading.
+// strength x shape(reading).
 template <class Shape>
 auto scaled(Shape shape) {
   return [shape](const Data& data, double strength) {

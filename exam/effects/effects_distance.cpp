@@ -1,4 +1,4 @@
-// Effects of the way between the radios.
+// Effects of the path between the radios.
 #include <complex>
 #include <numbers>
 
@@ -21,8 +21,8 @@ Effect dual_slope(const Scene& s, Random& random) {
   return e;
 }
 
-// A mirror image of the station under the floor: a wave with the field upright, reflected by a smooth floor, less what
-// its roughness scatters.
+// Two-ray model: an image of the station below the floor, vertical polarisation, a smooth floor's reflection less its
+// roughness loss.
 Effect two_ray(const Scene& s, Random& random) {
   const double permittivity = random.uniform(3, 8);
   Effect e{"two_ray"};
@@ -47,7 +47,7 @@ Effect two_ray(const Scene& s, Random& random) {
   return e;
 }
 
-// A corridor guides: the powers of all images between its two walls add up where both radios are in it.
+// Waveguide: powers of all images between a corridor's two walls add up, with both radios in it.
 Effect corridor(const Scene& s, Random&) {
   Effect e{"corridor"};
   e.linear = false;
@@ -65,7 +65,7 @@ Effect corridor(const Scene& s, Random&) {
       double sum = 1;
       for (int image = 1; image <= 20; ++image)
         for (const int side : {-1, 1}) {
-          // The image after `image` reflections, the first one at the wall on this side.
+          // Image after `image` reflections, the first one at the wall on this side.
           const double from_wall = a.y - strip.low.y;
           const double y = image % 2 == 0 ? from_wall + side * image * width : -from_wall + (side * image + 1) * width;
           const double across = y - (b.y - strip.low.y), way = std::hypot(across, b.x - a.x, station.z - robot.z);

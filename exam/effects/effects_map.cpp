@@ -1,4 +1,4 @@
-// Effects of the building: walls, rooms, things that stand about.
+// Effects of the building: walls, rooms, obstacles.
 #include <algorithm>
 #include <numbers>
 
@@ -9,14 +9,14 @@ namespace {
 
 Vec2 in_plan(Vec3 p) { return {p.x, p.y}; }
 
-// Height of a link where it is nearest to a place.
+// Height of a link at its nearest point to a place.
 double height_at(Vec3 p, Vec3 q, Vec2 place) {
   const double x = q.x - p.x, y = q.y - p.y;
   const double share = std::clamp(((place.x - p.x) * x + (place.y - p.y) * y) / (x * x + y * y), 0.0, 1.0);
   return p.z + share * (q.z - p.z);
 }
 
-// Share of readings whose link crosses a wall, by wall.
+// Share of readings whose link crosses each wall.
 std::vector<double> shares_crossed(const Scene& s) {
   std::vector<double> result(s.site.plan.walls.size());
   for (const auto& crossed : s.measured.crossings)
@@ -44,7 +44,7 @@ auto by_wall(int wall) {
   };
 }
 
-// One wall is of something else than the map says.
+// One wall has another material than on the map.
 Effect wall_material(const Scene& s, Random& random) {
   const int wall = crossed_wall(s, random);
   const Wall& w = s.site.plan.walls[static_cast<std::size_t>(wall)];
@@ -74,7 +74,7 @@ Effect wall_absent(const Scene& s, Random& random) {
   return e;
 }
 
-// Whether robots drove through a segment, or closer to a disk than its radius.
+// True if robots drove through a segment, or closer to a disk than its radius.
 template <class Hit>
 bool driven(const Scene& s, Hit hit) {
   for (const Data* data : {&s.measured, &s.second}) {
@@ -123,8 +123,7 @@ Effect unmapped_wall(const Scene& s, Random& random) {
   return e;
 }
 
-// A machine or a full cabinet: most of its loss lies near the surface. Links from stations that hang high pass above
-// it.
+// A machine or a full cabinet: most of its loss lies near the surface. Links from high stations pass above it.
 Effect obstacle(const Scene& s, Random& random) {
   Vec2 at;
   double radius = 0.4;
@@ -171,7 +170,7 @@ Effect room_clutter(const Scene& s, Random& random) {
   return e;
 }
 
-// Walls behind walls cost less and less: waves find ways around.
+// Each further wall costs less: waves find ways around.
 Effect multiwall_saturation(const Scene& s, Random& random) {
   const double power = random.uniform(1.2, 2);
   Effect e{"multiwall_saturation"};
@@ -187,7 +186,7 @@ Effect multiwall_saturation(const Scene& s, Random& random) {
   return e;
 }
 
-// Fresnel's loss of a slab's two faces against straight incidence, in dB; a field along the wall.
+// Fresnel loss of a slab's two faces relative to normal incidence, in dB; field along the wall.
 double slant_loss(double cosine, double permittivity) {
   const double c = std::max(cosine, 0.15), inside = std::sqrt(permittivity - 1 + c * c), root = std::sqrt(permittivity);
   const auto through = [](double outer, double inner) {
@@ -212,8 +211,8 @@ Effect incidence(const Scene&, Random& random) {
   return e;
 }
 
-// A ceiling that the map does not know, under the two stations that hang above it. Its loss is the mean one of links
-// through it, most of which go through at a flat angle.
+// A ceiling missing from the map, below the two stations above it. Its loss is the mean over links through it, mostly
+// at flat angles.
 Effect height(const Scene& s, Random&) {
   Effect e{"height"};
   for (std::size_t i = 0; i < s.site.plan.stations.size(); ++i)

@@ -1,4 +1,4 @@
-// Effects that no cause describes: the right answer is the name of the covariate, and no cause.
+// Effects outside the vocabulary: the right answer is the covariate's name, and no cause.
 #include <algorithm>
 #include <numbers>
 
@@ -14,7 +14,7 @@ Effect outside(const char* id, std::vector<std::string> covariates) {
   return e;
 }
 
-// Motors disturb the receiver, more the faster they turn.
+// Interference from motors, which grows with their speed.
 Effect motor_noise(const Scene&, Random& random) {
   const double power = random.uniform(1.3, 2.5);
   Effect e = outside("motor_noise", {"speed"});
@@ -32,7 +32,7 @@ Effect lobes_3_and_4(const Scene& s, Random& random) {
   return e;
 }
 
-// A damp end of the house: a curved slope over the plan.
+// Moisture at one end of the house: a curved slope over the plan.
 Effect moisture(const Scene& s, Random& random) {
   const double direction = random.uniform(0, 2 * std::numbers::pi), curve = random.uniform(0.5, 1);
   const Vec2 size = s.site.plan.whole.high;

@@ -29,7 +29,7 @@ Effect rx_offset(const Scene&, Random& random) {
   return e;
 }
 
-// A cardioid over a floor of scattered power, in dB, its mean over directions 0, from peak to peak 1.
+// Cardioid over a floor of scattered power, in dB, with mean 0 over directions and 1 from peak to peak.
 struct Pattern {
   double direction, back;  // rad; power behind
   double operator()(double bearing) const {
@@ -43,7 +43,7 @@ struct Pattern {
     for (int i = 0; i < 72; ++i) sum += 10 * std::log10(power(direction + i * std::numbers::pi / 36)) / 72;
     return sum;
   }
-  // Of the first harmonic of the pattern.
+  // Amplitude of the pattern's first harmonic.
   double amplitude() const {
     double sum = 0;
     for (int i = 0; i < 72; ++i)
@@ -87,7 +87,7 @@ Effect antenna_rx(const Scene& s, Random& random) {
   return e;
 }
 
-// A sector behind something on the robot, with soft edges.
+// A sector shadowed by the robot's body, with soft edges.
 Effect body_shadow(const Scene& s, Random& random) {
   const double direction = random.uniform(-std::numbers::pi, std::numbers::pi), half = random.uniform(0.3, 0.6);
   Effect e{"body_shadow"};
@@ -104,7 +104,7 @@ Effect body_shadow(const Scene& s, Random& random) {
   return e;
 }
 
-// Level of reading i if its station stood elsewhere, less the level by the map; with the map's own walls.
+// Change of reading i's level if its station is at `to`, with the map's own walls.
 double moved_level(const Site& site, const Data& data, std::size_t i, Vec3 to) {
   const Reading& r = data.readings[i];
   const auto row = static_cast<Eigen::Index>(i);
@@ -159,7 +159,7 @@ Effect label_swap(const Scene& s, Random& random) {
   return e;
 }
 
-// A deaf receiver: what it hears is weaker than what is heard of it.
+// A receiver of low sensitivity: the two directions of a link differ.
 Effect asymmetry(const Scene& s, Random& random) {
   const int station = any_station(s, random);
   Effect e{"asymmetry"};

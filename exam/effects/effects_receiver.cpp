@@ -1,4 +1,4 @@
-// Effects of the receiver, and of the laws by which readings scatter.
+// Effects of the receiver, and of the laws of single readings.
 #include <algorithm>
 #include <limits>
 
@@ -28,7 +28,7 @@ Effect rssi_saturation(const Scene& s, Random&) {
   return e;
 }
 
-// Below the floor the register stands at its lowest code, or nothing is reported.
+// Below the floor the register reports its lowest code, or nothing.
 Effect rssi_floor(const Scene& s, Random& random) {
   const double bottom = level_at(s, 0.005) - 8;
   const bool silent = random.chance(0.5);
@@ -56,7 +56,7 @@ Effect law(const char* id, Acts acts, double least, double most) {
   return e;
 }
 
-// The true Rician factor lies well under the stated one, or well over it where that is low.
+// The true Rician factor is well below the stated one, or well above a low one.
 Effect fading_law(const Scene& s, Random&) {
   const double stated = s.site.stated_reading.rician_k, way = stated > 6.5 ? -stated - 10 : 12;
   Effect e = law("fading_law", Acts::reading_law, 0.02, 1);
@@ -72,7 +72,7 @@ Effect outliers(const Scene&, Random&) {
   return e;
 }
 
-// Three advertising channels, or more, each with a level of its own; which one was used is not recorded.
+// Three advertising channels, or more, each with its own level; the channel of a reading is not recorded.
 Effect channel_mixture(const Scene&, Random& random) {
   std::vector<double> levels(static_cast<std::size_t>(2 + random.below(3)));
   for (std::size_t i = 0; i < levels.size(); ++i) levels[i] = static_cast<double>(i) + random.uniform(-0.3, 0.3);

@@ -7,7 +7,7 @@
 namespace muster::exam {
 namespace {
 
-// Of one station, or of all (-1).
+// Index of one station, or -1 for all.
 int some_station(const Scene& s, Random& random) {
   return random.chance(0.5) ? -1 : random.below(static_cast<int>(s.site.plan.stations.size()));
 }
@@ -16,7 +16,7 @@ std::vector<std::string> rows_of(const Scene& s, int station) {
 }
 bool concerns(int station, const Reading& r) { return station < 0 || r.station == station; }
 
-// A device that warms up: a logistic curve.
+// A device's warm-up: a logistic curve.
 Effect drift(const Scene& s, Random& random) {
   const double middle = s.site.duration() * random.uniform(0.15, 0.75),
                slowness = s.site.duration() * random.uniform(0.06, 0.15);
@@ -46,7 +46,7 @@ Effect step(const Scene& s, Random& random) {
   return e;
 }
 
-// A compressor, a lift: between a sine and a triangle.
+// A compressor or a lift: a wave between sine and triangle.
 Effect periodic(const Scene& s, Random& random) {
   const double period = random.uniform(15, std::min(120.0, s.site.duration() / 3)),
                phase = random.uniform(0, 2 * std::numbers::pi);
@@ -63,7 +63,7 @@ Effect periodic(const Scene& s, Random& random) {
   return e;
 }
 
-// Persons who cross the line of one pair of radios: dips with a rim, as behind a cylinder.
+// People crossing one link: dips with a rim, as behind a cylinder.
 Effect people(const Scene& s, Random& random) {
   const int station = random.below(static_cast<int>(s.site.plan.stations.size())), robot = random.below(s.site.robots);
   struct Passage {
@@ -99,7 +99,7 @@ Effect people(const Scene& s, Random& random) {
   return e;
 }
 
-// Readings are referred to a nominal transmit power; the amplifier's real steps are not the nominal ones.
+// Readings are relative to a nominal transmit power; the amplifier's real steps differ from the nominal ones.
 Effect power_steps(const Scene&, Random& random) {
   std::array<double, power_levels.size()> error{};
   double largest = 0;
@@ -119,7 +119,7 @@ Effect power_steps(const Scene&, Random& random) {
   return e;
 }
 
-// What is reported is a ratio to the receiver's noise, which rises with others' traffic.
+// The reported value is relative to the receiver's noise, which rises with other traffic.
 Effect noise_floor_rssi(const Scene&, Random&) {
   Effect e{"noise_floor_rssi"};
   e.shift = scaled([](const Reading& r) { return -r.noise; });

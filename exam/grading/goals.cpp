@@ -1,4 +1,4 @@
-// Grades beside the goals of a diagnosis, as a table for the docs; measures that no case was about are left out.
+// Grades against the goals of a diagnosis, as a table for the docs; measures without cases are left out.
 #include <fmt/format.h>
 
 #include "exam/grading/grade.hpp"
@@ -58,7 +58,7 @@ std::string row(const std::string& measure, const std::string& reached, const st
 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
-// A goal that the interval does not exclude may still be reached by the tool: the cases are few.
+// "Within chance" if the interval includes the goal: the cases are few.
 std::string verdict_of(const Goal& goal, const Share& s) {
   if (goal.at_least ? s.value() >= goal.goal : s.value() <= goal.goal) return "reached";
   if (goal.at_least ? s.upper95() >= goal.goal : s.lower95() <= goal.goal) return "not reached, within chance";
@@ -69,7 +69,7 @@ std::string share_row(const Goal& goal, const Share& s) {
   if (s.of == 0) return "";
   const std::string reached = fmt::format("{}/{} = {} [{:.1f}, {:.1f}]", s.hits, s.of, percent(s.value()),
                                           100 * s.lower95(), 100 * s.upper95());
-  if (goal.goal <= 0) return row(goal.measure, reached, "", "");  // stated against an oracle that is not computed
+  if (goal.goal <= 0) return row(goal.measure, reached, "", "");  // relative to an oracle that is not computed
   return row(goal.measure, reached, (goal.at_least ? ">= " : "<= ") + percent(goal.goal), verdict_of(goal, s));
 }
 

@@ -10,7 +10,7 @@
 namespace muster::exam {
 namespace {
 
-// P(X <= k) of a binomial law.
+// P(X <= k) of a binomial distribution.
 double cumulative(int k, int n, double p) {
   if (p <= 0) return 1;
   if (p >= 1) return k >= n ? 1 : 0;
@@ -40,7 +40,7 @@ std::string plain(const std::string& name) {
   return result;
 }
 
-// The same factors in any order.
+// True for the same factors in any order.
 bool same_covariate(const std::string& said, const std::string& accepted) {
   const auto factors = [](const std::string& name) {
     std::vector<std::string> result(1);
@@ -69,9 +69,9 @@ bool at_right_row(const Truth::Effect& effect, const Verdict::Cause& cause) {
   });
 }
 
-// Names of one thing that readings may not tell apart: a wall and a thing both stand in the way of links; a wall that
-// is not there loses nothing, as does one of another material; of a radio that sends and hears, a weak transmitter, a
-// deaf receiver and an asymmetry differ by the mean level of its pairs alone, which shadowing takes up.
+// Equivalence classes of causes that readings may not separate. A wall and an obstacle both block links. A missing
+// wall has no loss, like one of another material. For a radio that sends and receives, offsets of transmitter and
+// receiver and an asymmetry differ only in the mean level of its pairs. Shadowing absorbs that.
 bool same_class(const Truth::Effect& effect, const Verdict::Cause& cause) {
   static const std::vector<std::set<std::string>> classes{
       {"unmapped_wall", "obstacle"}, {"wall_material", "wall_absent"}, {"asymmetry", "rx_offset", "tx_offset"}};
@@ -120,8 +120,8 @@ void add_place(Grades& grades, const Truth::Effect& effect, const Verdict::Cause
     grades.places.wall_loss.push_back(std::abs(loss->second.value - effect.parameters.at("loss")));
 }
 
-// A wall's ends have no order, and its error is that of the whole segment: coordinates of ends are not counted one by
-// one. Values of another row are no word on this one's: of two receivers, one deaf is the other one keen.
+// Parameter errors. A wall's ends have no order, so its error is that of the whole segment, not of single
+// coordinates. Values on another row do not count: for two receivers, one too low equals the other too high.
 void add_parameters(Grades& grades, const Truth::Effect& effect, const Verdict::Cause& cause) {
   if (!effect.rows.empty() && !at_right_row(effect, cause)) return;
   add_place(grades, effect, cause);
@@ -137,7 +137,7 @@ void add_parameters(Grades& grades, const Truth::Effect& effect, const Verdict::
   }
 }
 
-// Settled: with the advised readings the right name is on top, and no other cause can be mistaken for it.
+// Settled: with the advised readings the right cause is first, and no alternative is left.
 void add_followed(Grades& grades, const Truth& truth, const Verdict& verdict) {
   if (!verdict.advised_decides || !verdict.named_when_followed) return;
   const auto& after = *verdict.named_when_followed;
@@ -167,7 +167,7 @@ void add_inside(Grades& grades, const Truth& truth, const Verdict& verdict) {
     grades.by_effect[effect.id + " / " + lambda_bin(effect.lambda)].count(cause != nullptr);
     if (!cause) continue;
     const bool right_row = effect.rows.empty() || at_right_row(effect, *cause);
-    if (right_row) add_parameters(grades, effect, *cause);  // of another radio they are other quantities
+    if (right_row) add_parameters(grades, effect, *cause);  // on another radio they are other quantities
     if (!effect.rows.empty()) count("right row, where found", right_row);
   }
   const int all = static_cast<int>(truth.effects.size());
@@ -188,7 +188,7 @@ void add_inside(Grades& grades, const Truth& truth, const Verdict& verdict) {
     grades.shares["loop / second data silent / where all was told"].count(*verdict.second_silent);
   count("only wrong names", hits == 0 && !verdict.named.empty());
   count("silent", verdict.named.empty() && verdict.unexplained.empty());
-  // The same id twice for one effect: one wall in pieces.
+  // Several causes of one id for one effect: a wall in pieces.
   count("one effect in pieces", std::any_of(truth.effects.begin(), truth.effects.end(), [&](const auto& e) {
           return std::count_if(verdict.named.begin(), verdict.named.end(), [&](const auto& c) { return names(c, e); }) >
                  1;

@@ -1,5 +1,4 @@
-// Grades of a diagnosis against sealed answers: docs/reference/exam_format.md says what is read and what each figure
-// means.
+// Grades of a diagnosis against sealed answers: docs/reference/exam_format.md defines the inputs and each figure.
 #pragma once
 
 #include <filesystem>
@@ -23,15 +22,15 @@ struct Share {
   double upper95() const;
 };
 
-// The fewest hits of `of` trials that chance gives in all but 1 of 1,000 such series, each trial a hit with `share`.
+// Least number of hits in `of` trials that all but 1 of 1,000 random series reach; each trial is a hit with `share`.
 int least_hits(int of, double share);
 
-// What was true of a case.
+// A case's answer.
 struct Truth {
   struct Effect {
     std::string id;
     std::vector<std::string> rows, covariates;
-    std::vector<std::string> also;  // other names of the same, of its rows
+    std::vector<std::string> also;  // accepted names for the same effect on its rows
     std::map<std::string, double> parameters;
     double lambda = 0;
   };
@@ -40,7 +39,7 @@ struct Truth {
   double oracle_gain = 0;  // dB^2
 };
 
-// What was said of it.
+// The diagnosis of a case.
 struct Verdict {
   struct Estimate {
     double value = 0;
@@ -50,26 +49,26 @@ struct Verdict {
     std::string id, label;
     double evidence = 0;
     std::map<std::string, Estimate> parameters;  // by the last part of their names
-    std::vector<std::string> rivals;             // causes that it can be mistaken for
+    std::vector<std::string> rivals;             // causes indistinguishable from it
   };
   std::string verdict;
   std::vector<Cause> named;  // the strongest first; suspected ones are not counted
   std::vector<std::string> unexplained;
   std::optional<double> gain;  // dB^2
   std::optional<std::string> loop;
-  std::optional<bool> second_silent;  // the extended world on other data of the same truth
-  // Of the measurement that is advised: whether it is predicted to decide all that is open of the cause it is about.
+  std::optional<bool> second_silent;  // silence of the extended world on other data of the same truth
+  // True if the advised measurement is predicted to decide all open questions of its cause.
   std::optional<bool> advised_decides;
   std::optional<std::vector<Cause>> named_when_followed;  // with that measurement
 };
 
 Truth read_truth(const std::string& text);
-// From whatever a diagnosis printed: the line that begins with {"verdict", or a whole JSON object. Throws
-// std::runtime_error if there is none.
+// Parses a diagnosis' output: the line that begins with {"verdict", or a whole JSON object. Throws std::runtime_error
+// if there is none.
 Verdict read_verdict(const std::string& text);
 
 struct Places {
-  std::vector<double> wall, obstacle;  // m, of found ones
+  std::vector<double> wall, obstacle;  // m, of those found
   std::vector<double> wall_loss;       // dB, absolute
 };
 
@@ -77,7 +76,7 @@ struct Grades {
   std::map<std::string, Share> shares;  // by "kind / measure / bin"
   std::map<std::string, Share> by_effect;
   std::map<std::string, double> gain, oracle;  // dB^2, pooled, by bin of lambda
-  Share covered;                               // 95 % intervals that hold the truth
+  Share covered;                               // share of 95 % intervals that hold the truth
   std::vector<double> relative_errors;         // of parameters
   Places places;
   std::vector<double> seconds;       // of CPU, a case
@@ -88,10 +87,10 @@ void add(Grades& grades, const Truth& truth, const Verdict& verdict);
 Grades grade(const std::filesystem::path& answers, const std::filesystem::path& reports);
 std::string as_text(const Grades& grades);
 std::string as_json(const Grades& grades);
-// Beside the goals, in Markdown.
+// Grades against the goals, in Markdown.
 std::string as_table(const Grades& grades);
 
-// Mean distance between two segments, both ways; ends x0 y0 x1 y1.
+// Mean distance between two segments, in both directions; ends x0 y0 x1 y1.
 double segment_distance(const std::vector<double>& a, const std::vector<double>& b);
 std::string lambda_bin(double lambda);
 double quantile(std::vector<double> values, double share);

@@ -1,4 +1,4 @@
-// Reading answers and reports, and writing grades.
+// Reads answers and reports, and writes grades.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -59,7 +59,7 @@ std::optional<bool> advised_decides(const json& report) {
   return result;
 }
 
-// The first of the places where a report of this case may lie.
+// The first existing report of this case.
 std::optional<fs::path> report_of(const fs::path& reports, const std::string& name) {
   for (const char* file : {"{}.json", "{}.txt", "{}/diagnosis.json", "{}/report.json", "{}/diagnose.out"}) {
     const fs::path at = reports / fmt::format(fmt::runtime(file), name);
@@ -68,14 +68,14 @@ std::optional<fs::path> report_of(const fs::path& reports, const std::string& na
   return {};
 }
 
-// A further report that the command left beside the first one.
+// A second report that the command wrote beside the first one.
 std::optional<Verdict> beside(const fs::path& reports, const std::string& name) {
   const fs::path at = reports / name;
   if (!fs::is_regular_file(at)) return {};
   return read_verdict(read_file(at));
 }
 
-// CPU seconds by case from what `run` wrote; a case that was run twice counts by its last time.
+// CPU seconds of each case, from the output of `run`; of repeated runs the last one.
 std::vector<double> costs_in(const fs::path& reports) {
   std::map<std::string, double> seconds;
   std::ifstream in(reports / "costs.csv");
@@ -155,7 +155,7 @@ Grades grade(const fs::path& answers, const fs::path& reports) {
   Grades grades;
   for (const fs::path& file : files) {
     const Truth truth = read_truth(read_file(file));
-    Verdict verdict;  // of a case without a report: silent, which is wrong unless the case is clean
+    Verdict verdict;  // for a case without a report: silence, which is wrong unless the case is clean
     try {
       const auto report = report_of(reports, truth.name);
       if (!report) throw std::runtime_error("none");

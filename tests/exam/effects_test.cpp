@@ -1,4 +1,4 @@
-// Every effect is in the data, as heavy as it was asked for, and says where.
+// Every effect is in the data, at its requested lambda, on the rows it reports.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -8,7 +8,7 @@
 namespace muster::exam {
 namespace {
 
-// Readings that are not what the same site, fields and fades would have given without the effect.
+// Number of readings that differ from those of the same site, fields and fades without the effect.
 int readings_changed(const Case& c) {
   Case without = c;
   without.hidden.clear();
@@ -30,7 +30,7 @@ class EveryEffect : public testing::TestWithParam<Recipe> {};
 
 TEST_P(EveryEffect, ChangesTheDataAndHasTheWantedLambda) {
   const std::string id = GetParam().id;
-  // Exchanged names, an absent wall and a whole person have a size of their own.
+  // Exchanged names, an absent wall and a whole person have a fixed size.
   const bool has_own_size = id == "label_swap" || id == "wall_absent";
   int near = 0;
   for (std::uint64_t seed = 21; seed <= 23; ++seed) {
@@ -139,7 +139,7 @@ TEST(Effects, ASilentFloorLeavesOnlyReadingsAboveIt) {
     }
     EXPECT_GE(least, parameters[0].value);
     if (parameters[1].value == 0) {
-      EXPECT_GT(at_floor, 5);  // a pile of lowest codes
+      EXPECT_GT(at_floor, 5);  // a peak at the lowest code
     }
   }
 }

@@ -1,4 +1,4 @@
-// What the exam hides and the simulator executes: two formulas of one thing, at the same parameters.
+// The exam's hidden effects against the simulator's: two formulas for each, at the same parameters.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The effect of an answer as an element of a world: where parameters are called as the plugin's.
+// The effect of an answer as a world element, for parameters named as the plugin's.
 std::string element_of(const exam::Hidden& hidden) {
   std::string out = "<effect." + hidden.effect.id;
   for (const std::string& row : hidden.effect.rows)

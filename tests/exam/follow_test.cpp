@@ -1,4 +1,4 @@
-// What a diagnosis advises to measure is read off the same truth.
+// Advised measurements are read from the same truth.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The sealed answer in a folder of its own.
+// Writes the answer to a folder of its own, and remakes the case from it.
 Case read_back(const Case& c) {
   const fs::path folder = fs::temp_directory_path() / ("muster_follow_test_" + std::to_string(getpid()));
   write_case(c, folder);
@@ -30,7 +30,7 @@ TEST(Follow, TheCaseOfAnAnswerIsTheSameToTheBit) {
   }
 }
 
-// Robot 1 stands at a place, a station somewhere and faces somewhere.
+// Poses: robot 1 at a place, a station at a place with a heading.
 struct Standing {
   int station = 0;
   Vec3 place, station_at;
@@ -43,7 +43,7 @@ Standing standing(const Case& c, int station, const Reading& reading) {
   return {station, reading.at, s.at, s.yaw};
 }
 
-// dBm, of so many readings that fading is averaged out: to 0.1 dB, 5 dB / sqrt(3000).
+// dBm, mean of enough readings to average out fading: to 0.1 dB, 5 dB / sqrt(3000).
 double mean_of(const Case& c, const Standing& s) {
   constexpr int count = 3000;
   const std::string& name = c.site->plan.stations[static_cast<std::size_t>(s.station)].name;
@@ -76,7 +76,7 @@ TEST(FollowedMean, IsTheTruthsAtThatPlace) {
       level_by_base(c, one)[0] + expected_shift(*c.site, c.hidden, one)[0] + field(r.station, {r.at.x, r.at.y});
   Standing s = standing(c, r.station, r);
   EXPECT_NEAR(mean_of(c, s), truth, 0.3);
-  s.from = 5000;  // what does not change in time is the same whenever it is asked for
+  s.from = 5000;  // a constant effect is the same at any time
   EXPECT_NEAR(mean_of(c, s), truth, 0.3);
 }
 
@@ -105,10 +105,10 @@ TEST(FollowedMean, OfAStationThatWasMovedHasAnotherShadow) {
   for (std::size_t k = 0; k < 8; ++k) {
     Standing s = standing(c, 0, c.measured.readings[c.measured.size() / 8 * k]);
     const double before = mean_of(c, s);
-    s.station_at.x += 0.03;  // no wall more, and the same distance to a few centimetres
+    s.station_at.x += 0.03;  // no further wall, and the same distance to a few centimetres
     squares += std::pow(mean_of(c, s) - before, 2);
   }
-  // The difference of two fields has twice the variance.
+  // The difference of two independent fields has twice the variance.
   EXPECT_GT(std::sqrt(squares / 8 / 2), 0.3 * c.site->noise.field.sigma);
 }
 

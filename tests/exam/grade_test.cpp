@@ -1,4 +1,4 @@
-// The grader's arithmetic, on reports made by hand.
+// The grader's arithmetic, on reports written by hand.
 #include "exam/grading/grade.hpp"
 
 #include <fmt/format.h>
@@ -98,7 +98,7 @@ TEST(Grade, CountsWhatIsRight) {
     EXPECT_EQ(share(g, std::string("one / ") + measure + " / lambda >= 50").hits, 1) << measure;
     EXPECT_EQ(share(g, std::string("one / ") + measure + " / all").of, 1) << measure;
   }
-  EXPECT_EQ(share(g, "one / wrong extra name / all").hits, 0);  // a suspected cause is no name
+  EXPECT_EQ(share(g, "one / wrong extra name / all").hits, 0);  // a suspected cause is not named
   EXPECT_DOUBLE_EQ(g.gain.at("lambda >= 50"), 9);
   EXPECT_DOUBLE_EQ(g.oracle.at("lambda >= 50"), 10);
   EXPECT_EQ(g.covered.hits, 1);
@@ -112,7 +112,7 @@ TEST(Grade, OtherReadingsAreHeldAgainstWhatWasToldWhole) {
   verdict.second_silent = false;
   Grades g;
   add(g, one("tx_offset", 60), verdict);
-  add(g, one("step", 60), verdict);  // which was not told
+  add(g, one("step", 60), verdict);  // which was not reported
   EXPECT_EQ(share(g, "loop / second data silent / all").of, 2);
   EXPECT_EQ(share(g, "loop / second data silent / where all was told").of, 1);
   EXPECT_EQ(share(g, "loop / second data silent / where all was told").hits, 0);
@@ -179,7 +179,7 @@ TEST(Grade, WallsAreComparedAsSegments) {
   EXPECT_NEAR(segment_distance({0, 0, 4, 0}, {4, 0, 0, 0}), 0, 1e-9);  // ends have no order
   EXPECT_NEAR(segment_distance({0, 0, 4, 0}, {0, 0.3, 4, 0.3}), 0.3, 1e-9);
   EXPECT_NEAR(segment_distance({0, 0, 4, 0}, {0, 0, 2, 0}), 0.25,
-              0.01);  // 2 m of 4 m lie 1 m off on average: 0.5 one way, 0 back
+              0.01);  // 2 m of 4 m are 1 m off on average: 0.5 one way, 0 back
   Truth truth{
       "c", "one", {{"unmapped_wall", {}, {}, {}, {{"x0", 0}, {"y0", 0}, {"x1", 4}, {"y1", 0}, {"loss", 8}}, 90}}, 0};
   Grades g;

@@ -7,7 +7,7 @@
 
 namespace muster::exam {
 
-// A case about one effect ("" for none).
+// A case with one effect ("" for none).
 inline Case made(std::uint64_t seed, const std::string& effect, double lambda = 60, int rows = 1500) {
   Order order;
   order.rows = rows;

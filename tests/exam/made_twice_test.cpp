@@ -1,4 +1,4 @@
-// The same seed gives the same bytes, whatever else is made.
+// The same seed gives the same bytes, independent of other cases.
 #include <gtest/gtest.h>
 
 #include <algorithm>

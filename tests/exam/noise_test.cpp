@@ -32,7 +32,7 @@ TEST(CleanCase, LosesAsManyReadingsAsItSays) {
   EXPECT_NEAR(lost, expected, 5 * std::sqrt(expected));
 }
 
-// The field's mean products over distance, of many fields on one site.
+// Covariance of the field over distance, averaged over many fields on one site.
 TEST(Noise, FieldHasTheStatedCovariance) {
   Site site = draw_site(3, {}, 600);
   for (const Family family : {Family::exponential, Family::gaussian, Family::two_scale}) {
@@ -59,8 +59,8 @@ TEST(Noise, FieldHasTheStatedCovariance) {
   }
 }
 
-// If the covariance by which effects are weighed is the one that the data have, whitened noise has variance 1: in the
-// means of rows, and in the single readings beside them.
+// With the covariance used for lambda, whitened noise has variance 1: in the means of rows, and in the single
+// readings beside them.
 TEST(Noise, IsWhiteOnceWhitened) {
   double rows = 0, row_count = 0, all = 0, count = 0;
   for (std::uint64_t seed = 1; seed <= 24; ++seed) {

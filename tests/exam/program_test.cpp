@@ -1,4 +1,4 @@
-// The program as a user meets it.
+// The program at its command line.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -60,7 +60,7 @@ TEST_F(Program, MakesCasesAndGradesThem) {
 TEST_F(Program, RunsACommandOverTheCasesAndGoesOnWhereItWasStopped) {
   const std::string out = folder / "exam";
   ASSERT_EQ(run("make --seed 3 --cases 3 --rows 400 600 --mix clean --out " + out).code, 0);
-  // Fails on the second case: it leaves no report, and the next run has but that one to do.
+  // Fails on the second case: it leaves no report, and the next run has only that one to do.
   const std::string command =
       R"( --command "test -f {data} && case {world} in *2) echo broken >&2; exit 65;; esac; echo '{\"verdict\":\"adequate\"}'")";
   Outcome sat = run("run " + out + command);

@@ -1,4 +1,4 @@
-// Robots stay on the floor: no step runs through a wall or a closed door, and nobody moves faster than it says.
+// Robots stay on the floor: no step crosses a wall or a closed door, and none exceeds its reported speed.
 #include <gtest/gtest.h>
 
 #include "made.hpp"
@@ -6,7 +6,7 @@
 namespace muster::exam {
 namespace {
 
-// Distance of a place to the solid parts of a wall, by a walk along it.
+// Distance of a place to the solid parts of a wall, in small steps along it.
 double gap(const Plan& plan, std::size_t wall, Vec2 p) {
   const Wall& w = plan.walls[wall];
   const double length = std::hypot(w.b.x - w.a.x, w.b.y - w.a.y);

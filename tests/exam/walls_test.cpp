@@ -1,4 +1,4 @@
-// An exam over a floor plan of one's own.
+// An exam over a user's own floor plan.
 #include "exam/walls.hpp"
 
 #include <fmt/format.h>

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int noise_draws = 12;
 
-// Under the covariance itself.
+// With the fitted noise, under the exact covariance.
 Eigen::MatrixXd exact(const ModelState& state, const WhitenedModel& model, Index columns) {
   const noise::Basis& basis = model.at.basis;
   const Eigen::MatrixXd scatter = noise::scatter_of(state.field(), model.whitener, basis.q);
@@ -22,7 +22,7 @@ Eigen::MatrixXd exact(const ModelState& state, const WhitenedModel& model, Index
   return result;
 }
 
-// What it is more, by Vecchia's approximation, where the noise is not taken as known.
+// Additional covariance from the uncertain noise, by Vecchia's approximation.
 Eigen::MatrixXd by_noise(const ModelState& state, const Eigen::MatrixXd& design, const WhitenedModel& fitted) {
   const Index columns = design.cols();
   const noise::Prior& prior = state.options().prior;
@@ -55,7 +55,7 @@ Eigen::MatrixXd by_noise(const ModelState& state, const Eigen::MatrixXd& design,
 Eigen::MatrixXd coefficient_covariance(const ModelState& state, const Eigen::MatrixXd& design) {
   const WhitenedModel model = state.whitened_model(design);
   const Eigen::MatrixXd known = exact(state, model, design.cols()), more = by_noise(state, design, model);
-  // No noise that might be makes anything known better than it is by the one that is likeliest.
+  // Uncertain noise never reduces a variance.
   const Eigen::ArrayXd own = known.diagonal(), ratio = (own > 0).select(more.diagonal().array() / own, 0);
   const Eigen::VectorXd grown = (1 + ratio.max(0)).sqrt();
   return grown.asDiagonal() * known * grown.asDiagonal();

@@ -14,7 +14,7 @@ namespace {
 constexpr int most_folds = 5, resamples = 1000;
 constexpr double decorrelations = 3;  // a block's side
 
-// Blocks in a random order, dealt in turn.
+// Fold of each block: blocks in a random order, dealt in turn.
 std::vector<int> fold_of_block(int blocks, uint64_t seed) {
   const Stream stream(combined(key_of("held-out folds"), seed));
   std::vector<int> order(static_cast<std::size_t>(blocks)), result(order.size());

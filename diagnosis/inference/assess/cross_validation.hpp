@@ -1,7 +1,6 @@
-// Squared errors at what a fit has not seen: blocks of sites, or other groups, are left out in turn, generalised least
-// squares on the others (Roberts et al., Ecography 40, 2017). An interval by resampling whole blocks. What is fitted
-// are rows, what is foretold are readings: how readings make rows depends on the model, errors of readings can be
-// compared.
+// Block cross-validation (Roberts et al., Ecography 40, 2017): blocks of sites, or other groups, are left out in
+// turn. The others are fitted by generalised least squares (GLS). Intervals by a block bootstrap. Rows are fitted,
+// readings are predicted: rows depend on the model, while errors of readings are comparable.
 #pragma once
 
 #include <memory>
@@ -14,22 +13,22 @@ namespace muster::inference {
 using Eigen::Index;
 
 struct HeldOutGain {
-  double rmse_before = 0, rmse_after = 0;     // dB, of one reading
-  double gain = 0, lower95 = 0, upper95 = 0;  // fall of the mean squared error, dB^2
+  double rmse_before = 0, rmse_after = 0;     // units of a reading, of one reading
+  double gain = 0, lower95 = 0, upper95 = 0;  // fall of the mean squared error, squared units of a reading
   int blocks = 0;                             // or groups
 };
 
-// Squared errors of readings whose block or group was left out, dB^2, and which one that is.
+// Squared errors of readings in left-out blocks or groups, and the block of each.
 struct Unseen {
-  Eigen::VectorXd before, after;  // of the base model and the extended one
+  Eigen::VectorXd before, after;  // of the base model and the extended one, squared units of a reading
   std::vector<int> block;
   uint64_t seed = 0;
 };
 
-// By resampling whole blocks.
+// Held-out gain with a block-bootstrap interval.
 HeldOutGain compared(const Unseen& unseen);
 
-// The same of a grouping's groups, where there are several.
+// The same over a grouping with several groups.
 struct Elsewhere {
   std::string left_out;  // the grouping's name
   HeldOutGain held_out;
@@ -37,14 +36,14 @@ struct Elsewhere {
 
 // Blocks at least three decorrelation distances wide, one a row.
 std::vector<int> blocks_of(const noise::Sites& sites, const noise::Covariance& covariance);
-// The error at places not seen, dB, with its interval over blocks.
+// Prediction error at left-out places, in units of a reading, with its interval over blocks.
 struct Stair {
   double rmse = 0, lower95 = 0, upper95 = 0;
 };
-// Of the model before.
+// Of the `before` model.
 Stair stair_of(Unseen unseen);
 
-// What was measured and the columns that are to explain it.
+// A response and its design matrix.
 struct Sample {
   Eigen::VectorXd y;
   Eigen::MatrixXd design;
@@ -52,14 +51,14 @@ struct Sample {
 
 class Folds {
  public:
-  // Blocks of rows, from 0 on, are dealt to five folds. `row_of`: of each reading.
+  // Deals blocks of rows, numbered from 0, to five folds. `row_of`: of each reading.
   Folds(const noise::Sites& sites, const std::vector<int>& blocks, const std::vector<Index>& row_of,
         const noise::Covariance& covariance, uint64_t seed);
 
   int blocks() const { return blocks_; }
-  // Fewer than two blocks leave nothing to fit on.
+  // False with fewer than two blocks: nothing is left to fit on.
   bool possible() const { return blocks_ >= 2; }
-  // Squared error of every reading when its fold was left out.
+  // Squared error of every reading with its fold left out.
   Eigen::VectorXd squared_errors(const Sample& rows, const Sample& readings) const;
   HeldOutGain compared(const Eigen::VectorXd& before, const Eigen::VectorXd& after) const {
     return inference::compared(unseen(before, after));
@@ -79,7 +78,7 @@ class Folds {
 
   uint64_t seed_;
   int blocks_ = 0;
-  std::vector<int> block_of_;  // a reading
+  std::vector<int> block_of_;  // of each reading
   std::vector<std::unique_ptr<Fold>> folds_;
 };
 

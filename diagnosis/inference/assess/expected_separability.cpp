@@ -46,7 +46,7 @@ std::vector<double> ExpectedSeparability::separability(const Term& term,
                                                        const std::vector<std::string>& alternatives) const {
   Eigen::MatrixXd here = state_.base(), there = plan_.base;
   for (const Term& other : state_.terms) {
-    if (&other == &term || other.smooth()) continue;  // a smooth says nothing of readings elsewhere
+    if (&other == &term || other.smooth()) continue;  // a smooth predicts nothing for readings elsewhere
     here = noise::hstack(here, other.columns);
     there = noise::hstack(there, planned(plan_, other.candidate->id).design.columns(other.theta));
   }

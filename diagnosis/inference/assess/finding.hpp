@@ -15,24 +15,24 @@ struct Finding {
   std::string id, label;
   Status status = Status::named;
   std::vector<std::string> covariates;
-  Eigen::VectorXd theta;                // where, when or of what shape
+  Eigen::VectorXd theta;                // place, time or shape
   Eigen::VectorXd coefficients;         // one a column
   Eigen::MatrixXd uncertainty;          // covariance of the coefficients
-  std::vector<Eigen::VectorXd> thetas;  // where else it may be, as likely as one another; none for a suspected one
+  std::vector<Eigen::VectorXd> thetas;  // equally likely draws of theta; none for a suspected finding
   double gain = 0;                      // deviance beside all other findings
   double evidence = 0;                  // nats
-  double log_p = 0;                     // integrated over the covariance
-  std::optional<HeldOutGain> held_out;  // without and with it; none for what is only suspected
-  Eigen::VectorXd unseen_without;       // squared errors of readings at places not seen without it, dB^2; none likewise
-  std::vector<Elsewhere> elsewhere;     // the same of each grouping, where it concerns several groups
+  double log_p = 0;                     // marginal over the covariance
+  std::optional<HeldOutGain> held_out;  // without and with it; none for a suspected finding
+  Eigen::VectorXd unseen_without;       // squared errors of readings at left-out places without it; none likewise
+  std::vector<Elsewhere> elsewhere;     // the same for each grouping, if it concerns several groups
   std::vector<Alternative> alternatives;
 };
 
-// A candidate at its best beside the model as it stands at the end.
+// A candidate at its best beside the final model.
 struct Check {
   std::string id, label;
   Kind kind = Kind::named;
-  double gain = 0, log_p = 0;  // of chance doing as well anywhere on its grid
+  double gain = 0, log_p = 0;  // of so much by chance anywhere on its grid
 };
 
 struct Result {
@@ -42,8 +42,8 @@ struct Result {
   std::vector<noise::Fit> families;  // of the base model
   Eigen::VectorXd base_coefficients;
   Eigen::VectorXd mean;                 // of the extended model, one a row
-  std::optional<Unseen> unseen;         // the base model and the extended one
-  std::optional<HeldOutGain> held_out;  // the same in short
+  std::optional<Unseen> unseen;         // of the base model and the extended one
+  std::optional<HeldOutGain> held_out;  // summary of those
   std::vector<Elsewhere> elsewhere;     // of each grouping of several groups
   std::vector<Stair> stairs;  // the base model, then with each accepted finding in turn; empty: too few blocks
   std::vector<Check> checks;

@@ -6,7 +6,7 @@
 namespace muster::inference {
 namespace {
 
-// Errors of the base model and some of the terms beside it.
+// Cross-validation errors of the base model with some of the terms.
 class Errors {
  public:
   Errors(const ModelState& state, const Folds& folds) : state_(state), folds_(folds) {
@@ -59,7 +59,7 @@ void add_gains_of_blocks(const ModelState& state, Result& result) {
   }
 }
 
-// Whether a column of the term is about more than one part: of one alone the others tell nothing.
+// True if some column of the term is non-zero in several parts: the others hold no information on one part alone.
 bool concerns_several(const Term& term, const std::vector<int>& parts) {
   for (Index j = 0; j < term.columns.cols(); ++j) {
     int first = -1;

@@ -1,5 +1,5 @@
-// What the findings gain where no fit has seen: the base model, each finding in turn and each one left out, fitted
-// without some places and held against these; and so for each grouping of several groups.
+// Held-out gains by cross-validation: of the base model, of each finding in turn, and without each finding. Over
+// blocks of places, and over each grouping of several groups.
 #pragma once
 
 #include "diagnosis/inference/assess/finding.hpp"
@@ -7,7 +7,7 @@
 
 namespace muster::inference {
 
-// Fills in what is measured of the result and of each finding that was accepted.
+// Fills in the held-out figures of the result and of each accepted finding.
 void add_held_out_gains(const ModelState& state, Result& result);
 
 }  // namespace muster::inference

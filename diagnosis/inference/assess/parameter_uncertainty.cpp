@@ -16,8 +16,7 @@ namespace {
 
 constexpr int kept = 400;  // thetas
 
-// By how much the variance is larger by the scatter of the residuals: scores added up over cells of places (Liang and
-// Zeger 1986).
+// Ratio of the sandwich variance to the fitted one: scores summed over cells of places (Liang and Zeger 1986).
 double by_scatter(const ModelState& state, const WhitenedModel& rest, const ConditionalFit& fitted) {
   const double side = std::max(1.0, state.fit.covariance.decorrelation());
   const noise::Sites& sites = state.field().sites();
@@ -36,7 +35,7 @@ double by_scatter(const ModelState& state, const WhitenedModel& rest, const Cond
     squares += score.squaredNorm();
     fourths += score.squaredNorm() * score.squaredNorm();
   }
-  if (squares * squares < 10 * fourths) return 1;  // a few cells have most of it: too few to tell a scatter
+  if (squares * squares < 10 * fourths) return 1;  // a few cells hold most of it: too few for an estimate
   return (fitted.covariance * meat * fitted.covariance).trace() / fitted.covariance.trace();
 }
 

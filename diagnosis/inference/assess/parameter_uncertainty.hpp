@@ -1,4 +1,4 @@
-// How well a term's place, time or shape and its coefficients are known, together.
+// Joint uncertainty of a term's theta (place, time or shape) and its coefficients.
 #pragma once
 
 #include "diagnosis/inference/state/model_state.hpp"
@@ -6,18 +6,18 @@
 namespace muster::inference {
 
 struct ParameterUncertainty {
-  // As likely as one another given the data, the coefficients integrated out. One where nothing is sought.
+  // Equally likely draws from the posterior, the coefficients integrated out. One for a term without parameters.
   std::vector<Eigen::VectorXd> thetas;
-  // Covariance of the coefficients over those, over what the noise may be, under the covariance itself
-  // (inference/noise/exact_covariance.hpp), and not below what the scatter of the residuals from place to place says
-  // (Huber 1967): a shape that fits only roughly shows there.
+  // Covariance of the coefficients over those and over the posterior of the noise, under the exact covariance
+  // (inference/noise/exact_covariance.hpp). At least the sandwich estimate from residuals over cells (Huber 1967),
+  // which shows a poorly fitting shape.
   Eigen::MatrixXd coefficients;
 };
 
 ParameterUncertainty parameter_uncertainty(const ModelState& state, const Term& term);
 
-// Of the thetas that are as likely as one another and explain nearly as much as the term's, the one whose effect on the
-// readings is nearest to the mean of all their effects: it errs least on readings that nobody has seen.
+// Among equally likely thetas that explain nearly as much as the term's, the one whose effect is nearest to their
+// mean effect. It minimises the expected error on new readings.
 Eigen::VectorXd middle_of(const ModelState& state, const Term& term, const ParameterUncertainty& spread);
 
 }  // namespace muster::inference

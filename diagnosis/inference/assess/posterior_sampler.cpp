@@ -14,14 +14,14 @@
 namespace muster::inference {
 namespace {
 
-// Steps of the walk: along the moves, then along what those showed to be its own long axes.
+// Steps of the walk: along the moves, then along the principal axes of those.
 constexpr std::array walked{300, 600};
-// The walk is over exp(gain / 2 / heat), which lets it over to other tops, and what fits it has tails to spare.
+// The walk samples exp(gain / 2 / temperature): it crosses to other optima, and its fit has heavy tails.
 constexpr double max_temperature = 3;
 constexpr int lap = 400, most_laps = 8;  // of draws
-constexpr double enough = 100;           // independent ones that the draws are worth
+constexpr double enough = 100;           // effective sample size
 
-// What a theta explains beside the rest of the model, and its likelihood.
+// Fit at a theta beside the rest of the model, and its log-likelihood.
 class Likelihood {
  public:
   Likelihood(const ModelState& state, const WhitenedModel& rest, const Term& term, double overstated)
@@ -37,7 +37,7 @@ class Likelihood {
     return theta == theta.cwiseMax(c_.refinement.lower).cwiseMin(c_.refinement.upper);
   }
 
-  // No sketch: of a strong effect it is off by many nats.
+  // Exact columns: for a strong effect a sketch is off by many nats.
   ConditionalGain explained(const Eigen::VectorXd& theta) {
     const Eigen::MatrixXd columns = state_.rows().mean(columns_(theta));
     if (columns.cols() > 1 || c_.design.whole || !thin_.take(columns))
@@ -67,7 +67,7 @@ struct Moments {
   Eigen::VectorXd mean;
   Eigen::MatrixXd covariance;
 
-  // What is the same in all has no variance at all.
+  // Entries equal in all thetas get exactly zero variance.
   Moments(const std::vector<Eigen::VectorXd>& thetas, const Eigen::VectorXd& weights) {
     Eigen::MatrixXd off(thetas[0].size(), weights.size());
     for (Index k = 0; k < off.cols(); ++k) off.col(k) = thetas[static_cast<std::size_t>(k)] - thetas[0];
@@ -85,7 +85,7 @@ class MetropolisChain {
     heat_ = std::clamp(log_ / searched, 1.0, max_temperature);
   }
 
-  // All but the first quarter of where it was.
+  // Visited thetas, without the first quarter (burn-in).
   std::vector<Eigen::VectorXd> lap(int steps) {
     std::vector<Eigen::VectorXd> met;
     for (int k = 0; k < steps; ++k) {
@@ -95,7 +95,8 @@ class MetropolisChain {
     return met;
   }
 
-  // Strides along the axes of what was met (Haario, Saksman and Tamminen 2001), now and then along a move, or a leap.
+  // Adapts steps to the principal axes of visited thetas (Haario, Saksman and Tamminen 2001); some steps remain moves
+  // or leaps.
   void learn(const Moments& met) {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(met.covariance);
     axes_ = axes.eigenvectors() * axes.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
@@ -103,7 +104,7 @@ class MetropolisChain {
   }
 
  private:
-  // One in three accepted suits few dimensions (Gelman, Roberts and Gilks 1996).
+  // Acceptance rate near one in three, for few dimensions (Gelman, Roberts and Gilks 1996).
   void step() {
     const bool leaps = stream_.uniform(k_, 101) > 0.8;
     const Eigen::VectorXd theta = theta_ + (leaps ? leap() : stride());
@@ -126,7 +127,7 @@ class MetropolisChain {
     return moves * mix * (unit / std::sqrt(static_cast<double>(mix.size())));
   }
 
-  // Along one move, by a length that has no mean: over places where nothing can stand.
+  // A Cauchy step along one move, across impossible places.
   Eigen::VectorXd leap() const {
     const Eigen::MatrixXd moves = moves_at(likelihood_.candidate(), theta_);
     const auto one = static_cast<Index>(stream_.uniform(k_, 102) * static_cast<double>(moves.cols()));
@@ -149,7 +150,7 @@ class Draws {
 
   bool any() const { return !thetas_.empty(); }
 
-  // Each by how often all that was drawn from would draw it. Sum 1.
+  // Importance weights against the mixture of all proposals so far. Sum 1.
   Eigen::VectorXd weights() const {
     const auto count = static_cast<Index>(thetas_.size());
     const Eigen::ArrayXd log_likelihood = Eigen::ArrayXd::Map(log_likelihood_.data(), count);
@@ -158,7 +159,7 @@ class Draws {
     return result / result.sum();
   }
 
-  // About those that weigh most, and a few from wherever.
+  // Draws around the thetas of largest weight, and a few over the whole posterior.
   void lap_about(const Eigen::VectorXd& weights) {
     constexpr double wider = 1.5, narrower = 0.25;  // of variance
     constexpr int places = 50;
@@ -172,7 +173,7 @@ class Draws {
   LikelyThetas take(Eigen::VectorXd weights) { return {std::move(thetas_), std::move(explained_), std::move(weights)}; }
 
  private:
-  // Where hardly anything was met beside one theta, a hundredth of the steps.
+  // At least a hundredth of the steps, where nearly all weight is on one theta.
   Eigen::MatrixXd scale_of(const Moments& found, double factor) const {
     Eigen::MatrixXd scale = factor * found.covariance;
     scale.diagonal().array() += (0.01 * likelihood_.candidate().refinement.step).array().square();
@@ -211,7 +212,7 @@ class Draws {
 
 LikelyThetas sample_posterior(const ModelState& state, const WhitenedModel& rest, const Term& term, double overstated) {
   Likelihood likelihood(state, rest, term, overstated);
-  // Hotter, it would leave a narrow top for all the places where chance explains a little.
+  // Limits the temperature: hotter, the walk would leave a narrow optimum for the many places with chance gains.
   constexpr double spare = 4;  // nats
   const Candidate& c = *term.candidate;
   MetropolisChain walk(likelihood, term.theta,

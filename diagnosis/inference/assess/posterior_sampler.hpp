@@ -1,4 +1,4 @@
-// Which thetas of a term are likely, given the rest of a model.
+// Samples the posterior of a term's parameters, other terms fixed.
 #pragma once
 
 #include "diagnosis/inference/score/conditional_fit.hpp"
@@ -11,10 +11,9 @@ struct LikelyThetas {
   Eigen::VectorXd weights;  // sum 1
 };
 
-// A Metropolis walk finds where they lie. From there on they are drawn from Student t distributions that fit what was
-// found so far, and each weighs by its likelihood over how often it is drawn (adaptive multiple importance sampling:
-// Cornuet, Marin, Mira and Robert 2012), until they are worth a hundred independent ones. `overstated`: by how
-// much gains are. The term's candidate is refinable.
+// A Metropolis walk locates the posterior. Then adaptive multiple importance sampling (Cornuet, Marin, Mira and
+// Robert 2012): draws from Student t distributions fitted to earlier draws. It ends at an effective sample size of a
+// hundred. `overstated`: factor by which gains are too large. The term's candidate must be refinable.
 LikelyThetas sample_posterior(const ModelState& state, const WhitenedModel& rest, const Term& term, double overstated);
 
 }  // namespace muster::inference

@@ -73,10 +73,10 @@ std::vector<ParameterUncertainty> Search::settle_in_the_middle() {
   return result;
 }
 
-// One check a cause and a covariate. Of several ways to look along a covariate it is what chance does least, times
-// their number.
+// One check for each cause and covariate. Of several smooths along a covariate the smallest p-value counts, times
+// their number (Bonferroni).
 void Search::check_what_is_left(Result& result, const WhitenedModel& model) {
-  std::map<std::string, std::pair<std::size_t, double>> along;  // where it stands, ways to look
+  std::map<std::string, std::pair<std::size_t, double>> along;  // index of the check, number of smooths
   for (const ScoredCandidate& lead : scored_candidates(state_, model)) {
     const Candidate& c = lead.candidate();
     const Check check{c.kind == Kind::smooth ? "~" + c.own() : c.id, c.label_of(lead.theta), c.kind, lead.gain,
@@ -118,7 +118,7 @@ Finding Search::finding_of(const Term& term, Status status) const {
 
 namespace {
 
-// Rivals of a finding that the data do not decide; of its own other rows no plan says anything.
+// Undecided alternatives of a finding; plans do not separate the same cause on other rows.
 std::vector<const Alternative*> open_rivals(const Finding& finding) {
   std::vector<const Alternative*> result;
   for (const Alternative& alternative : finding.alternatives)
@@ -131,9 +131,9 @@ std::vector<const Alternative*> open_rivals(const Finding& finding) {
 std::vector<Advice> Search::advise(const std::vector<Plan>& plans) {
   std::vector<Advice> result;
   for (const Plan& plan : plans) {
-    std::optional<ExpectedSeparability> planned;  // made once it is asked for
+    std::optional<ExpectedSeparability> planned;  // built on first use
     for (std::size_t k = 0; k < state_.terms.size(); ++k) {
-      if (state_.terms[k].smooth()) continue;  // which says nothing of readings elsewhere
+      if (state_.terms[k].smooth()) continue;  // a smooth predicts nothing for readings elsewhere
       const Finding& finding = result_.findings[k];
       std::vector<const Alternative*> open = open_rivals(finding);
       std::erase_if(open, [&](const Alternative* alternative) { return !plan.knows(alternative->id); });

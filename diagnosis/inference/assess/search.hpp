@@ -1,4 +1,4 @@
-// Finds what a model gets wrong, names it where it can be named, and says how sure that is.
+// Searches for a model's errors, names their causes where possible, and quantifies the uncertainty.
 #pragma once
 
 #include "diagnosis/inference/assess/expected_separability.hpp"
@@ -16,18 +16,18 @@ constexpr Eigen::Index fewest_readings = 50;
 
 class Search {
  public:
-  // Keeps a reference to the problem. Throws std::invalid_argument where its columns do not fit its readings.
+  // Keeps a reference to the problem. Throws std::invalid_argument if its columns do not match its readings.
   explicit Search(const Problem& problem, const Options& options = {});
 
   Result run();
-  // After run(): what each plan would do for every named finding and rival that the data do not decide (D < 25).
+  // After run(): expected separability of each plan for every named finding and undecided alternative (D < 25).
   std::vector<Advice> advise(const std::vector<Plan>& plans);
 
   const ModelState& state() const { return state_; }
 
  private:
   Finding finding_of(const Term& term, Status status) const;
-  // How well each term is known; a place goes to the middle of those that are as likely.
+  // Parameter uncertainty of each term; moves a place to the middle of its equally likely thetas.
   std::vector<ParameterUncertainty> settle_in_the_middle();
   void check_what_is_left(Result& result, const WhitenedModel& model);
 

@@ -4,7 +4,7 @@
 
 namespace muster::noise {
 
-constexpr double least_share = 1e-6;  // of a column's length that must be left for it to be a column of its own
+constexpr double least_share = 1e-6;  // least share of a column's length that earlier columns must leave of it
 
 Basis basis_of(const Eigen::Ref<const Eigen::MatrixXd>& columns) {
   const Eigen::Index n = columns.cols();

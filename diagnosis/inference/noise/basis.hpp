@@ -1,4 +1,4 @@
-// Orthonormal columns that span given ones, in their order; columns that the earlier ones explain are left out.
+// Orthonormal basis of given columns, in their order; columns that earlier ones explain are left out.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,7 +6,7 @@
 
 namespace muster::noise {
 
-// Many columns at once, one row a row.
+// Many columns, stored row by row.
 using Sheet = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 struct Basis {
@@ -15,9 +15,9 @@ struct Basis {
   std::vector<Eigen::Index> kept;
 
   double log_determinant() const { return r.diagonal().array().log().sum(); }
-  // x less what the basis explains.
+  // Residual of x: x less its projection on the basis.
   Eigen::MatrixXd rest(const Eigen::Ref<const Eigen::MatrixXd>& x) const { return x - q * (q.transpose() * x); }
-  // The same of many.
+  // The same in place, for many columns.
   void take_out_of(Sheet& x) const;
   // Coefficients of the given columns; zero where one was left out. `explained` = q^T y.
   Eigen::VectorXd coefficients(const Eigen::VectorXd& explained, Eigen::Index columns) const;

@@ -8,7 +8,7 @@
 namespace muster::noise {
 namespace {
 
-// phi(z) / (1 - Phi(z)): by its asymptote where the tail would vanish.
+// Hazard of the normal distribution, phi(z) / (1 - Phi(z)); its asymptote where the tail would underflow.
 double hazard(double z) {
   if (z > 30) return z + 1 / z;
   return std::exp(-z * z / 2) / std::sqrt(2 * M_PI) / (0.5 * std::erfc(z / std::sqrt(2.0)));
@@ -25,7 +25,7 @@ Eigen::VectorXd imputed(const Eigen::VectorXd& readings, const Bounds& bounds, c
   Eigen::VectorXd filled = readings;
   if (!bounds.any()) return filled;
   const Basis basis = basis_of(design);
-  double unknown = 0;  // sum of variances of what was filled in
+  double unknown = 0;  // sum of variances of imputed readings
   for (int round = 0; round < rounds; ++round) {
     const Eigen::VectorXd rest = basis.rest(filled);
     const Eigen::VectorXd mean = filled - rest;

@@ -11,7 +11,7 @@
 namespace muster::noise {
 namespace {
 
-// No two rows lie farther apart, both ends together.
+// Upper bound of the distance between two rows, place and anchor jointly.
 double longest_in(const Sites& sites) {
   const auto size = [](const Eigen::Matrix3Xd& at) {
     return (at.rowwise().maxCoeff() - at.rowwise().minCoeff()).norm();
@@ -21,7 +21,7 @@ double longest_in(const Sites& sites) {
   return size(sites.place) + size(sites.anchor) + stretches;
 }
 
-// Sites and a table of correlations, as the kernel asks for them.
+// Sites and a table of correlations, in the kernel's layout.
 class PlacedRows {
  public:
   PlacedRows(const Sites& sites, const Covariance& covariance)
@@ -43,7 +43,7 @@ class PlacedRows {
   }
 
   Index filled() const { return sites_.filled(); }
-  // dB^2, of a row and those before it.
+  // Squared units of a reading: covariances of a row with those before it.
   void covariances(Index row, double* out) const { row_kernels().best().covariances(pairs_, row, out); }
 
  private:

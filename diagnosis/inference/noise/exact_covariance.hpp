@@ -1,20 +1,19 @@
-// What sums over all rows scatter by under a covariance itself. Vecchia's approximation, which gives such sums, tells
-// each row by few others and so believes to know better than it does what is alike over long ways.
+// Exact variance of sums of rows. Vecchia conditions on few neighbours and understates long-range variance.
 #pragma once
 
 #include "diagnosis/inference/noise/reml.hpp"
 
 namespace muster::noise {
 
-// Covariance of weights^T rows, dB^2 times the weights' units; a row a row, a sum a column. Takes every pair of rows.
+// Covariance of weights^T rows: squared units of a reading times the weights' units. One row a row, one column a sum.
+// Visits every pair of rows.
 Eigen::MatrixXd covariance_of_sums(const Sites& sites, const Covariance& covariance, const Eigen::MatrixXd& weights);
 
-// Covariance of added^T residual: whitened columns, orthonormal and apart from the design, and what the design leaves
-// of whitened rows. The approximation takes it for the identity.
+// Exact covariance of added^T residual, which Vecchia's approximation takes for the identity. `added`: whitened
+// columns, orthonormal and orthogonal to the design. The residual is that of whitened rows.
 Eigen::MatrixXd scatter_of(const Field& field, const Whitener& whitener, const Eigen::MatrixXd& added);
 
-// The fall of the deviance by such columns that is distributed as chi-square under the covariance itself where nothing
-// is there.
+// Fall of the deviance by such columns, scaled to be chi-square under the null with the exact covariance.
 double exact_gain(const Field& field, const Whitener& whitener, const Eigen::MatrixXd& added,
                   const Eigen::VectorXd& residual);
 

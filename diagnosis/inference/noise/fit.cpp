@@ -9,9 +9,10 @@
 namespace muster::noise {
 namespace {
 
-constexpr double least_curvature = 0.3;  // of any direction: theta is never known worse than to about two units
+constexpr double least_curvature = 0.3;  // in any direction: bounds the standard deviation of theta by about two units
 
-// Eigenvalues from below, so that steps and draws stay finite where the data say nothing.
+// Information with its eigenvalues bounded from below, so that steps and draws stay finite where the data are
+// uninformative.
 Eigen::Matrix4d bounded(const Eigen::Matrix4d& information) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(information);
   return solver.eigenvectors() * solver.eigenvalues().cwiseMax(least_curvature).asDiagonal() *
@@ -32,7 +33,7 @@ Fit fit(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& des
   for (int step = 0; step < steps; ++step) {
     const Eigen::Matrix4d curvature = bounded(moves.asDiagonal() * here.information * moves.asDiagonal());
     const Theta gradient = moves.cwiseProduct(here.gradient), whole = -curvature.ldlt().solve(gradient);
-    if (-whole.dot(gradient) < 0.02) break;  // nats to win, doubled
+    if (-whole.dot(gradient) < 0.02) break;  // expected gain in nats, doubled
     Theta move = whole / std::max(1.0, whole.cwiseAbs().maxCoeff());
     bool better = false;
     for (int shorter = 0; shorter < 5 && !better; ++shorter, move *= 0.35) {
@@ -53,7 +54,7 @@ std::vector<Fit> fit_families(const Field& field, const Eigen::VectorXd& y, cons
   std::vector<Fit> fits{fit(field, y, design, prior, default_start(y, design, Family::exponential), 20)};
   for (const Family family : families) {
     if (family == Family::exponential) continue;
-    // The smoothest family's fit lies far from that of the roughest: it starts from its neighbour's.
+    // Warm start from a similar family: the fit of the smoothest lies far from that of the roughest.
     const auto like = std::find_if(fits.begin(), fits.end(), [&](const Fit& f) {
       return f.covariance.family == (family == Family::gaussian ? Family::matern52 : Family::exponential);
     });

@@ -5,7 +5,7 @@
 namespace muster::noise {
 namespace {
 
-constexpr double least_variance = 1e-9;  // dB^2: of rows at one place
+constexpr double least_variance = 1e-9;  // squared units of a reading: of rows at one place
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 

@@ -6,9 +6,9 @@
 
 namespace muster::noise {
 
-constexpr double floor_variance = 1e-3;  // dB^2, of every row: readings are at best quantised to 0.1 dB
+constexpr double floor_variance = 1e-3;  // squared units, of every row: readings have steps of 0.1 at best
 
-// A value of each of the eight rows.
+// One value for each of the eight rows.
 struct alignas(alignment) Lanes {
   double of[lanes];
 };
@@ -17,22 +17,23 @@ class Neighbourhood {
  public:
   Neighbourhood(const Field& field, const Covariance& covariance, const RowKernel& kernel = row_kernels().best());
 
-  // The rows of one group. Slots without a neighbour hold an independent value of variance one and get weight zero.
+  // Factorises the rows of one group. Slots without a neighbour hold an independent value of variance one and get
+  // weight zero.
   void factorise(Index group);
-  // One value a slot, then the row's own: minus the weights of the best prediction and one, over its standard
+  // Kriging weights, one a slot, then the row's own: (-weights of the best linear prediction, 1) over its standard
   // deviation.
   const Lanes* combination() const { return combination_.data(); }
 
-  // After factorise(): derivatives by the four parameters of theta.
+  // After factorise(): derivatives by the four entries of theta.
   void differentiate() { kernel_.differentiate(arrays_); }
   const Lanes* slope(int parameter) const { return slope_.data() + parameter * (slots_ + 1); }
-  // Of the logarithm of the row's own weight.
+  // Derivative of the logarithm of the row's own weight.
   double log_slope(int parameter, int lane) const {
     return -0.5 * turned_[static_cast<std::size_t>(parameter) * static_cast<std::size_t>(slots_ + 1) +
                           static_cast<std::size_t>(slots_)]
                       .of[lane];
   }
-  // Fisher's, q <= p.
+  // Fisher information, q <= p.
   const Lanes& information(int p, int q) const { return information_[static_cast<std::size_t>(p * parameters + q)]; }
 
  private:

@@ -11,7 +11,7 @@
 namespace muster::noise {
 namespace {
 
-// Points of some rows in d dimensions, as nanoflann asks for them.
+// Points of some rows in d dimensions, in nanoflann's interface.
 struct Cloud {
   Eigen::MatrixXd at;       // d x points
   std::vector<Index> rows;  // of the points
@@ -38,7 +38,7 @@ struct Grove {
   }
 };
 
-// The nearest points that `admits` lets in, ties by their number; nanoflann's own result set takes all.
+// The nearest points that `admits` accepts, ties by index; nanoflann's own result set accepts all.
 template <class Admits>
 class Nearest {
  public:

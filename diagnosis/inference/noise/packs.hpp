@@ -1,5 +1,5 @@
-// Numbers side by side, in as many registers as they need: compilers keep a vector that is wider than a register in
-// memory. Part of row_kernel.cpp, and internal to it.
+// SIMD packs spread over as many registers as they need: compilers keep a vector wider than a register in memory.
+// Internal to row_kernel.cpp.
 #pragma once
 
 #define MUSTER_INLINE [[gnu::always_inline]] inline
@@ -35,7 +35,7 @@ struct [[gnu::may_alias]] Pack {
   MUSTER_INLINE Scalar operator[](int lane) const { return part[lane / each][lane % each]; }
   MUSTER_INLINE void set(int lane, Scalar value) { part[lane / each][lane % each] = value; }
 
-  // Other is such a pack too, or a number for all lanes.
+  // Other is a pack as well, or one number for all lanes.
   MUSTER_INLINE static const Part& of(const Pack& pack, int k) { return pack.part[k]; }
   MUSTER_INLINE static Scalar of(Scalar value, int) { return value; }
   template <class Other>

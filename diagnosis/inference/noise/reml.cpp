@@ -36,7 +36,7 @@ Objective objective(const Field& field, const Covariance& covariance, const Eige
   const Whitened at = whitened(slopes.whitener(), y, design, prior);
   const Basis& basis = at.basis;
   const Eigen::VectorXd beta = basis.coefficients(basis.q.transpose() * at.y, design.cols());
-  // Of the residual sum of squares, and of the design's determinant: the trace of R^-1 Q^T dW X.
+  // Gradients of the residual sum of squares and of the design's determinant: the trace of R^-1 Q^T dW X.
   const Eigen::MatrixXd turned = basis.r.triangularView<Eigen::Upper>().solve(basis.q.transpose()).transpose();
   const Theta of_design =
       slopes.contracted(hstack(design(Eigen::all, basis.kept), y - design * beta), hstack(turned, at.residual));

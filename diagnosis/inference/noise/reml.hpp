@@ -1,5 +1,5 @@
-// Minus the log restricted posterior of theta: Vecchia's likelihood of what the design leaves of y (Patterson and
-// Thompson 1971), and what is known of theta before the data.
+// Minus the log restricted posterior of theta: Vecchia's likelihood of y with the design projected out (REML:
+// Patterson and Thompson 1971), and a prior of theta.
 #pragma once
 
 #include "diagnosis/inference/noise/basis.hpp"
@@ -19,10 +19,10 @@ struct Prior {
 struct Objective {
   double value = 0;
   Theta gradient = Theta::Zero();
-  Eigen::Matrix4d information = Eigen::Matrix4d::Zero();  // Fisher's, with the prior's curvature
+  Eigen::Matrix4d information = Eigen::Matrix4d::Zero();  // Fisher information, with the prior's curvature
 };
 
-// y and the design in whitened space.
+// y and the design, whitened.
 struct Whitened {
   Basis basis;
   Eigen::VectorXd y, residual;
@@ -32,7 +32,7 @@ struct Whitened {
 Whitened whitened(const Whitener& whitener, const Eigen::VectorXd& y, const Eigen::MatrixXd& design,
                   const Prior& prior);
 
-// With the derivatives that scoring needs.
+// With the derivatives for Fisher scoring.
 Objective objective(const Field& field, const Covariance& covariance, const Eigen::VectorXd& y,
                     const Eigen::MatrixXd& design, const Prior& prior);
 

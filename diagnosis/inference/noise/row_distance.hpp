@@ -1,10 +1,10 @@
-// How far apart two rows lie for the field.
+// Distance of two rows for the covariance of the field.
 //
-// A smooth field changes by hardly more along a row than its middle tells, so that its rows are as far apart as their
-// middles. Of a rough one it is the mean distance of their readings, less half of what each has within: of a field with
-// correlation exp(-h), means over the rows are correlated by exp of minus this, up to a factor for each row. It is of
-// negative type, as distances are, so that this is a correlation whatever way the rows run (Schoenberg 1938). A row's
-// readings are taken as three, a stretch away from its middle to either side and there.
+// A smooth field is nearly linear along a row, so the distance is that of the rows' middles. For a rough field it is
+// the mean distance of their readings, less half the mean distance within each row. With correlation exp(-h), means
+// over rows are correlated by exp of minus this, up to a factor for each row. This distance is of negative type, so
+// the result is a valid correlation for all directions of rows (Schoenberg 1938). A row's readings are taken as
+// three: its middle, and a stretch away to either side.
 #pragma once
 
 #include "diagnosis/inference/noise/row_kernel.hpp"
@@ -12,24 +12,24 @@
 
 namespace muster::noise {
 
-constexpr double own_share = mean_of_three / 2;  // of its stretch: half the mean distance of a row's three readings
+constexpr double own_share = mean_of_three / 2;  // half the mean distance of a row's three readings, in stretches
 
-// Whether any anchor is elsewhere than others of its group.
+// True if an anchor moves, or differs from another of its group.
 bool anchors_move(const Sites& sites);
 
-// A row a site, m: its place and its anchor, the stretches of both, and half the mean distance of its readings, of
-// places and of both ends. About the first site, so that floats tell them well.
+// One row a site, m: place, anchor, their stretches, and half the mean distance of its readings by place and by place
+// and anchor jointly. Relative to the first site, for float precision.
 using SiteFloats = Eigen::Matrix<float, Eigen::Dynamic, 14, Eigen::RowMajor>;
 SiteFloats floats_of(const Sites& sites);
 
-// Some of them as the kernels ask for them.
+// Sites in the kernel's layout.
 class PlacedSites {
  public:
   explicit PlacedSites(Index most) : values_(Eigen::MatrixXf::Zero((most + many - 1) / many * many, 14)) {}
 
   Index filled() const { return values_.rows(); }
   void set(Index site, const Eigen::Matrix<float, 1, 14>& values) { values_.row(site) = values; }
-  // Valid for as long as this is. `by_readings`: or else by their middles, as those that lie farther apart than `far`.
+  // Valid as long as this object. `by_readings`: mean distance of readings; otherwise, and beyond `far`, of middles.
   Places places(bool by_readings, bool anchors_move, float far) const;
   float longest_within() const { return values_.col(13).maxCoeff(); }
 

@@ -1,7 +1,7 @@
 // Built once for each instruction set, as MUSTER_KERNEL. Everything here but the kernel itself is internal.
 //
-// Sums that depend on each other would wait for one another: each value that is worked out is taken from all that need
-// it at once, and four derivatives are carried side by side.
+// Dependent sums stall the pipeline. So each computed value is subtracted at once from all that need it, and four
+// derivatives are computed side by side.
 #include "diagnosis/inference/noise/row_kernel.hpp"
 
 #include "diagnosis/inference/noise/packs.hpp"
@@ -38,7 +38,7 @@ MUSTER_INLINE Lanes looked_up(const double* table, const std::uint16_t* entries)
   return result;
 }
 
-// What a table holds for a pair of slots: between places, and between both ends.
+// Table values of a pair of slots: by place, and by place and anchor jointly.
 struct Looked {
   Lanes near, joint;
 };
@@ -105,7 +105,8 @@ MUSTER_INLINE void take(Four& from, Lanes weight, double* const* values, long a)
   for (int p = 0; p < parameters; ++p) from.of[p] -= weight * lanes_of(values[p])[a];
 }
 
-// dC combination, for the derivatives by distance (1) and share (3), which are zero on the diagonal.
+// Products of dC with the combination, for the derivatives by distance (1) and share (3), which are zero on the
+// diagonal.
 void turn(const Neighbourhoods& n) {
   const long slots = n.slots;
   const Lanes* const combination = lanes_of(n.combination);
@@ -135,7 +136,7 @@ void differentiate(const Neighbourhoods& n) {
   const Lanes* const combination = lanes_of(n.combination);
   const Lanes inverse_sd = combination[slots];
   turn(n);
-  // C = field + nugget + floor, and L^-1 C L^-T e = e: the field's part (0) is what the others leave.
+  // C = field + nugget + floor, and L^-1 C L^-T e = e: the field's part (0) is e less the others.
   for (long a = 0; a <= slots; ++a) {
     lanes_of(n.turned[0])[a] = -n.floor_variance * combination[a];
     lanes_of(n.turned[2])[a] = nugget[a] * combination[a];
@@ -178,7 +179,7 @@ void differentiate(const Neighbourhoods& n) {
 template <class Vector, int parts>
 struct Tile {};
 
-// One row, at columns that fill `parts` vectors.
+// Combines one row, at columns that fill `parts` vectors.
 template <class Vector, int parts, class Scalar>
 MUSTER_INLINE void combine_tile(Tile<Vector, parts>, const Combinations& c, long i, const Scalar* x, long columns,
                                 Scalar* out) {
@@ -206,7 +207,7 @@ MUSTER_INLINE void in_tiles(long columns, const Use& use) {
   for (; k < columns; ++k) use(Tile<Scalar, 1>{}, k);
 }
 
-// In blocks of columns whose rows stay in the cache together.
+// Works in blocks of columns whose rows fit in the cache together.
 template <class Wide, class Narrow, class Scalar>
 MUSTER_INLINE void combine_all(const Combinations& c, const Scalar* x, long columns, Scalar* out) {
   constexpr long block = 512 / sizeof(Scalar);
@@ -228,7 +229,7 @@ void combine_floats(const Combinations& c, const float* x, long columns, float* 
   combine_all<Floats, FourFloats>(c, x, columns, out);
 }
 
-// Vectors of the products x_j with_i, summed up over the columns.
+// Vectors of the products x_j with_i, summed over the columns.
 MUSTER_INLINE Lanes products(const double* x, const double* with, long columns) {
   const auto *const one = reinterpret_cast<const Lanes*>(x), *const other = reinterpret_cast<const Lanes*>(with);
   Lanes sum = one[0] * other[0];
@@ -258,8 +259,8 @@ MUSTER_INLINE Floats many_of(const float* values, long first) {
   return *reinterpret_cast<const Floats*>(values + first);
 }
 
-// Squared distances of a row from those that start at `first`, between readings a stretch away from their middles or
-// none.
+// Squared distances of a row from those that start at `first`. Readings lie the given numbers of stretches away from
+// their middles.
 MUSTER_INLINE Floats squares(const Ends& ends, long row, long first, float own_stretches, float stretches) {
   Floats sum{};
   for (int axis = 0; axis < 3; ++axis) {

@@ -1,27 +1,27 @@
-// What the noise model does to every row, several lanes at a time: the part that is built for each instruction set. All
-// kernels give the same bits, since every lane is worked out alike.
+// Per-row arithmetic of the noise model, several lanes at a time, built once for each instruction set. All kernels
+// give the same bits, since every lane is computed alike.
 //
-// Only plain data cross this border: a function that both sides compile could be linked in its newest form everywhere.
+// Only plain data cross this border: a function compiled on both sides could be linked in its newest form everywhere.
 #pragma once
 
 #include <cstdint>
 
 namespace muster::noise {
 
-constexpr int lanes = 8;         // rows whose neighbourhoods are worked out side by side
+constexpr int lanes = 8;         // rows whose neighbourhoods are computed side by side
 constexpr int parameters = 4;    // of the covariance
-constexpr int distances = 4096;  // entries of a table of correlations; one more stands for "uncorrelated"
-constexpr int alignment = 64;    // bytes, of whatever has a value a lane
+constexpr int distances = 4096;  // entries of a table of correlations; one more means "uncorrelated"
+constexpr int alignment = 64;    // bytes, of arrays with a value a lane
 
-// How the distances of both ends compare to those of places, over the rows of a group.
+// Relation of joint distances (place and anchor) to distances of places, over the rows of a group.
 enum class Joint : std::uint8_t { same = 1, uncorrelated, other };
 
-// The covariance of eight rows and their neighbours. Unless said otherwise an array has `lanes` doubles for each slot,
+// Covariance of eight rows and their neighbours. Unless noted otherwise an array has `lanes` doubles for each slot,
 // then for the rows themselves.
 struct Neighbourhoods {
   long slots;
   const double *correlation, *by_distance;  // by entry: the correlation, and its derivative by log decorrelation
-  double near_variance, joint_variance;     // what they are multiplied by, of places and of both ends
+  double near_variance, joint_variance;     // factors of the correlations by place, and by place and anchor
   double share_slope;                       // of the near variance by logit rho; minus that of the joint one
   double field_variance, least_variance, floor_variance;
 
@@ -32,20 +32,20 @@ struct Neighbourhoods {
 
   double* root;                // lower triangle, slots x slots; the diagonal holds its inverse
   double* cross;               // the last row of the factor that has the row itself at the end
-  double* combination;         // minus the weights of the best prediction and one, over its standard deviation
+  double* combination;         // (-kriging weights, 1), over the standard deviation of the prediction
   double* turned[parameters];  // last row of L^-1 dC L^-T
   double* slope[parameters];   // of the combination
-  double* information;         // Fisher's: one entry for each pair of parameters, row by row
+  double* information;         // Fisher information: one entry for each pair of parameters, row by row
 };
 
-// Rows with what is beside them: out_i = own_i x_i + sum over slots of beside_ia x_neighbour.
+// Linear combinations of rows with their neighbours: out_i = own_i x_i + sum over slots of beside_ia x_neighbour.
 struct Combinations {
   long rows, slots;
   const long* neighbours;  // -1: none
   const double *own, *beside;
 };
 
-// Where rows lie (row_distance.hpp). Arrays have a value a row, filled up to a multiple of `many`.
+// Positions of rows (row_distance.hpp). Arrays have a value a row, padded to a multiple of `many`.
 constexpr int many = 16;
 struct Ends {
   const float *middle[3], *stretch[3];  // m, along each axis
@@ -53,11 +53,11 @@ struct Ends {
 struct Places {
   Ends place, anchor;
   const float *within_place, *within_both;  // m: half the mean distance of a row's readings; null: rows are points
-  float far;                                // m: rows this far apart are so by their middles
-  bool anchors_move;                        // or stand where all others of their group do
+  float far;                                // m: beyond this the distance of rows is that of their middles
+  bool anchors_move;                        // or differ from others of their group
 };
 
-// Rows whose covariances are asked for two by two.
+// Rows whose covariances are needed pair by pair.
 struct Pairs {
   Places at;
   const int* group;          // the anchor's
@@ -72,21 +72,21 @@ struct RowKernel {
   void (*factorise)(const Neighbourhoods&);
   // After factorise().
   void (*differentiate)(const Neighbourhoods&);
-  // Of columns that lie row by row.
+  // Applies the combinations to columns stored row by row.
   void (*combine)(const Combinations&, const double* x, long columns, double* out);
   void (*combine_floats)(const Combinations&, const float* x, long columns, float* out);
-  // Of four combinations c, the sum over rows i of (c x)_i . with_i, both row by row and `columns` a multiple of
-  // `lanes`.
+  // For four combinations c, the sum over rows i of (c x)_i . with_i; both are stored row by row, and `columns` is a
+  // multiple of `lanes`.
   void (*contract)(const Combinations* four, const double* x, const double* with, long columns, double* sums);
-  // Of a row and those before it; some values beyond are written too, up to a multiple of `many`. Distances, m, are
-  // those of places and of both ends.
+  // Distances, m, of a row from those before it: by place, and by place and anchor jointly. Writes some values
+  // beyond, up to a multiple of `many`.
   void (*apart)(const Places&, long row, float* place, float* both);
   void (*covariances)(const Pairs&, long row, double* out);
-  // x less what the orthonormal columns of q explain, both row by row. `scratch`: width x 32 floats.
+  // x less its projection on the orthonormal columns of q, both row by row. `scratch`: width x 32 floats.
   void (*take_out)(const float* q, long rows, long width, float* x, long columns, float* scratch);
 };
 
-// Those that this machine can run, the fastest one last.
+// The kernels that this machine can run, the fastest one last.
 struct RowKernels {
   const RowKernel* all[3];
   int number;

@@ -14,7 +14,7 @@ using ByRow = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMa
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-// As refinement asks for it thousands of times.
+// Fast path for one column: refinement calls it thousands of times.
 Eigen::VectorXd applied_to_one(const Field& field, const Stencil& stencil, const double* x) {
   Eigen::VectorXd out(field.size());
   const auto slots = static_cast<Index>(field.slots());
@@ -42,7 +42,7 @@ Stencil empty_stencil(const Field& field) {
   return {std::vector<double>(at(field.size())), std::vector<double>(at(field.size() * field.slots()))};
 }
 
-// Writes lane by lane what was worked out for a group of rows; `combination` has a value a slot, then the row's own.
+// Stores the results for a group of rows, lane by lane; `combination` has a value a slot, then the row's own.
 void store(const Field& field, Index group, const Lanes* combination, Stencil& stencil) {
   for (Index lane = 0; lane < lanes; ++lane) {
     const Index i = group * lanes + lane;
@@ -52,7 +52,7 @@ void store(const Field& field, Index group, const Lanes* combination, Stencil& s
   }
 }
 
-// Without slots that would stay empty: where all rows have one anchor none is another's.
+// Drops slots that would stay empty: with one anchor there are no others.
 Conditioning fillable(Conditioning conditioning, const std::vector<int>& group) {
   const bool one = std::all_of(group.begin(), group.end(), [&](int other) { return other == group.front(); });
   if (one) conditioning.others = 0;

@@ -1,5 +1,5 @@
-// Whitening of rows under C = s2 [rho + (1 - rho) same anchor] k(h) + t2 / count by Vecchia's approximation (Vecchia
-// 1988; Katzfuss and Guinness, Statistical Science 36, 2021): each row given its neighbours. h is the distance between
+// Whitening of rows under C = s2 [rho + (1 - rho) same anchor] k(h) + t2 / count by Vecchia's approximation: each row
+// given its neighbours (Vecchia 1988; Katzfuss and Guinness, Statistical Science 36, 2021). h is the distance between
 // readings for a rough field, between middles for a smooth one (row_distance.hpp).
 #pragma once
 
@@ -18,8 +18,8 @@ struct Stencil {
   std::vector<double> own, beside;
 };
 
-// What does not depend on the covariance's parameters: neighbours, and the distances inside each row's neighbourhood as
-// places in a table of correlations.
+// Parts independent of theta: neighbours, and the distances within each neighbourhood as entries of a table of
+// correlations.
 class Field {
  public:
   explicit Field(Sites sites, const Conditioning& conditioning = {});
@@ -33,12 +33,12 @@ class Field {
   // Entries of the pairs of group g: pair a (a + 1) / 2 + b is slots a and b < a; with b = a, slot a and the row
   // itself.
   struct Entries {
-    const uint16_t *near, *joint;  // between places; both ends, same anchor
+    const uint16_t *near, *joint;  // by place; by place and anchor, same anchor
     const Joint* kinds;
   };
   Entries entries(Index group, Family family) const;
   Index pairs() const { return Index{slots_} * (slots_ + 1) / 2; }
-  // These weights for each row's neighbours, then its own.
+  // Combinations with these weights for each row's neighbours, then its own.
   Combinations combinations(const Stencil& stencil) const;
 
  private:
@@ -46,7 +46,7 @@ class Field {
     std::vector<uint16_t> near, joint;
     std::vector<Joint> kinds;
   };
-  // use(slot, whether of one anchor, m between places, m between both ends)
+  // use(slot, true for the same anchor, m by place, m by place and anchor)
   template <class Use>
   void each_pair(bool by_readings, const Use& use) const;
   uint16_t entry(double distance) const;
@@ -57,7 +57,7 @@ class Field {
   int slots_;
   std::vector<Index> neighbours_;
   double spacing_ = 0.01;
-  Table smooth_, rough_;  // the second one is empty where every row is a point: both are the same there
+  Table smooth_, rough_;  // the second one is empty where every row is a point: both are equal there
 };
 
 class Whitener {
@@ -72,7 +72,7 @@ class Whitener {
 
  private:
   friend class WhitenerSlopes;
-  Whitener(const Field& field, const Covariance& covariance, Stencil stencil);  // not yet worked out
+  Whitener(const Field& field, const Covariance& covariance, Stencil stencil);  // not yet factorised
   void sum_up();
 
   const Field* field_;
@@ -90,7 +90,7 @@ class WhitenerSlopes {
   const Theta& of_log_scale() const { return of_log_scale_; }
   // Fisher's information of theta in the rows (Guinness, Statistics and Computing 31, 2021).
   const Eigen::Matrix4d& information() const { return information_; }
-  // For each parameter the sum over rows of products: of `x` combined by the whitener's derivative, and of `with`.
+  // For each entry of theta the sum over rows of products of `x`, combined by the whitener's derivative, with `with`.
   Theta contracted(const Eigen::MatrixXd& x, const Eigen::MatrixXd& with) const;
 
  private:

@@ -5,7 +5,7 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-// each(row, reached, weight) for all that is not zero in the whitener.
+// Calls each(row, reached, weight) for every non-zero entry of the whitener.
 template <class Each>
 void each_entry(const Field& field, const Stencil& stencil, const Each& each) {
   for (Index i = 0; i < field.size(); ++i) {

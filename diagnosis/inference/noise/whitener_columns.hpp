@@ -1,5 +1,5 @@
-// A whitener by columns: which whitened rows each row is part of, and by what weight. So a column that is zero at most
-// rows is whitened at those alone that it reaches.
+// The whitener by columns: for each row the whitened rows that it enters, and by what weight. A column that is zero
+// at most rows is whitened only where it is not.
 #pragma once
 
 #include <vector>
@@ -26,7 +26,7 @@ class Reach {
     return {entries_.data() + first_[k], entries_.data() + first_[k + 1]};
   }
 
-  // The whitener's transpose: the product of each row's unit column, whitened, with a whitened column.
+  // Product with the whitener's transpose: each row's whitened unit column times a whitened column.
   Eigen::VectorXd transposed(const Eigen::VectorXd& whitened) const;
 
  private:

@@ -13,7 +13,7 @@ namespace {
 
 enum class Columns { exact = 1, sketched };
 
-// What refinement climbs.
+// Objective of refinement.
 class Objective {
  public:
   Objective(const ModelState& state, const WhitenedModel& model, const Candidate& candidate, Columns columns)
@@ -25,8 +25,8 @@ class Objective {
 
   SparseColumns& thin() { return thin_; }
 
-  // The fall of the deviance, and twice what is believed of the place. Where nothing can stand it is below all else:
-  // what counts as it is loses wherever it does not win.
+  // Fall of the deviance plus twice the log prior. Impossible thetas get the lowest value, since a whole column may
+  // well have a negative gain.
   double operator()(const Eigen::VectorXd& theta) {
     const double admitted = candidate_.refinement.admitted ? candidate_.refinement.admitted(theta) : 1;
     if (admitted <= 0) return lowest;
@@ -45,7 +45,7 @@ class Objective {
     return admitted * (candidate_.design.whole ? 2 * along - length : along * along / length);
   }
 
-  // Product with the residual and squared length of what the design leaves of a column.
+  // Product with the residual, and squared length, of a column with the design projected out.
   std::pair<double, double> measured(const Eigen::VectorXd& column) {
     if (thin_.take(column)) return {thin_.along(), thin_.length()};
     const Eigen::VectorXd left = model_.at.basis.rest(model_.whitener(column));
@@ -69,7 +69,7 @@ bool far_from(const Candidate& candidate, const Eigen::VectorXd& theta, const st
   });
 }
 
-// The atoms with the largest gains that lie apart, beside those that are there.
+// Adds the atoms with the largest gains that are apart from each other and from the given starts.
 void add_starts(const Candidate& c, const Eigen::VectorXd& gains, int count, std::vector<Eigen::VectorXd>& starts) {
   std::vector<Index> order(static_cast<std::size_t>(gains.size()));
   std::iota(order.begin(), order.end(), 0);
@@ -81,8 +81,8 @@ void add_starts(const Candidate& c, const Eigen::VectorXd& gains, int count, std
   }
 }
 
-// The same total variance with less of it in the field. Whitened, a shadow is little more than its edges, and a place
-// that is off by more than their width gains nothing; in white noise what it covers counts.
+// Moves variance from the field to the readings; the total stays. Whitening leaves little of a shadow but its edges,
+// so a misplacement beyond their width gains nothing. In white noise the overlap counts.
 WhitenedModel with_less_field(const ModelState& state, const WhitenedModel& model, double share) {
   noise::Covariance c = model.whitener.covariance();
   const double moved = (1 - share) * c.field_variance() * state.rows().count().mean();
@@ -95,7 +95,7 @@ Eigen::VectorXd gains_of(const Entry& entry, const WhitenedModel& model) {
   return gains(*entry.candidate, unit_atoms(entry, model), model.at.residual);
 }
 
-// One reading a row may have led away from a narrow top that was proposed.
+// Restores a start if it is better at exact columns: sketches may miss a narrow optimum.
 Optimum best_of(const std::vector<Eigen::VectorXd>& starts, Optimum reached, Objective exact) {
   reached.second = exact(reached.first);
   for (const Eigen::VectorXd& start : starts) {
@@ -105,7 +105,7 @@ Optimum best_of(const std::vector<Eigen::VectorXd>& starts, Optimum reached, Obj
   return reached;
 }
 
-// From many starts.
+// Successive halving from many starts.
 Optimum raced_to(const ModelState& state, const WhitenedModel& model, const ScoredCandidate& lead) {
   const Candidate& c = lead.candidate();
   Objective height(state, model, c, Columns::sketched);
@@ -117,13 +117,13 @@ Optimum raced_to(const ModelState& state, const WhitenedModel& model, const Scor
       if (static_cast<int>(starts.size()) < c.refinement.starts && far_from(c, theta, starts))
         starts.push_back(std::move(theta));
     }
-    starts.push_back(lead.theta);  // as well, however near: the grid may have met a narrow top
+    starts.push_back(lead.theta);  // always: the grid may have met a narrow optimum
     const Optimum top = successive_halving(c, starts, {value, value, value});
     starts.resize(std::min(starts.size(), likely));
     return best_of(starts, top, Objective(state, model, c, Columns::exact));
   }
   starts.push_back(lead.theta);
-  if (c.role.pieces.empty()) {  // no shadow: what is off by a little still gains
+  if (c.role.pieces.empty()) {  // no shadow: a small misplacement still has a gain
     const Eigen::VectorXd all = lead.all.size() > 0 ? lead.all : gains_of(*lead.entry, model);
     add_starts(c, all, c.refinement.starts - 1, starts);
     return successive_halving(c, starts, {value, value, value});

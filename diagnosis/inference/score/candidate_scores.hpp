@@ -1,4 +1,4 @@
-// Every atom of every candidate against what the model leaves, in whitened space.
+// Score tests of every atom of every candidate against the model's residual, in whitened space.
 #pragma once
 
 #include "diagnosis/inference/state/model_state.hpp"
@@ -6,16 +6,16 @@
 
 namespace muster::inference {
 
-// Atoms whitened, without what the design explains.
+// Whitened atoms, the design projected out.
 OrthonormalAtoms unit_atoms(const Entry& entry, const WhitenedModel& model);
 
-// The fall of the deviance by each atom; zero where the sign is wrong.
+// Fall of the deviance by each atom; zero where the sign is wrong.
 Eigen::VectorXd gains(const Candidate& candidate, const OrthonormalAtoms& unit, const Eigen::VectorXd& residual);
 
-// The fall of the deviance by one atom; of a whole candidate as it is, since a multiple of it means nothing.
+// Fall of the deviance by one atom; of a whole candidate at its given strength.
 double gain_of(const Candidate& candidate, const WhitenedModel& model, const Eigen::MatrixXd& columns);
 
-// A candidate at its best atom, or further.
+// A candidate at its best atom, or refined.
 struct ScoredCandidate {
   const Entry* entry;
   Eigen::VectorXd theta;
@@ -27,14 +27,14 @@ struct ScoredCandidate {
   const Candidate& candidate() const { return *entry->candidate; }
 };
 
-// By falling evidence. `also` is shown the unit atoms of each candidate.
+// All candidates, sorted by falling evidence. `also` is called with each candidate's atoms.
 std::vector<ScoredCandidate> scored_candidates(
     ModelState& state, const WhitenedModel& model,
     const std::function<void(const Candidate&, const OrthonormalAtoms& unit)>& also = {});
 void by_evidence(std::vector<ScoredCandidate>& leads);
 
-// The best theta by continuous refinement, from as many starts as the candidate asks for, or from `lead` alone. Keeps
-// the lead where nothing better is found.
+// Refines theta continuously from the candidate's number of starts, or from `lead` alone. Returns the lead if nothing
+// is better.
 ScoredCandidate refined(const ModelState& state, const WhitenedModel& model, const ScoredCandidate& lead,
                         bool from_lead_alone);
 

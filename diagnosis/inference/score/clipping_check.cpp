@@ -10,7 +10,7 @@
 namespace muster::inference {
 namespace {
 
-// The range of levels of which readings tell more than a bound.
+// Range of levels whose readings are not censored.
 std::pair<double, double> range_of(const Problem& problem) {
   double low = -std::numeric_limits<double>::infinity(), high = -low;
   for (std::size_t i = 0; i < problem.bounds.known.size(); ++i) {
@@ -27,7 +27,7 @@ bool stands_clear_of_clip(const ModelState& state, const noise::Covariance& cova
                           const Eigen::MatrixXd& columns) {
   const Eigen::MatrixXd both = noise::hstack(design, columns);
   const Eigen::VectorXd predicted = both * state.whitened_model(both, covariance).coefficients(both.cols());
-  // What is filled in spreads less than readings do: by about 15 %.
+  // Imputed readings vary less than measured ones: by about 15 %.
   const double sd = 1.15 * std::sqrt((state.y() - predicted).squaredNorm() / static_cast<double>(predicted.size()));
   const auto [low, high] = range_of(state.problem());
   std::vector<Index> clear;

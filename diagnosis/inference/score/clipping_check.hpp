@@ -1,11 +1,11 @@
-// Whether an effect also shows where the predicted level lies well inside the receiver's range.
+// Tests if an effect is also present where the predicted level lies well inside the measurable range.
 #pragma once
 
 #include "diagnosis/inference/state/model_state.hpp"
 
 namespace muster::inference {
 
-// Rows are taken by their predicted level, not by the reading: a choice by outcome would bend the means.
+// Rows are selected by their predicted level: selection by the reading itself would bias the means.
 bool stands_clear_of_clip(const ModelState& state, const noise::Covariance& covariance, const Eigen::MatrixXd& design,
                           const Eigen::MatrixXd& columns);
 

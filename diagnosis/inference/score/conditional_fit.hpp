@@ -1,4 +1,4 @@
-// Columns beside the rest of a model: what they explain of what it leaves, and how well their coefficients are known.
+// Fits columns to the residual of the rest of a model: gain, coefficients and their covariance.
 #pragma once
 
 #include "diagnosis/inference/state/model_state.hpp"
@@ -12,9 +12,9 @@ struct ConditionalGain {
 };
 
 struct ConditionalFit : ConditionalGain {
-  Eigen::MatrixXd columns;  // whitened, without what the rest explains
+  Eigen::MatrixXd columns;  // whitened, the rest projected out
 
-  // `whole`: the columns count as they are (Candidate::whole).
+  // `whole`: coefficients are held at 1 (CandidateDesign::whole).
   ConditionalFit(const WhitenedModel& rest, const Eigen::MatrixXd& plain, bool whole);
 };
 

@@ -1,4 +1,4 @@
-// Weights of draws: what they are worth, and who is drawn by them.
+// Importance weights of draws: effective sample size, tempering and resampling.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,14 +7,14 @@
 
 namespace muster::inference {
 
-// As many independent draws of equal weight (Kong 1992).
+// Number of independent draws of equal weight with the same variance (Kong 1992).
 double effective_sample_size(const Eigen::VectorXd& weights);
 
-// Where hardly any have all of the weight they tell too little by far; the roots of the weights err to the wide side.
-// Sum 1.
+// Square roots of the weights, repeated until the effective sample size is sufficient. Few dominant weights
+// understate the spread by far; tempered ones err to the wide side. Sum 1.
 Eigen::VectorXd tempered(Eigen::VectorXd weights);
 
-// So many indices, each as often as its weight asks for; weights have sum 1.
+// Systematic resampling: `count` indices, each in proportion to its weight; weights have sum 1.
 std::vector<std::size_t> resampled(const Eigen::VectorXd& weights, int count);
 
 }  // namespace muster::inference

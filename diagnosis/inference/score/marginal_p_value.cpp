@@ -9,7 +9,7 @@
 namespace muster::inference {
 namespace {
 
-// log of sum of weights times exp(values), over the sum of weights; weights by their logarithms.
+// log of the weighted mean of exp(values); weights by their logarithms.
 double log_average(const std::vector<double>& log_weights, const std::vector<double>& values) {
   const double top_weight = *std::max_element(log_weights.begin(), log_weights.end());
   const double top = *std::max_element(values.begin(), values.end());
@@ -22,7 +22,7 @@ double log_average(const std::vector<double>& log_weights, const std::vector<dou
   return top + std::log(std::max(sum / weights, 1e-300));
 }
 
-// Over draws of theta in one family, weighed by the restricted posterior with the columns inside.
+// Average over draws of theta in one family, weighted by the restricted posterior with the columns inside.
 double over_draws(const ModelState& state, const noise::Fit& fit, const Eigen::MatrixXd& design,
                   const Eigen::MatrixXd& columns, double log_tests) {
   const Eigen::MatrixXd both = noise::hstack(design, columns);

@@ -1,15 +1,15 @@
-// The p-value of columns averaged over what the covariance may be, as a t-test does for one variance.
+// P-value of columns, averaged over the posterior of the covariance, as a t-test does for one variance.
 #pragma once
 
 #include "diagnosis/inference/state/model_state.hpp"
 
 namespace muster::inference {
 
-// What multiplies a chi-square tail: log of the number of tests, charges, and one half where the sign is known.
+// Log factor of a chi-square tail: number of tests, charges, and one half where the sign is fixed.
 double log_tests(const ModelState& state, const Candidate& candidate);
 
-// `fit` is the noise's fit with the columns in the design; `design` is without them. The largest of the families that
-// the data do not exclude: an average would trust the family that needs the columns most.
+// `fit`: the noise with the columns in the design; `design`: without them. The maximum over families that the data do
+// not exclude: an average would favour the family most dependent on the columns.
 double marginal_log_p(const ModelState& state, const noise::Fit& fit, const Eigen::MatrixXd& design,
                       const Eigen::MatrixXd& columns, double log_tests);
 

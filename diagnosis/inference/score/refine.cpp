@@ -12,7 +12,7 @@
 namespace muster::inference {
 namespace {
 
-// The free entries of theta, as NLopt sees them; what a candidate throws waits until NLopt has returned.
+// Free entries of theta, for NLopt; exceptions of a candidate are rethrown after NLopt has returned.
 struct Climb {
   const Value& value;
   std::vector<Index> free;
@@ -61,7 +61,7 @@ Optimum by_simplex(const Candidate& candidate, const Eigen::VectorXd& start, int
   nlopt_set_upper_bounds(climb.optimiser, high.data());
   nlopt_set_initial_step(climb.optimiser, step.data());
   nlopt_set_maxeval(climb.optimiser, evaluations);
-  std::vector<double> close;  // walls give plateaus: a stop by value would come too early
+  std::vector<double> close;  // walls cause plateaus: a stop by value would come too early
   for (const double s : step) close.push_back(std::abs(s) / 20);
   nlopt_set_xtol_abs(climb.optimiser, close.data());
   double reached = 0;
@@ -70,7 +70,7 @@ Optimum by_simplex(const Candidate& candidate, const Eigen::VectorXd& start, int
   return {climb.best, climb.highest};
 }
 
-// Now along one move, now along a mix of them all.
+// A random step along one move, or along a mixture of all.
 Eigen::VectorXd stride(const Eigen::MatrixXd& moves, const Stream& stream, uint64_t k, double length) {
   const auto among = static_cast<double>(moves.cols());
   if (stream.uniform(k, 0) < 0.5) {
@@ -99,7 +99,7 @@ Optimum by_strides(const Candidate& candidate, Optimum top, uint64_t salt, int e
   return top;
 }
 
-// The better half, in which two within a step of each other go on as one.
+// The better half, in which optima within a step of each other are merged.
 std::vector<Optimum> better_half(std::vector<Optimum> tops, const Candidate& candidate) {
   std::stable_sort(tops.begin(), tops.end(), [](const Optimum& a, const Optimum& b) { return a.second > b.second; });
   tops.resize((tops.size() + 1) / 2);

@@ -10,17 +10,17 @@ using Value = std::function<double(const Eigen::VectorXd& theta)>;
 // A theta and its value.
 using Optimum = std::pair<Eigen::VectorXd, double>;
 
-// The largest value that a search from `start` meets, inside the candidate's bounds; entries with step 0 stay. Where
-// there is one top, Nelder and Mead's simplex (Box 1965), by NLopt; where there are many, random strides that grow
-// with success and shrink without (Rechenberg's rule of one in five), and begin anew when they have become short.
+// Maximises from `start` within the candidate's bounds; entries with step 0 are held. Unimodal candidates:
+// Nelder-Mead simplex with bounds (Box 1965), by NLopt. Multimodal ones: a (1+1) evolution strategy (Rechenberg's
+// one-fifth rule), restarted when its steps have become short.
 Optimum local_search(const Candidate& candidate, const Eigen::VectorXd& start, int evaluations, const Value& value);
 
-// From several starts, a race in laps, each with a value of its own and more evaluations than the one before; after
-// each the better half goes on.
+// Successive halving: refines from several starts in rounds with growing budgets, each with its own objective, and
+// keeps the better half after each.
 Optimum successive_halving(const Candidate& candidate, const std::vector<Eigen::VectorXd>& starts,
                            const std::vector<Value>& laps);
 
-// The candidate's moves at theta: its own, or one column a step.
+// Preconditioned moves at theta, as columns; without any, one column for each step.
 Eigen::MatrixXd moves_at(const Candidate& candidate, const Eigen::VectorXd& theta);
 
 }  // namespace muster::inference

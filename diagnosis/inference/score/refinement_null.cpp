@@ -38,7 +38,7 @@ double refinement_null(ModelState& state, const std::string& candidate, int draw
     log_p.push_back(refined(state, model, lead, false).log_p - c.refinement.charge);
   }
   std::sort(log_p.begin(), log_p.end());
-  // Where p is uniform the k-th smallest of n is near k / (n + 1); the lower half is where decisions fall.
+  // The k-th smallest of n uniform p-values is near k / (n + 1). Only the lower half matters for decisions.
   std::vector<double> short_by;
   for (std::size_t k = 0; k < (log_p.size() + 1) / 2; ++k)
     short_by.push_back(std::log(static_cast<double>(k + 1) / static_cast<double>(log_p.size() + 1)) - log_p[k]);

@@ -1,11 +1,11 @@
-// What continuous refinement costs: nulls refined as the data are, for the author of a candidate.
+// Null distribution of a refined candidate's p-value, for the candidate's author.
 #pragma once
 
 #include "diagnosis/inference/score/candidate_scores.hpp"
 
 namespace muster::inference {
 
-// Nats by which the p-value of the refined candidate is too small when nothing is there. Slow: `draws` refinements.
+// Nats by which refinement understates the p-value under the null. Slow: `draws` refinements.
 double refinement_null(ModelState& state, const std::string& candidate, int draws);
 
 }  // namespace muster::inference

@@ -13,7 +13,7 @@ SparseColumns::SparseColumns(const ModelState& state, const WhitenedModel& model
 }
 
 void SparseColumns::clear() {
-  constexpr Index few = 30;  // a row reaches some fifteen, and whole vectors are cleared sooner than entries one by one
+  constexpr Index few = 30;  // a row reaches some fifteen; a whole vector clears faster than entries one by one
   if (static_cast<Index>(added_.size()) * few > column_.size()) {
     column_.setZero();
   } else {
@@ -30,7 +30,7 @@ void SparseColumns::add(Index row, double value) {
   along_ += value * scores_[row];
   explained_ += value * design_.col(row);
   added_.push_back(row);
-  // In locals: the column's doubles could be members, which each would have to be stored for.
+  // Locals, so that the compiler need not store members at every entry: the column's doubles could alias them.
   double *const column = column_.data(), length = 0;
   for (const auto& [at, weight] : reach_.of(row)) {
     double& to = column[at];
@@ -47,7 +47,7 @@ bool SparseColumns::take(const Eigen::VectorXd& column) {
   Index count = 0;
   for (Index i = 0; i < column.size(); ++i) {
     concerned_[count] = i;
-    count += column[i] != 0;  // without a branch, which nothing foretells
+    count += column[i] != 0;  // branch-free: a branch would be unpredictable
   }
   if (count * few > column.size()) return false;
   clear();

@@ -1,4 +1,4 @@
-// Columns that are zero at most rows, whitened at those alone that they reach.
+// Columns that are zero at most rows, whitened only where they are not.
 #pragma once
 
 #include "diagnosis/inference/noise/whitener_columns.hpp"
@@ -16,19 +16,19 @@ class SparseColumns : public Tally {
   void add(Index row, double value) override;
   double gain() const override;
 
-  // A whole column instead, unless it is not zero at so many rows that it is whitened sooner in one go.
+  // Takes a whole column. False if it has so many non-zero rows that whitening it at once is faster.
   bool take(const Eigen::VectorXd& column);
 
   double along() const { return along_; }                               // product with the residual
-  double length() const { return length_ - explained_.squaredNorm(); }  // squared, of what the design leaves
+  double length() const { return length_ - explained_.squaredNorm(); }  // squared, the design projected out
 
  private:
   const ModelState& state_;
   noise::Reach reach_;
   Eigen::VectorXd scores_;  // products of each row's unit column with the residual
-  Eigen::MatrixXd design_;  // and with the design, whose columns are its rows
+  Eigen::MatrixXd design_;  // and with the orthonormal design, whose columns are its rows
 
-  Eigen::Matrix<Index, Eigen::Dynamic, 1> concerned_;  // the first so many: rows of a column that it takes
+  Eigen::Matrix<Index, Eigen::Dynamic, 1> concerned_;  // non-zero rows of the column in take(), from the front
   Eigen::VectorXd column_;                             // whitened
   std::vector<Index> added_;                           // rows
   double along_ = 0, length_ = 0;

@@ -1,5 +1,5 @@
-// Multivariate Student t distributions about several centres, equally likely: what to draw from where a likelihood has
-// any shape, and which no likelihood's tails outlast.
+// Mixture of multivariate Student t distributions, equally weighted: a proposal for importance sampling with tails
+// heavier than any likelihood's.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,18 +11,18 @@ namespace muster::inference {
 
 class StudentMixture {
  public:
-  // All of one scale. Entries whose variance in it is zero are the same in all centres and in all draws.
+  // One scale for all. Entries with zero variance in it are equal in all centres and all draws.
   StudentMixture(std::vector<Eigen::VectorXd> centres, const Eigen::MatrixXd& scale);
 
   Eigen::VectorXd draw(const Stream& stream, uint64_t number) const;
-  double density(const Eigen::VectorXd& at) const;  // up to a factor, that of how many entries vary
+  double density(const Eigen::VectorXd& at) const;  // up to a factor that depends on the number of varying entries
 
  private:
   Eigen::VectorXd whitened(const Eigen::VectorXd& theta) const;
 
   std::vector<Eigen::VectorXd> centres_;
   std::vector<Eigen::Index> varying_;
-  Eigen::MatrixXd root_;      // of the scale of those, lower triangular
+  Eigen::MatrixXd root_;      // lower Cholesky factor of the scale of those
   Eigen::MatrixXd whitened_;  // the centres
 };
 

@@ -14,13 +14,13 @@ namespace {
 constexpr double near_gap = 3;         // nats
 constexpr double worth_refining = 15;  // nats
 
-// The term's fitted effect at rows, dB.
+// The term's fitted effect on rows, in units of a reading.
 Eigen::VectorXd effect_of(const ModelState& state, const Term& term) {
   const Eigen::MatrixXd design = noise::hstack(state.design_without(term), term.columns);
   return term.columns * state.whitened_model(design).coefficients(design.cols()).tail(term.columns.cols());
 }
 
-// How much of the whitened effect the rival explains at its best theta. `by_atom`: at those of its grid.
+// Best theta of the alternative for the whitened effect, and the energy explained there. `by_atom`: that at its grid.
 std::pair<Eigen::VectorXd, double> explained_by(const ModelState& state, const WhitenedModel& rest, const Candidate& c,
                                                 const Eigen::VectorXd& by_atom, const Eigen::VectorXd& effect) {
   Index at = 0;
@@ -41,13 +41,13 @@ std::pair<Eigen::VectorXd, double> explained_by(const ModelState& state, const W
   return top;
 }
 
-// From its best atom, if that is worth it, and from where it explains the effect, if it does: of a strong effect even
-// the nearest atom may miss much.
+// Refines from the best atom, if its evidence suffices, and from the theta that explains the effect, if there is one.
+// For a strong effect even the nearest atom may miss much.
 ScoredCandidate at_its_best(const ModelState& state, const WhitenedModel& rest, const ScoredCandidate& plain,
-                            const Eigen::VectorXd* explaining, double effective_sample_size) {
+                            const Eigen::VectorXd* explaining, double least_evidence) {
   const Candidate& c = plain.candidate();
   if (!c.refinement.any()) return plain;
-  ScoredCandidate best = plain.evidence > effective_sample_size ? refined(state, rest, plain, true) : plain;
+  ScoredCandidate best = plain.evidence > least_evidence ? refined(state, rest, plain, true) : plain;
   if (!explaining) return best;
   ScoredCandidate other = plain;
   other.theta = *explaining;
@@ -55,9 +55,9 @@ ScoredCandidate at_its_best(const ModelState& state, const WhitenedModel& rest, 
   return other.gain > best.gain ? other : best;
 }
 
-// The same cause of other rows, the likest first: of two receivers one that reads high is the other one that reads low.
-// Where one row of the world concerns all readings, it and all rows are one. `by_atom`: how much of the effect each
-// place of its grid explains.
+// The same cause on other rows, the likeliest first: one of two groups too high equals the other one too low. A world
+// row that concerns all readings, and all rows together, are one. `by_atom`: energy of the effect that each atom
+// explains.
 std::vector<Alternative> of_other_rows(const ModelState& state, const Term& term, const Eigen::VectorXd& by_atom,
                                        const Eigen::VectorXd& effect) {
   constexpr std::size_t most = 3;
@@ -78,7 +78,7 @@ std::vector<Alternative> of_other_rows(const ModelState& state, const Term& term
   return result;
 }
 
-// Of several ways to look along one covariate the likest stays.
+// Keeps the likeliest of several smooths along one covariate.
 void keep_likest(std::vector<Alternative>& alternatives, Alternative alternative) {
   const auto known = std::find_if(alternatives.begin(), alternatives.end(),
                                   [&](const Alternative& r) { return r.id == alternative.id; });
@@ -123,7 +123,7 @@ std::vector<Alternative> alternatives_of(ModelState& state, const Term& term) {
                               state.evidence(c, 0, columns.cols(), c.refinement.any());
   };
   std::vector<Alternative> result;
-  std::map<std::string, Eigen::VectorXd> by_atom;  // of what each explains of the effect
+  std::map<std::string, Eigen::VectorXd> by_atom;  // energy of the effect that each atom explains
   const auto also = [&](const Candidate& c, const OrthonormalAtoms& unit) { by_atom[c.id] = gains(c, unit, effect); };
   for (const ScoredCandidate& plain : scored_candidates(state, rest, also)) {
     const Candidate& c = plain.candidate();
@@ -144,7 +144,7 @@ std::vector<Alternative> alternatives_of(ModelState& state, const Term& term) {
     Alternative alternative{smooth ? "~" + c.own() : c.id, "", lead.theta, evidence - lead.evidence, separability};
     if (confused) hold(alternative, c, lead.columns);
     if (alternative.evidence_gap >= near_gap)
-      alternative.theta = theta;  // what it can be mistaken for, not what it is best at
+      alternative.theta = theta;  // the theta that is mistaken for the finding, not the candidate's own best
     alternative.label = c.label_of(alternative.theta);
     if (alternative.evidence_gap >= near_gap && !confused) continue;
     smooth ? keep_likest(result, std::move(alternative)) : result.push_back(std::move(alternative));

@@ -14,7 +14,7 @@
 namespace muster::inference {
 namespace {
 
-// One at a time, the weakest term whose evidence beside the others is below one nat.
+// Drops the weakest term in turn, while its evidence beside the others is below one nat.
 void drop_backward(ModelState& state) {
   while (state.terms.size() > 1) {
     measure_gains(state);
@@ -33,8 +33,8 @@ const Entry* named(const ModelState& state, const std::string& id) {
   return nullptr;
 }
 
-// A cause that was the best guess at first may have a rival that is better now; or one of fewer parameters that is as
-// good, since a drift that settles within seconds is a step.
+// Replaces a cause by an alternative that has become better, or by one of fewer parameters that is as good. A drift
+// that settles within seconds is a step.
 void give_way_to_alternatives(ModelState& state) {
   constexpr double clearly = 1, near = 5;  // nats
   constexpr double the_same = 0.5;         // of D
@@ -50,7 +50,7 @@ void give_way_to_alternatives(ModelState& state) {
                                      [&](const Term& term) { return term.candidate->id == alternative.id; });
       if (!entry || there || alternative.evidence_gap > (alternative.separability < inseparable ? near : -clearly))
         continue;
-      // Of two that are one to the readings only what the search for them cost differs: that makes no name better.
+      // For two causes with the same effect only the cost of their search differs: no reason to prefer a name.
       const bool one = alternative.separability < the_same && std::abs(alternative.evidence_gap) < near;
       if (one && entry->candidate->role.parameters >= state.terms[k].candidate->role.parameters) continue;
       const Term before = state.terms[k];
@@ -73,7 +73,7 @@ void give_way_to_alternatives(ModelState& state) {
   }
 }
 
-// The best of the causes that act in time, beside the rest of the model.
+// The best cause that acts in time, beside the rest of the model.
 std::optional<Term> best_in_time(ModelState& state, const Eigen::MatrixXd& rest) {
   const WhitenedModel model = state.whitened_model(rest);
   std::optional<Term> best;
@@ -87,7 +87,8 @@ std::optional<Term> best_in_time(ModelState& state, const Eigen::MatrixXd& rest)
   return best;
 }
 
-// A column that falls with time came first, beside a field that held much of either: now each has one of its own.
+// Replaces a smooth of a column that trends in time by a cause in time. It came first beside a field that had
+// absorbed much of either; now each has a field of its own.
 void give_way_to_time(ModelState& state) {
   for (std::size_t k = 0; k < state.terms.size(); ++k) {
     if (!state.terms[k].smooth() || !state.terms[k].candidate->role.observed) continue;
@@ -113,7 +114,7 @@ struct Company {
   double stronger_kin = 0;  // gain of the strongest stronger term on the same covariate
 };
 
-// Leftovers of strong terms are not named.
+// True for residual artifacts of strong terms, which are not named.
 bool is_residual_artifact(const Term& term, const Company& company, bool clipped) {
   const bool named = !term.smooth(), place = !term.candidate->role.pieces.empty() || term.candidate->role.over_sites;
   if (term.gain < 0.05 * company.stronger_kin) return true;
@@ -121,11 +122,11 @@ bool is_residual_artifact(const Term& term, const Company& company, bool clipped
   if (named && term.gain < 0.08 * company.smooths) return true;
   if (named && term.gain < std::min(50.0, 0.01 * company.strongest)) return true;
   return clipped && (term.candidate->refinement.proposed || !named) &&
-         term.gain < 60;  // what clips leave finds a place somewhere
+         term.gain < 60;  // residuals of clipping fit some place by chance
 }
 
 void set_artifacts_aside(ModelState& state, std::vector<Term>& aside) {
-  // Clipping is a strong term too, though none of the search's.
+  // Clipping counts as a strong term, though not one of the search.
   if (state.terms.size() + state.problem().bounds.any() < 2) return;
   measure_gains(state);
   Company all;
@@ -148,7 +149,7 @@ void set_artifacts_aside(ModelState& state, std::vector<Term>& aside) {
   state.terms = std::move(kept);
 }
 
-// Beside an unexplained structure on its own covariate a name is one more guess at that structure.
+// Withdraws names beside a smooth of their own covariate: each would be one more guess at the same structure.
 void withdraw_names_beside_smooths(ModelState& state) {
   std::set<std::string> unexplained;
   for (const Term& term : state.terms) {
@@ -165,17 +166,17 @@ bool named_twice(const ModelState& state, const Term& term) {
                        [&](const Term& other) { return name(other) == name(term); }) > 1;
 }
 
-// One cause named twice about the same row, where it is no place: what is there is neither.
+// Withdraws a cause named twice on the same row, if it is no place: neither is right.
 void withdraw_names_given_twice(ModelState& state) {
   std::vector<bool> twice;
   for (const Term& term : state.terms) twice.push_back(named_twice(state, term));
   for (std::size_t k = 0; k < state.terms.size(); ++k) state.terms[k].as_smooth = state.terms[k].as_smooth || twice[k];
 }
 
-// A name beside which much is left along its own covariate is no more than a part of what is there.
+// Withdraws a name if much structure is left along its own covariate: it is only a part of the effect.
 void withdraw_names_of_parts(ModelState& state) {
-  constexpr double doubt = 0.01;  // that chance leaves as much
-  constexpr double much = 0.5;    // of the name's own gain: no formula is quite the truth's
+  constexpr double doubt = 0.01;  // probability of so much by chance
+  constexpr double much = 0.5;    // of the name's own gain: no formula matches the truth exactly
   const WhitenedModel model = state.whitened_model(state.design());
   for (const Entry& entry : state.entries()) {
     const Candidate& smooth = *entry.candidate;
@@ -189,7 +190,7 @@ void withdraw_names_of_parts(ModelState& state) {
   }
 }
 
-// Each name again, beside all the others.
+// Tests each name again, beside all the others.
 void test_each(ModelState& state, std::vector<Term>& aside, std::vector<Trial>& trials) {
   const double threshold = std::log(state.options().further_alpha / static_cast<double>(state.entries().size()));
   for (std::size_t k = 0; k < state.terms.size() && state.terms.size() > 1;) {
@@ -203,7 +204,7 @@ void test_each(ModelState& state, std::vector<Term>& aside, std::vector<Trial>& 
       ++k;
       continue;
     }
-    // The fit of the whole design, its columns in another order: the value does not depend on it.
+    // The fit of the whole design, with its columns reordered: the value is the same.
     const double integrated =
         marginal_log_p(state, state.fit, rest, term.columns, log_tests(state, c)) + model.skew_charge(term.columns);
     if (integrated <= threshold) {

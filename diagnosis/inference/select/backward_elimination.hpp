@@ -1,15 +1,15 @@
-// After the forward search: what does not carry its weight, what a name explains better than a smooth, and what is the
-// leftover of something stronger.
+// Backward elimination after the forward selection: drops weak terms, replaces smooths by causes, and sets aside
+// residual artifacts of stronger terms.
 #pragma once
 
 #include "diagnosis/inference/select/forward_selection.hpp"
 
 namespace muster::inference {
 
-// Terms set aside, to be shown as suspected.
+// Returns the terms set aside, to be reported as suspected.
 std::vector<Term> backward_elimination(ModelState& state, std::vector<Trial>& trials);
 
-// Gain of every term beside all others, into the terms.
+// Updates the gain and evidence of every term beside all others.
 void measure_gains(ModelState& state);
 
 }  // namespace muster::inference

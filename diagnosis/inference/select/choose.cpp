@@ -6,7 +6,7 @@
 namespace muster::inference {
 namespace {
 
-// Twice and four times the functions where Bayes' criterion wins more than 3 nats by it.
+// Doubles and quadruples a smooth's functions, if the Bayes information criterion improves by more than 3 nats.
 ScoredCandidate grown(const ModelState& state, const WhitenedModel& model, ScoredCandidate lead) {
   const Candidate& c = lead.candidate();
   if (!c.design.wider) return lead;
@@ -28,7 +28,7 @@ const ScoredCandidate* same_entry(const std::vector<ScoredCandidate>& leads, con
   return found == leads.end() ? nullptr : &*found;
 }
 
-// A cause refined at the covariance of this round; what it gained in a second look stays its own.
+// Refines a cause at the covariance of this round; a gain from the refit-noise pass is kept.
 ScoredCandidate at_its_best(const ModelState& state, const WhitenedModel& model, const ScoredCandidate& plain,
                             const ScoredCandidate* passing) {
   if (passing && passing->refined) return *passing;
@@ -45,7 +45,7 @@ void to_front(std::vector<ScoredCandidate>& pool, std::vector<ScoredCandidate>::
   std::rotate(pool.begin(), chosen, chosen + 1);
 }
 
-// A smooth gives way to a cause of its own covariate that explains nearly all of it.
+// Prefers to a smooth a cause of its covariate that explains nearly all of it.
 void prefer_names(std::vector<ScoredCandidate>& pool, double share) {
   if (pool[0].candidate().kind != Kind::smooth) return;
   const auto chosen = std::find_if(pool.begin(), pool.end(), [&](const ScoredCandidate& lead) {
@@ -56,8 +56,8 @@ void prefer_names(std::vector<ScoredCandidate>& pool, double share) {
   if (chosen != pool.end()) to_front(pool, chosen);
 }
 
-// What a lead won, less what chance wins by as many functions and searched parameters, twice over (Akaike 1974). A grid
-// that is not refined is sought along one.
+// Gain less twice the number of functions and searched parameters (Akaike 1974). An unrefined grid counts as one
+// parameter.
 double won(const ScoredCandidate& lead) {
   const Candidate& c = lead.candidate();
   const Index refined = (c.refinement.step.array() != 0).count(),
@@ -65,7 +65,7 @@ double won(const ScoredCandidate& lead) {
   return lead.gain - 2 * static_cast<double>(lead.columns.cols() + searched);
 }
 
-// A function of time gives way to an observed column that does as well for its number of functions.
+// Prefers to a function of time an observed column that does as well for its number of functions.
 void prefer_observed(std::vector<ScoredCandidate>& pool) {
   if (!pool[0].candidate().role.time_like) return;
   const auto chosen = std::find_if(pool.begin(), pool.end(), [&](const ScoredCandidate& lead) {
@@ -74,7 +74,7 @@ void prefer_observed(std::vector<ScoredCandidate>& pool) {
   if (chosen != pool.end()) to_front(pool, chosen);
 }
 
-// Whether two leads add the same to the readings, but for a hundredth.
+// True if two candidates have the same effect on the readings, within a hundredth.
 bool same_effect(const WhitenedModel& model, const ScoredCandidate& a, const ScoredCandidate& b) {
   const auto of_a = noise::basis_of(model.at.basis.rest(model.whitener(a.columns)));
   const auto of_b = noise::basis_of(model.at.basis.rest(model.whitener(b.columns)));
@@ -82,7 +82,7 @@ bool same_effect(const WhitenedModel& model, const ScoredCandidate& a, const Sco
          (of_b.q.transpose() * of_a.q).squaredNorm() > 0.99 * static_cast<double>(of_a.q.cols());
 }
 
-// Of causes that the readings cannot tell apart the simplest.
+// Prefers the simplest of causes with the same effect.
 void prefer_simple(std::vector<ScoredCandidate>& pool, const WhitenedModel& model) {
   if (pool[0].candidate().kind != Kind::named) return;
   for (auto lead = pool.begin() + 1; lead != pool.end(); ++lead) {

@@ -21,10 +21,10 @@ constexpr const char* like_clipping = "cannot be told from clipping";
 
 struct Blocked {
   std::set<std::string> now;       // until the model changes
-  std::set<std::string> for_good;  // cannot be told from clipping
+  std::set<std::string> for_good;  // indistinguishable from clipping
 };
 
-// The share of the gain that comes from anchors other than the strongest one. `won`: the gain of each row.
+// Share of the gain from groups other than the strongest one. `won`: the gain of each row.
 double share_of_others(const ModelState& state, const Eigen::VectorXd& won) {
   std::map<int, double> by_anchor;
   for (Index i = 0; i < won.size(); ++i) by_anchor[state.field().sites().group[static_cast<std::size_t>(i)]] += won[i];
@@ -33,7 +33,7 @@ double share_of_others(const ModelState& state, const Eigen::VectorXd& won) {
   return 1 - most / won.sum();
 }
 
-// Whether half of the gain comes from fewer than five readings.
+// True if fewer than five readings carry half of the gain.
 bool from_few(const ModelState& state, const Eigen::VectorXd& won) {
   constexpr double few = 5;
   std::vector<Index> rows(static_cast<std::size_t>(won.size()));
@@ -48,7 +48,7 @@ bool from_few(const ModelState& state, const Eigen::VectorXd& won) {
   return readings < few;
 }
 
-// The gain of columns where it is won, and the share of it that stays with all beyond four standard errors cut off.
+// Gain of columns by row, and the share of it that remains with residuals clipped at four standard errors.
 struct GainByRow {
   Eigen::VectorXd won;
   double tame_share;
@@ -62,15 +62,16 @@ GainByRow gain_by_row(const WhitenedModel& model, const Eigen::MatrixXd& columns
   return {r.array().square() - left.array().square(), (added.q.transpose() * tame).squaredNorm() / along.squaredNorm()};
 }
 
-// Whether it is an outlier for which a place was found: a gain of few readings, of which most is gone once they are
-// tame, or so much that the rest is within chance.
+// True for an outlier fitted by a place. Few readings carry the gain, and clipped residuals leave less than half of
+// it, or no more than chance.
 bool of_outlier(const ModelState& state, const Candidate& c, const GainByRow& gains_by_row) {
   if (!from_few(state, gains_by_row.won)) return false;
   const double left = gains_by_row.tame_share * gains_by_row.won.sum();
   return gains_by_row.tame_share < 0.5 || state.log_p(c, left, c.design.width, true) > state.threshold();
 }
 
-// The noise with the lead's columns inside; after a large effect also from scratch, since the old fit may be stuck.
+// Fits the noise with the lead's columns inside; after a large effect also from scratch, since the old fit may be a
+// local optimum.
 noise::Fit fit_with(const ModelState& state, const ScoredCandidate& lead, const Eigen::MatrixXd& both) {
   const bool large = lead.columns.cols() > 2 || lead.gain > 60;
   noise::Fit fit = state.fitted(both, state.fit.covariance, large ? 14 : 6);
@@ -80,8 +81,8 @@ noise::Fit fit_with(const ModelState& state, const ScoredCandidate& lead, const 
   return fresh.value < fit.value ? fresh : fit;
 }
 
-// What the covariance itself says by these rows; of what is no place and changes little within longer ones, by those on
-// more neighbours too.
+// Log p under the exact covariance. Global effects that change little within longer rows are also tested on those,
+// with more neighbours.
 double sure_log_p(const ModelState& state, const ScoredCandidate& lead, const noise::Fit& fit,
                   const WhitenedModel& model) {
   const Candidate& c = lead.candidate();
@@ -100,7 +101,7 @@ double sure_log_p(const ModelState& state, const ScoredCandidate& lead, const no
   return state.log_p(c, gain, lead.columns.cols(), true);
 }
 
-// The name must survive what is not known of the covariance, the lone transmitter and the clip.
+// Tests a lead for significance over the uncertain covariance, for support by one group alone, and for clipping.
 Trial tried(const ModelState& state, const ScoredCandidate& lead, const noise::Fit& fit,
             const Eigen::MatrixXd& design) {
   const Candidate& c = lead.candidate();
@@ -109,9 +110,8 @@ Trial tried(const ModelState& state, const ScoredCandidate& lead, const noise::F
   trial.log_p = state.log_p(c, trial.gain, lead.columns.cols(), true);
   trial.marginal_log_p = trial.log_p;
   if (trial.log_p > -40) trial.marginal_log_p = marginal_log_p(state, fit, design, lead.columns, log_tests(state, c));
-  if (c.design.whole)
-    trial.marginal_log_p = std::max(trial.marginal_log_p, trial.log_p);  // not by a multiple of itself
-  constexpr double beyond_doubt = -100;                                  // no approximation overstates so much
+  if (c.design.whole) trial.marginal_log_p = std::max(trial.marginal_log_p, trial.log_p);  // not at another strength
+  constexpr double beyond_doubt = -100;  // beyond the error of any approximation
   if (trial.marginal_log_p <= state.threshold() && trial.log_p > beyond_doubt)
     trial.marginal_log_p = std::max(trial.marginal_log_p, sure_log_p(state, lead, fit, model));
   trial.marginal_log_p += model.skew_charge(lead.columns);
@@ -129,7 +129,7 @@ Trial tried(const ModelState& state, const ScoredCandidate& lead, const noise::F
   return trial;
 }
 
-// Places and times again, now that the noise is fitted beside them.
+// Refines places and times again, with the noise fitted beside them.
 void refine_again(ModelState& state, std::size_t at) {
   if (state.terms[at].smooth() || !state.terms[at].candidate->refinement.any()) return;
   for (int round = 0; round < 3; ++round) {
@@ -145,9 +145,9 @@ void refine_again(ModelState& state, std::size_t at) {
   }
 }
 
-// What an effect hides of the field shows once the effect is in the model: the family is chosen again.
+// Selects the covariance family again: the effect, once in the model, no longer hides the field.
 void choose_family_again(ModelState& state) {
-  constexpr double advantage = 2;  // nats to leave a family
+  constexpr double advantage = 2;  // nats needed to leave a family
   const Eigen::MatrixXd design = state.design();
   noise::Fit best = state.fit;
   for (const noise::Fit& other : state.families) {
@@ -166,7 +166,7 @@ void take(ModelState& state, const noise::Fit& fit, const Term& term) {
   if (term.gain > 30) choose_family_again(state);
 }
 
-// Rows of several readings end at the edges of each place, and it settles there.
+// Splits rows at the edges of each place, and relocates it.
 void settle_at_their_edges(ModelState& state) {
   for (std::size_t k = 0; k < state.terms.size(); ++k) {
     const Term term = state.terms[k];
@@ -177,9 +177,9 @@ void settle_at_their_edges(ModelState& state) {
   }
 }
 
-// False if the lead fails.
+// Tests and adds a lead. False if it fails.
 bool enter(ModelState& state, ScoredCandidate lead, Blocked& blocked, std::vector<Trial>& trials) {
-  constexpr double beyond_doubt = -40;  // rows may end once it has settled
+  constexpr double beyond_doubt = -40;  // rows may be split once it has settled
   const bool place = !lead.candidate().role.pieces.empty();
   if (place && lead.log_p > beyond_doubt && state.end_rows_at(lead.candidate(), lead.theta) > 0)
     lead.columns = state.columns_of(lead.candidate(), lead.theta);
@@ -208,7 +208,7 @@ bool enter(ModelState& state, ScoredCandidate lead, Blocked& blocked, std::vecto
   return true;
 }
 
-// Places that nearly pass, once rows end at their edges: that may be all they lack.
+// Tests near misses among places again, with rows split at their edges.
 std::vector<ScoredCandidate> closer_look(ModelState& state, const std::vector<ScoredCandidate>& looked) {
   constexpr double lacks = 7;  // nats
   std::vector<ScoredCandidate> places;
@@ -257,7 +257,7 @@ bool usable(const ModelState& state, const Blocked& blocked, const Candidate& c)
 
 void forward_selection(ModelState& state, std::vector<Trial>& trials) {
   Blocked blocked;
-  std::size_t looked_closely = 0;  // with so many terms, and one
+  std::size_t looked_closely = 0;  // number of terms at the last closer look, plus one
   const auto may_enter = [&](const Candidate& c) { return usable(state, blocked, c); };
   for (int round = 0; round < 40; ++round) {
     if (!state.terms.empty() && state.problem().bounds.any()) state.impute(4);

@@ -7,15 +7,15 @@
 
 namespace muster::inference {
 
-// What was tried and how it fared, for the report.
+// One candidate's test and its outcome, for the report.
 struct Trial {
   std::string id, label;
   double gain = 0, log_p = 0, marginal_log_p = 0;  // with the noise fitted beside it
   bool accepted = false;
-  std::string reason;  // why not
+  std::string reason;  // of the rejection
 };
 
-// Adds terms to the bench until nothing passes.
+// Adds terms to the model until no candidate passes.
 void forward_selection(ModelState& state, std::vector<Trial>& trials);
 
 }  // namespace muster::inference

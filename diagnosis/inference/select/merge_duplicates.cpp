@@ -8,7 +8,7 @@
 namespace muster::inference {
 namespace {
 
-// The best single object of one candidate: from the pieces that it found, from thetas that span several, from its grid.
+// The best single object of one candidate: from its own pieces, from thetas that span several, or from its grid.
 ScoredCandidate single(const ModelState& state, const WhitenedModel& model, const Entry& entry,
                        const std::vector<Piece>& found) {
   const Candidate& c = *entry.candidate;

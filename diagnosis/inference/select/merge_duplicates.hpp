@@ -1,4 +1,4 @@
-// One object stays one object: pieces of one class give way to a single theta that explains nearly all of them.
+// Merges duplicates: pieces of one class are replaced by a single theta that explains nearly all of them.
 #pragma once
 
 #include "diagnosis/inference/state/model_state.hpp"

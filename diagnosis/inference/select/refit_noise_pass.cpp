@@ -17,8 +17,8 @@ bool has(const std::vector<ScoredCandidate>& leads, const ScoredCandidate& lead)
 
 bool looked_at_again(const Candidate& c) { return c.kind == Kind::named || c.role.slow; }
 
-// Three that nearly pass, everything whose gain has many tops, of which the grid may miss the highest, and what the
-// ladder brings up.
+// Three near misses, every candidate whose gain has many optima (the grid may miss the highest), and the best of the
+// ladder.
 std::vector<ScoredCandidate> worth_a_look(ModelState& state, const std::vector<ScoredCandidate>& first,
                                           const std::function<bool(const Candidate&)>& usable) {
   std::vector<ScoredCandidate> result;
@@ -48,15 +48,15 @@ noise::Fit fit_with(const ModelState& state, const Candidate& candidate, const E
   return other.value < fit.value - 0.3 ? other : fit;
 }
 
-// The field of before holds a part of the place and draws it aside: up to two thirds of the gain, as far as seen, and
-// where it gives little back at the place that it drew it to, little (at most 2.1 times as much, and 1.2 in all).
+// Upper bound of the gain after relocation. The earlier field holds a part of the place and biases its position: up
+// to two thirds of the gain, as far as observed. Where the refit at the biased position recovers little, so does
+// relocation (at most 2.1 times as much, and 1.2 in all).
 double most_to_come(double before, double gain) {
   constexpr double times = 10, at_least = 4;
   return std::min(3 * gain, gain + at_least + times * std::max(0.0, gain - before));
 }
 
-// Once the noise is fitted beside it, with room to spare: over 800 that were looked at no gain grew to more than 1.7
-// times as much.
+// Upper bound of the gain with the noise refitted: over 800 observed, none grew to more than 1.7 times as much.
 double most_once_fitted(double gain) { return 4 + 3 * gain; }
 
 }  // namespace

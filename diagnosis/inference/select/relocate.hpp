@@ -1,15 +1,15 @@
-// A place found at one noise, sought again at the noise that is fitted beside it.
+// Relocates a place after the noise was refitted with it in the model.
 #pragma once
 
 #include "diagnosis/inference/state/model_state.hpp"
 
 namespace muster::inference {
 
-// Term `at`, which is a place, as each shape of its class in turn: the one with most evidence stays. With `anew` from
-// all starts, else from where it is.
+// Relocates term `at`, a place, over the shapes of its class; the one with most evidence is kept. With `anew` from
+// all starts, else from its current theta.
 void relocate(ModelState& state, std::size_t at, bool anew);
 
-// All places, each beside the others.
+// Relocates all places, each beside the others.
 void relocate_places(ModelState& state);
 
 }  // namespace muster::inference

@@ -13,9 +13,9 @@ namespace {
 struct Replacement {
   ModelState& state;
   std::string covariate;
-  Eigen::MatrixXd rest;  // design without the terms of this covariate
-  double group_gain;     // of all of those
-  Index group_width;     // their functions
+  Eigen::MatrixXd rest;  // design without the covariate's terms
+  double group_gain;     // of those terms
+  Index group_width;     // their number of functions
 
   Eigen::MatrixXd with(const std::vector<Term>& found, const Term* without = nullptr) const {
     Eigen::MatrixXd result = rest;
@@ -25,15 +25,15 @@ struct Replacement {
     return result;
   }
 
-  // The cause with most evidence beside what was found; the second one must share a covariate.
+  // The cause with most evidence beside those already found; the second one must share a covariate.
   std::optional<Term> best(const std::vector<Term>& found) const {
     const WhitenedModel model = state.whitened_model(with(found));
     std::optional<Term> result;
     for (const ScoredCandidate& lead : scored_candidates(state, model)) {
       const Candidate& c = lead.candidate();
       if (c.kind != Kind::named || !fits(lead, found)) continue;
-      const bool effective_sample_size = lead.gain > 0.15 * group_gain && c.role.pieces.empty();
-      const ScoredCandidate at = effective_sample_size ? refined(state, model, lead, true) : lead;
+      const bool promising = lead.gain > 0.15 * group_gain && c.role.pieces.empty();
+      const ScoredCandidate at = promising ? refined(state, model, lead, true) : lead;
       const double evidence = state.evidence(c, at.gain, c.design.width, false);
       if (!result || evidence > result->evidence)
         result = Term{lead.entry->candidate, at.theta, at.columns, at.gain, evidence, 0};
@@ -41,7 +41,7 @@ struct Replacement {
     return result;
   }
 
-  // The same cause may be on another radio too.
+  // True for the same cause on another row too.
   bool fits(const ScoredCandidate& lead, const std::vector<Term>& found) const {
     if (found.empty()) return true;
     const Candidate &c = lead.candidate(), &first = *found[0].candidate;
@@ -49,7 +49,7 @@ struct Replacement {
     return c.own() == covariate || c.own() == first.own();
   }
 
-  // Two causes share what there is: each again beside the other.
+  // Refines two causes that share an effect in turn, each beside the other.
   void refine_in_turn(std::vector<Term>& found) const {
     for (int round = 0; round < 2; ++round) {
       for (Term& term : found) {
@@ -64,7 +64,7 @@ struct Replacement {
     }
   }
 
-  // Empty where the smooth has to stay.
+  // The replacing causes; empty if the smooth remains.
   std::vector<Term> found() const {
     std::vector<Term> result;
     for (int number = 1; number <= 2; ++number) {
@@ -74,7 +74,7 @@ struct Replacement {
       result.push_back(std::move(*next));
       if (number == 2) refine_in_turn(result);
       const Eigen::MatrixXd all = with(result).rightCols(with(result).cols() - rest.cols());
-      // Each function that the smooths have more wins one by chance.
+      // Each further function of the smooths gains one by chance.
       const auto by_chance = static_cast<double>(std::max<Index>(0, group_width - all.cols()));
       if (state.whitened_model(rest).gain(all) >= state.options().share * (group_gain - by_chance)) return result;
     }
@@ -103,7 +103,8 @@ void replace_smooths(ModelState& state) {
     const Eigen::MatrixXd rest = state.design(in_group);
     const Replacement replacement{state, covariate, rest, state.whitened_model(rest).gain(group), group.cols()};
     const std::vector<Term> found = replacement.found();
-    // Names beside the smooth on the same covariate go in either case: they were guesses at the same structure.
+    // Names beside the smooth on the same covariate are removed in either case: they were guesses at the same
+    // structure.
     std::erase_if(state.terms, [&](const Term& term) { return in_group(term) && (!term.smooth() || !found.empty()); });
     state.terms.insert(state.terms.end(), found.begin(), found.end());
     state.refit();

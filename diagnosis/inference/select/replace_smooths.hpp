@@ -1,4 +1,4 @@
-// A smooth that one or two named causes of its covariate explain gives way to them.
+// Replaces a smooth by one or two named causes of its covariate that explain it.
 #pragma once
 
 #include "diagnosis/inference/state/model_state.hpp"

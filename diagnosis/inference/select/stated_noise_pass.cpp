@@ -11,7 +11,7 @@
 namespace muster::inference {
 namespace {
 
-// With the stated size and distance, each family, the best one first.
+// Fits of each family with the stated size and distance held, the best one first.
 std::vector<noise::Fit> fitted_as_stated(const ModelState& state, const Eigen::MatrixXd& design) {
   std::vector<noise::Fit> fits;
   for (const noise::Family family : noise::families) {
@@ -22,8 +22,8 @@ std::vector<noise::Fit> fitted_as_stated(const ModelState& state, const Eigen::M
   return fits;
 }
 
-// Whether the stated field, with the lead in the model, is as likely as the best one: both its numbers together are
-// within what 99 % of fits err by.
+// True if the stated field, with the lead in the model, fits as well as the best one. It must lie in the joint 99 %
+// region of its two parameters.
 bool stands_as_stated(const ModelState& state, const Eigen::MatrixXd& both, const noise::Fit& stated) {
   constexpr double within = 4.6;  // nats
   const double near_fit = state.fitted(both, state.fit.covariance, 6).value;
@@ -31,7 +31,7 @@ bool stands_as_stated(const ModelState& state, const Eigen::MatrixXd& both, cons
   return stated.value <= std::min(near_fit, near_stated) + within;
 }
 
-// The likeliest first.
+// Significant slow candidates, the likeliest first.
 std::vector<ScoredCandidate> beyond_chance(ModelState& state, const WhitenedModel& model, double threshold,
                                            const std::function<bool(const Candidate&)>& usable) {
   std::vector<ScoredCandidate> result;
@@ -51,8 +51,8 @@ std::vector<ScoredCandidate> beyond_chance(ModelState& state, const WhitenedMode
   return result;
 }
 
-// Few near neighbours overstate what is slow, and which family it is nobody says: the least that any allows. One that
-// is less likely than the likeliest has to say so much less.
+// Least gain over all families, on the search's rows and on longer ones: few near neighbours overstate slow effects,
+// and the family is unknown. A less likely family is credited with twice its excess.
 void weigh_beside(const ModelState& state, const Eigen::MatrixXd& design, const std::vector<noise::Fit>& fits,
                   ScoredCandidate& lead) {
   const Candidate& c = lead.candidate();
@@ -74,7 +74,7 @@ std::optional<ScoredCandidate> stated_noise_pass(ModelState& state,
                                                  const std::function<bool(const Candidate&)>& usable) {
   if (state.problem().stated.shadowing <= 0 || state.problem().bounds.any()) return {};
   constexpr std::size_t looked_at = 3;
-  const double threshold = state.threshold() - std::log(2.0);  // a second chance
+  const double threshold = state.threshold() - std::log(2.0);  // a second test
   const Eigen::MatrixXd design = state.design();
   const WhitenedModel alone = state.whitened_model(design, fitted_as_stated(state, design)[0].covariance);
   std::vector<ScoredCandidate> leads = beyond_chance(state, alone, threshold, usable);

@@ -1,4 +1,4 @@
-// Effects that only a fitted field could swallow: they show beside the field that the model states.
+// Re-scores candidates with the field that the model states: only a fitted field could have absorbed them.
 #pragma once
 
 #include <optional>
@@ -7,9 +7,9 @@
 
 namespace muster::inference {
 
-// The best slow cause or smooth that is beyond chance beside the stated field, if that field, with the cause in the
-// model, is as likely as any other. So a sender's offset is not taken for a larger and wider field than is stated; a
-// wrong statement explains nothing, since no single cause makes up for it. `usable` says which candidates may enter.
+// The best slow cause or smooth that is significant beside the stated field. With it in the model that field must fit
+// as well as any other. So a constant offset of one group is not absorbed by a larger and wider field than stated. A
+// wrong statement does no harm, since no single cause makes up for it. `usable`: filter of candidates that may enter.
 std::optional<ScoredCandidate> stated_noise_pass(ModelState& state,
                                                  const std::function<bool(const Candidate&)>& usable);
 

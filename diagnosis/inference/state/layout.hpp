@@ -1,4 +1,4 @@
-// Rows of a search and their sites, as a kind of measurement lays them out.
+// Layout of a kind of measurement: rows of the search and their sites.
 #pragma once
 
 #include <map>
@@ -11,7 +11,7 @@ namespace muster::inference {
 
 using Eigen::Index;
 
-// Rows that may be left out together, beside blocks of sites: a number from 0 on for each.
+// Groups of rows that cross-validation may leave out together, beside blocks of sites; numbered from 0.
 struct Grouping {
   std::string name;  // in the plural, as a report prints it
   std::vector<int> of_row;
@@ -22,18 +22,18 @@ class Layout {
   virtual ~Layout() = default;
   virtual Index size() const = 0;  // readings
   virtual noise::Rows rows() const = 0;
-  // Of the usual length or longer, on which effects that vary slowly are judged.
+  // Rows of the usual length or longer, for tests of slowly varying effects.
   virtual noise::Rows long_rows() const { return rows(); }
   virtual noise::Sites sites(const noise::Rows& rows) const = 0;
   // `sites`: of these rows.
   virtual std::vector<Grouping> groupings(const noise::Rows& /*rows*/, const noise::Sites& /*sites*/) const {
     return {};
   }
-  // False where sites stand for something else, so that a gain's place means nothing.
+  // False where sites are not places, so that the place of a gain has no meaning.
   virtual bool sites_known() const { return true; }
 };
 
-// Numbers from 0 on, in the order of the keys' own values.
+// Ranks of the keys, from 0.
 template <class Key>
 std::vector<int> numbered(const std::vector<Key>& keys) {
   std::map<Key, int> number;

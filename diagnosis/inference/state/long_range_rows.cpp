@@ -8,9 +8,9 @@
 namespace muster::inference {
 namespace {
 
-// The information on columns beside a design: their squared lengths, whitened, as far as the design leaves them.
-double told(const noise::Field& field, const noise::Covariance& covariance, const Eigen::MatrixXd& design,
-            const Eigen::MatrixXd& columns) {
+// Fisher information on columns beside a design: the squared lengths of their whitened residuals.
+double information(const noise::Field& field, const noise::Covariance& covariance, const Eigen::MatrixXd& design,
+                   const Eigen::MatrixXd& columns) {
   const noise::Whitener whitener(field, covariance);
   return noise::basis_of(whitener(design)).rest(whitener(columns)).squaredNorm();
 }
@@ -40,7 +40,7 @@ LongRangeRows::Long LongRangeRows::lengthened(const Question& q) const {
 
 double LongRangeRows::kept(const Question& q, const noise::Field& own) const {
   const Long by_long = lengthened(q);
-  return told(field_, q.with, by_long.design, by_long.columns) / told(own, q.with, q.design, q.columns);
+  return information(field_, q.with, by_long.design, by_long.columns) / information(own, q.with, q.design, q.columns);
 }
 
 double LongRangeRows::exact_gain(const Long& q, const noise::Covariance& covariance) const {

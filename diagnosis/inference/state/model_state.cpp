@@ -23,7 +23,7 @@ noise::Sheet normals_of(Index rows, int count, uint64_t seed) {
   return result;
 }
 
-// A tally of rows of which several are of one, asked by these.
+// Adapts a tally of split rows to the problem's rows.
 class OfOrigin : public Tally {
  public:
   OfOrigin(const std::vector<Index>& origin, Tally& tally) : tally_(tally) {
@@ -100,7 +100,7 @@ noise::Field ModelState::field_of(const noise::Rows& rows) const {
 }
 
 Index ModelState::end_rows_at(const Candidate& candidate, const Eigen::VectorXd& theta) {
-  constexpr double share = 1.0 / 3;  // of the most that the effect comes to
+  constexpr double share = 1.0 / 3;  // of the effect's maximum
   const Eigen::MatrixXd at_readings = candidate.design.columns(theta);
   const Eigen::VectorXd effect = at_readings.rowwise().sum();
   const double most = effect.cwiseAbs().maxCoeff();
@@ -114,7 +114,7 @@ Index ModelState::end_rows_at(const Candidate& candidate, const Eigen::VectorXd&
   base_ = rows_.mean(problem_.base);
   y_ = rows_.mean(measured_);
   for (Term& term : terms) term.columns = columns_of(*term.candidate, term.theta);
-  // Grids are coarse, and so may their atoms be.
+  // Atoms keep their values in the split rows: grids are coarse.
   for (Entry& entry : entries_) {
     noise::Sheet atoms = (*entry.atoms)(parent, Eigen::all);
     entry.atoms = std::make_shared<const noise::Sheet>(std::move(atoms));
@@ -238,7 +238,7 @@ double ModelState::log_p(const Candidate& candidate, double gain, Index width, b
 }
 
 double ModelState::evidence(const Candidate& candidate, double gain, Index width, bool refined) const {
-  // What is there or not has no strength to be paid for.
+  // A whole column without refinement has no strength to be paid for.
   const double strengths = candidate.design.whole && !candidate.refinement.any() ? 0 : static_cast<double>(width);
   return gain / 2 - strengths / 2 * log_rows() - log_effective_tests(candidate) -
          (refined ? candidate.refinement.charge : 0);

@@ -1,4 +1,4 @@
-// What the search works at: rows, their field, the model as it stands (base and terms so far) and its noise.
+// Search state: averaged rows, covariance, candidates and accepted terms.
 #pragma once
 
 #include <map>
@@ -20,7 +20,7 @@ struct Entry {
   Eigen::MatrixXd atom(Index k) const;
 };
 
-// A cause or smooth that the model has been extended by.
+// A cause or smooth accepted into the model.
 struct Term {
   std::shared_ptr<const Candidate> candidate;
   Eigen::VectorXd theta;
@@ -28,8 +28,8 @@ struct Term {
   double gain = 0;          // fall of the deviance beside all other terms
   double evidence = 0;      // nats
   double log_p = 0;
-  bool as_smooth = false;  // a name withdrawn: what stands is its covariate
-  bool as_stated = false;  // beyond chance beside the field that the model states, and not beside a fitted one
+  bool as_smooth = false;  // named cause withdrawn: it counts as its covariate's smooth
+  bool as_stated = false;  // significant with the field as the model states it, but not with a fitted one
 
   bool smooth() const { return as_smooth || candidate->kind == Kind::smooth; }
   std::string id() const { return smooth() ? "~" + candidate->own() : candidate->id; }
@@ -41,14 +41,14 @@ struct WhitenedModel {
   noise::Whitened at;
   Eigen::MatrixXd design;
 
-  // The fall of the deviance if these columns (row means) are added.
+  // Fall of the deviance if these columns (row means) are added.
   double gain(const Eigen::MatrixXd& columns) const;
-  // The same as a chi-square under the covariance itself (inference/noise/exact_covariance.hpp). Slow.
+  // The same as a chi-square under the exact covariance (inference/noise/exact_covariance.hpp). Slow.
   double exact_gain(const noise::Field& field, const Eigen::MatrixXd& columns) const;
   // The same with all coefficients at 1.
   double gain_as_it_is(const Eigen::MatrixXd& columns) const;
-  // Nats by which that fall is likelier than under normal noise, if residuals are as skewed as these: deep fades that
-  // lie together look like a loss.
+  // Log ratio, nats, of that fall's density under noise as skewed as the residuals to its density under normal noise.
+  // Deep negative residuals that lie together resemble a loss.
   double skew_charge(const Eigen::MatrixXd& columns) const;
   Eigen::VectorXd coefficients(Index columns) const;
 };
@@ -62,26 +62,26 @@ class ModelState {
   const noise::Rows& rows() const { return rows_; }
   const noise::Field& field() const { return field_; }
   double within() const { return field_.sites().within(); }  // m: the mean distance of two readings of a row
-  // Rows end where the effect of a candidate there, fitted beside the model, sets in or stops: averaged over its edges
-  // it would lose up to half of what it gains. Returns how many rows that makes more. Stands and columns of before are
-  // void.
+  // Splits rows where the effect of a candidate there, fitted beside the model, sets in or stops. A mean over its
+  // edges would lose up to half of the gain. Returns the number of new rows. Invalidates earlier WhitenedModels and
+  // columns.
   Index end_rows_at(const Candidate& candidate, const Eigen::VectorXd& theta);
-  // Made when it is first asked for: most searches do without.
+  // Built on first use: most searches do without.
   const LongRangeRows& far() const;
   double log_rows() const { return std::log(static_cast<double>(rows_.size())); }
 
-  noise::Fit fit;                    // of the noise beside the design
-  std::vector<noise::Fit> families;  // of the first fit, the best one first
-  // This family, and those that lay near the best one at first.
+  noise::Fit fit;                    // noise beside the design
+  std::vector<noise::Fit> families;  // fits of the first pass, the best one first
+  // This family, and those close to the best one in the first fit.
   std::vector<noise::Family> likely_families(noise::Family first) const;
   std::vector<Term> terms;
 
   const Eigen::VectorXd& y() const { return y_; }
-  const Eigen::VectorXd& measured() const { return measured_; }  // the readings that y is the row means of
-  // Readings with bounds filled in anew from the model as it stands.
+  const Eigen::VectorXd& measured() const { return measured_; }  // the readings whose row means y holds
+  // Imputes censored readings anew from the current model.
   void impute(int rounds);
 
-  // Base columns and terms, without the terms that `left_out` says.
+  // Base columns and terms, without the terms selected by `left_out`.
   Eigen::MatrixXd design(const std::function<bool(const Term&)>& left_out = {}) const;
   Eigen::MatrixXd design_without(const Term& term) const;
   Index sensitivities() const { return base_.cols(); }
@@ -92,16 +92,16 @@ class ModelState {
   noise::Fit fitted(const Eigen::MatrixXd& design, const noise::Covariance& start, int steps) const;
   void refit(int steps = 6) { fit = fitted(design(), fit.covariance, steps); }
 
-  // All candidates: the given ones, smooths, and those that depend on the model as it stands.
+  // All candidates: the given ones, smooths, and those that depend on the current model.
   const std::vector<Entry>& entries() const { return entries_; }
   void renew_depending(const Eigen::VectorXd& coefficients);
   const Entry& entry_of(const Candidate& candidate) const;
   Eigen::MatrixXd columns_of(const Candidate& candidate, const Eigen::VectorXd& theta) const;
   Eigen::MatrixXd sketch_of(const Candidate& candidate, const Eigen::VectorXd& theta) const;
-  // What a candidate proposes, by a tally of these rows.
+  // Start thetas that a candidate proposes, from a tally over these rows.
   std::vector<Eigen::VectorXd> proposals(const Candidate& candidate, Tally& tally) const;
 
-  // Effective number of atoms, from nulls; worked out once a candidate.
+  // Log of the effective number of tests, from nulls; computed once a candidate.
   double log_effective_tests(const Entry& entry, const OrthonormalAtoms& unit);
   double log_effective_tests(const Candidate& candidate) const { return log_effective_tests_.at(candidate.id); }
   double log_p(const Candidate& candidate, double gain, Index width, bool refined) const;
@@ -116,7 +116,7 @@ class ModelState {
   const Problem& problem_;
   Options options_;
   noise::Rows rows_;
-  std::vector<Index> origin_;  // of each row, the one of the problem's rows that it is of; empty: they are those
+  std::vector<Index> origin_;  // of each row, the problem's row that it is part of; empty: they are the same
   noise::Field field_;
   mutable std::unique_ptr<const LongRangeRows> far_;
   Eigen::MatrixXd base_;

@@ -9,9 +9,9 @@
 namespace muster::inference {
 namespace {
 
-constexpr float least_left = 1e-3f;  // squared length that must be left of an atom, of the longest one of its candidate
+constexpr float least_left = 1e-3f;  // squared length left of a column, relative to its candidate's longest
 
-// The inverse of the lower Cholesky factor; a column of which less than `least` is left by those before it has none.
+// Inverse of the lower Cholesky factor, zero for a column of which less than `least` is left by those before it.
 void turn(const Eigen::MatrixXf& products, float least, Eigen::Ref<Eigen::MatrixXf> inverse) {
   const Index width = products.rows();
   Eigen::MatrixXf root = Eigen::MatrixXf::Zero(width, width);
@@ -45,7 +45,7 @@ Eigen::MatrixXf statistics(const Candidate& candidate, Eigen::MatrixXf along) {
 OrthonormalAtoms::OrthonormalAtoms(noise::Sheet columns, Index width)
     : columns_(std::move(columns)), width_(width), turns_(width, columns_.cols()) {
   const Index count = columns_.cols();
-  // Of each column with itself and with those next to it, all in one pass over the rows as they lie.
+  // Products of each column with itself and its neighbours in the atom, in one pass over the rows.
   std::vector<Eigen::ArrayXf> apart;
   for (Index by = 0; by < std::min(width, count); ++by) apart.emplace_back(Eigen::ArrayXf::Zero(count - by));
   for (Index i = 0; i < columns_.rows(); ++i) {

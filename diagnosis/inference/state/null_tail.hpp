@@ -3,17 +3,17 @@
 
 namespace muster::inference {
 
-// log P(chi-square with `freedom` degrees of freedom > gain), also where the probability itself would vanish.
+// log P(chi-square with `freedom` degrees of freedom > gain), valid also where the probability itself underflows.
 double log_tail(double gain, double freedom);
 
-// What is no place is a sum over many rows all over the plan, and no family is quite the field's own: its gain is by so
-// much wider than a chi-square. On 366 clean worlds of 2,000 to 20,000 readings six gains of what has no name that just
-// passed as a chi-square were false, three of them as one 1.1 times as wide. On 445 others four gains of named causes
-// were false, and two of these are not taken for more than chance with it.
+// Factor by which gains of global effects are wider than chi-square. Such an effect is a sum over rows all over the
+// plan, and no family matches the true field exactly. On 366 clean worlds of 2,000 to 20,000 readings six gains of
+// smooths just above the chi-square threshold were false. At a factor of 1.1 three of them remained. On 445 others
+// four gains of named causes were false; the factor rejects two of these.
 inline constexpr double overdispersion = 1.2;
 
-// By how many nats a score of z standard deviations is likelier if its distribution is skewed towards it: that of a
-// gamma variable with this skewness against the normal one. Not below zero.
+// Log ratio, nats, of a score's density at z standard deviations: a gamma variable with this skewness against the
+// normal one. Not below zero.
 double skew_charge(double z, double skewness);
 
 }  // namespace muster::inference

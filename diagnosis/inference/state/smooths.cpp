@@ -44,7 +44,7 @@ Candidate smooth(std::vector<std::string> covariates, std::function<Eigen::Matri
   return c;
 }
 
-// One of several shapes along a covariate, by its theta, `width` functions each.
+// A candidate with one of several shapes along a covariate, by its theta; `width` functions each.
 Candidate shaped(const std::string& id, const std::string& covariate, int width,
                  std::function<Eigen::MatrixXd(const Eigen::VectorXd&)> columns) {
   Candidate c;
@@ -56,7 +56,7 @@ Candidate shaped(const std::string& id, const std::string& covariate, int width,
   return c;
 }
 
-// From -1 to 1.
+// Scaled to [-1, 1].
 Eigen::ArrayXd signed_scale(const Eigen::VectorXd& x) { return 2 * scaled(x).array() - 1; }
 Eigen::ArrayXd centred(const Eigen::ArrayXd& x) { return x - x.mean(); }
 

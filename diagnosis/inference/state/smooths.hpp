@@ -1,18 +1,18 @@
-// Generic smooths: functions along a column, an angle, a factor, a plane, and products of them. Structure that no named
-// cause takes up shows in one of them, whatever its reason.
+// Generic smooths: functions along a column, an angle, a factor, a plane, and products of them. They find structure
+// that no named cause explains, whatever its origin.
 #pragma once
 
 #include "diagnosis/inference/state/candidate.hpp"
 
 namespace muster::inference {
 
-// A column of the data that no model knows.
+// A column of the data outside the model.
 struct Covariate {
   std::string name;
   Eigen::VectorXd values;  // one a reading, none empty
   bool angle = false;      // rad
   int functions = 5;       // of the first smooth
-  bool products = true;    // with a domain's own columns too
+  bool products = true;    // also as products with a domain's own columns
 };
 
 struct Factor {
@@ -29,14 +29,15 @@ Eigen::MatrixXd harmonics_of(const Eigen::VectorXd& angle, int harmonics);
 Candidate smooth_of(const std::string& name, const Eigen::VectorXd& values, int functions);
 // Harmonics of an angle [rad]; may grow.
 Candidate smooth_of_angle(const std::string& name, const Eigen::VectorXd& angle, int harmonics);
-// The same functions for one level of a factor at a time.
+// The same functions, for one level of a factor at a time.
 Candidate smooth_by_level(const std::string& name, const std::vector<int>& level, const Eigen::MatrixXd& functions);
 // A constant for one level of a factor at a time.
 Candidate factor(const std::string& name, const std::vector<int>& level);
-// Flat up to a bend and straight beyond it, to either side (Friedman 1991): one function where a smooth needs five.
+// Hinge functions, flat on one side of a bend and linear on the other (Friedman 1991): one function where a smooth
+// needs five.
 Candidate bend(const std::string& name, const Eigen::VectorXd& values);
-// A swing whose pace changes steadily from one end of the data to the other. Theta: cycles in all, and how many more of
-// them the second half has.
+// Oscillation whose frequency changes linearly over the data. Theta: number of cycles, and how many more of them the
+// second half has.
 Candidate chirp(const std::string& name, const Eigen::VectorXd& time);
 
 // Products of low order of two columns, "name*other".
@@ -47,8 +48,8 @@ Candidate product_over(const std::string& name, const Eigen::VectorXd& values, c
                        const Eigen::MatrixXd& place);
 // Products of cosines over a plane.
 Candidate smooth_over(const std::string& plane, const Eigen::MatrixXd& place);
-// The lowest of these: a field can swallow what bends no more than once over the plane, and few functions see it sooner
-// than many.
+// The lowest two-dimensional terms. A field can absorb what bends at most once over the plane, and a test of few
+// functions has more power.
 Candidate slope_over(const std::string& plane, const Eigen::MatrixXd& place);
 
 }  // namespace muster::inference

@@ -15,21 +15,21 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr std::array widths{0.8, 1.4, 2.5};              // s, at which a dip has fallen to 1/e
+constexpr std::array widths{0.8, 1.4, 2.5};              // s, half-widths of a dip at 1/e
 constexpr std::array losses{2.5, 4.0, 6.5, 10.0, 15.0};  // dB
-constexpr double between = 25;                           // s, from one passage to the next, on average
-constexpr double spacing = 0.6;                          // s, of the times that are tried
+constexpr double between = 25;                           // s, mean time between blockages
+constexpr double spacing = 0.6;                          // s, of the grid of times
 const double log_rate = std::log(spacing / between), log_none = std::log1p(-spacing / between);
 constexpr int shuffles = 60;
 constexpr std::size_t fewest_rows = 40;  // of a link
 constexpr double impossible = -1e300;
 
 struct Dip {
-  std::vector<std::pair<Index, double>> rows;  // share of the loss that each row shows
-  double energy = 0;                           // of a loss of 1 dB in whitened space
+  std::vector<std::pair<Index, double>> rows;  // row and its share of the loss
+  double energy = 0;                           // of a loss of 1 dB, whitened
 };
 
-// The dips of one width, by their time.
+// Dips of one width, in order of time.
 struct Train {
   double width;
   std::vector<Dip> dips;
@@ -40,7 +40,7 @@ struct Link {
   std::vector<Train> trains;
 };
 
-// Log likelihood ratios of one link's passages, by width and loss.
+// Log likelihood ratios of one link's blockages, by width and loss.
 using Ratios = std::array<std::array<double, losses.size()>, widths.size()>;
 
 double log_sum(double a, double b) {
@@ -70,10 +70,10 @@ class Scan {
   const std::vector<Link>& links() const { return links_; }
   const VectorXd& residual() const { return residual_; }
 
-  // What each row says of a shift of its own: dips' scores are sums of these.
+  // Derivative of the log-likelihood by a shift of each row; scores of dips are sums of these.
   VectorXd pulls(const VectorXd& whitened) const { return reach_.transposed(whitened); }
 
-  // Passages come at random, no two of them nearer than so many times that are tried.
+  // Least number of grid times between two blockages, which are otherwise random.
   static std::size_t gap(const Train& train) { return static_cast<std::size_t>(std::ceil(3 * train.width / spacing)); }
 
   Ratios ratios(const Link& link, const VectorXd& pulls) const {
@@ -83,7 +83,7 @@ class Scan {
       const std::vector<double> scores = scores_of(train, pulls);
       const std::size_t apart = gap(train);
       for (std::size_t l = 0; l < losses.size(); ++l) {
-        std::vector<double> sum(scores.size() + 1, 0);  // of the ratios of all passages so far
+        std::vector<double> sum(scores.size() + 1, 0);  // log sum over all sets of blockages so far
         for (std::size_t k = 0; k < scores.size(); ++k) {
           const double gain = losses[l] * scores[k] - losses[l] * losses[l] * train.dips[k].energy / 2;
           const double before = k + 1 > apart ? sum[k + 1 - apart] : 0;
@@ -95,11 +95,11 @@ class Scan {
     return result;
   }
 
-  // What the likeliest passages of one width and loss leave of the residual, each with the loss that fits it best.
+  // Whitened residual without the likeliest blockages of one width and loss, each with its best-fitting loss.
   VectorXd without_passages(const Train& train, double loss, const VectorXd& pulls) const {
     const std::vector<double> scores = scores_of(train, pulls);
     const std::size_t apart = gap(train);
-    std::vector<double> highest(scores.size() + 1, 0);  // of all passages so far
+    std::vector<double> highest(scores.size() + 1, 0);  // over all sets of blockages so far
     std::vector<bool> passes(scores.size(), false);
     for (std::size_t k = 0; k < scores.size(); ++k) {
       const double gain = loss * scores[k] - loss * loss * train.dips[k].energy / 2;
@@ -117,7 +117,7 @@ class Scan {
   }
 
  private:
-  // What each dip of a train gains by a loss of 1 dB, but for its energy.
+  // Score of each dip of a train: its gain by a loss of 1 dB, without the energy term.
   static std::vector<double> scores_of(const Train& train, const VectorXd& pulls) {
     std::vector<double> result;
     for (const Dip& dip : train.dips) {
@@ -137,7 +137,7 @@ class Scan {
     return result;
   }
 
-  // By time, both ways of a link together; of links with few rows none.
+  // Sorted by time, both directions of a link together; without links of few rows.
   std::map<std::pair<int, int>, std::vector<Index>> readings_of_links(const Asked& asked) const {
     const LinkReadings& r = readings_;
     const std::vector<char> in_full = rows_in_full(asked);
@@ -186,7 +186,7 @@ class Scan {
     return result;
   }
 
-  // `sheet`: zeros, as it is left.
+  // `sheet`: zeros, before and after.
   double energy(const Dip& dip, VectorXd& sheet) const {
     for (const auto& [row, share] : dip.rows) {
       for (const auto& [user, weight] : reach_.of(row)) sheet[user] += share * weight;
@@ -201,8 +201,8 @@ class Scan {
     return sum;
   }
 
-  // What a row errs by beside all others, but for as much as Gaussian errors do. A deep fade is low in one reading, a
-  // passage in several, and shuffles would not keep a fade as sharp as it is beside its neighbours.
+  // Winsorises the error of each row given all others at the usual Gaussian size. A deep fade is low in one reading,
+  // a blockage in several. Shuffles would not preserve how sharp a fade is against its neighbours.
   VectorXd without_spikes(VectorXd whitened) const {
     constexpr double usual = 2.5;
     const VectorXd pulls = reach_.transposed(whitened);
@@ -235,7 +235,7 @@ class Scan {
   std::vector<Link> links_;
 };
 
-// The highest of all links.
+// The highest averaged ratio over all links.
 double highest(const Scan& scan, const VectorXd& whitened) {
   const VectorXd pulls = scan.pulls(whitened);
   double most = impossible;
@@ -256,12 +256,12 @@ VectorXd shuffled(const VectorXd& values, uint64_t number) {
 // P(X > x) of a Gumbel law of location 0 and scale 1.
 double beyond(double x) { return -std::expm1(-std::exp(-x)); }
 
-// P(X > x) of a Gumbel law whose location has moved up by an unknown step, exponential with this mean, given one draw.
-// In scales.
+// P(X > x), in scales, of a Gumbel law whose location has moved up by an unknown step, given one draw. The step is
+// exponential with this mean.
 double beyond_after_a_step(double x, double draw, double mean) {
   double sum = 0, weights = 0;
   const auto log_weight = [&](double step) { return -step / mean - (draw - step) - std::exp(step - draw); };
-  // Steps are likeliest about the one that the draw needs: below every draw of the law that is none.
+  // The step's mode is near the value that explains the draw; a negative draw needs none.
   const double most = log_weight(std::max(draw, 0.0));
   for (double step = 0; step < 40; step += 0.05) {
     const double weight = std::exp(log_weight(step) - most);
@@ -271,15 +271,18 @@ double beyond_after_a_step(double x, double draw, double mean) {
   return weights > 0 ? sum / weights : 1;
 }
 
-// log p of the highest ratio, by a Gumbel law through the moments of the shuffled ones; a ratio's tail is never shorter
-// than exponential. What errs alike for seconds without people, a way over which the field changes as no family says,
-// raises levels as often as it lowers them: the mirrored residuals are one draw of what it does to the ratios. `left`:
-// of them without the likeliest passages, since whitened dips have rims, and mirrored rims are dips. How much those of
-// a large misfit scatter is not known, so dips have to win three times what the mirror does: in 33 sealed cases with
-// people it is at most 2.7 scales ahead, where they are 6 to 65, and in a measured flat, where levels rise as they
-// fall, 37 of 87.
+// Log p of the highest ratio, by a Gumbel law with the moments of the shuffled scans. Its scale is at least that of
+// an exponential tail.
+//
+// A misfit of the field, correlated over seconds without people, raises levels as often as it lowers them. So the
+// scan of the sign-flipped residual is one draw of its effect on the ratios. `left`: the residual without the
+// likeliest blockages, since whitened dips have rims, and flipped rims are dips.
+//
+// The variance of a large misfit's draws is unknown: blockage is named only above 3x the flipped statistic. In 33
+// sealed cases with people the flipped one is at most 2.7 scales ahead, against 6 to 65. In a measured flat, where
+// levels rise as often as they fall, it is 37 of 87.
 double log_p(const Scan& scan, double ratio, const VectorXd& left) {
-  constexpr double usual_misfit = 2;  // scales: several times what the mirror is ahead of the shuffled in clean worlds
+  constexpr double usual_misfit = 2;  // scales: several times the lead of the flipped scan in clean worlds
   double first = 0, second = 0;
   for (uint64_t k = 0; k < shuffles; ++k) {
     const double value = highest(scan, shuffled(scan.residual(), k));
@@ -312,7 +315,7 @@ Blockage blockage_test(const inference::ModelState& state, const LinkReadings& r
     at = ratios;
     where = &link;
   }
-  constexpr double promising = 3;  // nats; below that shuffles could only say no
+  constexpr double promising = 3;  // nats; below that no shuffled null can be significant
   if (best < promising) return result;
   std::tie(result.radio, result.other) = where->radios;
   std::size_t width = 0, loss = 0;
@@ -322,7 +325,7 @@ Blockage blockage_test(const inference::ModelState& state, const LinkReadings& r
     }
   }
   const double duration = widths[width] * std::sqrt(M_PI), share = duration / between;
-  // Neighbouring entries of the grids bound each value.
+  // The grid's neighbouring entries bound each value.
   result.test.values = {{"loss", losses[loss], losses[loss] / 1.6, losses[loss] * 1.6},
                         {"share", share, share / 2, std::min(1.0, share * 2)},
                         {"duration", duration, duration / 1.8, duration * 1.8}};

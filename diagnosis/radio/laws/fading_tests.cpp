@@ -15,16 +15,16 @@ namespace {
 using Eigen::Index;
 
 constexpr std::array averages{1, 2, 3, 4, 6};  // fades in one reading
-constexpr double unlikely = 6;                 // nats behind the best shape of a field
-// Gains of clean worlds are so much wider than a chi-square. Readings near each other share what their level is off by,
-// and a skewed law takes that for a part of itself: in simulated fields of known shape a fading law's gain is 1.7
-// to 3.3 times as wide. And no family of correlations is quite the field's own, which looks most like fading of another
-// strength, and least like outliers (346 clean worlds of 2,000 to 20,000 readings). One as wide as 1.5 was too little
-// for those: where readings are averages of six fades, gains of 22 and 23 were false in 55 more clean worlds.
+constexpr double unlikely = 6;                 // nats behind the best shape of the field
+// Factor by which gains of clean worlds are wider than chi-square. Neighbouring readings share the error of their
+// level, which a skewed law absorbs. In simulated fields of known shape a fading law's gain is 1.7 to 3.3 times as
+// wide. Besides, no family of correlations matches the true field exactly. The misfit resembles fading of another
+// strength most, and outliers least (346 clean worlds of 2,000 to 20,000 readings). A factor of 1.5 was too small:
+// with readings of six averaged fades, gains of 22 and 23 were false in 55 further clean worlds.
 double wider(const std::string& cause) { return cause == "effect.fading_law" ? 3 : 2; }
-const double may_be_named = std::log(0.01);  // log p; untamed readings, which take as long again, only raise it
-const double worth_a_closer_look = 3;        // gain: far from what may be named
-const double averaged_cost = std::log(5.0);  // nats: the stated law is that of single fades
+const double may_be_named = std::log(0.01);  // log p; the second test, without winsorising, only raises it
+const double worth_a_closer_look = 3;        // gain: far below any that is named
+const double averaged_cost = std::log(5.0);  // nats: the stated law is of single fades
 
 ReadingDistribution averaged_over(ReadingDistribution law, int n) {
   const double variance = fading_variance(law.rician_k, law.averaged);
@@ -37,18 +37,18 @@ bool possible(const ReadingDistribution& law) { return !std::isnan(law.rician_k)
 
 double cost_of(const ReadingDistribution& law) { return law.averaged > 1 ? averaged_cost : 0; }
 
-// A law along one strength.
+// A law with one strength parameter.
 struct Family {
   std::string cause, name;
   std::vector<double> strengths;
   std::function<ReadingDistribution(ReadingDistribution, double)> with;
-  std::function<double(double)> reported;  // of a strength
+  std::function<double(double)> reported;  // the reported value of a strength
   std::vector<LawValue> beside;
 };
 
 struct Fitted {
   Peak peak;
-  ReadingDistribution base, law;  // without and with the strength
+  ReadingDistribution base, law;  // without and with the effect
   double strength = 0;
 };
 
@@ -81,7 +81,7 @@ class Tests {
 
   Fitted fitted(const Family& family) {
     Fitted best;
-    for (const ReadingDistribution& base : bases_) {  // roughly, at the field of the null
+    for (const ReadingDistribution& base : bases_) {  // coarse grid, at the null's field
       for (const double strength : family.strengths) {
         const ReadingDistribution law = family.with(base, strength);
         if (!possible(law)) continue;
@@ -95,9 +95,9 @@ class Tests {
     return refined(family, best);
   }
 
-  // Among all fields: those so far were sought under the stated law, which holds a strength near what is stated. A
-  // field that suits the one strength is found from another, so that it takes some rounds; and what it wins for the
-  // stated law, too, is no merit of another.
+  // Maximises over all fields. The first fields were fitted under the stated law, which holds the strength near the
+  // stated one. Field and strength are now alternated until they converge. A gain for the stated law as well counts
+  // for the null.
   Fitted settled(const Family& family, Fitted best) {
     constexpr int rounds = 8;
     constexpr double no_more = 0.1;  // nats
@@ -119,8 +119,8 @@ class Tests {
   const ReadingDistribution& stated() const { return null_law_; }
   double gain(const Fitted& fitted) const { return std::max(0.0, 2 * (fitted.peak.value - null_.value)); }
 
-  // A field that is not quite of its family leaves a part of itself in the readings' law, or takes a part away.
-  // Readings side by side have the same field, whatever it is: their differences must not speak against the fitted law.
+  // A mismatch of the field's family biases the fitted law. Differences of adjacent readings are free of the field,
+  // and must not contradict the law.
   bool borne_out(const Fitted& fitted) {
     constexpr double against = 2;  // nats
     const CloseReadings close = judge_.field().close_readings();
@@ -130,7 +130,7 @@ class Tests {
     return off(fitted.law) - off(null_law_) < against;
   }
 
-  // Of the strength: where the log-likelihood falls as much as at the ends of a 95 % interval, gains being wider.
+  // The strength with its 95 % interval by profile likelihood, wider by the gain's factor.
   LawValue value(const Family& family, const Fitted& best) {
     const double fall = 1.92 * wider(family.cause);
     const auto value = [&](double x) {
@@ -151,7 +151,7 @@ class Tests {
     if (peak.value > null_.value) null_ = peak, null_law_ = law;
   }
 
-  // Takes the law and the field if both together are likelier.
+  // Accepts the law and the field if they are jointly likelier.
   void try_one(const Family& family, Fitted& best, double strength, const ReadingDistribution& base, const Peak& from) {
     const ReadingDistribution law = family.with(base, strength);
     if (!possible(law)) return;
@@ -160,7 +160,7 @@ class Tests {
     if (peak.value > best.peak.value) best = {peak, base, law, strength};
   }
 
-  // Halves the steps of the strength's grid.
+  // Refines the strength by halving the grid's step.
   Fitted narrowed(const Family& family, Fitted best, double step) {
     for (int round = 0; round < 4; ++round) {
       step /= 2;
@@ -170,7 +170,7 @@ class Tests {
     return best;
   }
 
-  // At the best field of each.
+  // Refines at the best field of each shape.
   Fitted refined(const Family& family, Fitted best) {
     const auto at = std::find(family.strengths.begin(), family.strengths.end(), best.strength);
     const double step = at + 1 != family.strengths.end() ? std::log(*(at + 1) / *at) : std::log(*at / *(at - 1));
@@ -239,9 +239,9 @@ std::vector<Family> families_of(const ReadingDistribution& stated) {
   return result;
 }
 
-// What single readings are predicted from is tamed, so that an outlier spoils no other reading; where deep fades are
-// rare but there, errors of prediction then vary less than the law says, and a weaker law in a rougher field looks
-// likelier (6 to 8 % of the variance at K of 3 to 7 dB, where readings lie dense). A law that only says so is none.
+// The gain without winsorising. Predictions use winsorised readings, so that an outlier affects no other reading.
+// With rare deep fades their errors then vary less than under the law: by 6 to 8 % at K of 3 to 7 dB, where readings
+// lie dense. A weaker law in a rougher field then fits better. A gain from this alone does not count.
 double gain_untamed(const KrigedReadings& field, double step, const ReadingDistribution& stated,
                     const noise::Covariance& fit, const Family& family) {
   KrigedReadings untamed = field.untamed();
@@ -255,7 +255,7 @@ LawTests law_tests(KrigedReadings& field, double step, const ReadingDistribution
                    const noise::Covariance& fit) {
   Tests tests(field, step, stated, fit);
   const std::vector<Family> families = families_of(stated);
-  std::map<std::string, std::pair<const Family*, Fitted>> best;  // of each cause
+  std::map<std::string, std::pair<const Family*, Fitted>> best;  // by cause
   std::vector<std::pair<const Family*, double>> values;
   for (const Family& family : families) {
     const Fitted fitted = tests.fitted(family);
@@ -271,7 +271,7 @@ LawTests law_tests(KrigedReadings& field, double step, const ReadingDistribution
   for (auto& [cause, found] : best) {
     if (tests.gain(found.second) > worth_a_closer_look) found.second = tests.settled(*found.first, found.second);
   }
-  const auto weigh = [&](LawTest& test, double gain) {  // what a gain says, of the forms that were tried
+  const auto weigh = [&](LawTest& test, double gain) {  // p-value of a gain, over the tried forms
     const auto forms = static_cast<double>(
         std::count_if(families.begin(), families.end(), [&](const Family& f) { return f.cause == test.cause; }));
     test.gain = gain;
@@ -291,10 +291,10 @@ LawTests law_tests(KrigedReadings& field, double step, const ReadingDistribution
   if (result.front().log_p < may_be_named && family->cause != "effect.outliers") {
     const double untamed = gain_untamed(field, step, stated, fit, *family);
     const double over = std::max(0.0, result.front().gain - untamed);
-    for (LawTest& test : result) weigh(test, std::max(0.0, test.gain - over));  // as far apart as they were
+    for (LawTest& test : result) weigh(test, std::max(0.0, test.gain - over));  // differences are kept
   }
   result.front().values = family->beside;
-  for (LawValue& value : result.front().values) {  // of the forms that are as likely
+  for (LawValue& value : result.front().values) {  // over equally likely forms
     for (const Family* form : as_likely[family->cause]) {
       const LawValue& other = form->beside[static_cast<std::size_t>(&value - result.front().values.data())];
       value.lower95 = std::min(value.lower95, other.lower95);

@@ -1,5 +1,5 @@
-// How readings scatter about the level of their place, and whether the world's law of it holds: fading of another
-// strength, hopping channels, outliers, each by a likelihood ratio against the stated law.
+// Tests the world's fading law: another strength of fading, hopping channels, outliers. Each by a likelihood ratio
+// against the stated law.
 #pragma once
 
 #include <string>
@@ -14,24 +14,24 @@ struct LawValue {
   double value, lower95, upper95;
 };
 
-// One law against the stated one.
+// Likelihood-ratio test of one law against the stated one.
 struct LawTest {
   std::string cause;  // "effect.outliers"
   std::vector<LawValue> values;
   double gain = 0;      // twice the log-likelihood ratio
   double evidence = 0;  // nats
   double log_p = 0;
-  ReadingDistribution law{};  // as fitted
+  ReadingDistribution law{};  // fitted
 };
 
 struct LawTests {
-  std::vector<LawTest> tests;  // by falling evidence; values of the first alone
-  ReadingDistribution stated;  // of as many fades in one reading as is likeliest
+  std::vector<LawTest> tests;  // by falling evidence; only the first has values
+  ReadingDistribution stated;  // with the likeliest number of fades in one reading
 };
 
-// `step` in dB between codes. That a reading may be the mean of several fades of the same spread
-// as stated is part of the null: receivers average, and the mean of a few fades has another shape. So is the field's
-// own variance, which is fitted anew under every law. `fit`: of the field to rows, where its shape is sought from.
+// `step`: dB between codes. The null includes readings that average several fades of the stated spread: receivers
+// average, and the mean of a few fades has another shape. It includes the field's variance, refitted under every law.
+// `fit`: covariance of the field from rows, the start of the search for its shape.
 LawTests law_tests(KrigedReadings& field, double step, const ReadingDistribution& stated, const noise::Covariance& fit);
 
 }  // namespace muster::diagnosis

@@ -34,7 +34,7 @@ LinkReadings those(const LinkReadings& all, const std::vector<Index>& which) {
   return result;
 }
 
-// Every reading a row of its own, in the given order.
+// Each reading as a row of its own, in the given order.
 noise::Sites sites_of(const LinkReadings& readings) {
   LinkRowLimits single;
   single.way = -1;
@@ -42,7 +42,7 @@ noise::Sites sites_of(const LinkReadings& readings) {
   return link_sites(rows, readings).of(rows.row_of());
 }
 
-// Cells of this side in the order in which they are met, of each anchor's radio on its own.
+// Index of each site's cell of this side, in order of first visit, separate for each anchor's radio.
 std::vector<Index> cells_of(const noise::Sites& sites, double side) {
   std::map<std::tuple<int, long, long, long>, Index> numbers;
   std::vector<Index> result;
@@ -54,10 +54,10 @@ std::vector<Index> cells_of(const noise::Sites& sites, double side) {
   return result;
 }
 
-// y = value + slope x by least squares; not known if x hardly varies.
+// y = value + slope x by least squares; unknown if x hardly varies.
 struct Intercept {
   bool known = false;
-  double value = 0, standard_error = 0, left = 0;  // left: squares that are not explained
+  double value = 0, standard_error = 0, left = 0;  // left: residual sum of squares
 };
 
 Intercept intercept_of(const VectorXd& y, const Eigen::ArrayXd& x) {
@@ -67,7 +67,7 @@ Intercept intercept_of(const VectorXd& y, const Eigen::ArrayXd& x) {
   if (normal.determinant() < 1e-6 * static_cast<double>(y.size() * y.size())) return {};
   const Eigen::Matrix2d inverse = normal.inverse();
   const Eigen::Vector2d fitted = inverse * (line.transpose() * y);
-  // Farther differences scatter more (White 1980).
+  // Sandwich variance: farther differences vary more (White 1980).
   const Eigen::VectorXd left = (y - line * fitted).array().square();
   const Eigen::Matrix2d uncertainty = inverse * (line.transpose() * left.asDiagonal() * line) * inverse;
   return {true, fitted[0], std::sqrt(uncertainty(0, 0)), left.sum()};
@@ -84,7 +84,7 @@ KrigedReadings::KrigedReadings(VectorXd residual, noise::Field field, double far
 KrigedReadings KrigedReadings::untamed() const { return {residual_, field_, std::numeric_limits<double>::infinity()}; }
 
 KrigedReadings KrigedReadings::some(Index about) const {
-  constexpr Index whole = 100;  // readings that a cell has on average: more than a neighbourhood
+  constexpr Index whole = 100;  // mean readings a cell: more than a neighbourhood
   std::vector<Index> cells;
   for (double side = 0.5; side < 1000; side *= 2) {  // m
     cells = cells_of(field_.sites(), side);
@@ -101,7 +101,7 @@ KrigedReadings KrigedReadings::some(Index about) const {
 const ReadingView& KrigedReadings::view(const FieldShape& shape, int place) {
   const auto found = known_.find({shape, place});
   if (found != known_.end()) return found->second;
-  constexpr double log_variance = 3;  // the field's, dB^2; what is worked out does not depend on it
+  constexpr double log_variance = 3;  // the field's, dB^2; the result does not depend on it
   const noise::Covariance at{shape.family, {log_variance, 1e-3 * shape.distance, log_variance + 1e-3 * place, 0}};
   const noise::Whitener whitener(field_, at);
   const VectorXd own = Eigen::Map<const VectorXd>(whitener.stencil().own.data(), size());
@@ -118,7 +118,7 @@ VectorXd KrigedReadings::error_by(const noise::Whitener& whitener) const {
 }
 
 CloseReadings KrigedReadings::close_readings() const {
-  // m, of both ends together: over so little the variogram of shadowing is a line, or of a smooth field a parabola.
+  // m, of both ends jointly: within it the variogram of shadowing is linear, or parabolic for a smooth field.
   constexpr double close = 0.3;
   constexpr Index fewest = 100;
   const noise::Sites& sites = field_.sites();
@@ -130,7 +130,7 @@ CloseReadings KrigedReadings::close_readings() const {
       if (j < 0 || paired[static_cast<std::size_t>(j)]) continue;
       const double distance = std::hypot((sites.place.col(i) - sites.place.col(j)).norm(),
                                          (sites.anchor.col(i) - sites.anchor.col(j)).norm());
-      if (distance > close) break;  // the nearest come first
+      if (distance > close) break;  // neighbours are sorted by distance
       apart.push_back(distance);
       half.push_back(std::pow(residual_[i] - residual_[j], 2) / 2);
       paired[static_cast<std::size_t>(i)] = paired[static_cast<std::size_t>(j)] = true;
@@ -143,7 +143,7 @@ CloseReadings KrigedReadings::close_readings() const {
   const Eigen::Map<const VectorXd> y(half.data(), pairs);
   const Intercept rough = intercept_of(y, at), smooth = intercept_of(y, at.square());
   if (!rough.known) return nothing;
-  constexpr double clearly = 2;  // nats, of normal scatter
+  constexpr double clearly = 2;  // nats, of normal errors
   const bool parabola = smooth.known && std::log(rough.left / smooth.left) * static_cast<double>(pairs) / 2 > clearly;
   const Intercept& likelier = parabola ? smooth : rough;
   return {pairs, likelier.value, likelier.standard_error};

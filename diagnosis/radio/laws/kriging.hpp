@@ -1,5 +1,5 @@
-// Single readings against the field of their places: each is predicted from readings near it, so that what is left
-// is the reading's own law widened by what the prediction does not know.
+// Kriging: predicts each reading from its neighbours. The error has the reading's own law, widened by the prediction
+// variance.
 #pragma once
 
 #include <compare>
@@ -11,45 +11,44 @@
 
 namespace muster::diagnosis {
 
-// Errors of prediction at one ratio of a reading's variance to the field's; they depend on nothing else.
+// Kriging errors at one ratio of a reading's variance to the field's, their only parameter.
 struct ReadingView {
   double log_ratio = 0;        // of variances
   Eigen::VectorXd error;       // dB, a reading less its prediction
-  Eigen::VectorXd log_spread;  // log variance of the level beside its prediction, for a field of variance 1
+  Eigen::VectorXd log_spread;  // log prediction variance of the level, for a field of variance 1
 };
 
 // A family of correlations with a decorrelation distance.
 struct FieldShape {
   noise::Family family = noise::Family::exponential;
-  int distance = 0;  // a thousand times its logarithm [m]
+  int distance = 0;  // 1000 ln(distance [m])
 
   friend auto operator<=>(const FieldShape&, const FieldShape&) = default;
 };
 
-// Half the squared differences of readings side by side, a line over their distance, where it meets distance zero: the
-// variance of one reading, whatever the field is.
+// Nugget of the empirical variogram: half the squared differences of adjacent readings, regressed on distance, at
+// distance zero. It estimates the variance of one reading for any field.
 struct CloseReadings {
   Eigen::Index pairs = 0;
-  double variance = 0, standard_error = 0;  // dB^2; without enough distances or pairs 0 and infinite
+  double variance = 0, standard_error = 0;  // dB^2; 0 and infinite without enough distances or pairs
 };
 
 class KrigedReadings {
  public:
-  // A residual a reading; those that are not finite are left out.
+  // One residual a reading; non-finite ones are left out.
   KrigedReadings(const LinkReadings& readings, const Eigen::VectorXd& residual);
-  // With every reading telling its neighbours all that it is off by. An outlier then spoils them; but where there are
-  // none, this is the sum of errors whose variance is known, while tamed ones vary less than a law with rare deep fades
-  // says.
+  // Without winsorising. An outlier then affects its neighbours' predictions. Without outliers the errors have known
+  // variance, while winsorised ones vary less than under a law with rare deep fades.
   KrigedReadings untamed() const;
-  // The readings of evenly chosen places, about so many: whole neighbourhoods, so that they tell each other what they
-  // tell each other among all.
+  // A subsample of about this many readings, in evenly chosen cells: whole neighbourhoods keep their prediction
+  // errors.
   KrigedReadings some(Eigen::Index about) const;
 
   Eigen::Index size() const { return residual_.size(); }
-  // `place`: a thousand times log_ratio. Worked out once.
+  // `place`: 1000 log_ratio. Computed once, then cached.
   const ReadingView& view(const FieldShape& shape, int place);
   const Eigen::VectorXd& residual() const { return residual_; }
-  // Each reading in one pair at most.
+  // Uses each reading in at most one pair.
   CloseReadings close_readings() const;
 
  private:
@@ -58,7 +57,7 @@ class KrigedReadings {
 
   Eigen::VectorXd residual_;
   noise::Field field_;
-  double far_off_ = 4;  // standard deviations; what is further off tells its neighbours no more than that
+  double far_off_ = 4;  // standard deviations; larger errors are winsorised before they enter predictions
   std::map<std::pair<FieldShape, int>, ReadingView> known_;
 };
 

@@ -45,13 +45,13 @@ CauseEstimate named(const LawSources& s, const Cause& cause, const LawTest& test
   return out;
 }
 
-// Three questions are asked, each of which may err on so large a share of clean worlds: how readings scatter, whether
-// people pass, and how the field does, of which two tests have to speak (shadowing_test.hpp).
+// False-alarm rates on clean worlds of three tests: fading law, blockage, and field. The field needs two tests to
+// agree (shadowing_test.hpp).
 constexpr double alpha = 0.0005, alpha_of_field = 0.002;
 
 bool beyond_chance(const LawTest& test, double share) { return test.evidence > 0 && test.log_p < std::log(share); }
 
-// A stage of the world that clips there already.
+// True if a stage of the world already clips there.
 bool clips_at(const LawSources& s, const std::string& plugin, const std::string& parameter, double level, double step) {
   for (const auto& instance : s.model.simulation().instances()) {
     if (instance->declared().plugin != plugin) continue;
@@ -72,15 +72,15 @@ void add_pile(const LawSources& s, const std::string& id, const Clip& clip, doub
   if (id == "effect.rssi_floor") found.causes.back().words["silent"] = "false";
 }
 
-// Fisher's, of two independent tests.
+// Fisher's combination of two independent tests.
 double of_both(double log_p, double other) { return log_p + other + std::log1p(-log_p - other); }
 
-// Readings that are missing where levels are low, and not elsewhere. Whether it is named.
+// Tests for readings missing at low levels only. True if the cause is named.
 bool add_silence(const LawSources& s, const MissingData& missing, Diagnosis& found) {
   const double step = found.instrument.step;
   const Cause* const cause = cause_called(s, "effect.rssi_floor");
   const double least = std::log(s.state.options().further_alpha / static_cast<double>(s.state.entries().size()));
-  const double independent = missing.censored ? 1 : 0.5;  // neighbours are lost together
+  const double independent = missing.censored ? 1 : 0.5;  // neighbours are lost jointly
   const double gain = independent * missing.evidence;
   LawTest test{"effect.rssi_floor", {}, gain, gain / 2, inference::log_tail(gain, 1)};
   if (missing.cut_off && !missing.censored)
@@ -96,7 +96,7 @@ bool add_silence(const LawSources& s, const MissingData& missing, Diagnosis& fou
   return true;
 }
 
-// Measured less expected of each reading of the search; NaN where only a bound is known or the clip is near.
+// Measured less expected, for each reading of the search; NaN for a censored reading or near a clip.
 VectorXd residual_of(const LawSources& s, const Diagnosis& found) {
   const noise::Rows& rows = s.state.rows();
   VectorXd left(static_cast<Index>(s.used.size()));
@@ -132,7 +132,7 @@ ReadingDistribution stated_law(const LinkModel& model) {
   return law;
 }
 
-// Half a wavelength at which fading is another one; per_reading fading always is.
+// True if fading differs between readings: they are half a wavelength apart, or per_reading is on.
 bool fades_apart(const LawSources& s) {
   if (s.model.value_of("radio.fading", "per_reading", 0) != 0 || s.model.has_plugin("effect.fading_law")) return true;
   const double half = 299792458 / s.model.value_of("radio.fading", "frequency", 2.44e9) / 2;
@@ -149,7 +149,7 @@ bool fades_apart(const LawSources& s) {
   return ways[ways.size() / 2] > half;
 }
 
-// Why single readings cannot be asked; empty if they can.
+// Reason why single readings are not testable; empty if they are.
 std::string why_not(const LawSources& s, const VectorXd& residual) {
   if (!s.data.has_places()) return "not testable: the data have no places";
   if (!s.model.has_plugin("radio.fading")) return "not testable: the world has no radio.fading that states a law";
@@ -159,7 +159,7 @@ std::string why_not(const LawSources& s, const VectorXd& residual) {
   return "";
 }
 
-// The law that readings follow: the stated one, or the one that is named here.
+// Tests the fading law. Returns the law of readings: the stated one, or the one named here.
 ReadingDistribution add_scatter(const LawSources& s, KrigedReadings& field, Diagnosis& found) {
   const auto [tests, likeliest] = law_tests(field, found.instrument.step, stated_law(s.model), s.state.fit.covariance);
   const auto best =
@@ -173,7 +173,7 @@ ReadingDistribution add_scatter(const LawSources& s, KrigedReadings& field, Diag
   return best->law;
 }
 
-// What the fit of rows says of a draw of the world's own shadowing, if that is the same as of the data.
+// True if rows of a draw of the world's own shadowing yield the same fit as the data.
 bool world_draws_alike(const LawSources& s) {
   const VectorXd drawn = s.model.drawn(), expected = s.model.expected();
   const VectorXd apart = (drawn - expected)(s.used);
@@ -197,7 +197,7 @@ void add_field(const LawSources& s, KrigedReadings& field, const ReadingDistribu
   if (beyond_chance(test, alpha_of_field) && !world_draws_alike(s)) found.causes.push_back(named(s, *cause, test));
 }
 
-// Either law can be taken for a part of the other: the weaker one of both stands only if it is beyond doubt.
+// Each of the two laws can imitate the other: the weaker one is kept only if it is beyond doubt.
 void leave_the_stronger(Diagnosis& found) {
   constexpr double doubt = 30;  // of lambda
   const auto weaker =
@@ -206,8 +206,8 @@ void leave_the_stronger(Diagnosis& found) {
   if (weaker->lambda < doubt) found.causes.erase(weaker);
 }
 
-// A link that passes the end of a wall closely may as well pass on its other side; one that does is off by the wall,
-// and three of those among 20,000 readings look like outliers.
+// Readings whose link passes within 5 mm of a wall's end are excluded from these tests. The link may pass on the
+// other side, an error of a whole wall. Three of those among 20,000 readings resemble outliers.
 VectorXd without_grazing(const LawSources& s, const VectorXd& residual, Diagnosis& found) {
   constexpr double as_exact_as_places = 0.005, much = 0.5;  // m: surveys write centimetres; dB: half a unit of RSSI
   const VectorXd unsure = s.model.changes_aside(as_exact_as_places)(s.used);
@@ -220,7 +220,7 @@ VectorXd without_grazing(const LawSources& s, const VectorXd& residual, Diagnosi
   return grazes.select(std::nan(""), residual);
 }
 
-// What asks single readings, one after the other.
+// Runs the tests on single readings in turn.
 void add_laws_of_readings(const LawSources& s, const VectorXd& all, Diagnosis& found) {
   const std::string why = why_not(s, all);
   for (const char* id : {"effect.fading_law", "effect.outliers", "effect.channel_mixture"}) {
@@ -239,14 +239,14 @@ void add_laws_of_readings(const LawSources& s, const VectorXd& all, Diagnosis& f
   if (found.causes.size() == before + 2) leave_the_stronger(found);
 }
 
-// What changes in time may be the very bursts.
+// True if every effect found changes in time: it may be the blockage itself.
 bool all_changes_in_time(const Diagnosis& found) {
   const auto in_time = [](const auto& one) { return one.changes_in_time(); };
   return std::all_of(found.causes.begin(), found.causes.end(), in_time) &&
          std::all_of(found.unexplained.begin(), found.unexplained.end(), in_time);
 }
 
-// Whether they are named.
+// True if blockage is named.
 bool add_people(const LawSources& s, const VectorXd& residual, Diagnosis& found) {
   const Cause* const cause = cause_called(s, "effect.people");
   if (!cause) return false;
@@ -276,7 +276,7 @@ bool add_people(const LawSources& s, const VectorXd& residual, Diagnosis& found)
   return true;
 }
 
-// What people do to a link is no law of single readings.
+// Excludes the blocked link: its readings follow another law.
 VectorXd without_link(const LawSources& s, const CauseEstimate& people, VectorXd residual) {
   const LinkReadings& r = s.readings;
   for (Index i = 0; i < residual.size(); ++i) {

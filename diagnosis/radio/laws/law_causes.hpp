@@ -1,4 +1,4 @@
-// Causes that shift no level: receivers that clip, and laws of what is random that are not the world's.
+// Causes without a level shift: clipping receivers, and random laws other than the world's.
 #pragma once
 
 #include "diagnosis/calibration/fit.hpp"
@@ -11,21 +11,21 @@ namespace muster::diagnosis {
 struct LawSources {
   LinkModel& model;
   const Dataset& data;
-  const std::vector<Cause>& causes;    // of the plugin path
+  const std::vector<Cause>& causes;    // on the plugin path
   const inference::ModelState& state;  // after the search
   const LinkReadings& readings;        // of the search
   const std::vector<Eigen::Index>& used;
   const Fit& fit;
 };
 
-// log p: beside other misfits, which may not be all understood, the bursts of people must be so clear.
+// log p required of blockage beside other misfits, which may not be fully explained.
 constexpr double people_in_company = -9;
 
-// Each adds to the causes of `found`, to what was searched and what could not be.
+// Each adds to the causes of `found`, and to its lists of tested and untestable ones.
 void add_clips(const LawSources& sources, Diagnosis& found);
 void add_laws(const LawSources& sources, Diagnosis& found);
-// Whether there is a silent floor beside what was found: `mean`, dBm, is what the extended world expects of every
-// reading. The world as given may err by so much that it hides one.
+// Tests for a silent floor beside the causes found: errors of the given world may hide it. `mean`, dBm: readings
+// expected of the extended world. True if it is named.
 bool add_silence_beside(const LawSources& sources, const Eigen::VectorXd& mean, Diagnosis& found);
 
 }  // namespace muster::diagnosis

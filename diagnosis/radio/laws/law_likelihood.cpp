@@ -8,8 +8,8 @@ namespace {
 
 using Eigen::Index;
 
-constexpr Index enough_readings = 3000;  // for a first look at a law
-constexpr int farthest = 9000;           // one part in 8,000 of what readings vary by, or all but that
+constexpr Index enough_readings = 3000;  // for a rough value
+constexpr int farthest = 9000;           // a field of one part in 8,000 of the variance, or of all but that
 
 }  // namespace
 
@@ -38,14 +38,14 @@ Peak LawLikelihood::best(const ReadingDistribution& law, Peak from) {
   const double log_variance = std::log(variance_of(law, step_));
   from.place = std::clamp(from.place, -farthest, farthest);
   for (int way = 0;;) {
-    // For two tries either way.
+    // Valid for two steps in either direction.
     const ReadingDensities densities = densities_of(law, log_variance, from, 0.5);
     const auto value = [&](int by) { return at(densities, log_variance, from.shape, from.place + by * places); };
     const double here = value(0), below = value(-1), above = value(1);
     const int better = std::max(below, above) <= here ? 0 : above > below ? 1 : -1;
     if (better == 0 || better == -way || std::abs(from.place + better * places) > farthest) {
       const double bend = 2 * here - below - above, slope = (above - below) / 2;
-      const bool top = bend > 0 && std::abs(slope) <= bend;  // within a try; on a slope it may lie anywhere
+      const bool top = bend > 0 && std::abs(slope) <= bend;  // within a step; on a slope it is unbounded
       from.value = top ? here + slope * slope / (2 * bend) : here;
       return from;
     }
@@ -84,7 +84,7 @@ Peak LawLikelihood::closer_distance(const ReadingDistribution& law, Peak best) {
 
 std::vector<Peak> LawLikelihood::shapes(const ReadingDistribution& law, const noise::Covariance& from) {
   constexpr Index many = 30000, some = 10000;
-  constexpr double hopeless = 60;  // nats behind the best: a step of the distance wins less
+  constexpr double hopeless = 60;  // nats behind the best: more than a step of the distance gains
   if (field_.size() < many) return shapes_by_all(law, from);
   KrigedReadings sample = field_.some(some);
   std::vector<Peak> result = LawLikelihood(sample, step_).shapes_by_all(law, from);

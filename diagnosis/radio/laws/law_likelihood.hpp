@@ -1,4 +1,4 @@
-// How likely single readings are under a law of their scatter, over the fields that they may stand in.
+// Log-likelihood of single readings under a fading law, maximised over the shadowing covariance.
 #pragma once
 
 #include <vector>
@@ -8,35 +8,35 @@
 
 namespace muster::diagnosis {
 
-// The highest log-likelihood of a law: which shape the field has, and how large it is beside the law.
+// Maximum of a law's log-likelihood over the field's shape and its size relative to the law.
 struct Peak {
   double value = -1e300;
   FieldShape shape;
   int place = 0;  // of ReadingField
 };
 
-// Of one reading, with its rounding; dB^2.
+// Variance of one reading with its rounding; dB^2.
 double variance_of(const ReadingDistribution& law, double step);
 
 class LawLikelihood {
  public:
-  static constexpr int places = 200, distances = 300;  // from one try to the next
+  static constexpr int places = 200, distances = 300;  // grid steps
 
   LawLikelihood(KrigedReadings& field, double step) : field_(field), step_(step) {}
 
-  // Over the field's size, from a start; between its tries by a parabola. A field that hardly is there, or little
-  // beside it, is not sought further.
+  // Maximises over the field's size, from a start; by a parabola between grid points. Stops at a negligible field or
+  // a negligible law.
   Peak best(const ReadingDistribution& law, Peak from);
-  // Over size and decorrelation distance.
+  // Maximises over size and decorrelation distance.
   Peak best_distance(const ReadingDistribution& law, const Peak& from);
-  // From there, the distance to a fiftieth.
+  // Refines the distance to a fiftieth, from a start.
   Peak closer_distance(const ReadingDistribution& law, Peak from);
-  // The best of each family, sought from a covariance; among many readings first by some of them, and further by all
-  // only where these do not speak clearly against a family.
+  // The maximum of each family, from a covariance. Many readings: first on a subsample, then on all for families that
+  // remain possible.
   std::vector<Peak> shapes(const ReadingDistribution& law, const noise::Covariance& from);
-  // At one place alone.
+  // At one grid point.
   double value(const ReadingDistribution& law, const Peak& there);
-  // The same, of readings evenly chosen where there are many; scaled to all.
+  // The same on an even subsample, if there are many readings; scaled to all.
   double about(const ReadingDistribution& law, const Peak& there);
 
   KrigedReadings& field() { return field_; }

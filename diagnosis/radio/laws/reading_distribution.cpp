@@ -11,7 +11,8 @@ namespace {
 
 constexpr double pi = 3.141592653589793;
 
-// Of 10 log10 of the mean power of n fades, each of mean 1: a noncentral chi-square with 2 n degrees of freedom.
+// Density of 10 log10 of the mean power of n fades, each of mean 1: a noncentral chi-square with 2 n degrees of
+// freedom.
 double fading_density(double k_db, int n, double db) {
   const double k = std::max(std::pow(10, k_db / 10), 1e-4), g = std::pow(10, db / 10), count = n;
   const double x = 2 * count * std::sqrt(k * (1 + k) * g);
@@ -48,7 +49,7 @@ double mean_of(const std::vector<double>& table, double lowest, double bin, doub
   return first / sum;
 }
 
-// Averages over the kernel's places, in table steps.
+// Averages the table over the kernel's offsets, in table steps.
 std::vector<double> mixed(const std::vector<double>& table, const std::vector<double>& places,
                           const std::vector<double>& weights) {
   std::vector<double> result(table.size(), 0);
@@ -82,7 +83,7 @@ std::vector<double> with_outliers(const std::vector<double>& table, const Readin
   return mixed(table, places, weights);
 }
 
-// Convolved with a kernel of these values at whole bins about the middle one.
+// Convolves the table with kernel values at whole bins about the middle one.
 std::vector<double> smeared(const std::vector<double>& table, const std::vector<double>& kernel) {
   const std::size_t reach = kernel.size() / 2;
   std::vector<double> result(table.size(), 0);
@@ -107,7 +108,7 @@ std::vector<double> normal_kernel(double variance, double bin) {
   return kernel;
 }
 
-// Uniform over a step.
+// Uniform distribution over a step.
 std::vector<double> box_kernel(double step, double bin) {
   const auto reach = static_cast<std::ptrdiff_t>(std::ceil(step / 2 / bin + 0.5));
   std::vector<double> kernel;
@@ -118,7 +119,7 @@ std::vector<double> box_kernel(double step, double bin) {
   return kernel;
 }
 
-// Of fading whose K is a whole number of dB; worked out once for each n.
+// Variance of fading with an integer K in dB; computed once for each n.
 double tabled_variance(int k_db, int averaged) {
   static std::mutex lock;
   static std::map<std::pair<int, int>, double> known;
@@ -152,7 +153,7 @@ double rician_k_of(double variance, int averaged) {
 
 ReadingDensities::ReadingDensities(const ReadingDistribution& law, double step, double lowest, double highest)
     : lowest_(lowest), top_(std::max(1.0, std::ceil((highest - lowest) / log_factor))) {
-  constexpr int finer = 2;  // bins of the law itself, before anything is smooth
+  constexpr int finer = 2;  // bins of the law itself, before smoothing
   constexpr double fine = bin / finer;
   const double start = first_db - bin / 2;
   std::vector<double> law_table = fading_table(law.rician_k, law.averaged, start, fine, bins * finer);
@@ -162,7 +163,7 @@ ReadingDensities::ReadingDensities(const ReadingDistribution& law, double step, 
   double total = 0;
   for (const double v : law_table) total += v * bin / finer;
   std::vector<double> level(bins, 0);
-  for (std::size_t i = 0; i < law_table.size(); ++i) {  // moved by its mean, shared out between two bins
+  for (std::size_t i = 0; i < law_table.size(); ++i) {  // shifted by its mean, split between two bins
     const double place = (start + fine * (static_cast<double>(i) + 0.5) - mean - first_db) / bin;
     if (!(place >= 0 && place < bins - 1)) continue;
     const auto b = static_cast<std::size_t>(place);

@@ -1,4 +1,4 @@
-// What a single reading adds to the level of its place: fading, hopping channels, outliers; as densities in dB.
+// Distribution of a single reading about the level of its place: fading, hopping channels, outliers. Densities in dB.
 #pragma once
 
 #include <algorithm>
@@ -17,13 +17,13 @@ struct ReadingDistribution {
 
 // Variance of fading in dB^2, without channels and outliers.
 double fading_variance(double rician_k, int averaged);
-// The K whose fading has this variance; NaN where none has.
+// The K with this variance of fading; NaN if there is none.
 double rician_k_of(double variance, int averaged);
 
-// The law's densities per dB about its own mean, widened by the step of the readings and by normal spreads.
+// The law's densities per dB about its own mean, convolved with the readings' step and with normal spreads.
 class ReadingDensities {
  public:
-  // For spreads whose log variance lies between these.
+  // For spreads with log variances in this range.
   ReadingDensities(const ReadingDistribution& law, double step, double lowest, double highest);
 
   double log_at(double db, double log_variance) const {
@@ -43,7 +43,7 @@ class ReadingDensities {
  private:
   static constexpr double first_db = -65, bin = 0.2, log_factor = 0.4;
   static constexpr std::size_t bins = 601;
-  // No law is trusted to its last tail.
+  // Floor of all densities: no law is exact in its far tails.
   static constexpr double anything = 1e-8, log_anything = -18.42;  // per dB
   double lowest_, top_;  // log variance of the first level; number of levels after it
   std::vector<double> table_;

@@ -10,26 +10,27 @@
 namespace muster::diagnosis {
 namespace {
 
-constexpr double wider = 1.5;  // than a chi-square: what a family is, is not known
+constexpr double wider = 1.5;  // than a chi-square, since the family is unknown
 
-// The likelihood alone.
+// Flat prior: the likelihood alone.
 noise::Prior flat() {
   noise::Prior prior;
   prior.decorrelation_spread = prior.shared_spread = 1e3;
   return prior;
 }
 
-// What rows say by themselves: a belief about distances would hold a long one near the usual.
+// Fit without a prior, which would pull a long decorrelation distance to the usual.
 noise::Fit unbelieving(const inference::ModelState& state) {
   return noise::fit(state.field(), state.y(), state.design(), flat(), state.fit.covariance, 20);
 }
 
-// The variance of one reading and the share between anchors being fitted, the field's size and distance held.
+// Objective with the field's size and distance held, the variance of one reading and the correlation between anchors
+// fitted.
 double best_value(const inference::ModelState& state, const noise::Covariance& at) {
   return noise::fit(state.field(), state.y(), state.design(), flat(), at, 6, noise::unstated).value;
 }
 
-// Twice the log-likelihood ratio of rows: of the fitted field against the best one near the stated one.
+// Likelihood-ratio gain on rows: the fitted field against the best one near the stated one.
 double gain_of_rows(const inference::ModelState& state, const noise::StatedField& stated, const noise::Fit& free) {
   constexpr double tolerance = 1.08;
   const noise::StatedField fitted = said_by(free.covariance, state.within());
@@ -38,7 +39,7 @@ double gain_of_rows(const inference::ModelState& state, const noise::StatedField
   const double distance = near(fitted.decorrelation, stated.decorrelation);
   double held = 1e300;
   for (const noise::Family family : noise::families) {
-    for (const double start : {-0.7, 0.0, 0.7}) {  // of the log variance of one reading, beside the fitted one
+    for (const double start : {-0.7, 0.0, 0.7}) {  // offset of the log variance of one reading from the fitted one
       noise::Covariance at = as_stated({size, distance}, family, free.covariance.theta, state.within());
       at.theta[2] += start;
       held = std::min(held, best_value(state, at));
@@ -62,8 +63,8 @@ double in_field(LawLikelihood& judge, const ReadingDistribution& law, noise::Fam
   return judge.value(law, there);
 }
 
-// The log-likelihood of single readings in the likeliest field of that size and distance. Families differ in what they
-// call a distance by more than data can tell, so that all within a tolerance count.
+// Log-likelihood of single readings in the likeliest field of that size and distance. The families' definitions of
+// distance differ by more than the data resolve, so distances within a tolerance count.
 double of_any_family(LawLikelihood& judge, const ReadingDistribution& law, const noise::StatedField& field) {
   double best = -1e300;
   for (const noise::Family family : noise::families) {
@@ -75,8 +76,8 @@ double of_any_family(LawLikelihood& judge, const ReadingDistribution& law, const
 
 }  // namespace
 
-// The field that rows say is held against the stated one by rows and by readings, and the weaker word counts. Readings
-// by themselves know little more than its variance over its distance where they lie dense.
+// Tests the field fitted to rows, by rows and by readings; the smaller gain counts. Dense readings alone determine
+// little more than the ratio of variance to distance.
 LawTest field_test(KrigedReadings& field, double step, const ReadingDistribution& law, const noise::StatedField& stated,
                    const inference::ModelState& state) {
   const noise::Fit free = unbelieving(state);

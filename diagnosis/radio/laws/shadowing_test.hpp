@@ -1,4 +1,4 @@
-// Whether shadowing has the size and the decorrelation distance that the world says.
+// Tests the world's stated size and decorrelation distance of shadowing.
 #pragma once
 
 #include "diagnosis/inference/state/model_state.hpp"
@@ -9,13 +9,13 @@ namespace muster::diagnosis {
 
 noise::StatedField stated_field(const LinkModel& model);
 
-// The likelihood of the field that rows say against that of a field with the stated size and distance, asked of single
-// readings, which know how it begins to fall, and of rows, which know how far it reaches: the smaller of both gains
-// counts. The family of correlations, which no world states, is the likeliest in each. `law`: of a reading.
+// Likelihood-ratio test of the field fitted to rows against one with the stated size and distance. Single readings
+// determine the correlation at short range, rows the long range: the smaller of both gains counts. The world states
+// no family of correlations; each likelihood uses its best one. `law`: of a reading.
 LawTest field_test(KrigedReadings& field, double step, const ReadingDistribution& law, const noise::StatedField& stated,
                    const inference::ModelState& state);
 
-// Covariance of rows of which each has a residual: for a draw of the world's own shadowing.
+// Covariance fitted to row means, here of a draw of the world's own shadowing.
 noise::Covariance fitted_to(const inference::ModelState& state, const Eigen::VectorXd& row_means);
 
 }  // namespace muster::diagnosis
