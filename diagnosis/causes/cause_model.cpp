@@ -25,8 +25,8 @@ bool edits_world(const Instance& instance) {
   return cause && (cause->kind == MUSTER_WORLD_EDIT || cause->kind == MUSTER_INSTRUMENT);
 }
 
-World bare_world(const std::filesystem::path& file, const Simulation& whole) {
-  World bare = read_world(file, standard());
+World bare_world(const std::filesystem::path& file, const Standard& sets, const Simulation& whole) {
+  World bare = read_world(file, sets);
   std::erase_if(bare.instances, [&](const InstanceDeclaration& declared) {
     return std::none_of(whole.instances().begin(), whole.instances().end(), [&](const auto& instance) {
       return instance->name() == declared.name && edits_world(*instance);
@@ -108,11 +108,11 @@ InstanceDeclaration instance_of(const Cause& cause, const std::string& name, con
 CauseModel::CauseModel(MeasuredWorld& whole, const std::filesystem::path& world, const std::filesystem::path& data,
                        const Library::SearchPath& plugins)
     : observable_(whole.observable()), whole_(whole.simulation()), data_(data) {
-  World bare = bare_world(world, whole_);
+  World bare = bare_world(world, *observable_.sets, whole_);
   Options options;
   options.search_path = plugins;
   options.more.push_back(whole.observable().stand_in);
-  bare_ = std::make_unique<Simulation>(std::move(bare), standard(), std::move(options));
+  bare_ = std::make_unique<Simulation>(std::move(bare), *observable_.sets, std::move(options));
   before_ = whole.expected();
 }
 

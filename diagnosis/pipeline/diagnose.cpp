@@ -257,7 +257,7 @@ class Diagnoser {
   }
 
   VectorXd measured(const inference::ModelState& state) const {
-    const VectorXd offset = (at_.base.mean - at_.base.slopes * at_.base.values)(at_.used);
+    const VectorXd offset = at_.base.offset()(at_.used);
     return state.y() + state.rows().mean(offset);
   }
 

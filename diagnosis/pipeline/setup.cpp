@@ -86,8 +86,7 @@ DiagnosisSetup::DiagnosisSetup(const std::filesystem::path& world, const std::fi
   run = std::make_shared<CauseModel>(model, world, table, plugins);
   LinkReadings readings = readings_of_search();
   problem.base = base.slopes(used, Eigen::all);
-  // Linear in the parameters about the fit, so that coefficients are values of parameters.
-  problem.measured -= (base.mean - base.slopes * base.values)(used);
+  problem.measured -= base.offset()(used);
   problem.stated = stated_field(model);
   LinkRowLimits limits = limits_for(readings);
   if (!data.has_places()) limits.way = -1;  // readings at like distances are not at one place: each is a row

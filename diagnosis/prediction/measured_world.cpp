@@ -19,7 +19,8 @@ FirstColumn first_column(const TableView& table) {
 
 MeasuredWorld::MeasuredWorld(World world, Options options, Observable observable)
     : observable_(std::move(observable)),
-      run_(std::make_unique<Simulation>(std::move(world), standard(), with_stand_in(std::move(options), observable_))) {
+      run_(std::make_unique<Simulation>(std::move(world), *observable_.sets,
+                                        with_stand_in(std::move(options), observable_))) {
   evaluate(true);
 }
 

@@ -20,6 +20,7 @@ struct Observable {
   std::string terms;             // the table that causes add to, such as "link/*/level"
   std::string measured;          // the table that is compared with measurements, such as "link/*/rssi"
   InstanceDeclaration stand_in;  // the instance whose rows are the readings of the measured table
+  const Standard* sets = &standard();
 };
 
 class MeasuredWorld {

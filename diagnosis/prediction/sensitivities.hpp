@@ -11,6 +11,10 @@ struct Sensitivities {
   Eigen::VectorXd lower, upper;
   Eigen::MatrixXd slopes;  // one row a reading of the table
   Eigen::VectorXd mean;    // at the same values
+
+  // The mean with all these parameters at zero, linear about their values: measured less this is for the slopes, whose
+  // coefficients then are values of parameters.
+  Eigen::VectorXd offset() const { return mean - slopes * values; }
 };
 
 // At the model's current parameters.
