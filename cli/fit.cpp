@@ -55,8 +55,8 @@ int run_fit(const Arguments& arguments) {
   diagnosis::Dataset data = diagnosis::read_dataset(words.data);
   progress.at(0.1);
   diagnosis::LinkModel model(words.world, words.data, plugin_path(words.plugins));
-  note_radios(model, data);
-  check_places(model, data);
+  for (const auto& notes : {notes_on_radios(model, data), check_places(model, data)})
+    data.notes.insert(data.notes.end(), notes.begin(), notes.end());
   progress.at(0.2);
   const diagnosis::Fit fit = diagnosis::fit(model, data, {words.free, words.fix});
   progress.at(0.5);

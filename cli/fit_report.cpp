@@ -155,7 +155,7 @@ Json FitReport::json() const {
   for (const auto& file : pictures) files.push_back(file.string());
   return {
       {"world", model.simulation().world().name},
-      {"data", data.table.file()},
+      {"data", data.table->file()},
       {"parameters", parameters},
       {"not_identifiable", fit.not_identifiable},
       {"residual_sd_db", fit.residual_sd},
@@ -180,7 +180,7 @@ Json FitReport::json() const {
 
 void FitReport::print() const {
   fmt::print("{}: {} readings heard of {} in {}\n", model.simulation().world().name, fit.readings.heard.size(),
-             data.rows(), data.table.file());
+             data.rows(), data.table->file());
   for (const std::string& note : data.notes) fmt::print("note: {}\n", note);
   print_parameters(fit);
   print_spread(fit);

@@ -170,8 +170,9 @@ void refuse_others(const TextTable& table, const Columns& columns) {
 }  // namespace
 
 std::unique_ptr<Cells> read_file_table(const std::filesystem::path& path, const Columns& columns, bool closed,
-                                       Blackboard& board) {
-  const auto table = TextTable::read(path);
+                                       Blackboard& board, TableCache& tables) {
+  const std::shared_ptr<const TextTable> read = tables.read(path);
+  const TextTable& table = *read;
   if (closed) refuse_others(table, columns);
   auto cells = std::make_unique<Cells>();
   cells->rows = table.rows();
@@ -243,7 +244,7 @@ int Instance::file(const std::string& param, const std::string& columns) {
   made.columns = Columns(std::string_view(columns).substr(0, columns.size() - (closed ? 2 : 0)));
   made.name = {"file", param, given, ""};
   check_references(made, *this, *around_.board);
-  made.file = read_file_table(path, made.columns, closed, *around_.board);
+  made.file = read_file_table(path, made.columns, closed, *around_.board, *around_.tables);
   if (filled && made.file->rows == 0)
     throw invalid({path.string(), 1, 1}, "has no rows below its header; expected one at least");
   claims_.push_back(std::move(made));

@@ -26,6 +26,6 @@ void check_blindness(const Claim& claim, const Instance& instance, const Surroun
 // A file's cells, names turned into row numbers; where `closed`, it must have no other columns. Throws Error with line
 // and column of the file.
 std::unique_ptr<Cells> read_file_table(const std::filesystem::path& path, const Columns& columns, bool closed,
-                                       Blackboard& board);
+                                       Blackboard& board, TableCache& tables);
 
 }  // namespace muster

@@ -10,6 +10,7 @@
 
 #include "blackboard.hpp"
 #include "loader/library.hpp"
+#include "text/table_cache.hpp"
 #include "thread_pool.hpp"
 #include "world_file/world.hpp"
 
@@ -61,6 +62,7 @@ struct Surroundings {
   const World* world = nullptr;
   Blackboard* board = nullptr;
   Library::SearchPath search_path;
+  std::shared_ptr<TableCache> tables;  // of instances' files
   uint64_t seed = 0;
   std::vector<std::string> destroy_faults;  // failures while instances were destroyed; a destructor cannot throw them
   ThreadPool* workers = nullptr;            // null: one thread

@@ -41,6 +41,12 @@ class TextTable {
   static TextTable read(const std::filesystem::path& path);
 
   const std::string& file() const { return file_.file; }
+  // The same table, with another name of its file in messages.
+  TextTable named(std::string file) const {
+    TextTable result = *this;
+    result.file_.file = std::move(file);
+    return result;
+  }
   const std::vector<TextColumn>& columns() const { return columns_; }
   std::size_t rows() const { return row_starts_.size() - 2; }
 

@@ -76,7 +76,7 @@ void hold_blind(Fit& fit, Search& search) {
 void check_count(const Fit& fit, const Search& search, const Dataset& data) {
   const auto heard = fit.readings.heard.size(), needed = search.parameters.size() + 1;
   if (heard < needed)
-    throw invalid({data.table.file()}, "the table has " + std::to_string(heard) +
+    throw invalid({data.table->file()}, "the table has " + std::to_string(heard) +
                                            " heard readings; expected at least " + std::to_string(needed) + " to fit " +
                                            std::to_string(search.parameters.size()) + " parameters");
 }
@@ -178,7 +178,7 @@ Fit fit(LinkModel& model, const Dataset& data, const FitOptions& options) {
   check_count(result, search, data);
   hold_blind(result, search);
   if (search.parameters.empty())
-    throw invalid({data.table.file()}, "nothing can be fitted: " + result.not_identifiable.at(0));
+    throw invalid({data.table->file()}, "nothing can be fitted: " + result.not_identifiable.at(0));
   solve(result, search);
   measure_errors(result, search);
   measure_spread(result, model);

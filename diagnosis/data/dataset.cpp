@@ -44,14 +44,14 @@ void read_covariates(Dataset& data) {
     if (name == "rssi" || name == "path_loss") return name == data.reading;
     return reading_columns().count(name) > 0;
   };
-  for (std::size_t c = 0; c < data.table.columns().size(); ++c) {
-    if (is_known(data.table.columns()[c].name)) continue;
-    Covariate covariate{data.table.columns()[c].label(), {}, {}};
-    const bool number = data.table.is_numeric(c);
+  for (std::size_t c = 0; c < data.table->columns().size(); ++c) {
+    if (is_known(data.table->columns()[c].name)) continue;
+    Covariate covariate{data.table->columns()[c].label(), {}, {}};
+    const bool number = data.table->is_numeric(c);
     if (number)
-      covariate.values = data.table.reals(c, {.empty = true});
+      covariate.values = data.table->reals(c, {.empty = true});
     else
-      covariate.factor = data.table.texts(c, {.empty = true});
+      covariate.factor = data.table->texts(c, {.empty = true});
     if (number ? varies(covariate.values) : covariate.factor.levels.size() > 1) {
       data.covariates.push_back(std::move(covariate));
     } else {
@@ -80,7 +80,7 @@ void refuse_degrees(const TextTable& table) {
 
 // Reads places, or distances if there are none.
 void read_places(Dataset& data) {
-  const TextTable& table = data.table;
+  const TextTable& table = *data.table;
   if (table.find("distance") && !table.find("tx_x") && !table.find("rx_x")) {
     const std::size_t column = table.require("distance", "m");
     const auto distance = table.reals(column);
@@ -99,7 +99,7 @@ void read_places(Dataset& data) {
 
 // A path loss is read as the level received at a transmit power of 0 dBm.
 void read_readings(Dataset& data) {
-  const TextTable& table = data.table;
+  const TextTable& table = *data.table;
   const bool loss = table.find("path_loss") && !table.find("rssi");
   data.reading = loss ? "path_loss" : "rssi";
   data.rssi = table.reals(table.require(data.reading, loss ? "dB" : "dBm"), {.empty = true});
@@ -123,8 +123,12 @@ const std::map<std::string, std::string>& reading_columns() {
 }
 
 Dataset read_dataset(const std::filesystem::path& file) {
-  Dataset data{.table = TextTable::read(file)};
-  const TextTable& table = data.table;
+  return read_dataset(std::make_shared<const TextTable>(TextTable::read(file)));
+}
+
+Dataset read_dataset(std::shared_ptr<const TextTable> read) {
+  Dataset data{.table = std::move(read)};
+  const TextTable& table = *data.table;
   if (table.rows() > most_rows)
     throw invalid({table.file()}, "the table has " + std::to_string(table.rows()) + " rows; expected at most " +
                                       std::to_string(most_rows) + ": keep one row in " +

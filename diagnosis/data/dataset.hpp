@@ -3,6 +3,7 @@
 
 #include <array>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,7 @@ struct Covariate {
 };
 
 struct Dataset {
-  TextTable table;          // for file positions in messages
+  std::shared_ptr<const TextTable> table;  // for file positions in messages
   std::vector<double> t{};  // s; empty if the file has none
   Factor tx{}, rx{};
   std::vector<Point> tx_at{}, rx_at{};  // z is NaN where the file has none; both empty: the file has distances instead
@@ -42,5 +43,7 @@ const std::map<std::string, std::string>& reading_columns();
 // Reads and checks. Throws Error with file, line and column: a missing column, a duplicate reading, time that runs
 // backwards, values that no receiver reports.
 Dataset read_dataset(const std::filesystem::path& file);
+// Of a table that was read already.
+Dataset read_dataset(std::shared_ptr<const TextTable> table);
 
 }  // namespace muster::diagnosis

@@ -20,7 +20,7 @@ std::string row_text(std::size_t row) { return "row " + std::to_string(row + 1);
 
 // Rows count from 1, below the header: row r is on line r + 1.
 Place at(const Dataset& data, std::size_t row, const std::string& column) {
-  return data.table.place(row, data.table.find(column).value());
+  return data.table->place(row, data.table->find(column).value());
 }
 
 void check_rssi(const Dataset& data) {
@@ -100,7 +100,7 @@ void note_degrees(Dataset& data, const std::vector<double>& yaw, const std::stri
 }  // namespace
 
 void check_readings(Dataset& data) {
-  const Place whole{data.table.file()};
+  const Place whole{data.table->file()};
   if (data.rows() == 0) throw invalid(whole, "the table has no rows; expected readings");
   if (data.rows() == 1) throw invalid(whole, "the table has 1 row; one reading shows no law, expected many");
   check_rssi(data);

@@ -5,7 +5,8 @@
 namespace muster::diagnosis {
 namespace {
 
-Options with_stand_in(Options options, const Observable& observable) {
+Options completed(Options options, const Observable& observable, const std::shared_ptr<TableCache>& tables) {
+  options.tables = tables;
   options.more.insert(options.more.begin(), observable.stand_in);
   return options;
 }
@@ -19,8 +20,9 @@ FirstColumn first_column(const TableView& table) {
 
 MeasuredWorld::MeasuredWorld(World world, Options options, Observable observable)
     : observable_(std::move(observable)),
+      tables_(options.tables ? options.tables : std::make_shared<TableCache>()),
       run_(std::make_unique<Simulation>(std::move(world), *observable_.sets,
-                                        with_stand_in(std::move(options), observable_))) {
+                                        completed(std::move(options), observable_, tables_))) {
   evaluate(true);
 }
 

@@ -32,6 +32,7 @@ class MeasuredWorld {
   MeasuredWorld& operator=(const MeasuredWorld&) = delete;
 
   const Observable& observable() const { return observable_; }
+  const std::shared_ptr<TableCache>& tables() const { return tables_; }  // files that were read, for further worlds
   std::size_t rows() const { return static_cast<std::size_t>(values_.size()); }  // readings
   // Expected value of every reading.
   const Eigen::VectorXd& expected();
@@ -54,6 +55,7 @@ class MeasuredWorld {
   void evaluate(bool expected);
 
   Observable observable_;
+  std::shared_ptr<TableCache> tables_;
   std::unique_ptr<Simulation> run_;
   Eigen::VectorXd values_;
   int evaluations_ = 0;

@@ -9,11 +9,11 @@ namespace {
 Eigen::VectorXd slope(MeasuredWorld& model, const std::string& path, double lower, double upper, double at) {
   const double step = std::min(1e-4 * (1 + std::abs(at)), (upper - lower) / 4);
   const double low = std::max(at - step, lower), high = std::min(at + step, upper);
-  model.set(path, high);
+  ParameterGuard moved(model);
+  moved.set(path, high);
   const Eigen::VectorXd above = model.expected();
-  model.set(path, low);
+  moved.set(path, low);
   const Eigen::VectorXd below = model.expected();
-  model.set(path, at);
   return (above - below) / (high - low);
 }
 

@@ -46,7 +46,7 @@ void check_plan(const LinkModel& model, const Dataset& data) {
   }
   const double ends = 2 * static_cast<double>(model.rows());
   if (outside < 0.1 * ends || turned_outside > 0.01 * ends) return;
-  throw invalid(data.table.place(first, 0),
+  throw invalid(data.table->place(first, 0),
                 "row " + std::to_string(first + 1) +
                     " and others lie outside of the world's walls, and inside if x and y change "
                     "places; expected x to the east and y to the north, as in the world");
@@ -65,7 +65,8 @@ bool moves(const LinkModel& model, int radio, double least) {
   return false;
 }
 
-void check_stations(const LinkModel& model, Dataset& data) {
+std::vector<std::string> check_stations(const LinkModel& model, const Dataset& data) {
+  std::vector<std::string> notes;
   const Table* mounts = model.simulation().board().find("radio/*/mount");
   std::set<int> seen;
   for (std::size_t row = 0; row < model.rows(); ++row) {
@@ -82,14 +83,14 @@ void check_stations(const LinkModel& model, Dataset& data) {
       const auto place = [](double x, double y) { return "x = " + print_real(x) + ", y = " + print_real(y) + " m"; };
       const std::string there = place(mount.x, mount.y) + " in the world",
                         what = quote(name) + " stands at " + place(end.x, end.y) + " in the data and at " + there;
-      if (turned < 0.01) throw invalid(data.table.place(row, 0), what + ": x and y are exchanged");
+      if (turned < 0.01) throw invalid(data.table->place(row, 0), what + ": x and y are exchanged");
       if (moves(model, end.radio, 0.5))
-        data.notes.push_back(quote(name) + " moves in the data and stands at " + there +
-                             "; the data's places are used");
+        notes.push_back(quote(name) + " moves in the data and stands at " + there + "; the data's places are used");
       else
-        data.notes.push_back(what + "; the data's place is used");
+        notes.push_back(what + "; the data's place is used");
     }
   }
+  return notes;
 }
 
 }  // namespace
@@ -101,9 +102,9 @@ std::string list_of(const std::vector<std::string>& names) {
   return names.size() <= most ? result : result + " and " + std::to_string(names.size() - most) + " more";
 }
 
-void note_radios(const LinkModel& model, Dataset& data) {
+std::vector<std::string> notes_on_radios(const LinkModel& model, const Dataset& data) {
   const std::vector<std::string> added = model.added_radios();
-  if (added.empty()) return;
+  if (added.empty()) return {};
   std::vector<std::string> silent = model.radio_names();
   for (const Factor* heard : {&data.tx, &data.rx})
     for (const std::string& name : heard->levels) std::erase(silent, name);
@@ -115,12 +116,12 @@ void note_radios(const LinkModel& model, Dataset& data) {
     if (const std::string near = nearest(name, silent); !near.empty())
       words += "; by " + quote(name) + ", did you mean " + quote(near) + "?";
   }
-  data.notes.push_back(words);
+  return {words};
 }
 
-void check_places(const LinkModel& model, Dataset& data) {
+std::vector<std::string> check_places(const LinkModel& model, const Dataset& data) {
   check_plan(model, data);
-  check_stations(model, data);
+  return check_stations(model, data);
 }
 
 }  // namespace muster::diagnosis

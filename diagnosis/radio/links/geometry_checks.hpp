@@ -6,12 +6,12 @@
 
 namespace muster::diagnosis {
 
-// Throws Error where x and y are exchanged: stations or readings that fit the world only the other way round. Adds to
-// data.notes what is odd, such as a station that was measured elsewhere.
-void check_places(const LinkModel& model, Dataset& data);
+// Throws Error where x and y are exchanged: stations or readings that fit the world only the other way round. Returns
+// notes on what is odd, such as a station that was measured elsewhere.
+std::vector<std::string> check_places(const LinkModel& model, const Dataset& data);
 
-// Adds to data.notes which radios of the data are none of the world's, and whom of these that may mean.
-void note_radios(const LinkModel& model, Dataset& data);
+// A note on radios of the data that the world lacks, with the names that they may mean; empty if there are none.
+std::vector<std::string> notes_on_radios(const LinkModel& model, const Dataset& data);
 
 // Names in quotes, the first five of them.
 std::string list_of(const std::vector<std::string>& names);

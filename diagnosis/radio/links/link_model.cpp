@@ -18,9 +18,9 @@ bool lists_links(const InstanceDeclaration& instance) {
 }
 
 // False also where the file is no table: whoever reads it will say so.
-bool has_columns_of(const TextTable& data, const std::filesystem::path& file) try {
-  const TextTable table = TextTable::read(file);
-  return std::all_of(table.columns().begin(), table.columns().end(), [&](const TextColumn& column) {
+bool has_columns_of(const TextTable& data, const std::filesystem::path& file, TableCache& tables) try {
+  const auto table = tables.read(file);
+  return std::all_of(table->columns().begin(), table->columns().end(), [&](const TextColumn& column) {
     const auto found = data.find(column.name);
     return found && data.columns()[*found].unit == column.unit;
   });
@@ -30,13 +30,11 @@ bool has_columns_of(const TextTable& data, const std::filesystem::path& file) tr
 
 // What a world's file tells of the times of one measurement, such as to which power each radio was set, readings of
 // other times tell of theirs: where they have all columns of an instance's `file`, they stand in for it.
-void take_settings_from(const std::filesystem::path& data, World& world) {
-  std::optional<TextTable> readings;
+void take_settings_from(const std::filesystem::path& data, World& world, TableCache& tables) {
   for (InstanceDeclaration& instance : world.instances) {
     for (XmlAttribute& attribute : instance.attributes) {
       if (attribute.name != "file") continue;
-      if (!readings) readings = TextTable::read(data);
-      if (has_columns_of(*readings, world.file.parent_path() / attribute.value))
+      if (has_columns_of(*tables.read(data), world.file.parent_path() / attribute.value, tables))
         attribute.value = std::filesystem::absolute(data).string();
     }
   }
@@ -65,18 +63,20 @@ void refuse_far_places(const std::filesystem::path& data) {
                       " m (is it another unit, such as millimetres?)");
 }
 
-World world_for(const std::filesystem::path& file, const std::filesystem::path& data) {
+World world_for(const std::filesystem::path& file, const std::filesystem::path& data, TableCache& tables) {
   World world = read_world(file, standard());
   std::erase_if(world.instances, lists_links);
   std::erase_if(world.swaps, [](const SwapDeclaration& s) { return lists_links(s.replacement); });
-  take_settings_from(data, world);
+  take_settings_from(data, world, tables);
   return world;
 }
 
-Options options_for(const World& world, const Library::SearchPath& plugins) {
+Options options_for(const World& world, const Library::SearchPath& plugins,
+                    const std::shared_ptr<TableCache>& tables) {
   const Place place{world.file.string()};
   Options options;
   options.search_path = plugins;
+  options.tables = tables;
   const auto is_receiver = [](const InstanceDeclaration& i) { return i.plugin == "radio.receiver"; };
   if (std::none_of(world.instances.begin(), world.instances.end(), is_receiver))
     options.more.push_back({"radio.receiver", "receiver", 1, {}, {}, {}, place});
@@ -94,11 +94,12 @@ static Observable links_of(const std::filesystem::path& data, const Place& place
 }
 
 LinkModel::LinkModel(const std::filesystem::path& world, const std::filesystem::path& data,
-                     const Library::SearchPath& plugins)
-    : LinkModel(world_for(world, data), data, plugins) {}
+                     const Library::SearchPath& plugins, const std::shared_ptr<TableCache>& tables)
+    : LinkModel(world_for(world, data, *tables), data, plugins, tables) {}
 
-LinkModel::LinkModel(World declared, const std::filesystem::path& data, const Library::SearchPath& plugins) try
-    : MeasuredWorld(declared, options_for(declared, plugins), links_of(data, {declared.file.string()})) {
+LinkModel::LinkModel(World declared, const std::filesystem::path& data, const Library::SearchPath& plugins,
+                     const std::shared_ptr<TableCache>& tables) try
+    : MeasuredWorld(declared, options_for(declared, plugins, tables), links_of(data, {declared.file.string()})) {
   read_ends();
 } catch (const Error& error) {
   if (std::string_view(error.what()).find("beyond the scene") != std::string_view::npos) refuse_far_places(data);
@@ -135,11 +136,11 @@ Eigen::VectorXd LinkModel::changes_aside(double metres) {
   const std::string aside = std::string(stand_in) + "/aside";
   const Eigen::VectorXd here = expected();
   Eigen::VectorXd most = Eigen::VectorXd::Zero(here.size());
+  ParameterGuard moved(*this);
   for (const double by : {-metres, metres}) {
-    set(aside, by);
+    moved.set(aside, by);
     most = most.cwiseMax((expected() - here).cwiseAbs());
   }
-  set(aside, 0);
   return most;
 }
 

@@ -21,7 +21,9 @@ InstanceDeclaration measured_links(const std::filesystem::path& file, const Plac
 class LinkModel : public MeasuredWorld {
  public:
   // The world with the readings of `data` in the place of its links. Throws Error.
-  LinkModel(const std::filesystem::path& world, const std::filesystem::path& data, const Library::SearchPath& plugins);
+  // `tables`: files that were read already.
+  LinkModel(const std::filesystem::path& world, const std::filesystem::path& data, const Library::SearchPath& plugins,
+            const std::shared_ptr<TableCache>& tables = std::make_shared<TableCache>());
 
   // Row i's two ends, tx first.
   const std::vector<std::array<End, 2>>& ends() const { return ends_; }
@@ -36,7 +38,8 @@ class LinkModel : public MeasuredWorld {
   Eigen::VectorXd changes_aside(double metres);
 
  private:
-  LinkModel(World declared, const std::filesystem::path& data, const Library::SearchPath& plugins);
+  LinkModel(World declared, const std::filesystem::path& data, const Library::SearchPath& plugins,
+            const std::shared_ptr<TableCache>& tables);
   void read_ends();
 
   std::vector<std::array<End, 2>> ends_;
