@@ -1,4 +1,4 @@
-// Simple causes over a synthetic world, as an author outside the engine would write them.
+// Simple causes over a synthetic world, in the form of an external author's.
 #pragma once
 
 #include "diagnosis/inference/state/problem.hpp"

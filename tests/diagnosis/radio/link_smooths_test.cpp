@@ -54,7 +54,7 @@ TEST(LinkSmooths, AreTheSameForBothDirectionsOfALink) {
   std::swap(sent.tx, sent.rx);
   std::swap(sent.tx_at, sent.rx_at);
   std::swap(sent.tx_yaw, sent.rx_yaw);
-  sent.rx_yaw.assign(300, 0.3);  // stations look somewhere too
+  sent.rx_yaw.assign(300, 0.3);  // stations have a heading too
   const auto columns = [&](const LinkReadings& readings, const std::string& id) {
     const std::vector<Candidate> all = link_smooths(readings, columns_of(world), true);
     const auto found = std::find_if(all.begin(), all.end(), [&](const Candidate& c) { return c.id == id; });
