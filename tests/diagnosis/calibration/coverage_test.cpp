@@ -1,6 +1,6 @@
 // Coverage of 95 % intervals, and false alarms of structure tests in sound worlds. Worlds on the hall's plan with
-// Rayleigh fading and three kinds of shadowing: other than the error model's (a field at the robot's place,
-// exponential), of the channel's own (a line integral of 64 waves), and none.
+// Rayleigh fading and three kinds of shadowing. One is other than the error model's (a field at the robot's place,
+// exponential), one the channel's own (a line integral of 64 waves), one zero.
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>

@@ -38,8 +38,8 @@ TEST(ModelState, LongerRowsTellNoMore) {
   }
 }
 
-// An offset of one transmitter in a smooth field under much noise: an excess from few neighbours, or from the family
-// most favourable to it, does not count.
+// An offset of one transmitter in a smooth field under much noise. Excess evidence from few neighbours, or from its
+// most favourable family, does not count.
 TEST(LongRangeRows, ANameIsWorthNoMoreThanTheCovarianceItselfSays) {
   const auto world = world_of({.seed = 3,
                                .readings = 2600,

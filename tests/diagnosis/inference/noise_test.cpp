@@ -73,8 +73,8 @@ TEST(Exact, CovarianceOfSumsIsTheDenseOne) {
   }
 }
 
-// An offset of one radio in a field of two scales with dense readings: by few neighbours its gain is wider than
-// chi-square, and exactly by the ratio of the exact covariance.
+// An offset of one radio in a field of two scales with dense readings. By few neighbours its gain is wider than
+// chi-square, by the ratio of the exact covariance.
 TEST(Exact, GainsOfPureNoiseAreChiSquare) {
   const Sites sites = scattered(900, 3, 7);
   const Covariance c{Family::two_scale, {std::log(9.0), std::log(2.0), std::log(2.0), -1.2}};

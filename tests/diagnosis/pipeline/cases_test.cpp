@@ -270,8 +270,8 @@ TEST(GrazingLinks, AreNoOutliers) {
   EXPECT_TRUE(std::any_of(found.notes.begin(), found.notes.end(), says));
 }
 
-// Long rows hide half of these walls' effect (a regression). The first two were not named; of the third the loss
-// ranged from 0 to 28 dB, and the place from one end of the plan to the other.
+// Long rows hide half of these walls' effect (a regression). The first two were not named. The third's loss ranged
+// from 0 to 28 dB, and its place from one end of the plan to the other.
 class Wall : public testing::TestWithParam<int> {};
 
 TEST_P(Wall, IsFoundAtItsEdges) {

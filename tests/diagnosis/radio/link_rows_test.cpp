@@ -21,8 +21,8 @@ using noise::readings_apart;
 using noise::Rows;
 using noise::Sites;
 
-// For an exponential field on a line, half the variance of the difference of two rows is the mean distance of their
-// readings less that within one, in decorrelation distances. It holds for distances well below one.
+// For an exponential field on a line, the distance of two rows is half the variance of their difference. It is the
+// mean distance of their readings less that within one, in decorrelation distances, as long as it is well below one.
 TEST(LinkRows, DistanceIsThatOfTheMeansOnALine) {
   constexpr double pace = 0.1;  // m between readings
   for (const int each : {1, 2, 3, 4, 6, 9}) {
