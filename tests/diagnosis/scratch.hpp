@@ -1,4 +1,4 @@
-// Small files for tests, gone at the end, and errors as text.
+// Temporary files for tests, and errors as text.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@ namespace muster::diagnosis {
 using Scratch = test::Folder;
 using test::contents;
 
-// What went wrong, without the folder before the file's name; "" if nothing did.
+// The error message, without the folder of the file; "" without an error.
 inline std::string complaint(const std::function<void()>& act) {
   try {
     act();

@@ -1,4 +1,4 @@
-// A robot that hears one station on a straight way: readings whose law, field and bursts are known.
+// A robot on a straight path that receives from one station: readings of known law, field and bursts.
 #pragma once
 
 #include <cmath>
@@ -12,10 +12,10 @@ struct Truth {
   double rician_k = 6, outliers = 0, channel_sd = 0;  // dB; channels: two
 };
 
-// Its shadowing is exponential, of 3 dB.
+// With exponential shadowing of 3 dB.
 struct Walk {
   LinkReadings readings;
-  Eigen::VectorXd residual;  // dB, by whole ones
+  Eigen::VectorXd residual;  // dB, integers
 };
 
 inline Walk drawn(const Truth& truth, int count, double decorrelation = 1.5, int station = 0) {

@@ -1,4 +1,4 @@
-// Worlds of the tests, with the plugins of this build.
+// Worlds of the tests, with this build's plugins.
 #pragma once
 
 #include "diagnosis/calibration/fit.hpp"

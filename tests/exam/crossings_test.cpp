@@ -28,7 +28,7 @@ TEST(Crossings, AreThoseOfTheScene) {
       different += -data.design(row, 2) != counts[0] || -data.design(row, 3) != counts[1];
     }
   }
-  // The scene rounds places to a lattice of 0.24 mm: one link in some ten thousand then passes a door's post or a
+  // The scene rounds places to a lattice of 0.24 mm. One link in some ten thousand then passes a door's post or a
   // corner on the other side.
   EXPECT_LT(static_cast<double>(different), 5e-4 * static_cast<double>(all));
 }

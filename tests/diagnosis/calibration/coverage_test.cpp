@@ -1,6 +1,6 @@
-// Do 95 % intervals hold the truth in 95 % of worlds, and do looks at sound worlds stay quiet? Worlds on the hall's
-// plan with Rayleigh fading and shadowing that readings share: of another kind than the error model assumes (a field at
-// the robot's place, exponential), of the channel's own (a line integral of 64 waves), and none.
+// Coverage of 95 % intervals, and false alarms of structure tests in sound worlds. Worlds on the hall's plan with
+// Rayleigh fading and three kinds of shadowing. One is other than the error model's (a field at the robot's place,
+// exponential), one the channel's own (a line integral of 64 waves), one zero.
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
@@ -22,7 +22,7 @@ constexpr int worlds = 400;
 struct Plan {
   Scratch scratch;
   std::vector<std::array<End, 2>> ends;
-  Fit base;  // residual to be filled
+  Fit base;  // without a residual
 
   Plan() {
     std::istringstream in(contents(hall / "measured_plain.csv"));
@@ -92,7 +92,7 @@ Errors nothing_shared() {
   return [](unsigned world) { return rayleigh(Plan::get().ends.size(), world); };
 }
 
-// How often each parameter's interval holds the truth.
+// Coverage of each parameter's interval.
 Eigen::VectorXd coverage(const Errors& errors) {
   const Fit& base = Plan::get().base;
   const Eigen::MatrixXd& slopes = base.slopes;
@@ -110,8 +110,8 @@ Eigen::VectorXd coverage(const Errors& errors) {
   return held / worlds;
 }
 
-// 95 +- 3 % over the parameters together. One alone may be off by more: docs/explanation/fit_method.md has the table
-// and says by how much.
+// 95 +- 3 % over the parameters together. Single ones may deviate further: docs/explanation/fit_method.md has the
+// table.
 void expect_95(const Eigen::VectorXd& coverage, const std::string& what) {
   std::cout << what << ": " << coverage.transpose() << '\n';
   EXPECT_NEAR(coverage.mean(), 0.95, 0.03) << what;
@@ -129,7 +129,7 @@ TEST(Coverage, FieldAlongWays) {
   expect_95(coverage(field_along_ways(4, 2)), "4 dB over 2 m along the way");
 }
 
-// How many worlds in which nothing is hidden have a look below 5 % over all looks.
+// Share of sound worlds with any test below 5 % over all tests.
 double false_alarms(const Errors& errors, int count) {
   Fit fit = Plan::get().base;
   const auto& ends = Plan::get().ends;

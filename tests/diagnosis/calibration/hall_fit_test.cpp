@@ -1,4 +1,4 @@
-// The paper's calibration, end to end: what the hall's data hold is found again, and what they hide is noticed.
+// The paper's calibration, end to end: the hall's parameters are recovered, and its hidden effects detected.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -54,7 +54,7 @@ TEST(Hall, PlainDataGiveBackWhatTheyWereMadeFrom) {
 
 TEST(Hall, RayleighMeanIsStated) {
   EXPECT_NEAR(plain().result.fading_mean, -2.5068, 1e-3);
-  EXPECT_NEAR(plain().result.residual_sd, 5.570, 0.1);  // of the dB of an exponential power
+  EXPECT_NEAR(plain().result.residual_sd, 5.570, 0.1);  // sd of an exponential power in dB
 }
 
 TEST(Hall, PlainDataShowNoMisfit) {
@@ -73,13 +73,13 @@ TEST(Hall, HiddenCabinetsAreNoticedWhereTheyAre) {
   EXPECT_TRUE(bearing->alarm);
   const auto worst = std::min_element(bearing->bins.begin(), bearing->bins.end(),
                                       [](const Bin& a, const Bin& b) { return a.mean < b.mean; });
-  EXPECT_GT(worst->to, 0.28);  // rad: the cabinets stand between 0.279 and 0.538
+  EXPECT_GT(worst->to, 0.28);  // rad: the cabinets are between 0.279 and 0.538
   EXPECT_LT(worst->from, 0.538);
   EXPECT_LT(worst->mean, -3);
 }
 
 TEST(Hall, OrderOfRowsOfDifferentPairsDoesNotMatter) {
-  // Without times rows may stand in any order.
+  // Without times the order of rows is free.
   const Scratch scratch;
   std::vector<std::string> lines;
   std::istringstream in(contents(hall / "measured_plain.csv"));

@@ -1,4 +1,4 @@
-// The two minimisers against a closed form, what is not identifiable, and why readings are missing.
+// The two minimisers against a closed form, null directions, and tests of missing readings.
 #include <gtest/gtest.h>
 
 #include <Eigen/QR>
@@ -151,7 +151,7 @@ TEST(MissingData, AFloorBesideMuchRandomLossCutsLevelsOff) {
   EXPECT_FALSE(missing_where([](double, double chance) { return chance < 0.1; }).cut_off);
 }
 
-// Where few are lost, their floor is the weakest that was heard, and not what one in a thousand lies below.
+// With few losses the floor is at the weakest received reading, not at a quantile of one in a thousand.
 TEST(MissingData, AFloorInTheTailTakesFew) {
   const MissingData alone = missing_where([](double level, double) { return level < -101; });
   EXPECT_LT(alone.count, 50u);
@@ -161,12 +161,12 @@ TEST(MissingData, AFloorInTheTailTakesFew) {
   EXPECT_TRUE(beside.cut_off);
   EXPECT_NEAR(beside.floor, -98, 0.5);
   const MissingData few = missing_where([](double level, double chance) { return level < -100 || chance < 0.05; });
-  EXPECT_LT(few.evidence, 10);  // of the rise alone
+  EXPECT_LT(few.evidence, 10);  // for the rise alone
   EXPECT_TRUE(few.cut_off);
   EXPECT_NEAR(few.floor, -100, 0.5);
 }
 
-// A receiver that hears half of all, and of weak ones fewer and fewer.
+// A receiver that loses half of all readings, and more of weak ones.
 TEST(MissingData, ALossThatRisesGentlyIsNoFloorAndNotChance) {
   const auto gentle = [](double level, double chance) { return chance > 0.5 / (1 + std::exp((-78 - level) / 5)); };
   const MissingData found = missing_where(gentle);
@@ -181,7 +181,7 @@ TEST(MissingData, NothingMissing) {
   EXPECT_EQ(missing_where([](double, double) { return false; }).count, 0u);
 }
 
-// Shapes are means over examples of clusters, which need not be covariances of anything.
+// Shapes are means over examples of clusters, and need not be covariances.
 TEST(ErrorModels, OutliveShapesThatAreNoCovariance) {
   constexpr int rows_each = 100;
   Clusters clusters{{}, {rows_each, rows_each, rows_each}, {}};

@@ -1,4 +1,4 @@
-// What is sought of a cause, as attributes of its plugin.
+// Shape of a cause, from attributes of its plugin.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace muster::diagnosis {
 namespace {
 
-// exp(log(100)) lies above 100, which a plugin would refuse.
+// exp(log(100)) is above 100, which a plugin would refuse.
 TEST(CauseShape, AParameterSoughtByItsLogarithmStaysInsideItsBounds) {
   muster_param permittivity{};
   permittivity.name = "permittivity";
@@ -30,7 +30,7 @@ TEST(CauseShape, AParameterSoughtByItsLogarithmStaysInsideItsBounds) {
   }
 }
 
-// Between two that are tried a swing loses little: half a cycle off over the data, a wave keeps 40 % of its energy.
+// The grid is dense enough for oscillations: half a cycle off over the data, a wave keeps 40 % of its energy.
 TEST(CauseShape, SwingsOfManyCyclesAreSought) {
   muster_param period{};
   period.name = "period";
@@ -53,7 +53,7 @@ TEST(CauseShape, SwingsOfManyCyclesAreSought) {
   }
 }
 
-// Of the data's radios one turns, and is none of the world's.
+// One of the data's radios turns, and is not in the world.
 TEST(CauseRows, ARadioThatOnlyTheDataKnowIsTold) {
   const Scratch scratch;
   const std::string rows =
@@ -90,7 +90,7 @@ TEST(CauseRows, ARadioThatOnlyTheDataKnowIsTold) {
   EXPECT_EQ(told("<station name=\"rover\" at=\"1 0 1\"/>"), "about rover");
 }
 
-// Which radios move and turn, of some that hear a station.
+// Measurement geometry of a radio with these poses that receives from one station.
 MeasurementGeometry heard_at(const std::vector<std::array<double, 3>>& places_and_headings) {
   const Scratch scratch;
   std::string rows = "t[s],tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],rx_yaw[rad],rssi[dBm]\n";
@@ -111,7 +111,7 @@ TEST(MeasurementGeometry, TakesARadioThatIsSetUpAFewTimesForOneThatStands) {
     EXPECT_FALSE(s.turns.at(1));
     EXPECT_FALSE(s.moves.at(1));
   }
-  EXPECT_EQ(moved.standing.size(), 3u);  // the station's and both
+  EXPECT_EQ(moved.standing.size(), 3u);  // of the station and of both
   const MeasurementGeometry on_the_spot = heard_at({{3, 1, 0}, {3, 1, 1}, {3, 1, 2}, {3, 1, 3}, {3, 1, 4}, {3, 1, 5}});
   EXPECT_TRUE(on_the_spot.turns.at(1));
   EXPECT_FALSE(on_the_spot.moves.at(1));
@@ -121,7 +121,7 @@ TEST(MeasurementGeometry, TakesARadioThatIsSetUpAFewTimesForOneThatStands) {
   EXPECT_TRUE(drives.moves.at(1));
 }
 
-// A factor of e either way: 1.96 of those, and not 216 dB about 100.
+// A factor of e in either direction: 1.96 of those, not 216 dB about 100.
 TEST(CauseEstimate, IntervalOfAParameterSoughtByItsLogarithmIsAFactor) {
   muster_param knee{};
   knee.name = "knee";

@@ -1,4 +1,4 @@
-// Fault class 25: measured data that cannot be, each named with its row, word for word.
+// Fault class 25: impossible measured data, each reported with its row, word for word.
 #include <gtest/gtest.h>
 
 #include "diagnosis/data/dataset.hpp"

@@ -1,4 +1,4 @@
-// Features against figures computed by hand, and foreign tables brought into the format.
+// Features against figures computed by hand, and foreign tables converted to the format.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -35,13 +35,13 @@ TEST(Features, ByHand) {
   EXPECT_NEAR(f.tx_bearing[2], 0, 1e-12);
   EXPECT_NEAR(f.rx_bearing[0], pi, 1e-12);
   EXPECT_NEAR(f.rx_bearing[1], 3 * pi / 4,
-              1e-9);  // to the south-west, seen by one who looks north: behind, to the left
+              1e-9);  // to the south-west, with a heading to the north: behind, to the left
   EXPECT_NEAR(f.incidence[0], 0, 1e-9);
   EXPECT_TRUE(std::isnan(f.incidence[2]));
   EXPECT_EQ(f.crossed, (std::vector<int>{0, 1, 0}));
 }
 
-// A floor counts by its material, and is no wall that a link crosses.
+// A floor counts by its material, and not as a wall.
 TEST(Features, OfAFloor) {
   const Scratch scratch;
   const auto world = scratch.write("world.xml",
@@ -124,7 +124,8 @@ TEST(Import, WhatDoesNotFitIsNamed) {
   EXPECT_EQ(failing("# nothing\n"), "m.map: no column is mapped; expected lines such as rssi[dBm] = rssi");
 }
 
-// Two anchors hear one robot; lines of the source are named, since nobody has seen the rows of the result.
+// Two anchors receive from one robot. Errors name lines of the source, since the user has not seen rows of the
+// result.
 TEST(Import, WhatIsRefusedIsNamedAsItStandsInTheSource) {
   const Scratch scratch;
   scratch.write("anchors.csv", "id,x,y\n1,5,0\n2,0,7.5\n");

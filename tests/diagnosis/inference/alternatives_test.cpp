@@ -1,4 +1,4 @@
-// What a finding may be mistaken for.
+// Alternatives of a finding.
 #include "diagnosis/inference/select/alternatives.hpp"
 
 #include <gtest/gtest.h>
@@ -16,8 +16,8 @@
 namespace muster::inference {
 namespace {
 
-// A weak one of two transmitters is the other one's strength, whatever is read; among three it is not, nor where the
-// strength of each is given. The same transmitter by another number is no rival.
+// With two transmitters, a weak one equals a strong other one, for any readings. With three, or with a given strength
+// for each, it does not. The same transmitter under another index is no alternative.
 TEST(Rivals, OfTwoRadiosEitherMayBeMeant) {
   for (const auto& [transmitters, whole, others] : {std::tuple(2, false, 1u), {3, false, 0u}, {2, true, 0u}}) {
     Recipe recipe = varied(14, 4000);
@@ -49,7 +49,7 @@ TEST(Rivals, OfTwoRadiosEitherMayBeMeant) {
   }
 }
 
-// A battery that falls all the while may stand for what acts in time, one that comes and goes for nothing else.
+// A steadily falling battery may imitate causes in time, a shuffled one no cause.
 TEST(Rivals, OfWhatIsUnexplainedAreTheCausesThatExplainItNearlyAsWell) {
   auto world = world_of(varied(254, 3000));
   for (const bool falls : {true, false}) {
@@ -88,7 +88,7 @@ TEST(Rivals, OfSeveralWaysAlongOneCovariateTheLikestIsTold) {
   state.refit();
   const WhitenedModel rest = state.whitened_model(state.design_without(state.terms[0]));
   const double of_drift = state.evidence(*state.terms[0].candidate, rest.gain(state.terms[0].columns), 1, false);
-  std::vector<double> gaps;  // before the refinement of those that have a place to refine
+  std::vector<double> gaps;  // before refinement
   for (const ScoredCandidate& lead : scored_candidates(state, rest)) {
     if (lead.candidate().own() == "battery") gaps.push_back(of_drift - lead.evidence);
   }

@@ -1,4 +1,4 @@
-// How far apart two rows lie, pair by pair in double precision: what the kernels are held against.
+// Reference distances of two rows, pair by pair in double precision, for tests of the kernels.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace muster::noise {
 
 struct Apart {
-  double place, both;  // m: between places, and between both ends
+  double place, both;  // m: by place, and by place and anchor jointly
 };
 
 inline Apart middles_apart(const Sites& sites, Index one, Index other) {

@@ -1,4 +1,4 @@
-// What becomes of a guessed model: causes that give way, are set aside or are dropped.
+// Backward elimination of a guessed model: causes that are replaced, set aside or dropped.
 #include "diagnosis/inference/select/backward_elimination.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ struct Guess {
   Eigen::VectorXd theta;
 };
 
-// What cleaning up leaves of a model that was guessed so.
+// Terms left of a guessed model.
 std::vector<Term> cleaned_up(const Problem& problem, const std::vector<Guess>& guesses) {
   ModelState state(problem, {});
   score(state);
@@ -29,7 +29,7 @@ std::vector<Term> cleaned_up(const Problem& problem, const std::vector<Guess>& g
   return state.terms;
 }
 
-// A function of the battery may enter first, while the field holds a part of what acts in time.
+// A smooth of the battery may enter first, while the field has absorbed a part of an effect in time.
 TEST(CleanUp, WhatActsInTimeIsNotTheBatteryThatFallsMeanwhile) {
   const auto world = world_of(varied(254, 3000));
   const Eigen::VectorXd step = (world.time.array() > 0.4 * world.time.maxCoeff()).cast<double>(),
@@ -42,7 +42,7 @@ TEST(CleanUp, WhatActsInTimeIsNotTheBatteryThatFallsMeanwhile) {
   }
 }
 
-// Less than 3 nats likelier is likelier; and a true bend keeps its place.
+// An advantage below 3 nats suffices; and a true bend is kept.
 TEST(CleanUp, WhatActsInTimeStandsWhereItIsLikelierThanABendAlongTheBattery) {
   const auto world = world_of(varied(270, 3000));
   const Eigen::ArrayXd t = world.time.array() / world.time.maxCoeff();
@@ -56,7 +56,7 @@ TEST(CleanUp, WhatActsInTimeStandsWhereItIsLikelierThanABendAlongTheBattery) {
   }
 }
 
-// The strongest reading and all that come near it are known to be as strong at least.
+// Censors the strongest reading and all close to it.
 Problem clipped(Problem problem) {
   const double top = problem.measured.maxCoeff() - 8;
   problem.bounds.known.assign(static_cast<std::size_t>(problem.measured.size()), noise::Known::value);
@@ -68,7 +68,7 @@ Problem clipped(Problem problem) {
   return problem;
 }
 
-// What a clip leaves over finds a place somewhere.
+// Residuals of clipping fit some place by chance.
 TEST(CleanUp, BesideAClipAWallMustWinMoreThanADrift) {
   const auto world = world_of(varied(13, 4000));
   auto causes = causes_of(world);
@@ -76,7 +76,7 @@ TEST(CleanUp, BesideAClipAWallMustWinMoreThanADrift) {
   ASSERT_EQ(wall.id, "unmapped_wall");
   wall.refinement.proposed = [](Tally&) {
     return std::vector<Eigen::VectorXd>();
-  };  // as one that is sought over a plan
+  };  // as a candidate with a spatial scan
   const Eigen::VectorXd place = Eigen::Vector4d(12, 8, 5, 0.35), all = Eigen::VectorXd::Constant(1, -1);
   const Problem hidden = problem_of(world, -scaled_to(world, wall.design.columns(place), 50), causes),
                 drifts = problem_of(world, scaled_to(world, world.time, 50), causes);
@@ -117,7 +117,7 @@ TEST(CleanUp, ACauseGivesWayToASimplerOneThatTheReadingsCannotTellFromIt) {
   EXPECT_EQ(terms[0].candidate->id, "rx_offset");
 }
 
-// A twin that is sought at one transmitter alone costs less to find, and is no more likely for that.
+// A twin with a grid of one transmitter costs less to find, and is no likelier for that.
 TEST(CleanUp, ASimpleCauseGivesNoWayToATwinThatIsSoughtAtFewerPlaces) {
   const auto world = world_of(varied(34, 4000));
   std::vector<Candidate> causes = causes_of(world);
@@ -149,7 +149,7 @@ TEST(CleanUp, ASmoothGivesWayToTheCauseThatExplainsIt) {
   EXPECT_EQ(terms[0].candidate->id, "antenna_rx");
 }
 
-// Of two robots each carries what shadows it: neither alone explains what both do along the bearing.
+// Each of two robots carries its own shadow: neither alone explains the effect along the bearing.
 TEST(CleanUp, ASmoothGivesWayToTheSameCauseOnTwoRadios) {
   const auto world = world_of(varied(14, 4000));
   auto causes = causes_of(world);

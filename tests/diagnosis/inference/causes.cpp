@@ -17,7 +17,7 @@ VectorXd theta(std::initializer_list<double> values) {
   return result;
 }
 
-// The world is captured by reference: it lives as long as the problem that uses the candidate.
+// Captures the world by reference: it must outlive the problem.
 Eigen::ArrayXd is_tx(const World& w, double tx) {
   Eigen::ArrayXd result(w.readings.size());
   for (Index i = 0; i < result.size(); ++i)
@@ -99,7 +99,7 @@ Candidate step(const World& w) {
     const Eigen::ArrayXd on = (w.time.array() > t[0]).cast<double>();
     return t[1] < 0 ? on : Eigen::ArrayXd(on * is_tx(w, t[1]));
   };
-  c.refinement.lower = theta({0.08 * last, -1});  // earlier or later it is an offset
+  c.refinement.lower = theta({0.08 * last, -1});  // near the ends it is an offset
   c.refinement.upper = theta({0.92 * last, 1e3});
   c.refinement.step = theta({0.012 * last, 0});
   c.refinement.evaluations = 35;
@@ -167,7 +167,7 @@ VectorXd wall_of(const Segment& s) {
   return theta({(s[0] + s[2]) / 2, (s[1] + s[3]) / 2, std::hypot(dx, dy), std::atan2(dy, dx)});
 }
 
-// The ends that lie farthest apart of every pair of walls found.
+// The two most distant ends of every pair of walls found.
 std::vector<VectorXd> spans(const std::vector<Piece>& pieces) {
   std::vector<VectorXd> result;
   std::vector<Segment> walls;
@@ -196,7 +196,7 @@ std::vector<VectorXd> spans(const std::vector<Piece>& pieces) {
   return result;
 }
 
-// How often robots drove across a segment: a wall cannot stand there.
+// Number of times that robots drove across a segment, where no wall can be.
 int driven_across(const World& w, const Segment& s) {
   int count = 0;
   std::array<Index, 2> before{-1, -1};

@@ -1,4 +1,4 @@
-// Simple causes over a synthetic world, as an author outside the engine would write them.
+// Simple causes over a synthetic world, in the form of an external author's.
 #pragma once
 
 #include "diagnosis/inference/state/problem.hpp"
@@ -14,8 +14,8 @@ std::vector<inference::Candidate> causes_of(const World& world);
 // The world's speed, battery and temperature.
 diagnosis::LinkColumns columns_of(const World& world);
 
-// A problem with these candidates and the world's columns; `effect` (dB, one a reading) is added to what was measured,
-// which is then quantised to 1 dB. `run`: of each reading, empty where the data name none.
+// A problem with these candidates and the world's columns. `effect` (dB, one a reading) is added to the readings,
+// which are then quantised to 1 dB. `run`: of each reading, empty where the data name none.
 inference::Problem problem_of(const World& world, const Eigen::VectorXd& effect,
                               std::vector<inference::Candidate> causes, const diagnosis::LinkRowLimits& limits = {},
                               std::vector<int> run = {});

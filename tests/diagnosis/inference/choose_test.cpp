@@ -1,4 +1,4 @@
-// Which of those that pass is taken.
+// Choice among significant candidates.
 #include "diagnosis/inference/select/choose.hpp"
 
 #include <gtest/gtest.h>
@@ -29,8 +29,8 @@ TEST(Compared, TheSimplerOfTwoWithTheSameEffectComesFirst) {
               "rx_offset");
 }
 
-// A step of 2 dB, as it is or by any multiple, where a lead of it lies off. What a second look won is its own
-// beside what refinement wins, unless a multiple of it means nothing.
+// A step of 2 dB, at its given strength or any multiple, with a lead off its place. A gain from the refit-noise pass
+// is kept beside that of refinement, except for a whole column.
 TEST(Compared, ALeadIsRefinedAndKeepsWhatItWonUnlessItCountsAsItIs) {
   const auto world = world_of(varied(254, 3000));
   std::vector<Candidate> causes = causes_of(world);

@@ -1,4 +1,4 @@
-// What 20,000 readings and a thousand atoms cost, by step, in CPU seconds of one core.
+// Cost of 20,000 readings and a thousand atoms, by step, in CPU seconds of one core.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -13,7 +13,7 @@ namespace {
 
 class Clock {
  public:
-  // Seconds of this process since the last call.
+  // CPU seconds of this process since the last call.
   double lap() {
     const std::clock_t now = std::clock();
     const double seconds = static_cast<double>(now - last_) / CLOCKS_PER_SEC;
@@ -28,7 +28,7 @@ class Clock {
 TEST(Cost, TwentyThousandReadingsAndAThousandAtomsAreSearchedInTwoSeconds) {
   const auto world = synthetic::world_of(synthetic::varied(51, 20000));
   auto causes = synthetic::causes_of(world);
-  Candidate& wall = causes[9];  // robots that drive this long leave few places free: here they drive through walls
+  Candidate& wall = causes[9];  // robots that drive this long leave few places free: here they may drive through walls
   wall.refinement.admitted = {};
   wall.design.grid.clear();
   for (uint64_t k = 0; k < 1000; ++k) {

@@ -1,4 +1,4 @@
-// What is left out together, and what a fit without it says of it.
+// Folds of cross-validation, and errors on them.
 #include "diagnosis/inference/assess/cross_validation.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ TEST(Folds, BlocksAreThreeDecorrelationDistancesWideAndEveryReadingIsLeftOutOnce
   const double side = 3 * c.decorrelation();
   EXPECT_LE(folds.blocks(), std::ceil(24 / side) * std::ceil(16 / side));
   EXPECT_GE(folds.blocks(), 8);
-  // A mean that the design holds is predicted to the last bit; one that it lacks is not.
+  // A mean within the design is predicted exactly; one outside is not.
   const Eigen::VectorXd exact = world.base * Eigen::Vector3d(-30, 2, 5);
   const auto errors = [&](const Eigen::MatrixXd& design) {
     return folds.squared_errors({rows.mean(exact), rows.mean(design)}, {exact, design});

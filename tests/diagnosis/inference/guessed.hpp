@@ -1,4 +1,4 @@
-// What tests of the parts of a search start from: a model that was guessed.
+// A guessed model, the start of tests of the search's parts.
 #pragma once
 
 #include <stdexcept>
@@ -24,14 +24,14 @@ inline Term term_at(const ModelState& state, const std::string& id, const Eigen:
   throw std::logic_error(id);
 }
 
-// Nulls for every candidate, as the forward search would have worked out.
+// Computes nulls for every candidate, as forward selection does.
 inline void score(ModelState& state) {
   const WhitenedModel model = state.whitened_model(state.base());
   state.renew_depending(model.coefficients(state.sensitivities()));
   scored_candidates(state, model);
 }
 
-// An offset, and the same with one parameter more.
+// An offset, and the same with one more parameter.
 inline std::vector<Candidate> twins_of(const synthetic::World& world) {
   std::vector<Candidate> twins = causes_of(world);
   twins.insert(twins.begin(), twins[1]);

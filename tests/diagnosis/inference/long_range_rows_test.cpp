@@ -1,4 +1,4 @@
-// What longer rows say of what would enter: no more than there is, and only of what they see.
+// Tests on longer rows: no excess of evidence, and only for effects that they resolve.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ using synthetic::problem_of;
 using synthetic::varied;
 using synthetic::world_of;
 
-// What winnings are with the noise fitted anew: the same few rows again, each several times, would win twice as much.
+// Profile-likelihood gain with the noise refitted: repeating the same few rows does not double it.
 TEST(ModelState, LongerRowsTellNoMore) {
   for (const uint64_t seed : {17u, 18u, 19u}) {
     const auto world = world_of(varied(seed, 4000));
@@ -38,8 +38,8 @@ TEST(ModelState, LongerRowsTellNoMore) {
   }
 }
 
-// In a smooth field under much noise a sender's offset: what few neighbours, and the family that needs the offset most,
-// say too much is not believed.
+// An offset of one transmitter in a smooth field under much noise. Excess evidence from few neighbours, or from its
+// most favourable family, does not count.
 TEST(LongRangeRows, ANameIsWorthNoMoreThanTheCovarianceItselfSays) {
   const auto world = world_of({.seed = 3,
                                .readings = 2600,
@@ -62,7 +62,7 @@ TEST(LongRangeRows, ANameIsWorthNoMoreThanTheCovarianceItselfSays) {
   EXPECT_NEAR(result.trials[0].marginal_log_p, state.log_p(*offset.candidate, sure / overdispersion, 1, true), 0.2);
 }
 
-// What has no name must win more than a chi-square says.
+// The threshold of a smooth is above that of a chi-square.
 TEST(LongRangeRows, WhatHasNoNameMustWinMore) {
   const auto world = world_of(varied(32, 3000));
   const Eigen::VectorXd effect = scaled_to(world, (3 * world.bearing().array() + 1).cos(), 80);
@@ -78,7 +78,7 @@ TEST(LongRangeRows, WhatHasNoNameMustWinMore) {
   EXPECT_GE(lobes->marginal_log_p, state.log_p(*term.candidate, lobes->gain / 1.1, term.columns.cols(), true) - 0.1);
 }
 
-// A swing of the level from row to row is gone from longer rows, an offset is not.
+// Longer rows average out an oscillation from row to row, but not an offset.
 TEST(LongRangeRows, KeepWhatChangesLittleWithinThem) {
   const auto world = world_of(varied(21, 3000));
   const Problem problem = problem_of(world, Eigen::VectorXd::Zero(3000), causes_of(world), {.way = 0.2});

@@ -1,4 +1,4 @@
-// Pieces of one wall, and two walls.
+// Merges pieces of one wall, but not two walls.
 #include "diagnosis/inference/select/merge_duplicates.hpp"
 
 #include <gtest/gtest.h>

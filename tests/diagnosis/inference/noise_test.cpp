@@ -73,8 +73,8 @@ TEST(Exact, CovarianceOfSumsIsTheDenseOne) {
   }
 }
 
-// An offset of one radio in a field of two scales, where readings lie close: by few neighbours its gain is more than a
-// chi-square's, and by as much as the covariance itself says.
+// An offset of one radio in a field of two scales with dense readings. By few neighbours its gain is wider than
+// chi-square, by the ratio of the exact covariance.
 TEST(Exact, GainsOfPureNoiseAreChiSquare) {
   const Sites sites = scattered(900, 3, 7);
   const Covariance c{Family::two_scale, {std::log(9.0), std::log(2.0), std::log(2.0), -1.2}};
@@ -93,7 +93,7 @@ TEST(Exact, GainsOfPureNoiseAreChiSquare) {
     for (Index i = 0; i < 900; ++i) z[i] = stream.normal(static_cast<uint64_t>(i), draw);
     const Eigen::VectorXd residual = design.rest(whitener(Eigen::VectorXd(root * z))).col(0);
     const double gain = (added.q.transpose() * residual).squaredNorm();
-    if (draw == 0) overstated = gain / exact_gain(field, whitener, added.q, residual);  // the same of any residual
+    if (draw == 0) overstated = gain / exact_gain(field, whitener, added.q, residual);  // the same for any residual
     mean += gain / draws;
   }
   EXPECT_GT(overstated, 1.25);
@@ -116,7 +116,7 @@ TEST(Vecchia, IsTheDenseLikelihoodWhereEveryEarlierRowIsANeighbour) {
   }
 }
 
-// Rows of one anchor have no others to be conditioned on: slots for these would stay empty and cost their time.
+// With one anchor, slots for other anchors would stay empty and cost time.
 TEST(Vecchia, KeepsNoSlotsForOtherAnchorsWhereThereIsOne) {
   EXPECT_EQ(Field(scattered(50, 1, 5), {8, 7, 1}).slots(), 8);
   EXPECT_EQ(Field(scattered(50, 2, 5), {8, 7, 1}).slots(), 15);
@@ -134,7 +134,7 @@ TEST(Vecchia, WhitenedDrawsOfTheFieldAreIndependentWithVarianceOne) {
   }
   const Eigen::MatrixXd white = whitener(root * z);
   EXPECT_NEAR(white.squaredNorm() / static_cast<double>(n * draws), 1, 0.02);
-  // Of the exact covariance whitened on both sides what is off the diagonal is what 14 neighbours leave.
+  // Off-diagonal entries of the exact covariance, whitened on both sides, are the error of 14 neighbours.
   const Eigen::MatrixXd half = whitener(root);
   Eigen::MatrixXd unit = half * half.transpose();
   EXPECT_NEAR(unit.diagonal().mean(), 1, 0.005);
@@ -211,7 +211,7 @@ TEST(Fit, FindsTheFieldThatMadeTheReadings) {
     const auto fits = fit_families(field, rows.mean(world.rssi), rows.mean(world.base), Prior());
     errors.push_back(
         std::abs(fits[0].covariance.theta[1] - world.true_theta[1] - log_scale_of(fits[0].covariance.family)));
-    EXPECT_NEAR(fits[0].covariance.theta[2], world.true_theta[2], 0.7) << seed;  // part of it is the field within a row
+    EXPECT_NEAR(fits[0].covariance.theta[2], world.true_theta[2], 0.7) << seed;  // the field within a row adds to it
     EXPECT_NEAR(fits[0].covariance.theta[0], world.true_theta[0], 0.6) << seed;
   }
   std::sort(errors.begin(), errors.end());
@@ -228,7 +228,7 @@ TEST(Fit, ASmoothFieldIsNotTakenForAnExponentialOne) {
             Family::exponential);
 }
 
-// A correlation of something: no combination of rows near each other has a negative variance.
+// A valid correlation: no combination of nearby rows has a negative variance.
 TEST(Families, ArePositiveDefiniteOverRows) {
   Sites sites = scattered(60, 1, 21);
   sites.place *= 0.15;
@@ -248,7 +248,7 @@ TEST(Reach, IsTheWhitenersTranspose) {
   for (Index i = 0; i < 90; ++i) z[i] = Stream(7).normal(static_cast<uint64_t>(i));
   const Eigen::MatrixXd all = whitener(Eigen::MatrixXd::Identity(90, 90));
   EXPECT_LT((reach.transposed(z) - all.transpose() * z).cwiseAbs().maxCoeff(), 1e-12);
-  EXPECT_LT((whitener(z) - all * z).cwiseAbs().maxCoeff(), 1e-12);  // one column goes its own way
+  EXPECT_LT((whitener(z) - all * z).cwiseAbs().maxCoeff(), 1e-12);  // a single column has a code path of its own
 }
 
 TEST(Censored, ReadingsBelowAFloorAreReplacedByWhatTheyAreExpectedToBe) {

@@ -1,4 +1,4 @@
-// How well a place is known, and what lies in the middle.
+// Uncertainty of a place, and the middle of its likely thetas.
 #include "diagnosis/inference/assess/parameter_uncertainty.hpp"
 
 #include <gtest/gtest.h>
@@ -31,10 +31,10 @@ TEST(ParameterUncertainty, ItsMiddleIsAPlaceThatExplainsAsMuch) {
     return middle_of(state, state.terms[0], spread)[0] - place[0];
   };
   EXPECT_NEAR(middle(place + east, {-1, -0.8, -0.6, -0.4, -0.2, 0, 0.2, 0.4, 0.6, 0.8, 1}), 0, 0.7);
-  EXPECT_NEAR(middle(place, {0, -0.001, -4, -7.999, -8}), 0, 0.1);  // what is between two places explains nothing
+  EXPECT_NEAR(middle(place, {0, -0.001, -4, -7.999, -8}), 0, 0.1);  // a theta between two places explains nothing
 }
 
-// Against the sum over a grid of places and sizes.
+// Compares with the sum over a grid of places and sizes.
 TEST(ParameterUncertainty, OfAThingIsThatOfTheWholeLikelihood) {
   const auto world = world_of(varied(12, 4000));
   const auto causes = causes_of(world);
@@ -67,7 +67,7 @@ TEST(ParameterUncertainty, OfAThingIsThatOfTheWholeLikelihood) {
       for (double radius = -0.2; radius <= 0.12; radius += 0.016) {
         const Eigen::Vector3d theta = truth + Eigen::Vector3d(x, y, radius);
         const ConditionalFit there(rest, state.columns_of(*term.candidate, theta), false);
-        if (there.gain < top - 40) continue;  // a thing that hides no link has no loss at all
+        if (there.gain < top - 40) continue;  // a disk that no link crosses has no loss
         const double w = std::exp((there.gain - top) / (2 * overstated)), loss = there.coefficients[0];
         const Eigen::Array3d off = theta - truth;
         weights += w, sum += w * off, squares += w * off.square();
@@ -84,7 +84,7 @@ TEST(ParameterUncertainty, OfAThingIsThatOfTheWholeLikelihood) {
     EXPECT_NEAR(told[k], mean[k], 0.25 * sd[k]) << k;
     EXPECT_NEAR(std::sqrt(scattered[k]) / sd[k], 1, 0.15) << k;
   }
-  const double loss = found.coefficients[0];  // that is told, whatever the mean is
+  const double loss = found.coefficients[0];  // the reported one, for any mean
   const double between = loss_squares / weights - 2 * loss * losses / weights + loss * loss;
   EXPECT_NEAR(spread.coefficients(0, 0) / (grown * within / weights + between), 1, 0.15);
 }

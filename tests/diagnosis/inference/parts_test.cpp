@@ -1,4 +1,4 @@
-// Parts of the search against closed forms: tails, effective numbers, races, refinement, folds.
+// Parts of the search against closed forms: tails, effective tests, successive halving, refinement, folds.
 #include <gtest/gtest.h>
 
 #include <Eigen/QR>
@@ -34,7 +34,7 @@ TEST(LogTail, IsExactForTwoDegreesAndForOne) {
   for (const double gain : {0.1, 5.0, 60.0, 900.0, 5000.0}) EXPECT_NEAR(log_tail(gain, 2), -gain / 2, 1e-9 * gain);
   for (const double gain : {0.5, 9.0, 400.0})
     EXPECT_NEAR(log_tail(gain, 1), std::log(std::erfc(std::sqrt(gain / 2))), 1e-8);
-  EXPECT_NEAR(log_tail(800.01, 14), log_tail(799.99, 14) - 0.01, 1e-3);  // where the series takes over
+  EXPECT_NEAR(log_tail(800.01, 14), log_tail(799.99, 14) - 0.01, 1e-3);  // beyond the switch to the series
   EXPECT_EQ(log_tail(0, 3), 0);
 }
 
@@ -64,7 +64,7 @@ TEST(LogEffective, IsTheNumberOfAtomsThatAreIndependentAndOneOfEqualAtoms) {
   EXPECT_NEAR(log_effective_tests(c, equal, nulls), 0, 0.1);
 }
 
-// As a decomposition of each atom tells it, one with a column too many among them.
+// Compares with a decomposition of each atom, one with a redundant column.
 TEST(OrthonormalAtoms, HaveTheProjectionsOfTheirAtoms) {
   constexpr Index width = 3, atoms = 5;
   noise::Sheet columns = normals(200, width * atoms, 11);
@@ -108,7 +108,7 @@ TEST(Climbed, HandsOnWhatACandidateThrows) {
   EXPECT_THROW(local_search(c, Eigen::VectorXd::Constant(1, 2), 50, value), std::runtime_error);
 }
 
-// Tops of heights 1, 2, 4 and 3 at 1, 3, 5 and 7, and how often each was looked at.
+// Optima of heights 1, 2, 4 and 3 at 1, 3, 5 and 7, and the number of evaluations near each.
 struct Tops {
   std::array<int, 4> looked = {};
 
@@ -154,7 +154,7 @@ TEST(Raced, TwoThatMeetGoOnAsOne) {
   EXPECT_EQ(laps[1].looked, (std::array{0, 0, 21, 0}));
 }
 
-// One reading a row may see a thing where there is none: what was proposed is weighed by all readings in the end.
+// A sketch may show an object where there is none: the final choice uses all readings.
 TEST(Refined, KeepsAPlaceThatOneReadingARowLedAwayFrom) {
   const auto world = world_of(varied(12, 4000));
   std::vector<Candidate> causes = causes_of(world);
@@ -179,8 +179,7 @@ TEST(Refined, KeepsAPlaceThatOneReadingARowLedAwayFrom) {
   }
 }
 
-// A swing of changing pace has two functions and was sought along a grid, a bend one and a grid: each counts as twice
-// what chance wins by it.
+// A chirp has two functions and a grid, a bend one function and a grid: each costs twice its gain by chance.
 TEST(Compared, AColumnThatWasObservedComesBeforeTimeWhereItDoesAsWellForItsNumberOfFunctions) {
   const auto world = world_of(varied(5, 900));
   const Problem problem = problem_of(world, Eigen::VectorXd::Zero(900), {});
@@ -198,7 +197,7 @@ TEST(Compared, AColumnThatWasObservedComesBeforeTimeWhereItDoesAsWellForItsNumbe
     const auto pool = compared(state, model, {swing, bend}, {}, [](const Candidate&) { return true; });
     EXPECT_EQ(pool[0].candidate().id, more > 0 ? "bend~battery" : "chirp~time");
   }
-  // A column's own smooth was sought along no grid.
+  // A column's own smooth has no grid.
   ScoredCandidate smooth = lead_of("~temperature");
   smooth.evidence = 19;
   for (const double more : {-0.1, 0.1}) {
@@ -208,7 +207,7 @@ TEST(Compared, AColumnThatWasObservedComesBeforeTimeWhereItDoesAsWellForItsNumbe
   }
 }
 
-// What is drawn from one, weighed by the other over it, has the other's mass and the other's mean.
+// Importance sampling from one mixture for another yields the other's mass and mean.
 TEST(StudentMixture, DrawsWhatItsDensitySays) {
   Eigen::Matrix3d scale = Eigen::Matrix3d::Zero();
   scale(0, 0) = 1, scale(2, 2) = 0.5, scale(0, 2) = scale(2, 0) = 0.4;
@@ -236,7 +235,7 @@ TEST(Weights, AreWorthAsManyAsHaveThem) {
   EXPECT_EQ(tempered(weights), weights / weights.sum()) << "worth enough";
 }
 
-// A normal law seen by draws that are spread much wider: its variance doubles with each root.
+// A normal distribution sampled from a much wider one: its variance doubles with each root.
 TEST(Weights, ErrToTheWideSideWhereFewHaveAll) {
   const Eigen::ArrayXd at = Eigen::ArrayXd::LinSpaced(1001, -50, 50);
   const Eigen::VectorXd weights = (-at.square() / 2 / 0.25).exp();
@@ -259,7 +258,7 @@ TEST(Weights, DrawEachAsOftenAsTheyAsk) {
   }
 }
 
-// Row by row the same as the whole column at once.
+// Adding row by row equals taking the whole column.
 TEST(SparseColumns, GainsWhatTheWholeColumnGains) {
   const auto world = world_of(varied(5, 900));
   const Problem problem = problem_of(world, Eigen::VectorXd::Zero(900), causes_of(world));
@@ -283,7 +282,8 @@ TEST(SparseColumns, GainsWhatTheWholeColumnGains) {
   }
 }
 
-// What rows of 2.5 m tell of a thing, of what single readings do: half, and seven tenths once they end at its edges.
+// Information on an object: rows of 2.5 m keep half of the single readings', and seven tenths once split at its
+// edges.
 TEST(ModelState, RowsThatEndAtTheEdgesOfAThingTellOfIt) {
   const auto world = world_of(varied(12, 4000));
   const auto causes = causes_of(world);
@@ -308,7 +308,7 @@ TEST(ModelState, RowsThatEndAtTheEdgesOfAThingTellOfIt) {
   for (const Entry& entry : state.entries()) EXPECT_EQ(entry.atoms->rows(), rows + more);
 }
 
-// Of what is fitted by Vecchia's approximation, whatever that believes to know.
+// Exact variance of estimates from Vecchia's approximation.
 TEST(Uncertainty, IsTheScatterOfTheCoefficientsUnderTheCovarianceItself) {
   const auto world = world_of(varied(5, 1500));
   const Problem problem = problem_of(world, Eigen::VectorXd::Zero(1500), {});
@@ -323,7 +323,7 @@ TEST(Uncertainty, IsTheScatterOfTheCoefficientsUnderTheCovarianceItself) {
   for (Index i = 0; i < rows; ++i) fitted.col(i) = model.at.basis.coefficients(told.col(i), design.cols());
   const Eigen::MatrixXd scatter = fitted * covariance * fitted.transpose();
   const Eigen::MatrixXd with_noise = coefficient_covariance(state, design);
-  state.fit.curvature *= 1e12;  // nothing else that the noise may be
+  state.fit.curvature *= 1e12;  // no uncertainty of the noise
   const Eigen::MatrixXd known = coefficient_covariance(state, design);
   EXPECT_LT((known - scatter).norm(), 1e-4 * scatter.norm());
   EXPECT_GT(with_noise(0, 0), 1.002 * known(0, 0));

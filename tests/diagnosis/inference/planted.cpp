@@ -10,7 +10,7 @@
 namespace muster::synthetic {
 namespace {
 
-// One of the cause's own grid points, and not on the grid where it has places or times: shifted by up to half a step.
+// The effect at a random grid point of the cause; places and times are shifted off the grid by up to half a step.
 Eigen::VectorXd effect_of(const World& world, const inference::Candidate& cause, double lambda) {
   const Stream stream(combined(key_of("planted"), world.recipe.seed));
   for (uint64_t k = 0;; ++k) {
@@ -37,7 +37,7 @@ std::string pieces_of(const std::vector<inference::Candidate>& causes, const std
 void count(const inference::Result& result, uint64_t seed, const std::string& cause, const std::string& pieces,
            const std::vector<inference::Candidate>& causes, Tally& tally) {
   std::string strongest, other, smooth;
-  int alike = 0;  // names of the planted class of places
+  int alike = 0;  // named causes of the planted class of places
   for (const inference::Finding& f : result.findings) {
     if (f.status == inference::Status::suspected) continue;
     if (f.status == inference::Status::unexplained) smooth += ' ' + f.id;

@@ -1,5 +1,5 @@
-// A hundred worlds a cause, of which the goal is 95 named at lambda 60, and at most 2 false names in 100 clean ones,
-// for fields of three shapes. What is below the goal stays no further below than it was measured.
+// A hundred worlds for each cause and for fields of three shapes. Goals: 95 named at lambda 60, and at most 2 false
+// names in 100 clean worlds. Rates below a goal must not fall further.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// A few worlds a cause, with bounds that chance alone crosses once in a thousand runs.
+// A few worlds for each cause, with bounds of one false failure in a thousand runs.
 #include "tests/diagnosis/inference/planted.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ TEST_P(Planted, AtLambda60IsNamed) {
 INSTANTIATE_TEST_SUITE_P(Causes, Planted, testing::ValuesIn(rates),
                          [](const auto& rate) { return std::string(rate.param.cause); });
 
-// An offset of a transmitter is the same wherever it is heard, and a field of unknown size takes it up.
+// A transmitter's offset is equal at all places: a field of unknown size absorbs it.
 TEST(StatedField, LetsAnOffsetShow) {
   constexpr int worlds = 24;
   const auto named = [&](Field field) {

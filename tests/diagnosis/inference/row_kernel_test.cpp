@@ -1,4 +1,4 @@
-// What is built for each instruction set: every machine gets the same bits, and they are what plain loops give.
+// Kernels of all instruction sets: the same bits on every machine, equal to plain loops.
 #include "diagnosis/inference/noise/row_kernel.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 namespace muster::noise {
 namespace {
 
-// Half of the anchors move, so that distances of both ends are those of places, none, and others.
+// Half of the anchors move, so that joint distances are equal to those of places, uncorrelated, or other.
 Sites places(Index n) {
   const Stream s(31);
   Sites sites{Eigen::Matrix3Xd::Zero(3, n),
@@ -168,7 +168,7 @@ TEST(RowKernels, TellDistancesAsPairByPair) {
   }
 }
 
-// Rows on a line that fall into blocks of near and of far ones; of every second pair of blocks the readings count.
+// Rows on a line, in blocks of near and of far ones; readings count for every second pair of blocks.
 TEST(RowKernels, TellCovariancesOfPairsToTheSameBits) {
   const Index rows = 4 * many;
   Eigen::MatrixXf at = normals<Eigen::MatrixXf>(rows, 12, 10);

@@ -13,7 +13,7 @@ TEST(Rows, EndWhereAnEffectSetsInOrStops) {
   Eigen::VectorXd effect = Eigen::VectorXd::Zero(size), value(size);
   std::vector<Index> order, first;
   for (int k = 0; k < size; ++k) {
-    order.push_back(size - 1 - k);  // the last one is the first
+    order.push_back(size - 1 - k);  // in reverse order
     if (k % 6 == 0) first.push_back(k);
     if (k > 12 && k < 31) effect[k] = -4;
     value[k] = std::sin(k);

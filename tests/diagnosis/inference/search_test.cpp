@@ -1,4 +1,4 @@
-// The whole search on worlds whose truth is known. Counts are small here; planted_test.cpp has the large ones.
+// The whole search on worlds with known truth. Counts are small; planted_test.cpp has the large ones.
 #include "diagnosis/inference/assess/search.hpp"
 
 #include <gtest/gtest.h>
@@ -57,7 +57,7 @@ TEST(Search, EveryCauseAndEveryCovariateIsCheckedOnce) {
   }
   for (const Candidate& c : problem.candidates) EXPECT_EQ(checked.count(c.id), 1u) << c.id;
   for (const Covariate& c : columns_of(world).covariates) EXPECT_EQ(checked.count('~' + c.name), 1u) << c.name;
-  // Of many looks one is low by chance; each is weighed by their number.
+  // Of many tests one has a small p by chance: p-values are corrected for their number.
   const auto low = std::count_if(result.checks.begin(), result.checks.end(),
                                  [](const Check& check) { return check.log_p < std::log(0.02); });
   EXPECT_LE(low, static_cast<std::ptrdiff_t>(result.checks.size() / 10));
@@ -88,7 +88,7 @@ TEST(Search, TwoCausesAreBothNamed) {
   EXPECT_EQ(found, (std::vector<std::string>{"rx_offset", "unmapped_wall"}));
 }
 
-// A steeper slope beyond some distance is true of every radio and in every run, an offset of one radio alone.
+// A steeper slope beyond some distance concerns every radio and every run, an offset one radio alone.
 TEST(Search, WhatConcernsAllRadiosAndRunsGainsWithTheseNotSeen) {
   const World world = world_of(varied(34, 5000));
   const auto causes = causes_of(world);
@@ -125,7 +125,7 @@ TEST(Search, OfCausesThatTheReadingsCannotTellApartTheSimplestIsNamed) {
   const Eigen::VectorXd effect = scaled_to(world, causes[1].design.columns(causes[1].design.grid[0]), 200);
   for (const int more : {-1, 1}) {
     auto twins = causes;
-    twins.insert(twins.begin() + (more > 0 ? 1 : 2), causes[1]);  // before and behind: the order must not decide
+    twins.insert(twins.begin() + (more > 0 ? 1 : 2), causes[1]);  // before and after: the order must not matter
     Candidate& twin = twins[more > 0 ? 1 : 2];
     twin.id = "twin";
     twin.role.parameters = causes[1].role.parameters + more;
@@ -146,7 +146,7 @@ TEST(Search, AChirpIsNoPeriod) {
   EXPECT_EQ(unexplained, 6);
 }
 
-// The battery falls with time, so that its knee is nearly a drift.
+// The battery falls with time, so its knee resembles a drift.
 TEST(Search, AKneeOfTheBatteryIsNoDrift) {
   int right = 0;
   for (uint64_t seed = 250; seed < 256; ++seed) {
@@ -160,7 +160,7 @@ TEST(Search, AKneeOfTheBatteryIsNoDrift) {
   EXPECT_GE(right, 5);
 }
 
-// A damp end of the house, which the field can swallow.
+// A slope over the plan (moisture at one end), which the field can absorb.
 TEST(Search, ASlopeOverThePlanIsReportedAlongThePlace) {
   int right = 0;
   for (uint64_t seed = 260; seed < 266; ++seed) {
@@ -184,8 +184,8 @@ TEST(Search, AnOutlierIsNoWall) {
   }
 }
 
-// What is named if a sender is off by an offset of that lambda and the world states its field's size and this multiple
-// of its distance; 0: it states nothing.
+// Named causes with a transmitter's offset of that lambda. The world states its field's size and this multiple of its
+// distance; 0: it states nothing.
 std::vector<std::string> named_beside_stated_field(uint64_t seed, double lambda, double multiple) {
   const World world = world_of(varied(seed, 2500));
   const auto causes = causes_of(world);
@@ -245,7 +245,7 @@ TEST(Search, IsTheSameForEveryOrderOfReadings) {
   mixed.base = world.base(order, Eigen::all).eval();
   mixed.readings.rx_at = world.readings.rx_at(Eigen::all, order).eval();
   mixed.readings.tx_at = world.readings.tx_at(Eigen::all, order).eval();
-  // The causes' grids must not depend on the order either, so the first world's are used with the second one's columns.
+  // Grids must not depend on the order either: the first world's grids are used with the second one's columns.
   auto again = causes_of(mixed);
   for (std::size_t k = 0; k < again.size(); ++k) {
     again[k].design.grid = causes[k].design.grid;
@@ -315,7 +315,7 @@ TEST(Search, TheAdvisedReadingsRaiseSeparabilityAsPredicted) {
   const Plan plan{"drive on", std::make_shared<diagnosis::LinkLayout>(next.readings, diagnosis::LinkRowLimits()),
                   next.base, causes_of(next)};
   const double predicted = ExpectedSeparability(search.state(), plan).separability(term, {"antenna_tx"})[0];
-  // D with the readings at hand, and once those of the plan are there too: the same effect and noise in both.
+  // D with the present readings, and with those of the plan added, for the same effect and noise.
   const auto separability = [&](const ModelState& state, const World& of) {
     const WhitenedModel rest = state.whitened_model(state.base(), search.state().fit.covariance);
     const Eigen::VectorXd planted = causes_of(of)[0].design.columns(term.theta) * result.findings[0].coefficients;

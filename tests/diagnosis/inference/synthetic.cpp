@@ -8,7 +8,7 @@
 namespace muster::synthetic {
 namespace {
 
-// A stationary field in the plane: waves whose lengths follow the spectrum of the correlation's shape.
+// A stationary field in the plane: waves with wavelengths from the spectrum of the correlation.
 class Waves {
  public:
   Waves(Shape shape, double decorrelation, Stream stream) {
@@ -55,7 +55,7 @@ struct Robot {
   double x, y, heading, speed;
 };
 
-// Straight on, with turns now and then; away from the border where it would leave.
+// Drives straight on with occasional turns, and away from the border.
 void drive(Robot& robot, const Recipe& r, double dt, Stream stream, uint64_t tick) {
   if (stream.uniform(tick, 0) < 0.08) robot.heading += 2.4 * (stream.uniform(tick, 1) - 0.5);
   if (stream.uniform(tick, 2) < 0.05) robot.speed = 0.2 + 0.5 * stream.uniform(tick, 3);

@@ -1,5 +1,5 @@
-// Worlds for the engine's tests: robots wander among walls and hear transmitters through a random field. Formulas of
-// this file's own; the engine sees readings, a base design and candidates, nothing else.
+// Synthetic worlds for tests of the engine: robots wander among walls and receive transmitters through a random
+// field. All formulas are this file's own; the engine gets readings, a base design and candidates only.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,14 +28,14 @@ struct Recipe {
 struct World {
   Recipe recipe;
   diagnosis::LinkReadings readings;
-  Eigen::VectorXd rssi;  // dBm, nothing hidden in it
+  Eigen::VectorXd rssi;  // dBm, without a hidden effect
   Eigen::MatrixXd base;  // 1, -10 log10 d, -walls crossed
   Eigen::VectorXd time, speed, battery, temperature;
   std::vector<Segment> walls;
   Eigen::VectorXd true_theta;  // as noise::Theta
 
   Eigen::VectorXd distance() const;
-  Eigen::VectorXd bearing() const;  // of the transmitter from the robot's nose, rad
+  Eigen::VectorXd bearing() const;  // of the transmitter, relative to the robot's heading, rad
 };
 
 World world_of(const Recipe& recipe);
@@ -47,7 +47,7 @@ Recipe varied(uint64_t seed, Index readings);
 Eigen::VectorXd crossings(const diagnosis::LinkReadings& readings, const Segment& segment);
 bool crosses(double px, double py, double qx, double qy, const Segment& s);
 
-// The column scaled so that its whitened energy beside the base design is lambda, under the true covariance.
+// Scales the column to a whitened energy of lambda beside the base design, under the true covariance.
 Eigen::VectorXd scaled_to(const World& world, const Eigen::VectorXd& column, double lambda);
 
 }  // namespace muster::synthetic

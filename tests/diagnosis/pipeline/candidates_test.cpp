@@ -1,4 +1,4 @@
-// What a search is given by plugins and worlds: candidates, their sketches, and what they ask near a place.
+// Candidates of plugins and worlds: their columns, sketches, and fast columns near a place.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace muster::diagnosis {
 namespace {
 
-// A race asks one reading a row, by a world of those readings alone: the same that the whole table says of them.
+// A sketch uses one reading a row, in a world of those alone, and equals the whole table's columns there.
 TEST(Sketch, IsTheColumnsAtTheReadingsInTheMiddleOfRows) {
   const std::filesystem::path hall = std::filesystem::path(MUSTER_SOURCE_DIR) / "worlds" / "hall";
   const DiagnosisSetup at(hall, hall / "measured_plain.csv", plugins);
@@ -63,7 +63,7 @@ TEST(Near, AsksFewReadingsForTheColumnsOfAll) {
     }
     EXPECT_GT(c.design.columns(theta).cwiseAbs().maxCoeff(), 0.5) << c.id;
   }
-  EXPECT_EQ(near, 2);  // walls and things
+  EXPECT_EQ(near, 2);  // walls and obstacles
 }
 
 TEST(Near, AsksAllOfWhatConcernsAReadingElsewhere) {
@@ -95,7 +95,7 @@ TEST(EndedRows, AreSketchedAsTheRowsThatTheyAreOf) {
   const Eigen::MatrixXd after = state.sketch_of(c, theta), exact = state.columns_of(c, theta);
   ASSERT_EQ(after.rows(), state.rows().size());
   EXPECT_EQ(after.col(0).maxCoeff(), before.col(0).maxCoeff());
-  // Whole rows are where their middles are; of an ended one each part is told what the whole was.
+  // A whole row is at its middle reading; each part of a split row has the whole row's value.
   const Eigen::ArrayXd off = (after - exact).col(0).cwiseAbs();
   EXPECT_LE((off > 0.01).count(), 2 * (state.rows().size() - rows));
   const inference::WhitenedModel stand = state.whitened_model(state.design());
@@ -103,7 +103,7 @@ TEST(EndedRows, AreSketchedAsTheRowsThatTheyAreOf) {
   EXPECT_GT(state.proposals(c, tally).size(), 10u);
 }
 
-// A radio at the edge of what is known may stand beyond it.
+// A radio at the edge of the known area may be beyond it.
 TEST(Candidates, StartWithinTheBoundsThatTheyAreSoughtIn) {
   const Scratch scratch;
   const auto world = sealed_case(scratch, "--mix clean", 1);
@@ -122,7 +122,7 @@ TEST(Candidates, StartWithinTheBoundsThatTheyAreSoughtIn) {
   EXPECT_GE(refinable, 8);
 }
 
-// A few millimetres turn links past the end of a wall; a map does not tell them.
+// A few millimetres move links past the end of a wall; maps are less exact.
 TEST(Candidates, ARadioMovedByLessThanATenthOfAMetreIsWhereTheMapHasIt) {
   const Scratch scratch;
   const auto world = sealed_case(scratch, "--mix clean", 1);
@@ -136,8 +136,8 @@ TEST(Candidates, ARadioMovedByLessThanATenthOfAMetreIsWhereTheMapHasIt) {
   EXPECT_EQ(c.refinement.admitted(mapped + 0.3 * (start - mapped)), 0);
 }
 
-// Where no other place explains anything the map's explains most, and by a millimetre aside a link may pass a wall: a
-// case that was told so, by 37 of deviance and an error of 37 dB at places held out.
+// Without a better place the map's own fits best, and a millimetre aside a link may pass a wall. One case was wrongly
+// named so, with a gain of 37 and a held-out error of 37 dB.
 TEST(Candidates, ARadioIsSoughtElsewhereAlone) {
   const Scratch scratch;
   const auto world = made_case(scratch, "--seed 86 --rows 2000 20000", 36);

@@ -1,4 +1,4 @@
-// One sealed case a cause, at lambda 150: made by muster_exam, whose formulas are not those of the plugins.
+// One sealed case for each cause, at lambda 150, from muster_exam, whose formulas are independent of the plugins'.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -58,7 +58,7 @@ INSTANTIATE_TEST_SUITE_P(Effects, SealedCase,
                                          Hidden{"outliers", 14}, Hidden{"wall_absent", 16}),
                          [](const auto& hidden) { return std::string(hidden.param.effect); });
 
-// Two of 14 outliers won 98 % of what a wall of 17 dB did, half of it within four standard errors.
+// Two of 14 outliers gave 98 % of the gain of a wall of 17 dB, half of it within four standard errors.
 TEST(SealedPair, OutliersAreNoWallBesideAWallOfAnotherMaterial) {
   const Scratch scratch;
   const auto world = made_case(scratch, "--seed 91 --rows 2000 20000", 183);
@@ -68,7 +68,8 @@ TEST(SealedPair, OutliersAreNoWallBesideAWallOfAnotherMaterial) {
   EXPECT_EQ(found.causes[1].id, "effect.outliers");
 }
 
-// Against the antenna the readings themselves speak (D 10, and 11 nats): against a thing only what its place costs.
+// The readings themselves decide against the antenna (D 10, and 11 nats); against an obstacle only the price of its
+// place.
 TEST(SealedOffset, HasTheRivalsThatTheReadingsLeaveOpen) {
   const Scratch scratch;
   const auto world = made_case(scratch, "--seed 91 --rows 2000 20000", 13);
@@ -80,8 +81,8 @@ TEST(SealedOffset, HasTheRivalsThatTheReadingsLeaveOpen) {
   EXPECT_EQ(alternatives.count("effect.obstacle"), 1u);
 }
 
-// A radio elsewhere beside another cause: all is judged again with the radio in its place, and yet the error told is
-// that of the world as given, which by the generator is 8.98 dB at places not seen, 43.0 dB^2 more than with both.
+// A misplaced radio beside another cause: the fit is repeated with the radio in its place. The reported error is
+// still that of the world as given: 8.98 dB at held-out places by the generator, 43.0 dB^2 more than with both.
 TEST(SealedPair, IsMeasuredFromTheWorldAsGiven) {
   const Scratch scratch;
   const auto world = made_case(
@@ -108,7 +109,7 @@ TEST(SealedPair, IsMeasuredFromTheWorldAsGiven) {
   EXPECT_GT(rms(moved.effect), 1);
 }
 
-// Two runs, which only the column tells apart.
+// Two runs, separated by the column alone.
 TEST(ColumnRun, IsWhatIsLeftOut) {
   const Scratch scratch;
   std::ifstream in(std::filesystem::path(MUSTER_SOURCE_DIR) / "worlds" / "hall" / "measured_plain.csv");
@@ -123,17 +124,17 @@ TEST(ColumnRun, IsWhatIsLeftOut) {
   EXPECT_EQ(found.elsewhere[0].held_out.blocks, 2);
 }
 
-// The parameters that fit readings of swapped radios say nothing of what the swap changes.
+// Parameters fitted to readings of swapped radios do not determine the effect of the swap.
 TEST(SealedSwap, IsNamedThoughItBendsAllParameters) {
   const Scratch scratch;
   const auto world = sealed_case(scratch, "--mix one --lambda 800 --effects label_swap", 3);
   const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
   expect_only("effect.label_swap", found);
-  EXPECT_NEAR(found.held_out->gain, 186, 15);  // as the generator has it
+  EXPECT_NEAR(found.held_out->gain, 186, 15);  // the generator's value
 }
 
-// Vecchia's approximation says 1.25 dB and 0.148 here. Of 255 such worlds 94.5 % of either's intervals hold the truth;
-// by that approximation 90 % would.
+// Vecchia's approximation gives 1.25 dB and 0.148 here. Over 255 such worlds 94.5 % of the intervals of both hold the
+// truth; by that approximation 90 % would.
 TEST(SealedClean, LevelAndExponentAreKnownNoBetterThanTheFieldAllows) {
   const Scratch scratch;
   const auto world = made_case(scratch, "--seed 76 --rows 2000 20000 --mix clean", 79);
@@ -145,7 +146,7 @@ TEST(SealedClean, LevelAndExponentAreKnownNoBetterThanTheFieldAllows) {
   EXPECT_NEAR(known["radio.multiwall/n"], 0.199, 0.02);
 }
 
-// At this strength a short wall and a thing in its place are often not told apart; the place is what counts here.
+// At this strength a short wall and an obstacle in its place are often inseparable; only the place is tested here.
 TEST(SealedWall, IsFoundInItsPlace) {
   const Scratch scratch;
   const auto world = sealed_case(scratch, "--mix one --lambda 150 --effects unmapped_wall", 9);
@@ -161,7 +162,7 @@ TEST(SealedWall, IsFoundInItsPlace) {
   EXPECT_NEAR(wall ? (at["y0"] + at["y1"]) / 2 : at["y"], 20.80, 0.8);
 }
 
-// Walls that saturate look weak in the base fit: how much the cause gives back is known only beside other losses.
+// Walls that saturate look weak in the base fit: the cause's strength depends on the other losses.
 TEST(SealedSaturation, IsNamedThoughTheWallsOfTheFitAreTooWeak) {
   const Scratch scratch;
   const auto world = sealed_case(scratch, "--mix one --lambda 60 --effects multiwall_saturation", 4);
@@ -170,7 +171,7 @@ TEST(SealedSaturation, IsNamedThoughTheWallsOfTheFitAreTooWeak) {
   EXPECT_EQ(found.causes[0].id, "effect.multiwall_saturation") << told(found);
 }
 
-// Bursts at times that nobody knows look like a swing or a step of the link's radio, in these readings or in others.
+// Bursts at unknown times resemble an oscillation or a step of the link's radio, in these readings or in others.
 TEST(SealedPeople, AreNotTakenForWhatChangesInTime) {
   const Scratch scratch;
   const auto world = sealed_case(scratch, "--mix one --lambda 200 --effects people", 5);
@@ -181,7 +182,7 @@ TEST(SealedPeople, AreNotTakenForWhatChangesInTime) {
   EXPECT_EQ(in_short(second_look(world, extended, world / "second.csv", plugins).rediagnosis), "silent");
 }
 
-// A drift of 4 dB and powers that are 1.7 dB off hide why 530 of 4,720 readings are missing.
+// A drift of 4 dB and powers 1.7 dB off mask the reason of 530 missing readings among 4,720.
 TEST(SealedFloor, IsFoundBesideWhatHidIt) {
   const Scratch scratch;
   const auto world = made_case(scratch, "--seed 95 --rows 2000 20000 --mix three --lambda 50,400", 5);
@@ -189,13 +190,13 @@ TEST(SealedFloor, IsFoundBesideWhatHidIt) {
   std::set<std::string> ids;
   for (const CauseEstimate& c : found.causes) {
     ids.insert(c.id);
-    if (c.id != "effect.power_steps") continue;  // of which the third of four is right
+    if (c.id != "effect.power_steps") continue;  // the third of its four is correct
     EXPECT_EQ(c.title, "powers are not as set: by {error1}, {error2}, {error4} from the lowest up");
   }
   EXPECT_EQ(ids, (std::set<std::string>{"effect.drift", "effect.power_steps", "effect.rssi_floor"})) << told(found);
 }
 
-// Near the level at which a receiver saturates readings are cut off above, which looks like bursts.
+// Near a receiver's saturation readings are truncated from above, which resembles bursts.
 TEST(SealedPeople, AreSoughtApartFromWhatIsClipped) {
   const Scratch scratch;
   const auto clipped = made_case(scratch, "--seed 84 --rows 2000 20000", 479);
@@ -208,7 +209,7 @@ TEST(SealedPeople, AreSoughtApartFromWhatIsClipped) {
   EXPECT_EQ(found.causes[1].label, "radio/beacon2 radio/robot1");
 }
 
-// What lies well off the level at which the receiver saturates tells of the field.
+// Readings well below the receiver's saturation determine the field.
 TEST(SealedField, IsSeenBesideAReceiverThatSaturates) {
   const Scratch scratch;
   const auto world = made_case(scratch, "--seed 88 --rows 2000 20000", 178);
@@ -218,7 +219,7 @@ TEST(SealedField, IsSeenBesideAReceiverThatSaturates) {
   EXPECT_EQ(found.causes[1].id, "effect.shadowing_correlation");
 }
 
-// Whitened dips have rims: mirrored they look like dips again, and must not count as what a misfit of the field does.
+// Whitened dips have rims: sign-flipped they resemble dips, and must not count as a misfit of the field.
 TEST(SealedPeople, AreSeenThoughTheirDipsHaveRims) {
   const Scratch scratch;
   const auto world = sealed_case(scratch, "--mix one --lambda 60 --effects people", 6);
@@ -226,8 +227,8 @@ TEST(SealedPeople, AreSeenThoughTheirDipsHaveRims) {
   expect_only("effect.people", found);
 }
 
-// Fading of a Rician K of 7.7 dB where 3.74 dB are stated, in a field that looks smoother beside the stated law than it
-// is: field and law are found by turns.
+// Fading of Rician K 7.7 dB with 3.74 dB stated. Beside the stated law the field looks too smooth: field and law are
+// fitted in turn.
 TEST(SealedFading, IsAsStrongAsItIs) {
   const Scratch scratch;
   const auto world = made_case(scratch, "--seed 77 --rows 2000 20000", 8);
@@ -239,7 +240,7 @@ TEST(SealedFading, IsAsStrongAsItIs) {
             "silent");
 }
 
-// A Gaussian correlation over 3.27 m where 2.38 m are stated: no family of the stated distance does as well.
+// A Gaussian correlation over 3.27 m with 2.38 m stated: no family of the stated distance fits as well.
 TEST(SealedField, OfASmoothFamilyIsNotTakenForTheStatedOne) {
   const Scratch scratch;
   const auto world =
@@ -259,7 +260,7 @@ TEST_P(CleanCase, IsSilent) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, CleanCase, testing::Values(7, 8));
 
-// Three of its 12,720 readings pass a wall's end within 0.1 mm, and by the lattice of a simulation on its other side.
+// Three of its 12,720 readings pass a wall's end within 0.1 mm, and on its other side on a simulation's lattice.
 TEST(GrazingLinks, AreNoOutliers) {
   const Scratch scratch;
   const auto world = made_case(scratch, "--seed 74 --rows 2000 20000 --mix clean", 841);
@@ -269,8 +270,8 @@ TEST(GrazingLinks, AreNoOutliers) {
   EXPECT_TRUE(std::any_of(found.notes.begin(), found.notes.end(), says));
 }
 
-// Long rows hide half of what these walls change: the reports of before named the first two nowhere, and of the third
-// knew the loss from 0 to 28 dB and the place from one end of the plan to the other.
+// Long rows hide half of these walls' effect (a regression). The first two were not named. The third's loss ranged
+// from 0 to 28 dB, and its place from one end of the plan to the other.
 class Wall : public testing::TestWithParam<int> {};
 
 TEST_P(Wall, IsFoundAtItsEdges) {
@@ -288,8 +289,8 @@ TEST_P(Wall, IsFoundAtItsEdges) {
 
 INSTANTIATE_TEST_SUITE_P(Cases, Wall, testing::Values(15, 16, 8));
 
-// The tops about it are narrow: the best line of a sweep, 5 cm aside, gained half of what it does, and the race from
-// there ended elsewhere.
+// Narrow optima: the scan's best line, 5 cm aside, had half of the gain, and successive halving from there ended
+// elsewhere.
 TEST(WallAmongNarrowTops, IsFoundToTheDecimetre) {
   const Scratch scratch;
   const auto world = made_case(scratch, "--seed 84 --rows 2000 20000", 549);
@@ -306,7 +307,7 @@ TEST(WallAmongNarrowTops, IsFoundToTheDecimetre) {
   EXPECT_EQ(ends, 4);
 }
 
-// A floor that keeps a handful of readings back, alone and beside random loss.
+// A floor that hides a handful of readings, alone and beside random loss.
 class Silence : public testing::TestWithParam<std::pair<int, int>> {};  // seed, case
 
 TEST_P(Silence, OfAHandfulIsTold) {
@@ -318,8 +319,8 @@ TEST_P(Silence, OfAHandfulIsTold) {
 
 INSTANTIATE_TEST_SUITE_P(Cases, Silence, testing::Values(std::pair(84, 784), std::pair(86, 145)));
 
-// Seen from two or three sides, and narrow: its edges lie within centimetres, between which a search has many tops. Two
-// that it took for walls.
+// Seen from two or three sides, and narrow: its edges lie within centimetres, with many optima between them. Two that
+// were taken for walls.
 class Thing : public testing::TestWithParam<int> {};
 
 TEST_P(Thing, IsNoWall) {
@@ -332,8 +333,8 @@ TEST_P(Thing, IsNoWall) {
 
 INSTANTIATE_TEST_SUITE_P(Cases, Thing, testing::Values(11, 19));
 
-// A shadow that falls straight behind: nothing ends where the count of angles begins anew. It was told at -180 degrees,
-// give or take 1.4, where the search had run against that bound.
+// A shadow straight behind, across the wrap of angles. It was reported at -180 degrees, give or take 1.4, at the
+// bound of the search.
 TEST(Directions, GoOnBeyondHalfATurn) {
   const Scratch scratch;
   const auto world = made_case(scratch, "--seed 84 --rows 2000 20000", 104);

@@ -1,4 +1,4 @@
-// People beside what changes in time, on the only link that there is: it cannot be left out of the search.
+// People beside an effect in time, on the data's only link, which cannot be left out.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 const std::filesystem::path hall = std::filesystem::path(MUSTER_SOURCE_DIR) / "worlds" / "hall";
 
-// When somebody passes: at random, 12 s apart at least.
+// Times of blockages: random, 12 s apart at least.
 std::vector<double> passages(double last) {
   std::mt19937 random(3);
   std::exponential_distribution between(1.0 / 28);

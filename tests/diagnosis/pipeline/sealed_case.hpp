@@ -1,4 +1,4 @@
-// Cases that the exam makes, each in a folder of its own.
+// Cases made by the exam, each in a folder of its own.
 #pragma once
 
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// What plans leave as it is and what they change, over the ways of one robot that hears two stations.
+// Plans for one robot that receives from two stations: their changes, and all that they keep.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ const Vector3d stands[] = {{0, 0, 2}, {12, 0, 2}};
 constexpr double faces[] = {0.3, -0.5};  // rad
 constexpr int moments = 30;
 
-// By turns from west and east, a row a second; the robot drives along y = 4 and looks where it drives.
+// From west and from east in turn, a row a second; the robot drives along y = 4 with its heading along the path.
 RowSummary driven(bool robot_sends = false) {
   RowSummary seen;
   seen.radios = {"west", "east", "robot"};
@@ -42,7 +42,7 @@ RowSummary driven(bool robot_sends = false) {
     (robot_sends ? seen.tx_at : seen.rx_at).col(i) = at;
     (robot_sends ? seen.rx_yaw : seen.tx_yaw)[i] = faces[station];
     (robot_sends ? seen.tx_yaw : seen.rx_yaw)[i] = 0;
-    seen.t[i] = 1000.0905 + moment;  // which is written as 1000.091, as is a millisecond later
+    seen.t[i] = 1000.0905 + moment;  // written as 1000.091, like a millisecond later
   }
   seen.walls = {{"w1", "brick", -2, -8, 14, -8, 0.1}, {"w2", "brick", 14, -8, 14, 8, 0.1}};
   return seen;
@@ -61,7 +61,7 @@ LinkReadings plan(const RowSummary& seen, const std::string& says, const std::ve
   return {};
 }
 
-// Of the stations' ends: where they stand and face. False if a link has no station.
+// True if the stations' ends keep place and heading. False if a link has no station.
 bool stations_stay(const LinkReadings& r) {
   for (Index i = 0; i < r.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
@@ -80,7 +80,7 @@ TEST(Plans, MakeNoTwoReadingsOfALinkAtOnceAndNoneBeforeTheData) {
     const auto plans = planned_readings(seen, {});
     EXPECT_EQ(plans.size(), 7u);
     for (const PlannedReadings& p : plans) {
-      std::set<std::tuple<int, int, std::string>> known;  // with times as they are written
+      std::set<std::tuple<int, int, std::string>> known;  // with times as written
       for (std::size_t k = 0; k < p.readings.tx.size(); ++k) {
         EXPECT_TRUE(known.insert({p.readings.tx[k], p.readings.rx[k], fmt::format("{:.3f}", p.readings.t[k])}).second)
             << p.say;
@@ -142,7 +142,7 @@ TEST(Plans, TurnOrMoveTheStationThatSomethingWasFoundAbout) {
       for (Index i = 0; i < moved.size(); ++i) {
         EXPECT_EQ(radio(moved)[static_cast<std::size_t>(i)], concerned);
         EXPECT_EQ(yaw(moved)[static_cast<std::size_t>(i)], faces[concerned]);
-        EXPECT_EQ(at(moved).col(i), at(moved).col(0));  // one place, on the way, at the station's own height
+        EXPECT_EQ(at(moved).col(i), at(moved).col(0));  // one place, on the path, at the station's own height
         EXPECT_EQ(at(moved)(1, i), 4);
         EXPECT_EQ(at(moved)(2, i), 2);
       }
@@ -150,7 +150,7 @@ TEST(Plans, TurnOrMoveTheStationThatSomethingWasFoundAbout) {
   }
 }
 
-// Where both ends send, a row that a station hears is no place of the station.
+// With both ends sending, the place of a row is never the station's.
 TEST(Plans, KeepStationsWhereTheyAreOnLinksThatGoBothWays) {
   RowSummary seen = driven();
   for (const std::size_t k : {2u, 3u, 40u, 41u}) {
@@ -210,7 +210,7 @@ TEST(Plans, AreNoneWherePlacesAreUnknown) {
   EXPECT_TRUE(planned_readings(seen, {}).empty());
 }
 
-// Of two causes the first is the stronger one and open towards two rivals.
+// The first of two causes is stronger, and has two open alternatives.
 Diagnosis open_towards_two(double by_one, double by_other) {
   Diagnosis d;
   d.causes.resize(2);
@@ -228,7 +228,7 @@ TEST(MostTelling, IsThePlanThatMakesTheStrongestCauseGrowMost) {
   const std::vector<PlannedReadings> plans{{"one", {}}, {"other", {}}};
   EXPECT_EQ(most_telling(open_towards_two(12, 5), plans)->say, "one");
   EXPECT_EQ(most_telling(open_towards_two(12, 14), plans)->say, "other");
-  EXPECT_EQ(most_telling(open_towards_two(17, 1000), plans)->say, "one");  // 25 decides: of 9, 16 are missing
+  EXPECT_EQ(most_telling(open_towards_two(17, 1000), plans)->say, "one");  // decided at 25: 9 lacks 16
 }
 
 TEST(MostTelling, IsNoneWhereNoPlanAddsAnything) {

@@ -1,4 +1,4 @@
-// Whether shadowing is as stated, and whether somebody crosses a link: walks whose field and bursts are known.
+// Tests of shadowing and blockage on walks with known field and bursts.
 #include <gtest/gtest.h>
 
 #include "diagnosis/radio/laws/blockage_test.hpp"
@@ -37,7 +37,7 @@ TEST(FieldOfShadowing, AnotherDistanceIsMeasured) {
   EXPECT_NEAR(std::log(test.values[1].value), std::log(3), std::log(1.8));
 }
 
-// A belief about how far shadowing reaches indoors told a decorrelation of 9 m as 5.
+// A prior of indoor shadowing reported a decorrelation of 9 m as 5.
 TEST(FieldOfShadowing, AnUnusualDistanceIsMeasured) {
   const LawTest test = field_tested(8, 2);
   EXPECT_LT(test.values[1].lower95, 8);
@@ -55,7 +55,7 @@ TEST(PeopleOnALink, NobodyIsSeenWhereNobodyIs) {
   EXPECT_GT(passages_in(walk).test.log_p, std::log(0.01));
 }
 
-// Of the first station, 1.2 s to 1/e each.
+// Adds dips to the first station's readings, 1.2 s to 1/e each.
 void add_bursts(Walk& walk, double first, double every, double dB) {
   for (std::size_t i = 0; i < 600; ++i) {
     const double apart = std::remainder(walk.readings.t[i] - first, every) / 1.2;
@@ -70,7 +70,7 @@ TEST(PeopleOnALink, LevelsThatRiseAsOftenAsTheyFallAreNobody) {
   EXPECT_GT(passages_in(walk).test.log_p, std::log(0.01));
 }
 
-// As in a measured flat: dips win more than twice what rises do, and are still a misfit of the field.
+// As in a measured flat: dips gain more than twice what rises do, and are still a misfit of the field.
 TEST(PeopleOnALink, LevelsThatRiseNearlyAsMuchAreNobody) {
   Walk walk = drawn_of_four({.rician_k = 8}, 600, 1.5);
   add_bursts(walk, 11, 74, -35);

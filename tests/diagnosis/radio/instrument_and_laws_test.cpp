@@ -1,4 +1,4 @@
-// What readings show of their receiver, and the laws of a single reading: closed forms, and draws whose law is known.
+// Receiver checks and laws of a single reading, against closed forms and draws of known laws.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,8 +42,8 @@ TEST(InstrumentChecks, ReadingsThatPileUpAreAClip) {
 
 TEST(InstrumentChecks, ALevelThatIsReadOftenIsNoClip) {
   const Scratch scratch;
-  EXPECT_FALSE(receiver_checks(readings(scratch, 10)).top);  // no more than neighbours have
-  EXPECT_FALSE(receiver_checks(readings(scratch, 14)).top);  // too few to say
+  EXPECT_FALSE(receiver_checks(readings(scratch, 10)).top);  // no more than its neighbours
+  EXPECT_FALSE(receiver_checks(readings(scratch, 14)).top);  // too few to decide
 }
 
 TEST(InstrumentChecks, ASmallPileShowsBesideAllThatIsNear) {
@@ -58,7 +58,7 @@ ReceiverCheck check_called(const ReceiverChecks& instrument, const std::string& 
   return {};
 }
 
-// 40 readings with two decimals, each another one: their step is not known, and not none.
+// 40 distinct readings with two decimals: their step is unknown, not zero.
 std::string two_decimals(const std::string& sign) {
   std::string text = "t[s],tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],rssi[dBm]\n";
   for (int row = 0; row < 40; ++row)
@@ -162,7 +162,7 @@ TEST(LawsOfReadings, TheFieldsSizeIsTheSameFromWhereverItIsSought) {
   }
 }
 
-// Some of the readings say where to look; what is likely is the best by all.
+// A subsample gives the start; the result is the best on all readings.
 TEST(LawsOfReadings, ShapesOfManyReadingsAreTheBestByAllOfThem) {
   constexpr double likely = 6;  // nats
   const ReadingDistribution law{.rician_k = 6};
@@ -180,7 +180,7 @@ TEST(LawsOfReadings, ShapesOfManyReadingsAreTheBestByAllOfThem) {
   KrigedReadings some = field.some(10000);
   EXPECT_GT(some.size(), 5000);
   EXPECT_LT(some.size(), 11000);
-  // Whole neighbourhoods: every fourth reading would be told less by its neighbours.
+  // The subsample keeps whole neighbourhoods: every fourth reading alone would have larger prediction errors.
   const auto told = [&](KrigedReadings& of) { return of.view(best.shape, best.place).log_spread.mean(); };
   EXPECT_NEAR(told(some), told(field), 0.06);
 }
@@ -189,7 +189,7 @@ TEST(LawsOfReadings, ReadingsSideBySideTellTheVarianceOfOne) {
   for (const double distance : {0.7, 1.5}) {
     const Walk walk = drawn({.rician_k = 4}, 6000, distance);
     LinkReadings near = walk.readings;
-    near.rx_at *= 0.1;  // 1.5 cm apart, in a field that changes ten times as fast as this says
+    near.rx_at *= 0.1;  // 1.5 cm apart, in a field that changes ten times as fast
     const CloseReadings close = KrigedReadings(near, walk.residual).close_readings();
     EXPECT_GT(close.pairs, 2500);
     EXPECT_LE(close.pairs, 3000);
@@ -201,7 +201,7 @@ TEST(LawsOfReadings, ReadingsSideBySideTellTheVarianceOfOne) {
   EXPECT_TRUE(std::isinf(KrigedReadings(far.readings, far.residual).close_readings().standard_error));
 }
 
-// The variogram of a smooth field begins as a parabola: a line through it would tell less than there is.
+// The variogram of a smooth field begins as a parabola: a line would underestimate the variance.
 TEST(LawsOfReadings, ReadingsSideBySideTellTheVarianceInASmoothFieldToo) {
   constexpr int count = 6000;
   constexpr double sd = 1.4;  // dB
@@ -220,8 +220,8 @@ TEST(LawsOfReadings, ReadingsSideBySideTellTheVarianceInASmoothFieldToo) {
   EXPECT_LT(close.standard_error, 0.1 * sd * sd);
 }
 
-// A field that changes faster than any that is tried looks like a wider law; readings of one place know better.
-// (Of tails they know too little to speak against outliers.)
+// A field faster than any tried resembles a wider law; adjacent readings separate them. (They hold too little on
+// tails to exclude outliers.)
 TEST(LawsOfReadings, ReadingsSideBySideSpeakAgainstAnotherLaw) {
   Walk walk = drawn({.rician_k = 6}, 6000);
   for (Eigen::Index i = 0; i < walk.residual.size(); ++i) {
@@ -237,8 +237,8 @@ TEST(LawsOfReadings, ReadingsSideBySideSpeakAgainstAnotherLaw) {
   }
 }
 
-// Readings a fiftieth of the field's distance apart, deep fades among them: with what they tell their neighbours tamed
-// alone, a law of weaker fading would win 24.
+// Readings a fiftieth of the decorrelation distance apart, with deep fades: with winsorised predictions alone, a
+// weaker fading law would gain 24.
 TEST(LawsOfReadings, TamedDeepFadesAreNoOtherFading) {
   const Walk walk = drawn_of_four({.rician_k = 5}, 1500, 30, 30);
   KrigedReadings field(walk.readings, walk.residual);
@@ -254,7 +254,7 @@ TEST(LawsOfReadings, AnotherFadingIsMeasured) {
   EXPECT_GT(best.values[0].upper95, 2);
 }
 
-// Sought in the field that suits the stated law, a fading was told a quarter of the way towards the stated one.
+// In the field fitted to the stated law, the estimate was biased by a quarter towards the stated strength.
 TEST(LawsOfReadings, WhatIsStatedDoesNotPullWhatIsMeasured) {
   std::vector<double> measured;
   for (const double stated : {2.0, 3.5, 12.0}) {

@@ -21,8 +21,8 @@ using noise::readings_apart;
 using noise::Rows;
 using noise::Sites;
 
-// Of an exponential field on a line, half the variance of a difference is the mean distance between two rows' readings
-// less the mean distance within one, in decorrelation distances, as long as that is short against one.
+// For an exponential field on a line, the distance of two rows is half the variance of their difference. It is the
+// mean distance of their readings less that within one, in decorrelation distances, as long as it is well below one.
 TEST(LinkRows, DistanceIsThatOfTheMeansOnALine) {
   constexpr double pace = 0.1;  // m between readings
   for (const int each : {1, 2, 3, 4, 6, 9}) {
@@ -56,7 +56,7 @@ TEST(LinkRows, DistanceIsThatOfTheMeansOnALine) {
   }
 }
 
-// Rows that cross, pass side by side or share a place are as far apart as all their readings say.
+// Distances of rows that cross, run side by side or share a place are those of all their readings.
 TEST(LinkRows, DistanceIsThatOfTheMeansInAnyDirection) {
   constexpr int each = 5;
   const std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> ways = {{{0, 0, 1}, {0.12, 0, 0}},
@@ -215,7 +215,7 @@ TEST(RadiosOfRows, AreNumberedFromZeroAndMoveLess) {
   const std::set<int> different(radios.begin(), radios.end());
   ASSERT_GE(different.size(), 2u);
   EXPECT_EQ(*different.rbegin() + 1, static_cast<int>(different.size()));
-  // Where one station alone stands, what moves is left out.
+  // With one stationary radio, the moving ones are left out in turn.
   LinkReadings one = world.readings;
   const int robot = *std::max_element(one.rx.begin(), one.rx.end()) + 1;
   for (std::size_t i = 0; i < one.tx.size(); ++i) {

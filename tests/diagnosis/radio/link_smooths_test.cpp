@@ -1,4 +1,4 @@
-// Smooths of links: one for each column, factor and product, and none over places that are not known.
+// Smooths of links: one for each column, factor and product, and none over unknown places.
 #include "diagnosis/radio/links/link_smooths.hpp"
 
 #include <gtest/gtest.h>
@@ -39,14 +39,14 @@ TEST(LinkSmooths, CoverEveryColumnFactorAndProduct) {
     EXPECT_EQ(ids.count(id), 1u) << id;
 }
 
-// Time passes whatever happens: what was observed comes before a function of it that does as well.
+// Time always varies: an observed column that explains as much comes before a function of time.
 TEST(LinkSmooths, OfTimeGiveWayToColumns) {
   const auto world = world_of(varied(4, 400));
   for (const Candidate& c : link_smooths(world.readings, columns_of(world), true))
     EXPECT_EQ(c.role.time_like, c.id == "~time" || c.id == "chirp~time") << c.id;
 }
 
-// What depends on where a robot is, and on which way it looks, does so when it sends as when it hears.
+// Effects of a robot's place and heading are equal in both directions of a link.
 TEST(LinkSmooths, AreTheSameForBothDirectionsOfALink) {
   const auto world = world_of(varied(6, 300));
   const LinkReadings& heard = world.readings;
@@ -54,7 +54,7 @@ TEST(LinkSmooths, AreTheSameForBothDirectionsOfALink) {
   std::swap(sent.tx, sent.rx);
   std::swap(sent.tx_at, sent.rx_at);
   std::swap(sent.tx_yaw, sent.rx_yaw);
-  sent.rx_yaw.assign(300, 0.3);  // stations look somewhere too
+  sent.rx_yaw.assign(300, 0.3);  // stations have a heading too
   const auto columns = [&](const LinkReadings& readings, const std::string& id) {
     const std::vector<Candidate> all = link_smooths(readings, columns_of(world), true);
     const auto found = std::find_if(all.begin(), all.end(), [&](const Candidate& c) { return c.id == id; });

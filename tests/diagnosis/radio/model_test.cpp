@@ -1,4 +1,4 @@
-// What a world expects of links that pass closely by the end of a wall.
+// Expected readings of links that pass closely by the end of a wall.
 #include <gtest/gtest.h>
 
 #include "diagnosis/radio/links/link_model.hpp"
@@ -24,7 +24,7 @@ TEST(LinkModel, TellsWhichLinksMayAsWellPassOnTheOtherSideOfAnEnd) {
   Eigen::VectorXd wanted(10);
   wanted << 0, 0, 7.5, 7.5, 0, 0, 7.5, 7.5, 0, 0;
   EXPECT_TRUE(model.changes_aside(0.005).isApprox(wanted, 1e-9)) << model.changes_aside(0.005).transpose();
-  EXPECT_EQ(model.expected(), before);  // links stand where they stood
+  EXPECT_EQ(model.expected(), before);  // links keep their places
 }
 
 }  // namespace

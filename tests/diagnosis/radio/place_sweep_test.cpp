@@ -1,4 +1,4 @@
-// Walls and things swept over a plan: the best place is where they were put.
+// Spatial scan of walls and disks over a plan: the optimum is at the true place.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Index;
 
-// Rows whose links meet the object score 1, others -1; the gain of a set is that of its mean.
+// Rows with links across the object score 1, others -1; the gain of a set is that of its mean.
 class Scored : public inference::Tally {
  public:
   explicit Scored(std::vector<double> scores) : scores_(std::move(scores)) {}
@@ -48,7 +48,7 @@ struct Plan {
     }
   }
 
-  // One a row.
+  // One link a row.
   ReadingLinks readings() const {
     std::vector<std::size_t> first(links.size() + 1);
     std::iota(first.begin(), first.end(), 0);
@@ -135,7 +135,7 @@ TEST(PlaceSweep, CountsEachWayThatIsInTheWay) {
   EXPECT_LT(clear, 270);
 }
 
-// What a disk of this radius at the place stops.
+// Scores of links through a disk of this radius at the place.
 Scored of_a_disk(const Plan& plan, const Point& at, double radius) {
   return plan.scored([=](const Point& a, const Point& b) {
     const Point way = b - a;
@@ -165,7 +165,7 @@ TEST(PlaceSweep, ADiskClimbsToNoPlaceThatWasDrivenThrough) {
     EXPECT_FALSE(driven_through(plan.survey, theta[1], theta[2], std::exp(theta[3]))) << theta.transpose();
 }
 
-// Where an edge of the disk's shadow stands, seen from a radio, rad.
+// Bearing of an edge of the disk's shadow from a radio, rad.
 double edge(const Eigen::VectorXd& theta, const Point& radio, double side) {
   const Point to = theta.segment<2>(1) - radio;
   return std::atan2(to.y(), to.x()) + side * std::asin(std::exp(theta[3]) / to.norm());
@@ -177,7 +177,7 @@ TEST(MovesOfDisk, TurnOneEdgeOfItsShadowAlone) {
   Eigen::VectorXd theta(4);
   theta << 0, 4, 3, std::log(0.5);
   const Eigen::MatrixXd moves = moves_of_disk(survey, theta);
-  ASSERT_EQ(moves.cols(), 3 + 2 * 3);  // the two radios that are near
+  ASSERT_EQ(moves.cols(), 3 + 2 * 3);  // the two nearby radios
   constexpr double little = 1e-5;
   for (int k = 0; k < 2; ++k) {
     const Point radio = k == 0 ? Point(0, 0) : Point(9, 1);

@@ -1,4 +1,4 @@
-// The rooms of a plan, from its walls alone.
+// Detection of a plan's rooms from its walls alone.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,7 +19,7 @@ std::array<double, 4> wall(double x0, double y0, double x1, double y1) {
   return {a[0], a[1], b[0], b[1]};
 }
 
-// Two rooms of 4 x 3 and 6 x 3 m beside one another, their corners open by 5 cm, as of thick walls.
+// Two adjacent rooms of 4 x 3 and 6 x 3 m, with gaps of 5 cm at the corners, as of thick walls.
 std::vector<std::array<double, 4>> two_rooms() {
   return {wall(0, 0, 9.95, 0), wall(0, 3, 10, 3), wall(0, 0.05, 0, 3), wall(4, 0, 4, 2.95), wall(10, 0, 10, 3)};
 }
@@ -48,7 +48,7 @@ TEST(Rooms, WhatIsOpenToTheOutsideIsNone) {
 
 TEST(Rooms, APlanWithoutWallsHasNone) { EXPECT_TRUE(rooms_of({}, 0, {{1, 1}}).empty()); }
 
-// Cells grow with the plan, and are at most as many as they may be.
+// Cells grow with the plan, up to their maximum number.
 TEST(Rooms, OfALargePlan) {
   const auto rooms =
       rooms_of({wall(0, 0, 2000, 0), wall(0, 900, 2000, 900), wall(0, 0, 0, 900), wall(2000, 0, 2000, 900)}, angle,

@@ -1,4 +1,4 @@
-// A world that was extended by what one measurement was set to, held against another.
+// A world extended by the settings of one measurement, tested on another.
 #include <gtest/gtest.h>
 
 #include "diagnosis/radio/links/link_model.hpp"
@@ -8,7 +8,7 @@
 namespace muster::diagnosis {
 namespace {
 
-// 3 dB more than stated was sent at the lower of two powers, -1 dB at the higher.
+// Transmit power is 3 dB above the stated one at the lower of two settings, and 1 dB below at the higher.
 const char* const extended =
     "<world name=\"w\" dt=\"1\" until=\"1\" seed=\"1\">\n"
     "  <station name=\"s\" at=\"0 0 0.5\"/>\n  <radio.multiwall l0=\"40\" n=\"2\"/>\n"
@@ -26,7 +26,7 @@ TEST(Settings, AreThoseOfTheReadingsWhereTheyTellThem) {
   scratch.write("then.csv", "t[s],tx,power[dBm]\n0,s,-10\n5,s,0\n");
   const auto now = scratch.write("now.csv", columns + ",power[dBm]\n" + reading(0, ",0") + reading(5, ",-10"));
   EXPECT_TRUE(LinkModel(world, now, plugins).expected().isApprox(Eigen::Vector2d(-61, -57), 1e-12));
-  // Readings that say nothing of it, or in another unit, leave what the world has.
+  // Readings without the setting, or with another unit, leave the world's value.
   for (const std::string name : {"", ",power[mW]"}) {
     const auto silent = scratch.write("silent.csv", columns + name + "\n" + reading(0, name.empty() ? "" : ",1") +
                                                         reading(5, name.empty() ? "" : ",0.1"));

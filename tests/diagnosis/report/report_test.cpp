@@ -1,4 +1,4 @@
-// One diagnosis of a fifth of the hall's readings, held against another fifth, and all that is said of it.
+// Report of one diagnosis of a fifth of the hall's readings, tested on another fifth.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
@@ -68,7 +68,7 @@ Diagnosis* Report::found = nullptr;
 fs::path Report::out;
 Setting Report::setting;
 
-// "causes[].parameters[].name" for all that is there; what is in objects with free keys is not looked into.
+// All paths such as "causes[].parameters[].name"; objects with free keys are not entered.
 void paths_of(const Json& json, const std::string& at, std::set<std::string>& result) {
   if (json.is_object() && at != "parameters") {
     for (const auto& [key, value] : json.items()) {
@@ -96,7 +96,7 @@ TEST_F(Report, JsonIsAsItsPageSays) {
   std::set<std::string> there, page = documented();
   paths_of(json, "", there);
   for (const std::string& path : there) EXPECT_TRUE(page.count(path)) << path << " is not on the page";
-  // What has no entry here (no rival, nothing unexplained, no advice) has its keys tested by the others.
+  // Keys of lists that are empty here (alternatives, unexplained effects, advice) are covered by other tests.
   for (const std::string& path : page) {
     const auto list = path.find("[]");
     if (list != path.npos && json.contains(path.substr(0, list)) && json.at(path.substr(0, list)).empty()) continue;
@@ -150,7 +150,7 @@ TEST_F(Report, PicturesAreWhole) {
   for (const Picture& p : pictures_of(*found)) EXPECT_FALSE(p.figure.panels.empty()) << p.name;
 }
 
-// A run of the extended world by the program, its record read back, against the mean that the diagnosis stands on.
+// A separate run of the extended world by the program, its record against the diagnosis' mean.
 TEST_F(Report, RecordOfASeparateRunAgrees) {
   const std::string command = std::string(MUSTER_PROGRAM) + " run " + (out / "replay.xml").string() +
                               " --expected --out " + (out / "replay").string() + " > /dev/null";
@@ -164,7 +164,7 @@ TEST_F(Report, RecordOfASeparateRunAgrees) {
   EXPECT_LT(largest, 0.1);
 }
 
-// What the world's page says of it.
+// The figures on the world's page.
 TEST(Hall, IsAsItsPageSays) {
   const Diagnosis whole = diagnosis::diagnose(hall, hall / "measured.csv", plugins);
   ASSERT_EQ(whole.causes.size(), 1u);
@@ -196,7 +196,7 @@ TEST_F(Report, RegressionTestPassesAndNoticesThatTheWallIsGone) {
   std::ofstream(file, std::ios::binary) << before;
 }
 
-// What the readings do not identify may come out as anything in another's fit.
+// Unidentifiable parameters may differ in another fit.
 TEST_F(Report, RegressionTestHoldsNothingAgainstWhatIsNotIdentifiable) {
   Diagnosis blind = *found;
   diagnosis::WorldValue& open = blind.world_values.at(0);
@@ -213,7 +213,7 @@ TEST_F(Report, RegressionTestHoldsNothingAgainstWhatIsNotIdentifiable) {
   EXPECT_EQ(paths + 1, blind.world_values.size());
 }
 
-// Directions a turn apart are one; no width can be met by a turn more.
+// Directions are equal modulo a turn, widths are not.
 TEST_F(Report, RegressionTestTakesATurnMoreForTheSameOfDirectionsAlone) {
   const fs::path folder = *scratch / "turned";
   fs::copy(out, folder);

@@ -1,4 +1,4 @@
-// Words, digits and gates, on results that are made up.
+// Words, digits and gates, on synthetic results.
 #include <gtest/gtest.h>
 
 #include "diagnosis/report/advice.hpp"
@@ -176,7 +176,7 @@ TEST(Text, GainsWithRadiosAndRunsNotSeenStandBesideThoseOfPlaces) {
   EXPECT_EQ(json["unexplained"][0]["elsewhere"][0]["blocks"], 4);
 }
 
-// Of all that was accepted, named or not; clips and laws of what scatters are no step.
+// All accepted terms, named or not; clips and laws are no steps.
 TEST(Steps, AreInTheOrderOfStrength) {
   Diagnosis d = with(wall(inference::Status::named, {}));
   d.causes[0].sought_as = d.causes[0].id;
@@ -203,7 +203,7 @@ TEST(Text, NothingFoundIsAdequate) {
   EXPECT_FALSE(says(text, "Cause"));
 }
 
-// The channel's law at the end of what is physical: no name beside it is sure, whatever it gains.
+// With the channel's law at its physical bound no cause is certain, whatever its gain.
 TEST(Gate, NothingIsSureBesideALawAtItsBound) {
   CauseEstimate c = wall(inference::Status::named, inference::HeldOutGain{3.5, 2.5, 6, 2.4, 11, 21});
   c.doubt = "at its bound: radio.multiwall/n";
@@ -240,7 +240,7 @@ TEST(Page, IsValidWhereTablesHaveNoHeadAndPicturesAreInside) {
   EXPECT_FALSE(says(page, "<th></th>")) << page;
 }
 
-// A name keeps its letters, a sentence gets its capital.
+// A name is not capitalised, a sentence is.
 TEST(Page, DoesNotRenameARadio) {
   CauseEstimate c = wall(inference::Status::named, {});
   const auto title = [&] { return page_of(with(c), {"hall", "a.csv", {}}, {}); };
