@@ -1,4 +1,4 @@
-// Robots and what stands around them, as all that move them share it.
+// Robots and their surroundings, shared by all steppers.
 #pragma once
 
 #include "broad_phase.hpp"
@@ -16,9 +16,10 @@ struct Arena {
   Arena& operator=(const Arena&) = delete;
 
   Crew crew;
-  // Each robot half a step ahead, for the steppers of eight and of twelve unknowns; a robot is one thread's at a time.
+  // Each robot half a step ahead, for the steppers of eight and of twelve unknowns; at any time one thread uses a
+  // robot.
   std::vector<PlacedOf<unknowns>> placed;
-  std::vector<PlacedOf<unknowns_with_legs>> placed_with_legs;  // none where nobody has any
+  std::vector<PlacedOf<unknowns_with_legs>> placed_with_legs;  // empty if no robot has any
 
   std::vector<Solid> walls;
   std::vector<Extent> wall_extents;

@@ -34,7 +34,7 @@ void BlockCholeskyOf<N>::arrange(int count, const std::vector<std::pair<int, int
     for (std::size_t n = 0; n < beside[k].size(); ++n) {
       const int i = beside[k][n];
       columns_[k][n].row = i;
-      joined.clear();  // who is left of both becomes a neighbour of i
+      joined.clear();  // the remaining neighbours of both become neighbours of i
       std::set_union(beside[i].begin(), beside[i].end(), beside[k].begin(), beside[k].end(),
                      std::back_inserter(joined));
       joined.erase(std::remove_if(joined.begin(), joined.end(), [&](int j) { return j == i || j == k; }), joined.end());

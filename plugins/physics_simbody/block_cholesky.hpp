@@ -1,4 +1,5 @@
-// A sparse symmetric positive definite system whose entries are the square blocks of robots that touch.
+// Block Cholesky factorisation of a sparse symmetric positive definite system, with a square block per robot and per
+// pair in contact.
 #pragma once
 
 #include <Eigen/Dense>
@@ -10,8 +11,8 @@
 
 namespace muster::simbody {
 
-// Unknowns of a robot: w and v in the body's frame, and the rates of its joints. Wheels: the left and the right one. A
-// robot with fewer joints than there is room for has idle ones of mass 1.
+// Unknowns of a robot: w and v in the body's frame, and the rates of its joints. Wheels: the left and the right one.
+// Unused joints are idle ones of mass 1.
 constexpr int unknowns = 8, unknowns_with_legs = 12;
 
 template <int N>
@@ -21,19 +22,19 @@ using MassMatrixOf = Eigen::Matrix<double, N, N>;
 using Velocity = VelocityOf<unknowns>;
 using MassMatrix = MassMatrixOf<unknowns>;
 
-// Legs of one robot are coupled through its body alone: then a robot by itself costs little more than its body. Limbs
-// may be coupled with each other.
+// A robot's legs are coupled through its body alone: a single robot then costs little more than its body. Limbs may be
+// coupled with each other.
 template <int N>
 class BlockCholeskyOf {
  public:
   using Velocity = VelocityOf<N>;
   using MassMatrix = MassMatrixOf<N>;
 
-  // `count` blocks on the diagonal, and one for each pair beside it. The order of elimination is that of least degree
-  // (the smaller index where degrees are equal), so it depends on nothing but the pairs.
+  // `count` blocks on the diagonal, and one off it for each pair. Minimum-degree ordering (the smaller index where
+  // degrees are equal), so the order depends on the pairs alone.
   void arrange(int count, const std::vector<std::pair<int, int>>& pairs);
 
-  // Between arrange() or solve() and factor(): blocks beside the diagonal begin at zero, those on it are to be set.
+  // Between arrange() or solve() and factor(): off-diagonal blocks begin at zero, diagonal ones are to be set.
   void clear_pairs();
   MassMatrix& diagonal(int i) { return diagonal_[i]; }
   // Adds a^T K b of each contact, as BlockArithmetic has it, at block (i, j), i != j, and its mirror image.
@@ -60,12 +61,12 @@ class BlockCholeskyOf {
   const BlockArithmetic<6>& of_bodies_ = block_arithmetic<6>();
 
   Blocks<MassMatrix> diagonal_;
-  std::vector<std::vector<Below>> columns_;         // what stands below the diagonal once the order is applied
+  std::vector<std::vector<Below>> columns_;         // blocks below the diagonal in elimination order
   std::vector<int> order_, place_;                  // of elimination, and its inverse
   Blocks<MassMatrix> inverse_;                      // of the transposed factors
   bool is_alone_ = false;                           // one robot whose joints are coupled through its body
-  BodyBlock body_;                                  // the same of one alone: of what its joints leave of the body
-  Eigen::Matrix<double, 6, N - 6> body_by_joints_;  // and how they pull at it
+  BodyBlock body_;                                  // the same for a single robot: Schur complement of its body
+  Eigen::Matrix<double, 6, N - 6> body_by_joints_;  // and its coupling to the joints
 };
 
 using BlockCholesky = BlockCholeskyOf<unknowns>;

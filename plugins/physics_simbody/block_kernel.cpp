@@ -20,7 +20,7 @@ constexpr bool has_eights = true;
 constexpr bool has_eights = false;
 #endif
 
-// A column of N numbers, even ones, in as few pieces as the machine takes.
+// A column of N numbers, N even, in as few vectors as the machine needs.
 template <int N>
 struct Column {
   static constexpr int eights = has_eights && N % 8 == 0 ? N / 8 : 0, fours = (N - 8 * eights) / 4;
@@ -68,7 +68,7 @@ struct Column {
     for (int i = 0; i < fours; ++i) four[i] += b.four[i] * c.four[i];
     if (has_two) two += b.two * c.two;
   }
-  // By twos in their order, whatever the pieces.
+  // By twos in their order, for any vector length.
   MUSTER_INLINE double sum() const {
     Two sum = {};
     for (int i = 0; i < eights; ++i) {
@@ -92,7 +92,7 @@ struct Column {
   Two two;
 };
 
-// By twos, since what was just written by other code cannot be read in larger pieces without waiting for memory.
+// By twos: a wider load of data just written in smaller pieces would stall.
 template <int N>
 MUSTER_INLINE double dot(const double* a, const double* b) {
   Two sum = {};
@@ -128,7 +128,7 @@ struct Arithmetic {
       x.store(weighed + 3 * N * i + N);
       y.store(weighed + 3 * N * i + 2 * N);
     }
-    constexpr int some = C::eights > 0 ? 8 : N % 4 == 0 ? 4 : 2;  // columns that registers hold
+    constexpr int some = C::eights > 0 ? 8 : N % 4 == 0 ? 4 : 2;  // columns held in registers
     for (int first = 0; first < N; first += some) {
       C sums[some];
       for (int j = 0; j < some; ++j) sums[j] = C::of(block + N * (first + j));
@@ -181,8 +181,9 @@ struct Arithmetic {
     }
   }
 
-  // Column by column; the row operations that make D L^T of the block, L of ones on its diagonal, make L^-1 of the unit
-  // matrix, kept by its rows, whose lengths the square roots of D give at last: so no step waits for a square root.
+  // Cholesky factorisation by columns. The row operations that reduce the block to D L^T, L with ones on its diagonal,
+  // turn the unit matrix into L^-1, kept by rows. These are finally divided by the square roots of D, so no step waits
+  // for a square root.
   static void invert_factor(const double* block, double* inverse) {
     C rest[N], rows[N];
 #pragma GCC unroll 8

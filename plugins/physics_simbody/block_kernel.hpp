@@ -1,15 +1,15 @@
-// Arithmetic on square blocks of few unknowns, several lanes at a time: the part that is built for each instruction
-// set. All kernels give the same bits: lanes are rows, whose sums have one order, and nothing is fused.
+// Arithmetic on small square blocks, several lanes at a time: the part built for each instruction set. All kernels give
+// the same bits: lanes are rows, whose sums have one order, and nothing is fused.
 //
-// Only plain data cross this border: a function that both sides compile could be linked in its newest form everywhere.
+// Only plain data cross this border: the linker could replace a function that both sides compile by its newest form.
 #pragma once
 
 #include "contact_lanes.hpp"
 
 namespace muster::simbody {
 
-// Rows of contacts where they lie: of each three of its body and, `other` numbers on, three of the other; both by
-// number in `bodies`, -1 where there is no other. Contacts stand `stride` numbers apart.
+// Addresses of contacts' rows: three of the body and, `other` numbers on, three of the other body. `bodies` has the
+// numbers of both, -1 for no other. Contacts are `stride` numbers apart.
 struct ContactTable {
   int count;
   const double* rows;
@@ -24,17 +24,18 @@ struct BlockArithmetic {
 
   void (*copy)(double* to, const double* from);
   // block += a^T K b for each of at most so many contacts: a and b are its three rows, K is [n 0 0; 0 xx xy; 0 xy yy],
-  // of which `k` has those four.
+  // and `k` has those four numbers.
   void (*add_contacts)(double* block, int count, const double* const* a, const double* const* b, const double* k);
-  // What each of a contact's three rows makes of a velocity, added to `sums`; and to -= k_0 a_0 + k_1 a_1 + k_2 a_2.
+  // add_speeds: the products of a contact's three rows with a velocity, added to `sums`. subtract_rows: to -= k_0 a_0 +
+  // k_1 a_1 + k_2 a_2.
   void (*add_speeds)(double* sums, const double* a, const double* velocity);
   void (*subtract_rows)(double* to, const double* a, const double* k);
-  // The same of all contacts: what the bodies' velocities make of their speeds and slips ahead, and what their impulses
-  // take from the bodies' momenta. Both stand one after the other.
+  // The same for all contacts: their speeds and slips ahead from the bodies' velocities, and their impulses subtracted
+  // from the bodies' momenta. Velocities and momenta are contiguous.
   void (*look_ahead)(const ContactTable& table, const double* velocities, ContactLanes* contacts);
   void (*take_impulses)(const ContactTable& table, const ContactLanes* contacts, double* momenta);
-  // Of a symmetric positive definite block, of which only what is on and below the diagonal counts: the inverse of the
-  // transposed Cholesky factor, L^-T. No numbers where it is not positive definite.
+  // Inverse of the transposed Cholesky factor, L^-T, of a symmetric positive definite block, of which it reads the
+  // diagonal and below. NaN if not positive definite.
   void (*invert_factor)(const double* block, double* inverse);
   // a := a u, where u is an upper triangle.
   void (*multiply)(double* a, const double* u);
@@ -56,14 +57,14 @@ struct BlockKernel {
   LaneArithmetic lanes;
 };
 
-// Those that this machine can run, the best last; at least one.
+// The kernels that this machine can run, the best last; at least one.
 struct BlockKernels {
   int number = 0;
   const BlockKernel* all[3] = {};
 };
 BlockKernels block_kernels();
 
-// Of the best.
+// Arithmetic of the best kernel.
 template <int N>
 const BlockArithmetic<N>& block_arithmetic();
 const LaneArithmetic& lane_arithmetic();

@@ -1,4 +1,4 @@
-// Which of the kernels the machine can run.
+// Selects the kernels that the machine can run.
 #include "block_kernel.hpp"
 
 namespace muster::simbody {

@@ -1,4 +1,4 @@
-// Arrays that begin on a cache line, so that blocks of eight numbers are read and written whole.
+// Arrays aligned to cache lines, so that blocks of eight numbers are read and written whole.
 #pragma once
 
 #include <cstddef>

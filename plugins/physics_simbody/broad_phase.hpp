@@ -1,4 +1,4 @@
-// Which of many boxes along the axes overlap: sort and sweep (Baraff 1992). Some boxes stand still, the others move.
+// Overlaps of many axis-aligned boxes: sort and sweep (Baraff 1992). Some boxes are static, the others move.
 #pragma once
 
 #include <Eigen/Dense>
@@ -22,14 +22,14 @@ class BroadPhase {
 
   void set_standing(std::vector<Extent> standing);
 
-  // Pairs among the moving, the smaller index first, and pairs (moving, standing): whatever the order in space.
+  // Pairs among the moving, the smaller index first, and pairs (moving, static): independent of the order in space.
   void find(const std::vector<Extent>& moving);
   const Pairs& among() const { return among_; }
   const Pairs& with_standing() const { return with_standing_; }
 
  private:
   std::vector<Extent> standing_;
-  std::vector<int> standing_order_, order_;  // by where they begin along x
+  std::vector<int> standing_order_, order_;  // by their begins along x
   std::vector<int> open_, open_standing_;    // those that the sweep is still inside
   Pairs among_, with_standing_;
 };

@@ -11,19 +11,19 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double longest_way = 0.01;  // [m] that a robot near others may go in one step
+constexpr double longest_way = 0.01;  // [m] step limit for a robot near others
 constexpr int most_parts = 100;
-// [s] for a robot whose wheels slide, or may begin to: friction has the direction of the slip at a step's end, and one
-// that begins within a step has the friction of all of it, errors of first order.
+// [s] step limit while wheels slide, or may begin to. Friction has the direction of the slip at a step's end, and slip
+// that begins within a step gets the friction of all of it: errors of first order.
 constexpr double longest_slide = 0.005;
 
-// Whether wheels are asked to speed up by more than half of what friction gives.
+// True if the commanded acceleration of the wheels needs more than half of the available friction.
 bool may_slide(const RobotModel& model, const Command& command) {
   const double fastest = std::max(std::abs(command.left_rate), std::abs(command.right_rate));
   return model.has_wheels && fastest * model.drive.wheel_radius > 0.5 * model.drive.friction * gravity;
 }
 
-// Whether they did in the last step.
+// True if the wheels slid in the last step.
 bool slides(const RobotModel& model, const Memory& memory) {
   return std::any_of(memory.impulse.begin(), memory.impulse.end(), [&](const auto& impulse) {
     const double bound = 0.99 * model.drive.friction * impulse[0];
@@ -70,7 +70,7 @@ bool Mover::move(const Cluster& cluster, const std::vector<Extent>& reach, int c
   return true;
 }
 
-// A group stands where its first robot does. False where a robot may leave `reach`, if it is given, in this step.
+// A group is stored at its first robot's place. False if a robot may leave `reach`, if given, in this step.
 bool Mover::find_groups(const Cluster& cluster, const std::vector<Extent>* reach, double h,
                         const std::vector<RobotState>& states) {
   const std::size_t count = cluster.robots.size();
@@ -79,7 +79,7 @@ bool Mover::find_groups(const Cluster& cluster, const std::vector<Extent>* reach
     const CrewMember& robot = arena_.crew[i];
     extents_.push_back(extent_of(robot.model, states[i], h));
     if (!reach || (*reach)[i].holds(extents_.back())) continue;
-    check_speed(robot.name, speed_of(robot.model, states[i]));  // or nothing would ever hold it
+    check_speed(robot.name, speed_of(robot.model, states[i]));  // otherwise no extent would suffice
     return false;
   }
   if (groups_.size() < count) groups_.resize(count);

@@ -1,5 +1,5 @@
-// Moves robots that may meet within a tick through its steps. In each step those that may meet are a group, divided
-// into parts where somebody is fast, and a group with legs or limbs has twelve unknowns a robot, any other eight.
+// Steps robots that may meet within a tick. In each step those that may meet form a group. Fast robots divide its step
+// into parts. A group with legs or limbs has twelve unknowns a robot, any other eight.
 #pragma once
 
 #include <memory>
@@ -9,21 +9,22 @@
 
 namespace muster::simbody {
 
-// Nobody of a cluster may meet anybody of another within the tick. Pairs by place in `robots`, walls by their index.
+// No robot of a cluster may meet one of another cluster within the tick. Pairs by place in `robots`, walls by their
+// index.
 struct Cluster {
   std::vector<int> robots;
   BroadPhase::Pairs pairs, walls;
 };
 
-// How far a robot may reach within `time` [s], and be reached: twice its way, since a contact may make it faster.
+// Bounds of a robot's motion within `time` [s]: twice its path, since a contact may accelerate it.
 Extent extent_of(const RobotModel& model, const RobotState& state, double time, double room = 1);
 
 class Mover {
  public:
   Mover(Arena& arena);
 
-  // Through dt in `count` equal steps. `reach`: of each robot in the whole time. False where one was about to leave it,
-  // and might have met what is not in the cluster; what `states` hold of the cluster then is nothing.
+  // Advances by dt in `count` equal steps. `reach`: bounds of each robot for the whole time. False if a robot might
+  // have left them and met something outside the cluster; the cluster's `states` are then invalid.
   bool move(const Cluster& cluster, const std::vector<Extent>& reach, int count, double dt,
             const std::vector<Command>& commands, std::vector<RobotState>& states);
 
@@ -41,9 +42,9 @@ class Mover {
 
   Arena& arena_;
   StepperOf<unknowns> stepper_;
-  std::unique_ptr<StepperOf<unknowns_with_legs>> stepper_with_legs_;  // or limbs: where a robot has any
+  std::unique_ptr<StepperOf<unknowns_with_legs>> stepper_with_legs_;  // or limbs: if any robot has them
 
-  // Room that is kept from step to step.
+  // Buffers, kept from step to step.
   Connected connected_;
   std::vector<Extent> extents_;
   std::vector<Group> groups_;

@@ -1,4 +1,4 @@
-// Who is connected with whom: union-find in which the smallest member stands for all, so that no order matters.
+// Connected components by union-find. The smallest member is the root, so the result does not depend on the order.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace muster::simbody {
 
 class Connected {
  public:
-  // Nobody with anybody.
+  // Resets to `count` separate members.
   void begin(int count) {
     parent_.resize(count);
     std::iota(parent_.begin(), parent_.end(), 0);

@@ -12,15 +12,15 @@ using Eigen::Vector3d;
 
 namespace {
 
-// What sticks to another robot creeps by this share of what its grip takes from a speed: 0.06 mm/s at most between two
-// Scarabs that push each other with all their wheels.
+// Creep of a sticking contact between robots, as a share of the speed that its friction removes: at most 0.06 mm/s
+// between two Scarabs that push each other with all their wheels.
 constexpr double creep_of_pairs = 2.4e-3;
-constexpr double slack = 0.003;   // [m] what others may push a contact by that would not close by itself
-constexpr double nearby = 0.003;  // [m] at least so far off touching is looked for
+constexpr double slack = 0.003;   // [m] margin for other forces on contacts that would not close by themselves
+constexpr double nearby = 0.003;  // [m] least distance of contact detection
 
-constexpr double longest_way_of_corners = 0.005;  // [m] past each other in one step
+constexpr double longest_way_of_corners = 0.005;  // [m] limit of corners passing each other in one step
 
-// The row that gives the speed along `direction` of the body's point `arm`, all in the body's frame.
+// The row for the speed along `direction` of the body's point `arm`, all in the body's frame.
 template <int N>
 VelocityOf<N> point_row(const Vector3d& arm, const Vector3d& direction) {
   VelocityOf<N> row = VelocityOf<N>::Zero();
@@ -29,7 +29,7 @@ VelocityOf<N> point_row(const Vector3d& arm, const Vector3d& direction) {
   return row;
 }
 
-// What a robot's velocity adds to a contact at `place` on its body, wheel, leg or limb, with the sign of its side. A
+// Rows of a robot's velocity for a contact at `place` on its body, wheel, leg or limb, with the sign of its side. A
 // wheel's tread moves along the contact only.
 template <int N, class Side>
 ContactRowsOf<N> rows_at(const Side& side, const Vector3d& place, const Matrix3d& frame, double sign) {
@@ -62,7 +62,7 @@ ContactRowsOf<N> rows_at(const Side& side, const Vector3d& place, const Matrix3d
   return rows;
 }
 
-// No place of the first side near `place` moves faster past the second, or past what stands still [m/s].
+// Upper bound of the speed of the first side near `place` relative to the second, or to a static one [m/s].
 template <int N, class Side>
 double closing_speed(const Side& a, const Side& b, const Vector3d& place) {
   Vector3d velocity = Vector3d::Zero(), spin = Vector3d::Zero();
@@ -94,7 +94,7 @@ Matrix3d frame_about(const Vector3d& normal) {
   return frame;
 }
 
-// Legs count as parts behind those of the body.
+// Legs are numbered after the parts of the body.
 std::size_t leg_part(int leg) { return 48 + static_cast<std::size_t>(leg); }
 
 // 0 for the ground, odd for walls, even for robots.
@@ -119,7 +119,7 @@ bool may_touch(const Solid& a, const Solid& b, double margin) {
   return (a.centre - b.centre).squaredNorm() < reach * reach;
 }
 
-// From the box to the middle of a solid, at least so far.
+// Conservative test: a lower bound of the distance between a solid's middle and the wall.
 bool may_touch_wall(const Solid& solid, const Solid& wall, double margin) {
   const Vector3d p = wall.axes.transpose() * (solid.centre - wall.centre);
   return ((p.cwiseAbs() - wall.half).array() < solid.reach() + margin).all();
@@ -183,7 +183,7 @@ template <int N>
 void EncountersOf<N>::with_ground(int body, const Placed& robot, const Memory& memory) {
   stand(body, robot, memory);
   if (!robot.model->legs.empty()) stand_on_legs(body, robot, memory);
-  // Boxes and cylinders of what is driven reach the ground only where it has tipped.
+  // Boxes and cylinders of driven robots reach the ground only after tipping.
   const double near = margin(robot.speed);
   const bool is_low = robot.position.z() + robot.model->lowest_corner(robot.to_world.row(2)) <= near;
   if (!is_low && !robot.model->feels_limbs()) return;
@@ -246,7 +246,7 @@ void EncountersOf<N>::between(int body_a, const Placed& a, const Memory& memory_
   }
 }
 
-// Calls meet(leg, touch) for legs that touch the solid, or would soon.
+// Calls meet(leg, touch) for legs that touch the solid, or soon would.
 template <int N>
 template <class Meet>
 void EncountersOf<N>::each_leg_at(const Placed& robot, const Solid& solid, double margin, Meet meet) const {
@@ -281,7 +281,7 @@ void EncountersOf<N>::stand_on_legs(int body, const Placed& robot, const Memory&
   }
 }
 
-// A contact, unless it cannot close within this step.
+// Adds a contact unless it cannot close within this step.
 template <int N>
 void EncountersOf<N>::add(const Side& a, const Side& b, Trace trace, const Memory& memory, const TouchPoint& point) {
   Contact c;

@@ -1,5 +1,4 @@
-// What a robot meets in a step, as contacts for the solver: the ground under its wheels, legs and sliders, walls, other
-// robots.
+// Contacts of a robot in a step, for the solver: the ground under its wheels, legs and sliders, walls, other robots.
 #pragma once
 
 #include "contact_solver.hpp"
@@ -21,34 +20,34 @@ struct PlacedOf {
   Eigen::Matrix3d to_world;
   Eigen::Vector3d position;
   InertiaOf<N> inertia;
-  BodyOf<N> body;             // its velocities as the step finds them
-  LegAngles leg_angle;        // of a robot that walks
+  BodyOf<N> body;             // its velocities before the solve
+  LegAngles leg_angle;        // of a walking robot
   Posture posture;            // of one with limbs, at the step's start
-  Posture posture_ahead;      // the same, half a step ahead; where limbs can be touched
-  double speed = 0;           // no part of it is faster [m/s]
-  std::vector<Solid> solids;  // its parts in the world; filled where something is near
+  Posture posture_ahead;      // the same, half a step ahead; if limbs can be touched
+  double speed = 0;           // upper bound over its parts [m/s]
+  std::vector<Solid> solids;  // its parts in the world; filled if something is near
 };
 
 using Placed = PlacedOf<unknowns>;
 
-// Nothing sinks in deeper than this [m]. What seems to have been deeper at a step's start meets there by another face
-// than the one that kept it apart so far, as happens at corners that half a step brings past each other.
+// [m] Limit of penetration. A deeper one at a step's start has switched from the face that separated the solids so far,
+// as at corners that pass each other within half a step.
 constexpr double never_so_deep = 5e-4;
 
-// Where the impulse of a contact is kept from step to step.
+// Storage of a contact's impulse from step to step.
 struct Trace {
-  // Of what stands on the ground: its frame is not asked for.
+  // For contacts with the ground, which need no frame.
   explicit Trace(int of, int on_wheel = -1) : robot(of), wheel(on_wheel) {}
   Trace(int of, double kept_as, const Eigen::Matrix3d& about) : robot(of), id(kept_as), frame(about) {}
 
   int robot;
   int wheel = -1;                 // on the ground: 0 left, 1 right
   double id = 0;                  // of others; 0: not kept
-  bool step_is_too_long = false;  // for what meets here
+  bool step_is_too_long = false;  // for this contact
   Eigen::Matrix3d frame;          // normal and tangents as columns, in the world
 };
 
-// What of a contact matters to who bounces.
+// Data of a contact for robots that bounce.
 struct Meeting {
   double gap;  // at the step's start [m]
   double restitution;
@@ -60,24 +59,24 @@ class EncountersOf {
   using Contact = ContactOf<N>;
   using Placed = PlacedOf<N>;
 
-  // A step of length h [s]; friction as between bodies; whether to note meetings. With h = 0, an instant, springs give
-  // nothing, and what other contacts aim at is not said.
+  // Starts a step of length h [s]; friction as between bodies; whether to note meetings. With h = 0, an instant,
+  // springs give no force, and targets of other contacts are undefined.
   void begin(double h, double friction, bool somebody_bounces);
 
-  // `body`: what the contacts name the robot by; their traces bear its index.
+  // `body`: the robot's number in the contacts; their traces have its index.
   void with_ground(int body, const Placed& robot, const Memory& memory);
   void with_wall(int body, const Placed& robot, const Memory& memory, int wall_index, const Solid& wall);
   void between(int body_a, const Placed& a, const Memory& memory_a, int body_b, const Placed& b);
 
   std::vector<Contact> contacts;
   std::vector<Trace> traces;      // one a contact
-  std::vector<Meeting> meetings;  // the same, or none
+  std::vector<Meeting> meetings;  // the same number, or none
 
  private:
   struct Side {
     const Placed* robot = nullptr;
     int body = -1;
-    int wheel = -1, leg = -1, limb = -1;  // that touches; none of them: the body
+    int wheel = -1, leg = -1, limb = -1;  // the touching part; all -1: the body
   };
 
   static Side side(int body, const Placed& robot, const Part& part) {
@@ -99,11 +98,11 @@ using Encounters = EncountersOf<unknowns>;
 
 Solid solid_of(const scene::Slab& slab);
 
-// Puts the robot's parts where it is.
+// Moves the robot's parts to its pose.
 template <int N>
 void place_parts(PlacedOf<N>& robot);
 
-// The impulse of a contact as its trace keeps it.
+// Stores the impulse of a contact by its trace.
 template <int N>
 void keep(const ContactOf<N>& contact, const Trace& trace, Memory& memory);
 

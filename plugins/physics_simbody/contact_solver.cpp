@@ -16,7 +16,8 @@ Outcome ContactSolverOf<N>::solve(Problem& problem) {
     outcome.direct = true;
   } else {
     slip(outcome);
-    if (!outcome.minimised && !problem.search.together) {  // rare: motors at their limits, which the other search meets
+    if (!outcome.minimised && !problem.search.together) {  // rare: motors at their limits, which the other search
+                                                           // handles
       problem.search.together = true;
       slip(outcome);
     }
@@ -26,8 +27,8 @@ Outcome ContactSolverOf<N>::solve(Problem& problem) {
   return outcome;
 }
 
-// What the search left over, less than its tolerance, would be momentum from nowhere: velocities become exactly what
-// the impulses make of them, so that what bodies give each other adds up to nothing.
+// A residual below the tolerance would still create momentum: velocities are recomputed from the impulses, so that
+// those between bodies sum to zero.
 template <int N>
 void ContactSolverOf<N>::obey_impulses() {
   for (std::size_t b = 0; b < u_.size(); ++b) u_[b] -= p_->bodies[b].inertia->inverse * gradient_[b];
@@ -50,8 +51,8 @@ void ContactSolverOf<N>::begin() {
   hessian_.arrange(static_cast<int>(count), pairs_);
 }
 
-// Normal speed and slip of a contact, written where they are kept: read as a pair, what was just written one by one
-// would be waited for.
+// Normal speed and slip of a contact, written directly to their place: reading numbers just written one by one as a
+// pair would stall.
 template <int N>
 void ContactSolverOf<N>::speeds_of(const Contact& c, const Velocities& u, std::array<double, 3>& speeds) const {
   speeds = {};
@@ -59,7 +60,7 @@ void ContactSolverOf<N>::speeds_of(const Contact& c, const Velocities& u, std::a
   if (c.other >= 0) blocks_.add_speeds(speeds.data(), c.of_other.normal.data(), u[c.other].data());
 }
 
-// Takes what the contact's impulses give from the momenta.
+// Subtracts the contact's impulses from the momenta.
 template <int N>
 void ContactSolverOf<N>::take_impulse(const Contact& c, Velocities& momenta) const {
   const double impulses[] = {c.push, c.grip[0], c.grip[1]};
@@ -72,8 +73,8 @@ void ContactSolverOf<N>::locate(const Velocities& u) {
   for (std::size_t i = 0; i < local_.size(); ++i) speeds_of(p_->contacts[i], u, local_[i].speeds);
 }
 
-// Impulses at u_ by Coulomb's law itself, whose residual the gradient is then: friction's bounds follow the normal
-// impulses at once.
+// Impulses at u_ by Coulomb's law itself, of which the gradient is then the residual: friction's bounds follow the
+// normal impulses at once.
 template <int N>
 void ContactSolverOf<N>::obey_law() {
   locate(u_);
@@ -88,7 +89,7 @@ void ContactSolverOf<N>::obey_law() {
   end_gradient();
 }
 
-// What motion takes of the gradient; and, once contacts have been taken from it, motors.
+// begin_gradient() adds the inertial part; end_gradient(), after the contacts' impulses are subtracted, the motors'.
 template <int N>
 void ContactSolverOf<N>::begin_gradient() {
   for (std::size_t b = 0; b < u_.size(); ++b) {
@@ -103,7 +104,7 @@ void ContactSolverOf<N>::end_gradient() {
   }
 }
 
-// The largest change of velocity that the gradient would still make.
+// The largest change of velocity by which the gradient would still be reduced.
 template <int N>
 double ContactSolverOf<N>::residual() const {
   double most = 0;
@@ -124,7 +125,7 @@ void ContactSolverOf<N>::begin_hessian() {
   hessian_.clear_pairs();
 }
 
-// The contact's part of the Hessian.
+// Adds the contact's part to the Hessian.
 template <int N>
 void ContactSolverOf<N>::add(const Contact& c, double normal, const GripStiffness& grip) {
   const double *own = c.normal.data(), *other = c.of_other.normal.data();
@@ -132,7 +133,7 @@ void ContactSolverOf<N>::add(const Contact& c, double normal, const GripStiffnes
   add_run(c, 1, &own, &other, stiffness);
 }
 
-// The same of some contacts of one pair: their rows, and four numbers of each, as for BlockArithmetic.
+// The same for several contacts of one pair: their rows, and four numbers for each, as for BlockArithmetic.
 template <int N>
 void ContactSolverOf<N>::add_run(const Contact& c, int count, const double* const* own, const double* const* others,
                                  const double* stiffness) {
@@ -142,9 +143,9 @@ void ContactSolverOf<N>::add_run(const Contact& c, int count, const double* cons
   hessian_.add_contacts(c.body, c.other, count, own, others, stiffness);
 }
 
-// The guess that is true on a clear floor: what touches and closes under the free motion closes; against what stands
-// still it sticks; motors hold their rate. What would have to pull does not touch after all, and what comes nearer than
-// it may does: the guess is made again.
+// A guess that holds on a clear floor: contacts that touch and close under the free motion are closed, those with
+// static surfaces stick, and motors hold their rate. Contacts that would have to pull are opened, and those that come
+// too near are closed: then it guesses again.
 template <int N>
 bool ContactSolverOf<N>::stick_all() {
   constexpr int guesses = 3;
@@ -169,7 +170,7 @@ bool ContactSolverOf<N>::stick_all() {
   return false;
 }
 
-// From the free motion, where all has been located.
+// From the free motion, after locate().
 template <int N>
 void ContactSolverOf<N>::stick() {
   begin_hessian();

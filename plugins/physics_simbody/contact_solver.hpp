@@ -1,10 +1,8 @@
-// A step on the velocities of robots that touch: stiff normal contacts, Coulomb's isotropic cone, motors with a torque
-// limit.
-// First, all is taken to do what it did in the step before (contact_habits.cpp), or to stick. Where that leads nowhere
-// friction's bound is held fixed, with which the step minimises a convex energy; the bound is refreshed a few times
-// until it agrees with the normal impulse. Found and measured in the project's trials; the ideas: Castro, Permenter,
-// Han 2022 (primal regularised Newton), Castro, Han, Masterjohn 2023 (lagged bound), Chan, Golub, Mulet 1999
-// (primal-dual sums of norms).
+// Velocity step of robots in contact: stiff normal contacts, Coulomb's isotropic cone, motors with a torque limit. The
+// first try is a warm start (warm_start.cpp), or all contacts stick. If it fails, friction's bound is held fixed, and
+// the step minimises a convex energy; the bound is refreshed a few times until it agrees with the normal impulse.
+// Developed and measured in the project's trials; the ideas: Castro, Permenter, Han 2022 (primal regularised Newton),
+// Castro, Han, Masterjohn 2023 (lagged bound), Chan, Golub, Mulet 1999 (primal-dual sums of norms).
 #pragma once
 
 #include <algorithm>
@@ -18,8 +16,8 @@
 
 namespace muster::simbody {
 
-// Rows that turn a body's velocity into what it adds to a contact's: normal speed, and slip along two tangents. They
-// stand one after the other.
+// Rows that map a body's velocity to its share of a contact's: normal speed, and slip along two tangents. They are
+// contiguous.
 template <int N>
 struct alignas(cache_line) ContactRowsOf {
   using Velocity = VelocityOf<N>;
@@ -35,13 +33,13 @@ struct ContactOf : ContactRowsOf<N> {
   ContactOf() {}  // not = default, with which emplace_back() clears it all twice
 
   ContactRowsOf<N> of_other;  // its sign included
-  int body = 0, other = -1;   // among the problem's bodies; -1: what it touches stands still
+  int body = 0, other = -1;   // indices of the problem's bodies; -1: a static surface
   double friction = 0;
   double softness = 0;          // [m/s per N s]
-  double grip_softness = 1e-6;  // of friction: what sticks creeps by this [m/s per N s]
+  double grip_softness = 1e-6;  // of friction: creep of a sticking contact [m/s per N s]
   double target = 0;            // normal speed below which it pushes [m/s]
 
-  // Results, and where the search for a slipping step begins.
+  // Results, and the start of the search for a slipping step.
   double push = 0;                                 // normal impulse [N s]
   Eigen::Vector2d grip = Eigen::Vector2d::Zero();  // tangential impulse [N s]
 };
@@ -51,7 +49,7 @@ constexpr double turn_arm = 0.1, rim = 0.05;  // [m]: rates as speeds, where a s
 struct Motor {
   double asked = 0;        // rate of the joint [rad/s]
   double limit = 0;        // impulse: torque times step [N m s]
-  double softness = 1e-4;  // of its hold on the rate; this much creeps at no load of ours [rad/s per N m s]
+  double softness = 1e-4;  // of its hold on the rate; it creeps by this without external load [rad/s per N m s]
 
   double impulse(double rate) const { return std::clamp((asked - rate) / softness, -limit, limit); }
 };
@@ -65,26 +63,26 @@ template <int N>
 struct alignas(cache_line) BodyOf {
   static constexpr int joints = N - 6;
 
-  const InertiaOf<N>* inertia = nullptr;  // somebody else's: it is many times as large as all the rest
+  const InertiaOf<N>* inertia = nullptr;  // held by pointer: it is many times as large as all the rest
   VelocityOf<N> free;                     // without contacts and motors
-  VelocityOf<N> previous;                 // where the search for a slipping step begins
+  VelocityOf<N> previous;                 // start of the search for a slipping step
   std::array<Motor, joints> motors;
 
   VelocityOf<N> velocity;  // the result
 };
 
-// How the solution is searched for, and when it is good enough.
+// Method and tolerances of the search.
 struct Search {
   double tolerance = 1e-7;        // of the residual as a velocity [m/s]
   double bound_tolerance = 1e-3;  // of friction's bound, relative to the largest
   int passes = 12;                // that refresh the bounds
-  // What is tried first.
+  // The first try.
   enum class First {
     all_sticks = 1,
-    as_before,  // all does what it did in the step before
+    as_before,  // warm start: each contact keeps its mode from the last step
   } first = First::all_sticks;
-  bool together = false;  // for many: motors at their limit are searched for as friction is. Set where a
-                          // search without it fails.
+  bool together = false;  // for many robots: motors at their limit are searched for like friction. Set where a search
+                          // without it fails.
 };
 
 template <int N>
@@ -95,9 +93,9 @@ struct ProblemOf {
 };
 
 struct Outcome {
-  bool direct = false;    // what was tried first was true
+  bool direct = false;    // the first try succeeded
   bool converged = true;  // the bounds of friction agreed with the normal impulses
-  bool minimised = true;  // the last bounds' energy is at its least
+  bool minimised = true;  // the energy of the last bounds is at its minimum
 };
 
 template <int N>
@@ -114,19 +112,19 @@ class ContactSolverOf {
   using Velocities = Blocks<Velocity>;
   static constexpr int joints = N - 6;
 
-  // What a contact does in a first try.
+  // Mode of a contact in a first try.
   enum class Habit { open = 1, smooth, sticks, slides };
   enum class MotorHabit { holds = 1, pulls, brakes };  // at its limit, forwards or backwards
 
-  // A contact at some velocity, its friction bound by `bound`; Newton's method has its own, in lanes.
+  // A contact at some velocity, its friction limited by `bound`; Newton's method has its own form, in lanes.
   struct Local {
     std::array<double, 3> speeds;                    // normal, tangential
     double bound = 0;                                // [N s]
-    Eigen::Vector2d dual = Eigen::Vector2d::Zero();  // estimate of the grip
+    Eigen::Vector2d dual = Eigen::Vector2d::Zero();  // estimate of the friction impulse
     bool closes = false;                             // in a guess
     Habit habit = Habit::open;
-    Eigen::Vector2d way = Eigen::Vector2d::Zero();  // of the grip of what slides, unit
-    double stiffness = 0;                           // with which it keeps to its way [N s per m/s]
+    Eigen::Vector2d way = Eigen::Vector2d::Zero();  // unit direction of a sliding contact's friction
+    double stiffness = 0;                           // against changes of that direction [N s per m/s]
     double start_push = 0;                          // as handed in
     Eigen::Vector2d start_grip = Eigen::Vector2d::Zero();
 

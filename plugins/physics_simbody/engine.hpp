@@ -19,21 +19,22 @@ enum class Integrator {
   cpodes
 };
 
-// Calls the function for every index below a count, on any threads and in any order, and returns when all are done.
-// What one of them threw it throws, of several that of the lowest index.
+// Calls the function for every index below a count, on any threads and in any order, and returns when all are done. Of
+// several exceptions it rethrows that of the lowest index.
 using Each = std::function<void(std::size_t, const std::function<void(std::size_t)>&)>;
 void one_by_one(std::size_t count, const std::function<void(std::size_t)>& call);
 
 class Engine {
  public:
   virtual ~Engine() = default;
-  // From t to t + dt [s]; one command and one state a robot, in the order of the robots. The result is the same however
-  // `each` goes about it. Throws std::runtime_error naming the robot whose motion is no longer finite.
+  // Steps from t to t + dt [s]; one command and one state a robot, in the order of the robots. The result does not
+  // depend on how `each` schedules the calls. Throws std::runtime_error naming the robot whose motion is no longer
+  // finite.
   virtual void step(double dt, const std::vector<Command>& commands, std::vector<RobotState>& states,
                     const Each& each = one_by_one) = 0;
 
-  // What stands in the way from now on, and Coulomb's friction between bodies and with walls. Simbody's own integrators
-  // know no obstacles and take no notice.
+  // Sets the walls from now on, and Coulomb's friction between bodies and with walls. Simbody's own integrators have no
+  // obstacles and ignore it.
   virtual void set_surroundings(const std::vector<scene::Slab>& /*walls*/, double /*friction*/) {}
 };
 
@@ -44,10 +45,10 @@ struct NamedRobot {
 
 enum class LegModel {
   as_described = 1,
-  rigid  // whatever their description says: an approximation for slow gaits
+  rigid  // in spite of the description: an approximation for slow gaits
 };
 
-// The longest steps inside a tick [s]: of robots that walk and who may meet them within it, and of all.
+// The longest steps inside a tick [s]: of walking robots and those that may meet them within it, and of all.
 struct Steps {
   Steps(double all) : of_all(all), of_legs(all) {}
   Steps(double all, double legs) : of_all(all), of_legs(legs) {}

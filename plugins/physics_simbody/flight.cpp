@@ -10,8 +10,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Eigen::Vector4d;
 
-// Of the centre of mass in the world, and of the body about it: q is w x y z, body to world, w in the body's frame. The
-// same for rates of change.
+// Motion of the centre of mass in the world, and of the body about it: q is w x y z, body to world, w in the body's
+// frame. Also used for rates of change.
 struct Flight::Motion {
   Vector3d x, v;
   Vector4d q;
@@ -24,7 +24,7 @@ struct Flight::Motion {
 
 namespace {
 
-// Of a quaternion that is nearly of unit length.
+// Rotation matrix of a quaternion that is nearly of unit length.
 Matrix3d matrix(const Vector4d& q) { return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix(); }
 
 Vector4d quaternion_rate(const Vector4d& q, const Vector3d& w) {
@@ -34,9 +34,9 @@ Vector4d quaternion_rate(const Vector4d& q, const Vector3d& w) {
 
 }  // namespace
 
-// The parabola with the moments that exp(-k t) has for t from 0 to 1.
+// The parabola with the moments of exp(-k t) for t from 0 to 1.
 Flight::Nodes Flight::parabola_of_decay(double k) {
-  if (k < 0.1) return {1, std::exp(-0.5 * k), std::exp(-k)};  // the same to 1e-7, and the moments lose digits
+  if (k < 0.1) return {1, std::exp(-0.5 * k), std::exp(-k)};  // the same to 1e-7; the moments would lose digits
   const double e = std::exp(-k);
   const double m0 = (1 - e) / k, m1 = (m0 - e) / k, m2 = (2 * m1 - e) / k;
   return {9 * m0 - 36 * m1 + 30 * m2, -1.5 * m0 + 15 * m1 - 15 * m2, 3 * m0 - 24 * m1 + 30 * m2};
@@ -103,7 +103,7 @@ void Flight::step(double h, const RotorRates& asked, RobotState& s) {
   now.w = from.transpose() * turn;
   now.x = Vector3d(s.pose[0], s.pose[1], s.pose[2]) + from * centre_;
   now.v = Vector3d(s.twist[0], s.twist[1], s.twist[2]) + turn.cross(from * centre_);
-  if (s.memory.previous_step > 0) {  // after a contact they stand half a step before
+  if (s.memory.previous_step > 0) {  // after a contact they are those half a step before
     const Change c = change(from, now.v, now.w, spin(s.rotors));
     now.v += 0.5 * s.memory.previous_step * c.v;
     now.w += 0.5 * s.memory.previous_step * c.w;

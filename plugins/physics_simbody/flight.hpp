@@ -1,6 +1,6 @@
-// A robot in the air that touches nothing: weight and rotors on a rigid body, by the classical Runge-Kutta method of
-// fourth order. Rotors' rates are known in closed form, and what the method takes for them over a step are parabolas
-// with the same means, slopes and curvatures (the first three moments): a step may be much longer than their lag.
+// A robot in the air without contacts: weight and rotors on a rigid body, by the classical Runge-Kutta method of fourth
+// order. Rotors' rates are known in closed form. Over a step the method takes parabolas with the same first three
+// moments (means, slopes and curvatures), so a step may be much longer than their lag.
 #pragma once
 
 #include "description/robot.hpp"
@@ -12,10 +12,10 @@ class Flight {
  public:
   Flight(const description::Mass& whole, const description::Quadrotor& drive);
 
-  // From t to t + h [s]; rotors are asked for the same rates all the way. Velocities stand for instants afterwards.
+  // Steps from t to t + h [s] with constant commands of the rotors. Afterwards velocities are those of the instant.
   void step(double h, const description::RotorRates& asked, RobotState& state);
 
-  // Rotors' rates and the squares of these, each as a value or as a parabola's.
+  // Rotors' rates and their squares, each as a value or as a parabola's.
   struct Spin {
     description::RotorRates rates, squares;
   };
@@ -32,8 +32,8 @@ class Flight {
   struct Motion;
   // At the start, middle and end of a step.
   using Nodes = std::array<double, 3>;
-  // What follows from the length of a step alone, kept from the one before: how rotors close in on what is asked, and
-  // the parabolas of that and of its square.
+  // Values that depend on the step's length alone, cached: the rotors' decay towards their commands, and the parabolas
+  // of that and of its square.
   struct Decay {
     double h = 0;
     description::RotorDecay end;

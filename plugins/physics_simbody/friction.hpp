@@ -1,5 +1,5 @@
-// Coulomb's friction at one contact, its bound held fixed: a little soft, so that what sticks has an impulse that
-// follows from its slip.
+// Coulomb's friction at one contact with a fixed bound, regularised: a sticking contact has an impulse in proportion to
+// its slip.
 #pragma once
 
 #include <Eigen/Dense>
@@ -21,12 +21,12 @@ inline Eigen::Vector2d grip_of(const Eigen::Vector2d& slip, double bound, double
   return sticks(size, bound, softness) ? Eigen::Vector2d(-slip / softness) : Eigen::Vector2d(-(bound / size) * slip);
 }
 
-// How the grip answers slip, [xx, xy, yy].
+// Derivative of friction by slip, [xx, xy, yy].
 using GripStiffness = std::array<double, 3>;
 
 inline GripStiffness sticking(double softness) { return {1 / softness, 0, 1 / softness}; }
 
-// Of what slides along `way` (unit), and may do so freely, but not turn.
+// For a contact that slides along `way` (unit): free along it, stiff against a turn of it.
 inline GripStiffness across(const Eigen::Vector2d& way, double stiffness) {
   return {stiffness * way[1] * way[1], -stiffness * way[0] * way[1], stiffness * way[0] * way[0]};
 }

@@ -1,6 +1,6 @@
-// Robots that bounce. Their steps end where something meets, and an impact takes no time: all that touches then parts
-// with a share of the speed at which it met (Newton's law of restitution for all contacts at once, Moreau 1988, with
-// Coulomb's friction). Where friction would let that gain energy (Kane 1984), it bounces by so much less.
+// Robots that bounce. Their steps end at impacts, which take no time: all touching contacts then separate with a share
+// of their approach speed (Newton's law of restitution for all contacts at once, Moreau 1988, with Coulomb's friction).
+// Where friction would let that gain energy (Kane 1984), the restitution is reduced accordingly.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,22 +11,22 @@ namespace muster::simbody {
 
 namespace {
 
-constexpr double slowest = 0.02;          // [m/s] what meets more slowly does not bounce
-constexpr double touching = 1e-4;         // [m] no farther apart
-constexpr std::size_t most_impacts = 16;  // a robot and step; what else meets in it does not bounce
-// Of an impact, by the robot's mass: what it leaves of a speed that it should have taken.
+constexpr double slowest = 0.02;          // [m/s] slower impacts do not bounce
+constexpr double touching = 1e-4;         // [m] largest gap
+constexpr std::size_t most_impacts = 16;  // a robot and step; further impacts in it do not bounce
+// Share of a speed that an impact leaves, by the robot's mass: it should be zero.
 constexpr double softness_by_mass = 1e-8;
 constexpr Search in_no_time{1e-8, 1e-4, 12, Search::First::all_sticks, true};
 constexpr double never = std::numeric_limits<double>::infinity();
 
-// How two surfaces near each other, as freely as their robots move.
+// Approach of two surfaces under free motion of their robots.
 struct Approach {
   double gap;               // at the step's start [m]
-  double stands = 0;        // the normal speed as robots carry it, half a step before [m/s]
+  double stands = 0;        // the normal speed that robots carry, half a step before [m/s]
   double speed = 0;         // at the step's start
   double acceleration = 0;  // [m/s2]
 
-  // What a robot adds: the speed as it stands, and the free one half a step ahead, after a kick of (before + h) / 2.
+  // Adds a robot's part: its present speed, and the free one half a step ahead, after a kick of (before + h) / 2.
   void add(double standing, double free, double before, double h) {
     const double change = 2 * (free - standing) / (before + h);
     stands += standing;
@@ -34,11 +34,11 @@ struct Approach {
     acceleration += change;
   }
 
-  // When the gap closes so fast that it bounces [s]: now (0), later, or not within h.
+  // Time at which the gap closes fast enough to bounce [s]: now (0), later, or never within h.
   double impact(double h) const {
     if (gap < -never_so_deep) return never;
     if (gap <= touching && stands < -slowest) return 0;
-    if (gap <= touching && speed <= 0) return never;  // it rests
+    if (gap <= touching && speed <= 0) return never;  // resting contact
     const double square = speed * speed - 2 * acceleration * gap, closing = std::sqrt(std::max(0.0, square));
     if (closing <= slowest) return never;
     double time = never;
@@ -74,8 +74,8 @@ bool StepperOf<N>::bounces(const Group& group) const {
                      [&](int i) { return arena_.crew[i].model.restitution > 0; });
 }
 
-// Goes on with the step that was prepared. What seems to touch half a step ahead and does not yet (prisms turn with the
-// cylinders that they stand for) is looked at from nearer.
+// Continues the prepared step. Contacts that touch half a step ahead, but not yet (prisms turn with the cylinders that
+// they represent), are examined again from nearer.
 template <int N>
 void StepperOf<N>::go_by_impacts(const Group& group, double h, double at, const std::vector<Command>& commands,
                                  std::vector<RobotState>& states) {
@@ -102,7 +102,7 @@ void StepperOf<N>::go_by_impacts(const Group& group, double h, double at, const 
   go(left);
 }
 
-// Of the step that was prepared.
+// Of the prepared step.
 template <int N>
 double StepperOf<N>::first_impact(const Group& group, double h, const std::vector<RobotState>& states) const {
   double first = never;
@@ -123,7 +123,8 @@ double StepperOf<N>::first_impact(const Group& group, double h, const std::vecto
   return first;
 }
 
-// The impacts of an instant, for which the velocities of who meets stand then. Whether there are any.
+// Applies the impacts of an instant; the velocities of the robots involved are then those of the instant. True if there
+// were any.
 template <int N>
 bool StepperOf<N>::strike(const Group& group, double at, const std::vector<Command>& commands,
                           std::vector<RobotState>& states) {
@@ -144,14 +145,14 @@ bool StepperOf<N>::strike(const Group& group, double at, const std::vector<Comma
   return any;
 }
 
-// What touches in the island as a problem. False where nothing of it meets.
+// Sets up the island's touching contacts as a problem. False if none of them meets.
 template <int N>
 bool StepperOf<N>::take_impact(const Island& island) {
   problem_.search = in_no_time;
   problem_.bodies.clear();
   for (const int robot : island.robots) {
     problem_.bodies.push_back(placed()[robot].body);
-    problem_.bodies.back().motors.fill({});  // whose torque does nothing in no time
+    problem_.bodies.back().motors.fill({});  // their torque has no effect in zero time
   }
   problem_.contacts.clear();
   std::vector<double> restitution;
@@ -167,7 +168,7 @@ bool StepperOf<N>::take_impact(const Island& island) {
     const double stands = normal_speed(c, problem_.bodies, &BodyOf<N>::previous);
     any_meets |= stands < -slowest && share > 0;
     if (std::abs(stands) > slowest) continue;
-    for (const int body : {c.body, c.other}) {  // what rests does not fall: the ground has borne it since
+    for (const int body : {c.body, c.other}) {  // a resting contact does not fall: the ground has carried it since
       if (body >= 0) problem_.bodies[body].free = problem_.bodies[body].previous;
     }
   }
@@ -178,7 +179,7 @@ bool StepperOf<N>::take_impact(const Island& island) {
   return any_meets;
 }
 
-// From free to velocity, with no more energy.
+// Solves for the velocities from the free ones, without a gain of energy.
 template <int N>
 void StepperOf<N>::rebound() {
   using BodyN = BodyOf<N>;
@@ -186,7 +187,7 @@ void StepperOf<N>::rebound() {
   solve_problem();
   const double before = twice_energy(bodies, &BodyN::free);
   if (twice_energy(bodies, &BodyN::velocity) <= before) return;
-  // As much of it as can be between the plastic impact, which gains nothing, and this one: a share of the difference,
+  // As much as possible between the plastic impact, which gains no energy, and this one: a share of the difference,
   // kept in `previous`.
   std::vector<VelocityOf<N>> elastic;
   elastic.reserve(bodies.size());

@@ -1,5 +1,4 @@
-// Eight contacts at a time, as loops over lanes that compilers turn into vectors. Part of block_kernel.cpp, and
-// internal to it.
+// Eight contacts at a time, as loops over lanes that compilers vectorise. Part of block_kernel.cpp, and internal to it.
 #pragma once
 
 #include "contact_lanes.hpp"
@@ -9,7 +8,7 @@ namespace {
 
 struct Lanes {
   static constexpr int width = ContactLanes::width;
-  static constexpr double least = 1e-300;  // of what is divided by
+  static constexpr double least = 1e-300;  // of divisors
 
   static double larger(double a, double b) { return a > b ? a : b; }
 

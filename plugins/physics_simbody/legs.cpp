@@ -11,8 +11,8 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double pi = 3.141592653589793;
-constexpr int samples = 12;        // of a leg, between which it is nearest to a solid once
-constexpr double resolved = 1e-5;  // [rad] of a way along a leg: with it a gap is known to 1e-11 m
+constexpr int samples = 12;        // of a leg, between which its distance to a solid has one minimum
+constexpr double resolved = 1e-5;  // [rad] along a leg: gives a gap within 1e-11 m
 
 Matrix3d cross_matrix(const Vector3d& v) {
   Matrix3d m;
@@ -27,7 +27,8 @@ Matrix3d turned_about_y(double angle) {
   return r;
 }
 
-// A rigid part of the robot that turns with `rate` about the body's y axis through `hip`, beside the body's own motion.
+// A rigid part of the robot that turns with `rate` about the body's y axis through `hip`, in addition to the body's own
+// motion.
 struct Turning {
   const description::Mass& mass;  // in its own axes about the hip
   Vector3d hip;
@@ -52,7 +53,7 @@ LeggedMass weigh(const RobotModel& robot, const LegAngles& angle, const Velocity
     result.mass.block<3, 3>(3, 0) -= m * c;
     result.mass.block<3, 3>(3, 3) += m * Matrix3d::Identity();
     const Vector3d spin = w + part.rate * axis, swing = axis.cross(arm);
-    // What the centre of mass and the angular momentum change by while udot is zero.
+    // Rates of change of the velocity of the centre of mass and of the angular momentum while udot is zero.
     const Vector3d acceleration =
         w.cross(w.cross(centre)) + 2 * part.rate * w.cross(swing) + part.rate * part.rate * axis.cross(swing);
     const Vector3d pull = m * (fall - acceleration);
@@ -126,7 +127,7 @@ LegTouches touch_leg(const Vector3d& hip, const Vector3d& ahead, const Vector3d&
         q = low + golden * (high - low), at_q = at(q).point.gap;
       }
     }
-    // An end of the leg is exactly that.
+    // An end of the leg is returned exactly.
     const double way = low == 0 ? 0 : high == pi ? pi : 0.5 * (low + high);
     LegTouch nearest = at(way);
     if (nearest.point.gap >= margin) continue;

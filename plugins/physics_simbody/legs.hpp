@@ -1,4 +1,4 @@
-// Legs of a robot that walks: how they weigh on its body, how their motors hold them, and where they touch.
+// Legs of a walking robot: their inertia on its body, their motors' control, and their contacts.
 #pragma once
 
 #include "contact_solver.hpp"
@@ -9,8 +9,8 @@ namespace muster::simbody {
 
 using LegAngles = std::array<double, description::LegDrive::count>;
 
-// Gravity, and what motion itself asks for: M udot = force without contacts and motors. All in the body's frame, which
-// stands still for the step; `fall` is the acceleration of free fall in it [m/s2].
+// Mass matrix, and forces of gravity and of motion: M udot = force without contacts and motors. All in the body's
+// frame, fixed for the step; `fall` is the acceleration of free fall in it [m/s2].
 struct LeggedMass {
   MassMatrixOf<unknowns_with_legs> mass;
   VelocityOf<unknowns_with_legs> force;
@@ -18,15 +18,16 @@ struct LeggedMass {
 LeggedMass weigh(const RobotModel& robot, const LegAngles& angle, const VelocityOf<unknowns_with_legs>& u,
                  const Eigen::Vector3d& fall);
 
-// Its inverse: legs weigh on the body but not on each other.
+// Its inverse: legs are coupled with the body but not with each other.
 MassMatrixOf<unknowns_with_legs> inverse(const MassMatrixOf<unknowns_with_legs>& mass);
 
 // The controller of a leg over a step of length h [s], as the motor of a joint: torque is position_gain times the error
-// of the angle and rate_gain times that of the rate, both at mid-step, within the limits. `asked` [rad] is at mid-step.
+// of the angle plus rate_gain times that of the rate, both at mid-step, within the limits. `asked` [rad] is at
+// mid-step.
 Motor leg_motor(const description::LegDrive& drive, double asked, double asked_rate, double angle, double h);
 
-// Where a leg touches a solid, or would soon: at most at two places, the marks are 0 and 1. `ahead` and `above` are the
-// leg's own x and z axes in the world, the hip is in the world as well.
+// Contact of a leg with a solid, present or imminent: at most at two places, with marks 0 and 1. `ahead` and `above`
+// are the leg's own x and z axes in the world, the hip is in the world as well.
 struct LegTouch {
   TouchPoint point;
   Eigen::Vector3d normal;  // to the leg

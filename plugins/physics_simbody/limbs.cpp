@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr int n = unknowns_with_legs;
-constexpr double hold = 1e-6, none = 1e30;  // softness of what holds a joint [rad/s per N m s], and of nothing
+constexpr double hold = 1e-6, none = 1e30;  // softness of a held joint [rad/s per N m s], and of a free one
 constexpr double without_end = 1e9;         // [N m s]
 using Columns = ColumnsOfUnknowns;
 
@@ -32,13 +32,13 @@ Matrix3d turned_by(const Vector3d& rotation) {
   return angle > 0 ? Eigen::AngleAxisd(angle, rotation / angle).toRotationMatrix() : Matrix3d::Identity();
 }
 
-// A rigid part of the robot as the unknowns move it; its accelerations are those while they do not change.
+// A rigid part of the robot with its columns of unknowns; its accelerations are those at constant unknowns.
 struct Moving {
   Vector3d at = Vector3d::Zero();  // its origin, from the body's
   Columns turning = Columns::Zero(), going = Columns::Zero();
   Vector3d spin = Vector3d::Zero(), spin_rate = Vector3d::Zero(), acceleration = Vector3d::Zero();
 
-  // On to a place that is fixed to it.
+  // Moves on to a place fixed to it.
   void go_to(const Vector3d& place) {
     const Vector3d way = place - at;
     going -= cross_matrix(way) * turning;
@@ -87,7 +87,7 @@ void add(const description::Mass& mass, const Matrix3d& turned, Moving moving, c
   result.force += moving.going.transpose() * pull + moving.turning.transpose() * twist;
 }
 
-// Wheels are balanced: what turns with the body is in its core, beside which they have their own spin.
+// Wheels are balanced: their rotation with the body is in its core, and their own spin is added here.
 void add_wheels(const RobotModel& robot, const Posture& posture, const VelocityOf<n>& u, LimbedMass& result) {
   const Vector3d axle = posture.body.col(1);
   for (int w = 0; w < 2; ++w) {
@@ -158,7 +158,7 @@ LimbedMass weigh(const RobotModel& robot, const Posture& posture, const Velocity
     }
   }
   for (int k = 6; k < n; ++k) {
-    if (result.mass(k, k) == 0) result.mass(k, k) = 1;  // of nobody, and nothing turns it
+    if (result.mass(k, k) == 0) result.mass(k, k) = 1;  // unused, without torque
   }
   return result;
 }
@@ -212,7 +212,7 @@ void move_limbs(const RobotModel& robot, double h, const Matrix3d& body, const V
       now.way += h * u[limb.first];
     } else if (limb.kind != JointKind::ball) {
       now.angle += h * u[limb.first];
-    } else {  // what carries it has moved already, but for its own turn
+    } else {  // its carrier has moved already, but for its own turn
       const Matrix3d joint = posture_of(robot, limbs, body).limb[i].joint;
       const Matrix3d turned = turned_by(h * u.segment<3>(limb.first)) * before.limb[i].turned;
       const Quaterniond q = Quaterniond(joint.transpose() * turned).normalized();

@@ -9,7 +9,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-// What a step of a robot takes, roughly [us]: enough to share work out by.
+// Rough cost of a robot's step [us], to divide the work.
 constexpr double on_wheels = 1, on_legs = 8, near_others = 6;
 constexpr double least_share = 25;  // [us] below which a share is not worth a thread
 constexpr int most_shares = 16;
@@ -38,8 +38,8 @@ Count Midpoint::count() const {
   return sum;
 }
 
-// Where a tick has several steps, clusters must hold for all of them: they are looked for with room to spare, and where
-// that was not enough the tick begins again with more. So what is found depends neither on the room nor on threads.
+// In a tick of several steps, clusters must be valid for all of them: they are found with a margin. If that was too
+// small, the tick starts again with a larger one. So the results depend neither on the margin nor on threads.
 void Midpoint::step(double dt, const std::vector<Command>& commands, std::vector<RobotState>& states,
                     const Each& each) {
   const bool many_steps = dt > longest_.of_all * (1 + 1e-9) || dt > longest_.of_legs * (1 + 1e-9);
@@ -52,7 +52,7 @@ void Midpoint::step(double dt, const std::vector<Command>& commands, std::vector
   }
 }
 
-// Whoever may meet a robot that walks takes its steps.
+// Robots that may meet a walking robot take its step length.
 int Midpoint::steps_of(const Cluster& cluster, double dt) const {
   const bool walks = std::any_of(cluster.robots.begin(), cluster.robots.end(),
                                  [&](int i) { return !arena_.crew[i].model.legs.empty(); });
@@ -78,7 +78,7 @@ void Midpoint::find_clusters(double dt, double room, const std::vector<RobotStat
     clusters_[connected_.root(i)].walls.push_back({place_[i], wall});
 }
 
-// Consecutive clusters to each mover, of about the same work.
+// Divides the clusters among the movers: consecutive ones, with about equal work.
 void Midpoint::share_out(double dt) {
   const auto work = [&](const Cluster& cluster) {
     double sum = 0;

@@ -1,5 +1,5 @@
-// The stepper of this backend: second order, on velocities, one small problem a robot or for robots that touch. Robots
-// that may not meet within a tick go through it apart from each other, on as many threads as there are.
+// The stepper of this backend: second order, on velocities, with one small problem for each robot, or for robots in
+// contact. Robots that cannot meet within a tick are stepped separately, on all threads.
 #pragma once
 
 #include "cluster_stepper.hpp"
@@ -25,14 +25,14 @@ class Midpoint : public Engine {
   Arena arena_;
   Steps longest_;
 
-  // Room that is kept from step to step; nothing of it outlives one.
+  // Buffers, kept from step to step; no state outlives a step.
   BroadPhase broad_phase_;
   Connected connected_;
   std::vector<Extent> reach_;
   std::vector<int> place_;           // of each robot in its cluster
   std::vector<Cluster> clusters_;    // by their first robots; others are empty
-  std::vector<std::size_t> shares_;  // where each mover's clusters end
-  std::vector<char> kept_;           // whether each mover's robots stayed within their reach
+  std::vector<std::size_t> shares_;  // end of each mover's clusters
+  std::vector<char> kept_;           // for each mover, whether its robots stayed within their reach
   std::vector<RobotState> start_;
   std::vector<std::unique_ptr<Mover>> movers_;
 };

@@ -1,5 +1,5 @@
-// Anderson's mixing (Walker and Ni 2011): an iteration u += d(u) that would close in slowly takes, of its last steps,
-// the combination that leaves least of d.
+// Anderson acceleration (Walker and Ni 2011) of a slowly converging iteration u += d(u): the combination of its last
+// steps with the least d.
 #pragma once
 
 #include <algorithm>
@@ -16,9 +16,9 @@ class MixingOf {
   using Velocities = Blocks<VelocityOf<N>>;
 
   void begin() { count_ = 0; }
-  int count() const { return count_; }  // of steps since
+  int count() const { return count_; }  // of steps since begin()
 
-  // `d`: the step at u, which becomes the better one. `weights`: of unknowns, by which steps are compared.
+  // `d`: the step at u, replaced by the accelerated one. `weights`: of unknowns, in the norm of steps.
   void mix(const Velocities& u, Velocities& d, const VelocityOf<N>& weights) {
     Past& now = past_[count_ % most];
     const int known = std::min(count_, most);

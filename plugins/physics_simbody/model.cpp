@@ -16,7 +16,7 @@ namespace {
 
 Vec3 vec(const Eigen::Vector3d& v) { return Vec3(v.x(), v.y(), v.z()); }
 
-// Simbody wants the inertia about the body's origin, not about its centre of mass.
+// Simbody takes the inertia about the body's origin, not about its centre of mass.
 SimTK::MassProperties properties(const description::Mass& mass) {
   const auto& i = mass.inertia;
   const SimTK::Inertia central(Vec3(i(0, 0), i(1, 1), i(2, 2)), Vec3(i(0, 1), i(0, 2), i(1, 2)));
@@ -151,7 +151,7 @@ bool RobotModel::feels_limbs() const {
   return std::any_of(limbs.begin(), limbs.end(), [](const LimbModel& limb) { return limb.reach > 0; });
 }
 
-// Limbs stand behind what carries them.
+// Limbs come after their carriers.
 void RobotModel::measure_limbs() {
   for (const Part& part : parts) {
     if (part.limb < 0) continue;
@@ -165,7 +165,7 @@ void RobotModel::measure_limbs() {
   }
 }
 
-// How far it all reaches; a leg by a circle of its length about its hip, a limb by a sphere about its joint.
+// Extents of all parts; a leg by a circle of its length about its hip, a limb by a sphere about its joint.
 void RobotModel::measure() {
   const double leg = 2 * leg_drive.radius;
   Eigen::AlignedBox3d around(Eigen::Vector3d::Zero().eval());

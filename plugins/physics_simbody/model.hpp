@@ -9,15 +9,14 @@
 
 namespace muster::simbody {
 
-// A smooth sphere fixed to a body that is driven, on which it slides.
+// A frictionless sphere fixed to a driven body, which slides on it.
 struct Slider {
   Eigen::Vector3d centre;  // in the body's frame [m]
   double radius;           // [m]
 };
 
-// What of a robot can be touched: a box, sphere or cylinder in the frame of the body, or of the limb that it belongs
-// to. A mesh is the box around it, along the axes of its own frame; what belongs to a wheel moves with its tread but
-// keeps its place.
+// A collision part of a robot: a box, sphere or cylinder in the frame of the body or limb that carries it. A mesh is
+// the box around it, along the axes of its own frame. A part of a wheel moves with its tread but keeps its place.
 struct Part {
   Solid solid;
   int wheel = -1;  // 0 left, 1 right
@@ -30,41 +29,41 @@ struct Leg {
   description::Mass mass;  // about the hip at angle 0, axes of the body
 };
 
-// What hangs on a joint that no motor turns.
+// A body on a joint without a motor.
 struct LimbModel : description::LimbModel {
   int first;         // of its unknowns
-  double reach = 0;  // from its joint, of what of it and of what it carries can be touched; 0: nothing can [m]
+  double reach = 0;  // radius about its joint of the collision parts of it and its followers; 0: none [m]
 
-  // How far its joint lets it go from where it stands at 0 [m].
+  // Largest displacement by its joint from position 0 [m].
   double travel() const;
 };
 
-// What of a robot this backend can hold; throws std::runtime_error for any other.
+// A robot that this backend can model; throws std::runtime_error for any other.
 struct RobotModel {
   explicit RobotModel(const description::Robot& robot);
 
-  // Whether its mass is another in each step.
+  // True if its mass matrix changes from step to step.
   bool is_articulated() const { return !legs.empty() || !limbs.empty(); }
 
-  // Whether it is the part itself that the ground feels: a wheel has its sphere, a slider no friction.
+  // True if the ground touches the part itself: a wheel has its sphere, a slider no friction.
   bool stands_on(const Part& part) const {
     return part.wheel < 0 && (part.solid.kind != Solid::Kind::sphere || !is_driven || part.limb >= 0);
   }
 
-  // Whether a limb can be touched.
+  // True if a limb has collision parts.
   bool feels_limbs() const;
 
-  // Height of the body's lowest corner of what it stands on above its origin, and of the lowest point of its sliders
-  // too; `up` in the body's frame [m].
+  // Height of the lowest corner of the parts on the ground, and of the lowest point of its sliders too, relative to the
+  // body's origin; `up` in the body's frame [m].
   double lowest_corner(const Eigen::Vector3d& up) const;
   double lowest_point(const Eigen::Vector3d& up) const;
 
   std::string name;
   bool is_driven = true;
-  bool has_wheels = true;  // else what is said of them below is nothing
+  bool has_wheels = true;  // false: the wheels' fields below are unused
   description::DifferentialDrive drive;
   std::optional<description::Quadrotor> rotors;
-  description::Mass body;                        // all that is rigid with the root, in its frame
+  description::Mass body;                        // mass of the root and all that is fixed to it, in its frame
   std::array<description::Mass, 2> wheel;        // in the wheel joint's frame
   std::array<Eigen::Isometry3d, 2> wheel_frame;  // of the joints in the body's frame
   double restitution = 0;
@@ -74,8 +73,8 @@ struct RobotModel {
   description::Mass core;  // body and wheels
   std::vector<Slider> sliders;
   std::vector<Part> parts;
-  Eigen::Vector3d arm;     // how far they reach from the body's x, y and z axes [m]
-  Eigen::Vector3d middle;  // of a sphere that holds them all, in the body's frame [m]
+  Eigen::Vector3d arm;     // largest distances of parts from the body's x, y and z axes [m]
+  Eigen::Vector3d middle;  // of a sphere around all parts, in the body's frame [m]
   double reach = 0;        // its radius [m]
 
  private:
@@ -93,11 +92,11 @@ struct RobotBodies {
   std::vector<SimTK::MobilizedBody> limbs;
 };
 
-// A limb in a state of the system, and back.
+// Copies a limb's state to and from a state of the system.
 void set_limb(const SimTK::MobilizedBody& body, const LimbModel& model, const Limb& limb, SimTK::State& state);
 void get_limb(const SimTK::MobilizedBody& body, const LimbModel& model, const SimTK::State& state, Limb& limb);
 
-// The system keeps what is added to it alive; state() is realised through Model once finish() was called.
+// The system owns all that is added to it; state() is realised through Model after finish().
 struct System {
   System();
   RobotBodies add(const RobotModel& model);

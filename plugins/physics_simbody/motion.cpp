@@ -30,7 +30,7 @@ double speed_of(const RobotModel& model, const RobotState& state) {
   return velocity_of(state).norm() + rates.cwiseAbs().dot(model.arm) + legs + limbs;
 }
 
-// Twice the way, since a contact may make a robot faster, and the fall.
+// Twice the path, since a contact may accelerate a robot, plus the fall.
 double way_of(const RobotModel& model, const RobotState& state, double h) {
   return nearby + 2 * h * speed_of(model, state) + gravity * h * h;
 }

@@ -1,4 +1,4 @@
-// A robot's state as vectors, and how fast and far it may go.
+// A robot's state as vectors, and bounds of its speed and path.
 #pragma once
 
 #include "model.hpp"
@@ -11,13 +11,13 @@ inline Eigen::Matrix3d matrix_of(const RobotState& s) { return attitude_of(s).to
 inline Eigen::Vector3d velocity_of(const RobotState& s) { return {s.twist[0], s.twist[1], s.twist[2]}; }
 inline Eigen::Vector3d rates_of(const RobotState& s) { return {s.twist[3], s.twist[4], s.twist[5]}; }
 
-// No part of the robot is faster [m/s].
+// Upper bound of the speed of the robot's parts [m/s].
 double speed_of(const RobotModel& model, const RobotState& state);
 
-// What is further away [m] is not met within h [s].
+// Distance [m] beyond which nothing is met within h [s].
 double way_of(const RobotModel& model, const RobotState& state, double h);
 
-// Throws std::runtime_error naming the robot where a speed is beyond all reason, or none at all.
+// Throws std::runtime_error naming the robot if a speed is beyond the limit, or not finite.
 void check_speed(const std::string& name, double largest);
 
 }  // namespace muster::simbody

@@ -11,13 +11,14 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double face_lead = 1e-5, edge_lead = 1e-4;  // [m] by which a later axis must be better, so that none flickers
-constexpr double parallel = 1e-3;                     // sine of an angle between edges that name no axis
-constexpr double like_a_face = 0.999;                 // cosine above which an edges' axis is a face's
-constexpr double nearly_a_face = 0.99;                // the same, of a way between corners beside which a face touches
+constexpr double face_lead = 1e-5, edge_lead = 1e-4;  // [m] by which a later axis must be better, to avoid flicker
+constexpr double parallel = 1e-3;                     // sine of an angle between edges too small to define an axis
+constexpr double like_a_face = 0.999;                 // cosine above which an axis of edges counts as a face's
+constexpr double nearly_a_face = 0.99;                // the same for a line between corners, next to which a face
+                                                      // touches
 constexpr double rounding = 1e-12;                    // [m]
 constexpr int passes_to_corner = 100;
-constexpr double still = 1e-7;  // [m] less than this a pass between corners does not move them
+constexpr double still = 1e-7;  // [m] a displacement between corners below this is ignored
 
 Vector3d nearest_point(const Solid& solid, const Vector3d& to) {
   Vector3d p = solid.axes.transpose() * (to - solid.centre);
@@ -34,7 +35,7 @@ Vector3d nearest_point(const Solid& solid, const Vector3d& to) {
   return solid.centre + solid.axes * p;
 }
 
-// For a centre inside the solid: the way out through the nearest face, and how far that is.
+// For a centre inside the solid: the direction out through the nearest face, and the distance.
 double way_out(const Solid& solid, const Vector3d& from, Vector3d& normal) {
   const Vector3d p = solid.axes.transpose() * (from - solid.centre);
   Vector3d out = Vector3d::Zero();
@@ -78,27 +79,27 @@ Touch touch_sphere(const Solid& sphere, const Solid& other, double margin) {
 }
 
 struct Axis {
-  double apart = -1e9;     // [m] negative: how far they overlap
-  bool of_first = true;    // whose face it is
-  int face = 0;            // of that solid
-  int edge[2] = {-1, -1};  // of both, where no face's axis is as good
+  double apart = -1e9;     // [m] negative: depth of overlap
+  bool of_first = true;    // which solid's face it is
+  int face = 0;            // number of that solid's face
+  int edge[2] = {-1, -1};  // of both, if no face's axis is as good
   Vector3d normal;         // from the first to the second
 };
 
-// Two convex solids and prisms around them.
+// Two convex solids with their prisms.
 struct Pair {
   const Solid &solid_a, &solid_b;
   const Prism &a, &b;
-  double at_most;  // two of their places are so far apart
+  double at_most;  // distance of two of their points
 };
 
-// How far the corner of one that comes nearest to a face of the other is from that other.
+// Distance of the corner nearest to a face of the other solid from that solid.
 double nearest_corner(const Pair& of, const Axis& face) {
   const Vector3d corner = face.of_first ? of.b.farthest(-face.normal) : of.a.farthest(face.normal);
   return (nearest_point(face.of_first ? of.solid_a : of.solid_b, corner) - corner).norm();
 }
 
-// The axis that separates best; false where one separates by more than the margin.
+// Separating axis with the largest distance; false if one exceeds the margin.
 bool separate(const Pair& of, double margin, Axis& best) {
   const Prism &a = of.a, &b = of.b;
   const Vector3d d = b.centre - a.centre;
@@ -114,7 +115,7 @@ bool separate(const Pair& of, double margin, Axis& best) {
   if (best.normal.dot(d) < 0) best.normal = -best.normal;
   Axis edges = best;
   edges.apart += edge_lead;
-  // No axis separates by more than two places are apart: hardly ever is there a need to look on.
+  // No axis separates by more than the distance of two points: the search can nearly always stop here.
   const double enough = std::min(edges.apart, margin) - rounding;
   if (of.at_most <= enough || nearest_corner(of, best) <= enough) return true;
   for (int i = 0; i < a.edges(); ++i) {
@@ -129,7 +130,8 @@ bool separate(const Pair& of, double margin, Axis& best) {
     }
   }
   if (edges.edge[0] >= 0) {
-    const bool needless = std::abs(edges.normal.dot(best.normal)) > like_a_face;  // a face's many points carry better
+    const bool needless =
+        std::abs(edges.normal.dot(best.normal)) > like_a_face;  // the many points of a face carry better
     if (!needless) best = edges;
     best.apart = edges.apart;
   }
@@ -157,7 +159,7 @@ Touch touch_edges(const Prism& a, const Prism& b, const Axis& axis) {
   return result;
 }
 
-// Leaves of the polygon what lies inside the face's sides.
+// Clips the polygon to the face's sides.
 void clip(Polygon& polygon, const Polygon& face, const Vector3d& n) {
   const auto at = [](const Polygon& p, int k) { return p.corner[k == p.count ? 0 : k]; };
   Polygon room_for_rest;
@@ -180,7 +182,7 @@ void clip(Polygon& polygon, const Polygon& face, const Vector3d& n) {
   if (now != &polygon) polygon = *now;
 }
 
-// Of many points those that carry: the outermost along four ways, diagonal to u, and the deepest.
+// Reduces many points to those that carry: the outermost along four directions, diagonal to u, and the deepest.
 void keep_few(const std::array<TouchPoint, Polygon::room>& points, int count, const Vector3d& u, Touch& result) {
   if (count < Touch::most_points) {
     for (int k = 0; k < count; ++k) result.add(points[k]);
@@ -224,7 +226,7 @@ Touch touch_faces(const Prism& a, const Prism& b, const Axis& axis, double margi
   return result;
 }
 
-// Corners and edges before which no face lies: the nearest points, by projecting from one solid to the other.
+// Corners and edges that no face covers: the nearest points, by alternating projections between the solids.
 Touch touch_corners(const Solid& a, const Solid& b, double margin) {
   Vector3d q = b.centre, p = q;
   for (int pass = 0; pass < passes_to_corner; ++pass) {
@@ -241,14 +243,14 @@ Touch touch_corners(const Solid& a, const Solid& b, double margin) {
   return result;
 }
 
-// The corner that lies deepest along the axis, whether a face lies over it or not.
+// The deepest corner along the axis, covered by a face or not.
 TouchPoint deepest(const Prism& a, const Prism& b, const Axis& axis) {
   const Vector3d corner = axis.of_first ? b.farthest(-axis.normal) : a.farthest(axis.normal);
   return {corner + (axis.of_first ? -0.5 : 0.5) * axis.apart * axis.normal, axis.apart, 16001};
 }
 
-// Whether the plane through the place of `a` nearest to `on_b`, across the way there, keeps the solids apart: all of
-// `a` lies on its far side. Nearly all that are apart are found so, at a fraction of what all axes cost.
+// True if the plane through the place of `a` nearest to `on_b`, normal to the line between them, separates the solids:
+// all of `a` is on its far side. It finds nearly all separate pairs, at a fraction of the cost of all axes.
 bool are_apart(const Solid& b, const Vector3d& on_a, const Vector3d& on_b, double margin) {
   const Vector3d way = on_a - on_b;
   const double distance = way.norm();
@@ -281,7 +283,7 @@ Touch touch(const Solid& a, const Solid& b, double margin) {
   if (!separate({a, b, first, second, (on_a - on_b).norm()}, margin, axis)) return {};
   Touch result = axis.edge[0] >= 0 ? touch_edges(first, second, axis) : touch_faces(first, second, axis, margin);
   if (least_gap(result, margin) <= axis.apart + face_lead) return result;
-  // What is nearest lies over no face.
+  // No face covers the nearest features.
   if (axis.apart > 0) {
     const Touch corners = touch_corners(a, b, margin);
     if (corners.count == 0) return result;

@@ -1,5 +1,5 @@
-// Newton's method, in passes over which friction's bounds follow the normal impulses. What contacts do stands in lanes
-// (contact_lanes.hpp), eight side by side; their rows are read only where they have something to say.
+// Newton's method in passes: friction's bounds follow the normal impulses from pass to pass. Contacts are processed in
+// lanes (contact_lanes.hpp), eight side by side; their rows are read only where needed.
 #include <algorithm>
 #include <cmath>
 
@@ -37,7 +37,7 @@ void ContactSolverOf<N>::slip(Outcome& outcome) {
   }
 }
 
-// As the search begins, at u_.
+// Initial state of the search, at u_.
 template <int N>
 void ContactSolverOf<N>::fill_lanes() {
   lanes_.assign((local_.size() + ContactLanes::width - 1) / ContactLanes::width, ContactLanes{});
@@ -79,7 +79,7 @@ void ContactSolverOf<N>::refresh_bounds(int pass) {
 }
 
 // Newton with exact line search on the convex energy of fixed bounds; the impulses are those at u_ when it returns.
-// Speeds at contacts go along with u_, and are not worked out from it again.
+// Speeds at contacts are updated with u_, not recomputed from it.
 template <int N>
 bool ContactSolverOf<N>::minimise(int limit) {
   for (int iteration = 0;; ++iteration) {
@@ -117,7 +117,7 @@ void ContactSolverOf<N>::respond() {
   end_gradient();
 }
 
-// Contacts of one pair, or of one robot with what stands still, come one after the other, and are added in runs.
+// Contacts of one pair, or of one robot with static surfaces, are consecutive and are added in runs.
 template <int N>
 void ContactSolverOf<N>::set_hessian() {
   begin_hessian();
@@ -147,8 +147,8 @@ void ContactSolverOf<N>::set_hessian() {
   }
 }
 
-// A motor at its limit is a friction of one dimension, and is met alike: near others by an estimate of its impulse kept
-// beside the rate, without which the wheels of many robots take turns in overshooting.
+// A motor at its limit is a one-dimensional friction, and is treated alike: near other robots with a dual estimate of
+// its impulse, without which the wheels of many robots overshoot in turn.
 template <int N>
 double ContactSolverOf<N>::motor_stiffness(std::size_t body, int m) const {
   const Motor& motor = p_->bodies[body].motors[m];
@@ -158,7 +158,7 @@ double ContactSolverOf<N>::motor_stiffness(std::size_t body, int m) const {
   return (motor.limit / size) * (1 + motor_duals_[body][m] / motor.limit * (slip < 0 ? -1 : 1));
 }
 
-// What d_ does to contacts and to the energy of motion, a quadratic along d_.
+// Derivatives along d_: of contacts' speeds, and of the kinetic energy, a quadratic along d_.
 template <int N>
 void ContactSolverOf<N>::look_ahead() {
   blocks_.look_ahead(table(), d_.front().data(), lanes_.data());

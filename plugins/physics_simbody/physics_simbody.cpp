@@ -105,7 +105,7 @@ struct PhysicsSimbody {
     make_engine([&](std::size_t row) { return s.host()->row_name(s.host(), "robot", static_cast<uint32_t>(row)); });
   }
 
-  // What an engine is made of.
+  // Inputs from which an engine is built.
   struct Made {
     double step = 0, leg_step = 0, integrator = 0, rigid_legs = 0;
     std::vector<std::size_t> rows;
@@ -135,7 +135,7 @@ struct PhysicsSimbody {
     surroundings = {};
   }
 
-  // What stands around the robots, as the engine was told.
+  // Surroundings of the robots, as set in the engine.
   struct Surroundings {
     std::vector<double> cells;
     bool told = false;
@@ -184,7 +184,7 @@ struct PhysicsSimbody {
     move(k);
   }
 
-  // What has left stays as it was.
+  // A robot that left keeps its state.
   void stay(const Step& k, std::size_t row) const {
     k[pose][row] = k.last(pose)[row];
     k[twist][row] = k.last(twist)[row];
@@ -197,7 +197,7 @@ struct PhysicsSimbody {
 
   void move(const Step& k) {
     const auto asked = k[drive];
-    states.resize(made.rows.size());  // what no robot of the world has stays 0 in them, and in commands
+    states.resize(made.rows.size());  // fields that no robot of the world has remain 0, in commands too
     commands.resize(made.rows.size());
     for (std::size_t i = 0; i < made.rows.size(); ++i) {
       const std::size_t row = made.rows[i];
@@ -257,7 +257,7 @@ struct PhysicsSimbody {
 
   Value step_size, leg_step, integrator, body_friction, rigid_legs;
   WorldRobots robots;
-  bool flies;  // some robots have rotors; else nothing is claimed about them
+  bool flies;  // some robots have rotors; otherwise their tables are not claimed
   In<Drive> drive;
   In<RotorDrive> rotor_drive{};
   In<Wall> wall;
@@ -268,14 +268,14 @@ struct PhysicsSimbody {
   Out<Wheels> wheels;
   Out<Rotors> rotors{};
   Out<Model> model;
-  Out<simbody::Memory> memory;   // what the engine remembers
-  std::optional<In<Gait>> gait;  // where a robot walks
+  Out<simbody::Memory> memory;   // the engine's memory
+  std::optional<In<Gait>> gait;  // if any robot walks
   std::optional<Out<Legs>> legs;
   std::optional<Out<Limbs>> limbs;  // where a robot has any
-  Made made, now;                   // what the engine was made of; what it would be made of in this step
+  Made made, now;                   // inputs of the present engine; inputs in this step
   std::unique_ptr<simbody::Engine> engine;
   Surroundings surroundings;
-  std::vector<simbody::RobotState> states;  // room, kept from step to step
+  std::vector<simbody::RobotState> states;  // buffer, kept from step to step
   std::vector<simbody::Command> commands;
 };
 

@@ -10,7 +10,7 @@ namespace muster::simbody {
 constexpr int most_sides = 8;  // pairs of opposite sides of a cylinder's prism
 constexpr int most_corners = 2 * most_sides;
 
-// A polygon of a face, in order around its normal; a mark with each corner.
+// A polygon of a face, in order around its normal, with a mark for each corner.
 struct Polygon {
   static constexpr int room = 2 * most_corners;  // a side that clips a convex polygon adds one corner at most
 
@@ -25,11 +25,11 @@ struct Polygon {
   }
 };
 
-// A box or a cylinder as the sum of segments: its sides' half edges, in order of angle, and its axis at last. All of
-// a prism follows from them: its width along any direction, its faces (each lies along one side and the axis, or across
-// the axis), its edges.
+// A box or a cylinder as a Minkowski sum of segments: its sides' half edges, in order of angle, and finally its axis.
+// The rest of a prism derives from them: its width along any direction, its faces (each spanned by one side and the
+// axis, or normal to the axis), its edges.
 struct Prism {
-  // The middle of one side of a cylinder's prism lies towards `place`, on the circle itself.
+  // The middle of one side of a cylinder's prism is towards `place`, on the circle itself.
   Prism(const Solid& solid, const Eigen::Vector3d& place) : centre(solid.centre) {
     if (solid.kind == Solid::Kind::box) {
       sides = 2;
@@ -62,7 +62,7 @@ struct Prism {
   Eigen::Vector3d half_edge(int i) const { return half[i] * edge(i); }
   int edges() const { return sides + 1; }
   int faces() const { return sides + 1; }
-  // Of one of a pair of opposite faces: those along a side, at last those across the axis.
+  // Normal of one of a pair of opposite faces: first those along a side, finally those across the axis.
   Eigen::Vector3d normal(int face) const { return face < sides ? edge(face).cross(edge(sides)) : edge(sides); }
 
   double half_width(const Eigen::Vector3d& n) const {
@@ -70,7 +70,7 @@ struct Prism {
     for (int i = 0; i < edges(); ++i) sum += half[i] * std::abs(n.dot(edge(i)));
     return sum;
   }
-  // The farthest place along n; where edges lie across n (all of `but`), their middle.
+  // The farthest point along n; of edges normal to n (`but`, `but_too`), the middle.
   Eigen::Vector3d farthest(const Eigen::Vector3d& n, int but = -1, int but_too = -1) const {
     Eigen::Vector3d p = centre;
     for (int i = 0; i < edges(); ++i) {
@@ -110,7 +110,7 @@ struct Prism {
 
   int sides;
   Eigen::Vector3d centre;
-  std::array<Eigen::Vector3d, most_sides + 1> way;  // unit: kept apart from lengths, which may be zero
+  std::array<Eigen::Vector3d, most_sides + 1> way;  // unit: separate from lengths, which may be zero
   std::array<double, most_sides + 1> half;
 };
 

@@ -31,9 +31,8 @@ bool Crew::any_bounces() const {
   return std::any_of(members_.begin(), members_.end(), [](const CrewMember& m) { return m.model.restitution > 0; });
 }
 
-// Simbody's own mass matrix at the reference pose; in the body's frame it is the same in every other, as wheels are
-// balanced. Robots are not joined, so that one product has a column of each. Wheels that are not there have an inertia
-// of one, which nothing turns.
+// Simbody's own mass matrix at the reference pose; in the body's frame it is constant, as wheels are balanced. Robots
+// are not joined, so one product has a column of each. Missing wheels have an inertia of one and no torque.
 void Crew::read_masses() {
   const SimTK::State& state = system_.state;
   SimTK::Vector columns;

@@ -1,4 +1,4 @@
-// The robots of an engine: what of them never changes, with Simbody's own word for their masses.
+// The robots of an engine: their constant properties, with mass matrices from Simbody.
 #pragma once
 
 #include <array>
@@ -14,10 +14,10 @@
 namespace muster::simbody {
 
 struct CrewMember {
-  // One rigid body but for its wheels, if it has any.
+  // One rigid body except for its wheels, if it has any.
   bool is_rigid() const { return model.legs.empty() && model.limbs.empty(); }
-  // Of u of such a robot, without contacts and motors, at the given attitude; less what its origin's way about the
-  // mass centre adds, which follows from the turn that a step makes.
+  // Acceleration of u of such a robot, without contacts and motors, at the given attitude; without the part of its
+  // origin's motion about the mass centre, which follows from the rotation of a step.
   Velocity free_acceleration(const Eigen::Matrix3d& to_world, const Velocity& u) const;
 
   std::string name;
@@ -25,8 +25,8 @@ struct CrewMember {
   RobotBodies bodies;
   description::Mass whole;              // wheels included
   std::array<double, 2> wheel_inertia;  // about the axle
-  std::optional<Flight> flight;         // where it has rotors and no limbs
-  MassMatrix mass, inverse_mass;        // of what has neither legs nor limbs, which weigh otherwise in each step
+  std::optional<Flight> flight;         // if it has rotors and no limbs
+  MassMatrix mass, inverse_mass;        // without legs and limbs, with which they change in each step
 };
 
 class Crew {

@@ -1,7 +1,7 @@
-// The only way in which this plugin includes Simbody.
+// The only header of this plugin that includes Simbody.
 #pragma once
 
-// Debian's Simbody is built without NDEBUG, and a header's struct has more members then: a unit compiled with it
+// Debian's Simbody is built without NDEBUG, with which a header's struct loses members: a unit compiled with NDEBUG
 // crashes in realizeTopology().
 #ifdef NDEBUG
 #error "compile what includes Simbody with -UNDEBUG"

@@ -15,7 +15,7 @@ namespace {
 constexpr double constraint_tolerance = 1e-9;
 constexpr double accuracy = 1e-6;  // of the adaptive ones
 
-// The rate of a wheel over a tick, as it is asked for.
+// Commanded rate of a wheel over a tick.
 struct Course {
   const description::DifferentialDrive* drive = nullptr;
   double rate = 0, slope = 0;  // [rad/s] at the tick's start, [rad/s2]
@@ -43,7 +43,7 @@ std::unique_ptr<SimTK::Integrator> make(Integrator kind, const SimTK::System& sy
   if (kind == Integrator::rk3) {
     integrator = std::make_unique<SimTK::RungeKutta3Integrator>(system);
     integrator->setFixedStepSize(step);
-    integrator->setAccuracy(0.1);  // a fixed step takes its error as it comes
+    integrator->setAccuracy(0.1);  // a fixed step ignores its error estimate
   } else {
     if (kind == Integrator::rkm) {
       integrator = std::make_unique<SimTK::RungeKuttaMersonIntegrator>(system);
@@ -53,7 +53,7 @@ std::unique_ptr<SimTK::Integrator> make(Integrator kind, const SimTK::System& sy
     integrator->setAccuracy(accuracy);
   }
   integrator->setConstraintTolerance(constraint_tolerance);
-  integrator->setAllowInterpolation(false);  // else the state at the tick's end is no state of the integration
+  integrator->setAllowInterpolation(false);  // otherwise the state at the tick's end is interpolated
   integrator->setProjectEveryStep(true);
   return integrator;
 }
@@ -77,7 +77,7 @@ struct Stock::Robot {
       SimTK::Motion::Custom(bodies.wheel[w], new WheelMotion(course[w]));
       SimTK::Constraint::SphereOnPlaneContact(ground, floor, bodies.wheel[w], Vec3(0), model.drive.wheel_radius, true);
     }
-    // A third point carries the robot: the lowest of its sliders.
+    // A third support point: the lowest of its sliders.
     if (model.sliders.empty()) throw std::runtime_error("robot '" + name + "' would stand on two wheels only");
     const auto lowest = std::min_element(
         model.sliders.begin(), model.sliders.end(),

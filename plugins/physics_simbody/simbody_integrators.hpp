@@ -1,6 +1,6 @@
 // Simbody's own integrators as reference: rolling constraints, wheels that turn as commanded. Each robot is a system of
-// its own (dense algebra), and each tick begins anew from the state handed in, since an integrator's history restores
-// to no bits.
+// its own (dense algebra). Each tick starts anew from the given state, since an integrator's history cannot be restored
+// to the same bits.
 #pragma once
 
 #include "engine.hpp"

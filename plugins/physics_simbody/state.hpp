@@ -1,5 +1,4 @@
-// What a backend is a function of: the rows of robot/*/pose, twist, wheels, rotors and what drives
-// them, and its own memory.
+// Inputs of a backend's step: the rows of robot/*/pose, twist, wheels, rotors and drive commands, and its own memory.
 #pragma once
 
 #include <array>
@@ -10,8 +9,8 @@ namespace muster::simbody {
 
 constexpr double gravity = 9.81;  // [m/s2]
 
-// What is asked for at the tick's start, and its slopes over the tick: rates of wheels, angles of legs; rotors' rates,
-// held over it.
+// Commands at the tick's start and their slopes over the tick: rates of wheels, angles of legs; rotors' rates, held
+// over it.
 struct Command {
   double left, right;                             // [rad/s]
   double left_rate, right_rate;                   // [rad/s2]
@@ -19,15 +18,15 @@ struct Command {
   std::array<double, 6> leg_angle{}, leg_rate{};  // [rad], [rad/s]
 };
 
-// The impulse of a contact of the body, kept by the robot with the smaller row.
+// The impulse of a contact of the body, stored by the robot with the smaller row.
 struct KeptImpulse {
   double id = 0;                    // of robot, wall or ground, of both shapes and their features; 0: none
   std::array<double, 3> impulse{};  // on the robot, in the world's frame [N s]
 };
 
-// What the stepper remembers beside the standard rows: the length of its last step (0: none, its velocities stand for
-// an instant), and the impulses of contacts, from which a step in which they slip begins to search: of the wheels, and
-// of the strongest of what else the robot touches. One that is forgotten costs some steps of the search, no result.
+// Memory of the stepper beside the standard rows. The length of its last step (0: none, its velocities are those of an
+// instant). Impulses of contacts, from which the search for a slipping step starts: of the wheels, and the strongest of
+// the others. A lost impulse costs some iterations and changes no result.
 struct Memory {
   static constexpr const char* columns =
       "previous_step[s] left_n[N*s] left_x[N*s] left_y[N*s] right_n[N*s] right_x[N*s] right_y[N*s] "
@@ -47,8 +46,8 @@ struct RobotState {
   Memory memory;
   std::array<double, 6> leg_angle{}, leg_rate{};  // in the order of the model [rad], [rad/s]
   std::array<double, 6> leg_torque{};             // of their motors, the mean over the last step [N m]
-  std::array<double, 4> rotors{};                 // as they turn [rad/s]
-  Limbs limbs{};                                  // as they hang
+  std::array<double, 4> rotors{};                 // present rates [rad/s]
+  Limbs limbs{};                                  // present states
 };
 
 }  // namespace muster::simbody

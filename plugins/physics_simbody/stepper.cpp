@@ -12,8 +12,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-// A robot on a clear floor, and robots that touch walls or each other: many contacts agree on less, at a fraction of
-// the cost, and their errors stay below a micrometre a step.
+// Tolerances for a robot on a clear floor, and for robots that touch walls or each other: with many contacts looser
+// ones, at a fraction of the cost, with errors below a micrometre a step.
 constexpr Search alone{1e-7, 1e-3, 12, Search::First::all_sticks, false},
     together{1e-5, 1e-2, 5, Search::First::as_before, true};
 
@@ -31,7 +31,7 @@ Quaternion turned(const Quaternion& q, const Quaternion& at, const Vector3d& w, 
 }
 
 Quaternion quaternion_of(const RobotState& s) { return {s.pose[3], s.pose[4], s.pose[5], s.pose[6]}; }
-// What its rotors do to a robot, as a force for its velocities.
+// Force of the rotors on a robot's velocities.
 Velocity rotor_force(const description::Quadrotor& rotors, const RobotState& state, const Velocity& u) {
   const description::Wrench wrench = rotors.wrench(state.rotors, u.segment<3>(3), u.head<3>());
   Velocity force = Velocity::Zero();
@@ -40,9 +40,9 @@ Velocity rotor_force(const description::Quadrotor& rotors, const RobotState& sta
   return force;
 }
 
-// What the origin is faster by half a step ahead or behind than at the state's attitude, the mass centre being as fast.
-// Robots without legs and limbs carry the velocity of their mass centres from step to step, so that what two give each
-// other is kept to the last digits.
+// Difference of the origin's velocity between half a step ahead or behind and the state's attitude, at equal velocity
+// of the mass centre. Robots without legs and limbs carry the velocity of their mass centres from step to step, so
+// exchanged momentum is conserved to the last digits.
 Vector3d origin_lead(const CrewMember& robot, const Matrix3d& to_world, const RobotState& state) {
   const Vector3d& centre = robot.whole.centre;
   return rates_of(state).cross(attitude_of(state) * centre - to_world * centre);
@@ -77,7 +77,7 @@ void StepperOf<N>::advance(const Group& group, double h, double at, const std::v
   }
 }
 
-// Robots half a step ahead, and what they meet there.
+// Computes robots half a step ahead, and their contacts there.
 template <int N>
 void StepperOf<N>::prepare(const Group& group, double h, double at, const std::vector<Command>& commands,
                            const std::vector<RobotState>& states) {
@@ -86,7 +86,7 @@ void StepperOf<N>::prepare(const Group& group, double h, double at, const std::v
   find_islands(group);
 }
 
-// The step that was prepared. Robots that touch and for whom it is too long take it in two halves, which may be divided
+// Completes the prepared step. Robots in contact for which it is too long take it in two halves, which may be divided
 // again.
 template <int N>
 void StepperOf<N>::complete(const Group& group, double h, double at, const std::vector<Command>& commands,
@@ -129,8 +129,8 @@ Group StepperOf<N>::part_of(const Group& group, const Island& island) {
   return part;
 }
 
-// Half a step ahead along the velocities that stand. The one rotation that is needed follows from its quaternion: to
-// have Simbody work out the places of all bodies takes twice as long as all the rest of a step.
+// Half a step ahead along the present velocities. The one rotation needed follows from its quaternion: computing the
+// positions of all bodies by Simbody costs twice as much as the rest of a step.
 template <int N>
 void StepperOf<N>::place(int index, double h, double at, const Command& command, const RobotState& state) {
   const CrewMember& robot = arena_.crew[index];
@@ -163,7 +163,7 @@ void StepperOf<N>::place_wheels(const CrewMember& robot, double h, double at, co
   const double kick = 0.5 * (state.memory.previous_step + h);
   Velocity free = previous + kick * robot.free_acceleration(now.to_world, previous);
   if (robot.model.rotors) free += kick * (robot.inverse_mass * rotor_force(*robot.model.rotors, state, previous));
-  body.free = body.previous;  // idle joints stand still
+  body.free = body.previous;  // idle joints are at rest
   body.free.template head<unknowns>() = free;
   const double asked[] = {command.left + at * command.left_rate, command.right + at * command.right_rate};
   for (int w = 0; w < 2; ++w) body.motors[w] = {drive.limited_rate(asked[w]), drive.max_torque * h};
@@ -181,7 +181,8 @@ void StepperOf<N>::place_legs(const CrewMember& robot, double h, double at, cons
                                  command.leg_rate[i], state.leg_angle[i], h);
     }
     const Vector3d fall = now.to_world.transpose() * Vector3d(0, 0, -gravity);
-    // Weighed as they stand at the step's start, between the two velocities: half a step later, legs would be damped.
+    // Mass matrix of the posture at the step's start, between the two velocities: that of half a step later would damp
+    // legs.
     const LeggedMass legged = weigh(robot.model, state.leg_angle, body.previous, fall);
     now.inertia = {legged.mass, inverse(legged.mass)};
     const double kick = 0.5 * (state.memory.previous_step + h);
@@ -189,7 +190,7 @@ void StepperOf<N>::place_legs(const CrewMember& robot, double h, double at, cons
   }
 }
 
-// Contacts bear the place of their robots in the group.
+// Contacts refer to robots by their place in the group.
 template <int N>
 void StepperOf<N>::meet(const Group& group, double h, const std::vector<RobotState>& states) {
   encounters_.begin(h, arena_.friction, somebody_bounces_);
@@ -206,8 +207,8 @@ void StepperOf<N>::meet(const Group& group, double h, const std::vector<RobotSta
     encounters_.between(slot(i), placed()[i], states[i].memory, slot(j), placed()[j]);
 }
 
-// Robots that touch are solved for together, the others apart: the same, but faster. An island stands where its first
-// robot does.
+// Robots in contact are solved together, the others separately: the same, but faster. An island is stored at its first
+// robot's place.
 template <int N>
 void StepperOf<N>::find_islands(const Group& group) {
   const std::size_t count = group.robots.size();
@@ -227,7 +228,8 @@ void StepperOf<N>::find_islands(const Group& group) {
     islands_[connected_.root(encounters_.contacts[k].body)].contacts.push_back(static_cast<int>(k));
 }
 
-// Into the problem, whose bodies are the island's. Where that is the whole group, they have the same places.
+// Moves contacts into the problem, whose bodies are the island's. If that is the whole group, their numbers are the
+// same.
 template <int N>
 void StepperOf<N>::take_contacts(const Island& island) {
   if (island.robots.size() == place_.size()) return std::swap(problem_.contacts, encounters_.contacts);

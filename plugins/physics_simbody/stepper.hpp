@@ -1,7 +1,7 @@
-// A step of robots that may meet: half a step ahead, what they meet there, one small problem an island, and on. Second
-// order, on velocities. N: unknowns of a robot.
+// A step of robots that may meet: half a step ahead, contacts there, one small problem an island, and on. Second order,
+// on velocities. N: unknowns of a robot.
 //
-// Velocities stand at the middle of steps: u is found for the configuration half a step ahead and carries the robot
+// Velocities are those at the middle of steps: u is found for the configuration half a step ahead and carries the robot
 // over the whole step, x += h N(x_mid) u. So forces act over (previous step + step) / 2, and commands are taken at
 // mid-step.
 #pragma once
@@ -11,11 +11,11 @@
 
 namespace muster::simbody {
 
-// Robots that may meet in this step, with what else they may meet. Groups do not meet each other.
+// Robots that may meet in this step, and walls that they may meet. Groups do not meet each other.
 struct Group {
   std::vector<int> robots;         // in order
   BroadPhase::Pairs pairs, walls;  // of robots; of a robot and a wall
-  int parts = 1;                   // of the step, so that nobody passes through anything
+  int parts = 1;                   // of the step, so that no robot tunnels through anything
 };
 
 // Problems solved so far; those in which friction's bounds and normal impulses did not agree in the end; and those
@@ -34,15 +34,15 @@ class StepperOf {
  public:
   explicit StepperOf(Arena& arena);
 
-  // A step of length h [s]; commands are taken `at` [s] after the tick's start. Robots that bounce take it from impact
-  // to impact.
+  // A step of length h [s]; commands are taken `at` [s] after the tick's start. Bouncing robots take it from impact to
+  // impact.
   void advance(const Group& group, double h, double at, const std::vector<Command>& commands,
                std::vector<RobotState>& states);
 
   const Count& count() const { return count_; }
 
  private:
-  // Robots that touch, by index, and all their contacts.
+  // Robots in contact, by index, and all their contacts.
   struct Island {
     std::vector<int> robots, contacts;
   };
@@ -87,7 +87,7 @@ class StepperOf {
   Arena& arena_;
   const bool somebody_bounces_;
 
-  // Room that is kept from step to step; nothing of it outlives one.
+  // Buffers, kept from step to step; no state outlives a step.
   EncountersOf<N> encounters_;
   Connected connected_;
   std::vector<Island> islands_;

@@ -1,5 +1,5 @@
-// What a step is for robots with limbs: forces that depend on velocities are those between two steps, so that contacts
-// are solved for twice.
+// The step of robots with limbs: forces that depend on velocities are those between two steps, so contacts are solved
+// twice.
 #include "motion.hpp"
 #include "stepper.hpp"
 
@@ -36,8 +36,8 @@ void StepperOf<N>::place_limbs(const CrewMember& robot, double h, double at, con
   }
 }
 
-// Forces that depend on velocities are those between the two steps, half way to the velocities that are found: `after`
-// is as good an estimate of these as there is.
+// Velocity-dependent forces are evaluated between the two steps, half way to the velocities to be found: `after` is the
+// best available estimate of these.
 template <int N>
 void StepperOf<N>::push(const CrewMember& robot, double h, const RobotState& state, const VelocityOf<N>& after,
                         PlacedOf<N>& now) {
@@ -71,7 +71,7 @@ void StepperOf<N>::stop_limbs(const CrewMember& robot, double h, const RobotStat
   }
 }
 
-// Now that contacts and motors have had their say. False where nobody has limbs.
+// Repeats push() with the velocities after contacts and motors. False if no robot has limbs.
 template <int N>
 bool StepperOf<N>::push_again(const Island& island, double h, const std::vector<RobotState>& states) {
   bool any = false;

@@ -1,4 +1,5 @@
-// The first try for robots near others: each contact goes on as it did in the step before, and motors hold their rates.
+// Warm start for robots near others: each contact keeps its mode (open, stick, slide) from the last step, and motors
+// hold their rates.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,20 +13,20 @@ using Eigen::Vector2d;
 namespace {
 
 constexpr int most_steps = 20, most_factors = 10;
-constexpr int most_that_slide = 40;      // contacts: where more do, they hardly ever keep to it
-constexpr double lost = 1;               // [m/s] off, after a step: it will not be found this way
-constexpr double slow = 0.5;             // what a step leaves of the residual at most, or habits are worked out anew
-constexpr double at_rest = 1e-6;         // [m/s] slip that has no direction of its own
-constexpr double share_of_mass = 0.125;  // by which slip counts against grip where it is asked who sticks
+constexpr int most_that_slide = 40;      // contacts: if more slide, their directions rarely persist
+constexpr double lost = 1;               // [m/s] residual after a step beyond which the warm start is abandoned
+constexpr double slow = 0.5;             // largest reduction factor of the residual in a step without a new
+                                         // factorisation
+constexpr double at_rest = 1e-6;         // [m/s] slip below which its direction is undefined
+constexpr double share_of_mass = 0.125;  // weight of slip against friction in the decision between stick and slide
 
 Vector2d beside(const Vector2d& way) { return {-way[1], way[0]}; }
 
 }  // namespace
 
-// With habits one factorisation solves the step, but for friction's bounds, which follow the normal impulses, and ways
-// of sliding, which turn. Steps on with the same factorisation find both, and obey Coulomb's law itself in the end.
-// Where a contact does otherwise than assumed, a new factorisation takes up what it does. False where this leads
-// nowhere.
+// With fixed modes, one factorisation solves the step except for friction's bounds, which follow the normal impulses,
+// and directions of sliding, which turn. Further steps with the same factorisation find both, and satisfy Coulomb's law
+// in the end. A contact whose mode changes needs a new factorisation. False if this does not converge.
 template <int N>
 bool ContactSolverOf<N>::go_on() {
   begin_as_before();
@@ -68,8 +69,8 @@ void ContactSolverOf<N>::begin_as_before() {
   }
 }
 
-// What the contact's grip would be if it had no bound, so to say (Alart and Curnier 1991): neither grip nor slip alone
-// tells who is about to stick or to slide, and where to.
+// Augmented friction impulse, as without its bound (Alart and Curnier 1991): friction and slip together decide between
+// stick and slide, and the direction.
 template <int N>
 Vector2d ContactSolverOf<N>::pull(std::size_t contact) const {
   return local_[contact].dual - weight(contact) * local_[contact].slip();
@@ -144,7 +145,7 @@ void ContactSolverOf<N>::factor_habits() {
   hessian_.factor();
 }
 
-// Impulses by habit, that of what slides by its slip, and the step that takes all of them to where they agree.
+// Impulses by mode, that of sliding contacts by their slip, and the step that makes all of them consistent.
 template <int N>
 void ContactSolverOf<N>::step_by_habits() {
   for (std::size_t b = 0; b < u_.size(); ++b) {
@@ -183,14 +184,14 @@ Vector2d ContactSolverOf<N>::grip_by_habit(std::size_t contact) const {
   return at.slip().norm() < at_rest ? sliding_grip(at) : grip_of(at.slip(), at.bound, c.grip_softness);
 }
 
-// Of what keeps to its way.
+// For a sliding contact that keeps its direction.
 template <int N>
 Vector2d ContactSolverOf<N>::sliding_grip(const Local& at) {
   const Vector2d side = beside(at.way);
   return at.bound * at.way - at.stiffness * side.dot(at.slip()) * side;
 }
 
-// After a step: the grips that habits came to, whether bounds allow them or not.
+// After a step: friction impulses by mode, within their bounds or not.
 template <int N>
 void ContactSolverOf<N>::note_grips() {
   for (std::size_t i = 0; i < local_.size(); ++i) {
@@ -199,7 +200,7 @@ void ContactSolverOf<N>::note_grips() {
     at.closes = c.push > 0;
     if (at.habit == Habit::sticks) {
       at.dual = -at.slip() / c.grip_softness;
-    } else if (at.habit == Habit::slides && at.slip().dot(at.way) > 0) {  // the other way than it should
+    } else if (at.habit == Habit::slides && at.slip().dot(at.way) > 0) {  // against the direction of sliding
       at.dual = within(sliding_grip(at), at.bound);
     } else {
       at.dual = c.grip;

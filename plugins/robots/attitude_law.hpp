@@ -1,4 +1,4 @@
-// What a quadrotor's controller on board asks of its rotors, from how the body stands and turns.
+// Attitude controller on board a quadrotor: rotors' rates from the body's attitude and turn rate.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -34,15 +34,15 @@ inline Eigen::Vector3d turn_between(const Eigen::Quaterniond& q, const Eigen::Qu
   return (sine > 1e-9 ? 2 * std::atan2(sine, error.w()) / sine : 2) * error.vec();
 }
 
-// A PID on roll and pitch, a PI on the turn rate, in angular acceleration; torque by the body's inertia.
+// A PID on roll and pitch, a PI on the turn rate, as angular acceleration; torque by the body's inertia.
 struct AttitudeLaw {
   const description::Quadrotor& drive;
   const Eigen::Matrix3d& inertia;  // about the centre of mass, in the body's frame [kg m2]
 
-  // Errors that the integrals ask for as much as for an error of this size at most [rad], [rad/s].
+  // Limit of each integral: its effect is at most that of an error of this size [rad], [rad/s].
   static constexpr double wound_up = 0.2;
 
-  // `w` in the body's frame [rad/s]; `integral` of the errors of roll, pitch [rad s] and turn rate [rad], moved on by
+  // `w` in the body's frame [rad/s]; `integral` of the errors of roll, pitch [rad s] and turn rate [rad], advanced by
   // `dt` [s].
   description::RotorRates step(const AttitudeThrust& asked, const Eigen::Quaterniond& q, const Eigen::Vector3d& w,
                                Eigen::Vector3d& integral, double dt) const {
@@ -52,7 +52,7 @@ struct AttitudeLaw {
     }
     const Eigen::Vector3d error = turn_between(q, turned(asked.roll, asked.pitch, angles_of(q).yaw));
     const double turn_error = asked.yaw_rate - w.z();
-    // Rates of a body that turns about the vertical and keeps its roll and pitch: these are not to be damped.
+    // Rates of a body that turns about the vertical at constant roll and pitch: these are not to be damped.
     const Eigen::Vector3d up = q.conjugate() * Eigen::Vector3d::UnitZ();
     const Eigen::Vector3d even = up.z() > 0.1 ? Eigen::Vector3d(w.z() / up.z() * up) : Eigen::Vector3d::Zero();
     const Eigen::Vector3d acceleration(

@@ -1,4 +1,4 @@
-// Where a body gets on two wheels that roll without slip.
+// Dead reckoning on two wheels that roll without slip.
 #pragma once
 
 #include <cmath>

@@ -18,7 +18,7 @@ inline WheelRates limited(const WheelRates& asked, double most) {
   return {asked.left * scale, asked.right * scale};
 }
 
-// Where rates get from `from` on their way to `to` if no wheel changes by more than `most` [rad/s].
+// Rates after a ramp from `from` towards `to` with no wheel changing by more than `most` [rad/s].
 inline WheelRates ramped(const WheelRates& from, const WheelRates& to, double most) {
   const WheelRates change = limited({to.left - from.left, to.right - from.right}, most);
   const bool arrives = largest({to.left - from.left, to.right - from.right}) <= most;

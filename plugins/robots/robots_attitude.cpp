@@ -1,4 +1,4 @@
-// From what a controller asks of a quadrotor to what its rotors are asked for: the controller on board.
+// The controller on board a quadrotor: from a controller's command to rotors' rates.
 #include "attitude_law.hpp"
 #include "description/world_robots.hpp"
 
@@ -26,7 +26,7 @@ struct RobotsAttitude {
 
   struct Integral {
     static constexpr const char* columns = "roll[rad*s] pitch[rad*s] turn[rad] model";
-    double roll, pitch, turn, model;  // of the errors; model: as in description::Model
+    double roll, pitch, turn, model;  // integrals of the errors; model: as in description::Model
   };
 
   explicit RobotsAttitude(Setup& s)

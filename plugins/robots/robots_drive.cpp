@@ -1,4 +1,4 @@
-// From what a controller asks of a robot to what its wheels are asked for.
+// From a controller's command to wheel rates.
 #include "description/world_robots.hpp"
 #include "ramp.hpp"
 
@@ -20,7 +20,7 @@ struct RobotsDrive {
   static constexpr Param params[] = {
       real("noise", 0, 0, 10, "rad/s", "standard deviation of a wheel's rate from the rate asked for").free()};
 
-  // The rates without noise at the end of the step: where the next ramp starts.
+  // The rates without noise at the end of the step: the next ramp's start.
   struct Reached {
     static constexpr const char* columns = "left[rad/s] right[rad/s] model";
     double left, right, model;  // model: as in description::Model

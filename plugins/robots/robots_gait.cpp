@@ -1,4 +1,4 @@
-// From what a controller asks of a robot to what its six legs are asked for.
+// From a controller's command to the angles of six legs.
 #include <algorithm>
 
 #include "description/world_robots.hpp"
@@ -27,7 +27,7 @@ struct RobotsGait {
       real("sweep", 1.0, 0.1, 1.2, "rad", "angle of a leg in its stance, at full stride"),
       real("max_frequency", 1.0, 0.01, 10, "Hz", "most cycles a second")};
 
-  // Where the clock stands: phase of the first tripod, and the sweeps of both tripods' legs on either side.
+  // State of the gait's clock: phase of the first tripod, and the sweeps of both tripods' legs on either side.
   struct Clock {
     static constexpr const char* columns =
         "model phase frequency[Hz] sweep1_left[rad] sweep1_right[rad] sweep2_left[rad] sweep2_right[rad]";
@@ -65,7 +65,7 @@ struct RobotsGait {
     }
   }
 
-  // Both tripods stand, half way between their turns.
+  // Phase at rest: both tripods on the ground, half way between their turns.
   static constexpr double rest = 0.25;
 
   static bool is_left(const LegDrive::Leg& leg) { return leg.hip.y() > 0; }
@@ -99,7 +99,7 @@ struct RobotsGait {
     }
   }
 
-  // Whether a phase that is `of` or half a cycle from it lies in [before, after].
+  // True if a phase that is `of` or half a cycle from it is in [before, after].
   static bool passes(double before, double after, double of) {
     return std::ceil(2 * (before - of)) <= std::floor(2 * (after - of));
   }

@@ -1,4 +1,4 @@
-// The box that each robot fills.
+// The bounding box of each robot.
 #include <map>
 
 #include "description/world_robots.hpp"
@@ -23,7 +23,7 @@ struct RobotsGeometry {
     }
   }
 
-  // Of a robot without a model nothing is known: a box of nothing.
+  // A robot without a model has an empty box.
   void step(const Step& k) const {
     for (std::size_t i = 0; i < k[geometry].size(); ++i) {
       k[model][i].model = WorldRobots::model_of(k.last(model)[i].model, i);

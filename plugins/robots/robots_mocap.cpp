@@ -1,4 +1,4 @@
-// Where each robot is seen to be, by cameras in the room.
+// Motion capture: pose of each robot as measured by cameras in the room.
 #include <muster/plugin.hpp>
 
 #include "attitude_law.hpp"

@@ -1,5 +1,4 @@
-// Where each robot believes to be: dead reckoning from the angles its wheels or legs turned. And whether wheels turn as
-// asked.
+// Odometry: dead reckoning from the turns of wheels or legs, and detection of wheels that stall.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -35,7 +34,7 @@ struct RobotsOdometry {
       real("noise", 0, 0, 1, "rad", "standard deviation of a wheel's or leg's reading after one radian").free(),
       real("turn_share", 1, 0.1, 1, "", "of the turn that strides make, what a robot on legs turns").free()};
 
-  // The angles of the last reading. A robot that joins as a copy of another brings that one's `of`, and starts anew.
+  // The angles of the last reading. A robot that joins as a copy of another has that one's `of`, and starts anew.
   struct Seen {
     static constexpr const char* columns = "of model left[rad] right[rad] resets";
     // of: 1 + the robot's row; model: as in description::Model; resets: the last `count`
@@ -98,7 +97,7 @@ struct RobotsOdometry {
     at.yaw = place.yaw;
   }
 
-  // Its wheels having turned so far.
+  // Odometry after its wheels have turned this far.
   Odometry moved(const Step& k, std::size_t i, double model, double left, double right) const {
     Odometry at = k.last(odometry)[i];
     at.v = at.w = 0;
@@ -135,7 +134,8 @@ struct RobotsOdometry {
            stalls(asked.right, asked.right + dt * asked.right_rate, now.right_rate);
   }
 
-  // A wheel that is asked for `from` at the tick's start and `to` at its end. One that is to turn back may stand.
+  // True if a wheel commanded from `from` at the tick's start to `to` at its end stalls. One that is to reverse may be
+  // at rest.
   static bool stalls(double from, double to, double rate) {
     if (from * to <= 0) return false;
     return std::copysign(1.0, from) * rate < std::min(std::abs(from), std::abs(to)) / 2;
@@ -156,8 +156,8 @@ struct RobotsOdometry {
   Out<Odometry> odometry;
   Out<Stall> stall;
   Out<Seen> seen;
-  In<Legs> legs{};            // where any walks
-  Out<SeenLegs> seen_legs{};  // too
+  In<Legs> legs{};            // if any robot walks
+  Out<SeenLegs> seen_legs{};  // if any robot walks
 };
 
 }  // namespace

@@ -1,11 +1,10 @@
 // The alternating tripod gait of a robot on half-circle legs: Buehler's clock (Saranli, Buehler, Koditschek, IJRR
-// 20(7), 2001), and how far its strides take a robot whose rigid legs roll without slip, one tripod always on the
-// ground.
+// 20(7), 2001), and the stride of a robot whose rigid legs roll without slip, one tripod always on the ground.
 //
-// With the leg at angle x behind upright the hip is 2 r cos x over the ground while the leg stands on its end (x >= 0),
-// and r (1 + cos x) while it rolls on its arc (x <= 0). Both tripods turn alike in their stances, half a cycle apart:
-// the one that holds the body higher carries it, so the load changes legs where 2 cos a = 1 + cos b, a in front of the
-// new leg's b by half a cycle's turn.
+// With the leg at angle x behind upright the hip is 2 r cos x over the ground while the leg is on its end (x >= 0), and
+// r (1 + cos x) while it rolls on its arc (x <= 0). Both tripods turn alike in their stances, half a cycle apart: the
+// one with the higher hip carries the body. So the load changes legs where 2 cos a = 1 + cos b, a in front of the new
+// leg's b by half a cycle's turn.
 #pragma once
 
 #include <cmath>
@@ -15,8 +14,8 @@ namespace muster {
 constexpr double whole_turn = 6.283185307179586;  // [rad]
 
 // Angle of a leg, from upright. `phase` in cycles, a stance is centred at 0 and takes the share `duty` of a cycle, in
-// which the leg turns slowly by `sweep` [rad]; in the rest it turns the other way around, up to a whole turn. A
-// negative sweep walks backwards. At phases 0 and 1/2 the angle is the same for every sweep, but for whole turns.
+// which the leg turns slowly by `sweep` [rad]; in the rest it completes a whole turn. A negative sweep walks backwards.
+// At phases 0 and 1/2 the angle is the same for every sweep, but for whole turns.
 inline double clock_angle(double phase, double sweep, double duty) {
   phase -= std::round(phase);
   const double in_stance = std::abs(phase) <= duty / 2 ? phase : std::copysign(duty / 2, phase);
@@ -24,20 +23,20 @@ inline double clock_angle(double phase, double sweep, double duty) {
   return sweep * in_stance / duty + swing * (phase - in_stance) / (1 - duty);
 }
 
-// Half a cycle of the gait, by the angle at which a leg takes the load over: `before` upright on its arc, while the
+// Half a cycle of the gait, by the angle at which a leg takes over the load: `before` upright on its arc, while the
 // other one is `behind` upright on its end [rad].
 struct Handover {
   explicit Handover(double angle)
       : before(angle), behind(std::acos((1 + std::cos(angle)) / 2)), sine(std::sin(behind)) {}
-  // Way of the body in radii of the leg.
+  // Path of the body in radii of the leg.
   double way() const { return before + std::sin(before) + 2 * sine; }
-  // How far a leg turns in half a cycle [rad].
+  // Turn of a leg in half a cycle [rad].
   double turn() const { return before + behind; }
 
   double before, behind, sine;
 };
 
-// The handover at which `measure` (which rises with the angle) has the value asked for.
+// The handover at which `measure`, which rises with the angle, has the given value.
 template <class Measure>
 Handover handover_where(double value, Measure measure) {
   double low = 0, high = 1.5;
@@ -48,7 +47,7 @@ Handover handover_where(double value, Measure measure) {
   return Handover((low + high) / 2);
 }
 
-// Way of the body in a whole cycle [m].
+// Path of the body in a whole cycle [m].
 inline double stride_of(double sweep, double duty, double radius) {
   const double half = std::abs(sweep) / (2 * duty);
   const Handover at = handover_where(half, [](const Handover& h) { return h.turn(); });

@@ -1,4 +1,4 @@
-// Where a body gets on legs that do not slip.
+// Dead reckoning on legs that do not slip.
 #pragma once
 
 #include "description/robot.hpp"
@@ -9,9 +9,9 @@ struct Sides {
   double left, right;  // [m]
 };
 
-// How far each side gets while six legs turn from one angle to another, none of them far: upright as it walks, the body
-// is carried by the tripod that holds it higher. A hip is as fast as its leg turns times its height over the ground,
-// whether the leg stands on its end or rolls on its arc.
+// Path of each side while six legs turn from one angle to another, each by a small angle. Upright in its gait, the body
+// is carried by the tripod with the higher hip. A hip's speed is its leg's rate times its height over the ground,
+// whether the leg is on its end or rolls on its arc.
 inline Sides walked(const description::LegDrive& drive, const double* from, const double* to) {
   using description::LegDrive;
   const auto height = [&](double angle) {

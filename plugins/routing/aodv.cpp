@@ -29,7 +29,7 @@ const Aodv::Route* Aodv::route(Radio at, Radio to) const {
   return found != node->second.routes.end() && found->second.is_valid ? &found->second : nullptr;
 }
 
-// A route in use stays (section 6.2).
+// Refreshes a route in use (section 6.2).
 void Aodv::touch(Fabric& fabric, Radio at, Radio to) {
   if (Route* used = valid(at, to)) used->until = std::max(used->until, fabric.now() + settings.active_route_timeout);
 }
@@ -84,7 +84,7 @@ void Aodv::receive(Fabric& fabric, Radio at, Radio from, Packet packet) {
 
 // ---- Routes -------------------------------------------------------------------------------------------------------
 
-// Who is heard is one hop away; nothing is known of its sequence number (section 6.5).
+// A heard neighbour is one hop away; its sequence number is unknown (section 6.5).
 void Aodv::hear(Fabric& fabric, Radio at, Radio neighbour) {
   Route& route = nodes_[at].routes[neighbour];
   const bool is_direct = route.is_valid && route.next == neighbour;
@@ -95,7 +95,7 @@ void Aodv::hear(Fabric& fabric, Radio at, Radio neighbour) {
   release(fabric, at, neighbour);
 }
 
-// Newer news, or as new and better ones (section 6.2). Says whether they were.
+// Accepts newer routes, or equally new and better ones (section 6.2). True if accepted.
 bool Aodv::learn(Fabric& fabric, Radio at, Radio to, const Route& news) {
   Route& route = nodes_[at].routes[to];
   const bool is_as_new = news.sequence == route.sequence && (!route.is_valid || news.hops < route.hops);
@@ -109,7 +109,7 @@ bool Aodv::learn(Fabric& fabric, Radio at, Radio to, const Route& news) {
   return true;
 }
 
-// What waited for a route goes.
+// Sends the packets that waited for a route.
 void Aodv::release(Fabric& fabric, Radio at, Radio to) {
   if (!nodes_[at].searches.erase(to)) return;
   for (Packet& packet : fabric.unpark(at, to)) {
@@ -119,7 +119,7 @@ void Aodv::release(Fabric& fabric, Radio at, Radio to) {
 
 // ---- Searches -----------------------------------------------------------------------------------------------------
 
-// By rings that grow (section 6.4).
+// Expanding ring search (section 6.4).
 void Aodv::search(Fabric& fabric, Radio at, Radio to) {
   const auto known = nodes_[at].routes.find(to);
   const int hops = known == nodes_[at].routes.end() ? 0 : static_cast<int>(known->second.hops);
@@ -131,7 +131,7 @@ void Aodv::search(Fabric& fabric, Radio at, Radio to) {
   request(fabric, at, to, search.ttl);
 }
 
-// Section 6.3: in all of the net, rreq_retries times more, each twice as long.
+// Section 6.3: in the whole network, rreq_retries times more, each twice as long.
 void Aodv::search_on(Fabric& fabric, Radio at, Radio to, Search& search) {
   if (search.ttl >= settings.net_diameter) {
     if (search.retries == settings.rreq_retries) {
@@ -235,7 +235,7 @@ void Aodv::receive_reply(Fabric& fabric, Radio at, Radio from, Reply answer) {
 
 // ---- Errors, section 6.11 -----------------------------------------------------------------------------------------
 
-// What its precursors are to be told, if there are any.
+// The error message for its precursors, if there are any.
 std::optional<Aodv::Unreachable> Aodv::invalidate(Fabric& fabric, Route& route, Radio to) {
   route.is_valid = false;
   route.until = fabric.now() + settings.delete_period();

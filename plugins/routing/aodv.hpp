@@ -1,5 +1,5 @@
-// Ad hoc on-demand distance vector routing: Perkins, Belding-Royer, Das, RFC 3561 (2003), whose names, numbers and
-// sections these are.
+// Ad hoc on-demand distance vector routing: Perkins, Belding-Royer, Das, RFC 3561 (2003), with its names, numbers and
+// sections.
 #pragma once
 
 #include <map>
@@ -15,7 +15,7 @@ class Aodv final : public Protocol {
  public:
   // Section 10.
   struct Settings {
-    double node_traversal_time = 0.04;  // s, as is
+    double node_traversal_time = 0.04;  // s, as all times here
     double active_route_timeout = 3;
     int net_diameter = 35, ttl_start = 1, ttl_increment = 2, ttl_threshold = 7, rreq_retries = 2;
 
@@ -32,8 +32,8 @@ class Aodv final : public Protocol {
     std::uint32_t sequence = 0;  // of the destination
     bool is_sequence_known = false, is_valid = false;
     std::uint32_t hops = 0;
-    double until = 0;            // when it ends, or, invalid, is forgotten
-    std::set<Radio> precursors;  // who sends by way of this radio
+    double until = 0;            // its expiry; of an invalid route, its deletion
+    std::set<Radio> precursors;  // radios that send through this one
   };
 
   Settings settings;
@@ -47,7 +47,7 @@ class Aodv final : public Protocol {
   std::string save() const override;
   void load(std::string_view bytes) override;
 
-  // The valid route, or none.
+  // The valid route, or null.
   const Route* route(Radio at, Radio to) const;
 
  private:

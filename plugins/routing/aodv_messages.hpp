@@ -1,4 +1,4 @@
-// What AODV sends: requests and replies as RFC 3561 lays them out.
+// AODV's messages: requests and replies in the layout of RFC 3561.
 #pragma once
 
 #include "aodv.hpp"
@@ -42,7 +42,7 @@ struct Aodv::Reply {
   std::uint8_t hops = 0;
   Radio to = 0;  // the destination of the route
   std::uint32_t to_sequence = 0;
-  Radio from = 0;              // who asked for it
+  Radio from = 0;              // the route's originator
   std::uint32_t lifetime = 0;  // ms
 
   Packet packet(int ttl) const {

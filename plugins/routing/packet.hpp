@@ -1,4 +1,4 @@
-// What routers send each other: the payload of a network's messages.
+// Packets between routers: the payload of a network's messages.
 #pragma once
 
 #include <cstdint>
@@ -15,12 +15,12 @@ constexpr Radio everyone = UINT32_MAX;
 struct Packet {
   enum class Kind : std::uint8_t { data = 1, control };
   Kind kind = Kind::data;
-  std::uint8_t ttl = 1;  // hops that it may still go
+  std::uint8_t ttl = 1;  // hops left
   // Of data.
   Radio origin = 0, target = everyone;
   std::uint32_t journey = 0;  // the request's number, from 1 on
-  double t_sent = 0;          // when it was asked for
-  // What a controller sent, or one of the protocol's own messages.
+  double t_sent = 0;          // time of the request
+  // A controller's payload, or one of the protocol's own messages.
   std::string payload;
 };
 
@@ -34,7 +34,7 @@ inline std::string encoded(const Packet& packet) {
   return out.take().append(packet.payload);
 }
 
-// Throws std::runtime_error where the bytes end too early.
+// Throws std::runtime_error if the bytes end early.
 inline Packet decoded(std::string_view bytes) {
   medium::Reader in(bytes);
   Packet packet;

@@ -1,4 +1,4 @@
-// A routing protocol, and what carries its packets. Each radio decides by what it heard itself, nothing else.
+// A routing protocol, and the fabric that carries its packets. Each radio decides by its own receptions alone.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace muster::routing {
 
-// What may become of a copy of a request; where it met several, the last of these counts.
+// Outcomes of a copy of a request; where it met several, the last of these counts.
 enum class Outcome : std::uint8_t { delivered = 0, lost, gone, queue_full, no_route, ttl_expired, count };
 
 class Fabric {
@@ -20,12 +20,12 @@ class Fabric {
   virtual void send(Radio at, Radio to, Packet packet) = 0;
   // Gives it to the controllers of a radio.
   virtual void deliver(Radio at, const Packet& packet) = 0;
-  // It goes no further from here.
+  // Drops it here.
   virtual void end(const Packet& packet, Outcome outcome) = 0;
-  // Keeps it until a way is known; ends it if too many wait.
+  // Keeps it until a route is found; drops it if too many wait.
   virtual void park(Radio at, Packet packet) = 0;
   virtual std::vector<Packet> unpark(Radio at, Radio target) = 0;
-  // Whether the radio sees the request for the first time. The same as a memory of each radio that forgets nothing.
+  // True at the radio's first reception of the request. Equals an unlimited memory of each radio.
   virtual bool is_first(Radio at, const Packet& packet) = 0;
 };
 
@@ -35,7 +35,7 @@ class Protocol {
   virtual ~Protocol() = default;
   virtual void originate(Fabric& fabric, Radio at, Packet packet) = 0;
   virtual void receive(Fabric& fabric, Radio at, Radio from, Packet packet) = 0;
-  // A packet to a neighbour did not arrive: the network's acknowledgements tell.
+  // A packet to a neighbour did not arrive, by the network's acknowledgements.
   virtual void lost_neighbour(Fabric&, Radio /*at*/, Radio /*neighbour*/) {}
   virtual void forget(Radio /*at*/) {}  // it left
   virtual void pass_time(Fabric&) {}

@@ -7,7 +7,7 @@
 namespace muster::routing {
 namespace {
 
-// So much of a packet tells it from the others of its sender.
+// Key of a packet, by its first bytes: unique among its sender's.
 std::uint64_t head_of(std::string_view bytes) { return key_of(bytes.substr(0, 40)); }
 
 double under_way(const Traffic& t) {
@@ -57,7 +57,7 @@ void Router::look(const Step& k, Protocol& protocol) {
     alive_[i] = k.alive("radio", i);
     if (!alive_[i]) clear(i, protocol);
     if (protocol.parks()) continue;
-    // What a protocol that was swapped away has parked.
+    // Packets that a protocol swapped out since has parked.
     for (Packet& packet : std::exchange(nodes_[i].parked, {})) {
       drop_copy(packet.journey);
       protocol.originate(*this, i, std::move(packet));
@@ -65,7 +65,7 @@ void Router::look(const Step& k, Protocol& protocol) {
   }
 }
 
-// A radio that left takes what it holds with it.
+// Drops all packets of a radio that left.
 void Router::clear(Radio at, Protocol& protocol) {
   Node& node = nodes_[at];
   for (const Queued& queued : node.queue) end(queued.packet, Outcome::gone), drop_copy(queued.packet.journey);
@@ -140,7 +140,7 @@ void Router::take_requests(const Step& k, Protocol& protocol) {
   }
 }
 
-// Control goes first, for data wait for it.
+// Control packets go first, for data wait for them.
 void Router::send(Radio at, Radio to, Packet packet) {
   auto& queue = nodes_[at].queue;
   if (packet.kind == Packet::Kind::control) {
@@ -170,7 +170,7 @@ std::vector<Packet> Router::unpark(Radio at, Radio target) {
   return result;
 }
 
-// A late packet of a request that counted as lost already is dropped.
+// Drops a late packet of a request that already counted as lost.
 void Router::deliver(Radio at, const Packet& packet) {
   const auto journey = journeys_.find(packet.journey);
   if (journey == journeys_.end() || !journey->second.receivers.has(at)) return;
@@ -207,7 +207,7 @@ void Router::hand_over(const Step& k) {
     node.asked = k[traffic_][i].asked;
     node.under_way = under_way(k[traffic_][i]);
     node.least = 0;
-    // A hop may take 10 s, and a second for each kilobyte.
+    // Time limit of a hop: 10 s, and a second for each kilobyte.
     node.patience = now_ + 10;
     for (const auto& [to, packet] : node.queue) {
       const std::string bytes = encoded(packet);
@@ -235,7 +235,7 @@ void Router::drop_copy(std::uint32_t journey) {
   if (found != journeys_.end()) --found->second.copies;
 }
 
-// Requests of which no copy is left anywhere.
+// Closes requests of which no copy is left.
 void Router::close() {
   for (auto each = journeys_.begin(); each != journeys_.end();) {
     const Journey& journey = each->second;

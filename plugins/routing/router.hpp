@@ -1,5 +1,5 @@
-// A routing protocol on the blackboard: a stage of the outbox, where requests become packets for neighbours, and a
-// stage of the inbox, where packets become messages again. Counts what becomes of each request.
+// Connects a routing protocol to the blackboard: a stage of the outbox turns requests into packets for neighbours, and
+// a stage of the inbox turns packets into messages. Counts the outcomes of each request.
 #pragma once
 
 #include <array>
@@ -16,14 +16,14 @@ namespace muster::routing {
 class Router final : private Fabric {
  public:
   static constexpr auto phase = MUSTER_SENSE;
-  // Each plugin declares it.
+  // Parameter that each plugin declares.
   static constexpr Param queue_param = integer("queue", 64, 1, 1e6, "packets that may wait at a radio");
 
   explicit Router(Setup& s);
   void step(const Step& k, Protocol& protocol);
 
  private:
-  // All that is remembered from step to step, as bytes.
+  // The whole state from step to step, as bytes.
   struct State {
     static constexpr const char* columns = "router{} protocol{}";
     double router, protocol;
@@ -31,8 +31,8 @@ class Router final : private Fabric {
 
   struct Journey {
     Radio origin = 0;
-    medium::Receivers receivers;  // those whom it has not reached
-    std::uint32_t copies = 0;     // queued, given to the network, or parked
+    medium::Receivers receivers;  // receivers not yet reached
+    std::uint32_t copies = 0;     // copies queued, given to the network, or parked
     Outcome worst = Outcome::lost;
     std::vector<std::uint8_t> seen;  // by radio
   };
@@ -49,11 +49,11 @@ class Router final : private Fabric {
   struct Node {
     std::deque<Queued> queue;
     std::vector<Packet> parked;
-    // The packets that the network has now; the next ones follow when it is done with all of them.
+    // The packets now in the network; the next ones follow when it has finished all of them.
     std::vector<Given> given;
-    double asked = 0, under_way = 0;  // of the radio's counts, when they were given
-    double least = 0;                 // by how much `asked` grows at least
-    double patience = 0;              // when they count as lost anyway
+    double asked = 0, under_way = 0;  // the radio's counts at that time
+    double least = 0;                 // least growth of `asked`
+    double patience = 0;              // time at which they count as lost in any case
   };
 
   double now() const override { return now_; }
@@ -99,7 +99,7 @@ class Router final : private Fabric {
   double now_ = 0;
   std::size_t limit_ = 0;
   std::vector<std::uint8_t> alive_;
-  const Incoming* hop_ = nullptr;  // the arrival that is looked at
+  const Incoming* hop_ = nullptr;  // the arrival being processed
   std::size_t delivered_ = 0;
   std::vector<double> asked_;
   std::vector<std::array<double, static_cast<std::size_t>(Outcome::count)>> outcomes_;

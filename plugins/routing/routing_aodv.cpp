@@ -1,4 +1,4 @@
-// Ways are looked for when they are needed.
+// Routing on demand: AODV.
 #include <algorithm>
 
 #include "aodv.hpp"

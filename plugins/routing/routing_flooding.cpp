@@ -1,4 +1,4 @@
-// Everyone says once what it hears.
+// Flooding: each radio repeats every packet once.
 #include "router.hpp"
 
 namespace {

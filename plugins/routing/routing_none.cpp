@@ -1,4 +1,4 @@
-// Messages go to whom their sender reaches itself.
+// Single-hop messages: no relaying.
 #include "router.hpp"
 
 namespace {

@@ -1,4 +1,4 @@
-// Messages go along a table that somebody wrote.
+// Static routing by a table in a file.
 #include "router.hpp"
 
 namespace {
@@ -33,7 +33,7 @@ struct Table final : Protocol {
   }
 
   std::uint8_t ttl = 1;
-  std::map<std::pair<Radio, Radio>, Radio> ways;  // who has it, for whom: to whom it goes
+  std::map<std::pair<Radio, Radio>, Radio> ways;  // by holder and target: the next hop
 };
 
 struct RoutingStatic {

@@ -1,4 +1,4 @@
-// What the rays of a laser meet first.
+// Ray casting of a laser: the first hit of each ray.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -12,7 +12,7 @@
 
 namespace muster {
 
-// What may stand in a laser's way: a shape, and the box around it in the shape's own frame.
+// An obstacle for lasers: a shape, and the box around it in the shape's own frame.
 struct Solid {
   description::Shape shape;
   Eigen::AlignedBox3d box;
@@ -21,19 +21,19 @@ struct Solid {
       : shape(of), box(description::bounds({Eigen::Isometry3d::Identity(), of.geometry})) {}
 };
 
-// The rays of one laser, and how far each gets.
+// The rays of one laser, and their ranges.
 class Fan {
  public:
-  // What begins beyond `reach` [m] need not be met.
+  // Obstacles beyond `reach` [m] may be skipped.
   Fan(const description::Laser& laser, double reach)
       : laser_(laser),
         reach_(reach),
         ranges_(static_cast<std::size_t>(laser.samples), std::numeric_limits<double>::infinity()) {}
 
-  // Infinite where nothing was met.
+  // Infinite for a ray without a hit.
   const std::vector<double>& ranges() const { return ranges_; }
 
-  // A level ground, `height` under the laser; `down` in its frame.
+  // A level ground, `height` below the laser; `down` in its frame.
   void meet_ground(double height, const Eigen::Vector3d& down) {
     for (std::size_t i = 0; i < ranges_.size(); ++i) {
       const double sinks = way(i).dot(down);
@@ -41,7 +41,7 @@ class Fan {
     }
   }
 
-  // A solid on something whose frame, in the laser's, is this.
+  // A solid fixed to a frame, which is given in the laser's.
   void meet(const Solid& solid, const Eigen::Isometry3d& frame) {
     const Eigen::Isometry3d pose = frame * solid.shape.pose, seen = pose.inverse();
     Eigen::Matrix<double, 3, 8> corners;
@@ -66,13 +66,13 @@ class Fan {
   }
   void shorten(std::size_t i, double range) { ranges_[i] = std::min(ranges_[i], range); }
 
-  // Calls visit(i) for each ray that may meet what lies between the corners.
+  // Calls visit(i) for each ray that may hit anything between the corners.
   template <class Visit>
   void between(const Eigen::Matrix<double, 2, 8>& corners, const Visit& visit) const {
     constexpr double turn = 6.283185307179586, slack = 1e-9;  // [rad], slack: of rounding
     const Eigen::Vector2d middle = corners.rowwise().mean();
     const double towards = std::atan2(middle.y(), middle.x());
-    double right = 0, left = 0;  // how far they reach to both sides of that
+    double right = 0, left = 0;  // angular extent to both sides of that
     for (int i = 0; i < 8; ++i) {
       const double off = std::remainder(std::atan2(corners(1, i), corners(0, i)) - towards, turn);
       right = std::min(right, off);

@@ -1,4 +1,4 @@
-// Where a ray enters a solid: everything in the frame of the solid, in double precision.
+// Intersection of a ray with solids: all in the solid's frame, in double precision.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -14,7 +14,7 @@ struct Ray {
   Eigen::Vector3d from, way;  // way: of length 1
 };
 
-// How far along the ray a solid begins, 0 from inside of it, infinity where the ray misses it.
+// Distance along the ray to a solid, 0 from inside it, infinity if the ray misses it.
 inline double entry(const Ray& ray, const Eigen::AlignedBox3d& box) {
   constexpr double never = std::numeric_limits<double>::infinity();
   double in = 0, out = never;
@@ -37,7 +37,7 @@ inline double entry(const Ray& ray, const description::Box& box) {
 
 namespace detail {
 
-// Where a ray is inside of something round: a t2 + 2 b t + c <= 0; empty where in > out.
+// Interval of a ray inside a round shape: a t2 + 2 b t + c <= 0; empty if in > out.
 struct Inside {
   double in, out;
 };
@@ -71,7 +71,7 @@ inline double entry(const Ray& ray, const description::Cylinder& cylinder) {
   return in <= out ? in : never;
 }
 
-// The nearest of its faces, from whichever side (Moeller and Trumbore 1997).
+// The nearest of its faces, from either side (Moeller and Trumbore 1997).
 inline double entry(const Ray& ray, const description::Mesh& mesh) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const auto& face : mesh.faces) {
@@ -79,7 +79,7 @@ inline double entry(const Ray& ray, const description::Mesh& mesh) {
     const Eigen::Vector3d one = mesh.vertices[face[1]] - corner, other = mesh.vertices[face[2]] - corner;
     const Eigen::Vector3d across = ray.way.cross(other);
     const double volume = one.dot(across);
-    if (volume == 0) continue;  // along the face
+    if (volume == 0) continue;  // parallel to the face
     const Eigen::Vector3d to = ray.from - corner, up = to.cross(one);
     const double u = to.dot(across) / volume, v = ray.way.dot(up) / volume, t = other.dot(up) / volume;
     if (u >= 0 && v >= 0 && u + v <= 1 && t >= 0) nearest = std::min(nearest, t);

@@ -1,4 +1,4 @@
-// Lasers that sweep the plane they lie in: walls, doors, the ground and other robots.
+// Lasers that sweep their plane: walls, doors, the ground and other robots.
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -78,7 +78,7 @@ struct SensorsLaser {
 
   std::vector<double> seen(const Step& k, std::size_t self, const Isometry3d& laser_pose,
                            const description::Laser& laser, const std::vector<Solid>& walls) const {
-    // What noise may bring within its range is looked at, too.
+    // Includes hits that noise may bring within its range.
     Fan fan(laser, laser.max_range + 6 * deviation(k, laser.max_range));
     const Isometry3d world = laser_pose.inverse();
     for (const Solid& solid : walls) fan.meet(solid, world);
@@ -156,7 +156,7 @@ struct SensorsLaser {
     return result;
   }
 
-  // A robot's body and wheels, which are round: however far one has turned.
+  // A robot's body and its wheels, which are round and independent of their angle.
   static std::vector<Solid> solids_of(const description::Robot& robot) {
     std::vector<Solid> result;
     for (const auto& shape : rigid_shapes(robot, 0)) result.emplace_back(shape);
