@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <cstdlib>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "diagnosis/data/dataset.hpp"
 #include "diagnosis/pipeline/closed_loop.hpp"
+#include "diagnosis/pipeline/diagnose.hpp"
 #include "diagnosis/report/figures.hpp"
 #include "diagnosis/report/folder.hpp"
 #include "diagnosis/report/json.hpp"
@@ -107,7 +109,7 @@ TEST_F(Report, JsonIsAsItsPageSays) {
 }
 
 TEST_F(Report, JsonHoldsWhatWasFound) {
-  const Json json = json_of(*found);
+  const Json json = Json::parse(json_of(*found).dump());
   EXPECT_EQ(json.begin().key(), "verdict");
   EXPECT_EQ(json["verdict"], "extended");
   const Json& cause = json["causes"].at(0);
