@@ -7,7 +7,7 @@
 #include "diagnosis/inference/state/problem.hpp"
 #include "diagnosis/prediction/sensitivities.hpp"
 #include "diagnosis/radio/causes/simulated_readings.hpp"
-#include "diagnosis/radio/links/link_observations.hpp"
+#include "diagnosis/pipeline/link_observations.hpp"
 
 namespace muster::diagnosis {
 

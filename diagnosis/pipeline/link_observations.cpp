@@ -1,4 +1,4 @@
-#include "diagnosis/radio/links/link_observations.hpp"
+#include "diagnosis/pipeline/link_observations.hpp"
 
 #include <cmath>
 #include <set>
