@@ -29,7 +29,7 @@ class Hexapods {
       : rdk_(description::read_robot(MUSTER_SOURCE_DIR "/plugins/robots/models/rdk.urdf")), model_(rdk_) {
     std::vector<NamedRobot> robots;
     for (int i = 0; i < count; ++i) robots.push_back({std::string("r").append(std::to_string(i)), &rdk_});
-    crew_ = std::make_unique<Crew>(robots);
+    crew_ = std::make_unique<RobotModels>(robots);
     state_ = crew_->system().state;
     std::mt19937 random(7);
     const auto draw = [&] { return static_cast<double>(random()) / 2147483648.0 - 1; };
@@ -109,7 +109,7 @@ class Hexapods {
 
   description::Robot rdk_;
   RobotModel model_;
-  std::unique_ptr<Crew> crew_;
+  std::unique_ptr<RobotModels> crew_;
   SimTK::State state_;
   std::vector<Matrix3d> to_world_;
   std::vector<LegAngles> angle_;

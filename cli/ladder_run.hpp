@@ -5,7 +5,7 @@
 
 namespace muster::cli {
 
-struct LadderWords : WorldWords {
+struct LadderWords : RunOptions {
   std::string world;
   std::vector<std::string> metrics;
 };

@@ -17,7 +17,7 @@
 namespace muster::cli {
 namespace {
 
-struct RunWords : WorldWords {
+struct RunWords : RunOptions {
   std::string world, save, restore;
   uint64_t digest_every = 0;
   bool watch = false, expected = false;
@@ -27,7 +27,7 @@ struct RunWords : WorldWords {
 
 void declare(CommandLine& line, RunWords& words) {
   line.option("world", words.world, "the world's folder or file").required();
-  declare(line, static_cast<WorldWords&>(words));
+  declare(line, static_cast<RunOptions&>(words));
   line.option("--save", words.save, "write the state at the end to this file");
   line.option("--restore", words.restore, "begin from a state that --save wrote");
   line.option("--digest-every", words.digest_every, "print the digest every so many ticks");

@@ -9,7 +9,7 @@
 namespace muster::cli {
 
 // What may be given several times takes one word each time: the words of a verb may follow it.
-void declare(CommandLine& line, WorldWords& words) {
+void declare(CommandLine& line, RunOptions& words) {
   line.option("--workers", words.workers, "threads; the results do not depend on it").within(1, 256);
   line.option("--until", words.until, "end of the run in seconds, instead of the world's");
   line.option("--seed", words.seed, "seed of all random numbers, instead of the world's");
@@ -26,7 +26,7 @@ double real_of(const std::string& text, const char* option) {
   return *value;
 }
 
-World world_of(const std::string& path, const WorldWords& words) {
+World world_of(const std::string& path, const RunOptions& words) {
   World world = read_world(path, standard());
   if (words.until) world.ticks = ticks_of(real_of(*words.until, "--until"), world.dt, {"--until"});
   if (words.seed) {

@@ -9,7 +9,7 @@
 
 namespace muster::cli {
 
-struct WorldWords {
+struct RunOptions {
   std::vector<std::string> plugins, record, set;
   std::string out;
   int workers = 1;
@@ -17,13 +17,13 @@ struct WorldWords {
   bool json = false;
 };
 
-void declare(CommandLine& line, WorldWords& words);
+void declare(CommandLine& line, RunOptions& words);
 
 // The number, or Error that names the option.
 double real_of(const std::string& text, const char* option);
 
 // The world as its file has it, with what the words say instead. Throws Error.
-World world_of(const std::string& path, const WorldWords& words);
+World world_of(const std::string& path, const RunOptions& words);
 
 // Each "PATH=VALUE". Throws Error.
 void set_parameters(Simulation& run, const std::vector<std::string>& given);

@@ -82,7 +82,7 @@ void hear(const Case& made, const Field& field, Data& data, const std::string& r
         use[static_cast<std::size_t>(i)] ? reported(made.hidden, level[i]) : std::numeric_limits<double>::quiet_NaN();
 }
 
-Eigen::VectorXd expected_shift(const Site& site, const std::vector<Hidden>& hidden, const Data& data) {
+Eigen::VectorXd expected_shift(const GroundTruth& site, const std::vector<Hidden>& hidden, const Data& data) {
   Eigen::VectorXd sum = mean_shift(hidden, data);
   for (const Hidden& h : hidden)
     if (h.effect.acts == Acts::receiver) sum += received_shift(site, h.effect, h.strength, data, sum).shift;
@@ -93,7 +93,7 @@ namespace {
 
 // A site with its effects, without readings; another attempt draws another site.
 Case hidden_in(const std::string& name, std::uint64_t seed, const Order& order) {
-  Case made{name, seed, order, std::make_shared<Site>(draw_site(seed, needs_of(order), order.rows, order.walls)),
+  Case made{name, seed, order, std::make_shared<GroundTruth>(draw_site(seed, needs_of(order), order.rows, order.walls)),
             {},   {},   {},    {}};
   made.measured = draw_data(*made.site, seed, "measured");
   made.second = draw_data(*made.site, seed, "second");

@@ -34,7 +34,7 @@ struct Case {
   std::string name;
   std::uint64_t seed = 0;  // of its site; a fresh one if the case's own could not give the requested lambdas
   Order order;
-  std::shared_ptr<Site> site;  // the effects refer to it
+  std::shared_ptr<GroundTruth> site;  // the effects refer to it
   Data measured, second;
   std::vector<Hidden> hidden;
   Oracle oracle;
@@ -45,7 +45,7 @@ Case make_case(const std::string& name, std::uint64_t seed, const Order& order);
 Case remake_case(const std::string& name, std::uint64_t site_seed, const Order& order);
 
 // Sum of all effects' mean shifts, the receiver's included, expected over the noise.
-Eigen::VectorXd expected_shift(const Site& site, const std::vector<Hidden>& hidden, const Data& data);
+Eigen::VectorXd expected_shift(const GroundTruth& site, const std::vector<Hidden>& hidden, const Data& data);
 
 std::vector<char> heard(const Data& data);
 

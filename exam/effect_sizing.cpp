@@ -229,7 +229,7 @@ std::vector<char> telling(const Case& made, const Data& data) {
   return result;
 }
 
-ReceivedShift received_shift(const Site& site, const Effect& effect, double strength, const Data& data,
+ReceivedShift received_shift(const GroundTruth& site, const Effect& effect, double strength, const Data& data,
                              const Eigen::VectorXd& before) {
   const double deviation =
       std::sqrt(site.noise.field.sigma * site.noise.field.sigma + reading_variance(site.noise.reading));

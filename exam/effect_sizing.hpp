@@ -11,7 +11,7 @@ struct ReceivedShift {
 };
 
 // Mean effect of a receiver's stage on readings with the mean of the base model plus `before`.
-ReceivedShift received_shift(const Site& site, const Effect& effect, double strength, const Data& data,
+ReceivedShift received_shift(const GroundTruth& site, const Effect& effect, double strength, const Data& data,
                              const Eigen::VectorXd& before);
 
 // Readings that determine their level: received, and not at a code that the receiver reports for other levels too.

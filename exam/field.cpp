@@ -106,7 +106,7 @@ CorrelationTable::CorrelationTable(const FieldLaw& law) {
   for (int i = 0; i < 60 * per_metre; ++i) values_.push_back(correlation(law, i / per_metre));
 }
 
-Field::Field(const Site& site, std::uint64_t seed) : plan_(site.plan), law_(site.noise.field) {
+Field::Field(const GroundTruth& site, std::uint64_t seed) : plan_(site.plan), law_(site.noise.field) {
   columns_ = static_cast<std::size_t>(plan_.whole.high.x / pitch) + 2;
   rows_ = static_cast<std::size_t>(plan_.whole.high.y / pitch) + 2;
   const double tail = 4 * law_.decorrelation / pitch;

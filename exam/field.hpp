@@ -28,7 +28,7 @@ class CorrelationTable {
 class Field {
  public:
   // Draws one field for each station and a shared one, over the plan.
-  Field(const Site& site, std::uint64_t seed);
+  Field(const GroundTruth& site, std::uint64_t seed);
 
   // dB at a robot's place.
   double operator()(int station, Vec2 world) const;

@@ -14,20 +14,20 @@
 namespace muster::exam {
 namespace {
 
-int station_called(const Site& site, const std::string& name) {
+int station_called(const GroundTruth& site, const std::string& name) {
   for (std::size_t k = 0; k < site.plan.stations.size(); ++k)
     if (site.plan.stations[k].name == name) return static_cast<int>(k);
   return -1;
 }
 
-int robot_called(const Site& site, const std::string& name) {
+int robot_called(const GroundTruth& site, const std::string& name) {
   for (int k = 0; k < site.robots; ++k)
     if (robot_name(k) == name) return k;
   return -1;
 }
 
 // Surroundings of another run at that time; runs follow each other.
-Reading surroundings(const Site& site, const Data& run, double t, int robot) {
+Reading surroundings(const GroundTruth& site, const Data& run, double t, int robot) {
   const std::size_t per_robot = site.plan.stations.size() * (site.two_way ? 2 : 1);
   const double tick = std::fmod(t, site.duration()) / site.period;
   const auto i = static_cast<std::size_t>(std::clamp(tick, 0.0, site.ticks - 1.0));
@@ -42,7 +42,7 @@ struct Ends {
   double station_yaw, robot_yaw;
 };
 
-Ends ends_of(const Site& site, const Asked& a) {
+Ends ends_of(const GroundTruth& site, const PlannedReadings& a) {
   const int sends = station_called(site, a.tx), hears = station_called(site, a.rx);
   const bool up = sends < 0;
   const Ends down{sends, robot_called(site, a.rx), false, a.tx_at, a.rx_at, a.tx_yaw, a.rx_yaw};
@@ -52,7 +52,7 @@ Ends ends_of(const Site& site, const Asked& a) {
   return ends;
 }
 
-Reading reading_of(const Site& site, const Data& run, const Ends& ends, double t) {
+Reading reading_of(const GroundTruth& site, const Data& run, const Ends& ends, double t) {
   Reading r = surroundings(site, run, t, ends.robot);
   r.t = t;
   r.station = ends.station;
@@ -101,11 +101,11 @@ Case read_case(const std::filesystem::path& answer) {
   }
 }
 
-std::string followed_csv(Case made, const std::vector<Asked>& asked) {
+std::string followed_csv(Case made, const std::vector<PlannedReadings>& asked) {
   std::string out = readings_csv(*made.site, made.measured);
   const Data run = draw_data(*made.site, made.seed, "asked");
   std::vector<Ends> ends;
-  for (const Asked& a : asked) ends.push_back(ends_of(*made.site, a));
+  for (const PlannedReadings& a : asked) ends.push_back(ends_of(*made.site, a));
   const bool moved = move_stations(made, ends);
   std::vector<Reading> readings;
   readings.reserve(asked.size());

@@ -15,6 +15,6 @@ Case read_case(const std::filesystem::path& answer);
 
 // measured.csv of the case with the planned readings appended, from the same truth and field. A station moved by the
 // plan has a known place and new shadowing. Throws std::runtime_error for a radio that is not in the case.
-std::string followed_csv(Case made, const std::vector<Asked>& asked);
+std::string followed_csv(Case made, const std::vector<PlannedReadings>& asked);
 
 }  // namespace muster::exam

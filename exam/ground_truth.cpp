@@ -66,21 +66,23 @@ int setting_at(Random& random, double t, double duration, double& until, int now
 
 }  // namespace
 
-Vec3 place_of(const Site& site, const Reading& r) { return site.plan.stations[static_cast<std::size_t>(r.station)].at; }
+Vec3 place_of(const GroundTruth& site, const Reading& r) {
+  return site.plan.stations[static_cast<std::size_t>(r.station)].at;
+}
 
 double distance_of(Vec3 a, Vec3 b) { return std::max(0.01, std::hypot(a.x - b.x, a.y - b.y, a.z - b.z)); }
 
-double robot_bearing(const Site& site, const Reading& r) {
+double robot_bearing(const GroundTruth& site, const Reading& r) {
   const Vec3 s = place_of(site, r);
   return wrapped(std::atan2(s.y - r.at.y, s.x - r.at.x) - r.yaw);
 }
 
-double station_bearing(const Site& site, const Reading& r) {
+double station_bearing(const GroundTruth& site, const Reading& r) {
   const Vec3 s = place_of(site, r);
   return wrapped(std::atan2(r.at.y - s.y, r.at.x - s.x) - site.plan.stations[static_cast<std::size_t>(r.station)].yaw);
 }
 
-Eigen::RowVectorXd design_row(const Site& site, const std::vector<Crossing>& crossed, Vec3 a, Vec3 b) {
+Eigen::RowVectorXd design_row(const GroundTruth& site, const std::vector<Crossing>& crossed, Vec3 a, Vec3 b) {
   Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(2 + static_cast<Eigen::Index>(site.plan.materials.size()));
   row[0] = 1;
   row[1] = -10 * std::log10(distance_of(a, b));
@@ -88,7 +90,7 @@ Eigen::RowVectorXd design_row(const Site& site, const std::vector<Crossing>& cro
   return row;
 }
 
-Data data_of(const Site& site, std::vector<Reading> readings) {
+Data data_of(const GroundTruth& site, std::vector<Reading> readings) {
   Data data;
   data.readings = std::move(readings);
   data.design.resize(static_cast<Eigen::Index>(data.size()), 2 + static_cast<Eigen::Index>(site.plan.materials.size()));
@@ -101,7 +103,7 @@ Data data_of(const Site& site, std::vector<Reading> readings) {
   return data;
 }
 
-Eigen::VectorXd coefficients(const Site& site) {
+Eigen::VectorXd coefficients(const GroundTruth& site) {
   Eigen::VectorXd result(2 + static_cast<Eigen::Index>(site.plan.materials.size()));
   result[0] = site.base.level_at_1m;
   result[1] = site.base.n;
@@ -110,9 +112,9 @@ Eigen::VectorXd coefficients(const Site& site) {
   return result;
 }
 
-Site draw_site(std::uint64_t seed, const SiteNeeds& needs, int rows, const std::string& walls) {
+GroundTruth draw_site(std::uint64_t seed, const SiteNeeds& needs, int rows, const std::string& walls) {
   Random random(seed, "site");
-  Site site;
+  GroundTruth site;
   PlanNeeds plan = needs.plan;
   plan.corridor_station = plan.corridor_station || random.chance(0.4);
   plan.high_stations = plan.high_stations || random.chance(0.2);
@@ -140,7 +142,7 @@ Site draw_site(std::uint64_t seed, const SiteNeeds& needs, int rows, const std::
   return site;
 }
 
-Data draw_data(const Site& site, std::uint64_t seed, const std::string& name) {
+Data draw_data(const GroundTruth& site, std::uint64_t seed, const std::string& name) {
   Random random(seed, "run " + name), building(seed, "climate");
   const Floor floor(site.plan);
   const SlowCurve climate(building, site.duration());

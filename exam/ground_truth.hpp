@@ -39,7 +39,7 @@ struct Base {
   double stated_l0 = 40, stated_n = 2;  // in the world file: start of a fit
 };
 
-struct Site {
+struct GroundTruth {
   Plan plan;
   Base base;
   Noise noise;
@@ -81,18 +81,18 @@ struct Data {
   std::size_t size() const { return readings.size(); }
 };
 
-Vec3 place_of(const Site& site, const Reading& r);
+Vec3 place_of(const GroundTruth& site, const Reading& r);
 double distance_of(Vec3 a, Vec3 b);
 // Bearing of the station from the robot, relative to its heading; and of the robot from the station, relative to the
 // station's.
-double robot_bearing(const Site& site, const Reading& r);
-double station_bearing(const Site& site, const Reading& r);
+double robot_bearing(const GroundTruth& site, const Reading& r);
+double station_bearing(const GroundTruth& site, const Reading& r);
 
 // Readings with their links' crossings and their design matrix.
-Data data_of(const Site& site, std::vector<Reading> readings);
+Data data_of(const GroundTruth& site, std::vector<Reading> readings);
 // One row of the design matrix, for radios at other places than on the map.
-Eigen::RowVectorXd design_row(const Site& site, const std::vector<Crossing>& crossed, Vec3 a, Vec3 b);
-Eigen::VectorXd coefficients(const Site& site);
+Eigen::RowVectorXd design_row(const GroundTruth& site, const std::vector<Crossing>& crossed, Vec3 a, Vec3 b);
+Eigen::VectorXd coefficients(const GroundTruth& site);
 
 struct SiteNeeds {
   PlanNeeds plan;
@@ -101,8 +101,8 @@ struct SiteNeeds {
 };
 
 // `walls`: the plan, as a table; empty: one is drawn.
-Site draw_site(std::uint64_t seed, const SiteNeeds& needs, int rows, const std::string& walls = {});
+GroundTruth draw_site(std::uint64_t seed, const SiteNeeds& needs, int rows, const std::string& walls = {});
 // Draws a run over the site, a different one for each `name`.
-Data draw_data(const Site& site, std::uint64_t seed, const std::string& name);
+Data draw_data(const GroundTruth& site, std::uint64_t seed, const std::string& name);
 
 }  // namespace muster::exam

@@ -21,9 +21,9 @@ using namespace muster::exam;
 
 constexpr const char* usage = R"(muster_exam: sealed cases for radio diagnosis
 
-  muster_exam make --seed S --cases N --out DIR [--mix clean,one,two,three,outside | each] [--rows MIN MAX]
+  muster_exam make --seed S --cases N --out DIR [--mix clean,one,two,three,outside | mixed | each] [--rows MIN MAX]
                    [--lambda L[,M] | --size weak|medium|strong] [--effects ID,ID...] [--first N] [--walls FILE]
-      "each": every effect in turn, those outside the vocabulary among them; without --mix "three" is left out.
+      "each": every effect in turn, those outside the vocabulary among them; "mixed", as without --mix: all but three.
       --walls: the floor plan of all cases, a table as worlds refer to (walls.csv); without it each case draws its own.
       writes DIR/case_0001/{world.xml, walls.csv, measured.csv, second.csv} ... and DIR/answers/case_0001.json ...
   muster_exam run DIR [--reports DIR] [--command COMMAND] [--jobs N]
@@ -117,7 +117,8 @@ void set_sizes(Syllabus& syllabus, const Arguments& arguments) {
 Syllabus syllabus_of(const Arguments& arguments) {
   Syllabus syllabus;
   syllabus.seed = number<std::uint64_t>(required(arguments, "--seed"), 0, ~std::uint64_t{0});
-  if (const auto at = arguments.find("--mix"); at != arguments.end()) syllabus.kinds = listed(at->second[0]);
+  if (const auto at = arguments.find("--mix"); at != arguments.end() && at->second[0] != "mixed")
+    syllabus.kinds = listed(at->second[0]);
   const std::set<std::string> kinds{"clean", "one", "two", "three", "outside", "each"};
   for (const std::string& kind : syllabus.kinds)
     if (!kinds.contains(kind))
@@ -202,7 +203,7 @@ int follow(int argc, char** argv) {
   const auto given = arguments.find("");
   if (given == arguments.end() || given->second.size() != 1)
     throw std::invalid_argument("expected one answer, as make wrote it");
-  const std::vector<Asked> asked = read_plan(read_file(required(arguments, "--plan")));
+  const std::vector<PlannedReadings> asked = read_plan(read_file(required(arguments, "--plan")));
   write_file(required(arguments, "--out"), followed_csv(read_case(given->second[0]), asked));
   return 0;
 }

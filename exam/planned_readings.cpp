@@ -14,14 +14,15 @@ Vec3 place(const Line& line, const std::string& end) {
 
 }  // namespace
 
-std::vector<Asked> read_plan(const std::string& csv) {
+std::vector<PlannedReadings> read_plan(const std::string& csv) {
   const Table table("plan", csv);
-  std::vector<Asked> result;
+  std::vector<PlannedReadings> result;
   for (const Line& line : table.lines())
     result.push_back({line.number("t[s]"), line.text("tx"), line.text("rx"), place(line, "tx"), place(line, "rx"),
                       line.number("tx_yaw[rad]"), line.number("rx_yaw[rad]")});
   if (result.empty()) throw std::runtime_error("plan: no readings are asked for");
-  std::stable_sort(result.begin(), result.end(), [](const Asked& a, const Asked& b) { return a.t < b.t; });
+  std::stable_sort(result.begin(), result.end(),
+                   [](const PlannedReadings& a, const PlannedReadings& b) { return a.t < b.t; });
   return result;
 }
 

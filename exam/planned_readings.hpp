@@ -8,7 +8,7 @@
 
 namespace muster::exam {
 
-struct Asked {
+struct PlannedReadings {
   double t = 0;  // s
   std::string tx, rx;
   Vec3 tx_at, rx_at;
@@ -17,6 +17,6 @@ struct Asked {
 
 // Reads columns t[s], tx and rx, and _x[m], _y[m], _z[m] and _yaw[rad] of both, in any order. Sorted by time. Throws
 // std::runtime_error with the line.
-std::vector<Asked> read_plan(const std::string& csv);
+std::vector<PlannedReadings> read_plan(const std::string& csv);
 
 }  // namespace muster::exam

@@ -89,7 +89,7 @@ std::string world_xml(const Case& made) {
   return out + "</world>\n";
 }
 
-std::string readings_csv(const Site& site, const Data& data) {
+std::string readings_csv(const GroundTruth& site, const Data& data) {
   std::string out =
       "t[s],tx,rx,tx_x[m],tx_y[m],tx_z[m],tx_yaw[rad],rx_x[m],rx_y[m],rx_z[m],rx_yaw[rad],rssi[dBm],"
       "battery[V],temperature[degC],speed[m/s]";

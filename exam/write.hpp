@@ -9,7 +9,7 @@ namespace muster::exam {
 
 std::string world_xml(const Case& made);
 std::string walls_csv(const Plan& plan);
-std::string readings_csv(const Site& site, const Data& data);
+std::string readings_csv(const GroundTruth& site, const Data& data);
 std::string answer_json(const Case& made);
 
 // folder/NAME/{world.xml, walls.csv, measured.csv, second.csv} and folder/answers/NAME.json

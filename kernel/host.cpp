@@ -21,15 +21,15 @@ struct Host {
     try {
       return body();
     } catch (const Error& e) {
-      if (instance.said_.empty()) instance.said_ = e.what(), instance.fault_ = e.exit(), instance.refused_ = true;
+      if (instance.error_.empty()) instance.error_ = e.what(), instance.fault_ = e.exit(), instance.refused_ = true;
     } catch (const std::exception& e) {
-      if (instance.said_.empty()) instance.said_ = e.what();
+      if (instance.error_.empty()) instance.error_ = e.what();
     }
     return otherwise;
   }
 
   static void wrong(Instance& instance, const std::string& what) {
-    if (instance.said_.empty()) instance.said_ = what;
+    if (instance.error_.empty()) instance.error_ = what;
   }
 
   static int claim(const muster_host* host, uint32_t kind, uint32_t flags, const char* table, const char* columns) {
@@ -221,7 +221,7 @@ struct Host {
   static void error(const muster_host* host, const char* message) { wrong(of(host), message); }
 
   static void refuse(const muster_host* host, const char* message) {
-    if (of(host).said_.empty()) of(host).fault_ = Exit::invalid_input;
+    if (of(host).error_.empty()) of(host).fault_ = Exit::invalid_input;
     wrong(of(host), message);
   }
 

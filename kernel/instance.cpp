@@ -16,9 +16,9 @@ auto Instance::guarded(decltype(std::declval<Body>()()) otherwise, Body&& body) 
   try {
     return body();
   } catch (const std::exception& e) {
-    said_ = e.what();
+    error_ = e.what();
   } catch (...) {
-    said_ = "threw something that is not a std::exception";
+    error_ = "threw something that is not a std::exception";
   }
   return otherwise;
 }
@@ -41,8 +41,8 @@ Instance::Instance(InstanceDeclaration declaration, std::shared_ptr<Library> lib
   in_create_ = true;
   self_ = guarded(nullptr, [&] { return plugin_->create(&host_); });
   in_create_ = false;
-  if (guard.changed()) said_ = guard.what() + " for the whole process; expected it to leave the arithmetic as it was";
-  if (!self_ || !said_.empty()) {
+  if (guard.changed()) error_ = guard.what() + " for the whole process; expected it to leave the arithmetic as it was";
+  if (!self_ || !error_.empty()) {
     const Error error = failure("create", nullptr, said());
     if (self_) plugin_->destroy(self_);
     throw error;
@@ -53,9 +53,9 @@ Instance::Instance(InstanceDeclaration declaration, std::shared_ptr<Library> lib
 
 Instance::~Instance() {
   if (!self_) return;
-  said_.clear();
+  error_.clear();
   guarded(false, [&] { return plugin_->destroy(self_), true; });
-  if (!said_.empty()) around_.destroy_faults.push_back(failure("destroy", nullptr, said()).what());
+  if (!error_.empty()) around_.destroy_faults.push_back(failure("destroy", nullptr, said()).what());
 }
 
 std::string Instance::title() const {
@@ -121,7 +121,7 @@ void Instance::check_attributes() {
 
 Error Instance::failure(const std::string& callback, const muster_tick* tick, const std::string& said) {
   const Exit fault = std::exchange(fault_, Exit::plugin_fault);
-  said_.clear();
+  error_.clear();
   if (std::exchange(refused_, false)) return Error(fault, said);  // it includes its place
   const std::string where =
       tick ? " at tick " + std::to_string(tick->index) + " (t = " + print_real(tick->time) + " s)" : "";
@@ -187,7 +187,7 @@ void Instance::bind(uint64_t tick) {
 bool Instance::step(const muster_tick& now) noexcept {
   const double dt = around_.world->dt * static_cast<double>(every());
   const muster_tick tick{sizeof(muster_tick), now.flags, now.index, now.time, dt, params_.data()};
-  said_.clear();  // of a step that was taken back
+  error_.clear();  // of a step that was taken back
   fault_ = Exit::plugin_fault;
   refused_ = false;
   static thread_local const FloatGuard guard;  // as this thread was before any plugin ran on it
@@ -197,11 +197,11 @@ bool Instance::step(const muster_tick& now) noexcept {
       guarded(MUSTER_FAILED, [&] { return plugin_->step(self_, &tick, in_.data(), out_.data()); }) == MUSTER_OK;
   in_step_ = false;
   if (guard.changed()) {
-    said_ = guard.what() + " for the whole process; expected it to leave the arithmetic as it was";
+    error_ = guard.what() + " for the whole process; expected it to leave the arithmetic as it was";
     guard.restore();
     return false;
   }
-  return fine && said_.empty();
+  return fine && error_.empty();
 }
 
 }  // namespace muster

@@ -119,7 +119,7 @@ class Instance {
   // One call of step(); its error is kept in failure(). Never throws.
   bool step(const muster_tick& now) noexcept;
   // Message of the last failed callback, from the plugin or from the kernel on its behalf.
-  std::string said() const { return said_.empty() ? "gave no reason" : said_; }
+  std::string said() const { return error_.empty() ? "gave no reason" : error_; }
   // The error of a failed callback, whole, and ready for the next call.
   Error failure(const std::string& callback, const muster_tick* tick, const std::string& said);
 
@@ -154,7 +154,7 @@ class Instance {
   std::vector<Claim> claims_;
   std::vector<muster_in> in_;
   std::vector<muster_out> out_;
-  std::string said_;  // the plugin's message for its failure
+  std::string error_;  // the plugin's message for its failure
   Exit fault_ = Exit::plugin_fault;
   bool refused_ = false;  // the message is the kernel's own refusal
   bool in_create_ = false, in_step_ = false, direct_ = false;

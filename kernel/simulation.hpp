@@ -125,7 +125,7 @@ class Simulation {
 
   void run(uint64_t tick, uint32_t first, uint32_t last, uint32_t flags);
   void run_batch(Batch& batch, const muster_tick& tick);
-  bool stands(Instance& instance);
+  bool is_up_to_date(Instance& instance);
   void step_all(const muster_tick& tick);
   void check_sum(const Sum& sum, const muster_tick& tick) const;
   void take_back();
@@ -148,11 +148,11 @@ class Simulation {
   bool all_due_ = false;       // while one phase is evaluated
   // Of each instance in the last evaluation: its parameters, and the sum of its inputs' versions. Empty after anything
   // else has happened.
-  struct Stood {
+  struct CachedInputs {
     std::vector<double> params;
     uint64_t read = 0;
   };
-  std::map<const Instance*, Stood> stood_;
+  std::map<const Instance*, CachedInputs> stood_;
   uint32_t stood_flags_ = 0;
   std::vector<Instance*> due_;                        // of the batch that steps
   std::map<std::size_t, std::string> faults_;         // of those among them that failed; the first ends the tick

@@ -47,13 +47,13 @@ void Simulation::run(uint64_t index, uint32_t first, uint32_t last, uint32_t fla
 }
 
 // True if the instance would write the same as in the last evaluation; if not, it is due, and its inputs are noted.
-bool Simulation::stands(Instance& instance) {
+bool Simulation::is_up_to_date(Instance& instance) {
   uint64_t read = 0;
   for (const Claim& claim : instance.claims()) {
     if (claim.in && claim.in != claim.out) read += claim.in->version();
   }
   const auto [found, first] = stood_.try_emplace(&instance);
-  Stood& stood = found->second;
+  CachedInputs& stood = found->second;
   if (!first && stood.read == read && stood.params == instance.params()) return true;
   stood = {instance.params(), read};
   return false;
@@ -63,7 +63,7 @@ bool Simulation::stands(Instance& instance) {
 void Simulation::run_batch(Batch& batch, const muster_tick& tick) {
   due_.clear();
   for (Instance* instance : batch.instances) {
-    if (all_due_ && stands(*instance)) continue;
+    if (all_due_ && is_up_to_date(*instance)) continue;
     if (!all_due_ && instance->every() != 1 && tick.index % instance->every() != 0) continue;
     due_.push_back(instance);
     if (batch.any_shared && !instance->is_direct()) prepare_cells(*instance, tick.index);

@@ -135,17 +135,19 @@ class Board {
 
   void count(const Step& k, const Report& report) const {
     for (std::size_t i = 0; i < channel_.radios; ++i) {
-      const auto made = [&](Fate fate) { return static_cast<double>(report.fates[i][static_cast<std::size_t>(fate)]); };
+      const auto made = [&](DeliveryOutcome fate) {
+        return static_cast<double>(report.fates[i][static_cast<std::size_t>(fate)]);
+      };
       const Traffic& t = k.last(traffic_)[i];
-      k[traffic_][i] = {t.asked + made(Fate::under_way),
-                        t.delivered + made(Fate::delivered),
-                        t.too_weak + made(Fate::too_weak),
-                        t.no_link + made(Fate::no_link),
-                        t.collided + made(Fate::collided),
-                        t.no_access + made(Fate::no_access),
-                        t.queue_full + made(Fate::queue_full),
-                        t.no_ack + made(Fate::no_ack),
-                        t.gone + made(Fate::gone)};
+      k[traffic_][i] = {t.asked + made(DeliveryOutcome::under_way),
+                        t.delivered + made(DeliveryOutcome::delivered),
+                        t.too_weak + made(DeliveryOutcome::too_weak),
+                        t.no_link + made(DeliveryOutcome::no_link),
+                        t.collided + made(DeliveryOutcome::collided),
+                        t.no_access + made(DeliveryOutcome::no_access),
+                        t.queue_full + made(DeliveryOutcome::queue_full),
+                        t.no_ack + made(DeliveryOutcome::no_ack),
+                        t.gone + made(DeliveryOutcome::gone)};
     }
   }
 

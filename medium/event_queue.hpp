@@ -24,7 +24,7 @@ struct Event {
 };
 
 // Events known before the run are sorted once; those that arise in it go into a heap, which stays small.
-class Agenda {
+class EventQueue {
  public:
   void clear(Time until) {
     known_.clear(), heap_.clear();

@@ -7,7 +7,8 @@
 namespace muster::medium {
 
 template <class Record, class Fields>
-void save(Writer& out, const Air& air, const Post& post, const std::vector<Record>& records, const Fields& fields) {
+void save(Writer& out, const Air& air, const TransmitQueue& post, const std::vector<Record>& records,
+          const Fields& fields) {
   air.save(out);
   post.save(out);
   out.put(records.size());
@@ -15,7 +16,7 @@ void save(Writer& out, const Air& air, const Post& post, const std::vector<Recor
 }
 
 template <class Record, class Fields>
-void load(Reader& in, Air& air, Post& post, std::vector<Record>& records, const Fields& fields) {
+void load(Reader& in, Air& air, TransmitQueue& post, std::vector<Record>& records, const Fields& fields) {
   air.load(in);
   post.load(in);
   records.resize(in.get<std::size_t>());

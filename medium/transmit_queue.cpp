@@ -2,43 +2,43 @@
 
 namespace muster::medium {
 
-Fate fate_of(Heard heard) {
+DeliveryOutcome fate_of(Heard heard) {
   switch (heard) {
     case Heard::whole:
-      return Fate::delivered;
+      return DeliveryOutcome::delivered;
     case Heard::too_weak:
-      return Fate::too_weak;
+      return DeliveryOutcome::too_weak;
     case Heard::no_link:
-      return Fate::no_link;
+      return DeliveryOutcome::no_link;
     case Heard::collided:
-      return Fate::collided;
+      return DeliveryOutcome::collided;
     default:
-      return Fate::gone;
+      return DeliveryOutcome::gone;
   }
 }
 
-void Post::ask(Time at, std::size_t from, std::size_t to, std::string payload) {
+void TransmitQueue::ask(Time at, std::size_t from, std::size_t to, std::string payload) {
   requests_.push_back({at, from, to, std::move(payload)});
 }
 
-void Post::open(const Channel& channel) {
+void TransmitQueue::open(const Channel& channel) {
   channel_ = &channel;
   report_.arrivals.clear(), report_.deliveries.clear();
   report_.fates.assign(channel.radios, {});
   queues_.resize(channel.radios);
   for (std::size_t i = 0; i < channel.radios; ++i) {
     if (channel.alive[i]) continue;
-    for (Message& message : queues_[i]) settle(i, message, Fate::gone);
+    for (Message& message : queues_[i]) settle(i, message, DeliveryOutcome::gone);
     queues_[i].clear();
   }
 }
 
-const Report& Post::close() {
+const Report& TransmitQueue::close() {
   requests_.clear();
   return report_;
 }
 
-bool Post::take(std::size_t number, std::size_t limit) {
+bool TransmitQueue::take(std::size_t number, std::size_t limit) {
   Request& request = requests_[number];
   const std::size_t from = request.from;
   Message message;
@@ -52,13 +52,13 @@ bool Post::take(std::size_t number, std::size_t limit) {
     others[from] = false;
     message.receivers = Receivers(std::move(others));
   }
-  count(from, Fate::under_way, message.receivers.count());
+  count(from, DeliveryOutcome::under_way, message.receivers.count());
   if (!channel_->alive[from]) {
-    settle(from, message, Fate::gone);
+    settle(from, message, DeliveryOutcome::gone);
   } else if (request.to == from) {
-    settle(from, message, Fate::no_link);
+    settle(from, message, DeliveryOutcome::no_link);
   } else if (queues_[from].size() > limit) {
-    settle(from, message, Fate::queue_full);
+    settle(from, message, DeliveryOutcome::queue_full);
   } else {
     queues_[from].push_back(std::move(message));
     return queues_[from].size() == 1;
@@ -66,7 +66,7 @@ bool Post::take(std::size_t number, std::size_t limit) {
   return false;
 }
 
-void Post::frame_heard(std::size_t sender, const std::vector<Heard>& heard) {
+void TransmitQueue::frame_heard(std::size_t sender, const std::vector<Heard>& heard) {
   Receivers& receivers = first(sender).receivers;
   for (std::size_t i = 0; i < heard.size(); ++i) {
     if (heard[i] == Heard::whole || !receivers.has(i)) continue;
@@ -75,7 +75,7 @@ void Post::frame_heard(std::size_t sender, const std::vector<Heard>& heard) {
   }
 }
 
-void Post::last_frame_heard(std::size_t sender, const std::vector<Heard>& heard, const Air& air, Time at) {
+void TransmitQueue::last_frame_heard(std::size_t sender, const std::vector<Heard>& heard, const Air& air, Time at) {
   std::array<std::size_t, static_cast<std::size_t>(Heard::gone) + 1> lost{};
   Message& message = first(sender);
   const std::size_t before = report_.deliveries.size();
@@ -86,38 +86,38 @@ void Post::last_frame_heard(std::size_t sender, const std::vector<Heard>& heard,
       ++lost[static_cast<std::size_t>(heard[to])];
   });
   const std::size_t delivered = report_.deliveries.size() - before;
-  count(sender, Fate::delivered, delivered);
+  count(sender, DeliveryOutcome::delivered, delivered);
   if (delivered > 0) put_arrival(sender, at);
   for (const Heard each : {Heard::too_weak, Heard::no_link, Heard::collided, Heard::gone})
     count(sender, fate_of(each), lost[static_cast<std::size_t>(each)]);
   message.receivers = {};
 }
 
-void Post::deliver(std::size_t sender, std::size_t to, const Air& air, Time at) {
+void TransmitQueue::deliver(std::size_t sender, std::size_t to, const Air& air, Time at) {
   if (!first(sender).receivers.has(to)) return;
-  count(sender, Fate::delivered);
+  count(sender, DeliveryOutcome::delivered);
   put_delivery(to, air);
   put_arrival(sender, at);
   first(sender).receivers.drop(to);
 }
 
-void Post::put_arrival(std::size_t sender, Time at) {
+void TransmitQueue::put_arrival(std::size_t sender, Time at) {
   Message& message = first(sender);
   report_.arrivals.push_back({sender, message.asked, at, std::move(message.payload)});
 }
 
 // Must precede the arrival that it refers to.
-void Post::put_delivery(std::size_t to, const Air& air) {
+void TransmitQueue::put_delivery(std::size_t to, const Air& air) {
   const auto arrival = static_cast<std::uint32_t>(report_.arrivals.size());
   report_.deliveries.emplace_back(arrival, static_cast<std::uint32_t>(to), air.rssi(to), air.ratio(to));
 }
 
-void Post::settle(std::size_t sender, Message& message, Fate fate) {
+void TransmitQueue::settle(std::size_t sender, Message& message, DeliveryOutcome fate) {
   count(sender, fate, message.receivers.count());
   message.receivers = {};
 }
 
-void Post::save(Writer& out) const {
+void TransmitQueue::save(Writer& out) const {
   out.put(queues_.size());
   for (const auto& queue : queues_) {
     out.put(queue.size());
@@ -129,7 +129,7 @@ void Post::save(Writer& out) const {
   }
 }
 
-void Post::load(Reader& in) {
+void TransmitQueue::load(Reader& in) {
   queues_.resize(in.get<std::size_t>());
   for (auto& queue : queues_) {
     queue.resize(in.get<std::size_t>());

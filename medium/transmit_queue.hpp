@@ -12,7 +12,7 @@
 namespace muster::medium {
 
 // Outcomes of a copy; one copy goes to each receiver of a message.
-enum class Fate : std::uint8_t {
+enum class DeliveryOutcome : std::uint8_t {
   under_way = 0,
   delivered,
   too_weak,    // below the receiver's sensitivity, or lost in noise alone
@@ -24,7 +24,7 @@ enum class Fate : std::uint8_t {
   gone,        // sender or receiver left
   count
 };
-Fate fate_of(Heard heard);
+DeliveryOutcome fate_of(Heard heard);
 
 constexpr std::size_t everyone = static_cast<std::size_t>(-1);
 
@@ -88,13 +88,13 @@ struct Report {
   std::vector<Arrival> arrivals;
   std::vector<Delivery> deliveries;
   // Of each sender's copies, counts of outcomes in this run; under_way counts those newly requested.
-  std::vector<std::array<std::uint64_t, static_cast<std::size_t>(Fate::count)>> fates;
+  std::vector<std::array<std::uint64_t, static_cast<std::size_t>(DeliveryOutcome::count)>> fates;
 };
 
-class Post {
+class TransmitQueue {
  public:
   // `frames_of`: number of frames for a payload of so many bytes; null where a medium counts them itself.
-  explicit Post(std::size_t (*frames_of)(std::size_t) = nullptr) : frames_of_(frames_of) {}
+  explicit TransmitQueue(std::size_t (*frames_of)(std::size_t) = nullptr) : frames_of_(frames_of) {}
 
   // Adds a message that `from` is to send at a time of the next run.
   void ask(Time at, std::size_t from, std::size_t to, std::string payload);
@@ -124,14 +124,14 @@ class Post {
   void last_frame_heard(std::size_t sender, const std::vector<Heard>& heard, const Air& air, Time at);
   void deliver(std::size_t sender, std::size_t to, const Air& air, Time at);
   // Settles all copies of the first message that are under way.
-  void settle(std::size_t sender, Fate fate) { settle(sender, first(sender), fate); }
+  void settle(std::size_t sender, DeliveryOutcome fate) { settle(sender, first(sender), fate); }
 
   void save(Writer& out) const;
   void load(Reader& in);
 
  private:
-  void settle(std::size_t sender, Message& message, Fate fate);
-  void count(std::size_t sender, Fate fate, std::size_t copies = 1) {
+  void settle(std::size_t sender, Message& message, DeliveryOutcome fate);
+  void count(std::size_t sender, DeliveryOutcome fate, std::size_t copies = 1) {
     report_.fates[sender][static_cast<std::size_t>(fate)] += copies;
   }
   void put_delivery(std::size_t to, const Air& air);

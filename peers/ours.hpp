@@ -56,8 +56,8 @@ inline medium::Channel channel_of(const std::vector<std::array<double, 2>>& plac
   return c;
 }
 
-using Books = std::array<double, static_cast<std::size_t>(medium::Fate::count)>;
-inline double of(const Books& books, medium::Fate fate) { return books[static_cast<std::size_t>(fate)]; }
+using Books = std::array<double, static_cast<std::size_t>(medium::DeliveryOutcome::count)>;
+inline double of(const Books& books, medium::DeliveryOutcome fate) { return books[static_cast<std::size_t>(fate)]; }
 inline void add(Books& books, const medium::Report& report) {
   for (const auto& radio : report.fates)
     for (std::size_t k = 0; k < books.size(); ++k) books[k] += static_cast<double>(radio[k]);
@@ -83,8 +83,8 @@ Counts run_ours(const Task& task, const medium::Channel& channel, const Settings
   }
   result.cpu = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
   const auto others = static_cast<double>(task.places.size() - 1);
-  result.arrived = static_cast<std::uint64_t>(of(books, medium::Fate::delivered));
-  result.no_access = static_cast<std::uint64_t>(std::llround(of(books, medium::Fate::no_access) / others));
+  result.arrived = static_cast<std::uint64_t>(of(books, medium::DeliveryOutcome::delivered));
+  result.no_access = static_cast<std::uint64_t>(std::llround(of(books, medium::DeliveryOutcome::no_access) / others));
   return result;
 }
 

@@ -39,7 +39,7 @@ struct Effect {
 
 // Inputs to the draw of an effect.
 struct Scene {
-  const Site& site;
+  const GroundTruth& site;
   const Data& measured;
   const Data& second;
 };
@@ -73,7 +73,7 @@ auto scaled(Shape shape) {
   };
 }
 
-inline std::string radio_row(const Site& site, int station) {
+inline std::string radio_row(const GroundTruth& site, int station) {
   return "radio/" + site.plan.stations[static_cast<std::size_t>(station)].name;
 }
 inline std::string robot_name(int robot) { return "robot" + std::to_string(robot + 1); }

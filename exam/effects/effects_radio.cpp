@@ -105,7 +105,7 @@ Effect body_shadow(const Scene& s, Random& random) {
 }
 
 // Change of reading i's level if its station is at `to`, with the map's own walls.
-double moved_level(const Site& site, const Data& data, std::size_t i, Vec3 to) {
+double moved_level(const GroundTruth& site, const Data& data, std::size_t i, Vec3 to) {
   const Reading& r = data.readings[i];
   const auto row = static_cast<Eigen::Index>(i);
   return (design_row(site, crossings(site.plan, to, r.at), to, r.at) - data.design.row(row)).dot(coefficients(site));

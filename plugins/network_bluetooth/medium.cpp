@@ -235,7 +235,7 @@ void Medium::expire(std::size_t number, Time at) {
     radio.expires = radio.sent_until;
     return agenda_.put(radio.expires, packet_expires, number);
   }
-  post_.settle(number, radio.arrived ? Fate::no_ack : radio.last_loss);
+  post_.settle(number, radio.arrived ? DeliveryOutcome::no_ack : radio.last_loss);
   post_.drop_first(number);
   begin_message(number, at);
 }

@@ -15,7 +15,7 @@
 namespace muster::bluetooth {
 
 using medium::Channel;
-using medium::Fate;
+using medium::DeliveryOutcome;
 using medium::Heard;
 using medium::Report;
 
@@ -60,7 +60,7 @@ class Medium {
     std::uint64_t sent = medium::nothing;  // the frame that carried the packet last
     Time sent_until = 0;
     bool arrived = false;
-    Fate last_loss = Fate::too_weak;
+    DeliveryOutcome last_loss = DeliveryOutcome::too_weak;
     Time expires = medium::never;
 
     // As a slave: when it was last addressed, until when the master expects more data from it, its last data that the
@@ -102,8 +102,8 @@ class Medium {
   Settings settings_;
   Stream random_;
   medium::Air air_;
-  medium::Post post_;
-  medium::Agenda agenda_;
+  medium::TransmitQueue post_;
+  medium::EventQueue agenda_;
   std::vector<Radio> radios_;
   Time free_ = 0;                       // until then the channel may be in use
   Time turn_ = 0;                       // time of the master's next decision

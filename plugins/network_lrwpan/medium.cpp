@@ -111,7 +111,7 @@ void Medium::assess(std::size_t number, Time at) {
   }
   radio.exponent = std::min(radio.exponent + 1, most_exponent);
   if (++radio.backoffs > most_backoffs)
-    give_up(number, Fate::no_access, at);
+    give_up(number, DeliveryOutcome::no_access, at);
   else
     back_off(number, at);
 }
@@ -142,7 +142,7 @@ void Medium::end_phase(std::size_t number, Time at) {
     case Phase::turning:
       return send(number, at);
     case Phase::awaiting_ack:
-      if (++radio.tries > settings_.retries) return give_up(number, Fate::no_ack, at);
+      if (++radio.tries > settings_.retries) return give_up(number, DeliveryOutcome::no_ack, at);
       return compete(number, at);
     default:
       return;
@@ -250,9 +250,9 @@ void Medium::go_on_with_message(std::size_t sender, Time at) {
 }
 
 // Drops the message, for lack of acknowledgements, though the frame may have arrived, or of a free channel.
-void Medium::give_up(std::size_t sender, Fate why, Time at) {
+void Medium::give_up(std::size_t sender, DeliveryOutcome why, Time at) {
   const Radio& radio = radios_[sender];
-  if (why == Fate::no_ack && !radio.arrived) why = radio.last_loss;
+  if (why == DeliveryOutcome::no_ack && !radio.arrived) why = radio.last_loss;
   post_.settle(sender, why);
   end_message(sender, at);
 }

@@ -14,7 +14,7 @@
 namespace muster::lrwpan {
 
 using medium::Channel;
-using medium::Fate;
+using medium::DeliveryOutcome;
 using medium::Heard;
 using medium::Report;
 
@@ -63,9 +63,9 @@ class Medium {
     Time due = medium::never;  // when the phase ends by itself
     Time spaced = 0;           // earliest time of its next frame
     int backoffs = 0, exponent = 0, tries = 0;
-    std::uint64_t sent = medium::nothing;  // its last frame
-    bool arrived = false;                  // the frame, at its one receiver
-    Fate last_loss = Fate::too_weak;       // of the frame, there
+    std::uint64_t sent = medium::nothing;                   // its last frame
+    bool arrived = false;                                   // the frame, at its one receiver
+    DeliveryOutcome last_loss = DeliveryOutcome::too_weak;  // of the frame, there
 
     Phase ack_phase = Phase::idle;
     Time ack_due = medium::never;
@@ -99,14 +99,14 @@ class Medium {
   void end_unicast(const medium::Frame& frame, Heard heard, Time at);
 
   void go_on_with_message(std::size_t sender, Time at);
-  void give_up(std::size_t sender, Fate why, Time at);
+  void give_up(std::size_t sender, DeliveryOutcome why, Time at);
   void end_message(std::size_t sender, Time at);
 
   Settings settings_;
   Stream random_;
   medium::Air air_;
-  medium::Post post_;
-  medium::Agenda agenda_;
+  medium::TransmitQueue post_;
+  medium::EventQueue agenda_;
   std::vector<Radio> radios_;
   const Channel* channel_ = nullptr;  // of the run
   std::vector<Heard> filtered_;       // buffer, kept from frame to frame

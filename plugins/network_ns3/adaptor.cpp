@@ -7,7 +7,7 @@
 
 namespace muster::external {
 
-using medium::Fate;
+using medium::DeliveryOutcome;
 
 Adaptor::Adaptor(Setup& s)
     : spread_(s.value("spread")),
@@ -88,7 +88,7 @@ void Adaptor::look(const Step& k) {
       ++each;
       continue;
     }
-    settle(each->second, Fate::gone);
+    settle(each->second, DeliveryOutcome::gone);
     each = messages_.erase(each);
   }
 }
@@ -105,9 +105,10 @@ void Adaptor::ask(const Step& k) {
       others[from] = false;
       message.receivers = medium::Receivers(std::move(others));
     }
-    fates_[from][static_cast<std::size_t>(Fate::under_way)] += static_cast<double>(message.receivers.count());
+    fates_[from][static_cast<std::size_t>(DeliveryOutcome::under_way)] +=
+        static_cast<double>(message.receivers.count());
     if (!world_.alive[from] || to == from) {
-      settle(message, to == from ? Fate::no_link : Fate::gone);
+      settle(message, to == from ? DeliveryOutcome::no_link : DeliveryOutcome::gone);
       continue;
     }
     const std::string_view payload = k.bytes(request_, i, Outgoing::payload_column);
@@ -123,7 +124,7 @@ void Adaptor::deliver(Arrival arrival) {
   Message& message = found->second;
   if (!message.receivers.has(arrival.to) || !world_.alive[arrival.to] || is_null(arrival.rssi)) return;
   message.receivers.drop(arrival.to);
-  ++fates_[message.from][static_cast<std::size_t>(Fate::delivered)];
+  ++fates_[message.from][static_cast<std::size_t>(DeliveryOutcome::delivered)];
   note(arrival.message), note(arrival.to);
   arrivals_.emplace_back(message, std::move(arrival));
 }
@@ -138,17 +139,17 @@ void Adaptor::end(std::uint64_t number, End why) {
 }
 
 // The simulator does not report why a receiver missed a frame. At 3 dB or more above noise, it counts as a collision.
-Fate Adaptor::fate_of(const Message& message, std::size_t to, End why) const {
-  if (!world_.alive[to]) return Fate::gone;
-  if (why == End::queue_full) return Fate::queue_full;
-  if (why == End::no_access) return Fate::no_access;
+DeliveryOutcome Adaptor::fate_of(const Message& message, std::size_t to, End why) const {
+  if (!world_.alive[to]) return DeliveryOutcome::gone;
+  if (why == End::queue_full) return DeliveryOutcome::queue_full;
+  if (why == End::no_access) return DeliveryOutcome::no_access;
   const bool is_for_its_pan = !message.is_unicast || why == End::lost;  // no mesh crosses PANs
-  if (is_for_its_pan && world_.pans[message.from] != world_.pans[to]) return Fate::no_link;
-  if (why == End::lost) return hears_anybody(to) ? Fate::collided : Fate::no_link;
+  if (is_for_its_pan && world_.pans[message.from] != world_.pans[to]) return DeliveryOutcome::no_link;
+  if (why == End::lost) return hears_anybody(to) ? DeliveryOutcome::collided : DeliveryOutcome::no_link;
   const std::size_t link = world_.link(message.from, to);
-  if (!std::isfinite(world_.level[link])) return Fate::no_link;
-  if (is_null(world_.rssi[link]) || world_.level[link] < noise_ + 3) return Fate::too_weak;
-  return why == End::no_ack ? Fate::no_ack : Fate::collided;
+  if (!std::isfinite(world_.level[link])) return DeliveryOutcome::no_link;
+  if (is_null(world_.rssi[link]) || world_.level[link] < noise_ + 3) return DeliveryOutcome::too_weak;
+  return why == End::no_ack ? DeliveryOutcome::no_ack : DeliveryOutcome::collided;
 }
 
 bool Adaptor::hears_anybody(std::size_t radio) const {
@@ -159,7 +160,7 @@ bool Adaptor::hears_anybody(std::size_t radio) const {
   return false;
 }
 
-void Adaptor::settle(Message& message, Fate fate) {
+void Adaptor::settle(Message& message, DeliveryOutcome fate) {
   fates_[message.from][static_cast<std::size_t>(fate)] += static_cast<double>(message.receivers.count());
   message.receivers = {};
 }
@@ -182,12 +183,17 @@ void Adaptor::hand_over(const Step& k) {
 
 void Adaptor::count(const Step& k) {
   for (std::size_t i = 0; i < fates_.size(); ++i) {
-    const auto made = [&](Fate fate) { return fates_[i][static_cast<std::size_t>(fate)]; };
+    const auto made = [&](DeliveryOutcome fate) { return fates_[i][static_cast<std::size_t>(fate)]; };
     const Traffic& t = k.last(traffic_)[i];
-    k[traffic_][i] = {
-        t.asked + made(Fate::under_way),       t.delivered + made(Fate::delivered), t.too_weak + made(Fate::too_weak),
-        t.no_link + made(Fate::no_link),       t.collided + made(Fate::collided),   t.no_access + made(Fate::no_access),
-        t.queue_full + made(Fate::queue_full), t.no_ack + made(Fate::no_ack),       t.gone + made(Fate::gone)};
+    k[traffic_][i] = {t.asked + made(DeliveryOutcome::under_way),
+                      t.delivered + made(DeliveryOutcome::delivered),
+                      t.too_weak + made(DeliveryOutcome::too_weak),
+                      t.no_link + made(DeliveryOutcome::no_link),
+                      t.collided + made(DeliveryOutcome::collided),
+                      t.no_access + made(DeliveryOutcome::no_access),
+                      t.queue_full + made(DeliveryOutcome::queue_full),
+                      t.no_ack + made(DeliveryOutcome::no_ack),
+                      t.gone + made(DeliveryOutcome::gone)};
   }
 }
 

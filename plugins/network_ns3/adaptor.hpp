@@ -41,9 +41,9 @@ class Adaptor {
   void ask(const Step& k);
   void deliver(Arrival arrival);
   void end(std::uint64_t number, End why);
-  medium::Fate fate_of(const Message& message, std::size_t to, End why) const;
+  medium::DeliveryOutcome fate_of(const Message& message, std::size_t to, End why) const;
   bool hears_anybody(std::size_t radio) const;
-  void settle(Message& message, medium::Fate fate);
+  void settle(Message& message, medium::DeliveryOutcome fate);
   void hand_over(const Step& k);
   void count(const Step& k);
   void note(std::uint64_t what) { history_ = combined(history_, what); }
@@ -72,7 +72,7 @@ class Adaptor {
   World world_;
   double noise_ = 0;
   std::vector<std::pair<Message, Arrival>> arrivals_;
-  std::vector<std::array<double, static_cast<std::size_t>(medium::Fate::count)>> fates_;
+  std::vector<std::array<double, static_cast<std::size_t>(medium::DeliveryOutcome::count)>> fates_;
 };
 
 }  // namespace muster::external

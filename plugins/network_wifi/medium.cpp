@@ -294,7 +294,7 @@ void Medium::end_wait(std::size_t number, Time at) {
     return agenda_.put(station.timeout, wait_ends, number);
   }
   if (++station.tries > settings_.retries) {
-    post_.settle(number, station.arrived ? Fate::no_ack : station.last_loss);
+    post_.settle(number, station.arrived ? DeliveryOutcome::no_ack : station.last_loss);
     end_message(number);
   } else {
     compete(number, std::min(2 * station.window + 1, most_window));

@@ -14,7 +14,7 @@
 namespace muster::wifi {
 
 using medium::Channel;
-using medium::Fate;
+using medium::DeliveryOutcome;
 using medium::Heard;
 using medium::Report;
 
@@ -62,8 +62,8 @@ class Medium {
     Time timeout = medium::never;  // end of its wait for an acknowledgement
     Time reserved = 0;             // NAV: silence until then, set by frames of others
     std::uint64_t sent = medium::nothing;
-    bool arrived = false;             // the frame, at its one receiver
-    Fate last_loss = Fate::too_weak;  // of the frame, there
+    bool arrived = false;                                   // the frame, at its one receiver
+    DeliveryOutcome last_loss = DeliveryOutcome::too_weak;  // of the frame, there
     Time ack_due = medium::never;
     std::uint64_t ack_of = medium::nothing;
     std::size_t ack_to = everyone;
@@ -100,8 +100,8 @@ class Medium {
   Settings settings_;
   Stream random_;
   medium::Air air_;
-  medium::Post post_{frames_of};
-  medium::Agenda agenda_;
+  medium::TransmitQueue post_{frames_of};
+  medium::EventQueue agenda_;
   std::vector<Station> stations_;
   const Channel* channel_ = nullptr;  // of the run
 };

@@ -15,7 +15,7 @@ struct Arena {
   Arena(const Arena&) = delete;
   Arena& operator=(const Arena&) = delete;
 
-  Crew crew;
+  RobotModels crew;
   // Each robot half a step ahead, for the steppers of eight and of twelve unknowns; at any time one thread uses a
   // robot.
   std::vector<PlacedOf<unknowns>> placed;

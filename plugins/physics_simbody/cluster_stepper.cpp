@@ -44,18 +44,18 @@ Extent extent_of(const RobotModel& model, const RobotState& state, double time, 
   return {middle - reach, middle + reach};
 }
 
-Mover::Mover(Arena& arena) : arena_(arena), stepper_(arena) {
+ClusterStepper::ClusterStepper(Arena& arena) : arena_(arena), stepper_(arena) {
   if (arena.crew.any_is_articulated()) stepper_with_legs_ = std::make_unique<StepperOf<unknowns_with_legs>>(arena);
 }
 
-Count Mover::count() const {
+Count ClusterStepper::count() const {
   Count sum = stepper_.count();
   if (stepper_with_legs_) sum += stepper_with_legs_->count();
   return sum;
 }
 
-bool Mover::move(const Cluster& cluster, const std::vector<Extent>& reach, int count, double dt,
-                 const std::vector<Command>& commands, std::vector<RobotState>& states) {
+bool ClusterStepper::move(const Cluster& cluster, const std::vector<Extent>& reach, int count, double dt,
+                          const std::vector<Command>& commands, std::vector<RobotState>& states) {
   const double h = dt / count;
   for (int k = 0; k < count; ++k) {
     if (!find_groups(cluster, count > 1 ? &reach : nullptr, h, states)) return false;
@@ -71,8 +71,8 @@ bool Mover::move(const Cluster& cluster, const std::vector<Extent>& reach, int c
 }
 
 // A group is stored at its first robot's place. False if a robot may leave `reach`, if given, in this step.
-bool Mover::find_groups(const Cluster& cluster, const std::vector<Extent>* reach, double h,
-                        const std::vector<RobotState>& states) {
+bool ClusterStepper::find_groups(const Cluster& cluster, const std::vector<Extent>* reach, double h,
+                                 const std::vector<RobotState>& states) {
   const std::size_t count = cluster.robots.size();
   extents_.clear();
   for (const int i : cluster.robots) {
@@ -102,23 +102,23 @@ bool Mover::find_groups(const Cluster& cluster, const std::vector<Extent>* reach
   return true;
 }
 
-int Mover::parts_of(const Group& group, double h, const std::vector<RobotState>& states) const {
+int ClusterStepper::parts_of(const Group& group, double h, const std::vector<RobotState>& states) const {
   if (group.pairs.empty() && group.walls.empty()) return 1;
   double fast = 0;
   for (const int i : group.robots) fast = std::max(fast, speed_of(arena_.crew[i].model, states[i]));
   return parts_within(fast * h, longest_way);
 }
 
-int Mover::parts_if_it_slides(const Group& group, double h, const std::vector<Command>& commands,
-                              const std::vector<RobotState>& states) const {
+int ClusterStepper::parts_if_it_slides(const Group& group, double h, const std::vector<Command>& commands,
+                                       const std::vector<RobotState>& states) const {
   const int parts = parts_within(h, longest_slide), first = group.robots.front();
   if (group.robots.size() > 1 || parts == 1) return 1;
   const RobotModel& model = arena_.crew[first].model;
   return may_slide(model, commands[first]) || slides(model, states[first].memory) ? parts : 1;
 }
 
-void Mover::advance(const Group& group, double h, double at, const std::vector<Command>& commands,
-                    std::vector<RobotState>& states) {
+void ClusterStepper::advance(const Group& group, double h, double at, const std::vector<Command>& commands,
+                             std::vector<RobotState>& states) {
   const auto is_articulated = [&](int i) { return arena_.crew[i].model.is_articulated(); };
   if (is_in_the_air(group, h, states)) {
     const int i = group.robots.front();
@@ -133,7 +133,7 @@ void Mover::advance(const Group& group, double h, double at, const std::vector<C
   }
 }
 
-bool Mover::is_in_the_air(const Group& group, double h, const std::vector<RobotState>& states) const {
+bool ClusterStepper::is_in_the_air(const Group& group, double h, const std::vector<RobotState>& states) const {
   const int i = group.robots.front();
   const CrewMember& robot = arena_.crew[i];
   if (!robot.flight || !group.pairs.empty() || !group.walls.empty()) return false;

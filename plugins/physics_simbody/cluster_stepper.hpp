@@ -19,9 +19,9 @@ struct Cluster {
 // Bounds of a robot's motion within `time` [s]: twice its path, since a contact may accelerate it.
 Extent extent_of(const RobotModel& model, const RobotState& state, double time, double room = 1);
 
-class Mover {
+class ClusterStepper {
  public:
-  Mover(Arena& arena);
+  ClusterStepper(Arena& arena);
 
   // Advances by dt in `count` equal steps. `reach`: bounds of each robot for the whole time. False if a robot might
   // have left them and met something outside the cluster; the cluster's `states` are then invalid.

@@ -94,7 +94,7 @@ class EncountersOf {
   bool somebody_bounces_ = false;
 };
 
-using Encounters = EncountersOf<unknowns>;
+using ContactDetection = EncountersOf<unknowns>;
 
 Solid solid_of(const scene::Slab& slab);
 

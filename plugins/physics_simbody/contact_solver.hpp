@@ -113,7 +113,7 @@ class ContactSolverOf {
   static constexpr int joints = N - 6;
 
   // Mode of a contact in a first try.
-  enum class Habit { open = 1, smooth, sticks, slides };
+  enum class ContactMode { open = 1, smooth, sticks, slides };
   enum class MotorHabit { holds = 1, pulls, brakes };  // at its limit, forwards or backwards
 
   // A contact at some velocity, its friction limited by `bound`; Newton's method has its own form, in lanes.
@@ -122,7 +122,7 @@ class ContactSolverOf {
     double bound = 0;                                // [N s]
     Eigen::Vector2d dual = Eigen::Vector2d::Zero();  // estimate of the friction impulse
     bool closes = false;                             // in a guess
-    Habit habit = Habit::open;
+    ContactMode habit = ContactMode::open;
     Eigen::Vector2d way = Eigen::Vector2d::Zero();  // unit direction of a sliding contact's friction
     double stiffness = 0;                           // against changes of that direction [N s per m/s]
     double start_push = 0;                          // as handed in

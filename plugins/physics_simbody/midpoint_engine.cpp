@@ -16,10 +16,10 @@ constexpr int most_shares = 16;
 
 }  // namespace
 
-Midpoint::Midpoint(const std::vector<NamedRobot>& robots, Steps longest, LegModel legs)
+MidpointEngine::MidpointEngine(const std::vector<NamedRobot>& robots, Steps longest, LegModel legs)
     : arena_(robots, legs), longest_(longest), place_(robots.size()), clusters_(robots.size()) {}
 
-void Midpoint::set_surroundings(const std::vector<scene::Slab>& walls, double friction) {
+void MidpointEngine::set_surroundings(const std::vector<scene::Slab>& walls, double friction) {
   arena_.friction = friction;
   arena_.walls.clear();
   arena_.wall_extents.clear();
@@ -32,7 +32,7 @@ void Midpoint::set_surroundings(const std::vector<scene::Slab>& walls, double fr
   broad_phase_.set_standing(arena_.wall_extents);
 }
 
-Count Midpoint::count() const {
+Count MidpointEngine::count() const {
   Count sum;
   for (const auto& mover : movers_) sum += mover->count();
   return sum;
@@ -40,8 +40,8 @@ Count Midpoint::count() const {
 
 // In a tick of several steps, clusters must be valid for all of them: they are found with a margin. If that was too
 // small, the tick starts again with a larger one. So the results depend neither on the margin nor on threads.
-void Midpoint::step(double dt, const std::vector<Command>& commands, std::vector<RobotState>& states,
-                    const Each& each) {
+void MidpointEngine::step(double dt, const std::vector<Command>& commands, std::vector<RobotState>& states,
+                          const Each& each) {
   const bool many_steps = dt > longest_.of_all * (1 + 1e-9) || dt > longest_.of_legs * (1 + 1e-9);
   if (many_steps) start_ = states;
   for (double room = many_steps ? 2 : 1;; room *= 2) {
@@ -53,14 +53,14 @@ void Midpoint::step(double dt, const std::vector<Command>& commands, std::vector
 }
 
 // Robots that may meet a walking robot take its step length.
-int Midpoint::steps_of(const Cluster& cluster, double dt) const {
+int MidpointEngine::steps_of(const Cluster& cluster, double dt) const {
   const bool walks = std::any_of(cluster.robots.begin(), cluster.robots.end(),
                                  [&](int i) { return !arena_.crew[i].model.legs.empty(); });
   const double longest = walks ? std::min(longest_.of_all, longest_.of_legs) : longest_.of_all;
   return std::max(1, static_cast<int>(std::ceil(dt / longest - 1e-9)));
 }
 
-void Midpoint::find_clusters(double dt, double room, const std::vector<RobotState>& states) {
+void MidpointEngine::find_clusters(double dt, double room, const std::vector<RobotState>& states) {
   const int count = static_cast<int>(arena_.crew.size());
   reach_.clear();
   for (int i = 0; i < count; ++i) reach_.push_back(extent_of(arena_.crew[i].model, states[i], dt, room));
@@ -79,7 +79,7 @@ void Midpoint::find_clusters(double dt, double room, const std::vector<RobotStat
 }
 
 // Divides the clusters among the movers: consecutive ones, with about equal work.
-void Midpoint::share_out(double dt) {
+void MidpointEngine::share_out(double dt) {
   const auto work = [&](const Cluster& cluster) {
     double sum = 0;
     for (const int i : cluster.robots) sum += arena_.crew[i].model.legs.empty() ? on_wheels : on_legs;
@@ -96,11 +96,11 @@ void Midpoint::share_out(double dt) {
       shares_.push_back(k + 1);
   }
   shares_.push_back(clusters_.size());
-  while (movers_.size() < shares_.size()) movers_.push_back(std::make_unique<Mover>(arena_));
+  while (movers_.size() < shares_.size()) movers_.push_back(std::make_unique<ClusterStepper>(arena_));
 }
 
-bool Midpoint::move(double dt, const std::vector<Command>& commands, std::vector<RobotState>& states,
-                    const Each& each) {
+bool MidpointEngine::move(double dt, const std::vector<Command>& commands, std::vector<RobotState>& states,
+                          const Each& each) {
   kept_.assign(shares_.size(), true);
   each(shares_.size(), [&](std::size_t share) {
     for (std::size_t k = share == 0 ? 0 : shares_[share - 1]; k < shares_[share] && kept_[share]; ++k) {

@@ -7,9 +7,9 @@
 
 namespace muster::simbody {
 
-class Midpoint : public Engine {
+class MidpointEngine : public Engine {
  public:
-  Midpoint(const std::vector<NamedRobot>& robots, Steps longest, LegModel legs = LegModel::as_described);
+  MidpointEngine(const std::vector<NamedRobot>& robots, Steps longest, LegModel legs = LegModel::as_described);
   void step(double dt, const std::vector<Command>& commands, std::vector<RobotState>& states,
             const Each& each = one_by_one) override;
   void set_surroundings(const std::vector<scene::Slab>& walls, double friction) override;
@@ -34,7 +34,7 @@ class Midpoint : public Engine {
   std::vector<std::size_t> shares_;  // end of each mover's clusters
   std::vector<char> kept_;           // for each mover, whether its robots stayed within their reach
   std::vector<RobotState> start_;
-  std::vector<std::unique_ptr<Mover>> movers_;
+  std::vector<std::unique_ptr<ClusterStepper>> movers_;
 };
 
 }  // namespace muster::simbody

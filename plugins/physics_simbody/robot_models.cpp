@@ -8,7 +8,7 @@ namespace muster::simbody {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-Crew::Crew(const std::vector<NamedRobot>& robots, LegModel legs) {
+RobotModels::RobotModels(const std::vector<NamedRobot>& robots, LegModel legs) {
   for (const NamedRobot& named : robots) {
     CrewMember robot{named.name, RobotModel(*named.description), {}, {}, {}, {}, {}, {}};
     if (legs == LegModel::rigid) robot.model.leg_drive.stiffness = std::numeric_limits<double>::infinity();
@@ -23,17 +23,17 @@ Crew::Crew(const std::vector<NamedRobot>& robots, LegModel legs) {
   read_masses();
 }
 
-bool Crew::any_is_articulated() const {
+bool RobotModels::any_is_articulated() const {
   return std::any_of(members_.begin(), members_.end(), [](const CrewMember& m) { return m.model.is_articulated(); });
 }
 
-bool Crew::any_bounces() const {
+bool RobotModels::any_bounces() const {
   return std::any_of(members_.begin(), members_.end(), [](const CrewMember& m) { return m.model.restitution > 0; });
 }
 
 // Simbody's own mass matrix at the reference pose; in the body's frame it is constant, as wheels are balanced. Robots
 // are not joined, so one product has a column of each. Missing wheels have an inertia of one and no torque.
-void Crew::read_masses() {
+void RobotModels::read_masses() {
   const SimTK::State& state = system_.state;
   SimTK::Vector columns;
   for (int c = 0; c < unknowns; ++c) {

@@ -29,9 +29,9 @@ struct CrewMember {
   MassMatrix mass, inverse_mass;        // without legs and limbs, with which they change in each step
 };
 
-class Crew {
+class RobotModels {
  public:
-  explicit Crew(const std::vector<NamedRobot>& robots, LegModel legs = LegModel::as_described);
+  explicit RobotModels(const std::vector<NamedRobot>& robots, LegModel legs = LegModel::as_described);
 
   std::size_t size() const { return members_.size(); }
   CrewMember& operator[](std::size_t i) { return members_[i]; }

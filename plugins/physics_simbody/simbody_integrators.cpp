@@ -60,7 +60,7 @@ std::unique_ptr<SimTK::Integrator> make(Integrator kind, const SimTK::System& sy
 
 }  // namespace
 
-struct Stock::Robot {
+struct SimbodyIntegrators::Robot {
   explicit Robot(const NamedRobot& named) : name(named.name), model(*named.description) {
     if (!model.legs.empty())
       throw std::runtime_error("robot '" + name + "' walks; Simbody's own integrators roll on wheels: use midpoint");
@@ -106,14 +106,15 @@ struct Stock::Robot {
   RobotBodies bodies;
 };
 
-Stock::Stock(const std::vector<NamedRobot>& robots, Integrator integrator, double step)
+SimbodyIntegrators::SimbodyIntegrators(const std::vector<NamedRobot>& robots, Integrator integrator, double step)
     : integrator_(integrator), step_(step) {
   for (const NamedRobot& robot : robots) robots_.push_back(std::make_unique<Robot>(robot));
 }
 
-Stock::~Stock() = default;
+SimbodyIntegrators::~SimbodyIntegrators() = default;
 
-void Stock::step(double dt, const std::vector<Command>& commands, std::vector<RobotState>& states, const Each& each) {
+void SimbodyIntegrators::step(double dt, const std::vector<Command>& commands, std::vector<RobotState>& states,
+                              const Each& each) {
   each(robots_.size(), [&](std::size_t i) {
     Robot& robot = *robots_[i];
     RobotState& s = states[i];

@@ -8,10 +8,10 @@
 
 namespace muster::simbody {
 
-class Stock : public Engine {
+class SimbodyIntegrators : public Engine {
  public:
-  Stock(const std::vector<NamedRobot>& robots, Integrator integrator, double step);
-  ~Stock() override;
+  SimbodyIntegrators(const std::vector<NamedRobot>& robots, Integrator integrator, double step);
+  ~SimbodyIntegrators() override;
   void step(double dt, const std::vector<Command>& commands, std::vector<RobotState>& states,
             const Each& each = one_by_one) override;
 

@@ -85,10 +85,10 @@ bool ContactSolverOf<N>::see_habits() {
   bool changed = false;
   for (std::size_t i = 0; i < local_.size(); ++i) {
     Local& at = local_[i];
-    const Habit habit = !at.closes                   ? Habit::open
-                        : at.bound <= 0              ? Habit::smooth
-                        : pull(i).norm() <= at.bound ? Habit::sticks
-                                                     : Habit::slides;
+    const ContactMode habit = !at.closes                   ? ContactMode::open
+                              : at.bound <= 0              ? ContactMode::smooth
+                              : pull(i).norm() <= at.bound ? ContactMode::sticks
+                                                           : ContactMode::slides;
     changed |= habit != at.habit;
     at.habit = habit;
   }
@@ -98,7 +98,7 @@ bool ContactSolverOf<N>::see_habits() {
 template <int N>
 int ContactSolverOf<N>::number_that_slide() const {
   return static_cast<int>(
-      std::count_if(local_.begin(), local_.end(), [](const Local& at) { return at.habit == Habit::slides; }));
+      std::count_if(local_.begin(), local_.end(), [](const Local& at) { return at.habit == ContactMode::slides; }));
 }
 
 template <int N>
@@ -131,9 +131,9 @@ void ContactSolverOf<N>::factor_habits() {
     const Contact& c = p_->contacts[i];
     Local& at = local_[i];
     GripStiffness grip{};
-    if (at.habit == Habit::open) continue;
-    if (at.habit == Habit::sticks) grip = sticking(c.grip_softness);
-    if (at.habit == Habit::slides) {
+    if (at.habit == ContactMode::open) continue;
+    if (at.habit == ContactMode::sticks) grip = sticking(c.grip_softness);
+    if (at.habit == ContactMode::slides) {
       const Vector2d asked = pull(i);
       const double size = asked.norm();
       at.way = asked / size;
@@ -161,7 +161,7 @@ void ContactSolverOf<N>::step_by_habits() {
   for (std::size_t i = 0; i < local_.size(); ++i) {
     Contact& c = p_->contacts[i];
     const Local& at = local_[i];
-    if (at.habit == Habit::open) continue;
+    if (at.habit == ContactMode::open) continue;
     c.push = (c.target - at.speed()) / c.softness;
     c.grip = grip_by_habit(i);
     take_impulse(c, d_);
@@ -179,8 +179,8 @@ template <int N>
 Vector2d ContactSolverOf<N>::grip_by_habit(std::size_t contact) const {
   const Contact& c = p_->contacts[contact];
   const Local& at = local_[contact];
-  if (at.habit == Habit::sticks) return -at.slip() / c.grip_softness;
-  if (at.habit != Habit::slides) return Vector2d::Zero();
+  if (at.habit == ContactMode::sticks) return -at.slip() / c.grip_softness;
+  if (at.habit != ContactMode::slides) return Vector2d::Zero();
   return at.slip().norm() < at_rest ? sliding_grip(at) : grip_of(at.slip(), at.bound, c.grip_softness);
 }
 
@@ -198,9 +198,9 @@ void ContactSolverOf<N>::note_grips() {
     const Contact& c = p_->contacts[i];
     Local& at = local_[i];
     at.closes = c.push > 0;
-    if (at.habit == Habit::sticks) {
+    if (at.habit == ContactMode::sticks) {
       at.dual = -at.slip() / c.grip_softness;
-    } else if (at.habit == Habit::slides && at.slip().dot(at.way) > 0) {  // against the direction of sliding
+    } else if (at.habit == ContactMode::slides && at.slip().dot(at.way) > 0) {  // against the direction of sliding
       at.dual = within(sliding_grip(at), at.bound);
     } else {
       at.dual = c.grip;

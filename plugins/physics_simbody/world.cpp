@@ -9,8 +9,8 @@ namespace muster::simbody {
 
 std::unique_ptr<Engine> make_engine(const std::vector<NamedRobot>& robots, Integrator integrator, Steps longest,
                                     LegModel legs) {
-  if (integrator == Integrator::midpoint) return std::make_unique<Midpoint>(robots, longest, legs);
-  return std::make_unique<Stock>(robots, integrator, longest.of_all);
+  if (integrator == Integrator::midpoint) return std::make_unique<MidpointEngine>(robots, longest, legs);
+  return std::make_unique<SimbodyIntegrators>(robots, integrator, longest.of_all);
 }
 
 void one_by_one(std::size_t count, const std::function<void(std::size_t)>& call) {

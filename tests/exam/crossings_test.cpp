@@ -10,7 +10,7 @@ namespace {
 TEST(Crossings, AreThoseOfTheScene) {
   std::size_t different = 0, all = 0;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-    const Site site = draw_site(seed, {}, 2000);
+    const GroundTruth site = draw_site(seed, {}, 2000);
     const Data data = draw_data(site, seed, "measured");
     std::vector<scene::Wall> walls;
     std::vector<scene::Door> doors;

@@ -12,7 +12,7 @@ namespace {
 int readings_changed(const Case& c) {
   Case without = c;
   without.hidden.clear();
-  without.site = std::make_shared<Site>(*c.site);
+  without.site = std::make_shared<GroundTruth>(*c.site);
   without.site->noise = {c.site->stated_field, c.site->stated_reading, c.site->noise.lost};
   const Eigen::VectorXd level =
       level_by_base(c, c.measured) + draw_noise(without, Field(*without.site, c.seed), c.measured, "measured");

@@ -47,7 +47,7 @@ Standing standing(const Case& c, int station, const Reading& reading) {
 double mean_of(const Case& c, const Standing& s) {
   constexpr int count = 3000;
   const std::string& name = c.site->plan.stations[static_cast<std::size_t>(s.station)].name;
-  std::vector<Asked> asked;
+  std::vector<PlannedReadings> asked;
   for (int k = 0; k < count; ++k)
     asked.push_back({s.from + 0.001 * k, name, "robot1", s.station_at, s.place, s.station_yaw, 0.5});
   const std::string before = readings_csv(*c.site, c.measured), text = followed_csv(read_back(c), asked);

@@ -34,7 +34,7 @@ TEST(CleanCase, LosesAsManyReadingsAsItSays) {
 
 // Covariance of the field over distance, averaged over many fields on one site.
 TEST(Noise, FieldHasTheStatedCovariance) {
-  Site site = draw_site(3, {}, 600);
+  GroundTruth site = draw_site(3, {}, 600);
   for (const Family family : {Family::exponential, Family::gaussian, Family::two_scale}) {
     site.noise.field = {family, 4, 1.5, 0.25};
     const Vec2 origin{site.plan.whole.high.x / 2, site.plan.whole.high.y / 2};

@@ -25,7 +25,7 @@ double gap(const Plan& plan, std::size_t wall, Vec2 p) {
 TEST(Robots, CrossNoWall) {
   int rooms_met = 0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-    const Site site = draw_site(seed, {}, 3000);
+    const GroundTruth site = draw_site(seed, {}, 3000);
     for (const char* run : {"measured", "second"}) {
       const Data data = draw_data(site, seed, run);
       std::vector<const Reading*> last(static_cast<std::size_t>(site.robots), nullptr);
@@ -50,7 +50,7 @@ TEST(Robots, CrossNoWall) {
 
 TEST(Robots, KeepClearOfWalls) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    const Site site = draw_site(seed, {}, 1200);
+    const GroundTruth site = draw_site(seed, {}, 1200);
     const Data data = draw_data(site, seed, "measured");
     for (std::size_t i = 0; i < data.size(); i += 10)
       for (std::size_t w = 0; w < site.plan.walls.size(); ++w)

@@ -9,7 +9,7 @@
 namespace muster::bluetooth {
 namespace {
 
-using medium::Fate;
+using medium::DeliveryOutcome;
 using medium::Jammer;
 using medium::Pulses;
 using peers::add;
@@ -37,9 +37,9 @@ struct Jammed {
   double share(int messages) {
     Books books{};
     add(books, send(messages, Medium::everyone, messages * (5 * slot)));
-    EXPECT_EQ(of(books, Fate::no_link), messages);  // the third radio's copies
-    EXPECT_EQ(of(books, Fate::delivered) + of(books, Fate::collided), messages);
-    return of(books, Fate::delivered) / messages;
+    EXPECT_EQ(of(books, DeliveryOutcome::no_link), messages);  // the third radio's copies
+    EXPECT_EQ(of(books, DeliveryOutcome::delivered) + of(books, DeliveryOutcome::collided), messages);
+    return of(books, DeliveryOutcome::delivered) / messages;
   }
 
   Channel channel;

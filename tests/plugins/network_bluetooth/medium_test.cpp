@@ -148,8 +148,8 @@ TEST(Row24, SlavesTalkToTheirMasterAndToNobodyElse) {
   piconet.medium.ask(0, 1, Medium::everyone, "x");
   piconet.medium.ask(0, 2, Medium::everyone, "x");
   const Report report = piconet.run();
-  EXPECT_EQ(of(books_of(report), Fate::delivered), 1 + 1 + 3);
-  EXPECT_EQ(of(books_of(report), Fate::no_link), 1 + 2);
+  EXPECT_EQ(of(books_of(report), DeliveryOutcome::delivered), 1 + 1 + 3);
+  EXPECT_EQ(of(books_of(report), DeliveryOutcome::no_link), 1 + 2);
 }
 
 // ---- Access -------------------------------------------------------------------------------------------------------
@@ -230,7 +230,7 @@ TEST(Loss, OfWhatIsSentOnceIsThatOfItsBits) {
     piconet.fill(0, Medium::everyone, dh3, frames);
     const double bits = static_cast<double>((air_time(dh3, 183) - bare) / bit);
     const double expected = std::pow(1 - header_error_rate(ratio), 18) * std::pow(1 - bit_error_rate(ratio), bits);
-    const double got = of(books_of(piconet.run(60 * second)), Fate::delivered) / frames;
+    const double got = of(books_of(piconet.run(60 * second)), DeliveryOutcome::delivered) / frames;
     EXPECT_NEAR(got, expected, 3 * std::sqrt(expected * (1 - expected) / frames) + 1e-3) << decibels;
     least = std::min(least, expected), most = std::max(most, expected);
   }
@@ -247,7 +247,7 @@ TEST(Loss, OfShortPacketsIsThatOfTheirHeadersToo) {
   for (int i = 0; i < frames; ++i) piconet.medium.ask(0, 0, Medium::everyone, "");
   const double of_three = 3 * wrong * wrong * (1 - wrong) + wrong * wrong * wrong;
   const double expected = std::pow(1 - of_three, 18) * std::pow(1 - wrong, 8 * (1 + 4 + 2));
-  const double got = of(books_of(piconet.run(60 * second)), Fate::delivered) / frames;
+  const double got = of(books_of(piconet.run(60 * second)), DeliveryOutcome::delivered) / frames;
   EXPECT_NEAR(got, expected, 3 * std::sqrt(expected * (1 - expected) / frames));
   EXPECT_LT(std::pow(1 - of_three, 18), 0.95);
 }
@@ -281,8 +281,8 @@ TEST(Flush, GivesUpAfterItsTime) {
   const double lost = 1 - std::pow(1 - header_error_rate(ratio), 18) * std::pow(1 - bit_error_rate(ratio), bits);
   const double expected = std::pow(lost, tries);
   EXPECT_GT(expected, 0.2);
-  EXPECT_NEAR(of(books, Fate::too_weak) / messages, expected, 3 * std::sqrt(expected / messages));
-  EXPECT_EQ(of(books, Fate::too_weak) + of(books, Fate::delivered), messages);
+  EXPECT_NEAR(of(books, DeliveryOutcome::too_weak) / messages, expected, 3 * std::sqrt(expected / messages));
+  EXPECT_EQ(of(books, DeliveryOutcome::too_weak) + of(books, DeliveryOutcome::delivered), messages);
 }
 
 // Without received acknowledgements: a message in one packet has arrived; of a longer one the sender drops the rest.
@@ -295,7 +295,7 @@ TEST(Flush, WithoutAcknowledgementsEndsAMessageOfSeveralPackets) {
     piconet.medium.ask(0, 0, 1, std::string(size, 'x'));
     const Report report = piconet.run();
     EXPECT_EQ(report.deliveries.size(), size == 40 ? 1u : 0u);  // once, though it is repeated
-    EXPECT_EQ(of(books_of(report), size == 40 ? Fate::delivered : Fate::no_ack), 1);
+    EXPECT_EQ(of(books_of(report), size == 40 ? DeliveryOutcome::delivered : DeliveryOutcome::no_ack), 1);
   }
 }
 
@@ -306,7 +306,7 @@ TEST(Flush, EndsWhatNobodyAsksFor) {
   piconet.channel.power[0 * 2 + 1] = 0;
   piconet.channel.rssi[0 * 2 + 1] = std::nan("");
   piconet.medium.ask(second / 2, 1, 0, "x");
-  EXPECT_EQ(of(books_of(piconet.run()), Fate::no_link), 1);
+  EXPECT_EQ(of(books_of(piconet.run()), DeliveryOutcome::no_link), 1);
 }
 
 TEST(Joining, IsNoticedByAMasterThatWasAlone) {
@@ -315,7 +315,7 @@ TEST(Joining, IsNoticedByAMasterThatWasAlone) {
   piconet.run(second);
   piconet.channel.alive[1] = 1;
   piconet.medium.ask(second, 1, 0, "x");
-  EXPECT_EQ(of(books_of(piconet.run(2 * second)), Fate::delivered), 1);
+  EXPECT_EQ(of(books_of(piconet.run(2 * second)), DeliveryOutcome::delivered), 1);
 }
 
 // Each copy has one outcome through all changes of the master.
@@ -331,9 +331,9 @@ TEST(Master, MayBecomeAnotherAtAnyTime) {
     add(books, piconet.run(i * (slot / 2)));
   }
   add(books, piconet.run(30 * second));
-  EXPECT_GT(of(books, Fate::delivered), 20);
-  EXPECT_GT(of(books, Fate::no_link), 20);
-  EXPECT_EQ(std::accumulate(books.begin() + 1, books.end(), 0.0), of(books, Fate::under_way));
+  EXPECT_GT(of(books, DeliveryOutcome::delivered), 20);
+  EXPECT_GT(of(books, DeliveryOutcome::no_link), 20);
+  EXPECT_EQ(std::accumulate(books.begin() + 1, books.end(), 0.0), of(books, DeliveryOutcome::under_way));
 }
 
 TEST(Queue, RefusesWhatItHasNoRoomFor) {
@@ -341,8 +341,8 @@ TEST(Queue, RefusesWhatItHasNoRoomFor) {
   piconet.settings.queue = 3;
   for (int i = 0; i < 10; ++i) piconet.medium.ask(0, 1, 0, "x");
   const Books books = books_of(piconet.run());
-  EXPECT_EQ(of(books, Fate::delivered), 4);
-  EXPECT_EQ(of(books, Fate::queue_full), 6);
+  EXPECT_EQ(of(books, DeliveryOutcome::delivered), 4);
+  EXPECT_EQ(of(books, DeliveryOutcome::queue_full), 6);
 }
 
 TEST(Gone, CopiesOfWhoLeavesAreCountedAsSuch) {
@@ -353,9 +353,9 @@ TEST(Gone, CopiesOfWhoLeavesAreCountedAsSuch) {
     Books books = books_of(piconet.run(second / 5));
     piconet.channel.alive[leaver] = 0;
     add(books, piconet.run(second / 2));
-    EXPECT_EQ(of(books, Fate::delivered) + of(books, Fate::gone), 10);
-    EXPECT_GT(of(books, Fate::delivered), 0);
-    EXPECT_GT(of(books, Fate::gone), 0);
+    EXPECT_EQ(of(books, DeliveryOutcome::delivered) + of(books, DeliveryOutcome::gone), 10);
+    EXPECT_GT(of(books, DeliveryOutcome::delivered), 0);
+    EXPECT_GT(of(books, DeliveryOutcome::gone), 0);
     piconet.channel.alive[leaver] = 1;
     EXPECT_TRUE(piconet.run(second).deliveries.empty());
   }

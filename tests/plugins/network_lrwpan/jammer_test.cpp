@@ -40,7 +40,7 @@ struct Jammed {
     }
     return medium.run(0, frames * (second / 20), channel, settings);
   }
-  double share_of(int frames, Fate fate) {
+  double share_of(int frames, DeliveryOutcome fate) {
     Books books{};
     add(books, send(frames));
     return of(books, fate) / frames;
@@ -60,7 +60,7 @@ TEST(SteadyJammer, LeavesWhatTheBitErrorLawSays) {
     const double expected = std::pow(1 - bit_error_rate(signal / (power + 1e-11)), static_cast<double>(frame / bit));
     const double three_sigma = 3 * std::sqrt(expected * (1 - expected) / frames) + 1e-3;
     Jammed one(power);
-    EXPECT_NEAR(one.share_of(frames, Fate::delivered), expected, three_sigma) << above;
+    EXPECT_NEAR(one.share_of(frames, DeliveryOutcome::delivered), expected, three_sigma) << above;
     least = std::min(least, expected), most = std::max(most, expected);
   }
   EXPECT_LT(least, 0.3);
@@ -71,8 +71,8 @@ TEST(SteadyJammer, WhatItTakesIsCountedAsCollided) {
   Jammed one(1.5 * signal);
   Books books{};
   add(books, one.send(1000));
-  EXPECT_GT(of(books, Fate::collided), 100);
-  EXPECT_EQ(of(books, Fate::collided) + of(books, Fate::delivered), 1000);
+  EXPECT_GT(of(books, DeliveryOutcome::collided), 100);
+  EXPECT_EQ(of(books, DeliveryOutcome::collided) + of(books, DeliveryOutcome::delivered), 1000);
 }
 
 // Only the part of its power within the receiver's 5 MHz counts.
@@ -80,10 +80,10 @@ TEST(SteadyJammer, OfAWideSpectrumOnlyItsPartCounts) {
   Jammed narrow(signal), wide(10 * signal), beside(1e3 * signal);
   wide.channel.jammers[0].band = {2402.5e6 - 10e6, 2402.5e6 + 40e6};
   beside.channel.jammers[0].band = band_of(12);
-  EXPECT_EQ(narrow.share_of(1000, Fate::delivered), wide.share_of(1000, Fate::delivered));
-  EXPECT_EQ(beside.share_of(1000, Fate::delivered), 1);
+  EXPECT_EQ(narrow.share_of(1000, DeliveryOutcome::delivered), wide.share_of(1000, DeliveryOutcome::delivered));
+  EXPECT_EQ(beside.share_of(1000, DeliveryOutcome::delivered), 1);
   beside.settings.channel = 12;
-  EXPECT_LT(beside.share_of(1000, Fate::delivered), 0.01);
+  EXPECT_LT(beside.share_of(1000, DeliveryOutcome::delivered), 0.01);
 }
 
 // A radio that receives it above the threshold never finds the channel free; below, it has no effect.
@@ -93,12 +93,12 @@ TEST(Assessment, HearsAJammer) {
       Jammed one(0);
       one.settings.cca = cca;
       one.channel.jammers[0].power = {above * one.settings.busy, 0};
-      EXPECT_EQ(one.share_of(200, above > 1 ? Fate::no_access : Fate::delivered), 1) << above;
+      EXPECT_EQ(one.share_of(200, above > 1 ? DeliveryOutcome::no_access : DeliveryOutcome::delivered), 1) << above;
     }
     Jammed beside(0);
     beside.channel.jammers[0].power = {1, 0};
     beside.channel.jammers[0].band = band_of(12);
-    EXPECT_EQ(beside.share_of(200, Fate::delivered), 1);
+    EXPECT_EQ(beside.share_of(200, DeliveryOutcome::delivered), 1);
   }
 }
 
@@ -107,7 +107,7 @@ TEST(Assessment, IsOfTheMeanPowerOfPulses) {
   for (const double above : {0.99, 1.01}) {
     Jammed one(0, {cca_window / 4, cca_window / 8, 0});
     one.channel.jammers[0].power = {2 * above * one.settings.busy, 0};
-    EXPECT_EQ(one.share_of(200, above > 1 ? Fate::no_access : Fate::delivered), 1) << above;
+    EXPECT_EQ(one.share_of(200, above > 1 ? DeliveryOutcome::no_access : DeliveryOutcome::delivered), 1) << above;
   }
 }
 
@@ -134,7 +134,8 @@ TEST(Pulses, ShorterThanAFrameTakeTheirShareOfItsBits) {
   Jammed one(power, {bit * 8, bit * 4, 0});
   const double bits = static_cast<double>(frame / bit) / 2;
   const double expected = std::pow(1 - bit_error_rate(signal / (power + 1e-11)), bits);
-  EXPECT_NEAR(one.share_of(frames, Fate::delivered), expected, 3 * std::sqrt(expected * (1 - expected) / frames));
+  EXPECT_NEAR(one.share_of(frames, DeliveryOutcome::delivered), expected,
+              3 * std::sqrt(expected * (1 - expected) / frames));
   const double by_the_mean = std::pow(1 - bit_error_rate(signal / (power / 2 + 1e-11)), 2 * bits);
   EXPECT_GT(by_the_mean - expected, 0.3);
 }

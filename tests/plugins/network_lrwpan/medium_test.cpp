@@ -44,11 +44,12 @@ Books loaded(uint64_t seed, std::size_t radios, double rate, double seconds, con
 TEST(Books, EachCopyHasOneFate) {
   for (const Cca cca : {Cca::standard, Cca::ns3, Cca::instant}) {
     const Books books = loaded(3, 30, 20, 5, as_ns3(cca));
-    const double asked = of(books, Fate::under_way), settled = std::accumulate(books.begin() + 1, books.end(), 0.0);
+    const double asked = of(books, DeliveryOutcome::under_way),
+                 settled = std::accumulate(books.begin() + 1, books.end(), 0.0);
     EXPECT_LE(settled, asked);
     EXPECT_GT(settled, 0.97 * asked);  // the last ones still wait
-    EXPECT_GT(of(books, Fate::collided), 0);
-    EXPECT_GT(of(books, Fate::no_access), 0);
+    EXPECT_GT(of(books, DeliveryOutcome::collided), 0);
+    EXPECT_GT(of(books, DeliveryOutcome::no_access), 0);
   }
 }
 
@@ -144,9 +145,10 @@ TEST(Acknowledgement, LostFramesAreSentAgain) {
   for (int i = 0; i < sent; ++i) pair.medium.ask(i * second / 20, 0, 1, std::string(40, 'x'));
   Books books{};
   add(books, pair.run(sent * (second / 20)));
-  const double got = of(books, Fate::delivered) / sent;
+  const double got = of(books, DeliveryOutcome::delivered) / sent;
   EXPECT_NEAR(got, 1 - std::pow(0.25, 4), 0.006);
-  EXPECT_EQ(of(books, Fate::delivered) + of(books, Fate::too_weak), sent);  // and none arrives twice
+  EXPECT_EQ(of(books, DeliveryOutcome::delivered) + of(books, DeliveryOutcome::too_weak),
+            sent);  // and none arrives twice
 }
 
 // Without received acknowledgements: a message in one frame has arrived; of a longer one the sender drops the rest.
@@ -160,7 +162,7 @@ TEST(Acknowledgement, NotHeardItEndsAMessageOfSeveralFrames) {
     const Report report = pair.run();
     add(books, report);
     EXPECT_EQ(report.deliveries.size(), size == 40 ? 1u : 0u);  // once, though it is sent four times
-    EXPECT_EQ(of(books, size == 40 ? Fate::delivered : Fate::no_ack), 1);
+    EXPECT_EQ(of(books, size == 40 ? DeliveryOutcome::delivered : DeliveryOutcome::no_ack), 1);
   }
 }
 
@@ -176,8 +178,8 @@ TEST(Acknowledgement, WhoOwesOneDoesNotSendItsOwn) {
       pair.medium.ask(asked, 1, Medium::everyone, std::string(40, 'x'));
       add(books, pair.medium.run(0, second, pair.channel, as_ns3(cca)));
     }
-    EXPECT_EQ(of(books, Fate::delivered), of(books, Fate::under_way));
-    EXPECT_EQ(of(books, Fate::collided), 0);
+    EXPECT_EQ(of(books, DeliveryOutcome::delivered), of(books, DeliveryOutcome::under_way));
+    EXPECT_EQ(of(books, DeliveryOutcome::collided), 0);
   }
 }
 
@@ -213,7 +215,7 @@ TEST(HiddenTerminals, Collide) {
     settings.acknowledged = false;
     Books books{};
     add(books, medium.run(0, 20 * second, channel, settings));
-    return of(books, Fate::collided) / of(books, Fate::under_way);
+    return of(books, DeliveryOutcome::collided) / of(books, DeliveryOutcome::under_way);
   };
   EXPECT_LT(lost(false), 0.05);
   EXPECT_NEAR(lost(true), 1.824 / 10, 0.02);  // ms of a frame, and between those of one sender
@@ -249,8 +251,8 @@ TEST(Queue, RefusesWhatItHasNoRoomFor) {
   settings.queue = 3;
   Books books{};
   add(books, pair.medium.run(0, second, pair.channel, settings));
-  EXPECT_EQ(of(books, Fate::delivered), 4);
-  EXPECT_EQ(of(books, Fate::queue_full), 6);
+  EXPECT_EQ(of(books, DeliveryOutcome::delivered), 4);
+  EXPECT_EQ(of(books, DeliveryOutcome::queue_full), 6);
 }
 
 TEST(State, TheSameBytesMakeTheSameFuture) {
@@ -307,7 +309,7 @@ TEST(Gone, CopiesOfWhoLeavesAreCountedAsSuch) {
   add(books, pair.medium.run(0, second / 100, pair.channel, as_ns3()));
   pair.channel.alive[0] = 0;
   add(books, pair.medium.run(second / 100, second, pair.channel, as_ns3()));
-  EXPECT_EQ(of(books, Fate::gone), 5 - of(books, Fate::delivered));
+  EXPECT_EQ(of(books, DeliveryOutcome::gone), 5 - of(books, DeliveryOutcome::delivered));
   pair.channel.alive[0] = 1;
   EXPECT_TRUE(pair.medium.run(second, 2 * second, pair.channel, as_ns3()).deliveries.empty());
 }

@@ -93,8 +93,8 @@ TEST(Pan, WhatIsForAllIsTakenInTheSendersOwnAndNowhereElse) {
     EXPECT_EQ(takers, mates);
     Books books{};
     add(books, report);
-    EXPECT_EQ(of(books, Fate::under_way), pans.size() - 1);
-    EXPECT_EQ(of(books, Fate::no_link), pans.size() - 1 - mates.size());
+    EXPECT_EQ(of(books, DeliveryOutcome::under_way), pans.size() - 1);
+    EXPECT_EQ(of(books, DeliveryOutcome::no_link), pans.size() - 1 - mates.size());
   }
 }
 
@@ -107,7 +107,7 @@ TEST(Pan, TakesFromWhatIsHeardWhatIsOfOthersAndChangesNothingElse) {
   const Outcome several = crowd(in(four_and_four), 40, false);
   EXPECT_TRUE(several.got == within);
   EXPECT_GT(within.size(), 2000u);
-  EXPECT_GT(of(several.books, Fate::collided), 100);
+  EXPECT_GT(of(several.books, DeliveryOutcome::collided), 100);
 }
 
 TEST(Pan, ItsNumberDoesNotMatter) {
@@ -128,8 +128,9 @@ TEST(Pan, OneForAllIsAsNone) {
 TEST(Pan, EachCopyHasOneFate) {
   for (const double rate : {5.0, 40.0, 80.0}) {
     const Outcome run = crowd(in(four_and_four), rate, true);
-    EXPECT_EQ(std::accumulate(run.books.begin() + 1, run.books.end(), 0.0), of(run.books, Fate::under_way)) << rate;
-    EXPECT_EQ(of(run.books, Fate::delivered), static_cast<double>(run.got.size())) << rate;
+    EXPECT_EQ(std::accumulate(run.books.begin() + 1, run.books.end(), 0.0), of(run.books, DeliveryOutcome::under_way))
+        << rate;
+    EXPECT_EQ(of(run.books, DeliveryOutcome::delivered), static_cast<double>(run.got.size())) << rate;
   }
 }
 
@@ -175,7 +176,7 @@ TEST(Pan, AReceiverIsBusyWithWhatIsNotForIt) {
     Settings settings = in({1, 1, 2});
     settings.acknowledged = false;
     const Report& report = medium.run(0, 21 * second, channel, settings);
-    return static_cast<double>(report.fates[0][static_cast<std::size_t>(Fate::collided)]) / 2000;
+    return static_cast<double>(report.fates[0][static_cast<std::size_t>(DeliveryOutcome::collided)]) / 2000;
   };
   EXPECT_EQ(lost(false), 0);
   EXPECT_NEAR(lost(true), 1.824 / 10, 0.02);
@@ -267,7 +268,7 @@ TEST(Pan, WhoLeftIsGoneFromWhichever) {
   channel.alive = {1, 0, 0};
   std::fill(channel.power.begin(), channel.power.end(), 0);
   add(books, medium.run(cca_window, second, channel, in({1, 1, 2})));
-  EXPECT_EQ(of(books, Fate::gone), 2);
+  EXPECT_EQ(of(books, DeliveryOutcome::gone), 2);
 }
 
 }  // namespace

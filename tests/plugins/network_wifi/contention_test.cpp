@@ -107,7 +107,7 @@ TEST(HiddenTerminals, Collide) {
                         1, std::string(600, 'x'));
     Books books{};
     add(books, cell.run(s, 21 * second));
-    return of(books, Fate::collided) / of(books, Fate::under_way);
+    return of(books, DeliveryOutcome::collided) / of(books, DeliveryOutcome::under_way);
   };
   EXPECT_LT(lost(false, false), 0.01);
   const double frame = 1e-9 * static_cast<double>(air_time(header + 600, rates[0]));

@@ -40,7 +40,7 @@ struct Jammed {
     }
     return medium.run(0, frames * (second / 100), channel, settings);
   }
-  double share_of(int frames, Fate fate) {
+  double share_of(int frames, DeliveryOutcome fate) {
     Books books{};
     add(books, send(frames));
     return of(books, fate) / frames;
@@ -62,7 +62,7 @@ TEST(SteadyJammer, LeavesWhatTheBitErrorLawSays) {
     const double bits = static_cast<double>((one.frame() - preamble - signal_field - extension) / symbol) * 96;
     const double expected = std::pow(1 - bit_error_rate(rates[0], ratio), 24) *
                             std::pow(1 - bit_error_rate(rates[rate_of(24)], ratio), bits);
-    EXPECT_NEAR(one.share_of(frames, Fate::delivered), expected,
+    EXPECT_NEAR(one.share_of(frames, DeliveryOutcome::delivered), expected,
                 3 * std::sqrt(expected * (1 - expected) / frames) + 1e-3)
         << above;
     least = std::min(least, expected), most = std::max(most, expected);
@@ -76,8 +76,8 @@ TEST(SteadyJammer, OfAWideSpectrumOnlyItsPartCounts) {
   Jammed narrow(power), wide(4 * power), beside(1e3 * signal);
   wide.channel.jammers[0].band = {2412e6 - 30e6, 2412e6 + 50e6};
   beside.channel.jammers[0].band = band_of(5);
-  EXPECT_EQ(narrow.share_of(1000, Fate::delivered), wide.share_of(1000, Fate::delivered));
-  EXPECT_EQ(beside.share_of(1000, Fate::delivered), 1);
+  EXPECT_EQ(narrow.share_of(1000, DeliveryOutcome::delivered), wide.share_of(1000, DeliveryOutcome::delivered));
+  EXPECT_EQ(beside.share_of(1000, DeliveryOutcome::delivered), 1);
 }
 
 // A station that receives it above the threshold waits as long as it is on.
@@ -85,7 +85,7 @@ TEST(Access, WaitsForAJammerToEnd) {
   for (const double above : {0.99, 1.01}) {
     Jammed one(0);
     one.channel.jammers[0].power = {above * one.settings.busy, 0};
-    EXPECT_EQ(one.share_of(200, Fate::delivered), above > 1 ? 0 : 1) << above;
+    EXPECT_EQ(one.share_of(200, DeliveryOutcome::delivered), above > 1 ? 0 : 1) << above;
     one.channel.jammers.clear();
     const Report& after = one.medium.run(2 * second, 3 * second, one.channel, one.settings);
     EXPECT_EQ(after.deliveries.size(), above > 1 ? 200u : 0u);

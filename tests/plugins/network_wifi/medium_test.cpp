@@ -143,8 +143,10 @@ TEST(Acknowledgement, LostFramesAreSentAgain) {
     cell.channel.rssi.assign(4, -70);  // heard in any case
     for (int i = 0; i < 2000; ++i) cell.medium.ask(i * second / 200, 0, 1, std::string(500, 'x'));
     add(books, cell.run(s, 20 * second));
-    EXPECT_EQ(of(books, Fate::delivered) + of(books, Fate::too_weak) + of(books, Fate::no_ack), 2000);
-    return of(books, Fate::too_weak) / 2000;
+    EXPECT_EQ(of(books, DeliveryOutcome::delivered) + of(books, DeliveryOutcome::too_weak) +
+                  of(books, DeliveryOutcome::no_ack),
+              2000);
+    return of(books, DeliveryOutcome::too_weak) / 2000;
   };
   while (lost(0) < 0.25) distance += 0.5;
   EXPECT_LT(lost(0), 0.5);
@@ -162,7 +164,7 @@ TEST(Acknowledgement, NotHeardItEndsAMessageOfSeveralFrames) {
     const Report report = cell.run(settings());
     add(books, report);
     EXPECT_EQ(report.deliveries.size(), size == 40 ? 1u : 0u);  // once, though it is sent seven times
-    EXPECT_EQ(of(books, size == 40 ? Fate::delivered : Fate::no_ack), 1);
+    EXPECT_EQ(of(books, size == 40 ? DeliveryOutcome::delivered : DeliveryOutcome::no_ack), 1);
   }
 }
 
@@ -176,9 +178,9 @@ TEST(Books, EachCopyHasOneFate) {
   s.queue = 10;
   Books books{};
   add(books, cell.run(s, 3 * second));
-  EXPECT_EQ(std::accumulate(books.begin() + 1, books.end(), 0.0), of(books, Fate::under_way));
-  EXPECT_GT(of(books, Fate::collided), 0);
-  EXPECT_GT(of(books, Fate::queue_full), 0);
+  EXPECT_EQ(std::accumulate(books.begin() + 1, books.end(), 0.0), of(books, DeliveryOutcome::under_way));
+  EXPECT_GT(of(books, DeliveryOutcome::collided), 0);
+  EXPECT_GT(of(books, DeliveryOutcome::queue_full), 0);
 }
 
 // ---- State --------------------------------------------------------------------------------------------------------
@@ -233,8 +235,8 @@ TEST(Gone, CopiesOfWhoLeavesAreCountedAsSuch) {
   add(books, cell.medium.run(0, second / 100, cell.channel, settings()));
   cell.channel.alive[0] = 0;
   add(books, cell.medium.run(second / 100, second, cell.channel, settings()));
-  EXPECT_EQ(of(books, Fate::gone), 5 - of(books, Fate::delivered));
-  EXPECT_GT(of(books, Fate::gone), 0);
+  EXPECT_EQ(of(books, DeliveryOutcome::gone), 5 - of(books, DeliveryOutcome::delivered));
+  EXPECT_GT(of(books, DeliveryOutcome::gone), 0);
   cell.channel.alive[0] = 1;
   EXPECT_TRUE(cell.medium.run(second, 2 * second, cell.channel, settings()).deliveries.empty());
 }

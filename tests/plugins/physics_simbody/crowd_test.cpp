@@ -16,7 +16,7 @@ void run(std::vector<RobotState> states, const std::vector<scene::Wall>& walls, 
          const std::function<Command(int, double)>& command_of, const std::string& name) {
   std::vector<NamedRobot> robots;
   for (int i = 0; i < crowd; ++i) robots.push_back({"r" + std::to_string(i), &scarab()});
-  Midpoint engine(robots, dt);
+  MidpointEngine engine(robots, dt);
   const auto slabs_of_walls = slabs(walls, {});
   engine.set_surroundings(slabs_of_walls, 0.3);
   Trouble seen;

@@ -8,7 +8,7 @@ namespace muster::simbody {
 namespace {
 
 TEST(Dynamics, FreeAccelerationIsSimbodys) {
-  const Crew crew({{"r", &scarab()}});
+  const RobotModels crew({{"r", &scarab()}});
   std::mt19937 random(7);
   const auto draw = [&] { return static_cast<double>(random()) / 2147483648.0 - 1; };
   for (int trial = 0; trial < 20; ++trial) {
@@ -35,7 +35,7 @@ TEST(Dynamics, FreeAccelerationIsSimbodys) {
 }
 
 TEST(Dynamics, SimbodyWeighsTheScarab) {
-  const Crew crew({{"r", &scarab()}});
+  const RobotModels crew({{"r", &scarab()}});
   SimTK::State state = crew.system().state;
   crew.system().system.realize(state, SimTK::Stage::Position);
   EXPECT_NEAR(crew.system().matter.calcSystemMass(state), 8, 1e-12);

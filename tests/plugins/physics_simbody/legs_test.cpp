@@ -22,7 +22,7 @@ class Legs : public testing::Test {
 
 TEST_F(Legs, DynamicsAreSimbodys) {
   constexpr int n = unknowns_with_legs;
-  const Crew crew({{"r", &rdk()}});
+  const RobotModels crew({{"r", &rdk()}});
   for (int trial = 0; trial < 20; ++trial) {
     SimTK::State state = crew.system().state;
     const Eigen::Quaterniond q = draw_turn();

@@ -37,7 +37,7 @@ void backwards_on_two_threads(std::size_t count, const std::function<void(std::s
 // A crowd on random commands for a second, each held for a tick.
 std::vector<RobotState> crowd_after(double own_tick, const Each& each = one_by_one) {
   std::vector<RobotState> states = crowd_at_rest(5);
-  Midpoint engine(scarabs(states.size()), step);
+  MidpointEngine engine(scarabs(states.size()), step);
   engine.set_surroundings(scene::slabs(arena(crowd), {}), 0.3);
   const RandomArcs arcs(5);
   std::vector<Command> commands(states.size());
@@ -51,22 +51,24 @@ std::vector<RobotState> crowd_after(double own_tick, const Each& each = one_by_o
   return states;
 }
 
-TEST(Mover, LongTicksFindWhoMeetsInTheirMidst) { EXPECT_TRUE(same_bits(crowd_after(tick), crowd_after(step))); }
+TEST(ClusterStepper, LongTicksFindWhoMeetsInTheirMidst) {
+  EXPECT_TRUE(same_bits(crowd_after(tick), crowd_after(step)));
+}
 
-TEST(Mover, ThreadsAndTheirOrderDoNotShow) {
+TEST(ClusterStepper, ThreadsAndTheirOrderDoNotShow) {
   EXPECT_TRUE(same_bits(crowd_after(tick / 4), crowd_after(tick / 4, backwards_on_two_threads)));
 }
 
 // The second of three is at rest, beyond the third's reach by all bounds, until the first hits it towards the third:
 // the tick starts again.
-TEST(Mover, WhoIsStruckMeetsOthersInTheSameTick) {
+TEST(ClusterStepper, WhoIsStruckMeetsOthersInTheSameTick) {
   constexpr double long_tick = 0.0625;
   const auto after = [](double own_tick) {
     const RobotModel model(scarab());
     const double off = 2 * model.reach + 4 * way_of(model, at_rest(0, 0, 0), long_tick) + 0.01;
     std::vector<RobotState> states = {at_rest(0, 0, 0), at_rest(0.25, 0, 0), at_rest(0.25 + off, 0, 0)};
     states[0].twist[0] = 20;
-    Midpoint engine(scarabs(3), long_tick / 64);
+    MidpointEngine engine(scarabs(3), long_tick / 64);
     engine.set_surroundings({}, 0.3);
     for (int part = 0; part < std::lround(long_tick / own_tick); ++part)
       engine.step(own_tick, std::vector<Command>(3), states);
@@ -77,9 +79,9 @@ TEST(Mover, WhoIsStruckMeetsOthersInTheSameTick) {
 }
 
 // Each as in an engine of its own kind, while they are far from each other.
-TEST(Mover, LegsHaveStepsAndUnknownsOfTheirOwn) {
+TEST(ClusterStepper, LegsHaveStepsAndUnknownsOfTheirOwn) {
   const std::vector<NamedRobot> walker = {{"walker", &rdk()}}, roller = scarabs(1);
-  Midpoint both({walker[0], roller[0]}, Steps(0.01, 0.002)), legs(walker, 0.002), wheels(roller, 0.01);
+  MidpointEngine both({walker[0], roller[0]}, Steps(0.01, 0.002)), legs(walker, 0.002), wheels(roller, 0.01);
   std::vector<RobotState> two = {at_rest(0, 0, 0), at_rest(2, 0, 1)}, first = {two[0]}, second = {two[1]};
   for (int k = 0; k < 100; ++k) {
     const Command walk = Walk{1}.over(0.01 * k, 0.01), drive = command(0.3, 0.5);
@@ -91,9 +93,9 @@ TEST(Mover, LegsHaveStepsAndUnknownsOfTheirOwn) {
   EXPECT_TRUE(same_bits({two[1]}, second));
 }
 
-TEST(Mover, WhoMayMeetLegsTakesTheirSteps) {
+TEST(ClusterStepper, WhoMayMeetLegsTakesTheirSteps) {
   const std::vector<NamedRobot> robots = {{"walker", &rdk()}, {"roller", &scarab()}};
-  Midpoint mixed(robots, Steps(0.01, 0.002)), fine(robots, 0.002);
+  MidpointEngine mixed(robots, Steps(0.01, 0.002)), fine(robots, 0.002);
   std::vector<RobotState> a = {at_rest(0, 0, 0), at_rest(0.35, 0, 3)}, b = a;
   for (int k = 0; k < 20; ++k) {
     const std::vector<Command> commands = {Walk{1}.over(0.01 * k, 0.01), command(0.1, 0)};

@@ -16,19 +16,19 @@ double apart(const RobotState& a, const RobotState& b) {
   return std::hypot(a.pose[0] - b.pose[0], a.pose[1] - b.pose[1]) + std::abs(yaw(a) - yaw(b)) * 0.1;
 }
 
-TEST(Stock, StepperAgreesWithRungeKutta) {
+TEST(SimbodyIntegrators, StepperAgreesWithRungeKutta) {
   const RobotState reference = end_of(Integrator::rk3, 0.002);
   EXPECT_GT(std::abs(reference.pose[0]), 0.3);
   EXPECT_LT(apart(end_of(Integrator::midpoint, 0.001), reference), 2e-5);
 }
 
-TEST(Stock, AdaptiveIntegratorsAgree) {
+TEST(SimbodyIntegrators, AdaptiveIntegratorsAgree) {
   const RobotState reference = end_of(Integrator::rk3, 0.002);
   EXPECT_LT(apart(end_of(Integrator::rkm, 0.01), reference), 2e-5);
   EXPECT_LT(apart(end_of(Integrator::cpodes, 0.01), reference), 2e-4);
 }
 
-TEST(Stock, WheelsTurnAsAsked) {
+TEST(SimbodyIntegrators, WheelsTurnAsAsked) {
   const RobotState s = end_of(Integrator::rk3, 0.005);
   const Command c = gentle(2);
   EXPECT_NEAR(s.rate[0], c.left, 1e-9);
