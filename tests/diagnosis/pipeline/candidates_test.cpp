@@ -80,7 +80,7 @@ TEST(LocalColumns, FallBackToAllReadingsWhereAnEffectIsNotLocal) {
                                                hall.at.base);
   };
   const Eigen::VectorXd& theta = far.candidate.design.grid[0];
-  const auto columns = columns_near(theta, far, hall.at.data, hall.at.layout->readings(), simulate);
+  const auto columns = columns_near(theta, far, hall.at.layout->readings(), simulate);
   EXPECT_EQ(columns(theta), far.candidate.design.columns(theta));
 }
 
