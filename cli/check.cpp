@@ -1,30 +1,27 @@
 // muster check WORLD: everything that a run does before its first tick, and what it warns of.
 #include <fmt/core.h>
 
-#include <nlohmann/json.hpp>
-
 #include "kernel/record.hpp"
+#include "text/json.hpp"
 #include "verbs.hpp"
 
 namespace muster::cli {
 
 int run_check(const Arguments& arguments) {
-  CLI::App app(
-      "Reads a world, loads and links its plugins, and says what is wrong.\nExample: muster check worlds/connectivity",
-      "check");
+  CommandLine line(
+      "check",
+      "Reads a world, loads and links its plugins, and says what is wrong.\nExample: muster check worlds/connectivity");
   std::string path;
   std::vector<std::string> plugins;
   bool json = false;
-  app.add_option("world", path, "the world's folder or file")->required();
-  app.add_option("--plugins", plugins, "a folder of plugins, looked in first");
-  app.add_flag("--json", json, "print the outcome as JSON");
-  parse(app, arguments);
+  line.option("world", path, "the world's folder or file").required();
+  line.option("--plugins", plugins, "a folder of plugins, looked in first");
+  line.flag("--json", json, "print the outcome as JSON");
+  line.parse(arguments);
   const Simulation run(read_world(path, standard()), standard(), {plugin_path(plugins), 1, {}});
   check_records(run);
   if (json) {
-    nlohmann::ordered_json out = {{"world", run.world().name},
-                                  {"instances", nlohmann::ordered_json::array()},
-                                  {"warnings", nlohmann::ordered_json::array()}};
+    Json out = {{"world", run.world().name}, {"instances", Json::array()}, {"warnings", Json::array()}};
     for (const auto& instance : run.instances())
       out["instances"].push_back({{"name", instance->name()}, {"plugin", instance->plugin().id}});
     for (const auto& event : run.events()) out["warnings"].push_back(event.message);

@@ -9,19 +9,6 @@
 
 namespace muster::cli {
 
-void parse(CLI::App& app, const Arguments& arguments) {
-  try {
-    Arguments reversed(arguments.rbegin(), arguments.rend());  // as CLI11 wants them
-    app.parse(reversed);
-  } catch (const CLI::CallForHelp&) {
-    fmt::print("{}", app.help());
-    throw Helped{};
-  } catch (const CLI::ParseError& e) {
-    throw Error(Exit::invalid_input,
-                fmt::format("muster {}: {}; see muster {} --help", app.get_name(), e.what(), app.get_name()));
-  }
-}
-
 Library::SearchPath plugin_path(const std::vector<std::string>& given) {
   Library::SearchPath result;
   const auto add = [&](const std::string& folder, const char* from) {

@@ -207,27 +207,27 @@ class Comparison {
 }  // namespace
 
 int run_compare(const Arguments& arguments) {
-  CLI::App app(
+  CommandLine line(
+      "compare",
       "Runs a world as it is given and with an instance exchanged, or several worlds, with the same random numbers,\n"
       "and says what differs: where first, by how much, since when. With --ladder, runs it on channels from perfect "
       "to\n"
       "contended, and says what came of its mission on each.\n"
       "Example: muster compare worlds/square_path physics=physics.planar physics=physics.simbody:integrator=rk3 "
-      "--out out",
-      "compare");
+      "--out out");
   CompareWords words;
-  app.add_option("world", words.world, "the world's folder or file")->required();
-  app.add_option("other", words.others,
-                 "INSTANCE=PLUGIN[:NAME=VALUE...], the world with this instance exchanged, or another world");
-  declare(app, words);
-  app.add_option("--within", words.within,
-                 "QUANTITY=TOLERANCE, such as pose/distance=0.05: exit code 1 where a difference is larger")
-      ->allow_extra_args(false);
-  app.add_flag("--ladder", words.ladder, "run the world on each rung of the fidelity ladder instead");
-  app.add_option("--metric", words.metrics,
-                 "TABLE/COLUMN, such as robot/leader/pose/x: what the ladder shows in place of moved and delivered")
-      ->allow_extra_args(false);
-  parse(app, arguments);
+  line.option("world", words.world, "the world's folder or file").required();
+  line.option("other", words.others,
+              "INSTANCE=PLUGIN[:NAME=VALUE...], the world with this instance exchanged, or another world");
+  declare(line, words);
+  line.option("--within", words.within,
+              "QUANTITY=TOLERANCE, such as pose/distance=0.05: exit code 1 where a difference is larger")
+      .one_word_each();
+  line.flag("--ladder", words.ladder, "run the world on each rung of the fidelity ladder instead");
+  line.option("--metric", words.metrics,
+              "TABLE/COLUMN, such as robot/leader/pose/x: what the ladder shows in place of moved and delivered")
+      .one_word_each();
+  line.parse(arguments);
   if (words.ladder && !(words.others.empty() && words.within.empty() && words.record.empty()))
     throw Error(
         Exit::invalid_input,

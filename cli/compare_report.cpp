@@ -11,8 +11,6 @@
 namespace muster::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 double time_of(const Simulation& run, uint64_t tick) { return static_cast<double>(tick) * run.world().dt; }
 std::string time_text(const Simulation& run, uint64_t tick) {
   return tick == Course::never ? "-" : fmt::format("{:.6g} s", time_of(run, tick));
@@ -241,7 +239,6 @@ void print_comparison(const std::vector<ComparedRun>& runs, const std::vector<st
 
 namespace {
 
-Json known(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 Json tick_json(uint64_t tick) { return tick == Course::never ? Json(nullptr) : Json(tick); }
 
 Json first_json(const Simulation& run, const FirstDifference& first) {
@@ -267,10 +264,10 @@ Json differences_json(const Divergence& divergence) {
                           {"unit", table.measures[m].unit},
                           {"largest", c.largest},
                           {"largest_at_tick", c.largest_at},
-                          {"end", known(c.at(divergence.tick()))},
+                          {"end", c.at(divergence.tick())},
                           {"first_tick", c.first},
                           {"unlike_ticks", c.unlike},
-                          {"tolerance", known(table.tolerance[m])},
+                          {"tolerance", table.tolerance[m]},
                           {"beyond_tolerance_at_tick", tick_json(c.beyond)}});
       }
     }

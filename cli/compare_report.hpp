@@ -1,10 +1,10 @@
 // What a comparison of runs found, in words and as JSON.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "compared_run.hpp"
+#include "text/json.hpp"
 
 namespace muster::cli {
 
@@ -27,6 +27,6 @@ std::vector<Quantity> quantities(const Simulation& run, const Divergence& diverg
 
 // `not_run`: words of runs that could not be made.
 void print_comparison(const std::vector<ComparedRun>& runs, const std::vector<std::string>& not_run);
-nlohmann::ordered_json comparison_json(const std::vector<ComparedRun>& runs, const std::vector<std::string>& not_run);
+Json comparison_json(const std::vector<ComparedRun>& runs, const std::vector<std::string>& not_run);
 
 }  // namespace muster::cli

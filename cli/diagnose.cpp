@@ -26,26 +26,25 @@ Error wrong(const std::string& what) {
 }
 
 Words words_of(const Arguments& arguments) {
-  CLI::App app(
+  CommandLine line(
+      "diagnose",
       "Finds what a world gets wrong about measured readings, and names the cause where one on the plugin path "
       "explains "
       "it.\n"
       "With --out it writes a report with pictures and the world extended by the named causes, which it simulates and\n"
       "diagnoses again, and a test of the finding that --check runs. Exit code 1: --check fails.\n"
       "Example: muster diagnose worlds/hall --data worlds/hall/measured.csv --out build/hall_extended\n"
-      "         muster diagnose --check build/hall_extended",
-      "diagnose");
+      "         muster diagnose --check build/hall_extended");
   Words words;
-  app.add_option("world", words.world, "the world's folder or file");
-  app.add_option("--data", words.data, "measured readings, a CSV table (docs/reference/table_format.md)");
-  app.add_option("--out", words.out, "a folder for report.html, diagnosis.json, the extended world and its test");
-  app.add_option(
-      "--second", words.second,
-      "readings of the same truth that were not used: the extended world is held against them (needs --out)");
-  app.add_option("--check", words.check, "a folder that --out wrote: does its world still explain the data?");
-  app.add_option("--plugins", words.plugins, "a folder of plugins, looked in first");
-  app.add_flag("--json", words.json, "print the result as JSON, on one line");
-  parse(app, arguments);
+  line.option("world", words.world, "the world's folder or file");
+  line.option("--data", words.data, "measured readings, a CSV table (docs/reference/table_format.md)");
+  line.option("--out", words.out, "a folder for report.html, diagnosis.json, the extended world and its test");
+  line.option("--second", words.second,
+              "readings of the same truth that were not used: the extended world is held against them (needs --out)");
+  line.option("--check", words.check, "a folder that --out wrote: does its world still explain the data?");
+  line.option("--plugins", words.plugins, "a folder of plugins, looked in first");
+  line.flag("--json", words.json, "print the result as JSON, on one line");
+  line.parse(arguments);
   if (!words.check.empty()) {
     if (!(words.world + words.data + words.out + words.second).empty())
       throw wrong("--check goes with --plugins and --json alone");
@@ -66,13 +65,13 @@ int check(const Words& words, const Library::SearchPath& path) {
     all = report::check_regression(words.check, path);
   }
   bool passed = true;
-  auto json = nlohmann::ordered_json::array();
+  auto json = Json::array();
   for (const auto& c : all) {
     passed = passed && c.passed;
     json.push_back({{"check", c.what}, {"found", c.found}, {"expected", c.expected}, {"passed", c.passed}});
     if (!words.json) fmt::print("{:<5} {}: {}; expected {}\n", c.passed ? "ok" : "FAIL", c.what, c.found, c.expected);
   }
-  if (words.json) fmt::print("{}\n", nlohmann::ordered_json{{"passed", passed}, {"checks", json}}.dump());
+  if (words.json) fmt::print("{}\n", Json{{"passed", passed}, {"checks", json}}.dump());
   return static_cast<int>(passed ? Exit::done : Exit::check_failed);
 }
 

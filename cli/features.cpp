@@ -2,10 +2,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "diagnosis/data/dataset.hpp"
 #include "diagnosis/radio/links/link_features.hpp"
+#include "text/json.hpp"
 #include "text/text_table_writer.hpp"
 #include "verbs.hpp"
 
@@ -37,52 +37,59 @@ void write_table(const std::string& file, const Dataset& data, const Features& f
   out.close();
 }
 
-nlohmann::ordered_json summary(const Dataset& data, const Features& f, const std::string& file) {
-  const auto [nearest, farthest] = std::minmax_element(f.distance.begin(), f.distance.end());
-  nlohmann::ordered_json result = {
-      {"rows", data.rows()}, {"distance_m", {*nearest, *farthest}}, {"walls", nlohmann::ordered_json::object()}};
-  for (std::size_t m = 0; m < f.materials.size(); ++m) {
-    std::vector<std::size_t> rows;
-    for (const int count : f.by_material[m]) {
-      rows.resize(std::max(rows.size(), static_cast<std::size_t>(count) + 1));
-      ++rows[static_cast<std::size_t>(count)];
-    }
-    result["walls"][f.materials[m]] = rows;  // how many readings cross none, one, two ...
+// How many readings cross no wall, one, two ...
+std::vector<std::size_t> histogram(const std::vector<int>& counts) {
+  std::vector<std::size_t> rows;
+  for (const int count : counts) {
+    rows.resize(std::max(rows.size(), static_cast<std::size_t>(count) + 1));
+    ++rows[static_cast<std::size_t>(count)];
   }
+  return rows;
+}
+
+void print_json(const Dataset& data, const Features& f, const std::string& file) {
+  const auto [nearest, farthest] = std::minmax_element(f.distance.begin(), f.distance.end());
+  Json result = {{"rows", data.rows()}, {"distance_m", {*nearest, *farthest}}, {"walls", Json::object()}};
+  for (std::size_t m = 0; m < f.materials.size(); ++m) result["walls"][f.materials[m]] = histogram(f.by_material[m]);
   if (!file.empty()) result["file"] = file;
-  return result;
+  fmt::print("{}\n", result.dump(2));
+}
+
+void print_text(const Dataset& data, const Features& f, const std::string& file) {
+  const auto [nearest, farthest] = std::minmax_element(f.distance.begin(), f.distance.end());
+  fmt::print("{} readings, {:.2f} to {:.2f} m\n", data.rows(), *nearest, *farthest);
+  for (std::size_t m = 0; m < f.materials.size(); ++m) {
+    fmt::print("walls of {}:", f.materials[m]);
+    const auto rows = histogram(f.by_material[m]);
+    for (std::size_t k = 0; k < rows.size(); ++k) fmt::print(" {} x {}", rows[k], k);
+    fmt::print("\n");
+  }
+  if (!file.empty()) fmt::print("written to {}\n", file);
 }
 
 }  // namespace
 
 int run_features(const Arguments& arguments) {
-  CLI::App app(
-      "Distance, walls crossed by material, and angles of each measured reading, from the world's plan.\n"
-      "Example: muster features worlds/hall --data worlds/hall/measured.csv --out features.csv",
-      "features");
+  CommandLine line("features",
+                   "Distance, walls crossed by material, and angles of each measured reading, from the world's plan.\n"
+                   "Example: muster features worlds/hall --data worlds/hall/measured.csv --out features.csv");
   std::string world, file, out;
   std::vector<std::string> plugins;
   bool json = false;
-  app.add_option("world", world, "the world's folder or file")->required();
-  app.add_option("--data", file, "measured readings, a CSV table")->required();
-  app.add_option("--out", out, "the table to write, a row a reading");
-  app.add_option("--plugins", plugins, "a folder of plugins, looked in first");
-  app.add_flag("--json", json, "print a summary as JSON");
-  parse(app, arguments);
+  line.option("world", world, "the world's folder or file").required();
+  line.option("--data", file, "measured readings, a CSV table").required();
+  line.option("--out", out, "the table to write, a row a reading");
+  line.option("--plugins", plugins, "a folder of plugins, looked in first");
+  line.flag("--json", json, "print a summary as JSON");
+  line.parse(arguments);
   const Dataset data = read_dataset(file);
   const LinkModel model(world, file, plugin_path(plugins));
   const Features features = features_of(model);
   if (!out.empty()) write_table(out, data, features);
-  const auto what = summary(data, features, out);
-  if (json) return fmt::print("{}\n", what.dump(2)), 0;
-  fmt::print("{} readings, {:.2f} to {:.2f} m\n", data.rows(), what["distance_m"][0].get<double>(),
-             what["distance_m"][1].get<double>());
-  for (const auto& [material, rows] : what["walls"].items()) {
-    fmt::print("walls of {}:", material);
-    for (std::size_t k = 0; k < rows.size(); ++k) fmt::print(" {} x {}", rows[k].get<std::size_t>(), k);
-    fmt::print("\n");
-  }
-  if (!out.empty()) fmt::print("written to {}\n", out);
+  if (json)
+    print_json(data, features, out);
+  else
+    print_text(data, features, out);
   return 0;
 }
 

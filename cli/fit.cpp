@@ -18,31 +18,24 @@ struct Words {
 };
 
 Words words_of(const Arguments& arguments) {
-  CLI::App app(
+  CommandLine line(
+      "fit",
       "Fits a world's free parameters to measured readings, with standard errors that allow for correlated residuals, "
       "and says\n"
       "where the fitted world misfits. Exit code 1: a parameter that was to be fitted is not identifiable.\n"
-      "Example: muster fit worlds/hall --data worlds/hall/measured.csv --out build/fit",
-      "fit");
+      "Example: muster fit worlds/hall --data worlds/hall/measured.csv --out build/fit");
   Words words;
-  app.add_option("world", words.world, "the world's folder or file")->required();
-  app.add_option("--data", words.data, "measured readings, a CSV table (docs/reference/table_format.md)")->required();
-  app.add_option("--free", words.free,
-                 "a parameter to fit beyond those declared free, such as radio.multiwall/tx_power");
-  app.add_option("--fix", words.fix, "a parameter to hold: PATH, or PATH=VALUE");
-  app.add_option("--cell", words.cell, "size of the cells that are averaged, in m")
-      ->check(CLI::Range(0.01, 100.0))
-      ->capture_default_str();
-  app.add_option("--least", words.least, "readings below which a cell is left grey")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
-  app.add_option("--average", words.average, "cell means of dB, or of power")
-      ->check(CLI::IsMember({"dB", "power"}))
-      ->capture_default_str();
-  app.add_option("--out", words.out, "a folder for pictures");
-  app.add_option("--plugins", words.plugins, "a folder of plugins, looked in first");
-  app.add_flag("--json", words.json, "print the result as JSON");
-  parse(app, arguments);
+  line.option("world", words.world, "the world's folder or file").required();
+  line.option("--data", words.data, "measured readings, a CSV table (docs/reference/table_format.md)").required();
+  line.option("--free", words.free, "a parameter to fit beyond those declared free, such as radio.multiwall/tx_power");
+  line.option("--fix", words.fix, "a parameter to hold: PATH, or PATH=VALUE");
+  line.option("--cell", words.cell, "size of the cells that are averaged, in m").within(0.01, 100.0).shows_default();
+  line.option("--least", words.least, "readings below which a cell is left grey").within(1, 1000000).shows_default();
+  line.option("--average", words.average, "cell means of dB, or of power").one_of({"dB", "power"}).shows_default();
+  line.option("--out", words.out, "a folder for pictures");
+  line.option("--plugins", words.plugins, "a folder of plugins, looked in first");
+  line.flag("--json", words.json, "print the result as JSON");
+  line.parse(arguments);
   return words;
 }
 

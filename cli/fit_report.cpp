@@ -7,26 +7,16 @@
 namespace muster::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using namespace diagnosis;
 
-// JSON has no NaN: what is not known is null.
-Json known(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 Json parameter_json(const FitParameter& p) {
-  return {{"name", p.path},
-          {"value", known(p.value)},
-          {"stderr", known(p.stderror)},
-          {"lower95", known(p.lower95)},
-          {"upper95", known(p.upper95)},
-          {"unit", p.unit},
-          {"identifiable", p.identifiable},
-          {"at_bound", p.at_bound}};
+  return {{"name", p.path},       {"value", p.value}, {"stderr", p.stderror},           {"lower95", p.lower95},
+          {"upper95", p.upper95}, {"unit", p.unit},   {"identifiable", p.identifiable}, {"at_bound", p.at_bound}};
 }
 
 Json search_json(const Fit& fit) {
   Json values = Json::object();
-  for (const FitParameter& p : fit.parameters) values[p.path] = known(p.by_search);
+  for (const FitParameter& p : fit.parameters) values[p.path] = p.by_search;
   return {{"method", "BOBYQA, without derivatives"}, {"parameters", values},
           {"largest_difference", fit.disagreement},  {"agrees", fit.disagreement <= 1e-6},
           {"evaluations", fit.search.evaluations},   {"least_squares_evaluations", fit.least_squares.evaluations}};
@@ -47,7 +37,7 @@ Json look_json(const StructureTest& look) {
   Json bins = Json::array();
   for (const Bin& bin : look.bins) {
     Json one = bin.name.empty() ? Json{{"from", bin.from}, {"to", bin.to}} : Json{{"name", bin.name}};
-    one.update({{"rows", bin.rows}, {"mean_db", known(bin.mean)}, {"stderr_db", known(bin.stderror)}});
+    one.update({{"rows", bin.rows}, {"mean_db", bin.mean}, {"stderr_db", bin.stderror}});
     bins.push_back(one);
   }
   return {{"by", look.by},       {"p", look.p}, {"alarm", look.alarm}, {"explains", look.explains},

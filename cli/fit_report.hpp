@@ -1,10 +1,9 @@
 // A fit as JSON and as text.
 #pragma once
 
-#include <nlohmann/json.hpp>
-
 #include "diagnosis/calibration/cell_means.hpp"
 #include "diagnosis/calibration/residual_scan.hpp"
+#include "text/json.hpp"
 
 namespace muster::cli {
 
@@ -18,7 +17,7 @@ struct FitReport {
   const diagnosis::CellOptions& options;
   std::vector<std::filesystem::path> pictures;
 
-  nlohmann::ordered_json json() const;
+  Json json() const;
   void print() const;
 };
 

@@ -1,8 +1,7 @@
 // muster graph WORLD: claims, phases and batches, as text or for Graphviz.
 #include <fmt/core.h>
 
-#include <nlohmann/json.hpp>
-
+#include "text/json.hpp"
 #include "verbs.hpp"
 
 namespace muster::cli {
@@ -55,15 +54,15 @@ void print_dot(const Simulation& run) {
 }
 
 void print_json(const Simulation& run) {
-  auto out = nlohmann::ordered_json::array();
+  auto out = Json::array();
   for (std::size_t b = 0; b < run.batches().size(); ++b) {
     for (const Instance* instance : run.batches()[b].instances) {
-      nlohmann::ordered_json one = {{"instance", instance->name()},
-                                    {"plugin", instance->plugin().id},
-                                    {"phase", phase_name(instance->phase())},
-                                    {"batch", b},
-                                    {"every", instance->every()},
-                                    {"claims", nlohmann::ordered_json::array()}};
+      Json one = {{"instance", instance->name()},
+                  {"plugin", instance->plugin().id},
+                  {"phase", phase_name(instance->phase())},
+                  {"batch", b},
+                  {"every", instance->every()},
+                  {"claims", Json::array()}};
       for (const auto& claim : instance->claims()) {
         if (!claim.file)
           one["claims"].push_back(
@@ -78,18 +77,18 @@ void print_json(const Simulation& run) {
 }  // namespace
 
 int run_graph(const Arguments& arguments) {
-  CLI::App app(
+  CommandLine line(
+      "graph",
       "Prints who reads and writes what, and the order of steps.\nExample: muster graph worlds/connectivity --dot | "
-      "dot -Tsvg > graph.svg",
-      "graph");
+      "dot -Tsvg > graph.svg");
   std::string path;
   std::vector<std::string> plugins;
   bool dot = false, json = false;
-  app.add_option("world", path, "the world's folder or file")->required();
-  app.add_option("--plugins", plugins, "a folder of plugins, looked in first");
-  app.add_flag("--dot", dot, "as a graph for Graphviz");
-  app.add_flag("--json", json, "as JSON")->excludes("--dot");
-  parse(app, arguments);
+  line.option("world", path, "the world's folder or file").required();
+  line.option("--plugins", plugins, "a folder of plugins, looked in first");
+  line.flag("--dot", dot, "as a graph for Graphviz");
+  line.flag("--json", json, "as JSON").excludes("--dot");
+  line.parse(arguments);
   const Simulation run(read_world(path, standard()), standard(), {plugin_path(plugins), 1, {}});
   if (dot)
     print_dot(run);

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "ladder.hpp"
 #include "plotting/figure.hpp"
+#include "text/json.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
 #include "text/text_table_writer.hpp"
@@ -127,20 +127,15 @@ void print(const std::string& world, const std::vector<Outcome>& outcomes, const
   }
 }
 
-nlohmann::ordered_json json(const std::string& world, const std::vector<Outcome>& outcomes,
-                            const std::vector<Metric>& metrics) {
-  nlohmann::ordered_json result{{"world", world}, {"rungs", nlohmann::ordered_json::array()}};
+Json json(const std::string& world, const std::vector<Outcome>& outcomes, const std::vector<Metric>& metrics) {
+  Json result{{"world", world}, {"rungs", Json::array()}};
   for (const Outcome& outcome : outcomes) {
-    nlohmann::ordered_json rung{{"rung", outcome.rung.name},
-                                {"made_by", outcome.rung.change},
-                                {"time", outcome.time},
-                                {"digest", hexadecimal(outcome.digest)}};
+    Json rung{{"rung", outcome.rung.name},
+              {"made_by", outcome.rung.change},
+              {"time", outcome.time},
+              {"digest", hexadecimal(outcome.digest)}};
     for (std::size_t i = 0; i < metrics.size(); ++i) {
-      const double value = outcome.values[i];
-      rung["metrics"].push_back(
-          {{"name", metrics[i].name},
-           {"unit", metrics[i].unit},
-           {"value", std::isnan(value) ? nlohmann::ordered_json() : nlohmann::ordered_json(value)}});
+      rung["metrics"].push_back({{"name", metrics[i].name}, {"unit", metrics[i].unit}, {"value", outcome.values[i]}});
     }
     result["rungs"].push_back(std::move(rung));
   }

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <muster/tables.hpp>
-#include <nlohmann/json.hpp>
 
 #include "cli/pose_angles.hpp"
 #include "diagnosis/radio/links/floor_plan.hpp"
@@ -14,6 +13,7 @@
 #include "plotting/figure.hpp"
 #include "plotting/raster.hpp"
 #include "run_options.hpp"
+#include "text/json.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
 #include "text/temporary_folder.hpp"
@@ -37,26 +37,26 @@ struct MapWords {
 };
 
 MapWords words_of(const Arguments& arguments) {
-  CLI::App app(
+  CommandLine line(
+      "map",
       "The RSSI of a world's radios over its floor: a table, and pictures. It is what the channel expects on average, "
       "or\n"
       "with --drawn what it is with this world's shadowing and fading. Doors stand as the world file has them.\n"
-      "Example: muster map worlds/hall --out build/map",
-      "map");
+      "Example: muster map worlds/hall --out build/map");
   MapWords words;
   std::string at = "0", height = "1";
   std::vector<std::string> area;
-  app.add_option("world", words.world, "the world's folder or file")->required();
-  app.add_option("--from", words.from, "radios that send; all that do not move, or else all");
-  app.add_option("--at", at, "seconds after the start: robots stand where they are then")->capture_default_str();
-  app.add_option("--height", height, "of the receiver above the floor, in m")->capture_default_str();
-  app.add_option("--cells", words.cells, "along the longer side")->check(CLI::Range(2, 2000))->capture_default_str();
-  app.add_option("--area", area, "X0 Y0 X1 Y1 in m; all walls and radios, with some room around them")->expected(4);
-  app.add_flag("--drawn", words.drawn, "with shadowing and fading, not received below the receiver's sensitivity");
-  app.add_option("--out", words.out, "a folder for map.csv and the pictures")->required();
-  app.add_option("--plugins", words.plugins, "a folder of plugins, looked in first");
-  app.add_flag("--json", words.json, "print a summary as JSON");
-  parse(app, arguments);
+  line.option("world", words.world, "the world's folder or file").required();
+  line.option("--from", words.from, "radios that send; all that do not move, or else all");
+  line.option("--at", at, "seconds after the start: robots stand where they are then").shows_default();
+  line.option("--height", height, "of the receiver above the floor, in m").shows_default();
+  line.option("--cells", words.cells, "along the longer side").within(2, 2000).shows_default();
+  line.option("--area", area, "X0 Y0 X1 Y1 in m; all walls and radios, with some room around them").takes(4);
+  line.flag("--drawn", words.drawn, "with shadowing and fading, not received below the receiver's sensitivity");
+  line.option("--out", words.out, "a folder for map.csv and the pictures").required();
+  line.option("--plugins", words.plugins, "a folder of plugins, looked in first");
+  line.flag("--json", words.json, "print a summary as JSON");
+  line.parse(arguments);
   words.at = real_of(at, "--at");
   words.height = real_of(height, "--height");
   for (const std::string& one : area) words.area.push_back(real_of(one, "--area"));
@@ -218,12 +218,8 @@ int run_map(const Arguments& arguments) {
   std::error_code failed;
   fs::create_directories(words.out, failed);
   if (failed) throw Error(Exit::io, words.out + ": " + failed.message());
-  nlohmann::ordered_json json{{"world", run.world().name},
-                              {"cell_m", grid.cell},
-                              {"cells", {grid.width, grid.height}},
-                              {"from_m", {grid.x0, grid.y0}},
-                              {"radios", nlohmann::ordered_json::object()},
-                              {"files", nlohmann::ordered_json::array()}};
+  Json json{{"world", run.world().name},    {"cell_m", grid.cell},      {"cells", {grid.width, grid.height}},
+            {"from_m", {grid.x0, grid.y0}}, {"radios", Json::object()}, {"files", Json::array()}};
   const auto wrote = [&](const fs::path& file) { json["files"].push_back(file.string()); };
   std::vector<std::vector<double>> maps;
   try {
@@ -249,9 +245,9 @@ int run_map(const Arguments& arguments) {
   write_table(senders, maps, grid, fs::path(words.out) / "map.csv");
   if (words.json) return fmt::print("{}\n", json.dump(2)), 0;
   fmt::print("{}: {} x {} cells of {:.3g} m\n", run.world().name, grid.width, grid.height, grid.cell);
-  for (const auto& [name, r] : json["radios"].items())
-    fmt::print("  {:<16} {:.1f} to {:.1f} dBm\n", name, r["lowest_dbm"].get<double>(), r["highest_dbm"].get<double>());
-  for (const auto& file : json["files"]) fmt::print("  wrote {}\n", file.get<std::string>());
+  for (const auto& [name, r] : json["radios"].members())
+    fmt::print("  {:<16} {:.1f} to {:.1f} dBm\n", name, r["lowest_dbm"].real(), r["highest_dbm"].real());
+  for (const Json& file : json["files"].elements()) fmt::print("  wrote {}\n", file.text());
   return 0;
 }
 

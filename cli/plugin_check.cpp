@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
 #include <cstring>
-#include <nlohmann/json.hpp>
 
 #include "diagnosis/pipeline/cause_self_test.hpp"
+#include "text/json.hpp"
 #include "text/temporary_folder.hpp"
 #include "verbs.hpp"
 
@@ -117,8 +117,8 @@ void print(const CauseSelfTest& check, double lambda) {
   fmt::print("{}\n", shown ? " of its energy explained" : "no other cause: none explains a quarter of it");
 }
 
-nlohmann::ordered_json json_of(const CauseSelfTest& check) {
-  nlohmann::ordered_json cases = nlohmann::ordered_json::array(), alike = nlohmann::ordered_json::object();
+Json json_of(const CauseSelfTest& check) {
+  Json cases = Json::array(), alike = Json::object();
   for (const HiddenCase& c : check.cases)
     cases.push_back({{"world", c.world.filename().string()},
                      {"not_tested", c.why_not},
@@ -145,11 +145,11 @@ nlohmann::ordered_json json_of(const CauseSelfTest& check) {
 }  // namespace
 
 int run_plugin_check(const Arguments& arguments) {
-  CLI::App app(
+  CommandLine line(
+      "plugin-check",
       "Hides a cause in measurements of worlds that are otherwise as their file says, and diagnoses them; the same\n"
       "worlds without it; the simulator against the search; and what else explains it. Ends with 1 if it falls short.\n"
-      "Example: muster plugin-check effect.antenna_rx --worlds 10",
-      "plugin-check");
+      "Example: muster plugin-check effect.antenna_rx --worlds 10");
   std::string id;
   std::vector<std::string> plugins;
   int worlds = 20;
@@ -157,16 +157,14 @@ int run_plugin_check(const Arguments& arguments) {
   uint64_t seed = 1;
   std::vector<int> rows{2000, 3000};
   bool json = false;
-  app.add_option("cause", id, "the cause's id, such as effect.drift")->required();
-  app.add_option("--plugins", plugins, "a folder of plugins, looked in first");
-  app.add_option("--worlds", worlds, "how many")->check(CLI::Range(1, 10000))->capture_default_str();
-  app.add_option("--rows", rows, "readings of a world: from, to")->expected(2)->check(CLI::Range(500, 100000));
-  app.add_option("--lambda", lambda, "strength: twice the expected log-likelihood ratio")
-      ->check(CLI::Range(1., 1e6))
-      ->capture_default_str();
-  app.add_option("--seed", seed, "of worlds and places")->capture_default_str();
-  app.add_flag("--json", json, "print the result as JSON");
-  parse(app, arguments);
+  line.option("cause", id, "the cause's id, such as effect.drift").required();
+  line.option("--plugins", plugins, "a folder of plugins, looked in first");
+  line.option("--worlds", worlds, "how many").within(1, 10000).shows_default();
+  line.option("--rows", rows, "readings of a world: from, to").takes(2).within(500, 100000);
+  line.option("--lambda", lambda, "strength: twice the expected log-likelihood ratio").within(1., 1e6).shows_default();
+  line.option("--seed", seed, "of worlds and places").shows_default();
+  line.flag("--json", json, "print the result as JSON");
+  line.parse(arguments);
   const TemporaryFolder scratch;
   const auto made = clean_worlds(worlds, seed, rows, scratch.path());
   CauseSelfTest check;

@@ -3,8 +3,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
+#include "text/json.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
 #include "verbs.hpp"
@@ -12,8 +12,6 @@
 
 namespace muster::cli {
 namespace {
-
-using nlohmann::ordered_json;
 
 std::string default_text(const muster_param& param) {
   if (param.flags & MUSTER_REQUIRED) return "required";
@@ -23,13 +21,13 @@ std::string default_text(const muster_param& param) {
   return value_text(param, param.value) + (*param.unit ? std::string(" ") + param.unit : "");
 }
 
-ordered_json param_json(const muster_param& param) {
-  ordered_json result = {{"name", param.name},
-                         {"default", default_text(param)},
-                         {"expected", expectation(param)},
-                         {"unit", param.unit},
-                         {"help", param.help},
-                         {"free", (param.flags & MUSTER_FREE) != 0}};
+Json param_json(const muster_param& param) {
+  Json result = {{"name", param.name},
+                 {"default", default_text(param)},
+                 {"expected", expectation(param)},
+                 {"unit", param.unit},
+                 {"help", param.help},
+                 {"free", (param.flags & MUSTER_FREE) != 0}};
   return result;
 }
 
@@ -76,10 +74,11 @@ void describe_element(const std::string& name, bool json) {
   for (const auto& element : standard().elements) {
     names.emplace_back(element.name);
     if (name != element.name) continue;
-    ordered_json out = {{"element", element.name}, {"summary", element.help}, {"params", ordered_json::array()}};
+    Json out = {{"element", element.name}, {"summary", element.help}, {"params", Json::array()}};
     for (const auto& attribute : element.attributes) {
-      out["params"].push_back(param_json(attribute.param));
-      out["params"].back()["count"] = std::max(1, attribute.count);
+      Json param = param_json(attribute.param);
+      param["count"] = std::max(1, attribute.count);
+      out["params"].push_back(std::move(param));
     }
     if (json) return fmt::print("{}\n", out.dump(2));
     fmt::print("<{}>  an element of a world file\n  {}\n\n  Attributes{}:\n", element.name, element.help,
@@ -94,13 +93,13 @@ void describe_element(const std::string& name, bool json) {
 }  // namespace
 
 int run_plugins(const Arguments& arguments) {
-  CLI::App app("Lists the plugins that can be loaded, and why others cannot.\nExample: muster plugins", "plugins");
+  CommandLine line("plugins", "Lists the plugins that can be loaded, and why others cannot.\nExample: muster plugins");
   std::vector<std::string> folders;
   bool json = false;
-  app.add_option("--plugins", folders, "a folder of plugins, looked in first");
-  app.add_flag("--json", json, "as JSON");
-  parse(app, arguments);
-  auto out = ordered_json::array();
+  line.option("--plugins", folders, "a folder of plugins, looked in first");
+  line.flag("--json", json, "as JSON");
+  line.parse(arguments);
+  auto out = Json::array();
   for (const auto& listed : list_plugins(plugin_path(folders))) {
     if (!listed.library) {
       out.push_back({{"file", listed.file.string()}, {"error", listed.reason}});
@@ -120,28 +119,27 @@ int run_plugins(const Arguments& arguments) {
 }
 
 int run_describe(const Arguments& arguments) {
-  CLI::App app(
-      "Prints the manual of a plugin, or of an element of a world file, from its declarations.\n"
-      "Example: muster describe radio.multiwall\n"
-      "         muster describe wall",
-      "describe");
+  CommandLine line("describe",
+                   "Prints the manual of a plugin, or of an element of a world file, from its declarations.\n"
+                   "Example: muster describe radio.multiwall\n"
+                   "         muster describe wall");
   std::string id;
   std::vector<std::string> folders;
   bool json = false;
-  app.add_option("plugin", id, "its id, or the name of an element")->required();
-  app.add_option("--plugins", folders, "a folder of plugins, looked in first");
-  app.add_flag("--json", json, "as JSON");
-  parse(app, arguments);
+  line.option("plugin", id, "its id, or the name of an element").required();
+  line.option("--plugins", folders, "a folder of plugins, looked in first");
+  line.flag("--json", json, "as JSON");
+  line.parse(arguments);
   if (id.find('.') == std::string::npos) return describe_element(id, json), 0;
   const auto library = Library::load(id.substr(0, id.find('/')), {}, plugin_path(folders), {"muster describe"});
-  auto out = ordered_json::array();
+  auto out = Json::array();
   for (const auto& plugin : library->plugins()) {
-    ordered_json one = {{"id", plugin.id},
-                        {"phase", phase_name(plugin.phase)},
-                        {"summary", plugin.summary},
-                        {"manual", plugin.manual ? plugin.manual : ""},
-                        {"cannot_hold", plugin.cannot_hold ? plugin.cannot_hold : ""},
-                        {"params", ordered_json::array()}};
+    Json one = {{"id", plugin.id},
+                {"phase", phase_name(plugin.phase)},
+                {"summary", plugin.summary},
+                {"manual", plugin.manual ? plugin.manual : ""},
+                {"cannot_hold", plugin.cannot_hold ? plugin.cannot_hold : ""},
+                {"params", Json::array()}};
     for (uint32_t i = 0; i < plugin.param_count; ++i) one["params"].push_back(param_json(plugin.params[i]));
     out.push_back(std::move(one));
     if (!json) print_manual(*library, plugin);

@@ -4,18 +4,16 @@
 #include <algorithm>
 #include <cmath>
 #include <muster/tables.hpp>
-#include <nlohmann/json.hpp>
 
 #include "diagnosis/radio/links/floor_plan.hpp"
 #include "diagnosis/radio/links/run_tables.hpp"
 #include "run_options.hpp"
+#include "text/json.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
 
 namespace muster::cli {
 namespace {
-
-using nlohmann::ordered_json;
 
 struct ProbeWords {
   std::string world, from, to;
@@ -25,23 +23,23 @@ struct ProbeWords {
 };
 
 ProbeWords words_of(const Arguments& arguments) {
-  CLI::App app(
+  CommandLine line(
+      "probe",
       "A link's budget at a moment of a run: each wall and floor on the way, each term of the channel, each stage of "
       "the "
       "receiver,\n"
       "and why nothing is received where nothing is.\n"
-      "Example: muster probe worlds/connectivity base leader --at 30",
-      "probe");
+      "Example: muster probe worlds/connectivity base leader --at 30");
   ProbeWords words;
   std::string at = "0";
-  app.add_option("world", words.world, "the world's folder or file")->required();
-  app.add_option("from", words.from, "the radio that sends")->required();
-  app.add_option("to", words.to, "the radio that receives")->required();
-  app.add_option("--at", at, "seconds after the start")->capture_default_str();
-  app.add_option("--plugins", words.plugins, "a folder of plugins, looked in first");
-  app.add_flag("--expected", words.expected, "as the channel is expected on average, without shadowing and fading");
-  app.add_flag("--json", words.json, "print the budget as JSON");
-  parse(app, arguments);
+  line.option("world", words.world, "the world's folder or file").required();
+  line.option("from", words.from, "the radio that sends").required();
+  line.option("to", words.to, "the radio that receives").required();
+  line.option("--at", at, "seconds after the start").shows_default();
+  line.option("--plugins", words.plugins, "a folder of plugins, looked in first");
+  line.flag("--expected", words.expected, "as the channel is expected on average, without shadowing and fading");
+  line.flag("--json", words.json, "print the budget as JSON");
+  line.parse(arguments);
   words.at = real_of(at, "--at");
   return words;
 }
@@ -82,7 +80,7 @@ double distance(const Pose& a, const Pose& b) {
 }
 
 // In the order in which the wave meets them.
-ordered_json walls_between(const Simulation& run, const Pose& a, const Pose& b) {
+Json walls_between(const Simulation& run, const Pose& a, const Pose& b) {
   std::vector<scene::Crossing> crossings;
   try {
     scene_of(run).crossings({a.x, a.y, a.z}, {b.x, b.y, b.z}, crossings);
@@ -95,11 +93,11 @@ ordered_json walls_between(const Simulation& run, const Pose& a, const Pose& b) 
   const auto walls = names_of(run, "wall"), doors = names_of(run, "door"), materials = names_of(run, "material");
   const auto floors = names_of(run, "floor");
   const auto losses = rows_of<Loss>(run, "material/*/loss");
-  ordered_json result = ordered_json::array();
+  Json result = Json::array();
   for (const auto& c : crossings) {
     const auto material = static_cast<std::size_t>(c.material);
-    ordered_json wall = c.floor >= 0 ? ordered_json{{"floor", floors.at(static_cast<std::size_t>(c.floor))}}
-                                     : ordered_json{{"wall", walls.at(static_cast<std::size_t>(c.wall))}};
+    Json wall = c.floor >= 0 ? Json{{"floor", floors.at(static_cast<std::size_t>(c.floor))}}
+                             : Json{{"wall", walls.at(static_cast<std::size_t>(c.wall))}};
     if (c.door >= 0) wall["door"] = doors.at(static_cast<std::size_t>(c.door));
     wall["material"] = materials.at(material);
     wall["loss_db"] = losses.at(material).loss;
@@ -110,18 +108,16 @@ ordered_json walls_between(const Simulation& run, const Pose& a, const Pose& b) 
   return result;
 }
 
-ordered_json number(double value) { return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr); }
-
 // What each instance says of the link, in the order of steps: terms, what they sum up to, stages of the receiver.
-ordered_json lines_of(const Simulation& run, std::size_t link) {
-  ordered_json result = ordered_json::array();
+Json lines_of(const Simulation& run, std::size_t link) {
+  Json result = Json::array();
   bool summed = false;
   const auto say = [&](const std::string& instance, const std::string& what, const Table& table) {
     for (std::size_t c = 0; c < table.width(); ++c)
       result.push_back({{"instance", instance},
                         {"quantity", what},
                         {"column", table.columns()[c].title()},
-                        {"value", number(table.now().data[link * table.width() + c])}});
+                        {"value", table.now().data[link * table.width() + c]}});
   };
   const auto sum = [&] {
     if (const Table* level = run.board().find("link/*/level"); level && !std::exchange(summed, true))
@@ -158,32 +154,26 @@ std::string why_no_link(const Simulation& run) {
   return "no link: none is listed from the one to the other";
 }
 
-std::string outcome_of(const Simulation& run, const ordered_json& budget) {
-  const auto& lines = budget["lines"];
+std::string outcome_of(const Simulation& run, const Json& budget) {
   if (budget["link"].is_null()) return why_no_link(run);
   std::string last;
-  for (const auto& line : lines) {
-    const std::string quantity = line["quantity"];
+  for (const Json& line : budget["lines"].elements()) {
+    const std::string& quantity = line["quantity"].text();
     if (quantity.compare(0, 4, "rssi") != 0) continue;
     if (line["value"].is_null())
-      return "nothing is received: " + line["instance"].get<std::string>() + " lets nothing so weak through";
-    last = fmt::format("received at {:.2f} dBm", line["value"].get<double>());
+      return "nothing is received: " + line["instance"].text() + " lets nothing so weak through";
+    last = fmt::format("received at {:.2f} dBm", line["value"].real());
   }
   return last.empty() ? "no receiver: nothing writes link/*/rssi" : last;
 }
 
-ordered_json budget_of(const Simulation& run, const ProbeWords& words) {
+Json budget_of(const Simulation& run, const ProbeWords& words) {
   const Rows rows = rows_between(run, words);
   const auto places = rows_of<Pose>(run, "endpoint/*/pose");
   const Pose &a = places[rows.from], &b = places[rows.to];
-  ordered_json budget{{"world", run.world().name},
-                      {"from", words.from},
-                      {"to", words.to},
-                      {"time", run.time()},
-                      {"distance_m", distance(a, b)},
-                      {"walls", walls_between(run, a, b)},
-                      {"link", nullptr},
-                      {"lines", ordered_json::array()}};
+  Json budget{{"world", run.world().name}, {"from", words.from},           {"to", words.to},
+              {"time", run.time()},        {"distance_m", distance(a, b)}, {"walls", walls_between(run, a, b)},
+              {"link", nullptr},           {"lines", Json::array()}};
   if (rows.link != none) {
     budget["link"] = rows.link;
     budget["lines"] = lines_of(run, rows.link);
@@ -192,22 +182,22 @@ ordered_json budget_of(const Simulation& run, const ProbeWords& words) {
   return budget;
 }
 
-void print(const ordered_json& b) {
-  fmt::print("{} to {} at {} s: {:.2f} m\n", b["from"].get<std::string>(), b["to"].get<std::string>(),
-             print_real(b["time"].get<double>()), b["distance_m"].get<double>());
-  for (const auto& w : b["walls"]) {
-    const std::string door = w.contains("door") ? ", door " + w["door"].get<std::string>() : "";
+void print(const Json& b) {
+  fmt::print("{} to {} at {} s: {:.2f} m\n", b["from"].text(), b["to"].text(), print_real(b["time"].real()),
+             b["distance_m"].real());
+  for (const Json& w : b["walls"].elements()) {
+    const std::string door = w.contains("door") ? ", door " + w["door"].text() : "";
     const std::string kind = w.contains("floor") ? "floor" : "wall";
-    fmt::print("  at {:6.2f} m  {} {}{} ({}, {:.2f} dB), {:.0f} degrees from its normal\n", w["at_m"].get<double>(),
-               kind, w[kind].get<std::string>(), door, w["material"].get<std::string>(), w["loss_db"].get<double>(),
-               w["incidence_rad"].get<double>() * 180 / 3.141592653589793);
+    fmt::print("  at {:6.2f} m  {} {}{} ({}, {:.2f} dB), {:.0f} degrees from its normal\n", w["at_m"].real(), kind,
+               w[kind].text(), door, w["material"].text(), w["loss_db"].real(),
+               w["incidence_rad"].real() * 180 / 3.141592653589793);
   }
-  for (const auto& line : b["lines"]) {
-    const std::string value = line["value"].is_null() ? "nothing" : fmt::format("{:.2f}", line["value"].get<double>());
-    fmt::print("  {:<20} {:<22} {:>9}  {}\n", line["instance"].get<std::string>(), line["quantity"].get<std::string>(),
-               value, line["column"].get<std::string>());
+  for (const Json& line : b["lines"].elements()) {
+    const std::string value = line["value"].is_null() ? "nothing" : fmt::format("{:.2f}", line["value"].real());
+    fmt::print("  {:<20} {:<22} {:>9}  {}\n", line["instance"].text(), line["quantity"].text(), value,
+               line["column"].text());
   }
-  fmt::print("{}\n", b["outcome"].get<std::string>());
+  fmt::print("{}\n", b["outcome"].text());
 }
 
 }  // namespace
@@ -225,7 +215,7 @@ int run_probe(const Arguments& arguments) {
   }
   if (interrupted()) return static_cast<int>(Exit::interrupted);
   run.evaluate(MUSTER_RADIO, words.expected);
-  const ordered_json budget = budget_of(run, words);
+  const Json budget = budget_of(run, words);
   if (words.json)
     fmt::print("{}\n", budget.dump(2));
   else

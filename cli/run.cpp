@@ -5,19 +5,17 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "kernel/record.hpp"
 #include "run_options.hpp"
 #include "run_pictures.hpp"
+#include "text/json.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
 
 namespace muster::cli {
 namespace {
-
-using nlohmann::ordered_json;
 
 struct RunWords : WorldWords {
   std::string world, save, restore;
@@ -27,15 +25,14 @@ struct RunWords : WorldWords {
   std::string swap_at;
 };
 
-void declare(CLI::App& app, RunWords& words) {
-  app.add_option("world", words.world, "the world's folder or file")->required();
-  declare(app, static_cast<WorldWords&>(words));
-  app.add_option("--save", words.save, "write the state at the end to this file");
-  app.add_option("--restore", words.restore, "begin from a state that --save wrote");
-  app.add_option("--digest-every", words.digest_every, "print the digest every so many ticks");
-  app.add_flag("--watch", words.watch, "load a plugin again when its file changes on disk");
-  app.add_flag("--expected", words.expected,
-               "run no tick: evaluate the radio channel once, as it is expected on average");
+void declare(CommandLine& line, RunWords& words) {
+  line.option("world", words.world, "the world's folder or file").required();
+  declare(line, static_cast<WorldWords&>(words));
+  line.option("--save", words.save, "write the state at the end to this file");
+  line.option("--restore", words.restore, "begin from a state that --save wrote");
+  line.option("--digest-every", words.digest_every, "print the digest every so many ticks");
+  line.flag("--watch", words.watch, "load a plugin again when its file changes on disk");
+  line.flag("--expected", words.expected, "run no tick: evaluate the radio channel once, as it is expected on average");
 }
 
 // Loads plugins again whose files have changed since the last look.
@@ -67,17 +64,15 @@ class Watcher {
 };
 
 // The tables of OBSERVE instances: what the world's authors chose to see of it.
-ordered_json observed(const Simulation& run) {
-  ordered_json result = ordered_json::object();
+Json observed(const Simulation& run) {
+  Json result = Json::object();
   for (const auto& instance : run.instances()) {
     if (instance->phase() != MUSTER_OBSERVE) continue;
     for (const auto& claim : instance->claims()) {
       if (!claim.out || claim.out->set().name != "instance/" + instance->name()) continue;
       const Table& table = *claim.out;
       for (std::size_t c = 0; c < table.width(); ++c) {
-        const double value = table.now().data[c];
-        auto& cell = result[instance->name()][claim.name.quantity][table.columns()[c].title()];
-        cell = std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
+        result[instance->name()][claim.name.quantity][table.columns()[c].title()] = table.now().data[c];
       }
     }
   }
@@ -89,18 +84,18 @@ using Digests = std::vector<std::pair<uint64_t, uint64_t>>;  // tick, digest
 // `pace`: simulated time over time that passed; not in the JSON, which is the same each time.
 void print_outcome(const Simulation& run, const RunWords& words, const Digests& digests,
                    const std::vector<std::filesystem::path>& files, double pace) {
-  ordered_json json = {{"world", run.world().name}, {"seed", run.world().seed}, {"dt", run.world().dt},
-                       {"ticks", run.tick()},       {"time", run.time()},       {"digest", hexadecimal(run.digest())},
-                       {"observed", observed(run)}};
-  json["events"] = ordered_json::array();
+  Json json = {{"world", run.world().name}, {"seed", run.world().seed}, {"dt", run.world().dt},
+               {"ticks", run.tick()},       {"time", run.time()},       {"digest", hexadecimal(run.digest())},
+               {"observed", observed(run)}};
+  json["events"] = Json::array();
   for (const auto& event : run.events())
     json["events"].push_back({{"time", static_cast<double>(event.tick) * run.world().dt},
                               {"instance", event.instance},
                               {"message", event.message}});
-  if (words.digest_every) json["digests"] = ordered_json::array();
+  if (words.digest_every) json["digests"] = Json::array();
   for (const auto& [tick, digest] : digests)
     json["digests"].push_back({{"tick", tick}, {"digest", hexadecimal(digest)}});
-  json["files"] = ordered_json::array();
+  json["files"] = Json::array();
   for (const auto& file : files) json["files"].push_back(file.string());
   if (words.json) {
     fmt::print("{}\n", json.dump(2));
@@ -112,11 +107,10 @@ void print_outcome(const Simulation& run, const RunWords& words, const Digests& 
   for (const auto& event : run.events())
     fmt::print("  t = {} s  {}{}{}\n", print_real(static_cast<double>(event.tick) * run.world().dt), event.instance,
                event.instance.empty() ? "" : ": ", event.message);
-  for (const auto& [instance, tables] : json["observed"].items()) {
-    for (const auto& [table, cells] : tables.items()) {
-      for (const auto& [column, value] : cells.items())
-        fmt::print("  {}/{} {} = {}\n", instance, table, column,
-                   value.is_null() ? "" : print_real(value.get<double>()));
+  for (const auto& [instance, tables] : json["observed"].members()) {
+    for (const auto& [table, cells] : tables.members()) {
+      for (const auto& [column, value] : cells.members())
+        fmt::print("  {}/{} {} = {}\n", instance, table, column, value.is_null() ? "" : print_real(value.real()));
     }
   }
   for (const auto& file : files) fmt::print("  wrote {}\n", file.string());
@@ -203,26 +197,26 @@ int run_world(const RunWords& words) {
 }  // namespace
 
 int run_run(const Arguments& arguments) {
-  CLI::App app("Runs a world.\nExample: muster run worlds/connectivity --out out/connectivity", "run");
+  CommandLine line("run", "Runs a world.\nExample: muster run worlds/connectivity --out out/connectivity");
   RunWords words;
-  declare(app, words);
-  parse(app, arguments);
+  declare(line, words);
+  line.parse(arguments);
   return run_world(words);
 }
 
 int run_swap(const Arguments& arguments) {
-  CLI::App app(
+  CommandLine line(
+      "swap",
       "Runs a world and exchanges the plugin of an instance on the way, state carried over.\n"
-      "Example: muster swap worlds/hot_swap --at 5 --instance physics --plugin physics.planar acceleration=4",
-      "swap");
+      "Example: muster swap worlds/hot_swap --at 5 --instance physics --plugin physics.planar acceleration=4");
   RunWords words;
   std::vector<std::string> attributes;
-  declare(app, words);
-  app.add_option("--at", words.swap_at, "when, in seconds")->required();
-  app.add_option("--instance", words.swap.instance, "the instance")->required();
-  app.add_option("--plugin", words.swap.replacement.plugin, "its new plugin, such as physics.planar")->required();
-  app.add_option("attributes", attributes, "NAME=VALUE: attributes of the new plugin");
-  parse(app, arguments);
+  declare(line, words);
+  line.option("--at", words.swap_at, "when, in seconds").required();
+  line.option("--instance", words.swap.instance, "the instance").required();
+  line.option("--plugin", words.swap.replacement.plugin, "its new plugin, such as physics.planar").required();
+  line.option("attributes", attributes, "NAME=VALUE: attributes of the new plugin");
+  line.parse(arguments);
   auto& replacement = words.swap.replacement;
   replacement = instance_of(words.swap.instance, replacement.plugin, attributes, "muster swap");
   return run_world(words);

@@ -9,16 +9,15 @@
 namespace muster::cli {
 
 // What may be given several times takes one word each time: the words of a verb may follow it.
-void declare(CLI::App& app, WorldWords& words) {
-  app.add_option("--workers", words.workers, "threads; the results do not depend on it")->check(CLI::Range(1, 256));
-  app.add_option("--until", words.until, "end of the run in seconds, instead of the world's");
-  app.add_option("--seed", words.seed, "seed of all random numbers, instead of the world's");
-  app.add_option("--set", words.set, "PATH=VALUE: a parameter of the world or of a plugin")->allow_extra_args(false);
-  app.add_option("--out", words.out, "folder for tables and pictures");
-  app.add_option("--record", words.record, "a table to write to --out as CSV, such as 'robot/*/pose'")
-      ->allow_extra_args(false);
-  app.add_option("--plugins", words.plugins, "a folder of plugins, looked in first")->allow_extra_args(false);
-  app.add_flag("--json", words.json, "print the outcome as JSON");
+void declare(CommandLine& line, WorldWords& words) {
+  line.option("--workers", words.workers, "threads; the results do not depend on it").within(1, 256);
+  line.option("--until", words.until, "end of the run in seconds, instead of the world's");
+  line.option("--seed", words.seed, "seed of all random numbers, instead of the world's");
+  line.option("--set", words.set, "PATH=VALUE: a parameter of the world or of a plugin").one_word_each();
+  line.option("--out", words.out, "folder for tables and pictures");
+  line.option("--record", words.record, "a table to write to --out as CSV, such as 'robot/*/pose'").one_word_each();
+  line.option("--plugins", words.plugins, "a folder of plugins, looked in first").one_word_each();
+  line.flag("--json", words.json, "print the outcome as JSON");
 }
 
 double real_of(const std::string& text, const char* option) {

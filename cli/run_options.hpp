@@ -17,7 +17,7 @@ struct WorldWords {
   bool json = false;
 };
 
-void declare(CLI::App& app, WorldWords& words);
+void declare(CommandLine& line, WorldWords& words);
 
 // The number, or Error that names the option.
 double real_of(const std::string& text, const char* option);

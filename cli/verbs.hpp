@@ -2,17 +2,14 @@
 // Error for everything that ends it early.
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "command_line.hpp"
 #include "kernel/simulation.hpp"
 #include "text/error.hpp"
 
 namespace muster::cli {
-
-using Arguments = std::vector<std::string>;
 
 int run_check(const Arguments& arguments);
 int run_compare(const Arguments& arguments);
@@ -31,10 +28,6 @@ int run_run(const Arguments& arguments);
 int run_swap(const Arguments& arguments);
 
 // ---- What verbs share (common.cpp) ----
-
-// Parses a verb's words. Throws Usage where they are off, Helped where only help was asked for.
-void parse(CLI::App& app, const Arguments& arguments);
-struct Helped {};
 
 // The folders in which plugins are looked for: --plugins, MUSTER_PLUGIN_PATH, and `plugins` beside the program.
 Library::SearchPath plugin_path(const std::vector<std::string>& given = {});

@@ -1,4 +1,4 @@
-// Meshes from untrusted files. Assimp's importers crash, hang and write out of bounds on hostile input, so a child
+// Meshes from untrusted files. Assimp's importers crash, hang and write out of bounds on hostile input. So a child
 // process with little memory and time parses the bytes, and its result is checked again.
 #pragma once
 

@@ -62,10 +62,10 @@ struct Surroundings {
   const World* world = nullptr;
   Blackboard* board = nullptr;
   Library::SearchPath search_path;
-  std::shared_ptr<TableCache> tables;  // of instances' files
   uint64_t seed = 0;
   std::vector<std::string> destroy_faults;  // failures while instances were destroyed; a destructor cannot throw them
   ThreadPool* workers = nullptr;            // null: one thread
+  std::shared_ptr<TableCache> tables{};     // of instances' files
 };
 
 struct Join {

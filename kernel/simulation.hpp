@@ -18,8 +18,8 @@ namespace muster {
 struct Options {
   Library::SearchPath search_path;
   int workers = 1;                        // threads; the results do not depend on their number
-  std::shared_ptr<TableCache> tables;     // files that were read already; none: the simulation reads its own
   std::vector<InstanceDeclaration> more;  // instances beyond those of the world file, before its own
+  std::shared_ptr<TableCache> tables{};   // files that were read already; none: the simulation reads its own
 };
 
 struct Event {

@@ -1,5 +1,5 @@
 // A private copy of a library's file. The process maps the copy, so overwriting the file (cp, rsync, a build) cannot
-// pull the code from under a running world, and loading again always gives the file's present contents. dlopen() by the
+// pull the code from under a running world. Loading again always gives the file's present contents. dlopen() by the
 // file's own name would return the old library as long as a handle keeps it open.
 #pragma once
 

@@ -1,5 +1,5 @@
 // Runs risky operations in a child process first. A library's static initialisers, and dlopen() itself on a corrupted
-// file, can crash, hang, throw past every handler or call exit(), and nothing in this process could stop them.
+// file, can crash, hang, throw past every handler or call exit(). Nothing in this process could stop them.
 #pragma once
 
 #include <sys/types.h>

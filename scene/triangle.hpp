@@ -3,7 +3,7 @@
 // All points are on the lattice of 2^-12 m within 1 km (README.md), so differences are below 2^23 and each determinant
 // below 2^73. Ties are broken as for walls, by symbolic perturbation: every radio is moved an infinitesimal step to the
 // east, a far smaller one to the north, and a far greater one up. The shift is the same at both ends and for all
-// triangles, so a link through an edge or a vertex crosses a closed surface as often as a link beside it.
+// triangles. So a link through an edge or a vertex crosses a closed surface as often as a link beside it.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // Scans the bytes of an XML file before tinyxml2 parses them. Refuses input that tinyxml2 accepts in silence (entities,
-// text, a second root, `&#0;`) or parses in quadratic time (40,000 attributes), and finds the columns, which tinyxml2
-// does not keep.
+// text, a second root, `&#0;`) or parses in quadratic time (40,000 attributes). Finds the columns, which tinyxml2 does
+// not keep.
 #pragma once
 
 #include <vector>

@@ -153,7 +153,7 @@ class Checker {
     result.lambda = hidden->lambda;
     result.alike = likenesses(state, rows * hidden->coefficients, id_);
     VectorXd shift = VectorXd::Zero(static_cast<Index>(clean.data.rows()));
-    shift(clean.used) = cause->candidate.design.columns(hidden->theta) * hidden->coefficients;
+    shift(clean.used.rows) = cause->candidate.design.columns(hidden->theta) * hidden->coefficients;
     clean.run->clear();
     result.difference = against_simulator(clean, *cause, *hidden, shift);
     look(clean, shift, number, result);
@@ -184,7 +184,7 @@ class Checker {
     const fs::path file = write_extended_world(extended, clean.file.parent_path(), options_.scratch / "extended");
     LinkModel model(file, clean.file, plugins_);
     const VectorXd executed = model.expected() - before;
-    return (executed - shift)(clean.used).cwiseAbs().maxCoeff();
+    return (executed - shift)(clean.used.rows).cwiseAbs().maxCoeff();
   }
 
   void look(const DiagnosisSetup& clean, const VectorXd& shift, uint64_t number, HiddenCase& result) const {

@@ -26,24 +26,26 @@ double rmse_of(LinkModel& model, const Dataset& data) {
 
 SecondLook second_look(const std::filesystem::path& world, const std::filesystem::path& extended,
                        const std::filesystem::path& file, const Library::SearchPath& plugins) {
-  const Dataset data = read_dataset(file);
-  LinkModel given(world, file, plugins), model(extended, file, plugins);
+  const auto tables = std::make_shared<TableCache>();
+  const Dataset data = read_dataset(tables->read(file));
+  LinkModel given(world, file, plugins, tables), model(extended, file, plugins, tables);
   return {file, data.heard(), fit(given, data, {}).residual_sd, rmse_of(model, data),
-          told_by(diagnose(extended, file, plugins))};
+          told_by(diagnose(extended, file, plugins, tables))};
 }
 
 Loop closed_loop(const Diagnosis& found, const std::filesystem::path& world, const std::filesystem::path& data,
                  const std::filesystem::path& out, const Library::SearchPath& plugins) {
+  const auto tables = std::make_shared<TableCache>();
   Loop loop{out, 0, 0, {}, {}};
   const std::filesystem::path file = write_extended_world(found, world, out);
-  LinkModel model(file, data, plugins);
-  loop.rmse_extended = rmse_of(model, read_dataset(data));
+  LinkModel model(file, data, plugins, tables);
+  loop.rmse_extended = rmse_of(model, read_dataset(tables->read(data)));
   const Eigen::VectorXd& simulated = model.expected();
   for (Eigen::Index i = 0; i < simulated.size(); ++i) {
     if (!std::isnan(found.mean[i]))
       loop.mean_difference = std::max(loop.mean_difference, std::abs(simulated[i] - found.mean[i]));
   }
-  loop.rediagnosis = told_by(diagnose(file, data, plugins));
+  loop.rediagnosis = told_by(diagnose(file, data, plugins, tables));
   return loop;
 }
 

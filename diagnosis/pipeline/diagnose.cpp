@@ -26,22 +26,27 @@ using Eigen::VectorXd;
 
 class Diagnoser {
  public:
-  Diagnoser(const std::filesystem::path& world, const std::filesystem::path& file, const Library::SearchPath& plugins)
-      : at_(world, file, plugins), world_(world), plugins_(plugins) {}
-
-  void leave_out_law(const std::string& id) {
-    std::erase_if(at_.causes, [&](const Cause& cause) { return cause.id == id; });
+  // Laws of the cause `without_law` are not tested.
+  Diagnoser(const std::filesystem::path& world, const std::filesystem::path& file, const Library::SearchPath& plugins,
+            const std::shared_ptr<TableCache>& tables, const std::string& without_law = "")
+      : setup_(world, file, plugins, tables),
+        moved_(setup_.model),
+        causes_(setup_.causes),
+        world_(world),
+        plugins_(plugins) {
+    std::erase_if(causes_, [&](const Cause& cause) { return cause.id == without_law; });
   }
 
   // `given`: what was found in the world as given, where this one has its first cause put right.
   Diagnosis run(const Diagnosis* given = nullptr) {
-    inference::Search search(at_.problem, at_.options);
+    inference::Search search(setup_.problem, setup_.options);
     const inference::Result result = search.run();
-    at_.run->clear();
-    Diagnosis out = summed_up(result, at_.sought, search.state());
+    setup_.run->clear();
+    Diagnosis out = summed_up(result, setup_.sought, search.state());
     if (given) begin_as_given(*given, search.state(), out);
-    add_advice(search, out, at_.sought, {world_, plugins_, at_.model, at_.data}, at_.base, at_.layout->limits());
-    for (const auto* more : {&at_.sought.not_tested, &at_.untested})
+    add_advice(search, out, setup_.sought, {world_, plugins_, setup_.model, setup_.data}, setup_.base,
+               setup_.layout->limits());
+    for (const auto* more : {&setup_.sought.not_tested, &setup_.observed.untested})
       out.not_tested.insert(out.not_tested.end(), more->begin(), more->end());
     return out;
   }
@@ -49,26 +54,26 @@ class Diagnoser {
  private:
   Diagnosis summed_up(const inference::Result& result, const CauseSearch& causes, const inference::ModelState& state) {
     Diagnosis out;
-    out.notes = at_.data.notes;
-    if (const MissingData& m = at_.fitted.missing; !m.censored && m.rises())
+    out.notes = setup_.notes;
+    if (const MissingData& m = setup_.fitted.missing; !m.censored && m.rises())
       out.notes.push_back(fmt::format(
           "more readings are missing where less is expected ({:.0f} % at {:.0f} dBm, {:.0f} % at {:.0f} dBm): what was "
           "heard are the stronger ones, so weak levels look too high and the exponent too low",
           100 * m.bins.front().missing / m.bins.front().rows, m.bins.front().level,
           100 * m.bins.back().missing / m.bins.back().rows, m.bins.back().level));
-    for (const std::string& blind : at_.fitted.not_identifiable) out.notes.push_back("not identifiable: " + blind);
-    out.residual_sd = at_.fitted.residual_sd;
+    for (const std::string& blind : setup_.fitted.not_identifiable) out.notes.push_back("not identifiable: " + blind);
+    out.residual_sd = setup_.fitted.residual_sd;
     out.noise = result.noise.covariance;
     out.held_out = result.held_out;
     out.unseen = result.unseen;
     out.elsewhere = result.elsewhere;
-    out.used = at_.used;
-    out.readings = at_.used.size();
+    out.used = setup_.used.rows;
+    out.readings = setup_.used.rows.size();
     out.rows = state.rows().size();
-    out.row_limits = at_.layout->limits();
-    const VectorXd coefficients = result.base_coefficients.cwiseMax(at_.base.lower).cwiseMin(at_.base.upper);
-    for (std::size_t j = 0; j < at_.base.paths.size(); ++j)
-      out.parameters[at_.base.paths[j]] = coefficients[static_cast<Index>(j)];
+    out.row_limits = setup_.layout->limits();
+    const VectorXd coefficients = result.base_coefficients.cwiseMax(setup_.base.lower).cwiseMin(setup_.base.upper);
+    for (std::size_t j = 0; j < setup_.base.paths.size(); ++j)
+      out.parameters[setup_.base.paths[j]] = coefficients[static_cast<Index>(j)];
     for (std::size_t k = 0; k < result.findings.size(); ++k) {
       const inference::Finding& f = result.findings[k];
       const auto cause = std::find_if(causes.found.begin(), causes.found.end(),
@@ -86,19 +91,19 @@ class Diagnoser {
       out.causes.back().effect = effect_of(state, candidate->candidate, finding);
       give_tables(*candidate->shape, out.causes.back());
     }
-    at_.run->clear();
+    setup_.run->clear();
     for (const CauseCandidate& c : causes.found) out.searched.push_back(c.candidate.id);
-    out.instrument = at_.instrument;
-    out.seen = row_summary(state, *at_.layout, at_.link_columns, at_.model);
+    out.instrument = setup_.receiver;
+    out.seen = row_summary(state, *setup_.layout, setup_.observed.columns, setup_.model);
     const inference::WhitenedModel alone = state.whitened_model(state.base());
-    out.fitted = at_.base.mean + at_.base.slopes * (alone.coefficients(state.base().cols()) - at_.base.values);
+    out.fitted = setup_.base.mean + setup_.base.slopes * (alone.coefficients(state.base().cols()) - setup_.base.values);
     add_what_scatters(state, out);
     out.stairs = result.stairs;
     out.checks = result.checks;
-    out.world_values = world_values(state, at_.base.paths, coefficients, at_.model);
+    out.world_values = world_values(state, setup_.base.paths, coefficients, setup_.model);
     for (WorldValue& v : out.world_values) {
       v.value = out.parameters.at(v.path);
-      v.identifiable = std::none_of(at_.fitted.parameters.begin(), at_.fitted.parameters.end(),
+      v.identifiable = std::none_of(setup_.fitted.parameters.begin(), setup_.fitted.parameters.end(),
                                     [&](const FitParameter& p) { return p.path == v.path && !p.identifiable; });
     }
     doubt_at_bounds(out);
@@ -109,11 +114,11 @@ class Diagnoser {
   // it leaves. A material that costs nothing, or a cause, may well be at an end.
   void doubt_at_bounds(Diagnosis& out) const {
     constexpr double near = 1e-3;  // of the range: 0.01 of an exponent
-    const auto& instances = at_.model.simulation().instances();
+    const auto& instances = setup_.model.simulation().instances();
     std::string ends;
     for (std::size_t j = 0; j < out.world_values.size(); ++j) {
       WorldValue& v = out.world_values[j];
-      const double lower = at_.base.lower[static_cast<Index>(j)], upper = at_.base.upper[static_cast<Index>(j)];
+      const double lower = setup_.base.lower[static_cast<Index>(j)], upper = setup_.base.upper[static_cast<Index>(j)];
       v.at_bound = std::min(v.value - lower, upper - v.value) <= near * (upper - lower);
       const bool of_law = std::any_of(instances.begin(), instances.end(), [&](const auto& i) {
         return !i->plugin().cause && v.path.rfind(i->name() + '/', 0) == 0;
@@ -131,7 +136,7 @@ class Diagnoser {
   // that world, with all else that was found in it, errs more than the extended one.
   void begin_as_given(const Diagnosis& given, const inference::ModelState& state, Diagnosis& out) const {
     CauseEstimate& first = *out.causes.insert(out.causes.begin(), given.causes.front());
-    const VectorXd left = measured(state) - state.rows().mean(given.fitted(at_.used));
+    const VectorXd left = measured(state) - state.rows().mean(given.fitted(setup_.used.rows));
     first.effect = left - out.seen.before;
     const inference::WhitenedModel alone = state.whitened_model(state.base());
     out.seen.before = left;
@@ -177,7 +182,7 @@ class Diagnoser {
     if (cause.shape->columns() != 1 || cause.shape->linear.empty() || cause.candidate.refinement.any())
       return {f, &cause};
     const VectorXd own = state.columns_of(cause.candidate, f.theta);
-    set_base(base);
+    const AtBase at(setup_, base);
     for (const CauseCandidate& other : causes.found) {
       if (!other.candidate.design.whole || other.candidate.refinement.any()) continue;
       VectorXd theta = other.candidate.design.grid[0];
@@ -196,22 +201,32 @@ class Diagnoser {
         simple.coefficients = f.coefficients / strength;
         simple.uncertainty = f.uncertainty / (strength * strength);
         std::erase_if(simple.alternatives, [&](const inference::Alternative& r) { return r.id == simple.id; });
-        set_base(at_.base.values);
         return {simple, &other};
       }
     }
-    set_base(at_.base.values);
     return {f, &cause};
   }
 
-  void set_base(const VectorXd& values) {
-    at_.run->clear();
-    for (std::size_t j = 0; j < at_.base.paths.size(); ++j)
-      at_.model.set(at_.base.paths[j], values[static_cast<Index>(j)]);
-  }
+  // The world at these parameters for a while, without causes before and after.
+  class AtBase {
+   public:
+    AtBase(DiagnosisSetup& setup, const VectorXd& values) : run_(*setup.run), moved_(setup.model) {
+      run_.clear();
+      for (std::size_t j = 0; j < setup.base.paths.size(); ++j)
+        moved_.set(setup.base.paths[j], values[static_cast<Index>(j)]);
+    }
+    ~AtBase() { run_.clear(); }
+    AtBase(const AtBase&) = delete;
+    AtBase& operator=(const AtBase&) = delete;
+
+   private:
+    CauseModel& run_;
+    ParameterGuard moved_;
+  };
 
   void add_what_scatters(const inference::ModelState& state, Diagnosis& out) {
-    const LawSources sources{at_.model, at_.data, at_.causes, state, at_.layout->readings(), at_.used, at_.fitted};
+    const LawSources sources{setup_.model,     setup_.data,  causes_, state, setup_.layout->readings(),
+                             setup_.used.rows, setup_.fitted};
     add_clips(sources, out);
     if (add_silence_beside(sources, extend(state, out), out)) extend(state, out);
     const std::size_t before = out.causes.size();
@@ -232,12 +247,12 @@ class Diagnoser {
       found.files[file->name] = counts_of_walls();
       return;
     }
-    const auto values = std::find_if(at_.data.covariates.begin(), at_.data.covariates.end(),
+    const auto values = std::find_if(setup_.data.covariates.begin(), setup_.data.covariates.end(),
                                      [&](const Covariate& c) { return c.name.substr(0, c.name.find('[')) == column; });
     std::string text = "t[s],tx,rx," + values->name + '\n';
-    for (std::size_t row = 0; row < at_.data.rows(); ++row)
-      text += print_real(at_.data.t[row]) + ',' + at_.data.tx.levels[at_.data.tx.level[row]] + ',' +
-              at_.data.rx.levels[at_.data.rx.level[row]] + ',' + print_real(values->values[row]) + '\n';
+    for (std::size_t row = 0; row < setup_.data.rows(); ++row)
+      text += print_real(setup_.data.t[row]) + ',' + setup_.data.tx.levels[setup_.data.tx.level[row]] + ',' +
+              setup_.data.rx.levels[setup_.data.rx.level[row]] + ',' + print_real(values->values[row]) + '\n';
     found.files[file->name] = text;
   }
 
@@ -245,32 +260,35 @@ class Diagnoser {
   std::string counts_of_walls() const {
     std::vector<const Covariate*> columns;
     std::string text;
-    for (const Covariate& c : at_.data.covariates) {
+    for (const Covariate& c : setup_.data.covariates) {
       if (c.name.rfind("walls_", 0) != 0 || c.values.empty()) continue;
       text += (columns.empty() ? "" : ",") + c.name;
       columns.push_back(&c);
     }
-    for (std::size_t row = 0; row < at_.data.rows(); ++row) {
+    for (std::size_t row = 0; row < setup_.data.rows(); ++row) {
       for (const Covariate* c : columns) text += (c == columns[0] ? "\n" : ",") + print_real(c->values[row]);
     }
     return text + '\n';
   }
 
   VectorXd measured(const inference::ModelState& state) const {
-    const VectorXd offset = at_.base.offset()(at_.used);
+    const VectorXd offset = setup_.base.offset()(setup_.used.rows);
     return state.y() + state.rows().mean(offset);
   }
 
   // What the extended world expects of every reading, dBm.
   VectorXd extend(const inference::ModelState& state, Diagnosis& out) {
-    out.mean = VectorXd::Constant(at_.base.mean.size(), std::nan(""));
-    VectorXd mean = refit_jointly({at_.model, at_.causes, at_.file, state, at_.used, measured(state)}, at_.base.lower,
-                                  at_.base.upper, at_.base.paths, out);
-    out.mean(at_.used) = mean(at_.used);
+    out.mean = VectorXd::Constant(setup_.base.mean.size(), std::nan(""));
+    VectorXd mean =
+        refit_jointly({setup_.model, moved_, causes_, setup_.file, state, setup_.used.rows, measured(state)},
+                      setup_.base.lower, setup_.base.upper, setup_.base.paths, out);
+    out.mean(setup_.used.rows) = mean(setup_.used.rows);
     return mean;
   }
 
-  DiagnosisSetup at_;
+  DiagnosisSetup setup_;
+  ParameterGuard moved_;       // from the fit to the joint refit, until the end of the diagnosis
+  std::vector<Cause> causes_;  // laws among them are tested
   std::filesystem::path world_;
   Library::SearchPath plugins_;
 };
@@ -315,24 +333,22 @@ const CauseEstimate* first_in_company(const Diagnosis& found, const std::vector<
 // one; and so it is with people who are known of, whose link is then left out. What still changes in time is no burst
 // of theirs, and beside it they must be beyond doubt.
 Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::path& data,
-                   const Library::SearchPath& plugins) {
-  Diagnosis found = Diagnoser(world, data, plugins).run();
+                   const Library::SearchPath& plugins, const std::shared_ptr<TableCache>& tables) {
+  Diagnosis found = Diagnoser(world, data, plugins, tables).run();
   const CauseEstimate* const spoiler = first_in_company(found, causes_on(plugins));
   if (!spoiler) return found;
   Diagnosis first = found;
   first.causes = {*spoiler};
   first.causes[0].sought_as.clear();
   const TemporaryFolder folder;
-  Diagnoser with_it(write_extended_world(first, world, folder.path()), data, plugins);
+  Diagnoser with_it(write_extended_world(first, world, folder.path()), data, plugins, tables);
   if (first.causes[0].id != people) {
     first.causes[0].put_right_first = true;
     return with_it.run(&first);
   }
   Diagnosis again = with_it.run();
   if (first.causes[0].log_p > people_in_company && something_changes_in_time(again)) {
-    Diagnoser without(world, data, plugins);
-    without.leave_out_law(people);
-    Diagnosis result = without.run();
+    Diagnosis result = Diagnoser(world, data, plugins, tables, people).run();
     result.searched = found.searched;
     return result;
   }

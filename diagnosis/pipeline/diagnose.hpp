@@ -11,6 +11,7 @@ namespace muster::diagnosis {
 
 // One look. Throws Error.
 Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::path& data,
-                   const Library::SearchPath& plugins);
+                   const Library::SearchPath& plugins,
+                   const std::shared_ptr<TableCache>& tables = std::make_shared<TableCache>());
 
 }  // namespace muster::diagnosis

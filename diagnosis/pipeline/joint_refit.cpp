@@ -35,6 +35,16 @@ class Joint {
     smooths_ = noise::basis_of(whitener_(smooths));
   }
 
+  ~Joint() {
+    // Where a removal fails, the error that is under way says more.
+    try {
+      for (const std::string& name : inserted_) fit_.model.simulation().remove(name);
+    } catch (const Error&) {
+    }
+  }
+  Joint(const Joint&) = delete;
+  Joint& operator=(const Joint&) = delete;
+
   void add_parameters(const std::vector<std::string>& paths, const VectorXd& lower, const VectorXd& upper) {
     for (std::size_t j = 0; j < paths.size(); ++j)
       unknown_.push_back({paths[j], lower[static_cast<Index>(j)], upper[static_cast<Index>(j)], nullptr});
@@ -81,12 +91,8 @@ class Joint {
     store(x);
   }
 
-  // What the world with the causes expects; takes them away again.
-  VectorXd mean() {
-    VectorXd result = fit_.model.expected();
-    for (const std::string& name : inserted_) fit_.model.simulation().remove(name);
-    return result;
-  }
+  // Expected level of every reading in the world with the causes, dBm.
+  const VectorXd& mean() const { return fit_.model.expected(); }
 
  private:
   InstanceDeclaration declared(const CauseEstimate& found, const Cause& cause, const std::string& name) const {
@@ -114,8 +120,12 @@ class Joint {
       x[static_cast<Index>(j)] = std::clamp(x[static_cast<Index>(j)], unknown_[j].lower, unknown_[j].upper);
     return x;
   }
+  // Parameters of causes go with their instances; those of the world through the guard.
   void set(const VectorXd& x) const {
-    for (std::size_t j = 0; j < unknown_.size(); ++j) fit_.model.set(unknown_[j].path, x[static_cast<Index>(j)]);
+    for (std::size_t j = 0; j < unknown_.size(); ++j) {
+      const double value = x[static_cast<Index>(j)];
+      unknown_[j].value ? fit_.model.set(unknown_[j].path, value) : fit_.moved.set(unknown_[j].path, value);
+    }
   }
   // Simulated less measured, whitened, without what the smooths take.
   VectorXd residual(const VectorXd& x) const {

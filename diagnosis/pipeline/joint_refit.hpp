@@ -10,6 +10,7 @@ namespace muster::diagnosis {
 
 struct JointRefit {
   MeasuredWorld& model;                // has an instance of each named cause meanwhile
+  ParameterGuard& moved;               // the world's parameters stay at the refit until it ends
   const std::vector<Cause>& causes;    // of the plugin path
   std::filesystem::path data;          // what a cause that reads a table reads
   const inference::ModelState& state;  // after the search: its noise, rows and smooths

@@ -8,8 +8,6 @@
 namespace muster::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 // JSON has no NaN: unknown values are null.
 Json known(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 

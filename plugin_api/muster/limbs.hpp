@@ -5,8 +5,8 @@
 
 namespace muster {
 
-// State of a limb's joint: angle about a hinge's axis, or way along a slider's. A ball joint has its orientation, body
-// to joint, from that at 0, and its turn rate relative to its parent body, both in the joint's axes at 0. Fields that
+// State of a limb's joint: angle about a hinge's axis, or way along a slider's. A ball joint has its orientation from
+// that at 0, body to joint, and its turn rate relative to its carrier. Both are in the joint's axes at 0. Fields that
 // the kind of joint lacks are 0; a quaternion of zeros is the identity.
 struct Limb {
   double angle = 0, rate = 0;  // [rad], [rad/s]

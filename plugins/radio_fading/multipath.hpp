@@ -24,7 +24,7 @@ class Multipath {
   std::vector<Tile> at(const std::vector<FieldPoint>& places,
                        const waves::WaveKernel& kernel = waves::best_wave_kernel()) const;
 
-  // Power gains from a place of one tile to the wanted ones of another, of mean 1, with a steady part K times as strong
+  // Power gains of mean 1 from a place of one tile to the wanted ones of another. The steady part is K times as strong
   // as the diffuse one. Bit for bit the same both ways.
   void gains(const Tile& from, int place, const Tile& to, unsigned wanted, double k, double* out,
              const waves::WaveKernel& kernel = waves::best_wave_kernel()) const {

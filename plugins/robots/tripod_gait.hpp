@@ -1,10 +1,10 @@
 // The alternating tripod gait of a robot on half-circle legs: Buehler's clock (Saranli, Buehler, Koditschek, IJRR
 // 20(7), 2001), and the stride of a robot whose rigid legs roll without slip, one tripod always on the ground.
 //
-// With the leg at angle x behind upright the hip is 2 r cos x over the ground while the leg is on its end (x >= 0), and
-// r (1 + cos x) while it rolls on its arc (x <= 0). Both tripods turn alike in their stances, half a cycle apart: the
-// one with the higher hip carries the body. So the load changes legs where 2 cos a = 1 + cos b, a in front of the new
-// leg's b by half a cycle's turn.
+// With the leg at angle x behind upright the hip is 2 r cos x over the ground while the leg is on its end (x >= 0). It
+// is r (1 + cos x) while the leg rolls on its arc (x <= 0). Both tripods turn alike in their stances, half a cycle
+// apart: the one with the higher hip carries the body. So the load changes legs where 2 cos a = 1 + cos b, a in front
+// of the new leg's b by half a cycle's turn.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// The border to plugins grows at its ends only: old plugins run in new kernels.
+// The ABI grows at its ends only: old plugins run in new kernels.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <muster/plugin.h>
@@ -33,7 +33,7 @@ struct Field {
   std::size_t then, then_size, now, now_size;
 };
 
-// The fields of a frozen struct, and that they are all of it.
+// Checks the fields of a frozen struct, and that there are no others.
 void expect_same(const std::vector<Field>& fields, std::size_t then_size, std::size_t now_size) {
   std::size_t end = 0;
   for (const auto& field : fields) {

@@ -1,4 +1,4 @@
-// Robots in the air: what any backend with rotors must keep.
+// Robots in the air: requirements for any backend with rotors.
 #include "tests/conformance/physics_backends.hpp"
 
 namespace muster::test {
@@ -31,7 +31,7 @@ TEST_P(InTheAir, ClimbsAsItsRotorsSpeedUpOrRefusesWithTheList) {
   EXPECT_LT(state(sim).distance(1, 2), 1e-9);
 }
 
-// Lifted beside its centre of mass by rotors that speed up together, it rolls as their thrust's moment says.
+// Lifted beside its centre of mass by rotors that speed up together, it rolls by their thrust's moment.
 TEST_P(InTheAir, RollsWhereItIsLiftedBesideItsCentreOfMass) {
   if (!GetParam().rotors) return;
   std::string urdf = contents(models + "hummingbird.urdf");
@@ -69,7 +69,7 @@ TEST_P(InTheAir, TumblesWithItsMomentum) {
   EXPECT_GT(turned().angularDistance(stood), 0.1);
 }
 
-// Two that fall and meet on the way, not quite head on: what they push each other sideways adds up to nothing.
+// Two robots that collide while falling, not quite head on: their sideways impulses sum to zero.
 TEST_P(InTheAir, KeepsMomentumInACollision) {
   if (!GetParam().rotors) return;
   const auto whole = whole_mass(description::read_robot(models + "hummingbird.urdf"));

@@ -1,4 +1,4 @@
-// Asks the wheels of Scarabs for v + dv sin(1.3 t) + a t and w + dw sin(0.9 t), t counted from the end of the first
+// Commands the wheels of Scarabs: v + dv sin(1.3 t) + a t and w + dw sin(0.9 t), t counted from the end of the first
 // tick: linear over each tick where `rated`, else held as at its start.
 #include <cmath>
 #include <muster/plugin.hpp>

@@ -1,4 +1,4 @@
-// Asks four rotors for a rate each, and for some more that changes from tick to tick.
+// Commands a rate for each of four rotors, plus a part that changes from tick to tick.
 #include <cmath>
 #include <muster/plugin.hpp>
 

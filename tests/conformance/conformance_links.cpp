@@ -1,4 +1,4 @@
-// Lists all radios and all pairs of them, forward or backward: a term may not care.
+// Lists all radios and all pairs of them, forward or backward: terms must not depend on the order.
 #include <muster/plugin.hpp>
 #include <vector>
 

@@ -1,4 +1,4 @@
-// Asks hips for nothing: legs of robots whose motors have no torque hang as they like.
+// Commands nothing at the hips: legs of robots whose motors have no torque hang freely.
 #include <muster/plugin.hpp>
 
 namespace {

@@ -1,5 +1,5 @@
-// Hands robots over in motion: it keeps poses as they are, gives each robot a velocity in its own frame, and is then
-// swapped for the backend in question.
+// Starts robots in motion: keeps poses, gives each robot a velocity in its own frame, and is then swapped for the
+// backend in question.
 #include <muster/limbs.hpp>
 #include <muster/plugin.hpp>
 #include <optional>

@@ -1,4 +1,4 @@
-// A physics backend that is not of this project, held to the same tests.
+// A physics backend from outside the project, under the same tests.
 #include <algorithm>
 #include <cstdlib>
 #include <sstream>
@@ -11,7 +11,7 @@ namespace muster::test {
 
 namespace {
 
-// What a backend may claim, by name.
+// Abilities that a backend may claim, by name.
 const std::map<std::string, bool Backend::*> abilities = {{"height", &Backend::height},
                                                           {"slip", &Backend::slip},
                                                           {"torque", &Backend::torque},
@@ -41,13 +41,13 @@ const std::map<std::string, double Backend::*> tolerances = {{"fall", &Backend::
                                                              {"swing", &Backend::swing},
                                                              {"coarsest_of_order", &Backend::coarsest_of_order}};
 
-// What MUSTER_BACKEND says; "" where it is not set.
+// Value of MUSTER_BACKEND; "" if it is not set.
 std::string claims_of_another() {
   const char* given = std::getenv("MUSTER_BACKEND");
   return given ? given : "";
 }
 
-// Whether a world with this robot is taken.
+// True if a world with this robot is accepted.
 bool takes(const std::string& plugin, const std::string& robot) {
   const Folder folder;
   folder.write("world.xml", "<world dt='0.01' until='1' seed='1'>" + robot + "<" + plugin + "/></world>");
@@ -65,10 +65,9 @@ double number_in(const std::string& word, std::size_t equals) {
   return *number;
 }
 
-// Somebody else's, by MUSTER_BACKEND="path/to/physics_mine.so slip torque order=2 fall=1e-4 with.solver=fast
-// smooth.friction=0". Which robots it holds it shows by what it refuses; it is held to the widest of the shipped
-// ones' tolerances where it claims no other. `with` gives it attributes, `smooth` those that leave bodies without
-// friction.
+// An external backend, by MUSTER_BACKEND="path/to/physics_mine.so slip torque order=2 fall=1e-4 with.solver=fast
+// smooth.friction=0". Its refusals show which robots it holds. Tolerances that it does not claim are the widest of the
+// shipped ones. `with` gives it attributes, `smooth` those that leave bodies without friction.
 Backend another(const std::string& claims) {
   std::istringstream words(claims);
   std::string word;

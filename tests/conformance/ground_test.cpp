@@ -1,4 +1,4 @@
-// Robots on wheels, on flat ground: what any backend must keep, known by nothing but its file and what it claims.
+// Robots on wheels, on flat ground: requirements for any backend, identified by its file and its claims alone.
 #include "tests/conformance/physics_backends.hpp"
 
 namespace muster::test {
@@ -65,8 +65,8 @@ TEST_P(OnTheGround, RollsOnAnArcOfSpeedOverTurnRate) {
   EXPECT_LT(end.distance(r * std::sin(4 * w), r - r * std::cos(4 * w)), 2 * GetParam().arc);
 }
 
-// Thrown with its wheels held, a robot slides as far as friction on what its wheels carry lets it: statics with the
-// pull at the ground, the inertia at the centre of mass and a smooth caster behind.
+// Thrown with its wheels held, a robot slides as far as friction under its wheels' load allows: statics with the pull
+// at the ground, the inertia at the centre of mass and a smooth caster behind.
 TEST_P(OnTheGround, SlidesAsFarAsCoulombSays) {
   const double mu = 0.1, v = 0.5;
   const auto thrown = [&](const std::string& heading) {
@@ -92,7 +92,7 @@ TEST_P(OnTheGround, SlidesAsFarAsCoulombSays) {
   }
 }
 
-// A box (a Hummingbird whose rotors stand) that is thrown along the ground.
+// A box (a Hummingbird with stopped rotors) thrown along the ground.
 TEST_P(OnTheGround, SlidesAsABoxTheSquareOfItsSpeedOverTwiceFrictionAndGravity) {
   if (!GetParam().rotors) return;
   const double mu = 0.3, v = 1, expected = v * v / (2 * mu * gravity);  // the default between bodies and ground
@@ -110,7 +110,7 @@ TEST_P(OnTheGround, SlidesAsABoxTheSquareOfItsSpeedOverTwiceFrictionAndGravity) 
   }
 }
 
-// The first heights above where it stands that it rises to again.
+// Successive highest points above its rest height.
 std::vector<double> apexes(Started sim, double ground, std::size_t count) {
   std::vector<double> result;
   double before = state(sim).pose.z;
@@ -156,7 +156,7 @@ TEST_P(OnTheGround, BouncesToTheSquareOfItsRestitutionOrRefuses) {
   }
 }
 
-// Thrown so that it tumbles over the ground: no higher than its energy lifts it.
+// Thrown so that it tumbles over the ground: no higher than its energy allows.
 TEST_P(OnTheGround, BouncesWithTheEnergyThatItHas) {
   if (!GetParam().bouncing) return;
   for (const std::string tumble : {"-7", "-2", "3", "8"}) {
@@ -184,7 +184,7 @@ TEST_P(OnTheGround, AcceleratesAsTorqueAllows) {
   EXPECT_NEAR(state(sim).twist.vx / 0.5, expected, GetParam().force * expected);
 }
 
-// What lands at 2.4 m/s hardly rises again: impacts are plastic, as far as a solver knows how.
+// A robot that lands at 2.4 m/s hardly rises again: impacts are plastic, within the solver's accuracy.
 TEST_P(OnTheGround, LandsWithoutBouncing) {
   if (!GetParam().height) return;
   Started sim = run("<robot name='a' at='0 0 0.3'/>", {}, {});

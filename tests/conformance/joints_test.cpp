@@ -1,4 +1,4 @@
-// What hangs on a joint that turns: what any backend with such joints must keep.
+// Bodies on joints that turn: requirements for any backend with such joints.
 #include <muster/limbs.hpp>
 
 #include "tests/conformance/physics_backends.hpp"
@@ -10,7 +10,7 @@ namespace {
 constexpr double mass = 0.1, arm = 0.08, inertia = 1e-4, own_radius = 0.1;  // [kg], [m], [kg m2] about the centre, [m]
 
 // A body of a thousand tons on four smooth feet, 2 cm under its frame, so that nothing else of it touches the ground;
-// what hangs on it shakes it by a ten-millionth of its own way.
+// its limbs shake it by a ten-millionth of their own motion.
 std::string body() {
   std::string text =
       "<link name='body'><inertial><origin xyz='0 0 0.2'/><mass value='1e6'/>"
@@ -21,7 +21,8 @@ std::string body() {
   return text + "</link>";
 }
 
-// Hangs on a joint at `place`, its centre of mass deflected by `angle` from straight down where the joint stands at 0.
+// A pendulum on a joint at `place`, its centre of mass deflected by `angle` from straight down at the joint's position
+// 0.
 std::string pendulum(const std::string& name, const std::string& place, double angle,
                      const std::string& type = "continuous") {
   const auto number = [](double value) { return print_real(value); };
@@ -33,7 +34,7 @@ std::string pendulum(const std::string& name, const std::string& place, double a
          "'/><axis xyz='0 1 0'/></joint>";
 }
 
-// A joint's motor holds against next to nothing.
+// A joint's motor holds with almost no torque.
 const std::string no_torque = " max_torque='1e-9' max_speed='100' friction='0.8' ";
 
 // Two wheels without balance, clear of the ground.
@@ -56,8 +57,7 @@ std::string on_hips(const std::vector<double>& angles) {
          "' position_gain='1e-9' rate_gain='1e-9'" + no_torque + ">" + legs + "</legs></muster></robot>";
 }
 
-// Limbs beside wheels that turn nothing: a ball with a pendulum each of the angles, or on hinges where they are named
-// so.
+// Limbs on a robot with free wheels: a ball with a pendulum each of the angles, or on hinges where so named.
 std::string on_limbs(const std::vector<std::pair<std::string, double>>& angles) {
   std::string links = body() + pendulum("left", "0 0.1 0.3", 0) + pendulum("right", "0 -0.1 0.3", 0), balls;
   for (const std::string wheel : {"left", "right"}) {  // balanced
@@ -83,7 +83,7 @@ double period(double amplitude) {
 
 class OnJoints : public EachBackend {
  protected:
-  // Joints turn from 0 past the amplitude, where what hangs on them is lowest, to twice of it and back.
+  // Joints turn from 0 past the amplitude, at which the pendulum is lowest, to twice of it and back.
   void expect_periods(Started& sim, double dt, const std::vector<double>& amplitudes,
                       const std::function<std::vector<double>()>& angles) const {
     std::vector<std::vector<double>> lowest(amplitudes.size());
@@ -167,8 +167,8 @@ TEST_P(OnJoints, ALimbOnABallGoesInACircle) {
   }
 }
 
-// Carriages of 2 kg on rails that stand upright, with stops 0.1 m from where they begin: one without friction, one that
-// it brakes, one that it holds; and a rail with a damper, whose carriage comes to a steady speed.
+// Carriages of 2 kg on upright rails, with stops 0.1 m from their start: one without friction, one that it brakes, one
+// that it holds; and a rail with a damper, whose carriage reaches a steady speed.
 TEST_P(OnJoints, LimbsStopAtLimitsStickByFrictionAndAreDamped) {
   if (!GetParam().limbs) return;
   constexpr double kilograms = 2, weight = kilograms * gravity, damper = 80;

@@ -1,4 +1,4 @@
-// Limbs that meet walls, the ground and other robots: what any backend must keep that has limbs.
+// Limbs that meet walls, the ground and other robots: requirements for any backend with limbs.
 #include <muster/limbs.hpp>
 
 #include "tests/conformance/physics_backends.hpp"
@@ -37,7 +37,7 @@ std::string arm(double height, double angle, const std::string& more = {}) {
 
 class LimbsTouch : public EachBackend {
  protected:
-  // An arm and what is around it, in ticks of 2 ms.
+  // An arm and its surroundings, in ticks of 2 ms.
   Started swinging(double height, double angle, const std::string& around, const Attributes& more = {},
                    const std::string& also = {}) const {
     folder.write("arm.urdf", arm(height, angle, also));
@@ -46,7 +46,7 @@ class LimbsTouch : public EachBackend {
   static double angle_of(const Simulation& sim) { return row<Limbs>(sim, "robot/arm/limbs").limb[0].angle; }
 };
 
-// From 1 rad it falls to where its ball touches, and stays.
+// From 1 rad it falls until its ball touches, and stays.
 TEST_P(LimbsTouch, AnArmComesToLieOnTheGround) {
   if (!GetParam().limbs) return;
   const double height = 0.3, expected = std::acos((height - ball) / length);
@@ -71,7 +71,7 @@ TEST_P(LimbsTouch, AWallStopsAnArm) {
   EXPECT_NEAR(farthest, at_wall, 2e-3);
 }
 
-// With half of its rate it has a quarter of the energy that it met the wall with.
+// With half of its rate it has a quarter of its energy before the wall.
 TEST_P(LimbsTouch, AnArmBouncesOffAWall) {
   if (!GetParam().limbs || !GetParam().bouncing) return;
   Started sim = swinging(1, 1, wall, GetParam().smooth, "<muster restitution='0.5'/>");
@@ -85,8 +85,8 @@ TEST_P(LimbsTouch, AnArmBouncesOffAWall) {
   EXPECT_NEAR(back, expected, GetParam().apex * expected);
 }
 
-// At its lowest point it meets a crate that stands. Nothing bounces or rubs: the moment of momentum about the hinge
-// stays, of the arm before and of both after.
+// At its lowest point it meets a crate at rest. Without bounce or friction the moment of momentum about the hinge is
+// conserved, of the arm before and of both after.
 TEST_P(LimbsTouch, AnArmGivesACrateItsMomentum) {
   if (!GetParam().limbs) return;
   const double height = length + 0.125, amplitude = 1.2, crate = 2;
@@ -99,7 +99,7 @@ TEST_P(LimbsTouch, AnArmGivesACrateItsMomentum) {
   EXPECT_NEAR(state(sim, "crate").twist.vx, expected, GetParam().force * expected + parting);
 }
 
-// A sled on one foot behind a Scarab: its hinge carries what the foot does not.
+// A sled on one foot behind a Scarab: its hinge carries the rest of its weight.
 TEST_P(LimbsTouch, ASledIsDraggedAlong) {
   if (!GetParam().limbs) return;
   const double torque = 0.2, wheel_inertia = 0.00025;

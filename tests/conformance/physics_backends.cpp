@@ -35,7 +35,7 @@ std::vector<Backend> table() {
   return {simbody, ode, quick, planar};
 }
 
-// Of the table, what was built; and the given one.
+// The built backends of the table, and the given one.
 std::vector<Backend> backends() {
   std::vector<Backend> result;
   for (const Backend& backend : table()) {

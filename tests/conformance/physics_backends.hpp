@@ -1,4 +1,4 @@
-// The backends of physics, what each claims, and robots that start to move in them.
+// The backends of physics, their claims, and robots that start in motion in them.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -27,9 +27,9 @@ struct Backend {
   bool slip = false;               // friction is bounded
   bool torque = false;             // motors are
   bool round_friction = false;     // bounded alike in every direction
-  bool load_transfer = false;      // friction's bound knows of the weight that friction itself shifts
+  bool load_transfer = false;      // friction's bound includes the weight that friction itself shifts
   bool rotors = false;             // lift and turn a robot
-  bool bouncing = false;           // from what it lands on
+  bool bouncing = false;           // off the surface that it lands on
   bool bounces_on_wheels = false;  // too
   std::string pendulum{};          // the joint that may carry one: "hip" or "axle" (of a wheel without balance)
   bool limbs = false;              // on hinges and balls that no motor turns
@@ -48,20 +48,20 @@ struct Backend {
   double collision = 0;  // of the momentum of two that meet in the air, relative
   double bounce = 0;     // after a fall of 0.3 m [m/s]
   double parting = 0;    // at most, of two that meet without bouncing [m/s]
-  double apex = 0;       // of what a body that bounces rises to, relative
-  double slide = 0;      // of how far a box slides and what a ball has after it, relative
+  double apex = 0;       // of the heights of a bouncing body, relative
+  double slide = 0;      // of a box's sliding distance and of a ball's speed after it, relative
   double force = 0;      // of a robot's sliding distance, and of an acceleration at the limit of torque, relative
   double swing = 0;      // of a pendulum's period, relative
 };
 inline void PrintTo(const Backend& backend, std::ostream* out) { *out << backend.name; }
 
-// Where plugins are found.
+// Search path of plugins.
 Options search(int workers = 1);
 
-// The one that MUSTER_BACKEND names, with what it claims (given_backend.cpp); nothing where it is not set.
+// The one that MUSTER_BACKEND names, with its claims (given_backend.cpp); null if it is not set.
 std::optional<Backend> given_backend();
 
-// All that there are; and those of them that were built, with the given one.
+// All backends; and those of them that were built, with the given one.
 std::vector<Backend> table();
 std::vector<Backend> backends();
 inline std::string test_name(const testing::TestParamInfo<Backend>& info) { return info.param.name; }
@@ -90,19 +90,19 @@ constexpr double gravity = 9.81, radius = 0.05, half_base = 0.105;
 inline const std::string one = "<robot name='a' at='0 0 0'",
                          two = one + " heading='0.3'/><robot name='b' at='3 1 0' heading='2'/>";
 
-// Courses: S-bends, from rolling already, and one so hard that wheels may slip: what a solver remembers counts.
+// Courses: S-bends, from rolling already, and one so hard that wheels may slip: the solver's memory matters.
 inline const Attributes bends = {{"v", "0.25"}, {"dv", "0.15"}, {"dw", "0.8"}},
                         rolling = {{"forward", "0.25"}, {"left", "5"}, {"right", "5"}},
                         wild = {{"v", "0.4"}, {"dv", "0.3"}, {"a", "0.2"}, {"dw", "3"}};
 
-// A Hummingbird in the air, and what its rotors are asked for.
+// A Hummingbird in the air, and its rotors' commands.
 std::string bird(const std::string& name, const std::string& at);
 std::string lift(double rate, double swing = 0);
 // One takes off from the ground, one flies beside a Scarab that drives.
 inline const std::string air =
     bird("a", "0 0 0.06") + bird("b", "3 0 4") + "<robot name='c' at='0 4 0'/>" + lift(470, 20);
 
-// Robots as <conformance.start> hands them over to the backend, after the first tick.
+// Robots as <conformance.start> hands them to the backend, after the first tick.
 class Started : public Simulation {
  public:
   Started(const Folder& folder, int workers, InstanceDeclaration backend);

@@ -1,4 +1,4 @@
-// Robots that nothing drives, on flat ground: what any backend must keep that lets others push them.
+// Robots without a drive, on flat ground: requirements for any backend in which others push them.
 #include "tests/conformance/physics_backends.hpp"
 
 namespace muster::test {
@@ -44,7 +44,7 @@ TEST_P(Pushed, ACrateStandsStillAtRest) {
   EXPECT_NEAR(state(sim).pose.z, 0, 1e-4);
 }
 
-// On four corners, whose friction shifts weight to the front: in sum it is that of its weight all the same.
+// On four corners, whose friction shifts weight to the front: in sum it equals the friction of its weight.
 TEST_P(Pushed, ACrateSlidesTheSquareOfItsSpeedOverTwiceFrictionAndGravity) {
   if (!GetParam().pushed) return;
   const double expected = 1 / (2 * mu * gravity);
@@ -61,7 +61,7 @@ TEST_P(Pushed, ACrateSlidesTheSquareOfItsSpeedOverTwiceFrictionAndGravity) {
 }
 
 // Thrown without spin it slides until it rolls, with five sevenths of its speed: the moment of momentum about its
-// point on the ground stays.
+// contact point is conserved.
 TEST_P(Pushed, ABallThatSlidesRollsWithFiveSeventhsOfItsSpeed) {
   if (!GetParam().pushed) return;
   const double v = 1, until = 2 * v / (7 * mu * gravity), end = 0.5;
@@ -74,8 +74,8 @@ TEST_P(Pushed, ABallThatSlidesRollsWithFiveSeventhsOfItsSpeed) {
   EXPECT_NEAR(now.distance(0, 0), expected, GetParam().slide * expected);
 }
 
-// Two wheels pull with torque over radius, at what rolls and at what it pushes along. Where the two touch they stick,
-// so that friction may shift weight from one to the other, by up to its bound.
+// Two wheels pull with torque over radius, against the rolling mass and the pushed one. Where the two touch they stick,
+// so friction may shift weight from one to the other, by up to its bound.
 TEST_P(Pushed, ARobotPushesACrateWithWhatItsMotorsGive) {
   if (!GetParam().pushed || !GetParam().torque) return;
   const double torque = 0.4, wheel_inertia = 0.00025, way = 0.02, nose = 0.1, half = 0.2;

@@ -1,4 +1,4 @@
-// What any plugin must keep that fills columns of links, known by nothing but its file: each *.so among the plugins.
+// Requirements for any plugin that fills columns of links, identified by its file alone: each *.so among the plugins.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -34,7 +34,7 @@ void write_mesh(const test::Folder& folder) {
 
 struct Term {
   std::string id;
-  bool is_reciprocal = false;  // its manual says so
+  bool is_reciprocal = false;  // by its manual
 };
 
 class RadioTerm : public testing::TestWithParam<Term> {
@@ -49,7 +49,7 @@ class RadioTerm : public testing::TestWithParam<Term> {
     return Simulation(read_world(folder.path(), standard()), standard(), options);
   }
 
-  // What the instance fills in, of every link.
+  // Values that the instance writes, for every link.
   static Values values(const Simulation& sim) {
     const TableView ends = sim.table("link/*/ends");
     Values result;
@@ -77,7 +77,7 @@ void step(Simulation& sim, int ticks) {
 
 TEST_P(RadioTerm, IsFiniteWhereEndsCoincideAndSeesEveryLink) {
   Simulation sim = run();
-  step(sim, 3);  // the kernel refuses what is not finite
+  step(sim, 3);  // the kernel refuses infinities and NaN
   for (const auto& [table, cells] : values(sim)) EXPECT_EQ(cells.size(), 20u) << table;
 }
 
@@ -126,7 +126,7 @@ TEST_P(RadioTerm, IsReciprocalToTheLastBitIfItsManualSaysSo) {
   }
 }
 
-// Those among the plugins that fill in columns of links and can be made without attributes.
+// Plugins that write columns of links and can be made without attributes.
 std::vector<Term> terms() {
   std::vector<Term> result;
   for (const auto& listed : list_plugins({MUSTER_PLUGINS_DIR})) {
@@ -154,7 +154,7 @@ std::vector<Term> terms() {
   return result;
 }
 
-// A build without any radio plugin has nothing to hold here.
+// A build without any radio plugin has nothing to check here.
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(RadioTerm);
 INSTANTIATE_TEST_SUITE_P(Plugins, RadioTerm, testing::ValuesIn(terms()), [](const auto& term) {
   std::string name = term.param.id;

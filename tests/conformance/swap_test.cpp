@@ -1,4 +1,4 @@
-// From each backend to each: what moves goes on without a jump.
+// From each backend to each: motion continues without a jump.
 #include <muster/limbs.hpp>
 
 #include "tests/conformance/physics_backends.hpp"
@@ -9,7 +9,7 @@ namespace {
 using FromTo = std::tuple<Backend, Backend>;
 class EachSwap : public Physics, public testing::TestWithParam<FromTo> {};
 
-// One step under the bound that friction sets, from velocities that may stand up to dt before their pose.
+// One step under the bound of friction, from velocities that may be up to dt older than their pose.
 void expect_no_jump(const State& a, const State& b, double dt) {
   const double bound = 0.8 * gravity;
   EXPECT_LE(std::hypot(b.twist.vx - a.twist.vx, b.twist.vy - a.twist.vy), bound * dt);
@@ -93,7 +93,7 @@ INSTANTIATE_TEST_SUITE_P(Plugins, EachSwap,
                            return std::get<0>(pair.param).name + "_to_" + std::get<1>(pair.param).name;
                          });
 
-// Whatever moves robots without being given a file is in the table.
+// The table has every plugin that moves robots without a file.
 TEST(Backends, AreAllHeldToThis) {
   std::vector<std::string> known;
   for (const Backend& backend : table()) known.push_back(backend.plugin);

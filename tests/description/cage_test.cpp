@@ -1,4 +1,4 @@
-// What is in the cage can compute and end, and nothing else.
+// A process in the cage can compute and end, and nothing else.
 #include "description/cage.hpp"
 
 #include <fcntl.h>

@@ -12,7 +12,7 @@ namespace muster::description {
 
 using Files = test::Folder;
 
-// What the call throws; fails the test if it throws nothing.
+// The text that the call throws; fails the test if it throws nothing.
 template <class Call>
 std::string message_of(Call&& call) {
   try {

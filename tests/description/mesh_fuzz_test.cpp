@@ -1,6 +1,6 @@
-// Meshes that were damaged at random: the host lives, leaves nothing behind, and gets a sound mesh or a known reason.
-// What a reason says steers the search: files with a new one are damaged further. With MUSTER_FUZZ_SECONDS (tier long)
-// each format takes so long, and the smallest file of each kind goes to MUSTER_FUZZ_FOLDER.
+// Meshes damaged at random: the host survives, leaves nothing behind, and gets a sound mesh or a known reason. Reasons
+// steer the search: files with a new one are damaged further. With MUSTER_FUZZ_SECONDS (tier long) each format takes so
+// long, and the smallest file of each kind goes to MUSTER_FUZZ_FOLDER.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -64,7 +64,7 @@ class Damage {
     }
   }
 
-  // Another number in the place of one that is there.
+  // Replaces a number by another one.
   void number(std::string& bytes) {
     static const char* const numbers[] = {"-1",    "0",   "4294967295", "4294967296", "2147483648",
                                           "1e400", "nan", "-inf",       "1e-400",     "99999999999999999999",
@@ -83,7 +83,7 @@ class Damage {
   std::mt19937_64 random_;
 };
 
-// What a reason says of a file; "" for one that nobody knows.
+// Kind of a refusal's reason; "" for an unknown one.
 std::string kind_of(const std::string& reason) {
   static const std::vector<std::pair<std::string, std::string>> kinds = {
       {"is not a mesh that can be imported: the importer crashed on it", "crash"},
@@ -121,7 +121,7 @@ class Fuzz {
     }
   }
 
-  // Damages the seeds, and every other time what came of them, while go_on().
+  // Damages the seeds, and every other time their descendants, while go_on().
   template <class GoOn>
   void run(const std::vector<std::string>& seeds, GoOn go_on) {
     Damage damage(1);
@@ -138,7 +138,7 @@ class Fuzz {
     }
   }
 
-  // Takes parts away as long as the kind stays.
+  // Removes parts as long as the kind stays.
   void shrink() {
     for (auto& [kind, bytes] : smallest_) {
       int tries = kind == "slow" ? 20 : kind == "memory" ? 200 : 2000;
@@ -168,8 +168,8 @@ class Fuzz {
 };
 
 #ifndef MUSTER_FUZZ_SECONDS
-// What the long run found, as small as it gets, each named by what becomes of it. Where assimp crashes or takes all
-// memory today it may know better tomorrow.
+// Findings of the long run, minimised, each named by its outcome. Files that crash assimp or exhaust memory today may
+// pass tomorrow.
 TEST(MeshFuzzCorpus, EachKindIsStillRefused) {
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(MUSTER_SOURCE_DIR "/tests/description/meshes")) {

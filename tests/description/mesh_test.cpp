@@ -1,4 +1,4 @@
-// Meshes of any kind, hostile ones too, leave the host alive and are refused with a reason.
+// Meshes of any kind, hostile ones too, leave the host running and are refused with a reason.
 #include "description/mesh.hpp"
 
 #include <gtest/gtest.h>

@@ -38,7 +38,7 @@ TEST(Hummingbird, HasItsSourcesFigures) {
   }
 }
 
-// Each rotor alone: its thrust and torque, and the drag of what air meets it.
+// Each rotor alone: its thrust and torque, and the drag of its air flow.
 TEST(Rotors, WrenchIsTheSumOverRotors) {
   const Quadrotor& drive = *hummingbird().quadrotor;
   const RotorRates rates = {300, 450, 600, 200};
@@ -81,7 +81,7 @@ TEST(Rotors, RatesForAWrenchGiveIt) {
   EXPECT_LT((given.torque - torque).norm(), 1e-12);
 }
 
-// Turning gives way first, then thrust, up or down, and roll and pitch last.
+// Turning is reduced first, then thrust is changed, up or down, and roll and pitch are reduced last.
 TEST(Rotors, WhatIsTooMuchGivesWayInOrder) {
   const Quadrotor& drive = *hummingbird().quadrotor;
   const double most = drive.max_thrust() / 4;

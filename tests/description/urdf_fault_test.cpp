@@ -1,4 +1,4 @@
-// What is wrong in a URDF is said with its line and the link's name; nothing is dropped in silence.
+// Faults of a URDF are reported with line and link; nothing is dropped in silence.
 #include <gtest/gtest.h>
 #include <pthread.h>
 
@@ -49,7 +49,7 @@ std::string ball(const std::string& inside, const std::string& type = "floating"
          "</muster>\n";
 }
 
-// Six legs of radius 0.05 on hips at the given height; `last` is how the sixth is declared.
+// Six legs of radius 0.05 on hips at the given height; `last` is the sixth's declaration.
 std::string legs(const std::string& attributes, const std::string& last = "<leg joint='j6' tripod='2'/>",
                  const std::string& height = "0.1", const std::string& sixth = mass) {
   std::string text = link("b", mass);
@@ -68,7 +68,7 @@ std::string legs(const std::string& attributes, const std::string& last = "<leg 
 const std::string good_legs =
     "radius='0.05' position_gain='9' rate_gain='1' max_torque='1' max_speed='9' friction='0.8'";
 
-// A laser on link 'a', from line 5 on: what <sensor> and its <horizontal> say, and <muster>.
+// A laser on link 'a', from line 5 on: attributes of <sensor> and its <horizontal>, and <muster>.
 std::string laser(const std::string& horizontal, const std::string& muster = "",
                   const std::string& attributes = "update_rate='10'", const std::string& parent = "link='a'") {
   return link("a", mass) + link("b", mass) + joint("j", "a", "b", "continuous", "<axis xyz='0 0 1'/>") +

@@ -1,4 +1,4 @@
-// Good descriptions are read as they stand.
+// Good descriptions are read completely.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -148,7 +148,7 @@ TEST(Urdf, EveryKindOfJointIsRead) {
 }
 
 // A coordinate for each rate, but where a quaternion stands for three of them.
-// What the standard has and muster has no use for, and what is of other programs.
+// Elements of the standard that muster does not use, and those of other programs.
 TEST(Urdf, WhatIsOfOthersMayStand) {
   Files files;
   const Robot robot =
@@ -228,7 +228,7 @@ TEST(Urdf, LimbsHangOnWhatCarriesThem) {
   EXPECT_TRUE(limbs_of(read_robot(scarab)).empty());
 }
 
-// Bounds hold what many points of a shape's surface span, and no more.
+// Bounds contain many points of a shape's surface, and no more.
 TEST(Bounds, AreTheLeast) {
   const Eigen::Isometry3d pose =
       Eigen::Translation3d(1, 2, 3) * Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -1).normalized());

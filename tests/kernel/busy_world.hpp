@@ -1,4 +1,4 @@
-// A world with something of everything that a tick does.
+// A world with every kind of work that a tick does.
 #pragma once
 
 #include "toy_world.hpp"

@@ -1,4 +1,4 @@
-// Cells: what may stand in them, and what their writer hears if something else does.
+// Cells: valid values, and the error of a writer of any other.
 #include "toy_world.hpp"
 
 namespace muster {
@@ -103,7 +103,7 @@ TEST_F(CellKinds, ThreePluginsThatFailTogetherAreReportedInTheOrderOfTheWorldFil
               HasSubstr("y (toy.fault): step failed at tick 2 (t = 1 s): the wheel came off"));
 }
 
-// Two instances of one batch say why they fail; when the first is gone and the other's parameter is mended, the run
+// Two instances of one batch report failures; when the first is gone and the other's parameter is corrected, the run
 // goes on.
 TEST_F(CellKinds, AnOldComplaintDoesNotOutliveItsStep) {
   Simulation sim = run(two_robots + "<toy.fault name='f' tick='2' fault='throws'/>\n");

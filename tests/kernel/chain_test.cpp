@@ -1,4 +1,4 @@
-// A chain that gains and loses stages in mid-run: values, and what writers remember, stay what they are.
+// A chain that gains and loses stages in mid-run: values, and states of writers, are unchanged.
 #include "toy_world.hpp"
 
 namespace muster {

@@ -275,7 +275,7 @@ TEST_F(Changes, ARebuiltPluginRunsTheNewCode) {
   EXPECT_EQ(cell(sim, "instance/v/version"), 2.25);
   EXPECT_EQ(cell(sim, "instance/v/version", 1), 5);  // steps counted on
   EXPECT_EQ(cell(sim, "instance/w/version"), 1);
-  sim.remake("v");  // what is made again is what ran
+  sim.remake("v");  // remaking runs the same code
   step(sim);
   EXPECT_EQ(cell(sim, "instance/v/version"), 2.25);
   EXPECT_THAT(messages(sim), ElementsAre("4 v: reloaded toy.version/1"));

@@ -1,4 +1,4 @@
-// The four claims: who may read, write, add to and modify what, and in which order the steps follow.
+// The four claims: access to read, write, add and modify, and the resulting order of the steps.
 #include <cmath>
 
 #include "toy_world.hpp"
@@ -181,7 +181,7 @@ TEST_F(Claims, AReadThatNobodyWritesNamesTheNearest) {
   EXPECT_EQ(cell(sim, "robot/a/x"), 4);  // an optional read has no rows
 }
 
-// A mesh where no channel knows of meshes. What a read table refers to is minded with it.
+// A mesh in a world whose channel ignores meshes. Rows that a table in use refers to count as read.
 TEST_F(Claims, RowsThatNobodyReadsAreWarnedAbout) {
   const std::string rows = two_robots +
                            "<material name='m' loss='3'/>\n<wall from='0 0' to='1 0' material='m'/>\n"
@@ -200,7 +200,7 @@ TEST_F(Claims, RowsThatNobodyReadsAreWarnedAbout) {
   EXPECT_THAT(messages(run(rows + copy("wall", Wall::columns))), ElementsAre());
 }
 
-// A jammer in a world whose network feels no jammers.
+// A jammer in a world whose network ignores jammers.
 TEST_F(Claims, WhatAPluginOfTheRadioSaysToNobodyIsWarnedAbout) {
   const std::string said = two_robots + "<toy.copy_radio name='r' to='robot/*/loudness' columns='v'/>\n";
   EXPECT_THAT(messages(run(said)),
@@ -210,7 +210,7 @@ TEST_F(Claims, WhatAPluginOfTheRadioSaysToNobodyIsWarnedAbout) {
               ElementsAre());
 }
 
-// A robot that a controller commands in a world where nothing obeys would just stand there.
+// A robot that a controller commands in a world without a drive would not move.
 TEST_F(Claims, CommandsThatNobodyReadsAreWarnedAbout) {
   const std::string commands = two_robots +
                                "<toy.copy_control name='c' robot='a' to='robot/{robot}/command' columns='" +

@@ -90,7 +90,7 @@ TEST_F(SameBits, InAnotherProcess) {
   const auto file = folder / "digest";
   const pid_t child = fork();
   if (child == 0) {
-    // A program that starts anew, so that no address is the same.
+    // A newly started program, so that no address is the same.
     const std::string out = "MUSTER_DIGEST_TO=" + file.string();
     execle("/proc/self/exe", "test_kernel", "--gtest_filter=Digest.OfTheBusyWorldTwice", nullptr,
            std::vector<char*>{const_cast<char*>(out.c_str()), nullptr}.data());
@@ -104,7 +104,7 @@ TEST_F(SameBits, InAnotherProcess) {
   EXPECT_EQ(digest, expected);
 }
 
-// The test above runs this one in a process of its own, and says where the digest is to go.
+// The test above runs this one in a process of its own, and gives it the digest's file.
 class Digest : public ToyWorld {};
 TEST_F(Digest, OfTheBusyWorldTwice) {
   Simulation sim = run(busy_world), again = run(busy_world);
@@ -113,7 +113,7 @@ TEST_F(Digest, OfTheBusyWorldTwice) {
   if (const char* to = std::getenv("MUSTER_DIGEST_TO")) std::ofstream(to) << sim.digest();
 }
 
-// Nothing depends on what an instance is called, and draws not on the order of the world file.
+// Results do not depend on names of instances, nor draws on the order of the world file.
 TEST_F(Determinism, DrawsDependOnRowsAndStreamsOnly) {
   Simulation one = run(two_robots + "<toy.draw name='x'/>\n<toy.copy_sense name='y' to='robot/*/v'/>\n");
   Simulation other =

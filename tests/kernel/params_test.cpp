@@ -1,4 +1,4 @@
-// Parameters, files and providers: what a world gives to its plugins.
+// Parameters, files and providers: inputs that a world gives to its plugins.
 #include "toy_world.hpp"
 
 namespace muster {
@@ -81,7 +81,7 @@ TEST_F(Params, FileTablesThatDoNotFit) {
             "world file");
 }
 
-// A standard quantity that is read and that nobody writes brings its provider, from wherever plugins are looked for.
+// A standard quantity that is read but has no writer brings its provider, from any folder of plugins.
 TEST_F(Params, ProvidersJoinWhereTheyAreNeeded) {
   std::filesystem::copy(MUSTER_BUILD_DIR "/tests/toys/toy_list.so", folder);
   static Standard other = standard();

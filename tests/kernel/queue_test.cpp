@@ -9,7 +9,7 @@ using Queues = ToyWorld;
 
 constexpr int ticks = 96;
 
-// What a listener has heard, against what senders of `each` messages every `period` ticks have sent up to `tick`.
+// Messages received by a listener, against those of senders of `each` messages every `period` ticks up to `tick`.
 void expect_all_once(const Simulation& sim, const std::string& listener, int each, int period, int tick,
                      bool from_0 = false) {
   double count = 0, first = -1, last = 0;
@@ -121,7 +121,7 @@ TEST_F(Queues, WhoAnswersIntoTheQueueThatItReadsSeesEachMessageOnce) {
 
 class QueueStages : public ToyWorld, public testing::WithParamInterface<std::string> {};
 
-// Whatever the phase of the stage, which is that of the messages' writer or a later one.
+// For any phase of the stage: that of the messages' writer or a later one.
 TEST_P(QueueStages, EveryReaderSeesEachMessageOnceBeforeAStageAndAfterIt) {
   const std::string readers =
       "<toy.listen_control name='early'/>\n<toy.listen_network name='with'/>\n<toy.listen_network name='seldom' "

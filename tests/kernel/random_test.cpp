@@ -1,4 +1,4 @@
-// Random numbers: the generator's published vectors, and the laws of what is drawn from it.
+// Random numbers: the generator's published vectors, and the distributions of draws.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -78,7 +78,7 @@ TEST(Random, ExponentialDrawsAreExponential) {
   EXPECT_NEAR(moments(x).variance, 1, limit * sigma * std::sqrt(8.0));
 }
 
-// Neighbours in either index, in key and in stream have nothing in common.
+// Neighbours in either index, in key and in stream are independent.
 TEST(Random, NeighboursAreIndependent) {
   const Stream stream(key_of("neighbours"));
   const auto correlation = [&](auto&& other) {

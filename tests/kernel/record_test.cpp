@@ -1,4 +1,4 @@
-// Records: what is written as CSV is what a plugin reads back.
+// Records: a plugin reads back the CSV that was written.
 #include "kernel/record.hpp"
 
 #include "toy_world.hpp"

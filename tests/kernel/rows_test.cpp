@@ -110,7 +110,7 @@ TEST_F(Rows, AJoinerMayBeginLikeAnother) {
   EXPECT_EQ(cell(sim, "robot/late/pose", 1), 7);
 }
 
-// Whoever writes them: a row's own writer, a rest, a part of a sum, a stage.
+// For any writer: a row's own, a rest, a part of a sum, a stage.
 TEST_F(Rows, RowsThatHaveLeftKeepTheirValuesInEveryTable) {
   const std::string counts = " own='true' add='1'";
   Simulation sim = run(two_robots +

@@ -1,4 +1,4 @@
-// Snapshots: what is restored is what was saved, or nothing is.
+// Snapshots: a restored state equals the saved one, or nothing is restored.
 #include "busy_world.hpp"
 
 namespace muster {

@@ -8,7 +8,7 @@ namespace {
 
 using Memory = ToyWorld;
 
-// Pages of this process that are its own, and bytes that malloc has given out.
+// Pages of this process that are its own, and bytes allocated by malloc.
 double resident_megabytes() {
   std::ifstream in("/proc/self/statm");
   double total = 0, resident = 0;

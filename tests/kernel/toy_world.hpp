@@ -20,7 +20,7 @@ class ToyWorld : public testing::Test {
     return temporary.write(name, bytes);
   }
 
-  // The first of `elements` stands in line 2; dt is 0.5 s.
+  // The first of `elements` is in line 2; dt is 0.5 s.
   World world(const std::string& elements,
               const std::string& attributes = "dt=\"0.5\" until=\"1000\" seed=\"7\"") const {
     return read_world(put("world.xml", "<world " + attributes + ">\n" + elements + "</world>\n"), standard());

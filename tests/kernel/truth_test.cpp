@@ -1,4 +1,4 @@
-// What a controller may know: what its own robot senses, its own memory, and its messages.
+// Data that a controller may read: its own robot's sensors, its own memory, and its messages.
 #include "toy_world.hpp"
 
 namespace muster {

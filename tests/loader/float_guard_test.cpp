@@ -1,4 +1,4 @@
-// What a guard sees, and that it puts it back.
+// Detection and restoration of changes by a guard.
 #include "loader/float_guard.hpp"
 
 #include <gtest/gtest.h>

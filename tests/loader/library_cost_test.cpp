@@ -1,4 +1,4 @@
-// What loading costs, and that it costs no more the thousandth time.
+// Cost of loading, the same at the thousandth time.
 #include <time.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The zoo of spoilt libraries: each has its line, and the host lives and is as it was.
+// The zoo of faulty libraries: each has its line, and the host survives unchanged.
 #include "loader/library.hpp"
 
 #include <elf.h>
@@ -20,7 +20,7 @@ using testing::StartsWith;
 
 class LibraryTest : public ZooTest {
  protected:
-  // What is said of zoo_NAME.so, after its file's name.
+  // The message for zoo_NAME.so, after its file's name.
   static std::string words_for(const std::string& name, const std::string& id = "") {
     const std::string plugin = id.empty() ? "zoo." + name : id;
     const std::string message = error_of([&] { Library::load(plugin, std::nullopt, {zoo}, {"world.xml", 5, 3}); });
@@ -31,7 +31,7 @@ class LibraryTest : public ZooTest {
   }
 };
 
-// ---- What is well ----
+// ---- Valid libraries ----
 
 TEST_F(LibraryTest, LoadsAPluginByItsId) {
   const auto library = Library::load("zoo.good", std::nullopt, {folder, zoo}, {"world.xml", 5, 3});
@@ -68,7 +68,7 @@ TEST_F(LibraryTest, SurvivesStrip) {
   EXPECT_EQ(Library::load("zoo.good", std::nullopt, {folder}, {})->id(), "zoo.good");
 }
 
-// ---- What is not found ----
+// ---- Missing libraries ----
 
 TEST_F(LibraryTest, SaysWhereItLookedAndWhatIsNear) {
   const auto message = [](const std::string& id, const Library::SearchPath& path) {
@@ -86,7 +86,7 @@ TEST_F(LibraryTest, SaysWhereItLookedAndWhatIsNear) {
       "world.xml:5:3: plugin \"../zoo\": is no plugin id; expected words of a-z, 0-9 and _ with dots between them");
 }
 
-// ---- What is no plugin of ours ----
+// ---- Other files ----
 
 TEST_F(LibraryTest, RefusesWhatIsNotAMusterPlugin) {
   EXPECT_EQ(words_for("no_section"),
@@ -128,7 +128,7 @@ TEST_F(LibraryTest, NamesTheVersionThatALibraryNeeds) {
                   "this machine"));
 }
 
-// ---- What goes wrong in its own code ----
+// ---- Faults in its own code ----
 
 TEST_F(LibraryTest, OutlivesInitialisersThatFail) {
   EXPECT_EQ(words_for("throws"), "throws while it is opened: std::runtime_error: no licence found");

@@ -1,4 +1,4 @@
-// What a child does to itself is told in one line, and leaves the parent alone.
+// Each fatal behaviour of a child is reported in one line and leaves the parent alone.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -49,7 +49,7 @@ TEST(Probe, EndsABodyThatHangs) {
             "hangs while it dances: it took over 0.2 s");
 }
 
-// Ctrl-C goes to every process of the terminal; it is the parent that answers it.
+// Ctrl-C goes to every process of the terminal; the parent handles it.
 TEST(Probe, LeavesInterruptionToTheParent) {
   EXPECT_EQ(outcome([] { std::raise(SIGINT); }), "");
   EXPECT_EQ(outcome([] { std::raise(SIGTERM); }), "");
@@ -89,7 +89,7 @@ TEST(Probe, TakesLongWords) {
   EXPECT_EQ(outcome([&] { throw Refusal(words); }), words.substr(0, 4095));
 }
 
-// One child does for all that goes well; what fails is tried again in a child that has seen nothing else.
+// One child suffices as long as all succeeds; a failure is tried again in a fresh child.
 TEST(Probe, BlamesNothingForWhatWentBefore) {
   int left_behind = 0;  // the child's own copy counts on
   Probe probe(

@@ -1,4 +1,4 @@
-// A descriptor that is wrong in one place is refused with that place's name.
+// A descriptor with a fault in one place is refused with that place's name.
 #include "loader/registration.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace muster {
 namespace {
 
-// What muster_register of the library under test registers; it is a plain function and takes no captures.
+// Descriptors that the library under test registers; muster_register is a plain function and takes no captures.
 std::vector<const muster_plugin*> given;
 int answer = MUSTER_OK;
 

@@ -1,4 +1,4 @@
-// When a jammer is on, and how much of it a receiver lets in.
+// A jammer's schedule, and the part of its power in a receiver's band.
 #include "medium/jammer.hpp"
 
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 namespace muster::medium {
 namespace {
 
-// Against a look at each nanosecond, before and after the phase.
+// Against a check at each nanosecond, before and after the phase.
 TEST(Pulses, AreOnForTheFirstPartOfEachPeriod) {
   for (const Pulses p : {Pulses{7, 3, 0}, Pulses{10, 1, 4}, Pulses{5, 4, -12}, Pulses{6, 6, 2}}) {
     const auto is_on = [&](Time at) { return ((at - p.phase) % p.period + p.period) % p.period < p.on; };

@@ -14,7 +14,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-// A picture as an XML reader sees it.
+// A picture parsed as XML.
 class Read {
  public:
   explicit Read(const Figure& figure) {
@@ -22,7 +22,7 @@ class Read {
     if (document_.RootElement()) walk(document_.RootElement(), "");
   }
 
-  // How often `mark` occurs in the paths of all groups of this class: "h0" a dot, "z" a closed shape.
+  // Number of `mark` in the paths of all groups of this class: "h0" a dot, "z" a closed shape.
   int marks(const std::string& group, const std::string& mark) const {
     int count = 0;
     for (const auto& [of, element] : elements_) {
@@ -170,7 +170,7 @@ TEST(Figure, LongLinesKeepTheirSpikes) {
   figure.panels[0].layers = {line};
   const std::string flat = Read(figure).data("line");
   EXPECT_NE(spiky, flat);
-  // Heights that occur: the middle, the top and the bottom.
+  // Heights present: the middle, the top and the bottom.
   std::set<std::string> heights;
   for (auto at = spiky.find(' '); at != std::string::npos; at = spiky.find(' ', at + 1)) {
     heights.insert(spiky.substr(at + 1, spiky.find_first_of("ML", at) - at - 1));

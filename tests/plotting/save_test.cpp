@@ -40,7 +40,7 @@ TEST_F(Save, WritesThePictureAndNothingElse) {
   EXPECT_THAT(files(), testing::ElementsAre("a.svg"));
 }
 
-// Renamed, not written over: who has the old picture open goes on reading all of it.
+// Renamed, not overwritten: a reader of the old picture keeps all of it.
 TEST_F(Save, ReplacesAPictureInOneStep) {
   const fs::path file = folder / "a.svg";
   std::ofstream(file) << "old";

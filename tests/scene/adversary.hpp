@@ -1,6 +1,5 @@
-// Links that are hard to count, through every kernel, against what is known to be right: the twin, which moves the
-// radios and works in rational numbers, where nearly every link is degenerate; and radios that are shifted in symbols,
-// on large floors.
+// Hard links, through every kernel, against references. One is the twin, which moves the radios and computes in
+// rational numbers, where nearly every link is degenerate. The other has radios shifted by symbols, on large floors.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -47,7 +46,7 @@ inline std::vector<Pair> all_pairs(std::size_t points) {
   return result;
 }
 
-// What every kernel counts, each against the first; empty if they differ.
+// Counts of every kernel, each against the first; empty if they differ.
 inline std::vector<int> counts_of_all_kernels(const Scene& scene, const std::vector<Point>& points,
                                               const std::vector<Pair>& links) {
   std::vector<int> first, again;
@@ -65,7 +64,7 @@ inline std::string text(const Point& p) {
   return std::to_string(p.x) + ' ' + std::to_string(p.y) + ' ' + std::to_string(p.z) + "; ";
 }
 
-// Calls exact(link, by_material), which fills what the link crosses, for each. False at the first that differs.
+// Calls exact(link, by_material), which fills the crossings of the link, for each. False at the first that differs.
 template <class Exact>
 bool agree(const Scene& scene, const std::vector<Point>& points, const std::vector<Pair>& links, const Exact& exact) {
   const std::vector<int> counted = counts_of_all_kernels(scene, points, links);
@@ -107,7 +106,7 @@ inline long compare_with_twin(unsigned seed, int buildings) {
   return compared;
 }
 
-// A storey of a building far from the origin, walls askew, and radios where it hurts: on walls and their ends, a
+// A storey of a building far from the origin, walls askew, and radios at critical places: on walls and their ends, a
 // lattice step beside them, in line with them, one on another.
 class Storey {
  public:

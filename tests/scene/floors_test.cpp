@@ -1,4 +1,4 @@
-// Level floors: what passes through one, wherever it meets edges and corners.
+// Level floors: crossings at all edges and corners.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -51,8 +51,8 @@ TEST(Floors, AnOpeningAboutAnInwardCornerIsNotFloor) {
   }
 }
 
-// Quadrilaterals that tile the plan, their corners moved about but for the rim's: each link from below to above passes
-// one of them, and none where it passes beside the rim, whatever edges and corners it meets.
+// Quadrilaterals that tile the plan, their corners moved about except on the rim. Each link from below to above passes
+// one of them, or none if it passes beside the rim, at any edges and corners.
 TEST(Law, FloorsThatMeetLeaveNoGapAndNoOverlap) {
   SmallLattice lattice(11);
   int through = 0, beside = 0;

@@ -1,4 +1,4 @@
-// Walls fill the heights [base, base + height), at the very place where the link crosses.
+// Walls cover the heights [base, base + height), at the exact place of the crossing.
 #include <gtest/gtest.h>
 
 #include "drawing.hpp"

@@ -1,4 +1,4 @@
-// Walls that meet, and links that touch them: each counts as it would an infinitesimal step to the east (and north).
+// Walls that meet, and links that touch them: each counts like a link an infinitesimal step to the east (and north).
 #include <gtest/gtest.h>
 
 #include <numeric>

@@ -1,4 +1,4 @@
-// What holds for any walls and any link, whatever touches what.
+// Laws for any walls and any link, with any contacts between them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-// Doors at odd places, so that what is reported is not round.
+// Doors at odd places, so that the reported numbers are not round.
 Scene furnished(SmallLattice& lattice) {
   std::vector<Wall> walls = lattice.walls(20);
   std::vector<Door> doors;
@@ -124,7 +124,7 @@ struct Polygon {
     return result;
   }
 
-  // How often the walls go round a point that is not on one of them.
+  // Winding number of the walls about a point that is not on one of them.
   int turns_about(const Point& p) const {
     double angle = 0;
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -142,8 +142,8 @@ Polygon draw_polygon(SmallLattice& lattice) {
   return result;
 }
 
-// Radios a little off every line through two lattice points, so that inside and outside are clear; every second link
-// runs straight through a corner all the same.
+// Radios a little off every line through two lattice points, so that inside and outside are unambiguous; every second
+// link runs straight through a corner all the same.
 TEST(Law, LeavingAClosedRoomCrossesAnOddNumberOfWalls) {
   SmallLattice lattice(7);
   int odd = 0;

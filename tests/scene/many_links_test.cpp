@@ -1,4 +1,4 @@
-// Many links at once: the counts of one at a time, whatever the instruction set, order and company.
+// Many links at once: the same counts as one at a time, for any instruction set, order and company.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,10 +13,10 @@ TEST(ManyLinks, AgreeWithTheTwinOnHalfAMillion) { EXPECT_GT(compare_with_twin(1,
 
 TEST(ManyLinks, AgreeWithShiftedRadiosOnHalfAMillion) { EXPECT_GT(compare_with_shifted_radios(2, 50), 500'000); }
 
-// So large that receivers are taken by their direction, and by halves.
+// Large enough for receivers to be sorted by direction, and split in halves.
 TEST(ManyLinks, AgreeWithShiftedRadiosOnLargeFloors) { EXPECT_GT(compare_with_shifted_radios(3, 5, 30, 30), 50'000); }
 
-// The width of a machine's vectors is no part of the result, so each that it has must be there to be compared.
+// The results do not depend on the vector width, so each width of this machine must be compared.
 TEST(ManyLinks, AreCountedByEveryKernelOfThisMachine) {
 #ifdef __x86_64__
   EXPECT_EQ(wall_kernels().number, 1 + !!__builtin_cpu_supports("x86-64-v3") + !!__builtin_cpu_supports("x86-64-v4"));
@@ -24,8 +24,8 @@ TEST(ManyLinks, AreCountedByEveryKernelOfThisMachine) {
   EXPECT_EQ(&best_wall_kernel(), wall_kernels().all[wall_kernels().number - 1]);
 }
 
-// A large hall, seen from far and near: enough walls for receivers to be taken by their direction, and for the tree to
-// have three levels.
+// A large hall, with radios far and near: enough walls for receivers to be sorted by direction, and for a tree of three
+// levels.
 TEST(ManyLinks, AgreeInALargeScene) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> place(-400, 400), shift(-8, 8);

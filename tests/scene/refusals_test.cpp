@@ -1,4 +1,4 @@
-// What a scene refuses, word for word.
+// Refusals of the scene, word for word.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -44,7 +44,7 @@ void ShiftedRadios::add_counts(const Point& from, const Point& to, int* by_mater
     const std::int64_t of_a = dx * (wall.ay - py) - dy * (wall.ax - px),
                        of_b = dx * (wall.by - py) - dy * (wall.bx - px);
     if (is_positive(of_a, dy, -dx) == is_positive(of_b, dy, -dx)) continue;
-    // The share of_p / (of_p - of_q) of the way from p to q is behind where they meet.
+    // True if the share of_p / (of_p - of_q) of the line from p to q is behind their intersection.
     const auto passes_over = [&](std::int64_t height) {
       const Wide above = Wide{pz - height} * (of_p - of_q) + Wide{qz - pz} * of_p;
       return of_p > of_q ? above >= 0 : above <= 0;

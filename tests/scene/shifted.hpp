@@ -1,5 +1,5 @@
-// What a link crosses, wall by wall in whole numbers: every radio stands e to the east, e squared to the north, and far
-// more up, and e is not small but a symbol. Nothing is shared with scene/, and no place is special.
+// Crossings of a link, wall by wall in whole numbers: every radio is e to the east, e squared to the north, and far
+// more up, where e is not small but a symbol. Nothing is shared with scene/, and no place is special.
 #pragma once
 
 #include <cstdint>

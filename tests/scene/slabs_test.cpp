@@ -1,4 +1,4 @@
-// What stands of a wall: everything but its open doors.
+// Slabs of a wall: everything but its open doors.
 #include "scene/slabs.hpp"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace muster::scene {
 namespace {
 
-// Whether a place at `along`, `across` the wall and `up` above its base is inside a slab.
+// True if a place at `along`, `across` the wall and `up` above its base is inside a slab.
 bool covered(const std::vector<Slab>& slabs, const Wall& wall, double along, double across, double up) {
   const double x = wall.x1 - wall.x0, y = wall.y1 - wall.y0, length = std::hypot(x, y);
   const double px = wall.x0 + (along * x - across * y) / length, py = wall.y0 + (along * y + across * x) / length;

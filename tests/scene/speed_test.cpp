@@ -1,4 +1,4 @@
-// A measured data set of the usual size is counted without a wait.
+// A measured data set of the usual size is counted without noticeable delay.
 #include <gtest/gtest.h>
 
 #include <ctime>

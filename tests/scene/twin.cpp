@@ -27,7 +27,7 @@ Wide cross(const PlanVector& a, const PlanVector& b) { return a.x * b.y - a.y * 
 struct Ratio {
   Wide numerator, denominator;
 
-  // After the shift nothing is left to chance: a tie would be a mistake in the twin.
+  // After the shift there are no ties: one would be a mistake in the twin.
   bool is_over(Wide number, Wide divisor = 1) const {
     const Wide left = numerator * divisor, right = number * denominator;
     if (left == right) throw std::logic_error("the twin met a tie");

@@ -1,5 +1,5 @@
-// The definition of a crossing, worked out slowly: every radio really is moved, by a step so small that it decides
-// nothing but ties, and then the meeting point is found in exact rational numbers. No predicate is shared with scene/.
+// The definition of a crossing, computed slowly: every radio is really moved, by a step so small that it decides only
+// ties, and then the intersection is found in exact rational numbers. No predicate is shared with scene/.
 #pragma once
 
 #include <utility>

@@ -1,4 +1,4 @@
-// What a call throws, and a folder for the files that a test writes.
+// The error of a call, and a folder for the files that a test writes.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,8 +12,8 @@
 
 namespace muster::test {
 
-// The message of the Error that the call throws, its file's folder left out, with the exit code in front if it is
-// not 2.
+// The message of the Error that the call throws, without its file's folder, and with the exit code in front unless it
+// is 2.
 template <class Call>
 std::string error_of(Call&& call, const std::filesystem::path& folder = {}) {
   try {

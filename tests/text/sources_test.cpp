@@ -1,4 +1,4 @@
-// No line of the project reads or prints a number in a way that depends on the locale.
+// No line of the project reads or prints a number depending on the locale.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 const char* const folders[] = {"kernel", "cli", "plugins", "diagnosis", "scene", "description"};
 
-// Functions that are called by these names, in code; comments may speak of them.
+// Functions called by these names, in code; comments may mention them.
 const std::regex forbidden(
     R"(\b(strto(d|f|ld|l|ul|ll|ull)|sto(d|f|ld|i|l|ul|ll|ull)|ato(f|i|l|ll)|v?f?sscanf|lexical_cast|)"
     R"(Query\w*(Value|Attribute|Text)|(Int|Int64|Unsigned|Unsigned64|Bool|Float|Double)(Value|Attribute|Text)|)"
@@ -65,9 +65,8 @@ TEST(Sources, ReadNoNumberButThroughFromChars) {
   EXPECT_GE(seen, 14);
 }
 
-// std::to_string of a real follows the locale, of an integer it does not, and only the compiler knows which is meant.
-// The first calls
-// __gnu_cxx::__to_xstring, which then stands among the object's symbols.
+// std::to_string of a real follows the locale, of an integer it does not, and only the compiler distinguishes them. The
+// first calls __gnu_cxx::__to_xstring, which is then among the object's symbols.
 TEST(Sources, PrintNoRealThroughToString) {
   const int seen = visit_files(MUSTER_BUILD_DIR, [](const fs::path& path) {
     if (path.extension() != ".o") return false;

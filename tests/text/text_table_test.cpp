@@ -246,7 +246,7 @@ TEST_F(Table, WriterReportsWhatItCannotDo) {
   EXPECT_FALSE(std::filesystem::exists(folder / "d.csv.part"));
 }
 
-// A limit on file sizes stands for a full disk.
+// A limit on file sizes simulates a full disk.
 TEST_F(Table, AFullDiskIsAnErrorAndLeavesNothing) {
   struct rlimit before {};
   ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);

@@ -1,4 +1,4 @@
-// What hostile and large files cost. Not under sanitizers, which cost more than what is measured.
+// Cost of hostile and large files. Not under sanitizers, which cost more than the code measured.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -23,7 +23,7 @@ struct Cost {
   std::string message;
 };
 
-// In a process of its own, since a peak is never taken back.
+// In a process of its own, since a peak never decreases.
 Cost cost_of_reading(const std::filesystem::path& path) {
   int pipe_ends[2];
   if (::pipe(pipe_ends) != 0) return {};

@@ -1,4 +1,4 @@
-// What a world file may get wrong, told with line, column and the nearest name: FAULTS 5, 6, 7 and 13.
+// Faults of world files, reported with line, column and the nearest name: FAULTS 5, 6, 7 and 13.
 #include "world_text.hpp"
 
 namespace muster {

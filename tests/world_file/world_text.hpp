@@ -1,4 +1,4 @@
-// World files written by tests, and what reading them says.
+// World files written by tests, and the result of reading them.
 #pragma once
 
 #include <gmock/gmock.h>

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "diagnosis/data/dataset.hpp"
@@ -108,7 +109,7 @@ TEST_F(Report, JsonIsAsItsPageSays) {
 }
 
 TEST_F(Report, JsonHoldsWhatWasFound) {
-  const Json json = json_of(*found);
+  const Json json = Json::parse(json_of(*found).dump());
   EXPECT_EQ(json.begin().key(), "verdict");
   EXPECT_EQ(json["verdict"], "extended");
   const Json& cause = json["causes"].at(0);

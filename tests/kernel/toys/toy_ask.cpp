@@ -1,4 +1,4 @@
-// Asks about two sets by turns, within a step: how many rows each has and what they are called.
+// Queries two sets by turns, within a step: the number of rows of each and their names.
 #include <muster/plugin.hpp>
 
 namespace {

@@ -1,5 +1,5 @@
-// out = (one input + another + what it wrote last) * times + add, with tables, columns and kind of claim as the world
-// says. Built once for each phase.
+// out = (one input + another + its last output) * times + add, with tables, columns and kind of claim from the world.
+// Built once for each phase.
 #include <algorithm>
 #include <cstdlib>
 #include <muster/plugin.hpp>

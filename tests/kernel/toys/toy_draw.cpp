@@ -1,4 +1,4 @@
-// A reading with noise: a draw for each row and tick, or its expectation where that is asked for.
+// A reading with noise: a draw for each row and tick, or its expectation on request.
 #include <muster/plugin.hpp>
 
 namespace {

@@ -1,4 +1,4 @@
-// Counts the messages that it sees, with a hash of their bytes in their order. Built once for each phase.
+// Counts the messages received, with a hash of their bytes in their order. Built once for each phase.
 #include <cstdlib>
 #include <muster/plugin.hpp>
 

@@ -1,4 +1,4 @@
-// What goes wrong while its static objects are made, as INITIALISER says.
+// Faults during static initialisation, chosen by INITIALISER.
 #include <fenv.h>
 #include <unistd.h>
 

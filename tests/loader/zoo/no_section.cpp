@@ -1,2 +1,2 @@
-// A shared object that means something to somebody else.
+// A shared object of another program.
 extern "C" __attribute__((visibility("default"))) int answer() { return 42; }

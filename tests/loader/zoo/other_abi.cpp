@@ -1,4 +1,4 @@
-// Of a later plugin_api: nothing of it may run, not even its initialisers.
+// Built for a later plugin_api: none of its code may run, not even its initialisers.
 #include <cstdio>
 #include <cstdlib>
 

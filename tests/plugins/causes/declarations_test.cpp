@@ -1,4 +1,4 @@
-// What causes say of themselves: complete, consistent, and as the README has it.
+// Declarations of causes: complete, consistent, and equal to the README.
 #include <fstream>
 #include <map>
 #include <set>
@@ -106,7 +106,7 @@ TEST_F(Declarations, TitlesNameTheParameters) {
   }
 }
 
-// What a search relies on: bounds to search in, zero as "no effect", a place as a pair.
+// Requirements of a search: bounds, zero as "no effect", a place as a pair.
 TEST_F(Declarations, ParametersCanBeSearched) {
   for (const auto& [id, plugin] : causes) {
     int free = 0, places = 0;

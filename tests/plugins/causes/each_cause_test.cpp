@@ -1,5 +1,5 @@
-// What holds for every cause: nothing at its neutral values, proportion where it says so, the same both ways where
-// physics says so, and the same bits however it is made and run.
+// Laws of every cause: nothing at its neutral values, proportion where declared, reciprocity where physics requires it,
+// and the same bits however it is made and run.
 #include <map>
 #include <set>
 
@@ -136,12 +136,12 @@ TEST_P(EachCause, GivesTheSameBitsHoweverItIsRun) {
 INSTANTIATE_TEST_SUITE_P(Effects, EachCause, testing::ValuesIn(examples()),
                          [](const auto& cause) { return cause.param.name; });
 
-// In one world, whose radios live: every cause is a plugin that a run executes.
+// In one world with live radios: every cause is a plugin that a run executes.
 TEST(AllCauses, RunTogetherOnLivingLinks) {
   const Site site;
   std::string all;
   for (const auto& example : examples()) {
-    // Its table has a row for every link, so it stands beside measured ones alone.
+    // Its table has a row for every link, so it fits measured ones alone.
     if (example.name != "counted_walls") all += "<effect." + example.name + ' ' + example.attributes + "/>\n";
   }
   auto one = site.world(all, false, 1, plan + channel, ""), other = site.world(all, false, 3, plan + channel, "");
@@ -155,7 +155,7 @@ TEST(AllCauses, RunTogetherOnLivingLinks) {
     ASSERT_EQ(one.digest(), other.digest());
   }
   const TableView place = one.table("endpoint/*/pose");
-  EXPECT_EQ(place.at(0, 0), 9);  // a stands where b is said to be, and b is misplaced
+  EXPECT_EQ(place.at(0, 0), 9);  // a is at the given place of b, and b is misplaced
   EXPECT_EQ(place.at(1, 0), 0);
 }
 

@@ -1,4 +1,4 @@
-// Causes that change the law of what is random: expectations are the means of draws, draws follow their law.
+// Causes that change a probability law: expectations are the means of draws, and draws follow their law.
 #include <set>
 
 #include "survey.hpp"
@@ -8,7 +8,7 @@ namespace {
 
 constexpr int many = 8000;
 
-// One link, again and again: `step` seconds apart, both ways.
+// One link, repeated: `step` seconds apart, in both directions.
 std::vector<Reading> standing(double step) {
   std::vector<Reading> result;
   for (int i = 0; i < many; ++i) {
@@ -19,13 +19,13 @@ std::vector<Reading> standing(double step) {
   return result;
 }
 
-// Shadowing belongs to the place: at one place its draws have no mean of 0.
+// Shadowing is a function of place: at one place its draws have a mean other than 0.
 const std::string unshadowed =
     "<radio.multiwall/><radio.fading shadowing=\"0\" rician_k=\"3\" per_reading=\"true\"/><radio.receiver "
     "sensitivity=\"-250\"/>";
 
 struct Drawn {
-  std::vector<double> values;  // of the first way
+  std::vector<double> values;  // of the first direction
   double mean = 0, sd = 0, error = 0, expected = 0;
 };
 

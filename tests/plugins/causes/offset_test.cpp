@@ -50,7 +50,7 @@ TEST(BodyShadow, IsFlatBehindTheBodyAndHalfWhereTheSectorEnds) {
               [=](const Reading& r) { return shadow(r.to, r.from); });
 }
 
-// Readings as they would be had the radio stood there.
+// Readings computed with the radio at that place.
 std::vector<Reading> moved(std::vector<Reading> readings, const std::string& radio, const Reading::At& to) {
   for (Reading& r : readings) {
     if (r.tx == radio) r.from = to;

@@ -1,4 +1,4 @@
-// Causes that belong to the plan: walls, rooms and things that stand about.
+// Causes in the plan: walls, rooms and obstacles.
 #include "survey.hpp"
 
 namespace muster {
@@ -6,7 +6,7 @@ namespace {
 
 double cross(double ax, double ay, double bx, double by) { return ax * by - ay * bx; }
 
-// Where a reading's link and a segment meet: shares of the way along each; none if they do not.
+// Intersection of a reading's link and a segment: shares of the length of each; null if they do not intersect.
 struct Meeting {
   bool there;
   double along_link, along_wall, cosine;  // with the wall's normal, in space
@@ -21,7 +21,7 @@ Meeting meeting(const Reading& r, double x0, double y0, double x1, double y1) {
 }
 double height_at(const Reading& r, double along) { return r.from.z + along * (r.to.z - r.from.z); }
 
-// Of the plan of these tests: what a link crosses of w (its closed door or the wall) and of v (whose door is open).
+// Crossings of a link in the plan of these tests: of w (its closed door or the wall) and of v (whose door is open).
 bool in_door(const Reading& r, const Meeting& m, double wall_length, double at, double width) {
   return m.along_wall * wall_length >= at && m.along_wall * wall_length < at + width && height_at(r, m.along_link) < 2;
 }
@@ -100,7 +100,7 @@ TEST(UnmappedWall, IsWhatTheWallWouldCostIfItWereMapped) {
   for (std::size_t i = 0; i < map.size(); ++i) EXPECT_NEAR(found[i], map[i], 1e-9);
 }
 
-// By steps along the link, as none of its formulas does it.
+// By steps along the link, unlike the formulas under test.
 double way_through(const Reading& r, double x, double y, double radius) {
   constexpr int steps = 20000;
   int inside = 0;

@@ -4,7 +4,7 @@
 namespace muster {
 namespace {
 
-// What comes out of the stage for what went in.
+// Checks the stage's output for its input.
 void expect_stage(const std::string& name, const std::string& attributes,
                   const std::function<double(double, const Reading&)>& closed_form) {
   const Site site;

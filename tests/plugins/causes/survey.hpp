@@ -1,4 +1,5 @@
-// Measured readings with all that a cause may look at, in a world with walls and doors, and what a cause makes of them.
+// Measured readings with all columns that a cause may read, in a world with walls and doors, and the effect of a cause
+// on them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -28,14 +29,14 @@ struct Reading {
 
 inline double length(const Reading& r) { return std::hypot(r.from.x - r.to.x, r.from.y - r.to.y, r.from.z - r.to.z); }
 
-// Of the other end, seen from the first, against its heading.
+// Bearing of the other end from the first, relative to its heading.
 inline double seen(const Reading::At& own, const Reading::At& other) {
   return std::atan2(other.y - own.y, other.x - own.x) - own.yaw;
 }
 
 inline double own_noise(const std::string& radio) { return 1.5 * (radio[0] - 'a'); }
 
-// What a cause's test makes up of radios a and b, which stand, and r and s, which move; each pair both ways.
+// Synthetic readings of radios a and b, which are stationary, and r and s, which move; each pair in both directions.
 inline std::vector<Reading> survey(int ticks = 40) {
   const Stream random(key_of("survey"));
   uint64_t drawn = 0;
@@ -88,7 +89,7 @@ struct Evaluated : Simulation {
   }
 };
 
-// A folder with the readings as measured.csv, gone in the end; the worlds in it.
+// A folder with the readings as measured.csv, removed at the end, and worlds in it.
 class Site {
  public:
   explicit Site(std::vector<Reading> readings_ = survey()) : readings(std::move(readings_)) {
@@ -146,7 +147,7 @@ inline bool same_bits(const std::vector<double>& a, const std::vector<double>& b
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](double x, double y) { return same_bits(x, y); });
 }
 
-// The part that a term adds is this function of a reading, and not a constant, drawn or expected.
+// Checks that a term adds this function of a reading, and not a constant, drawn or expected.
 inline void expect_term(const std::string& name, const std::string& attributes,
                         const std::function<double(const Reading&)>& closed_form, double tolerance = 1e-9) {
   const Site site;

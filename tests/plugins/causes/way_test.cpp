@@ -1,4 +1,4 @@
-// Causes of the way between the radios: slopes, reflections, walls behind walls.
+// Causes on the path between the radios: slopes, reflections, walls behind walls.
 #include <complex>
 
 #include "survey.hpp"
@@ -38,7 +38,7 @@ TEST(TwoRay, TurnsItsSignAtBrewstersAngle) {
 }
 
 // Rappaport's approximation for flat angles: both waves differ by the phase 4 pi h h' / (wavelength d). There R is -1,
-// but for twice the sine by permittivity / sqrt(permittivity - 1).
+// up to twice the sine by permittivity / sqrt(permittivity - 1).
 TEST(TwoRay, FarAwayItIsTheTextbookPhase) {
   Site site({{0, "a", "r", {0, 0, 1, 0}, {400, 0, 0.5, 0}, 0, 0}, {1, "a", "r", {0, 0, 1, 0}, {800, 0, 0.5, 0}, 0, 0}});
   const auto part = column(site.world(effect("two_ray", "reflection=\"0.95\" permittivity=\"5\"")), "link/*/level@it");

@@ -1,4 +1,4 @@
-// A piconet hops out of a jammer's way, against closed forms.
+// A hopping piconet under a jammer, against closed forms.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -33,7 +33,7 @@ struct Jammed {
     for (int i = 0; i < messages; ++i) medium.ask(0, 0, to, std::string(types[dh3].payload - l2cap_header, 'x'));
     return medium.run(0, until, channel, settings);
   }
-  // Of what is sent to all, and so once.
+  // Arrival rate of broadcasts, which are sent once.
   double share(int messages) {
     Books books{};
     add(books, send(messages, Medium::everyone, messages * (5 * slot)));
@@ -58,7 +58,7 @@ TEST(Hops, VisitEachChannelAsOften) {
   EXPECT_NEAR(chi_square, channels - 1, 4 * std::sqrt(2.0 * (channels - 1)));
 }
 
-// A jammer of some channels takes what is sent in them.
+// A jammer of some channels destroys the packets sent in them.
 TEST(Hops, LoseTheShareOfChannelsThatIsJammed) {
   constexpr int messages = 3000;
   for (const int width : {1, 20, 40, 79}) {
@@ -68,7 +68,7 @@ TEST(Hops, LoseTheShareOfChannelsThatIsJammed) {
   }
 }
 
-// What is acknowledged comes through all the same; a try needs two good channels, one each way.
+// Acknowledged messages arrive all the same; a try needs two good channels, one in each direction.
 TEST(Hops, RetransmissionsFindAnotherChannel) {
   for (const int width : {10, 40}) {
     Jammed one(1e6 * signal, width);
@@ -93,7 +93,7 @@ TEST(SteadyJammer, LeavesWhatTheBitErrorLawSays) {
   EXPECT_GT(most, 0.99);
 }
 
-// A strong pulse takes each packet that it overlaps, and no other.
+// A strong pulse destroys each packet that it overlaps, and no other.
 TEST(Pulses, TakeThePacketsThatTheyOverlap) {
   constexpr Time length = air_time(dh3, types[dh3].payload);
   constexpr Time slack = 20 * bit;

@@ -1,4 +1,4 @@
-// The piconet against the specification's times and rates, closed forms, and its own books. tests/README.md lists the
+// The piconet against the specification's times and rates, closed forms, and its own counts. tests/README.md lists the
 // rows.
 #include "medium.hpp"
 
@@ -22,7 +22,7 @@ using peers::of;
 constexpr Time second = 1'000'000'000;
 constexpr double noise = 1e-9;  // mW
 
-// A master, radio 0, and slaves that hear it far above the noise.
+// A master, radio 0, and slaves with links far above the noise.
 struct Piconet {
   explicit Piconet(std::size_t slaves, uint64_t seed = 7) : medium{Stream(seed)} {
     channel = channel_of(std::vector<std::array<double, 2>>(1 + slaves, {0, 0}));
@@ -75,7 +75,7 @@ TEST(AirTime, IsTheSpecifications) {
   EXPECT_EQ(air_time(dh5, 339), 2870 * bit);
 }
 
-// ---- 24: what the mode sets ---------------------------------------------------------------------------------------
+// ---- 24: properties of the mode -----------------------------------------------------------------------------------
 
 // Bluetooth Core Specification 2.0, volume 2, part B, packet summary: greatest rates of asynchronous links, kbit/s.
 TEST(Row24, RatesAreTheSpecifications) {
@@ -154,7 +154,7 @@ TEST(Row24, SlavesTalkToTheirMasterAndToNobodyElse) {
 
 // ---- Access -------------------------------------------------------------------------------------------------------
 
-// All are addressed once in each interval, and what they have to say waits no longer than that and one round.
+// All are polled once in each interval, and their messages wait no longer than that and one round.
 TEST(Polls, ReachEachIdleSlaveInTime) {
   for (const int interval : {20, 40, 100}) {
     Piconet piconet(7);
@@ -169,12 +169,12 @@ TEST(Polls, ReachEachIdleSlaveInTime) {
       EXPECT_LE(a.received - a.sent, (interval + 2 * 7 + 2) * slot);
       mean += static_cast<double>(a.received - a.sent) / static_cast<double>(slot) / 300;
     }
-    // The packet comes at any moment of the interval, and waits for its own slot.
+    // The packet is requested at any moment of the interval, and waits for its own slot.
     EXPECT_NEAR(mean, interval / 2.0 + 1.4, 3 * interval / std::sqrt(12.0 * 300) + 0.5);
   }
 }
 
-// Slaves that always have something to say share the air evenly, to the packet.
+// Saturated slaves share the air evenly, to the packet.
 TEST(Polls, ShareTheAirEvenly) {
   Piconet piconet(7);
   for (std::size_t slave = 1; slave <= 7; ++slave) piconet.fill(slave, 0, dh3, 3000);
@@ -184,7 +184,7 @@ TEST(Polls, ShareTheAirEvenly) {
   for (std::size_t slave = 1; slave <= 7; ++slave) EXPECT_NEAR(arrived[slave], 4.0 * 1600 / 4 / 7, 1.5) << slave;
 }
 
-// A master that always has something for one still polls the others: 2 slots each in 40.
+// A master with constant data for one still polls the others: 2 slots each in 40.
 TEST(Polls, GoOnBesideAStream) {
   Piconet piconet(7);
   piconet.fill(0, 1, dh5, 9000);
@@ -192,7 +192,7 @@ TEST(Polls, GoOnBesideAStream) {
   EXPECT_NEAR(rate(report, 0, 10), 723.2 * (1 - 6 * 2 / 40.0), 723.2 * 0.04);
 }
 
-// Who had something to say and then is heard no more is soon addressed no more often than others.
+// A slave that had data and then vanishes is soon polled no more often than others.
 TEST(Polls, LeaveASlaveBeThatFellSilent) {
   Piconet piconet(2);
   piconet.fill(0, 1, dh5, 9000);
@@ -219,7 +219,7 @@ TEST(Packets, MayChangeTheirTypeOnTheWay) {
 
 // ---- Losses -------------------------------------------------------------------------------------------------------
 
-// What is sent to all is sent once: access code found, 18 bits of the header by majority of three, and the payload.
+// Broadcasts are sent once: access code found, 18 bits of the header by majority of three, and the payload.
 TEST(Loss, OfWhatIsSentOnceIsThatOfItsBits) {
   constexpr int frames = 3000;
   double least = 1, most = 0;
@@ -238,7 +238,7 @@ TEST(Loss, OfWhatIsSentOnceIsThatOfItsBits) {
   EXPECT_GT(most, 0.99);
 }
 
-// Where a payload is short its header counts as well, though each of its bits is sent three times.
+// With a short payload its header matters as well, though each of its bits is sent three times.
 TEST(Loss, OfShortPacketsIsThatOfTheirHeadersToo) {
   constexpr int frames = 10000;
   const double wrong = bit_error_rate(milliwatts(8.5));
@@ -252,8 +252,8 @@ TEST(Loss, OfShortPacketsIsThatOfTheirHeadersToo) {
   EXPECT_LT(std::pow(1 - of_three, 18), 0.95);
 }
 
-// A packet is sent until its acknowledgement comes, whole packets and whole acknowledgements alone count: the rate is
-// the full one times the chance of both.
+// A packet is repeated until its acknowledgement arrives. Only whole packets and whole acknowledgements count: the rate
+// is the full one times the probability of both.
 TEST(Retransmission, CostsWhatTheLossOfPacketsAndAnswersSays) {
   const double ratio = milliwatts(12.5);
   Piconet piconet(1);
@@ -268,7 +268,7 @@ TEST(Retransmission, CostsWhatTheLossOfPacketsAndAnswersSays) {
   EXPECT_EQ(report.arrivals.size(), report.deliveries.size());
 }
 
-// A packet may be sent so often before its time is over; what of it did not come through by then is lost.
+// A packet may be sent so often before its time is over; the rest of it is then lost.
 TEST(Flush, GivesUpAfterItsTime) {
   constexpr int messages = 3000, tries = 8;
   const double ratio = milliwatts(11.5);
@@ -285,7 +285,7 @@ TEST(Flush, GivesUpAfterItsTime) {
   EXPECT_EQ(of(books, Fate::too_weak) + of(books, Fate::delivered), messages);
 }
 
-// Whose answers are not heard: what one packet carries has arrived, of more the sender gives up the rest.
+// Without received acknowledgements: a message in one packet has arrived; of a longer one the sender drops the rest.
 TEST(Flush, WithoutAcknowledgementsEndsAMessageOfSeveralPackets) {
   for (const std::size_t size : {std::size_t{40}, std::size_t{400}}) {
     Piconet piconet(1);
@@ -294,12 +294,12 @@ TEST(Flush, WithoutAcknowledgementsEndsAMessageOfSeveralPackets) {
     piconet.channel.rssi[1 * 2 + 0] = std::nan("");
     piconet.medium.ask(0, 0, 1, std::string(size, 'x'));
     const Report report = piconet.run();
-    EXPECT_EQ(report.deliveries.size(), size == 40 ? 1u : 0u);  // once, though it is sent again and again
+    EXPECT_EQ(report.deliveries.size(), size == 40 ? 1u : 0u);  // once, though it is repeated
     EXPECT_EQ(of(books_of(report), size == 40 ? Fate::delivered : Fate::no_ack), 1);
   }
 }
 
-// A slave that is never addressed does not talk; in the end it gives up, for the reason that it does not hear.
+// A slave that is never polled does not send; in the end it drops its message, for the reason of its missed polls.
 TEST(Flush, EndsWhatNobodyAsksFor) {
   Piconet piconet(1);
   piconet.settings.flush = 80 * slot;
@@ -318,7 +318,7 @@ TEST(Joining, IsNoticedByAMasterThatWasAlone) {
   EXPECT_EQ(of(books_of(piconet.run(2 * second)), Fate::delivered), 1);
 }
 
-// Whoever is master meanwhile, each copy has one outcome.
+// Each copy has one outcome through all changes of the master.
 TEST(Master, MayBecomeAnotherAtAnyTime) {
   Piconet piconet(3);
   piconet.settings.flush = 80 * slot;
@@ -363,7 +363,7 @@ TEST(Gone, CopiesOfWhoLeavesAreCountedAsSuch) {
 
 // ---- State --------------------------------------------------------------------------------------------------------
 
-// Where ticks are cut does not show, nor whether the medium was saved and loaded between them.
+// The division into ticks does not matter, nor does saving and loading the medium between them.
 TEST(State, IsTheSameForAnyTicks) {
   std::string ends[2];
   std::vector<Time> received[2];

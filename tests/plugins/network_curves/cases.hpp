@@ -1,4 +1,4 @@
-// The tasks on which our media are held against ns-3, and both sides of each.
+// The cases for the comparison of our media with ns-3, and both sides of each.
 #pragma once
 
 #include <cmath>
@@ -38,7 +38,7 @@ inline std::vector<Case> cases() {
   return result;
 }
 
-// Shares of copies that arrive and of requests that find no free channel, and the scatter of the first over the runs.
+// Shares of copies that arrive and of requests without a free channel, and the scatter of the first over the runs.
 struct Curve {
   double arrived = 0, no_access = 0, scatter = 0;
 };

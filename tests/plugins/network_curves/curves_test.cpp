@@ -1,4 +1,4 @@
-// Our media against curves that ns-3 3.37 made (curves.csv; README.md says how).
+// Our media against curves from ns-3 3.37 (curves.csv; README.md describes the method).
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -32,7 +32,7 @@ std::vector<Row> stored() {
   return result;
 }
 
-// 0.01 is the bound; where the curve is steep, its own error adds to it.
+// 0.01 is the bound, plus the curve's own error where it is steep.
 TEST(Curves, AsMuchArrivesAndAsOftenNoChannelIsFreeAsInNs3) {
   const std::vector<Row> rows = stored();
   const std::vector<Case> all = cases();

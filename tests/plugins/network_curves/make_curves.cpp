@@ -1,4 +1,4 @@
-// Prints curves.csv: every case as ns-3 has it.
+// Prints curves.csv: every case by ns-3.
 #include <cstdio>
 
 #include "cases.hpp"

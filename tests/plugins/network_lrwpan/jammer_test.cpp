@@ -21,7 +21,7 @@ constexpr double signal = 1e-8;  // mW, far above the noise
 constexpr std::size_t payload = 40;
 constexpr Time frame = (6 + 11 + 40) * octet;
 
-// A sender, a receiver, and a jammer that only the receiver hears.
+// A sender, a receiver, and a jammer with a link to the receiver only.
 struct Jammed {
   explicit Jammed(double power, const Pulses& pulses = {}) {
     channel = peers::channel_of({{0, 0}, {3, 0}});
@@ -75,7 +75,7 @@ TEST(SteadyJammer, WhatItTakesIsCountedAsCollided) {
   EXPECT_EQ(of(books, Fate::collided) + of(books, Fate::delivered), 1000);
 }
 
-// Only the part of its power that lies in the receiver's 5 MHz counts.
+// Only the part of its power within the receiver's 5 MHz counts.
 TEST(SteadyJammer, OfAWideSpectrumOnlyItsPartCounts) {
   Jammed narrow(signal), wide(10 * signal), beside(1e3 * signal);
   wide.channel.jammers[0].band = {2402.5e6 - 10e6, 2402.5e6 + 40e6};
@@ -86,7 +86,7 @@ TEST(SteadyJammer, OfAWideSpectrumOnlyItsPartCounts) {
   EXPECT_LT(beside.share_of(1000, Fate::delivered), 0.01);
 }
 
-// Whoever hears it above the threshold never finds the channel free; beneath, it does not matter.
+// A radio that receives it above the threshold never finds the channel free; below, it has no effect.
 TEST(Assessment, HearsAJammer) {
   for (const Cca cca : {Cca::standard, Cca::ns3, Cca::instant}) {
     for (const double above : {0.99, 1.01}) {
@@ -102,7 +102,7 @@ TEST(Assessment, HearsAJammer) {
   }
 }
 
-// The standard's assessment is of the mean over 8 symbols: half of the time on, twice the power is needed.
+// The standard's assessment takes the mean over 8 symbols: with half of the time on, twice the power is needed.
 TEST(Assessment, IsOfTheMeanPowerOfPulses) {
   for (const double above : {0.99, 1.01}) {
     Jammed one(0, {cca_window / 4, cca_window / 8, 0});
@@ -111,7 +111,7 @@ TEST(Assessment, IsOfTheMeanPowerOfPulses) {
   }
 }
 
-// A strong pulse takes each frame that it overlaps by more than some bits, and no other.
+// A strong pulse destroys each frame that it overlaps by more than some bits, and no other.
 TEST(Pulses, TakeTheFramesThatTheyOverlap) {
   constexpr int frames = 4000;
   constexpr Time slack = 20 * bit;
@@ -127,7 +127,7 @@ TEST(Pulses, TakeTheFramesThatTheyOverlap) {
   EXPECT_NEAR(1 - delivered, overlapped, three_sigma + 2.0 * slack / static_cast<double>(pulses.period));
 }
 
-// Pulses far shorter than a frame act by the share of its bits that they meet, not by their mean power.
+// Pulses far shorter than a frame act by the share of its bits that they hit, not by their mean power.
 TEST(Pulses, ShorterThanAFrameTakeTheirShareOfItsBits) {
   constexpr int frames = 3000;
   const double power = signal / milliwatts(-1.5);
@@ -139,7 +139,7 @@ TEST(Pulses, ShorterThanAFrameTakeTheirShareOfItsBits) {
   EXPECT_GT(by_the_mean - expected, 0.3);
 }
 
-// Where ticks are cut does not show, nor whether the medium was saved and loaded between them.
+// The division into ticks does not matter, nor does saving and loading the medium between them.
 TEST(Pulses, AreTheSameForAnyTicks) {
   std::string ends[2];
   for (const int ticks : {1, 37}) {

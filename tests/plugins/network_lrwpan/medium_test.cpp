@@ -1,4 +1,4 @@
-// The medium against closed forms and its own books.
+// The medium against closed forms and its own counts.
 #include "medium.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ using peers::Books;
 using peers::channel_of;
 using peers::of;
 
-// As ns-3 has it: noise of 5 MHz at 290 K, and a channel that is busy 10 dB above the sensitivity of -106.58 dBm.
+// As in ns-3: noise of 5 MHz at 290 K, and a channel that is busy 10 dB above the sensitivity of -106.58 dBm.
 Settings as_ns3(Cca cca = Cca::ns3) {
   Settings s;
   s.noise = 1.380649e-23 * 290 * 5e6 * 1e3;
@@ -30,7 +30,7 @@ Settings as_ns3(Cca cca = Cca::ns3) {
   return s;
 }
 
-// Everybody broadcasts 40 bytes at this rate.
+// Every radio broadcasts 40 bytes at this rate.
 Books loaded(uint64_t seed, std::size_t radios, double rate, double seconds, const Settings& settings) {
   const peers::Task task = peers::crowd(seed, radios, 20, rate, seconds);
   Medium medium{Stream(seed)};
@@ -136,7 +136,7 @@ TEST(Payload, ArrivesByteForByteInAsManyFragmentsAsItNeeds) {
   }
 }
 
-// At a distance where 1 of 4 frames is lost, four tries of a frame that is acknowledged get nearly all through.
+// At a distance where 1 of 4 frames is lost, four tries of an acknowledged frame deliver nearly all.
 TEST(Acknowledgement, LostFramesAreSentAgain) {
   Pair pair;
   pair.channel = channel_of({{0, 0}, {180, 0}});
@@ -149,7 +149,7 @@ TEST(Acknowledgement, LostFramesAreSentAgain) {
   EXPECT_EQ(of(books, Fate::delivered) + of(books, Fate::too_weak), sent);  // and none arrives twice
 }
 
-// Whose acknowledgements are not heard: what one frame carries has arrived, of more the sender gives up the rest.
+// Without received acknowledgements: a message in one frame has arrived; of a longer one the sender drops the rest.
 TEST(Acknowledgement, NotHeardItEndsAMessageOfSeveralFrames) {
   for (const std::size_t size : {std::size_t{40}, std::size_t{400}}) {
     Pair pair;
@@ -164,8 +164,8 @@ TEST(Acknowledgement, NotHeardItEndsAMessageOfSeveralFrames) {
   }
 }
 
-// From the end of a frame that it acknowledges until its acknowledgement is out, a radio begins nothing of its own,
-// though it hears nobody: else its own frame would go out on top of its acknowledgement.
+// From the end of a frame that it acknowledges until its acknowledgement is out, a radio starts no frame of its own,
+// even on a free channel: it would collide with its acknowledgement.
 TEST(Acknowledgement, WhoOwesOneDoesNotSendItsOwn) {
   for (const Cca cca : {Cca::standard, Cca::ns3, Cca::instant}) {
     Books books{};
@@ -197,9 +197,8 @@ TEST(Frame, FollowsAnotherAfterItsSpacing) {
   }
 }
 
-// Two that do not hear each other talk over one another at the one between them. It keeps to the frame that it heard
-// first, whose spread bits survive another one as strong; the second is lost, if it begins during the first.
-// Row 25 of the requirements.
+// Two hidden terminals collide at the radio between them. It keeps the first frame, whose spread bits survive another
+// one of equal power; the second is lost, if it begins during the first. Row 25 of the requirements.
 TEST(HiddenTerminals, Collide) {
   const auto lost = [](bool hidden) {
     Channel channel = channel_of({{0, 0}, {20, 0}, {40, 0}});
@@ -220,13 +219,13 @@ TEST(HiddenTerminals, Collide) {
   EXPECT_NEAR(lost(true), 1.824 / 10, 0.02);  // ms of a frame, and between those of one sender
 }
 
-// A lock is kept, yet bits come right by their ratio: begun together, the near one gets through and the far one does
-// not.
+// The lock is kept, and bits are right by their ratio: begun together, the near one is received and the far one is
+// lost.
 TEST(NearAndFar, TheNearOneSurvives) {
   Channel channel = channel_of({{0, 0}, {2, 0}, {60, 0}});
   Settings settings = as_ns3(Cca::instant);
   settings.acknowledged = false;
-  settings.busy = 1;  // nobody waits
+  settings.busy = 1;  // no radio waits
   int near = 0, far = 0, together = 0;
   for (uint64_t seed = 0; seed < 400; ++seed) {
     Medium medium{Stream(seed)};
@@ -238,7 +237,7 @@ TEST(NearAndFar, TheNearOneSurvives) {
     for (const Arrival& d : arrivals) (d.from == 0 ? near : far) += overlap;
   }
   EXPECT_GT(together, 100);
-  // Where the far one begins first the near one is not looked for, and drowns it.
+  // If the far one begins first, the near one is not detected, and drowns it.
   EXPECT_EQ(far, 0);
   EXPECT_GT(near, together / 2);
 }
@@ -281,7 +280,7 @@ TEST(State, TheSameBytesMakeTheSameFuture) {
   EXPECT_EQ(straight.save(), broken.save());
 }
 
-// Where ticks are cut does not show.
+// The division into ticks does not matter.
 TEST(State, IsTheSameForAnyTicks) {
   const Channel channel = channel_of({{0, 0}, {5, 0}, {0, 5}});
   std::string ends[2];

@@ -1,5 +1,5 @@
-// Several personal area networks on one channel: who takes what, what they cost each other, and what does not matter.
-// Row 24 of the requirements.
+// Several personal area networks on one channel: their receivers, their mutual interference, and invariances. Row 24 of
+// the requirements.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ Settings in(const Pans& pans) {
   return s;
 }
 
-// Who got it from whom, when and how well, in the order of arrivals.
+// An arrival: receiver, sender, time and quality, in the order of arrivals.
 struct Got {
   std::size_t from, to;
   Time sent, received;
@@ -98,8 +98,8 @@ TEST(Pan, WhatIsForAllIsTakenInTheSendersOwnAndNowhereElse) {
   }
 }
 
-// Every frame takes the channel when and for as long as it would in one PAN, and is heard as well: what arrives is what
-// arrived there, but for what went from one PAN to the other.
+// Every frame occupies the channel at the same time and as long as in one PAN, and is received as well: the same
+// messages arrive, except those between PANs.
 TEST(Pan, TakesFromWhatIsHeardWhatIsOfOthersAndChangesNothingElse) {
   std::vector<Got> within;
   for (const Got& each : crowd(in({}), 40, false).got)
@@ -133,10 +133,10 @@ TEST(Pan, EachCopyHasOneFate) {
   }
 }
 
-// Messages a second that the second and the fourth radio get when the first, or the third too, always has some for all.
+// Messages a second at the second and the fourth radio when the first, or the third too, always has broadcasts to send.
 std::vector<double> rates(const Pans& pans, bool both_send) {
   constexpr int seconds = 200;
-  const Channel channel = peers::channel_of({{0, 0}, {3, 0}, {3, 3}, {0, 3}});  // all as near as one another
+  const Channel channel = peers::channel_of({{0, 0}, {3, 0}, {3, 3}, {0, 3}});  // at equal distances
   Medium medium{Stream(2)};
   for (int i = 0; i < 180 * seconds; ++i)
     for (const std::size_t from : {0, 2})
@@ -148,8 +148,8 @@ std::vector<double> rates(const Pans& pans, bool both_send) {
   return result;
 }
 
-// Alone a PAN that always has something to send gets what back-off, assessment, turnaround, frame and spacing leave it;
-// two have half of that each, and a little more, for they wait at the same time.
+// A saturated PAN alone is limited by back-off, assessment, turnaround, frame and spacing; two have half of that each,
+// and a little more, for they wait at the same time.
 TEST(Pan, TheChannelIsShared) {
   const double cycle = 3.5 * unit_backoff + cca_window + turnaround + air_time(header + 100) + long_spacing;
   const double alone = rates({1, 1, 2, 2}, false)[1];
@@ -160,8 +160,8 @@ TEST(Pan, TheChannelIsShared) {
   EXPECT_LT((shared[1] + shared[3]) / alone, 1.12);
 }
 
-// A receiver that listens to a frame of another PAN does not find its own one's: a sender of each, that do not hear
-// each other, and a receiver between them. Frames last 1.824 ms; each sender begins one in every 10 ms.
+// A receiver locked on a frame of another PAN does not detect one of its own: a sender of each, hidden from each other,
+// and a receiver between them. Frames last 1.824 ms; each sender begins one in every 10 ms.
 TEST(Pan, AReceiverIsBusyWithWhatIsNotForIt) {
   const auto lost = [](bool other_sends) {
     Channel channel = peers::channel_of({{0, 0}, {20, 0}, {40, 0}});
@@ -183,7 +183,7 @@ TEST(Pan, AReceiverIsBusyWithWhatIsNotForIt) {
 
 // ---- From one PAN to another ----------------------------------------------------------------------------------------
 
-// Both PANs' identifiers, where one stood.
+// Both PANs' identifiers instead of one.
 TEST(InterPan, HeadersAreTwoOctetsLonger) {
   EXPECT_EQ(header + sender_pan, 2u + 1 + 2 + 2 + 2 + 2 + 2);
   EXPECT_EQ(extended_header + sender_pan, 2u + 1 + 2 + 8 + 2 + 8 + 2);
@@ -191,7 +191,7 @@ TEST(InterPan, HeadersAreTwoOctetsLonger) {
   EXPECT_EQ(frame_size(102, 0, extended_header + sender_pan), largest_frame);
 }
 
-// When one message from the first to the second radio has arrived, byte for byte; 0: it has not.
+// Time of arrival of one message from the first to the second radio, byte for byte; 0: it has not arrived.
 Time arrival(std::size_t size, bool extended, const Pans& pans) {
   Settings settings = in(pans);
   settings.extended = extended;
@@ -213,7 +213,7 @@ TEST(InterPan, AMessageToOneArrivesAndItsFrameTakesSoMuchLonger) {
   }
 }
 
-// What fills a frame within a PAN goes in two beyond it.
+// A payload that fills a frame within a PAN needs two beyond it.
 TEST(InterPan, FragmentsAreCutByTheLongerHeader) {
   for (const bool extended : {false, true}) {
     const std::size_t most = in_one_frame((extended ? extended_header : header) + sender_pan);
@@ -241,7 +241,7 @@ TEST(InterPan, IsAcknowledged) {
   }
 }
 
-// ---- Who changes ----------------------------------------------------------------------------------------------------
+// ---- Changes of PAN -------------------------------------------------------------------------------------------------
 
 TEST(Pan, WhoGoesOverTakesWhatIsTheNewOnes) {
   const Channel channel = peers::channel_of({{0, 0}, {3, 0}, {0, 3}});

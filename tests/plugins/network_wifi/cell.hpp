@@ -1,4 +1,4 @@
-// Radios that all share one channel of 802.11g, as tests have them.
+// Radios that all share one channel of 802.11g, for tests.
 #pragma once
 
 #include <cmath>
@@ -23,7 +23,7 @@ inline Settings settings(int mbit = 6) {
 struct Cell {
   explicit Cell(const std::vector<std::array<double, 2>>& at, uint64_t seed = 7)
       : channel(peers::channel_of(at, 16, -82)), medium{Stream(seed)} {}
-  // `one` and `other` do not hear each other.
+  // Removes the links between `one` and `other`.
   void hide(std::size_t one, std::size_t other) {
     for (const std::size_t link : {one * channel.radios + other, other * channel.radios + one})
       channel.power[link] = 0, channel.rssi[link] = std::nan("");

@@ -1,4 +1,4 @@
-// Stations that talk at once, against Bianchi's closed form and chance. Row 25 of the requirements.
+// Stations that contend, against Bianchi's closed form and probability. Row 25 of the requirements.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,9 +13,9 @@ using peers::add;
 using peers::Books;
 using peers::of;
 
-// Bianchi, Performance analysis of the IEEE 802.11 distributed coordination function (2000): throughput of n stations
-// that always have something to send, as a share of the time. A busy slot is an exchange, or a collision with what
-// others wait after it: DIFS, as he has it, or EIFS where they took up one of its frames, which came wrong.
+// Bianchi, Performance analysis of the IEEE 802.11 distributed coordination function (2000): throughput of n saturated
+// stations, as a share of the time. A busy slot is an exchange, or a collision with the others' wait after it: DIFS, as
+// in the paper, or EIFS where they locked on one of its frames, which was then faulty.
 Time difs(const Settings& s) { return sifs + 2 * s.slot; }
 Time eifs(const Settings& s) { return sifs + air_time(ack_frame, rates[0]) + difs(s); }
 double bianchi(double n, std::size_t payload, const Settings& s, Time after_collision) {
@@ -34,7 +34,7 @@ double bianchi(double n, std::size_t payload, const Settings& s, Time after_coll
   return some * one * data / ((1 - some) * static_cast<double>(s.slot) + some * one * good + some * (1 - one) * bad);
 }
 
-// The first of the stations receives what all others always have to send.
+// The first of the stations receives from all others, which are saturated.
 double saturated(Cell& cell, int mbit, std::size_t payload, const Settings& s) {
   constexpr int ticks = 100;
   const auto senders = static_cast<int>(cell.channel.radios) - 1;
@@ -74,8 +74,8 @@ class Saturated : public testing::TestWithParam<std::tuple<int, int>> {
 INSTANTIATE_TEST_SUITE_P(Stations, Saturated,
                          testing::Combine(testing::Values(2, 5, 10, 20, 30, 50), testing::Values(6, 54)));
 
-// Row 25 of the requirements. In his conditions: all hear all equally strongly, so that of a collision nobody hears
-// more than that the channel was busy.
+// Row 25 of the requirements. Under the paper's conditions: all receive all at equal power, so a collision appears only
+// as a busy channel.
 TEST_P(Saturated, ThroughputIsBianchis) {
   Cell cell = around();
   for (std::size_t from = 0; from < cell.channel.radios; ++from)
@@ -87,15 +87,14 @@ TEST_P(Saturated, ThroughputIsBianchis) {
   expect_near(saturated(cell, mbit, payload, s), bianchi(n, payload, s, difs(s)), 0.05);
 }
 
-// Neighbours take up one of two frames that collide, and wait longer after it.
+// Neighbours lock on one of two frames that collide, and wait longer after it.
 TEST_P(Saturated, ThroughputIsNearlyHisWhereNeighboursCapture) {
   Cell cell = around();
   expect_near(saturated(cell, mbit, payload, s), bianchi(n, payload, s, eifs(s)), n > 30 ? 0.06 : 0.05);
 }
 
-// Two that do not hear each other talk over one another at the one between them, whose loss is what chance says: a
-// frame begins during another, or another during it. Acknowledgements and retries get most of it through.
-// Row 25 of the requirements.
+// Two hidden terminals collide at the radio between them, with the loss given by probability: a frame begins during
+// another, or another during it. Acknowledgements and retries deliver most of them. Row 25 of the requirements.
 TEST(HiddenTerminals, Collide) {
   const auto lost = [](bool hidden, bool acknowledged) {
     Cell cell({{0, 0}, {20, 0}, {40, 0}});
@@ -116,8 +115,7 @@ TEST(HiddenTerminals, Collide) {
   EXPECT_LT(lost(true, true), 0.01);
 }
 
-// Begun together, the near one gets through and the far one does not, whichever begins first within the 4 us of
-// detection.
+// Begun together, the near one is received and the far one is lost, in either order within the 4 us of detection.
 TEST(NearAndFar, TheNearOneIsTakenUp) {
   for (const Time later : {Time{0}, 3 * microsecond, -3 * microsecond}) {
     Cell cell({{0, 0}, {2, 0}, {20, 0}});
@@ -132,7 +130,7 @@ TEST(NearAndFar, TheNearOneIsTakenUp) {
   }
 }
 
-// At 6 Mbit/s bits come right at 3.6 dB, but no preamble is found.
+// At 6 Mbit/s bits are right at 3.6 dB, but no preamble is detected.
 TEST(NearAndFar, OfTwoThatAreAboutAsStrongNoneIsTakenUp) {
   Cell cell({{0, 0}, {2, 0}, {2 + 2 * std::pow(10, 0.12), 0}});
   cell.hide(0, 2);
@@ -142,7 +140,7 @@ TEST(NearAndFar, OfTwoThatAreAboutAsStrongNoneIsTakenUp) {
   EXPECT_TRUE(cell.run(s).arrivals.empty());
 }
 
-// Later than that a frame is kept, and drowned by the near one.
+// After that time the lock is kept, and the near one drowns the frame.
 TEST(NearAndFar, ALaterOneDrownsWhatIsHeard) {
   Cell cell({{0, 0}, {2, 0}, {20, 0}});
   cell.hide(0, 2);

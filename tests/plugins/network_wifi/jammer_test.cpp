@@ -21,7 +21,7 @@ constexpr double signal = 1e-7;  // mW, far above the noise
 constexpr double noise = 1e-10;
 constexpr std::size_t payload = 1000;
 
-// A sender, a receiver, and a jammer that only the receiver hears.
+// A sender, a receiver, and a jammer with a link to the receiver only.
 struct Jammed {
   explicit Jammed(double power, const Pulses& pulses = {}) {
     channel = peers::channel_of({{0, 0}, {3, 0}});
@@ -80,7 +80,7 @@ TEST(SteadyJammer, OfAWideSpectrumOnlyItsPartCounts) {
   EXPECT_EQ(beside.share_of(1000, Fate::delivered), 1);
 }
 
-// A station that hears it above the threshold waits for as long as it is on.
+// A station that receives it above the threshold waits as long as it is on.
 TEST(Access, WaitsForAJammerToEnd) {
   for (const double above : {0.99, 1.01}) {
     Jammed one(0);
@@ -95,7 +95,7 @@ TEST(Access, WaitsForAJammerToEnd) {
   }
 }
 
-// Between pulses it sends, after DIFS, and never begins while one is on; a frame too long for the gap is cut into.
+// Between pulses it sends, after DIFS, and never begins during one; a pulse hits a frame too long for the gap.
 TEST(Access, SendsBetweenPulses) {
   const Pulses pulses{5'000'000, 2'000'000, 300'000};
   Jammed one(0, pulses);
@@ -118,7 +118,7 @@ TEST(Pulses, TakeTheFramesThatTheyOverlap) {
   Jammed one(1e6 * signal, pulses);
   const Report report = one.send(frames);
   const Time frame = one.frame();
-  // Nothing of the preamble's first 4 us, of the head's and of the symbols is heard through it.
+  // No received part overlaps a pulse: the preamble's first 4 us, the head and the symbols.
   for (const auto& arrival : report.arrivals) {
     const Time begin = arrival.received - frame;
     EXPECT_EQ(pulses.on_between(begin, begin + detection), 0);
@@ -130,7 +130,7 @@ TEST(Pulses, TakeTheFramesThatTheyOverlap) {
               3 * std::sqrt(overlapped * (1 - overlapped) / frames) + 30e3 / static_cast<double>(pulses.period));
 }
 
-// Where ticks are cut does not show, nor whether the medium was saved and loaded between them.
+// The division into ticks does not matter, nor does saving and loading the medium between them.
 TEST(Pulses, AreTheSameForAnyTicks) {
   std::vector<Time> ends[2];
   for (const int ticks : {1, 37}) {

@@ -1,4 +1,4 @@
-// The medium against the standard's times and its own books.
+// The medium against the standard's times and its own counts.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -44,7 +44,7 @@ TEST(Access, AtAnIdleChannelIsImmediate) {
   EXPECT_EQ(arrivals[0].received, second / 2 + air_time(header + 40, rates[0]));
 }
 
-// After a frame of its own a station waits DIFS and 0 to 15 slots, each as often.
+// After a frame of its own a station waits DIFS and 0 to 15 slots, uniformly.
 TEST(Access, AfterAFrameSlotsAreCounted) {
   for (const Time slot : {long_slot, short_slot}) {
     Settings s = settings();
@@ -80,7 +80,7 @@ TEST(Access, WaitsForAnExchangeOfOthersToEnd) {
   EXPECT_EQ(least, exchange + sifs + 2 * long_slot + frame);
 }
 
-// The same where the acknowledgement itself is not heard: the frame said how long to keep silent.
+// The same without reception of the acknowledgement itself: the frame's duration field reserves the time.
 TEST(Access, KeepsSilentForAnAcknowledgementThatItDoesNotHear) {
   for (uint64_t seed = 0; seed < 50; ++seed) {
     Cell cell({{0, 0}, {3, 0}, {0, 3}}, seed);
@@ -94,12 +94,12 @@ TEST(Access, KeepsSilentForAnAcknowledgementThatItDoesNotHear) {
   }
 }
 
-// A station that heard a frame come wrong leaves time for an acknowledgement that it might not hear.
+// A station that received a faulty frame leaves time for an acknowledgement that it might not receive.
 TEST(Access, WaitsLongerAfterAFrameThatCameWrong) {
   Time least = second;
   for (uint64_t seed = 0; seed < 200; ++seed) {
     Cell cell({{0, 0}, {3, 0}, {1.5, 2.6}}, seed);
-    // Two that do not hear each other talk over one another at the third, which has something to say, too.
+    // Two hidden terminals collide at the third, which has a message, too.
     cell.hide(0, 1);
     cell.medium.ask(0, 0, Medium::everyone, std::string(1000, 'x'));
     cell.medium.ask(500 * microsecond, 1, Medium::everyone, std::string(200, 'x'));
@@ -132,7 +132,7 @@ TEST(Payload, ArrivesByteForByteInAsManyPiecesAsItNeeds) {
   }
 }
 
-// Where a quarter of the frames is lost in noise, seven tries get all but a few through, and none arrives twice.
+// Where a quarter of the frames is lost in noise, seven tries deliver all but a few, and none arrives twice.
 TEST(Acknowledgement, LostFramesAreSentAgain) {
   double distance = 20;
   const auto lost = [&](int retries) {
@@ -210,7 +210,7 @@ TEST(State, TheSameBytesMakeTheSameFuture) {
   EXPECT_EQ(straight.medium.save(), broken.medium.save());
 }
 
-// Where ticks are cut does not show.
+// The division into ticks does not matter.
 TEST(State, IsTheSameForAnyTicks) {
   std::string ends[2];
   for (const int ticks : {1, 37}) {

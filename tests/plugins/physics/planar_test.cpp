@@ -20,7 +20,7 @@ TEST(Planar, ArcIsExact) {
   EXPECT_NEAR(wheels.right - wheels.left, 0.5 * 8 * 0.21 / 0.05, 1e-9);
 }
 
-// The step holds what was asked for at its middle: the error falls with the square of the step.
+// The step takes the command at its middle: the error falls with the square of the step.
 TEST(Planar, IsOfSecondOrder) {
   std::vector<Pose> ends;
   for (const char* dt : {"0.04", "0.02", "0.01", "0.0005"}) {
@@ -51,7 +51,7 @@ TEST(Planar, VelocityChangesNoFasterThanDeclared) {
     before = now;
   }
   EXPECT_LE(most, 0.5 + 1e-9);
-  EXPECT_GT(most, 0.499);  // the course asks for more
+  EXPECT_GT(most, 0.499);  // the course commands more
 }
 
 TEST(Planar, HeightAndTiltStay) {

@@ -1,4 +1,4 @@
-// physics.replay: bodies stand where they were measured.
+// physics.replay: bodies follow measured poses.
 #include "physics_world.hpp"
 
 namespace {
@@ -31,7 +31,7 @@ TEST(Replay, PassesThroughTheSamplesAndEvenlyBetween) {
   EXPECT_NEAR(twist.wz, 2 * (3.141592653589793 - 3), 1e-9);
   run_to(run, 10);
   EXPECT_EQ(row<Pose>(run, "robot/a/pose").x, 1);
-  run_to(run, 30);  // past the end it stands
+  run_to(run, 30);  // past the end it is at rest
   EXPECT_EQ(row<Pose>(run, "robot/a/pose").y, 2);
   EXPECT_EQ(row<Twist>(run, "robot/a/twist").vx, 0);
 }

@@ -1,4 +1,4 @@
-// physics.simbody in a world: a run is its tables, whatever happens to instances and workers.
+// physics.simbody in a world: a run is a function of its tables, independent of instances and workers.
 #include "physics_world.hpp"
 
 namespace {

@@ -1,4 +1,4 @@
-// Backends exchanged in mid-run: nothing jumps.
+// Backends exchanged in mid-run, without jumps.
 #include <cstring>
 
 #include "physics_world.hpp"
@@ -23,7 +23,7 @@ bool same_bits(const Row& a, const Row& b) {
   return std::memcmp(&a, &b, sizeof(Row)) == 0;
 }
 
-// One step of dt under a bound on acceleration, from velocities that stand up to dt before their pose.
+// One step of dt under a bound on acceleration, from velocities that may be up to dt older than their pose.
 void expect_no_jump(const State& a, const State& b, double bound, double dt) {
   EXPECT_LE(std::hypot(b.twist.vx - a.twist.vx, b.twist.vy - a.twist.vy), bound * dt);
   EXPECT_LE(std::hypot(b.pose.x - a.pose.x - a.twist.vx * dt, b.pose.y - a.pose.y - a.twist.vy * dt), bound * dt * dt);
@@ -50,10 +50,10 @@ TEST(Swap, SimbodyToPlanarAndBackDoesNotJump) {
     run_to(run, run.tick() + 30);
   }
   const auto wheels = row<Wheels>(run, "robot/a/wheels");
-  EXPECT_GT(wheels.left + wheels.right, 10);  // angles went on through all swaps
+  EXPECT_GT(wheels.left + wheels.right, 10);  // angles continued through all swaps
 }
 
-// A robot that joined as a copy has the model of the one that it is like: whoever is made after it can ask for it.
+// A robot that joined as a copy has the model of its original: later instances can read it.
 TEST(Swap, ABackendMadeAfterARobotJoinedKnowsItsModel) {
   Folder folder;
   const auto made = [&] {

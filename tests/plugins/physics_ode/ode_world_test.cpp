@@ -77,7 +77,7 @@ TEST(OdeWorld, RobotsStopOneAnother) {
   EXPECT_NEAR(run.pose("b").x - run.pose("a").x, 2 * front, 4e-3);
 }
 
-// Contacts come in an order of their own, not in the one that ODE's spaces have after what moved last.
+// Contacts have an order of their own, not the one in ODE's spaces after recent motion.
 TEST(OdeWorld, RemadeAmongContactsItGivesTheSameBits) {
   const std::string three = wall + "<robot name='c' at='0.5 0.3 0' heading='-1.2'/>" + scarab +
                             "<robot name='b' at='0.3 0.2 0' heading='-0.3'/>";
@@ -93,7 +93,7 @@ TEST(OdeWorld, RemadeAmongContactsItGivesTheSameBits) {
   }
 }
 
-// The quick solver shuffles by random numbers that ODE has once.
+// The quick solver shuffles by ODE's global random numbers.
 TEST(OdeWorld, RunsSideBySideChangeNothing) {
   const std::string two = scarab + wall + "<robot name='b' at='0.5 0.5 0' heading='-1'/>";
   const Folder folder;
@@ -153,8 +153,8 @@ TEST(OdeWorld, WhatItLacksForARobotIsListed) {
                                  "turn, which ODE does not see; it has more than four joints without motors"));
 }
 
-// With nothing soft about them, contacts of four points are one too many for ODE's exact solver: it gives one up and
-// says so, which is counted, not printed.
+// With zero compliance, contacts of four points are one too many for ODE's exact solver: it gives one up and reports
+// it, which is counted, not printed.
 TEST(OdeWorld, ComplaintsAreCounted) {
   const Folder folder;
   Forwards run(folder, scarab + "<robot name='b' at='0.3 0 0'/>", "cfm='0' step='0.01'");

@@ -8,7 +8,7 @@
 namespace muster::simbody {
 namespace {
 
-// 3 a b^T, as a contact that answers along its normal alone.
+// 3 a b^T, as a contact with stiffness along its normal alone.
 void add(BlockCholesky& sparse, int i, int j, const Velocity& a, const Velocity& b) {
   Eigen::Matrix<double, unknowns, 3> rows_a = Eigen::Matrix<double, unknowns, 3>::Zero(), rows_b = rows_a;
   rows_a.col(0) = a;
@@ -30,7 +30,7 @@ TEST(BlockCholesky, SolvesWhatTheDenseMatrixSolves) {
       if (i != j) pairs.push_back({i, j});
     }
     sparse.arrange(count, pairs);
-    for (int pass = 0; pass < 2; ++pass) {  // the second time over what the first one left
+    for (int pass = 0; pass < 2; ++pass) {  // the second time over the remains of the first
       dense.setZero();
       sparse.clear_pairs();
       for (int i = 0; i < count; ++i) {

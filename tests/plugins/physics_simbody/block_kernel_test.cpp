@@ -1,4 +1,4 @@
-// Arithmetic on blocks is what Eigen makes of it, in the same bits for every instruction set.
+// Arithmetic on blocks equals Eigen's, in the same bits for every instruction set.
 #include "block_kernel.hpp"
 
 #include <gtest/gtest.h>
@@ -65,7 +65,7 @@ class Check {
     }
   }
 
-  // Ten contacts among three bodies, the first of them with what stands still.
+  // Ten contacts among three bodies, the first of them with a static surface.
   void tables() {
     constexpr int count = 10, bodies = 3;
     struct Contact {

@@ -31,7 +31,7 @@ RobotState moving(double x, double y, double heading, double vx, double vy) {
   return s;
 }
 
-// The first heights that it rises to, dropped flat from `height` above the place on which it stands, in steps of h.
+// Successive highest points, dropped flat from `height` above its rest position, in steps of h.
 std::vector<double> apexes(const description::Robot& robot, double ground, double height, double h, std::size_t count) {
   RobotState start = at_rest(0, 0, 0.3);
   start.pose[2] = ground + height;
@@ -63,7 +63,7 @@ TEST(Bounce, RisesBySquareOfRestitution) {
   }
 }
 
-// Of motion and height, where it flies by itself: there velocities stand for the instant.
+// Kinetic and potential energy in free flight, where velocities are those of the instant.
 std::optional<double> energy(const description::Robot& robot, const RobotState& s) {
   if (s.memory.previous_step > 0) return std::nullopt;
   const auto whole = whole_mass(robot);
@@ -78,7 +78,7 @@ description::Robot elastic_box(double restitution) {
   return robot;
 }
 
-// Thrown so that it lands on a corner: its energies in the air, one after the other.
+// Thrown so that it lands on a corner: its successive energies in the air.
 std::vector<double> energies_of_tumbling(const description::Robot& robot, double friction, int seed) {
   RobotState start = at_rest(0, 0, 0);
   const Quaterniond q(Eigen::AngleAxisd(0.3 + seed, Vector3d(1, 0.4 * seed, 0.2).normalized()));
@@ -145,7 +145,7 @@ TEST(Bounce, OfTwoTheLessElasticDecides) {
   }
 }
 
-// The impulse (1 + e) m vn turns what is across, and friction takes its share of what is along.
+// The impulse (1 + e) m vn reverses the normal speed, and friction reduces the tangential one.
 TEST(Bounce, WallsReflectAndFrictionTakesItsShare) {
   for (const double mu : {0.0, 0.1}) {
     const double e = 0.6;
@@ -163,7 +163,7 @@ TEST(Bounce, WallsReflectAndFrictionTakesItsShare) {
   }
 }
 
-// Its body, that is: legs swing on in their hips, and pull at it from then on.
+// Of its body alone: legs continue to swing in their hips, and pull at it from then on.
 TEST(Bounce, AHexapodBouncesOffAWall) {
   description::Robot robot = elastic("rdk", 0.5);
   robot.legs->max_torque = 1e-9;

@@ -1,4 +1,4 @@
-// The pairs are those that comparing all with all finds.
+// The pairs equal those of comparing all with all.
 #include "broad_phase.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Eight contacts at a time do what grip.hpp says of each, in the same bits for every instruction set.
+// Eight contacts at a time equal friction.hpp for each, in the same bits for every instruction set.
 #include "contact_lanes.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ using Eigen::Vector2d;
 
 constexpr int width = ContactLanes::width;
 
-// Contacts that are open or push, stick or slide, some without friction; the last place of all is left empty.
+// Contacts that are open or push, stick or slide, some without friction; the last lane of all is left empty.
 std::vector<ContactLanes> some_contacts() {
   std::mt19937 random(4);
   const auto draw = [&] { return static_cast<double>(random()) / 2147483648.0 - 1; };
@@ -37,8 +37,8 @@ std::vector<ContactLanes> some_contacts() {
 
 Vector2d of(const double (&lanes)[2][width], int k) { return {lanes[0][k], lanes[1][k]}; }
 
-// The primal-dual Hessian: where it slides, friction's own but for the unit vector along the slip, for which the dual
-// stands by half (Chan, Golub, Mulet 1999).
+// The primal-dual Hessian: where it slides, friction's own, except that the unit vector along the slip is replaced half
+// by the dual (Chan, Golub, Mulet 1999).
 Eigen::Matrix2d answer_to_slip(const Vector2d& slip, double bound, const Vector2d& dual, double softness) {
   if (bound <= 0) return Eigen::Matrix2d::Zero();
   const double size = slip.norm();
@@ -86,7 +86,7 @@ TEST(ContactLanes, ImpulsesAndHessianAreThoseOfOneContact) {
   EXPECT_GT(open, 5);
 }
 
-// What the impulses at a share of the way take from the energy, along the way.
+// Contribution of the impulses to the energy's slope at a fraction of the step.
 TEST(ContactLanes, SlopeIsThatOfTheImpulses) {
   for (const double a : {0.0, 0.3, 1.0}) {
     double slope = 0, first = 0;
@@ -105,8 +105,7 @@ TEST(ContactLanes, SlopeIsThatOfTheImpulses) {
   }
 }
 
-// A dual moves to what the linearised friction gives at the end of the step (Chan, Golub, Mulet 1999), and no farther
-// than friction goes.
+// A dual moves to the linearised friction at the end of the step (Chan, Golub, Mulet 1999), within friction's bound.
 TEST(ContactLanes, DualsMoveAsFrictionDoes) {
   const std::vector<ContactLanes> before = some_contacts();
   const auto all = in_all_kernels([](const LaneArithmetic& by, std::vector<ContactLanes>& contacts) {

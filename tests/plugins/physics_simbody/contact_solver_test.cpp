@@ -10,14 +10,14 @@
 namespace muster::simbody {
 namespace {
 
-// For as long as the tests run.
+// Kept alive while the tests run.
 const Inertia* kept(const MassMatrix& mass) {
   static std::deque<Inertia> all;
   all.push_back({mass, mass.inverse()});
   return &all.back();
 }
 
-// A point mass of 2 kg as the linear part; what turns weighs 1 and feels nothing.
+// A point mass of 2 kg as the linear part; the rotational inertia is 1, without forces.
 Problem point(const Eigen::Vector3d& velocity, double friction) {
   Problem p;
   p.bodies.resize(1);
@@ -95,7 +95,7 @@ Problem random_problem(std::mt19937& random) {
   return p;
 }
 
-// Whatever comes out obeys the law.
+// Every result satisfies the law.
 TEST(ContactSolver, ObeysCoulombOnRandomProblems) {
   std::mt19937 random(3);
   int slipping = 0, unsettled = 0;
@@ -123,17 +123,16 @@ TEST(ContactSolver, ObeysCoulombOnRandomProblems) {
     for (int m = 0; m < 2; ++m) EXPECT_LE(std::abs(rest[6 + m]), p.bodies[0].motors[m].limit + 1e-6);
   }
   EXPECT_GT(slipping, 500);
-  EXPECT_LT(unsettled, 200);  // couplings this wild need not have a solution
+  EXPECT_LT(unsettled, 200);  // couplings this extreme need not have a solution
 }
 
-// What went on for a step goes on: from there the next one is found at the first try, and is the one that all passes
-// lead to.
+// Warm start: from the solution of a step the next one is found at the first try, and equals that of all passes.
 TEST(ContactSolver, GoesOnAsBefore) {
   std::mt19937 random(5);
   int found = 0, slipping = 0, asked = 0;
   for (int trial = 0; trial < 500; ++trial) {
     Problem p = random_problem(random);
-    for (Motor& motor : p.bodies[0].motors) motor.limit = 100;  // that of a step before is not known
+    for (Motor& motor : p.bodies[0].motors) motor.limit = 100;  // the mode of the last step is unknown
     p.search.bound_tolerance = 1e-8;
     p.search.passes = 100;
     const Outcome before = ContactSolver().solve(p);
@@ -156,9 +155,9 @@ TEST(ContactSolver, GoesOnAsBefore) {
   EXPECT_GT(found, 0.9 * asked);
 }
 
-// A linear iteration whose matrix has three values is over after as many steps and one.
+// A linear iteration whose matrix has three eigenvalues converges in one step more.
 TEST(Mixing, EndsALinearIteration) {
-  const Velocity rates{{0.5, -0.9, 0.2, 0.5, -0.9, 0.2, 0.5, 0.2}};  // what a step leaves of each unknown
+  const Velocity rates{{0.5, -0.9, 0.2, 0.5, -0.9, 0.2, 0.5, 0.2}};  // factor of each unknown in a step
   Blocks<Velocity> u{Velocity::Ones(), 2 * Velocity::Ones()}, d(2);
   MixingOf<unknowns> mixing;
   for (int step = 0; step < 4; ++step) {

@@ -25,7 +25,7 @@ RobotState moving(double x, double y, double heading, double vx, double vy) {
   return s;
 }
 
-// The impulse that a robot's body got in its last step, from all that its memory keeps.
+// The impulse on a robot's body in its last step, from all stored impulses.
 Eigen::Vector3d impulse_on(const RobotState& s) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const KeptImpulse& kept : s.memory.kept) {
@@ -59,7 +59,8 @@ TEST(Contact, StrongMotorsSpinTheirWheelsAtAWall) {
   EXPECT_NEAR(run.states[0].rate[0] * radius, 0.3, 1e-3);
 }
 
-// Thrown against a wall with friction mu: the impulse m vn stops what is across, and takes mu vn of what is along.
+// Thrown against a wall with friction mu: the impulse m vn stops the normal speed, and reduces the tangential one by mu
+// vn.
 TEST(Contact, ImpactIsPlasticAndFrictionTakesItsShare) {
   const description::Robot sled = on_ice();
   for (double mu : {0.0, 0.1, 0.3}) {
@@ -73,7 +74,7 @@ TEST(Contact, ImpactIsPlasticAndFrictionTakesItsShare) {
   }
 }
 
-// Of all robots, which weigh the same: for each kilogram of one [m/s].
+// Of all robots, which have equal mass: for each kilogram of one [m/s].
 Eigen::Vector3d momentum(const Fleet& run) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const RobotState& s : run.states)
@@ -124,7 +125,7 @@ TEST(Contact, RobotsThatTouchAtRestStayThere) {
   for (const RobotState& s : run.states) EXPECT_NEAR(s.pose[2], 0, 1e-4);
 }
 
-// At 5 m/s a robot would be on the other side of a thin wall within one step, and of a robot within three.
+// At 5 m/s a robot would tunnel through a thin wall within one step, and through a robot within three.
 TEST(Contact, FastRobotsPassThroughNothing) {
   const description::Robot sled = on_ice();
   Fleet run({moving(0, 0, 0, 5, 0), moving(0, 1, 0, 5, 0), at_rest(0.6, 1, 0)}, sled, Integrator::midpoint, coarse);
@@ -152,8 +153,7 @@ TEST(Contact, StepIsDividedWhereAFastRobotIsNearOthers) {
   EXPECT_EQ(run.states[2].memory.previous_step, coarse);
 }
 
-// What seems to be in another by more than ever happens is looked at in shorter steps, with those alone that it
-// touches.
+// A body that seems deeper in another than possible is stepped in shorter steps, with only its contacts.
 TEST(Contact, StepIsHalvedWhereBodiesBeganTooDeep) {
   constexpr double at_wall = 0.05;  // [m] the body ends 10 cm before the axle, the wall begins at 15 cm
   Fleet run({at_rest(at_wall + 1e-3, 0, 0), at_rest(at_wall + 2e-4, 0.3, 0)}, scarab(), Integrator::midpoint, coarse);
@@ -165,7 +165,7 @@ TEST(Contact, StepIsHalvedWhereBodiesBeganTooDeep) {
   EXPECT_LT(run.states[0].pose[0], at_wall + 0.8e-3);
 }
 
-// Half a step ahead, a corner that passes another by 8 mm in a step is not where it will meet it.
+// Half a step ahead, a corner that passes another by 8 mm in a step is not at its place of contact.
 TEST(Contact, StepIsHalvedWhereCornersPassEachOther) {
   const description::Robot sled = on_ice();
   Fleet run({moving(0.0935, 0, 0, 0.8, 0), moving(0.0935, 5, 0, 0.8, 0)}, sled, Integrator::midpoint, coarse);
@@ -185,7 +185,7 @@ TEST(Contact, TippedRobotLiesOnItsSide) {
   for (double rate : s.twist) EXPECT_NEAR(rate, 0, 1e-3);
   const Eigen::Matrix3d turned = Eigen::Quaterniond(s.pose[3], s.pose[4], s.pose[5], s.pose[6]).toRotationMatrix();
   EXPECT_LT(turned(2, 2), 0.2);
-  // Nothing of its body lies under the ground.
+  // No part of its body is below the ground.
   const RobotModel model(scarab());
   EXPECT_GT(s.pose[2] + model.lowest_corner(turned.row(2)), -1e-3);
 }
@@ -237,14 +237,14 @@ TEST(Contact, RemadeEngineGivesTheSameBitsInAJam) {
     forgetful.tick(coarse, inward(count, k));
   }
   for (int i = 0; i < count; ++i) expect_same_bits(straight.states[i], remade.states[i]);
-  EXPECT_NE(straight.states[0].pose, forgetful.states[0].pose);  // else what is kept were no state
+  EXPECT_NE(straight.states[0].pose, forgetful.states[0].pose);  // otherwise the memory would be no state
 }
 
-// Who is first in the world file changes rounding, which of two faces is looked at first, and, where friction's bounds
-// are still being agreed on, where the search stops: a jam that pushes for half a second differs by less than 1 mm.
+// The order in the world file changes rounding, the choice between two faces, and, where friction's bounds are still
+// iterated, the end of the search: a jam that pushes for half a second differs by less than 1 mm.
 TEST(Contact, OrderOfRobotsDoesNotMatter) {
   constexpr int count = 9;
-  constexpr double both_err = 2 * 1e-5 * 80 * coarse;  // [m] by what a search leaves of a velocity
+  constexpr double both_err = 2 * 1e-5 * 80 * coarse;  // [m] by the residual velocity of a search
   for (double friction : {0.0, 0.3}) {
     Fleet run = jam(count), other = jam(count);
     run.among({}, friction);

@@ -1,4 +1,4 @@
-// Twenty crowds and ten jams of fifty Scarabs: what contact_test.cpp asks of a few, at length.
+// Twenty crowds and ten jams of fifty Scarabs: the checks of contact_test.cpp on many robots, at length.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr double dt = 0.01;  // [s]
 
-// Runs on the stepper itself, which counts its searches, and says what was seen.
+// Runs on the stepper itself, which counts its searches, and prints the statistics.
 void run(std::vector<RobotState> states, const std::vector<scene::Wall>& walls, double until,
          const std::function<Command(int, double)>& command_of, const std::string& name) {
   std::vector<NamedRobot> robots;

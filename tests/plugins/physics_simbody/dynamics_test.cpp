@@ -28,7 +28,7 @@ TEST(Dynamics, FreeAccelerationIsSimbodys) {
     expected.segment<3>(3) = r.transpose() * udot.segment<3>(3);
     Velocity mine = crew[0].free_acceleration(r, body);
     const Eigen::Vector3d w = body.head<3>();
-    mine.segment<3>(3) -= w.cross(w.cross(crew[0].whole.centre));  // the origin's way about the mass centre
+    mine.segment<3>(3) -= w.cross(w.cross(crew[0].whole.centre));  // the origin's motion about the mass centre
     EXPECT_LT((mine - expected).norm(), 1e-9 * (1 + expected.norm())) << mine.transpose() << "\n"
                                                                       << expected.transpose();
   }

@@ -31,7 +31,7 @@ inline Command command(double v, double w, double dv = 0, double dw = 0) {
   return {drive.left_rate(v, w), drive.right_rate(v, w), drive.left_rate(dv, dw), drive.right_rate(dv, dw)};
 }
 
-// A robot that rolls already, as its command asks.
+// A robot that already rolls at its command's rates.
 inline RobotState rolling(double x, double y, double heading, double v, double w) {
   RobotState s = at_rest(x, y, heading);
   s.twist = {v * std::cos(heading), v * std::sin(heading), 0, 0, 0, w};

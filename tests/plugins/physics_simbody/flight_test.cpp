@@ -1,4 +1,4 @@
-// Robots with rotors: in the air by fourth order, near things by the stepper for contacts.
+// Robots with rotors: in the air by fourth order, near obstacles by the stepper for contacts.
 #include <random>
 
 #include "midpoint.hpp"
@@ -10,7 +10,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Three different moments of inertia, a centre of mass off the origin, and no drag: what is kept in free flight.
+// Three different moments of inertia, a centre of mass off the origin, and no drag: for conservation in free flight.
 description::Robot uneven(double drag_factor) {
   description::Robot robot = hummingbird();
   robot.links[0].mass.inertia = Vector3d(0.004, 0.007, 0.0095).asDiagonal();
@@ -69,8 +69,8 @@ TEST(Flight, AccelerationIsSimbodys) {
   }
 }
 
-// Without rotors and drag the centre of mass falls on a parabola, and the body turns with the momentum and energy that
-// it has. 10 s at 3.7 rad/s.
+// Without rotors and drag the centre of mass falls on a parabola, and the body conserves its angular momentum and
+// energy. 10 s at 3.7 rad/s.
 TEST(Flight, TumblingKeepsMomentumAndEnergy) {
   const description::Robot robot = uneven(0);
   const description::Mass whole = whole_mass(robot);
@@ -80,7 +80,7 @@ TEST(Flight, TumblingKeepsMomentumAndEnergy) {
     return Vector3d(turn_of(s) * (whole.inertia * (turn_of(s).conjugate() * spin_of(s))));
   };
   Fleet run({start}, robot, Integrator::midpoint, 0.01);
-  double most = 0;  // that its spin changes, which a body that does not tumble keeps
+  double most = 0;  // change of its spin, which is constant without tumbling
   for (int k = 0; k < 1000; ++k) {
     run.tick(0.01, {rotors(0, 0, 0, 0)});
     most = std::max(most, (spin_of(run.states[0]) - spin_of(start)).norm());
@@ -96,7 +96,7 @@ TEST(Flight, TumblingKeepsMomentumAndEnergy) {
   EXPECT_GT(most, 1);
 }
 
-// Rates asked for that change each 0.2 s, at unequal rotors, with drag.
+// Commands that change each 0.2 s, at unequal rotors, with drag.
 RobotState after_course(double h) {
   const description::Robot robot = uneven(8e-5);
   Fleet run({in_the_air({0.5, 0.2, -1})}, robot, Integrator::midpoint, h);
@@ -118,8 +118,8 @@ TEST(Flight, IsOfFourthOrder) {
   EXPECT_NEAR(std::log2(errors[1] / errors[2]), 4, 0.3) << errors[1] << " " << errors[2];
 }
 
-// Four rotors that speed up from rest: thrust by their lag's square, so that the climb is a sum of exponentials. Steps
-// of eight lags do not miss any of it.
+// Four rotors that speed up from rest: thrust by the square of their lag, so that the climb is a sum of exponentials.
+// Steps of eight lags lose nothing of it.
 TEST(Flight, ClimbsAsItsRotorsSpeedUpWhateverTheStep) {
   const description::Robot& robot = hummingbird();
   const auto& drive = *robot.quadrotor;
@@ -139,8 +139,8 @@ TEST(Flight, ClimbsAsItsRotorsSpeedUpWhateverTheStep) {
   }
 }
 
-// It leaves the ground when its thrust passes its weight; from then on its velocity is the sum of what they differ by,
-// whichever method moved it.
+// It leaves the ground when its thrust exceeds its weight; from then on its velocity is the integral of their
+// difference, with either method.
 TEST(Flight, TakesOffWhenThrustPassesWeight) {
   const auto& drive = *hummingbird().quadrotor;
   const double mass = whole_mass(hummingbird()).mass, rate = 480;
@@ -158,7 +158,7 @@ TEST(Flight, TakesOffWhenThrustPassesWeight) {
   EXPECT_NEAR(run.states[0].twist[2], velocity, 1e-3 * velocity);
 }
 
-// After a contact velocities stand half a step before: the same as if they stood for the instant.
+// After a contact velocities are those half a step before: the same result as for those of the instant.
 TEST(Flight, TakesUpVelocitiesOfHalfAStepBefore) {
   const description::Robot robot = uneven(0);
   Flight flight(whole_mass(robot), *robot.quadrotor);
@@ -192,7 +192,7 @@ TEST(Flight, DroppedItStandsOnTheGroundAndTakesOffAgain) {
   EXPECT_GT(lift, 1);
 }
 
-// A wall in the way stops it; where it may touch, the stepper for contacts takes over and hands back.
+// A wall ahead stops it; near it, the stepper for contacts takes over and hands back.
 TEST(Flight, AWallStopsIt) {
   RobotState s = at_rest(0, 0, 0);
   s.pose[2] = 1.5;

@@ -70,7 +70,7 @@ TEST_F(Legs, NearestToABoxIsFound) {
     const double mine =
         found.count == 1 ? found.touch[0].point.gap : std::min(found.touch[0].point.gap, found.touch[1].point.gap);
     EXPECT_LT(mine, least + 1e-6);
-    EXPECT_GT(mine, least - 1e-4);  // of which the search above misses some
+    EXPECT_GT(mine, least - 1e-4);  // the search above misses some of them
   }
   EXPECT_GT(met, 80);
 }
@@ -96,7 +96,7 @@ TEST_F(Legs, MotorsGiveNoMoreThanTheirTorque) {
   EXPECT_GT(fleet.states[0].pose[0], 0.2);  // slower, but it walks
 }
 
-// The law of the controller in a leg that swings freely: torque = gains times errors, both at mid-step.
+// The controller's law in a leg that swings freely: torque = gains times errors, both at mid-step.
 TEST_F(Legs, MotorIsAController) {
   const auto& drive = *rdk().legs;
   const double h = 0.001, angle = 0.3, rate = 2, asked = 0.31, asked_rate = 5;
@@ -106,7 +106,7 @@ TEST_F(Legs, MotorIsAController) {
   EXPECT_NEAR(motor.impulse(-1e3) / h, drive.max_torque, 1e-12);
 }
 
-// Free fall with legs that are driven around: the robot's momenta are its own.
+// Free fall with legs driven around: the robot conserves its momenta.
 TEST_F(Legs, MomentumIsKeptInTheAir) {
   const auto angular = [&](double h) {
     RobotState s = at_rest(0, 0, 0);
@@ -120,7 +120,7 @@ TEST_F(Legs, MomentumIsKeptInTheAir) {
       u.head<3>() = r.transpose() * Vector3d(now.twist[3], now.twist[4], now.twist[5]);
       u.segment<3>(3) = r.transpose() * Vector3d(now.twist[0], now.twist[1], now.twist[2]);
       for (int k = 0; k < 6; ++k) u[6 + k] = now.leg_rate[k];
-      LegAngles angle;  // where the velocities stand
+      LegAngles angle;  // at the time of the velocities
       for (int k = 0; k < 6; ++k) angle[k] = now.leg_angle[k] - h / 2 * now.leg_rate[k];
       const Matrix3d half = Eigen::AngleAxisd(h / 2 * u.head<3>().norm(), u.head<3>().normalized()).toRotationMatrix();
       const LeggedMass legged = weigh(model_, angle, u, Vector3d::Zero());
@@ -143,7 +143,7 @@ TEST_F(Legs, MomentumIsKeptInTheAir) {
   EXPECT_NEAR(coarse / fine, 2, 0.5);  // gyroscopic terms are explicit: of first order, as of wheels and boxes
 }
 
-// Limp legs, dropped: springs, dampers, impacts and friction only take energy.
+// Limp legs, dropped: springs, dampers, impacts and friction only dissipate energy.
 TEST_F(Legs, EnergyIsOnlyLost) {
   description::Robot limp = rdk();
   limp.legs->max_torque = 1e-12;
@@ -176,7 +176,7 @@ TEST_F(Legs, EnergyIsOnlyLost) {
     least = std::min(least, energy());
   }
   EXPECT_LT(gain, 0.01 * (start - least));
-  EXPECT_GT(start - least, 2.7 * gravity * 0.05);  // it came to lie
+  EXPECT_GT(start - least, 2.7 * gravity * 0.05);  // it lies on the ground
 }
 
 TEST_F(Legs, AreNoWheelsForSimbodysIntegrators) {

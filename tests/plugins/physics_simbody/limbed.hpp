@@ -1,4 +1,4 @@
-// Robots with limbs: what hangs on joints that no motor turns.
+// Robots with limbs: bodies on joints without motors.
 #pragma once
 
 #include "limbs.hpp"
@@ -29,7 +29,7 @@ inline void turn(Limb& limb, const Eigen::Quaterniond& q) {
   limb.qw = q.w(), limb.qx = q.x(), limb.qy = q.y(), limb.qz = q.z();
 }
 
-// Of the parts and the axes of a robot with every kind of limb: on the body, on each other, none of them straight.
+// A robot with every kind of limb: on the body, on each other, none of them straight.
 inline Robot tree(const Robot& root, bool with_slider) {
   Robot robot = root;
   const auto body = [](double m, const Vector3d& centre) {

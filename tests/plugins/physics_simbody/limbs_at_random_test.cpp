@@ -7,7 +7,7 @@
 namespace muster::simbody {
 namespace {
 
-// Its system in Simbody, and how a state of ours is one of that.
+// Its system in Simbody, and the conversion of our states.
 struct AsSimbody {
   explicit AsSimbody(const Robot& robot) : model(robot) {
     bodies = system.add(model);

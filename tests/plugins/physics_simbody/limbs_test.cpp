@@ -1,4 +1,4 @@
-// Limbs on hinges, sliders and balls: what hangs swings, stops and is carried as it must.
+// Limbs on hinges, sliders and balls: swinging, stops and carried motion.
 #include "limbs.hpp"
 
 #include "limbed.hpp"
@@ -9,7 +9,7 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-// A body of a thousand tons on four smooth feet, 2 cm under its frame; what hangs on it shakes it by next to nothing.
+// A body of a thousand tons on four smooth feet, 2 cm under its frame; its limbs hardly shake it.
 Robot stand() {
   Robot robot;
   robot.name = "stand";
@@ -117,7 +117,7 @@ TEST(Limbs, SphericalPendulumKeepsEnergyAndAngularMomentum) {
   double off_energy = 0, off_momentum = 0, highest = -1, lowest = 1;
   for (int k = 0; k < 30000; ++k) {
     run.tick();
-    const Eigen::Quaterniond now = turn_of(run.limb()), half = q.slerp(0.5, now);  // where velocities stand
+    const Eigen::Quaterniond now = turn_of(run.limb()), half = q.slerp(0.5, now);  // at the time of the velocities
     const Vector3d w(run.limb().wx, run.limb().wy, run.limb().wz);
     off_energy = std::max(off_energy, std::abs(energy(half, w) / first_energy - 1));
     off_momentum = std::max(off_momentum, std::abs(momentum(half, w).z() / first_momentum - 1));
@@ -187,7 +187,7 @@ TEST(Limbs, ADriveWithLimbsAgreesWithRungeKutta) {
   EXPECT_GT(std::abs(reference.limbs.limb[0].angle), 0.1);
 }
 
-// A place on each limb, by what it goes and turns in a microsecond.
+// Velocity of a place on each limb, against its motion in a microsecond.
 TEST(Limbs, ColumnsAreWhatUnknownsMove) {
   const RobotModel model(tree(hummingbird(), true));
   Limbs limbs;
@@ -215,8 +215,8 @@ TEST(Limbs, ColumnsAreWhatUnknownsMove) {
   }
 }
 
-// However limbs hang and turn, the sphere in which neighbours are looked for holds what of them can be touched, and
-// none of it is faster than the speed by which steps are divided.
+// In any posture and motion of limbs, their collision parts are within the sphere of the neighbour search, and none
+// exceeds the speed by which steps are divided.
 TEST(Limbs, NoPartIsFartherOrFasterThanTheModelSays) {
   Robot robot = tree(hummingbird(), true);
   robot.links.back().shapes.push_back({Eigen::Isometry3d(Eigen::Translation3d(0, 0.2, 0)), description::Sphere{0.05}});
@@ -224,7 +224,7 @@ TEST(Limbs, NoPartIsFartherOrFasterThanTheModelSays) {
   robot.joints[robot.joints.size() - 2].lower = -0.4, robot.joints[robot.joints.size() - 2].upper = 0.6;
   const RobotModel model(robot);
   ASSERT_TRUE(model.feels_limbs());
-  double farthest = 0, fastest = 0;  // as shares of what the model says
+  double farthest = 0, fastest = 0;  // as shares of the model's values
   for (int k = 0; k < 2000; ++k) {
     const auto any = [k](int what, double low, double high) {
       return low + (high - low) * (0.5 + 0.5 * std::sin(1.7 * k * (what + 1) + what));
@@ -292,7 +292,7 @@ TEST(Limbs, RobotsWithLimbsPushEachOther) {
   EXPECT_LT(std::hypot(a[0] - b[0], a[1] - b[1]), 0.3);
 }
 
-// Dropped with a bob on a ball: it parts from the ground as it would without, but for what the bob keeps.
+// Dropped with a bob on a ball: it leaves the ground as without it, except for the bob's momentum.
 TEST(Limbs, ARobotWithLimbsBounces) {
   Robot robot = hummingbird();
   robot.restitution = 0.5;

@@ -1,4 +1,4 @@
-// What a Scarab does on flat ground, against closed forms.
+// Motion of a Scarab on flat ground, against closed forms.
 #include <algorithm>
 
 #include "scarabs.hpp"
@@ -25,7 +25,7 @@ TEST(Motion, ArcHasRadiusOfSpeedOverTurnRate) {
   EXPECT_NEAR(distance(run.states[0], cx + v / w * std::sin(heading), cy - v / w * std::cos(heading)), 0, 1e-4);
 }
 
-// Gentle S of speed and turn, without slip: ideal wheels give the truth, by fine quadrature.
+// Gentle S of speed and turn, without slip: ideal wheels are the reference, by fine quadrature.
 struct Course {
   static double v(double t) { return 0.25 + 0.15 * std::sin(1.3 * t); }
   static double w(double t) { return 0.8 * std::sin(0.9 * t); }
@@ -59,7 +59,7 @@ TEST(Motion, StepperIsOfSecondOrder) {
   EXPECT_NEAR(std::log2(errors[1] / errors[2]), 2, 0.25) << errors[1] << " " << errors[2];
 }
 
-// Not quite ideal wheels: the body pitches on its soft contacts as it speeds up, by some micrometres on the way.
+// Not quite ideal wheels: the body pitches on its soft contacts in acceleration, by some micrometres along the path.
 TEST(Motion, ConvergesToIdealWheels) {
   const auto truth = Course::truth(4);
   EXPECT_LT(distance(after_course(0.00125), truth[0], truth[1]), 2e-5);
@@ -134,8 +134,8 @@ TEST(Motion, ScarabsOwnTorqueHoldsOnceItRolls) {
   EXPECT_NEAR(run.states[0].pose[0], 0.5, 1e-6);
 }
 
-// Beyond friction the wheels spin, and what pulls is friction times what they carry. The weight splits between wheels
-// and caster by statics with the pull at the ground and the inertia at the centre of mass.
+// Beyond friction the wheels spin, and the pull is friction times their load. The weight splits between wheels and
+// caster by statics with the pull at the ground and the inertia at the centre of mass.
 TEST(Motion, SlipsAboveFriction) {
   const double mu = 0.1;
   const description::Robot smooth = changed([&](auto& drive) { drive.friction = mu; });

@@ -1,4 +1,4 @@
-// Robots that may not meet within a tick are moved apart from each other: nobody can tell.
+// Robots that cannot meet within a tick are moved separately, with identical results.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -34,7 +34,7 @@ void backwards_on_two_threads(std::size_t count, const std::function<void(std::s
   other.join();
 }
 
-// A crowd that drives anyhow for a second, each held command for a tick.
+// A crowd on random commands for a second, each held for a tick.
 std::vector<RobotState> crowd_after(double own_tick, const Each& each = one_by_one) {
   std::vector<RobotState> states = crowd_at_rest(5);
   Midpoint engine(scarabs(states.size()), step);
@@ -57,8 +57,8 @@ TEST(Mover, ThreadsAndTheirOrderDoNotShow) {
   EXPECT_TRUE(same_bits(crowd_after(tick / 4), crowd_after(tick / 4, backwards_on_two_threads)));
 }
 
-// The second of three stands, out of the third's reach as far as anyone knows, until the first throws it there: the
-// tick begins again.
+// The second of three is at rest, beyond the third's reach by all bounds, until the first hits it towards the third:
+// the tick starts again.
 TEST(Mover, WhoIsStruckMeetsOthersInTheSameTick) {
   constexpr double long_tick = 0.0625;
   const auto after = [](double own_tick) {
@@ -76,7 +76,7 @@ TEST(Mover, WhoIsStruckMeetsOthersInTheSameTick) {
   EXPECT_TRUE(same_bits(after(long_tick), after(long_tick / 64)));
 }
 
-// Each as in an engine of its own kind, as long as they are far from each other.
+// Each as in an engine of its own kind, while they are far from each other.
 TEST(Mover, LegsHaveStepsAndUnknownsOfTheirOwn) {
   const std::vector<NamedRobot> walker = {{"walker", &rdk()}}, roller = scarabs(1);
   Midpoint both({walker[0], roller[0]}, Steps(0.01, 0.002)), legs(walker, 0.002), wheels(roller, 0.01);

@@ -1,4 +1,4 @@
-// Touching solids, against closed forms and against what their support functions say.
+// Touching solids, against closed forms and against their support functions.
 #include "narrow_phase.hpp"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ double least_gap(const Touch& t) {
   return least;
 }
 
-// How far the solid reaches along n from its centre: the definition, without prisms.
+// Extent of the solid along n from its centre: the definition, without prisms.
 double support(const Solid& s, const Vector3d& n) {
   const Vector3d p = s.axes.transpose() * n;
   if (s.kind == Kind::sphere) return s.half[0] * n.norm();
@@ -42,7 +42,7 @@ double apart_along(const Solid& a, const Solid& b, const Vector3d& n) {
   return n.dot(a.centre - b.centre) - support(a, n) - support(b, n);
 }
 
-// What a cylinder's prism may differ by.
+// Tolerance for a cylinder's prism.
 double roughness(const Solid& a, const Solid& b) {
   double sum = 0;
   for (const Solid* s : {&a, &b}) sum += s->kind == Kind::cylinder ? 0.02 * s->half[0] : 0;
@@ -121,7 +121,7 @@ TEST(NarrowPhase, CrossedEdgesTouchInOnePoint) {
   EXPECT_LT((t.normal - Vector3d::UnitZ()).norm(), 1e-12);
 }
 
-// Tilted by 6 mrad against a tall wall, as a nodding robot is: a shortcut in plan would see 3 mm of overlap.
+// Tilted by 6 mrad against a tall wall, like a nodding robot: a shortcut in plan would find 3 mm of overlap.
 TEST(NarrowPhase, SlightTiltAgainstATallWallIsNoOverlap) {
   Solid robot = box({-0.101, 0, 0.1}, {0.1, 0.07, 0.06});
   robot.axes = Eigen::AngleAxisd(0.006, Vector3d::UnitY()).toRotationMatrix();
@@ -137,8 +137,8 @@ TEST(NarrowPhase, CornerPassingCornerSeesTheirDistance) {
   EXPECT_LT((t.normal - Vector3d(0.6, 0.8, 0)).norm(), 1e-6);
 }
 
-// A box that lies over a corner of another, tilted so little that its lowest corner, beside the other, is lower by less
-// than an axis across edges has to be better: it rests on all of the overlap still, not on the place nearest to it.
+// A box over a corner of another, tilted so little that its lowest corner, beside the other, is lower by less than the
+// threshold for an axis of edges: it still rests on all of the overlap, not on the nearest place.
 TEST(NarrowPhase, FacesKeepTheirPointsBesideANearerCorner) {
   constexpr double tilt = 5e-4;
   const Vector3d about = Vector3d(1, 1, 0).normalized();
@@ -207,8 +207,7 @@ TEST(NarrowPhase, GroundCarriesLowCorners) {
   EXPECT_EQ(touch_ground(sphere({0, 0, 0.04}, 0.05), 0.01).count, 1);
 }
 
-// The distance by brute force: from one solid to the other and back until nothing moves, each time to the nearest
-// point.
+// The distance by brute force: alternating projections to the nearest point until they converge.
 Vector3d nearest(const Solid& s, const Vector3d& to) {
   Vector3d p = s.axes.transpose() * (to - s.centre);
   const double size = s.kind == Kind::sphere ? p.norm() : p.head<2>().norm();
@@ -224,7 +223,7 @@ double distance(const Solid& a, const Solid& b) {
   return (p - q).norm();
 }
 
-// Two solids, the extreme places of which along a random way are `apart`.
+// Two solids whose extreme places along a random direction are `apart`.
 std::pair<Solid, Solid> near_pair(Draws& draw, const std::pair<Kind, Kind>& kinds, double apart) {
   const Solid a = draw.solid(kinds.first);
   Solid b = draw.solid(kinds.second);
@@ -233,7 +232,7 @@ std::pair<Solid, Solid> near_pair(Draws& draw, const std::pair<Kind, Kind>& kind
   return {a, b};
 }
 
-// The most that any way separates two solids, searched for from `way` on: below zero it is how deep they overlap.
+// The largest separation of two solids along any direction, searched from `way` on: negative for the depth of overlap.
 double most_apart(Draws& draw, const Solid& a, const Solid& b, Vector3d way) {
   double best = apart_along(a, b, way), spread = 0.1;
   for (int k = 0; k < 400; ++k, spread *= 0.98) {
@@ -302,7 +301,7 @@ TEST(NarrowPhase, ExchangedSolidsTouchAlike) {
       ASSERT_EQ(t.count > 0, back.count > 0);
       if (t.count == 0) continue;
       EXPECT_NEAR(least_gap(t), least_gap(back), 3e-4 + roughness(a, b));
-      // Where two axes are as good, either may be taken; both must say the same depth.
+      // Of two equal axes either may be taken; both must give the same depth.
       EXPECT_NEAR(apart_along(a, b, t.normal), apart_along(b, a, back.normal), 3e-4 + roughness(a, b));
     }
   }

@@ -1,4 +1,4 @@
-// A run is a function of the state handed in: copies, remade engines and other robots beside it change no bit.
+// A run is a function of the given state: copies, remade engines and other robots beside it change no bit.
 #include <cstring>
 
 #include "scarabs.hpp"
@@ -39,7 +39,7 @@ TEST(Restore, MemoryMattersWhenWheelsSlip) {
     without.tick(0.01, {c});
     without.states[0].memory = Memory();
   }
-  EXPECT_NE(with.states[0].pose, without.states[0].pose);  // else the test above tests nothing
+  EXPECT_NE(with.states[0].pose, without.states[0].pose);  // otherwise the test above tests nothing
 }
 
 TEST(Restore, ANeighbourChangesNothing) {
@@ -53,7 +53,7 @@ TEST(Restore, ANeighbourChangesNothing) {
   expect_same_bits(alone.states[0], beside.states[1]);
 }
 
-// What an engine was handed is not touched before its first step: a quaternion that is not quite of unit length too.
+// An engine's input is not changed before its first step, not even a quaternion that is not quite of unit length.
 TEST(Restore, StateStaysAsHandedIn) {
   RobotState odd = rolling(1.1, 2.2, 0.3, 0.4, 0.1);
   odd.pose[3] *= 1 + 1e-12;

@@ -1,5 +1,4 @@
-// Wheels that slip: where Scarabs get to on arcs that ask for more than friction gives, against Coulomb's isotropic
-// law.
+// Wheels that slip: end points of Scarabs on arcs that exceed friction, against Coulomb's isotropic law.
 #include "benchmarks/smooth_coulomb.hpp"
 #include "scarabs.hpp"
 
@@ -22,7 +21,7 @@ Place ours(const bench::Arc& arc, double friction, double h) {
   return {fleet.states[0].pose[0], fleet.states[0].pose[1]};
 }
 
-// At a friction; the bound is of how far slip takes robots from where they would get to without it.
+// End point at a friction; the bound is on its distance from that without slip.
 struct Goal {
   double friction, at_10_ms;
 };

@@ -1,4 +1,4 @@
-// A hexapod walks: as far as rigid legs roll, in tripods, on its feet, over slabs, beside others.
+// A hexapod walks: stride of rigid legs, tripods, feet, slabs, neighbours.
 #include "walkers.hpp"
 
 namespace muster::simbody {
@@ -6,7 +6,7 @@ namespace {
 
 double tilt(const RobotState& s) { return 2 * std::hypot(s.pose[4], s.pose[5]); }
 
-// From one whole cycle to another, the startup left out.
+// From one whole cycle to another, without the startup.
 double travel(const description::Robot& robot, double frequency, double step) {
   Fleet fleet({at_rest(0, 0, 0)}, robot, Integrator::midpoint, step);
   const Walk gait{frequency};
@@ -19,7 +19,7 @@ double travel(const description::Robot& robot, double frequency, double step) {
   return (fleet.states[0].pose[0] - x) / 3;
 }
 
-// Controllers give way under the weight, by some hundredths of a radian in a stance of one; stiffer ones by less.
+// Controllers yield under the weight, by some hundredths of a radian in a stance of one; stiffer ones by less.
 TEST(Walking, RigidLegsGoAsFarAsTheyRoll) {
   description::Robot stiff = rigid_rdk();
   stiff.legs->position_gain *= 10, stiff.legs->rate_gain *= 10, stiff.legs->max_torque *= 10;
@@ -30,7 +30,7 @@ TEST(Walking, RigidLegsGoAsFarAsTheyRoll) {
   }
 }
 
-// Where the approximation of rigid legs stops: docs/explanation/hexapod.md.
+// Limit of the approximation of rigid legs: docs/explanation/hexapod.md.
 TEST(Walking, FasterGaitsAreFasterAndLeaveRigidLegsBehind) {
   double before = 0;
   for (const double frequency : {0.25, 0.5, 1.0, 1.6}) {
@@ -78,7 +78,7 @@ TEST(Walking, TripodsTakeTurns) {
     }
   });
   EXPECT_GT(seen, 100);
-  // Between the lowest hips of a stride and the highest, less what three legs give way.
+  // Between the lowest hips of a stride and the highest, less the deflection of three legs.
   const double sink = gravity * 2.7 / (3 * 2000);
   EXPECT_GT(least, 0.06 * (1 + std::cos(0.5)) - 0.12 - 2 * sink);
   EXPECT_LT(most, 0.001);

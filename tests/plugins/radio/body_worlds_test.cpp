@@ -1,4 +1,4 @@
-// Row 28 of the requirements: robots that move into the way of a link, and out of it.
+// Row 28 of the requirements: robots that move into a link and out of it.
 #include <cmath>
 
 #include "world_of.hpp"
@@ -44,7 +44,7 @@ TEST(Bodies, DoNotStandInTheirOwnWayNorBeyondAnEnd) {
   run(sim, 5);
   const auto term = by_pair(sim, "link/*/level@bodies");
   EXPECT_EQ(term.at({"a", "r0"}), 0);
-  EXPECT_EQ(term.at({"a", "r1"}), -7);  // r0 stands between
+  EXPECT_EQ(term.at({"a", "r1"}), -7);  // r0 is between
   EXPECT_EQ(term.at({"a", "near"}), -7);
   EXPECT_EQ(term.at({"near", "r1"}), 0);
 }

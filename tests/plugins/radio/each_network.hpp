@@ -1,5 +1,4 @@
-// Every network that there is, known by nothing but its file, in a world of six radios: what the bodies of conformance
-// stand on.
+// Every network, identified by its file alone, in a world of six radios: the base of the conformance tests.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +28,7 @@ class EachNetwork : public testing::TestWithParam<std::string> {
   }
   bool shares_a_channel() const { return GetParam() != "network.ideal"; }
 
-  // Four radios in a room, one out of hearing, one without any link.
+  // Four radios in a room, one out of reach, one without any link.
   Simulation world(const std::string& senders, int workers = 1, const std::string& dt = "0.1") const {
     return world_of(folder,
                     station("a", "0 0 1") + station("b", "3 0 1") + station("c", "0 4 1") + station("d", "5 5 1") +
@@ -61,11 +60,11 @@ inline const std::string busy = send("s1", "a") + send("s2", "b", "to=\"c\" coun
                                 send("s5", "b", "to=\"far\"") + send("s6", "b", "to=\"gone\"") +
                                 "<test.leaver radio=\"d\" at=\"30\"/>";
 
-// A radio that only jams, from so far that it drowns some and not others.
+// A radio that only jams, from a distance at which it drowns some and not others.
 inline const std::string jammed = busy + station("jammer", "60 0 1") +
                                   "<radio.jammer radio=\"jammer\" excess=\"55\" period=\"0.0131\" duty=\"0.4\"/>";
 
-// Two PANs, of which some networks take notice.
+// Two PANs, which some networks support.
 inline const std::string apart = busy + "<radio.pan id=\"1\" radios=\"a c far\"/>";
 
 }  // namespace muster

@@ -1,4 +1,4 @@
-// Small-scale fading: its law at a place drawn at random, its correlation along a way, its expectations in dB.
+// Small-scale fading: its law at a random place, its correlation along a path, its expectations in dB.
 #include <gtest/gtest.h>
 
 #include <functional>

@@ -1,5 +1,5 @@
-// Reflections in places where the images are known in closed form: one wall, a corner, a corridor; and the laws of
-// reciprocity and energy.
+// Reflections in geometries with images in closed form: one wall, a corner, a corridor; and the laws of reciprocity and
+// energy.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -35,7 +35,7 @@ TEST(Fresnel, IsKnownHeadOnAndAlongTheWall) {
   for (double cosine = 0.05; cosine < 1; cosine += 0.05) {
     EXPECT_LT(fresnel_upright(cosine, 5), 0);
     EXPECT_GT(fresnel_upright(cosine, 5), fresnel_upright(cosine - 0.05, 5));
-    // Energy: what is not reflected goes in, (1 + R)^2 times the ratio of the two cosines and indices.
+    // Energy: the rest is transmitted, (1 + R)^2 times the ratio of the two cosines and indices.
     const double r = fresnel_upright(cosine, 5), inside = std::sqrt(5 - 1 + cosine * cosine);
     EXPECT_NEAR(r * r + (1 + r) * (1 + r) * inside / cosine, 1, 1e-14);
   }
@@ -66,8 +66,8 @@ TEST(Images, AreSeenOnlyWhereThereIsWall) {
 }
 
 TEST(Images, ACornerHasTwoAndOneBehindIt) {
-  // Walls along both axes. By both, the image is the point reflected at the corner, whichever wall comes first: for any
-  // two places one order is possible and the other is not.
+  // Walls along both axes. By both, the image is the point reflected at the corner, in either order: for any two places
+  // one order is possible and the other is not.
   const std::vector<Wall> corner{wall(0, 0, 100, 0), wall(0, 0, 0, 100)};
   const Stream random(1);
   for (uint64_t i = 0; i < 500; ++i) {
@@ -77,7 +77,7 @@ TEST(Images, ACornerHasTwoAndOneBehindIt) {
     for (const ImagePath& way : ways(corner, p, q, 2)) {
       if (way.mirrors == 2) {
         EXPECT_NEAR(way.length, std::hypot(p.x + q.x, p.y + q.y), 1e-12);
-        // A ray leaves a right corner as it came: the angles to the two walls add up to a right one.
+        // A ray leaves a right corner antiparallel: the angles to the two walls add up to a right one.
         const double along = (p.x + q.x) / way.length, up = (p.y + q.y) / way.length;
         EXPECT_NEAR(way.reflection, fresnel_upright(along, 5) * fresnel_upright(up, 5), 1e-12);
       }
@@ -103,7 +103,7 @@ TEST(Images, InACorridorBouncesBetweenItsWalls) {
 }
 
 TEST(Images, PayForTheWallsInTheirWay) {
-  // A mirror at y = 0, a screen of 11 dB in the first leg and one of 6 dB in the second, and one that neither meets.
+  // A mirror at y = 0, a screen of 11 dB in the first leg and one of 6 dB in the second, and one in neither.
   const std::vector<Wall> walls{wall(-10, 0, 10, 0), wall(0, 1, 2, 1, 1), wall(2.5, 1, 3.5, 1, 0), wall(-5, 1, -4, 1)};
   std::vector<ImagePath> by_mirror;
   for (const ImagePath& way : ways(walls, {0, 2, 1}, {4, 2, 1})) {

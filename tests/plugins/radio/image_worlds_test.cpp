@@ -1,4 +1,4 @@
-// Reflections in running worlds: what the term adds to a link, the same both ways, and doors that reflect while closed.
+// Reflections in running worlds: the term's contribution to a link, reciprocal, and doors that reflect while closed.
 #include <cmath>
 
 #include "world_of.hpp"

@@ -1,4 +1,4 @@
-// A jammer in the world: the channel carries what it radiates, and networks that share a channel feel it.
+// A jammer in the world: the channel carries its emission, and networks that share a channel receive it.
 // tests/README.md lists the rows.
 #include <gmock/gmock.h>
 
@@ -16,7 +16,7 @@ std::string jammer(const std::string& radio, const std::string& attributes) {
 class EachJammedChannel : public testing::TestWithParam<std::string> {
  protected:
   std::string network() const { return "<" + GetParam() + "/>"; }
-  // A radio's copies that arrived, of one asked for in each of 50 ticks.
+  // Copies received from a radio, of one request in each of 50 ticks.
   double delivered(const std::string& elements, const std::string& from = "a", const std::string& to = "b") const {
     Simulation sim =
         world_of(folder, elements + channel + network() + "<test.sender from=\"" + from + "\" to=\"" + to + "\"/>");
@@ -43,7 +43,7 @@ TEST_P(EachJammedChannel, InAnotherBandAJammerDoesNothing) {
   EXPECT_GE(delivered(three + jammer("jammer", "excess=\"60\" frequency=\"5.8e9\"")), 49);
 }
 
-// Two take turns, each for a second: in sum they jam all the time.
+// Two take turns, each for a second: together they jam all the time.
 TEST_P(EachJammedChannel, SeveralJammersAddUp) {
   const std::string four = three + station("other", "20 1 1");
   const std::string first = jammer("jammer", "excess=\"60\" period=\"2\" duty=\"0.5\"");
@@ -59,7 +59,7 @@ TEST_P(EachJammedChannel, WhoJamsHearsNothingMeanwhile) {
 
 // The robot goes from 1 m to 4 m and back every two seconds; it drowns the station's 1 m while it is near.
 TEST_P(EachJammedChannel, ARobotCarriesAJammerAlong) {
-  // A channel of Bluetooth takes in less of it, and nobody waits for it to end.
+  // A Bluetooth channel receives less of it, and no radio waits for its end.
   const std::string power = GetParam() == "network.bluetooth" ? "55" : "40";
   Simulation sim =
       world_of(folder, station("a", "-2 0 0.2") + station("b", "-4 0 0.2") +
@@ -78,7 +78,7 @@ TEST_P(EachJammedChannel, ARobotCarriesAJammerAlong) {
   EXPECT_GT(far, 8);
 }
 
-// The leader drives on only while it hears its base well.
+// The leader drives on only while its link to the base is good.
 TEST_P(EachJammedChannel, Row08AJammerStopsAMissionThatNeedsToStayConnected) {
   folder.put("roadmap.csv", "x[m],y[m]\n1,0\n20,0\n");
   const auto reached = [&](const std::string& jammers) {
@@ -94,7 +94,7 @@ TEST_P(EachJammedChannel, Row08AJammerStopsAMissionThatNeedsToStayConnected) {
   EXPECT_NEAR(reached(jammer("jammer", "excess=\"60\"")), 1, 0.1);
 }
 
-// worlds/jammer, as its page tells it.
+// worlds/jammer, with its page's numbers.
 TEST(WorldJammer, ItsLeaderGoesOutAndComesBack) {
   Options options;
   options.search_path = {MUSTER_PLUGINS_DIR};

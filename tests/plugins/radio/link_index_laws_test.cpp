@@ -1,4 +1,4 @@
-// The link from one radio to another, in whatever order links are listed.
+// The link from one radio to another, for any order of the links.
 #include <gtest/gtest.h>
 
 #include <vector>

@@ -1,4 +1,4 @@
-// What messages bear, as tests see it.
+// Contents of messages, for tests.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ inline std::string payload(const Simulation& world, std::size_t row) {
   return {bytes.begin(), bytes.end()};
 }
 
-// What test.sender sends in a tick.
+// Payload of test.sender in a tick.
 inline std::string sent(std::size_t size, uint64_t tick) {
   std::string result(size, '\0');
   for (std::size_t i = 0; i < size; ++i) result[i] = static_cast<char>(mixed(i + tick));

@@ -1,4 +1,4 @@
-// Where an antenna is, from the body that carries it.
+// Pose of an antenna, from the body that carries it.
 #include <gtest/gtest.h>
 
 #include "radio_links/mount.hpp"
@@ -23,7 +23,8 @@ TEST(Mount, InTheWorldIsItsOwnPlace) {
 }
 
 TEST(Mount, TurnsWithTheBody) {
-  // Facing north, 0.1 m ahead of the body's origin is north of it; the antenna looks to the body's left, which is west.
+  // Facing north, 0.1 m ahead of the body's origin is north of it; the antenna points to the body's left, which is
+  // west.
   const Pose north{5, 6, 0.2, std::cos(quarter / 2), 0, 0, std::sin(quarter / 2)};
   expect_pose(antenna_in_world({0, 0.1, 0, 0.3, quarter}, north), {5, 6.1, 0.5, 0, 0, 0, 1});
 }

@@ -1,5 +1,5 @@
-// Conformance of every network: messages, and the world that they pass. outcome_conformance.cpp tests outcomes;
-// tests/README.md lists the rows.
+// Conformance of every network: messages, and their course through the world. outcome_conformance_test.cpp tests
+// outcomes; tests/README.md lists the rows.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -24,7 +24,7 @@ TEST_P(EachNetwork, Row19PayloadsOfAnySizeArriveByteForByte) {
       sim.step();
       const TableView inbox = sim.table("inbox/*/message");
       for (std::size_t i = 0; i < inbox.rows(); ++i, ++arrived) {
-        // The sender's bytes tell the tick in which they were made.
+        // The sender's bytes encode the tick of their making.
         const auto made = static_cast<uint64_t>(std::ceil(inbox.at(i, t_sent) / 0.1 - 1e-9));
         EXPECT_TRUE(payload(sim, i) == sent(size, made));
       }
@@ -35,7 +35,7 @@ TEST_P(EachNetwork, Row19PayloadsOfAnySizeArriveByteForByte) {
 
 TEST_P(EachNetwork, Row19TenMegabytesArriveByteForByte) {
   constexpr std::size_t size = 10'000'000;
-  // As long a tick as there is, for a channel of 250 kbit/s needs ten minutes.
+  // The longest tick allowed, for a channel of 250 kbit/s needs ten minutes.
   Simulation sim = world(send("s", "a", "to=\"b\" only=\"1\" size=\"" + std::to_string(size) + "\""), 1, "100");
   for (int tick = 0; tick < 12; ++tick) {
     sim.step();
@@ -126,13 +126,13 @@ TEST_P(EachNetwork, Row20TheSameControllerRunsOnIt) {
                   network() + "<control.beacon radio=\"base\"/>" +
                   "<control.connectivity robot=\"leader\" roadmap=\"roadmap.csv\" parent=\"base\" role=\"leader\"/>");
   run(sim, 100);
-  EXPECT_GT(sim.table("robot/leader/pose").at(0, 0), 2);  // it drives only while it hears the base well
+  EXPECT_GT(sim.table("robot/leader/pose").at(0, 0), 2);  // it drives only while its link to the base is good
 }
 
 // ---- 22: connections come and go ----------------------------------------------------------------------------------
 
 TEST_P(EachNetwork, Row22WhoHearsWhomIsThatOfTheMoment) {
-  // The robot goes 3 m away and comes back every two seconds; beyond 2.2 m from the base nothing is heard.
+  // The robot goes 3 m away and comes back every two seconds; beyond 2.2 m from the base no message arrives.
   Simulation sim = world_of(folder, station("base", "0 0 0.2") + "<robot name=\"r\" at=\"1 0 0\"/><test.mover/>" +
                                         "<radio.multiwall n=\"3\"/><radio.receiver sensitivity=\"-50\"/>" + network() +
                                         send("s", "r"));
@@ -149,7 +149,7 @@ TEST_P(EachNetwork, Row22WhoHearsWhomIsThatOfTheMoment) {
     was_in_reach = in_reach;
   }
   EXPECT_GE(heard, 20);
-  EXPECT_LE(unheard, 3);  // asked for at the end of a tick in reach
+  EXPECT_LE(unheard, 3);  // requested at the end of a tick in reach
 }
 
 TEST_P(EachNetwork, Row22ARadioThatJoinsHearsAndIsHeard) {
@@ -172,7 +172,7 @@ TEST_P(EachNetwork, Row22AMessageToARadioThatLeftIsDroppedWithThatReason) {
   EXPECT_EQ(traffic(sim, "a", "delivered"), delivered);
   EXPECT_GE(traffic(sim, "a", "gone"), 19);
   EXPECT_EQ(traffic(sim, "a", "no_link"), 0);
-  // Nor does it say anything itself.
+  // Nor does it send anything itself.
   EXPECT_EQ(traffic(sim, "d", "delivered"), said);
   EXPECT_EQ(sum_of_outcomes(sim.table("radio/d/traffic"), 0), traffic(sim, "d", "asked"));
 }
@@ -226,7 +226,7 @@ TEST_P(EachNetwork, Row30MessagesMeetTheSameChannelOnReturn) {
 
 // ---- However it is run --------------------------------------------------------------------------------------------
 
-// What was under way is gone, and told so; what comes after is carried on by the other one.
+// Messages under way are lost, and counted so; the other network carries later ones.
 TEST_P(EachNetwork, AnotherTakesOverInMidRun) {
   if (GetParam() == "network.ns3") GTEST_SKIP() << "one a process";
   for (const std::string& other : networks(GetParam().substr(8))) {
@@ -255,7 +255,7 @@ TEST_P(EachNetwork, ARunIsTheSameBitsHoweverItIsRun) {
 const auto name_of = [](const testing::TestParamInfo<std::string>& network) { return network.param.substr(8); };
 INSTANTIATE_TEST_SUITE_P(Plugins, EachNetwork, testing::ValuesIn(networks()), name_of);
 INSTANTIATE_TEST_SUITE_P(Plugins, EachSharedChannel, testing::ValuesIn(networks("ideal")), name_of);
-GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(EachSharedChannel);  // where those folders of plugins were taken away
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(EachSharedChannel);  // if those folders of plugins were removed
 
 }  // namespace
 }  // namespace muster

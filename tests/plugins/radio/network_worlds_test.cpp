@@ -1,4 +1,4 @@
-// Messages: each copy has one outcome, payloads arrive byte for byte, and who sent them is not the sender's to say.
+// Messages: each copy has one outcome, payloads arrive byte for byte, and a sender cannot forge its name.
 #include <gmock/gmock.h>
 
 #include "messages.hpp"

@@ -70,7 +70,7 @@ TEST_P(EachSharedChannel, Row21AirTimeThrottles) {
     sim.step();
     bits += 8 * 10000.0 * static_cast<double>(sim.table("inbox/*/message").rows());
   }
-  // How much it gets through at least, and at most, for nothing is without overhead; else as 802.15.4.
+  // Bounds of its throughput, since every network has some overhead; default as 802.15.4.
   const std::map<std::string, std::pair<double, double>> rates{{"network.wifi", {3e6, 49e6}},
                                                                {"network.bluetooth", {400e3, 723e3}}};
   const auto found = rates.find(GetParam());

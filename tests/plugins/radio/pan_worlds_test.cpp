@@ -1,5 +1,5 @@
-// Personal area networks in worlds: how radios are put into one, and what follows from it. What the medium makes of
-// them is held in tests/plugins/network_lrwpan/pan_test.cpp. Row 24 of the requirements.
+// Personal area networks in worlds: membership of radios, and its effects. tests/plugins/network_lrwpan/pan_test.cpp
+// checks the medium. Row 24 of the requirements.
 #include <gmock/gmock.h>
 
 #include <set>
@@ -17,14 +17,14 @@ std::string pan(const std::string& name, const std::string& id, const std::strin
   return "<radio.pan name=\"" + name + "\" id=\"" + id + "\" radios=\"" + radios + "\"/>\n";
 }
 
-// Everybody to all, and a to d besides.
+// Broadcasts from each radio, and messages from a to d.
 std::string everybody_sends() {
   std::string result = send("to_d", "a", "to=\"d\" size=\"300\"");
   for (const std::string radio : {"a", "b", "c", "d"}) result += send("of_" + radio, radio, "count=\"4\" size=\"60\"");
   return result;
 }
 
-// All that comes of it for those who send and receive, tick by tick.
+// All results for senders and receivers, tick by tick.
 std::vector<std::vector<double>> what_comes_of(Simulation& sim, int ticks) {
   std::vector<std::vector<double>> result;
   for (int tick = 0; tick < ticks; ++tick) {
@@ -39,7 +39,7 @@ std::vector<std::vector<double>> what_comes_of(Simulation& sim, int ticks) {
   return result;
 }
 
-// Whose message came to whom: "a>b", say.
+// Pairs of sender and receiver of received messages, such as "a>b".
 std::set<std::string> heard(Simulation& sim, int ticks) {
   std::set<std::string> result;
   for (int tick = 0; tick < ticks; ++tick) {
@@ -58,7 +58,7 @@ class PanWorld : public testing::Test {
   Simulation world(const std::string& elements, int workers = 1) const {
     return world_of(folder, elements + channel + network, workers);
   }
-  // Without the place of the file, and what stands in it before the elements.
+  // Without the file's place, and with the text before the elements.
   std::string error_of(const std::string& elements) const {
     try {
       Simulation sim = world_of(folder, elements + four + channel + network + "<test.sender from=\"a\"/>");

@@ -33,7 +33,7 @@ TEST(Piconet, Row24AnEighthSlaveIsRefused) {
   }
 }
 
-// The run stands where it was before.
+// The run is in the state before.
 TEST(Piconet, Row24AnEighthSlaveThatJoinsIsRefused) {
   const Folder folder;
   Simulation sim = world_of(

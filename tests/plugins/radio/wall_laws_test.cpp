@@ -1,4 +1,4 @@
-// What a link crosses, on a plan that can be checked by hand; and that keeping it changes nothing.
+// Crossings of a link, on a plan that can be checked by hand; and caching that changes no result.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -143,7 +143,7 @@ TEST(Kept, LinksAreComputedAgainOnlyWhereSomethingMoved) {
   EXPECT_EQ(plan.put(g), 8u);
 }
 
-// Of a radio that stands each measured link has an endpoint of its own.
+// For a stationary radio each measured link has an endpoint of its own.
 TEST(Kept, EndpointsAtOnePointAreTakenTogetherUntilTheyPart) {
   Plan plan;
   for (int i = 0; i < 40; ++i) plan.link(0.1 + 0.24 * i, 0.3, 3.1);
@@ -189,7 +189,7 @@ TEST(Kept, AnswersAreThoseOfAFreshStart) {
   }
 }
 
-// Pairs are numbered anew where the crowd is mixed; each link's counts are then still its own.
+// Pairs are renumbered where the crowd mixes; each link's counts are then still its own.
 TEST(Kept, AnswersAreThoseOfAFreshStartHoweverACrowdMixes) {
   Plan plan;
   for (double a = 0; a < 120; ++a) {

@@ -1,5 +1,5 @@
 // The kernels that sum waves: the same bits on every instruction set and both ways, close to the formula in double, and
-// each link evaluated between its own ends, however links are listed.
+// each link evaluated between its own ends, for any order of links.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -28,7 +28,7 @@ std::vector<FieldPoint> scattered(std::size_t number, double size) {
   return result;
 }
 
-// Of all ordered pairs of places, by the one that is named first: what evaluate(tile, place, other tile, out) finds.
+// For all ordered pairs of places, by the first: results of evaluate(tile, place, other tile, out).
 template <class Tile, class Evaluate>
 std::vector<double> all_pairs(const std::vector<Tile>& at, const Evaluate& evaluate) {
   std::vector<double> result;
@@ -103,7 +103,7 @@ TEST(Waves, GainsAreThoseOfTheComplexGain) {
   }
 }
 
-// However short the pieces of a way are, of which some waves are taken by their series.
+// For short pieces of a path too, of which some waves are evaluated by their series.
 TEST(Waves, ShadowingIsTheMeanAlongTheWay) {
   const Stream random(9);
   const ShadowField field(Stream(7));
@@ -113,7 +113,7 @@ TEST(Waves, ShadowingIsTheMeanAlongTheWay) {
       const auto on = [&](double share) {
         return FieldPoint{x + share * length * std::cos(turn), y + share * length * std::sin(turn), 0.4};
       };
-      // Pieces of a way add up to it: integrals do, of which a link's value is one over the root of its length.
+      // Pieces of a path add up: they are integrals, and a link's value is one over the root of its length.
       double sum = 0;
       constexpr int pieces = 16;
       for (int piece = 0; piece < pieces; ++piece) {
@@ -126,12 +126,12 @@ TEST(Waves, ShadowingIsTheMeanAlongTheWay) {
 
 struct Evaluated {
   std::vector<double> values;
-  std::size_t pairs = 0;  // how many were asked for
+  std::size_t pairs = 0;  // number of requests
 };
 
 double code(double a, double b) { return 1000 * std::min(a, b) + std::max(a, b); }
 
-// What by_tiles gives each link when the value of a pair is its code; NaN where it gives nothing.
+// Value of each link from by_tiles when the value of a pair is its code; NaN where it gives nothing.
 Evaluated evaluated(const std::vector<Ends>& links, std::size_t endpoints) {
   Evaluated result{std::vector<double>(links.size(), null()), 0};
   const std::array<double*, 2> columns{nullptr, result.values.data()};
@@ -169,7 +169,7 @@ TEST(Tiles, EvaluateEachPairOnce) {
     for (const auto& links : {listed(endpoints, everyone), listed(endpoints, near)}) {
       const auto found = evaluated(links, endpoints);
       EXPECT_EQ(found.values, codes(links));
-      // Between places of one tile both orders are asked for.
+      // Between places of one tile both orders are requested.
       std::size_t within = 0;
       for (const Ends& link : links) within += static_cast<int>(link.tx) / tile == static_cast<int>(link.rx) / tile;
       EXPECT_EQ(found.pairs, (links.size() - within) / 2 + within);

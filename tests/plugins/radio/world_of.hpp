@@ -1,4 +1,4 @@
-// Worlds written, run and looked into by tests.
+// Worlds written, run and read by tests.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ class Folder {
   std::filesystem::path path_;
 };
 
-// `elements` are what stands inside <world>.
+// `elements` are the contents of <world>.
 inline Simulation world_of(const Folder& folder, const std::string& elements, int workers = 1,
                            const std::string& dt = "0.1") {
   const auto file = folder.put(
@@ -88,8 +88,8 @@ inline void run(Simulation& world, int ticks) {
   for (int i = 0; i < ticks; ++i) world.step();
 }
 
-// 50 ticks of make_world(workers) are the same bits on other numbers of workers, with instances made anew time and
-// again, and restored from a snapshot of the tick `middle`.
+// 50 ticks of make_world(workers) are the same bits on other numbers of workers, with instances remade repeatedly, and
+// restored from a snapshot of the tick `middle`.
 template <class MakeWorld>
 void expect_same_run(const MakeWorld& make_world, const std::vector<std::string>& made_anew, int middle) {
   constexpr int ticks = 50;

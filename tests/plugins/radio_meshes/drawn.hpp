@@ -1,4 +1,4 @@
-// Points and surfaces drawn where nearly every link is degenerate, and others far and wide.
+// Random points and surfaces, some where nearly every link is degenerate, others far apart.
 #pragma once
 
 #include <random>

@@ -1,4 +1,4 @@
-// Meshes in running worlds: their losses, what moves about them, and what is wrong with a file.
+// Meshes in running worlds: their losses, motion around them, and faults of files.
 #include <cmath>
 
 #include "tests/plugins/radio/world_of.hpp"
@@ -71,7 +71,7 @@ TEST(MeshWorld, IsScaledThenTurnedThenMoved) {
   EXPECT_EQ(loss(sim, "e", "f"), 0);  // above it
 }
 
-// A wall that a mesh stands in for: long, so that no link passes its ends, and as thick.
+// A mesh in place of a wall: long, so that no link passes its ends, and as thick.
 TEST(MeshWorld, AWallGivenAsAMeshHasTheLossOfTheWall) {
   const Folder folder;
   folder.put("wall.obj", box_obj("0.125", "60", "2.75"));
@@ -109,7 +109,7 @@ TEST(MeshWorld, CountsAreThoseOfWhereRobotsAreNow) {
   for (int tick = 1; tick <= 40; ++tick) {
     sim.step(), remade.step();
     const double x = 1 + 0.3 * std::min(tick % 20, 20 - tick % 20);
-    // The way from (x, 0) to (2.5, 6) meets the pillar between y = 2 and y = 2.5.
+    // The line from (x, 0) to (2.5, 6) meets the pillar between y = 2 and y = 2.5.
     const double near = x + (2.5 - x) * 2 / 6, far = x + (2.5 - x) * 2.5 / 6;
     const bool in_the_way = std::max(near, far) > 2.25 && std::min(near, far) < 2.75;
     EXPECT_EQ(loss(sim, "north", "r0"), in_the_way ? 9 : 0) << tick;

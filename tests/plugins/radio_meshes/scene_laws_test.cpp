@@ -1,4 +1,4 @@
-// Many triangles in Embree's scene, against each of them asked by itself, and against walls.
+// Many triangles in Embree's scene, against separate tests of each, and against walls.
 #include <gtest/gtest.h>
 
 #include <thread>
@@ -25,8 +25,8 @@ std::vector<int> one_by_one(const std::vector<PlacedMesh>& meshes, const Vector&
   return result;
 }
 
-// Embree may leave out no triangle that is crossed, nor name one twice: on a small lattice where links run along edges
-// and through corners, and over the whole kilometre.
+// Embree may neither miss a crossed triangle, nor report one twice: on a small lattice where links run along edges and
+// through corners, and over the whole kilometre.
 TEST(MeshScene, MissesNoTriangleAndCountsNoneTwice) {
   Drawing drawing(5);
   for (const auto& [places, step] :

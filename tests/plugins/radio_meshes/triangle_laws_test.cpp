@@ -1,4 +1,4 @@
-// Crossings of one triangle, and of surfaces that triangles close.
+// Crossings of one triangle, and of closed surfaces of triangles.
 #include <gtest/gtest.h>
 
 #include "drawn.hpp"
@@ -28,8 +28,8 @@ TEST(TriangleCrossing, OfARadioOnItIsThatOfARadioAbove) {
   EXPECT_FALSE(t.is_crossed({20, 20, 10}, {30, 30, 10}));  // along it
 }
 
-// Radios that are really shifted: every difference of coordinates is a multiple of 2^27, and the shifts are so small
-// that what was not zero keeps its sign.
+// Radios really shifted: every difference of coordinates is a multiple of 2^27, and the shifts are so small that
+// nonzero values keep their sign.
 TEST(TriangleCrossing, IsThatOfRadiosShiftedUpEastAndNorth) {
   constexpr std::int64_t step = 1 << 27, up = 1 << 18, east = 1 << 9, north = 1;
   Drawing drawing(1);
@@ -78,7 +78,7 @@ TEST(TriangleCrossing, OfAClosedSurfaceIsEvenOverARoundTrip) {
     const int way = crossings(body, p, q) + crossings(body, q, r) + crossings(body, r, p);
     ASSERT_EQ(way % 2, 0);
     touched += way > 0;
-    // From outside, where no point of the body is.
+    // From outside, beyond all points of the body.
     const Vector far{p.x, p.y, 10 * 4096}, west{-4096, q.y, q.z};
     ASSERT_EQ(crossings(body, far, west) % 2, 0);
   }

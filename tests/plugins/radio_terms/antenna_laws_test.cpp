@@ -12,7 +12,7 @@ namespace {
 
 using Shape = std::function<double(const Direction&)>;
 
-// Highest gain [dBi] of an antenna that radiates all that it is fed.
+// Highest gain [dBi] of a lossless antenna.
 double directivity(const Shape& shape) {
   return -10 * std::log10(mean_over_sphere([&](const Direction& d) { return std::pow(10, shape(d) / 10); }));
 }

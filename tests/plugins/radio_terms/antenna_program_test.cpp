@@ -1,4 +1,4 @@
-// What `muster probe` and `muster map` say of antennas.
+// Output of `muster probe` and `muster map` for antennas.
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -7,7 +7,7 @@
 namespace muster::test {
 namespace {
 
-// An antenna that looks north, on a radio in the middle.
+// An antenna that points north, on a radio in the middle.
 const std::string elements =
     "<station name='base' at='0 0 1' yaw='1.5707963267948966'/><station name='far' at='0 40 1'/>"
     "<radio.multiwall/><radio.receiver/><radio.antenna name='panel' radio='base' pattern='sector' depth='20'/>";
@@ -59,7 +59,7 @@ TEST(AntennaProgram, MapShowsItsFrontAndItsBack) {
   for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(rssi[10 - i] - rssi[i], 20, 1e-9) << i;
 }
 
-// Readings around a lobe that stands otherwise than the world has it.
+// Readings around a lobe with another orientation than the world's.
 TEST(AntennaProgram, FitFindsWhereTheLobeIs) {
   const ProgramFolder folder;
   const auto write = [&](const std::string& azimuth) {

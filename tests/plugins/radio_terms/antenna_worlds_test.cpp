@@ -1,4 +1,4 @@
-// Antennas in running worlds: they turn with the body that carries them, count at both ends, and are whose they say.
+// Antennas in running worlds: they turn with their carrier, count at both ends, and belong to the named radios.
 #include <cmath>
 
 #include "tests/plugins/radio/world_of.hpp"
@@ -80,7 +80,7 @@ TEST(AntennaWorld, CountsAtBothEndsAndOnceARadio) {
   EXPECT_NEAR(by_pair(sim, "link/*/level@all").at({"a", "b"}), 2 * dipole_gain, 2e-3);
   EXPECT_NEAR(by_pair(sim, "link/*/level@all").at({"a", "c"}), dipole_gain, 2e-3);
   EXPECT_EQ(by_pair(sim, "link/*/level@one").at({"a", "b"}), 0);
-  // c looks east, away from a: its back radiates a hundredth, which the lobe lacks.
+  // c faces east, away from a: its back radiates a hundredth, which the lobe lacks.
   EXPECT_NEAR(by_pair(sim, "link/*/level@one").at({"c", "a"}), lobe - 20, 0.2);
   EXPECT_NEAR(sim.table("radio/*/antenna").at(2, 0), lobe, 0.2);
   EXPECT_TRUE(std::isnan(sim.table("radio/*/antenna").at(0, 0)));

@@ -1,4 +1,5 @@
-// Channels that others use, on their formulas, and what they get wrong beside a field that fills the environment.
+// Channels of other simulators, against their formulas, and their errors compared with a field that fills the
+// environment.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -103,7 +104,7 @@ TEST(Gudmundson, IsTheSameBothWaysAndOnReturnBitForBit) {
   }
 }
 
-// A pair of which one radio moves `step` metres each time, here and there as `way` says, and the other by `other`.
+// A pair of which one radio moves `step` metres each time, here and there by `way`, and the other by `other`.
 std::vector<PairProcess> walk(uint64_t seed, int steps, const std::function<double(int)>& x, double other = 0) {
   std::vector<PairProcess> result;
   PairProcess pair{0, 1, {}, {}, 0, 0, 0, 0};
@@ -185,10 +186,10 @@ TEST(Ar1, StandsStillWithItsRadios) {
   EXPECT_EQ(stood[6].moves, 3);
 }
 
-// What was measured goes into the test's report too, in the order of docs/explanation/radio.md.
+// Measurements are recorded in the test's report too, in the order of docs/explanation/radio.md.
 void report(const std::string& what, double value) { testing::Test::RecordProperty(what, std::to_string(value)); }
 
-// Out by a decorrelation distance and back: how much of the shadowing is the same.
+// Out by a decorrelation distance and back: correlation of the shadowing.
 TEST(WhatOthersGetWrong, APathForgetsThePlace) {
   std::vector<double> before, after;
   for (uint64_t seed = 0; seed < seeds; ++seed) {
@@ -219,7 +220,7 @@ TEST(WhatOthersGetWrong, RadiosSideBySideAreShadowed) {
   EXPECT_NEAR(std::sqrt(covariance(others, others)), 1, 0.04);
 }
 
-// How much of a gain is left where J0 has its first zero, 0.383 wavelengths on, reached in one step or in ten.
+// Correlation of a gain where J0 has its first zero, 0.383 wavelengths on, reached in one step or in ten.
 TEST(WhatOthersGetWrong, FadingThatStepsFinerForgetsLess) {
   constexpr double zero = 2.404825557695773 / turn * 0.125;
   for (const int steps : {1, 10}) {

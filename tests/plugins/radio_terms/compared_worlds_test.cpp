@@ -1,4 +1,4 @@
-// Channels that others use in running worlds: in the place of radio.fading, saved and restored, on several threads.
+// Channels of other simulators in running worlds: in place of radio.fading, saved and restored, on several threads.
 #include <cmath>
 
 #include "tests/plugins/radio/world_of.hpp"
@@ -21,7 +21,7 @@ TEST(ComparedWorld, DoesNotDependOnThreadsOrOnTheOrderOfRows) {
     Simulation one = world_of(folder, team + channel), many = world_of(folder, team + channel, 3);
     run(one, 12), run(many, 12);
     EXPECT_EQ(one.digest(), many.digest()) << channel;
-    // Robots move by their rows: so it is the stations' order that is turned.
+    // Robots move by their rows: so the stations' order is reversed.
     const std::string more = station("a", "1 2 3"), and_more = station("b", "-4 2 1");
     Simulation first = world_of(folder, more + and_more + team + channel);
     Simulation second = world_of(folder, and_more + team + more + channel);
@@ -59,7 +59,7 @@ TEST(ComparedWorld, TakesThePlaceOfFadingInMidRun) {
   EXPECT_TRUE(same_bits(after.at({"base", "r1"}), after.at({"r1", "base"})));
 }
 
-// Where robots stand still nothing changes; where they come back, one remembers.
+// Where robots are at rest nothing changes; where they return, one channel gives the same values.
 TEST(ComparedWorld, RemembersPlacesOrForgetsThem) {
   const std::string way = station("base", "9 4 1") +
                           "<robot name=\"r\" at=\"0 0 0\"/><test.mover/><radio.multiwall/>"
@@ -77,7 +77,7 @@ TEST(ComparedWorld, RemembersPlacesOrForgetsThem) {
 
 TEST(ComparedWorld, ChangesAsSlowlyAsItDecorrelates) {
   const Folder folder;
-  Simulation sim = world_of(folder, team + "<radio.ar1 name=\"c\" decorrelation=\"10000\"/>");  // ways are 4 m a tick
+  Simulation sim = world_of(folder, team + "<radio.ar1 name=\"c\" decorrelation=\"10000\"/>");  // paths are 4 m a tick
   run(sim, 1);
   for (int tick = 2; tick < 12; ++tick) {
     const auto before = by_pair(sim, "link/*/level@c.shadowing");

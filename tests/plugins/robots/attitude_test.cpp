@@ -1,5 +1,5 @@
 // robots.attitude on the true motion of a quadrotor, against closed forms of its linear loop: gains are angular
-// accelerations, so that with rotors that follow at once roll and pitch are a second-order system.
+// accelerations, so that with rotors without lag roll and pitch are a second-order system.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ std::string hummingbird(const Folder& folder, const Changes& changes) {
   return folder.write("bird.urdf", urdf).string();
 }
 
-const Changes no_integral = {{"attitude_i", "0"}, {"drag_factor", "0"}};  // air from the side turns the body, too
+const Changes no_integral = {{"attitude_i", "0"}, {"drag_factor", "0"}};  // lateral air flow turns the body, too
 Changes lagging(const std::string& lag, Changes more = no_integral) {
   more.push_back({"lag_up", lag});
   more.push_back({"lag_down", lag});
@@ -55,7 +55,7 @@ struct Sample {
   double t, y;  // since the step [s]; of the step
 };
 
-// What becomes of a step of `size`.
+// Response to a step of `size`.
 std::vector<Sample> response(const Changes& changes, const std::string& step, double size,
                              const std::function<double(const Simulation&)>& measured, const std::string& dt = "0.001",
                              double until = 1.5) {
@@ -113,7 +113,7 @@ TEST(Attitude, WithRotorsThatFollowAtOnceStepsAreTheSecondOrderIdeal) {
   }
 }
 
-// lag s^3 + s^2 + d s + p with all three poles at -20 / s. A small step: thrust is the square of what lags.
+// lag s^3 + s^2 + d s + p with all three poles at -20 / s. A small step: thrust is the square of the lagging rate.
 TEST(Attitude, WithRotorsThatLagStepsAreOfThirdOrder) {
   const auto samples =
       response(lagging("0.016666666667",
@@ -123,7 +123,7 @@ TEST(Attitude, WithRotorsThatLagStepsAreOfThirdOrder) {
   EXPECT_LT(largest_difference(samples, triple), 0.01);
 }
 
-// The model as it is: rotors' lags take from the damping, so that it rises in 0.14 s instead of 0.18.
+// The unmodified model: rotors' lags reduce the damping, so that it rises in 0.14 s instead of 0.18.
 TEST(Attitude, HummingbirdIsNearTheIdeal) {
   const auto at_1_khz = response({}, "0.2,0,0", 0.2, roll), at_100_hz = response({}, "0.2,0,0", 0.2, roll, "0.01");
   for (const auto* samples : {&at_1_khz, &at_100_hz}) {
@@ -152,7 +152,7 @@ TEST(Attitude, RollAndPitchAreOfTheHeadingThatItHas) {
   EXPECT_NEAR(pitch_of(p), -0.2, 0.003);
 }
 
-// Mass that is off by 5 mm: the integral takes what the proportional part alone would leave.
+// Mass that is off by 5 mm: the integral removes the residual of the proportional part.
 TEST(Attitude, TheIntegralLevelsAnUnevenBody) {
   std::vector<double> left;
   for (const std::string integral : {"0", "200"}) {

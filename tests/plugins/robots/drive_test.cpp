@@ -1,5 +1,5 @@
-// robots.drive and robots.odometry between a command and wheels that obey exactly. The Scarab's wheels: radius 0.05 m,
-// base 0.21 m, at most 20 rad/s and 40 rad/s2.
+// robots.drive and robots.odometry between a command and wheels that follow exactly. The Scarab's wheels: radius 0.05
+// m, base 0.21 m, at most 20 rad/s and 40 rad/s2.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -80,7 +80,7 @@ TEST(OdometryTest, IsTheArcExactlyWithoutNoise) {
   Folder folder;
   Simulation run = driven(folder, "0,0.5,0.4\n");
   for (int tick = 0; tick < 200; ++tick) run.step();
-  // The ramp keeps the ratio of the rates, so the whole way is one circle of radius v / w.
+  // The ramp keeps the ratio of the rates, so the whole path is one circle of radius v / w.
   const auto w = row<Wheels>(run, "robot/r/wheels");
   const double turned = (w.right - w.left) * radius / base;
   const auto o = row<Odometry>(run, "robot/r/odometry");
@@ -102,8 +102,8 @@ TEST(OdometryTest, StartsAtTheTruePose) {
 
 TEST(OdometryTest, SquareCloses) {
   Folder folder;
-  // Four sides of 4 m and four turns on the spot, each command long enough to end its ramp: UMBmark's way (Borenstein
-  // and Feng 1996). Every side and turn starts and ends at rest, so ramps take a little from each, alike.
+  // Four sides of 4 m and four turns on the spot, each command long enough to end its ramp: UMBmark's path (Borenstein
+  // and Feng 1996). Every side and turn starts and ends at rest, so ramps shorten each equally.
   std::string plan;
   for (int side = 0; side < 4; ++side) {
     const double t = side * 12.0;
@@ -124,7 +124,7 @@ TEST(OdometryTest, SquareCloses) {
   EXPECT_NEAR(o.yaw, 0.5 + 2 * 3.14159265358979324, 1e-4);
 }
 
-// The variance of the believed way after 100 rad of both wheels, over robots that differ in name alone.
+// The variance of the estimated path after 100 rad of both wheels, over robots that differ in name alone.
 double variance_of_way(const std::string& dt, int robots) {
   Folder folder;
   std::string inside = "<test.turner/><robots.odometry noise=\"0.02\"/><test.probe/>";
@@ -141,7 +141,7 @@ double variance_of_way(const std::string& dt, int robots) {
     const auto at = static_cast<std::size_t>(i);
     const auto o = row<Odometry>(run, "robot/*/odometry", at);
     const auto w = row<Wheels>(run, "robot/*/wheels", at);
-    // The difference of the wheels' errors turns the robot: the cleanest view of the noise.
+    // The difference of the wheels' errors turns the robot: the clearest measure of the noise.
     const double turn_sd = 0.02 * std::sqrt(w.left + w.right) * radius / base;
     squares += o.yaw * o.yaw / (turn_sd * turn_sd);
   }

@@ -1,4 +1,4 @@
-// robots.gait between a command and physics: legs are asked for without a jump, and robots walk as they are told.
+// robots.gait between a command and physics: legs are commanded without a jump, and robots walk as commanded.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -48,7 +48,7 @@ TEST(Gait, WalksAsFastAsAskedAndComesToStand) {
   EXPECT_LT(std::abs(row<Twist>(run, "robot/r/twist").vx), 1e-3);
 }
 
-// Straight on, odometry counts what the body goes, within the little that springs give.
+// Straight on, odometry equals the body's path, within the small deflection of springs.
 TEST(Gait, OdometryCountsStrides) {
   for (const std::string legs : {"true", "false"}) {
     for (const std::string v : {"0.12", "0.05", "-0.12"}) {
@@ -67,8 +67,8 @@ TEST(Gait, OdometryCountsStrides) {
   }
 }
 
-// In turns feet slip, and a robot turns by about three quarters of what its strides make. With that share a hexapod
-// finds its way by its own odometry.
+// In turns feet slip, and a robot turns by about three quarters of its strides' angle. With that share a hexapod
+// reaches its goal by its own odometry.
 TEST(Gait, GoesToAPlaceByItsOwnOdometry) {
   Folder folder;
   Simulation run =

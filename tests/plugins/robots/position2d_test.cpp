@@ -1,4 +1,4 @@
-// What Player's position2d has beside velocities: places to go to, car-like commands, odometry that is set, geometry.
+// Player's position2d beside velocities: goals, car-like commands, odometry that is set, geometry.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -16,7 +16,7 @@ struct Arrived {
   double there, arrived;
 };
 
-// A robot at (1, 2), heading 0.5, with wheels that obey exactly, asked by this plan.
+// A robot at (1, 2), heading 0.5, with wheels that follow exactly, commanded by this plan.
 Simulation asked(const Folder& folder, const std::string& what, const std::string& plan, const std::string& more) {
   return world_of(folder,
                   "<robot name=\"r\" at=\"1 2 0\" heading=\"0.5\"/><test.asks robot=\"r\" what=\"" + what +
@@ -40,7 +40,7 @@ TEST(Goal2d, IsReachedFromAnySideAndStoodAtAsAsked) {
     Simulation run = asked(folder, "goal2d", plan.str(), to_goals);
     while (!run.done() && row<Arrived>(run, "instance/c/arrived").arrived == 0) run.step();
     ASSERT_FALSE(run.done());
-    run.step();  // what was asked for in that tick is done
+    run.step();  // the commands of that tick are done
     EXPECT_LT(std::abs(std::remainder(row<Odometry>(run, "robot/r/odometry").yaw - yaw, 6.283185307179586)), 0.011);
     run_to(run, time_of(run, 0.05) + 20);
     const auto at = row<Odometry>(run, "robot/r/odometry");
@@ -64,8 +64,8 @@ TEST(Goal2d, TakesTheTimeThatItsLawSays) {
   EXPECT_NEAR(time_of(run, 0.01), ramp + (4 - 0.3) / 0.3 + std::log(0.3 / 0.01), 0.1);
 }
 
-// Once there, it sets out again where it finds itself beyond twice the tolerance, and not before; a new goal is to be
-// reached as any other.
+// Once there, it starts again when it is beyond twice the tolerance, and not before; a new goal is approached like any
+// other.
 TEST(Goal2d, SetsOutAgainFromBeyondTwiceItsTolerance) {
   const auto moves = [](const std::string& goals, const std::string& resets) {
     Folder folder;
@@ -120,7 +120,7 @@ TEST(Car, SteersNoFurtherThanItCanAndDoesNotTurnStanding) {
   EXPECT_NEAR(row<Odometry>(run, "robot/r/odometry").w, 0.4 * std::tan(0.4) / 0.5, 1e-9) << "backwards to the right";
 }
 
-// Each time that it is asked, and once each time; what it counts from there on is what it would have counted.
+// At each request, and once for each; from there on it counts as before.
 TEST(OdometryIsSet, WhenAskedTo) {
   Folder folder;
   const std::string steady = "<test.command robot=\"r\" plan=\"steady.csv\"/>";
@@ -144,7 +144,7 @@ TEST(OdometryIsSet, WhenAskedTo) {
   EXPECT_GT(row<Odometry>(run, "robot/r/odometry").x, 0.2);
 }
 
-// Restored in the middle, or with every instance made anew again and again, a run has the same bits.
+// Restored in the middle, or with every instance remade again and again, a run has the same bits.
 TEST(Position2d, KeepsItsStateOnTheBlackboard) {
   Folder folder;
   folder.write("goals.csv", "t[s],a,b,c\n0,2,2.5,1\n2.5,1,1,\n");

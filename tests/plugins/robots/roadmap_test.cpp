@@ -36,7 +36,7 @@ TEST(RoadmapTest, RefusesWhatIsNoWay) {
   EXPECT_THROW(Roadmap(std::vector<Waypoint>{{0, 0}, {1, 1}, {1, 1}}), BadInput);
 }
 
-// The largest distance from the roadmap of a robot that pursues it at speed v from where it stands.
+// The largest distance from the roadmap of a robot that pursues it at speed v from its start.
 double worst_deviation(Odometry at, double s, double v, double seconds) {
   constexpr double dt = 0.05, lookahead = 0.6;
   double worst = 0;

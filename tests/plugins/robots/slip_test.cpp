@@ -1,4 +1,4 @@
-// Believed and true places under physics with friction.
+// Estimated and true places under physics with friction.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -12,8 +12,8 @@ using namespace muster;
 using namespace muster::test;
 
 struct EachBackend : testing::TestWithParam<const char*> {
-  // In how many ticks a Scarab whose motors have this torque [N m] stalls: of 150 on its way to a wall, of 150 at it,
-  // and of 150 on its way back.
+  // Number of ticks in which a Scarab whose motors have this torque [N m] stalls: of 150 on its way to a wall, of 150
+  // at it, and of 150 on its way back.
   std::array<int, 3> stalled(const std::string& torque) const {
     const Folder folder;
     const auto model = scarab_with(folder, {{"max_torque=\"2.765\"", "max_torque=\"" + torque + "\""}});
@@ -46,8 +46,7 @@ TEST_P(EachBackend, WeakMotorsStallAtAWallAndNowhereElse) {
   EXPECT_LE(back, 5) << "while the rate that is asked for falls to zero";
 }
 
-// One wheel is enough, on either side, whichever way it is to turn; none does while both do as they are asked, or
-// stand.
+// One wheel is enough, on either side and in either direction; no stall while both turn as commanded, or are at rest.
 TEST(Stall, IsOfEitherWheel) {
   const auto stalled = [](const std::string& stuck, const std::string& asked) {
     const Folder folder;

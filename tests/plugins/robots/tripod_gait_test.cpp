@@ -32,7 +32,7 @@ TEST(TripodGait, SweepsMeetWhereTheyMayChange) {
   }
 }
 
-// The body as a point over two legs, each of which would carry its hip at a height: the higher one does, and does not
+// The body as a point over two legs, each of which would carry its hip at a height: the higher one carries it, without
 // slip.
 TEST(TripodGait, StrideIsThatOfRollingLegs) {
   const double radius = 0.06;

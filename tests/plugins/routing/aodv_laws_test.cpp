@@ -1,4 +1,4 @@
-// Laws of the AODV protocol alone, on nets that a test draws: shortest ways, repair, and never a loop.
+// Laws of the AODV protocol alone, on random nets: shortest routes, repair, and freedom from loops.
 #include <gtest/gtest.h>
 
 #include <deque>
@@ -13,8 +13,7 @@ namespace {
 
 constexpr double dt = 0.02;
 
-// A net whose links are where two radios are near; a share of what is sent is lost at each receiver. A hop takes a
-// tick.
+// A net with links between near radios; a share of the packets is lost at each receiver. A hop takes a tick.
 class Net final : public Fabric {
  public:
   explicit Net(std::vector<std::pair<double, double>> places) : places_(std::move(places)) {}
@@ -25,7 +24,7 @@ class Net final : public Fabric {
     const double x = places_[a].first - places_[b].first, y = places_[a].second - places_[b].second;
     return a != b && x * x + y * y <= 1.01;
   }
-  // Hops of the shortest way, -1 where there is none.
+  // Hops of the shortest route, -1 if there is none.
   int distance(Radio from, Radio to) const {
     std::vector<int> hops(size(), -1);
     std::deque<Radio> next{from};
@@ -68,7 +67,7 @@ class Net final : public Fabric {
     aodv.pass_time(*this);
   }
 
-  // Who follows the routes to a radio never comes back to where it was.
+  // Following the routes to a radio never leads back to an earlier one.
   void expect_no_loop() const {
     for (Radio to = 0; to < size(); ++to) {
       for (Radio from = 0; from < size(); ++from) {
@@ -196,7 +195,7 @@ TEST(Aodv, NoMoreHopsThanTheDiameter) {
 
 class AodvOnMovingNets : public testing::TestWithParam<int> {};
 
-// Radios walk in a field, some far and fast; everybody talks to anybody.
+// Radios walk in a field, some far and fast; messages go between any two.
 TEST_P(AodvOnMovingNets, NoRoutesEverLoopAndWhatStandsAgainIsReached) {
   const Stream random(key_of("moving nets " + std::to_string(GetParam())));
   constexpr Radio n = 20;

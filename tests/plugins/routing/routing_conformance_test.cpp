@@ -1,4 +1,4 @@
-// Conformance of every routing on every network, each known by its file alone. tests/README.md lists the rows.
+// Conformance of every routing on every network, each identified by its file alone. tests/README.md lists the rows.
 #include <map>
 
 #include "routing_worlds.hpp"
@@ -17,7 +17,7 @@ std::string payload(const Simulation& sim, std::size_t row) {
   return {bytes.begin(), bytes.end()};
 }
 
-// What test.sender sends in a tick.
+// Payload of test.sender in a tick.
 std::string sent(std::size_t size, uint64_t tick) {
   std::string result(size, '\0');
   for (std::size_t i = 0; i < size; ++i) result[i] = static_cast<char>(mixed(i + tick));
@@ -74,7 +74,7 @@ TEST_P(EachRouting, Row19PayloadsArriveByteForByteWithTheirOriginAndTimes) {
 TEST_P(EachRouting, Row19TenMegabytesArriveByteForByte) {
   if (!relays() || network() == "network.ns3") GTEST_SKIP() << "one hop, or slow";
   constexpr std::size_t size = 10'000'000;
-  // As long a tick as there is, for a channel of 250 kbit/s needs ten minutes a hop.
+  // The longest tick allowed, for a channel of 250 kbit/s needs ten minutes a hop.
   Simulation sim =
       world_with(chain(3) + send("s", "r0", "to=\"r2\" only=\"1\" size=\"" + std::to_string(size) + "\""), 3, 1, "100");
   for (int tick = 0; tick < 40; ++tick) {
@@ -115,7 +115,7 @@ TEST_P(EachRouting, Row20TheSameControllerRunsOnIt) {
                      "<control.connectivity robot=\"r0\" roadmap=\"roadmap.csv\" parent=\"r1\" role=\"leader\"/>",
                  2);
   run(sim, 100);
-  EXPECT_GT(sim.table("robot/r0/pose").at(0, 0), 2);  // it drives only while it hears the base well
+  EXPECT_GT(sim.table("robot/r0/pose").at(0, 0), 2);  // it drives only while its link to the base is good
 }
 
 // ---- 21, 23: every request has one outcome ------------------------------------------------------------------------
@@ -147,7 +147,7 @@ TEST_P(EachRouting, Row21NoRequestHasTwoOutcomesAndEachGetsOne) {
     const TableView inbox = sim.table("inbox/*/message");
     for (std::size_t i = 0; i < arrived(sim); ++i) ++came[inbox.at(i, from)];
   }
-  // Then nothing is under way. What a radio had under way when it left stays so, as all of its tables do.
+  // Then nothing is under way. Counts of a radio that left stay, as in all of its tables.
   for (const int radio : {0, 1, 2, 3}) {
     const std::string name = "r" + std::to_string(radio);
     EXPECT_GE(journeys(sim, name, "asked"), 49) << name;

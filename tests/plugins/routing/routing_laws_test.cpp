@@ -1,4 +1,4 @@
-// What each routing alone keeps: floods that end, tables that are followed, ways that are found and found again.
+// Laws of each routing alone: floods that end, tables that are followed, routes that are found and found again.
 #include <cmath>
 
 #include "routing_worlds.hpp"
@@ -41,7 +41,7 @@ TEST_P(Flooding, TtlLimitsTheHops) {
   }
 }
 
-// In a clique every radio hears every copy and says it once.
+// In a clique every radio receives every copy and repeats it once.
 TEST_P(Flooding, ManyCopiesAreOneMessage) {
   std::string clique;
   for (int i = 0; i < 6; ++i) clique += station("r" + std::to_string(i), std::to_string(i) + " 0 1");
@@ -71,7 +71,7 @@ TEST_F(Static, WhoHasNoRowHasNoRoute) {
   Simulation sim = world("network.ideal", "routing.static routes=\"routes.csv\"",
                          chain(3) + send("s", "r0", "to=\"r2\" only=\"1\"") + send("t", "r2", "to=\"r0\" only=\"1\""));
   run(sim, 10);
-  EXPECT_EQ(journeys(sim, "r0", "no_route"), 1);  // r1 knows no way on
+  EXPECT_EQ(journeys(sim, "r0", "no_route"), 1);  // r1 has no route on
   EXPECT_EQ(journeys(sim, "r2", "no_route"), 1);
   EXPECT_EQ(sim.table("radio/r0/relaying").at(0, own), 1);
   EXPECT_EQ(sim.table("radio/r2/relaying").at(0, own), 0);
@@ -122,7 +122,7 @@ TEST_F(AodvWorlds, FindsTheShortestWayOnAGrid) {
   EXPECT_EQ(sum_of(sim, "radio/*/relaying", relayed), 7);  // of 8 hops
 }
 
-// A ring: the other way round is there when a radio of the first one leaves.
+// A ring: the other way round remains when a radio of the first one leaves.
 TEST_F(AodvWorlds, FindsAnotherWayWhenARadioLeaves) {
   for (const std::string network : {"network.ideal", "network.lrwpan", "network.wifi"}) {
     std::string ring;

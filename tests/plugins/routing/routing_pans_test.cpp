@@ -1,4 +1,4 @@
-// Routings where radios are in several PANs of 802.15.4: what goes to all stays in one, what goes to one need not.
+// Routings with radios in several PANs of 802.15.4: broadcasts stay in one, messages to one radio may cross.
 #include <map>
 
 #include "routing_worlds.hpp"
@@ -11,7 +11,7 @@ const std::string two_pans = "<radio.pan id=\"1\" radios=\"r2 r3\"/>\n";
 
 class RoutedPans : public Routings {
  protected:
-  // Of one message from r0 after so many seconds: how many copies had which outcome, and how often it was passed on.
+  // Of one message from r0 after so many seconds: the number of copies by outcome, and of relayed packets.
   std::map<std::string, double> journey(int seconds, const std::string& routing, const std::string& to) const {
     Simulation sim =
         world("network.lrwpan", routing, chain(4) + two_pans + send("s", "r0", to + " only=\"1\""), 1, "0.05");
@@ -28,8 +28,8 @@ using testing::ElementsAre;
 using Outcome = std::pair<const std::string, double>;
 
 TEST_F(RoutedPans, AFloodStaysInItsPan) {
-  EXPECT_THAT(journey(5, "routing.flooding", ""),
-              ElementsAre(Outcome("delivered", 1), Outcome("lost", 2), Outcome("relayed", 1)));  // by r1, to nobody
+  EXPECT_THAT(journey(5, "routing.flooding", ""), ElementsAre(Outcome("delivered", 1), Outcome("lost", 2),
+                                                              Outcome("relayed", 1)));  // by r1, to no receiver
 }
 
 TEST_F(RoutedPans, ASearchStaysInItsPan) {
@@ -43,7 +43,7 @@ TEST_F(RoutedPans, ATableLeadsFromOneToTheOther) {
               ElementsAre(Outcome("delivered", 1), Outcome("relayed", 2)));
 }
 
-// What nobody is there to take is settled as soon as it was sent.
+// A message without any receiver is settled as soon as it is sent.
 TEST_F(RoutedPans, WhoIsAloneInItsPanDoesNotWaitForAnybody) {
   Simulation sim = world("network.lrwpan", "routing.none",
                          chain(3) + "<radio.pan id=\"1\" radios=\"r1\"/>" + send("s", "r1") +

@@ -1,4 +1,4 @@
-// What tests of routings share: radios in a chain, what is sent along it, and what became of it.
+// Common parts of routing tests: radios in a chain, messages along it, and their outcomes.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -11,11 +11,11 @@
 
 namespace muster {
 
-// Radios hear each other up to 13 m.
+// Links reach up to 13 m.
 inline const std::string channel =
     "<radio.links range=\"600\"/><radio.multiwall n=\"3\"/><radio.receiver sensitivity=\"-73.5\"/>";
 
-// Radios r0, r1, ... 10 m apart, of which each hears its neighbours only.
+// Radios r0, r1, ... 10 m apart, of which each has links to its neighbours only.
 inline std::string chain(int radios) {
   std::string result;
   for (int i = 0; i < radios; ++i) result += station("r" + std::to_string(i), std::to_string(10 * i) + " 0 1");

@@ -1,4 +1,5 @@
-// Where rays enter solids, by closed forms and by what "inside" means; and that a fan asks all the rays that matter.
+// Entry points of rays into solids, by closed forms and by the definition of "inside"; and a fan that tests all rays
+// that matter.
 #include "plugins/sensors/fan.hpp"
 
 #include <gtest/gtest.h>
@@ -102,7 +103,7 @@ TEST(Entry, OfAMeshIsThatOfTheBodyItBounds) {
   }
 }
 
-// Each ray asked on its own, whatever it may meet.
+// Each ray tested separately against all solids.
 std::vector<double> one_by_one(const Laser& laser, const std::vector<Solid>& solids, const Isometry3d& frame) {
   std::vector<double> ranges;
   for (int i = 0; i < laser.samples; ++i) {

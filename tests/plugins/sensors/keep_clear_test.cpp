@@ -1,4 +1,4 @@
-// A robot that drives straight on, and what its laser keeps it from.
+// A robot that drives straight on, and the obstacles at which its laser stops it.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,13 +10,13 @@ namespace {
 using namespace muster;
 using namespace muster::test;
 
-// Straight on; `more` are attributes of who asks for that.
+// Straight on; `more` are attributes of the commanding controller.
 std::string driven(const std::string& more = "") {
   return "<material name=\"brick\" loss=\"6\"/><control.steady robot=\"r\" v=\"0.5\"" + more +
          "/><physics.planar/><robots.drive/>";
 }
 
-// A Scarab whose laser tells ranges as they are.
+// A Scarab whose laser has exact ranges.
 Simulation towards(const Folder& folder, const std::string& more) {
   const auto model = scarab_with(folder, {{" resolution=\"0.001\"/>", "/>"}});
   return world_of(folder, driven() + "<robot name=\"r\" at=\"0 0 0\" model=\"" + model.string() + "\"/>" + more, {},
@@ -44,7 +44,7 @@ TEST(KeepClear, StopsBeforeAWallAsHardAsItIsToldTo) {
   EXPECT_NEAR(row<Twist>(run, "robot/r/twist").vx, 0, 1e-9);
 }
 
-// Where a Scarab that is changed so comes to stand before the same wall.
+// Resting place of a Scarab with these changes before the same wall.
 double stands(const std::vector<std::pair<std::string, std::string>>& changes, const std::string& more = "") {
   Folder folder;
   Simulation run = world_of(folder,
@@ -68,7 +68,7 @@ TEST(KeepClear, LooksWhereItsFirstLaserIsTurnedTo) {
   EXPECT_NEAR(stands({second, {"<laser ", "<laser sensor=\"back\" max_range=\"9\"/><laser "}}), 2.95 - 0.4, 0.01);
 }
 
-// A laser at the robot's origin that tells nothing nearer than 0.5 m.
+// A laser at the robot's origin that has no range below 0.5 m.
 TEST(KeepClear, StopsForWhatIsTooNearToTell) {
   const double at = stands({{"<origin xyz=\"0 0 0.055\"/>", "<origin xyz=\"-0.05 0 0.055\"/>"},
                             {"min_range=\"0.02\"", "min_range=\"0.5\""}});
@@ -76,7 +76,7 @@ TEST(KeepClear, StopsForWhatIsTooNearToTell) {
   EXPECT_GT(at, 2.95 - 0.6);
 }
 
-// A scan that is read late is not where the robot is: what is said to be free is, at the next step.
+// A scan read late is from an earlier place: its free distance is reduced to that of the next step.
 TEST(KeepClear, TakesOffTheAgeOfAScan) {
   Folder folder;
   Simulation run = world_of(folder,
@@ -106,7 +106,7 @@ TEST(KeepClear, WithoutItTheRobotGoesOn) {
 TEST(KeepClear, GoesThroughWhatIsWideEnough) {
   for (const bool wide : {true, false}) {
     Folder folder;
-    const std::string edge = wide ? "0.2" : "0.15";  // a way of 0.35 m must be free
+    const std::string edge = wide ? "0.2" : "0.15";  // a path of 0.35 m must be free
     Simulation run = towards(
         folder, wall("a", "3 -3", "3 -" + edge) + wall("b", "3 " + edge, "3 3") + "<control.keep_clear robot=\"r\"/>");
     while (!run.done()) run.step();

@@ -1,4 +1,4 @@
-// Scans of robots in worlds, against what plane geometry says.
+// Scans of robots in worlds, against plane geometry.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -37,12 +37,12 @@ std::vector<Seen> scans(const Simulation& run) {
   return result;
 }
 
-// The Scarab with a laser that tells ranges as they are.
+// The Scarab with exact ranges of its laser.
 std::string exact_scarab(const Folder& folder) {
   return " model=\"" + scarab_with(folder, {{" resolution=\"0.001\"/>", "/>"}}).string() + "\"";
 }
 
-// Beside it another, on the left, turned to there and down a little.
+// With a second laser, on the left, turned to there and down a little.
 std::string two_lasers(const Folder& folder) {
   const auto model = scarab_with(
       folder,
@@ -182,7 +182,7 @@ const std::string room =
     "<wall name=\"n\" from=\"-2 2\" to=\"2 2\" material=\"brick\"/><wall name=\"s\" from=\"-2 -2\" to=\"2 -2\" "
     "material=\"brick\"/>";
 
-// Where each ray of a laser that is turned ends, by where the scan says that it sits.
+// End points of the rays of a turned laser, by the pose in the scan.
 TEST(Laser, StandsWhereItsScansSay) {
   Folder folder;
   Simulation run = world_of(folder, still + "<robot name=\"r\" at=\"0 0 0\"" + two_lasers(folder) + "/>" + room);
@@ -260,7 +260,7 @@ TEST(Laser, SaysWhereTheRobotBelievedToBe) {
   EXPECT_TRUE(is_null(scans(without).at(0).scan.x));
 }
 
-// A robot that leans forward by 0.2 sees the ground.
+// A robot that leans forward by 0.2 detects the ground.
 TEST(Laser, SeesTheGroundWhereItLeans) {
   Folder folder;
   std::ostringstream course;
@@ -283,7 +283,7 @@ TEST(Laser, SeesTheGroundWhereItLeans) {
   }
 }
 
-// A robot that joined as a copy has the laser of the one that it is like, and is seen.
+// A robot that joined as a copy has the laser of its original, and is detected.
 TEST(Laser, IsOnRobotsThatJoinToo) {
   Folder folder;
   Simulation run = world_of(folder,

@@ -1,4 +1,4 @@
-// Asks all wheels for a course: v + dv sin(t), w + dw sin(2 t), linear over each step. The Scarab's wheels.
+// Commands a course for all wheels: v + dv sin(t), w + dw sin(2 t), linear over each step. The Scarab's wheels.
 #include <cmath>
 #include <muster/plugin.hpp>
 

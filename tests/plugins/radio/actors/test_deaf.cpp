@@ -1,4 +1,4 @@
-// A stage of the receiver that hears nothing on one radio.
+// A receiver stage that makes one radio deaf.
 #include <algorithm>
 #include <muster/plugin.hpp>
 

@@ -1,5 +1,5 @@
 // Robots that tumble about the world's origin like parts of one rigid body; with `apart`, robot 0 turns on the spot
-// while the others stand.
+// while the others are at rest.
 #include <cmath>
 #include <muster/plugin.hpp>
 

@@ -1,4 +1,4 @@
-// What a controller asks of a robot beside a velocity, from a table: each row from its time on.
+// Commands of a controller to a robot beside a velocity, from a table: each row from its time on.
 #include <muster/plugin.hpp>
 
 namespace {

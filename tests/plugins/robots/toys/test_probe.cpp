@@ -1,4 +1,4 @@
-// Reads what a robot believes, so that the kernel provides what writes it.
+// Reads a robot's odometry, so that the kernel adds its provider.
 #include <muster/plugin.hpp>
 
 namespace {

@@ -1,5 +1,5 @@
-// Physics without physics: the wheels do exactly what they are asked, but for one that is stuck, and the body stays
-// where it is.
+// Physics without physics: the wheels follow their commands exactly, except one that is stuck, and the body stays at
+// its place.
 #include <muster/plugin.hpp>
 
 namespace {

@@ -1,0 +1,60 @@
+// The words after a verb. A verb declares the options it takes; messages and --help follow from that. The parser's own
+// header costs seconds in each file that includes it: command_line.cpp alone does.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace muster::cli {
+
+using Arguments = std::vector<std::string>;
+
+class CommandLine {
+ public:
+  CommandLine(const std::string& verb, const std::string& help);
+  ~CommandLine();
+
+  class Option {
+   public:
+    explicit Option(CLI::Option* option) : option_(option) {}
+    Option& required();
+    Option& shows_default();  // in --help: the value of the variable as it is now
+    Option& within(int lowest, int highest);
+    Option& within(double lowest, double highest);
+    Option& one_of(const std::vector<std::string>& values);
+    Option& takes(int words);
+    Option& one_word_each();  // may be given several times; the words of a verb may follow it
+    Option& excludes(const std::string& other);
+
+   private:
+    CLI::Option* option_;
+  };
+
+  // "--data", or "world" where the word stands alone. parse() fills the variable if the option is given.
+  Option option(const std::string& name, std::string& variable, const std::string& help);
+  Option option(const std::string& name, std::optional<std::string>& variable, const std::string& help);
+  Option option(const std::string& name, std::vector<std::string>& variable, const std::string& help);
+  Option option(const std::string& name, int& variable, const std::string& help);
+  Option option(const std::string& name, std::vector<int>& variable, const std::string& help);
+  Option option(const std::string& name, uint64_t& variable, const std::string& help);
+  Option option(const std::string& name, double& variable, const std::string& help);
+  Option flag(const std::string& name, bool& variable, const std::string& help);
+
+  // Throws Error where the words are off, Helped where only help was asked for.
+  void parse(const Arguments& arguments);
+
+ private:
+  std::unique_ptr<CLI::App> app_;
+};
+
+struct Helped {};
+
+}  // namespace muster::cli
