@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "diagnosis/causes/parameter_axes.hpp"
+#include "diagnosis/radio/causes/place_moves.hpp"
 #include "muster/random.hpp"
 
 namespace muster::diagnosis {
