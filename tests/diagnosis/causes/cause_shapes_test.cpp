@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "diagnosis/causes/parameter_axes.hpp"
 #include "diagnosis/pipeline/cause_estimate.hpp"
 #include "diagnosis/radio/causes/applicability.hpp"
+#include "diagnosis/radio/causes/place_axes.hpp"
 #include "tests/diagnosis/scratch.hpp"
 #include "tests/diagnosis/worlds.hpp"
 

@@ -18,7 +18,7 @@ namespace {
 
 // With two transmitters, a weak one equals a strong other one, for any readings. With three, or with a given strength
 // for each, it does not. The same transmitter under another index is no alternative.
-TEST(Rivals, OfTwoRadiosEitherMayBeMeant) {
+TEST(Alternatives, OfTwoRadiosIncludeTheOtherOne) {
   for (const auto& [transmitters, whole, others] : {std::tuple(2, false, 1u), {3, false, 0u}, {2, true, 0u}}) {
     Recipe recipe = varied(14, 4000);
     recipe.transmitters = transmitters;
@@ -50,7 +50,7 @@ TEST(Rivals, OfTwoRadiosEitherMayBeMeant) {
 }
 
 // A steadily falling battery may imitate causes in time, a shuffled one no cause.
-TEST(Rivals, OfWhatIsUnexplainedAreTheCausesThatExplainItNearlyAsWell) {
+TEST(Alternatives, OfAnUnexplainedSmoothAreTheCausesThatExplainItNearlyAsWell) {
   auto world = world_of(varied(254, 3000));
   for (const bool falls : {true, false}) {
     if (!falls) std::shuffle(world.battery.begin(), world.battery.end(), std::mt19937(1));
@@ -78,7 +78,7 @@ TEST(Rivals, OfWhatIsUnexplainedAreTheCausesThatExplainItNearlyAsWell) {
   }
 }
 
-TEST(Rivals, OfSeveralWaysAlongOneCovariateTheLikestIsTold) {
+TEST(Alternatives, AlongOneCovariateListTheLikeliestShape) {
   const auto world = world_of(varied(271, 3000));
   const Eigen::VectorXd knee = -(11.2 - world.battery.array()).max(0.0);
   const Problem problem = problem_of(world, scaled_to(world, knee, 120), causes_of(world));
@@ -102,7 +102,7 @@ TEST(Rivals, OfSeveralWaysAlongOneCovariateTheLikestIsTold) {
   EXPECT_LE(told->evidence_gap, *least + 1e-9);
 }
 
-TEST(Rivals, AreLeftOpenUnlessTheReadingsThemselvesSpeakForTheFinding) {
+TEST(Alternatives, AreLeftOpenUnlessTheLikelihoodFavoursTheFinding) {
   const auto open = [](double gap, double separability, double by_readings) {
     return left_open({"step", "all", {}, gap, separability, by_readings});
   };

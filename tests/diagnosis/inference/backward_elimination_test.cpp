@@ -19,7 +19,7 @@ struct Guess {
 };
 
 // Terms left of a guessed model.
-std::vector<Term> cleaned_up(const Problem& problem, const std::vector<Guess>& guesses) {
+std::vector<Term> terms_left(const Problem& problem, const std::vector<Guess>& guesses) {
   ModelState state(problem, {});
   score(state);
   for (const auto& [id, theta] : guesses) state.terms.push_back(term_at(state, id, theta));
@@ -30,27 +30,27 @@ std::vector<Term> cleaned_up(const Problem& problem, const std::vector<Guess>& g
 }
 
 // A smooth of the battery may enter first, while the field has absorbed a part of an effect in time.
-TEST(CleanUp, WhatActsInTimeIsNotTheBatteryThatFallsMeanwhile) {
+TEST(BackwardElimination, SeparatesAStepInTimeFromAFallingBattery) {
   const auto world = world_of(varied(254, 3000));
   const Eigen::VectorXd step = (world.time.array() > 0.4 * world.time.maxCoeff()).cast<double>(),
                         knee = -(11.7 - world.battery.array()).max(0.0).pow(1.4);
   for (const auto& [effect, name] : {std::pair(step, "step"), std::pair(knee, "~battery")}) {
     const Problem problem = problem_of(world, scaled_to(world, effect, 120), causes_of(world));
-    const std::vector<Term> terms = cleaned_up(problem, {{"~battery", {}}});
+    const std::vector<Term> terms = terms_left(problem, {{"~battery", {}}});
     ASSERT_EQ(terms.size(), 1u);
     EXPECT_EQ(terms[0].id(), name);
   }
 }
 
 // An advantage below 3 nats suffices; and a true bend is kept.
-TEST(CleanUp, WhatActsInTimeStandsWhereItIsLikelierThanABendAlongTheBattery) {
+TEST(BackwardElimination, PrefersADriftToABendOfTheBatteryOnlyWhereItIsLikelier) {
   const auto world = world_of(varied(270, 3000));
   const Eigen::ArrayXd t = world.time.array() / world.time.maxCoeff();
   const Eigen::VectorXd soft = 1 / (1 + (-12 * (t - 0.5)).exp()),
                         knee = -(11.7 - world.battery.array()).max(0.0).pow(1.4);
   for (const auto& [effect, name] : {std::pair(soft, "drift"), std::pair(knee, "~battery")}) {
     const Problem problem = problem_of(world, scaled_to(world, effect, 60), causes_of(world));
-    const std::vector<Term> terms = cleaned_up(problem, {{"bend~battery", Eigen::Vector2d(11.7, -1)}});
+    const std::vector<Term> terms = terms_left(problem, {{"bend~battery", Eigen::Vector2d(11.7, -1)}});
     ASSERT_EQ(terms.size(), 1u);
     EXPECT_EQ(terms[0].id(), name);
   }
@@ -69,7 +69,7 @@ Problem clipped(Problem problem) {
 }
 
 // Residuals of clipping fit some place by chance.
-TEST(CleanUp, BesideAClipAWallMustWinMoreThanADrift) {
+TEST(BackwardElimination, RequiresMoreGainOfAWallThanOfADriftBesideClipping) {
   const auto world = world_of(varied(13, 4000));
   auto causes = causes_of(world);
   Candidate& wall = causes[causes.size() - 2];
@@ -80,45 +80,45 @@ TEST(CleanUp, BesideAClipAWallMustWinMoreThanADrift) {
   const Eigen::VectorXd place = Eigen::Vector4d(12, 8, 5, 0.35), all = Eigen::VectorXd::Constant(1, -1);
   const Problem hidden = problem_of(world, -scaled_to(world, wall.design.columns(place), 50), causes),
                 drifts = problem_of(world, scaled_to(world, world.time, 50), causes);
-  EXPECT_EQ(cleaned_up(hidden, {{"unmapped_wall", place}}).size(), 1u);
-  EXPECT_EQ(cleaned_up(clipped(hidden), {{"unmapped_wall", place}}).size(), 0u);
-  EXPECT_EQ(cleaned_up(clipped(drifts), {{"drift", all}}).size(), 1u);
+  EXPECT_EQ(terms_left(hidden, {{"unmapped_wall", place}}).size(), 1u);
+  EXPECT_EQ(terms_left(clipped(hidden), {{"unmapped_wall", place}}).size(), 0u);
+  EXPECT_EQ(terms_left(clipped(drifts), {{"drift", all}}).size(), 1u);
 }
 
-TEST(CleanUp, DropsWhatCarriesNothingAndSetsLeftoversAside) {
+TEST(BackwardElimination, DropsTermsThatExplainNothing) {
   const auto world = world_of(varied(13, 4000));
   const auto causes = causes_of(world);
   const Eigen::VectorXd effect = scaled_to(world, causes[2].design.columns({}).col(0), 900);  // antenna_rx
   const Problem problem = problem_of(world, effect, causes);
-  const std::vector<Term> terms = cleaned_up(
+  const std::vector<Term> terms = terms_left(
       problem, {{"antenna_rx", {}}, {"step", Eigen::Vector2d(100, -1)}, {"drift", Eigen::VectorXd::Constant(1, 2)}});
   ASSERT_EQ(terms.size(), 1u);
   EXPECT_EQ(terms[0].candidate->id, "antenna_rx");
   EXPECT_NEAR(terms[0].gain, 900, 300);
 }
 
-TEST(CleanUp, ACauseGivesWayToARivalThatDoesBetter) {
+TEST(BackwardElimination, ReplacesACauseByABetterAlternative) {
   const auto world = world_of(varied(13, 4000));
   const auto causes = causes_of(world);
   const Eigen::VectorXd effect = scaled_to(world, causes[2].design.columns({}).col(0), 400);  // antenna_rx
   const Problem problem = problem_of(world, effect, causes);
-  const std::vector<Term> terms = cleaned_up(problem, {{"drift", Eigen::VectorXd::Constant(1, 2)}});
+  const std::vector<Term> terms = terms_left(problem, {{"drift", Eigen::VectorXd::Constant(1, 2)}});
   ASSERT_EQ(terms.size(), 1u);
   EXPECT_EQ(terms[0].candidate->id, "antenna_rx");
 }
 
-TEST(CleanUp, ACauseGivesWayToASimplerOneThatTheReadingsCannotTellFromIt) {
+TEST(BackwardElimination, ReplacesACauseByASimplerInseparableOne) {
   const auto world = world_of(varied(34, 4000));
   const auto twins = twins_of(world);
   const Problem problem =
       problem_of(world, scaled_to(world, twins[0].design.columns(twins[0].design.grid[0]), 200), twins);
-  const std::vector<Term> terms = cleaned_up(problem, {{"twin", twins[0].design.grid[0]}});
+  const std::vector<Term> terms = terms_left(problem, {{"twin", twins[0].design.grid[0]}});
   ASSERT_EQ(terms.size(), 1u);
   EXPECT_EQ(terms[0].candidate->id, "rx_offset");
 }
 
 // A twin with a grid of one transmitter costs less to find, and is no likelier for that.
-TEST(CleanUp, ASimpleCauseGivesNoWayToATwinThatIsSoughtAtFewerPlaces) {
+TEST(BackwardElimination, KeepsTheSimplerCauseAgainstATwinWithASmallerGrid) {
   const auto world = world_of(varied(34, 4000));
   std::vector<Candidate> causes = causes_of(world);
   const auto simple =
@@ -133,24 +133,24 @@ TEST(CleanUp, ASimpleCauseGivesNoWayToATwinThatIsSoughtAtFewerPlaces) {
   causes.push_back(twin);
   const Problem problem = problem_of(world, effect, causes);
   for (const char* first : {"tx_offset", "twin"}) {
-    const std::vector<Term> terms = cleaned_up(problem, {{first, theta}});
+    const std::vector<Term> terms = terms_left(problem, {{first, theta}});
     ASSERT_EQ(terms.size(), 1u);
     EXPECT_EQ(terms[0].candidate->id, "tx_offset") << "from " << first;
   }
 }
 
-TEST(CleanUp, ASmoothGivesWayToTheCauseThatExplainsIt) {
+TEST(BackwardElimination, ReplacesASmoothByTheCauseThatExplainsIt) {
   const auto world = world_of(varied(14, 4000));
   const auto causes = causes_of(world);
   const Eigen::VectorXd effect = scaled_to(world, causes[2].design.columns({}).col(1), 400);
   const Problem problem = problem_of(world, effect, causes);
-  const std::vector<Term> terms = cleaned_up(problem, {{"~bearing", {}}});
+  const std::vector<Term> terms = terms_left(problem, {{"~bearing", {}}});
   ASSERT_EQ(terms.size(), 1u);
   EXPECT_EQ(terms[0].candidate->id, "antenna_rx");
 }
 
 // Each of two robots carries its own shadow: neither alone explains the effect along the bearing.
-TEST(CleanUp, ASmoothGivesWayToTheSameCauseOnTwoRadios) {
+TEST(BackwardElimination, ReplacesASmoothByTheSameCauseOnTwoRadios) {
   const auto world = world_of(varied(14, 4000));
   auto causes = causes_of(world);
   Candidate& one_robots = causes[2];
@@ -168,7 +168,7 @@ TEST(CleanUp, ASmoothGivesWayToTheSameCauseOnTwoRadios) {
   ASSERT_GT(heard_by(100).sum(), 500);
   ASSERT_GT(heard_by(101).sum(), 500);
   const Eigen::VectorXd effect = scaled_to(world, of_all({}).col(1), 400);
-  const std::vector<Term> terms = cleaned_up(problem_of(world, effect, causes), {{"~bearing", {}}});
+  const std::vector<Term> terms = terms_left(problem_of(world, effect, causes), {{"~bearing", {}}});
   ASSERT_EQ(terms.size(), 2u);
   for (const Term& term : terms) EXPECT_EQ(term.candidate->id, "antenna_rx");
   EXPECT_NE(terms[0].theta, terms[1].theta);

@@ -12,7 +12,7 @@
 namespace muster::inference {
 namespace {
 
-TEST(Compared, TheSimplerOfTwoWithTheSameEffectComesFirst) {
+TEST(Compared, SimplerOfTwoEqualEffectsComesFirst) {
   const auto world = world_of(varied(34, 4000));
   const auto twins = twins_of(world);
   const Problem problem =
@@ -31,7 +31,7 @@ TEST(Compared, TheSimplerOfTwoWithTheSameEffectComesFirst) {
 
 // A step of 2 dB, at its given strength or any multiple, with a lead off its place. A gain from the refit-noise pass
 // is kept beside that of refinement, except for a whole column.
-TEST(Compared, ALeadIsRefinedAndKeepsWhatItWonUnlessItCountsAsItIs) {
+TEST(Compared, RefinedCandidateKeepsItsEarlierGainUnlessItsStrengthIsFixed) {
   const auto world = world_of(varied(254, 3000));
   std::vector<Candidate> causes = causes_of(world);
   const auto step = std::find_if(causes.begin(), causes.end(), [](const Candidate& c) { return c.id == "step"; });
@@ -58,6 +58,34 @@ TEST(Compared, ALeadIsRefinedAndKeepsWhatItWonUnlessItCountsAsItIs) {
     EXPECT_NEAR(best.gain, whole ? refined : refined + won, 1e-6) << whole;
     EXPECT_NEAR(best.log_p, state.log_p(*step, best.gain, 1, true), 1e-6);
     EXPECT_NEAR(best.evidence, state.evidence(*step, best.gain, 1, true), 1e-6);
+  }
+}
+
+// A chirp has two functions and a grid, a bend one function and a grid: each costs twice its gain by chance.
+TEST(Compared, ObservedColumnPrecedesTimeAtEqualGainBesideItsFunctions) {
+  const auto world = world_of(varied(5, 900));
+  const Problem problem = problem_of(world, Eigen::VectorXd::Zero(900), {});
+  ModelState state(problem, {});
+  const WhitenedModel model = state.whitened_model(state.design());
+  std::vector<ScoredCandidate> all = scored_candidates(state, model);
+  const auto lead_of = [&](const std::string& id) -> ScoredCandidate& {
+    return *std::find_if(all.begin(), all.end(),
+                         [&](const ScoredCandidate& lead) { return lead.candidate().id == id; });
+  };
+  ScoredCandidate swing = lead_of("chirp~time"), bend = lead_of("bend~battery");
+  swing.gain = 60, swing.evidence = 20, bend.evidence = 19;
+  for (const double more : {-0.1, 0.1}) {
+    bend.gain = 60 - 2 * (2 + 1) + 2 * (1 + 1) + more;
+    const auto pool = compared(state, model, {swing, bend}, {}, [](const Candidate&) { return true; });
+    EXPECT_EQ(pool[0].candidate().id, more > 0 ? "bend~battery" : "chirp~time");
+  }
+  // A column's own smooth has no grid.
+  ScoredCandidate smooth = lead_of("~temperature");
+  smooth.evidence = 19;
+  for (const double more : {-0.1, 0.1}) {
+    smooth.gain = 60 - 2 * (2 + 1) + 2 * static_cast<double>(smooth.columns.cols()) + more;
+    const auto pool = compared(state, model, {swing, smooth}, {}, [](const Candidate&) { return true; });
+    EXPECT_EQ(pool[0].candidate().id, more > 0 ? "~temperature" : "chirp~time");
   }
 }
 

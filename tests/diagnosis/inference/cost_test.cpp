@@ -54,7 +54,7 @@ TEST(Cost, TwentyThousandReadingsAndAThousandAtomsAreSearchedInTwoSeconds) {
   noise::fit_families(field, y, base, {});
   std::printf("five families         %7.3f s\n", clock.lap());
   Search search(problem);
-  std::printf("bench, with all that  %7.3f s\n", clock.lap());
+  std::printf("model state           %7.3f s\n", clock.lap());
   Index atoms = 0;
   for (const Entry& entry : search.state().entries()) atoms += entry.atoms->cols();
   noise::Sheet sheet(rows.size(), 1000);

@@ -14,7 +14,7 @@ namespace {
 using synthetic::varied;
 using synthetic::world_of;
 
-TEST(Folds, BlocksAreThreeDecorrelationDistancesWideAndEveryReadingIsLeftOutOnce) {
+TEST(Folds, BlocksAreThreeDecorrelationDistancesWideAndCoverAllReadings) {
   const auto world = world_of(varied(15, 3000));
   const noise::Rows rows = diagnosis::link_rows(world.readings);
   const noise::Sites sites = diagnosis::link_sites(rows, world.readings);

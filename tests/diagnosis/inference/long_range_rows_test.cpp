@@ -16,7 +16,7 @@ using synthetic::varied;
 using synthetic::world_of;
 
 // Profile-likelihood gain with the noise refitted: repeating the same few rows does not double it.
-TEST(ModelState, LongerRowsTellNoMore) {
+TEST(LongRangeRows, LongerRowsDoNotInflateGains) {
   for (const uint64_t seed : {17u, 18u, 19u}) {
     const auto world = world_of(varied(seed, 4000));
     const auto causes = causes_of(world);
@@ -40,7 +40,7 @@ TEST(ModelState, LongerRowsTellNoMore) {
 
 // An offset of one transmitter in a smooth field under much noise. Excess evidence from few neighbours, or from its
 // most favourable family, does not count.
-TEST(LongRangeRows, ANameIsWorthNoMoreThanTheCovarianceItselfSays) {
+TEST(LongRangeRows, PValueOfANameUsesTheExactCovariance) {
   const auto world = world_of({.seed = 3,
                                .readings = 2600,
                                .sigma = 2.25,
@@ -63,7 +63,7 @@ TEST(LongRangeRows, ANameIsWorthNoMoreThanTheCovarianceItselfSays) {
 }
 
 // The threshold of a smooth is above that of a chi-square.
-TEST(LongRangeRows, WhatHasNoNameMustWinMore) {
+TEST(LongRangeRows, SmoothsNeedMoreThanTheChiSquareTail) {
   const auto world = world_of(varied(32, 3000));
   const Eigen::VectorXd effect = scaled_to(world, (3 * world.bearing().array() + 1).cos(), 80);
   const Problem problem = problem_of(world, effect, causes_of(world));
@@ -79,7 +79,7 @@ TEST(LongRangeRows, WhatHasNoNameMustWinMore) {
 }
 
 // Longer rows average out an oscillation from row to row, but not an offset.
-TEST(LongRangeRows, KeepWhatChangesLittleWithinThem) {
+TEST(LongRangeRows, KeepOffsetsAndAverageOutFastChanges) {
   const auto world = world_of(varied(21, 3000));
   const Problem problem = problem_of(world, Eigen::VectorXd::Zero(3000), causes_of(world), {.way = 0.2});
   const ModelState state(problem, {});

@@ -10,7 +10,7 @@
 namespace muster::inference {
 namespace {
 
-TEST(Merge, TwoHalvesOfOneWallBecomeTheWall) {
+TEST(MergeDuplicates, TwoHalvesOfAWallBecomeOne) {
   const auto world = world_of(varied(11, 4000));
   const auto causes = causes_of(world);
   const Candidate& wall = causes[causes.size() - 2];
@@ -32,7 +32,7 @@ TEST(Merge, TwoHalvesOfOneWallBecomeTheWall) {
   EXPECT_NEAR(found[2], 5, 1);
 }
 
-TEST(Merge, TwoWallsStayTwo) {
+TEST(MergeDuplicates, TwoSeparateWallsRemainTwo) {
   const auto world = world_of(varied(12, 4000));
   const auto causes = causes_of(world);
   const Candidate& wall = causes[causes.size() - 2];

@@ -57,7 +57,7 @@ Eigen::MatrixXd dense(const Sites& sites, const Covariance& c) {
 
 const Covariance some{Family::exponential, {std::log(9.0), std::log(1.7), std::log(4.0), -1.2}};
 
-TEST(Exact, CovarianceOfSumsIsTheDenseOne) {
+TEST(ExactCovariance, OfSumsEqualsTheDenseOne) {
   const Eigen::MatrixXd weights = Eigen::MatrixXd::Random(83, 3);
   for (const bool anchors_move : {false, true}) {
     Sites sites = scattered(83, 3, 6);
@@ -75,7 +75,7 @@ TEST(Exact, CovarianceOfSumsIsTheDenseOne) {
 
 // An offset of one radio in a field of two scales with dense readings. By few neighbours its gain is wider than
 // chi-square, by the ratio of the exact covariance.
-TEST(Exact, GainsOfPureNoiseAreChiSquare) {
+TEST(ExactCovariance, GainsOfPureNoiseAreChiSquare) {
   const Sites sites = scattered(900, 3, 7);
   const Covariance c{Family::two_scale, {std::log(9.0), std::log(2.0), std::log(2.0), -1.2}};
   const Field field(sites);
@@ -154,7 +154,7 @@ TEST(Vecchia, ASheetOfFloatsIsWhitenedAsDoublesAre) {
   EXPECT_LT((sheet.cast<double>() - whitener(x)).cwiseAbs().maxCoeff(), 1e-5);
 }
 
-TEST(Restricted, GradientIsItsFiniteDifference) {
+TEST(Reml, GradientMatchesFiniteDifferences) {
   const Field field(scattered(500, 3, 11));
   Eigen::MatrixXd design = Eigen::MatrixXd::Ones(500, 3);
   Eigen::VectorXd y(500);
@@ -181,7 +181,7 @@ TEST(Restricted, GradientIsItsFiniteDifference) {
   }
 }
 
-TEST(Restricted, InformationIsTheExpectedCurvature) {
+TEST(Reml, InformationIsTheExpectedCurvature) {
   const Sites sites = scattered(120, 2, 12);
   const Field field(sites, {120, 120, 1});
   const Eigen::MatrixXd covariance = dense(sites, some), inverse = covariance.inverse();
@@ -202,7 +202,7 @@ TEST(Restricted, InformationIsTheExpectedCurvature) {
   }
 }
 
-TEST(Fit, FindsTheFieldThatMadeTheReadings) {
+TEST(Fit, RecoversTheTrueField) {
   std::vector<double> errors;
   for (uint64_t seed = 1; seed <= 8; ++seed) {
     const auto world = synthetic::world_of(synthetic::varied(seed, 4000));
@@ -218,7 +218,7 @@ TEST(Fit, FindsTheFieldThatMadeTheReadings) {
   EXPECT_LT(errors[4], 0.3);
 }
 
-TEST(Fit, ASmoothFieldIsNotTakenForAnExponentialOne) {
+TEST(Fit, DistinguishesASmoothFieldFromAnExponentialOne) {
   auto recipe = synthetic::varied(3, 5000);
   recipe.shape = synthetic::Shape::gaussian;
   const auto world = synthetic::world_of(recipe);
@@ -251,7 +251,7 @@ TEST(Reach, IsTheWhitenersTranspose) {
   EXPECT_LT((whitener(z) - all * z).cwiseAbs().maxCoeff(), 1e-12);  // a single column has a code path of its own
 }
 
-TEST(Censored, ReadingsBelowAFloorAreReplacedByWhatTheyAreExpectedToBe) {
+TEST(Censored, ReadingsBelowAFloorAreReplacedByTheirExpectation) {
   const Index n = 20000;
   const double floor = -62;
   Eigen::MatrixXd design(n, 2);

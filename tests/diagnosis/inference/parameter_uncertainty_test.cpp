@@ -10,13 +10,14 @@
 #include <vector>
 
 #include "diagnosis/inference/assess/coefficient_covariance.hpp"
+#include "diagnosis/inference/noise/exact_covariance.hpp"
 #include "diagnosis/inference/score/conditional_fit.hpp"
 #include "tests/diagnosis/inference/guessed.hpp"
 
 namespace muster::inference {
 namespace {
 
-TEST(ParameterUncertainty, ItsMiddleIsAPlaceThatExplainsAsMuch) {
+TEST(ParameterUncertainty, MiddleExplainsAsMuchAsTheBestFit) {
   const auto world = world_of(varied(12, 4000));
   const auto causes = causes_of(world);
   const Candidate& wall = causes[causes.size() - 2];
@@ -35,7 +36,7 @@ TEST(ParameterUncertainty, ItsMiddleIsAPlaceThatExplainsAsMuch) {
 }
 
 // Compares with the sum over a grid of places and sizes.
-TEST(ParameterUncertainty, OfAThingIsThatOfTheWholeLikelihood) {
+TEST(ParameterUncertainty, OfAnObstacleMatchesIntegrationOverAGrid) {
   const auto world = world_of(varied(12, 4000));
   const auto causes = causes_of(world);
   const Candidate& thing = causes.back();
@@ -87,6 +88,27 @@ TEST(ParameterUncertainty, OfAThingIsThatOfTheWholeLikelihood) {
   const double loss = found.coefficients[0];  // the reported one, for any mean
   const double between = loss_squares / weights - 2 * loss * losses / weights + loss * loss;
   EXPECT_NEAR(spread.coefficients(0, 0) / (grown * within / weights + between), 1, 0.15);
+}
+
+// Exact variance of estimates from Vecchia's approximation.
+TEST(CoefficientCovariance, IsTheScatterUnderTheExactCovariance) {
+  const auto world = world_of(varied(5, 1500));
+  const Problem problem = problem_of(world, Eigen::VectorXd::Zero(1500), {});
+  ModelState state(problem, {});
+  const Eigen::MatrixXd design = state.design();
+  const WhitenedModel model = state.whitened_model(design);
+  const Index rows = state.rows().size();
+  const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(rows, rows),
+                        covariance = noise::covariance_of_sums(state.field().sites(), state.fit.covariance, unit),
+                        told = model.at.basis.q.transpose() * model.whitener(unit);
+  Eigen::MatrixXd fitted(design.cols(), rows);
+  for (Index i = 0; i < rows; ++i) fitted.col(i) = model.at.basis.coefficients(told.col(i), design.cols());
+  const Eigen::MatrixXd scatter = fitted * covariance * fitted.transpose();
+  const Eigen::MatrixXd with_noise = coefficient_covariance(state, design);
+  state.fit.curvature *= 1e12;  // no uncertainty of the noise
+  const Eigen::MatrixXd known = coefficient_covariance(state, design);
+  EXPECT_LT((known - scatter).norm(), 1e-4 * scatter.norm());
+  EXPECT_GT(with_noise(0, 0), 1.002 * known(0, 0));
 }
 
 }  // namespace

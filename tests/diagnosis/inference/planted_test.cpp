@@ -28,7 +28,7 @@ INSTANTIATE_TEST_SUITE_P(Causes, Planted, testing::ValuesIn(rates),
                          [](const auto& rate) { return std::string(rate.param.cause); });
 
 // A transmitter's offset is equal at all places: a field of unknown size absorbs it.
-TEST(StatedField, LetsAnOffsetShow) {
+TEST(StatedField, RevealsAnOffset) {
   constexpr int worlds = 24;
   const auto named = [&](Field field) {
     return planted("tx_offset", 60, 500, worlds, 4000, Shape::exponential, field).found;
@@ -38,7 +38,7 @@ TEST(StatedField, LetsAnOffsetShow) {
   EXPECT_GE(stated, unstated + 4);
 }
 
-TEST(Clean, WorldsStaySilent) {
+TEST(CleanWorlds, NoFalseNames) {
   const Tally tally = planted("", 0, 700, 30, 3000, Shape::exponential);
   EXPECT_LE(tally.wrong, 30 - least_successes(30, 0.98)) << tally.misses;
   EXPECT_LE(tally.unexplained, 30 - least_successes(30, 0.98)) << tally.misses;

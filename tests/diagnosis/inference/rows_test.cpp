@@ -8,7 +8,7 @@
 namespace muster::noise {
 namespace {
 
-TEST(Rows, EndWhereAnEffectSetsInOrStops) {
+TEST(Rows, EndWhereAnEffectStartsOrStops) {
   constexpr int size = 60;
   Eigen::VectorXd effect = Eigen::VectorXd::Zero(size), value(size);
   std::vector<Index> order, first;

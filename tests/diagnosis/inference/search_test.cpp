@@ -36,7 +36,7 @@ std::vector<std::string> ids(const Result& result) {
   return out;
 }
 
-TEST(Search, SpeedOutsideTheVocabularyIsReportedAsUnexplained) {
+TEST(Search, AnEffectOfSpeedWithoutACauseIsUnexplained) {
   const World world = world_of(varied(31, 4000));
   const Eigen::VectorXd effect = scaled_to(world, (world.speed.array() > 0.45).cast<double>().sqrt(), 120);
   const Result result = result_of(world, effect);
@@ -63,7 +63,7 @@ TEST(Search, EveryCauseAndEveryCovariateIsCheckedOnce) {
   EXPECT_LE(low, static_cast<std::ptrdiff_t>(result.checks.size() / 10));
 }
 
-TEST(Search, LobesThatNoCauseHasAreReportedAlongTheBearing) {
+TEST(Search, AntennaLobesWithoutACauseAreReportedAlongTheBearing) {
   const World world = world_of(varied(32, 4000));
   const Eigen::VectorXd effect = scaled_to(world, (3 * world.bearing().array() + 1).cos(), 150);
   EXPECT_EQ(ids(result_of(world, effect)), std::vector<std::string>{"~bearing"});
@@ -89,7 +89,7 @@ TEST(Search, TwoCausesAreBothNamed) {
 }
 
 // A steeper slope beyond some distance concerns every radio and every run, an offset one radio alone.
-TEST(Search, WhatConcernsAllRadiosAndRunsGainsWithTheseNotSeen) {
+TEST(Search, EffectsOnAllRadiosAndRunsGainOnHeldOutOnes) {
   const World world = world_of(varied(34, 5000));
   const auto causes = causes_of(world);
   const Candidate& slope =
@@ -119,7 +119,7 @@ TEST(Search, WhatConcernsAllRadiosAndRunsGainsWithTheseNotSeen) {
   EXPECT_EQ(seen, (std::set<std::string>{"dual_slope", "tx_offset"}));
 }
 
-TEST(Search, OfCausesThatTheReadingsCannotTellApartTheSimplestIsNamed) {
+TEST(Search, SimplestOfInseparableCausesIsNamed) {
   const World world = world_of(varied(34, 4000));
   auto causes = causes_of(world);
   const Eigen::VectorXd effect = scaled_to(world, causes[1].design.columns(causes[1].design.grid[0]), 200);
@@ -134,7 +134,7 @@ TEST(Search, OfCausesThatTheReadingsCannotTellApartTheSimplestIsNamed) {
   }
 }
 
-TEST(Search, AChirpIsNoPeriod) {
+TEST(Search, AChirpIsNotNamedPeriodic) {
   int unexplained = 0;
   for (uint64_t seed = 240; seed < 246; ++seed) {
     const World world = world_of(varied(seed, 4000));
@@ -147,7 +147,7 @@ TEST(Search, AChirpIsNoPeriod) {
 }
 
 // The battery falls with time, so its knee resembles a drift.
-TEST(Search, AKneeOfTheBatteryIsNoDrift) {
+TEST(Search, AKneeOfTheBatteryIsNotNamedDrift) {
   int right = 0;
   for (uint64_t seed = 250; seed < 256; ++seed) {
     const World world = world_of(varied(seed, 3000));
@@ -161,7 +161,7 @@ TEST(Search, AKneeOfTheBatteryIsNoDrift) {
 }
 
 // A slope over the plan (moisture at one end), which the field can absorb.
-TEST(Search, ASlopeOverThePlanIsReportedAlongThePlace) {
+TEST(Search, ASlopeOverThePlanIsReportedAlongThePosition) {
   int right = 0;
   for (uint64_t seed = 260; seed < 266; ++seed) {
     const World world = world_of(varied(seed, 3000));
@@ -173,7 +173,7 @@ TEST(Search, ASlopeOverThePlanIsReportedAlongThePlace) {
   EXPECT_GE(right, 5);
 }
 
-TEST(Search, AnOutlierIsNoWall) {
+TEST(Search, NoFalseWallForAnOutlier) {
   for (uint64_t seed = 220; seed < 228; ++seed) {
     Recipe recipe = varied(seed, 2500);
     recipe.fading = 0.8;
@@ -195,7 +195,7 @@ std::vector<std::string> named_beside_stated_field(uint64_t seed, double lambda,
   return ids(Search(problem).run());
 }
 
-TEST(Search, AnOffsetThatAFittedFieldTakesUpShowsBesideTheStatedOne) {
+TEST(Search, AStatedFieldRevealsAnOffsetThatAFittedOneAbsorbs) {
   int free = 0, stated = 0;
   for (uint64_t seed = 200; seed < 208; ++seed) {
     const std::vector<std::string> offset{"tx_offset"};
@@ -207,7 +207,7 @@ TEST(Search, AnOffsetThatAFittedFieldTakesUpShowsBesideTheStatedOne) {
   EXPECT_GT(stated, free);
 }
 
-TEST(Search, CoefficientsPlacesAndHeldOutGainAreThoseOfTheTruth) {
+TEST(Search, CoefficientsAndHeldOutGainMatchTheTruth) {
   const World world = world_of(varied(35, 6000));
   const auto causes = causes_of(world);
   const Eigen::VectorXd column = causes[1].design.columns(causes[1].design.grid[0]);
@@ -222,7 +222,7 @@ TEST(Search, CoefficientsPlacesAndHeldOutGainAreThoseOfTheTruth) {
   EXPECT_NEAR(result.held_out->rmse_before, f.held_out->rmse_before, 1e-9);
 }
 
-TEST(Search, IsTheSameForEveryOrderOfReadings) {
+TEST(Search, IsIndependentOfTheOrderOfReadings) {
   const World world = world_of(varied(36, 2500));
   const auto causes = causes_of(world);
   const Eigen::VectorXd effect = -scaled_to(world, causes[9].design.columns(causes[9].design.grid[40]), 100);
@@ -263,7 +263,7 @@ TEST(Search, IsTheSameForEveryOrderOfReadings) {
   EXPECT_NEAR((first.noise.covariance.theta - second.noise.covariance.theta).norm(), 0, 1e-6);
 }
 
-TEST(Search, AFloorIsNeitherAnExponentNorADualSlope) {
+TEST(Search, NoFalseExponentOrDualSlopeForAFloor) {
   for (uint64_t seed = 41; seed < 44; ++seed) {
     const World world = world_of(varied(seed, 4000));
     Problem problem = problem_of(world, Eigen::VectorXd::Zero(4000), causes_of(world));
@@ -282,7 +282,7 @@ TEST(Search, AFloorIsNeitherAnExponentNorADualSlope) {
   }
 }
 
-TEST(Search, TheAdvisedReadingsRaiseSeparabilityAsPredicted) {
+TEST(Search, AdvisedReadingsRaiseSeparabilityAsPredicted) {
   const World world = world_of(varied(37, 6000));
   const auto causes = causes_of(world);
   const Eigen::VectorXd effect = scaled_to(world, causes[0].design.columns(causes[0].design.grid[1]), 250);
@@ -330,7 +330,7 @@ TEST(Search, TheAdvisedReadingsRaiseSeparabilityAsPredicted) {
   EXPECT_NEAR(predicted / separability(whole.state(), world), 1, 0.25);
 }
 
-TEST(Search, RefusesColumnsThatDoNotFit) {
+TEST(Search, RejectsColumnsOfAnotherLength) {
   const World world = world_of(varied(38, 200));
   Problem problem = problem_of(world, Eigen::VectorXd::Zero(200), {});
   problem.base.conservativeResize(199, Eigen::NoChange);

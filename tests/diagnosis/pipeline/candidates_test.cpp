@@ -15,7 +15,7 @@ namespace muster::diagnosis {
 namespace {
 
 // A sketch uses one reading a row, in a world of those alone, and equals the whole table's columns there.
-TEST(Sketch, IsTheColumnsAtTheReadingsInTheMiddleOfRows) {
+TEST(Sketch, EqualsTheColumnsAtTheMiddleReadingOfEachRow) {
   const std::filesystem::path hall = std::filesystem::path(MUSTER_SOURCE_DIR) / "worlds" / "hall";
   const DiagnosisSetup at(hall, hall / "measured_plain.csv", plugins);
   const noise::Rows rows = at.layout->rows();
@@ -48,7 +48,7 @@ struct Hall {
   const DiagnosisSetup at{world, world / "measured_plain.csv", plugins};
 };
 
-TEST(Near, AsksFewReadingsForTheColumnsOfAll) {
+TEST(LocalColumns, EqualThoseOfAllReadings) {
   const Hall hall;
   int near = 0;
   for (const inference::Candidate& c : hall.at.problem.candidates) {
@@ -66,7 +66,7 @@ TEST(Near, AsksFewReadingsForTheColumnsOfAll) {
   EXPECT_EQ(near, 2);  // walls and obstacles
 }
 
-TEST(Near, AsksAllOfWhatConcernsAReadingElsewhere) {
+TEST(LocalColumns, FallBackToAllReadingsWhereAnEffectIsNotLocal) {
   const Hall hall;
   const auto& found = hall.at.sought.found;
   const auto thing = std::find_if(found.begin(), found.end(),
@@ -80,11 +80,11 @@ TEST(Near, AsksAllOfWhatConcernsAReadingElsewhere) {
                                                hall.at.base);
   };
   const Eigen::VectorXd& theta = far.candidate.design.grid[0];
-  const auto columns = columns_near(theta, far, hall.at.data, hall.at.layout->readings(), simulate);
+  const auto columns = columns_near(theta, far, hall.at.layout->readings(), simulate);
   EXPECT_EQ(columns(theta), far.candidate.design.columns(theta));
 }
 
-TEST(EndedRows, AreSketchedAsTheRowsThatTheyAreOf) {
+TEST(EndedRows, HaveTheSketchOfTheirParentRow) {
   const Hall hall;
   inference::ModelState state(hall.at.problem, hall.at.options);
   const Eigen::Index rows = state.rows().size();
@@ -98,13 +98,13 @@ TEST(EndedRows, AreSketchedAsTheRowsThatTheyAreOf) {
   // A whole row is at its middle reading; each part of a split row has the whole row's value.
   const Eigen::ArrayXd off = (after - exact).col(0).cwiseAbs();
   EXPECT_LE((off > 0.01).count(), 2 * (state.rows().size() - rows));
-  const inference::WhitenedModel stand = state.whitened_model(state.design());
-  inference::SparseColumns tally(state, stand);
+  const inference::WhitenedModel model = state.whitened_model(state.design());
+  inference::SparseColumns tally(state, model);
   EXPECT_GT(state.proposals(c, tally).size(), 10u);
 }
 
 // A radio at the edge of the known area may be beyond it.
-TEST(Candidates, StartWithinTheBoundsThatTheyAreSoughtIn) {
+TEST(Candidates, StartWithinTheirBounds) {
   const Scratch scratch;
   const auto world = sealed_case(scratch, "--mix clean", 1);
   const DiagnosisSetup at(world, world / "measured.csv", plugins);
@@ -123,7 +123,7 @@ TEST(Candidates, StartWithinTheBoundsThatTheyAreSoughtIn) {
 }
 
 // A few millimetres move links past the end of a wall; maps are less exact.
-TEST(Candidates, ARadioMovedByLessThanATenthOfAMetreIsWhereTheMapHasIt) {
+TEST(Candidates, MisplacementsBelowATenthOfAMetreAreExcluded) {
   const Scratch scratch;
   const auto world = sealed_case(scratch, "--mix clean", 1);
   const DiagnosisSetup at(world, world / "measured.csv", plugins);
@@ -138,20 +138,20 @@ TEST(Candidates, ARadioMovedByLessThanATenthOfAMetreIsWhereTheMapHasIt) {
 
 // Without a better place the map's own fits best, and a millimetre aside a link may pass a wall. One case was wrongly
 // named so, with a gain of 37 and a held-out error of 37 dB.
-TEST(Candidates, ARadioIsSoughtElsewhereAlone) {
+TEST(Candidates, ARefinedMisplacementExcludesTheMappedPlace) {
   const Scratch scratch;
   const auto world = made_case(scratch, "--seed 86 --rows 2000 20000", 36);
   const DiagnosisSetup at(world, world / "measured.csv", plugins);
   inference::ModelState state(at.problem, at.options);
-  const inference::WhitenedModel stand = state.whitened_model(state.design());
+  const inference::WhitenedModel model = state.whitened_model(state.design());
   const inference::Entry& entry = sought(state, "effect.tx_misplaced");
   const inference::Candidate& c = *entry.candidate;
-  inference::OrthonormalAtoms unit = inference::unit_atoms(entry, stand);
+  inference::OrthonormalAtoms unit = inference::unit_atoms(entry, model);
   state.log_effective_tests(entry, unit);
   for (const std::size_t k : {std::size_t{0}, c.design.grid.size() / 2}) {
     const inference::ScoredCandidate from{
         &entry, c.design.grid[k], entry.atom(static_cast<Eigen::Index>(k)), 0, 0, 0, false, {}};
-    EXPECT_EQ(c.refinement.admitted(inference::refined(state, stand, from, false).theta), 1);
+    EXPECT_EQ(c.refinement.admitted(inference::refined(state, model, from, false).theta), 1);
   }
 }
 

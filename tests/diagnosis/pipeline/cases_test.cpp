@@ -70,7 +70,7 @@ TEST(SealedPair, OutliersAreNoWallBesideAWallOfAnotherMaterial) {
 
 // The readings themselves decide against the antenna (D 10, and 11 nats); against an obstacle only the price of its
 // place.
-TEST(SealedOffset, HasTheRivalsThatTheReadingsLeaveOpen) {
+TEST(SealedOffset, HasTheAlternativesThatTheReadingsLeaveOpen) {
   const Scratch scratch;
   const auto world = made_case(scratch, "--seed 91 --rows 2000 20000", 13);
   const Diagnosis found = diagnose(world, world / "measured.csv", plugins);

@@ -47,7 +47,7 @@ std::filesystem::path walked_through(const Scratch& scratch) {
   return scratch / "people.csv";
 }
 
-TEST(PeopleOnTheOnlyLink, AreNamedBesideAStepAndTheExtendedWorldHoldsThem) {
+TEST(BlockageOfTheOnlyLink, IsNamedBesideAStepAndTheExtendedWorldHoldsIt) {
   const Scratch scratch;
   const std::filesystem::path data = walked_through(scratch), extended = scratch / "extended";
   Diagnosis found = diagnose(hall, data, plugins);

@@ -171,7 +171,7 @@ TEST(Plans, KeepStationsWhereTheyAreOnLinksThatGoBothWays) {
   }
 }
 
-TEST(Plans, TurnTheStationOfARivalWhereWhatWasFoundIsAboutNone) {
+TEST(Plans, TurnTheStationOfAnAlternativeWhereTheFindingConcernsNone) {
   CauseEstimate wall = about("w1");
   wall.alternatives = {{"effect.tx_offset", "radio/west", {}, 1, 2 * inference::decided},
                        {"effect.antenna_tx", "radio/east", {}, 2, 0}};

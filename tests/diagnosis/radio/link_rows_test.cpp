@@ -207,7 +207,7 @@ TEST(LinkRows, AreIndependentOfTheOrderOfReadings) {
   EXPECT_EQ(a.count().sum(), 1500);
 }
 
-TEST(RadiosOfRows, AreNumberedFromZeroAndMoveLess) {
+TEST(RadiosOfRows, AreStationsOrRobotsWhereThereIsOneStation) {
   const auto world = synthetic::world_of(synthetic::varied(15, 3000));
   const noise::Rows rows = link_rows(world.readings);
   const noise::Sites sites = link_sites(rows, world.readings);

@@ -40,7 +40,7 @@ TEST(LinkSmooths, CoverEveryColumnFactorAndProduct) {
 }
 
 // Time always varies: an observed column that explains as much comes before a function of time.
-TEST(LinkSmooths, OfTimeGiveWayToColumns) {
+TEST(LinkSmooths, OnlyThoseOfTimeAreTimeLike) {
   const auto world = world_of(varied(4, 400));
   for (const Candidate& c : link_smooths(world.readings, columns_of(world), true))
     EXPECT_EQ(c.role.time_like, c.id == "~time" || c.id == "chirp~time") << c.id;
@@ -68,7 +68,7 @@ TEST(LinkSmooths, AreTheSameForBothDirectionsOfALink) {
   }
 }
 
-TEST(LinkSmooths, NothingDependsOnPlacesThatAreNotKnown) {
+TEST(LinkSmooths, NoneDependsOnUnknownPlaces) {
   const auto world = world_of(varied(4, 400));
   for (const Candidate& c : link_smooths(world.readings, columns_of(world), false)) {
     for (const std::string& covariate : c.covariates)

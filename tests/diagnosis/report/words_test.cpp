@@ -81,7 +81,7 @@ TEST(Text, OneBlockIsSaidNotHidden) {
   EXPECT_TRUE(says(text, "not measured: too few blocks")) << text;
 }
 
-TEST(Text, RivalsThatAreNotDecidedAreQuestions) {
+TEST(Text, UndecidedAlternativesAreQuestions) {
   CauseEstimate c = wall(inference::Status::named, inference::HeldOutGain{3.5, 2.5, 6, 2.4, 11, 21});
   c.alternatives.push_back({"effect.obstacle", "(2.00, 2.00)", {}, 1.5, 6});
   Diagnosis d = with(c);
@@ -94,7 +94,7 @@ TEST(Text, RivalsThatAreNotDecidedAreQuestions) {
   EXPECT_LT(best, text.find("turn on the spot: predicted D 15\n")) << text;
 }
 
-TEST(Text, RivalsOfTheSameNameAreToldByTheirRows) {
+TEST(Text, AlternativesOfTheSameNameAreToldByTheirRows) {
   CauseEstimate c = wall(inference::Status::named, inference::HeldOutGain{3.5, 2.5, 6, 2.4, 11, 21});
   c.label = "wall/w1";
   c.alternatives.push_back({c.id, "wall/w2", {}, -0.01, 0});

@@ -26,33 +26,33 @@ LawTest field_tested(double decorrelation, double stated) {
   return field_test(field, 1, {.rician_k = 10}, {3, stated}, state);
 }
 
-TEST(FieldOfShadowing, AsStatedIsLeftInPeace) {
+TEST(ShadowingTest, NoFalseAlarmForTheStatedField) {
   for (const double decorrelation : {0.8, 1.5, 2.5})
     EXPECT_GT(field_tested(decorrelation, decorrelation).log_p, std::log(0.01)) << decorrelation;
 }
 
-TEST(FieldOfShadowing, AnotherDistanceIsMeasured) {
+TEST(ShadowingTest, MeasuresAnotherDistance) {
   const LawTest test = field_tested(3, 0.7);
   EXPECT_LT(test.log_p, std::log(1e-4));
   EXPECT_NEAR(std::log(test.values[1].value), std::log(3), std::log(1.8));
 }
 
 // A prior of indoor shadowing reported a decorrelation of 9 m as 5.
-TEST(FieldOfShadowing, AnUnusualDistanceIsMeasured) {
+TEST(ShadowingTest, MeasuresAnUnusualDistance) {
   const LawTest test = field_tested(8, 2);
   EXPECT_LT(test.values[1].lower95, 8);
   EXPECT_GT(test.values[1].upper95, 8);
 }
 
-Blockage passages_in(const Walk& walk, const Asked& asked) {
+Blockage blockage_in(const Walk& walk, const Asked& asked) {
   const inference::Problem problem = problem_of(walk);
   return blockage_test(inference::ModelState(problem, {}), walk.readings, asked);
 }
-Blockage passages_in(const Walk& walk) { return passages_in(walk, Asked::Constant(walk.residual.size(), true)); }
+Blockage blockage_in(const Walk& walk) { return blockage_in(walk, Asked::Constant(walk.residual.size(), true)); }
 
-TEST(PeopleOnALink, NobodyIsSeenWhereNobodyIs) {
+TEST(BlockageTest, NoFalseAlarmOnACleanLink) {
   const Walk walk = drawn_of_four({.rician_k = 3}, 600, 1.5);  // deep fades
-  EXPECT_GT(passages_in(walk).test.log_p, std::log(0.01));
+  EXPECT_GT(blockage_in(walk).test.log_p, std::log(0.01));
 }
 
 // Adds dips to the first station's readings, 1.2 s to 1/e each.
@@ -63,41 +63,41 @@ void add_bursts(Walk& walk, double first, double every, double dB) {
   }
 }
 
-TEST(PeopleOnALink, LevelsThatRiseAsOftenAsTheyFallAreNobody) {
+TEST(BlockageTest, NoFalseAlarmForSymmetricBursts) {
   Walk walk = drawn_of_four({.rician_k = 8}, 600, 1.5);
   add_bursts(walk, 11, 74, -35);
   add_bursts(walk, 48, 74, 35);
-  EXPECT_GT(passages_in(walk).test.log_p, std::log(0.01));
+  EXPECT_GT(blockage_in(walk).test.log_p, std::log(0.01));
 }
 
 // As in a measured flat: dips gain more than twice what rises do, and are still a misfit of the field.
-TEST(PeopleOnALink, LevelsThatRiseNearlyAsMuchAreNobody) {
+TEST(BlockageTest, NoFalseAlarmForNearlySymmetricBursts) {
   Walk walk = drawn_of_four({.rician_k = 8}, 600, 1.5);
   add_bursts(walk, 11, 74, -35);
   add_bursts(walk, 48, 74, 20);
-  EXPECT_GT(passages_in(walk).test.log_p, std::log(0.01));
+  EXPECT_GT(blockage_in(walk).test.log_p, std::log(0.01));
 }
 
-TEST(PeopleOnALink, DeepFadesOfSingleReadingsAreNobody) {
+TEST(BlockageTest, NoFalseAlarmForDeepFadesOfSingleReadings) {
   Walk walk = drawn_of_four({.rician_k = 8}, 600, 1.5);
   for (Eigen::Index i = 20; i < 600; i += 60) walk.residual[i] -= 25;
-  EXPECT_GT(passages_in(walk).test.log_p, std::log(0.01));
+  EXPECT_GT(blockage_in(walk).test.log_p, std::log(0.01));
 }
 
-TEST(PeopleOnALink, BurstsOfReadingsThatAreNotAskedAreNobody) {
+TEST(BlockageTest, IgnoresExcludedReadings) {
   Walk walk = drawn_of_four({.rician_k = 8}, 600, 1.5);
   const Eigen::VectorXd before = walk.residual;
   add_bursts(walk, 11, 37, -20);
-  EXPECT_LT(passages_in(walk).test.log_p, std::log(1e-6));
-  EXPECT_GT(passages_in(walk, walk.residual.array() == before.array()).test.log_p, std::log(0.01));
-  EXPECT_EQ(passages_in(walk).links, 4u);
-  EXPECT_EQ(passages_in(walk, Asked::Constant(walk.residual.size(), false)).links, 0u);
+  EXPECT_LT(blockage_in(walk).test.log_p, std::log(1e-6));
+  EXPECT_GT(blockage_in(walk, walk.residual.array() == before.array()).test.log_p, std::log(0.01));
+  EXPECT_EQ(blockage_in(walk).links, 4u);
+  EXPECT_EQ(blockage_in(walk, Asked::Constant(walk.residual.size(), false)).links, 0u);
 }
 
-TEST(PeopleOnALink, BurstsAreSeenAndMeasured) {
+TEST(BlockageTest, DetectsAndMeasuresBursts) {
   Walk walk = drawn_of_four({.rician_k = 8}, 600, 1.5);
   add_bursts(walk, 11, 37, -20);
-  const Blockage found = passages_in(walk);
+  const Blockage found = blockage_in(walk);
   EXPECT_EQ(found.radio, 0);
   EXPECT_EQ(found.other, 9);
   EXPECT_LT(found.test.log_p, std::log(1e-6));

@@ -1,116 +1,18 @@
-// Receiver checks and laws of a single reading, against closed forms and draws of known laws.
+// Laws of single readings: closed forms, and draws whose law is known.
+#include "diagnosis/radio/laws/fading_tests.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/radio/laws/fading_tests.hpp"
 #include "diagnosis/radio/laws/law_likelihood.hpp"
-#include "diagnosis/radio/links/receiver_checks.hpp"
-#include "tests/diagnosis/scratch.hpp"
 #include "tests/diagnosis/walk.hpp"
 
 namespace muster::diagnosis {
 namespace {
 
-// `at_top` readings at -40 dBm, five at -41, `before` at -42 and -43, and 10 at each level down to -60.
-Dataset readings(const Scratch& scratch, int at_top, int before = 10) {
-  std::string text = "t[s],tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],rssi[dBm]\n";
-  int row = 0;
-  const auto add = [&](int level, int count) {
-    for (int k = 0; k < count; ++k, ++row)
-      text += std::to_string(row) + ",a,b,0,0," + std::to_string(row % 9 + 1) + ",2," + std::to_string(level) + "\n";
-  };
-  for (int level = -60; level < -41; ++level) add(level, level < -43 ? 10 : before);
-  add(-41, 5);
-  add(-40, at_top);
-  return read_dataset(scratch.write("data.csv", text));
-}
-
-TEST(InstrumentChecks, ReadingsThatPileUpAreAClip) {
-  const Scratch scratch;
-  const ReceiverChecks found = receiver_checks(readings(scratch, 40));
-  EXPECT_DOUBLE_EQ(found.step, 1);
-  ASSERT_TRUE(found.top);
-  EXPECT_DOUBLE_EQ(found.top->level, -40);
-  EXPECT_EQ(found.top->count, 40u);
-  EXPECT_EQ(found.top->beside, 5u);
-  EXPECT_EQ(found.top->row, 195u);
-  EXPECT_LT(found.top->log_p, std::log(1e-6));
-  EXPECT_FALSE(found.bottom);  // 10 at the lowest level, 10 beside it
-}
-
-TEST(InstrumentChecks, ALevelThatIsReadOftenIsNoClip) {
-  const Scratch scratch;
-  EXPECT_FALSE(receiver_checks(readings(scratch, 10)).top);  // no more than its neighbours
-  EXPECT_FALSE(receiver_checks(readings(scratch, 14)).top);  // too few to decide
-}
-
-TEST(InstrumentChecks, ASmallPileShowsBesideAllThatIsNear) {
-  const Scratch scratch;
-  EXPECT_FALSE(receiver_checks(readings(scratch, 27)).top);
-  EXPECT_TRUE(receiver_checks(readings(scratch, 27, 3)).top);
-}
-
-ReceiverCheck check_called(const ReceiverChecks& instrument, const std::string& what) {
-  for (const ReceiverCheck& c : instrument.checks)
-    if (c.what.rfind(what, 0) == 0) return c;
-  return {};
-}
-
-// 40 distinct readings with two decimals: their step is unknown, not zero.
-std::string two_decimals(const std::string& sign) {
-  std::string text = "t[s],tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],rssi[dBm]\n";
-  for (int row = 0; row < 40; ++row)
-    text += std::to_string(row) + ",a,b,0,0,1,2," + sign + "0." + std::to_string(11 + row) + "\n";
-  return text;
-}
-
-TEST(InstrumentChecks, TooFewReadingsTellNoStep) {
-  const Scratch scratch;
-  EXPECT_EQ(check_called(receiver_checks(readings(scratch, 40)), "the step").found, "1 dB");
-  EXPECT_EQ(check_called(receiver_checks(read_dataset(scratch.write("data.csv", two_decimals("-")))), "the step").found,
-            "not known: 40 readings of 40 levels are too few to tell; three levels and four readings a level would do");
-}
-
-TEST(InstrumentChecks, MilliwattsAreNoLevels) {
-  const Scratch scratch;
-  const auto check = [&](const std::string& sign) {
-    const auto file = scratch.write("data.csv", two_decimals(sign));
-    return check_called(receiver_checks(read_dataset(file)), "levels above 0 dBm");
-  };
-  EXPECT_TRUE(check("-").fine);
-  EXPECT_EQ(check("-").found, "none in 40 rows");
-  EXPECT_FALSE(check("").fine);
-  EXPECT_EQ(check("").found, "40 of 40 readings: are they in mW (dBm = 10 log10 of mW), or is a sign lost?");
-  EXPECT_EQ(check("").row, 1u);
-}
-
-TEST(InstrumentChecks, AReadingFarFromAllOthersIsToldWithItsRow) {
-  const Scratch scratch;
-  const auto check = [&](const std::string& more) {
-    const auto file = scratch.write("data.csv", two_decimals("-") + more);
-    return check_called(receiver_checks(read_dataset(file)), "one to three readings 30 dB");
-  };
-  EXPECT_TRUE(check("41,a,b,0,0,1,2,-30\n").fine);  // 29.5 dB below the next
-  const ReceiverCheck low = check("41,a,b,0,0,1,2,-90\n42,a,b,0,0,1,2,-95\n");
-  EXPECT_FALSE(low.fine);
-  EXPECT_EQ(low.found, "-95 dBm");
-  EXPECT_EQ(low.row, 42u);
-  EXPECT_EQ(check("41,a,b,0,0,1,2,29.9\n").row, 41u);
-  std::string many;
-  for (int row = 41; row < 45; ++row) many += std::to_string(row) + ",a,b,0,0,1,2,-90\n";
-  EXPECT_TRUE(check(many).fine);  // four are a level of their own
-}
-
-TEST(InstrumentChecks, LevelsAreToldWithoutDigitsThatNobodyMeasured) {
-  const Scratch scratch;
-  std::string text = two_decimals("-") + "41,a,b,0,0,1,2,-0.1000000000000003\n";
-  const ReceiverChecks found = receiver_checks(read_dataset(scratch.write("data.csv", text)));
-  EXPECT_EQ(check_called(found, "readings that pile up at the highest").found, "1 at -0.1 dBm");
-}
-
-TEST(LawOfAReading, VariancesAreThoseOfRayleighAndGamma) {
+TEST(ReadingDistribution, VariancesAreThoseOfRayleighAndGamma) {
   const double decibel = 10 / std::log(10.0);
   EXPECT_NEAR(fading_variance(-40, 1), decibel * decibel * M_PI * M_PI / 6, 0.1);
   EXPECT_NEAR(fading_variance(-40, 4), decibel * decibel * 0.2838229557, 0.02);  // trigamma(4)
@@ -118,7 +20,7 @@ TEST(LawOfAReading, VariancesAreThoseOfRayleighAndGamma) {
   EXPECT_TRUE(std::isnan(rician_k_of(60, 1)));
 }
 
-TEST(LawOfAReading, DensitiesHaveTheirMassAboutTheirMean) {
+TEST(ReadingDistribution, DensitiesHaveUnitMassAndTheStatedMoments) {
   const ReadingDistribution law{.rician_k = 5, .outliers = 0.02, .channel_sd = 3, .channels = 2};
   const ReadingDensities densities(law, 1, std::log(0.3), std::log(20.0));
   for (const double spread : {0.3, 1.1, 7.0, 20.0}) {
@@ -143,12 +45,12 @@ std::vector<LawTest> tested(const Truth& truth, const ReadingDistribution& state
   return law_tests(field, 1, stated, near_the_truth).tests;
 }
 
-TEST(LawsOfReadings, TheStatedLawIsNotLeftWithoutReason) {
+TEST(FadingTests, NoFalseAlarmForTheStatedLaw) {
   for (const LawTest& test : tested({.rician_k = 6}, {.rician_k = 6}))
     EXPECT_GT(test.log_p, std::log(0.01)) << test.cause;
 }
 
-TEST(LawsOfReadings, TheFieldsSizeIsTheSameFromWhereverItIsSought) {
+TEST(FadingTests, FieldSizeIsIndependentOfTheStart) {
   const ReadingDistribution law{.rician_k = 6};
   const Walk walk = drawn({.rician_k = 6}, 2000);
   KrigedReadings field(walk.readings, walk.residual);
@@ -163,7 +65,7 @@ TEST(LawsOfReadings, TheFieldsSizeIsTheSameFromWhereverItIsSought) {
 }
 
 // A subsample gives the start; the result is the best on all readings.
-TEST(LawsOfReadings, ShapesOfManyReadingsAreTheBestByAllOfThem) {
+TEST(FadingTests, ShapesOfASubsetAreRankedByAllReadings) {
   constexpr double likely = 6;  // nats
   const ReadingDistribution law{.rician_k = 6};
   Walk walk = drawn_of_four({.rician_k = 6}, 7750, 7.5);
@@ -185,7 +87,7 @@ TEST(LawsOfReadings, ShapesOfManyReadingsAreTheBestByAllOfThem) {
   EXPECT_NEAR(told(some), told(field), 0.06);
 }
 
-TEST(LawsOfReadings, ReadingsSideBySideTellTheVarianceOfOne) {
+TEST(FadingTests, CloseReadingsGiveTheVarianceOfOne) {
   for (const double distance : {0.7, 1.5}) {
     const Walk walk = drawn({.rician_k = 4}, 6000, distance);
     LinkReadings near = walk.readings;
@@ -202,7 +104,7 @@ TEST(LawsOfReadings, ReadingsSideBySideTellTheVarianceOfOne) {
 }
 
 // The variogram of a smooth field begins as a parabola: a line would underestimate the variance.
-TEST(LawsOfReadings, ReadingsSideBySideTellTheVarianceInASmoothFieldToo) {
+TEST(FadingTests, CloseReadingsGiveTheVarianceInASmoothField) {
   constexpr int count = 6000;
   constexpr double sd = 1.4;  // dB
   const Stream random(key_of("smooth field"));
@@ -222,7 +124,7 @@ TEST(LawsOfReadings, ReadingsSideBySideTellTheVarianceInASmoothFieldToo) {
 
 // A field faster than any tried resembles a wider law; adjacent readings separate them. (They hold too little on
 // tails to exclude outliers.)
-TEST(LawsOfReadings, ReadingsSideBySideSpeakAgainstAnotherLaw) {
+TEST(FadingTests, CloseReadingsPreventAnotherLaw) {
   Walk walk = drawn({.rician_k = 6}, 6000);
   for (Eigen::Index i = 0; i < walk.residual.size(); ++i) {
     const Eigen::Index first = i - i % 2;
@@ -239,14 +141,14 @@ TEST(LawsOfReadings, ReadingsSideBySideSpeakAgainstAnotherLaw) {
 
 // Readings a fiftieth of the decorrelation distance apart, with deep fades: with winsorised predictions alone, a
 // weaker fading law would gain 24.
-TEST(LawsOfReadings, TamedDeepFadesAreNoOtherFading) {
+TEST(FadingTests, NoFalseAlarmForClippedDeepFades) {
   const Walk walk = drawn_of_four({.rician_k = 5}, 1500, 30, 30);
   KrigedReadings field(walk.readings, walk.residual);
   const noise::Covariance dense{noise::Family::exponential, {2.2, std::log(30), std::log(fading_variance(5, 1)), 0}};
   for (const LawTest& test : law_tests(field, 1, {.rician_k = 5}, dense).tests) EXPECT_LT(test.gain, 9) << test.cause;
 }
 
-TEST(LawsOfReadings, AnotherFadingIsMeasured) {
+TEST(FadingTests, MeasuresAnotherFading) {
   const LawTest best = tested({.rician_k = 2}, {.rician_k = 8}).front();
   EXPECT_EQ(best.cause, "effect.fading_law");
   EXPECT_GT(best.evidence, 20);
@@ -255,7 +157,7 @@ TEST(LawsOfReadings, AnotherFadingIsMeasured) {
 }
 
 // In the field fitted to the stated law, the estimate was biased by a quarter towards the stated strength.
-TEST(LawsOfReadings, WhatIsStatedDoesNotPullWhatIsMeasured) {
+TEST(FadingTests, EstimateIsIndependentOfTheStatedLaw) {
   std::vector<double> measured;
   for (const double stated : {2.0, 3.5, 12.0}) {
     const LawTest best = tested({.rician_k = 6}, {.rician_k = stated}).front();
@@ -267,13 +169,13 @@ TEST(LawsOfReadings, WhatIsStatedDoesNotPullWhatIsMeasured) {
   EXPECT_NEAR(measured[1], measured[2], 0.1);
 }
 
-TEST(LawsOfReadings, OutliersAreCounted) {
+TEST(FadingTests, MeasuresTheShareOfOutliers) {
   const LawTest best = tested({.rician_k = 8, .outliers = 0.03}, {.rician_k = 8}).front();
   EXPECT_EQ(best.cause, "effect.outliers");
   EXPECT_NEAR(best.values[0].value, 0.03, 0.012);
 }
 
-TEST(LawsOfReadings, HoppingChannelsAreToldFromFading) {
+TEST(FadingTests, DistinguishesChannelHoppingFromFading) {
   const LawTest best = tested({.rician_k = 12, .channel_sd = 4}, {.rician_k = 12}).front();
   EXPECT_EQ(best.cause, "effect.channel_mixture");
   EXPECT_NEAR(best.values[0].value, 4, 0.6);

@@ -1,14 +1,15 @@
 // Expected readings of links that pass closely by the end of a wall.
+#include "diagnosis/radio/links/link_model.hpp"
+
 #include <gtest/gtest.h>
 
-#include "diagnosis/radio/links/link_model.hpp"
 #include "tests/diagnosis/scratch.hpp"
 #include "tests/diagnosis/worlds.hpp"
 
 namespace muster::diagnosis {
 namespace {
 
-TEST(LinkModel, TellsWhichLinksMayAsWellPassOnTheOtherSideOfAnEnd) {
+TEST(LinkModel, ListsLinksThatPassCloseToTheEndOfAWall) {
   const Scratch scratch;
   const auto world =
       scratch.write("world.xml",

@@ -1,9 +1,9 @@
 // Detection of a plan's rooms from its walls alone.
+#include "diagnosis/radio/links/room_detection.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
-
-#include "diagnosis/radio/links/room_detection.hpp"
 
 namespace muster::diagnosis {
 namespace {
@@ -24,7 +24,7 @@ std::vector<std::array<double, 4>> two_rooms() {
   return {wall(0, 0, 9.95, 0), wall(0, 3, 10, 3), wall(0, 0.05, 0, 3), wall(4, 0, 4, 2.95), wall(10, 0, 10, 3)};
 }
 
-TEST(Rooms, AreWhatWallsCloseInThoseWithMostVisitsFirst) {
+TEST(RoomDetection, FindsEnclosedRoomsMostVisitedFirst) {
   const auto rooms = rooms_of(two_rooms(), angle, {turned(1, 1), turned(7, 2), turned(9, 0.5), turned(12, 1)});
   ASSERT_EQ(rooms.size(), 2u);
   EXPECT_EQ(rooms[0].visits, 2);
@@ -38,7 +38,7 @@ TEST(Rooms, AreWhatWallsCloseInThoseWithMostVisitsFirst) {
   EXPECT_NEAR(rooms[1].bounds.length, 4, 0.2);
 }
 
-TEST(Rooms, WhatIsOpenToTheOutsideIsNone) {
+TEST(RoomDetection, ExcludesSpacesOpenToTheOutside) {
   auto walls = two_rooms();
   walls.pop_back();
   const auto rooms = rooms_of(walls, angle, {turned(1, 1), turned(7, 2)});
@@ -46,10 +46,10 @@ TEST(Rooms, WhatIsOpenToTheOutsideIsNone) {
   EXPECT_NEAR(rooms[0].bounds.length, 4, 0.2);
 }
 
-TEST(Rooms, APlanWithoutWallsHasNone) { EXPECT_TRUE(rooms_of({}, 0, {{1, 1}}).empty()); }
+TEST(RoomDetection, FindsNoneWithoutWalls) { EXPECT_TRUE(rooms_of({}, 0, {{1, 1}}).empty()); }
 
 // Cells grow with the plan, up to their maximum number.
-TEST(Rooms, OfALargePlan) {
+TEST(RoomDetection, HandlesALargePlan) {
   const auto rooms =
       rooms_of({wall(0, 0, 2000, 0), wall(0, 900, 2000, 900), wall(0, 0, 0, 900), wall(2000, 0, 2000, 900)}, angle,
                {turned(1000, 400)});

@@ -1,12 +1,13 @@
 // Spatial scan of walls and disks over a plan: the optimum is at the true place.
+#include "diagnosis/radio/causes/spatial_scan.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "diagnosis/causes/parameter_axes.hpp"
-#include "diagnosis/radio/causes/spatial_scan.hpp"
+#include "diagnosis/radio/causes/place_moves.hpp"
 #include "muster/random.hpp"
 
 namespace muster::diagnosis {
@@ -80,7 +81,7 @@ Ends ends_of(const Eigen::VectorXd& theta) {
   return {middle - half, middle + half};
 }
 
-TEST(PlaceSweep, FindsASegment) {
+TEST(SpatialScan, FindsASegment) {
   Plan plan;
   const Point middle(6, 4), half = 1.1 * Point(std::cos(0.4), std::sin(0.4));
   Scored tally =
@@ -92,7 +93,7 @@ TEST(PlaceSweep, FindsASegment) {
   EXPECT_LT(std::min((found.to - middle + half).norm(), (found.to - middle - half).norm()), 0.5);
 }
 
-TEST(PlaceSweep, LeavesOutWhatWasDrivenAcross) {
+TEST(SpatialScan, ExcludesSegmentsThatWereDrivenAcross) {
   Plan plan;
   const Point middle(6, 4), half = 1.1 * Point(std::cos(0.4), std::sin(0.4));
   for (int y = 2; y < 7; ++y) plan.survey.ways.push_back({6.0, 1.0 * y, 6.0, y + 1.0});
@@ -104,7 +105,7 @@ TEST(PlaceSweep, LeavesOutWhatWasDrivenAcross) {
   }
 }
 
-TEST(PlaceSweep, CountsEachWayThatIsInTheWay) {
+TEST(SpatialScan, CountsWaysAcrossASegmentAndThroughADisk) {
   MeasurementGeometry survey;
   const Stream stream(7);
   for (uint64_t k = 0; k < 2000; ++k) {
@@ -144,7 +145,7 @@ Scored of_a_disk(const Plan& plan, const Point& at, double radius) {
   });
 }
 
-TEST(PlaceSweep, FindsADisk) {
+TEST(SpatialScan, FindsADisk) {
   Plan plan;
   plan.survey.ways.push_back({2, 2, 2.1, 2});
   Scored tally = of_a_disk(plan, Point(7.3, 5.1), 0.5);
@@ -155,7 +156,7 @@ TEST(PlaceSweep, FindsADisk) {
   EXPECT_NEAR(std::exp(swept[0][3]), 0.5, 0.08);
 }
 
-TEST(PlaceSweep, ADiskClimbsToNoPlaceThatWasDrivenThrough) {
+TEST(SpatialScan, ExcludesDisksThatWereDrivenThrough) {
   Plan plan;
   for (double x = 6.8; x < 7.8; x += 0.05) plan.survey.ways.push_back({x, 5.2, x + 0.05, 5.2});
   Scored tally = of_a_disk(plan, Point(7.3, 5.1), 0.5);
@@ -194,7 +195,7 @@ TEST(MovesOfDisk, TurnOneEdgeOfItsShadowAlone) {
   }
 }
 
-TEST(PlaceSweep, RefusesATallyOfOtherRows) {
+TEST(SpatialScan, RejectsATallyOfOtherRows) {
   const Plan plan;
   Scored fewer(std::vector<double>(10, 1));
   EXPECT_THROW(SegmentScan(plan.survey, plan.links, plan.readings())(fewer), std::logic_error);

@@ -1,0 +1,111 @@
+// Clips, steps, units and isolated readings of a receiver, from made-up tables.
+#include "diagnosis/radio/links/receiver_checks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/diagnosis/scratch.hpp"
+
+namespace muster::diagnosis {
+namespace {
+
+// `at_top` readings at -40 dBm, five at -41, `before` at -42 and -43, and 10 at each level down to -60.
+Dataset readings(const Scratch& scratch, int at_top, int before = 10) {
+  std::string text = "t[s],tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],rssi[dBm]\n";
+  int row = 0;
+  const auto add = [&](int level, int count) {
+    for (int k = 0; k < count; ++k, ++row)
+      text += std::to_string(row) + ",a,b,0,0," + std::to_string(row % 9 + 1) + ",2," + std::to_string(level) + "\n";
+  };
+  for (int level = -60; level < -41; ++level) add(level, level < -43 ? 10 : before);
+  add(-41, 5);
+  add(-40, at_top);
+  return read_dataset(scratch.write("data.csv", text));
+}
+
+TEST(ReceiverChecks, ReadingsThatPileUpAreAClip) {
+  const Scratch scratch;
+  const ReceiverChecks found = receiver_checks(readings(scratch, 40));
+  EXPECT_DOUBLE_EQ(found.step, 1);
+  ASSERT_TRUE(found.top);
+  EXPECT_DOUBLE_EQ(found.top->level, -40);
+  EXPECT_EQ(found.top->count, 40u);
+  EXPECT_EQ(found.top->beside, 5u);
+  EXPECT_EQ(found.top->row, 195u);
+  EXPECT_LT(found.top->log_p, std::log(1e-6));
+  EXPECT_FALSE(found.bottom);  // 10 at the lowest level, 10 beside it
+}
+
+TEST(ReceiverChecks, NoClipForAFrequentLevel) {
+  const Scratch scratch;
+  EXPECT_FALSE(receiver_checks(readings(scratch, 10)).top);  // no more than its neighbours
+  EXPECT_FALSE(receiver_checks(readings(scratch, 14)).top);  // too few to decide
+}
+
+TEST(ReceiverChecks, ASmallPileIsComparedWithAllLevelsNearIt) {
+  const Scratch scratch;
+  EXPECT_FALSE(receiver_checks(readings(scratch, 27)).top);
+  EXPECT_TRUE(receiver_checks(readings(scratch, 27, 3)).top);
+}
+
+ReceiverCheck check_called(const ReceiverChecks& instrument, const std::string& what) {
+  for (const ReceiverCheck& c : instrument.checks)
+    if (c.what.rfind(what, 0) == 0) return c;
+  return {};
+}
+
+// 40 distinct readings with two decimals: their step is unknown, not zero.
+std::string two_decimals(const std::string& sign) {
+  std::string text = "t[s],tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],rssi[dBm]\n";
+  for (int row = 0; row < 40; ++row)
+    text += std::to_string(row) + ",a,b,0,0,1,2," + sign + "0." + std::to_string(11 + row) + "\n";
+  return text;
+}
+
+TEST(ReceiverChecks, NoStepFromTooFewReadings) {
+  const Scratch scratch;
+  EXPECT_EQ(check_called(receiver_checks(readings(scratch, 40)), "the step").found, "1 dB");
+  EXPECT_EQ(check_called(receiver_checks(read_dataset(scratch.write("data.csv", two_decimals("-")))), "the step").found,
+            "not known: 40 readings of 40 levels are too few to tell; three levels and four readings a level would do");
+}
+
+TEST(ReceiverChecks, MilliwattsAreReported) {
+  const Scratch scratch;
+  const auto check = [&](const std::string& sign) {
+    const auto file = scratch.write("data.csv", two_decimals(sign));
+    return check_called(receiver_checks(read_dataset(file)), "levels above 0 dBm");
+  };
+  EXPECT_TRUE(check("-").fine);
+  EXPECT_EQ(check("-").found, "none in 40 rows");
+  EXPECT_FALSE(check("").fine);
+  EXPECT_EQ(check("").found, "40 of 40 readings: are they in mW (dBm = 10 log10 of mW), or is a sign lost?");
+  EXPECT_EQ(check("").row, 1u);
+}
+
+TEST(ReceiverChecks, AnIsolatedReadingIsReportedWithItsRow) {
+  const Scratch scratch;
+  const auto check = [&](const std::string& more) {
+    const auto file = scratch.write("data.csv", two_decimals("-") + more);
+    return check_called(receiver_checks(read_dataset(file)), "one to three readings 30 dB");
+  };
+  EXPECT_TRUE(check("41,a,b,0,0,1,2,-30\n").fine);  // 29.5 dB below the next
+  const ReceiverCheck low = check("41,a,b,0,0,1,2,-90\n42,a,b,0,0,1,2,-95\n");
+  EXPECT_FALSE(low.fine);
+  EXPECT_EQ(low.found, "-95 dBm");
+  EXPECT_EQ(low.row, 42u);
+  EXPECT_EQ(check("41,a,b,0,0,1,2,29.9\n").row, 41u);
+  std::string many;
+  for (int row = 41; row < 45; ++row) many += std::to_string(row) + ",a,b,0,0,1,2,-90\n";
+  EXPECT_TRUE(check(many).fine);  // four are a level of their own
+}
+
+TEST(ReceiverChecks, LevelsArePrintedWithoutRoundingErrors) {
+  const Scratch scratch;
+  std::string text = two_decimals("-") + "41,a,b,0,0,1,2,-0.1000000000000003\n";
+  const ReceiverChecks found = receiver_checks(read_dataset(scratch.write("data.csv", text)));
+  EXPECT_EQ(check_called(found, "readings that pile up at the highest").found, "1 at -0.1 dBm");
+}
+
+}  // namespace
+}  // namespace muster::diagnosis
