@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/radio/thresholds.hpp"
+
 namespace muster::diagnosis {
 namespace {
-
-constexpr std::size_t most_clusters = 140;  // their covariance is inverted some hundred times, at 1 ms each
 
 // Identifiable free parameters as one vector.
 struct Search {
@@ -77,8 +77,8 @@ void check_count(const Fit& fit, const Search& search, const Dataset& data) {
   const auto heard = fit.readings.heard.size(), needed = search.parameters.size() + 1;
   if (heard < needed)
     throw invalid({data.table->file()}, "the table has " + std::to_string(heard) +
-                                           " heard readings; expected at least " + std::to_string(needed) + " to fit " +
-                                           std::to_string(search.parameters.size()) + " parameters");
+                                            " heard readings; expected at least " + std::to_string(needed) +
+                                            " to fit " + std::to_string(search.parameters.size()) + " parameters");
 }
 
 // Fits by both methods; readings missing below a floor enter the likelihood as censored.
@@ -112,7 +112,7 @@ void measure_errors(Fit& fit, const Search& search) {
   fit.residual = residuals(fit.readings, fit.mean, fit.least_squares.sigma);
   std::vector<LinkPlace> links;
   for (const std::size_t row : fit.rows_used()) links.push_back(place_of(search.model.ends()[row]));
-  fit.clusters = clusters_of(links, most_clusters);
+  fit.clusters = clusters_of(links, thresholds::most_clusters);
   fit.kernels = kernels_of(fit.clusters);
   ErrorModel errors(fit.clusters, fit.kernels);
   errors.fit(fit.residual, fit.slopes);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "diagnosis/radio/thresholds.hpp"
+
 namespace muster::diagnosis {
 namespace {
 
@@ -13,8 +15,6 @@ struct Mixture {
   double log_likelihood = 0, random = 0, by_floor = 0;
   double below = 0, above = 0;  // readings expected below the floor without one, and closely above it
 };
-
-constexpr double closely = 3;  // dB
 
 // Mixture model: a reading is lost at random with probability `random`, or because its level, normal about the mean,
 // lies below the floor. Fits `random` by EM; the floor's share of the missing ones is their mean posterior.
@@ -46,7 +46,7 @@ Mixture with_floor(const std::vector<double>& lost_at, const std::vector<double>
     for (const double m : *levels) {
       const double lower = below((floor - m) / sigma);
       result.below += (1 - result.random) * lower;
-      result.above += (1 - result.random) * (below((floor + closely - m) / sigma) - lower);
+      result.above += (1 - result.random) * (below((floor + thresholds::above_floor - m) / sigma) - lower);
     }
   }
   return result;
@@ -89,7 +89,8 @@ bool MissingData::rises() const {
   const double more = share(bins.front()) - share(bins.back());
   // Five standard errors of independent losses, and a seventh of all readings: neighbouring readings are lost
   // jointly.
-  return more > 0.15 && more > 5 * std::sqrt(variance(bins.front()) + variance(bins.back()));
+  return more > thresholds::rising_share &&
+         more > thresholds::rising_errors * std::sqrt(variance(bins.front()) + variance(bins.back()));
 }
 
 MissingData missing_data(const Eigen::VectorXd& rssi, const Eigen::VectorXd& mean, double sigma) {
@@ -117,14 +118,14 @@ MissingData missing_data(const Eigen::VectorXd& rssi, const Eigen::VectorXd& mea
   result.evidence = 2 * (best.log_likelihood - chance);
   // Censored needs both a significant rise and most of the losses explained by the floor. 10 is p < 0.002 for one
   // parameter; neighbouring readings are lost jointly.
-  const bool risen = result.evidence > 10;
-  result.censored = risen && result.by_floor > 0.5;
+  const bool risen = result.evidence > thresholds::censored_evidence;
+  result.censored = risen && result.by_floor > thresholds::censored_share;
   // With mostly random losses, levels must also end abruptly at the floor; a smaller rise (p < 0.05) then suffices.
-  constexpr double some = 4, by_chance = 2e-5;
   const auto from = [&](double level) { return std::lower_bound(heard.begin(), heard.end(), level); };
   result.none_below = at_most(static_cast<std::size_t>(from(result.floor) - heard.begin()), best.below);
-  const auto closely_above = static_cast<double>(from(result.floor + closely) - from(result.floor));
-  result.cut_off = result.evidence > some && by_chance > result.none_below && closely_above > best.above / 2;
+  const auto closely_above = static_cast<double>(from(result.floor + thresholds::above_floor) - from(result.floor));
+  result.cut_off = result.evidence > thresholds::cut_off_evidence && thresholds::cut_off_alpha > result.none_below &&
+                   closely_above > best.above / 2;
   return result;
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "diagnosis/radio/thresholds.hpp"
+
 namespace muster::diagnosis {
 
 // Restricted likelihood of cluster means with covariance white / size + sum of variances times shapes.
@@ -122,7 +124,11 @@ std::vector<Components> possible(const std::vector<Kernels>& kernels) {
 }
 
 // Prior of the decorrelation distance: 1.8 m within a factor of two (notes on indoor shadowing, 1 to 3 m).
-double log_prior(double decorrelation) { return -0.5 * std::pow(std::log(decorrelation / 1.8) / 0.7, 2); }
+double log_prior(double decorrelation) {
+  return -0.5 *
+         std::pow(std::log(decorrelation / thresholds::error_decorrelation) / thresholds::error_decorrelation_spread,
+                  2);
+}
 
 // Each choice of kinds has the same prior weight, for any number of distances.
 double prior_of(const Components& c, const std::vector<Kernels>& kernels) {
@@ -173,7 +179,7 @@ void ErrorModel::share_belief() {
   for (const Components& c : components_) top = std::max(top, c.belief);
   for (Components& c : components_) sum += c.belief = std::exp(c.belief - top);
   for (Components& c : components_) c.belief /= sum;
-  std::erase_if(components_, [](const Components& c) { return c.belief < 1e-3; });
+  std::erase_if(components_, [](const Components& c) { return c.belief < thresholds::least_belief; });
   sum = 0;
   for (const Components& c : components_) sum += c.belief;
   for (Components& c : components_) c.belief /= sum;
@@ -190,7 +196,6 @@ void ErrorModel::fit_white(const Eigen::VectorXd& residual, const Eigen::MatrixX
 // Variance of each cluster, shrunk to the mean of all by the weight of twenty readings: fading and tails vary by
 // place.
 void ErrorModel::measure_white(const Eigen::VectorXd& residual, const Eigen::VectorXd& means, Eigen::Index columns) {
-  constexpr double prior = 20;
   const Eigen::Map<const Eigen::VectorXd> size(clusters_.size.data(), means.size());
   Eigen::VectorXd squares = Eigen::VectorXd::Zero(means.size());
   for (Eigen::Index i = 0; i < residual.size(); ++i) {
@@ -199,7 +204,7 @@ void ErrorModel::measure_white(const Eigen::VectorXd& residual, const Eigen::Vec
   }
   white_freedom_ = std::max(1.0, static_cast<double>(residual.size() - means.size() - columns));
   const double all = std::max(squares.sum() / white_freedom_, 1e-12);
-  white_ = (squares.array() + prior * all) / (size.array() - 1 + prior);
+  white_ = (squares.array() + thresholds::white_prior * all) / (size.array() - 1 + thresholds::white_prior);
 }
 
 Eigen::VectorXd ErrorModel::white_of_rows() const {

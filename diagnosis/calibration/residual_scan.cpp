@@ -7,12 +7,10 @@
 #include <map>
 
 #include "diagnosis/calibration/structure_test.hpp"
+#include "diagnosis/radio/thresholds.hpp"
 
 namespace muster::diagnosis {
 namespace {
-
-constexpr double false_alarms = 0.05;  // over all tests together
-constexpr std::size_t most_names = 24;
 
 class Looker {
  public:
@@ -28,7 +26,7 @@ class Looker {
     look_at_columns();
     look_at_neighbours();
     for (StructureTest& look : result_.looks) {
-      look.alarm = look.p * static_cast<double>(result_.looks.size()) < false_alarms;
+      look.alarm = look.p * static_cast<double>(result_.looks.size()) < thresholds::scan_alpha;
       result_.misfits = result_.misfits || look.alarm;
     }
     std::stable_sort(result_.looks.begin(), result_.looks.end(),
@@ -111,7 +109,9 @@ class Looker {
     std::map<int, Eigen::Index> column;
     for (const auto& [crossings, wall] : weight) {
       const double n = -crossings, all = static_cast<double>(rows_.size());
-      if (n < 30 || n > all - 30 || column.size() == most_names) continue;
+      if (n < thresholds::fewest_crossings || n > all - thresholds::fewest_crossings ||
+          column.size() == thresholds::most_names)
+        continue;
       column.emplace(wall, static_cast<Eigen::Index>(column.size()));
       subject.names.push_back(features_.walls[static_cast<std::size_t>(wall)]);
     }
@@ -129,9 +129,9 @@ class Looker {
 
   void add_names(const std::string& by, const Factor& factor) {
     Subject subject{.by = by, .unit = "", .values = {}, .level = {}, .names = factor.levels, .shapes = {}};
-    if (factor.levels.size() > most_names)
+    if (factor.levels.size() > thresholds::most_names)
       return result_.not_tested.push_back(
-          fmt::format("{}: {} names; more than {}", by, factor.levels.size(), most_names));
+          fmt::format("{}: {} names; more than {}", by, factor.levels.size(), thresholds::most_names));
     for (const std::size_t row : rows_) subject.level.push_back(static_cast<int>(factor.level[row]));
     subject.shapes = indicators(subject.level, factor.levels.size());
     add(subject);

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "diagnosis/causes/strength_selection.hpp"
+#include "diagnosis/causes/thresholds.hpp"
 #include "diagnosis/inference/noise/basis.hpp"
 
 namespace muster::diagnosis {
@@ -14,7 +15,6 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr double quarter_turn = 1.5707963267948966;
-constexpr double least_share = 0.01;  // of readings that a place must concern
 
 void find_place(CauseShape& shape) {
   for (uint32_t k = 0; k < shape.cause.plugin->param_count; ++k) {
@@ -131,7 +131,8 @@ struct CandidateBuilder {
       if (!domain.admits(shape, c, theta)) continue;
       const Eigen::MatrixXd columns = c.design.columns(theta);
       const double share = (columns.array() != 0).cast<double>().mean();
-      if (share < (shape.place == PlaceShape::none ? 0 : least_share) || !base.leaves(columns.col(0))) continue;
+      if (share < (shape.place == PlaceShape::none ? 0 : thresholds::least_concern) || !base.leaves(columns.col(0)))
+        continue;
       c.design.grid.push_back(theta);
       atoms.push_back(rows.mean(columns).cast<float>());
     }

@@ -4,17 +4,16 @@
 #include <cmath>
 #include <string_view>
 
+#include "diagnosis/causes/thresholds.hpp"
+
 namespace muster::diagnosis {
 namespace {
 
 constexpr double pi = 3.141592653589793;
 
-constexpr double most_cycles = 128;  // of a swing, over the data
-
 // Swings: evenly in cycles over the data, from two of them up to those that last some rows.
 std::vector<double> periods(double span) {
-  constexpr double shortest = 4;  // s
-  const double most = std::clamp(span / shortest, 24.0, most_cycles);
+  const double most = std::clamp(span / thresholds::shortest_period, 24.0, thresholds::most_cycles);
   std::vector<double> result;
   for (double cycles = 2; cycles < most; cycles += cycles < 24 ? 0.4 : 0.7) result.push_back(span / cycles);
   return result;
@@ -22,14 +21,15 @@ std::vector<double> periods(double span) {
 
 Axis duration(const muster_param& p, const Span& time, const CauseShape& shape) {
   const double span = time.length();
-  if (!shape.wave.empty()) return logarithmic(p, span / most_cycles, span, periods(span), 0.02);
+  if (!shape.wave.empty()) return logarithmic(p, span / thresholds::most_cycles, span, periods(span), 0.02);
   // What settles faster than a tenth of the data is a jump.
-  return logarithmic(p, 0.1 * span, 100 * span, {0.15 * span, 0.4 * span, span, 30 * span}, 0.3);
+  return logarithmic(p, thresholds::shortest_settling * span, 100 * span, {0.15 * span, 0.4 * span, span, 30 * span},
+                     0.3);
 }
 
 Axis moment(const muster_param& p, const Span& time, bool alone) {
   // Earlier or later than that a jump is an offset; what only begins may begin at once.
-  const double from = alone ? time.at(0.08) : time.low, to = time.at(0.92);
+  const double from = alone ? time.at(thresholds::earliest_jump) : time.low, to = time.at(thresholds::latest_jump);
   return {p.name,
           false,
           from,

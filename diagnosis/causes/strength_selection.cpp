@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
+#include "diagnosis/causes/thresholds.hpp"
+
 namespace muster::diagnosis {
 namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-
-constexpr double least_left = 1e-6;  // of a column's length
 
 }  // namespace
 
@@ -20,7 +20,7 @@ VectorXd BaseSpace::rest(const VectorXd& column) const {
 
 bool BaseSpace::leaves(const VectorXd& column) const {
   const VectorXd turned = turned_.householderQ().transpose() * column;
-  return column.norm() > 0 && turned.tail(turned.size() - columns_).norm() > least_left * column.norm();
+  return column.norm() > 0 && turned.tail(turned.size() - columns_).norm() > thresholds::least_left * column.norm();
 }
 
 void choose_strengths(CauseShape& shape, const CauseSources& sources, const BaseSpace& base) {
@@ -46,7 +46,7 @@ void choose_strengths(CauseShape& shape, const CauseSources& sources, const Base
   for (const Strength& s : all) {
     VectorXd rest = base.rest(s.column);
     for (int twice = 0; twice < 2; ++twice) rest -= together * (together.transpose() * rest);
-    if (!(rest.norm() > least_left * s.column.norm())) continue;
+    if (!(rest.norm() > thresholds::least_left * s.column.norm())) continue;
     together.conservativeResize(Eigen::NoChange, together.cols() + 1);
     together.rightCols(1) = rest.normalized();
     kept.push_back(s.parameter);

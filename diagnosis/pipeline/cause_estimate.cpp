@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/radio/thresholds.hpp"
+
 namespace muster::diagnosis {
 namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double normal95 = 1.96;
-
 CauseValue value_of(const muster_param& p, double value, double below, double above) {
-  const double at = std::clamp(value, p.min, p.max), sd = (below + above) / (2 * normal95);
+  const double at = std::clamp(value, p.min, p.max), sd = (below + above) / (2 * thresholds::normal95);
   if (p.flags & MUSTER_CYCLIC)
     return {p.name, p.unit, at, sd, at - std::min(below, M_PI), at + std::min(above, M_PI), p.min, p.max, true};
   return {p.name, p.unit, at, sd, std::max(at - below, p.min), std::min(at + above, p.max), p.min, p.max};
@@ -41,7 +41,7 @@ std::map<std::string, Reach> reaches(const CauseShape& shape, const inference::F
     constexpr double same = 1e-6;  // a room's place: every theta has it, but for rounding
     const double mean = total / count, sd = std::sqrt(std::max(0.0, squares[name] / count - mean * mean));
     if (sd + std::abs(mean) < same) continue;
-    Reach reach{std::max(0.0, normal95 * sd - mean), std::max(0.0, normal95 * sd + mean)};
+    Reach reach{std::max(0.0, thresholds::normal95 * sd - mean), std::max(0.0, thresholds::normal95 * sd + mean)};
     if (shape.cause.parameter(name).flags & MUSTER_LOG)
       reach = {middle.at(name) * -std::expm1(-reach.below), middle.at(name) * std::expm1(reach.above)};
     result[name] = reach;
@@ -52,7 +52,7 @@ std::map<std::string, Reach> reaches(const CauseShape& shape, const inference::F
 void add_linear(CauseEstimate& out, const CauseShape& shape, const inference::Finding& f) {
   if (shape.linear.empty()) {  // sought whole: a strength that it has was 1
     for (const muster_param* p : shape.cause.linear()) {
-      const double half = normal95 * std::sqrt(f.uncertainty(0, 0));
+      const double half = thresholds::normal95 * std::sqrt(f.uncertainty(0, 0));
       out.values.push_back(value_of(*p, f.coefficients[0], half, half));
     }
     return;
@@ -60,15 +60,15 @@ void add_linear(CauseEstimate& out, const CauseShape& shape, const inference::Fi
   if (shape.wave.empty()) {
     for (std::size_t k = 0; k < shape.linear.size(); ++k) {
       const auto at = static_cast<Eigen::Index>(k);
-      const double half = normal95 * std::sqrt(f.uncertainty(at, at));
+      const double half = thresholds::normal95 * std::sqrt(f.uncertainty(at, at));
       out.values.push_back(value_of(*shape.linear[k], f.coefficients[at], half, half));
     }
     return;
   }
   const double size = f.coefficients.norm();
   const Eigen::Vector2d along = f.coefficients / size, across(-along.y(), along.x());
-  const double half = normal95 * std::sqrt(along.dot(f.uncertainty * along));
-  const double turn = normal95 * std::sqrt(across.dot(f.uncertainty * across)) / size;
+  const double half = thresholds::normal95 * std::sqrt(along.dot(f.uncertainty * along));
+  const double turn = thresholds::normal95 * std::sqrt(across.dot(f.uncertainty * across)) / size;
   out.values.push_back(value_of(*shape.linear[0], size, half, half));
   out.values.push_back(value_of(shape.cause.parameter(shape.wave), std::atan2(along.y(), along.x()), turn, turn));
 }

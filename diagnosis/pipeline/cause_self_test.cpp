@@ -10,6 +10,7 @@
 #include "diagnosis/pipeline/cause_estimate.hpp"
 #include "diagnosis/pipeline/extended_world.hpp"
 #include "diagnosis/pipeline/setup.hpp"
+#include "diagnosis/radio/thresholds.hpp"
 #include "muster/random.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
@@ -22,7 +23,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double least_concerned = 0.02;  // of the readings: what concerns fewer can be hidden at no bearable strength
 constexpr int tries = 200;
 
 // Where and how strongly a cause is hidden.
@@ -65,7 +65,7 @@ std::optional<Hidden> hide(const CauseCandidate& cause, const inference::ModelSt
     for (Index j = 0; j < weights.size(); ++j) weights[j] = stream.normal(k, 100 + static_cast<uint64_t>(j));
     if (c.design.width == 1) weights[0] = c.design.sign || weights[0] > 0 ? 1 : -1;
     const VectorXd effect = columns * weights;
-    if ((effect.array() != 0).cast<double>().mean() < least_concerned) continue;
+    if ((effect.array() != 0).cast<double>().mean() < thresholds::hidden_concern) continue;
     const double energy = model.at.basis.rest(model.whitener(effect)).squaredNorm();
     const bool has_strength = !cause.shape->linear.empty();
     hidden.coefficients = weights * (has_strength ? std::sqrt(lambda / energy) : 1);

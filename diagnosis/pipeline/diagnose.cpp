@@ -15,6 +15,7 @@
 #include "diagnosis/planning/measurement_plans.hpp"
 #include "diagnosis/radio/causes/applicability.hpp"
 #include "diagnosis/radio/laws/law_causes.hpp"
+#include "diagnosis/radio/thresholds.hpp"
 #include "text/number.hpp"
 #include "text/temporary_folder.hpp"
 
@@ -113,13 +114,12 @@ class Diagnoser {
   // The channel's own law, at the end of what is physical, does not follow the readings: what stands beside it is what
   // it leaves. A material that costs nothing, or a cause, may well be at an end.
   void doubt_at_bounds(Diagnosis& out) const {
-    constexpr double near = 1e-3;  // of the range: 0.01 of an exponent
     const auto& instances = setup_.model.simulation().instances();
     std::string ends;
     for (std::size_t j = 0; j < out.world_values.size(); ++j) {
       WorldValue& v = out.world_values[j];
       const double lower = setup_.base.lower[static_cast<Index>(j)], upper = setup_.base.upper[static_cast<Index>(j)];
-      v.at_bound = std::min(v.value - lower, upper - v.value) <= near * (upper - lower);
+      v.at_bound = std::min(v.value - lower, upper - v.value) <= thresholds::at_bound * (upper - lower);
       const bool of_law = std::any_of(instances.begin(), instances.end(), [&](const auto& i) {
         return !i->plugin().cause && v.path.rfind(i->name() + '/', 0) == 0;
       });
@@ -178,7 +178,6 @@ class Diagnoser {
                                                                 const CauseCandidate& cause, const CauseSearch& causes,
                                                                 const inference::ModelState& state,
                                                                 const VectorXd& base) {
-    constexpr double alike = 0.9, normal95 = 1.96;
     if (cause.shape->columns() != 1 || cause.shape->linear.empty() || cause.candidate.refinement.any())
       return {f, &cause};
     const VectorXd own = state.columns_of(cause.candidate, f.theta);
@@ -191,8 +190,8 @@ class Diagnoser {
         if (f.label.empty() || other.shape->row_label(theta) != f.label) continue;
         const VectorXd none = state.columns_of(other.candidate, theta);
         const double product = own.dot(none), strength = product / own.squaredNorm();
-        if (product * product < alike * own.squaredNorm() * none.squaredNorm() ||
-            std::abs(f.coefficients[0] - strength) > normal95 * std::sqrt(f.uncertainty(0, 0)))
+        if (product * product < thresholds::no_effect_alike * own.squaredNorm() * none.squaredNorm() ||
+            std::abs(f.coefficients[0] - strength) > thresholds::normal95 * std::sqrt(f.uncertainty(0, 0)))
           continue;
         inference::Finding simple = f;
         simple.id = other.candidate.id;
@@ -347,7 +346,7 @@ Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::pa
     return with_it.run(&first);
   }
   Diagnosis again = with_it.run();
-  if (first.causes[0].log_p > people_in_company && something_changes_in_time(again)) {
+  if (first.causes[0].log_p > thresholds::people_in_company && something_changes_in_time(again)) {
     Diagnosis result = Diagnoser(world, data, plugins, tables, people).run();
     result.searched = found.searched;
     return result;

@@ -3,13 +3,13 @@
 #include <cmath>
 #include <set>
 
+#include "diagnosis/radio/thresholds.hpp"
+
 namespace muster::diagnosis {
 namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-
-constexpr std::size_t most_settings = 8;  // different values of a number that is a setting
 
 // Information of a reading on the level, by the pile that it lies in.
 noise::Known known_of(double rssi, const ReceiverChecks& receiver) {
@@ -60,7 +60,7 @@ ObservedColumns observed_columns(const Dataset& data, const std::vector<Index>& 
   for (const Covariate& column : data.covariates) {
     const std::string name = column.name.substr(0, column.name.find('['));
     const bool is_run = name == "run";
-    const std::size_t settings = is_run ? used.size() : most_settings;
+    const std::size_t settings = is_run ? used.size() : thresholds::most_settings;
     inference::Factor factor{name, {}};
     if (column.values.empty()) {
       for (const Index row : used)

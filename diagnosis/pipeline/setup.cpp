@@ -7,6 +7,7 @@
 #include <set>
 
 #include "diagnosis/inference/assess/search.hpp"
+#include "diagnosis/inference/thresholds.hpp"
 #include "diagnosis/radio/causes/cheap_columns.hpp"
 #include "diagnosis/radio/causes/link_cause_domain.hpp"
 #include "diagnosis/radio/laws/shadowing_test.hpp"
@@ -67,9 +68,9 @@ UsedRows used_rows(const LinkModel& model, const Dataset& data, const Fit& fitte
                     used.rows.size() - left.size()));
     used.rows = std::move(left);
   }
-  if (static_cast<Index>(used.rows.size()) < inference::fewest_readings)
+  if (static_cast<Index>(used.rows.size()) < inference::thresholds::fewest_readings)
     throw invalid({data.table->file()}, fmt::format("the table has {} readings to search; expected at least {}",
-                                                    used.rows.size(), inference::fewest_readings));
+                                                    used.rows.size(), inference::thresholds::fewest_readings));
   return used;
 }
 

@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 
+#include "diagnosis/inference/thresholds.hpp"
 #include "diagnosis/planning/measurement_plans.hpp"
 #include "diagnosis/radio/causes/simulated_readings.hpp"
 
@@ -28,7 +29,7 @@ std::set<std::string> wanted(const Diagnosis& found, const CauseSearch& causes) 
     out.insert(c.sought_as);
     std::size_t alternatives = 0;
     for (const inference::Alternative& r : c.alternatives) {
-      if (r.separability >= inference::decided || r.id[0] == '~' || r.id == c.sought_as ||
+      if (r.separability >= inference::thresholds::decided || r.id[0] == '~' || r.id == c.sought_as ||
           reads_a_table(causes, r.id) || alternatives++ >= most_rivals)
         continue;
       out.insert(r.id);
@@ -47,7 +48,8 @@ std::optional<PlannedReadings> most_telling(const Diagnosis& found, std::vector<
   if (open == found.causes.end()) return {};
   std::map<std::string, double> more;
   for (const Advice& a : found.advice) {
-    if (a.cause == open->id && a.predicted) more[a.say] += std::min(*a.predicted, inference::decided) - a.separability;
+    if (a.cause == open->id && a.predicted)
+      more[a.say] += std::min(*a.predicted, inference::thresholds::decided) - a.separability;
   }
   const auto tells_less = [&](const PlannedReadings& a, const PlannedReadings& b) { return more[a.say] < more[b.say]; };
   const auto most = std::max_element(plans.begin(), plans.end(), tells_less);

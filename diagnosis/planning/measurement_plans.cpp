@@ -11,6 +11,8 @@
 #include <optional>
 #include <set>
 
+#include "diagnosis/inference/thresholds.hpp"
+
 namespace muster::diagnosis {
 namespace {
 
@@ -168,7 +170,7 @@ bool is_about(const CauseEstimate& c, const std::string& radio) { return c.row =
 bool may_be_about(const CauseEstimate& c, const std::string& radio) {
   return std::any_of(c.alternatives.begin(), c.alternatives.end(), [&](const inference::Alternative& r) {
     const std::string rows = ' ' + r.label + ' ';
-    return r.separability < inference::decided && rows.find(" radio/" + radio + ' ') != std::string::npos;
+    return r.separability < inference::thresholds::decided && rows.find(" radio/" + radio + ' ') != std::string::npos;
   });
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "diagnosis/inference/thresholds.hpp"
+
 namespace muster::report {
 
 std::vector<Question> open_questions(const Diagnosis& d) {
@@ -9,7 +11,7 @@ std::vector<Question> open_questions(const Diagnosis& d) {
   for (const CauseEstimate& c : d.causes) {
     if (standing_of(c) == Standing::set_aside) continue;
     for (const inference::Alternative& r : c.alternatives) {
-      if (r.separability >= inference::decided) continue;
+      if (r.separability >= inference::thresholds::decided) continue;
       std::string pair = short_name(c.id) + " or " + short_name(r.id);
       if (r.id == c.id) pair = short_name(c.id) + " of " + c.label + " or of " + r.label;
       Question question{c.id, r.id, std::move(pair), r.separability, c.tell_apart, {}};
@@ -25,7 +27,7 @@ std::vector<Question> open_questions(const Diagnosis& d) {
   for (const auto& u : d.unexplained) {
     const std::string what = covariate_in_words(u.covariate);
     for (const inference::Alternative& r : u.alternatives) {
-      if (r.separability >= inference::decided) continue;
+      if (r.separability >= inference::thresholds::decided) continue;
       out.push_back({"~" + u.covariate,
                      r.id,
                      what + " or " + short_name(r.id),

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "diagnosis/inference/thresholds.hpp"
 #include "diagnosis/report/advice.hpp"
 #include "diagnosis/report/checked.hpp"
 
@@ -122,9 +123,9 @@ std::string undecided(const Diagnosis& d) {
     text += wrapped("- " + q.tell_apart, 4, 6);
     for (const Measurement& m : q.plans)
       text += wrapped(fmt::format("- {}: predicted D {:.0f}{}{}", m.say, m.predicted,
-                                  m.predicted >= inference::decided      ? ", decides"
-                                  : m.predicted < inference::inseparable ? ", too little"
-                                                                         : "",
+                                  m.predicted >= inference::thresholds::decided      ? ", decides"
+                                  : m.predicted < inference::thresholds::inseparable ? ", too little"
+                                                                                     : "",
                                   m.advised ? "; advised.csv lists its readings" : ""),
                       4, 6);
   }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 
+#include "diagnosis/inference/thresholds.hpp"
+
 namespace muster::report {
 namespace {
 
@@ -85,9 +87,9 @@ int count_of(const Diagnosis& d, Standing standing) {
 double tenths(double value) { return std::round(10 * value) / 10 + 0.0; }
 
 std::string judged(double separability) {
-  return separability < inference::inseparable ? "cannot be told apart"
-         : separability < inference::decided   ? "weakly told apart"
-                                               : "told apart";
+  return separability < inference::thresholds::inseparable ? "cannot be told apart"
+         : separability < inference::thresholds::decided   ? "weakly told apart"
+                                                           : "told apart";
 }
 
 std::string rounded(double value, double half) {

@@ -6,13 +6,13 @@
 
 #include "diagnosis/inference/noise/basis.hpp"
 #include "diagnosis/inference/state/layout.hpp"
+#include "diagnosis/inference/thresholds.hpp"
 #include "muster/random.hpp"
 
 namespace muster::inference {
 namespace {
 
 constexpr int most_folds = 5, resamples = 1000;
-constexpr double decorrelations = 3;  // a block's side
 
 // Fold of each block: blocks in a random order, dealt in turn.
 std::vector<int> fold_of_block(int blocks, uint64_t seed) {
@@ -30,7 +30,7 @@ std::vector<int> fold_of_block(int blocks, uint64_t seed) {
 }  // namespace
 
 std::vector<int> blocks_of(const noise::Sites& sites, const noise::Covariance& covariance) {
-  const double side = decorrelations * covariance.decorrelation();
+  const double side = thresholds::block_side * covariance.decorrelation();
   const Eigen::Vector3d corner = sites.place.rowwise().minCoeff();
   std::vector<std::array<long, 3>> cells;
   for (Index i = 0; i < sites.size(); ++i) {

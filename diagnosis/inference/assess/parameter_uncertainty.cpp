@@ -10,6 +10,7 @@
 #include "diagnosis/inference/noise/columns.hpp"
 #include "diagnosis/inference/score/importance_weights.hpp"
 #include "diagnosis/inference/score/marginal_p_value.hpp"
+#include "diagnosis/inference/thresholds.hpp"
 
 namespace muster::inference {
 namespace {
@@ -35,7 +36,8 @@ double by_scatter(const ModelState& state, const WhitenedModel& rest, const Cond
     squares += score.squaredNorm();
     fourths += score.squaredNorm() * score.squaredNorm();
   }
-  if (squares * squares < 10 * fourths) return 1;  // a few cells hold most of it: too few for an estimate
+  if (squares * squares < thresholds::fewest_cells * fourths)
+    return 1;  // a few cells hold most of it: too few for an estimate
   return (fitted.covariance * meat * fitted.covariance).trace() / fitted.covariance.trace();
 }
 
@@ -66,7 +68,6 @@ ParameterUncertainty parameter_uncertainty(const ModelState& state, const Term& 
 }
 
 Eigen::VectorXd middle_of(const ModelState& state, const Term& term, const ParameterUncertainty& spread) {
-  constexpr double nearly = 4;  // of deviance, a 95 % region of one parameter
   constexpr std::size_t tries = 40;
   const Candidate& c = *term.candidate;
   const WhitenedModel rest = state.whitened_model(state.design_without(term));
@@ -79,7 +80,7 @@ Eigen::VectorXd middle_of(const ModelState& state, const Term& term, const Param
   for (std::size_t k = 0; k < thetas.size(); ++k) {
     const ConditionalFit there(rest, state.columns_of(c, thetas[k]), c.design.whole);
     effects.col(static_cast<Index>(k)) = there.columns * there.coefficients;
-    explains[k] = there.gain > best - nearly;
+    explains[k] = there.gain > best - thresholds::middle_deviance;
   }
   const Eigen::VectorXd mean = effects.rightCols(effects.cols() - 1).rowwise().mean();
   const Eigen::VectorXd off = (effects.colwise() - mean).colwise().squaredNorm();

@@ -9,6 +9,7 @@
 #include "diagnosis/inference/score/refine.hpp"
 #include "diagnosis/inference/score/sparse_columns.hpp"
 #include "diagnosis/inference/score/student_mixture.hpp"
+#include "diagnosis/inference/thresholds.hpp"
 #include "muster/random.hpp"
 
 namespace muster::inference {
@@ -16,10 +17,7 @@ namespace {
 
 // Steps of the walk: along the moves, then along the principal axes of those.
 constexpr std::array walked{300, 600};
-// The walk samples exp(gain / 2 / temperature): it crosses to other optima, and its fit has heavy tails.
-constexpr double max_temperature = 3;
 constexpr int lap = 400, most_laps = 8;  // of draws
-constexpr double enough = 100;           // effective sample size
 
 // Fit at a theta beside the rest of the model, and its log-likelihood.
 class Likelihood {
@@ -78,11 +76,12 @@ struct Moments {
   }
 };
 
+// Samples exp(gain / 2 / temperature): the walk crosses to other optima, and its fit has heavy tails.
 class MetropolisChain {
  public:
   MetropolisChain(Likelihood& likelihood, const Eigen::VectorXd& theta, double searched)
       : likelihood_(likelihood), theta_(theta), log_(likelihood.log(theta, likelihood.explained(theta))) {
-    heat_ = std::clamp(log_ / searched, 1.0, max_temperature);
+    heat_ = std::clamp(log_ / searched, 1.0, thresholds::max_temperature);
   }
 
   // Visited thetas, without the first quarter (burn-in).
@@ -212,11 +211,10 @@ class Draws {
 
 LikelyThetas sample_posterior(const ModelState& state, const WhitenedModel& rest, const Term& term, double overstated) {
   Likelihood likelihood(state, rest, term, overstated);
-  // Limits the temperature: hotter, the walk would leave a narrow optimum for the many places with chance gains.
-  constexpr double spare = 4;  // nats
   const Candidate& c = *term.candidate;
+  // Limits the temperature: hotter, the walk would leave a narrow optimum for the many places with chance gains.
   MetropolisChain walk(likelihood, term.theta,
-                       std::max(0.0, state.log_effective_tests(c) + c.refinement.charge) + spare);
+                       std::max(0.0, state.log_effective_tests(c) + c.refinement.charge) + thresholds::spared_nats);
   const auto found = [&](int steps) {
     const std::vector<Eigen::VectorXd> met = walk.lap(steps);
     return Moments(met, Eigen::VectorXd::Ones(static_cast<Index>(met.size())));
@@ -225,7 +223,7 @@ LikelyThetas sample_posterior(const ModelState& state, const WhitenedModel& rest
   Draws draws(likelihood, found(walked[1]));
   if (!draws.any()) return {{term.theta}, {likelihood.explained(term.theta)}, Eigen::VectorXd::Ones(1)};
   Eigen::VectorXd weights = draws.weights();
-  for (int laps = 1; laps < most_laps && effective_sample_size(weights) < enough; ++laps) {
+  for (int laps = 1; laps < most_laps && effective_sample_size(weights) < thresholds::enough_effective; ++laps) {
     draws.lap_about(tempered(weights));
     weights = draws.weights();
   }

@@ -9,6 +9,7 @@
 #include "diagnosis/inference/noise/columns.hpp"
 #include "diagnosis/inference/score/marginal_p_value.hpp"
 #include "diagnosis/inference/select/backward_elimination.hpp"
+#include "diagnosis/inference/thresholds.hpp"
 
 namespace muster::inference {
 namespace {
@@ -23,7 +24,7 @@ const Problem& checked(const Problem& problem) {
   fits(problem.base.rows(), "base columns");
   if (!problem.measured.allFinite() || !problem.base.allFinite())
     throw std::invalid_argument("a value that is not a number");
-  if (n < fewest_readings) throw std::invalid_argument("too few readings: " + std::to_string(n));
+  if (n < thresholds::fewest_readings) throw std::invalid_argument("too few readings: " + std::to_string(n));
   return problem;
 }
 
@@ -122,7 +123,7 @@ namespace {
 std::vector<const Alternative*> open_rivals(const Finding& finding) {
   std::vector<const Alternative*> result;
   for (const Alternative& alternative : finding.alternatives)
-    if (alternative.separability < decided && alternative.id != finding.id) result.push_back(&alternative);
+    if (alternative.separability < thresholds::decided && alternative.id != finding.id) result.push_back(&alternative);
   return result;
 }
 

@@ -12,8 +12,6 @@ struct Advice {
   double separability = 0, predicted = 0;  // D now, and with the plan's readings
 };
 
-constexpr Eigen::Index fewest_readings = 50;
-
 class Search {
  public:
   // Keeps a reference to the problem. Throws std::invalid_argument if its columns do not match its readings.

@@ -4,18 +4,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/inference/thresholds.hpp"
 #include "muster/random.hpp"
 
 namespace muster::noise {
 namespace {
 
-constexpr double least_curvature = 0.3;  // in any direction: bounds the standard deviation of theta by about two units
-
 // Information with its eigenvalues bounded from below, so that steps and draws stay finite where the data are
 // uninformative.
 Eigen::Matrix4d bounded(const Eigen::Matrix4d& information) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(information);
-  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(least_curvature).asDiagonal() *
+  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(inference::thresholds::least_curvature).asDiagonal() *
          solver.eigenvectors().transpose();
 }
 

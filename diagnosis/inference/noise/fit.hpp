@@ -3,6 +3,7 @@
 #pragma once
 
 #include "diagnosis/inference/noise/reml.hpp"
+#include "diagnosis/inference/thresholds.hpp"
 
 namespace muster::noise {
 
@@ -23,7 +24,7 @@ inline const Theta unstated{0, 0, 1, 1};
 
 // Every family's fit, the best one first. Leaving the exponential family takes `advantage` nats.
 std::vector<Fit> fit_families(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& design,
-                              const Prior& prior, double advantage = 2);
+                              const Prior& prior, double advantage = inference::thresholds::leave_exponential_nats);
 
 struct Draw {
   Theta theta;

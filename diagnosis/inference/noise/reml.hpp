@@ -4,12 +4,15 @@
 
 #include "diagnosis/inference/noise/basis.hpp"
 #include "diagnosis/inference/noise/vecchia.hpp"
+#include "diagnosis/inference/thresholds.hpp"
 
 namespace muster::noise {
 
 struct Prior {
-  double log_decorrelation = 0.5878, decorrelation_spread = 0.7;  // 1.8 m within a factor of two: indoor shadowing
-  double logit_shared = -1.5, shared_spread = 1.5;
+  double log_decorrelation = inference::thresholds::prior_log_decorrelation;
+  double decorrelation_spread = inference::thresholds::prior_decorrelation_spread;
+  double logit_shared = inference::thresholds::prior_logit_shared;
+  double shared_spread = inference::thresholds::prior_shared_spread;
 
   Theta lower() const { return {-3, log_decorrelation - 3, -3, logit_shared - 4}; }
   Theta upper() const { return {9, log_decorrelation + 2.4, 9, logit_shared + 4}; }

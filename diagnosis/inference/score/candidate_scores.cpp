@@ -7,6 +7,7 @@
 #include "diagnosis/inference/score/refine.hpp"
 #include "diagnosis/inference/score/sparse_columns.hpp"
 #include "diagnosis/inference/state/null_tail.hpp"
+#include "diagnosis/inference/thresholds.hpp"
 
 namespace muster::inference {
 namespace {
@@ -63,7 +64,9 @@ bool far_from(const Candidate& candidate, const Eigen::VectorXd& theta, const st
   return std::all_of(others.begin(), others.end(), [&](const Eigen::VectorXd& other) {
     for (Index k = 0; k < theta.size(); ++k) {
       const double step = candidate.refinement.step[k];
-      if (step == 0 ? theta[k] != other[k] : std::abs(theta[k] - other[k]) >= 4 * std::abs(step)) return true;
+      if (step == 0 ? theta[k] != other[k]
+                    : std::abs(theta[k] - other[k]) >= thresholds::start_distance * std::abs(step))
+        return true;
     }
     return false;
   });
@@ -128,7 +131,8 @@ Optimum raced_to(const ModelState& state, const WhitenedModel& model, const Scor
     add_starts(c, all, c.refinement.starts - 1, starts);
     return successive_halving(c, starts, {value, value, value});
   }
-  const WhitenedModel soft = with_less_field(state, model, 0.05), half = with_less_field(state, model, 0.4);
+  const WhitenedModel soft = with_less_field(state, model, thresholds::soft_field_share),
+                      half = with_less_field(state, model, thresholds::half_field_share);
   if (lead.all.size() > 0) add_starts(c, lead.all, c.refinement.starts / 2, starts);
   add_starts(c, gains_of(*lead.entry, soft), c.refinement.starts, starts);
   Objective on_soft(state, soft, c, Columns::sketched), on_half(state, half, c, Columns::sketched);

@@ -6,6 +6,7 @@
 #include "diagnosis/inference/noise/columns.hpp"
 #include "diagnosis/inference/score/marginal_p_value.hpp"
 #include "diagnosis/inference/state/null_tail.hpp"
+#include "diagnosis/inference/thresholds.hpp"
 
 namespace muster::inference {
 namespace {
@@ -27,19 +28,20 @@ bool stands_clear_of_clip(const ModelState& state, const noise::Covariance& cova
                           const Eigen::MatrixXd& columns) {
   const Eigen::MatrixXd both = noise::hstack(design, columns);
   const Eigen::VectorXd predicted = both * state.whitened_model(both, covariance).coefficients(both.cols());
-  // Imputed readings vary less than measured ones: by about 15 %.
-  const double sd = 1.15 * std::sqrt((state.y() - predicted).squaredNorm() / static_cast<double>(predicted.size()));
+  const double sd = thresholds::imputed_spread *
+                    std::sqrt((state.y() - predicted).squaredNorm() / static_cast<double>(predicted.size()));
   const auto [low, high] = range_of(state.problem());
   std::vector<Index> clear;
   for (Index i = 0; i < predicted.size(); ++i) {
-    if (predicted[i] > low + 1.5 * sd && predicted[i] < high - 1.5 * sd) clear.push_back(i);
+    if (predicted[i] > low + thresholds::clear_of_clip * sd && predicted[i] < high - thresholds::clear_of_clip * sd)
+      clear.push_back(i);
   }
-  if (clear.size() < 60) return false;
+  if (clear.size() < thresholds::fewest_clear_rows) return false;
   const noise::Field field(state.field().sites().of(clear), {.seed = state.options().seed});
   noise::Whitener whitener(field, covariance);
   noise::Whitened at = noise::whitened(whitener, state.y()(clear), design(clear, Eigen::all), state.options().prior);
   const double gain = WhitenedModel{std::move(whitener), std::move(at), {}}.gain(columns(clear, Eigen::all));
-  return log_tail(gain, static_cast<double>(columns.cols())) < std::log(1e-3);
+  return log_tail(gain, static_cast<double>(columns.cols())) < std::log(thresholds::clear_alpha);
 }
 
 }  // namespace muster::inference

@@ -1,5 +1,7 @@
 #include "diagnosis/inference/score/importance_weights.hpp"
 
+#include "diagnosis/inference/thresholds.hpp"
+
 namespace muster::inference {
 
 double effective_sample_size(const Eigen::VectorXd& weights) {
@@ -7,8 +9,8 @@ double effective_sample_size(const Eigen::VectorXd& weights) {
 }
 
 Eigen::VectorXd tempered(Eigen::VectorXd weights) {
-  constexpr double few = 40;
-  for (int roots = 0; roots < 10 && effective_sample_size(weights) < few; ++roots) weights = weights.cwiseSqrt();
+  for (int roots = 0; roots < 10 && effective_sample_size(weights) < thresholds::fewest_effective; ++roots)
+    weights = weights.cwiseSqrt();
   return weights / weights.sum();
 }
 

@@ -5,6 +5,7 @@
 
 #include "diagnosis/inference/noise/columns.hpp"
 #include "diagnosis/inference/state/null_tail.hpp"
+#include "diagnosis/inference/thresholds.hpp"
 
 namespace muster::inference {
 namespace {
@@ -53,14 +54,13 @@ double log_tests(const ModelState& state, const Candidate& candidate) {
 
 double marginal_log_p(const ModelState& state, const noise::Fit& fit, const Eigen::MatrixXd& design,
                       const Eigen::MatrixXd& columns, double log_tests) {
-  constexpr double excluded = 3, hopeless = 6;  // nats by which a family is worse, with the columns or without any
   double log_p = over_draws(state, fit, design, columns, log_tests);
   for (const noise::Fit& other : state.families) {
-    if (log_p > std::log(1e-3)) break;
+    if (log_p > std::log(thresholds::marginal_p_decided)) break;
     if (other.covariance.family == fit.covariance.family) continue;
-    if (other.value > state.families[0].value + hopeless) continue;
+    if (other.value > state.families[0].value + thresholds::hopeless_start_nats) continue;
     const noise::Fit refit = state.fitted(noise::hstack(design, columns), other.covariance, 6);
-    if (refit.value > fit.value + excluded) continue;
+    if (refit.value > fit.value + thresholds::excluded_nats) continue;
     log_p = std::max(log_p, over_draws(state, refit, design, columns, log_tests));
   }
   return log_p;

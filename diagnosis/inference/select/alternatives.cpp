@@ -7,12 +7,10 @@
 #include "diagnosis/inference/noise/columns.hpp"
 #include "diagnosis/inference/score/marginal_p_value.hpp"
 #include "diagnosis/inference/score/refine.hpp"
+#include "diagnosis/inference/thresholds.hpp"
 
 namespace muster::inference {
 namespace {
-
-constexpr double near_gap = 3;         // nats
-constexpr double worth_refining = 15;  // nats
 
 // The term's fitted effect on rows, in units of a reading.
 Eigen::VectorXd effect_of(const ModelState& state, const Term& term) {
@@ -60,7 +58,6 @@ ScoredCandidate at_its_best(const ModelState& state, const WhitenedModel& rest, 
 // explains.
 std::vector<Alternative> of_other_rows(const ModelState& state, const Term& term, const Eigen::VectorXd& by_atom,
                                        const Eigen::VectorXd& effect) {
-  constexpr std::size_t most = 3;
   const Candidate& own = *term.candidate;
   if (own.kind != Kind::named || own.refinement.any() || own.design.whole) return {};
   const std::string label = own.label_of(term.theta);
@@ -68,13 +65,13 @@ std::vector<Alternative> of_other_rows(const ModelState& state, const Term& term
   std::vector<Alternative> result;
   for (std::size_t k = 0; k < own.design.grid.size(); ++k) {
     const double separability = left_of(effect, by_atom[static_cast<Index>(k)]);
-    if (separability < inseparable && own.label_of(own.design.grid[k]) != label &&
+    if (separability < thresholds::inseparable && own.label_of(own.design.grid[k]) != label &&
         !state.columns_of(own, own.design.grid[k]).isApprox(columns, 1e-9))
       result.push_back({own.id, own.label_of(own.design.grid[k]), own.design.grid[k], 0, separability});
   }
   std::stable_sort(result.begin(), result.end(),
                    [](const Alternative& a, const Alternative& b) { return a.separability < b.separability; });
-  if (result.size() > most) result.resize(most);
+  if (result.size() > thresholds::most_other_rows) result.resize(thresholds::most_other_rows);
   return result;
 }
 
@@ -95,8 +92,8 @@ double left_of(const Eigen::VectorXd& effect, double explained) {
 }
 
 bool left_open(const Alternative& alternative) {
-  return alternative.evidence_gap < near_gap ||
-         (alternative.separability < inseparable && alternative.by_readings < near_gap);
+  return alternative.evidence_gap < thresholds::open_nats ||
+         (alternative.separability < thresholds::inseparable && alternative.by_readings < thresholds::open_nats);
 }
 
 double standing(const ModelState& state, const Eigen::MatrixXd& design, const Candidate& c,
@@ -138,15 +135,15 @@ std::vector<Alternative> alternatives_of(ModelState& state, const Term& term) {
     if (smooth && c.own() == own.own() && (c.role.observed || own.kind == Kind::smooth)) continue;
     const auto [theta, explained] = explained_by(state, rest, c, by_atom.at(c.id), effect);
     const double separability = left_of(effect, explained);
-    const bool confused = c.kind == Kind::named && separability < inseparable;
+    const bool confused = c.kind == Kind::named && separability < thresholds::inseparable;
     const ScoredCandidate lead =
-        at_its_best(state, rest, plain, confused ? &theta : nullptr, evidence - worth_refining);
+        at_its_best(state, rest, plain, confused ? &theta : nullptr, evidence - thresholds::worth_refining_nats);
     Alternative alternative{smooth ? "~" + c.own() : c.id, "", lead.theta, evidence - lead.evidence, separability};
     if (confused) hold(alternative, c, lead.columns);
-    if (alternative.evidence_gap >= near_gap)
+    if (alternative.evidence_gap >= thresholds::open_nats)
       alternative.theta = theta;  // the theta that is mistaken for the finding, not the candidate's own best
     alternative.label = c.label_of(alternative.theta);
-    if (alternative.evidence_gap >= near_gap && !confused) continue;
+    if (alternative.evidence_gap >= thresholds::open_nats && !confused) continue;
     smooth ? keep_likest(result, std::move(alternative)) : result.push_back(std::move(alternative));
   }
   return result;

@@ -5,8 +5,6 @@
 
 namespace muster::inference {
 
-constexpr double inseparable = 12, decided = 25;  // D below which causes are inseparable; from which decided
-
 struct Alternative {
   std::string id, label;  // of a smooth: ~ and its covariate
   Eigen::VectorXd theta;

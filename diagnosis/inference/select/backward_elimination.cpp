@@ -10,6 +10,7 @@
 #include "diagnosis/inference/select/alternatives.hpp"
 #include "diagnosis/inference/select/relocate.hpp"
 #include "diagnosis/inference/select/replace_smooths.hpp"
+#include "diagnosis/inference/thresholds.hpp"
 
 namespace muster::inference {
 namespace {
@@ -20,7 +21,7 @@ void drop_backward(ModelState& state) {
     measure_gains(state);
     const auto worst = std::min_element(state.terms.begin(), state.terms.end(),
                                         [](const Term& a, const Term& b) { return a.evidence < b.evidence; });
-    if (worst->evidence >= 1) return;
+    if (worst->evidence >= thresholds::keep_term_nats) return;
     state.terms.erase(worst);
     state.refit();
   }
@@ -36,8 +37,6 @@ const Entry* named(const ModelState& state, const std::string& id) {
 // Replaces a cause by an alternative that has become better, or by one of fewer parameters that is as good. A drift
 // that settles within seconds is a step.
 void give_way_to_alternatives(ModelState& state) {
-  constexpr double clearly = 1, near = 5;  // nats
-  constexpr double the_same = 0.5;         // of D
   const auto stands = [&](const Term& term) {
     return standing(state, state.design_without(term), *term.candidate, term.columns);
   };
@@ -48,10 +47,13 @@ void give_way_to_alternatives(ModelState& state) {
       const Entry* const entry = named(state, alternative.id);
       const bool there = std::any_of(state.terms.begin(), state.terms.end(),
                                      [&](const Term& term) { return term.candidate->id == alternative.id; });
-      if (!entry || there || alternative.evidence_gap > (alternative.separability < inseparable ? near : -clearly))
+      if (!entry || there ||
+          alternative.evidence_gap > (alternative.separability < thresholds::inseparable ? thresholds::nearly_nats
+                                                                                         : -thresholds::clearly_nats))
         continue;
       // For two causes with the same effect only the cost of their search differs: no reason to prefer a name.
-      const bool one = alternative.separability < the_same && std::abs(alternative.evidence_gap) < near;
+      const bool one = alternative.separability < thresholds::same_effect_separability &&
+                       std::abs(alternative.evidence_gap) < thresholds::nearly_nats;
       if (one && entry->candidate->role.parameters >= state.terms[k].candidate->role.parameters) continue;
       const Term before = state.terms[k];
       const noise::Fit fit = state.fit;
@@ -60,10 +62,10 @@ void give_way_to_alternatives(ModelState& state) {
       state.terms[k].columns = state.columns_of(*entry->candidate, alternative.theta);
       state.refit();
       relocate(state, k, false);
-      const bool simpler = alternative.separability < inseparable &&
+      const bool simpler = alternative.separability < thresholds::inseparable &&
                            entry->candidate->role.parameters < before.candidate->role.parameters;
-      const double may_lose = one ? near : clearly;
-      if (const double then = stands(state.terms[k]); then > now + (simpler ? -may_lose : clearly)) {
+      const double may_lose = one ? thresholds::nearly_nats : thresholds::clearly_nats;
+      if (const double then = stands(state.terms[k]); then > now + (simpler ? -may_lose : thresholds::clearly_nats)) {
         now = then;
       } else {
         state.terms[k] = before;
@@ -117,12 +119,16 @@ struct Company {
 // True for residual artifacts of strong terms, which are not named.
 bool is_residual_artifact(const Term& term, const Company& company, bool clipped) {
   const bool named = !term.smooth(), place = !term.candidate->role.pieces.empty() || term.candidate->role.over_sites;
-  if (term.gain < 0.05 * company.stronger_kin) return true;
-  if (place && term.gain < std::min(30.0, 0.25 * company.stronger_kin)) return true;
-  if (named && term.gain < 0.08 * company.smooths) return true;
-  if (named && term.gain < std::min(50.0, 0.01 * company.strongest)) return true;
+  if (term.gain < thresholds::artefact_share_of_kin * company.stronger_kin) return true;
+  if (place && term.gain < std::min(thresholds::artefact_place_gain,
+                                    thresholds::artefact_place_share_of_kin * company.stronger_kin))
+    return true;
+  if (named && term.gain < thresholds::artefact_share_of_smooths * company.smooths) return true;
+  if (named &&
+      term.gain < std::min(thresholds::artefact_gain, thresholds::artefact_share_of_strongest * company.strongest))
+    return true;
   return clipped && (term.candidate->refinement.proposed || !named) &&
-         term.gain < 60;  // residuals of clipping fit some place by chance
+         term.gain < thresholds::artefact_gain_beside_clip;  // residuals of clipping fit some place by chance
 }
 
 void set_artifacts_aside(ModelState& state, std::vector<Term>& aside) {
@@ -175,8 +181,6 @@ void withdraw_names_given_twice(ModelState& state) {
 
 // Withdraws a name if much structure is left along its own covariate: it is only a part of the effect.
 void withdraw_names_of_parts(ModelState& state) {
-  constexpr double doubt = 0.01;  // probability of so much by chance
-  constexpr double much = 0.5;    // of the name's own gain: no formula matches the truth exactly
   const WhitenedModel model = state.whitened_model(state.design());
   for (const Entry& entry : state.entries()) {
     const Candidate& smooth = *entry.candidate;
@@ -185,8 +189,9 @@ void withdraw_names_of_parts(ModelState& state) {
     };
     if (smooth.kind != Kind::smooth || std::none_of(state.terms.begin(), state.terms.end(), concerns)) continue;
     const double left = gains(smooth, unit_atoms(entry, model), model.at.residual).maxCoeff();
-    if (state.log_p(smooth, left, smooth.design.width, false) > std::log(doubt)) continue;
-    for (Term& term : state.terms) term.as_smooth = term.as_smooth || (concerns(term) && left > much * term.gain);
+    if (state.log_p(smooth, left, smooth.design.width, false) > std::log(thresholds::left_alpha)) continue;
+    for (Term& term : state.terms)
+      term.as_smooth = term.as_smooth || (concerns(term) && left > thresholds::left_share * term.gain);
   }
 }
 
@@ -200,7 +205,7 @@ void test_each(ModelState& state, std::vector<Term>& aside, std::vector<Trial>& 
     const WhitenedModel model = state.whitened_model(rest);
     const double gain = model.gain(term.columns);
     const double log_p = state.log_p(c, gain, term.columns.cols(), true);
-    if (term.smooth() || term.as_stated || log_p < -40) {
+    if (term.smooth() || term.as_stated || log_p < thresholds::log_p_beyond_noise) {
       ++k;
       continue;
     }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/inference/thresholds.hpp"
+
 namespace muster::inference {
 namespace {
 
@@ -14,7 +16,7 @@ ScoredCandidate grown(const ModelState& state, const WhitenedModel& model, Score
     Eigen::MatrixXd columns = state.rows().mean(c.design.wider(times));
     const double gain = model.gain(columns);
     const double evidence = state.evidence(c, gain, columns.cols(), false);
-    if (evidence <= lead.evidence + 3) break;
+    if (evidence <= lead.evidence + thresholds::grow_nats) break;
     lead.columns = std::move(columns);
     lead.gain = gain;
     lead.evidence = evidence;
@@ -79,7 +81,7 @@ bool same_effect(const WhitenedModel& model, const ScoredCandidate& a, const Sco
   const auto of_a = noise::basis_of(model.at.basis.rest(model.whitener(a.columns)));
   const auto of_b = noise::basis_of(model.at.basis.rest(model.whitener(b.columns)));
   return of_a.q.cols() == of_b.q.cols() &&
-         (of_b.q.transpose() * of_a.q).squaredNorm() > 0.99 * static_cast<double>(of_a.q.cols());
+         (of_b.q.transpose() * of_a.q).squaredNorm() > thresholds::same_effect * static_cast<double>(of_a.q.cols());
 }
 
 // Prefers the simplest of causes with the same effect.
@@ -101,16 +103,16 @@ std::vector<ScoredCandidate> compared(const ModelState& state, const WhitenedMod
   std::vector<ScoredCandidate> pool;
   double best_smooth = 1e300;
   for (const ScoredCandidate& lead : passing) {
-    if (lead.candidate().kind != Kind::smooth || pool.size() >= 3) continue;
+    if (lead.candidate().kind != Kind::smooth || pool.size() >= thresholds::most_smooths) continue;
     pool.push_back(grown(state, model, lead));
     best_smooth = pool.size() == 1 ? pool[0].evidence : std::max(best_smooth, pool.back().evidence);
   }
   int named = 0;
   for (const ScoredCandidate& lead : all) {
-    if (lead.candidate().kind != Kind::named || !usable(lead.candidate()) || named >= 4) continue;
+    if (lead.candidate().kind != Kind::named || !usable(lead.candidate()) || named >= thresholds::most_named) continue;
     ++named;
     const ScoredCandidate* const passed = same_entry(passing, lead);
-    if (!passed && lead.evidence <= best_smooth - 400) continue;
+    if (!passed && lead.evidence <= best_smooth - thresholds::hopeless_name_nats) continue;
     ScoredCandidate best = at_its_best(state, model, lead, passed);
     if (best.log_p < state.threshold()) pool.push_back(std::move(best));
   }

@@ -5,6 +5,7 @@
 
 #include "diagnosis/inference/noise/columns.hpp"
 #include "diagnosis/inference/score/marginal_p_value.hpp"
+#include "diagnosis/inference/thresholds.hpp"
 
 namespace muster::inference {
 namespace {
@@ -23,8 +24,8 @@ std::vector<ScoredCandidate> worth_a_look(ModelState& state, const std::vector<S
                                           const std::function<bool(const Candidate&)>& usable) {
   std::vector<ScoredCandidate> result;
   for (const ScoredCandidate& lead : first) {
-    if (looked_at_again(lead.candidate()) && lead.log_p < std::log(0.5) && usable(lead.candidate()) &&
-        result.size() < 3)
+    if (looked_at_again(lead.candidate()) && lead.log_p < std::log(thresholds::near_miss_p) &&
+        usable(lead.candidate()) && result.size() < thresholds::most_near_misses)
       result.push_back(lead);
   }
   for (const ScoredCandidate& lead : first) {
@@ -32,7 +33,7 @@ std::vector<ScoredCandidate> worth_a_look(ModelState& state, const std::vector<S
       result.push_back(lead);
   }
   std::vector<ScoredCandidate> slow = ladder(state, usable);
-  slow.resize(std::min<std::size_t>(slow.size(), 4), slow.empty() ? ScoredCandidate{} : slow[0]);
+  slow.resize(std::min(slow.size(), thresholds::most_slow_leads), slow.empty() ? ScoredCandidate{} : slow[0]);
   for (const ScoredCandidate& lead : slow) {
     if (!has(result, lead)) result.push_back(lead);
   }
@@ -45,19 +46,19 @@ noise::Fit fit_with(const ModelState& state, const Candidate& candidate, const E
   noise::Covariance weaker = state.fit.covariance;  // a second start: shorter and weaker field
   weaker.theta += noise::Theta(std::log(0.35), std::log(0.5), 0, 0);
   const noise::Fit other = state.fitted(both, weaker, 12);
-  return other.value < fit.value - 0.3 ? other : fit;
+  return other.value < fit.value - thresholds::second_start_nats ? other : fit;
 }
 
 // Upper bound of the gain after relocation. The earlier field holds a part of the place and biases its position: up
 // to two thirds of the gain, as far as observed. Where the refit at the biased position recovers little, so does
 // relocation (at most 2.1 times as much, and 1.2 in all).
 double most_to_come(double before, double gain) {
-  constexpr double times = 10, at_least = 4;
-  return std::min(3 * gain, gain + at_least + times * std::max(0.0, gain - before));
+  return std::min(thresholds::relocation_factor * gain,
+                  gain + thresholds::relocation_at_least + thresholds::relocation_times * std::max(0.0, gain - before));
 }
 
 // Upper bound of the gain with the noise refitted: over 800 observed, none grew to more than 1.7 times as much.
-double most_once_fitted(double gain) { return 4 + 3 * gain; }
+double most_once_fitted(double gain) { return thresholds::refit_at_least + thresholds::refit_factor * gain; }
 
 }  // namespace
 
@@ -98,7 +99,7 @@ std::vector<ScoredCandidate> ladder(ModelState& state, const std::function<bool(
       covariance.theta += noise::Theta(std::log(weaker), std::log(shorter), 0, 0);
       const WhitenedModel model = state.whitened_model(design, covariance);
       const double lost = 2 * (model.at.value - value);
-      if (lost > 60) continue;
+      if (lost > thresholds::ladder_loss) continue;
       for (const Entry& entry : state.entries()) {
         const Candidate& c = *entry.candidate;
         if (!c.role.slow || !usable(c)) continue;
@@ -120,7 +121,7 @@ std::vector<ScoredCandidate> ladder(ModelState& state, const std::function<bool(
   }
   std::vector<ScoredCandidate> result;
   for (auto& [id, lead] : best) {
-    if (lead.gain > 4) result.push_back(std::move(lead));
+    if (lead.gain > thresholds::ladder_gain) result.push_back(std::move(lead));
   }
   by_evidence(result);
   return result;

@@ -1,6 +1,7 @@
 #include "diagnosis/inference/select/relocate.hpp"
 
 #include "diagnosis/inference/score/candidate_scores.hpp"
+#include "diagnosis/inference/thresholds.hpp"
 
 namespace muster::inference {
 namespace {
@@ -30,7 +31,6 @@ ScoredCandidate from_grid(const ModelState& state, const WhitenedModel& model, c
 }  // namespace
 
 void relocate(ModelState& state, std::size_t at, bool anew) {
-  constexpr double least_advantage = 1;  // nats
   for (int round = 0; round < 3; ++round) {
     Term& term = state.terms[at];
     const WhitenedModel model = state.whitened_model(state.design_without(term));
@@ -41,7 +41,7 @@ void relocate(ModelState& state, std::size_t at, bool anew) {
       ScoredCandidate other = from_grid(state, model, entry);
       if (other.evidence > best.evidence) best = std::move(other);
     }
-    if (best.evidence < before.evidence + least_advantage) return;
+    if (best.evidence < before.evidence + thresholds::relocation_nats) return;
     term.candidate = best.entry->candidate;
     term.theta = best.theta;
     term.columns = best.columns;

@@ -6,6 +6,7 @@
 #include "diagnosis/inference/noise/columns.hpp"
 #include "diagnosis/inference/score/candidate_scores.hpp"
 #include "diagnosis/inference/score/marginal_p_value.hpp"
+#include "diagnosis/inference/thresholds.hpp"
 
 namespace muster::inference {
 namespace {
@@ -32,7 +33,7 @@ struct Replacement {
     for (const ScoredCandidate& lead : scored_candidates(state, model)) {
       const Candidate& c = lead.candidate();
       if (c.kind != Kind::named || !fits(lead, found)) continue;
-      const bool promising = lead.gain > 0.15 * group_gain && c.role.pieces.empty();
+      const bool promising = lead.gain > thresholds::replacement_share * group_gain && c.role.pieces.empty();
       const ScoredCandidate at = promising ? refined(state, model, lead, true) : lead;
       const double evidence = state.evidence(c, at.gain, c.design.width, false);
       if (!result || evidence > result->evidence)
@@ -69,7 +70,7 @@ struct Replacement {
     std::vector<Term> result;
     for (int number = 1; number <= 2; ++number) {
       std::optional<Term> next = best(result);
-      if (!next || next->evidence < 3) return {};
+      if (!next || next->evidence < thresholds::replacement_nats) return {};
       if (number == 1 && next->candidate->role.stands_for.count(covariate) == 0) return {};
       result.push_back(std::move(*next));
       if (number == 2) refine_in_turn(result);

@@ -7,6 +7,7 @@
 #include "diagnosis/inference/noise/columns.hpp"
 #include "diagnosis/inference/score/marginal_p_value.hpp"
 #include "diagnosis/inference/state/null_tail.hpp"
+#include "diagnosis/inference/thresholds.hpp"
 
 namespace muster::inference {
 namespace {
@@ -25,10 +26,9 @@ std::vector<noise::Fit> fitted_as_stated(const ModelState& state, const Eigen::M
 // True if the stated field, with the lead in the model, fits as well as the best one. It must lie in the joint 99 %
 // region of its two parameters.
 bool stands_as_stated(const ModelState& state, const Eigen::MatrixXd& both, const noise::Fit& stated) {
-  constexpr double within = 4.6;  // nats
   const double near_fit = state.fitted(both, state.fit.covariance, 6).value;
   const double near_stated = state.fitted(both, stated.covariance, 6).value;
-  return stated.value <= std::min(near_fit, near_stated) + within;
+  return stated.value <= std::min(near_fit, near_stated) + thresholds::stated_field_nats;
 }
 
 // Significant slow candidates, the likeliest first.
@@ -58,11 +58,11 @@ void weigh_beside(const ModelState& state, const Eigen::MatrixXd& design, const 
   const Candidate& c = lead.candidate();
   lead.log_p = -std::numeric_limits<double>::infinity();
   for (const noise::Fit& fit : fits) {
-    const double unlikely = std::max(0.0, fit.value - fits[0].value - likely_nats);
-    if (unlikely > hopeless_nats) continue;
+    const double unlikely = std::max(0.0, fit.value - fits[0].value - thresholds::likely_nats);
+    if (unlikely > thresholds::hopeless_nats) continue;
     const WhitenedModel model = state.whitened_model(design, fit.covariance);
     const double far = state.far().exact_gain({state.y(), design, lead.columns, fit.covariance});
-    const double gain = std::min(gain_of(c, model, lead.columns), far) / overdispersion + 2 * unlikely;
+    const double gain = std::min(gain_of(c, model, lead.columns), far) / thresholds::overdispersion + 2 * unlikely;
     lead.gain = std::min(lead.gain, gain);
     lead.log_p = std::max(lead.log_p, state.log_p(c, gain, c.design.width, false) + model.skew_charge(lead.columns));
   }
@@ -73,12 +73,11 @@ void weigh_beside(const ModelState& state, const Eigen::MatrixXd& design, const 
 std::optional<ScoredCandidate> stated_noise_pass(ModelState& state,
                                                  const std::function<bool(const Candidate&)>& usable) {
   if (state.problem().stated.shadowing <= 0 || state.problem().bounds.any()) return {};
-  constexpr std::size_t looked_at = 3;
   const double threshold = state.threshold() - std::log(2.0);  // a second test
   const Eigen::MatrixXd design = state.design();
   const WhitenedModel alone = state.whitened_model(design, fitted_as_stated(state, design)[0].covariance);
   std::vector<ScoredCandidate> leads = beyond_chance(state, alone, threshold, usable);
-  for (std::size_t k = 0; k < std::min(leads.size(), looked_at); ++k) {
+  for (std::size_t k = 0; k < std::min(leads.size(), thresholds::most_stated_leads); ++k) {
     const Eigen::MatrixXd both = noise::hstack(design, leads[k].columns);
     const std::vector<noise::Fit> fits = fitted_as_stated(state, both);
     weigh_beside(state, design, fits, leads[k]);

@@ -4,6 +4,7 @@
 
 #include "diagnosis/inference/noise/columns.hpp"
 #include "diagnosis/inference/noise/exact_covariance.hpp"
+#include "diagnosis/inference/thresholds.hpp"
 
 namespace muster::inference {
 namespace {
@@ -84,8 +85,9 @@ double LongRangeRows::sure_gain(const Question& q) const {
   const double best = std::min_element(fits.begin(), fits.end(), likelier)->value;
   double least = std::numeric_limits<double>::infinity();
   for (const noise::Fit& fit : fits) {
-    const double unlikely = std::max(0.0, fit.value - best - likely_nats);
-    if (unlikely < hopeless_nats) least = std::min(least, exact_gain(question, fit.covariance) + 2 * unlikely);
+    const double unlikely = std::max(0.0, fit.value - best - thresholds::likely_nats);
+    if (unlikely < thresholds::hopeless_nats)
+      least = std::min(least, exact_gain(question, fit.covariance) + 2 * unlikely);
   }
   return least;
 }

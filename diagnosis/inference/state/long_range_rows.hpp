@@ -6,9 +6,6 @@
 
 namespace muster::inference {
 
-constexpr double likely_nats = 3;     // that a family may be behind the best one
-constexpr double hopeless_nats = 12;  // beyond those, a family is excluded from the minimum
-
 // All arguments have a value a row of the search.
 class LongRangeRows {
  public:

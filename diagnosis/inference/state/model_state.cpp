@@ -8,6 +8,7 @@
 #include "diagnosis/inference/state/null_calibration.hpp"
 #include "diagnosis/inference/state/null_tail.hpp"
 #include "diagnosis/inference/state/smooths.hpp"
+#include "diagnosis/inference/thresholds.hpp"
 #include "muster/random.hpp"
 
 namespace muster::inference {
@@ -100,12 +101,11 @@ noise::Field ModelState::field_of(const noise::Rows& rows) const {
 }
 
 Index ModelState::end_rows_at(const Candidate& candidate, const Eigen::VectorXd& theta) {
-  constexpr double share = 1.0 / 3;  // of the effect's maximum
   const Eigen::MatrixXd at_readings = candidate.design.columns(theta);
   const Eigen::VectorXd effect = at_readings.rowwise().sum();
   const double most = effect.cwiseAbs().maxCoeff();
   std::vector<Index> parent;
-  noise::Rows rows = rows_.ended_where(effect, share * most, parent);
+  noise::Rows rows = rows_.ended_where(effect, thresholds::edge_share * most, parent);
   const Index more = rows.size() - rows_.size();
   if (more == 0) return 0;
   rows_ = std::move(rows);
@@ -177,7 +177,7 @@ noise::Fit ModelState::fitted(const Eigen::MatrixXd& design, const noise::Covari
 std::vector<noise::Family> ModelState::likely_families(noise::Family first) const {
   std::vector<noise::Family> result{first};
   for (const noise::Fit& other : families) {
-    if (other.covariance.family != first && other.value < families[0].value + likely_nats)
+    if (other.covariance.family != first && other.value < families[0].value + thresholds::likely_nats)
       result.push_back(other.covariance.family);
   }
   return result;

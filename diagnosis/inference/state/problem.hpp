@@ -5,6 +5,7 @@
 #include "diagnosis/inference/noise/fit.hpp"
 #include "diagnosis/inference/state/candidate.hpp"
 #include "diagnosis/inference/state/layout.hpp"
+#include "diagnosis/inference/thresholds.hpp"
 
 namespace muster::inference {
 
@@ -20,15 +21,16 @@ struct Problem {
   std::function<std::vector<Candidate>(const Eigen::VectorXd& base_coefficients)> depending;
 };
 
-// Constants of the method.
+// Constants of the method; thresholds.hpp has their meanings.
 struct Options {
-  double first_alpha = 0.003, further_alpha = 0.0015;  // significance over all candidates
-  int nulls = 200;                                     // draws for the effective number of tests
-  int draws = 32;                                      // of the covariance, for the marginal p-value
-  double one_group_charge = 6;                         // nats, for a place supported by one group only
-  double share = 0.9;                                  // of a smooth that a named cause must explain to replace it
-  double merge_share = 0.93;                           // of several pieces that one object must explain to replace them
-  int most_terms = 6;
+  double first_alpha = thresholds::first_alpha;
+  double further_alpha = thresholds::further_alpha;
+  int nulls = thresholds::nulls;
+  int draws = thresholds::covariance_draws;
+  double one_group_charge = thresholds::one_group_charge;
+  double share = thresholds::replacing_share;
+  double merge_share = thresholds::merge_share;
+  int most_terms = thresholds::most_terms;
   uint64_t seed = 1;
   noise::Prior prior;
 };

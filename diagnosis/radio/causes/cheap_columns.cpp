@@ -5,6 +5,7 @@
 
 #include "diagnosis/inference/noise/basis.hpp"
 #include "diagnosis/radio/causes/local_columns.hpp"
+#include "diagnosis/radio/thresholds.hpp"
 
 namespace muster::diagnosis {
 
@@ -12,8 +13,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 CauseSearch with_swaps_by_the_map(CauseSearch causes, const LinkSearchWorld& at, const Fit& fitted, CauseModel& run) {
-  constexpr double much_more = 1.5;
-  if (fitted.simulated_sd <= 0 || fitted.residual_sd < much_more * fitted.simulated_sd) return causes;
+  if (fitted.simulated_sd <= 0 || fitted.residual_sd < thresholds::much_more * fitted.simulated_sd) return causes;
   run.clear();
   ParameterGuard declared(at.model);
   for (const FitParameter& p : fitted.parameters) declared.set(p.path, p.start);
@@ -36,8 +36,8 @@ CauseSearch with_swaps_by_the_map(CauseSearch causes, const LinkSearchWorld& at,
 }
 
 std::shared_ptr<SimulatedReadings> sketched_readings(const LinkSearchWorld& at) {
-  constexpr Index worth = 2;  // readings a row
-  if (at.layout->size() < worth * at.rows.size() || holds_a_table_reader(at.model)) return nullptr;
+  if (at.layout->size() < thresholds::worth_sketching * at.rows.size() || holds_a_table_reader(at.model))
+    return nullptr;
   return std::make_shared<SimulatedReadings>(middles(at.rows, at.layout->readings()), at.model.radio_names(), at.world,
                                              at.plugins, at.base);
 }
@@ -52,8 +52,7 @@ CauseSearch with_sketches(CauseSearch causes, const std::shared_ptr<SimulatedRea
 }
 
 CauseSearch with_columns_near(CauseSearch causes, const LinkSearchWorld& at) {
-  constexpr Index worth = 4000;  // readings
-  if (at.layout->size() < worth || holds_a_table_reader(at.model)) return causes;
+  if (at.layout->size() < thresholds::worth_localising || holds_a_table_reader(at.model)) return causes;
   const Simulate simulate = [radios = at.model.radio_names(), world = at.world, plugins = at.plugins,
                              base = at.base](const LinkReadings& readings) {
     return std::make_shared<SimulatedReadings>(readings, radios, world, plugins, base);

@@ -9,6 +9,7 @@
 #include "diagnosis/radio/causes/place_grid.hpp"
 #include "diagnosis/radio/causes/place_moves.hpp"
 #include "diagnosis/radio/causes/spatial_scan.hpp"
+#include "diagnosis/radio/thresholds.hpp"
 
 namespace muster::diagnosis {
 namespace {
@@ -80,8 +81,8 @@ std::size_t LinkCauseDomain::given_sizes(const CauseShape& shape) const {
 }
 
 void LinkCauseDomain::bound_place(const CauseShape& shape, inference::Refinement& out) const {
-  constexpr double beyond_map = 10;  // m: a radio may stand outside of all that was mapped and driven through
-  const double around = shape.cause.meaning().kind == MUSTER_WORLD_EDIT ? beyond_map : 0;
+  // A radio may stand outside of all that was mapped and driven through.
+  const double around = shape.cause.meaning().kind == MUSTER_WORLD_EDIT ? thresholds::beyond_map : 0;
   const Index places = place_entries(shape.place);
   if (places >= 2) {
     out.lower.segment(1, 2) << geometry_.east.low - around, geometry_.north.low - around;
@@ -118,10 +119,10 @@ void LinkCauseDomain::describe(const CauseShape& shape, inference::Candidate& c)
 // and 1.1, strips on a grid 2.0, rooms of the plan 0.2, radios elsewhere -4.9, all others 0.1 to 1.1 (median of three
 // to five; standard error 0.4). It grows towards the tail, where decisions fall, by half a nat a sought parameter.
 double LinkCauseDomain::charge_of(const CauseShape& shape, const inference::Candidate& c) const {
-  if (stands(c)) return shape.place == PlaceShape::segment ? 8.3 : 7.0;
+  if (stands(c)) return shape.place == PlaceShape::segment ? thresholds::wall_charge : thresholds::thing_charge;
   if (shape.cause.meaning().kind == MUSTER_WORLD_EDIT) return 0;
-  if (given_sizes(shape) > 0) return 0.5;
-  return shape.place != PlaceShape::none ? 4 : 1;
+  if (given_sizes(shape) > 0) return thresholds::given_place_charge;
+  return shape.place != PlaceShape::none ? thresholds::place_charge : thresholds::shape_charge;
 }
 
 std::vector<VectorXd> LinkCauseDomain::starts_of(const CauseShape& shape, const inference::Candidate& c) const {
@@ -135,15 +136,16 @@ bool LinkCauseDomain::admits(const CauseShape& shape, const inference::Candidate
 // A radio is a few metres from where the map has it, hardly ever more. Less than a map or a mount leaves open is no
 // other place: millimetres turn links past the end of a wall, which shows clearly in a smooth field.
 void LinkCauseDomain::believe_in_map(const CauseShape& shape, inference::Candidate& c) const {
-  constexpr double off = 3, no_other_place = 0.1;  // m
   std::vector<Eigen::Vector2d> mapped;
   for (const CauseRow& row : shape.rows)
     mapped.push_back(place_of_radio(model_, row.at(0)).value_or(Eigen::Vector2d(0, 0)));
   const auto moved = [mapped = std::move(mapped)](const VectorXd& t) {
     return (t.segment<2>(1) - mapped[static_cast<std::size_t>(t[0])]).norm();
   };
-  c.refinement.belief = [moved](const VectorXd& t) { return -std::pow(moved(t) / off, 2) / 2; };
-  c.refinement.admitted = [moved](const VectorXd& t) { return moved(t) < no_other_place ? 0.0 : 1.0; };
+  c.refinement.belief = [moved](const VectorXd& t) {
+    return -std::pow(moved(t) / thresholds::misplaced_spread, 2) / 2;
+  };
+  c.refinement.admitted = [moved](const VectorXd& t) { return moved(t) < thresholds::same_place ? 0.0 : 1.0; };
 }
 
 // Proposes walls and things by a scan of all places where they could be.
@@ -179,8 +181,9 @@ void LinkCauseDomain::finish(const std::shared_ptr<const CauseShape>& shape, inf
   if (!stands(c)) return;
   inference::Refinement& r = c.refinement;
   r.admitted = [shape, geometry = geometry_](const VectorXd& t) {
-    if (shape->place == PlaceShape::point) return clear_of_ways(*shape, geometry, t) ? 1.0 : 0.3;
-    return std::pow(0.8, std::min(driven_across(geometry, t[1], t[2], t[3], t[4]), 10));
+    if (shape->place == PlaceShape::point)
+      return clear_of_ways(*shape, geometry, t) ? 1.0 : thresholds::driven_through_share;
+    return std::pow(thresholds::driven_across_share, std::min(driven_across(geometry, t[1], t[2], t[3], t[4]), 10));
   };
   if (r.any()) let_scan(*shape, c);
   if (shape->place == PlaceShape::point && shape->axes.size() == 1)

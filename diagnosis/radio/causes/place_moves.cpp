@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/radio/thresholds.hpp"
+
 namespace muster::diagnosis {
 namespace {
 
@@ -42,8 +44,7 @@ bool driven_through(const MeasurementGeometry& s, double x, double y, double rad
 }
 
 double belief_in_segment(const MeasurementGeometry& s, const Eigen::VectorXd& t) {
-  constexpr double slant = 0.2;  // rad
-  const double off = std::remainder(t[4] - s.plan_angle, pi / 2) / slant;
+  const double off = std::remainder(t[4] - s.plan_angle, pi / 2) / thresholds::wall_slant;
   return -off * off / 2;
 }
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "diagnosis/radio/causes/place_moves.hpp"
+#include "diagnosis/radio/thresholds.hpp"
 
 namespace muster::diagnosis {
 namespace {
@@ -156,7 +157,6 @@ void SegmentScan::lay_out(const std::vector<Way>& links, const std::vector<Way>&
 
 // The best piece of each gap: from every other start in it on to its end, and from those between where these gain much.
 std::vector<VectorXd> SegmentScan::operator()(inference::Tally& tally) const {
-  constexpr double much = 0.5;  // of what the best one gains
   constexpr std::size_t climbs = 8;
   check(tally, links_.size());
   std::vector<Piece> best;
@@ -166,7 +166,7 @@ std::vector<VectorXd> SegmentScan::operator()(inference::Tally& tally) const {
   std::vector<Swept> found;
   for (std::size_t k = 0; k < gaps_.size(); ++k) {
     if (best[k].gain <= 0) continue;
-    if (best[k].gain >= much * most) {
+    if (best[k].gain >= thresholds::segment_worth * most) {
       const Piece between = best_piece(gaps_[k], gaps_[k].from + between_starts, tally);
       if (between.gain > best[k].gain) best[k] = between;
     }
@@ -272,10 +272,9 @@ std::vector<VectorXd> DiskScan::operator()(inference::Tally& tally) const {
   }
   found = the_best(std::move(found));
   constexpr std::size_t looked_about = 3;  // places
-  constexpr double worth = 0.5;            // of the best one's gain
   std::vector<Swept> tops;
   for (const Swept& place : apart(found, 1.5 * between_places, looked_about)) {
-    if (place.gain < worth * found[0].gain) break;
+    if (place.gain < thresholds::disk_worth * found[0].gain) break;
     for (Swept& top : closely_about(place, tally)) tops.push_back(std::move(top));
   }
   found.insert(found.end(), tops.begin(), tops.end());

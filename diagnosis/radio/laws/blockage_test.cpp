@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "diagnosis/inference/noise/whitener_columns.hpp"
+#include "diagnosis/radio/thresholds.hpp"
 #include "muster/random.hpp"
 
 namespace muster::diagnosis {
@@ -17,11 +18,10 @@ using Eigen::VectorXd;
 
 constexpr std::array widths{0.8, 1.4, 2.5};              // s, half-widths of a dip at 1/e
 constexpr std::array losses{2.5, 4.0, 6.5, 10.0, 15.0};  // dB
-constexpr double between = 25;                           // s, mean time between blockages
 constexpr double spacing = 0.6;                          // s, of the grid of times
-const double log_rate = std::log(spacing / between), log_none = std::log1p(-spacing / between);
+const double log_rate = std::log(spacing / thresholds::between_blockages),
+             log_none = std::log1p(-spacing / thresholds::between_blockages);
 constexpr int shuffles = 60;
-constexpr std::size_t fewest_rows = 40;  // of a link
 constexpr double impossible = -1e300;
 
 struct Dip {
@@ -154,7 +154,7 @@ class Scan {
       ++rows[std::minmax(r.tx[i], r.rx[i])];
     }
     for (auto link = result.begin(); link != result.end();)
-      link = rows[link->first] < fewest_rows ? result.erase(link) : std::next(link);
+      link = rows[link->first] < thresholds::fewest_link_rows ? result.erase(link) : std::next(link);
     for (auto& [radios, readings] : result) {
       std::stable_sort(readings.begin(), readings.end(), [&](Index a, Index b) { return time(a) < time(b); });
     }
@@ -204,18 +204,18 @@ class Scan {
   // Winsorises the error of each row given all others at the usual Gaussian size. A deep fade is low in one reading,
   // a blockage in several. Shuffles would not preserve how sharp a fade is against its neighbours.
   VectorXd without_spikes(VectorXd whitened) const {
-    constexpr double usual = 2.5;
     const VectorXd pulls = reach_.transposed(whitened);
     std::vector<std::pair<double, Index>> spikes;
     for (Index row = 0; row < pulls.size(); ++row) {
       const double z = std::abs(pulls[row]) / std::sqrt(precision(row));
-      if (z > usual) spikes.emplace_back(-z, row);
+      if (z > thresholds::winsorised_errors) spikes.emplace_back(-z, row);
     }
     std::sort(spikes.begin(), spikes.end());
     for (const auto& [z, row] : spikes) {
       double pull = 0;
       for (const auto& [user, weight] : reach_.of(row)) pull += weight * whitened[user];
-      const double most = usual * std::sqrt(precision(row)), excess = pull - std::clamp(pull, -most, most);
+      const double most = thresholds::winsorised_errors * std::sqrt(precision(row)),
+                   excess = pull - std::clamp(pull, -most, most);
       for (const auto& [user, weight] : reach_.of(row)) whitened[user] -= weight * excess / precision(row);
     }
     return whitened;
@@ -282,7 +282,6 @@ double beyond_after_a_step(double x, double draw, double mean) {
 // sealed cases with people the flipped one is at most 2.7 scales ahead, against 6 to 65. In a measured flat, where
 // levels rise as often as they fall, it is 37 of 87.
 double log_p(const Scan& scan, double ratio, const VectorXd& left) {
-  constexpr double usual_misfit = 2;  // scales: several times the lead of the flipped scan in clean worlds
   double first = 0, second = 0;
   for (uint64_t k = 0; k < shuffles; ++k) {
     const double value = highest(scan, shuffled(scan.residual(), k));
@@ -293,7 +292,9 @@ double log_p(const Scan& scan, double ratio, const VectorXd& left) {
   const double scale = std::max(1.0, sd * std::sqrt(6.0) / M_PI), location = first - 0.5772 * scale;
   const auto scales = [&](double value) { return (value - location) / scale; };
   const double mirrored = scales(highest(scan, -left)), ahead = scales(ratio);
-  return ahead < 3 * mirrored ? 0 : std::log(std::max(beyond_after_a_step(ahead, mirrored, usual_misfit), 1e-300));
+  return ahead < thresholds::flipped_times * mirrored
+             ? 0
+             : std::log(std::max(beyond_after_a_step(ahead, mirrored, thresholds::usual_misfit), 1e-300));
 }
 
 }  // namespace
@@ -315,8 +316,7 @@ Blockage blockage_test(const inference::ModelState& state, const LinkReadings& r
     at = ratios;
     where = &link;
   }
-  constexpr double promising = 3;  // nats; below that no shuffled null can be significant
-  if (best < promising) return result;
+  if (best < thresholds::promising_blockage) return result;
   std::tie(result.radio, result.other) = where->radios;
   std::size_t width = 0, loss = 0;
   for (std::size_t w = 0; w < widths.size(); ++w) {
@@ -324,7 +324,7 @@ Blockage blockage_test(const inference::ModelState& state, const LinkReadings& r
       if (at[w][l] > at[width][loss]) width = w, loss = l;
     }
   }
-  const double duration = widths[width] * std::sqrt(M_PI), share = duration / between;
+  const double duration = widths[width] * std::sqrt(M_PI), share = duration / thresholds::between_blockages;
   // The grid's neighbouring entries bound each value.
   result.test.values = {{"loss", losses[loss], losses[loss] / 1.6, losses[loss] * 1.6},
                         {"share", share, share / 2, std::min(1.0, share * 2)},

@@ -8,6 +8,7 @@
 
 #include "diagnosis/inference/state/null_tail.hpp"
 #include "diagnosis/radio/laws/law_likelihood.hpp"
+#include "diagnosis/radio/thresholds.hpp"
 
 namespace muster::diagnosis {
 namespace {
@@ -15,16 +16,15 @@ namespace {
 using Eigen::Index;
 
 constexpr std::array averages{1, 2, 3, 4, 6};  // fades in one reading
-constexpr double unlikely = 6;                 // nats behind the best shape of the field
 // Factor by which gains of clean worlds are wider than chi-square. Neighbouring readings share the error of their
 // level, which a skewed law absorbs. In simulated fields of known shape a fading law's gain is 1.7 to 3.3 times as
 // wide. Besides, no family of correlations matches the true field exactly. The misfit resembles fading of another
 // strength most, and outliers least (346 clean worlds of 2,000 to 20,000 readings). A factor of 1.5 was too small:
 // with readings of six averaged fades, gains of 22 and 23 were false in 55 further clean worlds.
-double wider(const std::string& cause) { return cause == "effect.fading_law" ? 3 : 2; }
-const double may_be_named = std::log(0.01);  // log p; the second test, without winsorising, only raises it
-const double worth_a_closer_look = 3;        // gain: far below any that is named
-const double averaged_cost = std::log(5.0);  // nats: the stated law is of single fades
+double wider(const std::string& cause) {
+  return cause == "effect.fading_law" ? thresholds::fading_dispersion : thresholds::other_law_dispersion;
+}
+const double averaged_cost = std::log(thresholds::averaged_choices);  // nats: the stated law is of single fades
 
 ReadingDistribution averaged_over(ReadingDistribution law, int n) {
   const double variance = fading_variance(law.rician_k, law.averaged);
@@ -70,9 +70,9 @@ class Tests {
     }
     starts_ = judge_.shapes(stated, fit);
     const double most = std::max_element(starts_.begin(), starts_.end(), lower)->value;
-    starts_.erase(
-        std::remove_if(starts_.begin(), starts_.end(), [&](const Peak& p) { return p.value < most - unlikely; }),
-        starts_.end());
+    starts_.erase(std::remove_if(starts_.begin(), starts_.end(),
+                                 [&](const Peak& p) { return p.value < most - thresholds::unlikely_shape_nats; }),
+                  starts_.end());
     for (Peak& start : starts_) start = judge_.closer_distance(stated, start);
     for (const ReadingDistribution& law : bases_) {
       for (const Peak& start : starts_) take_for_null(law, judge_.best(law, start));
@@ -122,17 +122,16 @@ class Tests {
   // A mismatch of the field's family biases the fitted law. Differences of adjacent readings are free of the field,
   // and must not contradict the law.
   bool borne_out(const Fitted& fitted) {
-    constexpr double against = 2;  // nats
     const CloseReadings close = judge_.field().close_readings();
     const auto off = [&](const ReadingDistribution& law) {
       return std::pow((close.variance - variance_of(law, judge_.step())) / close.standard_error, 2) / 2;
     };
-    return off(fitted.law) - off(null_law_) < against;
+    return off(fitted.law) - off(null_law_) < thresholds::contradiction_nats;
   }
 
   // The strength with its 95 % interval by profile likelihood, wider by the gain's factor.
   LawValue value(const Family& family, const Fitted& best) {
-    const double fall = 1.92 * wider(family.cause);
+    const double fall = thresholds::interval_nats * wider(family.cause);
     const auto value = [&](double x) {
       const ReadingDistribution law = family.with(best.base, x);
       return possible(law) ? judge_.best(law, best.peak).value - cost_of(law) : -1e300;
@@ -263,13 +262,14 @@ LawTests law_tests(KrigedReadings& field, double step, const ReadingDistribution
     const auto [entry, is_new] = best.try_emplace(family.cause, &family, fitted);
     if (!is_new && fitted.peak.value > entry->second.second.peak.value) entry->second = {&family, fitted};
   }
-  constexpr double within = 1.92;  // nats, of a 95 % interval
   std::map<std::string, std::vector<const Family*>> as_likely;
   for (const auto& [family, value] : values) {
-    if (value > best.at(family->cause).second.peak.value - within) as_likely[family->cause].push_back(family);
+    if (value > best.at(family->cause).second.peak.value - thresholds::interval_nats)
+      as_likely[family->cause].push_back(family);
   }
   for (auto& [cause, found] : best) {
-    if (tests.gain(found.second) > worth_a_closer_look) found.second = tests.settled(*found.first, found.second);
+    if (tests.gain(found.second) > thresholds::closer_look_gain)
+      found.second = tests.settled(*found.first, found.second);
   }
   const auto weigh = [&](LawTest& test, double gain) {  // p-value of a gain, over the tried forms
     const auto forms = static_cast<double>(
@@ -288,7 +288,8 @@ LawTests law_tests(KrigedReadings& field, double step, const ReadingDistribution
   std::stable_sort(result.begin(), result.end(),
                    [](const LawTest& a, const LawTest& b) { return a.evidence > b.evidence; });
   const auto& [family, fitted] = best.at(result.front().cause);
-  if (result.front().log_p < may_be_named && family->cause != "effect.outliers") {
+  // The second test, without winsorising, only raises log p.
+  if (result.front().log_p < std::log(thresholds::may_be_named) && family->cause != "effect.outliers") {
     const double untamed = gain_untamed(field, step, stated, fit, *family);
     const double over = std::max(0.0, result.front().gain - untamed);
     for (LawTest& test : result) weigh(test, std::max(0.0, test.gain - over));  // differences are kept

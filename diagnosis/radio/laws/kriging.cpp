@@ -6,6 +6,8 @@
 #include <limits>
 #include <tuple>
 
+#include "diagnosis/radio/thresholds.hpp"
+
 namespace muster::diagnosis {
 namespace {
 
@@ -118,9 +120,7 @@ VectorXd KrigedReadings::error_by(const noise::Whitener& whitener) const {
 }
 
 CloseReadings KrigedReadings::close_readings() const {
-  // m, of both ends jointly: within it the variogram of shadowing is linear, or parabolic for a smooth field.
-  constexpr double close = 0.3;
-  constexpr Index fewest = 100;
+  // Side by side the variogram of shadowing is linear, or parabolic for a smooth field.
   const noise::Sites& sites = field_.sites();
   std::vector<bool> paired(static_cast<std::size_t>(size()), false);
   std::vector<double> apart, half;
@@ -130,7 +130,7 @@ CloseReadings KrigedReadings::close_readings() const {
       if (j < 0 || paired[static_cast<std::size_t>(j)]) continue;
       const double distance = std::hypot((sites.place.col(i) - sites.place.col(j)).norm(),
                                          (sites.anchor.col(i) - sites.anchor.col(j)).norm());
-      if (distance > close) break;  // neighbours are sorted by distance
+      if (distance > thresholds::side_by_side) break;  // neighbours are sorted by distance
       apart.push_back(distance);
       half.push_back(std::pow(residual_[i] - residual_[j], 2) / 2);
       paired[static_cast<std::size_t>(i)] = paired[static_cast<std::size_t>(j)] = true;
@@ -138,13 +138,13 @@ CloseReadings KrigedReadings::close_readings() const {
   }
   const auto pairs = static_cast<Index>(half.size());
   const CloseReadings nothing{pairs, 0, std::numeric_limits<double>::infinity()};
-  if (pairs < fewest) return nothing;
+  if (pairs < thresholds::fewest_pairs) return nothing;
   const Eigen::Map<const Eigen::ArrayXd> at(apart.data(), pairs);
   const Eigen::Map<const VectorXd> y(half.data(), pairs);
   const Intercept rough = intercept_of(y, at), smooth = intercept_of(y, at.square());
   if (!rough.known) return nothing;
-  constexpr double clearly = 2;  // nats, of normal errors
-  const bool parabola = smooth.known && std::log(rough.left / smooth.left) * static_cast<double>(pairs) / 2 > clearly;
+  const bool parabola =
+      smooth.known && std::log(rough.left / smooth.left) * static_cast<double>(pairs) / 2 > thresholds::parabola_nats;
   const Intercept& likelier = parabola ? smooth : rough;
   return {pairs, likelier.value, likelier.standard_error};
 }

@@ -10,6 +10,7 @@
 #include "diagnosis/radio/laws/blockage_test.hpp"
 #include "diagnosis/radio/laws/fading_tests.hpp"
 #include "diagnosis/radio/laws/shadowing_test.hpp"
+#include "diagnosis/radio/thresholds.hpp"
 #include "text/number.hpp"
 
 namespace muster::diagnosis {
@@ -35,8 +36,8 @@ CauseEstimate named(const LawSources& s, const Cause& cause, const LawTest& test
     const auto* const p =
         std::find_if(cause.plugin->params, end, [&](const muster_param& q) { return q.name == v.name; });
     if (p == end) continue;
-    out.values.push_back({v.name, p->unit, std::clamp(v.value, p->min, p->max), (v.upper95 - v.lower95) / (2 * 1.96),
-                          v.lower95, v.upper95, p->min, p->max});
+    out.values.push_back({v.name, p->unit, std::clamp(v.value, p->min, p->max),
+                          (v.upper95 - v.lower95) / (2 * thresholds::normal95), v.lower95, v.upper95, p->min, p->max});
   }
   out.evidence = test.evidence;
   out.log_p = test.log_p;
@@ -45,10 +46,6 @@ CauseEstimate named(const LawSources& s, const Cause& cause, const LawTest& test
   return out;
 }
 
-// False-alarm rates on clean worlds of three tests: fading law, blockage, and field. The field needs two tests to
-// agree (shadowing_test.hpp).
-constexpr double alpha = 0.0005, alpha_of_field = 0.002;
-
 bool beyond_chance(const LawTest& test, double share) { return test.evidence > 0 && test.log_p < std::log(share); }
 
 // True if a stage of the world already clips there.
@@ -56,7 +53,8 @@ bool clips_at(const LawSources& s, const std::string& plugin, const std::string&
   for (const auto& instance : s.model.simulation().instances()) {
     if (instance->declared().plugin != plugin) continue;
     const int at = instance->find_param(parameter);
-    if (at >= 0 && std::abs(instance->params()[static_cast<std::size_t>(at)] - level) <= std::max(step, 0.5))
+    if (at >= 0 &&
+        std::abs(instance->params()[static_cast<std::size_t>(at)] - level) <= std::max(step, thresholds::same_clip))
       return true;
   }
   return false;
@@ -80,7 +78,7 @@ bool add_silence(const LawSources& s, const MissingData& missing, Diagnosis& fou
   const double step = found.instrument.step;
   const Cause* const cause = cause_called(s, "effect.rssi_floor");
   const double least = std::log(s.state.options().further_alpha / static_cast<double>(s.state.entries().size()));
-  const double independent = missing.censored ? 1 : 0.5;  // neighbours are lost jointly
+  const double independent = missing.censored ? 1 : thresholds::joint_loss;  // neighbours are lost jointly
   const double gain = independent * missing.evidence;
   LawTest test{"effect.rssi_floor", {}, gain, gain / 2, inference::log_tail(gain, 1)};
   if (missing.cut_off && !missing.censored)
@@ -110,11 +108,11 @@ VectorXd residual_of(const LawSources& s, const Diagnosis& found) {
   if (!s.state.problem().bounds.any()) return result;
   const double sd = std::sqrt(s.state.fit.covariance.field_variance() + s.state.fit.covariance.reading_variance());
   const auto near = [&](const std::optional<Clip>& clip, double side, double mean) {
-    return clip && side * (clip->level - mean) < 2 * sd;
+    return clip && side * (clip->level - mean) < thresholds::near_clip * sd;
   };
   for (Index i = 0; i < result.size(); ++i) {
     const double mean = found.mean[s.used[static_cast<std::size_t>(i)]];
-    const bool lost = s.fit.missing.censored && mean - s.fit.missing.floor < 2 * sd;
+    const bool lost = s.fit.missing.censored && mean - s.fit.missing.floor < thresholds::near_clip * sd;
     if (lost || near(found.instrument.top, 1, mean) || near(found.instrument.bottom, -1, mean))
       result[i] = std::nan("");
   }
@@ -154,8 +152,8 @@ std::string why_not(const LawSources& s, const VectorXd& residual) {
   if (!s.data.has_places()) return "not testable: the data have no places";
   if (!s.model.has_plugin("radio.fading")) return "not testable: the world has no radio.fading that states a law";
   if (!fades_apart(s)) return "not testable: readings lie closer than the half wavelength over which fading changes";
-  constexpr Index fewest = 300;
-  if (residual.array().isFinite().count() < fewest) return "not testable: fewer than 300 readings that are no bounds";
+  if (residual.array().isFinite().count() < thresholds::fewest_law_readings)
+    return "not testable: fewer than 300 readings that are no bounds";
   return "";
 }
 
@@ -164,11 +162,12 @@ ReadingDistribution add_scatter(const LawSources& s, KrigedReadings& field, Diag
   const auto [tests, likeliest] = law_tests(field, found.instrument.step, stated_law(s.model), s.state.fit.covariance);
   const auto best =
       std::find_if(tests.begin(), tests.end(), [&](const LawTest& t) { return cause_called(s, t.cause); });
-  if (best == tests.end() || !beyond_chance(*best, alpha)) return likeliest;
+  if (best == tests.end() || !beyond_chance(*best, thresholds::law_alpha)) return likeliest;
   found.causes.push_back(named(s, *cause_called(s, best->cause), *best));
   for (const LawTest& other : tests) {
     const double gap = best->evidence - other.evidence;
-    if (&other != &*best && gap < 3) found.causes.back().alternatives.push_back({other.cause, "all", {}, gap, 2 * gap});
+    if (&other != &*best && gap < thresholds::open_law_nats)
+      found.causes.back().alternatives.push_back({other.cause, "all", {}, gap, 2 * gap});
   }
   return best->law;
 }
@@ -180,8 +179,8 @@ bool world_draws_alike(const LawSources& s) {
   if (!apart.allFinite()) return false;
   const noise::StatedField own = said_by(fitted_to(s.state, s.state.rows().mean(apart)), s.state.within());
   const noise::StatedField fitted = said_by(s.state.fit.covariance, s.state.within());
-  return std::abs(std::log(own.shadowing / fitted.shadowing)) < std::log(1.25) &&
-         std::abs(std::log(own.decorrelation / fitted.decorrelation)) < std::log(1.6);
+  return std::abs(std::log(own.shadowing / fitted.shadowing)) < std::log(thresholds::alike_shadowing) &&
+         std::abs(std::log(own.decorrelation / fitted.decorrelation)) < std::log(thresholds::alike_decorrelation);
 }
 
 void add_field(const LawSources& s, KrigedReadings& field, const ReadingDistribution& law, Diagnosis& found) {
@@ -194,29 +193,29 @@ void add_field(const LawSources& s, KrigedReadings& field, const ReadingDistribu
   }
   found.searched.push_back(cause->id);
   const LawTest test = field_test(field, found.instrument.step, law, said, s.state);
-  if (beyond_chance(test, alpha_of_field) && !world_draws_alike(s)) found.causes.push_back(named(s, *cause, test));
+  // The field needs two tests to agree (shadowing_test.hpp).
+  if (beyond_chance(test, thresholds::field_alpha) && !world_draws_alike(s))
+    found.causes.push_back(named(s, *cause, test));
 }
 
 // Each of the two laws can imitate the other: the weaker one is kept only if it is beyond doubt.
 void leave_the_stronger(Diagnosis& found) {
-  constexpr double doubt = 30;  // of lambda
   const auto weaker =
       std::min_element(found.causes.end() - 2, found.causes.end(),
                        [](const CauseEstimate& a, const CauseEstimate& b) { return a.lambda < b.lambda; });
-  if (weaker->lambda < doubt) found.causes.erase(weaker);
+  if (weaker->lambda < thresholds::second_law_lambda) found.causes.erase(weaker);
 }
 
 // Readings whose link passes within 5 mm of a wall's end are excluded from these tests. The link may pass on the
 // other side, an error of a whole wall. Three of those among 20,000 readings resemble outliers.
 VectorXd without_grazing(const LawSources& s, const VectorXd& residual, Diagnosis& found) {
-  constexpr double as_exact_as_places = 0.005, much = 0.5;  // m: surveys write centimetres; dB: half a unit of RSSI
-  const VectorXd unsure = s.model.changes_aside(as_exact_as_places)(s.used);
-  const auto grazes = unsure.array() > much;
+  const VectorXd unsure = s.model.changes_aside(thresholds::grazing)(s.used);
+  const auto grazes = unsure.array() > thresholds::grazing_change;
   if (const Index count = grazes.count())
     found.notes.push_back(fmt::format(
         "{} of {} readings pass within {:.0f} mm of where a wall ends: how single readings scatter is asked without "
         "them",
-        count, residual.size(), 1000 * as_exact_as_places));
+        count, residual.size(), 1000 * thresholds::grazing));
   return grazes.select(std::nan(""), residual);
 }
 
@@ -264,8 +263,8 @@ bool add_people(const LawSources& s, const VectorXd& residual, Diagnosis& found)
     return false;
   }
   found.searched.push_back(cause->id);
-  if (passages.radio < 0 || !beyond_chance(passages.test, alpha) ||
-      (passages.test.log_p > people_in_company && !all_changes_in_time(found)))
+  if (passages.radio < 0 || !beyond_chance(passages.test, thresholds::law_alpha) ||
+      (passages.test.log_p > thresholds::people_in_company && !all_changes_in_time(found)))
     return false;
   CauseEstimate out = named(s, *cause, passages.test);
   out.row_parameter = "radio";

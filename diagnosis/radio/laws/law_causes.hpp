@@ -18,9 +18,6 @@ struct LawSources {
   const Fit& fit;
 };
 
-// log p required of blockage beside other misfits, which may not be fully explained.
-constexpr double people_in_company = -9;
-
 // Each adds to the causes of `found`, and to its lists of tested and untestable ones.
 void add_clips(const LawSources& sources, Diagnosis& found);
 void add_laws(const LawSources& sources, Diagnosis& found);

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/radio/thresholds.hpp"
+
 namespace muster::diagnosis {
 namespace {
 
 using Eigen::Index;
 
-constexpr Index enough_readings = 3000;  // for a rough value
-constexpr int farthest = 9000;           // a field of one part in 8,000 of the variance, or of all but that
+constexpr int farthest = 9000;  // a field of one part in 8,000 of the variance, or of all but that
 
 }  // namespace
 
@@ -83,15 +84,13 @@ Peak LawLikelihood::closer_distance(const ReadingDistribution& law, Peak best) {
 }
 
 std::vector<Peak> LawLikelihood::shapes(const ReadingDistribution& law, const noise::Covariance& from) {
-  constexpr Index many = 30000, some = 10000;
-  constexpr double hopeless = 60;  // nats behind the best: more than a step of the distance gains
-  if (field_.size() < many) return shapes_by_all(law, from);
-  KrigedReadings sample = field_.some(some);
+  if (field_.size() < thresholds::sampled_from) return shapes_by_all(law, from);
+  KrigedReadings sample = field_.some(thresholds::sample_size);
   std::vector<Peak> result = LawLikelihood(sample, step_).shapes_by_all(law, from);
   double most = -1e300;
   for (Peak& peak : result) most = std::max(most, peak.value = value(law, peak));
   for (Peak& peak : result) {
-    if (peak.value > most - hopeless) peak = best_distance(law, peak);
+    if (peak.value > most - thresholds::hopeless_shape_nats) peak = best_distance(law, peak);
   }
   return result;
 }
@@ -113,7 +112,7 @@ double LawLikelihood::value(const ReadingDistribution& law, const Peak& there) {
 
 double LawLikelihood::about(const ReadingDistribution& law, const Peak& there) {
   const double log_variance = std::log(variance_of(law, step_));
-  const Index every = field_.size() / enough_readings + 1;
+  const Index every = field_.size() / thresholds::rough_readings + 1;
   return at(densities_of(law, log_variance, there, 0), log_variance, there.shape, there.place, every);
 }
 

@@ -6,11 +6,10 @@
 
 #include "diagnosis/inference/state/null_tail.hpp"
 #include "diagnosis/radio/laws/law_likelihood.hpp"
+#include "diagnosis/radio/thresholds.hpp"
 
 namespace muster::diagnosis {
 namespace {
-
-constexpr double wider = 1.5;  // than a chi-square, since the family is unknown
 
 // Flat prior: the likelihood alone.
 noise::Prior flat() {
@@ -32,9 +31,10 @@ double best_value(const inference::ModelState& state, const noise::Covariance& a
 
 // Likelihood-ratio gain on rows: the fitted field against the best one near the stated one.
 double gain_of_rows(const inference::ModelState& state, const noise::StatedField& stated, const noise::Fit& free) {
-  constexpr double tolerance = 1.08;
   const noise::StatedField fitted = said_by(free.covariance, state.within());
-  const auto near = [&](double value, double said) { return std::clamp(value, said / tolerance, said * tolerance); };
+  const auto near = [&](double value, double said) {
+    return std::clamp(value, said / thresholds::stated_tolerance, said * thresholds::stated_tolerance);
+  };
   const double size = near(fitted.shadowing, stated.shadowing);
   const double distance = near(fitted.decorrelation, stated.decorrelation);
   double held = 1e300;
@@ -49,7 +49,7 @@ double gain_of_rows(const inference::ModelState& state, const noise::StatedField
 }
 
 LawValue value_of(const char* name, double value, double variance_of_log) {
-  const double half = 1.96 * std::sqrt(wider * variance_of_log);
+  const double half = thresholds::normal95 * std::sqrt(thresholds::field_dispersion * variance_of_log);
   return {name, value, value * std::exp(-half), value * std::exp(half)};
 }
 
@@ -96,7 +96,7 @@ LawTest field_test(KrigedReadings& field, double step, const ReadingDistribution
     test.gain = std::max(0.0, std::min(test.gain, of_readings));
   }
   test.evidence = evidence();
-  test.log_p = inference::log_tail(test.gain / wider, 2);
+  test.log_p = inference::log_tail(test.gain / thresholds::field_dispersion, 2);
   return test;
 }
 

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "diagnosis/radio/thresholds.hpp"
+
 namespace muster::diagnosis {
 namespace {
 
@@ -133,13 +135,12 @@ LinkReadings middles(const noise::Rows& rows, const LinkReadings& readings) {
 }
 
 LinkRowLimits limits_for(const LinkReadings& readings) {
-  constexpr Index few = 4000, many = 10000;
   LinkRowLimits limits;
   for (const double share : {0.0, 0.25, 0.5, 1.0, 2.0, 4.0}) {
     limits = {};
     limits.time *= share;
     limits.way *= share;
-    if (link_rows(readings, limits).size() <= (share < 1 ? few : many)) break;
+    if (link_rows(readings, limits).size() <= (share < 1 ? thresholds::short_rows : thresholds::usual_rows)) break;
   }
   return limits;
 }

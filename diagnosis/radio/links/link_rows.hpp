@@ -2,6 +2,7 @@
 #pragma once
 
 #include "diagnosis/inference/state/layout.hpp"
+#include "diagnosis/radio/thresholds.hpp"
 
 namespace muster::diagnosis {
 
@@ -18,10 +19,10 @@ struct LinkReadings {
 
 // A row ends where the next reading lies so far from its first one.
 struct LinkRowLimits {
-  double time = 1.2;     // s
-  double turn = 0.6109;  // rad, 35 degrees
-  double way = 1.0;      // m, of either end
-  double level = 1.5;    // dB: what a wall does to a link is not averaged with what it is without
+  double time = thresholds::row_time;    // s
+  double turn = thresholds::row_turn;    // rad
+  double way = thresholds::row_way;      // m, of either end
+  double level = thresholds::row_level;  // dB: what a wall does to a link is not averaged with what it is without
 };
 
 // Readings by link, then time, in rows that end at these limits.

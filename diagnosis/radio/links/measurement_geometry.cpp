@@ -6,6 +6,7 @@
 #include <muster/tables.hpp>
 
 #include "diagnosis/radio/links/link_features.hpp"
+#include "diagnosis/radio/thresholds.hpp"
 
 namespace muster::diagnosis {
 namespace {
@@ -65,14 +66,15 @@ std::vector<Line> lines_of(const LinkModel& model) {
 }
 
 std::vector<OrientedRectangle> strips_of(const LinkModel& model) {
-  constexpr double narrowest = 1, widest = 5, shortest = 5;  // m
   constexpr std::size_t most = 12;
   std::vector<OrientedRectangle> strips;
   const std::vector<Line> lines = lines_of(model);
   for (const Line& a : lines) {
     for (const Line& b : lines) {
       const double width = b.offset - a.offset, from = std::max(a.from, b.from), to = std::min(a.to, b.to);
-      if (std::abs(a.angle - b.angle) > 0.05 || width < narrowest || width > widest || to - from < shortest) continue;
+      if (std::abs(a.angle - b.angle) > 0.05 || width < thresholds::narrowest_strip ||
+          width > thresholds::widest_strip || to - from < thresholds::shortest_strip)
+        continue;
       const double along = (from + to) / 2, across = (a.offset + b.offset) / 2, c = std::cos(a.angle),
                    s = std::sin(a.angle);
       strips.push_back({c * along - s * across, s * along + c * across, to - from, a.angle, width});
@@ -86,7 +88,6 @@ std::vector<OrientedRectangle> strips_of(const LinkModel& model) {
 
 // Rooms in which moving radios took one reading in fifty, or more.
 std::vector<OrientedRectangle> rooms_visited(const LinkModel& model, const MeasurementGeometry& survey) {
-  constexpr std::size_t least = 50;
   const Table* table = model.simulation().board().find("wall/*/shape");
   if (!table) return {};
   const auto* walls = reinterpret_cast<const Wall*>(table->now().data.data());
@@ -101,7 +102,8 @@ std::vector<OrientedRectangle> rooms_visited(const LinkModel& model, const Measu
   }
   std::vector<OrientedRectangle> result;
   for (const Room& room : rooms_of(lines, survey.plan_angle, places)) {
-    if (static_cast<std::size_t>(room.visits) * least >= places.size()) result.push_back(room.bounds);
+    if (static_cast<std::size_t>(room.visits) * thresholds::places_of_visit >= places.size())
+      result.push_back(room.bounds);
   }
   return result;
 }
@@ -125,9 +127,12 @@ struct Trail {
   std::vector<double> headings;               // at least 0.2 rad
 
   // A radio that was set up a few times stands still nevertheless.
-  static constexpr std::size_t set_ups = 4;
-  bool moves() const { return east.length() + north.length() > 0.5 && places.size() > set_ups; }
-  bool turns() const { return yaw.length() > 0.2 && (moves() || headings.size() > set_ups); }
+  bool moves() const {
+    return east.length() + north.length() > thresholds::moving_extent && places.size() > thresholds::most_set_ups;
+  }
+  bool turns() const {
+    return yaw.length() > thresholds::turning_range && (moves() || headings.size() > thresholds::most_set_ups);
+  }
 };
 
 // A leap of more than 2 m is no way that was driven.
@@ -136,13 +141,13 @@ void follow(Trail& trail, const End& end, MeasurementGeometry& survey) {
   widen(trail.east, end.x, first);
   widen(trail.north, end.y, first);
   widen(trail.yaw, end.yaw, first);
-  if (first || std::abs(std::remainder(end.yaw - trail.headings.back(), 2 * M_PI)) > 0.2)
+  if (first || std::abs(std::remainder(end.yaw - trail.headings.back(), 2 * M_PI)) > thresholds::least_turn)
     trail.headings.push_back(end.yaw);
   if (!first) {
     const auto [x, y] = trail.places.back();
     const double moved = std::hypot(end.x - x, end.y - y);
-    if (moved < 0.2) return;
-    if (moved < 2) survey.ways.push_back({x, y, end.x, end.y});
+    if (moved < thresholds::least_step) return;
+    if (moved < thresholds::longest_step) survey.ways.push_back({x, y, end.x, end.y});
   }
   trail.places.push_back({end.x, end.y});
 }
@@ -185,7 +190,7 @@ MeasurementGeometry measurement_geometry(const LinkModel& model, const Dataset& 
     distances.push_back(std::hypot(std::hypot(ends[0].x - ends[1].x, ends[0].y - ends[1].y), ends[0].z - ends[1].z));
   }
   std::sort(survey.ways.begin(), survey.ways.end());
-  survey.has_height = survey.height.length() > 0.3;
+  survey.has_height = survey.height.length() > thresholds::least_heights;
   std::sort(distances.begin(), distances.end());
   const auto quantile = [&](double share) {
     return distances.at(static_cast<std::size_t>(share * static_cast<double>(distances.size() - 1)));

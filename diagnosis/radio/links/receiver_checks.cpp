@@ -7,6 +7,8 @@
 #include <map>
 #include <numeric>
 
+#include "diagnosis/radio/thresholds.hpp"
+
 namespace muster::diagnosis {
 namespace {
 
@@ -22,7 +24,7 @@ Codes codes_of(const Dataset& data) {
 
 // All levels lie on one grid, whose step is the least distance between two of them.
 double step_of(const Codes& codes, std::size_t readings) {
-  if (codes.size() < 3 || codes.size() > readings / 4) return 0;
+  if (codes.size() < thresholds::fewest_codes || codes.size() > readings / thresholds::readings_of_code) return 0;
   double least = 1e300;
   for (auto it = std::next(codes.begin()); it != codes.end(); ++it)
     least = std::min(least, it->first - std::prev(it)->first);
@@ -52,11 +54,10 @@ double log_binomial_tail(std::size_t k, std::size_t n, double chance) {
 // A law that falls off towards its end has no more readings at the last code than at any of the codes before it, the
 // nearest first.
 std::optional<Clip> pile(const Dataset& data, double level, std::size_t count, const std::vector<std::size_t>& before) {
-  constexpr std::size_t least = 15;
-  if (count < least || count <= 2 * before[0]) return {};
+  if (count < thresholds::fewest_piled || count <= thresholds::piled_times * before[0]) return {};
   const std::size_t all = std::accumulate(before.begin(), before.end(), count);
   Clip clip{level, count, before[0], log_binomial_tail(count, all, 1 / (1.0 + static_cast<double>(before.size()))), 0};
-  if (clip.log_p > std::log(1e-6)) return {};
+  if (clip.log_p > std::log(thresholds::pile_alpha)) return {};
   clip.row = static_cast<std::size_t>(std::find(data.rssi.begin(), data.rssi.end(), level) - data.rssi.begin());
   return clip;
 }
@@ -77,7 +78,8 @@ ReceiverCheck pile_check(const std::string& end, const std::optional<Clip>& clip
 
 std::string step_in_words(double step, std::size_t levels, std::size_t readings) {
   if (step > 0) return fmt::format("{:.6g} dB", step);
-  if (levels >= 3 && levels <= readings / 4) return "none: no common step";
+  if (levels >= thresholds::fewest_codes && levels <= readings / thresholds::readings_of_code)
+    return "none: no common step";
   return fmt::format(
       "not known: {} readings of {} levels are too few to tell; three levels and four readings a level would do",
       readings, levels);
@@ -87,14 +89,12 @@ std::string step_in_words(double step, std::size_t levels, std::size_t readings)
 // the lowest of many readings lies 20 dB below the next in one record of a hundred, 30 in one of a thousand.
 template <class It>
 std::vector<double> parted(It from, const It& end) {
-  constexpr double gap = 30;  // dB
-  constexpr std::size_t few = 3;
   std::vector<double> levels;
   std::size_t count = 0;
-  for (; from != end && std::next(from) != end && count + from->second <= few; ++from) {
+  for (; from != end && std::next(from) != end && count + from->second <= thresholds::most_outliers; ++from) {
     count += from->second;
     levels.push_back(from->first);
-    if (std::abs(std::next(from)->first - from->first) >= gap) return levels;
+    if (std::abs(std::next(from)->first - from->first) >= thresholds::outlier_gap) return levels;
   }
   return {};
 }

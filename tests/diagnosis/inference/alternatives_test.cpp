@@ -11,6 +11,7 @@
 #include <tuple>
 #include <vector>
 
+#include "diagnosis/inference/thresholds.hpp"
 #include "tests/diagnosis/inference/guessed.hpp"
 
 namespace muster::inference {
@@ -67,7 +68,7 @@ TEST(Alternatives, OfAnUnexplainedSmoothAreTheCausesThatExplainItNearlyAsWell) {
       EXPECT_NE(r.id, "~battery");
       if (r.id[0] != '~') causes.push_back(r.id);
       if (r.id != "drift") continue;
-      EXPECT_LT(r.separability, inseparable);
+      EXPECT_LT(r.separability, thresholds::inseparable);
       EXPECT_NEAR(r.by_readings, r.separability / 2, 3 * std::sqrt(r.separability));
       EXPECT_GT(r.by_readings, r.evidence_gap + 5);  // five functions cost more than a drift's one
     }

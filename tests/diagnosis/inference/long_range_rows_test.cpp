@@ -5,6 +5,7 @@
 
 #include "diagnosis/inference/assess/search.hpp"
 #include "diagnosis/inference/state/null_tail.hpp"
+#include "diagnosis/inference/thresholds.hpp"
 #include "tests/diagnosis/inference/causes.hpp"
 
 namespace muster::inference {
@@ -59,7 +60,8 @@ TEST(LongRangeRows, PValueOfANameUsesTheExactCovariance) {
   const double near = state.whitened_model(state.base()).gain(offset.columns);
   const double sure = state.far().sure_gain({state.y(), state.base(), offset.columns, state.fit.covariance});
   EXPECT_LT(sure, 0.9 * near);
-  EXPECT_NEAR(result.trials[0].marginal_log_p, state.log_p(*offset.candidate, sure / overdispersion, 1, true), 0.2);
+  EXPECT_NEAR(result.trials[0].marginal_log_p,
+              state.log_p(*offset.candidate, sure / thresholds::overdispersion, 1, true), 0.2);
 }
 
 // The threshold of a smooth is above that of a chi-square.

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "diagnosis/inference/thresholds.hpp"
 #include "diagnosis/planning/measurement_plans.hpp"
 
 namespace muster::diagnosis {
@@ -173,7 +174,7 @@ TEST(Plans, KeepStationsWhereTheyAreOnLinksThatGoBothWays) {
 
 TEST(Plans, TurnTheStationOfAnAlternativeWhereTheFindingConcernsNone) {
   CauseEstimate wall = about("w1");
-  wall.alternatives = {{"effect.tx_offset", "radio/west", {}, 1, 2 * inference::decided},
+  wall.alternatives = {{"effect.tx_offset", "radio/west", {}, 1, 2 * inference::thresholds::decided},
                        {"effect.antenna_tx", "radio/east", {}, 2, 0}};
   EXPECT_GT(plan(driven(), "turn east", {wall}).size(), 0);
   EXPECT_EQ(plan(driven(), "turn west", {wall}).size(), 0);

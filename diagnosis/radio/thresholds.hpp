@@ -1,0 +1,252 @@
+// Thresholds and tuning constants of radio: links, laws, causes, calibration and pipeline. Grid sizes, iteration counts
+// and rounding floors stay where they are used.
+//
+// Above each constant: unit; meaning; origin; the test that fails if it is badly changed. Origins: derived from theory,
+// measured on worlds of known truth, or chosen. docs/reference/thresholds.md is made of this by scripts/thresholds.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+
+namespace muster::diagnosis::thresholds {
+
+// standard errors; half of a 95 % interval of a normal variable; derived;
+// CauseEstimate.IntervalOfAParameterSoughtByItsLogarithmIsAFactor
+inline constexpr double normal95 = 1.96;
+
+// links: rows
+
+// s; time after which a row ends; chosen; none
+inline constexpr double row_time = 1.2;
+// rad; turn of a radio at which a row ends, 35 degrees; chosen; LinkRows.EndWhereEitherRadioTurns
+inline constexpr double row_turn = 0.6109;
+// m; way of either end at which a row ends; chosen; none
+inline constexpr double row_way = 1.0;
+// dB; change of the expected level at which a row ends; chosen; LinkRows.EndWhereAWallChangesTheLevel
+inline constexpr double row_level = 1.5;
+// rows; up to which rows are shorter than usual; chosen; LinkRowLimits.AreAsShortAsTheNumberOfRowsAllows
+inline constexpr Eigen::Index short_rows = 4000;
+// rows; beyond which rows are longer than usual; chosen; LinkRowLimits.AreAsShortAsTheNumberOfRowsAllows
+inline constexpr Eigen::Index usual_rows = 10000;
+
+// links: receiver
+
+// readings; of a pile at the last code; chosen; ReceiverChecks.ASmallPileIsComparedWithAllLevelsNearIt
+inline constexpr std::size_t fewest_piled = 15;
+// factor; readings of a pile, relative to the code beside it; chosen; none
+inline constexpr std::size_t piled_times = 2;
+// probability; of a pile by chance; chosen; ReceiverChecks.ASmallPileIsComparedWithAllLevelsNearIt
+inline constexpr double pile_alpha = 1e-6;
+// codes; fewest that show a step; chosen; none
+inline constexpr std::size_t fewest_codes = 3;
+// readings; of each code, on average, that show a step; chosen; ReceiverChecks.NoStepFromTooFewReadings
+inline constexpr std::size_t readings_of_code = 4;
+// dB; that part outliers from all others, exceeded in one Rayleigh record of a thousand; derived;
+// ReceiverChecks.AnIsolatedReadingIsReportedWithItsRow
+inline constexpr double outlier_gap = 30;
+// readings; that may be outliers together; chosen; ReceiverChecks.AnIsolatedReadingIsReportedWithItsRow
+inline constexpr std::size_t most_outliers = 3;
+
+// links: geometry
+
+// m; extent of a radio's places from which it moves; chosen; none
+inline constexpr double moving_extent = 0.5;
+// places; of a radio that stands nevertheless; chosen;
+// MeasurementGeometry.TakesARadioThatIsSetUpAFewTimesForOneThatStands
+inline constexpr std::size_t most_set_ups = 4;
+// rad; range of headings from which a radio turns; chosen; none
+inline constexpr double turning_range = 0.2;
+// m; between two places of a radio that count; chosen; none
+inline constexpr double least_step = 0.2;
+// rad; between two headings of a radio that count; chosen; none
+inline constexpr double least_turn = 0.2;
+// m; beyond which a step is no way that was driven; chosen; none
+inline constexpr double longest_step = 2;
+// m; range of heights from which these vary; chosen; none
+inline constexpr double least_heights = 0.3;
+// places; of moving radios, one of which lies in a room that was visited; chosen; none
+inline constexpr std::size_t places_of_visit = 50;
+// m; narrowest strip between two walls; chosen; none
+inline constexpr double narrowest_strip = 1;
+// m; widest strip between two walls; chosen; none
+inline constexpr double widest_strip = 5;
+// m; shortest strip between two walls; chosen; none
+inline constexpr double shortest_strip = 5;
+
+// calibration
+
+// probability; of a false alarm over all structure tests; chosen; FalseAlarms.NothingShared
+inline constexpr double scan_alpha = 0.05;
+// names; of a factor or walls, at most, that a structure test takes; chosen; none
+inline constexpr std::size_t most_names = 24;
+// readings; that cross a tested wall, and that do not; chosen; none
+inline constexpr double fewest_crossings = 30;
+// share; of readings by which more are missing at the weakest levels; chosen;
+// MissingData.ALossThatRisesGentlyIsNoFloorAndNotChance
+inline constexpr double rising_share = 0.15;
+// standard errors; of that rise; chosen; none
+inline constexpr double rising_errors = 5;
+// deviance; of a floor, p < 0.002, to take losses for censored; chosen; MissingData.AFloorInTheTailTakesFew
+inline constexpr double censored_evidence = 10;
+// share; of losses that the floor explains, to take them for censored; chosen;
+// MissingData.AFloorBesideMuchRandomLossCutsLevelsOff
+inline constexpr double censored_share = 0.5;
+// dB; above a floor, where readings must be as many as expected; chosen; none
+inline constexpr double above_floor = 3;
+// deviance; of a floor that cuts levels off; derived; MissingData.AFloorInTheTailTakesFew
+inline constexpr double cut_off_evidence = 4;
+// probability; of no reading below a floor that cuts levels off; chosen; none
+inline constexpr double cut_off_alpha = 2e-5;
+// readings; weight of the mean variance in that of a cluster; chosen; none
+inline constexpr double white_prior = 20;
+// m; prior median of the decorrelation distance of a fit's errors; chosen; none
+inline constexpr double error_decorrelation = 1.8;
+// ln m; prior standard deviation of that distance; chosen; none
+inline constexpr double error_decorrelation_spread = 0.7;
+// probability; below which an error model is left out; chosen; none
+inline constexpr double least_belief = 1e-3;
+// clusters; of readings, whose covariance is inverted some hundred times; chosen; none
+inline constexpr std::size_t most_clusters = 140;
+
+// causes
+
+// factor; by which residuals exceed the simulated scatter for the map's own parameters to be used; chosen;
+// SealedSwap.IsNamedThoughItBendsAllParameters
+inline constexpr double much_more = 1.5;
+// readings; of a row, from which columns are sketched; chosen; none
+inline constexpr Eigen::Index worth_sketching = 2;
+// readings; from which columns near a place are computed apart; chosen; none
+inline constexpr Eigen::Index worth_localising = 4000;
+// m; beyond the map within which a radio is sought; chosen; none
+inline constexpr double beyond_map = 10;
+// m; standard deviation of a radio's place about the map's; chosen; none
+inline constexpr double misplaced_spread = 3;
+// m; within which a radio stands where the map has it; chosen;
+// Candidates.MisplacementsBelowATenthOfAMetreAreExcluded
+inline constexpr double same_place = 0.1;
+// nats; charge of refinement of a wall; measured; none
+inline constexpr double wall_charge = 8.3;
+// nats; charge of refinement of a thing; measured; none
+inline constexpr double thing_charge = 7.0;
+// nats; charge of refinement of a room or strip of the plan; measured; none
+inline constexpr double given_place_charge = 0.5;
+// nats; charge of refinement of any other place; measured; none
+inline constexpr double place_charge = 4;
+// nats; charge of refinement without a place; measured; none
+inline constexpr double shape_charge = 1;
+// share; of its gain that a thing keeps where a radio was driven through it; chosen; none
+inline constexpr double driven_through_share = 0.3;
+// share; of its gain that a wall keeps for each time that it was driven across; chosen; none
+inline constexpr double driven_across_share = 0.8;
+// rad; standard deviation of a wall's direction about those of the plan; chosen; none
+inline constexpr double wall_slant = 0.2;
+// share; of the best gain from which the scan of a segment's gap starts anew; chosen; none
+inline constexpr double segment_worth = 0.5;
+// share; of the best gain from which the scan looks about a disk; chosen; none
+inline constexpr double disk_worth = 0.5;
+
+// laws: all
+
+// probability; of a false fading law or blockage in a clean world; chosen; CleanCase.IsSilent
+inline constexpr double law_alpha = 0.0005;
+// probability; of a false field in a clean world; chosen; SealedField.OfASmoothFamilyIsNotTakenForTheStatedOne
+inline constexpr double field_alpha = 0.002;
+// nats; log p required of blockage beside other misfits; chosen; none
+inline constexpr double people_in_company = -9;
+// dB; within which a stage of the world already clips there; chosen; none
+inline constexpr double same_clip = 0.5;
+// share; of the evidence of losses that counts unless they are censored; chosen; none
+inline constexpr double joint_loss = 0.5;
+// standard deviations; about a clip whose readings are not tested; chosen; SealedPeople.AreSoughtApartFromWhatIsClipped
+inline constexpr double near_clip = 2;
+// readings; no bounds, for tests of single readings; chosen; none
+inline constexpr Eigen::Index fewest_law_readings = 300;
+// nats; by which another law may be behind and is an alternative; chosen; none
+inline constexpr double open_law_nats = 3;
+// factor; of the field's size within which the world's own draw is alike; chosen; none
+inline constexpr double alike_shadowing = 1.25;
+// factor; of the field's distance within which the world's own draw is alike; chosen; none
+inline constexpr double alike_decorrelation = 1.6;
+// lambda; from which the weaker of a fading law and a field is beyond doubt; chosen; none
+inline constexpr double second_law_lambda = 30;
+// m; from a wall's end within which a reading grazes it, since surveys write centimetres; chosen;
+// GrazingLinks.AreNoOutliers
+inline constexpr double grazing = 0.005;
+// dB; change aside from which a grazing reading is left out, half a unit of RSSI; chosen; GrazingLinks.AreNoOutliers
+inline constexpr double grazing_change = 0.5;
+
+// laws: fading
+
+// nats; behind the best shape of the field beyond which a shape is dropped; chosen; none
+inline constexpr double unlikely_shape_nats = 6;
+// factor; by which gains of a fading law are wider than chi-square; measured; none
+inline constexpr double fading_dispersion = 3;
+// factor; by which gains of outliers and of hopping are wider than chi-square; measured; none
+inline constexpr double other_law_dispersion = 2;
+// probability; below which a law may be named and is tested without winsorising; chosen;
+// FadingTests.NoFalseAlarmForClippedDeepFades
+inline constexpr double may_be_named = 0.01;
+// deviance; from which field and law are fitted in turn; chosen; none
+inline constexpr double closer_look_gain = 3;
+// numbers; of averaged fades that a law is chosen from, as a price; derived; none
+inline constexpr double averaged_choices = 5;
+// nats; by which adjacent readings may contradict a law; chosen;
+// FadingTests.CloseReadingsPreventAnotherLaw
+inline constexpr double contradiction_nats = 2;
+// nats; fall of the log-likelihood at the ends of a 95 % interval; derived; FadingTests.MeasuresAnotherFading
+inline constexpr double interval_nats = 1.92;
+// nats; behind the best shape beyond which a shape of the sample is not fitted to all readings; chosen;
+// FadingTests.ShapesOfASubsetAreRankedByAllReadings
+inline constexpr double hopeless_shape_nats = 60;
+// readings; from which shapes are fitted to a sample first; chosen; none
+inline constexpr Eigen::Index sampled_from = 30000;
+// readings; of that sample; chosen; none
+inline constexpr Eigen::Index sample_size = 10000;
+// readings; for a rough value of the log-likelihood; chosen; none
+inline constexpr Eigen::Index rough_readings = 3000;
+// m; of both ends jointly, within which readings are side by side; chosen;
+// FadingTests.CloseReadingsGiveTheVarianceOfOne
+inline constexpr double side_by_side = 0.3;
+// pairs; of readings side by side that tell their variance; chosen;
+// FadingTests.CloseReadingsGiveTheVarianceOfOne
+inline constexpr Eigen::Index fewest_pairs = 100;
+// nats; advantage of a parabola over a line in their variogram; chosen;
+// FadingTests.CloseReadingsGiveTheVarianceInASmoothField
+inline constexpr double parabola_nats = 2;
+
+// laws: shadowing
+
+// factor; by which gains of a field are wider than chi-square, since its family is unknown; chosen;
+// ShadowingTest.NoFalseAlarmForTheStatedField
+inline constexpr double field_dispersion = 1.5;
+// factor; of size and distance within which a field is the stated one; chosen; none
+inline constexpr double stated_tolerance = 1.08;
+
+// laws: blockage
+
+// rows; of a link that is tested; chosen; none
+inline constexpr std::size_t fewest_link_rows = 40;
+// s; prior mean time between blockages; chosen; BlockageTest.DetectsAndMeasuresBursts
+inline constexpr double between_blockages = 25;
+// standard errors; at which the error of a row is winsorised; chosen; BlockageTest.NoFalseAlarmForDeepFadesOfSingleReadings
+inline constexpr double winsorised_errors = 2.5;
+// scales; prior mean of a misfit's lead, several times that of the flipped scan in clean worlds; measured; none
+inline constexpr double usual_misfit = 2;
+// factor; by which blockage exceeds the sign-flipped statistic; measured;
+// BlockageTest.NoFalseAlarmForNearlySymmetricBursts
+inline constexpr double flipped_times = 3;
+// nats; ratio below which no shuffled null can be significant; chosen; none
+inline constexpr double promising_blockage = 3;
+
+// pipeline
+
+// share; of a parameter's range within which it is at its bound, 0.01 of an exponent; chosen; none
+inline constexpr double at_bound = 1e-3;
+// cosine squared; from which a strength is the one without effect; chosen; none
+inline constexpr double no_effect_alike = 0.9;
+// values; of a number that is a setting; chosen; none
+inline constexpr std::size_t most_settings = 8;
+// share; of readings that a hidden cause of the self-test concerns; chosen; none
+inline constexpr double hidden_concern = 0.02;
+
+}  // namespace muster::diagnosis::thresholds
