@@ -40,7 +40,8 @@ inline constexpr double one_group_charge = 6;
 // share; of a smooth's gain that a cause explains to replace it; chosen;
 // BackwardElimination.ReplacesASmoothByTheCauseThatExplainsIt
 inline constexpr double replacing_share = 0.9;
-// share; of the gain of several pieces that one object explains to replace them; chosen; MergeDuplicates.TwoSeparateWallsRemainTwo
+// share; of the gain of several pieces that one object explains to replace them; chosen;
+// MergeDuplicates.TwoSeparateWallsRemainTwo
 inline constexpr double merge_share = 0.93;
 // terms; of one model; chosen; none
 inline constexpr int most_terms = 6;
@@ -48,9 +49,11 @@ inline constexpr int most_terms = 6;
 inline constexpr double likely_nats = 3;
 // nats; beyond those, at which a family is excluded from the least gain; chosen; none
 inline constexpr double hopeless_nats = 12;
-// factor; by which gains of global effects are wider than chi-square; measured; LongRangeRows.SmoothsNeedMoreThanTheChiSquareTail
+// factor; by which gains of global effects are wider than chi-square; measured;
+// LongRangeRows.SmoothsNeedMoreThanTheChiSquareTail
 inline constexpr double overdispersion = 1.2;
-// share; of an effect's maximum at which rows are split; chosen; ModelState.RowsThatEndAtAnObstaclesEdgesKeepMoreOfItsInformation
+// share; of an effect's maximum at which rows are split; chosen;
+// ModelState.RowsThatEndAtAnObstaclesEdgesKeepMoreOfItsInformation
 inline constexpr double edge_share = 1.0 / 3;
 
 // score
@@ -70,7 +73,8 @@ inline constexpr double clear_of_clip = 1.5;
 inline constexpr std::size_t fewest_clear_rows = 60;
 // probability; of a gain on rows clear of a clip; chosen; Search.NoFalseExponentOrDualSlopeForAFloor
 inline constexpr double clear_alpha = 1e-3;
-// draws; effective sample size below which weights are tempered; chosen; ImportanceWeights.TemperingWidensWhereFewDrawsHaveAllTheWeight
+// draws; effective sample size below which weights are tempered; chosen;
+// ImportanceWeights.TemperingWidensWhereFewDrawsHaveAllTheWeight
 inline constexpr double fewest_effective = 40;
 // steps; between two starts of a refinement; chosen; none
 inline constexpr double start_distance = 4;

@@ -228,7 +228,8 @@ inline constexpr double stated_tolerance = 1.08;
 inline constexpr std::size_t fewest_link_rows = 40;
 // s; prior mean time between blockages; chosen; BlockageTest.DetectsAndMeasuresBursts
 inline constexpr double between_blockages = 25;
-// standard errors; at which the error of a row is winsorised; chosen; BlockageTest.NoFalseAlarmForDeepFadesOfSingleReadings
+// standard errors; at which the error of a row is winsorised; chosen;
+// BlockageTest.NoFalseAlarmForDeepFadesOfSingleReadings
 inline constexpr double winsorised_errors = 2.5;
 // scales; prior mean of a misfit's lead, several times that of the flipped scan in clean worlds; measured; none
 inline constexpr double usual_misfit = 2;
