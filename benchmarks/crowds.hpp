@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <muster/random.hpp>
 
-#include "encounters.hpp"
+#include "contact_detection.hpp"
 #include "tests/plugins/physics_simbody/fleet.hpp"
 
 namespace muster::simbody {

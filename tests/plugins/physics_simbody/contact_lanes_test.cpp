@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "block_kernel.hpp"
-#include "grip.hpp"
+#include "friction.hpp"
 
 namespace muster::simbody {
 namespace {

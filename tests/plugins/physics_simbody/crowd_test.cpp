@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "benchmarks/crowds.hpp"
-#include "midpoint.hpp"
+#include "midpoint_engine.hpp"
 
 namespace muster::simbody {
 namespace {

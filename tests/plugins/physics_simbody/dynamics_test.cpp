@@ -1,7 +1,7 @@
 // The stepper's block of eight velocities is Simbody's own dynamics.
 #include <random>
 
-#include "crew.hpp"
+#include "robot_models.hpp"
 #include "scarabs.hpp"
 
 namespace muster::simbody {

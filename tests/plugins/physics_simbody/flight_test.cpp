@@ -1,7 +1,7 @@
 // Robots with rotors: in the air by fourth order, near obstacles by the stepper for contacts.
 #include <random>
 
-#include "midpoint.hpp"
+#include "midpoint_engine.hpp"
 #include "scarabs.hpp"
 
 namespace muster::simbody {

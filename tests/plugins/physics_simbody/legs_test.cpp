@@ -1,7 +1,7 @@
 // Legs: their dynamics are Simbody's, their contact geometry is exact, their springs and motors follow their laws.
 #include <random>
 
-#include "crew.hpp"
+#include "robot_models.hpp"
 #include "walkers.hpp"
 
 namespace muster::simbody {

@@ -1,8 +1,8 @@
 // Limbs of every kind, at random: their dynamics are Simbody's.
 #include <random>
 
-#include "crew.hpp"
 #include "limbed.hpp"
+#include "robot_models.hpp"
 
 namespace muster::simbody {
 namespace {

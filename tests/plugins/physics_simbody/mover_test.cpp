@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "benchmarks/crowds.hpp"
-#include "midpoint.hpp"
+#include "midpoint_engine.hpp"
 #include "motion.hpp"
 #include "walkers.hpp"
 
