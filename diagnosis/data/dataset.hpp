@@ -21,7 +21,7 @@ struct Covariate {
 
 struct Dataset {
   std::shared_ptr<const TextTable> table;  // for file positions in messages
-  std::vector<double> t{};  // s; empty if the file has none
+  std::vector<double> t{};                 // s; empty if the file has none
   Factor tx{}, rx{};
   std::vector<Point> tx_at{}, rx_at{};  // z is NaN where the file has none; both empty: the file has distances instead
   std::vector<double> tx_yaw{}, rx_yaw{};  // rad; empty if the file has none

@@ -5,9 +5,9 @@
 #include "diagnosis/calibration/fit.hpp"
 #include "diagnosis/causes/cause_candidates.hpp"
 #include "diagnosis/inference/state/problem.hpp"
+#include "diagnosis/pipeline/link_observations.hpp"
 #include "diagnosis/prediction/sensitivities.hpp"
 #include "diagnosis/radio/causes/simulated_readings.hpp"
-#include "diagnosis/pipeline/link_observations.hpp"
 
 namespace muster::diagnosis {
 

@@ -71,8 +71,7 @@ World world_for(const std::filesystem::path& file, const std::filesystem::path& 
   return world;
 }
 
-Options options_for(const World& world, const Library::SearchPath& plugins,
-                    const std::shared_ptr<TableCache>& tables) {
+Options options_for(const World& world, const Library::SearchPath& plugins, const std::shared_ptr<TableCache>& tables) {
   const Place place{world.file.string()};
   Options options;
   options.search_path = plugins;
