@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <boost/math/distributions/binomial.hpp>
+#include <cmath>
 #include <cstring>
 
 #include "diagnosis/pipeline/cause_self_test.hpp"
@@ -62,12 +62,16 @@ std::vector<fs::path> clean_worlds(int count, uint64_t seed, const std::vector<i
   return result;
 }
 
-// The fewest successes of `trials`, each of probability p, that chance still brings once in 1,000. Rounded up: what
-// boost gives of itself, rounded outwards, is one that chance brings more seldom.
+// The fewest successes of `trials`, each of probability p, that chance still brings once in 1,000: the binomial's
+// quantile.
 int least(int trials, double p) {
-  using namespace boost::math::policies;
-  using Law = boost::math::binomial_distribution<double, policy<discrete_quantile<integer_round_up>>>;
-  return trials == 0 ? 0 : static_cast<int>(boost::math::quantile(Law(trials, p), 0.001));
+  double up_to = 0;
+  for (int k = 0; k < trials; ++k) {
+    up_to += std::exp(std::lgamma(trials + 1) - std::lgamma(k + 1) - std::lgamma(trials - k + 1) + k * std::log(p) +
+                      (trials - k) * std::log1p(-p));
+    if (up_to >= 0.001) return k;
+  }
+  return trials;
 }
 
 int least_found(const CauseSelfTest& check) { return least(check.tested(), goal_found); }

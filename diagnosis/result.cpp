@@ -9,8 +9,8 @@ bool Diagnosis::named() const {
                      [](const CauseEstimate& c) { return c.status == inference::Status::named; });
 }
 
-std::vector<Told> told_by(const Diagnosis& d) {
-  std::vector<Told> result;
+std::vector<NamedCause> named_causes(const Diagnosis& d) {
+  std::vector<NamedCause> result;
   for (const CauseEstimate& c : d.causes) {
     if (c.status == inference::Status::named) result.push_back({c.id, c.label});
   }
@@ -18,9 +18,10 @@ std::vector<Told> told_by(const Diagnosis& d) {
   return result;
 }
 
-std::string in_short(const std::vector<Told>& told) {
+std::string names_in_words(const std::vector<NamedCause>& told) {
   std::string result;
-  for (const Told& t : told) result += (result.empty() ? "" : ", ") + t.id + (t.label.empty() ? "" : " ") + t.label;
+  for (const NamedCause& t : told)
+    result += (result.empty() ? "" : ", ") + t.id + (t.label.empty() ? "" : " ") + t.label;
   return result.empty() ? "silent" : result;
 }
 

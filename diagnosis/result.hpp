@@ -100,7 +100,7 @@ struct WorldValue {
 };
 
 // A named cause or, as "~COVARIATE", an unexplained effect.
-struct Told {
+struct NamedCause {
   std::string id, label;
 };
 
@@ -110,15 +110,15 @@ struct SecondLook {
   std::size_t readings = 0;
   double rmse_given = 0;     // dB a reading: of the world as given, fitted to these readings
   double rmse_extended = 0;  // of the extended world as written
-  std::vector<Told> rediagnosis;
+  std::vector<NamedCause> rediagnosis;
 };
 
 // The extended world simulated, and diagnosed again.
 struct Loop {
-  std::filesystem::path world;    // its folder
-  double mean_difference = 0;     // dB, largest over all readings
-  double rmse_extended = 0;       // dB a reading: measured less the extended world as written
-  std::vector<Told> rediagnosis;  // findings of the second diagnosis
+  std::filesystem::path world;          // its folder
+  double mean_difference = 0;           // dB, largest over all readings
+  double rmse_extended = 0;             // dB a reading: measured less the extended world as written
+  std::vector<NamedCause> rediagnosis;  // findings of the second diagnosis
   std::optional<SecondLook> second{};
 };
 
@@ -127,8 +127,8 @@ struct Diagnosis {
   std::vector<Unexplained> unexplained;
   std::vector<std::string> searched, not_tested;  // causes; those not tested with the reason
   std::vector<std::string> notes;
-  ReceiverChecks instrument;  // properties of the receiver, and soundness of the record
-  double residual_sd = 0;     // dB, of the fitted world
+  ReceiverChecks receiver;  // properties of the receiver, and soundness of the record
+  double residual_sd = 0;   // dB, of the fitted world
   noise::Covariance noise;
   std::optional<inference::HeldOutGain> held_out;
   std::optional<inference::Unseen> unseen;      // held-out errors behind held_out, in the order of `used`
@@ -153,8 +153,8 @@ struct Diagnosis {
   const char* verdict() const;
 };
 
-std::vector<Told> told_by(const Diagnosis& diagnosis);
+std::vector<NamedCause> named_causes(const Diagnosis& diagnosis);
 // On one line; "silent" if there is nothing.
-std::string in_short(const std::vector<Told>& told);
+std::string names_in_words(const std::vector<NamedCause>& told);
 
 }  // namespace muster::diagnosis

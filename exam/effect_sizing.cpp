@@ -59,9 +59,9 @@ double lambda_of_passages(const Eigen::MatrixXd& whitened, double duration) {
   return std::max(0.0, 2 * sum);
 }
 
-class Hider {
+class EffectHider {
  public:
-  Hider(Case& made, const std::vector<char>& use) : made_(made), use_(use), random_(made.seed, "effects") {}
+  EffectHider(Case& made, const std::vector<char>& use) : made_(made), use_(use), random_(made.seed, "effects") {}
 
   // Laws first, since lambdas of mean effects depend on the noise; receivers last, since all else precedes them.
   void run() {
@@ -217,7 +217,7 @@ Oracle held_out(const Case& made, const Eigen::VectorXd& effect) {
 
 }  // namespace
 
-std::vector<char> telling(const Case& made, const Data& data) {
+std::vector<char> informative_rows(const Case& made, const Data& data) {
   std::vector<char> result = heard(data);
   for (const Hidden& h : made.hidden) {
     if (h.effect.acts != Acts::receiver) continue;
@@ -256,13 +256,13 @@ ReceivedShift received_shift(const GroundTruth& site, const Effect& effect, doub
   return result;
 }
 
-void hide(Case& made, const std::vector<char>& use) { Hider(made, use).run(); }
+void hide(Case& made, const std::vector<char>& use) { EffectHider(made, use).run(); }
 
 void weigh(Case& made) {
   const Eigen::VectorXd effect = expected_shift(*made.site, made.hidden, made.measured);
   made.oracle = held_out(made, effect);
   if (made.hidden.size() < 2) return;
-  const Whitener whiten(made.measured, made.site->noise, telling(made, made.measured));
+  const Whitener whiten(made.measured, made.site->noise, informative_rows(made, made.measured));
   for (std::size_t i = 0; i < made.hidden.size(); ++i) {
     Hidden& h = made.hidden[i];
     if (h.effect.acts != Acts::mean || h.effect.passages) continue;

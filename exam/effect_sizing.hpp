@@ -15,7 +15,7 @@ ReceivedShift received_shift(const GroundTruth& site, const Effect& effect, doub
                              const Eigen::VectorXd& before);
 
 // Readings that determine their level: received, and not at a code that the receiver reports for other levels too.
-std::vector<char> telling(const Case& made, const Data& data);
+std::vector<char> informative_rows(const Case& made, const Data& data);
 
 // Draws the effects of the case's order at the strengths of their requested lambdas; sets the noise's true laws.
 void hide(Case& made, const std::vector<char>& use);

@@ -1,9 +1,9 @@
 #include "diagnosis/calibration/fit.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/inference/noise/dense_solvers.hpp"
 #include "diagnosis/radio/thresholds.hpp"
 
 namespace muster::diagnosis {
@@ -120,7 +120,7 @@ void measure_errors(Fit& fit, const Search& search) {
   fit.decorrelation = errors.decorrelation();
   fit.shared_evidence = errors.shared_evidence();
   fit.white_sd = errors.white_sd();
-  const Eigen::MatrixXd gain = (fit.slopes.transpose() * fit.slopes).ldlt().solve(fit.slopes.transpose());
+  const Eigen::MatrixXd gain = noise::regression_gain(fit.slopes);
   for (std::size_t j = 0; j < search.parameters.size(); ++j) {
     FitParameter& p = *search.parameters[j];
     const auto k = static_cast<Eigen::Index>(j);

@@ -1,7 +1,8 @@
 #include "diagnosis/calibration/least_squares.hpp"
 
-#include <Eigen/Cholesky>
 #include <cmath>
+
+#include "diagnosis/inference/noise/dense_solvers.hpp"
 
 namespace muster::diagnosis {
 namespace {
@@ -24,7 +25,7 @@ Eigen::VectorXd damped_step(const Eigen::MatrixXd& normal, const Eigen::VectorXd
     a(j, j) = 1;
     b[j] = 0;
   }
-  return box.inside(at + a.ldlt().solve(b)) - at;
+  return box.inside(at + noise::solve_symmetric(a, b)) - at;
 }
 
 std::vector<bool> bounds_met(const Eigen::VectorXd& at, const Box& box) {

@@ -1,11 +1,11 @@
 #include "diagnosis/calibration/residual_covariance.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <stdexcept>
 
+#include "diagnosis/calibration/distributions.hpp"
+#include "diagnosis/inference/noise/dense_solvers.hpp"
 #include "diagnosis/radio/thresholds.hpp"
 
 namespace muster::diagnosis {
@@ -25,23 +25,23 @@ struct ErrorModel::Likelihood {
   bool evaluate(const Eigen::VectorXd& variances, bool derivatives) {
     Eigen::MatrixXd v = white.asDiagonal();
     for (Eigen::Index k = 0; k < variances.size(); ++k) v += variances[k] * kernels.shapes[static_cast<std::size_t>(k)];
-    const Eigen::LLT<Eigen::MatrixXd> root(v);
-    if (root.info() != Eigen::Success) return false;
+    const noise::Cholesky root(v);
+    if (!root.positive()) return false;
     const Eigen::MatrixXd vx = root.solve(columns);
-    const Eigen::LDLT<Eigen::MatrixXd> small(columns.transpose() * vx);
+    const noise::SymmetricSolver small(columns.transpose() * vx);
     const Eigen::VectorXd vy = root.solve(means);
-    const Eigen::VectorXd py = vy - vx * small.solve(vx.transpose() * means);
-    const double log_det = 2 * root.matrixLLT().diagonal().array().log().sum();
-    value = -0.5 * (log_det + small.vectorD().array().max(1e-300).log().sum() + means.dot(py));
+    const Eigen::VectorXd py = vy - vx * small.solve(Eigen::VectorXd(vx.transpose() * means));
+    value = -0.5 * (root.log_determinant() + small.log_determinant() + means.dot(py));
     if (derivatives) derive(root, vx, small, py);
     return std::isfinite(value);
   }
 
-  void derive(const Eigen::LLT<Eigen::MatrixXd>& root, const Eigen::MatrixXd& vx,
-              const Eigen::LDLT<Eigen::MatrixXd>& small, const Eigen::VectorXd& py) {
+  void derive(const noise::Cholesky& root, const Eigen::MatrixXd& vx, const noise::SymmetricSolver& small,
+              const Eigen::VectorXd& py) {
     const auto n = means.size();
     const auto count = static_cast<Eigen::Index>(kernels.shapes.size());
-    const Eigen::MatrixXd p = root.solve(Eigen::MatrixXd::Identity(n, n)) - vx * small.solve(vx.transpose());
+    const Eigen::MatrixXd p = root.solve(Eigen::MatrixXd(Eigen::MatrixXd::Identity(n, n))) -
+                              vx * small.solve(Eigen::MatrixXd(vx.transpose()));
     Eigen::MatrixXd shaped(n, count);
     score.resize(count);
     for (Eigen::Index k = 0; k < count; ++k) {
@@ -77,7 +77,7 @@ void maximise(Likelihood& likelihood, Components& c, double scale) {
       a(k, k) = 1;
       b[k] = 0;
     }
-    Eigen::VectorXd step = a.ldlt().solve(b), next = at;
+    Eigen::VectorXd step = noise::solve_symmetric(a, b), next = at;
     for (int half = 0; half < 12; ++half, step /= 2) {
       next = (at + step).cwiseMax(0);
       if (likelihood.evaluate(next, false) && likelihood.value >= before - 1e-9) break;
@@ -104,7 +104,7 @@ void estimate(Likelihood& likelihood, Components& c, double scale) {
     information.col(k).setZero();
     information(k, k) = 1;
   }
-  c.uncertainty = information.ldlt().solve(Eigen::MatrixXd::Identity(count, count));
+  c.uncertainty = noise::solve_symmetric(information, Eigen::MatrixXd(Eigen::MatrixXd::Identity(count, count)));
 }
 
 // Candidate models: nothing shared, or shared by place, by path, or both, at each decorrelation distance. By radio as
@@ -249,9 +249,7 @@ ErrorModel::Spread ErrorModel::of_sum(const Eigen::VectorXd& weights) const {
 double ErrorModel::Spread::reach(double share) const {
   const auto outside = [&](double at) {
     double sum = 0;
-    for (const Part& part : parts)
-      sum += 2 * part.belief *
-             boost::math::cdf(boost::math::complement(boost::math::students_t(part.freedom), at / part.sd));
+    for (const Part& part : parts) sum += 2 * part.belief * student_tail(part.freedom, at / part.sd);
     return sum;
   };
   double low = 0, high = std::sqrt(variance);

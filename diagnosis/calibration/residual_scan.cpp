@@ -12,9 +12,9 @@
 namespace muster::diagnosis {
 namespace {
 
-class Looker {
+class Scanner {
  public:
-  Looker(const LinkModel& model, const Dataset& data, const Fit& fit, const Features& features)
+  Scanner(const LinkModel& model, const Dataset& data, const Fit& fit, const Features& features)
       : model_(model), data_(data), fit_(fit), features_(features), rows_(fit.rows_used()) {}
 
   ResidualScan look() {
@@ -185,7 +185,7 @@ class Looker {
 }  // namespace
 
 ResidualScan residual_scan(const LinkModel& model, const Dataset& data, const Fit& fit, const Features& features) {
-  return Looker(model, data, fit, features).look();
+  return Scanner(model, data, fit, features).look();
 }
 
 }  // namespace muster::diagnosis

@@ -2,16 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
 #include <numeric>
 
+#include "diagnosis/calibration/distributions.hpp"
 #include "diagnosis/inference/noise/columns.hpp"
+#include "diagnosis/inference/noise/dense_solvers.hpp"
 
 namespace muster::diagnosis {
 namespace {
@@ -20,8 +17,7 @@ constexpr std::size_t ranges = 12;
 
 // Orthogonal basis of the columns with the fit's slopes projected out.
 Eigen::MatrixXd beyond(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& slopes) {
-  const Eigen::MatrixXd left =
-      columns - slopes * (slopes.transpose() * slopes).ldlt().solve(slopes.transpose() * columns);
+  const Eigen::MatrixXd left = columns - slopes * noise::regress(slopes, columns);
   std::vector<Eigen::Index> kept;
   for (Eigen::Index j = 0; j < columns.cols(); ++j) {
     if (left.col(j).norm() > 1e-3 * columns.col(j).norm() && columns.col(j).norm() > 0) kept.push_back(j);
@@ -30,25 +26,25 @@ Eigen::MatrixXd beyond(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& sl
   Eigen::MatrixXd even = left(Eigen::all, kept);
   const Eigen::VectorXd lengths = even.colwise().norm();  // precomputed: else evaluated for each element below
   even = even * lengths.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(even.transpose() * even);
+  const noise::SymmetricEigen parts = noise::symmetric_eigen(even.transpose() * even);
   Eigen::Index first = 0;
-  while (first < parts.eigenvalues().size() && parts.eigenvalues()[first] < 1e-4) ++first;
-  return even * parts.eigenvectors().rightCols(parts.eigenvalues().size() - first);
+  while (first < parts.values.size() && parts.values[first] < 1e-4) ++first;
+  return even * parts.vectors.rightCols(parts.values.size() - first);
 }
 
 // Wald F test; denominator degrees of freedom after Fai and Cornelius (1996).
 double chance_of(const Eigen::VectorXd& sums, const Eigen::MatrixXd& columns, const ErrorModel& errors) {
   const auto q = static_cast<double>(columns.cols());
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(errors.of_sums(columns));
-  const Eigen::VectorXd along = parts.eigenvectors().transpose() * sums;
+  const noise::SymmetricEigen parts = noise::symmetric_eigen(errors.of_sums(columns));
+  const Eigen::VectorXd along = parts.vectors.transpose() * sums;
   double statistic = 0, expected = 0;
   for (Eigen::Index j = 0; j < along.size(); ++j) {
-    const double freedom = errors.of_sum(columns * parts.eigenvectors().col(j)).freedom;
-    statistic += along[j] * along[j] / std::max(parts.eigenvalues()[j], 1e-300) / q;
+    const double freedom = errors.of_sum(columns * parts.vectors.col(j)).freedom;
+    statistic += along[j] * along[j] / std::max(parts.values[j], 1e-300) / q;
     expected += freedom / (freedom - 2);
   }
   const double freedom = q < 1.5 ? errors.of_sum(columns.col(0)).freedom : std::max(2 * expected / (expected - q), 3.0);
-  return boost::math::cdf(boost::math::complement(boost::math::fisher_f(q, std::min(freedom, 1e6)), statistic));
+  return fisher_tail(q, std::min(freedom, 1e6), statistic);
 }
 
 // Mean residual of these rows. Its error is that of the remainder, since the fit has absorbed a part.
@@ -60,7 +56,7 @@ Bin bin_of(const Fit& fit, const ErrorModel& errors, const std::vector<Eigen::In
     weights[i] = 1 / bin.rows;
     bin.mean += fit.residual[i] / bin.rows;
   }
-  weights -= fit.slopes * (fit.slopes.transpose() * fit.slopes).ldlt().solve(fit.slopes.transpose() * weights);
+  weights -= fit.slopes * noise::regress(fit.slopes, weights);
   bin.stderror = std::sqrt(errors.of_sum(weights).variance);
   return bin;
 }
@@ -104,8 +100,7 @@ std::vector<Bin> names_of(const Fit& fit, const ErrorModel& errors, const Subjec
 // Coefficient of each shape beside the others.
 std::vector<Bin> coefficients_of(const Fit& fit, const ErrorModel& errors, const Subject& subject) {
   const Eigen::MatrixXd all = noise::hstack(subject.shapes, fit.slopes);
-  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver(all.transpose() * all);
-  const Eigen::MatrixXd gain = solver.solve(all.transpose());
+  const Eigen::MatrixXd gain = noise::least_norm_gain(all);
   std::vector<Bin> bins;
   for (Eigen::Index j = 0; j < subject.shapes.cols(); ++j) {
     Bin bin;
@@ -137,7 +132,7 @@ std::string words_of(const StructureTest& look) {
 }
 
 Eigen::VectorXd without(const Eigen::VectorXd& residual, const Eigen::MatrixXd& columns) {
-  return residual - columns * (columns.transpose() * columns).ldlt().solve(columns.transpose() * residual);
+  return residual - columns * noise::regress(columns, residual);
 }
 
 // Error model refitted beside the columns.
@@ -164,7 +159,7 @@ double chance_of_structure(const Fit& fit, const Eigen::MatrixXd& shapes, bool s
 // true p-value stays below this (tests/diagnosis/calibration/coverage_test.cpp).
 double chance_of_sharing(double evidence) {
   if (evidence <= 0) return 1;
-  return std::min(1.0, 2 * boost::math::cdf(boost::math::complement(boost::math::chi_squared(2), evidence)));
+  return std::min(1.0, 2 * std::exp(-evidence / 2));
 }
 
 StructureTest structure_along(const Fit& fit, const Subject& subject, bool shared) {

@@ -30,7 +30,7 @@ SecondLook second_look(const std::filesystem::path& world, const std::filesystem
   const Dataset data = read_dataset(tables->read(file));
   LinkModel given(world, file, plugins, tables), model(extended, file, plugins, tables);
   return {file, data.heard(), fit(given, data, {}).residual_sd, rmse_of(model, data),
-          told_by(diagnose(extended, file, plugins, tables))};
+          named_causes(diagnose(extended, file, plugins, tables))};
 }
 
 Loop closed_loop(const Diagnosis& found, const std::filesystem::path& world, const std::filesystem::path& data,
@@ -45,7 +45,7 @@ Loop closed_loop(const Diagnosis& found, const std::filesystem::path& world, con
     if (!std::isnan(found.mean[i]))
       loop.mean_difference = std::max(loop.mean_difference, std::abs(simulated[i] - found.mean[i]));
   }
-  loop.rediagnosis = told_by(diagnose(file, data, plugins, tables));
+  loop.rediagnosis = named_causes(diagnose(file, data, plugins, tables));
   return loop;
 }
 

@@ -94,7 +94,7 @@ class Diagnoser {
     }
     setup_.run->clear();
     for (const CauseCandidate& c : causes.found) out.searched.push_back(c.candidate.id);
-    out.instrument = setup_.receiver;
+    out.receiver = setup_.receiver;
     out.seen = row_summary(state, *setup_.layout, setup_.observed.columns, setup_.model);
     const inference::WhitenedModel alone = state.whitened_model(state.base());
     out.fitted = setup_.base.mean + setup_.base.slopes * (alone.coefficients(state.base().cols()) - setup_.base.values);
@@ -173,7 +173,7 @@ class Diagnoser {
   }
 
   // A strength that may as well be the one at which the row has no effect at all is that: a wall that loses nothing is
-  // a wall that is not there. Asked with the base model's parameters as they are beside what was found.
+  // a wall that is not there. RowMask with the base model's parameters as they are beside what was found.
   std::pair<inference::Finding, const CauseCandidate*> simplest(const inference::Finding& f,
                                                                 const CauseCandidate& cause, const CauseSearch& causes,
                                                                 const inference::ModelState& state,

@@ -9,7 +9,7 @@ namespace muster::report {
 std::vector<Question> open_questions(const Diagnosis& d) {
   std::vector<Question> out;
   for (const CauseEstimate& c : d.causes) {
-    if (standing_of(c) == Standing::set_aside) continue;
+    if (confidence_of(c) == Confidence::set_aside) continue;
     for (const inference::Alternative& r : c.alternatives) {
       if (r.separability >= inference::thresholds::decided) continue;
       std::string pair = short_name(c.id) + " or " + short_name(r.id);
@@ -44,7 +44,8 @@ std::string name_of_step(const Diagnosis& d, std::size_t k) {
   // Accepted causes and unexplained effects, in one order of strength.
   std::vector<std::pair<double, std::string>> steps;
   for (const CauseEstimate& c : d.causes) {
-    if (standing_of(c) != Standing::set_aside && !c.sought_as.empty()) steps.emplace_back(-c.lambda, short_name(c.id));
+    if (confidence_of(c) != Confidence::set_aside && !c.sought_as.empty())
+      steps.emplace_back(-c.lambda, short_name(c.id));
   }
   for (const auto& u : d.unexplained) steps.emplace_back(-u.lambda, covariate_in_words(u.covariate) + " (unexplained)");
   std::stable_sort(steps.begin(), steps.end(), [](const auto& a, const auto& b) { return a.first < b.first; });

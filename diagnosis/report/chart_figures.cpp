@@ -138,7 +138,7 @@ pic::Figure staircase(const Diagnosis& d) {
   panel.layers = {pic::Rule{.at = noise_floor(d), .label = fmt::format("noise alone, {:.2f} dB", noise_floor(d))},
                   steps, bars};
   return {
-      .title = "Error at " + what_is_held_out(d) + " not seen, step by step",
+      .title = "Error on held-out " + what_is_held_out(d) + ", cause by cause",
       .caption = fmt::format("Root mean square over readings of held-out blocks, {} in all; intervals by resampling "
                              "blocks. A perfect model would come down to the dashed line.",
                              d.held_out ? d.held_out->blocks : 0),
@@ -148,7 +148,7 @@ pic::Figure staircase(const Diagnosis& d) {
 pic::Figure partial_residual(const Diagnosis& d, const CauseEstimate& c) {
   const Abscissa along = abscissa_of(d.seen, c);
   // An effect set aside is not in the model, so the residual still contains it.
-  const VectorXd partial = standing_of(c) == Standing::set_aside ? d.seen.after : VectorXd(d.seen.after + c.effect);
+  const VectorXd partial = confidence_of(c) == Confidence::set_aside ? d.seen.after : VectorXd(d.seen.after + c.effect);
   const auto [low, high] = limits_of(along.values, partial);
   pic::Panel panel{.x = {.label = along.label, .unit = along.unit, .log = along.log, .names = along.names},
                    .y = {.label = "measured − all but this cause", .unit = "dB", .from = low, .to = high},
@@ -180,7 +180,7 @@ pic::Figure partial_residual(const Diagnosis& d, const CauseEstimate& c) {
   }
   std::string title = sentence(c);
   title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
-  return {.title = (standing_of(c) == Standing::confirmed ? "" : "Suspected: ") + title,
+  return {.title = (confidence_of(c) == Confidence::confirmed ? "" : "Suspected: ") + title,
           .caption =
               "Each dot is a row, less all that the extended world says but for this cause. The band is of the "
               "mean over a part of the axis, by resampling blocks of space.",

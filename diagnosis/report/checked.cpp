@@ -27,7 +27,7 @@ std::string name_of(const inference::Check& check) {
   return check.kind == inference::Kind::smooth ? covariate_in_words(check.id.substr(1)) : short_name(check.id);
 }
 
-std::string asked_alone(const Diagnosis& d) {
+std::string tested_separately(const Diagnosis& d) {
   std::string result;
   for (const std::string& id : d.searched) {
     const auto is_it = [&](const inference::Check& c) { return c.id == id; };

@@ -19,9 +19,9 @@ SortedChecks sorted_checks(const Diagnosis& diagnosis);
 // "distance", "dual slope"
 std::string name_of(const inference::Check& check);
 constexpr const char* why_doubtful =
-    "Small by themselves, and not told: each is one of the many that were asked, or goes with what stands above.";
+    "Each p is small, but not for the number of tests made, or the causes above explain it too.";
 
 // "outliers, people": causes tested separately, without a p-value here, and not found.
-std::string asked_alone(const Diagnosis& diagnosis);
+std::string tested_separately(const Diagnosis& diagnosis);
 
 }  // namespace muster::report

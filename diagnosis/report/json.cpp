@@ -55,7 +55,7 @@ Json cause_json(const CauseEstimate& c) {
   Json out = {{"id", c.id},
               {"label", c.label},
               {"status", c.status == inference::Status::named ? "named" : "suspected"},
-              {"confirmed", standing_of(c) == Standing::confirmed},
+              {"confirmed", confidence_of(c) == Confidence::confirmed},
               {"sentence", sentence(c)},
               {"parameters", parameters},
               {"evidence", known(c.evidence)},
@@ -78,7 +78,7 @@ Json unexplained_json(const diagnosis::Unexplained& u) {
 
 Json instrument_json(const Diagnosis& d) {
   Json out = Json::array();
-  for (const diagnosis::ReceiverCheck& c : d.instrument.checks)
+  for (const diagnosis::ReceiverCheck& c : d.receiver.checks)
     out.push_back({{"check", c.what}, {"found", c.found}, {"fine", c.fine}, {"row", c.row ? Json(*c.row) : Json()}});
   return out;
 }
@@ -124,14 +124,14 @@ Json stairs_json(const Diagnosis& d) {
 Json loop_json(const Diagnosis& d) {
   if (!d.loop) return nullptr;
   Json out = {{"mean_difference_db", known(d.loop->mean_difference)},
-              {"rediagnosis", diagnosis::in_short(d.loop->rediagnosis)}};
+              {"rediagnosis", diagnosis::names_in_words(d.loop->rediagnosis)}};
   out["second"] = nullptr;
   if (const auto& s = d.loop->second)
     out["second"] = {{"data", s->data.string()},
                      {"readings", s->readings},
                      {"rmse_given_db", known(s->rmse_given)},
                      {"rmse_extended_db", known(s->rmse_extended)},
-                     {"rediagnosis", diagnosis::in_short(s->rediagnosis)}};
+                     {"rediagnosis", diagnosis::names_in_words(s->rediagnosis)}};
   return out;
 }
 

@@ -90,7 +90,7 @@ void add_outline(const std::vector<double>& x, const std::vector<double>& y, std
 // Outlines of the findings; none for a finding without a place.
 void add_found(const Diagnosis& d, std::vector<pic::Layer>& out) {
   for (const CauseEstimate& c : d.causes) {
-    if (standing_of(c) == Standing::set_aside) continue;
+    if (confidence_of(c) == Confidence::set_aside) continue;
     const auto x0 = value_of(c, "x0"), y0 = value_of(c, "y0"), x1 = value_of(c, "x1"), y1 = value_of(c, "y1");
     const auto x = value_of(c, "x"), y = value_of(c, "y");
     if (x0 && y0 && x1 && y1) add_outline({*x0, *x1}, {*y0, *y1}, out);

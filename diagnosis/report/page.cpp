@@ -89,10 +89,9 @@ std::string key_figure(const std::string& value, const std::string& what) {
 std::string key_figures(const Diagnosis& d) {
   std::string out = "<section class=\"key\">\n";
   if (d.held_out) {
-    out += key_figure(db(d.held_out->rmse_before),
-                      "error of the world, fitted, at " + what_is_held_out(d) + " that a fit has not seen");
+    out += key_figure(db(d.held_out->rmse_before), "error of the fitted world on held-out " + what_is_held_out(d));
     if (d.stairs.size() > 1) out += key_figure(db(d.held_out->rmse_after), "with what was found");
-    out += key_figure(db(noise_floor(d)), "what noise alone would leave");
+    out += key_figure(db(noise_floor(d)), "noise alone, the floor");
     if (d.stairs.size() > 1)
       out += key_figure(fmt::format("{:.2f} dB²", d.held_out->gain),
                         fmt::format("gain: fall of the squared error, 95 %: {:.2f} to {:.2f}, over {} blocks",
@@ -101,7 +100,7 @@ std::string key_figures(const Diagnosis& d) {
       out += key_figure(std::to_string(d.held_out->blocks), "blocks of space, each left out in turn");
   } else {
     out += key_figure(db(d.residual_sd), "left by the fitted world, a reading");
-    out += key_figure("1 block", "of space: no place is left that a fit has not seen");
+    out += key_figure("1 block", "of space: no places could be held out");
   }
   return out + "</section>\n";
 }
@@ -116,14 +115,14 @@ std::string gain_text(const std::optional<inference::HeldOutGain>& h, const std:
 }
 
 std::string cause_card(const CauseEstimate& c, std::size_t number, const std::vector<Picture>& pictures) {
-  const Standing standing = standing_of(c);
-  const bool sure = standing == Standing::confirmed;
+  const Confidence standing = confidence_of(c);
+  const bool sure = standing == Confidence::confirmed;
   std::string out = fmt::format("<article class=\"card\">\n<h3><span class=\"mark {}\">{}</span>{}</h3>\n",
                                 sure ? "named" : "suspected", sure ? "named" : "suspected", escaped(title_of(c)));
   if (!c.doubt.empty())
     out += paragraph("Doubt: " + c.doubt + ".");
-  else if (standing == Standing::unconfirmed)
-    out += paragraph("Named by the data, but what was held out does not confirm it yet: " + why_unconfirmed(c) + ".");
+  else if (standing == Confidence::unconfirmed)
+    out += paragraph("Named, but not confirmed on held-out data: " + why_unconfirmed(c) + ".");
   std::vector<Row> values;
   for (const CauseValue& v : c.values) values.push_back({{v.name}, {quantity(v), true}, {interval(v), true}});
   out += table({{"parameter"}, {"value", true}, {"95 % interval", true}}, values, "values");
@@ -131,11 +130,11 @@ std::string cause_card(const CauseEstimate& c, std::size_t number, const std::ve
       {{"cause"}, {c.id}},
       {{"where"}, {c.label == "all" ? "everywhere" : c.label}},
       {{"evidence"},
-       {fmt::format("{:.1f} nats; λ = {:.0f} (fall of the deviance beside all else)", c.evidence, c.lambda)}},
+       {fmt::format("{:.1f} nats; λ = {:.0f} (likelihood ratio, other causes fitted too)", c.evidence, c.lambda)}},
       {{"gain"}, {gain_text(c.held_out, why_no_gain(c))}}};
   for (const inference::Elsewhere& e : c.elsewhere)
     facts.push_back({{e.left_out + " not seen"}, {gain_text(e.held_out, e.left_out)}});
-  facts.push_back({{"rivals"}, {rivals_in_words(c.alternatives)}});
+  facts.push_back({{"alternative"}, {rivals_in_words(c.alternatives)}});
   out += table({}, facts);
   return out + "</article>\n" + figure_named(pictures, fmt::format("cause_{}", number));
 }
@@ -143,10 +142,10 @@ std::string cause_card(const CauseEstimate& c, std::size_t number, const std::ve
 std::string undecided(const Diagnosis& d) {
   const auto questions = open_questions(d);
   if (questions.empty()) return "";
-  std::string out = heading("What the data cannot decide, and what to measure next");
+  std::string out = heading("Undecided, and what to measure next");
   out += paragraph(
-      "D is the part of a cause that its rival cannot imitate, in units of the noise: below 12 they cannot "
-      "be told apart, above 25 they are.",
+      "D is how far, in standard deviations of the noise, squared, one cause is from the best imitation by the "
+      "other: below 12 they are not distinguishable, above 25 they are.",
       "soft");
   std::vector<Row> rows;
   for (const Question& q : questions) {
@@ -163,8 +162,10 @@ std::string undecided(const Diagnosis& d) {
 
 std::string checked(const Diagnosis& d) {
   if (d.checks.empty()) return "";
-  return heading("Checked and found fine") +
-         paragraph("p: that chance alone does as well anywhere along it, beside what was found.", "soft");
+  return heading("Tested, nothing found") +
+         paragraph(
+             "p: probability that noise alone gives as large a statistic anywhere along it, beside the causes found.",
+             "soft");
 }
 
 std::string checked_table(const Diagnosis& d) {
@@ -177,8 +178,8 @@ std::string checked_table(const Diagnosis& d) {
     return rows.empty() ? "" : table({{what}, {"chance", true}}, rows);
   };
   std::string out = "<div class=\"card\">" + of("dependence on", along) + of("further cause", causes);
-  if (const std::string alone = asked_alone(d); !alone.empty())
-    out += paragraph("Nor, each by a test of its own: " + alone + ".", "soft");
+  if (const std::string alone = tested_separately(d); !alone.empty())
+    out += paragraph("Also tested: " + alone + ".", "soft");
   if (!doubtful.empty()) out += of("doubtful", doubtful) + paragraph(why_doubtful, "soft");
   return out + "</div>\n";
 }
@@ -192,12 +193,12 @@ std::string not_tested(const Diagnosis& d) {
 }
 
 std::string record(const Diagnosis& d) {
-  if (d.instrument.checks.empty()) return "";
+  if (d.receiver.checks.empty()) return "";
   std::vector<Row> rows;
-  for (const diagnosis::ReceiverCheck& c : d.instrument.checks)
+  for (const diagnosis::ReceiverCheck& c : d.receiver.checks)
     rows.push_back(
         {{(c.fine ? "" : "! ") + c.what}, {c.found + (c.row ? fmt::format(", first in row {}", *c.row) : "")}});
-  return heading("The record itself") + "<div class=\"card\">" + table({{"check"}, {"found"}}, rows) + "</div>\n";
+  return heading("Checks of the readings") + "<div class=\"card\">" + table({{"check"}, {"found"}}, rows) + "</div>\n";
 }
 
 std::string world(const Diagnosis& d) {
@@ -223,13 +224,13 @@ std::string loop(const Diagnosis& d) {
   if (!d.loop) return "";
   std::string out = heading("The extended world") + "<div class=\"card\">";
   out += paragraph(
-      fmt::format("Simulated at the readings, its mean lies within {:.2g} dB of the diagnosis. A diagnosis of it {}.",
-                  d.loop->mean_difference, what_is_found_again(d.loop->rediagnosis)));
+      fmt::format("Simulated at the readings, it agrees with the diagnosis within {:.2g} dB. Diagnosed again, it {}.",
+                  d.loop->mean_difference, rediagnosis_in_words(d.loop->rediagnosis)));
   if (const auto& s = d.loop->second)
     out += paragraph(fmt::format(
-        "On {} ({} readings that it was not made from) it errs by {} a reading, as it is written; "
-        "the world as given, fitted to those very readings, by {}. A diagnosis of it on them {}.",
-        s->data.string(), s->readings, db(s->rmse_extended), db(s->rmse_given), what_is_found_again(s->rediagnosis)));
+        "On {} ({} readings that were not used) its error is {} a reading; that of the given world, fitted to "
+        "these readings, {}. Diagnosed on them, it {}.",
+        s->data.string(), s->readings, db(s->rmse_extended), db(s->rmse_given), rediagnosis_in_words(s->rediagnosis)));
   return out + "</div>\n";
 }
 

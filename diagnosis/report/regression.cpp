@@ -152,12 +152,12 @@ std::vector<std::string> write_regression(const Diagnosis& d, const fs::path& wo
                {"world", name},
                {"data", Json::array({{{"file", measured},
                                       {"rmse_db", limit(d.loop->rmse_extended, d.residual_sd)},
-                                      {"rediagnosis", diagnosis::in_short(d.loop->rediagnosis)}}})},
+                                      {"rediagnosis", diagnosis::names_in_words(d.loop->rediagnosis)}}})},
                {"parameters", parameters_of(d)}};
   if (const auto& s = d.loop->second)
     json["data"].push_back({{"file", copied(s->data, folder)},
                             {"rmse_db", limit(s->rmse_extended, s->rmse_given)},
-                            {"rediagnosis", diagnosis::in_short(s->rediagnosis)}});
+                            {"rediagnosis", diagnosis::names_in_words(s->rediagnosis)}});
   if (d.held_out) json["heldout_rmse_db"] = limit(d.held_out->rmse_after, d.held_out->rmse_before);
   const fs::path file = folder / "regression.json";
   std::ofstream out(file, std::ios::binary);
@@ -185,7 +185,8 @@ std::vector<Checked> check_regression(const fs::path& from, const Library::Searc
       const diagnosis::LinkModel model(world, data, plugins);
       if (first)
         for (const Json& p : json.at("parameters")) check_parameter(p, model, again, out);
-      const std::string expected = one.at("rediagnosis"), found = diagnosis::in_short(diagnosis::told_by(again));
+      const std::string expected = one.at("rediagnosis"),
+                        found = diagnosis::names_in_words(diagnosis::named_causes(again));
       out.push_back({"diagnosed again" + on, found, expected, found == expected || found == "silent"});
       first = false;
     }

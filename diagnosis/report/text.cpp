@@ -32,15 +32,15 @@ std::string introduction(const Diagnosis& d, const Setting& setting) {
 std::string errors(const Diagnosis& d) {
   const bool improved = d.named() || !d.unexplained.empty();
   if (!d.held_out)
-    return wrapped(fmt::format("The fitted world leaves {} a reading. ", db(d.residual_sd)) + why_no_blocks(d) + ' ' +
-                       errors_elsewhere(d),
+    return wrapped(fmt::format("Error of the fitted world: {} a reading. ", db(d.residual_sd)) + why_no_blocks(d) +
+                       ' ' + errors_elsewhere(d),
                    2, 2);
   const auto& h = *d.held_out;
   std::string text =
-      fmt::format("At {} that a fit has not seen, the world errs by {}", what_is_held_out(d), db(h.rmse_before));
+      fmt::format("Error on held-out {}: {} with the world as fitted", what_is_held_out(d), db(h.rmse_before));
   if (!d.stairs.empty()) text += fmt::format(" (95 %: {:.2f} to {:.2f})", d.stairs[0].lower95, d.stairs[0].upper95);
-  if (improved) text += fmt::format("; with what follows, by {}", db(h.rmse_after));
-  text += std::isfinite(noise_floor(d)) ? ". Noise alone would leave " + db(noise_floor(d)) + "." : ".";
+  if (improved) text += fmt::format(", {} with the causes below", db(h.rmse_after));
+  text += std::isfinite(noise_floor(d)) ? ". The noise alone is " + db(noise_floor(d)) + "." : ".";
   if (improved)
     text += fmt::format(" The squared error falls by {:.2f} dB2 (95 %: {:.2f} to {:.2f}, over {} blocks).", h.gain,
                         h.lower95, h.upper95, h.blocks);
@@ -48,7 +48,7 @@ std::string errors(const Diagnosis& d) {
 }
 
 std::string gain_of(const inference::HeldOutGain& h, const std::string& left_out) {
-  return fmt::format("{:.2f} -> {} where not seen; squared error falls by {:.2f} dB2 (95 %: {:.2f} to {:.2f}, {} {})",
+  return fmt::format("{:.2f} -> {} on held-out data; squared error falls by {:.2f} dB2 (95 %: {:.2f} to {:.2f}, {} {})",
                      h.rmse_before, db(h.rmse_after), h.gain, h.lower95, h.upper95, h.blocks, left_out);
 }
 
@@ -66,13 +66,13 @@ std::string gains_elsewhere(const std::vector<inference::Elsewhere>& elsewhere) 
 }
 
 std::string cause_text(const CauseEstimate& c, int number) {
-  const Standing standing = standing_of(c);
-  const std::string opening = standing == Standing::confirmed ? "it is " : "suspected: ";
+  const Confidence standing = confidence_of(c);
+  const std::string opening = standing == Confidence::confirmed ? "it is " : "suspected: ";
   std::string text = wrapped(fmt::format("({}) {}{}: {}", number, opening, c.id, sentence(c)), 2, 6);
   text += entry("where", c.label == "all" ? "everywhere" : c.label);
   for (const CauseValue& v : c.values) text += entry(v.name, fmt::format("{:<12} 95 %: {}", quantity(v), interval(v)));
-  text += entry("evidence",
-                fmt::format("{:.1f} nats; lambda {:.0f} (fall of the deviance beside all else)", c.evidence, c.lambda));
+  text += entry("evidence", fmt::format("{:.1f} nats; lambda {:.0f} (likelihood ratio, other causes fitted too)",
+                                        c.evidence, c.lambda));
   if (c.held_out)
     text += entry("gain", gain_of(*c.held_out, "blocks"));
   else
@@ -80,9 +80,9 @@ std::string cause_text(const CauseEstimate& c, int number) {
   text += gains_elsewhere(c.elsewhere);
   if (!c.doubt.empty())
     text += entry("doubt", c.doubt);
-  else if (standing == Standing::unconfirmed && c.held_out)
-    text += entry("", "What was held out does not confirm it yet: " + why_unconfirmed(c) + ".");
-  if (standing != Standing::set_aside) text += entry("rivals", rivals_in_words(c.alternatives));
+  else if (standing == Confidence::unconfirmed && c.held_out)
+    text += entry("", "Not confirmed on held-out data: " + why_unconfirmed(c) + ".");
+  if (standing != Confidence::set_aside) text += entry("alternative", rivals_in_words(c.alternatives));
   return text;
 }
 
@@ -107,7 +107,7 @@ std::string unexplained(const Diagnosis& d) {
 
 std::string stairs(const Diagnosis& d) {
   if (d.stairs.size() < 3) return "";  // a single step repeats the cause's own line
-  std::string text = heading("Error at " + what_is_held_out(d) + " not seen, step by step");
+  std::string text = heading("Error on held-out " + what_is_held_out(d) + ", cause by cause");
   for (std::size_t k = 0; k < d.stairs.size(); ++k)
     text += fmt::format("  {:<40} {:6.2f} dB   95 %: {:.2f} to {:.2f}\n", name_of_step(d, k), d.stairs[k].rmse,
                         d.stairs[k].lower95, d.stairs[k].upper95);
@@ -117,7 +117,7 @@ std::string stairs(const Diagnosis& d) {
 std::string undecided(const Diagnosis& d) {
   const auto questions = open_questions(d);
   if (questions.empty()) return "";
-  std::string text = heading("What the data cannot decide, and what to measure next");
+  std::string text = heading("Undecided, and what to measure next");
   for (const Question& q : questions) {
     text += wrapped(fmt::format("{}: D {:.0f}, {}.", q.pair, q.separability, judged(q.separability)), 2, 2);
     text += wrapped("- " + q.tell_apart, 4, 6);
@@ -143,18 +143,21 @@ std::string with_chances(const std::vector<const inference::Check*>& checks) {
 std::string checked(const Diagnosis& d) {
   const auto [along, causes, doubtful] = sorted_checks(d);
   if (along.empty() && causes.empty() && doubtful.empty()) return "";
-  std::string text = heading("Checked and found fine");
-  if (!along.empty()) text += wrapped("Nothing more depends on: " + with_chances(along) + ".", 2, 4);
+  std::string text = heading("Tested, nothing found");
+  if (!along.empty()) text += wrapped("No dependence left on: " + with_chances(along) + ".", 2, 4);
   if (!causes.empty()) text += wrapped("No further cause: " + with_chances(causes) + ".", 2, 4);
-  if (const std::string alone = asked_alone(d); !alone.empty())
-    text += wrapped("Nor, each by a test of its own: " + alone + ".", 2, 4);
+  if (const std::string alone = tested_separately(d); !alone.empty())
+    text += wrapped("Also tested: " + alone + ".", 2, 4);
   if (!doubtful.empty()) text += wrapped("Doubtful: " + with_chances(doubtful) + ". " + why_doubtful, 2, 4);
-  return text + wrapped("p: that chance alone does as well anywhere along it, neighbours' likeness taken out.", 2, 4);
+  return text + wrapped(
+                    "p: probability that noise alone gives as large a statistic anywhere along it; correlated "
+                    "neighbours are allowed for.",
+                    2, 4);
 }
 
 std::string record(const Diagnosis& d) {
-  std::string text = heading("The readings themselves");
-  for (const diagnosis::ReceiverCheck& c : d.instrument.checks)
+  std::string text = heading("Checks of the readings");
+  for (const diagnosis::ReceiverCheck& c : d.receiver.checks)
     text += wrapped(
         (c.fine ? "" : "! ") + c.what + ": " + c.found + (c.row ? fmt::format(", first in row {}", *c.row) : ""), 2, 4);
   return text;
@@ -188,16 +191,15 @@ std::string world(const Diagnosis& d) {
 std::string loop(const Diagnosis& d) {
   if (!d.loop) return "";
   std::string text = heading("The extended world: " + d.loop->world.string());
-  text += wrapped(fmt::format("Simulated at the readings, its mean lies within {:.2g} dB of the diagnosis. A diagnosis "
-                              "of it {}.",
-                              d.loop->mean_difference, what_is_found_again(d.loop->rediagnosis)),
+  text += wrapped(fmt::format("Simulated at the readings, it agrees with the diagnosis within {:.2g} dB. Diagnosed "
+                              "again, it {}.",
+                              d.loop->mean_difference, rediagnosis_in_words(d.loop->rediagnosis)),
                   2, 2);
   if (const auto& s = d.loop->second)
-    text += wrapped(fmt::format("On {} ({} readings that it was not made from) it errs by {} a reading, as it is "
-                                "written; the world as given, fitted to those very readings, by {}. A diagnosis of it "
-                                "on them {}.",
+    text += wrapped(fmt::format("On {} ({} readings that were not used) its error is {} a reading; that of the given "
+                                "world, fitted to these readings, {}. Diagnosed on them, it {}.",
                                 s->data.string(), s->readings, db(s->rmse_extended), db(s->rmse_given),
-                                what_is_found_again(s->rediagnosis)),
+                                rediagnosis_in_words(s->rediagnosis)),
                     2, 2);
   return text;
 }

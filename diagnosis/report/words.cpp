@@ -59,37 +59,37 @@ bool is_law(const CauseEstimate& cause) { return cause.covariates == std::vector
 
 }  // namespace
 
-Standing standing_of(const CauseEstimate& cause) {
-  if (cause.status != inference::Status::named) return Standing::set_aside;
-  if (!cause.doubt.empty()) return Standing::unconfirmed;
+Confidence confidence_of(const CauseEstimate& cause) {
+  if (cause.status != inference::Status::named) return Confidence::set_aside;
+  if (!cause.doubt.empty()) return Confidence::unconfirmed;
   // A law has no level error at places to confirm it: its evidence is the distribution of readings itself.
-  if (is_law(cause)) return Standing::confirmed;
+  if (is_law(cause)) return Confidence::confirmed;
   const bool gains = cause.held_out && cause.held_out->lower95 > 0 && cause.held_out->blocks >= fewest_blocks;
-  return gains ? Standing::confirmed : Standing::unconfirmed;
+  return gains ? Confidence::confirmed : Confidence::unconfirmed;
 }
 
 std::string why_unconfirmed(const CauseEstimate& cause) {
-  if (!cause.held_out) return "nothing could be held out";
-  if (!(cause.held_out->lower95 > 0)) return "the interval touches zero";
-  return fmt::format("in {} blocks of space it may gain by chance alone", cause.held_out->blocks);
+  if (!cause.held_out) return "no data could be held out";
+  if (!(cause.held_out->lower95 > 0)) return "the interval of the gain includes 0";
+  return fmt::format("the gain in {} blocks of space may be chance", cause.held_out->blocks);
 }
 
 std::string why_no_gain(const CauseEstimate& cause) {
-  if (cause.status != inference::Status::named) return "not measured: not beyond chance beside the others";
-  return is_law(cause) ? "none to measure: it is told by how readings scatter, and shifts no level" : too_few_blocks;
+  if (cause.status != inference::Status::named) return "not measured: not significant beside the other causes";
+  return is_law(cause) ? "none: it changes the scatter of readings, not their mean" : too_few_blocks;
 }
 
-int count_of(const Diagnosis& d, Standing standing) {
+int count_of(const Diagnosis& d, Confidence standing) {
   return static_cast<int>(std::count_if(d.causes.begin(), d.causes.end(),
-                                        [&](const CauseEstimate& c) { return standing_of(c) == standing; }));
+                                        [&](const CauseEstimate& c) { return confidence_of(c) == standing; }));
 }
 
 double tenths(double value) { return std::round(10 * value) / 10 + 0.0; }
 
 std::string judged(double separability) {
-  return separability < inference::thresholds::inseparable ? "cannot be told apart"
-         : separability < inference::thresholds::decided   ? "weakly told apart"
-                                                           : "told apart";
+  return separability < inference::thresholds::inseparable ? "not distinguishable"
+         : separability < inference::thresholds::decided   ? "weakly distinguishable"
+                                                           : "distinguishable";
 }
 
 std::string rounded(double value, double half) {
@@ -157,7 +157,7 @@ std::string covariate_in_words(const std::string& name) {
 }
 
 std::string rivals_in_words(const std::vector<inference::Alternative>& alternatives) {
-  if (alternatives.empty()) return "none that the readings leave open";
+  if (alternatives.empty()) return "none: the readings exclude all other causes";
   std::string out;
   for (const inference::Alternative& r : alternatives)
     out += fmt::format("{}{}, {:.1f} nats behind, D {:.0f}: {}", out.empty() ? "" : "; ", with_label(r.id, r.label),
@@ -167,16 +167,16 @@ std::string rivals_in_words(const std::vector<inference::Alternative>& alternati
 
 std::string what_is_unexplained(const diagnosis::Unexplained& what) {
   const std::string won = fmt::format("evidence {:.1f} nats, lambda {:.0f}.", what.evidence, what.lambda);
-  const std::string on = "Something depends on " + covariate_in_words(what.covariate);
+  const std::string on = "The residual depends on " + covariate_in_words(what.covariate);
   if (what.alternatives.empty()) return on + ", and no cause on the plugin path explains it: " + won;
   return on + ": " + won + " Causes that explain it nearly as well: " + rivals_in_words(what.alternatives) + ".";
 }
 
-std::string what_is_found_again(const std::vector<diagnosis::Told>& told) {
-  if (told.empty()) return "finds nothing more";
+std::string rediagnosis_in_words(const std::vector<diagnosis::NamedCause>& told) {
+  if (told.empty()) return "shows nothing more";
   std::string list;
-  for (const diagnosis::Told& t : told) list += (list.empty() ? "" : ", ") + with_label(t.id, t.label);
-  return "still finds " + list;
+  for (const diagnosis::NamedCause& t : told) list += (list.empty() ? "" : ", ") + with_label(t.id, t.label);
+  return "still shows " + list;
 }
 
 std::string chance(double log_p) {
@@ -186,7 +186,7 @@ std::string chance(double log_p) {
 }
 
 std::string verdict_in_words(const Diagnosis& d) {
-  const int confirmed = count_of(d, Standing::confirmed), unconfirmed = count_of(d, Standing::unconfirmed);
+  const int confirmed = count_of(d, Confidence::confirmed), unconfirmed = count_of(d, Confidence::unconfirmed);
   const std::string causes = causes_in_words(confirmed + unconfirmed);
   const std::string named = causes + (confirmed + unconfirmed == 1 ? " is named" : " are named");
   if (!d.unexplained.empty())
@@ -194,8 +194,8 @@ std::string verdict_in_words(const Diagnosis& d) {
            (d.unexplained[0].alternatives.empty() ? "" : " as well") + ": something depends on " + covariates_of(d) +
            (confirmed + unconfirmed ? "; " + named + " beside it" : "");
   if (confirmed + unconfirmed == 0)
-    return count_of(d, Standing::set_aside) ? "is adequate: what stands out is not beyond chance, a suspicion remains"
-                                            : "is adequate: nothing was found beyond chance";
+    return count_of(d, Confidence::set_aside) ? "is adequate: what stands out is not beyond chance, a suspicion remains"
+                                              : "is adequate: nothing was found beyond chance";
   const bool doubted =
       std::any_of(d.causes.begin(), d.causes.end(), [](const CauseEstimate& c) { return !c.doubt.empty(); });
   if (confirmed == 0)
@@ -217,33 +217,34 @@ std::string errors_elsewhere(const Diagnosis& d) {
   std::string text;
   for (const inference::Elsewhere& e : d.elsewhere) {
     const inference::HeldOutGain& h = e.held_out;
-    text += fmt::format("{}With {} left out in turn ({}) it errs by {} at these", text.empty() ? "" : " ", e.left_out,
-                        h.blocks, db(h.rmse_before));
+    text += fmt::format("{}With {} held out in turn ({}): {}", text.empty() ? "" : " ", e.left_out, h.blocks,
+                        db(h.rmse_before));
     const bool improved = d.named() || !d.unexplained.empty();
-    text += improved ? fmt::format(", with what was found by {}.", db(h.rmse_after)) : ".";
+    text += improved ? fmt::format(", {} with the causes below.", db(h.rmse_after)) : ".";
   }
   return text;
 }
 
 std::string rows_in_words(const Diagnosis& d) {
-  if (static_cast<std::size_t>(d.rows) == d.readings) return "each a row of its own";
+  if (static_cast<std::size_t>(d.rows) == d.readings) return "one row each";
   return fmt::format(
       "averaged to {} rows (neighbours on one link: at most {:.3g} s, {:.3g} m, {:.0f} degrees and {:.3g} dB apart)",
       d.rows, d.row_limits.time, std::max(d.row_limits.way, 0.0), d.row_limits.turn * 180 / M_PI, d.row_limits.level);
 }
 
 std::string words_explained() {
-  return "95 % and +-: an interval that holds the truth in 95 of 100 such reports. Nats: the natural logarithm of "
-         "a likelihood ratio; 3 nats are 20 to 1. Lambda: what the likelihood loses, twice its logarithm, "
-         "without the cause; below 20 a cause is often missed, above 50 hardly ever. D: the part of a cause that "
-         "another cannot imitate; below 12 the two cannot be told apart, above 25 they are. More: "
-         "docs/how-to/read_a_report.md.";
+  return "95 % and +-: an interval that contains the true value in 95 of 100 such reports. Nats: the natural "
+         "logarithm of a likelihood ratio; 3 nats are 20 to 1. Lambda: the likelihood-ratio statistic of a cause, "
+         "twice "
+         "the logarithm; below 20 a cause is often missed, above 50 rarely. D: how far, in standard deviations of the "
+         "noise, squared, one cause is from the best imitation by another; below 12 the two are not distinguishable, "
+         "above 25 they are. More: docs/how-to/read_a_report.md.";
 }
 
 std::string why_no_blocks(const Diagnosis& d) {
   return fmt::format(
-      "All readings lie in one block of {:.1f} m (three decorrelation distances): nothing is left that a fit has not "
-      "seen, so no gain can be measured. Readings from a wider area would allow it.",
+      "All readings lie in one block of {:.1f} m (three decorrelation distances): none could be "
+      "held out, so no gain can be measured. Readings from a wider area would allow it.",
       3 * d.noise.decorrelation());
 }
 

@@ -12,12 +12,12 @@ using diagnosis::CauseValue;
 using diagnosis::Diagnosis;
 
 // Certainty of a cause. The report uses "is" only for a confirmed one.
-enum class Standing {
+enum class Confidence {
   confirmed = 1,  // named, and its held-out gain is above zero with 95 %
   unconfirmed,    // named, but held-out places do not confirm it, or are too few
   set_aside       // found, but not significant beside the others
 };
-Standing standing_of(const CauseEstimate& cause);
+Confidence confidence_of(const CauseEstimate& cause);
 // All of five blocks gain by chance in one of 32 cases: fewer give no 95 % interval.
 constexpr int fewest_blocks = 5;
 // Reason why a cause is not confirmed by held-out data.
@@ -27,7 +27,7 @@ std::string why_no_gain(const CauseEstimate& cause);
 constexpr const char* too_few_blocks = "not measured: too few blocks of space";
 
 double tenths(double value);              // to one decimal, never -0.0
-std::string judged(double separability);  // "cannot be told apart", "weakly told apart", "told apart"
+std::string judged(double separability);  // "not distinguishable", "weakly distinguishable", "distinguishable"
 
 // With the digits justified by its half interval; without one, four.
 std::string rounded(double value, double half_interval);
@@ -44,12 +44,12 @@ std::string sentence(const CauseEstimate& cause);
 std::string short_name(const std::string& id);
 // Name of a covariate for readers: "distance" for "logd".
 std::string covariate_in_words(const std::string& name);
-// "obstacle (2.0, 1.5), 1.5 nats behind, D 6: cannot be told apart", for each alternative; or that there are none.
+// "obstacle (2.0, 1.5), 1.5 nats behind, D 6: not distinguishable", for each alternative; or that there are none.
 std::string rivals_in_words(const std::vector<inference::Alternative>& alternatives);
 // "Something depends on the column battery ...", with its gain and the causes that explain it nearly as well.
 std::string what_is_unexplained(const diagnosis::Unexplained& what);
-// "finds nothing more"; "still finds drift tx1, something along the column battery".
-std::string what_is_found_again(const std::vector<diagnosis::Told>& told);
+// "shows nothing more"; "still shows drift tx1, something along the column battery".
+std::string rediagnosis_in_words(const std::vector<diagnosis::NamedCause>& told);
 // "p < 1e-9", "p = 0.03", from a logarithm.
 std::string chance(double log_p);
 
@@ -70,6 +70,6 @@ std::string words_explained();
 // Reason why there are no held-out blocks.
 std::string why_no_blocks(const Diagnosis& diagnosis);
 
-int count_of(const Diagnosis& diagnosis, Standing standing);
+int count_of(const Diagnosis& diagnosis, Confidence standing);
 
 }  // namespace muster::report

@@ -64,7 +64,7 @@ std::vector<double> ExpectedSeparability::separability(const Term& term,
     for (Index k = 0; k < entry.count(); ++k) {
       const Eigen::VectorXd& theta = entry.candidate->design.grid[static_cast<std::size_t>(k)];
       const auto of_rival = noise::basis_of(basis.rest(whitened(entry.atom(k), other.design.columns(theta))));
-      least = std::min(least, left_of(effect, (of_rival.q.transpose() * effect).squaredNorm()));
+      least = std::min(least, residual_energy(effect, (of_rival.q.transpose() * effect).squaredNorm()));
     }
   }
   return result;

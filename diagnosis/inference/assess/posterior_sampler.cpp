@@ -1,10 +1,10 @@
 #include "diagnosis/inference/assess/posterior_sampler.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "diagnosis/inference/noise/dense_solvers.hpp"
 #include "diagnosis/inference/score/importance_weights.hpp"
 #include "diagnosis/inference/score/refine.hpp"
 #include "diagnosis/inference/score/sparse_columns.hpp"
@@ -97,8 +97,8 @@ class MetropolisChain {
   // Adapts steps to the principal axes of visited thetas (Haario, Saksman and Tamminen 2001); some steps remain moves
   // or leaps.
   void learn(const Moments& met) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(met.covariance);
-    axes_ = axes.eigenvectors() * axes.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+    const noise::SymmetricEigen axes = noise::symmetric_eigen(met.covariance);
+    axes_ = axes.vectors * axes.values.cwiseMax(0).cwiseSqrt().asDiagonal();
     length_ = 1;
   }
 

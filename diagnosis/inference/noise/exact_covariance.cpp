@@ -1,8 +1,8 @@
 #include "diagnosis/inference/noise/exact_covariance.hpp"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 
+#include "diagnosis/inference/noise/dense_solvers.hpp"
 #include "diagnosis/inference/noise/neighbourhood.hpp"
 #include "diagnosis/inference/noise/row_distance.hpp"
 #include "diagnosis/inference/noise/row_kernel.hpp"
@@ -82,7 +82,7 @@ Eigen::MatrixXd scatter_of(const Field& field, const Whitener& whitener, const E
 double exact_gain(const Field& field, const Whitener& whitener, const Eigen::MatrixXd& added,
                   const Eigen::VectorXd& residual) {
   const Eigen::VectorXd sums = added.transpose() * residual;
-  return sums.dot(scatter_of(field, whitener, added).llt().solve(sums));
+  return sums.dot(Cholesky(scatter_of(field, whitener, added)).solve(sums));
 }
 
 }  // namespace muster::noise

@@ -74,7 +74,7 @@ double efold(Family family) {
   return (low + high) / 2;
 }
 
-StatedField said_by(const Covariance& c, double within) {
+StatedField stated_by(const Covariance& c, double within) {
   const double of_reading = c.field_variance() / correlation(c.family, within / c.decorrelation());
   return {std::sqrt(of_reading), c.decorrelation() * efold(c.family)};
 }

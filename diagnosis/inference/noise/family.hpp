@@ -48,7 +48,7 @@ struct StatedField {
 };
 // The stated field equivalent to a fitted one. `within` [m]: mean distance of two readings of a row, whose mean
 // varies less than one reading does.
-StatedField said_by(const Covariance& covariance, double within);
+StatedField stated_by(const Covariance& covariance, double within);
 // The covariance of a stated field, with the rest of theta from `beside`.
 Covariance as_stated(const StatedField& field, Family family, const Theta& beside, double within);
 

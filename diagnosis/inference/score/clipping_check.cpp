@@ -24,8 +24,8 @@ std::pair<double, double> range_of(const Problem& problem) {
 
 }  // namespace
 
-bool stands_clear_of_clip(const ModelState& state, const noise::Covariance& covariance, const Eigen::MatrixXd& design,
-                          const Eigen::MatrixXd& columns) {
+bool separable_from_clipping(const ModelState& state, const noise::Covariance& covariance,
+                             const Eigen::MatrixXd& design, const Eigen::MatrixXd& columns) {
   const Eigen::MatrixXd both = noise::hstack(design, columns);
   const Eigen::VectorXd predicted = both * state.whitened_model(both, covariance).coefficients(both.cols());
   const double sd = thresholds::imputed_spread *

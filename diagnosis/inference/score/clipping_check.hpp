@@ -6,7 +6,7 @@
 namespace muster::inference {
 
 // Rows are selected by their predicted level: selection by the reading itself would bias the means.
-bool stands_clear_of_clip(const ModelState& state, const noise::Covariance& covariance, const Eigen::MatrixXd& design,
-                          const Eigen::MatrixXd& columns);
+bool separable_from_clipping(const ModelState& state, const noise::Covariance& covariance,
+                             const Eigen::MatrixXd& design, const Eigen::MatrixXd& columns);
 
 }  // namespace muster::inference

@@ -1,7 +1,8 @@
 #include "diagnosis/inference/score/student_mixture.hpp"
 
-#include <Eigen/Cholesky>
 #include <cmath>
+
+#include "diagnosis/inference/noise/dense_solvers.hpp"
 
 namespace muster::inference {
 
@@ -13,7 +14,7 @@ StudentMixture::StudentMixture(std::vector<Eigen::VectorXd> centres, const Eigen
     if (scale(k, k) > 0) varying_.push_back(k);
   }
   const Eigen::MatrixXd of_varying = scale(varying_, varying_);
-  root_ = of_varying.llt().matrixL();
+  root_ = noise::Cholesky(of_varying).lower();
   whitened_.resize(root_.rows(), static_cast<Eigen::Index>(centres_.size()));
   for (std::size_t k = 0; k < centres_.size(); ++k) whitened_.col(static_cast<Eigen::Index>(k)) = whitened(centres_[k]);
 }

@@ -64,7 +64,7 @@ std::vector<Alternative> of_other_rows(const ModelState& state, const Term& term
   const Eigen::MatrixXd columns = state.columns_of(own, term.theta);
   std::vector<Alternative> result;
   for (std::size_t k = 0; k < own.design.grid.size(); ++k) {
-    const double separability = left_of(effect, by_atom[static_cast<Index>(k)]);
+    const double separability = residual_energy(effect, by_atom[static_cast<Index>(k)]);
     if (separability < thresholds::inseparable && own.label_of(own.design.grid[k]) != label &&
         !state.columns_of(own, own.design.grid[k]).isApprox(columns, 1e-9))
       result.push_back({own.id, own.label_of(own.design.grid[k]), own.design.grid[k], 0, separability});
@@ -87,7 +87,7 @@ void keep_likest(std::vector<Alternative>& alternatives, Alternative alternative
 
 }  // namespace
 
-double left_of(const Eigen::VectorXd& effect, double explained) {
+double residual_energy(const Eigen::VectorXd& effect, double explained) {
   return std::max(0.0, effect.squaredNorm() - explained);
 }
 
@@ -134,7 +134,7 @@ std::vector<Alternative> alternatives_of(ModelState& state, const Term& term) {
     const bool smooth = c.kind == Kind::smooth;
     if (smooth && c.own() == own.own() && (c.role.observed || own.kind == Kind::smooth)) continue;
     const auto [theta, explained] = explained_by(state, rest, c, by_atom.at(c.id), effect);
-    const double separability = left_of(effect, explained);
+    const double separability = residual_energy(effect, explained);
     const bool confused = c.kind == Kind::named && separability < thresholds::inseparable;
     const ScoredCandidate lead =
         at_its_best(state, rest, plain, confused ? &theta : nullptr, evidence - thresholds::worth_refining_nats);

@@ -15,7 +15,7 @@ struct Alternative {
 };
 
 // D of a whitened effect, given the energy that an alternative explains. Never negative, despite rounding.
-double left_of(const Eigen::VectorXd& effect, double explained);
+double residual_energy(const Eigen::VectorXd& effect, double explained);
 
 // True if the alternative remains possible: within 3 nats, or inseparable with a likelihood ratio below 3 nats.
 // Beside a true alternative the error rate is at most 0.7 %. The log ratio is then normal about -D / 2 with variance

@@ -53,7 +53,7 @@ void prefer_names(std::vector<ScoredCandidate>& pool, double share) {
   const auto chosen = std::find_if(pool.begin(), pool.end(), [&](const ScoredCandidate& lead) {
     const auto by_chance = static_cast<double>(std::max<Index>(0, pool[0].columns.cols() - lead.columns.cols()));
     return lead.candidate().kind == Kind::named && lead.gain >= share * (pool[0].gain - by_chance) &&
-           lead.candidate().role.stands_for.count(pool[0].candidate().own()) > 0;
+           lead.candidate().role.replaces.count(pool[0].candidate().own()) > 0;
   });
   if (chosen != pool.end()) to_front(pool, chosen);
 }

@@ -95,7 +95,7 @@ double sure_log_p(const ModelState& state, const ScoredCandidate& lead, const no
   double gain = model.exact_gain(state.field(), lead.columns);
   const LongRangeRows::Question question{state.y(), model.design, lead.columns, fit.covariance};
   if (c.role.pieces.empty() && state.far().kept(question, state.field()) > thresholds::kept_information) {
-    gain = std::min(gain, state.far().sure_gain(question));
+    gain = std::min(gain, state.far().gain_lower_bound(question));
     if (c.role.slow || c.kind == Kind::smooth) {
       const std::vector<noise::Family> families = state.likely_families(fit.covariance.family);
       gain = std::min(gain, state.far().profile_gain(question, state.fit.covariance, families));
@@ -124,7 +124,7 @@ Trial tried(const ModelState& state, const ScoredCandidate& lead, const noise::F
   if (!c.role.pieces.empty() && share_of_others(state, gains_by_row.won) < thresholds::share_of_others)
     trial.marginal_log_p += state.options().one_group_charge;
   if (c.role.level_like && state.problem().bounds.any() &&
-      !stands_clear_of_clip(state, fit.covariance, design, lead.columns))
+      !separable_from_clipping(state, fit.covariance, design, lead.columns))
     trial.reason = like_clipping;
   else if (trial.marginal_log_p > state.threshold())
     trial.reason = "not beyond chance";

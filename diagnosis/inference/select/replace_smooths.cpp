@@ -71,7 +71,7 @@ struct Replacement {
     for (int number = 1; number <= 2; ++number) {
       std::optional<Term> next = best(result);
       if (!next || next->evidence < thresholds::replacement_nats) return {};
-      if (number == 1 && next->candidate->role.stands_for.count(covariate) == 0) return {};
+      if (number == 1 && next->candidate->role.replaces.count(covariate) == 0) return {};
       result.push_back(std::move(*next));
       if (number == 2) refine_in_turn(result);
       const Eigen::MatrixXd all = with(result).rightCols(with(result).cols() - rest.cols());
@@ -94,7 +94,7 @@ void replace_smooths(ModelState& state) {
   for (const std::string& covariate : covariates) {
     const auto in_group = [&](const Term& term) { return term.candidate->own() == covariate; };
     const bool has_names = std::any_of(state.entries().begin(), state.entries().end(), [&](const Entry& entry) {
-      return entry.candidate->role.stands_for.count(covariate) > 0;
+      return entry.candidate->role.replaces.count(covariate) > 0;
     });
     if (!has_names) continue;
     Eigen::MatrixXd group(state.rows().size(), 0);

@@ -72,7 +72,7 @@ struct Refinement {
 
 // Competition with other candidates.
 struct CandidateRole {
-  std::set<std::string> stands_for;  // covariates of smooths that it may replace
+  std::set<std::string> replaces;  // covariates of smooths that it may replace
   std::string pieces;  // class of candidates that may find one object in several pieces ("place"); empty: none
   // Start thetas for one object that covers these pieces. May be empty.
   std::function<std::vector<Eigen::VectorXd>(const std::vector<Piece>&)> spanning;

@@ -76,7 +76,7 @@ double LongRangeRows::profile_gain(const Question& q, const noise::Covariance& w
   return 2 * (log_likelihood(noise::hstack(design, lengthened(q.columns)), q.with) - log_likelihood(design, without));
 }
 
-double LongRangeRows::sure_gain(const Question& q) const {
+double LongRangeRows::gain_lower_bound(const Question& q) const {
   const Long question = lengthened(q);
   std::vector<noise::Fit> fits;
   for (const noise::Family family : noise::families)

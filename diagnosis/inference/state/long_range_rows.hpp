@@ -29,7 +29,7 @@ class LongRangeRows {
                       const std::vector<noise::Family>& families) const;
   // Least exact gain over all families, with the noise refitted beside the columns. A family more than `likely_nats`
   // behind the best one is credited with twice the excess.
-  double sure_gain(const Question& question) const;
+  double gain_lower_bound(const Question& question) const;
 
  private:
   Eigen::MatrixXd lengthened(const Eigen::MatrixXd& of_rows) const;

@@ -107,7 +107,7 @@ void LinkCauseDomain::describe(const CauseShape& shape, inference::Candidate& c)
   c.role.slow = !time && !heading && !(placed && c.design.sign && decibels);
   c.role.level_like = shape.set().empty() && !placed && !time;
   if (placed && !c.role.slow) c.role.pieces = "place";
-  std::tie(c.covariates, c.role.stands_for) = covariates_of(shape);
+  std::tie(c.covariates, c.role.replaces) = covariates_of(shape);
   c.role.over_sites = c.own() == "map";
   if (!c.refinement.any()) return;
   c.refinement.starts = stands(c) ? (shape.place == PlaceShape::segment ? 16 : 10) : edit ? 12 : 1;

@@ -58,7 +58,7 @@ double log_mean(const Ratios& ratios) {
 
 class Scan {
  public:
-  Scan(const inference::ModelState& state, const LinkReadings& readings, const Asked& asked)
+  Scan(const inference::ModelState& state, const LinkReadings& readings, const RowMask& asked)
       : state_(state),
         readings_(readings),
         model_(state.whitened_model(state.design())),
@@ -128,7 +128,7 @@ class Scan {
     return result;
   }
 
-  std::vector<char> rows_in_full(const Asked& asked) const {
+  std::vector<char> rows_in_full(const RowMask& asked) const {
     std::vector<char> result(static_cast<std::size_t>(state_.rows().size()), 1);
     const std::vector<Index>& row_of = state_.rows().row_of();
     for (std::size_t i = 0; i < row_of.size(); ++i) {
@@ -138,7 +138,7 @@ class Scan {
   }
 
   // Sorted by time, both directions of a link together; without links of few rows.
-  std::map<std::pair<int, int>, std::vector<Index>> readings_of_links(const Asked& asked) const {
+  std::map<std::pair<int, int>, std::vector<Index>> readings_of_links(const RowMask& asked) const {
     const LinkReadings& r = readings_;
     const std::vector<char> in_full = rows_in_full(asked);
     std::map<std::pair<int, int>, std::vector<Index>> result;
@@ -299,7 +299,7 @@ double log_p(const Scan& scan, double ratio, const VectorXd& left) {
 
 }  // namespace
 
-Blockage blockage_test(const inference::ModelState& state, const LinkReadings& readings, const Asked& asked) {
+Blockage blockage_test(const inference::ModelState& state, const LinkReadings& readings, const RowMask& asked) {
   const Scan scan(state, readings, asked);
   Blockage result;
   result.links = scan.links().size();

@@ -7,7 +7,7 @@
 namespace muster::diagnosis {
 
 // One a reading: true for readings that take part in the test.
-using Asked = Eigen::Array<bool, Eigen::Dynamic, 1>;
+using RowMask = Eigen::Array<bool, Eigen::Dynamic, 1>;
 
 struct Blockage {
   int radio = -1, other = -1;  // indices into the set `radio`
@@ -22,6 +22,6 @@ struct Blockage {
 // It is also compared with the scan of the sign-flipped residual without the blockages. People only lower levels; a
 // misfit of the field raises them as often. Rows with an excluded reading take no part: near a clip levels are
 // truncated on one side, which resembles bursts.
-Blockage blockage_test(const inference::ModelState& state, const LinkReadings& readings, const Asked& asked);
+Blockage blockage_test(const inference::ModelState& state, const LinkReadings& readings, const RowMask& asked);
 
 }  // namespace muster::diagnosis

@@ -75,7 +75,7 @@ double of_both(double log_p, double other) { return log_p + other + std::log1p(-
 
 // Tests for readings missing at low levels only. True if the cause is named.
 bool add_silence(const LawSources& s, const MissingData& missing, Diagnosis& found) {
-  const double step = found.instrument.step;
+  const double step = found.receiver.step;
   const Cause* const cause = cause_called(s, "effect.rssi_floor");
   const double least = std::log(s.state.options().further_alpha / static_cast<double>(s.state.entries().size()));
   const double independent = missing.censored ? 1 : thresholds::joint_loss;  // neighbours are lost jointly
@@ -113,8 +113,7 @@ VectorXd residual_of(const LawSources& s, const Diagnosis& found) {
   for (Index i = 0; i < result.size(); ++i) {
     const double mean = found.mean[s.used[static_cast<std::size_t>(i)]];
     const bool lost = s.fit.missing.censored && mean - s.fit.missing.floor < thresholds::near_clip * sd;
-    if (lost || near(found.instrument.top, 1, mean) || near(found.instrument.bottom, -1, mean))
-      result[i] = std::nan("");
+    if (lost || near(found.receiver.top, 1, mean) || near(found.receiver.bottom, -1, mean)) result[i] = std::nan("");
   }
   return result;
 }
@@ -159,7 +158,7 @@ std::string why_not(const LawSources& s, const VectorXd& residual) {
 
 // Tests the fading law. Returns the law of readings: the stated one, or the one named here.
 ReadingDistribution add_scatter(const LawSources& s, KrigedReadings& field, Diagnosis& found) {
-  const auto [tests, likeliest] = law_tests(field, found.instrument.step, stated_law(s.model), s.state.fit.covariance);
+  const auto [tests, likeliest] = law_tests(field, found.receiver.step, stated_law(s.model), s.state.fit.covariance);
   const auto best =
       std::find_if(tests.begin(), tests.end(), [&](const LawTest& t) { return cause_called(s, t.cause); });
   if (best == tests.end() || !beyond_chance(*best, thresholds::law_alpha)) return likeliest;
@@ -177,8 +176,8 @@ bool world_draws_alike(const LawSources& s) {
   const VectorXd drawn = s.model.drawn(), expected = s.model.expected();
   const VectorXd apart = (drawn - expected)(s.used);
   if (!apart.allFinite()) return false;
-  const noise::StatedField own = said_by(fitted_to(s.state, s.state.rows().mean(apart)), s.state.within());
-  const noise::StatedField fitted = said_by(s.state.fit.covariance, s.state.within());
+  const noise::StatedField own = stated_by(fitted_to(s.state, s.state.rows().mean(apart)), s.state.within());
+  const noise::StatedField fitted = stated_by(s.state.fit.covariance, s.state.within());
   return std::abs(std::log(own.shadowing / fitted.shadowing)) < std::log(thresholds::alike_shadowing) &&
          std::abs(std::log(own.decorrelation / fitted.decorrelation)) < std::log(thresholds::alike_decorrelation);
 }
@@ -192,7 +191,7 @@ void add_field(const LawSources& s, KrigedReadings& field, const ReadingDistribu
     return;
   }
   found.searched.push_back(cause->id);
-  const LawTest test = field_test(field, found.instrument.step, law, said, s.state);
+  const LawTest test = field_test(field, found.receiver.step, law, said, s.state);
   // The field needs two tests to agree (shadowing_test.hpp).
   if (beyond_chance(test, thresholds::field_alpha) && !world_draws_alike(s))
     found.causes.push_back(named(s, *cause, test));
@@ -288,17 +287,17 @@ VectorXd without_link(const LawSources& s, const CauseEstimate& people, VectorXd
 }  // namespace
 
 void add_clips(const LawSources& s, Diagnosis& found) {
-  const double step = found.instrument.step;
+  const double step = found.receiver.step;
   if (cause_called(s, "effect.rssi_saturation")) found.searched.push_back("effect.rssi_saturation");
   if (cause_called(s, "effect.rssi_floor")) found.searched.push_back("effect.rssi_floor");
-  if (found.instrument.top) add_pile(s, "effect.rssi_saturation", *found.instrument.top, step, found);
-  if (found.instrument.bottom) add_pile(s, "effect.rssi_floor", *found.instrument.bottom, step, found);
-  if (!found.instrument.bottom) add_silence(s, s.fit.missing, found);
+  if (found.receiver.top) add_pile(s, "effect.rssi_saturation", *found.receiver.top, step, found);
+  if (found.receiver.bottom) add_pile(s, "effect.rssi_floor", *found.receiver.bottom, step, found);
+  if (!found.receiver.bottom) add_silence(s, s.fit.missing, found);
 }
 
 bool add_silence_beside(const LawSources& s, const VectorXd& mean, Diagnosis& found) {
   const auto floor = [](const CauseEstimate& c) { return c.id == "effect.rssi_floor"; };
-  if (s.fit.missing.count == 0 || found.instrument.bottom || !found.named() ||
+  if (s.fit.missing.count == 0 || found.receiver.bottom || !found.named() ||
       std::any_of(found.causes.begin(), found.causes.end(), floor))
     return false;
   const VectorXd& rssi = s.fit.readings.rssi;

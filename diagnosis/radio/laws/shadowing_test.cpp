@@ -31,7 +31,7 @@ double best_value(const inference::ModelState& state, const noise::Covariance& a
 
 // Likelihood-ratio gain on rows: the fitted field against the best one near the stated one.
 double gain_of_rows(const inference::ModelState& state, const noise::StatedField& stated, const noise::Fit& free) {
-  const noise::StatedField fitted = said_by(free.covariance, state.within());
+  const noise::StatedField fitted = stated_by(free.covariance, state.within());
   const auto near = [&](double value, double said) {
     return std::clamp(value, said / thresholds::stated_tolerance, said * thresholds::stated_tolerance);
   };
@@ -81,7 +81,7 @@ double of_any_family(LawLikelihood& judge, const ReadingDistribution& law, const
 LawTest field_test(KrigedReadings& field, double step, const ReadingDistribution& law, const noise::StatedField& stated,
                    const inference::ModelState& state) {
   const noise::Fit free = unbelieving(state);
-  const noise::StatedField fitted = said_by(free.covariance, state.within());
+  const noise::StatedField fitted = stated_by(free.covariance, state.within());
   const Eigen::Matrix4d spread = free.curvature.inverse();
   LawTest test{"effect.shadowing_correlation",
                {value_of("shadowing", fitted.shadowing, spread(0, 0) / 4),

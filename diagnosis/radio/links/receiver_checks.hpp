@@ -1,4 +1,4 @@
-// What readings show of the instrument that took them, before any model is asked: its step, where it clips, and that
+// What readings show of the receiver that took them, before any model is asked: its step, where it clips, and that
 // its record is sound.
 #pragma once
 

@@ -38,7 +38,7 @@ Candidate offset(const World& w, bool of_tx) {
   c.covariates = {of_tx ? "tx" : "rx"};
   c.role.time_like = !of_tx;
   c.role.slow = of_tx;
-  if (of_tx) c.role.stands_for = {"txbearing"};
+  if (of_tx) c.role.replaces = {"txbearing"};
   c.design.grid = of_tx ? one_a_transmitter(w) : std::vector<VectorXd>{theta({101})};
   c.design.columns = [&w, of_tx](const VectorXd& t) -> Eigen::MatrixXd {
     if (of_tx) return is_tx(w, t[0]);
@@ -54,7 +54,7 @@ Candidate antenna_rx(const World& w) {
   Candidate c;
   c.id = "antenna_rx";
   c.covariates = {"bearing"};
-  c.role.stands_for = {"bearing", "heading"};
+  c.role.replaces = {"bearing", "heading"};
   c.design.width = 2;
   c.design.grid = {VectorXd()};
   c.design.columns = [&w](const VectorXd&) {
@@ -69,7 +69,7 @@ Candidate antenna_tx(const World& w) {
   Candidate c;
   c.id = "antenna_tx";
   c.covariates = {"txbearing"};
-  c.role.stands_for = {"txbearing"};
+  c.role.replaces = {"txbearing"};
   c.design.width = 2;
   c.role.slow = true;
   c.design.grid = one_a_transmitter(w);
@@ -89,7 +89,7 @@ Candidate step(const World& w) {
   Candidate c;
   c.id = "step";
   c.covariates = {"time"};
-  c.role.stands_for = {"time", "time_per_tx"};
+  c.role.replaces = {"time", "time_per_tx"};
   c.role.time_like = true;
   const double last = w.time.maxCoeff();
   for (int tx = -1; tx < w.recipe.transmitters; ++tx) {
@@ -111,7 +111,7 @@ Candidate drift(const World& w) {
   Candidate c;
   c.id = "drift";
   c.covariates = {"time"};
-  c.role.stands_for = {"time", "time_per_tx"};
+  c.role.replaces = {"time", "time_per_tx"};
   c.role.time_like = true;
   for (int tx = -1; tx < w.recipe.transmitters; ++tx) c.design.grid.push_back(theta({static_cast<double>(tx)}));
   c.design.columns = [&w](const VectorXd& t) -> Eigen::MatrixXd {
@@ -125,7 +125,7 @@ Candidate dual_slope(const World& w) {
   Candidate c;
   c.id = "dual_slope";
   c.covariates = {"logd"};
-  c.role.stands_for = {"logd", "level"};
+  c.role.replaces = {"logd", "level"};
   c.role.slow = c.role.level_like = true;
   for (int k = 0; k < 12; ++k) c.design.grid.push_back(theta({std::log(2.5) + k * std::log(4.8) / 11}));
   c.design.columns = [&w](const VectorXd& t) -> Eigen::MatrixXd {
@@ -144,7 +144,7 @@ Candidate room_clutter(const World& w) {
   Candidate c;
   c.id = "room_clutter";
   c.covariates = {"position"};
-  c.role.stands_for = {"position"};
+  c.role.replaces = {"position"};
   c.design.sign = -1;
   c.role.slow = true;
   for (double x = 0; x + 6 <= w.recipe.width; x += 6) {
@@ -222,7 +222,7 @@ Candidate unmapped_wall(const World& w) {
   c.id = "unmapped_wall";
   c.covariates = {"map"};
   c.role.over_sites = true;
-  c.role.stands_for = {"position", "txbearing"};
+  c.role.replaces = {"position", "txbearing"};
   c.design.sign = -1;
   c.role.pieces = "place";
   c.refinement.starts = 8;
@@ -268,7 +268,7 @@ Candidate obstacle(const World& w) {
   c.id = "obstacle";
   c.covariates = {"map"};
   c.role.over_sites = true;
-  c.role.stands_for = {"position", "txbearing"};
+  c.role.replaces = {"position", "txbearing"};
   c.design.sign = -1;
   c.role.pieces = "place";
   c.refinement.starts = 5;
@@ -293,7 +293,7 @@ Candidate periodic(const World& w) {
   Candidate c;
   c.id = "periodic";
   c.covariates = {"time"};
-  c.role.stands_for = {"time"};
+  c.role.replaces = {"time"};
   c.role.time_like = true;
   c.design.width = 2;
   const double last = w.time.maxCoeff();

@@ -58,7 +58,7 @@ TEST(LongRangeRows, PValueOfANameUsesTheExactCovariance) {
   const Term& offset = state.terms[0];
   EXPECT_EQ(offset.id(), "tx_offset");
   const double near = state.whitened_model(state.base()).gain(offset.columns);
-  const double sure = state.far().sure_gain({state.y(), state.base(), offset.columns, state.fit.covariance});
+  const double sure = state.far().gain_lower_bound({state.y(), state.base(), offset.columns, state.fit.covariance});
   EXPECT_LT(sure, 0.9 * near);
   EXPECT_NEAR(result.trials[0].marginal_log_p,
               state.log_p(*offset.candidate, sure / thresholds::overdispersion, 1, true), 0.2);

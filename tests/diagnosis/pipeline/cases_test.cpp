@@ -49,7 +49,7 @@ TEST_P(SealedCase, IsNamedAndTheExtendedWorldIsSilent) {
   EXPECT_EQ(named, 1) << told(found);
   const Loop loop = closed_loop(found, world, world / "measured.csv", scratch / "extended", plugins);
   EXPECT_LT(loop.mean_difference, 0.1);
-  EXPECT_EQ(in_short(loop.rediagnosis), "silent");
+  EXPECT_EQ(names_in_words(loop.rediagnosis), "silent");
 }
 
 INSTANTIATE_TEST_SUITE_P(Effects, SealedCase,
@@ -178,8 +178,8 @@ TEST(SealedPeople, AreNotTakenForWhatChangesInTime) {
   const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
   expect_only("effect.people", found);
   const auto extended = scratch / "extended";
-  EXPECT_EQ(in_short(closed_loop(found, world, world / "measured.csv", extended, plugins).rediagnosis), "silent");
-  EXPECT_EQ(in_short(second_look(world, extended, world / "second.csv", plugins).rediagnosis), "silent");
+  EXPECT_EQ(names_in_words(closed_loop(found, world, world / "measured.csv", extended, plugins).rediagnosis), "silent");
+  EXPECT_EQ(names_in_words(second_look(world, extended, world / "second.csv", plugins).rediagnosis), "silent");
 }
 
 // A drift of 4 dB and powers 1.7 dB off mask the reason of 530 missing readings among 4,720.
@@ -236,8 +236,9 @@ TEST(SealedFading, IsAsStrongAsItIs) {
   ASSERT_EQ(found.causes.size(), 2u) << told(found);
   EXPECT_EQ(found.causes[0].id, "effect.fading_law");
   EXPECT_NEAR(found.causes[0].values.at(0).value, 7.66, 0.4);
-  EXPECT_EQ(in_short(closed_loop(found, world, world / "measured.csv", scratch / "extended", plugins).rediagnosis),
-            "silent");
+  EXPECT_EQ(
+      names_in_words(closed_loop(found, world, world / "measured.csv", scratch / "extended", plugins).rediagnosis),
+      "silent");
 }
 
 // A Gaussian correlation over 3.27 m with 2.38 m stated: no family of the stated distance fits as well.

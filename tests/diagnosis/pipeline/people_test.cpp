@@ -51,11 +51,11 @@ TEST(BlockageOfTheOnlyLink, IsNamedBesideAStepAndTheExtendedWorldHoldsIt) {
   const Scratch scratch;
   const std::filesystem::path data = walked_through(scratch), extended = scratch / "extended";
   Diagnosis found = diagnose(hall, data, plugins);
-  ASSERT_EQ(in_short(told_by(found)), "effect.people radio/base radio/rover, effect.step all");
+  ASSERT_EQ(names_in_words(named_causes(found)), "effect.people radio/base radio/rover, effect.step all");
   for (const auto& [path, value] : found.parameters) EXPECT_EQ(path.find("people"), path.npos) << path;
   found.loop = closed_loop(found, hall, data, extended, plugins);
   EXPECT_LT(found.loop->mean_difference, 0.1);
-  EXPECT_EQ(in_short(found.loop->rediagnosis), "silent");
+  EXPECT_EQ(names_in_words(found.loop->rediagnosis), "silent");
   report::write_regression(found, hall, data, extended);
   for (const report::Checked& c : report::check_regression(extended, plugins))
     EXPECT_TRUE(c.passed) << c.what << ": " << c.found << "; expected " << c.expected;

@@ -49,8 +49,8 @@ TEST(ReceiverChecks, ASmallPileIsComparedWithAllLevelsNearIt) {
   EXPECT_TRUE(receiver_checks(readings(scratch, 27, 3)).top);
 }
 
-ReceiverCheck check_called(const ReceiverChecks& instrument, const std::string& what) {
-  for (const ReceiverCheck& c : instrument.checks)
+ReceiverCheck check_called(const ReceiverChecks& receiver, const std::string& what) {
+  for (const ReceiverCheck& c : receiver.checks)
     if (c.what.rfind(what, 0) == 0) return c;
   return {};
 }

@@ -44,11 +44,11 @@ TEST(ShadowingTest, MeasuresAnUnusualDistance) {
   EXPECT_GT(test.values[1].upper95, 8);
 }
 
-Blockage blockage_in(const Walk& walk, const Asked& asked) {
+Blockage blockage_in(const Walk& walk, const RowMask& asked) {
   const inference::Problem problem = problem_of(walk);
   return blockage_test(inference::ModelState(problem, {}), walk.readings, asked);
 }
-Blockage blockage_in(const Walk& walk) { return blockage_in(walk, Asked::Constant(walk.residual.size(), true)); }
+Blockage blockage_in(const Walk& walk) { return blockage_in(walk, RowMask::Constant(walk.residual.size(), true)); }
 
 TEST(BlockageTest, NoFalseAlarmOnACleanLink) {
   const Walk walk = drawn_of_four({.rician_k = 3}, 600, 1.5);  // deep fades
@@ -91,7 +91,7 @@ TEST(BlockageTest, IgnoresExcludedReadings) {
   EXPECT_LT(blockage_in(walk).test.log_p, std::log(1e-6));
   EXPECT_GT(blockage_in(walk, walk.residual.array() == before.array()).test.log_p, std::log(0.01));
   EXPECT_EQ(blockage_in(walk).links, 4u);
-  EXPECT_EQ(blockage_in(walk, Asked::Constant(walk.residual.size(), false)).links, 0u);
+  EXPECT_EQ(blockage_in(walk, RowMask::Constant(walk.residual.size(), false)).links, 0u);
 }
 
 TEST(BlockageTest, DetectsAndMeasuresBursts) {

@@ -233,9 +233,9 @@ TEST_F(Report, RegressionTestTakesATurnMoreForTheSameOfDirectionsAlone) {
 }
 
 TEST(Words, SayWhatIsFoundAgain) {
-  EXPECT_EQ(what_is_found_again({}), "finds nothing more");
-  EXPECT_EQ(what_is_found_again({{"effect.tx_offset", "beacon_1"}, {"effect.corridor", "all"}, {"~battery", ""}}),
-            "still finds tx offset beacon_1, corridor, something along the column battery");
+  EXPECT_EQ(rediagnosis_in_words({}), "shows nothing more");
+  EXPECT_EQ(rediagnosis_in_words({{"effect.tx_offset", "beacon_1"}, {"effect.corridor", "all"}, {"~battery", ""}}),
+            "still shows tx offset beacon_1, corridor, something along the column battery");
 }
 
 }  // namespace

@@ -115,7 +115,7 @@ class ThermometerDomain : public diagnosis::CauseDomain {
   void describe(const diagnosis::CauseShape& shape, inference::Candidate& c) const override {
     const bool in_time = std::string_view(shape.cause.meaning().covariates) == "t";
     c.covariates = {in_time ? "time" : "thermometer"};
-    c.role.stands_for = in_time ? std::set<std::string>{"time", "time_per_thermometer"} : std::set{c.covariates[0]};
+    c.role.replaces = in_time ? std::set<std::string>{"time", "time_per_thermometer"} : std::set{c.covariates[0]};
     c.role.time_like = in_time && shape.rows.size() == 1;
     c.role.slow = !in_time;
     c.refinement.evaluations = 40;

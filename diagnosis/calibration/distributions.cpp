@@ -1,0 +1,16 @@
+#include "diagnosis/calibration/distributions.hpp"
+
+#include <boost/math/distributions/fisher_f.hpp>
+#include <boost/math/distributions/students_t.hpp>
+
+namespace muster::diagnosis {
+
+double fisher_tail(double numerator_freedom, double denominator_freedom, double x) {
+  return boost::math::cdf(boost::math::complement(boost::math::fisher_f(numerator_freedom, denominator_freedom), x));
+}
+
+double student_tail(double freedom, double x) {
+  return boost::math::cdf(boost::math::complement(boost::math::students_t(freedom), x));
+}
+
+}  // namespace muster::diagnosis

@@ -1,0 +1,12 @@
+// Upper tails of the distributions of tests and intervals. Boost's templates for one of them take seconds to compile:
+// here they do so once.
+#pragma once
+
+namespace muster::diagnosis {
+
+// Probability that an F-distributed value with these degrees of freedom exceeds x.
+double fisher_tail(double numerator_freedom, double denominator_freedom, double x);
+// Probability that a Student-distributed value exceeds x.
+double student_tail(double freedom, double x);
+
+}  // namespace muster::diagnosis
