@@ -20,7 +20,8 @@ inline std::vector<RobotState> square(int count, const std::function<double(int,
   const int side = static_cast<int>(std::ceil(std::sqrt(count)));
   std::vector<RobotState> states;
   for (int i = 0; i < count; ++i) {
-    const double x = spacing * (i % side), y = spacing * (i / side);
+    const int row = i / side;
+    const double x = spacing * (i % side), y = spacing * row;
     states.push_back(at_rest(x, y, heading(i, x, y)));
   }
   return states;

@@ -75,7 +75,10 @@ struct Grid {
 
   std::size_t size() const { return width * height; }
   double x(std::size_t i) const { return x0 + (static_cast<double>(i % width) + 0.5) * cell; }
-  double y(std::size_t i) const { return y0 + (static_cast<double>(i / width) + 0.5) * cell; }
+  double y(std::size_t i) const {
+    const std::size_t row = i / width;
+    return y0 + (static_cast<double>(row) + 0.5) * cell;
+  }
 };
 
 std::vector<Sender> senders_of(const Simulation& run, const MapWords& words) {

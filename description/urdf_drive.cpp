@@ -15,7 +15,7 @@ constexpr double placement_tolerance = 1e-4;  // [m]: a drive that contradicts t
 // Checks that the axle is along the body's y axis, the left wheel on the left, and that positive rates turn forward.
 Eigen::Vector3d check_wheel(const Source& source, const XMLElement& element, const Robot& robot, std::size_t index,
                             double y) {
-  const Eigen::Vector3d middle = place_of_turning(source, element, robot, index);
+  Eigen::Vector3d middle = place_of_turning(source, element, robot, index);
   if (std::abs(middle.y() - y) > placement_tolerance) {
     source.fail(element.GetLineNum(), tag(element) + "joint '" + robot.joints[index].name +
                                           "' is not half a wheel_base from the body's x axis (left: +y, right: -y)");

@@ -34,7 +34,7 @@ XMLElement* element_of(XMLElement& root, const std::string& owner) {
 std::string unused_name(XMLElement& root, const std::string& id) {
   const std::string stem = id.substr(id.find('.') + 1);
   for (int k = 1;; ++k) {
-    const std::string name = stem + "_" + std::to_string(k);
+    std::string name = stem + "_" + std::to_string(k);
     if (!element_of(root, name)) return name;
   }
 }
@@ -91,7 +91,7 @@ fs::path write_extended_world(const Diagnosis& found, const fs::path& world, con
   for (const CauseEstimate& cause : found.causes) {
     if (cause.status == inference::Status::named) add_cause(root, cause, out);
   }
-  const fs::path written = out / file.filename();
+  fs::path written = out / file.filename();
   if (document.SaveFile(written.string().c_str()) != tinyxml2::XML_SUCCESS)
     throw Error(Exit::io, written.string() + ": cannot be written");
   return written;

@@ -115,13 +115,13 @@ std::string gain_text(const std::optional<inference::HeldOutGain>& h, const std:
 }
 
 std::string cause_card(const CauseEstimate& c, std::size_t number, const std::vector<Picture>& pictures) {
-  const Confidence standing = confidence_of(c);
-  const bool sure = standing == Confidence::confirmed;
+  const Confidence confidence = confidence_of(c);
+  const bool sure = confidence == Confidence::confirmed;
   std::string out = fmt::format("<article class=\"card\">\n<h3><span class=\"mark {}\">{}</span>{}</h3>\n",
                                 sure ? "named" : "suspected", sure ? "named" : "suspected", escaped(title_of(c)));
   if (!c.doubt.empty())
     out += paragraph("Doubt: " + c.doubt + ".");
-  else if (standing == Confidence::unconfirmed)
+  else if (confidence == Confidence::unconfirmed)
     out += paragraph("Named, but not confirmed on held-out data: " + why_unconfirmed(c) + ".");
   std::vector<Row> values;
   for (const CauseValue& v : c.values) values.push_back({{v.name}, {quantity(v), true}, {interval(v), true}});

@@ -66,8 +66,8 @@ std::string gains_elsewhere(const std::vector<inference::Elsewhere>& elsewhere) 
 }
 
 std::string cause_text(const CauseEstimate& c, int number) {
-  const Confidence standing = confidence_of(c);
-  const std::string opening = standing == Confidence::confirmed ? "it is " : "suspected: ";
+  const Confidence confidence = confidence_of(c);
+  const std::string opening = confidence == Confidence::confirmed ? "it is " : "suspected: ";
   std::string text = wrapped(fmt::format("({}) {}{}: {}", number, opening, c.id, sentence(c)), 2, 6);
   text += entry("where", c.label == "all" ? "everywhere" : c.label);
   for (const CauseValue& v : c.values) text += entry(v.name, fmt::format("{:<12} 95 %: {}", quantity(v), interval(v)));
@@ -80,9 +80,9 @@ std::string cause_text(const CauseEstimate& c, int number) {
   text += gains_elsewhere(c.elsewhere);
   if (!c.doubt.empty())
     text += entry("doubt", c.doubt);
-  else if (standing == Confidence::unconfirmed && c.held_out)
+  else if (confidence == Confidence::unconfirmed && c.held_out)
     text += entry("", "Not confirmed on held-out data: " + why_unconfirmed(c) + ".");
-  if (standing != Confidence::set_aside) text += entry("alternative", rivals_in_words(c.alternatives));
+  if (confidence != Confidence::set_aside) text += entry("alternative", rivals_in_words(c.alternatives));
   return text;
 }
 

@@ -79,9 +79,9 @@ std::string why_no_gain(const CauseEstimate& cause) {
   return is_law(cause) ? "none: it changes the scatter of readings, not their mean" : too_few_blocks;
 }
 
-int count_of(const Diagnosis& d, Confidence standing) {
+int count_of(const Diagnosis& d, Confidence confidence) {
   return static_cast<int>(std::count_if(d.causes.begin(), d.causes.end(),
-                                        [&](const CauseEstimate& c) { return confidence_of(c) == standing; }));
+                                        [&](const CauseEstimate& c) { return confidence_of(c) == confidence; }));
 }
 
 double tenths(double value) { return std::round(10 * value) / 10 + 0.0; }

@@ -70,6 +70,6 @@ std::string words_explained();
 // Reason why there are no held-out blocks.
 std::string why_no_blocks(const Diagnosis& diagnosis);
 
-int count_of(const Diagnosis& diagnosis, Confidence standing);
+int count_of(const Diagnosis& diagnosis, Confidence confidence);
 
 }  // namespace muster::report

@@ -66,7 +66,7 @@ constexpr std::size_t rate_of(int mbit) {
 
 // 16 service bits before, 6 tail bits behind.
 constexpr Time air_time(std::size_t size, const Rate& rate) {
-  const auto bits = static_cast<Time>(16 + 8 * size + 6), a_symbol = static_cast<Time>(4 * rate.mbit);
+  const auto bits = static_cast<Time>(16 + 8 * size + 6), a_symbol = 4 * static_cast<Time>(rate.mbit);
   return preamble + signal_field + (bits + a_symbol - 1) / a_symbol * symbol + extension;
 }
 constexpr Time ack_time(const Rate& rate) { return air_time(ack_frame, rates[rate_of(rate.ack_mbit)]); }

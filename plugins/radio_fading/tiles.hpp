@@ -141,7 +141,7 @@ class SendersLinks {
 
   static std::size_t follow_one_another(const Ends* first, const Ends* end) {
     constexpr std::size_t some = waves::tile;
-    const auto [tx, rx] = *first;
+    const double tx = first->tx, rx = first->rx;
     std::size_t number = 1;
     const auto left = [&] { return static_cast<std::size_t>(end - first) - number; };
     const auto goes_on = [&](std::size_t by) {

@@ -56,7 +56,7 @@ TEST_F(Snapshots, OfAnotherWorldAreRefusedAndTheRunStands) {
   const auto refused = [&](const std::string& elements) {
     Simulation other = run(elements);
     step(other, 2);
-    const std::string error = error_of([&] { sim.restore(other.snapshot()); });
+    std::string error = error_of([&] { sim.restore(other.snapshot()); });
     EXPECT_EQ(sim.digest(), before);
     return error;
   };

@@ -34,7 +34,9 @@ class Neighbourhood {
                       .of[lane];
   }
   // Fisher information, q <= p.
-  const Lanes& information(int p, int q) const { return information_[static_cast<std::size_t>(p * parameters + q)]; }
+  const Lanes& information(int p, int q) const {
+    return information_[static_cast<std::size_t>(p) * parameters + static_cast<std::size_t>(q)];
+  }
 
  private:
   void own_variances(Index group);

@@ -96,8 +96,8 @@ bool left_open(const Alternative& alternative) {
          (alternative.separability < thresholds::inseparable && alternative.by_readings < thresholds::open_nats);
 }
 
-double standing(const ModelState& state, const Eigen::MatrixXd& design, const Candidate& c,
-                const Eigen::MatrixXd& columns) {
+double evidence_beside(const ModelState& state, const Eigen::MatrixXd& design, const Candidate& c,
+                       const Eigen::MatrixXd& columns) {
   const Eigen::MatrixXd both = noise::hstack(design, columns);
   const noise::Fit fit = state.fitted(both, state.fit.covariance, 4);
   const WhitenedModel rest = state.whitened_model(design, fit.covariance);
@@ -113,8 +113,8 @@ std::vector<Alternative> alternatives_of(ModelState& state, const Term& term) {
   const double evidence = state.evidence(own, rest.gain(term.columns), term.columns.cols(), own.refinement.any());
   std::optional<double> stands;
   const auto hold = [&](Alternative& alternative, const Candidate& c, const Eigen::MatrixXd& columns) {
-    if (!stands) stands = standing(state, rest.design, own, term.columns);
-    alternative.evidence_gap = *stands - standing(state, rest.design, c, columns);
+    if (!stands) stands = evidence_beside(state, rest.design, own, term.columns);
+    alternative.evidence_gap = *stands - evidence_beside(state, rest.design, c, columns);
     alternative.by_readings = alternative.evidence_gap -
                               state.evidence(own, 0, term.columns.cols(), own.refinement.any()) +
                               state.evidence(c, 0, columns.cols(), c.refinement.any());

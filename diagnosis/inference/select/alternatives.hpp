@@ -24,8 +24,8 @@ bool left_open(const Alternative& alternative);
 
 // Evidence, nats, for a cause with these columns beside a design, the noise refitted with both. Comparable between
 // causes in the same place: noise fitted beside one cause would absorb what another one misses.
-double standing(const ModelState& state, const Eigen::MatrixXd& design, const Candidate& candidate,
-                const Eigen::MatrixXd& columns);
+double evidence_beside(const ModelState& state, const Eigen::MatrixXd& design, const Candidate& candidate,
+                       const Eigen::MatrixXd& columns);
 
 // Candidates within 3 nats of the term, and inseparable causes, its own cause on other rows included. Excludes a
 // smooth along the term's own observed column.

@@ -38,7 +38,7 @@ const Entry* named(const ModelState& state, const std::string& id) {
 // that settles within seconds is a step.
 void give_way_to_alternatives(ModelState& state) {
   const auto stands = [&](const Term& term) {
-    return standing(state, state.design_without(term), *term.candidate, term.columns);
+    return evidence_beside(state, state.design_without(term), *term.candidate, term.columns);
   };
   for (std::size_t k = 0; k < state.terms.size(); ++k) {
     if (state.terms[k].smooth()) continue;
@@ -97,13 +97,13 @@ void give_way_to_time(ModelState& state) {
     const Term before = state.terms[k];
     const noise::Fit fit = state.fit;
     const Eigen::MatrixXd rest = state.design_without(state.terms[k]);
-    const double now = standing(state, rest, *before.candidate, before.columns);
+    const double now = evidence_beside(state, rest, *before.candidate, before.columns);
     const std::optional<Term> other = best_in_time(state, rest);
     if (!other) return;
     state.terms[k] = *other;
     state.refit();
     relocate(state, k, false);
-    const double then = standing(state, rest, *other->candidate, state.terms[k].columns);
+    const double then = evidence_beside(state, rest, *other->candidate, state.terms[k].columns);
     if (then > now) continue;
     state.terms[k] = before;
     state.fit = fit;

@@ -30,7 +30,7 @@ inline std::filesystem::path scarab_with(const Folder& folder,
   std::ifstream scarab(MUSTER_PLUGINS_DIR "/models/scarab.urdf");
   std::string urdf{std::istreambuf_iterator<char>(scarab), {}};
   for (const auto& [was, is] : changes) urdf.replace(urdf.find(was), was.size(), is);
-  const auto model = folder.write("scarab.urdf", urdf);
+  auto model = folder.write("scarab.urdf", urdf);
   std::filesystem::copy(MUSTER_PLUGINS_DIR "/models/hokuyo.stl", model.parent_path());
   return model;
 }
