@@ -38,7 +38,7 @@ const description::Robot& hummingbird() {
   return robot;
 }
 
-// RowMask for from tick k on: hover, some climbing and sinking, and turns about all axes.
+// Asked for from tick k on: hover, some climbing and sinking, and turns about all axes.
 std::array<double, 4> asked(int bird, int k) {
   const double t = tick * (k + 0.5), hover = 453.3;
   const double climb = 5 * std::sin(2 * t + bird), roll = 0.4 * std::sin(3 * t + bird);

@@ -173,7 +173,7 @@ class Diagnoser {
   }
 
   // A strength that may as well be the one at which the row has no effect at all is that: a wall that loses nothing is
-  // a wall that is not there. RowMask with the base model's parameters as they are beside what was found.
+  // a wall that is not there. Asked with the base model's parameters as they are beside what was found.
   std::pair<inference::Finding, const CauseCandidate*> simplest(const inference::Finding& f,
                                                                 const CauseCandidate& cause, const CauseSearch& causes,
                                                                 const inference::ModelState& state,

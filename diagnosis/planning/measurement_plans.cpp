@@ -31,7 +31,7 @@ struct End {
 };
 
 // A radio that does not move, as it sends or hears.
-struct Confidence {
+struct StandingRadio {
   End end;
   bool sends;
 };
@@ -43,16 +43,16 @@ End end_of(const RowSummary& seen, Index i, bool sends) {
           yaw.size() > 0 ? yaw[i] : 0};
 }
 
-std::vector<Confidence> standing_radios(const RowSummary& seen) {
-  std::map<std::pair<int, bool>, std::pair<Confidence, bool>> known;
+std::vector<StandingRadio> standing_radios(const RowSummary& seen) {
+  std::map<std::pair<int, bool>, std::pair<StandingRadio, bool>> known;
   for (Index i = 0; i < seen.tx_at.cols(); ++i) {
     for (const bool sends : {true, false}) {
       const End end = end_of(seen, i, sends);
-      auto& [first, stays] = known.try_emplace({end.radio, sends}, Confidence{end, sends}, true).first->second;
+      auto& [first, stays] = known.try_emplace({end.radio, sends}, StandingRadio{end, sends}, true).first->second;
       stays = stays && (first.end.at - end.at).norm() < 0.2;
     }
   }
-  std::vector<Confidence> out;
+  std::vector<StandingRadio> out;
   for (const auto& [key, value] : known) {
     if (value.second) out.push_back(value.first);
   }
@@ -62,8 +62,8 @@ std::vector<Confidence> standing_radios(const RowSummary& seen) {
 // A place on a link, taken so many times that the noise counts it as a row of the data counts.
 struct Maker {
   const RowSummary& seen;
-  std::vector<Index> rows;         // of the data, spread over all
-  std::vector<Confidence> radios;  // that stand
+  std::vector<Index> rows;            // of the data, spread over all
+  std::vector<StandingRadio> radios;  // that stand
   int repeats;
   bool timed;
   double begin = 0, end = 0;  // s
@@ -97,7 +97,7 @@ struct Maker {
 
   bool stands(const End& e, bool sends) const {
     return std::any_of(radios.begin(), radios.end(),
-                       [&](const Confidence& s) { return s.end.radio == e.radio && s.sends == sends; });
+                       [&](const StandingRadio& s) { return s.end.radio == e.radio && s.sends == sends; });
   }
 
   // The end of row i that moves, the receiver if both do.
@@ -117,7 +117,7 @@ struct Maker {
     add(out, tx, rx, t);
   }
 
-  void add_link(LinkReadings& out, const Confidence& s, const End& other, double t) const {
+  void add_link(LinkReadings& out, const StandingRadio& s, const End& other, double t) const {
     add(out, s.sends ? s.end : other, s.sends ? other : s.end, t);
   }
 };
@@ -159,7 +159,7 @@ PlannedReadings turning(const Maker& make) {
     std::optional<End> r = make.roaming_end(make.rows[make.rows.size() * static_cast<std::size_t>(p) / places]);
     for (int h = 0; r && r->faces && h < headings; ++h, t += 2) {
       r->yaw = 2 * M_PI * h / headings;
-      for (const Confidence& s : make.radios) make.add_link(out.readings, s, *r, t);
+      for (const StandingRadio& s : make.radios) make.add_link(out.readings, s, *r, t);
     }
   }
   return out;
@@ -176,9 +176,9 @@ bool may_be_about(const CauseEstimate& c, const std::string& radio) {
 
 // The standing radio that something was found about, or that it may be about as well, or the first one; none if none
 // stands.
-const Confidence* station(const Maker& make, const std::vector<CauseEstimate>& about) {
+const StandingRadio* station(const Maker& make, const std::vector<CauseEstimate>& about) {
   for (const auto& is : {is_about, may_be_about}) {
-    for (const Confidence& s : make.radios) {
+    for (const StandingRadio& s : make.radios) {
       const std::string& name = make.seen.radios[static_cast<std::size_t>(s.end.radio)];
       if (std::any_of(about.begin(), about.end(), [&](const CauseEstimate& c) { return is(c, name); })) return &s;
     }
@@ -191,7 +191,7 @@ void add_ways(LinkReadings& out, const Maker& make, int radio, const std::functi
   for (const Index i : make.rows) {
     const std::optional<End> r = make.roaming_end(i);
     if (!r) continue;
-    for (const Confidence& s : make.radios) {
+    for (const StandingRadio& s : make.radios) {
       if (s.end.radio != radio) continue;
       const End there = otherwise(s.end);
       if ((r->at - there.at).norm() >= 0.5) make.add_link(out, {there, s.sends}, *r, make.once_more(i));
@@ -218,7 +218,7 @@ PlannedReadings moved_station(const Maker& make, int radio) {
     const std::optional<End> r = make.roaming_end(i);
     if (!r) continue;
     double nearest = 1e300;
-    for (const Confidence& s : make.radios) nearest = std::min(nearest, (s.end.at - r->at).head<2>().norm());
+    for (const StandingRadio& s : make.radios) nearest = std::min(nearest, (s.end.at - r->at).head<2>().norm());
     if (nearest > farthest) farthest = nearest, to = r->at.head<2>();
   }
   if (farthest < 2) return {};
@@ -286,7 +286,7 @@ PlannedReadings elsewhere(const Maker& make, const std::vector<CauseEstimate>& a
   for (std::size_t p = 0; p < places.size(); ++p, t += 2) {
     r->at.head<2>() = places[p].head<2>();
     r->yaw = 0.5 * M_PI * static_cast<double>(p);
-    for (const Confidence& s : make.radios) make.add_link(out.readings, s, *r, t);
+    for (const StandingRadio& s : make.radios) make.add_link(out.readings, s, *r, t);
   }
   return out;
 }
@@ -314,7 +314,7 @@ std::vector<PlannedReadings> planned_readings(const RowSummary& seen, const std:
   if (make.timed && make.span() > 0) out.insert(out.end(), {in_reverse(make), later(make)});
   out.push_back(both_ways(make));
   out.push_back(turning(make));
-  if (const Confidence* const s = station(make, about)) {
+  if (const StandingRadio* const s = station(make, about)) {
     if (s->end.faces) out.push_back(turned_station(make, s->end.radio));
     out.push_back(moved_station(make, s->end.radio));
   }

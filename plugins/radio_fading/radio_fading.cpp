@@ -24,7 +24,7 @@ struct RadioFading {
 link's length d: shadowing x sqrt(1 - (1 - exp(-d/D)) D/d), D = decorrelation (Agrawal and Patwari 2009).
 fading: linear power gain of mean 1, from waves that all radios share (Clarke 1968). It changes over half a
 wavelength, not with time. With `per_reading`, every reading draws its own instead.
-Both are the same both ways and depend on seed and place alone. RowMask for expectations, shadowing is 0 and fading is
+Both are the same both ways and depend on seed and place alone. Asked for expectations, shadowing is 0 and fading is
 the gain whose dB is the mean of its dB: -2.507 dB under Rayleigh fading.)";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {

@@ -18,7 +18,7 @@ struct RadioGudmundson {
 of a link moves by a and the other by b, D = decorrelation. The same both ways and on return; a function of seed
 and places. For comparison: it gives radios side by side the whole shadowing, and links that cross none in
 common, where radio.fading has what lies on the way. With radio.fading shadowing="0" beside it, that one's
-fading. RowMask for expectations it is 0.)";
+fading. Asked for expectations it is 0.)";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       real("shadowing", 4, 0, 30, "dB", "standard deviation"),

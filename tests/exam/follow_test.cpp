@@ -31,20 +31,20 @@ TEST(Follow, TheCaseOfAnAnswerIsTheSameToTheBit) {
 }
 
 // Poses: robot 1 at a place, a station at a place with a heading.
-struct Confidence {
+struct Standing {
   int station = 0;
   Vec3 place, station_at;
   double station_yaw = 0;
   double from = 1000;  // s
 };
 
-Confidence standing(const Case& c, int station, const Reading& reading) {
+Standing standing(const Case& c, int station, const Reading& reading) {
   const Station& s = c.site->plan.stations[static_cast<std::size_t>(station)];
   return {station, reading.at, s.at, s.yaw};
 }
 
 // dBm, mean of enough readings to average out fading: to 0.1 dB, 5 dB / sqrt(3000).
-double mean_of(const Case& c, const Confidence& s) {
+double mean_of(const Case& c, const Standing& s) {
   constexpr int count = 3000;
   const std::string& name = c.site->plan.stations[static_cast<std::size_t>(s.station)].name;
   std::vector<PlannedReadings> asked;
@@ -74,7 +74,7 @@ TEST(FollowedMean, IsTheTruthsAtThatPlace) {
   const Data one = data_of(*c.site, {r});
   const double truth =
       level_by_base(c, one)[0] + expected_shift(*c.site, c.hidden, one)[0] + field(r.station, {r.at.x, r.at.y});
-  Confidence s = standing(c, r.station, r);
+  Standing s = standing(c, r.station, r);
   EXPECT_NEAR(mean_of(c, s), truth, 0.3);
   s.from = 5000;  // a constant effect is the same at any time
   EXPECT_NEAR(mean_of(c, s), truth, 0.3);
@@ -85,7 +85,7 @@ TEST(FollowedMean, ChangesWithTheStationsHeadingWhereItsAntennaIsTheEffect) {
     const Case c = made(23, effect);
     int station = 0;
     while (radio_row(*c.site, station) != c.hidden[0].effect.rows[0]) ++station;
-    Confidence s = standing(c, station, c.measured.readings[0]);
+    Standing s = standing(c, station, c.measured.readings[0]);
     const double as_it_stands = mean_of(c, s);
     double most = 0;
     for (int turn = 0; turn < 4; ++turn) {
@@ -103,7 +103,7 @@ TEST(FollowedMean, OfAStationThatWasMovedHasAnotherShadow) {
   const Case c = made(29, "");
   double squares = 0;
   for (std::size_t k = 0; k < 8; ++k) {
-    Confidence s = standing(c, 0, c.measured.readings[c.measured.size() / 8 * k]);
+    Standing s = standing(c, 0, c.measured.readings[c.measured.size() / 8 * k]);
     const double before = mean_of(c, s);
     s.station_at.x += 0.03;  // no further wall, and the same distance to a few centimetres
     squares += std::pow(mean_of(c, s) - before, 2);

@@ -124,7 +124,7 @@ TEST(Fault25, PlacesInAnotherUnitOrOrder) {
                  "north, as in the world");
 }
 
-// NamedCause of the data, not of the world.
+// Told of the data, not of the world.
 TEST(Fault25, PlacesBeyondTheScene) {
   Data data;
   for (std::size_t row = 1; row <= 60; ++row) data.set(row, 5, std::to_string(1000 + 300 * row));

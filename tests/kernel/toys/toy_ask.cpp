@@ -5,7 +5,7 @@ namespace {
 
 using namespace muster;
 
-struct RowMask {
+struct Asked {
   static constexpr const char* columns = "robots materials unknown robot material";  // counts, then first letters
   double robots, materials, unknown, robot, material;
 };
@@ -14,7 +14,7 @@ struct Ask {
   static constexpr auto id = "toy.ask/1", summary = "what the host says of two sets";
   static constexpr auto phase = MUSTER_SENSE;
 
-  explicit Ask(Setup& s) : out(s.write<RowMask>("robot/*/asked")) {}
+  explicit Ask(Setup& s) : out(s.write<Asked>("robot/*/asked")) {}
 
   void step(const Step& k) const {
     const auto rows = k[out];
@@ -27,7 +27,7 @@ struct Ask {
     }
   }
 
-  Out<RowMask> out;
+  Out<Asked> out;
 };
 
 }  // namespace
