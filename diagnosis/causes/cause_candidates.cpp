@@ -25,7 +25,7 @@ void find_place(CauseShape& shape) {
   if (shape.coordinates.size() == 4) shape.place = PlaceShape::segment;
 }
 
-// Two columns stand for all directions where the effect is a wave in the cyclic parameter.
+// True if the effect is sinusoidal in the cyclic parameter: two quadrature columns then span all directions.
 bool is_wave(const CauseSources& sources, const CauseShape& shape, const std::string& parameter) {
   auto others = shape.held;
   const auto at = [&](double angle) {
@@ -104,7 +104,7 @@ struct CandidateBuilder {
   static void identify(const CauseShape& shape, inference::Candidate& c) {
     c.id = shape.cause.id;
     c.design.width = static_cast<int>(shape.columns());
-    // A term of sought parameters without a size of its own has that of what is fitted beside it.
+    // A term with searched parameters but no strength takes its size from the terms fitted beside it.
     const bool edit = shape.cause.meaning().kind == MUSTER_WORLD_EDIT;
     c.design.whole = shape.linear.empty() && (edit || shape.axes.empty());
     c.design.sign = shape.linear.empty() || (c.design.width == 1 && shape.linear[0]->min == 0) ? 1 : 0;
@@ -143,7 +143,7 @@ struct CandidateBuilder {
   }
 };
 
-// Returns why there is no candidate; empty if there is one.
+// Returns the reason why there is no candidate; empty if there is one.
 std::string build(const Cause& cause, const CandidateBuilder& builder, CauseSearch& out) {
   const CauseSources& s = builder.sources;
   const CauseDomain& domain = builder.domain;
@@ -157,7 +157,7 @@ std::string build(const Cause& cause, const CandidateBuilder& builder, CauseSear
   choose_strengths(*shape, s, builder.base);
   if (shape->linear.empty() && !cause.linear().empty())
     return "not testable: no reading depends on it, or the base model takes it up";
-  // A share of what the map has: all of it is what there is to be told from another strength.
+  // A share of a mapped object is held at 1: any other share is another strength of the object.
   if (shape->linear.size() == 1 && is_share(*shape->linear[0])) shape->linear.clear();
   inference::Candidate c;
   if (shape->place != PlaceShape::none || !shape->axes.empty()) builder.bound(*shape, c.refinement);
@@ -172,7 +172,7 @@ std::string build(const Cause& cause, const CandidateBuilder& builder, CauseSear
   return "";
 }
 
-// A cause that cannot run in this world, or with this table, gives the reason as an error.
+// Builds a candidate. An Error, of a cause that cannot run in this world or with this table, becomes the reason.
 std::string built(const Cause& cause, const CandidateBuilder& builder, CauseSearch& out) {
   try {
     return build(cause, builder, out);

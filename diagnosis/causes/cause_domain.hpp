@@ -1,5 +1,5 @@
-// Interface of a kind of measurement to the search for causes: which causes its data can test, over what, and how they
-// compete. The engine evaluates, whitens, scores and selects; a domain describes.
+// Interface of a measurement domain to the search for causes: testable causes, their search ranges, their competition.
+// The engine evaluates, whitens, scores and selects; a domain describes.
 #pragma once
 
 #include <optional>
@@ -16,29 +16,29 @@ class CauseDomain {
 
   // Reason why the data cannot test a cause; empty if they can.
   virtual std::string why_not(const Cause& cause) const = 0;
-  // Rows of the world that a cause may be about; one without names where it is about none.
+  // Rows of the world that a cause may concern; a single one without names for a cause without references.
   virtual std::vector<CauseRow> rows_for(const Cause& cause) const = 0;
-  // Reason why there are none.
+  // Reason why rows_for() is empty.
   virtual std::string why_no_rows(const Cause& /*cause*/) const {
     return "not testable: the world has no row that it could be about";
   }
-  // Parameters that are set and not sought, into shape.held.
+  // Fills shape.held with parameters that are fixed, not searched.
   virtual void hold(CauseShape& /*shape*/) const {}
-  // Search range of a parameter; nothing if the data cannot identify it. `alone`: it is the only one.
+  // Search range of a parameter; nothing if the data cannot identify it. `alone`: the only parameter searched.
   virtual std::optional<Axis> axis_of(const muster_param& declared, const CauseShape& shape, bool alone) const = 0;
-  // Bounds and first steps of the place's entries.
+  // Sets bounds and first steps of the place's entries.
   virtual void bound_place(const CauseShape& /*shape*/, inference::Refinement& /*out*/) const {}
-  // Covariates and role; starts, evaluations and charge of the refinement. Identity and design are there.
+  // Sets covariates, role, and starts, evaluations and charge of the refinement. Identity and design are already set.
   virtual void describe(const CauseShape& shape, inference::Candidate& out) const = 0;
   virtual std::vector<Eigen::VectorXd> starts_of(const CauseShape& shape, const inference::Candidate&) const {
     return start_grid(shape, {Eigen::VectorXd()});
   }
-  // False where no such object can be.
+  // False where such an object is physically impossible.
   virtual bool admits(const CauseShape& /*shape*/, const inference::Candidate&,
                       const Eigen::VectorXd& /*theta*/) const {
     return true;
   }
-  // Priors, moves and proposals of places, once the grid is there.
+  // Sets priors, moves and proposals of places, after the grid.
   virtual void finish(const std::shared_ptr<const CauseShape>& /*shape*/, inference::Candidate& /*out*/) const {}
 };
 

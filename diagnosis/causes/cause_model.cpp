@@ -19,7 +19,7 @@ std::vector<const muster_param*> those(const muster_plugin& plugin, const Is& is
   return result;
 }
 
-// Whether an instance changes where radios are, which every term is to see.
+// True for edits of the world, such as places of radios, on which all terms depend.
 bool edits_world(const Instance& instance) {
   const muster_cause* const cause = instance.plugin().cause;
   return cause && (cause->kind == MUSTER_WORLD_EDIT || cause->kind == MUSTER_INSTRUMENT);
@@ -63,7 +63,7 @@ const muster_param* Cause::file() const {
 }
 
 bool Cause::needs_world() const {
-  // A text names another instance, whose part it reads.
+  // A text parameter names another instance, on which the effect depends.
   return meaning().kind != MUSTER_TERM ||
          !those(*plugin, [](const muster_param& p) { return p.kind == MUSTER_TEXT; }).empty();
 }
@@ -140,7 +140,7 @@ void CauseModel::put(Simulation& run, Present& present, const Cause& cause, cons
   run.share(cause.library);
   run.insert_all(std::move(declarations));
   present = {cause.id, first, count, {}, {}};
-  // Tables that nothing has read so far are at the declared values.
+  // Parameters of tables read for the first time are at declared values: set them to the fitted ones.
   if (&run == &whole_) return;
   std::map<std::string, double> fitted;
   for (const ParameterInfo& p : whole_.parameters()) fitted[p.path] = p.value;
@@ -159,7 +159,7 @@ void CauseModel::evaluate(Simulation& run, Present& present, const std::map<std:
 }
 
 const std::vector<Eigen::VectorXd>& CauseModel::added_at(const std::map<std::string, double>& parameters) {
-  constexpr std::size_t most = 2;  // a row is asked for both columns of a wave before the next row is
+  constexpr std::size_t most = 2;  // both columns of a wave are needed for each row in turn
   auto& recent = in_bare_.recent;
   for (Evaluated& e : recent) {
     if (e.parameters == parameters) return e.added;

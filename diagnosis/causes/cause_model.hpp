@@ -1,4 +1,4 @@
-// Named causes as the simulator executes them: what each adds to the level of every measured reading.
+// Evaluates named causes by the simulator: the dB that each adds to the level of every measured reading.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,49 +12,51 @@
 
 namespace muster::diagnosis {
 
-// A plugin that bears a `muster_cause`.
+// A plugin with a `muster_cause`.
 struct Cause {
   std::string id;  // "effect.step", without its revision
   std::shared_ptr<Library> library;
   const muster_plugin* plugin = nullptr;  // the newest revision; lives as long as the library
 
   const muster_cause& meaning() const { return *plugin->cause; }
-  // One that it has.
+  // `name`: a declared parameter.
   const muster_param& parameter(const std::string& name) const;
-  // The parameters that what it adds is proportional to.
+  // Parameters that the effect is proportional to.
   std::vector<const muster_param*> linear() const;
-  // The references that say which rows it is about: none, one, or two radios.
+  // References to the rows that it concerns: none, one, or two (of radios).
   std::vector<const muster_param*> rows() const;
-  // The table that it reads, or null.
+  // The parameter of the table that it reads, or null.
   const muster_param* file() const;
-  // What other instances do is part of what it does: it has to be evaluated in the whole world.
+  // True if its effect depends on other instances, so that it is evaluated in the whole world.
   bool needs_world() const;
 };
 
-// All of the plugin path, by id. Libraries that cannot be loaded are left out.
+// All causes on the plugin path, sorted by id. Libraries that cannot be loaded are left out.
 std::vector<Cause> causes_on(const Library::SearchPath& plugins);
 
-// The rows that one instance is about, one a reference; an empty name where it names none.
+// Rows that one instance concerns, one for each reference; an empty name for none.
 using CauseRow = std::vector<std::string>;
 
-// An instance with its references, texts and required numbers as given; `linear` for each linear parameter.
+// An instance with the names of `row`, the file `table`, default values of required numbers, and `linear` for each
+// linear parameter.
 InstanceDeclaration instance_of(const Cause& cause, const std::string& name, const CauseRow& row,
                                 const std::filesystem::path& table, double linear, const Place& place);
 
-// The measured links in two worlds: one that holds nothing but its rows, for terms that stand alone, and the whole one,
-// in which a cause is the difference that its instance makes to the expected level.
+// Evaluates causes on the measured links in two worlds. The bare world has only rows and their edits, for terms that
+// depend on no other instance. In the whole world, an effect is the difference that its instance makes to the expected
+// level.
 class CauseModel {
  public:
-  // `whole` has the measured links of `data` and stays as it is. Throws Error.
+  // `whole`: a world with the measured links of `data`; unchanged after clear(). Throws Error.
   CauseModel(MeasuredWorld& whole, const std::filesystem::path& world, const std::filesystem::path& data,
              const Library::SearchPath& plugins);
 
-  // Fills `column` with the dB that an instance of the cause about rows[row] adds to these readings, the parameters
-  // being as given.
+  // Fills `column` with the dB that an instance of the cause on rows[row], at these parameters, adds to each of
+  // `readings`.
   void fill(const Cause& cause, const std::vector<CauseRow>& rows, std::size_t row,
             const std::map<std::string, double>& parameters, const std::vector<Eigen::Index>& readings,
             Eigen::Ref<Eigen::VectorXd> column);
-  // Takes away what still stands in either world.
+  // Removes all inserted instances from both worlds.
   void clear();
 
  private:
@@ -62,7 +64,7 @@ class CauseModel {
     std::map<std::string, double> parameters;
     std::vector<Eigen::VectorXd> added;  // dB at every reading, one a row
   };
-  struct Present {  // what stands in a world beside its own instances
+  struct Present {  // instances inserted in a world, beside its own
     std::string cause;
     std::size_t first = 0, count = 0;                 // rows
     std::optional<std::map<std::string, double>> at;  // parameters at which it was evaluated last
@@ -72,7 +74,7 @@ class CauseModel {
   void put(Simulation& run, Present& present, const Cause& cause, const std::vector<CauseRow>& rows, std::size_t first,
            std::size_t count);
   void evaluate(Simulation& run, Present& present, const std::map<std::string, double>& parameters);
-  // What stands in the bare world, at these parameters.
+  // dB added by the instances in the bare world at these parameters, one vector a row.
   const std::vector<Eigen::VectorXd>& added_at(const std::map<std::string, double>& parameters);
   static void remove(Simulation& run, Present& present);
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double pi = 3.141592653589793;
 
-// Swings: evenly in cycles over the data, from two of them up to those that last some rows.
+// Periods of oscillations, evenly spaced in cycles over the data, from two cycles to periods of some rows.
 std::vector<double> periods(double span) {
   const double most = std::clamp(span / thresholds::shortest_period, 24.0, thresholds::most_cycles);
   std::vector<double> result;
@@ -22,13 +22,13 @@ std::vector<double> periods(double span) {
 Axis duration(const muster_param& p, const Span& time, const CauseShape& shape) {
   const double span = time.length();
   if (!shape.wave.empty()) return logarithmic(p, span / thresholds::most_cycles, span, periods(span), 0.02);
-  // What settles faster than a tenth of the data is a jump.
+  // Settling within a tenth of the data is a jump.
   return logarithmic(p, thresholds::shortest_settling * span, 100 * span, {0.15 * span, 0.4 * span, span, 30 * span},
                      0.3);
 }
 
 Axis moment(const muster_param& p, const Span& time, bool alone) {
-  // Earlier or later than that a jump is an offset; what only begins may begin at once.
+  // A jump outside this range is an offset; an onset may be at the start of the data.
   const double from = alone ? time.at(thresholds::earliest_jump) : time.low, to = time.at(thresholds::latest_jump);
   return {p.name,
           false,
@@ -61,7 +61,7 @@ std::optional<Axis> axis_over(const muster_param& p, const Span& time, const Cau
   if (p.flags & MUSTER_CYCLIC) {
     std::vector<double> turn = evenly(-pi, pi, 17);
     turn.pop_back();
-    Axis all_around{p.name, false, -2 * pi, 2 * pi, 0.2, turn};  // so that nothing ends where the count begins anew
+    Axis all_around{p.name, false, -2 * pi, 2 * pi, 0.2, turn};  // two turns: no optimum at a bound
     all_around.cyclic = true;
     return all_around;
   }

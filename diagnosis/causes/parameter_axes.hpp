@@ -1,4 +1,4 @@
-// Search range and start values of a cause's parameter, from its declaration and from the span of the data.
+// Search range and start values of a cause's parameter, from its declaration and the span of the data.
 #pragma once
 
 #include <optional>
@@ -8,14 +8,14 @@
 
 namespace muster::diagnosis {
 
-// `count` values from one end to the other.
+// `count` evenly spaced values from one end to the other.
 std::vector<double> evenly(double from, double to, int count);
-// An axis of logarithms between these bounds, cut to the declared ones.
+// A logarithmic axis between these bounds, clipped to the declared ones.
 Axis logarithmic(const muster_param& declared, double lower, double upper, const std::vector<double>& values,
                  double step);
 
-// Angles, times and durations over the data's span of time, and any other number over its declared bounds. `alone`: no
-// other parameter is sought beside it, so that its grid may be fine. Nothing if the data have no span of time.
+// Axis of a time or duration over the time span of the data; nothing if there is none. Angles range over a full turn,
+// other numbers over their declared bounds. `alone`: the only parameter searched, so that its grid may be fine.
 std::optional<Axis> axis_over(const muster_param& declared, const Span& time, const CauseShape& shape, bool alone);
 
 }  // namespace muster::diagnosis

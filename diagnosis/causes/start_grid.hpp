@@ -5,11 +5,11 @@
 
 namespace muster::diagnosis {
 
-// Number of the row, entries of the place, values of the axes.
+// Index of the row, entries of the place, values of the axes.
 Eigen::VectorXd theta_of(std::size_t row, const Eigen::VectorXd& place, const std::vector<double>& axes);
-// Every combination of the axes' values.
+// Cartesian product of the axes' values.
 std::vector<std::vector<double>> products(const std::vector<Axis>& axes);
-// All rows at all places and axis values; places of a cause without one: a single empty vector.
+// All rows at all places and axis values. `places`: a single empty vector for a cause without a place.
 std::vector<Eigen::VectorXd> start_grid(const CauseShape& shape, const std::vector<Eigen::VectorXd>& places);
 
 }  // namespace muster::diagnosis

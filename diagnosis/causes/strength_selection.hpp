@@ -1,4 +1,4 @@
-// Which of a cause's strengths readings tell beside the model's own parameters.
+// Selects the identifiable strengths of a cause: columns linearly independent of the base model and of one another.
 #pragma once
 
 #include <Eigen/QR>
@@ -7,14 +7,14 @@
 
 namespace muster::diagnosis {
 
-// What the base model's columns can take up.
+// Column space of the base model, by a Householder QR decomposition.
 class BaseSpace {
  public:
   explicit BaseSpace(const Eigen::MatrixXd& base) : turned_(base), columns_(base.cols()) {}
 
-  // What is left of a column.
+  // Component orthogonal to the base model's columns.
   Eigen::VectorXd rest(const Eigen::VectorXd& column) const;
-  // Whether readings tell the column from the base model's parameters.
+  // True if the column is identifiable beside the base model.
   bool leaves(const Eigen::VectorXd& column) const;
 
  private:
@@ -22,8 +22,8 @@ class BaseSpace {
   Eigen::Index columns_;
 };
 
-// Of several strengths those that readings tell apart beside the base model. What most readings have is the first to be
-// the reference, at which nothing is added.
+// Keeps those of several strengths that are identifiable together, by Gram-Schmidt. The strength of most readings is
+// dropped first: it becomes the reference, at which nothing is added.
 void choose_strengths(CauseShape& shape, const CauseSources& sources, const BaseSpace& base);
 
 }  // namespace muster::diagnosis

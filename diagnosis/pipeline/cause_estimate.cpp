@@ -22,7 +22,8 @@ struct Reach {
   double below = 0, above = 0;  // of a 95 % interval
 };
 
-// Of the sought parameters, about their values at the found theta; on the scale of each.
+// 95 % half-widths of the searched parameters about the found theta, by the posterior samples on each parameter's
+// scale.
 std::map<std::string, Reach> reaches(const CauseShape& shape, const inference::Finding& f) {
   std::map<std::string, double> sum, squares;
   const auto middle = shape.parameters(f.theta);
@@ -38,7 +39,7 @@ std::map<std::string, Reach> reaches(const CauseShape& shape, const inference::F
   std::map<std::string, Reach> result;
   const auto count = static_cast<double>(f.thetas.size());
   for (const auto& [name, total] : sum) {
-    constexpr double same = 1e-6;  // a room's place: every theta has it, but for rounding
+    constexpr double same = 1e-6;  // equal in all samples but for rounding, as a room's place
     const double mean = total / count, sd = std::sqrt(std::max(0.0, squares[name] / count - mean * mean));
     if (sd + std::abs(mean) < same) continue;
     Reach reach{std::max(0.0, thresholds::normal95 * sd - mean), std::max(0.0, thresholds::normal95 * sd + mean)};
@@ -50,7 +51,7 @@ std::map<std::string, Reach> reaches(const CauseShape& shape, const inference::F
 }
 
 void add_linear(CauseEstimate& out, const CauseShape& shape, const inference::Finding& f) {
-  if (shape.linear.empty()) {  // sought whole: a strength that it has was 1
+  if (shape.linear.empty()) {  // searched as a whole, with a strength of 1
     for (const muster_param* p : shape.cause.linear()) {
       const double half = thresholds::normal95 * std::sqrt(f.uncertainty(0, 0));
       out.values.push_back(value_of(*p, f.coefficients[0], half, half));
@@ -73,7 +74,7 @@ void add_linear(CauseEstimate& out, const CauseShape& shape, const inference::Fi
   out.values.push_back(value_of(shape.cause.parameter(shape.wave), std::atan2(along.y(), along.x()), turn, turn));
 }
 
-// The first reference is the row that it is about, further ones are attributes beside it.
+// The first reference is the cause's row; further ones are attributes.
 void add_row(CauseEstimate& out, const CauseShape& shape, const VectorXd& theta) {
   const auto references = shape.cause.rows();
   for (std::size_t k = 0; k < references.size(); ++k) {
@@ -88,7 +89,7 @@ void add_row(CauseEstimate& out, const CauseShape& shape, const VectorXd& theta)
   }
 }
 
-// Of numbers that a title lists those stay that were found: which powers are right, the readings say.
+// Removes slots of parameters without a value from a title, such as powers that no reading has.
 std::string with_values(std::string title, const Cause& cause, const std::vector<CauseValue>& values) {
   for (uint32_t i = 0; i < cause.plugin->param_count; ++i) {
     if (cause.plugin->params[i].kind != MUSTER_REAL) continue;

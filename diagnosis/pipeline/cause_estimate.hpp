@@ -1,4 +1,4 @@
-// A finding of the search as attributes of its plugin, with intervals.
+// Converts a finding of the search to attributes of its plugin, with intervals.
 #pragma once
 
 #include "diagnosis/causes/cause_shape.hpp"
@@ -6,7 +6,7 @@
 
 namespace muster::diagnosis {
 
-// Where nothing is known of how sure it is, as of what was set aside, places and times have no width.
+// Without posterior samples, as for a cause set aside, intervals of places and times have zero width.
 CauseEstimate cause_estimate(const inference::Finding& finding, const CauseCandidate& cause);
 
 }  // namespace muster::diagnosis

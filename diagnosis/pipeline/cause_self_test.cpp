@@ -25,7 +25,7 @@ using Eigen::VectorXd;
 
 constexpr int tries = 200;
 
-// Where and how strongly a cause is hidden.
+// Place and strength of a hidden cause.
 struct Hidden {
   VectorXd theta, coefficients;
   double lambda = 0;
@@ -45,7 +45,7 @@ bool within_bounds(const CauseShape& shape, const Hidden& hidden) {
   return true;
 }
 
-// A place of the candidate's grid, moved by up to half a step, and the strength that gives the energy asked for.
+// Draws a place of the candidate's grid, moved by up to half a step, and scales the strength to the requested energy.
 std::optional<Hidden> hide(const CauseCandidate& cause, const inference::ModelState& state, double lambda,
                            uint64_t seed) {
   const inference::Candidate& c = cause.candidate;
@@ -75,7 +75,7 @@ std::optional<Hidden> hide(const CauseCandidate& cause, const inference::ModelSt
   return {};
 }
 
-// The table with other values in its column rssi; whole dB stay whole.
+// Writes the table with `shift` added to its column rssi; whole dB stay whole.
 void write_measured(const DiagnosisSetup& clean, const VectorXd& shift, const fs::path& file) {
   std::vector<std::string> lines;
   std::ifstream in(clean.file);
@@ -106,7 +106,7 @@ void write_measured(const DiagnosisSetup& clean, const VectorXd& shift, const fs
   }
 }
 
-// The share of what was hidden that each other cause explains at its best place.
+// Share of the hidden effect that each other cause explains at its best place.
 std::map<std::string, double> likenesses(inference::ModelState& state, const VectorXd& effect, const std::string& own) {
   std::map<std::string, double> result;
   const inference::WhitenedModel model = state.whitened_model(state.design());
@@ -168,7 +168,7 @@ class Checker {
     throw std::logic_error(id_);
   }
 
-  // The world with an instance of the cause, as the diagnosis would write it, against the world without.
+  // Largest difference, dB, between `shift` and the simulated effect of the cause's instance in an extended world.
   double against_simulator(DiagnosisSetup& clean, const CauseCandidate& cause, const Hidden& hidden,
                            const VectorXd& shift) const {
     inference::Finding finding{};

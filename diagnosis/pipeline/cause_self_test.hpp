@@ -1,5 +1,5 @@
-// Whether a cause can be diagnosed: it is hidden at a known strength in measurements of worlds that are otherwise as
-// the world file says, and looked for.
+// Self-test of a cause by fault injection: hides it at a known strength in readings of sound worlds, and diagnoses
+// these.
 #pragma once
 
 #include <functional>
@@ -9,22 +9,22 @@
 namespace muster::diagnosis {
 
 struct SelfTestOptions {
-  double lambda = 60;  // whitened energy of what is hidden: twice the expected log-likelihood ratio
+  double lambda = 60;  // whitened energy of the hidden effect: twice the expected log-likelihood ratio
   uint64_t seed = 1;
-  std::filesystem::path scratch;  // a folder for worlds with something hidden
+  std::filesystem::path scratch;  // folder for worlds with hidden effects
 };
 
-// One world.
+// Result of one world.
 struct HiddenCase {
   std::filesystem::path world;
-  std::string why_not{};                  // the data cannot speak of the cause: then nothing else is known
-  std::string where{};                    // the row or place
-  double lambda = 0;                      // as hidden; another one than asked for where the cause has no strength
-  double difference = 0;                  // dB, largest, between what the search adds and what the simulator executes
-  std::string named{};                    // what was named, the strongest first; "" for nothing
-  bool found = false, alone = false;      // as the strongest; and nothing besides
-  bool named_on_clean = false;            // where nothing was hidden
-  std::map<std::string, double> alike{};  // share of what was hidden that another cause explains at its best
+  std::string why_not{};                  // reason why the cause is not testable here; all else is then unset
+  std::string where{};                    // row or place
+  double lambda = 0;                      // of the hidden effect; not the requested one if the cause has no strength
+  double difference = 0;                  // dB, largest between the search's column and the simulated effect
+  std::string named{};                    // named causes, the strongest first; may be empty
+  bool found = false, alone = false;      // named as the strongest cause; and as the only one
+  bool named_on_clean = false;            // named on readings without a hidden effect
+  std::map<std::string, double> alike{};  // by cause: share of the hidden effect that it explains at its best
 };
 
 struct CauseSelfTest {
@@ -39,7 +39,7 @@ struct CauseSelfTest {
   std::vector<std::pair<std::string, double>> alike() const;
 };
 
-// `worlds`: folders with world.xml and measured.csv, in which nothing is hidden. Throws Error.
+// `worlds`: folders with world.xml and measured.csv, without hidden effects. Throws Error.
 CauseSelfTest self_test_cause(const std::string& id, const std::vector<std::filesystem::path>& worlds,
                               const Library::SearchPath& plugins, const SelfTestOptions& options,
                               const std::function<void(double share)>& progress);

@@ -10,7 +10,7 @@
 namespace muster::diagnosis {
 namespace {
 
-// Root mean square of what a model's mean leaves of the readings that were heard.
+// Root mean square error of a model's mean over the received readings.
 double rmse_of(LinkModel& model, const Dataset& data) {
   const Eigen::VectorXd& mean = model.expected();
   double sum = 0;

@@ -1,4 +1,4 @@
-// What was found held against its own consequences: the extended world, simulated and diagnosed again.
+// Closed-loop check of a diagnosis: simulates the extended world and diagnoses it again.
 #pragma once
 
 #include "diagnosis/result.hpp"
@@ -10,7 +10,8 @@ namespace muster::diagnosis {
 Loop closed_loop(const Diagnosis& found, const std::filesystem::path& world, const std::filesystem::path& data,
                  const std::filesystem::path& out, const Library::SearchPath& plugins);
 
-// The world in `extended` on `data`, beside the world as given. Throws Error.
+// Errors of the extended world and of the refitted given one on further readings, and a diagnosis of the extended world
+// there. Throws Error.
 SecondLook second_look(const std::filesystem::path& world, const std::filesystem::path& extended,
                        const std::filesystem::path& data, const Library::SearchPath& plugins);
 

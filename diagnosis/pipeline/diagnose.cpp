@@ -38,7 +38,7 @@ class Diagnoser {
     std::erase_if(causes_, [&](const Cause& cause) { return cause.id == without_law; });
   }
 
-  // `given`: what was found in the world as given, where this one has its first cause put right.
+  // `given`: the diagnosis of the given world, if this world is corrected for its first cause.
   Diagnosis run(const Diagnosis* given = nullptr) {
     inference::Search search(setup_.problem, setup_.options);
     const inference::Result result = search.run();
@@ -111,8 +111,8 @@ class Diagnoser {
     return out;
   }
 
-  // The channel's own law, at the end of what is physical, does not follow the readings: what stands beside it is what
-  // it leaves. A material that costs nothing, or a cause, may well be at an end.
+  // Doubts all causes if a parameter of the channel's own law is at its physical bound. The law then does not fit, and
+  // causes may only absorb its misfit. A material without loss, or a cause, may well be at a bound.
   void doubt_at_bounds(Diagnosis& out) const {
     const auto& instances = setup_.model.simulation().instances();
     std::string ends;
@@ -132,8 +132,8 @@ class Diagnoser {
     for (CauseEstimate& c : out.causes) c.doubt = doubt;
   }
 
-  // What the world as given leaves, before what the one that was judged does. The cause that was put right wins what
-  // that world, with all else that was found in it, errs more than the extended one.
+  // Restates the diagnosis relative to the given world, with the corrected cause as a finding. Its gain is the excess
+  // held-out error of the given world, with all its other findings, over the extended one.
   void begin_as_given(const Diagnosis& given, const inference::ModelState& state, Diagnosis& out) const {
     CauseEstimate& first = *out.causes.insert(out.causes.begin(), given.causes.front());
     const VectorXd left = measured(state) - state.rows().mean(given.fitted(setup_.used.rows));
@@ -145,7 +145,7 @@ class Diagnoser {
     first.held_out.reset();
     out.held_out.reset();
     first.elsewhere.clear();
-    out.elsewhere.clear();  // of a radio that is not seen nobody would know that it stands elsewhere
+    out.elsewhere.clear();  // the place of a held-out radio cannot be corrected
     if (!given.unseen || !out.unseen) return out.stairs.clear();
     first.held_out = inference::compared(errors_beside(given, first.unseen_without, out));
     out.unseen = errors_beside(given, given.unseen->before, out);
@@ -153,7 +153,7 @@ class Diagnoser {
     out.stairs.insert(out.stairs.begin(), inference::stair_of(*out.unseen));
   }
 
-  // Errors `before`, of the world as given, and those of the extended one, at the readings that both have.
+  // Held-out errors of the given world (`before`) and of the extended one, at their common readings.
   static inference::Unseen errors_beside(const Diagnosis& given, const VectorXd& before, const Diagnosis& out) {
     std::map<Index, Index> place;
     for (std::size_t k = 0; k < given.used.size(); ++k) place[given.used[k]] = static_cast<Index>(k);
@@ -172,8 +172,8 @@ class Diagnoser {
     return both;
   }
 
-  // A strength that may as well be the one at which the row has no effect at all is that: a wall that loses nothing is
-  // a wall that is not there. Asked with the base model's parameters as they are beside what was found.
+  // Replaces a strength by a simpler cause if it is compatible with no effect of its row: a wall of zero loss is an
+  // absent wall. The simpler cause is evaluated at the base parameters fitted beside the findings.
   std::pair<inference::Finding, const CauseCandidate*> simplest(const inference::Finding& f,
                                                                 const CauseCandidate& cause, const CauseSearch& causes,
                                                                 const inference::ModelState& state,
@@ -185,7 +185,7 @@ class Diagnoser {
     for (const CauseCandidate& other : causes.found) {
       if (!other.candidate.design.whole || other.candidate.refinement.any()) continue;
       VectorXd theta = other.candidate.design.grid[0];
-      for (std::size_t row = 0; row < other.shape->rows.size(); ++row) {  // also those that cost nothing before
+      for (std::size_t row = 0; row < other.shape->rows.size(); ++row) {  // also rows outside the grid
         theta[0] = static_cast<double>(row);
         if (f.label.empty() || other.shape->row_label(theta) != f.label) continue;
         const VectorXd none = state.columns_of(other.candidate, theta);
@@ -206,7 +206,7 @@ class Diagnoser {
     return {f, &cause};
   }
 
-  // The world at these parameters for a while, without causes before and after.
+  // Sets the world to these parameters during its lifetime, without inserted causes before and after.
   class AtBase {
    public:
     AtBase(DiagnosisSetup& setup, const VectorXd& values) : run_(*setup.run), moved_(setup.model) {
@@ -230,14 +230,14 @@ class Diagnoser {
     if (add_silence_beside(sources, extend(state, out), out)) extend(state, out);
     const std::size_t before = out.causes.size();
     add_laws(sources, out);
-    if (out.causes.size() > before) extend(state, out);  // a law of fading has a mean of its own
+    if (out.causes.size() > before) extend(state, out);  // a fading law changes the mean
     std::stable_sort(out.causes.begin(), out.causes.end(), [](const CauseEstimate& a, const CauseEstimate& b) {
       return std::tuple(a.status, -a.lambda) < std::tuple(b.status, -b.lambda);
     });
     std::sort(out.searched.begin(), out.searched.end());
   }
 
-  // A cause that reads a table gets the measured columns that it needs.
+  // Gives a cause that reads a table the measured columns that it needs.
   void give_tables(const CauseShape& shape, CauseEstimate& found) const {
     const muster_param* file = shape.cause.file();
     if (!file) return;
@@ -275,7 +275,7 @@ class Diagnoser {
     return state.y() + state.rows().mean(offset);
   }
 
-  // What the extended world expects of every reading, dBm.
+  // Expected level of every reading in the extended world, dBm.
   VectorXd extend(const inference::ModelState& state, Diagnosis& out) {
     out.mean = VectorXd::Constant(setup_.base.mean.size(), std::nan(""));
     VectorXd mean =
@@ -302,7 +302,7 @@ bool edits_world(const Cause& cause) {
   return cause.meaning().kind == MUSTER_WORLD_EDIT || cause.meaning().kind == MUSTER_INSTRUMENT;
 }
 
-// People are a law of what is random, about no covariate.
+// True if a finding depends on time. Blockage by people does not count: a random law without covariates.
 bool something_changes_in_time(const Diagnosis& found) {
   return std::any_of(
              found.causes.begin(), found.causes.end(),
@@ -311,8 +311,8 @@ bool something_changes_in_time(const Diagnosis& found) {
                      [](const Unexplained& u) { return u.changes_in_time(); });
 }
 
-// The strongest named cause by which radios stand elsewhere, if anything was found beside it; or people, beside what
-// changes in time.
+// The strongest named cause that edits the world, such as places of radios, if there are other findings. Blockage by
+// people counts only beside a change in time.
 const CauseEstimate* first_in_company(const Diagnosis& found, const std::vector<Cause>& causes) {
   const CauseEstimate* first = nullptr;
   std::size_t named = found.unexplained.size();
@@ -328,9 +328,9 @@ const CauseEstimate* first_in_company(const Diagnosis& found, const std::vector<
 
 }  // namespace
 
-// With a radio in the wrong place everything else was judged wrongly: it is judged again with the radio in the right
-// one; and so it is with people who are known of, whose link is then left out. What still changes in time is no burst
-// of theirs, and beside it they must be beyond doubt.
+// A radio in the wrong place biases all other findings: the diagnosis is repeated with the radio corrected. After
+// blockage by people it is repeated without the blocked link. If a change in time remains, blockage must pass a
+// stricter threshold.
 Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::path& data,
                    const Library::SearchPath& plugins, const std::shared_ptr<TableCache>& tables) {
   Diagnosis found = Diagnoser(world, data, plugins, tables).run();

@@ -1,5 +1,4 @@
-// What a world gets wrong about measured readings: found, named where it can be, written into an extended world, and
-// checked by simulating that world and looking again.
+// Diagnoses a world's errors from measured readings: detects effects, names and estimates their causes.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +8,7 @@
 
 namespace muster::diagnosis {
 
-// One look. Throws Error.
+// closed_loop() checks the result. `tables`: files already read. Throws Error.
 Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::path& data,
                    const Library::SearchPath& plugins,
                    const std::shared_ptr<TableCache>& tables = std::make_shared<TableCache>());

@@ -1,11 +1,13 @@
-// A world's folder copied, with found causes as elements and fitted values as attributes.
+// Writes the extended world: a copy of the world's folder with found causes as elements and fitted values as
+// attributes.
 #pragma once
 
 #include "diagnosis/result.hpp"
 
 namespace muster::diagnosis {
 
-// `out` must not exist or be an extended world itself. Returns the world file written. Throws Error.
+// `out`: a new folder, or that of an earlier extended world; not the world's own. Returns the world file written.
+// Throws Error.
 std::filesystem::path write_extended_world(const Diagnosis& found, const std::filesystem::path& world,
                                            const std::filesystem::path& out);
 

@@ -36,7 +36,7 @@ class Joint {
   }
 
   ~Joint() {
-    // Where a removal fails, the error that is under way says more.
+    // An error of a removal is dropped: the one in flight is more informative.
     try {
       for (const std::string& name : inserted_) fit_.model.simulation().remove(name);
     } catch (const Error&) {
@@ -120,14 +120,14 @@ class Joint {
       x[static_cast<Index>(j)] = std::clamp(x[static_cast<Index>(j)], unknown_[j].lower, unknown_[j].upper);
     return x;
   }
-  // Parameters of causes go with their instances; those of the world through the guard.
+  // The guard restores the world's parameters; those of causes end with their instances.
   void set(const VectorXd& x) const {
     for (std::size_t j = 0; j < unknown_.size(); ++j) {
       const double value = x[static_cast<Index>(j)];
       unknown_[j].value ? fit_.model.set(unknown_[j].path, value) : fit_.moved.set(unknown_[j].path, value);
     }
   }
-  // Simulated less measured, whitened, without what the smooths take.
+  // Simulated minus measured, whitened, with the smooths projected out.
   VectorXd residual(const VectorXd& x) const {
     set(x);
     const VectorXd mean = fit_.model.expected()(fit_.used);
@@ -145,7 +145,7 @@ class Joint {
     }
     return result;
   }
-  // Intervals keep their widths inside the parameters' bounds, if these are ends.
+  // Shifts intervals with their values, clipped to the parameters' bounds unless cyclic.
   void store(const VectorXd& x) {
     for (std::size_t j = 0; j < unknown_.size(); ++j) {
       const double value = x[static_cast<Index>(j)];

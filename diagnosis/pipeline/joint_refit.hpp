@@ -1,5 +1,5 @@
-// The world's parameters and the found causes' strengths together, as the simulator executes them: the search takes the
-// mean as linear about the first fit, which losses of walls and places of radios are not.
+// Refits the world's parameters and the found causes' strengths jointly by the simulator (damped Gauss-Newton). The
+// search linearises the mean about the first fit; losses of walls and places of radios are nonlinear.
 #pragma once
 
 #include "diagnosis/causes/cause_model.hpp"
@@ -9,16 +9,16 @@
 namespace muster::diagnosis {
 
 struct JointRefit {
-  MeasuredWorld& model;                // has an instance of each named cause meanwhile
-  ParameterGuard& moved;               // the world's parameters stay at the refit until it ends
+  MeasuredWorld& model;                // holds an instance of each named cause during the refit
+  ParameterGuard& moved;               // keeps the world's parameters at the refit until its end
   const std::vector<Cause>& causes;    // of the plugin path
-  std::filesystem::path data;          // what a cause that reads a table reads
+  std::filesystem::path data;          // table for causes that read one
   const inference::ModelState& state;  // after the search: its noise, rows and smooths
   const std::vector<Eigen::Index>& used;
   Eigen::VectorXd measured;  // dBm, row means
 };
 
-// Moves the values of `found` and returns what the extended world expects of every reading, dBm.
+// Updates the values of `found`. Returns the extended world's expected level of every reading, dBm.
 Eigen::VectorXd refit_jointly(const JointRefit& fit, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
                               const std::vector<std::string>& paths, Diagnosis& found);
 

@@ -11,7 +11,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-// Information of a reading on the level, by the pile that it lies in.
+// Censoring of a reading: below or above a clip, or a value.
 noise::Known known_of(double rssi, const ReceiverChecks& receiver) {
   const auto lies_in = [&](const std::optional<Clip>& clip) { return clip && rssi == clip->level; };
   if (std::isnan(rssi) || lies_in(receiver.bottom)) return noise::Known::below;

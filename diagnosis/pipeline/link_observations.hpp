@@ -1,4 +1,4 @@
-// Readings of a data set as a search takes them: ends, levels, bounds, and the further columns of the data.
+// Converts a data set to the search's inputs: ends, levels, bounds, and further columns of the data.
 #pragma once
 
 #include "diagnosis/calibration/fit.hpp"
@@ -8,7 +8,7 @@
 
 namespace muster::diagnosis {
 
-// Levels in dBm, and where only a bound is known of them: clipped or lost readings.
+// Levels in dBm, with bounds for clipped and lost readings.
 struct ObservedLevels {
   Eigen::VectorXd measured;
   noise::Bounds bounds;
@@ -17,7 +17,7 @@ struct ObservedLevels {
 // Columns of the data beyond those of a link, on the readings of the search.
 struct ObservedColumns {
   LinkColumns columns;
-  std::vector<int> run;               // of each reading, from 0; empty where the data name none
+  std::vector<int> run;               // of each reading, from 0; empty if the data name none
   std::vector<std::string> untested;  // columns that cannot be used, with the reason
 };
 
@@ -26,7 +26,7 @@ LinkReadings observed_readings(const Dataset& data, const LinkModel& model, cons
                                const Eigen::VectorXd& expected);
 ObservedLevels observed_levels(const Dataset& data, const ReceiverChecks& receiver, const Readings& fitted,
                                const std::vector<Eigen::Index>& used);
-// A number of few values is a setting, that of a run a name: each value is a level of a factor.
+// The column `run`, and numbers of few distinct values (settings), become factors.
 ObservedColumns observed_columns(const Dataset& data, const std::vector<Eigen::Index>& used);
 
 }  // namespace muster::diagnosis

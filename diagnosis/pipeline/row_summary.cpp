@@ -18,7 +18,8 @@ VectorXd mean_of(const noise::Rows& rows, const std::vector<double>& values) {
   return rows.mean(Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size())));
 }
 
-// A row ends before its readings turn far, but the mean of angles must not cross their cut.
+// Value at each row's first reading, for angles: a mean fails at the wrap-around, and rows end before readings turn
+// far.
 VectorXd first_of(const noise::Rows& rows, const Eigen::Ref<const VectorXd>& values) {
   if (values.size() == 0) return {};
   VectorXd result(rows.size());

@@ -1,4 +1,4 @@
-// What a search looked at, for reports: rows with their places, and what the models leave of them.
+// Summarises the search's rows for reports: places, covariates, and residuals of the models.
 #pragma once
 
 #include "diagnosis/inference/state/model_state.hpp"
@@ -15,7 +15,7 @@ RowSummary row_summary(const inference::ModelState& state, const LinkLayout& lay
 Eigen::VectorXd effect_of(const inference::ModelState& state, const inference::Candidate& candidate,
                           const inference::Finding& finding);
 
-// The world's parameters with their spread beside the findings.
+// The world's parameters with standard errors, beside the findings.
 std::vector<WorldValue> world_values(const inference::ModelState& state, const std::vector<std::string>& paths,
                                      const Eigen::VectorXd& values, const LinkModel& model);
 

@@ -19,8 +19,8 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-// Causes that the world holds already keep their places and times; how strong they are is fitted, but for laws of what
-// is random, which means say nothing of.
+// Fixes places and times of causes already in the world. Strengths are fitted, except of random laws, which do not
+// affect means.
 FitOptions hold_causes(const LinkModel& model) {
   FitOptions options;
   for (const auto& instance : model.simulation().instances()) {
@@ -43,8 +43,8 @@ std::string attribute_of(const InstanceDeclaration& instance, const std::string&
   return "";
 }
 
-// Rows of the fit, without links that people cross: times of crossings are unknown, so that bursts would look like any
-// change in time. A radio that is heard on its crossed link alone keeps it. Throws Error where too few are left.
+// Rows of the fit, without links declared as crossed by people: bursts at unknown times imitate any change in time. A
+// link stays if one of its radios has few other readings. Throws Error if too few rows are left.
 UsedRows used_rows(const LinkModel& model, const Dataset& data, const Fit& fitted) {
   UsedRows used;
   for (const std::size_t row : fitted.rows_used()) used.rows.push_back(static_cast<Index>(row));
@@ -53,7 +53,7 @@ UsedRows used_rows(const LinkModel& model, const Dataset& data, const Fit& fitte
     const std::string one = attribute_of(declared, "radio"), other = attribute_of(declared, "other");
     if (declared.plugin != "effect.people" || one.empty() || other.empty()) continue;
     std::vector<Index> left;
-    std::size_t of_one = 0, of_other = 0;  // of what is left
+    std::size_t of_one = 0, of_other = 0;  // readings left
     for (const Index row : used.rows) {
       const auto& [tx, rx] = model.ends()[static_cast<std::size_t>(row)];
       const std::set<std::string> ends = model.link_of(tx.radio, rx.radio);
@@ -82,7 +82,7 @@ std::vector<std::string> joined(std::initializer_list<std::vector<std::string>> 
 
 LinkLayout layout_of(LinkReadings readings, const ObservedColumns& observed, bool places_known) {
   LinkRowLimits limits = limits_for(readings);
-  if (!places_known) limits.way = -1;  // readings at like distances are not at one place: each is a row
+  if (!places_known) limits.way = -1;  // equal distances are not one place: each reading is a row
   return {std::move(readings), limits, observed.run, places_known};
 }
 

@@ -1,5 +1,4 @@
-// Setup of a diagnosis: a world and its measured readings, the world fitted, and every cause that the data can test as
-// a candidate.
+// Setup of a diagnosis: world and measured readings, the fitted world, and a candidate for each testable cause.
 #pragma once
 
 #include "diagnosis/calibration/fit.hpp"
@@ -11,15 +10,15 @@
 
 namespace muster::diagnosis {
 
-// Rows of the table that are searched, and notes on those that are left out.
+// Rows of the table used in the search, and notes on those left out.
 struct UsedRows {
   std::vector<Eigen::Index> rows;
   std::vector<std::string> notes;
 };
 
-// Each member is built from those above it, and stays as it is.
+// Each member is built from those above it.
 struct DiagnosisSetup {
-  // `tables`: files that were read already. Throws Error.
+  // `tables`: files already read. Throws Error.
   DiagnosisSetup(const std::filesystem::path& world, const std::filesystem::path& file,
                  const Library::SearchPath& plugins,
                  const std::shared_ptr<TableCache>& tables = std::make_shared<TableCache>());
@@ -31,16 +30,16 @@ struct DiagnosisSetup {
   const ReceiverChecks receiver;
   LinkModel model;
   const std::vector<Cause> causes;                 // of the plugin path
-  const std::vector<std::string> notes_of_places;  // on radios that the data have elsewhere than the world
+  const std::vector<std::string> notes_of_places;  // on radios whose places differ between data and world
   const Fit fitted;
   const Sensitivities base;
   const UsedRows used;
-  const std::vector<std::string> notes;   // on the data, beside the world
+  const std::vector<std::string> notes;   // all notes on the data
   const std::shared_ptr<CauseModel> run;  // evaluates the candidates
   const ObservedColumns observed;
   const std::shared_ptr<const LinkLayout> layout;
   const noise::Rows rows;                             // of the search, at first
-  const std::shared_ptr<SimulatedReadings> sketched;  // one reading a row; none where each is a row
+  const std::shared_ptr<SimulatedReadings> sketched;  // one reading a row; may be null
   const CauseSearch sought;
   const inference::Problem problem;
   const inference::Options options;

@@ -1,4 +1,4 @@
-// Plans as tables that the world is simulated at, so that what they would tell apart can be worked out.
+// Predicts the separability of causes under each plan by simulating the world at its readings.
 #include <algorithm>
 #include <map>
 #include <set>
@@ -12,20 +12,20 @@ namespace {
 
 constexpr std::size_t most_rivals = 3;  // of one cause: each costs a search over its grid at every plan
 
-// A plan has no columns beyond places and times.
+// True if the cause reads a table: plans have no columns beyond places and times.
 bool reads_a_table(const CauseSearch& causes, const std::string& id) {
   return std::any_of(causes.found.begin(), causes.found.end(),
                      [&](const CauseCandidate& c) { return c.candidate.id == id && c.shape->cause.file(); });
 }
 
-// What was found, and the rivals that are worth the work; empty if there are none.
+// Ids of the findings and of their undecided alternatives; empty if none is undecided.
 std::set<std::string> wanted(const Diagnosis& found, const CauseSearch& causes) {
   std::set<std::string> out;
   bool open = false;
   for (const CauseEstimate& c : found.causes) {
     if (c.status != inference::Status::named) continue;
     if (reads_a_table(causes, c.id)) return {};
-    if (c.sought_as.empty()) continue;  // a law of readings is none of the search's, nor what was put right first
+    if (c.sought_as.empty()) continue;  // a law of readings or a cause corrected first is not from the search
     out.insert(c.sought_as);
     std::size_t alternatives = 0;
     for (const inference::Alternative& r : c.alternatives) {

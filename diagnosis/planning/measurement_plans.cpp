@@ -26,11 +26,11 @@ constexpr double millisecond = 1e-3;  // s, between readings of one link at leas
 struct End {
   int radio;
   Vector3d at;
-  bool faces;  // its heading is known
+  bool faces;  // with a known heading
   double yaw;
 };
 
-// A radio that does not move, as it sends or hears.
+// A stationary radio, as sender or as receiver.
 struct StandingRadio {
   End end;
   bool sends;
@@ -59,11 +59,11 @@ std::vector<StandingRadio> standing_radios(const RowSummary& seen) {
   return out;
 }
 
-// A place on a link, taken so many times that the noise counts it as a row of the data counts.
+// Builds plans. Repeats each planned place `repeats` times, so that its noise is that of an average row.
 struct Maker {
   const RowSummary& seen;
-  std::vector<Index> rows;            // of the data, spread over all
-  std::vector<StandingRadio> radios;  // that stand
+  std::vector<Index> rows;         // of the data, spread over all
+  std::vector<StandingRadio> radios;  // stationary
   int repeats;
   bool timed;
   double begin = 0, end = 0;  // s
@@ -77,7 +77,7 @@ struct Maker {
   }
 
   double span() const { return end - begin; }
-  // When row i is read if its way is driven once more, a minute later.
+  // Time of row i if its path is driven once more, a minute later.
   double once_more(Index i) const { return timed ? seen.t[i] + span() + 60 : 0; }
 
   void add(LinkReadings& out, const End& tx, const End& rx, double t) const {
@@ -109,7 +109,7 @@ struct Maker {
     return {};
   }
 
-  // `turned`: by how much the ends that move head elsewhere.
+  // `turned`: change of heading of the moving ends, rad.
   void add_row(LinkReadings& out, Index i, double t, double turned) const {
     End tx = end_of(seen, i, true), rx = end_of(seen, i, false);
     if (!stands(tx, true)) tx.yaw += turned;
@@ -129,13 +129,13 @@ PlannedReadings in_reverse(const Maker& make) {
 }
 
 PlannedReadings later(const Maker& make) {
-  const double pause = 0.6180339887498949 * make.span();  // s: no simple share of the run, for what swings
+  const double pause = 0.6180339887498949 * make.span();  // s: golden section, against aliasing
   PlannedReadings out{fmt::format("drive the same ways again in the same order, after a pause of {:.0f} s", pause), {}};
   for (const Index i : make.rows) make.add_row(out.readings, i, make.seen.t[i] + make.span() + pause, 0);
   return out;
 }
 
-// Where each link was read one way alone.
+// All links in both directions; no plan if any was already read in both.
 PlannedReadings both_ways(const Maker& make) {
   std::set<std::pair<int, int>> known;
   for (std::size_t k = 0; k < make.seen.tx.size(); ++k) known.insert({make.seen.tx[k], make.seen.rx[k]});
@@ -174,8 +174,7 @@ bool may_be_about(const CauseEstimate& c, const std::string& radio) {
   });
 }
 
-// The standing radio that something was found about, or that it may be about as well, or the first one; none if none
-// stands.
+// The stationary radio of a finding, else of an undecided alternative, else the first one. Null if there is none.
 const StandingRadio* station(const Maker& make, const std::vector<CauseEstimate>& about) {
   for (const auto& is : {is_about, may_be_about}) {
     for (const StandingRadio& s : make.radios) {
@@ -186,7 +185,7 @@ const StandingRadio* station(const Maker& make, const std::vector<CauseEstimate>
   return make.radios.empty() ? nullptr : &make.radios.front();
 }
 
-// All ways once more with one radio standing otherwise, as it sends and as it hears.
+// Repeats all paths with one stationary radio changed, as sender and as receiver.
 void add_ways(LinkReadings& out, const Maker& make, int radio, const std::function<End(End)>& otherwise) {
   for (const Index i : make.rows) {
     const std::optional<End> r = make.roaming_end(i);
@@ -210,7 +209,7 @@ PlannedReadings turned_station(const Maker& make, int radio) {
   return out;
 }
 
-// To the visited place that lies farthest from all standing radios.
+// Moves the radio to the visited place farthest from all stationary radios.
 PlannedReadings moved_station(const Maker& make, int radio) {
   Eigen::Vector2d to(0, 0);
   double farthest = 0;
@@ -239,7 +238,7 @@ double value_of(const CauseEstimate& c, const std::string& name) {
   return std::nan("");
 }
 
-// Where something was found, or the middle of what was driven.
+// Place of a finding, or the middle of the driven paths.
 Vector3d middle_of(const RowSummary& seen, const std::vector<CauseEstimate>& about) {
   for (const CauseEstimate& c : about) {
     const double x = value_of(c, "x"), y = value_of(c, "y");
@@ -250,7 +249,7 @@ Vector3d middle_of(const RowSummary& seen, const std::vector<CauseEstimate>& abo
   return (seen.tx_at.rowwise().mean() + seen.rx_at.rowwise().mean()) / 2;
 }
 
-// Points of a grid inside the walls' box that are 1.5 m and more from all visited places, those near `to` first.
+// Grid points in the bounding box of the walls, at least 1.5 m from all visited places, nearest to `to` first.
 std::vector<Vector3d> not_visited(const RowSummary& seen, const Vector3d& to) {
   Eigen::AlignedBox2d box;
   for (const MappedWall& w : seen.walls) {
@@ -291,7 +290,7 @@ PlannedReadings elsewhere(const Maker& make, const std::vector<CauseEstimate>& a
   return out;
 }
 
-// No two readings of a link at once, as they are written, in whole milliseconds: rows may have the same middle.
+// Spaces readings of a link by at least 1 ms, the resolution of written times: rows may have the same middle.
 void space_out(LinkReadings& r) {
   std::map<std::pair<int, int>, std::vector<std::size_t>> of_link;
   for (std::size_t k = 0; k < r.t.size(); ++k) of_link[{r.tx[k], r.rx[k]}].push_back(k);

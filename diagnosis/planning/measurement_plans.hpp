@@ -1,4 +1,4 @@
-// Measurements that could be made next, from what the world and the ways that were driven allow.
+// Plans further measurements, from the world's walls and the paths driven so far.
 #pragma once
 
 #include "diagnosis/causes/cause_shape.hpp"
@@ -10,13 +10,12 @@
 
 namespace muster::diagnosis {
 
-// The same ways in reverse, later or with all radios sending, turns on the spot, a transmitter turned or moved, places
-// not yet visited. `about`: what was found, whose radio it is that moves, and near which places not yet visited matter
-// most.
+// Plans: the same paths in reverse, later, or with both ends sending; turns on the spot; a station turned or moved;
+// places not yet visited. `about`: findings, which determine the station and the unvisited places.
 std::vector<PlannedReadings> planned_readings(const RowSummary& seen, const std::vector<CauseEstimate>& about);
 
-// The one that decides most about the strongest open cause: by how much D grows over its rivals, none counted beyond
-// decided. None if that is less than 1, which one reading adds that differs by its own sd.
+// The plan with the largest growth of D over the alternatives of the strongest open cause, each D capped at `decided`.
+// None if the growth is below 1, the contribution of one reading that differs by its own sd.
 std::optional<PlannedReadings> most_telling(const Diagnosis& found, std::vector<PlannedReadings> plans);
 
 struct PlanSources {
@@ -26,7 +25,7 @@ struct PlanSources {
   const Dataset& data;
 };
 
-// Adds what the plans would do for each cause and rival that the data do not decide. Throws Error.
+// Adds the predicted D of each plan for each undecided pair of cause and alternative, and the best plan. Throws Error.
 void add_advice(inference::Search& search, Diagnosis& found, const CauseSearch& causes, const PlanSources& sources,
                 const Sensitivities& base, const LinkRowLimits& limits);
 
