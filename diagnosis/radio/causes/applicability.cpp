@@ -47,7 +47,7 @@ std::string why_not(const Cause& cause, const MeasurementGeometry& survey, const
 
 namespace {
 
-// What needs a heading is sought in radios that turn; what needs places alone, in those that stand.
+// True if a cause may concern a radio: a turning one if it needs a heading, a stationary one if it needs only places.
 bool may_be_about(const Cause& cause, const MeasurementGeometry& survey, std::size_t radio) {
   if (radio >= survey.turns.size()) return false;  // it took part in no reading
   return needs(cause, "rx_yaw") ? survey.turns[radio] : !(needs(cause, "tx_x") && survey.moves[radio]);

@@ -1,4 +1,4 @@
-// Whether measured data can speak of a cause, and which rows of the world it may be about.
+// Tests if measured data suffice for a cause, and lists the rows of the world that it may concern.
 #pragma once
 
 #include "diagnosis/causes/cause_model.hpp"
@@ -7,16 +7,16 @@
 
 namespace muster::diagnosis {
 
-// Whether the cause declares that data must have this column.
+// True if the cause declares this column as required.
 bool needs(const Cause& cause, const std::string& column);
-// A column of the data beyond times and places that it needs, or "".
+// Required column beyond times, places and headings, or "".
 std::string own_column(const Cause& cause);
-// Why the data cannot speak of a cause; empty if they can.
+// Reason why the data cannot test a cause; empty if they can.
 std::string why_not(const Cause& cause, const MeasurementGeometry& survey, const Dataset& data);
-// Rows of the world that a cause may be about; of two references all pairs; one without names where it is about none.
+// Rows of the world that a cause may concern: all pairs for two references, a single row without names for none.
 std::vector<CauseRow> rows_for(const Cause& cause, const LinkModel& model, const MeasurementGeometry& survey);
 
-// Why there are none of these.
+// Reason why rows_for() is empty.
 std::string why_no_rows(const Cause& cause, const LinkModel& model, const MeasurementGeometry& survey);
 
 }  // namespace muster::diagnosis

@@ -22,7 +22,7 @@ CauseSearch with_swaps_by_the_map(CauseSearch causes, const LinkSearchWorld& at,
     inference::CandidateDesign& design = cause.candidate.design;
     if (cause.shape->cause.meaning().kind != MUSTER_INSTRUMENT || design.width != 1) continue;
     const auto columns = at_readings_of(cause, {by_map, at.used}).design.columns;
-    const auto kept = std::make_shared<std::map<double, VectorXd>>();  // by the row that it is about
+    const auto kept = std::make_shared<std::map<double, VectorXd>>();  // by row
     noise::Sheet atoms(at.rows.size(), static_cast<Index>(design.grid.size()));
     for (std::size_t k = 0; k < design.grid.size(); ++k) {
       const VectorXd& column = (*kept)[design.grid[k][0]] = columns(design.grid[k]);

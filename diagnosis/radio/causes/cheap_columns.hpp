@@ -1,5 +1,5 @@
-// Cheaper columns for candidates on links: sketches of one reading a row, columns near a place, and swaps of radios by
-// the map.
+// Cheaper or unbiased columns for candidates on links: sketches of one reading a row, local columns near a place, and
+// swaps of radios at the map's parameters.
 #pragma once
 
 #include "diagnosis/calibration/fit.hpp"
@@ -7,7 +7,7 @@
 
 namespace muster::diagnosis {
 
-// The world that candidates are evaluated in, and the readings of the search.
+// World for evaluating candidates, and the readings of the search.
 struct LinkSearchWorld {
   std::filesystem::path world, data;
   Library::SearchPath plugins;
@@ -18,17 +18,18 @@ struct LinkSearchWorld {
   const noise::Rows& rows;
 };
 
-// Parameters that were fitted while two radios bear each other's name are bent by that, and so would be the columns of
-// a swap. Where the fit leaves much more than the world's own draws, swaps are evaluated at the declared parameters.
-// `run`: the causes' model, in which nothing may be left of others.
+// Evaluates swaps of radios at the declared parameters if the residual far exceeds the simulated scatter. Exchanged
+// names of radios bias the fitted parameters and, with them, the columns of swaps. `run`: the model of the causes,
+// which is cleared.
 CauseSearch with_swaps_by_the_map(CauseSearch causes, const LinkSearchWorld& at, const Fit& fitted, CauseModel& run);
 
-// Where rows have many readings, a search over many places, times or shapes evaluates one of each. `sketched`: these
-// readings, or null where each reading is a row or the world reads a table.
+// Readings for sketches of searches over many places, times or shapes: the middle one of each row. Null if rows have
+// few readings or the world reads a table.
 std::shared_ptr<SimulatedReadings> sketched_readings(const LinkSearchWorld& at);
 CauseSearch with_sketches(CauseSearch causes, const std::shared_ptr<SimulatedReadings>& sketched);
 
-// Places of walls and things are drawn some thousand times about one place, which few of many readings concern.
+// Adds local columns to walls and obstacles. Their posterior has thousands of samples near one place, which affects
+// only few readings.
 CauseSearch with_columns_near(CauseSearch causes, const LinkSearchWorld& at);
 
 }  // namespace muster::diagnosis

@@ -17,7 +17,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-// A place that takes level from links through it cannot stand where a radio was driven.
+// True for objects that attenuate links through them: they cannot lie where a radio was driven.
 bool stands(const inference::Candidate& c) { return !c.role.pieces.empty(); }
 
 bool clear_of_ways(const CauseShape& shape, const MeasurementGeometry& geometry, const VectorXd& t) {
@@ -35,7 +35,7 @@ std::vector<VectorXd> shaped_as(const VectorXd& theta, std::vector<VectorXd> pla
   return places;
 }
 
-// Covariates, its own one first, and the smooths whose place it may take.
+// Covariates, its own one first, and the smooths that it may replace.
 std::pair<std::vector<std::string>, std::set<std::string>> covariates_of(const CauseShape& shape) {
   if (const std::string column = own_column(shape.cause); !column.empty()) return {{column}, {column}};
   if (needs(shape.cause, "t")) return {{"time"}, {"time", "time_per_tx"}};
@@ -61,7 +61,7 @@ std::string LinkCauseDomain::why_no_rows(const Cause& cause) const {
   return diagnosis::why_no_rows(cause, model_, geometry_);
 }
 
-// A heading that is no free parameter runs along the plan.
+// Fixes headings that are not free at the direction of the plan.
 void LinkCauseDomain::hold(CauseShape& shape) const {
   for (uint32_t k = 0; k < shape.cause.plugin->param_count; ++k) {
     const muster_param& p = shape.cause.plugin->params[k];
@@ -73,15 +73,14 @@ std::optional<Axis> LinkCauseDomain::axis_of(const muster_param& declared, const
   return diagnosis::axis_of(declared, geometry_, shape, alone);
 }
 
-// Number of sizes of its place that the plan gives: it is sought in the plan's rooms, or between its walls, as they
-// are.
+// Number of the place's sizes given by the plan: length and width of a room, or width of a strip between walls.
 std::size_t LinkCauseDomain::given_sizes(const CauseShape& shape) const {
   if (shape.is_room() && !geometry_.rooms.empty()) return 2;
   return shape.is_strip() && !geometry_.strips.empty() ? 1 : 0;
 }
 
 void LinkCauseDomain::bound_place(const CauseShape& shape, inference::Refinement& out) const {
-  // A radio may stand outside of all that was mapped and driven through.
+  // A radio may lie outside the mapped and driven area.
   const double around = shape.cause.meaning().kind == MUSTER_WORLD_EDIT ? thresholds::beyond_map : 0;
   const Index places = place_entries(shape.place);
   if (places >= 2) {
@@ -115,9 +114,9 @@ void LinkCauseDomain::describe(const CauseShape& shape, inference::Candidate& c)
   c.refinement.charge = charge_of(shape, c);
 }
 
-// refinement_charge() over clean cases of the exam: walls 6.3 and things 5.5 (median of seven), places on a grid 1.7
-// and 1.1, strips on a grid 2.0, rooms of the plan 0.2, radios elsewhere -4.9, all others 0.1 to 1.1 (median of three
-// to five; standard error 0.4). It grows towards the tail, where decisions fall, by half a nat a sought parameter.
+// refinement_charge() over clean cases of the exam: walls 6.3 and obstacles 5.5 (median of seven), places on a grid 1.7
+// and 1.1, strips on a grid 2.0, rooms of the plan 0.2, moved radios -4.9, all others 0.1 to 1.1 (median of three to
+// five; standard error 0.4). It grows by half a nat for each searched parameter towards the tail, where decisions fall.
 double LinkCauseDomain::charge_of(const CauseShape& shape, const inference::Candidate& c) const {
   if (stands(c)) return shape.place == PlaceShape::segment ? thresholds::wall_charge : thresholds::thing_charge;
   if (shape.cause.meaning().kind == MUSTER_WORLD_EDIT) return 0;
@@ -133,8 +132,8 @@ bool LinkCauseDomain::admits(const CauseShape& shape, const inference::Candidate
   return !stands(c) || clear_of_ways(shape, geometry_, theta);
 }
 
-// A radio is a few metres from where the map has it, hardly ever more. Less than a map or a mount leaves open is no
-// other place: millimetres turn links past the end of a wall, which shows clearly in a smooth field.
+// Prior: a radio lies within a few metres of its mapped place. Displacements within the accuracy of map and mount are
+// excluded. In a smooth field, millimetres that move links past the end of a wall would be significant.
 void LinkCauseDomain::believe_in_map(const CauseShape& shape, inference::Candidate& c) const {
   std::vector<Eigen::Vector2d> mapped;
   for (const CauseRow& row : shape.rows)
@@ -148,7 +147,7 @@ void LinkCauseDomain::believe_in_map(const CauseShape& shape, inference::Candida
   c.refinement.admitted = [moved](const VectorXd& t) { return moved(t) < thresholds::same_place ? 0.0 : 1.0; };
 }
 
-// Proposes walls and things by a scan of all places where they could be.
+// Proposes walls and obstacles by a scan of all possible places.
 void LinkCauseDomain::let_scan(const CauseShape& shape, inference::Candidate& c) const {
   const bool wall = shape.place == PlaceShape::segment && !shape.is_strip();
   if (!wall && !(shape.place == PlaceShape::point && shape.axes.size() == 1)) return;
@@ -170,7 +169,7 @@ void LinkCauseDomain::let_scan(const CauseShape& shape, inference::Candidate& c)
         [sweep = std::make_shared<const SegmentScan>(geometry_, std::move(links), std::move(readings)),
          first = c.design.grid[0]](inference::Tally& tally) { return shaped_as(first, (*sweep)(tally)); };
   } else {
-    c.refinement.step.tail<3>().setConstant(0.1);  // m: its tops are narrow and lie close
+    c.refinement.step.tail<3>().setConstant(0.1);  // m: maxima are narrow and close together
     c.refinement.proposed = [sweep = std::make_shared<const DiskScan>(geometry_, std::move(links))](
                                 inference::Tally& tally) { return (*sweep)(tally); };
   }

@@ -1,4 +1,4 @@
-// Causes on radio links: which radios, walls and places they may be about, and how they compete.
+// Domain of causes on radio links: radios, walls and places that they may concern, and their competition.
 #pragma once
 
 #include "diagnosis/causes/cause_domain.hpp"

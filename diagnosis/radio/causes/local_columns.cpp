@@ -10,7 +10,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 using Columns = std::function<Eigen::MatrixXd(const VectorXd&)>;
 
-constexpr double beyond = 0.5;  // m: half the widest edge of a wall, which costs beyond its ends
+constexpr double beyond = 0.5;  // m: half a wall's widest edge, with loss beyond its ends
 constexpr double moves = 0.75;  // m, to every side
 
 struct Area {
@@ -20,7 +20,7 @@ struct Area {
     return west <= other.west && south <= other.south && other.east <= east && other.north <= north;
   }
 
-  // Whether a link comes into it, or perhaps past a corner.
+  // True if a link enters or touches the area (separating axes).
   bool met_by(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const {
     if (std::max(a.x(), b.x()) < west || std::min(a.x(), b.x()) > east) return false;
     if (std::max(a.y(), b.y()) < south || std::min(a.y(), b.y()) > north) return false;
@@ -60,7 +60,7 @@ LinkReadings those(const LinkReadings& all, const std::vector<Index>& kept) {
   return result;
 }
 
-// At theta, and as far from it as is asked.
+// theta, and thetas shifted by `moves` to all four corners.
 std::vector<VectorXd> corners(const VectorXd& theta) {
   std::vector<VectorXd> result{theta};
   for (const double x : {-moves, moves}) {
@@ -86,7 +86,7 @@ Columns columns_near(const VectorXd& theta, const CauseCandidate& cause, const L
   const std::shared_ptr<SimulatedReadings> simulated = simulate(those(readings, near));
   const Columns columns = simulated->at(cause).design.columns;
   Columns result = [=, shape = cause.shape, many = readings.size()](const VectorXd& t) -> Eigen::MatrixXd {
-    (void)simulated;  // which the columns ask
+    (void)simulated;  // kept alive for `columns`
     if (!area.holds(about(*shape, t, beyond))) return all(t);
     const Eigen::MatrixXd here = columns(t);
     Eigen::MatrixXd there = Eigen::MatrixXd::Zero(many, here.cols());

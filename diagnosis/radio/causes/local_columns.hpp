@@ -1,15 +1,15 @@
-// What stands in the plan, asked of the readings whose links come near it.
+// Evaluates walls and obstacles only at readings whose links pass near them.
 #pragma once
 
 #include "diagnosis/radio/causes/simulated_readings.hpp"
 
 namespace muster::diagnosis {
 
-// As many readings, simulated.
+// Simulates these readings.
 using Simulate = std::function<std::shared_ptr<SimulatedReadings>(const LinkReadings&)>;
 
-// Columns of a wall or a thing that are the cause's own to the last bit, wherever it stands, but for less near `theta`.
-// The cause's own where most links come near, or where it concerns any that does not.
+// Columns of a wall or obstacle, bit for bit the cause's own, at less cost near `theta`. Returns the cause's own if
+// most links pass near, or if it affects any that does not.
 std::function<Eigen::MatrixXd(const Eigen::VectorXd&)> columns_near(const Eigen::VectorXd& theta,
                                                                     const CauseCandidate& cause,
                                                                     const LinkReadings& readings,

@@ -26,15 +26,15 @@ std::optional<Axis> axis_of(const muster_param& p, const MeasurementGeometry& s,
   if (p.flags & MUSTER_CYCLIC) return axis_over(p, s.time, shape, alone);
   if (p.flags & MUSTER_LOG) {
     if (unit == "m") return length(p, s, shape);
-    // A loss: from less than one wall costs to more than any link loses.
+    // A loss: from below that of one wall to above that of any link.
     if (unit == "dB") return logarithmic(p, 2, 300, {5, 8, 12, 18, 28, 50, 100}, 0.2);
     return axis_over(p, s.time, shape, alone);
   }
-  // What a wall is like at its ends.
+  // Width of a wall's edges.
   if (unit == "m" && shape.place == PlaceShape::segment)
     return Axis{p.name, false, p.min, p.max, (p.max - p.min) / 5, {p.min}};
   if (unit == "m" && shape.place == PlaceShape::point) {
-    // Up to where things stand: among moving radios alone, or among all.
+    // Height of an obstacle: above moving radios only, or above all radios.
     std::vector<double> heights{s.above_moving, s.height.high + 0.5};
     if (heights[0] >= s.height.high) heights.erase(heights.begin());
     return Axis{p.name, false, heights.front(), heights.back(), 0, heights};

@@ -31,7 +31,7 @@ std::vector<VectorXd> places_over(PlaceShape shape, const MeasurementGeometry& s
   return result;
 }
 
-// Places around where the map has each radio.
+// Places around each radio's mapped place.
 std::vector<VectorXd> around_radios(const CauseShape& shape, const LinkModel& model) {
   std::vector<VectorXd> result;
   for (std::size_t row = 0; row < shape.rows.size(); ++row) {

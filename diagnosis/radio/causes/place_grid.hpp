@@ -1,4 +1,4 @@
-// Start values of causes in a plan: rooms, strips between walls, places around radios, or a raster.
+// Start values of causes in a plan: rooms, strips between walls, places around radios, or a grid.
 #pragma once
 
 #include <optional>
@@ -9,8 +9,8 @@
 
 namespace muster::diagnosis {
 
-// All rows, with all places and axis values that suit the cause's shape. Walls and things (`stands`) lie closer
-// together than causes that fill a part of the plan.
+// All rows, with all places and axis values that suit the cause's shape. `stands`: true for walls and obstacles, on a
+// finer grid than causes that fill a part of the plan.
 std::vector<Eigen::VectorXd> starts_of(const CauseShape& shape, const MeasurementGeometry& geometry,
                                        const LinkModel& model, bool stands);
 

@@ -12,7 +12,7 @@ constexpr double pi = 3.141592653589793;
 
 using Ways = std::vector<std::array<double, 4>>;
 
-// From the first way that begins no further west than so far from x.
+// First path that starts at most `reach` west of x; paths are sorted by x.
 Ways::const_iterator from_west_of(const Ways& ways, double x, double reach) {
   return std::partition_point(ways.begin(), ways.end(), [&](const auto& w) { return w[0] - x < -reach; });
 }
@@ -20,7 +20,7 @@ Ways::const_iterator from_west_of(const Ways& ways, double x, double reach) {
 }  // namespace
 
 int driven_across(const MeasurementGeometry& s, double x, double y, double length, double angle) {
-  const double reach = length / 2 + 2;  // a way is shorter than 2 m
+  const double reach = length / 2 + 2;  // a piece of a path is shorter than 2 m
   const double ex = length / 2 * std::cos(angle), ey = length / 2 * std::sin(angle);
   const auto side = [](double ax, double ay, double bx, double by, double px, double py) {
     return (bx - ax) * (py - ay) - (by - ay) * (px - ax) > 0;

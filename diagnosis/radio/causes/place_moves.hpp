@@ -1,4 +1,4 @@
-// Moves and priors of walls and things that are sought in a plan.
+// Search moves and priors of walls and obstacles in a plan.
 #pragma once
 
 #include "diagnosis/causes/cause_shape.hpp"
@@ -6,23 +6,22 @@
 
 namespace muster::diagnosis {
 
-// Number of times that a segment was driven across.
+// Number of driven paths that cross a segment.
 int driven_across(const MeasurementGeometry& geometry, double x, double y, double length, double angle);
-// True where a way leads through the disk.
+// True if a driven path leads through the disk, within 0.7 of its radius.
 bool driven_through(const MeasurementGeometry& geometry, double x, double y, double radius);
 
 inline constexpr double move_of_segment = 0.4;  // m, of its ends
-// Moves of a segment: along and across, either end further out, about either end, each axis, and away from the nearest
-// radio that stands, in whose shadow it then stays the same.
+// Moves of a segment: along and across it, either end outwards, rotation about either end, each axis. The last one
+// moves it away from the nearest stationary radio and lengthens it, which keeps its shadow.
 Eigen::MatrixXd moves_of_segment(const MeasurementGeometry& geometry, const Eigen::VectorXd& theta);
-// Moves of a disk: east, north, wider; and for each of the two nearest radios that stand either edge of its shadow
-// alone, and away from the radio, which leaves its shadow as it is.
+// Moves of a disk: east, north, wider. For each of the two nearest stationary radios: either edge of its shadow alone,
+// and away from the radio with the shadow kept.
 Eigen::MatrixXd moves_of_disk(const MeasurementGeometry& geometry, const Eigen::VectorXd& theta);
-// Prior log density of a segment's direction, nats: walls run along those of the plan, or across, within a fifth of a
-// radian.
+// Prior log density of a segment's direction, nats: normal about the plan's wall directions, sd 0.2 rad.
 double belief_in_segment(const MeasurementGeometry& geometry, const Eigen::VectorXd& theta);
 
-// Segments between the ends that lie farthest apart, of each pair of pieces; those of `id` are segments, others points.
+// For each pair of pieces, the segment between their two farthest ends. Pieces of `id` are segments, others points.
 std::vector<Eigen::VectorXd> spans(const std::vector<inference::Piece>& pieces, const std::string& id);
 
 }  // namespace muster::diagnosis

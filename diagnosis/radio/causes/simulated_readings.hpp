@@ -1,4 +1,4 @@
-// Readings that nobody took: a world asked what it would expect there, and what causes would add.
+// Predicts readings that were not taken: a world's expected levels there, and the columns of causes.
 #pragma once
 
 #include "diagnosis/causes/cause_candidates.hpp"
@@ -11,15 +11,14 @@ namespace muster::diagnosis {
 
 class SimulatedReadings {
  public:
-  // `radios`: names, by the numbers in tx and rx. The world's parameters are those at which `base` was taken. Throws
-  // Error.
+  // `radios`: names, by the indices in tx and rx. The world has the parameters of `base`. Throws Error.
   SimulatedReadings(const LinkReadings& readings, const std::vector<std::string>& radios,
                     const std::filesystem::path& world, const Library::SearchPath& plugins, const Sensitivities& base);
   SimulatedReadings(const SimulatedReadings&) = delete;
   SimulatedReadings& operator=(const SimulatedReadings&) = delete;
 
   LinkModel& model() { return *model_; }
-  // The same candidate with its columns here, one row a reading.
+  // The same candidate with columns at these readings, one row each.
   inference::Candidate at(const CauseCandidate& cause) const;
 
  private:
@@ -29,7 +28,7 @@ class SimulatedReadings {
   std::vector<Eigen::Index> all_;
 };
 
-// Whether the world has an instance that reads a table of the measured readings: it says nothing of any other.
+// True if a cause in the world reads a table: it has no values at readings that were not taken.
 bool holds_a_table_reader(const LinkModel& model);
 
 }  // namespace muster::diagnosis

@@ -30,7 +30,7 @@ std::vector<VectorXd> thetas_of(std::vector<Swept> all) {
   return result;
 }
 
-// What a way through a disk costs, of what ways without end would, negative; to a thousandth.
+// Negative share of the full loss after a path of this length through a disk: exp(-radii) - 1, tabulated to 0.001.
 double lost(double radii) {
   constexpr double parts = 512;
   static const auto table = [] {
@@ -41,7 +41,7 @@ double lost(double radii) {
   return table[static_cast<std::size_t>(std::min(radii * parts / 2 + 0.5, parts + 0.5))];
 }
 
-// Those that pass by a place within so many metres.
+// Links whose line passes within `reach` metres of a place.
 std::vector<Index> links_near(const Links& links, double x, double y, double reach) {
   std::vector<Index> near;
   for (std::size_t k = 0; k < links.size(); ++k) {
@@ -52,7 +52,7 @@ std::vector<Index> links_near(const Links& links, double x, double y, double rea
   return near;
 }
 
-// The best of them that lie apart in the plan.
+// Up to `count` of the best, more than `least` metres apart.
 std::vector<Swept> apart(const std::vector<Swept>& best_first, double least, std::size_t count) {
   std::vector<Swept> result;
   for (const Swept& one : best_first) {
@@ -65,7 +65,7 @@ std::vector<Swept> apart(const std::vector<Swept>& best_first, double least, std
   return result;
 }
 
-// By steps that halve, along each way, until none gains so much more.
+// Pattern search with halving steps along `ways`, until no step gains more than `worth`.
 template <class Ways, class Gain, class May>
 Swept local_search(Swept from, double worth, const Ways& ways, const Gain& gain, const May& may) {
   for (const double step : {0.2, 0.1, 0.05, 0.025}) {  // m
@@ -96,7 +96,7 @@ VectorXd segment(double angle, double across, double from, double to) {
 
 }  // namespace
 
-// In the frame of lines in one direction.
+// A link or driven path, in the frame of lines of one direction.
 struct SegmentScan::Way {
   double p0, q0, p1, q1;  // m, along and across
 
@@ -128,7 +128,7 @@ SegmentScan::SegmentScan(const MeasurementGeometry& survey, Links links, Reading
   }
 }
 
-// One line.
+// Adds the gaps of one line.
 void SegmentScan::lay_out(const std::vector<Way>& links, const std::vector<Way>& driven, double angle, double across) {
   std::vector<Crossing> crossings;
   for (std::size_t k = 0; k < links.size(); ++k) {
@@ -155,7 +155,8 @@ void SegmentScan::lay_out(const std::vector<Way>& links, const std::vector<Way>&
   }
 }
 
-// The best piece of each gap: from every other start in it on to its end, and from those between where these gain much.
+// Best piece of each gap over every other start; starts in between only for large gains. Then a pattern search from the
+// best.
 std::vector<VectorXd> SegmentScan::operator()(inference::Tally& tally) const {
   constexpr std::size_t climbs = 8;
   check(tally, links_.size());
@@ -179,7 +180,7 @@ std::vector<VectorXd> SegmentScan::operator()(inference::Tally& tally) const {
   return thetas_of(the_best(std::move(found)));
 }
 
-// From every other start on to the gap's end.
+// Scores pieces from every other start to each crossing, up to the gap's end.
 SegmentScan::Piece SegmentScan::best_piece(const Gap& gap, double first, inference::Tally& tally) {
   Piece best{0, 0, 0};
   for (double start = first; start < gap.to - shortest; start += 2 * between_starts) {
@@ -193,16 +194,16 @@ SegmentScan::Piece SegmentScan::best_piece(const Gap& gap, double first, inferen
       const double until = after == gap.crossings.end() ? end : std::min(end, after->at);
       if (until - start < shortest) continue;
       const double gain = tally.gain() + gap.belief;
-      // It ends between this link, which it stops, and the next, which passes.
+      // The piece ends between this link, which it blocks, and the next, which passes.
       if (gain > best.gain) best = {gain, start, std::max((next->at + until) / 2, start + shortest)};
     }
   }
   return best;
 }
 
-// Its tops are narrow where readings lie dense: of a wall that won 65 on rows the line 5 cm aside showed 34.
+// Maxima are narrow where readings are dense: on a line 5 cm aside, a wall's gain fell from 65 to 34.
 Swept SegmentScan::climb(const Swept& from, inference::Tally& tally) const {
-  constexpr double reach = 1;  // m, beyond where it starts
+  constexpr double reach = 1;  // m, beyond the start
   const double x = from.theta[1], y = from.theta[2], farthest = from.theta[3] / 2 + reach;
   const std::vector<Index> near = links_near(links_, x, y, farthest);
   const auto ways = [&](const VectorXd& theta) {
@@ -229,12 +230,12 @@ Swept SegmentScan::climb(const Swept& from, inference::Tally& tally) const {
     return tally.gain() + 2 * belief_in_segment(geometry_, t);
   };
   const auto may = [&](const VectorXd& t) { return driven_across(geometry_, t[1], t[2], t[3], t[4]) == 0; };
-  // Shares of rows change with every centimetre: what wins next to nothing is left to those that go on from here.
+  // Shares of rows change with every centimetre: small gains are left to the refinement that follows.
   const double here = gain(from.theta), worth = std::max(0.3, here / 300);
   return local_search({here, from.theta}, worth, ways, gain, may);
 }
 
-// Of the readings of a row those that are stopped; if its first is as its last, all are.
+// Share of a row's readings that are blocked; 0 or 1 if its first and last readings agree.
 template <class Stopped>
 double SegmentScan::share(std::size_t row, const Stopped& stopped) const {
   const std::size_t first = readings_.first[row], past = readings_.first[row + 1];
@@ -281,7 +282,7 @@ std::vector<VectorXd> DiskScan::operator()(inference::Tally& tally) const {
   return thetas_of(the_best(std::move(found)));
 }
 
-// The tops that climbs from the best of a close grid reach.
+// Local maxima, by pattern searches from the best of a fine grid.
 std::vector<Swept> DiskScan::closely_about(const Swept& place, inference::Tally& tally) const {
   constexpr double between = 0.125, at_most = 0.5;  // m
   constexpr std::array close_radii{0.22, 0.28, 0.36, 0.46, 0.58, 0.74, 0.94};
@@ -310,7 +311,7 @@ double DiskScan::gain_at(double x, double y, double radius, Near& near) const {
   return gain(radius, near.passing, near.tally);
 }
 
-// Aside, wider, and to either side so that the other edge of its shadow stays where it is.
+// Steps: sideways, wider, and sideways with one edge of the shadow kept in place.
 Swept DiskScan::climb(Swept from, Near& near) const {
   constexpr double sixteenth = 0.39269908169872414;  // of a turn, rad
   const double x = from.theta[1], y = from.theta[2];
@@ -336,7 +337,7 @@ Swept DiskScan::climb(Swept from, Near& near) const {
   return from;
 }
 
-// Those of the links that go through the disk.
+// Links through the disk.
 void DiskScan::find_passing(double x, double y, double radius, const std::vector<Index>& among,
                             std::vector<Passing>& passing) const {
   passing.clear();

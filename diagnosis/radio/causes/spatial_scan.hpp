@@ -1,5 +1,5 @@
-// Walls and things wherever in the plan they could stand: what each would gain, before any is refined. Which places
-// there are and which rows they concern is worked out once, for any number of sweeps.
+// Scans the plan for walls and obstacles: gain at every possible place, before any refinement. Places and the rows that
+// they concern are computed once, for any number of scans.
 #pragma once
 
 #include <array>
@@ -9,13 +9,13 @@
 
 namespace muster::diagnosis {
 
-// Of each row of a search, x y of either end of its link, m.
+// x y of both ends of the link of each row, m.
 using Links = std::vector<std::array<double, 4>>;
 
-// Of each reading the same, row by row, in the order of their ways.
+// The same for each reading, row by row, in order of time.
 struct ReadingLinks {
   Links links;
-  std::vector<std::size_t> first;  // of each row; one past the last row too
+  std::vector<std::size_t> first;  // first reading of each row, and one past the last
 };
 
 struct Swept {
@@ -23,13 +23,13 @@ struct Swept {
   Eigen::VectorXd theta;
 };
 
-// On lines along the plan and a little aslant, a quarter of a metre apart, all pieces that no radio was driven across,
-// by one link a row; then by all readings from the best of these to wherever more is gained.
+// Scans lines 0.25 m apart, along and across the plan's walls and up to 0.3 rad aslant. Stretches that no radio was
+// driven across are scored by one link a row. The best are improved by a pattern search over all readings.
 class SegmentScan {
  public:
   SegmentScan(const MeasurementGeometry& survey, Links links, ReadingLinks readings);
 
-  // Thetas (no row, x, y, length, angle), the best first.
+  // Thetas (0 for the row, x, y, length, angle), the best first.
   std::vector<Eigen::VectorXd> operator()(inference::Tally& tally) const;
 
  private:
@@ -37,10 +37,10 @@ class SegmentScan {
     double at;  // m along the line
     Eigen::Index row;
   };
-  // A piece of a line in which no radio was driven across.
+  // A stretch of a line that no radio was driven across.
   struct Gap {
     double angle, across, from, to, belief;
-    std::vector<Crossing> crossings;  // in their order along the line
+    std::vector<Crossing> crossings;  // in order along the line
   };
 
   struct Piece {
@@ -60,34 +60,34 @@ class SegmentScan {
   std::vector<Gap> gaps_;
 };
 
-// A few radii about places 0.4 m apart, clear of all ways; then closely about the best of these, since where readings
-// lie dense a thing shows little a tenth of a metre aside, and has many tops.
+// Scans disks of three radii at places 0.4 m apart, clear of driven paths, then a finer grid about the best. Where
+// readings are dense, gains fall within 0.1 m and have many local maxima.
 class DiskScan {
  public:
   DiskScan(const MeasurementGeometry& survey, Links links);
 
-  // Thetas (no row, x, y, log radius), the best first.
+  // Thetas (0 for the row, x, y, log radius), the best first.
   std::vector<Eigen::VectorXd> operator()(inference::Tally& tally) const;
 
  private:
   static constexpr std::array radii{0.3, 0.5, 0.8};                             // m
   static constexpr double narrowest = 0.2, widest = 1.2, between_places = 0.4;  // m
 
-  // A link that passes by a place: how far along it, times its length; how far aside, the same; its length squared.
+  // A link that passes a place: distances along it and aside, both times its length, and its squared length.
   struct Passing {
     Eigen::Index row;
     double along, side, squared;
   };
   struct Place {
     double x, y;
-    double widest;  // m: a disk that is clear
+    double widest;  // m, largest radius clear of driven paths
     std::vector<Passing> passing;
   };
-  // The links about one place.
+  // Links near one place.
   struct Near {
     std::vector<Eigen::Index> links;
     inference::Tally& tally;
-    std::vector<Passing> passing;  // by what was asked for last
+    std::vector<Passing> passing;  // found by the last query
   };
 
   std::vector<Swept> closely_about(const Swept& place, inference::Tally& tally) const;
@@ -99,7 +99,7 @@ class DiskScan {
 
   MeasurementGeometry geometry_;
   Links links_;
-  std::vector<Eigen::Index> all_;  // of the links
+  std::vector<Eigen::Index> all_;  // indices of all links
   std::vector<Place> places_;
 };
 

@@ -1,4 +1,4 @@
-// A world's walls and doors, as geometry and as a picture.
+// Converts a world's walls and doors to scene geometry and to a figure.
 #pragma once
 
 #include "kernel/simulation.hpp"
@@ -7,7 +7,7 @@
 
 namespace muster {
 
-// Walls and doors numbered as their rows. Throws std::runtime_error that names the row at fault.
+// Walls and doors numbered as their rows. Throws std::runtime_error with the row at fault.
 scene::Scene scene_of(const Simulation& run);
 
 // Walls, doors, and the radios that do not move.

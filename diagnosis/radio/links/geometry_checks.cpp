@@ -29,7 +29,7 @@ Plan plan_of(const LinkModel& model) {
   return plan;
 }
 
-// Half of the readings outside of the walls' box, nearly none if x and y change places: no chance does that.
+// Throws Error if at least 10 % of ends lie outside the walls' bounding box, but at most 1 % with x and y exchanged.
 void check_plan(const LinkModel& model, const Dataset& data) {
   const Plan plan = plan_of(model);
   if (plan.x1 <= plan.x0 || plan.y1 <= plan.y0) return;
@@ -52,7 +52,7 @@ void check_plan(const LinkModel& model, const Dataset& data) {
                     "places; expected x to the east and y to the north, as in the world");
 }
 
-// Whether a radio is at places that lie this far apart.
+// True if a radio has places more than `least` metres from its first one.
 bool moves(const LinkModel& model, int radio, double least) {
   const End* first = nullptr;
   for (const auto& ends : model.ends()) {

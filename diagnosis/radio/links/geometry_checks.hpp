@@ -1,4 +1,4 @@
-// Where places and radios in the data and those in the world contradict one another.
+// Checks places and radios of the data against those of the world.
 #pragma once
 
 #include "diagnosis/data/dataset.hpp"
@@ -6,11 +6,11 @@
 
 namespace muster::diagnosis {
 
-// Throws Error where x and y are exchanged: stations or readings that fit the world only the other way round. Returns
-// notes on what is odd, such as a station that was measured elsewhere.
+// Throws Error if x and y are exchanged: stations or readings that fit the world only after the exchange. Returns notes
+// on oddities, such as a station measured at another place.
 std::vector<std::string> check_places(const LinkModel& model, const Dataset& data);
 
-// A note on radios of the data that the world lacks, with the names that they may mean; empty if there are none.
+// A note on radios of the data that the world lacks, with the nearest names; empty if there are none.
 std::vector<std::string> notes_on_radios(const LinkModel& model, const Dataset& data);
 
 // Names in quotes, the first five of them.

@@ -50,7 +50,7 @@ Features features_of(const LinkModel& model) {
     }
   } catch (const Error&) {
     throw;
-  } catch (const std::runtime_error& e) {  // the scene's words name the row at fault
+  } catch (const std::runtime_error& e) {  // with the row at fault
     throw Error(Exit::invalid_input, model.simulation().world().file.string() + ": " + e.what());
   }
   return f;

@@ -1,4 +1,4 @@
-// Of each reading, what a channel model may depend on: length, directions, and the walls in its way.
+// Geometric features of each reading for channel models: length, directions, and walls crossed.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace muster::diagnosis {
 
 struct Features {
   std::vector<double> distance;                // m
-  std::vector<double> azimuth, elevation;      // rad, from tx to rx, in the world
+  std::vector<double> azimuth, elevation;      // rad, from tx to rx, in the world frame
   std::vector<double> tx_bearing, rx_bearing;  // rad, of the other radio as seen from the antenna's heading
   std::vector<double> incidence;               // rad, mean angle to the normals of walls and floors crossed; NaN: none
   std::vector<std::string> materials, walls;   // names

@@ -12,12 +12,12 @@ namespace {
 
 constexpr const char* stand_in = "data";  // name of the instance of data.links
 
-// What lists links by the clock gives way to what lists the measured ones.
+// True for instances that list links, which the measured links replace.
 bool lists_links(const InstanceDeclaration& instance) {
   return instance.plugin == "radio.links" || instance.plugin == "data.links";
 }
 
-// False also where the file is no table: whoever reads it will say so.
+// False also if the file is no table: its reader then reports the error.
 bool has_columns_of(const TextTable& data, const std::filesystem::path& file, TableCache& tables) try {
   const auto table = tables.read(file);
   return std::all_of(table->columns().begin(), table->columns().end(), [&](const TextColumn& column) {
@@ -28,8 +28,8 @@ bool has_columns_of(const TextTable& data, const std::filesystem::path& file, Ta
   return false;
 }
 
-// What a world's file tells of the times of one measurement, such as to which power each radio was set, readings of
-// other times tell of theirs: where they have all columns of an instance's `file`, they stand in for it.
+// Replaces an instance's `file` by the data if these have all of its columns. The file's settings over time, such as
+// transmit powers, belong to another measurement.
 void take_settings_from(const std::filesystem::path& data, World& world, TableCache& tables) {
   for (InstanceDeclaration& instance : world.instances) {
     for (XmlAttribute& attribute : instance.attributes) {
@@ -40,7 +40,7 @@ void take_settings_from(const std::filesystem::path& data, World& world, TableCa
   }
 }
 
-// What lies beyond the scene is told by the term that asks the scene, which knows the world's file and not the data's.
+// Throws Error with the first place of the data beyond the scene: the scene's own error cites only the world's file.
 void refuse_far_places(const std::filesystem::path& data) {
   constexpr double farthest = 1000;  // m, as of the scene
   const TextTable table = TextTable::read(data);

@@ -1,5 +1,4 @@
-// A world asked what it expects to be measured: its channel, evaluated at the places and times of the readings by the
-// code that a simulation runs.
+// Predicts measured readings from a world: evaluates its channel at their places and times by the simulator's own code.
 #pragma once
 
 #include <array>
@@ -9,32 +8,31 @@
 
 namespace muster::diagnosis {
 
-// One end of a reading, as the channel saw it.
+// One end of a reading, as passed to the channel; m, rad.
 struct End {
   double x, y, z, yaw;
   int radio;  // row of the set `radio`
 };
 
-// The instance that stands in for a world's links: data.links with the readings of `file`.
+// The instance that replaces a world's links: data.links with the readings of `file`.
 InstanceDeclaration measured_links(const std::filesystem::path& file, const Place& place);
 
 class LinkModel : public MeasuredWorld {
  public:
-  // The world with the readings of `data` in the place of its links. Throws Error.
-  // `tables`: files that were read already.
+  // The world with the readings of `data` as its links. `tables`: files already read. Throws Error.
   LinkModel(const std::filesystem::path& world, const std::filesystem::path& data, const Library::SearchPath& plugins,
             const std::shared_ptr<TableCache>& tables = std::make_shared<TableCache>());
 
-  // Row i's two ends, tx first.
+  // Both ends of each row, tx first.
   const std::vector<std::array<End, 2>>& ends() const { return ends_; }
   const std::vector<std::string>& radio_names() const;  // by row of the set `radio`
   std::string radio_name(int radio) const;
-  // Radios of the readings that the world does not have, and that were added to it; no cause is about them.
+  // Radios of the readings that the world lacks and that were added to it; no cause concerns them.
   std::vector<std::string> added_radios() const;
-  std::set<std::string> link_of(int one, int other) const;  // names of both, whichever sends
+  std::set<std::string> link_of(int one, int other) const;  // names of both, in either direction
 
-  // By how much it changes, dB, if every link is moved so far to either side: what hangs on how exactly the ends of
-  // walls and the places of radios are known. Lengths and bearings stay.
+  // Largest change of each expected level, dB, if links are shifted sideways by this distance to either side. It bounds
+  // the effect of inaccurate wall ends and radio places. Lengths and bearings are unchanged.
   Eigen::VectorXd changes_aside(double metres);
 
  private:

@@ -36,8 +36,8 @@ bool ends_row(const LinkReadings& r, const LinkRowLimits& limits, Index first, I
          (r.tx_at.col(next) - r.tx_at.col(first)).norm() > limits.way;
 }
 
-// How far the radios of each pair went. What shadows a link shadows its return, so both directions have one anchor: the
-// radio that moved less. Where neither did, it is that end of a lone direction that moves less in all.
+// Path lengths of the radios of each pair. Both directions share their shadowing, so they share one anchor: the radio
+// that moved less. A tie in a lone direction goes to the end that moves less over all links.
 class Ways {
  public:
   void add(int tx, int rx, double tx_way, double rx_way) {
@@ -59,13 +59,13 @@ class Ways {
  private:
   struct Pair {
     double low = 0, high = 0;       // m, of the radio with the lower number and of the other
-    bool up = false, down = false;  // whether the lower transmits, and the other
+    bool up = false, down = false;  // true if the lower transmits, and the other
   };
   std::map<std::pair<int, int>, Pair> of_;
   double by_tx_ = 0, by_rx_ = 0;  // m, of all
 };
 
-// Of the usual length, unless each reading is a row or the rows are longer already.
+// Usual limits, unless each reading is a row or rows are already longer.
 LinkRowLimits never_shorter(const LinkRowLimits& rows) {
   const LinkRowLimits usual;
   return rows.way < 0 || rows.way > usual.way ? rows : usual;
@@ -91,7 +91,7 @@ noise::Sites link_sites(const noise::Rows& rows, const LinkReadings& readings) {
   for (Index i = 0; i < rows.size(); ++i) {
     const Index a = rows.example(i), b = rows.last(i);
     const double share =
-        (rows.count()[i] + 1) / (3 * rows.count()[i]) / noise::mean_of_three;  // of its way, if evenly along a line
+        (rows.count()[i] + 1) / (3 * rows.count()[i]) / noise::mean_of_three;  // of its path, if evenly along a line
     tx_stretch.col(i) = share * (readings.tx_at.col(b) - readings.tx_at.col(a));
     rx_stretch.col(i) = share * (readings.rx_at.col(b) - readings.rx_at.col(a));
     const std::size_t link = static_cast<std::size_t>(a);

@@ -1,4 +1,4 @@
-// Readings of radio links as rows of a search, and the sites of those rows.
+// Groups readings of radio links to rows of the search, and computes the sites of rows.
 #pragma once
 
 #include "diagnosis/inference/state/layout.hpp"
@@ -7,45 +7,44 @@
 namespace muster::diagnosis {
 
 struct LinkReadings {
-  std::vector<double> t;          // s; empty: readings of a link stand in the order of their time
-  std::vector<int> tx, rx;        // radios, by numbers that do not depend on the order of the readings
+  std::vector<double> t;          // s; empty: readings of a link are in order of time
+  std::vector<int> tx, rx;        // radio indices, independent of the order of readings
   Eigen::Matrix3Xd tx_at, rx_at;  // m
   std::vector<double> rx_yaw;     // rad; empty: unknown
   std::vector<double> tx_yaw;     // the same of the transmitter
-  std::vector<double> level;      // dB that a model expects; empty: unknown
+  std::vector<double> level;      // dB, expected level of a model; empty: unknown
 
   noise::Index size() const { return static_cast<noise::Index>(tx.size()); }
 };
 
-// A row ends where the next reading lies so far from its first one.
+// Limits of a row: largest differences of its readings from its first one.
 struct LinkRowLimits {
   double time = thresholds::row_time;    // s
   double turn = thresholds::row_turn;    // rad
   double way = thresholds::row_way;      // m, of either end
-  double level = thresholds::row_level;  // dB: what a wall does to a link is not averaged with what it is without
+  double level = thresholds::row_level;  // dB: levels with and without a wall are not averaged
 };
 
-// Readings by link, then time, in rows that end at these limits.
+// Rows within these limits, sorted by link, then time.
 noise::Rows link_rows(const LinkReadings& readings, const LinkRowLimits& limits = {});
 // Place: the end that moves more. Anchor: the other one, the same for both directions of a pair.
 noise::Sites link_sites(const noise::Rows& rows, const LinkReadings& readings);
-// The reading in the middle of each row.
+// The middle reading of each row.
 LinkReadings middles(const noise::Rows& rows, const LinkReadings& readings);
 
-// What suits a search. A wall that no map has shows best in short rows, down to single readings, while each row costs
-// time: they are as short as 4,000 rows allow. Of many readings they are longer than usual, up to four times where
-// there would be more than 10,000, and not for time's sake alone: each row is conditioned on so many near ones, and
-// where these lie dense nothing of them tells how far the field reaches.
+// Limits for a search: rows as short as 4,000 rows allow, down to single readings, since short rows show unmapped walls
+// best. Where usual rows would be more than 10,000, rows are up to four times longer. This saves time, and keeps each
+// row's fixed number of neighbours from lying too close to show the decorrelation distance.
 LinkRowLimits limits_for(const LinkReadings& readings);
 
-// The radio of each row that moves less; where that is one and the same for all rows, the other one. Numbered from 0.
+// The anchor's radio of each row, or the other one if all rows have the same anchor. Numbered from 0.
 std::vector<int> radios_of(const noise::Rows& rows, const noise::Sites& sites, const LinkReadings& readings);
 
-// What the engine asks of links.
+// Layout of link readings for the inference engine.
 class LinkLayout : public inference::Layout {
  public:
-  // `run`: of each reading, from 0; empty where the data name none. `places_known`: false where the data have distances
-  // alone, and places stand for them.
+  // `run`: of each reading, from 0; empty if the data name none. `places_known`: false if the data have only distances,
+  // which places then represent.
   LinkLayout(LinkReadings readings, const LinkRowLimits& limits, std::vector<int> run = {}, bool places_known = true)
       : readings_(std::move(readings)), limits_(limits), run_(std::move(run)), places_known_(places_known) {}
 

@@ -1,5 +1,5 @@
-// Smooths along everything that a reading of a link has: distance, bearings, time, place, link, each further column and
-// factor of the data, and products.
+// Smooths over the covariates of link readings: distance, bearings, time, place, link, further columns and factors of
+// the data, and products.
 #pragma once
 
 #include "diagnosis/inference/state/smooths.hpp"
@@ -13,7 +13,7 @@ struct LinkColumns {
   std::vector<inference::Factor> factors;
 };
 
-// `places_known`: false where the data have distances alone.
+// `places_known`: false if the data have only distances.
 std::vector<inference::Candidate> link_smooths(const LinkReadings& readings, const LinkColumns& columns,
                                                bool places_known);
 

@@ -18,7 +18,7 @@ void widen(Span& span, double value, bool first) {
   span.high = first ? value : std::max(span.high, value);
 }
 
-// The direction that walls have in common but for quarter turns, by the mean of fourfold angles, long walls first.
+// Common direction of walls modulo quarter turns: circular mean of fourfold angles, weighted by length.
 double direction_of_walls(const LinkModel& model) {
   const Table* table = model.simulation().board().find("wall/*/shape");
   if (!table) return 0;
@@ -33,7 +33,7 @@ double direction_of_walls(const LinkModel& model) {
   return angle < 0 ? angle + quarter_turn : angle;
 }
 
-// Walls in one line, as one.
+// Collinear walls, merged.
 struct Line {
   double angle, offset, from, to;  // rad in [0, pi); m across and along that direction
 };
@@ -86,7 +86,7 @@ std::vector<OrientedRectangle> strips_of(const LinkModel& model) {
   return strips;
 }
 
-// Rooms in which moving radios took one reading in fifty, or more.
+// Rooms with at least one in 50 readings of moving radios.
 std::vector<OrientedRectangle> rooms_visited(const LinkModel& model, const MeasurementGeometry& survey) {
   const Table* table = model.simulation().board().find("wall/*/shape");
   if (!table) return {};
@@ -126,7 +126,7 @@ struct Trail {
   std::vector<std::array<double, 2>> places;  // at least 0.2 m from one to the next
   std::vector<double> headings;               // at least 0.2 rad
 
-  // A radio that was set up a few times stands still nevertheless.
+  // A radio set up at a few places counts as stationary.
   bool moves() const {
     return east.length() + north.length() > thresholds::moving_extent && places.size() > thresholds::most_set_ups;
   }
@@ -135,7 +135,7 @@ struct Trail {
   }
 };
 
-// A leap of more than 2 m is no way that was driven.
+// A step of more than 2 m is no driven path.
 void follow(Trail& trail, const End& end, MeasurementGeometry& survey) {
   const bool first = trail.places.empty();
   widen(trail.east, end.x, first);

@@ -1,5 +1,4 @@
-// What a search for causes must know of the measurements: when, where and by whom they were taken, and which way the
-// walls of the plan run.
+// Geometry of the measurements: times, places and radios of the readings, and directions of the plan's walls.
 #pragma once
 
 #include <set>
@@ -15,19 +14,18 @@ namespace muster::diagnosis {
 
 struct MeasurementGeometry {
   bool has_time = false, has_yaw = false, has_height = false;
-  bool has_places = true;                       // false: the data have distances alone
+  bool has_places = true;                       // false: the data have only distances
   std::set<std::string> counted = {};           // materials whose walls the data count, in columns walls_NAME
   Span time, east, north, height;               // s, m
   Span distance;                                // m, from the tenth to the 85th percentile of links
-  double above_moving = 0;                      // m: halfway from the highest place of radios that move to the next one
-  double plan_angle = 0;                        // rad, in [0, pi/2): most of the walls run along it or across it
-  std::vector<bool> turns, moves;               // a radio
+  double above_moving = 0;                      // m: midway between the highest moving radio and the next radio above
+  double plan_angle = 0;                        // rad, in [0, pi/2): mean direction of walls, modulo quarter turns
+  std::vector<bool> turns, moves;               // one a radio
   std::vector<std::array<double, 2>> standing;  // m, places of radios that do not move
-  // Ways of radios that move, x0 y0 x1 y1 of each piece, in m; by their x0.
+  // Driven paths, x0 y0 x1 y1 of each piece, m; sorted by x0.
   std::vector<std::array<double, 4>> ways;
-  std::vector<OrientedRectangle>
-      strips;  // between walls that run side by side and could be corridors, the longest first
-  std::vector<OrientedRectangle> rooms;  // in which moving radios took some of the readings
+  std::vector<OrientedRectangle> strips;  // between parallel walls, possible corridors; the longest first
+  std::vector<OrientedRectangle> rooms;   // with at least one in 50 readings of moving radios
 };
 
 MeasurementGeometry measurement_geometry(const LinkModel& model, const Dataset& data);

@@ -9,7 +9,7 @@ namespace {
 
 using noise::Index;
 
-// How far a radio got from where it was first.
+// Farthest distance of each radio from its first place.
 class Ways {
  public:
   explicit Ways(const LinkReadings& r) {

@@ -1,5 +1,5 @@
-// Of each link's two ends the one that goes farther, the receiver where both go as far: what depends on where a robot
-// is and on which way it looks does so when it hears and when it sends.
+// Selects the end of each link that moves farther, or the receiver if both move as far. A robot's place and heading
+// have the same effect in both directions of a link.
 #pragma once
 
 #include "diagnosis/radio/links/link_rows.hpp"
@@ -8,7 +8,7 @@ namespace muster::diagnosis {
 
 struct MovingEnds {
   Eigen::MatrixXd place;             // x, y in m, one row a reading
-  Eigen::VectorXd heading, bearing;  // rad: of that end, 0 where unknown; of the other one, seen from it
+  Eigen::VectorXd heading, bearing;  // rad: of that end, 0 if unknown; of the other end relative to it
 };
 
 MovingEnds moving_ends(const LinkReadings& readings);

@@ -22,7 +22,7 @@ Codes codes_of(const Dataset& data) {
   return codes;
 }
 
-// All levels lie on one grid, whose step is the least distance between two of them.
+// Step of the grid of all levels: their least difference; 0 if there is no grid.
 double step_of(const Codes& codes, std::size_t readings) {
   if (codes.size() < thresholds::fewest_codes || codes.size() > readings / thresholds::readings_of_code) return 0;
   double least = 1e300;
@@ -35,7 +35,7 @@ double step_of(const Codes& codes, std::size_t readings) {
   return all ? least : 0;
 }
 
-// log P(X >= k) of n throws that each hit with this chance.
+// log P(X >= k) of a binomial with n trials of this probability.
 double log_binomial_tail(std::size_t k, std::size_t n, double chance) {
   double most = -1e300;
   std::vector<double> terms;
@@ -51,8 +51,8 @@ double log_binomial_tail(std::size_t k, std::size_t n, double chance) {
   return std::min(most + std::log(sum), 0.0);
 }
 
-// A law that falls off towards its end has no more readings at the last code than at any of the codes before it, the
-// nearest first.
+// Binomial test for a pile at the last code: a density that falls towards its end has no more readings there than at
+// the codes before. `before`: readings at these, nearest first.
 std::optional<Clip> pile(const Dataset& data, double level, std::size_t count, const std::vector<std::size_t>& before) {
   if (count < thresholds::fewest_piled || count <= thresholds::piled_times * before[0]) return {};
   const std::size_t all = std::accumulate(before.begin(), before.end(), count);
@@ -85,8 +85,8 @@ std::string step_in_words(double step, std::size_t levels, std::size_t readings)
       readings, levels);
 }
 
-// The levels of the few readings, from one end on, that a gap parts from all others; 30 dB, since in Rayleigh fading
-// the lowest of many readings lies 20 dB below the next in one record of a hundred, 30 in one of a thousand.
+// Levels of the few readings at one end that a gap of 30 dB separates from all others. In Rayleigh fading the lowest of
+// many readings lies 20 dB below the next in one record of 100, 30 dB in one of 1,000.
 template <class It>
 std::vector<double> parted(It from, const It& end) {
   std::vector<double> levels;
@@ -111,7 +111,7 @@ ReceiverCheck outliers_check(const Dataset& data, const Codes& codes, const std:
   return check;
 }
 
-// No receiver is fed a milliwatt most of the time.
+// Checks for levels above 0 dBm, implausible for most readings.
 ReceiverCheck unit_check(const Dataset& data, const std::string& none) {
   const auto above = [](double v) { return v > 0; };
   const auto count = static_cast<std::size_t>(std::count_if(data.rssi.begin(), data.rssi.end(), above));

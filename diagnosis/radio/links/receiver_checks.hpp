@@ -1,5 +1,4 @@
-// What readings show of the receiver that took them, before any model is asked: its step, where it clips, and that
-// its record is sound.
+// Checks the receiver by its readings, without a model: quantisation step, clipping, and soundness of the record.
 #pragma once
 
 #include <optional>
@@ -10,11 +9,11 @@
 
 namespace muster::diagnosis {
 
-// Readings that pile up at the highest or lowest code: what lay beyond it is there too.
+// Readings piled up at the highest or lowest code, to which levels beyond it are clipped.
 struct Clip {
   double level = 0;                   // dBm
   std::size_t count = 0, beside = 0;  // readings there, and at the next code inside
-  double log_p = 0;                   // that a law as high at the next code does it
+  double log_p = 0;                   // of such a pile from an unclipped receiver
   std::size_t row = 0;                // of the table, from 0: the first one there
 };
 
@@ -25,12 +24,12 @@ struct ReceiverCheck {
 };
 
 struct ReceiverChecks {
-  double step = 0;  // dB between codes; 0 where readings have none
+  double step = 0;  // dB between codes; 0 if there is none
   std::optional<Clip> top{}, bottom{};
   std::vector<ReceiverCheck> checks{};
 };
 
-// Of data that check_readings() has let pass: what it refuses is listed as looked for and not found.
+// `data`: accepted by check_readings(), whose checks are listed as passed.
 ReceiverChecks receiver_checks(const Dataset& data);
 
 }  // namespace muster::diagnosis

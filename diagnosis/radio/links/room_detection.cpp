@@ -34,7 +34,7 @@ class Raster {
     flood(0, 0, outside);
   }
 
-  // The number of the room about a place, a new one where nobody was; wall or outside otherwise.
+  // Number of the room at a place, a new one at its first visit; else `wall` or `outside`.
   int room_at(double x, double y) {
     const Eigen::Array2d at = (own(x, y).array() - low_) / side_;
     if ((at < 0).any() || at.x() >= static_cast<double>(cells_.rows()) || at.y() >= static_cast<double>(cells_.cols()))
@@ -44,7 +44,7 @@ class Raster {
     return cells_(i, j);
   }
 
-  // Up to the middle of its walls.
+  // Bounding rectangle of a room, up to the middle of its walls.
   OrientedRectangle bounds(int room, double angle) const {
     Eigen::Array2d low(1e300, 1e300), high = -low;
     for (Index j = 0; j < cells_.cols(); ++j) {

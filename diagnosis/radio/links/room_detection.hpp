@@ -1,4 +1,4 @@
-// The rooms of a plan: what its walls close in, doors taken as closed.
+// Detects rooms of a plan: areas enclosed by walls, with doors taken as closed.
 #pragma once
 
 #include <array>
@@ -13,11 +13,11 @@ struct OrientedRectangle {
 
 struct Room {
   OrientedRectangle bounds;
-  int visits = 0;  // of the places given
+  int visits = 0;  // number of given places inside
 };
 
-// What walls (x0 y0 x1 y1, m) close in about any of `places`, by a flood of the free cells of a raster that lies along
-// `angle`; what is open to the outside is no room. Those with most visits first.
+// Rooms enclosed by walls (x0 y0 x1 y1, m) around any of `places`, by flood fill on a raster along `angle`. Areas open
+// to the outside are no rooms. Most visits first.
 std::vector<Room> rooms_of(const std::vector<std::array<double, 4>>& walls, double angle,
                            const std::vector<std::array<double, 2>>& places);
 

@@ -1,4 +1,4 @@
-// What stands on a run's blackboard, as rows of the standard tables.
+// Reads tables of a run's blackboard as typed rows.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace muster {
 
-// A published table's rows; none where the world has no such table.
+// Rows of a published table; empty if the world has none.
 template <class Row>
 std::vector<Row> rows_of(const Simulation& run, const std::string& name) {
   const Table* table = run.board().find(name);
