@@ -26,7 +26,7 @@ struct CauseEstimate {
   // The search's id for it: a wall with zero loss may be reported as an absent one. Empty: not from the search, but a
   // law of readings or an earlier edit.
   std::string sought_as;
-  bool put_right_first = false;  // and all else was fitted in a world that has it
+  bool put_right_first = false;  // all else was fitted in a world corrected for it
   inference::Status status = inference::Status::named;
   std::vector<std::string> covariates;  // its arguments, its own one first: "map", "time", "bearing"
   std::string row_parameter, row;       // empty for a cause without a row
@@ -36,7 +36,7 @@ struct CauseEstimate {
   std::map<std::string, std::string> files;  // tables that it refers to: attribute and text
   double evidence = 0, log_p = 0;
   double lambda = 0;       // its gain: fall of the deviance beside all others
-  Eigen::VectorXd effect;  // dB it adds to each row of the summary
+  Eigen::VectorXd effect;  // dB added to each row of the summary
   std::optional<inference::HeldOutGain> held_out;
   Eigen::VectorXd unseen_without;  // squared errors at held-out places without it, in the order of Diagnosis::used
   std::vector<inference::Elsewhere> elsewhere;  // its gains on held-out radios and runs, if it concerns several
@@ -113,7 +113,7 @@ struct SecondLook {
   std::vector<NamedCause> rediagnosis;
 };
 
-// The extended world simulated, and diagnosed again.
+// Closed loop: the extended world, simulated and diagnosed again.
 struct Loop {
   std::filesystem::path world;          // its folder
   double mean_difference = 0;           // dB, largest over all readings
@@ -133,14 +133,14 @@ struct Diagnosis {
   std::optional<inference::HeldOutGain> held_out;
   std::optional<inference::Unseen> unseen;      // held-out errors behind held_out, in the order of `used`
   std::vector<inference::Elsewhere> elsewhere;  // the same on held-out radios and runs, if there are several
-  std::vector<Eigen::Index> used;               // rows of the table that were searched
+  std::vector<Eigen::Index> used;               // rows of the table used in the search
   Eigen::VectorXd fitted;                       // mean of the world as given, fitted, at every row of the table, dBm
   std::map<std::string, double> parameters;     // of the world, refitted beside the causes
   std::vector<WorldValue> world_values;         // the same with their uncertainty
   std::vector<inference::Stair> stairs;         // held-out error of the world, then with each accepted finding in turn
   std::vector<inference::Check> checks;         // every candidate scored beside the final model, the likeliest first
   std::vector<Advice> advice;
-  std::optional<PlannedReadings> advised;  // of all plans, the one that decides most about the strongest open cause
+  std::optional<PlannedReadings> advised;  // the plan with the largest growth of D for the strongest open cause
   RowSummary seen;
   Eigen::VectorXd mean;  // of the extended model at every row of the table, dBm
   std::size_t readings = 0;
@@ -154,7 +154,7 @@ struct Diagnosis {
 };
 
 std::vector<NamedCause> named_causes(const Diagnosis& diagnosis);
-// On one line; "silent" if there is nothing.
+// On one line; "silent" if empty.
 std::string names_in_words(const std::vector<NamedCause>& told);
 
 }  // namespace muster::diagnosis

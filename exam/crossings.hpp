@@ -1,4 +1,5 @@
-// Walls crossed by a straight link, by signed areas. Places drawn at random meet no corner, so ties need no rule.
+// Finds walls crossed by a straight link, by signed areas (orientation test). Random places meet no corner, so ties
+// need no rule.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// Lambda of an effect, and the strength that gives it a requested lambda.
+// Computes the lambda of an effect, and the strength that gives it a requested lambda.
 #pragma once
 
 #include "exam/case.hpp"
@@ -14,7 +14,8 @@ struct ReceivedShift {
 ReceivedShift received_shift(const GroundTruth& site, const Effect& effect, double strength, const Data& data,
                              const Eigen::VectorXd& before);
 
-// Readings that determine their level: received, and not at a code that the receiver reports for other levels too.
+// Marks readings that determine their level: received, and not at a code that the receiver reports for other levels
+// too.
 std::vector<char> informative_rows(const Case& made, const Data& data);
 
 // Draws the effects of the case's order at the strengths of their requested lambdas; sets the noise's true laws.

@@ -1,4 +1,4 @@
-// A table of planned readings: transmitter, receiver, time, and the poses of both.
+// Reads a table of planned readings: transmitter, receiver, time, and the poses of both.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Random numbers that are equal with every compiler and library: the distributions of <random> are not.
+// Random numbers that are equal with every compiler and library, unlike the distributions of <random>.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Trajectories of robots that wander over a plan: from room to room through open doors, with a clearance to walls.
+// Trajectories of robots at random over a plan: from room to room through open doors, with a clearance to walls.
 #pragma once
 
 #include <array>

@@ -68,7 +68,7 @@ class Whitener {
 };
 
 // 2 x the Kullback-Leibler divergence of a field law from the nearest of those stated, in the means of rows. Closer
-// readings depend on the law of readings, which no world states exactly.
+// readings depend on the law of readings, which worlds declare only approximately.
 class FieldDivergence {
  public:
   // `whitener` must outlive it.

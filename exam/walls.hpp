@@ -1,4 +1,4 @@
-// A user's own floor plan, from the table of walls of a world.
+// Builds a user's own floor plan from the table of walls of a world.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// Upper tails of the distributions of tests and intervals. Boost's templates for one of them take seconds to compile:
-// here they do so once.
+// Upper tails of F and Student distributions, for tests and intervals. Boost's templates take seconds to compile: here
+// they do so once.
 #pragma once
 
 namespace muster::diagnosis {

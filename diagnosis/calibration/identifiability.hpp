@@ -13,7 +13,7 @@ struct Blindness {
   Eigen::VectorXd direction;    // one a parameter, in its own unit, the largest 1
 };
 
-// All null directions. Rows of `slopes` are readings.
+// All null directions. `slopes`: one row a reading. `box_width`: of the bounds of each parameter.
 std::vector<Blindness> blindnesses(const Eigen::MatrixXd& slopes, const Eigen::VectorXd& box_width);
 
 // "radio.multiwall/l0 by 1 dB together with radio.multiwall/tx_power by 1 dBm changes no reading"

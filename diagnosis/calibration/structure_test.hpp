@@ -15,7 +15,7 @@ struct Subject {
   bool by_shape = false;   // bins are the shapes' own coefficients (walls), not ranges
 };
 
-// Tests for structure along these shapes, with the errors refitted beside them, so that they do not absorb it. With
+// Tests for structure along these shapes. The errors are refitted beside them, so that they do not absorb it. With
 // `shared` false the world declares independent errors, and any shared part counts as structure.
 StructureTest structure_along(const Fit& fit, const Subject& subject, bool shared);
 // The same test's p-value alone.

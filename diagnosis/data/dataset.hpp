@@ -37,13 +37,13 @@ struct Dataset {
   std::string pair(std::size_t row) const { return tx.levels[tx.level[row]] + " -> " + rx.levels[rx.level[row]]; }
 };
 
-// The columns that a table of readings may have, beside covariates: names and units.
+// Names and units of the columns that a table of readings may have, beside covariates.
 const std::map<std::string, std::string>& reading_columns();
 
-// Reads and checks. Throws Error with file, line and column: a missing column, a duplicate reading, time that runs
-// backwards, values that no receiver reports.
+// Reads and checks. Throws Error with file, line and column for a missing column, a duplicate reading, time that runs
+// backwards, or values that no receiver reports.
 Dataset read_dataset(const std::filesystem::path& file);
-// Of a table that was read already.
+// From a table already read.
 Dataset read_dataset(std::shared_ptr<const TextTable> table);
 
 }  // namespace muster::diagnosis

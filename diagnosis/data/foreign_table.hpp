@@ -1,5 +1,5 @@
-// A table in a foreign format: cells between ',', ';' or tabs, names with gaps, several words for a missing value.
-// Guesses are kept for the report.
+// Reads a table in a foreign format: cells between ',', ';' or tabs, names with spaces, several words for a missing
+// value. Guesses are kept for the report.
 #pragma once
 
 #include <filesystem>

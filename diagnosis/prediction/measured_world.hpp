@@ -1,4 +1,4 @@
-// A world with measured rows in it: expected values and draws at the readings, by the code that a simulation runs.
+// Predicts measured readings from a world: expected values and draws, by the simulator's own code.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,16 +10,16 @@
 
 namespace muster::diagnosis {
 
-// Of a published table; valid as long as the view is.
+// First column of a published table; valid as long as the view.
 using FirstColumn = Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<>>;
 FirstColumn first_column(const TableView& table);
 
 // Tables and phase by which a kind of measurement is predicted.
 struct Observable {
-  uint32_t phase = 0;            // after which the prediction is there
-  std::string terms;             // the table that causes add to, such as "link/*/level"
-  std::string measured;          // the table that is compared with measurements, such as "link/*/rssi"
-  InstanceDeclaration stand_in;  // the instance whose rows are the readings of the measured table
+  uint32_t phase = 0;            // after which the prediction is complete
+  std::string terms;             // table that causes add to, such as "link/*/level"
+  std::string measured;          // table compared with measurements, such as "link/*/rssi"
+  InstanceDeclaration stand_in;  // instance whose rows are the readings of the measured table
   const Standard* sets = &standard();
 };
 
@@ -32,7 +32,7 @@ class MeasuredWorld {
   MeasuredWorld& operator=(const MeasuredWorld&) = delete;
 
   const Observable& observable() const { return observable_; }
-  const std::shared_ptr<TableCache>& tables() const { return tables_; }  // files that were read, for further worlds
+  const std::shared_ptr<TableCache>& tables() const { return tables_; }  // files already read, for further worlds
   std::size_t rows() const { return static_cast<std::size_t>(values_.size()); }  // readings
   // Expected value of every reading.
   const Eigen::VectorXd& expected();
@@ -61,7 +61,7 @@ class MeasuredWorld {
   int evaluations_ = 0;
 };
 
-// Parameters moved for a while: the destructor puts each back to its value before.
+// Moves parameters; the destructor restores their values before.
 class ParameterGuard {
  public:
   explicit ParameterGuard(MeasuredWorld& world) : world_(world) {}

@@ -12,8 +12,8 @@ struct Sensitivities {
   Eigen::MatrixXd slopes;  // one row a reading of the table
   Eigen::VectorXd mean;    // at the same values
 
-  // The mean with all these parameters at zero, linear about their values: measured less this is for the slopes, whose
-  // coefficients then are values of parameters.
+  // The mean extrapolated linearly to zero parameters. Measured minus offset, regressed on the slopes, gives values of
+  // parameters as coefficients.
   Eigen::VectorXd offset() const { return mean - slopes * values; }
 };
 

@@ -11,7 +11,7 @@ struct Bin {
   double rows = 0;
 };
 
-// `edges` rise; bins with fewer than `least` rows are left out. Values outside or NaN are in no bin.
+// `edges`: ascending. Bins with fewer than `least` rows are left out. Values outside or NaN are in no bin.
 std::vector<Bin> means_over(const std::vector<double>& edges, const Eigen::VectorXd& x, const Eigen::VectorXd& y,
                             const std::vector<int>& block, int least = 5);
 

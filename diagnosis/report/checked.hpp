@@ -1,4 +1,4 @@
-// Candidates checked and not found, as text.
+// Lists candidates checked and not found, as text.
 #pragma once
 
 #include <string>

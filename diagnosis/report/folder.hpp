@@ -1,4 +1,4 @@
-// Files of a diagnosis in its --out folder, beside the extended world.
+// Writes the files of a diagnosis to its --out folder, beside the extended world.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,7 @@
 
 namespace muster::report {
 
-// Writes report.html, diagnosis.json and the figures. Returns the files, the page first. Throws Error.
+// Files: report.html, diagnosis.json and the figures. Returns them, the page first. Throws Error.
 std::vector<std::string> write_report(const Diagnosis& diagnosis, const Setting& setting,
                                       const std::filesystem::path& folder);
 

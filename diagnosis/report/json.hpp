@@ -1,4 +1,4 @@
-// A diagnosis as JSON (docs/reference/diagnosis_format.md).
+// Converts a diagnosis to JSON (docs/reference/diagnosis_format.md).
 #pragma once
 
 #include "diagnosis/report/words.hpp"

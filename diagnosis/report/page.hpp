@@ -1,4 +1,4 @@
-// A diagnosis as one self-contained HTML page: text, tables and figures, no scripts.
+// Formats a diagnosis as one self-contained HTML page: text, tables and figures, no scripts.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// A finding as a regression test: the extended world still explains the data it was made from.
+// Regression test of a finding: checks that the extended world still explains its own data.
 #pragma once
 
 #include <filesystem>

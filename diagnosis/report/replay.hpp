@@ -1,4 +1,4 @@
-// A world that simulates the measured readings, each as a link.
+// Writes a world that simulates the measured readings, each as a link.
 #pragma once
 
 #include <filesystem>

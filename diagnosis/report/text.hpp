@@ -1,4 +1,4 @@
-// A diagnosis as text for a terminal of 100 columns.
+// Formats a diagnosis as text for a terminal of 100 columns.
 #pragma once
 
 #include <string>

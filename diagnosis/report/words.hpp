@@ -29,7 +29,7 @@ constexpr const char* too_few_blocks = "not measured: too few blocks of space";
 double tenths(double value);              // to one decimal, never -0.0
 std::string judged(double separability);  // "not distinguishable", "weakly distinguishable", "distinguishable"
 
-// With the digits justified by its half interval; without one, four.
+// Rounded to the digits justified by its half interval; without one, to four.
 std::string rounded(double value, double half_interval);
 // "8.56 dB"; radians as degrees.
 std::string quantity(double value, double half_interval, const std::string& unit);

@@ -1,4 +1,4 @@
-// Grades of a diagnosis against sealed answers: docs/reference/exam_format.md defines the inputs and each figure.
+// Grades diagnoses against sealed answers: docs/reference/exam_format.md defines the inputs and each figure.
 #pragma once
 
 #include <filesystem>
@@ -22,7 +22,7 @@ struct Share {
   double upper95() const;
 };
 
-// Least number of hits in `of` trials that all but 1 of 1,000 random series reach; each trial is a hit with `share`.
+// 0.1 % quantile of the number of hits in `of` trials, each with probability `share`.
 int least_hits(int of, double share);
 
 // A case's answer.
