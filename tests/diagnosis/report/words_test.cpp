@@ -146,8 +146,8 @@ TEST(Text, WhatWasCheckedIsFineDoubtfulOrAskedByATestOfItsOwn) {
 TEST(Text, ALawHasNoGainToMeasure) {
   Diagnosis d = with(wall(inference::Status::named, {}));
   d.causes[0].covariates = {"reading"};
-  EXPECT_TRUE(says(text_of(d, {"hall", "a.csv"}), "told by how readings scatter"));
-  EXPECT_TRUE(says(page_of(d, {"hall", "a.csv"}, {}), "told by how readings scatter"));
+  EXPECT_TRUE(says(text_of(d, {"hall", "a.csv"}), "changes the scatter of readings"));
+  EXPECT_TRUE(says(page_of(d, {"hall", "a.csv"}, {}), "changes the scatter of readings"));
 }
 
 TEST(Text, WhatTheReadingsDoNotIdentifyHasNoInterval) {
