@@ -10,7 +10,7 @@
 #include "diagnosis/inference/thresholds.hpp"
 #include "diagnosis/radio/causes/cheap_columns.hpp"
 #include "diagnosis/radio/causes/link_cause_domain.hpp"
-#include "diagnosis/radio/laws/shadowing_test.hpp"
+#include "diagnosis/radio/links/drawn_term.hpp"
 #include "diagnosis/radio/links/geometry_checks.hpp"
 
 namespace muster::diagnosis {
@@ -80,10 +80,11 @@ std::vector<std::string> joined(std::initializer_list<std::vector<std::string>> 
   return result;
 }
 
-LinkLayout layout_of(LinkReadings readings, const ObservedColumns& observed, bool places_known) {
+LinkLayout layout_of(LinkReadings readings, const ObservedColumns& observed, bool places_known,
+                     const LinkModel& model) {
   LinkRowLimits limits = limits_for(readings);
   if (!places_known) limits.way = -1;  // equal distances are not one place: each reading is a row
-  return {std::move(readings), limits, observed.run, places_known};
+  return {std::move(readings), limits, observed.run, places_known, places_known ? drawn_correlation(model) : nullptr};
 }
 
 CauseSearch candidates_of(const DiagnosisSetup& at, const LinkSearchWorld& world) {
@@ -102,7 +103,7 @@ inference::Problem problem_of(const DiagnosisSetup& at) {
   problem.base = at.base.slopes(at.used.rows, Eigen::all);
   for (const CauseCandidate& c : at.sought.found) problem.candidates.push_back(c.candidate);
   problem.smooths = link_smooths(at.layout->readings(), at.observed.columns, at.data.has_places());
-  problem.stated = stated_field(at.model);
+  problem.stated = drawn_field(at.model);
   return problem;
 }
 
@@ -123,7 +124,7 @@ DiagnosisSetup::DiagnosisSetup(const std::filesystem::path& world, const std::fi
       run(std::make_shared<CauseModel>(model, world, table, plugins)),
       observed(observed_columns(data, used.rows)),
       layout(std::make_shared<const LinkLayout>(
-          layout_of(observed_readings(data, model, used.rows, base.mean), observed, data.has_places()))),
+          layout_of(observed_readings(data, model, used.rows, base.mean), observed, data.has_places(), model))),
       rows(layout->rows()),
       sketched(sketched_readings({world, table, plugins, model, base, used.rows, layout, rows})),
       sought(candidates_of(*this, {world, table, plugins, model, base, used.rows, layout, rows})),

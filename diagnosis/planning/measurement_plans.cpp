@@ -62,7 +62,7 @@ std::vector<StandingRadio> standing_radios(const RowSummary& seen) {
 // Builds plans. Repeats each planned place `repeats` times, so that its noise is that of an average row.
 struct Maker {
   const RowSummary& seen;
-  std::vector<Index> rows;         // of the data, spread over all
+  std::vector<Index> rows;            // of the data, spread over all
   std::vector<StandingRadio> radios;  // stationary
   int repeats;
   bool timed;

@@ -177,6 +177,19 @@ typedef struct muster_cause {
   const char* replaces;    /* the plugin's part of a sum that it replaces; NULL: it is added */
 } muster_cause;
 
+/* What a term draws, as a probability law: normal, with mean 0. A fit and a diagnosis take errors to be correlated so.
+ */
+typedef struct muster_draw {
+  uint32_t size;
+  const char* scale;    /* the real parameter that the draw is proportional to: "shadowing" */
+  const char* distance; /* the real parameter over which it decorrelates, in m: "decorrelation" */
+  /* out[i]: covariance of the draws on links a and b, in the term's units squared, at these values of all parameters.
+   * `ends`: one row a link, x y z of one end, then of the other, in m; a[i] and b[i] are rows of it. The same for
+   * both directions of a link. It is called from several threads and without an instance. */
+  void (*covariance)(const double* params, const double* ends, const uint32_t* a, const uint32_t* b, uint32_t count,
+                     double* out);
+} muster_draw;
+
 typedef struct muster_plugin {
   uint32_t size;
   uint32_t phase;
@@ -191,6 +204,7 @@ typedef struct muster_plugin {
   /* `in` and `out` have one entry a claim, in the order of the claims. */
   int (*step)(void* self, const muster_tick*, const muster_in* in, const muster_out* out);
   const muster_cause* cause; /* NULL: not a cause */
+  const muster_draw* draw;   /* NULL: it draws nothing that is correlated, or says nothing of it */
 } muster_plugin;
 
 /* The one symbol a plugin exports. Calls `add` once for each descriptor, which must outlive the library. */

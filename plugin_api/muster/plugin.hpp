@@ -303,6 +303,10 @@ constexpr const muster_cause* cause_of = nullptr;
 template <class Plugin>
 inline constexpr const muster_cause* cause_of<Plugin, std::void_t<decltype(Plugin::cause)>> = &Plugin::cause;
 template <class Plugin, class = void>
+constexpr const muster_draw* draw_of = nullptr;
+template <class Plugin>
+inline constexpr const muster_draw* draw_of<Plugin, std::void_t<decltype(Plugin::draw)>> = &Plugin::draw;
+template <class Plugin, class = void>
 constexpr const char* cannot_hold_of = nullptr;
 template <class Plugin>
 inline constexpr const char* cannot_hold_of<Plugin, std::void_t<decltype(Plugin::cannot_hold)>> = Plugin::cannot_hold;
@@ -340,7 +344,8 @@ const muster_plugin* descriptor() {
   static const muster_plugin result{sizeof(muster_plugin), Plugin::phase,          Plugin::id,
                                     Plugin::summary,       manual_of<Plugin>,      Params<Plugin>::data,
                                     Params<Plugin>::count, cannot_hold_of<Plugin>, create<Plugin>,
-                                    destroy<Plugin>,       step<Plugin>,           cause_of<Plugin>};
+                                    destroy<Plugin>,       step<Plugin>,           cause_of<Plugin>,
+                                    draw_of<Plugin>};
   return &result;
 }
 
@@ -349,9 +354,8 @@ const muster_plugin* descriptor() {
 
 // Ends a plugin's file. One struct, one shared object:
 //   static constexpr auto id = "radio.mine/1", summary = "...";  static constexpr auto phase = MUSTER_RADIO;
-//   static constexpr muster::Param params[] = {...};             optional, as are `manual`, `cannot_hold` and `cause`
-//   explicit Plugin(muster::Setup&);                             claims
-//   void step(const muster::Step&);                              or const
+//   static constexpr muster::Param params[] = {...};             optional, as are `manual`, `cannot_hold`, `cause`,
+//   `draw` explicit Plugin(muster::Setup&);                             claims void step(const muster::Step&); or const
 #define MUSTER_PLUGIN_IS(Plugin)                                                                    \
   MUSTER_DECLARE_ABI                                                                                \
   extern "C" int muster_register(uint32_t abi, void* registry, muster_add add) {                    \

@@ -3,6 +3,7 @@
 #include <muster/plugin.hpp>
 
 #include "link_term.hpp"
+#include "radio_fading/line_integral.hpp"
 #include "radio_fading/shadow_field.hpp"
 
 namespace {
@@ -35,6 +36,13 @@ struct ShadowingCorrelation {
       "drive a line much longer than the decorrelation distance twice, and the same line a metre beside it",
       "radio.fading.shadowing",
   };
+
+  static void covariance(const double* params, const double* ends, const uint32_t* a, const uint32_t* b, uint32_t count,
+                         double* out) {
+    covariance_of_line_integrals(params[1], ends, a, b, count, out);
+    for (uint32_t i = 0; i < count; ++i) out[i] *= params[0] * params[0];
+  }
+  static constexpr muster_draw draw{sizeof(muster_draw), "shadowing", "decorrelation", covariance};
 
   explicit ShadowingCorrelation(Setup& s)
       : shadowing(s.value("shadowing")),

@@ -5,6 +5,7 @@
 #include <muster/reverse_links.hpp>
 #include <vector>
 
+#include "line_integral.hpp"
 #include "multipath.hpp"
 #include "reading_key.hpp"
 #include "rician.hpp"
@@ -36,6 +37,13 @@ the gain whose dB is the mean of its dB: -2.507 dB under Rayleigh fading.)";
       flag("per_reading", false, "fading drawn for each radio, time and place anew, white in space"),
   };
 
+  static void covariance(const double* params, const double* ends, const uint32_t* a, const uint32_t* b, uint32_t count,
+                         double* out) {
+    covariance_of_line_integrals(params[1], ends, a, b, count, out);
+    for (uint32_t i = 0; i < count; ++i) out[i] *= params[0] * params[0];
+  }
+  static constexpr muster_draw draw{sizeof(muster_draw), "shadowing", "decorrelation", covariance};
+
   explicit RadioFading(Setup& s)
       : sd(s.value("shadowing")),
         decorrelation(s.value("decorrelation")),
@@ -63,7 +71,7 @@ the gain whose dB is the mean of its dB: -2.507 dB under Rayleigh fading.)";
       const double everywhere = k[has_fading] != 0 ? rician_typical_gain(ratio) : 1;
       for (Fading& link : k[gain]) link.gain = everywhere;
     } else if (!interferes) {
-      draw(k, ratio);
+      draw_each(k, ratio);
     }
     if (shadows || interferes) evaluate(k, shadows, interferes, ratio);
   }
@@ -83,7 +91,7 @@ the gain whose dB is the mean of its dB: -2.507 dB under Rayleigh fading.)";
              });
   }
 
-  void draw(const Step& k, double ratio) const {
+  void draw_each(const Step& k, double ratio) const {
     std::vector<uint64_t> keys;
     for (std::size_t i = 0; i < k[pose].size(); ++i) {
       const Endpoint& end = k[endpoint][i];

@@ -43,7 +43,10 @@ std::vector<int> blocks_of(const noise::Sites& sites, const noise::Covariance& c
 
 Folds::Fold::Fold(const noise::Sites& sites, const noise::Covariance& covariance, std::vector<Index> in,
                   std::vector<Index> out)
-    : fitted(std::move(in)), left_out(std::move(out)), field(sites.of(fitted)), whitener(field, covariance) {}
+    : fitted(std::move(in)),
+      left_out(std::move(out)),
+      field(sites.of(fitted)),
+      whitener(field, noise::StatedTables::nearest(covariance)) {}
 
 Folds::Folds(const noise::Sites& sites, const std::vector<int>& block_of_row, const std::vector<Index>& row_of,
              const noise::Covariance& covariance, uint64_t seed)

@@ -56,27 +56,61 @@ class PlacedRows {
   Pairs pairs_;
 };
 
-}  // namespace
+// Covariances of each row with those before it, as the model states them at the nearest tabulated distance.
+class StatedRows {
+ public:
+  StatedRows(const Field& field, const Covariance& covariance)
+      : StatedRows(field, covariance.field_variance(),
+                   StatedTables::position_of(StatedTables::nearest(covariance).theta[1]).k) {}
 
-Eigen::MatrixXd covariance_of_sums(const Sites& sites, const Covariance& covariance, const Eigen::MatrixXd& weights) {
-  const PlacedRows rows(sites, covariance);
-  Eigen::VectorXd before(rows.filled());
+  void covariances(Index row, double* out) const {
+    const uint16_t* const entry = entries_ + row * (row - 1) / 2;
+    for (Index j = 0; j < row; ++j) out[j] = variance_ * StatedTables::correlation_of(entry[j]);
+  }
+  Eigen::ArrayXd own() const { return variance_ * own_.array().cast<double>(); }
+
+ private:
+  StatedRows(const Field& field, double variance, int k)
+      : variance_(variance), entries_(field.stated_triangle(k).data()), own_(field.stated(k).own) {}
+
+  double variance_;
+  const uint16_t* entries_;
+  const Eigen::VectorXf& own_;
+};
+
+// `own`: variance of the field at each row.
+template <class Covariances>
+Eigen::MatrixXd sums_of(const Sites& sites, const Covariance& covariance, const Eigen::MatrixXd& weights,
+                        const Covariances& rows, Index filled, const Eigen::ArrayXd& own) {
+  Eigen::VectorXd before(filled);
   Eigen::MatrixXd below(weights.rows(), weights.cols());  // the covariance's lower triangle times the weights
   for (Index i = 0; i < sites.size(); ++i) {
     rows.covariances(i, before.data());
     below.row(i).noalias() = before.head(i).transpose() * weights.topRows(i);
   }
-  const Eigen::VectorXd alone =
-      covariance.field_variance() + floor_variance + covariance.reading_variance() / sites.count.array();
+  const Eigen::VectorXd alone = own + floor_variance + covariance.reading_variance() / sites.count.array();
   const Eigen::MatrixXd half = weights.transpose() * below;
   return half + half.transpose() + weights.transpose() * alone.asDiagonal() * weights;
+}
+
+}  // namespace
+
+Eigen::MatrixXd covariance_of_sums(const Field& field, const Covariance& covariance, const Eigen::MatrixXd& weights) {
+  const Sites& sites = field.sites();
+  if (covariance.family == Family::stated) {
+    const StatedRows rows(field, covariance);
+    return sums_of(sites, covariance, weights, rows, sites.size(), rows.own());
+  }
+  const PlacedRows rows(sites, covariance);
+  const Eigen::ArrayXd own = Eigen::ArrayXd::Constant(sites.size(), covariance.field_variance());
+  return sums_of(sites, covariance, weights, rows, rows.filled(), own);
 }
 
 Eigen::MatrixXd scatter_of(const Field& field, const Whitener& whitener, const Eigen::MatrixXd& added) {
   const Reach reach(field, whitener);
   Eigen::MatrixXd weights(added.rows(), added.cols());
   for (Index j = 0; j < added.cols(); ++j) weights.col(j) = reach.transposed(added.col(j));
-  return covariance_of_sums(field.sites(), whitener.covariance(), weights);
+  return covariance_of_sums(field, whitener.covariance(), weights);
 }
 
 double exact_gain(const Field& field, const Whitener& whitener, const Eigen::MatrixXd& added,

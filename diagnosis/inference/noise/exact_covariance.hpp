@@ -7,7 +7,7 @@ namespace muster::noise {
 
 // Covariance of weights^T rows: squared units of a reading times the weights' units. One row a row, one column a sum.
 // Visits every pair of rows.
-Eigen::MatrixXd covariance_of_sums(const Sites& sites, const Covariance& covariance, const Eigen::MatrixXd& weights);
+Eigen::MatrixXd covariance_of_sums(const Field& field, const Covariance& covariance, const Eigen::MatrixXd& weights);
 
 // Exact covariance of added^T residual, which Vecchia's approximation takes for the identity. `added`: whitened
 // columns, orthonormal and orthogonal to the design. The residual is that of whitened rows.

@@ -16,6 +16,8 @@ std::string_view name_of(Family family) {
       return "two_scale";
     case Family::gaussian:
       return "gaussian";
+    case Family::stated:
+      return "stated";
   }
   return "";
 }
@@ -32,6 +34,8 @@ double correlation(Family family, double u) {
       return 0.5 * std::exp(-2.5 * u) + 0.5 * std::exp(-0.4 * u);
     case Family::gaussian:
       return std::exp(-u * u);
+    case Family::stated:
+      break;
   }
   return 0;
 }
@@ -48,6 +52,8 @@ double correlation_slope(Family family, double u) {
       return 1.25 * u * std::exp(-2.5 * u) + 0.2 * u * std::exp(-0.4 * u);
     case Family::gaussian:
       return 2 * u * u * std::exp(-u * u);
+    case Family::stated:
+      break;
   }
   return 0;
 }
@@ -66,6 +72,7 @@ double log_scale_of(Family family) {
 }
 
 double efold(Family family) {
+  if (family == Family::stated) return 1;  // by definition
   double low = 0, high = 10;
   for (int round = 0; round < 50; ++round) {
     const double middle = (low + high) / 2;
@@ -75,6 +82,7 @@ double efold(Family family) {
 }
 
 StatedField stated_by(const Covariance& c, double within) {
+  if (c.family == Family::stated) return {std::sqrt(c.field_variance()), c.decorrelation()};
   const double of_reading = c.field_variance() / correlation(c.family, within / c.decorrelation());
   return {std::sqrt(of_reading), c.decorrelation() * efold(c.family)};
 }
@@ -82,7 +90,7 @@ StatedField stated_by(const Covariance& c, double within) {
 Covariance as_stated(const StatedField& field, Family family, const Theta& beside, double within) {
   Covariance result{family, beside};
   result.theta[1] = std::log(field.decorrelation / efold(family));
-  const double of_mean = correlation(family, within / result.decorrelation());
+  const double of_mean = family == Family::stated ? 1 : correlation(family, within / result.decorrelation());
   result.theta[0] = 2 * std::log(std::max(field.shadowing, 0.05)) + std::log(of_mean);
   return result;
 }

@@ -1,4 +1,5 @@
-// Correlation of the field at two places: five families over one decorrelation distance.
+// Correlation of the field at two places: five families over one decorrelation distance, and the one that a model
+// states itself (stated_correlation.hpp).
 #pragma once
 
 #include <Eigen/Core>
@@ -7,13 +8,14 @@
 
 namespace muster::noise {
 
-enum class Family { exponential = 1, matern32, matern52, two_scale, gaussian };
+enum class Family { exponential = 1, matern32, matern52, two_scale, gaussian, stated };
+// Those of one distance.
 inline constexpr std::array families{Family::exponential, Family::matern32, Family::matern52, Family::two_scale,
                                      Family::gaussian};
 
 std::string_view name_of(Family family);
 
-// Correlation at distance u, in decorrelation distances.
+// Correlation at distance u, in decorrelation distances. Not of the stated one.
 double correlation(Family family, double u);
 
 // Its derivative by the logarithm of the decorrelation distance.

@@ -51,7 +51,8 @@ Fit fit(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& des
 std::vector<Fit> fit_families(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& design,
                               const Prior& prior, double advantage) {
   std::vector<Fit> fits{fit(field, y, design, prior, default_start(y, design, Family::exponential), 20)};
-  for (const Family family : families) {
+  const std::vector<Family> all = field.families();
+  for (const Family family : all) {
     if (family == Family::exponential) continue;
     // Warm start from a similar family: the fit of the smoothest lies far from that of the roughest.
     const auto like = std::find_if(fits.begin(), fits.end(), [&](const Fit& f) {
@@ -62,9 +63,7 @@ std::vector<Fit> fit_families(const Field& field, const Eigen::VectorXd& y, cons
     fits.push_back(fit(field, y, design, prior, start));
   }
   std::erase_if(fits, [](const Fit& f) { return !std::isfinite(f.value); });
-  const auto cost = [&](const Fit& f) {
-    return f.value + (f.covariance.family == Family::exponential ? 0 : advantage);
-  };
+  const auto cost = [&](const Fit& f) { return f.value + (f.covariance.family == all.front() ? 0 : advantage); };
   std::stable_sort(fits.begin(), fits.end(), [&](const Fit& a, const Fit& b) { return cost(a) < cost(b); });
   return fits;
 }

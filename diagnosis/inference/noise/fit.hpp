@@ -22,7 +22,8 @@ Fit fit(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& des
 // Entries of theta that no model states: the variance of one reading, and the correlation between groups.
 inline const Theta unstated{0, 0, 1, 1};
 
-// Every family's fit, the best one first. Leaving the exponential family takes `advantage` nats.
+// Every family's fit, the best one first. Leaving the stated family, or else the exponential one, takes `advantage`
+// nats.
 std::vector<Fit> fit_families(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& design,
                               const Prior& prior, double advantage = inference::thresholds::leave_exponential_nats);
 

@@ -11,35 +11,48 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-Neighbourhood::Neighbourhood(const Field& field, const Covariance& covariance, const RowKernel& kernel)
+Neighbourhood::Neighbourhood(const Field& field, const Covariance& covariance, bool slopes, const RowKernel& kernel)
     : field_(field),
       kernel_(kernel),
-      family_(covariance.family),
+      covariance_(covariance),
+      slopes_(slopes),
       slots_(field.slots()),
       correlation_(distances + 1),
       by_distance_(distances + 1),
       reading_variance_(covariance.reading_variance() / field.sites().count.array()),
       nugget_(at(slots_ + 1)),
       present_(at(slots_)),
+      own_field_(at(slots_ + 1)),
+      own_slope_(at(slots_ + 1)),
       root_(at(slots_ * slots_)),
       cross_(at(slots_)),
       combination_(at(slots_ + 1)),
       turned_(at(parameters * (slots_ + 1))),
       slope_(at(parameters * (slots_ + 1))),
       information_(parameters * parameters) {
+  const double s2 = covariance.field_variance();
+  const bool stated = covariance.family == Family::stated;
   for (std::size_t k = 0; k < distances; ++k) {
+    if (stated) {
+      correlation_[k] = by_distance_[k] = StatedTables::correlation_of(k);
+      continue;
+    }
     const double u = static_cast<double>(k) * field.spacing() / covariance.decorrelation();
     correlation_[k] = correlation(covariance.family, u);
     by_distance_[k] = correlation_slope(covariance.family, u);
   }
-  const double s2 = covariance.field_variance(), share = covariance.shared();
+  // The stated correlation is interpolated between two decorrelation distances: each takes the place of one metric.
+  const double share = stated ? 1 - StatedTables::position_of(covariance.theta[1]).weight : covariance.shared();
+  const double per_step = s2 / StatedTables::step;
+  for (Lanes& slot : own_field_) std::fill_n(slot.of, lanes, s2);  // of the families; its derivative is 0
   arrays_ = {slots_,
              correlation_.data(),
              by_distance_.data(),
              s2 * share,
              s2 * (1 - share),
-             s2 * share * (1 - share),
-             s2,
+             stated ? -per_step : s2 * share,
+             stated ? per_step : s2 * (1 - share),
+             stated ? 0 : s2 * share * (1 - share),
              least_variance,
              floor_variance,
              nullptr,
@@ -47,6 +60,8 @@ Neighbourhood::Neighbourhood(const Field& field, const Covariance& covariance, c
              nullptr,
              nugget_[0].of,
              present_[0].of,
+             own_field_[0].of,
+             own_slope_[0].of,
              root_[0].of,
              cross_[0].of,
              combination_[0].of,
@@ -72,9 +87,26 @@ void Neighbourhood::own_variances(Index group) {
   }
 }
 
+// Variance of the stated field at the slots and at the rows themselves.
+void Neighbourhood::own_fields(Index group) {
+  const double s2 = covariance_.field_variance();
+  const auto [k, weight] = StatedTables::position_of(covariance_.theta[1]);
+  const Eigen::VectorXf &low = field_.stated(k).own, &high = field_.stated(slopes_ || weight > 0 ? k + 1 : k).own;
+  for (Index lane = 0; lane < lanes; ++lane) {
+    const Index i = std::min(group * lanes + lane, field_.size() - 1);
+    for (Index a = 0; a <= slots_; ++a) {
+      const Index j = a < slots_ ? field_.neighbour(i, static_cast<int>(a)) : i;
+      const double before = j < 0 ? 1 : static_cast<double>(low[j]), after = j < 0 ? 1 : static_cast<double>(high[j]);
+      own_field_[at(a)].of[lane] = s2 * ((1 - weight) * before + weight * after);
+      own_slope_[at(a)].of[lane] = s2 * (after - before) / StatedTables::step;
+    }
+  }
+}
+
 void Neighbourhood::factorise(Index group) {
   own_variances(group);
-  const Field::Entries entries = field_.entries(group, family_);
+  if (covariance_.family == Family::stated) own_fields(group);
+  const Field::Entries entries = field_.entries(group, covariance_, slopes_);
   arrays_.near = entries.near;
   arrays_.joint = entries.joint;
   arrays_.kinds = entries.kinds;

@@ -15,7 +15,9 @@ struct alignas(alignment) Lanes {
 
 class Neighbourhood {
  public:
-  Neighbourhood(const Field& field, const Covariance& covariance, const RowKernel& kernel = row_kernels().best());
+  // `slopes`: differentiate() will be called.
+  Neighbourhood(const Field& field, const Covariance& covariance, bool slopes = true,
+                const RowKernel& kernel = row_kernels().best());
 
   // Factorises the rows of one group. Slots without a neighbour hold an independent value of variance one and get
   // weight zero.
@@ -40,14 +42,17 @@ class Neighbourhood {
 
  private:
   void own_variances(Index group);
+  void own_fields(Index group);
 
   const Field& field_;
   const RowKernel& kernel_;
-  Family family_;
+  Covariance covariance_;
+  bool slopes_;
   Index slots_;
   std::vector<double> correlation_, by_distance_;
   Eigen::VectorXd reading_variance_;  // of the rows' means
-  std::vector<Lanes> nugget_, present_, root_, cross_, combination_, turned_, slope_, information_;
+  std::vector<Lanes> nugget_, present_, own_field_, own_slope_, root_, cross_, combination_, turned_, slope_,
+      information_;
   Neighbourhoods arrays_;
 };
 

@@ -59,11 +59,12 @@ void factorise(const Neighbourhoods& n) {
   const long slots = n.slots;
   Lanes *const root = lanes_of(n.root), *const cross = lanes_of(n.cross), *const combination = lanes_of(n.combination);
   const Lanes *const nugget = lanes_of(n.nugget), *const present = lanes_of(n.present);
+  const Lanes* const field = lanes_of(n.field);
   for (long a = 0; a < slots; ++a) {
     const long pairs = a * (a + 1) / 2;
     Lanes* const row = root + a * slots;
     for (long b = 0; b < a; ++b) row[b] = covariance(n, pairs + b);
-    Lanes own = present[a] * (n.field_variance + n.floor_variance - 1) + 1 + nugget[a];
+    Lanes own = present[a] * (field[a] + n.floor_variance - 1) + 1 + nugget[a];
     for (long k = 0; k < a; ++k) {
       const Lanes x = row[k] * root[k * slots + k];
       row[k] = x;
@@ -73,7 +74,7 @@ void factorise(const Neighbourhoods& n) {
     row[a] = inverse_root(own, n.least_variance);
     cross[a] = covariance(n, pairs + a);
   }
-  Lanes variance = nugget[slots] + (n.field_variance + n.floor_variance);
+  Lanes variance = nugget[slots] + (field[slots] + n.floor_variance);
   for (long k = 0; k < slots; ++k) {
     const Lanes x = cross[k] * root[k * slots + k];
     cross[k] = x;
@@ -105,20 +106,23 @@ MUSTER_INLINE void take(Four& from, Lanes weight, double* const* values, long a)
   for (int p = 0; p < parameters; ++p) from.of[p] -= weight * lanes_of(values[p])[a];
 }
 
-// Products of dC with the combination, for the derivatives by distance (1) and share (3), which are zero on the
+// Products of dC with the combination, for the derivatives by distance (1) and share (3). The latter is zero on the
 // diagonal.
 void turn(const Neighbourhoods& n) {
   const long slots = n.slots;
   const Lanes* const combination = lanes_of(n.combination);
   Lanes *const by_distance = lanes_of(n.turned[1]), *const by_share = lanes_of(n.turned[3]);
-  for (long a = 0; a <= slots; ++a) by_distance[a] = by_share[a] = Lanes{};
+  for (long a = 0; a <= slots; ++a) {
+    by_distance[a] = lanes_of(n.field_slope)[a] * combination[a];
+    by_share[a] = Lanes{};
+  }
   for (long a = 0; a < slots; ++a) {
     Lanes distance = by_distance[a], share = by_share[a];
     const Lanes own = combination[a];
     for (long b = 0; b <= a; ++b) {
       const long other = b < a ? b : slots, pair = a * (a + 1) / 2 + b;
       const Looked slope = looked_up(n, n.by_distance, pair), value = looked_up(n, n.correlation, pair);
-      const Lanes d = n.near_variance * slope.near + n.joint_variance * slope.joint;
+      const Lanes d = n.near_slope * slope.near + n.joint_slope * slope.joint;
       const Lanes s = n.share_slope * (value.near - value.joint);
       distance += d * combination[other];
       share += s * combination[other];

@@ -22,13 +22,15 @@ struct Neighbourhoods {
   long slots;
   const double *correlation, *by_distance;  // by entry: the correlation, and its derivative by log decorrelation
   double near_variance, joint_variance;     // factors of the correlations by place, and by place and anchor
+  double near_slope, joint_slope;           // the same of the derivatives
   double share_slope;                       // of the near variance by logit rho; minus that of the joint one
-  double field_variance, least_variance, floor_variance;
+  double least_variance, floor_variance;
 
   const std::uint16_t *near,
       *joint;                      // entries: pair a (a + 1) / 2 + b is slots a and b < a; with b = a, the row itself
   const Joint* kinds;              // of the pairs
   const double *nugget, *present;  // reading variance over count; 1 where a slot has a neighbour
+  const double *field, *field_slope;  // variance of the field; its derivative by log decorrelation
 
   double* root;                // lower triangle, slots x slots; the diagonal holds its inverse
   double* cross;               // the last row of the factor that has the row itself at the end

@@ -75,7 +75,8 @@ Sites Sites::of(const std::vector<Index>& rows) const {
                place_stretch(Eigen::all, rows),
                anchor_stretch(Eigen::all, rows),
                {},
-               count(rows)};
+               count(rows),
+               stated};
   for (const Index i : rows) result.group.push_back(group[static_cast<std::size_t>(i)]);
   return result;
 }

@@ -3,11 +3,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 namespace muster::noise {
 
 using Eigen::Index;
+
+class StatedCorrelation;
 
 // Mean distance of two of three readings a stretch apart, in stretches.
 constexpr double mean_of_three = 8.0 / 9;
@@ -17,10 +20,11 @@ constexpr double mean_of_three = 8.0 / 9;
 // of it. A row counts as three readings of equal weight: its middle, and a stretch to either side. The stretch keeps
 // the mean distance of its own readings.
 struct Sites {
-  Eigen::Matrix3Xd place, anchor;                  // means, in the units of the decorrelation distance
-  Eigen::Matrix3Xd place_stretch, anchor_stretch;  // the same units
-  std::vector<int> group;                          // the anchor's
-  Eigen::VectorXd count;                           // readings
+  Eigen::Matrix3Xd place, anchor;                     // means, in the units of the decorrelation distance
+  Eigen::Matrix3Xd place_stretch, anchor_stretch;     // the same units
+  std::vector<int> group;                             // the anchor's
+  Eigen::VectorXd count;                              // readings
+  std::shared_ptr<const StatedCorrelation> stated{};  // correlation of the model's own draws, if it states one
 
   Index size() const { return count.size(); }
   double within() const;  // the mean distance of two readings of a row

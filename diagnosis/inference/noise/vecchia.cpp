@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "diagnosis/inference/noise/neighbourhood.hpp"
 #include "diagnosis/inference/noise/row_distance.hpp"
@@ -11,6 +12,8 @@ namespace muster::noise {
 namespace {
 
 using ByRow = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+constexpr std::size_t at_once = 1 << 16;  // pairs in one question to the model
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
@@ -70,6 +73,7 @@ Field::Field(Sites sites, const Conditioning& conditioning) : sites_(std::move(s
   spacing_ = std::max(spacing_, longest / (distances - 1.0));
   smooth_ = table(false);
   if (sites_.within() > 0) rough_ = table(true);
+  if (sites_.stated) different_.assign(at(pairs()), Joint::other);
 }
 
 template <class Use>
@@ -120,9 +124,79 @@ void Field::compare_ends(Table& table) const {
   }
 }
 
-Field::Entries Field::entries(Index group, Family family) const {
-  const Table& from = is_rough(family) && !rough_.near.empty() ? rough_ : smooth_;
+std::vector<Family> Field::families() const {
+  std::vector<Family> result;
+  if (sites_.stated) result.push_back(Family::stated);
+  result.insert(result.end(), noise::families.begin(), noise::families.end());
+  return result;
+}
+
+const StatedTables& Field::stated(int k) const {
+  const auto found = stated_tables_.find(k);
+  if (found != stated_tables_.end()) return found->second;
+  return stated_tables_.emplace(k, stated_tables(std::exp(k * StatedTables::step))).first->second;
+}
+
+StatedTables Field::stated_tables(double decorrelation) const {
+  StatedTables result;
+  result.pairs.assign(at(groups() * pairs() * lanes), distances);
+  std::vector<uint32_t> a, b, all(at(size()));
+  std::iota(all.begin(), all.end(), 0u);
+  Eigen::VectorXd own(size());
+  sites_.stated->covariances(sites_, decorrelation, all, all, own.data());
+  result.own = own.cast<float>();
+  std::vector<std::size_t> to;
+  const auto flush = [&] {
+    std::vector<double> values(a.size());
+    sites_.stated->covariances(sites_, decorrelation, a, b, values.data());
+    for (std::size_t k = 0; k < to.size(); ++k) result.pairs[to[k]] = StatedTables::entry_of(values[k]);
+    a.clear(), b.clear(), to.clear();
+  };
+  for (Index i = 0; i < size(); ++i) {
+    for (int slot = 0; slot < slots_; ++slot) {
+      const Index j = neighbour(i, slot);
+      if (j < 0) continue;
+      for (int other = 0; other <= slot; ++other) {
+        const Index with = other < slot ? neighbour(i, other) : i;
+        if (with < 0) continue;
+        a.push_back(static_cast<uint32_t>(j)), b.push_back(static_cast<uint32_t>(with));
+        to.push_back(at((i / lanes) * pairs() + Index{slot} * (slot + 1) / 2 + other) * lanes + at(i % lanes));
+      }
+    }
+    if (a.size() >= at_once) flush();
+  }
+  flush();
+  return result;
+}
+
+const std::vector<uint16_t>& Field::stated_triangle(int k) const {
+  std::vector<uint16_t>& entries = stated_triangles_[k];
+  if (!entries.empty()) return entries;
+  entries.reserve(at(size() * (size() - 1) / 2));
+  std::vector<uint32_t> before, row;
+  const auto flush = [&] {
+    std::vector<double> values(row.size());
+    sites_.stated->covariances(sites_, std::exp(k * StatedTables::step), before, row, values.data());
+    std::transform(values.begin(), values.end(), std::back_inserter(entries), StatedTables::entry_of);
+    before.clear(), row.clear();
+  };
+  for (Index i = 1; i < size(); ++i) {
+    for (Index j = 0; j < i; ++j) before.push_back(static_cast<uint32_t>(j));
+    row.insert(row.end(), at(i), static_cast<uint32_t>(i));
+    if (row.size() >= at_once) flush();
+  }
+  flush();
+  return entries;
+}
+
+Field::Entries Field::entries(Index group, const Covariance& covariance, bool slopes) const {
   const Index first = group * pairs();
+  if (covariance.family == Family::stated) {
+    const auto [k, weight] = StatedTables::position_of(covariance.theta[1]);
+    const int next = slopes || weight > 0 ? k + 1 : k;
+    return {stated(k).pairs.data() + first * lanes, stated(next).pairs.data() + first * lanes, different_.data()};
+  }
+  const Table& from = is_rough(covariance.family) && !rough_.near.empty() ? rough_ : smooth_;
   return {from.near.data() + first * lanes, from.joint.data() + first * lanes, from.kinds.data() + first};
 }
 
@@ -139,7 +213,7 @@ Whitener::Whitener(const Field& field, const Covariance& covariance, Stencil ste
 
 Whitener::Whitener(const Field& field, const Covariance& covariance)
     : Whitener(field, covariance, empty_stencil(field)) {
-  Neighbourhood neighbourhood(field, covariance);
+  Neighbourhood neighbourhood(field, covariance, false);
   for (Index g = 0; g < field.groups(); ++g) {
     neighbourhood.factorise(g);
     store(field, g, neighbourhood.combination(), stencil_);

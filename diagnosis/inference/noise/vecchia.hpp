@@ -3,15 +3,48 @@
 // readings for a rough field, between middles for a smooth one (row_distance.hpp).
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <map>
+#include <memory>
 
 #include "diagnosis/inference/noise/basis.hpp"
 #include "diagnosis/inference/noise/family.hpp"
 #include "diagnosis/inference/noise/neighbours.hpp"
 #include "diagnosis/inference/noise/row_kernel.hpp"
+#include "diagnosis/inference/noise/stated_correlation.hpp"
 
 namespace muster::noise {
+
+// Entries of the stated correlation at one decorrelation distance. Between these it is interpolated, linearly in the
+// logarithm, which keeps covariances valid: a mean of two is one.
+struct StatedTables {
+  static constexpr double step = 0.25;  // of log decorrelation [m]
+  struct Position {
+    int k;
+    double weight;  // of k + 1
+  };
+  static Position position_of(double log_decorrelation) {
+    const double at = log_decorrelation / step, below = std::floor(at);
+    return {static_cast<int>(below), at - below};
+  }
+  // A covariance whose stated correlation is at the nearest tabulated distance: half the tables for what is not fitted.
+  static Covariance nearest(Covariance covariance) {
+    if (covariance.family == Family::stated) covariance.theta[1] = step * std::round(covariance.theta[1] / step);
+    return covariance;
+  }
+  // Of an entry of the pairs: linear.
+  static double correlation_of(std::size_t entry) { return 1 - static_cast<double>(entry) / distances; }
+
+  static uint16_t entry_of(double correlation) {
+    return static_cast<uint16_t>(std::clamp((1 - correlation) * distances + 0.5, 0.0, 1.0 * distances));
+  }
+
+  std::vector<uint16_t> pairs;
+  Eigen::VectorXf own;  // variance at each row over the stated one
+};
 
 // A row's combination with its neighbours: whitened_i = own_i x_i + sum over slots of beside_ia x_neighbour.
 struct Stencil {
@@ -27,16 +60,24 @@ class Field {
   Index size() const { return sites_.size(); }
   const Sites& sites() const { return sites_; }
   int slots() const { return slots_; }
+  // What may be fitted: the stated one first, if there is one, else the exponential one.
+  std::vector<Family> families() const;
+  // At the k-th of the decorrelation distances; made on first use.
+  const StatedTables& stated(int k) const;
+  // Entries of all pairs of rows at that distance: of row i those with the rows before it.
+  const std::vector<uint16_t>& stated_triangle(int k) const;
   Index groups() const { return (size() + lanes - 1) / lanes; }
   double spacing() const { return spacing_; }  // m between entries
   Index neighbour(Index row, int slot) const { return neighbours_[static_cast<std::size_t>(row * slots_ + slot)]; }
   // Entries of the pairs of group g: pair a (a + 1) / 2 + b is slots a and b < a; with b = a, slot a and the row
   // itself.
   struct Entries {
-    const uint16_t *near, *joint;  // by place; by place and anchor, same anchor
+    // By place; by place and anchor, same anchor. Of the stated correlation: at one distance, and at the next.
+    const uint16_t *near, *joint;
     const Joint* kinds;
   };
-  Entries entries(Index group, Family family) const;
+  // `slopes`: derivatives by the decorrelation distance are wanted too.
+  Entries entries(Index group, const Covariance& covariance, bool slopes = true) const;
   Index pairs() const { return Index{slots_} * (slots_ + 1) / 2; }
   // Combinations with these weights for each row's neighbours, then its own.
   Combinations combinations(const Stencil& stencil) const;
@@ -47,6 +88,7 @@ class Field {
     std::vector<Joint> kinds;
   };
   // use(slot, true for the same anchor, m by place, m by place and anchor)
+  StatedTables stated_tables(double decorrelation) const;
   template <class Use>
   void each_pair(bool by_readings, const Use& use) const;
   uint16_t entry(double distance) const;
@@ -57,7 +99,10 @@ class Field {
   int slots_;
   std::vector<Index> neighbours_;
   double spacing_ = 0.01;
-  Table smooth_, rough_;  // the second one is empty where every row is a point: both are equal there
+  Table smooth_, rough_;          // the second one is empty where every row is a point: both are equal there
+  std::vector<Joint> different_;  // of the pairs of any group: both distances' entries are looked up
+  mutable std::map<int, StatedTables> stated_tables_;
+  mutable std::map<int, std::vector<uint16_t>> stated_triangles_;
 };
 
 class Whitener {

@@ -15,7 +15,7 @@ namespace {
 // Fits of each family with the stated size and distance held, the best one first.
 std::vector<noise::Fit> fitted_as_stated(const ModelState& state, const Eigen::MatrixXd& design) {
   std::vector<noise::Fit> fits;
-  for (const noise::Family family : noise::families) {
+  for (const noise::Family family : state.field().families()) {
     const auto start = as_stated(state.problem().stated, family, state.fit.covariance.theta, state.within());
     fits.push_back(noise::fit(state.field(), state.y(), design, state.options().prior, start, 6, noise::unstated));
   }

@@ -37,11 +37,13 @@ LinkReadings those(const LinkReadings& all, const std::vector<Index>& which) {
 }
 
 // Each reading as a row of its own, in the given order.
-noise::Sites sites_of(const LinkReadings& readings) {
+noise::Sites sites_of(const LinkReadings& readings, std::shared_ptr<const noise::StatedCorrelation> stated) {
   LinkRowLimits single;
   single.way = -1;
   const noise::Rows rows = link_rows(readings, single);
-  return link_sites(rows, readings).of(rows.row_of());
+  noise::Sites sites = link_sites(rows, readings).of(rows.row_of());
+  sites.stated = std::move(stated);
+  return sites;
 }
 
 // Index of each site's cell of this side, in order of first visit, separate for each anchor's radio.
@@ -77,8 +79,10 @@ Intercept intercept_of(const VectorXd& y, const Eigen::ArrayXd& x) {
 
 }  // namespace
 
-KrigedReadings::KrigedReadings(const LinkReadings& readings, const VectorXd& residual)
-    : residual_(residual(finite(residual))), field_(sites_of(those(readings, finite(residual))), conditioning) {}
+KrigedReadings::KrigedReadings(const LinkReadings& readings, const VectorXd& residual,
+                               std::shared_ptr<const noise::StatedCorrelation> stated)
+    : residual_(residual(finite(residual))),
+      field_(sites_of(those(readings, finite(residual)), std::move(stated)), conditioning) {}
 
 KrigedReadings::KrigedReadings(VectorXd residual, noise::Field field, double far_off)
     : residual_(std::move(residual)), field_(std::move(field)), far_off_(far_off) {}

@@ -36,7 +36,8 @@ struct CloseReadings {
 class KrigedReadings {
  public:
   // One residual a reading; non-finite ones are left out.
-  KrigedReadings(const LinkReadings& readings, const Eigen::VectorXd& residual);
+  KrigedReadings(const LinkReadings& readings, const Eigen::VectorXd& residual,
+                 std::shared_ptr<const noise::StatedCorrelation> stated = nullptr);
   // Without winsorising. An outlier then affects its neighbours' predictions. Without outliers the errors have known
   // variance, while winsorised ones vary less than under a law with rare deep fades.
   KrigedReadings untamed() const;
@@ -48,6 +49,7 @@ class KrigedReadings {
   // `place`: 1000 log_ratio. Computed once, then cached.
   const ReadingView& view(const FieldShape& shape, int place);
   const Eigen::VectorXd& residual() const { return residual_; }
+  std::vector<noise::Family> families() const { return field_.families(); }
   // Uses each reading in at most one pair.
   CloseReadings close_readings() const;
 

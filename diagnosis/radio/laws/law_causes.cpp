@@ -10,6 +10,7 @@
 #include "diagnosis/radio/laws/blockage_test.hpp"
 #include "diagnosis/radio/laws/fading_tests.hpp"
 #include "diagnosis/radio/laws/shadowing_test.hpp"
+#include "diagnosis/radio/links/drawn_term.hpp"
 #include "diagnosis/radio/thresholds.hpp"
 #include "text/number.hpp"
 
@@ -185,7 +186,7 @@ bool world_draws_alike(const LawSources& s) {
 void add_field(const LawSources& s, KrigedReadings& field, const ReadingDistribution& law, Diagnosis& found) {
   const Cause* const cause = cause_called(s, "effect.shadowing_correlation");
   if (!cause) return;
-  const noise::StatedField said = stated_field(s.model);
+  const noise::StatedField said = drawn_field(s.model);
   if (said.shadowing <= 0) {
     found.not_tested.push_back(cause->id + ": not testable: the world states no shadowing");
     return;
@@ -230,7 +231,9 @@ void add_laws_of_readings(const LawSources& s, const VectorXd& all, Diagnosis& f
       found.not_tested.push_back("effect.shadowing_correlation: " + why);
     return;
   }
-  KrigedReadings field(s.readings, without_grazing(s, all, found));
+  const std::vector<noise::Family> likely = s.state.likely_families(s.state.fit.covariance.family);
+  const bool as_drawn = std::count(likely.begin(), likely.end(), noise::Family::stated) > 0;
+  KrigedReadings field(s.readings, without_grazing(s, all, found), as_drawn ? s.state.field().sites().stated : nullptr);
   const std::size_t before = found.causes.size();
   const ReadingDistribution law = add_scatter(s, field, found);
   add_field(s, field, law, found);

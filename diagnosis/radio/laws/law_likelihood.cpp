@@ -98,7 +98,7 @@ std::vector<Peak> LawLikelihood::shapes(const ReadingDistribution& law, const no
 std::vector<Peak> LawLikelihood::shapes_by_all(const ReadingDistribution& law, const noise::Covariance& from) {
   std::vector<Peak> result;
   const auto place = static_cast<int>(std::lround(1e3 * (from.theta[2] - from.theta[0])));
-  for (const noise::Family family : noise::families) {
+  for (const noise::Family family : field_.families()) {
     const double distance = from.theta[1] + noise::log_scale_of(family) - noise::log_scale_of(from.family);
     result.push_back(best_distance(law, {0, {family, static_cast<int>(std::lround(1e3 * distance))}, place}));
   }

@@ -41,6 +41,7 @@ class LawLikelihood {
 
   KrigedReadings& field() { return field_; }
   double step() const { return step_; }
+  std::vector<noise::Family> families() const { return field_.families(); }
 
  private:
   std::vector<Peak> shapes_by_all(const ReadingDistribution& law, const noise::Covariance& from);

@@ -38,7 +38,7 @@ double gain_of_rows(const inference::ModelState& state, const noise::StatedField
   const double size = near(fitted.shadowing, stated.shadowing);
   const double distance = near(fitted.decorrelation, stated.decorrelation);
   double held = 1e300;
-  for (const noise::Family family : noise::families) {
+  for (const noise::Family family : state.field().families()) {
     for (const double start : {-0.7, 0.0, 0.7}) {  // offset of the log variance of one reading from the fitted one
       noise::Covariance at = as_stated({size, distance}, family, free.covariance.theta, state.within());
       at.theta[2] += start;
@@ -67,7 +67,7 @@ double in_field(LawLikelihood& judge, const ReadingDistribution& law, noise::Fam
 // distance differ by more than the data resolve, so distances within a tolerance count.
 double of_any_family(LawLikelihood& judge, const ReadingDistribution& law, const noise::StatedField& field) {
   double best = -1e300;
-  for (const noise::Family family : noise::families) {
+  for (const noise::Family family : judge.families()) {
     for (const double tolerance : {0.9, 1.0, 1.1})
       best = std::max(best, in_field(judge, law, family, {field.shadowing, tolerance * field.decorrelation}));
   }
@@ -98,13 +98,6 @@ LawTest field_test(KrigedReadings& field, double step, const ReadingDistribution
   test.evidence = evidence();
   test.log_p = inference::log_tail(test.gain / thresholds::field_dispersion, 2);
   return test;
-}
-
-noise::StatedField stated_field(const LinkModel& model) {
-  const auto stated = [&](const char* name) {
-    return model.value_of("effect.shadowing_correlation", name, model.value_of("radio.fading", name, 0));
-  };
-  return {stated("shadowing"), stated("decorrelation")};
 }
 
 noise::Covariance fitted_to(const inference::ModelState& state, const Eigen::VectorXd& row_means) {

@@ -3,11 +3,8 @@
 
 #include "diagnosis/inference/state/model_state.hpp"
 #include "diagnosis/radio/laws/fading_tests.hpp"
-#include "diagnosis/radio/links/link_model.hpp"
 
 namespace muster::diagnosis {
-
-noise::StatedField stated_field(const LinkModel& model);
 
 // Likelihood-ratio test of the field fitted to rows against one with the stated size and distance. Single readings
 // determine the correlation at short range, rows the long range: the smaller of both gains counts. The world states

@@ -156,6 +156,12 @@ std::vector<int> radios_of(const noise::Rows& rows, const noise::Sites& sites, c
   return inference::numbered(others);
 }
 
+noise::Sites LinkLayout::sites(const noise::Rows& rows) const {
+  noise::Sites result = link_sites(rows, readings_);
+  result.stated = drawn_;
+  return result;
+}
+
 noise::Rows LinkLayout::long_rows() const { return link_rows(readings_, never_shorter(limits_)); }
 
 std::vector<inference::Grouping> LinkLayout::groupings(const noise::Rows& rows, const noise::Sites& sites) const {

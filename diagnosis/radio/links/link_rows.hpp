@@ -44,14 +44,19 @@ std::vector<int> radios_of(const noise::Rows& rows, const noise::Sites& sites, c
 class LinkLayout : public inference::Layout {
  public:
   // `run`: of each reading, from 0; empty if the data name none. `places_known`: false if the data have only distances,
-  // which places then represent.
-  LinkLayout(LinkReadings readings, const LinkRowLimits& limits, std::vector<int> run = {}, bool places_known = true)
-      : readings_(std::move(readings)), limits_(limits), run_(std::move(run)), places_known_(places_known) {}
+  // which places then represent. `drawn`: correlation of the world's shadowing, or null.
+  LinkLayout(LinkReadings readings, const LinkRowLimits& limits, std::vector<int> run = {}, bool places_known = true,
+             std::shared_ptr<const noise::StatedCorrelation> drawn = nullptr)
+      : readings_(std::move(readings)),
+        limits_(limits),
+        run_(std::move(run)),
+        places_known_(places_known),
+        drawn_(std::move(drawn)) {}
 
   noise::Index size() const override { return readings_.size(); }
   noise::Rows rows() const override { return link_rows(readings_, limits_); }
   noise::Rows long_rows() const override;
-  noise::Sites sites(const noise::Rows& rows) const override { return link_sites(rows, readings_); }
+  noise::Sites sites(const noise::Rows& rows) const override;
   std::vector<inference::Grouping> groupings(const noise::Rows& rows, const noise::Sites& sites) const override;
   bool sites_known() const override { return places_known_; }
 
@@ -63,6 +68,7 @@ class LinkLayout : public inference::Layout {
   LinkRowLimits limits_;
   std::vector<int> run_;
   bool places_known_;
+  std::shared_ptr<const noise::StatedCorrelation> drawn_;
 };
 
 }  // namespace muster::diagnosis

@@ -68,7 +68,8 @@ TEST(ExactCovariance, OfSumsEqualsTheDenseOne) {
     for (const Family family : families) {
       const Covariance c{family, some.theta};
       const Eigen::MatrixXd expected = weights.transpose() * dense(sites, c) * weights;
-      EXPECT_LT((covariance_of_sums(sites, c, weights) - expected).norm(), 1e-3 * expected.norm()) << name_of(family);
+      EXPECT_LT((covariance_of_sums(Field(sites), c, weights) - expected).norm(), 1e-3 * expected.norm())
+          << name_of(family);
     }
   }
 }

@@ -99,7 +99,7 @@ TEST(CoefficientCovariance, IsTheScatterUnderTheExactCovariance) {
   const WhitenedModel model = state.whitened_model(design);
   const Index rows = state.rows().size();
   const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(rows, rows),
-                        covariance = noise::covariance_of_sums(state.field().sites(), state.fit.covariance, unit),
+                        covariance = noise::covariance_of_sums(state.field(), state.fit.covariance, unit),
                         told = model.at.basis.q.transpose() * model.whitener(unit);
   Eigen::MatrixXd fitted(design.cols(), rows);
   for (Index i = 0; i < rows; ++i) fitted.col(i) = model.at.basis.coefficients(told.col(i), design.cols());

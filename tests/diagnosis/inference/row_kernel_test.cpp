@@ -60,10 +60,10 @@ TEST(RowKernels, AreThoseThatTheMachineRuns) {
 
 TEST(RowKernels, FactoriseToTheSameBits) {
   const Field field(places(203));
-  Neighbourhood plain(field, covariance, *row_kernels().all[0]);
+  Neighbourhood plain(field, covariance, true, *row_kernels().all[0]);
   std::array<bool, 4> seen{};
   for (int k = 1; k < row_kernels().number; ++k) {
-    Neighbourhood other(field, covariance, *row_kernels().all[k]);
+    Neighbourhood other(field, covariance, true, *row_kernels().all[k]);
     for (Index g = 0; g < field.groups(); ++g) {
       for (Neighbourhood* one : {&plain, &other}) {
         one->factorise(g);
@@ -76,7 +76,7 @@ TEST(RowKernels, FactoriseToTheSameBits) {
           EXPECT_TRUE(same_bits(&plain.information(p, q), &other.information(p, q), 1)) << g << ' ' << p << ' ' << q;
       }
       for (Index pair = 0; pair < field.pairs(); ++pair)
-        seen[static_cast<std::size_t>(field.entries(g, covariance.family).kinds[pair])] = true;
+        seen[static_cast<std::size_t>(field.entries(g, covariance).kinds[pair])] = true;
     }
   }
   EXPECT_TRUE(row_kernels().number == 1 || (seen[1] && seen[2] && seen[3]));

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "radio_fading/line_integral.hpp"
 #include "radio_fading/shadow_field.hpp"
 #include "statistics.hpp"
 
@@ -36,6 +37,29 @@ double covariance(const Segment& a, const Segment& b) {
     }
   }
   return sum / (steps * steps) * std::sqrt(length(a) * length(b)) / 2;
+}
+
+// What radio.fading states of its draws: any pair of links, some of which share an end or hardly differ.
+TEST(Shadowing, TheStatedCovarianceIsTheDoubleIntegral) {
+  const Stream random(3);
+  for (uint64_t i = 0; i < 40; ++i) {
+    Segment a = random_segment(random, i), b = random_segment(random, i + 100);
+    for (FieldPoint* p : {&a.p, &a.q, &b.p, &b.q}) p->x /= 4, p->y /= 4;
+    if (i % 2) b.p = a.p;
+    if (i % 4 == 3) b.q = {a.q.x + 0.1, a.q.y, a.q.z};
+    constexpr double decorrelation = 1.7;
+    std::vector<double> ends;
+    for (const FieldPoint& p : {a.p, a.q, b.q, b.p}) {  // one of them the other way round
+      for (const double x : {p.x, p.y, p.z}) ends.push_back(decorrelation * x);
+    }
+    const uint32_t one = 0, other = 1;
+    double found = 0;
+    covariance_of_line_integrals(decorrelation, ends.data(), &one, &other, 1, &found);
+    EXPECT_NEAR(found, covariance(a, b), 1e-3) << i;
+    covariance_of_line_integrals(decorrelation, ends.data(), &one, &one, 1, &found);
+    const double length = std::hypot(a.q.x - a.p.x, a.q.y - a.p.y, a.q.z - a.p.z);
+    EXPECT_NEAR(found, ShadowField::variance(length), 1e-12);
+  }
 }
 
 constexpr int fields = 8000;
