@@ -35,6 +35,7 @@ struct Sample {
                        [](const muster_host*) -> void* { return nullptr; },
                        [](void*) {},
                        [](void*, const muster_tick*, const muster_in*, const muster_out*) { return 0; },
+                       nullptr,
                        nullptr};
 };
 
