@@ -1,5 +1,5 @@
 // Interface of the correlation that a model states for its own draws, such as an integral along the way between two
-// places. Unlike Unlike the families of family.hpp it is not a function of one distance.
+// places. Unlike the families of family.hpp it is not a function of one distance.
 #pragma once
 
 #include <cstdint>
