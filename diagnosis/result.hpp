@@ -35,6 +35,7 @@ struct CauseEstimate {
   std::map<std::string, std::string> words;  // further attributes, such as the other radio
   std::map<std::string, std::string> files;  // tables that it refers to: attribute and text
   double evidence = 0, log_p = 0;
+  double inflation = 1;    // of gains of its kind in these data; its own was divided by it for log_p
   double lambda = 0;       // its gain: fall of the deviance beside all others
   Eigen::VectorXd effect;  // dB added to each row of the summary
   std::optional<inference::HeldOutGain> held_out;
@@ -122,11 +123,18 @@ struct Loop {
   std::optional<SecondLook> second{};
 };
 
+// A radio that the data name and the world does not list, at the first place of its readings.
+struct AddedRadio {
+  std::string name;
+  double x, y, z;  // m
+};
+
 struct Diagnosis {
   std::vector<CauseEstimate> causes;  // the strongest first, suspected ones last
   std::vector<Unexplained> unexplained;
   std::vector<std::string> searched, not_tested;  // causes; those not tested with the reason
   std::vector<std::string> notes;
+  std::vector<AddedRadio> added_radios;
   ReceiverChecks receiver;  // properties of the receiver, and soundness of the record
   double residual_sd = 0;   // dB, of the fitted world
   noise::Covariance noise;

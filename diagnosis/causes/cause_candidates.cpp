@@ -48,10 +48,32 @@ std::vector<const muster_param*> sought(const Cause& cause) {
   return result;
 }
 
+// Thins the start values of all axes but the longest, until their products are few: refinement does the rest.
+void thin_out(std::vector<Axis>& axes) {
+  const auto shorter = [](const Axis& a, const Axis& b) { return a.values.size() < b.values.size(); };
+  const auto starts = [&] {
+    std::size_t product = 1;
+    for (const Axis& axis : axes) product *= axis.values.size();
+    return product;
+  };
+  while (axes.size() > 1 && starts() > thresholds::most_starts) {
+    const auto longest = std::max_element(axes.begin(), axes.end(), shorter);
+    Axis* next = nullptr;
+    for (Axis& axis : axes) {
+      if (&axis != &*longest && axis.values.size() > 1 && (!next || shorter(*next, axis))) next = &axis;
+    }
+    if (!next) return;
+    std::vector<double> kept;  // every other one, the middle of three
+    for (std::size_t k = 1; k < next->values.size(); k += 2) kept.push_back(next->values[k]);
+    next->values = std::move(kept);
+  }
+}
+
 // False if the data cannot identify one of its parameters.
 bool find_axes(CauseShape& shape, const CauseSources& sources, const CauseDomain& domain) {
   domain.hold(shape);
   auto parameters = sought(shape.cause);
+  std::erase_if(parameters, [&](const muster_param* p) { return shape.held.count(p->name) > 0; });
   for (const muster_param* p : parameters) {
     if ((p->flags & MUSTER_CYCLIC) && shape.wave.empty() && is_wave(sources, shape, p->name)) shape.wave = p->name;
   }
@@ -61,6 +83,7 @@ bool find_axes(CauseShape& shape, const CauseSources& sources, const CauseDomain
     if (!axis) return false;
     shape.axes.push_back(*axis);
   }
+  thin_out(shape.axes);
   return true;
 }
 

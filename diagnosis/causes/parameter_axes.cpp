@@ -19,12 +19,25 @@ std::vector<double> periods(double span) {
   return result;
 }
 
-Axis duration(const muster_param& p, const Span& time, const CauseShape& shape) {
+std::optional<Axis> duration(const muster_param& p, const Span& time, const CauseShape& shape, double sampling) {
   const double span = time.length();
-  if (!shape.wave.empty()) return logarithmic(p, span / thresholds::most_cycles, span, periods(span), 0.02);
+  if (!shape.wave.empty()) {
+    std::vector<double> values = periods(span);
+    std::erase_if(values, [&](double period) { return period < 2 * sampling; });
+    if (values.empty()) return {};
+    return logarithmic(p, std::max(span / thresholds::most_cycles, 2 * sampling), span, values, 0.02);
+  }
   // Settling within a tenth of the data is a jump.
   return logarithmic(p, thresholds::shortest_settling * span, 100 * span, {0.15 * span, 0.4 * span, span, 30 * span},
                      0.3);
+}
+
+// Carriers, close enough that a wave ten wavelengths longer than the direct one is a quarter of a turn off at most.
+Axis carrier(const muster_param& p) {
+  std::vector<double> values;
+  for (double f = thresholds::lowest_carrier; f < thresholds::highest_carrier; f *= thresholds::carrier_ratio)
+    values.push_back(f);
+  return logarithmic(p, thresholds::lowest_carrier, thresholds::highest_carrier, values, 0.015);
 }
 
 Axis moment(const muster_param& p, const Span& time, bool alone) {
@@ -55,7 +68,8 @@ Axis logarithmic(const muster_param& p, double lower, double upper, const std::v
   return axis;
 }
 
-std::optional<Axis> axis_over(const muster_param& p, const Span& time, const CauseShape& shape, bool alone) {
+std::optional<Axis> axis_over(const muster_param& p, const Span& time, const CauseShape& shape, bool alone,
+                              double sampling) {
   const std::string_view unit = p.unit;
   if (unit == "s" && time.length() <= 0) return {};
   if (p.flags & MUSTER_CYCLIC) {
@@ -66,7 +80,8 @@ std::optional<Axis> axis_over(const muster_param& p, const Span& time, const Cau
     return all_around;
   }
   if (p.flags & MUSTER_LOG) {
-    if (unit == "s") return duration(p, time, shape);
+    if (unit == "s") return duration(p, time, shape, sampling);
+    if (unit == "Hz") return carrier(p);
     std::vector<double> values;
     for (const double v : evenly(std::log(p.min), std::log(p.max), 5)) values.push_back(std::exp(v));
     return logarithmic(p, p.min, p.max, {values[1], values[2], values[3]}, 0.2);

@@ -16,6 +16,8 @@ Axis logarithmic(const muster_param& declared, double lower, double upper, const
 
 // Axis of a time or duration over the time span of the data; nothing if there is none. Angles range over a full turn,
 // other numbers over their declared bounds. `alone`: the only parameter searched, so that its grid may be fine.
-std::optional<Axis> axis_over(const muster_param& declared, const Span& time, const CauseShape& shape, bool alone);
+// `sampling` [s]: the interval between samples; no swing has a period below twice that.
+std::optional<Axis> axis_over(const muster_param& declared, const Span& time, const CauseShape& shape, bool alone,
+                              double sampling = 0);
 
 }  // namespace muster::diagnosis

@@ -4,6 +4,8 @@
 // diagnosis/inference/thresholds.hpp.
 #pragma once
 
+#include <cstddef>
+
 namespace muster::diagnosis::thresholds {
 
 // share; of readings that a place must concern; chosen; none
@@ -20,5 +22,14 @@ inline constexpr double earliest_jump = 0.08;
 inline constexpr double latest_jump = 0.92;
 // share; of the data within which what settles is a jump; chosen; none
 inline constexpr double shortest_settling = 0.1;
+// count; start values of all axes of a cause together; chosen; none
+inline constexpr std::size_t most_starts = 400;
+// Hz; lowest carrier sought where the world has none; chosen; Carrier.IsSoughtWhereTheWorldHasNone
+inline constexpr double lowest_carrier = 1e8;
+// Hz; highest one; chosen; Carrier.IsSoughtWhereTheWorldHasNone
+inline constexpr double highest_carrier = 1e10;
+// ratio; of neighbouring carriers; derived (a quarter of a turn at ten wavelengths);
+// Carrier.IsSoughtWhereTheWorldHasNone
+inline constexpr double carrier_ratio = 1.05;
 
 }  // namespace muster::diagnosis::thresholds

@@ -206,10 +206,30 @@ inline constexpr double artefact_gain = 50;
 // deviance; below which a place or a smooth beside a clip is its artefact; chosen;
 // BackwardElimination.RequiresMoreGainOfAWallThanOfADriftBesideClipping
 inline constexpr double artefact_gain_beside_clip = 60;
+// count; atoms of one candidate that are enough to know the bulk; chosen; none
+inline constexpr std::size_t bulk_atoms = 200;
+// atoms; fewest that are a bulk; chosen; none
+inline constexpr Eigen::Index fewest_bulk_atoms = 20;
+// draws; of white noise, all of whose medians an inflated one exceeds; chosen; BulkInflation.IsOneInWhiteNoise
+inline constexpr Eigen::Index bulk_nulls = 40;
+// share; of a name's rows that a smooth of its covariate concerns, above which it is withdrawn; chosen; none
+inline constexpr double same_rows_share = 0.5;
+// factor; by which a cause of the same effect and as many parameters needs less strength to be preferred; chosen; none
+inline constexpr double weaker_strength = 1.5;
 // probability; of structure left along a name's covariate, below which the name is withdrawn; chosen; none
 inline constexpr double left_alpha = 0.01;
 // share; of a name's gain left along its covariate, above which the name is withdrawn; chosen; none
 inline constexpr double left_share = 0.5;
+
+// noise
+
+// m, or the unit of places; within which two rows are of one site; chosen (a sixth of a wavelength at 2.4 GHz);
+// FixedShare.IsOfOneSite
+inline constexpr double same_site = 0.02;
+// nats; behind the best family from which one with a fixed share is not fitted again; chosen; none
+inline constexpr double hopeless_family_nats = 50;
+// share; of rows whose site has others, above which a share fixed at sites is fitted; chosen; none
+inline constexpr double recurring_share = 0.1;
 
 // assess
 
@@ -218,6 +238,10 @@ inline constexpr Eigen::Index fewest_readings = 50;
 // decorrelation distances; side of a block; chosen;
 // Folds.BlocksAreThreeDecorrelationDistancesWideAndCoverAllReadings
 inline constexpr double block_side = 3;
+// blocks; fewest whose left-out readings may refute a term; chosen; none
+inline constexpr int fewest_refuting_blocks = 5;
+// share; growth of the squared error at left-out places by which a term is refuted, whatever its interval; chosen; none
+inline constexpr double refuting_growth = 0.25;
 // cells; effective number below which the sandwich variance is not used; chosen; none
 inline constexpr double fewest_cells = 10;
 // deviance; behind the best within which the middle of a posterior may lie; derived;

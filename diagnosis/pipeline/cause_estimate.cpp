@@ -116,6 +116,7 @@ CauseEstimate cause_estimate(const inference::Finding& f, const CauseCandidate& 
   out.held = shape.held;
   out.evidence = f.evidence;
   out.log_p = f.log_p;
+  out.inflation = f.inflation;
   out.lambda = f.gain;
   out.held_out = f.held_out;
   out.unseen_without = f.unseen_without;

@@ -56,6 +56,9 @@ class Diagnoser {
   Diagnosis summed_up(const inference::Result& result, const CauseSearch& causes, const inference::ModelState& state) {
     Diagnosis out;
     out.notes = setup_.notes;
+    for (const std::string& radio : setup_.model.added_radios()) {
+      if (const auto at = setup_.model.first_end(radio)) out.added_radios.push_back({radio, at->x, at->y, at->z});
+    }
     if (const MissingData& m = setup_.fitted.missing; !m.censored && m.rises())
       out.notes.push_back(fmt::format(
           "more readings are missing where less is expected ({:.0f} % at {:.0f} dBm, {:.0f} % at {:.0f} dBm): what was "

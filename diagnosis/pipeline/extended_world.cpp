@@ -59,6 +59,25 @@ void add_cause(XMLElement& root, const CauseEstimate& cause, const fs::path& fol
   for (const CauseValue& v : cause.values) e->SetAttribute(v.name.c_str(), print_real(v.value).c_str());
 }
 
+bool concerns(const CauseEstimate& cause, const std::string& name) {
+  return cause.row == name ||
+         std::any_of(cause.words.begin(), cause.words.end(), [&](const auto& word) { return word.second == name; });
+}
+
+// Stations for radios of the data that a written cause refers to. They stand before all else that may refer to them.
+void add_radios(XMLElement& root, const Diagnosis& found) {
+  for (const AddedRadio& radio : found.added_radios) {
+    if (std::none_of(found.causes.begin(), found.causes.end(), [&](const CauseEstimate& cause) {
+          return cause.status == inference::Status::named && concerns(cause, radio.name);
+        }))
+      continue;
+    XMLElement* e = root.GetDocument()->NewElement("station");
+    e->SetAttribute("name", radio.name.c_str());
+    e->SetAttribute("at", (print_real(radio.x) + ' ' + print_real(radio.y) + ' ' + print_real(radio.z)).c_str());
+    root.InsertFirstChild(e);
+  }
+}
+
 void copy_folder(const fs::path& from, const fs::path& to) {
   std::error_code failed;
   fs::create_directories(to, failed);
@@ -88,6 +107,7 @@ fs::path write_extended_world(const Diagnosis& found, const fs::path& world, con
     if (XMLElement* e = element_of(root, path.substr(0, slash)))
       e->SetAttribute(path.substr(slash + 1).c_str(), print_real(value).c_str());
   }
+  add_radios(root, found);
   for (const CauseEstimate& cause : found.causes) {
     if (cause.status == inference::Status::named) add_cause(root, cause, out);
   }

@@ -54,6 +54,14 @@ inline constexpr double moving_extent = 0.5;
 // places; of a radio that stands nevertheless; chosen;
 // MeasurementGeometry.TakesARadioThatIsSetUpAFewTimesForOneThatStands
 inline constexpr std::size_t most_set_ups = 4;
+// parts; of the readings, in order of time, that cross-validation of names in time leaves out; chosen; none
+inline constexpr std::size_t parts_of_time = 10;
+// links; from which a pile of readings of one of them is no end of a receiver's range; chosen;
+// ReceiverChecks.APileOfOneLinkIsNoEnd
+inline constexpr std::size_t many_links = 6;
+// gaps; the longest ones that are pauses of a run, not its sampling; chosen;
+// MeasurementGeometry.KnowsAScheduleOfSnapshots
+inline constexpr std::size_t longest_pauses = 3;
 // rad; range of headings from which a radio turns; chosen; none
 inline constexpr double turning_range = 0.2;
 // m; between two places of a radio that count; chosen; none

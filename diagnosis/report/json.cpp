@@ -159,7 +159,7 @@ Json json_of(const Diagnosis& d) {
   return {
       {"verdict", d.verdict()},
       {"noise",
-       {{"family", std::string(noise::name_of(d.noise.family))},
+       {{"family", noise::name_of(d.noise.family)},
         {"sigma_db", known(std::sqrt(d.noise.field_variance()))},
         {"decorrelation_m", known(d.noise.decorrelation())},
         {"fading", known(std::sqrt(d.noise.reading_variance()))},

@@ -36,13 +36,30 @@ std::string slot_value(const CauseEstimate& cause, const std::string& slot) {
   return cause.row.empty() ? "all radios" : cause.row;
 }
 
+// Each covariate once.
 std::string covariates_of(const Diagnosis& d) {
-  std::string list;
-  for (std::size_t k = 0; k < d.unexplained.size(); ++k) {
-    if (k) list += k + 1 == d.unexplained.size() ? " and on " : ", on ";
-    list += covariate_in_words(d.unexplained[k].covariate);
+  std::vector<std::string> words;
+  for (const auto& u : d.unexplained) {
+    std::string word = covariate_in_words(u.covariate);
+    if (std::find(words.begin(), words.end(), word) == words.end()) words.push_back(std::move(word));
   }
+  std::string list;
+  for (std::size_t k = 0; k < words.size(); ++k)
+    list += (k == 0 ? "" : k + 1 == words.size() ? " and on " : ", on ") + words[k];
   return list;
+}
+
+double lambda_of_names(const Diagnosis& d) {
+  double most = 0;
+  for (const CauseEstimate& c : d.causes)
+    if (confidence_of(c) != Confidence::set_aside) most = std::max(most, c.lambda);
+  return most;
+}
+
+double lambda_left(const Diagnosis& d) {
+  double most = 0;
+  for (const auto& u : d.unexplained) most = std::max(most, u.lambda);
+  return most;
 }
 
 std::string with_label(const std::string& id, const std::string& label) {
@@ -189,7 +206,11 @@ std::string verdict_in_words(const Diagnosis& d) {
   const int confirmed = count_of(d, Confidence::confirmed), unconfirmed = count_of(d, Confidence::unconfirmed);
   const std::string causes = causes_in_words(confirmed + unconfirmed);
   const std::string named = causes + (confirmed + unconfirmed == 1 ? " is named" : " are named");
-  if (!d.unexplained.empty())
+  // The headline is what is larger: names that explain more than what is left unexplained.
+  const bool led_by_names =
+      !d.unexplained.empty() && confirmed + unconfirmed > 0 && lambda_of_names(d) > lambda_left(d);
+  const std::string left = led_by_names ? "; something depends on " + covariates_of(d) + " beside" : "";
+  if (!d.unexplained.empty() && !led_by_names)
     return std::string("is wrong in a way that no known cause explains") +
            (d.unexplained[0].alternatives.empty() ? "" : " as well") + ": something depends on " + covariates_of(d) +
            (confirmed + unconfirmed ? "; " + named + " beside it" : "");
@@ -200,8 +221,9 @@ std::string verdict_in_words(const Diagnosis& d) {
       std::any_of(d.causes.begin(), d.causes.end(), [](const CauseEstimate& c) { return !c.doubt.empty(); });
   if (confirmed == 0)
     return "seems wrong: " + named + ", but " +
-           (doubted ? "the fit ends at a bound, and no name is sure" : "what was held out does not confirm it yet");
-  return "is wrong: " + named + (unconfirmed ? ", not all confirmed by what was held out" : "");
+           (doubted ? "the fit ends at a bound, and no name is sure" : "what was held out does not confirm it yet") +
+           left;
+  return "is wrong: " + named + (unconfirmed ? ", not all confirmed by what was held out" : "") + left;
 }
 
 double noise_floor(const Diagnosis& d) {

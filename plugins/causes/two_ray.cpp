@@ -26,7 +26,7 @@ struct TwoRay {
           .free()
           .with(MUSTER_LOG),
       real("ground", 0, -1e6, 1e6, "m", "height of the mirror"),
-      real("frequency", 2.44e9, 1e6, 1e12, "Hz", "carrier"),
+      real("frequency", 2.44e9, 1e6, 1e12, "Hz", "carrier").free().with(MUSTER_LOG),
   };
   static constexpr muster_cause cause = {
       sizeof(muster_cause),

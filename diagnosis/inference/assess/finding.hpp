@@ -22,6 +22,7 @@ struct Finding {
   double gain = 0;                      // deviance beside all other findings
   double evidence = 0;                  // nats
   double log_p = 0;                     // marginal over the covariance
+  double inflation = 1;                 // of gains of its kind in these data, by which its own was divided for log_p
   std::optional<HeldOutGain> held_out;  // without and with it; none for a suspected finding
   Eigen::VectorXd unseen_without;       // squared errors of readings at left-out places without it; none likewise
   std::vector<Elsewhere> elsewhere;     // the same for each grouping, if it concerns several groups

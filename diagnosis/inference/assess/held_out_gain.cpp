@@ -2,6 +2,7 @@
 
 #include "diagnosis/inference/noise/columns.hpp"
 #include "diagnosis/inference/score/marginal_p_value.hpp"
+#include "diagnosis/inference/thresholds.hpp"
 
 namespace muster::inference {
 namespace {
@@ -36,12 +37,16 @@ class Errors {
   std::vector<Eigen::MatrixXd> at_readings_;
 };
 
-Folds folds_of(const ModelState& state, const Result& result, const std::vector<int>& parts) {
-  return {state.field().sites(), parts, state.rows().row_of(), result.noise.covariance, state.options().seed};
+Folds folds_of(const ModelState& state, const std::vector<int>& parts) {
+  return {state.field().sites(), parts, state.rows().row_of(), state.fit.covariance, state.options().seed};
+}
+
+std::vector<int> blocks_of(const ModelState& state) {
+  return inference::blocks_of(state.field().sites(), state.fit.covariance);
 }
 
 void add_gains_of_blocks(const ModelState& state, Result& result) {
-  const Folds folds = folds_of(state, result, blocks_of(state.field().sites(), result.noise.covariance));
+  const Folds folds = folds_of(state, blocks_of(state));
   if (!folds.possible()) return;
   const Errors errors(state, folds);
   const Eigen::VectorXd base = errors.first(0);
@@ -75,7 +80,7 @@ bool concerns_several(const Term& term, const std::vector<int>& parts) {
 
 void add_gains_of_groups(const ModelState& state, const Grouping& grouping, Result& result) {
   const std::vector<int>& parts = grouping.of_row;
-  const Folds folds = folds_of(state, result, parts);
+  const Folds folds = folds_of(state, parts);
   if (!folds.possible()) return;
   const Errors errors(state, folds);
   const auto elsewhere = [&](const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
@@ -89,7 +94,52 @@ void add_gains_of_groups(const ModelState& state, const Grouping& grouping, Resu
   }
 }
 
+// The worst of the terms that `refuted` says are so, by what their removal gains in mean squared error.
+template <class Concerns, class Refuted>
+std::optional<std::size_t> worst_of(const ModelState& state, const Folds& folds, const Concerns& concerns,
+                                    const Refuted& refuted) {
+  const Errors errors(state, folds);
+  const Eigen::VectorXd full = errors.first(state.terms.size());
+  const bool all = refuted(errors.first(0), full);
+  std::optional<std::size_t> worst;
+  double least = 0;
+  for (std::size_t one = 0; one < state.terms.size(); ++one) {
+    if (!concerns(state.terms[one])) continue;
+    const Eigen::VectorXd without = errors.without(one);
+    const double gain = (without - full).mean();
+    if (gain >= least || !(all || refuted(without, full))) continue;
+    least = gain;
+    worst = one;
+  }
+  return worst;
+}
+
 }  // namespace
+
+std::optional<std::size_t> most_refuted(const ModelState& state) {
+  if (state.terms.empty()) return {};
+  const Folds blocks = folds_of(state, blocks_of(state));
+  if (blocks.blocks() >= thresholds::fewest_refuting_blocks) {
+    const auto refuted = [&](const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
+      const HeldOutGain gain = blocks.compared(before, after);
+      // A term may fail in few blocks and badly: the interval then includes 0.
+      return gain.upper95 < 0 || gain.gain < -thresholds::refuting_growth * before.mean();
+    };
+    if (const auto worst = worst_of(
+            state, blocks, [](const Term&) { return true; }, refuted))
+      return worst;
+  }
+  // A name in time says what happens at other times: it must not be worse there than no name.
+  const auto in_time = [](const Term& term) { return !term.smooth() && term.candidate->role.time_like; };
+  if (std::none_of(state.terms.begin(), state.terms.end(), in_time)) return {};
+  const std::vector<int> parts = state.problem().layout->parts_of_time(state.rows());
+  if (parts.empty()) return {};
+  const Folds times = folds_of(state, parts);
+  const auto worse = [](const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
+    return after.mean() > before.mean();
+  };
+  return times.possible() ? worst_of(state, times, in_time, worse) : std::nullopt;
+}
 
 void add_held_out_gains(const ModelState& state, Result& result) {
   add_gains_of_blocks(state, result);

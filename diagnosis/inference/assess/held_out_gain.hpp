@@ -7,6 +7,10 @@
 
 namespace muster::inference {
 
+// The term that left-out readings speak against most. At left-out places: without it their error falls beyond chance;
+// where all terms together raise that error beyond chance, the one that raises it most. A name in time also by readings
+// at left-out times: without it their error falls. Nothing with too few blocks to tell.
+std::optional<std::size_t> most_refuted(const ModelState& state);
 // Fills in the held-out figures of the result and of each accepted finding.
 void add_held_out_gains(const ModelState& state, Result& result);
 

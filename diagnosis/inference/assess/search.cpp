@@ -35,7 +35,9 @@ Search::Search(const Problem& problem, const Options& options) : state_(checked(
 Result Search::run() {
   result_ = {};
   forward_selection(state_, result_.trials);
+  withdraw_refuted();
   const std::vector<Term> aside = backward_elimination(state_, result_.trials);
+  withdraw_refuted();
   const std::vector<ParameterUncertainty> spreads = settle_in_the_middle();
   for (std::size_t k = 0; k < state_.terms.size(); ++k) {
     const Term& term = state_.terms[k];
@@ -59,6 +61,18 @@ Result Search::run() {
   add_held_out_gains(state_, result_);
   check_what_is_left(result_, model);
   return result_;
+}
+
+// The worst first: each leaves another model and another covariance behind.
+void Search::withdraw_refuted() {
+  while (const auto worst = most_refuted(state_)) {
+    const Term& term = state_.terms[*worst];
+    result_.trials.push_back({term.candidate->id, term.candidate->label_of(term.theta), term.gain, term.log_p,
+                              term.log_p, false, "refuted by readings at places left out"});
+    state_.terms.erase(state_.terms.begin() + static_cast<std::ptrdiff_t>(*worst));
+    state_.refit();
+  }
+  measure_gains(state_);
 }
 
 std::vector<ParameterUncertainty> Search::settle_in_the_middle() {
@@ -110,6 +124,7 @@ Finding Search::finding_of(const Term& term, Status status) const {
                   term.gain,
                   term.evidence,
                   term.log_p,
+                  term.inflation,
                   {},
                   {},
                   {},

@@ -25,6 +25,8 @@ class Search {
 
  private:
   Finding finding_of(const Term& term, Status status) const;
+  // Removes terms whose removal lowers the error at left-out places beyond chance.
+  void withdraw_refuted();
   // Parameter uncertainty of each term; moves a place to the middle of its equally likely thetas.
   std::vector<ParameterUncertainty> settle_in_the_middle();
   void check_what_is_left(Result& result, const WhitenedModel& model);

@@ -31,7 +31,8 @@ class PlacedRows {
     for (Index i = 0; i < sites.size(); ++i) sites_.set(i, floats.row(i));
     const double per_metre = entries / std::max(longest_in(sites), 1.0);
     for (int i = 0; i <= entries; ++i)
-      table_[i] = static_cast<float>(correlation(covariance.family, i / per_metre / covariance.decorrelation()));
+      table_[i] = static_cast<float>((1 - fixed_share(covariance.family)) *
+                                     correlation(covariance.family, i / per_metre / covariance.decorrelation()));
     const bool by_readings = is_rough(covariance.family) && sites.within() > 0;
     const double variance = covariance.field_variance(), everywhere = variance * covariance.shared();
     pairs_ = {sites_.places(by_readings, anchors_move(sites), far_within * sites_.longest_within()),
@@ -60,7 +61,7 @@ class PlacedRows {
 class StatedRows {
  public:
   StatedRows(const Field& field, const Covariance& covariance)
-      : StatedRows(field, covariance.field_variance(),
+      : StatedRows(field, (1 - fixed_share(covariance.family)) * covariance.field_variance(),
                    StatedTables::position_of(StatedTables::nearest(covariance).theta[1]).k) {}
 
   void covariances(Index row, double* out) const {
@@ -78,17 +79,31 @@ class StatedRows {
   const Eigen::VectorXf& own_;
 };
 
-// `own`: variance of the field at each row.
+// Adds the share that is fixed at the row's site to covariances with the rows before it.
+void add_fixed(const RecurringSites& recurring, const Covariance& covariance, Index row, double* out) {
+  const double fixed = fixed_share(covariance.family) * covariance.field_variance();
+  if (fixed == 0) return;
+  const Relation least = fixed_to_stream(covariance.family) ? Relation::stream : Relation::site;
+  for (const Index other : recurring.rows_with(row)) {
+    if (other >= row) return;
+    if (recurring.of(row, other) >= least) out[other] += fixed;
+  }
+}
+
+// `own`: variance of the field at each row, without the fixed share.
 template <class Covariances>
-Eigen::MatrixXd sums_of(const Sites& sites, const Covariance& covariance, const Eigen::MatrixXd& weights,
+Eigen::MatrixXd sums_of(const Field& field, const Covariance& covariance, const Eigen::MatrixXd& weights,
                         const Covariances& rows, Index filled, const Eigen::ArrayXd& own) {
+  const Sites& sites = field.sites();
   Eigen::VectorXd before(filled);
   Eigen::MatrixXd below(weights.rows(), weights.cols());  // the covariance's lower triangle times the weights
   for (Index i = 0; i < sites.size(); ++i) {
     rows.covariances(i, before.data());
+    add_fixed(field.recurring(), covariance, i, before.data());
     below.row(i).noalias() = before.head(i).transpose() * weights.topRows(i);
   }
-  const Eigen::VectorXd alone = own + floor_variance + covariance.reading_variance() / sites.count.array();
+  const double fixed = fixed_share(covariance.family) * covariance.field_variance();
+  const Eigen::VectorXd alone = own + fixed + floor_variance + covariance.reading_variance() / sites.count.array();
   const Eigen::MatrixXd half = weights.transpose() * below;
   return half + half.transpose() + weights.transpose() * alone.asDiagonal() * weights;
 }
@@ -97,13 +112,14 @@ Eigen::MatrixXd sums_of(const Sites& sites, const Covariance& covariance, const 
 
 Eigen::MatrixXd covariance_of_sums(const Field& field, const Covariance& covariance, const Eigen::MatrixXd& weights) {
   const Sites& sites = field.sites();
-  if (covariance.family == Family::stated) {
+  if (is_stated(covariance.family)) {
     const StatedRows rows(field, covariance);
-    return sums_of(sites, covariance, weights, rows, sites.size(), rows.own());
+    return sums_of(field, covariance, weights, rows, sites.size(), rows.own());
   }
   const PlacedRows rows(sites, covariance);
-  const Eigen::ArrayXd own = Eigen::ArrayXd::Constant(sites.size(), covariance.field_variance());
-  return sums_of(sites, covariance, weights, rows, rows.filled(), own);
+  const Eigen::ArrayXd own =
+      Eigen::ArrayXd::Constant(sites.size(), (1 - fixed_share(covariance.family)) * covariance.field_variance());
+  return sums_of(field, covariance, weights, rows, rows.filled(), own);
 }
 
 Eigen::MatrixXd scatter_of(const Field& field, const Whitener& whitener, const Eigen::MatrixXd& added) {

@@ -4,7 +4,13 @@
 
 namespace muster::noise {
 
-std::string_view name_of(Family family) {
+namespace {
+
+constexpr int apart = 16;  // families with different fixed shares: 0 for none, then those of a site, then of a stream
+
+std::size_t kind_of(Family family) { return static_cast<std::size_t>(family) / apart; }
+
+std::string plain_name(Family family) {
   switch (family) {
     case Family::exponential:
       return "exponential";
@@ -22,8 +28,39 @@ std::string_view name_of(Family family) {
   return "";
 }
 
+}  // namespace
+
+Family with_fixed(Family family, std::size_t k, bool to_stream) {
+  const std::size_t kind = 1 + k + (to_stream ? fixed_shares.size() : 0);
+  return static_cast<Family>(static_cast<int>(without_fixed(family)) + apart * static_cast<int>(kind));
+}
+
+Family without_fixed(Family family) { return static_cast<Family>(static_cast<int>(family) % apart); }
+
+Family with_less_fixed(Family family) {
+  const std::size_t kind = kind_of(family);
+  if (kind == 0) return family;
+  const std::size_t k = (kind - 1) % fixed_shares.size();
+  return k == 0 ? without_fixed(family) : with_fixed(family, k - 1, fixed_to_stream(family));
+}
+
+double fixed_share(Family family) {
+  return kind_of(family) == 0 ? 0 : fixed_shares[(kind_of(family) - 1) % fixed_shares.size()];
+}
+
+bool fixed_to_stream(Family family) { return kind_of(family) > fixed_shares.size(); }
+
+bool is_stated(Family family) { return without_fixed(family) == Family::stated; }
+
+std::string name_of(Family family) {
+  const int percent = static_cast<int>(std::lround(100 * fixed_share(family)));
+  const std::string name = plain_name(without_fixed(family));
+  if (percent == 0) return name;
+  return name + "_fixed_" + std::to_string(percent) + (fixed_to_stream(family) ? "_one_way" : "");
+}
+
 double correlation(Family family, double u) {
-  switch (family) {
+  switch (without_fixed(family)) {
     case Family::exponential:
       return std::exp(-u);
     case Family::matern32:
@@ -41,7 +78,7 @@ double correlation(Family family, double u) {
 }
 
 double correlation_slope(Family family, double u) {
-  switch (family) {
+  switch (without_fixed(family)) {
     case Family::exponential:
       return u * std::exp(-u);
     case Family::matern32:
@@ -58,7 +95,7 @@ double correlation_slope(Family family, double u) {
   return 0;
 }
 
-bool is_rough(Family family) { return family == Family::exponential || family == Family::two_scale; }
+bool is_rough(Family family) { return without_fixed(family) == Family::exponential || family == Family::two_scale; }
 
 double log_scale_of(Family family) {
   switch (family) {
@@ -72,7 +109,7 @@ double log_scale_of(Family family) {
 }
 
 double efold(Family family) {
-  if (family == Family::stated) return 1;  // by definition
+  if (is_stated(family)) return 1;  // by definition
   double low = 0, high = 10;
   for (int round = 0; round < 50; ++round) {
     const double middle = (low + high) / 2;
@@ -82,16 +119,18 @@ double efold(Family family) {
 }
 
 StatedField stated_by(const Covariance& c, double within) {
-  if (c.family == Family::stated) return {std::sqrt(c.field_variance()), c.decorrelation()};
-  const double of_reading = c.field_variance() / correlation(c.family, within / c.decorrelation());
+  const double variance = (1 - fixed_share(c.family)) * c.field_variance();
+  if (is_stated(c.family)) return {std::sqrt(variance), c.decorrelation()};
+  const double of_reading = variance / correlation(c.family, within / c.decorrelation());
   return {std::sqrt(of_reading), c.decorrelation() * efold(c.family)};
 }
 
 Covariance as_stated(const StatedField& field, Family family, const Theta& beside, double within) {
   Covariance result{family, beside};
   result.theta[1] = std::log(field.decorrelation / efold(family));
-  const double of_mean = family == Family::stated ? 1 : correlation(family, within / result.decorrelation());
-  result.theta[0] = 2 * std::log(std::max(field.shadowing, 0.05)) + std::log(of_mean);
+  const double of_mean = is_stated(family) ? 1 : correlation(family, within / result.decorrelation());
+  result.theta[0] =
+      2 * std::log(std::max(field.shadowing, 0.05)) + std::log(of_mean) - std::log(1 - fixed_share(family));
   return result;
 }
 

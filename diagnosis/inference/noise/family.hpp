@@ -1,10 +1,12 @@
 // Correlation of the field at two places: five families over one decorrelation distance, and the one that a model
-// states itself (stated_correlation.hpp).
+// states itself (stated_correlation.hpp). The exponential and the stated one come also with a share that is fixed at a
+// site (recurring_sites.hpp): rows of one site, or of one stream there, have it in common, and no others. Multipath is
+// such a share where nothing moves.
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
-#include <string_view>
+#include <string>
 
 namespace muster::noise {
 
@@ -13,9 +15,21 @@ enum class Family { exponential = 1, matern32, matern52, two_scale, gaussian, st
 inline constexpr std::array families{Family::exponential, Family::matern32, Family::matern52, Family::two_scale,
                                      Family::gaussian};
 
-std::string_view name_of(Family family);
+std::string name_of(Family family);
 
-// Correlation at distance u, in decorrelation distances. Not of the stated one.
+// Shares that may be fixed, of the field's variance.
+inline constexpr std::array fixed_shares{0.03, 0.1, 0.3, 0.6, 0.9};
+// A family with the k-th of these shares fixed at a site, or to a stream there.
+Family with_fixed(Family family, std::size_t k, bool to_stream);
+Family without_fixed(Family family);
+Family with_less_fixed(Family family);  // with the next lower share; the family itself if it has none
+// Share of the field's variance fixed at a site, and whether it is that of one stream there.
+double fixed_share(Family family);
+bool fixed_to_stream(Family family);
+// True for the stated correlation, with a fixed share or without.
+bool is_stated(Family family);
+
+// Correlation at distance u, in decorrelation distances, beside the fixed share. Not of a stated one.
 double correlation(Family family, double u);
 
 // Its derivative by the logarithm of the decorrelation distance.

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "diagnosis/inference/thresholds.hpp"
 #include "muster/random.hpp"
@@ -51,18 +52,35 @@ Fit fit(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& des
 std::vector<Fit> fit_families(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& design,
                               const Prior& prior, double advantage) {
   std::vector<Fit> fits{fit(field, y, design, prior, default_start(y, design, Family::exponential), 20)};
-  const std::vector<Family> all = field.families();
+  std::vector<Family> all = field.families();
+  const std::vector<Family> fixed = field.fixed_families();
+  all.insert(all.end(), fixed.begin(), fixed.end());
+  const auto value_of = [&](Family family) {
+    const auto at = std::find_if(fits.begin(), fits.end(), [&](const Fit& f) { return f.covariance.family == family; });
+    return at == fits.end() ? std::numeric_limits<double>::infinity() : at->value;
+  };
   for (const Family family : all) {
     if (family == Family::exponential) continue;
+    // Shares grow, and the value has one minimum along them.
+    if (const Family less = with_less_fixed(family);
+        less != family && value_of(less) > value_of(with_less_fixed(less)) + inference::thresholds::leave_family_nats)
+      continue;
     // Warm start from a similar family: the fit of the smoothest lies far from that of the roughest.
-    const auto like = std::find_if(fits.begin(), fits.end(), [&](const Fit& f) {
-      return f.covariance.family == (family == Family::gaussian ? Family::matern52 : Family::exponential);
-    });
+    const Family similar = family == Family::gaussian ? Family::matern52
+                           : fixed_share(family) > 0  ? without_fixed(family)
+                                                      : Family::exponential;
+    const auto like =
+        std::find_if(fits.begin(), fits.end(), [&](const Fit& f) { return f.covariance.family == similar; });
     Covariance start{family, like->covariance.theta};
     start.theta[1] += log_scale_of(family) - log_scale_of(like->covariance.family);
     fits.push_back(fit(field, y, design, prior, start));
   }
-  std::erase_if(fits, [](const Fit& f) { return !std::isfinite(f.value); });
+  double least = std::numeric_limits<double>::infinity();
+  for (const Fit& f : fits) least = std::min(least, f.value);
+  std::erase_if(fits, [&](const Fit& f) {
+    const bool hopeless = f.value > least + inference::thresholds::hopeless_family_nats;
+    return !std::isfinite(f.value) || (hopeless && fixed_share(f.covariance.family) > 0);
+  });
   const auto cost = [&](const Fit& f) { return f.value + (f.covariance.family == all.front() ? 0 : advantage); };
   std::stable_sort(fits.begin(), fits.end(), [&](const Fit& a, const Fit& b) { return cost(a) < cost(b); });
   return fits;

@@ -17,8 +17,8 @@ Neighbourhood::Neighbourhood(const Field& field, const Covariance& covariance, b
       covariance_(covariance),
       slopes_(slopes),
       slots_(field.slots()),
-      correlation_(distances + 1),
-      by_distance_(distances + 1),
+      correlation_(3 * same_site),
+      by_distance_(3 * same_site),
       reading_variance_(covariance.reading_variance() / field.sites().count.array()),
       nugget_(at(slots_ + 1)),
       present_(at(slots_)),
@@ -31,15 +31,18 @@ Neighbourhood::Neighbourhood(const Field& field, const Covariance& covariance, b
       slope_(at(parameters * (slots_ + 1))),
       information_(parameters * parameters) {
   const double s2 = covariance.field_variance();
-  const bool stated = covariance.family == Family::stated;
+  const bool stated = is_stated(covariance.family);
+  fixed_ = fixed_share(covariance.family);
   for (std::size_t k = 0; k < distances; ++k) {
-    if (stated) {
-      correlation_[k] = by_distance_[k] = StatedTables::correlation_of(k);
-      continue;
-    }
     const double u = static_cast<double>(k) * field.spacing() / covariance.decorrelation();
-    correlation_[k] = correlation(covariance.family, u);
-    by_distance_[k] = correlation_slope(covariance.family, u);
+    const double value = stated ? StatedTables::correlation_of(k) : correlation(covariance.family, u);
+    const double slope = stated ? value : correlation_slope(covariance.family, u);
+    correlation_[k] = (1 - fixed_) * value;
+    by_distance_[k] = (1 - fixed_) * slope;
+    correlation_[same_site + k] = correlation_[k] + (fixed_to_stream(covariance.family) ? 0 : fixed_);
+    correlation_[2 * same_site + k] = correlation_[k] + fixed_;
+    // The stated slope is a difference of two values, in which the fixed share cancels.
+    by_distance_[same_site + k] = by_distance_[2 * same_site + k] = by_distance_[k];
   }
   // The stated correlation is interpolated between two decorrelation distances: each takes the place of one metric.
   const double share = stated ? 1 - StatedTables::position_of(covariance.theta[1]).weight : covariance.shared();
@@ -97,15 +100,15 @@ void Neighbourhood::own_fields(Index group) {
     for (Index a = 0; a <= slots_; ++a) {
       const Index j = a < slots_ ? field_.neighbour(i, static_cast<int>(a)) : i;
       const double before = j < 0 ? 1 : static_cast<double>(low[j]), after = j < 0 ? 1 : static_cast<double>(high[j]);
-      own_field_[at(a)].of[lane] = s2 * ((1 - weight) * before + weight * after);
-      own_slope_[at(a)].of[lane] = s2 * (after - before) / StatedTables::step;
+      own_field_[at(a)].of[lane] = s2 * (fixed_ + (1 - fixed_) * ((1 - weight) * before + weight * after));
+      own_slope_[at(a)].of[lane] = s2 * (1 - fixed_) * (after - before) / StatedTables::step;
     }
   }
 }
 
 void Neighbourhood::factorise(Index group) {
   own_variances(group);
-  if (covariance_.family == Family::stated) own_fields(group);
+  if (is_stated(covariance_.family)) own_fields(group);
   const Field::Entries entries = field_.entries(group, covariance_, slopes_);
   arrays_.near = entries.near;
   arrays_.joint = entries.joint;

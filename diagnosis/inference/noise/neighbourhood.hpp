@@ -49,6 +49,7 @@ class Neighbourhood {
   Covariance covariance_;
   bool slopes_;
   Index slots_;
+  double fixed_ = 0;  // share of the field's variance
   std::vector<double> correlation_, by_distance_;
   Eigen::VectorXd reading_variance_;  // of the rows' means
   std::vector<Lanes> nugget_, present_, own_field_, own_slope_, root_, cross_, combination_, turned_, slope_,

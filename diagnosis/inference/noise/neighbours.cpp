@@ -6,6 +6,7 @@
 #include <nanoflann.hpp>
 #include <numeric>
 
+#include "diagnosis/inference/thresholds.hpp"
 #include "muster/random.hpp"
 
 namespace muster::noise {
@@ -86,8 +87,11 @@ std::vector<Index> random_ranks(Index n, uint64_t seed) {
 std::vector<Index> neighbours_of(const Sites& sites, const Conditioning& conditioning) {
   const Index n = sites.size();
   const auto rank = random_ranks(n, conditioning.seed);
-  Eigen::MatrixXd both(6, n);
-  both << sites.place, sites.anchor;
+  // Of rows of one site those of the same stream come first: what is fixed to it is known from them alone.
+  Eigen::MatrixXd both = Eigen::MatrixXd::Zero(7, n);
+  both.topRows(6) << sites.place, sites.anchor;
+  for (std::size_t i = 0; i < sites.stream.size(); ++i)
+    both(6, static_cast<Index>(i)) = inference::thresholds::same_site * sites.stream[i];
   std::map<int, std::vector<Index>> of_group;
   for (Index i = 0; i < n; ++i) of_group[sites.group[static_cast<std::size_t>(i)]].push_back(i);
   std::map<int, Grove> groves;

@@ -11,7 +11,10 @@ namespace muster::noise {
 constexpr int lanes = 8;         // rows whose neighbourhoods are computed side by side
 constexpr int parameters = 4;    // of the covariance
 constexpr int distances = 4096;  // entries of a table of correlations; one more means "uncorrelated"
-constexpr int alignment = 64;    // bytes, of arrays with a value a lane
+// Added to an entry of two rows of one site, and twice for one stream there: the table goes on with correlations
+// within.
+constexpr int same_site = distances + 1;
+constexpr int alignment = 64;  // bytes, of arrays with a value a lane
 
 // Relation of joint distances (place and anchor) to distances of places, over the rows of a group.
 enum class Joint : std::uint8_t { same = 1, uncorrelated, other };

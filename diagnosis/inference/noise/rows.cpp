@@ -77,7 +77,10 @@ Sites Sites::of(const std::vector<Index>& rows) const {
                {},
                count(rows),
                stated};
-  for (const Index i : rows) result.group.push_back(group[static_cast<std::size_t>(i)]);
+  for (const Index i : rows) {
+    result.group.push_back(group[static_cast<std::size_t>(i)]);
+    if (!stream.empty()) result.stream.push_back(stream[static_cast<std::size_t>(i)]);
+  }
   return result;
 }
 
@@ -91,6 +94,7 @@ Sites Sites::with(const Sites& more) const {
   result.count.conservativeResize(size() + more.size());
   result.count.tail(more.size()) = more.count;
   result.group.insert(result.group.end(), more.group.begin(), more.group.end());
+  result.stream.insert(result.stream.end(), more.stream.begin(), more.stream.end());
   return result;
 }
 

@@ -25,6 +25,7 @@ struct Sites {
   std::vector<int> group;                             // the anchor's
   Eigen::VectorXd count;                              // readings
   std::shared_ptr<const StatedCorrelation> stated{};  // correlation of the model's own draws, if it states one
+  std::vector<int> stream{};                          // of rows at one site; empty: one
 
   Index size() const { return count.size(); }
   double within() const;  // the mean distance of two readings of a row

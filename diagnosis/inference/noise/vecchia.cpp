@@ -7,6 +7,7 @@
 
 #include "diagnosis/inference/noise/neighbourhood.hpp"
 #include "diagnosis/inference/noise/row_distance.hpp"
+#include "diagnosis/inference/thresholds.hpp"
 
 namespace muster::noise {
 namespace {
@@ -64,12 +65,12 @@ Conditioning fillable(Conditioning conditioning, const std::vector<int>& group) 
 
 }  // namespace
 
-Field::Field(Sites sites, const Conditioning& conditioning) : sites_(std::move(sites)) {
+Field::Field(Sites sites, const Conditioning& conditioning) : sites_(std::move(sites)), recurring_(sites_) {
   const Conditioning with = fillable(conditioning, sites_.group);
   slots_ = with.slots();
   neighbours_ = neighbours_of(sites_, with);
   float longest = 0;
-  each_pair(false, [&](std::size_t, bool, float, float both) { longest = std::max(longest, both); });
+  each_pair(false, [&](std::size_t, Index, Index, float, float both) { longest = std::max(longest, both); });
   spacing_ = std::max(spacing_, longest / (distances - 1.0));
   smooth_ = table(false);
   if (sites_.within() > 0) rough_ = table(true);
@@ -93,7 +94,7 @@ void Field::each_pair(bool by_readings, const Use& use) const {
         const Index other = b < a ? neighbour(i, b) : i;
         if (other < 0) continue;
         const std::size_t pair = at((i / lanes) * pairs() + Index{a} * (a + 1) / 2 + b), from = b < a ? at(b + 1) : 0;
-        use(pair * lanes + at(i % lanes), sites_.group[at(j)] == sites_.group[at(other)], place[from], both[from]);
+        use(pair * lanes + at(i % lanes), j, other, place[from], both[from]);
       }
     }
   }
@@ -103,9 +104,10 @@ Field::Table Field::table(bool by_readings) const {
   Table result;
   result.near.assign(at(groups() * pairs() * lanes), distances);
   result.joint.assign(result.near.size(), distances);
-  each_pair(by_readings, [&](std::size_t slot, bool of_one_anchor, float place, float both) {
-    result.near[slot] = entry(place);
-    if (of_one_anchor) result.joint[slot] = entry(both);
+  each_pair(by_readings, [&](std::size_t slot, Index a, Index b, float place, float both) {
+    result.near[slot] = static_cast<uint16_t>(entry(place) + within_site(a, b));
+    if (sites_.group[at(a)] == sites_.group[at(b)])
+      result.joint[slot] = static_cast<uint16_t>(entry(both) + within_site(a, b));
   });
   compare_ends(result);
   return result;
@@ -131,6 +133,19 @@ std::vector<Family> Field::families() const {
   return result;
 }
 
+std::vector<Family> Field::fixed_families() const {
+  std::vector<Family> result;
+  if (recurring_.share() < inference::thresholds::recurring_share) return result;
+  for (const bool to_stream : {false, true}) {
+    if (to_stream && !recurring_.several_streams()) continue;
+    for (std::size_t k = 0; k < fixed_shares.size(); ++k) {
+      if (sites_.stated) result.push_back(with_fixed(Family::stated, k, to_stream));
+      result.push_back(with_fixed(Family::exponential, k, to_stream));
+    }
+  }
+  return result;
+}
+
 const StatedTables& Field::stated(int k) const {
   const auto found = stated_tables_.find(k);
   if (found != stated_tables_.end()) return found->second;
@@ -149,7 +164,8 @@ StatedTables Field::stated_tables(double decorrelation) const {
   const auto flush = [&] {
     std::vector<double> values(a.size());
     sites_.stated->covariances(sites_, decorrelation, a, b, values.data());
-    for (std::size_t k = 0; k < to.size(); ++k) result.pairs[to[k]] = StatedTables::entry_of(values[k]);
+    for (std::size_t k = 0; k < to.size(); ++k)
+      result.pairs[to[k]] = static_cast<uint16_t>(StatedTables::entry_of(values[k]) + within_site(a[k], b[k]));
     a.clear(), b.clear(), to.clear();
   };
   for (Index i = 0; i < size(); ++i) {
@@ -191,7 +207,7 @@ const std::vector<uint16_t>& Field::stated_triangle(int k) const {
 
 Field::Entries Field::entries(Index group, const Covariance& covariance, bool slopes) const {
   const Index first = group * pairs();
-  if (covariance.family == Family::stated) {
+  if (is_stated(covariance.family)) {
     const auto [k, weight] = StatedTables::position_of(covariance.theta[1]);
     const int next = slopes || weight > 0 ? k + 1 : k;
     return {stated(k).pairs.data() + first * lanes, stated(next).pairs.data() + first * lanes, different_.data()};

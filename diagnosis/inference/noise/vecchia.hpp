@@ -13,6 +13,7 @@
 #include "diagnosis/inference/noise/basis.hpp"
 #include "diagnosis/inference/noise/family.hpp"
 #include "diagnosis/inference/noise/neighbours.hpp"
+#include "diagnosis/inference/noise/recurring_sites.hpp"
 #include "diagnosis/inference/noise/row_kernel.hpp"
 #include "diagnosis/inference/noise/stated_correlation.hpp"
 
@@ -32,10 +33,10 @@ struct StatedTables {
   }
   // A covariance whose stated correlation is at the nearest tabulated distance: half the tables for what is not fitted.
   static Covariance nearest(Covariance covariance) {
-    if (covariance.family == Family::stated) covariance.theta[1] = step * std::round(covariance.theta[1] / step);
+    if (is_stated(covariance.family)) covariance.theta[1] = step * std::round(covariance.theta[1] / step);
     return covariance;
   }
-  // Of an entry of the pairs: linear.
+  // Of an entry of the pairs, less than same_site: linear.
   static double correlation_of(std::size_t entry) { return 1 - static_cast<double>(entry) / distances; }
 
   static uint16_t entry_of(double correlation) {
@@ -62,6 +63,8 @@ class Field {
   int slots() const { return slots_; }
   // What may be fitted: the stated one first, if there is one, else the exponential one.
   std::vector<Family> families() const;
+  // Families with a fixed share; none unless many rows share their site with others.
+  std::vector<Family> fixed_families() const;
   // At the k-th of the decorrelation distances; made on first use.
   const StatedTables& stated(int k) const;
   // Entries of all pairs of rows at that distance: of row i those with the rows before it.
@@ -69,8 +72,9 @@ class Field {
   Index groups() const { return (size() + lanes - 1) / lanes; }
   double spacing() const { return spacing_; }  // m between entries
   Index neighbour(Index row, int slot) const { return neighbours_[static_cast<std::size_t>(row * slots_ + slot)]; }
-  // Entries of the pairs of group g: pair a (a + 1) / 2 + b is slots a and b < a; with b = a, slot a and the row
-  // itself.
+  const RecurringSites& recurring() const { return recurring_; }
+  // Entries of the pairs of group g, with same_site added once or twice (row_kernel.hpp): pair a (a + 1) / 2 + b is
+  // slots a and b < a; with b = a, slot a and the row itself.
   struct Entries {
     // By place; by place and anchor, same anchor. Of the stated correlation: at one distance, and at the next.
     const uint16_t *near, *joint;
@@ -87,15 +91,17 @@ class Field {
     std::vector<uint16_t> near, joint;
     std::vector<Joint> kinds;
   };
-  // use(slot, true for the same anchor, m by place, m by place and anchor)
+  // use(slot, row, row, m by place, m by place and anchor)
   StatedTables stated_tables(double decorrelation) const;
   template <class Use>
   void each_pair(bool by_readings, const Use& use) const;
   uint16_t entry(double distance) const;
+  int within_site(Index a, Index b) const { return same_site * static_cast<int>(recurring_.of(a, b)); }
   Table table(bool by_readings) const;
   void compare_ends(Table& table) const;
 
   Sites sites_;
+  RecurringSites recurring_;
   int slots_;
   std::vector<Index> neighbours_;
   double spacing_ = 0.01;

@@ -155,14 +155,23 @@ void set_artifacts_aside(ModelState& state, std::vector<Term>& aside) {
   state.terms = std::move(kept);
 }
 
-// Withdraws names beside a smooth of their own covariate: each would be one more guess at the same structure.
+// Rows that both terms concern, over those that one of them does (Jaccard 1912).
+double overlap(const Term& term, const Term& other) {
+  const auto concerned = [](const Term& t) { return (t.columns.array() != 0).rowwise().any().eval(); };
+  const auto one = concerned(term), two = concerned(other);
+  return static_cast<double>((one && two).count()) / static_cast<double>(std::max<Index>((one || two).count(), 1));
+}
+
+// Withdraws names beside a smooth of their own covariate on the same rows: each would be one more guess at the same
+// structure.
 void withdraw_names_beside_smooths(ModelState& state) {
-  std::set<std::string> unexplained;
-  for (const Term& term : state.terms) {
-    if (term.smooth()) unexplained.insert(term.candidate->own());
+  for (Term& term : state.terms) {
+    if (term.smooth()) continue;
+    term.as_smooth = std::any_of(state.terms.begin(), state.terms.end(), [&](const Term& other) {
+      return other.smooth() && other.candidate->own() == term.candidate->own() &&
+             overlap(term, other) > thresholds::same_rows_share;
+    });
   }
-  for (Term& term : state.terms)
-    term.as_smooth = term.as_smooth || (!term.smooth() && unexplained.count(term.candidate->own()));
 }
 
 bool named_twice(const ModelState& state, const Term& term) {

@@ -84,13 +84,18 @@ bool same_effect(const WhitenedModel& model, const ScoredCandidate& a, const Sco
          (of_b.q.transpose() * of_a.q).squaredNorm() > thresholds::same_effect * static_cast<double>(of_a.q.cols());
 }
 
-// Prefers the simplest of causes with the same effect.
+// Prefers the simplest of causes with the same effect; of those with as many parameters that of the least strength.
 void prefer_simple(std::vector<ScoredCandidate>& pool, const WhitenedModel& model) {
   if (pool[0].candidate().kind != Kind::named) return;
+  const auto simpler = [&](const ScoredCandidate& lead) {
+    const int parameters = lead.candidate().role.parameters, now = pool[0].candidate().role.parameters;
+    if (parameters != now) return parameters < now;
+    return lead.columns.cols() == 1 && pool[0].columns.cols() == 1 &&
+           lead.columns.norm() > thresholds::weaker_strength * pool[0].columns.norm();
+  };
   for (auto lead = pool.begin() + 1; lead != pool.end(); ++lead) {
-    const Candidate& c = lead->candidate();
-    if (c.kind != Kind::named || c.role.parameters >= pool[0].candidate().role.parameters) continue;
-    if (same_effect(model, pool[0], *lead)) return to_front(pool, lead);
+    if (lead->candidate().kind == Kind::named && simpler(*lead) && same_effect(model, pool[0], *lead))
+      return to_front(pool, lead);
   }
 }
 

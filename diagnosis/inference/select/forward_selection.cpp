@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "diagnosis/inference/noise/columns.hpp"
+#include "diagnosis/inference/score/bulk_inflation.hpp"
 #include "diagnosis/inference/score/clipping_check.hpp"
 #include "diagnosis/inference/score/marginal_p_value.hpp"
 #include "diagnosis/inference/select/choose.hpp"
@@ -111,7 +112,7 @@ Trial tried(const ModelState& state, const ScoredCandidate& lead, const noise::F
             const Eigen::MatrixXd& design) {
   const Candidate& c = lead.candidate();
   const WhitenedModel model = state.whitened_model(design, fit.covariance);
-  Trial trial{c.id, c.label_of(lead.theta), gain_of(c, model, lead.columns), 0, 0, false, ""};
+  Trial trial{c.id, c.label_of(lead.theta), gain_of(c, model, lead.columns), 0, 0, false, "", 1};
   trial.log_p = state.log_p(c, trial.gain, lead.columns.cols(), true);
   trial.marginal_log_p = trial.log_p;
   if (trial.log_p > thresholds::log_p_beyond_noise)
@@ -120,6 +121,12 @@ Trial tried(const ModelState& state, const ScoredCandidate& lead, const noise::F
   if (trial.marginal_log_p <= state.threshold() && trial.log_p > thresholds::log_p_beyond_approximation)
     trial.marginal_log_p = std::max(trial.marginal_log_p, sure_log_p(state, lead, fit, model));
   trial.marginal_log_p += model.skew_charge(lead.columns);
+  if (trial.marginal_log_p <= state.threshold()) {
+    const WhitenedModel with = state.whitened_model(noise::hstack(design, lead.columns), fit.covariance);
+    trial.inflation = bulk_inflation(state, with, c, lead.columns);
+    trial.marginal_log_p =
+        std::max(trial.marginal_log_p, state.log_p(c, trial.gain / trial.inflation, lead.columns.cols(), true));
+  }
   const GainByRow gains_by_row = gain_by_row(model, lead.columns);
   if (!c.role.pieces.empty() && share_of_others(state, gains_by_row.won) < thresholds::share_of_others)
     trial.marginal_log_p += state.options().one_group_charge;
@@ -197,7 +204,9 @@ bool enter(ModelState& state, ScoredCandidate lead, Blocked& blocked, std::vecto
     if (trial.reason == like_clipping) blocked.for_good.insert(trial.id);
     return false;
   }
-  take(state, fit, {lead.entry->candidate, lead.theta, lead.columns, trial.gain, lead.evidence, trial.marginal_log_p});
+  take(state, fit,
+       {lead.entry->candidate, lead.theta, lead.columns, trial.gain, lead.evidence, trial.marginal_log_p,
+        trial.inflation});
   blocked.now = blocked.for_good;
   const std::string pieces = state.terms.back().candidate->role.pieces;
   if (pieces.empty()) {

@@ -15,7 +15,9 @@ namespace {
 // Fits of each family with the stated size and distance held, the best one first.
 std::vector<noise::Fit> fitted_as_stated(const ModelState& state, const Eigen::MatrixXd& design) {
   std::vector<noise::Fit> fits;
-  for (const noise::Family family : state.field().families()) {
+  const noise::Family fitted = state.fit.covariance.family;
+  const bool fixed = noise::fixed_share(fitted) > 0;
+  for (const noise::Family family : fixed ? std::vector{fitted} : state.field().families()) {
     const auto start = as_stated(state.problem().stated, family, state.fit.covariance.theta, state.within());
     fits.push_back(noise::fit(state.field(), state.y(), design, state.options().prior, start, 6, noise::unstated));
   }

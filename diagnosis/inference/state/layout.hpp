@@ -29,6 +29,8 @@ class Layout {
   virtual std::vector<Grouping> groupings(const noise::Rows& /*rows*/, const noise::Sites& /*sites*/) const {
     return {};
   }
+  // Parts of the time span that cross-validation may leave out, one a row, numbered from 0; empty without time.
+  virtual std::vector<int> parts_of_time(const noise::Rows& /*rows*/) const { return {}; }
   // False where sites are not places, so that the place of a gain has no meaning.
   virtual bool sites_known() const { return true; }
 };

@@ -79,7 +79,9 @@ double LongRangeRows::profile_gain(const Question& q, const noise::Covariance& w
 double LongRangeRows::gain_lower_bound(const Question& q) const {
   const Long question = lengthened(q);
   std::vector<noise::Fit> fits;
-  for (const noise::Family family : field_.families())
+  // A share fixed at sites is never left out: no other family holds what all rows of a site share.
+  const bool fixed = noise::fixed_share(q.with.family) > 0;
+  for (const noise::Family family : fixed ? std::vector{q.with.family} : field_.families())
     fits.push_back(fitted(question.y, noise::hstack(question.design, question.columns), q.with, family));
   const auto likelier = [](const noise::Fit& a, const noise::Fit& b) { return a.value < b.value; };
   const double best = std::min_element(fits.begin(), fits.end(), likelier)->value;

@@ -28,6 +28,7 @@ struct Term {
   double gain = 0;          // fall of the deviance beside all other terms
   double evidence = 0;      // nats
   double log_p = 0;
+  double inflation = 1;    // by which gains of its kind are too high in these data
   bool as_smooth = false;  // named cause withdrawn: it counts as its covariate's smooth
   bool as_stated = false;  // significant with the field as the model states it, but not with a fitted one
 
@@ -68,6 +69,8 @@ class ModelState {
   Index end_rows_at(const Candidate& candidate, const Eigen::VectorXd& theta);
   // Built on first use: most searches do without.
   const LongRangeRows& far() const;
+  // Standard normal residuals, one set a column: the null of everything whitened.
+  const noise::Sheet& normals() const { return normals_; }
   double log_rows() const { return std::log(static_cast<double>(rows_.size())); }
 
   noise::Fit fit;                    // noise beside the design

@@ -5,9 +5,6 @@
 #include <set>
 #include <sstream>
 
-#include "diagnosis/radio/links/geometry_checks.hpp"
-#include "text/names.hpp"
-
 namespace muster::diagnosis {
 
 bool needs(const Cause& cause, const std::string& column) {
@@ -31,7 +28,6 @@ std::string own_column(const Cause& cause) {
 std::string why_not(const Cause& cause, const MeasurementGeometry& survey, const Dataset& data) {
   if (needs(cause, "t") && !(survey.has_time && survey.time.length() > 0)) return "not testable: the data have no t";
   if (needs(cause, "rx_yaw") && !survey.has_yaw) return "not testable: the data have no rx_yaw";
-  if (needs(cause, "tx_z") && !survey.has_height) return "not testable: all radios are at one height";
   if (needs(cause, "tx_x") && !survey.has_places) return "not testable: the data have distances, and no places";
   const std::string column = own_column(cause);
   if (column.empty()) return "";
@@ -53,22 +49,32 @@ bool may_be_about(const Cause& cause, const MeasurementGeometry& survey, std::si
   return needs(cause, "rx_yaw") ? survey.turns[radio] : !(needs(cause, "tx_x") && survey.moves[radio]);
 }
 
+// Rows of a set: those of the world, and radios that the data alone name.
+std::vector<std::string> names_in(const std::string& set, const LinkModel& model) {
+  if (set == "radio") return model.radio_names();
+  std::vector<std::string> result;
+  for (const RowDeclaration& declared : model.simulation().world().rows) {
+    if (std::find(declared.sets.begin(), declared.sets.end(), set) != declared.sets.end())
+      result.push_back(declared.name);
+  }
+  return result;
+}
+
 std::vector<std::string> names_for(const Cause& cause, const muster_param& row, const LinkModel& model,
                                    const MeasurementGeometry& survey) {
   std::vector<std::string> result;
   if (!(row.flags & MUSTER_REQUIRED)) result.push_back("");
-  for (const RowDeclaration& declared : model.simulation().world().rows) {
-    if (std::find(declared.sets.begin(), declared.sets.end(), row.text) == declared.sets.end()) continue;
-    if (needs(cause, "walls") && !survey.counted.count(declared.name)) continue;
-    const auto number = static_cast<std::size_t>(model.simulation().board().find_set(row.text)->find(declared.name));
-    if (std::string_view(row.text) != "radio" || may_be_about(cause, survey, number)) result.push_back(declared.name);
+  for (const std::string& name : names_in(row.text, model)) {
+    if (needs(cause, "walls") && !survey.counted.count(name)) continue;
+    const auto number = static_cast<std::size_t>(model.simulation().board().find_set(row.text)->find(name));
+    if (std::string_view(row.text) != "radio" || may_be_about(cause, survey, number)) result.push_back(name);
   }
   return result;
 }
 
 }  // namespace
 
-std::string why_no_rows(const Cause& cause, const LinkModel& model, const MeasurementGeometry& survey) {
+std::string why_no_rows(const Cause& cause) {
   const auto references = cause.rows();
   std::string none = "not testable: the world has no row that it could be about";
   if (std::string_view(references[0]->text) != "radio") return none;
@@ -76,16 +82,7 @@ std::string why_no_rows(const Cause& cause, const LinkModel& model, const Measur
   none += needs(cause, "rx_yaw") ? ", of the radios that turn)"
           : needs(cause, "tx_x") ? ", of the radios that stand)"
                                  : ", of the radios with readings)";
-  const auto& names = model.radio_names();
-  std::vector<std::string> added = model.added_radios();
-  std::erase_if(added, [&](const std::string& name) {
-    const auto number = std::find(names.begin(), names.end(), name) - names.begin();
-    return !may_be_about(cause, survey, static_cast<std::size_t>(number));
-  });
-  if (added.empty() || names_for(cause, *references[0], model, survey).size() + added.size() < references.size())
-    return none;
-  return none + "; of the data's radios it could be about " + list_of(added) +
-         ", which the world does not have: add <station name=" + quote(added[0]) + " at=\"x y z\"/>";
+  return none;
 }
 
 std::vector<CauseRow> rows_for(const Cause& cause, const LinkModel& model, const MeasurementGeometry& survey) {

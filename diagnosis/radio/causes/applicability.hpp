@@ -13,10 +13,11 @@ bool needs(const Cause& cause, const std::string& column);
 std::string own_column(const Cause& cause);
 // Reason why the data cannot test a cause; empty if they can.
 std::string why_not(const Cause& cause, const MeasurementGeometry& survey, const Dataset& data);
-// Rows of the world that a cause may concern: all pairs for two references, a single row without names for none.
+// Rows that a cause may concern, radios that the data alone name among them: all pairs for two references, a single row
+// without names for none.
 std::vector<CauseRow> rows_for(const Cause& cause, const LinkModel& model, const MeasurementGeometry& survey);
 
 // Reason why rows_for() is empty.
-std::string why_no_rows(const Cause& cause, const LinkModel& model, const MeasurementGeometry& survey);
+std::string why_no_rows(const Cause& cause);
 
 }  // namespace muster::diagnosis

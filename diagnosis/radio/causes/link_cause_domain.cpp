@@ -57,15 +57,15 @@ std::vector<CauseRow> LinkCauseDomain::rows_for(const Cause& cause) const {
   return diagnosis::rows_for(cause, model_, geometry_);
 }
 
-std::string LinkCauseDomain::why_no_rows(const Cause& cause) const {
-  return diagnosis::why_no_rows(cause, model_, geometry_);
-}
+std::string LinkCauseDomain::why_no_rows(const Cause& cause) const { return diagnosis::why_no_rows(cause); }
 
-// Fixes headings that are not free at the direction of the plan.
+// Fixes headings that are not free at the direction of the plan, and carriers at that of the world where it has one.
 void LinkCauseDomain::hold(CauseShape& shape) const {
   for (uint32_t k = 0; k < shape.cause.plugin->param_count; ++k) {
     const muster_param& p = shape.cause.plugin->params[k];
     if ((p.flags & MUSTER_CYCLIC) && !(p.flags & MUSTER_FREE)) shape.held[p.name] = geometry_.plan_angle;
+    if (std::string_view(p.unit) != "Hz") continue;
+    if (const auto carrier = model_.frequency()) shape.held[p.name] = *carrier;
   }
 }
 

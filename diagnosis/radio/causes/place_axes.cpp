@@ -23,13 +23,15 @@ Axis length(const muster_param& p, const MeasurementGeometry& s, const CauseShap
 
 std::optional<Axis> axis_of(const muster_param& p, const MeasurementGeometry& s, const CauseShape& shape, bool alone) {
   const std::string_view unit = p.unit;
-  if (p.flags & MUSTER_CYCLIC) return axis_over(p, s.time, shape, alone);
+  if (p.flags & MUSTER_CYCLIC) return axis_over(p, s.time, shape, alone, s.sampling);
   if (p.flags & MUSTER_LOG) {
     if (unit == "m") return length(p, s, shape);
     // A loss: from below that of one wall to above that of any link.
     if (unit == "dB") return logarithmic(p, 2, 300, {5, 8, 12, 18, 28, 50, 100}, 0.2);
-    return axis_over(p, s.time, shape, alone);
+    return axis_over(p, s.time, shape, alone, s.sampling);
   }
+  if (unit == "dBm")
+    return Axis{p.name, false, s.level.low, s.level.high, 0.1 * s.level.length(), evenly(s.level.low, s.level.high, 9)};
   // Width of a wall's edges.
   if (unit == "m" && shape.place == PlaceShape::segment)
     return Axis{p.name, false, p.min, p.max, (p.max - p.min) / 5, {p.min}};
@@ -48,7 +50,7 @@ std::optional<Axis> axis_of(const muster_param& p, const MeasurementGeometry& s,
                 0.1 * s.height.length(),
                 evenly(s.height.at(0.1), s.height.at(0.9), 7)};
   }
-  return axis_over(p, s.time, shape, alone);
+  return axis_over(p, s.time, shape, alone, s.sampling);
 }
 
 }  // namespace muster::diagnosis

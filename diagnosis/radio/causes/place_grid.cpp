@@ -74,11 +74,8 @@ std::vector<VectorXd> rooms_of_plan(const CauseShape& shape, const MeasurementGe
 }  // namespace
 
 std::optional<Eigen::Vector2d> place_of_radio(const LinkModel& model, const std::string& name) {
-  for (const auto& ends : model.ends()) {
-    for (const End& end : ends)
-      if (model.radio_name(end.radio) == name) return Eigen::Vector2d(end.x, end.y);
-  }
-  return {};
+  const auto end = model.first_end(name);
+  return end ? std::optional(Eigen::Vector2d(end->x, end->y)) : std::nullopt;
 }
 
 std::vector<VectorXd> starts_of(const CauseShape& shape, const MeasurementGeometry& survey, const LinkModel& model,

@@ -232,7 +232,7 @@ void add_laws_of_readings(const LawSources& s, const VectorXd& all, Diagnosis& f
     return;
   }
   const std::vector<noise::Family> likely = s.state.likely_families(s.state.fit.covariance.family);
-  const bool as_drawn = std::count(likely.begin(), likely.end(), noise::Family::stated) > 0;
+  const bool as_drawn = std::any_of(likely.begin(), likely.end(), noise::is_stated);
   KrigedReadings field(s.readings, without_grazing(s, all, found), as_drawn ? s.state.field().sites().stated : nullptr);
   const std::size_t before = found.causes.size();
   const ReadingDistribution law = add_scatter(s, field, found);

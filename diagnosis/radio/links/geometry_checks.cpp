@@ -109,8 +109,7 @@ std::vector<std::string> notes_on_radios(const LinkModel& model, const Dataset& 
   for (const Factor* heard : {&data.tx, &data.rx})
     for (const std::string& name : heard->levels) std::erase(silent, name);
   std::string words = "radios of the data that the world does not have: " + list_of(added) +
-                      "; no cause of a diagnosis can be about them alone (<station name=" + quote(added[0]) +
-                      " at=\"x y z\"/> in the world would add the first)";
+                      "; a cause that is found about one adds it to the extended world";
   if (!silent.empty()) words += "; radios of the world without a reading: " + list_of(silent);
   for (const std::string& name : added) {
     if (const std::string near = nearest(name, silent); !near.empty())

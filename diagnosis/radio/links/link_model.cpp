@@ -129,6 +129,25 @@ std::vector<std::string> LinkModel::added_radios() const {
   return result;
 }
 
+std::optional<double> LinkModel::frequency() const {
+  for (const auto& instance : simulation().instances()) {
+    const muster_plugin& plugin = instance->plugin();
+    const int at = plugin.phase == MUSTER_RADIO ? instance->find_param("frequency") : -1;
+    if (at >= 0 && std::string_view(plugin.params[at].unit) == "Hz")
+      return instance->params()[static_cast<std::size_t>(at)];
+  }
+  return {};
+}
+
+std::optional<End> LinkModel::first_end(const std::string& radio) const {
+  const auto number = static_cast<int>(simulation().board().find_set("radio")->find(radio));
+  for (const auto& ends : ends_) {
+    for (const End& end : ends)
+      if (end.radio == number) return end;
+  }
+  return {};
+}
+
 std::set<std::string> LinkModel::link_of(int one, int other) const { return {radio_name(one), radio_name(other)}; }
 
 Eigen::VectorXd LinkModel::changes_aside(double metres) {

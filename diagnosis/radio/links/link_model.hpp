@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <set>
 
 #include "diagnosis/prediction/measured_world.hpp"
@@ -29,6 +30,10 @@ class LinkModel : public MeasuredWorld {
   std::string radio_name(int radio) const;
   // Radios of the readings that the world lacks and that were added to it; no cause concerns them.
   std::vector<std::string> added_radios() const;
+  // Carrier of the channel, Hz; nothing if no term of the world has one.
+  std::optional<double> frequency() const;
+  // The first end of a radio in the data; nothing for a radio without a reading.
+  std::optional<End> first_end(const std::string& radio) const;
   std::set<std::string> link_of(int one, int other) const;  // names of both, in either direction
 
   // Largest change of each expected level, dB, if links are shifted sideways by this distance to either side. It bounds

@@ -111,6 +111,7 @@ noise::Sites link_sites(const noise::Rows& rows, const LinkReadings& readings) {
       sites.place_stretch.col(i) = tx_stretch.col(i);
       sites.anchor_stretch.col(i) = rx_stretch.col(i);
     }
+    sites.stream.push_back(anchored_at_tx);
     sites.group.push_back(anchored_at_tx ? readings.tx[link] : readings.rx[link]);
   }
   return sites;
@@ -163,6 +164,18 @@ noise::Sites LinkLayout::sites(const noise::Rows& rows) const {
 }
 
 noise::Rows LinkLayout::long_rows() const { return link_rows(readings_, never_shorter(limits_)); }
+
+std::vector<int> LinkLayout::parts_of_time(const noise::Rows& rows) const {
+  if (readings_.t.empty()) return {};
+  const auto time = [&](Index row) { return readings_.t[static_cast<std::size_t>(rows.example(row))]; };
+  std::vector<Index> order(static_cast<std::size_t>(rows.size()));
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return time(a) < time(b); });
+  std::vector<int> result(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k)
+    result[static_cast<std::size_t>(order[k])] = static_cast<int>(k * thresholds::parts_of_time / order.size());
+  return result;
+}
 
 std::vector<inference::Grouping> LinkLayout::groupings(const noise::Rows& rows, const noise::Sites& sites) const {
   std::vector<inference::Grouping> result{{"radios", radios_of(rows, sites, readings_)}};

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <muster/tables.hpp>
+#include <numeric>
 
 #include "diagnosis/radio/links/link_features.hpp"
 #include "diagnosis/radio/thresholds.hpp"
@@ -160,11 +161,44 @@ std::vector<std::size_t> by_time(const Dataset& data) {
   return order;
 }
 
+// From the first tenth to all but the last hundredth of the levels.
+Span middle_of(std::vector<double> levels) {
+  std::erase_if(levels, [](double level) { return std::isnan(level); });
+  if (levels.empty()) return {};
+  std::sort(levels.begin(), levels.end());
+  const auto quantile = [&](double share) {
+    return levels[static_cast<std::size_t>(share * static_cast<double>(levels.size() - 1))];
+  };
+  return {quantile(0.1), quantile(0.99)};
+}
+
+// Interval between samples: half of the run, without its longest pauses, passes in gaps of at least this length. A
+// schedule of snapshots an hour apart has an hour, whatever the order of readings within.
+double sampling_interval(std::vector<double> times) {
+  std::sort(times.begin(), times.end());
+  std::vector<double> gaps;
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    if (times[i] > times[i - 1]) gaps.push_back(times[i] - times[i - 1]);
+  }
+  if (gaps.size() <= thresholds::longest_pauses) return 0;
+  std::sort(gaps.begin(), gaps.end());
+  gaps.resize(gaps.size() - thresholds::longest_pauses);
+  const double all = std::accumulate(gaps.begin(), gaps.end(), 0.0);
+  double passed = 0;
+  for (const double gap : gaps) {
+    passed += gap;
+    if (passed >= all / 2) return gap;
+  }
+  return gaps.back();
+}
+
 }  // namespace
 
 MeasurementGeometry measurement_geometry(const LinkModel& model, const Dataset& data) {
   MeasurementGeometry survey;
   survey.has_time = !data.t.empty();
+  survey.sampling = sampling_interval(data.t);
+  survey.level = middle_of(data.rssi);
   survey.has_yaw = !data.rx_yaw.empty();
   survey.has_places = data.has_places();
   for (const Covariate& c : data.covariates) {

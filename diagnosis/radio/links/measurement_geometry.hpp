@@ -16,6 +16,8 @@ struct MeasurementGeometry {
   bool has_time = false, has_yaw = false, has_height = false;
   bool has_places = true;                       // false: the data have only distances
   std::set<std::string> counted = {};           // materials whose walls the data count, in columns walls_NAME
+  Span level;                                   // dBm, of all but the weakest and the strongest readings
+  double sampling = 0;                          // s, between samples, as the longer gaps of the run have it; 0: no time
   Span time, east, north, height;               // s, m
   Span distance;                                // m, from the tenth to the 85th percentile of links
   double above_moving = 0;                      // m: midway between the highest moving radio and the next radio above

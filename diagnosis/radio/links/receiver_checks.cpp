@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "diagnosis/radio/thresholds.hpp"
 
@@ -51,10 +52,24 @@ double log_binomial_tail(std::size_t k, std::size_t n, double chance) {
   return std::min(most + std::log(sum), 0.0);
 }
 
+// True if the readings at a level are of one pair of radios, and the data have many pairs: the level of a link that
+// hardly changes, and no end of the receiver's range.
+bool of_one_link(const Dataset& data, double level) {
+  std::set<std::pair<std::string, std::string>> all, there;
+  for (std::size_t row = 0; row < data.rows(); ++row) {
+    const std::pair<std::string, std::string> link =
+        std::minmax(data.tx.levels[data.tx.level[row]], data.rx.levels[data.rx.level[row]]);
+    all.insert(link);
+    if (data.rssi[row] == level) there.insert(link);
+  }
+  return there.size() == 1 && all.size() >= thresholds::many_links;
+}
+
 // Binomial test for a pile at the last code: a density that falls towards its end has no more readings there than at
 // the codes before. `before`: readings at these, nearest first.
 std::optional<Clip> pile(const Dataset& data, double level, std::size_t count, const std::vector<std::size_t>& before) {
   if (count < thresholds::fewest_piled || count <= thresholds::piled_times * before[0]) return {};
+  if (of_one_link(data, level)) return {};
   const std::size_t all = std::accumulate(before.begin(), before.end(), count);
   Clip clip{level, count, before[0], log_binomial_tail(count, all, 1 / (1.0 + static_cast<double>(before.size()))), 0};
   if (clip.log_p > std::log(thresholds::pile_alpha)) return {};

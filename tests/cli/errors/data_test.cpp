@@ -135,9 +135,8 @@ TEST(Fault25, PlacesBeyondTheScene) {
 
 TEST(Fault25, ARadioThatTheWorldDoesNotHave) {
   const std::string note =
-      "note: radios of the data that the world does not have: \"bse\"; no cause of a diagnosis can be about them "
-      "alone (<station name=\"bse\" at=\"x y z\"/> in the world would add the first); radios of the world without a "
-      "reading: \"base\"; by \"bse\", did you mean \"base\"?";
+      "note: radios of the data that the world does not have: \"bse\"; a cause that is found about one adds it to the "
+      "extended world; radios of the world without a reading: \"base\"; by \"bse\", did you mean \"base\"?";
   EXPECT_THAT(fit(Data().set_all(1, "bse").text()).out, HasSubstr(note));
   EXPECT_THAT(fit(Data().text()).out, testing::Not(HasSubstr("does not have")));
 }

@@ -1,0 +1,35 @@
+#include "diagnosis/inference/noise/recurring_sites.hpp"
+
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "diagnosis/inference/thresholds.hpp"
+
+namespace muster::noise {
+
+RecurringSites::RecurringSites(const Sites& sites) : stream_(sites.stream) {
+  stream_.resize(at(sites.size()), 0);
+  std::map<std::array<long, 7>, Index> number;
+  for (Index i = 0; i < sites.size(); ++i) {
+    std::array<long, 7> key{sites.group[at(i)]};
+    for (Index axis = 0; axis < 3; ++axis) {
+      key[at(axis + 1)] = std::lround(sites.place(axis, i) / inference::thresholds::same_site);
+      key[at(axis + 4)] = std::lround(sites.anchor(axis, i) / inference::thresholds::same_site);
+    }
+    const auto [entry, is_new] = number.try_emplace(key, static_cast<Index>(rows_.size()));
+    if (is_new) rows_.emplace_back();
+    auto& rows = rows_[at(entry->second)];
+    several_streams_ = several_streams_ || (!rows.empty() && stream_[at(rows.front())] != stream_[at(i)]);
+    rows.push_back(i);
+    site_.push_back(entry->second);
+  }
+}
+
+double RecurringSites::share() const {
+  std::size_t recurring = 0;
+  for (const auto& rows : rows_) recurring += rows.size() > 1 ? rows.size() : 0;
+  return static_cast<double>(recurring) / static_cast<double>(site_.size());
+}
+
+}  // namespace muster::noise

@@ -1,0 +1,34 @@
+// Sites with several rows: one anchor, and one place within 2 cm. Rows of a site may share a part of their errors that
+// no other row has. So may those of one stream there, such as one direction of a link.
+#pragma once
+
+#include "diagnosis/inference/noise/rows.hpp"
+
+namespace muster::noise {
+
+enum class Relation { apart = 0, site, stream };
+
+class RecurringSites {
+ public:
+  explicit RecurringSites(const Sites& sites);
+
+  Relation of(Index a, Index b) const {
+    if (site_[at(a)] != site_[at(b)]) return Relation::apart;
+    return stream_[at(a)] == stream_[at(b)] ? Relation::stream : Relation::site;
+  }
+  // Rows of the same site, itself among them, in their order.
+  const std::vector<Index>& rows_with(Index row) const { return rows_[at(site_[at(row)])]; }
+  // Share of rows whose site has others.
+  double share() const;
+  bool several_streams() const { return several_streams_; }  // at some site
+
+ private:
+  static std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+  std::vector<Index> site_;
+  std::vector<int> stream_;
+  std::vector<std::vector<Index>> rows_;  // of each site
+  bool several_streams_ = false;
+};
+
+}  // namespace muster::noise

@@ -1,0 +1,68 @@
+#include "diagnosis/inference/score/bulk_inflation.hpp"
+
+#include <algorithm>
+
+#include "diagnosis/inference/state/null_calibration.hpp"
+#include "diagnosis/inference/thresholds.hpp"
+
+namespace muster::inference {
+namespace {
+
+using Mask = Eigen::Array<bool, Eigen::Dynamic, 1>;
+
+// Atoms of an entry that concern about the same rows, not more than enough of them.
+noise::Sheet atoms_on(const Entry& entry, const Mask& rows) {
+  const Index width = entry.candidate->design.width, most = static_cast<Index>(thresholds::bulk_atoms);
+  const Index stride = std::max<Index>(1, entry.count() / most);
+  std::vector<Index> kept;
+  for (Index k = 0; k < entry.count(); k += stride) {
+    const Mask own = (entry.atoms->middleCols(k * width, width).array() != 0).rowwise().any();
+    const auto both = static_cast<double>((own && rows).count()), either = static_cast<double>((own || rows).count());
+    if (both < thresholds::same_rows_share * either) continue;
+    for (Index j = 0; j < width; ++j) kept.push_back(k * width + j);
+  }
+  return (*entry.atoms)(Eigen::all, kept);
+}
+
+// Gain of each atom (rows) in each column of x, over the atom's width.
+Eigen::MatrixXf gains_per_column(const OrthonormalAtoms& unit, Index width, const noise::Sheet& x) {
+  Candidate plain;  // both signs: the bulk is no effect
+  plain.design.width = static_cast<int>(width);
+  return statistics(plain, unit.along(x)) / static_cast<float>(width);
+}
+
+float median(Eigen::VectorXf values) {
+  float* const middle = values.data() + values.size() / 2;
+  std::nth_element(values.data(), middle, values.data() + values.size());
+  return *middle;
+}
+
+}  // namespace
+
+double bulk_inflation(const ModelState& state, const WhitenedModel& model, const Candidate& lead,
+                      const Eigen::MatrixXd& columns) {
+  const Mask rows = (columns.array() != 0).rowwise().any();
+  noise::Sheet x(state.rows().size(), 1 + thresholds::bulk_nulls);  // the residual, then white noise
+  x.col(0) = model.at.residual.cast<float>();
+  x.rightCols(thresholds::bulk_nulls) = state.normals().leftCols(thresholds::bulk_nulls);
+  Eigen::MatrixXf all(0, x.cols());
+  for (const Entry& entry : state.entries()) {
+    if (entry.candidate->own() != lead.own()) continue;
+    noise::Sheet atoms = atoms_on(entry, rows);
+    if (atoms.cols() == 0) continue;
+    atoms = model.whitener.sheet(atoms);
+    model.at.basis.take_out_of(atoms);
+    const Index width = entry.candidate->design.width;
+    const Eigen::MatrixXf more = gains_per_column({std::move(atoms), width}, width, x);
+    all.conservativeResize(all.rows() + more.rows(), Eigen::NoChange);
+    all.bottomRows(more.rows()) = more;
+  }
+  if (all.rows() < thresholds::fewest_bulk_atoms) return 1;
+  std::vector<float> nulls;
+  for (Index k = 1; k < all.cols(); ++k) nulls.push_back(median(all.col(k)));
+  std::sort(nulls.begin(), nulls.end());
+  const float found = median(all.col(0)), usual = nulls[nulls.size() / 2];
+  return found > nulls.back() && usual > 0 ? static_cast<double>(found / usual) : 1;
+}
+
+}  // namespace muster::inference
