@@ -10,6 +10,7 @@
 #include <exception>
 #include <set>
 
+#include "declaration_checks.hpp"
 #include "elf.hpp"
 
 namespace muster {
@@ -108,6 +109,7 @@ void check(const muster_plugin& plugin) {
     if (!names.insert(plugin.params[i].name).second)
       refuse("registers \"{}\" with the parameter \"{}\" twice", plugin.id, plugin.params[i].name);
   }
+  check_declarations(plugin);
 }
 
 struct Registry {

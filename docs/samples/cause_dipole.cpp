@@ -13,7 +13,7 @@ struct Dipole {
   static constexpr muster_cause cause = {
       sizeof(muster_cause), MUSTER_TERM, "the antenna of {radio} is a dipole with lobes of {amplitude} toward {direction}",
       "radio", "tx_x tx_y rx_x rx_y rx_yaw", "effect.antenna_rx effect.body_shadow",
-      "turn on the spot once: a dipole has two lobes, another antenna has one", nullptr};
+      "turn on the spot once: a dipole has two lobes, another antenna has one", nullptr, 0};
   explicit Dipole(Setup& s)
       : radio(s.value("radio")), amplitude(s.value("amplitude")), direction(s.value("direction")),
         of(s.read<Endpoint>("endpoint/*/radio")), pose(s.read<Pose>("endpoint/*/pose")),

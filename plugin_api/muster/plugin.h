@@ -165,6 +165,10 @@ enum {
   MUSTER_LAW,        /* changes a probability law: fading, outliers */
   MUSTER_INSTRUMENT  /* a fault of the record itself: identities exchanged, a unit */
 };
+/* Flags of causes. A cause whose `size` ends before its flags has MUSTER_FIRST as a world edit and an instrument. */
+enum {
+  MUSTER_FIRST = 1u /* where it is found beside others, they are judged again in a world that has it */
+};
 
 /* Declares a plugin as a cause: a diagnosis may accept it as the explanation of a misfit. */
 typedef struct muster_cause {
@@ -175,6 +179,7 @@ typedef struct muster_cause {
   const char* imitators;   /* ids of causes that it can be mistaken for, with blanks between */
   const char* tell_apart;  /* measurements that separate it from its imitators */
   const char* replaces;    /* the plugin's part of a sum that it replaces; NULL: it is added */
+  uint32_t flags;
 } muster_cause;
 
 /* What a term draws, as a probability law: normal, with mean 0. A fit and a diagnosis take errors to be correlated so.
@@ -189,6 +194,55 @@ typedef struct muster_draw {
   void (*covariance)(const double* params, const double* ends, const uint32_t* a, const uint32_t* b, uint32_t count,
                      double* out);
 } muster_draw;
+
+/* Flags of laws of readings. */
+enum {
+  MUSTER_REPLACES = 1u /* it is drawn instead of the laws with this flag that stand before it in the world file: fading.
+                          Without, its draws are added to those of all others and independent of them */
+};
+
+/* What a plugin adds to single readings, in dB, as a probability law: each reading, or each place, draws anew. A
+ * diagnosis fits it to the readings; a cause with a law is found by it. The functions are called from several threads
+ * and without an instance; `params` has the values of all parameters. */
+typedef struct muster_law {
+  uint32_t size, flags;
+  const char* strength; /* the real parameter that is fitted: "rician_k", "share" */
+  const double* grid;   /* values of it, positive and growing, from which its search starts; NULL with MUSTER_REPLACES:
+                           the search starts from multiples of the variance that the world states */
+  const char* form;     /* a further number, of which the best of `forms` is taken: "half_width"; NULL: none */
+  const double* forms;  /* growing */
+  uint32_t grid_count, form_count;
+  uint32_t most_draws; /* the density is known for up to so many independent draws, whose mean power a receiver reports;
+                          1: for single ones */
+  /* out[i]: natural logarithm of the density per dB at db[i]; -infinity where there is none. 0 dB: nothing is added. */
+  void (*log_density)(const double* params, uint32_t draws, const double* db, uint32_t count, double* out);
+  /* Values that have a probability of their own, beside the density: fills at most `most` of them, returns their
+   * number. NULL: none. */
+  uint32_t (*atoms)(const double* params, double* db, double* probability, uint32_t most);
+  /* Mean of single draws in dB, which step() gives as MUSTER_EXPECTED; NULL: 0. */
+  double (*mean)(const double* params);
+  /* Way of either end in m after which a reading draws anew; NULL: 0, each does. */
+  double (*apart)(const double* params);
+} muster_law;
+
+/* Sides of a clip. */
+enum { MUSTER_ABOVE = 1, MUSTER_BELOW };
+
+/* What a receiver does to levels beyond one of its own. A diagnosis and a fit take such readings for bounds. */
+typedef struct muster_clip {
+  uint32_t size;
+  uint32_t side;      /* MUSTER_ABOVE or MUSTER_BELOW: where it acts */
+  const char* level;  /* the real parameter with the level, in dBm */
+  uint32_t silent;    /* 1: levels beyond are not reported; 0: they are reported as the level itself */
+  const char* choice; /* the flag parameter that says so instead of `silent`: 1 or 0; NULL: none */
+} muster_clip;
+
+/* Bursts of loss on the links between two radios, both ways alike, at times that nobody knows. */
+typedef struct muster_burst {
+  uint32_t size;
+  const char *one, *other;             /* the references that name both radios */
+  const char *loss, *share, *duration; /* real parameters: in dB; of the time; in s, of one burst */
+} muster_burst;
 
 typedef struct muster_plugin {
   uint32_t size;
@@ -205,6 +259,9 @@ typedef struct muster_plugin {
   int (*step)(void* self, const muster_tick*, const muster_in* in, const muster_out* out);
   const muster_cause* cause; /* NULL: not a cause */
   const muster_draw* draw;   /* NULL: it draws nothing that is correlated, or says nothing of it */
+  const muster_law* law;     /* NULL: it draws nothing for single readings, or says nothing of it */
+  const muster_clip* clip;   /* NULL: it clips no readings */
+  const muster_burst* burst; /* NULL: it has no bursts */
 } muster_plugin;
 
 /* The one symbol a plugin exports. Calls `add` once for each descriptor, which must outlive the library. */

@@ -306,6 +306,24 @@ template <class Plugin, class = void>
 constexpr const muster_draw* draw_of = nullptr;
 template <class Plugin>
 inline constexpr const muster_draw* draw_of<Plugin, std::void_t<decltype(Plugin::draw)>> = &Plugin::draw;
+// A member of that name that is no declaration is left alone.
+template <class Plugin, class = void>
+constexpr const muster_law* law_of = nullptr;
+template <class Plugin>
+inline constexpr const muster_law*
+    law_of<Plugin, std::enable_if_t<std::is_convertible_v<decltype(&Plugin::law), const muster_law*>>> = &Plugin::law;
+template <class Plugin, class = void>
+constexpr const muster_clip* clip_of = nullptr;
+template <class Plugin>
+inline constexpr const muster_clip*
+    clip_of<Plugin, std::enable_if_t<std::is_convertible_v<decltype(&Plugin::clip), const muster_clip*>>> =
+        &Plugin::clip;
+template <class Plugin, class = void>
+constexpr const muster_burst* burst_of = nullptr;
+template <class Plugin>
+inline constexpr const muster_burst*
+    burst_of<Plugin, std::enable_if_t<std::is_convertible_v<decltype(&Plugin::burst), const muster_burst*>>> =
+        &Plugin::burst;
 template <class Plugin, class = void>
 constexpr const char* cannot_hold_of = nullptr;
 template <class Plugin>
@@ -345,7 +363,8 @@ const muster_plugin* descriptor() {
                                     Plugin::summary,       manual_of<Plugin>,      Params<Plugin>::data,
                                     Params<Plugin>::count, cannot_hold_of<Plugin>, create<Plugin>,
                                     destroy<Plugin>,       step<Plugin>,           cause_of<Plugin>,
-                                    draw_of<Plugin>};
+                                    draw_of<Plugin>,       law_of<Plugin>,         clip_of<Plugin>,
+                                    burst_of<Plugin>};
   return &result;
 }
 
@@ -354,8 +373,10 @@ const muster_plugin* descriptor() {
 
 // Ends a plugin's file. One struct, one shared object:
 //   static constexpr auto id = "radio.mine/1", summary = "...";  static constexpr auto phase = MUSTER_RADIO;
-//   static constexpr muster::Param params[] = {...};             optional, as are `manual`, `cannot_hold`, `cause`,
-//   `draw` explicit Plugin(muster::Setup&);                             claims void step(const muster::Step&); or const
+//   static constexpr muster::Param params[] = {...};  optional, as are `manual`, `cannot_hold`, `cause`, `draw`, `law`,
+//   `clip`, `burst`
+//   explicit Plugin(muster::Setup&);                  claims
+//   void step(const muster::Step&);                   or const
 #define MUSTER_PLUGIN_IS(Plugin)                                                                    \
   MUSTER_DECLARE_ABI                                                                                \
   extern "C" int muster_register(uint32_t abi, void* registry, muster_add add) {                    \

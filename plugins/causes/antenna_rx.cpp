@@ -34,6 +34,7 @@ struct AntennaRx {
       "effect.body_shadow effect.rx_offset",
       "turn on the spot once: a shadow is a narrow dip, an antenna a wave over the whole turn",
       nullptr,
+      0,
   };
 
   explicit AntennaRx(Setup& s)

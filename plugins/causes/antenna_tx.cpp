@@ -33,6 +33,7 @@ struct AntennaTx {
       "effect.tx_offset effect.unmapped_wall effect.obstacle effect.room_clutter",
       "turn the radio by half a turn and measure at the same places again",
       nullptr,
+      0,
   };
 
   explicit AntennaTx(Setup& s)

@@ -37,6 +37,7 @@ struct BodyShadow {
       "effect.antenna_rx",
       "turn on the spot once: a shadow is a narrow dip, an antenna a wave over the whole turn",
       nullptr,
+      0,
   };
 
   explicit BodyShadow(Setup& s)

@@ -1,5 +1,8 @@
 // Frequency hopping: each channel has a level of its own, and the record lacks the channel.
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <muster/laws.hpp>
 #include <muster/plugin.hpp>
 
 #include "link_term.hpp"
@@ -29,17 +32,34 @@ struct ChannelMixture {
       "effect.outliers effect.fading_law effect.people",
       "fix the channel; or stand still and look for separate peaks in the histogram",
       nullptr,
+      0,
   };
+
+  static double spacing(double sd, double channels) { return sd * std::sqrt(12 / (channels * channels - 1)); }
+  static void log_density(const double*, uint32_t, const double*, uint32_t count, double* out) {
+    std::fill_n(out, count, -std::numeric_limits<double>::infinity());
+  }
+  static uint32_t levels(const double* params, double* db, double* probability, uint32_t most) {
+    const uint32_t count = std::min(static_cast<uint32_t>(params[1]), most);
+    for (uint32_t c = 0; c < count; ++c) {
+      db[c] = spacing(params[0], count) * (c - (count - 1.0) / 2);
+      probability[c] = 1.0 / count;
+    }
+    return count;
+  }
+  static constexpr double sds[] = {0.35, 0.5, 0.7, 1, 1.4, 2, 2.8, 4, 5.6}, counts[] = {2, 3, 4};
+  static constexpr auto law =
+      law_of_readings("sd", log_density).from(sds).with_form("channels", counts).with_atoms(levels);
 
   explicit ChannelMixture(Setup& s)
       : sd(s.value("sd")), channels(s.value("channels")), random(s.stream("channel")), links(s) {}
 
   void step(const Step& k) const {
-    const double count = k[channels], spacing = k[sd] * std::sqrt(12 / (count * count - 1));
+    const double count = k[channels], apart = spacing(k[sd], count);
     links.add(k, [&](const End& from, const End& to) {
       if (k.expected()) return 0.0;
       const double drawn = random.of(pair_key(k, from.radio, to.radio)).uniform(time_key(to.t));
-      return spacing * (std::floor(drawn * count) - (count - 1) / 2);
+      return apart * (std::floor(drawn * count) - (count - 1) / 2);
     });
   }
 

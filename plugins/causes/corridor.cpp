@@ -33,6 +33,7 @@ struct Corridor {
       "effect.dual_slope effect.two_ray effect.multiwall_saturation",
       "measure at equal distances inside the corridor and in an open room",
       nullptr,
+      0,
   };
 
   explicit Corridor(Setup& s)

@@ -32,6 +32,7 @@ struct CountedWalls {
       "effect.dual_slope effect.multiwall_saturation",
       "measure at one distance with more and with fewer walls of this material in between",
       nullptr,
+      0,
   };
 
   explicit CountedWalls(Setup& s)

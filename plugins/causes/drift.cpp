@@ -31,6 +31,7 @@ struct Drift {
       "effect.step effect.periodic effect.rx_offset effect.room_clutter",
       "come back to the places of the beginning at the end",
       nullptr,
+      0,
   };
 
   explicit Drift(Setup& s)

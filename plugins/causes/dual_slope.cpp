@@ -29,6 +29,7 @@ struct DualSlope {
       "effect.corridor effect.two_ray effect.multiwall_saturation effect.incidence effect.rssi_floor",
       "measure in the open, without walls, from half to ten times the breakpoint",
       nullptr,
+      0,
   };
 
   explicit DualSlope(Setup& s) : break_at(s.value("break")), n_change(s.value("n_change")), links(s) {}

@@ -1,4 +1,5 @@
 // Small-scale fading of another law than the world has.
+#include <muster/laws.hpp>
 #include <muster/plugin.hpp>
 
 #include "radio_fading/reading_key.hpp"
@@ -28,7 +29,20 @@ struct FadingLaw {
       "effect.outliers effect.channel_mixture effect.shadowing_correlation",
       "stand still in many places a few decimetres apart and look at the spread of the readings",
       nullptr,
+      0,
   };
+
+  static void log_density(const double* params, uint32_t draws, const double* db, uint32_t count, double* out) {
+    for (uint32_t i = 0; i < count; ++i) out[i] = rician_log_density(params[0], draws, db[i]);
+  }
+  static uint32_t steady(const double* params, double* db, double* probability, uint32_t) {
+    *db = 0;
+    *probability = 1;
+    return params[0] >= steady_k_db ? 1 : 0;
+  }
+  static double mean(const double* params) { return rician_typical_db(params[0]); }
+  static constexpr auto law =
+      law_of_readings("rician_k", log_density).replaces().averaged_up_to(6).with_atoms(steady).with_mean(mean);
 
   explicit FadingLaw(Setup& s)
       : rician_k(s.value("rician_k")),

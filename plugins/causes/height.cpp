@@ -26,6 +26,7 @@ struct Height {
       "effect.tx_offset effect.two_ray effect.antenna_tx",
       "lower the radio through the height, at the same place in plan",
       nullptr,
+      0,
   };
 
   explicit Height(Setup& s) : z(s.value("z")), loss(s.value("loss")), links(s) {}

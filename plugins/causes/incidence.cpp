@@ -30,6 +30,7 @@ struct Incidence {
       "effect.multiwall_saturation effect.dual_slope effect.corridor",
       "cross one wall straight and at 60 degrees, at the same distance",
       nullptr,
+      0,
   };
 
   explicit Incidence(Setup& s) : share(s.value("share")), most(s.value("most")), walls(s) {}

@@ -28,6 +28,7 @@ struct LabelSwap {
       "effect.tx_misplaced effect.tx_offset",
       "switch one of the two off and see which falls silent",
       nullptr,
+      MUSTER_FIRST,
   };
 
   explicit LabelSwap(Setup& s)

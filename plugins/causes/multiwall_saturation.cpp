@@ -27,6 +27,7 @@ struct MultiwallSaturation {
       "effect.incidence effect.dual_slope effect.rssi_floor effect.corridor",
       "measure behind one, two, three and more walls at about the same distance",
       nullptr,
+      0,
   };
 
   explicit MultiwallSaturation(Setup& s)

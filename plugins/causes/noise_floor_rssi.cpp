@@ -39,6 +39,7 @@ struct NoiseFloorRssi {
       "effect.drift effect.periodic effect.rssi_floor",
       "stand still and let others talk: levels do not change, noise does",
       nullptr,
+      0,
   };
 
   explicit NoiseFloorRssi(Setup& s)

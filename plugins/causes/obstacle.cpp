@@ -34,6 +34,7 @@ struct Obstacle {
       "effect.unmapped_wall effect.room_clutter effect.antenna_tx effect.wall_material",
       "look; or drive around the place: a wall is seen from two sides only, a thing from all",
       nullptr,
+      0,
   };
 
   explicit Obstacle(Setup& s)

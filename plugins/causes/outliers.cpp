@@ -1,4 +1,7 @@
 // Outliers: a wrong packet, a glitch of the register.
+#include <cmath>
+#include <limits>
+#include <muster/laws.hpp>
 #include <muster/plugin.hpp>
 
 #include "reading_stream.hpp"
@@ -28,7 +31,23 @@ struct Outliers {
       "effect.fading_law effect.people effect.channel_mixture",
       "stand still: outliers come alone, people come in bursts",
       nullptr,
+      0,
   };
+
+  static void log_density(const double* params, uint32_t, const double* db, uint32_t count, double* out) {
+    const double share = params[0], half_width = params[1];
+    for (uint32_t i = 0; i < count; ++i)
+      out[i] = half_width > 0 && std::abs(db[i]) <= half_width ? std::log(share / (2 * half_width))
+                                                               : -std::numeric_limits<double>::infinity();
+  }
+  static uint32_t as_they_are(const double* params, double* db, double* probability, uint32_t) {
+    *db = 0;
+    *probability = params[1] > 0 ? 1 - params[0] : 1;
+    return 1;
+  }
+  static constexpr double shares[] = {0.001, 0.003, 0.006, 0.012, 0.025, 0.05, 0.1}, half_widths[] = {12, 20, 30};
+  static constexpr auto law =
+      law_of_readings("share", log_density).from(shares).with_form("half_width", half_widths).with_atoms(as_they_are);
 
   explicit Outliers(Setup& s)
       : share(s.value("share")),

@@ -33,7 +33,9 @@ struct People {
       "effect.outliers effect.periodic effect.channel_mixture",
       "measure over the same link, both radios standing, with nobody about",
       nullptr,
+      MUSTER_FIRST,
   };
+  static constexpr muster_burst burst{sizeof(muster_burst), "radio", "other", "loss", "share", "duration"};
 
   explicit People(Setup& s)
       : radio(s.value("radio")),

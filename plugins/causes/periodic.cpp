@@ -31,6 +31,7 @@ struct Periodic {
       "effect.drift effect.step effect.people",
       "stand still for ten periods",
       nullptr,
+      0,
   };
 
   explicit Periodic(Setup& s)

@@ -43,6 +43,7 @@ struct PowerSteps {
       "effect.tx_offset effect.step effect.rssi_saturation",
       "switch through all powers at one place, both radios standing",
       nullptr,
+      0,
   };
 
   explicit PowerSteps(Setup& s)

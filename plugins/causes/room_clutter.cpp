@@ -40,6 +40,7 @@ struct RoomClutter {
       "effect.unmapped_wall effect.obstacle effect.wall_material effect.tx_offset",
       "measure in the room next to each of its walls and in its middle, from two transmitters",
       nullptr,
+      0,
   };
 
   explicit RoomClutter(Setup& s)

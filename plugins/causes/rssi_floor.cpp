@@ -27,7 +27,9 @@ struct RssiFloor {
       "effect.multiwall_saturation effect.dual_slope effect.noise_floor_rssi",
       "look at the pile of readings at the lowest code, and at how many are missing where levels are low",
       nullptr,
+      0,
   };
+  static constexpr muster_clip clip{sizeof(muster_clip), MUSTER_BELOW, "level", 1, "silent"};
 
   explicit RssiFloor(Setup& s) : level(s.value("level")), silent(s.value("silent")), rssi(s) {}
 

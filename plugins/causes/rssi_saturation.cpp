@@ -27,7 +27,9 @@ struct RssiSaturation {
       "effect.rssi_floor effect.dual_slope effect.multiwall_saturation",
       "look at the pile of readings at the highest code; add an attenuator of known loss",
       nullptr,
+      0,
   };
+  static constexpr muster_clip clip{sizeof(muster_clip), MUSTER_ABOVE, "level", 0, nullptr};
 
   explicit RssiSaturation(Setup& s) : level(s.value("level")), rssi(s) {}
 

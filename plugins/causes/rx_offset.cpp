@@ -25,6 +25,7 @@ struct RxOffset {
       "effect.antenna_rx effect.asymmetry effect.drift effect.step",
       "let a second receiver stand where this one stood, or exchange the two",
       nullptr,
+      0,
   };
 
   explicit RxOffset(Setup& s) : radio(s.value("radio")), offset(s.value("offset")), links(s) {}

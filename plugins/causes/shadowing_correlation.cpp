@@ -35,6 +35,7 @@ struct ShadowingCorrelation {
       "effect.fading_law effect.room_clutter effect.obstacle",
       "drive a line much longer than the decorrelation distance twice, and the same line a metre beside it",
       "radio.fading.shadowing",
+      0,
   };
 
   static void covariance(const double* params, const double* ends, const uint32_t* a, const uint32_t* b, uint32_t count,

@@ -27,6 +27,7 @@ struct Jump {
       "effect.drift effect.rx_offset effect.room_clutter effect.periodic",
       "come back to the places of the beginning at the end; look into the log for what was changed",
       nullptr,
+      0,
   };
 
   explicit Jump(Setup& s) : radio(s.value("radio")), at(s.value("at")), size(s.value("size")), links(s) {}

@@ -37,6 +37,7 @@ struct TwoRay {
       "effect.dual_slope effect.corridor effect.height",
       "measure along a line in the open: it goes up and down, and otherwise with another height of the antenna",
       nullptr,
+      0,
   };
 
   explicit TwoRay(Setup& s)

@@ -28,6 +28,7 @@ struct TxMisplaced {
       "effect.label_swap effect.tx_offset effect.antenna_tx",
       "measure its place; or measure levels close to it, all around",
       nullptr,
+      MUSTER_FIRST,
   };
 
   explicit TxMisplaced(Setup& s)

@@ -25,6 +25,7 @@ struct TxOffset {
       "effect.antenna_tx effect.room_clutter effect.asymmetry effect.obstacle effect.unmapped_wall",
       "drive once around the radio: its power is the same on all sides",
       nullptr,
+      0,
   };
 
   explicit TxOffset(Setup& s) : radio(s.value("radio")), offset(s.value("offset")), links(s) {}

@@ -35,6 +35,7 @@ struct UnmappedWall {
       "effect.obstacle effect.room_clutter effect.wall_material effect.antenna_tx",
       "cross the place from both sides and towards a second transmitter",
       nullptr,
+      0,
   };
 
   explicit UnmappedWall(Setup& s)

@@ -28,6 +28,7 @@ struct WallAbsent {
       "effect.wall_material",
       "look; or measure straight through the wall, close to it, from both sides",
       nullptr,
+      0,
   };
 
   explicit WallAbsent(Setup& s) : wall(s.value("wall")), share(s.value("share")), walls(s, wall) {}

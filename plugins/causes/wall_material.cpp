@@ -28,6 +28,7 @@ struct WallMaterial {
       "effect.wall_absent effect.unmapped_wall effect.obstacle effect.room_clutter",
       "measure straight through the wall, close to it, from both sides",
       nullptr,
+      0,
   };
 
   explicit WallMaterial(Setup& s) : wall(s.value("wall")), change(s.value("change")), walls(s, wall) {}

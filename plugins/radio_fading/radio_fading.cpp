@@ -1,6 +1,7 @@
 // Channel effects beyond the floor plan: shadowing as a field over the environment, and fading by interference of
 // waves.
 #include <array>
+#include <muster/laws.hpp>
 #include <muster/plugin.hpp>
 #include <muster/reverse_links.hpp>
 #include <vector>
@@ -43,6 +44,24 @@ the gain whose dB is the mean of its dB: -2.507 dB under Rayleigh fading.)";
     for (uint32_t i = 0; i < count; ++i) out[i] *= params[0] * params[0];
   }
   static constexpr muster_draw draw{sizeof(muster_draw), "shadowing", "decorrelation", covariance};
+
+  static double k_of(const double* params) { return params[2] != 0 ? params[3] : steady_k_db; }
+  static void log_density(const double* params, uint32_t draws, const double* db, uint32_t count, double* out) {
+    for (uint32_t i = 0; i < count; ++i) out[i] = rician_log_density(k_of(params), draws, db[i]);
+  }
+  static uint32_t steady(const double* params, double* db, double* probability, uint32_t) {
+    *db = 0;
+    *probability = 1;
+    return k_of(params) >= steady_k_db ? 1 : 0;
+  }
+  static double mean(const double* params) { return params[2] != 0 ? rician_typical_db(params[3]) : 0; }
+  static double half_a_wavelength(const double* params) { return params[5] != 0 ? 0 : light_speed / params[4] / 2; }
+  static constexpr auto law = law_of_readings("rician_k", log_density)
+                                  .replaces()
+                                  .averaged_up_to(6)
+                                  .with_atoms(steady)
+                                  .with_mean(mean)
+                                  .drawn_anew_after(half_a_wavelength);
 
   explicit RadioFading(Setup& s)
       : sd(s.value("shadowing")),

@@ -2,8 +2,11 @@
 // 1948).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
+#include <cstdint>
+#include <limits>
 
 namespace muster {
 
@@ -27,5 +30,24 @@ inline double rician_typical_gain(double k) {
   const double tail = k < 700 ? -std::expint(-k) : 0;  // E1(K); beyond, below the smallest double
   return k / (k + 1) * std::exp(tail);
 }
+
+// K from which a reading varies by less than 0.09 dB: it is taken for steady.
+constexpr double steady_k_db = 40;
+
+// Log density per dB of 10 log10 of the mean power of n fades, each of mean 1: a noncentral chi-square with 2 n degrees
+// of freedom. Of a steady reading: none, an atom at 0 dB.
+inline double rician_log_density(double k_db, uint32_t n, double db) {
+  constexpr double pi = 3.141592653589793;
+  if (k_db >= steady_k_db) return -std::numeric_limits<double>::infinity();
+  const double k = std::max(std::pow(10, k_db / 10), 1e-4), g = std::pow(10, db / 10), count = n;
+  const double x = 2 * count * std::sqrt(k * (1 + k) * g);
+  const double order = count - 1;
+  const double bessel = x < 300 ? std::log(std::max(std::cyl_bessel_i(order, x), 1e-300))
+                                : x - 0.5 * std::log(2 * pi * x) - (4 * order * order - 1) / (8 * x);
+  return std::log(count * (1 + k)) + order / 2 * std::log((1 + k) * g / k) - count * (k + (1 + k) * g) + bessel +
+         std::log(g * std::log(10.0) / 10);
+}
+
+inline double rician_typical_db(double k_db) { return 10 * std::log10(rician_typical_gain(rician_ratio(k_db))); }
 
 }  // namespace muster

@@ -16,6 +16,7 @@ struct RadioReceiver {
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       real("sensitivity", -95, -250, 50, "dBm", "below this nothing is received")};  // -95: a CC2420's data sheet
+  static constexpr muster_clip clip{sizeof(muster_clip), MUSTER_BELOW, "sensitivity", 1, nullptr};
 
   explicit RadioReceiver(Setup& s)
       : sensitivity(s.value("sensitivity")),

@@ -21,7 +21,8 @@ struct Lag {
                                          "t",
                                          "cause.offset",
                                          "move it into the air stream",
-                                         nullptr};
+                                         nullptr,
+                                         0};
   explicit Lag(Setup& s)
       : thermometer(s.value("thermometer")), delay(s.value("delay")), swing(s.value("swing")), term(s) {}
   // First-order lag of a sine: amplitude 1 / sqrt(1 + (w tau)^2), phase -atan(w tau).

@@ -17,7 +17,8 @@ struct Offset {
                                          "",
                                          "cause.step",
                                          "put two thermometers side by side",
-                                         nullptr};
+                                         nullptr,
+                                         0};
   explicit Offset(Setup& s) : thermometer(s.value("thermometer")), offset(s.value("offset")), term(s) {}
   void step(const Step& k) const {
     term.add(k, [&](double, double which) { return which == k[thermometer] ? k[offset] : 0; });
