@@ -7,6 +7,7 @@
 #include <map>
 
 #include "diagnosis/calibration/structure_test.hpp"
+#include "diagnosis/radio/links/drawn_term.hpp"
 #include "diagnosis/radio/thresholds.hpp"
 
 namespace muster::diagnosis {
@@ -18,8 +19,8 @@ class Scanner {
       : model_(model), data_(data), fit_(fit), features_(features), rows_(fit.rows_used()) {}
 
   ResidualScan look() {
-    // A world that declares fading and no shadowing declares independent errors; others leave it open.
-    result_.shared_allowed = !model_.has_plugin("radio.fading") || model_.value_of("radio.fading", "shadowing", 0) > 0;
+    // A world whose plugins declare draws, none of them of any size, declares independent errors; others leave it open.
+    result_.shared_allowed = !declares_draws(model_) || drawn_field(model_).shadowing > 0;
     look_at_geometry();
     look_at_walls();
     look_at_radios();
@@ -159,7 +160,7 @@ class Scanner {
 
   // Tests neighbouring readings for shared errors; skipped where the world declares shadowing.
   void look_at_neighbours() {
-    const double declared = model_.value_of("radio.fading", "shadowing", 0);
+    const double declared = drawn_field(model_).shadowing;
     if (declared > 0)
       return result_.not_tested.push_back(fmt::format(
           "neighbours: the world declares shadowing of {:.1f} dB; found {:.1f} dB", declared, fit_.shared_sd));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <map>
 #include <tuple>
 
@@ -14,6 +15,7 @@
 #include "diagnosis/pipeline/setup.hpp"
 #include "diagnosis/planning/measurement_plans.hpp"
 #include "diagnosis/radio/causes/applicability.hpp"
+#include "diagnosis/radio/laws/clip_causes.hpp"
 #include "diagnosis/radio/laws/law_causes.hpp"
 #include "diagnosis/radio/thresholds.hpp"
 #include "text/number.hpp"
@@ -299,13 +301,14 @@ class Diagnoser {
 
 namespace {
 
-const std::string people = "effect.people";
-
-bool edits_world(const Cause& cause) {
-  return cause.meaning().kind == MUSTER_WORLD_EDIT || cause.meaning().kind == MUSTER_INSTRUMENT;
+// True if others are judged again in a world with this cause. Older plugins declare it by their kind.
+bool goes_first(const muster_cause& cause) {
+  const bool has_flags = cause.size >= offsetof(muster_cause, flags) + sizeof cause.flags;
+  return has_flags ? (cause.flags & MUSTER_FIRST) != 0
+                   : cause.kind == MUSTER_WORLD_EDIT || cause.kind == MUSTER_INSTRUMENT;
 }
 
-// True if a finding depends on time. Blockage by people does not count: a random law without covariates.
+// True if a finding depends on time. Blockage does not count: a random law without covariates.
 bool something_changes_in_time(const Diagnosis& found) {
   return std::any_of(
              found.causes.begin(), found.causes.end(),
@@ -314,43 +317,49 @@ bool something_changes_in_time(const Diagnosis& found) {
                      [](const Unexplained& u) { return u.changes_in_time(); });
 }
 
-// The strongest named cause that edits the world, such as places of radios, if there are other findings. Blockage by
-// people counts only beside a change in time.
-const CauseEstimate* first_in_company(const Diagnosis& found, const std::vector<Cause>& causes) {
-  const CauseEstimate* first = nullptr;
+struct First {
+  const CauseEstimate* found = nullptr;
+  bool blockage = false;
+};
+
+// The strongest named cause that goes first, such as places of radios, if there are other findings. Blockage counts
+// only beside a change in time.
+First first_in_company(const Diagnosis& found, const std::vector<Cause>& causes) {
+  First first;
   std::size_t named = found.unexplained.size();
   for (const CauseEstimate& c : found.causes) {
     if (c.status != inference::Status::named) continue;
     ++named;
     const auto cause = std::find_if(causes.begin(), causes.end(), [&](const Cause& k) { return k.id == c.id; });
-    if (first || cause == causes.end()) continue;
-    if (edits_world(*cause) || (c.id == people && something_changes_in_time(found))) first = &c;
+    if (first.found || cause == causes.end() || !goes_first(cause->meaning())) continue;
+    const bool blockage = cause->plugin->burst != nullptr;
+    if (!blockage || something_changes_in_time(found)) first = {&c, blockage};
   }
-  return named > 1 ? first : nullptr;
+  return named > 1 ? first : First();
 }
 
 }  // namespace
 
 // A radio in the wrong place biases all other findings: the diagnosis is repeated with the radio corrected. After
-// blockage by people it is repeated without the blocked link. If a change in time remains, blockage must pass a
+// blockage it is repeated without the blocked link. If a change in time remains, blockage must pass a
 // stricter threshold.
 Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::path& data,
                    const Library::SearchPath& plugins, const std::shared_ptr<TableCache>& tables) {
   Diagnosis found = Diagnoser(world, data, plugins, tables).run();
-  const CauseEstimate* const spoiler = first_in_company(found, causes_on(plugins));
+  const auto [spoiler, blockage] = first_in_company(found, causes_on(plugins));
   if (!spoiler) return found;
   Diagnosis first = found;
   first.causes = {*spoiler};
   first.causes[0].sought_as.clear();
   const TemporaryFolder folder;
   Diagnoser with_it(write_extended_world(first, world, folder.path()), data, plugins, tables);
-  if (first.causes[0].id != people) {
+  if (!blockage) {
     first.causes[0].put_right_first = true;
     return with_it.run(&first);
   }
   Diagnosis again = with_it.run();
-  if (first.causes[0].log_p > thresholds::people_in_company && something_changes_in_time(again)) {
-    Diagnosis result = Diagnoser(world, data, plugins, tables, people).run();
+  if (first.causes[0].log_p > thresholds::blockage_in_company && something_changes_in_time(again)) {
+    Diagnosis result = Diagnoser(world, data, plugins, tables, first.causes[0].id).run();
     result.searched = found.searched;
     return result;
   }

@@ -43,15 +43,17 @@ std::string attribute_of(const InstanceDeclaration& instance, const std::string&
   return "";
 }
 
-// Rows of the fit, without links declared as crossed by people: bursts at unknown times imitate any change in time. A
-// link stays if one of its radios has few other readings. Throws Error if too few rows are left.
+// Rows of the fit, without links that the world declares as blocked now and then: bursts at unknown times imitate any
+// change in time. A link stays if one of its radios has few other readings. Throws Error if too few rows are left.
 UsedRows used_rows(const LinkModel& model, const Dataset& data, const Fit& fitted) {
   UsedRows used;
   for (const std::size_t row : fitted.rows_used()) used.rows.push_back(static_cast<Index>(row));
   for (const auto& instance : model.simulation().instances()) {
+    const muster_burst* const burst = instance->plugin().burst;
+    if (!burst) continue;
     const InstanceDeclaration& declared = instance->declared();
-    const std::string one = attribute_of(declared, "radio"), other = attribute_of(declared, "other");
-    if (declared.plugin != "effect.people" || one.empty() || other.empty()) continue;
+    const std::string one = attribute_of(declared, burst->one), other = attribute_of(declared, burst->other);
+    if (one.empty() || other.empty()) continue;
     std::vector<Index> left;
     std::size_t of_one = 0, of_other = 0;  // readings left
     for (const Index row : used.rows) {
@@ -64,8 +66,8 @@ UsedRows used_rows(const LinkModel& model, const Dataset& data, const Fit& fitte
     }
     if (std::min(of_one, of_other) < (used.rows.size() - left.size()) / 2) continue;
     used.notes.push_back(
-        fmt::format("people cross the link {} {} of the world: its {} readings are left out of the search", one, other,
-                    used.rows.size() - left.size()));
+        fmt::format("{} blocks the link {} {} of the world: its {} readings are left out of the search", declared.name,
+                    one, other, used.rows.size() - left.size()));
     used.rows = std::move(left);
   }
   if (static_cast<Index>(used.rows.size()) < inference::thresholds::fewest_readings)

@@ -42,20 +42,6 @@ Eigen::VectorXd MeasuredWorld::drawn() {
   return values_;
 }
 
-bool MeasuredWorld::has_plugin(const std::string& plugin) const {
-  const auto& all = run_->instances();
-  return std::any_of(all.begin(), all.end(), [&](const auto& i) { return i->declared().plugin == plugin; });
-}
-
-double MeasuredWorld::value_of(const std::string& plugin, const std::string& param, double otherwise) const {
-  for (const auto& instance : run_->instances()) {
-    if (instance->declared().plugin != plugin) continue;
-    const int at = instance->find_param(param);
-    if (at >= 0) return instance->params()[static_cast<std::size_t>(at)];
-  }
-  return otherwise;
-}
-
 ParameterGuard::~ParameterGuard() {
   for (const auto& [path, value] : before_) world_.set(path, value);
 }

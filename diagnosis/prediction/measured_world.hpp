@@ -47,9 +47,6 @@ class MeasuredWorld {
 
   const Simulation& simulation() const { return *run_; }
   Simulation& simulation() { return *run_; }
-  // The named parameter's value of the first instance of a plugin, or `otherwise` where the world has none.
-  double value_of(const std::string& plugin, const std::string& param, double otherwise) const;
-  bool has_plugin(const std::string& plugin) const;
 
  private:
   void evaluate(bool expected);

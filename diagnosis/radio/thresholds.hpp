@@ -160,7 +160,7 @@ inline constexpr double law_alpha = 0.0005;
 // probability; of a false field in a clean world; chosen; SealedField.OfASmoothFamilyIsNotTakenForTheStatedOne
 inline constexpr double field_alpha = 0.002;
 // nats; log p required of blockage beside other misfits; chosen; none
-inline constexpr double people_in_company = -9;
+inline constexpr double blockage_in_company = -9;
 // dB; within which a stage of the world already clips there; chosen; none
 inline constexpr double same_clip = 0.5;
 // share; of the evidence of losses that counts unless they are censored; chosen; none

@@ -303,7 +303,6 @@ Blockage blockage_test(const inference::ModelState& state, const LinkReadings& r
   const Scan scan(state, readings, asked);
   Blockage result;
   result.links = scan.links().size();
-  result.test.cause = "effect.people";
   const VectorXd pulls = scan.pulls(scan.residual());
   double best = impossible;
   Ratios at{};

@@ -12,7 +12,7 @@ using RowMask = Eigen::Array<bool, Eigen::Dynamic, 1>;
 struct Blockage {
   int radio = -1, other = -1;  // indices into the set `radio`
   std::size_t links = 0;       // scanned: those with at least 40 rows that take part
-  LawTest test;
+  LawTest test;                // its values: loss, share, duration
 };
 
 // The likeliest link, loss, share and duration. Each link is scanned with dips of several widths and losses: the

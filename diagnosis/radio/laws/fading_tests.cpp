@@ -7,6 +7,7 @@
 #include <map>
 
 #include "diagnosis/inference/state/null_tail.hpp"
+#include "diagnosis/radio/laws/law_families.hpp"
 #include "diagnosis/radio/laws/law_likelihood.hpp"
 #include "diagnosis/radio/thresholds.hpp"
 
@@ -15,36 +16,18 @@ namespace {
 
 using Eigen::Index;
 
-constexpr std::array averages{1, 2, 3, 4, 6};  // fades in one reading
+constexpr std::array<uint32_t, 5> averages{1, 2, 3, 4, 6};  // fades in one reading
 // Factor by which gains of clean worlds are wider than chi-square. Neighbouring readings share the error of their
 // level, which a skewed law absorbs. In simulated fields of known shape a fading law's gain is 1.7 to 3.3 times as
 // wide. Besides, no family of correlations matches the true field exactly. The misfit resembles fading of another
 // strength most, and outliers least (346 clean worlds of 2,000 to 20,000 readings). A factor of 1.5 was too small:
 // with readings of six averaged fades, gains of 22 and 23 were false in 55 further clean worlds.
-double wider(const std::string& cause) {
-  return cause == "effect.fading_law" ? thresholds::fading_dispersion : thresholds::other_law_dispersion;
+double wider(const ReadingLaw& law) {
+  return law.replaces() ? thresholds::fading_dispersion : thresholds::other_law_dispersion;
 }
 const double averaged_cost = std::log(thresholds::averaged_choices);  // nats: the stated law is of single fades
 
-ReadingDistribution averaged_over(ReadingDistribution law, int n) {
-  const double variance = fading_variance(law.rician_k, law.averaged);
-  law.averaged = n;
-  if (n > 1) law.rician_k = rician_k_of(variance, n);
-  return law;
-}
-
-bool possible(const ReadingDistribution& law) { return !std::isnan(law.rician_k); }
-
-double cost_of(const ReadingDistribution& law) { return law.averaged > 1 ? averaged_cost : 0; }
-
-// A law with one strength parameter.
-struct Family {
-  std::string cause, name;
-  std::vector<double> strengths;
-  std::function<ReadingDistribution(ReadingDistribution, double)> with;
-  std::function<double(double)> reported;  // the reported value of a strength
-  std::vector<LawValue> beside;
-};
+double cost_of(const ReadingDistribution& law) { return law.draws > 1 ? averaged_cost : 0; }
 
 struct Fitted {
   Peak peak;
@@ -64,9 +47,8 @@ class Tests {
  public:
   Tests(KrigedReadings& field, double step, const ReadingDistribution& stated, const noise::Covariance& fit)
       : judge_(field, step), stated_(stated), fit_(fit) {
-    for (const int n : averages) {
-      const ReadingDistribution law = averaged_over(stated, n);
-      if (possible(law)) bases_.push_back(law);
+    for (const uint32_t n : averages) {
+      if (const auto law = averaged_over(stated, n)) bases_.push_back(*law);
     }
     starts_ = judge_.shapes(stated, fit);
     const double most = std::max_element(starts_.begin(), starts_.end(), lower)->value;
@@ -79,17 +61,17 @@ class Tests {
     }
   }
 
-  Fitted fitted(const Family& family) {
+  Fitted fitted(const LawFamily& family) {
     Fitted best;
     for (const ReadingDistribution& base : bases_) {  // coarse grid, at the null's field
       for (const double strength : family.strengths) {
-        const ReadingDistribution law = family.with(base, strength);
-        if (!possible(law)) continue;
-        const double ratio = std::log(variance_of(law, judge_.step()) / variance_of(base, judge_.step()));
+        const auto law = family.with(base, strength);
+        if (!law) continue;
+        const double ratio = std::log(variance_of(*law, judge_.step()) / variance_of(base, judge_.step()));
         Peak there = null_;
         there.place += LawLikelihood::places * static_cast<int>(std::lround(1e3 * ratio / LawLikelihood::places));
-        there.value = judge_.about(law, there) - cost_of(law);
-        if (there.value > best.peak.value) best = {there, base, law, strength};
+        there.value = judge_.about(*law, there) - cost_of(*law);
+        if (there.value > best.peak.value) best = {there, base, *law, strength};
       }
     }
     return refined(family, best);
@@ -98,7 +80,7 @@ class Tests {
   // Maximises over all fields. The first fields were fitted under the stated law, which holds the strength near the
   // stated one. Field and strength are now alternated until they converge. A gain for the stated law as well counts
   // for the null.
-  Fitted settled(const Family& family, Fitted best) {
+  Fitted settled(const LawFamily& family, Fitted best) {
     constexpr int rounds = 8;
     constexpr double no_more = 0.1;  // nats
     for (int round = 0; round < rounds; ++round) {
@@ -130,16 +112,16 @@ class Tests {
   }
 
   // The strength with its 95 % interval by profile likelihood, wider by the gain's factor.
-  LawValue value(const Family& family, const Fitted& best) {
-    const double fall = thresholds::interval_nats * wider(family.cause);
+  LawValue value(const LawFamily& family, const Fitted& best) {
+    const double fall = thresholds::interval_nats * wider(*family.part.law);
     const auto value = [&](double x) {
-      const ReadingDistribution law = family.with(best.base, x);
-      return possible(law) ? judge_.best(law, best.peak).value - cost_of(law) : -1e300;
+      const auto law = family.with(best.base, x);
+      return law ? judge_.best(*law, best.peak).value - cost_of(*law) : -1e300;
     };
     const double least = best.peak.value - fall;
     const double a = family.reported(crossing(value, best.strength, best.strength / 3, least));
     const double b = family.reported(crossing(value, best.strength, best.strength * 3, least));
-    return {family.name, family.reported(best.strength), std::min(a, b), std::max(a, b)};
+    return {family.name(), family.reported(best.strength), std::min(a, b), std::max(a, b)};
   }
 
  private:
@@ -151,16 +133,17 @@ class Tests {
   }
 
   // Accepts the law and the field if they are jointly likelier.
-  void try_one(const Family& family, Fitted& best, double strength, const ReadingDistribution& base, const Peak& from) {
-    const ReadingDistribution law = family.with(base, strength);
-    if (!possible(law)) return;
-    Peak peak = judge_.best(law, from);
-    peak.value -= cost_of(law);
-    if (peak.value > best.peak.value) best = {peak, base, law, strength};
+  void try_one(const LawFamily& family, Fitted& best, double strength, const ReadingDistribution& base,
+               const Peak& from) {
+    const auto law = family.with(base, strength);
+    if (!law) return;
+    Peak peak = judge_.best(*law, from);
+    peak.value -= cost_of(*law);
+    if (peak.value > best.peak.value) best = {peak, base, *law, strength};
   }
 
   // Refines the strength by halving the grid's step.
-  Fitted narrowed(const Family& family, Fitted best, double step) {
+  Fitted narrowed(const LawFamily& family, Fitted best, double step) {
     for (int round = 0; round < 4; ++round) {
       step /= 2;
       const Fitted here = best;
@@ -170,9 +153,13 @@ class Tests {
   }
 
   // Refines at the best field of each shape.
-  Fitted refined(const Family& family, Fitted best) {
-    const auto at = std::find(family.strengths.begin(), family.strengths.end(), best.strength);
-    const double step = at + 1 != family.strengths.end() ? std::log(*(at + 1) / *at) : std::log(*at / *(at - 1));
+  Fitted refined(const LawFamily& family, Fitted best) {
+    const std::vector<double>& all = family.strengths;
+    const auto at = std::find(all.begin(), all.end(), best.strength);
+    if (at == all.end()) return best;  // the law has none of these strengths
+    const double step = all.size() == 1       ? std::log(2)
+                        : at + 1 != all.end() ? std::log(*(at + 1) / *at)
+                                              : std::log(*at / *(at - 1));
     const int moved = best.peak.place - null_.place;
     best.peak.value = -1e300;
     for (const Peak& start : starts_) {
@@ -192,57 +179,11 @@ class Tests {
   ReadingDistribution null_law_;
 };
 
-std::vector<Family> families_of(const ReadingDistribution& stated) {
-  const double variance = std::max(fading_variance(stated.rician_k, stated.averaged), 0.05);
-  std::vector<double> variances;
-  for (const double f : {0.2, 0.35, 0.5, 0.65, 0.78, 0.88, 1.13, 1.28, 1.5, 1.8, 2.3, 3.2, 5.0})
-    variances.push_back(variance * f);
-  std::vector<Family> result;
-  result.push_back({"effect.fading_law",
-                    "rician_k",
-                    variances,
-                    [](ReadingDistribution law, double v) {
-                      law.rician_k = rician_k_of(v, law.averaged);
-                      return law;
-                    },
-                    [](double v) {
-                      const double k = rician_k_of(v, 1);
-                      return std::isnan(k) ? (v > 20 ? -40 : 60) : k;
-                    },
-                    {}});
-  for (const double width : {12.0, 20.0, 30.0}) {
-    result.push_back({"effect.outliers",
-                      "share",
-                      {0.001, 0.003, 0.006, 0.012, 0.025, 0.05, 0.1},
-                      [width](ReadingDistribution law, double share) {
-                        law.outliers = std::min(share, 0.9);
-                        law.half_width = width;
-                        return law;
-                      },
-                      [](double share) { return share; },
-                      {{"half_width", width, width / 1.4, width * 1.3}}});
-  }
-  for (const int channels : {2, 3, 4}) {
-    const double count = channels;
-    result.push_back({"effect.channel_mixture",
-                      "sd",
-                      {0.35, 0.5, 0.7, 1, 1.4, 2, 2.8, 4, 5.6},
-                      [channels](ReadingDistribution law, double sd) {
-                        law.channel_sd = sd;
-                        law.channels = channels;
-                        return law;
-                      },
-                      [](double sd) { return sd; },
-                      {{"channels", count, count, count}}});
-  }
-  return result;
-}
-
 // The gain without winsorising. Predictions use winsorised readings, so that an outlier affects no other reading.
 // With rare deep fades their errors then vary less than under the law: by 6 to 8 % at K of 3 to 7 dB, where readings
 // lie dense. A weaker law in a rougher field then fits better. A gain from this alone does not count.
 double gain_untamed(const KrigedReadings& field, double step, const ReadingDistribution& stated,
-                    const noise::Covariance& fit, const Family& family) {
+                    const noise::Covariance& fit, const LawFamily& family) {
   KrigedReadings untamed = field.untamed();
   Tests tests(untamed, step, stated, fit);
   return tests.gain(tests.fitted(family));
@@ -250,22 +191,23 @@ double gain_untamed(const KrigedReadings& field, double step, const ReadingDistr
 
 }  // namespace
 
-LawTests law_tests(KrigedReadings& field, double step, const ReadingDistribution& stated,
-                   const noise::Covariance& fit) {
+LawTests law_tests(KrigedReadings& field, double step, const std::vector<std::shared_ptr<const ReadingLaw>>& laws,
+                   const ReadingDistribution& stated, const noise::Covariance& fit) {
   Tests tests(field, step, stated, fit);
-  const std::vector<Family> families = families_of(stated);
-  std::map<std::string, std::pair<const Family*, Fitted>> best;  // by cause
-  std::vector<std::pair<const Family*, double>> values;
-  for (const Family& family : families) {
+  const std::vector<LawFamily> families = families_of(laws, stated);
+  if (families.empty()) return {{}, tests.stated()};
+  std::map<std::string, std::pair<const LawFamily*, Fitted>> best;  // by cause
+  std::vector<std::pair<const LawFamily*, double>> values;
+  for (const LawFamily& family : families) {
     const Fitted fitted = tests.fitted(family);
     values.emplace_back(&family, fitted.peak.value);
-    const auto [entry, is_new] = best.try_emplace(family.cause, &family, fitted);
+    const auto [entry, is_new] = best.try_emplace(family.cause(), &family, fitted);
     if (!is_new && fitted.peak.value > entry->second.second.peak.value) entry->second = {&family, fitted};
   }
-  std::map<std::string, std::vector<const Family*>> as_likely;
+  std::map<std::string, std::vector<const LawFamily*>> as_likely;
   for (const auto& [family, value] : values) {
-    if (value > best.at(family->cause).second.peak.value - thresholds::interval_nats)
-      as_likely[family->cause].push_back(family);
+    if (value > best.at(family->cause()).second.peak.value - thresholds::interval_nats)
+      as_likely[family->cause()].push_back(family);
   }
   for (auto& [cause, found] : best) {
     if (tests.gain(found.second) > thresholds::closer_look_gain)
@@ -273,9 +215,9 @@ LawTests law_tests(KrigedReadings& field, double step, const ReadingDistribution
   }
   const auto weigh = [&](LawTest& test, double gain) {  // p-value of a gain, over the tried forms
     const auto forms = static_cast<double>(
-        std::count_if(families.begin(), families.end(), [&](const Family& f) { return f.cause == test.cause; }));
+        std::count_if(families.begin(), families.end(), [&](const LawFamily& f) { return f.cause() == test.cause; }));
     test.gain = gain;
-    test.log_p = std::log(forms) + inference::log_tail(gain / wider(test.cause), 1);
+    test.log_p = std::log(forms) + inference::log_tail(gain / wider(*best.at(test.cause).first->part.law), 1);
     test.evidence = gain / 2 - std::log(static_cast<double>(field.size())) / 2 - std::log(forms);
   };
   std::vector<LawTest> result;
@@ -288,15 +230,18 @@ LawTests law_tests(KrigedReadings& field, double step, const ReadingDistribution
   std::stable_sort(result.begin(), result.end(),
                    [](const LawTest& a, const LawTest& b) { return a.evidence > b.evidence; });
   const auto& [family, fitted] = best.at(result.front().cause);
-  // The second test, without winsorising, only raises log p.
-  if (result.front().log_p < std::log(thresholds::may_be_named) && family->cause != "effect.outliers") {
+  // The second test, without winsorising, only raises log p. Readings that are rarely far off need winsorising.
+  const ReadingLaw& likeliest = *family->part.law;
+  const bool rare =
+      !likeliest.replaces() && likeliest.leaves_most_alone(likeliest.at_strength(family->part.params, fitted.strength));
+  if (result.front().log_p < std::log(thresholds::may_be_named) && !rare) {
     const double untamed = gain_untamed(field, step, stated, fit, *family);
     const double over = std::max(0.0, result.front().gain - untamed);
     for (LawTest& test : result) weigh(test, std::max(0.0, test.gain - over));  // differences are kept
   }
   result.front().values = family->beside;
   for (LawValue& value : result.front().values) {  // over equally likely forms
-    for (const Family* form : as_likely[family->cause]) {
+    for (const LawFamily* form : as_likely[family->cause()]) {
       const LawValue& other = form->beside[static_cast<std::size_t>(&value - result.front().values.data())];
       value.lower95 = std::min(value.lower95, other.lower95);
       value.upper95 = std::max(value.upper95, other.upper95);

@@ -1,18 +1,13 @@
-// Tests the world's fading law: another strength of fading, hopping channels, outliers. Each by a likelihood ratio
-// against the stated law.
+// Tests the world's law of readings against each law that a plugin declares, such as another strength of fading,
+// hopping channels or outliers. Each by a likelihood ratio against the stated law.
 #pragma once
 
 #include <string>
 
 #include "diagnosis/radio/laws/kriging.hpp"
-#include "diagnosis/radio/laws/reading_distribution.hpp"
+#include "diagnosis/radio/laws/law_families.hpp"
 
 namespace muster::diagnosis {
-
-struct LawValue {
-  std::string name;
-  double value, lower95, upper95;
-};
 
 // Likelihood-ratio test of one law against the stated one.
 struct LawTest {
@@ -29,9 +24,11 @@ struct LawTests {
   ReadingDistribution stated;  // with the likeliest number of fades in one reading
 };
 
-// `step`: dB between codes. The null includes readings that average several fades of the stated spread: receivers
-// average, and the mean of a few fades has another shape. It includes the field's variance, refitted under every law.
-// `fit`: covariance of the field from rows, the start of the search for its shape.
-LawTests law_tests(KrigedReadings& field, double step, const ReadingDistribution& stated, const noise::Covariance& fit);
+// `step`: dB between codes. `laws`: of the causes to be tested, at most one of each. The null includes readings that
+// average several fades of the stated spread: receivers average, and the mean of a few fades has another shape. It
+// includes the field's variance, refitted under every law. `fit`: covariance of the field from rows, the start of the
+// search for its shape.
+LawTests law_tests(KrigedReadings& field, double step, const std::vector<std::shared_ptr<const ReadingLaw>>& laws,
+                   const ReadingDistribution& stated, const noise::Covariance& fit);
 
 }  // namespace muster::diagnosis

@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
-#include "diagnosis/inference/state/null_tail.hpp"
 #include "diagnosis/radio/laws/blockage_test.hpp"
-#include "diagnosis/radio/laws/fading_tests.hpp"
 #include "diagnosis/radio/laws/shadowing_test.hpp"
 #include "diagnosis/radio/links/drawn_term.hpp"
 #include "diagnosis/radio/thresholds.hpp"
@@ -20,80 +19,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-const Cause* cause_called(const LawSources& s, const std::string& id) {
-  const auto found = std::find_if(s.causes.begin(), s.causes.end(), [&](const Cause& c) { return c.id == id; });
-  return found == s.causes.end() ? nullptr : &*found;
-}
-
-CauseEstimate named(const LawSources& s, const Cause& cause, const LawTest& test) {
-  CauseEstimate out;
-  out.id = cause.id;
-  out.label = "all";
-  out.title = cause.meaning().title;
-  out.tell_apart = cause.meaning().tell_apart;
-  out.covariates = {"reading"};
-  for (const LawValue& v : test.values) {
-    const auto* const end = cause.plugin->params + cause.plugin->param_count;
-    const auto* const p =
-        std::find_if(cause.plugin->params, end, [&](const muster_param& q) { return q.name == v.name; });
-    if (p == end) continue;
-    out.values.push_back({v.name, p->unit, std::clamp(v.value, p->min, p->max),
-                          (v.upper95 - v.lower95) / (2 * thresholds::normal95), v.lower95, v.upper95, p->min, p->max});
-  }
-  out.evidence = test.evidence;
-  out.log_p = test.log_p;
-  out.lambda = test.gain;
-  out.effect = VectorXd::Zero(s.state.rows().size());
-  return out;
-}
-
 bool beyond_chance(const LawTest& test, double share) { return test.evidence > 0 && test.log_p < std::log(share); }
-
-// True if a stage of the world already clips there.
-bool clips_at(const LawSources& s, const std::string& plugin, const std::string& parameter, double level, double step) {
-  for (const auto& instance : s.model.simulation().instances()) {
-    if (instance->declared().plugin != plugin) continue;
-    const int at = instance->find_param(parameter);
-    if (at >= 0 &&
-        std::abs(instance->params()[static_cast<std::size_t>(at)] - level) <= std::max(step, thresholds::same_clip))
-      return true;
-  }
-  return false;
-}
-
-void add_pile(const LawSources& s, const std::string& id, const Clip& clip, double step, Diagnosis& found) {
-  const Cause* const cause = cause_called(s, id);
-  if (!cause || clips_at(s, id, "level", clip.level, step)) return;
-  const double half = std::max(step, 0.02) / 2;
-  const LawTest test{
-      id, {{"level", clip.level, clip.level - half, clip.level + half}}, -2 * clip.log_p, -clip.log_p, clip.log_p};
-  found.causes.push_back(named(s, *cause, test));
-  if (id == "effect.rssi_floor") found.causes.back().words["silent"] = "false";
-}
-
-// Fisher's combination of two independent tests.
-double of_both(double log_p, double other) { return log_p + other + std::log1p(-log_p - other); }
-
-// Tests for readings missing at low levels only. True if the cause is named.
-bool add_silence(const LawSources& s, const MissingData& missing, Diagnosis& found) {
-  const double step = found.receiver.step;
-  const Cause* const cause = cause_called(s, "effect.rssi_floor");
-  const double least = std::log(s.state.options().further_alpha / static_cast<double>(s.state.entries().size()));
-  const double independent = missing.censored ? 1 : thresholds::joint_loss;  // neighbours are lost jointly
-  const double gain = independent * missing.evidence;
-  LawTest test{"effect.rssi_floor", {}, gain, gain / 2, inference::log_tail(gain, 1)};
-  if (missing.cut_off && !missing.censored)
-    test.log_p = of_both(test.log_p, independent * std::log(missing.none_below));
-  if (!cause || !(missing.censored || missing.cut_off) || test.log_p > least) return false;
-  if (clips_at(s, test.cause, "level", missing.floor, step) ||
-      clips_at(s, "radio.receiver", "sensitivity", missing.floor, step))
-    return false;
-  const double half = std::max(step, 0.02);
-  test.values = {{"level", missing.floor, missing.floor - half, missing.floor + half}};
-  found.causes.push_back(named(s, *cause, test));
-  found.causes.back().words["silent"] = "true";
-  return true;
-}
 
 // Measured less expected, for each reading of the search; NaN for a censored reading or near a clip.
 VectorXd residual_of(const LawSources& s, const Diagnosis& found) {
@@ -119,21 +45,10 @@ VectorXd residual_of(const LawSources& s, const Diagnosis& found) {
   return result;
 }
 
-ReadingDistribution stated_law(const LinkModel& model) {
-  ReadingDistribution law;
-  law.rician_k = model.value_of("radio.fading", "fading", 1) != 0 ? model.value_of("radio.fading", "rician_k", 60) : 60;
-  law.rician_k = model.value_of("effect.fading_law", "rician_k", law.rician_k);
-  law.outliers = model.value_of("effect.outliers", "share", 0);
-  law.half_width = model.value_of("effect.outliers", "half_width", law.half_width);
-  law.channel_sd = model.value_of("effect.channel_mixture", "sd", 0);
-  law.channels = static_cast<int>(model.value_of("effect.channel_mixture", "channels", 3));
-  return law;
-}
-
-// True if fading differs between readings: they are half a wavelength apart, or per_reading is on.
-bool fades_apart(const LawSources& s) {
-  if (s.model.value_of("radio.fading", "per_reading", 0) != 0 || s.model.has_plugin("effect.fading_law")) return true;
-  const double half = 299792458 / s.model.value_of("radio.fading", "frequency", 2.44e9) / 2;
+// True if most readings are as far apart as their law needs to draw anew.
+bool drawn_apart(const LawSources& s, const LawPart& law) {
+  const double apart = law.law->apart(law.params);
+  if (apart == 0) return true;
   const LinkReadings& r = s.readings;
   std::vector<double> ways;
   for (Index i = 1; i < r.size(); ++i) {
@@ -144,26 +59,27 @@ bool fades_apart(const LawSources& s) {
   }
   if (ways.empty()) return false;
   std::nth_element(ways.begin(), ways.begin() + static_cast<std::ptrdiff_t>(ways.size() / 2), ways.end());
-  return ways[ways.size() / 2] > half;
+  return ways[ways.size() / 2] > apart;
 }
 
 // Reason why single readings are not testable; empty if they are.
-std::string why_not(const LawSources& s, const VectorXd& residual) {
+std::string why_not(const LawSources& s, const ReadingDistribution& stated, const VectorXd& residual) {
   if (!s.data.has_places()) return "not testable: the data have no places";
-  if (!s.model.has_plugin("radio.fading")) return "not testable: the world has no radio.fading that states a law";
-  if (!fades_apart(s)) return "not testable: readings lie closer than the half wavelength over which fading changes";
+  if (!stated.base.law) return "not testable: no plugin of the world states a law of readings";
+  if (!drawn_apart(s, stated.base)) return "not testable: readings lie closer than the way over which fading changes";
   if (residual.array().isFinite().count() < thresholds::fewest_law_readings)
     return "not testable: fewer than 300 readings that are no bounds";
   return "";
 }
 
 // Tests the fading law. Returns the law of readings: the stated one, or the one named here.
-ReadingDistribution add_scatter(const LawSources& s, KrigedReadings& field, Diagnosis& found) {
-  const auto [tests, likeliest] = law_tests(field, found.receiver.step, stated_law(s.model), s.state.fit.covariance);
-  const auto best =
-      std::find_if(tests.begin(), tests.end(), [&](const LawTest& t) { return cause_called(s, t.cause); });
+ReadingDistribution add_scatter(const LawSources& s, const ReadingDistribution& stated, KrigedReadings& field,
+                                Diagnosis& found) {
+  const auto [tests, likeliest] =
+      law_tests(field, found.receiver.step, laws_of_causes(s), stated, s.state.fit.covariance);
+  const auto best = tests.begin();
   if (best == tests.end() || !beyond_chance(*best, thresholds::law_alpha)) return likeliest;
-  found.causes.push_back(named(s, *cause_called(s, best->cause), *best));
+  add_named(s, causes_that(s, [&](const Cause& c) { return c.id == best->cause; }), *best, found);
   for (const LawTest& other : tests) {
     const double gap = best->evidence - other.evidence;
     if (&other != &*best && gap < thresholds::open_law_nats)
@@ -183,19 +99,28 @@ bool world_draws_alike(const LawSources& s) {
          std::abs(std::log(own.decorrelation / fitted.decorrelation)) < std::log(thresholds::alike_decorrelation);
 }
 
+// Causes that draw a field.
+std::vector<const Cause*> fields_of(const LawSources& s) {
+  return causes_that(s, [](const Cause& c) { return c.meaning().kind == MUSTER_LAW && c.plugin->draw; });
+}
+
+void add_tested(const std::vector<const Cause*>& causes, const std::string& why_not, Diagnosis& found) {
+  for (const Cause* cause : causes)
+    why_not.empty() ? found.searched.push_back(cause->id) : found.not_tested.push_back(cause->id + ": " + why_not);
+}
+
 void add_field(const LawSources& s, KrigedReadings& field, const ReadingDistribution& law, Diagnosis& found) {
-  const Cause* const cause = cause_called(s, "effect.shadowing_correlation");
-  if (!cause) return;
+  const std::vector<const Cause*> causes = fields_of(s);
+  if (causes.empty()) return;
   const noise::StatedField said = drawn_field(s.model);
-  if (said.shadowing <= 0) {
-    found.not_tested.push_back(cause->id + ": not testable: the world states no shadowing");
-    return;
-  }
-  found.searched.push_back(cause->id);
-  const LawTest test = field_test(field, found.receiver.step, law, said, s.state);
+  add_tested(causes, said.shadowing > 0 ? "" : "not testable: the world states no shadowing", found);
+  if (said.shadowing <= 0) return;
+  LawTest test = field_test(field, found.receiver.step, law, said, s.state);
+  const muster_draw& draw = *causes.front()->plugin->draw;
+  test.values[0].name = draw.scale;
+  test.values[1].name = draw.distance;
   // The field needs two tests to agree (shadowing_test.hpp).
-  if (beyond_chance(test, thresholds::field_alpha) && !world_draws_alike(s))
-    found.causes.push_back(named(s, *cause, test));
+  if (beyond_chance(test, thresholds::field_alpha) && !world_draws_alike(s)) add_named(s, causes, test, found);
 }
 
 // Each of the two laws can imitate the other: the weaker one is kept only if it is beyond doubt.
@@ -221,21 +146,16 @@ VectorXd without_grazing(const LawSources& s, const VectorXd& residual, Diagnosi
 
 // Runs the tests on single readings in turn.
 void add_laws_of_readings(const LawSources& s, const VectorXd& all, Diagnosis& found) {
-  const std::string why = why_not(s, all);
-  for (const char* id : {"effect.fading_law", "effect.outliers", "effect.channel_mixture"}) {
-    if (!cause_called(s, id)) continue;
-    why.empty() ? found.searched.push_back(id) : found.not_tested.push_back(std::string(id) + ": " + why);
-  }
-  if (!why.empty()) {
-    if (cause_called(s, "effect.shadowing_correlation"))
-      found.not_tested.push_back("effect.shadowing_correlation: " + why);
-    return;
-  }
+  const ReadingDistribution stated = stated_law(s.model);
+  const std::string why = why_not(s, stated, all);
+  add_tested(causes_that(s, [](const Cause& c) { return c.meaning().kind == MUSTER_LAW && c.plugin->law; }), why,
+             found);
+  if (!why.empty()) return add_tested(fields_of(s), why, found);
   const std::vector<noise::Family> likely = s.state.likely_families(s.state.fit.covariance.family);
   const bool as_drawn = std::any_of(likely.begin(), likely.end(), noise::is_stated);
   KrigedReadings field(s.readings, without_grazing(s, all, found), as_drawn ? s.state.field().sites().stated : nullptr);
   const std::size_t before = found.causes.size();
-  const ReadingDistribution law = add_scatter(s, field, found);
+  const ReadingDistribution law = add_scatter(s, stated, field, found);
   add_field(s, field, law, found);
   if (found.causes.size() == before + 2) leave_the_stronger(found);
 }
@@ -247,72 +167,52 @@ bool all_changes_in_time(const Diagnosis& found) {
          std::all_of(found.unexplained.begin(), found.unexplained.end(), in_time);
 }
 
-// True if blockage is named.
-bool add_people(const LawSources& s, const VectorXd& residual, Diagnosis& found) {
-  const Cause* const cause = cause_called(s, "effect.people");
-  if (!cause) return false;
-  if (s.data.t.empty()) {
-    found.not_tested.push_back(cause->id + ": not testable: the data have no t");
-    return false;
-  }
-  if (s.model.has_plugin(cause->id)) {
-    found.searched.push_back(cause->id);
-    return false;
+// Names the blocked link and returns its radios; none if there is none.
+std::set<std::string> add_blockage(const LawSources& s, const VectorXd& residual, Diagnosis& found) {
+  const std::vector<const Cause*> causes =
+      causes_that(s, [](const Cause& c) { return c.meaning().kind == MUSTER_LAW && c.plugin->burst; });
+  if (causes.empty()) return {};
+  const auto& instances = s.model.simulation().instances();
+  const bool stated =
+      std::any_of(instances.begin(), instances.end(), [](const auto& i) { return i->plugin().burst != nullptr; });
+  if (s.data.t.empty() || stated) {
+    add_tested(causes, s.data.t.empty() ? "not testable: the data have no t" : "", found);
+    return {};
   }
   const Blockage passages = blockage_test(s.state, s.readings, residual.array().isFinite());
-  if (passages.links == 0) {
-    found.not_tested.push_back(cause->id + ": not testable: no link has 40 rows of readings that are no bounds");
-    return false;
-  }
-  found.searched.push_back(cause->id);
+  add_tested(causes, passages.links ? "" : "not testable: no link has 40 rows of readings that are no bounds", found);
   if (passages.radio < 0 || !beyond_chance(passages.test, thresholds::law_alpha) ||
-      (passages.test.log_p > thresholds::people_in_company && !all_changes_in_time(found)))
-    return false;
-  CauseEstimate out = named(s, *cause, passages.test);
-  out.row_parameter = "radio";
+      (passages.test.log_p > thresholds::blockage_in_company && !all_changes_in_time(found)))
+    return {};
+  const muster_burst& burst = *causes.front()->plugin->burst;
+  LawTest test = passages.test;
+  const std::array names{burst.loss, burst.share, burst.duration};
+  for (std::size_t k = 0; k < names.size(); ++k) test.values[k].name = names[k];
+  CauseEstimate& out = add_named(s, causes, test, found);
+  out.row_parameter = burst.one;
   out.row = s.model.radio_name(passages.radio);
-  out.words["other"] = s.model.radio_name(passages.other);
-  out.label = "radio/" + out.row + " radio/" + out.words["other"];
-  found.causes.push_back(std::move(out));
-  return true;
+  const std::string other = out.words[burst.other] = s.model.radio_name(passages.other);
+  out.label = "radio/" + out.row + " radio/" + other;
+  for (inference::Alternative& alike : out.alternatives) alike.label = out.label;
+  return {out.row, other};
 }
 
-// Excludes the blocked link: its readings follow another law.
-VectorXd without_link(const LawSources& s, const CauseEstimate& people, VectorXd residual) {
+// Excludes the blocked link, if there is one: its readings follow another law.
+VectorXd without_link(const LawSources& s, const std::set<std::string>& ends, VectorXd residual) {
   const LinkReadings& r = s.readings;
   for (Index i = 0; i < residual.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
-    if (s.model.link_of(r.tx[k], r.rx[k]) == std::set{people.row, people.words.at("other")}) residual[i] = std::nan("");
+    if (s.model.link_of(r.tx[k], r.rx[k]) == ends) residual[i] = std::nan("");
   }
   return residual;
 }
 
 }  // namespace
 
-void add_clips(const LawSources& s, Diagnosis& found) {
-  const double step = found.receiver.step;
-  if (cause_called(s, "effect.rssi_saturation")) found.searched.push_back("effect.rssi_saturation");
-  if (cause_called(s, "effect.rssi_floor")) found.searched.push_back("effect.rssi_floor");
-  if (found.receiver.top) add_pile(s, "effect.rssi_saturation", *found.receiver.top, step, found);
-  if (found.receiver.bottom) add_pile(s, "effect.rssi_floor", *found.receiver.bottom, step, found);
-  if (!found.receiver.bottom) add_silence(s, s.fit.missing, found);
-}
-
-bool add_silence_beside(const LawSources& s, const VectorXd& mean, Diagnosis& found) {
-  const auto floor = [](const CauseEstimate& c) { return c.id == "effect.rssi_floor"; };
-  if (s.fit.missing.count == 0 || found.receiver.bottom || !found.named() ||
-      std::any_of(found.causes.begin(), found.causes.end(), floor))
-    return false;
-  const VectorXd& rssi = s.fit.readings.rssi;
-  const Eigen::Array<bool, Eigen::Dynamic, 1> heard = !rssi.array().isNaN();
-  const double squares = heard.select((rssi - mean).array().square(), 0).sum();
-  return add_silence(s, missing_data(rssi, mean, std::sqrt(squares / static_cast<double>(heard.count()))), found);
-}
-
 void add_laws(const LawSources& s, Diagnosis& found) {
   const VectorXd residual = residual_of(s, found);
-  add_laws_of_readings(s, add_people(s, residual, found) ? without_link(s, found.causes.back(), residual) : residual,
-                       found);
+  const std::set<std::string> blocked = add_blockage(s, residual, found);
+  add_laws_of_readings(s, without_link(s, blocked, residual), found);
 }
 
 }  // namespace muster::diagnosis

@@ -14,11 +14,6 @@ constexpr int farthest = 9000;  // a field of one part in 8,000 of the variance,
 
 }  // namespace
 
-double variance_of(const ReadingDistribution& law, double step) {
-  return fading_variance(law.rician_k, law.averaged) + law.channel_sd * law.channel_sd +
-         law.outliers * law.half_width * law.half_width / 3 + step * step / 12;
-}
-
 ReadingDensities LawLikelihood::densities_of(const ReadingDistribution& law, double log_variance, const Peak& there,
                                              double margin) {
   const ReadingView& view = field_.view(there.shape, there.place);

@@ -15,9 +15,6 @@ struct Peak {
   int place = 0;  // of ReadingField
 };
 
-// Variance of one reading with its rounding; dB^2.
-double variance_of(const ReadingDistribution& law, double step);
-
 class LawLikelihood {
  public:
   static constexpr int places = 200, distances = 300;  // grid steps

@@ -2,85 +2,30 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
-#include <mutex>
 
 namespace muster::diagnosis {
 namespace {
 
-constexpr double pi = 3.141592653589793;
-
-// Density of 10 log10 of the mean power of n fades, each of mean 1: a noncentral chi-square with 2 n degrees of
-// freedom.
-double fading_density(double k_db, int n, double db) {
-  const double k = std::max(std::pow(10, k_db / 10), 1e-4), g = std::pow(10, db / 10), count = n;
-  const double x = 2 * count * std::sqrt(k * (1 + k) * g);
-  const double order = count - 1;
-  const double bessel = x < 300 ? std::log(std::max(std::cyl_bessel_i(order, x), 1e-300))
-                                : x - 0.5 * std::log(2 * pi * x) - (4 * order * order - 1) / (8 * x);
-  const double log_density =
-      std::log(count * (1 + k)) + order / 2 * std::log((1 + k) * g / k) - count * (k + (1 + k) * g) + bessel;
-  return std::exp(log_density) * g * std::log(10.0) / 10;
-}
-
-std::vector<double> fading_table(double k_db, int n, double lowest, double bin, std::size_t bins) {
-  std::vector<double> table(bins, 0);
-  const auto at = [&](std::size_t i) { return lowest + bin * (static_cast<double>(i) + 0.5); };
-  if (k_db >= 40) {  // steady: all at 0 dB
-    table[static_cast<std::size_t>(-lowest / bin)] = 1 / bin;
-    return table;
-  }
-  for (std::size_t i = 0; i < bins; ++i) {
-    if (at(i) < 25) table[i] = fading_density(k_db, n, at(i));
+// Densities per dB of the base; an atom fills its bin.
+std::vector<double> base_table(const ReadingDistribution& law, const BinGrid& grid) {
+  std::vector<double> table(grid.count, 0);
+  if (law.base.law) table = law.base.law->densities(law.base.params, law.draws, grid);
+  const std::vector<Atom> atoms = law.base.law ? law.base.law->atoms(law.base.params) : std::vector<Atom>{{0, 1}};
+  for (const Atom& atom : atoms) {
+    const double place = (atom.db - grid.lowest) / grid.width;
+    if (place >= 0 && place < static_cast<double>(grid.count))
+      table[static_cast<std::size_t>(place)] += atom.probability / grid.width;
   }
   return table;
 }
 
-double mean_of(const std::vector<double>& table, double lowest, double bin, double* variance = nullptr) {
-  double sum = 0, first = 0, second = 0;
+double mean_of(const std::vector<double>& table, const BinGrid& grid) {
+  double sum = 0, first = 0;
   for (std::size_t i = 0; i < table.size(); ++i) {
-    const double db = lowest + bin * (static_cast<double>(i) + 0.5);
     sum += table[i];
-    first += table[i] * db;
-    second += table[i] * db * db;
+    first += table[i] * grid.centre(i);
   }
-  if (variance) *variance = second / sum - first * first / (sum * sum);
   return first / sum;
-}
-
-// Averages the table over the kernel's offsets, in table steps.
-std::vector<double> mixed(const std::vector<double>& table, const std::vector<double>& places,
-                          const std::vector<double>& weights) {
-  std::vector<double> result(table.size(), 0);
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    const auto by = static_cast<std::ptrdiff_t>(std::lround(places[k]));
-    for (std::size_t i = 0; i < table.size(); ++i) {
-      const std::ptrdiff_t to = static_cast<std::ptrdiff_t>(i) + by;
-      if (to >= 0 && to < static_cast<std::ptrdiff_t>(table.size()))
-        result[static_cast<std::size_t>(to)] += weights[k] * table[i];
-    }
-  }
-  return result;
-}
-
-std::vector<double> with_channels(const std::vector<double>& table, const ReadingDistribution& law, double bin) {
-  if (law.channel_sd <= 0) return table;
-  const double count = law.channels, spacing = law.channel_sd * std::sqrt(12 / (count * count - 1));
-  std::vector<double> places, weights(static_cast<std::size_t>(law.channels), 1 / count);
-  for (int c = 0; c < law.channels; ++c) places.push_back(spacing * (c - (count - 1) / 2) / bin);
-  return mixed(table, places, weights);
-}
-
-std::vector<double> with_outliers(const std::vector<double>& table, const ReadingDistribution& law, double bin) {
-  if (law.outliers <= 0) return table;
-  constexpr int parts = 41;
-  std::vector<double> places{0}, weights{1 - law.outliers};
-  for (int k = 0; k < parts; ++k) {
-    places.push_back(law.half_width * (2.0 * k / (parts - 1) - 1) / bin);
-    weights.push_back(law.outliers / parts);
-  }
-  return mixed(table, places, weights);
 }
 
 // Convolves the table with kernel values at whole bins about the middle one.
@@ -119,52 +64,62 @@ std::vector<double> box_kernel(double step, double bin) {
   return kernel;
 }
 
-// Variance of fading with an integer K in dB; computed once for each n.
-double tabled_variance(int k_db, int averaged) {
-  static std::mutex lock;
-  static std::map<std::pair<int, int>, double> known;
-  const std::lock_guard guard(lock);
-  const auto [place, missing] = known.try_emplace({k_db, averaged}, 0);
-  if (missing) mean_of(fading_table(k_db, averaged, -60, 0.25, 360), -60, 0.25, &place->second);
-  return place->second;
+// A law's density at whole bins about 0 dB, as probabilities with this sum; empty where it has none.
+std::vector<double> density_kernel(const LawPart& part, double bin, std::size_t reach, double probability) {
+  std::vector<double> kernel =
+      part.law->densities(part.params, 1, {-bin * (static_cast<double>(reach) + 0.5), bin, 2 * reach + 1});
+  std::size_t zeros = 0;  // at both ends alike
+  while (zeros < reach && kernel[zeros] == 0 && kernel[2 * reach - zeros] == 0) ++zeros;
+  kernel = std::vector<double>(kernel.begin() + static_cast<std::ptrdiff_t>(zeros),
+                               kernel.end() - static_cast<std::ptrdiff_t>(zeros));
+  double sum = 0;
+  for (const double v : kernel) sum += v;
+  if (sum == 0) return {};
+  for (double& v : kernel) v *= probability / sum;
+  return kernel;
 }
 
-constexpr int lowest_k = -40, highest_k = 36;  // dB
+// Adds independent draws of a law: convolves the table with its density and shifts it by its atoms.
+std::vector<double> with_added(const std::vector<double>& table, const LawPart& part, double bin) {
+  const std::vector<Atom> atoms = part.law->atoms(part.params);
+  double rest = 1;
+  for (const Atom& atom : atoms) rest -= atom.probability;
+  std::vector<double> result = smeared(table, density_kernel(part, bin, table.size() / 2, rest));
+  const auto end = static_cast<std::ptrdiff_t>(table.size());
+  for (const Atom& atom : atoms) {
+    const auto by = static_cast<std::ptrdiff_t>(std::lround(atom.db / bin));
+    for (std::ptrdiff_t i = std::max<std::ptrdiff_t>(0, -by); i < std::min(end, end - by); ++i)
+      result[static_cast<std::size_t>(i + by)] += atom.probability * table[static_cast<std::size_t>(i)];
+  }
+  return result;
+}
 
 }  // namespace
 
-double fading_variance(double rician_k, int averaged) {
-  const double k = std::clamp(rician_k, static_cast<double>(lowest_k), static_cast<double>(highest_k));
-  const int below = std::min(static_cast<int>(std::floor(k)), highest_k - 1);
-  const double low = std::log(tabled_variance(below, averaged)), high = std::log(tabled_variance(below + 1, averaged));
-  return std::exp(low + (k - below) * (high - low));
+double base_variance(const ReadingDistribution& law) {
+  return law.base.law ? law.base.law->variance(law.base.params, law.draws) : 0;
 }
 
-double rician_k_of(double variance, int averaged) {
-  double low = lowest_k, high = highest_k;
-  if (!(variance <= fading_variance(low, averaged) && variance >= fading_variance(high, averaged)))
-    return std::numeric_limits<double>::quiet_NaN();
-  for (int round = 0; round < 30; ++round) {
-    const double middle = (low + high) / 2;
-    (fading_variance(middle, averaged) > variance ? low : high) = middle;
-  }
-  return (low + high) / 2;
+double variance_of(const ReadingDistribution& law, double step) {
+  double result = base_variance(law);
+  for (const LawPart& part : law.added) result += part.law->variance(part.params, 1);
+  return result + step * step / 12;
 }
 
 ReadingDensities::ReadingDensities(const ReadingDistribution& law, double step, double lowest, double highest)
     : lowest_(lowest), top_(std::max(1.0, std::ceil((highest - lowest) / log_factor))) {
   constexpr int finer = 2;  // bins of the law itself, before smoothing
   constexpr double fine = bin / finer;
-  const double start = first_db - bin / 2;
-  std::vector<double> law_table = fading_table(law.rician_k, law.averaged, start, fine, bins * finer);
-  law_table = with_outliers(with_channels(law_table, law, fine), law, fine);
-  const double mean = mean_of(law_table, start, fine);
+  const BinGrid grid{first_db - bin / 2, fine, bins * finer};
+  std::vector<double> law_table = base_table(law, grid);
+  for (const LawPart& part : law.added) law_table = with_added(law_table, part, fine);
+  const double mean = mean_of(law_table, grid);
   if (step > 0) law_table = smeared(law_table, box_kernel(step, fine));
   double total = 0;
   for (const double v : law_table) total += v * bin / finer;
   std::vector<double> level(bins, 0);
   for (std::size_t i = 0; i < law_table.size(); ++i) {  // shifted by its mean, split between two bins
-    const double place = (start + fine * (static_cast<double>(i) + 0.5) - mean - first_db) / bin;
+    const double place = (grid.centre(i) - mean - first_db) / bin;
     if (!(place >= 0 && place < bins - 1)) continue;
     const auto b = static_cast<std::size_t>(place);
     const double along = place - static_cast<double>(b), mass = law_table[i] / finer / total;

@@ -3,22 +3,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <vector>
+
+#include "diagnosis/radio/laws/reading_law.hpp"
 
 namespace muster::diagnosis {
 
-struct ReadingDistribution {
-  double rician_k = 60;                  // dB; -40: Rayleigh
-  int averaged = 1;                      // independent fades whose power is averaged in one reading
-  double outliers = 0, half_width = 20;  // share; dB
-  double channel_sd = 0;                 // dB
-  int channels = 3;
+// A declared law at values of its parameters.
+struct LawPart {
+  std::shared_ptr<const ReadingLaw> law;
+  std::vector<double> params;
 };
 
-// Variance of fading in dB^2, without channels and outliers.
-double fading_variance(double rician_k, int averaged);
-// The K with this variance of fading; NaN if there is none.
-double rician_k_of(double variance, int averaged);
+struct ReadingDistribution {
+  LawPart base{};      // the law that replaces others; null: steady
+  uint32_t draws = 1;  // independent draws of the base whose power is averaged in one reading
+  std::vector<LawPart> added{};
+};
+
+// Variance in dB^2 of one reading with its rounding; `step`: dB between codes.
+double variance_of(const ReadingDistribution& law, double step);
+// The same of its base alone.
+double base_variance(const ReadingDistribution& law);
 
 // The law's densities per dB about its own mean, convolved with the readings' step and with normal spreads.
 class ReadingDensities {

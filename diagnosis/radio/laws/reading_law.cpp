@@ -11,8 +11,8 @@ namespace {
 constexpr BinGrid coarse{-60, 0.25, 360};  // of variances
 // dB^2; of a reading whose law is narrower than a bin: two bins share it.
 constexpr double of_steady_reading = 1.005 * coarse.width * coarse.width / 4;
-constexpr std::size_t steps = 100;     // of strengths, between their bounds
-constexpr double negligible = 1e-30;   // per dB; smaller densities are 0, since subnormal numbers are slow
+constexpr std::size_t steps = 100;    // of strengths, between their bounds
+constexpr double negligible = 1e-30;  // per dB; smaller densities are 0, since subnormal numbers are slow
 constexpr std::size_t most_atoms = 128;
 
 std::size_t place_in(const muster_plugin& plugin, const char* parameter) {
@@ -143,7 +143,7 @@ double ReadingLaw::nearest_strength(double variance, const std::vector<double>& 
   const Variances& all = variances(params, 1);
   const bool grows = all.values.back() > all.values.front();
   return (variance > all.at(static_cast<double>(grows ? all.last : all.first))) == grows ? strength().max
-                                                                                        : strength().min;
+                                                                                         : strength().min;
 }
 
 }  // namespace muster::diagnosis

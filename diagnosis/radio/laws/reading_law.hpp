@@ -34,6 +34,7 @@ class ReadingLaw {
   const muster_law& declared() const { return *plugin_.law; }
   bool replaces() const { return (declared().flags & MUSTER_REPLACES) != 0; }
   const muster_param& strength() const { return plugin_.params[strength_]; }
+  const muster_param& form() const { return plugin_.params[form_]; }  // if it has one
   // Declared values of all parameters.
   std::vector<double> defaults() const;
   // The same parameters at another strength, or another value of the form.
@@ -45,7 +46,9 @@ class ReadingLaw {
   std::vector<Atom> atoms(const std::vector<double>& params) const;
   // True if most readings stay as they are.
   bool leaves_most_alone(const std::vector<double>& params) const;
-  double apart(const std::vector<double>& params) const { return declared().apart ? declared().apart(params.data()) : 0; }
+  double apart(const std::vector<double>& params) const {
+    return declared().apart ? declared().apart(params.data()) : 0;
+  }
 
   // In dB^2. That of a law that replaces is interpolated over its strength; at least that of a steady reading.
   double variance(const std::vector<double>& params, uint32_t draws) const;

@@ -83,7 +83,7 @@ LawTest field_test(KrigedReadings& field, double step, const ReadingDistribution
   const noise::Fit free = unbelieving(state);
   const noise::StatedField fitted = stated_by(free.covariance, state.within());
   const Eigen::Matrix4d spread = free.curvature.inverse();
-  LawTest test{"effect.shadowing_correlation",
+  LawTest test{"",
                {value_of("shadowing", fitted.shadowing, spread(0, 0) / 4),
                 value_of("decorrelation", fitted.decorrelation, spread(1, 1))},
                gain_of_rows(state, stated, free),

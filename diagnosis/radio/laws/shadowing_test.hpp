@@ -8,7 +8,8 @@ namespace muster::diagnosis {
 
 // Likelihood-ratio test of the field fitted to rows against one with the stated size and distance. Single readings
 // determine the correlation at short range, rows the long range: the smaller of both gains counts. The world states
-// no family of correlations; each likelihood uses its best one. `law`: of a reading.
+// no family of correlations; each likelihood uses its best one. `law`: of a reading. The
+// values of the test are size and distance.
 LawTest field_test(KrigedReadings& field, double step, const ReadingDistribution& law, const noise::StatedField& stated,
                    const inference::ModelState& state);
 

@@ -1,5 +1,7 @@
 #include "diagnosis/radio/links/drawn_term.hpp"
 
+#include <algorithm>
+
 namespace muster::diagnosis {
 namespace {
 
@@ -59,6 +61,11 @@ noise::StatedField drawn_field(const LinkModel& model) {
   const muster_draw& draw = *instance->plugin().draw;
   return {instance->params()[number_of(*instance, draw.scale)],
           instance->params()[number_of(*instance, draw.distance)]};
+}
+
+bool declares_draws(const LinkModel& model) {
+  const auto& all = model.simulation().instances();
+  return std::any_of(all.begin(), all.end(), [](const auto& i) { return i->plugin().draw != nullptr; });
 }
 
 }  // namespace muster::diagnosis

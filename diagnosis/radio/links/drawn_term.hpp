@@ -14,5 +14,7 @@ namespace muster::diagnosis {
 std::shared_ptr<const noise::StatedCorrelation> drawn_correlation(const LinkModel& model);
 // Standard deviation and decorrelation distance of those draws; zeros where there are none.
 noise::StatedField drawn_field(const LinkModel& model);
+// True if an instance declares its draws, of any size.
+bool declares_draws(const LinkModel& model);
 
 }  // namespace muster::diagnosis

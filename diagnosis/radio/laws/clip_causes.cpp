@@ -1,0 +1,93 @@
+#include "diagnosis/radio/laws/clip_causes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/inference/state/null_tail.hpp"
+#include "diagnosis/radio/thresholds.hpp"
+
+namespace muster::diagnosis {
+namespace {
+
+using Eigen::VectorXd;
+
+// True if a plugin acts on this side, and what lies beyond is lost (`silent`) or piles up.
+bool acts(const muster_plugin& plugin, uint32_t side, bool silent) {
+  const muster_clip* const clip = plugin.clip;
+  return clip && clip->side == side && (clip->choice || (clip->silent != 0) == silent);
+}
+
+std::vector<const Cause*> clips_of(const LawSources& s, uint32_t side, bool silent) {
+  return causes_that(s, [&](const Cause& cause) { return acts(*cause.plugin, side, silent); });
+}
+
+// True if an instance of the world already clips there.
+bool clips_at(const LawSources& s, uint32_t side, bool silent, double level, double step) {
+  const auto& all = s.model.simulation().instances();
+  return std::any_of(all.begin(), all.end(), [&](const auto& instance) {
+    if (!acts(instance->plugin(), side, silent)) return false;
+    const int at = instance->find_param(instance->plugin().clip->level);
+    return std::abs(instance->params()[static_cast<std::size_t>(at)] - level) <= std::max(step, thresholds::same_clip);
+  });
+}
+
+void add_clip(const LawSources& s, const std::vector<const Cause*>& causes, double level, double half, bool silent,
+              LawTest test, Diagnosis& found) {
+  const muster_clip& clip = *causes.front()->plugin->clip;
+  test.values = {{clip.level, level, level - half, level + half}};
+  CauseEstimate& named = add_named(s, causes, test, found);
+  if (clip.choice) named.words[clip.choice] = silent ? "true" : "false";
+}
+
+void add_pile(const LawSources& s, uint32_t side, const Clip& pile, double step, Diagnosis& found) {
+  const std::vector<const Cause*> causes = clips_of(s, side, false);
+  if (causes.empty() || clips_at(s, side, false, pile.level, step)) return;
+  add_clip(s, causes, pile.level, std::max(step, 0.02) / 2, false,
+           {causes.front()->id, {}, -2 * pile.log_p, -pile.log_p, pile.log_p}, found);
+}
+
+// Fisher's combination of two independent tests.
+double of_both(double log_p, double other) { return log_p + other + std::log1p(-log_p - other); }
+
+// Tests for readings missing at low levels only. True if the cause is named.
+bool add_silence(const LawSources& s, const MissingData& missing, Diagnosis& found) {
+  const double step = found.receiver.step;
+  const std::vector<const Cause*> causes = clips_of(s, MUSTER_BELOW, true);
+  const double least = std::log(s.state.options().further_alpha / static_cast<double>(s.state.entries().size()));
+  const double independent = missing.censored ? 1 : thresholds::joint_loss;  // neighbours are lost jointly
+  const double gain = independent * missing.evidence;
+  LawTest test{"", {}, gain, gain / 2, inference::log_tail(gain, 1)};
+  if (missing.cut_off && !missing.censored)
+    test.log_p = of_both(test.log_p, independent * std::log(missing.none_below));
+  if (causes.empty() || !(missing.censored || missing.cut_off) || test.log_p > least) return false;
+  if (clips_at(s, MUSTER_BELOW, true, missing.floor, step)) return false;
+  add_clip(s, causes, missing.floor, std::max(step, 0.02), true, test, found);
+  return true;
+}
+
+}  // namespace
+
+void add_clips(const LawSources& s, Diagnosis& found) {
+  const double step = found.receiver.step;
+  for (const Cause* cause : causes_that(s, [](const Cause& c) { return c.plugin->clip != nullptr; }))
+    found.searched.push_back(cause->id);
+  if (found.receiver.top) add_pile(s, MUSTER_ABOVE, *found.receiver.top, step, found);
+  if (found.receiver.bottom) add_pile(s, MUSTER_BELOW, *found.receiver.bottom, step, found);
+  if (!found.receiver.bottom) add_silence(s, s.fit.missing, found);
+}
+
+bool add_silence_beside(const LawSources& s, const VectorXd& mean, Diagnosis& found) {
+  const std::vector<const Cause*> floors = clips_of(s, MUSTER_BELOW, true);
+  const auto is_floor = [&](const CauseEstimate& c) {
+    return std::any_of(floors.begin(), floors.end(), [&](const Cause* floor) { return floor->id == c.id; });
+  };
+  if (s.fit.missing.count == 0 || found.receiver.bottom || !found.named() ||
+      std::any_of(found.causes.begin(), found.causes.end(), is_floor))
+    return false;
+  const VectorXd& rssi = s.fit.readings.rssi;
+  const Eigen::Array<bool, Eigen::Dynamic, 1> heard = !rssi.array().isNaN();
+  const double squares = heard.select((rssi - mean).array().square(), 0).sum();
+  return add_silence(s, missing_data(rssi, mean, std::sqrt(squares / static_cast<double>(heard.count()))), found);
+}
+
+}  // namespace muster::diagnosis

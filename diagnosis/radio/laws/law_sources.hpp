@@ -1,0 +1,44 @@
+// What tests of laws work on: the model, the readings and the search's result; and the causes that declare a law.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "diagnosis/calibration/fit.hpp"
+#include "diagnosis/causes/cause_model.hpp"
+#include "diagnosis/inference/state/model_state.hpp"
+#include "diagnosis/radio/laws/fading_tests.hpp"
+#include "diagnosis/result.hpp"
+
+namespace muster::diagnosis {
+
+struct LawSources {
+  LinkModel& model;
+  const Dataset& data;
+  const std::vector<Cause>& causes;    // on the plugin path
+  const inference::ModelState& state;  // after the search
+  const LinkReadings& readings;        // of the search
+  const std::vector<Eigen::Index>& used;
+  const Fit& fit;
+};
+
+// The causes of this kind with this property, by id.
+template <class Has>
+std::vector<const Cause*> causes_that(const LawSources& sources, const Has& has) {
+  std::vector<const Cause*> result;
+  for (const Cause& cause : sources.causes) {
+    if (has(cause)) result.push_back(&cause);
+  }
+  return result;
+}
+
+// Laws of causes that change single readings.
+std::vector<std::shared_ptr<const ReadingLaw>> laws_of_causes(const LawSources& sources);
+// The law of single readings that the world's instances declare.
+ReadingDistribution stated_law(const LinkModel& model);
+
+// Adds the first of several causes with the same declaration. The readings cannot exclude the others: alternatives.
+CauseEstimate& add_named(const LawSources& sources, const std::vector<const Cause*>& alike, const LawTest& test,
+                         Diagnosis& found);
+
+}  // namespace muster::diagnosis
