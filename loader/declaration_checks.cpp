@@ -44,9 +44,8 @@ class Declaration {
         names.emplace_back(p.name);
       }
     }
-    if (names.empty()) names.emplace_back("none");
     refuse(fmt::format("names {} as its {}, which is not {} of the plugin; {}", quote(name), part, kind_words,
-                       suggest(name, names)));
+                       names.empty() ? "it has none" : suggest(name, names)));
   }
   void expect_real(const char* part, const char* name) const {
     expect_parameter(part, name, {MUSTER_REAL}, "a real parameter");

@@ -39,7 +39,8 @@ struct CauseSelfTest {
   std::vector<std::pair<std::string, double>> alike() const;
 };
 
-// `worlds`: folders with world.xml and measured.csv, without hidden effects. Throws Error.
+// `id`: of a cause that shifts levels. `worlds`: folders with world.xml and measured.csv, without hidden effects.
+// Throws Error.
 CauseSelfTest self_test_cause(const std::string& id, const std::vector<std::filesystem::path>& worlds,
                               const Library::SearchPath& plugins, const SelfTestOptions& options,
                               const std::function<void(double share)>& progress);

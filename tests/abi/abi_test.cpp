@@ -107,6 +107,19 @@ TEST(Abi, NumbersKeepTheirMeaning) {
 #undef SAME
 }
 
+// What later kernels know is empty; a cause is as long as it says.
+TEST(Abi, APluginOfTheFrozenHeaderDeclaresNothingLater) {
+  const auto library = Library::load("abi.v1", {}, {MUSTER_BUILD_DIR "/tests/abi_plugins"}, {"test"});
+  const muster_plugin& plugin = library->plugins().front();
+  EXPECT_EQ(plugin.draw, nullptr);
+  EXPECT_EQ(plugin.law, nullptr);
+  EXPECT_EQ(plugin.clip, nullptr);
+  EXPECT_EQ(plugin.burst, nullptr);
+  ASSERT_NE(plugin.cause, nullptr);
+  EXPECT_EQ(plugin.cause->size, sizeof(v1::muster_cause));
+  EXPECT_LT(plugin.cause->size, sizeof(::muster_cause));
+}
+
 TEST(Abi, APluginOfTheFrozenHeaderRuns) {
   const test::Folder folder;
   folder.write("data.csv", "robot,x[m]\na,1.5\n");

@@ -83,6 +83,14 @@ static int step(void* self, const muster_tick* tick, const muster_in* in, const 
   return MUSTER_OK;
 }
 
+static const muster_cause cause = {.size = sizeof(muster_cause),
+                                   .kind = MUSTER_WORLD_EDIT,
+                                   .title = "as the first version had it, by {gain}",
+                                   .ranges_over = "",
+                                   .covariates = "",
+                                   .imitators = "",
+                                   .tell_apart = ""};
+
 static const muster_plugin plugin = {.size = sizeof(muster_plugin),
                                      .phase = MUSTER_NETWORK,
                                      .id = "abi.v1/1",
@@ -91,7 +99,8 @@ static const muster_plugin plugin = {.size = sizeof(muster_plugin),
                                      .param_count = sizeof params / sizeof *params,
                                      .create = create,
                                      .destroy = destroy,
-                                     .step = step};
+                                     .step = step,
+                                     .cause = &cause};
 
 int muster_register(uint32_t abi, void* registry, muster_add add) {
   return abi == MUSTER_ABI ? add(registry, &plugin) : MUSTER_FAILED;

@@ -36,6 +36,9 @@ struct Sample {
                        [](void*) {},
                        [](void*, const muster_tick*, const muster_in*, const muster_out*) { return 0; },
                        nullptr,
+                       nullptr,
+                       nullptr,
+                       nullptr,
                        nullptr};
 };
 
@@ -165,6 +168,72 @@ TEST(Registration, RefusesAParameterTwice) {
   given = {&sample.plugin};
   answer = MUSTER_OK;
   EXPECT_EQ(refusal(), "registers \"radio.sample/3\" with the parameter \"n\" twice");
+}
+
+muster_law sample_law() {
+  static const double grid[] = {1, 2};
+  const auto density = [](const double*, uint32_t, const double*, uint32_t, double*) {};
+  return {sizeof(muster_law), 0, "n", grid, nullptr, nullptr, 2, 0, 1, density, nullptr, nullptr, nullptr};
+}
+
+std::string refusal_of_law(const std::function<void(muster_law&)>& spoil) {
+  muster_law law = sample_law();
+  spoil(law);
+  const std::string words = refusal_of([&](muster_plugin& p) { p.law = &law; });
+  const std::string start = "registers \"radio.sample/3\" whose law ";
+  return words.rfind(start, 0) == 0 ? words.substr(start.size()) : words;
+}
+
+TEST(Registration, RefusesLawsThatNoDiagnosisCanFit) {
+  EXPECT_EQ(refusal_of_law([](auto&) {}), "");
+  EXPECT_EQ(refusal_of_law([](auto& l) { l.strength = "m"; }),
+            "names \"m\" as its strength, which is not a real parameter of the plugin; expected one of n");
+  EXPECT_EQ(refusal_of_law([](auto& l) { l.strength = nullptr; }), "names no parameter as its strength");
+  EXPECT_EQ(refusal_of_law([](auto& l) { l.log_density = nullptr; }), "has no density");
+  EXPECT_EQ(refusal_of_law([](auto& l) { l.grid = nullptr; }), "has no values of its strength");
+  EXPECT_EQ(refusal_of_law([](auto& l) { l.grid = nullptr, l.flags = MUSTER_REPLACES; }), "");
+  EXPECT_EQ(refusal_of_law([](auto& l) { l.flags = 2; }), "has unknown flags 0x2");
+  EXPECT_EQ(refusal_of_law([](auto& l) { l.most_draws = 0; }),
+            "has a density of no draws; expected most_draws of at least 1");
+  static const double falling[] = {2, 1};
+  EXPECT_EQ(refusal_of_law([](auto& l) { l.grid = falling; }),
+            "has 1 as value 2 of its strength; expected positive values that grow");
+  EXPECT_EQ(refusal_of_law([](auto& l) { l.form = "n"; }), "has no values of its form");
+  EXPECT_EQ(
+      refusal_of_law([](auto& l) { l.size = 40; }),
+      "has 40 bytes; expected at least " + std::to_string(sizeof(muster_law)) + "; rebuild it against plugin_api");
+}
+
+TEST(Registration, RefusesClipsAndBurstsOfUndeclaredParameters) {
+  muster_clip clip{sizeof(muster_clip), MUSTER_ABOVE, "n", 0, nullptr};
+  const auto clipped = [&] { return refusal_of([&](muster_plugin& p) { p.clip = &clip; }); };
+  EXPECT_EQ(clipped(), "");
+  clip.choice = "n";
+  EXPECT_EQ(clipped(),
+            "registers \"radio.sample/3\" whose clip names \"n\" as its choice, which is not a flag of the plugin; it "
+            "has none");
+  clip.level = "levle";
+  EXPECT_EQ(clipped(),
+            "registers \"radio.sample/3\" whose clip names \"levle\" as its level, which is not a real parameter of "
+            "the plugin; expected one of n");
+  clip.side = 3;
+  EXPECT_EQ(clipped(), "registers \"radio.sample/3\" whose clip has the side 3; expected MUSTER_ABOVE or MUSTER_BELOW");
+  const muster_burst burst{sizeof(muster_burst), "n", "n", "n", "n", "n"};
+  EXPECT_EQ(refusal_of([&](muster_plugin& p) { p.burst = &burst; }),
+            "registers \"radio.sample/3\" whose burst names \"n\" as its radio, which is not a reference of the "
+            "plugin; it has none");
+}
+
+// As of a library that was built before the field was there.
+TEST(Registration, AShorterDescriptorDeclaresNoLaw) {
+  const muster_law law = sample_law();
+  Sample sample;
+  sample.plugin.law = &law;
+  given = {&sample.plugin};
+  answer = MUSTER_OK;
+  EXPECT_EQ(registered_plugins(register_given).front().law, &law);
+  sample.plugin.size = offsetof(muster_plugin, law);
+  EXPECT_EQ(registered_plugins(register_given).front().law, nullptr);
 }
 
 }  // namespace

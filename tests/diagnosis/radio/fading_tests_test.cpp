@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "diagnosis/radio/laws/law_likelihood.hpp"
+#include "tests/diagnosis/radio/declared_laws.hpp"
 #include "tests/diagnosis/walk.hpp"
 
 namespace muster::diagnosis {
@@ -14,14 +15,18 @@ namespace {
 
 TEST(ReadingDistribution, VariancesAreThoseOfRayleighAndGamma) {
   const double decibel = 10 / std::log(10.0);
-  EXPECT_NEAR(fading_variance(-40, 1), decibel * decibel * M_PI * M_PI / 6, 0.1);
-  EXPECT_NEAR(fading_variance(-40, 4), decibel * decibel * 0.2838229557, 0.02);  // trigamma(4)
-  for (const double k : {-3.0, 4.0, 12.0}) EXPECT_NEAR(rician_k_of(fading_variance(k, 1), 1), k, 0.01);
-  EXPECT_TRUE(std::isnan(rician_k_of(60, 1)));
+  const ReadingLaw& fading = *declared_law("effect.fading_law");
+  EXPECT_NEAR(fading.variance({-40}, 1), decibel * decibel * M_PI * M_PI / 6, 0.1);
+  EXPECT_NEAR(fading.variance({-40}, 4), decibel * decibel * 0.2838229557, 0.02);  // trigamma(4)
+  for (const double k : {-3.0, 4.0, 12.0})
+    EXPECT_NEAR(fading.strength_of(fading.variance({k}, 1), {0}, 1).value_or(99), k, 0.01);
+  EXPECT_FALSE(fading.strength_of(60, {0}, 1));
+  EXPECT_EQ(fading.nearest_strength(60, {0}), -40);
+  EXPECT_EQ(fading.nearest_strength(0.001, {0}), 60);
 }
 
 TEST(ReadingDistribution, DensitiesHaveUnitMassAndTheStatedMoments) {
-  const ReadingDistribution law{.rician_k = 5, .outliers = 0.02, .channel_sd = 3, .channels = 2};
+  const ReadingDistribution law = law_of({.rician_k = 5, .outliers = 0.02, .channel_sd = 3, .channels = 2});
   const ReadingDensities densities(law, 1, std::log(0.3), std::log(20.0));
   for (const double spread : {0.3, 1.1, 7.0, 20.0}) {
     double mass = 0, mean = 0, square = 0;
@@ -39,10 +44,10 @@ TEST(ReadingDistribution, DensitiesHaveUnitMassAndTheStatedMoments) {
 
 const noise::Covariance near_the_truth{noise::Family::exponential, {2.2, 0.4, 1.5, 0}};
 
-std::vector<LawTest> tested(const Truth& truth, const ReadingDistribution& stated) {
+std::vector<LawTest> tested(const Truth& truth, const Scatter& stated) {
   const Walk walk = drawn(truth, 2000);
   KrigedReadings field(walk.readings, walk.residual);
-  return law_tests(field, 1, stated, near_the_truth).tests;
+  return law_tests(field, 1, shipped_laws, law_of(stated), near_the_truth).tests;
 }
 
 TEST(FadingTests, NoFalseAlarmForTheStatedLaw) {
@@ -51,7 +56,7 @@ TEST(FadingTests, NoFalseAlarmForTheStatedLaw) {
 }
 
 TEST(FadingTests, FieldSizeIsIndependentOfTheStart) {
-  const ReadingDistribution law{.rician_k = 6};
+  const ReadingDistribution law = law_of({.rician_k = 6});
   const Walk walk = drawn({.rician_k = 6}, 2000);
   KrigedReadings field(walk.readings, walk.residual);
   LawLikelihood judge(field, 1);
@@ -67,7 +72,7 @@ TEST(FadingTests, FieldSizeIsIndependentOfTheStart) {
 // A subsample gives the start; the result is the best on all readings.
 TEST(FadingTests, ShapesOfASubsetAreRankedByAllReadings) {
   constexpr double likely = 6;  // nats
-  const ReadingDistribution law{.rician_k = 6};
+  const ReadingDistribution law = law_of({.rician_k = 6});
   Walk walk = drawn_of_four({.rician_k = 6}, 7750, 7.5);
   walk.readings.rx_at *= 0.2;
   KrigedReadings field(walk.readings, walk.residual);
@@ -95,7 +100,7 @@ TEST(FadingTests, CloseReadingsGiveTheVarianceOfOne) {
     const CloseReadings close = KrigedReadings(near, walk.residual).close_readings();
     EXPECT_GT(close.pairs, 2500);
     EXPECT_LE(close.pairs, 3000);
-    const double one = variance_of({.rician_k = 4}, 1);
+    const double one = variance_of(law_of({.rician_k = 4}), 1);
     EXPECT_NEAR(close.variance, one, 3 * close.standard_error) << distance;
     EXPECT_LT(close.standard_error, 0.12 * one);
   }
@@ -133,7 +138,7 @@ TEST(FadingTests, CloseReadingsPreventAnotherLaw) {
     walk.residual[i] += std::round(3 * Stream(key_of("places")).normal(static_cast<uint64_t>(first)));
   }
   KrigedReadings field(walk.readings, walk.residual);
-  for (const LawTest& test : law_tests(field, 1, {.rician_k = 6}, near_the_truth).tests) {
+  for (const LawTest& test : law_tests(field, 1, shipped_laws, law_of({.rician_k = 6}), near_the_truth).tests) {
     if (test.cause == "effect.outliers") continue;
     EXPECT_EQ(test.gain, 0) << test.cause;
   }
@@ -144,8 +149,10 @@ TEST(FadingTests, CloseReadingsPreventAnotherLaw) {
 TEST(FadingTests, NoFalseAlarmForClippedDeepFades) {
   const Walk walk = drawn_of_four({.rician_k = 5}, 1500, 30, 30);
   KrigedReadings field(walk.readings, walk.residual);
-  const noise::Covariance dense{noise::Family::exponential, {2.2, std::log(30), std::log(fading_variance(5, 1)), 0}};
-  for (const LawTest& test : law_tests(field, 1, {.rician_k = 5}, dense).tests) EXPECT_LT(test.gain, 9) << test.cause;
+  const noise::Covariance dense{noise::Family::exponential,
+                                {2.2, std::log(30), std::log(base_variance(law_of({.rician_k = 5}))), 0}};
+  for (const LawTest& test : law_tests(field, 1, shipped_laws, law_of({.rician_k = 5}), dense).tests)
+    EXPECT_LT(test.gain, 9) << test.cause;
 }
 
 TEST(FadingTests, MeasuresAnotherFading) {

@@ -4,6 +4,7 @@
 #include "diagnosis/radio/laws/blockage_test.hpp"
 #include "diagnosis/radio/laws/shadowing_test.hpp"
 #include "diagnosis/radio/links/link_smooths.hpp"
+#include "tests/diagnosis/radio/declared_laws.hpp"
 #include "tests/diagnosis/walk.hpp"
 
 namespace muster::diagnosis {
@@ -23,7 +24,7 @@ LawTest field_tested(double decorrelation, double stated) {
   const inference::Problem problem = problem_of(walk);
   const inference::ModelState state(problem, {});
   KrigedReadings field(walk.readings, walk.residual);
-  return field_test(field, 1, {.rician_k = 10}, {3, stated}, state);
+  return field_test(field, 1, law_of({.rician_k = 10}), {3, stated}, state);
 }
 
 TEST(ShadowingTest, NoFalseAlarmForTheStatedField) {
