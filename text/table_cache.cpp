@@ -18,4 +18,12 @@ std::shared_ptr<const TextTable> TableCache::read(const std::filesystem::path& f
   return known.tables.back();
 }
 
+void TableCache::put(const std::filesystem::path& file, std::shared_ptr<const TextTable> table) {
+  std::error_code none;
+  const auto written = std::filesystem::last_write_time(file, none);
+  const auto size = std::filesystem::file_size(file, none);
+  const std::lock_guard lock(mutex_);
+  known_[std::filesystem::absolute(file).lexically_normal()] = {written, size, {std::move(table)}};
+}
+
 }  // namespace muster

@@ -13,6 +13,8 @@ class TableCache {
  public:
   // The table of a file, read at the first call. A file that was written anew since is read again. Throws Error.
   std::shared_ptr<const TextTable> read(const std::filesystem::path& file);
+  // Hands on this table in place of the file's, for as long as the file is not written anew.
+  void put(const std::filesystem::path& file, std::shared_ptr<const TextTable> table);
 
  private:
   struct Known {

@@ -36,6 +36,13 @@ TextTable TextTable::read(const std::filesystem::path& path) {
   return table;
 }
 
+TextTable TextTable::with_column(std::size_t column, TextColumn label, std::vector<double> values) const {
+  TextTable result = *this;
+  result.columns_.at(column) = std::move(label);
+  result.read_otherwise_[column] = std::move(values);
+  return result;
+}
+
 void TextTable::split() {
   const std::string& text = file_.text;
   const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1;
@@ -162,6 +169,7 @@ std::size_t TextTable::require(std::string_view name, std::string_view unit) con
 }
 
 bool TextTable::is_numeric(std::size_t column) const {
+  if (read_otherwise_.count(column)) return true;
   if (!columns_[column].unit.empty()) return true;
   for (std::size_t row = 0; row < rows(); ++row) {
     const std::string_view cell = raw(row + 1, column);
@@ -172,6 +180,7 @@ bool TextTable::is_numeric(std::size_t column) const {
 
 std::vector<double> TextTable::reals(std::size_t column, Allow allow) const {
   constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (const auto given = read_otherwise_.find(column); given != read_otherwise_.end()) return given->second;
   std::vector<double> values;
   values.reserve(rows());
   for (std::size_t row = 0; row < rows(); ++row) {

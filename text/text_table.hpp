@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -47,6 +48,9 @@ class TextTable {
     result.file_.file = std::move(file);
     return result;
   }
+  // The same table with one column read otherwise: a clock in seconds in place of one in nanoseconds.
+  TextTable with_column(std::size_t column, TextColumn label, std::vector<double> values) const;
+  bool is_replaced(std::size_t column) const { return read_otherwise_.count(column) > 0; }
   const std::vector<TextColumn>& columns() const { return columns_; }
   std::size_t rows() const { return row_starts_.size() - 2; }
 
@@ -84,6 +88,7 @@ class TextTable {
   std::size_t width_ = 0;                   // cells a line
   std::vector<std::uint64_t> row_starts_;   // byte offset of each line, and of the one after the last
   std::vector<std::uint16_t> cell_starts_;  // width_ a line, relative to its start
+  std::map<std::size_t, std::vector<double>> read_otherwise_;  // values of columns given by with_column()
 };
 
 }  // namespace muster

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "diagnosis/calibration/structure_test.hpp"
+#include "diagnosis/data/recorded_time.hpp"
 #include "diagnosis/radio/links/drawn_term.hpp"
 #include "diagnosis/radio/thresholds.hpp"
 
@@ -42,6 +43,21 @@ class Scanner {
     return values;
   }
 
+  // A wild stamp is put in the middle of the others, where one reading shows nothing.
+  std::vector<double> used_times() const {
+    std::vector<double> good;
+    for (const std::size_t row : rows_) {
+      if (!data_.is_wild(row)) good.push_back(data_.t[row]);
+    }
+    std::vector<double> values = used(data_.t);
+    if (good.size() == values.size() || good.empty()) return values;
+    std::nth_element(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(good.size() / 2), good.end());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (data_.is_wild(rows_[i])) values[i] = good[good.size() / 2];
+    }
+    return values;
+  }
+
   static bool varies(const std::vector<double>& values, double least) {
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
     return *high - *low > least;
@@ -51,6 +67,14 @@ class Scanner {
 
   void add_number(const std::string& by, const std::string& unit, const std::vector<double>& values, int count) {
     add({.by = by, .unit = unit, .values = values, .level = {}, .names = {}, .shapes = waves(values, count)});
+  }
+
+  void add_time(const std::vector<double>& t) {
+    std::vector<double> along = t;
+    if (const RecordedTime recorded(t); recorded.has_pauses()) {
+      for (double& v : along) v = recorded.shortened(v);
+    }
+    add({.by = "time", .unit = "s", .values = t, .level = {}, .names = {}, .shapes = waves(along, 8)});
   }
 
   void add_angle(const std::string& by, const std::vector<double>& all, int count, const std::string& why_not) {
@@ -78,9 +102,9 @@ class Scanner {
     else
       add_angle("rx_bearing", features_.rx_bearing, 4, "it does not vary");
     if (data_.t.empty()) return result_.not_tested.push_back("time: the data have none");
-    const auto t = used(data_.t);
+    const auto t = used_times();
     if (varies(t, 0))
-      add_number("time", "s", t, 8);
+      add_time(t);
     else
       result_.not_tested.push_back("time: all readings were taken at once");
   }

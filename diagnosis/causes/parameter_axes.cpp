@@ -19,7 +19,8 @@ std::vector<double> periods(double span) {
   return result;
 }
 
-std::optional<Axis> duration(const muster_param& p, const Span& time, const CauseShape& shape, double sampling) {
+std::optional<Axis> duration(const muster_param& p, const RecordedTime& time, const CauseShape& shape,
+                             double sampling) {
   const double span = time.length();
   if (!shape.wave.empty()) {
     std::vector<double> values = periods(span);
@@ -28,8 +29,10 @@ std::optional<Axis> duration(const muster_param& p, const Span& time, const Caus
     return logarithmic(p, std::max(span / thresholds::most_cycles, 2 * sampling), span, values, 0.02);
   }
   // Settling within a tenth of the data is a jump.
-  return logarithmic(p, thresholds::shortest_settling * span, 100 * span, {0.15 * span, 0.4 * span, span, 30 * span},
-                     0.3);
+  std::vector<double> values{0.15 * span, 0.4 * span, span, 30 * span};
+  const double whole = time.high() - time.low();
+  if (time.has_pauses()) values.insert(values.end(), {whole, 30 * whole});
+  return logarithmic(p, thresholds::shortest_settling * span, 100 * whole, values, 0.3);
 }
 
 // Carriers, close enough that a wave ten wavelengths longer than the direct one is a quarter of a turn off at most.
@@ -40,15 +43,18 @@ Axis carrier(const muster_param& p) {
   return logarithmic(p, thresholds::lowest_carrier, thresholds::highest_carrier, values, 0.015);
 }
 
-Axis moment(const muster_param& p, const Span& time, bool alone) {
+Axis moment(const muster_param& p, const RecordedTime& time, bool alone) {
   // A jump outside this range is an offset; an onset may be at the start of the data.
-  const double from = alone ? time.at(thresholds::earliest_jump) : time.low, to = time.at(thresholds::latest_jump);
-  return {p.name,
-          false,
-          from,
-          to,
-          0.012 * time.length(),
-          alone ? evenly(from, to, 29) : std::vector<double>{from, time.at(0.25), time.at(0.5)}};
+  const double from = alone ? time.at(thresholds::earliest_jump) : time.low(), to = time.at(thresholds::latest_jump);
+  std::vector<double> values{from, time.at(0.25), time.at(0.5)};
+  if (alone) {
+    values = evenly(from, to, 29);
+    if (time.has_pauses()) {
+      values = evenly(thresholds::earliest_jump, thresholds::latest_jump, 29);
+      for (double& v : values) v = time.at(v);
+    }
+  }
+  return {p.name, false, from, to, 0.012 * time.length(), values};
 }
 
 }  // namespace
@@ -68,7 +74,7 @@ Axis logarithmic(const muster_param& p, double lower, double upper, const std::v
   return axis;
 }
 
-std::optional<Axis> axis_over(const muster_param& p, const Span& time, const CauseShape& shape, bool alone,
+std::optional<Axis> axis_over(const muster_param& p, const RecordedTime& time, const CauseShape& shape, bool alone,
                               double sampling) {
   const std::string_view unit = p.unit;
   if (unit == "s" && time.length() <= 0) return {};

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "diagnosis/causes/cause_shape.hpp"
-#include "diagnosis/data/span.hpp"
+#include "diagnosis/data/recorded_time.hpp"
 
 namespace muster::diagnosis {
 
@@ -14,10 +14,10 @@ std::vector<double> evenly(double from, double to, int count);
 Axis logarithmic(const muster_param& declared, double lower, double upper, const std::vector<double>& values,
                  double step);
 
-// Axis of a time or duration over the time span of the data; nothing if there is none. Angles range over a full turn,
-// other numbers over their declared bounds. `alone`: the only parameter searched, so that its grid may be fine.
+// Axis of a time or duration over the recorded time of the data; nothing if there is none. Angles range over a full
+// turn, other numbers over their declared bounds. `alone`: the only parameter searched, so that its grid may be fine.
 // `sampling` [s]: the interval between samples; no swing has a period below twice that.
-std::optional<Axis> axis_over(const muster_param& declared, const Span& time, const CauseShape& shape, bool alone,
-                              double sampling = 0);
+std::optional<Axis> axis_over(const muster_param& declared, const RecordedTime& time, const CauseShape& shape,
+                              bool alone, double sampling = 0);
 
 }  // namespace muster::diagnosis

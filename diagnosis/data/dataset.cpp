@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "diagnosis/data/clock.hpp"
 #include "diagnosis/data/dataset_checks.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
@@ -45,7 +46,7 @@ void read_covariates(Dataset& data) {
     return reading_columns().count(name) > 0;
   };
   for (std::size_t c = 0; c < data.table->columns().size(); ++c) {
-    if (is_known(data.table->columns()[c].name)) continue;
+    if (is_known(data.table->columns()[c].name) || data.table->is_replaced(c)) continue;
     Covariate covariate{data.table->columns()[c].label(), {}, {}};
     const bool number = data.table->is_numeric(c);
     if (number)
@@ -127,7 +128,9 @@ Dataset read_dataset(const std::filesystem::path& file) {
 }
 
 Dataset read_dataset(std::shared_ptr<const TextTable> read) {
-  Dataset data{.table = std::move(read)};
+  std::vector<std::string> notes;
+  read = with_clock_in_seconds(std::move(read), notes);
+  Dataset data{.table = std::move(read), .notes = std::move(notes)};
   const TextTable& table = *data.table;
   if (table.rows() > most_rows)
     throw invalid({table.file()}, "the table has " + std::to_string(table.rows()) + " rows; expected at most " +

@@ -6,21 +6,65 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "diagnosis/data/clock.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
 
 namespace muster::diagnosis {
 namespace {
 
-constexpr double strongest = 30;   // dBm: a watt at the receiver
-constexpr double sentinel = -128;  // value of an 8-bit register without a measurement
-constexpr double weakest = -174;   // dBm: thermal noise in 1 Hz
+constexpr double strongest = 30;       // dBm: a watt at the receiver
+constexpr double marks[] = {0, -128};  // dBm; of drivers, and of an 8-bit register, without a measurement
+constexpr double apart = 10;           // dB; between a mark and every other level: readings lie closer to one another
+constexpr double weakest = -174;       // dBm: thermal noise in 1 Hz
 
 std::string row_text(std::size_t row) { return "row " + std::to_string(row + 1); }
 
 // Rows count from 1, below the header: row r is on line r + 1.
 Place at(const Dataset& data, std::size_t row, const std::string& column) {
   return data.table->place(row, data.table->find(column).value());
+}
+
+// Throws Error if most levels are above 0 dBm: milliwatts, or a lost sign.
+void check_scale(const Dataset& data) {
+  const auto is_above = [](double v) { return v > 0; };
+  if (2 * std::count_if(data.rssi.begin(), data.rssi.end(), is_above) <= static_cast<std::ptrdiff_t>(data.heard()))
+    return;
+  const auto row =
+      static_cast<std::size_t>(std::find_if(data.rssi.begin(), data.rssi.end(), is_above) - data.rssi.begin());
+  const Place place = at(data, row, data.reading);
+  const double v = data.rssi[row];
+  if (data.reading == "path_loss")
+    throw invalid(place, row_text(row) + ": a path loss of " + print_real(-v) +
+                             " dB, and most are negative; expected losses, which are positive (a map of muster import: "
+                             "path_loss[dB] = -1*COLUMN)");
+  throw invalid(place,
+                row_text(row) + ": " + print_real(v) +
+                    " dBm, and most readings are above 0 dBm, as milliwatts or levels without their sign are; "
+                    "expected dBm, 10 log10 of milliwatts (a map of muster import: rssi[dBm] = 10*log10(COLUMN), "
+                    "or rssi[dBm] = -1*COLUMN)");
+}
+
+// Empties readings at a mark that stands apart from all other levels.
+void take_marks(Dataset& data) {
+  for (const double mark : marks) {
+    if (mark != 0 && data.reading == "path_loss") continue;  // 128 dB is a loss as good as any
+    double nearest = 1e300;
+    std::vector<std::size_t> rows;
+    for (std::size_t row = 0; row < data.rows(); ++row) {
+      const double v = data.rssi[row];
+      if (v == mark)
+        rows.push_back(row);
+      else if (!std::isnan(v))
+        nearest = std::min(nearest, std::abs(v - mark));
+    }
+    if (rows.empty() || nearest < apart) continue;
+    for (const std::size_t row : rows) data.rssi[row] = std::nan("");
+    data.marks.push_back(std::to_string(rows.size()) + " at " + print_real(mark) + " dBm");
+    const std::string why = nearest < 1e300 ? "; the nearest other level is " + print_real(nearest) + " dB away" : "";
+    data.notes.push_back(data.marks.back() + ", first in " + row_text(rows[0]) +
+                         ": taken as a mark for nothing received" + why);
+  }
 }
 
 void check_rssi(const Dataset& data) {
@@ -32,9 +76,7 @@ void check_rssi(const Dataset& data) {
                                     : "an rssi of " + print_real(v) + " dBm ";
       return invalid(at(data, row, data.reading), row_text(row) + ": " + what + why);
     };
-    if (v == 0) throw refuse("is what drivers give for none; expected an empty cell where nothing was received");
     if (v > strongest) throw refuse("is over +30 dBm; expected a level in dBm, which is mostly negative");
-    if (v == sentinel) throw refuse("is a mark for none; expected an empty cell where nothing was received");
     if (v < weakest) throw refuse("is below thermal noise; expected a level in dBm");
   }
 }
@@ -47,11 +89,19 @@ void check_ends(const Dataset& data) {
   }
 }
 
+void find_wild_stamps(Dataset& data) {
+  data.wild = wild_stamps(data.t);
+  for (const std::size_t row : data.wild)
+    data.notes.push_back(row_text(row) + ": t = " + print_real(data.t[row]) +
+                         " s lies far outside all other times; the row is left out of all tests in time");
+}
+
 // One pass in file order finds both faults: time of a pair may repeat only if (t, tx, rx) does not.
 void check_times(const Dataset& data) {
   if (data.t.empty()) return;
   std::unordered_map<std::uint64_t, std::size_t> last;
   for (std::size_t row = 0; row < data.rows(); ++row) {
+    if (data.is_wild(row)) continue;
     const std::uint64_t pair = (std::uint64_t{data.tx.level[row]} << 32) | data.rx.level[row];
     const auto [entry, is_first] = last.emplace(pair, row);
     if (!is_first) {
@@ -69,21 +119,37 @@ void check_times(const Dataset& data) {
   }
 }
 
-// Finds rows in millimetres or degrees among others in metres, by values far outside the usual range.
-void check_units(const Dataset& data, const std::vector<Point>& places, int axis, const std::string& column) {
-  std::vector<double> sizes;
-  for (const Point& p : places) sizes.push_back(std::abs(p[static_cast<std::size_t>(axis)]));
-  if (sizes.empty() || std::isnan(sizes[0])) return;
-  std::vector<double> sorted = sizes;
-  const auto most = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), most, sorted.end());
-  const double usual = std::max(*most, 1.0);  // m
-  for (std::size_t row = 0; row < sizes.size(); ++row) {
-    if (sizes[row] < 200 * usual) continue;
-    throw invalid(at(data, row, column), row_text(row) + ": " +
-                                             print_real(places[row][static_cast<std::size_t>(axis)]) +
-                                             " m, while half of the rows lie within " + print_real(usual) +
-                                             " m; expected one unit in the whole column (millimetres here?)");
+// A radio's values along one axis, for the check of units.
+struct Coordinates {
+  std::vector<double> values;
+  std::vector<std::size_t> rows;
+};
+
+// Finds rows in millimetres among others of the same radio in metres: far outside, nothing between, and among the
+// others if divided by 1000. Radios may stand any distance apart.
+void check_units(const Dataset& data, const Factor& radio, const std::vector<Point>& places, std::size_t axis,
+                 const std::string& column) {
+  if (places.empty() || std::isnan(places[0][axis])) return;
+  std::vector<Coordinates> of_radio(radio.levels.size());
+  for (std::size_t row = 0; row < places.size(); ++row) {
+    of_radio[radio.level[row]].values.push_back(places[row][axis]);
+    of_radio[radio.level[row]].rows.push_back(row);
+  }
+  for (const auto& [values, rows] : of_radio) {
+    std::vector<double> sorted = values;
+    std::sort(sorted.begin(), sorted.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+    if (sorted.empty()) continue;
+    const double usual = std::max(std::abs(sorted[sorted.size() / 2]), 1.0);  // m
+    const auto far = std::find_if(sorted.begin(), sorted.end(), [&](double v) { return std::abs(v) >= 200 * usual; });
+    if (far == sorted.begin() || far == sorted.end()) continue;
+    if (std::abs(*far) < 50 * std::max(std::abs(*(far - 1)), 1.0)) continue;  // the radio went there
+    const auto [low, high] = std::minmax_element(sorted.begin(), far);
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      if (std::abs(values[k]) < std::abs(*far) || values[k] / 1000 < *low - 1 || values[k] / 1000 > *high + 1) continue;
+      throw invalid(at(data, rows[k], column), row_text(rows[k]) + ": " + print_real(values[k]) +
+                                                   " m, while half of the rows lie within " + print_real(usual) +
+                                                   " m; expected one unit in the whole column (millimetres here?)");
+    }
   }
 }
 
@@ -103,17 +169,23 @@ void check_readings(Dataset& data) {
   const Place whole{data.table->file()};
   if (data.rows() == 0) throw invalid(whole, "the table has no rows; expected readings");
   if (data.rows() == 1) throw invalid(whole, "the table has 1 row; one reading shows no law, expected many");
+  check_scale(data);
+  take_marks(data);
   check_rssi(data);
   check_ends(data);
+  find_wild_stamps(data);
   check_times(data);
   const char* const axes[] = {"x", "y", "z"};
-  for (int axis = 0; axis < 3; ++axis) {
-    check_units(data, data.tx_at, axis, std::string("tx_") + axes[axis]);
-    check_units(data, data.rx_at, axis, std::string("rx_") + axes[axis]);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    check_units(data, data.tx, data.tx_at, axis, std::string("tx_") + axes[axis]);
+    check_units(data, data.rx, data.rx_at, axis, std::string("rx_") + axes[axis]);
   }
   note_degrees(data, data.tx_yaw, "tx_yaw[rad]");
   note_degrees(data, data.rx_yaw, "rx_yaw[rad]");
-  if (data.heard() == 0) throw invalid(whole, "every rssi is empty; expected some readings that were received");
+  if (data.heard() == 0)
+    throw invalid(whole, "every rssi is empty" +
+                             (data.marks.empty() ? "" : " or a mark for nothing received (" + data.marks[0] + ")") +
+                             "; expected some readings that were received");
   const double first = *std::find_if(data.rssi.begin(), data.rssi.end(), [](double v) { return !std::isnan(v); });
   if (data.heard() > 1 &&
       std::all_of(data.rssi.begin(), data.rssi.end(), [&](double v) { return std::isnan(v) || v == first; }))

@@ -47,7 +47,9 @@ std::string attribute_of(const InstanceDeclaration& instance, const std::string&
 // change in time. A link stays if one of its radios has few other readings. Throws Error if too few rows are left.
 UsedRows used_rows(const LinkModel& model, const Dataset& data, const Fit& fitted) {
   UsedRows used;
-  for (const std::size_t row : fitted.rows_used()) used.rows.push_back(static_cast<Index>(row));
+  for (const std::size_t row : fitted.rows_used()) {
+    if (!data.is_wild(row)) used.rows.push_back(static_cast<Index>(row));
+  }
   for (const auto& instance : model.simulation().instances()) {
     const muster_burst* const burst = instance->plugin().burst;
     if (!burst) continue;

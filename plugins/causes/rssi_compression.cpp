@@ -29,6 +29,7 @@ struct RssiCompression {
       "effect.rssi_saturation effect.dual_slope effect.two_ray",
       "add an attenuator of known loss near the sender, and see what the reading loses",
       nullptr,
+      0,
   };
 
   explicit RssiCompression(Setup& s) : knee(s.value("knee")), share(s.value("share")), rssi(s) {}

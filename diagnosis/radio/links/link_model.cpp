@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "diagnosis/data/clock.hpp"
 #include "text/number.hpp"
 #include "text/text_table.hpp"
 
@@ -65,6 +66,8 @@ void refuse_far_places(const std::filesystem::path& data) {
 
 World world_for(const std::filesystem::path& file, const std::filesystem::path& data, TableCache& tables) {
   World world = read_world(file, standard());
+  std::vector<std::string> told_by_the_data_set;
+  tables.put(data, with_clock_in_seconds(tables.read(data), told_by_the_data_set));
   std::erase_if(world.instances, lists_links);
   std::erase_if(world.swaps, [](const SwapDeclaration& s) { return lists_links(s.replacement); });
   take_settings_from(data, world, tables);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 
+#include "diagnosis/data/recorded_time.hpp"
 #include "diagnosis/radio/links/moving_end.hpp"
 
 namespace muster::diagnosis {
@@ -35,7 +36,9 @@ std::vector<int> links(const LinkReadings& readings) {
 void add_time(const LinkReadings& readings, const Geometry& geometry, bool places_known, std::vector<Candidate>& out) {
   const auto& t = readings.t;
   if (t.empty()) return;
-  const Eigen::VectorXd time = Eigen::Map<const Eigen::VectorXd>(t.data(), static_cast<Index>(t.size()));
+  Eigen::VectorXd time = Eigen::Map<const Eigen::VectorXd>(t.data(), static_cast<Index>(t.size()));
+  if (const RecordedTime recorded(t); recorded.has_pauses())
+    time = time.unaryExpr([&](double at) { return recorded.shortened(at); }).eval();
   for (Candidate c : {inference::smooth_of("time", time, 10), inference::chirp("time", time)}) {
     c.role.time_like = true;
     out.push_back(std::move(c));

@@ -209,7 +209,7 @@ MeasurementGeometry measurement_geometry(const LinkModel& model, const Dataset& 
   survey.plan_angle = direction_of_walls(model);
   survey.strips = strips_of(model);
   std::map<int, Trail> trails;
-  std::vector<double> distances;
+  std::vector<double> distances, times;
   bool first = true;
   for (const std::size_t row : by_time(data)) {
     const auto& ends = model.ends()[row];
@@ -220,9 +220,10 @@ MeasurementGeometry measurement_geometry(const LinkModel& model, const Dataset& 
       widen(survey.height, end.z, first);
       first = false;
     }
-    if (survey.has_time) widen(survey.time, data.t[row], distances.empty());
+    if (survey.has_time && !data.is_wild(row)) times.push_back(data.t[row]);
     distances.push_back(std::hypot(std::hypot(ends[0].x - ends[1].x, ends[0].y - ends[1].y), ends[0].z - ends[1].z));
   }
+  survey.time = RecordedTime(std::move(times));
   std::sort(survey.ways.begin(), survey.ways.end());
   survey.has_height = survey.height.length() > thresholds::least_heights;
   std::sort(distances.begin(), distances.end());

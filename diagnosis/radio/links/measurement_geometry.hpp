@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "diagnosis/data/dataset.hpp"
+#include "diagnosis/data/recorded_time.hpp"
 #include "diagnosis/data/span.hpp"
 #include "diagnosis/radio/links/link_model.hpp"
 #include "diagnosis/radio/links/room_detection.hpp"
@@ -18,7 +19,8 @@ struct MeasurementGeometry {
   std::set<std::string> counted = {};           // materials whose walls the data count, in columns walls_NAME
   Span level;                                   // dBm, of all but the weakest and the strongest readings
   double sampling = 0;                          // s, between samples, as the longer gaps of the run have it; 0: no time
-  Span time, east, north, height;               // s, m
+  RecordedTime time;                            // s
+  Span east, north, height;                     // m
   Span distance;                                // m, from the tenth to the 85th percentile of links
   double above_moving = 0;                      // m: midway between the highest moving radio and the next radio above
   double plan_angle = 0;                        // rad, in [0, pi/2): mean direction of walls, modulo quarter turns

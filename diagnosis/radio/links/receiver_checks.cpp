@@ -126,14 +126,20 @@ ReceiverCheck outliers_check(const Dataset& data, const Codes& codes, const std:
   return check;
 }
 
-// Checks for levels above 0 dBm, implausible for most readings.
+std::string marks_in_words(const Dataset& data, const std::string& none) {
+  if (data.marks.empty()) return none;
+  std::string words;
+  for (const std::string& mark : data.marks) words += (words.empty() ? "" : " and ") + mark;
+  return words + ", taken as not received";
+}
+
+// Counts levels above 0 dBm, implausible for more than a few readings; check_readings() refuses a majority.
 ReceiverCheck unit_check(const Dataset& data, const std::string& none) {
   const auto above = [](double v) { return v > 0; };
   const auto count = static_cast<std::size_t>(std::count_if(data.rssi.begin(), data.rssi.end(), above));
-  ReceiverCheck check{"levels above 0 dBm, a milliwatt at the receiver", none, 2 * count <= data.heard(), {}};
+  ReceiverCheck check{"levels above 0 dBm, a milliwatt at the receiver", none, true, {}};
   if (count == 0) return check;
   check.found = fmt::format("{} of {} readings", count, data.heard());
-  if (!check.fine) check.found += ": are they in mW (dBm = 10 log10 of mW), or is a sign lost?";
   check.row = static_cast<std::size_t>(std::find_if(data.rssi.begin(), data.rssi.end(), above) - data.rssi.begin()) + 1;
   return check;
 }
@@ -167,7 +173,8 @@ ReceiverChecks receiver_checks(const Dataset& data) {
     result.checks.push_back({"time that runs backwards within a pair", rows, true, {}});
   }
   result.checks.push_back(
-      {"marks for none (0, -128) and levels that cannot be (over 30, under -174 dBm)", rows, true, {}});
+      {"marks for none (0, -128), apart from all other levels", marks_in_words(data, rows), true, {}});
+  result.checks.push_back({"levels that cannot be (over 30, under -174 dBm)", rows, true, {}});
   result.checks.push_back(outliers_check(data, codes, rows));
   result.checks.push_back(unit_check(data, rows));
   result.checks.push_back({"rows in another unit than their column", rows, true, {}});

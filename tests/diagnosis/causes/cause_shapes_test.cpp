@@ -41,8 +41,7 @@ TEST(CauseShape, SwingsOfManyCyclesAreSought) {
   CauseShape shape;
   shape.wave = "phase";
   MeasurementGeometry survey;
-  survey.time.low = 100;
-  survey.time.high = 1300;
+  survey.time = Span{100, 1300};
   const auto axis = axis_of(period, survey, shape, true);
   ASSERT_TRUE(axis);
   for (double cycles = 2; cycles < 120; cycles += 0.37) {

@@ -70,17 +70,22 @@ TEST(ReceiverChecks, NoStepFromTooFewReadings) {
             "not known: 40 readings of 40 levels are too few to tell; three levels and four readings a level would do");
 }
 
-TEST(ReceiverChecks, MilliwattsAreReported) {
+TEST(ReceiverChecks, LevelsAboveAMilliwattAreCounted) {
   const Scratch scratch;
-  const auto check = [&](const std::string& sign) {
-    const auto file = scratch.write("data.csv", two_decimals(sign));
+  const auto check = [&](const std::string& more) {
+    const auto file = scratch.write("data.csv", two_decimals("-") + more);
     return check_called(receiver_checks(read_dataset(file)), "levels above 0 dBm");
   };
-  EXPECT_TRUE(check("-").fine);
-  EXPECT_EQ(check("-").found, "none in 40 rows");
-  EXPECT_FALSE(check("").fine);
-  EXPECT_EQ(check("").found, "40 of 40 readings: are they in mW (dBm = 10 log10 of mW), or is a sign lost?");
-  EXPECT_EQ(check("").row, 1u);
+  EXPECT_EQ(check("").found, "none in 40 rows");
+  EXPECT_EQ(check("41,a,b,0,0,1,2,2.5\n").found, "1 of 41 readings");
+  EXPECT_EQ(check("41,a,b,0,0,1,2,2.5\n").row, 41u);
+}
+
+TEST(ReceiverChecks, AMarkForNothingIsListed) {
+  const Scratch scratch;
+  const auto file = scratch.write("data.csv", two_decimals("-") + "41,a,b,0,0,1,2,-128\n");
+  EXPECT_EQ(check_called(receiver_checks(read_dataset(file)), "marks for none").found,
+            "1 at -128 dBm, taken as not received");
 }
 
 TEST(ReceiverChecks, AnIsolatedReadingIsReportedWithItsRow) {

@@ -110,7 +110,7 @@ class ThermometerDomain : public diagnosis::CauseDomain {
   std::optional<diagnosis::Axis> axis_of(const muster_param& p, const diagnosis::CauseShape& shape,
                                          bool alone) const override {
     if (p.flags & MUSTER_LOG) return diagnosis::logarithmic(p, p.min, p.max, {900, 1800, 3600, 7200, 14400}, 0.2);
-    return diagnosis::axis_over(p, {samples_.t.minCoeff(), samples_.t.maxCoeff()}, shape, alone);
+    return diagnosis::axis_over(p, diagnosis::Span{samples_.t.minCoeff(), samples_.t.maxCoeff()}, shape, alone);
   }
   void describe(const diagnosis::CauseShape& shape, inference::Candidate& c) const override {
     const bool in_time = std::string_view(shape.cause.meaning().covariates) == "t";
