@@ -1,4 +1,4 @@
-// muster import FILE --map MAP --out FILE: a foreign table in the project's format, and what was assumed on the way.
+// muster import FILE... --map MAP --out FILE: foreign tables in the project's format, and what was assumed on the way.
 #include <fmt/core.h>
 
 #include "diagnosis/data/table_import.hpp"
@@ -10,18 +10,20 @@ namespace muster::cli {
 int run_import(const Arguments& arguments) {
   CommandLine line(
       "import",
-      "Brings a foreign table of readings into the format of measured data, as a map file says, checks it, and prints "
-      "what was\n"
+      "Brings foreign tables of readings into the format of measured data, as a map file says, checks the result, and "
+      "prints what was\n"
       "assumed. docs/how-to/import_a_table.md describes map files.\n"
-      "Example: muster import calibration.csv --map calibration.map --out measured.csv");
-  std::string file, map, out;
+      "Example: muster import calibration.csv --map calibration.map --out measured.csv\n"
+      "         muster import run_*.csv --map runs.map --out measured.csv");
+  std::string map, out;
+  std::vector<std::string> files;
   bool json = false;
-  line.option("file", file, "the foreign table: cells between ',', ';' or tabs").required();
+  line.option("file", files, "a foreign table, or several: cells between ',', ';', tabs or blanks").required();
   line.option("--map", map, "how its columns become ours").required();
   line.option("--out", out, "the table to write").required();
   line.flag("--json", json, "print the outcome as JSON");
   line.parse(arguments);
-  const diagnosis::Imported done = diagnosis::import_table(file, map, out);
+  const diagnosis::Imported done = diagnosis::import_table({files.begin(), files.end()}, map, out);
   if (json) {
     fmt::print(
         "{}\n",

@@ -27,8 +27,13 @@ double number_of(const std::string& text, const Place& place) {
   return *value;
 }
 
-// Parses "SCALE*COLUMN + OFFSET"; each part but the column is optional. Signs of the offset are set off by spaces, so
-// that a column may be called rssi-1.
+ColumnReference column_reference(const std::string& text) {
+  const std::size_t dot = text.find('.');
+  return dot == text.npos ? ColumnReference{"", text} : ColumnReference{text.substr(0, dot), text.substr(dot + 1)};
+}
+
+// Parses "SCALE*COLUMN + OFFSET" and "SCALE*log10(COLUMN) + OFFSET"; each part but the column is optional. Signs of the
+// offset are set off by spaces, so that a column may be called rssi-1.
 NumberRule number_rule(std::string text, const Place& place) {
   NumberRule rule;
   for (const char* sign : {" + ", " - "}) {
@@ -42,14 +47,44 @@ NumberRule number_rule(std::string text, const Place& place) {
     rule.scale = number_of(trimmed(text.substr(0, star)), place);
     text = trimmed(text.substr(star + 1));
   }
-  if (const auto constant = parse_real(text)) {
+  if (text.rfind("log10(", 0) == 0 && text.back() == ')') {
+    rule.logarithm = true;
+    text = trimmed(text.substr(6, text.size() - 7));
+  } else if (const auto constant = parse_real(text)) {
     rule.offset += rule.scale * *constant;
     return rule;
   }
-  const std::size_t dot = text.find('.');
-  if (dot != text.npos) rule.table = text.substr(0, dot);
-  rule.column = dot == text.npos ? text : text.substr(dot + 1);
-  if (rule.column.empty()) throw invalid(place, "no column; expected SCALE*COLUMN + OFFSET, or a name in quotes");
+  rule.from = column_reference(text);
+  if (rule.from.column.empty()) throw invalid(place, "no column; expected SCALE*COLUMN + OFFSET, or a name in quotes");
+  return rule;
+}
+
+// Parses "COLUMN [COLUMN] [since STAMP]".
+TimeRule time_rule(const std::string& text, const Place& place) {
+  TimeRule rule{text, {}};
+  if (const std::size_t at = (' ' + text).find(" since "); at != text.npos) {
+    const std::string stamp = trimmed(text.substr(at + 6));
+    rule.words = trimmed(text.substr(0, at));
+    rule.since = parse_stamp(stamp);
+    if (!rule.since) throw invalid(place, why_no_stamp(stamp));
+  }
+  if (rule.words.empty()) throw invalid(place, "no column; expected time COLUMN, or time DATE_COLUMN CLOCK_COLUMN");
+  return rule;
+}
+
+// Parses "LATITUDE LONGITUDE [ALTITUDE]", columns.
+GlobeRule globe_rule(const std::string& word, const std::vector<std::string>& columns, const Place& place) {
+  GlobeRule rule;
+  rule.axis = word == "east" ? 0 : word == "north" ? 1 : 2;
+  const std::size_t most = 3, least = rule.axis == 2 ? 3 : 2;
+  if (columns.size() < least || columns.size() > most)
+    throw invalid(place,
+                  "expected " + word +
+                      (rule.axis == 2 ? " LATITUDE LONGITUDE ALTITUDE" : " LATITUDE LONGITUDE, and perhaps ALTITUDE") +
+                      ", the names of columns");
+  rule.latitude = column_reference(columns[0]);
+  rule.longitude = column_reference(columns[1]);
+  if (columns.size() == most) rule.altitude = column_reference(columns[2]);
   return rule;
 }
 
@@ -80,8 +115,11 @@ class Reader {
     if (words.size() == 2 && words[0] == "for") return read_variable(words[1], right);
     if (words.size() == 2 && words[0] == "table") return read_table(words[1], right);
     if (words.size() == 2 && words[0] == "none") return read_none(words[1], right);
+    if (left == "file name") return read_file_name(right);
+    if (read_shape(left, right)) return;
+    if (left == "origin") return read_origin(right);
     if (words.size() != 1)
-      throw invalid(place_, quote(left) + " is no column; expected name or name[unit], for, table or none");
+      throw invalid(place_, quote(left) + " is no column; expected name or name[unit], for, table, none or file name");
     read_column(left, right);
   }
 
@@ -101,10 +139,64 @@ class Reader {
     for (const auto& word : words_of(right)) map_.none[column].push_back(number_of(word, place_));
   }
 
+  void read_file_name(const std::string& pattern) { map_.file_name = FileNamePattern(pattern, place_); }
+
+  void read_origin(const std::string& right) {
+    const auto words = words_of(right);
+    if (words.size() != 2 && words.size() != 3) throw invalid(place_, "expected origin = LATITUDE LONGITUDE ALTITUDE");
+    map_.origin = GeodeticPoint{number_of(words[0], place_), number_of(words[1], place_),
+                                words.size() == 3 ? number_of(words[2], place_) : 0};
+    if (const std::string why = why_no_point(*map_.origin); !why.empty()) throw invalid(place_, why);
+  }
+
+  // False for a line about something else.
+  bool read_shape(const std::string& left, const std::string& right) {
+    static const std::map<std::string, char> separators = {
+        {"comma", ','}, {"semicolon", ';'}, {"tab", '\t'}, {"space", ' '}};
+    const auto words = words_of(right);
+    if (left == "header") {
+      if (words == std::vector<std::string>{"none"}) {
+        map_.shape.has_header = false;
+        return true;
+      }
+      const auto line = words.size() == 2 && words[0] == "line" ? parse_integer(words[1]) : std::nullopt;
+      if (!line || *line < 1 || *line > 1'000'000)
+        throw invalid(place_, "expected header = none, or header = line NUMBER");
+      map_.shape.header_line = static_cast<int>(*line);
+    } else if (left == "comment") {
+      if (words.empty()) throw invalid(place_, "expected comment = WORD, with which lines begin that are left out");
+      map_.shape.comments = words;
+    } else if (left == "end") {
+      if (right.empty()) throw invalid(place_, "expected end = TEXT, with which the line begins that ends the table");
+      map_.shape.end = right;
+    } else if (left == "cells") {
+      const auto found = separators.find(right);
+      if (found == separators.end())
+        throw invalid(place_,
+                      quote(right) + " separates no cells; " + suggest(right, {"comma", "semicolon", "tab", "space"}));
+      map_.shape.separator = found->second;
+    } else if (left == "decimal") {
+      if (right != "comma" && right != "point") throw invalid(place_, "expected decimal = comma or decimal = point");
+      map_.shape.decimal_comma = right == "comma";
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  void check_table(const std::string& name) const {
+    if (name.empty() || map_.tables.count(name)) return;
+    std::vector<std::string> known;
+    for (const auto& [other, table] : map_.tables) known.push_back(other);
+    throw invalid(place_, "there is no table " + quote(name) + " above; " + suggest(name, known));
+  }
+
   void read_column(const std::string& label, const std::string& right) {
     const std::size_t open = label.find('[');
-    ColumnRule rule{
-        .column = {label.substr(0, open), ""}, .name = "", .name_column = "", .number = {}, .place = place_};
+    ColumnRule rule;
+    rule.column.name = label.substr(0, open);
+    rule.text = right;
+    rule.place = place_;
     if (open != label.npos && label.back() == ']') rule.column.unit = label.substr(open + 1, label.size() - open - 2);
     for (const ColumnRule& other : map_.columns) {
       if (other.column.name == rule.column.name)
@@ -116,14 +208,16 @@ class Reader {
     } else if (right.rfind("name ", 0) == 0) {
       rule.is_name = true;
       rule.name_column = trimmed(right.substr(5));
+    } else if (const auto words = words_of(right); words.size() > 1 && words[0] == "time") {
+      rule.time = time_rule(trimmed(right.substr(5)), place_);
+    } else if (words.size() > 1 && (words[0] == "east" || words[0] == "north" || words[0] == "up")) {
+      rule.globe = globe_rule(words[0], {words.begin() + 1, words.end()}, place_);
+      for (const ColumnReference& r :
+           {rule.globe->latitude, rule.globe->longitude, rule.globe->altitude.value_or(ColumnReference{})})
+        check_table(r.table);
     } else {
       rule.number = number_rule(right, place_);
-      if (!rule.number->table.empty() && !map_.tables.count(rule.number->table)) {
-        std::vector<std::string> known;
-        for (const auto& [name, table] : map_.tables) known.push_back(name);
-        throw invalid(
-            place_, "there is no table " + quote(rule.number->table) + " above; " + suggest(rule.number->table, known));
-      }
+      check_table(rule.number->from.table);
     }
     map_.columns.push_back(rule);
   }

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <regex>
 #include <set>
 
 #include "diagnosis/data/dataset.hpp"
-#include "diagnosis/data/foreign_table.hpp"
-#include "diagnosis/data/import_map.hpp"
+#include "diagnosis/data/import_source.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
 #include "text/text_table_writer.hpp"
@@ -19,19 +19,24 @@ namespace {
 
 class Importer {
  public:
-  Importer(const std::filesystem::path& file, const ImportMap& map) : map_(map), main_(ForeignTable::read(file)) {
-    for (const auto& [name, side] : map.tables) sides_.emplace(name, ForeignTable::read(side.file));
+  Importer(const std::vector<std::filesystem::path>& files, const ImportMap& map) : map_(map), source_(files, map) {
     for (const ColumnRule& rule : map_.columns) check_rule(rule);
+    for (std::size_t f = 0; f < source_.files().size(); ++f) {
+      for (std::size_t row = 0; row < source_.files()[f].rows(); ++row) rows_.push_back({f, row});
+    }
+    find_origin();
+    leave_out_rows_without_place();
+    read_times();
+    if (files.size() > 1) order_by_time();
   }
 
   Imported write(const std::filesystem::path& out) {
     std::vector<TextColumn> columns;
     for (const ColumnRule& rule : map_.columns) columns.push_back(rule.column);
     TextTableWriter writer(out, columns);
-    const std::vector<std::string> once = {""};
-    for (std::size_t row = 0; row < main_.rows(); ++row) {
-      for (const std::string& value : map_.variable.empty() ? once : map_.values) {
-        for (const ColumnRule& rule : map_.columns) write_cell(writer, rule, row, value);
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+      for (const std::string& value : values()) {
+        for (const ColumnRule& rule : map_.columns) write_cell(writer, rule, k, value);
         writer.end_row();
         ++result_.rows;
       }
@@ -57,7 +62,7 @@ class Importer {
   Error in_source(const Error& error, const std::filesystem::path& written) const {
     const int line = error.place().file == written.string() ? error.place().line : 0;
     std::string words = error.message();
-    if (line <= 1) return {error.exit(), Place{line == 1 ? map_.file : main_.file()}, words};
+    if (line <= 1) return {error.exit(), Place{line == 1 ? map_.file : source_.files()[0].file()}, words};
     const auto row = static_cast<std::size_t>(line) - 1;
     const std::string with = made_with(row), opening = "row " + std::to_string(row) + ": ";
     if (words.compare(0, opening.size(), opening) == 0) words.erase(0, opening.size());
@@ -65,11 +70,15 @@ class Importer {
   }
 
   // Source of a row. Rows of the result count from 1, below its header.
-  Place source_of(std::size_t row) const { return main_.place((row - 1) / rows_a_row()); }
+  Place source_of(std::size_t row) const { return source_.place(rows_[(row - 1) / rows_a_row()]); }
   std::string made_with(std::size_t row) const {
     return map_.variable.empty() ? "" : "with " + map_.variable + " = " + map_.values[(row - 1) % rows_a_row()];
   }
-  std::size_t rows_a_row() const { return map_.variable.empty() ? 1 : map_.values.size(); }
+  const std::vector<std::string>& values() const {
+    static const std::vector<std::string> once = {""};
+    return map_.variable.empty() ? once : map_.values;
+  }
+  std::size_t rows_a_row() const { return values().size(); }
 
   std::string rows_as_lines(const std::string& words) const {
     static const std::regex row("row ([0-9]+)");
@@ -78,8 +87,10 @@ class Importer {
     for (std::sregex_iterator at(words.begin(), words.end(), row), end; at != end; ++at) {
       const auto number = static_cast<std::size_t>(parse_integer(at->str(1)).value());
       const std::string with = made_with(number);
+      const Place place = source_of(number);
       result += words.substr(from, static_cast<std::size_t>(at->position()) - from) + "line " +
-                std::to_string(source_of(number).line) + (with.empty() ? "" : ' ' + with);
+                std::to_string(place.line) + (source_.files().size() > 1 ? " of " + place.file : "") +
+                (with.empty() ? "" : ' ' + with);
       from = static_cast<std::size_t>(at->position() + at->length());
     }
     return result + words.substr(from);
@@ -88,14 +99,25 @@ class Importer {
   // Checks a rule against the format's definition of its column.
   static void check_rule(const ColumnRule& rule) {
     const auto known = reading_columns().find(rule.column.name);
+    const auto made_in = [&](const std::string& unit, const std::string& what) {
+      if (rule.column.unit != unit)
+        throw invalid(rule.place, quote(rule.column.label()) + " is made of " + what + "; expected " +
+                                      quote(TextColumn{rule.column.name, unit}.label()));
+    };
+    if (rule.time) made_in("s", "times, in seconds");
+    if (rule.globe) made_in("m", "a place on the globe, in metres");
     if (known == reading_columns().end()) return;
+    if (rule.column.name == "t" && rule.column.unit.empty() && rule.number)
+      return;  // a row number, or refused when read
     const auto& [name, unit] = *known;
     if (rule.column.unit != unit)
       throw invalid(rule.place, "column " + quote(rule.column.label()) + " has the wrong unit; expected " +
                                     quote(TextColumn{name, unit}.label()) + ", and SCALE*COLUMN where that differs");
     if (unit.empty() && !rule.is_name)
-      throw invalid(rule.place, quote(name) + " is a column of names; expected " + name + " = " +
-                                    (rule.number->column.empty() ? "\"NAME\"" : "name " + rule.number->column));
+      throw invalid(
+          rule.place,
+          quote(name) + " is a column of names; expected " + name + " = " +
+              (!rule.number || rule.number->from.column.empty() ? "\"NAME\"" : "name " + rule.number->from.column));
   }
 
   void check_all_there() const {
@@ -117,33 +139,40 @@ class Importer {
     }
   }
 
-  void write_cell(TextTableWriter& writer, const ColumnRule& rule, std::size_t row, const std::string& value) {
-    if (!rule.is_name) {
-      const double number = number_of(rule, row, value);
-      if (std::isnan(number))
-        writer.empty();
+  void write_cell(TextTableWriter& writer, const ColumnRule& rule, std::size_t k, const std::string& value) {
+    if (rule.is_name) {
+      if (rule.name_column.empty())
+        writer.text(source_.filled(rule.name, rows_[k], value));
       else
-        writer.real(number);
-      if (rule.column.name == "rssi" || rule.column.name == "path_loss") result_.empty += std::isnan(number);
-    } else if (rule.name_column.empty()) {
-      writer.text(filled(rule.name, map_.variable, value));
-    } else {
-      writer.text(main_.text(row, column_of(main_, filled(rule.name_column, map_.variable, value), rule.place)));
+        writer.text(source_.text(rule.name_column, rows_[k], value, rule.place));
+      return;
     }
+    const auto number = rule.time    ? times_.at(&rule)[k]
+                        : rule.globe ? metres_of(rule, k, value)
+                                     : number_of(rule, rows_[k], value);
+    if (std::isnan(number))
+      writer.empty();
+    else
+      writer.real(number);
+    if (rule.column.name == "rssi" || rule.column.name == "path_loss") result_.empty += std::isnan(number);
   }
 
-  double number_of(const ColumnRule& rule, std::size_t row, const std::string& value) {
+  double number_of(const ColumnRule& rule, const SourceRow& at, const std::string& value) {
     const NumberRule& number = *rule.number;
-    if (number.column.empty()) return number.offset;
-    const std::string column = filled(number.column, map_.variable, value);
-    const ForeignTable& table = number.table.empty() ? main_ : sides_.at(number.table);
-    const std::size_t in_row = number.table.empty() ? row : side_row(number.table, row, value, rule.place);
-    const std::string advice = reading_columns().count(rule.column.name)
-                                   ? ""
-                                   : "; where these are names, expected " + rule.column.name + " = name " + column;
-    const auto cell = table.number(in_row, column_of(table, column, rule.place), advice);
+    if (number.from.column.empty()) return number.offset;
+    std::string advice;
+    if (rule.column.name == "t")
+      advice = "; where these are dates or clock times, expected t[s] = time " + number.from.column;
+    else if (!reading_columns().count(rule.column.name))
+      advice = "; where these are names, expected " + rule.column.name + " = name " + number.from.column;
+    const auto cell = source_.number(number.from, at, value, rule.place, advice);
     if (!cell || is_none(rule.column.name, *cell)) return std::nan("");
-    return number.scale * *cell + number.offset;
+    if (number.logarithm && *cell <= 0)
+      throw invalid(source_.place(at), "column " + quote(source_.filled(number.from.column, at, value)) + ": " +
+                                           print_real(*cell) + " has no logarithm; expected a power above 0 (none " +
+                                           rule.column.name + " = " + print_real(*cell) +
+                                           " in the map makes such cells empty)");
+    return number.scale * (number.logarithm ? std::log10(*cell) : *cell) + number.offset;
   }
 
   bool is_none(const std::string& column, double value) const {
@@ -152,70 +181,149 @@ class Importer {
            std::find(found->second.begin(), found->second.end(), value) != found->second.end();
   }
 
-  // Row of the second table. The key is a text with {i}, or a column of the imported table in braces: {beacon}.
-  std::size_t side_row(const std::string& name, std::size_t row, const std::string& value, const Place& place) {
-    const SideTable& side = map_.tables.at(name);
-    std::string key = filled(side.value, map_.variable, value);
-    if (key.size() > 2 && key.front() == '{' && key.back() == '}')
-      key = main_.text(row, column_of(main_, key.substr(1, key.size() - 2), place));
-    const ForeignTable& table = sides_.at(name);
-    auto [entry, is_new] = side_rows_.try_emplace({name, key}, table.rows());
-    if (is_new) {
-      const std::size_t column = column_of(table, side.key, place);
-      for (std::size_t r = 0; r < table.rows() && entry->second == table.rows(); ++r) {
-        if (table.text(r, column) == key) entry->second = r;
-      }
-    }
-    if (entry->second == table.rows())
-      throw invalid(place, table.file() + " has no row whose " + quote(side.key) + " is " + quote(key));
-    return entry->second;
+  // Nothing for a receiver of satellites without a fix: empty, or zero and zero.
+  std::optional<GeodeticPoint> point_of(const ColumnRule& rule, const SourceRow& at, const std::string& value) {
+    const GlobeRule& globe = *rule.globe;
+    const auto latitude = source_.number(globe.latitude, at, value, rule.place),
+               longitude = source_.number(globe.longitude, at, value, rule.place);
+    if (!latitude || !longitude || (*latitude == 0 && *longitude == 0)) return std::nullopt;
+    const auto altitude = globe.altitude ? source_.number(*globe.altitude, at, value, rule.place) : std::nullopt;
+    if (globe.axis == 2 && !altitude) return std::nullopt;
+    GeodeticPoint point{*latitude, *longitude, altitude.value_or(plane_ ? plane_->origin().altitude : 0)};
+    if (const std::string why = why_no_point(point); !why.empty()) throw invalid(source_.place(at), why);
+    return point;
   }
 
-  std::size_t column_of(const ForeignTable& table, const std::string& name, const Place& place) {
-    used_[table.file()].insert(name);
-    return table.require(name, place);
+  double metres_of(const ColumnRule& rule, std::size_t k, const std::string& value) {
+    const auto point = point_of(rule, rows_[k], value);
+    return point ? plane_->east_north_up(*point)[rule.globe->axis] : std::nan("");
+  }
+
+  // The origin that the map states, or the first point of the first rule, at the altitude of the first rule that has
+  // one.
+  void find_origin() {
+    if (map_.origin) plane_.emplace(*map_.origin);
+    for (const bool needs_altitude : {true, false}) {
+      for (const ColumnRule& rule : map_.columns) {
+        if (!rule.globe || (needs_altitude && !rule.globe->altitude)) continue;
+        for (std::size_t k = 0; k < rows_.size() && !plane_; ++k) {
+          if (const auto point = point_of(rule, rows_[k], values()[0])) plane_.emplace(*point);
+        }
+      }
+    }
+    const bool is_used = std::any_of(map_.columns.begin(), map_.columns.end(), [](const auto& r) { return r.globe; });
+    if (!is_used) return;
+    if (!plane_) throw invalid({map_.file}, "no row has a latitude and a longitude; expected some");
+    const GeodeticPoint& o = plane_->origin();
+    places_.push_back(
+        fmt::format("places are metres east, north and up of latitude {}, longitude {}, altitude {} m (WGS 84){}",
+                    o.latitude, o.longitude, o.altitude, map_.origin ? "" : ", the first point"));
+  }
+
+  void leave_out_rows_without_place() {
+    std::size_t left_out = 0;
+    std::optional<Place> first;
+    std::vector<SourceRow> kept;
+    for (const SourceRow& at : rows_) {
+      const bool has_place = std::all_of(map_.columns.begin(), map_.columns.end(), [&](const ColumnRule& rule) {
+        return !rule.globe || std::all_of(values().begin(), values().end(), [&](const std::string& value) {
+          return point_of(rule, at, value).has_value();
+        });
+      });
+      if (has_place) {
+        kept.push_back(at);
+        continue;
+      }
+      ++left_out;
+      if (!first) first = source_.place(at);
+    }
+    rows_ = std::move(kept);
+    if (first)
+      places_.push_back(fmt::format("rows without a place (empty, or latitude and longitude 0), left out: {}, first {}",
+                                    left_out, first->text()));
+  }
+
+  void read_times() {
+    for (const ColumnRule& rule : map_.columns) {
+      if (!rule.time) continue;
+      std::vector<StampCell> cells;
+      for (const SourceRow& at : rows_) cells.push_back(source_.stamp(rule.time->words, at, rule.place));
+      std::vector<std::string> assumed;
+      times_[&rule] = seconds_of(cells, rule.time->since, assumed);
+      for (const std::string& words : assumed) result_.assumed.push_back(rule.column.label() + ": " + words);
+    }
+  }
+
+  // Sorts rows of several files. Rows of one file keep their order if the map makes no t.
+  void order_by_time() {
+    const auto rule = std::find_if(map_.columns.begin(), map_.columns.end(),
+                                   [](const ColumnRule& r) { return r.column.name == "t" && !r.is_name; });
+    if (rule == map_.columns.end()) return;
+    std::vector<double> t;
+    if (rule->time)
+      t = times_.at(&*rule);
+    else if (rule->number) {
+      for (const SourceRow& at : rows_) t.push_back(number_of(*rule, at, values()[0]));
+    }
+    for (double& v : t) v = std::isnan(v) ? -1e300 : v;  // refused when read
+    std::vector<std::size_t> order(rows_.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return t[a] < t[b]; });
+    const auto sorted = [&](auto& values) {
+      auto result = values;
+      for (std::size_t k = 0; k < order.size(); ++k) result[k] = values[order[k]];
+      values = std::move(result);
+    };
+    sorted(rows_);
+    for (auto& [of, seconds] : times_) sorted(seconds);
+    result_.assumed.push_back("rows of all files are in the order of t");
   }
 
   void say_assumptions() {
-    for (const std::string& guess : main_.guesses()) result_.assumed.push_back(main_.file() + ": " + guess);
+    for (const ForeignTable& table : source_.files()) {
+      for (const std::string& guess : table.guesses()) result_.assumed.push_back(table.file() + ": " + guess);
+    }
     for (const ColumnRule& rule : map_.columns) result_.assumed.push_back(rule.column.label() + " = " + in_words(rule));
+    result_.assumed.insert(result_.assumed.end(), places_.begin(), places_.end());
     if (!map_.variable.empty())
       result_.assumed.push_back(fmt::format("each row of the file gives {} readings", map_.values.size()));
     std::string ignored;
-    for (const std::string& column : main_.columns()) {
-      if (!used_[main_.file()].count(column)) ignored += (ignored.empty() ? "" : ", ") + quote(column);
-    }
+    for (const std::string& column : source_.unused_columns()) ignored += (ignored.empty() ? "" : ", ") + quote(column);
     if (!ignored.empty()) result_.assumed.push_back("columns that are not used: " + ignored);
     result_.assumed.push_back(
         "frame: x east, y north, z up, in metres; headings in radians from x towards y, as the map's scales make them");
-    result_.assumed.push_back("cells that are empty, nan, NA or null: nothing was received or known");
+    result_.assumed.push_back("cells that are empty, nan, NA, n/a, null or none: nothing was received or known");
   }
 
   std::string in_words(const ColumnRule& rule) const {
     if (rule.is_name) return rule.name_column.empty() ? quote(rule.name) : "the names in " + quote(rule.name_column);
+    if (!rule.number) return rule.text;
     const NumberRule& n = *rule.number;
-    if (n.column.empty()) return fmt::format("{}", n.offset);
-    std::string words =
-        quote(n.column) + (n.table.empty() ? "" : " of " + map_.tables.at(n.table).file.filename().string());
+    if (n.from.column.empty()) return fmt::format("{}", n.offset);
+    std::string words = quote(n.from.column);
+    if (!n.from.table.empty()) words += " of " + map_.tables.at(n.from.table).file.filename().string();
+    if (n.logarithm) words = "log10 of " + words;
     if (n.scale != 1) words = fmt::format("{} x {}", n.scale, words);
     if (n.offset != 0) words += fmt::format(" {} {}", n.offset < 0 ? '-' : '+', std::abs(n.offset));
-    return words + (n.scale == 1 && !rule.column.unit.empty() ? ", taken to be in " + rule.column.unit : "");
+    const bool plain = n.scale == 1 && !n.logarithm && !rule.column.unit.empty();
+    return words + (plain ? ", taken to be in " + rule.column.unit : "");
   }
 
   const ImportMap& map_;
-  ForeignTable main_;
-  std::map<std::string, ForeignTable> sides_;
-  std::map<std::pair<std::string, std::string>, std::size_t> side_rows_;
-  std::map<std::string, std::set<std::string>> used_;
+  ImportSource source_;
+  std::vector<SourceRow> rows_;                             // in the order of the result
+  std::map<const ColumnRule*, std::vector<double>> times_;  // by rule, of rows_
+  std::optional<TangentPlane> plane_;
+  std::vector<std::string> places_;  // assumptions
   Imported result_;
 };
 
 }  // namespace
 
-Imported import_table(const std::filesystem::path& file, const std::filesystem::path& map,
+Imported import_table(const std::vector<std::filesystem::path>& files, const std::filesystem::path& map,
                       const std::filesystem::path& out) {
   const ImportMap rules = read_import_map(map);
-  return Importer(file, rules).write(out);
+  return Importer(files, rules).write(out);
 }
 
 }  // namespace muster::diagnosis

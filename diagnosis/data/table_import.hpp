@@ -1,4 +1,4 @@
-// Converts a foreign table of readings to the format of measured data, as specified by a map file
+// Converts foreign tables of readings to the format of measured data, as specified by a map file
 // (docs/how-to/import_a_table.md), and reports its assumptions.
 #pragma once
 
@@ -13,8 +13,8 @@ struct Imported {
   std::vector<std::string> assumed;  // columns, units and frames, one a line
 };
 
-// Reads `file` by `map` and writes `out`. Throws Error.
-Imported import_table(const std::filesystem::path& file, const std::filesystem::path& map,
+// Reads `files` by `map` and writes `out`, one table. Throws Error.
+Imported import_table(const std::vector<std::filesystem::path>& files, const std::filesystem::path& map,
                       const std::filesystem::path& out);
 
 }  // namespace muster::diagnosis

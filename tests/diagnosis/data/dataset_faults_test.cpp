@@ -29,16 +29,59 @@ TEST(DatasetFaults, TimeRunsBackwardsWithinAPair) {
 }
 
 TEST(DatasetFaults, LevelsThatNoReceiverGives) {
-  EXPECT_EQ(reading(header + "0,a,b,0,0,1,0,-50\n1,a,b,0,0,2,0,0\n"),
-            "d.csv:3:15: row 2: an rssi of 0 dBm is what drivers give for none; expected an empty cell where nothing "
-            "was received");
   EXPECT_EQ(reading(header + "0,a,b,0,0,1,0,-50\n1,a,b,0,0,2,0,31\n"),
             "d.csv:3:15: row 2: an rssi of 31 dBm is over +30 dBm; expected a level in dBm, which is mostly negative");
-  EXPECT_EQ(
-      reading(header + "0,a,b,0,0,1,0,-50\n1,a,b,0,0,2,0,-128\n"),
-      "d.csv:3:15: row 2: an rssi of -128 dBm is a mark for none; expected an empty cell where nothing was received");
   EXPECT_EQ(reading(header + "0,a,b,0,0,1,0,-50\n1,a,b,0,0,2,0,-500\n"),
             "d.csv:3:15: row 2: an rssi of -500 dBm is below thermal noise; expected a level in dBm");
+}
+
+Dataset with_levels(const std::vector<std::string>& levels) {
+  const Scratch scratch;
+  std::string text = header;
+  for (std::size_t row = 0; row < levels.size(); ++row)
+    text += std::to_string(row) + ".5" + ",a,b,0,0," + std::to_string(row % 7) + ",0," + levels[row] + "\n";
+  return read_dataset(scratch.write("d.csv", text));
+}
+
+TEST(DatasetFaults, AMarkForNothingStandsApartFromAllLevels) {
+  const Dataset data = with_levels({"-50", "-128", "-61.5", "0", "-128"});
+  EXPECT_EQ(data.heard(), 2u);
+  EXPECT_EQ(data.notes,
+            (std::vector<std::string>{"1 at 0 dBm, first in row 4: taken as a mark for nothing received; the "
+                                      "nearest other level is 50 dB away",
+                                      "2 at -128 dBm, first in row 2: taken as a mark for nothing received; "
+                                      "the nearest other level is 66.5 dB away"}));
+}
+
+TEST(DatasetFaults, ALevelAmongOthersIsNoMark) {
+  const Dataset weak = with_levels({"-119", "-128", "-121", "-127", "-131", "-128"});
+  EXPECT_EQ(weak.heard(), 6u);
+  EXPECT_TRUE(weak.notes.empty());
+  const Dataset strong = with_levels({"-12", "0", "-9.5", "-3"});
+  EXPECT_EQ(strong.heard(), 4u);
+  EXPECT_TRUE(strong.notes.empty());
+}
+
+// 128 dB is an ordinary loss.
+TEST(DatasetFaults, APathLossOf128IsNoMark) {
+  const Scratch scratch;
+  const Dataset data =
+      read_dataset(scratch.write("d.csv", "tx,rx,distance[m],path_loss[dB]\na,b,10,80\na,b,20,90\na,b,900,128\n"));
+  EXPECT_EQ(data.heard(), 3u);
+}
+
+TEST(DatasetFaults, MilliwattsAndLostSigns) {
+  EXPECT_EQ(
+      reading(header + "0,a,b,0,0,1,0,0\n1,a,b,0,0,2,0,0.00001\n2,a,b,0,0,3,0,2e-7\n"),
+      "d.csv:3:15: row 2: 1e-05 dBm, and most readings are above 0 dBm, as milliwatts or levels without their sign "
+      "are; expected dBm, 10 log10 of milliwatts (a map of muster import: rssi[dBm] = 10*log10(COLUMN), or rssi[dBm] "
+      "= -1*COLUMN)");
+  EXPECT_EQ(reading(header + "0,a,b,0,0,1,0,67\n1,a,b,0,0,2,0,70\n").substr(0, 46),
+            "d.csv:2:15: row 1: 67 dBm, and most readings a");
+  EXPECT_EQ(
+      reading("tx,rx,distance[m],path_loss[dB]\na,b,10,-80\na,b,20,-90\n"),
+      "d.csv:2:8: row 1: a path loss of -80 dB, and most are negative; expected losses, which are positive (a map "
+      "of muster import: path_loss[dB] = -1*COLUMN)");
 }
 
 TEST(DatasetFaults, TooLittle) {
@@ -47,6 +90,9 @@ TEST(DatasetFaults, TooLittle) {
             "d.csv: the table has 1 row; one reading shows no law, expected many");
   EXPECT_EQ(reading(header + "0,a,b,0,0,1,0,\n1,a,b,0,0,1,0,\n"),
             "d.csv: every rssi is empty; expected some readings that were received");
+  EXPECT_EQ(reading(header + "0,a,b,0,0,1,0,0\n1,a,b,0,0,1,0,\n"),
+            "d.csv: every rssi is empty or a mark for nothing received (1 at 0 dBm); expected some readings that were "
+            "received");
 }
 
 TEST(DatasetFaults, ConstantColumns) {
@@ -78,6 +124,17 @@ TEST(DatasetFaults, MixedUnits) {
   EXPECT_EQ(reading(header + rows + "9,a,b,0,0,4222,1,-50\n"),
             "d.csv:11:11: row 10: 4222 m, while half of the rows lie within 5 m; expected one unit in the whole column "
             "(millimetres here?)");
+}
+
+// Two gateways 20 km apart, and a vehicle that parks for half of the time and then drives 9 km.
+TEST(DatasetFaults, FarPlacesOfOneUnitAreTaken) {
+  std::string rows;
+  for (int i = 0; i < 40; ++i) {
+    const std::string x = std::to_string(i < 20 ? i % 3 : 450 * (i - 19));
+    rows += std::to_string(i) + "," + (i % 4 ? "near" : "far") + ",car," + (i % 4 ? "0" : "20000") + ",0," + x +
+            ",1,-" + std::to_string(50 + i) + "\n";
+  }
+  EXPECT_EQ(reading(header + rows), "");
 }
 
 TEST(DatasetFaults, WhatIsNoNumber) {

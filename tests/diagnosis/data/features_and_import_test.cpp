@@ -88,7 +88,7 @@ TEST(Import, WideToLongWithUnitsAndAnchors) {
       "wide.csv",
       ";ms;px;py;heading;rssi_1;rssi_2;phone\n0;5000;1000;2000;90;-50;nan;p\n1;5500;1500;2000;180;-51.5;0;p\n");
   const auto map = scratch.write("wide.map", wide_map);
-  const Imported done = import_table(file, map, scratch / "out.csv");
+  const Imported done = import_table({file}, map, scratch / "out.csv");
   EXPECT_EQ(done.rows, 4u);
   EXPECT_EQ(done.empty, 2u);
   EXPECT_EQ(contents(scratch / "out.csv"),
@@ -114,7 +114,7 @@ TEST(Import, WhatDoesNotFitIsNamed) {
   const auto file = scratch.write("wide.csv", "ms,px,py,heading,rssi_1,rssi_2,phone\n5000,1000,2000,90,-50,-50,p\n");
   const auto failing = [&](const std::string& text) {
     const auto map = scratch.write("m.map", text);
-    return complaint([&] { import_table(file, map, scratch / "out.csv"); });
+    return complaint([&] { import_table({file}, map, scratch / "out.csv"); });
   };
   EXPECT_NE(failing(wide_map).find("has no row whose \"id\" is \"2\""), std::string::npos);
   EXPECT_NE(failing("rssi[dBm] = rsi_1\n").find("did you mean \"rssi_1\"?"), std::string::npos);
@@ -135,7 +135,7 @@ TEST(Import, WhatIsRefusedIsNamedAsItStandsInTheSource) {
   scratch.write("out.csv", "what was there before");
   const auto failing = [&](const std::string& rules) {
     const auto map = scratch.write("m.map", rules);
-    const std::string words = complaint([&] { import_table(file, map, scratch / "out.csv"); });
+    const std::string words = complaint([&] { import_table({file}, map, scratch / "out.csv"); });
     EXPECT_EQ(contents(scratch / "out.csv"), "what was there before");
     EXPECT_FALSE(std::filesystem::exists(scratch / "out.csv.part"));
     return words;
