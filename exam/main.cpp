@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "exam/case_spec.hpp"
+#include "exam/field_survey/survey_case.hpp"
 #include "exam/files.hpp"
 #include "exam/follow_up.hpp"
 #include "exam/grading/grade.hpp"
@@ -88,6 +89,11 @@ std::vector<std::string> listed(const std::string& text) {
   return result;
 }
 
+void one_of(const std::string& what, const std::string& given, const std::vector<std::string>& known) {
+  if (std::find(known.begin(), known.end(), given) == known.end())
+    throw std::invalid_argument(fmt::format("a {} is {}, not \"{}\"", what, fmt::join(known, ", "), given));
+}
+
 const std::string& required(const Arguments& arguments, const std::string& option) {
   const auto at = arguments.find(option);
   if (at == arguments.end()) throw std::invalid_argument(option + " is missing");
@@ -141,9 +147,33 @@ Syllabus syllabus_of(const Arguments& arguments) {
   return syllabus;
 }
 
+// Cases as somebody measures who knows nothing of the diagnosis.
+void make_field_cases(const Arguments& arguments, int first, int cases) {
+  for (const char* option : {"--rows", "--lambda", "--size", "--walls"})
+    if (arguments.contains(option)) throw std::invalid_argument(fmt::format("{} is not for --generator field", option));
+  survey::Request request;
+  request.seed = number<std::uint64_t>(required(arguments, "--seed"), 0, ~std::uint64_t{0});
+  if (const auto at = arguments.find("--mix"); at != arguments.end()) request.kinds = listed(at->second[0]);
+  for (const std::string& kind : request.kinds) one_of("kind", kind, {"clean", "one", "two", "three", "four"});
+  if (const auto at = arguments.find("--style"); at != arguments.end()) request.style = at->second[0];
+  if (!request.style.empty()) one_of("style", request.style, survey::styles());
+  if (const auto at = arguments.find("--effects"); at != arguments.end()) request.effects = listed(at->second[0]);
+  std::vector<std::string> ids;
+  for (const survey::Kind& kind : survey::kinds()) ids.emplace_back(kind.id);
+  for (const std::string& id : request.effects) one_of("effect of the field", id, ids);
+  const std::string& out = required(arguments, "--out");
+  for (int i = first; i < first + cases; ++i) {
+    const survey::Made made = survey::make(request, i);
+    survey::write(made, out);
+    fmt::print("{}: {} readings, {}\n", made.name, made.rssi.size(), made.campaign.style);
+  }
+}
+
 int make(int argc, char** argv) {
   const Arguments arguments = parsed(argc, argv,
                                      {{"--seed", {"a number"}},
+                                      {"--generator", {"drawn or field"}},
+                                      {"--style", {"a style"}},
                                       {"--cases", {"a number"}},
                                       {"--out", {"a folder"}},
                                       {"--mix", {"kinds"}},
@@ -153,9 +183,16 @@ int make(int argc, char** argv) {
                                       {"--effects", {"ids"}},
                                       {"--first", {"a number"}},
                                       {"--walls", {"a file"}}});
-  const Syllabus syllabus = syllabus_of(arguments);
   const int cases = number(required(arguments, "--cases"), 1, 1000000);
   const int first = arguments.contains("--first") ? number(arguments.at("--first")[0], 1, 1000000) : 1;
+  const auto generator = arguments.find("--generator");
+  if (generator != arguments.end()) one_of("generator", generator->second[0], {"drawn", "field"});
+  if (generator != arguments.end() && generator->second[0] == "field") {
+    make_field_cases(arguments, first, cases);
+    return 0;
+  }
+  if (arguments.contains("--style")) throw std::invalid_argument("--style is for --generator field");
+  const Syllabus syllabus = syllabus_of(arguments);
   const std::string& out = required(arguments, "--out");
   for (int i = first; i < first + cases; ++i) {
     const Case made = make_case(name_of(i), seed_of(syllabus, i), draw_order(syllabus, i));

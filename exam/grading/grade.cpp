@@ -75,15 +75,18 @@ bool at_right_row(const Truth::Effect& effect, const Verdict::Cause& cause) {
 bool same_class(const Truth::Effect& effect, const Verdict::Cause& cause) {
   static const std::vector<std::set<std::string>> classes{
       {"unmapped_wall", "obstacle"}, {"wall_material", "wall_absent"}, {"asymmetry", "rx_offset", "tx_offset"}};
-  return cause.id == effect.id || std::any_of(classes.begin(), classes.end(), [&](const auto& one) {
-           return one.contains(effect.id) && one.contains(cause.id) &&
-                  (effect.rows.empty() || at_right_row(effect, cause));
-         });
+  const bool right_place = effect.rows.empty() || at_right_row(effect, cause);
+  const auto lists = [&](const std::vector<std::string>& ids) {
+    return std::find(ids.begin(), ids.end(), cause.id) != ids.end();
+  };
+  if (cause.id == effect.id || (right_place && (lists(effect.also) || lists(effect.kin)))) return true;
+  return std::any_of(classes.begin(), classes.end(),
+                     [&](const auto& one) { return one.contains(effect.id) && one.contains(cause.id) && right_place; });
 }
 
 bool names(const Verdict::Cause& cause, const Truth::Effect& effect) {
-  return cause.id == effect.id ||
-         (std::count(effect.also.begin(), effect.also.end(), cause.id) > 0 && at_right_row(effect, cause));
+  return cause.id == effect.id || (std::count(effect.also.begin(), effect.also.end(), cause.id) > 0 &&
+                                   (effect.rows.empty() || at_right_row(effect, cause)));
 }
 
 const Verdict::Cause* found(const Verdict& verdict, const Truth::Effect& effect) {

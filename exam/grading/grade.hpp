@@ -31,12 +31,14 @@ struct Truth {
     std::string id;
     std::vector<std::string> rows, covariates;
     std::vector<std::string> also;  // accepted names for the same effect on its rows
+    std::vector<std::string> kin;   // names that are right by class alone
     std::map<std::string, double> parameters;
     double lambda = 0;
+    bool in_vocabulary = true;
   };
   std::string name, kind;
   std::vector<Effect> effects;
-  double oracle_gain = 0;  // dB^2
+  double oracle_gain = 0;  // dB^2; 0: the generator has no oracle
 };
 
 // The diagnosis of a case.
