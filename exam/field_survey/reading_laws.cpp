@@ -131,9 +131,15 @@ double missing_lambda(const Scene& truth, const std::string& effect, const Made&
   if (effect != "rssi_floor" || made.drops_missed) return 0;
   const Scatter& s = truth.scatter;
   const double sd = std::sqrt(s.shadowing * s.shadowing + s.frozen * s.frozen + s.reading * s.reading);
+  // Repeats share what is frozen: the pattern counts once a cell.
   double sum = 0, missed = 0;
   std::vector<double> chance;
+  std::vector<char> seen(made.campaign.rows.size(), 0);
+  const bool shares = s.frozen > 0 || s.shadowing > 0;
   for (const Row& row : made.campaign.rows) {
+    char& cell = seen[static_cast<std::size_t>(row.cell)];
+    if (shares && cell) continue;
+    cell = 1;
     const double level = mean_level(truth, row);
     double heard = 0, all = 0;
     constexpr int points = 61;
@@ -146,8 +152,9 @@ double missing_lambda(const Scene& truth, const std::string& effect, const Made&
       if (!std::isnan(report)) heard += std::exp(-z * z / 2);
     }
     chance.push_back(1 - heard / all);
-    missed += chance.back() / static_cast<double>(made.campaign.rows.size());
+    missed += chance.back();
   }
+  missed /= static_cast<double>(chance.size());
   const auto information = [](double p, double q) { return p > 0 && q > 0 ? p * std::log(p / q) : 0.0; };
   for (const double p : chance) sum += 2 * (information(p, missed) + information(1 - p, 1 - missed));
   return sum;

@@ -12,7 +12,12 @@
 namespace muster::exam::survey {
 namespace {
 
-Campaign campaign_of(const std::string&, Draws& draws) { return flat(draws); }
+Campaign campaign_of(const std::string& style, Draws& draws) {
+  if (style == "mesh") return mesh(draws);
+  if (style == "walk") return walk(draws);
+  if (style == "drive") return drive(draws);
+  return flat(draws);
+}
 
 int effects_of(const Request& request, const std::string& style, Draws& draws) {
   static const std::vector<std::string> words{"clean", "one", "two", "three", "four"};
@@ -146,7 +151,7 @@ void read_levels(Made& made, std::uint64_t seed) {
 }  // namespace
 
 const std::vector<std::string>& styles() {
-  static const std::vector<std::string> all{"flat"};
+  static const std::vector<std::string> all{"flat", "mesh", "walk", "drive"};
   return all;
 }
 

@@ -95,6 +95,38 @@ const Verdict::Cause* found(const Verdict& verdict, const Truth::Effect& effect)
   return nullptr;
 }
 
+// An effect without a name in the vocabulary is reported as structure along one of its covariates.
+bool reported_along_covariate(const Verdict& verdict, const Truth::Effect& effect) {
+  return std::any_of(verdict.unexplained.begin(), verdict.unexplained.end(), [&](const std::string& said) {
+    return std::any_of(effect.covariates.begin(), effect.covariates.end(),
+                       [&](const auto& accepted) { return same_covariate(said, accepted); });
+  });
+}
+
+bool is_found(const Verdict& verdict, const Truth::Effect& effect) {
+  return found(verdict, effect) || (!effect.in_vocabulary && reported_along_covariate(verdict, effect));
+}
+
+bool is_found_by_class(const Verdict& verdict, const Truth::Effect& effect) {
+  return is_found(verdict, effect) ||
+         std::any_of(verdict.named.begin(), verdict.named.end(), [&](const auto& c) { return same_class(effect, c); });
+}
+
+// Each effect by itself, whatever else its case has; and whether a strong one is passed over as adequate.
+void add_each_effect(Grades& grades, const Truth& truth, const Verdict& verdict) {
+  constexpr double beyond_doubt = 100;  // lambda
+  double strongest = 0;
+  for (const Truth::Effect& effect : truth.effects) {
+    strongest = std::max(strongest, effect.lambda);
+    for (const std::string& bin : {lambda_bin(effect.lambda), std::string("all")}) {
+      grades.shares["each effect / found / " + bin].count(is_found(verdict, effect));
+      grades.shares["each effect / found, by class / " + bin].count(is_found_by_class(verdict, effect));
+    }
+  }
+  if (strongest >= beyond_doubt)
+    grades.shares["any / verdict adequate / lambda >= 100"].count(verdict.verdict == "adequate");
+}
+
 double weakest(const Truth& truth) {
   double least = std::numeric_limits<double>::infinity();
   for (const auto& e : truth.effects) least = std::min(least, e.lambda);
@@ -164,10 +196,9 @@ void add_inside(Grades& grades, const Truth& truth, const Verdict& verdict) {
   int hits = 0, class_hits = 0;
   for (const auto& effect : truth.effects) {
     const Verdict::Cause* cause = found(verdict, effect);
-    hits += cause != nullptr;
-    class_hits +=
-        std::any_of(verdict.named.begin(), verdict.named.end(), [&](const auto& c) { return same_class(effect, c); });
-    grades.by_effect[effect.id + " / " + lambda_bin(effect.lambda)].count(cause != nullptr);
+    hits += is_found(verdict, effect);
+    class_hits += is_found_by_class(verdict, effect);
+    grades.by_effect[effect.id + " / " + lambda_bin(effect.lambda)].count(is_found(verdict, effect));
     if (!cause) continue;
     const bool right_row = effect.rows.empty() || at_right_row(effect, *cause);
     if (right_row) add_parameters(grades, effect, *cause);  // on another radio they are other quantities
@@ -205,14 +236,12 @@ void add_inside(Grades& grades, const Truth& truth, const Verdict& verdict) {
 
 void add_outside(Grades& grades, const Truth& truth, const Verdict& verdict) {
   const auto& effect = truth.effects.at(0);
-  const auto right = [&](const std::string& said) {
-    return std::any_of(effect.covariates.begin(), effect.covariates.end(),
-                       [&](const auto& a) { return same_covariate(said, a); });
-  };
-  const bool hit = std::any_of(verdict.unexplained.begin(), verdict.unexplained.end(), right);
+  const bool hit = reported_along_covariate(verdict, effect);
+  const bool false_name =
+      std::any_of(verdict.named.begin(), verdict.named.end(), [&](const auto& cause) { return !names(cause, effect); });
   for (const std::string& bin : {lambda_bin(effect.lambda), std::string("all")}) {
     grades.shares["outside / right covariate / " + bin].count(hit);
-    grades.shares["outside / false name / " + bin].count(!verdict.named.empty());
+    grades.shares["outside / false name / " + bin].count(false_name);
     grades.shares["outside / silent / " + bin].count(verdict.named.empty() && verdict.unexplained.empty());
   }
   grades.by_effect[effect.id + " / " + lambda_bin(effect.lambda)].count(hit);
@@ -267,6 +296,7 @@ double quantile(std::vector<double> values, double share) {
 void add(Grades& grades, const Truth& truth, const Verdict& verdict) {
   if (verdict.loop) grades.shares["loop / rediagnosis silent / all"].count(*verdict.loop == "silent");
   if (verdict.second_silent) grades.shares["loop / second data silent / all"].count(*verdict.second_silent);
+  if (truth.kind != "clean") add_each_effect(grades, truth, verdict);
   if (truth.kind == "outside") return add_outside(grades, truth, verdict);
   if (truth.kind != "clean") return add_inside(grades, truth, verdict);
   grades.shares["clean / false name / all"].count(!verdict.named.empty());
