@@ -89,7 +89,7 @@ std::string world_xml(const Case& made) {
   return out + "</world>\n";
 }
 
-std::string readings_csv(const GroundTruth& site, const Data& data) {
+std::string readings_csv(const GroundTruth& site, const Data& data, int decimals) {
   std::string out =
       "t[s],tx,rx,tx_x[m],tx_y[m],tx_z[m],tx_yaw[rad],rx_x[m],rx_y[m],rx_z[m],rx_yaw[rad],rssi[dBm],"
       "battery[V],temperature[degC],speed[m/s]";
@@ -107,7 +107,7 @@ std::string readings_csv(const GroundTruth& site, const Data& data) {
                      robots_end ? r.yaw : s.yaw);
     }
     const double rssi = data.rssi[static_cast<Eigen::Index>(i)];
-    out += std::isnan(rssi) ? "," : fmt::format(",{:.0f}", rssi);
+    out += std::isnan(rssi) ? "," : fmt::format(",{:.{}f}", rssi, decimals);
     fmt::format_to(std::back_inserter(out), ",{:.3f},{:.3f},{:.3f}", r.battery, r.temperature, r.speed);
     if (site.has_power)
       fmt::format_to(std::back_inserter(out), ",{:.0f}", power_levels[static_cast<std::size_t>(r.power)]);

@@ -9,7 +9,8 @@ namespace muster::exam {
 
 std::string world_xml(const Case& made);
 std::string walls_csv(const Plan& plan);
-std::string readings_csv(const GroundTruth& site, const Data& data);
+// `decimals`: of the levels.
+std::string readings_csv(const GroundTruth& site, const Data& data, int decimals = 0);
 std::string answer_json(const Case& made);
 
 // folder/NAME/{world.xml, walls.csv, measured.csv, second.csv} and folder/answers/NAME.json
