@@ -31,10 +31,10 @@ struct Truth {
     std::string id;
     std::vector<std::string> rows, covariates;
     std::vector<std::string> also;  // accepted names for the same effect on its rows
-    std::vector<std::string> kin;   // names that are right by class alone
     std::map<std::string, double> parameters;
     double lambda = 0;
     bool in_vocabulary = true;
+    std::vector<std::string> kin{};  // names that are right by class alone
   };
   std::string name, kind;
   std::vector<Effect> effects;

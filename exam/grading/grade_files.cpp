@@ -114,7 +114,7 @@ Truth read_truth(const std::string& text) {
   if (from.value("format", "") != "muster_exam/1") throw std::runtime_error("not an answer of muster_exam/1");
   Truth truth{from.at("case"), from.at("kind"), {}, from.value("oracle", json::object()).value("gain_db2", 0.0)};
   for (const json& e : from.at("effects")) {
-    Truth::Effect effect{e.at("id"), e.at("rows"), e.at("covariates"), {}, {}, {}, e.at("lambda")};
+    Truth::Effect effect{e.at("id"), e.at("rows"), e.at("covariates"), {}, {}, e.at("lambda")};
     effect.also = e.value("also", effect.also);
     effect.kin = e.value("class", effect.kin);
     effect.in_vocabulary = e.value("in_vocabulary", truth.kind != "outside");

@@ -111,12 +111,10 @@ class Maker {
     const Setting setting = setting_now();
     for (const CauseKind& kind : kinds) {
       if (made_.causes.size() == count) return;
-      auto cause = kind.draw(setting, random);
+      auto cause = drawn_at_size(kind, setting, base, random);
       if (!cause || std::any_of(made_.causes.begin(), made_.causes.end(),
                                 [&](const PlantedCause& c) { return exclude(c, *cause); }))
         continue;
-      cause->wanted = std::exp(random.uniform(std::log(request_.least_lambda), std::log(request_.most_lambda)));
-      if (!cause->size.empty()) size(*cause, base);
       made_.causes.push_back(*cause);
     }
   }
@@ -158,7 +156,31 @@ class Maker {
             c.decorrelation, c.rician_k,     c.fading == Channel::Fading::per_reading,   made_.site.two_way};
   }
 
-  void size(PlantedCause& cause, const std::string& base) {
+  // A place where links do not show the cause gives way to another.
+  std::optional<PlantedCause> drawn_at_size(const CauseKind& kind, const Setting& setting, const std::string& base,
+                                            Random& random) {
+    constexpr int attempts = 10;
+    const double wanted = std::exp(random.uniform(std::log(request_.least_lambda), std::log(request_.most_lambda)));
+    std::optional<PlantedCause> best;
+    double least_miss = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < attempts; ++i) {
+      auto cause = kind.draw(setting, random);
+      if (!cause) return {};
+      cause->wanted = wanted;
+      if (cause->size.empty()) return cause;
+      const double lambda = size(*cause, base);
+      const double miss = std::abs(std::log(std::max(lambda, 1e-9) / wanted));
+      if (miss < least_miss) {
+        least_miss = miss;
+        best = cause;
+      }
+      if (miss < 0.05) break;
+    }
+    return best;
+  }
+
+  // Scales a cause to its wanted lambda, within its bounds; returns the lambda that it then has by itself.
+  double size(PlantedCause& cause, const std::string& base) {
     if (!sizing_)
       sizing_ = std::make_unique<LinkCovariance>(made_.site, made_.measured, law_of(made_),
                                                  std::vector<char>(made_.measured.size(), 1));
@@ -167,9 +189,11 @@ class Maker {
     all << columns, simulator_.expected(base + cause.element()) - simulator_.expected(base);
     const Eigen::MatrixXd white = sizing_->whitened(all);
     const double lambda = unexplained(white.rightCols(1), white.leftCols(columns.cols()));
-    if (lambda <= 0) return;
+    if (lambda <= 0) return 0;
     const double now = std::abs(cause.number(cause.size));
-    cause.scale(std::clamp(now * std::sqrt(cause.wanted / lambda), cause.least, cause.most) / now);
+    const double factor = std::clamp(now * std::sqrt(cause.wanted / lambda), cause.least, cause.most) / now;
+    cause.scale(factor);
+    return lambda * factor * factor;
   }
 
   // Readings received, and not at a level at which a receiver cuts.

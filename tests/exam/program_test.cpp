@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -75,6 +76,55 @@ TEST_F(Program, RunsACommandOverTheCasesAndGoesOnWhereItWasStopped) {
             std::string::npos)
       << graded.text;
   EXPECT_EQ(run("run").code, 2);
+}
+
+// The script of docs/how-to/bring_your_own_exam.md, as a reader would copy it.
+std::string example() {
+  const std::string page = read(fs::path(MUSTER_SOURCE_DIR) / "docs/how-to/bring_your_own_exam.md");
+  const std::size_t from = page.find("```sh\n") + 6;
+  return page.substr(from, page.find("```", from) - from);
+}
+
+TEST_F(Program, TakesCasesOfAnybodysGenerator) {
+  fs::create_directories(folder);
+  std::ofstream(folder / "rooms.sh") << example();
+  const std::string generator = " --generator 'sh " + (folder / "rooms.sh").string() + "' --seed 4 --cases 2",
+                    out = folder / "exam";
+  // Stands in for a diagnosis: it names what the first case hides, and is silent on all others.
+  const std::string command =
+      R"( --command "case {world} in *1) echo '{\"verdict\":\"extended\",\"causes\":[{\"id\":\"effect.tx_offset\",\"label\":\"radio/a\"}]}';; *) echo '{\"verdict\":\"adequate\"}';; esac")";
+  Outcome sat = run("run " + out + generator + command);
+  EXPECT_EQ(sat.text, "case_0001: made\ncase_0002: made\n2 cases run, 0 had a report, 0 failed\n");
+  EXPECT_FALSE(fs::exists(folder / "exam/case_0001/answer.json"));
+  const std::string first = read(folder / "exam/case_0001/measured.csv");
+  EXPECT_EQ(std::count(first.begin(), first.end(), '\n'), 601);
+  const Outcome graded = run("grade --table --answers " + out);
+  EXPECT_NE(graded.text.find("| top name right, lambda >= 50 | 1/1"), std::string::npos) << graded.text;
+  EXPECT_NE(graded.text.find("| false name on clean worlds | 0/1"), std::string::npos) << graded.text;
+  // What is there stays.
+  sat = run("run " + out + generator + command);
+  EXPECT_EQ(sat.text, "0 cases run, 2 had a report, 0 failed\n");
+  EXPECT_EQ(read(folder / "exam/case_0001/measured.csv"), first);
+}
+
+TEST_F(Program, SaysWhatAForeignGeneratorLacks) {
+  const std::string out = folder / "exam";
+  EXPECT_NE(run("make --generator 'exit 3;' --seed 1 --cases 1 --out " + out).text.find("failed with exit code 3"),
+            std::string::npos);
+  EXPECT_EQ(run("make --generator 'true' --seed 1 --cases 1 --out " + out).text,
+            "muster_exam make: " + out + "/case_0001: the generator wrote no world.xml\n");
+  EXPECT_EQ(run("run " + out + " --seed 1").text, "muster_exam run: --seed needs --generator\n");
+}
+
+TEST_F(Program, MakesCampaignsOfTheField) {
+  const std::string out = folder / "exam";
+  const Outcome made = run("make --generator field --style flat --mix one --seed 2 --cases 1 --out " + out);
+  ASSERT_EQ(made.code, 0) << made.text;
+  for (const char* file : {"case_0001/world.xml", "case_0001/measured.csv", "answers/case_0001.json"})
+    EXPECT_GT(fs::file_size(folder / "exam" / file), 500u) << file;
+  EXPECT_EQ(run("make --generator field --style house --seed 2 --cases 1 --out x").text,
+            "muster_exam make: a style is flat, mesh, walk, drive, not \"house\"\n");
+  EXPECT_EQ(run("make --generator field --rows 20 30 --seed 2 --cases 1 --out x").code, 2);
 }
 
 TEST_F(Program, RefusesWhatItDoesNotKnow) {

@@ -1,0 +1,33 @@
+// Options of the program's command line.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace muster::exam {
+
+using Arguments = std::map<std::string, std::vector<std::string>>;
+
+// Parses options among the known ones, each with its values; "" holds the words outside any option. All of these
+// functions throw std::invalid_argument.
+Arguments parsed(int argc, char** argv, const Arguments& known);
+// Parts between commas.
+std::vector<std::string> listed(const std::string& text);
+void one_of(const std::string& what, const std::string& given, const std::vector<std::string>& known);
+const std::string& required(const Arguments& arguments, const std::string& option);
+
+template <class Number>
+Number number(const std::string& text, Number least, Number most) {
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !(value >= least && value <= most))
+    throw std::invalid_argument(fmt::format("\"{}\" is not a number from {} to {}", text, least, most));
+  return value;
+}
+
+}  // namespace muster::exam
