@@ -129,6 +129,12 @@ void weigh(Made& made) {
   }
 }
 
+// 0 and -128 are marks of a missing reading in many receivers, and are not used for a level.
+double code_of(double level, double step) {
+  const double code = std::round(level / step) * step;
+  return code == 0 || code == -128 ? code + step : code;
+}
+
 void read_levels(Made& made, std::uint64_t seed) {
   const std::vector<char> every(made.campaign.rows.size(), 1);
   Draws cells(seed, "cells"), readings(seed, "readings"), passages(seed, "passages");
@@ -142,8 +148,7 @@ void read_levels(Made& made, std::uint64_t seed) {
     double level = mean_level(truth, row) - blocked[i] + frozen[row.cell];
     if (!made.request.noiseless) level += draw_error(truth.scatter, readings);
     level = received(truth, level);
-    if (!made.request.noiseless && truth.scatter.step > 0)
-      level = std::round(level / truth.scatter.step) * truth.scatter.step;
+    if (!made.request.noiseless && truth.scatter.step > 0) level = code_of(level, truth.scatter.step);
     made.rssi.push_back(level);
   }
 }

@@ -76,8 +76,10 @@ std::string world_xml(const Made& made) {
   if (made.campaign.states_scatter && scatter.shadowing == 0 && scatter.frozen == 0)
     line("<radio.fading shadowing=\"0\" fading=\"false\"{}/>", frequency);
   else if (made.campaign.states_scatter)
-    line("<radio.fading shadowing=\"{:.0f}\" decorrelation=\"{:.0f}\" rician_k=\"10\" per_reading=\"true\"{}/>",
-         std::max(std::hypot(scatter.shadowing, scatter.frozen), 1.0), std::max(scatter.decorrelation, 1.0), frequency);
+    // A steady Rician fade scatters by 8.7 dB / sqrt(2 K).
+    line("<radio.fading shadowing=\"{:.0f}\" decorrelation=\"{:.0f}\" rician_k=\"{:.1f}\" per_reading=\"true\"{}/>",
+         std::max(std::hypot(scatter.shadowing, scatter.frozen), 1.0), std::max(scatter.decorrelation, 1.0),
+         20 * std::log10(8.686 / (std::sqrt(2.0) * scatter.reading)), frequency);
   line("<radio.receiver sensitivity=\"-200\"/>");
   return out + "</world>\n";
 }
