@@ -32,7 +32,8 @@ bool CauseEstimate::changes_in_time() const {
 bool Unexplained::changes_in_time() const { return covariate.find("time") != std::string::npos; }
 
 const char* Diagnosis::verdict() const {
-  return !unexplained.empty() ? "unexplained" : named() ? "extended" : "adequate";
+  if (!unexplained.empty()) return "unexplained";
+  return named() ? "extended" : unstated_field ? "unexplained" : "adequate";
 }
 
 }  // namespace muster::diagnosis

@@ -129,8 +129,15 @@ struct AddedRadio {
   double x, y, z;  // m
 };
 
+// A field that neighbouring readings share and the world does not state.
+struct UnstatedField {
+  double shadowing = 0, decorrelation = 0;  // dB; m
+  double reading_sd = 0;                    // dB, of single readings about it
+};
+
 struct Diagnosis {
-  std::vector<CauseEstimate> causes;  // the strongest first, suspected ones last
+  // What lowers the error at left-out places most comes first, laws of readings after that, suspected causes last.
+  std::vector<CauseEstimate> causes;
   std::vector<Unexplained> unexplained;
   std::vector<std::string> searched, not_tested;  // causes; those not tested with the reason
   std::vector<std::string> notes;
@@ -138,6 +145,7 @@ struct Diagnosis {
   ReceiverChecks receiver;  // properties of the receiver, and soundness of the record
   double residual_sd = 0;   // dB, of the fitted world
   noise::Covariance noise;
+  std::optional<UnstatedField> unstated_field;
   std::optional<inference::HeldOutGain> held_out;
   std::optional<inference::Unseen> unseen;      // held-out errors behind held_out, in the order of `used`
   std::vector<inference::Elsewhere> elsewhere;  // the same on held-out radios and runs, if there are several
@@ -157,7 +165,7 @@ struct Diagnosis {
   std::optional<Loop> loop;
 
   bool named() const;
-  // "unexplained", "extended" or "adequate"
+  // "unexplained", "extended" or "adequate". Unexplained is also a field that the world does not state, without a name.
   const char* verdict() const;
 };
 

@@ -22,6 +22,10 @@ inline constexpr double earliest_jump = 0.08;
 inline constexpr double latest_jump = 0.92;
 // share; of the data within which what settles is a jump; chosen; none
 inline constexpr double shortest_settling = 0.1;
+// rows; up to which each has all start values; chosen; none
+inline constexpr std::size_t few_rows = 8;
+// values; of a long axis that each of more rows has; chosen; none
+inline constexpr std::size_t most_values_of_many_rows = 60;
 // count; start values of all axes of a cause together; chosen; none
 inline constexpr std::size_t most_starts = 400;
 // Hz; lowest carrier sought where the world has none; chosen; Carrier.IsSoughtWhereTheWorldHasNone

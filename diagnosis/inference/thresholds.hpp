@@ -226,6 +226,8 @@ inline constexpr double left_share = 0.5;
 // m, or the unit of places; within which two rows are of one site; chosen (a sixth of a wavelength at 2.4 GHz);
 // FixedShare.IsOfOneSite
 inline constexpr double same_site = 0.02;
+// steps; of a fit, from which its fixed share is fitted too; chosen; none
+inline constexpr int steps_over_shares = 6;
 // nats; behind the best family from which one with a fixed share is not fitted again; chosen; none
 inline constexpr double hopeless_family_nats = 50;
 // share; of rows whose site has others, above which a share fixed at sites is fitted; chosen; none

@@ -17,6 +17,7 @@
 #include "diagnosis/radio/causes/applicability.hpp"
 #include "diagnosis/radio/laws/clip_causes.hpp"
 #include "diagnosis/radio/laws/law_causes.hpp"
+#include "diagnosis/radio/links/drawn_term.hpp"
 #include "diagnosis/radio/thresholds.hpp"
 #include "text/number.hpp"
 #include "text/temporary_folder.hpp"
@@ -70,6 +71,11 @@ class Diagnoser {
     for (const std::string& blind : setup_.fitted.not_identifiable) out.notes.push_back("not identifiable: " + blind);
     out.residual_sd = setup_.fitted.residual_sd;
     out.noise = result.noise.covariance;
+    if (drawn_field(setup_.model).shadowing <= 0) {
+      const noise::StatedField field = noise::stated_by(out.noise, state.within());
+      if (field.shadowing > thresholds::unstated_shadowing)
+        out.unstated_field = {field.shadowing, field.decorrelation, std::sqrt(out.noise.reading_variance())};
+    }
     out.held_out = result.held_out;
     out.unseen = result.unseen;
     out.elsewhere = result.elsewhere;
@@ -237,7 +243,8 @@ class Diagnoser {
     add_laws(sources, out);
     if (out.causes.size() > before) extend(state, out);  // a fading law changes the mean
     std::stable_sort(out.causes.begin(), out.causes.end(), [](const CauseEstimate& a, const CauseEstimate& b) {
-      return std::tuple(a.status, -a.lambda) < std::tuple(b.status, -b.lambda);
+      const auto gain = [](const CauseEstimate& c) { return c.held_out ? c.held_out->gain : 0; };
+      return std::tuple(a.status, -gain(a), -a.lambda) < std::tuple(b.status, -gain(b), -b.lambda);
     });
     std::sort(out.searched.begin(), out.searched.end());
   }

@@ -59,6 +59,8 @@ inline constexpr std::size_t parts_of_time = 10;
 // links; from which a pile of readings of one of them is no end of a receiver's range; chosen;
 // ReceiverChecks.APileOfOneLinkIsNoEnd
 inline constexpr std::size_t many_links = 6;
+// dB; of a field that the world does not state, above which it is not adequate; chosen; none
+inline constexpr double unstated_shadowing = 1;
 // gaps; the longest ones that are pauses of a run, not its sampling; chosen;
 // MeasurementGeometry.KnowsAScheduleOfSnapshots
 inline constexpr std::size_t longest_pauses = 3;

@@ -59,6 +59,7 @@ Json cause_json(const CauseEstimate& c) {
               {"sentence", sentence(c)},
               {"parameters", parameters},
               {"evidence", known(c.evidence)},
+              {"inflation", c.inflation},
               {"lambda", known(c.lambda)}};
   out.update(held_out_json(c.held_out));
   out["elsewhere"] = elsewhere_json(c.elsewhere);

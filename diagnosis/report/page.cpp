@@ -105,13 +105,8 @@ std::string key_figures(const Diagnosis& d) {
   return out + "</section>\n";
 }
 
-std::string gain_text(const inference::HeldOutGain& h, const std::string& left_out) {
-  return fmt::format("{:.2f} → {}; squared error falls by {:.2f} dB² (95 %: {:.2f} to {:.2f}, over {} {})",
-                     h.rmse_before, db(h.rmse_after), h.gain, h.lower95, h.upper95, h.blocks, left_out);
-}
-
 std::string gain_text(const std::optional<inference::HeldOutGain>& h, const std::string& why_none) {
-  return h ? gain_text(*h, "blocks") : why_none;
+  return h ? gain_in_words(*h, "blocks") : why_none;
 }
 
 std::string cause_card(const CauseEstimate& c, std::size_t number, const std::vector<Picture>& pictures) {
@@ -133,7 +128,7 @@ std::string cause_card(const CauseEstimate& c, std::size_t number, const std::ve
        {fmt::format("{:.1f} nats; λ = {:.0f} (likelihood ratio, other causes fitted too)", c.evidence, c.lambda)}},
       {{"gain"}, {gain_text(c.held_out, why_no_gain(c))}}};
   for (const inference::Elsewhere& e : c.elsewhere)
-    facts.push_back({{e.left_out + " not seen"}, {gain_text(e.held_out, e.left_out)}});
+    facts.push_back({{e.left_out + " not seen"}, {gain_in_words(e.held_out, e.left_out)}});
   facts.push_back({{"alternative"}, {rivals_in_words(c.alternatives)}});
   out += table({}, facts);
   return out + "</article>\n" + figure_named(pictures, fmt::format("cause_{}", number));
@@ -252,7 +247,7 @@ std::string page_of(const Diagnosis& d, const Setting& setting, const std::vecto
     for (const auto& u : d.unexplained) {
       std::string text = what_is_unexplained(u) + " Gain: " + gain_text(u.held_out, too_few_blocks) + ".";
       for (const inference::Elsewhere& e : u.elsewhere)
-        text += " Of " + e.left_out + " not seen: " + gain_text(e.held_out, e.left_out) + ".";
+        text += " Of " + e.left_out + " not seen: " + gain_in_words(e.held_out, e.left_out) + ".";
       body += "<div class=\"card\">" + paragraph(text) + "</div>\n";
     }
   }

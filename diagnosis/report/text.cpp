@@ -47,11 +47,6 @@ std::string errors(const Diagnosis& d) {
   return wrapped(text + ' ' + errors_elsewhere(d), 2, 2);
 }
 
-std::string gain_of(const inference::HeldOutGain& h, const std::string& left_out) {
-  return fmt::format("{:.2f} -> {} on held-out data; squared error falls by {:.2f} dB2 (95 %: {:.2f} to {:.2f}, {} {})",
-                     h.rmse_before, db(h.rmse_after), h.gain, h.lower95, h.upper95, h.blocks, left_out);
-}
-
 // " word text", wrapped in the text's column.
 std::string entry(const std::string& word, const std::string& text) {
   std::string padded = "      " + word;
@@ -61,7 +56,7 @@ std::string entry(const std::string& word, const std::string& text) {
 
 std::string gains_elsewhere(const std::vector<inference::Elsewhere>& elsewhere) {
   std::string text;
-  for (const inference::Elsewhere& e : elsewhere) text += entry("", gain_of(e.held_out, e.left_out));
+  for (const inference::Elsewhere& e : elsewhere) text += entry("", gain_in_words(e.held_out, e.left_out));
   return text;
 }
 
@@ -73,8 +68,12 @@ std::string cause_text(const CauseEstimate& c, int number) {
   for (const CauseValue& v : c.values) text += entry(v.name, fmt::format("{:<12} 95 %: {}", quantity(v), interval(v)));
   text += entry("evidence", fmt::format("{:.1f} nats; lambda {:.0f} (likelihood ratio, other causes fitted too)",
                                         c.evidence, c.lambda));
+  if (c.inflation > 1)
+    text += entry("", fmt::format("Gains of its kind are {:.1f} times those of chance in these readings; it stands out "
+                                  "from them all the same.",
+                                  c.inflation));
   if (c.held_out)
-    text += entry("gain", gain_of(*c.held_out, "blocks"));
+    text += entry("gain", gain_in_words(*c.held_out, "blocks"));
   else
     text += entry("gain", why_no_gain(c));
   text += gains_elsewhere(c.elsewhere);
@@ -99,7 +98,7 @@ std::string unexplained(const Diagnosis& d) {
   std::string text = heading("Not explained");
   for (const auto& u : d.unexplained) {
     text += wrapped(what_is_unexplained(u), 2, 2);
-    text += entry("gain", u.held_out ? gain_of(*u.held_out, "blocks") : too_few_blocks);
+    text += entry("gain", u.held_out ? gain_in_words(*u.held_out, "blocks") : too_few_blocks);
     text += gains_elsewhere(u.elsewhere);
   }
   return text;

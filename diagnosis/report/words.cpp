@@ -49,6 +49,12 @@ std::string covariates_of(const Diagnosis& d) {
   return list;
 }
 
+std::string field_in_words(const diagnosis::UnstatedField& field) {
+  return fmt::format(
+      "readings within {:.2g} m share {:.1f} dB that the world does not state, where single ones scatter by {:.1f} dB",
+      field.decorrelation, field.shadowing, field.reading_sd);
+}
+
 double lambda_of_names(const Diagnosis& d) {
   double most = 0;
   for (const CauseEstimate& c : d.causes)
@@ -214,6 +220,7 @@ std::string verdict_in_words(const Diagnosis& d) {
     return std::string("is wrong in a way that no known cause explains") +
            (d.unexplained[0].alternatives.empty() ? "" : " as well") + ": something depends on " + covariates_of(d) +
            (confirmed + unconfirmed ? "; " + named + " beside it" : "");
+  if (confirmed + unconfirmed == 0 && d.unstated_field) return "is not adequate: " + field_in_words(*d.unstated_field);
   if (confirmed + unconfirmed == 0)
     return count_of(d, Confidence::set_aside) ? "is adequate: what stands out is not beyond chance, a suspicion remains"
                                               : "is adequate: nothing was found beyond chance";
@@ -229,6 +236,13 @@ std::string verdict_in_words(const Diagnosis& d) {
 double noise_floor(const Diagnosis& d) {
   if (d.seen.count.size() == 0) return std::nan("");
   return std::sqrt(d.noise.field_variance() + d.noise.reading_variance());
+}
+
+std::string gain_in_words(const inference::HeldOutGain& h, const std::string& left_out) {
+  if (h.gain < 0)
+    return fmt::format("none to be seen: held-out data neither confirm nor refute it ({} {})", h.blocks, left_out);
+  return fmt::format("{:.2f} -> {} on held-out data; squared error falls by {:.2f} dB2 (95 %: {:.2f} to {:.2f}, {} {})",
+                     h.rmse_before, db(h.rmse_after), h.gain, h.lower95, h.upper95, h.blocks, left_out);
 }
 
 std::string what_is_held_out(const Diagnosis& d) { return d.seen.places_known ? "places" : "distances"; }

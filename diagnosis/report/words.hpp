@@ -53,6 +53,9 @@ std::string rediagnosis_in_words(const std::vector<diagnosis::NamedCause>& told)
 // "p < 1e-9", "p = 0.03", from a logarithm.
 std::string chance(double log_p);
 
+// A gain on held-out data; of one below 0 that it is none.
+std::string gain_in_words(const inference::HeldOutGain& gain, const std::string& left_out);
+
 // One line, without the world's name: "is adequate: ...".
 std::string verdict_in_words(const Diagnosis& diagnosis);
 // dB: standard deviation of one row's mean from noise alone, at any place.

@@ -44,6 +44,12 @@ Family with_less_fixed(Family family) {
   return k == 0 ? without_fixed(family) : with_fixed(family, k - 1, fixed_to_stream(family));
 }
 
+Family with_more_fixed(Family family) {
+  const std::size_t kind = kind_of(family);
+  if (kind == 0 || (kind - 1) % fixed_shares.size() == fixed_shares.size() - 1) return family;
+  return with_fixed(family, (kind - 1) % fixed_shares.size() + 1, fixed_to_stream(family));
+}
+
 double fixed_share(Family family) {
   return kind_of(family) == 0 ? 0 : fixed_shares[(kind_of(family) - 1) % fixed_shares.size()];
 }

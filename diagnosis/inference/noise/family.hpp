@@ -22,7 +22,9 @@ inline constexpr std::array fixed_shares{0.03, 0.1, 0.3, 0.6, 0.9};
 // A family with the k-th of these shares fixed at a site, or to a stream there.
 Family with_fixed(Family family, std::size_t k, bool to_stream);
 Family without_fixed(Family family);
-Family with_less_fixed(Family family);  // with the next lower share; the family itself if it has none
+// With the next lower or higher share; the family itself if there is none, or it has no share.
+Family with_less_fixed(Family family);
+Family with_more_fixed(Family family);
 // Share of the field's variance fixed at a site, and whether it is that of one stream there.
 double fixed_share(Family family);
 bool fixed_to_stream(Family family);

@@ -49,6 +49,22 @@ Fit fit(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& des
   return {at, here.value, bounded(here.information)};
 }
 
+Fit fit_over_shares(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& design, const Prior& prior,
+                    const Covariance& start, int steps) {
+  Fit best = fit(field, y, design, prior, start, steps);
+  if (fixed_share(start.family) == 0) return best;
+  for (const bool less : {true, false}) {
+    while (true) {
+      const Family family = best.covariance.family, next = less ? with_less_fixed(family) : with_more_fixed(family);
+      if (next == family || fixed_share(next) == 0) break;
+      const Fit other = fit(field, y, design, prior, {next, best.covariance.theta}, steps);
+      if (!(other.value < best.value)) break;
+      best = other;
+    }
+  }
+  return best;
+}
+
 std::vector<Fit> fit_families(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& design,
                               const Prior& prior, double advantage) {
   std::vector<Fit> fits{fit(field, y, design, prior, default_start(y, design, Family::exponential), 20)};

@@ -19,6 +19,9 @@ Covariance default_start(const Eigen::VectorXd& y, const Eigen::MatrixXd& design
 // `moves`: 1 for entries of theta that are fitted, 0 for those held at the start.
 Fit fit(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& design, const Prior& prior,
         const Covariance& start, int steps = 12, const Theta& moves = Theta::Ones());
+// The same over the start's fixed share and the shares beside it, as far as the value falls. As fit() without one.
+Fit fit_over_shares(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& design, const Prior& prior,
+                    const Covariance& start, int steps);
 // Entries of theta that no model states: the variance of one reading, and the correlation between groups.
 inline const Theta unstated{0, 0, 1, 1};
 

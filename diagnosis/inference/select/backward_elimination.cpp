@@ -54,16 +54,18 @@ void give_way_to_alternatives(ModelState& state) {
       // For two causes with the same effect only the cost of their search differs: no reason to prefer a name.
       const bool one = alternative.separability < thresholds::same_effect_separability &&
                        std::abs(alternative.evidence_gap) < thresholds::nearly_nats;
-      if (one && entry->candidate->role.parameters >= state.terms[k].candidate->role.parameters) continue;
       const Term before = state.terms[k];
+      const int fewer = before.candidate->role.parameters - entry->candidate->role.parameters;
+      const bool plainer = fewer > 0 || (fewer == 0 && state.columns_of(*entry->candidate, alternative.theta).norm() >
+                                                           thresholds::weaker_strength * before.columns.norm());
+      if (one && !plainer) continue;
       const noise::Fit fit = state.fit;
       state.terms[k].candidate = entry->candidate;
       state.terms[k].theta = alternative.theta;
       state.terms[k].columns = state.columns_of(*entry->candidate, alternative.theta);
       state.refit();
       relocate(state, k, false);
-      const bool simpler = alternative.separability < thresholds::inseparable &&
-                           entry->candidate->role.parameters < before.candidate->role.parameters;
+      const bool simpler = alternative.separability < thresholds::inseparable && (fewer > 0 || (one && plainer));
       const double may_lose = one ? thresholds::nearly_nats : thresholds::clearly_nats;
       if (const double then = stands(state.terms[k]); then > now + (simpler ? -may_lose : thresholds::clearly_nats)) {
         now = then;

@@ -171,7 +171,9 @@ WhitenedModel ModelState::whitened_model(const Eigen::MatrixXd& design, const no
 }
 
 noise::Fit ModelState::fitted(const Eigen::MatrixXd& design, const noise::Covariance& start, int steps) const {
-  return noise::fit(field_, y_, design, options_.prior, start, steps);
+  return steps >= thresholds::steps_over_shares
+             ? noise::fit_over_shares(field_, y_, design, options_.prior, start, steps)
+             : noise::fit(field_, y_, design, options_.prior, start, steps);
 }
 
 std::vector<noise::Family> ModelState::likely_families(noise::Family first) const {

@@ -66,6 +66,8 @@ bool drawn_apart(const LawSources& s, const LawPart& law) {
 std::string why_not(const LawSources& s, const ReadingDistribution& stated, const VectorXd& residual) {
   if (!s.data.has_places()) return "not testable: the data have no places";
   if (!stated.base.law) return "not testable: no plugin of the world states a law of readings";
+  if (noise::fixed_share(s.state.fit.covariance.family) > 0)
+    return "not testable: readings of one place share a part of their scatter, such as multipath";
   if (!drawn_apart(s, stated.base)) return "not testable: readings lie closer than the way over which fading changes";
   if (residual.array().isFinite().count() < thresholds::fewest_law_readings)
     return "not testable: fewer than 300 readings that are no bounds";

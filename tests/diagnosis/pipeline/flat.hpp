@@ -46,10 +46,10 @@ inline std::vector<std::string> tour() {
   return rows;
 }
 
-// The tour's readings as the world draws them.
+// The readings of these rows as the world draws them.
 inline std::filesystem::path drawn_by(const Scratch& scratch, const std::filesystem::path& world,
-                                      const Library::SearchPath& path = plugins) {
-  const std::vector<std::string> rows = tour();
+                                      const Library::SearchPath& path = plugins,
+                                      const std::vector<std::string>& rows = tour()) {
   {
     std::ofstream places(scratch / "places.csv");
     places << ends << '\n';

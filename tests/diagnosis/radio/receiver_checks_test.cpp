@@ -37,6 +37,27 @@ TEST(ReceiverChecks, ReadingsThatPileUpAreAClip) {
   EXPECT_FALSE(found.bottom);  // 10 at the lowest level, 10 beside it
 }
 
+// A mesh whose strongest link hardly changes: as many readings at the highest level, all of one link.
+TEST(ReceiverChecks, APileOfOneLinkIsNoEnd) {
+  const auto mesh = [](const Scratch& scratch, bool of_one_link) {
+    std::string text = "t[s],tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],rssi[dBm]\n";
+    int row = 0;
+    const auto add = [&](int level, int count, bool one) {
+      for (int k = 0; k < count; ++k, ++row) {
+        const std::string other = one ? "b" : std::string(1, static_cast<char>('b' + row % 7));
+        text += std::to_string(row) + ",a," + other + ",0,0," + std::to_string(row % 9 + 1) + ",2," +
+                std::to_string(level) + "\n";
+      }
+    };
+    for (int level = -60; level < -40; ++level) add(level, level < -43 ? 12 : 5, false);
+    add(-40, 60, of_one_link);
+    return receiver_checks(read_dataset(scratch.write("data.csv", text))).top.has_value();
+  };
+  const Scratch scratch;
+  EXPECT_TRUE(mesh(scratch, false));
+  EXPECT_FALSE(mesh(scratch, true));
+}
+
 TEST(ReceiverChecks, NoClipForAFrequentLevel) {
   const Scratch scratch;
   EXPECT_FALSE(receiver_checks(readings(scratch, 10)).top);  // no more than its neighbours

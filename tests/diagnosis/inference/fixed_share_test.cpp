@@ -1,0 +1,139 @@
+// Shares of the field that are fixed at a site: against dense covariances, and chosen for data that have them.
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "diagnosis/inference/noise/exact_covariance.hpp"
+#include "diagnosis/inference/noise/fit.hpp"
+#include "muster/random.hpp"
+#include "tests/diagnosis/inference/apart.hpp"
+
+namespace muster::noise {
+namespace {
+
+// Links between standing radios of one anchor each, both ways, a few rows of each way.
+Sites mesh(Index sites, Index rows_each_way) {
+  const Stream s(17);
+  const Index n = sites * 2 * rows_each_way;
+  Sites result{Eigen::Matrix3Xd::Zero(3, n),
+               Eigen::Matrix3Xd::Zero(3, n),
+               Eigen::Matrix3Xd::Zero(3, n),
+               Eigen::Matrix3Xd::Zero(3, n),
+               {},
+               Eigen::VectorXd::Constant(n, 2)};
+  for (Index i = 0; i < n; ++i) {
+    const Index site = i % sites;
+    const auto k = static_cast<uint64_t>(site);
+    result.place.col(i) << 9 * s.uniform(k, 0), 7 * s.uniform(k, 1), 0;
+    result.group.push_back(static_cast<int>(site % 3));
+    result.anchor.col(i) << 3.0 * static_cast<double>(site % 3), 1, 0;
+    result.stream.push_back((i / sites) % 2 == 0);
+  }
+  return result;
+}
+
+Eigen::MatrixXd dense(const Sites& sites, const Covariance& c) {
+  const Index n = sites.size();
+  const RecurringSites recurring(sites);
+  const double fixed = fixed_share(c.family);
+  const Relation least = fixed_to_stream(c.family) ? Relation::stream : Relation::site;
+  Eigen::MatrixXd result(n, n);
+  for (Index i = 0; i < n; ++i) {
+    for (Index j = 0; j < n; ++j) {
+      const Apart apart = i == j ? Apart{0, 0} : readings_apart(sites, i, j);
+      const bool same = sites.group[static_cast<std::size_t>(i)] == sites.group[static_cast<std::size_t>(j)];
+      const auto k = [&](double h) { return correlation(c.family, h / c.decorrelation()); };
+      result(i, j) = c.field_variance() *
+                     ((1 - fixed) * (c.shared() * k(apart.place) + (same ? (1 - c.shared()) * k(apart.both) : 0)) +
+                      (recurring.of(i, j) >= least ? fixed : 0));
+    }
+    result(i, i) += c.reading_variance() / sites.count[i] + 1e-3;
+  }
+  return result;
+}
+
+const Theta some{std::log(16.0), std::log(1.7), std::log(2.0), -1.2};
+
+std::vector<Family> all_fixed() { return Field(mesh(30, 2)).fixed_families(); }
+
+TEST(FixedShare, IsOfOneSite) {
+  const Sites sites = mesh(30, 2);
+  const RecurringSites recurring(sites);
+  EXPECT_EQ(recurring.of(0, 30), Relation::site);
+  EXPECT_EQ(recurring.of(0, 60), Relation::stream);
+  EXPECT_EQ(recurring.of(0, 1), Relation::apart);
+  EXPECT_DOUBLE_EQ(recurring.share(), 1);
+  EXPECT_EQ(recurring.rows_with(30), (std::vector<Index>{0, 30, 60, 90}));
+  Sites moved = sites;
+  moved.place(0, 60) += 0.05;
+  EXPECT_EQ(RecurringSites(moved).of(0, 60), Relation::apart);
+}
+
+TEST(FixedShare, OnlyWhereSitesRecur) {
+  EXPECT_EQ(all_fixed().size(), 2 * fixed_shares.size());
+  Sites sites = mesh(60, 1);
+  sites.stream.assign(sites.stream.size(), 0);  // twice the same way
+  EXPECT_EQ(Field(sites).fixed_families().size(), fixed_shares.size());
+  EXPECT_TRUE(Field(mesh(60, 1).of({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12})).fixed_families().empty());
+}
+
+TEST(FixedShare, LikelihoodIsTheDenseOne) {
+  const Sites sites = mesh(20, 2);
+  const Field field(sites, {80, 80, 1});
+  for (const Family family : all_fixed()) {
+    const Covariance c{family, some};
+    const Whitener whitener(field, c);
+    const Eigen::LLT<Eigen::MatrixXd> root(dense(sites, c));
+    EXPECT_NEAR(-whitener.log_scale(), root.matrixLLT().diagonal().array().log().sum(), 0.05) << name_of(family);
+    Eigen::VectorXd y(80);
+    for (Index i = 0; i < 80; ++i) y[i] = Stream(9).normal(static_cast<uint64_t>(i));
+    EXPECT_NEAR(whitener(y).squaredNorm() / y.dot(root.solve(y)), 1, 4e-3) << name_of(family);
+    const Eigen::MatrixXd weights = Eigen::MatrixXd::Random(80, 3),
+                          expected = weights.transpose() * dense(sites, c) * weights;
+    EXPECT_LT((covariance_of_sums(field, c, weights) - expected).norm(), 1e-3 * expected.norm()) << name_of(family);
+  }
+}
+
+TEST(FixedShare, GradientIsThatOfDifferences) {
+  const Sites sites = mesh(40, 3);
+  const Field field(sites);
+  const Eigen::MatrixXd design = Eigen::MatrixXd::Ones(sites.size(), 1);
+  const Prior prior;
+  Eigen::VectorXd y(sites.size());
+  for (Index i = 0; i < y.size(); ++i) y[i] = 3 * Stream(4).normal(static_cast<uint64_t>(i));
+  for (const Family family : all_fixed()) {
+    const Objective at = objective(field, {family, some}, y, design, prior);
+    for (Index p = 0; p < 4; ++p) {
+      Theta up = some, down = some;
+      up[p] += 1e-4;
+      down[p] -= 1e-4;
+      const double slope = (objective(field, {family, up}, y, design, prior).value -
+                            objective(field, {family, down}, y, design, prior).value) /
+                           2e-4;
+      EXPECT_NEAR(at.gradient[p], slope, 1e-4 * (1 + std::abs(slope))) << name_of(family) << " " << p;
+    }
+  }
+}
+
+// A mesh whose links differ by the way, as no field over places can: its share is found, and none where there is none.
+TEST(FixedShare, IsFoundInTheDataThatHaveIt) {
+  const Sites sites = mesh(45, 12);
+  const Field field(sites);
+  const Eigen::MatrixXd design = Eigen::MatrixXd::Ones(sites.size(), 1);
+  const Stream stream(21);
+  for (const Family family :
+       {Family::exponential, with_fixed(Family::exponential, 2, true), with_fixed(Family::exponential, 3, false)}) {
+    const Eigen::MatrixXd root = dense(sites, {family, some}).llt().matrixL();
+    Eigen::VectorXd z(sites.size());
+    for (Index i = 0; i < z.size(); ++i) z[i] = stream.normal(static_cast<uint64_t>(i), static_cast<uint64_t>(family));
+    const std::vector<Fit> fits = fit_families(field, root * z, design, {});
+    const Family found = fits[0].covariance.family;
+    EXPECT_NEAR(fixed_share(found), fixed_share(family), 0.31) << name_of(found) << " for " << name_of(family);
+    if (fixed_to_stream(family)) EXPECT_TRUE(fixed_to_stream(found)) << name_of(found);
+    if (fixed_share(family) == 0) EXPECT_FALSE(fixed_to_stream(found) && fixed_share(found) > 0.05) << name_of(found);
+  }
+}
+
+}  // namespace
+}  // namespace muster::noise

@@ -1,0 +1,92 @@
+// Logs as people keep them: radios that the world does not list, a carrier that it does not state.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "diagnosis/pipeline/diagnose.hpp"
+#include "diagnosis/pipeline/extended_world.hpp"
+#include "tests/diagnosis/pipeline/flat.hpp"
+
+namespace muster::diagnosis {
+namespace {
+
+std::filesystem::path world_of(const Scratch& scratch, const std::string& name, const std::string& elements) {
+  std::ofstream(scratch / name) << "<world name=\"w\" dt=\"0.1\" until=\"1\" seed=\"4\">" << elements
+                                << "<radio.multiwall tx_power=\"1\" l0=\"35\" n=\"2\"/>"
+                                << "<radio.receiver sensitivity=\"-200\"/></world>\n";
+  return scratch / name;
+}
+
+const std::string fading = "<radio.fading shadowing=\"3\" decorrelation=\"2\" rician_k=\"6\" per_reading=\"true\"/>";
+const std::string stations =
+    "<station name=\"s1\" at=\"1 1 1.5\"/><station name=\"s2\" at=\"13 8 1.2\"/>"
+    "<station name=\"s3\" at=\"9 1 2\"/>";
+const std::string phones = "<station name=\"phone1\" at=\"3 3 0.4\"/><station name=\"phone2\" at=\"3 3 0.4\"/>";
+
+// The flat's tour, received by two phones in turn.
+std::vector<std::string> by_phones() {
+  std::vector<std::string> rows = tour();
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    rows[k].replace(rows[k].find("rover"), 5, (k / 3) % 2 ? "phone2" : "phone1");
+  return rows;
+}
+
+// One of two phones reads 6 dB too high. The finding is the same whether the world lists the phones or not, and the
+// extended world has the one that it is about.
+TEST(FieldLog, AnOffsetOfARadioThatTheWorldDoesNotList) {
+  const Scratch scratch;
+  const std::string offset = "<effect.rx_offset radio=\"phone2\" offset=\"6\"/>";
+  const auto truth = world_of(scratch, "truth.xml", stations + phones + fading + offset);
+  const auto data = drawn_by(scratch, truth, plugins, by_phones());
+  const auto listed = world_of(scratch, "listed.xml", stations + phones + fading);
+  const auto bare = world_of(scratch, "bare.xml", stations + fading);
+  const Diagnosis with = diagnose(listed, data, plugins), without = diagnose(bare, data, plugins);
+  EXPECT_EQ(names_in_words(named_causes(without)), "effect.rx_offset radio/phone2");
+  EXPECT_EQ(names_in_words(named_causes(with)), names_in_words(named_causes(without)));
+  ASSERT_EQ(without.causes.size(), 1u);
+  EXPECT_NEAR(without.causes[0].values[0].value, 6, 0.6);
+  EXPECT_NEAR(without.causes[0].values[0].value, with.causes[0].values[0].value, 1e-6);
+  const Scratch out;
+  const auto extended = write_extended_world(without, bare, out / "w");
+  EXPECT_EQ(LinkModel(extended, data, plugins).added_radios(), std::vector<std::string>{"phone1"});
+}
+
+// Two radios at one height over open ground, at 433 MHz. The world has no term with a carrier: it is sought.
+TEST(Carrier, IsSoughtWhereTheWorldHasNone) {
+  const Scratch scratch;
+  const std::string radios = "<station name=\"mast\" at=\"0 0 2\"/><station name=\"car\" at=\"5 0 2\"/>";
+  const auto truth =
+      world_of(scratch, "truth.xml", radios + fading + "<effect.two_ray reflection=\"0.9\" frequency=\"4.33e8\"/>");
+  std::vector<std::string> rows;
+  for (int k = 0; k < 500; ++k)
+    rows.push_back(print_real(0.5 * k) + ",mast,car,0,0,2," + print_real(3 + 0.3 * k) + ",0.2,2");
+  const auto data = drawn_by(scratch, truth, plugins, rows);
+  const Diagnosis found = diagnose(world_of(scratch, "bare.xml", radios), data, plugins);
+  ASSERT_FALSE(found.causes.empty());
+  EXPECT_EQ(found.causes[0].id, "effect.two_ray");
+  for (const CauseValue& v : found.causes[0].values) {
+    if (v.name == "frequency") EXPECT_NEAR(v.value, 4.33e8, 0.04 * 4.33e8);
+  }
+  // Where a term of the world has one, it holds.
+  const Diagnosis held = diagnose(world_of(scratch, "faded.xml", radios + fading), data, plugins);
+  for (const CauseEstimate& cause : held.causes) {
+    if (cause.id == "effect.two_ray") EXPECT_EQ(cause.held.at("frequency"), 2.44e9);
+  }
+}
+
+// Nothing but a field that the world does not state: that is said, and the world is not called adequate.
+TEST(FieldLog, AFieldThatTheWorldDoesNotStateIsNotAdequate) {
+  const Scratch scratch;
+  const auto data = drawn_by(scratch, world_of(scratch, "truth.xml", stations + phones + fading), plugins, by_phones());
+  const Diagnosis unstated = diagnose(world_of(scratch, "bare.xml", stations + phones), data, plugins);
+  EXPECT_EQ(names_in_words(named_causes(unstated)), "silent");
+  EXPECT_STREQ(unstated.verdict(), "unexplained");
+  ASSERT_TRUE(unstated.unstated_field);
+  EXPECT_GT(unstated.unstated_field->shadowing, 2);
+  const Diagnosis stated = diagnose(world_of(scratch, "stated.xml", stations + phones + fading), data, plugins);
+  EXPECT_STREQ(stated.verdict(), "adequate");
+  EXPECT_FALSE(stated.unstated_field);
+}
+
+}  // namespace
+}  // namespace muster::diagnosis
