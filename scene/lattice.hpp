@@ -10,10 +10,13 @@
 namespace muster::scene {
 
 constexpr double steps_per_metre = 4096;
-constexpr double extent = 1000;  // m; coordinates are smaller in magnitude
+constexpr double extent = 1000;   // m; coordinates of walls, and of points on the lattice, are smaller in magnitude
+constexpr double reach = 100000;  // m; a radio's coordinates are at most this: links are cut to the extent
 
 // False for NaN and infinity too.
 inline bool within_extent(double metres) { return std::abs(metres) < extent; }
+
+inline bool within_reach(double metres) { return std::abs(metres) <= reach; }
 
 // Holds products of three coordinates or more: below 2^73.
 __extension__ using Wide = __int128;

@@ -6,6 +6,7 @@
 
 #include "scene/crossing_link.hpp"
 #include "scene/curve.hpp"
+#include "scene/far_links.hpp"
 
 namespace muster::scene {
 namespace {
@@ -26,6 +27,14 @@ std::vector<LatticePoint> snapped(const std::vector<Point>& points) {
   result.reserve(points.size());
   for (const Point& point : points) result.push_back(snapped(point));
   return result;
+}
+
+// The nearest point of the extent. Throws std::runtime_error beyond the reach.
+Point held_near(const Point& point) {
+  if (is_near(point)) return point;
+  near_part(point, point);  // throws
+  const auto held = [](double metres) { return std::clamp(metres, -extent + 1, extent - 1); };
+  return {held(point.x), held(point.y), held(point.z)};
 }
 
 // Counting sort by key(item), below `keys`; stable.
@@ -59,7 +68,12 @@ std::vector<std::uint32_t> by_both_ends(const std::vector<std::uint32_t>& order,
 
 }  // namespace
 
-std::vector<std::uint32_t> spatial_order(const std::vector<Point>& points) { return along_curve(snapped(points)); }
+std::vector<std::uint32_t> spatial_order(const std::vector<Point>& points) {
+  std::vector<LatticePoint> places;
+  places.reserve(points.size());
+  for (const Point& point : points) places.push_back(snapped(held_near(point)));
+  return along_curve(places);
+}
 
 bool in_spatial_order(const std::vector<Point>& points) { return nearly_sorted(spatial_order(points)); }
 
@@ -297,10 +311,31 @@ class Scene::ManyLinks {
   WallView view_ = {};
 };
 
+// Links with an end beyond the extent become links between two further points, or from a point to itself.
+void Scene::counts_of_near_parts(const std::vector<Point>& points, const std::vector<Pair>& links,
+                                 std::vector<int>& by_material, const WallKernel& kernel) const {
+  std::vector<Point> near = points;
+  for (Point& point : near) {
+    near_part(point, point);  // throws for points beyond the reach
+    if (!is_near(point)) point = {};
+  }
+  std::vector<Pair> cut = links;
+  for (Pair& link : cut) {
+    if (is_near(points[link.from]) && is_near(points[link.to])) continue;
+    const auto part = near_part(points[link.from], points[link.to]);
+    const auto first = static_cast<std::uint32_t>(near.size());
+    near.push_back(part ? part->from : Point{});
+    near.push_back(part ? part->to : Point{});
+    link = {first, first + 1};
+  }
+  counts(near, cut, by_material, kernel);
+}
+
 void Scene::counts(const std::vector<Point>& points, const std::vector<Pair>& links, std::vector<int>& by_material,
                    const WallKernel& kernel) const {
+  if (!std::all_of(points.begin(), points.end(), is_near))
+    return counts_of_near_parts(points, links, by_material, kernel);
   if (walls_.empty()) {
-    snapped(points);  // throws for points beyond the scene
     by_material.assign(links.size() * static_cast<std::size_t>(materials_), 0);
   } else {
     ManyLinks(*this, kernel, points, links, by_material).count();

@@ -10,6 +10,9 @@ namespace muster::scene {
   throw std::runtime_error(std::string(what) + " row " + std::to_string(row) + ": " + why);
 }
 
+// For a point beyond 100 km.
+[[noreturn]] void refuse_point(double x, double y, double z);
+
 inline void check_material(const char* what, int row, int material, int materials) {
   if (material >= 0 && material < materials) return;
   refuse(what, row,

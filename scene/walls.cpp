@@ -7,6 +7,7 @@
 #include <string>
 
 #include "scene/crossing_link.hpp"
+#include "scene/far_links.hpp"
 #include "scene/refusal.hpp"
 
 namespace muster::scene {
@@ -31,12 +32,14 @@ void check_wall(const Wall& wall, int row, int materials) {
 
 }  // namespace
 
+void refuse_point(double x, double y, double z) {
+  throw std::runtime_error("the point " + text(x) + ' ' + text(y) + ' ' + text(z) +
+                           " lies beyond the scene; expected coordinates within 100 km");
+}
+
 LatticePoint snapped(const Point& point) {
-  if (within_extent(point.x) && within_extent(point.y) && within_extent(point.z)) {
-    return {{snap(point.x), snap(point.y)}, snap(point.z)};
-  }
-  throw std::runtime_error("the point " + text(point.x) + ' ' + text(point.y) + ' ' + text(point.z) +
-                           " lies beyond the scene; expected coordinates within 1000 m");
+  if (!is_near(point)) refuse_point(point.x, point.y, point.z);
+  return {{snap(point.x), snap(point.y)}, snap(point.z)};
 }
 
 namespace {
@@ -153,6 +156,13 @@ void Scene::for_each_crossing(const Link& link, const Report& report) const {
 
 void Scene::crossings(const Point& p, const Point& q, std::vector<Crossing>& out) const {
   out.clear();
+  if (!is_near(p) || !is_near(q)) {
+    const auto part = near_part(p, q);
+    if (!part) return;
+    crossings(part->from, part->to, out);
+    for (Crossing& crossing : out) crossing.fraction = part->begin + crossing.fraction * (part->end - part->begin);
+    return;
+  }
   const Link link(snapped(p), snapped(q));
   const double length = length_of(link.span.from, link.span.to, link.to_z - link.from_z);
   for_each_crossing(link, [&](const Hit& hit) {
@@ -178,7 +188,9 @@ void Scene::crossings(const Point& p, const Point& q, std::vector<Crossing>& out
 
 void Scene::counts(const Point& p, const Point& q, int* by_material) const {
   std::fill_n(by_material, materials_, 0);
-  const LatticePoint from = snapped(p), to = snapped(q);
+  const auto part = near_part(p, q);
+  if (!part) return;
+  const LatticePoint from = snapped(part->from), to = snapped(part->to);
   for_each_crossing(Link(from, to), [&](const Hit& hit) { ++by_material[hit.material]; });
   floors_.for_each_crossing(vector(from), vector(to),
                             [&](int, const LatticeFloor& floor) { ++by_material[floor.material]; });

@@ -12,7 +12,8 @@
 
 namespace muster::scene {
 
-// In metres, east, north and up; each coordinate below 1 km in size.
+// In metres, east, north and up. Coordinates of radios are at most 100 km in size, those of walls and floors below 1
+// km.
 struct Point {
   double x = 0, y = 0, z = 0;
 };
@@ -70,7 +71,7 @@ class Scene {
   void set_open(int door, bool open) { doors_.at(door).open = open; }
 
   // Replaces `out` by the crossings of the straight line from p to q, walls by their rows, then floors by theirs. All
-  // but `fraction` is the same, bit for bit, from q to p. Throws std::runtime_error for a point beyond 1 km.
+  // but `fraction` is the same, bit for bit, from q to p. Throws std::runtime_error for a point beyond 100 km.
   void crossings(const Point& p, const Point& q, std::vector<Crossing>& out) const;
 
   // The same as counts: fills by_material[0 .. materials()).
@@ -106,6 +107,8 @@ class Scene {
   void add_wall(const Wall& wall);
   void add_door(const Door& door);
   bool cross(const Link& link, int wall, Hit& hit) const;
+  void counts_of_near_parts(const std::vector<Point>& points, const std::vector<Pair>& links,
+                            std::vector<int>& by_material, const WallKernel& kernel) const;
   template <class Report>
   void for_each_crossing(const Link& link, const Report& report) const;
 

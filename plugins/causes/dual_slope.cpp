@@ -17,7 +17,7 @@ struct DualSlope {
       "spread and outage models as functions of antenna height, IEEE Trans. Vehicular Techn. 43 (1994).";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
-      real("break", 5, 0.5, 1000, "m", "distance at which the slope changes").free().with(MUSTER_LOG),
+      real("break", 5, 0.5, 1e5, "m", "distance at which the slope changes").free().with(MUSTER_LOG),
       real("n_change", 0, -5, 10, "", "what the path-loss exponent is higher beyond it").free().with(MUSTER_LINEAR),
   };
   static constexpr muster_cause cause = {

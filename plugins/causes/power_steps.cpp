@@ -21,9 +21,12 @@ struct PowerSteps {
   static constexpr auto manual =
       "A radio was set to several powers while it was measured, which the column power[dBm] of `file` tells (t, tx "
       "and power; what stood last at or before a time holds; the measured readings will do). Adds `error1` to what "
-      "was sent at the lowest of the powers in the file, `error2` at the next, up to six: readings that the world is "
-      "held against, and whose powers stand in for the file's, are to have the same ones. Data in which each reading "
-      "was referred to its nominal power need nothing else.";
+      "was sent at the lowest of the powers in the file, `error2` at the next. Of more than six powers, `error1` is "
+      "that "
+      "of the lowest, `error6` that of the highest, the others those of powers evenly between, and errors change "
+      "linearly from one to the next. Readings that the world is held against, and whose powers stand in for the "
+      "file's, are to have the same ones. Data in which each reading was referred to its nominal power need nothing "
+      "else.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       file("file", "when each radio was set to which power, a CSV table").required(),
@@ -55,14 +58,23 @@ struct PowerSteps {
   void step(const Step& k) {
     settings.read(k[powers], [](const Power& row) { return row.setting; });
     const std::vector<double> levels = settings.values();
-    if (levels.size() > std::size(errors))
-      throw BadInput("attribute \"file\": more than six different powers; expected at most six");
+    double values[std::size(errors)];
+    for (std::size_t e = 0; e < std::size(errors); ++e) values[e] = k[errors[e]];
     links.add(k, [&](const End& from, const End&) {
       const double power = settings.at(from.radio, from.t);
       if (is_null(power)) return 0.0;
-      const auto level = std::lower_bound(levels.begin(), levels.end(), power) - levels.begin();
-      return k[errors[level]];
+      if (levels.size() > std::size(errors))
+        return between(values, (power - levels.front()) / (levels.back() - levels.front()));
+      return values[std::lower_bound(levels.begin(), levels.end(), power) - levels.begin()];
     });
+  }
+
+  // Value at a share of the way from the first to the last, linear between neighbours.
+  template <std::size_t n>
+  static double between(const double (&values)[n], double share) {
+    const double at = share * (n - 1);
+    const auto low = std::min(static_cast<std::size_t>(at), n - 2);
+    return values[low] + (at - static_cast<double>(low)) * (values[low + 1] - values[low]);
   }
 
   Value errors[6];

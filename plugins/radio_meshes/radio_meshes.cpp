@@ -3,6 +3,7 @@
 #include <muster/plugin.hpp>
 #include <muster/reverse_links.hpp>
 #include <optional>
+#include <scene/far_links.hpp>
 #include <vector>
 
 #include "mesh_scene.hpp"
@@ -61,11 +62,7 @@ included, and the same both ways.)";
     const std::size_t width = k[shape].size();
     const bool known = same(links, ends_kept) && at.size() == at_kept.size();
     std::vector<char> moved(at.size(), 1);
-    std::vector<Vector> places(at.size());
-    for (std::size_t i = 0; i < at.size(); ++i) {
-      if (known) moved[i] = std::memcmp(&at[i], &at_kept[i], sizeof(Pose)) != 0;
-      places[i] = on_lattice(at[i]);
-    }
+    for (std::size_t i = 0; i < at.size() && known; ++i) moved[i] = std::memcmp(&at[i], &at_kept[i], sizeof(Pose)) != 0;
     ends_kept.clear();  // so that nothing old is left if this throws
     counted.resize(links.size() * width);
     const auto back = earlier_reverse(links, at.size());
@@ -77,18 +74,16 @@ included, and the same both ways.)";
         std::copy_n(counted.data() + back[i] * width, width, own);
       } else {
         std::fill_n(own, width, 0);
-        scene->count(places[tx], places[rx], own);
+        const auto near = scene::near_part(point(at[tx]), point(at[rx]));
+        if (near) scene->count(on_lattice(near->from), on_lattice(near->to), own);
       }
     }
     ends_kept.assign(links.begin(), links.end());
     at_kept.assign(at.begin(), at.end());
   }
 
-  static Vector on_lattice(const Pose& p) {
-    if (!scene::within_extent(p.x) || !scene::within_extent(p.y) || !scene::within_extent(p.z))
-      throw BadInput("a radio is farther than 1 km from the origin; expected all within");
-    return {scene::snap(p.x), scene::snap(p.y), scene::snap(p.z)};
-  }
+  static scene::Point point(const Pose& p) { return {p.x, p.y, p.z}; }
+  static Vector on_lattice(const scene::Point& p) { return {scene::snap(p.x), scene::snap(p.y), scene::snap(p.z)}; }
 
   template <class Row>
   static bool same(Rows<const Row> now, const std::vector<Row>& kept) {

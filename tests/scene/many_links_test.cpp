@@ -115,7 +115,7 @@ TEST(ManyLinks, AreNoneWithoutWallsMaterialsOrLinks) {
 TEST(ManyLinks, RefuseAPointBeyondTheScene) {
   const Scene scene({wall(0, 0, 1, 0)}, {}, materials);
   std::vector<int> counted;
-  EXPECT_THROW(scene.counts({{0, 0, 0}, {1000, 0, 0}}, {}, counted), std::runtime_error);
+  EXPECT_THROW(scene.counts({{0, 0, 0}, {200000, 0, 0}}, {}, counted), std::runtime_error);
 }
 
 // Every radio is moved by 2^-100 of a lattice step to the east and 2^-200 to the north, and then nothing is a tie.

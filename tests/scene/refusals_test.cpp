@@ -59,10 +59,10 @@ TEST(Refusal, OfADoor) {
 TEST(Refusal, OfARadioOutside) {
   const Scene scene({shaped(0, 3)}, {}, 2);
   try {
-    counts(scene, {0, 0, 0}, {1200, 0.5, 0});
+    counts(scene, {0, 0, 0}, {120000, 0.5, 0});
     FAIL() << "accepted";
   } catch (const std::runtime_error& error) {
-    EXPECT_STREQ(error.what(), "the point 1200 0.5 0 lies beyond the scene; expected coordinates within 1000 m");
+    EXPECT_STREQ(error.what(), "the point 120000 0.5 0 lies beyond the scene; expected coordinates within 100 km");
   }
   EXPECT_THROW(counts(scene, {0, 0, nan}, {1, 0, 0}), std::runtime_error);
 }

@@ -16,7 +16,8 @@ using Eigen::VectorXd;
 
 constexpr double quarter_turn = 1.5707963267948966;
 constexpr double between_lines = 0.25, between_starts = 0.4, shortest = 0.8, longest = 6, aside = 0.05;  // m
-constexpr std::size_t most = 400;                                                                        // thetas
+constexpr double most_lines = 2000, most_places = 100'000;  // beyond these a scan of a large area is coarser
+constexpr std::size_t most = 400;                           // thetas
 
 std::vector<Swept> the_best(std::vector<Swept> all) {
   std::stable_sort(all.begin(), all.end(), [](const Swept& a, const Swept& b) { return a.gain > b.gain; });
@@ -123,7 +124,8 @@ SegmentScan::SegmentScan(const MeasurementGeometry& survey, Links links, Reading
         low = std::min({low, w.q0, w.q1});
         high = std::max({high, w.q0, w.q1});
       }
-      for (double q = low + between_lines / 2; q < high; q += between_lines) lay_out(turned, driven, angle, q);
+      const double step = std::max(between_lines, (high - low) / most_lines);
+      for (double q = low + step / 2; q < high; q += step) lay_out(turned, driven, angle, q);
     }
   }
 }
@@ -249,8 +251,10 @@ double SegmentScan::share(std::size_t row, const Stopped& stopped) const {
 DiskScan::DiskScan(const MeasurementGeometry& survey, Links links)
     : geometry_(survey), links_(std::move(links)), all_(links_.size()) {
   std::iota(all_.begin(), all_.end(), 0);
-  for (double x = survey.east.low; x < survey.east.high; x += between_places) {
-    for (double y = survey.north.low; y < survey.north.high; y += between_places) {
+  const double area = survey.east.length() * survey.north.length();
+  const double step = std::max(between_places, std::sqrt(area / most_places));
+  for (double x = survey.east.low; x < survey.east.high; x += step) {
+    for (double y = survey.north.low; y < survey.north.high; y += step) {
       std::size_t fit = 0;
       while (fit < radii.size() && !driven_through(survey, x, y, radii[fit])) ++fit;
       if (fit == 0) continue;

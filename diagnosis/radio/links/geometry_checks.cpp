@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <muster/tables.hpp>
 #include <set>
 
@@ -50,6 +51,54 @@ void check_plan(const LinkModel& model, const Dataset& data) {
                 "row " + std::to_string(first + 1) +
                     " and others lie outside of the world's walls, and inside if x and y change "
                     "places; expected x to the east and y to the north, as in the world");
+}
+
+// True if the readings tell that radios which move are no vehicles: half of their ways, from one reading to the next,
+// are faster than 100 m/s.
+bool flies(const LinkModel& model, const Dataset& data) {
+  constexpr double fastest = 100;   // m/s
+  std::map<int, std::size_t> last;  // row of each radio
+  std::size_t ways = 0, fast = 0;
+  for (std::size_t row = 0; row < model.rows() && !data.t.empty(); ++row) {
+    if (data.is_wild(row)) continue;
+    for (std::size_t end = 0; end < 2; ++end) {
+      const End& now = model.ends()[row][end];
+      const auto [entry, is_first] = last.try_emplace(now.radio, row);
+      if (is_first) continue;
+      const auto& before = model.ends()[entry->second];
+      const End& was = before[0].radio == now.radio ? before[0] : before[1];
+      const double way = std::hypot(now.x - was.x, now.y - was.y), time = std::abs(data.t[row] - data.t[entry->second]);
+      entry->second = row;
+      if (way == 0 || time == 0) continue;
+      ++ways;
+      fast += way / time > fastest;
+    }
+  }
+  return ways > 0 && 2 * fast > ways;
+}
+
+// Throws Error if at least 10 % of ends lie far outside of the walls, all of these inside as millimetres, and radios
+// would move too fast in metres.
+void check_scale(const LinkModel& model, const Dataset& data) {
+  const Plan plan = plan_of(model);
+  if (plan.x1 <= plan.x0 || plan.y1 <= plan.y0) return;
+  const double size = std::max(plan.x1 - plan.x0, plan.y1 - plan.y0), margin = 1;  // m
+  const auto as_millimetres = [&](double v) { return std::abs(v) > 20 * size ? v / 1000 : v; };
+  std::size_t far = 0, inside = 0, first = data.rows();
+  for (std::size_t row = 0; row < model.rows(); ++row) {
+    for (const End& end : model.ends()[row]) {
+      if (plan.holds(end.x, end.y, 20 * size)) continue;
+      first = std::min(first, row);
+      ++far;
+      inside += plan.holds(as_millimetres(end.x), as_millimetres(end.y), margin);
+    }
+  }
+  if (10 * far < 2 * model.rows() || 100 * inside < 99 * far || !flies(model, data)) return;
+  throw invalid(
+      data.table->place(first, 0),
+      "row " + std::to_string(first + 1) +
+          " and others lie far outside of the world's walls, and inside if their places are millimetres; expected "
+          "metres (a map of muster import: rx_x[m] = 0.001*COLUMN)");
 }
 
 // True if a radio has places more than `least` metres from its first one.
@@ -119,6 +168,7 @@ std::vector<std::string> notes_on_radios(const LinkModel& model, const Dataset& 
 }
 
 std::vector<std::string> check_places(const LinkModel& model, const Dataset& data) {
+  check_scale(model, data);
   check_plan(model, data);
   return check_stations(model, data);
 }

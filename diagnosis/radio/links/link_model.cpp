@@ -43,7 +43,7 @@ void take_settings_from(const std::filesystem::path& data, World& world, TableCa
 
 // Throws Error with the first place of the data beyond the scene: the scene's own error cites only the world's file.
 void refuse_far_places(const std::filesystem::path& data) {
-  constexpr double farthest = 1000;  // m, as of the scene
+  constexpr double farthest = 100'000;  // m, as of the scene
   const TextTable table = TextTable::read(data);
   std::optional<std::pair<std::size_t, std::size_t>> first;  // row, column
   double far = 0;

@@ -91,14 +91,8 @@ TEST(Fault25, RowsThatRepeatAndTimeThatRunsBackwards) {
 }
 
 TEST(Fault25, LevelsThatNoReceiverGives) {
-  expect_refused(Data().set(6, 7, "0").text(),
-                 ":7:26: row 6: an rssi of 0 dBm is what drivers give for none; expected an empty cell where nothing "
-                 "was received");
   expect_refused(Data().set(6, 7, "31").text(),
                  ":7:26: row 6: an rssi of 31 dBm is over +30 dBm; expected a level in dBm, which is mostly negative");
-  expect_refused(
-      Data().set(6, 7, "-128").text(),
-      ":7:26: row 6: an rssi of -128 dBm is a mark for none; expected an empty cell where nothing was received");
   expect_refused(Data().set(6, 7, "nan").text(),
                  ":7:26: column \"rssi[dBm]\": \"nan\" is not a number; it must be finite");
 }
@@ -124,13 +118,49 @@ TEST(Fault25, PlacesInAnotherUnitOrOrder) {
                  "north, as in the world");
 }
 
+TEST(Fault25, ATableInMillimetres) {
+  Data data;
+  for (std::size_t row = 1; row <= 60; ++row) data.set(row, 5, std::to_string(1000 + 300 * row));
+  expect_refused(
+      data.text(),
+      ":2:1: row 1 and others lie far outside of the world's walls, and inside if their places are millimetres; "
+      "expected metres (a map of muster import: rx_x[m] = 0.001*COLUMN)");
+}
+
 // Told of the data, not of the world.
 TEST(Fault25, PlacesBeyondTheScene) {
   Data data;
-  for (std::size_t row = 1; row <= 60; ++row) data.set(row, 5, std::to_string(1000 + 300 * row));
+  for (std::size_t row = 1; row <= 60; ++row) data.set(row, 5, std::to_string(100000 + 300 * row));
   expect_refused(data.text(),
-                 ":2:18: row 1: 1300 m lies beyond the world's scene; expected metres within 1000 m (is it another "
+                 ":2:18: row 1: 100300 m lies beyond the world's scene; expected metres within 100000 m (is it another "
                  "unit, such as millimetres?)");
+}
+
+// A vehicle that leaves the plan: 18 km in a minute would be too fast, in an hour they are not.
+TEST(Fault25, PlacesKilometresFromTheWallsAreTaken) {
+  Data data;
+  for (std::size_t row = 1; row <= 60; ++row) {
+    data.set(row, 0, std::to_string(60 * row)).set(row, 5, std::to_string(300 * row));
+    data.set(row, 7,
+             fmt::format("{:.1f}", -30 - 25 * std::log10(300.0 * static_cast<double>(row)) + (row * 7 % 5) * 0.4));
+  }
+  EXPECT_EQ(fit(data.text()).exit, 0) << fit(data.text()).err;
+}
+
+TEST(Fault25, MarksForNothingAreTold) {
+  EXPECT_THAT(
+      fit(Data().set(6, 7, "-128").text()).out,
+      HasSubstr("1 at -128 dBm, first in row 6: taken as a mark for nothing received; the nearest other level is"));
+}
+
+TEST(Fault25, Milliwatts) {
+  Data data;
+  for (std::size_t row = 1; row <= 60; ++row) data.set(row, 7, fmt::format("{}e-6", row));
+  expect_refused(
+      data.text(),
+      ":2:24: row 1: 1e-06 dBm, and most readings are above 0 dBm, as milliwatts or levels without their sign "
+      "are; expected dBm, 10 log10 of milliwatts (a map of muster import: rssi[dBm] = 10*log10(COLUMN), or "
+      "rssi[dBm] = -1*COLUMN)");
 }
 
 TEST(Fault25, ARadioThatTheWorldDoesNotHave) {

@@ -1,4 +1,8 @@
 // Causes that belong to radios: offsets, antennas, bodies, places and names.
+#include <cmath>
+#include <map>
+#include <set>
+
 #include "survey.hpp"
 
 namespace muster {
@@ -101,18 +105,25 @@ TEST(PowerSteps, WhatStoodLastHolds) {
   }
 }
 
-TEST(PowerSteps, MoreThanSixPowersAreRefused) {
+TEST(PowerSteps, ErrorsOfMoreThanSixPowersChangeLinearly) {
   Site site;
   auto many = site.readings;
-  for (std::size_t i = 0; i < many.size(); ++i) many[i].power = static_cast<double>(i / 10 % 7);
+  const auto power_at = [](double t) { return std::fmod(std::floor(t), 11.0); };
+  for (Reading& r : many) r.power = power_at(r.t);
   site.put("powers.csv", csv(many));
-  try {
-    site.world(effect("power_steps", "file=\"powers.csv\""));
-    FAIL() << "accepted";
-  } catch (const Error& e) {
-    EXPECT_EQ(e.exit(), Exit::invalid_input);
-    EXPECT_NE(std::string(e.what()).find("more than six different powers; expected at most six"), std::string::npos);
+  const auto part = column(site.world(effect("power_steps",
+                                             "file=\"powers.csv\" error1=\"1\" error2=\"2\" error3=\"4\" "
+                                             "error4=\"4\" error5=\"4\" error6=\"-6\"")),
+                           "link/*/level@it");
+  const std::map<double, double> expected = {{0, 1}, {1, 1.5}, {2, 2}, {3, 3},  {4, 4},  {5, 4},
+                                             {6, 4}, {7, 4},   {8, 4}, {9, -1}, {10, -6}};
+  std::set<double> met;
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    const double power = power_at(site.readings[i].t);
+    met.insert(power);
+    EXPECT_NEAR(part[i], expected.at(power), 1e-12) << power;
   }
+  EXPECT_EQ(met.size(), expected.size());
 }
 
 }  // namespace

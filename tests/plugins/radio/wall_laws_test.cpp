@@ -245,7 +245,7 @@ TEST(Kept, NoAnswerOutlivesARefusal) {
   LinkGeometry g;
   plan.put(g);
   const auto good = plan.at;
-  plan.at[1].x = 5000;  // beyond the scene's extent
+  plan.at[1].x = 500000;  // beyond the scene's reach
   EXPECT_THROW(plan.put(g), std::runtime_error);
   EXPECT_THROW(plan.put(g), std::runtime_error);
   plan.at = good;
