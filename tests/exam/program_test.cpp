@@ -1,30 +1,22 @@
 // The program at its command line.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+
+#include "command.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
 
-struct Outcome {
-  int code = -1;
-  std::string text;
-};
+using muster::exam::Outcome;
 
 Outcome run(const std::string& arguments) {
-  Outcome result;
-  FILE* pipe = popen((std::string(MUSTER_EXAM) + " " + arguments + " 2>&1").c_str(), "r");
-  std::array<char, 4096> part;
-  for (std::size_t n; (n = fread(part.data(), 1, part.size(), pipe)) > 0;) result.text.append(part.data(), n);
-  result.code = WEXITSTATUS(pclose(pipe));
-  return result;
+  return muster::exam::run_command(std::string(MUSTER_EXAM) + " " + arguments);
 }
 
 std::string read(const fs::path& file) {
