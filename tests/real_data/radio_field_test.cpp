@@ -45,10 +45,14 @@ std::string about(const json& found, const std::string& id) {
 // No finding is kept that makes left-out places worse, and no error there is absurd.
 TEST_P(RadioField, ClaimsNothingThatHeldOutDataRefute) {
   const json found = diagnosed(GetParam());
-  if (!found["heldout_rmse_db"].is_null()) EXPECT_LT(found["heldout_rmse_db"].get<double>(), 20) << GetParam();
+  if (!found["heldout_rmse_db"].is_null()) {
+    EXPECT_LT(found["heldout_rmse_db"].get<double>(), 20) << GetParam();
+  }
   for (const char* list : {"causes", "unexplained"}) {
     for (const json& c : found[list]) {
-      if (c.value("gain_upper95", json()).is_number()) EXPECT_GT(c["gain_upper95"].get<double>(), 0) << c.dump();
+      if (c.value("gain_upper95", json()).is_number()) {
+        EXPECT_GT(c["gain_upper95"].get<double>(), 0) << c.dump();
+      }
     }
   }
 }

@@ -65,12 +65,16 @@ TEST(Carrier, IsSoughtWhereTheWorldHasNone) {
   ASSERT_FALSE(found.causes.empty());
   EXPECT_EQ(found.causes[0].id, "effect.two_ray");
   for (const CauseValue& v : found.causes[0].values) {
-    if (v.name == "frequency") EXPECT_NEAR(v.value, 4.33e8, 0.04 * 4.33e8);
+    if (v.name == "frequency") {
+      EXPECT_NEAR(v.value, 4.33e8, 0.04 * 4.33e8);
+    }
   }
   // Where a term of the world has one, it holds.
   const Diagnosis held = diagnose(world_of(scratch, "faded.xml", radios + fading), data, plugins);
   for (const CauseEstimate& cause : held.causes) {
-    if (cause.id == "effect.two_ray") EXPECT_EQ(cause.held.at("frequency"), 2.44e9);
+    if (cause.id == "effect.two_ray") {
+      EXPECT_EQ(cause.held.at("frequency"), 2.44e9);
+    }
   }
 }
 
