@@ -38,6 +38,18 @@ void print_cause(const muster_cause& cause) {
   if (*cause.tell_apart) fmt::print("  To decide: {}\n", cause.tell_apart);
 }
 
+// What it declares of its randomness, for a diagnosis.
+void print_laws(const muster_plugin& plugin) {
+  if (const muster_law* law = plugin.law)
+    fmt::print("\n  States a law of single readings, of strength {}.\n", law->strength);
+  if (const muster_draw* draw = plugin.draw)
+    fmt::print("\n  States how its draws are correlated: of size {}, over {}.\n", draw->scale, draw->distance);
+  if (const muster_clip* clip = plugin.clip)
+    fmt::print("\n  Clips readings {} {}.\n", clip->side == MUSTER_ABOVE ? "above" : "below", clip->level);
+  if (const muster_burst* burst = plugin.burst)
+    fmt::print("\n  Takes {} from the link of {} and {} in bursts.\n", burst->loss, burst->one, burst->other);
+}
+
 // An attribute of `count` values.
 void print_param(const muster_param& param, int count) {
   const bool required = param.flags & MUSTER_REQUIRED;
@@ -63,6 +75,7 @@ void print_manual(const Library& library, const muster_plugin& plugin) {
     }
   }
   if (plugin.cause) print_cause(*plugin.cause);
+  print_laws(plugin);
   if (plugin.cannot_hold) fmt::print("\n  A swap to it drops: {}.\n", plugin.cannot_hold);
   if (plugin.param_count) fmt::print("\n  Attributes, beside {}:\n", expected_one_of(reserved_attributes).substr(16));
   for (uint32_t i = 0; i < plugin.param_count; ++i) print_param(plugin.params[i], 1);

@@ -9,6 +9,7 @@
 
 #include "diagnosis/radio/laws/reading_law.hpp"
 #include "diagnosis/radio/links/link_model.hpp"
+#include "diagnosis/radio/thresholds.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
 
@@ -18,9 +19,6 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double mass_error = 1e-3, mean_error = 0.01;  // of a density; dB
-constexpr double execution_error = 1e-6;                // dB
-constexpr double chance = 3;  // distance of distributions times the root of readings: beyond chance if two share a draw
 constexpr BinGrid fine{-400, 0.005, 120000};  // dB; to +200
 
 // Probabilities of a law on the fine grid, and of its atoms.
@@ -43,12 +41,22 @@ struct Distribution {
     variance = second / mass - mean * mean;
   }
 
-  // Kolmogorov's distance to a sample: an atom's step counts from its foot to its top.
+  // Leaves out the atoms at 0 dB, and returns their probability.
+  double without_zero() {
+    double zero = 0;
+    for (const Atom& atom : atoms) zero += atom.db == 0 ? atom.probability : 0;
+    std::erase_if(atoms, [](const Atom& atom) { return atom.db == 0; });
+    for (double& v : bins) v /= 1 - zero;
+    for (Atom& atom : atoms) atom.probability /= 1 - zero;
+    return zero;
+  }
+
+  // Kolmogorov's distance to a sample, away from the steps of atoms.
   double distance(std::vector<double> sample) const {
     std::sort(sample.begin(), sample.end());
     const auto count = static_cast<double>(sample.size());
-    const auto share_below = [&](double db, double slack) {
-      return static_cast<double>(std::lower_bound(sample.begin(), sample.end(), db + slack) - sample.begin()) / count;
+    const auto share_below = [&](double db) {
+      return static_cast<double>(std::lower_bound(sample.begin(), sample.end(), db) - sample.begin()) / count;
     };
     double most = 0, below = 0;
     for (std::size_t i = 0; i < bins.size(); ++i) {
@@ -60,7 +68,7 @@ struct Distribution {
         of_atoms += atom.db < db ? atom.probability : 0;
         near = near || std::abs(atom.db - db) < 2 * fine.width;
       }
-      if (!near) most = std::max(most, std::abs(share_below(db, 0) - below - of_atoms));
+      if (!near) most = std::max(most, std::abs(share_below(db) - below - of_atoms));
     }
     return most;
   }
@@ -160,11 +168,13 @@ std::vector<DeclarationCheck> check_density(const ReadingLaw& law) {
   }
   std::vector<DeclarationCheck> result{
       {"density",
-       finite ? fmt::format("integrates to 1 within {:.1g} at {} settings (at most {:.0g})", mass, settings, mass_error)
+       finite ? fmt::format("integrates to 1 within {:.1g} at {} settings (at most {:.0g})", mass, settings,
+                            thresholds::law_mass_error)
               : "is not a number, or infinite, somewhere",
-       finite && mass <= mass_error},
-      {"mean", fmt::format("within {:.1g} dB of the declared one (at most {:.2g} dB)", mean, mean_error),
-       mean <= mean_error}};
+       finite && mass <= thresholds::law_mass_error},
+      {"mean",
+       fmt::format("within {:.1g} dB of the declared one (at most {:.2g} dB)", mean, thresholds::law_mean_error),
+       mean <= thresholds::law_mean_error}};
   if (!law.replaces()) return result;
   const bool ordered =
       std::is_sorted(variances.begin(), variances.end()) || std::is_sorted(variances.rbegin(), variances.rend());
@@ -178,24 +188,38 @@ std::vector<DeclarationCheck> check_density(const ReadingLaw& law) {
 // Draws of the simulator at a setting: what it adds, or, of a law that replaces, all that is added to a level.
 std::vector<DeclarationCheck> check_draws(const Cause& cause, const ReadingLaw& law, Executed& run) {
   const auto all = settings_of(law);
-  const std::vector<double>& params = all[all.size() / 2];
+  const std::vector<double>& params = law.replaces() ? all[all.size() / 2] : all.back();
   run.insert(attributes_of(*cause.plugin, params));
   const VectorXd means = run.expected() - (law.replaces() ? run.level() : run.expected_without());
   const double declared = law.declared().mean ? law.declared().mean(params.data()) : 0;
   double off = 0;
   for (const double m : means) off = std::isfinite(m) ? std::max(off, std::abs(m - declared)) : off;
   std::vector<DeclarationCheck> result{
-      {"expected", fmt::format("within {:.1g} dB of the declared mean (at most {:.0g} dB)", off, execution_error),
-       off <= execution_error}};
+      {"expected",
+       fmt::format("within {:.1g} dB of the declared mean (at most {:.0g} dB)", off, thresholds::law_execution_error),
+       off <= thresholds::law_execution_error}};
   if (law.apart(params) > 0) return result;  // neighbours share draws
   const VectorXd drawn = run.drawn();
   const VectorXd added = drawn - (law.replaces() ? run.level() : run.without());
+  Distribution expected(law, params, 1);
+  const double unchanged = expected.without_zero();
   std::vector<double> sample;
+  double zeros = 0, count = 0;
   for (const double v : added) {
-    if (std::isfinite(v)) sample.push_back(v);
+    if (!std::isfinite(v)) continue;
+    ++count;
+    if (std::abs(v) < thresholds::law_execution_error)
+      ++zeros;
+    else
+      sample.push_back(v);
   }
-  const double distance = Distribution(law, params, 1).distance(sample),
-               most = chance / std::sqrt(static_cast<double>(sample.size()));
+  if (unchanged > 0)
+    result.push_back({"unchanged", fmt::format("{:.3f} of the readings (declared {:.3f})", zeros / count, unchanged),
+                      std::abs(zeros / count - unchanged) <=
+                          thresholds::law_draw_errors * std::sqrt(unchanged * (1 - unchanged) / count)});
+  if (sample.empty()) return result;
+  const double distance = expected.distance(sample),
+               most = thresholds::law_draw_errors / std::sqrt(static_cast<double>(sample.size()));
   result.push_back(
       {"draws",
        fmt::format("{} readings lie {:.3f} off its distribution (at most {:.3f})", sample.size(), distance, most),
@@ -257,7 +281,8 @@ DeclarationCheck check_burst(const muster_burst& burst, Executed& run) {
       "burst",
       fmt::format("takes up to its loss for {:.2f} of the readings of {} {} (declared {:.2f}), and nothing elsewhere",
                   lost, *link.begin(), *link.rbegin(), share),
-      lost > share / 3 && lost < share * 3 && elsewhere < execution_error && beyond < execution_error};
+      lost > share / 3 && lost < share * 3 && elsewhere < thresholds::law_execution_error &&
+          beyond < thresholds::law_execution_error};
 }
 
 }  // namespace

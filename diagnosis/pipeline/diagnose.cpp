@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <map>
 #include <tuple>
 
 #include "diagnosis/pipeline/cause_estimate.hpp"
 #include "diagnosis/pipeline/extended_world.hpp"
+#include "diagnosis/pipeline/first_cause.hpp"
 #include "diagnosis/pipeline/joint_refit.hpp"
 #include "diagnosis/pipeline/row_summary.hpp"
 #include "diagnosis/pipeline/setup.hpp"
@@ -303,47 +303,6 @@ class Diagnoser {
   std::filesystem::path world_;
   Library::SearchPath plugins_;
 };
-
-}  // namespace
-
-namespace {
-
-// True if others are judged again in a world with this cause. Older plugins declare it by their kind.
-bool goes_first(const muster_cause& cause) {
-  const bool has_flags = cause.size >= offsetof(muster_cause, flags) + sizeof cause.flags;
-  return has_flags ? (cause.flags & MUSTER_FIRST) != 0
-                   : cause.kind == MUSTER_WORLD_EDIT || cause.kind == MUSTER_INSTRUMENT;
-}
-
-// True if a finding depends on time. Blockage does not count: a random law without covariates.
-bool something_changes_in_time(const Diagnosis& found) {
-  return std::any_of(
-             found.causes.begin(), found.causes.end(),
-             [](const CauseEstimate& c) { return c.status == inference::Status::named && c.changes_in_time(); }) ||
-         std::any_of(found.unexplained.begin(), found.unexplained.end(),
-                     [](const Unexplained& u) { return u.changes_in_time(); });
-}
-
-struct First {
-  const CauseEstimate* found = nullptr;
-  bool blockage = false;
-};
-
-// The strongest named cause that goes first, such as places of radios, if there are other findings. Blockage counts
-// only beside a change in time.
-First first_in_company(const Diagnosis& found, const std::vector<Cause>& causes) {
-  First first;
-  std::size_t named = found.unexplained.size();
-  for (const CauseEstimate& c : found.causes) {
-    if (c.status != inference::Status::named) continue;
-    ++named;
-    const auto cause = std::find_if(causes.begin(), causes.end(), [&](const Cause& k) { return k.id == c.id; });
-    if (first.found || cause == causes.end() || !goes_first(cause->meaning())) continue;
-    const bool blockage = cause->plugin->burst != nullptr;
-    if (!blockage || something_changes_in_time(found)) first = {&c, blockage};
-  }
-  return named > 1 ? first : First();
-}
 
 }  // namespace
 

@@ -259,5 +259,13 @@ inline constexpr double no_effect_alike = 0.9;
 inline constexpr std::size_t most_settings = 8;
 // share; of readings that a hidden cause of the self-test concerns; chosen; none
 inline constexpr double hidden_concern = 0.02;
+// probability; by which a declared density may miss an integral of one; chosen; none
+inline constexpr double law_mass_error = 1e-3;
+// dB; between the mean of a density and the declared one; chosen; none
+inline constexpr double law_mean_error = 0.01;
+// dB; between what a law, a clip or a burst declares and what the simulator executes; chosen; none
+inline constexpr double law_execution_error = 1e-6;
+// standard errors; between draws and their declared law, beyond chance even if two readings share a draw; chosen; none
+inline constexpr double law_draw_errors = 3;
 
 }  // namespace muster::diagnosis::thresholds

@@ -13,10 +13,38 @@ static int step(void* self, const muster_tick* tick, const muster_in* in, const 
   return MUSTER_OK;
 }
 
-static const muster_plugin second = {
-    sizeof(muster_plugin), MUSTER_SENSE, "zoo.plain/2", "the second", NULL, NULL, 0, NULL, create, free, step, NULL, NULL};
-static const muster_plugin first = {
-    sizeof(muster_plugin), MUSTER_SENSE, "zoo.plain/1", "the first", NULL, NULL, 0, NULL, create, free, step, NULL, NULL};
+static const muster_plugin second = {sizeof(muster_plugin),
+                                     MUSTER_SENSE,
+                                     "zoo.plain/2",
+                                     "the second",
+                                     NULL,
+                                     NULL,
+                                     0,
+                                     NULL,
+                                     create,
+                                     free,
+                                     step,
+                                     NULL,
+                                     NULL,
+                                     NULL,
+                                     NULL,
+                                     NULL};
+static const muster_plugin first = {sizeof(muster_plugin),
+                                    MUSTER_SENSE,
+                                    "zoo.plain/1",
+                                    "the first",
+                                    NULL,
+                                    NULL,
+                                    0,
+                                    NULL,
+                                    create,
+                                    free,
+                                    step,
+                                    NULL,
+                                    NULL,
+                                    NULL,
+                                    NULL,
+                                    NULL};
 
 int muster_register(uint32_t abi, void* registry, muster_add add) {
   return abi == MUSTER_ABI ? add(registry, &second) | add(registry, &first) : MUSTER_FAILED;
