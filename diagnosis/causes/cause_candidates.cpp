@@ -25,7 +25,8 @@ void find_place(CauseShape& shape) {
   if (shape.coordinates.size() == 4) shape.place = PlaceShape::segment;
 }
 
-// True if the effect is sinusoidal in the cyclic parameter: two quadrature columns then span all directions.
+// True if the effect is sinusoidal in the cyclic parameter: two quadrature columns then span all directions. With times
+// since 1970 a period of a minute turns by 2e8 rad, whose last digit is 3e-8.
 bool is_wave(const CauseSources& sources, const CauseShape& shape, const std::string& parameter) {
   auto others = shape.held;
   const auto at = [&](double angle) {
@@ -34,8 +35,9 @@ bool is_wave(const CauseSources& sources, const CauseShape& shape, const std::st
     sources.run->fill(shape.cause, shape.rows, 0, others, sources.used, column);
     return column;
   };
+  constexpr double rounding = 1e-6;
   const VectorXd zero = at(0), quarter = at(quarter_turn), one = at(1);
-  return zero.norm() > 0 && (std::cos(1) * zero + std::sin(1) * quarter - one).norm() < 1e-9 * zero.norm();
+  return zero.norm() > 0 && (std::cos(1) * zero + std::sin(1) * quarter - one).norm() < rounding * zero.norm();
 }
 
 std::vector<const muster_param*> sought(const Cause& cause) {

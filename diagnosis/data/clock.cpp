@@ -3,16 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/data/thresholds.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
 
 namespace muster::diagnosis {
 namespace {
-
-constexpr std::size_t fewest_stamps = 50;     // fewer show no wild one
-constexpr std::size_t stamps_of_wild = 1000;  // of which one may be wild
-constexpr double least_distance = 3600;       // s
-constexpr double least_ranges = 100;          // ranges of the middle nine tenths
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -74,16 +70,16 @@ std::shared_ptr<const TextTable> with_clock_in_seconds(std::shared_ptr<const Tex
 
 std::vector<std::size_t> wild_stamps(const std::vector<double>& t) {
   std::vector<std::size_t> wild;
-  if (t.size() < fewest_stamps) return wild;
+  if (t.size() < thresholds::fewest_stamps) return wild;
   std::vector<double> sorted = t;
   std::sort(sorted.begin(), sorted.end());
   const std::size_t end = sorted.size() / 20;
   const double low = sorted[end], high = sorted[sorted.size() - 1 - end];
-  const double farthest = std::max(least_distance, least_ranges * (high - low));
+  const double farthest = std::max(thresholds::wild_distance, thresholds::wild_ranges * (high - low));
   for (std::size_t row = 0; row < t.size(); ++row) {
     if (t[row] < low - farthest || t[row] > high + farthest) wild.push_back(row);
   }
-  if (wild.size() > std::max<std::size_t>(1, t.size() / stamps_of_wild)) wild.clear();
+  if (wild.size() > std::max<std::size_t>(1, t.size() / thresholds::stamps_of_wild)) wild.clear();
   return wild;
 }
 

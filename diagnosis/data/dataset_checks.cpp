@@ -7,16 +7,14 @@
 #include <unordered_map>
 
 #include "diagnosis/data/clock.hpp"
+#include "diagnosis/data/thresholds.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
 
 namespace muster::diagnosis {
 namespace {
 
-constexpr double strongest = 30;       // dBm: a watt at the receiver
 constexpr double marks[] = {0, -128};  // dBm; of drivers, and of an 8-bit register, without a measurement
-constexpr double apart = 10;           // dB; between a mark and every other level: readings lie closer to one another
-constexpr double weakest = -174;       // dBm: thermal noise in 1 Hz
 
 std::string row_text(std::size_t row) { return "row " + std::to_string(row + 1); }
 
@@ -58,7 +56,7 @@ void take_marks(Dataset& data) {
       else if (!std::isnan(v))
         nearest = std::min(nearest, std::abs(v - mark));
     }
-    if (rows.empty() || nearest < apart) continue;
+    if (rows.empty() || nearest < thresholds::mark_apart) continue;
     for (const std::size_t row : rows) data.rssi[row] = std::nan("");
     data.marks.push_back(std::to_string(rows.size()) + " at " + print_real(mark) + " dBm");
     const std::string why = nearest < 1e300 ? "; the nearest other level is " + print_real(nearest) + " dB away" : "";
@@ -76,8 +74,9 @@ void check_rssi(const Dataset& data) {
                                     : "an rssi of " + print_real(v) + " dBm ";
       return invalid(at(data, row, data.reading), row_text(row) + ": " + what + why);
     };
-    if (v > strongest) throw refuse("is over +30 dBm; expected a level in dBm, which is mostly negative");
-    if (v < weakest) throw refuse("is below thermal noise; expected a level in dBm");
+    if (v > thresholds::strongest_level)
+      throw refuse("is over +30 dBm; expected a level in dBm, which is mostly negative");
+    if (v < thresholds::weakest_level) throw refuse("is below thermal noise; expected a level in dBm");
   }
 }
 
@@ -140,9 +139,10 @@ void check_units(const Dataset& data, const Factor& radio, const std::vector<Poi
     std::sort(sorted.begin(), sorted.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
     if (sorted.empty()) continue;
     const double usual = std::max(std::abs(sorted[sorted.size() / 2]), 1.0);  // m
-    const auto far = std::find_if(sorted.begin(), sorted.end(), [&](double v) { return std::abs(v) >= 200 * usual; });
+    const auto far = std::find_if(sorted.begin(), sorted.end(),
+                                  [&](double v) { return std::abs(v) >= thresholds::other_unit * usual; });
     if (far == sorted.begin() || far == sorted.end()) continue;
-    if (std::abs(*far) < 50 * std::max(std::abs(*(far - 1)), 1.0)) continue;  // the radio went there
+    if (std::abs(*far) < thresholds::unit_gap * std::max(std::abs(*(far - 1)), 1.0)) continue;  // the radio went there
     const auto [low, high] = std::minmax_element(sorted.begin(), far);
     for (std::size_t k = 0; k < values.size(); ++k) {
       if (std::abs(values[k]) < std::abs(*far) || values[k] / 1000 < *low - 1 || values[k] / 1000 > *high + 1) continue;

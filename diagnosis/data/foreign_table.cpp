@@ -30,6 +30,16 @@ std::size_t number_in(const std::string& column) {
   return number && *number > 0 ? static_cast<std::size_t>(*number) : 0;
 }
 
+// Throws Error: neither the result nor a message could hold it.
+void refuse_control_characters(std::string_view line, const Place& place) {
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 && c != '\t'; };
+  const std::string_view text = line.substr(0, line.find_last_not_of('\r') + 1);
+  const auto found = std::find_if(text.begin(), text.end(), is_control);
+  if (found == text.end()) return;
+  throw invalid({place.file, place.line, static_cast<int>(found - text.begin()) + 1},
+                "the control character " + quote({&*found, 1}) + " is not allowed");
+}
+
 std::string name_of(char separator) {
   if (separator == ' ') return "blanks";
   return separator == '\t' ? "tabs" : std::string("'") + separator + "'";
@@ -178,6 +188,7 @@ std::string_view ForeignTable::quoted(std::string_view line, std::size_t quote_a
 }
 
 std::vector<std::string_view> ForeignTable::split(const Line& whole) {
+  refuse_control_characters(whole.text, {file_, whole.number, 0});
   const std::string_view line = separator_ == ' ' ? trimmed(whole.text) : whole.text;
   const char* const ends = separator_ == ' ' ? " \t" : nullptr;
   const auto next = [&](std::size_t from) {

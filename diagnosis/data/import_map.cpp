@@ -98,6 +98,10 @@ class Reader {
     std::string line;
     for (place_ = {source_.file, 1, 0}; std::getline(lines, line); ++place_.line) {
       line = trimmed(line);
+      for (const char c : line) {
+        if (static_cast<unsigned char>(c) < 0x20 && c != '\t')
+          throw invalid(place_, "the control character " + quote({&c, 1}) + " is not allowed");
+      }
       if (!line.empty() && line[0] != '#') read_rule(line);
     }
     place_.line = 0;

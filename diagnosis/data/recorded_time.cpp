@@ -2,12 +2,10 @@
 
 #include <algorithm>
 
+#include "diagnosis/data/thresholds.hpp"
+
 namespace muster::diagnosis {
 namespace {
-
-constexpr double shortest_pause = 600;    // s
-constexpr std::size_t fewest_steps = 10;  // fewer show no pause
-constexpr double share_of_pauses = 0.1;   // of the recorded time, all pauses together
 
 // Length of the shortest pause and recorded time without pauses. No pause: longer than any step.
 struct Pauses {
@@ -19,8 +17,9 @@ Pauses pauses_of(std::vector<double> steps) {
   std::sort(steps.begin(), steps.end());
   double sum = 0;
   for (std::size_t k = 0; k < steps.size(); ++k) {
-    const bool most_are_shorter = steps.size() >= fewest_steps && 2 * k >= steps.size();
-    if (most_are_shorter && steps[k] > shortest_pause && steps[k] > sum) return {steps[k], sum, steps.size() - k};
+    const bool most_are_shorter = steps.size() >= thresholds::fewest_steps && 2 * k >= steps.size();
+    if (most_are_shorter && steps[k] > thresholds::shortest_pause && steps[k] > sum)
+      return {steps[k], sum, steps.size() - k};
     sum += steps[k];
   }
   return {sum + 1, sum, 0};
@@ -40,14 +39,16 @@ RecordedTime::RecordedTime(std::vector<double> times) {
     if (steps[k] < pauses.least) continue;
     const double end = knots_.back().shortened + (times[k] - knots_.back().time);
     knots_.push_back({times[k], end});
-    knots_.push_back({times[k + 1], end + share_of_pauses * pauses.recorded / static_cast<double>(pauses.count)});
+    knots_.push_back(
+        {times[k + 1], end + thresholds::share_of_pauses * pauses.recorded / static_cast<double>(pauses.count)});
   }
   knots_.push_back({times.back(), knots_.back().shortened + (times.back() - knots_.back().time)});
 }
 
 double RecordedTime::shortened(double time) const {
   if (knots_.empty()) return 0;
-  const auto after = std::find_if(knots_.begin() + 1, knots_.end() - 1, [&](const Knot& k) { return k.time > time; });
+  const auto after = std::upper_bound(knots_.begin() + 1, knots_.end() - 1, time,
+                                      [](double sought, const Knot& k) { return sought < k.time; });
   const Knot &a = *(after - 1), &b = *after;
   if (b.time <= a.time) return a.shortened;
   return a.shortened + (time - a.time) * ((b.shortened - a.shortened) / (b.time - a.time));
@@ -56,8 +57,8 @@ double RecordedTime::shortened(double time) const {
 double RecordedTime::at(double share) const {
   if (!has_pauses()) return low() + share * length();
   const double sought = share * length();
-  const auto after =
-      std::find_if(knots_.begin() + 1, knots_.end() - 1, [&](const Knot& k) { return k.shortened > sought; });
+  const auto after = std::upper_bound(knots_.begin() + 1, knots_.end() - 1, sought,
+                                      [](double share_of, const Knot& k) { return share_of < k.shortened; });
   const Knot &a = *(after - 1), &b = *after;
   if (b.shortened <= a.shortened) return a.time;
   return a.time + (sought - a.shortened) * ((b.time - a.time) / (b.shortened - a.shortened));

@@ -1,5 +1,6 @@
 // Real steps of an amplifier differ from their nominal values.
 #include <algorithm>
+#include <array>
 #include <muster/plugin.hpp>
 #include <vector>
 
@@ -58,12 +59,12 @@ struct PowerSteps {
   void step(const Step& k) {
     settings.read(k[powers], [](const Power& row) { return row.setting; });
     const std::vector<double> levels = settings.values();
-    double values[std::size(errors)];
-    for (std::size_t e = 0; e < std::size(errors); ++e) values[e] = k[errors[e]];
+    std::array<double, std::extent<decltype(errors)>::value> values{};
+    for (std::size_t e = 0; e < values.size(); ++e) values[e] = k[errors[e]];
     links.add(k, [&](const End& from, const End&) {
       const double power = settings.at(from.radio, from.t);
       if (is_null(power)) return 0.0;
-      if (levels.size() > std::size(errors))
+      if (levels.size() > values.size())
         return between(values, (power - levels.front()) / (levels.back() - levels.front()));
       return values[std::lower_bound(levels.begin(), levels.end(), power) - levels.begin()];
     });
@@ -71,7 +72,7 @@ struct PowerSteps {
 
   // Value at a share of the way from the first to the last, linear between neighbours.
   template <std::size_t n>
-  static double between(const double (&values)[n], double share) {
+  static double between(const std::array<double, n>& values, double share) {
     const double at = share * (n - 1);
     const auto low = std::min(static_cast<std::size_t>(at), n - 2);
     return values[low] + (at - static_cast<double>(low)) * (values[low + 1] - values[low]);

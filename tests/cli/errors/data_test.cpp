@@ -139,10 +139,10 @@ TEST(Fault25, PlacesBeyondTheScene) {
 // A vehicle that leaves the plan: 18 km in a minute would be too fast, in an hour they are not.
 TEST(Fault25, PlacesKilometresFromTheWallsAreTaken) {
   Data data;
-  for (std::size_t row = 1; row <= 60; ++row) {
-    data.set(row, 0, std::to_string(60 * row)).set(row, 5, std::to_string(300 * row));
-    data.set(row, 7,
-             fmt::format("{:.1f}", -30 - 25 * std::log10(300.0 * static_cast<double>(row)) + (row * 7 % 5) * 0.4));
+  for (int i = 1; i <= 60; ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    data.set(row, 0, std::to_string(60 * i)).set(row, 5, std::to_string(300 * i));
+    data.set(row, 7, fmt::format("{:.1f}", -30 - 25 * std::log10(300.0 * i) + (i * 7 % 5) * 0.4));
   }
   EXPECT_EQ(fit(data.text()).exit, 0) << fit(data.text()).err;
 }
@@ -151,6 +151,31 @@ TEST(Fault25, MarksForNothingAreTold) {
   EXPECT_THAT(
       fit(Data().set(6, 7, "-128").text()).out,
       HasSubstr("1 at -128 dBm, first in row 6: taken as a mark for nothing received; the nearest other level is"));
+}
+
+// Formerly "time runs backwards" at the row after it, and gigabytes of memory where it was the last.
+TEST(Fault25, AWildStampIsLeftOutOfTime) {
+  for (const std::size_t row : {std::size_t{1}, std::size_t{30}, std::size_t{60}}) {
+    const std::string data = Data().set(row, 0, "4e9").text();
+    for (const char* verb : {"fit", "diagnose"}) {
+      const Outcome found = asked(verb, data);
+      EXPECT_EQ(found.exit, 0) << found.err;
+      EXPECT_THAT(found.out,
+                  HasSubstr("row " + std::to_string(row) + ": t = 4e+09 s lies far outside all other times"));
+      EXPECT_LT(found.peak_kilobytes, 400'000);
+    }
+  }
+}
+
+// The second half of the readings a year after the first.
+TEST(Fault25, SessionsAYearApartFitIntoMemory) {
+  Data data;
+  for (int i = 1; i <= 60; ++i) data.set(static_cast<std::size_t>(i), 0, std::to_string(i < 31 ? i : 31'536'000 + i));
+  for (const char* verb : {"fit", "diagnose"}) {
+    const Outcome found = asked(verb, data.text());
+    EXPECT_EQ(found.exit, 0) << found.err;
+    EXPECT_LT(found.peak_kilobytes, 400'000);
+  }
 }
 
 TEST(Fault25, Milliwatts) {

@@ -52,6 +52,39 @@ TEST(CauseShape, SwingsOfManyCyclesAreSought) {
   }
 }
 
+// Sessions of 20 minutes a year apart: jumps are sought within them and between them, swings of minutes in each.
+TEST(CauseShape, StartsOfTimesLieWithinTheSessions) {
+  std::vector<double> t;
+  for (int k = 0; k <= 1200; ++k) t.push_back(k), t.push_back(3.15e7 + k);
+  const RecordedTime time(t);
+  muster_param at{};
+  at.name = "at";
+  at.unit = "s";
+  at.max = 1e10;
+  const auto jumps = axis_over(at, time, {}, true);
+  ASSERT_TRUE(jumps);
+  int first = 0, second = 0;
+  for (const double v : jumps->values) {
+    first += v >= 0 && v <= 1200;
+    second += v >= 3.15e7 && v <= 3.15e7 + 1200;
+  }
+  EXPECT_GE(first, 12);
+  EXPECT_GE(second, 12);
+  EXPECT_LT(first + second, static_cast<int>(jumps->values.size()));
+  muster_param period{};
+  period.name = "period";
+  period.unit = "s";
+  period.min = 0.1;
+  period.max = 1e6;
+  period.flags = MUSTER_LOG;
+  CauseShape wave;
+  wave.wave = "phase";
+  const auto swings = axis_over(period, time, wave, true);
+  ASSERT_TRUE(swings);
+  EXPECT_LT(std::exp(swings->values.back()), 30);
+  EXPECT_LT(swings->values.size(), 400u);
+}
+
 // One of the data's radios turns: a cause may be about it, whether the world lists it or not.
 TEST(CauseRows, ARadioThatOnlyTheDataNameIsOne) {
   const Scratch scratch;

@@ -34,6 +34,20 @@ TEST(Settings, AreThoseOfTheReadingsWhereTheyTellThem) {
   }
 }
 
+// Plugins read the data's clock in the seconds that the data set has.
+TEST(Settings, OfAClockInNanosecondsHoldInItsSeconds) {
+  const Scratch scratch;
+  const auto world =
+      scratch.write("world.xml",
+                    "<world name=\"w\" dt=\"1\" until=\"1\" seed=\"1\">\n  <station name=\"s\" at=\"0 0 0.5\"/>\n"
+                    "  <radio.multiwall l0=\"40\" n=\"2\"/>\n  <effect.power_steps file=\"then.csv\" error1=\"3\" "
+                    "error2=\"-1\"/>\n</world>\n");
+  scratch.write("then.csv", "t[s],tx,power[dBm]\n0,s,-10\n1700000003,s,0\n");
+  const auto at = [](const std::string& t) { return t + ",s,r,0,0,0.5,0,10,0,0.5,0,-60\n"; };
+  const auto now = scratch.write("now.csv", columns + "\n" + at("1700000000000000000") + at("1700000005000000000"));
+  EXPECT_TRUE(LinkModel(world, now, plugins).expected().isApprox(Eigen::Vector2d(-57, -61), 1e-12));
+}
+
 TEST(Settings, OfAFileThatIsNoTableAreLeftToItsReader) {
   const Scratch scratch;
   const auto world = scratch.write("world.xml", extended);

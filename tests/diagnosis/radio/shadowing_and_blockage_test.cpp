@@ -95,6 +95,19 @@ TEST(BlockageTest, IgnoresExcludedReadings) {
   EXPECT_EQ(blockage_in(walk, RowMask::Constant(walk.residual.size(), false)).links, 0u);
 }
 
+// A grid over all of the year would need 53 million times for each width.
+TEST(BlockageTest, APauseOfAYearChangesNothing) {
+  Walk walk = drawn_of_four({.rician_k = 8}, 600, 1.5);
+  add_bursts(walk, 11, 37, -20);
+  const double near = blockage_in(walk).test.log_p;
+  std::vector<double>& t = walk.readings.t;
+  const double middle = t[300];
+  for (double& at : t) at += at < middle ? 0 : 3.15e7;
+  const Blockage found = blockage_in(walk);
+  EXPECT_EQ(found.radio, 0);
+  EXPECT_NEAR(found.test.log_p / near, 1, 0.1);
+}
+
 TEST(BlockageTest, DetectsAndMeasuresBursts) {
   Walk walk = drawn_of_four({.rician_k = 8}, 600, 1.5);
   add_bursts(walk, 11, 37, -20);

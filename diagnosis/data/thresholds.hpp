@@ -1,0 +1,46 @@
+// Thresholds of measured tables: marks, clocks and units.
+//
+// Above each constant: unit; meaning; origin; the test that fails if it is badly changed, as in
+// diagnosis/inference/thresholds.hpp.
+#pragma once
+
+#include <cstddef>
+
+namespace muster::diagnosis::thresholds {
+
+// levels
+
+// dB; between a mark for nothing and every other level, as readings lie closer to one another; chosen;
+// DatasetFaults.ALevelAmongOthersIsNoMark
+inline constexpr double mark_apart = 10;
+// dBm; above which no level is read, a watt at the receiver; chosen; DatasetFaults.LevelsThatNoReceiverGives
+inline constexpr double strongest_level = 30;
+// dBm; below which no level is read, thermal noise in 1 Hz; derived; DatasetFaults.LevelsThatNoReceiverGives
+inline constexpr double weakest_level = -174;
+
+// clocks
+
+// stamps; fewest of which one may be wild; chosen; none
+inline constexpr std::size_t fewest_stamps = 50;
+// stamps; of which one may be wild, beyond the first; chosen; Clock.SessionsAreNotWild
+inline constexpr std::size_t stamps_of_wild = 1000;
+// s; least distance of a wild stamp from all others; chosen; none
+inline constexpr double wild_distance = 3600;
+// ranges; of the middle nine tenths of stamps, least distance of a wild one; chosen; Clock.SessionsAreNotWild
+inline constexpr double wild_ranges = 100;
+// s; shortest pause that grids over time skip; chosen; RecordedTime.KeepsEvenStepsAndShortBreaks
+inline constexpr double shortest_pause = 600;
+// steps; between times, fewest that show a pause; chosen; none
+inline constexpr std::size_t fewest_steps = 10;
+// share; of the recorded time that all pauses take together in grids; chosen; RecordedTime.ShortensAPauseOfAYear
+inline constexpr double share_of_pauses = 0.1;
+
+// places
+
+// factor; beyond a radio's usual coordinate from which it may be in millimetres; chosen; DatasetFaults.MixedUnits
+inline constexpr double other_unit = 200;
+// factor; without coordinates between, so that the radio did not go there; chosen;
+// DatasetFaults.FarPlacesOfOneUnitAreTaken
+inline constexpr double unit_gap = 50;
+
+}  // namespace muster::diagnosis::thresholds
