@@ -57,6 +57,7 @@ TEST_F(Declarations, AllCausesThatTheProjectPromisesAreThere) {
                            "people",
                            "rssi_saturation",
                            "rssi_floor",
+                           "rssi_compression",
                            "power_steps",
                            "channel_mixture",
                            "fading_law",

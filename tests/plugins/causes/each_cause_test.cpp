@@ -48,6 +48,7 @@ const std::vector<Example>& examples() {
        "file=\"measured.csv\" error1=\"0\" error2=\"0\" error3=\"0\""},
       {"noise_floor_rssi", "file=\"measured.csv\" share=\"0.5\"", "", false},
       {"rssi_saturation", "level=\"-60\"", "level=\"50\""},
+      {"rssi_compression", "knee=\"-70\" share=\"0.4\"", ""},
       {"rssi_floor", "level=\"-70\"", "level=\"-250\""},
       {"outliers", "share=\"0.5\"", "share=\"0\"", false},
       {"fading_law", "rician_k=\"9\"", "rician_k=\"3\""},

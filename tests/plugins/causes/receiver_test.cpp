@@ -28,6 +28,11 @@ TEST(Saturation, CutsReadingsAtTheCeiling) {
   expect_stage("rssi_saturation", "level=\"-60\"", [](double in, const Reading&) { return std::min(in, -60.0); });
 }
 
+TEST(Compression, TakesAShareOfTheExcessOverTheKnee) {
+  expect_stage("rssi_compression", "knee=\"-65\" share=\"0.4\"",
+               [](double in, const Reading&) { return in > -65 ? -65 + 0.6 * (in + 65) : in; });
+}
+
 TEST(Floor, LosesReadingsBelowIt) {
   expect_stage("rssi_floor", "level=\"-70\"", [](double in, const Reading&) { return in < -70 ? null() : in; });
 }
