@@ -1,5 +1,7 @@
 #include "diagnosis/inference/assess/held_out_gain.hpp"
 
+#include <algorithm>
+
 #include "diagnosis/inference/noise/columns.hpp"
 #include "diagnosis/inference/score/marginal_p_value.hpp"
 #include "diagnosis/inference/thresholds.hpp"
@@ -94,51 +96,75 @@ void add_gains_of_groups(const ModelState& state, const Grouping& grouping, Resu
   }
 }
 
-// The worst of the terms that `refuted` says are so, by what their removal gains in mean squared error.
-template <class Concerns, class Refuted>
-std::optional<std::size_t> worst_of(const ModelState& state, const Folds& folds, const Concerns& concerns,
+// The term whose removal lowers the error most, of those that `refuted` by it; nothing if there is none.
+template <class Without, class Refuted>
+std::optional<std::size_t> worst_of(const ModelState& state, const Eigen::VectorXd& full, const Without& without,
                                     const Refuted& refuted) {
-  const Errors errors(state, folds);
-  const Eigen::VectorXd full = errors.first(state.terms.size());
-  const bool all = refuted(errors.first(0), full);
   std::optional<std::size_t> worst;
   double least = 0;
   for (std::size_t one = 0; one < state.terms.size(); ++one) {
-    if (!concerns(state.terms[one])) continue;
-    const Eigen::VectorXd without = errors.without(one);
-    const double gain = (without - full).mean();
-    if (gain >= least || !(all || refuted(without, full))) continue;
+    if (!refuted(one)) continue;
+    const double gain = (without(one) - full).mean();
+    if (gain >= least) continue;
     least = gain;
     worst = one;
   }
   return worst;
 }
 
-}  // namespace
+std::optional<std::size_t> refuted_at_places(const ModelState& state) {
+  const Folds folds = folds_of(state, blocks_of(state));
+  if (folds.blocks() < thresholds::fewest_refuting_blocks) return {};
+  const Errors errors(state, folds);
+  const Eigen::VectorXd full = errors.first(state.terms.size());
+  const auto refuted = [&](const Eigen::VectorXd& before) {
+    const HeldOutGain gain = folds.compared(before, full);
+    // A term may fail in few blocks and badly: the interval then includes 0.
+    return gain.upper95 < 0 || gain.gain < -thresholds::refuting_growth * before.mean();
+  };
+  const bool all = refuted(errors.first(0));
+  const auto without = [&](std::size_t one) { return errors.without(one); };
+  return worst_of(state, full, without, [&](std::size_t one) { return all || refuted(errors.without(one)); });
+}
 
-std::optional<std::size_t> most_refuted(const ModelState& state) {
-  if (state.terms.empty()) return {};
-  const Folds blocks = folds_of(state, blocks_of(state));
-  if (blocks.blocks() >= thresholds::fewest_refuting_blocks) {
-    const auto refuted = [&](const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
-      const HeldOutGain gain = blocks.compared(before, after);
-      // A term may fail in few blocks and badly: the interval then includes 0.
-      return gain.upper95 < 0 || gain.gain < -thresholds::refuting_growth * before.mean();
-    };
-    if (const auto worst = worst_of(
-            state, blocks, [](const Term&) { return true; }, refuted))
-      return worst;
+// Squared whitened errors of rows whose part of the time is left out: of rows given their neighbours, so that a field
+// over places does not drown what happens in time.
+Eigen::VectorXd errors_at_times(const noise::Whitener& whitener, const Eigen::MatrixXd& design,
+                                const Eigen::VectorXd& y, const std::vector<int>& parts) {
+  const Eigen::MatrixXd x = whitener(design);
+  const Eigen::VectorXd z = whitener(y);
+  Eigen::VectorXd result(z.size());
+  const int last = *std::max_element(parts.begin(), parts.end());
+  for (int part = 0; part <= last; ++part) {
+    std::vector<Index> in, out;
+    for (Index i = 0; i < z.size(); ++i) (parts[static_cast<std::size_t>(i)] == part ? out : in).push_back(i);
+    const auto basis = noise::basis_of(x(in, Eigen::all));
+    const Eigen::VectorXd coefficients = basis.coefficients(basis.q.transpose() * z(in), x.cols());
+    result(out) = (z(out) - x(out, Eigen::all) * coefficients).cwiseAbs2();
   }
-  // A name in time says what happens at other times: it must not be worse there than no name.
+  return result;
+}
+
+// A name in time says what happens at other times: it must not be worse there than no name.
+std::optional<std::size_t> refuted_at_times(const ModelState& state) {
   const auto in_time = [](const Term& term) { return !term.smooth() && term.candidate->role.time_like; };
   if (std::none_of(state.terms.begin(), state.terms.end(), in_time)) return {};
   const std::vector<int> parts = state.problem().layout->parts_of_time(state.rows());
   if (parts.empty()) return {};
-  const Folds times = folds_of(state, parts);
-  const auto worse = [](const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
-    return after.mean() > before.mean();
+  const noise::Whitener whitener(state.field(), state.fit.covariance);
+  const auto without = [&](std::size_t one) {
+    return errors_at_times(whitener, state.design_without(state.terms[one]), state.y(), parts);
   };
-  return times.possible() ? worst_of(state, times, in_time, worse) : std::nullopt;
+  return worst_of(state, errors_at_times(whitener, state.design(), state.y(), parts), without,
+                  [&](std::size_t one) { return in_time(state.terms[one]); });
+}
+
+}  // namespace
+
+std::optional<std::size_t> most_refuted(const ModelState& state) {
+  if (state.terms.empty()) return {};
+  const auto at_places = refuted_at_places(state);
+  return at_places ? at_places : refuted_at_times(state);
 }
 
 void add_held_out_gains(const ModelState& state, Result& result) {

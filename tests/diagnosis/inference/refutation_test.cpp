@@ -1,0 +1,49 @@
+// Terms that left-out readings refute, and those that they bear out.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "diagnosis/inference/assess/held_out_gain.hpp"
+#include "tests/diagnosis/inference/causes.hpp"
+
+namespace muster::inference {
+namespace {
+
+using synthetic::causes_of;
+using synthetic::problem_of;
+using synthetic::scaled_to;
+using synthetic::varied;
+using synthetic::world_of;
+
+// True if a swing in the model is refuted, where the readings have a swing of this lambda: 0 for none.
+bool swing_refuted(uint64_t seed, double lambda) {
+  const auto world = world_of(varied(seed, 3000));
+  const auto causes = causes_of(world);
+  const Candidate& swing =
+      *std::find_if(causes.begin(), causes.end(), [](const Candidate& c) { return c.id == "periodic"; });
+  const Eigen::VectorXd& theta = swing.design.grid[swing.design.grid.size() / 3];
+  const Eigen::VectorXd column = swing.design.columns(theta).col(0);
+  Eigen::VectorXd effect = Eigen::VectorXd::Zero(column.size());
+  if (lambda > 0) effect = scaled_to(world, column, lambda);
+  const Problem problem = problem_of(world, effect, causes);
+  ModelState state(problem, {});
+  const Entry& entry = state.entry_of(swing);
+  state.terms.push_back({entry.candidate, theta, state.columns_of(swing, theta)});
+  state.refit();
+  return most_refuted(state).has_value();
+}
+
+TEST(Refutation, BearsOutASwingThatIsThere) {
+  for (uint64_t seed = 1; seed <= 8; ++seed) EXPECT_FALSE(swing_refuted(seed, 60)) << seed;
+}
+
+// A swing of no effect is as often a little better as worse, less the cost of its two coefficients.
+TEST(Refutation, RefutesMostSwingsThatAreNotThere) {
+  int refuted = 0;
+  for (uint64_t seed = 1; seed <= 16; ++seed) refuted += swing_refuted(seed, 0);
+  EXPECT_GE(refuted, 10);
+}
+
+}  // namespace
+}  // namespace muster::inference
