@@ -165,7 +165,9 @@ void choose_family_again(ModelState& state) {
     if (other.covariance.family == state.fit.covariance.family) continue;
     noise::Covariance start{other.covariance.family, state.fit.covariance.theta};
     start.theta[1] += noise::log_scale_of(other.covariance.family) - noise::log_scale_of(state.fit.covariance.family);
-    const noise::Fit fit = state.fitted(design, start, 12);
+    const noise::Fit first = state.fitted(design, start, 4);
+    if (first.value > best.value + thresholds::likely_nats + thresholds::hopeless_nats) continue;
+    const noise::Fit fit = state.fitted(design, first.covariance, 8);
     if (fit.value <
         best.value - (best.covariance.family == state.fit.covariance.family ? thresholds::leave_family_nats : 0))
       best = fit;
