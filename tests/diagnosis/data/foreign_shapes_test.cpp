@@ -204,7 +204,9 @@ TEST(ForeignShapes, ControlCharacters) {
   import.file("log.csv", "x,rssi,who\n1,-50,p\x01q\n2,-51,r\n");
   const std::string map = ends + "rx_x[m] = x\nrssi[dBm] = rssi\nwho = name who\n";
   EXPECT_EQ(import.with(map), "log.csv:2:8: the control character \"\\x01\" is not allowed");
-  EXPECT_EQ(import.with("dista\x06ce[m] = x\n"), "m.map:1: the control character \"\\x06\" is not allowed");
+  EXPECT_EQ(import.with("dista\x06"
+                        "ce[m] = x\n"),
+            "m.map:1: the control character \"\\x06\" is not allowed");
 }
 
 TEST(ForeignShapes, LinesOfAMapThatMeanNothing) {
