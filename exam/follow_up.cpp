@@ -90,6 +90,9 @@ Case read_case(const std::filesystem::path& answer) {
   const std::string text = read_file(answer);
   try {
     const auto from = nlohmann::json::parse(text);
+    if (from.contains("generator"))
+      throw std::runtime_error(fmt::format("{}: a case of the generator {}; only those of drawn can be followed",
+                                           answer.string(), from["generator"].get<std::string>()));
     Order order{from.at("kind"), {}, {}, from.at("measured").at("readings"), from.value("walls", "")};
     for (const auto& e : from.at("effects")) {
       order.effects.push_back(e.at("id"));

@@ -164,6 +164,22 @@ const Arguments& options_of_generators() {
   return options;
 }
 
+std::vector<std::string> effects_of_generator(const Arguments& arguments) {
+  const auto at = arguments.find("--generator");
+  const std::string generator = at == arguments.end() ? "drawn" : at->second[0];
+  one_of("generator with a list", generator, {"drawn", "run", "field"});
+  if (generator == "run") return ids_of(simulated::cause_kinds());
+  const auto marked = [](const char* id, bool in_vocabulary) {
+    return std::string(id) + (in_vocabulary ? "" : "  (outside the vocabulary)");
+  };
+  std::vector<std::string> result;
+  if (generator == "field")
+    for (const survey::Kind& k : survey::kinds()) result.push_back(marked(k.id, k.in_vocabulary));
+  else
+    for (const Recipe& r : recipes()) result.push_back(marked(r.id, r.in_vocabulary));
+  return result;
+}
+
 void make_cases(const Arguments& arguments, const std::filesystem::path& out, bool keep) {
   const int cases = number(required(arguments, "--cases"), 1, 1000000);
   const int first = arguments.contains("--first") ? number(arguments.at("--first")[0], 1, 1000000) : 1;

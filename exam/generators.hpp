@@ -14,4 +14,7 @@ const Arguments& options_of_generators();
 // alone. Throws std::invalid_argument for options, std::runtime_error for all else.
 void make_cases(const Arguments& arguments, const std::filesystem::path& out, bool keep);
 
+// Ids of what the generator of --generator hides, marked where they are outside the vocabulary.
+std::vector<std::string> effects_of_generator(const Arguments& arguments);
+
 }  // namespace muster::exam

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "exam/effects/effect.hpp"
 #include "exam/files.hpp"
 #include "exam/follow_up.hpp"
 #include "exam/generators.hpp"
@@ -41,7 +40,7 @@ constexpr const char* usage = R"(muster_exam: sealed cases for radio diagnosis
   muster_exam follow DIR/answers/case_0001.json --plan FILE --out FILE
       makes the measurement that a diagnosis advises (advised.csv of muster diagnose --out): the case's readings with
       those at the plan's places and times behind them
-  muster_exam effects
+  muster_exam effects [--generator drawn|run|field]
       lists the effects that can be hidden
 
 The same under the program muster: muster exam make ...
@@ -107,8 +106,9 @@ int follow(int argc, char** argv) {
   return 0;
 }
 
-int list_effects() {
-  for (const Recipe& r : recipes()) fmt::print("{}{}\n", r.id, r.in_vocabulary ? "" : "  (outside the vocabulary)");
+int list_effects(int argc, char** argv) {
+  for (const std::string& id : effects_of_generator(parsed(argc, argv, {{"--generator", {"drawn, run or field"}}})))
+    fmt::print("{}\n", id);
   return 0;
 }
 
@@ -123,7 +123,7 @@ int main(int argc, char** argv) {
     if (verb == "run") return run(argc, argv);
     if (verb == "grade") return run_grade(argc, argv);
     if (verb == "follow") return follow(argc, argv);
-    if (verb == "effects") return list_effects();
+    if (verb == "effects") return list_effects(argc, argv);
     fmt::print("{}", usage);
     return verb == "--help" ? 0 : 2;
   } catch (const std::invalid_argument& e) {

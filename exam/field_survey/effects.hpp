@@ -32,6 +32,7 @@ struct Kind {
   const char* id;
   // Empty where the campaign cannot have it.
   std::optional<Planted> (*draw)(const Campaign&, Draws&);
+  bool in_vocabulary = true;
 };
 
 // Effects of the map, of radios, of the way of waves, of time, of receivers.

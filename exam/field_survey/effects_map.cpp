@@ -114,7 +114,7 @@ std::optional<Planted> swapped(const Campaign& campaign, Draws& draws) {
 std::optional<Planted> shifted(const Campaign& campaign, Draws&) {
   const std::vector<int> radios = standing(campaign);
   if (radios.size() < 3) return {};
-  Planted planted{"labels_shifted", false};
+  Planted planted{"labels_shifted"};
   planted.covariates = {"tx", "rx", "link", "place", "position", "tx_x", "tx_y", "rx_x", "rx_y"};
   planted.also = {"label_swap", "tx_misplaced"};
   for (const int i : radios) planted.rows.push_back("radio/" + campaign.scene.radios[static_cast<std::size_t>(i)].name);
@@ -138,7 +138,7 @@ std::optional<Planted> mirrored(const Campaign& campaign, Draws&) {
     low = std::min({low, panel.from.x, panel.to.x});
     high = std::max({high, panel.from.x, panel.to.x});
   }
-  Planted planted{"plan_mirrored", false};
+  Planted planted{"plan_mirrored"};
   planted.covariates = {"place", "position", "room", "link", "tx", "rx", "tx_x", "tx_y", "rx_x", "rx_y", "bearing"};
   planted.also = {"wall_absent", "wall_material", "unmapped_wall", "obstacle", "room_clutter"};
   planted.apply = [turn = low + high](Scene& map, Scene&) {
@@ -151,8 +151,8 @@ std::optional<Planted> mirrored(const Campaign& campaign, Draws&) {
 }  // namespace
 
 std::vector<Kind> map_kinds() {
-  return {{"unmapped_wall", missing_wall}, {"wall_absent", absent_wall}, {"tx_misplaced", misplaced},
-          {"label_swap", swapped},         {"labels_shifted", shifted},  {"plan_mirrored", mirrored}};
+  return {{"unmapped_wall", missing_wall}, {"wall_absent", absent_wall},       {"tx_misplaced", misplaced},
+          {"label_swap", swapped},         {"labels_shifted", shifted, false}, {"plan_mirrored", mirrored, false}};
 }
 
 }  // namespace muster::exam::survey

@@ -82,7 +82,7 @@ std::optional<Planted> sector(const Campaign& campaign, Draws& draws) {
   const auto which = standing(campaign, draws);
   if (!which) return {};
   const double width = draws.between(1.05, 1.6), direction = draws.between(-turn / 2, turn / 2);
-  Planted planted{"sector_antenna", false};
+  Planted planted{"sector_antenna"};
   planted.rows = {"radio/" + name(campaign, *which)};
   planted.covariates = {"bearing", "tx_bearing", "rx_bearing", "position", "link"};
   planted.also = {"antenna_tx", "antenna_rx", "body_shadow"};
@@ -134,8 +134,8 @@ std::optional<Planted> wrong_powers(const Campaign& campaign, Draws& draws) {
 }  // namespace
 
 std::vector<Kind> radio_kinds() {
-  return {{"tx_offset", weak_sender}, {"rx_offset", deaf_receiver}, {"antenna_tx", one_lobe},
-          {"sector_antenna", sector}, {"body_shadow", body},        {"power_steps", wrong_powers}};
+  return {{"tx_offset", weak_sender},        {"rx_offset", deaf_receiver}, {"antenna_tx", one_lobe},
+          {"sector_antenna", sector, false}, {"body_shadow", body},        {"power_steps", wrong_powers}};
 }
 
 }  // namespace muster::exam::survey

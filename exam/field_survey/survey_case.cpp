@@ -57,7 +57,10 @@ std::vector<Planted> draw_effects(const Request& request, const Campaign& campai
         std::find(request.effects.begin(), request.effects.end(), kind.id) == request.effects.end())
       continue;
     if (std::any_of(planted.begin(), planted.end(), [&](const Planted& p) { return exclude(p.id, kind.id); })) continue;
-    if (auto effect = kind.draw(campaign, draws)) planted.push_back(std::move(*effect));
+    if (auto effect = kind.draw(campaign, draws)) {
+      effect->in_vocabulary = kind.in_vocabulary;
+      planted.push_back(std::move(*effect));
+    }
   }
   return planted;
 }

@@ -114,6 +114,12 @@ TEST_F(Program, MakesCampaignsOfTheField) {
   ASSERT_EQ(made.code, 0) << made.text;
   for (const char* file : {"case_0001/world.xml", "case_0001/measured.csv", "answers/case_0001.json"})
     EXPECT_GT(fs::file_size(folder / "exam" / file), 500u) << file;
+  std::ofstream(folder / "plan.csv")
+      << "t[s],tx,rx,tx_x[m],tx_y[m],tx_z[m],tx_yaw[rad],rx_x[m],rx_y[m],rx_z[m],rx_yaw[rad]\n"
+         "0,anchor1,rover,1,1,1,0,2,2,1,0\n";
+  EXPECT_EQ(run("follow " + out + "/answers/case_0001.json --plan " + (folder / "plan.csv").string() + " --out x").text,
+            "muster_exam follow: " + out +
+                "/answers/case_0001.json: a case of the generator field; only those of drawn can be followed\n");
   EXPECT_EQ(run("make --generator field --style house --seed 2 --cases 1 --out x").text,
             "muster_exam make: a style is flat, mesh, walk, drive, not \"house\"\n");
   EXPECT_EQ(run("make --generator field --rows 20 30 --seed 2 --cases 1 --out x").code, 2);
