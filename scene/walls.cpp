@@ -7,7 +7,6 @@
 #include <string>
 
 #include "scene/crossing_link.hpp"
-#include "scene/far_links.hpp"
 #include "scene/refusal.hpp"
 
 namespace muster::scene {

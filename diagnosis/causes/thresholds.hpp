@@ -32,7 +32,7 @@ inline constexpr std::size_t most_starts = 400;
 inline constexpr double lowest_carrier = 1e8;
 // Hz; highest one; chosen; Carrier.IsSoughtWhereTheWorldHasNone
 inline constexpr double highest_carrier = 1e10;
-// ratio; of neighbouring carriers; derived (a quarter of a turn at ten wavelengths);
+// ratio; of neighbouring carriers, a quarter of a turn at ten wavelengths; derived;
 // Carrier.IsSoughtWhereTheWorldHasNone
 inline constexpr double carrier_ratio = 1.05;
 

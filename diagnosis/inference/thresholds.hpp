@@ -223,7 +223,7 @@ inline constexpr double left_share = 0.5;
 
 // noise
 
-// m, or the unit of places; within which two rows are of one site; chosen (a sixth of a wavelength at 2.4 GHz);
+// m, or the unit of places; within which two rows are of one site, a sixth of a wavelength at 2.4 GHz; chosen;
 // FixedShare.IsOfOneSite
 inline constexpr double same_site = 0.02;
 // steps; of a fit, from which its fixed share is fitted too; chosen; none

@@ -116,7 +116,9 @@ class Executed {
     InstanceDeclaration declared{cause_.id, "checked", 1, {}, {}, {}, place};
     for (const auto& [name, value] : attributes) declared.attributes.push_back({name, value, place, place});
     model_.simulation().share(cause_.library);
+    if (inserted_) model_.simulation().remove("checked");
     model_.simulation().insert(std::move(declared));
+    inserted_ = true;
   }
 
   VectorXd drawn() {
@@ -138,6 +140,7 @@ class Executed {
  private:
   LinkModel model_;
   const Cause& cause_;
+  bool inserted_ = false;
   VectorXd level_, without_, expected_without_;
 };
 

@@ -73,7 +73,7 @@ class Diagnoser {
     out.noise = result.noise.covariance;
     if (drawn_field(setup_.model).shadowing <= 0) {
       const noise::StatedField field = noise::stated_by(out.noise, state.within());
-      if (field.shadowing > thresholds::unstated_shadowing)
+      if (field.shadowing > thresholds::unstated_shadowing && field_is_seen(state))
         out.unstated_field = {field.shadowing, field.decorrelation, std::sqrt(out.noise.reading_variance())};
     }
     out.held_out = result.held_out;
@@ -120,6 +120,17 @@ class Diagnoser {
     }
     doubt_at_bounds(out);
     return out;
+  }
+
+  // True if a field explains the readings beyond chance: without one they are less likely.
+  static bool field_is_seen(const inference::ModelState& state) {
+    noise::Covariance none = state.fit.covariance;
+    none.theta[2] = std::log(none.reading_variance() + none.field_variance());
+    none.theta[0] = state.options().prior.lower()[0];
+    const Eigen::MatrixXd design = state.design();
+    const noise::Fit without =
+        noise::fit(state.field(), state.y(), design, state.options().prior, none, 8, {0, 0, 1, 0});
+    return without.value - state.whitened_model(design).at.value > thresholds::seen_field_nats;
   }
 
   // Doubts all causes if a parameter of the channel's own law is at its physical bound. The law then does not fit, and

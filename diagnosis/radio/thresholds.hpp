@@ -59,6 +59,8 @@ inline constexpr std::size_t parts_of_time = 10;
 // links; from which a pile of readings of one of them is no end of a receiver's range; chosen;
 // ReceiverChecks.APileOfOneLinkIsNoEnd
 inline constexpr std::size_t many_links = 6;
+// nats; by which an unstated field must be likelier than none; chosen; Fault25.ADiagnosisNamesNothingThatItCannotTell
+inline constexpr double seen_field_nats = 6;
 // dB; of a field that the world does not state, above which it is not adequate; chosen; none
 inline constexpr double unstated_shadowing = 1;
 // gaps; the longest ones that are pauses of a run, not its sampling; chosen;

@@ -73,6 +73,13 @@ std::optional<PlantedCause> saturation(const Setting& s, Random& random) {
   return cause;
 }
 
+std::optional<PlantedCause> compression(const Setting& s, Random& random) {
+  PlantedCause cause{"rssi_compression", Acts::receiver};
+  cause.numbers = {{"knee", quantile(s, random.uniform(0.6, 0.9)), "dBm"},
+                   {"share", random.uniform(0.3, 0.8), "dB/dB"}};
+  return cause;
+}
+
 std::optional<PlantedCause> floor(const Setting& s, Random& random) {
   PlantedCause cause{"rssi_floor", Acts::receiver};
   cause.texts = {{"silent", random.chance(0.7) ? "true" : "false"}};
@@ -90,6 +97,7 @@ std::vector<CauseKind> time_causes() {
           {"periodic", {}, periodic},
           {"noise_floor_rssi", noise, noise_floor},
           {"rssi_saturation", {}, saturation},
+          {"rssi_compression", {}, compression},
           {"rssi_floor", {}, floor}};
 }
 

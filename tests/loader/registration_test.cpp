@@ -187,7 +187,7 @@ std::string refusal_of_law(const std::function<void(muster_law&)>& spoil) {
 TEST(Registration, RefusesLawsThatNoDiagnosisCanFit) {
   EXPECT_EQ(refusal_of_law([](auto&) {}), "");
   EXPECT_EQ(refusal_of_law([](auto& l) { l.strength = "m"; }),
-            "names \"m\" as its strength, which is not a real parameter of the plugin; expected one of n");
+            "names \"m\" as its strength, which is not a real parameter of the plugin; expected n");
   EXPECT_EQ(refusal_of_law([](auto& l) { l.strength = nullptr; }), "names no parameter as its strength");
   EXPECT_EQ(refusal_of_law([](auto& l) { l.log_density = nullptr; }), "has no density");
   EXPECT_EQ(refusal_of_law([](auto& l) { l.grid = nullptr; }), "has no values of its strength");
@@ -215,7 +215,7 @@ TEST(Registration, RefusesClipsAndBurstsOfUndeclaredParameters) {
   clip.level = "levle";
   EXPECT_EQ(clipped(),
             "registers \"radio.sample/3\" whose clip names \"levle\" as its level, which is not a real parameter of "
-            "the plugin; expected one of n");
+            "the plugin; expected n");
   clip.side = 3;
   EXPECT_EQ(clipped(), "registers \"radio.sample/3\" whose clip has the side 3; expected MUSTER_ABOVE or MUSTER_BELOW");
   const muster_burst burst{sizeof(muster_burst), "n", "n", "n", "n", "n"};

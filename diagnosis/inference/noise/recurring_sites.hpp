@@ -1,5 +1,5 @@
 // Sites with several rows: one anchor, and one place within 2 cm. Rows of a site may share a part of their errors that
-// no other row has. So may those of one stream there, such as one direction of a link.
+// no other row has. So may those of one stream there: a direction, an instrument.
 #pragma once
 
 #include "diagnosis/inference/noise/rows.hpp"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "loader/library.hpp"
+#include "diagnosis/causes/cause_model.hpp"
 
 namespace muster::diagnosis {
 

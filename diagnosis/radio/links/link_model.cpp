@@ -1,5 +1,7 @@
 #include "diagnosis/radio/links/link_model.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -60,7 +62,7 @@ void refuse_far_places(const std::filesystem::path& data) {
   if (first)
     throw invalid(table.place(first->first, first->second),
                   "row " + std::to_string(first->first + 1) + ": " + print_real(far) +
-                      " m lies beyond the world's scene; expected metres within " + print_real(farthest) +
+                      " m lies beyond the world's scene; expected metres within " + fmt::format("{:.0f}", farthest) +
                       " m (is it another unit, such as millimetres?)");
 }
 

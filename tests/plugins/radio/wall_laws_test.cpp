@@ -224,7 +224,7 @@ TEST(Kept, WithoutWallsNothingIsCrossedAndPlacesAreStillRefused) {
   LinkGeometry g;
   plan.put(g);
   EXPECT_EQ(counts(g, 0), (Counts{0, 0, 0}));
-  plan.at[1].x = 5000;
+  plan.at[1].x = 2e5;
   EXPECT_THROW(plan.put(g), std::runtime_error);
 }
 
