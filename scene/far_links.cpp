@@ -1,6 +1,7 @@
 #include "scene/far_links.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <tuple>
 #include <utility>

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "scene/walls.hpp"
+#include "scene/point.hpp"
 
 namespace muster::scene {
 

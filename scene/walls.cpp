@@ -7,6 +7,7 @@
 #include <string>
 
 #include "scene/crossing_link.hpp"
+#include "scene/far_links.hpp"
 #include "scene/refusal.hpp"
 
 namespace muster::scene {

@@ -8,15 +8,10 @@
 
 #include "scene/box_tree.hpp"
 #include "scene/floors.hpp"
+#include "scene/point.hpp"
 #include "scene/wall_columns.hpp"
 
 namespace muster::scene {
-
-// In metres, east, north and up. Coordinates of radios are at most 100 km in size, those of walls and floors below 1
-// km.
-struct Point {
-  double x = 0, y = 0, z = 0;
-};
 
 // An upright rectangle: its centre plane is over (x0, y0) -> (x1, y1) and covers the heights [base, base + height). The
 // thickness, in metres and half to each side, does not affect crossings.
