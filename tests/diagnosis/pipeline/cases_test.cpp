@@ -234,8 +234,8 @@ TEST(SealedFading, IsAsStrongAsItIs) {
   const auto world = made_case(scratch, "--seed 77 --rows 2000 20000", 8);
   const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
   ASSERT_EQ(found.causes.size(), 2u) << told(found);
-  EXPECT_EQ(found.causes[0].id, "effect.fading_law");
-  EXPECT_NEAR(found.causes[0].values.at(0).value, 7.66, 0.4);
+  EXPECT_EQ(found.causes[1].id, "effect.fading_law");  // behind what lowers the error at left-out places
+  EXPECT_NEAR(found.causes[1].values.at(0).value, 7.66, 0.4);
   EXPECT_EQ(
       names_in_words(closed_loop(found, world, world / "measured.csv", scratch / "extended", plugins).rediagnosis),
       "silent");

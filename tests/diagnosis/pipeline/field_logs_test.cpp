@@ -21,17 +21,19 @@ const std::string fading = "<radio.fading shadowing=\"3\" decorrelation=\"2\" ri
 const std::string stations =
     "<station name=\"s1\" at=\"1 1 1.5\"/><station name=\"s2\" at=\"13 8 1.2\"/>"
     "<station name=\"s3\" at=\"9 1 2\"/>";
-const std::string phones = "<station name=\"phone1\" at=\"3 3 0.4\"/><station name=\"phone2\" at=\"3 3 0.4\"/>";
+const std::string phones =
+    "<station name=\"phone1\" at=\"3 3 0.4\"/><station name=\"phone2\" at=\"3 3 0.4\"/>"
+    "<station name=\"phone3\" at=\"3 3 0.4\"/>";
 
-// The flat's tour, received by two phones in turn.
+// The flat's tour, received by three phones in turn.
 std::vector<std::string> by_phones() {
   std::vector<std::string> rows = tour();
   for (std::size_t k = 0; k < rows.size(); ++k)
-    rows[k].replace(rows[k].find("rover"), 5, (k / 3) % 2 ? "phone2" : "phone1");
+    rows[k].replace(rows[k].find("rover"), 5, "phone" + std::to_string(1 + (k / 3) % 3));
   return rows;
 }
 
-// One of two phones reads 6 dB too high. The finding is the same whether the world lists the phones or not, and the
+// One of three phones reads 6 dB too high. The finding is the same whether the world lists the phones or not, and the
 // extended world has the one that it is about.
 TEST(FieldLog, AnOffsetOfARadioThatTheWorldDoesNotList) {
   const Scratch scratch;
@@ -48,10 +50,11 @@ TEST(FieldLog, AnOffsetOfARadioThatTheWorldDoesNotList) {
   EXPECT_NEAR(without.causes[0].values[0].value, with.causes[0].values[0].value, 1e-6);
   const Scratch out;
   const auto extended = write_extended_world(without, bare, out / "w");
-  EXPECT_EQ(LinkModel(extended, data, plugins).added_radios(), std::vector<std::string>{"phone1"});
+  EXPECT_EQ(LinkModel(extended, data, plugins).added_radios(), (std::vector<std::string>{"phone1", "phone3"}));
 }
 
-// Two radios at one height over open ground, at 433 MHz. The world has no term with a carrier: it is sought.
+// Places in no order, so that distance is not time. Two radios at one height over open ground, at 433 MHz. The world
+// has no term with a carrier: it is sought.
 TEST(Carrier, IsSoughtWhereTheWorldHasNone) {
   const Scratch scratch;
   const std::string radios = "<station name=\"mast\" at=\"0 0 2\"/><station name=\"car\" at=\"5 0 2\"/>";
@@ -59,7 +62,7 @@ TEST(Carrier, IsSoughtWhereTheWorldHasNone) {
       world_of(scratch, "truth.xml", radios + fading + "<effect.two_ray reflection=\"0.9\" frequency=\"4.33e8\"/>");
   std::vector<std::string> rows;
   for (int k = 0; k < 500; ++k)
-    rows.push_back(print_real(0.5 * k) + ",mast,car,0,0,2," + print_real(3 + 0.3 * k) + ",0.2,2");
+    rows.push_back(print_real(0.5 * k) + ",mast,car,0,0,2," + print_real(3 + 0.3 * ((k * 197) % 500)) + ",0.2,2");
   const auto data = drawn_by(scratch, truth, plugins, rows);
   const Diagnosis found = diagnose(world_of(scratch, "bare.xml", radios), data, plugins);
   ASSERT_FALSE(found.causes.empty());
@@ -86,7 +89,7 @@ TEST(FieldLog, AFieldThatTheWorldDoesNotStateIsNotAdequate) {
   EXPECT_EQ(names_in_words(named_causes(unstated)), "silent");
   EXPECT_STREQ(unstated.verdict(), "unexplained");
   ASSERT_TRUE(unstated.unstated_field);
-  EXPECT_GT(unstated.unstated_field->shadowing, 2);
+  EXPECT_GT(unstated.unstated_field->shadowing, 1.5);
   const Diagnosis stated = diagnose(world_of(scratch, "stated.xml", stations + phones + fading), data, plugins);
   EXPECT_STREQ(stated.verdict(), "adequate");
   EXPECT_FALSE(stated.unstated_field);
