@@ -230,11 +230,12 @@ LawTests law_tests(KrigedReadings& field, double step, const std::vector<std::sh
   std::stable_sort(result.begin(), result.end(),
                    [](const LawTest& a, const LawTest& b) { return a.evidence > b.evidence; });
   const auto& [family, fitted] = best.at(result.front().cause);
-  // The second test, without winsorising, only raises log p. Readings that are rarely far off need winsorising.
+  // The second test, without winsorising, only raises log p. What a law with heavy tails adds needs winsorising, and is
+  // no weaker fading.
   const ReadingLaw& likeliest = *family->part.law;
-  const bool rare =
-      !likeliest.replaces() && likeliest.leaves_most_alone(likeliest.at_strength(family->part.params, fitted.strength));
-  if (result.front().log_p < std::log(thresholds::may_be_named) && !rare) {
+  const bool heavy =
+      !likeliest.replaces() && likeliest.is_heavy_tailed(likeliest.at_strength(family->part.params, fitted.strength));
+  if (result.front().log_p < std::log(thresholds::may_be_named) && !heavy) {
     const double untamed = gain_untamed(field, step, stated, fit, *family);
     const double over = std::max(0.0, result.front().gain - untamed);
     for (LawTest& test : result) weigh(test, std::max(0.0, test.gain - over));  // differences are kept

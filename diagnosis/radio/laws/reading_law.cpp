@@ -65,22 +65,37 @@ std::vector<Atom> ReadingLaw::atoms(const std::vector<double>& params) const {
   return result;
 }
 
-bool ReadingLaw::leaves_most_alone(const std::vector<double>& params) const {
-  const std::vector<Atom> all = atoms(params);
-  return std::any_of(all.begin(), all.end(), [](const Atom& a) { return a.db == 0 && a.probability > 0.5; });
+std::vector<Atom> ReadingLaw::masses(const std::vector<double>& params, uint32_t draws) const {
+  const std::vector<double> density = densities(params, draws, coarse);
+  std::vector<Atom> result;
+  for (std::size_t i = 0; i < density.size(); ++i) result.push_back({coarse.centre(i), density[i] * coarse.width});
+  for (const Atom& atom : atoms(params)) result.push_back(atom);
+  return result;
 }
 
 double ReadingLaw::computed_variance(const std::vector<double>& params, uint32_t draws) const {
-  const std::vector<double> density = densities(params, draws, coarse);
   double sum = 0, first = 0, second = 0;
-  const auto add = [&](double db, double mass) {
+  for (const auto& [db, mass] : masses(params, draws)) {
     sum += mass;
     first += mass * db;
     second += mass * db * db;
-  };
-  for (std::size_t i = 0; i < density.size(); ++i) add(coarse.centre(i), density[i] * coarse.width);
-  for (const Atom& atom : atoms(params)) add(atom.db, atom.probability);
+  }
   return second / sum - first * first / (sum * sum);
+}
+
+bool ReadingLaw::is_heavy_tailed(const std::vector<double>& params) const {
+  const std::vector<Atom> all = masses(params, 1);
+  double sum = 0, first = 0, second = 0, fourth = 0;
+  for (const auto& [db, mass] : all) {
+    sum += mass;
+    first += mass * db;
+  }
+  for (const auto& [db, mass] : all) {
+    const double square = (db - first / sum) * (db - first / sum);
+    second += mass * square;
+    fourth += mass * square * square;
+  }
+  return fourth * sum > 3 * second * second;
 }
 
 double ReadingLaw::strength_at(double place) const {

@@ -44,8 +44,8 @@ class ReadingLaw {
   // Density per dB at the grid's centres, without atoms.
   std::vector<double> densities(const std::vector<double>& params, uint32_t draws, const BinGrid& grid) const;
   std::vector<Atom> atoms(const std::vector<double>& params) const;
-  // True if most readings stay as they are.
-  bool leaves_most_alone(const std::vector<double>& params) const;
+  // True if single draws have a larger kurtosis than a normal law's.
+  bool is_heavy_tailed(const std::vector<double>& params) const;
   double apart(const std::vector<double>& params) const {
     return declared().apart ? declared().apart(params.data()) : 0;
   }
@@ -68,6 +68,8 @@ class ReadingLaw {
   double strength_at(double place) const;
   double place_of(double strength) const;
   const Variances& variances(std::vector<double> params, uint32_t draws) const;
+  // Probabilities of the coarse grid's bins, and the atoms.
+  std::vector<Atom> masses(const std::vector<double>& params, uint32_t draws) const;
   double computed_variance(const std::vector<double>& params, uint32_t draws) const;
 
   std::string id_;
