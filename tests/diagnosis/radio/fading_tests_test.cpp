@@ -25,6 +25,13 @@ TEST(ReadingDistribution, VariancesAreThoseOfRayleighAndGamma) {
   EXPECT_EQ(fading.nearest_strength(0.001, {0}), 60);
 }
 
+// Outliers need winsorising; hopping channels do not.
+TEST(ReadingDistribution, OnlyOutliersHaveHeavyTails) {
+  for (const double share : {0.001, 0.1}) EXPECT_TRUE(declared_law("effect.outliers")->is_heavy_tailed({share, 20}));
+  for (const double channels : {2.0, 3.0, 4.0})
+    EXPECT_FALSE(declared_law("effect.channel_mixture")->is_heavy_tailed({3, channels}));
+}
+
 TEST(ReadingDistribution, DensitiesHaveUnitMassAndTheStatedMoments) {
   const ReadingDistribution law = law_of({.rician_k = 5, .outliers = 0.02, .channel_sd = 3, .channels = 2});
   const ReadingDensities densities(law, 1, std::log(0.3), std::log(20.0));
