@@ -10,14 +10,17 @@ namespace {
 
 using Mask = Eigen::Array<bool, Eigen::Dynamic, 1>;
 
-// Atoms of an entry that concern most of these rows, not more than enough of them.
+// Atoms of an entry that concern most of these rows, not more than enough of them; places are all over the plan, and
+// those on the same rows near the lead's.
 noise::Sheet atoms_on(const Entry& entry, const Mask& rows) {
+  const bool place = entry.candidate->role.over_sites || !entry.candidate->role.pieces.empty();
   const Index width = entry.candidate->design.width, most = static_cast<Index>(thresholds::bulk_atoms);
   const Index stride = std::max<Index>(1, entry.count() / most);
   std::vector<Index> kept;
   for (Index k = 0; k < entry.count(); k += stride) {
     const Mask own = (entry.atoms->middleCols(k * width, width).array() != 0).rowwise().any();
-    if (static_cast<double>((own && rows).count()) < thresholds::same_rows_share * static_cast<double>(rows.count()))
+    if (!place &&
+        static_cast<double>((own && rows).count()) < thresholds::same_rows_share * static_cast<double>(rows.count()))
       continue;
     for (Index j = 0; j < width; ++j) kept.push_back(k * width + j);
   }
