@@ -127,6 +127,11 @@ std::string cause_card(const CauseEstimate& c, std::size_t number, const std::ve
       {{"evidence"},
        {fmt::format("{:.1f} nats; λ = {:.0f} (likelihood ratio, other causes fitted too)", c.evidence, c.lambda)}},
       {{"gain"}, {gain_text(c.held_out, why_no_gain(c))}}};
+  if (c.inflation > 1)
+    facts.push_back({{"inflation"},
+                     {fmt::format("gains of its kind are {:.1f} times those of chance in these readings; "
+                                  "it stands out from them all the same",
+                                  c.inflation)}});
   for (const inference::Elsewhere& e : c.elsewhere)
     facts.push_back({{e.left_out + " not seen"}, {gain_in_words(e.held_out, e.left_out)}});
   facts.push_back({{"alternative"}, {rivals_in_words(c.alternatives)}});
