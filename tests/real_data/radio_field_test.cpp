@@ -68,14 +68,13 @@ struct Expected {
 };
 
 TEST_F(Known, CausesComeFirst) {
-  for (const auto& [set, first, label] : {Expected{"trackerbots", "effect.two_ray", "all"},
-                                          {"uwb_static", "effect.two_ray", "all"},
+  for (const auto& [set, first, label] : {Expected{"uwb_static", "effect.two_ray", "all"},
                                           {"uji_lib", "effect.rx_offset", "radio/phoneA"},
                                           {"egham_corridor_right", "effect.antenna_tx", "radio/AP3"}}) {
     const json found = diagnosed(set);
     ASSERT_FALSE(found["causes"].empty()) << set;
-    EXPECT_EQ(found["causes"][0]["id"], first) << set;
-    EXPECT_EQ(found["causes"][0]["label"], label) << set;
+    EXPECT_EQ(found["causes"][0]["id"], std::string(first)) << set;
+    EXPECT_EQ(found["causes"][0]["label"], std::string(label)) << set;
   }
 }
 
