@@ -29,10 +29,10 @@ std::optional<Planted> clipped(const Campaign& campaign, Draws& draws) {
 // Above a knee a dB more at the antenna is half a dB or less in the reading.
 std::optional<Planted> compressed(const Campaign& campaign, Draws& draws) {
   const double knee = quantile(campaign, draws.between(0.5, 0.85)), slope = draws.between(0.2, 0.6);
-  Planted planted{"soft_compression"};
+  Planted planted{"rssi_compression"};
   planted.acts = "receiver";
-  planted.covariates = {"level", "logd", "distance"};
-  planted.kin = {"rssi_saturation", "dual_slope"};
+  planted.kin = {"rssi_saturation"};
+  planted.values = {{"knee", knee, "dBm"}, {"share", 1 - slope, "dB/dB"}};
   planted.apply = [=](Scene&, Scene& truth) {
     truth.receiver.emplace_back([=](double level) { return level > knee ? knee + slope * (level - knee) : level; });
   };
@@ -63,7 +63,7 @@ std::optional<Planted> heavy_tails(const Campaign&, Draws&) {
 
 std::vector<Kind> receiver_kinds() {
   return {{"rssi_saturation", clipped},
-          {"soft_compression", compressed, false},
+          {"rssi_compression", compressed},
           {"rssi_floor", silent_floor},
           {"outliers", heavy_tails}};
 }

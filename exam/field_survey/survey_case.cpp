@@ -35,7 +35,7 @@ int effects_of(const Request& request, const std::string& style, Draws& draws) {
 bool exclude(const std::string& a, const std::string& b) {
   static const std::vector<std::set<std::string>> once{{"tx_misplaced", "label_swap", "labels_shifted"},
                                                        {"plan_mirrored", "unmapped_wall", "wall_absent"},
-                                                       {"rssi_saturation", "soft_compression"},
+                                                       {"rssi_saturation", "rssi_compression"},
                                                        {"outliers", "people"},
                                                        {"two_ray", "dual_slope"},
                                                        {"antenna_tx", "sector_antenna"}};
