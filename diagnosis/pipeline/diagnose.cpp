@@ -159,10 +159,11 @@ class Diagnoser {
   void begin_as_given(const Diagnosis& given, const inference::ModelState& state, Diagnosis& out) const {
     CauseEstimate& first = *out.causes.insert(out.causes.begin(), given.causes.front());
     const VectorXd left = measured(state) - state.rows().mean(given.fitted(setup_.used.rows));
-    first.effect = left - out.seen.before;
+    const VectorXd left_by_stream = state.rows().by_stream(left);
+    first.effect = left_by_stream - out.seen.before;
     const inference::WhitenedModel alone = state.whitened_model(state.base());
-    out.seen.before = left;
-    out.seen.white_before = alone.at.basis.rest(alone.whitener(left));
+    out.seen.before = left_by_stream;
+    out.seen.white_before = white_by_stream(state.rows(), alone.at.basis.rest(alone.whitener(left)));
     out.residual_sd = given.residual_sd;
     first.held_out.reset();
     out.held_out.reset();

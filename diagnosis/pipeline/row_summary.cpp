@@ -15,7 +15,7 @@ using Eigen::VectorXd;
 
 VectorXd mean_of(const noise::Rows& rows, const std::vector<double>& values) {
   if (values.empty()) return {};
-  return rows.mean(Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size())));
+  return rows.by_stream(rows.mean(Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()))));
 }
 
 // Value at each row's first reading, for angles: a mean fails at the wrap-around, and rows end before readings turn
@@ -29,7 +29,7 @@ VectorXd first_of(const noise::Rows& rows, const Eigen::Ref<const VectorXd>& val
 
 VectorXd left_by(const inference::ModelState& state, const Eigen::MatrixXd& design,
                  const inference::WhitenedModel& model) {
-  return state.y() - design * model.coefficients(design.cols());
+  return state.rows().by_stream(state.left_by(design, model));
 }
 
 std::vector<MappedWall> mapped_walls(const Simulation& run) {
@@ -48,6 +48,13 @@ std::vector<MappedWall> mapped_walls(const Simulation& run) {
 
 }  // namespace
 
+VectorXd white_by_stream(const noise::Rows& rows, const VectorXd& white) {
+  VectorXd result = rows.by_stream(white);
+  for (Index i = rows.means(); i < rows.size(); ++i) result[i] /= std::sqrt(2);
+  for (const Index i : rows.with_twins()) result[i] /= std::sqrt(2);
+  return result;
+}
+
 RowSummary row_summary(const inference::ModelState& state, const LinkLayout& layout, const LinkColumns& columns,
                        const LinkModel& model) {
   const LinkReadings& readings = layout.readings();
@@ -61,8 +68,8 @@ RowSummary row_summary(const inference::ModelState& state, const LinkLayout& lay
     radios = std::max({radios, out.tx.back() + 1, out.rx.back() + 1});
   }
   for (int k = 0; k < radios; ++k) out.radios.push_back(model.radio_name(k));
-  out.tx_at = rows.mean(readings.tx_at.transpose()).transpose();
-  out.rx_at = rows.mean(readings.rx_at.transpose()).transpose();
+  out.tx_at = rows.by_stream(rows.mean(readings.tx_at.transpose())).transpose();
+  out.rx_at = rows.by_stream(rows.mean(readings.rx_at.transpose())).transpose();
   out.count = rows.count();
   out.t = mean_of(rows, readings.t);
   out.tx_yaw =
@@ -78,11 +85,11 @@ RowSummary row_summary(const inference::ModelState& state, const LinkLayout& lay
   const inference::WhitenedModel before = state.whitened_model(state.base()), after = state.whitened_model(full);
   out.before = left_by(state, state.base(), before);
   out.after = left_by(state, full, after);
-  out.white_before = before.at.residual;
-  out.white_after = after.at.residual;
+  out.white_before = white_by_stream(rows, before.at.residual);
+  out.white_after = white_by_stream(rows, after.at.residual);
   for (const inference::Covariate& c : columns.covariates) {
     out.columns.push_back(c);
-    out.columns.back().values = rows.mean(c.values);
+    out.columns.back().values = rows.by_stream(rows.mean(c.values));
   }
   for (const inference::Factor& f : columns.factors) {
     out.factors.push_back({f.name, {}});
@@ -96,7 +103,7 @@ RowSummary row_summary(const inference::ModelState& state, const LinkLayout& lay
 
 VectorXd effect_of(const inference::ModelState& state, const inference::Candidate& candidate,
                    const inference::Finding& finding) {
-  return state.columns_of(candidate, finding.theta) * finding.coefficients;
+  return state.rows().by_stream(state.columns_of(candidate, finding.theta) * finding.coefficients);
 }
 
 std::vector<WorldValue> world_values(const inference::ModelState& state, const std::vector<std::string>& paths,

@@ -8,8 +8,11 @@
 
 namespace muster::diagnosis {
 
+// Rows of twins as one row a direction, as a person reads them.
 RowSummary row_summary(const inference::ModelState& state, const LinkLayout& layout, const LinkColumns& columns,
                        const LinkModel& model);
+// Whitened residuals of rows the same way, still of unit variance.
+Eigen::VectorXd white_by_stream(const noise::Rows& rows, const Eigen::VectorXd& white);
 
 // dB that a finding adds to each row.
 Eigen::VectorXd effect_of(const inference::ModelState& state, const inference::Candidate& candidate,

@@ -12,6 +12,7 @@
 #include "diagnosis/radio/causes/link_cause_domain.hpp"
 #include "diagnosis/radio/links/drawn_term.hpp"
 #include "diagnosis/radio/links/geometry_checks.hpp"
+#include "diagnosis/radio/links/twin_readings.hpp"
 
 namespace muster::diagnosis {
 namespace {
@@ -84,6 +85,17 @@ std::vector<std::string> joined(std::initializer_list<std::vector<std::string>> 
   return result;
 }
 
+// Twins among what was measured as a value: bounds have no difference.
+LinkReadings with_twins(LinkReadings readings, const ObservedLevels& levels) {
+  VectorXd residual =
+      levels.measured - Eigen::Map<const VectorXd>(readings.level.data(), static_cast<Index>(readings.level.size()));
+  for (std::size_t i = 0; i < levels.bounds.known.size(); ++i) {
+    if (levels.bounds.known[i] != noise::Known::value) residual[static_cast<Index>(i)] = std::nan("");
+  }
+  find_twins(readings, residual);
+  return readings;
+}
+
 LinkLayout layout_of(LinkReadings readings, const ObservedColumns& observed, bool places_known,
                      const LinkModel& model) {
   LinkRowLimits limits = limits_for(readings);
@@ -95,7 +107,7 @@ CauseSearch candidates_of(const DiagnosisSetup& at, const LinkSearchWorld& world
   CauseSearch found = cause_candidates(at.causes, LinkCauseDomain(at.model, at.data, at.used.rows, at.rows),
                                        {at.run, at.used.rows}, at.base.slopes(at.used.rows, Eigen::all), at.rows);
   found = with_swaps_by_the_map(std::move(found), world, at.fitted, *at.run);
-  return with_columns_near(with_sketches(std::move(found), at.sketched), world);
+  return with_columns_near(with_sketches(std::move(found), at.sketched, at.rows), world);
 }
 
 inference::Problem problem_of(const DiagnosisSetup& at) {
@@ -128,7 +140,9 @@ DiagnosisSetup::DiagnosisSetup(const std::filesystem::path& world, const std::fi
       run(std::make_shared<CauseModel>(model, world, table, plugins)),
       observed(observed_columns(data, used.rows)),
       layout(std::make_shared<const LinkLayout>(
-          layout_of(observed_readings(data, model, used.rows, base.mean), observed, data.has_places(), model))),
+          layout_of(with_twins(observed_readings(data, model, used.rows, base.mean),
+                               observed_levels(data, receiver, fitted.readings, used.rows)),
+                    observed, data.has_places(), model))),
       rows(layout->rows()),
       sketched(sketched_readings({world, table, plugins, model, base, used.rows, layout, rows})),
       sought(candidates_of(*this, {world, table, plugins, model, base, used.rows, layout, rows})),

@@ -29,6 +29,16 @@ inline constexpr Eigen::Index short_rows = 4000;
 // rows; beyond which rows are longer than usual; chosen; LinkRowLimits.AreAsShortAsTheNumberOfRowsAllows
 inline constexpr Eigen::Index usual_rows = 10000;
 
+// s; between two readings that are twins, at most; chosen; none
+inline constexpr double twins_apart = 0.02;
+// steps; of twins, from which their scatter may be seen to be shared; chosen; TwinReadings.NeedMoreThanAFew
+inline constexpr double fewest_twins = 30;
+// factor; variance of half the difference of twins over that of their mean, up to which they share their scatter;
+// chosen; TwinReadings.AreNoneWhereTheyScatterApart
+inline constexpr double twins_differ = 0.25;
+// dB; least standard deviation of half the difference of twins; chosen; none
+inline constexpr double least_difference = 0.05;
+
 // links: receiver
 
 // readings; of a pile at the last code; chosen; ReceiverChecks.ASmallPileIsComparedWithAllLevelsNearIt

@@ -90,22 +90,35 @@ void add_fixed(const RecurringSites& recurring, const Covariance& covariance, In
   }
 }
 
+// 1 of a row that shares the field, 0 of one without.
+Eigen::ArrayXd shares_of(const Sites& sites) {
+  Eigen::ArrayXd result = Eigen::ArrayXd::Ones(sites.size());
+  for (Index i = 0; i < sites.size(); ++i) result[i] = sites.is_alone(i) ? 0 : 1;
+  return result;
+}
+
 // `own`: variance of the field at each row, without the fixed share.
 template <class Covariances>
 Eigen::MatrixXd sums_of(const Field& field, const Covariance& covariance, const Eigen::MatrixXd& weights,
                         const Covariances& rows, Index filled, const Eigen::ArrayXd& own) {
   const Sites& sites = field.sites();
+  const Eigen::ArrayXd shares = shares_of(sites);
   Eigen::VectorXd before(filled);
   Eigen::MatrixXd below(weights.rows(), weights.cols());  // the covariance's lower triangle times the weights
   for (Index i = 0; i < sites.size(); ++i) {
     rows.covariances(i, before.data());
     add_fixed(field.recurring(), covariance, i, before.data());
+    before.head(i).array() *= shares[i] * shares.head(i);
     below.row(i).noalias() = before.head(i).transpose() * weights.topRows(i);
   }
   const double fixed = fixed_share(covariance.family) * covariance.field_variance();
-  const Eigen::VectorXd alone = own + fixed + floor_variance + covariance.reading_variance() / sites.count.array();
+  Eigen::ArrayXd of_reading = Eigen::ArrayXd::Constant(sites.size(), covariance.reading_variance());
+  for (Index i = 0; i < sites.size(); ++i) {
+    if (sites.is_alone(i)) of_reading[i] = sites.alone[static_cast<std::size_t>(i)];
+  }
+  const Eigen::VectorXd variance = shares * (own + fixed) + floor_variance + of_reading / sites.count.array();
   const Eigen::MatrixXd half = weights.transpose() * below;
-  return half + half.transpose() + weights.transpose() * alone.asDiagonal() * weights;
+  return half + half.transpose() + weights.transpose() * variance.asDiagonal() * weights;
 }
 
 }  // namespace

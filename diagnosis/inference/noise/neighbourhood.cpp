@@ -90,6 +90,20 @@ void Neighbourhood::own_variances(Index group) {
   }
 }
 
+// Rows without a field: only their own readings' variance, whatever theta.
+void Neighbourhood::leave_alone(Index group) {
+  for (Index lane = 0; lane < lanes; ++lane) {
+    const Index i = std::min(group * lanes + lane, field_.size() - 1);
+    const bool alone = field_.sites().is_alone(i);
+    if (alone) nugget_[at(slots_)].of[lane] = field_.sites().alone[at(i)] / field_.sites().count[i];
+    if (alone) {
+      own_field_[at(slots_)].of[lane] = 0;
+    } else if (!is_stated(covariance_.family)) {
+      own_field_[at(slots_)].of[lane] = covariance_.field_variance();
+    }
+  }
+}
+
 // Variance of the stated field at the slots and at the rows themselves.
 void Neighbourhood::own_fields(Index group) {
   const double s2 = covariance_.field_variance();
@@ -109,6 +123,7 @@ void Neighbourhood::own_fields(Index group) {
 void Neighbourhood::factorise(Index group) {
   own_variances(group);
   if (is_stated(covariance_.family)) own_fields(group);
+  if (!field_.sites().alone.empty()) leave_alone(group);
   const Field::Entries entries = field_.entries(group, covariance_, slopes_);
   arrays_.near = entries.near;
   arrays_.joint = entries.joint;

@@ -43,6 +43,7 @@ class Neighbourhood {
  private:
   void own_variances(Index group);
   void own_fields(Index group);
+  void leave_alone(Index group);
 
   const Field& field_;
   const RowKernel& kernel_;

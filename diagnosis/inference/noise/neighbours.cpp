@@ -4,7 +4,6 @@
 #include <map>
 #include <memory>
 #include <nanoflann.hpp>
-#include <numeric>
 
 #include "diagnosis/inference/thresholds.hpp"
 #include "muster/random.hpp"
@@ -93,15 +92,18 @@ std::vector<Index> neighbours_of(const Sites& sites, const Conditioning& conditi
   for (std::size_t i = 0; i < sites.stream.size(); ++i)
     both(6, static_cast<Index>(i)) = inference::thresholds::same_site * sites.stream[i];
   std::map<int, std::vector<Index>> of_group;
-  for (Index i = 0; i < n; ++i) of_group[sites.group[static_cast<std::size_t>(i)]].push_back(i);
+  std::vector<Index> all;
+  for (Index i = 0; i < n; ++i) {
+    if (sites.is_alone(i)) continue;
+    of_group[sites.group[static_cast<std::size_t>(i)]].push_back(i);
+    all.push_back(i);
+  }
   std::map<int, Grove> groves;
   for (const auto& [group, rows] : of_group) groves.try_emplace(group, both, rows);
-  std::vector<Index> all(static_cast<std::size_t>(n));
-  std::iota(all.begin(), all.end(), 0);
   const Grove everywhere(sites.place, all);
 
   std::vector<Index> result(static_cast<std::size_t>(n * conditioning.slots()), -1);
-  for (Index i = 0; i < n; ++i) {
+  for (const Index i : all) {
     const int group = sites.group[static_cast<std::size_t>(i)];
     const auto earlier = [&](Index j) { return rank[static_cast<std::size_t>(j)] < rank[static_cast<std::size_t>(i)]; };
     Index* const slots = result.data() + i * conditioning.slots();
@@ -109,7 +111,10 @@ std::vector<Index> neighbours_of(const Sites& sites, const Conditioning& conditi
     search(
         own, both.col(i), conditioning.same, [&](std::size_t p) { return earlier(own.cloud.rows[p]); }, slots);
     if (of_group.size() < 2) continue;
-    const auto other = [&](std::size_t p) { return sites.group[p] != group && earlier(static_cast<Index>(p)); };
+    const auto other = [&](std::size_t p) {
+      const Index row = everywhere.cloud.rows[p];
+      return sites.group[static_cast<std::size_t>(row)] != group && earlier(row);
+    };
     search(everywhere, sites.place.col(i), conditioning.others, other, slots + conditioning.same);
   }
   return result;

@@ -12,6 +12,12 @@ RecurringSites::RecurringSites(const Sites& sites) : stream_(sites.stream) {
   stream_.resize(at(sites.size()), 0);
   std::map<std::array<long, 7>, Index> number;
   for (Index i = 0; i < sites.size(); ++i) {
+    if (sites.is_alone(i)) {
+      site_.push_back(static_cast<Index>(rows_.size()));
+      rows_.push_back({i});
+      continue;
+    }
+    ++sharing_;
     std::array<long, 7> key{sites.group[at(i)]};
     for (Index axis = 0; axis < 3; ++axis) {
       key[at(axis + 1)] = std::lround(sites.place(axis, i) / inference::thresholds::same_site);
@@ -29,7 +35,7 @@ RecurringSites::RecurringSites(const Sites& sites) : stream_(sites.stream) {
 double RecurringSites::share() const {
   std::size_t recurring = 0;
   for (const auto& rows : rows_) recurring += rows.size() > 1 ? rows.size() : 0;
-  return static_cast<double>(recurring) / static_cast<double>(site_.size());
+  return static_cast<double>(recurring) / static_cast<double>(sharing_);
 }
 
 }  // namespace muster::noise

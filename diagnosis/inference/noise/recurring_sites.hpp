@@ -18,7 +18,7 @@ class RecurringSites {
   }
   // Rows of the same site, itself among them, in their order.
   const std::vector<Index>& rows_with(Index row) const { return rows_[at(site_[at(row)])]; }
-  // Share of rows whose site has others.
+  // Share of rows whose site has others, of those that share a field.
   double share() const;
   bool several_streams() const { return several_streams_; }  // at some site
 
@@ -28,6 +28,7 @@ class RecurringSites {
   std::vector<Index> site_;
   std::vector<int> stream_;
   std::vector<std::vector<Index>> rows_;  // of each site
+  std::size_t sharing_ = 0;
   bool several_streams_ = false;
 };
 

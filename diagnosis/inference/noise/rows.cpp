@@ -5,20 +5,34 @@
 #include <numeric>
 
 namespace muster::noise {
-Rows::Rows(std::vector<Index> order, std::vector<Index> first)
-    : order_(std::move(order)), first_(std::move(first)), row_of_(order_.size()) {
+Rows::Rows(std::vector<Index> order, std::vector<Index> first, std::vector<Index> twin)
+    : order_(std::move(order)), first_(std::move(first)), row_of_(std::max(order_.size(), twin.size())) {
+  if (!twin.empty()) {
+    second_.assign(twin.size(), 0);
+    for (const Index reading : order_) {
+      const Index other = twin[static_cast<std::size_t>(reading)];
+      twins_.push_back(other < 0 ? reading : other);
+      if (other >= 0) second_[static_cast<std::size_t>(other)] = 1;
+    }
+  }
   count_readings();
 }
 
 void Rows::count_readings() {
-  count_.resize(size());
-  for (Index i = 0; i < size(); ++i)
-    count_[i] = static_cast<double>(first_[static_cast<std::size_t>(i) + 1] - first_[static_cast<std::size_t>(i)]);
-  for (Index i = 0; i < size(); ++i) {
-    for (Index k = first_[static_cast<std::size_t>(i)]; k < first_[static_cast<std::size_t>(i) + 1]; ++k)
-      row_of_[static_cast<std::size_t>(order_[static_cast<std::size_t>(k)])] = i;
+  mean_row_.clear();
+  for (Index i = 0; i < means(); ++i) {
+    const auto first = static_cast<std::size_t>(first_[static_cast<std::size_t>(i)]);
+    if (!twins_.empty() && twins_[first] != order_[first]) mean_row_.push_back(i);
   }
-  by_count_.resize(static_cast<std::size_t>(size()));
+  count_.resize(size());
+  for (Index i = 0; i < size(); ++i) count_[i] = static_cast<double>(end_of(i) - first_of(i));
+  for (Index i = 0; i < means(); ++i) {
+    for (Index k = first_of(i); k < end_of(i); ++k) {
+      row_of_[static_cast<std::size_t>(order_[static_cast<std::size_t>(k)])] = i;
+      if (!twins_.empty()) row_of_[static_cast<std::size_t>(twins_[static_cast<std::size_t>(k)])] = i;
+    }
+  }
+  by_count_.resize(static_cast<std::size_t>(means()));
   std::iota(by_count_.begin(), by_count_.end(), 0);
   std::stable_sort(by_count_.begin(), by_count_.end(), [this](Index a, Index b) { return count_[a] < count_[b]; });
 }
@@ -27,13 +41,19 @@ Rows Rows::ended_where(const Eigen::VectorXd& effect, double step, std::vector<I
   Rows result = *this;
   result.first_.clear();
   parent.clear();
-  const auto at = [&](Index k) { return effect[order_[static_cast<std::size_t>(k)]]; };
-  for (Index i = 0; i < size(); ++i) {
-    Index first = first_[static_cast<std::size_t>(i)];
+  const auto differs = [&](Index k, Index first) {
+    const auto apart = [&](const std::vector<Index>& readings) {
+      return std::abs(effect[readings[static_cast<std::size_t>(k)]] -
+                      effect[readings[static_cast<std::size_t>(first)]]);
+    };
+    return apart(order_) > step || (!twins_.empty() && apart(twins_) > step);
+  };
+  for (Index i = 0; i < means(); ++i) {
+    Index first = first_of(i);
     result.first_.push_back(first);
     parent.push_back(i);
-    for (Index k = first + 1; k < first_[static_cast<std::size_t>(i) + 1]; ++k) {
-      if (std::abs(at(k) - at(first)) <= step) continue;
+    for (Index k = first + 1; k < end_of(i); ++k) {
+      if (!differs(k, first)) continue;
       first = k;
       result.first_.push_back(k);
       parent.push_back(i);
@@ -41,26 +61,58 @@ Rows Rows::ended_where(const Eigen::VectorXd& effect, double step, std::vector<I
   }
   result.first_.push_back(first_.back());
   result.count_readings();
+  std::vector<Index> difference(static_cast<std::size_t>(means()), -1);
+  for (std::size_t k = 0; k < mean_row_.size(); ++k)
+    difference[static_cast<std::size_t>(mean_row_[k])] = means() + static_cast<Index>(k);
+  for (const Index row : result.mean_row_)
+    parent.push_back(difference[static_cast<std::size_t>(parent[static_cast<std::size_t>(row)])]);
   return result;
 }
 
 Eigen::MatrixXd Rows::mean(const Eigen::Ref<const Eigen::MatrixXd>& columns) const {
   Eigen::MatrixXd result(size(), columns.cols());
+  const auto sum_of = [&](const std::vector<Index>& readings, Index row, Index column) {
+    double sum = 0;
+    for (Index k = first_of(row); k < end_of(row); ++k) sum += columns(readings[static_cast<std::size_t>(k)], column);
+    return sum;
+  };
   for (Index j = 0; j < columns.cols(); ++j) {
-    for (const Index i : by_count_) {
-      double sum = 0;
-      for (Index k = first_[static_cast<std::size_t>(i)]; k < first_[static_cast<std::size_t>(i) + 1]; ++k)
-        sum += columns(order_[static_cast<std::size_t>(k)], j);
-      result(i, j) = sum / count_[i];
+    for (const Index i : by_count_) result(i, j) = sum_of(order_, i, j) / count_[i];
+    for (Index i = means(); i < size(); ++i) {
+      const double one = result(mean_of(i), j), other = sum_of(twins_, mean_of(i), j) / count_[i];
+      result(mean_of(i), j) = (one + other) / 2;
+      result(i, j) = (one - other) / 2;
     }
   }
   return result;
 }
 
 Eigen::VectorXd Rows::at_readings(const Eigen::VectorXd& rows) const {
+  const Eigen::VectorXd streams = by_stream(rows);
   Eigen::VectorXd result(static_cast<Index>(row_of_.size()));
-  for (Index k = 0; k < result.size(); ++k) result[k] = rows[row_of_[static_cast<std::size_t>(k)]];
+  for (Index k = 0; k < result.size(); ++k) result[k] = streams[row_of_[static_cast<std::size_t>(k)]];
+  for (Index i = means(); i < size(); ++i) {
+    for (Index k = first_of(i); k < end_of(i); ++k) result[twins_[static_cast<std::size_t>(k)]] = streams[i];
+  }
   return result;
+}
+
+Eigen::MatrixXd Rows::by_stream(Eigen::MatrixXd rows) const {
+  for (Index i = means(); i < size(); ++i) {
+    const Eigen::RowVectorXd mean = rows.row(mean_of(i)), half = rows.row(i);
+    rows.row(mean_of(i)) = mean + half;
+    rows.row(i) = mean - half;
+  }
+  return rows;
+}
+
+Eigen::MatrixXd Rows::by_twins(Eigen::MatrixXd streams) const {
+  for (Index i = means(); i < size(); ++i) {
+    const Eigen::RowVectorXd one = streams.row(mean_of(i)), other = streams.row(i);
+    streams.row(mean_of(i)) = (one + other) / 2;
+    streams.row(i) = (one - other) / 2;
+  }
+  return streams;
 }
 
 double Sites::within() const {
@@ -80,6 +132,7 @@ Sites Sites::of(const std::vector<Index>& rows) const {
   for (const Index i : rows) {
     result.group.push_back(group[static_cast<std::size_t>(i)]);
     if (!stream.empty()) result.stream.push_back(stream[static_cast<std::size_t>(i)]);
+    if (!alone.empty()) result.alone.push_back(alone[static_cast<std::size_t>(i)]);
   }
   return result;
 }
@@ -95,6 +148,11 @@ Sites Sites::with(const Sites& more) const {
   result.count.tail(more.size()) = more.count;
   result.group.insert(result.group.end(), more.group.begin(), more.group.end());
   result.stream.insert(result.stream.end(), more.stream.begin(), more.stream.end());
+  if (!alone.empty() || !more.alone.empty()) {
+    result.alone.resize(static_cast<std::size_t>(size()), 0);
+    result.alone.insert(result.alone.end(), more.alone.begin(), more.alone.end());
+    result.alone.resize(static_cast<std::size_t>(result.size()), 0);
+  }
   return result;
 }
 

@@ -260,14 +260,23 @@ WhitenerSlopes::WhitenerSlopes(const Field& field, const Covariance& covariance)
     store(field, g, neighbourhood.combination(), whitener_.stencil_);
     neighbourhood.differentiate();
     const int used = static_cast<int>(std::min<Index>(lanes, field.size() - g * lanes));
+    const auto depends = [&](int lane) { return !field.sites().is_alone(g * lanes + lane); };  // on theta
     for (int p = 0; p < parameters; ++p) {
       store(field, g, neighbourhood.slope(p), stencils_[static_cast<std::size_t>(p)]);
-      for (int lane = 0; lane < used; ++lane) of_log_scale_[p] += neighbourhood.log_slope(p, lane);
+      for (int lane = 0; lane < used; ++lane) {
+        if (depends(lane)) of_log_scale_[p] += neighbourhood.log_slope(p, lane);
+      }
       for (int q = 0; q <= p; ++q) {
-        for (int lane = 0; lane < used; ++lane) information_(p, q) += neighbourhood.information(p, q).of[lane];
+        for (int lane = 0; lane < used; ++lane) {
+          if (depends(lane)) information_(p, q) += neighbourhood.information(p, q).of[lane];
+        }
         information_(q, p) = information_(p, q);
       }
     }
+  }
+  for (Index i = 0; i < field.size(); ++i) {
+    if (!field.sites().is_alone(i)) continue;
+    for (Stencil& stencil : stencils_) stencil.own[at(i)] = 0;  // it has no neighbours
   }
   whitener_.sum_up();
 }

@@ -92,6 +92,11 @@ class ModelState {
 
   WhitenedModel whitened_model(const Eigen::MatrixXd& design) const { return whitened_model(design, fit.covariance); }
   WhitenedModel whitened_model(const Eigen::MatrixXd& design, const noise::Covariance& covariance) const;
+  // Residual of the rows after a fit of the design.
+  Eigen::VectorXd left_by(const Eigen::MatrixXd& design, const WhitenedModel& model) const {
+    return y_ - design * model.coefficients(design.cols());
+  }
+  Eigen::VectorXd left_by(const Eigen::MatrixXd& design) const { return left_by(design, whitened_model(design)); }
   noise::Fit fitted(const Eigen::MatrixXd& design, const noise::Covariance& start, int steps) const;
   void refit(int steps = 6) { fit = fitted(design(), fit.covariance, steps); }
 

@@ -42,11 +42,14 @@ std::shared_ptr<SimulatedReadings> sketched_readings(const LinkSearchWorld& at) 
                                              at.plugins, at.base);
 }
 
-CauseSearch with_sketches(CauseSearch causes, const std::shared_ptr<SimulatedReadings>& sketched) {
+CauseSearch with_sketches(CauseSearch causes, const std::shared_ptr<SimulatedReadings>& sketched,
+                          const noise::Rows& rows) {
   if (!sketched) return causes;
   for (CauseCandidate& c : causes.found) {
     if (c.candidate.refinement.any() && !c.shape->cause.file())
-      c.candidate.design.sketch = sketched->at(c).design.columns;
+      c.candidate.design.sketch = [at_middles = sketched->at(c).design.columns, rows](const VectorXd& theta) {
+        return rows.by_twins(at_middles(theta));
+      };
   }
   return causes;
 }

@@ -26,7 +26,8 @@ CauseSearch with_swaps_by_the_map(CauseSearch causes, const LinkSearchWorld& at,
 // Readings for sketches of searches over many places, times or shapes: the middle one of each row. Null if rows have
 // few readings or the world reads a table.
 std::shared_ptr<SimulatedReadings> sketched_readings(const LinkSearchWorld& at);
-CauseSearch with_sketches(CauseSearch causes, const std::shared_ptr<SimulatedReadings>& sketched);
+CauseSearch with_sketches(CauseSearch causes, const std::shared_ptr<SimulatedReadings>& sketched,
+                          const noise::Rows& rows);
 
 // Adds local columns to walls and obstacles. Their posterior has thousands of samples near one place, which affects
 // only few readings.

@@ -155,14 +155,21 @@ void LinkCauseDomain::let_scan(const CauseShape& shape, inference::Candidate& c)
     const auto& [a, b] = model_.ends()[static_cast<std::size_t>(used_[static_cast<std::size_t>(reading)])];
     return {a.x, a.y, b.x, b.y};
   };
+  // What stands in the way is in the way of both twins: their differences are links without length, which meet nothing.
+  constexpr std::array<double, 4> nowhere{};
   Links links;
-  for (Index row = 0; row < rows_.size(); ++row) links.push_back(link(rows_.middle(row)));
+  for (Index row = 0; row < rows_.size(); ++row)
+    links.push_back(rows_.is_difference(row) ? nowhere : link(rows_.middle(row)));
   if (wall) {
     ReadingLinks readings;
     for (const Index reading : rows_.in_order()) {
       const auto row = static_cast<std::size_t>(rows_.row_of()[static_cast<std::size_t>(reading)]);
       if (readings.first.size() == row) readings.first.push_back(readings.links.size());
       readings.links.push_back(link(reading));
+    }
+    for (Index row = rows_.means(); row < rows_.size(); ++row) {
+      readings.first.push_back(readings.links.size());
+      readings.links.push_back(nowhere);
     }
     readings.first.push_back(readings.links.size());
     c.refinement.proposed =

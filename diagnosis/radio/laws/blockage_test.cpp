@@ -145,11 +145,12 @@ class Scan {
     std::map<std::pair<int, int>, std::vector<Index>> result;
     std::map<std::pair<int, int>, std::size_t> rows;
     for (Index i = 0; i < r.size(); ++i) {
+      if (state_.rows().is_second_twin(i)) continue;
       const auto k = static_cast<std::size_t>(i);
       if (in_full[static_cast<std::size_t>(state_.rows().row_of()[k])])
         result[std::minmax(r.tx[k], r.rx[k])].push_back(i);
     }
-    for (Index row = 0; row < state_.rows().size(); ++row) {
+    for (Index row = 0; row < state_.rows().means(); ++row) {
       if (!in_full[static_cast<std::size_t>(row)]) continue;
       const auto i = static_cast<std::size_t>(state_.rows().example(row));
       ++rows[std::minmax(r.tx[i], r.rx[i])];

@@ -30,7 +30,7 @@ VectorXd residual_of(const LawSources& s, const Diagnosis& found) {
     left[i] = s.data.rssi[static_cast<std::size_t>(row)] - found.mean[row];
   }
   const VectorXd filled = left.array().isNaN().select(0, left);
-  const VectorXd shift = found.seen.after - rows.mean(filled);
+  const VectorXd shift = s.state.left_by(s.state.design()) - rows.mean(filled);
   VectorXd result = left + rows.at_readings(shift);
   if (!s.state.problem().bounds.any()) return result;
   const double sd = std::sqrt(s.state.fit.covariance.field_variance() + s.state.fit.covariance.reading_variance());
@@ -52,6 +52,7 @@ bool drawn_apart(const LawSources& s, const LawPart& law) {
   const LinkReadings& r = s.readings;
   std::vector<double> ways;
   for (Index i = 1; i < r.size(); ++i) {
+    if (s.state.rows().is_second_twin(i)) continue;
     const auto row = s.state.rows().row_of()[static_cast<std::size_t>(i)];
     const Index first = s.state.rows().example(row);
     if (first != i)
@@ -68,6 +69,8 @@ std::string why_not(const LawSources& s, const ReadingDistribution& stated, cons
   if (!stated.base.law) return "not testable: no plugin of the world states a law of readings";
   if (noise::fixed_share(s.state.fit.covariance.family) > 0)
     return "not testable: readings of one place share a part of their scatter, such as multipath";
+  if (s.readings.twin_variance > thresholds::twins_differ * s.state.fit.covariance.reading_variance())
+    return "not testable: the two directions of a link share a part of their scatter";
   if (!drawn_apart(s, stated.base)) return "not testable: readings lie closer than the way over which fading changes";
   if (residual.array().isFinite().count() < thresholds::fewest_law_readings)
     return "not testable: fewer than 300 readings that are no bounds";
@@ -146,6 +149,18 @@ VectorXd without_grazing(const LawSources& s, const VectorXd& residual, Diagnosi
   return grazes.select(std::nan(""), residual);
 }
 
+// Twins count once, by their mean: they share what scatters.
+VectorXd without_second_twins(const LinkReadings& readings, const noise::Rows& rows, VectorXd residual) {
+  for (Index i = 0; i < residual.size(); ++i) {
+    if (rows.is_second_twin(i)) continue;
+    const Index other = readings.twin.empty() ? -1 : readings.twin[static_cast<std::size_t>(i)];
+    if (other < 0) continue;
+    residual[i] = (residual[i] + residual[other]) / 2;
+    residual[other] = std::nan("");
+  }
+  return residual;
+}
+
 // Runs the tests on single readings in turn.
 void add_laws_of_readings(const LawSources& s, const VectorXd& all, Diagnosis& found) {
   const ReadingDistribution stated = stated_law(s.model);
@@ -214,7 +229,7 @@ VectorXd without_link(const LawSources& s, const std::set<std::string>& ends, Ve
 void add_laws(const LawSources& s, Diagnosis& found) {
   const VectorXd residual = residual_of(s, found);
   const std::set<std::string> blocked = add_blockage(s, residual, found);
-  add_laws_of_readings(s, without_link(s, blocked, residual), found);
+  add_laws_of_readings(s, without_second_twins(s.readings, s.state.rows(), without_link(s, blocked, residual)), found);
 }
 
 }  // namespace muster::diagnosis

@@ -13,9 +13,17 @@ namespace {
 
 using noise::Index;
 
+Index twin_of(const LinkReadings& readings, Index reading) {
+  return readings.twin.empty() ? -1 : readings.twin[static_cast<std::size_t>(reading)];
+}
+
+// Of twins the one that the radio of the lower number sent.
 std::vector<Index> by_link_and_time(const LinkReadings& readings) {
-  std::vector<Index> order(readings.tx.size());
-  std::iota(order.begin(), order.end(), 0);
+  std::vector<Index> order;
+  for (Index i = 0; i < readings.size(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    if (twin_of(readings, i) < 0 || readings.tx[k] < readings.rx[k]) order.push_back(i);
+  }
   const auto key = [&](Index i) {
     const auto k = static_cast<std::size_t>(i);
     return std::tuple(readings.tx[k], readings.rx[k], readings.t.empty() ? 0.0 : readings.t[k]);
@@ -27,6 +35,7 @@ std::vector<Index> by_link_and_time(const LinkReadings& readings) {
 bool ends_row(const LinkReadings& r, const LinkRowLimits& limits, Index first, Index next) {
   const auto a = static_cast<std::size_t>(first), b = static_cast<std::size_t>(next);
   if (r.tx[a] != r.tx[b] || r.rx[a] != r.rx[b]) return true;
+  if ((twin_of(r, first) < 0) != (twin_of(r, next) < 0)) return true;
   if (!r.t.empty() && r.t[b] - r.t[a] >= limits.time) return true;
   for (const std::vector<double>* yaw : {&r.rx_yaw, &r.tx_yaw}) {
     if (!yaw->empty() && std::abs(std::remainder((*yaw)[b] - (*yaw)[a], 2 * M_PI)) > limits.turn) return true;
@@ -80,12 +89,12 @@ noise::Rows link_rows(const LinkReadings& readings, const LinkRowLimits& limits)
       first.push_back(static_cast<Index>(k));
   }
   first.push_back(static_cast<Index>(order.size()));
-  return {std::move(order), std::move(first)};
+  return {std::move(order), std::move(first), readings.twin};
 }
 
 noise::Sites link_sites(const noise::Rows& rows, const LinkReadings& readings) {
-  const Eigen::Matrix3Xd tx = rows.mean(readings.tx_at.transpose()).transpose();
-  const Eigen::Matrix3Xd rx = rows.mean(readings.rx_at.transpose()).transpose();
+  const Eigen::Matrix3Xd tx = rows.by_stream(rows.mean(readings.tx_at.transpose())).transpose();
+  const Eigen::Matrix3Xd rx = rows.by_stream(rows.mean(readings.rx_at.transpose())).transpose();
   Ways ways;
   Eigen::Matrix3Xd tx_stretch(3, rows.size()), rx_stretch(3, rows.size());
   for (Index i = 0; i < rows.size(); ++i) {
@@ -113,6 +122,7 @@ noise::Sites link_sites(const noise::Rows& rows, const LinkReadings& readings) {
     }
     sites.stream.push_back(anchored_at_tx);
     sites.group.push_back(anchored_at_tx ? readings.tx[link] : readings.rx[link]);
+    if (rows.means() < rows.size()) sites.alone.push_back(rows.is_difference(i) ? readings.twin_variance : 0);
   }
   return sites;
 }

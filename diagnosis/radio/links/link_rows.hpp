@@ -13,6 +13,9 @@ struct LinkReadings {
   std::vector<double> rx_yaw;     // rad; empty: unknown
   std::vector<double> tx_yaw;     // the same of the transmitter
   std::vector<double> level;      // dB, expected level of a model; empty: unknown
+  // The reading of the other direction at the same moment, or -1; empty: none has one, or the two scatter apart.
+  std::vector<noise::Index> twin;
+  double twin_variance = 0;  // dB^2, of half the difference of twins
 
   noise::Index size() const { return static_cast<noise::Index>(tx.size()); }
 };
@@ -29,7 +32,7 @@ struct LinkRowLimits {
 noise::Rows link_rows(const LinkReadings& readings, const LinkRowLimits& limits = {});
 // Place: the end that moves more. Anchor: the other one, the same for both directions of a pair.
 noise::Sites link_sites(const noise::Rows& rows, const LinkReadings& readings);
-// The middle reading of each row.
+// The middle reading of each row, of means the first twin.
 LinkReadings middles(const noise::Rows& rows, const LinkReadings& readings);
 
 // Limits for a search: rows as short as 4,000 rows allow, down to single readings, since short rows show unmapped walls
