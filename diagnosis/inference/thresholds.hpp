@@ -206,6 +206,12 @@ inline constexpr double artefact_gain = 50;
 // deviance; below which a place or a smooth beside a clip is its artefact; chosen;
 // BackwardElimination.RequiresMoreGainOfAWallThanOfADriftBesideClipping
 inline constexpr double artefact_gain_beside_clip = 60;
+// draws; of the model's own errors, on which gains are calibrated; chosen; none
+inline constexpr Eigen::Index model_draws = 16;
+// log; of a field's size or distance, within which its draws are kept; chosen; none
+inline constexpr double same_field = 0.2;
+// count; atoms of one candidate that are enough to know its highest gain in draws; chosen; none
+inline constexpr std::size_t drawn_atoms = 1000;
 // count; atoms of one candidate that are enough to know the bulk; chosen; none
 inline constexpr std::size_t bulk_atoms = 200;
 // atoms; fewest that are a bulk; chosen; none
@@ -244,6 +250,9 @@ inline constexpr double block_side = 3;
 inline constexpr int fewest_refuting_blocks = 5;
 // share; growth of the squared error at left-out places by which a term is refuted, whatever its interval; chosen; none
 inline constexpr double refuting_growth = 0.25;
+// share; of its gain that a term keeps on rows left out, given their neighbours, where it is not refuted by the plain
+// error there; chosen; Refutation.SparesASmallOffsetThatNeighboursShow
+inline constexpr double borne_out_share = 0.5;
 // cells; effective number below which the sandwich variance is not used; chosen; none
 inline constexpr double fewest_cells = 10;
 // deviance; behind the best within which the middle of a posterior may lie; derived;

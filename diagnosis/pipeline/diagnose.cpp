@@ -247,7 +247,7 @@ class Diagnoser {
   };
 
   void add_what_scatters(const inference::ModelState& state, Diagnosis& out) {
-    const LawSources sources{setup_.model,     setup_.data,  causes_, state, setup_.layout->readings(),
+    const LawSources sources{setup_.model,     setup_.draws, setup_.data, causes_, state, setup_.layout->readings(),
                              setup_.used.rows, setup_.fitted};
     add_clips(sources, out);
     if (add_silence_beside(sources, extend(state, out), out)) extend(state, out);

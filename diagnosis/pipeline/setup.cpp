@@ -110,6 +110,20 @@ CauseSearch candidates_of(const DiagnosisSetup& at, const LinkSearchWorld& world
   return with_columns_near(with_sketches(std::move(found), at.sketched, at.rows), world);
 }
 
+// Errors of the readings in runs of the world itself. A reading that a run loses has none.
+std::function<Eigen::MatrixXd(const noise::StatedField&, Index)> errors_in_draws(const DiagnosisSetup& at) {
+  if (drawn_field(at.model).shadowing <= 0) return {};
+  return [&at](const noise::StatedField& field, Index draws) {
+    Eigen::MatrixXd errors(static_cast<Index>(at.used.rows.size()), draws);
+    for (Index k = 0; k < draws; ++k) {
+      const WorldDraw draw = at.draws.draw(static_cast<uint64_t>(k), {}, field);
+      const VectorXd error = (draw.drawn - draw.expected)(at.used.rows);
+      errors.col(k) = error.array().isFinite().select(error, 0);
+    }
+    return errors;
+  };
+}
+
 inference::Problem problem_of(const DiagnosisSetup& at) {
   ObservedLevels levels = observed_levels(at.data, at.receiver, at.fitted.readings, at.used.rows);
   inference::Problem problem;
@@ -120,6 +134,7 @@ inference::Problem problem_of(const DiagnosisSetup& at) {
   for (const CauseCandidate& c : at.sought.found) problem.candidates.push_back(c.candidate);
   problem.smooths = link_smooths(at.layout->readings(), at.observed.columns, at.data.has_places());
   problem.stated = drawn_field(at.model);
+  problem.drawn = errors_in_draws(at);
   return problem;
 }
 
@@ -131,6 +146,7 @@ DiagnosisSetup::DiagnosisSetup(const std::filesystem::path& world, const std::fi
       data(read_dataset(tables->read(table))),
       receiver(receiver_checks(data)),
       model(world, table, plugins, tables),
+      draws(world, table, plugins, tables, receiver.step),
       causes(causes_on(plugins)),
       notes_of_places(data.has_places() ? check_places(model, data) : std::vector<std::string>{}),
       fitted(fit(model, data, hold_causes(model))),

@@ -7,6 +7,7 @@
 #include "diagnosis/pipeline/link_observations.hpp"
 #include "diagnosis/prediction/sensitivities.hpp"
 #include "diagnosis/radio/causes/simulated_readings.hpp"
+#include "diagnosis/radio/links/world_draws.hpp"
 
 namespace muster::diagnosis {
 
@@ -29,6 +30,7 @@ struct DiagnosisSetup {
   const Dataset data;
   const ReceiverChecks receiver;
   LinkModel model;
+  const WorldDraws draws;
   const std::vector<Cause> causes;                 // of the plugin path
   const std::vector<std::string> notes_of_places;  // on radios whose places differ between data and world
   const Fit fitted;

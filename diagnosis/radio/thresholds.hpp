@@ -57,6 +57,9 @@ inline constexpr double outlier_gap = 30;
 // readings; that may be outliers together; chosen; ReceiverChecks.AnIsolatedReadingIsReportedWithItsRow
 inline constexpr std::size_t most_outliers = 3;
 
+// draws; of the world, none of which may pile up where readings do; chosen; none
+inline constexpr uint64_t pile_draws = 4;
+
 // links: geometry
 
 // m; extent of a radio's places from which it moves; chosen; none
@@ -185,10 +188,10 @@ inline constexpr double near_clip = 2;
 inline constexpr Eigen::Index fewest_law_readings = 300;
 // nats; by which another law may be behind and is an alternative; chosen; none
 inline constexpr double open_law_nats = 3;
-// factor; of the field's size within which the world's own draw is alike; chosen; none
-inline constexpr double alike_shadowing = 1.25;
-// factor; of the field's distance within which the world's own draw is alike; chosen; none
-inline constexpr double alike_decorrelation = 1.6;
+// draws; of the world, over which a fitted field scatters; chosen; none
+inline constexpr int field_draws = 12;
+// probability; of the fitted field among those of the world's draws, below which it is another; chosen; none
+inline constexpr double alike_field = 0.01;
 // lambda; from which the weaker of a fading law and a field is beyond doubt; chosen; none
 inline constexpr double second_law_lambda = 30;
 // m; from a wall's end within which a reading grazes it, since surveys write centimetres; chosen;

@@ -112,25 +112,10 @@ std::optional<std::size_t> worst_of(const ModelState& state, const Eigen::Vector
   return worst;
 }
 
-std::optional<std::size_t> refuted_at_places(const ModelState& state) {
-  const Folds folds = folds_of(state, blocks_of(state));
-  if (folds.blocks() < thresholds::fewest_refuting_blocks) return {};
-  const Errors errors(state, folds);
-  const Eigen::VectorXd full = errors.first(state.terms.size());
-  const auto refuted = [&](const Eigen::VectorXd& before) {
-    const HeldOutGain gain = folds.compared(before, full);
-    // A term may fail in few blocks and badly: the interval then includes 0.
-    return gain.upper95 < 0 || gain.gain < -thresholds::refuting_growth * before.mean();
-  };
-  const bool all = refuted(errors.first(0));
-  const auto without = [&](std::size_t one) { return errors.without(one); };
-  return worst_of(state, full, without, [&](std::size_t one) { return all || refuted(errors.without(one)); });
-}
-
-// Squared whitened errors of rows whose part of the time is left out: of rows given their neighbours, so that a field
-// over places does not drown what happens in time.
-Eigen::VectorXd errors_at_times(const noise::Whitener& whitener, const Eigen::MatrixXd& design,
-                                const Eigen::VectorXd& y, const std::vector<int>& parts) {
+// Squared whitened errors of rows whose part is left out of the fit: of rows given their neighbours, so that a field
+// over places does not drown what happens in time, or in one direction.
+Eigen::VectorXd white_errors(const noise::Whitener& whitener, const Eigen::MatrixXd& design, const Eigen::VectorXd& y,
+                             const std::vector<int>& parts) {
   const Eigen::MatrixXd x = whitener(design);
   const Eigen::VectorXd z = whitener(y);
   Eigen::VectorXd result(z.size());
@@ -145,6 +130,35 @@ Eigen::VectorXd errors_at_times(const noise::Whitener& whitener, const Eigen::Ma
   return result;
 }
 
+std::optional<std::size_t> refuted_at_places(const ModelState& state) {
+  const std::vector<int> blocks = blocks_of(state);
+  const Folds folds = folds_of(state, blocks);
+  if (folds.blocks() < thresholds::fewest_refuting_blocks) return {};
+  const Errors errors(state, folds);
+  const Eigen::VectorXd full = errors.first(state.terms.size());
+  const noise::Whitener whitener(state.field(), state.fit.covariance);
+  const Eigen::VectorXd white = white_errors(whitener, state.design(), state.y(), blocks);
+  // A small offset moves levels by less than the field does: it may raise the error where the field happens to lie on
+  // its side. Given their neighbours the readings still tell.
+  const auto borne_out = [&](std::size_t one) {
+    const Term& term = state.terms[one];
+    const Eigen::VectorXd without = white_errors(whitener, state.design_without(term), state.y(), blocks);
+    return (without - white).sum() > thresholds::borne_out_share * term.gain;
+  };
+  const auto grows = [&](const HeldOutGain& gain, const Eigen::VectorXd& before) {
+    return gain.gain < -thresholds::refuting_growth * before.mean();
+  };
+  // A term may fail in few blocks and badly: the interval then includes 0.
+  const Eigen::VectorXd base = errors.first(0);
+  const HeldOutGain all = folds.compared(base, full);
+  const auto without = [&](std::size_t one) { return errors.without(one); };
+  return worst_of(state, full, without, [&](std::size_t one) {
+    const Eigen::VectorXd before = without(one);
+    const HeldOutGain gain = folds.compared(before, full);
+    return grows(gain, before) || grows(all, base) || ((all.upper95 < 0 || gain.upper95 < 0) && !borne_out(one));
+  });
+}
+
 // A name in time says what happens at other times: it must not be worse there than no name.
 std::optional<std::size_t> refuted_at_times(const ModelState& state) {
   const auto in_time = [](const Term& term) { return !term.smooth() && term.candidate->role.time_like; };
@@ -153,9 +167,9 @@ std::optional<std::size_t> refuted_at_times(const ModelState& state) {
   if (parts.empty()) return {};
   const noise::Whitener whitener(state.field(), state.fit.covariance);
   const auto without = [&](std::size_t one) {
-    return errors_at_times(whitener, state.design_without(state.terms[one]), state.y(), parts);
+    return white_errors(whitener, state.design_without(state.terms[one]), state.y(), parts);
   };
-  return worst_of(state, errors_at_times(whitener, state.design(), state.y(), parts), without,
+  return worst_of(state, white_errors(whitener, state.design(), state.y(), parts), without,
                   [&](std::size_t one) { return in_time(state.terms[one]); });
 }
 

@@ -7,6 +7,7 @@
 #include "diagnosis/inference/noise/columns.hpp"
 #include "diagnosis/inference/score/bulk_inflation.hpp"
 #include "diagnosis/inference/score/clipping_check.hpp"
+#include "diagnosis/inference/score/drawn_inflation.hpp"
 #include "diagnosis/inference/score/marginal_p_value.hpp"
 #include "diagnosis/inference/select/choose.hpp"
 #include "diagnosis/inference/select/merge_duplicates.hpp"
@@ -123,7 +124,7 @@ Trial tried(const ModelState& state, const ScoredCandidate& lead, const noise::F
   trial.marginal_log_p += model.skew_charge(lead.columns);
   if (trial.marginal_log_p <= state.threshold()) {
     const WhitenedModel with = state.whitened_model(noise::hstack(design, lead.columns), fit.covariance);
-    trial.inflation = bulk_inflation(state, with, c, lead.columns);
+    trial.inflation = std::max(bulk_inflation(state, with, c, lead.columns), drawn_inflation(state, model, c));
     trial.marginal_log_p =
         std::max(trial.marginal_log_p, state.log_p(c, trial.gain / trial.inflation, lead.columns.cols(), true));
   }

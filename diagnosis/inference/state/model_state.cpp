@@ -185,6 +185,20 @@ std::vector<noise::Family> ModelState::likely_families(noise::Family first) cons
   return result;
 }
 
+const Eigen::MatrixXd& ModelState::drawn() const {
+  const noise::StatedField field = noise::stated_by(fit.covariance, within());
+  const auto moved = [](double now, double then) { return !(std::abs(std::log(now / then)) < thresholds::same_field); };
+  if (problem_.drawn &&
+      (moved(field.shadowing, drawn_with_.shadowing) || moved(field.decorrelation, drawn_with_.decorrelation))) {
+    drawn_ = problem_.drawn(field, thresholds::model_draws);
+    drawn_with_ = field;
+    drawn_rows_.resize(0, 0);
+  }
+  if (drawn_rows_.rows() != rows_.size())
+    drawn_rows_ = drawn_.size() ? rows_.mean(drawn_) : Eigen::MatrixXd(rows_.size(), 0);
+  return drawn_rows_;
+}
+
 const LongRangeRows& ModelState::far() const {
   if (!far_) far_ = std::make_unique<const LongRangeRows>(*problem_.layout, options_, rows_);
   return *far_;

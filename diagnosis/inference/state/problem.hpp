@@ -17,6 +17,8 @@ struct Problem {
   std::vector<Candidate> candidates;
   std::vector<Candidate> smooths;  // generic ones, along every column of a reading (smooths.hpp)
   noise::StatedField stated;       // correlated part of the errors, as the model states it
+  // Errors of all readings as the model itself draws them with such a field, one column a draw. Empty: it draws none.
+  std::function<Eigen::MatrixXd(const noise::StatedField& field, Index draws)> drawn{};
   // Candidates that depend on the base coefficients of the current model. May be empty.
   std::function<std::vector<Candidate>(const Eigen::VectorXd& base_coefficients)> depending;
 };

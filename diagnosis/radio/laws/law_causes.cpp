@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <numeric>
 #include <set>
 
 #include "diagnosis/radio/laws/blockage_test.hpp"
@@ -45,22 +48,33 @@ VectorXd residual_of(const LawSources& s, const Diagnosis& found) {
   return result;
 }
 
-// True if most readings are as far apart as their law needs to draw anew.
-bool drawn_apart(const LawSources& s, const LawPart& law) {
+std::vector<Index> in_order_of_time(const LinkReadings& r) {
+  std::vector<Index> order(static_cast<std::size_t>(r.size()));
+  std::iota(order.begin(), order.end(), 0);
+  const auto time = [&](Index i) { return r.t.empty() ? 0.0 : r.t[static_cast<std::size_t>(i)]; };
+  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return time(a) < time(b); });
+  return order;
+}
+
+// Readings of which each is drawn anew: of those of a link that lie closer than its law needs, the first.
+VectorXd drawn_anew(const LawSources& s, const LawPart& law, VectorXd residual) {
   const double apart = law.law->apart(law.params);
-  if (apart == 0) return true;
+  if (apart == 0) return residual;
   const LinkReadings& r = s.readings;
-  std::vector<double> ways;
-  for (Index i = 1; i < r.size(); ++i) {
-    if (s.state.rows().is_second_twin(i)) continue;
-    const auto row = s.state.rows().row_of()[static_cast<std::size_t>(i)];
-    const Index first = s.state.rows().example(row);
-    if (first != i)
-      ways.push_back((r.rx_at.col(i) - r.rx_at.col(first)).norm() + (r.tx_at.col(i) - r.tx_at.col(first)).norm());
+  std::map<std::pair<int, int>, Index> last;  // by link
+  for (const Index i : in_order_of_time(r)) {
+    if (!std::isfinite(residual[i])) continue;
+    const auto k = static_cast<std::size_t>(i);
+    const auto [at, first] = last.try_emplace({r.tx[k], r.rx[k]}, i);
+    if (first) continue;
+    const double way =
+        (r.rx_at.col(i) - r.rx_at.col(at->second)).norm() + (r.tx_at.col(i) - r.tx_at.col(at->second)).norm();
+    if (way > apart)
+      at->second = i;
+    else
+      residual[i] = std::nan("");
   }
-  if (ways.empty()) return false;
-  std::nth_element(ways.begin(), ways.begin() + static_cast<std::ptrdiff_t>(ways.size() / 2), ways.end());
-  return ways[ways.size() / 2] > apart;
+  return residual;
 }
 
 // Reason why single readings are not testable; empty if they are.
@@ -71,9 +85,9 @@ std::string why_not(const LawSources& s, const ReadingDistribution& stated, cons
     return "not testable: readings of one place share a part of their scatter, such as multipath";
   if (s.readings.twin_variance > thresholds::twins_differ * s.state.fit.covariance.reading_variance())
     return "not testable: the two directions of a link share a part of their scatter";
-  if (!drawn_apart(s, stated.base)) return "not testable: readings lie closer than the way over which fading changes";
   if (residual.array().isFinite().count() < thresholds::fewest_law_readings)
-    return "not testable: fewer than 300 readings that are no bounds";
+    return "not testable: fewer than 300 readings that are no bounds and farther apart than the way over which fading "
+           "changes";
   return "";
 }
 
@@ -93,15 +107,27 @@ ReadingDistribution add_scatter(const LawSources& s, const ReadingDistribution& 
   return best->law;
 }
 
-// True if rows of a draw of the world's own shadowing yield the same fit as the data.
-bool world_draws_alike(const LawSources& s) {
-  const VectorXd drawn = s.model.drawn(), expected = s.model.expected();
-  const VectorXd apart = (drawn - expected)(s.used);
-  if (!apart.allFinite()) return false;
-  const noise::StatedField own = stated_by(fitted_to(s.state, s.state.rows().mean(apart)), s.state.within());
-  const noise::StatedField fitted = stated_by(s.state.fit.covariance, s.state.within());
-  return std::abs(std::log(own.shadowing / fitted.shadowing)) < std::log(thresholds::alike_shadowing) &&
-         std::abs(std::log(own.decorrelation / fitted.decorrelation)) < std::log(thresholds::alike_decorrelation);
+// log shadowing and log decorrelation distance of a fitted field.
+Eigen::Vector2d shape_of(const LawSources& s, const noise::Covariance& covariance) {
+  const noise::StatedField field = stated_by(covariance, s.state.within());
+  return {std::log(field.shadowing), std::log(field.decorrelation)};
+}
+
+// True if the fitted field is one of those that rows of the world's own draws yield: Hotelling's T^2 of one more draw.
+bool world_draws_alike(const LawSources& s, const Diagnosis& found) {
+  constexpr int n = thresholds::field_draws;
+  Eigen::Matrix2Xd shapes(2, n);
+  for (int k = 0; k < n; ++k) {
+    const WorldDraw draw = s.draws.draw(static_cast<uint64_t>(k), found.parameters, {});
+    const VectorXd error = (draw.drawn - draw.expected)(s.used);
+    if (!error.allFinite()) return false;
+    shapes.col(k) = shape_of(s, fitted_to(s.state, s.state.rows().mean(error)));
+  }
+  const Eigen::Vector2d mean = shapes.rowwise().mean(), away = shape_of(s, s.state.fit.covariance) - mean;
+  const Eigen::Matrix2Xd apart = shapes.colwise() - mean;
+  const Eigen::Matrix2d spread = apart * apart.transpose() / (n - 1) + 1e-4 * Eigen::Matrix2d::Identity();
+  const double t2 = away.dot(spread.inverse() * away) * n / (n + 1), f = t2 * (n - 2) / (2 * (n - 1));
+  return std::pow(1 + 2 * f / (n - 2), -0.5 * (n - 2)) > thresholds::alike_field;  // tail of F with 2 and n - 2
 }
 
 // Causes that draw a field.
@@ -125,7 +151,7 @@ void add_field(const LawSources& s, KrigedReadings& field, const ReadingDistribu
   test.values[0].name = draw.scale;
   test.values[1].name = draw.distance;
   // The field needs two tests to agree (shadowing_test.hpp).
-  if (beyond_chance(test, thresholds::field_alpha) && !world_draws_alike(s)) add_named(s, causes, test, found);
+  if (beyond_chance(test, thresholds::field_alpha) && !world_draws_alike(s, found)) add_named(s, causes, test, found);
 }
 
 // Each of the two laws can imitate the other: the weaker one is kept only if it is beyond doubt.
@@ -164,13 +190,15 @@ VectorXd without_second_twins(const LinkReadings& readings, const noise::Rows& r
 // Runs the tests on single readings in turn.
 void add_laws_of_readings(const LawSources& s, const VectorXd& all, Diagnosis& found) {
   const ReadingDistribution stated = stated_law(s.model);
-  const std::string why = why_not(s, stated, all);
+  const VectorXd anew = stated.base.law ? drawn_anew(s, stated.base, all) : all;
+  const std::string why = why_not(s, stated, anew);
   add_tested(causes_that(s, [](const Cause& c) { return c.meaning().kind == MUSTER_LAW && c.plugin->law; }), why,
              found);
   if (!why.empty()) return add_tested(fields_of(s), why, found);
   const std::vector<noise::Family> likely = s.state.likely_families(s.state.fit.covariance.family);
   const bool as_drawn = std::any_of(likely.begin(), likely.end(), noise::is_stated);
-  KrigedReadings field(s.readings, without_grazing(s, all, found), as_drawn ? s.state.field().sites().stated : nullptr);
+  KrigedReadings field(s.readings, without_grazing(s, anew, found),
+                       as_drawn ? s.state.field().sites().stated : nullptr);
   const std::size_t before = found.causes.size();
   const ReadingDistribution law = add_scatter(s, stated, field, found);
   add_field(s, field, law, found);

@@ -8,12 +8,14 @@
 #include "diagnosis/causes/cause_model.hpp"
 #include "diagnosis/inference/state/model_state.hpp"
 #include "diagnosis/radio/laws/fading_tests.hpp"
+#include "diagnosis/radio/links/world_draws.hpp"
 #include "diagnosis/result.hpp"
 
 namespace muster::diagnosis {
 
 struct LawSources {
   LinkModel& model;
+  const WorldDraws& draws;
   const Dataset& data;
   const std::vector<Cause>& causes;    // on the plugin path
   const inference::ModelState& state;  // after the search

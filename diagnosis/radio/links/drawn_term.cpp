@@ -63,6 +63,20 @@ noise::StatedField drawn_field(const LinkModel& model) {
           instance->params()[number_of(*instance, draw.distance)]};
 }
 
+bool set_drawn_field(LinkModel& model, const noise::StatedField& field) {
+  const Instance* instance = drawing(model);
+  if (!instance) return false;
+  const muster_draw draw = *instance->plugin().draw;
+  const std::string name = instance->name();
+  for (const auto& [parameter, value] :
+       {std::pair(draw.scale, field.shadowing), {draw.distance, field.decorrelation}}) {
+    const std::string path = name + '/' + parameter;
+    const muster_param& declared = *model.parameter(path).declared;
+    model.set(path, std::clamp(value, declared.min, declared.max));
+  }
+  return true;
+}
+
 bool declares_draws(const LinkModel& model) {
   const auto& all = model.simulation().instances();
   return std::any_of(all.begin(), all.end(), [](const auto& i) { return i->plugin().draw != nullptr; });

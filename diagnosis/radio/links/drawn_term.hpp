@@ -14,6 +14,8 @@ namespace muster::diagnosis {
 std::shared_ptr<const noise::StatedCorrelation> drawn_correlation(const LinkModel& model);
 // Standard deviation and decorrelation distance of those draws; zeros where there are none.
 noise::StatedField drawn_field(const LinkModel& model);
+// Sets the size and the distance of those draws, within the bounds of the parameters. False where there are none.
+bool set_drawn_field(LinkModel& model, const noise::StatedField& field);
 // True if an instance declares its draws, of any size.
 bool declares_draws(const LinkModel& model);
 

@@ -66,8 +66,10 @@ void refuse_far_places(const std::filesystem::path& data) {
                       " m (is it another unit, such as millimetres?)");
 }
 
-World world_for(const std::filesystem::path& file, const std::filesystem::path& data, TableCache& tables) {
+World world_for(const std::filesystem::path& file, const std::filesystem::path& data, TableCache& tables,
+                std::optional<uint64_t> seed) {
   World world = read_world(file, standard());
+  world.seed = seed.value_or(world.seed);
   std::vector<std::string> told_by_the_data_set;
   tables.put(data, with_clock_in_seconds(tables.read(data), told_by_the_data_set));
   std::erase_if(world.instances, lists_links);
@@ -98,8 +100,9 @@ static Observable links_of(const std::filesystem::path& data, const Place& place
 }
 
 LinkModel::LinkModel(const std::filesystem::path& world, const std::filesystem::path& data,
-                     const Library::SearchPath& plugins, const std::shared_ptr<TableCache>& tables)
-    : LinkModel(world_for(world, data, *tables), data, plugins, tables) {}
+                     const Library::SearchPath& plugins, const std::shared_ptr<TableCache>& tables,
+                     std::optional<uint64_t> seed)
+    : LinkModel(world_for(world, data, *tables, seed), data, plugins, tables) {}
 
 LinkModel::LinkModel(World declared, const std::filesystem::path& data, const Library::SearchPath& plugins,
                      const std::shared_ptr<TableCache>& tables) try

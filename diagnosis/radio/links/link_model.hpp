@@ -22,7 +22,8 @@ class LinkModel : public MeasuredWorld {
  public:
   // The world with the readings of `data` as its links. `tables`: files already read. Throws Error.
   LinkModel(const std::filesystem::path& world, const std::filesystem::path& data, const Library::SearchPath& plugins,
-            const std::shared_ptr<TableCache>& tables = std::make_shared<TableCache>());
+            const std::shared_ptr<TableCache>& tables = std::make_shared<TableCache>(),
+            std::optional<uint64_t> seed = {});  // of its draws, instead of the world's
 
   // Both ends of each row, tx first.
   const std::vector<std::array<End, 2>>& ends() const { return ends_; }

@@ -1,0 +1,94 @@
+// Inflation in the model's own draws: none where they have the fitted covariance, found where a few waves make them.
+#include "diagnosis/inference/score/drawn_inflation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/inference/noise/exact_covariance.hpp"
+#include "muster/random.hpp"
+#include "tests/diagnosis/inference/causes.hpp"
+
+namespace muster::inference {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using synthetic::causes_of;
+using synthetic::problem_of;
+using synthetic::varied;
+using synthetic::world_of;
+
+using Draws = std::function<MatrixXd(const ModelState&, Index)>;  // of rows
+
+// Inflation of the smooths over the plan, in a state whose model draws like this.
+double inflation_in(uint64_t seed, const Draws& draws) {
+  const auto world = world_of(varied(seed, 1200));
+  const auto causes = causes_of(world);
+  Problem problem = problem_of(world, VectorXd::Zero(world.rssi.size()), causes);
+  const ModelState* state = nullptr;
+  problem.drawn = [&](const noise::StatedField&, Index count) {
+    const MatrixXd of_rows = draws(*state, count);
+    MatrixXd result(world.rssi.size(), count);
+    for (Index k = 0; k < count; ++k) result.col(k) = state->rows().at_readings(of_rows.col(k));
+    return result;
+  };
+  const ModelState at(problem, {});
+  state = &at;
+  const Candidate* widest = nullptr;  // the candidate with the most atoms
+  Index most = 0;
+  for (const Entry& entry : at.entries()) {
+    if (entry.count() > most) most = entry.count(), widest = entry.candidate.get();
+  }
+  return drawn_inflation(at, at.whitened_model(at.base()), *widest);
+}
+
+MatrixXd of_the_covariance(const ModelState& state, Index count) {
+  const Index n = state.rows().size();
+  const MatrixXd covariance = noise::covariance_of_sums(state.field(), state.fit.covariance, MatrixXd::Identity(n, n));
+  const Stream stream(31);
+  MatrixXd z(n, count);
+  for (Index i = 0; i < n; ++i) {
+    for (Index k = 0; k < count; ++k) z(i, k) = stream.normal(static_cast<uint64_t>(i), static_cast<uint64_t>(k));
+  }
+  return covariance.llt().matrixL() * z;
+}
+
+// Three waves over the plan, without any scatter of readings.
+MatrixXd of_few_waves(const ModelState& state, Index count) {
+  const Stream stream(32);
+  const Eigen::Matrix3Xd& place = state.field().sites().place;
+  MatrixXd result = MatrixXd::Zero(place.cols(), count);
+  for (Index k = 0; k < count; ++k) {
+    for (uint64_t m = 0; m < 3; ++m) {
+      const auto draw = static_cast<uint64_t>(k);
+      const double turn = 6.283 * stream.uniform(draw, 3 * m), phase = 6.283 * stream.uniform(draw, 3 * m + 1),
+                   wave = 0.5 + stream.uniform(draw, 3 * m + 2);
+      for (Index i = 0; i < place.cols(); ++i)
+        result(i, k) += std::cos(wave * (std::cos(turn) * place(0, i) + std::sin(turn) * place(1, i)) + phase);
+    }
+  }
+  return result;
+}
+
+TEST(DrawnInflation, IsOneInDrawsOfTheFittedCovariance) {
+  for (uint64_t seed = 1; seed <= 3; ++seed) EXPECT_LT(inflation_in(seed, of_the_covariance), 1.35) << seed;
+}
+
+TEST(DrawnInflation, IsFoundInDrawsOfFewWaves) {
+  for (uint64_t seed = 1; seed <= 3; ++seed)
+    EXPECT_GT(inflation_in(seed, of_few_waves), 1.2 * inflation_in(seed, of_the_covariance)) << seed;
+}
+
+TEST(DrawnInflation, IsOneWhereTheModelDrawsNothing) {
+  const auto world = world_of(varied(1, 1200));
+  const auto causes = causes_of(world);
+  const Problem problem = problem_of(world, VectorXd::Zero(world.rssi.size()), causes);
+  const ModelState state(problem, {});
+  EXPECT_EQ(drawn_inflation(state, state.whitened_model(state.base()), *state.entries()[0].candidate), 1);
+}
+
+}  // namespace
+}  // namespace muster::inference
