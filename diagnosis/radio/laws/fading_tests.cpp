@@ -7,6 +7,7 @@
 #include <map>
 
 #include "diagnosis/inference/state/null_tail.hpp"
+#include "diagnosis/inference/thresholds.hpp"
 #include "diagnosis/radio/laws/law_families.hpp"
 #include "diagnosis/radio/laws/law_likelihood.hpp"
 #include "diagnosis/radio/thresholds.hpp"
@@ -109,6 +110,15 @@ class Tests {
       return std::pow((close.variance - variance_of(law, judge_.step())) / close.standard_error, 2) / 2;
     };
     return off(fitted.law) - off(null_law_) < thresholds::contradiction_nats;
+  }
+
+  // True if fewer than five readings carry half of the gain: one that passes a wall's end on the other side is no law.
+  bool rests_on_few(const Fitted& fitted) {
+    Eigen::VectorXd won = judge_.each(fitted.law, fitted.peak) - judge_.each(null_law_, null_);
+    const auto few = static_cast<std::ptrdiff_t>(
+        std::min<Eigen::Index>(static_cast<Eigen::Index>(inference::thresholds::few_readings) - 1, won.size()));
+    std::nth_element(won.data(), won.data() + few, won.data() + won.size(), std::greater<>());
+    return won.head(few).sum() > won.sum() / 2;
   }
 
   // The strength with its 95 % interval by profile likelihood, wider by the gain's factor.
@@ -224,7 +234,7 @@ LawTests law_tests(KrigedReadings& field, double step, const std::vector<std::sh
   for (const auto& [cause, found] : best) {
     const auto& [family, fitted] = found;
     LawTest test{cause, {}, 0, 0, 0, fitted.law};
-    weigh(test, tests.borne_out(fitted) ? tests.gain(fitted) : 0);
+    weigh(test, tests.borne_out(fitted) && !tests.rests_on_few(fitted) ? tests.gain(fitted) : 0);
     result.push_back(std::move(test));
   }
   std::stable_sort(result.begin(), result.end(),

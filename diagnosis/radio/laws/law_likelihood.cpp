@@ -105,6 +105,16 @@ double LawLikelihood::value(const ReadingDistribution& law, const Peak& there) {
   return at(densities_of(law, log_variance, there, 0), log_variance, there.shape, there.place);
 }
 
+Eigen::VectorXd LawLikelihood::each(const ReadingDistribution& law, const Peak& there) {
+  const double log_variance = std::log(variance_of(law, step_));
+  const ReadingDensities densities = densities_of(law, log_variance, there, 0);
+  const ReadingView& view = field_.view(there.shape, there.place);
+  const double size = log_variance - view.log_ratio;
+  Eigen::VectorXd result(field_.size());
+  for (Index i = 0; i < field_.size(); ++i) result[i] = densities.log_at(view.error[i], size + view.log_spread[i]);
+  return result;
+}
+
 double LawLikelihood::about(const ReadingDistribution& law, const Peak& there) {
   const double log_variance = std::log(variance_of(law, step_));
   const Index every = field_.size() / thresholds::rough_readings + 1;

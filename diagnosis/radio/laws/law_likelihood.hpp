@@ -33,6 +33,8 @@ class LawLikelihood {
   std::vector<Peak> shapes(const ReadingDistribution& law, const noise::Covariance& from);
   // At one grid point.
   double value(const ReadingDistribution& law, const Peak& there);
+  // The terms of that, one a reading.
+  Eigen::VectorXd each(const ReadingDistribution& law, const Peak& there);
   // The same on an even subsample, if there are many readings; scaled to all.
   double about(const ReadingDistribution& law, const Peak& there);
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <sstream>
 #include <string>
 
 #include "diagnosis/pipeline/diagnose.hpp"
@@ -32,6 +33,56 @@ TEST(OwnDraws, NothingIsWrongUnderMultipath) {
   double off = 0;
   for (const int seed : {5, 6, 7}) off += expect_silence(seed, "rician_k=\"3\"") / 3;
   EXPECT_LT(std::abs(off), std::log(2.0));
+}
+
+// The tour with the readings of the stations too.
+std::vector<std::string> both_ways() {
+  std::vector<std::string> rows;
+  for (const std::string& row : tour()) {
+    rows.push_back(row);
+    std::vector<std::string> cells;
+    std::istringstream from(row);
+    for (std::string cell; std::getline(from, cell, ',');) cells.push_back(cell);
+    std::string back = cells[0];
+    for (const std::size_t k : {2, 1, 6, 7, 8, 3, 4, 5}) back += ',' + cells[k];
+    rows.push_back(back);
+  }
+  return rows;
+}
+
+// Both directions share each fade. Counted twice, fades would be structure.
+TEST(OwnDraws, NothingIsWrongWhereBothDirectionsAreMeasured) {
+  for (const int seed : {8, 9, 10}) {
+    SCOPED_TRACE(seed);
+    const Scratch scratch;
+    const std::filesystem::path world = flat(scratch, seed, "rician_k=\"-40\" per_reading=\"true\"");
+    const Diagnosis found = diagnose(world, drawn_by(scratch, world, plugins, both_ways()), plugins);
+    EXPECT_EQ(names_in_words(named_causes(found)), "silent");
+    EXPECT_NEAR(std::sqrt(found.noise.reading_variance()), 5.57, 0.4);  // of a Rayleigh fade in dB
+  }
+}
+
+// Nothing blurs the waves of which the field is made.
+TEST(OwnDraws, NothingIsWrongWithoutFading) {
+  for (const int seed : {11, 12, 13, 14}) {
+    SCOPED_TRACE(seed);
+    const Scratch scratch;
+    const std::filesystem::path world = flat(scratch, seed, "fading=\"false\"");
+    EXPECT_EQ(names_in_words(named_causes(diagnose(world, drawn_by(scratch, world), plugins))), "silent");
+  }
+}
+
+// A direction that is 0.3 dB weaker is seen beneath fades of 5.6 dB that both share.
+TEST(OwnDraws, ASmallOffsetOfOneDirectionIsFound) {
+  const Scratch scratch;
+  const std::filesystem::path world = flat(scratch, 15, "rician_k=\"-40\" per_reading=\"true\"");
+  const std::filesystem::path other =
+      flat(scratch, 15, "rician_k=\"-40\" per_reading=\"true\"", "<effect.tx_offset radio=\"s2\" offset=\"-0.3\"/>");
+  const std::filesystem::path measured = drawn_by(scratch, other, plugins, both_ways());
+  const Diagnosis found = diagnose(flat(scratch, 15, "rician_k=\"-40\" per_reading=\"true\""), measured, plugins);
+  ASSERT_EQ(found.causes.size(), 1u);
+  EXPECT_EQ(found.causes[0].row, "s2");
+  EXPECT_NEAR(std::abs(found.causes[0].values.at(0).value), 0.3, 0.03);
 }
 
 }  // namespace

@@ -189,6 +189,16 @@ TEST(FadingTests, MeasuresTheShareOfOutliers) {
   EXPECT_NEAR(best.values[0].value, 0.03, 0.012);
 }
 
+// Two readings on the wrong side of a wall's end are no outliers of the receiver, however far off.
+TEST(FadingTests, AFewReadingsMakeNoLaw) {
+  Walk walk = drawn({.rician_k = 30}, 2000);
+  walk.residual[300] += 15;
+  walk.residual[1200] -= 12;
+  KrigedReadings field(walk.readings, walk.residual);
+  for (const LawTest& test : law_tests(field, 1, shipped_laws, law_of({.rician_k = 30}), near_the_truth).tests)
+    EXPECT_GT(test.log_p, std::log(1e-3)) << test.cause;
+}
+
 TEST(FadingTests, DistinguishesChannelHoppingFromFading) {
   const LawTest best = tested({.rician_k = 12, .channel_sd = 4}, {.rician_k = 12}).front();
   EXPECT_EQ(best.cause, "effect.channel_mixture");
