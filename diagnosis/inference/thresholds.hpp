@@ -218,7 +218,8 @@ inline constexpr std::size_t bulk_atoms = 200;
 inline constexpr Eigen::Index fewest_bulk_atoms = 20;
 // draws; of white noise, all of whose medians an inflated one exceeds; chosen; BulkInflation.IsOneInWhiteNoise
 inline constexpr Eigen::Index bulk_nulls = 40;
-// share; of a name's rows that a smooth of its covariate concerns, above which it is withdrawn; chosen; none
+// share; of a name's rows that a smooth of its covariate concerns, above which it is withdrawn; chosen;
+// BackwardElimination.ANameThatIsWithdrawnDoesNotWithdrawTheNext
 inline constexpr double same_rows_share = 0.5;
 // factor; by which a cause of the same effect and as many parameters needs less strength to be preferred; chosen; none
 inline constexpr double weaker_strength = 1.5;

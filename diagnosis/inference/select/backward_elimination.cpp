@@ -165,14 +165,17 @@ double overlap(const Term& term, const Term& other) {
 }
 
 // Withdraws names beside a smooth of their own covariate on the same rows: each would be one more guess at the same
-// structure.
+// structure. A withdrawn name does not count as such a smooth, or the order of the terms would decide which names
+// remain.
 void withdraw_names_beside_smooths(ModelState& state) {
-  for (Term& term : state.terms) {
-    if (term.smooth()) continue;
-    term.as_smooth = std::any_of(state.terms.begin(), state.terms.end(), [&](const Term& other) {
-      return other.smooth() && other.candidate->own() == term.candidate->own() &&
+  const auto beside_smooth = [&](const Term& term) {
+    return std::any_of(state.terms.begin(), state.terms.end(), [&](const Term& other) {
+      return other.candidate->kind == Kind::smooth && other.candidate->own() == term.candidate->own() &&
              overlap(term, other) > thresholds::same_rows_share;
     });
+  };
+  for (Term& term : state.terms) {
+    if (!term.smooth()) term.as_smooth = beside_smooth(term);
   }
 }
 

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -172,6 +174,40 @@ TEST(BackwardElimination, ReplacesASmoothByTheSameCauseOnTwoRadios) {
   ASSERT_EQ(terms.size(), 2u);
   for (const Term& term : terms) EXPECT_EQ(term.candidate->id, "antenna_rx");
   EXPECT_NE(terms[0].theta, terms[1].theta);
+}
+
+// A wave in a part of the time, from one share of it to another.
+Candidate wave(const synthetic::World& world, const std::string& id, Kind kind, double from, double to, double cycles) {
+  Candidate c;
+  c.id = id;
+  c.kind = kind;
+  c.covariates = {"part"};
+  c.design.grid = {Eigen::VectorXd()};
+  c.design.columns = [&world, from, to, cycles](const Eigen::VectorXd&) -> Eigen::MatrixXd {
+    const Eigen::ArrayXd t = world.time.array() / world.time.maxCoeff();
+    return (t >= from && t < to).select((2 * M_PI * cycles * t).cos(), 0.0);
+  };
+  return c;
+}
+
+// Of three on one covariate, each shares rows with the next. A name is withdrawn beside a smooth, and not beside a
+// name that is withdrawn itself, in whatever order they were found.
+TEST(BackwardElimination, ANameThatIsWithdrawnDoesNotWithdrawTheNext) {
+  const auto world = world_of(varied(13, 4000));
+  const Candidate smooth = wave(world, "~part", Kind::smooth, 0, 0.6, 7),
+                  beside = wave(world, "beside", Kind::named, 0.15, 0.75, 17),
+                  further = wave(world, "further", Kind::named, 0.3, 0.9, 27);
+  Eigen::VectorXd effect = Eigen::VectorXd::Zero(world.readings.size());
+  for (const Candidate& c : {smooth, beside, further}) effect += scaled_to(world, c.design.columns({}).col(0), 200);
+  Problem problem = problem_of(world, effect, {beside, further});
+  problem.smooths = {smooth};
+  for (const auto& order : {std::array{"~part", "beside", "further"}, std::array{"~part", "further", "beside"}}) {
+    std::vector<Guess> guesses;
+    for (const char* id : order) guesses.push_back({id, {}});
+    const std::vector<Term> terms = terms_left(problem, guesses);
+    ASSERT_EQ(terms.size(), 3u);
+    for (const Term& term : terms) EXPECT_EQ(term.smooth(), term.candidate->id != "further") << term.candidate->id;
+  }
 }
 
 }  // namespace
