@@ -116,10 +116,12 @@ struct SecondLook {
 
 // Closed loop: the extended world, simulated and diagnosed again.
 struct Loop {
-  std::filesystem::path world;          // its folder
-  double mean_difference = 0;           // dB, largest over all readings
-  double rmse_extended = 0;             // dB a reading: measured less the extended world as written
-  std::vector<NamedCause> rediagnosis;  // findings of the second diagnosis
+  std::filesystem::path world;             // its folder
+  double mean_difference = 0;              // dB, largest over all readings
+  double rmse_extended = 0;                // dB a reading: measured less the extended world as written
+  std::vector<NamedCause> rediagnosis{};   // findings of the second diagnosis
+  std::optional<double> unseen_error{};    // dB: of the extended world at places left out, by the second diagnosis
+  std::vector<WorldValue> fitted_again{};  // parameters of the extended world, by the second diagnosis
   std::optional<SecondLook> second{};
 };
 

@@ -36,7 +36,7 @@ SecondLook second_look(const std::filesystem::path& world, const std::filesystem
 Loop closed_loop(const Diagnosis& found, const std::filesystem::path& world, const std::filesystem::path& data,
                  const std::filesystem::path& out, const Library::SearchPath& plugins) {
   const auto tables = std::make_shared<TableCache>();
-  Loop loop{out, 0, 0, {}, {}};
+  Loop loop{.world = out};
   const std::filesystem::path file = write_extended_world(found, world, out);
   LinkModel model(file, data, plugins, tables);
   loop.rmse_extended = rmse_of(model, read_dataset(tables->read(data)));
@@ -45,7 +45,10 @@ Loop closed_loop(const Diagnosis& found, const std::filesystem::path& world, con
     if (!std::isnan(found.mean[i]))
       loop.mean_difference = std::max(loop.mean_difference, std::abs(simulated[i] - found.mean[i]));
   }
-  loop.rediagnosis = named_causes(diagnose(file, data, plugins, tables));
+  const Diagnosis again = diagnose(file, data, plugins, tables);
+  loop.rediagnosis = named_causes(again);
+  if (again.held_out) loop.unseen_error = again.held_out->rmse_before;
+  loop.fitted_again = again.world_values;
   return loop;
 }
 

@@ -89,13 +89,26 @@ void copy_folder(const fs::path& from, const fs::path& to) {
   if (failed) throw Error(Exit::io, quote(to.string()) + " cannot be written: " + failed.message());
 }
 
+fs::path file_of(const fs::path& world) { return fs::is_directory(world) ? world / "world.xml" : world; }
+
+fs::path folder_of(const fs::path& file) { return fs::absolute(file).parent_path(); }
+
+bool is_same(const fs::path& one, const fs::path& other) {
+  std::error_code none;
+  return fs::equivalent(one, other, none);
+}
+
 }  // namespace
 
+fs::path copy_world(const fs::path& world, const fs::path& out) {
+  const fs::path file = file_of(world), folder = folder_of(file);
+  if (!is_same(folder, out)) copy_folder(folder, out);
+  return out / file.filename();
+}
+
 fs::path write_extended_world(const Diagnosis& found, const fs::path& world, const fs::path& out) {
-  const fs::path file = fs::is_directory(world) ? world / "world.xml" : world;
-  const fs::path folder = fs::absolute(file).parent_path();
-  std::error_code none;
-  if (fs::equivalent(folder, out, none))
+  const fs::path file = file_of(world), folder = folder_of(file);
+  if (is_same(folder, out))
     throw Error(Exit::invalid_input, quote(out.string()) + " holds the world itself; expected another folder");
   copy_folder(folder, out);
   tinyxml2::XMLDocument document;

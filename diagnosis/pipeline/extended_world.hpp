@@ -11,4 +11,7 @@ namespace muster::diagnosis {
 std::filesystem::path write_extended_world(const Diagnosis& found, const std::filesystem::path& world,
                                            const std::filesystem::path& out);
 
+// Copies the world's folder as it is to `out`, unless it is there. Returns the world file there. Throws Error.
+std::filesystem::path copy_world(const std::filesystem::path& world, const std::filesystem::path& out);
+
 }  // namespace muster::diagnosis

@@ -1,4 +1,5 @@
-// Regression test of a finding: checks that the extended world still explains its own data.
+// Regression test of a finding: checks that the extended world, or one in which nothing is named, still explains its own
+// data.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +10,8 @@
 namespace muster::report {
 
 // Copies the data beside the extended world in `folder`, unless they are there, and writes regression.json and
-// replay.xml. Returns the files. Throws Error.
+// replay.xml. Where nothing is named, it copies the world as given there, and writes no replay.xml. Returns the files.
+// Throws Error.
 std::vector<std::string> write_regression(const Diagnosis& diagnosis, const std::filesystem::path& world,
                                           const std::filesystem::path& data, const std::filesystem::path& folder);
 
