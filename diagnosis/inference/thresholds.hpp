@@ -62,8 +62,6 @@ inline constexpr double edge_share = 1.0 / 3;
 inline constexpr double excluded_nats = 3;
 // nats; by which a family without the columns may be worse in the marginal p-value; chosen; none
 inline constexpr double hopeless_start_nats = 6;
-// probability; marginal p-value above which no further family is tried; chosen; none
-inline constexpr double marginal_p_decided = 1e-3;
 // factor; by which measured readings vary more than imputed ones; measured; none
 inline constexpr double imputed_spread = 1.15;
 // standard deviations; distance from a clip at which a reading is clear of it; chosen;

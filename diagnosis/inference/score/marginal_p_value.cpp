@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "diagnosis/inference/noise/columns.hpp"
+#include "diagnosis/inference/score/other_families.hpp"
 #include "diagnosis/inference/state/null_tail.hpp"
 #include "diagnosis/inference/thresholds.hpp"
 
@@ -54,10 +56,14 @@ double log_tests(const ModelState& state, const Candidate& candidate) {
 
 double marginal_log_p(const ModelState& state, const noise::Fit& fit, const Eigen::MatrixXd& design,
                       const Eigen::MatrixXd& columns, double log_tests) {
-  double log_p = over_draws(state, fit, design, columns, log_tests);
-  for (const noise::Fit& other : state.families) {
-    if (log_p > std::log(thresholds::marginal_p_decided)) break;
-    if (other.covariance.family == fit.covariance.family) continue;
+  return over_draws(state, fit, design, columns, log_tests);
+}
+
+double marginal_log_p_elsewhere(const ModelState& state, const noise::Fit& fit, const Eigen::MatrixXd& design,
+                                const Eigen::MatrixXd& columns, double log_tests, double decided) {
+  double log_p = -std::numeric_limits<double>::infinity();
+  for (const noise::Fit& other : other_families(state.families, fit.covariance.family)) {
+    if (log_p > decided) break;
     if (other.value > state.families[0].value + thresholds::hopeless_start_nats) continue;
     const noise::Fit refit = state.fitted(noise::hstack(design, columns), other.covariance, 6);
     if (refit.value > fit.value + thresholds::excluded_nats) continue;

@@ -224,8 +224,11 @@ void test_each(ModelState& state, std::vector<Term>& aside, std::vector<Trial>& 
       continue;
     }
     // The fit of the whole design, with its columns reordered: the value is the same.
-    const double integrated =
-        marginal_log_p(state, state.fit, rest, term.columns, log_tests(state, c)) + model.skew_charge(term.columns);
+    const double skew = model.skew_charge(term.columns), tests = log_tests(state, c);
+    double integrated = skew + marginal_log_p(state, state.fit, rest, term.columns, tests);
+    if (integrated <= threshold)
+      integrated = std::max(
+          integrated, skew + marginal_log_p_elsewhere(state, state.fit, rest, term.columns, tests, threshold - skew));
     if (integrated <= threshold) {
       ++k;
       continue;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "diagnosis/inference/noise/columns.hpp"
 #include "diagnosis/inference/score/bulk_inflation.hpp"
@@ -116,17 +117,22 @@ Trial tried(const ModelState& state, const ScoredCandidate& lead, const noise::F
   Trial trial{c.id, c.label_of(lead.theta), gain_of(c, model, lead.columns), 0, 0, false, "", 1};
   trial.log_p = state.log_p(c, trial.gain, lead.columns.cols(), true);
   trial.marginal_log_p = trial.log_p;
-  if (trial.log_p > thresholds::log_p_beyond_noise)
-    trial.marginal_log_p = marginal_log_p(state, fit, design, lead.columns, log_tests(state, c));
-  if (c.design.whole) trial.marginal_log_p = std::max(trial.marginal_log_p, trial.log_p);  // not at another strength
-  if (trial.marginal_log_p <= state.threshold() && trial.log_p > thresholds::log_p_beyond_approximation)
-    trial.marginal_log_p = std::max(trial.marginal_log_p, sure_log_p(state, lead, fit, model));
-  trial.marginal_log_p += model.skew_charge(lead.columns);
-  if (trial.marginal_log_p <= state.threshold()) {
+  const double skew = model.skew_charge(lead.columns), tests = log_tests(state, c);
+  const bool noise_decides = trial.log_p > thresholds::log_p_beyond_noise;
+  double& log_p = trial.marginal_log_p;  // can only rise: what costs most comes last
+  if (noise_decides) log_p = marginal_log_p(state, fit, design, lead.columns, tests);
+  if (c.design.whole) log_p = std::max(log_p, trial.log_p);  // not at another strength
+  if (log_p <= state.threshold() && trial.log_p > thresholds::log_p_beyond_approximation)
+    log_p = std::max(log_p, sure_log_p(state, lead, fit, model));
+  log_p += skew;
+  if (log_p <= state.threshold()) {
     const WhitenedModel with = state.whitened_model(noise::hstack(design, lead.columns), fit.covariance);
     trial.inflation = std::max(bulk_inflation(state, with, c, lead.columns), drawn_inflation(state, model, c));
-    trial.marginal_log_p =
-        std::max(trial.marginal_log_p, state.log_p(c, trial.gain / trial.inflation, lead.columns.cols(), true));
+    log_p = std::max(log_p, state.log_p(c, trial.gain / trial.inflation, lead.columns.cols(), true));
+  }
+  if (log_p <= state.threshold() && noise_decides) {
+    const double decided = state.threshold() - skew;
+    log_p = std::max(log_p, skew + marginal_log_p_elsewhere(state, fit, design, lead.columns, tests, decided));
   }
   const GainByRow gains_by_row = gain_by_row(model, lead.columns);
   if (!c.role.pieces.empty() && share_of_others(state, gains_by_row.won) < thresholds::share_of_others)
@@ -270,18 +276,31 @@ bool usable(const ModelState& state, const Blocked& blocked, const Candidate& c)
   });
 }
 
+// All candidates beside the present model.
+struct ScoredModel {
+  WhitenedModel model;
+  std::vector<ScoredCandidate> all;
+};
+
+ScoredModel scored_model(ModelState& state) {
+  if (!state.terms.empty() && state.problem().bounds.any()) state.impute(4);
+  const Eigen::MatrixXd design = state.design();
+  WhitenedModel model = state.whitened_model(design);
+  state.renew_depending(model.coefficients(design.cols()));
+  std::vector<ScoredCandidate> all = scored_candidates(state, model);
+  return {std::move(model), std::move(all)};
+}
+
 }  // namespace
 
 void forward_selection(ModelState& state, std::vector<Trial>& trials) {
   Blocked blocked;
   std::size_t looked_closely = 0;  // number of terms at the last closer look, plus one
   const auto may_enter = [&](const Candidate& c) { return usable(state, blocked, c); };
+  std::optional<ScoredModel> scored;  // none where the model has changed
   for (int round = 0; round < 40; ++round) {
-    if (!state.terms.empty() && state.problem().bounds.any()) state.impute(4);
-    const Eigen::MatrixXd design = state.design();
-    const WhitenedModel model = state.whitened_model(design);
-    state.renew_depending(model.coefficients(design.cols()));
-    const std::vector<ScoredCandidate> all = scored_candidates(state, model);
+    if (!scored) scored = scored_model(state);
+    const auto& [model, all] = *scored;
     if (static_cast<int>(state.terms.size()) >= state.options().most_terms) return;
     const auto passes = [&](const ScoredCandidate& lead) {
       return lead.log_p < state.threshold() && may_enter(lead.candidate());
@@ -297,6 +316,7 @@ void forward_selection(ModelState& state, std::vector<Trial>& trials) {
         const auto found = std::find_if(close.begin(), close.end(), passes);
         if (found != close.end()) {
           enter(state, *found, blocked, trials);
+          scored.reset();
           continue;
         }
       }
@@ -307,9 +327,13 @@ void forward_selection(ModelState& state, std::vector<Trial>& trials) {
       if (!lead) return;
       enter_as_stated(state, *lead);
       blocked.now = blocked.for_good;
+      scored.reset();
       continue;
     }
-    enter(state, compared(state, model, passing, all, may_enter).front(), blocked, trials);
+    const Index rows = state.rows().size();
+    const bool entered = enter(state, compared(state, model, passing, all, may_enter).front(), blocked, trials);
+    // A lead that fails leaves the model as it was, unless rows were split for it. Censored readings are imputed anew.
+    if (entered || state.rows().size() != rows || state.problem().bounds.any()) scored.reset();
   }
 }
 
