@@ -21,8 +21,8 @@ namespace {
 constexpr std::size_t first_size = offsetof(muster_plugin, step) + sizeof(muster_plugin::step);
 
 constexpr std::string_view reserved[] = {"name", "every", "library", "revision"};
-constexpr std::uint32_t known_flags =
-    MUSTER_FREE | MUSTER_REQUIRED | MUSTER_LINEAR | MUSTER_LOG | MUSTER_CYCLIC | MUSTER_EAST | MUSTER_NORTH;
+constexpr std::uint32_t known_flags = MUSTER_FREE | MUSTER_REQUIRED | MUSTER_LINEAR | MUSTER_LOG | MUSTER_CYCLIC |
+                                      MUSTER_EAST | MUSTER_NORTH | MUSTER_EACH;
 
 template <class... Args>
 [[noreturn]] void refuse(fmt::format_string<Args...> format, Args&&... args) {
@@ -73,6 +73,8 @@ void check_param(const muster_plugin& plugin, const muster_param& p) {
   if (std::ranges::count(reserved, std::string_view(p.name)) > 0)
     refuse("{} bears a reserved name; reserved are {}", of, fmt::join(reserved, ", "));
   if (p.flags & ~known_flags) refuse("{} has unknown flags {:#x}", of, p.flags & ~known_flags);
+  if ((p.flags & MUSTER_EACH) && p.kind != MUSTER_CHOICE && p.kind != MUSTER_INTEGER)
+    refuse("{} is to be tried at each of its values; expected a choice or an integer", of);
   if (!p.unit) refuse("{} has no unit; expected \"\" where there is none", of);
   if (!p.help || !*p.help) refuse("{} has no help", of);
   switch (p.kind) {

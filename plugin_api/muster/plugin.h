@@ -87,7 +87,8 @@ enum {
   MUSTER_LOG = 8u,     /* its scale is logarithmic: 1, 2, 4, ... */
   MUSTER_CYCLIC = 16u, /* max is min again: an angle */
   MUSTER_EAST = 32u,   /* a coordinate in the world, to be sought over the plan's extent: x */
-  MUSTER_NORTH = 64u   /* the same: y */
+  MUSTER_NORTH = 64u,  /* the same: y */
+  MUSTER_EACH = 128u   /* each of its values is tried: of a choice, of an integer */
 };
 
 /* One attribute of the plugin's element in the world file. XML check, schema, manual, fit and sweep derive from it. */
@@ -167,7 +168,9 @@ enum {
 };
 /* Flags of causes. A cause whose `size` ends before its flags has MUSTER_FIRST as a world edit and an instrument. */
 enum {
-  MUSTER_FIRST = 1u /* where it is found beside others, they are judged again in a world that has it */
+  MUSTER_FIRST = 1u,    /* where it is found beside others, they are judged again in a world that has it */
+  MUSTER_OWN_WORLD = 2u /* it bends all that is fitted without it: it is no term beside others, but judged in a world
+                           that has it, with parameters and noise fitted there */
 };
 
 /* Declares a plugin as a cause: a diagnosis may accept it as the explanation of a misfit. */

@@ -140,7 +140,9 @@ TEST(Registration, RefusesBadNumbers) {
 TEST(Registration, RefusesBadDeclarations) {
   EXPECT_EQ(refusal_of_param([](auto& p) { p.kind = 0; }), "has the unknown kind 0");
   EXPECT_EQ(refusal_of_param([](auto& p) { p.kind = 8; }), "has the unknown kind 8");
-  EXPECT_EQ(refusal_of_param([](auto& p) { p.flags = 128; }), "has unknown flags 0x80");
+  EXPECT_EQ(refusal_of_param([](auto& p) { p.flags = 256; }), "has unknown flags 0x100");
+  EXPECT_EQ(refusal_of_param([](auto& p) { p.flags = MUSTER_EACH; }),
+            "is to be tried at each of its values; expected a choice or an integer");
   EXPECT_EQ(refusal_of_param([](auto& p) { p.unit = nullptr; }), "has no unit; expected \"\" where there is none");
   EXPECT_EQ(refusal_of_param([](auto& p) { p.help = ""; }), "has no help");
   EXPECT_EQ(refusal_of_param([](auto& p) { p.name = "N"; }),
