@@ -34,15 +34,16 @@ struct LabelSwap {
   explicit LabelSwap(Setup& s)
       : a(s.value("a")),
         b(s.value("b")),
-        endpoint(s.read<Endpoint>("endpoint/*/radio")),
+        endpoint(s.modify<Endpoint>("endpoint/*/radio")),
         pose(s.modify<Pose>("endpoint/*/pose")) {}
 
   void step(const Step& k) const {
     const auto before = k.before(pose);
+    const auto ends = unchanged(k, endpoint);
     const auto out = k[pose];
     const Pose *of_a = place(k, k[a]), *of_b = place(k, k[b]);
     for (std::size_t i = 0; i < out.size(); ++i) {
-      const double radio = k[endpoint][i].radio;
+      const double radio = ends[i].radio;
       out[i] = before[i];
       if (of_a && of_b && radio == k[a]) out[i] = *of_b;
       if (of_a && of_b && radio == k[b]) out[i] = *of_a;
@@ -50,13 +51,13 @@ struct LabelSwap {
   }
 
   const Pose* place(const Step& k, double radio) const {
-    const auto ends = k[endpoint];
+    const auto ends = k.before(endpoint);
     const auto found = std::find_if(ends.begin(), ends.end(), [&](const Endpoint& end) { return end.radio == radio; });
     return found == ends.end() ? nullptr : &k.before(pose)[static_cast<std::size_t>(found - ends.begin())];
   }
 
   Value a, b;
-  In<Endpoint> endpoint;
+  Stage<Endpoint> endpoint;  // unchanged: in line with other edits of either
   Stage<Pose> pose;
 };
 

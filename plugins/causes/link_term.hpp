@@ -47,6 +47,14 @@ inline bool concerns(double radio, const End& from, const End& to) {
   return radio < 0 || from.radio == radio || to.radio == radio;
 }
 
+// The radios of the ends, passed on as they are. An edit of poses takes them so and not as they are after all edits, of
+// which one may need these poses.
+inline Rows<const Endpoint> unchanged(const Step& k, Stage<Endpoint> endpoint) {
+  const auto before = k.before(endpoint);
+  std::copy(before.begin(), before.end(), k[endpoint].begin());
+  return before;
+}
+
 class LinkTerm {
  public:
   explicit LinkTerm(Setup& s)

@@ -35,22 +35,23 @@ struct TxMisplaced {
       : radio(s.value("radio")),
         x(s.value("x")),
         y(s.value("y")),
-        endpoint(s.read<Endpoint>("endpoint/*/radio")),
+        endpoint(s.modify<Endpoint>("endpoint/*/radio")),
         pose(s.modify<Pose>("endpoint/*/pose")) {}
 
   void step(const Step& k) const {
     const auto before = k.before(pose);
+    const auto ends = unchanged(k, endpoint);
     const auto out = k[pose];
     for (std::size_t i = 0; i < out.size(); ++i) {
       out[i] = before[i];
-      if (k[endpoint][i].radio != k[radio]) continue;
+      if (ends[i].radio != k[radio]) continue;
       out[i].x = k[x];
       out[i].y = k[y];
     }
   }
 
   Value radio, x, y;
-  In<Endpoint> endpoint;
+  Stage<Endpoint> endpoint;  // unchanged: in line with other edits of either
   Stage<Pose> pose;
 };
 

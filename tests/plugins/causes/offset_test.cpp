@@ -85,6 +85,59 @@ TEST(LabelSwap, EachStandsWhereTheOtherOneWasSaidToBe) {
   EXPECT_FALSE(same_bits(swapped, column(Site().world(""), "link/*/rssi")));
 }
 
+// Of two radios that stand the first is where the second is listed, and the other way round; r and s move.
+TEST(LabelsShifted, TheListOfStandingRadiosSlips) {
+  const auto shifted = [] { return column(Site().world(effect("labels_shifted", "first=\"b\"")), "link/*/rssi"); }();
+  const auto swapped = [] { return column(Site().world(effect("label_swap", "a=\"a\" b=\"b\"")), "link/*/rssi"); }();
+  EXPECT_TRUE(same_bits(shifted, swapped));
+}
+
+std::vector<double> turned(const std::string& of, const std::string& how) {
+  const std::string attributes = "of=\"" + of + "\" how=\"" + how + "\" x=\"6\" y=\"2\"";
+  return column(Site().world(effect("plan_turned", attributes), true), "link/*/level");
+}
+
+void expect_near(const std::vector<double>& a, const std::vector<double>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-9);
+}
+
+// The listed place is the true one turned: what is undone is the turn. Headings turn back, too.
+TEST(PlanTurned, RadiosThatStandAreTurnedBack) {
+  const Site mirrored(moved(moved(survey(), "a", {12, 0, 1, M_PI - 0.5}), "b", {-2, 9, 4, M_PI + 2}));
+  expect_near(turned("stations", "mirrored_x"), column(mirrored.world("", true), "link/*/level"));
+  const Site back(moved(moved(survey(), "a", {4, 8, 1, 0.5 - M_PI / 2}), "b", {13, -6, 4, -2 - M_PI / 2}));
+  expect_near(turned("stations", "turned_90"), column(back.world("", true), "link/*/level"));
+  const Site exchanged(moved(moved(survey(), "a", {4, -4, 1, M_PI / 2 - 0.5}), "b", {13, 10, 4, M_PI / 2 + 2}));
+  expect_near(turned("stations", "transposed"), column(exchanged.world("", true), "link/*/level"));
+}
+
+// Without walls, whether all that moves or all that stands is turned is no matter but of the direction.
+TEST(PlanTurned, OfRobotsItIsTheOppositeTurnOfStations) {
+  const auto without_walls = [](const std::string& of, const std::string& how) {
+    const std::string attributes = "of=\"" + of + "\" how=\"" + how + "\" x=\"6\" y=\"2\"";
+    return column(Site().world(effect("plan_turned", attributes), true, 1, channel), "link/*/level");
+  };
+  expect_near(without_walls("robots", "turned_90"), without_walls("stations", "turned_270"));
+  expect_near(without_walls("walls", "turned_90"), column(Site().world("", true, 1, channel), "link/*/level"));
+  EXPECT_FALSE(same_bits(turned("walls", "turned_90"), column(Site().world("", true), "link/*/level")));
+}
+
+// Readings of a and b in turn, read a row late, are of the other one. The last row has none after it.
+TEST(ColumnShifted, NamesComeFromTheRowAfter) {
+  std::vector<Reading> alternating;
+  for (const Reading& r : survey())
+    if ((r.tx == "a" || r.tx == "b") && r.rx == "r") alternating.push_back(r);
+  std::vector<Reading> sound = alternating;
+  for (std::size_t i = 0; i + 1 < sound.size(); ++i) {
+    sound[i].tx = alternating[i + 1].tx;
+    sound[i].from = alternating[i + 1].from;
+  }
+  const auto shifted =
+      column(Site(alternating).world(effect("column_shifted", "column=\"names\" by=\"1\""), true), "link/*/level");
+  EXPECT_TRUE(same_bits(shifted, column(Site(sound).world("", true), "link/*/level")));
+}
+
 TEST(PowerSteps, EachPowerHasItsOwnError) {
   expect_term("power_steps", "file=\"measured.csv\" error1=\"2\" error2=\"-1\" error3=\"0.5\"", [](const Reading& r) {
     return r.power == -10 ? 2 : r.power == 0 ? -1 : 0.5;
