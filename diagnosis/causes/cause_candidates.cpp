@@ -220,7 +220,7 @@ inference::Candidate at_readings_of(const CauseCandidate& cause, const CauseSour
 
 bool shifts_levels(const Cause& cause) {
   const auto kind = cause.meaning().kind;
-  return kind != MUSTER_LAW && !(kind == MUSTER_STAGE && cause.linear().empty());
+  return !cause.needs_own_world() && kind != MUSTER_LAW && !(kind == MUSTER_STAGE && cause.linear().empty());
 }
 
 CauseSearch cause_candidates(const std::vector<Cause>& causes, const CauseDomain& domain, const CauseSources& sources,

@@ -13,7 +13,7 @@ inference::Candidate at_readings_of(const CauseCandidate& cause, const CauseSour
 // span of the base model's columns. `rows`: of the search.
 CauseSearch cause_candidates(const std::vector<Cause>& causes, const CauseDomain& domain, const CauseSources& sources,
                              const Eigen::MatrixXd& base, const noise::Rows& rows);
-// False for causes that clip readings or change their scatter.
+// False for causes that clip readings, change their scatter, or are judged in worlds of their own.
 bool shifts_levels(const Cause& cause);
 
 }  // namespace muster::diagnosis

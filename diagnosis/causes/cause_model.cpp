@@ -1,6 +1,7 @@
 #include "diagnosis/causes/cause_model.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <sstream>
 
 #include "text/number.hpp"
@@ -66,6 +67,11 @@ bool Cause::needs_world() const {
   // A text parameter names another instance, on which the effect depends.
   return meaning().kind != MUSTER_TERM ||
          !those(*plugin, [](const muster_param& p) { return p.kind == MUSTER_TEXT; }).empty();
+}
+
+bool Cause::needs_own_world() const {
+  const bool has_flags = meaning().size >= offsetof(muster_cause, flags) + sizeof meaning().flags;
+  return has_flags && (meaning().flags & MUSTER_OWN_WORLD) != 0;
 }
 
 std::vector<Cause> causes_on(const Library::SearchPath& plugins) {

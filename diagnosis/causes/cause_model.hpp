@@ -29,6 +29,8 @@ struct Cause {
   const muster_param* file() const;
   // True if its effect depends on other instances, so that it is evaluated in the whole world.
   bool needs_world() const;
+  // True if it is no term beside others, but judged in a world that has it (MUSTER_OWN_WORLD).
+  bool needs_own_world() const;
 };
 
 // All causes on the plugin path, sorted by id. Libraries that cannot be loaded are left out.

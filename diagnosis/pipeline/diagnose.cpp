@@ -11,6 +11,7 @@
 #include "diagnosis/pipeline/extended_world.hpp"
 #include "diagnosis/pipeline/first_cause.hpp"
 #include "diagnosis/pipeline/joint_refit.hpp"
+#include "diagnosis/pipeline/own_world.hpp"
 #include "diagnosis/pipeline/row_summary.hpp"
 #include "diagnosis/pipeline/setup.hpp"
 #include "diagnosis/planning/measurement_plans.hpp"
@@ -41,19 +42,22 @@ class Diagnoser {
     std::erase_if(causes_, [&](const Cause& cause) { return cause.id == without_law; });
   }
 
-  // `given`: the diagnosis of the given world, if this world is corrected for its first cause.
-  Diagnosis run(const Diagnosis* given = nullptr) {
+  // `given`: the diagnosis of the given world, if this world is corrected for its first cause. `by_itself`: the gain of
+  // that cause is what it changes before all else, in either world.
+  Diagnosis run(const Diagnosis* given = nullptr, bool by_itself = false) {
     inference::Search search(setup_.problem, setup_.options);
     const inference::Result result = search.run();
     setup_.run->clear();
     Diagnosis out = summed_up(result, setup_.sought, search.state());
-    if (given) begin_as_given(*given, search.state(), out);
+    if (given) begin_as_given(*given, by_itself, search.state(), out);
     add_advice(search, out, setup_.sought, {world_, plugins_, setup_.model, setup_.data}, setup_.base,
                setup_.layout->limits());
     for (const auto* more : {&setup_.sought.not_tested, &setup_.observed.untested})
       out.not_tested.insert(out.not_tested.end(), more->begin(), more->end());
     return out;
   }
+
+  OwnWorldVerdict in_own_worlds(const Diagnosis& found) { return judged_in_own_worlds(setup_, found); }
 
  private:
   Diagnosis summed_up(const inference::Result& result, const CauseSearch& causes, const inference::ModelState& state) {
@@ -156,7 +160,8 @@ class Diagnoser {
 
   // Restates the diagnosis relative to the given world, with the corrected cause as a finding. Its gain is the excess
   // held-out error of the given world, with all its other findings, over the extended one.
-  void begin_as_given(const Diagnosis& given, const inference::ModelState& state, Diagnosis& out) const {
+  void begin_as_given(const Diagnosis& given, bool by_itself, const inference::ModelState& state,
+                      Diagnosis& out) const {
     CauseEstimate& first = *out.causes.insert(out.causes.begin(), given.causes.front());
     const VectorXd left = measured(state) - state.rows().mean(given.fitted(setup_.used.rows));
     const VectorXd left_by_stream = state.rows().by_stream(left);
@@ -170,14 +175,17 @@ class Diagnoser {
     first.elsewhere.clear();
     out.elsewhere.clear();  // the place of a held-out radio cannot be corrected
     if (!given.unseen || !out.unseen) return out.stairs.clear();
-    first.held_out = inference::compared(errors_beside(given, first.unseen_without, out));
-    out.unseen = errors_beside(given, given.unseen->before, out);
+    first.held_out =
+        inference::compared(by_itself ? errors_beside(given, given.unseen->before, out.unseen->before, out)
+                                      : errors_beside(given, first.unseen_without, out.unseen->after, out));
+    out.unseen = errors_beside(given, given.unseen->before, out.unseen->after, out);
     out.held_out = inference::compared(*out.unseen);
     out.stairs.insert(out.stairs.begin(), inference::stair_of(*out.unseen));
   }
 
-  // Held-out errors of the given world (`before`) and of the extended one, at their common readings.
-  static inference::Unseen errors_beside(const Diagnosis& given, const VectorXd& before, const Diagnosis& out) {
+  // Held-out errors of the given world (`before`) and of the extended one (`after`), at their common readings.
+  static inference::Unseen errors_beside(const Diagnosis& given, const VectorXd& before, const VectorXd& after,
+                                         const Diagnosis& out) {
     std::map<Index, Index> place;
     for (std::size_t k = 0; k < given.used.size(); ++k) place[given.used[k]] = static_cast<Index>(k);
     std::vector<Index> theirs, ours;
@@ -191,7 +199,7 @@ class Diagnoser {
       both.block.push_back(out.unseen->block[k]);
     }
     both.before = before(theirs);
-    both.after = out.unseen->after(ours);
+    both.after = after(ours);
     return both;
   }
 
@@ -316,14 +324,58 @@ class Diagnoser {
   Library::SearchPath plugins_;
 };
 
+bool names(const Diagnosis& found, const CauseEstimate& cause) {
+  return std::any_of(found.causes.begin(), found.causes.end(), [&](const CauseEstimate& c) {
+    return c.status == inference::Status::named && c.id == cause.id && c.label == cause.label;
+  });
+}
+
+struct Diagnosed {
+  std::filesystem::path world, data;
+  Library::SearchPath plugins;
+  std::shared_ptr<TableCache> tables;
+
+  // In the world corrected for a cause that was judged in a world of its own. Nothing if the error at left-out places
+  // is above that beside all that was found in the given world.
+  std::optional<Diagnosis> corrected_for(const OwnWorldVerdict& verdict, const Diagnosis& found) const {
+    Diagnosis first = found;
+    first.causes = {*verdict.cause};
+    first.causes[0].put_right_first = true;
+    for (const auto& [path, value] : verdict.parameters) first.parameters[path] = value;
+    const TemporaryFolder folder;
+    Diagnosis out =
+        Diagnoser(write_extended_world(first, world, folder.path()), data, plugins, tables).run(&first, true);
+    if (found.unseen && out.unseen &&
+        out.unseen->after.mean() > thresholds::own_world_worse * found.unseen->after.mean())
+      return {};
+    return out;
+  }
+};
+
+void add_searched(const OwnWorldVerdict& verdict, Diagnosis& out) {
+  out.searched.insert(out.searched.end(), verdict.searched.begin(), verdict.searched.end());
+  std::sort(out.searched.begin(), out.searched.end());
+  out.not_tested.insert(out.not_tested.end(), verdict.not_tested.begin(), verdict.not_tested.end());
+}
+
 }  // namespace
 
-// A radio in the wrong place biases all other findings: the diagnosis is repeated with the radio corrected. After
-// blockage it is repeated without the blocked link. If a change in time remains, blockage must pass a
-// stricter threshold.
+// A fault of the map or the log that is likelier in a world of its own is corrected first. A radio in the wrong place
+// biases all other findings: the diagnosis is repeated with the radio corrected. After blockage it is repeated without
+// the blocked link. If a change in time remains, blockage must pass a stricter threshold.
 Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::path& data,
                    const Library::SearchPath& plugins, const std::shared_ptr<TableCache>& tables) {
-  Diagnosis found = Diagnoser(world, data, plugins, tables).run();
+  auto given = std::make_unique<Diagnoser>(world, data, plugins, tables);
+  Diagnosis found = given->run();
+  const OwnWorldVerdict verdict = given->in_own_worlds(found);
+  given.reset();
+  if (verdict.cause && !names(found, *verdict.cause)) {
+    if (auto corrected = Diagnosed{world, data, plugins, tables}.corrected_for(verdict, found)) {
+      add_searched(verdict, *corrected);
+      return *corrected;
+    }
+  }
+  add_searched(verdict, found);
   const auto [spoiler, blockage] = first_in_company(found, causes_on(plugins));
   if (!spoiler) return found;
   Diagnosis first = found;

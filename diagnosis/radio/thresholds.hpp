@@ -283,4 +283,36 @@ inline constexpr double law_execution_error = 1e-6;
 // standard errors; between draws and their declared law, beyond chance even if two readings share a draw; chosen; none
 inline constexpr double law_draw_errors = 3;
 
+// pipeline: worlds of their own
+
+// radios; that stand, by which a plan shows how it is turned; derived; none
+inline constexpr std::size_t fewest_standing = 3;
+// readings; by which worlds are judged, evenly spread; chosen; none
+inline constexpr std::size_t own_world_readings = 2000;
+// readings; fewest by which worlds are judged; chosen; none
+inline constexpr std::size_t own_world_fewest = 60;
+// dB; largest change of an expected level by a hypothesis that changes nothing; chosen; none
+inline constexpr double own_world_change = 1e-6;
+// factor; sum of squares, over that of the world as it is, from which a hypothesis is not fitted; chosen; none
+inline constexpr double own_world_hopeless = 1.15;
+// worlds; fitted by least squares, the best by their declared parameters; chosen; none
+inline constexpr std::size_t own_worlds_built = 8;
+// share; of the sum of squares of the world as it is, below which noise is fitted; chosen; none
+inline constexpr double own_world_share = 0.998;
+// worlds; whose noise is fitted, the best by least squares; chosen; none
+inline constexpr std::size_t own_worlds_fitted = 4;
+// m; by which the point about which a plan is turned lies off a middle at most; chosen; none
+inline constexpr double own_world_reach = 20;
+// nats; between hypotheses of which the simplest is named; chosen; none
+inline constexpr double own_world_even = 2;
+// nats; by which a hypothesis must be likelier than what was found in the world as it is; chosen; none
+inline constexpr double own_world_beyond_found = 3;
+// nats; by which a hypothesis must be likelier than the world as it is; chosen; OwnWorld.CleanReadingsAreSilent
+inline constexpr double own_world_nats = 8;
+// factor; error at left-out places, over that beside all that was found in the world as it is, from which a hypothesis
+// is not named; chosen; none
+inline constexpr double own_world_worse = 1.02;
+// nats; within which another hypothesis is an alternative; chosen; none
+inline constexpr double own_world_open = 3;
+
 }  // namespace muster::diagnosis::thresholds

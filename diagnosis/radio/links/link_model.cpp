@@ -107,13 +107,13 @@ LinkModel::LinkModel(const std::filesystem::path& world, const std::filesystem::
 LinkModel::LinkModel(World declared, const std::filesystem::path& data, const Library::SearchPath& plugins,
                      const std::shared_ptr<TableCache>& tables) try
     : MeasuredWorld(declared, options_for(declared, plugins, tables), links_of(data, {declared.file.string()})) {
-  read_ends();
+  ends_ = ends_now();
 } catch (const Error& error) {
   if (std::string_view(error.what()).find("beyond the scene") != std::string_view::npos) refuse_far_places(data);
   throw;
 }
 
-void LinkModel::read_ends() {
+std::vector<std::array<End, 2>> LinkModel::ends_now() const {
   const TableView pose = simulation().table("endpoint/*/pose"), radio = simulation().table("endpoint/*/radio");
   const auto end = [&](std::size_t i) {
     const double qw = pose.at(i, 3), qx = pose.at(i, 4), qy = pose.at(i, 5), qz = pose.at(i, 6);
@@ -121,8 +121,10 @@ void LinkModel::read_ends() {
                std::atan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz)), static_cast<int>(radio.at(i, 0))};
   };
   const TableView link = simulation().table("link/*/ends");
+  std::vector<std::array<End, 2>> result;
   for (std::size_t i = 0; i < link.rows(); ++i)
-    ends_.push_back({end(static_cast<std::size_t>(link.at(i, 0))), end(static_cast<std::size_t>(link.at(i, 1)))});
+    result.push_back({end(static_cast<std::size_t>(link.at(i, 0))), end(static_cast<std::size_t>(link.at(i, 1)))});
+  return result;
 }
 
 const std::vector<std::string>& LinkModel::radio_names() const { return simulation().board().find_set("radio")->names; }

@@ -27,6 +27,8 @@ class LinkModel : public MeasuredWorld {
 
   // Both ends of each row, tx first.
   const std::vector<std::array<End, 2>>& ends() const { return ends_; }
+  // The same with instances inserted since, as of the last evaluation.
+  std::vector<std::array<End, 2>> ends_now() const;
   const std::vector<std::string>& radio_names() const;  // by row of the set `radio`
   std::string radio_name(int radio) const;
   // Radios of the readings that the world lacks and that were added to it; no cause concerns them.
@@ -44,8 +46,6 @@ class LinkModel : public MeasuredWorld {
  private:
   LinkModel(World declared, const std::filesystem::path& data, const Library::SearchPath& plugins,
             const std::shared_ptr<TableCache>& tables);
-  void read_ends();
-
   std::vector<std::array<End, 2>> ends_;
 };
 

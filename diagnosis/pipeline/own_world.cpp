@@ -1,0 +1,356 @@
+#include "diagnosis/pipeline/own_world.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "diagnosis/inference/noise/fit.hpp"
+#include "diagnosis/inference/score/refine.hpp"
+#include "diagnosis/radio/links/drawn_term.hpp"
+#include "diagnosis/radio/thresholds.hpp"
+
+namespace muster::diagnosis {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Least squares within bounds: a coefficient beyond one is held there.
+VectorXd bounded_least_squares(const MatrixXd& design, VectorXd y, const VectorXd& lower, const VectorXd& upper) {
+  VectorXd result = VectorXd::Zero(design.cols());
+  std::vector<Index> free(static_cast<std::size_t>(design.cols()));
+  for (std::size_t j = 0; j < free.size(); ++j) free[j] = static_cast<Index>(j);
+  while (!free.empty()) {
+    const VectorXd found = design(Eigen::all, free).colPivHouseholderQr().solve(y);
+    std::vector<Index> inside;
+    for (std::size_t j = 0; j < free.size(); ++j) {
+      const Index k = free[j];
+      result[k] = std::clamp(found[static_cast<Index>(j)], lower[k], upper[k]);
+      if (result[k] == found[static_cast<Index>(j)]) inside.push_back(k);
+    }
+    if (inside.size() == free.size()) break;
+    for (const Index k : free) {
+      if (!std::count(inside.begin(), inside.end(), k)) y -= result[k] * design.col(k);
+    }
+    free = std::move(inside);
+  }
+  return result;
+}
+
+// Sum of squares about a level and a multiple, not negative, of these levels.
+double rest_about(const VectorXd& levels, const VectorXd& y) {
+  const VectorXd x = levels.array() - levels.mean(), z = y.array() - y.mean();
+  const double slope = x.squaredNorm() > 0 ? std::max(0.0, x.dot(z) / x.squaredNorm()) : 0;
+  return (z - slope * x).squaredNorm();
+}
+
+// A world with a hypothesis, linearised at its own fit.
+struct OwnWorld {
+  Hypothesis hypothesis;
+  double squares = 0;  // left by least squares
+  VectorXd rest;       // measured less the mean at zero parameters
+  MatrixXd design;
+  std::vector<std::array<End, 2>> ends{};
+  VectorXd values{};  // of the parameters, by least squares
+};
+
+struct Likelihood {
+  double nats = -std::numeric_limits<double>::infinity();
+  noise::Covariance noise{};
+};
+
+class Judge {
+ public:
+  Judge(DiagnosisSetup& setup, const Diagnosis& found) : s_(setup), found_(found), moved_(setup.model) {
+    const ObservedLevels levels = observed_levels(s_.data, s_.receiver, s_.fitted.readings, s_.used.rows);
+    std::vector<Index> known;
+    for (std::size_t i = 0; i < s_.used.rows.size(); ++i) {
+      if (levels.bounds.known.empty() || levels.bounds.known[i] == noise::Known::value)
+        known.push_back(static_cast<Index>(i));
+    }
+    const std::size_t every = std::max<std::size_t>(1, known.size() / thresholds::own_world_readings);
+    for (std::size_t i = 0; i < known.size(); i += every) {
+      kept_.push_back(s_.used.rows[static_cast<std::size_t>(known[i])]);
+      of_used_.push_back(known[i]);
+    }
+    y_ = levels.measured(of_used_);
+  }
+
+  OwnWorldVerdict verdict() {
+    const Hypotheses hypotheses = hypotheses_of(s_, found_.seen.walls);
+    OwnWorldVerdict out{{}, {}, hypotheses.searched, hypotheses.not_tested};
+    if (kept_.size() < thresholds::own_world_fewest || hypotheses.searched.empty()) return out;
+    set(s_.base.values);
+    const OwnWorld as_it_is = world_with({});
+    std::vector<OwnWorld> worlds;
+    for (const Hypothesis& h : promising(hypotheses.all)) {
+      OwnWorld world = world_with(h);
+      if (world.squares < thresholds::own_world_share * as_it_is.squares) worlds.push_back(std::move(world));
+    }
+    std::stable_sort(worlds.begin(), worlds.end(),
+                     [](const OwnWorld& a, const OwnWorld& b) { return a.squares < b.squares; });
+    if (worlds.size() > thresholds::own_worlds_fitted) worlds.resize(thresholds::own_worlds_fitted);
+    if (!worlds.empty()) name_likeliest(as_it_is, worlds, out);
+    return out;
+  }
+
+ private:
+  struct Judged {
+    OwnWorld world;
+    double nats = 0, evidence = 0;
+    InPlan place_sd{};
+  };
+
+  double choice() const { return std::log(static_cast<double>(tried_)); }
+  double price(double numbers) const { return numbers / 2 * std::log(static_cast<double>(kept_.size())); }
+
+  // The hypotheses that are best by least squares about a multiple of the declared levels, one start of each.
+  std::vector<Hypothesis> promising(const std::vector<Hypothesis>& all) {
+    struct Scored {
+      const Hypothesis* hypothesis;
+      double squares;
+    };
+    ParameterGuard declared(s_.model);
+    for (const FitParameter& p : s_.fitted.parameters) declared.set(p.path, p.start);
+    const VectorXd plain = s_.model.expected()(kept_);
+    const double squares = rest_about(plain, y_);
+    std::vector<Scored> scored;
+    for (const Hypothesis& h : all) {
+      const VectorXd levels = levels_with(h);
+      if (levels.size() == 0 || (levels - plain).cwiseAbs().maxCoeff() < thresholds::own_world_change) continue;
+      ++tried_;
+      const Scored now{&h, rest_about(levels, y_)};
+      const auto same = std::find_if(scored.begin(), scored.end(), [&](const Scored& other) {
+        return other.hypothesis->cause == h.cause && other.hypothesis->row == h.row &&
+               other.hypothesis->words == h.words;
+      });
+      if (same == scored.end())
+        scored.push_back(now);
+      else if (now.squares < same->squares)
+        *same = now;
+    }
+    std::erase_if(scored, [&](const Scored& each) { return each.squares > thresholds::own_world_hopeless * squares; });
+    std::stable_sort(scored.begin(), scored.end(),
+                     [](const Scored& a, const Scored& b) { return a.squares < b.squares; });
+    if (scored.size() > thresholds::own_worlds_built) scored.resize(thresholds::own_worlds_built);
+    std::vector<Hypothesis> result;
+    for (const Scored& each : scored) result.push_back(*each.hypothesis);
+    return result;
+  }
+
+  // Empty if the hypothesis cannot run in this world.
+  VectorXd levels_with(const Hypothesis& h) try {
+    const Supposed supposed(s_.model, h);
+    return s_.model.expected()(kept_);
+  } catch (const Error&) {
+    return {};
+  }
+
+  void set(const VectorXd& values) {
+    for (std::size_t j = 0; j < s_.base.paths.size(); ++j) moved_.set(s_.base.paths[j], values[static_cast<Index>(j)]);
+  }
+
+  // Fits the parameters in the world with the hypothesis, its place and the parameters in turn.
+  OwnWorld world_with(const Hypothesis& hypothesis) {
+    set(s_.base.values);
+    Supposed supposed(s_.model, hypothesis);
+    OwnWorld world = linearised(hypothesis);
+    for (int round = 0; round < 2 && world.hypothesis.place; ++round) {
+      set_fitted(world);
+      world.hypothesis.place = moved_to_best(supposed, *world.hypothesis.place);
+      supposed.move(*world.hypothesis.place);
+      world = linearised(world.hypothesis);
+    }
+    set(s_.base.values);
+    return world;
+  }
+
+  void set_fitted(const OwnWorld& world) { set(world.values); }
+
+  // At the parameters of the fit.
+  OwnWorld linearised(const Hypothesis& hypothesis) {
+    Sensitivities own = s_.base;
+    own.slopes = slopes_at(s_.model, own);
+    set(own.values);
+    own.mean = s_.model.expected();
+    OwnWorld world{hypothesis, 0, y_ - own.offset()(kept_), own.slopes(kept_, Eigen::all)};
+    world.values = bounded_least_squares(world.design, world.rest, own.lower, own.upper);
+    world.squares = (world.rest - world.design * world.values).squaredNorm();
+    const auto ends = s_.model.ends_now();
+    for (const Index row : kept_) world.ends.push_back(ends[static_cast<std::size_t>(row)]);
+    return world;
+  }
+
+  InPlan moved_to_best(Supposed& supposed, const InPlan& start) {
+    const auto value = [&](const VectorXd& theta) {
+      supposed.move({theta[0], theta[1]});
+      const VectorXd rest = y_ - s_.model.expected()(kept_);
+      return -(rest.array() - rest.mean()).square().sum();
+    };
+    inference::Candidate place;
+    const Eigen::Vector2d at(start[0], start[1]);
+    place.refinement.lower = at.array() - thresholds::own_world_reach;
+    place.refinement.upper = at.array() + thresholds::own_world_reach;
+    place.refinement.step = Eigen::Vector2d::Ones();
+    const VectorXd best = inference::local_search(place, at, 40, value).first;
+    return {best[0], best[1]};
+  }
+
+  LinkReadings readings_of(const OwnWorld& world) const {
+    LinkReadings r;
+    const auto n = static_cast<Index>(kept_.size());
+    r.tx_at.resize(3, n);
+    r.rx_at.resize(3, n);
+    for (Index i = 0; i < n; ++i) {
+      const auto& [tx, rx] = world.ends[static_cast<std::size_t>(i)];
+      r.tx.push_back(tx.radio);
+      r.rx.push_back(rx.radio);
+      r.tx_at.col(i) << tx.x, tx.y, tx.z;
+      r.rx_at.col(i) << rx.x, rx.y, rx.z;
+      if (!s_.data.t.empty()) r.t.push_back(s_.data.t[static_cast<std::size_t>(kept_[static_cast<std::size_t>(i)])]);
+    }
+    return r;
+  }
+
+  // Single readings are rows: what is averaged in one world is of several links in another.
+  LinkLayout layout_of(const OwnWorld& world) const {
+    LinkRowLimits limits;
+    limits.way = -1;
+    return {readings_of(world), limits, {}, true, drawn_correlation(s_.model)};
+  }
+
+  // Profile likelihood of the readings, with the noise fitted in this world.
+  Likelihood likelihood_of(const OwnWorld& world) const {
+    const LinkLayout layout = layout_of(world);
+    const noise::Rows rows = layout.rows();
+    const noise::Field field(layout.sites(rows), {.seed = s_.options.seed});
+    const VectorXd y = rows.mean(world.rest);
+    const MatrixXd design = rows.mean(world.design);
+    const noise::Fit fit = noise::fit_families(field, y, design, s_.options.prior).front();
+    const noise::Whitened at = noise::whitened(noise::Whitener(field, fit.covariance), y, design, s_.options.prior);
+    return {at.basis.log_determinant() - fit.value, fit.covariance};
+  }
+
+  // Moves the place by generalised least squares; its standard errors.
+  InPlan settle(OwnWorld& world, const noise::Covariance& covariance) {
+    InPlan sd{};
+    constexpr double step = 0.05;  // m
+    const LinkLayout layout = layout_of(world);
+    const noise::Rows rows = layout.rows();
+    const noise::Field field(layout.sites(rows), {.seed = s_.options.seed});
+    const noise::Whitener whitener(field, covariance);
+    for (int round = 0; round < 2; ++round) {
+      set_fitted(world);
+      MatrixXd columns(static_cast<Index>(kept_.size()), 2);
+      {
+        Supposed supposed(s_.model, world.hypothesis);
+        const InPlan at = *world.hypothesis.place;
+        for (const std::size_t k : {0, 1}) {
+          InPlan more = at, less = at;
+          more[k] += step;
+          less[k] -= step;
+          supposed.move(more);
+          columns.col(static_cast<Index>(k)) = s_.model.expected()(kept_);
+          supposed.move(less);
+          columns.col(static_cast<Index>(k)) -= s_.model.expected()(kept_);
+        }
+      }
+      columns /= 2 * step;
+      const noise::Whitened base =
+          noise::whitened(whitener, rows.mean(world.rest), rows.mean(world.design), s_.options.prior);
+      const noise::Basis place = noise::basis_of(base.basis.rest(whitener(rows.mean(columns))));
+      const VectorXd by = place.coefficients(place.q.transpose() * base.residual, 2);
+      const MatrixXd uncertainty = place.uncertainty(2);
+      for (const std::size_t k : {0, 1}) {
+        sd[k] = std::sqrt(uncertainty(static_cast<Index>(k), static_cast<Index>(k)));
+        (*world.hypothesis.place)[k] += std::clamp(by[static_cast<Index>(k)], -1.0, 1.0);
+      }
+      Supposed supposed(s_.model, world.hypothesis);
+      const Hypothesis here = world.hypothesis;
+      world = linearised(here);
+    }
+    return sd;
+  }
+
+  Judged judged(const OwnWorld& given) {
+    Judged result{given};
+    Likelihood likelihood = likelihood_of(given);
+    if (given.hypothesis.place) {
+      OwnWorld settled = given;
+      const InPlan sd = settle(settled, likelihood.noise);
+      result.place_sd = sd;
+      const Likelihood there = likelihood_of(settled);
+      if (there.nats > likelihood.nats) {
+        result.world = settled;
+        likelihood = there;
+      }
+    }
+    result.nats = likelihood.nats;
+    result.evidence = likelihood.nats - choice() - price(given.hypothesis.sought());
+    return result;
+  }
+
+  // What the search found in the world as it is, as one more world.
+  double evidence_of_found(const OwnWorld& as_it_is) const {
+    double prices = 0;
+    for (const CauseEstimate& c : found_.causes) {
+      if (c.status == inference::Status::named) prices += choice() + price(static_cast<double>(c.values.size()));
+    }
+    if (prices == 0) return -std::numeric_limits<double>::infinity();
+    OwnWorld with_them = as_it_is;
+    with_them.rest = y_ - found_.mean(kept_);
+    return likelihood_of(with_them).nats - prices;
+  }
+
+  void name_likeliest(const OwnWorld& as_it_is, const std::vector<OwnWorld>& worlds, OwnWorldVerdict& out) {
+    const double plain = likelihood_of(as_it_is).nats;
+    std::vector<Judged> all;
+    for (const OwnWorld& world : worlds) all.push_back(judged(world));
+    const double most = std::max_element(all.begin(), all.end(), [](const Judged& a, const Judged& b) {
+                          return a.evidence < b.evidence;
+                        })->evidence;
+    // Of those that the readings do not tell apart the simplest.
+    const auto simpler = [&](const Judged& a, const Judged& b) {
+      const auto rank = [&](const Judged& j) {
+        return std::tuple(j.evidence < most - thresholds::own_world_even, j.world.hypothesis.cause->needs_own_world(),
+                          j.world.hypothesis.cause->plugin->param_count, j.world.hypothesis.number);
+      };
+      return rank(a) < rank(b);
+    };
+    const Judged& best = *std::min_element(all.begin(), all.end(), simpler);
+    const double lead = best.evidence - plain;
+    if (lead < thresholds::own_world_nats ||
+        best.evidence - evidence_of_found(as_it_is) < thresholds::own_world_beyond_found)
+      return;
+    CauseEstimate result = stated(best.world.hypothesis, best.place_sd);
+    result.evidence = lead;
+    result.log_p = -lead;
+    result.lambda = 2 * (best.nats - plain);
+    for (const Judged& other : all) {
+      const double gap = best.evidence - other.evidence;
+      if (&other != &best && gap < thresholds::own_world_open)
+        result.alternatives.push_back(
+            {other.world.hypothesis.cause->id, other.world.hypothesis.label(), {}, gap, 0, best.nats - other.nats});
+    }
+    for (std::size_t j = 0; j < s_.base.paths.size(); ++j)
+      out.parameters[s_.base.paths[j]] = best.world.values[static_cast<Index>(j)];
+    out.cause = std::move(result);
+  }
+
+  DiagnosisSetup& s_;
+  const Diagnosis& found_;
+  ParameterGuard moved_;
+  std::vector<Index> kept_, of_used_;  // rows of the table; the same among those of the search
+  VectorXd y_;                         // dBm, measured there
+  int tried_ = 0;                      // hypotheses that change the expected levels
+};
+
+}  // namespace
+
+OwnWorldVerdict judged_in_own_worlds(DiagnosisSetup& setup, const Diagnosis& found) {
+  return Judge(setup, found).verdict();
+}
+
+}  // namespace muster::diagnosis
