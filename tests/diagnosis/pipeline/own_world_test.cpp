@@ -1,0 +1,51 @@
+// Faults of maps and logs: each is named by its cause, alone, and with the right rows and choices.
+#include <gtest/gtest.h>
+
+#include "diagnosis/pipeline/closed_loop.hpp"
+#include "diagnosis/pipeline/diagnose.hpp"
+#include "tests/diagnosis/pipeline/damaged_log.hpp"
+
+namespace muster::diagnosis {
+namespace {
+
+const Library::SearchPath plugins = {MUSTER_PLUGINS_DIR};
+constexpr int cases = 10;
+
+const char* word_of(Fault fault) {
+  static const char* words[] = {"",       "none",       "swapped",     "shifted",  "mirrored",
+                                "turned", "names late", "places late", "misplaced"};
+  return words[static_cast<int>(fault)];
+}
+
+struct Share {
+  Fault fault;
+  int least;  // of ten cases
+};
+
+void PrintTo(const Share& share, std::ostream* out) { *out << word_of(share.fault); }
+
+class OwnWorldShare : public testing::TestWithParam<Share> {};
+
+TEST_P(OwnWorldShare, OfTenRandomCases) {
+  int right = 0;
+  for (unsigned seed = 1; seed <= cases; ++seed) {
+    const Scratch scratch;
+    const DamagedLog log = damaged_log(scratch, GetParam().fault, seed);
+    const std::string told = names_in_words(named_causes(diagnose(log.world, log.table, plugins)));
+    right += told == log.truth;
+    if (told != log.truth)
+      std::printf("%s %u: %s instead of %s\n", word_of(GetParam().fault), seed, told.c_str(), log.truth.c_str());
+  }
+  RecordProperty("right", right);
+  std::printf("%s: %d of %d right\n", word_of(GetParam().fault), right, cases);
+  EXPECT_GE(right, GetParam().least);
+}
+
+INSTANTIATE_TEST_SUITE_P(Faults, OwnWorldShare,
+                         testing::Values(Share{Fault::none, 10}, Share{Fault::swapped, 9}, Share{Fault::shifted, 9},
+                                         Share{Fault::mirrored, 9}, Share{Fault::turned, 9},
+                                         Share{Fault::names_late, 9}, Share{Fault::places_late, 5},
+                                         Share{Fault::misplaced, 8}));
+
+}  // namespace
+}  // namespace muster::diagnosis
