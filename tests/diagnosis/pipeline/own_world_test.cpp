@@ -1,6 +1,9 @@
 // Faults of maps and logs: each is named by its cause, alone, and with the right rows and choices.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdio>
+
 #include "diagnosis/pipeline/closed_loop.hpp"
 #include "diagnosis/pipeline/diagnose.hpp"
 #include "tests/diagnosis/pipeline/damaged_log.hpp"
@@ -23,6 +26,41 @@ struct Share {
 };
 
 void PrintTo(const Share& share, std::ostream* out) { *out << word_of(share.fault); }
+
+TEST(OwnWorld, CleanReadingsAreSilent) {
+  const Scratch scratch;
+  const DamagedLog log = damaged_log(scratch, Fault::none, 1);
+  const Diagnosis found = diagnose(log.world, log.table, plugins);
+  EXPECT_EQ(names_in_words(named_causes(found)), "silent");
+  EXPECT_STREQ(found.verdict(), "adequate");
+  for (const char* id : {"effect.column_shifted", "effect.labels_shifted", "effect.plan_turned"})
+    EXPECT_TRUE(std::count(found.searched.begin(), found.searched.end(), id)) << id;
+}
+
+class OwnWorldLoop : public testing::TestWithParam<Fault> {};
+
+// The extended world is simulated as it was found, and silent.
+TEST_P(OwnWorldLoop, IsNamedAndTheExtendedWorldIsSilent) {
+  const Scratch scratch, out;
+  const DamagedLog log = damaged_log(scratch, GetParam(), 2);
+  const Diagnosis found = diagnose(log.world, log.table, plugins);
+  ASSERT_EQ(names_in_words(named_causes(found)), log.truth);
+  EXPECT_STREQ(found.verdict(), "extended");
+  ASSERT_TRUE(found.causes[0].held_out);
+  EXPECT_GT(found.causes[0].held_out->lower95, 0);
+  const Loop loop = closed_loop(found, log.world, log.table, out / "extended", plugins);
+  EXPECT_LT(loop.mean_difference, 0.1);
+  EXPECT_EQ(names_in_words(loop.rediagnosis), "silent");
+}
+
+INSTANTIATE_TEST_SUITE_P(Faults, OwnWorldLoop,
+                         testing::Values(Fault::swapped, Fault::shifted, Fault::mirrored, Fault::turned,
+                                         Fault::names_late, Fault::places_late),
+                         [](const auto& fault) {
+                           std::string name = word_of(fault.param);
+                           std::replace(name.begin(), name.end(), ' ', '_');
+                           return name;
+                         });
 
 class OwnWorldShare : public testing::TestWithParam<Share> {};
 
