@@ -140,7 +140,7 @@ std::optional<Planted> mirrored(const Campaign& campaign, Draws&) {
   }
   Planted planted{"plan_mirrored"};
   planted.covariates = {"place", "position", "room", "link", "tx", "rx", "tx_x", "tx_y", "rx_x", "rx_y", "bearing"};
-  planted.also = {"wall_absent", "wall_material", "unmapped_wall", "obstacle", "room_clutter"};
+  planted.also = {"plan_turned", "wall_absent", "wall_material", "unmapped_wall", "obstacle", "room_clutter"};
   planted.apply = [turn = low + high](Scene& map, Scene&) {
     for (Panel& panel : map.panels)
       for (Point* end : {&panel.from, &panel.to}) end->x = to_millimetre(turn - end->x);
@@ -151,8 +151,8 @@ std::optional<Planted> mirrored(const Campaign& campaign, Draws&) {
 }  // namespace
 
 std::vector<Kind> map_kinds() {
-  return {{"unmapped_wall", missing_wall}, {"wall_absent", absent_wall},       {"tx_misplaced", misplaced},
-          {"label_swap", swapped},         {"labels_shifted", shifted, false}, {"plan_mirrored", mirrored, false}};
+  return {{"unmapped_wall", missing_wall}, {"wall_absent", absent_wall}, {"tx_misplaced", misplaced},
+          {"label_swap", swapped},         {"labels_shifted", shifted},  {"plan_mirrored", mirrored, false}};
 }
 
 }  // namespace muster::exam::survey

@@ -114,6 +114,41 @@ std::optional<PlantedCause> label_swap(const Setting& s, Random& random) {
   return cause;
 }
 
+std::optional<PlantedCause> labels_shifted(const Setting& s, Random& random) {
+  const int stations = static_cast<int>(s.site.plan.stations.size());
+  if (stations < 3) return {};
+  const std::string first = s.site.plan.stations[static_cast<std::size_t>(1 + random.below(stations - 1))].name;
+  PlantedCause cause{"labels_shifted"};
+  cause.texts = {{"first", first}};
+  cause.rows = {"radio/" + first};
+  cause.also = {"label_swap"};  // a shift by half of an even number exchanges pairs
+  return cause;
+}
+
+std::optional<PlantedCause> column_shifted(const Setting&, Random& random) {
+  PlantedCause cause{"column_shifted"};
+  cause.texts = {{"column", random.chance(0.5) ? "names" : "places"}, {"by", random.chance(0.5) ? "1" : "-1"}};
+  return cause;
+}
+
+// About the middle of the stations.
+std::optional<PlantedCause> plan_turned(const Setting& s, Random& random) {
+  static const char* ways[] = {"mirrored_x", "mirrored_y", "turned_90", "turned_180", "turned_270"};
+  const auto& stations = s.site.plan.stations;
+  if (stations.size() < 3) return {};
+  double west = 1e300, east = -1e300, south = 1e300, north = -1e300;
+  for (const Station& station : stations) {
+    west = std::min(west, station.at.x);
+    east = std::max(east, station.at.x);
+    south = std::min(south, station.at.y);
+    north = std::max(north, station.at.y);
+  }
+  PlantedCause cause{"plan_turned"};
+  cause.texts = {{"of", "stations"}, {"how", ways[random.below(5)]}};
+  cause.numbers = {{"x", to_millimetres((west + east) / 2), "m"}, {"y", to_millimetres((south + north) / 2), "m"}};
+  return cause;
+}
+
 std::optional<PlantedCause> power_steps(const Setting& s, Random& random) {
   if (!s.site.has_power) return {};
   PlantedCause cause{"power_steps"};
@@ -129,9 +164,12 @@ std::vector<CauseKind> radio_causes() {
   SiteNeeds two_way, power;
   two_way.two_way = true;
   power.power = true;
-  return {{"tx_offset", {}, tx_offset},   {"rx_offset", {}, rx_offset},       {"asymmetry", two_way, asymmetry},
-          {"antenna_tx", {}, antenna_tx}, {"antenna_rx", {}, antenna_rx},     {"body_shadow", {}, body_shadow},
-          {"label_swap", {}, label_swap}, {"tx_misplaced", {}, tx_misplaced}, {"power_steps", power, power_steps}};
+  return {{"tx_offset", {}, tx_offset},        {"rx_offset", {}, rx_offset},
+          {"asymmetry", two_way, asymmetry},   {"antenna_tx", {}, antenna_tx},
+          {"antenna_rx", {}, antenna_rx},      {"body_shadow", {}, body_shadow},
+          {"label_swap", {}, label_swap},      {"tx_misplaced", {}, tx_misplaced},
+          {"power_steps", power, power_steps}, {"labels_shifted", {}, labels_shifted},
+          {"plan_turned", {}, plan_turned},    {"column_shifted", {}, column_shifted}};
 }
 
 }  // namespace muster::exam::simulated

@@ -19,21 +19,27 @@ std::string kind_of(const Request& request, Random& random) {
 }
 
 // Kinds in the order in which they are tried.
-std::vector<CauseKind> candidates(const Request& request, const std::string& kind, int number, Random& random) {
+std::vector<CauseKind> candidates(const Request& request, const std::string& kind, int number) {
   std::vector<CauseKind> some;
   for (const CauseKind& k : cause_kinds())
     if (request.effects.empty() || std::count(request.effects.begin(), request.effects.end(), k.id)) some.push_back(k);
   if (kind == "each")
     std::rotate(some.begin(), some.begin() + (number - 1) % static_cast<int>(some.size()), some.end());
-  else
+  else {
+    // A stream of its own: a new cause changes no case without causes.
+    Random random(request.seed, fmt::format("causes of simulated {}", number));
     for (std::size_t i = some.size(); i > 1; --i)
       std::swap(some[i - 1], some[static_cast<std::size_t>(random.below(static_cast<int>(i)))]);
+  }
   return some;
 }
 
 // Causes that cannot be in one world, or that undo one another.
 bool exclude(const PlantedCause& a, const PlantedCause& b) {
-  const auto places = [](const PlantedCause& c) { return c.id == "label_swap" || c.id == "tx_misplaced"; };
+  const auto places = [](const PlantedCause& c) {
+    return c.id == "label_swap" || c.id == "tx_misplaced" || c.id == "labels_shifted" || c.id == "plan_turned" ||
+           c.id == "column_shifted";
+  };
   const auto scatters = [](const PlantedCause& c) {
     return c.acts == Acts::reading_law || c.acts == Acts::field_law || c.acts == Acts::blockage;
   };
@@ -263,7 +269,7 @@ Made make(const Request& request, int number) {
   made.name = fmt::format("case_{:04}", number);
   made.seed = random.bits();
   made.kind = kind_of(request, random);
-  const std::vector<CauseKind> kinds = candidates(request, made.kind, number, random);
+  const std::vector<CauseKind> kinds = candidates(request, made.kind, number);
   const std::size_t count = made.kind == "clean" ? 0 : made.kind == "two" ? 2 : made.kind == "three" ? 3 : 1;
   SiteNeeds needs;
   for (std::size_t i = 0; i < std::min(count, kinds.size()); ++i) {
