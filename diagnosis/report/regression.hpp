@@ -1,5 +1,5 @@
-// Regression test of a finding: checks that the extended world, or one in which nothing is named, still explains its own
-// data.
+// Regression test of a finding: checks that the extended world, or one in which nothing is named, still explains its
+// own data.
 #pragma once
 
 #include <filesystem>

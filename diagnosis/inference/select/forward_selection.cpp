@@ -109,6 +109,14 @@ double sure_log_p(const ModelState& state, const ScoredCandidate& lead, const no
   return state.log_p(c, gain, lead.columns.cols(), true);
 }
 
+// Of the model's draws, where nothing blurs the field. Scatter of single readings hides how far a drawn field is from
+// any covariance; what is left of the inflation then is that of another family than the data's, and would hide walls.
+double inflation_of_draws(const ModelState& state, const WhitenedModel& model, const Candidate& c) {
+  constexpr double negligible = 0.05;  // share of the field's variance
+  const noise::Covariance& noise = state.fit.covariance;
+  return noise.reading_variance() < negligible * noise.field_variance() ? drawn_inflation(state, model, c) : 1;
+}
+
 // Tests a lead for significance over the uncertain covariance, for support by one group alone, and for clipping.
 Trial tried(const ModelState& state, const ScoredCandidate& lead, const noise::Fit& fit,
             const Eigen::MatrixXd& design) {
@@ -127,7 +135,7 @@ Trial tried(const ModelState& state, const ScoredCandidate& lead, const noise::F
   log_p += skew;
   if (log_p <= state.threshold()) {
     const WhitenedModel with = state.whitened_model(noise::hstack(design, lead.columns), fit.covariance);
-    trial.inflation = std::max(bulk_inflation(state, with, c, lead.columns), drawn_inflation(state, model, c));
+    trial.inflation = std::max(bulk_inflation(state, with, c, lead.columns), inflation_of_draws(state, model, c));
     log_p = std::max(log_p, state.log_p(c, trial.gain / trial.inflation, lead.columns.cols(), true));
   }
   if (log_p <= state.threshold() && noise_decides) {
