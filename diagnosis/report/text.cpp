@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
+#include <set>
 
 #include "diagnosis/inference/thresholds.hpp"
 #include "diagnosis/report/advice.hpp"
@@ -41,7 +43,10 @@ std::string errors(const Diagnosis& d) {
   if (!d.stairs.empty()) text += fmt::format(" (95 %: {:.2f} to {:.2f})", d.stairs[0].lower95, d.stairs[0].upper95);
   if (improved) text += fmt::format(", {} with the causes below", db(h.rmse_after));
   text += std::isfinite(noise_floor(d)) ? ". The noise alone is " + db(noise_floor(d)) + "." : ".";
-  if (improved)
+  if (improved && h.gain < 0)
+    text += fmt::format(" The squared error rises by {:.2f} dB2 (95 %: {:.2f} to {:.2f}, over {} blocks).", -h.gain,
+                        -h.upper95, -h.lower95, h.blocks);
+  else if (improved)
     text += fmt::format(" The squared error falls by {:.2f} dB2 (95 %: {:.2f} to {:.2f}, over {} blocks).", h.gain,
                         h.lower95, h.upper95, h.blocks);
   return wrapped(text + ' ' + errors_elsewhere(d), 2, 2);
@@ -54,9 +59,24 @@ std::string entry(const std::string& word, const std::string& text) {
   return padded + wrapped(text, 18, 18).substr(18);
 }
 
-std::string gains_elsewhere(const std::vector<inference::Elsewhere>& elsewhere) {
+// A line for each gain, and one for all that are none.
+std::string gains(const std::optional<inference::HeldOutGain>& of_blocks, const std::string& why_none,
+                  const std::vector<inference::Elsewhere>& elsewhere) {
+  std::vector<inference::Elsewhere> all;
+  if (of_blocks) all.push_back({"blocks", *of_blocks});
+  all.insert(all.end(), elsewhere.begin(), elsewhere.end());
+  std::vector<std::string> lines;
+  if (!of_blocks) lines.push_back(why_none);
+  std::string none;
+  for (const inference::Elsewhere& e : all) {
+    if (e.held_out.gain >= 0)
+      lines.push_back(gain_in_words(e.held_out, e.left_out));
+    else
+      none += (none.empty() ? "" : ", ") + held_out_in_words(e.held_out, e.left_out);
+  }
+  if (!none.empty()) lines.push_back(no_gain_in_words(none));
   std::string text;
-  for (const inference::Elsewhere& e : elsewhere) text += entry("", gain_in_words(e.held_out, e.left_out));
+  for (const std::string& line : lines) text += entry(text.empty() ? "gain" : "", line);
   return text;
 }
 
@@ -72,11 +92,7 @@ std::string cause_text(const CauseEstimate& c, int number) {
     text += entry("", fmt::format("Gains of its kind are {:.1f} times those of chance in these readings; it stands out "
                                   "from them all the same.",
                                   c.inflation));
-  if (c.held_out)
-    text += entry("gain", gain_in_words(*c.held_out, "blocks"));
-  else
-    text += entry("gain", why_no_gain(c));
-  text += gains_elsewhere(c.elsewhere);
+  text += gains(c.held_out, why_no_gain(c), c.elsewhere);
   if (!c.doubt.empty())
     text += entry("doubt", c.doubt);
   else if (confidence == Confidence::unconfirmed && c.held_out)
@@ -98,8 +114,7 @@ std::string unexplained(const Diagnosis& d) {
   std::string text = heading("Not explained");
   for (const auto& u : d.unexplained) {
     text += wrapped(what_is_unexplained(u), 2, 2);
-    text += entry("gain", u.held_out ? gain_in_words(*u.held_out, "blocks") : too_few_blocks);
-    text += gains_elsewhere(u.elsewhere);
+    text += gains(u.held_out, too_few_blocks, u.elsewhere);
   }
   return text;
 }
@@ -117,9 +132,10 @@ std::string undecided(const Diagnosis& d) {
   const auto questions = open_questions(d);
   if (questions.empty()) return "";
   std::string text = heading("Undecided, and what to measure next");
+  std::set<std::string> already;  // of one cause, beside several alternatives
   for (const Question& q : questions) {
     text += wrapped(fmt::format("{}: D {:.0f}, {}.", q.pair, q.separability, judged(q.separability)), 2, 2);
-    text += wrapped("- " + q.tell_apart, 4, 6);
+    if (already.insert(q.tell_apart).second) text += wrapped("- " + q.tell_apart, 4, 6);
     for (const Measurement& m : q.plans)
       text += wrapped(fmt::format("- {}: predicted D {:.0f}{}{}", m.say, m.predicted,
                                   m.predicted >= inference::thresholds::decided      ? ", decides"

@@ -183,8 +183,9 @@ std::string rivals_in_words(const std::vector<inference::Alternative>& alternati
   if (alternatives.empty()) return "none: the readings exclude all other causes";
   std::string out;
   for (const inference::Alternative& r : alternatives)
-    out += fmt::format("{}{}, {:.1f} nats behind, D {:.0f}: {}", out.empty() ? "" : "; ", with_label(r.id, r.label),
-                       tenths(r.evidence_gap), r.separability, judged(r.separability));
+    out += fmt::format("{}{}, {:.1f} nats {}, D {:.0f}: {}", out.empty() ? "" : "; ", with_label(r.id, r.label),
+                       std::abs(tenths(r.evidence_gap)), tenths(r.evidence_gap) < 0 ? "ahead" : "behind",
+                       r.separability, judged(r.separability));
   return out;
 }
 
@@ -238,9 +239,16 @@ double noise_floor(const Diagnosis& d) {
   return std::sqrt(d.noise.field_variance() + d.noise.reading_variance());
 }
 
+std::string held_out_in_words(const inference::HeldOutGain& h, const std::string& left_out) {
+  return fmt::format("{} {}", h.blocks, left_out);
+}
+
+std::string no_gain_in_words(const std::string& held_out) {
+  return "none to be seen: held-out data neither confirm nor refute it (" + held_out + ")";
+}
+
 std::string gain_in_words(const inference::HeldOutGain& h, const std::string& left_out) {
-  if (h.gain < 0)
-    return fmt::format("none to be seen: held-out data neither confirm nor refute it ({} {})", h.blocks, left_out);
+  if (h.gain < 0) return no_gain_in_words(held_out_in_words(h, left_out));
   return fmt::format("{:.2f} -> {} on held-out data; squared error falls by {:.2f} dB2 (95 %: {:.2f} to {:.2f}, {} {})",
                      h.rmse_before, db(h.rmse_after), h.gain, h.lower95, h.upper95, h.blocks, left_out);
 }

@@ -44,7 +44,8 @@ std::string sentence(const CauseEstimate& cause);
 std::string short_name(const std::string& id);
 // Name of a covariate for readers: "distance" for "logd".
 std::string covariate_in_words(const std::string& name);
-// "obstacle (2.0, 1.5), 1.5 nats behind, D 6: not distinguishable", for each alternative; or that there are none.
+// "obstacle (2.0, 1.5), 1.5 nats behind, D 6: not distinguishable", for each alternative ("ahead" where it is likelier);
+// or that there are none.
 std::string rivals_in_words(const std::vector<inference::Alternative>& alternatives);
 // "Something depends on the column battery ...", with its gain and the causes that explain it nearly as well.
 std::string what_is_unexplained(const diagnosis::Unexplained& what);
@@ -52,6 +53,12 @@ std::string what_is_unexplained(const diagnosis::Unexplained& what);
 std::string rediagnosis_in_words(const std::vector<diagnosis::NamedCause>& told);
 // "p < 1e-9", "p = 0.03", from a logarithm.
 std::string chance(double log_p);
+
+// "34 blocks".
+std::string held_out_in_words(const inference::HeldOutGain& gain, const std::string& left_out);
+
+// Of gains below 0, on what was held out.
+std::string no_gain_in_words(const std::string& held_out);
 
 // A gain on held-out data; of one below 0 that it is none.
 std::string gain_in_words(const inference::HeldOutGain& gain, const std::string& left_out);

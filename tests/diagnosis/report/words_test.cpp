@@ -103,6 +103,32 @@ TEST(Text, AlternativesOfTheSameNameAreToldByTheirRows) {
   EXPECT_TRUE(says(text, "unmapped wall wall/w2, 0.0 nats behind")) << text;
 }
 
+std::size_t times_said(const std::string& text, const std::string& what) {
+  std::size_t count = 0;
+  for (std::size_t at = 0; (at = text.find(what, at)) != text.npos; ++at) ++count;
+  return count;
+}
+
+TEST(Text, SaysOnceWhatHoldsOfSeveralAlternativesOrGains) {
+  const inference::HeldOutGain none{3.5, 3.6, -0.7, -1.5, 0.1, 21};
+  CauseEstimate c = wall(inference::Status::named, none);
+  c.elsewhere = {{"radios", none}};
+  c.alternatives = {{"effect.obstacle", "all", {}, 1, 6}, {"effect.drift", "all", {}, -2.8, 7}};
+  const std::string text = text_of(with(c), {"hall", "a.csv"});
+  EXPECT_EQ(times_said(text, "cross the place from both sides"), 1u) << text;
+  EXPECT_EQ(times_said(text, "none to be seen"), 1u) << text;
+  EXPECT_TRUE(says(text, "(21 blocks, 21")) << text;
+}
+
+TEST(Text, AGainBelowZeroIsARiseAndAGapBelowZeroALead) {
+  CauseEstimate c = wall(inference::Status::named, inference::HeldOutGain{3.5, 3.6, -0.7, -1.5, 0.1, 21});
+  c.alternatives = {{"effect.drift", "all", {}, -2.8, 7}};
+  const std::string text = text_of(with(c), {"hall", "a.csv"});
+  EXPECT_TRUE(says(text, "rises by 0.70 dB2")) << text;
+  EXPECT_TRUE(says(text, "drift, 2.8 nats ahead, D 7")) << text;
+  EXPECT_FALSE(says(text, "falls by -")) << text;
+}
+
 TEST(Text, WhatIsUnexplainedNamesTheCausesThatExplainItNearlyAsWell) {
   Diagnosis d = with(wall(inference::Status::named, {}));
   d.causes.clear();
