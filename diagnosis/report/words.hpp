@@ -44,8 +44,8 @@ std::string sentence(const CauseEstimate& cause);
 std::string short_name(const std::string& id);
 // Name of a covariate for readers: "distance" for "logd".
 std::string covariate_in_words(const std::string& name);
-// "obstacle (2.0, 1.5), 1.5 nats behind, D 6: not distinguishable", for each alternative ("ahead" where it is likelier);
-// or that there are none.
+// "obstacle (2.0, 1.5), 1.5 nats behind, D 6: not distinguishable", for each alternative ("ahead" where it is
+// likelier); or that there are none.
 std::string rivals_in_words(const std::vector<inference::Alternative>& alternatives);
 // "Something depends on the column battery ...", with its gain and the causes that explain it nearly as well.
 std::string what_is_unexplained(const diagnosis::Unexplained& what);
