@@ -7,7 +7,6 @@
 #include <map>
 
 #include "diagnosis/inference/state/null_tail.hpp"
-#include "diagnosis/inference/thresholds.hpp"
 #include "diagnosis/radio/laws/law_families.hpp"
 #include "diagnosis/radio/laws/law_likelihood.hpp"
 #include "diagnosis/radio/thresholds.hpp"
@@ -112,13 +111,14 @@ class Tests {
     return off(fitted.law) - off(null_law_) < thresholds::contradiction_nats;
   }
 
-  // True if fewer than five readings carry half of the gain: one that passes a wall's end on the other side is no law.
+  // True if two readings carry most of the gain: one that passes a wall's end on the other side is no law. Outliers
+  // that can just be told (lambda 60) are some ten readings.
   bool rests_on_few(const Fitted& fitted) {
+    constexpr Eigen::Index few = 2;
+    constexpr double most = 0.75;
     Eigen::VectorXd won = judge_.each(fitted.law, fitted.peak) - judge_.each(null_law_, null_);
-    const auto few = static_cast<std::ptrdiff_t>(
-        std::min<Eigen::Index>(static_cast<Eigen::Index>(inference::thresholds::few_readings) - 1, won.size()));
     std::nth_element(won.data(), won.data() + few, won.data() + won.size(), std::greater<>());
-    return won.head(few).sum() > won.sum() / 2;
+    return won.head(few).sum() > most * won.sum();
   }
 
   // The strength with its 95 % interval by profile likelihood, wider by the gain's factor.
