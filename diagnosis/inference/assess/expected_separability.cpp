@@ -4,12 +4,10 @@
 #include <stdexcept>
 
 #include "diagnosis/inference/noise/columns.hpp"
-#include "diagnosis/inference/score/candidate_scores.hpp"
+#include "diagnosis/inference/score/marginal_p_value.hpp"
 
 namespace muster::inference {
 namespace {
-
-constexpr Index at_once = 64;  // atoms: the neighbours of a row are read once for all of them
 
 const Candidate& planned(const Plan& plan, const std::string& id) {
   for (const Candidate& c : plan.candidates) {
@@ -44,27 +42,6 @@ Eigen::MatrixXd ExpectedSeparability::whitened(const Eigen::MatrixXd& here, cons
   return whitener_(both);
 }
 
-double ExpectedSeparability::most_explained(const Entry& entry, const Candidate& planned, const noise::Basis& basis,
-                                            const Eigen::VectorXd& effect) const {
-  Candidate plain;  // either sign of the rival
-  plain.design.width = entry.candidate->design.width;
-  const Index width = plain.design.width;
-  double most = 0;
-  for (Index first = 0; first < entry.count(); first += at_once) {
-    const Index count = std::min(at_once, entry.count() - first);
-    Eigen::MatrixXd there(plan_.layout->size(), count * width);
-    for (Index k = 0; k < count; ++k)
-      there.middleCols(k * width, width) =
-          planned.design.columns(entry.candidate->design.grid[static_cast<std::size_t>(first + k)]);
-    noise::Sheet both(field_.size(), count * width);
-    both << entry.atoms->middleCols(first * width, count * width), rows_.mean(there).cast<float>();
-    noise::Sheet atoms = whitener_.sheet(both);
-    basis.take_out_of(atoms);
-    most = std::max(most, gains(plain, {std::move(atoms), width}, effect).maxCoeff());
-  }
-  return most;
-}
-
 std::vector<double> ExpectedSeparability::separability(const Term& term,
                                                        const std::vector<std::string>& alternatives) const {
   Eigen::MatrixXd here = state_.base(), there = plan_.base;
@@ -83,7 +60,12 @@ std::vector<double> ExpectedSeparability::separability(const Term& term,
   for (const std::string& alternative : alternatives) {
     const Candidate& other = planned(plan_, alternative);
     const Entry& entry = entry_of(state_, plan_, alternative);
-    result.push_back(residual_energy(effect, most_explained(entry, other, basis, effect)));
+    double& least = result.emplace_back(effect.squaredNorm());
+    for (Index k = 0; k < entry.count(); ++k) {
+      const Eigen::VectorXd& theta = entry.candidate->design.grid[static_cast<std::size_t>(k)];
+      const auto of_rival = noise::basis_of(basis.rest(whitened(entry.atom(k), other.design.columns(theta))));
+      least = std::min(least, residual_energy(effect, (of_rival.q.transpose() * effect).squaredNorm()));
+    }
   }
   return result;
 }

@@ -26,10 +26,6 @@ class ExpectedSeparability {
  private:
   // Whitened stack of the present rows and the plan's rows.
   Eigen::MatrixXd whitened(const Eigen::MatrixXd& here, const Eigen::MatrixXd& at_readings) const;
-  // Energy of the effect that the best atom of an entry explains beside the basis. `planned`: its candidate at the
-  // plan's readings.
-  double most_explained(const Entry& entry, const Candidate& planned, const noise::Basis& basis,
-                        const Eigen::VectorXd& effect) const;
 
   const ModelState& state_;
   const Plan& plan_;
