@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "diagnosis/inference/noise/dense_solvers.hpp"
 #include "diagnosis/radio/thresholds.hpp"
@@ -40,27 +39,11 @@ struct Search {
   }
 };
 
-// The lowest level that the world's receivers report: the highest of those that plugins of the world state, -infinity
-// if there is none.
-double stated_floor(const LinkModel& model) {
-  double floor = -std::numeric_limits<double>::infinity();
-  for (const auto& instance : model.simulation().instances()) {
-    const muster_clip* const clip = instance->plugin().clip;
-    if (!clip || clip->side != MUSTER_BELOW) continue;
-    floor = std::max(floor, instance->params()[static_cast<std::size_t>(instance->find_param(clip->level))]);
-  }
-  return floor;
-}
-
-// A reading at the stated floor is an upper bound. As a value it would bend all parameters, and slopes taken there do
-// not hold at those that a search finds.
-Readings readings_of(const Dataset& data, const LinkModel& model) {
+Readings heard_readings(const Dataset& data) {
   Readings readings{.rssi =
                         Eigen::Map<const Eigen::VectorXd>(data.rssi.data(), static_cast<Eigen::Index>(data.rows()))};
-  readings.floor = stated_floor(model);
   for (Eigen::Index i = 0; i < readings.rssi.size(); ++i) {
-    if (std::isnan(readings.rssi[i])) continue;
-    (readings.rssi[i] <= readings.floor ? readings.censored : readings.heard).push_back(i);
+    if (!std::isnan(readings.rssi[i])) readings.heard.push_back(i);
   }
   return readings;
 }
@@ -106,10 +89,10 @@ void solve(Fit& fit, const Search& search) {
   search.set(fit.least_squares.parameters);
   fit.missing = missing_data(fit.readings.rssi, search.model.expected(), fit.least_squares.sigma);
   if (fit.missing.censored) {
-    if (fit.readings.censored.empty()) fit.readings.floor = fit.missing.floor;
     for (Eigen::Index i = 0; i < fit.readings.rssi.size(); ++i) {
       if (std::isnan(fit.readings.rssi[i])) fit.readings.censored.push_back(i);
     }
+    fit.readings.floor = fit.missing.floor;
     fit.least_squares = least_squares(fit.readings, mean, fit.least_squares.parameters, box);
   }
   fit.search = derivative_free_fit(fit.readings, mean, search.start(), box);
@@ -189,7 +172,7 @@ std::vector<std::size_t> Fit::rows_used() const {
 Fit fit(LinkModel& model, const Dataset& data, const FitOptions& options) {
   Fit result;
   result.parameters = free_parameters(model, options);
-  result.readings = readings_of(data, model);
+  result.readings = heard_readings(data);
   Search search{model, {}};
   for (FitParameter& p : result.parameters) search.parameters.push_back(&p);
   check_count(result, search, data);
