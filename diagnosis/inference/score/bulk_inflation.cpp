@@ -34,12 +34,6 @@ Eigen::MatrixXf gains_per_column(const OrthonormalAtoms& unit, Index width, cons
   return statistics(plain, unit.along(x)) / static_cast<float>(width);
 }
 
-float median(Eigen::VectorXf values) {
-  float* const middle = values.data() + values.size() / 2;
-  std::nth_element(values.data(), middle, values.data() + values.size());
-  return *middle;
-}
-
 }  // namespace
 
 double bulk_inflation(const ModelState& state, const WhitenedModel& model, const Candidate& lead,

@@ -19,12 +19,6 @@ noise::Sheet some_atoms(const Entry& entry) {
   return (*entry.atoms)(Eigen::all, kept);
 }
 
-float median(Eigen::VectorXf values) {
-  float* const middle = values.data() + values.size() / 2;
-  std::nth_element(values.data(), middle, values.data() + values.size());
-  return *middle;
-}
-
 }  // namespace
 
 double drawn_inflation(const ModelState& state, const WhitenedModel& model, const Candidate& candidate) {

@@ -42,6 +42,12 @@ Eigen::MatrixXf statistics(const Candidate& candidate, Eigen::MatrixXf along) {
   return result;
 }
 
+float median(Eigen::VectorXf values) {
+  float* const middle = values.data() + values.size() / 2;
+  std::nth_element(values.data(), middle, values.data() + values.size());
+  return *middle;
+}
+
 OrthonormalAtoms::OrthonormalAtoms(noise::Sheet columns, Index width)
     : columns_(std::move(columns)), width_(width), turns_(width, columns_.cols()) {
   const Index count = columns_.cols();

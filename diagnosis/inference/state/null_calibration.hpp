@@ -26,6 +26,9 @@ class OrthonormalAtoms {
 // Squared lengths of the projections of each column of x on each atom; zero where the sign is wrong.
 Eigen::MatrixXf statistics(const Candidate& candidate, Eigen::MatrixXf along);
 
+// The upper one of two in the middle.
+float median(Eigen::VectorXf values);
+
 // log of the number of independent tests whose maximum is distributed as that of these atoms over `normals`.
 double log_effective_tests(const Candidate& candidate, const OrthonormalAtoms& unit, const noise::Sheet& normals);
 
