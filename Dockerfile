@@ -8,7 +8,7 @@ WORKDIR /muster
 
 # First, so that a change of a source does not install the packages anew.
 COPY scripts/setup scripts/setup
-RUN scripts/setup --lint
+RUN scripts/setup --lint --page --browser
 
 COPY . .
 CMD ["bash"]

@@ -24,9 +24,11 @@ Library::SearchPath plugin_path(const std::vector<std::string>& given) {
       if (colon != 0) add(rest.substr(0, colon), "MUSTER_PLUGIN_PATH");
     }
   }
-  result.push_back(std::filesystem::read_symlink("/proc/self/exe").parent_path() / "plugins");
+  result.push_back(program_folder() / "plugins");
   return result;
 }
+
+std::filesystem::path program_folder() { return std::filesystem::read_symlink("/proc/self/exe").parent_path(); }
 
 Progress::Progress(std::string what) : what_(std::move(what)) {
   const char* terminal = std::getenv("TERM");
@@ -44,6 +46,20 @@ void Progress::at(double share) {
   fmt::print(stderr, "\r{} {:3}% [{:<40}]", what_, percent,
              std::string(static_cast<std::size_t>(percent) * 40 / 100, '='));
   std::fflush(stderr);
+}
+
+void Progress::at(const std::string& now) {
+  using std::chrono::seconds;
+  const auto time = std::chrono::steady_clock::now();
+  const auto lasted = std::chrono::duration_cast<seconds>(time - begun_).count();
+  if (shown_) {
+    last_ = 0;
+    fmt::print(stderr, "\r\x1b[K{}: {}", what_, now);
+    std::fflush(stderr);
+  } else if (time - spoken_ >= seconds(30)) {
+    spoken_ = time;
+    fmt::print(stderr, "{}: {} ({} s)\n", what_, now, lasted);
+  }
 }
 
 namespace {

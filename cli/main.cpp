@@ -32,6 +32,7 @@ constexpr Verb verbs[] = {
     {"fit", run_fit, "fit a world's free parameters to measured data, and say where it misfits"},
     {"diagnose", run_diagnose, "find what a world gets wrong about measured data, name the cause and extend the world"},
     {"exam", run_exam, "make sealed cases for a diagnosis, run it on them and grade what it says"},
+    {"report", run_report, "a recorded run as one page: scene, time and plots, without a network"},
     {"map", run_map, "the RSSI of a world's radios over its floor"},
     {"probe", run_probe, "a link's budget, line by line, and why nothing is received"},
     {"features", run_features, "distance, walls and angles of each measured reading"},

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <muster/tables.hpp>
 
 #include "cli/pose_angles.hpp"
@@ -24,8 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 namespace pic = plotting;
-
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 struct MapWords {
   std::string world, out;

@@ -7,9 +7,9 @@
 #include <map>
 #include <optional>
 
-#include "kernel/record.hpp"
 #include "run_options.hpp"
 #include "run_pictures.hpp"
+#include "run_record.hpp"
 #include "text/json.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
@@ -81,9 +81,8 @@ Json observed(const Simulation& run) {
 
 using Digests = std::vector<std::pair<uint64_t, uint64_t>>;  // tick, digest
 
-// `pace`: simulated time over time that passed; not in the JSON, which is the same each time.
-void print_outcome(const Simulation& run, const RunWords& words, const Digests& digests,
-                   const std::vector<std::filesystem::path>& files, double pace) {
+// What is the same each time.
+Json outcome_of(const Simulation& run) {
   Json json = {{"world", run.world().name}, {"seed", run.world().seed}, {"dt", run.world().dt},
                {"ticks", run.tick()},       {"time", run.time()},       {"digest", hexadecimal(run.digest())},
                {"observed", observed(run)}};
@@ -92,6 +91,13 @@ void print_outcome(const Simulation& run, const RunWords& words, const Digests& 
     json["events"].push_back({{"time", static_cast<double>(event.tick) * run.world().dt},
                               {"instance", event.instance},
                               {"message", event.message}});
+  return json;
+}
+
+// `pace`: simulated time over time that passed; not in the JSON, which is the same each time.
+void print_outcome(const Simulation& run, const RunWords& words, const Digests& digests,
+                   const std::vector<std::filesystem::path>& files, double pace) {
+  Json json = outcome_of(run);
   if (words.digest_every) json["digests"] = Json::array();
   for (const auto& [tick, digest] : digests)
     json["digests"].push_back({{"tick", tick}, {"digest", hexadecimal(digest)}});
@@ -114,6 +120,12 @@ void print_outcome(const Simulation& run, const RunWords& words, const Digests& 
     }
   }
   for (const auto& file : files) fmt::print("  wrote {}\n", file.string());
+}
+
+void add_page(const RunRecord& record, const RunWords& words, std::vector<std::filesystem::path>& files) {
+  std::string why_not;
+  if (auto page = record.write_page(why_not); !page.empty()) files.push_back(std::move(page));
+  if (!why_not.empty() && !words.json) fmt::print(stderr, "muster: note: no run.html: {}\n", why_not);
 }
 
 int run_world(const RunWords& words) {
@@ -143,12 +155,12 @@ int run_world(const RunWords& words) {
   if (run.tick() > run.world().ticks)
     throw Error(Exit::invalid_input, "--restore: " + words.restore + " stands at " + print_real(run.time()) +
                                          " s, after the end of the run at " + print_real(run.world().until()) + " s");
-  std::optional<Recorder> recorder;
+  std::optional<RunRecord> record;
   std::optional<RunPictures> pictures;
   if (!words.out.empty()) {
-    recorder.emplace(run, records, words.out);
+    record.emplace(run, records, words.out, plugin_path(words.plugins));
     pictures.emplace(run);
-    recorder->write(run);
+    record->write(run);
     pictures->look(run);
   } else if (!records.empty() && !words.json) {
     fmt::print(stderr, "muster: note: the world records tables; --out DIR says where to\n");
@@ -161,19 +173,19 @@ int run_world(const RunWords& words) {
   const auto began = std::chrono::steady_clock::now();
   const auto finish = [&] {
     std::vector<std::filesystem::path> files;
-    if (recorder) files = recorder->close();
+    if (record) files = record->close(run, outcome_of(run));
     if (!words.save.empty()) run.snapshot().save(words.save), files.emplace_back(words.save);
     return files;
   };
   try {
     if (words.expected) {
       run.evaluate(MUSTER_RADIO, true);
-      if (recorder) recorder->write(run);
+      if (record) record->write(run);
     }
     while (!words.expected && !run.done() && !interrupted()) {
       if (words.watch) watcher.look(run);
       run.step();
-      if (recorder) recorder->write(run), pictures->look(run);
+      if (record) record->write(run), pictures->look(run);
       if (words.digest_every && run.tick() % words.digest_every == 0) {
         digests.emplace_back(run.tick(), run.digest());
         if (!words.json) fmt::print("{} {}\n", run.tick(), hexadecimal(digests.back().second));
@@ -189,6 +201,7 @@ int run_world(const RunWords& words) {
   if (pictures) {
     for (auto& file : pictures->write(words.out)) files.push_back(std::move(file));
   }
+  if (record) add_page(*record, words, files);
   print_outcome(run, words, digests, files, (run.time() - began_at) / took.count());
   run.close();
   return static_cast<int>(interrupted() ? Exit::interrupted : Exit::done);

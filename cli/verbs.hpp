@@ -2,6 +2,8 @@
 // Error for everything that ends it early.
 #pragma once
 
+#include <chrono>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -24,6 +26,7 @@ int run_map(const Arguments& arguments);
 int run_plugin_check(const Arguments& arguments);
 int run_plugins(const Arguments& arguments);
 int run_probe(const Arguments& arguments);
+int run_report(const Arguments& arguments);
 int run_run(const Arguments& arguments);
 int run_swap(const Arguments& arguments);
 
@@ -32,16 +35,22 @@ int run_swap(const Arguments& arguments);
 // The folders in which plugins are looked for: --plugins, MUSTER_PLUGIN_PATH, and `plugins` beside the program.
 Library::SearchPath plugin_path(const std::vector<std::string>& given = {});
 
+// The folder of the program itself.
+std::filesystem::path program_folder();
+
 // A line of progress on standard error, on a terminal only; gone when it is destroyed.
 class Progress {
  public:
   explicit Progress(std::string what);
   ~Progress();
   void at(double share);
+  // What is being done, where its share of the whole is not known. Where the output is no terminal, a line every 30 s.
+  void at(const std::string& now);
 
  private:
   std::string what_;
   bool shown_;
+  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now(), spoken_ = begun_;
   int last_ = -1;
 };
 

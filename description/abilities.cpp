@@ -1,8 +1,9 @@
 #include "description/abilities.hpp"
 
 namespace muster::description {
+namespace {
 
-static Ability ability_of(JointKind kind) {
+Ability ability_of(JointKind kind) {
   switch (kind) {
     case JointKind::revolute:
     case JointKind::continuous:
@@ -15,6 +16,8 @@ static Ability ability_of(JointKind kind) {
       return Ability::loose;
   }
 }
+
+}  // namespace
 
 std::string lacking(const Robot& robot, Ability have) {
   std::string list;

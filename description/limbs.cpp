@@ -3,12 +3,15 @@
 #include "description/robot.hpp"
 
 namespace muster::description {
+namespace {
 
-static bool is_driven(const Robot& robot, std::size_t joint) {
+bool is_driven(const Robot& robot, std::size_t joint) {
   if (robot.drive && (joint == robot.drive->left || joint == robot.drive->right)) return true;
   return robot.legs && std::any_of(robot.legs->legs.begin(), robot.legs->legs.end(),
                                    [&](const LegDrive::Leg& leg) { return leg.joint == joint; });
 }
+
+}  // namespace
 
 std::vector<LimbJoint> limbs_of(const Robot& robot) {
   std::vector<LimbJoint> result;

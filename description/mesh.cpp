@@ -160,7 +160,7 @@ fs::path confined(const std::string& folder, const std::string& file) {
   }
   std::error_code error;
   const fs::path root = fs::canonical(folder, error);
-  const fs::path path = fs::canonical(root / file, error);
+  fs::path path = fs::canonical(root / file, error);
   if (error) throw std::runtime_error("cannot be opened: " + error.message());
   const auto [end, _] = std::mismatch(root.begin(), root.end(), path.begin(), path.end());
   if (end != root.end()) throw std::runtime_error("is outside the allowed folder " + folder);

@@ -49,8 +49,9 @@ struct Shape {
 
 struct Link {
   std::string name;
-  Mass mass;                  // mass 0: a frame only
-  std::vector<Shape> shapes;  // for collisions
+  Mass mass;                     // mass 0: a frame only
+  std::vector<Shape> shapes;     // for collisions
+  std::vector<Shape> visuals{};  // for pictures; empty unless read with Meshes::visual
 };
 
 // Two wheels on one axle, each turned by its own motor; all other parts slide on the ground.
@@ -187,7 +188,9 @@ std::string unmodelled(const Joint& joint);
 // Mass of the whole robot, every joint at zero, in the root's frame.
 Mass whole_mass(const Robot& robot);
 
-enum class Meshes { import = 1, skip };  // skip: for callers without need of shapes; each mesh costs a child process
+// import: of collision shapes. skip: for callers without need of shapes; each mesh costs a child process. visual:
+// import, and <visual> too, of which a mesh that cannot be read costs a warning and its link's other visuals.
+enum class Meshes { import = 1, skip, visual };
 
 // The URDF file, checked; throws std::runtime_error("file:line: what is wrong; what was expected").
 Robot read_robot(const std::string& path, Meshes meshes = Meshes::import);

@@ -74,9 +74,23 @@ class Converter {
         source_.fail(line, "link '" + name + "': urdfdom dropped a collision shape");
       const bool is_mesh = collision->geometry->type == urdf::Geometry::MESH;
       if (is_mesh && meshes_ == Meshes::skip) continue;
-      link.shapes.push_back(shape(*collision, name, line));
+      link.shapes.push_back(shape(collision->origin, *collision->geometry, name, line));
     }
+    if (meshes_ == Meshes::visual) link.visuals = visuals(*from, name, line);
     robot_.links.push_back(std::move(link));
+  }
+
+  std::vector<Shape> visuals(const urdf::Link& from, const std::string& name, int line) {
+    std::vector<Shape> result;
+    try {
+      for (const auto& visual : from.visual_array) {
+        if (visual && visual->geometry) result.push_back(shape(visual->origin, *visual->geometry, name, line));
+      }
+    } catch (const std::runtime_error& wrong) {
+      robot_.warnings.emplace_back(wrong.what());
+      result.clear();
+    }
+    return result;
   }
 
   // In the inertial frame a link's inertia is given about its centre of mass.
@@ -94,26 +108,25 @@ class Converter {
     return in_parent(frame(from.origin), {from.mass, Eigen::Vector3d::Zero(), inertia});
   }
 
-  Shape shape(const urdf::Collision& from, const std::string& name, int line) {
+  Shape shape(const urdf::Pose& origin, const urdf::Geometry& from, const std::string& name, int line) {
     Shape result;
-    result.pose = frame(from.origin);
+    result.pose = frame(origin);
     const auto positive = [&](double length, const char* what) {
       if (!(length > 0)) source_.fail(line, "link '" + name + "': " + what + " is not above 0");
       return length;
     };
-    if (from.geometry->type == urdf::Geometry::BOX) {
-      const auto& box = static_cast<const urdf::Box&>(*from.geometry);
+    if (from.type == urdf::Geometry::BOX) {
+      const auto& box = static_cast<const urdf::Box&>(from);
       positive(std::min({box.dim.x, box.dim.y, box.dim.z}), "an edge of a box");
       result.geometry = Box{vector(box.dim)};
-    } else if (from.geometry->type == urdf::Geometry::SPHERE) {
-      result.geometry =
-          Sphere{positive(static_cast<const urdf::Sphere&>(*from.geometry).radius, "the radius of a sphere")};
-    } else if (from.geometry->type == urdf::Geometry::CYLINDER) {
-      const auto& cylinder = static_cast<const urdf::Cylinder&>(*from.geometry);
+    } else if (from.type == urdf::Geometry::SPHERE) {
+      result.geometry = Sphere{positive(static_cast<const urdf::Sphere&>(from).radius, "the radius of a sphere")};
+    } else if (from.type == urdf::Geometry::CYLINDER) {
+      const auto& cylinder = static_cast<const urdf::Cylinder&>(from);
       result.geometry = Cylinder{positive(cylinder.radius, "the radius of a cylinder"),
                                  positive(cylinder.length, "the length of a cylinder")};
     } else {
-      result.geometry = mesh(static_cast<const urdf::Mesh&>(*from.geometry), name, line);
+      result.geometry = mesh(static_cast<const urdf::Mesh&>(from), name, line);
     }
     return result;
   }

@@ -82,12 +82,18 @@ Recorder::Recorder(const Simulation& run, const std::vector<RecordDeclaration>& 
     if (!seen.insert(declared.table).second) continue;
     const auto path = folder / file_name(declared.table);
     auto writer = std::make_unique<TextTableWriter>(path, header(*recorded(run, declared).table));
-    files_.push_back({declared.table, declared.every, path, std::move(writer)});
+    files_.push_back({{declared.table, declared.every, path}, std::move(writer)});
   }
 }
 
+std::vector<Recorder::File> Recorder::files() const {
+  std::vector<File> result;
+  for (const auto& open : files_) result.push_back(open.file);
+  return result;
+}
+
 void Recorder::write(const Simulation& run) {
-  for (auto& file : files_) {
+  for (auto& [file, writer] : files_) {
     const TableView view = run.table(file.table);
     const Table& table = *view.table;
     const Set& set = table.set();
@@ -99,22 +105,22 @@ void Recorder::write(const Simulation& run) {
     for (std::size_t r = first; r < last; ++r) {
       if (set.is_named() && !set.alive[r]) continue;
       if (set.kind == SetKind::queue && cells.appended[r] != run.tick()) continue;  // each message once
-      file.writer->real(run.time());
+      writer->real(run.time());
       if (set.is_named())
-        file.writer->text(set.names[r]);
+        writer->text(set.names[r]);
       else
-        file.writer->real(static_cast<double>(r));
+        writer->real(static_cast<double>(r));
       for (std::size_t c = 0; c < table.width(); ++c)
-        write_cell(*file.writer, run, cells, table.columns()[c], cells.data[r * table.width() + c]);
-      file.writer->end_row();
+        write_cell(*writer, run, cells, table.columns()[c], cells.data[r * table.width() + c]);
+      writer->end_row();
     }
   }
 }
 
 std::vector<std::filesystem::path> Recorder::close() {
   std::vector<std::filesystem::path> result;
-  for (auto& file : files_) {
-    file.writer->close();
+  for (auto& [file, writer] : files_) {
+    writer->close();
     result.push_back(file.path);
   }
   files_.clear();

@@ -19,19 +19,25 @@ class Recorder {
   // One file per declaration, named after its table, in the folder, which is created. Throws Error.
   Recorder(const Simulation& run, const std::vector<RecordDeclaration>& tables, const std::filesystem::path& folder);
 
+  struct File {
+    std::string table;
+    uint64_t every = 1;
+    std::filesystem::path path;
+  };
+  // What is written, one a table. Empty after close().
+  std::vector<File> files() const;
+
   // Call after each tick.
   void write(const Simulation& run);
   // Renames the files to their final names; without it nothing remains.
   std::vector<std::filesystem::path> close();
 
  private:
-  struct File {
-    std::string table;
-    uint64_t every;
-    std::filesystem::path path;
+  struct OpenFile {
+    File file;
     std::unique_ptr<TextTableWriter> writer;
   };
-  std::vector<File> files_;
+  std::vector<OpenFile> files_;
 };
 
 }  // namespace muster

@@ -2,6 +2,7 @@
 // block of `text` follows. In the page `...` on a line of its own is any number of lines, and inside a line any text.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -92,6 +93,14 @@ std::string output_of(const fs::path& folder, const std::string& commands) {
   return result;
 }
 
+// Lines but those that say that the page of a run was written, or why not: a build without npm has no page.
+Lines without_the_page(Lines lines) {
+  lines.erase(std::remove_if(lines.begin(), lines.end(),
+                             [](const std::string& line) { return line.find("run.html") != line.npos; }),
+              lines.end());
+  return lines;
+}
+
 class Tutorial : public testing::TestWithParam<std::string> {};
 
 TEST_P(Tutorial, PrintsWhatThePageShows) {
@@ -110,9 +119,11 @@ TEST_P(Tutorial, PrintsWhatThePageShows) {
     SCOPED_TRACE(GetParam() + ".md:" + std::to_string(example.line));
     const std::string out = output_of(root.path(), example.commands);
     std::size_t furthest = 0;
-    if (fit(example.expected, 0, lines_of(out), 0, furthest)) continue;
-    ADD_FAILURE() << (furthest < example.expected.size() ? "missing: " + example.expected[furthest]
-                                                         : "more than is shown")
+    const bool no_page = fs::exists(fs::path(MUSTER_BUILD_DIR) / "viewer" / "page.missing");
+    const Lines expected = no_page ? without_the_page(example.expected) : example.expected,
+                printed = no_page ? without_the_page(lines_of(out)) : lines_of(out);
+    if (fit(expected, 0, printed, 0, furthest)) continue;
+    ADD_FAILURE() << (furthest < expected.size() ? "missing: " + expected[furthest] : "more than is shown")
                   << "\nprinted:\n"
                   << out;
   }

@@ -68,9 +68,12 @@ const Storeys& storeys() {
        {"plugin_api", "text", "kernel", "plotting", "diagnosis/result", "diagnosis/inference/*", "diagnosis/data",
         "diagnosis/prediction", "diagnosis/radio/*", "diagnosis/calibration", "diagnosis/pipeline"}},
 
+      // A run as one page.
+      {"viewer", {"plugin_api", "text", "kernel", "description"}},
+
       // Shares no code with what it grades.
       {"exam", {}},
-      {"cli", {"plugin_api", "text", "loader", "world_file", "kernel", "plotting", "diagnosis/*"}},
+      {"cli", {"plugin_api", "text", "loader", "world_file", "kernel", "plotting", "diagnosis/*", "viewer"}},
   };
   return table;
 }

@@ -1,0 +1,70 @@
+#include "run_record.hpp"
+
+#include "verbs.hpp"
+#include "viewer/page.hpp"
+#include "viewer/record_folder.hpp"
+
+namespace muster::cli {
+namespace {
+
+constexpr std::uintmax_t most_bytes = 100'000'000;  // of tables that every run makes a page of: some seconds
+
+const char* word_of(SetKind kind) {
+  switch (kind) {
+    case SetKind::fixed:
+      return "fixed";
+    case SetKind::live:
+      return "live";
+    case SetKind::queue:
+      return "queue";
+    case SetKind::listed:
+      break;
+  }
+  return "listed";
+}
+
+}  // namespace
+
+RunRecord::RunRecord(const Simulation& run, const std::vector<RecordDeclaration>& tables,
+                     const std::filesystem::path& folder, const Library::SearchPath& plugins)
+    : folder_(folder), recorder_(run, tables, folder), scene_(run, plugins) {
+  for (const char* of_an_earlier_run : {viewer::run_file, "run.html"}) {
+    std::error_code ignored;
+    std::filesystem::remove(folder / of_an_earlier_run, ignored);
+  }
+}
+
+std::vector<std::filesystem::path> RunRecord::close(const Simulation& run, Json outcome) {
+  std::vector<viewer::RecordedTable> listed;
+  for (const auto& file : recorder_.files()) {
+    const Table& table = *run.table(file.table).table;
+    listed.push_back(
+        {file.table, file.path.filename().string(), word_of(table.set().kind), table.columns().text(), file.every});
+  }
+  tables_ = recorder_.close();
+  outcome["file"] = run.world().file.string();
+  outcome["version"] = MUSTER_VERSION;
+  outcome["chains"] = viewer::chains_of(run);
+  const Json scene = scene_.json(run);
+  outcome["notes"] = scene_.notes();
+  viewer::write_run_file(folder_, outcome, scene, listed);
+  auto files = tables_;
+  files.push_back(folder_ / viewer::run_file);
+  return files;
+}
+
+std::filesystem::path RunRecord::write_page(std::string& why_not) const {
+  if (tables_.empty()) return {};
+  std::uintmax_t bytes = 0;
+  for (const auto& table : tables_) bytes += std::filesystem::file_size(table);
+  why_not = viewer::why_no_page(program_folder());
+  if (bytes > most_bytes)
+    why_not = "the tables have " + std::to_string(bytes / 1'000'000) + " MB; `muster report " + folder_.string() +
+              "` makes a page of them";
+  if (!why_not.empty()) return {};
+  const auto page = folder_ / "run.html";
+  viewer::write_page(folder_, page, program_folder());
+  return page;
+}
+
+}  // namespace muster::cli

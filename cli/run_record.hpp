@@ -1,0 +1,35 @@
+// The record of a run: its tables, run.json beside them, and the page that shows both.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "kernel/record.hpp"
+#include "text/json.hpp"
+#include "viewer/run_scene.hpp"
+
+namespace muster::cli {
+
+class RunRecord {
+ public:
+  // Call before the first tick.
+  RunRecord(const Simulation& run, const std::vector<RecordDeclaration>& tables, const std::filesystem::path& folder,
+            const Library::SearchPath& plugins);
+
+  // Call before the first tick and after each.
+  void write(const Simulation& run) { recorder_.write(run); }
+  // The tables and run.json, in which `outcome` is what is known of the run; the files written.
+  std::vector<std::filesystem::path> close(const Simulation& run, Json outcome);
+  // run.html. Empty, with the reason in `why_not`, where no table was recorded, tables are too long, or the build has
+  // no page.
+  std::filesystem::path write_page(std::string& why_not) const;
+
+ private:
+  std::filesystem::path folder_;
+  Recorder recorder_;
+  viewer::RunScene scene_;
+  std::vector<std::filesystem::path> tables_;
+};
+
+}  // namespace muster::cli

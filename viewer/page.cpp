@@ -1,0 +1,74 @@
+#include "page.hpp"
+
+#include <cerrno>
+#include <fstream>
+
+#include "payload.hpp"
+#include "text/error.hpp"
+#include "text/text_file.hpp"
+
+namespace muster::viewer {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t most_page_bytes = 64u << 20;
+
+fs::path shell_of(const fs::path& program_folder) { return program_folder / "viewer" / "page.html"; }
+
+std::string html_text(const std::string& plain) {
+  std::string result;
+  for (const char c : plain) {
+    if (c == '&')
+      result += "&amp;";
+    else if (c == '<')
+      result += "&lt;";
+    else
+      result += c;
+  }
+  return result;
+}
+
+void replace_all(std::string& text, const std::string& mark, const std::string& by) {
+  for (auto at = text.find(mark); at != std::string::npos; at = text.find(mark, at + by.size()))
+    text.replace(at, mark.size(), by);
+}
+
+void write_whole(const fs::path& out, const std::string& text) {
+  fs::path part = out;
+  part += ".part";
+  std::ofstream file(part, std::ios::binary);
+  file << text;
+  if (!file.flush()) throw Error(Exit::io, {out.string()}, "cannot be written: " + system_message(errno));
+  file.close();
+  std::error_code failed;
+  fs::rename(part, out, failed);
+  if (failed) throw Error(Exit::io, {out.string()}, "cannot be written: " + failed.message());
+}
+
+}  // namespace
+
+std::string why_no_page(const fs::path& program_folder) {
+  const fs::path shell = shell_of(program_folder);
+  std::error_code ignored;
+  if (fs::is_regular_file(shell, ignored)) return "";
+  std::string reason;
+  std::getline(std::ifstream(shell.parent_path() / "page.missing"), reason);
+  return shell.string() + ": is missing" + (reason.empty() ? "" : ", as the build had no page (" + reason + ")") +
+         "; `scripts/setup --page` installs nodejs and npm, `scripts/viewer` then makes it, with the npm registry in "
+         "reach";
+}
+
+WrittenPage write_page(const fs::path& record, const fs::path& out, const fs::path& program_folder,
+                       std::uint64_t most) {
+  const RecordFolder folder = read_record_folder(record);
+  if (const std::string reason = why_no_page(program_folder); !reason.empty()) throw Error(Exit::io, reason);
+  const Payload payload = payload_of(folder, most);
+  std::string page = read_text_file(shell_of(program_folder), most_page_bytes).text;
+  replace_all(page, "@TITLE@", html_text(folder.world));
+  replace_all(page, "@PAYLOAD@", base64(gzipped(payload.container)));
+  write_whole(out, page);
+  return {page.size(), payload.notes};
+}
+
+}  // namespace muster::viewer
