@@ -32,7 +32,9 @@ Words words_of(const Arguments& arguments) {
       "explains "
       "it.\n"
       "With --out it writes a report with pictures and the world extended by the named causes, which it simulates and\n"
-      "diagnoses again, and a test of the finding that --check runs. Exit code 1: --check fails.\n"
+      "diagnoses again, and a test of the finding that --check runs. Ctrl-C ends the search with what is known so "
+      "far,\n"
+      "without the second diagnosis. Exit code 1: --check fails; 130: interrupted.\n"
       "Example: muster diagnose worlds/hall --data worlds/hall/measured.csv --out build/hall_extended\n"
       "         muster diagnose --check build/hall_extended");
   Words words;
@@ -86,18 +88,22 @@ void keep_memory() {
 
 diagnosis::Diagnosis diagnosed(const Words& words, const Library::SearchPath& path) {
   Progress progress("diagnose");
-  progress.at(0);
+  const inference::Watch watch{[&](const std::string& now) { progress.at(now); }, interrupted};
+  watch_interrupt();
   if (!words.second.empty())
     diagnosis::read_dataset(words.second);  // what is wrong with them is told before the search
-  diagnosis::Diagnosis found = diagnosis::diagnose(words.world, words.data, path);
-  if (words.out.empty() || !found.named()) return found;
-  progress.at(words.second.empty() ? 0.5 : 0.35);
-  found.loop = diagnosis::closed_loop(found, words.world, words.data, words.out, path);
-  if (words.second.empty()) return found;
-  progress.at(0.7);
+  diagnosis::Diagnosis found =
+      diagnosis::diagnose(words.world, words.data, path, std::make_shared<TableCache>(), watch);
+  if (words.out.empty() || !found.named() || found.interrupted) return found;
+  watch.at("diagnosing the extended world");
+  found.loop = diagnosis::closed_loop(found, words.world, words.data, words.out, path, watch);
+  if (!found.loop) found.notes.emplace_back("interrupted: the extended world is written and was not diagnosed again");
+  if (words.second.empty() || !found.loop) return found;
+  watch.at("checking the readings of --second");
   const std::filesystem::path world(words.world);
   const auto name = std::filesystem::is_directory(world) ? "world.xml" : world.filename();
-  found.loop->second = diagnosis::second_look(words.world, words.out / name, words.second, path);
+  found.loop->second = diagnosis::second_look(words.world, words.out / name, words.second, path, watch);
+  if (!found.loop->second) found.notes.emplace_back("interrupted: nothing is held against the readings of --second");
   return found;
 }
 
@@ -121,7 +127,7 @@ int run_diagnose(const Arguments& arguments) {
     fmt::print("{}", report::text_of(found, setting));
   if (!words.second.empty() && !found.named())
     fmt::print(stderr, "muster: note: nothing is held against --second: no cause is named, so no world is extended\n");
-  return static_cast<int>(Exit::done);
+  return static_cast<int>(interrupted() ? Exit::interrupted : Exit::done);
 }
 
 }  // namespace muster::cli

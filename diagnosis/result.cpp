@@ -33,7 +33,9 @@ bool Unexplained::changes_in_time() const { return covariate.find("time") != std
 
 const char* Diagnosis::verdict() const {
   if (!unexplained.empty()) return "unexplained";
-  return named() ? "extended" : unstated_field ? "unexplained" : "adequate";
+  if (named()) return "extended";
+  if (interrupted) return "interrupted";
+  return unstated_field ? "unexplained" : "adequate";
 }
 
 }  // namespace muster::diagnosis

@@ -21,6 +21,13 @@ struct CauseValue {
   bool cyclic = false;              // an angle: its interval may extend beyond these
 };
 
+// A place that one standing radio alone sees: how wide it is shows, and not how far off.
+struct OneStation {
+  std::string radio;
+  double nearest = 0, farthest = 0;         // m from the radio to the middle of the place, 95 %
+  std::optional<Eigen::Vector2d> second{};  // where a second station would tell; none if no visited place would
+};
+
 struct CauseEstimate {
   std::string id, label, title, tell_apart;
   // The search's id for it: a wall with zero loss may be reported as an absent one. Empty: not from the search, but a
@@ -42,6 +49,7 @@ struct CauseEstimate {
   Eigen::VectorXd unseen_without;  // squared errors at held-out places without it, in the order of Diagnosis::used
   std::vector<inference::Elsewhere> elsewhere;  // its gains on held-out radios and runs, if it concerns several
   std::vector<inference::Alternative> alternatives;
+  std::optional<OneStation> one_station{};
   std::string doubt{};  // reason why it is uncertain, whatever its gain; empty: none
 
   bool changes_in_time() const;
@@ -165,9 +173,11 @@ struct Diagnosis {
   Eigen::Index rows = 0;
   LinkRowLimits row_limits;
   std::optional<Loop> loop;
+  bool interrupted = false;  // the search was ended before all was looked at
 
   bool named() const;
-  // "unexplained", "extended" or "adequate". Unexplained is also a field that the world does not state, without a name.
+  // "unexplained", "extended", "adequate", or "interrupted" where nothing was found until then. Unexplained is also a
+  // field that the world does not state, without a name.
   const char* verdict() const;
 };
 

@@ -24,17 +24,20 @@ double rmse_of(LinkModel& model, const Dataset& data) {
 
 }  // namespace
 
-SecondLook second_look(const std::filesystem::path& world, const std::filesystem::path& extended,
-                       const std::filesystem::path& file, const Library::SearchPath& plugins) {
+std::optional<SecondLook> second_look(const std::filesystem::path& world, const std::filesystem::path& extended,
+                                      const std::filesystem::path& file, const Library::SearchPath& plugins,
+                                      const inference::Watch& watch) {
   const auto tables = std::make_shared<TableCache>();
   const Dataset data = read_dataset(tables->read(file));
   LinkModel given(world, file, plugins, tables), model(extended, file, plugins, tables);
-  return {file, data.heard(), fit(given, data, {}).residual_sd, rmse_of(model, data),
-          named_causes(diagnose(extended, file, plugins, tables))};
+  const Diagnosis again = diagnose(extended, file, plugins, tables, watch);
+  if (again.interrupted) return {};
+  return SecondLook{file, data.heard(), fit(given, data, {}).residual_sd, rmse_of(model, data), named_causes(again)};
 }
 
-Loop closed_loop(const Diagnosis& found, const std::filesystem::path& world, const std::filesystem::path& data,
-                 const std::filesystem::path& out, const Library::SearchPath& plugins) {
+std::optional<Loop> closed_loop(const Diagnosis& found, const std::filesystem::path& world,
+                                const std::filesystem::path& data, const std::filesystem::path& out,
+                                const Library::SearchPath& plugins, const inference::Watch& watch) {
   const auto tables = std::make_shared<TableCache>();
   Loop loop{.world = out};
   const std::filesystem::path file = write_extended_world(found, world, out);
@@ -45,7 +48,8 @@ Loop closed_loop(const Diagnosis& found, const std::filesystem::path& world, con
     if (!std::isnan(found.mean[i]))
       loop.mean_difference = std::max(loop.mean_difference, std::abs(simulated[i] - found.mean[i]));
   }
-  const Diagnosis again = diagnose(file, data, plugins, tables);
+  const Diagnosis again = diagnose(file, data, plugins, tables, watch);
+  if (again.interrupted) return {};
   loop.rediagnosis = named_causes(again);
   if (again.held_out) loop.unseen_error = again.held_out->rmse_before;
   loop.fitted_again = again.world_values;

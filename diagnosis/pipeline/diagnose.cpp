@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <tuple>
 
 #include "diagnosis/pipeline/cause_estimate.hpp"
@@ -12,9 +11,11 @@
 #include "diagnosis/pipeline/first_cause.hpp"
 #include "diagnosis/pipeline/joint_refit.hpp"
 #include "diagnosis/pipeline/own_world.hpp"
+#include "diagnosis/pipeline/relative_to_given.hpp"
 #include "diagnosis/pipeline/row_summary.hpp"
 #include "diagnosis/pipeline/setup.hpp"
 #include "diagnosis/planning/measurement_plans.hpp"
+#include "diagnosis/planning/second_station.hpp"
 #include "diagnosis/radio/causes/applicability.hpp"
 #include "diagnosis/radio/laws/clip_causes.hpp"
 #include "diagnosis/radio/laws/law_causes.hpp"
@@ -29,12 +30,21 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
+Diagnosis interrupted(Diagnosis found) {
+  found.interrupted = true;
+  found.notes.emplace_back(
+      "interrupted: these are the findings so far. More may be wrong, and not every explanation was tried");
+  return found;
+}
+
 class Diagnoser {
  public:
   // Laws of the cause `without_law` are not tested.
   Diagnoser(const std::filesystem::path& world, const std::filesystem::path& file, const Library::SearchPath& plugins,
-            const std::shared_ptr<TableCache>& tables, const std::string& without_law = "")
-      : setup_(world, file, plugins, tables),
+            const std::shared_ptr<TableCache>& tables, const inference::Watch& watch,
+            const std::string& without_law = "")
+      : watch_(watch),
+        setup_(world, file, plugins, tables),
         moved_(setup_.model),
         causes_(setup_.causes),
         world_(world),
@@ -45,19 +55,26 @@ class Diagnoser {
   // `given`: the diagnosis of the given world, if this world is corrected for its first cause. `by_itself`: the gain of
   // that cause is what it changes before all else, in either world.
   Diagnosis run(const Diagnosis* given = nullptr, bool by_itself = false) {
-    inference::Search search(setup_.problem, setup_.options);
+    inference::Options options = setup_.options;
+    options.watch = watch_;
+    inference::Search search(setup_.problem, options);
     const inference::Result result = search.run();
     setup_.run->clear();
     Diagnosis out = summed_up(result, setup_.sought, search.state());
-    if (given) begin_as_given(*given, by_itself, search.state(), out);
-    add_advice(search, out, setup_.sought, {world_, plugins_, setup_.model, setup_.data}, setup_.base,
-               setup_.layout->limits());
+    if (given) begin_as_given(*given, by_itself, {setup_, search.state(), measured(search.state())}, out);
+    watch_.at("working out what to measure next");
+    if (!watch_.stop())
+      add_advice(search, out, setup_.sought, {world_, plugins_, setup_.model, setup_.data}, setup_.base,
+                 setup_.layout->limits());
     for (const auto* more : {&setup_.sought.not_tested, &setup_.observed.untested})
       out.not_tested.insert(out.not_tested.end(), more->begin(), more->end());
-    return out;
+    return watch_.stop() ? interrupted(std::move(out)) : out;
   }
 
-  OwnWorldVerdict in_own_worlds(const Diagnosis& found) { return judged_in_own_worlds(setup_, found); }
+  OwnWorldVerdict in_own_worlds(const Diagnosis& found) {
+    watch_.at("checking the map and the log for mistakes");
+    return judged_in_own_worlds(setup_, found);
+  }
 
  private:
   Diagnosis summed_up(const inference::Result& result, const CauseSearch& causes, const inference::ModelState& state) {
@@ -90,6 +107,7 @@ class Diagnoser {
     const VectorXd coefficients = result.base_coefficients.cwiseMax(setup_.base.lower).cwiseMin(setup_.base.upper);
     for (std::size_t j = 0; j < setup_.base.paths.size(); ++j)
       out.parameters[setup_.base.paths[j]] = coefficients[static_cast<Index>(j)];
+    std::vector<std::vector<Eigen::Vector2d>> places;  // of each cause
     for (std::size_t k = 0; k < result.findings.size(); ++k) {
       const inference::Finding& f = result.findings[k];
       const auto cause = std::find_if(causes.found.begin(), causes.found.end(),
@@ -105,12 +123,15 @@ class Diagnoser {
       out.causes.push_back(cause_estimate(finding, *candidate));
       out.causes.back().sought_as = f.id;
       out.causes.back().effect = effect_of(state, candidate->candidate, finding);
+      places.push_back(places_of(*candidate->shape, finding));
       give_tables(*candidate->shape, out.causes.back());
     }
     setup_.run->clear();
     for (const CauseCandidate& c : causes.found) out.searched.push_back(c.candidate.id);
     out.receiver = setup_.receiver;
     out.seen = row_summary(state, *setup_.layout, setup_.observed.columns, setup_.model);
+    for (std::size_t k = 0; k < places.size(); ++k)
+      out.causes[k].one_station = seen_from_one_station(out.seen, out.causes[k].effect, places[k]);
     const inference::WhitenedModel alone = state.whitened_model(state.base());
     out.fitted = setup_.base.mean + setup_.base.slopes * (alone.coefficients(state.base().cols()) - setup_.base.values);
     add_what_scatters(state, out);
@@ -156,51 +177,6 @@ class Diagnoser {
         "at its bound: " + ends + ", so that the world cannot follow these readings and no name is sure";
     out.notes.push_back(doubt);
     for (CauseEstimate& c : out.causes) c.doubt = doubt;
-  }
-
-  // Restates the diagnosis relative to the given world, with the corrected cause as a finding. Its gain is the excess
-  // held-out error of the given world, with all its other findings, over the extended one.
-  void begin_as_given(const Diagnosis& given, bool by_itself, const inference::ModelState& state,
-                      Diagnosis& out) const {
-    CauseEstimate& first = *out.causes.insert(out.causes.begin(), given.causes.front());
-    const VectorXd left = measured(state) - state.rows().mean(given.fitted(setup_.used.rows));
-    const VectorXd left_by_stream = state.rows().by_stream(left);
-    first.effect = left_by_stream - out.seen.before;
-    const inference::WhitenedModel alone = state.whitened_model(state.base());
-    out.seen.before = left_by_stream;
-    out.seen.white_before = white_by_stream(state.rows(), alone.at.basis.rest(alone.whitener(left)));
-    out.residual_sd = given.residual_sd;
-    first.held_out.reset();
-    out.held_out.reset();
-    first.elsewhere.clear();
-    out.elsewhere.clear();  // the place of a held-out radio cannot be corrected
-    if (!given.unseen || !out.unseen) return out.stairs.clear();
-    first.held_out =
-        inference::compared(by_itself ? errors_beside(given, given.unseen->before, out.unseen->before, out)
-                                      : errors_beside(given, first.unseen_without, out.unseen->after, out));
-    out.unseen = errors_beside(given, given.unseen->before, out.unseen->after, out);
-    out.held_out = inference::compared(*out.unseen);
-    out.stairs.insert(out.stairs.begin(), inference::stair_of(*out.unseen));
-  }
-
-  // Held-out errors of the given world (`before`) and of the extended one (`after`), at their common readings.
-  static inference::Unseen errors_beside(const Diagnosis& given, const VectorXd& before, const VectorXd& after,
-                                         const Diagnosis& out) {
-    std::map<Index, Index> place;
-    for (std::size_t k = 0; k < given.used.size(); ++k) place[given.used[k]] = static_cast<Index>(k);
-    std::vector<Index> theirs, ours;
-    inference::Unseen both;
-    both.seed = out.unseen->seed;
-    for (std::size_t k = 0; k < out.used.size(); ++k) {
-      const auto at = place.find(out.used[k]);
-      if (at == place.end()) continue;
-      theirs.push_back(at->second);
-      ours.push_back(static_cast<Index>(k));
-      both.block.push_back(out.unseen->block[k]);
-    }
-    both.before = before(theirs);
-    both.after = after(ours);
-    return both;
   }
 
   // Replaces a strength by a simpler cause if it is compatible with no effect of its row: a wall of zero loss is an
@@ -257,11 +233,20 @@ class Diagnoser {
   void add_what_scatters(const inference::ModelState& state, Diagnosis& out) {
     const LawSources sources{setup_.model,     setup_.draws, setup_.data, causes_, state, setup_.layout->readings(),
                              setup_.used.rows, setup_.fitted};
+    watch_.at("testing the laws of fading and outliers");
+    if (watch_.stop()) {
+      extend(state, out);
+      return in_order(out);
+    }
     add_clips(sources, out);
     if (add_silence_beside(sources, extend(state, out), out)) extend(state, out);
     const std::size_t before = out.causes.size();
     add_laws(sources, out);
     if (out.causes.size() > before) extend(state, out);  // a fading law changes the mean
+    in_order(out);
+  }
+
+  static void in_order(Diagnosis& out) {
     std::stable_sort(out.causes.begin(), out.causes.end(), [](const CauseEstimate& a, const CauseEstimate& b) {
       const auto gain = [](const CauseEstimate& c) { return c.held_out ? c.held_out->gain : 0; };
       return std::tuple(a.status, -gain(a), -a.lambda) < std::tuple(b.status, -gain(b), -b.lambda);
@@ -317,6 +302,7 @@ class Diagnoser {
     return mean;
   }
 
+  const inference::Watch& watch_;
   DiagnosisSetup setup_;
   ParameterGuard moved_;       // from the fit to the joint refit, until the end of the diagnosis
   std::vector<Cause> causes_;  // laws among them are tested
@@ -334,6 +320,7 @@ struct Diagnosed {
   std::filesystem::path world, data;
   Library::SearchPath plugins;
   std::shared_ptr<TableCache> tables;
+  const inference::Watch& watch;
 
   // In the world corrected for a cause that was judged in a world of its own. Nothing if the error at left-out places
   // is above that beside all that was found in the given world.
@@ -344,7 +331,7 @@ struct Diagnosed {
     for (const auto& [path, value] : verdict.parameters) first.parameters[path] = value;
     const TemporaryFolder folder;
     Diagnosis out =
-        Diagnoser(write_extended_world(first, world, folder.path()), data, plugins, tables).run(&first, true);
+        Diagnoser(write_extended_world(first, world, folder.path()), data, plugins, tables, watch).run(&first, true);
     if (found.unseen && out.unseen &&
         out.unseen->after.mean() > thresholds::own_world_worse * found.unseen->after.mean())
       return {};
@@ -364,13 +351,20 @@ void add_searched(const OwnWorldVerdict& verdict, Diagnosis& out) {
 // biases all other findings: the diagnosis is repeated with the radio corrected. After blockage it is repeated without
 // the blocked link. If a change in time remains, blockage must pass a stricter threshold.
 Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::path& data,
-                   const Library::SearchPath& plugins, const std::shared_ptr<TableCache>& tables) {
-  auto given = std::make_unique<Diagnoser>(world, data, plugins, tables);
+                   const Library::SearchPath& plugins, const std::shared_ptr<TableCache>& tables,
+                   const inference::Watch& watch) {
+  watch.at("fitting the world");
+  auto given = std::make_unique<Diagnoser>(world, data, plugins, tables, watch);
   Diagnosis found = given->run();
+  if (found.interrupted) return found;
+  if (watch.stop()) return interrupted(std::move(found));
   const OwnWorldVerdict verdict = given->in_own_worlds(found);
   given.reset();
   if (verdict.cause && !names(found, *verdict.cause)) {
-    if (auto corrected = Diagnosed{world, data, plugins, tables}.corrected_for(verdict, found)) {
+    watch.at("diagnosing again, with the world corrected for " + verdict.cause->id);
+    auto corrected = Diagnosed{world, data, plugins, tables, watch}.corrected_for(verdict, found);
+    if (watch.stop()) return interrupted(std::move(found));
+    if (corrected) {
       add_searched(verdict, *corrected);
       return *corrected;
     }
@@ -378,18 +372,22 @@ Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::pa
   add_searched(verdict, found);
   const auto [spoiler, blockage] = first_in_company(found, causes_on(plugins));
   if (!spoiler) return found;
+  watch.at("diagnosing again, with the world corrected for " + spoiler->id);
   Diagnosis first = found;
   first.causes = {*spoiler};
   first.causes[0].sought_as.clear();
   const TemporaryFolder folder;
-  Diagnoser with_it(write_extended_world(first, world, folder.path()), data, plugins, tables);
+  Diagnoser with_it(write_extended_world(first, world, folder.path()), data, plugins, tables, watch);
   if (!blockage) {
     first.causes[0].put_right_first = true;
-    return with_it.run(&first);
+    Diagnosis corrected = with_it.run(&first);
+    return watch.stop() ? interrupted(std::move(found)) : corrected;
   }
   Diagnosis again = with_it.run();
+  if (watch.stop()) return interrupted(std::move(found));
   if (first.causes[0].log_p > thresholds::blockage_in_company && something_changes_in_time(again)) {
-    Diagnosis result = Diagnoser(world, data, plugins, tables, first.causes[0].id).run();
+    Diagnosis result = Diagnoser(world, data, plugins, tables, watch, first.causes[0].id).run();
+    if (watch.stop()) return interrupted(std::move(found));
     result.searched = found.searched;
     return result;
   }

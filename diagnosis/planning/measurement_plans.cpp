@@ -12,6 +12,7 @@
 #include <set>
 
 #include "diagnosis/inference/thresholds.hpp"
+#include "diagnosis/planning/standing_radios.hpp"
 
 namespace muster::diagnosis {
 namespace {
@@ -22,42 +23,6 @@ using Eigen::Vector3d;
 constexpr Index most_rows = 400;
 constexpr int most_readings = 6;      // of one row
 constexpr double millisecond = 1e-3;  // s, between readings of one link at least
-
-struct End {
-  int radio;
-  Vector3d at;
-  bool faces;  // with a known heading
-  double yaw;
-};
-
-// A stationary radio, as sender or as receiver.
-struct StandingRadio {
-  End end;
-  bool sends;
-};
-
-End end_of(const RowSummary& seen, Index i, bool sends) {
-  const auto k = static_cast<std::size_t>(i);
-  const Eigen::VectorXd& yaw = sends ? seen.tx_yaw : seen.rx_yaw;
-  return {sends ? seen.tx[k] : seen.rx[k], (sends ? seen.tx_at : seen.rx_at).col(i), yaw.size() > 0,
-          yaw.size() > 0 ? yaw[i] : 0};
-}
-
-std::vector<StandingRadio> standing_radios(const RowSummary& seen) {
-  std::map<std::pair<int, bool>, std::pair<StandingRadio, bool>> known;
-  for (Index i = 0; i < seen.tx_at.cols(); ++i) {
-    for (const bool sends : {true, false}) {
-      const End end = end_of(seen, i, sends);
-      auto& [first, stays] = known.try_emplace({end.radio, sends}, StandingRadio{end, sends}, true).first->second;
-      stays = stays && (first.end.at - end.at).norm() < 0.2;
-    }
-  }
-  std::vector<StandingRadio> out;
-  for (const auto& [key, value] : known) {
-    if (value.second) out.push_back(value.first);
-  }
-  return out;
-}
 
 // Builds plans. Repeats each planned place `repeats` times, so that its noise is that of an average row.
 struct Maker {
@@ -80,7 +45,7 @@ struct Maker {
   // Time of row i if its path is driven once more, a minute later.
   double once_more(Index i) const { return timed ? seen.t[i] + span() + 60 : 0; }
 
-  void add(LinkReadings& out, const End& tx, const End& rx, double t) const {
+  void add(LinkReadings& out, const RowEnd& tx, const RowEnd& rx, double t) const {
     const Index first = out.size();
     out.tx_at.conservativeResize(3, first + repeats);
     out.rx_at.conservativeResize(3, first + repeats);
@@ -95,29 +60,24 @@ struct Maker {
     }
   }
 
-  bool stands(const End& e, bool sends) const {
-    return std::any_of(radios.begin(), radios.end(),
-                       [&](const StandingRadio& s) { return s.end.radio == e.radio && s.sends == sends; });
-  }
-
   // The end of row i that moves, the receiver if both do.
-  std::optional<End> roaming_end(Index i) const {
+  std::optional<RowEnd> roaming_end(Index i) const {
     for (const bool sends : {false, true}) {
-      const End e = end_of(seen, i, sends);
-      if (!stands(e, sends)) return e;
+      const RowEnd e = end_of(seen, i, sends);
+      if (!is_standing(radios, e.radio, sends)) return e;
     }
     return {};
   }
 
   // `turned`: change of heading of the moving ends, rad.
   void add_row(LinkReadings& out, Index i, double t, double turned) const {
-    End tx = end_of(seen, i, true), rx = end_of(seen, i, false);
-    if (!stands(tx, true)) tx.yaw += turned;
-    if (!stands(rx, false)) rx.yaw += turned;
+    RowEnd tx = end_of(seen, i, true), rx = end_of(seen, i, false);
+    if (!is_standing(radios, tx.radio, true)) tx.yaw += turned;
+    if (!is_standing(radios, rx.radio, false)) rx.yaw += turned;
     add(out, tx, rx, t);
   }
 
-  void add_link(LinkReadings& out, const StandingRadio& s, const End& other, double t) const {
+  void add_link(LinkReadings& out, const StandingRadio& s, const RowEnd& other, double t) const {
     add(out, s.sends ? s.end : other, s.sends ? other : s.end, t);
   }
 };
@@ -144,7 +104,7 @@ PlannedReadings both_ways(const Maker& make) {
   PlannedReadings out{"drive the same ways again and let both ends of every link send and hear", {}};
   for (const Index i : make.rows) {
     const double t = make.once_more(i);
-    const End tx = end_of(make.seen, i, true), rx = end_of(make.seen, i, false);
+    const RowEnd tx = end_of(make.seen, i, true), rx = end_of(make.seen, i, false);
     make.add(out.readings, tx, rx, t);
     make.add(out.readings, rx, tx, t);
   }
@@ -156,7 +116,7 @@ PlannedReadings turning(const Maker& make) {
   PlannedReadings out{fmt::format("turn once around on the spot, at {} places spread along the way", places), {}};
   double t = make.end + 5;
   for (int p = 0; p < places; ++p) {
-    std::optional<End> r = make.roaming_end(make.rows[make.rows.size() * static_cast<std::size_t>(p) / places]);
+    std::optional<RowEnd> r = make.roaming_end(make.rows[make.rows.size() * static_cast<std::size_t>(p) / places]);
     for (int h = 0; r && r->faces && h < headings; ++h, t += 2) {
       r->yaw = 2 * M_PI * h / headings;
       for (const StandingRadio& s : make.radios) make.add_link(out.readings, s, *r, t);
@@ -186,13 +146,13 @@ const StandingRadio* station(const Maker& make, const std::vector<CauseEstimate>
 }
 
 // Repeats all paths with one stationary radio changed, as sender and as receiver.
-void add_ways(LinkReadings& out, const Maker& make, int radio, const std::function<End(End)>& otherwise) {
+void add_ways(LinkReadings& out, const Maker& make, int radio, const std::function<RowEnd(RowEnd)>& otherwise) {
   for (const Index i : make.rows) {
-    const std::optional<End> r = make.roaming_end(i);
+    const std::optional<RowEnd> r = make.roaming_end(i);
     if (!r) continue;
     for (const StandingRadio& s : make.radios) {
       if (s.end.radio != radio) continue;
-      const End there = otherwise(s.end);
+      const RowEnd there = otherwise(s.end);
       if ((r->at - there.at).norm() >= 0.5) make.add_link(out, {there, s.sends}, *r, make.once_more(i));
     }
   }
@@ -202,7 +162,7 @@ PlannedReadings turned_station(const Maker& make, int radio) {
   PlannedReadings out{fmt::format("turn {} by 90 degrees where it stands and drive the same ways again",
                                   make.seen.radios[static_cast<std::size_t>(radio)]),
                       {}};
-  add_ways(out.readings, make, radio, [](End e) {
+  add_ways(out.readings, make, radio, [](RowEnd e) {
     e.yaw += M_PI / 2;
     return e;
   });
@@ -214,7 +174,7 @@ PlannedReadings moved_station(const Maker& make, int radio) {
   Eigen::Vector2d to(0, 0);
   double farthest = 0;
   for (const Index i : make.rows) {
-    const std::optional<End> r = make.roaming_end(i);
+    const std::optional<RowEnd> r = make.roaming_end(i);
     if (!r) continue;
     double nearest = 1e300;
     for (const StandingRadio& s : make.radios) nearest = std::min(nearest, (s.end.at - r->at).head<2>().norm());
@@ -224,7 +184,7 @@ PlannedReadings moved_station(const Maker& make, int radio) {
   PlannedReadings out{fmt::format("move {} to ({:.1f}, {:.1f}) and drive the same ways again",
                                   make.seen.radios[static_cast<std::size_t>(radio)], to.x(), to.y()),
                       {}};
-  add_ways(out.readings, make, radio, [&](End e) {
+  add_ways(out.readings, make, radio, [&](RowEnd e) {
     e.at.head<2>() = to;
     return e;
   });
@@ -276,7 +236,7 @@ std::vector<Vector3d> not_visited(const RowSummary& seen, const Vector3d& to) {
 
 PlannedReadings elsewhere(const Maker& make, const std::vector<CauseEstimate>& about) {
   const auto places = not_visited(make.seen, middle_of(make.seen, about));
-  std::optional<End> r = make.roaming_end(make.rows.front());
+  std::optional<RowEnd> r = make.roaming_end(make.rows.front());
   if (places.size() < 8 || !r) return {};
   PlannedReadings out{fmt::format("drive where nothing was measured yet, about ({:.1f}, {:.1f}), if it can be reached",
                                   places.front().x(), places.front().y()),

@@ -41,6 +41,15 @@ Json rivals_json(const std::vector<inference::Alternative>& alternatives) {
   return out;
 }
 
+Json one_station_json(const std::optional<diagnosis::OneStation>& seen) {
+  if (!seen) return nullptr;
+  return {{"radio", seen->radio},
+          {"nearest_m", known(seen->nearest)},
+          {"farthest_m", known(seen->farthest)},
+          {"second_x_m", seen->second ? Json(seen->second->x()) : Json()},
+          {"second_y_m", seen->second ? Json(seen->second->y()) : Json()}};
+}
+
 Json cause_json(const CauseEstimate& c) {
   Json parameters = Json::array();
   for (const CauseValue& v : c.values) {
@@ -65,6 +74,7 @@ Json cause_json(const CauseEstimate& c) {
   out["elsewhere"] = elsewhere_json(c.elsewhere);
   out["rivals"] = rivals_json(c.alternatives);
   out["tell_apart"] = c.tell_apart;
+  out["one_station"] = one_station_json(c.one_station);
   out["doubt"] = c.doubt.empty() ? Json() : Json(c.doubt);
   return out;
 }
@@ -174,6 +184,7 @@ Json json_of(const Diagnosis& d) {
       {"heldout_rmse_db", error(&inference::HeldOutGain::rmse_after)},
       {"loop", loop_json(d)},
       {"summary", verdict_in_words(d)},
+      {"interrupted", d.interrupted},
       {"readings", d.readings},
       {"rows", d.rows},
       {"blocks", d.held_out ? Json(d.held_out->blocks) : Json()},

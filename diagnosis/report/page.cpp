@@ -127,6 +127,7 @@ std::string cause_card(const CauseEstimate& c, std::size_t number, const std::ve
       {{"evidence"},
        {fmt::format("{:.1f} nats; λ = {:.0f} (likelihood ratio, other causes fitted too)", c.evidence, c.lambda)}},
       {{"gain"}, {gain_text(c.held_out, why_no_gain(c))}}};
+  if (c.one_station) facts.push_back({{"distance"}, {one_station_in_words(*c.one_station)}});
   if (c.inflation > 1)
     facts.push_back({{"inflation"},
                      {fmt::format("gains of its kind are {:.1f} times those of chance in these readings; "

@@ -190,7 +190,7 @@ Json of_given(const Diagnosis& d, const fs::path& world, const fs::path& data, c
 
 std::vector<std::string> write_regression(const Diagnosis& d, const fs::path& world, const fs::path& data,
                                           const fs::path& folder) {
-  if (!d.loop && d.named()) return {};
+  if (d.interrupted || (!d.loop && d.named())) return {};
   const Json json = d.loop ? of_extended(d, world, data, folder) : of_given(d, world, data, folder);
   const fs::path file = folder / "regression.json";
   std::ofstream out(file, std::ios::binary);

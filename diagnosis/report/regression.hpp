@@ -10,8 +10,8 @@
 namespace muster::report {
 
 // Copies the data beside the extended world in `folder`, unless they are there, and writes regression.json and
-// replay.xml. Where nothing is named, it copies the world as given there, and writes no replay.xml. Returns the files.
-// Throws Error.
+// replay.xml. Where nothing is named, it copies the world as given there, and writes no replay.xml. Nothing of an
+// interrupted diagnosis: what it did not look at, no test may claim. Returns the files. Throws Error.
 std::vector<std::string> write_regression(const Diagnosis& diagnosis, const std::filesystem::path& world,
                                           const std::filesystem::path& data, const std::filesystem::path& folder);
 

@@ -86,6 +86,7 @@ std::string cause_text(const CauseEstimate& c, int number) {
   std::string text = wrapped(fmt::format("({}) {}{}: {}", number, opening, c.id, sentence(c)), 2, 6);
   text += entry("where", c.label == "all" ? "everywhere" : c.label);
   for (const CauseValue& v : c.values) text += entry(v.name, fmt::format("{:<12} 95 %: {}", quantity(v), interval(v)));
+  if (c.one_station) text += entry("distance", one_station_in_words(*c.one_station));
   text += entry("evidence", fmt::format("{:.1f} nats; lambda {:.0f} (likelihood ratio, other causes fitted too)",
                                         c.evidence, c.lambda));
   if (c.inflation > 1)

@@ -209,7 +209,9 @@ std::string chance(double log_p) {
   return p >= 0.995 ? "p = 1" : fmt::format("p = {:.2g}", p);
 }
 
-std::string verdict_in_words(const Diagnosis& d) {
+namespace {
+
+std::string whole_verdict(const Diagnosis& d) {
   const int confirmed = count_of(d, Confidence::confirmed), unconfirmed = count_of(d, Confidence::unconfirmed);
   const std::string causes = causes_in_words(confirmed + unconfirmed);
   const std::string named = causes + (confirmed + unconfirmed == 1 ? " is named" : " are named");
@@ -221,6 +223,8 @@ std::string verdict_in_words(const Diagnosis& d) {
     return std::string("is wrong in a way that no known cause explains") +
            (d.unexplained[0].alternatives.empty() ? "" : " as well") + ": something depends on " + covariates_of(d) +
            (confirmed + unconfirmed ? "; " + named + " beside it" : "");
+  if (confirmed + unconfirmed == 0 && d.interrupted)
+    return "is not judged: the search was interrupted, and nothing had been found";
   if (confirmed + unconfirmed == 0 && d.unstated_field) return "is not adequate: " + field_in_words(*d.unstated_field);
   if (confirmed + unconfirmed == 0)
     return count_of(d, Confidence::set_aside) ? "is adequate: what stands out is not beyond chance, a suspicion remains"
@@ -232,6 +236,22 @@ std::string verdict_in_words(const Diagnosis& d) {
            (doubted ? "the fit ends at a bound, and no name is sure" : "what was held out does not confirm it yet") +
            left;
   return "is wrong: " + named + (unconfirmed ? ", not all confirmed by what was held out" : "") + left;
+}
+
+}  // namespace
+
+std::string verdict_in_words(const Diagnosis& d) {
+  const bool found = d.named() || !d.unexplained.empty();
+  return whole_verdict(d) + (d.interrupted && found ? "; the search was interrupted, and more may be wrong" : "");
+}
+
+std::string one_station_in_words(const diagnosis::OneStation& seen) {
+  std::string text =
+      fmt::format("only {0} sees it, which shows its width but not its distance: {1:.1f} to {2:.1f} m from {0}",
+                  seen.radio, seen.nearest, seen.farthest);
+  if (!seen.second) return text + ". Measure from a second station.";
+  return text + fmt::format(". Put a second station at ({:.1f}, {:.1f}), which sees that range from the side.",
+                            seen.second->x(), seen.second->y());
 }
 
 double noise_floor(const Diagnosis& d) {

@@ -65,6 +65,8 @@ std::string gain_in_words(const inference::HeldOutGain& gain, const std::string&
 
 // One line, without the world's name: "is adequate: ...".
 std::string verdict_in_words(const Diagnosis& diagnosis);
+// What one station cannot see, and where a second one would.
+std::string one_station_in_words(const diagnosis::OneStation& seen);
 // dB: standard deviation of one row's mean from noise alone, at any place.
 double noise_floor(const Diagnosis& diagnosis);
 // "6.28 dB"

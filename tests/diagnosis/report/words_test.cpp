@@ -289,5 +289,33 @@ TEST(Text, ReasonsAreGathered) {
   EXPECT_EQ(reasons_not_tested(d), (std::vector<std::string>{"step, drift: no t", "height: one height"}));
 }
 
+TEST(Interruption, IsToldInTheHeadline) {
+  Diagnosis empty;
+  empty.interrupted = true;
+  empty.unstated_field = {3, 2, 1};  // what was not found yet may be the field's cause
+  EXPECT_STREQ(empty.verdict(), "interrupted");
+  EXPECT_TRUE(says(verdict_in_words(empty), "is not judged"));
+  Diagnosis found = with(wall(inference::Status::named, inference::HeldOutGain{3.5, 2.5, 6, 2.4, 11, 21}));
+  EXPECT_FALSE(says(verdict_in_words(found), "interrupted"));
+  found.interrupted = true;
+  EXPECT_STREQ(found.verdict(), "extended");
+  EXPECT_TRUE(says(verdict_in_words(found), "the search was interrupted"));
+  EXPECT_EQ(nlohmann::json::parse(json_of(found).dump()).at("interrupted"), true);
+}
+
+TEST(OneStation, RangeAndSecondPlaceAreInAllThreeReports) {
+  CauseEstimate cause = wall(inference::Status::named, inference::HeldOutGain{3.5, 2.5, 6, 2.4, 11, 21});
+  const auto written = [](const Diagnosis& d) { return nlohmann::json::parse(json_of(d).dump()).at("causes").at(0); };
+  EXPECT_TRUE(written(with(cause)).at("one_station").is_null());
+  cause.one_station = diagnosis::OneStation{"base", 2.14, 7.38, Eigen::Vector2d(4, 6.5)};
+  const Diagnosis d = with(cause);
+  const std::string range = "2.1 to 7.4 m from base";
+  EXPECT_TRUE(says(one_station_in_words(*cause.one_station), range));
+  EXPECT_TRUE(says(one_station_in_words(*cause.one_station), "a second station at (4.0, 6.5)"));
+  EXPECT_TRUE(says(text_of(d, {"hall", "a.csv"}), "only base sees it"));
+  EXPECT_TRUE(says(page_of(d, {"hall", "a.csv"}, {}), range));
+  EXPECT_EQ(written(d).at("one_station").at("farthest_m"), 7.38);
+}
+
 }  // namespace
 }  // namespace muster::report
