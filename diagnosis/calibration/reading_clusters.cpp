@@ -12,9 +12,10 @@ using Key = std::array<long, 8>;
 
 Key key_of(const LinkPlace& link, double side) {
   Key key{link.radio_a, link.radio_b};
-  for (int axis = 0; axis < 3; ++axis) {
-    key[static_cast<std::size_t>(2 + axis)] = std::lround(link.a[axis] / side);
-    key[static_cast<std::size_t>(5 + axis)] = std::lround(link.b[axis] / side);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto k = static_cast<Eigen::Index>(axis);
+    key[2 + axis] = std::lround(link.a[k] / side);
+    key[5 + axis] = std::lround(link.b[k] / side);
   }
   return key;
 }

@@ -210,6 +210,8 @@ inline constexpr Eigen::Index model_draws = 16;
 inline constexpr double same_field = 0.2;
 // count; atoms of one candidate that are enough to know its highest gain in draws; chosen; none
 inline constexpr std::size_t drawn_atoms = 1000;
+// draws; of the model, whose distance from what it states is compared with the data's; chosen; none
+inline constexpr Eigen::Index compared_draws = 6;
 // count; atoms of one candidate that are enough to know the bulk; chosen; none
 inline constexpr std::size_t bulk_atoms = 200;
 // atoms; fewest that are a bulk; chosen; none

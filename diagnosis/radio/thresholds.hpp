@@ -72,6 +72,9 @@ inline constexpr std::size_t parts_of_time = 10;
 // links; from which a pile of readings of one of them is no end of a receiver's range; chosen;
 // ReceiverChecks.APileOfOneLinkIsNoEnd
 inline constexpr std::size_t many_links = 6;
+// m; extent of the places of one link's readings at a level, below which they are one place's and no end of a
+// receiver's range; chosen; ReceiverChecks.APileAtOnePlaceIsNoEnd
+inline constexpr double one_place = 1;
 // nats; by which an unstated field must be likelier than none; chosen; Fault25.ADiagnosisNamesNothingThatItCannotTell
 inline constexpr double seen_field_nats = 6;
 // dB; of a field that the world does not state, above which it is not adequate; chosen; none
@@ -282,6 +285,23 @@ inline constexpr double law_mean_error = 0.01;
 inline constexpr double law_execution_error = 1e-6;
 // standard errors; between draws and their declared law, beyond chance even if two readings share a draw; chosen; none
 inline constexpr double law_draw_errors = 3;
+
+// readings; of which the most telling ones must not carry a law alone; chosen; none
+inline constexpr Eigen::Index law_few = 2;
+// share; of a law's gain that these few carry, above which it is not named; chosen; none
+inline constexpr double law_few_share = 0.75;
+
+// planning: a second station
+
+// share; of the largest effect, from which it reaches a row; chosen; none
+inline constexpr double reached = 0.2;
+// m; between places of a radio that stands; chosen; none
+inline constexpr double stands_within = 0.2;
+// ratio; of the farthest distance to the nearest one, below which it is known; chosen;
+// SecondStation.NothingIsOpenIfTheDistanceIsKnown
+inline constexpr double distance_known = 1.5;
+// m; from a place to the station that is advised, at least; chosen; SecondStation.ARangeAndAPlaceToTheSideAreTold
+inline constexpr double second_station_apart = 2;
 
 // pipeline: worlds of their own
 

@@ -34,10 +34,13 @@ Search::Search(const Problem& problem, const Options& options) : state_(checked(
 
 Result Search::run() {
   result_ = {};
+  const Watch& watch = state_.options().watch;
   forward_selection(state_, result_.trials);
+  watch.at("checking the findings at left-out places");
   withdraw_refuted();
   const std::vector<Term> aside = backward_elimination(state_, result_.trials);
   withdraw_refuted();
+  watch.at("intervals and alternatives of the findings");
   const std::vector<ParameterUncertainty> spreads = settle_in_the_middle();
   for (std::size_t k = 0; k < state_.terms.size(); ++k) {
     const Term& term = state_.terms[k];
@@ -51,6 +54,7 @@ Result Search::run() {
   }
   for (const Term& term : aside)
     result_.findings.push_back(finding_of(term, term.smooth() ? Status::unexplained : Status::suspected));
+  watch.at("held-out errors");
   result_.noise = state_.fit;
   result_.families = state_.families;
   const Eigen::MatrixXd design = state_.design();

@@ -60,7 +60,7 @@ bool is_stated(Family family) { return without_fixed(family) == Family::stated; 
 
 std::string name_of(Family family) {
   const int percent = static_cast<int>(std::lround(100 * fixed_share(family)));
-  const std::string name = plain_name(without_fixed(family));
+  std::string name = plain_name(without_fixed(family));
   if (percent == 0) return name;
   return name + "_fixed_" + std::to_string(percent) + (fixed_to_stream(family) ? "_one_way" : "");
 }

@@ -5,8 +5,6 @@
 namespace muster::noise {
 namespace {
 
-constexpr double least_variance = 1e-9;  // squared units of a reading: of rows at one place
-
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
@@ -56,7 +54,6 @@ Neighbourhood::Neighbourhood(const Field& field, const Covariance& covariance, b
              stated ? -per_step : s2 * share,
              stated ? per_step : s2 * (1 - share),
              stated ? 0 : s2 * share * (1 - share),
-             least_variance,
              floor_variance,
              nullptr,
              nullptr,

@@ -5,6 +5,7 @@
 #include "diagnosis/inference/noise/row_kernel.hpp"
 
 #include "diagnosis/inference/noise/packs.hpp"
+#include "diagnosis/inference/noise/pairs_kernel.hpp"
 
 #define MUSTER_ALWAYS __attribute__((always_inline))
 #define MUSTER_TEXT_OF(name) #name
@@ -14,7 +15,6 @@ namespace muster::noise {
 namespace {
 
 using Lanes = Pack<double, lanes>;
-using Floats = Pack<float, many>;
 static_assert(sizeof(Lanes) == alignment);
 
 using FourFloats = float __attribute__((vector_size(4 * sizeof(float)), aligned(alignof(float)), may_alias));
@@ -23,13 +23,23 @@ using TwoDoubles = double __attribute__((vector_size(2 * sizeof(double)), aligne
 MUSTER_INLINE Lanes* lanes_of(double* values) { return reinterpret_cast<Lanes*>(values); }
 MUSTER_INLINE const Lanes* lanes_of(const double* values) { return reinterpret_cast<const Lanes*>(values); }
 
-MUSTER_INLINE Lanes inverse_root(const Lanes& variance, double least) {
+MUSTER_INLINE Lanes inverse_root(const Lanes& variance) {
   Lanes result;
-  for (int lane = 0; lane < lanes; ++lane) {
-    const double v = variance[lane] > least ? variance[lane] : least;
-    result.set(lane, 1 / __builtin_sqrt(v));
-  }
+  for (int lane = 0; lane < lanes; ++lane) result.set(lane, 1 / __builtin_sqrt(variance[lane]));
   return result;
+}
+
+// x, but no more than the root of `square`. A stated correlation is not exactly that of a field, and its error may
+// exceed what is left of a row's variance; what others cannot predict, its nugget and the floor, is left in any case.
+MUSTER_INLINE Lanes at_most_root(Lanes x, const Lanes& square) {
+  bool fits = true;
+  for (int lane = 0; lane < lanes; ++lane) fits &= x[lane] * x[lane] <= square[lane];
+  if (fits) return x;
+  for (int lane = 0; lane < lanes; ++lane) {
+    const double most = square[lane] > 0 ? __builtin_sqrt(square[lane]) : 0;
+    x.set(lane, __builtin_copysign(__builtin_fmin(__builtin_fabs(x[lane]), most), x[lane]));
+  }
+  return x;
 }
 
 MUSTER_INLINE Lanes looked_up(const double* table, const std::uint16_t* entries) {
@@ -65,23 +75,25 @@ void factorise(const Neighbourhoods& n) {
     Lanes* const row = root + a * slots;
     for (long b = 0; b < a; ++b) row[b] = covariance(n, pairs + b);
     Lanes own = present[a] * (field[a] + n.floor_variance - 1) + 1 + nugget[a];
+    const Lanes least = nugget[a] + n.floor_variance;
     for (long k = 0; k < a; ++k) {
-      const Lanes x = row[k] * root[k * slots + k];
+      const Lanes x = at_most_root(row[k] * root[k * slots + k], own - least);
       row[k] = x;
       own -= x * x;
       for (long b = a - 1; b > k; --b) row[b] -= x * root[b * slots + k];
     }
-    row[a] = inverse_root(own, n.least_variance);
+    row[a] = inverse_root(own);
     cross[a] = covariance(n, pairs + a);
   }
+  const Lanes least = nugget[slots] + n.floor_variance;
   Lanes variance = nugget[slots] + (field[slots] + n.floor_variance);
   for (long k = 0; k < slots; ++k) {
-    const Lanes x = cross[k] * root[k * slots + k];
+    const Lanes x = at_most_root(cross[k] * root[k * slots + k], variance - least);
     cross[k] = x;
     variance -= x * x;
     for (long a = k + 1; a < slots; ++a) cross[a] -= x * root[a * slots + k];
   }
-  const Lanes inverse_sd = inverse_root(variance, n.least_variance);
+  const Lanes inverse_sd = inverse_root(variance);
   combination[slots] = inverse_sd;
   for (long a = 0; a < slots; ++a) combination[a] = -cross[a] * inverse_sd;
   for (long a = slots - 1; a >= 0; --a) {
@@ -256,105 +268,6 @@ void contract(const Combinations* four, const double* x, const double* with, lon
   for (int p = 0; p < parameters; ++p) {
     sums[p] = 0;
     for (int lane = 0; lane < lanes; ++lane) sums[p] += sum[p][lane];
-  }
-}
-
-MUSTER_INLINE Floats many_of(const float* values, long first) {
-  return *reinterpret_cast<const Floats*>(values + first);
-}
-
-// Squared distances of a row from those that start at `first`. Readings lie the given numbers of stretches away from
-// their middles.
-MUSTER_INLINE Floats squares(const Ends& ends, long row, long first, float own_stretches, float stretches) {
-  Floats sum{};
-  for (int axis = 0; axis < 3; ++axis) {
-    const float own = ends.middle[axis][row] + own_stretches * ends.stretch[axis][row];
-    const Floats along = many_of(ends.middle[axis], first) + stretches * many_of(ends.stretch[axis], first) - own;
-    sum += along * along;
-  }
-  return sum;
-}
-
-MUSTER_INLINE Floats root(Floats squares) {
-  for (Floats::Part& part : squares.part) {
-    for (int k = 0; k < Floats::each; ++k) part[k] = __builtin_sqrtf(part[k]);
-  }
-  return squares;
-}
-
-MUSTER_INLINE void cut_at_zero(Floats& values) {
-  for (Floats::Part& part : values.part) part = part > 0 ? part : Floats::Part{};
-}
-
-struct Distances {
-  Floats place, both;
-};
-
-MUSTER_INLINE Distances between_middles(const Places& p, long row, long first) {
-  const Floats place = squares(p.place, row, first, 0, 0);
-  const Floats apart = root(place);
-  return {apart, p.anchors_move ? root(place + squares(p.anchor, row, first, 0, 0)) : apart};
-}
-
-MUSTER_INLINE Distances between_readings(const Places& p, long row, long first) {
-  Distances mean{};
-  for (int own = -1; own <= 1; ++own) {
-    for (int other = -1; other <= 1; ++other) {
-      const auto a = static_cast<float>(own), b = static_cast<float>(other);
-      const Floats place = squares(p.place, row, first, a, b);
-      mean.place += root(place) / 9;
-      if (p.anchors_move) mean.both += root(place + squares(p.anchor, row, first, a, b)) / 9;
-    }
-  }
-  return p.anchors_move ? mean : Distances{mean.place, mean.place};
-}
-
-MUSTER_INLINE Distances distances_of(const Places& p, long row, long first) {
-  const Distances middles = between_middles(p, row, first);
-  if (!p.within_place) return middles;
-  bool near = false;
-  for (int k = 0; k < many; ++k) near |= middles.place[k] < p.far;
-  Distances result = near ? between_readings(p, row, first) : middles;
-  result.place -= many_of(p.within_place, first) + p.within_place[row];
-  result.both -= many_of(p.within_both, first) + p.within_both[row];
-  cut_at_zero(result.place);
-  cut_at_zero(result.both);
-  return result;
-}
-
-MUSTER_INLINE void write(const Floats& values, float* out) { *reinterpret_cast<Floats*>(out) = values; }
-
-void apart(const Places& p, long row, float* place, float* both) {
-  for (long first = 0; first < row; first += many) {
-    const Distances of = distances_of(p, row, first);
-    write(of.place, place + first);
-    write(of.both, both + first);
-  }
-}
-
-using TwiceAsWide = double __attribute__((vector_size(2 * register_bytes), aligned(alignof(double)), may_alias));
-using Ints = int __attribute__((vector_size(register_bytes), aligned(alignof(int)), may_alias));
-
-MUSTER_INLINE Floats correlations(const Pairs& p, Floats apart) {
-  for (Floats::Part& part : apart.part) {
-    const Ints entries = __builtin_convertvector(part * p.entries_per_metre + 0.5f, Ints);
-    for (int k = 0; k < Floats::each; ++k) part[k] = p.correlation[entries[k]];
-  }
-  return apart;
-}
-
-void covariances(const Pairs& p, long row, double* out) {
-  for (long first = 0; first < row; first += many) {
-    const Distances apart = distances_of(p.at, row, first);
-    const Floats near = correlations(p, apart.place);
-    const Floats joint = p.at.anchors_move ? correlations(p, apart.both) : near;
-    for (int k = 0; k < Floats::parts; ++k) {
-      const long from = first + k * Floats::each;
-      const Ints same = *reinterpret_cast<const Ints*>(p.group + from) == p.group[row];
-      const Floats::Part of_group = same ? p.joint * joint.part[k] : Floats::Part{};
-      const Floats::Part sum = p.everywhere * near.part[k] + of_group;
-      *reinterpret_cast<TwiceAsWide*>(out + from) = __builtin_convertvector(sum, TwiceAsWide);
-    }
   }
 }
 

@@ -27,7 +27,7 @@ struct Neighbourhoods {
   double near_variance, joint_variance;     // factors of the correlations by place, and by place and anchor
   double near_slope, joint_slope;           // the same of the derivatives
   double share_slope;                       // of the near variance by logit rho; minus that of the joint one
-  double least_variance, floor_variance;
+  double floor_variance;                    // of every row, beside its nugget
 
   const std::uint16_t *near,
       *joint;                      // entries: pair a (a + 1) / 2 + b is slots a and b < a; with b = a, the row itself

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "diagnosis/inference/noise/neighbourhood.hpp"
 #include "diagnosis/inference/noise/row_distance.hpp"
@@ -149,25 +148,12 @@ std::vector<Family> Field::fixed_families() const {
 const StatedTables& Field::stated(int k) const {
   const auto found = stated_tables_.find(k);
   if (found != stated_tables_.end()) return found->second;
-  return stated_tables_.emplace(k, stated_tables(std::exp(k * StatedTables::step))).first->second;
+  if (!neighbour_pairs_) neighbour_pairs_ = std::make_shared<const NeighbourPairs>(neighbour_pairs());
+  return stated_tables_.emplace(k, neighbour_pairs_->tables(sites_, std::exp(k * StatedTables::step))).first->second;
 }
 
-StatedTables Field::stated_tables(double decorrelation) const {
-  StatedTables result;
-  result.pairs.assign(at(groups() * pairs() * lanes), distances);
-  std::vector<uint32_t> a, b, all(at(size()));
-  std::iota(all.begin(), all.end(), 0u);
-  Eigen::VectorXd own(size());
-  sites_.stated->covariances(sites_, decorrelation, all, all, own.data());
-  result.own = own.cast<float>();
-  std::vector<std::size_t> to;
-  const auto flush = [&] {
-    std::vector<double> values(a.size());
-    sites_.stated->covariances(sites_, decorrelation, a, b, values.data());
-    for (std::size_t k = 0; k < to.size(); ++k)
-      result.pairs[to[k]] = static_cast<uint16_t>(StatedTables::entry_of(values[k]) + within_site(a[k], b[k]));
-    a.clear(), b.clear(), to.clear();
-  };
+NeighbourPairs Field::neighbour_pairs() const {
+  NeighbourPairs result(at(groups() * pairs() * lanes));
   for (Index i = 0; i < size(); ++i) {
     for (int slot = 0; slot < slots_; ++slot) {
       const Index j = neighbour(i, slot);
@@ -175,13 +161,11 @@ StatedTables Field::stated_tables(double decorrelation) const {
       for (int other = 0; other <= slot; ++other) {
         const Index with = other < slot ? neighbour(i, other) : i;
         if (with < 0) continue;
-        a.push_back(static_cast<uint32_t>(j)), b.push_back(static_cast<uint32_t>(with));
-        to.push_back(at((i / lanes) * pairs() + Index{slot} * (slot + 1) / 2 + other) * lanes + at(i % lanes));
+        const Index pair = (i / lanes) * pairs() + Index{slot} * (slot + 1) / 2 + other;
+        result.add(at(pair * lanes + i % lanes), j, with, within_site(j, with));
       }
     }
-    if (a.size() >= at_once) flush();
   }
-  flush();
   return result;
 }
 

@@ -15,37 +15,9 @@
 #include "diagnosis/inference/noise/neighbours.hpp"
 #include "diagnosis/inference/noise/recurring_sites.hpp"
 #include "diagnosis/inference/noise/row_kernel.hpp"
-#include "diagnosis/inference/noise/stated_correlation.hpp"
+#include "diagnosis/inference/noise/stated_tables.hpp"
 
 namespace muster::noise {
-
-// Entries of the stated correlation at one decorrelation distance. Between these it is interpolated, linearly in the
-// logarithm, which keeps covariances valid: a mean of two is one.
-struct StatedTables {
-  static constexpr double step = 0.25;  // of log decorrelation [m]
-  struct Position {
-    int k;
-    double weight;  // of k + 1
-  };
-  static Position position_of(double log_decorrelation) {
-    const double at = log_decorrelation / step, below = std::floor(at);
-    return {static_cast<int>(below), at - below};
-  }
-  // A covariance whose stated correlation is at the nearest tabulated distance: half the tables for what is not fitted.
-  static Covariance nearest(Covariance covariance) {
-    if (is_stated(covariance.family)) covariance.theta[1] = step * std::round(covariance.theta[1] / step);
-    return covariance;
-  }
-  // Of an entry of the pairs, less than same_site: linear.
-  static double correlation_of(std::size_t entry) { return 1 - static_cast<double>(entry) / distances; }
-
-  static uint16_t entry_of(double correlation) {
-    return static_cast<uint16_t>(std::clamp((1 - correlation) * distances + 0.5, 0.0, 1.0 * distances));
-  }
-
-  std::vector<uint16_t> pairs;
-  Eigen::VectorXf own;  // variance at each row over the stated one
-};
 
 // A row's combination with its neighbours: whitened_i = own_i x_i + sum over slots of beside_ia x_neighbour.
 struct Stencil {
@@ -91,8 +63,8 @@ class Field {
     std::vector<uint16_t> near, joint;
     std::vector<Joint> kinds;
   };
+  NeighbourPairs neighbour_pairs() const;
   // use(slot, row, row, m by place, m by place and anchor)
-  StatedTables stated_tables(double decorrelation) const;
   template <class Use>
   void each_pair(bool by_readings, const Use& use) const;
   uint16_t entry(double distance) const;
@@ -107,6 +79,7 @@ class Field {
   double spacing_ = 0.01;
   Table smooth_, rough_;          // the second one is empty where every row is a point: both are equal there
   std::vector<Joint> different_;  // of the pairs of any group: both distances' entries are looked up
+  mutable std::shared_ptr<const NeighbourPairs> neighbour_pairs_;  // of the stated correlation; made on first use
   mutable std::map<int, StatedTables> stated_tables_;
   mutable std::map<int, std::vector<uint16_t>> stated_triangles_;
 };

@@ -143,8 +143,12 @@ Optimum raced_to(const ModelState& state, const WhitenedModel& model, const Scor
 
 OrthonormalAtoms unit_atoms(const Entry& entry, const WhitenedModel& model) {
   noise::Sheet atoms = model.whitener.sheet(*entry.atoms);
+  // Columns of different rows may differ a thousandfold: one direction's are weighed by differences, which hardly
+  // scatter. Of places those that concern few readings are left out.
+  Eigen::VectorXf before;
+  if (entry.candidate->role.pieces.empty()) before = atoms.colwise().squaredNorm();
   model.at.basis.take_out_of(atoms);
-  return {std::move(atoms), entry.candidate->design.width};
+  return {std::move(atoms), entry.candidate->design.width, before};
 }
 
 Eigen::VectorXd gains(const Candidate& candidate, const OrthonormalAtoms& unit, const Eigen::VectorXd& residual) {

@@ -1,6 +1,7 @@
 #include "diagnosis/inference/score/drawn_inflation.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "diagnosis/inference/state/null_calibration.hpp"
 #include "diagnosis/inference/thresholds.hpp"
@@ -17,6 +18,15 @@ noise::Sheet some_atoms(const Entry& entry) {
     for (Index j = 0; j < width; ++j) kept.push_back(k * width + j);
   }
   return (*entry.atoms)(Eigen::all, kept);
+}
+
+// Of the given family, with the fixed share of the other one.
+noise::Family with_share_of(noise::Family other, noise::Family family) {
+  for (std::size_t k = 0; k < noise::fixed_shares.size(); ++k) {
+    if (noise::fixed_share(other) == noise::fixed_shares[k])
+      return noise::with_fixed(family, k, noise::fixed_to_stream(other));
+  }
+  return family;
 }
 
 }  // namespace
@@ -44,6 +54,30 @@ double drawn_inflation(const ModelState& state, const WhitenedModel& model, cons
   };
   const float usual = highest(state.normals());
   return usual > 0 ? std::max(1.0, static_cast<double>(highest(white.cast<float>()) / usual)) : 1;
+}
+
+bool resembles_draws(const ModelState& state, const Eigen::MatrixXd& design) {
+  const noise::Covariance& fitted = state.fit.covariance;
+  if (!state.field().sites().stated || state.drawn().cols() == 0) return false;
+  const auto as = [&](noise::Family family) {
+    const auto field = noise::stated_by(fitted, state.within());
+    return noise::as_stated(field, with_share_of(fitted.family, family), fitted.theta, state.within());
+  };
+  const noise::Covariance place = noise::is_stated(fitted.family) ? as(noise::Family::exponential) : fitted,
+                          stated = as(noise::Family::stated);
+  // Nats by which the family of places is likelier.
+  const auto apart = [&](const Eigen::VectorXd& y) {
+    const auto value = [&](const noise::Covariance& start) {
+      return noise::fit(state.field(), y, design, state.options().prior, start).value;
+    };
+    return value(stated) - value(place);
+  };
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (Index k = 0; k < thresholds::compared_draws; ++k) {
+    const double of_draw = apart(state.drawn().col(k));
+    least = std::min(least, of_draw), most = std::max(most, of_draw);
+  }
+  return apart(state.y()) <= most + (most - least);
 }
 
 }  // namespace muster::inference

@@ -1,6 +1,6 @@
 // Inflation of gains in the model's own draws. A covariance has the first two moments of what a model draws: a field of
-// a few waves, or none but rounding, has more structure than that. Where the model draws its errors itself, gains are
-// calibrated on its draws.
+// a few waves, or none but rounding, has more structure than that. Where the model draws its errors itself, and the
+// data are like its draws, gains are calibrated on these.
 #pragma once
 
 #include "diagnosis/inference/state/model_state.hpp"
@@ -10,5 +10,12 @@ namespace muster::inference {
 // Factor by which the candidate's highest gain over its grid in draws of the model exceeds that in white noise: median
 // over median; at least 1, and 1 where the model draws nothing. `model`: a whitened one, at the field of the draws.
 double drawn_inflation(const ModelState& state, const WhitenedModel& model, const Candidate& candidate);
+
+// True unless the rows, fitted by `design`, are farther from the correlation that the model states than its own draws
+// are: by the likelihood ratio of the fitted family, or else the exponential one, to the stated one, beyond the range
+// of its values in draws by as much as that range (a parametric bootstrap: Davison and Hinkley, Bootstrap Methods and
+// their Application, 1997, 4.4). Of other data the inflation in draws says nothing, and would hide what is there. False
+// where the model states no correlation, or draws nothing.
+bool resembles_draws(const ModelState& state, const Eigen::MatrixXd& design);
 
 }  // namespace muster::inference

@@ -109,14 +109,6 @@ double sure_log_p(const ModelState& state, const ScoredCandidate& lead, const no
   return state.log_p(c, gain, lead.columns.cols(), true);
 }
 
-// Of the model's draws, where nothing blurs the field. Scatter of single readings hides how far a drawn field is from
-// any covariance; what is left of the inflation then is that of another family than the data's, and would hide walls.
-double inflation_of_draws(const ModelState& state, const WhitenedModel& model, const Candidate& c) {
-  constexpr double negligible = 0.05;  // share of the field's variance
-  const noise::Covariance& noise = state.fit.covariance;
-  return noise.reading_variance() < negligible * noise.field_variance() ? drawn_inflation(state, model, c) : 1;
-}
-
 // Tests a lead for significance over the uncertain covariance, for support by one group alone, and for clipping.
 Trial tried(const ModelState& state, const ScoredCandidate& lead, const noise::Fit& fit,
             const Eigen::MatrixXd& design) {
@@ -133,11 +125,14 @@ Trial tried(const ModelState& state, const ScoredCandidate& lead, const noise::F
   if (log_p <= state.threshold() && trial.log_p > thresholds::log_p_beyond_approximation)
     log_p = std::max(log_p, sure_log_p(state, lead, fit, model));
   log_p += skew;
-  if (log_p <= state.threshold()) {
-    const WhitenedModel with = state.whitened_model(noise::hstack(design, lead.columns), fit.covariance);
-    trial.inflation = std::max(bulk_inflation(state, with, c, lead.columns), inflation_of_draws(state, model, c));
+  const auto inflate = [&](double by) {
+    trial.inflation = std::max(trial.inflation, by);
     log_p = std::max(log_p, state.log_p(c, trial.gain / trial.inflation, lead.columns.cols(), true));
-  }
+  };
+  const Eigen::MatrixXd both = noise::hstack(design, lead.columns);
+  if (log_p <= state.threshold())
+    inflate(bulk_inflation(state, state.whitened_model(both, fit.covariance), c, lead.columns));
+  if (log_p <= state.threshold() && resembles_draws(state, both)) inflate(drawn_inflation(state, model, c));
   if (log_p <= state.threshold() && noise_decides) {
     const double decided = state.threshold() - skew;
     log_p = std::max(log_p, skew + marginal_log_p_elsewhere(state, fit, design, lead.columns, tests, decided));
@@ -307,6 +302,9 @@ void forward_selection(ModelState& state, std::vector<Trial>& trials) {
   const auto may_enter = [&](const Candidate& c) { return usable(state, blocked, c); };
   std::optional<ScoredModel> scored;  // none where the model has changed
   for (int round = 0; round < 40; ++round) {
+    if (state.options().watch.stop()) return;
+    state.options().watch.at("searching the residual for structure, " + std::to_string(state.terms.size()) +
+                             " found so far");
     if (!scored) scored = scored_model(state);
     const auto& [model, all] = *scored;
     if (static_cast<int>(state.terms.size()) >= state.options().most_terms) return;

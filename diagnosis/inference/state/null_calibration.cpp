@@ -9,7 +9,7 @@
 namespace muster::inference {
 namespace {
 
-constexpr float least_left = 1e-3f;  // squared length left of a column, relative to its candidate's longest
+constexpr float least_left = 1e-3f;  // share of a squared length, that a column must have left
 
 // Inverse of the lower Cholesky factor, zero for a column of which less than `least` is left by those before it.
 void turn(const Eigen::MatrixXf& products, float least, Eigen::Ref<Eigen::MatrixXf> inverse) {
@@ -48,7 +48,7 @@ float median(Eigen::VectorXf values) {
   return *middle;
 }
 
-OrthonormalAtoms::OrthonormalAtoms(noise::Sheet columns, Index width)
+OrthonormalAtoms::OrthonormalAtoms(noise::Sheet columns, Index width, const Eigen::VectorXf& before)
     : columns_(std::move(columns)), width_(width), turns_(width, columns_.cols()) {
   const Index count = columns_.cols();
   // Products of each column with itself and its neighbours in the atom, in one pass over the rows.
@@ -60,14 +60,15 @@ OrthonormalAtoms::OrthonormalAtoms(noise::Sheet columns, Index width)
       apart[static_cast<std::size_t>(by)] += row.head(count - by) * row.tail(count - by);
   }
   if (count == 0) return;
-  const float least = least_left * std::max(apart[0].maxCoeff(), 1e-9f);
+  const float longest = std::max(apart[0].maxCoeff(), 1e-9f);
   Eigen::MatrixXf products(width, width);
   for (Index first = 0; first < count; first += width) {
     for (Index j = 0; j < width; ++j) {
       for (Index k = 0; k <= j; ++k)
         products(j, k) = products(k, j) = apart[static_cast<std::size_t>(j - k)][first + k];
     }
-    turn(products, least, turns_.middleCols(first, width));
+    const float of = before.size() ? std::min(longest, before.segment(first, width).maxCoeff()) : longest;
+    turn(products, least_left * of, turns_.middleCols(first, width));
   }
 }
 

@@ -11,8 +11,9 @@ namespace muster::inference {
 // products with orthonormal ones. Zero for columns without a remainder.
 class OrthonormalAtoms {
  public:
-  // `width` columns an atom.
-  OrthonormalAtoms(noise::Sheet columns, Index width);
+  // `width` columns an atom. A column has no remainder if a thousandth of the longest one's squared length is left of
+  // it; or else a thousandth of its own atom's, `before` the model was taken out. Empty: of the longest alone.
+  OrthonormalAtoms(noise::Sheet columns, Index width, const Eigen::VectorXf& before = {});
 
   // Products of orthonormal columns (rows of the result) with every column of x.
   Eigen::MatrixXf along(const Eigen::Ref<const noise::Sheet>& x) const;

@@ -5,6 +5,7 @@
 #include "diagnosis/inference/noise/fit.hpp"
 #include "diagnosis/inference/state/candidate.hpp"
 #include "diagnosis/inference/state/layout.hpp"
+#include "diagnosis/inference/state/watch.hpp"
 #include "diagnosis/inference/thresholds.hpp"
 
 namespace muster::inference {
@@ -23,7 +24,7 @@ struct Problem {
   std::function<std::vector<Candidate>(const Eigen::VectorXd& base_coefficients)> depending;
 };
 
-// Constants of the method; thresholds.hpp has their meanings.
+// Constants of the method (thresholds.hpp explains them), and the caller's hooks.
 struct Options {
   double first_alpha = thresholds::first_alpha;
   double further_alpha = thresholds::further_alpha;
@@ -35,6 +36,7 @@ struct Options {
   int most_terms = thresholds::most_terms;
   uint64_t seed = 1;
   noise::Prior prior;
+  Watch watch{};
 };
 
 }  // namespace muster::inference

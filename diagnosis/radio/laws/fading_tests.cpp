@@ -114,11 +114,10 @@ class Tests {
   // True if two readings carry most of the gain: one that passes a wall's end on the other side is no law. Outliers
   // that can just be told (lambda 60) are some ten readings.
   bool rests_on_few(const Fitted& fitted) {
-    constexpr Eigen::Index few = 2;
-    constexpr double most = 0.75;
+    const Eigen::Index few = thresholds::law_few;
     Eigen::VectorXd won = judge_.each(fitted.law, fitted.peak) - judge_.each(null_law_, null_);
     std::nth_element(won.data(), won.data() + few, won.data() + won.size(), std::greater<>());
-    return won.head(few).sum() > most * won.sum();
+    return won.head(few).sum() > thresholds::law_few_share * won.sum();
   }
 
   // The strength with its 95 % interval by profile likelihood, wider by the gain's factor.

@@ -30,22 +30,23 @@ Plan plan_of(const LinkModel& model) {
   return plan;
 }
 
-// Throws Error if at least 10 % of ends lie outside the walls' bounding box, but at most 1 % with x and y exchanged.
+// Throws Error if at least 10 % of ends lie outside the walls' bounding box, but at most 1 % with x and y exchanged. Of
+// ends as the data have them: a cause of the world may turn them out of the plan.
 void check_plan(const LinkModel& model, const Dataset& data) {
   const Plan plan = plan_of(model);
   if (plan.x1 <= plan.x0 || plan.y1 <= plan.y0) return;
   const double margin = 1;  // m
   double outside = 0, turned_outside = 0;
   std::size_t first = data.rows();
-  for (std::size_t row = 0; row < model.rows(); ++row) {
-    for (const End& end : model.ends()[row]) {
-      const bool out = !plan.holds(end.x, end.y, margin);
+  for (std::size_t row = 0; row < data.rows(); ++row) {
+    for (const auto& [x, y, z] : {data.tx_at[row], data.rx_at[row]}) {
+      const bool out = !plan.holds(x, y, margin);
       outside += out;
-      turned_outside += !plan.holds(end.y, end.x, margin);
+      turned_outside += !plan.holds(y, x, margin);
       if (out) first = std::min(first, row);
     }
   }
-  const double ends = 2 * static_cast<double>(model.rows());
+  const double ends = 2 * static_cast<double>(data.rows());
   if (outside < 0.1 * ends || turned_outside > 0.01 * ends) return;
   throw invalid(data.table->place(first, 0),
                 "row " + std::to_string(first + 1) +

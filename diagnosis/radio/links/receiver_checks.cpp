@@ -52,17 +52,37 @@ double log_binomial_tail(std::size_t k, std::size_t n, double chance) {
   return std::min(most + std::log(sum), 0.0);
 }
 
-// True if the readings at a level are of one pair of radios, and the data have many pairs: the level of a link that
-// hardly changes, and no end of the receiver's range.
+// Greatest extent of these places along an axis, m.
+double extent(const std::vector<Point>& places, const std::vector<std::size_t>& rows) {
+  double most = 0;
+  for (const std::size_t axis : {0u, 1u}) {
+    const auto [low, high] = std::minmax_element(rows.begin(), rows.end(),
+                                                 [&](auto a, auto b) { return places[a][axis] < places[b][axis]; });
+    most = std::max(most, places[*high][axis] - places[*low][axis]);
+  }
+  return most;
+}
+
+// True if the readings at a level are of one pair of radios, and either the data have many pairs or these readings lie
+// close together: the level of a link that hardly changes, and no end of the receiver's range.
 bool of_one_link(const Dataset& data, double level) {
   std::set<std::pair<std::string, std::string>> all, there;
+  std::vector<std::size_t> rows;
   for (std::size_t row = 0; row < data.rows(); ++row) {
     const std::pair<std::string, std::string> link =
         std::minmax(data.tx.levels[data.tx.level[row]], data.rx.levels[data.rx.level[row]]);
     all.insert(link);
-    if (data.rssi[row] == level) there.insert(link);
+    if (data.rssi[row] != level) continue;
+    there.insert(link);
+    rows.push_back(row);
   }
-  return there.size() == 1 && all.size() >= thresholds::many_links;
+  if (there.size() != 1) return false;
+  if (all.size() >= thresholds::many_links) return true;
+  if (!data.has_places()) return false;
+  std::vector<Point> one = data.tx_at, other = data.rx_at;  // in one order for both directions
+  for (const std::size_t row : rows)
+    if (data.tx.levels[data.tx.level[row]] > data.rx.levels[data.rx.level[row]]) std::swap(one[row], other[row]);
+  return std::max(extent(one, rows), extent(other, rows)) < thresholds::one_place;
 }
 
 // Binomial test for a pile at the last code: a density that falls towards its end has no more readings there than at
