@@ -1,5 +1,6 @@
-// Every cause hidden in worlds of its own at lambda 60, and found. The seeds are fixed, so what is found of a cause is
-// a figure of the tool, and the table holds it.
+// Every cause hidden in a world of its own at lambda 60, and found; in two or three where it is not found in each. The
+// seeds are fixed, so what is found of a cause is a figure of the tool, and the table holds it. Shares over many worlds
+// are in docs/exam_table.md.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,37 +22,37 @@ struct Hidden {
 
 // Measured at the commit that last changed this table.
 constexpr Hidden table[] = {
-    {"tx_offset", 901, 3, 3, 3},
-    {"rx_offset", 902, 2, 2, 2},
-    {"antenna_tx", 903, 2, 2, 2},
-    {"antenna_rx", 904, 2, 2, 2},
-    {"body_shadow", 905, 2, 2, 2},
-    {"tx_misplaced", 906, 2, 2, 2},
-    {"label_swap", 907, 2, 2, 2},
+    {"tx_offset", 901, 1, 1, 1},
+    {"rx_offset", 902, 1, 1, 1},
+    {"antenna_tx", 903, 1, 1, 1},
+    {"antenna_rx", 904, 1, 1, 1},
+    {"body_shadow", 905, 1, 1, 1},
+    {"tx_misplaced", 906, 1, 1, 1},
+    {"label_swap", 907, 1, 1, 1},
     {"asymmetry", 908, 2, 1, 2},
-    {"wall_material", 909, 2, 2, 2},
-    {"wall_absent", 910, 2, 2, 2},
+    {"wall_material", 909, 1, 1, 1},
+    {"wall_absent", 910, 1, 1, 1},
     {"unmapped_wall", 911, 3, 1, 1},
-    {"obstacle", 912, 2, 2, 2},
-    {"room_clutter", 913, 2, 2, 2},
+    {"obstacle", 912, 1, 1, 1},
+    {"room_clutter", 913, 1, 1, 1},
     {"multiwall_saturation", 914, 2, 1, 1},
-    {"incidence", 915, 2, 2, 2},
-    {"height", 916, 2, 2, 2},
-    {"dual_slope", 917, 2, 2, 2},
-    {"two_ray", 918, 2, 2, 2},
-    {"corridor", 919, 2, 2, 2},
-    {"drift", 920, 2, 2, 2},
+    {"incidence", 915, 1, 1, 1},
+    {"height", 916, 1, 1, 1},
+    {"dual_slope", 917, 1, 1, 1},
+    {"two_ray", 918, 1, 1, 1},
+    {"corridor", 919, 1, 1, 1},
+    {"drift", 920, 1, 1, 1},
     {"step", 921, 2, 1, 1},
-    {"periodic", 922, 2, 2, 2},
-    {"people", 923, 2, 2, 2},
-    {"power_steps", 924, 2, 2, 2},
-    {"noise_floor_rssi", 925, 2, 2, 2},
-    {"rssi_saturation", 926, 2, 2, 2},
-    {"rssi_floor", 927, 2, 2, 2},
-    {"fading_law", 928, 2, 2, 2},
-    {"outliers", 929, 2, 2, 2},
-    {"channel_mixture", 930, 2, 2, 2},
-    {"shadowing_correlation", 931, 2, 2, 2},
+    {"periodic", 922, 1, 1, 1},
+    {"people", 923, 1, 1, 1},
+    {"power_steps", 924, 1, 1, 1},
+    {"noise_floor_rssi", 925, 1, 1, 1},
+    {"rssi_saturation", 926, 1, 1, 1},
+    {"rssi_floor", 927, 1, 1, 1},
+    {"fading_law", 928, 1, 1, 1},
+    {"outliers", 929, 2, 1, 1},
+    {"channel_mixture", 930, 1, 1, 1},
+    {"shadowing_correlation", 931, 1, 1, 1},
 };
 
 void PrintTo(const Hidden& hidden, std::ostream* out) { *out << hidden.effect; }
@@ -66,9 +67,8 @@ TEST_P(HiddenEffect, IsFoundAtLambda60) {
   const Share &by_name = grades.shares.at("one / found / all"),
               &by_class = grades.shares.at("one / found, by class / all");
   std::printf("%s: %d of %d found, %d by class\n", effect, by_name.hits, by_name.of, by_class.hits);
-  // A change of the search may turn one world; a cause that is no longer found at all turns the test.
-  EXPECT_GE(by_name.hits, found - 1) << as_text(grades);
-  EXPECT_GE(by_class.hits, std::max(of_class - 1, 1)) << as_text(grades);
+  EXPECT_GE(by_name.hits, found) << as_text(grades);
+  EXPECT_GE(by_class.hits, of_class) << as_text(grades);
 }
 
 INSTANTIATE_TEST_SUITE_P(Effects, HiddenEffect, testing::ValuesIn(table),

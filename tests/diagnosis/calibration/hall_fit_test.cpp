@@ -179,6 +179,23 @@ TEST(Hall, ExchangedAxesAreNamed) {
             "east and y to the north, as in the world");
 }
 
+TEST(Hall, ACauseOfTheWorldMayTurnPlacesOutOfThePlan) {
+  const Scratch scratch;
+  const auto world =
+      scratch.write("world.xml",
+                    "<world name='long' dt='0.1' until='1'><material name='drywall' loss='2'/>"
+                    "<wall from='0 0' to='20 0' material='drywall'/><wall from='0 4' to='20 4' material='drywall'/>"
+                    "<station name='base' at='1 1 1'/><radio.multiwall/>"
+                    "<effect.plan_turned name='turned' of='robots' how='transposed' x='0' y='0'/></world>");
+  std::string text = "tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],rssi[dBm]\n";
+  for (int i = 0; i < 20; ++i) text += "base,r,1,1," + std::to_string(i) + ",2,-" + std::to_string(50 + i) + '\n';
+  const auto file = scratch.write("d.csv", text);
+  Dataset data = read_dataset(file);
+  const LinkModel model(world, file, plugins);
+  EXPECT_NEAR(model.ends()[19][1].y, 19, 1e-6);  // where it was, as the world says
+  EXPECT_NO_THROW(check_places(model, data));
+}
+
 TEST(Hall, CellsAverageBothSidesAlike) {
   const CellOptions options;
   const auto maps = cell_maps(plain().model, plain().result, plain().result.mean, options);

@@ -72,6 +72,20 @@ TEST(OrthonormalAtoms, HaveTheProjectionsOfTheirAtoms) {
   }
 }
 
+// Beside an atom that weighs a million times as much, one of which all is left counts, and one of which the model has
+// left nothing but rounding does not.
+TEST(OrthonormalAtoms, CountBesideMuchHeavierOnes) {
+  noise::Sheet columns = normals(200, 3, 13);
+  columns.col(0) *= 1000;
+  columns.col(2) *= 1e-3f;
+  const Eigen::Vector3f before(columns.col(0).squaredNorm(), columns.col(1).squaredNorm(), 200);
+  const noise::Sheet x = columns;
+  const Eigen::MatrixXf along = OrthonormalAtoms(columns, 1, before).along(x);
+  EXPECT_GT(along(1, 1), 10);
+  EXPECT_EQ(along(2, 2), 0);
+  EXPECT_EQ(OrthonormalAtoms(columns, 1).along(x)(1, 1), 0);  // of places: too few readings tell of it
+}
+
 // Adding row by row equals taking the whole column.
 TEST(SparseColumns, GainEqualsThatOfTheDenseColumn) {
   const auto world = world_of(varied(5, 900));

@@ -90,5 +90,54 @@ TEST(DrawnInflation, IsOneWhereTheModelDrawsNothing) {
   EXPECT_EQ(drawn_inflation(state, state.whitened_model(state.base()), *state.entries()[0].candidate), 1);
 }
 
+// Smooth, and the same for all groups but for a share: unlike the field of the synthetic worlds.
+class Smooth : public noise::StatedCorrelation {
+ public:
+  void covariances(const noise::Sites& sites, double decorrelation, const std::vector<uint32_t>& a,
+                   const std::vector<uint32_t>& b, double* out) const override {
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      const auto one = static_cast<Index>(a[i]), other = static_cast<Index>(b[i]);
+      const double apart = (sites.place.col(one) - sites.place.col(other)).norm() / decorrelation;
+      out[i] = std::exp(-apart * apart) * (sites.group[a[i]] == sites.group[b[i]] ? 1 : 0.2);
+    }
+  }
+};
+
+// Readings of draws of the stated field, 4 dB over 1.8 m, and 0.5 dB a reading.
+MatrixXd of_the_stated_field(const Problem& problem, Index count, uint64_t key) {
+  const noise::Rows rows = problem.layout->rows();
+  const noise::Field field(problem.layout->sites(rows));
+  const noise::Covariance stated{noise::Family::stated, {2 * std::log(4), std::log(1.8), 2 * std::log(0.5), 0}};
+  const MatrixXd covariance = noise::covariance_of_sums(field, stated, MatrixXd::Identity(field.size(), field.size()));
+  const Stream stream(key);
+  MatrixXd z(field.size(), count);
+  for (Index i = 0; i < z.rows(); ++i) {
+    for (Index k = 0; k < count; ++k) z(i, k) = stream.normal(static_cast<uint64_t>(i), static_cast<uint64_t>(k));
+  }
+  const MatrixXd drawn = covariance.llt().matrixL() * z;
+  MatrixXd readings(problem.measured.size(), count);
+  for (Index k = 0; k < count; ++k) readings.col(k) = rows.at_readings(drawn.col(k));
+  return readings;
+}
+
+TEST(ResemblesDraws, DataOfTheStatedFieldDoAndThoseOfAnotherDoNot) {
+  int own = 0;
+  for (uint64_t seed = 1; seed <= 4; ++seed) {
+    auto recipe = varied(seed, 1200);
+    recipe.fading = 0.5;
+    const auto world = world_of(recipe);
+    Problem problem = problem_of(world, VectorXd::Zero(world.rssi.size()), causes_of(world));
+    problem.layout = std::make_shared<const diagnosis::LinkLayout>(
+        world.readings, diagnosis::LinkRowLimits{}, std::vector<int>{}, true, std::make_shared<Smooth>());
+    problem.drawn = [&](const noise::StatedField&, Index count) { return of_the_stated_field(problem, count, 40); };
+    const ModelState of_another(problem, {});
+    EXPECT_FALSE(resembles_draws(of_another, of_another.base())) << seed;
+    problem.measured = of_the_stated_field(problem, 1, 50 + seed).col(0);
+    const ModelState of_its_own(problem, {});
+    own += resembles_draws(of_its_own, of_its_own.base());
+  }
+  EXPECT_GE(own, 3);
+}
+
 }  // namespace
 }  // namespace muster::inference

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "diagnosis/inference/noise/exact_covariance.hpp"
 #include "diagnosis/inference/noise/fit.hpp"
@@ -85,6 +87,32 @@ TEST(StatedCorrelation, GivesTheDenseLikelihood) {
   }
 }
 
+// Within 1e-3 of one that falls with the places' distance, as sums and tables come.
+class Inexact : public StatedCorrelation {
+ public:
+  void covariances(const Sites& sites, double decorrelation, const std::vector<uint32_t>& a,
+                   const std::vector<uint32_t>& b, double* out) const override {
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      const auto one = static_cast<Index>(a[i]), other = static_cast<Index>(b[i]);
+      const double apart = (sites.place.col(one) - sites.place.col(other)).norm() / decorrelation;
+      out[i] = std::exp(-apart * apart) - (a[i] == b[i] ? 0 : 1e-3 * Stream(4).uniform(a[i] + b[i], a[i] * b[i]));
+    }
+  }
+};
+
+TEST(StatedCorrelation, MayBeWrongByMoreThanTheReadingsScatter) {
+  Sites sites = sites_of(200, 5);
+  sites.stated = std::make_shared<Inexact>();
+  const Covariance c{Family::stated, {std::log(80.0), std::log(6.0), std::log(0.05), 0}};
+  const Field field(sites, {20, 0, 1});
+  const Whitener whitener(field, c);
+  // What neighbours cannot predict, a reading's variance over the count and the floor of 1e-3, is a bound.
+  const double most = 1 / std::sqrt(0.05 / 3 + 1e-3);
+  for (const double own : whitener.stencil().own) EXPECT_LE(own, most * (1 + 1e-9));
+  EXPECT_TRUE(whitener(normals(200, 3)).allFinite());
+  EXPECT_TRUE(WhitenerSlopes(field, c).of_log_scale().allFinite());
+}
+
 TEST(StatedCorrelation, DerivativesAreThoseOfTheLikelihood) {
   const Field field(sites_of(120, 8));
   const Eigen::VectorXd y = 3 * normals(120, 1);
@@ -124,6 +152,26 @@ TEST(StatedCorrelation, IsChosenForItsOwnDrawsAndItsDistanceFound) {
   }
   EXPECT_NEAR(log_distance, 0.5, 0.2);
   EXPECT_NEAR(log_variance, std::log(9.0), 0.25);
+}
+
+// It may have to be integrated for, and a pair of rows stands in many neighbourhoods.
+TEST(StatedCorrelation, IsAskedForEachPairOnce) {
+  class Asked : public OfBothEnds {
+   public:
+    void covariances(const Sites& sites, double decorrelation, const std::vector<uint32_t>& a,
+                     const std::vector<uint32_t>& b, double* out) const override {
+      for (std::size_t i = 0; i < a.size(); ++i) ++times[std::minmax({a[i], b[i]})];
+      OfBothEnds::covariances(sites, decorrelation, a, b, out);
+    }
+    mutable std::map<std::pair<uint32_t, uint32_t>, int> times;
+  };
+  Sites sites = sites_of(200, 7);
+  const auto asked = std::make_shared<Asked>();
+  sites.stated = asked;
+  const Field field(sites);
+  field.stated(1);
+  EXPECT_GT(asked->times.size(), 1000u);
+  for (const auto& [pair, times] : asked->times) EXPECT_EQ(times, 1) << pair.first << ' ' << pair.second;
 }
 
 TEST(StatedCorrelation, IsNoFamilyWhereNoneIsStated) {

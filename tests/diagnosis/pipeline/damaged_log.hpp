@@ -18,6 +18,12 @@ namespace muster::diagnosis {
 
 enum class Fault { none = 1, swapped, shifted, mirrored, turned, names_late, places_late, misplaced };
 
+inline const char* word_of(Fault fault) {
+  static const char* words[] = {"",       "none",       "swapped",     "shifted",  "mirrored",
+                                "turned", "names late", "places late", "misplaced"};
+  return words[static_cast<int>(fault)];
+}
+
 struct DamagedLog {
   std::filesystem::path world, table;
   std::string truth;  // how a diagnosis should put it: id and label

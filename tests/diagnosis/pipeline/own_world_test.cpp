@@ -12,20 +12,6 @@ namespace muster::diagnosis {
 namespace {
 
 const Library::SearchPath plugins = {MUSTER_PLUGINS_DIR};
-constexpr unsigned first_case = 21, cases = 10;
-
-const char* word_of(Fault fault) {
-  static const char* words[] = {"",       "none",       "swapped",     "shifted",  "mirrored",
-                                "turned", "names late", "places late", "misplaced"};
-  return words[static_cast<int>(fault)];
-}
-
-struct Share {
-  Fault fault;
-  int least;  // of ten cases
-};
-
-void PrintTo(const Share& share, std::ostream* out) { *out << word_of(share.fault); }
 
 TEST(OwnWorld, CleanReadingsAreSilent) {
   const Scratch scratch;
@@ -48,7 +34,7 @@ TEST_P(OwnWorldLoop, IsNamedAndTheExtendedWorldIsSilent) {
   EXPECT_STREQ(found.verdict(), "extended");
   ASSERT_TRUE(found.causes[0].held_out);
   EXPECT_GT(found.causes[0].held_out->lower95, 0);
-  const Loop loop = closed_loop(found, log.world, log.table, out / "extended", plugins);
+  const Loop loop = closed_loop(found, log.world, log.table, out / "extended", plugins).value();
   EXPECT_LT(loop.mean_difference, 0.1);
   EXPECT_EQ(names_in_words(loop.rediagnosis), "silent");
 }
@@ -61,29 +47,6 @@ INSTANTIATE_TEST_SUITE_P(Faults, OwnWorldLoop,
                            std::replace(name.begin(), name.end(), ' ', '_');
                            return name;
                          });
-
-class OwnWorldShare : public testing::TestWithParam<Share> {};
-
-TEST_P(OwnWorldShare, OfTenRandomCases) {
-  int right = 0;
-  for (unsigned seed = first_case; seed < first_case + cases; ++seed) {
-    const Scratch scratch;
-    const DamagedLog log = damaged_log(scratch, GetParam().fault, seed);
-    const std::string told = names_in_words(named_causes(diagnose(log.world, log.table, plugins)));
-    right += told == log.truth;
-    if (told != log.truth)
-      std::printf("%s %u: %s instead of %s\n", word_of(GetParam().fault), seed, told.c_str(), log.truth.c_str());
-  }
-  RecordProperty("right", right);
-  std::printf("%s: %d of %d right\n", word_of(GetParam().fault), right, static_cast<int>(cases));
-  EXPECT_GE(right, GetParam().least);
-}
-
-INSTANTIATE_TEST_SUITE_P(Faults, OwnWorldShare,
-                         testing::Values(Share{Fault::none, 10}, Share{Fault::swapped, 9}, Share{Fault::shifted, 9},
-                                         Share{Fault::mirrored, 9}, Share{Fault::turned, 9},
-                                         Share{Fault::names_late, 9}, Share{Fault::places_late, 9},
-                                         Share{Fault::misplaced, 2}));
 
 }  // namespace
 }  // namespace muster::diagnosis

@@ -58,6 +58,24 @@ TEST(ReceiverChecks, APileOfOneLinkIsNoEnd) {
   EXPECT_FALSE(mesh(scratch, true));
 }
 
+// A robot that turns in the shadow of a wall, without fading: one level both ways, at places half a metre apart.
+TEST(ReceiverChecks, APileAtOnePlaceIsNoEnd) {
+  const auto turns_within = [](const Scratch& scratch, double extent) {
+    std::string text = "t[s],tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],rssi[dBm]\n";
+    const auto add = [&](int k, double x, int level) {
+      const std::string at = std::to_string(x) + ",4", station = "0,0", time = std::to_string(0.5 * k);
+      text += time + ",base,robot," + station + "," + at + "," + std::to_string(level) + "\n";
+      text += time + ",robot,base," + at + "," + station + "," + std::to_string(level) + "\n";
+    };
+    for (int k = 0; k < 90; ++k) add(k, 0.2 * k, -60 - k / 6);
+    for (int k = 90; k < 110; ++k) add(k, 20 + extent * (k % 2), -90);
+    return receiver_checks(read_dataset(scratch.write("data.csv", text))).bottom.has_value();
+  };
+  const Scratch scratch;
+  EXPECT_FALSE(turns_within(scratch, 0.5));
+  EXPECT_TRUE(turns_within(scratch, 3));
+}
+
 TEST(ReceiverChecks, NoClipForAFrequentLevel) {
   const Scratch scratch;
   EXPECT_FALSE(receiver_checks(readings(scratch, 10)).top);  // no more than its neighbours

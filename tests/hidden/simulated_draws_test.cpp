@@ -1,0 +1,20 @@
+// Four clean draws of the simulator that once were wrong, each by another fault: a stated field whose sums overflowed
+// (case 4), a pile at one place taken for a floor (5), and an offset of a radio under multipath, which only the world's
+// own draws tell from their scatter (7).
+#include <gtest/gtest.h>
+
+#include "tests/hidden/examined.hpp"
+
+namespace muster::exam {
+namespace {
+
+TEST(SimulatedDraws, ThatOnceWereWrongAreAdequate) {
+  const Grades g = examined("--seed 16615353383647026457 --first 4 --cases 4 --generator run --mix clean");
+  ASSERT_TRUE(g.missing.empty());
+  const Share& adequate = g.shares.at("clean / verdict adequate / all");
+  EXPECT_EQ(adequate.of, 4) << as_text(g);
+  EXPECT_EQ(adequate.hits, 4) << as_text(g);
+}
+
+}  // namespace
+}  // namespace muster::exam
