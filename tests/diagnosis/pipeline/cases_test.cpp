@@ -282,7 +282,7 @@ TEST_P(Wall, IsFoundAtItsEdges) {
       made_case(scratch, "--seed 503 --rows 2000 20000 --mix one --effects unmapped_wall --lambda 100", GetParam());
   const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
   expect_only("effect.unmapped_wall", found);
-  for (const CauseValue& value : found.causes[0].values) {
+  for (const CauseValue& value : found.causes.at(0).values) {
     if (value.unit == "m") {
       EXPECT_LT(value.upper95 - value.lower95, 10) << value.name;
     }
@@ -300,7 +300,7 @@ TEST(WallAmongNarrowTops, IsFoundToTheDecimetre) {
   expect_only("effect.unmapped_wall", found);
   const std::map<std::string, double> there{{"x0", -28.43}, {"y0", -15.44}, {"x1", -26.56}, {"y1", -12.72}};
   int ends = 0;
-  for (const CauseValue& value : found.causes[0].values) {
+  for (const CauseValue& value : found.causes.at(0).values) {
     const auto truth = there.find(value.name);
     if (truth == there.end()) continue;
     EXPECT_NEAR(value.value, truth->second, 0.1) << value.name;
