@@ -110,7 +110,15 @@ CauseSearch candidates_of(const DiagnosisSetup& at, const LinkSearchWorld& world
   return with_columns_near(with_sketches(std::move(found), at.sketched, at.rows), world);
 }
 
-// Errors of the readings in runs of the world itself. A reading that a run loses has none.
+// True if twins share their scatter in both or in neither: in the data, and in a run of the world with these errors.
+bool has_twins_like(const LinkReadings& data, const VectorXd& errors) {
+  LinkReadings run = data;
+  find_twins(run, errors);
+  return run.twin.empty() == data.twin.empty();
+}
+
+// Errors of the readings in runs of the world itself. A reading that a run loses has none. No runs, if one fade is of
+// both directions there and not in the data, or the other way round: their scatter tells nothing of that in the data.
 std::function<Eigen::MatrixXd(const noise::StatedField&, Index)> errors_in_draws(const DiagnosisSetup& at) {
   if (drawn_field(at.model).shadowing <= 0) return {};
   return [&at](const noise::StatedField& field, Index draws) {
@@ -119,6 +127,7 @@ std::function<Eigen::MatrixXd(const noise::StatedField&, Index)> errors_in_draws
       const WorldDraw draw = at.draws.draw(static_cast<uint64_t>(k), {}, field);
       const VectorXd error = (draw.drawn - draw.expected)(at.used.rows);
       errors.col(k) = error.array().isFinite().select(error, 0);
+      if (k == 0 && !has_twins_like(at.layout->readings(), error)) return Eigen::MatrixXd(errors.rows(), 0);
     }
     return errors;
   };
