@@ -47,7 +47,10 @@ std::array<double, 4> asked(int bird, int k) {
           hover + climb - roll - turn};
 }
 
-Place start(int bird) { return {200.0 * (bird % 10), 200.0 * (bird / 10), 1000}; }
+Place start(int bird) {
+  const int column = bird % 10, row = bird / 10;
+  return {200.0 * column, 200.0 * row, 1000};
+}
 
 struct Flown {
   double seconds = std::numeric_limits<double>::infinity();  // of CPU time, the best so far

@@ -63,7 +63,8 @@ template <class Place>
 double worst(const std::vector<Arc>& course, Place place) {
   double most = 0;
   for (std::size_t i = 0; i < course.size(); ++i) {
-    const auto truth = ideal(course[i]), end = place(i);
+    const auto truth = ideal(course[i]);
+    const auto end = place(i);
     most = std::max(most, std::hypot(end[0] - truth[0], end[1] - truth[1]));
   }
   return most;
@@ -110,7 +111,8 @@ bench::RawOde ode_of(const description::Robot& robot, const std::vector<Arc>& co
   for (const Arc& arc : course) starts.push_back({arc.x, arc.y, arc.heading});
   std::vector<scene::Slab> walls;  // that nobody reaches
   for (int i = 0; i < 8; ++i) {
-    const double x = bench::apart * (i % 3 + 0.5), y = bench::apart * (i / 3 + 0.5);
+    const int column = i % 3, row = i / 3;
+    const double x = bench::apart * (column + 0.5), y = bench::apart * (row + 0.5);
     walls.push_back({x, y, 0.5, i % 2 ? 1.0 : 0.0, i % 2 ? 0.0 : 1.0, 4, 0.2, 1});
   }
   return {robot, starts, walls, iterations};

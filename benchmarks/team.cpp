@@ -68,7 +68,7 @@ void mixed_team(benchmark::State& state) {
   std::array<double, clocks.size()> seconds{};
   double simulated = 0, ticks = 0;
   for (auto _ : state) {
-    const Standard known = standard();
+    const Standard& known = standard();
     Simulation run(read_world(MUSTER_SOURCE_DIR "/worlds/mixed_team", known), known,
                    {{MUSTER_PLUGINS_DIR}, workers, {}});
     run.step();

@@ -31,7 +31,7 @@ void Set::cut(std::size_t rows) {
   like.resize(names.size());
 }
 
-Table::Table(std::string name, Set& set, Columns columns, std::string initial)
+Table::Table(std::string name, Set& set, Columns columns, const std::string& initial)
     : name_(std::move(name)), set_(&set), columns_(std::move(columns)), initial_(columns_.size(), 0.0) {
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     if (columns_[c].nullable) initial_[c] = null();

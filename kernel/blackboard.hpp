@@ -55,7 +55,7 @@ struct Cells {
 // A table: its published cells and those being written. A failed tick takes back what it published.
 class Table {
  public:
-  Table(std::string name, Set& set, Columns columns, std::string initial);
+  Table(std::string name, Set& set, Columns columns, const std::string& initial);
   Table(const Table&) = delete;
   Table& operator=(const Table&) = delete;
 

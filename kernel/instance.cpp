@@ -45,7 +45,7 @@ Instance::Instance(InstanceDeclaration declaration, std::shared_ptr<Library> lib
   if (!self_ || !error_.empty()) {
     const Error error = failure("create", nullptr, said());
     if (self_) plugin_->destroy(self_);
-    throw error;
+    throw Error(error);
   }
   in_.resize(claims_.size());
   out_.resize(claims_.size());
