@@ -39,4 +39,27 @@ if(TARGET network_ns3)
 The plugin network.ns3.")
 endif()
 
+# What every package of Debian has: its copyright, and a change log of the packaging, which leads to that of the project.
+file(STRINGS ${PROJECT_SOURCE_DIR}/CHANGELOG.md released REGEX "^## ${PROJECT_VERSION} \\([0-9-]+\\)$")
+string(REGEX REPLACE ".*\\((.*)\\)" "\\1" released "${released}")
+execute_process(COMMAND date -u -R -d "${released}" OUTPUT_VARIABLE released OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+set(components muster dev)
+if(TARGET network_ns3)
+  list(APPEND components ns3)
+endif()
+foreach(component IN LISTS components)
+  string(TOUPPER ${component} capital)
+  set(package ${CPACK_DEBIAN_${capital}_PACKAGE_NAME})
+  set(log ${CMAKE_CURRENT_BINARY_DIR}/${package}/changelog.Debian)
+  file(CONFIGURE OUTPUT ${log} @ONLY CONTENT "@package@ (@release@) unstable; urgency=medium
+
+  * Release @PROJECT_VERSION@: /usr/share/doc/muster/CHANGELOG.md lists the changes.
+
+ -- @CPACK_PACKAGE_CONTACT@  @released@
+")
+  execute_process(COMMAND gzip -9nkf ${log} COMMAND_ERROR_IS_FATAL ANY)
+  # For packages alone: any other prefix has LICENSE.
+  install(FILES ${log}.gz ${CMAKE_CURRENT_SOURCE_DIR}/copyright DESTINATION share/doc/${package} COMPONENT ${component} EXCLUDE_FROM_ALL)
+endforeach()
+
 include(CPack)
