@@ -139,7 +139,8 @@ DeclaredVerb declared_by_help(const std::string& name, const std::string& progra
   DeclaredOption sub{{"verb"}, "TEXT", "", {}, true, true};
   std::istringstream words(help);
   std::string before;
-  for (std::string word; words >> word; before = word) {
+  for (std::string next; words >> next; before = next) {
+    std::string word = next;
     std::erase_if(word, [](char c) { return c == '[' || c == ']'; });
     const auto add = [](std::vector<std::string>& list, const std::string& one) {
       if (std::find(list.begin(), list.end(), one) == list.end()) list.push_back(one);
