@@ -15,7 +15,6 @@ using testing::Not;
 
 const fs::path templates = fs::path(MUSTER_SOURCE_DIR) / "templates";
 
-
 std::size_t files_in(const fs::path& folder) {
   return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
 }
