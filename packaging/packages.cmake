@@ -2,7 +2,8 @@
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME muster)
 set(CPACK_PACKAGE_VENDOR "muster")
-set(CPACK_PACKAGE_CONTACT "The authors of muster <muster@localhost>")
+set(MUSTER_MAINTAINER "The authors of muster <muster@localhost>" CACHE STRING "maintainer of the packages, with an address that can be reached")
+set(CPACK_PACKAGE_CONTACT "${MUSTER_MAINTAINER}")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_ALL muster dev)
@@ -17,9 +18,9 @@ set(release ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})
 set(CPACK_DEBIAN_MUSTER_PACKAGE_NAME muster)
 set(CPACK_DEBIAN_MUSTER_PACKAGE_SHLIBDEPS ON)
 set(CPACK_COMPONENT_MUSTER_DESCRIPTION "simulator of robot teams that talk by radio
-Robots move, sense and talk by radio in buildings whose walls shape the channel;
-every part is a plugin. Measurements calibrate a world, and a diagnosis names
-what the world gets wrong.")
+Robots move, sense and talk by radio in buildings whose walls shape the
+channel; every part is a plugin. Measurements calibrate a world, and a
+diagnosis names what the world gets wrong.")
 
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME muster-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
@@ -27,8 +28,8 @@ set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "muster (= ${release}), cmake (>= 3.25), g+
 # Of those who link the kernel alone.
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "libfmt-dev, libtbb-dev, libtinyxml2-dev")
 set(CPACK_COMPONENT_DEV_DESCRIPTION "files for plugins of muster, and for programs that embed its kernel
-Headers of the plugin contract, functions for CMake, and the kernel as a static
-library.")
+Headers of the plugin contract, functions for CMake, and the kernel as a
+static library.")
 
 if(TARGET network_ns3)
   list(APPEND CPACK_COMPONENTS_ALL ns3)
