@@ -9,10 +9,12 @@
 namespace muster::cli {
 namespace {
 
-// A line that roff prints as it is.
-std::string roff(const std::string& line) {
-  std::string result = line.starts_with('.') || line.starts_with('\'') ? "\\&" : "";
-  for (const char c : line) {
+// Text that roff prints as it is: . and ' command at the beginning of a line, a bare - is no hyphen of an option.
+std::string roff(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    const bool begins_line = result.empty() || result.back() == '\n';
+    if (begins_line && (c == '.' || c == '\'')) result += "\\&";
     if (c == '\\')
       result += "\\e";
     else if (c == '-')

@@ -14,7 +14,4 @@ struct Installation {
 // Found by the place of the running program alone, so that a whole prefix can be moved.
 Installation installation();
 
-// The same for a program at that place.
-Installation installation_of(const std::filesystem::path& program);
-
 }  // namespace muster::cli
