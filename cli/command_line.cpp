@@ -3,12 +3,58 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "text/error.hpp"
+#include "text/names.hpp"
 
 namespace muster::cli {
 
 using Option = CommandLine::Option;
+
+namespace {
+
+DeclaredVerb* declare_to = nullptr;  // while declared() runs
+
+// Refuses with the nearest valid value.
+CLI::Validator one_of_these(const std::vector<std::string>& values) {
+  const auto check = [values](const std::string& given) {
+    const bool is_there = std::find(values.begin(), values.end(), given) != values.end();
+    return is_there ? std::string() : "there is no " + quote(given) + "; " + suggest(given, values);
+  };
+  return CLI::Validator(check, "{" + CLI::detail::join(values, ",") + "}");
+}
+
+// Of "TEXT:{a,b}".
+std::vector<std::string> choices_of(const std::string& type) {
+  const auto open = type.find(":{");
+  if (open == type.npos || type.back() != '}') return {};
+  return CLI::detail::split(type.substr(open + 2, type.size() - open - 3), ',');
+}
+
+DeclaredOption data_of(const CLI::Option& option) {
+  DeclaredOption result;
+  result.is_alone = option.get_positional();
+  for (const auto& name : option.get_snames()) result.names.push_back("-" + name);
+  for (const auto& name : option.get_lnames()) result.names.push_back("--" + name);
+  if (result.names.empty()) result.names.push_back(option.get_name(true));
+  if (option.get_items_expected_max() > 0) result.value = option.get_type_name();
+  result.help = option.get_description();
+  result.choices = choices_of(option.get_type_name());
+  result.is_required = option.get_required();
+  return result;
+}
+
+// `[OPTIONS] world`
+std::string usage_of(const std::vector<DeclaredOption>& options) {
+  std::string result = "[OPTIONS]";
+  for (const auto& option : options) {
+    if (option.is_alone) result += option.is_required ? " " + option.names[0] : " [" + option.names[0] + "]";
+  }
+  return result;
+}
+
+}  // namespace
 
 CommandLine::CommandLine(const std::string& verb, const std::string& help)
     : app_(std::make_unique<CLI::App>(help, verb)) {}
@@ -18,7 +64,7 @@ Option& Option::required() { return option_->required(), *this; }
 Option& Option::shows_default() { return option_->capture_default_str(), *this; }
 Option& Option::within(int lowest, int highest) { return option_->check(CLI::Range(lowest, highest)), *this; }
 Option& Option::within(double lowest, double highest) { return option_->check(CLI::Range(lowest, highest)), *this; }
-Option& Option::one_of(const std::vector<std::string>& values) { return option_->check(CLI::IsMember(values)), *this; }
+Option& Option::one_of(const std::vector<std::string>& values) { return option_->check(one_of_these(values)), *this; }
 Option& Option::takes(int words) { return option_->expected(words), *this; }
 Option& Option::one_word_each() { return option_->allow_extra_args(false), *this; }
 Option& Option::excludes(const std::string& other) { return option_->excludes(other), *this; }
@@ -49,6 +95,13 @@ Option CommandLine::flag(const std::string& name, bool& variable, const std::str
 }
 
 void CommandLine::parse(const Arguments& arguments) {
+  if (declare_to) {
+    declare_to->name = app_->get_name();
+    declare_to->help = app_->get_description();
+    for (const CLI::Option* option : app_->get_options()) declare_to->options.push_back(data_of(*option));
+    declare_to->usage = usage_of(declare_to->options);
+    throw Helped{};
+  }
   try {
     Arguments reversed(arguments.rbegin(), arguments.rend());  // as CLI11 wants them
     app_->parse(reversed);
@@ -59,6 +112,17 @@ void CommandLine::parse(const Arguments& arguments) {
     throw Error(Exit::invalid_input,
                 fmt::format("muster {}: {}; see muster {} --help", app_->get_name(), e.what(), app_->get_name()));
   }
+}
+
+DeclaredVerb declared(int (*verb)(const Arguments&)) {
+  DeclaredVerb result;
+  declare_to = &result;
+  try {
+    verb({});
+  } catch (const Helped&) {
+  }
+  declare_to = nullptr;
+  return result;
 }
 
 }  // namespace muster::cli

@@ -57,4 +57,21 @@ class CommandLine {
 
 struct Helped {};
 
+// What a verb declares, as data: for the manual page, and for what a shell completes.
+struct DeclaredOption {
+  std::vector<std::string> names;  // "-o", "--out"; a word such as "world" for one that stands alone
+  std::string value;               // "TEXT", "INT:INT in [1 - 256]"; empty for a flag
+  std::string help;
+  std::vector<std::string> choices;  // empty: any
+  bool is_alone = false, is_required = false;
+};
+
+struct DeclaredVerb {
+  std::string name, summary, help, usage;
+  std::vector<DeclaredOption> options;
+};
+
+// Runs a verb up to its parse(), which then declares instead.
+DeclaredVerb declared(int (*verb)(const Arguments&));
+
 }  // namespace muster::cli

@@ -4,6 +4,7 @@
 #include <csignal>
 #include <cstdlib>
 
+#include "installation.hpp"
 #include "text/names.hpp"
 #include "verbs.hpp"
 
@@ -24,11 +25,9 @@ Library::SearchPath plugin_path(const std::vector<std::string>& given) {
       if (colon != 0) add(rest.substr(0, colon), "MUSTER_PLUGIN_PATH");
     }
   }
-  result.push_back(program_folder() / "plugins");
+  result.push_back(installation().parts / "plugins");
   return result;
 }
-
-std::filesystem::path program_folder() { return std::filesystem::read_symlink("/proc/self/exe").parent_path(); }
 
 Progress::Progress(std::string what) : what_(std::move(what)) {
   const char* terminal = std::getenv("TERM");

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <new>
 
+#include "declared_pages.hpp"
 #include "text/names.hpp"
 #include "verbs.hpp"
 
@@ -37,20 +38,44 @@ constexpr Verb verbs[] = {
     {"probe", run_probe, "a link's budget, line by line, and why nothing is received"},
     {"features", run_features, "distance, walls and angles of each measured reading"},
     {"import", run_import, "bring a foreign file into the format of measured data"},
+    {"new", run_new, "begin a plugin or a world of your own, in a folder outside the tree"},
 };
 
+constexpr const char* summary =
+    "simulates teams of robots that move, sense and talk by radio, and holds them against measurements";
+
 void print_usage(std::FILE* to) {
-  fmt::print(to,
-             "muster VERB ...: simulates teams of robots that move, sense and talk by radio, and holds them against "
-             "measurements\n\n");
+  fmt::print(to, "muster VERB ...: {}\n\n", summary);
   for (const auto& verb : verbs) fmt::print(to, "  {:<10} {}\n", verb.name, verb.summary);
-  fmt::print(to, "\nmuster VERB --help says more.  Example: muster run worlds/connectivity --json\n");
+  fmt::print(to,
+             "\nmuster VERB --help says more.  Example: muster run worlds/connectivity --json\n"
+             "muster --man prints all of it as a page for man, muster --completion bash what bash completes.\n");
+}
+
+std::vector<DeclaredVerb> declared_verbs() {
+  std::vector<DeclaredVerb> result;
+  for (const auto& verb : verbs) {
+    result.push_back(verb.run == run_exam ? declared_by_help(verb.name, "muster_exam", exam_help())
+                                          : declared(verb.run));
+    result.back().summary = verb.summary;
+  }
+  return result;
+}
+
+int print_completion(const Arguments& words) {
+  if (words.size() != 2 || words[1] != "bash") {
+    const std::string given = words.size() > 1 ? "there is no " + quote(words[1]) + "; " : "";
+    throw Error(Exit::invalid_input, "--completion: " + given + "expected one shell, bash");
+  }
+  return fmt::print("{}", bash_completion(declared_verbs())), 0;
 }
 
 int run(const Arguments& words) {
   if (words.empty()) return print_usage(stderr), static_cast<int>(Exit::invalid_input);
   if (words[0] == "--help" || words[0] == "-h" || words[0] == "help") return print_usage(stdout), 0;
   if (words[0] == "--version") return fmt::print("muster {}\n", MUSTER_VERSION), 0;
+  if (words[0] == "--man") return fmt::print("{}", manual_page(declared_verbs(), summary, MUSTER_VERSION)), 0;
+  if (words[0] == "--completion") return print_completion(words);
   std::vector<std::string> names;
   for (const auto& verb : verbs) {
     if (words[0] == verb.name) return verb.run({words.begin() + 1, words.end()});

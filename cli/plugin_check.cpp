@@ -12,6 +12,7 @@
 #include "diagnosis/causes/cause_candidates.hpp"
 #include "diagnosis/pipeline/cause_self_test.hpp"
 #include "diagnosis/pipeline/declared_law_check.hpp"
+#include "installation.hpp"
 #include "text/json.hpp"
 #include "text/temporary_folder.hpp"
 #include "verbs.hpp"
@@ -29,7 +30,7 @@ constexpr double largest_difference = 1e-6;  // dB
 
 // Worlds in which nothing is hidden, by the program that makes exams: their truth shares no code with any cause.
 std::vector<fs::path> clean_worlds(int count, uint64_t seed, const std::vector<int>& rows, const fs::path& folder) {
-  const std::string program = (fs::read_symlink("/proc/self/exe").parent_path() / "muster_exam").string();
+  const std::string program = (installation().parts / "muster_exam").string();
   std::vector<std::string> words{program,
                                  "make",
                                  "--mix",

@@ -1,6 +1,7 @@
 // muster report DIR -o run.html: a recorded run as one page that needs no network.
 #include <fmt/core.h>
 
+#include "installation.hpp"
 #include "text/json.hpp"
 #include "verbs.hpp"
 #include "viewer/page.hpp"
@@ -24,7 +25,7 @@ int run_report(const Arguments& arguments) {
   line.flag("--json", json, "print the outcome as JSON");
   line.parse(arguments);
   if (out.empty()) out = (std::filesystem::path(folder) / "run.html").string();
-  const viewer::WrittenPage page = viewer::write_page(folder, out, program_folder(), most);
+  const viewer::WrittenPage page = viewer::write_page(folder, out, installation().parts, most);
   if (json) {
     fmt::print("{}\n", Json{{"file", out}, {"bytes", page.bytes}, {"notes", page.notes}}.dump(2));
     return 0;

@@ -1,5 +1,6 @@
 #include "run_record.hpp"
 
+#include "installation.hpp"
 #include "verbs.hpp"
 #include "viewer/page.hpp"
 #include "viewer/record_folder.hpp"
@@ -57,13 +58,13 @@ std::filesystem::path RunRecord::write_page(std::string& why_not) const {
   if (tables_.empty()) return {};
   std::uintmax_t bytes = 0;
   for (const auto& table : tables_) bytes += std::filesystem::file_size(table);
-  why_not = viewer::why_no_page(program_folder());
+  why_not = viewer::why_no_page(installation().parts);
   if (bytes > most_bytes)
     why_not = "the tables have " + std::to_string(bytes / 1'000'000) + " MB; `muster report " + folder_.string() +
               "` makes a page of them";
   if (!why_not.empty()) return {};
   const auto page = folder_ / "run.html";
-  viewer::write_page(folder_, page, program_folder());
+  viewer::write_page(folder_, page, installation().parts);
   return page;
 }
 

@@ -23,6 +23,7 @@ int run_fit(const Arguments& arguments);
 int run_graph(const Arguments& arguments);
 int run_import(const Arguments& arguments);
 int run_map(const Arguments& arguments);
+int run_new(const Arguments& arguments);
 int run_plugin_check(const Arguments& arguments);
 int run_plugins(const Arguments& arguments);
 int run_probe(const Arguments& arguments);
@@ -30,13 +31,13 @@ int run_report(const Arguments& arguments);
 int run_run(const Arguments& arguments);
 int run_swap(const Arguments& arguments);
 
+// The help of muster_exam, which declares its options by itself. Throws Error where it cannot be started.
+std::string exam_help();
+
 // ---- What verbs share (common.cpp) ----
 
-// The folders in which plugins are looked for: --plugins, MUSTER_PLUGIN_PATH, and `plugins` beside the program.
+// The folders in which plugins are looked for: --plugins, MUSTER_PLUGIN_PATH, and the program's own.
 Library::SearchPath plugin_path(const std::vector<std::string>& given = {});
-
-// The folder of the program itself.
-std::filesystem::path program_folder();
 
 // A line of progress on standard error, on a terminal only; gone when it is destroyed.
 class Progress {

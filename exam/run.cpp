@@ -14,6 +14,8 @@
 #include <map>
 #include <stdexcept>
 
+#include "exam/simulated/simulator.hpp"
+
 extern char** environ;
 
 namespace muster::exam {
@@ -142,8 +144,7 @@ class Runner {
 }  // namespace
 
 std::string default_command() {
-  const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / "muster";
-  return quoted(program.string()) + " diagnose {world} --data {data} --json";
+  return quoted(simulated::simulator_program().string()) + " diagnose {world} --data {data} --json";
 }
 
 RunOutcome run_cases(const RunOrder& order) { return Runner(order).run(); }

@@ -41,7 +41,11 @@ Eigen::VectorXd last_column(const std::string& csv) {
 
 }  // namespace
 
-fs::path simulator_program() { return fs::read_symlink("/proc/self/exe").parent_path() / "muster"; }
+fs::path simulator_program() {
+  const fs::path folder = fs::read_symlink("/proc/self/exe").parent_path(), beside = folder / "muster";
+  if (fs::is_regular_file(beside)) return beside;
+  return folder.parent_path().parent_path() / "bin" / "muster";
+}
 
 Simulator::Simulator(fs::path program, const std::string& places, const std::string& walls)
     : program_(std::move(program)), folder_(fresh_folder()) {

@@ -29,7 +29,7 @@ class Simulator {
   std::filesystem::path program_, folder_;
 };
 
-// `muster` beside this program.
+// The program muster: beside this one in a build folder; where it is installed, bin/muster of lib/muster/ here.
 std::filesystem::path simulator_program();
 
 }  // namespace muster::exam::simulated
