@@ -110,24 +110,31 @@ dBodyID World::add_body(const description::Mass& mass, const Isometry3d& frame) 
   return made;
 }
 
+// Hinges a wheel to the body, with its motor; a wheel that follows another is held at its rate as by a chain.
+void World::add_wheel(Robot& robot, std::size_t w) const {
+  const Wheel& wheel = robot.model.wheels[w];
+  const bool follows = w >= 2;
+  const Vector3d anchor = wheel.frame.translation(), axis = wheel.frame.linear() * wheel.axis;
+  dBodyID body = add_body(wheel.mass, wheel.frame);
+  dJointID hinge = dJointCreateHinge(world_.get(), nullptr);
+  dJointAttach(hinge, body, robot.body);
+  dJointSetHingeAnchor(hinge, anchor.x(), anchor.y(), anchor.z());
+  dJointSetHingeAxis(hinge, axis.x(), axis.y(), axis.z());
+  // Separate from the hinge's own motor: see README.md.
+  dJointID motor = dJointCreateAMotor(world_.get(), nullptr);
+  dJointAttach(motor, body, follows ? robot.wheel[static_cast<std::size_t>(wheel.side)] : robot.body);
+  dJointSetAMotorNumAxes(motor, 1);
+  dJointSetAMotorAxis(motor, 0, 2, axis.x(), axis.y(), axis.z());
+  dJointSetAMotorParam(motor, dParamFMax, follows ? dInfinity : robot.model.drive.max_torque);
+  robot.wheel.push_back(body);
+  robot.hinge.push_back(hinge);
+  robot.motor.push_back(motor);
+}
+
 // Bodies are placed with the robot's frame at the world's; joints and shapes keep those relative places.
 void World::add(Robot& robot) {
   robot.body = add_body(robot.model.body, Isometry3d::Identity());
-  for (std::size_t w = 0; robot.model.has_wheels && w < 2; ++w) {
-    const Wheel& wheel = robot.model.wheel[w];
-    const Vector3d anchor = wheel.frame.translation(), axis = wheel.frame.linear() * wheel.axis;
-    robot.wheel[w] = add_body(wheel.mass, wheel.frame);
-    robot.hinge[w] = dJointCreateHinge(world_.get(), nullptr);
-    dJointAttach(robot.hinge[w], robot.wheel[w], robot.body);
-    dJointSetHingeAnchor(robot.hinge[w], anchor.x(), anchor.y(), anchor.z());
-    dJointSetHingeAxis(robot.hinge[w], axis.x(), axis.y(), axis.z());
-    // Separate from the hinge's own motor: see README.md.
-    robot.motor[w] = dJointCreateAMotor(world_.get(), nullptr);
-    dJointAttach(robot.motor[w], robot.wheel[w], robot.body);
-    dJointSetAMotorNumAxes(robot.motor[w], 1);
-    dJointSetAMotorAxis(robot.motor[w], 0, 2, axis.x(), axis.y(), axis.z());
-    dJointSetAMotorParam(robot.motor[w], dParamFMax, robot.model.drive.max_torque);
-  }
+  for (std::size_t w = 0; w < robot.model.wheels.size(); ++w) add_wheel(robot, w);
   std::vector<Isometry3d> limbs;
   for (std::size_t i = 0; i < robot.model.limbs.size(); ++i) {
     const LimbModel& limb = robot.model.limbs[i];
@@ -151,10 +158,10 @@ void World::add_shapes(const Robot& robot, const std::vector<Isometry3d>& limbs)
     dGeomSetOffsetWorldQuaternion(geom, turned);
   };
   const unsigned long others = settings_.obstacles ? part | wall : 0;
-  for (std::size_t w = 0; robot.model.has_wheels && w < 2; ++w) {
+  for (std::size_t w = 0; w < robot.wheel.size(); ++w) {
     dGeomID sphere = dCreateSphere(nullptr, robot.model.drive.wheel_radius);
     fix(add_geom(sphere, tyre, ground, robot.model.drive.friction, robot.model.restitution), robot.wheel[w],
-        robot.model.wheel[w].frame);
+        robot.model.wheels[w].frame);
   }
   const auto fix_part = [&](dGeomID geom, int limb, const Isometry3d& pose) {
     limb < 0 ? fix(geom, robot.body, pose) : fix(geom, robot.limb[limb], limbs[limb] * pose);
@@ -237,10 +244,12 @@ void World::place(const Robot& robot, const RobotState& s) {
         speed + turned * vector(hung.velocity.data()), w + turned * vector(hung.spin.data()));
   };
   const auto is_known = [](const HungBody& hung) { return hung.quaternion != std::array<double, 4>{}; };
-  for (std::size_t k = 0; robot.model.has_wheels && k < 2; ++k) {
-    put_hung(robot.wheel[k], is_known(s.hinged[k]) ? s.hinged[k]
-                                                   : as_hinged(robot.model.wheel[k], robot.model.body.centre, own_spin,
-                                                               s.angle[k], s.rate[k]));
+  for (std::size_t k = 0; k < robot.wheel.size(); ++k) {
+    const Wheel& wheel = robot.model.wheels[k];
+    const auto side = static_cast<std::size_t>(wheel.side);
+    put_hung(robot.wheel[k], k < 2 && is_known(s.hinged[k])
+                                 ? s.hinged[k]
+                                 : as_hinged(wheel, robot.model.body.centre, own_spin, s.angle[side], s.rate[side]));
   }
   if (robot.model.limbs.empty()) return;
   const std::vector<HungBody> wanted = as_hung(robot.model, s.limbs, own_spin);

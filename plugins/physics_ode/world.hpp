@@ -40,11 +40,11 @@ struct Command {
 };
 
 struct RobotState {
-  std::array<double, 7> pose;   // x y z [m], qw qx qy qz, body to world
-  std::array<double, 6> twist;  // v [m/s] of the body's origin, w [rad/s]; both in the world's frame
-  std::array<double, 2> angle;  // of the wheels, left and right [rad]
-  std::array<double, 2> rate;   // [rad/s]
-  std::array<HungBody, 2> hinged;
+  std::array<double, 7> pose;      // x y z [m], qw qx qy qz, body to world
+  std::array<double, 6> twist;     // v [m/s] of the body's origin, w [rad/s]; both in the world's frame
+  std::array<double, 2> angle;     // of the wheels, left and right [rad]
+  std::array<double, 2> rate;      // [rad/s]
+  std::array<HungBody, 2> hinged;  // of the first wheel of each side; the others are set by their hinges in each tick
   std::array<double, 4> rotors{};  // present rates [rad/s]
   Limbs limbs{};                   // present states
   std::array<HungBody, Limbs::most> hung{};
@@ -72,8 +72,8 @@ class World {
     std::string name;
     RobotModel model;
     dBodyID body = nullptr;
-    std::array<dBodyID, 2> wheel{};
-    std::array<dJointID, 2> hinge{}, motor{};
+    std::vector<dBodyID> wheel;
+    std::vector<dJointID> hinge, motor;  // the motor of a wheel that follows another is the chain to that
     std::array<dBodyID, Limbs::most> limb{};
   };
   struct Surface {
@@ -89,6 +89,7 @@ class World {
   };
 
   void add(Robot& robot);
+  void add_wheel(Robot& robot, std::size_t w) const;
   dBodyID add_body(const description::Mass& mass, const Eigen::Isometry3d& frame) const;
   void add_shapes(const Robot& robot, const std::vector<Eigen::Isometry3d>& limbs);
   dGeomID add_geom(dGeomID geom, unsigned long category, unsigned long meets, double friction, double restitution);
