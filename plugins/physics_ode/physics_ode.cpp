@@ -6,6 +6,7 @@
 
 #include "description/world_robots.hpp"
 #include "plugins/scene_rows.hpp"
+#include "plugins/starts.hpp"
 #include "world.hpp"
 
 namespace {
@@ -157,7 +158,17 @@ struct PhysicsOde {
       make([&](std::size_t row) { return k.name("robot", row); });
     }
     stand_walls(k);
+    if (k.tick() == 0 && made.settings.obstacles) warn_of_starts(k);
     move(k);
+  }
+
+  void warn_of_starts(const Step& k) const {
+    const auto slabs = scene::slabs(scene_walls(k[walls]), scene_doors(k[doors], k[door_states], k[walls]));
+    for (const std::string& fault : starts::faults(
+             k[pose].size(), [&](std::size_t i) { return k.last(pose)[i]; },
+             [&](std::size_t i) { return k.alive("robot", i) ? robots.of(k[model][i].model) : nullptr; },
+             [&](const char*set, std::size_t row) { return k.name(set, row); }, slabs))
+      k.event("warning: " + fault);
   }
 
   // Walls with the doors' states of this tick.

@@ -72,8 +72,8 @@ class World {
     std::string name;
     RobotModel model;
     dBodyID body = nullptr;
-    std::vector<dBodyID> wheel;
-    std::vector<dJointID> hinge, motor;  // the motor of a wheel that follows another is the chain to that
+    std::vector<dBodyID> wheel{};
+    std::vector<dJointID> hinge{}, motor{};  // the motor of a wheel that follows another is the chain to that
     std::array<dBodyID, Limbs::most> limb{};
   };
   struct Surface {

@@ -7,6 +7,7 @@
 
 #include "description/world_robots.hpp"
 #include "plugins/scene_rows.hpp"
+#include "plugins/starts.hpp"
 #include "world.hpp"
 
 namespace {
@@ -181,7 +182,17 @@ struct PhysicsSimbody {
       make_engine([&](std::size_t row) { return k.name("robot", row); });
     }
     tell_surroundings(k);
+    if (k.tick() == 0 && made.integrator == 0) warn_of_starts(k);
     move(k);
+  }
+
+  void warn_of_starts(const Step& k) const {
+    const auto slabs = scene::slabs(scene_walls(k[wall]), scene_doors(k[door], k[door_state], k[wall]));
+    for (const std::string& fault : starts::faults(
+             k[pose].size(), [&](std::size_t i) { return k.last(pose)[i]; },
+             [&](std::size_t i) { return k.alive("robot", i) ? robots.of(k[model][i].model) : nullptr; },
+             [&](const char*set, std::size_t row) { return k.name(set, row); }, slabs))
+      k.event("warning: " + fault);
   }
 
   // A robot that left keeps its state.
