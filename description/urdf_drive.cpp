@@ -34,7 +34,7 @@ void turn_forward(const Source& source, const XMLElement& element, std::size_t i
   if (joint.kind != JointKind::continuous || !carrier) return;  // refused later
   if (!(carrier->linear() * joint.origin.linear() * joint.axis + Eigen::Vector3d::UnitY()).isZero(axis_tolerance))
     return;
-  joint.axis = -joint.axis;
+  joint.axis = Eigen::Vector3d::Zero() - joint.axis;  // without -0
   const Eigen::Vector3d& axis = joint.axis;
   robot.warnings.push_back(
       source.file + ":" + std::to_string(element.GetLineNum()) + ": " + tag(element) + "joint '" + joint.name +

@@ -18,7 +18,7 @@ std::string inertial_text(const Mass& mass);
 
 // Checks the mass and inertia of a link as its URDF gives them: `mass` in its inertial frame, which `frame` puts into
 // the link. Throws std::runtime_error, without a place, for an inertia that no body has; one that breaks the triangle
-// inequality by up to a tenth is widened until it holds. Warns of that, of an inertia beyond 3 times or below a tenth
+// inequality by up to a tenth is widened until it holds. Warns of that, of an inertia beyond ten times or below a tenth
 // of that of the shapes filled evenly, and of a mass above osmium's or below 1 kg/m3 of their volume.
 void check_inertia(Mass& mass, const Eigen::Isometry3d& frame, const std::vector<Shape>& shapes,
                    std::vector<std::string>& warnings);

@@ -94,6 +94,7 @@ RobotModel::RobotModel(const Robot& robot) {
   has_wheels = robot.drive.has_value();
   rotors = robot.quadrotor;
   restitution = robot.restitution;
+  mass = whole_mass(robot).mass;
   body = rigid_mass(robot, 0);
   take_shapes(robot, 0, -1);
   for (const description::LimbJoint& limb : limbs_of(robot)) {

@@ -40,6 +40,7 @@ struct RobotModel {
   description::DifferentialDrive drive;
   std::optional<description::Quadrotor> rotors;
   double restitution = 0;
+  double mass = 0;            // of all parts [kg]
   description::Mass body;     // mass of the root and all that is fixed to it, in its frame
   std::vector<Wheel> wheels;  // the first of each side, then those that follow them
   std::vector<description::LimbModel> limbs;

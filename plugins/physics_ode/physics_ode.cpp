@@ -158,9 +158,11 @@ struct PhysicsOde {
       make([&](std::size_t row) { return k.name("robot", row); });
     }
     stand_walls(k);
-    if (k.tick() == 0 && made.settings.obstacles) warn_of_starts(k);
+    if (k.tick() == first_tick && made.settings.obstacles) warn_of_starts(k);
     move(k);
   }
+
+  static constexpr uint64_t first_tick = 1;
 
   void warn_of_starts(const Step& k) const {
     const auto slabs = scene::slabs(scene_walls(k[walls]), scene_doors(k[doors], k[door_states], k[walls]));

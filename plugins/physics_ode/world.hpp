@@ -79,6 +79,9 @@ class World {
   struct Surface {
     std::size_t number;  // in the order in which shapes were added
     double friction, restitution;
+    // Of a wheel of a skid steer, else 0: its contact's spring and damper along the normal [N/m], [N s/m], and
+    // friction's bound under its share of the weight [N].
+    double stiffness = 0, damping = 0, grip = 0;
   };
   struct Pair {
     dGeomID a, b;
@@ -101,6 +104,7 @@ class World {
   void advance(double h, unsigned long seed);
   static void read(const Robot& robot, RobotState& state);
   static void read_limbs(const Robot& robot, RobotState& state);
+  void carry_and_slip(const Pair& pair, dContact& contact) const;
   static void near(void* world, dGeomID a, dGeomID b);
 
   Library library_;
@@ -113,6 +117,7 @@ class World {
   std::deque<Surface> surfaces_;  // targets of the shapes' user pointers
   std::vector<dGeomID> walls_;
   std::size_t surfaces_of_robots_ = 0;
+  double h_ = 0;  // length of the present step [s]
   std::vector<Pair> pairs_;
 };
 

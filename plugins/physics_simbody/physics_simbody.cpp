@@ -182,9 +182,11 @@ struct PhysicsSimbody {
       make_engine([&](std::size_t row) { return k.name("robot", row); });
     }
     tell_surroundings(k);
-    if (k.tick() == 0 && made.integrator == 0) warn_of_starts(k);
+    if (k.tick() == first_tick && made.integrator == 0) warn_of_starts(k);
     move(k);
   }
+
+  static constexpr uint64_t first_tick = 1;
 
   void warn_of_starts(const Step& k) const {
     const auto slabs = scene::slabs(scene_walls(k[wall]), scene_doors(k[door], k[door_state], k[wall]));

@@ -97,11 +97,11 @@ TEST(UrdfOfRos, MassAndInertiaAreHeldAgainstTheShapes) {
                          "</collision>");
   };
   EXPECT_EQ(warnings_of(box("12", "2")), Texts());
-  EXPECT_EQ(warnings_of(box("12", "5.9")), Texts());
+  EXPECT_EQ(warnings_of(box("12", "19")), Texts());
   const std::string remedy =
-      "; expected 1/10 to 3 times; unless it is meant, write <inertial><origin xyz=\"0 0 1\"/><mass value=\"12\"/>"
+      "; expected 1/10 to 10 times; unless it is meant, write <inertial><origin xyz=\"0 0 1\"/><mass value=\"12\"/>"
       "<inertia ixx=\"2\" ixy=\"0\" ixz=\"0\" iyy=\"2\" iyz=\"0\" izz=\"2\"/></inertial>";
-  EXPECT_EQ(warnings_of(box("12", "20")), Texts({"2: link 'a': its inertia is 10 times that of its collision shapes "
+  EXPECT_EQ(warnings_of(box("12", "30")), Texts({"2: link 'a': its inertia is 15 times that of its collision shapes "
                                                  "filled evenly with 12 kg" +
                                                  remedy}));
   EXPECT_EQ(warnings_of(box("12", "0.1")), Texts({"2: link 'a': its inertia is 1/20 of that of its collision shapes "
@@ -138,12 +138,12 @@ std::string two_wheels(const std::string& left = wheel, const std::string& left_
 std::string with(std::string text, const std::string& was, const std::string& is) {
   return text.replace(text.find(was), was.size(), is);
 }
-const std::string drive =
+const std::string declared_drive =
     "<muster><differential left='%' right='r_joint' wheel_radius='0.1' wheel_base='0.5' max_torque='1' max_speed='9' "
     "friction='0.8'/></muster>\n";
 
 TEST(UrdfOfRos, WheelOfRoundedFiguresIsBalanced) {
-  const std::string elements = two_wheels(with(wheel, "0.00263", "0.00264")) + with(drive, "%", "l_joint");
+  const std::string elements = two_wheels(with(wheel, "0.00263", "0.00264")) + with(declared_drive, "%", "l_joint");
   // 38 % of the way: the mean of 0.00264 and 0.00263.
   EXPECT_EQ(warnings_of(elements),
             Texts({"7: the wheel of joint 'l_joint': its inertia is uneven about the axle by 0.3795 %; it is taken as "
@@ -155,8 +155,8 @@ TEST(UrdfOfRos, WheelOfRoundedFiguresIsBalanced) {
 }
 
 TEST(UrdfOfRos, WheelWithItsMassBesideTheAxle) {
-  const std::string elements =
-      two_wheels(with(wheel, "<inertial>", "<inertial><origin xyz='0.001 0.003 0'/>")) + with(drive, "%", "l_joint");
+  const std::string elements = two_wheels(with(wheel, "<inertial>", "<inertial><origin xyz='0.001 0.003 0'/>")) +
+                               with(declared_drive, "%", "l_joint");
   EXPECT_EQ(warnings_of(elements),
             Texts({"7: the wheel of joint 'l_joint': its centre of mass is 1 mm off the axle; it is taken as balanced; "
                    "write <inertial><origin xyz=\"0 0.003 0\"/><mass value=\"1\"/><inertia ixx=\"0.00263\" ixy=\"0\" "
@@ -164,7 +164,7 @@ TEST(UrdfOfRos, WheelWithItsMassBesideTheAxle) {
 }
 
 TEST(UrdfOfRos, WheelAboutMinusYIsTurnedAround) {
-  const std::string elements = two_wheels(wheel, "0 -1 0") + with(drive, "%", "l_joint");
+  const std::string elements = two_wheels(wheel, "0 -1 0") + with(declared_drive, "%", "l_joint");
   EXPECT_EQ(
       warnings_of(elements),
       Texts({"7: <differential> joint 'l_joint' turns about the body's -y axis, and is taken to turn about +y; its "
@@ -322,7 +322,8 @@ TEST(UrdfOfRos, PackagesDoNotReachBeyondTheirFolder) {
 TEST(UrdfOfRos, FittingsHoldWhatAUrdfLacks) {
   Files files;
   const std::string path = files.write("r.urdf", "<robot name='r'>\n" + two_wheels() + "</robot>\n");
-  const std::string more = files.write("more.xml", "<robot>" + with(drive, "%", "l_joint") + gazebo_laser + "</robot>");
+  const std::string more =
+      files.write("more.xml", "<robot>" + with(declared_drive, "%", "l_joint") + gazebo_laser + "</robot>");
   const Robot robot = read_robot(path, Meshes::import, {"", more});
   EXPECT_TRUE(robot.drive);
   EXPECT_EQ(robot.sensors.size(), 1u);
@@ -356,9 +357,31 @@ TEST(UrdfOfRos, StockBurgerLoads) {
   ASSERT_TRUE(robot.drive);
   EXPECT_NEAR(robot.drive->wheel_radius, 0.033, 1e-12);
   EXPECT_NEAR(robot.drive->wheel_base, 0.16, 1e-12);
-  std::string all;
-  for (const std::string& warning : robot.warnings) all += warning.substr(path.string().size()) + "\n";
-  EXPECT_EQ(all, "");
+  const auto wheel_warning = [](const std::string& side) {
+    return ":2: the wheel of joint 'wheel_" + side +
+           "_joint': its inertia is uneven about the axle by 0.178 %; it is taken as balanced; write <inertial><origin "
+           "xyz=\"0 0 0\"/><mass value=\"0.0285\"/><inertia ixx=\"1.118e-05\" ixy=\"0\" ixz=\"0\" iyy=\"1.118e-05\" "
+           "iyz=\"0\" izz=\"2.071e-05\"/></inertial> in link 'wheel_" +
+           side + "_link'";
+  };
+  const auto axis_warning = [](const std::string& line, const std::string& side) {
+    return ":" + line + ": joint 'wheel_" + side +
+           "_joint': its axis is 0.04563 degrees off the robot's +y axis, and is turned onto it; write <origin "
+           "rpy=\"-1.5707963267948966 0 0\"/>";
+  };
+  Texts warnings;
+  for (const std::string& warning : robot.warnings) warnings.push_back(warning.substr(path.string().size()));
+  EXPECT_EQ(
+      warnings,
+      Texts({":116: link 'caster_back_link': its inertia is 2607 times that of its collision shapes filled evenly "
+             "with 0.005 kg; expected 1/10 to 10 times; unless it is meant, write <inertial><origin "
+             "xyz=\"0 0.001 0\"/><mass value=\"0.005\"/><inertia ixx=\"2.004e-07\" ixy=\"0\" ixz=\"0\" "
+             "iyy=\"5.417e-07\" iyz=\"0\" izz=\"4.087e-07\"/></inertial>",
+             axis_warning("50", "left"), axis_warning("80", "right"), wheel_warning("left"), wheel_warning("right"),
+             ":2: its drive is taken from its wheels' joints, with defaults for what is not there; to set it, write "
+             "<muster><differential left=\"wheel_left_joint\" right=\"wheel_right_joint\" wheel_radius=\"0.033\" "
+             "wheel_base=\"0.16\" max_torque=\"0.1297\" max_speed=\"30.3\" max_acceleration=\"30.3\" "
+             "friction=\"0.8\"/></muster>"}));
 }
 
 TEST(UrdfOfRos, StockSkidSteerHasFourWheels) {
