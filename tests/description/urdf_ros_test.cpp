@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include "description/robot.hpp"
-#include "description/urdf_inertia.hpp"
 #include "files.hpp"
 
 namespace muster::description {
@@ -116,21 +115,6 @@ TEST(UrdfOfRos, MassAndInertiaAreHeldAgainstTheShapes) {
              "2.26e+04 (osmium)"}));
 }
 
-// Against textbook figures, and Steiner's term for two bodies.
-TEST(UrdfOfRos, FilledShapes) {
-  const Mass ball = *filled({Shape{Eigen::Isometry3d::Identity(), Sphere{2}}});
-  EXPECT_NEAR(ball.mass, 33.510321638291124, 1e-12);
-  EXPECT_NEAR(ball.inertia(0, 0), 0.4 * ball.mass * 4, 1e-12);
-  const Mass rod = *filled({Shape{Eigen::Isometry3d::Identity(), Cylinder{1, 6}}});
-  EXPECT_NEAR(rod.inertia(0, 0), rod.mass * (3 + 36) / 12, 1e-12);
-  EXPECT_NEAR(rod.inertia(2, 2), rod.mass / 2, 1e-12);
-  const Shape left{Eigen::Isometry3d(Eigen::Translation3d(0, 1, 0)), Box{{1, 1, 1}}};
-  const Shape right{Eigen::Isometry3d(Eigen::Translation3d(0, -1, 0)), Box{{1, 1, 1}}};
-  EXPECT_NEAR(filled({left, right})->inertia(0, 0), 2.0 / 6 + 2, 1e-12);
-  EXPECT_FALSE(filled({}));
-  EXPECT_FALSE(filled({left, Shape{Eigen::Isometry3d::Identity(), Mesh{}}}));
-}
-
 std::string two_wheels(const std::string& left = wheel, const std::string& left_axis = "0 1 0") {
   return link("base", mass) + link("l", left) + link("r", wheel) + wheel_joint("l", "0 0.25 0.1", "", left_axis) +
          wheel_joint("r", "0 -0.25 0.1");
@@ -192,16 +176,6 @@ TEST(UrdfOfRos, FourDrivenWheels) {
   // 2 b (1 + (a / b)^2) with a = 0.2, b = 0.25.
   EXPECT_NEAR(drive.effective_base, 0.82, 1e-12);
   EXPECT_NEAR(drive.turn(-1, 1), 0.2 / 0.82, 1e-12);
-}
-
-// The middle wheels of three axles do not slip across, which the moments of the others balance.
-TEST(UrdfOfRos, EffectiveBase) {
-  EXPECT_EQ(effective_base(0.5, {0}), 0.5);
-  EXPECT_NEAR(effective_base(0.5, {0.2, -0.2}), 0.82, 1e-12);
-  const double three = effective_base(0.5, {0.2, 0, -0.2}), v = three / 2, along = v - 0.25;
-  EXPECT_NEAR(0.25 + 2 * (along * 0.25 - 0.04) / std::hypot(along, 0.2), 0, 1e-9);
-  EXPECT_GT(three, 0.5);
-  EXPECT_LT(three, 0.82);
 }
 
 TEST(UrdfOfRos, DriveIsTakenFromWheels) {
