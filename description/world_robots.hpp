@@ -1,4 +1,4 @@
-// The descriptions of a world's robots, for plugins: the only header here that includes the plugin contract.
+// The descriptions of a world's robots, for plugins. This header and starts.hpp alone include the plugin contract here.
 #pragma once
 
 #include <algorithm>

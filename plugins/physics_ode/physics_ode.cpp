@@ -4,9 +4,9 @@
 #include <muster/plugin.hpp>
 #include <optional>
 
+#include "description/starts.hpp"
 #include "description/world_robots.hpp"
 #include "plugins/scene_rows.hpp"
-#include "plugins/starts.hpp"
 #include "world.hpp"
 
 namespace {
@@ -165,11 +165,13 @@ struct PhysicsOde {
   static constexpr uint64_t first_tick = 1;
 
   void warn_of_starts(const Step& k) const {
-    const auto slabs = scene::slabs(scene_walls(k[walls]), scene_doors(k[doors], k[door_states], k[walls]));
-    for (const std::string& fault : starts::faults(
+    std::vector<description::starts::Block> blocks;
+    for (const scene::Slab& slab : scene::slabs(scene_walls(k[walls]), scene_doors(k[doors], k[door_states], k[walls])))
+      blocks.push_back(description::starts::block_of(slab));
+    for (const std::string& fault : description::starts::faults(
              k[pose].size(), [&](std::size_t i) { return k.last(pose)[i]; },
              [&](std::size_t i) { return k.alive("robot", i) ? robots.of(k[model][i].model) : nullptr; },
-             [&](const char*set, std::size_t row) { return k.name(set, row); }, slabs))
+             [&](auto set, std::size_t row) { return k.name(set, row); }, blocks))
       k.event("warning: " + fault);
   }
 

@@ -5,9 +5,9 @@
 #include <muster/plugin.hpp>
 #include <optional>
 
+#include "description/starts.hpp"
 #include "description/world_robots.hpp"
 #include "plugins/scene_rows.hpp"
-#include "plugins/starts.hpp"
 #include "world.hpp"
 
 namespace {
@@ -189,11 +189,13 @@ struct PhysicsSimbody {
   static constexpr uint64_t first_tick = 1;
 
   void warn_of_starts(const Step& k) const {
-    const auto slabs = scene::slabs(scene_walls(k[wall]), scene_doors(k[door], k[door_state], k[wall]));
-    for (const std::string& fault : starts::faults(
+    std::vector<description::starts::Block> blocks;
+    for (const scene::Slab& slab : scene::slabs(scene_walls(k[wall]), scene_doors(k[door], k[door_state], k[wall])))
+      blocks.push_back(description::starts::block_of(slab));
+    for (const std::string& fault : description::starts::faults(
              k[pose].size(), [&](std::size_t i) { return k.last(pose)[i]; },
              [&](std::size_t i) { return k.alive("robot", i) ? robots.of(k[model][i].model) : nullptr; },
-             [&](const char*set, std::size_t row) { return k.name(set, row); }, slabs))
+             [&](auto set, std::size_t row) { return k.name(set, row); }, blocks))
       k.event("warning: " + fault);
   }
 

@@ -3,27 +3,41 @@
 
 #include <algorithm>
 #include <cmath>
-#include <muster/plugin.hpp>
-#include <scene/slabs.hpp>
+#include <limits>
+#include <muster/tables.hpp>
 #include <string>
 #include <vector>
 
-#include "description/world_robots.hpp"
+#include "description/robot.hpp"
 
-namespace muster::starts {
+namespace muster::description::starts {
 
 // A box upright in the world, turned about z.
 struct Block {
   double x, y, cos_yaw, sin_yaw;  // middle [m], heading
   double half_length, half_width, low, high;
+  std::size_t row = 0;  // of a wall, for its name
 };
+
+// A wall's part as a block, from a slab as scene::slabs() makes them.
+template <class Slab>
+Block block_of(const Slab& w) {
+  return {w.x,
+          w.y,
+          w.cos_yaw,
+          w.sin_yaw,
+          w.length / 2,
+          w.thickness / 2,
+          w.z - w.height / 2,
+          w.z + w.height / 2,
+          static_cast<std::size_t>(w.wall)};
+}
 
 // How far two blocks are in each other, in plan [m]; 0 if they are apart, or one is over the other.
 inline double depth(const Block& a, const Block& b) {
-  double least = std::min(a.high, b.high) - std::max(a.low, b.low);
   constexpr double touching = 1e-3;  // [m] in height: what stands on something is not in it
-  if (least <= touching) return 0;
-  least = 1e9;
+  if (std::min(a.high, b.high) - std::max(a.low, b.low) <= touching) return 0;
+  double least = std::numeric_limits<double>::infinity();
   const double dx = b.x - a.x, dy = b.y - a.y;
   const auto reach = [](const Block& c, double ax, double ay) {
     return c.half_length * std::abs(c.cos_yaw * ax + c.sin_yaw * ay) +
@@ -40,16 +54,16 @@ inline double depth(const Block& a, const Block& b) {
 }
 
 // The boxes around a robot's collision shapes, along its own axes, each turned by its heading.
-inline std::vector<Block> blocks_of(const description::Robot& robot, const Pose& pose) {
+inline std::vector<Block> blocks_of(const Robot& robot, const Pose& pose) {
   const double yaw =
       std::atan2(2 * (pose.qw * pose.qz + pose.qx * pose.qy), 1 - 2 * (pose.qy * pose.qy + pose.qz * pose.qz));
   const double c = std::cos(yaw), s = std::sin(yaw);
   std::vector<Block> result;
-  for (const description::Shape& shape : whole_shapes(robot)) {
+  for (const Shape& shape : whole_shapes(robot)) {
     const Eigen::AlignedBox3d box = bounds(shape);
     const Eigen::Vector3d middle = box.center(), half = box.sizes() / 2;
     result.push_back({pose.x + c * middle.x() - s * middle.y(), pose.y + s * middle.x() + c * middle.y(), c, s,
-                      half.x(), half.y(), pose.z + box.min().z(), pose.z + box.max().z()});
+                      half.x(), half.y(), pose.z + box.min().z(), pose.z + box.max().z(), 0});
   }
   return result;
 }
@@ -66,7 +80,7 @@ inline double deepest(const std::vector<Block>& a, const std::vector<Block>& b) 
 // robot that is not there; `name_of(set, row)`.
 template <class PoseOf, class RobotOf, class NameOf>
 std::vector<std::string> faults(std::size_t robots, const PoseOf& pose_of, const RobotOf& robot_of,
-                                const NameOf& name_of, const std::vector<scene::Slab>& walls) {
+                                const NameOf& name_of, const std::vector<Block>& walls) {
   constexpr double tolerance = 1e-3;  // [m] boxes around round shapes may be that deep in each other
   std::vector<std::vector<Block>> blocks(robots);
   std::vector<double> reach(robots, 0);
@@ -78,18 +92,16 @@ std::vector<std::string> faults(std::size_t robots, const PoseOf& pose_of, const
                      " mm deep, and will be pushed out; expected a place (at) clear of it");
   };
   for (std::size_t i = 0; i < robots; ++i) {
-    const description::Robot* robot = robot_of(i);
+    const Robot* robot = robot_of(i);
     if (!robot) continue;
     const Pose pose = pose_of(i);
     blocks[i] = blocks_of(*robot, pose);
     for (const Block& b : blocks[i])
       reach[i] = std::max(reach[i], std::hypot(b.x - pose.x, b.y - pose.y) + std::hypot(b.half_length, b.half_width));
-    for (const scene::Slab& w : walls) {
-      const Block wall{
-          w.x, w.y, w.cos_yaw, w.sin_yaw, w.length / 2, w.thickness / 2, w.z - w.height / 2, w.z + w.height / 2};
+    for (const Block& wall : walls) {
       const double deep = deepest(blocks[i], {wall});
       if (deep <= tolerance) continue;
-      say(i, "wall", static_cast<std::size_t>(w.wall), deep);
+      say(i, "wall", wall.row, deep);
       break;
     }
     for (std::size_t j = 0; j < i; ++j) {
@@ -104,4 +116,4 @@ std::vector<std::string> faults(std::size_t robots, const PoseOf& pose_of, const
   return result;
 }
 
-}  // namespace muster::starts
+}  // namespace muster::description::starts
