@@ -106,8 +106,8 @@ struct DifferentialDrive {
 
 // Effective base of a skid steer that turns slowly, its weight the same on all wheels, with Coulomb's friction under
 // each: that at which friction along the wheels and across them have no moment together. `ways` [m]: of a side's
-// wheels along x from their middle. For two axles it is base (1 + (distance of axles / base)^2); with 1 N on each wheel
-// the same as with any. After Mandow et al., IROS 2007, who measure it.
+// wheels along x from their middle. For two axles it is base (1 + (distance of axles / base)^2), whatever the weight
+// and the friction. Mandow et al. (IROS 2007) measure it.
 double effective_base(double wheel_base, const std::vector<double>& ways);
 
 // Six legs, each a half circle that hangs from its hip and bulges backwards, turned whole turns by its own motor. At

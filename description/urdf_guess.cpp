@@ -18,9 +18,9 @@ constexpr double friction = 0.8;
 constexpr double rim_speed = 1, rim_acceleration = 1;  // [m/s], [m/s2]
 constexpr double gravity = 9.81;                       // [m/s2]
 
-// [m] Two wheels belong to one drive where their heights and radii are that near; they are on opposite sides where
-// their y differ in sign only.
-constexpr double alike = 1e-3;
+// [m] Wheels belong to one drive where heights, radii and distances from the middle are that near. Below half of the
+// tolerance of complete_drive(), so that what is guessed is never refused.
+constexpr double alike = 5e-5;
 
 struct Wheel {
   std::size_t joint;

@@ -56,5 +56,17 @@ TEST_P(Square, Closes) {
   EXPECT_LE(closing, tolerance + c.most_drift);
 }
 
+// The shipped world, whose way points count as reached within 5 cm.
+TEST(SkidSteerWorld, Closes) {
+  Simulation run(read_world(std::filesystem::path(MUSTER_SOURCE_DIR) / "worlds/skid_steer/world.xml", standard()),
+                 standard(), {{MUSTER_PLUGINS_DIR}, 1, {}});
+  while (!run.done()) run.step();
+  EXPECT_EQ(run.table("instance/steer/progress").at(0, 1), 4) << "the way points are not reached in time";
+  const Pose end = row<Pose>(run, "robot/husky/pose");
+  std::printf("[ measured ] closing error %.2f mm\n", 1000 * std::hypot(end.x, end.y));
+  EXPECT_LE(std::hypot(end.x, end.y), 0.05 + 0.07);
+  EXPECT_TRUE(run.events().empty()) << run.events().front().message;
+}
+
 }  // namespace
 }  // namespace muster::test
