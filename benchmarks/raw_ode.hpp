@@ -100,8 +100,8 @@ class RawOde {
     const ode::Block& box = model_.blocks.front();
     shape(dCreateBox(own, box.size.x(), box.size.y(), box.size.z()), made.body, box.pose.translation(), 0.3);
     for (std::size_t w = 0; w < 2; ++w) {
-      const Eigen::Vector3d hub = model_.wheel[w].frame.translation(), axle = at.linear() * model_.wheel[w].axis;
-      dBodyID wheel = body(model_.wheel[w].mass, hub);
+      const Eigen::Vector3d hub = model_.wheels[w].frame.translation(), axle = at.linear() * model_.wheels[w].axis;
+      dBodyID wheel = body(model_.wheels[w].mass, hub);
       dBodySetFiniteRotationMode(wheel, 1);
       shape(dCreateSphere(own, model_.drive.wheel_radius), wheel, hub, model_.drive.friction);
       made.motor[w] = dJointCreateHinge(world_.get(), nullptr);

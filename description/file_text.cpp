@@ -92,6 +92,12 @@ std::string print_number(double value) {
   return {text, end};
 }
 
+std::string print_exactly(double value) {
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, value).ptr;
+  return {text, end};
+}
+
 std::string nearest(std::string_view name, const std::vector<std::string>& names) {
   const std::string* best = nullptr;
   std::size_t least = std::max<std::size_t>(2, name.size() / 3) + 1;  // beyond that number of edits it is another word

@@ -17,8 +17,9 @@ std::optional<double> parse_number(std::string_view text);
 // Numbers separated by blanks; null if any word is no number.
 std::optional<std::vector<double>> parse_numbers(std::string_view text);
 
-// In four digits, the same in every locale.
+// In four digits, the same in every locale; or in the fewest that give the same number back.
 std::string print_number(double value);
+std::string print_exactly(double value);
 
 // The nearest of `names` as "; did you mean 'x'?", or "" if none is near.
 std::string nearest(std::string_view name, const std::vector<std::string>& names);

@@ -6,7 +6,7 @@ namespace muster::description {
 namespace {
 
 bool is_driven(const Robot& robot, std::size_t joint) {
-  if (robot.drive && (joint == robot.drive->left || joint == robot.drive->right)) return true;
+  if (robot.drive && robot.drive->side_of(joint) >= 0) return true;
   return robot.legs && std::any_of(robot.legs->legs.begin(), robot.legs->legs.end(),
                                    [&](const LegDrive::Leg& leg) { return leg.joint == joint; });
 }

@@ -28,6 +28,11 @@ std::vector<std::string> models_in(const std::vector<std::string>& directories) 
 }  // namespace
 
 std::string find_model(const std::string& model, const std::vector<std::string>& directories) {
+  if (fs::path(model).extension() == ".xacro") {
+    const std::string made = fs::path(model).stem().string();
+    throw std::runtime_error("model '" + model + "' is xacro, not URDF; run xacro first: xacro " + model + " > " +
+                             (fs::path(made).extension() == ".urdf" ? made : made + ".urdf"));
+  }
   const bool is_path = fs::path(model).extension() == ".urdf";
   const std::string file = is_path ? model : model + ".urdf";
   if (!is_path && model.find('/') != std::string::npos) {
@@ -42,6 +47,21 @@ std::string find_model(const std::string& model, const std::vector<std::string>&
   }
   throw std::runtime_error("model '" + model + "' is not known: no " + file + " in " +
                            (tried.empty() ? "any directory" : tried) + nearest(model, models_in(directories)));
+}
+
+UrdfSetting find_setting(const UrdfSetting& declared, const std::vector<std::string>& directories) {
+  const auto find = [&](const std::string& path, const char* attribute, const char* what) -> std::string {
+    if (path.empty()) return path;
+    std::string tried;
+    for (const std::string& directory : directories) {
+      std::error_code ignored;
+      const fs::path here = fs::path(directory) / path;  // an absolute one stays as it is
+      if (fs::exists(here, ignored)) return here.string();
+      tried += (tried.empty() ? "" : ", ") + directory;
+    }
+    throw std::runtime_error(std::string(attribute) + "=\"" + path + "\": there is no such " + what + " in " + tried);
+  };
+  return {find(declared.packages, "packages", "folder"), find(declared.fittings, "fittings", "file")};
 }
 
 }  // namespace muster::description

@@ -54,30 +54,61 @@ struct Link {
   std::vector<Shape> visuals{};  // for pictures; empty unless read with Meshes::visual
 };
 
-// Two wheels on one axle, each turned by its own motor; all other parts slide on the ground.
+// A wheel that a chain or gears turn at the rate of the first wheel on its side.
+struct Follower {
+  std::size_t joint = 0;  // index
+  int side = 0;           // 0 left, 1 right
+};
+
+// A motor on each side that turns one wheel, or all wheels of its side at one rate (skid steer); all other parts slide
+// on the ground.
 struct DifferentialDrive {
-  std::size_t left = 0, right = 0;  // indices of joints
+  std::size_t left = 0, right = 0;  // indices of the first wheels' joints
+  std::vector<Follower> followers;  // none: two wheels on one axle
   double wheel_radius = 0;          // [m]
-  double wheel_base = 0;            // between the wheels' middles [m]
-  double max_torque = 0;            // of a motor at its wheel [N m]
-  double max_speed = 0;             // of a wheel [rad/s]
+  double wheel_base = 0;            // between the wheels' middles, left to right [m]
+  // Of two wheels that turn the robot alike without slip: wheel_base, and more where wheels follow each other, since
+  // these slip sideways in every turn [m].
+  double effective_base = 0;
+  double max_torque = 0;  // of a motor at its wheel [N m]
+  double max_speed = 0;   // of a wheel [rad/s]
   double max_acceleration =
       std::numeric_limits<double>::infinity();  // of a wheel, set by the motor's controller [rad/s2]
   double friction = 0;                          // Coulomb, between wheel and ground
 
-  // Kinematics of rigid wheels that do not slip.
+  // Kinematics of rigid wheels that do not slip along their way.
   double forward(double left_rate, double right_rate) const { return (left_rate + right_rate) * wheel_radius / 2; }
   double turn(double left_rate, double right_rate) const {
-    return (right_rate - left_rate) * wheel_radius / wheel_base;
+    return (right_rate - left_rate) * wheel_radius / effective_base;
   }
-  double left_rate(double v, double w) const { return (v - w * wheel_base / 2) / wheel_radius; }
-  double right_rate(double v, double w) const { return (v + w * wheel_base / 2) / wheel_radius; }
+  double left_rate(double v, double w) const { return (v - w * effective_base / 2) / wheel_radius; }
+  double right_rate(double v, double w) const { return (v + w * effective_base / 2) / wheel_radius; }
 
   // The commanded rate within the motor's limit.
   double limited_rate(double asked) const {
     return asked < -max_speed ? -max_speed : asked > max_speed ? max_speed : asked;
   }
+
+  // All wheels, each with its side; those of `left` and `right` first.
+  std::vector<Follower> wheels() const {
+    std::vector<Follower> all = {{left, 0}, {right, 1}};
+    all.insert(all.end(), followers.begin(), followers.end());
+    return all;
+  }
+  // The side of the wheel on a joint, -1 if it is none of this drive.
+  int side_of(std::size_t joint) const {
+    for (const Follower& wheel : followers) {
+      if (wheel.joint == joint) return wheel.side;
+    }
+    return joint == left ? 0 : joint == right ? 1 : -1;
+  }
 };
+
+// Effective base of a skid steer that turns slowly, its weight the same on all wheels, with Coulomb's friction under
+// each: that at which friction along the wheels and across them have no moment together. `ways` [m]: of a side's
+// wheels along x from their middle. For two axles it is base (1 + (distance of axles / base)^2), whatever the weight
+// and the friction. Mandow et al. (IROS 2007) measure it.
+double effective_base(double wheel_base, const std::vector<double>& ways);
 
 // Six legs, each a half circle that hangs from its hip and bulges backwards, turned whole turns by its own motor. At
 // angle 0 a leg is upright on its end, two radii under the hip; positive rates carry the robot forward. Three legs are
@@ -192,11 +223,20 @@ Mass whole_mass(const Robot& robot);
 // import, and <visual> too, of which a mesh that cannot be read costs a warning and its link's other visuals.
 enum class Meshes { import = 1, skip, visual };
 
+// What a world declares about a URDF file.
+struct UrdfSetting {
+  std::string packages;  // the folder that holds ROS packages, for package://NAME/FILE; "": not declared
+  std::string fittings;  // a second file of the robot, with what the first lacks: <sensor>, <gazebo>, <muster>; or ""
+};
+
 // The URDF file, checked; throws std::runtime_error("file:line: what is wrong; what was expected").
-Robot read_robot(const std::string& path, Meshes meshes = Meshes::import);
+Robot read_robot(const std::string& path, Meshes meshes = Meshes::import, const UrdfSetting& setting = {});
 
 // The file of model "scarab" (scarab.urdf in the first of the directories that has it) or "path/to/my.urdf" (absolute,
 // or relative to one of the directories); throws with the name and the nearest valid one.
 std::string find_model(const std::string& model, const std::vector<std::string>& directories);
+
+// The attributes `packages` and `fittings` of a robot, with their paths found in the directories; "" stays.
+UrdfSetting find_setting(const UrdfSetting& declared, const std::vector<std::string>& directories);
 
 }  // namespace muster::description

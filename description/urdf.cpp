@@ -2,14 +2,17 @@
 #include <urdf_model/model.h>
 #include <urdf_parser/urdf_parser.h>
 
-#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <mutex>
+#include <set>
 #include <stdexcept>
 
 #include "description/file_text.hpp"
 #include "description/mesh.hpp"
 #include "description/urdf_check.hpp"
+#include "description/urdf_inertia.hpp"
 
 namespace muster::description {
 
@@ -45,16 +48,49 @@ Eigen::Isometry3d frame(const urdf::Pose& pose) {
   return Eigen::Translation3d(vector(pose.position)) * Eigen::Quaterniond(q.w, q.x, q.y, q.z);
 }
 
+constexpr const char package_scheme[] = "package://";
+
+bool is_in_package(const std::string& mesh) { return mesh.rfind(package_scheme, 0) == 0; }
+
+// NAME of package://NAME/FILE.
+std::string package_of(const std::string& mesh) {
+  const std::size_t from = sizeof package_scheme - 1;
+  return mesh.substr(from, mesh.find('/', from) - from);
+}
+
+// The folder that holds the package: the declared one, or the one above if that is the package itself.
+std::string package_root(const std::string& packages, const std::string& name) {
+  namespace fs = std::filesystem;
+  if (packages.empty()) {
+    throw std::runtime_error(
+        "is in a ROS package; expected packages=\"DIR\" of the <robot> in the world, where "
+        "DIR holds the folder '" +
+        name + "'");
+  }
+  fs::path root = fs::absolute(packages).lexically_normal();
+  if (!root.has_filename()) root = root.parent_path();
+  if (fs::is_directory(root / name)) return root.string();
+  if (root.filename() == name) return root.parent_path().string();
+  throw std::runtime_error("is in the ROS package '" + name + "', of which there is no folder in packages=\"" +
+                           packages + "\"");
+}
+
 class Converter {
  public:
-  Converter(const Source& source, const Outline& outline, const urdf::ModelInterface& model, Meshes meshes)
-      : source_(source), outline_(outline), model_(model), meshes_(meshes) {}
+  Converter(const Source& source, const Outline& outline, const urdf::ModelInterface& model, Meshes meshes,
+            const std::string& packages)
+      : source_(source), outline_(outline), model_(model), meshes_(meshes), packages_(packages) {}
 
   Robot convert() {
     robot_.name = model_.getName();
     robot_.file = source_.file;
     add_link(outline_.root);
     for (const std::string& name : outline_.order) add_joint(name);
+    if (!undrawn_.empty()) {
+      robot_.warnings.push_back(source_.file + ": the meshes of package '" + *undrawn_.begin() +
+                                "' are not drawn, since the <robot> in the world has no packages=\"DIR\"; collision "
+                                "shapes are drawn in their place");
+    }
     return std::move(robot_);
   }
 
@@ -68,14 +104,19 @@ class Converter {
     if (!from->inertial && outline_.with_inertial.count(name)) {
       source_.fail(line, "link '" + name + "': urdfdom dropped its <inertial>");
     }
-    if (from->inertial) link.mass = mass(*from->inertial, name, line);
+    bool has_all_shapes = true;
     for (const auto& collision : from->collision_array) {
       if (!collision || !collision->geometry)
         source_.fail(line, "link '" + name + "': urdfdom dropped a collision shape");
       const bool is_mesh = collision->geometry->type == urdf::Geometry::MESH;
-      if (is_mesh && meshes_ == Meshes::skip) continue;
+      if (is_mesh && meshes_ == Meshes::skip) {
+        has_all_shapes = false;
+        continue;
+      }
       link.shapes.push_back(shape(collision->origin, *collision->geometry, name, line));
     }
+    if (from->inertial)
+      link.mass = mass(*from->inertial, name, line, has_all_shapes ? link.shapes : std::vector<Shape>());
     if (meshes_ == Meshes::visual) link.visuals = visuals(*from, name, line);
     robot_.links.push_back(std::move(link));
   }
@@ -84,7 +125,12 @@ class Converter {
     std::vector<Shape> result;
     try {
       for (const auto& visual : from.visual_array) {
-        if (visual && visual->geometry) result.push_back(shape(visual->origin, *visual->geometry, name, line));
+        if (!visual || !visual->geometry) continue;
+        const std::string package = undeclared_package(*visual->geometry);
+        if (package.empty())
+          result.push_back(shape(visual->origin, *visual->geometry, name, line));
+        else
+          undrawn_.insert(package);
       }
     } catch (const std::runtime_error& wrong) {
       robot_.warnings.emplace_back(wrong.what());
@@ -93,19 +139,28 @@ class Converter {
     return result;
   }
 
+  // The package of a mesh where the world declares no folder for packages; else "".
+  std::string undeclared_package(const urdf::Geometry& from) const {
+    if (from.type != urdf::Geometry::MESH || !packages_.empty()) return "";
+    const std::string& file = static_cast<const urdf::Mesh&>(from).filename;
+    return is_in_package(file) ? package_of(file) : "";
+  }
+
   // In the inertial frame a link's inertia is given about its centre of mass.
-  Mass mass(const urdf::Inertial& from, const std::string& name, int line) const {
+  Mass mass(const urdf::Inertial& from, const std::string& name, int line, const std::vector<Shape>& shapes) {
     if (!(from.mass > 0)) source_.fail(line, "link '" + name + "': mass is not above 0");
     Eigen::Matrix3d inertia;
     inertia << from.ixx, from.ixy, from.ixz, from.ixy, from.iyy, from.iyz, from.ixz, from.iyz, from.izz;
-    const Eigen::Vector3d principal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia).eigenvalues();
-    if (!(principal[0] > 0)) source_.fail(line, "link '" + name + "': inertia is not positive definite");
-    // No body has a principal moment above the sum of the others; a thin plate reaches it, so rounded figures get some
-    // slack.
-    if (principal[2] > (principal[0] + principal[1]) * (1 + 1e-3)) {
-      source_.fail(line, "link '" + name + "': inertia breaks the triangle inequality; no body has such moments");
+    Mass result{from.mass, Eigen::Vector3d::Zero(), inertia};
+    std::vector<std::string> warnings;
+    try {
+      check_inertia(result, frame(from.origin), shapes, warnings);
+    } catch (const std::runtime_error& wrong) {
+      source_.fail(line, "link '" + name + "': " + wrong.what());
     }
-    return in_parent(frame(from.origin), {from.mass, Eigen::Vector3d::Zero(), inertia});
+    for (const std::string& warning : warnings)
+      robot_.warnings.push_back(source_.file + ":" + std::to_string(line) + ": link '" + name + "': " + warning);
+    return in_parent(frame(from.origin), result);
   }
 
   Shape shape(const urdf::Pose& origin, const urdf::Geometry& from, const std::string& name, int line) {
@@ -132,10 +187,14 @@ class Converter {
   }
 
   Mesh mesh(const urdf::Mesh& from, const std::string& name, int line) {
-    const std::string folder = std::filesystem::absolute(source_.file).parent_path().string();
+    std::string folder = std::filesystem::absolute(source_.file).parent_path().string(), file = from.filename;
     const std::string what = "link '" + name + "': mesh '" + from.filename + "' ";
     try {
-      Mesh result = read_mesh(folder, from.filename, vector(from.scale));
+      if (is_in_package(file)) {
+        folder = package_root(packages_, package_of(file));
+        file = file.substr(sizeof package_scheme - 1);
+      }
+      Mesh result = read_mesh(folder, file, vector(from.scale));
       Eigen::AlignedBox3d bounds;
       for (const auto& vertex : result.vertices) bounds.extend(vertex);
       const double largest = bounds.sizes().maxCoeff();
@@ -163,7 +222,16 @@ class Converter {
     if (law.has_axis) {
       joint.axis = vector(from->axis);
       if (!(joint.axis.norm() > 1e-9)) source_.fail(line, "joint '" + name + "': axis has no length");
+      const double length = joint.axis.norm();
       joint.axis.normalize();
+      constexpr double rounded = 1e-3;  // of a unit vector in three digits
+      if (std::abs(length - 1) > rounded) {
+        const Eigen::Vector3d& unit = joint.axis;
+        robot_.warnings.push_back(
+            source_.file + ":" + std::to_string(line) + ": joint '" + name + "': its axis has a length of " +
+            print_number(length) + " where 1 is expected, and is divided by it; write <axis xyz=\"" +
+            print_exactly(unit.x()) + " " + print_exactly(unit.y()) + " " + print_exactly(unit.z()) + "\"/>");
+      }
     }
     if (from->limits) set_limits(*from->limits, joint, line);
     if (from->dynamics) set_dynamics(*from->dynamics, joint, line);
@@ -214,6 +282,8 @@ class Converter {
   const Outline& outline_;
   const urdf::ModelInterface& model_;
   const Meshes meshes_;
+  const std::string& packages_;
+  std::set<std::string> undrawn_;  // packages of visual meshes without a folder declared
   std::map<std::string, std::size_t> index_;
   Robot robot_;
 };
@@ -235,25 +305,50 @@ urdf::ModelInterfaceSharedPtr parse(const Source& source, const std::string& tex
   return model;
 }
 
-}  // namespace
-
-Robot read_robot(const std::string& path, Meshes meshes) {
-  const Source source{path};
-  const std::string text = read_file(path, max_file);
-  tinyxml2::XMLDocument document;
-  parse_urdf(source, text, document);
-  const tinyxml2::XMLElement& root = *document.RootElement();
-  required(source, root, "name");
-  const Outline outline = check_urdf(source, root);
-  const auto model = parse(source, text);
-  Robot robot = Converter(source, outline, *model, meshes).convert();
-  check_moving_masses(source, outline, robot);
+// Reads what stands beside links and joints: of the URDF itself, and of the file of fittings.
+void read_extensions(const Source& source, const tinyxml2::XMLElement& root, Robot& robot) {
   for (const auto* sensor = root.FirstChildElement("sensor"); sensor; sensor = sensor->NextSiblingElement("sensor")) {
     read_sensor(source, *sensor, robot);
   }
   for (const auto* muster = root.FirstChildElement("muster"); muster; muster = muster->NextSiblingElement("muster")) {
     read_muster(source, *muster, robot);
   }
+}
+
+void check_fittings(const Source& source, const tinyxml2::XMLElement& root) {
+  const std::vector<std::string> known = {"sensor", "gazebo", "muster"};
+  for (const auto* element = root.FirstChildElement(); element; element = element->NextSiblingElement()) {
+    const std::string name = element->Name();
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    source.fail(element->GetLineNum(), "<" + name + "> does not belong into fittings; expected <sensor>, <gazebo> or " +
+                                           "<muster>" + nearest(name, known));
+  }
+}
+
+}  // namespace
+
+Robot read_robot(const std::string& path, Meshes meshes, const UrdfSetting& setting) {
+  const Source source{path}, fittings{setting.fittings};
+  const std::string text = read_file(path, max_file);
+  tinyxml2::XMLDocument document, more;
+  parse_urdf(source, text, document);
+  const tinyxml2::XMLElement& root = *document.RootElement();
+  required(source, root, "name");
+  const Outline outline = check_urdf(source, root);
+  const auto model = parse(source, text);
+  Robot robot = Converter(source, outline, *model, meshes, setting.packages).convert();
+  check_moving_masses(source, outline, robot);
+  snap_axes(source, outline, robot);
+  if (!setting.fittings.empty()) {
+    parse_urdf(fittings, read_file(setting.fittings, max_file), more);
+    check_fittings(fittings, *more.RootElement());
+    read_extensions(fittings, *more.RootElement(), robot);
+  }
+  read_extensions(source, root, robot);
+  if (more.RootElement()) read_gazebo(fittings, *more.RootElement(), robot);
+  read_gazebo(source, root, robot);
+  derive_drive(source, root, robot);
+  if (more.RootElement()) warn_of_blind_lasers(fittings, *more.RootElement(), robot);
   warn_of_blind_lasers(source, root, robot);
   return robot;
 }

@@ -179,7 +179,8 @@ double positive(const Source& source, const XMLElement& element, const char* att
 }
 
 Outline check_urdf(const Source& source, const XMLElement& robot) {
-  const std::vector<std::string> known = {"link", "joint", "material", "muster", "gazebo", "transmission", "sensor"};
+  const std::vector<std::string> known = {"link",   "joint",        "material", "muster",
+                                          "gazebo", "transmission", "sensor",   "ros2_control"};
   only_attributes(source, robot, {"name", "version", "verbose"});
   Outline outline;
   std::vector<Edge> edges;

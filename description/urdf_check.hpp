@@ -47,6 +47,24 @@ void read_sensor(const Source& source, const tinyxml2::XMLElement& element, Robo
 // After all is read: warns of lasers whose range no <muster> gives.
 void warn_of_blind_lasers(const Source& source, const tinyxml2::XMLElement& root, Robot& robot);
 
+// Turns joints whose axis is within a degree of an axis of the robot's frame onto it, with a warning.
+void snap_axes(const Source& source, const Outline& outline, Robot& robot);
+
+// Reads the sensors and the drive that <gazebo> elements declare, where neither <sensor> nor <muster> do: lasers and
+// differential drives. One warning lists what is ignored.
+void read_gazebo(const Source& source, const tinyxml2::XMLElement& root, Robot& robot);
+// Without any drive declared: takes wheels that turn about the robot's y axis on both of its sides for one, with a
+// warning that has it in full.
+void derive_drive(const Source& source, const tinyxml2::XMLElement& root, Robot& robot);
+// Sets a drive's wheels, those of each side from the first on.
+void take_wheels(const std::vector<std::size_t>& left, const std::vector<std::size_t>& right, DifferentialDrive& drive);
+// Makes the inertia of a wheel even about its axle where rounded figures leave a few per cent, with a warning.
+void balance_wheel(const Source& source, int line, std::size_t joint, Robot& robot);
+// A drive whose wheels and sizes are known: checks them against the joints, and completes it.
+void complete_drive(const Source& source, const tinyxml2::XMLElement& element, DifferentialDrive& drive, Robot& robot);
+// The largest radius of the collision shapes of a joint's child that are round about its axis; 0 if there are none.
+double round_about_axle(const Robot& robot, const Joint& joint);
+
 // The index of a joint; the position on the body of one that turns without end about the body's +y axis.
 std::size_t find_joint(const Source& source, const tinyxml2::XMLElement& element, const char* attribute,
                        const Robot& robot);

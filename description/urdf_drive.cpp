@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
+#include <sstream>
 
 #include "description/file_text.hpp"
 #include "description/urdf_check.hpp"
@@ -11,6 +14,34 @@ using tinyxml2::XMLElement;
 namespace {
 
 constexpr double placement_tolerance = 1e-4;  // [m]: a drive that contradicts the joints by more is a mistake
+constexpr double axis_tolerance = 1e-6;       // of a unit vector
+
+std::size_t find_named(const Source& source, const XMLElement& element, const char* attribute, const std::string& name,
+                       const Robot& robot) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
+    if (robot.joints[i].name == name) return i;
+    names.push_back(robot.joints[i].name);
+  }
+  source.fail(element.GetLineNum(),
+              tag(element) + attribute + ": joint '" + name + "' is not known" + nearest(name, names));
+}
+
+// Turns a wheel that is declared about -y, as right wheels often are: only its angle's sign is another.
+void turn_forward(const Source& source, const XMLElement& element, std::size_t index, Robot& robot) {
+  Joint& joint = robot.joints[index];
+  const auto carrier = frame_on_body(robot, joint.parent);
+  if (joint.kind != JointKind::continuous || !carrier) return;  // refused later
+  if (!(carrier->linear() * joint.origin.linear() * joint.axis + Eigen::Vector3d::UnitY()).isZero(axis_tolerance))
+    return;
+  joint.axis = Eigen::Vector3d::Zero() - joint.axis;  // without -0
+  const Eigen::Vector3d& axis = joint.axis;
+  robot.warnings.push_back(
+      source.file + ":" + std::to_string(element.GetLineNum()) + ": " + tag(element) + "joint '" + joint.name +
+      "' turns about the body's -y axis, and is taken to turn about +y; its angle has the other "
+      "sign; write <axis xyz=\"" +
+      print_exactly(axis.x()) + " " + print_exactly(axis.y()) + " " + print_exactly(axis.z()) + "\"/>");
+}
 
 // Checks that the axle is along the body's y axis, the left wheel on the left, and that positive rates turn forward.
 Eigen::Vector3d check_wheel(const Source& source, const XMLElement& element, const Robot& robot, std::size_t index,
@@ -18,23 +49,11 @@ Eigen::Vector3d check_wheel(const Source& source, const XMLElement& element, con
   Eigen::Vector3d middle = place_of_turning(source, element, robot, index);
   if (std::abs(middle.y() - y) > placement_tolerance) {
     source.fail(element.GetLineNum(), tag(element) + "joint '" + robot.joints[index].name +
-                                          "' is not half a wheel_base from the body's x axis (left: +y, right: -y)");
+                                          "' is not half a wheel_base from the body's x axis (left: +y, right: -y): "
+                                          "it is at y = " +
+                                          print_number(middle.y()) + " m, expected " + print_number(y));
   }
   return middle;
-}
-
-// The largest radius of a wheel's collision shapes that are round about the axle; 0 if there is none.
-double round_about_axle(const Robot& robot, const Joint& joint) {
-  double result = 0;
-  for (const Shape& shape : rigid_shapes(robot, joint.child)) {
-    if (shape.pose.translation().cross(joint.axis).norm() > placement_tolerance) continue;
-    if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) result = std::max(result, sphere->radius);
-    const auto* cylinder = std::get_if<Cylinder>(&shape.geometry);
-    constexpr double rounded = 1e-3;  // [rad]: a right angle in few digits
-    if (cylinder && shape.pose.linear().col(2).cross(joint.axis).norm() < rounded)
-      result = std::max(result, cylinder->radius);
-  }
-  return result;
 }
 
 void check_radius(const Source& source, const XMLElement& element, const Robot& robot, std::size_t index,
@@ -42,7 +61,8 @@ void check_radius(const Source& source, const XMLElement& element, const Robot& 
   const Joint& joint = robot.joints[index];
   const double radius = round_about_axle(robot, joint);
   if (radius == 0 || std::abs(radius - wheel_radius) <= placement_tolerance) return;
-  source.fail(element.GetLineNum(), tag(element) + "wheel_radius=\"" + element.Attribute("wheel_radius") +
+  const char* given = element.Attribute("wheel_radius");
+  source.fail(element.GetLineNum(), tag(element) + "wheel_radius=\"" + (given ? given : print_number(wheel_radius)) +
                                         "\" contradicts the wheel of joint '" + joint.name +
                                         "', whose collision shape has a radius of " + print_number(radius));
 }
@@ -68,41 +88,98 @@ double share(const Source& source, const XMLElement& element, const char* attrib
   return *value;
 }
 
+// Indices of the joints that an attribute names, with blanks between.
+std::vector<std::size_t> find_joints(const Source& source, const XMLElement& element, const char* attribute,
+                                     const Robot& robot) {
+  std::istringstream words(required(source, element, attribute));
+  std::vector<std::size_t> result;
+  for (std::string name; words >> name;) {
+    result.push_back(find_named(source, element, attribute, name, robot));
+    if (std::count(result.begin(), result.end(), result.back()) > 1)
+      source.fail(element.GetLineNum(), tag(element) + attribute + " has joint '" + name + "' twice");
+  }
+  if (result.empty()) source.fail(element.GetLineNum(), tag(element) + attribute + " names no joint");
+  return result;
+}
+
 DifferentialDrive read_differential(const Source& source, const XMLElement& element, Robot& robot) {
-  only_attributes(
-      source, element,
-      {"left", "right", "wheel_radius", "wheel_base", "max_torque", "max_speed", "max_acceleration", "friction"});
+  only_attributes(source, element,
+                  {"left", "right", "wheel_radius", "wheel_base", "max_torque", "max_speed", "max_acceleration",
+                   "friction", "effective_base"});
   DifferentialDrive drive;
-  drive.left = find_joint(source, element, "left", robot);
-  drive.right = find_joint(source, element, "right", robot);
+  take_wheels(find_joints(source, element, "left", robot), find_joints(source, element, "right", robot), drive);
   drive.wheel_radius = positive(source, element, "wheel_radius");
   drive.wheel_base = positive(source, element, "wheel_base");
   drive.max_torque = positive(source, element, "max_torque");
   drive.max_speed = positive(source, element, "max_speed");
   if (element.Attribute("max_acceleration")) drive.max_acceleration = positive(source, element, "max_acceleration");
   drive.friction = positive(source, element, "friction");
-  const Eigen::Vector3d left = check_wheel(source, element, robot, drive.left, drive.wheel_base / 2);
-  const Eigen::Vector3d right = check_wheel(source, element, robot, drive.right, -drive.wheel_base / 2);
-  if (std::hypot(left.x() - right.x(), left.z() - right.z()) > placement_tolerance) {
-    source.fail(element.GetLineNum(), tag(element) + "the wheels are not on one axle");
-  }
-  for (const std::size_t wheel : {drive.left, drive.right})
-    check_radius(source, element, robot, wheel, drive.wheel_radius);
-  warn_of_height(source, element, left.z(), drive.wheel_radius, robot);
+  if (element.Attribute("effective_base")) drive.effective_base = positive(source, element, "effective_base");
+  complete_drive(source, element, drive, robot);
   return drive;
 }
 
 }  // namespace
 
-std::size_t find_joint(const Source& source, const XMLElement& element, const char* attribute, const Robot& robot) {
-  const std::string name = required(source, element, attribute);
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
-    if (robot.joints[i].name == name) return i;
-    names.push_back(robot.joints[i].name);
+double round_about_axle(const Robot& robot, const Joint& joint) {
+  double result = 0;
+  for (const Shape& shape : rigid_shapes(robot, joint.child)) {
+    if (shape.pose.translation().cross(joint.axis).norm() > placement_tolerance) continue;
+    if (const auto* sphere = std::get_if<Sphere>(&shape.geometry)) result = std::max(result, sphere->radius);
+    const auto* cylinder = std::get_if<Cylinder>(&shape.geometry);
+    constexpr double rounded = 1e-3;  // [rad]: a right angle in few digits
+    if (cylinder && shape.pose.linear().col(2).cross(joint.axis).norm() < rounded)
+      result = std::max(result, cylinder->radius);
   }
-  source.fail(element.GetLineNum(),
-              tag(element) + attribute + ": joint '" + name + "' is not known" + nearest(name, names));
+  return result;
+}
+
+void take_wheels(const std::vector<std::size_t>& left, const std::vector<std::size_t>& right,
+                 DifferentialDrive& drive) {
+  drive.left = left.front();
+  drive.right = right.front();
+  for (std::size_t i = 1; i < left.size(); ++i) drive.followers.push_back({left[i], 0});
+  for (std::size_t i = 1; i < right.size(); ++i) drive.followers.push_back({right[i], 1});
+}
+
+void complete_drive(const Source& source, const XMLElement& element, DifferentialDrive& drive, Robot& robot) {
+  const int line = element.GetLineNum();
+  std::array<std::vector<Eigen::Vector3d>, 2> middles;
+  for (const Follower& wheel : drive.wheels()) {
+    turn_forward(source, element, wheel.joint, robot);
+    const double y = (wheel.side == 0 ? 0.5 : -0.5) * drive.wheel_base;
+    middles[static_cast<std::size_t>(wheel.side)].push_back(check_wheel(source, element, robot, wheel.joint, y));
+  }
+  auto& [left, right] = middles;
+  if (left.size() != right.size()) {
+    source.fail(line, tag(element) + "has " + std::to_string(left.size()) + " wheels on the left and " +
+                          std::to_string(right.size()) + " on the right; expected as many");
+  }
+  for (auto& side : middles)
+    std::sort(side.begin(), side.end(), [](const auto& a, const auto& b) { return a.x() > b.x(); });
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    if (std::hypot(left[i].x() - right[i].x(), left[i].z() - right[i].z()) > placement_tolerance)
+      source.fail(line, tag(element) + (left.size() == 1 ? "the wheels are not on one axle"
+                                                         : "the wheels of both sides are not on the same axles"));
+    if (std::abs(left[i].z() - left[0].z()) > placement_tolerance)
+      source.fail(line, tag(element) + "the axles are not at one height");
+  }
+  for (const Follower& wheel : drive.wheels()) {
+    check_radius(source, element, robot, wheel.joint, drive.wheel_radius);
+    balance_wheel(source, line, wheel.joint, robot);
+  }
+  if (drive.effective_base == 0) {
+    std::vector<double> ways;
+    for (const Eigen::Vector3d& middle : left) ways.push_back(middle.x());
+    const double mean = std::accumulate(ways.begin(), ways.end(), 0.0) / static_cast<double>(ways.size());
+    for (double& way : ways) way -= mean;
+    drive.effective_base = effective_base(drive.wheel_base, ways);
+  }
+  warn_of_height(source, element, left[0].z(), drive.wheel_radius, robot);
+}
+
+std::size_t find_joint(const Source& source, const XMLElement& element, const char* attribute, const Robot& robot) {
+  return find_named(source, element, attribute, required(source, element, attribute), robot);
 }
 
 Eigen::Vector3d place_of_turning(const Source& source, const XMLElement& element, const Robot& robot,
@@ -114,8 +191,11 @@ Eigen::Vector3d place_of_turning(const Source& source, const XMLElement& element
   const auto carrier = frame_on_body(robot, joint.parent);
   if (!carrier) source.fail(line, what + "is not on the robot's body: a joint between them moves");
   const Eigen::Isometry3d frame = *carrier * joint.origin;
-  if (!(frame.linear() * joint.axis - Eigen::Vector3d::UnitY()).isZero(1e-6)) {
-    source.fail(line, what + "does not turn about the body's +y axis");
+  const Eigen::Vector3d axis = frame.linear() * joint.axis;
+  if (!(axis - Eigen::Vector3d::UnitY()).isZero(axis_tolerance)) {
+    const double off = std::atan2(axis.cross(Eigen::Vector3d::UnitY()).norm(), axis.y()) * 180 / 3.141592653589793;
+    source.fail(line, what + "does not turn about the body's +y axis: its own is " + print_number(off) +
+                          " degrees off; an axis within 1 degree would be turned onto it");
   }
   return frame.translation();
 }

@@ -110,6 +110,27 @@ std::string words(const tinyxml2::XMLDocument& document) {
   }
 }
 
+// A file that xacro has still to expand has elements of its namespace, or ${...} and $(...) in attributes. The
+// namespace alone is left in files that it has written.
+void refuse_xacro(const Source& source, const XMLElement& element) {
+  const auto refuse = [&](const std::string& what) {
+    source.fail(element.GetLineNum(),
+                "is xacro, not URDF: it has " + what + "; run xacro first: xacro " + source.file + " > OUT.urdf");
+  };
+  if (starts(element.Name(), 0, "xacro:")) refuse(std::string("<") + element.Name() + ">");
+  for (const auto* attribute = element.FirstAttribute(); attribute; attribute = attribute->Next()) {
+    const std::string value = attribute->Value();
+    for (const auto& [opens, closes] : {std::pair{"${", '}'}, std::pair{"$(", ')'}}) {
+      const std::size_t at = value.find(opens);
+      if (at == std::string::npos) continue;
+      const std::size_t end = value.find(closes, at);
+      refuse("\"" + value.substr(at, end == std::string::npos ? end : end - at + 1) + "\"");
+    }
+  }
+  for (const auto* child = element.FirstChildElement(); child; child = child->NextSiblingElement())
+    refuse_xacro(source, *child);
+}
+
 }  // namespace
 
 void parse_urdf(const Source& source, const std::string& text, tinyxml2::XMLDocument& document) {
@@ -126,6 +147,7 @@ void parse_urdf(const Source& source, const std::string& text, tinyxml2::XMLDocu
   if (!root || root->Name() != std::string("robot"))
     source.fail(root ? root->GetLineNum() : 1, "is not URDF; expected <robot>");
   if (const auto* second = root->NextSiblingElement()) source.fail(second->GetLineNum(), "has a second root element");
+  refuse_xacro(source, *root);
 }
 
 }  // namespace muster::description

@@ -1,7 +1,8 @@
-// The descriptions of a world's robots, for plugins: the only header here that includes the plugin contract.
+// The descriptions of a world's robots, for plugins. This header and starts.hpp alone include the plugin contract here.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <memory>
 #include <muster/plugin.hpp>
@@ -29,11 +30,13 @@ class WorldRobots {
       directories.push_back(directory);
       directories.push_back(std::string(directory) + "/models");
     }
-    std::map<std::string, std::shared_ptr<const Robot>> read;
+    std::map<std::array<std::string, 3>, std::shared_ptr<const Robot>> read;
     for (uint32_t row = 0; row < host->rows(host, "robot"); ++row) {
-      const std::string model = setup.text(std::string("robot/").append(host->row_name(host, "robot", row)) + "/model");
-      auto& robot = read[model];
-      if (!robot && !model.empty()) robot = read_one(host, find(host, row, model, directories), meshes);
+      const std::string of_row = std::string("robot/").append(host->row_name(host, "robot", row));
+      const std::string model = setup.text(of_row + "/model");
+      const UrdfSetting declared{setup.text(of_row + "/packages"), setup.text(of_row + "/fittings")};
+      auto& robot = read[{model, declared.packages, declared.fittings}];
+      if (!robot && !model.empty()) robot = read_one(host, row, model, declared, directories, meshes);
       robots_.push_back(robot);
     }
   }
@@ -91,18 +94,19 @@ class WorldRobots {
   std::size_t size() const { return robots_.size(); }
 
  private:
-  static std::string find(const muster_host* host, uint32_t row, const std::string& model,
-                          const std::vector<std::string>& directories) {
+  static std::shared_ptr<const Robot> read_one(const muster_host* host, uint32_t row, const std::string& model,
+                                               const UrdfSetting& declared, const std::vector<std::string>& directories,
+                                               Meshes meshes) {
+    std::string file;
+    UrdfSetting setting;
     try {
-      return find_model(model, directories);
+      file = find_model(model, directories);
+      setting = find_setting(declared, directories);
     } catch (const std::runtime_error& wrong) {
       throw BadInput(std::string("robot '").append(host->row_name(host, "robot", row)) + "': " + wrong.what());
     }
-  }
-
-  static std::shared_ptr<const Robot> read_one(const muster_host* host, const std::string& file, Meshes meshes) {
     try {
-      auto robot = std::make_shared<const Robot>(read_robot(file, meshes));
+      auto robot = std::make_shared<const Robot>(read_robot(file, meshes, setting));
       for (const std::string& warning : robot->warnings) host->event(host, warning.c_str());
       return robot;
     } catch (const std::runtime_error& wrong) {

@@ -106,8 +106,11 @@ std::vector<std::string> Linker::unread() const {
     if (!c.readers.empty() || std::any_of(world_.records.begin(), world_.records.end(), is_record)) continue;
     std::set<const Instance*> silent;  // of several rows that one instance writes, the first is named
     for (const auto& by : c.writers) {
-      if (is_for_others(by) && silent.insert(by.instance).second)
-        result.push_back(by.instance->title() + ": writes " + quote(by.get().name.text()) + ", which nobody reads");
+      if (!is_for_others(by) || !silent.insert(by.instance).second) continue;
+      const Quantity* standard = standard_quantity(standard_, by.get().name);
+      result.push_back(
+          by.instance->title() + ": writes " + quote(by.get().name.text()) + ", which nobody reads" +
+          (standard && *standard->user ? "; expected <" + std::string(standard->user) + "/> in the world" : ""));
     }
   }
   return result;

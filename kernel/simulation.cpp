@@ -1,6 +1,7 @@
 #include "simulation.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "text/names.hpp"
 #include "text/number.hpp"
@@ -29,6 +30,9 @@ Simulation::Simulation(World world, const Standard& standard, Options options)
   if (options_.workers > 1) workers_ = std::make_unique<ThreadPool>(options_.workers);
   around_.workers = workers_.get();
   relink();
+  std::set<std::string> told;  // once what several plugins say of one file: each reads a robot's description itself
+  for (const auto& instance : instances_)
+    std::erase_if(instance->events, [&](const std::string& message) { return !told.insert(message).second; });
   run(0, MUSTER_SENSE, MUSTER_SENSE, 0);
 }
 

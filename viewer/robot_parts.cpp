@@ -30,8 +30,8 @@ struct Recorded {
 };
 
 std::optional<Recorded> recorded(const Robot& robot, std::size_t joint) {
-  if (robot.drive && joint == robot.drive->left) return Recorded{"wheels", "left"};
-  if (robot.drive && joint == robot.drive->right) return Recorded{"wheels", "right"};
+  const int side = robot.drive ? robot.drive->side_of(joint) : -1;
+  if (side >= 0) return Recorded{"wheels", side == 0 ? "left" : "right"};
   if (!robot.legs) return {};
   for (std::size_t leg = 0; leg < description::LegDrive::count; ++leg) {
     if (robot.legs->legs[leg].joint == joint) return Recorded{"legs", "angle" + std::to_string(leg + 1)};

@@ -96,10 +96,10 @@ std::string text_of(const Simulation& run, const std::string& path) {
 }
 
 // The row that a robot's texts are of: its own, or that of which it joined as a copy.
-std::string model_of(const Simulation& run, const Set& robots, std::size_t row) {
+std::string path_of(const Set& robots, std::size_t row) {
   std::size_t like = row;
   while (robots.like[like] != like && robots.like[like] < like) like = robots.like[like];
-  return text_of(run, "robot/" + robots.names[like] + "/model");
+  return "robot/" + robots.names[like];
 }
 
 }  // namespace
@@ -134,7 +134,7 @@ Json RunScene::meshes(const Simulation& run) {
   return result;
 }
 
-void RunScene::add_model(const std::string& model) {
+void RunScene::add_model(const std::string& model, const description::UrdfSetting& declared) {
   if (model.empty() || models_.count(model)) return;
   Json& made = models_[model];
   std::vector<std::string> directories;
@@ -143,7 +143,8 @@ void RunScene::add_model(const std::string& model) {
     directories.push_back((folder / "models").string());
   }
   try {
-    made = parts_of(description::read_robot(description::find_model(model, directories), description::Meshes::visual));
+    made = parts_of(description::read_robot(description::find_model(model, directories), description::Meshes::visual,
+                                            description::find_setting(declared, directories)));
     made["name"] = model;
   } catch (const std::runtime_error& wrong) {
     notes_.push_back("Robots of the model " + model + " are drawn as cylinders: " + wrong.what());
@@ -154,8 +155,8 @@ Json RunScene::robots(const Simulation& run) {
   Json result = Json::array();
   const Set* set = run.board().find_set("robot");
   for (std::size_t row = 0; set && row < set->names.size(); ++row) {
-    const std::string model = model_of(run, *set, row);
-    add_model(model);
+    const std::string path = path_of(*set, row), model = text_of(run, path + "/model");
+    add_model(model, {text_of(run, path + "/packages"), text_of(run, path + "/fittings")});
     result.push_back(
         {{"name", set->names[row]}, {"model", model}, {"pose", row < poses_.size() ? Json(poses_[row]) : Json()}});
   }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "description/robot.hpp"
 #include "kernel/simulation.hpp"
 #include "text/json.hpp"
 
@@ -25,7 +26,7 @@ class RunScene {
  private:
   Json meshes(const Simulation& run);
   Json robots(const Simulation& run);
-  void add_model(const std::string& model);
+  void add_model(const std::string& model, const description::UrdfSetting& declared);
 
   std::vector<std::filesystem::path> folders_;
   Json fixed_;                              // walls, doors, floors, meshes, radios

@@ -21,9 +21,10 @@ enum class SetKind {
 struct Quantity {
   const char* name;
   const char* columns;
-  const char* initial;   // numbers, one a column; "" means zeros, or null where nullable
-  bool sensed;           // a robot's own controller may read it
-  const char* provider;  // the plugin that writes it where a world names none; "" for none
+  const char* initial;    // numbers, one a column; "" means zeros, or null where nullable
+  bool sensed;            // a robot's own controller may read it
+  const char* provider;   // the plugin that writes it where a world names none; "" for none
+  const char* user = "";  // a plugin that makes it have an effect, for the message where nobody reads it
 };
 
 struct SetDeclaration {
@@ -119,9 +120,9 @@ inline const Standard& standard() {
            {{"pose", Pose::columns, "0 0 0 1 0 0 0", false, "physics.simbody"},
             {"twist", Twist::columns, "", false, "physics.simbody"},
             {"wheels", Wheels::columns, "", false, "physics.simbody"},
-            {"command", Command::columns, "", true, ""},
-            {"car_command", CarCommand::columns, "", true, ""},
-            {"goal2d", Goal2d::columns, "", true, ""},
+            {"command", Command::columns, "", true, "", "physics.simbody"},
+            {"car_command", CarCommand::columns, "", true, "", "control.car"},
+            {"goal2d", Goal2d::columns, "", true, "", "control.goal2d"},
             {"drive", Drive::columns, "", false, "robots.drive"},
             {"gait", Gait::columns, "", false, "robots.gait"},
             {"legs", Legs::columns, "", false, "physics.simbody"},
@@ -129,8 +130,8 @@ inline const Standard& standard() {
             {"odometry_reset", OdometryReset::columns, "", true, ""},
             {"stall", Stall::columns, "", true, "robots.odometry"},
             {"geometry", Geometry::columns, "", true, "robots.geometry"},
-            {"attitude_thrust", AttitudeThrust::columns, "", true, ""},
-            {"velocity3d", Velocity3d::columns, "", true, ""},
+            {"attitude_thrust", AttitudeThrust::columns, "", true, "", "physics.simbody"},
+            {"velocity3d", Velocity3d::columns, "", true, "", "control.velocity3d"},
             {"position3d", Position3d::columns, "", true, "robots.mocap"},
             {"rotor_drive", RotorDrive::columns, "", false, "robots.attitude"},
             {"rotors", Rotors::columns, "", false, "physics.simbody"}}},
@@ -235,6 +236,9 @@ inline const Standard& standard() {
            "a robot, with its radio",
            "",
            {{text("model", "scarab", "a description among the models, or a URDF file"), 0, "", nullptr},
+            {text("packages", "", "the folder that holds ROS packages, for package:// in its URDF"), 0, "", nullptr},
+            {text("fittings", "", "a file with the <muster>, <sensor> and <gazebo> that its URDF lacks"), 0, "",
+             nullptr},
             {real("at", 0, -far, far, "m", "place: x y z").required(), 3, "robot/pose", store_at<0, 3>},
             {real("heading", 0, -far, far, "rad", "heading, from east to north"), 1, "robot/pose",
              detail::store_yaw<3>},

@@ -35,7 +35,9 @@ std::vector<std::string> lacks(const Robot& robot) {
   if (robot.legs) return {"it walks"};
   std::vector<std::string> result;
   std::vector<std::size_t> wheels;
-  if (robot.drive) wheels = {robot.drive->left, robot.drive->right};
+  if (robot.drive) {
+    for (const description::Follower& wheel : robot.drive->wheels()) wheels.push_back(wheel.joint);
+  }
   const std::vector<description::LimbJoint> limbs = limbs_of(robot);
   for (const description::LimbJoint& limb : limbs) {
     if (const std::string why = why_not(robot, limb); !why.empty())
@@ -51,13 +53,13 @@ std::vector<std::string> lacks(const Robot& robot) {
   return result;
 }
 
-Wheel wheel_of(const Robot& robot, std::size_t index) {
-  const description::Joint& joint = robot.joints[index];
+Wheel wheel_of(const Robot& robot, const description::Follower& wheel) {
+  const description::Joint& joint = robot.joints[wheel.joint];
   Isometry3d frame = joint.origin;
   for (std::size_t link = joint.parent; link != 0; link = robot.joints[link - 1].parent) {
     frame = robot.joints[link - 1].origin * frame;
   }
-  return {rigid_mass(robot, joint.child), frame, joint.axis};
+  return {wheel.side, rigid_mass(robot, joint.child), frame, joint.axis};
 }
 
 // A shape as a box in its own frame: itself, or the smallest around it along the frame's axes.
@@ -92,6 +94,7 @@ RobotModel::RobotModel(const Robot& robot) {
   has_wheels = robot.drive.has_value();
   rotors = robot.quadrotor;
   restitution = robot.restitution;
+  mass = whole_mass(robot).mass;
   body = rigid_mass(robot, 0);
   take_shapes(robot, 0, -1);
   for (const description::LimbJoint& limb : limbs_of(robot)) {
@@ -100,11 +103,10 @@ RobotModel::RobotModel(const Robot& robot) {
   }
   if (!has_wheels) return;
   drive = *robot.drive;
-  const std::size_t joints[] = {drive.left, drive.right};
-  for (std::size_t w = 0; w < 2; ++w) {
-    wheel[w] = wheel_of(robot, joints[w]);
-    for (const Shape& shape : rigid_shapes(robot, robot.joints[joints[w]].child)) {
-      blocks.push_back(block_of(shape, wheel[w].frame, true));
+  for (const description::Follower& one : drive.wheels()) {
+    wheels.push_back(wheel_of(robot, one));
+    for (const Shape& shape : rigid_shapes(robot, robot.joints[one.joint].child)) {
+      blocks.push_back(block_of(shape, wheels.back().frame, true));
     }
   }
 }

@@ -1,4 +1,4 @@
-// ODE's model of a robot: a rigid body; two wheels hinged to it, rotors that lift it, or no drive; and its collision
+// ODE's model of a robot: a rigid body; wheels hinged to it, rotors that lift it, or no drive; and its collision
 // shapes.
 #pragma once
 
@@ -25,6 +25,7 @@ struct Block {
 };
 
 struct Wheel {
+  int side;                 // 0 left, 1 right
   description::Mass mass;   // in the joint's frame
   Eigen::Isometry3d frame;  // of the joint in the body's
   Eigen::Vector3d axis;     // unit, in the joint's frame
@@ -39,8 +40,9 @@ struct RobotModel {
   description::DifferentialDrive drive;
   std::optional<description::Quadrotor> rotors;
   double restitution = 0;
-  description::Mass body;  // mass of the root and all that is fixed to it, in its frame
-  std::array<Wheel, 2> wheel;
+  double mass = 0;            // of all parts [kg]
+  description::Mass body;     // mass of the root and all that is fixed to it, in its frame
+  std::vector<Wheel> wheels;  // the first of each side, then those that follow them
   std::vector<description::LimbModel> limbs;
   std::vector<Ball> balls;
   std::vector<Block> blocks;

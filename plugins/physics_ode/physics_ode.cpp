@@ -4,6 +4,7 @@
 #include <muster/plugin.hpp>
 #include <optional>
 
+#include "description/starts.hpp"
 #include "description/world_robots.hpp"
 #include "plugins/scene_rows.hpp"
 #include "world.hpp"
@@ -157,7 +158,21 @@ struct PhysicsOde {
       make([&](std::size_t row) { return k.name("robot", row); });
     }
     stand_walls(k);
+    if (k.tick() == first_tick && made.settings.obstacles) warn_of_starts(k);
     move(k);
+  }
+
+  static constexpr uint64_t first_tick = 1;
+
+  void warn_of_starts(const Step& k) const {
+    std::vector<description::starts::Block> blocks;
+    for (const scene::Slab& slab : scene::slabs(scene_walls(k[walls]), scene_doors(k[doors], k[door_states], k[walls])))
+      blocks.push_back(description::starts::block_of(slab));
+    for (const std::string& fault : description::starts::faults(
+             k[pose].size(), [&](std::size_t i) { return k.last(pose)[i]; },
+             [&](std::size_t i) { return k.alive("robot", i) ? robots.of(k[model][i].model) : nullptr; },
+             [&](auto set, std::size_t row) { return k.name(set, row); }, blocks))
+      k.event("warning: " + fault);
   }
 
   // Walls with the doors' states of this tick.

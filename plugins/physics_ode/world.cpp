@@ -18,7 +18,8 @@ constexpr double fastest = 1e3;         // [m/s], [rad/s]: beyond, the motion ha
 constexpr double thinnest_wall = 0.02;  // [m]: a robot may step through less without a contact
 constexpr int most_contacts = 8;        // of two shapes: the most that two boxes make
 constexpr double smooth = 0, as_the_other = std::numeric_limits<double>::infinity();  // of a surface
-constexpr double slowest_bounce = 0.02;                                               // [m/s]
+constexpr double sunk = 1e-4;            // [m] of a skid steer's wheels under its weight
+constexpr double slowest_bounce = 0.02;  // [m/s]
 
 // Collision categories. Robots are spaces of their own, whose parts do not collide.
 constexpr unsigned long ground = 1, part = 2, wall = 4, tyre = 8;
@@ -110,24 +111,31 @@ dBodyID World::add_body(const description::Mass& mass, const Isometry3d& frame) 
   return made;
 }
 
+// Hinges a wheel to the body, with its motor; a wheel that follows another is held at its rate as by a chain.
+void World::add_wheel(Robot& robot, std::size_t w) const {
+  const Wheel& wheel = robot.model.wheels[w];
+  const bool follows = w >= 2;
+  const Vector3d anchor = wheel.frame.translation(), axis = wheel.frame.linear() * wheel.axis;
+  dBodyID body = add_body(wheel.mass, wheel.frame);
+  dJointID hinge = dJointCreateHinge(world_.get(), nullptr);
+  dJointAttach(hinge, body, robot.body);
+  dJointSetHingeAnchor(hinge, anchor.x(), anchor.y(), anchor.z());
+  dJointSetHingeAxis(hinge, axis.x(), axis.y(), axis.z());
+  // Separate from the hinge's own motor: see README.md.
+  dJointID motor = dJointCreateAMotor(world_.get(), nullptr);
+  dJointAttach(motor, body, follows ? robot.wheel[static_cast<std::size_t>(wheel.side)] : robot.body);
+  dJointSetAMotorNumAxes(motor, 1);
+  dJointSetAMotorAxis(motor, 0, 2, axis.x(), axis.y(), axis.z());
+  dJointSetAMotorParam(motor, dParamFMax, follows ? dInfinity : robot.model.drive.max_torque);
+  robot.wheel.push_back(body);
+  robot.hinge.push_back(hinge);
+  robot.motor.push_back(motor);
+}
+
 // Bodies are placed with the robot's frame at the world's; joints and shapes keep those relative places.
 void World::add(Robot& robot) {
   robot.body = add_body(robot.model.body, Isometry3d::Identity());
-  for (std::size_t w = 0; robot.model.has_wheels && w < 2; ++w) {
-    const Wheel& wheel = robot.model.wheel[w];
-    const Vector3d anchor = wheel.frame.translation(), axis = wheel.frame.linear() * wheel.axis;
-    robot.wheel[w] = add_body(wheel.mass, wheel.frame);
-    robot.hinge[w] = dJointCreateHinge(world_.get(), nullptr);
-    dJointAttach(robot.hinge[w], robot.wheel[w], robot.body);
-    dJointSetHingeAnchor(robot.hinge[w], anchor.x(), anchor.y(), anchor.z());
-    dJointSetHingeAxis(robot.hinge[w], axis.x(), axis.y(), axis.z());
-    // Separate from the hinge's own motor: see README.md.
-    robot.motor[w] = dJointCreateAMotor(world_.get(), nullptr);
-    dJointAttach(robot.motor[w], robot.wheel[w], robot.body);
-    dJointSetAMotorNumAxes(robot.motor[w], 1);
-    dJointSetAMotorAxis(robot.motor[w], 0, 2, axis.x(), axis.y(), axis.z());
-    dJointSetAMotorParam(robot.motor[w], dParamFMax, robot.model.drive.max_torque);
-  }
+  for (std::size_t w = 0; w < robot.model.wheels.size(); ++w) add_wheel(robot, w);
   std::vector<Isometry3d> limbs;
   for (std::size_t i = 0; i < robot.model.limbs.size(); ++i) {
     const LimbModel& limb = robot.model.limbs[i];
@@ -151,10 +159,15 @@ void World::add_shapes(const Robot& robot, const std::vector<Isometry3d>& limbs)
     dGeomSetOffsetWorldQuaternion(geom, turned);
   };
   const unsigned long others = settings_.obstacles ? part | wall : 0;
-  for (std::size_t w = 0; robot.model.has_wheels && w < 2; ++w) {
+  for (std::size_t w = 0; w < robot.wheel.size(); ++w) {
     dGeomID sphere = dCreateSphere(nullptr, robot.model.drive.wheel_radius);
     fix(add_geom(sphere, tyre, ground, robot.model.drive.friction, robot.model.restitution), robot.wheel[w],
-        robot.model.wheel[w].frame);
+        robot.model.wheels[w].frame);
+    if (robot.wheel.size() <= 2) continue;
+    const double share = robot.model.mass / static_cast<double>(robot.wheel.size());
+    surfaces_.back().stiffness = share * gravity / sunk;
+    surfaces_.back().grip = robot.model.drive.friction * share * gravity;
+    surfaces_.back().damping = 2 * std::sqrt(surfaces_.back().stiffness * share);
   }
   const auto fix_part = [&](dGeomID geom, int limb, const Isometry3d& pose) {
     limb < 0 ? fix(geom, robot.body, pose) : fix(geom, robot.limb[limb], limbs[limb] * pose);
@@ -177,7 +190,7 @@ dGeomID World::add_geom(dGeomID geom, unsigned long category, unsigned long meet
                         double restitution) {
   dGeomSetCategoryBits(geom, category);
   dGeomSetCollideBits(geom, meets);
-  surfaces_.push_back({surfaces_.size(), friction, restitution});
+  surfaces_.push_back({surfaces_.size(), friction, restitution, 0, 0, 0});
   dGeomSetData(geom, &surfaces_.back());
   return geom;
 }
@@ -202,6 +215,7 @@ int World::step(double dt, const std::vector<Command>& commands, std::vector<Rob
   const Complaints complaints;
   const int count = std::max(1, static_cast<int>(std::ceil(dt / settings_.step - 1e-9)));
   const double h = dt / count;
+  h_ = h;
   for (std::size_t i = 0; i < robots_.size(); ++i) place(robots_[i], states[i]);
   for (int k = 0; k < count; ++k) {
     for (std::size_t i = 0; i < robots_.size(); ++i) {
@@ -237,10 +251,12 @@ void World::place(const Robot& robot, const RobotState& s) {
         speed + turned * vector(hung.velocity.data()), w + turned * vector(hung.spin.data()));
   };
   const auto is_known = [](const HungBody& hung) { return hung.quaternion != std::array<double, 4>{}; };
-  for (std::size_t k = 0; robot.model.has_wheels && k < 2; ++k) {
-    put_hung(robot.wheel[k], is_known(s.hinged[k]) ? s.hinged[k]
-                                                   : as_hinged(robot.model.wheel[k], robot.model.body.centre, own_spin,
-                                                               s.angle[k], s.rate[k]));
+  for (std::size_t k = 0; k < robot.wheel.size(); ++k) {
+    const Wheel& wheel = robot.model.wheels[k];
+    const auto side = static_cast<std::size_t>(wheel.side);
+    put_hung(robot.wheel[k], k < 2 && is_known(s.hinged[k])
+                                 ? s.hinged[k]
+                                 : as_hinged(wheel, robot.model.body.centre, own_spin, s.angle[side], s.rate[side]));
   }
   if (robot.model.limbs.empty()) return;
   const std::vector<HungBody> wanted = as_hung(robot.model, s.limbs, own_spin);
@@ -286,6 +302,38 @@ void World::touch() {
   for (const Pair& pair : pairs_) touch(pair);
 }
 
+// A skid steer's wheel. Its contact is as soft as to share the weight among more than three wheels, which rigid ones do
+// not determine. Friction is Coulomb's law, linear about the slip before the step: its bound along that slip, and
+// across it the bound times the share that the velocity there has of the slip. A pyramid would hold the direction of
+// the slip.
+void World::carry_and_slip(const Pair& pair, dContact& contact) const {
+  const Surface& wheel = pair.first->stiffness > 0 ? *pair.first : *pair.second;
+  const double stiff = h_ * wheel.stiffness + wheel.damping;
+  contact.surface.mode |= dContactSoftERP | dContactSoftCFM;
+  contact.surface.soft_erp = h_ * wheel.stiffness / stiff;
+  contact.surface.soft_cfm = 1 / stiff;
+  Vector3d slip = Vector3d::Zero();
+  const auto add = [&](dGeomID geom, double sign) {
+    dBodyID body = dGeomGetBody(geom);
+    if (!body) return;
+    dVector3 velocity;
+    const dReal* at = contact.geom.pos;
+    dBodyGetPointVel(body, at[0], at[1], at[2], velocity);
+    slip += sign * vector(velocity);
+  };
+  add(pair.a, 1);
+  add(pair.b, -1);
+  const Vector3d normal = vector(contact.geom.normal);
+  slip -= normal * normal.dot(slip);
+  constexpr double slowest = 1e-6;  // [m/s]: below, it rolls
+  const double speed = slip.norm();
+  if (speed < slowest) return;
+  slip /= speed;
+  contact.surface.mode |= dContactFDir1 | dContactSlip2;
+  contact.surface.slip2 = speed / wheel.grip;
+  for (int k = 0; k < 3; ++k) contact.fdir1[k] = slip[k];
+}
+
 void World::touch(const Pair& pair) {
   dContact contact[most_contacts];
   const int count = dCollide(pair.a, pair.b, most_contacts, &contact[0].geom, sizeof contact[0]);
@@ -297,6 +345,7 @@ void World::touch(const Pair& pair) {
       contact[i].surface.bounce = share;
       contact[i].surface.bounce_vel = slowest_bounce;
     }
+    if (pair.first->stiffness > 0 || pair.second->stiffness > 0) carry_and_slip(pair, contact[i]);
     dJointID joint = dJointCreateContact(world_.get(), contacts_.get(), &contact[i]);
     dJointAttach(joint, dGeomGetBody(pair.a), dGeomGetBody(pair.b));
   }

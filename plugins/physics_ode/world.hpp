@@ -40,11 +40,11 @@ struct Command {
 };
 
 struct RobotState {
-  std::array<double, 7> pose;   // x y z [m], qw qx qy qz, body to world
-  std::array<double, 6> twist;  // v [m/s] of the body's origin, w [rad/s]; both in the world's frame
-  std::array<double, 2> angle;  // of the wheels, left and right [rad]
-  std::array<double, 2> rate;   // [rad/s]
-  std::array<HungBody, 2> hinged;
+  std::array<double, 7> pose;      // x y z [m], qw qx qy qz, body to world
+  std::array<double, 6> twist;     // v [m/s] of the body's origin, w [rad/s]; both in the world's frame
+  std::array<double, 2> angle;     // of the wheels, left and right [rad]
+  std::array<double, 2> rate;      // [rad/s]
+  std::array<HungBody, 2> hinged;  // of the first wheel of each side; the others are set by their hinges in each tick
   std::array<double, 4> rotors{};  // present rates [rad/s]
   Limbs limbs{};                   // present states
   std::array<HungBody, Limbs::most> hung{};
@@ -72,13 +72,16 @@ class World {
     std::string name;
     RobotModel model;
     dBodyID body = nullptr;
-    std::array<dBodyID, 2> wheel{};
-    std::array<dJointID, 2> hinge{}, motor{};
+    std::vector<dBodyID> wheel{};
+    std::vector<dJointID> hinge{}, motor{};  // the motor of a wheel that follows another is the chain to that
     std::array<dBodyID, Limbs::most> limb{};
   };
   struct Surface {
     std::size_t number;  // in the order in which shapes were added
     double friction, restitution;
+    // Of a wheel of a skid steer, else 0: its contact's spring and damper along the normal [N/m], [N s/m], and
+    // friction's bound under its share of the weight [N].
+    double stiffness = 0, damping = 0, grip = 0;
   };
   struct Pair {
     dGeomID a, b;
@@ -89,6 +92,7 @@ class World {
   };
 
   void add(Robot& robot);
+  void add_wheel(Robot& robot, std::size_t w) const;
   dBodyID add_body(const description::Mass& mass, const Eigen::Isometry3d& frame) const;
   void add_shapes(const Robot& robot, const std::vector<Eigen::Isometry3d>& limbs);
   dGeomID add_geom(dGeomID geom, unsigned long category, unsigned long meets, double friction, double restitution);
@@ -100,6 +104,7 @@ class World {
   void advance(double h, unsigned long seed);
   static void read(const Robot& robot, RobotState& state);
   static void read_limbs(const Robot& robot, RobotState& state);
+  void carry_and_slip(const Pair& pair, dContact& contact) const;
   static void near(void* world, dGeomID a, dGeomID b);
 
   Library library_;
@@ -112,6 +117,7 @@ class World {
   std::deque<Surface> surfaces_;  // targets of the shapes' user pointers
   std::vector<dGeomID> walls_;
   std::size_t surfaces_of_robots_ = 0;
+  double h_ = 0;  // length of the present step [s]
   std::vector<Pair> pairs_;
 };
 

@@ -51,8 +51,8 @@ ContactRowsOf<N> rows_at(const Side& side, const Vector3d& place, const Matrix3d
   for (int k = 0; k < 2; ++k) {
     rows.tangent[k] = point_row<N>(arm, ways.col(1 + k));
     if (wheel < 0) continue;
-    const Vector3d centre = robot.model->wheel_frame[wheel].translation();
-    rows.tangent[k][6 + wheel] = Vector3d::UnitY().cross(arm - centre).dot(ways.col(1 + k));
+    const Vector3d centre = robot.model->hub_of(wheel);
+    rows.tangent[k][6 + robot.model->side_of(wheel)] = Vector3d::UnitY().cross(arm - centre).dot(ways.col(1 + k));
   }
   if (leg >= 0) {
     const Vector3d turning = Vector3d::UnitY().cross(arm - robot.model->legs[leg].hip);
@@ -91,6 +91,13 @@ Matrix3d frame_about(const Vector3d& normal) {
   frame.col(0) = normal;
   frame.col(1) = normal.unitOrthogonal();
   frame.col(2) = normal.cross(frame.col(1));
+  return frame;
+}
+
+// Up, and the tangents x and y of the world.
+Matrix3d ground_frame() {
+  Matrix3d frame;
+  frame << 0, 1, 0, 0, 0, 1, 1, 0, 0;
   return frame;
 }
 
@@ -158,20 +165,29 @@ void EncountersOf<N>::stand(int body, const Placed& robot, const Memory& memory)
     if (somebody_bounces_) meetings.push_back({gap, robot.model->restitution});
     return c;
   };
-  for (int w = 0; robot.model->has_wheels && w < 2; ++w) {
+  for (int w = 0; w < robot.model->wheel_count(); ++w) {
     const double radius = robot.model->drive.wheel_radius;
-    const Vector3d arm = robot.model->wheel_frame[w].translation() - radius * up;
+    const Vector3d arm = robot.model->hub_of(w) - radius * up;
     Contact& c = add_contact(arm);
     const Vector3d surface = Vector3d::UnitY().cross(-radius * up);  // of the tread, per rate
     for (int k = 0; k < 2; ++k) {
       c.tangent[k] = point_row<N>(arm, to_body.col(k));
-      c.tangent[k][6 + w] = surface.dot(to_body.col(k));
+      c.tangent[k][6 + robot.model->side_of(w)] = surface.dot(to_body.col(k));
     }
     c.friction = robot.model->drive.friction;
-    const auto& impulse = memory.impulse[w];
-    c.push = impulse[0];
-    c.grip = {impulse[1], impulse[2]};
-    traces.emplace_back(robot.index, w);
+    if (w < 2) {
+      const auto& impulse = memory.impulse[w];
+      c.push = impulse[0];
+      c.grip = {impulse[1], impulse[2]};
+      traces.emplace_back(robot.index, w);
+      continue;
+    }
+    traces.emplace_back(robot.index, -w, ground_frame());
+    for (const KeptImpulse& kept : memory.kept) {
+      if (kept.id != -w) continue;
+      c.push = kept.impulse[2];
+      c.grip = {kept.impulse[0], kept.impulse[1]};
+    }
   }
   for (const Slider& slider : robot.model->sliders) {
     add_contact(slider.centre - slider.radius * up);

@@ -42,7 +42,7 @@ struct Trace {
 
   int robot;
   int wheel = -1;                 // on the ground: 0 left, 1 right
-  double id = 0;                  // of others; 0: not kept
+  double id = 0;                  // of others; 0: not kept; below 0: the ground under a wheel that follows another
   bool step_is_too_long = false;  // for this contact
   Eigen::Matrix3d frame;          // normal and tangents as columns, in the world
 };

@@ -98,20 +98,29 @@ RobotModel::RobotModel(const description::Robot& robot) : name(robot.name) {
 
 void RobotModel::take_wheels(const description::Robot& robot) {
   drive = *robot.drive;
-  const std::size_t joints[] = {drive.left, drive.right};
-  for (std::size_t w = 0; w < 2; ++w) {
-    const description::Joint& joint = robot.joints[joints[w]];
-    wheel[w] = rigid_mass(robot, joint.child);
-    if (!balanced(wheel[w], joint.axis))
-      refuse(robot, "the wheel of joint '" + joint.name + "' is not balanced about its axis");
-    wheel_frame[w] = frame_on_body(robot, joint);
+  int number = 0;
+  for (const description::Follower& one : drive.wheels()) {
+    const description::Joint& joint = robot.joints[one.joint];
+    FollowingWheel made{one.side, rigid_mass(robot, joint.child), frame_on_body(robot, joint)};
+    if (!balanced(made.mass, joint.axis)) {
+      refuse(robot, "the wheel of joint '" + joint.name +
+                        "' is not balanced about its axis by more than rounded figures (5 %); expected its centre of "
+                        "mass on the axle and the same inertia about all axes across it");
+    }
     for (const description::Shape& shape : rigid_shapes(robot, joint.child))
-      parts.push_back({solid_of(wheel_frame[w], shape), static_cast<int>(w)});
+      parts.push_back({solid_of(made.frame, shape), number});
     // Simbody's pin turns about z: turn the joint's frame so that its z is the axle.
     const Eigen::Quaterniond to_axis = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), joint.axis);
-    wheel_frame[w] = wheel_frame[w] * to_axis;
-    wheel[w] = in_parent(Eigen::Isometry3d(to_axis.inverse()), wheel[w]);
-    core = core + in_parent(wheel_frame[w], wheel[w]);
+    made.frame = made.frame * to_axis;
+    made.mass = in_parent(Eigen::Isometry3d(to_axis.inverse()), made.mass);
+    core = core + in_parent(made.frame, made.mass);
+    if (number < 2) {
+      wheel[static_cast<std::size_t>(number)] = made.mass;
+      wheel_frame[static_cast<std::size_t>(number)] = made.frame;
+    } else {
+      followers.push_back(made);
+    }
+    ++number;
   }
 }
 
@@ -129,6 +138,8 @@ void RobotModel::take_limbs(const description::Robot& robot) {
   for (const description::LimbJoint& limb : limbs_of(robot)) {
     const description::Joint& joint = robot.joints[limb.joint];
     if (robot.legs) refuse(robot, "joint '" + joint.name + "' has no motor; what walks may not have limbs");
+    if (!followers.empty())
+      refuse(robot, "joint '" + joint.name + "' has no motor; a robot on more than two wheels may not have limbs");
     if (limb.carrier == description::LimbJoint::driven) refuse(robot, "joint '" + joint.name + "' hangs on a wheel");
     if (const std::string what = unmodelled(joint); !what.empty())
       refuse(robot, "joint '" + joint.name + "' (" + law_of(joint.kind).name + ") without a motor " + what);
@@ -246,6 +257,7 @@ RobotBodies System::add(const RobotModel& model) {
                                      SimTK::Transform());
   };
   for (std::size_t w = 0; model.has_wheels && w < 2; ++w) bodies.wheel[w] = pin(model.wheel_frame[w], model.wheel[w]);
+  for (const FollowingWheel& follower : model.followers) pin(follower.frame, follower.mass);
   // A pin turns about z: turn a leg's frame so that its z is the body's y.
   const Eigen::Quaterniond to_axis =
       Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitY());

@@ -1,4 +1,4 @@
-// Robots as Simbody multibody systems: a free body, with two wheels or six legs on pins or without, gravity, and flat
+// Robots as Simbody multibody systems: a free body, with wheels or six legs on pins or without, gravity, and flat
 // ground at z = 0.
 #pragma once
 
@@ -19,8 +19,15 @@ struct Slider {
 // the box around it, along the axes of its own frame. A part of a wheel moves with its tread but keeps its place.
 struct Part {
   Solid solid;
-  int wheel = -1;  // 0 left, 1 right
+  int wheel = -1;  // number: see RobotModel
   int limb = -1;
+};
+
+// A wheel that turns at the rate of the first one on its side.
+struct FollowingWheel {
+  int side;                 // 0 left, 1 right
+  description::Mass mass;   // in the wheel joint's frame
+  Eigen::Isometry3d frame;  // of the joint in the body's frame
 };
 
 // A leg on its hip; see description::LegDrive.
@@ -50,6 +57,14 @@ struct RobotModel {
     return part.wheel < 0 && (part.solid.kind != Solid::Kind::sphere || !is_driven || part.limb >= 0);
   }
 
+  // Wheels are numbered: left, right, followers.
+  int wheel_count() const { return has_wheels ? 2 + static_cast<int>(followers.size()) : 0; }
+  int side_of(int number) const { return number < 2 ? number : followers[static_cast<std::size_t>(number) - 2].side; }
+  Eigen::Vector3d hub_of(int number) const {
+    return number < 2 ? wheel_frame[static_cast<std::size_t>(number)].translation()
+                      : followers[static_cast<std::size_t>(number) - 2].frame.translation();
+  }
+
   // True if a limb has collision parts.
   bool feels_limbs() const;
 
@@ -66,6 +81,7 @@ struct RobotModel {
   description::Mass body;                        // mass of the root and all that is fixed to it, in its frame
   std::array<description::Mass, 2> wheel;        // in the wheel joint's frame
   std::array<Eigen::Isometry3d, 2> wheel_frame;  // of the joints in the body's frame
+  std::vector<FollowingWheel> followers;         // of a skid steer
   double restitution = 0;
   description::LegDrive leg_drive;
   std::vector<Leg> legs;  // none: on wheels
@@ -87,7 +103,7 @@ struct RobotModel {
 
 struct RobotBodies {
   SimTK::MobilizedBody::Free body;
-  std::array<SimTK::MobilizedBody::Pin, 2> wheel;  // of a robot on wheels
+  std::array<SimTK::MobilizedBody::Pin, 2> wheel;  // of a robot on wheels; its followers come right after them
   std::vector<SimTK::MobilizedBody::Pin> legs;
   std::vector<SimTK::MobilizedBody> limbs;
 };

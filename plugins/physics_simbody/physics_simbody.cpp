@@ -5,6 +5,7 @@
 #include <muster/plugin.hpp>
 #include <optional>
 
+#include "description/starts.hpp"
 #include "description/world_robots.hpp"
 #include "plugins/scene_rows.hpp"
 #include "world.hpp"
@@ -181,7 +182,21 @@ struct PhysicsSimbody {
       make_engine([&](std::size_t row) { return k.name("robot", row); });
     }
     tell_surroundings(k);
+    if (k.tick() == first_tick && made.integrator == 0) warn_of_starts(k);
     move(k);
+  }
+
+  static constexpr uint64_t first_tick = 1;
+
+  void warn_of_starts(const Step& k) const {
+    std::vector<description::starts::Block> blocks;
+    for (const scene::Slab& slab : scene::slabs(scene_walls(k[wall]), scene_doors(k[door], k[door_state], k[wall])))
+      blocks.push_back(description::starts::block_of(slab));
+    for (const std::string& fault : description::starts::faults(
+             k[pose].size(), [&](std::size_t i) { return k.last(pose)[i]; },
+             [&](std::size_t i) { return k.alive("robot", i) ? robots.of(k[model][i].model) : nullptr; },
+             [&](auto set, std::size_t row) { return k.name(set, row); }, blocks))
+      k.event("warning: " + fault);
   }
 
   // A robot that left keeps its state.

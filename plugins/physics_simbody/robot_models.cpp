@@ -15,6 +15,8 @@ RobotModels::RobotModels(const std::vector<NamedRobot>& robots, LegModel legs) {
     robot.bodies = system_.add(robot.model);
     robot.whole = whole_mass(*named.description);
     for (std::size_t w = 0; w < 2; ++w) robot.wheel_inertia[w] = robot.model.wheel[w].inertia(2, 2);
+    for (const FollowingWheel& follower : robot.model.followers)
+      robot.wheel_inertia[static_cast<std::size_t>(follower.side)] += follower.mass.inertia(2, 2);
     if (robot.model.rotors && robot.model.limbs.empty()) robot.flight.emplace(robot.whole, *robot.model.rotors);
     members_.push_back(std::move(robot));
   }
@@ -32,7 +34,8 @@ bool RobotModels::any_bounces() const {
 }
 
 // Simbody's own mass matrix at the reference pose; in the body's frame it is constant, as wheels are balanced. Robots
-// are not joined, so one product has a column of each. Missing wheels have an inertia of one and no torque.
+// are not joined, so one product has a column of each. Wheels of one side turn at one rate: its column is the sum of
+// theirs, its row too. Missing wheels have an inertia of one and no torque.
 void RobotModels::read_masses() {
   const SimTK::State& state = system_.state;
   SimTK::Vector columns;
@@ -40,7 +43,12 @@ void RobotModels::read_masses() {
     SimTK::Vector units(state.getNU(), 0.0);
     const auto has = [c](const CrewMember& robot) { return c < 6 || robot.model.has_wheels; };
     for (const CrewMember& robot : members_) {
-      if (has(robot)) units[robot.bodies.body.getFirstUIndex(state) + c] = 1;
+      if (!has(robot)) continue;
+      const int first = robot.bodies.body.getFirstUIndex(state);
+      units[first + c] = 1;
+      for (std::size_t f = 0; f < robot.model.followers.size(); ++f) {
+        if (robot.model.followers[f].side == c - 6) units[first + unknowns + static_cast<int>(f)] = 1;
+      }
     }
     system_.matter.multiplyByM(state, units, columns);
     for (CrewMember& robot : members_) {
@@ -48,6 +56,8 @@ void RobotModels::read_masses() {
       robot.mass.col(c).setZero();
       robot.mass(c, c) = 1;
       for (int r = 0; has(robot) && r < own; ++r) robot.mass(r, c) = columns[first + r];
+      for (std::size_t f = 0; has(robot) && f < robot.model.followers.size(); ++f)
+        robot.mass(6 + robot.model.followers[f].side, c) += columns[first + unknowns + static_cast<int>(f)];
     }
   }
   for (CrewMember& robot : members_) robot.inverse_mass = robot.mass.inverse();

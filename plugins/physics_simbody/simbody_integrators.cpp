@@ -66,6 +66,10 @@ struct SimbodyIntegrators::Robot {
       throw std::runtime_error("robot '" + name + "' walks; Simbody's own integrators roll on wheels: use midpoint");
     if (!model.has_wheels)
       throw std::runtime_error("robot '" + name + "' has no wheels: integrator=\"midpoint\" moves it");
+    if (!model.followers.empty())
+      throw std::runtime_error(
+          "robot '" + name +
+          "' turns by slip of its wheels, which Simbody's own integrators do not have: use midpoint");
     if (model.restitution > 0)
       throw std::runtime_error("robot '" + name +
                                "' bounces; Simbody's own integrators keep wheels on the ground: use midpoint");

@@ -244,7 +244,7 @@ void StepperOf<N>::take_contacts(const Island& island) {
 
 template <int N>
 void StepperOf<N>::solve(const Island& island, double h, std::vector<RobotState>& states) {
-  const auto on_clear_floor = [&](int k) { return encounters_.traces[k].id == 0; };
+  const auto on_clear_floor = [&](int k) { return encounters_.traces[k].id <= 0; };
   problem_.search = std::all_of(island.contacts.begin(), island.contacts.end(), on_clear_floor) ? alone : together;
   problem_.bodies.resize(island.robots.size());
   for (std::size_t i = 0; i < island.robots.size(); ++i) problem_.bodies[i] = placed()[island.robots[i]].body;

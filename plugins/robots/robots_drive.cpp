@@ -23,7 +23,7 @@ struct RobotsDrive {
   // The rates without noise at the end of the step: the next ramp's start.
   struct Reached {
     static constexpr const char* columns = "left[rad/s] right[rad/s] model";
-    double left, right, model;  // model: as in description::Model
+    double left, right, model;  // model: as in description::Model; left of a robot without a drive: 1 after the warning
   };
 
   explicit RobotsDrive(Setup& s)
@@ -41,8 +41,25 @@ struct RobotsDrive {
       k[drive][i] = {0, 0, 0, 0};
       k[reached][i] = {0, 0, model};
       const auto* motors = robots.drive_of(model);
-      if (motors && i < commands.size() && k.alive("robot", i)) turn(k, i, commands[i], *motors);
+      if (i >= commands.size() || !k.alive("robot", i)) continue;
+      if (motors)
+        turn(k, i, commands[i], *motors);
+      else
+        warn_if_asked(k, i, commands[i]);
     }
+  }
+
+  // Once of each robot that nothing can move as it is asked to.
+  void warn_if_asked(const Step& k, std::size_t i, const Command& asked) const {
+    const auto* robot = robots.of(k[reached][i].model);
+    if (!robot || robot->is_driven()) return;
+    const bool told = k.last(reached)[i].left != 0;
+    k[reached][i].left = told || asked.v != 0 || asked.w != 0 ? 1 : 0;
+    if (told || k[reached][i].left == 0) return;
+    k.event("warning: robot '" + std::string(k.name("robot", i)) + "' is commanded, but its model '" + robot->name +
+            "' has no drive, so that it does not move; expected <muster><differential left=\"\" right=\"\" "
+            ".../></muster> in " +
+            robot->file + ", or in a file of fittings");
   }
 
   void turn(const Step& k, std::size_t i, const Command& asked, const description::DifferentialDrive& motors) const {

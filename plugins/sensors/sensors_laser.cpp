@@ -161,8 +161,8 @@ struct SensorsLaser {
     std::vector<Solid> result;
     for (const auto& shape : rigid_shapes(robot, 0)) result.emplace_back(shape);
     if (!robot.drive) return result;
-    for (const std::size_t wheel : {robot.drive->left, robot.drive->right}) {
-      const description::Joint& joint = robot.joints[wheel];
+    for (const description::Follower& wheel : robot.drive->wheels()) {
+      const description::Joint& joint = robot.joints[wheel.joint];
       const Isometry3d hub = *frame_on_body(robot, joint.parent) * joint.origin;
       for (description::Shape shape : rigid_shapes(robot, joint.child)) {
         shape.pose = hub * shape.pose;

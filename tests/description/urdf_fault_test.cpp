@@ -123,9 +123,14 @@ const Case cases[] = {
      "6: <sensor> has a second <origin>"},
     {"negative_mass", link("a", inertial("-3", "1", "1", "1")), "2: link 'a': mass is not above 0"},
     {"no_mass", link("a", inertial("0", "1", "1", "1")), "2: link 'a': mass is not above 0"},
-    {"indefinite_inertia", link("a", inertial("1", "-1", "1", "1")), "2: link 'a': inertia is not positive definite"},
+    {"indefinite_inertia", link("a", inertial("1", "-1", "1", "1")),
+     "2: link 'a': inertia is not positive definite: its principal moments are -1, 1 and 1 kg m2, each of which is "
+     "above 0 "
+     "in a body"},
     {"impossible_inertia", link("a", inertial("1", "1", "1", "3")),
-     "2: link 'a': inertia breaks the triangle inequality; no body has such moments"},
+     "2: link 'a': inertia breaks the triangle inequality: of its principal moments 1, 1 and 3 kg m2 the largest is 50 "
+     "% "
+     "above the sum of the others; no body has such moments"},
     {"unit_in_mass", link("a", inertial("2.5kg", "1", "1", "1")),
      "2: link 'a': <mass> value=\"2.5kg\" is wrong; expected a number"},
     {"nan_mass", link("a", inertial("nan", "1", "1", "1")),
@@ -210,10 +215,13 @@ const Case cases[] = {
     {"drive_number",
      wheels("left='jl' right='jr' wheel_radius='5cm' wheel_base='0.2' max_torque='1' max_speed='9' friction='0.8'"),
      "7: <differential> wheel_radius=\"5cm\" is wrong; expected a number above 0"},
-    {"wheel_turned_backwards", wheels(good, "0 -1 0"),
-     "7: <differential> joint 'jl' does not turn about the body's +y axis"},
+    {"wheel_askew", wheels(good, "0.1 1 0"),
+     "7: <differential> joint 'jl' does not turn about the body's +y axis: its own is 5.711 degrees off; an axis "
+     "within "
+     "1 degree would be turned onto it"},
     {"wheel_base_contradicts_joints", wheels(good, "0 1 0", "0.11"),
-     "7: <differential> joint 'jl' is not half a wheel_base from the body's x axis (left: +y, right: -y)"},
+     "7: <differential> joint 'jl' is not half a wheel_base from the body's x axis (left: +y, right: -y): it "
+     "is at y = 0.11 m, expected 0.1"},
     {"wheel_radius_contradicts_cylinder",
      wheels(good, "0 1 0", "0.1", round("<cylinder radius='0.09' length='0.02'/>", "1.5708 0 0")),
      "7: <differential> wheel_radius=\"0.05\" contradicts the wheel of joint 'jr', whose collision shape has a radius "
@@ -281,8 +289,33 @@ const Case cases[] = {
      "18: <leg> joint 'j6' has a link with a <collision>; a leg is a half circle, and nothing else of it touches"},
     {"mesh_outside",
      link("a", "<collision><geometry><mesh filename='package://../../etc/passwd'/></geometry></collision>"),
-     "2: link 'a': mesh 'package://../../etc/passwd' is outside the allowed folder; expected a path relative to "
-     "FOLDER"},
+     "2: link 'a': mesh 'package://../../etc/passwd' is in a ROS package; expected packages=\"DIR\" of the <robot> in "
+     "the "
+     "world, where DIR holds the folder '..'"},
+    {"mesh_outside_by_path", link("a", "<collision><geometry><mesh filename='/etc/passwd'/></geometry></collision>"),
+     "2: link 'a': mesh '/etc/passwd' is outside the allowed folder; expected a path relative to FOLDER"},
+    {"inertia_impossible_for_a_box",
+     link("a", inertial("12", "1", "1", "3") + "<collision><geometry><box size='1 1 1'/></geometry></collision>"),
+     "2: link 'a': inertia breaks the triangle inequality: of its principal moments 1, 1 and 3 kg m2 the largest is 50 "
+     "% "
+     "above the sum of the others; no body has such moments; its collision shapes, filled evenly, give "
+     "<inertial><origin "
+     "xyz=\"0 0 0\"/><mass value=\"12\"/><inertia ixx=\"2\" ixy=\"0\" ixz=\"0\" iyy=\"2\" iyz=\"0\" "
+     "izz=\"2\"/></inertial>"},
+    {"xacro_element", "<xacro:property name='r' value='1'/>\n",
+     "2: is xacro, not URDF: it has <xacro:property>; run xacro first: xacro FILE > OUT.urdf"},
+    {"xacro_value", link("a", "<collision><geometry>\n<sphere radius='${2 * r}'/></geometry></collision>"),
+     "3: is xacro, not URDF: it has \"${2 * r}\"; run xacro first: xacro FILE > OUT.urdf"},
+    {"xacro_find", link("a", "<visual><geometry><mesh filename='$(find husky)/a.stl'/></geometry></visual>"),
+     "2: is xacro, not URDF: it has \"$(find husky)\"; run xacro first: xacro FILE > OUT.urdf"},
+    {"wheel_named_twice",
+     wheels("left='jl jl' right='jr' wheel_radius='0.05' wheel_base='0.2' max_torque='1' max_speed='9' friction='0.8'"),
+     "7: <differential> left has joint 'jl' twice"},
+    {"wheels_uneven",
+     link("w", mass) + joint("jw", "b", "w", "continuous", "<origin xyz='0.3 0.1 0'/><axis xyz='0 1 0'/>") +
+         wheels("left='jl jw' right='jr' wheel_radius='0.05' wheel_base='0.2' max_torque='1' max_speed='9' "
+                "friction='0.8'"),
+     "9: <differential> has 2 wheels on the left and 1 on the right; expected as many"},
 };
 
 class UrdfFault : public testing::TestWithParam<Case> {};
@@ -294,6 +327,7 @@ TEST_P(UrdfFault, IsNamedWithItsLine) {
   if (const auto at = message.find("FOLDER"); at != std::string::npos) {
     message.replace(at, 6, std::filesystem::path(path).parent_path().string());
   }
+  if (const auto at = message.find("FILE"); at != std::string::npos) message.replace(at, 4, path);
   EXPECT_EQ(message_of([&] { read_robot(path); }), path + ":" + message);
 }
 

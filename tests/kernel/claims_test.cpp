@@ -215,8 +215,9 @@ TEST_F(Claims, CommandsThatNobodyReadsAreWarnedAbout) {
   const std::string commands = two_robots +
                                "<toy.copy_control name='c' robot='a' to='robot/{robot}/command' columns='" +
                                std::string(Command::columns) + "'/>\n";
-  const std::string warning =
-      (folder / "world.xml").string() + ":4:1: c (toy.copy_control): writes \"robot/a/command\", which nobody reads";
+  const std::string warning = (folder / "world.xml").string() +
+                              ":4:1: c (toy.copy_control): writes \"robot/a/command\", which nobody reads; expected "
+                              "<physics.simbody/> in the world";
   Simulation deaf = run(commands);
   EXPECT_THAT(messages(deaf), ElementsAre("0 : warning: " + warning));
   EXPECT_THAT(messages(run(commands + "<record table='robot/*/command'/>\n")), ElementsAre());
