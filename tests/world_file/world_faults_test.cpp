@@ -20,8 +20,8 @@ TEST_F(Faults, Fault5MisspeltNames) {
             "swap, record, material, "
             "wall, walls, door, floor, mesh, station, robot; did you mean \"robot\"?");
   EXPECT_EQ(error_with("<robot name='a' att='0 0 0'/>"),
-            "world.xml:2:17: <robot> has no attribute \"att\"; expected one of name, model, at, heading, antenna; did "
-            "you mean \"at\"?");
+            "world.xml:2:17: <robot> has no attribute \"att\"; expected one of name, model, packages, fittings, at, "
+            "heading, antenna; did you mean \"at\"?");
   EXPECT_EQ(error_with("<robot name='a'/>"), "world.xml:2:1: <robot> has no attribute \"at\", which it needs");
   EXPECT_EQ(error_with("<robot name='a' at='0 0 0'><wheel/></robot>"),
             "world.xml:2:28: <robot> has an element inside; expected attributes only");
