@@ -85,6 +85,7 @@ RowSummary row_summary(const inference::ModelState& state, const LinkLayout& lay
   const inference::WhitenedModel before = state.whitened_model(state.base()), after = state.whitened_model(full);
   out.before = left_by(state, state.base(), before);
   out.after = left_by(state, full, after);
+  out.taken_up = inference::taken_up_by_fit(state, full, after);
   out.white_before = white_by_stream(rows, before.at.residual);
   out.white_after = white_by_stream(rows, after.at.residual);
   for (const inference::Covariate& c : columns.covariates) {

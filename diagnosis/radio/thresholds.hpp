@@ -57,8 +57,8 @@ inline constexpr double outlier_gap = 30;
 // readings; that may be outliers together; chosen; ReceiverChecks.AnIsolatedReadingIsReportedWithItsRow
 inline constexpr std::size_t most_outliers = 3;
 
-// draws; of the world, none of which may pile up where readings do; chosen; none
-inline constexpr uint64_t pile_draws = 4;
+// draws; of the world, none of which may pile up as strongly as readings do (p = 1/40); derived; none
+inline constexpr uint64_t pile_draws = 39;
 
 // links: geometry
 

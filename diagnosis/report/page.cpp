@@ -122,7 +122,7 @@ std::string cause_card(const CauseEstimate& c, std::size_t number, const std::ve
   for (const CauseValue& v : c.values) values.push_back({{v.name}, {quantity(v), true}, {interval(v), true}});
   out += table({{"parameter"}, {"value", true}, {"95 % interval", true}}, values, "values");
   std::vector<Row> facts{
-      {{"cause"}, {c.id}},
+      {{"cause"}, {names_of(c)}},
       {{"where"}, {c.label == "all" ? "everywhere" : c.label}},
       {{"evidence"},
        {fmt::format("{:.1f} nats; λ = {:.0f} (likelihood ratio, other causes fitted too)", c.evidence, c.lambda)}},

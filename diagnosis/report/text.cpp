@@ -83,7 +83,7 @@ std::string gains(const std::optional<inference::HeldOutGain>& of_blocks, const 
 std::string cause_text(const CauseEstimate& c, int number) {
   const Confidence confidence = confidence_of(c);
   const std::string opening = confidence == Confidence::confirmed ? "it is " : "suspected: ";
-  std::string text = wrapped(fmt::format("({}) {}{}: {}", number, opening, c.id, sentence(c)), 2, 6);
+  std::string text = wrapped(fmt::format("({}) {}{}: {}", number, opening, names_of(c), sentence(c)), 2, 6);
   text += entry("where", c.label == "all" ? "everywhere" : c.label);
   for (const CauseValue& v : c.values) text += entry(v.name, fmt::format("{:<12} 95 %: {}", quantity(v), interval(v)));
   if (c.one_station) text += entry("distance", one_station_in_words(*c.one_station));

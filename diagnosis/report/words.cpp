@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "diagnosis/inference/thresholds.hpp"
 
@@ -189,6 +190,17 @@ std::string rivals_in_words(const std::vector<inference::Alternative>& alternati
   return out;
 }
 
+std::string names_of(const CauseEstimate& cause) {
+  std::string names = cause.id;
+  std::set<std::string> said{cause.id};
+  for (const inference::Alternative& r : cause.alternatives) {
+    const bool open = r.separability < inference::thresholds::inseparable &&
+                      r.evidence_gap < inference::thresholds::open_nats && r.id[0] != '~';
+    if (open && said.insert(r.id).second) names += " or " + r.id;
+  }
+  return said.size() == 1 ? names : names + " (the readings do not tell which)";
+}
+
 std::string what_is_unexplained(const diagnosis::Unexplained& what) {
   const std::string won = fmt::format("evidence {:.1f} nats, lambda {:.0f}.", what.evidence, what.lambda);
   const std::string on = "The residual depends on " + covariate_in_words(what.covariate);
@@ -256,7 +268,7 @@ std::string one_station_in_words(const diagnosis::OneStation& seen) {
 
 double noise_floor(const Diagnosis& d) {
   if (d.seen.count.size() == 0) return std::nan("");
-  return std::sqrt(d.noise.field_variance() + d.noise.reading_variance());
+  return std::sqrt(std::max(0.0, d.noise.field_variance() + d.noise.reading_variance() - d.seen.taken_up));
 }
 
 std::string held_out_in_words(const inference::HeldOutGain& h, const std::string& left_out) {

@@ -47,6 +47,9 @@ std::string covariate_in_words(const std::string& name);
 // "obstacle (2.0, 1.5), 1.5 nats behind, D 6: not distinguishable", for each alternative ("ahead" where it is
 // likelier); or that there are none.
 std::string rivals_in_words(const std::vector<inference::Alternative>& alternatives);
+// "effect.dual_slope", or with the causes that these readings cannot tell from it:
+// "effect.dual_slope or effect.rssi_compression (the readings do not tell which)".
+std::string names_of(const CauseEstimate& cause);
 // "Something depends on the column battery ...", with its gain and the causes that explain it nearly as well.
 std::string what_is_unexplained(const diagnosis::Unexplained& what);
 // "shows nothing more"; "still shows drift tx1, something along the column battery".
@@ -67,7 +70,8 @@ std::string gain_in_words(const inference::HeldOutGain& gain, const std::string&
 std::string verdict_in_words(const Diagnosis& diagnosis);
 // What one station cannot see, and where a second one would.
 std::string one_station_in_words(const diagnosis::OneStation& seen);
-// dB: standard deviation of one row's mean from noise alone, at any place.
+// dB: error of a reading from noise alone, in data to which this world was fitted. Not a number where no search was
+// made.
 double noise_floor(const Diagnosis& diagnosis);
 // "6.28 dB"
 std::string db(double value);

@@ -61,4 +61,10 @@ Eigen::MatrixXd coefficient_covariance(const ModelState& state, const Eigen::Mat
   return grown.asDiagonal() * known * grown.asDiagonal();
 }
 
+double taken_up_by_fit(const ModelState& state, const Eigen::MatrixXd& design, const WhitenedModel& model) {
+  const Eigen::MatrixXd x = state.rows().by_stream(design);
+  const Eigen::VectorXd share = (x * model.at.basis.uncertainty(design.cols())).cwiseProduct(x).rowwise().sum();
+  return share.dot(state.rows().count()) / state.rows().count().sum();
+}
+
 }  // namespace muster::inference

@@ -39,8 +39,9 @@ void add_clip(const LawSources& s, const std::vector<const Cause*>& causes, doub
   if (clip.choice) named.words[clip.choice] = silent ? "true" : "false";
 }
 
-// True if readings pile up at that end of the fitted world's own draws too: where a robot turns, or levels hardly vary.
-bool piles_by_itself(const LawSources& s, uint32_t side, const Diagnosis& found) {
+// Monte Carlo test: true if readings pile up as strongly at that end of one of the fitted world's own draws. Where a
+// robot turns, in a trough of smooth shadowing or where levels hardly vary, neighbours are no independent readings.
+bool piles_by_itself(const LawSources& s, uint32_t side, const Clip& pile, const Diagnosis& found) {
   Dataset drawn = s.data;
   for (uint64_t k = 0; k < thresholds::pile_draws; ++k) {
     const VectorXd levels = s.draws.draw(k, found.parameters, {}).drawn;
@@ -48,14 +49,15 @@ bool piles_by_itself(const LawSources& s, uint32_t side, const Diagnosis& found)
       if (!std::isnan(drawn.rssi[i])) drawn.rssi[i] = levels[static_cast<Eigen::Index>(i)];
     }
     const ReceiverChecks checks = receiver_checks(drawn);
-    if (side == MUSTER_ABOVE ? checks.top : checks.bottom) return true;
+    const std::optional<Clip>& there = side == MUSTER_ABOVE ? checks.top : checks.bottom;
+    if (there && there->log_p <= pile.log_p) return true;
   }
   return false;
 }
 
 void add_pile(const LawSources& s, uint32_t side, const Clip& pile, double step, Diagnosis& found) {
   const std::vector<const Cause*> causes = clips_of(s, side, false);
-  if (causes.empty() || clips_at(s, side, false, pile.level, step) || piles_by_itself(s, side, found)) return;
+  if (causes.empty() || clips_at(s, side, false, pile.level, step) || piles_by_itself(s, side, pile, found)) return;
   add_clip(s, causes, pile.level, std::max(step, 0.02) / 2, false,
            {causes.front()->id, {}, -2 * pile.log_p, -pile.log_p, pile.log_p}, found);
 }

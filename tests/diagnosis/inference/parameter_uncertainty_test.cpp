@@ -111,5 +111,25 @@ TEST(CoefficientCovariance, IsTheScatterUnderTheExactCovariance) {
   EXPECT_GT(with_noise(0, 0), 1.002 * known(0, 0));
 }
 
+// A fit leaves less than the noise: what is left scatters by the exact covariance of y - X b.
+TEST(TakenUpByFit, IsWhatTheResidualsLackOfTheNoise) {
+  const auto world = world_of(varied(5, 1500));
+  const Problem problem = problem_of(world, Eigen::VectorXd::Zero(1500), {});
+  ModelState state(problem, {});
+  const Eigen::MatrixXd design = state.design();
+  const WhitenedModel model = state.whitened_model(design);
+  const Index rows = state.rows().size();
+  const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(rows, rows),
+                        covariance = noise::covariance_of_sums(state.field(), state.fit.covariance, unit),
+                        told = model.at.basis.q.transpose() * model.whitener(unit);
+  Eigen::MatrixXd left = unit;
+  for (Index i = 0; i < rows; ++i) left.col(i) -= design * model.at.basis.coefficients(told.col(i), design.cols());
+  const Eigen::VectorXd whole = covariance.diagonal(), residual = (left * covariance * left.transpose()).diagonal(),
+                        weight = state.rows().count() / state.rows().count().sum();
+  const double taken = taken_up_by_fit(state, design, model);
+  EXPECT_GT(taken, 0.02 * weight.dot(whole));  // else nothing is tested
+  EXPECT_NEAR(taken, weight.dot(whole - residual), 0.05 * taken);
+}
+
 }  // namespace
 }  // namespace muster::inference

@@ -90,6 +90,9 @@ TEST(Text, UndecidedAlternativesAreQuestions) {
   d.advised = diagnosis::PlannedReadings{"move base", {}};
   const std::string text = text_of(d, {"hall", "a.csv"});
   EXPECT_TRUE(says(text, "unmapped wall or obstacle: D 6, not distinguishable")) << text;
+  EXPECT_EQ(names_of(c), "effect.unmapped_wall or effect.obstacle (the readings do not tell which)");
+  c.alternatives[0].evidence_gap = 3.1;  // 95 % sure
+  EXPECT_EQ(names_of(c), "effect.unmapped_wall");
   const auto best = text.find("move base: predicted D 74, decides; advised.csv lists its readings");
   EXPECT_LT(best, text.find("turn on the spot: predicted D 15\n")) << text;
 }
