@@ -12,6 +12,9 @@ namespace muster::plotting {
 // Sans.
 double text_width(std::string_view text, double size);
 
+// Upper bound of the width of bold text relative to the same in regular: DejaVu Sans Bold has 1.12 to 1.14 in English.
+constexpr double bold_widening = 1.15;
+
 // Wraps `text` into lines of at most `width` px.
 std::vector<std::string> wrapped(std::string_view text, double width, double size);
 

@@ -103,7 +103,7 @@ Grid lay_out(const Figure& figure, std::vector<View>& views) {
 
 double draw_title(const Figure& figure, Svg& svg) {
   double y = edge;
-  for (const std::string& line : wrapped(figure.title, figure.width - 2 * edge, figure_title_size)) {
+  for (const std::string& line : wrapped(figure.title, (figure.width - 2 * edge) / bold_widening, figure_title_size)) {
     y += figure_title_size + 4;
     svg.text({edge, y - 5}, line, {.size = figure_title_size, .bold = true});
   }

@@ -59,6 +59,10 @@ inline constexpr std::size_t most_outliers = 3;
 
 // draws; of the world, none of which may pile up as strongly as readings do (p = 1/40); derived; none
 inline constexpr uint64_t pile_draws = 39;
+// dB; of a field whose extremes gather readings at one level; chosen; none
+inline constexpr double field_of_extremes = 1;
+// links; that see one extreme of the field at one level no more; chosen; ReceiverChecks.APileInATroughIsOfOnePlace
+inline constexpr std::size_t links_beyond_an_extreme = 4;
 
 // links: geometry
 

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "numbers.hpp"
+#include "plotting/labels.hpp"
 
 namespace muster::plotting {
 namespace {
@@ -332,6 +333,21 @@ TEST(Figure, WritesUnitsNamesAndTheCaption) {
        .layers = {ErrorBars{.x = {0, 1}, .y = {1, 2}, .low = {0, 1}, .high = {2, 3}}, Rule{.at = 0, .label = "none"}}}};
   EXPECT_THAT(Read(figure).texts(),
               testing::IsSupersetOf({"Title <1>", "A & B", "w1", "w2", "wall", "residual (dB)", "none"}));
+}
+
+// Line for line: bold letters are wider than regular ones, which text_width() bounds.
+TEST(Figure, ALongTitleIsWrappedByTheWidthOfBoldLetters) {
+  const std::string title =
+      "A wall that is not on the map, from (18.58 m, 16.67 m) to (16.23 m, 17.52 m), costs 0.85 dB where it is "
+      "crossed, as do 2 more";
+  const Figure figure{.title = title, .width = 420, .panels = {{.layers = {rooms()}}}};
+  std::string read;
+  for (const std::string& text : Read(figure).texts()) {
+    if (title.find(text) == title.npos || text.size() < 8) continue;
+    read += (read.empty() ? "" : " ") + text;
+    EXPECT_LE(1.14 * text_width(text, 15), figure.width) << text;
+  }
+  EXPECT_EQ(read, title);
 }
 
 TEST(Figure, IsTheSameTextEachTime) {

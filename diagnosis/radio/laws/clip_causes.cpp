@@ -55,9 +55,20 @@ bool piles_by_itself(const LawSources& s, uint32_t side, const Clip& pile, const
   return false;
 }
 
+// True if all readings of a pile come from one extreme of the shadowing, which few radios see: neighbours there are at
+// one level, for the slope of a smooth field vanishes at its extremes.
+bool at_one_extreme(const LawSources& s, const Clip& pile) {
+  const noise::StatedField field = noise::stated_by(s.state.fit.covariance, s.state.within());
+  return field.shadowing >= thresholds::field_of_extremes &&
+         links_at_level(s.data, pile.level) < thresholds::links_beyond_an_extreme &&
+         extent_at_level(s.data, pile.level) < field.decorrelation;
+}
+
 void add_pile(const LawSources& s, uint32_t side, const Clip& pile, double step, Diagnosis& found) {
   const std::vector<const Cause*> causes = clips_of(s, side, false);
-  if (causes.empty() || clips_at(s, side, false, pile.level, step) || piles_by_itself(s, side, pile, found)) return;
+  if (causes.empty() || clips_at(s, side, false, pile.level, step) || at_one_extreme(s, pile) ||
+      piles_by_itself(s, side, pile, found))
+    return;
   add_clip(s, causes, pile.level, std::max(step, 0.02) / 2, false,
            {causes.front()->id, {}, -2 * pile.log_p, -pile.log_p, pile.log_p}, found);
 }

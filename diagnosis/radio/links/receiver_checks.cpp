@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <set>
@@ -201,6 +202,28 @@ ReceiverChecks receiver_checks(const Dataset& data) {
   const std::size_t missing = data.rows() - data.heard();
   result.checks.push_back({"readings that are missing", missing ? std::to_string(missing) : rows, true, {}});
   return result;
+}
+
+double extent_at_level(const Dataset& data, double level) {
+  if (!data.has_places()) return std::numeric_limits<double>::infinity();
+  std::map<std::string, std::vector<std::size_t>> sent, heard;
+  for (std::size_t row = 0; row < data.rows(); ++row) {
+    if (data.rssi[row] != level) continue;
+    sent[data.tx.levels[data.tx.level[row]]].push_back(row);
+    heard[data.rx.levels[data.rx.level[row]]].push_back(row);
+  }
+  double most = 0;
+  for (const auto& [radio, rows] : sent) most = std::max(most, extent(data.tx_at, rows));
+  for (const auto& [radio, rows] : heard) most = std::max(most, extent(data.rx_at, rows));
+  return most;
+}
+
+std::size_t links_at_level(const Dataset& data, double level) {
+  std::set<std::pair<std::string, std::string>> links;
+  for (std::size_t row = 0; row < data.rows(); ++row)
+    if (data.rssi[row] == level)
+      links.insert(std::minmax(data.tx.levels[data.tx.level[row]], data.rx.levels[data.rx.level[row]]));
+  return links.size();
 }
 
 }  // namespace muster::diagnosis

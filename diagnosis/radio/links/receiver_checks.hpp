@@ -32,4 +32,9 @@ struct ReceiverChecks {
 // `data`: accepted by check_readings(), whose checks are listed as passed.
 ReceiverChecks receiver_checks(const Dataset& data);
 
+// Greatest extent, m, of the places that one radio has in readings at this level: infinite without places.
+double extent_at_level(const Dataset& data, double level);
+// Pairs of radios with readings at this level.
+std::size_t links_at_level(const Dataset& data, double level);
+
 }  // namespace muster::diagnosis

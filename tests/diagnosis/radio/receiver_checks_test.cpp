@@ -76,6 +76,28 @@ TEST(ReceiverChecks, APileAtOnePlaceIsNoEnd) {
   EXPECT_TRUE(turns_within(scratch, 3));
 }
 
+// A robot crosses a trough of shadowing that two of three stations see; elsewhere the third link is at that level, too.
+TEST(ReceiverChecks, APileInATroughIsOfOnePlace) {
+  const auto readings_of = [](const Scratch& scratch, bool elsewhere) {
+    std::string text = "t[s],tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],rssi[dBm]\n";
+    for (int k = 0; k < 60; ++k) {
+      const double x = 0.25 * k;
+      const int trough = x > 6 && x < 7.5 ? -96 : -70;
+      const std::string time = std::to_string(k), at = std::to_string(x) + ",4,";
+      text += time + ",robot,a," + at + "0,0," + std::to_string(trough) + "\n";
+      text += time + ",b,robot,9,0," + at + std::to_string(trough) + "\n";
+      text += time + ",c,robot,0,9," + at + std::to_string(elsewhere && k == 59 ? -96 : -60) + "\n";
+    }
+    return read_dataset(scratch.write("data.csv", text));
+  };
+  const Scratch scratch;
+  const Dataset one = readings_of(scratch, false), two = readings_of(scratch, true);
+  EXPECT_NEAR(extent_at_level(one, -96), 1, 1e-9);
+  EXPECT_EQ(links_at_level(one, -96), 2u);
+  EXPECT_NEAR(extent_at_level(two, -96), 14.75 - 6.25, 1e-9);
+  EXPECT_EQ(links_at_level(two, -96), 3u);
+}
+
 TEST(ReceiverChecks, NoClipForAFrequentLevel) {
   const Scratch scratch;
   EXPECT_FALSE(receiver_checks(readings(scratch, 10)).top);  // no more than its neighbours
