@@ -345,7 +345,7 @@ TEST(Figure, ALongTitleIsWrappedByTheWidthOfBoldLetters) {
   for (const std::string& text : Read(figure).texts()) {
     if (title.find(text) == title.npos || text.size() < 8) continue;
     read += (read.empty() ? "" : " ") + text;
-    EXPECT_LE(1.14 * text_width(text, 15), figure.width) << text;
+    EXPECT_LE(1.14 * text_width(text, 16), figure.width) << text;
   }
   EXPECT_EQ(read, title);
 }
