@@ -59,6 +59,7 @@ class Tests {
     for (const ReadingDistribution& law : bases_) {
       for (const Peak& start : starts_) take_for_null(law, judge_.best(law, start));
     }
+    if (variance_of(stated, 0) < thresholds::steady_variance) add_noise();
   }
 
   Fitted fitted(const LawFamily& family) {
@@ -139,6 +140,27 @@ class Tests {
   void take_for_null(const ReadingDistribution& law, Peak peak) {
     peak.value -= cost_of(law);
     if (peak.value > null_.value) null_ = peak, null_law_ = law;
+  }
+
+  // Another null: the stated law with normal noise, of the size that differences of adjacent readings say and near it.
+  void add_noise() {
+    const double close = judge_.field().close_readings().variance - judge_.step() * judge_.step() / 12;
+    if (!(close > thresholds::steady_variance)) return;
+    ReadingDistribution noisy = stated_;
+    noisy.noise = std::sqrt(close);
+    std::vector<Peak> starts = judge_.shapes(noisy, fit_);
+    Peak best;
+    ReadingDistribution likeliest = noisy;
+    for (const double factor : {0.6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.35, 1.5}) {
+      noisy.noise = std::sqrt(factor * close);
+      for (const Peak& start : starts) {
+        const Peak peak = judge_.best(noisy, start);
+        if (peak.value > best.value) best = peak, likeliest = noisy;
+      }
+    }
+    take_for_null(likeliest, best);
+    bases_.push_back(likeliest);
+    starts_.push_back(best);
   }
 
   // Accepts the law and the field if they are jointly likelier.

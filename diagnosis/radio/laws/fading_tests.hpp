@@ -25,9 +25,10 @@ struct LawTests {
 };
 
 // `step`: dB between codes. `laws`: of the causes to be tested, at most one of each. The null includes readings that
-// average several fades of the stated spread: receivers average, and the mean of a few fades has another shape. It
-// includes the field's variance, refitted under every law. `fit`: covariance of the field from rows, the start of the
-// search for its shape.
+// average several fades of the stated spread: receivers average, and the mean of a few fades has another shape. Where
+// the world states readings that do not scatter it includes normal noise of any size: that a receiver is noisy is no
+// law of fading. It includes the field's variance, refitted under every law. `fit`: covariance of the field from rows,
+// the start of the search for its shape.
 LawTests law_tests(KrigedReadings& field, double step, const std::vector<std::shared_ptr<const ReadingLaw>>& laws,
                    const ReadingDistribution& stated, const noise::Covariance& fit);
 

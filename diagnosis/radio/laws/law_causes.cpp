@@ -97,6 +97,9 @@ ReadingDistribution add_scatter(const LawSources& s, const ReadingDistribution& 
   const auto [tests, likeliest] =
       law_tests(field, found.receiver.step, laws_of_causes(s), stated, s.state.fit.covariance);
   const auto best = tests.begin();
+  if (likeliest.noise > 0)
+    found.notes.push_back(fmt::format(
+        "single readings scatter by {:.1f} dB, as normal noise does; the world states none", likeliest.noise));
   if (best == tests.end() || !beyond_chance(*best, thresholds::law_alpha)) return likeliest;
   add_named(s, causes_that(s, [&](const Cause& c) { return c.id == best->cause; }), *best, found);
   for (const LawTest& other : tests) {

@@ -103,7 +103,7 @@ double base_variance(const ReadingDistribution& law) {
 double variance_of(const ReadingDistribution& law, double step) {
   double result = base_variance(law);
   for (const LawPart& part : law.added) result += part.law->variance(part.params, 1);
-  return result + step * step / 12;
+  return result + law.noise * law.noise + step * step / 12;
 }
 
 ReadingDensities::ReadingDensities(const ReadingDistribution& law, double step, double lowest, double highest)
@@ -113,6 +113,7 @@ ReadingDensities::ReadingDensities(const ReadingDistribution& law, double step, 
   const BinGrid grid{first_db - bin / 2, fine, bins * finer};
   std::vector<double> law_table = base_table(law, grid);
   for (const LawPart& part : law.added) law_table = with_added(law_table, part, fine);
+  if (law.noise > 0) law_table = smeared(law_table, normal_kernel(law.noise * law.noise, fine));
   const double mean = mean_of(law_table, grid);
   if (step > 0) law_table = smeared(law_table, box_kernel(step, fine));
   double total = 0;

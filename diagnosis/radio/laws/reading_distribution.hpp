@@ -20,6 +20,7 @@ struct ReadingDistribution {
   LawPart base{};      // the law that replaces others; null: steady
   uint32_t draws = 1;  // independent draws of the base whose power is averaged in one reading
   std::vector<LawPart> added{};
+  double noise = 0;  // dB, standard deviation of normal noise beside the laws
 };
 
 // Variance in dB^2 of one reading with its rounding; `step`: dB between codes.
