@@ -127,7 +127,7 @@ class Table {
   std::vector<double> initial_;
   Cells cells_[2];
   Cells *now_ = &cells_[0], *next_ = &cells_[1];  // published, and being written
-  mutable std::weak_ptr<HeldNumbers> held_[2];                // of cells_
+  mutable std::weak_ptr<HeldNumbers> held_[2];    // of cells_
   bool begun_ = false, published_ = false;
   uint64_t version_ = 0;
 };

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <mutex>
 #include <muster/plugin.hpp>
+#include <mutex>
 
 #include "kernel/claim.hpp"
 #include "text/names.hpp"
@@ -62,8 +62,7 @@ void destroy(void* self) { delete static_cast<Held*>(self); }
 
 int step(void* self, const muster_tick* tick, const muster_in* in, const muster_out* out) {
   const Held& held = *static_cast<Held*>(self);
-  const bool fine =
-      detail::guarded(held.host, [&] { held.code->step({held.host, tick, in, out, held.seed}); });
+  const bool fine = detail::guarded(held.host, [&] { held.code->step({held.host, tick, in, out, held.seed}); });
   return fine ? MUSTER_OK : MUSTER_FAILED;
 }
 

@@ -165,29 +165,29 @@ Json FitReport::json() const {
   for (const FitParameter& p : fit_.parameters) parameters.push_back(parameter_json(p));
   for (const StructureTest& look : misfit_.looks) looks.push_back(look_json(look));
   for (const auto& file : pictures_) files.push_back(file.string());
-  return {
-      {"world", model_.simulation().world().name},
-      {"data", data_.table->file()},
-      {"parameters", parameters},
-      {"not_identifiable", fit_.not_identifiable},
-      {"residual_sd_db", fit_.residual_sd},
-      {"simulated_sd_db", fit_.simulated_sd},
-      {"fading_mean_db", fit_.fading_mean},
-      {"shared_error_sd_db", fit_.shared_sd},
-      {"shared_error_decorrelation_m", fit_.decorrelation},
-      {"rows", fit_.readings.heard.size()},
-      {"not_received", fit_.missing.count},
-      {"not_received_is", fit_.missing.count == 0 ? Json(nullptr) : Json(fit_.missing.censored ? "censored" : "random")},
-      {"not_received_evidence", missing_json(fit_.missing)},
-      {"search", search_json(fit_)},
-      {"misfit",
-       {{"misfits", misfit_.misfits},
-        {"shared_errors_allowed", misfit_.shared_allowed},
-        {"looks", looks},
-        {"not_tested", misfit_.not_tested}}},
-      {"cells", cells_json()},
-      {"notes", data_.notes},
-      {"pictures", files}};
+  return {{"world", model_.simulation().world().name},
+          {"data", data_.table->file()},
+          {"parameters", parameters},
+          {"not_identifiable", fit_.not_identifiable},
+          {"residual_sd_db", fit_.residual_sd},
+          {"simulated_sd_db", fit_.simulated_sd},
+          {"fading_mean_db", fit_.fading_mean},
+          {"shared_error_sd_db", fit_.shared_sd},
+          {"shared_error_decorrelation_m", fit_.decorrelation},
+          {"rows", fit_.readings.heard.size()},
+          {"not_received", fit_.missing.count},
+          {"not_received_is",
+           fit_.missing.count == 0 ? Json(nullptr) : Json(fit_.missing.censored ? "censored" : "random")},
+          {"not_received_evidence", missing_json(fit_.missing)},
+          {"search", search_json(fit_)},
+          {"misfit",
+           {{"misfits", misfit_.misfits},
+            {"shared_errors_allowed", misfit_.shared_allowed},
+            {"looks", looks},
+            {"not_tested", misfit_.not_tested}}},
+          {"cells", cells_json()},
+          {"notes", data_.notes},
+          {"pictures", files}};
 }
 
 void FitReport::print() const {

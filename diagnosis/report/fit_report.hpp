@@ -15,9 +15,10 @@ namespace muster::report {
 class FitReport {
  public:
   // Reads, fits and scans. `progress` is called with the share that is done, 0 to 1. Throws Error.
-  FitReport(const std::filesystem::path& world, const std::filesystem::path& data, const Library::SearchPath& plugins,
-            const diagnosis::FitOptions& options, const diagnosis::CellOptions& cells,
-            const std::function<void(double)>& progress = [](double) {});
+  FitReport(
+      const std::filesystem::path& world, const std::filesystem::path& data, const Library::SearchPath& plugins,
+      const diagnosis::FitOptions& options, const diagnosis::CellOptions& cells,
+      const std::function<void(double)>& progress = [](double) {});
 
   const diagnosis::Fit& fit() const { return fit_; }
   // Writes the figures of the fit to a folder; json() and print() list them.
