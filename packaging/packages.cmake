@@ -47,9 +47,10 @@ if(MUSTER_PYTHON)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
   # The extension is for one minor version of Python.
-  math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "muster (= ${release}), python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}~), \
-python3 (<< ${Python_VERSION_MAJOR}.${next_minor}), python3-numpy")
+  string(REGEX REPLACE ".*[.]" "" minor ${MUSTER_PYTHON_VERSION})
+  math(EXPR minor "${minor} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+    "muster (= ${release}), python3 (>= ${MUSTER_PYTHON_VERSION}~), python3 (<< 3.${minor}), python3-numpy")
   set(CPACK_COMPONENT_PYTHON_DESCRIPTION "worlds of muster from Python
 Loads and steps worlds, reads their tables as arrays of numpy without a copy,
 and takes functions of Python in the place of plugins.")

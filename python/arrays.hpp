@@ -33,7 +33,7 @@ template <class Owner>
 py::array view_of(const double* data, std::vector<py::ssize_t> shape, Owner owner) {
   const py::capsule base(new Owner(std::move(owner)), [](void* held) { delete static_cast<Owner*>(held); });
   Array result(std::move(shape), data, base);
-  result.attr("setflags")(py::arg("write") = false);
+  py::detail::array_proxy(result.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
   return result;
 }
 

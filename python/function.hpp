@@ -48,20 +48,22 @@ class Tick {
     }
     return result;
   }
-  // The other cells of the row are `values`, without that of the bytes.
+  // `values`: of the other columns, without that of a queue's one owner; none: all are empty.
   void send(const std::string& table, const py::bytes& payload, const std::vector<double>& values) const {
     const std::size_t at = find(table);
     const Port& port = ports_[at];
-    const uint32_t cols = call().in[at].cols;
+    const uint32_t cols = call().in[at].cols, first = port.one_owner ? 1 : 0;
     if (!port.is_queue || port.bytes < 0 || port.kind != MUSTER_WRITE)
       throw Error(Exit::invalid_input, quote(table) + " is no queue of messages that the function writes");
-    if (values.size() + 1 != cols)
+    const uint32_t others = cols - first - 1;
+    if (!values.empty() && values.size() != others)
       throw Error(Exit::invalid_input, "send to " + quote(table) + ": " + std::to_string(values.size()) +
-                                           " values; expected " + std::to_string(cols - 1) + " beside the payload");
+                                           " values; expected " + std::to_string(others) + ", or none");
     double* row = call().host->append(call().host, static_cast<int>(at), 1);
-    for (uint32_t c = 0, next = 0; c < cols; ++c) {
-      if (static_cast<int>(c) != port.bytes) row[c] = std::isnan(values[next]) ? null() : values[next];
-      if (static_cast<int>(c) != port.bytes) ++next;
+    for (uint32_t c = first, next = 0; c < cols; ++c) {
+      if (static_cast<int>(c) == port.bytes) continue;
+      const double value = values.empty() ? null() : values[next++];
+      row[c] = std::isnan(value) ? null() : value;
     }
     const std::string_view bytes = payload;
     call().host->put_bytes(call().host, static_cast<int>(at), sent_[at]++, static_cast<uint32_t>(port.bytes),

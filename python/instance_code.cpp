@@ -133,6 +133,7 @@ Port::Port(const std::string& kind_word, std::string table_name, std::string giv
   }
   is_queue = set && set->kind == SetKind::queue;
   one_row = !is_queue && name.row != "*";
+  one_owner = is_queue && name.row != "*";
   try {
     const Columns parsed(columns);
     for (std::size_t c = 0; c < parsed.size() && bytes < 0; ++c) {

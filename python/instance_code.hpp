@@ -20,9 +20,10 @@ struct Port {
 
   uint32_t kind = 0;  // MUSTER_READ, ...
   std::string table, columns;
-  bool one_row = false;   // a row by its name: an array without the dimension of rows
-  bool is_queue = false;  // rows are appended
-  int bytes = -1;         // its first column of bytes
+  bool one_row = false;    // a row by its name: an array without the dimension of rows
+  bool is_queue = false;   // rows are appended
+  bool one_owner = false;  // a queue's rows of one owner, whom the kernel fills in
+  int bytes = -1;          // its first column of bytes
 };
 
 // One step of an instance, as the kernel calls it.

@@ -53,8 +53,10 @@ void bind_functions(py::module_& module) {
       .def("last", &Tick::last, "What the function last wrote to a table, or the stage before: a copy.",
            py::arg("table"))
       .def("payloads", &Tick::payloads, "The bytes of each row of a table that the function claims.", py::arg("table"))
-      .def("send", &Tick::send, "Appends a row to a queue: its bytes, and the values of its other columns.",
-           py::arg("table"), py::arg("payload"), py::arg("values"));
+      .def("send", &Tick::send,
+           "Appends a row to a queue: its bytes, and the values of its other columns but for the owner of a claimed "
+           "row. Without values they are empty: a message to all.",
+           py::arg("table"), py::arg("payload"), py::arg("values") = std::vector<double>());
   py::class_<InstanceCode, std::shared_ptr<InstanceCode>>(module, "InstanceCode");
   py::class_<Function, InstanceCode, std::shared_ptr<Function>>(module, "Code")
       .def(py::init([](py::object code, const std::string& phase,
@@ -127,6 +129,7 @@ PYBIND11_MODULE(_muster, module) {
   error_type = PyErr_NewExceptionWithDoc(
       "muster.Error", "A fault that muster reports, in its own words. `code` is the exit code of the program.",
       PyExc_Exception, nullptr);
+  py::handle(error_type).attr("code") = static_cast<int>(Exit::invalid_input);
   module.attr("Error") = py::reinterpret_borrow<py::object>(error_type);
   py::register_exception_translator([](std::exception_ptr p) {
     try {

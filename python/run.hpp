@@ -36,6 +36,7 @@ class Run {
   Run(const std::string& path, const std::vector<std::string>& plugins, std::optional<uint64_t> seed,
       std::optional<double> until, int workers, const std::vector<NamedCode>& functions,
       const std::vector<std::string>& inputs, const Run* like) {
+    if (like && !like->run_) throw Error(Exit::invalid_input, "like: the simulation is closed");
     World world = read_world(path, standard());
     if (seed) world.seed = *seed;
     if (until) world.ticks = ticks_of(*until, world.dt, {"until"});

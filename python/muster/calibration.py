@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import json
 import os
-from typing import Any, Mapping, Sequence
+from typing import Any, Mapping, Sequence, Union
 
 from . import _muster
 from .places import plugin_folders
 
-Path = "str | os.PathLike"
+Path = Union[str, "os.PathLike[str]"]
 
 
 def fit(

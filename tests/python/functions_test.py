@@ -73,7 +73,7 @@ class Controllers(InAScratchFolder):
 
         def talk(tick, inbox):
             heard.extend(zip(inbox[:, 2], tick.payloads("inbox/a/message")))
-            tick.send("outbox/a/message", b"tick %d" % tick.index, [0, np.nan])
+            tick.send("outbox/a/message", b"tick %d" % tick.index)
 
         functions = [muster.Function(talk, "control", read="inbox/a/message", write="outbox/a/message")]
         told = []
