@@ -153,10 +153,10 @@ class Function : public InstanceCode {
   static void fill(const py::object& value, const Port& port, const muster_out& out) {
     const Array given = numbers(value, port.table);
     const std::size_t count = std::size_t{out.rows} * out.cols;
-    const bool one_column = given.ndim() == 1 && out.cols == 1;  // an array of rows will do
-    const bool fits = given.ndim() == 2 ? given.shape(0) == out.rows && given.shape(1) == out.cols
-                                        : given.ndim() == (port.one_row && out.cols == 1 ? 0 : 1) || one_column;
-    if (!fits || static_cast<std::size_t>(given.size()) != count || (given.ndim() == 1 && out.rows > 1 && !one_column))
+    const bool as_table = given.ndim() == 2 && given.shape(0) == out.rows && given.shape(1) == out.cols;
+    const bool as_row = port.one_row && (given.ndim() == 1 || (given.ndim() == 0 && out.cols == 1));
+    const bool as_column = !port.one_row && given.ndim() == 1 && out.cols == 1;
+    if (!(as_table || as_row || as_column) || static_cast<std::size_t>(given.size()) != count)
       throw std::runtime_error("gives " + shape_text(given) + " for " + port.table + "; expected " +
                                (port.one_row ? "" : std::to_string(out.rows) + " x ") + std::to_string(out.cols));
     // One bit pattern is null; computed ones may have another sign.

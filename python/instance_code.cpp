@@ -95,7 +95,7 @@ int register_phase(uint32_t abi, void* registry, muster_add add) {
 TableName name_of(const std::string& table) {
   const std::string path = table.substr(0, table.find('@'));
   const auto first = path.find('/'), last = path.rfind('/');
-  if (first == path.npos)
+  if (first == path.npos || (first == last && !path.starts_with("self/")))
     throw Error(Exit::invalid_input, "claims " + quote(table) + "; expected set/row/quantity, such as robot/*/pose");
   return {path.substr(0, first), first == last ? "" : path.substr(first + 1, last - first - 1), path.substr(last + 1),
           ""};

@@ -192,7 +192,7 @@ class Faults(InAScratchFolder):
     def test_wrong_results_are_named(self):
         for result, words in (
             ([1, 2, 3], "gives 3 for robot/rover/command; expected 2"),
-            ([[1, 2]], "gives 1 x 2 for robot/rover/command; expected 2"),
+            ([[1, 2], [1, 2]], "gives 2 x 2 for robot/rover/command; expected 2"),
             (1.0, "gives a single number for robot/rover/command; expected 2"),
             (None, "robot/rover/command"),
             ("ahead", "robot/rover/command: expected numbers, got <class 'str'>"),

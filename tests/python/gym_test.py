@@ -10,7 +10,7 @@ from unittest import mock
 import numpy as np
 
 import muster
-from common import InAScratchFolder
+from common import PLAIN, InAScratchFolder
 
 
 class Env:
@@ -66,7 +66,8 @@ class Contract(InAScratchFolder):
             reward=lambda s: s["robot/rover/pose"][0],
             ticks=4,
         )
-        environment = gym_with(installed).Environment(self.world(), **{**settings, **words})
+        world = words.pop("world", None) or self.world()
+        environment = gym_with(installed).Environment(world, **{**settings, **words})
         self.addCleanup(environment.close)
         return environment
 
@@ -115,9 +116,15 @@ class Contract(InAScratchFolder):
         self.assertEqual(len(set(one[1])), 3)
 
     def test_an_empty_cell_is_a_number(self):
-        environment = self.environment(observations=["robot/rover/goal2d"], empty=-1.0)
-        observation, _ = environment.reset(seed=1)
-        np.testing.assert_array_equal(observation, [-1, -1, -1])
+        radios = '<radio.multiwall tx_power="POWER" l0="40" n="2"/><network.ideal/><control.beacon radio="rover"/>'
+        for power, heard in ((-50, False), (0, True)):  # a receiver hears from -95 dBm on
+            world = self.world(PLAIN.replace("<physics", radios.replace("POWER", str(power)) + "<physics"))
+            environment = self.environment(world=world, observations=["link/*/rssi"], empty=-200.0)
+            environment.reset(seed=1)
+            observation = environment.step(np.zeros(2))[0]
+            self.assertEqual(observation.shape, (2,))
+            self.assertEqual(np.isnan(environment.simulation["link/*/rssi"]).all(), not heard)
+            np.testing.assert_array_equal(observation > -200, heard)
 
     def test_a_wrong_action_is_refused(self):
         environment = self.environment()
