@@ -132,6 +132,8 @@ Port::Port(const std::string& kind_word, std::string table_name, std::string giv
     columns = quantity->columns;
   }
   is_queue = set && set->kind == SetKind::queue;
+  if (is_queue && kind == MUSTER_MODIFY)
+    throw Error(Exit::invalid_input, "modifies " + quote(table) + ", which holds messages; expected read and write");
   one_row = !is_queue && name.row != "*";
   one_owner = is_queue && name.row != "*";
   try {

@@ -42,9 +42,12 @@ class Run {
     if (until) world.ticks = ticks_of(*until, world.dt, {"until"});
     Options options{{plugins.begin(), plugins.end()}, workers, {}};
     options.libraries = own_libraries();
-    for (std::size_t i = 0; like && i < like->run_->instances().size(); ++i)
-      options.libraries.push_back(like->run_->instances()[i]->library());
-    if (like) options.tables = like->tables_;
+    if (like) {
+      for (const auto& instance : like->run_->instances()) {
+        if (!instance->declared().library) options.libraries.push_back(instance->library());
+      }
+      options.tables = like->tables_;
+    }
     tables_ = options.tables = options.tables ? options.tables : std::make_shared<TableCache>();
     for (const auto& table : inputs) {
       auto rows = std::make_shared<SetRows>(table);
@@ -210,13 +213,13 @@ class Run {
     change([&](Simulation& run) { run.swap(instance, declared_plugin(instance, plugin, with)); });
   }
   void swap_to(const std::string& instance, NamedCode function) {
-    codes_.push_back(function.code);
     function.name = instance;
     change([&](Simulation& run) { run.swap(instance, function.declared()); });
+    codes_.push_back(function.code);
   }
   void insert(const NamedCode& function) {
-    codes_.push_back(function.code);
     change([&](Simulation& run) { run.insert(function.declared()); });
+    codes_.push_back(function.code);
   }
   void remove(const std::string& instance) {
     change([&](Simulation& run) { run.remove(instance); });

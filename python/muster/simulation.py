@@ -50,6 +50,8 @@ class Simulation:
     `simulation["robot/rover/pose"]` one row, [columns]. There is no copy, and the array never changes: after a step, a
     swap, a restore or the simulation's end it still holds the values of its moment, and a table of other size is another
     array. Take it again after each step. `simulation["robot/rover/command"] = [0.3, 0]` sets an input from the next step on.
+
+    A function that refers to its own simulation keeps it alive until close().
     """
 
     def __init__(

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 import tempfile
 import unittest
@@ -28,6 +29,11 @@ def program(*words: str) -> str:
 def outcome(*words: str) -> dict:
     """What a run or a swap prints as JSON."""
     return json.loads(program(*words, "--json"))
+
+
+def blocks_of(page: str) -> list[tuple[str, str]]:
+    """The fenced blocks of a page: language and text."""
+    return re.findall(r"^```(\w+)\n(.*?)^```$", (SOURCE / page).read_text(), re.MULTILINE | re.DOTALL)
 
 
 class InAScratchFolder(unittest.TestCase):

@@ -208,6 +208,7 @@ class Faults(InAScratchFolder):
             ({"read": "robot/rover/mood"}, "no standard table; expected its columns beside it"),
             ({"read": "robot/rovr/odometry"}, 'did you mean "rover"'),
             ({"read": ("self/x", "x[")}, "self/x"),
+            ({"modify": "outbox/rover/message"}, "which holds messages; expected read and write"),
         ):
             with self.subTest(words), self.assertRaisesRegex(muster.Error, text):
                 self.simulation(lambda tick, *_: [0, 0], **words)

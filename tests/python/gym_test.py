@@ -10,7 +10,7 @@ from unittest import mock
 import numpy as np
 
 import muster
-from common import PLAIN, InAScratchFolder
+from common import PLAIN, InAScratchFolder, blocks_of
 
 
 class Env:
@@ -27,6 +27,9 @@ class Box:
     def __init__(self, low, high, shape=None, dtype=np.float32):
         self.shape = np.shape(low) if shape is None else tuple(shape)
         self.low, self.high, self.dtype = np.broadcast_to(low, self.shape), np.broadcast_to(high, self.shape), np.dtype(dtype)
+
+    def sample(self):
+        return np.random.default_rng(1).uniform(self.low, self.high)
 
     def contains(self, x):
         return x.shape == self.shape and x.dtype == self.dtype and bool(np.all(x >= self.low) and np.all(x <= self.high))
@@ -133,6 +136,18 @@ class Contract(InAScratchFolder):
         environment.reset(seed=1)
         with self.assertRaisesRegex(muster.Error, "the action has 3 numbers; expected 2"):
             environment.step(np.zeros(3))
+
+    def test_the_page_shows_one(self):
+        code = [code for kind, code in blocks_of("docs/how-to/drive_from_python.md") if kind == "py" and "gym" in code]
+        self.assertEqual(len(code), 1)
+        self.world(name="open.xml")
+        gym = gym_with(installed)
+        names = {"np": np}
+        with mock.patch.dict(sys.modules, {"muster.gym": gym}):
+            exec(code[0], names)
+        self.addCleanup(names["environment"].close)
+        self.assertEqual(names["info"]["time"], 0.1)
+        self.assertLessEqual(names["reward"], 0)
 
     @unittest.skipUnless(hasattr(installed, "utils"), "gymnasium is not installed: its own checker is not run")
     def test_the_checker_of_gymnasium_passes(self):

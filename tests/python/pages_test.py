@@ -6,12 +6,7 @@ import re
 import unittest
 from pathlib import Path
 
-from common import FIRST_WORLD, SOURCE, InAScratchFolder, outcome
-
-
-def blocks_of(page: str) -> list[tuple[str, str]]:
-    """The fenced blocks of a page: language and text."""
-    return re.findall(r"^```(\w+)\n(.*?)^```$", (SOURCE / page).read_text(), re.MULTILINE | re.DOTALL)
+from common import FIRST_WORLD, InAScratchFolder, blocks_of, outcome
 
 
 def fits(pattern: str, text: str) -> bool:
