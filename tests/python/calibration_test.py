@@ -12,7 +12,9 @@ SAMPLE = SOURCE / "docs" / "samples" / "calibrate"
 class Fits(InAScratchFolder):
     def setUp(self):
         super().setUp()
-        program("import", SAMPLE / "log.csv", "--map", SAMPLE / "log.map", "--out", "measured.csv")
+        program("import", SAMPLE / "log.csv", "--map", SAMPLE / "log.map", "--out", "all.csv")
+        lines = Path("all.csv").read_text().splitlines(keepends=True)
+        Path("measured.csv").write_text("".join(lines[:201]))  # 200 readings, for speed
 
     def test_it_gives_what_the_program_prints(self):
         found = muster.fit(SAMPLE, "measured.csv", fix={"radio.multiwall/n": 1.8}, cell=0.5)

@@ -41,7 +41,8 @@ class Pages(InAScratchFolder):
         self.assertIn("RSSI", picture)
         self.assertGreater(len(picture), 5000)
         # A plugin that drives as the function does gives the same run, to the bit.
-        program = outcome("swap", FIRST_WORLD, "--at", "0", "--instance", "driver", "--plugin", "control.steady", "v=0.3", "w=0.1")
+        program = outcome("swap", FIRST_WORLD, "--at", "0", "--instance", "driver", "--plugin", "control.steady",
+                          "robot=rover", "v=0.3", "w=0.1")
         self.assertEqual(names["simulation"].digest(), program["digest"])
 
 
