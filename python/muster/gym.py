@@ -52,8 +52,8 @@ class Environment(gymnasium.Env if gymnasium else object):
         self._first = self.simulation = Simulation(world, **self._words)
         self._shapes = {table: self.simulation[table].shape for table in actions}
         low, high = (
-            np.concatenate([np.broadcast_to(np.asarray(bounds[end], float), self._shapes[table]).ravel() for table, bounds in actions.items()])
-            for end in (0, 1)
+            np.concatenate([np.broadcast_to(np.asarray(ends[k], float), self._shapes[table]).ravel() for table, ends in actions.items()])
+            for k in (0, 1)
         )
         self.action_space = gymnasium.spaces.Box(low, high, dtype=np.float64)
         size = self._observed().shape

@@ -1,6 +1,8 @@
 """Simulations from Python: the program's digest, tables without a copy, inputs, swaps, snapshots, errors."""
 
 import gc
+import signal
+import threading
 import unittest
 
 import numpy as np
@@ -209,6 +211,35 @@ class Changes(InAScratchFolder):
         simulation = muster.Simulation(self.world())
         times = list(simulation)
         self.assertEqual((len(times), times[-1], simulation.done), (40, 2.0, True))
+
+
+class Threads(InAScratchFolder):
+    def test_an_interrupt_ends_steps_after_a_whole_tick(self):
+        simulation = muster.Simulation(self.world())
+        threading.Timer(0.3, signal.raise_signal, [signal.SIGINT]).start()
+        with self.assertRaises(KeyboardInterrupt):
+            simulation.step(10**12)
+        self.assertGreater(simulation.tick, 0)
+        other = muster.Simulation("world.xml")
+        other.step(simulation.tick)
+        self.assertEqual(simulation.digest(), other.digest())
+
+    def test_another_thread_runs_meanwhile_and_is_refused_the_simulation(self):
+        simulation, seen = muster.Simulation(self.world()), []
+
+        def look():
+            try:
+                simulation["robot/rover/pose"]
+            except muster.Error as error:
+                seen.append(str(error))
+            signal.raise_signal(signal.SIGINT)
+
+        threading.Timer(0.2, look).start()
+        with self.assertRaises(KeyboardInterrupt):
+            simulation.step(10**12)
+        self.assertEqual(len(seen), 1)
+        self.assertIn("the simulation is in a step", seen[0])
+        simulation["robot/rover/pose"]
 
 
 class Errors(InAScratchFolder):
