@@ -47,6 +47,12 @@ class Function:
     every: int = 1
     name: str = ""
 
+    def __post_init__(self) -> None:
+        if not callable(self.code):
+            raise _muster.Error(f"a function of muster cannot be {self.code!r}; expected something that can be called")
+        if not isinstance(self.every, int) or self.every < 1:
+            raise _muster.Error(f"every: {self.every!r} is no number of ticks; expected an integer from 1")
+
     def _named(self) -> _muster.NamedCode:
         name = self.name or getattr(self.code, "__name__", "function").strip("<>")
         claims = []

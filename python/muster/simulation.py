@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 import os
 from typing import Any, Iterator, Mapping, NamedTuple, Sequence
 
@@ -38,6 +39,17 @@ def _texts(attributes: Mapping[str, Any]) -> dict[str, str]:
     return texts
 
 
+def _integer(what: str, value: Any, lowest: int, highest: int) -> int:
+    """The value as an int. Raises Error with what it is of."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        number = lowest - 1
+    if not lowest <= number <= highest:
+        raise _muster.Error(f"{what}: {value!r} is no value; expected an integer from {lowest} to {highest}")
+    return number
+
+
 class Simulation:
     """A running world.
 
@@ -70,9 +82,9 @@ class Simulation:
         self._run = _muster.Run(
             os.fspath(world),
             plugin_folders(plugins),
-            seed,
+            None if seed is None else _integer("seed", seed, 0, 2**63 - 1),
             until,
-            workers,
+            _integer("workers", workers, 1, 256),
             [function._named() for function in functions],
             list(inputs),
             like._run if like else None,
@@ -114,7 +126,7 @@ class Simulation:
 
     def step(self, ticks: int = 1) -> None:
         """Runs so many ticks. If one fails, raises Error, and the state is that of the tick before."""
-        self._run.step(ticks)
+        self._run.step(_integer("ticks", ticks, 0, 2**63 - 1))
 
     def run(self) -> None:
         """Runs to the world's end. Ctrl-C ends it after a whole tick."""
@@ -237,7 +249,7 @@ class Batch:
         self.simulations: list[Simulation] = []
         for seed in seeds:
             like = self.simulations[0] if self.simulations else None
-            self.simulations.append(Simulation(world, seed=int(seed), like=like, **words))
+            self.simulations.append(Simulation(world, seed=seed, like=like, **words))
         self._runs = _muster.Runs([simulation._run for simulation in self.simulations])
 
     def __len__(self) -> int:
@@ -245,7 +257,7 @@ class Batch:
 
     def step(self, ticks: int = 1, threads: int = 1) -> None:
         """Runs so many ticks of each. Where one fails the others are stepped all the same; then raises its Error."""
-        self._runs.step(ticks, threads)
+        self._runs.step(_integer("ticks", ticks, 0, 2**63 - 1), _integer("threads", threads, 1, 256))
 
     def __getitem__(self, table: str) -> np.ndarray:
         """A table of each simulation: see the class. Raises Error where numbers of rows differ."""

@@ -253,6 +253,19 @@ class Errors(InAScratchFolder):
             muster.Simulation(self.world())["robot/*/poes"]
         self.assertEqual(caught.exception.code, 2)
 
+    def test_numbers_out_of_bounds_are_named(self):
+        world = self.world()
+        for make, words in (
+            (lambda: muster.Simulation(world, seed=-1), "seed: -1 is no value; expected an integer from 0"),
+            (lambda: muster.Simulation(world, workers=0), "workers: 0 is no value; expected an integer from 1 to 256"),
+            (lambda: muster.Simulation(world, until=-1), "until: -1 s is before the start"),
+            (lambda: muster.Simulation(world).step(1.5), "ticks: 1.5 is no value"),
+            (lambda: muster.Batch(world, seeds=[]), "a batch of no simulations"),
+            (lambda: muster.controller(print, robot="rover", every=0), "every: 0 is no number of ticks"),
+            (lambda: muster.controller(3, robot="rover"), "cannot be 3; expected something that can be called"),
+        ):
+            self.assertRaisesRegex(muster.Error, words, make)
+
     def test_a_refused_change_changes_nothing(self):
         simulation = muster.Simulation(self.world())
         simulation.step(3)
