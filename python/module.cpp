@@ -57,7 +57,7 @@ void bind_functions(py::module_& module) {
            "Appends a row to a queue: its bytes, and the values of its other columns but for the owner of a claimed "
            "row. Without values they are empty: a message to all.",
            py::arg("table"), py::arg("payload"), py::arg("values") = std::vector<double>());
-  py::class_<InstanceCode, std::shared_ptr<InstanceCode>>(module, "InstanceCode");
+  const py::class_<InstanceCode, std::shared_ptr<InstanceCode>> base(module, "InstanceCode");
   py::class_<Function, InstanceCode, std::shared_ptr<Function>>(module, "Code")
       .def(py::init([](py::object code, const std::string& phase,
                        const std::vector<std::tuple<std::string, std::string, std::string>>& claims,
@@ -133,7 +133,7 @@ PYBIND11_MODULE(_muster, module) {
   module.attr("Error") = py::reinterpret_borrow<py::object>(error_type);
   py::register_exception_translator([](std::exception_ptr p) {
     try {
-      if (p) std::rethrow_exception(p);
+      if (p) std::rethrow_exception(std::move(p));
     } catch (const Error& e) {
       raise(e.exit(), e.what());
     } catch (const Refusal& e) {
