@@ -1,9 +1,7 @@
 // muster fit WORLD --data FILE: the world's free parameters from measurements, and where the world misfits.
 #include <fmt/core.h>
 
-#include "diagnosis/calibration/fit_figures.hpp"
-#include "diagnosis/radio/links/geometry_checks.hpp"
-#include "fit_report.hpp"
+#include "diagnosis/report/fit_report.hpp"
 #include "verbs.hpp"
 
 namespace muster::cli {
@@ -45,29 +43,17 @@ int run_fit(const Arguments& arguments) {
   const Words words = words_of(arguments);
   Progress progress("fit");
   progress.at(0);
-  diagnosis::Dataset data = diagnosis::read_dataset(words.data);
-  progress.at(0.1);
-  diagnosis::LinkModel model(words.world, words.data, plugin_path(words.plugins));
-  for (const auto& notes : {notes_on_radios(model, data), check_places(model, data)})
-    data.notes.insert(data.notes.end(), notes.begin(), notes.end());
-  progress.at(0.2);
-  const diagnosis::Fit fit = diagnosis::fit(model, data, {words.free, words.fix});
-  progress.at(0.5);
-  const diagnosis::ResidualScan misfit = residual_scan(model, data, fit, features_of(model));
-  progress.at(0.9);
   const diagnosis::CellOptions cells{words.cell, words.least,
                                      words.average == "dB" ? diagnosis::Average::dB : diagnosis::Average::power};
-  // Means of power need the fading that expectations leave out.
-  const auto maps = cell_maps(model, fit, cells.average == diagnosis::Average::dB ? fit.mean : model.drawn(), cells);
-  const auto errors = cell_errors(maps, fit, cells);
-  FitReport report{model, data, fit, misfit, maps, errors, cells, {}};
-  if (!words.out.empty()) report.pictures = write_fit_pictures(words.out, model, fit, misfit, maps, errors, cells);
+  report::FitReport report(words.world, words.data, plugin_path(words.plugins), {words.free, words.fix}, cells,
+                           [&](double share) { progress.at(share); });
+  if (!words.out.empty()) report.draw(words.out);
   progress.at(1);
   if (words.json)
     fmt::print("{}\n", report.json().dump(2));
   else
     report.print();
-  return static_cast<int>(fit.not_identifiable.empty() ? Exit::done : Exit::check_failed);
+  return static_cast<int>(report.fit().not_identifiable.empty() ? Exit::done : Exit::check_failed);
 }
 
 }  // namespace muster::cli

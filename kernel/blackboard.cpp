@@ -44,6 +44,27 @@ Table::Table(std::string name, Set& set, Columns columns, const std::string& ini
   }
 }
 
+Table::~Table() {
+  for (Cells& cells : cells_) let_go(cells);
+}
+
+std::shared_ptr<const HeldNumbers> Table::hold() const {
+  auto& held = held_of(*now_);
+  auto reader = held.lock();
+  if (!reader) held = reader = std::make_shared<HeldNumbers>();
+  return reader;
+}
+
+// The address survives the move of a vector.
+void Table::move_to_reader(Cells& cells) {
+  auto& held = held_of(cells);
+  if (const auto reader = held.lock()) {
+    reader->data = std::move(cells.data);
+    cells.data = reader->data;
+  }
+  held.reset();
+}
+
 void Table::fill_initial(double* row) const { std::copy(initial_.begin(), initial_.end(), row); }
 
 void Table::take_over(const Table& other) {
@@ -52,6 +73,7 @@ void Table::take_over(const Table& other) {
 }
 
 void Table::take_over(Table&& other) {
+  for (Cells& cells : other.cells_) other.let_go(cells);
   stored() = std::move(*other.now_);
   *next_ = std::move(*other.next_);
   grow();

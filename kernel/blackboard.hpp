@@ -52,10 +52,17 @@ struct Cells {
   uint64_t tick = 0;  // of its publication
 };
 
+// Keeps one version of a table's numbers for a reader outside of the run. They stay where they are and as they are: a
+// table that is to change them, or goes, moves them here and goes on with a copy.
+struct HeldNumbers {
+  std::vector<double> data;  // empty as long as the table has them
+};
+
 // A table: its published cells and those being written. A failed tick takes back what it published.
 class Table {
  public:
   Table(std::string name, Set& set, Columns columns, const std::string& initial);
+  ~Table();
   Table(const Table&) = delete;
   Table& operator=(const Table&) = delete;
 
@@ -70,9 +77,12 @@ class Table {
   const Cells& newest() const { return begun_ && !published_ ? *next_ : *now_; }
   // Published cells, for initial or restored values; not for steps.
   Cells& stored() {
+    let_go(*now_);
     ++version_;
     return *now_;
   }
+  // As long as the result lives, now().data of this moment keeps its address and its values. Not during a step.
+  std::shared_ptr<const HeldNumbers> hold() const;
   // Grows with every possible change of the published cells.
   uint64_t version() const { return version_; }
 
@@ -80,6 +90,7 @@ class Table {
   // written.
   void begin(bool carry, uint64_t tick) {
     begun_ = true;
+    let_go(*next_);
     const bool is_sized = set_->kind == SetKind::fixed && next().rows == now().rows && next().blobs.empty();
     if (carry || !is_sized) begin_anew(carry, tick);
   }
@@ -100,6 +111,12 @@ class Table {
   void grow();
 
  private:
+  // Leaves numbers that a reader holds to it, before they change.
+  void let_go(Cells& cells) {
+    if (!held_of(cells).expired()) move_to_reader(cells);
+  }
+  void move_to_reader(Cells& cells);
+  std::weak_ptr<HeldNumbers>& held_of(const Cells& cells) const { return held_[&cells - cells_]; }
   void begin_anew(bool carry, uint64_t tick);
   void begin_queue(uint64_t tick);
   void compact_blobs();
@@ -110,6 +127,7 @@ class Table {
   std::vector<double> initial_;
   Cells cells_[2];
   Cells *now_ = &cells_[0], *next_ = &cells_[1];  // published, and being written
+  mutable std::weak_ptr<HeldNumbers> held_[2];    // of cells_
   bool begun_ = false, published_ = false;
   uint64_t version_ = 0;
 };

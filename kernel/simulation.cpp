@@ -20,6 +20,7 @@ Simulation::Simulation(World world, const Standard& standard, Options options)
   for (const auto& warning : world_.warnings)
     events_.push_back({0, "", "warning: " + warning.place.text() + ": " + warning.message});
   around_.tables = options_.tables ? options_.tables : std::make_shared<TableCache>();
+  for (const auto& library : options_.libraries) share(library);
   loader_ = std::make_unique<LibraryLoader>(options_.search_path);
   for (const auto& declaration : options_.more) instances_.push_back(make(declaration));
   for (const auto& declaration : world_.instances) instances_.push_back(make(declaration));

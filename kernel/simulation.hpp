@@ -20,6 +20,7 @@ struct Options {
   int workers = 1;                        // threads; the results do not depend on their number
   std::vector<InstanceDeclaration> more;  // instances beyond those of the world file, before its own
   std::shared_ptr<TableCache> tables{};   // files that were read already; none: the simulation reads its own
+  std::vector<std::shared_ptr<Library>> libraries{};  // shared from the start on, as by share()
 };
 
 struct Event {

@@ -240,6 +240,10 @@ std::shared_ptr<Library> Library::load(const std::string& plugin_id,
   return LibraryLoader(search_path).load(plugin_id, library, where);
 }
 
+std::shared_ptr<Library> Library::of_program(decltype(&muster_register) call) {
+  return std::shared_ptr<Library>(new Library({}, nullptr, registered_plugins(call)));
+}
+
 Library::Library(std::filesystem::path file, std::unique_ptr<Module> module, std::vector<muster_plugin> plugins)
     : file_(std::move(file)), module_(std::move(module)), plugins_(std::move(plugins)) {}
 

@@ -27,6 +27,10 @@ class Library {
                                        const std::optional<std::filesystem::path>& library,
                                        const SearchPath& search_path, const Place& where);
 
+  // Plugins that are part of the program itself, as one that embeds the kernel may have them: file() is empty. Throws
+  // Refusal.
+  static std::shared_ptr<Library> of_program(decltype(&muster_register) call);
+
   Library(const Library&) = delete;
   Library& operator=(const Library&) = delete;
   ~Library();  // code and strings of the library are gone after it

@@ -1,4 +1,5 @@
-# cpack -G DEB in the build folder: muster (program, plugins, worlds), muster-dev (what is built against it), and muster-ns3 where ns-3 is.
+# cpack -G DEB in the build folder: muster (program, plugins, worlds), muster-dev (what is built against it), muster-ns3 where ns-3 is,
+# and python3-muster where Python's parts are.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME muster)
 set(CPACK_PACKAGE_VENDOR "muster")
@@ -40,6 +41,21 @@ if(TARGET network_ns3)
 The plugin network.ns3.")
 endif()
 
+if(MUSTER_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-muster)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+  # The extension is for one minor version of Python.
+  string(REGEX REPLACE ".*[.]" "" minor ${MUSTER_PYTHON_VERSION})
+  math(EXPR minor "${minor} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+    "muster (= ${release}), python3 (>= ${MUSTER_PYTHON_VERSION}~), python3 (<< 3.${minor}), python3-numpy")
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION "worlds of muster from Python
+Loads and steps worlds, reads their tables as arrays of numpy without a copy,
+and takes functions of Python in the place of plugins.")
+endif()
+
 # What every package of Debian has: its copyright, and a change log of the packaging, which leads to that of the project.
 file(STRINGS ${PROJECT_SOURCE_DIR}/CHANGELOG.md released REGEX "^## ${PROJECT_VERSION} \\([0-9-]+\\)$")
 string(REGEX REPLACE ".*\\((.*)\\)" "\\1" released "${released}")
@@ -47,6 +63,9 @@ execute_process(COMMAND date -u -R -d "${released}" OUTPUT_VARIABLE released OUT
 set(components muster dev)
 if(TARGET network_ns3)
   list(APPEND components ns3)
+endif()
+if(MUSTER_PYTHON)
+  list(APPEND components python)
 endif()
 foreach(component IN LISTS components)
   string(TOUPPER ${component} capital)

@@ -34,6 +34,17 @@ for world in "$prefix"/share/muster/worlds/*/world.xml; do
   "$muster" check "$world" >check.txt || fail "$world: $(cat check.txt)"
 done
 
+# The package of Python, where the build has it: the program's digest, from its own plugins.
+if [[ -d $prefix/lib/python3/dist-packages/muster ]]; then
+  PYTHONPATH=$prefix/lib/python3/dist-packages PYTHONDONTWRITEBYTECODE=1 strace -f -qq -e trace=%file -o opened /usr/bin/python3 -c '
+import muster, sys
+simulation = muster.Simulation(sys.argv[1], until=1)
+simulation.run()
+print(simulation.digest())' "$prefix/share/muster/worlds/connectivity" >digest.txt
+  grep -qF "digest $(cat digest.txt)" run.txt || fail "Python: digest $(cat digest.txt); the program: $(cat run.txt)"
+  if grep -F -e "\"$build" -e "\"$source/" opened | grep -v ENOENT; then fail "Python opens files of the tree"; fi
+fi
+
 # What man and bash are given.
 gzip -dc "$prefix/share/man/man1/muster.1.gz" | grep -q '^\.SH MUSTER diagnose$' || fail "the manual page lacks a verb"
 if command -v man >/dev/null; then

@@ -74,6 +74,7 @@ const Storeys& storeys() {
       // Shares no code with what it grades.
       {"exam", {}},
       {"cli", {"plugin_api", "text", "loader", "world_file", "kernel", "plotting", "diagnosis/*", "viewer"}},
+      {"python", {"plugin_api", "text", "loader", "world_file", "kernel", "plotting", "diagnosis/*"}},
   };
   return table;
 }

@@ -2,10 +2,14 @@
 
 #include <fmt/core.h>
 
-namespace muster::cli {
-namespace {
+#include "diagnosis/calibration/fit_figures.hpp"
+#include "diagnosis/radio/links/geometry_checks.hpp"
+
+namespace muster::report {
 
 using namespace diagnosis;
+
+namespace {
 
 Json parameter_json(const FitParameter& p) {
   return {{"name", p.path},       {"value", p.value}, {"stderr", p.stderror},           {"lower95", p.lower95},
@@ -40,23 +44,6 @@ Json look_json(const StructureTest& look) {
   }
   return {{"by", look.by},       {"p", look.p}, {"alarm", look.alarm}, {"explains", look.explains},
           {"where", look.where}, {"bins", bins}};
-}
-
-Json cells_json(const FitReport& r) {
-  Json quantiles = Json::object();
-  for (const auto& [share, value] : r.errors.quantiles) quantiles[fmt::format("{:g}", share)] = value;
-  std::size_t cells = 0;
-  for (const CellMap& map : r.maps) cells += map.cells.size();
-  return {{"size_m", r.options.size},
-          {"average", r.options.average == Average::dB ? "dB" : "power"},
-          {"cells", cells},
-          {"cells_with_few", r.errors.few},
-          {"least_readings", r.options.least},
-          {"error_mean_db", r.errors.mean},
-          {"error_sd_db", r.errors.sd},
-          {"error_sd_if_independent_db", r.errors.expected_sd},
-          {"error_quantiles_db", quantiles},
-          {"cannot_show", r.errors.cannot_show}};
 }
 
 std::string fading_words(const Fit& fit) { return fmt::format("{:+.3f} dB", fit.fading_mean); }
@@ -136,48 +123,85 @@ void print_cells(const CellErrors& errors, const CellOptions& options) {
 
 }  // namespace
 
+FitReport::FitReport(const std::filesystem::path& world, const std::filesystem::path& data,
+                     const Library::SearchPath& plugins, const FitOptions& options, const CellOptions& cells,
+                     const std::function<void(double)>& progress)
+    : options_(cells), data_(read_dataset(data)), model_(world, data, plugins) {
+  for (const auto& notes : {notes_on_radios(model_, data_), check_places(model_, data_)})
+    data_.notes.insert(data_.notes.end(), notes.begin(), notes.end());
+  progress(0.2);
+  fit_ = diagnosis::fit(model_, data_, options);
+  progress(0.5);
+  misfit_ = residual_scan(model_, data_, fit_, features_of(model_));
+  progress(0.9);
+  // Means of power need the fading that expectations leave out.
+  maps_ = cell_maps(model_, fit_, options_.average == Average::dB ? fit_.mean : model_.drawn(), options_);
+  errors_ = cell_errors(maps_, fit_, options_);
+}
+
+void FitReport::draw(const std::filesystem::path& folder) {
+  pictures_ = write_fit_pictures(folder, model_, fit_, misfit_, maps_, errors_, options_);
+}
+
+Json FitReport::cells_json() const {
+  Json quantiles = Json::object();
+  for (const auto& [share, value] : errors_.quantiles) quantiles[fmt::format("{:g}", share)] = value;
+  std::size_t cells = 0;
+  for (const CellMap& map : maps_) cells += map.cells.size();
+  return {{"size_m", options_.size},
+          {"average", options_.average == Average::dB ? "dB" : "power"},
+          {"cells", cells},
+          {"cells_with_few", errors_.few},
+          {"least_readings", options_.least},
+          {"error_mean_db", errors_.mean},
+          {"error_sd_db", errors_.sd},
+          {"error_sd_if_independent_db", errors_.expected_sd},
+          {"error_quantiles_db", quantiles},
+          {"cannot_show", errors_.cannot_show}};
+}
+
 Json FitReport::json() const {
   Json parameters = Json::array(), looks = Json::array(), files = Json::array();
-  for (const FitParameter& p : fit.parameters) parameters.push_back(parameter_json(p));
-  for (const StructureTest& look : misfit.looks) looks.push_back(look_json(look));
-  for (const auto& file : pictures) files.push_back(file.string());
-  return {
-      {"world", model.simulation().world().name},
-      {"data", data.table->file()},
-      {"parameters", parameters},
-      {"not_identifiable", fit.not_identifiable},
-      {"residual_sd_db", fit.residual_sd},
-      {"simulated_sd_db", fit.simulated_sd},
-      {"fading_mean_db", fit.fading_mean},
-      {"shared_error_sd_db", fit.shared_sd},
-      {"shared_error_decorrelation_m", fit.decorrelation},
-      {"rows", fit.readings.heard.size()},
-      {"not_received", fit.missing.count},
-      {"not_received_is", fit.missing.count == 0 ? Json(nullptr) : Json(fit.missing.censored ? "censored" : "random")},
-      {"not_received_evidence", missing_json(fit.missing)},
-      {"search", search_json(fit)},
-      {"misfit",
-       {{"misfits", misfit.misfits},
-        {"shared_errors_allowed", misfit.shared_allowed},
-        {"looks", looks},
-        {"not_tested", misfit.not_tested}}},
-      {"cells", cells_json(*this)},
-      {"notes", data.notes},
-      {"pictures", files}};
+  for (const FitParameter& p : fit_.parameters) parameters.push_back(parameter_json(p));
+  for (const StructureTest& look : misfit_.looks) looks.push_back(look_json(look));
+  for (const auto& file : pictures_) files.push_back(file.string());
+  return {{"world", model_.simulation().world().name},
+          {"data", data_.table->file()},
+          {"parameters", parameters},
+          {"not_identifiable", fit_.not_identifiable},
+          {"residual_sd_db", fit_.residual_sd},
+          {"simulated_sd_db", fit_.simulated_sd},
+          {"fading_mean_db", fit_.fading_mean},
+          {"shared_error_sd_db", fit_.shared_sd},
+          {"shared_error_decorrelation_m", fit_.decorrelation},
+          {"rows", fit_.readings.heard.size()},
+          {"not_received", fit_.missing.count},
+          {"not_received_is",
+           fit_.missing.count == 0 ? Json(nullptr) : Json(fit_.missing.censored ? "censored" : "random")},
+          {"not_received_evidence", missing_json(fit_.missing)},
+          {"search", search_json(fit_)},
+          {"misfit",
+           {{"misfits", misfit_.misfits},
+            {"shared_errors_allowed", misfit_.shared_allowed},
+            {"looks", looks},
+            {"not_tested", misfit_.not_tested}}},
+          {"cells", cells_json()},
+          {"notes", data_.notes},
+          {"pictures", files}};
 }
 
 void FitReport::print() const {
-  fmt::print("{}: {} readings heard of {} in {}\n", model.simulation().world().name, fit.readings.heard.size(),
-             data.rows(), data.table->file());
-  for (const std::string& note : data.notes) fmt::print("note: {}\n", note);
-  print_parameters(fit);
-  print_spread(fit);
-  print_missing(fit, data.rows());
-  print_misfit(misfit);
-  print_cells(errors, options);
-  for (const auto& file : pictures)
-    fmt::print("{}{}", &file == &pictures.front() ? "\nPictures: " : " ", file.string());
-  if (!pictures.empty()) fmt::print("\n");
+  fmt::print("{}: {} readings heard of {} in {}\n", model_.simulation().world().name, fit_.readings.heard.size(),
+             data_.rows(), data_.table->file());
+  for (const std::string& note : data_.notes) fmt::print("note: {}\n", note);
+  print_parameters(fit_);
+  print_spread(fit_);
+  print_missing(fit_, data_.rows());
+  print_misfit(misfit_);
+  print_cells(errors_, options_);
+  for (const auto& file : pictures_)
+    fmt::print("{}{}", &file == &pictures_.front() ? "\nPictures: " : " ", file.string());
+  if (!pictures_.empty()) fmt::print("\n");
 }
 
-}  // namespace muster::cli
+}  // namespace muster::report
