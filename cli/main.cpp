@@ -7,6 +7,7 @@
 #include <new>
 
 #include "declared_pages.hpp"
+#include "kernel/crash_report.hpp"
 #include "text/names.hpp"
 #include "verbs.hpp"
 
@@ -92,6 +93,7 @@ int fail(Exit code, const std::string& message) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  report_crashes();
   std::signal(SIGPIPE, SIG_IGN);  // a reader that has gone is an error of writing, not a silent end
   int code = 0;
   try {
