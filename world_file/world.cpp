@@ -40,10 +40,23 @@ const XmlAttribute& needed(const XmlElement& element, const char* name) {
   throw lacking(element, name);
 }
 
+// Refuses a file of another kind at its first element: what follows in it would give misleading errors.
+void check_root(const std::string& name, const Place& place) {
+  if (name == "world") return;
+  static const std::map<std::string, std::string> others = {
+      {"sdf", ", as in a file of Gazebo; muster reads no SDF: expected <world>, with walls, stations and robots in it"},
+      {"gazebo", ", as in a file of Gazebo; muster reads no SDF: expected <world>"},
+      {"robot",
+       ", as in a robot's description; expected <world>, with <robot model=\"FILE.urdf\" at=\"0 0 0\"/> in it"},
+      {"mujoco", ", as in a model of MuJoCo; expected <world>"}};
+  const auto other = others.find(name);
+  throw invalid(place,
+                "the root element is <" + name + ">" + (other == others.end() ? "; expected <world>" : other->second));
+}
+
 void read_root(const XmlElement& root, World& world) {
   static const std::vector<std::string> valid = {"name", "dt", "until", "seed"};
-  if (root.name != "world") throw invalid(root.place, "the root element is <" + root.name + ">; expected <world>");
-  world.name = world.file.parent_path().filename().string();
+  world.name = std::filesystem::absolute(world.file).lexically_normal().parent_path().filename().string();
   const XmlAttribute* until = nullptr;
   for (const auto& given : root.attributes) {
     if (given.name == "name")
@@ -183,7 +196,7 @@ uint64_t ticks_of(double time, double dt, const Place& place) {
 World read_world(const std::filesystem::path& path, const Standard& standard) {
   World world;
   world.file = std::filesystem::is_directory(path) ? path / "world.xml" : path;
-  const XmlElement root = read_xml(world.file);
+  const XmlElement root = read_xml(world.file, check_root);
   read_root(root, world);
   read_rows(root, standard, world);
   for (const auto& child : root.children) read_child(child, standard, world);
