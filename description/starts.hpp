@@ -76,20 +76,26 @@ inline double deepest(const std::vector<Block>& a, const std::vector<Block>& b) 
   return result;
 }
 
-// One line for each robot that starts in a wall or in a robot before it. `pose_of(row)`, `robot_of(row)`: null for a
-// robot that is not there; `name_of(set, row)`.
+// A robot that starts in a wall or in another robot.
+struct Fault {
+  std::size_t robot;
+  std::string message;
+};
+
+// One for each robot that starts in a wall or in a robot before it. `pose_of(row)`, `robot_of(row)`: null for a robot
+// that is not there; `name_of(set, row)`; `outcome`: what the backend does to it.
 template <class PoseOf, class RobotOf, class NameOf>
-std::vector<std::string> faults(std::size_t robots, const PoseOf& pose_of, const RobotOf& robot_of,
-                                const NameOf& name_of, const std::vector<Block>& walls) {
+std::vector<Fault> faults(std::size_t robots, const PoseOf& pose_of, const RobotOf& robot_of, const NameOf& name_of,
+                          const std::vector<Block>& walls, const std::string& outcome = ", and will be pushed out") {
   constexpr double tolerance = 1e-3;  // [m] boxes around round shapes may be that deep in each other
   std::vector<std::vector<Block>> blocks(robots);
   std::vector<double> reach(robots, 0);
-  std::vector<std::string> result;
+  std::vector<Fault> result;
   const auto say = [&](std::size_t row, const std::string& set, std::size_t other, double deep) {
     const auto millimetres = static_cast<long>(std::lround(1000 * deep));
-    result.push_back("robot '" + std::string(name_of("robot", row)) + "' starts in " + set + " '" +
-                     std::string(name_of(set.c_str(), other)) + "', " + std::to_string(millimetres) +
-                     " mm deep, and will be pushed out; expected a place (at) clear of it");
+    result.push_back({row, "robot '" + std::string(name_of("robot", row)) + "' starts in " + set + " '" +
+                               std::string(name_of(set.c_str(), other)) + "', " + std::to_string(millimetres) +
+                               " mm deep" + outcome + "; expected a place (at) clear of it"});
   };
   for (std::size_t i = 0; i < robots; ++i) {
     const Robot* robot = robot_of(i);

@@ -101,6 +101,7 @@ class Converter {
     index_[name] = robot_.links.size();
     Link link;
     link.name = name;
+    link.line = line;
     if (!from->inertial && outline_.with_inertial.count(name)) {
       source_.fail(line, "link '" + name + "': urdfdom dropped its <inertial>");
     }

@@ -59,7 +59,7 @@ void derive_drive(const Source& source, const tinyxml2::XMLElement& root, Robot&
 // Sets a drive's wheels, those of each side from the first on.
 void take_wheels(const std::vector<std::size_t>& left, const std::vector<std::size_t>& right, DifferentialDrive& drive);
 // Makes the inertia of a wheel even about its axle where rounded figures leave a few per cent, with a warning.
-void balance_wheel(const Source& source, int line, std::size_t joint, Robot& robot);
+void balance_wheel(const Source& source, std::size_t joint, Robot& robot);
 // A drive whose wheels and sizes are known: checks them against the joints, and completes it.
 void complete_drive(const Source& source, const tinyxml2::XMLElement& element, DifferentialDrive& drive, Robot& robot);
 // The largest radius of the collision shapes of a joint's child that are round about its axis; 0 if there are none.

@@ -52,14 +52,24 @@ struct RobotsDrive {
   // Once of each robot that nothing can move as it is asked to.
   void warn_if_asked(const Step& k, std::size_t i, const Command& asked) const {
     const auto* robot = robots.of(k[reached][i].model);
-    if (!robot || robot->is_driven()) return;
+    if (!robot || robot->drive || robot->legs) return;
     const bool told = k.last(reached)[i].left != 0;
     k[reached][i].left = told || asked.v != 0 || asked.w != 0 ? 1 : 0;
     if (told || k[reached][i].left == 0) return;
-    k.event("warning: robot '" + std::string(k.name("robot", i)) + "' is commanded, but its model '" + robot->name +
-            "' has no drive, so that it does not move; expected <muster><differential left=\"\" right=\"\" "
-            ".../></muster> in " +
-            robot->file + ", or in a file of fittings");
+    const std::string name(k.name("robot", i));
+    const std::string robot_is = "robot '" + name + "' is commanded, but its model '" + robot->name + "' ";
+    if (robot->quadrotor) {
+      k.warn("robot/" + name, robot_is +
+                                  "flies, so that a command of wheels (robot/*/command) does not move it; "
+                                  "expected <control.velocity3d robot=\"" +
+                                  name + "\"/> and <control.path3d robot=\"" + name + "\" path=\"...\"/>");
+      return;
+    }
+    k.warn("robot/" + name,
+           robot_is +
+               "has no drive, so that it does not move; expected <muster><differential left=\"\" right=\"\" "
+               ".../></muster> in " +
+               robot->file + ", or in a file of fittings");
   }
 
   void turn(const Step& k, std::size_t i, const Command& asked, const description::DifferentialDrive& motors) const {
