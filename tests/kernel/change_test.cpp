@@ -106,7 +106,8 @@ TEST_F(Changes, AFailedChangeLeavesTheRunAsItWas) {
       [&] {
         sim.insert(instance("toy.copy_physics", "x", {{"to", "robot/a/pose"}, {"columns", pose}}));
       },
-      "command line: x (toy.copy_physics): writes \"robot/a/pose\"; so does world.xml:4:1: mover (toy.copy_physics)");
+      "command line: x (toy.copy_physics): writes \"robot/a/pose\"; so does world.xml:4:1: mover (toy.copy_physics); "
+      "expected one of the two");
   refused(
       [&] {
         sim.insert(instance("toy.copy_physics", "n", {{"to", "self/q"}}));

@@ -108,10 +108,12 @@ TEST_F(Claims, ARowHasOneWriter) {
   EXPECT_EQ(error_of_world(one + "<toy.copy_physics name='two' to='robot/b/v'/>\n"), "no error");
   EXPECT_EQ(
       error_of_world(one + "<toy.copy_physics name='two' to='robot/a/v'/>\n"),
-      "world.xml:5:1: two (toy.copy_physics): writes \"robot/a/v\"; so does world.xml:4:1: one (toy.copy_physics)");
+      "world.xml:5:1: two (toy.copy_physics): writes \"robot/a/v\"; so does world.xml:4:1: one (toy.copy_physics); "
+      "expected one of the two");
   EXPECT_EQ(
       error_of_world(one + "<toy.copy_physics name='two' to='robot/*/v'/>\n"),
-      "world.xml:5:1: two (toy.copy_physics): writes \"robot/*/v\"; so does world.xml:4:1: one (toy.copy_physics)");
+      "world.xml:5:1: two (toy.copy_physics): writes \"robot/*/v\"; so does world.xml:4:1: one (toy.copy_physics); "
+      "expected one of the two");
   EXPECT_EQ(error_of_world(one + "<toy.copy_radio name='two' to='robot/b/v'/>\n"),
             "world.xml:5:1: two (toy.copy_radio): writes \"robot/*/v\" in the phase RADIO, but world.xml:4:1: one "
             "(toy.copy_physics) in PHYSICS; a table is written in one phase");
