@@ -115,9 +115,10 @@ std::vector<std::string> Linker::unread() const {
     for (const auto& by : c.writers) {
       if (!is_for_others(by) || !silent.insert(by.instance).second) continue;
       const Quantity* standard = standard_quantity(standard_, by.get().name);
-      result.push_back(
-          by.instance->title() + ": writes " + quote(by.get().name.text()) + ", which nobody reads" +
-          (standard && *standard->user ? "; expected <" + std::string(standard->user) + "/> in the world" : ""));
+      result.push_back(by.instance->title() + ": writes " + quote(by.get().name.text()) + ", which nobody reads" +
+                       (standard && *standard->user
+                            ? "; expected <" + std::string(standard->user) + "/> in the world"
+                            : "; muster describe " + by.instance->declared().plugin + " says what it is for"));
     }
   }
   return result;

@@ -104,12 +104,16 @@ std::string why_not_integer(std::string_view text) {
 
 std::string why_not_reals(std::string_view text, std::size_t n) {
   const std::vector<std::string_view> items = split(text);
+  if (items.size() < n) {
+    std::string spaced(text);
+    std::replace(spaced.begin(), spaced.end(), ',', ' ');
+    if (parse_reals(spaced, n)) return quote(text) + " has commas between its numbers";
+  }
   for (const std::string_view item : items) {
     if (std::string why = why_not_real(item); !why.empty()) return why;
   }
   if (items.size() == n) return "";
-  return quote(text) + " has " + std::to_string(items.size()) + (items.size() == 1 ? " number" : " numbers") +
-         "; expected " + std::to_string(n) + ", with spaces between them";
+  return quote(text) + " has " + std::to_string(items.size()) + (items.size() == 1 ? " number" : " numbers");
 }
 
 }  // namespace muster

@@ -35,9 +35,9 @@ uint64_t positive_integer(const XmlAttribute& given) {
   return static_cast<uint64_t>(*value);
 }
 
-const XmlAttribute& needed(const XmlElement& element, const char* name) {
+const XmlAttribute& needed(const XmlElement& element, const char* name, const char* expected) {
   if (const auto* found = element.attribute(name)) return *found;
-  throw lacking(element, name);
+  throw lacking(element, name, expected);
 }
 
 // Refuses a file of another kind at its first element: what follows in it would give misleading errors.
@@ -76,7 +76,7 @@ void read_root(const XmlElement& root, World& world) {
       refuse_unknown(given, "world", valid);
     }
   }
-  if (!until) throw lacking(root, "until");
+  if (!until) throw lacking(root, "until", "the end of the run in seconds, from 0");
   world.ticks = ticks_of(number(*until, 0, "the end of the run in seconds, from 0"), world.dt, until->value_place);
 }
 
@@ -86,9 +86,9 @@ bool is_swaps_own(const XmlAttribute& given) {
 
 // <swap at= instance= plugin= ...>, or with the new plugin as an element inside.
 SwapDeclaration read_swap(const XmlElement& element, const World& world) {
-  const auto& at = needed(element, "at");
+  const auto& at = needed(element, "at", "a time in seconds, from 0");
   const uint64_t tick = ticks_of(number(at, 0, "a time in seconds, from 0"), world.dt, at.value_place);
-  const std::string& instance = needed(element, "instance").value;
+  const std::string& instance = needed(element, "instance", "the name of an instance").value;
   const XmlElement* inside = element.children.size() == 1 ? &element.children[0] : nullptr;
   const XmlElement& given = inside ? *inside : element;
   if (const auto* name = given.attribute("name"))
@@ -102,13 +102,16 @@ SwapDeclaration read_swap(const XmlElement& element, const World& world) {
   }
   XmlElement rest = element;
   std::erase_if(rest.attributes, is_swaps_own);
-  InstanceDeclaration replacement = read_instance(rest, needed(element, "plugin").value);
+  InstanceDeclaration replacement =
+      read_instance(rest, needed(element, "plugin", "the new plugin's id, or the plugin as an element inside").value);
   replacement.shares_element = true;
   return {tick, instance, std::move(replacement)};
 }
 
 RecordDeclaration read_record(const XmlElement& element) {
-  RecordDeclaration result{needed(element, "table").value, 1, element.place};
+  RecordDeclaration result{
+      needed(element, "table", "a table's name: set/row/quantity, or set/*/quantity for all rows").value, 1,
+      element.place};
   for (const auto& given : element.attributes) {
     if (given.name == "every")
       result.every = positive_integer(given);
@@ -136,8 +139,10 @@ void read_child(const XmlElement& element, const Standard& standard, World& worl
       if (element.name == known.name) return;  // read_rows() has read it
       valid.push_back(known.name);
     }
+    const XmlAttribute* type = element.attribute("type");  // as other simulators name their parts
     throw invalid(element.place, "<" + element.name +
-                                     "> is no element of a world; expected a plugin (with a dot in its name) or " +
+                                     "> is no element of a world; expected a plugin (with a dot in its name" +
+                                     (type ? ": <" + element.name + "." + type->value + "/>" : "") + ") or " +
                                      suggest(element.name, valid).substr(9));
   }
 }
@@ -177,8 +182,7 @@ InstanceDeclaration read_instance(const XmlElement& element, const std::string& 
     else
       result.attributes.push_back(given);
   }
-  if (!element.children.empty())
-    throw invalid(element.children[0].place, "<" + element.name + "> has an element inside; expected attributes only");
+  if (!element.children.empty()) refuse_inside(element);
   return result;
 }
 

@@ -351,7 +351,8 @@ TEST(UrdfOfRos, StockBurgerLoads) {
              "with 0.005 kg; expected 1/10 to 10 times; unless it is meant, write <inertial><origin "
              "xyz=\"0 0.001 0\"/><mass value=\"0.005\"/><inertia ixx=\"2.004e-07\" ixy=\"0\" ixz=\"0\" "
              "iyy=\"5.417e-07\" iyz=\"0\" izz=\"4.087e-07\"/></inertial>",
-             axis_warning("50", "left"), axis_warning("80", "right"), wheel_warning("57", "left"), wheel_warning("87", "right"),
+             axis_warning("50", "left"), axis_warning("80", "right"), wheel_warning("57", "left"),
+             wheel_warning("87", "right"),
              ":2: its drive is taken from its wheels' joints, with defaults for what is not there; to set it, write "
              "<muster><differential left=\"wheel_left_joint\" right=\"wheel_right_joint\" wheel_radius=\"0.033\" "
              "wheel_base=\"0.16\" max_torque=\"0.1297\" max_speed=\"30.3\" max_acceleration=\"30.3\" "

@@ -207,7 +207,8 @@ TEST_F(Claims, WhatAPluginOfTheRadioSaysToNobodyIsWarnedAbout) {
   const std::string said = two_robots + "<toy.copy_radio name='r' to='robot/*/loudness' columns='v'/>\n";
   EXPECT_THAT(messages(run(said)),
               ElementsAre("0 : warning: " + (folder / "world.xml").string() +
-                          ":4:1: r (toy.copy_radio): writes \"robot/*/loudness\", which nobody reads"));
+                          ":4:1: r (toy.copy_radio): writes \"robot/*/loudness\", which nobody reads; muster "
+                          "describe toy.copy_radio says what it is for"));
   EXPECT_THAT(messages(run(said + "<toy.copy_sense name='s' from='robot/*/loudness' columns='v' to='self/x'/>\n")),
               ElementsAre());
 }

@@ -85,8 +85,9 @@ TEST(Number, ReadsLists) {
   EXPECT_FALSE(parse_reals("1 2 3 4", 3));
   EXPECT_FALSE(parse_reals("1 x 3", 3));
   EXPECT_EQ(why_not_reals("1 2 3", 3), "");
-  EXPECT_EQ(why_not_reals("1 2", 3), R"("1 2" has 2 numbers; expected 3, with spaces between them)");
-  EXPECT_EQ(why_not_reals("", 2), R"("" has 0 numbers; expected 2, with spaces between them)");
+  EXPECT_EQ(why_not_reals("1 2", 3), R"("1 2" has 2 numbers)");
+  EXPECT_EQ(why_not_reals("", 2), R"("" has 0 numbers)");
+  EXPECT_EQ(why_not_reals("1,0,2.5", 3), R"("1,0,2.5" has commas between its numbers)");
   EXPECT_EQ(why_not_reals("1,0 2", 2), R"("1,0" is not a number; a decimal point is written '.')");
 }
 
