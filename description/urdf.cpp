@@ -349,6 +349,7 @@ Robot read_robot(const std::string& path, Meshes meshes, const UrdfSetting& sett
   if (more.RootElement()) read_gazebo(fittings, *more.RootElement(), robot);
   read_gazebo(source, root, robot);
   derive_drive(source, root, robot);
+  warn_of_undriven(source, root, robot);
   if (more.RootElement()) warn_of_blind_lasers(fittings, *more.RootElement(), robot);
   warn_of_blind_lasers(source, root, robot);
   return robot;

@@ -226,6 +226,26 @@ TEST(UrdfOfRos, GazeboPartsThatAreNotUsedAreToldOnce) {
                    "'realsense' (depth), <ros2_control>"}));
 }
 
+// Of an arm. A wheel of the drive is driven here as well, and a joint that nothing drives in ROS hangs there as here.
+TEST(UrdfOfRos, JointsThatRosDrivesAndNothingHereMoveFreely) {
+  const std::string arm = link("base", mass) + link("arm", mass) +
+                          "<joint name='elbow' type='continuous'><parent link='base'/><child link='arm'/>"
+                          "<axis xyz='0 0 1'/></joint>\n";
+  const std::string is_free =
+      "> drives it in ROS, and nothing drives it here: it moves freely; expected it among the joints of "
+      "<differential> or <legs>, or type=\"fixed\" where it is to hold";
+  EXPECT_EQ(warnings_of(arm), Texts());
+  EXPECT_EQ(warnings_of(arm + "<transmission name='t'><type>x</type>\n<joint name='elbow'/></transmission>\n"),
+            Texts({"6: joint 'elbow': <transmission" + is_free}));
+  const std::string control = "<ros2_control name='c' type='system'>\n<joint name='elbow'>";
+  EXPECT_EQ(warnings_of(arm + control + "<command_interface name='position'/></joint></ros2_control>\n").back(),
+            "6: joint 'elbow': <ros2_control" + is_free);
+  EXPECT_EQ(warnings_of(arm + control + "<state_interface name='position'/></joint></ros2_control>\n").size(), 1u);
+  EXPECT_EQ(warnings_of(two_wheels() + with(declared_drive, "%", "l_joint") +
+                        "<transmission name='t'><type>x</type><joint name='l_joint'/></transmission>\n"),
+            Texts());
+}
+
 TEST(UrdfOfRos, GazeboFaultsHaveTheirLine) {
   Files files;
   const auto message = [&](const std::string& was, const std::string& is) {

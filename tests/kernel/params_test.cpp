@@ -76,7 +76,7 @@ TEST_F(Params, FileTablesThatDoNotFit) {
   EXPECT_THAT(with("robot,x[m]\na,nan\n"), HasSubstr("data.csv:2:3: "));
   EXPECT_EQ(error_of_world(two_robots + "<toy.file name='f' data='dada.csv'/>\n"),
             "world.xml:4:26: attribute \"data\": there is no file \"dada.csv\"; expected a table with the columns "
-            "robot:robot x[m]");
+            "t[s]? robot:robot x[m]");
   EXPECT_EQ(error_of_world(two_robots + "<toy.file name='f'/>\n"),
             "world.xml:4:1: f (toy.file): has no attribute \"data\", which it needs; expected a path relative to the "
             "world file");
