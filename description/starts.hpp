@@ -83,10 +83,10 @@ struct Fault {
 };
 
 // One for each robot that starts in a wall or in a robot before it. `pose_of(row)`, `robot_of(row)`: null for a robot
-// that is not there; `name_of(set, row)`; `outcome`: what the backend does to it.
+// that is not there; `name_of(set, row)`.
 template <class PoseOf, class RobotOf, class NameOf>
 std::vector<Fault> faults(std::size_t robots, const PoseOf& pose_of, const RobotOf& robot_of, const NameOf& name_of,
-                          const std::vector<Block>& walls, const std::string& outcome = ", and will be pushed out") {
+                          const std::vector<Block>& walls) {
   constexpr double tolerance = 1e-3;  // [m] boxes around round shapes may be that deep in each other
   std::vector<std::vector<Block>> blocks(robots);
   std::vector<double> reach(robots, 0);
@@ -95,7 +95,7 @@ std::vector<Fault> faults(std::size_t robots, const PoseOf& pose_of, const Robot
     const auto millimetres = static_cast<long>(std::lround(1000 * deep));
     result.push_back({row, "robot '" + std::string(name_of("robot", row)) + "' starts in " + set + " '" +
                                std::string(name_of(set.c_str(), other)) + "', " + std::to_string(millimetres) +
-                               " mm deep" + outcome + "; expected a place (at) clear of it"});
+                               " mm deep, and will be pushed out; expected a place (at) clear of it"});
   };
   for (std::size_t i = 0; i < robots; ++i) {
     const Robot* robot = robot_of(i);

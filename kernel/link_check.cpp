@@ -169,7 +169,8 @@ std::vector<std::string> Linker::readable() const {
 std::string Linker::expected_writer(const TableName& name, const std::string& table) const {
   const Quantity* standard = standard_quantity(standard_, name);
   if (!standard || !name.part.empty()) return suggest(table, readable());
-  if (*standard->writer) return "expected a plugin that does, such as <" + std::string(standard->writer) + "/>";
+  const std::string writer = *standard->writer ? standard->writer : standard->provider;
+  if (!writer.empty()) return "expected a plugin that does, such as <" + writer + "/>";
   return "expected a plugin of your own that does (muster new controller NAME begins one)";
 }
 

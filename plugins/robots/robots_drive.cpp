@@ -31,6 +31,7 @@ struct RobotsDrive {
         stream(s.stream("actuation")),
         robots(s, description::Meshes::skip),
         command(s.read_if_any<Command>("robot/*/command")),
+        flight(s.read_if_any<AttitudeThrust>("robot/*/attitude_thrust")),
         drive(s.write<Drive>("robot/*/drive")),
         reached(s.write<Reached>("robot/*/drive_reached")) {}
 
@@ -53,6 +54,8 @@ struct RobotsDrive {
   void warn_if_asked(const Step& k, std::size_t i, const Command& asked) const {
     const auto* robot = robots.of(k[reached][i].model);
     if (!robot || robot->drive || robot->legs) return;
+    // A controller of all robots may command flying ones beside those that fly them.
+    if (robot->quadrotor && k[flight].size() > 0) return;
     const bool told = k.last(reached)[i].left != 0;
     k[reached][i].left = told || asked.v != 0 || asked.w != 0 ? 1 : 0;
     if (told || k[reached][i].left == 0) return;
@@ -92,6 +95,7 @@ struct RobotsDrive {
   Stream stream;
   WorldRobots robots;
   In<Command> command;
+  In<AttitudeThrust> flight;  // by which some controller flies robots
   Out<Drive> drive;
   Out<Reached> reached;
 };
