@@ -121,6 +121,14 @@ RecordDeclaration read_record(const XmlElement& element) {
   return result;
 }
 
+void warn_of_long_wait(const XmlElement& element, const std::string& outcome, World& world) {
+  const XmlAttribute* every = element.attribute("every");
+  if (!every || world.ticks == 0 || positive_integer(*every) <= world.ticks) return;
+  world.warnings.push_back({every->value_place, "attribute \"every\": " + every->value +
+                                                    " ticks are more than the run's " + std::to_string(world.ticks) +
+                                                    ", so that <" + element.name + "> " + outcome});
+}
+
 // An element with a dot in its name is a plugin; any other must be known.
 void read_child(const XmlElement& element, const Standard& standard, World& world) {
   if (element.name == "swap") {
@@ -131,8 +139,10 @@ void read_child(const XmlElement& element, const Standard& standard, World& worl
           {element.place, "the swap of " + quote(swap.instance) + " comes at the end of the run or after it"});
   } else if (element.name == "record") {
     world.records.push_back(read_record(element));
+    warn_of_long_wait(element, "is written at its start alone", world);
   } else if (element.name.find('.') != std::string::npos) {
     world.instances.push_back(read_instance(element, element.name));
+    warn_of_long_wait(element, "does not step after its start", world);
   } else {
     std::vector<std::string> valid = {"swap", "record"};
     for (const auto& known : standard.elements) {

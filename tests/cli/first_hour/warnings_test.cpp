@@ -39,6 +39,32 @@ TEST(FirstHour, RobotsThatStartInWallsAndInEachOther) {
   }
 }
 
+TEST(FirstHour, ARobotThatStartsBelowTheGround) {
+  for (const std::string physics : {"<physics.simbody/>", "<physics.ode/>"}) {
+    EXPECT_EQ(warnings_of("<robot name=\"rover\" at=\"0 0 -1\"/>\n" + physics),
+              "warning: world.xml:2:1: robot 'rover' starts 1000 mm below the ground; expected a place (at) on it, z = "
+              "0 or above\n");
+    EXPECT_EQ(warnings_of("<robot name=\"rover\" at=\"0 0 0.5\"/>\n" + physics), "");  // it falls
+  }
+}
+
+TEST(FirstHour, WhatNeverComesToStep) {
+  EXPECT_EQ(warnings_of(rover + "<physics.simbody/>\n<control.steady robot=\"rover\" v=\"1\" every=\"100\"/>\n" +
+                        "<record table=\"robot/*/pose\" every=\"11\"/>"),
+            "warning: world.xml:4:45: attribute \"every\": 100 ticks are more than the run's 10, so that "
+            "<control.steady> does not step after its start\n"
+            "warning: world.xml:5:36: attribute \"every\": 11 ticks are more than the run's 10, so that <record> is "
+            "written at its start alone\n");
+  EXPECT_EQ(warnings_of(rover + "<physics.simbody/>\n<record table=\"robot/*/pose\" every=\"10\"/>"), "");
+}
+
+TEST(FirstHour, ASwapForAnotherKindOfPlugin) {
+  EXPECT_EQ(warnings_of(rover + "<physics.planar name=\"physics\"/>\n" +
+                        "<swap at=\"0.5\" instance=\"physics\" plugin=\"radio.multiwall\"/>"),
+            "warning: world.xml:4:1: the swap puts radio.multiwall/2, of the phase RADIO, in the place of "
+            "physics.planar/1, of PHYSICS, whose work nobody does then\n");
+}
+
 TEST(FirstHour, WallsThatThePhysicsDrivesThrough) {
   EXPECT_EQ(warnings_of(wall + rover + base + "<physics.planar/>\n" + channel + "<network.ideal/>"),
             "warning: world.xml:5:1: walls stop no robot here: physics.planar drives through them; expected "
