@@ -51,15 +51,15 @@ TEST(FirstHour, ARobotThatStartsBelowTheGround) {
 TEST(FirstHour, WhatNeverComesToStep) {
   EXPECT_EQ(warnings_of(rover + "<physics.simbody/>\n<control.steady robot=\"rover\" v=\"1\" every=\"100\"/>\n" +
                         "<record table=\"robot/*/pose\" every=\"11\"/>"),
-            "warning: world.xml:4:45: attribute \"every\": 100 ticks are more than the run's 10, so that "
+            "warning: world.xml:4:44: attribute \"every\": 100 ticks are more than the run's 10, so that "
             "<control.steady> does not step after its start\n"
-            "warning: world.xml:5:36: attribute \"every\": 11 ticks are more than the run's 10, so that <record> is "
+            "warning: world.xml:5:37: attribute \"every\": 11 ticks are more than the run's 10, so that <record> is "
             "written at its start alone\n");
   EXPECT_EQ(warnings_of(rover + "<physics.simbody/>\n<record table=\"robot/*/pose\" every=\"10\"/>"), "");
 }
 
 TEST(FirstHour, ASwapForAnotherKindOfPlugin) {
-  EXPECT_EQ(warnings_of(rover + "<physics.planar name=\"physics\"/>\n" +
+  EXPECT_EQ(warnings_of(rover + "<physics.planar name=\"physics\"/><radio.multiwall/>\n" +
                         "<swap at=\"0.5\" instance=\"physics\" plugin=\"radio.multiwall\"/>"),
             "warning: world.xml:4:1: the swap puts radio.multiwall/2, of the phase RADIO, in the place of "
             "physics.planar/1, of PHYSICS, whose work nobody does then\n");
