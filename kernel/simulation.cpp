@@ -120,8 +120,8 @@ TableView Simulation::table(const std::string& name) const {
   throw Error(Exit::invalid_input, "there is no table " + quote(name) + "; " + suggest_table(name));
 }
 
-// Tables that there are, and standard ones whose provider would join. The nearest is of the same set, by its quantity
-// or by another word for it.
+// Tables of the same set that there are, and standard ones whose provider would join; the nearest by its quantity or by
+// another word for it. Of a set that has none: all tables.
 std::string Simulation::suggest_table(const std::string& name) const {
   std::set<std::string> valid;
   for (const auto& [other, table] : board_.tables()) valid.insert(other);
@@ -144,11 +144,14 @@ std::string Simulation::suggest_table(const std::string& name) const {
     if (table.substr(0, table.find('/')) == wanted_set && table.find('@') == table.npos)
       of_word[table.substr(table.rfind('/') + 1)] = table;
   }
-  std::vector<std::string> words;
+  if (of_word.empty()) return suggest(name, {valid.begin(), valid.end()});
+  std::vector<std::string> words, tables;
   for (const auto& [word, table] : of_word) words.push_back(word);
-  const std::string list = expected_one_of({valid.begin(), valid.end()}), near = nearest(wanted, words);
-  if (!near.empty()) return list + "; did you mean " + quote(of_word[near]) + "?";
-  return of_word.empty() ? suggest(name, {valid.begin(), valid.end()}) : list;
+  for (const auto& table : valid) {
+    if (table.substr(0, table.find('/')) == wanted_set) tables.push_back(table);
+  }
+  const std::string near = nearest(wanted, words);
+  return expected_one_of(tables) + (near.empty() ? "" : "; did you mean " + quote(of_word[near]) + "?");
 }
 
 Snapshot Simulation::snapshot() const {
