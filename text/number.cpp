@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <system_error>
 
 #include "names.hpp"
@@ -50,6 +51,12 @@ bool is_hexadecimal(std::string_view text) {
   return text.starts_with("0x") || text.starts_with("0X");
 }
 
+bool is_unit(std::string_view text) {
+  static constexpr std::string_view units[] = {"m",  "cm",  "mm",  "km", "s",   "ms",  "m/s", "rad", "deg",
+                                               "dB", "dBm", "dBi", "Hz", "kHz", "MHz", "GHz", "kg",  "N"};
+  return std::find(std::begin(units), std::end(units), text) != std::end(units);
+}
+
 template <class Number>
 std::string why_not(std::string_view text, std::string_view kind) {
   const std::string refusal = quote(text) + " is not " + std::string(kind);
@@ -61,7 +68,9 @@ std::string why_not(std::string_view text, std::string_view kind) {
   if (is_not_finite(text)) return refusal + "; it must be finite";
   const Parsed<Number> parsed = parse<Number>(text);
   if (parsed.error == std::errc::result_out_of_range && parsed.rest.empty()) return quote(text) + " is out of range";
-  if (parsed.error != std::errc::invalid_argument) return refusal + "; " + quote(parsed.rest) + " follows the number";
+  if (parsed.error != std::errc::invalid_argument)
+    return refusal + "; " + quote(parsed.rest) + " follows the number" +
+           (is_unit(parsed.rest) ? ": units are fixed and not written" : "");
   return refusal;
 }
 

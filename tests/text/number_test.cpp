@@ -51,6 +51,7 @@ TEST(Number, SaysWhyNot) {
       {"-1e400", R"("-1e400" is out of range)"},
       {"1e-400", R"("1e-400" is out of range)"},
       {"1.5abc", R"("1.5abc" is not a number; "abc" follows the number)"},
+      {"10s", R"("10s" is not a number; "s" follows the number: units are fixed and not written)"},
       {"1e400x", R"("1e400x" is not a number; "x" follows the number)"},
       {"1.2.3", R"("1.2.3" is not a number; ".3" follows the number)"},
       {"abc", R"("abc" is not a number)"},
