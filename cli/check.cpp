@@ -1,4 +1,4 @@
-// muster check WORLD: everything that a run does before its first tick, and what it warns of.
+// muster check WORLD: everything that a run does up to its first tick, that tick included, and what it warns of.
 #include <fmt/core.h>
 
 #include "kernel/record.hpp"
@@ -6,11 +6,25 @@
 #include "verbs.hpp"
 
 namespace muster::cli {
+namespace {
+
+// All that is reported before the first tick, and warnings in it: other events of a tick are no fault of the world.
+std::vector<std::string> warnings_of(const Simulation& run) {
+  static const std::string prefix = "warning: ";
+  std::vector<std::string> result;
+  for (const auto& event : run.events()) {
+    const bool is_warning = event.message.starts_with(prefix);
+    if (is_warning || event.tick == 0) result.push_back(is_warning ? event.message : prefix + event.message);
+  }
+  return result;
+}
+
+}  // namespace
 
 int run_check(const Arguments& arguments) {
-  CommandLine line(
-      "check",
-      "Reads a world, loads and links its plugins, and says what is wrong.\nExample: muster check worlds/connectivity");
+  CommandLine line("check",
+                   "Reads a world, loads and links its plugins, runs its first tick, and says what is wrong.\n"
+                   "Example: muster check worlds/connectivity");
   std::string path;
   std::vector<std::string> plugins;
   bool json = false;
@@ -18,22 +32,24 @@ int run_check(const Arguments& arguments) {
   line.option("--plugins", plugins, "a folder of plugins, looked in first");
   line.flag("--json", json, "print the outcome as JSON");
   line.parse(arguments);
-  const Simulation run(read_world(path, standard()), standard(), {plugin_path(plugins), 1, {}});
+  Simulation run(read_world(path, standard()), standard(), {plugin_path(plugins), 1, {}});
   check_records(run);
+  if (!run.done()) run.step();
+  const auto warnings = warnings_of(run);
   if (json) {
     Json out = {{"world", run.world().name}, {"instances", Json::array()}, {"warnings", Json::array()}};
     for (const auto& instance : run.instances())
       out["instances"].push_back({{"name", instance->name()}, {"plugin", instance->plugin().id}});
-    for (const auto& event : run.events()) out["warnings"].push_back(event.message);
+    for (const auto& warning : warnings) out["warnings"].push_back(warning);
     fmt::print("{}\n", out.dump(2));
     return 0;
   }
-  for (const auto& event : run.events()) fmt::print("{}\n", event.message);
-  const auto warnings = run.events().size();
+  for (const auto& warning : warnings) fmt::print("{}\n", warning);
   fmt::print("{}: {} instances, {} tables; {}\n", run.world().name, run.instances().size(), run.board().tables().size(),
-             warnings == 0   ? "nothing is wrong"
-             : warnings == 1 ? "no error, 1 warning"
-                             : fmt::format("no error, {} warnings", warnings));
+             warnings.empty()       ? "nothing is wrong"
+             : warnings.size() == 1 ? "no error, 1 warning"
+                                    : fmt::format("no error, {} warnings", warnings.size()));
+  run.close();
   return 0;
 }
 

@@ -54,6 +54,19 @@ std::string usage_of(const std::vector<DeclaredOption>& options) {
   return result;
 }
 
+// What is wrong with words that no option takes.
+std::string unexpected(const CLI::App& app) {
+  const auto words = app.remaining();
+  const auto option = std::find_if(words.begin(), words.end(), [](const std::string& w) { return w.starts_with("-"); });
+  if (option == words.end()) return quote(words.empty() ? "" : words.back()) + " is one word too many";
+  std::vector<std::string> valid;
+  for (const CLI::Option* each : app.get_options()) {
+    for (const auto& name : each->get_lnames()) valid.push_back("--" + name);
+  }
+  const std::string given = option->substr(0, option->find('='));
+  return "there is no option " + quote(given) + "; " + suggest(given, valid);
+}
+
 }  // namespace
 
 CommandLine::CommandLine(const std::string& verb, const std::string& help)
@@ -94,6 +107,11 @@ Option CommandLine::flag(const std::string& name, bool& variable, const std::str
   return Option(app_->add_flag(name, variable, help));
 }
 
+void CommandLine::refuse(const std::string& what) const {
+  throw Error(Exit::invalid_input,
+              fmt::format("muster {}: {}; see muster {} --help", app_->get_name(), what, app_->get_name()));
+}
+
 void CommandLine::parse(const Arguments& arguments) {
   if (declare_to) {
     declare_to->name = app_->get_name();
@@ -108,9 +126,14 @@ void CommandLine::parse(const Arguments& arguments) {
   } catch (const CLI::CallForHelp&) {
     fmt::print("{}", app_->help());
     throw Helped{};
+  } catch (const CLI::ExtrasError&) {
+    refuse(unexpected(*app_));
+  } catch (const CLI::ArgumentMismatch& e) {
+    const std::string what = e.what();
+    const auto once = what.find(": At Most 1 required");
+    refuse(once == what.npos ? what : what.substr(0, once) + " is given more than once; expected one value");
   } catch (const CLI::ParseError& e) {
-    throw Error(Exit::invalid_input,
-                fmt::format("muster {}: {}; see muster {} --help", app_->get_name(), e.what(), app_->get_name()));
+    refuse(e.what());
   }
 }
 

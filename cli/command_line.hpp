@@ -52,6 +52,8 @@ class CommandLine {
   void parse(const Arguments& arguments);
 
  private:
+  [[noreturn]] void refuse(const std::string& what) const;
+
   std::unique_ptr<CLI::App> app_;
 };
 

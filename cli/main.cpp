@@ -1,12 +1,15 @@
 // muster VERB ...: finds the verb, runs it, and turns errors into one line and an exit code.
 #include <fmt/core.h>
 
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <new>
+#include <system_error>
 
 #include "declared_pages.hpp"
+#include "kernel/crash_report.hpp"
 #include "text/names.hpp"
 #include "verbs.hpp"
 
@@ -89,9 +92,15 @@ int fail(Exit code, const std::string& message) {
   return static_cast<int>(code);
 }
 
+// A reader that has read enough, such as `head`, is no news to the user.
+int unwritten(int reason) {
+  return reason == EPIPE ? static_cast<int>(Exit::io) : fail(Exit::io, "standard output cannot be written");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  report_crashes();
   std::signal(SIGPIPE, SIG_IGN);  // a reader that has gone is an error of writing, not a silent end
   int code = 0;
   try {
@@ -104,9 +113,11 @@ int main(int argc, char** argv) {
   } catch (const std::filesystem::filesystem_error& e) {
     code = fail(Exit::io, e.path1().string() + ": " + e.code().message());
   } catch (const std::exception& e) {
-    if (std::ferror(stdout)) return fail(Exit::io, "standard output cannot be written");
+    const auto* system = dynamic_cast<const std::system_error*>(&e);
+    if (std::ferror(stdout)) return unwritten(system ? system->code().value() : 0);
     code = fail(Exit::internal, e.what());
   }
-  if (std::fflush(stdout) != 0 || std::ferror(stdout)) return fail(Exit::io, "standard output cannot be written");
+  errno = 0;
+  if (std::fflush(stdout) != 0 || std::ferror(stdout)) return unwritten(errno);
   return code;
 }

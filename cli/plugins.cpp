@@ -82,7 +82,7 @@ void print_manual(const Library& library, const muster_plugin& plugin) {
 }
 
 // Of a world file's element that is no plugin.
-void describe_element(const std::string& name, bool json) {
+void describe_element(const std::string& name, bool json, const std::vector<std::filesystem::path>& folders) {
   std::vector<std::string> names;
   for (const auto& element : standard().elements) {
     names.emplace_back(element.name);
@@ -99,8 +99,12 @@ void describe_element(const std::string& name, bool json) {
     for (const auto& attribute : element.attributes) print_param(attribute.param, attribute.count);
     return;
   }
-  throw Error(Exit::invalid_input,
-              "there is no element " + quote(name) + ", and a plugin has a dot in its name; " + suggest(name, names));
+  std::vector<std::string> family;  // plugins whose names begin so: "radio" may mean "radio.multiwall"
+  for (const auto& one : list_plugins(folders)) {
+    if (one.library && std::string(one.library->id()).starts_with(name + ".")) family.emplace_back(one.library->id());
+  }
+  throw Error(Exit::invalid_input, "there is no element " + quote(name) + ", and a plugin has a dot in its name; " +
+                                       (family.empty() ? suggest(name, names) : expected_one_of(family)));
 }
 
 }  // namespace
@@ -143,7 +147,7 @@ int run_describe(const Arguments& arguments) {
   line.option("--plugins", folders, "a folder of plugins, looked in first");
   line.flag("--json", json, "as JSON");
   line.parse(arguments);
-  if (id.find('.') == std::string::npos) return describe_element(id, json), 0;
+  if (id.find('.') == std::string::npos) return describe_element(id, json, plugin_path(folders)), 0;
   const auto library = Library::load(id.substr(0, id.find('/')), {}, plugin_path(folders), {"muster describe"});
   auto out = Json::array();
   for (const auto& plugin : library->plugins()) {

@@ -25,6 +25,15 @@ std::vector<std::string> models_in(const std::vector<std::string>& directories) 
   return names;
 }
 
+// The nearest name; all, where none is near.
+std::string suggestion(const std::string& model, const std::vector<std::string>& names) {
+  const std::string near = nearest(model, names);
+  if (!near.empty() || names.empty()) return near;
+  std::string all;
+  for (const std::string& name : names) all += (all.empty() ? "; expected one of " : ", ") + name;
+  return all + ", or the path of a .urdf file";
+}
+
 }  // namespace
 
 std::string find_model(const std::string& model, const std::vector<std::string>& directories) {
@@ -46,7 +55,7 @@ std::string find_model(const std::string& model, const std::vector<std::string>&
     tried += (tried.empty() ? "" : ", ") + directory;
   }
   throw std::runtime_error("model '" + model + "' is not known: no " + file + " in " +
-                           (tried.empty() ? "any directory" : tried) + nearest(model, models_in(directories)));
+                           (tried.empty() ? "any directory" : tried) + suggestion(model, models_in(directories)));
 }
 
 UrdfSetting find_setting(const UrdfSetting& declared, const std::vector<std::string>& directories) {

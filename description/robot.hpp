@@ -52,6 +52,7 @@ struct Link {
   Mass mass;                     // mass 0: a frame only
   std::vector<Shape> shapes;     // for collisions
   std::vector<Shape> visuals{};  // for pictures; empty unless read with Meshes::visual
+  int line = 0;                  // of its <link> in the URDF, for messages
 };
 
 // A wheel that a chain or gears turn at the rate of the first wheel on its side.

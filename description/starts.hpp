@@ -76,20 +76,26 @@ inline double deepest(const std::vector<Block>& a, const std::vector<Block>& b) 
   return result;
 }
 
-// One line for each robot that starts in a wall or in a robot before it. `pose_of(row)`, `robot_of(row)`: null for a
-// robot that is not there; `name_of(set, row)`.
+// A robot that starts in a wall, in another robot, or below the ground.
+struct Fault {
+  std::size_t robot;
+  std::string message;
+};
+
+// One for each robot that starts with its middle below the ground (z = 0), in a wall, or in a robot before it.
+// `pose_of(row)`, `robot_of(row)`: null for a robot that is not there; `name_of(set, row)`.
 template <class PoseOf, class RobotOf, class NameOf>
-std::vector<std::string> faults(std::size_t robots, const PoseOf& pose_of, const RobotOf& robot_of,
-                                const NameOf& name_of, const std::vector<Block>& walls) {
+std::vector<Fault> faults(std::size_t robots, const PoseOf& pose_of, const RobotOf& robot_of, const NameOf& name_of,
+                          const std::vector<Block>& walls) {
   constexpr double tolerance = 1e-3;  // [m] boxes around round shapes may be that deep in each other
   std::vector<std::vector<Block>> blocks(robots);
   std::vector<double> reach(robots, 0);
-  std::vector<std::string> result;
+  std::vector<Fault> result;
+  const auto millimetres = [](double metres) { return std::to_string(std::lround(1000 * metres)); };
   const auto say = [&](std::size_t row, const std::string& set, std::size_t other, double deep) {
-    const auto millimetres = static_cast<long>(std::lround(1000 * deep));
-    result.push_back("robot '" + std::string(name_of("robot", row)) + "' starts in " + set + " '" +
-                     std::string(name_of(set.c_str(), other)) + "', " + std::to_string(millimetres) +
-                     " mm deep, and will be pushed out; expected a place (at) clear of it");
+    result.push_back({row, "robot '" + std::string(name_of("robot", row)) + "' starts in " + set + " '" +
+                               std::string(name_of(set.c_str(), other)) + "', " + millimetres(deep) +
+                               " mm deep, and will be pushed out; expected a place (at) clear of it"});
   };
   for (std::size_t i = 0; i < robots; ++i) {
     const Robot* robot = robot_of(i);
@@ -98,6 +104,11 @@ std::vector<std::string> faults(std::size_t robots, const PoseOf& pose_of, const
     blocks[i] = blocks_of(*robot, pose);
     for (const Block& b : blocks[i])
       reach[i] = std::max(reach[i], std::hypot(b.x - pose.x, b.y - pose.y) + std::hypot(b.half_length, b.half_width));
+    double lowest = 0, highest = -std::numeric_limits<double>::infinity();
+    for (const Block& b : blocks[i]) lowest = std::min(lowest, b.low), highest = std::max(highest, b.high);
+    if (lowest + highest < 0)
+      result.push_back({i, "robot '" + std::string(name_of("robot", i)) + "' starts " + millimetres(-lowest) +
+                               " mm below the ground; expected a place (at) on it, z = 0 or above"});
     for (const Block& wall : walls) {
       const double deep = deepest(blocks[i], {wall});
       if (deep <= tolerance) continue;

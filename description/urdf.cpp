@@ -101,6 +101,7 @@ class Converter {
     index_[name] = robot_.links.size();
     Link link;
     link.name = name;
+    link.line = line;
     if (!from->inertial && outline_.with_inertial.count(name)) {
       source_.fail(line, "link '" + name + "': urdfdom dropped its <inertial>");
     }
@@ -348,6 +349,7 @@ Robot read_robot(const std::string& path, Meshes meshes, const UrdfSetting& sett
   if (more.RootElement()) read_gazebo(fittings, *more.RootElement(), robot);
   read_gazebo(source, root, robot);
   derive_drive(source, root, robot);
+  warn_of_undriven(source, root, robot);
   if (more.RootElement()) warn_of_blind_lasers(fittings, *more.RootElement(), robot);
   warn_of_blind_lasers(source, root, robot);
   return robot;

@@ -56,10 +56,12 @@ void read_gazebo(const Source& source, const tinyxml2::XMLElement& root, Robot& 
 // Without any drive declared: takes wheels that turn about the robot's y axis on both of its sides for one, with a
 // warning that has it in full.
 void derive_drive(const Source& source, const tinyxml2::XMLElement& root, Robot& robot);
+// After the drive is known: warns of joints that a <transmission> or <ros2_control> drives and muster does not.
+void warn_of_undriven(const Source& source, const tinyxml2::XMLElement& root, Robot& robot);
 // Sets a drive's wheels, those of each side from the first on.
 void take_wheels(const std::vector<std::size_t>& left, const std::vector<std::size_t>& right, DifferentialDrive& drive);
 // Makes the inertia of a wheel even about its axle where rounded figures leave a few per cent, with a warning.
-void balance_wheel(const Source& source, int line, std::size_t joint, Robot& robot);
+void balance_wheel(const Source& source, std::size_t joint, Robot& robot);
 // A drive whose wheels and sizes are known: checks them against the joints, and completes it.
 void complete_drive(const Source& source, const tinyxml2::XMLElement& element, DifferentialDrive& drive, Robot& robot);
 // The largest radius of the collision shapes of a joint's child that are round about its axis; 0 if there are none.

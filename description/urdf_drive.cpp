@@ -166,7 +166,7 @@ void complete_drive(const Source& source, const XMLElement& element, Differentia
   }
   for (const Follower& wheel : drive.wheels()) {
     check_radius(source, element, robot, wheel.joint, drive.wheel_radius);
-    balance_wheel(source, line, wheel.joint, robot);
+    balance_wheel(source, wheel.joint, robot);
   }
   if (drive.effective_base == 0) {
     std::vector<double> ways;

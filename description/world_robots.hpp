@@ -103,7 +103,9 @@ class WorldRobots {
       file = find_model(model, directories);
       setting = find_setting(declared, directories);
     } catch (const std::runtime_error& wrong) {
-      throw BadInput(std::string("robot '").append(host->row_name(host, "robot", row)) + "': " + wrong.what());
+      const std::string name = host->row_name(host, "robot", row);
+      const char* place = host->text(host, ("robot/" + name + "/place").c_str());
+      throw BadInput("robot '" + name + "'" + (place ? " (" + std::string(place) + ")" : "") + ": " + wrong.what());
     }
     try {
       auto robot = std::make_shared<const Robot>(read_robot(file, meshes, setting));

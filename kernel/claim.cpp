@@ -233,15 +233,17 @@ int Instance::file(const std::string& param, const std::string& columns) {
   const std::string& given = texts_[param];
   if (given.empty())
     throw refused("has no attribute " + quote(param) + ", which it needs; expected a path relative to the world file");
+  const bool filled = columns.ends_with(" +"), closed = filled || columns.ends_with(" .");
+  const std::string names = columns.substr(0, columns.size() - (closed ? 2 : 0));
   auto path = std::filesystem::path(given);
   if (path.is_relative()) path = around_.world->file.parent_path() / path;
   if (!std::filesystem::exists(path))
     throw invalid(places_.count(param) ? places_[param] : declared_.place,
-                  "attribute " + quote(param) + ": there is no file " + quote(path.string()));
+                  "attribute " + quote(param) + ": there is no file " + quote(path.string()) +
+                      "; expected a table with the columns " + names);
   Claim made;
   made.kind = MUSTER_READ;
-  const bool filled = columns.ends_with(" +"), closed = filled || columns.ends_with(" .");
-  made.columns = Columns(std::string_view(columns).substr(0, columns.size() - (closed ? 2 : 0)));
+  made.columns = Columns(names);
   made.name = {"file", param, given, ""};
   check_references(made, *this, *around_.board);
   made.file = read_file_table(path, made.columns, closed, *around_.board, *around_.tables);

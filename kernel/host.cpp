@@ -4,6 +4,7 @@
 #include <cmath>
 #include <mutex>
 
+#include "crash_report.hpp"
 #include "instance.hpp"
 #include "loader/float_guard.hpp"
 #include "text/names.hpp"
@@ -49,7 +50,24 @@ struct Host {
     const auto& texts = i.around_.world->texts;
     const auto found = texts.find(path);
     if (found != texts.end()) return found->second.c_str();
-    return guarded(host, nullptr, [&] { return inherited_text(i, path); });
+    return guarded(host, nullptr, [&] {
+      const char* inherited = inherited_text(i, path);
+      return inherited ? inherited : place_text(i, path);
+    });
+  }
+
+  // "robot/leader/place" and "self/place"; null for other paths and for rows that joined.
+  static const char* place_text(Instance& i, const std::string& path) {
+    const auto first = path.find('/'), last = path.rfind('/');
+    if (first == path.npos || path.substr(last) != "/place") return nullptr;
+    if (path == "self/place") return i.texts_.emplace(path, i.place().text()).first->second.c_str();
+    if (first == last) return nullptr;
+    const std::string set = path.substr(0, first), name = path.substr(first + 1, last - first - 1);
+    for (const auto& row : i.around_.world->rows) {
+      if (row.name == name && std::find(row.sets.begin(), row.sets.end(), set) != row.sets.end())
+        return i.texts_.emplace(path, row.place.text()).first->second.c_str();
+    }
+    return nullptr;
   }
 
   // Text of a row that joined as a copy of another: that one's.
@@ -236,6 +254,7 @@ struct Host {
     std::mutex changing;
     const auto call = [&](std::size_t k) {
       const FloatGuard guard;
+      const RunningCallback running(i.title_.c_str(), "step", i.tick_);
       one(work, static_cast<uint32_t>(k));
       if (!guard.changed()) return;
       const std::lock_guard lock(changing);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "crash_report.hpp"
 #include "host.hpp"
 #include "loader/float_guard.hpp"
 #include "text/names.hpp"
@@ -36,10 +37,14 @@ Instance::Instance(InstanceDeclaration declaration, std::shared_ptr<Library> lib
     plugin_ = &*found;
   }
   check_attributes();
+  title_ = title();
   host_ = make_host(*this);
   FloatGuard guard;
   in_create_ = true;
-  self_ = guarded(nullptr, [&] { return plugin_->create(&host_); });
+  self_ = guarded(nullptr, [&] {
+    const RunningCallback running(title_.c_str(), "create", -1);
+    return plugin_->create(&host_);
+  });
   in_create_ = false;
   if (guard.changed()) error_ = guard.what() + " for the whole process; expected it to leave the arithmetic as it was";
   if (!self_ || !error_.empty()) {
@@ -54,12 +59,16 @@ Instance::Instance(InstanceDeclaration declaration, std::shared_ptr<Library> lib
 Instance::~Instance() {
   if (!self_) return;
   error_.clear();
-  guarded(false, [&] { return plugin_->destroy(self_), true; });
+  guarded(false, [&] {
+    const RunningCallback running(title_.c_str(), "destroy", -1);
+    return plugin_->destroy(self_), true;
+  });
   if (!error_.empty()) around_.destroy_faults.push_back(failure("destroy", nullptr, said()).what());
 }
 
 std::string Instance::title() const {
-  return declared_.place.text() + ": " + declared_.name + " (" + declared_.plugin + ')';
+  return place().text() + ": " + declared_.name + " (" +
+         (declared_.needed_by.empty() ? declared_.plugin : "needed by " + declared_.needed_by) + ')';
 }
 
 int Instance::find_param(const std::string& param) const {
@@ -193,6 +202,8 @@ bool Instance::step(const muster_tick& now) noexcept {
   static thread_local const FloatGuard guard;  // as this thread was before any plugin ran on it
   in_step_ = true;
   asked_ = nullptr;
+  tick_ = static_cast<int64_t>(now.index);
+  const RunningCallback running(title_.c_str(), "step", tick_);
   const bool fine =
       guarded(MUSTER_FAILED, [&] { return plugin_->step(self_, &tick, in_.data(), out_.data()); }) == MUSTER_OK;
   in_step_ = false;

@@ -100,7 +100,9 @@ class Instance {
   const std::shared_ptr<Library>& library() const { return library_; }
   uint32_t phase() const { return plugin_->phase; }
   uint64_t every() const { return declared_.every; }
-  // "world.xml:8:3: physics (physics.simbody)"
+  // Its element's place, or that of the element that needs it.
+  const Place& place() const { return declared_.needed_by.empty() ? declared_.place : declared_.needed_at; }
+  // "world.xml:8:3: physics (physics.simbody)"; "world.xml:9:3: radio.links (needed by network)" where it joined.
   std::string title() const;
   // A claim or parameter of the instance does not fit the world: "TITLE: what".
   Error refused(const std::string& what) const { return {Exit::invalid_input, title() + ": " + what}; }
@@ -154,9 +156,11 @@ class Instance {
   std::vector<Claim> claims_;
   std::vector<muster_in> in_;
   std::vector<muster_out> out_;
+  std::string title_;  // as it was made, for a crash's message
   std::string error_;  // the plugin's message for its failure
   Exit fault_ = Exit::plugin_fault;
   bool refused_ = false;  // the message is the kernel's own refusal
+  int64_t tick_ = -1;     // of its last step
   bool in_create_ = false, in_step_ = false, direct_ = false;
   const Set* asked_ = nullptr;  // the set of its last query in this step
 };

@@ -46,8 +46,14 @@ class Linker {
   // Instances in the order of the world file.
   Linker(const std::vector<Instance*>& instances, const Standard& standard, const World& world, Blackboard& board);
 
-  // Plugins that a read, or the world's records, needs and no instance provides: ids of the sets' declared providers.
-  std::vector<std::string> missing_providers() const;
+  // A plugin that a read, a stage or a record of the world needs and no instance provides: the id of a table's declared
+  // provider, and what needs it.
+  struct Missing {
+    std::string plugin;
+    Place needed_at;
+    std::string needed_by;
+  };
+  std::vector<Missing> missing_providers() const;
 
   // Warns of commands, messages and similar tables written but never read, and of world elements that no plugin reads.
   std::vector<std::string> unread() const;
@@ -62,14 +68,16 @@ class Linker {
   // After build(): old tables that no longer have a writer.
   const std::vector<std::string>& dropped() const { return dropped_; }
   const std::map<std::string, Claimed>& claimed() const { return claimed_; }
+  // True where elements of the world file give the table its values.
+  bool is_given(const std::string& logical) const;
 
  private:
   void gather();
   bool is_of_the_world(const std::string& logical) const;
-  bool is_given(const std::string& logical) const;
   bool is_minded(const std::string& set) const;
   bool is_for_others(const Claimed::By& writer) const;
   std::vector<std::string> readable() const;
+  std::string expected_writer(const TableName& name, const std::string& table) const;
   void check_reads(const std::string& logical, const Claimed& c) const;
   void check_writers(const std::string& logical, const Claimed& c) const;
   void check_columns(const std::string& logical, const Claimed& c) const;

@@ -27,7 +27,6 @@ const char* phase_name(uint32_t phase) {
   return names[phase <= MUSTER_OBSERVE ? phase : 0];
 }
 
-// True where elements of the world file give the table its values.
 bool Linker::is_given(const std::string& logical) const {
   const std::string table = logical.substr(0, logical.find('/')) + logical.substr(logical.rfind('/'));
   for (const auto& element : standard_.elements) {
@@ -45,27 +44,35 @@ bool Linker::is_of_the_world(const std::string& logical) const {
   return is_given(logical) || (set && set->is_named() && set->names.empty());
 }
 
-std::vector<std::string> Linker::missing_providers() const {
-  std::vector<std::string> result;
-  const auto ask_for = [&](const TableName& name) {
+std::vector<Linker::Missing> Linker::missing_providers() const {
+  std::vector<Missing> result;
+  const auto ask_for = [&](const TableName& name, const Place& at, const std::string& by) {
     const Set* set = board_.find_set(name.set);
     const auto* quantity = standard_quantity(standard_, name);
     if (!quantity || !*quantity->provider || (set->is_named() && set->names.empty())) return;
-    if (std::find(result.begin(), result.end(), quantity->provider) == result.end())
-      result.push_back(quantity->provider);
+    if (std::none_of(result.begin(), result.end(), [&](const Missing& m) { return m.plugin == quantity->provider; }))
+      result.push_back({quantity->provider, at, by});
+  };
+  const auto ask_by = [&](const Claimed::By& by) {
+    const InstanceDeclaration& declared = by.instance->declared();
+    ask_for(by.get().name, by.instance->place(), declared.needed_by.empty() ? declared.name : declared.needed_by);
   };
   for (const auto& [logical, c] : claimed_) {
-    if (c.is_written() || c.readers.empty()) continue;
-    const bool needed = std::any_of(c.readers.begin(), c.readers.end(),
-                                    [](const auto& by) { return !(by.get().flags & MUSTER_OPTIONAL); });
-    if (needed) ask_for(c.readers[0].get().name);
+    if (!c.writers.empty() || !c.adders.empty()) continue;
+    if (!c.modifiers.empty()) {
+      if (!is_given(logical)) ask_by(c.modifiers[0]);
+      continue;
+    }
+    const auto needing = std::find_if(c.readers.begin(), c.readers.end(),
+                                      [](const auto& by) { return !(by.get().flags & MUSTER_OPTIONAL); });
+    if (needing != c.readers.end()) ask_by(*needing);
   }
   for (const auto& record : world_.records) {
     const auto first = record.table.find('/'), last = record.table.rfind('/');
     if (first == last) continue;  // not a table's name: reported where it is to be recorded
     const TableName name{record.table.substr(0, first), "*", record.table.substr(last + 1), ""};
     const auto claimed = claimed_.find(name.logical());
-    if (claimed == claimed_.end() || !claimed->second.is_written()) ask_for(name);
+    if (claimed == claimed_.end() || !claimed->second.is_written()) ask_for(name, record.place, "record");
   }
   return result;
 }
@@ -108,21 +115,30 @@ std::vector<std::string> Linker::unread() const {
     for (const auto& by : c.writers) {
       if (!is_for_others(by) || !silent.insert(by.instance).second) continue;
       const Quantity* standard = standard_quantity(standard_, by.get().name);
-      result.push_back(
-          by.instance->title() + ": writes " + quote(by.get().name.text()) + ", which nobody reads" +
-          (standard && *standard->user ? "; expected <" + std::string(standard->user) + "/> in the world" : ""));
+      result.push_back(by.instance->title() + ": writes " + quote(by.get().name.text()) + ", which nobody reads" +
+                       (standard && *standard->user
+                            ? "; expected <" + std::string(standard->user) + "/> in the world"
+                            : "; muster describe " + by.instance->declared().plugin + " says what it is for"));
     }
   }
   return result;
 }
 
 void Linker::check() {
+  // Standard tables first: of two plugins that write the same ones, users know these and not the plugins' own.
+  const auto is_standard = [this](const std::string& logical) {
+    const TableName name{logical.substr(0, logical.find('/')), "*", logical.substr(logical.rfind('/') + 1), ""};
+    return standard_quantity(standard_, name) != nullptr;
+  };
+  for (const auto& [logical, c] : claimed_) {
+    if (is_standard(logical)) check_writers(logical, c);
+  }
   for (const auto& [logical, c] : claimed_) {
     if (!c.adders.empty() && is_given(logical))
       throw c.adders[0].instance->refused("adds to " + quote(logical) +
                                           ", which the world gives; expected a claim to modify it");
     check_columns(logical, c);
-    check_writers(logical, c);
+    if (!is_standard(logical)) check_writers(logical, c);
     check_stages(logical, c);
     check_listed(logical, c);
     check_reads(logical, c);
@@ -149,6 +165,15 @@ std::vector<std::string> Linker::readable() const {
   return {result.begin(), result.end()};
 }
 
+// The remedy where a table has no writer: of a standard one its name is right, and a plugin is missing.
+std::string Linker::expected_writer(const TableName& name, const std::string& table) const {
+  const Quantity* standard = standard_quantity(standard_, name);
+  if (!standard || !name.part.empty()) return suggest(table, readable());
+  const std::string writer = *standard->writer ? standard->writer : standard->provider;
+  if (!writer.empty()) return "expected a plugin that does, such as <" + writer + "/>";
+  return "expected a plugin of your own that does (muster new controller NAME begins one)";
+}
+
 void Linker::check_reads(const std::string& logical, const Claimed& c) const {
   for (const auto& by : c.readers) {
     const Claim& claim = by.get();
@@ -158,7 +183,8 @@ void Linker::check_reads(const std::string& logical, const Claimed& c) const {
                            ? c.is_written() || is_of_the_world(logical)
                            : std::any_of(tables.begin(), tables.end(), [&](const auto& t) { return t.name == name; });
     if (!found && !(claim.flags & MUSTER_OPTIONAL)) {
-      throw by.instance->refused("reads " + quote(name) + ", which nobody writes; " + suggest(name, readable()));
+      throw by.instance->refused("reads " + quote(name) + ", which nobody writes; " +
+                                 expected_writer(claim.name, name));
     }
     // A controller may read what is not standard only if its writer calls it sensed.
     const bool own = claim.name.set == "instance/" + by.instance->name();
@@ -195,7 +221,8 @@ void Linker::check_writers(const std::string& logical, const Claimed& c) const {
       const auto& other = c.writers[j];
       if (board_.find_set(one.get().name.set)->kind == SetKind::queue) continue;  // each appends rows of its own
       if (collide(one.get(), other.get()))
-        throw one.instance->refused("writes " + quote(one.get().name.text()) + both(*other.instance));
+        throw one.instance->refused("writes " + quote(one.get().name.text()) + both(*other.instance) +
+                                    "; expected one of the two");
       check_phase("writes", logical, one, other);
     }
   }
@@ -219,7 +246,9 @@ void Linker::check_stages(const std::string& logical, const Claimed& c) const {
   std::vector<Claimed::By> before = c.writers.empty() ? c.adders : c.writers;
   for (const auto& by : c.modifiers) {
     if (before.empty() && !is_of_the_world(logical))
-      throw by.instance->refused("modifies " + quote(logical) + ", which nobody writes");
+      throw by.instance->refused(
+          "modifies " + quote(logical) + ", which nobody writes" +
+          (standard_quantity(standard_, by.get().name) ? "; " + expected_writer(by.get().name, logical) : ""));
     for (const auto& earlier : before) {
       if (earlier.instance == by.instance)
         throw by.instance->refused("modifies " + quote(logical) + ", which it writes or modifies itself");

@@ -1,6 +1,8 @@
 #include "simulation.hpp"
 
 #include <algorithm>
+#include <cstring>
+#include <map>
 #include <set>
 
 #include "text/names.hpp"
@@ -68,15 +70,13 @@ void Simulation::add_providers() {
   while (true) {
     std::vector<Instance*> all;
     for (const auto& instance : instances_) all.push_back(instance.get());
-    std::vector<std::string> missing;
-    for (const auto& plugin : Linker(all, standard_, world_, board_).missing_providers()) {
-      const bool there =
-          std::any_of(all.begin(), all.end(), [&](const Instance* i) { return i->declared().plugin == plugin; });
-      if (!there) missing.push_back(plugin);
-    }
+    auto missing = Linker(all, standard_, world_, board_).missing_providers();
+    std::erase_if(missing, [&](const Linker::Missing& m) {
+      return std::any_of(all.begin(), all.end(), [&](const Instance* i) { return i->declared().plugin == m.plugin; });
+    });
     if (missing.empty()) return;
-    for (const auto& plugin : missing)
-      instances_.push_back(make({plugin, plugin, 1, {}, {}, {}, {world_.file.string()}}));
+    for (const auto& [plugin, at, by] : missing)
+      instances_.push_back(make({plugin, plugin, 1, {}, {}, {}, {world_.file.string()}, false, at, by}));
   }
 }
 
@@ -88,7 +88,9 @@ void Simulation::relink() {
   linker.check();
   batches_ = linker.build();
   for (const auto& table : linker.dropped())
-    events_.push_back({tick_, "", "dropped " + table + ", which nobody writes any more"});
+    events_.push_back({tick_, "",
+                       linker.is_given(table) ? "nobody reads " + table + " any more, which the world gives"
+                                              : "dropped " + table + ", which nobody writes any more"});
   auto unread = linker.unread();
   for (const auto& warning : unread) {
     if (std::find(unread_.begin(), unread_.end(), warning) == unread_.end())
@@ -116,9 +118,41 @@ TableView Simulation::table(const std::string& name) const {
       throw Error(Exit::invalid_input,
                   "there is no " + table->set().name + ' ' + quote(row) + "; " + suggest(row, table->set().names));
   }
-  std::vector<std::string> valid;
-  for (const auto& [other, table] : board_.tables()) valid.push_back(other);
-  throw Error(Exit::invalid_input, "there is no table " + quote(name) + "; " + suggest(name, valid));
+  throw Error(Exit::invalid_input, "there is no table " + quote(name) + "; " + suggest_table(name));
+}
+
+// Tables of the same set that there are, and standard ones whose provider would join; the nearest by its quantity or by
+// another word for it. Of a set that has none: all tables.
+std::string Simulation::suggest_table(const std::string& name) const {
+  std::set<std::string> valid;
+  for (const auto& [other, table] : board_.tables()) valid.insert(other);
+  const std::string wanted_set = name.substr(0, name.find('/')), wanted = name.substr(name.rfind('/') + 1);
+  std::map<std::string, std::string> of_word;  // "position": "robot/*/pose"
+  for (const auto& set : standard_.sets) {
+    const bool has_rows = board_.find_set(set.name)->rows() > 0;
+    for (const auto& quantity : set.quantities) {
+      const std::string table = set.name + std::string("/*/") + quantity.name;
+      if (*quantity.provider && has_rows && set.kind == SetKind::live) valid.insert(table);
+      if (wanted_set != set.name || !valid.count(table)) continue;
+      for (std::size_t from = 0, to = 0; from < std::strlen(quantity.also); from = to + 1) {
+        const std::string words = quantity.also;
+        to = std::min(words.find(' ', from), words.size());
+        of_word[words.substr(from, to - from)] = table;
+      }
+    }
+  }
+  for (const auto& table : valid) {
+    if (table.substr(0, table.find('/')) == wanted_set && table.find('@') == table.npos)
+      of_word[table.substr(table.rfind('/') + 1)] = table;
+  }
+  if (of_word.empty()) return suggest(name, {valid.begin(), valid.end()});
+  std::vector<std::string> words, tables;
+  for (const auto& [word, table] : of_word) words.push_back(word);
+  for (const auto& table : valid) {
+    if (table.substr(0, table.find('/')) == wanted_set) tables.push_back(table);
+  }
+  const std::string near = nearest(wanted, words);
+  return expected_one_of(tables) + (near.empty() ? "" : "; did you mean " + quote(of_word[near]) + "?");
 }
 
 Snapshot Simulation::snapshot() const {

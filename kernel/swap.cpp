@@ -168,7 +168,14 @@ void Simulation::check_planned() {
     InstanceDeclaration replacement = planned.replacement;
     replacement.name = planned.instance;
     const auto mark = board_.mark();
-    make(std::move(replacement)).reset();
+    auto made = make(std::move(replacement));
+    const auto& old = instances_[find(planned.instance)];
+    if (made->phase() != old->phase())
+      events_.push_back({0, "",
+                         "warning: " + planned.replacement.place.text() + ": the swap puts " + made->plugin().id +
+                             ", of the phase " + phase_name(made->phase()) + ", in the place of " + old->plugin().id +
+                             ", of " + phase_name(old->phase()) + ", whose work nobody does then"});
+    made.reset();
     board_.back_to(mark);
   }
 }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <muster/emission.hpp>
 #include <muster/plugin.hpp>
+#include <muster/printed.hpp>
 #include <string>
 
 #include "medium/transmit_queue.hpp"
@@ -38,10 +39,11 @@ class Board {
         state_(s.write<State>(state)),
         moments_(s.stream("moments of requests")) {}
 
-  // Runs the medium through the tick.
+  // Runs the medium through the tick. `band`: all that its radios may receive in.
   template <class Medium, class Settings>
-  void step(const Step& k, Medium& medium, const Settings& settings) {
+  void step(const Step& k, Medium& medium, const Settings& settings, const Band& band) {
     look(k);
+    if (k.last_bytes(state_, 0, 0).empty()) warn_of_jammers_elsewhere(k, band);  // its first step
     if (const auto bytes = k.last_bytes(state_, 0, 0); bytes != saved_) medium.load(bytes);
     ask(k, medium);
     const Report& report = medium.run(nanoseconds(k.time() - k.dt()), nanoseconds(k.time()), channel_, settings);
@@ -97,6 +99,18 @@ class Board {
         jammer.power.push_back(milliwatts(e.excess) * channel_.power_from(i)[to]);
       jammer.power[i] = std::numeric_limits<double>::infinity();
       channel_.jammers.push_back(std::move(jammer));
+    }
+  }
+
+  void warn_of_jammers_elsewhere(const Step& k, const Band& band) const {
+    const auto megahertz = [](const Band& b) {
+      return printed(b.low / 1e6) + (b.high > b.low ? " to " + printed(b.high / 1e6) : "") + " MHz";
+    };
+    for (const Jammer& jammer : channel_.jammers) {
+      if (share_of(jammer.band, band) > 0) continue;
+      k.warn("self", "radio '" + std::string(k.name("radio", jammer.radio)) + "' jams at " + megahertz(jammer.band) +
+                         ", outside of this network's " + megahertz(band) +
+                         ", and does nothing to it; expected a frequency inside");
     }
   }
 

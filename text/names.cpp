@@ -70,12 +70,16 @@ std::string nearest(std::string_view wrong, const std::vector<std::string>& vali
   return best;
 }
 
+std::string listed(const std::vector<std::string>& names) {
+  std::string result;
+  for (std::size_t i = 0; i < std::min(names.size(), most_listed); ++i) result += (i > 0 ? ", " : "") + names[i];
+  if (names.size() > most_listed) result += ", ... (" + std::to_string(names.size()) + " in all)";
+  return result;
+}
+
 std::string expected_one_of(const std::vector<std::string>& valid) {
   if (valid.empty()) return "none is expected here";
-  std::string result = valid.size() == 1 ? "expected " : "expected one of ";
-  for (std::size_t i = 0; i < std::min(valid.size(), most_listed); ++i) result += (i > 0 ? ", " : "") + valid[i];
-  if (valid.size() > most_listed) result += ", ... (" + std::to_string(valid.size()) + " in all)";
-  return result;
+  return (valid.size() == 1 ? "expected " : "expected one of ") + listed(valid);
 }
 
 std::string suggest(std::string_view wrong, const std::vector<std::string>& valid) {

@@ -17,6 +17,9 @@ bool is_name(std::string_view text);
 // does not count), the first of equals; empty if all are more than a third of their length away.
 std::string nearest(std::string_view wrong, const std::vector<std::string>& valid);
 
+// `a, b, c`, at most 30 of them.
+std::string listed(const std::vector<std::string>& names);
+
 // `expected one of a, b, c`, at most 30 of them.
 std::string expected_one_of(const std::vector<std::string>& valid);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <system_error>
 
 #include "names.hpp"
@@ -50,6 +51,12 @@ bool is_hexadecimal(std::string_view text) {
   return text.starts_with("0x") || text.starts_with("0X");
 }
 
+bool is_unit(std::string_view text) {
+  static constexpr std::string_view units[] = {"m",  "cm",  "mm",  "km", "s",   "ms",  "m/s", "rad", "deg",
+                                               "dB", "dBm", "dBi", "Hz", "kHz", "MHz", "GHz", "kg",  "N"};
+  return std::find(std::begin(units), std::end(units), text) != std::end(units);
+}
+
 template <class Number>
 std::string why_not(std::string_view text, std::string_view kind) {
   const std::string refusal = quote(text) + " is not " + std::string(kind);
@@ -61,7 +68,9 @@ std::string why_not(std::string_view text, std::string_view kind) {
   if (is_not_finite(text)) return refusal + "; it must be finite";
   const Parsed<Number> parsed = parse<Number>(text);
   if (parsed.error == std::errc::result_out_of_range && parsed.rest.empty()) return quote(text) + " is out of range";
-  if (parsed.error != std::errc::invalid_argument) return refusal + "; " + quote(parsed.rest) + " follows the number";
+  if (parsed.error != std::errc::invalid_argument)
+    return refusal + "; " + quote(parsed.rest) + " follows the number" +
+           (is_unit(parsed.rest) ? ": units are fixed and not written" : "");
   return refusal;
 }
 
@@ -104,12 +113,16 @@ std::string why_not_integer(std::string_view text) {
 
 std::string why_not_reals(std::string_view text, std::size_t n) {
   const std::vector<std::string_view> items = split(text);
+  if (items.size() < n) {
+    std::string spaced(text);
+    std::replace(spaced.begin(), spaced.end(), ',', ' ');
+    if (parse_reals(spaced, n)) return quote(text) + " has commas between its numbers";
+  }
   for (const std::string_view item : items) {
     if (std::string why = why_not_real(item); !why.empty()) return why;
   }
   if (items.size() == n) return "";
-  return quote(text) + " has " + std::to_string(items.size()) + (items.size() == 1 ? " number" : " numbers") +
-         "; expected " + std::to_string(n) + ", with spaces between them";
+  return quote(text) + " has " + std::to_string(items.size()) + (items.size() == 1 ? " number" : " numbers");
 }
 
 }  // namespace muster

@@ -161,7 +161,9 @@ std::size_t TextTable::require(std::string_view name, std::string_view unit) con
   if (!found) {
     std::vector<std::string> names;
     for (const TextColumn& column : columns_) names.push_back(column.name);
-    throw invalid(header_place(0), "no column " + quote(wanted.label()) + " in the table; " + suggest(name, names));
+    const std::string near = nearest(name, names);
+    throw invalid(header_place(0), "no column " + quote(wanted.label()) + " in the table, which has " + listed(names) +
+                                       (near.empty() ? "" : "; did you mean " + quote(near) + "?"));
   }
   if (columns_[*found].unit == unit) return *found;
   throw invalid(header_place(*found),

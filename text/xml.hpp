@@ -27,7 +27,10 @@ struct XmlElement {
   const XmlAttribute* attribute(std::string_view wanted) const;
 };
 
+// Called with the root element's name before the rest of the file is read; throws where it is another than expected.
+using CheckRoot = void (*)(const std::string& name, const Place& place);
+
 // The root element of a file of UTF-8 text, of at most 16 MB. Throws Error with file, line and column of the fault.
-XmlElement read_xml(const std::filesystem::path& path);
+XmlElement read_xml(const std::filesystem::path& path, CheckRoot check_root = nullptr);
 
 }  // namespace muster

@@ -36,7 +36,7 @@ bool is_xml_character(std::uint32_t code) {
 
 class Scan {
  public:
-  explicit Scan(const TextFile& file) : file_(file), text_(file.text) {}
+  Scan(const TextFile& file, CheckRoot check_root) : file_(file), text_(file.text), check_root_(check_root) {}
 
   std::vector<XmlSpot> run() {
     check_characters();
@@ -75,7 +75,10 @@ class Scan {
     if (at_ == text_.size()) return false;
     if (text_[at_] == '<') return true;
     const std::string_view words = text_.substr(at_, text_.find_first_of("<\r\n", at_) - at_);
-    fail(at_, "the text " + quote(words) + " stands between elements; expected elements and comments only");
+    fail(at_, "the text " + quote(words) + " stands between elements; expected elements and comments only" +
+                  (open_.size() < 2
+                       ? ""
+                       : ", and values as attributes: <" + std::string(open_.back().name) + " NAME=\"VALUE\"/>"));
   }
 
   void scan_markup() {
@@ -145,6 +148,7 @@ class Scan {
       fail(tag_, quote(name) + " is nested too deep; expected at most " + std::to_string(most_depth) +
                      " elements in each other");
     }
+    if (!has_root_ && check_root_) check_root_(std::string(name), file_.place(tag_));
     has_root_ = true;
     count_part(tag_);
     add_spot(tag_);
@@ -261,6 +265,7 @@ class Scan {
 
   const TextFile& file_;
   const std::string_view text_;
+  const CheckRoot check_root_;
   std::size_t at_ = 0;
   std::size_t parts_ = 0;
   std::size_t tag_ = 0;  // start of the present tag
@@ -275,6 +280,6 @@ class Scan {
 
 }  // namespace
 
-std::vector<XmlSpot> scan_xml(const TextFile& file) { return Scan(file).run(); }
+std::vector<XmlSpot> scan_xml(const TextFile& file, CheckRoot check_root) { return Scan(file, check_root).run(); }
 
 }  // namespace muster

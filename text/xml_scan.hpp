@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "text_file.hpp"
+#include "xml.hpp"
 
 namespace muster {
 
@@ -15,6 +16,6 @@ struct XmlSpot {
 };
 
 // In document order: each element's '<', then the name and the value of each of its attributes.
-std::vector<XmlSpot> scan_xml(const TextFile& file);
+std::vector<XmlSpot> scan_xml(const TextFile& file, CheckRoot check_root);
 
 }  // namespace muster

@@ -10,8 +10,8 @@ namespace muster {
 namespace {
 
 [[noreturn]] void refuse(const muster_param& declared, int count, const XmlAttribute& given, const std::string& what) {
-  throw invalid(given.value_place,
-                "attribute " + quote(given.name) + ": " + what + "; expected " + expectation(declared, count));
+  throw invalid(given.value_place, "attribute " + quote(given.name) + ": " + what + "; expected " +
+                                       expectation(declared, count) + (count > 1 ? ", with spaces between them" : ""));
 }
 
 void check_bounds(const muster_param& declared, int count, const XmlAttribute& given, double value, const Warn& warn) {
@@ -40,8 +40,16 @@ void refuse_unknown(const XmlAttribute& given, const std::string& element, const
                 "<" + element + "> has no attribute " + quote(given.name) + "; " + suggest(given.name, valid));
 }
 
-Error lacking(const XmlElement& element, const std::string& attribute) {
-  return invalid(element.place, "<" + element.name + "> has no attribute " + quote(attribute) + ", which it needs");
+Error lacking(const XmlElement& element, const std::string& attribute, const std::string& expected) {
+  return invalid(element.place, "<" + element.name + "> has no attribute " + quote(attribute) +
+                                    ", which it needs; expected " + expected);
+}
+
+void refuse_inside(const XmlElement& element) {
+  const XmlElement& inside = element.children[0];
+  throw invalid(inside.place, "<" + inside.name + "> stands inside <" + element.name +
+                                  ">, which takes attributes only; "
+                                  "expected elements side by side in <world>");
 }
 
 void check_name(const XmlAttribute& given) {

@@ -25,7 +25,8 @@ std::vector<double> attribute_values(const muster_param& declared, int count, co
 // Refusals of attributes, for any element.
 [[noreturn]] void refuse_unknown(const XmlAttribute& given, const std::string& element,
                                  const std::vector<std::string>& valid);
-Error lacking(const XmlElement& element, const std::string& attribute);
+Error lacking(const XmlElement& element, const std::string& attribute, const std::string& expected);
+[[noreturn]] void refuse_inside(const XmlElement& element);  // the first element inside one that has attributes only
 void check_name(const XmlAttribute& given);
 
 // The words of a choice, "a|b|c".

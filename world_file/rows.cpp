@@ -68,10 +68,9 @@ class RowReader {
     }
     for (const auto& attribute : element.attributes) {
       if ((attribute.param.flags & MUSTER_REQUIRED) && !given.attribute(attribute.param.name))
-        throw lacking(given, attribute.param.name);
+        throw lacking(given, attribute.param.name, expectation(attribute.param, attribute.count));
     }
-    if (!given.children.empty())
-      throw invalid(given.children[0].place, "<" + given.name + "> has an element inside; expected attributes only");
+    if (!given.children.empty()) refuse_inside(given);
   }
 
   void add_row(const Element& element, const std::string& name, const Place& place) {

@@ -35,15 +35,28 @@ uint64_t positive_integer(const XmlAttribute& given) {
   return static_cast<uint64_t>(*value);
 }
 
-const XmlAttribute& needed(const XmlElement& element, const char* name) {
+const XmlAttribute& needed(const XmlElement& element, const char* name, const char* expected) {
   if (const auto* found = element.attribute(name)) return *found;
-  throw lacking(element, name);
+  throw lacking(element, name, expected);
+}
+
+// Refuses a file of another kind at its first element: what follows in it would give misleading errors.
+void check_root(const std::string& name, const Place& place) {
+  if (name == "world") return;
+  static const std::map<std::string, std::string> others = {
+      {"sdf", ", as in a file of Gazebo; muster reads no SDF: expected <world>, with walls, stations and robots in it"},
+      {"gazebo", ", as in a file of Gazebo; muster reads no SDF: expected <world>"},
+      {"robot",
+       ", as in a robot's description; expected <world>, with <robot model=\"FILE.urdf\" at=\"0 0 0\"/> in it"},
+      {"mujoco", ", as in a model of MuJoCo; expected <world>"}};
+  const auto other = others.find(name);
+  throw invalid(place,
+                "the root element is <" + name + ">" + (other == others.end() ? "; expected <world>" : other->second));
 }
 
 void read_root(const XmlElement& root, World& world) {
   static const std::vector<std::string> valid = {"name", "dt", "until", "seed"};
-  if (root.name != "world") throw invalid(root.place, "the root element is <" + root.name + ">; expected <world>");
-  world.name = world.file.parent_path().filename().string();
+  world.name = std::filesystem::absolute(world.file).lexically_normal().parent_path().filename().string();
   const XmlAttribute* until = nullptr;
   for (const auto& given : root.attributes) {
     if (given.name == "name")
@@ -63,7 +76,7 @@ void read_root(const XmlElement& root, World& world) {
       refuse_unknown(given, "world", valid);
     }
   }
-  if (!until) throw lacking(root, "until");
+  if (!until) throw lacking(root, "until", "the end of the run in seconds, from 0");
   world.ticks = ticks_of(number(*until, 0, "the end of the run in seconds, from 0"), world.dt, until->value_place);
 }
 
@@ -73,9 +86,9 @@ bool is_swaps_own(const XmlAttribute& given) {
 
 // <swap at= instance= plugin= ...>, or with the new plugin as an element inside.
 SwapDeclaration read_swap(const XmlElement& element, const World& world) {
-  const auto& at = needed(element, "at");
+  const auto& at = needed(element, "at", "a time in seconds, from 0");
   const uint64_t tick = ticks_of(number(at, 0, "a time in seconds, from 0"), world.dt, at.value_place);
-  const std::string& instance = needed(element, "instance").value;
+  const std::string& instance = needed(element, "instance", "the name of an instance").value;
   const XmlElement* inside = element.children.size() == 1 ? &element.children[0] : nullptr;
   const XmlElement& given = inside ? *inside : element;
   if (const auto* name = given.attribute("name"))
@@ -89,13 +102,16 @@ SwapDeclaration read_swap(const XmlElement& element, const World& world) {
   }
   XmlElement rest = element;
   std::erase_if(rest.attributes, is_swaps_own);
-  InstanceDeclaration replacement = read_instance(rest, needed(element, "plugin").value);
+  InstanceDeclaration replacement =
+      read_instance(rest, needed(element, "plugin", "the new plugin's id, or the plugin as an element inside").value);
   replacement.shares_element = true;
   return {tick, instance, std::move(replacement)};
 }
 
 RecordDeclaration read_record(const XmlElement& element) {
-  RecordDeclaration result{needed(element, "table").value, 1, element.place};
+  RecordDeclaration result{
+      needed(element, "table", "a table's name: set/row/quantity, or set/*/quantity for all rows").value, 1,
+      element.place};
   for (const auto& given : element.attributes) {
     if (given.name == "every")
       result.every = positive_integer(given);
@@ -103,6 +119,14 @@ RecordDeclaration read_record(const XmlElement& element) {
       refuse_unknown(given, "record", {"table", "every"});
   }
   return result;
+}
+
+void warn_of_long_wait(const XmlElement& element, const std::string& outcome, World& world) {
+  const XmlAttribute* every = element.attribute("every");
+  if (!every || world.ticks == 0 || positive_integer(*every) <= world.ticks) return;
+  world.warnings.push_back({every->value_place, "attribute \"every\": " + every->value +
+                                                    " ticks are more than the run's " + std::to_string(world.ticks) +
+                                                    ", so that <" + element.name + "> " + outcome});
 }
 
 // An element with a dot in its name is a plugin; any other must be known.
@@ -115,16 +139,20 @@ void read_child(const XmlElement& element, const Standard& standard, World& worl
           {element.place, "the swap of " + quote(swap.instance) + " comes at the end of the run or after it"});
   } else if (element.name == "record") {
     world.records.push_back(read_record(element));
+    warn_of_long_wait(element, "is written at its start alone", world);
   } else if (element.name.find('.') != std::string::npos) {
     world.instances.push_back(read_instance(element, element.name));
+    warn_of_long_wait(element, "does not step after its start", world);
   } else {
     std::vector<std::string> valid = {"swap", "record"};
     for (const auto& known : standard.elements) {
       if (element.name == known.name) return;  // read_rows() has read it
       valid.push_back(known.name);
     }
+    const XmlAttribute* type = element.attribute("type");  // as other simulators name their parts
     throw invalid(element.place, "<" + element.name +
-                                     "> is no element of a world; expected a plugin (with a dot in its name) or " +
+                                     "> is no element of a world; expected a plugin (with a dot in its name" +
+                                     (type ? ": <" + element.name + "." + type->value + "/>" : "") + ") or " +
                                      suggest(element.name, valid).substr(9));
   }
 }
@@ -164,8 +192,7 @@ InstanceDeclaration read_instance(const XmlElement& element, const std::string& 
     else
       result.attributes.push_back(given);
   }
-  if (!element.children.empty())
-    throw invalid(element.children[0].place, "<" + element.name + "> has an element inside; expected attributes only");
+  if (!element.children.empty()) refuse_inside(element);
   return result;
 }
 
@@ -183,7 +210,7 @@ uint64_t ticks_of(double time, double dt, const Place& place) {
 World read_world(const std::filesystem::path& path, const Standard& standard) {
   World world;
   world.file = std::filesystem::is_directory(path) ? path / "world.xml" : path;
-  const XmlElement root = read_xml(world.file);
+  const XmlElement root = read_xml(world.file, check_root);
   read_root(root, world);
   read_rows(root, standard, world);
   for (const auto& child : root.children) read_child(child, standard, world);

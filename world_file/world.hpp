@@ -41,6 +41,9 @@ struct InstanceDeclaration {
   std::vector<XmlAttribute> attributes;  // without the reserved ones
   Place place;
   bool shares_element = false;  // its attributes are those of the <swap> element
+  // Of an instance that no element names: the element that needs it, and that element's name.
+  Place needed_at{};
+  std::string needed_by{};
 };
 
 struct SwapDeclaration {

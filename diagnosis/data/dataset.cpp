@@ -98,6 +98,19 @@ void read_places(Dataset& data) {
   data.rx_at = places(table, "rx");
 }
 
+// A table of poses or commands lacks all that a reading has: one missing column would be a misleading fault.
+void refuse_other_tables(const TextTable& table) {
+  for (const char* column : {"tx", "rx", "rssi", "path_loss"}) {
+    if (table.find(column)) return;
+  }
+  std::vector<std::string> names;
+  for (const TextColumn& column : table.columns()) names.push_back(column.name);
+  throw invalid(table.header_place(0),
+                "no radio readings: the columns are " + listed(names) +
+                    "; expected tx, rx and rssi[dBm], with tx_x[m], tx_y[m], rx_x[m], rx_y[m] or "
+                    "distance[m] (muster import FILE --map MAP --out FILE renames columns)");
+}
+
 // A path loss is read as the level received at a transmit power of 0 dBm.
 void read_readings(Dataset& data) {
   const TextTable& table = *data.table;
@@ -137,6 +150,7 @@ Dataset read_dataset(std::shared_ptr<const TextTable> read) {
                                       std::to_string(most_rows) + ": keep one row in " +
                                       std::to_string((table.rows() + most_rows - 1) / most_rows) +
                                       ", or a part of the time");
+  refuse_other_tables(table);
   data.tx = table.texts(table.require("tx", ""));
   data.rx = table.texts(table.require("rx", ""));
   read_places(data);

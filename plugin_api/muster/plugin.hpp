@@ -107,6 +107,13 @@ struct BadInput : std::runtime_error {
 
 // ---- Callbacks ----------------------------------------------------------------------------------------------------
 
+namespace detail {
+inline void warn(const muster_host* host, const std::string& row, const std::string& message) {
+  const char* place = host->text(host, (row + "/place").c_str());
+  host->event(host, ("warning: " + (place ? place + std::string(": ") : "") + message).c_str());
+}
+}  // namespace detail
+
 // Calls available to a constructor. Each throws when the kernel refuses it; the kernel already has the message.
 class Setup {
  public:
@@ -151,6 +158,8 @@ class Setup {
     const char* found = host_->text(host_, path.c_str());
     return found ? found : "";
   }
+  // Reports "warning: FILE:LINE:COLUMN: message", with the place of a row ("robot/leader") or of the instance ("self").
+  void warn(const std::string& row, const std::string& message) const { detail::warn(host_, row, message); }
   Stream stream(const char* name) const { return Stream(host_->stream(host_, name)); }
   const muster_host* host() const { return host_; }
 
@@ -247,6 +256,8 @@ class Step {
     return host_->row_alive(host_, set, static_cast<uint32_t>(row));
   }
   void event(const std::string& message) const { host_->event(host_, message.c_str()); }
+  // Reports "warning: FILE:LINE:COLUMN: message", with the place of a row ("robot/leader") or of the instance ("self").
+  void warn(const std::string& row, const std::string& message) const { detail::warn(host_, row, message); }
   const muster_host* host() const { return host_; }
 
  private:

@@ -21,10 +21,12 @@ enum class SetKind {
 struct Quantity {
   const char* name;
   const char* columns;
-  const char* initial;    // numbers, one a column; "" means zeros, or null where nullable
-  bool sensed;            // a robot's own controller may read it
-  const char* provider;   // the plugin that writes it where a world names none; "" for none
-  const char* user = "";  // a plugin that makes it have an effect, for the message where nobody reads it
+  const char* initial;      // numbers, one a column; "" means zeros, or null where nullable
+  bool sensed;              // a robot's own controller may read it
+  const char* provider;     // the plugin that writes it where a world names none; "" for none
+  const char* user = "";    // a plugin that makes it have an effect, for the message where nobody reads it
+  const char* writer = "";  // an element that writes it, for the message where nobody does; "" for none of muster's own
+  const char* also = "";    // other words for it, with blanks between: what a misspelt table may mean
 };
 
 struct SetDeclaration {
@@ -117,21 +119,23 @@ inline const Standard& standard() {
            SetKind::live,
            "",
            "bodies that move",
-           {{"pose", Pose::columns, "0 0 0 1 0 0 0", false, "physics.simbody"},
-            {"twist", Twist::columns, "", false, "physics.simbody"},
+           {{"pose", Pose::columns, "0 0 0 1 0 0 0", false, "physics.simbody", "", "physics.simbody",
+             "position place location at state xy xyz"},
+            {"twist", Twist::columns, "", false, "physics.simbody", "", "physics.simbody", "velocity speed vel"},
             {"wheels", Wheels::columns, "", false, "physics.simbody"},
-            {"command", Command::columns, "", true, "", "physics.simbody"},
+            {"command", Command::columns, "", true, "", "physics.simbody", "control.steady robot=\"...\"", "cmd_vel"},
             {"car_command", CarCommand::columns, "", true, "", "control.car"},
-            {"goal2d", Goal2d::columns, "", true, "", "control.goal2d"},
+            {"goal2d", Goal2d::columns, "", true, "", "control.goal2d", "", "goal"},
             {"drive", Drive::columns, "", false, "robots.drive"},
             {"gait", Gait::columns, "", false, "robots.gait"},
             {"legs", Legs::columns, "", false, "physics.simbody"},
-            {"odometry", Odometry::columns, "", true, "robots.odometry"},
+            {"odometry", Odometry::columns, "", true, "robots.odometry", "", "", "odom"},
             {"odometry_reset", OdometryReset::columns, "", true, ""},
             {"stall", Stall::columns, "", true, "robots.odometry"},
             {"geometry", Geometry::columns, "", true, "robots.geometry"},
-            {"attitude_thrust", AttitudeThrust::columns, "", true, "", "physics.simbody"},
-            {"velocity3d", Velocity3d::columns, "", true, "", "control.velocity3d"},
+            {"attitude_thrust", AttitudeThrust::columns, "", true, "", "physics.simbody",
+             "control.velocity3d robot=\"...\""},
+            {"velocity3d", Velocity3d::columns, "", true, "", "control.velocity3d", "control.path3d robot=\"...\""},
             {"position3d", Position3d::columns, "", true, "robots.mocap"},
             {"rotor_drive", RotorDrive::columns, "", false, "robots.attitude"},
             {"rotors", Rotors::columns, "", false, "physics.simbody"}}},
@@ -150,11 +154,15 @@ inline const Standard& standard() {
            "",
            "pairs of endpoints that may hear each other",
            {{"ends", Ends::columns, "", false, "radio.links"},
-            {"level", Level::columns, "", false, ""},
-            {"fading", Fading::columns, "", false, ""},
-            {"rssi", Rssi::columns, "", false, "radio.receiver"}}},
+            {"level", Level::columns, "", false, "", "", "radio.multiwall", "power"},
+            {"fading", Fading::columns, "", false, "", "", "radio.fading"},
+            {"rssi", Rssi::columns, "", false, "radio.receiver", "", "", "signal strength"}}},
           {"scan", SetKind::queue, "robot", "what lasers saw", {{"message", Scan::columns, "", true, "sensors.laser"}}},
-          {"outbox", SetKind::queue, "radio", "requests to send", {{"message", Outgoing::columns, "", true, ""}}},
+          {"outbox",
+           SetKind::queue,
+           "radio",
+           "requests to send",
+           {{"message", Outgoing::columns, "", true, "", "network.ideal", "control.beacon radio=\"...\""}}},
           {"inbox",
            SetKind::queue,
            "radio",

@@ -54,7 +54,7 @@ gone + those still under way.)";
     settings.noise = milliwatts(k[noise]);
     settings.queue = static_cast<std::size_t>(k[queue]);
     try {
-      board.step(k, medium, settings);
+      board.step(k, medium, settings, {bluetooth::band_of(0).low, bluetooth::band_of(78).high});
     } catch (const bluetooth::TooManyRadios& e) {
       throw BadInput(e.what());
     }

@@ -65,7 +65,7 @@ queue_full + no_ack + gone + those still under way.)";
     settings.extended = k[addresses] != 0;
     settings.capture = k[capture] > 0 ? milliwatts(k[capture]) : 0;
     for (const Pan& each : k[pan]) settings.pans.push_back(static_cast<std::uint16_t>(each.id));
-    board.step(k, medium, settings);
+    board.step(k, medium, settings, lrwpan::band_of(settings.channel));
   }
 
   Value channel, cca, cca_threshold, noise, acknowledge, retries, addresses, queue, capture;

@@ -56,7 +56,7 @@ gone + those still under way.)";
     settings.acknowledged = k[acknowledge] != 0;
     settings.retries = static_cast<int>(k[retries]);
     settings.queue = static_cast<std::size_t>(k[queue]);
-    board.step(k, medium, settings);
+    board.step(k, medium, settings, wifi::band_of(settings.channel));
   }
 
   Value channel, rate, slot, busy_threshold, noise, acknowledge, retries, queue;

@@ -18,12 +18,14 @@ struct PhysicsPlanar {
       "allows, in\n"
       "any direction, so a robot that is asked to turn too hard drifts outwards; its wheels' rates are those of the "
       "body.\n"
-      "Not modelled: masses, forces, slip of single wheels, anything above the plane; height and tilt stay as found.";
+      "Not modelled: masses, forces, slip of single wheels, anything above the plane; height and tilt stay as found.\n"
+      "Robots drive through walls and each other; a world with walls gives a warning unless `through_walls` says so.";
   static constexpr auto phase = MUSTER_PHYSICS;
   static constexpr auto abilities = description::Ability::wheels;
   static constexpr auto cannot_hold = "changes of height, roll and pitch, and wheel slip";
   static constexpr Param params[] = {real("acceleration", 7.848, 1e-6, 1e6, "m/s2",
-                                          "bound on the change of velocity; by default friction 0.8 times 9.81 m/s2")};
+                                          "bound on the change of velocity; by default friction 0.8 times 9.81 m/s2"),
+                                     flag("through_walls", false, "no wall is meant to stop a robot")};
 
   explicit PhysicsPlanar(Setup& s)
       : acceleration(s.value("acceleration")),
@@ -34,6 +36,11 @@ struct PhysicsPlanar {
         wheels(s.write<Wheels>("robot/*/wheels")),
         model(s.write<Model>("robot/*/body")) {
     robots.require(abilities, s);
+    const bool any_walls = s.host()->rows(s.host(), "wall") > 0 && robots.size() > 0;
+    if (any_walls && s.param("through_walls") == 0)
+      s.warn("self",
+             "walls stop no robot here: physics.planar drives through them; expected physics.simbody in its place, or "
+             "through_walls=\"true\" where that is meant");
   }
 
   void step(const Step& k) const {

@@ -192,11 +192,11 @@ struct PhysicsSimbody {
     std::vector<description::starts::Block> blocks;
     for (const scene::Slab& slab : scene::slabs(scene_walls(k[wall]), scene_doors(k[door], k[door_state], k[wall])))
       blocks.push_back(description::starts::block_of(slab));
-    for (const std::string& fault : description::starts::faults(
+    for (const auto& fault : description::starts::faults(
              k[pose].size(), [&](std::size_t i) { return k.last(pose)[i]; },
              [&](std::size_t i) { return k.alive("robot", i) ? robots.of(k[model][i].model) : nullptr; },
              [&](auto set, std::size_t row) { return k.name(set, row); }, blocks))
-      k.event("warning: " + fault);
+      k.warn("robot/" + std::string(k.name("robot", fault.robot)), fault.message);
   }
 
   // A robot that left keeps its state.

@@ -31,6 +31,7 @@ struct RobotsDrive {
         stream(s.stream("actuation")),
         robots(s, description::Meshes::skip),
         command(s.read_if_any<Command>("robot/*/command")),
+        flight(s.read_if_any<AttitudeThrust>("robot/*/attitude_thrust")),
         drive(s.write<Drive>("robot/*/drive")),
         reached(s.write<Reached>("robot/*/drive_reached")) {}
 
@@ -52,14 +53,26 @@ struct RobotsDrive {
   // Once of each robot that nothing can move as it is asked to.
   void warn_if_asked(const Step& k, std::size_t i, const Command& asked) const {
     const auto* robot = robots.of(k[reached][i].model);
-    if (!robot || robot->is_driven()) return;
+    if (!robot || robot->drive || robot->legs) return;
+    // A controller of all robots may command flying ones beside those that fly them.
+    if (robot->quadrotor && k[flight].size() > 0) return;
     const bool told = k.last(reached)[i].left != 0;
     k[reached][i].left = told || asked.v != 0 || asked.w != 0 ? 1 : 0;
     if (told || k[reached][i].left == 0) return;
-    k.event("warning: robot '" + std::string(k.name("robot", i)) + "' is commanded, but its model '" + robot->name +
-            "' has no drive, so that it does not move; expected <muster><differential left=\"\" right=\"\" "
-            ".../></muster> in " +
-            robot->file + ", or in a file of fittings");
+    const std::string name(k.name("robot", i));
+    const std::string robot_is = "robot '" + name + "' is commanded, but its model '" + robot->name + "' ";
+    if (robot->quadrotor) {
+      k.warn("robot/" + name, robot_is +
+                                  "flies, so that a command of wheels (robot/*/command) does not move it; "
+                                  "expected <control.velocity3d robot=\"" +
+                                  name + "\"/> and <control.path3d robot=\"" + name + "\" path=\"...\"/>");
+      return;
+    }
+    k.warn("robot/" + name,
+           robot_is +
+               "has no drive, so that it does not move; expected <muster><differential left=\"\" right=\"\" "
+               ".../></muster> in " +
+               robot->file + ", or in a file of fittings");
   }
 
   void turn(const Step& k, std::size_t i, const Command& asked, const description::DifferentialDrive& motors) const {
@@ -82,6 +95,7 @@ struct RobotsDrive {
   Stream stream;
   WorldRobots robots;
   In<Command> command;
+  In<AttitudeThrust> flight;  // by which some controller flies robots
   Out<Drive> drive;
   Out<Reached> reached;
 };

@@ -130,7 +130,7 @@ TEST(UrdfOfRos, WheelOfRoundedFiguresIsBalanced) {
   const std::string elements = two_wheels(with(wheel, "0.00263", "0.00264")) + with(declared_drive, "%", "l_joint");
   // 38 % of the way: the mean of 0.00264 and 0.00263.
   EXPECT_EQ(warnings_of(elements),
-            Texts({"7: the wheel of joint 'l_joint': its inertia is uneven about the axle by 0.3795 %; it is taken as "
+            Texts({"3: the wheel of joint 'l_joint': its inertia is uneven about the axle by 0.3795 %; it is taken as "
                    "balanced; write <inertial><origin xyz=\"0 0 0\"/><mass value=\"1\"/><inertia ixx=\"0.002635\" "
                    "ixy=\"0\" ixz=\"0\" iyy=\"0.005\" iyz=\"0\" izz=\"0.002635\"/></inertial> in link 'l'"}));
   const Eigen::Matrix3d inertia = robot_of(elements).links[1].mass.inertia;
@@ -142,7 +142,7 @@ TEST(UrdfOfRos, WheelWithItsMassBesideTheAxle) {
   const std::string elements = two_wheels(with(wheel, "<inertial>", "<inertial><origin xyz='0.001 0.003 0'/>")) +
                                with(declared_drive, "%", "l_joint");
   EXPECT_EQ(warnings_of(elements),
-            Texts({"7: the wheel of joint 'l_joint': its centre of mass is 1 mm off the axle; it is taken as balanced; "
+            Texts({"3: the wheel of joint 'l_joint': its centre of mass is 1 mm off the axle; it is taken as balanced; "
                    "write <inertial><origin xyz=\"0 0.003 0\"/><mass value=\"1\"/><inertia ixx=\"0.00263\" ixy=\"0\" "
                    "ixz=\"0\" iyy=\"0.005\" iyz=\"0\" izz=\"0.00263\"/></inertial> in link 'l'"}));
 }
@@ -224,6 +224,26 @@ TEST(UrdfOfRos, GazeboPartsThatAreNotUsedAreToldOnce) {
                         "<sensor type='depth' name='realsense'/></gazebo>\n<ros2_control/>"),
             Texts({"3: muster has no part for these, and ignores them: plugin 'states', sensor 'imu' (imu), sensor "
                    "'realsense' (depth), <ros2_control>"}));
+}
+
+// Of an arm. A wheel of the drive is driven here as well, and a joint that nothing drives in ROS hangs there as here.
+TEST(UrdfOfRos, JointsThatRosDrivesAndNothingHereMoveFreely) {
+  const std::string arm = link("base", mass) + link("arm", mass) +
+                          "<joint name='elbow' type='continuous'><parent link='base'/><child link='arm'/>"
+                          "<axis xyz='0 0 1'/></joint>\n";
+  const std::string is_free =
+      "> drives it in ROS, and nothing drives it here: it moves freely; expected it among the joints of "
+      "<differential> or <legs>, or type=\"fixed\" where it is to hold";
+  EXPECT_EQ(warnings_of(arm), Texts());
+  EXPECT_EQ(warnings_of(arm + "<transmission name='t'><type>x</type>\n<joint name='elbow'/></transmission>\n"),
+            Texts({"6: joint 'elbow': <transmission" + is_free}));
+  const std::string control = "<ros2_control name='c' type='system'>\n<joint name='elbow'>";
+  EXPECT_EQ(warnings_of(arm + control + "<command_interface name='position'/></joint></ros2_control>\n").back(),
+            "6: joint 'elbow': <ros2_control" + is_free);
+  EXPECT_EQ(warnings_of(arm + control + "<state_interface name='position'/></joint></ros2_control>\n").size(), 1u);
+  EXPECT_EQ(warnings_of(two_wheels() + with(declared_drive, "%", "l_joint") +
+                        "<transmission name='t'><type>x</type><joint name='l_joint'/></transmission>\n"),
+            Texts());
 }
 
 TEST(UrdfOfRos, GazeboFaultsHaveTheirLine) {
@@ -331,8 +351,8 @@ TEST(UrdfOfRos, StockBurgerLoads) {
   ASSERT_TRUE(robot.drive);
   EXPECT_NEAR(robot.drive->wheel_radius, 0.033, 1e-12);
   EXPECT_NEAR(robot.drive->wheel_base, 0.16, 1e-12);
-  const auto wheel_warning = [](const std::string& side) {
-    return ":2: the wheel of joint 'wheel_" + side +
+  const auto wheel_warning = [](const std::string& line, const std::string& side) {
+    return ":" + line + ": the wheel of joint 'wheel_" + side +
            "_joint': its inertia is uneven about the axle by 0.178 %; it is taken as balanced; write <inertial><origin "
            "xyz=\"0 0 0\"/><mass value=\"0.0285\"/><inertia ixx=\"1.118e-05\" ixy=\"0\" ixz=\"0\" iyy=\"1.118e-05\" "
            "iyz=\"0\" izz=\"2.071e-05\"/></inertial> in link 'wheel_" +
@@ -351,7 +371,8 @@ TEST(UrdfOfRos, StockBurgerLoads) {
              "with 0.005 kg; expected 1/10 to 10 times; unless it is meant, write <inertial><origin "
              "xyz=\"0 0.001 0\"/><mass value=\"0.005\"/><inertia ixx=\"2.004e-07\" ixy=\"0\" ixz=\"0\" "
              "iyy=\"5.417e-07\" iyz=\"0\" izz=\"4.087e-07\"/></inertial>",
-             axis_warning("50", "left"), axis_warning("80", "right"), wheel_warning("left"), wheel_warning("right"),
+             axis_warning("50", "left"), axis_warning("80", "right"), wheel_warning("57", "left"),
+             wheel_warning("87", "right"),
              ":2: its drive is taken from its wheels' joints, with defaults for what is not there; to set it, write "
              "<muster><differential left=\"wheel_left_joint\" right=\"wheel_right_joint\" wheel_radius=\"0.033\" "
              "wheel_base=\"0.16\" max_torque=\"0.1297\" max_speed=\"30.3\" max_acceleration=\"30.3\" "

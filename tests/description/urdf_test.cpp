@@ -350,6 +350,10 @@ TEST(Model, AbsentOneIsNamedWithItsNearest) {
   files.write("scarab.urdf", "");
   EXPECT_EQ(message_of([&] { find_model("scrab", {files.at("")}); }),
             "model 'scrab' is not known: no scrab.urdf in " + files.at("") + "; did you mean 'scarab'?");
+  files.write("crate.urdf", "");
+  EXPECT_EQ(message_of([&] { find_model("turtlebot", {files.at("")}); }),
+            "model 'turtlebot' is not known: no turtlebot.urdf in " + files.at("") +
+                "; expected one of crate, scarab, or the path of a .urdf file");
 }
 
 TEST(Drive, RatesAndTwistAreEachOthersInverse) {

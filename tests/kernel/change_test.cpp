@@ -106,7 +106,8 @@ TEST_F(Changes, AFailedChangeLeavesTheRunAsItWas) {
       [&] {
         sim.insert(instance("toy.copy_physics", "x", {{"to", "robot/a/pose"}, {"columns", pose}}));
       },
-      "command line: x (toy.copy_physics): writes \"robot/a/pose\"; so does world.xml:4:1: mover (toy.copy_physics)");
+      "command line: x (toy.copy_physics): writes \"robot/a/pose\"; so does world.xml:4:1: mover (toy.copy_physics); "
+      "expected one of the two");
   refused(
       [&] {
         sim.insert(instance("toy.copy_physics", "n", {{"to", "self/q"}}));
@@ -229,7 +230,9 @@ TEST_F(Changes, APluginInsideASwapKeepsItsAttributesApart) {
             "world.xml:5:27: <swap> has no attribute \"plugin\"; expected one of at, instance");
   EXPECT_EQ(swap("", "<toy.join name='m'/>"),
             "world.xml:5:37: <toy.join> has no attribute \"name\"; the replacement keeps the name \"n\"");
-  EXPECT_EQ(swap("", "<toy.join/><toy.join/>"), "world.xml:5:1: <swap> has no attribute \"plugin\", which it needs");
+  EXPECT_EQ(swap("", "<toy.join/><toy.join/>"),
+            "world.xml:5:1: <swap> has no attribute \"plugin\", which it needs; expected the new plugin's id, or the "
+            "plugin as an element inside");
 }
 
 TEST_F(Changes, WhatAPlannedSwapBroughtAndFailedMayBeSwappedAgain) {

@@ -108,10 +108,12 @@ TEST_F(Claims, ARowHasOneWriter) {
   EXPECT_EQ(error_of_world(one + "<toy.copy_physics name='two' to='robot/b/v'/>\n"), "no error");
   EXPECT_EQ(
       error_of_world(one + "<toy.copy_physics name='two' to='robot/a/v'/>\n"),
-      "world.xml:5:1: two (toy.copy_physics): writes \"robot/a/v\"; so does world.xml:4:1: one (toy.copy_physics)");
+      "world.xml:5:1: two (toy.copy_physics): writes \"robot/a/v\"; so does world.xml:4:1: one (toy.copy_physics); "
+      "expected one of the two");
   EXPECT_EQ(
       error_of_world(one + "<toy.copy_physics name='two' to='robot/*/v'/>\n"),
-      "world.xml:5:1: two (toy.copy_physics): writes \"robot/*/v\"; so does world.xml:4:1: one (toy.copy_physics)");
+      "world.xml:5:1: two (toy.copy_physics): writes \"robot/*/v\"; so does world.xml:4:1: one (toy.copy_physics); "
+      "expected one of the two");
   EXPECT_EQ(error_of_world(one + "<toy.copy_radio name='two' to='robot/b/v'/>\n"),
             "world.xml:5:1: two (toy.copy_radio): writes \"robot/*/v\" in the phase RADIO, but world.xml:4:1: one "
             "(toy.copy_physics) in PHYSICS; a table is written in one phase");
@@ -205,7 +207,8 @@ TEST_F(Claims, WhatAPluginOfTheRadioSaysToNobodyIsWarnedAbout) {
   const std::string said = two_robots + "<toy.copy_radio name='r' to='robot/*/loudness' columns='v'/>\n";
   EXPECT_THAT(messages(run(said)),
               ElementsAre("0 : warning: " + (folder / "world.xml").string() +
-                          ":4:1: r (toy.copy_radio): writes \"robot/*/loudness\", which nobody reads"));
+                          ":4:1: r (toy.copy_radio): writes \"robot/*/loudness\", which nobody reads; muster "
+                          "describe toy.copy_radio says what it is for"));
   EXPECT_THAT(messages(run(said + "<toy.copy_sense name='s' from='robot/*/loudness' columns='v' to='self/x'/>\n")),
               ElementsAre());
 }

@@ -75,7 +75,8 @@ TEST_F(Params, FileTablesThatDoNotFit) {
   EXPECT_THAT(with("robot,x[m]\na,1,5\n"), HasSubstr("data.csv:2:"));
   EXPECT_THAT(with("robot,x[m]\na,nan\n"), HasSubstr("data.csv:2:3: "));
   EXPECT_EQ(error_of_world(two_robots + "<toy.file name='f' data='dada.csv'/>\n"),
-            "world.xml:4:26: attribute \"data\": there is no file \"dada.csv\"");
+            "world.xml:4:26: attribute \"data\": there is no file \"dada.csv\"; expected a table with the columns "
+            "t[s]? robot:robot x[m]");
   EXPECT_EQ(error_of_world(two_robots + "<toy.file name='f'/>\n"),
             "world.xml:4:1: f (toy.file): has no attribute \"data\", which it needs; expected a path relative to the "
             "world file");

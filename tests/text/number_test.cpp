@@ -51,6 +51,7 @@ TEST(Number, SaysWhyNot) {
       {"-1e400", R"("-1e400" is out of range)"},
       {"1e-400", R"("1e-400" is out of range)"},
       {"1.5abc", R"("1.5abc" is not a number; "abc" follows the number)"},
+      {"10s", R"("10s" is not a number; "s" follows the number: units are fixed and not written)"},
       {"1e400x", R"("1e400x" is not a number; "x" follows the number)"},
       {"1.2.3", R"("1.2.3" is not a number; ".3" follows the number)"},
       {"abc", R"("abc" is not a number)"},
@@ -85,8 +86,9 @@ TEST(Number, ReadsLists) {
   EXPECT_FALSE(parse_reals("1 2 3 4", 3));
   EXPECT_FALSE(parse_reals("1 x 3", 3));
   EXPECT_EQ(why_not_reals("1 2 3", 3), "");
-  EXPECT_EQ(why_not_reals("1 2", 3), R"("1 2" has 2 numbers; expected 3, with spaces between them)");
-  EXPECT_EQ(why_not_reals("", 2), R"("" has 0 numbers; expected 2, with spaces between them)");
+  EXPECT_EQ(why_not_reals("1 2", 3), R"("1 2" has 2 numbers)");
+  EXPECT_EQ(why_not_reals("", 2), R"("" has 0 numbers)");
+  EXPECT_EQ(why_not_reals("1,0,2.5", 3), R"("1,0,2.5" has commas between its numbers)");
   EXPECT_EQ(why_not_reals("1,0 2", 2), R"("1,0" is not a number; a decimal point is written '.')");
 }
 

@@ -166,7 +166,7 @@ TEST_F(Table, RefusesAQuotedNumberWithAReason) {
 TEST_F(Table, RequiresColumnsByNameAndUnit) {
   const TextTable table = read(radio);
   EXPECT_EQ(error([&] { table.require("rsi", "dBm"); }),
-            "d.csv:1:1: no column \"rsi[dBm]\" in the table; expected one of t, tx, rx, rssi; did you mean \"rssi\"?");
+            "d.csv:1:1: no column \"rsi[dBm]\" in the table, which has t, tx, rx, rssi; did you mean \"rssi\"?");
   EXPECT_EQ(error([&] { table.require("rssi", "dB"); }),
             "d.csv:1:12: column \"rssi[dBm]\" has the wrong unit; expected \"rssi[dB]\"");
   EXPECT_EQ(error([&] { table.require("t", ""); }), "d.csv:1:1: column \"t[s]\" has the wrong unit; expected \"t\"");

@@ -14,7 +14,9 @@ TEST_F(Faults, Fault5MisspeltNames) {
   EXPECT_EQ(error("<world untill='1'/>"),
             "world.xml:1:8: <world> has no attribute \"untill\"; expected one of name, dt, until, seed; did you mean "
             "\"until\"?");
-  EXPECT_EQ(error("<world/>"), "world.xml:1:1: <world> has no attribute \"until\", which it needs");
+  EXPECT_EQ(error("<world/>"),
+            "world.xml:1:1: <world> has no attribute \"until\", which it needs; expected the end of the run in "
+            "seconds, from 0");
   EXPECT_EQ(error_with("<robbot at='0 0 0'/>"),
             "world.xml:2:1: <robbot> is no element of a world; expected a plugin (with a dot in its name) or one of "
             "swap, record, material, "
@@ -22,18 +24,26 @@ TEST_F(Faults, Fault5MisspeltNames) {
   EXPECT_EQ(error_with("<robot name='a' att='0 0 0'/>"),
             "world.xml:2:17: <robot> has no attribute \"att\"; expected one of name, model, packages, fittings, at, "
             "heading, antenna; did you mean \"at\"?");
-  EXPECT_EQ(error_with("<robot name='a'/>"), "world.xml:2:1: <robot> has no attribute \"at\", which it needs");
+  EXPECT_EQ(
+      error_with("<robot name='a'/>"),
+      "world.xml:2:1: <robot> has no attribute \"at\", which it needs; expected 3 numbers from -1e+06 to 1e+06 m");
   EXPECT_EQ(error_with("<robot name='a' at='0 0 0'><wheel/></robot>"),
-            "world.xml:2:28: <robot> has an element inside; expected attributes only");
-  EXPECT_EQ(error_with("<a.b><c/></a.b>"), "world.xml:2:6: <a.b> has an element inside; expected attributes only");
-  EXPECT_EQ(error_with("<record tabel='x'/>"), "world.xml:2:1: <record> has no attribute \"table\", which it needs");
+            "world.xml:2:28: <wheel> stands inside <robot>, which takes attributes only; expected elements side by "
+            "side in <world>");
+  EXPECT_EQ(
+      error_with("<a.b><c/></a.b>"),
+      "world.xml:2:6: <c> stands inside <a.b>, which takes attributes only; expected elements side by side in <world>");
+  EXPECT_EQ(error_with("<record tabel='x'/>"),
+            "world.xml:2:1: <record> has no attribute \"table\", which it needs; expected a table's name: "
+            "set/row/quantity, or set/*/quantity for all rows");
   EXPECT_EQ(
       error_with("<record table='x' evry='2'/>"),
       "world.xml:2:19: <record> has no attribute \"evry\"; expected one of table, every; did you mean \"every\"?");
   EXPECT_EQ(error_with("<a.b/>\n<swap at='1' instance='a.c' plugin='x.y'/>"),
             "world.xml:3:1: no instance is called \"a.c\"; expected a.b; did you mean \"a.b\"?");
   EXPECT_EQ(error_with("<a.b/>\n<swap at='1' instance='a.b'/>"),
-            "world.xml:3:1: <swap> has no attribute \"plugin\", which it needs");
+            "world.xml:3:1: <swap> has no attribute \"plugin\", which it needs; expected the new plugin's id, or the "
+            "plugin as an element inside");
   EXPECT_EQ(error_with(walls + "<wall from='0 0' to='1 0' material='n'/>"),
             "world.xml:3:37: no material is called \"n\"; expected m");
   EXPECT_EQ(error_with("<wall from='0 0' to='1 0' material='n'/>"),

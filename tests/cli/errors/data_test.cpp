@@ -75,9 +75,8 @@ void expect_refused(const std::string& data, const std::string& message) {
 }
 
 TEST(Fault25, ColumnsThatAreMissingOrInAnotherUnit) {
-  expect_refused(
-      Data().set(0, 7, "level[dBm]").text(),
-      ":1:1: no column \"rssi[dBm]\" in the table; expected one of t, tx, rx, tx_x, tx_y, rx_x, rx_y, level");
+  expect_refused(Data().set(0, 7, "level[dBm]").text(),
+                 ":1:1: no column \"rssi[dBm]\" in the table, which has t, tx, rx, tx_x, tx_y, rx_x, rx_y, level");
   expect_refused(Data().set(0, 5, "rx_x[mm]").text(),
                  ":1:28: column \"rx_x[mm]\" has the wrong unit; expected \"rx_x[m]\"");
 }
@@ -319,7 +318,7 @@ TEST(Fault25, DistancesAndPathLosses) {
                  ":3:14: row 2: a path loss of -60 dB, a level of 60 dBm, is over +30 dBm; expected a level in dBm, "
                  "which is mostly negative");
   expect_refused("tx,rx,path_loss[dB]\nbase,rover,60\nbase,rover,61\n",
-                 ":1:1: no column \"tx_x[m]\" in the table; expected one of tx, rx, path_loss");
+                 ":1:1: no column \"tx_x[m]\" in the table, which has tx, rx, path_loss");
 }
 
 TEST(Fault25, WhatIsNoFaultIsTaken) {

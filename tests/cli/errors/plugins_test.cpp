@@ -149,7 +149,7 @@ TEST(Fault19, ClaimsThatDoNotFitAreRefusedAtTheStart) {
               R"(<robot name="a" at="0 0 0"/><test.second_writer name="one"/><test.second_writer name="two"/>)"),
       2,
       "world.xml:1:96: two (test.second_writer): writes \"robot/*/command\"; so does world.xml:1:64: one "
-      "(test.second_writer)");
+      "(test.second_writer); expected one of the two");
   expect_error(
       run_toy(folder, R"(<robot name="a" at="0 0 0"/><test.reads_nobodys/>)"), 2,
       "world.xml:1:64: test.reads_nobodys (test.reads_nobodys): reads \"robot/*/poise\", which nobody writes; expected "

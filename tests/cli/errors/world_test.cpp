@@ -16,8 +16,9 @@ TEST(Fault5, WhatIsMisspeltIsToldWithTheNearestName) {
   folder.expect_refused(
       world_of(R"(<station name="b" att="0 0 1"/>)"),
       "world.xml:1:54: <station> has no attribute \"att\"; expected one of name, at, yaw; did you mean \"at\"?");
-  folder.expect_refused(world_of(R"(<station name="b"/>)"),
-                        "world.xml:1:36: <station> has no attribute \"at\", which it needs");
+  folder.expect_refused(
+      world_of(R"(<station name="b"/>)"),
+      "world.xml:1:36: <station> has no attribute \"at\", which it needs; expected 3 numbers from -1e+06 to 1e+06 m");
   folder.expect_refused(world_of(R"(<test.good siez="2"/>)"),
                         "world.xml:1:47: <test.good> has no attribute \"siez\"; expected one of name, every, library, "
                         "revision, size; did you "

@@ -162,7 +162,7 @@ TEST_F(PanWorld, WhatIsDeclaredWronglyIsTold) {
   EXPECT_EQ(error_of(pan("p", "1", "a b a")), at + "create failed: radios: \"a\" stands there twice");
   EXPECT_THAT(error_of(pan("p", "1", "a b") + pan("q", "2", "b c")),
               testing::MatchesRegex("world.xml:3:1: q .radio.pan.: writes \"radio/b/pan\"; so does .*world.xml:2:1: p "
-                                    ".radio.pan."));
+                                    ".radio.pan.; expected one of the two"));
 }
 
 }  // namespace

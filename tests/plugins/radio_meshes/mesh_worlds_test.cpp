@@ -164,7 +164,7 @@ TEST(MeshWorld, SaysWhatIsWrong) {
   EXPECT_EQ(refusal("<mesh name=\"m\" file=\"pillar.obj\" material=\"granite\"/>"),
             "world.xml:3:44: no material is called \"granite\"; expected one of stone, tin");
   EXPECT_EQ(refusal("<mesh name=\"m\" material=\"stone\"/>"),
-            "world.xml:3:1: <mesh> has no attribute \"file\", which it needs");
+            "world.xml:3:1: <mesh> has no attribute \"file\", which it needs; expected a text");
 }
 
 }  // namespace

@@ -162,10 +162,10 @@ TEST(AntennaWorld, SaysWhatIsWrong) {
             "degrees.csv:1:1: column \"azimuth[deg]\" has the wrong unit; expected \"azimuth[rad]\"");
   EXPECT_EQ(refusal("<radio.antenna radio=\"a\"/><radio.antenna name=\"second\" radio=\"a\"/>"),
             "world.xml:4:27: second (radio.antenna): writes \"radio/a/antenna\"; so does world.xml:4:1: radio.antenna "
-            "(radio.antenna)");
+            "(radio.antenna); expected one of the two");
   EXPECT_EQ(refusal("<radio.antenna/><radio.antenna name=\"second\"/>"),
             "world.xml:4:17: second (radio.antenna): writes \"radio/*/common_antenna\"; so does world.xml:4:1: "
-            "radio.antenna (radio.antenna)");
+            "radio.antenna (radio.antenna); expected one of the two");
   EXPECT_EQ(
       refusal("<radio.antenna pattern=\"yagi\"/>"),
       "world.xml:4:25: attribute \"pattern\": \"yagi\" is not a choice; expected one of dipole, isotropic, cosine, "

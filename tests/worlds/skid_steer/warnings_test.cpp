@@ -26,9 +26,10 @@ TEST(RobotWarnings, CommandedWithoutADrive) {
     EXPECT_THAT(
         warnings(folder, std::string("<robot name=\"r\" model=\"crate\" at=\"0 0 0\"/><") + physics +
                              "/><control.steady robot=\"r\" v=\"1\" w=\"0\"/>"),
-        ElementsAre("warning: robot 'r' is commanded, but its model 'crate' has no drive, so that it does not "
-                    "move; expected <muster><differential left=\"\" right=\"\" .../></muster> in " MUSTER_PLUGINS_DIR
-                    "/models/crate.urdf, or in a file of fittings"));
+        ElementsAre(
+            "warning: world.xml:1:46: robot 'r' is commanded, but its model 'crate' has no drive, so that it does not "
+            "move; expected <muster><differential left=\"\" right=\"\" .../></muster> in " MUSTER_PLUGINS_DIR
+            "/models/crate.urdf, or in a file of fittings"));
   }
 }
 
@@ -69,12 +70,13 @@ TEST(RobotWarnings, StartsInAWallOrARobot) {
       "<robot name=\"c\" model=\"crate\" at=\"2.39 -1 0\"/><robot name=\"d\" model=\"crate\" at=\"2 -1 0.25\"/>"
       "<robot name=\"e\" model=\"crate\" at=\"4 -0.001 0\"/>";
   for (const char* physics : {"physics.simbody", "physics.ode"}) {
-    EXPECT_THAT(
-        warnings(folder, inside + "<" + physics + "/>"),
-        ElementsAre("warning: robot 'a' starts in wall 'north', 50 mm deep, and will be pushed out; expected a "
-                    "place (at) clear of it",
-                    "warning: robot 'c' starts in robot 'b', 10 mm deep, and will be pushed out; expected a place "
-                    "(at) clear of it"))
+    EXPECT_THAT(warnings(folder, inside + "<" + physics + "/>"),
+                ElementsAre("warning: world.xml:1:157: robot 'a' starts in wall 'north', 50 mm deep, and will be "
+                            "pushed out; expected a "
+                            "place (at) clear of it",
+                            "warning: world.xml:1:245: robot 'c' starts in robot 'b', 10 mm deep, and will be pushed "
+                            "out; expected a place "
+                            "(at) clear of it"))
         << physics;
   }
 }

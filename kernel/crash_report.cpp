@@ -1,0 +1,96 @@
+#include "crash_report.hpp"
+
+#include <unistd.h>
+
+#include <csignal>
+#include <initializer_list>
+
+namespace muster {
+namespace {
+
+thread_local const RunningCallback* running = nullptr;
+
+// Only what is async-signal-safe (POSIX 2.4.3) may be called here: the line is put together without allocation.
+class Line {
+ public:
+  Line& operator<<(const char* text) {
+    for (; *text && size_ < sizeof text_; ++text) text_[size_++] = *text;
+    return *this;
+  }
+  Line& operator<<(int64_t number) {
+    char digits[24];
+    std::size_t at = sizeof digits;
+    digits[--at] = '\0';
+    do digits[--at] = static_cast<char>('0' + number % 10);
+    while (number /= 10);
+    return *this << digits + at;
+  }
+  void write() const {
+    for (std::size_t from = 0; from < size_;) {
+      const auto written = ::write(STDERR_FILENO, text_ + from, size_ - from);
+      if (written <= 0) return;
+      from += static_cast<std::size_t>(written);
+    }
+  }
+
+ private:
+  char text_[2048];
+  std::size_t size_ = 0;
+};
+
+const char* name_of(int signal) {
+  switch (signal) {
+    case SIGSEGV:
+      return "a segmentation fault (SIGSEGV)";
+    case SIGBUS:
+      return "a bus error (SIGBUS)";
+    case SIGILL:
+      return "an illegal instruction (SIGILL)";
+    case SIGFPE:
+      return "an arithmetic fault (SIGFPE)";
+    default:
+      return "an abort (SIGABRT)";
+  }
+}
+
+}  // namespace
+
+RunningCallback::RunningCallback(const char* title, const char* callback, int64_t tick)
+    : title_(title), callback_(callback), tick_(tick), outer_(running) {
+  running = this;
+}
+
+RunningCallback::~RunningCallback() { running = outer_; }
+
+void write_crash(int signal) {
+  const RunningCallback* in = running;
+  if (in) {
+    Line line;
+    line << "muster: error: " << in->title_ << ": " << in->callback_ << " crashed";
+    if (in->tick_ >= 0) line << " at tick " << in->tick_;
+    line << ": " << name_of(signal) << " in the plugin; a debugger shows where: gdb --args muster ...\n";
+    line.write();
+  }
+}
+
+void report_crashes() {
+  static char stack[1 << 16];  // of its own: the fault may be an overflow of the thread's
+  stack_t alternate{};
+  alternate.ss_sp = stack;
+  alternate.ss_size = sizeof stack;
+  ::sigaltstack(&alternate, nullptr);
+  for (const int signal : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT}) {
+    struct sigaction before {};
+    ::sigaction(signal, nullptr, &before);
+    if ((before.sa_flags & SA_SIGINFO) || before.sa_handler != SIG_DFL) continue;
+    struct sigaction action {};
+    action.sa_handler = [](int caught) {
+      write_crash(caught);
+      ::raise(caught);  // by default again: the process ends with its signal, when the handler returns
+    };
+    action.sa_flags = static_cast<int>(SA_ONSTACK | SA_RESETHAND);
+    ::sigaction(signal, &action, nullptr);
+  }
+}
+
+}  // namespace muster

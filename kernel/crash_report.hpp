@@ -1,0 +1,28 @@
+// Names the plugin whose code a signal ends: without it a segmentation fault says nothing of who is at fault.
+#pragma once
+
+#include <cstdint>
+
+namespace muster {
+
+// The callback that runs on this thread, for the length of this object's life.
+class RunningCallback {
+ public:
+  // `title` and `callback` must outlive it; `tick` is negative outside a step.
+  RunningCallback(const char* title, const char* callback, int64_t tick);
+  ~RunningCallback();
+  RunningCallback(const RunningCallback&) = delete;
+  RunningCallback& operator=(const RunningCallback&) = delete;
+
+ private:
+  friend void write_crash(int signal);
+  const char *title_, *callback_;
+  int64_t tick_;
+  const RunningCallback* outer_;
+};
+
+// From now on a signal such as SIGSEGV in a plugin's code writes one line, "muster: error: TITLE: ...", to standard
+// error, and then ends the process as before. Signals that something else handles, such as a sanitizer, are left to it.
+void report_crashes();
+
+}  // namespace muster

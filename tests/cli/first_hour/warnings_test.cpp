@@ -1,0 +1,126 @@
+// Worlds that run and do not do what their author meant: `check` warns of them, word for word.
+#include <gmock/gmock.h>
+
+#include "tests/cli/errors/program.hpp"
+
+using namespace muster::test;
+
+namespace {
+
+// The elements are in lines of their own, from line 2 on. What `check` prints before its last line; a run lists the
+// same.
+std::string warnings_of(const std::string& elements) {
+  const ProgramFolder folder;
+  folder.write("world.xml", world_of("\n" + elements + "\n"));
+  const auto outcome = folder.muster({"check", "world.xml"});
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  const std::string warnings = outcome.out.substr(0, outcome.out.rfind("w: "));
+  const std::string run = folder.muster({"run", "world.xml"}).out;
+  for (std::size_t from = 0, to = 0; (to = warnings.find('\n', from)) != warnings.npos; from = to + 1)
+    EXPECT_THAT(run, testing::HasSubstr(warnings.substr(from, to - from)));
+  return warnings;
+}
+
+const std::string rover = "<robot name=\"rover\" at=\"0 0 0\"/>\n";
+const std::string base = "<station name=\"base\" at=\"5 0 1\"/>\n";
+const std::string wall =
+    "<material name=\"brick\" loss=\"8\"/><wall name=\"north\" from=\"-5 0.1\" to=\"5 0.1\" material=\"brick\"/>\n";
+const std::string channel = "<radio.multiwall/><control.beacon radio=\"base\"/>\n";
+
+TEST(FirstHour, RobotsThatStartInWallsAndInEachOther) {
+  for (const std::string physics : {"<physics.simbody/>", "<physics.ode/>"}) {
+    SCOPED_TRACE(physics);
+    EXPECT_EQ(warnings_of(wall + rover + "<robot name=\"second\" at=\"0.1 -0.5 0\"/>\n" +
+                          "<robot name=\"third\" at=\"0 -0.5 0\"/>\n" + physics),
+              "warning: world.xml:3:1: robot 'rover' starts in wall 'north', 55 mm deep, and will be pushed out; "
+              "expected a place (at) clear of it\n"
+              "warning: world.xml:5:1: robot 'third' starts in robot 'second', 100 mm deep, and will be pushed out; "
+              "expected a place (at) clear of it\n");
+  }
+}
+
+TEST(FirstHour, ARobotThatStartsBelowTheGround) {
+  for (const std::string physics : {"<physics.simbody/>", "<physics.ode/>"}) {
+    EXPECT_EQ(warnings_of("<robot name=\"rover\" at=\"0 0 -1\"/>\n" + physics),
+              "warning: world.xml:2:1: robot 'rover' starts 1000 mm below the ground; expected a place (at) on it, z = "
+              "0 or above\n");
+    EXPECT_EQ(warnings_of("<robot name=\"rover\" at=\"0 0 0.5\"/>\n" + physics), "");  // it falls
+  }
+}
+
+TEST(FirstHour, WhatNeverComesToStep) {
+  EXPECT_EQ(warnings_of(rover + "<physics.simbody/>\n<control.steady robot=\"rover\" v=\"1\" every=\"100\"/>\n" +
+                        "<record table=\"robot/*/pose\" every=\"11\"/>"),
+            "warning: world.xml:4:44: attribute \"every\": 100 ticks are more than the run's 10, so that "
+            "<control.steady> does not step after its start\n"
+            "warning: world.xml:5:37: attribute \"every\": 11 ticks are more than the run's 10, so that <record> is "
+            "written at its start alone\n");
+  EXPECT_EQ(warnings_of(rover + "<physics.simbody/>\n<record table=\"robot/*/pose\" every=\"10\"/>"), "");
+}
+
+TEST(FirstHour, ASwapForAnotherKindOfPlugin) {
+  EXPECT_EQ(warnings_of(rover + "<physics.planar name=\"physics\"/><radio.multiwall/>\n" +
+                        "<swap at=\"0.5\" instance=\"physics\" plugin=\"radio.multiwall\"/>"),
+            "warning: world.xml:4:1: the swap puts radio.multiwall/2, of the phase RADIO, in the place of "
+            "physics.planar/1, of PHYSICS, whose work nobody does then\n");
+}
+
+TEST(FirstHour, WallsThatThePhysicsDrivesThrough) {
+  EXPECT_EQ(warnings_of(wall + rover + base + "<physics.planar/>\n" + channel + "<network.ideal/>"),
+            "warning: world.xml:5:1: walls stop no robot here: physics.planar drives through them; expected "
+            "physics.simbody in its place, or through_walls=\"true\" where that is meant\n");
+  EXPECT_EQ(
+      warnings_of(wall + rover + base + "<physics.planar through_walls=\"true\"/>\n" + channel + "<network.ideal/>"),
+      "");
+  EXPECT_EQ(warnings_of(rover + base + "<physics.planar/>\n" + channel + "<network.ideal/>"), "");
+}
+
+TEST(FirstHour, CommandsThatReachNoMotor) {
+  EXPECT_EQ(warnings_of("<robot name=\"box\" model=\"crate\" at=\"0 0 0\"/>\n<physics.simbody/>"
+                        "<control.steady robot=\"box\" v=\"1\" w=\"0\"/>"),
+            "warning: world.xml:2:1: robot 'box' is commanded, but its model 'crate' has no drive, so that it does not "
+            "move; expected <muster><differential left=\"\" right=\"\" .../></muster> in " MUSTER_PLUGINS_DIR
+            "/models/crate.urdf, or in a file of fittings\n");
+  EXPECT_EQ(warnings_of("<robot name=\"drone\" model=\"hummingbird\" at=\"0 0 1\"/>\n<physics.simbody/>"
+                        "<control.steady robot=\"drone\" v=\"1\" w=\"0\"/>"),
+            "warning: world.xml:2:1: robot 'drone' is commanded, but its model 'hummingbird' flies, so that a command "
+            "of wheels (robot/*/command) does not move it; expected <control.velocity3d robot=\"drone\"/> and "
+            "<control.path3d robot=\"drone\" path=\"...\"/>\n");
+}
+
+TEST(FirstHour, AControllerWithoutPhysics) {
+  EXPECT_EQ(warnings_of(rover + "<control.steady robot=\"rover\" v=\"1\" w=\"0\"/>"),
+            "warning: world.xml:3:1: control.steady (control.steady): writes \"robot/rover/command\", which nobody "
+            "reads; expected <physics.simbody/> in the world\n");
+}
+
+TEST(FirstHour, ABeaconWithoutANetwork) {
+  EXPECT_EQ(warnings_of(base + "<control.beacon radio=\"base\"/>"),
+            "warning: world.xml:3:1: control.beacon (control.beacon): writes \"outbox/base/message\", which nobody "
+            "reads; expected <network.ideal/> in the world\n");
+}
+
+TEST(FirstHour, AJammerOutsideOfTheNetworksBand) {
+  const std::string jammer =
+      "<station name=\"noise\" at=\"0 5 1\"/><radio.jammer radio=\"noise\" bandwidth=\"20e6\" frequency=";
+  const std::pair<const char*, const char*> networks[] = {{"network.lrwpan", "2402.500 to 2407.500"},
+                                                          {"network.wifi", "2402.000 to 2422.000"},
+                                                          {"network.bluetooth", "2401.500 to 2480.500"}};
+  for (const auto& [network, band] : networks) {
+    SCOPED_TRACE(network);
+    const std::string world = base + channel + "<" + network + "/>\n" + jammer;
+    EXPECT_EQ(warnings_of(world + "\"5.2e9\"/>"),
+              std::string("warning: world.xml:4:1: radio 'noise' jams at 5190.000 to 5210.000 MHz, outside of this "
+                          "network's ") +
+                  band + " MHz, and does nothing to it; expected a frequency inside\n");
+    EXPECT_EQ(warnings_of(world + "\"2.41e9\"/>"), "");
+  }
+}
+
+TEST(FirstHour, AJammerOfANetworkThatFeelsNone) {
+  EXPECT_EQ(warnings_of(base + channel + "<network.ideal/>\n<radio.jammer radio=\"base\"/>"),
+            "warning: world.xml:5:1: radio.jammer (radio.jammer): writes \"radio/base/emission\", which nobody reads; "
+            "muster describe radio.jammer says what it is for\n");
+}
+
+}  // namespace

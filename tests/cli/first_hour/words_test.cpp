@@ -1,0 +1,39 @@
+// Words of the command line that are off by a little.
+#include <gmock/gmock.h>
+
+#include "tests/cli/errors/program.hpp"
+
+using namespace muster::test;
+
+namespace {
+
+TEST(FirstHour, AMisspeltOptionIsToldWithTheNearest) {
+  const ProgramFolder folder;
+  folder.write("world.xml", world_of(""));
+  const auto outcome = folder.muster({"run", "world.xml", "--untl", "3"});
+  EXPECT_EQ(outcome.exit, 2);
+  EXPECT_THAT(outcome.err, testing::StartsWith(
+                               "muster: error: muster run: there is no option \"--untl\"; expected one of --help, "));
+  EXPECT_THAT(outcome.err, testing::EndsWith("; did you mean \"--until\"?; see muster run --help\n"));
+  expect_error(folder.muster({"check", "world.xml", "other.xml"}), 2,
+               "muster check: \"other.xml\" is one word too many; see muster check --help");
+}
+
+TEST(FirstHour, AnOptionGivenTwice) {
+  const ProgramFolder folder;
+  folder.write("world.xml", world_of(""));
+  expect_error(folder.muster({"swap", "world.xml", "--at", "1", "--at", "2", "--instance", "a", "--plugin", "b.c"}), 2,
+               "muster swap: --at is given more than once; expected one value; see muster swap --help");
+}
+
+TEST(FirstHour, AFamilyOfPluginsIsNoPlugin) {
+  const ProgramFolder folder;
+  const auto outcome = folder.muster({"describe", "radio"});
+  EXPECT_EQ(outcome.exit, 2);
+  EXPECT_THAT(outcome.err,
+              testing::StartsWith("muster: error: there is no element \"radio\", and a plugin has a dot in its name; "
+                                  "expected one of radio."));
+  EXPECT_THAT(outcome.err, testing::HasSubstr(", radio.multiwall, "));
+}
+
+}  // namespace
