@@ -9,7 +9,7 @@
 namespace muster::diagnosis {
 
 struct Truth {
-  double rician_k = 6, outliers = 0, channel_sd = 0;  // dB; channels: two
+  double rician_k = 6, outliers = 0, channel_sd = 0, noise = 0;  // dB; channels: two; noise: normal
 };
 
 // With exponential shadowing of 3 dB.
@@ -40,6 +40,7 @@ inline Walk drawn(const Truth& truth, int count, double decorrelation = 1.5, int
     double db = 10 * std::log10(re * re + im * im);
     if (random.uniform(row, 2) < truth.outliers) db += 40 * random.uniform(row, 3) - 20;
     if (truth.channel_sd > 0) db += random.uniform(row, 4) < 0.5 ? truth.channel_sd : -truth.channel_sd;
+    db += truth.noise * random.normal(row, 5);
     result.residual[i] = std::round(level + db);
   }
   result.residual.array() -= result.residual.mean();

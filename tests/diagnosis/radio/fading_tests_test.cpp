@@ -62,6 +62,17 @@ TEST(FadingTests, NoFalseAlarmForTheStatedLaw) {
     EXPECT_GT(test.log_p, std::log(0.01)) << test.cause;
 }
 
+// A noisy receiver in a world whose readings do not scatter. A law of another shape is found all the same.
+TEST(FadingTests, NormalNoiseOfAWorldThatStatesNoneIsNoLaw) {
+  for (const LawTest& test : tested({.rician_k = 60, .noise = 1.5}, {.rician_k = 60}))
+    EXPECT_GT(test.log_p, std::log(0.001)) << test.cause;
+  const LawTest fading = tested({.rician_k = 5}, {.rician_k = 60}).front();
+  EXPECT_EQ(fading.cause, "effect.fading_law");
+  EXPECT_LT(fading.log_p, std::log(1e-6));
+  ASSERT_FALSE(fading.values.empty());
+  EXPECT_NEAR(fading.values[0].value, 5, 1.5);
+}
+
 TEST(FadingTests, FieldSizeIsIndependentOfTheStart) {
   const ReadingDistribution law = law_of({.rician_k = 6});
   const Walk walk = drawn({.rician_k = 6}, 2000);
