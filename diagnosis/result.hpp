@@ -84,7 +84,7 @@ struct RowSummary {
   std::vector<inference::Covariate> columns;  // further columns of the data, means
   std::vector<inference::Factor> factors;
   std::vector<MappedWall> walls;
-  double taken_up = 0;       // dB2, mean share of a reading's variance that fitting the mean of the extended world takes up
+  double taken_up = 0;  // dB2, mean share of a reading's variance that fitting the mean of the extended world takes up
   bool places_known = true;  // false: the data have distances instead, used in place of places
 };
 
