@@ -100,6 +100,8 @@ class Tests {
   }
 
   const ReadingDistribution& stated() const { return null_law_; }
+  // The stated law with the noise of the data, where the world states none.
+  const ReadingDistribution& scattering() const { return bases_.back().noise > 0 ? bases_.back() : stated_; }
   double gain(const Fitted& fitted) const { return std::max(0.0, 2 * (fitted.peak.value - null_.value)); }
 
   // A mismatch of the field's family biases the fitted law. Differences of adjacent readings are free of the field,
@@ -225,7 +227,7 @@ double gain_untamed(const KrigedReadings& field, double step, const ReadingDistr
 LawTests law_tests(KrigedReadings& field, double step, const std::vector<std::shared_ptr<const ReadingLaw>>& laws,
                    const ReadingDistribution& stated, const noise::Covariance& fit) {
   Tests tests(field, step, stated, fit);
-  const std::vector<LawFamily> families = families_of(laws, stated);
+  const std::vector<LawFamily> families = families_of(laws, tests.scattering());
   if (families.empty()) return {{}, tests.stated()};
   std::map<std::string, std::pair<const LawFamily*, Fitted>> best;  // by cause
   std::vector<std::pair<const LawFamily*, double>> values;

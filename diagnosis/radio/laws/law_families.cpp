@@ -5,7 +5,7 @@
 namespace muster::diagnosis {
 namespace {
 
-// Multiples of the stated law's variance.
+// Multiples of the variance of the stated law and its noise.
 constexpr double times[] = {0.2, 0.35, 0.5, 0.65, 0.78, 0.88, 1.13, 1.28, 1.5, 1.8, 2.3, 3.2, 5.0};
 constexpr double least_variance = 0.05;  // dB^2, of which multiples are tried
 
@@ -17,7 +17,7 @@ std::vector<double> strengths_of(const ReadingLaw& law, const ReadingDistributio
     for (double& value : result) value = law.variance(law.at_strength(law.defaults(), value), 1);
     std::sort(result.begin(), result.end());
   } else {
-    const double variance = std::max(base_variance(stated), least_variance);
+    const double variance = std::max(base_variance(stated) + stated.noise * stated.noise, least_variance);
     for (const double f : times) result.push_back(variance * f);
   }
   return result;

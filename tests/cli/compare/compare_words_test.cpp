@@ -52,7 +52,7 @@ TEST(CompareWords, AreRefusedWithTheNearestName) {
        "muster compare: the attribute \"name\" cannot be given; the new plugin keeps the name \"physics\""},
       {{"physics=physics.planar:aceleration=1"},
        "muster compare: <physics.planar> has no attribute \"aceleration\"; expected one of name, every, library, "
-       "revision, acceleration; did you mean \"acceleration\"?"},
+       "revision, acceleration, through_walls; did you mean \"acceleration\"?"},
       {{"coarse.xml"}, "coarse.xml: ticks of 0.1 s against 0.05 s; expected one dt"},
       {{"absent.xml"}, "absent.xml: no such file"}};
   for (const auto& [words, message] : cases) {
