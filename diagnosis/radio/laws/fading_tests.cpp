@@ -68,7 +68,7 @@ class Tests {
       for (const double strength : family.strengths) {
         const auto law = family.with(base, strength);
         if (!law) continue;
-        const double ratio = std::log(variance_of(*law, judge_.step()) / variance_of(base, judge_.step()));
+        const double ratio = std::log(variance_of(*law, judge_.step()) / variance_of(null_law_, judge_.step()));
         Peak there = null_;
         there.place += LawLikelihood::places * static_cast<int>(std::lround(1e3 * ratio / LawLikelihood::places));
         there.value = judge_.about(*law, there) - cost_of(*law);
@@ -161,8 +161,10 @@ class Tests {
       }
     }
     take_for_null(likeliest, best);
+    if (null_law_.noise == 0) return;
     bases_.push_back(likeliest);
-    starts_.push_back(best);
+    starts_ = std::move(starts);
+    for (Peak& start : starts_) start = judge_.best(likeliest, start);
   }
 
   // Accepts the law and the field if they are jointly likelier.
