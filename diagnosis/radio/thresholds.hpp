@@ -290,7 +290,8 @@ inline constexpr double law_execution_error = 1e-6;
 // standard errors; between draws and their declared law, beyond chance even if two readings share a draw; chosen; none
 inline constexpr double law_draw_errors = 3;
 
-// dB^2; of single readings by the world's laws, below which it states that they do not scatter; chosen; none
+// dB^2; of single readings by the world's laws, below which it states that they do not scatter; chosen;
+// FadingTests.NormalNoiseOfAWorldThatStatesNoneIsNoLaw
 inline constexpr double steady_variance = 0.02;
 // readings; of which the most telling ones must not carry a law alone; chosen; none
 inline constexpr Eigen::Index law_few = 2;
