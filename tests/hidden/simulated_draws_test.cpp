@@ -1,4 +1,4 @@
-// Four clean draws of the simulator that once were wrong, each by another fault: a stated field whose sums overflowed
+// Clean draws of the simulator that once were wrong, each by another fault: a stated field whose sums overflowed
 // (case 4), a pile at one place taken for a floor (5), and an offset of a radio under multipath, which only the world's
 // own draws tell from their scatter (7).
 #include <gtest/gtest.h>
@@ -14,6 +14,14 @@ TEST(SimulatedDraws, ThatOnceWereWrongAreAdequate) {
   const Share& adequate = g.shares.at("clean / verdict adequate / all");
   EXPECT_EQ(adequate.of, 4) << as_text(g);
   EXPECT_EQ(adequate.hits, 4) << as_text(g);
+}
+
+// Sixty readings, six at the next code, in a trough of shadowing that two links cross: no floor of the receiver.
+TEST(SimulatedDraws, ATroughOfShadowingIsNoFloor) {
+  const Grades g = examined("--seed 17469942449659706944 --first 16 --cases 1 --generator run --mix clean");
+  const Share& adequate = g.shares.at("clean / verdict adequate / all");
+  EXPECT_EQ(adequate.of, 1) << as_text(g);
+  EXPECT_EQ(adequate.hits, 1) << as_text(g);
 }
 
 }  // namespace

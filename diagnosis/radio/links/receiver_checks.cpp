@@ -54,36 +54,29 @@ double log_binomial_tail(std::size_t k, std::size_t n, double chance) {
 }
 
 // Greatest extent of these places along an axis, m.
-double extent(const std::vector<Point>& places, const std::vector<std::size_t>& rows) {
+double extent(const std::vector<Point>& places) {
   double most = 0;
   for (const std::size_t axis : {0u, 1u}) {
-    const auto [low, high] = std::minmax_element(rows.begin(), rows.end(),
-                                                 [&](auto a, auto b) { return places[a][axis] < places[b][axis]; });
-    most = std::max(most, places[*high][axis] - places[*low][axis]);
+    const auto [low, high] = std::minmax_element(places.begin(), places.end(),
+                                                 [&](const Point& a, const Point& b) { return a[axis] < b[axis]; });
+    most = std::max(most, (*high)[axis] - (*low)[axis]);
   }
   return most;
+}
+
+using Link = std::pair<std::string, std::string>;
+
+Link link_of(const Dataset& data, std::size_t row) {
+  return std::minmax(data.tx.levels[data.tx.level[row]], data.rx.levels[data.rx.level[row]]);
 }
 
 // True if the readings at a level are of one pair of radios, and either the data have many pairs or these readings lie
 // close together: the level of a link that hardly changes, and no end of the receiver's range.
 bool of_one_link(const Dataset& data, double level) {
-  std::set<std::pair<std::string, std::string>> all, there;
-  std::vector<std::size_t> rows;
-  for (std::size_t row = 0; row < data.rows(); ++row) {
-    const std::pair<std::string, std::string> link =
-        std::minmax(data.tx.levels[data.tx.level[row]], data.rx.levels[data.rx.level[row]]);
-    all.insert(link);
-    if (data.rssi[row] != level) continue;
-    there.insert(link);
-    rows.push_back(row);
-  }
-  if (there.size() != 1) return false;
-  if (all.size() >= thresholds::many_links) return true;
-  if (!data.has_places()) return false;
-  std::vector<Point> one = data.tx_at, other = data.rx_at;  // in one order for both directions
-  for (const std::size_t row : rows)
-    if (data.tx.levels[data.tx.level[row]] > data.rx.levels[data.rx.level[row]]) std::swap(one[row], other[row]);
-  return std::max(extent(one, rows), extent(other, rows)) < thresholds::one_place;
+  if (links_at_level(data, level) != 1) return false;
+  std::set<Link> all;
+  for (std::size_t row = 0; row < data.rows(); ++row) all.insert(link_of(data, row));
+  return all.size() >= thresholds::many_links || extent_at_level(data, level) < thresholds::one_place;
 }
 
 // Binomial test for a pile at the last code: a density that falls towards its end has no more readings there than at
@@ -206,23 +199,21 @@ ReceiverChecks receiver_checks(const Dataset& data) {
 
 double extent_at_level(const Dataset& data, double level) {
   if (!data.has_places()) return std::numeric_limits<double>::infinity();
-  std::map<std::string, std::vector<std::size_t>> sent, heard;
+  std::map<std::string, std::vector<Point>> places;  // by radio
   for (std::size_t row = 0; row < data.rows(); ++row) {
     if (data.rssi[row] != level) continue;
-    sent[data.tx.levels[data.tx.level[row]]].push_back(row);
-    heard[data.rx.levels[data.rx.level[row]]].push_back(row);
+    places[data.tx.levels[data.tx.level[row]]].push_back(data.tx_at[row]);
+    places[data.rx.levels[data.rx.level[row]]].push_back(data.rx_at[row]);
   }
   double most = 0;
-  for (const auto& [radio, rows] : sent) most = std::max(most, extent(data.tx_at, rows));
-  for (const auto& [radio, rows] : heard) most = std::max(most, extent(data.rx_at, rows));
+  for (const auto& [radio, all] : places) most = std::max(most, extent(all));
   return most;
 }
 
 std::size_t links_at_level(const Dataset& data, double level) {
-  std::set<std::pair<std::string, std::string>> links;
+  std::set<Link> links;
   for (std::size_t row = 0; row < data.rows(); ++row)
-    if (data.rssi[row] == level)
-      links.insert(std::minmax(data.tx.levels[data.tx.level[row]], data.rx.levels[data.rx.level[row]]));
+    if (data.rssi[row] == level) links.insert(link_of(data, row));
   return links.size();
 }
 

@@ -90,23 +90,32 @@ TEST(ParameterUncertainty, OfAnObstacleMatchesIntegrationOverAGrid) {
   EXPECT_NEAR(spread.coefficients(0, 0) / (grown * within / weights + between), 1, 0.15);
 }
 
+// The exact covariance of rows, and the matrix that takes them to Vecchia's estimates.
+struct LinearFit {
+  explicit LinearFit(const ModelState& state) : design(state.design()), model(state.whitened_model(design)) {
+    const Index rows = state.rows().size();
+    const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(rows, rows),
+                          told = model.at.basis.q.transpose() * model.whitener(unit);
+    covariance = noise::covariance_of_sums(state.field(), state.fit.covariance, unit);
+    fitted.resize(design.cols(), rows);
+    for (Index i = 0; i < rows; ++i) fitted.col(i) = model.at.basis.coefficients(told.col(i), design.cols());
+  }
+
+  Eigen::MatrixXd design;
+  WhitenedModel model;
+  Eigen::MatrixXd covariance, fitted;
+};
+
 // Exact variance of estimates from Vecchia's approximation.
 TEST(CoefficientCovariance, IsTheScatterUnderTheExactCovariance) {
   const auto world = world_of(varied(5, 1500));
   const Problem problem = problem_of(world, Eigen::VectorXd::Zero(1500), {});
   ModelState state(problem, {});
-  const Eigen::MatrixXd design = state.design();
-  const WhitenedModel model = state.whitened_model(design);
-  const Index rows = state.rows().size();
-  const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(rows, rows),
-                        covariance = noise::covariance_of_sums(state.field(), state.fit.covariance, unit),
-                        told = model.at.basis.q.transpose() * model.whitener(unit);
-  Eigen::MatrixXd fitted(design.cols(), rows);
-  for (Index i = 0; i < rows; ++i) fitted.col(i) = model.at.basis.coefficients(told.col(i), design.cols());
-  const Eigen::MatrixXd scatter = fitted * covariance * fitted.transpose();
-  const Eigen::MatrixXd with_noise = coefficient_covariance(state, design);
+  const LinearFit fit(state);
+  const Eigen::MatrixXd scatter = fit.fitted * fit.covariance * fit.fitted.transpose();
+  const Eigen::MatrixXd with_noise = coefficient_covariance(state, fit.design);
   state.fit.curvature *= 1e12;  // no uncertainty of the noise
-  const Eigen::MatrixXd known = coefficient_covariance(state, design);
+  const Eigen::MatrixXd known = coefficient_covariance(state, fit.design);
   EXPECT_LT((known - scatter).norm(), 1e-4 * scatter.norm());
   EXPECT_GT(with_noise(0, 0), 1.002 * known(0, 0));
 }
@@ -116,17 +125,13 @@ TEST(TakenUpByFit, IsWhatTheResidualsLackOfTheNoise) {
   const auto world = world_of(varied(5, 1500));
   const Problem problem = problem_of(world, Eigen::VectorXd::Zero(1500), {});
   ModelState state(problem, {});
-  const Eigen::MatrixXd design = state.design();
-  const WhitenedModel model = state.whitened_model(design);
+  const LinearFit fit(state);
   const Index rows = state.rows().size();
-  const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(rows, rows),
-                        covariance = noise::covariance_of_sums(state.field(), state.fit.covariance, unit),
-                        told = model.at.basis.q.transpose() * model.whitener(unit);
-  Eigen::MatrixXd left = unit;
-  for (Index i = 0; i < rows; ++i) left.col(i) -= design * model.at.basis.coefficients(told.col(i), design.cols());
-  const Eigen::VectorXd whole = covariance.diagonal(), residual = (left * covariance * left.transpose()).diagonal(),
+  const Eigen::MatrixXd left = Eigen::MatrixXd::Identity(rows, rows) - fit.design * fit.fitted;
+  const Eigen::VectorXd whole = fit.covariance.diagonal(),
+                        residual = (left * fit.covariance * left.transpose()).diagonal(),
                         weight = state.rows().count() / state.rows().count().sum();
-  const double taken = taken_up_by_fit(state, design, model);
+  const double taken = taken_up_by_fit(state, fit.design, fit.model);
   EXPECT_GT(taken, 0.02 * weight.dot(whole));  // else nothing is tested
   EXPECT_NEAR(taken, weight.dot(whole - residual), 0.05 * taken);
 }
