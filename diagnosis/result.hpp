@@ -84,7 +84,7 @@ struct RowSummary {
   std::vector<inference::Covariate> columns;  // further columns of the data, means
   std::vector<inference::Factor> factors;
   std::vector<MappedWall> walls;
-  double taken_up = 0;  // dB2, mean share of a reading's variance that fitting the mean of the extended world takes up
+  double noise_variance = 0;  // dB2, of a reading from noise alone, in data to which the extended world was fitted
   bool places_known = true;  // false: the data have distances instead, used in place of places
 };
 

@@ -16,6 +16,9 @@ namespace muster::inference::thresholds {
 inline constexpr double prior_log_decorrelation = 0.5878;
 // ln m; prior standard deviation of the decorrelation distance, a factor of two; chosen; none
 inline constexpr double prior_decorrelation_spread = 0.7;
+// m; extent of the places up to which that prior holds. Longer fields are likely where places reach farther; chosen;
+// SelectionOverRanges.FindsAStepInAFieldOfTwoHundredMetres
+inline constexpr double usual_reach = 60;
 // logit; prior mean of the share of the field that groups have in common; chosen; none
 inline constexpr double prior_logit_shared = -1.5;
 // logit; prior standard deviation of that share; chosen; none
@@ -247,7 +250,7 @@ inline constexpr Eigen::Index fewest_readings = 50;
 // decorrelation distances; side of a block; chosen;
 // Folds.BlocksAreThreeDecorrelationDistancesWideAndCoverAllReadings
 inline constexpr double block_side = 3;
-// blocks; fewest whose left-out readings may refute a term; chosen; none
+// blocks; fewest over which an interval may refute a term; chosen; none
 inline constexpr int fewest_refuting_blocks = 5;
 // share; growth of the squared error at left-out places by which a term is refuted, whatever its interval; chosen; none
 inline constexpr double refuting_growth = 0.25;

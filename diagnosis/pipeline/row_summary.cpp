@@ -5,6 +5,7 @@
 #include <muster/tables.hpp>
 
 #include "diagnosis/inference/assess/coefficient_covariance.hpp"
+#include "diagnosis/inference/noise/exact_covariance.hpp"
 #include "diagnosis/radio/links/moving_end.hpp"
 
 namespace muster::diagnosis {
@@ -46,6 +47,20 @@ std::vector<MappedWall> mapped_walls(const Simulation& run) {
   return out;
 }
 
+// Mean over readings. Where the world states its field, that of a short link may be smaller. A censored reading misses
+// its bound by nothing, as at left-out places.
+double noise_variance(const inference::ModelState& state, const Eigen::MatrixXd& design,
+                      const inference::WhitenedModel& model) {
+  const VectorXd& count = state.rows().count();
+  const VectorXd of_field = state.rows().by_stream(noise::field_variances(state.field(), state.fit.covariance));
+  const double variance = of_field.dot(count) / count.sum() + state.fit.covariance.reading_variance() -
+                          inference::taken_up_by_fit(state, design, model);
+  const auto& known = state.problem().bounds.known;
+  const auto values = std::count(known.begin(), known.end(), noise::Known::value);
+  const double share = known.empty() ? 1 : static_cast<double>(values) / static_cast<double>(known.size());
+  return std::max(0.0, share * variance);
+}
+
 }  // namespace
 
 VectorXd white_by_stream(const noise::Rows& rows, const VectorXd& white) {
@@ -85,7 +100,7 @@ RowSummary row_summary(const inference::ModelState& state, const LinkLayout& lay
   const inference::WhitenedModel before = state.whitened_model(state.base()), after = state.whitened_model(full);
   out.before = left_by(state, state.base(), before);
   out.after = left_by(state, full, after);
-  out.taken_up = inference::taken_up_by_fit(state, full, after);
+  out.noise_variance = noise_variance(state, full, after);
   out.white_before = white_by_stream(rows, before.at.residual);
   out.white_after = white_by_stream(rows, after.at.residual);
   for (const inference::Covariate& c : columns.covariates) {

@@ -69,7 +69,7 @@ void add_advice(inference::Search& search, Diagnosis& found, const CauseSearch& 
         std::make_unique<SimulatedReadings>(p.readings, found.seen.radios, sources.world, sources.plugins, base));
     plans.push_back({p.say,
                      std::make_shared<const LinkLayout>(p.readings, limits),
-                     slopes_at(simulated.back()->model(), base),
+                     simulated.back()->slopes(base),
                      {}});
     for (const CauseCandidate& c : causes.found) {
       if (ids.count(c.candidate.id)) plans.back().candidates.push_back(simulated.back()->at(c));

@@ -268,7 +268,7 @@ std::string one_station_in_words(const diagnosis::OneStation& seen) {
 
 double noise_floor(const Diagnosis& d) {
   if (d.seen.count.size() == 0) return std::nan("");
-  return std::sqrt(std::max(0.0, d.noise.field_variance() + d.noise.reading_variance() - d.seen.taken_up));
+  return std::sqrt(d.seen.noise_variance);
 }
 
 std::string held_out_in_words(const inference::HeldOutGain& h, const std::string& left_out) {

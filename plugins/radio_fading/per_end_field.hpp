@@ -13,9 +13,11 @@ class PerEndField {
  public:
   static constexpr std::size_t waves = 64;
 
-  // A point, in decorrelation distances, as each wave's phasor there: as the first end of a link and as the second.
-  struct End {
-    double x, y, z;
+  struct Place {
+    double x, y, z;  // decorrelation distances
+  };
+  // A point as each wave's phasor there: as the first end of a link and as the second.
+  struct End : Place {
     std::array<double, waves> first_re, first_im, second_re, second_im;
   };
 
@@ -27,7 +29,7 @@ class PerEndField {
   }
 
   End end_at(double x, double y, double z) const {
-    End result{x, y, z, {}, {}, {}, {}};
+    End result{{x, y, z}, {}, {}, {}, {}};
     for (std::size_t m = 0; m < waves; ++m) {
       const double first = first_[m].at(x, y, z), second = second_[m].at(x, y, z);
       result.first_re[m] = std::cos(first), result.first_im[m] = std::sin(first);
@@ -48,7 +50,7 @@ class PerEndField {
   }
 
   // Correlation of two links: over both pairings of their ends.
-  static double correlation(const End& p, const End& q, const End& u, const End& v) {
+  static double correlation(const Place& p, const Place& q, const Place& u, const Place& v) {
     const double together = std::exp(-distance(p, u) - distance(q, v)) + std::exp(-distance(p, v) - distance(q, u));
     return together / std::sqrt((1 + std::exp(-2 * distance(p, q))) * (1 + std::exp(-2 * distance(u, v))));
   }
@@ -65,7 +67,7 @@ class PerEndField {
     return {random.normal(0) / size, random.normal(1) / size, random.normal(2) / size, phase};
   }
 
-  static double distance(const End& a, const End& b) {
+  static double distance(const Place& a, const Place& b) {
     const double x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
     return std::sqrt(x * x + y * y + z * z);
   }

@@ -25,6 +25,18 @@ fading. Asked for expectations it is 0.)";
       real("decorrelation", 2, 0.01, 1e4, "m", "way of one end over which correlation falls to 1/e"),
   };
 
+  static void covariance(const double* params, const double* ends, const uint32_t* a, const uint32_t* b, uint32_t count,
+                         double* out) {
+    const double variance = params[0] * params[0], unit = params[1];
+    const auto end = [&](uint32_t link, int which) {
+      const double* at = ends + std::size_t{6} * link + std::ptrdiff_t{3} * which;
+      return PerEndField::Place{at[0] / unit, at[1] / unit, at[2] / unit};
+    };
+    for (uint32_t i = 0; i < count; ++i)
+      out[i] = variance * PerEndField::correlation(end(a[i], 0), end(a[i], 1), end(b[i], 0), end(b[i], 1));
+  }
+  static constexpr muster_draw draw{sizeof(muster_draw), "shadowing", "decorrelation", covariance};
+
   explicit RadioGudmundson(Setup& s)
       : sd(s.value("shadowing")),
         decorrelation(s.value("decorrelation")),
@@ -36,6 +48,10 @@ fading. Asked for expectations it is 0.)";
   void step(const Step& k) const {
     const auto links = k[ends];
     const auto out = k[level];
+    if (k.expected()) {
+      for (Level& link : out) link.level = 0;
+      return;
+    }
     std::vector<PerEndField::End> at;
     for (const Pose& p : k[pose]) {
       const double unit = k[decorrelation];
@@ -44,9 +60,7 @@ fading. Asked for expectations it is 0.)";
     const auto back = earlier_reverse(links, at.size());
     for (std::size_t i = 0; i < links.size(); ++i) {
       const auto tx = static_cast<std::size_t>(links[i].tx), rx = static_cast<std::size_t>(links[i].rx);
-      out[i].level = k.expected()         ? 0
-                     : back[i] != no_link ? out[back[i]].level
-                                          : k[sd] * PerEndField::between(at[tx], at[rx]);
+      out[i].level = back[i] != no_link ? out[back[i]].level : k[sd] * PerEndField::between(at[tx], at[rx]);
     }
   }
 

@@ -75,7 +75,12 @@ Eigen::VectorXd Folds::squared_errors(const Sample& rows, const Sample& readings
     const auto basis = noise::basis_of(x);
     const Eigen::VectorXd explained = basis.q.transpose() * fold->whitener(rows.y(fold->fitted)).col(0);
     const Eigen::VectorXd mean = readings.design(fold->left_out, Eigen::all) * basis.coefficients(explained, x.cols());
-    result(fold->left_out) = (readings.y(fold->left_out) - mean).cwiseAbs2();
+    for (Index k = 0; k < mean.size(); ++k) {
+      const Index i = fold->left_out[static_cast<std::size_t>(k)];
+      const double off = readings.bounds ? readings.bounds->error(static_cast<std::size_t>(i), readings.y[i], mean[k])
+                                         : readings.y[i] - mean[k];
+      result[i] = off * off;
+    }
   }
   return result;
 }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "diagnosis/inference/noise/censored.hpp"
 #include "diagnosis/inference/noise/vecchia.hpp"
 
 namespace muster::inference {
@@ -47,6 +48,7 @@ Stair stair_of(Unseen unseen);
 struct Sample {
   Eigen::VectorXd y;
   Eigen::MatrixXd design;
+  const noise::Bounds* bounds = nullptr;  // of y; null: all are values
 };
 
 class Folds {
@@ -58,7 +60,7 @@ class Folds {
   int blocks() const { return blocks_; }
   // False with fewer than two blocks: nothing is left to fit on.
   bool possible() const { return blocks_ >= 2; }
-  // Squared error of every reading with its fold left out.
+  // Squared error of every reading with its fold left out; of a censored one by how far the mean misses its bound.
   Eigen::VectorXd squared_errors(const Sample& rows, const Sample& readings) const;
   HeldOutGain compared(const Eigen::VectorXd& before, const Eigen::VectorXd& after) const {
     return inference::compared(unseen(before, after));

@@ -18,7 +18,8 @@ class Errors {
 
   template <class Has>
   Eigen::VectorXd with(const Has& has) const {
-    Sample rows{state_.y(), state_.base()}, readings{state_.measured(), state_.problem().base};
+    Sample rows{state_.y(), state_.base()};
+    Sample readings{state_.problem().measured, state_.problem().base, &state_.problem().bounds};
     for (std::size_t k = 0; k < at_readings_.size(); ++k) {
       if (!has(k)) continue;
       rows.design = noise::hstack(rows.design, state_.terms[k].columns);
@@ -133,7 +134,8 @@ Eigen::VectorXd white_errors(const noise::Whitener& whitener, const Eigen::Matri
 std::optional<std::size_t> refuted_at_places(const ModelState& state) {
   const std::vector<int> blocks = blocks_of(state);
   const Folds folds = folds_of(state, blocks);
-  if (folds.blocks() < thresholds::fewest_refuting_blocks) return {};
+  if (!folds.possible()) return {};
+  const bool many = folds.blocks() >= thresholds::fewest_refuting_blocks;
   const Errors errors(state, folds);
   const Eigen::VectorXd full = errors.first(state.terms.size());
   const noise::Whitener whitener(state.field(), state.fit.covariance);
@@ -155,7 +157,8 @@ std::optional<std::size_t> refuted_at_places(const ModelState& state) {
   return worst_of(state, full, without, [&](std::size_t one) {
     const Eigen::VectorXd before = without(one);
     const HeldOutGain gain = folds.compared(before, full);
-    return grows(gain, before) || grows(all, base) || ((all.upper95 < 0 || gain.upper95 < 0) && !borne_out(one));
+    if (grows(gain, before) || grows(all, base)) return true;
+    return many && (all.upper95 < 0 || gain.upper95 < 0) && !borne_out(one);
   });
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "diagnosis/inference/noise/basis.hpp"
 
@@ -18,6 +19,20 @@ double hazard(double z) {
 
 bool Bounds::any() const {
   return std::any_of(known.begin(), known.end(), [](Known k) { return k != Known::value; });
+}
+
+double Bounds::lowest(std::size_t i, double reading) const {
+  if (!is_bound(i)) return reading;
+  return known[i] == Known::above ? reading - half_code : -std::numeric_limits<double>::infinity();
+}
+
+double Bounds::highest(std::size_t i, double reading) const {
+  if (!is_bound(i)) return reading;
+  return known[i] == Known::below ? reading + half_code : std::numeric_limits<double>::infinity();
+}
+
+double Bounds::error(std::size_t i, double reading, double level) const {
+  return std::max({lowest(i, reading) - level, level - highest(i, reading), 0.0});
 }
 
 Eigen::VectorXd imputed(const Eigen::VectorXd& readings, const Bounds& bounds, const Eigen::MatrixXd& design,

@@ -17,6 +17,11 @@ struct Bounds {
   double half_code = 0.5;    // units of a reading: a bound's code covers levels up to half a step beyond it
 
   bool any() const;
+  // The range in which the level of a reading lies.
+  double lowest(std::size_t i, double reading) const;
+  double highest(std::size_t i, double reading) const;
+  // Distance of a level from that range: 0 where a bound allows it.
+  double error(std::size_t i, double reading, double level) const;
   bool is_bound(std::size_t i) const { return !known.empty() && known[i] != Known::value; }
 };
 

@@ -97,10 +97,9 @@ Eigen::ArrayXd shares_of(const Sites& sites) {
   return result;
 }
 
-// `own`: variance of the field at each row, without the fixed share.
 template <class Covariances>
 Eigen::MatrixXd sums_of(const Field& field, const Covariance& covariance, const Eigen::MatrixXd& weights,
-                        const Covariances& rows, Index filled, const Eigen::ArrayXd& own) {
+                        const Covariances& rows, Index filled) {
   const Sites& sites = field.sites();
   const Eigen::ArrayXd shares = shares_of(sites);
   Eigen::VectorXd before(filled);
@@ -111,28 +110,33 @@ Eigen::MatrixXd sums_of(const Field& field, const Covariance& covariance, const 
     before.head(i).array() *= shares[i] * shares.head(i);
     below.row(i).noalias() = before.head(i).transpose() * weights.topRows(i);
   }
-  const double fixed = fixed_share(covariance.family) * covariance.field_variance();
   Eigen::ArrayXd of_reading = Eigen::ArrayXd::Constant(sites.size(), covariance.reading_variance());
   for (Index i = 0; i < sites.size(); ++i) {
     if (sites.is_alone(i)) of_reading[i] = sites.alone[static_cast<std::size_t>(i)];
   }
-  const Eigen::VectorXd variance = shares * (own + fixed) + floor_variance + of_reading / sites.count.array();
+  const Eigen::VectorXd variance =
+      field_variances(field, covariance).array() + floor_variance + of_reading / sites.count.array();
   const Eigen::MatrixXd half = weights.transpose() * below;
   return half + half.transpose() + weights.transpose() * variance.asDiagonal() * weights;
 }
 
 }  // namespace
 
+Eigen::VectorXd field_variances(const Field& field, const Covariance& covariance) {
+  const Eigen::ArrayXd shares = shares_of(field.sites());
+  if (!is_stated(covariance.family)) return covariance.field_variance() * shares;
+  const double fixed = fixed_share(covariance.family) * covariance.field_variance();
+  return shares * (StatedRows(field, covariance).own() + fixed);
+}
+
 Eigen::MatrixXd covariance_of_sums(const Field& field, const Covariance& covariance, const Eigen::MatrixXd& weights) {
   const Sites& sites = field.sites();
   if (is_stated(covariance.family)) {
     const StatedRows rows(field, covariance);
-    return sums_of(field, covariance, weights, rows, sites.size(), rows.own());
+    return sums_of(field, covariance, weights, rows, sites.size());
   }
   const PlacedRows rows(sites, covariance);
-  const Eigen::ArrayXd own =
-      Eigen::ArrayXd::Constant(sites.size(), (1 - fixed_share(covariance.family)) * covariance.field_variance());
-  return sums_of(field, covariance, weights, rows, rows.filled(), own);
+  return sums_of(field, covariance, weights, rows, rows.filled());
 }
 
 Eigen::MatrixXd scatter_of(const Field& field, const Whitener& whitener, const Eigen::MatrixXd& added) {

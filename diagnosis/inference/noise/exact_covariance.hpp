@@ -5,6 +5,9 @@
 
 namespace muster::noise {
 
+// Variance of the field at each row, squared units of a reading: not the same everywhere where the model states it.
+Eigen::VectorXd field_variances(const Field& field, const Covariance& covariance);
+
 // Covariance of weights^T rows: squared units of a reading times the weights' units. One row a row, one column a sum.
 // Visits every pair of rows.
 Eigen::MatrixXd covariance_of_sums(const Field& field, const Covariance& covariance, const Eigen::MatrixXd& weights);

@@ -45,8 +45,9 @@ void give_way_to_alternatives(ModelState& state) {
     double now = stands(state.terms[k]);
     for (const Alternative& alternative : alternatives_of(state, state.terms[k])) {
       const Entry* const entry = named(state, alternative.id);
-      const bool there = std::any_of(state.terms.begin(), state.terms.end(),
-                                     [&](const Term& term) { return term.candidate->id == alternative.id; });
+      const bool there = std::any_of(state.terms.begin(), state.terms.end(), [&](const Term& term) {
+        return term.candidate->id == alternative.id && term.candidate->label_of(term.theta) == alternative.label;
+      });
       if (!entry || there ||
           alternative.evidence_gap > (alternative.separability < thresholds::inseparable ? thresholds::nearly_nats
                                                                                          : -thresholds::clearly_nats))
@@ -245,7 +246,8 @@ void test_each(ModelState& state, std::vector<Term>& aside, std::vector<Trial>& 
 
 void measure_gains(ModelState& state) {
   for (Term& term : state.terms) {
-    term.gain = state.whitened_model(state.design_without(term)).gain(term.columns);
+    const WhitenedModel rest = state.whitened_model(state.design_without(term));
+    term.gain = term.candidate->design.whole ? rest.gain(term.columns) : gain_of(*term.candidate, rest, term.columns);
     term.evidence = state.evidence(*term.candidate, term.gain, term.columns.cols(), false);
   }
 }

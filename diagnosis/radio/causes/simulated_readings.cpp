@@ -31,6 +31,29 @@ void write(const LinkReadings& r, const std::vector<std::string>& radios, const 
   table.close();
 }
 
+// These readings, then one of each radio that has none: a cause may concern a radio that only measured readings name.
+LinkReadings with_all_radios(LinkReadings r, const std::vector<std::string>& radios) {
+  const Index before = r.size();
+  if (before == 0) return r;
+  std::vector<char> heard(radios.size());
+  for (const auto* ends : {&r.tx, &r.rx}) {
+    for (const int radio : *ends) heard[static_cast<std::size_t>(radio)] = 1;
+  }
+  for (std::size_t radio = 0; radio < radios.size(); ++radio) {
+    if (heard[radio]) continue;
+    r.tx.push_back(static_cast<int>(radio));
+    r.rx.push_back(r.tx.front());
+    for (std::vector<double>* column : {&r.t, &r.rx_yaw, &r.tx_yaw}) {
+      if (!column->empty()) column->push_back(column->back());
+    }
+  }
+  for (Eigen::Matrix3Xd* at : {&r.tx_at, &r.rx_at}) {
+    at->conservativeResize(Eigen::NoChange, r.size());
+    at->rightCols(r.size() - before).colwise() = at->col(0).eval();
+  }
+  return r;
+}
+
 }  // namespace
 
 SimulatedReadings::SimulatedReadings(const LinkReadings& readings, const std::vector<std::string>& radios,
@@ -39,10 +62,14 @@ SimulatedReadings::SimulatedReadings(const LinkReadings& readings, const std::ve
     : all_(static_cast<std::size_t>(readings.size())) {
   std::iota(all_.begin(), all_.end(), 0);
   const fs::path table = folder_.path() / "readings.csv";
-  write(readings, radios, table);
+  write(with_all_radios(readings, radios), radios, table);
   model_ = std::make_unique<LinkModel>(world, table, plugins);
   for (std::size_t j = 0; j < base.paths.size(); ++j) model_->set(base.paths[j], base.values[static_cast<Index>(j)]);
   run_ = std::make_shared<CauseModel>(*model_, world, table, plugins);
+}
+
+Eigen::MatrixXd SimulatedReadings::slopes(const Sensitivities& base) {
+  return slopes_at(*model_, base).topRows(static_cast<Index>(all_.size()));
 }
 
 inference::Candidate SimulatedReadings::at(const CauseCandidate& cause) const {

@@ -17,7 +17,8 @@ class SimulatedReadings {
   SimulatedReadings(const SimulatedReadings&) = delete;
   SimulatedReadings& operator=(const SimulatedReadings&) = delete;
 
-  LinkModel& model() { return *model_; }
+  // Derivatives of the expected levels by the world's own parameters, one row a reading.
+  Eigen::MatrixXd slopes(const Sensitivities& base);
   // The same candidate with columns at these readings, one row each.
   inference::Candidate at(const CauseCandidate& cause) const;
 

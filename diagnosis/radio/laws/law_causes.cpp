@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numeric>
 #include <set>
@@ -21,6 +22,8 @@ namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
+
+Index finite(const VectorXd& values) { return values.array().isFinite().count(); }
 
 bool beyond_chance(const LawTest& test, double share) { return test.evidence > 0 && test.log_p < std::log(share); }
 
@@ -85,15 +88,43 @@ std::string why_not(const LawSources& s, const ReadingDistribution& stated, cons
     return "not testable: readings of one place share a part of their scatter, such as multipath";
   if (s.readings.twin_variance > thresholds::twins_differ * s.state.fit.covariance.reading_variance())
     return "not testable: the two directions of a link share a part of their scatter";
-  if (residual.array().isFinite().count() < thresholds::fewest_law_readings)
+  if (finite(residual) < thresholds::fewest_law_readings)
     return "not testable: fewer than 300 readings that are no bounds and farther apart than the way over which fading "
            "changes";
   return "";
 }
 
+using Kriged = std::function<KrigedReadings(const VectorXd& residual)>;
+
+// The distance [m] from walls' ends within which those readings lie that a law gains from; 0 if it gains elsewhere in
+// proportion. Where places are told less exactly than that, a link may pass a wall on the other side, and the loss of
+// the wall resembles a draw that few readings have.
+double beside_wall_ends(const LawSources& s, const ReadingDistribution& stated, const VectorXd& residual,
+                        const Kriged& kriged, const LawTest& law, const Diagnosis& found) {
+  for (const double metres : thresholds::places_off) {
+    const VectorXd unsure = s.model.changes_aside(metres)(s.used);
+    const VectorXd clear = (unsure.array() > thresholds::grazing_change).select(std::nan(""), residual);
+    const double share = static_cast<double>(finite(clear)) / static_cast<double>(finite(residual));
+    if (share == 1 || share < thresholds::least_clear || finite(clear) < thresholds::fewest_law_readings) continue;
+    KrigedReadings field = kriged(clear);
+    const std::vector<LawTest> tests =
+        law_tests(field, found.receiver.step, laws_of_causes(s), stated, s.state.fit.covariance).tests;
+    const auto same = std::find_if(tests.begin(), tests.end(), [&](const LawTest& t) { return t.cause == law.cause; });
+    const double gain = same == tests.end() ? 0 : same->gain;
+    if (gain < thresholds::in_proportion * share * law.gain) return metres;
+  }
+  return 0;
+}
+
+// True for a law that is drawn instead of the stated one, not beside it.
+bool replaces(const LawSources& s, const std::string& cause) {
+  const auto laws = laws_of_causes(s);
+  return std::any_of(laws.begin(), laws.end(), [&](const auto& law) { return law->id() == cause && law->replaces(); });
+}
+
 // Tests the fading law. Returns the law of readings: the stated one, or the one named here.
-ReadingDistribution add_scatter(const LawSources& s, const ReadingDistribution& stated, KrigedReadings& field,
-                                Diagnosis& found) {
+ReadingDistribution add_scatter(const LawSources& s, const ReadingDistribution& stated, const VectorXd& residual,
+                                const Kriged& kriged, KrigedReadings& field, Diagnosis& found) {
   const auto [tests, likeliest] =
       law_tests(field, found.receiver.step, laws_of_causes(s), stated, s.state.fit.covariance);
   const auto best = tests.begin();
@@ -101,6 +132,15 @@ ReadingDistribution add_scatter(const LawSources& s, const ReadingDistribution& 
     found.notes.push_back(fmt::format(
         "single readings scatter by {:.1f} dB, as normal noise does; the world states none", likeliest.noise));
   if (best == tests.end() || !beyond_chance(*best, thresholds::law_alpha)) return likeliest;
+  const double near =
+      replaces(s, best->cause) ? 0 : beside_wall_ends(s, stated, residual, kriged, *best, found);
+  if (near > 0) {
+    found.notes.push_back(fmt::format(
+        "single readings scatter as by {} only where their link passes within {:.1f} m of a wall's end: walls or places "
+        "may be so far off, and it is not named",
+        best->cause, near));
+    return likeliest;
+  }
   add_named(s, causes_that(s, [&](const Cause& c) { return c.id == best->cause; }), *best, found);
   for (const LawTest& other : tests) {
     const double gap = best->evidence - other.evidence;
@@ -200,10 +240,13 @@ void add_laws_of_readings(const LawSources& s, const VectorXd& all, Diagnosis& f
   if (!why.empty()) return add_tested(fields_of(s), why, found);
   const std::vector<noise::Family> likely = s.state.likely_families(s.state.fit.covariance.family);
   const bool as_drawn = std::any_of(likely.begin(), likely.end(), noise::is_stated);
-  KrigedReadings field(s.readings, without_grazing(s, anew, found),
-                       as_drawn ? s.state.field().sites().stated : nullptr);
+  const Kriged kriged = [&](const VectorXd& residual) {
+    return KrigedReadings(s.readings, residual, as_drawn ? s.state.field().sites().stated : nullptr);
+  };
+  const VectorXd residual = without_grazing(s, anew, found);
+  KrigedReadings field = kriged(residual);
   const std::size_t before = found.causes.size();
-  const ReadingDistribution law = add_scatter(s, stated, field, found);
+  const ReadingDistribution law = add_scatter(s, stated, residual, kriged, field, found);
   add_field(s, field, law, found);
   if (found.causes.size() == before + 2) leave_the_stronger(found);
 }

@@ -110,6 +110,24 @@ TEST(SparseColumns, GainEqualsThatOfTheDenseColumn) {
   }
 }
 
+TEST(GainOf, IsZeroWhereTheBestStrengthHasTheOtherSign) {
+  const auto world = world_of(varied(5, 900));
+  const Problem problem = problem_of(world, Eigen::VectorXd::Zero(900), causes_of(world));
+  const ModelState state(problem, {});
+  const WhitenedModel model = state.whitened_model(state.design());
+  const Eigen::MatrixXd column = normals(state.rows().size(), 1, 31).cast<double>();
+  Candidate c;
+  EXPECT_EQ(gain_of(c, model, column), model.gain(column));
+  double both = 0;
+  for (const int sign : {-1, 1}) {
+    c.design.sign = sign;
+    EXPECT_NEAR(gain_of(c, model, column), gain_of(c, model, 3 * column), 1e-9);
+    both += gain_of(c, model, column);
+    EXPECT_EQ(std::min(gain_of(c, model, column), gain_of(c, model, -column)), 0);
+  }
+  EXPECT_NEAR(both, model.gain(column), 1e-9);
+}
+
 TEST(SkewCharge, IsTheLogRatioOfTheSkewedToTheNormalTail) {
   // Sums of 40 Rayleigh fades in dB, upside down, against the normal tail.
   const Stream stream(key_of("fades"));

@@ -38,5 +38,23 @@ TEST(Folds, BlocksAreThreeDecorrelationDistancesWideAndCoverAllReadings) {
   EXPECT_GT(gain.lower95, 0);
 }
 
+// A receiver that reports nothing below -70 dBm says nothing of how far below a level is.
+TEST(Folds, MissABoundByWhatItForbids) {
+  const auto world = world_of(varied(15, 3000));
+  const noise::Rows rows = diagnosis::link_rows(world.readings);
+  const noise::Sites sites = diagnosis::link_sites(rows, world.readings);
+  const noise::Covariance c{noise::Family::exponential, world.true_theta};
+  const Folds folds(sites, blocks_of(sites, c), rows.row_of(), c, 1);
+  const Eigen::VectorXd level = world.base * Eigen::Vector3d(-30, 2, 5), clipped = level.cwiseMax(-70);
+  noise::Bounds bounds{std::vector<noise::Known>(static_cast<std::size_t>(level.size()), noise::Known::value), 0.5};
+  for (Index i = 0; i < level.size(); ++i) {
+    if (level[i] <= -70) bounds.known[static_cast<std::size_t>(i)] = noise::Known::below;
+  }
+  ASSERT_TRUE(bounds.any());
+  const Sample of_rows{rows.mean(level), rows.mean(world.base)};
+  EXPECT_LT(folds.squared_errors(of_rows, {clipped, world.base, &bounds}).maxCoeff(), 1e-12);
+  EXPECT_GT(folds.squared_errors(of_rows, {clipped, world.base}).maxCoeff(), 1);
+}
+
 }  // namespace
 }  // namespace muster::inference

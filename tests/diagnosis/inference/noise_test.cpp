@@ -273,6 +273,25 @@ TEST(Censored, ReadingsBelowAFloorAreReplacedByTheirExpectation) {
   EXPECT_NEAR(slope(imputed(read, bounds, design, 40)), -15, 0.4);
 }
 
+TEST(Bounds, AreMissedByTheDistanceFromWhatTheyAllow) {
+  const Bounds bounds{{Known::value, Known::below, Known::above}, 0.5};
+  EXPECT_EQ(bounds.error(0, -60, -57), 3);
+  EXPECT_EQ(bounds.error(0, -60, -63), 3);
+  EXPECT_EQ(bounds.error(1, -90, -95), 0);  // a floor: the level may be anywhere below
+  EXPECT_EQ(bounds.error(1, -90, -89.5), 0);
+  EXPECT_EQ(bounds.error(1, -90, -87), 2.5);
+  EXPECT_EQ(bounds.error(2, -40, -20), 0);  // saturation
+  EXPECT_EQ(bounds.error(2, -40, -44), 3.5);
+  EXPECT_EQ(Bounds().error(7, -60, -62), 2);
+}
+
+TEST(FieldVariances, AreTheDiagonalOfTheExactCovariance) {
+  const Field field(scattered(40, 3, 23));
+  const Eigen::MatrixXd all = covariance_of_sums(field, some, Eigen::MatrixXd::Identity(40, 40));
+  const Eigen::VectorXd of_reading = some.reading_variance() / field.sites().count.array();
+  EXPECT_LT((all.diagonal() - of_reading - field_variances(field, some)).cwiseAbs().maxCoeff(), 2e-3);
+}
+
 TEST(BasisOf, LeavesOutWhatEarlierColumnsExplain) {
   Eigen::MatrixXd x(50, 4);
   for (Index i = 0; i < 50; ++i) {

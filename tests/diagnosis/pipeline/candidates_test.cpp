@@ -84,6 +84,30 @@ TEST(LocalColumns, FallBackToAllReadingsWhereAnEffectIsNotLocal) {
   EXPECT_EQ(columns(theta), far.candidate.design.columns(theta));
 }
 
+// Readings that were not taken need not have a radio of those that were, and the world need not know it.
+TEST(SimulatedReadings, KnowARadioThatOnlyMeasuredReadingsName) {
+  const Hall hall;
+  const LinkReadings& all = hall.at.layout->readings();
+  std::vector<std::string> radios = hall.at.model.radio_names();
+  radios.emplace_back("b4");
+  SimulatedReadings simulated(all, radios, hall.world, plugins, hall.at.base);
+  EXPECT_LT((simulated.slopes(hall.at.base) - hall.at.problem.base).cwiseAbs().maxCoeff(), 1e-9);
+  const auto& found = hall.at.sought.found;
+  const auto offset = std::find_if(found.begin(), found.end(),
+                                   [](const CauseCandidate& c) { return c.candidate.id == "effect.tx_offset"; });
+  ASSERT_NE(offset, found.end());
+  CauseCandidate of_b4 = *offset;
+  CauseShape shape = *offset->shape;
+  shape.rows.back() = {"b4"};
+  of_b4.shape = std::make_shared<const CauseShape>(shape);
+  const inference::Candidate at = simulated.at(of_b4);
+  Eigen::VectorXd theta = at.design.grid[0];
+  theta[0] = static_cast<double>(shape.rows.size() - 1);
+  const Eigen::MatrixXd columns = at.design.columns(theta);
+  EXPECT_EQ(columns.rows(), all.size());
+  EXPECT_EQ(columns.cwiseAbs().maxCoeff(), 0);
+}
+
 TEST(EndedRows, HaveTheSketchOfTheirParentRow) {
   const Hall hall;
   inference::ModelState state(hall.at.problem, hall.at.options);

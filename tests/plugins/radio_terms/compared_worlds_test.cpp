@@ -1,4 +1,5 @@
 // Channels of other simulators in running worlds: in place of radio.fading, saved and restored, on several threads.
+#include <algorithm>
 #include <cmath>
 
 #include "tests/plugins/radio/world_of.hpp"
@@ -27,6 +28,31 @@ TEST(ComparedWorld, DoesNotDependOnThreadsOrOnTheOrderOfRows) {
     Simulation second = world_of(folder, and_more + team + more + channel);
     run(first, 12), run(second, 12);
     expect_same_bits(by_pair(first, "link/*/rssi"), by_pair(second, "link/*/rssi"));
+  }
+}
+
+// In dB2, at its own size and distance, in either direction; and what it gives as expected is no draw.
+TEST(ComparedWorld, GudmundsonDeclaresHowItsDrawsAreCorrelated) {
+  const Folder folder;
+  Simulation sim =
+      world_of(folder, station("a", "1 2 3") + station("b", "-4 2 1") + station("c", "-3.5 1 1") +
+                           "<radio.links/><radio.gudmundson shadowing=\"3\" decorrelation=\"2.5\"/>");
+  const auto& all = sim.instances();
+  const auto drawing = std::find_if(all.begin(), all.end(), [](const auto& i) { return i->plugin().draw; });
+  ASSERT_NE(drawing, all.end());
+  const double ends[3][6] = {{1, 2, 3, -4, 2, 1}, {-3.5, 1, 1, 1, 2, 3}, {-4, 2, 1, 1, 2, 3}};
+  const uint32_t one[] = {0, 0, 0}, other[] = {0, 1, 2};
+  double out[3];
+  (*drawing)->plugin().draw->covariance((*drawing)->params().data(), ends[0], one, other, 3, out);
+  EXPECT_NEAR(out[0], 9, 1e-12);
+  EXPECT_NEAR(out[2], 9, 1e-12);
+  const auto field = [](double metres) { return std::exp(-metres / 2.5); };
+  const double ab = std::sqrt(25 + 0 + 4), ca = std::sqrt(4.5 * 4.5 + 1 + 4), bc = std::sqrt(0.25 + 1 + 0);
+  const double together = field(bc) + field(ca) * field(ab);
+  EXPECT_NEAR(out[1], 9 * together / std::sqrt((1 + field(2 * ab)) * (1 + field(2 * ca))), 1e-12);
+  for (const bool expected : {false, true}) {
+    sim.evaluate(MUSTER_RADIO, expected);
+    for (const auto& [pair, level] : by_pair(sim, "link/*/level")) EXPECT_EQ(level == 0, expected);
   }
 }
 
