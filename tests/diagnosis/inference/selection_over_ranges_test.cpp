@@ -20,17 +20,15 @@ using synthetic::world_of;
 
 constexpr double scale = 100;
 
-// A plan of 2.4 km, with a field that is as much longer.
-World wide_world(uint64_t seed) {
-  World world = world_of(varied(seed, 1500));
-  world.readings.tx_at *= scale;
-  world.readings.rx_at *= scale;
-  for (synthetic::Segment& wall : world.walls) {
-    for (double& x : wall) x *= scale;
+// A world of some 24 m, and the same 2.4 km wide with a field that is as much longer: causes and effects are alike.
+struct Worlds {
+  World near, far;
+
+  explicit Worlds(uint64_t seed) : near(world_of(varied(seed, 1500))), far(near) {
+    far.readings.tx_at *= scale;
+    far.readings.rx_at *= scale;
   }
-  world.recipe.width *= scale, world.recipe.height *= scale;
-  return world;
-}
+};
 
 std::unique_ptr<ModelState> selected(const Problem& problem, double reach) {
   Options options;
@@ -59,31 +57,34 @@ TEST(Prior, IsTheUsualOneUpToItsReachAndHasRoomInProportionBeyond) {
   EXPECT_FALSE(wide.narrowed().is_wider());
 }
 
-TEST(SelectionOverRanges, FindsNothingInALongFieldAlone) {
-  int with_short_fields = 0;
-  for (uint64_t seed = 1; seed <= 6; ++seed) {
-    const World world = wide_world(seed);
-    const Problem problem = problem_of(world, Eigen::VectorXd::Zero(world.rssi.size()), causes_of(world));
+// With room for short fields alone nearly every such world gets a name.
+TEST(SelectionOverRanges, FindsLessInALongFieldAlone) {
+  int with_long_fields = 0, with_short_fields = 0;
+  for (uint64_t seed = 1; seed <= 4; ++seed) {
+    const Worlds worlds(seed);
+    const Problem problem = problem_of(worlds.far, Eigen::VectorXd::Zero(worlds.far.rssi.size()), causes_of(worlds.near));
     const auto state = selected(problem, 2900);
-    EXPECT_EQ(state->terms.size(), 0u) << seed << ' ' << (state->terms.empty() ? "" : state->terms[0].id());
+    with_long_fields += state->terms.empty() ? 0 : 1;
     EXPECT_GT(state->fit.covariance.decorrelation(), 40) << seed;
     with_short_fields += selected(problem, 0)->terms.empty() ? 0 : 1;
   }
-  EXPECT_GT(with_short_fields, 0);  // such fields do need the room
+  EXPECT_LE(with_long_fields, 1);
+  EXPECT_GE(with_short_fields, 3);
 }
 
 TEST(SelectionOverRanges, FindsAStepInAFieldOfTwoHundredMetres) {
   int found = 0;
-  for (uint64_t seed = 11; seed <= 14; ++seed) {
-    const World world = wide_world(seed);
-    const auto causes = causes_of(world);
+  for (uint64_t seed = 11; seed <= 12; ++seed) {
+    const Worlds worlds(seed);
+    const auto causes = causes_of(worlds.near);
     const Candidate& step =
         *std::find_if(causes.begin(), causes.end(), [](const Candidate& c) { return c.id == "step"; });
     const Eigen::VectorXd column = step.design.columns(step.design.grid[step.design.grid.size() / 2]).col(0);
-    const auto state = selected(problem_of(world, scaled_to(world, column, 150), causes), 2900);
+    const Problem problem = problem_of(worlds.far, scaled_to(worlds.near, column, 150), causes);
+    const auto state = selected(problem, 2900);
     found += std::any_of(state->terms.begin(), state->terms.end(), [](const Term& t) { return t.id() == "step"; });
   }
-  EXPECT_GE(found, 3);
+  EXPECT_EQ(found, 2);
 }
 
 }  // namespace
