@@ -31,17 +31,19 @@ struct DataLinks {
       "Columns: t[s],tx,rx,tx_x[m],tx_y[m],tx_z[m],tx_yaw[rad],rx_x[m],rx_y[m],rx_z[m],rx_yaw[rad]; t, z and yaw may\n"
       "be absent: then the time is the tick's, the height that of the radio's mount, the heading 0.\n"
       "Without x and y, distance[m]: the sender stands at the origin, the receiver so far to the east of it.\n"
-      "`aside` moves whole links and changes neither lengths nor bearings: what changes all the same, such as which "
-      "walls\n"
-      "are crossed, hangs on how well places are known.";
+      "`aside` and `along` move whole links and change neither lengths nor bearings: what changes all the same, such "
+      "as\n"
+      "which walls are crossed, hangs on how well places are known.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       file("file", "measured readings, a CSV table with units").required(),
-      real("aside", 0, -10, 10, "m", "both ends of each link, to the left of the way from sender to receiver")};
+      real("aside", 0, -10, 10, "m", "both ends of each link, to the left of the way from sender to receiver"),
+      real("along", 0, -10, 10, "m", "both ends of each link, along that way")};
 
   explicit DataLinks(Setup& s)
       : readings(s.file<Reading>("file")),
         aside(s.value("aside")),
+        along(s.value("along")),
         mount(s.read<Mount>("radio/*/mount")),
         endpoint(s.write<Endpoint>("endpoint/*/radio")),
         pose(s.write<Pose>("endpoint/*/pose")),
@@ -61,7 +63,7 @@ struct DataLinks {
       if (it.has_places()) {
         poses[2 * i] = placed(it.from, mounts[static_cast<std::size_t>(it.tx)]);
         poses[2 * i + 1] = placed(it.to, mounts[static_cast<std::size_t>(it.rx)]);
-        if (k[aside] != 0) move_aside(poses[2 * i], poses[2 * i + 1], k[aside]);
+        if (k[aside] != 0 || k[along] != 0) move(poses[2 * i], poses[2 * i + 1], k[aside], k[along]);
       } else {
         if (!(it.distance > 0))  // null too
           throw BadInput("row " + std::to_string(i + 1) + " of the readings has neither both places nor a distance");
@@ -77,17 +79,17 @@ struct DataLinks {
     return {at.x, at.y, is_null(at.z) ? on.z : at.z, std::cos(yaw / 2), 0, 0, std::sin(yaw / 2)};
   }
 
-  static void move_aside(Pose& from, Pose& to, double by) {
+  static void move(Pose& from, Pose& to, double aside, double along) {
     const double x = to.x - from.x, y = to.y - from.y, way = std::hypot(x, y);
     if (way == 0) return;
     for (Pose* end : {&from, &to}) {
-      end->x -= by * y / way;
-      end->y += by * x / way;
+      end->x += (along * x - aside * y) / way;
+      end->y += (along * y + aside * x) / way;
     }
   }
 
   In<Reading> readings;
-  Value aside;
+  Value aside, along;
   In<Mount> mount;
   Out<Endpoint> endpoint;
   Out<Pose> pose;

@@ -159,8 +159,7 @@ double gain_of(const Candidate& candidate, const WhitenedModel& model, const Eig
   if (candidate.design.whole) return std::max(0.0, model.gain_as_it_is(columns));
   const auto added = noise::basis_of(model.at.basis.rest(model.whitener(columns)));
   const Eigen::VectorXd along = added.q.transpose() * model.at.residual;
-  if (candidate.design.sign && columns.cols() == 1 &&
-      added.coefficients(along, 1)[0] * candidate.design.sign < 0)
+  if (candidate.design.sign && columns.cols() == 1 && added.coefficients(along, 1)[0] * candidate.design.sign < 0)
     return 0;  // its best strength would be of the other sign
   return along.squaredNorm();
 }

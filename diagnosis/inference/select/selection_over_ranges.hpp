@@ -9,8 +9,8 @@
 
 namespace muster::inference {
 
-// Runs forward_selection on `state`. Where its prior is wider than the usual one, also under that, from nothing; `state`
-// is then the likelier of the two.
+// Runs forward_selection on `state`. Where its prior is wider than the usual one, also under that, from nothing;
+// `state` is then the likelier of the two.
 void selection_over_ranges(std::unique_ptr<ModelState>& state, std::vector<Trial>& trials);
 
 }  // namespace muster::inference

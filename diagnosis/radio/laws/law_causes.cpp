@@ -96,13 +96,13 @@ std::string why_not(const LawSources& s, const ReadingDistribution& stated, cons
 
 using Kriged = std::function<KrigedReadings(const VectorXd& residual)>;
 
-// The distance [m] from walls' ends within which those readings lie that a law gains from; 0 if it gains elsewhere in
-// proportion. Where places are told less exactly than that, a link may pass a wall on the other side, and the loss of
-// the wall resembles a draw that few readings have.
-double beside_wall_ends(const LawSources& s, const ReadingDistribution& stated, const VectorXd& residual,
-                        const Kriged& kriged, const LawTest& law, const Diagnosis& found) {
+// The distance [m] from where walls are crossed or not within which those readings lie that a law gains from; 0 if it
+// gains elsewhere in proportion. Where places are told less exactly than that, a link may pass a wall on the other
+// side, and the loss of the wall resembles a draw that few readings have.
+double beside_walls(const LawSources& s, const ReadingDistribution& stated, const VectorXd& residual,
+                    const Kriged& kriged, const LawTest& law, const Diagnosis& found) {
   for (const double metres : thresholds::places_off) {
-    const VectorXd unsure = s.model.changes_aside(metres)(s.used);
+    const VectorXd unsure = s.model.changes_nearby(metres)(s.used);
     const VectorXd clear = (unsure.array() > thresholds::grazing_change).select(std::nan(""), residual);
     const double share = static_cast<double>(finite(clear)) / static_cast<double>(finite(residual));
     if (share == 1 || share < thresholds::least_clear || finite(clear) < thresholds::fewest_law_readings) continue;
@@ -132,13 +132,13 @@ ReadingDistribution add_scatter(const LawSources& s, const ReadingDistribution& 
     found.notes.push_back(fmt::format(
         "single readings scatter by {:.1f} dB, as normal noise does; the world states none", likeliest.noise));
   if (best == tests.end() || !beyond_chance(*best, thresholds::law_alpha)) return likeliest;
-  const double near =
-      replaces(s, best->cause) ? 0 : beside_wall_ends(s, stated, residual, kriged, *best, found);
+  const double near = replaces(s, best->cause) ? 0 : beside_walls(s, stated, residual, kriged, *best, found);
   if (near > 0) {
-    found.notes.push_back(fmt::format(
-        "single readings scatter as by {} only where their link passes within {:.1f} m of a wall's end: walls or places "
-        "may be so far off, and it is not named",
-        best->cause, near));
+    found.notes.push_back(
+        fmt::format("single readings scatter as by {} only where a move of {:.1f} m changes which walls their link "
+                    "crosses: walls or "
+                    "places may be so far off, and it is not named",
+                    best->cause, near));
     return likeliest;
   }
   add_named(s, causes_that(s, [&](const Cause& c) { return c.id == best->cause; }), *best, found);
@@ -205,10 +205,10 @@ void leave_the_stronger(Diagnosis& found) {
   if (weaker->lambda < thresholds::second_law_lambda) found.causes.erase(weaker);
 }
 
-// Readings whose link passes within 5 mm of a wall's end are excluded from these tests. The link may pass on the
+// Readings whose link, moved by 5 mm, crosses other walls are excluded from these tests. The link may pass on the
 // other side, an error of a whole wall. Three of those among 20,000 readings resemble outliers.
 VectorXd without_grazing(const LawSources& s, const VectorXd& residual, Diagnosis& found) {
-  const VectorXd unsure = s.model.changes_aside(thresholds::grazing)(s.used);
+  const VectorXd unsure = s.model.changes_nearby(thresholds::grazing)(s.used);
   const auto grazes = unsure.array() > thresholds::grazing_change;
   if (const Index count = grazes.count())
     found.notes.push_back(fmt::format(

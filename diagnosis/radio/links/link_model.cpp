@@ -160,14 +160,15 @@ std::optional<End> LinkModel::first_end(const std::string& radio) const {
 
 std::set<std::string> LinkModel::link_of(int one, int other) const { return {radio_name(one), radio_name(other)}; }
 
-Eigen::VectorXd LinkModel::changes_aside(double metres) {
-  const std::string aside = std::string(stand_in) + "/aside";
+Eigen::VectorXd LinkModel::changes_nearby(double metres) {
   const Eigen::VectorXd here = expected();
   Eigen::VectorXd most = Eigen::VectorXd::Zero(here.size());
-  ParameterGuard moved(*this);
-  for (const double by : {-metres, metres}) {
-    moved.set(aside, by);
-    most = most.cwiseMax((expected() - here).cwiseAbs());
+  for (const char* way : {"/aside", "/along"}) {
+    ParameterGuard moved(*this);
+    for (const double by : {-metres, metres}) {
+      moved.set(stand_in + std::string(way), by);
+      most = most.cwiseMax((expected() - here).cwiseAbs());
+    }
   }
   return most;
 }

@@ -39,9 +39,9 @@ class LinkModel : public MeasuredWorld {
   std::optional<End> first_end(const std::string& radio) const;
   std::set<std::string> link_of(int one, int other) const;  // names of both, in either direction
 
-  // Largest change of each expected level, dB, if links are shifted sideways by this distance to either side. It bounds
-  // the effect of inaccurate wall ends and radio places. Lengths and bearings are unchanged.
-  Eigen::VectorXd changes_aside(double metres);
+  // Largest change of each expected level, dB, if links are moved by this distance, to either side or along their way.
+  // It bounds the effect of inaccurate walls and radio places. Lengths and bearings are unchanged.
+  Eigen::VectorXd changes_nearby(double metres);
 
  private:
   LinkModel(World declared, const std::filesystem::path& data, const Library::SearchPath& plugins,

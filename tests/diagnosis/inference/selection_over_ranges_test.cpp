@@ -62,7 +62,8 @@ TEST(SelectionOverRanges, FindsLessInALongFieldAlone) {
   int with_long_fields = 0, with_short_fields = 0;
   for (uint64_t seed = 1; seed <= 4; ++seed) {
     const Worlds worlds(seed);
-    const Problem problem = problem_of(worlds.far, Eigen::VectorXd::Zero(worlds.far.rssi.size()), causes_of(worlds.near));
+    const Problem problem =
+        problem_of(worlds.far, Eigen::VectorXd::Zero(worlds.far.rssi.size()), causes_of(worlds.near));
     const auto state = selected(problem, 2900);
     with_long_fields += state->terms.empty() ? 0 : 1;
     EXPECT_GT(state->fit.covariance.decorrelation(), 40) << seed;

@@ -24,8 +24,23 @@ TEST(LinkModel, ListsLinksThatPassCloseToTheEndOfAWall) {
   EXPECT_NEAR(before[8] - before[0], 7.5, 1e-12);
   Eigen::VectorXd wanted(10);
   wanted << 0, 0, 7.5, 7.5, 0, 0, 7.5, 7.5, 0, 0;
-  EXPECT_TRUE(model.changes_aside(0.005).isApprox(wanted, 1e-9)) << model.changes_aside(0.005).transpose();
+  EXPECT_TRUE(model.changes_nearby(0.005).isApprox(wanted, 1e-9)) << model.changes_nearby(0.005).transpose();
   EXPECT_EQ(model.expected(), before);  // links keep their places
+}
+
+// A receiver a centimetre before a wall may as well stand behind it.
+TEST(LinkModel, ListsLinksThatEndCloseToAWall) {
+  const Scratch scratch;
+  const auto world =
+      scratch.write("world.xml",
+                    "<world name=\"w\" dt=\"1\" until=\"1\" seed=\"1\">\n  <material name=\"brick\" loss=\"7.5\"/>\n"
+                    "  <wall name=\"w\" from=\"5 -9\" to=\"5 9\" height=\"3\" material=\"brick\"/>\n"
+                    "  <station name=\"a\" at=\"0 0 0.5\"/>\n  <radio.multiwall/>\n</world>\n");
+  std::string table = "tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],rssi[dBm]\n";
+  for (const char* x : {"4.9", "4.99", "5.01", "5.1"}) table += std::string("a,b,0,0,") + x + ",0,-60\n";
+  LinkModel model(world, scratch.write("readings.csv", table), plugins);
+  const Eigen::Vector4d wanted(0, 7.5, 7.5, 0);
+  EXPECT_TRUE(model.changes_nearby(0.02).isApprox(wanted, 1e-9)) << model.changes_nearby(0.02).transpose();
 }
 
 }  // namespace

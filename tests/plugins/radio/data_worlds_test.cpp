@@ -57,6 +57,20 @@ TEST(Data, LinksMovedAsideKeepTheirLengthsAndBearings) {
   EXPECT_EQ(pose.at(0, 3), std::cos(0.25));
 }
 
+TEST(Data, LinksMovedAlongKeepTheirLengthsAndBearings) {
+  const Folder folder;
+  folder.put("measured.csv", "tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m]\na,b,1,1,4,5\nb,a,2,2,2,2\n");
+  Simulation world = world_of(folder, "<data.links file=\"measured.csv\" along=\"-0.5\"/>" + channel);
+  world.step();
+  const TableView pose = world.table("endpoint/*/pose");
+  const double from[] = {1 - 0.3, 1 - 0.4}, to[] = {4 - 0.3, 5 - 0.4};
+  for (std::size_t axis : {0, 1}) {
+    EXPECT_NEAR(pose.at(0, axis), from[axis], 1e-12);
+    EXPECT_NEAR(pose.at(1, axis), to[axis], 1e-12);
+    EXPECT_EQ(pose.at(2, axis), 2);  // ends in one place have no way
+  }
+}
+
 TEST(Data, ReadingsOfOnePairHaveFadingOfTheirOwn) {
   const Folder folder;
   folder.put("measured.csv",

@@ -34,9 +34,8 @@ TEST(ComparedWorld, DoesNotDependOnThreadsOrOnTheOrderOfRows) {
 // In dB2, at its own size and distance, in either direction; and what it gives as expected is no draw.
 TEST(ComparedWorld, GudmundsonDeclaresHowItsDrawsAreCorrelated) {
   const Folder folder;
-  Simulation sim =
-      world_of(folder, station("a", "1 2 3") + station("b", "-4 2 1") + station("c", "-3.5 1 1") +
-                           "<radio.links/><radio.gudmundson shadowing=\"3\" decorrelation=\"2.5\"/>");
+  Simulation sim = world_of(folder, station("a", "1 2 3") + station("b", "-4 2 1") + station("c", "-3.5 1 1") +
+                                        "<radio.links/><radio.gudmundson shadowing=\"3\" decorrelation=\"2.5\"/>");
   const auto& all = sim.instances();
   const auto drawing = std::find_if(all.begin(), all.end(), [](const auto& i) { return i->plugin().draw; });
   ASSERT_NE(drawing, all.end());
