@@ -212,7 +212,7 @@ inline constexpr double places_off[] = {0.1, 0.3, 1};
 // share; of the readings, of which that is not so, on which it can be seen; chosen; none
 inline constexpr double least_clear = 0.3;
 // share; of the gain in proportion that it keeps there; chosen; GrazingLinks.PlacesThatAreOffMakeNoOutliers
-inline constexpr double in_proportion = 0.5;
+inline constexpr double in_proportion = 0.25;
 
 // laws: fading
 

@@ -114,11 +114,16 @@ class Tests {
     return off(fitted.law) - off(null_law_) < thresholds::contradiction_nats;
   }
 
+  // nats, of each reading.
+  Eigen::VectorXd won(const Fitted& fitted) {
+    return judge_.each(fitted.law, fitted.peak) - judge_.each(null_law_, null_);
+  }
+
   // True if two readings carry most of the gain: one that passes a wall's end on the other side is no law. Outliers
   // that can just be told (lambda 60) are some ten readings.
   bool rests_on_few(const Fitted& fitted) {
     const Eigen::Index few = thresholds::law_few;
-    Eigen::VectorXd won = judge_.each(fitted.law, fitted.peak) - judge_.each(null_law_, null_);
+    Eigen::VectorXd won = this->won(fitted);
     std::nth_element(won.data(), won.data() + few, won.data() + won.size(), std::greater<>());
     return won.head(few).sum() > thresholds::law_few_share * won.sum();
   }
@@ -265,6 +270,7 @@ LawTests law_tests(KrigedReadings& field, double step, const std::vector<std::sh
   std::stable_sort(result.begin(), result.end(),
                    [](const LawTest& a, const LawTest& b) { return a.evidence > b.evidence; });
   const auto& [family, fitted] = best.at(result.front().cause);
+  result.front().won = tests.won(fitted);
   // The second test, without winsorising, only raises log p. What a law with heavy tails adds needs winsorising, and is
   // no weaker fading.
   const ReadingLaw& likeliest = *family->part.law;

@@ -17,6 +17,7 @@ struct LawTest {
   double evidence = 0;  // nats
   double log_p = 0;
   ReadingDistribution law{};  // fitted
+  Eigen::VectorXd won{};      // nats, of each reading that was tested, in their order; of the likeliest law only
 };
 
 struct LawTests {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <numeric>
 #include <set>
@@ -94,24 +93,21 @@ std::string why_not(const LawSources& s, const ReadingDistribution& stated, cons
   return "";
 }
 
-using Kriged = std::function<KrigedReadings(const VectorXd& residual)>;
-
-// The distance [m] from where walls are crossed or not within which those readings lie that a law gains from; 0 if it
-// gains elsewhere in proportion. Where places are told less exactly than that, a link may pass a wall on the other
-// side, and the loss of the wall resembles a draw that few readings have.
-double beside_walls(const LawSources& s, const ReadingDistribution& stated, const VectorXd& residual,
-                    const Kriged& kriged, const LawTest& law, const Diagnosis& found) {
+// The distance [m] by which links would have to be moved to change which walls they cross, up to which those readings
+// lie that a law gains from; 0 if it gains elsewhere in proportion. Where places are told less exactly than that, a
+// link may pass a wall on the other side, and the loss of the wall resembles a draw that few readings have.
+double beside_walls(const LawSources& s, const VectorXd& residual, const LawTest& law) {
+  const double all = law.won.sum();
   for (const double metres : thresholds::places_off) {
-    const VectorXd unsure = s.model.changes_nearby(metres)(s.used);
-    const VectorXd clear = (unsure.array() > thresholds::grazing_change).select(std::nan(""), residual);
-    const double share = static_cast<double>(finite(clear)) / static_cast<double>(finite(residual));
-    if (share == 1 || share < thresholds::least_clear || finite(clear) < thresholds::fewest_law_readings) continue;
-    KrigedReadings field = kriged(clear);
-    const std::vector<LawTest> tests =
-        law_tests(field, found.receiver.step, laws_of_causes(s), stated, s.state.fit.covariance).tests;
-    const auto same = std::find_if(tests.begin(), tests.end(), [&](const LawTest& t) { return t.cause == law.cause; });
-    const double gain = same == tests.end() ? 0 : same->gain;
-    if (gain < thresholds::in_proportion * share * law.gain) return metres;
+    const VectorXd change = s.model.changes_nearby(metres)(s.used);
+    double clear = 0, won = 0;
+    for (Index i = 0, tested = 0; i < residual.size(); ++i) {
+      if (!std::isfinite(residual[i])) continue;
+      if (change[i] <= thresholds::grazing_change) clear += 1, won += law.won[tested];
+      ++tested;
+    }
+    const double share = clear / static_cast<double>(law.won.size());
+    if (share >= thresholds::least_clear && won < thresholds::in_proportion * share * all) return metres;
   }
   return 0;
 }
@@ -124,7 +120,7 @@ bool replaces(const LawSources& s, const std::string& cause) {
 
 // Tests the fading law. Returns the law of readings: the stated one, or the one named here.
 ReadingDistribution add_scatter(const LawSources& s, const ReadingDistribution& stated, const VectorXd& residual,
-                                const Kriged& kriged, KrigedReadings& field, Diagnosis& found) {
+                                KrigedReadings& field, Diagnosis& found) {
   const auto [tests, likeliest] =
       law_tests(field, found.receiver.step, laws_of_causes(s), stated, s.state.fit.covariance);
   const auto best = tests.begin();
@@ -132,7 +128,7 @@ ReadingDistribution add_scatter(const LawSources& s, const ReadingDistribution& 
     found.notes.push_back(fmt::format(
         "single readings scatter by {:.1f} dB, as normal noise does; the world states none", likeliest.noise));
   if (best == tests.end() || !beyond_chance(*best, thresholds::law_alpha)) return likeliest;
-  const double near = replaces(s, best->cause) ? 0 : beside_walls(s, stated, residual, kriged, *best, found);
+  const double near = replaces(s, best->cause) ? 0 : beside_walls(s, residual, *best);
   if (near > 0) {
     found.notes.push_back(
         fmt::format("single readings scatter as by {} only where a move of {:.1f} m changes which walls their link "
@@ -240,13 +236,10 @@ void add_laws_of_readings(const LawSources& s, const VectorXd& all, Diagnosis& f
   if (!why.empty()) return add_tested(fields_of(s), why, found);
   const std::vector<noise::Family> likely = s.state.likely_families(s.state.fit.covariance.family);
   const bool as_drawn = std::any_of(likely.begin(), likely.end(), noise::is_stated);
-  const Kriged kriged = [&](const VectorXd& residual) {
-    return KrigedReadings(s.readings, residual, as_drawn ? s.state.field().sites().stated : nullptr);
-  };
   const VectorXd residual = without_grazing(s, anew, found);
-  KrigedReadings field = kriged(residual);
+  KrigedReadings field(s.readings, residual, as_drawn ? s.state.field().sites().stated : nullptr);
   const std::size_t before = found.causes.size();
-  const ReadingDistribution law = add_scatter(s, stated, residual, kriged, field, found);
+  const ReadingDistribution law = add_scatter(s, stated, residual, field, found);
   add_field(s, field, law, found);
   if (found.causes.size() == before + 2) leave_the_stronger(found);
 }
