@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "pacing.hpp"
 #include "run_options.hpp"
 #include "run_pictures.hpp"
 #include "run_record.hpp"
@@ -20,7 +21,8 @@ namespace {
 struct RunWords : RunOptions {
   std::string world, save, restore;
   uint64_t digest_every = 0;
-  bool watch = false, expected = false;
+  bool watch = false, expected = false, real_time = false;
+  std::optional<std::string> speed;
   SwapDeclaration swap;  // of the verb swap
   std::string swap_at;
 };
@@ -32,6 +34,8 @@ void declare(CommandLine& line, RunWords& words) {
   line.option("--restore", words.restore, "begin from a state that --save wrote");
   line.option("--digest-every", words.digest_every, "print the digest every so many ticks");
   line.flag("--watch", words.watch, "load a plugin again when its file changes on disk");
+  line.flag("--real-time", words.real_time, "at the pace of the clock: a second of the run takes a second");
+  line.option("--speed", words.speed, "with --real-time: so many seconds of the run a second");
   line.flag("--expected", words.expected, "run no tick: evaluate the radio channel once, as it is expected on average");
 }
 
@@ -128,7 +132,20 @@ void add_page(const RunRecord& record, const RunWords& words, std::vector<std::f
   if (!why_not.empty() && !words.json) fmt::print(stderr, "muster: note: no run.html: {}\n", why_not);
 }
 
+// Times real time; none without --real-time.
+std::optional<double> speed_of(const RunWords& words) {
+  if (!words.speed) return words.real_time ? std::optional(1.0) : std::nullopt;
+  constexpr double least = 1e-3, most = 1e6;
+  const double speed = real_of(*words.speed, "--speed");
+  if (!(speed >= least && speed <= most))
+    throw Error(Exit::invalid_input, "--speed: " + *words.speed + " is out of bounds; expected a number from " +
+                                         print_real(least) + " to " + print_real(most) + ", times real time");
+  if (!words.real_time) throw Error(Exit::invalid_input, "--speed needs --real-time; expected both, or neither");
+  return speed;
+}
+
 int run_world(const RunWords& words) {
+  const auto speed = speed_of(words);
   World world = world_of(words.world, words);
   if (!words.swap.instance.empty()) {
     SwapDeclaration swap = words.swap;
@@ -169,6 +186,9 @@ int run_world(const RunWords& words) {
   Digests digests;
   Progress progress("muster run " + run.world().name);
   watch_interrupt();
+  SteadyClock clock(interrupted);
+  std::optional<Pacing> pacing;
+  if (speed && !words.expected) pacing.emplace(clock, *speed, run.time());
   const double began_at = run.time();
   const auto began = std::chrono::steady_clock::now();
   const auto finish = [&] {
@@ -190,6 +210,7 @@ int run_world(const RunWords& words) {
         digests.emplace_back(run.tick(), run.digest());
         if (!words.json) fmt::print("{} {}\n", run.tick(), hexadecimal(digests.back().second));
       }
+      if (pacing) pacing->wait(run.time());
       progress.at(static_cast<double>(run.tick()) / static_cast<double>(run.world().ticks));
     }
   } catch (const Error&) {
@@ -198,6 +219,8 @@ int run_world(const RunWords& words) {
   }
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
   auto files = finish();
+  if (const auto late = pacing ? pacing->warning(run.world().dt) : ""; !late.empty())
+    fmt::print(stderr, "muster: warning: {}\n", late);
   if (pictures) {
     for (auto& file : pictures->write(words.out)) files.push_back(std::move(file));
   }
