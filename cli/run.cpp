@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "live_view.hpp"
 #include "pacing.hpp"
 #include "run_options.hpp"
 #include "run_pictures.hpp"
@@ -14,6 +15,7 @@
 #include "text/json.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
+#include "text/temporary_folder.hpp"
 
 namespace muster::cli {
 namespace {
@@ -23,6 +25,8 @@ struct RunWords : RunOptions {
   uint64_t digest_every = 0;
   bool watch = false, expected = false, real_time = false;
   std::optional<std::string> speed;
+  bool view = false;
+  ViewSettings view_at;
   SwapDeclaration swap;  // of the verb swap
   std::string swap_at;
 };
@@ -36,6 +40,10 @@ void declare(CommandLine& line, RunWords& words) {
   line.flag("--watch", words.watch, "load a plugin again when its file changes on disk");
   line.flag("--real-time", words.real_time, "at the pace of the clock: a second of the run takes a second");
   line.option("--speed", words.speed, "with --real-time: so many seconds of the run a second");
+  line.flag("--view", words.view, "serve the page of the run as it goes, at the pace of the clock");
+  line.option("--port", words.view_at.port, "with --view: its port; by default one that is free").within(0, 65535);
+  line.option("--address", words.view_at.address, "with --view: another address than 127.0.0.1; needs --token");
+  line.option("--token", words.view_at.token, "with --view: a word without which the page is not given");
   line.flag("--expected", words.expected, "run no tick: evaluate the radio channel once, as it is expected on average");
 }
 
@@ -134,7 +142,7 @@ void add_page(const RunRecord& record, const RunWords& words, std::vector<std::f
 
 // Times real time; none without --real-time.
 std::optional<double> speed_of(const RunWords& words) {
-  if (!words.speed) return words.real_time ? std::optional(1.0) : std::nullopt;
+  if (!words.speed) return words.real_time || words.view ? std::optional(1.0) : std::nullopt;
   constexpr double least = 1e-3, most = 1e6;
   const double speed = real_of(*words.speed, "--speed");
   if (!(speed >= least && speed <= most))
