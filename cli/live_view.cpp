@@ -13,7 +13,7 @@
 namespace muster::cli {
 namespace {
 
-constexpr double patience = 0.2;               // [s] between looks for an interrupt
+constexpr double patience = 0.2;                 // [s] between looks for an interrupt
 constexpr std::uint64_t most_numbers = 200'000;  // in a record that is sent again and again
 constexpr double slowest = 1e-3, fastest = 1e3;
 
@@ -32,8 +32,8 @@ LiveView::LiveView(const ViewSettings& settings, Record record, uint64_t ticks, 
       speed_(speed) {
   if (const std::string why = viewer::why_no_page(installation().parts); !why.empty()) throw Error(Exit::io, why);
   if (settings.address.rfind("127.", 0) != 0 && settings.token.empty())
-    throw Error(Exit::invalid_input,
-                "--address: " + settings.address + " can be reached from other computers; expected --token WORD beside it");
+    throw Error(Exit::invalid_input, "--address: " + settings.address +
+                                         " can be reached from other computers; expected --token WORD beside it");
 }
 
 void LiveView::sleep_until(double moment) {
@@ -48,13 +48,14 @@ void LiveView::wait_for_reader() {
   while (!is_opened_ && !interrupted()) server_.serve(patience);
 }
 
-void LiveView::before_tick(Pacing& pacing, double time) {
+bool LiveView::is_due(Pacing& pacing, double time) {
   server_.serve(0);
   const bool was_paused = is_paused_;
   while (is_paused_ && steps_ == 0 && !interrupted()) server_.serve(patience);
   if (steps_ > 0) --steps_;
   if (was_paused || is_changed_) pacing.restart(speed_, time);
   is_changed_ = false;
+  return !interrupted();
 }
 
 void LiveView::finish(uint64_t tick) {
@@ -76,7 +77,8 @@ bool LiveView::is_allowed(const viewer::HttpRequest& request) const {
   }
   const std::string port = ':' + std::to_string(server_.port());
   const auto host = request.headers.find("host");
-  return host != request.headers.end() && (host->second == settings_.address + port || host->second == "localhost" + port);
+  return host != request.headers.end() &&
+         (host->second == settings_.address + port || host->second == "localhost" + port);
 }
 
 viewer::HttpResponse LiveView::control(const viewer::HttpRequest& request) {
@@ -101,7 +103,8 @@ viewer::HttpResponse LiveView::control(const viewer::HttpRequest& request) {
 }
 
 viewer::HttpResponse LiveView::answer(const viewer::HttpRequest& request) {
-  if (!is_allowed(request)) return plain(403, "this run is shown to its own page alone; expected the address that muster printed");
+  if (!is_allowed(request))
+    return plain(403, "this run is shown to its own page alone; expected the address that muster printed");
   if (request.path == "/control") return control(request);
   if (request.method != "GET") return plain(405, "expected GET");
   if (request.path == "/state") return {200, "application/json", state()};
@@ -111,8 +114,7 @@ viewer::HttpResponse LiveView::answer(const viewer::HttpRequest& request) {
   }
   if (request.path != "/") return plain(404, "there is no such page");
   is_opened_ = true;
-  return {200, "text/html; charset=utf-8",
-          viewer::live_page(record_(), installation().parts, most_numbers)};
+  return {200, "text/html; charset=utf-8", viewer::live_page(record_(), installation().parts, most_numbers)};
 }
 
 }  // namespace muster::cli

@@ -24,8 +24,9 @@ class LiveView : public WallClock {
 
   // Returns when somebody has opened the page, or the run is interrupted.
   void wait_for_reader();
-  // Call before each tick; returns when it is due to run: it waits while the page has paused the run.
-  void before_tick(Pacing& pacing, double time);
+  // Call before each tick; returns when it is due to run: it waits while the page has paused the run. False: the run
+  // was interrupted in a pause.
+  bool is_due(Pacing& pacing, double time);
   void after_tick(uint64_t tick) { tick_ = tick; }
   // Serves until the page has the whole record.
   void finish(uint64_t tick);

@@ -148,12 +148,14 @@ std::optional<double> speed_of(const RunWords& words) {
   if (!(speed >= least && speed <= most))
     throw Error(Exit::invalid_input, "--speed: " + *words.speed + " is out of bounds; expected a number from " +
                                          print_real(least) + " to " + print_real(most) + ", times real time");
-  if (!words.real_time) throw Error(Exit::invalid_input, "--speed needs --real-time; expected both, or neither");
+  if (!words.real_time) throw Error(Exit::invalid_input, "--speed needs --real-time or --view beside it");
   return speed;
 }
 
 int run_world(const RunWords& words) {
   const auto speed = speed_of(words);
+  if (words.view && words.expected)
+    throw Error(Exit::invalid_input, "--view shows a run, and --expected runs no tick; expected one of them");
   World world = world_of(words.world, words);
   if (!words.swap.instance.empty()) {
     SwapDeclaration swap = words.swap;
@@ -182,8 +184,10 @@ int run_world(const RunWords& words) {
                                          " s, after the end of the run at " + print_real(run.world().until()) + " s");
   std::optional<RunRecord> record;
   std::optional<RunPictures> pictures;
-  if (!words.out.empty()) {
-    record.emplace(run, records, words.out, plugin_path(words.plugins));
+  std::optional<TemporaryFolder> unnamed;  // of a record that is only watched
+  if (words.out.empty() && words.view) unnamed.emplace();
+  if (!words.out.empty() || unnamed) {
+    record.emplace(run, records, unnamed ? unnamed->path().string() : words.out, plugin_path(words.plugins));
     pictures.emplace(run);
     record->write(run);
     pictures->look(run);
@@ -195,8 +199,13 @@ int run_world(const RunWords& words) {
   Progress progress("muster run " + run.world().name);
   watch_interrupt();
   SteadyClock clock(interrupted);
+  std::optional<LiveView> view;
   std::optional<Pacing> pacing;
-  if (speed && !words.expected) pacing.emplace(clock, *speed, run.time());
+  if (words.view) {
+    const auto so_far = [&] { return record->so_far(run, outcome_of(run)); };
+    view.emplace(words.view_at, so_far, run.world().ticks, *speed), view->wait_for_reader();
+  }
+  if (speed && !words.expected) pacing.emplace(view ? static_cast<WallClock&>(*view) : clock, *speed, run.time());
   const double began_at = run.time();
   const auto began = std::chrono::steady_clock::now();
   const auto finish = [&] {
@@ -212,12 +221,14 @@ int run_world(const RunWords& words) {
     }
     while (!words.expected && !run.done() && !interrupted()) {
       if (words.watch) watcher.look(run);
+      if (view && !view->is_due(*pacing, run.time())) break;
       run.step();
       if (record) record->write(run), pictures->look(run);
       if (words.digest_every && run.tick() % words.digest_every == 0) {
         digests.emplace_back(run.tick(), run.digest());
         if (!words.json) fmt::print("{} {}\n", run.tick(), hexadecimal(digests.back().second));
       }
+      if (view) view->after_tick(run.tick());
       if (pacing) pacing->wait(run.time());
       progress.at(static_cast<double>(run.tick()) / static_cast<double>(run.world().ticks));
     }
@@ -229,10 +240,12 @@ int run_world(const RunWords& words) {
   auto files = finish();
   if (const auto late = pacing ? pacing->warning(run.world().dt) : ""; !late.empty())
     fmt::print(stderr, "muster: warning: {}\n", late);
-  if (pictures) {
+  if (view) view->finish(run.tick());
+  if (unnamed) files.clear();
+  if (pictures && !unnamed) {
     for (auto& file : pictures->write(words.out)) files.push_back(std::move(file));
   }
-  if (record) add_page(*record, words, files);
+  if (record && !unnamed) add_page(*record, words, files);
   print_outcome(run, words, digests, files, (run.time() - began_at) / took.count());
   run.close();
   return static_cast<int>(interrupted() ? Exit::interrupted : Exit::done);

@@ -38,8 +38,7 @@ TEST(RealTime, ASpeedThatCannotBeKeptIsWarnedOf) {
 TEST(RealTime, ASpeedAloneIsRefused) {
   const ProgramFolder folder;
   folder.write("world.xml", world);
-  expect_error(folder.muster({"run", "world.xml", "--speed", "2"}), 2,
-               "--speed needs --real-time; expected both, or neither");
+  expect_error(folder.muster({"run", "world.xml", "--speed", "2"}), 2, "--speed needs --real-time or --view beside it");
   expect_error(folder.muster({"run", "world.xml", "--real-time", "--speed", "fast"}), 2,
                "--speed: \"fast\" is not a number");
   expect_error(folder.muster({"run", "world.xml", "--real-time", "--speed", "0"}), 2,
