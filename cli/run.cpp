@@ -148,7 +148,8 @@ std::optional<double> speed_of(const RunWords& words) {
   if (!(speed >= least && speed <= most))
     throw Error(Exit::invalid_input, "--speed: " + *words.speed + " is out of bounds; expected a number from " +
                                          print_real(least) + " to " + print_real(most) + ", times real time");
-  if (!words.real_time) throw Error(Exit::invalid_input, "--speed needs --real-time or --view beside it");
+  if (!words.real_time && !words.view)
+    throw Error(Exit::invalid_input, "--speed needs --real-time or --view beside it");
   return speed;
 }
 

@@ -3,7 +3,7 @@
 import {execFileSync, spawn} from 'node:child_process';
 import {existsSync, mkdirSync} from 'node:fs';
 import {request} from 'node:http';
-import {dirname, join} from 'node:path';
+import {dirname, join, resolve} from 'node:path';
 import {Browser} from './browser.mjs';
 
 const [muster, world, folder, given] = process.argv.slice(2);
@@ -115,7 +115,7 @@ async function check_a_run() {
 async function check_tables() {
   const words = `muster.record.tables.map((table) => [table.name, Array.from({length: table.rows}, (_, r) => table.columns.filter(({code}) => code.kind !== 'lists').map((column) => column.text(r)).join()).join(';')])`;
   const watched_tables = await browser.value(words);
-  await browser.open(`file://${join(folder, 'unwatched', 'run.html')}`);
+  await browser.open(`file://${resolve(folder, 'unwatched', 'run.html')}`);
   const offline = await browser.value(words);
   expect(JSON.stringify(watched_tables) === JSON.stringify(offline), 'the watched record differs from the unwatched one');
   expect(offline.length > 0, 'nothing was recorded');
