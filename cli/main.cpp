@@ -33,6 +33,7 @@ constexpr Verb verbs[] = {
     {"plugins", run_plugins, "the plugins that can be loaded"},
     {"plugin-check", run_plugin_check, "hide a cause in worlds of known truth, and see whether a diagnosis finds it"},
     {"describe", run_describe, "the manual of a plugin or of an element, from its declarations"},
+    {"schema", run_schema, "an XML schema of world files for editors, from the declarations"},
     {"fit", run_fit, "fit a world's free parameters to measured data, and say where it misfits"},
     {"diagnose", run_diagnose, "find what a world gets wrong about measured data, name the cause and extend the world"},
     {"exam", run_exam, "make sealed cases for a diagnosis, run it on them and grade what it says"},

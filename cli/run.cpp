@@ -7,12 +7,15 @@
 #include <map>
 #include <optional>
 
+#include "live_view.hpp"
+#include "pacing.hpp"
 #include "run_options.hpp"
 #include "run_pictures.hpp"
 #include "run_record.hpp"
 #include "text/json.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
+#include "text/temporary_folder.hpp"
 
 namespace muster::cli {
 namespace {
@@ -20,7 +23,10 @@ namespace {
 struct RunWords : RunOptions {
   std::string world, save, restore;
   uint64_t digest_every = 0;
-  bool watch = false, expected = false;
+  bool watch = false, expected = false, real_time = false;
+  std::optional<std::string> speed;
+  bool view = false;
+  ViewSettings view_at;
   SwapDeclaration swap;  // of the verb swap
   std::string swap_at;
 };
@@ -32,6 +38,12 @@ void declare(CommandLine& line, RunWords& words) {
   line.option("--restore", words.restore, "begin from a state that --save wrote");
   line.option("--digest-every", words.digest_every, "print the digest every so many ticks");
   line.flag("--watch", words.watch, "load a plugin again when its file changes on disk");
+  line.flag("--real-time", words.real_time, "at the pace of the clock: a second of the run takes a second");
+  line.option("--speed", words.speed, "with --real-time: so many seconds of the run a second");
+  line.flag("--view", words.view, "serve the page of the run as it goes, at the pace of the clock");
+  line.option("--port", words.view_at.port, "with --view: its port; by default one that is free").within(0, 65535);
+  line.option("--address", words.view_at.address, "with --view: another address than 127.0.0.1; needs --token");
+  line.option("--token", words.view_at.token, "with --view: a word without which the page is not given");
   line.flag("--expected", words.expected, "run no tick: evaluate the radio channel once, as it is expected on average");
 }
 
@@ -128,7 +140,23 @@ void add_page(const RunRecord& record, const RunWords& words, std::vector<std::f
   if (!why_not.empty() && !words.json) fmt::print(stderr, "muster: note: no run.html: {}\n", why_not);
 }
 
+// Times real time; none without --real-time.
+std::optional<double> speed_of(const RunWords& words) {
+  if (!words.speed) return words.real_time || words.view ? std::optional(1.0) : std::nullopt;
+  constexpr double least = 1e-3, most = 1e6;
+  const double speed = real_of(*words.speed, "--speed");
+  if (!(speed >= least && speed <= most))
+    throw Error(Exit::invalid_input, "--speed: " + *words.speed + " is out of bounds; expected a number from " +
+                                         print_real(least) + " to " + print_real(most) + ", times real time");
+  if (!words.real_time && !words.view)
+    throw Error(Exit::invalid_input, "--speed needs --real-time or --view beside it");
+  return speed;
+}
+
 int run_world(const RunWords& words) {
+  const auto speed = speed_of(words);
+  if (words.view && words.expected)
+    throw Error(Exit::invalid_input, "--view shows a run, and --expected runs no tick; expected one of them");
   World world = world_of(words.world, words);
   if (!words.swap.instance.empty()) {
     SwapDeclaration swap = words.swap;
@@ -157,8 +185,10 @@ int run_world(const RunWords& words) {
                                          " s, after the end of the run at " + print_real(run.world().until()) + " s");
   std::optional<RunRecord> record;
   std::optional<RunPictures> pictures;
-  if (!words.out.empty()) {
-    record.emplace(run, records, words.out, plugin_path(words.plugins));
+  std::optional<TemporaryFolder> unnamed;  // of a record that is only watched
+  if (words.out.empty() && words.view) unnamed.emplace();
+  if (!words.out.empty() || unnamed) {
+    record.emplace(run, records, unnamed ? unnamed->path().string() : words.out, plugin_path(words.plugins));
     pictures.emplace(run);
     record->write(run);
     pictures->look(run);
@@ -169,6 +199,14 @@ int run_world(const RunWords& words) {
   Digests digests;
   Progress progress("muster run " + run.world().name);
   watch_interrupt();
+  SteadyClock clock(interrupted);
+  std::optional<LiveView> view;
+  std::optional<Pacing> pacing;
+  if (words.view) {
+    const auto so_far = [&] { return record->so_far(run, outcome_of(run)); };
+    view.emplace(words.view_at, so_far, run.world().ticks, *speed), view->wait_for_reader();
+  }
+  if (speed && !words.expected) pacing.emplace(view ? static_cast<WallClock&>(*view) : clock, *speed, run.time());
   const double began_at = run.time();
   const auto began = std::chrono::steady_clock::now();
   const auto finish = [&] {
@@ -184,12 +222,15 @@ int run_world(const RunWords& words) {
     }
     while (!words.expected && !run.done() && !interrupted()) {
       if (words.watch) watcher.look(run);
+      if (view && !view->is_due(*pacing, run.time())) break;
       run.step();
       if (record) record->write(run), pictures->look(run);
       if (words.digest_every && run.tick() % words.digest_every == 0) {
         digests.emplace_back(run.tick(), run.digest());
         if (!words.json) fmt::print("{} {}\n", run.tick(), hexadecimal(digests.back().second));
       }
+      if (view) view->after_tick(run.tick());
+      if (pacing) pacing->wait(run.time());
       progress.at(static_cast<double>(run.tick()) / static_cast<double>(run.world().ticks));
     }
   } catch (const Error&) {
@@ -198,10 +239,14 @@ int run_world(const RunWords& words) {
   }
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
   auto files = finish();
-  if (pictures) {
+  if (const auto late = pacing ? pacing->warning(run.world().dt) : ""; !late.empty())
+    fmt::print(stderr, "muster: warning: {}\n", late);
+  if (view) view->finish(run.tick());
+  if (unnamed) files.clear();
+  if (pictures && !unnamed) {
     for (auto& file : pictures->write(words.out)) files.push_back(std::move(file));
   }
-  if (record) add_page(*record, words, files);
+  if (record && !unnamed) add_page(*record, words, files);
   print_outcome(run, words, digests, files, (run.time() - began_at) / took.count());
   run.close();
   return static_cast<int>(interrupted() ? Exit::interrupted : Exit::done);

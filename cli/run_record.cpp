@@ -35,20 +35,41 @@ RunRecord::RunRecord(const Simulation& run, const std::vector<RecordDeclaration>
   }
 }
 
-std::vector<std::filesystem::path> RunRecord::close(const Simulation& run, Json outcome) {
-  std::vector<viewer::RecordedTable> listed;
+std::vector<viewer::RecordedTable> RunRecord::listed(const Simulation& run) const {
+  std::vector<viewer::RecordedTable> result;
   for (const auto& file : recorder_.files()) {
     const Table& table = *run.table(file.table).table;
-    listed.push_back(
+    result.push_back(
         {file.table, file.path.filename().string(), word_of(table.set().kind), table.columns().text(), file.every});
   }
-  tables_ = recorder_.close();
+  return result;
+}
+
+void RunRecord::complete(const Simulation& run, Json& outcome) {
   outcome["file"] = run.world().file.string();
   outcome["version"] = MUSTER_VERSION;
   outcome["chains"] = viewer::chains_of(run);
+}
+
+viewer::RecordFolder RunRecord::so_far(const Simulation& run, Json outcome) {
+  complete(run, outcome);
   const Json scene = scene_.json(run);
   outcome["notes"] = scene_.notes();
-  viewer::write_run_file(folder_, outcome, scene, listed);
+  recorder_.flush();
+  auto tables = closed_.empty() ? listed(run) : closed_;
+  if (closed_.empty()) {
+    for (auto& table : tables) table.file += ".part";
+  }
+  return {folder_, run.world().name, run.world().dt, outcome.dump(), scene.dump(), std::move(tables)};
+}
+
+std::vector<std::filesystem::path> RunRecord::close(const Simulation& run, Json outcome) {
+  closed_ = listed(run);
+  tables_ = recorder_.close();
+  complete(run, outcome);
+  const Json scene = scene_.json(run);
+  outcome["notes"] = scene_.notes();
+  viewer::write_run_file(folder_, outcome, scene, closed_);
   auto files = tables_;
   files.push_back(folder_ / viewer::run_file);
   return files;

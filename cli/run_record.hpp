@@ -7,6 +7,7 @@
 
 #include "kernel/record.hpp"
 #include "text/json.hpp"
+#include "viewer/record_folder.hpp"
 #include "viewer/run_scene.hpp"
 
 namespace muster::cli {
@@ -19,6 +20,8 @@ class RunRecord {
 
   // Call before the first tick and after each.
   void write(const Simulation& run) { recorder_.write(run); }
+  // What was recorded up to now, or all of it after close(), for a page that is shown during the run.
+  viewer::RecordFolder so_far(const Simulation& run, Json outcome);
   // The tables and run.json, in which `outcome` is what is known of the run; the files written.
   std::vector<std::filesystem::path> close(const Simulation& run, Json outcome);
   // run.html. Empty, with the reason in `why_not`, where no table was recorded, tables are too long, or the build has
@@ -26,10 +29,14 @@ class RunRecord {
   std::filesystem::path write_page(std::string& why_not) const;
 
  private:
+  std::vector<viewer::RecordedTable> listed(const Simulation& run) const;
+  void complete(const Simulation& run, Json& outcome);
+
   std::filesystem::path folder_;
   Recorder recorder_;
   viewer::RunScene scene_;
   std::vector<std::filesystem::path> tables_;
+  std::vector<viewer::RecordedTable> closed_;
 };
 
 }  // namespace muster::cli

@@ -117,6 +117,10 @@ void Recorder::write(const Simulation& run) {
   }
 }
 
+void Recorder::flush() {
+  for (auto& [file, writer] : files_) writer->flush();
+}
+
 std::vector<std::filesystem::path> Recorder::close() {
   std::vector<std::filesystem::path> result;
   for (auto& [file, writer] : files_) {

@@ -29,6 +29,8 @@ class Recorder {
 
   // Call after each tick.
   void write(const Simulation& run);
+  // What was written so far can be read in files of these names with ".part" behind.
+  void flush();
   // Renames the files to their final names; without it nothing remains.
   std::vector<std::filesystem::path> close();
 

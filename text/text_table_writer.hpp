@@ -25,13 +25,14 @@ class TextTableWriter {
   void text(std::string_view value);
   void empty();
   void end_row();
+  // What was written so far is in the file of the temporary name, in whole rows if it comes after end_row().
+  void flush();
 
   // Flushes the file to disk and renames it to its final name, unless `check` throws on the temporary file.
   void close(const std::function<void(const std::filesystem::path&)>& check = {});
 
  private:
   void separate();
-  void flush();
   [[noreturn]] void fail_system() const;
 
   std::filesystem::path path_;

@@ -34,6 +34,13 @@ void replace_all(std::string& text, const std::string& mark, const std::string& 
     text.replace(at, mark.size(), by);
 }
 
+std::string page_text(const RecordFolder& record, const Payload& payload, const fs::path& program_folder) {
+  std::string page = read_text_file(shell_of(program_folder), most_page_bytes).text;
+  replace_all(page, "@TITLE@", html_text(record.world));
+  replace_all(page, "@PAYLOAD@", base64(gzipped(payload.container)));
+  return page;
+}
+
 void write_whole(const fs::path& out, const std::string& text) {
   fs::path part = out;
   part += ".part";
@@ -64,11 +71,16 @@ WrittenPage write_page(const fs::path& record, const fs::path& out, const fs::pa
   const RecordFolder folder = read_record_folder(record);
   if (const std::string reason = why_no_page(program_folder); !reason.empty()) throw Error(Exit::io, reason);
   const Payload payload = payload_of(folder, most);
-  std::string page = read_text_file(shell_of(program_folder), most_page_bytes).text;
-  replace_all(page, "@TITLE@", html_text(folder.world));
-  replace_all(page, "@PAYLOAD@", base64(gzipped(payload.container)));
+  const std::string page = page_text(folder, payload, program_folder);
   write_whole(out, page);
   return {page.size(), payload.notes};
+}
+
+std::string live_page(const RecordFolder& record, const fs::path& program_folder, std::uint64_t most) {
+  std::string page = page_text(record, payload_of(record, most), program_folder);
+  const std::string mark = "<html lang=\"en\"";
+  if (const auto at = page.find(mark); at != page.npos) page.insert(at + mark.size(), " data-live=\"yes\"");
+  return page;
 }
 
 }  // namespace muster::viewer

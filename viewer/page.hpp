@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "record_folder.hpp"
+
 namespace muster::viewer {
 
 // Numbers that a page holds if nobody says otherwise: some 10 MB of page where none of them compresses.
@@ -23,5 +25,8 @@ struct WrittenPage {
 // Writes the record in the folder as a page, whole or not at all. Throws Error.
 WrittenPage write_page(const std::filesystem::path& record, const std::filesystem::path& out,
                        const std::filesystem::path& program_folder, std::uint64_t most = most_numbers);
+
+// The same page with the record so far, which then asks its server for more. Throws Error.
+std::string live_page(const RecordFolder& record, const std::filesystem::path& program_folder, std::uint64_t most);
 
 }  // namespace muster::viewer

@@ -73,6 +73,8 @@ const Storeys& storeys() {
 
       // Shares no code with what it grades.
       {"exam", {}},
+      // Clients of the bridge, one file each, for programs outside.
+      {"bridge", {}},
       {"cli", {"plugin_api", "text", "loader", "world_file", "kernel", "plotting", "diagnosis/*", "viewer"}},
       {"python", {"plugin_api", "text", "loader", "world_file", "kernel", "plotting", "diagnosis/*"}},
   };

@@ -11,6 +11,12 @@ export class Clock {
   listen(listener) { this.listeners.push(listener); }
   tell() { for (const listener of this.listeners) listener(this.time); }
 
+  /** The run has gone on; who was at its end stays there. */
+  extend(last) {
+    const is_at_end = this.time >= this.last;
+    this.last = last;
+    this.seek(is_at_end ? last : this.time);
+  }
   seek(time) {
     this.time = Math.min(this.last, Math.max(this.first, time));
     this.tell();

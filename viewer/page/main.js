@@ -2,6 +2,7 @@
 
 import 'uplot/dist/uPlot.min.css';
 import {Clock} from './clock.js';
+import {Live} from './live.js';
 import {opened, unzipped} from './model/payload.js';
 import {Record} from './model/record.js';
 import {fill_about, fill_keys} from './panels/boxes.js';
@@ -16,10 +17,9 @@ class Page {
   constructor(record) {
     this.record = record;
     this.clock = new Clock(record.first, record.last);
-    const {run} = record;
-    document.title = `${run.world}: a run of muster`;
-    at('title').textContent = run.world;
-    at('facts').textContent = `${run.time} s, seed ${run.seed}, digest ${run.digest}`;
+    document.title = `${record.run.world}: a run of muster`;
+    at('title').textContent = record.run.world;
+    this.say_facts();
     this.timebar = new Timebar(this);
     this.make_view();
     this.make_plots();
@@ -28,6 +28,30 @@ class Page {
     this.add_theme();
     const asked = /^#t=([0-9.]+)$/.exec(location.hash);
     if (asked) this.clock.seek(Number(asked[1]));
+  }
+
+  say_facts() {
+    const {run} = this.record;
+    at('facts').textContent = `${run.time} s, seed ${run.seed}, digest ${run.digest}`;
+  }
+
+  /** The record of a run that has gone on. */
+  renew(record) {
+    this.record = record;
+    this.say_facts();
+    this.clock.extend(record.last);
+    this.view?.renew(record);
+    const known = this.measures.map(({id}) => id).join('\n');
+    this.measures = measures_of(record);
+    if (this.measures.map(({id}) => id).join('\n') !== known) {
+      for (const plot of [...this.plots]) this.remove_plot(plot);
+      for (const measure of first_measures(this.measures)) this.add_plot(measure);
+    } else {
+      for (const plot of this.plots) plot.choose(this.measures.find(({id}) => id === plot.measure.id));
+    }
+    this.list_events();
+    this.timebar.renew();
+    this.timebar.show();
   }
 
   /** Where there is no WebGL, the plots are still of use. */
@@ -73,6 +97,8 @@ class Page {
   list_events() {
     const {events} = this.record.run;
     at('events').querySelector('summary').textContent = `Events (${events.length})`;
+    at('event-list').replaceChildren();
+    at('events').querySelector('p')?.remove();
     for (const {time, instance, message} of events) {
       const item = document.createElement('li'), button = document.createElement('button'), when = document.createElement('time');
       when.textContent = seconds(time);
@@ -120,6 +146,7 @@ class Page {
 async function start() {
   const record = new Record(opened(await unzipped(at('payload').textContent)));
   globalThis.muster = new Page(record);  // for whoever looks at the page by its console
+  if (document.documentElement.dataset.live) globalThis.muster.live = new Live(globalThis.muster);
   document.documentElement.dataset.ready = String(Math.round(performance.now()));  // [ms] since the page was asked for
 }
 

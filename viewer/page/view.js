@@ -17,6 +17,18 @@ export class View {
   constructor(record, clock) {
     Object.assign(this, {record, clock});
     this.stage = new Stage(at('canvas'));
+    this.populate();
+    this.add_controls();
+    this.list_choices();
+    this.add_notes();
+    clock.listen((t) => this.set(t));
+    this.recolour();
+    this.set(clock.time);
+    this.stage.fit();
+  }
+
+  populate() {
+    const {record} = this;
     this.building = new Building(record.scene);
     this.stage.scene.add(this.building.group);
     this.robots = new Robots(record, this.stage);
@@ -31,12 +43,38 @@ export class View {
     for (const station of this.radios.stations) this.labels.add(station.name, 'station', () => new Vector3(...station.at), () => 'var(--ink)');
     this.labels.levels_of = () => this.air.levels();
     this.doors = record.tables_of('door', 'state');
-    this.add_controls();
+  }
+
+  /** The record of a run that has gone on: what is drawn is made anew, camera and choices stay. */
+  renew(record) {
+    this.record = record;
+    const {scene} = this.stage;
+    const source = this.air.source?.name, chosen = new Map([...at('show-list').querySelectorAll('input, select')].map((one) => [one.dataset.name, one.disabled ? undefined : one.type === 'checkbox' ? one.checked : one.value]));
+    for (const group of scene.children.filter(({isLight}) => !isLight)) {
+      scene.remove(group);
+      group.traverse((object) => {
+        object.geometry?.dispose();
+        for (const material of [object.material ?? []].flat()) material.dispose();
+        if (object.isInstancedMesh) object.dispose();
+      });
+    }
+    this.stage.before_drawing = [];
+    at('labels').replaceChildren();
+    this.populate();
+    this.air.source = record.links.find(({name}) => name === source) ?? this.air.source;
+    at('show-list').replaceChildren();
+    this.list_choices();
+    for (const one of at('show-list').querySelectorAll('input, select')) {
+      const value = chosen.get(one.dataset.name);
+      if (value === undefined || one.disabled) continue;
+      if (one.type === 'checkbox') one.checked = value; else one.value = value;
+      one.dispatchEvent(new Event('change'));
+    }
+    for (const robot of this.robots.list) if (![...at('follow').options].some(({value}) => value === robot.name)) at('follow').append(new Option(robot.name, robot.name));
+    at('notes').replaceChildren();
     this.add_notes();
-    clock.listen((t) => this.set(t));
     this.recolour();
-    this.set(clock.time);
-    this.stage.fit();
+    if (this.stage.is_fitted) this.stage.fit_again();
   }
 
   /** Around all that is or was there. */
@@ -101,6 +139,9 @@ export class View {
     at('follow').addEventListener('change', (event) => this.start_following(event.target.value));
     document.addEventListener('keydown', (event) => this.key(event));
     at('canvas').addEventListener('pointerdown', () => { at('show').open = false; });
+  }
+
+  list_choices() {
     const messages = this.air.messages.length;
     this.add_choice('Links', (on) => { this.air.beams.visible = on; }, this.record.links.length ? '' : 'no RSSI recorded');
     this.add_choice('Figures in dBm', (on) => { this.labels.shows_levels = on; }, this.record.links.length ? '' : 'no RSSI recorded');
@@ -122,6 +163,7 @@ export class View {
   add_choice(words, act, lack = '') {
     const label = document.createElement('label'), box = document.createElement('input'), text = document.createElement('span');
     Object.assign(box, {type: 'checkbox', checked: !lack, disabled: Boolean(lack)});
+    box.dataset.name = words;
     text.textContent = words;
     if (lack) {
       const small = document.createElement('small');
@@ -136,6 +178,7 @@ export class View {
   add_select(words, choices, act) {
     const label = document.createElement('label'), select = document.createElement('select');
     for (const [value, text] of choices) select.append(new Option(text, value));
+    select.dataset.name = words;
     select.addEventListener('change', () => { act(select.value); this.stage.invalidate(); });
     label.append(words, select);
     at('show-list').append(label);

@@ -16,14 +16,21 @@ export class Timebar {
     for (const speed of clock.speeds) this.at('speed').append(new Option(`${speed}\u00d7`, speed, false, speed === clock.speed));
     this.at('speed').addEventListener('change', (event) => clock.set_speed(Number(event.target.value)));
     document.addEventListener('keydown', (event) => this.key(event), true);
-    for (const {time, message} of page.record.run.events) {
+    this.renew();
+    clock.listen(() => this.show());
+    this.show();
+  }
+
+  /** Of the record that the page now has. */
+  renew() {
+    const {clock, record} = this.page;
+    this.at('time').max = clock.last;
+    this.at('ticks').replaceChildren(...record.run.events.map(({time, message}) => {
       const tick = document.createElement('i');
       tick.style.left = `${100 * (time - clock.first) / (clock.last - clock.first || 1)}%`;
       tick.title = message;
-      this.at('ticks').append(tick);
-    }
-    clock.listen(() => this.show());
-    this.show();
+      return tick;
+    }));
   }
 
   key(event) {
