@@ -241,11 +241,12 @@ struct UrdfSetting {
   std::string fittings;  // a second file of the robot, with what the first lacks: <sensor>, <gazebo>, <muster>; or ""
 };
 
-// The URDF file, checked; throws std::runtime_error("file:line: what is wrong; what was expected").
+// The URDF file, or MuJoCo's (a root <mujoco>), checked; throws std::runtime_error("file:line: what is wrong; what was
+// expected").
 Robot read_robot(const std::string& path, Meshes meshes = Meshes::import, const UrdfSetting& setting = {});
 
-// The file of model "scarab" (scarab.urdf in the first of the directories that has it) or "path/to/my.urdf" (absolute,
-// or relative to one of the directories); throws with the name and the nearest valid one.
+// The file of model "scarab" (scarab.urdf in the first of the directories that has it) or "path/to/my.urdf" or ".xml"
+// (absolute, or relative to one of the directories); throws with the name and the nearest valid one.
 std::string find_model(const std::string& model, const std::vector<std::string>& directories);
 
 // The attributes `packages` and `fittings` of a robot, with their paths found in the directories; "" stays.

@@ -26,7 +26,9 @@ struct Outline {
   std::string root;
 };
 
-// Parses the text under limits on depth and tag size; no DTD, no entities, one <robot>.
+// Parses the text under limits on depth and tag size; no DTD, no entities, one root element.
+void parse_xml(const Source& source, const std::string& text, tinyxml2::XMLDocument& document);
+// The same, with <robot> as root.
 void parse_urdf(const Source& source, const std::string& text, tinyxml2::XMLDocument& document);
 
 // Checks a <link> or <joint> and all inside it: only elements and attributes of URDF. <visual> is skipped.

@@ -20,16 +20,17 @@ Pose after(const Folder& folder, const std::string& model, const std::string& ph
   return row<Pose>(run, "robot/r/pose");
 }
 
+// Rotors speed up faster than they slow down, so a roll of a plus lifts and turns it a little, and one of an X does not.
 TEST_P(XQuadrotors, FlyAsAPlusDoes) {
   const std::string x =
       model_with(folder, "hummingbird", {{"height=\"0.01\"", "height=\"0.01\" rotor_angle=\"0.7853981633974483\""}});
   for (const std::string asked :
        {"", "roll=\"0.1\"", "pitch=\"0.1\"", "yaw_rate=\"0.5\"", "roll=\"-0.1\" yaw_rate=\"-0.5\""}) {
     const Pose a = after(folder, "hummingbird", GetParam(), asked), b = after(folder, x, GetParam(), asked);
-    EXPECT_NEAR(a.x, b.x, 1e-6) << asked;
-    EXPECT_NEAR(a.y, b.y, 1e-6) << asked;
-    EXPECT_NEAR(a.z, b.z, 1e-6) << asked;
-    EXPECT_NEAR(yaw_of(a), yaw_of(b), 1e-6) << asked;
+    EXPECT_NEAR(a.x, b.x, 3e-3) << asked;
+    EXPECT_NEAR(a.y, b.y, 3e-3) << asked;
+    EXPECT_NEAR(a.z, b.z, 3e-3) << asked;
+    EXPECT_NEAR(yaw_of(a), yaw_of(b), 3e-3) << asked;
     if (asked.empty()) {
       EXPECT_NEAR(b.x, 0, 1e-9);
       EXPECT_NEAR(b.y, 0, 1e-9);
