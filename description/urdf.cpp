@@ -355,13 +355,13 @@ Robot read_robot(const std::string& path, Meshes meshes, const UrdfSetting& sett
     check_fittings(fittings, *more.RootElement());
     read_extensions(fittings, *more.RootElement(), robot);
   }
-  read_extensions(source, root, robot);
+  if (!is_mjcf) read_extensions(source, root, robot);  // a <sensor> of MuJoCo is another
   if (more.RootElement()) read_gazebo(fittings, *more.RootElement(), robot);
-  read_gazebo(source, root, robot);
+  if (!is_mjcf) read_gazebo(source, root, robot);
   derive_drive(source, root, robot);
-  warn_of_undriven(source, root, robot);
+  if (!is_mjcf) warn_of_undriven(source, root, robot);
   if (more.RootElement()) warn_of_blind_lasers(fittings, *more.RootElement(), robot);
-  warn_of_blind_lasers(source, root, robot);
+  if (!is_mjcf) warn_of_blind_lasers(source, root, robot);
   return robot;
 }
 

@@ -180,7 +180,7 @@ TEST(MjcfFault, IsNamedWithItsLine) {
   };
   EXPECT_EQ(fault("<mujoco/>"), ":1: has no <worldbody>; expected one with the robot's <body>");
   EXPECT_EQ(fault("<mujoco>\n<include file='a.xml'/></mujoco>").substr(0, 40),
-            ":2: <include> is not read; save the file ");
+            ":2: <include> is not read; save the file");
   EXPECT_EQ(body("<geom siez='1'/>"), ":3: <geom> has no attribute 'siez'; did you mean 'size'?");
   EXPECT_EQ(body("<geom size='a'/>"), ":3: <geom> size=\"a\" is wrong; expected 1 to 3 numbers");
   EXPECT_EQ(body("<geom size='-1'/>"), ":3: <geom> size=\"-1\" is not above 0");
